@@ -15,7 +15,7 @@ void requireMass(const Model& model) {
                .wanted = "'mass=' on at least one body"});
 }
 
-// Children stand after their parents, so one pass from the back adds up every subtree.
+// Children come after their parents, so one backward pass sums up every subtree.
 void addMoments(const Model& model, const BodyPoses& poses, Eigen::Matrix3Xd& moments) {
   const int n = static_cast<int>(model.bodies().size());
   moments.setZero(3, n);

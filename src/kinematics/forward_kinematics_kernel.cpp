@@ -7,7 +7,7 @@ namespace {
 
 using Kind = MotionStep::Kind;
 
-// The two numbers in which all motions but that of a quaternion are linear.
+// The two numbers in which every joint motion except that of a quaternion is linear.
 template <class T>
 struct Factors {
   T first, second;
@@ -51,8 +51,8 @@ inline void place(const MotionStep& step, const Factors<T>& f, const double* con
       X, [&](int i) { return broadcastVec3<T>(step.first + i); }, X_WC, stride);
 }
 
-// Sines do not depend on one another, poses do, and mixed each sine would be waited for: so some sines first,
-// then the poses.
+// Sines are independent of one another, but each pose needs the one before and would wait for its sine if
+// they were interleaved: so some sines come first, then their poses.
 template <class T, int kCount>
 void placeAll(const MotionStep* steps, int stepCount, const double* const* q, double* X_WB) {
   constexpr int kAhead = 16, kPacks = kCount / kLanesOf<T>;

@@ -13,13 +13,13 @@ namespace {
 // Singular values below this share of the level's Jacobian are rounding errors: nothing can be done there.
 constexpr double kRankTolerance = 1e-10;
 
-// 1/s, and below the damping a bounded number that joins it without a jump.
+// 1/s; below the damping, a bounded value that continues it without a jump.
 double dampedInverse(double s, double damping) {
   const double divisor = std::max(s, damping);
   return s / (divisor * divisor);
 }
 
-// Moves x within the span of `free` towards J x = dy, and leaves in `free` what that does not touch.
+// Moves x within the span of `free` towards J x = dy, and keeps in `free` the directions that J does not see.
 void fulfil(const Eigen::MatrixXd& J, const Eigen::VectorXd& dy, double damping, Eigen::VectorXd& x,
             Eigen::MatrixXd& free) {
   if (free.cols() == 0) return;

@@ -12,8 +12,8 @@ StepForm cheaperForm(const internal::Metric& W, Eigen::Index d, Eigen::Index n) 
   return W.isDiagonal() && d < n ? StepForm::kTaskSpace : StepForm::kJointSpace;
 }
 
-// W^-1 J^T (J W^-1 J^T + C^-1)^-1 dy. The factors are given as they are, which keeps transposes and multiples
-// of the identity from being copied.
+// W^-1 J^T (J W^-1 J^T + C^-1)^-1 dy. The factors are passed as expressions, so that transposes and multiples
+// of the identity are not copied.
 template <class WinvTransposed, class Inverse>
 Eigen::VectorXd taskSpaceStep(const MatrixArg& J, const WinvTransposed& WinvJt, const Inverse& Cinv,
                               const VectorArg& dy) {
@@ -40,7 +40,7 @@ Eigen::VectorXd inverseKinematicsStep(const MatrixArg& J, const VectorArg& dy, c
   if (a.size() == 0) a.setZero(n);
   requireSize("desired posture change a", a.size(), n);
 
-  const Eigen::VectorXd missing = dy - J * a;  // what a leaves to be done
+  const Eigen::VectorXd missing = dy - J * a;  // the part of dy that a does not achieve
   const StepForm form = options.form == StepForm::kCheaper ? cheaperForm(W, d, n) : options.form;
   if (form == StepForm::kJointSpace) {
     const Eigen::MatrixXd JtC = J.transpose() * C.matrix();

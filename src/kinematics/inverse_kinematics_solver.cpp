@@ -17,23 +17,23 @@ using Result = InverseKinematicsResult;
 using Options = InverseKinematicsOptions;
 
 // Damping of the normal equations, lambda = factor * cost, vanishes at a solution and so keeps Gauss-Newton's
-// speed there (Sugihara 2011). The factors were chosen on poses of two 7-jointed arms; a third or three times
-// of any changes the time by less than a third.
+// speed there (Sugihara 2011). The factors were tuned on poses of two 7-joint arms; dividing or multiplying
+// any of them by three changes the time by less than a third.
 constexpr double kFirstDamping = 0.1, kLeastDamping = 1e-5, kMostDamping = 1e3;
 constexpr double kDampingAfterFullStep = 0.3, kDampingAfterShortStep = 4;
 // For singular Jacobians: a share of their squared size that is always added.
 constexpr double kLeastRelativeDamping = 1e-12;
-// A start is given up where a few iterations do not even halve the cost.
+// A start is given up if a few iterations do not even halve the cost.
 constexpr int kIterationsToHalve = 5;
 // Line search: the share of the promised gain that is enough, and when to stop halving.
 constexpr double kSufficientGain = 1e-4;
 constexpr int kMostHalvings = 30;
-// A joint so near a limit counts as at it (Bertsekas 1982), in units of q: otherwise all steps, cut short by
-// the limit, might fail to descend. A longer way than the last halving leaves of the longest step, that of
-// the least damping: 2^-kMostHalvings / (2 sqrt(kLeastDamping)).
+// A joint this close to a limit counts as being at it (Bertsekas 1982), in units of q: otherwise all steps,
+// cut short by the limit, might fail to descend. The distance exceeds what the last halving leaves of the
+// longest step, the one with the least damping: 2^-kMostHalvings / (2 sqrt(kLeastDamping)).
 constexpr double kAtLimit = 2e-7;
 
-// Draws postures: uniform within limits, about a centre where there are none.
+// Draws postures: uniformly within limits, around a centre where there are none.
 class PostureSampler {
  public:
   PostureSampler(const Model& model, const Eigen::VectorXd& center) : q_(center) {
@@ -63,7 +63,7 @@ class PostureSampler {
   Eigen::VectorXd q_;
 };
 
-// A posture, and what the tasks say there.
+// A posture, and the values of the tasks there.
 struct Point {
   Eigen::VectorXd q;
   TaskValue phi;
@@ -83,7 +83,7 @@ class Descent {
     for (const Task& task : tasks) isWeighed_ = isWeighed_ || task.tolerance == kNoTolerance;
   }
 
-  // `patient`: to the very end, also where the targets come no nearer.
+  // `patient`: to the very end, even if the targets get no closer.
   End run(const Eigen::VectorXd& start, bool patient) {
     here_.q = start;
     internal::clampToLimits(limits_, here_.q);
@@ -95,7 +95,7 @@ class Descent {
       findDirection(damping);
       if (direction_.lpNorm<Eigen::Infinity>() <= options_.stepTolerance) return End::kConverged;
       const int halvings = searchLine();
-      if (halvings > kMostHalvings) return End::kConverged;  // rounding errors hide what could be gained
+      if (halvings > kMostHalvings) return End::kConverged;  // any further gain is lost in rounding errors
       damping = halvings == 0 ? std::max(kLeastDamping, kDampingAfterFullStep * damping)
                               : std::min(kMostDamping, kDampingAfterShortStep * damping);
       if (i % kIterationsToHalve > 0) continue;
@@ -118,7 +118,8 @@ class Descent {
       at.fulfilled = at.fulfilled && taskError(tasks_[i], at.values[i]) <= tasks_[i].tolerance;
   }
 
-  // A joint at its limit that would leave it takes no part, but for what is left of its way.
+  // A joint at a limit that the descent would push it across is held: it only moves the rest of the way to
+  // the limit.
   void findDirection(double damping) {
     gradient_.noalias() = here_.phi.J.transpose() * here_.phi.y;
     J_ = here_.phi.J;
@@ -140,8 +141,8 @@ class Descent {
     for (const auto& [iv, way] : held_) direction_[iv] = way;
   }
 
-  // Halves the step until it gains as much as the slope promises (Armijo along the projected path, Bertsekas
-  // 1976). Returns how often; more than kMostHalvings if nothing helps.
+  // Halves the step until it gains a fair share of what the slope promises (Armijo along the projected path,
+  // Bertsekas 1976). Returns the number of halvings, more than kMostHalvings if none helps.
   int searchLine() {
     double share = 1;
     for (int halvings = 0; halvings <= kMostHalvings; ++halvings, share /= 2) {
@@ -155,8 +156,8 @@ class Descent {
     return kMostHalvings + 1;
   }
 
-  // Puts a share of the step, cut at the limits, into there_.q. Returns the change of the cost that the
-  // gradient promises for it.
+  // Writes the posture after a share of the step, clipped at the limits, to there_.q. Returns the change in
+  // cost that the gradient promises for it.
   double moveAlong(double share) {
     move_ = share * direction_;
     if (model_.nq() == model_.nv()) {
@@ -174,7 +175,7 @@ class Descent {
   const std::span<const Task> tasks_;
   const Options options_;
   const std::vector<internal::JointLimit> limits_;
-  std::vector<std::pair<int, double>> held_;  // joints at limits: place in v, and what is left of the way
+  std::vector<std::pair<int, double>> held_;  // joints at limits: index in v, and the distance left
   bool isWeighed_ = false;  // some task has no tolerance, so that fulfilling the others is not the end
   int iterations_ = 0;
   Point here_, there_;

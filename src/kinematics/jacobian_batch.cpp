@@ -13,7 +13,7 @@ namespace {
 using internal::forEachFreedomAbove;
 using internal::JacobianKernel;
 
-// Makes room for the Jacobians, and all of them zero.
+// Allocates the Jacobians, all zero.
 void clear(const Model& model, const PoseBatch& poses, JacobianBatch& out) {
   assert(poses.bodies() == static_cast<int>(model.bodies().size()));
   out.resize(model.nv(), poses.count());

@@ -16,7 +16,7 @@ using internal::forEachFreedomAbove;
 // The kernel that takes one configuration.
 internal::JacobianKernel::Functions kernel() { return kernelFor<internal::JacobianKernel>(cpuLanes()).one; }
 
-// The numbers of a pose, by columns.
+// The entries of a pose, column by column.
 const double* numbers(const Pose& X) { return X.R.data(); }
 
 }  // namespace

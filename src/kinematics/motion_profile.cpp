@@ -13,11 +13,11 @@ namespace {
 
 ProfilePoint sine(double s) {
   constexpr double kPi = std::numbers::pi;
-  const double half = std::sin(kPi * s / 2);  // its square is exact also where 1 - cos is not
+  const double half = std::sin(kPi * s / 2);  // its square is exact even where 1 - cos is not
   return {half * half, kPi / 2 * std::sin(kPi * s), kPi * kPi / 2 * std::cos(kPi * s)};
 }
 
-// The second half is the first, mirrored in time and way.
+// The second half is the first, mirrored in time and position.
 ProfilePoint trapezoid(double s, double blend) {
   const double velocity = 1 / (1 - blend), acceleration = velocity / blend;
   if (s < blend) return {acceleration * s * s / 2, acceleration * s, acceleration};

@@ -17,7 +17,7 @@ namespace {
 
 void requireUsable(const Task& task) {
   if (!task.map) refuse(task, "map", "none", "a function");
-  if (!(task.precision > 0 && std::isfinite(task.precision)))  // no text for what is right: each step asks
+  if (!(task.precision > 0 && std::isfinite(task.precision)))  // no text if it is valid: each step asks
     requirePositive(fmt::format("task '{}': precision", task.name), task.precision);
   if (!(task.tolerance >= 0))
     requireNotNegativeOrInfinite(fmt::format("task '{}': tolerance", task.name), task.tolerance);

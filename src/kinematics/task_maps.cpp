@@ -32,8 +32,8 @@ Eigen::Matrix3Xd relativeAngularJacobian(const Posture& at, BodyId body, BodyId 
   return J;
 }
 
-// Which of the two quaternions of an orientation is meant, and how it changes: q' = (0, w) o q / 2 for an
-// angular velocity w in the axes that the orientation is seen from.
+// Writes the one of an orientation's two quaternions that is closer to `nearest`, and how it changes: for an
+// angular velocity w in the axes of the frame that the orientation refers to, q' = (0, w) o q / 2.
 void writeQuaternion(const Eigen::Matrix3d& R, const Eigen::Matrix3Xd& angular, const Quaternion& nearest,
                      TaskValue& out) {
   const Quaternion q = quaternionFromRotation(R);
