@@ -28,7 +28,7 @@ Centroidal centroidal(const Model& model, const BodyPoses& poses, const VectorAr
 Eigen::Matrix<double, 6, Eigen::Dynamic> centroidalMomentumMatrix(const Model& model,
                                                                   const BodyPoses& poses) {
   const Eigen::Vector3d center = centerOfMass(model, poses);
-  // Of a body with all that hangs on it, about the origin.
+  // Inertia of a body and everything it carries, about the origin.
   std::vector<internal::Matrix6d> inertia(poses.X_WB.size(), internal::Matrix6d::Zero());
   Eigen::Matrix<double, 6, Eigen::Dynamic> A(6, model.nv());
   A.setZero();

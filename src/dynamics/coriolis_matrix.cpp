@@ -9,7 +9,7 @@ namespace {
 
 using internal::Matrix6d;
 
-// Spatial inertia I, and B with B V = V x* I V and dI/dt = B + B^T, of a body with all that hangs on it.
+// Spatial inertia I, and B with B V = V x* I V and dI/dt = B + B^T, of a body and everything it carries.
 struct Composite {
   Matrix6d I = Matrix6d::Zero(), B = Matrix6d::Zero();
 
@@ -31,19 +31,19 @@ Composite ofBody(const Body& body, const Pose& X_WB, const Vector6d& V) {
   Composite of;
   of.I = mass.spatialInertia();
   const Matrix6d crossMotion = blocks(w, v, zero, w), crossForce = blocks(w, zero, v, w);
-  // Takes a twist W to W x* h.
+  // Maps a twist W to W x* h.
   const Matrix6d crossMomentum = blocks(zero, -skew(h.head<3>()), -skew(h.head<3>()), -skew(h.tail<3>()));
   of.B = (crossForce * of.I - of.I * crossMotion + crossMomentum) / 2;
   return of;
 }
 
-// A freedom with its column in v, its twist and how that changes.
+// A freedom: its column in v, its twist and the rate of that twist.
 struct Freedom {
   int column;
   Vector6d s, rate;
 };
 
-// Those of the joint into each body.
+// The freedoms of the joint into each body.
 std::vector<std::vector<Freedom>> freedoms(const Model& model, const BodyPoses& poses,
                                            const std::vector<Vector6d>& V) {
   std::vector<std::vector<Freedom>> all(V.size());
@@ -67,7 +67,7 @@ Eigen::MatrixXd coriolisMatrix(const Model& model, const VectorArg& q, const Vec
   const std::vector<std::vector<Freedom>> of = freedoms(model, poses, V);
   std::vector<Composite> composites(V.size());
   Eigen::MatrixXd C = Eigen::MatrixXd::Zero(model.nv(), model.nv());
-  // C = sum over bodies of J^T (I dJ/dt + B J), pair by pair of the freedoms above each body.
+  // C = sum over bodies of J^T (I dJ/dt + B J), added up over the pairs of freedoms above each body.
   for (int i = static_cast<int>(V.size()) - 1; i > 0; --i) {
     const BodyId body{i};
     Composite& composite = composites[static_cast<std::size_t>(i)];

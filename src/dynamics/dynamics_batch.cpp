@@ -17,7 +17,7 @@ using internal::DynamicsTask;
 
 constexpr int kMostLanes = 4;
 
-// What the columns of Q, V, A and U are called, one and all of them.
+// Names of the columns of V, A and U in messages: one column, and all of them.
 struct Names {
   const char *column, *columns;
 };
@@ -25,7 +25,7 @@ constexpr Names kVelocities{"joint velocities V, a column", "joint velocities V,
 constexpr Names kAccelerations{"joint accelerations A, a column", "joint accelerations A, columns"};
 constexpr Names kForces{"joint forces U, a column", "joint forces U, columns"};
 
-// As many columns as Q has, of the length of v.
+// Requires as many columns as Q has, each as long as v.
 void requireColumns(const Names& names, const MatrixArg& columns, const Model& model, const MatrixArg& Q) {
   requireSize(names.column, columns.rows(), model.nv());
   requireSize(names.columns, columns.cols(), Q.cols());
@@ -39,7 +39,7 @@ void requireStates(const Model& model, const MatrixArg& Q, const MatrixArg& V) {
   requireColumns(kVelocities, V, model, Q);
 }
 
-// Calls solve(task) for each block of columns; in the last one the last column may stand several times.
+// Calls solve(task) for each block of columns; the last block may repeat the last column.
 template <class Kernel, class Solve>
 void forEachBlock(const Kernel& kernel, const Model& model, const MatrixArg& Q, const MatrixArg& V,
                   const MatrixArg& G, const Eigen::Vector3d& gravity_W, DynamicsWorkspace& workspace,

@@ -34,7 +34,7 @@ EnergyGradient energyGradient(const Model& model, const VectorArg& q, const Vect
   requireSize("joint velocities v", v.size(), model.nv());
   const BodyPoses poses = forwardKinematics(model, q);
   const std::vector<Vector6d> V = internal::bodyTwists(model, poses, v);
-  // Of a body with all that hangs on it.
+  // Of a body and everything it carries.
   std::vector<Vector6d> momentum(V.size(), Vector6d::Zero()), weight(V.size(), Vector6d::Zero());
   EnergyGradient gradient{Eigen::VectorXd::Zero(model.nv()), Eigen::VectorXd::Zero(model.nv())};
   for (int i = static_cast<int>(V.size()) - 1; i > 0; --i) {
@@ -52,7 +52,7 @@ EnergyGradient energyGradient(const Model& model, const VectorArg& q, const Vect
     };
     internal::forEachFreedomOf(model, BodyId{i}, add);
   }
-  // At a quaternion v is not a rate of coordinates but turns with the body; Euler's w x p stands for that.
+  // For a quaternion, v is not the rate of the coordinates but turns with the body: hence Euler's w x p.
   forEachQuaternion(model, [&](int, int iv) {
     const Eigen::Vector3d w = v.segment<3>(iv), p = gradient.byVelocity.segment<3>(iv);
     gradient.byPosition.segment<3>(iv) += w.cross(p);

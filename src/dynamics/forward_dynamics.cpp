@@ -15,9 +15,9 @@ namespace {
 
 constexpr int kRegular = internal::ForwardDynamicsKernel::kRegular;
 
-// Solves M x = b by L^T L = M, in place of both; only the lower half of M is read. From the last joint to the
-// first, as articulated bodies do, so that the joint is found which moves no mass itself: returns its freedom
-// if there is one, else kRegular.
+// Solves M x = b by L^T L = M, overwriting both; only the lower half of M is read. It runs from the last
+// joint to the first, like the articulated-body algorithm, and so finds the joint that itself moves no mass:
+// returns its freedom if there is one, else kRegular.
 int solveFromLast(Eigen::MatrixXd& M, Eigen::Ref<Eigen::VectorXd> b) {
   const Eigen::Index n = M.cols();
   const auto below = [&](Eigen::Index k) { return M.col(k).tail(n - 1 - k); };

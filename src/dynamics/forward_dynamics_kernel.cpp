@@ -3,7 +3,8 @@
 namespace rex::internal {
 namespace {
 
-// A torque about the origin of a frame with a force, and the acceleration of a frame with that of its origin.
+// A force with its torque about the origin of a frame, and the angular acceleration of a frame with the
+// linear acceleration of its origin.
 template <class T>
 struct SpatialForce {
   Vec3<T> torque, force;
@@ -21,8 +22,8 @@ inline T dot(const SpatialForce<T>& f, const SpatialMotion<T>& a) {
   return dot(f.torque, a.angular) + dot(f.force, a.linear);
 }
 
-// An articulated body: what accelerating a link takes while the joints below it give way to their forces,
-// torque = A angular + B linear, force = B^T angular + D linear.
+// An articulated body: the torque and force it takes to accelerate a link while the joints below it yield to
+// their forces, torque = A angular + B linear, force = B^T angular + D linear.
 template <class T>
 struct Inertia {
   Sym3<T> A, D;
@@ -34,7 +35,7 @@ struct Inertia {
   }
 };
 
-// All in the frame of the link, and of its origin.
+// All in the frame of the link, about its origin.
 template <class T>
 struct State {
   KernelPose<T> X_PL;
@@ -42,18 +43,18 @@ struct State {
   SpatialMotion<T> bias;  // what the velocities add to the acceleration of the parent
   SpatialMotion<T> acceleration;
   Inertia<T> inertia;
-  SpatialForce<T> resistance;  // what no acceleration takes
+  SpatialForce<T> resistance;  // what it takes even without acceleration
 };
 
-// A coordinate as it is solved for: its acceleration is (rest - column * all other accelerations) / inertia.
+// The equation of one coordinate: its acceleration is (rest - column * all other accelerations) / inertia.
 template <class T>
 struct Freedom {
-  SpatialForce<T> column;  // what its unit acceleration takes
+  SpatialForce<T> column;  // what a unit acceleration of it takes
   T perInertia, rest;
 };
 
-// What unit acceleration of the coordinate takes, what of a force the coordinate bears, and what its
-// acceleration adds.
+// The force that a unit acceleration of the coordinate takes, the part of a force that acts along the
+// coordinate, and the motion that its acceleration adds.
 template <class T>
 inline SpatialForce<T> columnOf(const Link& link, const Inertia<T>& I) {
   const SpatialForce<T> turning{{I.A.xz, I.A.yz, I.A.zz}, {I.B.c0.z, I.B.c1.z, I.B.c2.z}};
@@ -73,8 +74,8 @@ inline void accelerate(const Link& link, const T& x, SpatialMotion<T>& a) {
   if (link.kind != Link::Kind::kSlider) a.angular.z = a.angular.z + x;
 }
 
-// Lets a coordinate give way to its force: what is left resists the other accelerations. Inlined, as what
-// else several places call: forward dynamics of one state is 7 % faster.
+// Lets a coordinate yield to its force: what is left resists the other accelerations. Inlined, like the other
+// functions with several callers: forward dynamics of one state is 7 % faster.
 template <class T>
 [[gnu::always_inline]] inline void eliminate(const Freedom<T>& freedom, Inertia<T>& I,
                                              SpatialForce<T>& resistance) {
@@ -102,7 +103,7 @@ inline Inertia<T> inParent(const KernelPose<T>& X, const Inertia<T>& I) {
   return moved(X.p, rotated(X.R, I.A), X.R * transposed(I.B) * transposed(X.R), rotated(X.R, I.D));
 }
 
-// The same of a link whose hinge gave way: it resists no torque about z, so that a third of the products is
+// The same for a link whose hinge has yielded: it resists no torque about z, so a third of the products are
 // zero.
 template <class T>
 inline Inertia<T> inParentOfHinge(const KernelPose<T>& X, const Inertia<T>& I) {
@@ -159,7 +160,7 @@ inline void setInertia(const Link& link, State<T>& state) {
   state.resistance = {cross(w, I * w), cross(w, cross(w, h))};
 }
 
-// Takes the freedoms of the link out of what it resists. Returns whether they all meet some inertia.
+// Removes the link's freedoms from what it resists. Returns whether each of them moves some inertia.
 template <class T>
 inline bool solveForFreedoms(const Link& link, const double* const* u, State<T>& state, Freedom<T>* own) {
   const T least(ForwardDynamicsKernel::kLeastShare * link.largestInertia);
@@ -200,7 +201,7 @@ inline void setAcceleration(const Link& link, const Freedom<T>* own, double* con
 }
 
 // Featherstone, Rigid Body Dynamics Algorithms, table 7.1, but with the accelerations of the origins, which
-// need no linear velocities. That all accelerates upwards stands for gravity.
+// need no linear velocities. An upward acceleration of everything stands for gravity.
 template <class T>
 inline int solve(const DynamicsTask& task, const double* const* q, const double* const* v,
                  const double* const* u, double* const* a) {
@@ -210,7 +211,7 @@ inline int solve(const DynamicsTask& task, const double* const* q, const double*
   *world = {};
   world->acceleration.linear = -broadcastVec3<T>(task.gravity_W);
 
-  // In a loop of their own, because sines do not wait for one another, but velocities do.
+  // In a loop of their own, because sines are independent of one another, but velocities are not.
   for (int i = 0; i < task.linkCount; ++i) states[i].X_PL = poseInParent<T>(task.links[i], q);
   for (int i = 0; i < task.linkCount; ++i) {
     const Link& link = task.links[i];

@@ -12,8 +12,8 @@
 namespace rex::internal {
 namespace {
 
-// m/s, or rad/s at a metre from the axis. Nothing is faster, so whatever is was not computed well; numbers
-// that have come this far soon overflow.
+// m/s, or rad/s at one metre from the axis. Nothing moves faster, so any larger value is a numerical failure
+// and would soon overflow.
 constexpr double kSpeedOfLight = 299792458;
 
 // Visits the parts of q and v that lie between quaternions: from, to, and how many numbers.

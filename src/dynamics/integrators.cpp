@@ -66,7 +66,7 @@ void Beeman::extrapolate(HeldMotion& motion, const State& from, double h, State&
   to.q = from.q;
   to.v = from.v + h / 12 * (23 * now_ - 16 * before_ + 5 * first_);
   d_ = h * from.v + h * h / 24 * (19 * now_ - 10 * before_ + 3 * first_);
-  // Turns about a moving axis do not add up: the next term of Magnus (1954).
+  // Turns about a moving axis do not simply add up: this is the next term of Magnus (1954).
   for (const HeldMotion::QuaternionPlace& at : motion.quaternions())
     d_.segment<3>(at.vIndex) += h * h / 12 * from.v.segment<3>(at.vIndex).cross(to.v.segment<3>(at.vIndex));
   motion.move(to.q, d_);
@@ -109,11 +109,12 @@ void Leapfrog::findMiddle(HeldMotion& motion, const Eigen::VectorXd& v, double h
   }
   Eigen::Index most = 0;
   (next_ - a_).cwiseAbs().maxCoeff(&most);
-  throw Error({.what = fmt::format(
-                   "joint '{}': its acceleration in the middle of the leapfrog to {:g} s is not found",
-                   jointOfVelocity(motion.model(), most).name, motion.time()),
-               .found = fmt::format("a step of {:g} s", h),
-               .wanted = "a shorter one"});
+  throw Error(
+      {.what = fmt::format(
+           "joint '{}': its acceleration in the middle of the leapfrog step to {:g} s does not converge",
+           jointOfVelocity(motion.model(), most).name, motion.time()),
+       .found = fmt::format("a step of {:g} s", h),
+       .wanted = "a shorter one"});
 }
 
 }  // namespace rex::internal

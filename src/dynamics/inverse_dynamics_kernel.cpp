@@ -9,7 +9,7 @@ struct Motion {
   KernelPose<T> X_PL;
   Vec3<T> angularVelocity, angularAcceleration, acceleration;
   Mat3<T> spin;           // how much more a point accelerates than the origin, per metre
-  Vec3<T> torque, force;  // it takes to move it and what it carries
+  Vec3<T> torque, force;  // needed to move the link and what it carries
 };
 
 // [dw]x + [w]x [w]x.
@@ -21,7 +21,7 @@ inline Mat3<T> spinOf(const Vec3<T>& w, const Vec3<T>& dw) {
       {-yy - zz, xy + dw.z, xz - dw.y}, {xy - dw.z, -xx - zz, yz + dw.x}, {xz + dw.y, yz - dw.x, -xx - yy}};
 }
 
-// Adds what its own coordinate does to how the parent moves the link.
+// Adds the motion of the link's own coordinate to the one that it gets from its parent.
 template <class T>
 inline void addFreedom(const Link& link, const double* const* v, const double* const* a, Motion<T>& m) {
   const int i = link.vIndex;
@@ -77,8 +77,8 @@ inline void addToForces(const Link& link, const Motion<T>& m, T* forces) {
   }
 }
 
-// Newton and Euler's recursion, outwards with accelerations of origins, inwards with forces. That all
-// accelerates upwards stands for gravity.
+// The recursion of Newton and Euler: outwards with accelerations of origins, inwards with forces. An upward
+// acceleration of everything stands for gravity.
 template <class T>
 inline void solve(const DynamicsTask& task, const double* const* q, const double* const* v,
                   const double* const* a, double* const* u) {
@@ -90,7 +90,7 @@ inline void solve(const DynamicsTask& task, const double* const* q, const double
   world->acceleration = -broadcastVec3<T>(task.gravity_W);
   for (int i = 0; i < task.nv; ++i) forces[i] = zero;
 
-  // In a loop of their own, because sines do not wait for one another, but motions do.
+  // In a loop of their own, because sines are independent of one another, but motions are not.
   for (int i = 0; i < task.linkCount; ++i) motions[i].X_PL = poseInParent<T>(task.links[i], q);
   for (int i = 0; i < task.linkCount; ++i) {
     const Link& link = task.links[i];

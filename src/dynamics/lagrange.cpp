@@ -8,7 +8,7 @@
 namespace rex {
 namespace {
 
-// Steps are that long where things change over one unit; twice as long or half, errors are larger.
+// The step size for functions that change over one unit; twice or half of it gives larger errors.
 constexpr double kStep = 1. / 32;
 
 // f'(0) by central differences of eighth order.

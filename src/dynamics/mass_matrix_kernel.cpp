@@ -4,8 +4,8 @@
 namespace rex::internal {
 namespace {
 
-// A link, in the axes of the world and about the origin O of its tree; mass, moment and inertia are in the
-// end those of all that it carries.
+// A link, in the axes of the world and about the origin O of its tree; mass, moment and inertia end up
+// including everything that it carries.
 struct Part {
   KernelPose<double> X;  // in the parent, then in the world
   double mass;
@@ -18,9 +18,8 @@ struct Part {
 
 constexpr int kNone = -1;
 
-// The coordinates, one after the other as links are. Entry e of the twist of freedom i, at O and per unit of
-// v, stands at twists[e * room + i]: so those of a run, in which each is the parent of the next, are one
-// load.
+// The coordinates, in the order of the links. Entry e of the twist of freedom i, at O and per unit of v, is
+// twists[e * room + i]: so a run, in which each freedom is the parent of the next, is one load.
 struct Freedoms {
   double* twists;  // angular, then linear
   int* parents;    // the one before on the way to the world, or kNone
@@ -61,8 +60,8 @@ inline Sym3<double> symmetricProduct(const Vec3<double>& a, const Vec3<double>& 
           2 * a.y * b.y, a.y * b.z + a.z * b.y, 2 * a.z * b.z};
 }
 
-// Poses do not wait for one another until they are multiplied: first all sines, then the chain. O is the
-// origin of the first link with a mass: far from the world's origin too, inertias stay small.
+// Poses are independent of one another until they are multiplied: first all sines, then the chain. O is the
+// origin of the first link with a mass, so that inertias stay small even far from the world's origin.
 inline void place(const Link* links, int count, const double* q, Part* parts) {
   for (int i = 0; i < count; ++i) parts[i].X = poseInParent<double>(links[i], &q);
   for (int i = 0; i < count; ++i) {
@@ -79,7 +78,7 @@ inline void place(const Link* links, int count, const double* q, Part* parts) {
   }
 }
 
-// What the link weighs alone.
+// Mass, moment and inertia of the link alone.
 inline void weigh(const Link& link, const Vec3<double>& p_OL, Part& part) {
   const Vec3<double> h = part.X.R * broadcastVec3<double>(link.moment);
   // About O, from the squares of r = p + d with the link's d: r r = p p + (p d + d p) + d d, summed by mass.
@@ -116,8 +115,8 @@ inline void appendFreedoms(const Link& link, const KernelPose<double>& X, const 
   }
 }
 
-// The momentum that a freedom gives to a part with all it carries, seen by that freedom and those above.
-// Joints that share a column add up there.
+// The momentum that a freedom gives to a part and all it carries, projected onto that freedom and those above
+// it. Joints that share a column add up in it.
 template <class T>
 inline void addRow(const Part& part, const Freedoms& freedoms, int own, double* M, long stride) {
   const Vec3<double> w = freedoms.angular<double>(own), v = freedoms.linear<double>(own);

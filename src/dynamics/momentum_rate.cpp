@@ -24,7 +24,7 @@ MomentumRate momentumRate(const Model& model, const BodyPoses& poses, const Vect
         });
     const MassInWorld body(model[id], poses[id]);
     const Eigen::Vector3d w = V[i].tail<3>(), turn = A[i].tail<3>();
-    // The twist holds the velocity of the point that passes the origin, which is another one at each time.
+    // The twist holds the velocity of the point that passes the origin, a different one at each time.
     const Eigen::Vector3d acceleration = A[i].head<3>() + turn.cross(body.p) + w.cross(body.velocity(V[i]));
     rate.force += body.mass * acceleration;
     rate.torque += body.p.cross(body.mass * acceleration) + body.I * turn + w.cross(body.I * w);
