@@ -16,7 +16,7 @@ GridCell ahead(GridCell cell, int heading) {
   return {cell.x + step.x, cell.y + step.y};
 }
 
-// The straight line as cells beside one another: each step goes where the line is nearer.
+// The straight line as a chain of neighbouring cells: each step goes to the one closer to the line.
 std::vector<GridCell> straightLine(GridCell from, GridCell to) {
   std::vector<GridCell> line{from};
   const long width = std::abs(to.x - from.x), height = std::abs(to.y - from.y);
@@ -35,7 +35,7 @@ int headingTo(GridCell from, GridCell to) {
   return heading;
 }
 
-// Goes along an obstacle with the left hand on it.
+// Follows an obstacle with the left hand on it.
 class WallWalk {
  public:
   // The obstacle is ahead.
@@ -75,8 +75,8 @@ class WallWalk {
 
 int distance(GridCell a, GridCell b) { return std::abs(a.x - b.x) + std::abs(a.y - b.y); }
 
-// The heading that brings it nearer to the goal, of two the one along the straight line; none: both are
-// barred.
+// The free heading that leads closer to the goal; of two, the one along the straight line. None if both are
+// blocked.
 std::optional<int> freeHeading(const GridMap& map, GridCell at, GridCell goal) {
   const int across = goal.x > at.x ? 0 : 2, along = goal.y > at.y ? 1 : 3;
   const bool isWide = std::abs(goal.x - at.x) >= std::abs(goal.y - at.y);
@@ -87,13 +87,13 @@ std::optional<int> freeHeading(const GridMap& map, GridCell at, GridCell goal) {
   return std::nullopt;
 }
 
-// Follows a line from its cell i as far as it is free. Returns where it stands then.
+// Follows a line from its cell i as far as it is free. Returns the index of the cell where it stops.
 std::size_t follow(const GridMap& map, const std::vector<GridCell>& line, std::size_t i, BugWay& way) {
   while (i + 1 < line.size() && !map.isBlocked(line[i + 1])) way.cells.push_back(line[++i]);
   return i;
 }
 
-// Once around the obstacle, then to the place that was nearest to the goal, the shorter way.
+// Goes once around the obstacle, then the shorter way to the cell that was nearest to the goal.
 GridCell goRound(WallWalk walk, GridCell goal, BugWay& way) {
   std::vector<GridCell> round{walk.cell()};
   std::size_t nearest = 0;
@@ -128,7 +128,7 @@ BugWay bug1(const GridMap& map, GridCell start, GridCell goal) {
     const WallWalk walk(map, hit, headingTo(hit, straightLine(hit, goal)[1]));
     if (walk.isEnclosed()) return way;
     at = goRound(walk, goal, way);
-    if (at == hit) return way;  // nothing else is nearer: the obstacle lies around it, or around the goal
+    if (at == hit) return way;  // no cell is nearer: the obstacle encloses it, or the goal
     way.leaves.push_back(at);
   }
   way.status = BugStatus::kReached;

@@ -32,7 +32,7 @@ Eigen::Vector3d carVelocity(const Car& car, const Eigen::Vector3d& q, const Eige
 Eigen::Vector3d driveCar(const Car& car, const Eigen::Vector3d& q, const Eigen::Vector2d& u, double seconds) {
   requireControl(car, u);
   const double way = u[0] * seconds, half = way * std::tan(u[1]) / car.wheelbase / 2;
-  // The chord of the arc, which leads in the middle direction; of a small turn by its series.
+  // The chord of the arc, which points in the mean direction; for a small turn, by its series.
   const double chord = std::abs(half) < 1e-4 ? way * (1 - half * half / 6) : way * std::sin(half) / half;
   return {q[0] + chord * std::cos(q[2] + half), q[1] + chord * std::sin(q[2] + half), q[2] + 2 * half};
 }

@@ -76,7 +76,7 @@ class ControlTree {
     return distance;
   }
 
-  // A tree helps only where distance is the metric that it knows.
+  // A tree of neighbours helps only if the distance is the metric of the space.
   int nearest(const VectorArg& target) const {
     if (!system_.distance) return tree_.points().nearest(target);
     std::pair<double, int> best{std::numeric_limits<double>::infinity(), 0};
@@ -96,7 +96,7 @@ class ControlTree {
     return next;
   }
 
-  // The node that is gained by the best of some random controls, -1 if something is in the way.
+  // The node that the best of some random controls leads to, -1 if something is in the way.
   int extend(int from, const VectorArg& target, int trials) {
     const Eigen::VectorXd x = tree_.points().point(from);
     Eigen::VectorXd best;

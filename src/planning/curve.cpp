@@ -7,7 +7,7 @@
 namespace rex {
 namespace {
 
-// The pose after driving `way` (with its sign) from `from`.
+// The pose after driving the signed distance `way` from `from`.
 Eigen::Vector3d drive(const Eigen::Vector3d& from, Steering steering, double way, double radius) {
   const double heading = from[2];
   if (steering == Steering::kStraight)

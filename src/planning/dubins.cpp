@@ -14,8 +14,8 @@ using internal::kAngleSlack;
 using internal::kPi;
 using internal::squareRoot;
 
-// A first arc to the left, what lies between, and a last arc: three words, and three more in the mirror.
-// Lengths are in turning radii.
+// A first arc to the left, a middle part and a last arc: three words, and three more in the mirror. Lengths
+// are in turning radii.
 enum class Word { kLSL, kLSR, kLRL };
 
 struct Way {
@@ -58,7 +58,8 @@ double lastArc(Word word, const CarGoal& goal, double first, double middle) {
   return 0;
 }
 
-// Whether a left turn from heading zero to the goal's, by `turn`, meets the direction (x, y). No arc tangent.
+// Whether a left turn by `turn`, from heading zero to that of the goal, passes the direction (x, y). Uses no
+// arc tangent.
 bool isOnTurn(const Circles& direction, double length, const CarGoal& goal, double turn) {
   const double slack = kAngleSlack * length;
   const bool afterStart = direction.y >= -slack;
@@ -67,7 +68,8 @@ bool isOnTurn(const Circles& direction, double length, const CarGoal& goal, doub
   return afterStart && beforeGoal && (direction.x >= -slack || turn >= kPi / 2);
 }
 
-// Looks at all words; how long the arcs are is only asked where what is known does not rule the word out.
+// Tries all words, but computes the lengths of the arcs only if what is already known does not rule the word
+// out.
 class Search {
  public:
   explicit Search(const CarGoal& goal) {

@@ -23,7 +23,7 @@ class PgmReader {
 
   GridMap read(double cellSize) {
     const bool isText = bytes_.starts_with("P2"), isBinary = bytes_.starts_with("P5");
-    if (!isText && !isBinary) refuse("no picture", "one that begins with P2 or P5");
+    if (!isText && !isBinary) refuse("another format", "one that begins with P2 or P5");
     at_ = 2;
     const int width = number("a width", 1, 1 << 20), height = number("a height", 1, 1 << 20);
     const int white = number("the grey of white", 1, 65535);
@@ -102,7 +102,7 @@ Eigen::Vector2d GridMap::center(GridCell cell) const {
 
 GridCell GridMap::cellAt(const Eigen::Vector2d& point) const {
   const Eigen::Vector2d cell = (point - origin_) / cellSize_;
-  // Beyond the map one cell is as good as another, and must fit into an int.
+  // Beyond the map any cell will do, but it must fit into an int.
   const auto place = [](double x, int size) {
     return static_cast<int>(std::floor(std::fmin(std::fmax(x, -1), size)));
   };

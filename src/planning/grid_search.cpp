@@ -37,8 +37,8 @@ GridCell cellOf(const GridMap& map, std::size_t index) {
   return {static_cast<int>(index % width), static_cast<int>(index / width)};
 }
 
-// Best first: costs of the cells that were reached, and where each was reached from. Stops at the goal, if
-// there is one.
+// Best-first search: the costs of the cells reached, and the cell that each was reached from. Stops at the
+// goal, if there is one.
 struct GridSearch {
   std::vector<double> cost;
   std::vector<std::size_t> from;

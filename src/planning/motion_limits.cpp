@@ -14,7 +14,7 @@
 namespace rex {
 namespace {
 
-// The least over all joints that share a coordinate; infinite where none has a limit.
+// The least over all joints that share a coordinate; infinite if none has a limit.
 Eigen::VectorXd velocitiesOf(const Model& model) {
   Eigen::VectorXd least = Eigen::VectorXd::Constant(model.nv(), std::numeric_limits<double>::infinity());
   for (const Joint& joint : model.joints()) {
@@ -26,7 +26,7 @@ Eigen::VectorXd velocitiesOf(const Model& model) {
   return least;
 }
 
-// Of joints that mimic, the effort is part of that of their target.
+// The effort of a joint that mimics is part of that of its target.
 Eigen::VectorXd effortsOf(const Model& model) {
   Eigen::VectorXd efforts = Eigen::VectorXd::Constant(model.nv(), std::numeric_limits<double>::infinity());
   for (const Joint& joint : model.joints())

@@ -18,20 +18,20 @@ constexpr std::size_t kUsualDepth = 64;  // of a search; deeper ones take more m
 
 constexpr double kEndless = std::numeric_limits<double>::infinity();
 
-// Of two angles of [-pi, pi].
+// The squared chord between two angles in [-pi, pi].
 double squaredChord(const SpacePart& part, double a, double b) {
   const double chord = 2 * part.weight * std::sin((a - b) / 2);
   return chord * chord;
 }
 
-// Of x from an interval on a line that closes up after `period`.
+// The squared distance of x from an interval on a line that closes up after `period`.
 double squaredGap(double x, double lower, double upper, double period = kEndless) {
   const double gap = std::max({lower - x, x - upper, 0.});
   const double shorter = std::min(gap, period - (upper - lower) - gap);
   return shorter * shorter;
 }
 
-// Adds those of x from points there.
+// Adds the squared distances of x from points on such a line.
 template <class Lanes>
 inline void addSquaredGaps(double x, const double* points, double period, Lanes& sum) {
   const Lanes gap = x - Lanes::Map(points);
@@ -57,7 +57,7 @@ NearestNeighbors::NearestNeighbors(Space space) : space_(std::move(space)), isFl
   }
 }
 
-// Times their weights, but for chords; angles from -pi to pi before that.
+// The coordinates times their weights, except for chords; angles are first wrapped to [-pi, pi].
 Eigen::VectorXd NearestNeighbors::scaled(const VectorArg& q) const {
   requireSize("configuration", q.size(), space_.size());
   requireFinite("configuration", q);
@@ -97,7 +97,7 @@ void NearestNeighbors::grow(int at, const double* x) {
   }
 }
 
-// Where the box has less to grow; of equals, where there are fewer points.
+// The branch whose box has to grow less; if both are equal, the one with fewer points.
 int NearestNeighbors::branchFor(const Node& at, const double* x) const {
   const auto growth = [&](int branch) {
     const double *lower = box(branch), *upper = lower + size();
@@ -155,7 +155,7 @@ Eigen::Map<const Eigen::VectorXd> NearestNeighbors::point(int i) const {
   return {points_.data() + static_cast<std::size_t>(i) * size(), space_.size()};
 }
 
-// Of x from the box of a node: at most that from any point below.
+// The squared distance of x from the box of a node: at most that from any point below it.
 double NearestNeighbors::boxDistance2(int at, const double* x) const {
   const double *lower = box(at), *upper = lower + size();
   double sum = 0;
@@ -183,7 +183,8 @@ double NearestNeighbors::boxDistance2(int at, const double* x) const {
   return sum;
 }
 
-// Of x from the points of a chunk, and the smallest of them, or less: zeros stand where there are no points.
+// Writes the squared distances of x from the points of a chunk. Returns the smallest, or less: unused entries
+// are zeros, not points.
 double NearestNeighbors::chunkDistances2(const double* numbers, const double* x, double* distances) const {
   using Lanes = Eigen::Array<double, kChunk, 1>;
   const auto lanes = [numbers](std::size_t i) { return Lanes::Map(numbers + i * kChunk); };
@@ -214,7 +215,8 @@ double NearestNeighbors::chunkDistances2(const double* numbers, const double* x,
   return sum.minCoeff();
 }
 
-// Calls visit(squared distance, point) for the points of a leaf within reach, and takes up the new one.
+// Calls visit(squared distance, point) for the points of a leaf within reach; each call returns the new
+// reach.
 template <class Visit>
 void NearestNeighbors::searchLeaf(int leaf, const double* x, double& reach2, const Visit& visit) const {
   const Bucket& bucket = buckets_[static_cast<std::size_t>(node(leaf).bucket)];
@@ -236,7 +238,7 @@ void NearestNeighbors::search(const double* x, double reach2, const Visit& visit
     double bound;  // of squared distances
     int node;
   };
-  std::vector<Branch> open;  // left for later
+  std::vector<Branch> open;  // postponed
   Branch at{0, 0};
   for (;;) {
     while (!isLeaf(at.node)) {

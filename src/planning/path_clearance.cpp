@@ -8,8 +8,8 @@
 namespace rex {
 namespace {
 
-// Into how many pieces a way is cut, so that in none a ball joint turns by more than 0.05 rad: there the
-// chord of the quaternions, which a straight motion follows, and their arc are at nearly the same place at
+// The number of pieces that a motion is cut into, so that no ball joint turns by more than 0.05 rad in any of
+// them: then the chord of the quaternions, which a straight motion follows, and their arc nearly coincide at
 // any time.
 int piecesOf(const Space& space, const VectorArg& from, const VectorArg& to) {
   constexpr double kTurn = 0.05;

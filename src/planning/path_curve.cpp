@@ -43,8 +43,8 @@ CurvePiece straightPiece(const Space& space, const Eigen::VectorXd& from, const 
   return {.length = length, .at = at};
 }
 
-// The largest part of the second derivative that leads away from straight ways: that across the first, or all
-// of it where the piece turns round.
+// The largest entry of the second derivative that bends the path: of its part across the first derivative, or
+// of all of it if the piece turns round.
 double bendOf(const CurvePiece& piece) {
   CurvePoint point;
   piece.at(0, point);
@@ -57,7 +57,7 @@ double bendOf(const CurvePiece& piece) {
     Eigen::VectorXd bend = point.ddq;
     if (goesOn && point.dq.squaredNorm() > 0)
       bend -= point.dq * (point.dq.dot(point.ddq) / point.dq.squaredNorm());
-    // What is left of a straight way by rounding is none.
+    // On a straight path, what rounding leaves does not count as a bend.
     if (bend.norm() > 1e-12 * point.ddq.norm()) most = std::max(most, bend.cwiseAbs().maxCoeff());
   }
   return most;

@@ -32,7 +32,7 @@ Eigen::Vector4d weights(double s, int derivative) {
 // A corner of the control polygon; the spline goes through those where it stops.
 struct Corner {
   Eigen::VectorXd q;
-  double place;  // in the path: between its configurations 1 and 2 for 1.5
+  double place;  // along the path: 1.5 is halfway between its configurations 1 and 2
   bool isStop = false;
 };
 using Polygon = std::vector<Corner>;
@@ -43,7 +43,7 @@ void requireSound(const PathProblem& problem, const MatrixArg& path) {
   if (path.cols() == 0) throw Error({.what = "path", .found = "no configurations", .wanted = "at least one"});
   for (const SpacePart& part : space.parts())
     if (part.kind == SpacePart::Kind::kQuaternion)
-      throw Error({.what = "space of a spline", .found = "quaternions", .wanted = "lines and angles alone"});
+      throw Error({.what = "space of a spline", .found = "quaternions", .wanted = "only lines and angles"});
 }
 
 // The path with angles that do not jump, stopping at both ends.
@@ -63,7 +63,8 @@ std::vector<std::size_t> cornersOf(const Polygon& polygon) {
   return corners;
 }
 
-// Four control points in turn, at points of their segment that are no farther apart than the resolution.
+// Whether the segment of four successive control points is valid, checked at points no farther apart than the
+// resolution.
 bool isValid(const PathProblem& problem, const Eigen::Ref<const Eigen::MatrixXd>& four) {
   double longest = 0;
   for (Eigen::Index k = 1; k < 4; ++k)
@@ -74,7 +75,7 @@ bool isValid(const PathProblem& problem, const Eigen::Ref<const Eigen::MatrixXd>
                                  [&](double share, auto out) { out = four * weights(share, 0); });
 }
 
-// The corners of control points between which the spline leaves the path where that is not valid.
+// The corners of those segments in which the spline leaves the path and is not valid.
 std::vector<bool> badCorners(const PathProblem& problem, const Polygon& polygon,
                              const Eigen::MatrixXd& control, const std::vector<std::size_t>& corners) {
   std::vector<bool> isBad(polygon.size());
@@ -86,7 +87,7 @@ std::vector<bool> badCorners(const PathProblem& problem, const Polygon& polygon,
   return isBad;
 }
 
-// Halves the sides between bad corners, or makes these stops.
+// Halves the sides between bad corners, or turns these corners into stops.
 void refine(Polygon& polygon, const std::vector<bool>& isBad, bool mayHalve) {
   Polygon finer;
   for (std::size_t i = 0; i < polygon.size(); ++i) {

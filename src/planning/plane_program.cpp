@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kRounding = 1e-12;
 
-// Half-planes that say nothing of y bound x itself.
+// Half-planes that do not involve y bound x itself.
 bool isUpright(const HalfPlane& row) { return row.y == 0; }
 
 Range uprightRange(std::span<const HalfPlane> rows, Range x) {
@@ -21,7 +21,7 @@ Range uprightRange(std::span<const HalfPlane> rows, Range x) {
   return x;
 }
 
-// Of the two ends of x, the one on the side `sign`.
+// The end of the range of x on the side `sign`.
 std::optional<double> extremeX(std::span<const HalfPlane> rows, const Range& xRange, const Range& yRange,
                                double sign, Slice& failed) {
   const Range x = uprightRange(rows, xRange);
@@ -33,10 +33,10 @@ std::optional<double> extremeX(std::span<const HalfPlane> rows, const Range& xRa
     failed = sliceAt(rows, yRange, at);
     const auto& [y, low, high] = failed;
     if (y.low - y.high <= kRounding * (std::abs(y.low) + std::abs(y.high))) return at;
-    const double opening = low.slope - high.slope;  // by how much more is left for each x less
+    const double opening = low.slope - high.slope;  // how fast the gap closes as x falls
     if (!(sign * opening > 0)) return {};
     const double next = (high.at0 - low.at0) / opening;
-    if (sign * (at - next) <= 0) return at;  // all that is missing is rounding
+    if (sign * (at - next) <= 0) return at;  // the gap is only rounding
     at = next;
     if (sign * (end - at) > kRounding * (std::abs(end) + std::abs(at))) return {};
     if (sign * (end - at) > 0) at = end;

@@ -28,8 +28,8 @@ struct Word {
   double quarters;  // length of its quarter turns
 };
 
-// The words of Reeds and Shepp (their section 8) that begin with a left turn forward. All others are these in
-// the mirror, driven the other way, or read from behind.
+// The words of Reeds and Shepp (their section 8) that begin with a left turn forward. All others are these
+// mirrored, driven the other way, or read from the end.
 constexpr Steering L = Steering::kLeft, S = Steering::kStraight, R = Steering::kRight;
 constexpr Piece kPiecesLSL[] = {{L, Piece::kT}, {S, Piece::kU}, {L, Piece::kV}};
 constexpr Piece kPiecesLSR[] = {{L, Piece::kT}, {S, Piece::kU}, {R, Piece::kV}};
@@ -56,8 +56,8 @@ struct Way {
   double length = std::numeric_limits<double>::infinity();
 };
 
-// Looks for the shortest way. A word is given up as soon as its u is too long, which costs no arc tangent
-// yet.
+// Looks for the shortest way. A word is given up as soon as its u is too long, before any arc tangent is
+// computed.
 class Search {
  public:
   explicit Search(const CarGoal& goal) {
@@ -129,7 +129,7 @@ class Search {
   }
 
   // Words with two turns in the middle that are as long as each other (8.7, 8.8), or with two quarter turns
-  // (8.11). Read from behind they are their own relatives.
+  // (8.11). Read from the end, they are their own relatives.
   void tryDouble(const CarGoal& goal) {
     const double x = goal.x + goal.sine, y = goal.y - 1 - goal.cosine, distance2 = x * x + y * y;
     if (const double cosine = (2 + std::sqrt(distance2)) / 4; cosine <= 1 + kAngleSlack) {

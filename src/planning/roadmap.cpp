@@ -82,7 +82,7 @@ std::vector<std::pair<int, int>> Roadmap::edges() const {
   return pairs;
 }
 
-// A*: what is known to be blocked is left out. Edges, the last one first; empty: there is no way.
+// A* without what is known to be blocked. Returns the edges, the last one first; empty if there is no path.
 std::vector<int> Roadmap::shortestWay(int from, int to) const {
   const auto count = static_cast<std::size_t>(nodes());
   std::vector<double> cost(count, std::numeric_limits<double>::infinity());
@@ -117,7 +117,7 @@ std::vector<int> Roadmap::shortestWay(int from, int to) const {
   return way;
 }
 
-// Looks at what of a way is not known yet; stops at what is blocked.
+// Checks the parts of a path that are not known yet; stops at the first that is blocked.
 bool Roadmap::isFree(const std::vector<int>& way) {
   for (const int index : way) {
     const Edge& edge = edges_[static_cast<std::size_t>(index)];
@@ -150,7 +150,7 @@ PathResult Roadmap::query(const PathProblem& problem) {
   PathResult result;
   result.asked = checker_.asked() - before;
   if (way.empty()) {
-    result.message = fmt::format("no way in a roadmap of {} nodes and {} edges", nodes(), edges().size());
+    result.message = fmt::format("no path in a roadmap of {} nodes and {} edges", nodes(), edges().size());
     return result;
   }
   result.status = PathStatus::kFound;
@@ -164,7 +164,7 @@ PathResult Roadmap::query(const PathProblem& problem) {
     at = edge.a == at ? edge.b : edge.a;
   }
   result.length = pathLength(space_, result.path);
-  result.message = fmt::format("a way over {} nodes of {}, {} configurations checked", result.path.cols(),
+  result.message = fmt::format("a path over {} nodes of {}, {} configurations checked", result.path.cols(),
                                nodes(), result.asked);
   return result;
 }

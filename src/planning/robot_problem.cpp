@@ -15,7 +15,7 @@
 namespace rex {
 namespace {
 
-// About an axis, and not along it: what a whole turn brings back.
+// Whether a freedom only turns about an axis, without moving along it, so that a whole turn brings it back.
 bool isTurn(const DegreeOfFreedom& freedom) {
   return !freedom.angular.isZero() && std::abs(freedom.angular.dot(freedom.linear)) < 1e-12;
 }
@@ -38,7 +38,7 @@ Space postureSpace(const Model& model) {
       });
       throw Error({.what = fmt::format("joint '{}'", joint->name),
                    .found = fmt::format("limits {:g} and {:g}", lower, upper),
-                   .wanted = "finite limits, between which postures are drawn"});
+                   .wanted = "finite limits, since postures are drawn between them"});
     }
     part(iq) = {.kind = SpacePart::Kind::kCircle};
   });

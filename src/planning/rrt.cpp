@@ -11,7 +11,7 @@ using internal::SearchTree;
 using internal::stepTowards;
 using internal::TreeGrowth;
 
-// Whether one step that nothing bars leads from a configuration to the goal.
+// Whether one unobstructed step leads from a configuration to the goal.
 bool reachesGoal(const PathProblem& problem, const VectorArg& q, double stepSize, EdgeChecker& edges) {
   return problem.space.distance(q, problem.goal) <= stepSize && edges.isValid(q, problem.goal);
 }

@@ -17,7 +17,7 @@ using internal::TreeGrowth;
 
 constexpr double kEndless = std::numeric_limits<double>::infinity();
 
-// How many dimensions a space has as a manifold, and its volume by its own metric.
+// The dimension of a space as a manifold, and its volume by its own metric.
 struct Extent {
   int dimension = 0;
   double volume = 1;
@@ -29,7 +29,7 @@ Extent extentOf(const Space& space) {
   for (const SpacePart& part : space.parts()) {
     const bool isRotation = part.kind == Kind::kQuaternion;
     const int dimension = isRotation ? 3 : 1;
-    // Of unit quaternions, half of the sphere: opposite ones are the same.
+    // For unit quaternions, half of the sphere: opposite ones are the same rotation.
     const double size = isRotation                 ? std::numbers::pi * std::numbers::pi
                         : part.kind == Kind::kLine ? part.upper - part.lower
                                                    : 2 * std::numbers::pi;
@@ -43,16 +43,15 @@ double volumeOfUnitBall(int dimension) {
   return std::pow(std::numbers::pi, dimension / 2.) / std::tgamma(dimension / 2. + 1);
 }
 
-// Of all points whose distances from two others, `apart`, sum up to at most `length`.
+// The volume of all points whose distances from two others, which are `apart`, sum up to at most `length`.
 double volumeOfEllipsoid(int dimension, double apart, double length) {
   const double thin = std::sqrt(std::max(0., length * length - apart * apart)) / 2;
   return volumeOfUnitBall(dimension) * length / 2 * std::pow(thin, dimension - 1);
 }
 
-// Up to which distance neighbours are looked at, for the tree to become optimal (Karaman and Frazzoli 2011,
-// theorem 38). Once only ways matter that are shorter than the best, these lie in an ellipsoid, and its
-// volume and the nodes in it count. Where angles close up, it may meet its own images: there the whole space
-// counts.
+// The distance up to which neighbours are considered, so that the tree becomes optimal (Karaman and Frazzoli
+// 2011, theorem 38). Once only paths shorter than the best matter, they lie in an ellipsoid, and its volume
+// and the nodes in it count. If angles close up, it may meet its own images: then the whole space counts.
 class Reach {
  public:
   Reach(const PathProblem& problem, const RrtStarOptions& options)
@@ -69,7 +68,7 @@ class Reach {
     if (lengths_.back() <= best_) ++inside_;
   }
 
-  // `best` is the length of the shortest way that is known.
+  // `best` is the length of the shortest path known.
   double radius(double best) {
     if (isFlat_ && best < best_) {
       best_ = best;
@@ -89,11 +88,11 @@ class Reach {
   Extent extent_;
   bool isFlat_;
   double apart_, best_ = kEndless;
-  std::vector<double> lengths_;  // of the nodes: no way through one is shorter
-  std::ptrdiff_t inside_ = 0;    // nodes through which a way may be as short as the best
+  std::vector<double> lengths_;  // of the nodes: no path through one is shorter
+  std::ptrdiff_t inside_ = 0;    // nodes through which a path may be as short as the best
 };
 
-// A tree that knows what it costs to come to each node.
+// A tree that knows the cost of reaching each node.
 class CostTree {
  public:
   explicit CostTree(const PathProblem& problem) : space_(problem.space), tree_(problem.space, problem.start) {
@@ -111,7 +110,7 @@ class CostTree {
     return node;
   }
 
-  // Hangs a node on another parent, so that it costs less; so does all that hangs on it.
+  // Attaches a node to another parent, which makes it and all its descendants cheaper to reach.
   void move(int node, int parent, double newCost) {
     std::erase(childrenOf(tree_.parent(node)), node);
     childrenOf(parent).push_back(node);
@@ -135,7 +134,7 @@ class CostTree {
   std::vector<std::vector<int>> children_;
 };
 
-// The neighbour from which q is reached at the least cost, -1 if from none. `open` is room to work in.
+// The neighbour from which q is reached at the least cost, -1 if there is none. `open` is scratch space.
 int bestParent(const CostTree& tree, const std::vector<Neighbor>& near, const VectorArg& q,
                EdgeChecker& edges, std::vector<Neighbor>& open) {
   open.clear();
@@ -149,8 +148,8 @@ int bestParent(const CostTree& tree, const std::vector<Neighbor>& near, const Ve
   return -1;
 }
 
-// The goal as a node, if a new node is it, or a step that nothing bars leads there; -1 otherwise. The new one
-// is the only parent that it can have: older ones near it were tried when they were new.
+// The goal as a node, if a new node is the goal or one unobstructed step leads there; -1 otherwise. Only the
+// new node can be its parent: older ones near the goal were tried when they were new.
 int goalBehind(CostTree& tree, int node, const PathProblem& problem, double stepSize, EdgeChecker& edges) {
   const Eigen::VectorXd q = tree.tree().points().point(node);
   if (q == problem.goal) return node;

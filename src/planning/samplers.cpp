@@ -13,7 +13,8 @@
 namespace rex {
 namespace {
 
-// A normal step away, with deviation sigma in each dimension by the metric of the space, within its bounds.
+// A normally distributed step away, with deviation sigma in each dimension by the metric of the space, within
+// its bounds.
 bool stepAway(const Space& space, const VectorArg& from, double sigma, Rng& rng,
               Eigen::Ref<Eigen::VectorXd> to) {
   Eigen::Index i = 0;
@@ -70,7 +71,7 @@ Sampler informedSampler(const Space& space, const VectorArg& start, const Vector
   if (!(length >= apart)) {
     throw Error({.what = "length of a path",
                  .found = fmt::format("{:g}", length),
-                 .wanted = fmt::format("at least {:g}, the distance of start and goal", apart)});
+                 .wanted = fmt::format("at least {:g}, the distance from start to goal", apart)});
   }
   return [space, start = Eigen::VectorXd(start), goal = Eigen::VectorXd(goal), length](
              Rng& rng, Eigen::Ref<Eigen::VectorXd> q) {

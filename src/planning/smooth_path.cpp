@@ -52,7 +52,7 @@ Eigen::MatrixXd shortcut(const PathProblem& problem, const MatrixArg& path, int 
     double from = length * rng.uniform(), to = length * rng.uniform();
     if (from > to) std::swap(from, to);
     const PathPoint a = pointAt(problem.space, best, from), b = pointAt(problem.space, best, to);
-    // Also the pieces that are left are new ways: they are looked at in other points than the whole was.
+    // The remaining pieces are new motions, too: they are checked at other points than the whole was.
     const bool isShort = a.segment == b.segment;
     if (isShort || !edges.isValid(a.q, b.q) || !edges.isValid(best.col(a.segment), a.q) ||
         !edges.isValid(b.q, best.col(b.segment + 1)))

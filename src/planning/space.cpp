@@ -122,7 +122,7 @@ void Space::interpolate(const VectorArg& a, const VectorArg& b, double t,
       const Quaternion from = a.segment<4>(i), to = b.segment<4>(i);
       const double cosine = from.dot(to), sign = cosine < 0 ? -1 : 1;
       const double half = std::acos(std::min(1., std::abs(cosine)));
-      // Nearly equal rotations: the sines would cancel, and the straight way is the arc.
+      // Nearly equal rotations: the sines would cancel, and the straight line is the arc.
       const bool isSmall = half < 1e-6;
       const double x = isSmall ? 1 - t : std::sin((1 - t) * half) / std::sin(half);
       const double y = isSmall ? t : std::sin(t * half) / std::sin(half);

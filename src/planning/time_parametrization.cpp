@@ -58,7 +58,7 @@ void requireFiniteAt(const CurvePoint& point, std::size_t piece, double s) {
                .wanted = "a posture and two derivatives"});
 }
 
-// Pieces go on where the one before ends, and as fast unless that stops.
+// Each piece starts where the one before ends, and as fast, unless that one ends in a stop.
 void requireJoined(const PathCurve& curve) {
   constexpr double kGap = 1e-6;
   CurvePoint before, after;
@@ -76,7 +76,7 @@ void requireJoined(const PathCurve& curve) {
           {.what = fmt::format("path at s = {:g}, piece {}", place, i), .found = found, .wanted = wanted});
     };
     const double gap = (after.q - before.q).cwiseAbs().maxCoeff();
-    if (gap > kGap * scale) refuse(fmt::format("a jump by {:g}", gap), "the end of the piece before");
+    if (gap > kGap * scale) refuse(fmt::format("a jump of {:g}", gap), "the end of the piece before");
     if (i > 0 && !curve.pieces[i - 1].stopsAtEnd) {
       requireSize("derivatives of a path", after.dq.size(), before.dq.size());
       const double turn = (after.dq - before.dq).cwiseAbs().maxCoeff();
@@ -100,7 +100,7 @@ std::vector<Interval> firstGrid(const PathCurve& curve, int least) {
   return grid;
 }
 
-// The limits along a grid: at the ends and in the middle of each interval.
+// The limits along a grid, at the ends and in the middle of each interval.
 class PathRows {
  public:
   PathRows(const PathCurve& curve, const MotionLimits& limits, std::vector<Interval> grid)
@@ -125,7 +125,7 @@ class PathRows {
   }
   // The largest square of speed that velocities allow at the beginning (0), middle (1) or end (2).
   double cap(std::size_t i, int part) const { return cap_[column(i, part)]; }
-  // Seconds that the velocities ask for, by Simpson's rule: exact for cubic pieces.
+  // The seconds that the velocities require, by Simpson's rule: exact for cubic pieces.
   double leastTime(std::size_t i) const { return leastTimes_[i]; }
 
   // -1 <= a u + b x + c <= 1 at both ends, in x and in y = x + 2 way u at the end.
@@ -143,7 +143,7 @@ class PathRows {
     }
   }
 
-  // The largest share of a limit that is used in the middle of an interval, whose squares these are.
+  // The largest share of a limit that is used in the middle of an interval between these squares of speed.
   double shareInTheMiddle(std::size_t i, double before, double after) const {
     const double x = (before + after) / 2, u = (after - before) / (2 * way(i));
     const Eigen::Index k = column(i, 1);
@@ -153,7 +153,7 @@ class PathRows {
     return share;
   }
 
-  // Of the half-plane `plane` of halfPlanes().
+  // The name of the limit behind the half-plane `plane` of halfPlanes().
   std::string nameOf(int plane) const {
     const auto row = static_cast<std::size_t>((plane / 2) % count());
     return row < accelerations_.size() ? "the acceleration of " + coordinate(accelerations_[row])
@@ -208,7 +208,8 @@ class PathRows {
       b_(row++, k) = point_.ddq[j] / limits_.acceleration[j];
     }
     if (efforts_.empty()) return;
-    // Linear: what rest, a curve at speed 1 and a start from rest take.
+    // Effort is linear in acceleration and squared speed: its coefficients follow from rest, from the curve
+    // at speed 1 and from a start from rest.
     const Eigen::VectorXd rest = Eigen::VectorXd::Zero(point_.dq.size());
     Eigen::VectorXd held = rest, turning = rest, starting = rest;
     limits_.forces(point_.q, rest, rest, held);
@@ -237,14 +238,14 @@ class Passes {
  public:
   Passes(const PathRows& rows, const TimingOptions& options) : rows_(rows), options_(options) {}
 
-  // Squares of the speed at the grid, or nothing and a message.
+  // The squares of the speed at the grid points, or nothing and a message.
   std::optional<std::vector<double>> run() { return goBack() ? goAhead() : std::nullopt; }
   const std::string& message() const { return message_; }
 
  private:
   static double squared(double x) { return x * x; }
 
-  // What velocities and stops leave at point i of the grid.
+  // The speeds that velocity limits and stops allow at point i of the grid.
   Range speedsAt(std::size_t i) const {
     const std::size_t last = rows_.size();
     const double before = i > 0 ? rows_.cap(i - 1, 2) : kLargestSquare;
@@ -268,7 +269,7 @@ class Passes {
       return line.row < 0 ? std::string("the speeds needed later") : rows_.nameOf(line.row);
     };
     const std::string low = name(failed.low), high = name(failed.high);
-    return low == high ? low + " leaves no speed" : low + " and " + high + " leave no speed";
+    return low == high ? low + " allows no speed" : low + " and " + high + " allow no speed";
   }
 
   bool fail(std::size_t i, const std::string& why) {
@@ -276,7 +277,7 @@ class Passes {
     return false;
   }
 
-  // A given speed at an end that velocities do not allow.
+  // Fails if the velocity limits do not allow the given speed at an end.
   bool allows(std::size_t i, const char* what, double speed) {
     const Range speeds = speedsAt(i);
     if (squared(speed) <= speeds.high * (1 + 1e-12)) return true;
@@ -309,9 +310,10 @@ class Passes {
     const Range& reach = ranges_[0];
     if (start >= reach.low - room && start <= reach.high + room) return true;
     const auto overload = rows_.overload(0);
-    return fail(0, fmt::format("from the speed {:g} the path cannot be followed, but from {:.4g} to {:.4g}{}",
-                               options_.startSpeed, std::sqrt(reach.low), std::sqrt(reach.high),
-                               overload ? "; " + *overload : ""));
+    return fail(0,
+                fmt::format("the path cannot be followed from the speed {:g}, only from {:.4g} to {:.4g}{}",
+                            options_.startSpeed, std::sqrt(reach.low), std::sqrt(reach.high),
+                            overload ? "; " + *overload : ""));
   }
 
   // As fast as the ranges allow.
@@ -337,7 +339,7 @@ class Passes {
   std::string message_;
 };
 
-// Halves intervals in whose middle a limit is exceeded. Gives back whether there are any.
+// Halves intervals in whose middle a limit is exceeded. Returns whether there are any.
 bool refine(const PathRows& rows, const std::vector<double>& squares, double most,
             std::vector<Interval>& finer) {
   finer.clear();
@@ -358,8 +360,9 @@ TimingResult resultOf(const PathCurve& curve, const PathRows& rows, std::vector<
     result.excess = std::max(result.excess, rows.shareInTheMiddle(i, squares[i], squares[i + 1]) - 1);
   }
   result.motion = TimedPath(curve, rows.grid(), std::move(squares));
-  result.message = fmt::format("{:.4g} s, at least {:.4g} s by the velocities, on a grid of {} intervals",
-                               result.motion.duration(), result.lowerBound, rows.size());
+  result.message =
+      fmt::format("{:.4g} s, at least {:.4g} s at the velocity limits, on a grid of {} intervals",
+                  result.motion.duration(), result.lowerBound, rows.size());
   return result;
 }
 
@@ -369,8 +372,9 @@ TimingResult parametrizeTime(const PathCurve& curve, const MotionLimits& limits,
                              const TimingOptions& options) {
   requireJoined(curve);
   if (curve.pieces.empty())
-    return {
-        .status = TimingStatus::kFound, .motion = TimedPath(curve, {}, {}), .message = "0 s: no way to go"};
+    return {.status = TimingStatus::kFound,
+            .motion = TimedPath(curve, {}, {}),
+            .message = "0 s: the path is a single point"};
   CurvePoint first;
   curve.pieces.front().at(0, first);
   requireSound(limits, options, first.dq.size());

@@ -10,7 +10,7 @@
 namespace rex::internal {
 namespace {
 
-constexpr int kMostRedraws = 100;  // then any target will do: the ways may be too narrow to be met
+constexpr int kMostRedraws = 100;  // then any target will do: shorter paths may lie in too thin a region
 
 void requireSound(const RrtOptions& options) {
   requirePositive("step size of a tree", options.stepSize);

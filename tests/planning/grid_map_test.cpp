@@ -55,7 +55,7 @@ TEST_F(GridFile, SaysWhatIsWrongAndWhere) {
   EXPECT_REX_ERROR(readGridMap(folder_.path()), "grid map: found a file that cannot be read");
   EXPECT_REX_ERROR(readGridMap(folder_.path() / "none.txt"),
                    "none.txt: grid map: found a file that cannot be read");
-  EXPECT_REX_ERROR(readGridMap(write("a.pgm", "P6 1 1 255 ")), "a.pgm: grid map: found no picture");
+  EXPECT_REX_ERROR(readGridMap(write("a.pgm", "P6 1 1 255 ")), "a.pgm: grid map: found another format");
   EXPECT_REX_ERROR(readGridMap(write("a.pgm", "P2 3 2 10 0 10 5 9 4")),
                    "found the end of the file, wanted a grey");
   EXPECT_REX_ERROR(readGridMap(write("a.pgm", "P2 3 2 10 0 11")), "found 11, wanted a grey from 0 to 10");

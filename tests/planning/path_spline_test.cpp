@@ -191,7 +191,7 @@ TEST(PathSpline, RefusesWhatItCannotFollow) {
   PathProblem floating = problem;
   floating.space = Space::se3({0, 0, 0}, {1, 1, 1});
   EXPECT_REX_ERROR(static_cast<void>(splineAlong(floating, Eigen::MatrixXd::Zero(7, 2))),
-                   "space of a spline: found quaternions, wanted lines and angles alone");
+                   "space of a spline: found quaternions, wanted only lines and angles");
 }
 
 TEST(PathSpline, AsksInSmallBlocks) {

@@ -114,7 +114,7 @@ TEST(Roadmap, SaysWhenThereIsNoWay) {
     const PathResult result = roadmapOf(problem, {.nodes = 200, .lazy = lazy}).query(problem);
     EXPECT_EQ(result.status, PathStatus::kBudgetSpent);
     EXPECT_EQ(result.path.cols(), 0);
-    EXPECT_NE(result.message.find("no way in a roadmap of 202 nodes"), std::string::npos) << result.message;
+    EXPECT_NE(result.message.find("no path in a roadmap of 202 nodes"), std::string::npos) << result.message;
   }
   const Roadmap few = roadmapOf(problem, {.nodes = 200, .maxSamples = 50});
   EXPECT_LE(few.nodes(), 50);

@@ -86,7 +86,7 @@ TEST(InformedSampler, ProposesAllThroughWhichAShorterWayMayLead) {
   }
   EXPECT_NEAR(static_cast<double>(inside) / kProposals, M_PI * .5 * .4 / 4, .01);
   EXPECT_REX_ERROR(static_cast<void>(informedSampler(space, start, goal, .5)),
-                   "length of a path: found 0.5, wanted at least 0.6, the distance of start and goal");
+                   "length of a path: found 0.5, wanted at least 0.6, the distance from start to goal");
 }
 
 }  // namespace rex::samplers_test

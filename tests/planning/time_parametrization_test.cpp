@@ -111,7 +111,8 @@ TEST(TimeParametrization, IsATrapezoidOnAStraightWay) {
   EXPECT_NEAR(durationOf(straight(way), limits(100, 2)), 2 * std::sqrt(2 / 2.), 1e-3) << "a triangle";
   const TimingResult result = parametrizeTime(straight(way), limits(1, 2));
   EXPECT_NEAR(result.lowerBound, 2, 1e-12);
-  EXPECT_THAT(result.message, HasSubstr("s, at least 2 s by the velocities, on a grid of 1000 intervals"));
+  EXPECT_THAT(result.message,
+              HasSubstr("s, at least 2 s at the velocity limits, on a grid of 1000 intervals"));
   for (const auto& [t, x] : {std::pair(.25, -.0625), {.5, -.25}, {1.25, -1.}, {2.25, -1.9375}, {9., -2.}})
     EXPECT_NEAR(result.motion.at(t).q[0], x, 1e-3) << t;
   EXPECT_NEAR(result.motion.at(.3).a[0], -2, 1e-9);
@@ -368,7 +369,7 @@ TEST(TimeParametrization, RestsAtASinglePosture) {
   const TimingResult result =
       parametrizeTime({.start = Eigen::Vector2d(1, 2)}, {.velocity = Eigen::Vector2d(1, 1)});
   EXPECT_EQ(result.status, TimingStatus::kFound);
-  EXPECT_EQ(result.message, "0 s: no way to go");
+  EXPECT_EQ(result.message, "0 s: the path is a single point");
   EXPECT_EQ(result.motion.duration(), 0);
   EXPECT_EQ(result.motion.at(3).q, Eigen::Vector2d(1, 2));
   EXPECT_TRUE(result.motion.at(3).v.isZero(0));
@@ -393,7 +394,7 @@ TEST(TimeParametrization, SaysWhichSpeedsAtTheEndsCannotBe) {
   limits.velocity.setConstant(10);
   EXPECT_EQ(
       message({.startSpeed = 9}),
-      "no motion along the path: at s = 0 of 2: from the speed 9 the path cannot be followed, but from 0 "
+      "no motion along the path: at s = 0 of 2: the path cannot be followed from the speed 9, only from 0 "
       "to 2");
 }
 
@@ -411,7 +412,7 @@ TEST(TimeParametrization, SaysWhichLimitsLeaveNoSpeed) {
   EXPECT_EQ(result.status, TimingStatus::kInfeasible) << result.message;
   EXPECT_THAT(result.message, StartsWith("no motion along the path: at s = 0.89"));
   EXPECT_THAT(result.message,
-              HasSubstr(" of 1: the speeds needed later and the acceleration of 'slow' leave no speed"));
+              HasSubstr(" of 1: the speeds needed later and the acceleration of 'slow' allow no speed"));
 }
 
 TEST(TimeParametrization, RefusesWhatMakesNoSense) {
@@ -453,7 +454,7 @@ TEST(TimeParametrization, RefusesPathsThatDoNotJoin) {
   const CurvePiece onward = curve.pieces[0];
   curve.start[0] = 1;
   EXPECT_REX_ERROR(run(curve),
-                   "path at s = 0, piece 0: found a jump by 1, wanted the end of the piece before");
+                   "path at s = 0, piece 0: found a jump of 1, wanted the end of the piece before");
   curve.start[0] = 0;
   const auto upward = [](double s, CurvePoint& point) {
     point = {Eigen::Vector2d(3, s), Eigen::Vector2d(0, 1), Eigen::Vector2d(0, 0)};
