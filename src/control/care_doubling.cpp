@@ -15,14 +15,13 @@ extern "C" void dtrsyl_(const char* transposeA, const char* transposeB, const in
 namespace rex::internal {
 namespace {
 
-// Matrices of up to kMost rows live on the stack: for small systems, half the time would be allocation.
+// Matrices of up to kMost rows live on the stack: for small systems, allocation would take half the time.
 template <class Scalar, int kMost>
 using Square = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, 0, kMost, kMost>;
 
 constexpr int kMostDoublings = 14;  // a closed loop that needs more is stiff
 
-// Products of products and of other expressions are compiled for each kind of expression: here there are
-// three kinds.
+// A product of expressions is compiled anew for every combination of their types: this limits them to three.
 template <class M>
 M product(const M& A, const M& B) {
   M AB(A.rows(), B.cols());
@@ -46,7 +45,7 @@ M productTransposed(const M& A, const M& B) {  // A B^T
 template <class M>
 std::optional<M> doubled(const M& A0, const M& G0, const M& Q) {
   const Eigen::Index n = A0.rows();
-  // Any shift converges; one as large as the modes are fast, soon.
+  // Any shift converges; one of the magnitude of the modes converges fast.
   const double shift =
       std::sqrt((2 * A0.squaredNorm() + G0.squaredNorm() + Q.squaredNorm()) / static_cast<double>(2 * n));
   if (!(shift > 1e-150 && shift < 1e150)) return {};
@@ -79,7 +78,7 @@ std::optional<M> doubled(const M& A0, const M& G0, const M& Q) {
   return {};
 }
 
-// Of a quasi-triangular matrix, as RealSchur leaves it.
+// The eigenvalues of a quasi-triangular matrix, as RealSchur leaves it.
 template <class M>
 Eigen::VectorXcd eigenvaluesOf(const M& T) {
   Eigen::VectorXcd values(T.rows());
@@ -143,7 +142,7 @@ std::optional<RiccatiResult> solve(const MatrixArg& givenA, const MatrixArg& B, 
   if (schur.info() != Eigen::Success) return {};
   result.closedLoop = eigenvaluesOf(schur.matrixT());
   if (!(result.closedLoop.real().maxCoeff() < -1e-4 * A.norm())) return {};
-  // What a step changes is what was wrong: nothing else says how many digits X has.
+  // What a step changes is what was wrong: nothing else shows how many digits of X are right.
   for (double change = 1, round = 0; change > 1e-12; ++round) {
     const M step = lyapunovStep<M>(schur, valueAt(*X, givenA, B, givenQ, R).first);
     change = step.norm() / X->norm();

@@ -19,7 +19,7 @@ void requireOptions(const CartPoleRolloutOptions& options) {
   requireFinite("cart pole: costs Q", options.Q.reshaped());
   requireFinite("cart pole: costs R", options.R);
   requireFinite("cart pole: cost of a failure", options.failure);
-  (void)options.dynamics.derivative(Eigen::Vector4d::Zero(), 0);  // refuses its constants
+  (void)options.dynamics.derivative(Eigen::Vector4d::Zero(), 0);  // throws for bad constants
 }
 
 struct Rollout {

@@ -17,7 +17,7 @@
 namespace rex {
 namespace {
 
-// What one learns of B with A, one learns of C with these: the dual system.
+// The dual system: what is found for its B holds for C of the given one.
 LinearSystem dual(const LinearSystem& given) {
   const LinearSystem system = completed(given);
   return {.A = system.A.transpose(),
@@ -112,7 +112,7 @@ Eigen::MatrixXd integrated(const LinearSystem& system, double T) {
   return 0.5 * (W + W.transpose());
 }
 
-// W for controls in units that make B's largest entry one: beside a large block, the exponential would lose
+// W for controls in units that make B's largest entry one: next to a large block, the exponential would lose
 // the small ones.
 template <class Gramian>
 Eigen::MatrixXd inUnitsOfB(LinearSystem system, const Gramian& gramian) {

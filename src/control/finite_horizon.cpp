@@ -41,7 +41,7 @@ RiccatiHorizon solved(std::vector<Eigen::MatrixXd> P, std::vector<Eigen::MatrixX
   return {.isSolved = true, .P = std::move(P), .K = std::move(K), .message = "solved"};
 }
 
-// The parts in which a Hamiltonian matrix moves little.
+// The number of parts of a time, in each of which a Hamiltonian matrix moves little.
 double partsOf(const Eigen::MatrixXd& hamiltonian, double time) {
   return std::max(1., std::ceil(2 * time * hamiltonian.norm()));
 }
@@ -91,7 +91,7 @@ class HamiltonianFlow {
 
 constexpr double kMostParts = 1e8;
 
-// Of P, so that both blocks off the Hamiltonian's diagonal are of one size.
+// The unit of P that makes both off-diagonal blocks of the Hamiltonian equally large.
 double unitOfCost(const Eigen::MatrixXd& G, const Eigen::MatrixXd& Q) {
   const double sizeG = G.norm(), sizeQ = Q.norm();
   return sizeG > 0 && sizeQ > 0 ? std::sqrt(sizeQ) / std::sqrt(sizeG) : 1;
@@ -110,7 +110,7 @@ RiccatiHorizon discreteHorizon(const LinearSystem& given, const MatrixArg& Q, co
     const Eigen::MatrixXd PB = P.back() * system.B;
     const Eigen::LLT<Eigen::MatrixXd> weight(internal::symmetricPart(R + system.B.transpose() * PB));
     if (weight.info() != Eigen::Success)
-      return failed(fmt::format("step {}: R + B^T P B is not positive definite: no control is the best", t));
+      return failed(fmt::format("step {}: R + B^T P B is not positive definite: no control is optimal", t));
     K.push_back(weight.solve(PB.transpose() * system.A));
     // In this form (Joseph's) rounding leaves P positive semidefinite.
     const Eigen::MatrixXd closed = system.A - system.B * K.back();
@@ -179,12 +179,12 @@ RiccatiIteration iterateCare(const LinearSystem& given, const MatrixArg& Q, cons
     result.P += options.epsilon * change;
   }
   result.K = weight.solve(system.B.transpose() * result.P);
-  result.message =
-      fmt::format("{} after {} iterations: residual {:.2g}",
-                  result.isConverged        ? "converged"
-                  : result.residual < 1e150 ? "the iterations are spent"
-                                            : "P grows without bound: epsilon is too large, or no solution",
-                  result.iterations, result.residual);
+  result.message = fmt::format("{} after {} iterations: residual {:.2g}",
+                               result.isConverged ? "converged"
+                               : result.residual < 1e150
+                                   ? "iteration limit reached"
+                                   : "P grows without bound: epsilon is too large, or there is no solution",
+                               result.iterations, result.residual);
   return result;
 }
 

@@ -96,7 +96,7 @@ GainSearchResult fastestGains(const LinearSystem& given, const Eigen::MatrixXd& 
   const LinearSystem system = completed(given);
   requireSound(system, start, options);
   GainSearchResult result;
-  // Gains out of bounds count as the nearest within.
+  // Gains out of bounds are replaced by the nearest ones within.
   const auto gainsOf = [&](const Eigen::VectorXd& k) -> Eigen::MatrixXd {
     return k.cwiseMax(-options.bound).cwiseMin(options.bound).reshaped(start.rows(), start.cols());
   };
@@ -106,7 +106,7 @@ GainSearchResult fastestGains(const LinearSystem& given, const Eigen::MatrixXd& 
   };
   Vertex best{start.reshaped(), 0};
   best.value = cost(best.at);
-  int idle = 0;  // restarts without progress, each with another size
+  int idle = 0;  // restarts without progress, each with a different size
   for (double size = 0.1 * options.bound;
        idle < 4 && result.evaluations<options.maxEvaluations; size = idle> 0 ? size / 10 : size) {
     std::vector<Vertex> simplex = simplexAround(best.at, size, cost);
@@ -125,7 +125,7 @@ GainSearchResult fastestGains(const LinearSystem& given, const Eigen::MatrixXd& 
   result.isStable = stability.stability == Stability::kAsymptotic;
   result.message =
       fmt::format("{} after {} evaluations: the slowest closed-loop eigenvalue has the {} {:.6g}{}",
-                  result.isConverged ? "converged" : "the evaluations are spent", result.evaluations,
+                  result.isConverged ? "converged" : "evaluation limit reached", result.evaluations,
                   system.step ? "modulus" : "real part", result.rate, result.isStable ? "" : ", not stable");
   return result;
 }

@@ -29,7 +29,7 @@ double costOf(const ControlProblem& problem, const Eigen::MatrixXd& X, const Eig
   return cost;
 }
 
-// The motion under `control`, which sees the state; its cost is infinite where the motion is not finite.
+// The motion under `control`, which sees the state; its cost is infinite if the motion is not finite.
 template <class Control>
 Motion rolledOut(const ControlProblem& problem, Eigen::Index m, Eigen::Index N, const Control& control) {
   const Eigen::Index n = problem.start.size();
@@ -82,7 +82,7 @@ Local localProblem(const ControlProblem& problem, const Motion& motion) {
   return local;
 }
 
-// What the local problem promises for a step: the fall of its quadratic cost from dx = 0 on.
+// What the local problem promises for a step: the decrease of its quadratic cost from dx = 0.
 double promise(const Local& local, const LqPolicy& policy) {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(local.F.rows());
   double cost = 0;
@@ -108,7 +108,8 @@ void requireSound(const ControlProblem& problem, const Eigen::MatrixXd& U, const
   requireCount("iterations of iLQR", options.maxIterations, 0);
 }
 
-// The part of the step, 1, 1/2, ..., that lowers the cost by a fair share of what it promises.
+// The motion after the first part of the step, of 1, 1/2, ..., that lowers the cost by a fair share of what
+// it promises.
 Motion lineSearch(const ControlProblem& problem, const Motion& motion, const LqPolicy& policy,
                   double promised) {
   for (double part = 1; part > 1e-4; part /= 2) {
@@ -123,11 +124,12 @@ Motion lineSearch(const ControlProblem& problem, const Motion& motion, const LqP
 
 struct Attempt {
   LqPolicy policy;
-  Motion next;  // of infinite cost where there is none
+  Motion next;  // of infinite cost if there is none
   double promised = 0;
 };
 
-// Damps until a step lowers the cost, or promises less than `enough`, or is not to be taken.
+// Increases the damping until a step lowers the cost or promises less than `enough`; with `isLast` no step is
+// tried.
 Attempt attempted(const ControlProblem& problem, const Motion& motion, double enough, bool isLast,
                   double& damping) {
   const Local local = localProblem(problem, motion);
@@ -145,7 +147,7 @@ Attempt attempted(const ControlProblem& problem, const Motion& motion, double en
 
 std::string describe(const IlqrResult& result) {
   const char* what = result.status == IlqrStatus::kConverged     ? "converged"
-                     : result.status == IlqrStatus::kBudgetSpent ? "the iterations are spent"
+                     : result.status == IlqrStatus::kBudgetSpent ? "iteration limit reached"
                      : result.status == IlqrStatus::kNoProgress  ? "no step lowers the cost"
                                                                  : "the first motion is not finite";
   return fmt::format("{} after {} steps: cost {:.6g}", what, result.iterations, result.cost);

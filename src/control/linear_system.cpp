@@ -35,7 +35,7 @@ LinearSystem discretized(const LinearSystem& system, double step) {
     throw Error({.what = "linear system", .found = "discrete time", .wanted = "continuous time"});
   requirePositive("step of a linear system", step);
   const Eigen::Index n = system.A.rows(), m = system.B.cols();
-  // Beside a large B the exponential would lose digits of A: controls in units that make it small.
+  // Next to a large B the exponential would lose digits of A: hence units of the controls that make B small.
   const double largest = m == 0 ? 0 : system.B.cwiseAbs().maxCoeff(), unit = largest > 0 ? largest : 1;
   Eigen::MatrixXd generator = Eigen::MatrixXd::Zero(n + m, n + m);
   generator.topLeftCorner(n, n) = step * system.A;

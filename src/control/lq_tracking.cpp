@@ -67,7 +67,7 @@ LqPolicy solveLq(const std::vector<LqStage>& stages, const Eigen::MatrixXd& F, c
               .message = fmt::format("stage {}: the cost of the control has no minimum", t)};
     const Eigen::MatrixXd& K = policy.K[t] = damped.solve(mixed);
     const Eigen::VectorXd& k = policy.k[t] = -damped.solve(slope);
-    // With damping, K and k are not the best ones: this holds for any.
+    // With damping, K and k are not optimal: this form holds for any.
     const Eigen::MatrixXd P = stage.Q + stage.A.transpose() * PA + K.transpose() * weight * K -
                               K.transpose() * mixed - mixed.transpose() * K;
     policy.P[t] = internal::symmetricPart(P);

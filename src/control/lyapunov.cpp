@@ -24,7 +24,7 @@ void requireInput(const MatrixArg& A, const MatrixArg& Q) {
   internal::requireSymmetric("Q", Q, A.rows());
 }
 
-// Solves (s T^* + t) y = b with a lower triangular T^*; throws where an entry of the diagonal vanishes.
+// Solves (s T^* + t) y = b with a lower triangular T^*; throws if an entry of the diagonal vanishes.
 Eigen::VectorXcd solveShifted(const Eigen::MatrixXcd& T, Complex s, Complex t, Eigen::VectorXcd b,
                               const char* condition) {
   for (Eigen::Index i = 0; i < b.size(); ++i) {

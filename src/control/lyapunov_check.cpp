@@ -43,7 +43,8 @@ void requireSound(const LyapunovCandidate& candidate, const LyapunovRegion& regi
   requireCount("samples", samples, 1);
 }
 
-// Random points, at all distances from the equilibrium; besides, faces along the axes, and corners.
+// Random points at all distances from the equilibrium; also those on the way to the faces, along the axes,
+// and to the corners.
 std::vector<Eigen::VectorXd> pointsOf(const LyapunovRegion& region, Rng& rng, int samples) {
   const Eigen::Index n = region.equilibrium.size();
   std::vector<Eigen::VectorXd> points;

@@ -37,14 +37,14 @@ Eigen::VectorXd wishedAcceleration(const OperationalTask& one, const TaskValue& 
   return acceleration + one.gains.Kp * (target - value.y) + one.gains.Kd * (velocity - value.J * state.v);
 }
 
-// What each task wants of the forces: T u = y''* - J' v + T F, where -T F = J a is how it accelerates
-// without.
+// What each task requires of the forces: T u = y''* - J' v + T F, where -T F = J a is its acceleration
+// without them.
 std::vector<TaskLevel> wishesOf(const Model& model, const State& state,
                                 std::span<const OperationalTask> tasks, const Eigen::Vector3d& gravity_W) {
   internal::requireFinite(state);
   requireFinite("gravity", gravity_W);
-  // Throws where M is singular, naming the joint and the body: sooner than a factorisation fails, which
-  // rounding now and then lets pass.
+  // Throws if M is singular, naming the joint and the body. This comes before the factorisation, which might
+  // succeed because of rounding.
   const Eigen::VectorXd fall =
       forwardDynamics(model, state.q, state.v, Eigen::VectorXd::Zero(model.nv()), gravity_W);
   const Eigen::LLT<Eigen::MatrixXd> factors(massMatrix(model, state.q));

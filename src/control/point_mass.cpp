@@ -18,8 +18,8 @@ Modes oscillating(double damping, double omega, double t) {
   return {envelope * std::cos(omega * t), envelope * std::sin(omega * t) / omega};
 }
 
-// Of the two rates the greater in size is free of cancellation, and the other follows from their product. The
-// form of s holds where they are nearly equal.
+// The rate of greater magnitude is free of cancellation, and the other follows from their product. The form
+// of s holds if they are nearly equal.
 Modes decaying(double damping, double stiffness, double omega, double t) {
   const double one = damping >= 0 ? -(damping + omega) : omega - damping, other = stiffness / one;
   const double slow = std::exp(std::max(one, other) * t), ratio = std::expm1(-2 * omega * t);

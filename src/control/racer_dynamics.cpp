@@ -28,7 +28,7 @@ RacerNumbers internal::racerNumbers(const RacerDynamics& plant) {
   requirePositive("racer: inertia IA", plant.IA);
   requirePositive("racer: inertia IB", plant.IB);
   requirePositive("racer: gravity g", plant.g);
-  const double wheel = plant.mA + plant.IA / (plant.r * plant.r);  // what mB feels of it
+  const double wheel = plant.mA + plant.IA / (plant.r * plant.r);  // its inertia as mB feels it
   const double inertiaTheta = plant.mB * plant.l * plant.l + plant.IB;
   return {.inertiaX = wheel + plant.mB,
           .inertiaTheta = inertiaTheta,

@@ -28,7 +28,7 @@ RiccatiResult solve(const LinearSystem& system, const MatrixArg& Q, const Matrix
   return system.step ? solveDare(system.A, system.B, Q, R) : solveCare(system.A, system.B, Q, R);
 }
 
-// The dual's statuses, in the words of a filter.
+// The statuses of the dual problem, in the terms of a filter.
 SteadyKalman inWordsOfFilters(RiccatiResult dual) {
   SteadyKalman result{.status = dual.status,
                       .L = dual.K.transpose(),
@@ -90,8 +90,8 @@ LinearSystem closedLoop(const LinearSystem& given, const LinearSystem& givenCont
   requireSize("controls that the controller gives", controller.C.rows(), system.B.cols());
   if (system.step != controller.step || !controller.D.isZero(0))
     throw Error({.what = "closed loop",
-                 .found = "a controller of other steps, or that passes y on at once",
-                 .wanted = "one of the same steps whose D is 0"});
+                 .found = "a controller with a different step, or whose D is not 0",
+                 .wanted = "one with the same step and D = 0"});
   const Eigen::Index n = system.A.rows(), k = controller.A.rows();
   LinearSystem loop{.A = Eigen::MatrixXd(n + k, n + k),
                     .B = Eigen::MatrixXd::Zero(n + k, system.B.cols()),

@@ -26,7 +26,7 @@ void requireCount(const char* what, int count) {
     throw Error({.what = what, .found = fmt::format("{}", count), .wanted = "2 to 1000000"});
 }
 
-// Of the columns: with them divided by their sizes, fast modes do not pass for poles.
+// The inverse sizes of the columns: scaled by these, fast modes are not mistaken for poles.
 Eigen::VectorXd inverseSizes(const Eigen::MatrixXcd& M) {
   const Eigen::VectorXd sizes = M.cwiseAbs().colwise().maxCoeff();
   return sizes.unaryExpr([](double size) { return size > 0 ? 1 / size : 1; });
@@ -84,7 +84,7 @@ FrequencyResponse frequencyResponse(const LinearSystem& given, int input, int ou
     if (!(lu.rcond() > 1e-15))
       throw Error({.what = "frequency response",
                    .found = fmt::format("a pole at the frequency {:g} rad/s", w),
-                   .wanted = "frequencies beside it"});
+                   .wanted = "frequencies next to it"});
     const Eigen::VectorXcd source = rows.cwiseProduct(system.B.col(input)).cast<Complex>(),
                            x = columns.asDiagonal() * lu.solve(source);
     const Complex value = system.C.row(output).cast<Complex>().dot(x) + system.D(output, input);

@@ -44,31 +44,31 @@ using internal::ExtendedMatrix;
 
 enum class Kind { kContinuous, kDiscrete };
 
-// Tolerances are relative unless they say otherwise, in the units in which the largest entries are about one
-// (see Units). Ten times or a tenth of any one of them, half to 1.05 of kWorthBalancing, and 0.1 to 0.9 for
-// kStepMustShrinkTo, change no result of the tests.
+// Tolerances are relative unless stated otherwise, in the units in which the largest entries are about one
+// (see Units). No result of the tests changes with ten times or a tenth of any one of them, 0.5 to 1.05 times
+// kWorthBalancing, or 0.1 to 0.9 for kStepMustShrinkTo.
 constexpr double kTiny = 1e-300;  // absolute, against division by zero
-// R may be singular in discrete time: an eigenvalue so little below zero is rounding.
+// R may be singular in discrete time: an eigenvalue this little below zero is rounding.
 constexpr double kSemidefinite = 1e-9;
-// Balancing goes on while it shrinks a row and column by a twentieth: LAPACK's dgebal.
+// Balancing goes on while it shrinks a row and column by a twentieth, as in LAPACK's dgebal.
 constexpr double kWorthBalancing = 0.95;
 constexpr int kMostBalancingRounds = 1000;
 // R + B^T X B with a smaller reciprocal condition loses all digits of K: 500 times the rounding of doubles.
 constexpr double kSingularWeight = 1e-13;
-// Newton's steps shrink quadratically, so that one that does not halve says that rounding has the word, or
-// that an eigenvalue is double. Residuals may grow a little at the end; steps of 1e-18 change no digit.
+// Newton's steps shrink quadratically, so one that is not even halved shows that rounding dominates, or that
+// an eigenvalue is double. Residuals may grow a little at the end; steps of 1e-18 change no digit.
 constexpr int kMostNewtonSteps = 10;
 constexpr double kStepMustShrinkTo = 0.5, kResidualMayGrowTo = 2, kSettled = 1e-18;
-// What solves the equation: in extended precision its residual is near 1e-18. A last step above kConverged
+// What counts as a solution, whose residual is near 1e-18 in extended precision. A last step above kConverged
 // belongs to a double eigenvalue, where Newton's steps only halve the error.
 constexpr double kResidualOfSolution = 1e-10, kConverged = 1e-9;
-// Roots of double eigenvalues: rounding moves them by 1e-8, the square root of 1e-16.
+// Rounding moves double eigenvalues by 1e-8, the square root of 1e-16.
 constexpr double kNearEdge = 1e-8, kDoubtOfRate = 1e-7, kDoubtOfFactor = 1e-9;
-// Hautus' matrix has lost its rank, as far as n rows of doubles can say.
+// Below this, Hautus' matrix has lost its rank, as far as n rows of doubles can show.
 constexpr double kRankLost = 1e-9;
 // Only for messages: an eigenvalue of the pencil that counts as on the imaginary axis, or the unit circle.
 constexpr double kOnEdge = 1e-6;
-// Closer to the edge than this, hidden modes are looked for, which costs as much as the solution.
+// Only closer to the edge than this are hidden modes looked for, which costs as much as the solution.
 constexpr double kWorthALook = 1e-3;
 
 struct Problem {
@@ -96,7 +96,7 @@ void requireSound(const Problem& problem) {
 }
 
 // Exponents of two: in these units of time, controls and cost, the largest entries are about one. So the size
-// of the numbers does not matter, as squares of them would.
+// of the numbers does not matter, not even when they are squared.
 struct Units {
   int time = 0;     // A 2^-time; even
   int control = 0;  // R 4^-control
@@ -132,8 +132,8 @@ Problem inUnits(const Problem& problem, const Units& units) {
 }
 
 // The matrix pencil whose stable deflating subspace gives X, of size 2 n + m, with its columns and rows
-// scaled alike so that large numbers do not swamp small ones. What is done to the first n columns is undone
-// at the end.
+// scaled alike so that large numbers do not swamp small ones. The scaling of the first n columns is undone at
+// the end.
 struct Pencil {
   Eigen::MatrixXd H, J;
   Eigen::VectorXd scale;  // of the states: X = diag(scale) X' diag(scale)
@@ -197,8 +197,8 @@ double instability(Kind kind, std::complex<double> value) {
   return internal::instability(value, kind == Kind::kDiscrete);
 }
 
-// The n most stable right deflating vectors of (H, J), 2 n x n; empty where LAPACK gives up, or a pair of
-// conjugate eigenvalues would have to be torn apart. `border` is the least stable eigenvalue among theirs.
+// The n most stable right deflating vectors of (H, J), 2 n x n; empty if LAPACK gives up or a pair of
+// conjugate eigenvalues would have to be split. `border` is the least stable of their eigenvalues.
 Eigen::MatrixXd stableSubspace(Kind kind, Eigen::MatrixXd H, Eigen::MatrixXd J,
                                std::optional<std::complex<double>>& border) {
   const int size = static_cast<int>(H.rows()), one = 1, workSize = 100 * size + 200;
@@ -254,7 +254,8 @@ std::optional<Eigen::MatrixXd> bySchurForm(const Problem& problem,
   return Eigen::MatrixXd(0.5 * (scaled + scaled.transpose()));
 }
 
-// Without a cost and with nothing to stop, X is zero to the last digit: a relative residual would not see it.
+// Without a cost and with nothing to stabilize, X is exactly zero: a relative residual would not recognize
+// it.
 std::optional<Eigen::MatrixXd> startOf(const Problem& problem, std::optional<std::complex<double>>& border) {
   const auto stability = problem.kind == Kind::kDiscrete ? discreteStabilityOf : stabilityOf;
   if (problem.Q.isZero(0) && stability(problem.A).stability == Stability::kAsymptotic)
@@ -272,7 +273,8 @@ bool hasSingularWeight(const Problem& problem, const Eigen::MatrixXd& X) {
            kSingularWeight);
 }
 
-// What the equation lacks at X, and the gain there, in extended precision; X may be a sum of two doubles.
+// The residual of the equation at X, and the gain there, in extended precision; X may be a sum of two
+// doubles.
 struct Residual {
   Eigen::MatrixXd value, K;
   double size;  // of the value, relative to the largest term
@@ -332,8 +334,8 @@ Refined refined(const Problem& problem, const Eigen::MatrixXd& start) {
   return result;
 }
 
-// A nearly unstable eigenvalue of A for which [A - lambda, B] (or its dual) nearly has no full rank: Hautus'
-// test. Of modes that the cost does not see, those that grow do no harm.
+// A nearly unstable eigenvalue of A for which [A - lambda, B] (or its dual) is nearly rank deficient: Hautus'
+// test. With `mayGrow`, growing modes do no harm: the cost need not see them.
 std::optional<std::complex<double>> badMode(const Problem& problem, const Eigen::MatrixXd& A,
                                             const Eigen::MatrixXd& B, bool mayGrow) {
   const Eigen::Index n = A.rows();
@@ -351,8 +353,8 @@ std::optional<std::complex<double>> badMode(const Problem& problem, const Eigen:
   return {};
 }
 
-// Modes that B does not move at all, told by structure: that holds for stiff systems, too. They stay what
-// they are in the closed loop.
+// Modes that B does not move at all, found from the structure, which also works for stiff systems. The closed
+// loop leaves them as they are.
 struct HiddenModes {
   std::optional<std::complex<double>> growing, onEdge;
 };
@@ -389,7 +391,7 @@ const char* edgeOf(const Problem& problem) {
   return problem.kind == Kind::kContinuous ? "imaginary axis" : "unit circle";
 }
 
-// In every direction of u something must be paid or moved.
+// Every direction of u must cost or move something.
 bool hasIdleControl(const Problem& problem) {
   Eigen::MatrixXd effects(problem.B.rows() + problem.R.rows(), problem.B.cols());
   effects << problem.B, problem.R;
@@ -469,7 +471,7 @@ RiccatiResult solveInUnits(const Problem& problem) {
   result.closedLoop = Eigen::EigenSolver<Eigen::MatrixXd>(closed, false).eigenvalues();
   const double scale = problem.A.norm() + feedback.norm();
   const Margin margin = marginOf(problem, result, scale);
-  // Newton's steps stop being small where a closed-loop eigenvalue is double in the pencil, on its boundary.
+  // Newton's last step is not small if a closed-loop eigenvalue is double in the pencil, on its boundary.
   const bool isLimit = margin.instability >= -margin.doubt || !(best.lastStep <= kConverged),
              isNearEdge = margin.instability > -kWorthALook * (problem.kind == Kind::kContinuous ? scale : 1);
   if (!(result.residual < kResidualOfSolution) || margin.instability > margin.doubt ||
@@ -506,7 +508,7 @@ RiccatiResult solve(const Problem& given) {
   return {.message = "no solution: X has entries too large for a double"};
 }
 
-// What the cost does not see and grows is stopped all the same; that is not what costs least.
+// A growing mode that the cost does not see is stabilized all the same, although that does not cost least.
 void noteUnseenGrowth(const Problem& problem, RiccatiResult& result) {
   if (result.status != RiccatiStatus::kSolved ||
       Eigen::LLT<Eigen::MatrixXd>(problem.Q).info() == Eigen::Success)
@@ -515,7 +517,7 @@ void noteUnseenGrowth(const Problem& problem, RiccatiResult& result) {
   if (result.mode)
     result.message += fmt::format(
         "; not detectable: the cost does not see the growing mode of eigenvalue {}, "
-        "so that X is not the least cost but that of stopping it",
+        "so X is not the least cost, but the cost of stabilizing it",
         internal::eigenvalueText(*result.mode));
 }
 

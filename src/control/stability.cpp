@@ -25,14 +25,15 @@ struct Mode {
   bool isOnEdge;
 };
 
-// An eigenvalue moves by what A is off, times the condition of its eigenvectors: 1 / |y^* x| of unit vectors.
-// That alone says too much of defective ones beside fast modes, so that A's distance decides.
+// An eigenvalue moves by the error of A times the condition of its eigenvectors, 1 / |y^* x| of unit vectors.
+// This alone overestimates the doubt for defective eigenvalues next to fast modes, so the distance of A
+// decides, too.
 std::vector<Mode> modesOf(const Eigen::MatrixXd& A, bool isDiscrete) {
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(A);
   const Eigen::MatrixXcd V = solver.eigenvectors();
   const Eigen::MatrixXcd left = Eigen::FullPivLU<Eigen::MatrixXcd>(V).inverse();
   const double norm = A.stableNorm(), rounding = internal::roundingOf(A.rows(), norm);
-  // Where eigenvectors are parallel to the last digit: a root of order n at worst.
+  // If eigenvectors are parallel to the last digit: an n-th root at worst.
   const double most = norm * std::pow(internal::roundingOf(A.rows(), 1), 1 / static_cast<double>(A.rows()));
   std::vector<Mode> modes;
   for (Eigen::Index i = 0; i < A.rows(); ++i) {

@@ -152,7 +152,7 @@ TEST(IterateCare, FindsTheGainsOfTheCartPole) {
   EXPECT_LT((slow.K - exact.K).norm(), 1e-6 * exact.K.norm());
   EXPECT_FALSE(iterateCare(system, Q, R, {.maxIterations = 100}).isConverged);
   EXPECT_THAT(iterateCare(system, Q, R, {.maxIterations = 100}).message,
-              HasSubstr("the iterations are spent after 100"));
+              HasSubstr("iteration limit reached after 100"));
   const RiccatiIteration wild = iterateCare(system, Q, R, {.epsilon = 1});
   EXPECT_FALSE(wild.isConverged);
   EXPECT_THAT(wild.message, HasSubstr("P grows without bound"));

@@ -60,7 +60,7 @@ TEST(FastestGains, ImproveOnTheRegulatorWhereTheyCan) {
   EXPECT_THAT(blind.message, HasSubstr("not stable"));
   const GainSearchResult spent = fastestGains(pointMass(1), MatrixXd::Ones(1, 2), {.maxEvaluations = 20});
   EXPECT_FALSE(spent.isConverged);
-  EXPECT_THAT(spent.message, HasSubstr("the evaluations are spent"));
+  EXPECT_THAT(spent.message, HasSubstr("evaluation limit reached"));
 }
 
 TEST(FastestGains, SaysWhatIsWrong) {

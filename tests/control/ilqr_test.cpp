@@ -113,7 +113,7 @@ TEST(Ilqr, TellsHowFarItCame) {
   EXPECT_EQ(spent.status, IlqrStatus::kBudgetSpent);
   EXPECT_EQ(spent.iterations, 2);
   EXPECT_LT(spent.cost, costOf(problem, U));
-  EXPECT_THAT(spent.message, HasSubstr("the iterations are spent after 2 steps"));
+  EXPECT_THAT(spent.message, HasSubstr("iteration limit reached after 2 steps"));
   EXPECT_EQ(ilqr(problem, U, {.maxIterations = 0}).U, U);
   ControlProblem leaping = problem;
   leaping.next = [](const VectorXd& x, const VectorXd&) { return VectorXd(1e200 * x); };

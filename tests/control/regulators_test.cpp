@@ -209,7 +209,7 @@ TEST(ClosedLoop, SaysWhatDoesNotFit) {
                    "controls that the controller gives: found a vector of size 2");
   controller.C.setOnes(1, 1);
   controller.step = 0.1;
-  EXPECT_REX_ERROR(closedLoop(system, controller), "closed loop: found a controller of other steps");
+  EXPECT_REX_ERROR(closedLoop(system, controller), "closed loop: found a controller with a different step");
 }
 
 TEST(RestAt, HoldsTheTarget) {
