@@ -11,11 +11,11 @@
 
 // With Y = [t_1 .. t_n, R_1 .. R_n] the cost is f(Y) = tr(Y M Y^T). With any symmetric multipliers Lambda_i
 // and S = M - diag(0, Lambda_i), all poses Y' have f(Y') = tr(Y' S Y'^T) + sum tr Lambda_i, since rotations
-// are orthonormal. Where S + eps on the rotations is positive definite, f(Y') is therefore no less than
-// sum tr Lambda_i - eps d n. The multipliers are the symmetric parts of R_i^T (Y M)_i, which are those of the
+// are orthonormal. Where S + eps on the rotations is positive definite, f(Y') is therefore no less than sum
+// tr Lambda_i - eps d n. The multipliers are the symmetric parts of R_i^T (Y M)_i, which are those of the
 // minimum at the minimum; f(Y) - sum tr Lambda_i is what positions add: sum t_i . (Y M)_i, zero where they
 // are stationary. Position 0 is left out: moving all poses costs nothing. Landmarks are positions without
-// rotations, which stand after all else.
+// rotations, and come last.
 namespace rex {
 namespace {
 

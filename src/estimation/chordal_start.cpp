@@ -16,7 +16,7 @@ namespace rex::internal {
 namespace {
 
 // Rows w (x_j - M x_i - b) = 0 for vectors x_1.. of one size, several right-hand sides at once. M is square
-// of Size; where no M turns anything, Size is 1 and the coordinates are right-hand sides.
+// of Size; if no M turns anything, Size is 1 and the coordinates are right-hand sides.
 template <int Size, int Columns>
 class LinearGraph {
  public:
@@ -40,15 +40,15 @@ class LinearGraph {
     if (i > 0) rhs_.middleRows(Size * (i - 1), Size) -= w * M.transpose() * known;
   }
 
-  // Ties pose i to the value it has, so weakly that it only serves poses whose edges weigh nothing. After
-  // add.
+  // Ties pose i to its present value, so weakly that it only matters for poses whose edges weigh nothing.
+  // Call it after add().
   void anchor(int i, const Value& value) {
     const double heaviest = heaviest_[static_cast<std::size_t>(i)], w = heaviest > 0 ? 1e-14 * heaviest : 1;
     addBlock(i, i, w * Matrix::Identity());
     rhs_.middleRows(Size * (i - 1), Size) += w * value;
   }
 
-  // One row of blocks for each pose but the first; empty where rounding left nothing to solve.
+  // One row of blocks for each pose but the first; empty if rounding left nothing to solve.
   Eigen::MatrixXd solve() const {
     Eigen::SparseMatrix<double> H(rhs_.rows(), rhs_.rows());
     H.setFromTriplets(entries_.begin(), entries_.end());

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kAsymmetry = 1e-9;
 
-// What an entry may be at most in a semidefinite matrix, and so the measure of its rounding.
+// The largest value that an entry of a semidefinite matrix can have, and hence the scale of its rounding.
 double sizeOf(const MatrixArg& A, Eigen::Index i, Eigen::Index j) {
   return std::sqrt(std::abs(A(i, i))) * std::sqrt(std::abs(A(j, j)));
 }
@@ -68,7 +68,7 @@ void requireCovariance(std::string_view what, const MatrixArg& A, Eigen::Index s
   if (!A.allFinite()) throw Error({.what = name, .found = "entries that are not finite"});
   requireSymmetric(name, A);
   const Eigen::LLT<Eigen::MatrixXd> factor(A);
-  // A factorisation decides at a fraction of the price whether eigenvalues must be looked at.
+  // A factorisation decides at a fraction of the cost whether eigenvalues must be computed.
   if (factor.info() == Eigen::Success && isDefinite(factor, A)) return;
   const double least = leastCorrelation(A);
   if (wanted == Definiteness::kPositive || A.diagonal().minCoeff() < 0 || least < -kAsymmetry)
@@ -78,7 +78,7 @@ void requireCovariance(std::string_view what, const MatrixArg& A, Eigen::Index s
 }
 
 bool isDefinite(const Eigen::LLT<Eigen::MatrixXd>& factor, const MatrixArg& A) {
-  // A pivot that is nothing but rounding of its diagonal entry is none.
+  // A pivot that may be only rounding of its diagonal entry counts as zero.
   const double rounding = 4e-16 * static_cast<double>(A.rows());
   const auto pivots = factor.matrixLLT().diagonal().array().square();
   return factor.info() == Eigen::Success && (pivots > rounding * A.diagonal().array()).all() &&
@@ -87,7 +87,7 @@ bool isDefinite(const Eigen::LLT<Eigen::MatrixXd>& factor, const MatrixArg& A) {
 
 Eigen::LLT<Eigen::MatrixXd> definiteFactor(std::string_view what, const MatrixArg& A) {
   Eigen::LLT<Eigen::MatrixXd> factor(A);
-  // It reads the lower triangle alone.
+  // It only reads the lower triangle, hence requireSymmetric().
   if (A.rows() == A.cols() && A.allFinite() && isDefinite(factor, A)) {
     requireSymmetric(std::string(what), A);
     return factor;

@@ -134,14 +134,14 @@ void EkfSlam::update(int landmark, const Innovation& innovation) {
         U(j, 0) * U.col(0).tail(n - j) + U(j, 1) * U.col(1).tail(n - j);
 }
 
-// Cancellation leaves no digits where the sensor is far more exact than what was known.
+// Cancellation leaves no digits if the sensor is far more precise than the prior.
 void EkfSlam::requireVariances(int n) const {
   for (int i = 0; i < n; ++i) {
     const double before = covariance_(i, i), after = before - gain_.row(i).squaredNorm();
     if (after > 0 || (before == 0 && after == 0)) continue;
     throw Error({.what = fmt::format("covariance after the observation: variance {}", i),
                  .found = fmt::format("{:g}, from {:g} before", after, before),
-                 .wanted = "a positive number: the sensor's noise is too small beside it"});
+                 .wanted = "a positive number: the sensor's noise is too small compared to it"});
   }
 }
 

@@ -183,7 +183,7 @@ FastSlamStep FastSlam::step(const PoseTransition& transition, std::span<const La
       if (sighting.landmark == next) ++next;
     }
   }
-  // On a copy: maps that nothing explains are not kept, and a throw changes nothing.
+  // On a copy: maps are not changed by sightings that no particle explains, and an exception changes nothing.
   FastSlam moved(*this);
   const Eigen::VectorXd logWeights = moved.advance(transition, known, fresh, next, rng);
   const double largest = logWeights.maxCoeff();

@@ -74,14 +74,14 @@ Eigen::VectorXd numbers(const Line& line, std::size_t first) {
   return values;
 }
 
-// What is said once for many lines, by their tags.
+// What is reported once for many lines, by their tags.
 class Findings {
  public:
   void add(std::string_view tag, const SourceLocation& where, const std::string& fault) {
     Finding& finding = byTag_[std::string(tag)];
     if (finding.count++ == 0) finding = {where, fault, 1};
   }
-  // `instead` is what is done about it.
+  // `instead` says what is done about it.
   void noteAll(const char* instead, std::vector<Diagnostic>& notes) const {
     for (const auto& [tag, finding] : byTag_) {
       const std::string times =
@@ -100,7 +100,8 @@ class Findings {
   std::map<std::string, Finding> byTag_;
 };
 
-// A symmetric matrix from its upper triangle, row by row; the nearest that can be information.
+// A symmetric matrix from its upper triangle, row by row; replaced by the nearest one that can be
+// information.
 template <int Size>
 Eigen::Matrix<double, Size, Size> information(const Line& line, const Eigen::VectorXd& upper,
                                               Findings& indefinite) {
@@ -221,7 +222,7 @@ class Reader {
   }
 
  private:
-  // Of a file that has only edges.
+  // For a file that has only edges.
   void addVerticesOfEdges() {
     for (const auto& [line, from, to, edge] : edges_)
       vertices_.try_emplace(from, line.at(1)), vertices_.try_emplace(to, line.at(2));
@@ -322,7 +323,7 @@ class Reader {
                        .wanted = "one pose that is fixed"});
         if (place != 0 && !fixed)
           result.notes.push_back(
-              {line.at(word), fmt::format("FIX {} is not needed: pose {} stays where it is, and costs do "
+              {line.at(word), fmt::format("FIX {} has no effect: pose {} stays where it is, and costs do "
                                           "not depend on which one stays",
                                           id, result.ids.front())});
         fixed = id;
@@ -401,7 +402,8 @@ G2oFile readG2o(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;
   if (!std::filesystem::is_regular_file(file) || !stream || !(text << stream.rdbuf()))
-    throw Error({.what = "pose graph", .where = {file.string(), 0, 0}, .found = "no file that can be read"});
+    throw Error(
+        {.what = "pose graph", .where = {file.string(), 0, 0}, .found = "a file that cannot be read"});
   return parseG2o(std::move(text).str(), file.string());
 }
 

@@ -104,7 +104,7 @@ Gaussian marginal(const Gaussian& joint, int first, int count) {
   if (first < 0 || count < 0 || count > joint.mean.size() - first) {
     throw Error({.what = "marginal",
                  .found = fmt::format("{} numbers from {} on", count, first),
-                 .wanted = fmt::format("numbers of 0 to {}", joint.mean.size() - 1)});
+                 .wanted = fmt::format("numbers within 0 to {}", joint.mean.size() - 1)});
   }
   return {joint.mean.segment(first, count), joint.covariance.block(first, first, count, count)};
 }

@@ -48,7 +48,7 @@ Eigen::VectorXd predictCells(const VectorArg& belief, const CellTransition& tran
   requireBelief(belief);
   requireTransition(transition, belief.size());
   const Eigen::VectorXd next = transition * belief;
-  return next / next.sum();  // what is forgiven must not add up
+  return next / next.sum();  // tolerated errors must not add up
 }
 
 CellUpdate updateCells(const VectorArg& predicted, const VectorArg& likelihood) {
@@ -56,7 +56,7 @@ CellUpdate updateCells(const VectorArg& predicted, const VectorArg& likelihood) 
   requireSize("likelihoods", likelihood.size(), predicted.size());
   requireNotNegative("likelihoods of cells", likelihood);
   CellUpdate update;
-  // Over the likeliest cell that is possible, so that small numbers do not vanish.
+  // Relative to the likeliest cell that is possible, so that small numbers do not vanish.
   const double largest = (predicted.array() > 0).select(likelihood.array(), 0.).maxCoeff();
   update.lost = !(largest > 0);
   update.belief = predicted;

@@ -33,7 +33,7 @@ CanonicalGaussian informationPredict(const CanonicalGaussian& belief, const Line
   const Eigen::MatrixXd back = forward.inverse();
   const Eigen::MatrixXd B = symmetrized(back.transpose() * belief.A * back);
   const Eigen::VectorXd b = back.transpose() * belief.a + B * transition.c;
-  // (B^-1 + Q)^-1 = P (B + P)^-1 B with P = Q^-1, which needs no inverse of B and takes nothing away.
+  // (B^-1 + Q)^-1 = P (B + P)^-1 B with P = Q^-1, which needs no inverse of B and no subtraction.
   const Eigen::LLT<Eigen::MatrixXd> noise(transition.W);
   const Eigen::MatrixXd P = symmetrized(noise.solve(Eigen::MatrixXd::Identity(n, n)));
   const Eigen::LLT<Eigen::MatrixXd> sum(B + P);

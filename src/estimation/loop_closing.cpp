@@ -38,7 +38,7 @@ struct UncertainMotion {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };
 
-// What an error at the start of `motion` is, seen at its end: Ad of the inverse.
+// Maps an error at the start of `motion` to the one at its end: Ad of the inverse.
 Eigen::Matrix3d carriedThrough(const Eigen::Vector3d& motion) {
   Eigen::Matrix3d A = Eigen::Matrix3d::Identity();
   A.topLeftCorner<2, 2>() = internal::planarRotation(-motion[2]);
@@ -100,7 +100,7 @@ void requireChain(const PlanarPoseGraph& odometry, std::size_t scans) {
     if (!(edge.information.llt().info() == Eigen::Success))
       throw Error({.what = fmt::format("closing loops: edge {}", k),
                    .found = "information that is not positive definite",
-                   .wanted = "odometry that says something about all of x, y and heading"});
+                   .wanted = "odometry that determines x, y and heading"});
   }
 }
 
@@ -118,17 +118,17 @@ void requireOptions(const LoopOptions& options) {
 
 bool isMatch(const ScanMatch& match) { return match.status == ScanMatchStatus::kConverged; }
 
-// The error of b by a, small, and with both covariances.
+// The small error of b as seen from a, with both covariances.
 UncertainMotion difference(const UncertainMotion& a, const UncertainMotion& b) { return inverse(a) * b; }
 
-// A measured motion and the one by a scan, each weighted with its information; adds the edge of the scan to
+// Fuses a measured motion with that of a scan, each weighted by its information; adds the edge of the scan to
 // the graph if it fits.
 UncertainMotion linkWithScans(PlanarPoseGraph& graph, const PlanarEdge& edge, const ScanMatch& match,
                               const LoopOptions& options) {
   const UncertainMotion odometry{edge.motion, edge.information.inverse()};
   const bool isUsable = isMatch(match) || match.status == ScanMatchStatus::kUnobservable;
   if (!isUsable || match.overlap < options.leastOverlap) return odometry;
-  // Towards what odometry says, by what the scan cannot tell.
+  // Where the scan does not determine the motion, odometry does.
   const Eigen::Vector3d apart = composed(inverted(edge.motion), match.motion);
   const Eigen::Matrix3d sum = edge.information + match.information;
   const Eigen::Matrix3d covariance = sum.inverse();
@@ -208,7 +208,7 @@ void keepAgreeing(const Chain& chain, std::vector<LoopCandidate>& candidates, do
   for (std::size_t k = 0; k < loops.size(); ++k)
     if (!isKept[k]) {
       loops[k]->verdict = LoopVerdict::kInconsistent;
-      loops[k]->reason = fmt::format("contradicts loops of a larger set, of {}", kept.size());
+      loops[k]->reason = fmt::format("contradicts a larger set of {} loops", kept.size());
     }
 }
 

@@ -38,8 +38,8 @@ Stretch within(const Eigen::Vector2d& start, const Eigen::Vector2d& direction, c
 }
 
 // Walks the cells of the map along a ray; visit(x, y, entered, left) gets where the ray enters and leaves
-// each, in metres, and says whether to go on. What lies before the map is left out, so that cells are small
-// numbers however far away the ray starts.
+// each cell, in metres, and returns whether to go on. The part before the map is skipped, so that cells are
+// small numbers however far away the ray starts.
 template <class Visit>
 void walk(const OccupancyMap& map, const Eigen::Vector2d& p, double angle, double length,
           const Visit& visit) {

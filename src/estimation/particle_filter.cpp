@@ -89,7 +89,7 @@ ParticleFilter::ParticleFilter(Particles particles, ParticleFilterOptions option
     throw Error({.what = "particles", .found = "none", .wanted = "one or more"});
   requireSize("weights", particles_.weights.size(), particles_.states.cols());
   requireNumbers(particles_.states);
-  (void)effectiveSampleSize(particles_.weights);  // throws for weights that are none
+  (void)effectiveSampleSize(particles_.weights);  // throws for invalid weights
   particles_.weights /= particles_.weights.sum();
 }
 
@@ -108,7 +108,7 @@ void ParticleFilter::gather(const std::vector<int>& parents) {
   }
 }
 
-// Draws on until the cells that the particles occupy ask for no more.
+// Keeps drawing until the number of occupied cells requires no more particles.
 void ParticleFilter::proposeAdaptively(const Propose& propose, Rng& rng) {
   std::set<std::vector<double>> cells;
   chunk_.resize(particles_.states.rows(), options_.most);

@@ -9,7 +9,7 @@
 namespace rex::internal {
 namespace {
 
-// 1 / tr(I^-1); zero where a direction was not measured at all.
+// 1 / tr(I^-1); zero if some direction was not measured at all.
 double inverseTrace(const Eigen::MatrixXd& information) {
   const Eigen::FullPivLU<Eigen::MatrixXd> factor(information);
   return factor.isInvertible() ? 1 / factor.inverse().trace() : 0;

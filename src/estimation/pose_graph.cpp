@@ -19,7 +19,7 @@ using internal::EdgeTerm;
 using internal::PlanarGraphTraits;
 using internal::SpatialGraphTraits;
 
-// How much a squared error counts, and the weight that gives its step the right slope.
+// The cost of a squared error, and the weight that gives its step the right slope.
 struct Robust {
   double cost, weight;
 };
@@ -57,8 +57,8 @@ double cost(const typename Traits::Graph& graph, const PoseGraphOptions& options
 
 constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();  // of a few operations
 
-// H delta = -g, of all nodes but the first pose: the lower triangle of H by blocks. Where each block lies in
-// the values of H is found once, since edges do not change.
+// H delta = -g, of all nodes but the first pose: the lower triangle of H by blocks. The position of each
+// block in the values of H is found once, since edges do not change.
 template <class Traits>
 class NormalEquations {
  public:
@@ -111,7 +111,7 @@ class NormalEquations {
     }
   }
 
-  // Empty where H + damping is not positive definite.
+  // Empty if H + damping is not positive definite.
   Eigen::VectorXd solve(double damping) {
     if (!analysed_) factor_.analyzePattern(H_);
     analysed_ = true;
@@ -123,7 +123,7 @@ class NormalEquations {
 
   double largestDiagonal() const { return Eigen::VectorXd(H_.diagonal()).maxCoeff(); }
   const Eigen::VectorXd& gradient() const { return g_; }
-  // The cost that rounding alone can make of edges that fit exactly.
+  // The cost that rounding alone can give edges that fit exactly.
   double rounding() const { return rounding_; }
 
  private:
@@ -161,7 +161,7 @@ class NormalEquations {
 
 constexpr double kLeastDamping = 1e-10, kMostDamping = 1e12;
 
-// Levenberg and Marquardt's steps; the damping follows how well the model foretold the gain (Nielsen 1999).
+// Levenberg and Marquardt's steps; the damping follows how well the model predicted the gain (Nielsen 1999).
 template <class Traits>
 void descend(typename Traits::Graph& graph, const PoseGraphOptions& options, PoseGraphResult& result) {
   NormalEquations<Traits> equations(graph);
@@ -176,7 +176,7 @@ void descend(typename Traits::Graph& graph, const PoseGraphOptions& options, Pos
     before = Traits::unknowns(graph);
     if (isStep) Traits::step(graph, delta);
     const double lower = isStep ? cost<Traits>(graph, options) : result.cost;
-    // What rounding makes of a cost at its minimum may be a hair more than before.
+    // At the minimum, rounding may make a cost a hair larger than before.
     const double gain = result.cost - lower, hair = 1e-13 * result.cost + equations.rounding();
     const double foretold = isStep ? delta.dot(shift * delta - equations.gradient()) : 0;
     const bool isDone = isStep && gain >= -hair && foretold <= options.tolerance * lower + hair;
@@ -202,7 +202,7 @@ void descend(typename Traits::Graph& graph, const PoseGraphOptions& options, Pos
   }
 }
 
-// How it ended, in words.
+// The outcome in words.
 std::string endOf(const PoseGraphResult& result) {
   const std::string count =
       fmt::format("{} iteration{}", result.iterations, result.iterations == 1 ? "" : "s");
@@ -210,9 +210,9 @@ std::string endOf(const PoseGraphResult& result) {
     case PoseGraphStatus::kConverged:
       return "converged after " + count;
     case PoseGraphStatus::kNoProgress:
-      return fmt::format("gave up after {}, for no step lowers the cost", count);
+      return fmt::format("gave up after {}, because no step lowers the cost", count);
     case PoseGraphStatus::kBudgetSpent:
-      return fmt::format("stopped after {}, the most allowed, before it converged", count);
+      return fmt::format("stopped after {}, the limit, before it converged", count);
   }
   return count;
 }

@@ -25,7 +25,7 @@ std::string nameOf(std::size_t k, const Edge& edge) {
   return fmt::format("edge {} from pose {} to pose {}", k, edge.from, edge.to);
 }
 
-// What requireCovariance lets pass at once, without memory of its own.
+// Accepts what requireCovariance would accept at once, without allocating memory.
 template <class Information>
 bool isClearlyDefinite(const Information& information) {
   return information.allFinite() && information == information.transpose() &&
@@ -50,7 +50,7 @@ void requireEdges(const Graph& graph) {
     if (edge.from == edge.to)
       throw Error({.what = nameOf(k, edge), .found = "one pose", .wanted = "two different ones"});
     if (!isSound(edge.motion))
-      throw Error({.what = nameOf(k, edge) + ": motion", .found = "numbers that are no pose"});
+      throw Error({.what = nameOf(k, edge) + ": motion", .found = "numbers that are not a pose"});
     if (!isClearlyDefinite(edge.information))
       requireCovariance(nameOf(k, edge) + ": information", edge.information, edge.information.rows());
   }
@@ -62,7 +62,7 @@ void requireSightings(const PlanarPoseGraph& graph) {
     if (place >= 0 && place < count) return;
     throw Error({.what = name,
                  .found = fmt::format("{} {}", what, place),
-                 .wanted = count > 0 ? fmt::format("0 to {}", count - 1) : "none: there is none"});
+                 .wanted = count > 0 ? fmt::format("0 to {}", count - 1) : "none: the graph has none"});
   };
   for (std::size_t k = 0; k < graph.sightings.size(); ++k) {
     const LandmarkEdge& edge = graph.sightings[k];
@@ -92,7 +92,7 @@ std::vector<std::vector<std::pair<std::size_t, int>>> edgesByPose(const Graph& g
   return result;
 }
 
-// Calls reach(edge, known pose, new pose) breadth first from pose 0; returns who was reached.
+// Calls reach(edge, known pose, new pose) breadth first from pose 0; returns which poses were reached.
 template <class Graph, class Reach>
 std::vector<bool> spread(const Graph& graph, const Reach& reach) {
   const auto edges = edgesByPose(graph);
@@ -150,7 +150,7 @@ void requireSound(const PlanarPoseGraph& graph) {
 void requireSound(const SpatialPoseGraph& graph) {
   for (std::size_t i = 0; i < graph.poses.size(); ++i)
     if (!isSound(graph.poses[i]))
-      throw Error({.what = fmt::format("pose {}", i), .found = "numbers that are no pose"});
+      throw Error({.what = fmt::format("pose {}", i), .found = "numbers that are not a pose"});
   requireEdges(graph);
 }
 

@@ -49,7 +49,7 @@ void drawEachAlone(int size, int count, double total, const WeightOf& weightOf, 
 }
 
 // Parent i has the children k with k + start below the sum of the weights up to i, in slices. All are written
-// four at a time, as most parents have fewer: there is nothing to guess for the CPU.
+// four at a time, as most parents have fewer: this leaves the CPU no branches to predict.
 void drawSystematic(const Eigen::VectorXd& weights, int size, int count, double slice, double start,
                     std::vector<int>& parents) {
   constexpr int kAtOnce = 4;
@@ -67,7 +67,7 @@ void drawSystematic(const Eigen::VectorXd& weights, int size, int count, double 
   parents.resize(static_cast<std::size_t>(count));
 }
 
-// Whole parts for certain; what is left by chance.
+// Whole parts are certain; the rest is drawn at random.
 void drawResidual(const Eigen::VectorXd& weights, int size, int count, double total, Rng& rng,
                   std::vector<int>& parents) {
   // A share that is a whole number but for rounding is one.

@@ -19,9 +19,9 @@
 namespace rex {
 namespace {
 
-// A straight wall fitted to neighbours of a scan: how far x is from it is n . (x - center).
+// A straight wall fitted to neighbours of a scan: the distance of x from it is n . (x - center).
 struct Wall {
-  int first = 0, last = -1;  // the neighbours; none: no wall
+  int first = 0, last = -1;  // the neighbours; if there are none, no wall
   Eigen::Vector2d center = Eigen::Vector2d::Zero(), n = Eigen::Vector2d::Zero();
   double spread = 0;  // sum of squares of the neighbours along the wall
   bool isWall() const { return last >= first; }
@@ -39,7 +39,7 @@ Wall fitWall(const Eigen::Matrix2Xd& points, int first, int last, double deviati
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(offset * offset.transpose());
   wall.n = axes.eigenvectors().col(0);
   wall.spread = axes.eigenvalues()[1];
-  // Corners are not straight, and points on one heap have no direction.
+  // Corners are not straight, and points in a clump have no direction.
   const double off = std::sqrt(std::max(0., axes.eigenvalues()[0]) / count);
   const bool isStraight = off < 2 * deviation && std::sqrt(wall.spread / count) > 3 * std::max(off, 1e-6);
   if (!isStraight) wall.last = first - 1;
@@ -192,7 +192,8 @@ class Alignment {
     motion[2] = wrapAngle(motion[2] + turn);
   }
 
-  // Of u: how the minimum moves with each range of both scans, all of them with the same noise.
+  // The covariance of u, from how the minimum moves with each range of both scans; all ranges have the same
+  // noise.
   Eigen::Matrix3d scatter(const Equations& equations, double heading) const {
     Eigen::MatrixXd byRange = Eigen::MatrixXd::Zero(3, reference_.cols());
     Eigen::Matrix3d M = Eigen::Matrix3d::Zero();
@@ -223,7 +224,7 @@ class Alignment {
     Eigen::Matrix3d E = Eigen::Matrix3d::Identity();  // from the error of an edge to the change of the motion
     E.topLeftCorner<2, 2>() = internal::planarRotation(match.motion[2]);
     const Eigen::Matrix3d T = S.inverse() * E;
-    // As a square, so that rounding leaves no negative eigenvalue where a direction is not seen.
+    // As a square, so that rounding leaves no negative eigenvalue if a direction is not seen.
     const Eigen::LLT<Eigen::MatrixXd> root(noise);
     const Eigen::MatrixXd change = T, HVt = H * V.transpose(), weighted = HVt * change;
     const Eigen::MatrixXd F = root.matrixL().solve(weighted), information = F.transpose() * F;
@@ -255,7 +256,7 @@ class Alignment {
     } else if (match.unseen.norm() > 0) {
       match.status = ScanMatchStatus::kUnobservable;
       match.message =
-          fmt::format("the scans do not tell the motion along x, y, heading = ({:.3f}, {:.3f}, {:.3f})",
+          fmt::format("the scans do not determine the motion along x, y, heading = ({:.3f}, {:.3f}, {:.3f})",
                       match.unseen[0], match.unseen[1], match.unseen[2]);
     } else {
       match.status = ScanMatchStatus::kConverged;
@@ -276,7 +277,7 @@ class Alignment {
   const ScanMatchOptions& options_;
   std::vector<Wall> walls_;
   std::vector<Partner> partners_{};
-  int lost_ = 0;  // points without anything near by
+  int lost_ = 0;  // points with nothing nearby
 };
 
 }  // namespace

@@ -20,7 +20,7 @@ constexpr std::size_t kStarts = 4;
 
 Eigen::Vector2i cellOf(const Eigen::Vector2d& p) { return (p / kCell).array().floor().cast<int>(); }
 
-// How near the reference is to each cell around it: 2 in a cell of it, 1 in those beside, else 0.
+// How near the reference is to each cell around it: 2 in a cell of it, 1 in those next to it, else 0.
 class Neighbourhood {
  public:
   explicit Neighbourhood(const Eigen::Matrix2Xd& points)
@@ -35,7 +35,7 @@ class Neighbourhood {
     }
   }
 
-  // Adds to scores(x, y) what stands in the cell + (x - steps, y - steps).
+  // Adds to scores(x, y) the value of the cell + (x - steps, y - steps).
   void addTo(Eigen::ArrayXXi& scores, const Eigen::Vector2i& cell, int steps) const {
     const Eigen::Vector2i corner = cell - lower_ - Eigen::Vector2i::Constant(steps);
     const Eigen::Vector2i size(static_cast<int>(cells_.rows()), static_cast<int>(cells_.cols()));

@@ -13,7 +13,7 @@
 namespace rex {
 namespace {
 
-// B A^-1 of a semidefinite A, by the pseudoinverse where it is singular: what is certain stays so.
+// B A^-1 of a semidefinite A, by the pseudoinverse if it is singular: what is certain stays so.
 Eigen::MatrixXd dividedBy(const Eigen::MatrixXd& B, const Eigen::MatrixXd& A) {
   const Eigen::LLT<Eigen::MatrixXd> factor(A);
   if (factor.info() == Eigen::Success) return factor.solve(B.transpose()).transpose();

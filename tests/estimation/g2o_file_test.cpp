@@ -137,7 +137,7 @@ TEST(G2oFile, NotesWhatItDoesNotNeed) {
   text.replace(text.find("FIX 3"), 5, "FIX 7");
   const G2oFile file = parseG2o(text, "map.g2o");
   ASSERT_EQ(file.notes.size(), 1u);
-  EXPECT_THAT(toString(file.notes[0]), HasSubstr("map.g2o:4:5: note: FIX 7 is not needed: pose 3 stays"));
+  EXPECT_THAT(toString(file.notes[0]), HasSubstr("map.g2o:4:5: note: FIX 7 has no effect: pose 3 stays"));
 }
 
 TEST(G2oFile, MayBeginWithAFixedPose) {
@@ -184,8 +184,8 @@ TEST(G2oFile, SaysWhereAndWhatIsWrong) {
                    "map.g2o:1:25: VERTEX_SE3:QUAT: quaternion: found length 2, wanted length 1");
   EXPECT_REX_ERROR(read("VERTEX_SE2 9 0 0 0\n"), "map.g2o: pose graph: found no edges, wanted one or more");
   EXPECT_REX_ERROR(read(""), "map.g2o: pose graph: found no edges");
-  EXPECT_REX_ERROR(readG2o("none.g2o"), "none.g2o: pose graph: found no file that can be read");
-  EXPECT_REX_ERROR(readG2o("."), "found no file that can be read");
+  EXPECT_REX_ERROR(readG2o("none.g2o"), "none.g2o: pose graph: found a file that cannot be read");
+  EXPECT_REX_ERROR(readG2o("."), "found a file that cannot be read");
   EXPECT_REX_ERROR(
       read("EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\nEDGE_SE2 2 3 1 0 0 1 0 0 1 0 1\n"),
       "map.g2o:2:10: pose graph: found pose 2, which no edges join to pose 0, wanted a graph in one");

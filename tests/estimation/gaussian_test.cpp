@@ -175,7 +175,7 @@ TEST(Gaussian, SaysWhatIsWrong) {
       "noise Q");
   EXPECT_REX_ERROR((void)pulledBack(good, Eigen::Matrix3d::Identity(), Eigen::Vector2d::Zero()), "rows of F");
   EXPECT_REX_ERROR((void)marginal(good, 1, 2),
-                   "marginal: found 2 numbers from 1 on, wanted numbers of 0 to 1");
+                   "marginal: found 2 numbers from 1 on, wanted numbers within 0 to 1");
   EXPECT_REX_ERROR((void)conditional(good, Eigen::Vector3d(0, 0, 0)),
                    "given numbers: found a vector of size 3");
   EXPECT_REX_ERROR((void)multiplied(good, {Eigen::VectorXd::Zero(1), Eigen::MatrixXd::Identity(1, 1)}),

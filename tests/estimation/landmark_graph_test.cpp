@@ -188,7 +188,7 @@ TEST(LandmarkGraph, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(optimize(bad), "pose graph: landmark 2: found no pose that sees it, wanted one or more");
   bad = good;
   bad.landmarks.resize(2, 0);
-  EXPECT_REX_ERROR(optimize(bad), "found landmark 0, wanted none: there is none");
+  EXPECT_REX_ERROR(optimize(bad), "found landmark 0, wanted none: the graph has none");
 }
 
 }  // namespace rex::landmark_graph_test

@@ -446,7 +446,7 @@ TEST(PoseGraph, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(optimize(bad), "edge 1 from pose 1 to pose 2: information: found the eigenvalue -1");
   bad = good;
   bad.edges[1].motion[2] = std::nan("");
-  EXPECT_REX_ERROR(optimize(bad), "edge 1 from pose 1 to pose 2: motion: found numbers that are no pose");
+  EXPECT_REX_ERROR(optimize(bad), "edge 1 from pose 1 to pose 2: motion: found numbers that are not a pose");
   bad = good;
   bad.edges.erase(bad.edges.begin() + 2);
   EXPECT_REX_ERROR(optimize(bad), "pose graph: pose 3: found no edges that join it to pose 0");
@@ -456,7 +456,7 @@ TEST(PoseGraph, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(optimize(bad), "pose 4: found numbers that are not finite");
   SpatialPoseGraph space = ball(30, .1, rng);
   space.poses[3].R *= 2;
-  EXPECT_REX_ERROR(optimize(space), "pose 3: found numbers that are no pose");
+  EXPECT_REX_ERROR(optimize(space), "pose 3: found numbers that are not a pose");
   bad = good;
   EXPECT_REX_ERROR(optimize(bad, {.kernelSize = 0}),
                    "size of the robust kernel: found 0, wanted a positive, finite number");
@@ -476,7 +476,7 @@ TEST(PoseGraph, SaysWhatIsWrong) {
   EXPECT_THAT(optimize(bad, {.maxIterations = 1}).message,
               testing::HasSubstr("converged after 1 iteration: cost"));
   EXPECT_THAT(spent.message,
-              testing::HasSubstr("stopped after 0 iterations, the most allowed, before it converged"));
+              testing::HasSubstr("stopped after 0 iterations, the limit, before it converged"));
 }
 
 }  // namespace rex::pose_graph_test

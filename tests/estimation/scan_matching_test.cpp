@@ -137,7 +137,7 @@ TEST(ScanMatching, NamesTheWayAlongACorridor) {
   const ScanMatch match = alignScans(p, q, truth + Eigen::Vector3d(.1, .1, -.05));
   EXPECT_EQ(match.status, ScanMatchStatus::kUnobservable);
   EXPECT_THAT(match.message,
-              testing::HasSubstr("the scans do not tell the motion along x, y, heading = (0.9"));
+              testing::HasSubstr("the scans do not determine the motion along x, y, heading = (0.9"));
   const Eigen::Vector3d along(std::cos(.2), -std::sin(.2), 0);  // seen from the first pose
   EXPECT_NEAR(std::abs(match.unseen.dot(along)), 1, 1e-3);
   const Eigen::Vector3d e = match.motion - truth;

@@ -54,7 +54,7 @@ TEST_F(SlamCommand, SaysWhatItDidAndWhenItDidNot) {
   EXPECT_THAT(full.output, HasSubstr("400 poses, 438 edges; converged after"));
   const ProcessResult spent = rex({"slam", example(), "--iterations", "1", "--start", "file"});
   EXPECT_EQ(spent.exitCode, 1);
-  EXPECT_THAT(spent.output, HasSubstr("stopped after 1 iteration, the most allowed, before it converged"));
+  EXPECT_THAT(spent.output, HasSubstr("stopped after 1 iteration, the limit, before it converged"));
 }
 
 TEST_F(SlamCommand, PlacesLandmarks) {
@@ -85,7 +85,7 @@ TEST_F(SlamCommand, SaysWhatIsWrong) {
     EXPECT_THAT(flat(result.error), HasSubstr(text));
   };
   expect({}, "file is required");
-  expect({"none.g2o"}, "none.g2o: pose graph: found no file that can be read");
+  expect({"none.g2o"}, "none.g2o: pose graph: found a file that cannot be read");
   expect({example(), "--objective", "chi"},
          "--objective: found 'chi', wanted chi2, sesync (did you mean 'chi2'?)");
   expect({example(), "--kernel", "hubber"}, "--kernel: found 'hubber'");
