@@ -16,7 +16,7 @@ void requireOption(const char* what, int found, int least, int most) {
   if (found == 0 || (found >= least && found <= most)) return;
   throw Error({.what = what,
                .found = fmt::format("{}", found),
-               .wanted = fmt::format("{} to {}, or 0 for the usual", least, most)});
+               .wanted = fmt::format("{} to {}, or 0 for the default", least, most)});
 }
 
 void requireDeviations(double least, double most) {
@@ -30,7 +30,8 @@ void requireDeviations(double least, double most) {
                  .wanted = "numbers within a factor of 1e+07: scale the coordinates"});
 }
 
-// Sums of few columns at a time fit the stack, and come out the same whatever caches the machine has.
+// Sums over a few columns at a time fit on the stack, and their result does not depend on the machine's
+// caches.
 constexpr Eigen::Index kColumns = 32;
 
 // C += factor * Y Y^T, lower triangle.
@@ -60,7 +61,7 @@ CmaEs::CmaEs(const VectorArg& mean, const VectorArg& deviations, const CmaOption
   Z_.resize(n, lambda()), Y_.resize(n, lambda());
   step_.resize(n), rotated_.resize(n), whitened_.resize(n);
   order_.resize(static_cast<std::size_t>(lambda()));
-  solver_.compute(C_);  // has its room from here on, and nothing undefined to copy
+  solver_.compute(C_);  // allocates now, and leaves nothing undefined to copy
 }
 
 // Table 1 of the tutorial.
@@ -73,7 +74,7 @@ void CmaEs::setConstants(const CmaOptions& options) {
   if (options.decompositionGap < 0)
     throw Error({.what = "CMA-ES: generations from one decomposition to the next",
                  .found = fmt::format("{}", options.decompositionGap),
-                 .wanted = "at least 1, or 0 for the usual"});
+                 .wanted = "at least 1, or 0 for the default"});
 
   const double middle = options.mu > 0 ? mu_ + 0.5 : (lambda + 1) / 2.;
   weights_.resize(lambda);
@@ -160,7 +161,7 @@ void CmaEs::adaptStepSize() {
   whitened_.noalias() = B_ * rotated_;  // C^-1/2 step
   sigmaPath_ = (1 - cSigma_) * sigmaPath_ + std::sqrt(cSigma_ * (2 - cSigma_) * mueff_) * whitened_;
   sigma_ *= std::exp(cSigma_ / dSigma_ * (sigmaPath_.norm() / chiN_ - 1));
-  sigma_ = std::clamp(sigma_, 1e-150, 1e150);  // for loops that do not look whether it should end
+  sigma_ = std::clamp(sigma_, 1e-150, 1e150);  // for callers whose loops do not check whether to end
 }
 
 void CmaEs::adaptCovariance() {
@@ -195,7 +196,7 @@ void CmaEs::decompose() {
   const double largest = std::clamp(D_.maxCoeff(), 1e-200, 1e100), least = 1e-15 * largest;
   const bool isSound = D_.minCoeff() >= least && D_.maxCoeff() <= largest;
   D_ = D_.cwiseMax(least).cwiseMin(largest).cwiseSqrt();
-  // Where doubles do not hold how thin it is, bad samples would soon make C negative.
+  // If C is too thin for doubles, bad samples would soon give it a negative eigenvalue.
   if (!isSound) C_ = B_ * D_.cwiseAbs2().asDiagonal() * B_.transpose();
 }
 

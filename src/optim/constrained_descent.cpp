@@ -93,7 +93,7 @@ bool ConstrainedDescent::isSmall(double tolerance) const {
   return share_ * step_.cwiseAbs().maxCoeff() <= tolerance * std::max(1., x_.cwiseAbs().maxCoeff());
 }
 
-// Levenberg's damping goes on where a direction is none of descent, or leads nowhere.
+// Increases Levenberg's damping as long as a direction is not one of descent, or leads nowhere.
 bool ConstrainedDescent::takeStep(const ConstraintMerit& merit, double value) {
   gain_ = 0;
   stepGradient_ = gradient_;
@@ -115,12 +115,13 @@ bool ConstrainedDescent::takeStep(const ConstraintMerit& merit, double value) {
 }
 
 // The minimum of the merit if cost and constraints were quadratic and linear. Which inequalities count is not
-// known before the step: it is taken with those that the last one would reach, until they are the same.
+// known before the step, so it is repeated with those that the last one would reach, until they no longer
+// change.
 bool ConstrainedDescent::findStep(const ConstraintMerit& merit) {
   for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
     system_.assemble(weights_);
     if (!system_.solve(damping_, stepGradient_, step_)) {
-      merit.weigh(values_, weights_);  // no guess of what counts before the cost is convex without it
+      merit.weigh(values_, weights_);  // no guesses until the cost is convex without the inequalities
       stepGradient_ = gradient_;
       return false;
     }

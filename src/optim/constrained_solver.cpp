@@ -20,9 +20,9 @@ using internal::DescentEnd;
 
 constexpr double kFirstTolerance = 1e-2;  // of the first rounds' gradients, which need not be exact
 constexpr double kFallWanted = 0.5;       // of the violation from one round to the next
-constexpr double kStationaryPart = 1e-3;  // of the violation: its gradient where it does not get smaller
+constexpr double kStationaryPart = 1e-3;  // of the violation: its gradient if it gets no smaller
 constexpr int kFeasibilitySteps = 600;    // spent at most to see whether the violation can get smaller
-constexpr double kRunaway = 100;          // by so much no violation grows where the penalty holds it
+constexpr double kRunaway = 100;          // a violation held by the penalty grows by less than this
 constexpr int kRoundsWithoutFall = 6;
 constexpr int kMostRounds = 200;
 
@@ -159,7 +159,7 @@ class ConstrainedSolver {
       merit_.penalty = std::min(merit_.penalty * options_.factor, options_.largestPenalty);
   }
 
-  // A penalty that a concave cost outweighs lets it fall without end, outside of the constraints. `before`:
+  // If a concave cost outweighs the penalty, it falls without end, outside of the constraints. `before` is
   // the violation at the start of the round.
   [[nodiscard]] bool isPenaltyTooWeak(DescentEnd how, double before) const {
     const double violation = internal::violationOf(descent_.values());
@@ -201,7 +201,7 @@ class ConstrainedSolver {
     return v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0;
   }
 
-  // A barrier has lambda_i g_i = -b, and lets neither of them be zero.
+  // With a barrier, lambda_i g_i = -b, and neither of them can be zero.
   [[nodiscard]] double complementarity() const {
     double largest = 0;
     const Eigen::VectorXd& g = descent_.values().g;
@@ -284,7 +284,7 @@ ConstrainedResult solveConstrained(const ConstrainedProblem& problem, const Vect
   if (!problem.residuals && !problem.cost)
     throw Error({.what = "problem with constraints",
                  .found = "neither residuals nor a cost",
-                 .wanted = "one of them at least"});
+                 .wanted = "at least one of them"});
   requireSound(start, options);
   internal::DenseSystem system(problem, start.size());
   return ConstrainedSolver(system, start, options).run();

@@ -61,7 +61,7 @@ void DenseSystem::addCurvature(const ConstraintWeights& weights) {
     const Eigen::VectorXd move = size * Eigen::VectorXd::Unit(n_, i);
     H.col(i) = (gradientAt(x_ + move) - gradientAt(x_ - move)) / (2 * size);
   }
-  // Where the functions end nearby, damping has to do.
+  // If the functions are not defined all around, damping has to suffice.
   if (H.allFinite()) A_ += (H + H.transpose()) / 2;
 }
 

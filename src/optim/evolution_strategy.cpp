@@ -22,7 +22,7 @@ Sizes sizesOf(Eigen::Index n, const EvolutionStrategyOptions& options) {
   const auto require = [](bool isRight, const char* what, int number, const char* wanted) {
     internal::requireSearchOption(isRight, kEvolution, what, number, wanted);
   };
-  require(options.mu >= 0 && options.mu <= 100'000, "mu", options.mu, "1 to 100000, or 0 for the usual");
+  require(options.mu >= 0 && options.mu <= 100'000, "mu", options.mu, "1 to 100000, or 0 for the default");
   const int usual = options.mu > 0 ? 4 * options.mu : 4 + static_cast<int>(n);
   const int lambda = options.lambda != 0 ? options.lambda : usual;
   const int mu = options.mu > 0 ? options.mu : std::max(1, lambda / 4);

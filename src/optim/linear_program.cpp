@@ -25,8 +25,8 @@ VectorXd largestOf(const MatrixXd& rows) {
   return (largest.array() > 0).select(largest, 1);
 }
 
-// The program with rows, columns, b and c of size one, and after its n columns m artificial ones that b
-// starts from.
+// The program with rows, columns, b and c scaled to size one. Its n columns are followed by m artificial
+// ones, which b starts from.
 class Simplex {
  public:
   Simplex(const MatrixXd& A, const VectorXd& b)
