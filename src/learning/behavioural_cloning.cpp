@@ -22,7 +22,7 @@ void requireDemonstrations(const MatrixArg& features) {
       throw Error({.what = fmt::format("features of demonstration {}", i), .found = "not all finite"});
 }
 
-// Of the scores in each row; the largest is taken off, so that nothing overflows.
+// The largest score of each row is subtracted, so that nothing overflows.
 Eigen::MatrixXd softmaxOfRows(Eigen::MatrixXd scores) {
   scores.colwise() -= scores.rowwise().maxCoeff().eval();
   scores = scores.array().exp();
@@ -76,7 +76,7 @@ class SoftmaxLoss {
   Eigen::MatrixXd taken_{};  // n x actions: one where it was taken
 };
 
-// Moves the weights and their loss down by Newton's step, halved until it leads there; false if none does.
+// Lowers the loss by moving the weights by Newton's step, halved until it does so; false if it never does.
 bool newtonStep(const SoftmaxLoss& loss, const Eigen::MatrixXd& gradient, Eigen::MatrixXd& weights,
                 double& value) {
   const Eigen::VectorXd step = loss.hessian(weights).ldlt().solve(gradient.reshaped());

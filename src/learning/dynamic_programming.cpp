@@ -9,7 +9,7 @@
 namespace rex {
 namespace {
 
-// What rounding may add to one sweep: an error of each product and each sum.
+// The error that rounding may add to one sweep, from each product and each sum.
 double roundingOfSweep(const Mdp& mdp, double largest) {
   Eigen::Index terms = 0;
   for (const TransitionMatrix& P : mdp.transitions)
@@ -24,7 +24,7 @@ double boundOf(const Mdp& mdp, const MdpSolution& solution) {
   return (residual + roundingOfSweep(mdp, scale)) / (mdp.discount < 1 ? 1 - mdp.discount : 1);
 }
 
-// In each state an action that may lead a step nearer to a terminal one, so that the policy ends where any
+// For each state, an action that may lead one step closer to a terminal state, so that the policy ends if any
 // does.
 std::vector<int> actionsTowardTheEnd(const Mdp& mdp) {
   std::vector<int> actions(static_cast<std::size_t>(mdp.states()), 0);
@@ -46,7 +46,8 @@ std::vector<int> actionsTowardTheEnd(const Mdp& mdp) {
   return actions;
 }
 
-// The old action stays unless another is better by more than rounding: so that equals do not take turns.
+// The old action stays unless another is better by more than rounding: so that equally good ones do not
+// alternate.
 bool improve(const Mdp& mdp, MdpSolution& solution) {
   const double scale = solution.V.cwiseAbs().maxCoeff() + mdp.rewards.cwiseAbs().maxCoeff();
   const std::vector<int> best = greedyActions(solution.Q);
@@ -103,7 +104,7 @@ MdpSolution policyIteration(const Mdp& mdp, int maxIterations) {
     const PolicyValues values = policyValues(mdp, policyOf(mdp, solution.actions));
     if (values.status != MdpStatus::kSolved) {
       solution.status = values.status;
-      if (values.status == MdpStatus::kEndless)  // then the optimum is not finite, and no V near it
+      if (values.status == MdpStatus::kEndless)  // then the optimum is not finite, and no V is near it
         solution.errorBound = std::numeric_limits<double>::infinity();
       solution.message = fmt::format("policy {}: {}", solution.iterations + 1, values.message);
       return solution;

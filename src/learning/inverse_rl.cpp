@@ -88,7 +88,7 @@ InverseRlResult inverseRl(const Mdp& mdp, const MatrixArg& features, const Vecto
     result.margins.push_back(margin.margin);
     result.shares = margin.shares;
     result.expectations = asColumns(candidates) * margin.shares;
-    // Not the margin: of a hull point that is not yet the nearest one, it is too small.
+    // Not the margin: it is too small for a point of the hull that is not yet the nearest one.
     if ((teacher - result.expectations).norm() <= tolerance) {
       result.status = InverseRlStatus::kMatched;
       break;

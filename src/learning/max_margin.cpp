@@ -11,11 +11,11 @@
 namespace rex {
 namespace {
 
-// Below what a corner gets that is worth taking in, so that none goes in and out for ever.
+// A corner whose share would be smaller is not added, so that none enters and leaves for ever.
 constexpr double kLeastShare = 1e-15;
 
-// The point of the plane through some corners nearest to the origin, as shares that may be negative: corners
-// minus the first one turn it into plain least squares.
+// The point of the plane through some corners that is nearest to the origin, as shares of the corners, which
+// may be negative. Subtracting the first corner makes it a plain least-squares problem.
 Eigen::VectorXd nearestOfPlane(const Eigen::MatrixXd& points, const std::vector<int>& corners) {
   const auto count = static_cast<Eigen::Index>(corners.size());
   Eigen::VectorXd shares = Eigen::VectorXd::Ones(count);
@@ -41,7 +41,7 @@ class NearestPoint {
     scale_ = points.colwise().norm().maxCoeff();
   }
 
-  // Takes in the corner that lies farthest on the side of the origin; false if none does.
+  // Adds the corner that lies farthest on the side of the origin; false if there is none.
   bool grow() {
     const Eigen::VectorXd x = point();
     int best = 0;
@@ -55,7 +55,8 @@ class NearestPoint {
     return true;
   }
 
-  // To the nearest point of the plane through the corners, leaving those out that would have negative shares.
+  // Moves to the nearest point of the plane through the corners, dropping those that would have negative
+  // shares.
   void settle() {
     for (;;) {
       const Eigen::VectorXd wanted = nearestOfPlane(points_, corners_);

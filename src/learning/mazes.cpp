@@ -70,7 +70,7 @@ LetterMap readLetters(std::string_view map, const GridWorldOptions& options) {
       if (letter == '#' || letter == '.' || markOf(letter, options) || isJumpedTo(letter, options)) continue;
       throw Error({.what = "cell of the map",
                    .where = {"map", where.line, static_cast<int>(c) + 1},
-                   .found = fmt::format("{:?}", letter),  // some cannot be seen
+                   .found = fmt::format("{:?}", letter),  // some are invisible
                    .wanted = "'#', '.' or the letter of a mark"});
     }
     result.letters += lines[l];
@@ -78,7 +78,7 @@ LetterMap readLetters(std::string_view map, const GridWorldOptions& options) {
   return result;
 }
 
-// Where one letter stands that is to stand once.
+// The state of the cell with a letter that must occur exactly once.
 int onlyState(const LetterMap& letters, const GridWorld& world, char letter) {
   std::vector<int> found;
   for (int s = 0; s < static_cast<int>(world.cells.size()); ++s) {
@@ -86,7 +86,7 @@ int onlyState(const LetterMap& letters, const GridWorld& world, char letter) {
     if (letters.at(column, row) == letter) found.push_back(s);
   }
   if (found.size() == 1) return found.front();
-  throw Error({.what = fmt::format("cell '{}', which is jumped to", letter),
+  throw Error({.what = fmt::format("cell '{}', the target of a jump", letter),
                .found = fmt::format("{} of them", found.size()),
                .wanted = "one"});
 }

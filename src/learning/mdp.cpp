@@ -33,7 +33,7 @@ void requireSizes(const Mdp& mdp) {
   if (mdp.rewards.size() == 0)
     throw Error({.what = "rewards of the decision process",
                  .found = fmt::format("{} x {}", mdp.rewards.rows(), mdp.rewards.cols()),
-                 .wanted = "states x actions, one of each at least"});
+                 .wanted = "states x actions, at least one of each"});
   requireSize("transition matrices, one for each action", static_cast<long>(mdp.transitions.size()),
               mdp.actions());
   if (!mdp.terminal.empty())

@@ -39,14 +39,14 @@ BaselineSums baselineSums(const std::vector<Eigen::MatrixXd>& all, const std::ve
   return sums;
 }
 
-// The baseline that the other episodes give, k x T; zero where there is no other.
+// The baseline that the other episodes give, k x T; zero if there is no other.
 Eigen::MatrixXd baselineWithout(const BaselineSums& sums, const Eigen::MatrixXd& scores,
                                 const Eigen::VectorXd& Q) {
   const Eigen::ArrayXXd squares = scores.array().square();
   const Eigen::ArrayXXd weights = sums.weights.leftCols(scores.cols()) - squares;
   const Eigen::ArrayXXd weighted =
       sums.weighted.leftCols(scores.cols()) - squares.rowwise() * Q.transpose().array();
-  // What remains of a sum after its only term was taken away is rounding.
+  // What remains of a sum after its only term is subtracted is rounding.
   return (weights > 1e-9 * sums.weights.leftCols(scores.cols())).select(weighted / weights, 0.).matrix();
 }
 
@@ -109,7 +109,7 @@ NaturalGradient naturalGradient(const LinearGaussianPolicy& policy, const std::v
   NaturalGradient result;
   result.gradient = reinforceGradient(policy, episodes, discount).gradient;
   result.fisher = fisherMatrix(policy, episodes, discount);
-  // Features of any unit: what shows nothing is judged with a diagonal of ones.
+  // Features may have any units, so the rank is judged with a diagonal of ones.
   const Eigen::VectorXd diagonal = result.fisher.diagonal();
   const Eigen::VectorXd scale = (diagonal.array() > 0).select(diagonal.array().rsqrt(), 0.);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * result.fisher *
@@ -138,10 +138,10 @@ NaturalGradient episodicNaturalGradient(const LinearGaussianPolicy& policy,
     X.row(i) = (g * powers(discount, g.cols())).transpose();
     returns[i] = returnsToGo(episode.rewards, discount)[0];
   }
-  // Features of any unit: what shows nothing is judged with columns of length one.
+  // Features may have any units, so the rank is judged with columns of length one.
   const Eigen::ArrayXd lengths = X.colwise().norm().transpose();
   const Eigen::VectorXd scale = (lengths > 0).select(lengths.inverse(), 0.);
-  // Without their means there is no constant to find.
+  // With the means removed, no constant has to be fitted.
   X.rowwise() -= X.colwise().mean().eval();
   returns.array() -= returns.mean();
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> factors;

@@ -51,7 +51,7 @@ SparseMatrix identityMinus(double discount, const SparseMatrix& P) {
   return M;
 }
 
-// What M x = b gave, with the greatest violation of it relative to the greatest number.
+// The solution of M x = b, and its largest residual relative to the largest number.
 struct LinearSolution {
   Eigen::VectorXd x{};
   double residual = std::numeric_limits<double>::infinity();
@@ -60,7 +60,7 @@ struct LinearSolution {
 
 LinearSolution solved(const SparseMatrix& M, const Eigen::VectorXd& b) {
   const Eigen::SparseLU<SparseMatrix> factors(M);
-  if (factors.info() != Eigen::Success) return {};  // a pivot of zero: there is nothing to solve with
+  if (factors.info() != Eigen::Success) return {};  // a pivot is zero: there is nothing to solve with
   LinearSolution result{factors.solve(b)};
   result.x += factors.solve(b - M * result.x);
   const double scale = std::max(result.x.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff());
@@ -73,7 +73,7 @@ std::string endlessMessage(int state) {
 }
 
 constexpr const char* kSingular =
-    "the linear system of the values is singular to the digits of a double: the process hardly ever ends";
+    "the linear system of the values is singular in double precision: the process hardly ever ends";
 
 }  // namespace
 

@@ -43,12 +43,12 @@ PowerStep powerStep(const LinearGaussianPolicy& policy, const std::vector<Episod
     }
   }
   PowerStep step{PowerStatus::kNoReturn, policy.beta, ""};
-  // Features of any unit: dependence is judged with a diagonal of ones.
+  // Features may have any units, so dependence is judged with a diagonal of ones.
   const Eigen::VectorXd diagonal = weights.diagonal();
   const Eigen::VectorXd scale = (diagonal.array() > 0).select(diagonal.array().rsqrt(), 0.);
   const Eigen::LDLT<Eigen::MatrixXd> factors(scale.asDiagonal() * weights * scale.asDiagonal());
   if (!(factors.vectorD().minCoeff() > 1e-12)) {
-    step.message = "no step: returns that are all zero, or features that depend on one another";
+    step.message = "no step: the returns are all zero, or the features are linearly dependent";
     return step;
   }
   step.beta += scale.asDiagonal() * factors.solve(scale.asDiagonal() * moves);

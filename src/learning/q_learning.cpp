@@ -22,7 +22,7 @@ void requireOptions(const TabularOptions& options) {
   requireCount("steps of an episode", options.maxSteps, 1);
   require(options.epsilon >= 0 && options.epsilon <= 1, "epsilon", options.epsilon, "a number in [0, 1]");
   require(options.stepExponent > .5 && options.stepExponent <= 1, "stepExponent", options.stepExponent,
-          "a number above .5, up to 1: otherwise nothing settles");
+          "a number above .5, up to 1: otherwise the values do not converge");
 }
 
 int epsilonGreedyAction(const Eigen::MatrixXd& Q, int s, double epsilon, Rng& rng) {

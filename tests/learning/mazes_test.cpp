@@ -106,8 +106,8 @@ TEST(Mazes, SayWhatIsWrongAndWhere) {
   EXPECT_REX_ERROR(gridWorld("G.", {.marks = {{'G', 1}, {'G', 2}}}),
                    "letter of a mark: found 'G', wanted one mark of each letter");
   const GridWorldOptions jump{.marks = {{'A', 1, false, 'a'}}};
-  EXPECT_REX_ERROR(gridWorld("A.", jump), "cell 'a', which is jumped to: found 0 of them, wanted one");
-  EXPECT_REX_ERROR(gridWorld("Aaa", jump), "cell 'a', which is jumped to: found 2 of them, wanted one");
+  EXPECT_REX_ERROR(gridWorld("A.", jump), "cell 'a', the target of a jump: found 0 of them, wanted one");
+  EXPECT_REX_ERROR(gridWorld("Aaa", jump), "cell 'a', the target of a jump: found 2 of them, wanted one");
 }
 
 }  // namespace rex::mazes_test

@@ -67,9 +67,8 @@ TEST(PolicyValues, SayWhenTheSystemIsSingular) {
   const PolicyValues values = policyValues(mdp, policy);
   EXPECT_EQ(values.status, MdpStatus::kNotConverged);
   EXPECT_EQ(values.V.size(), 0);
-  EXPECT_THAT(values.message, testing::HasSubstr("singular to the digits of a double"));
-  EXPECT_REX_ERROR(discountedVisits(mdp, policy, Eigen::Vector2d(1, 0)),
-                   "singular to the digits of a double");
+  EXPECT_THAT(values.message, testing::HasSubstr("singular in double precision"));
+  EXPECT_REX_ERROR(discountedVisits(mdp, policy, Eigen::Vector2d(1, 0)), "singular in double precision");
   EXPECT_EQ(policyIteration(mdp).status, MdpStatus::kNotConverged);
 }
 

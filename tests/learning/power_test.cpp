@@ -73,7 +73,7 @@ TEST(Power, SaysWhenNothingIsLearned) {
   EXPECT_EQ(powerStep(policy, {episode}, 1).status, PowerStatus::kMoved);
   episode.features.row(1) = episode.features.row(0);
   EXPECT_EQ(powerStep(policy, {episode}, 1).message,
-            "no step: returns that are all zero, or features that depend on one another");
+            "no step: the returns are all zero, or the features are linearly dependent");
   episode.features.setZero();
   EXPECT_EQ(powerStep(policy, {episode}, 1).status, PowerStatus::kNoReturn);
 }
