@@ -77,7 +77,7 @@ Matrix4d rateJacobian(const CompassGait& w, const Vector4d& x) {
   const Matrix2d inverse = inverted(e.M);
   const Vector2d turn = inverse * e.r;
   const double c = std::cos(x[0] - x[1]), s = std::sin(x[0] - x[1]), coupling = k.l * w.b;
-  // By the angle between the legs; then by each angle, and by each rate.
+  // The derivative by the angle between the legs; then by each angle and by each rate.
   const Vector2d byDifference(w.legMass * coupling * (c * x[3] * x[3] - s * turn[1]),
                               -coupling * (c * x[2] * x[2] + s * turn[0]));
   Matrix4d J = Matrix4d::Zero();
@@ -89,8 +89,8 @@ Matrix4d rateJacobian(const CompassGait& w, const Vector4d& x) {
   return J;
 }
 
-// Angular momenta about the foot that comes down, and of the leg behind about the hip (per mass of it), from
-// the rates before and after the impact. The angle between the legs is the only one that matters.
+// Angular momenta about the foot that comes down, and of the rear leg about the hip (per unit of its mass),
+// from the rates before and after the impact. The angle between the legs is the only one that matters.
 struct Momenta {
   Matrix2d before, after;
 };
@@ -129,7 +129,7 @@ Matrix4d impactJacobianOf(const CompassGait& w, const Vector4d& x) {
   return J;
 }
 
-// Along a leg at this angle upwards, and how that changes with the angle.
+// The direction up along a leg at this angle, and its derivative by the angle.
 Vector2d along(double angle) { return {-std::sin(angle), std::cos(angle)}; }
 Vector2d across(double angle) { return {-std::cos(angle), -std::sin(angle)}; }
 
@@ -144,7 +144,7 @@ Vector2d groundForceOf(const CompassGait& w, const Vector4d& x) {
   return {c * force.x() - s * force.y(), s * force.x() + c * force.y()};
 }
 
-// How fast the foot behind leaves the ground just after an impact.
+// How fast the rear foot leaves the ground just after an impact.
 double liftingRate(const Vector4d& x) { return -(x[2] + x[3]); }
 
 enum Ending : int { kTouchdown, kForward, kBackward };
@@ -170,7 +170,7 @@ std::string messageOf(StepStatus status, double time) {
   return fmt::format("{} after {:.6g} s", kWhat[static_cast<std::size_t>(status)], time);
 }
 
-// What ends a step before it began.
+// What ends a step before it has begun.
 std::optional<StepStatus> hindered(const CompassGait& w, const Vector4d& x) {
   const double lean = x[0] + w.slope, sum = x[0] + x[1] + 2 * w.slope;
   if (lean <= -std::numbers::pi / 2) return StepStatus::kFellForward;
@@ -179,7 +179,7 @@ std::optional<StepStatus> hindered(const CompassGait& w, const Vector4d& x) {
   return std::nullopt;
 }
 
-// Follows a state, perhaps with its derivative below it, to the end of the step.
+// Follows a state, with or without its derivative below it, to the end of the step.
 template <class Vector, class F>
 WalkerStep stepOf(const CompassGait& w, const F& f, Vector& x, double timeLimit) {
   requireState(w, x.template head<4>());
@@ -188,7 +188,7 @@ WalkerStep stepOf(const CompassGait& w, const F& f, Vector& x, double timeLimit)
   if (const std::optional<StepStatus> status = hindered(w, step.before)) {
     step.status = *status;
   } else {
-    // Short beside the time in which a leg falls, so that no event comes and goes unseen.
+    // Short compared to the time in which a leg falls, so that no event comes and goes unseen.
     const double longest = 0.1 * std::sqrt((w.a + w.b) / w.g);
     const auto events = endings<Vector>(w);
     const auto end = internal::integrateToEvent<Vector>(f, x, timeLimit, longest, std::span(events));

@@ -18,7 +18,7 @@ void requirePlan(const WalkPlan& plan) {
   if (plan.footsteps.size() < 2)
     throw Error({.what = "walk: footsteps",
                  .found = fmt::format("{}", plan.footsteps.size()),
-                 .wanted = "two that stand at first, and one for each step"});
+                 .wanted = "two to stand on at first, and one for each step"});
   for (std::size_t i = 0; i < plan.footsteps.size(); ++i) {
     const Footstep& step = plan.footsteps[i];
     requireFinite(fmt::format("walk: footstep {}: p", i), step.p);

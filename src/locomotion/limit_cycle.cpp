@@ -24,9 +24,9 @@ Vector4cd multipliersOf(const Matrix4d& J) {
   return values;
 }
 
-constexpr double kShortestStep = 1e-9;  // radians between the legs; events of a step are told to 1e-12
+constexpr double kShortestStep = 1e-9;  // radians between the legs; events of a step are located to 1e-12
 
-// A state, its step, and by how much that misses it.
+// A state, its step, and by how much the step fails to return to it.
 struct Trial {
   Vector4d x;
   WalkerStepJacobian map;
@@ -42,7 +42,7 @@ struct Trial {
   }
 };
 
-// Halves Newton's way until the walker steps, and comes nearer.
+// Halves Newton's step until the walker can step from there and the residual falls.
 bool advance(const CompassGait& walker, double timeLimit, Trial& at) {
   const Eigen::MatrixXd slope = Matrix4d::Identity() - at.map.J;
   const Eigen::VectorXd gap = at.map.step.after - at.x;
@@ -84,7 +84,7 @@ LimitCycle findLimitCycle(const CompassGait& walker, const Vector4d& guess,
   LimitCycle cycle{.x = guess, .residual = at.residual};
   if (walker.slope <= 0)
     return ended(cycle, Status::kNoGait,
-                 "no gait: on level ground and uphill nothing replaces what impacts lose");
+                 "no gait: on level ground and uphill nothing replaces the energy that impacts lose");
   if (!at.stepped()) return ended(cycle, Status::kFell, "from the guess: " + at.map.step.message);
   bool comesNearer = true;
   while (cycle.iterations < options.maxIterations && !at.repeats(options.tolerance)) {

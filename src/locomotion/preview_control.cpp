@@ -51,7 +51,8 @@ struct Cart {
 PreviewGains previewGains(const PreviewOptions& options) {
   requireOptions(options);
   const Cart cart(options);
-  // Of the error of p and the changes of x, driven by changes of u: then a constant error costs without end.
+  // The system of the error of p and the changes of x, driven by changes of u: there a constant error costs
+  // without end.
   Matrix4d A = Matrix4d::Zero(), Q = Matrix4d::Zero();
   A(0, 0) = 1;
   A.topRightCorner<1, 3>() = cart.C * cart.A;
@@ -88,7 +89,7 @@ PreviewMotion followZmp(const Eigen::Ref<const Eigen::Matrix2Xd>& reference, con
   const Cart cart(options);
   for (Eigen::Matrix2Xd* track : {&motion.c, &motion.v, &motion.a, &motion.zmp}) track->resize(2, count);
   for (Eigen::Index axis = 0; axis < 2; ++axis) {
-    // Seen from the start, so that places far away lose no digits.
+    // Relative to the start, so that positions far away lose no digits.
     const double start = reference(axis, 0);
     Vector3d x = Vector3d::Zero(), change = Vector3d::Zero();
     double u = 0;

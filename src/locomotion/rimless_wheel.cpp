@@ -23,12 +23,12 @@ void requireWheel(const RimlessWheel& wheel) {
                  .wanted = "an angle in [0, pi/2)"});
 }
 
-// How much energy, as omega^2, hub and spoke lose from the angle `angle` to the vertical up to it.
+// By how much omega^2 falls on the way from `angle` up to the vertical.
 double climb(const RimlessWheel& wheel, double angle) {
   return 2 * wheel.g / wheel.l * (1 - std::cos(angle));
 }
 
-// Whether the spoke presses at the ground at this angle and squared rate.
+// Whether the spoke presses on the ground at this angle and squared rate.
 bool presses(const RimlessWheel& wheel, double angle, double squaredRate) {
   return wheel.g * std::cos(angle) >= wheel.l * squaredRate;
 }
@@ -68,11 +68,11 @@ RimlessWheel::Step RimlessWheel::step(double rate) const {
         Status::kRockedBack, -keeps * rate,
         fmt::format("rate {:.6g} does not carry it over the spoke: {:.6g} rad/s would", rate, leastRate())};
   }
-  // Backwards it starts where a forward step ends.
+  // A backward step starts where a forward one ends.
   if (!presses(*this, end, squared)) return lost(end);
   const double left = squared - climb(*this, end);
   const double atStart = left + climb(*this, start);
-  // The hardest part of the way is the vertical, or where it starts if that lies before.
+  // The hardest point of the way is the vertical, or the start if that comes first.
   if ((start < 0 ? left : atStart) <= 0) return {Status::kRockedBack, keeps * -rate, "rocks back downhill"};
   if (!presses(*this, start, atStart)) return lost(start);
   return {Status::kRolledUphill, -keeps * std::sqrt(atStart), "rolls uphill"};

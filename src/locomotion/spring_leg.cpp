@@ -46,7 +46,7 @@ double stretching(const Vector4d& x) { return x.head<2>().dot(x.tail<2>()); }
 
 enum FlightEnding : int { kStretched, kGround };
 
-// The leg is at its rest length at touchdown, too, where it still gets shorter.
+// The leg is at its rest length at touchdown, too, while it is still getting shorter.
 std::array<internal::Event<Vector4d>, 2> endings(const SpringLeg& leg) {
   return {
       {{[l = leg.restLength](const Vector4d& x) { return std::max(l - x.head<2>().norm(), -stretching(x)); }},
@@ -94,7 +94,7 @@ struct ApexTrial {
   }
 };
 
-// Halves Newton's way until the runner hops, and comes nearer.
+// Halves Newton's step until the runner can hop from there and the residual falls.
 bool advance(const SpringLeg& leg, const ApexFamily& family, ApexTrial& at) {
   const double way = at.rise / (1 - at.multiplier);
   for (double share = 1; share > 1e-4; share /= 2) {

@@ -13,7 +13,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-// Thinner than this part of its length, a hull is a line: rounding of feet placed by kinematics.
+// A hull thinner than this share of its length counts as a line: feet placed by kinematics have rounding
+// errors.
 constexpr double kFlat = 1e-9;
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -40,8 +41,8 @@ std::vector<Vector2d> hull(std::vector<Vector2d> points) {
   return chain;
 }
 
-// Rounding leaves corners in one place, and on the line between their neighbours. They go, one by one, since
-// two in one place on a line only turn out to lie on it when one of them has gone.
+// Rounding leaves corners that coincide, or lie on the line between their neighbours. They are removed one by
+// one, since two that coincide on a line only turn out to lie on it when one of them is gone.
 std::vector<Vector2d> withoutCornersBetween(std::vector<Vector2d> corners, double size) {
   std::size_t good = 0;  // in a row
   for (std::size_t i = 0; good < corners.size() && corners.size() > 3;) {
@@ -67,7 +68,7 @@ double areaOf(const std::vector<Vector2d>& corners) {
   return sum;
 }
 
-// The two corners furthest from each other.
+// The two corners farthest apart.
 std::pair<Vector2d, Vector2d> diameter(const std::vector<Vector2d>& corners) {
   std::pair<Vector2d, Vector2d> best{corners[0], corners[0]};
   for (const Vector2d& a : corners)

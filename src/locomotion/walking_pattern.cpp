@@ -22,7 +22,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-// How much of the way back to the start posture each posture takes, where it is free.
+// The share of the way back to the start posture that each posture takes in its free directions.
 constexpr double kHomeward = 0.1;
 
 Matrix3d turned(double yaw) { return Eigen::AngleAxisd(yaw, Vector3d::UnitZ()).toRotationMatrix(); }
@@ -30,7 +30,7 @@ Matrix3d turned(double yaw) { return Eigen::AngleAxisd(yaw, Vector3d::UnitZ()).t
 // The turn from one yaw to another by the shorter way.
 double turnBetween(double from, double to) { return std::remainder(to - from, 2 * std::numbers::pi); }
 
-// Yaw and place of the middle of a sole.
+// Yaw and position of the centre of a sole.
 struct SolePlace {
   Vector3d p;
   double yaw;
@@ -47,7 +47,7 @@ SolePlace solePlace(const WalkPhase& phase, Side side, double lift) {
   return at;
 }
 
-// What a posture should fulfil at one time: in the first place feet and centre of mass, then the trunk.
+// The tasks of a posture at one time: first the feet and the centre of mass, then the trunk.
 struct Targets {
   std::array<Task, 3> places;
   Task trunk;
@@ -76,7 +76,7 @@ double solve(const Model& model, const Targets& targets, const VectorXd& home, c
     error = places.y.cwiseAbs().maxCoeff();
     if ((error <= options.tolerance / 10 && i > 0) || i == options.maxIterations) return error;
     const std::vector<TaskLevel> levels = {{.J = places.J, .dy = -places.y}, {.J = trunk.J, .dy = -trunk.y}};
-    // Only once: the way home bends off the targets, and must not keep Newton's steps from ending there.
+    // Only once: moving home leads away from the targets, and must not keep Newton's steps from converging.
     const VectorXd a = (i == 0 ? kHomeward : 0) * difference(model, q, home);
     const VectorXd step = hierarchicalStep(levels, {.W = {}, .a = a});
     q = integrate(model, q, step).cwiseMax(model.lowerLimits()).cwiseMin(model.upperLimits());

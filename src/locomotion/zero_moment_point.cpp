@@ -12,7 +12,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-// From force and torque about the origin of W. `scale` is the force below which rounding is left alone.
+// From force and torque about the origin of W. `scale` is the size of the forces: next to it, an upward force
+// of 1e-12 is rounding.
 ZeroMomentPoint zmpOf(const Vector3d& force, const Vector3d& torque, double groundHeight, double scale) {
   ZeroMomentPoint zmp{.force_W = force};
   if (!(force.z() > 1e-12 * scale)) {

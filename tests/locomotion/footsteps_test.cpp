@@ -82,7 +82,7 @@ TEST(WalkPlan, NamesWhatIsWrong) {
   EXPECT_REX_ERROR(straightFootsteps(0, .3, .2), "footsteps: count: found 0, wanted at least 1");
   EXPECT_REX_ERROR(straightFootsteps(2, NAN, .2), "footsteps: length: found nan");
   EXPECT_REX_ERROR(straightFootsteps(2, .3, 0), "footsteps: width: found 0");
-  EXPECT_REX_ERROR(duration({}), "walk: footsteps: found 0, wanted two that stand at first");
+  EXPECT_REX_ERROR(duration({}), "walk: footsteps: found 0, wanted two to stand on at first");
   WalkPlan walk = plan();
   walk.footsteps[3].p.y() = NAN;
   EXPECT_REX_ERROR(duration(walk), "walk: footstep 3: p: number 1: found nan");

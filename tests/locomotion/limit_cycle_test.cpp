@@ -82,7 +82,7 @@ TEST(LimitCycle, OfWalkersOfAllSizesIsTheSame) {
 }
 
 TEST(LimitCycle, NeedsASlopeThatReplacesWhatImpactsLose) {
-  const char* message = "no gait: on level ground and uphill nothing replaces what impacts lose";
+  const char* message = "no gait: on level ground and uphill nothing replaces the energy that impacts lose";
   for (const CompassGait& walker : {CompassGait{.slope = 0}, simplestWalker(0), CompassGait{.slope = -.05}}) {
     const LimitCycle none = findLimitCycle(walker, {.2, -.2 - 2 * walker.slope, -1, -.3});
     EXPECT_EQ(none.status, Status::kNoGait) << none.message;
