@@ -50,7 +50,7 @@ Eigen::Vector3d inBody(const Pose& X_WB, const Eigen::Vector3d& p_W) {
   return X_WB.R.transpose() * (p_W - X_WB.p);
 }
 
-// 1 - d / margin of each pair. A row for the nearest alone would jump where two are equally near.
+// 1 - d / margin of each pair. A single row for the nearest pair would jump where two are equally near.
 TaskMap clearanceMap(const ContactModel& contacts, double margin) {
   return [contacts, margin, storage = ProxyStorage(), J = Eigen::Matrix3Xd()](const Posture& at,
                                                                               TaskValue& value) mutable {

@@ -81,7 +81,7 @@ CubicSpline::CubicSpline(const VectorArg& times, const MatrixArg& points, const 
   velocities_ = rows.solve();
 }
 
-// Each piece by Newton's form: its two ends, each with place and velocity.
+// Each piece in Newton's form: its two ends, each with position and velocity.
 Eigen::VectorXd CubicSpline::value(double t, int derivative) const {
   requireFinite("time on a spline", t);
   if (derivative < 0 || derivative > 3)

@@ -58,7 +58,7 @@ TrajectoryTerm postureTerm(const VectorArg& target) {
 
 TrajectoryTerm limitsTerm(const VectorArg& lower, const VectorArg& upper) {
   requireSize("upper limits", upper.size(), lower.size());
-  std::vector<std::pair<Eigen::Index, double>> limits[2];  // places and numbers of lower and upper ones
+  std::vector<std::pair<Eigen::Index, double>> limits[2];  // indices and values of lower and upper ones
   for (Eigen::Index i = 0; i < lower.size(); ++i) {
     if (!(lower[i] <= upper[i]))
       throw Error({.what = fmt::format("limits of coordinate {}", i),
@@ -81,7 +81,7 @@ TrajectoryTerm limitsTerm(const VectorArg& lower, const VectorArg& upper) {
 }
 
 TrajectoryTerm velocityLimitsTerm(const VectorArg& limit) {
-  std::vector<std::pair<Eigen::Index, double>> limits;  // places and numbers of the finite ones
+  std::vector<std::pair<Eigen::Index, double>> limits;  // indices and values of the finite ones
   for (Eigen::Index i = 0; i < limit.size(); ++i) {
     requirePositiveOrInfinite("limits of velocity", limit[i]);
     if (std::isfinite(limit[i])) limits.emplace_back(i, limit[i]);

@@ -22,7 +22,7 @@ void requireUsable(const TrajectoryTerm& term, long reach, int steps) {
   if (!term.function) refuse(term, "function", "none", "one");
   if (term.order < 0 || term.order > reach)
     refuse(term, "order", fmt::format("{}", term.order),
-           fmt::format("0 to {}, as the prefix reaches", reach));
+           fmt::format("0 to {}, the length of the prefix", reach));
   const int last = term.last.value_or(steps - 1);
   if (term.first < 0 || last >= steps || last < term.first)
     refuse(term, "steps", fmt::format("{} to {}", term.first, last),

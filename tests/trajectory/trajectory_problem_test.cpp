@@ -40,7 +40,7 @@ TEST(TrajectoryProblem, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(TrajectoryProblem({{.name = "empty"}}, prefix, 3),
                    "term 'empty': function: found none, wanted one");
   EXPECT_REX_ERROR(TrajectoryProblem({accelerationTerm()}, prefix, 3),
-                   "term 'acceleration': order: found 2, wanted 0 to 1, as the prefix reaches");
+                   "term 'acceleration': order: found 2, wanted 0 to 1, the length of the prefix");
   EXPECT_REX_ERROR(TrajectoryProblem({at(velocityTerm(), 3)}, prefix, 3),
                    "term 'velocity': steps: found 3 to 3, wanted a range within 0 to 2");
   EXPECT_REX_ERROR(TrajectoryProblem({during(velocityTerm(), 2, 1)}, prefix, 3), "found 2 to 1");
