@@ -14,11 +14,11 @@ using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kRounding = 4e-15;       // of the point of a contact, where torques are taken far from it
-constexpr double kLeastRounding = 1e-12;  // what contacts are known to anyway
+constexpr double kRounding = 4e-15;       // of the point of a contact, if torques are taken far from it
+constexpr double kLeastRounding = 1e-12;  // contacts are known no better than this
 
-// The point of a contact, from the reference point and in its units of length: what p x f of all axes f of
-// the contact gives.
+// The point p of a contact, from the reference point and in its units of length: the torques p x f of all
+// axes f of the contact give it.
 Vector3d pointOf(const WrenchCone& cone) {
   MatrixXd axes(cone.normal.size(), 1 + cone.tangents.cols());
   axes << cone.normal, cone.tangents;
@@ -31,7 +31,7 @@ Vector3d pointOf(const WrenchCone& cone) {
   return p;
 }
 
-// What moves the reference point to c and divides torques by the length.
+// The map that moves the reference point to c and divides torques by the length.
 MatrixXd movedTo(const Vector3d& c, double length, Index size) {
   MatrixXd map = MatrixXd::Identity(size, size);
   if (size == 6) {
@@ -54,7 +54,7 @@ CentredView centredView(std::span<const WrenchCone> cones) {
   const Vector3d middle = points.rowwise().mean();
   const double far = middle.norm();
   double spread = (points.colwise() - middle).colwise().norm().maxCoeff();
-  if (!(spread > kRounding * far)) spread = far > 0 ? far : 1;  // all in one place, as far as rounding tells
+  if (!(spread > kRounding * far)) spread = far > 0 ? far : 1;  // all at one point, up to rounding
   return {.map = movedTo(middle, spread, size),
           .rounding = std::max(kLeastRounding, kRounding * far / spread)};
 }

@@ -17,7 +17,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kProof = 1e-9;      // of unit wrenches
-constexpr double kRounding = 1e-12;  // to which unit wrenches are known, at best
+constexpr double kRounding = 1e-12;  // of unit wrenches, at best
 constexpr int kMostRounds = 100;
 
 struct Span {
@@ -35,8 +35,9 @@ Span spanOf(const MatrixXd& unit) {
   return span;
 }
 
-// The direction from which all wrenches keep most distance, measured by its largest number: the prices of the
-// point of their hull that is nearest to zero by the sum of its numbers. Zero if the hull holds the origin.
+// The direction, with entries of at most 1, along which all wrenches lie farthest from zero, by the prices of
+// the linear program that finds the point of their hull with the least 1-norm. Zero if the hull holds the
+// origin.
 VectorXd deepestDirection(const MatrixXd& unit) {
   const Index d = unit.rows(), n = unit.cols();
   MatrixXd A = MatrixXd::Zero(d + 1, n + 2 * d);
@@ -81,7 +82,7 @@ void append(WrenchSet& set, const VectorXd& wrench, int contact) {
   set.contact.push_back(contact);
 }
 
-// `rounding` is what the wrenches are known to, as unit vectors.
+// `rounding` is the accuracy of the wrenches, as unit vectors.
 Closure closureOf(const MatrixXd& wrenches, double rounding) {
   if (wrenches.rows() == 0)
     throw Error({.what = "force closure", .found = "wrenches without numbers", .wanted = "one or more rows"});

@@ -19,7 +19,7 @@ using Eigen::VectorXd;
 constexpr double kEquilibriumProof = 1e-9;
 constexpr int kMostForceRounds = 100;
 
-// A linear program over forces on edges of cones, which get further edges while those would lower its cost.
+// A linear program over forces on edges of cones, which get further edges as long as those lower its cost.
 // Its rows are the d numbers of wrenches and, with a limit, one row per contact: sum / limit + slack = 1.
 class EdgeProgram {
  public:
@@ -135,7 +135,7 @@ Equilibrium notHeld(const EdgeProgram& program, const VectorXd& direction, const
   return {.status = EquilibriumStatus::kNotHeld,
           .direction = direction,
           .residual = margin,
-          .message = "the load wins along one direction"};
+          .message = "the load overcomes the contacts in one direction"};
 }
 
 Equilibrium withoutContacts(const VectorXd& load) {

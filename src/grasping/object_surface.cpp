@@ -17,7 +17,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using std::numbers::pi;
 
-constexpr double kEdge = 1e-12;  // how far beyond its edges a triangle is still hit, as part of it
+constexpr double kEdge = 1e-12;  // how far outside its edges a triangle still counts as hit, as a share of it
 
 void requireLength(const char* what, ShapeType type, double size) {
   requirePositive(fmt::format("surface: {} of the {}", what, toString(type)), size, kMetres);
@@ -134,7 +134,7 @@ SurfacePoint ObjectSurface::sampleTriangle(Rng& rng) const {
   return {triangle.corner + u * triangle.edge1 + v * triangle.edge2, triangle.normal};
 }
 
-// Of a disk or a cone's side, what lies within a share of the radius has the square of that share.
+// On a disk or the side of a cone, the area within a share of the radius is the square of that share.
 SurfacePoint ObjectSurface::sampleCone(Rng& rng) const {
   const bool onBase = rng.uniform() * area() < areas_[0];
   const double angle = rng.uniform(0, 2 * pi), share = std::sqrt(rng.uniform());

@@ -81,7 +81,7 @@ TEST(Equilibrium, SaysWhichTurnAPinchCannotHold) {
   const VectorXd load = weightWrench(1, {0, 0.1, 0}, kDown);  // turns about the line of the fingers
   const Equilibrium result = equilibrium(cones, load);
   ASSERT_EQ(result.status, EquilibriumStatus::kNotHeld);
-  EXPECT_EQ(result.message, "the load wins along one direction");
+  EXPECT_EQ(result.message, "the load overcomes the contacts in one direction");
   EXPECT_NEAR(result.direction[3], -1, 1e-12);
   EXPECT_NEAR(result.residual, 0.1 * kGravity, 1e-9);
   const LargestLoad most = largestLoad(cones, load);
