@@ -48,7 +48,7 @@ void addParticles(Figure& figure, const CarView& view) {
 
 void addBeliefs(Figure& figure, const std::vector<PlanarGaussian>& beliefs, const char* name, double sigmas,
                 const Color& color) {
-  // A figure draws no ellipse without area: one that nobody sees is added.
+  // A figure draws no ellipse without area: one too small to be seen is added.
   constexpr double kShare = 1e-8, kLeast = 1e-12;
   for (std::size_t i = 0; i < beliefs.size(); ++i) {
     Eigen::Matrix2d covariance = symmetrized(beliefs[i].covariance);

@@ -18,9 +18,9 @@ namespace {
 
 using internal::kCarLength, internal::kCarMiddle, internal::kCarWidth, internal::placeAt;
 
-// Heights over the ground of what is flat, metres.
+// Heights of flat marks above the ground, metres.
 constexpr double kEllipseHeight = 0.04, kWayHeight = 0.07, kDotHeight = 0.12;
-// What belongs to the pose of a car lies above its body, which would hide it.
+// Marks of a car's pose lie above its body, which would hide them.
 constexpr double kPoseHeight = 0.57;
 constexpr double kPostHeight = 1;
 
@@ -60,7 +60,7 @@ void addLandmarks(Picture& picture, const Eigen::Matrix2Xd& landmarks) {
   for (const auto& place : landmarks.colwise())
     picture.solids.push_back(
         {post, translation(place.x(), place.y(), kPostHeight / 2), kLandmarkColor, "landmark"});
-  // From afar a post is too thin to see.
+  // From a distance a post is too thin to see.
   if (landmarks.cols() > 0)
     picture.pointSets.push_back({allLifted(landmarks, kPostHeight), kLandmarkColor, 8});
 }
@@ -115,7 +115,7 @@ void addWays(Picture& picture, const std::vector<Way>& ways) {
   }
 }
 
-// What the camera must see. Of a large ellipse only the middle: a guess without knowledge would hide the
+// What the camera must see. Large ellipses count only up to a limit: a very uncertain belief would dwarf the
 // rest.
 void include(Bounds& bounds, const CarView& view) {
   const auto square = [&](const Eigen::Vector2d& middle, double reach) {

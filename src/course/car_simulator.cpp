@@ -132,7 +132,7 @@ std::vector<int> CarSimulator::getVisibleLandmarks() const {
   std::vector<int> visible;
   for (int i = 0; i < countLandmarks(); ++i) {
     const Eigen::Vector2d d = landmarks_.col(i) - state_->head<2>();
-    // At the car itself every direction will do, and there is no bearing.
+    // At the car itself any direction will do, as there is no bearing.
     const double bearing = d.isZero(0) ? 0 : wrapAngle(std::atan2(d[1], d[0]) - (*state_)[2]);
     if (d.norm() <= options_.maxRange && 2 * std::abs(bearing) <= options_.fieldOfView) visible.push_back(i);
   }

@@ -4,7 +4,7 @@ namespace rex {
 
 CartPole::CartPole(std::uint64_t seed, const CartPoleOptions& options) : options_(options), rng_(seed) {
   Rng draws = rng_;
-  // A step that is not kept refuses what is out of range.
+  // A step whose result is discarded throws if an option is out of range.
   (void)options.dynamics.noisyStep(x, 0, options.tau, options.noise, draws);
 }
 

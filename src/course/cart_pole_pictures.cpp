@@ -9,13 +9,13 @@
 namespace rex {
 namespace {
 
-constexpr double kHeight = 1;    // of the cart over the ground, metres
-constexpr double kFarthest = 8;  // from the middle of the rail, in a film: beyond, a cart is but a dot
+constexpr double kHeight = 1;    // of the cart above the ground, metres
+constexpr double kFarthest = 8;  // from the middle of the rail, in a film: beyond, a cart is only a dot
 constexpr double kMetresPerNewton = 0.05, kShortestArrow = 0.02, kLongestArrow = 2;
 constexpr Color kCartColor{0.0f, 0.45f, 0.7f}, kPoleColor{0.90f, 0.62f, 0.0f},
     kRailColor{0.45f, 0.48f, 0.52f};
 
-// From whole metres to whole metres, so that it seldom changes.
+// It begins and ends at whole metres, so that it seldom changes.
 struct Rail {
   double begin = -2, end = 2;
   void reach(double position) {

@@ -24,10 +24,10 @@ void ContactWorld::step(const Model& model, const Eigen::Vector3d& gravity_W,
     else if (u[i] != 0)
       throw Error({.what = fmt::format("stepPhysics: force of joint '{}'", jointOfVelocity(model, i).name),
                    .found = fmt::format("{:g}", u[i]),
-                   .wanted = "zero, for it has a motor"});
+                   .wanted = "zero, because it has a motor"});
   }
   world_->setMotors(motors_);
-  // Contacts of the last step help the next one, so that only a jump makes the world start anew.
+  // Contacts of the last step help the next one, so only a jump makes the world start anew.
   const State last = world_->state();
   if (last.q != state.q || last.v != state.v || last.time != state.time) world_->setState(state);
   world_->step(tau);

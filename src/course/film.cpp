@@ -23,7 +23,7 @@ Picture decorate(Picture picture, const PictureOptions& options) {
   return picture;
 }
 
-// The ways of the traced bodies, one per body, through all the poses.
+// The paths of the traced bodies through all the poses, one per body.
 std::vector<std::vector<Eigen::Vector3d>> tracesOf(const Simulator& simulator,
                                                    const std::vector<BodyPoses>& poses,
                                                    const PictureOptions& options) {
@@ -36,7 +36,7 @@ std::vector<std::vector<Eigen::Vector3d>> tracesOf(const Simulator& simulator,
   return traces;
 }
 
-// A frame at both ends.
+// There is a frame at both ends.
 int framesFor(double seconds) {
   return static_cast<int>(std::clamp(std::ceil(seconds * kFilmRate - 1e-9) + 1, 2., 1. * kMostFrames));
 }

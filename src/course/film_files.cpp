@@ -54,7 +54,7 @@ void writeFilmFrames(const Film& film, const Shot& shot, const std::string& fold
 }
 
 void writeFilmVideo(const Film& film, const Shot& shot, const std::string& name, int rate) {
-  // As the video says itself, where there is ffmpeg.
+  // The error of the video, thrown even without ffmpeg.
   if (rate < 1 || rate > 1000)
     throw Error(
         {.what = name + ".mp4: frames per second", .found = fmt::format("{}", rate), .wanted = "1 to 1000"});
@@ -62,7 +62,7 @@ void writeFilmVideo(const Film& film, const Shot& shot, const std::string& name,
     std::vector<std::unique_ptr<FrameSink>> sinks;
     sinks.push_back(std::make_unique<PngSequence>(name));
     MadeSink video = makeFrameSink(name + ".mp4", {.rate = rate});
-    // Where none can be made, that of an earlier run is not left beside other frames.
+    // If no video can be made, that of an earlier run is not left next to frames that differ.
     if (video.sink)
       sinks.push_back(std::move(video.sink));
     else

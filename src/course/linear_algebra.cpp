@@ -47,8 +47,8 @@ void requireRows(const char* what, Eigen::Index found, Eigen::Index wanted) {
                .wanted = fmt::format("{}", wanted)});
 }
 
-// What a pivot keeps of its number on the diagonal where H counts as positive definite: rounding leaves about
-// 1e-15.
+// The share of its diagonal entry that each pivot must keep for H to count as positive definite: rounding
+// leaves about 1e-15.
 constexpr double kLeastPivot = 1e-13;
 
 Eigen::SparseMatrix<double> sparse(const std::vector<MatrixEntry>& entries, Eigen::Index size) {
@@ -88,7 +88,7 @@ Eigen::VectorXd leastSquares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b)
   requireFiniteEntries("leastSquares: right side", b);
   const double largest = A.size() > 0 ? A.cwiseAbs().maxCoeff() : 0;
   if (largest == 0) return Eigen::VectorXd::Zero(A.cols());
-  // Squares of its numbers would overflow, or vanish; a power of two changes nothing else.
+  // Squares of its entries would overflow, or vanish; a power of two changes nothing else.
   const int exponent = std::ilogb(largest);
   const Eigen::MatrixXd scaled = A.unaryExpr([=](double a) { return std::scalbn(a, -exponent); });
   const Eigen::VectorXd x = Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(scaled).solve(b);

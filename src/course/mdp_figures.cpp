@@ -70,7 +70,7 @@ Figure valueFigure(const GridWorld& world, const Eigen::VectorXd& values) {
   Figure figure = emptyGrid(world, values);
   for (std::size_t s = 0; s < world.cells.size(); ++s) {
     const auto& [column, row] = world.cells[s];
-    // Next to the right border a note ends where it otherwise begins.
+    // Next to the right border, a note ends where it would otherwise begin.
     const bool endsThere = (column + .5) / world.width > .8;
     figure.notes.push_back({.text = fmt::format("{:.2f}", values[static_cast<Eigen::Index>(s)]),
                             .x = column + (endsThere ? .3 : -.3),

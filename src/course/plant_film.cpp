@@ -38,7 +38,7 @@ void internal::writePlantPicture(const Picture& picture, const std::string& file
 
 internal::PlantFilmTiming internal::plantFilmTiming(int count, const PlantFilmOptions& options) {
   requireFilm(count, options);
-  // Views that are nearer in time than any film shows: all but the first are too many.
+  // If views are closer in time than a film can show, only the first of each frame is kept.
   const double perFrame = std::clamp(1 / (options.rate * options.step), 1., static_cast<double>(count));
   PlantFilmTiming timing;
   for (int i = 0; std::lround(i * perFrame) < count; ++i)

@@ -6,7 +6,7 @@ namespace rex {
 
 Racer::Racer(std::uint64_t seed, const RacerOptions& options) : options_(options), rng_(seed) {
   Rng draws = rng_;
-  // A step and a measurement that are not kept refuse what is out of range.
+  // A step and a measurement whose results are discarded throw if an option is out of range.
   (void)options.dynamics.noisyStep(getState(), 0, options.tau, options.noise, draws);
   (void)getObservation();
 }

@@ -8,7 +8,7 @@
 namespace rex {
 namespace {
 
-// Those that are nearest to `most` times, which are evenly spaced from the first to the last; none twice.
+// The postures nearest to `most` evenly spaced times from the first to the last, each at most once.
 std::vector<RecordedPosture> thinnedByTime(const std::vector<RecordedPosture>& all, std::size_t most) {
   std::vector<RecordedPosture> thinned;
   const double first = all.front().time, span = all.back().time - first;

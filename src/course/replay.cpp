@@ -17,7 +17,7 @@ void writeReplay(const Simulator& simulator, const std::string& name, const Pict
                 .still = {.width = options.width, .height = options.height, .gl = glChoice()}};
   if (report.film.empty()) report.film = filmOf(simulator, {simulator.getJointAngles()}, options);
   for (Figure figure : figures) {
-    figure.width = 560, figure.height = 360;  // a column beside the robot: smaller, so that texts are larger
+    figure.width = 560, figure.height = 360;  // a column next to the robot: a smaller figure has larger texts
     report.figures.push_back({.figure = std::move(figure)});
   }
   writeReport(report, name + ".html");

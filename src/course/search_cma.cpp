@@ -43,7 +43,7 @@ void SearchCma::step(Eigen::MatrixXd& samples, Eigen::VectorXd& values) {
     columns_ = samples.transpose();
   } else {
     (void)strategy();  // throws without one
-    values.resize(0);  // what an earlier search left
+    values.resize(0);  // those of an earlier search
   }
   strategy_->step(columns_, values, rng_);
   hasSampled_ = true;

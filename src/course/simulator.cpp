@@ -35,15 +35,15 @@
 namespace rex {
 namespace {
 
-// The scene of a description. Its text may come from another process, whose files are none of ours: meshes
-// stay away.
+// The scene of a description. Its text may come from another process, whose files are not ours: meshes are
+// left out.
 SceneSpec parsed(const SimulatorDescription& description) {
   SceneFile scene = parseScene(description.sceneText, description.sceneName);
   if (!description.srdf.empty()) parseSrdf(description.srdf, description.sceneName, scene);
   return std::move(scene.spec);
 }
 
-// The choices of an SRDF; the texts of other scenes have their own.
+// The collision choices as an SRDF; other formats hold them in their own text.
 std::string srdfOf(const std::filesystem::path& file, const SceneSpec& spec) {
   if (spec.collisionChoices.empty() || lowerCase(file.extension().string()) != ".urdf") return {};
   return writeSrdf(file.stem().string(), spec.collisionChoices);
@@ -54,7 +54,7 @@ ReadOptions readingOf(const std::filesystem::path& file, const SimulatorOptions&
     throw Error({.what = "free base",
                  .where = {file.string()},
                  .found = "an .ors scene",
-                 .wanted = "a .urdf robot; in .ors a joint of type free says it"});
+                 .wanted = "a .urdf robot; an .ors scene has a joint of type free instead"});
   return {.assetRoot = options.assetRoot,
           .allowMissingMeshes = !options.strict,
           .freeBase = options.freeBase,
@@ -116,7 +116,7 @@ struct Simulator::Parts {
   std::uint64_t seed = 0;
   Rng rng{};
   std::optional<Stepper> stepper{};  // made for the first step, and anew when gravity or noise change
-  State next{};                      // where a step leads; its time is that of all steps
+  State next{};                      // where a step leads; its time counts all steps
   internal::ContactWorld contactWorld{};
   std::vector<Motor> motors{};  // nv
 
@@ -371,7 +371,7 @@ void Simulator::addObstacle(const Shape& shape, const Pose& X_WS, const std::str
   BodySpec body{.name = name, .X_WB = X_WS, .kind = BodyKind::kStatic};
   body.shapes.push_back({.name = name, .X_BS = {}, .shape = shape, .color = kColor, .contact = true});
   spec.bodies.push_back(std::move(body));
-  // Whoever adds it wants it to count, also where the robot is in it already.
+  // An added obstacle counts even if the robot is in it already.
   spec.collisionChoices.push_back({.a = name, .b = "", .mayCollide = true, .reason = "an obstacle"});
   Model model = compile(spec);
   Contacts contacts = contactsOf(model);

@@ -94,7 +94,8 @@ void addFootprints(Picture& picture, const WalkPlan& plan) {
          "footprint"});
 }
 
-// Up to and with this step, just above the footprints; where the ways cross, the centre of mass is on top.
+// Up to and including this step, just above the footprints; where the paths cross, the centre of mass is on
+// top.
 void addWays(Picture& picture, const HumanoidWalk& walk, std::size_t step) {
   Polyline center{.color = kBlue}, zmp{.color = kOrange};
   for (std::size_t i = 0; i <= step; ++i) {
@@ -110,7 +111,7 @@ void requireWays(const HumanoidWalk& walk, Eigen::Index steps) {
     if (static_cast<Eigen::Index>(way->size()) != steps)
       throw Error({.what = "film of a humanoid",
                    .found = fmt::format("a path of {} steps", way->size()),
-                   .wanted = fmt::format("{}, as of the walk", steps)});
+                   .wanted = fmt::format("{}, as the walk has", steps)});
     for (const Eigen::Vector2d& p : *way) requireFinite("film of a humanoid: path", p);
   }
 }
@@ -118,7 +119,7 @@ void requireWays(const HumanoidWalk& walk, Eigen::Index steps) {
 }  // namespace
 
 Figure footprintFigure(const WalkPlan& plan) {
-  static_cast<void>(duration(plan));  // throws where the plan is none
+  static_cast<void>(duration(plan));  // throws if the plan is not valid
   Figure figure;
   figure.xLabel = "x [m]";
   figure.yLabel = "y [m]";
@@ -169,7 +170,9 @@ void writeFilm(const HumanoidWalk& walk, const std::string& name, const PlantFil
   const WalkingPattern pattern =
       walkingPattern(humanoid.model, humanoid.legs, walk.plan, humanoid.start, {.preview = walk.preview});
   if (pattern.status != WalkingPattern::Status::kWalks)
-    throw Error({.what = "film of a humanoid", .found = pattern.message, .wanted = "a walk that it can go"});
+    throw Error({.what = "film of a humanoid",
+                 .found = pattern.message,
+                 .wanted = "a walk that the robot can perform"});
   requireWays(walk, pattern.Q.cols());
   const auto at = [&](int step) {
     Picture picture = pictureOf(humanoid.model, forwardKinematics(humanoid.model, pattern.Q.col(step)));

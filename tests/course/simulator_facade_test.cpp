@@ -288,7 +288,7 @@ TEST_F(SimulatorFacade, RefusesMotorsThatMakeNoSense) {
   EXPECT_REX_ERROR(S.setVelocityMotor("drop", 0, -1), "setVelocityMotor: maxForce: found -1");
   S.setPositionMotor("drop", 1, 100);
   EXPECT_REX_ERROR(S.stepPhysics(VectorXd::Constant(1, 3), 0.1),
-                   "stepPhysics: force of joint 'drop': found 3, wanted zero, for it has a motor");
+                   "stepPhysics: force of joint 'drop': found 3, wanted zero, because it has a motor");
   Simulator free("quadruped", {.freeBase = true});
   const std::string base = free.getJointNames()[0];
   EXPECT_REX_ERROR(free.setPositionMotor(base, 0, 1), "found a free joint");

@@ -139,7 +139,7 @@ TEST_F(WalkFilm, SaysWhatCannotBe) {
   walk.center.pop_back();
   EXPECT_REX_ERROR(writeFilm(walk, in("x"), small), "film of a humanoid: found a path of");
   walk.plan.footsteps = straightFootsteps(2, 3, 0.19);
-  EXPECT_REX_ERROR(writeFilm(walk, in("x"), small), "wanted a walk that it can go");
+  EXPECT_REX_ERROR(writeFilm(walk, in("x"), small), "wanted a walk that the robot can perform");
 }
 
 }  // namespace rex::walk_pictures_test
