@@ -136,8 +136,9 @@ RiccatiHorizon continuousHorizon(const LinearSystem& given, const MatrixArg& Q, 
   hamiltonian << system.A, -unit * G, -Q / unit, -system.A.transpose();
   const double h = T / steps;
   if (const double parts = steps * partsOf(hamiltonian, h); !(parts <= kMostParts))
-    return failed(fmt::format("time T is too long for the fastest motion: {:.2g} parts, at most {:.2g}",
-                              parts, kMostParts));
+    return failed(
+        fmt::format("time T is too long for the fastest motion: it takes {:.2g} parts, at most {:.2g}", parts,
+                    kMostParts));
   HamiltonianFlow flow(hamiltonian, h);
   const auto gainAt = [&](const Eigen::MatrixXd& P) -> Eigen::MatrixXd {
     return weight.solve(system.B.transpose() * P);

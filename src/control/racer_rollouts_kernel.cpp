@@ -43,7 +43,7 @@ inline RacerState<T> noisyStep(const RacerRolloutsRules& rules, const RacerState
   return next;
 }
 
-// Those that have failed keep their state, while the others beside them go on.
+// Rollouts that have failed keep their state, while the others next to them go on.
 template <class T>
 void runLanes(const RacerRolloutsRules& rules, RacerRolloutsTask& task, int lane) {
   const T one(1.0), zero(0.0);

@@ -302,7 +302,7 @@ Residual residualAt(const Problem& problem, const ExtendedMatrix& X) {
 
 struct Refined {
   ExtendedMatrix X;
-  double lastStep;  // relative; infinite where there was none
+  double lastStep;  // relative; infinite if there was none
 };
 
 // Newton's steps (Kleinman 1968): each solves a Lyapunov equation of the closed loop.
@@ -424,7 +424,7 @@ RiccatiResult explained(const Problem& problem, const std::optional<std::complex
   if (problem.kind == Kind::kDiscrete && hasIdleControl(problem))
     return failed(
         RiccatiStatus::kFailed, {},
-        "no solution: R + B^T X B is singular for every X, a control neither moves nor costs anything");
+        "no solution: R + B^T X B is singular for every X: some control neither moves nor costs anything");
   if (border && std::abs(instability(problem.kind, *border)) < kOnEdge * std::max(1., std::abs(*border)))
     return failed(
         RiccatiStatus::kFailed, border,

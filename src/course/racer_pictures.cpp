@@ -28,7 +28,7 @@ void requireView(const RacerView& view) {
                  .wanted = fmt::format("{}, or none", view.x.cols())});
 }
 
-// Of (x, z, angle) in the plane y = lane.
+// The pose of (x, z, angle) in the plane y = lane.
 Pose poseInLane(const Eigen::Vector3d& at, double lane) {
   return translation(at[0], lane, at[1]) * rotation(at[2], Eigen::Vector3d::UnitY());
 }

@@ -31,7 +31,7 @@ void SearchCma::init(const Eigen::VectorXd& start, int mu, int lambda, const Eig
 }
 
 const CmaEs& SearchCma::strategy() const {
-  if (!strategy_) throw Error({.what = "SearchCma", .found = "no init() before", .wanted = "init(D)"});
+  if (!strategy_) throw Error({.what = "SearchCma", .found = "no earlier init()", .wanted = "init(D)"});
   return *strategy_;
 }
 

@@ -45,7 +45,7 @@ void addLeg(Picture& picture, const CompassGait& walker, const Eigen::Vector3d& 
                             "leg mass"});
 }
 
-// From behind the first foot to beyond the last one.
+// A slope from behind the first foot to beyond the last one.
 void addSlope(Picture& picture, const CompassWalk& walk) {
   const double l = walk.walker.a + walk.walker.b;
   double first = 0, last = 0;

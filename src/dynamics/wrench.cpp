@@ -43,7 +43,7 @@ void requireValid(const Model& model, std::span<const Wrench> wrenches) {
   for (const Wrench& wrench : wrenches) {
     const int body = static_cast<int>(wrench.body);
     if (body < 0 || body >= bodies) {
-      throw Error({.what = "wrench: its body",
+      throw Error({.what = "body of a wrench",
                    .found = fmt::format("number {}", body),
                    .wanted = fmt::format("one of the {} bodies of the model", bodies)});
     }

@@ -95,7 +95,7 @@ ConsistencyBand consistencyBand(double runs, double degrees, double probability)
 
 double absoluteTrajectoryError(const MatrixArg& estimate, const MatrixArg& truth) {
   requireSize("estimated positions", estimate.cols(), truth.cols());
-  requireSize("numbers of an estimated position", estimate.rows(), truth.rows());
+  requireSize("coordinates of an estimated position", estimate.rows(), truth.rows());
   if (truth.cols() == 0)
     throw Error({.what = "trajectory", .found = "no positions", .wanted = "one or more"});
   const Eigen::Index d = truth.rows();
@@ -119,8 +119,8 @@ RelativeError relativePoseError(std::span<const Pose> estimate, std::span<const 
 }
 
 RelativeError relativePoseError(const MatrixArg& estimate, const MatrixArg& truth, int steps) {
-  requireSize("numbers of an estimated pose", estimate.rows(), 3);
-  requireSize("numbers of a pose", truth.rows(), 3);
+  requireSize("coordinates of an estimated pose", estimate.rows(), 3);
+  requireSize("coordinates of a pose", truth.rows(), 3);
   const auto posesOf = [](const MatrixArg& planar) {
     std::vector<Pose> poses;
     for (Eigen::Index t = 0; t < planar.cols(); ++t)

@@ -148,7 +148,7 @@ void EkfSlam::requireVariances(int n) const {
 LandmarkUpdate EkfSlam::observe(int landmark, const Eigen::Vector2d& y) {
   requireFinite("observation", y);
   if (landmark < 0 || landmark > landmarks_) {
-    throw Error({.what = "landmark that is observed",
+    throw Error({.what = "observed landmark",
                  .found = fmt::format("{}", landmark),
                  .wanted = fmt::format("0 to {}, or {} for a new one", landmarks_ - 1, landmarks_)});
   }
@@ -164,7 +164,7 @@ LandmarkUpdate EkfSlam::observe(int landmark, const Eigen::Vector2d& y) {
 std::vector<std::optional<LandmarkUpdate>> EkfSlam::observe(std::span<const Eigen::Vector2d> ys,
                                                             const AssociationGates& gates) {
   if (!(gates.same > 0 && gates.same <= gates.different))
-    throw Error({.what = "gates of association",
+    throw Error({.what = "association gates",
                  .found = fmt::format("same {:g}, different {:g}", gates.same, gates.different),
                  .wanted = "0 < same <= different"});
   for (const Eigen::Vector2d& y : ys) requireFinite("observation", y);

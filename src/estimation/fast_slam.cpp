@@ -34,7 +34,7 @@ FastSlam::FastSlam(const Eigen::Vector3d& pose, const LandmarkSensor& sensor, co
   requireCovariance("covariance of the sensor", sensor.W, 2, Definiteness::kPositive);
   requireCount("particles", options.particles, 1);
   if (!(options.threshold >= 0 && options.threshold <= 1))
-    throw Error({.what = "threshold of resampling",
+    throw Error({.what = "resampling threshold",
                  .found = fmt::format("{:g}", options.threshold),
                  .wanted = "0 to 1"});
   poses_ = pose.replicate(1, options.particles);
@@ -173,7 +173,7 @@ FastSlamStep FastSlam::step(const PoseTransition& transition, std::span<const La
   for (const LandmarkSighting& sighting : sightings) {
     requireFinite("sighting", sighting.y);
     if (sighting.landmark < 0 || sighting.landmark > next)
-      throw Error({.what = "landmark that is seen",
+      throw Error({.what = "observed landmark",
                    .found = fmt::format("{}", sighting.landmark),
                    .wanted = fmt::format("0 to {}, or {} for a new one", next - 1, next)});
     if (sighting.landmark < landmarks_) {

@@ -213,7 +213,7 @@ class Reader {
       throw Error({.what = "pose graph",
                    .where = vertices_.at(id).where,
                    .found = fmt::format("pose {}, which no edges join to pose {}", id, result.ids.front()),
-                   .wanted = "a graph in one piece"});
+                   .wanted = "a connected graph"});
     }
     if constexpr (Kind::kHasLandmarks) requireSeen(graph, result);
     if (!result.hasPoses) setOdometryPoses(graph);

@@ -45,7 +45,7 @@ LinearModel linearized(const NonlinearModel& model, const VectorArg& x) {
   if (tangent.C.rows() != value.size())
     throw Error({.what = "Jacobian of the model",
                  .found = fmt::format("{} rows", tangent.C.rows()),
-                 .wanted = fmt::format("{}, as the model has values", value.size())});
+                 .wanted = fmt::format("{}, one for each value of the model", value.size())});
   requireSize("columns of the Jacobian of the model", tangent.C.cols(), x.size());
   tangent.c = value - tangent.C * x;
   tangent.W = model.W;

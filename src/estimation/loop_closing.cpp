@@ -128,7 +128,7 @@ UncertainMotion linkWithScans(PlanarPoseGraph& graph, const PlanarEdge& edge, co
   const UncertainMotion odometry{edge.motion, edge.information.inverse()};
   const bool isUsable = isMatch(match) || match.status == ScanMatchStatus::kUnobservable;
   if (!isUsable || match.overlap < options.leastOverlap) return odometry;
-  // Where the scan does not determine the motion, odometry does.
+  // From odometry towards the scan, as far as the scan determines the motion.
   const Eigen::Vector3d apart = composed(inverted(edge.motion), match.motion);
   const Eigen::Matrix3d sum = edge.information + match.information;
   const Eigen::Matrix3d covariance = sum.inverse();

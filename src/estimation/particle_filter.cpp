@@ -24,7 +24,7 @@ void requireOptions(const ParticleFilterOptions& options, Eigen::Index stateSize
   const auto require = [](bool isRight, const char* what, double found, const char* wanted) {
     if (!isRight) throw Error({.what = what, .found = fmt::format("{:g}", found), .wanted = wanted});
   };
-  require(options.threshold >= 0 && options.threshold <= 1, "threshold of resampling", options.threshold,
+  require(options.threshold >= 0 && options.threshold <= 1, "resampling threshold", options.threshold,
           "0 to 1");
   require(options.most >= options.fewest, "most particles", options.most, "at least the fewest");
   requireCount("fewest particles", options.fewest, 1);

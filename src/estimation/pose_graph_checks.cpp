@@ -125,7 +125,7 @@ void requireAllReached(const Graph& graph) {
   if (const auto loose = firstLoose(graph))
     throw Error({.what = fmt::format("pose graph: pose {}", *loose),
                  .found = "no edges that join it to pose 0",
-                 .wanted = "a graph in one piece"});
+                 .wanted = "a connected graph"});
 }
 
 Pose spatial(const Eigen::Vector3d& planar) {

@@ -28,7 +28,7 @@ Vector3d onUnitSphere(Rng& rng) {
   return {r * std::cos(angle), r * std::sin(angle), z};
 }
 
-// Where |x + t d| = radius, if anywhere: both roots.
+// Both solutions t of |x + t d| = radius, if there are any.
 template <class Vector>
 std::vector<double> rootsOf(const Vector& x, const Vector& d, double radius) {
   const double a = d.squaredNorm();

@@ -19,7 +19,8 @@ void requireDemonstrations(const MatrixArg& features) {
                  .wanted = "one demonstration per row"});
   for (Eigen::Index i = 0; i < features.rows(); ++i)
     if (!features.row(i).allFinite())
-      throw Error({.what = fmt::format("features of demonstration {}", i), .found = "not all finite"});
+      throw Error(
+          {.what = fmt::format("features of demonstration {}", i), .found = "entries that are not finite"});
 }
 
 // The largest score of each row is subtracted, so that nothing overflows.
@@ -111,7 +112,8 @@ LinearClone cloneLinear(const MatrixArg& features, const MatrixArg& actions, dou
   if (actions.cols() == 0) throw Error({.what = "actions of the demonstrations", .found = "none"});
   for (Eigen::Index i = 0; i < actions.rows(); ++i)
     if (!actions.row(i).allFinite())
-      throw Error({.what = fmt::format("action of demonstration {}", i), .found = "not all finite"});
+      throw Error(
+          {.what = fmt::format("action of demonstration {}", i), .found = "entries that are not finite"});
   requireNotNegative("ridge", ridge);
   // The ridge as demonstrations of doing nothing: squaring the features would cost half the digits.
   const Eigen::Index n = features.rows(), k = features.cols();

@@ -18,7 +18,7 @@ void requireStateFeatures(const MatrixArg& features) {
                  .wanted = "one column for each state"});
   for (Eigen::Index s = 0; s < features.cols(); ++s)
     if (!features.col(s).allFinite())
-      throw Error({.what = fmt::format("features of state {}", s), .found = "not all finite"});
+      throw Error({.what = fmt::format("features of state {}", s), .found = "entries that are not finite"});
 }
 
 void require(const Mdp& mdp, const MatrixArg& features, const VectorArg& teacher,

@@ -79,8 +79,9 @@ void requireEpisodes(const std::vector<Episode>& episodes, Eigen::Index features
     requireSize(named("rows of the noise"), e.noise.rows(), features);
     requireSize(named("columns of the noise"), e.noise.cols(), e.rewards.size());
     requireFinite(named("rewards"), e.rewards);
-    if (!e.features.allFinite()) throw Error({.what = named("features"), .found = "not all finite"});
-    if (!e.noise.allFinite()) throw Error({.what = named("noise"), .found = "not all finite"});
+    if (!e.features.allFinite())
+      throw Error({.what = named("features"), .found = "entries that are not finite"});
+    if (!e.noise.allFinite()) throw Error({.what = named("noise"), .found = "entries that are not finite"});
   }
 }
 

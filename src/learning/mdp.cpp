@@ -43,7 +43,7 @@ void requireSizes(const Mdp& mdp) {
     if (P.rows() == mdp.states() && P.cols() == mdp.states()) continue;
     throw Error({.what = fmt::format("transitions of action {}", a),
                  .found = fmt::format("{} x {}", P.rows(), P.cols()),
-                 .wanted = fmt::format("{0} x {0}, as there are states", mdp.states())});
+                 .wanted = fmt::format("{0} x {0}, one row and column for each state", mdp.states())});
   }
 }
 

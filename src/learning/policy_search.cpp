@@ -68,7 +68,7 @@ PolicySearchResult improvedPolicy(const Rollouts& rollouts, const LinearGaussian
     }
     Eigen::VectorXd step = stepOf(result.policy, episodes, options);
     if (!step.allFinite()) return stopped(PolicySearchStatus::kDiverged, "the step is not finite");
-    if (step.isZero(0)) return stopped(PolicySearchStatus::kStuck, "no direction promises more");
+    if (step.isZero(0)) return stopped(PolicySearchStatus::kStuck, "no direction promises a higher return");
     if (step.norm() > options.longestStep) step *= options.longestStep / step.norm();
     result.policy.beta += step;
     result.policy.Sigma *= options.noiseDecay;

@@ -14,7 +14,7 @@ void requireWheel(const RimlessWheel& wheel) {
   if (wheel.spokes < 5)
     throw Error({.what = "rimless wheel: spokes",
                  .found = fmt::format("{}", wheel.spokes),
-                 .wanted = "at least 5: with fewer an impact stops it"});
+                 .wanted = "at least 5: with fewer, an impact stops it"});
   requirePositive("rimless wheel: length l", wheel.l);
   requirePositive("rimless wheel: g", wheel.g);
   if (!(wheel.slope >= 0 && wheel.slope < std::numbers::pi / 2))

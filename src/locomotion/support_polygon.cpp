@@ -103,12 +103,12 @@ SupportPolygon supportPolygon(const Eigen::Ref<const Eigen::Matrix2Xd>& contacts
   if (points.empty()) return {.message = "no support: there is no contact"};
   const std::vector<Vector2d> corners = hull(std::move(points));
   if (corners.size() == 1)
-    return made(SupportShape::kPoint, corners, 0, "all contacts are at one point, which supports no area");
+    return made(SupportShape::kPoint, corners, 0, "all contacts are at one point: the support has no area");
   const auto [a, b] = diameter(corners);
   double width = 0;
   for (const Vector2d& p : corners) width = std::max(width, std::abs(cross(b - a, p - a)));
   if (width <= kFlat * (b - a).squaredNorm())
-    return made(SupportShape::kLine, {a, b}, 0, "all contacts lie on one line, which supports no area");
+    return made(SupportShape::kLine, {a, b}, 0, "all contacts lie on one line: the support has no area");
   const std::vector<Vector2d> few = withoutCornersBetween(corners, (b - a).norm());
   return made(SupportShape::kPolygon, few, areaOf(few), "");
 }

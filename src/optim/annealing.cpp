@@ -33,7 +33,7 @@ AnnealingResult minimizeByAnnealing(const Objective& f, const VectorArg& start, 
     for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = result.last[i] + options.deviation * rng.normal();
     const double next = evaluate(x);
     ++result.iterations;
-    const bool isLower = next <= value;  // also where there is no value yet
+    const bool isLower = next <= value;  // also if there is no value yet
     if (!isLower && !(rng.uniform() < std::exp((value - next) / temperature))) continue;
     result.last = x;
     value = next;

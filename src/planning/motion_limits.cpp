@@ -39,7 +39,7 @@ Eigen::VectorXd effortsOf(const Model& model) {
 
 JointLimits jointLimits(const Model& model, const LimitDefaults& defaults) {
   requirePositive("velocity of joints without a limit", defaults.velocity);
-  requirePositive("seconds to the limit of velocity", defaults.ramp);
+  requirePositive("seconds to the velocity limit", defaults.ramp);
   const std::vector<std::string> names = velocityNames(model);
   JointLimits result{.limits = {.velocity = velocitiesOf(model), .names = names}};
   MotionLimits& limits = result.limits;

@@ -116,7 +116,7 @@ SplineResult resultOf(const Polygon& polygon, const Eigen::MatrixXd& control) {
   return result;
 }
 
-// From `from`, half of `side` for each unit of the parameter. Its end is `to` to the last bit.
+// A straight piece from `from`, half of `side` long per unit of the parameter. It ends exactly at `to`.
 CurvePiece sixthOf(const Eigen::VectorXd& side, const Eigen::VectorXd& from, const Eigen::VectorXd& to) {
   constexpr double kLength = 1. / 3;
   const auto at = [=](double s, CurvePoint& point) {

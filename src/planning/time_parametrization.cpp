@@ -34,12 +34,11 @@ void requireLimit(const char* what, const Eigen::VectorXd& limit, Eigen::Index s
 }
 
 void requireSound(const MotionLimits& limits, const TimingOptions& options, Eigen::Index size) {
-  requireLimit("limits of velocity", limits.velocity, size, false);
-  if (limits.acceleration.size() > 0) requireLimit("limits of acceleration", limits.acceleration, size, true);
-  if (limits.effort.size() > 0) requireLimit("limits of effort", limits.effort, size, true);
+  requireLimit("velocity limits", limits.velocity, size, false);
+  if (limits.acceleration.size() > 0) requireLimit("acceleration limits", limits.acceleration, size, true);
+  if (limits.effort.size() > 0) requireLimit("effort limits", limits.effort, size, true);
   if (limits.effort.size() > 0 && !limits.forces)
-    throw Error(
-        {.what = "limits of effort", .found = "no forces", .wanted = "a function for inverse dynamics"});
+    throw Error({.what = "effort limits", .found = "no forces", .wanted = "a function for inverse dynamics"});
   if (!limits.names.empty())
     requireSize("names of coordinates", static_cast<long>(limits.names.size()), size);
   requireNotNegative("speed at the start of a path", options.startSpeed);

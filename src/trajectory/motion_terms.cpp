@@ -83,11 +83,11 @@ TrajectoryTerm limitsTerm(const VectorArg& lower, const VectorArg& upper) {
 TrajectoryTerm velocityLimitsTerm(const VectorArg& limit) {
   std::vector<std::pair<Eigen::Index, double>> limits;  // indices and values of the finite ones
   for (Eigen::Index i = 0; i < limit.size(); ++i) {
-    requirePositiveOrInfinite("limits of velocity", limit[i]);
+    requirePositiveOrInfinite("velocity limits", limit[i]);
     if (std::isfinite(limit[i])) limits.emplace_back(i, limit[i]);
   }
   const auto function = [limits, n = limit.size()](const TrajectoryWindow& window, FunctionValue& value) {
-    requireSize("limits of velocity", n, window.X.rows());
+    requireSize("velocity limits", n, window.X.rows());
     const auto rows = static_cast<Eigen::Index>(limits.size());
     value.y.resize(2 * rows);
     value.J.setZero(2 * rows, 2 * n);

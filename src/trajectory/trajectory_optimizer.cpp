@@ -50,8 +50,8 @@ double shortestTau(const MatrixArg& path, const Eigen::VectorXd& velocityLimit,
       twice(path.rows(), std::max<Eigen::Index>(0, N - 2));
   if (N > 1) once = path.rightCols(N - 1) - path.leftCols(N - 1);
   if (N > 2) twice = once.rightCols(N - 2) - once.leftCols(N - 2);
-  return std::max(largestShare(once, velocityLimit, "limits of velocity"),
-                  std::sqrt(largestShare(twice, accelerationLimit, "limits of acceleration")));
+  return std::max(largestShare(once, velocityLimit, "velocity limits"),
+                  std::sqrt(largestShare(twice, accelerationLimit, "acceleration limits")));
 }
 
 }  // namespace rex

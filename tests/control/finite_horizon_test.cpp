@@ -123,7 +123,8 @@ TEST(Horizon, SaysWherePGrowsWithoutBound) {
                 std::tanh(1e-6 / std::sqrt(cheap)), 1e-9);
   const RiccatiHorizon endless = continuousHorizon({.A = 1e12 * one, .B = one}, one, one, one, 1, 1);
   EXPECT_FALSE(endless.isSolved);
-  EXPECT_THAT(endless.message, HasSubstr("time T is too long for the fastest motion: 2.8e+12 parts"));
+  EXPECT_THAT(endless.message,
+              HasSubstr("time T is too long for the fastest motion: it takes 2.8e+12 parts"));
   // A steep end is not an end.
   EXPECT_NEAR(continuousHorizon(system, 0 * one, one, 1e12 * one, 2, 1).P[0](0, 0), 0.5, 1e-11);
   system.step = 1;

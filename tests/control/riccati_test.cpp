@@ -338,7 +338,7 @@ TEST(Riccati, TakesASingularWeightInSteps) {
   ASSERT_EQ(free.status, RiccatiStatus::kSolved) << free.message;
   EXPECT_NEAR(free.X(0, 0), 1, 1e-15);
   EXPECT_NEAR(free.K(0, 0), 0.5, 1e-15) << "to zero at once";
-  const char* idle = "R + B^T X B is singular for every X, a control neither moves nor costs anything";
+  const char* idle = "R + B^T X B is singular for every X: some control neither moves nor costs anything";
   EXPECT_THAT(solveDare(half, 0 * one, one, 0 * one).message, HasSubstr(idle));
   EXPECT_THAT(solveDare(half, pair, one, Eigen::Matrix2d::Zero()).message, HasSubstr(idle));
   EXPECT_THAT(solveDare(half, pair, one, Eigen::Matrix2d::Ones()).message, HasSubstr(idle));

@@ -75,8 +75,8 @@ TEST(SearchCma, SaysWhatIsWrong) {
   SearchCma cma;
   Eigen::MatrixXd samples;
   Eigen::VectorXd values;
-  EXPECT_REX_ERROR(cma.step(samples, values), "SearchCma: found no init() before, wanted init(D)");
-  EXPECT_REX_ERROR(cma.getMean(), "SearchCma: found no init() before");
+  EXPECT_REX_ERROR(cma.step(samples, values), "SearchCma: found no earlier init(), wanted init(D)");
+  EXPECT_REX_ERROR(cma.getMean(), "SearchCma: found no earlier init()");
   EXPECT_REX_ERROR(cma.init(0), "init: D: found 0, wanted at least 1");
   EXPECT_REX_ERROR(cma.init(3, -1, -1, 1, 1), "init: lo and hi: found 1 and 1, wanted the lower one first");
   EXPECT_REX_ERROR(cma.init(3, -2), "CMA-ES: mu: found -2");

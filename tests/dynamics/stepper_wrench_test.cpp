@@ -127,7 +127,7 @@ TEST(StepperWrench, RefusesWrenchesThatAreNone) {
     stepper.setWrenches({{.body = rod.model.body("rod"), .force_W = {1, 2, 3}}, wrench});
   };
   for (const int body : {-1, 2})
-    EXPECT_REX_ERROR(set({.body = BodyId{body}}), "wrench: its body: found number " + std::to_string(body) +
+    EXPECT_REX_ERROR(set({.body = BodyId{body}}), "body of a wrench: found number " + std::to_string(body) +
                                                       ", wanted one of the 2 bodies of the model");
   const Eigen::Vector3d bad(0, std::numeric_limits<double>::quiet_NaN(), 0);
   const BodyId body = rod.model.body("rod");

@@ -205,15 +205,14 @@ TEST(EkfSlam, SaysWhatIsWrong) {
                    "pose: found a vector of size 2, wanted size 3");
   EXPECT_REX_ERROR(EkfSlam(kStart, {.W = Eigen::Matrix2d::Zero()}),
                    "covariance of the sensor: found the eigenvalue 0");
-  EXPECT_REX_ERROR(slam.observe(1, {0, 0}),
-                   "landmark that is observed: found 1, wanted 0 to -1, or 0 for a new one");
+  EXPECT_REX_ERROR(slam.observe(1, {0, 0}), "observed landmark: found 1, wanted 0 to -1, or 0 for a new one");
   EXPECT_REX_ERROR(slam.observe(0, {0, std::nan("")}), "observation: number 1: found nan");
   EXPECT_REX_ERROR(slam.landmark(0), "landmark: found 0");
   const std::vector<Eigen::Vector2d> ys{{1, 1}};
   EXPECT_REX_ERROR(slam.observe(ys, {.same = 0}),
-                   "gates of association: found same 0, different 18.42, wanted 0 < same <= different");
-  EXPECT_REX_ERROR(slam.observe(ys, {.same = 9, .different = 3}), "gates of association: found same 9");
-  EXPECT_REX_ERROR(slam.observe(ys, {.same = std::nan("")}), "gates of association: found same nan");
+                   "association gates: found same 0, different 18.42, wanted 0 < same <= different");
+  EXPECT_REX_ERROR(slam.observe(ys, {.same = 9, .different = 3}), "association gates: found same 9");
+  EXPECT_REX_ERROR(slam.observe(ys, {.same = std::nan("")}), "association gates: found same nan");
   EXPECT_REX_ERROR(placeOf({.kind = Kind::kRangeBearing}, {0, 0, 0}, {0, 1}),
                    "range of a new landmark: found 0 m, wanted a positive, finite number of metres");
   EXPECT_REX_ERROR(slam.predict({}), "transition: found no function for its mean");

@@ -120,15 +120,14 @@ TEST(FastSlam, SaysWhatIsWrong) {
   const test::SlamWorld world(Kind::kCartesian, 1, rng);
   EXPECT_REX_ERROR(FastSlam(Eigen::Vector3d::Zero(), {}, {.particles = 0}),
                    "particles: found 0, wanted at least 1");
-  EXPECT_REX_ERROR(FastSlam(Eigen::Vector3d::Zero(), {}, {.threshold = 2}),
-                   "threshold of resampling: found 2");
+  EXPECT_REX_ERROR(FastSlam(Eigen::Vector3d::Zero(), {}, {.threshold = 2}), "resampling threshold: found 2");
   EXPECT_REX_ERROR(FastSlam(Eigen::Vector3d(0, 0, INFINITY), {}), "pose: number 2: found inf");
   EXPECT_REX_ERROR(FastSlam(Eigen::Vector3d::Zero(), {.W = -Eigen::Matrix2d::Identity()}),
                    "covariance of the sensor");
   FastSlam slam(Eigen::Vector3d::Zero(), world.sensor, {.particles = 3});
   const LandmarkSighting second{1, {1, 1}}, wrong{0, {std::nan(""), 0}};
   EXPECT_REX_ERROR(slam.step(world.transition(), std::vector{second}, rng),
-                   "landmark that is seen: found 1, wanted 0 to -1, or 0 for a new one");
+                   "observed landmark: found 1, wanted 0 to -1, or 0 for a new one");
   EXPECT_REX_ERROR(slam.step(world.transition(), std::vector{wrong}, rng), "sighting: number 0: found nan");
   EXPECT_REX_ERROR(slam.step({}, {}, rng), "transition: found no function for its mean");
   EXPECT_REX_ERROR(slam.landmark(0, 0), "landmark: found 0");

@@ -281,7 +281,7 @@ TEST(KalmanFilter, SaysWhatIsWrong) {
       .jacobian = [](const Eigen::VectorXd&) { return Eigen::MatrixXd::Identity(1, 2); },
       .W = Eigen::Matrix2d::Identity()};
   EXPECT_REX_ERROR((void)extendedPredict(belief, same),
-                   "Jacobian of the model: found 1 rows, wanted 2, as the model has values");
+                   "Jacobian of the model: found 1 rows, wanted 2, one for each value of the model");
   const NonlinearModel wrongDifference{
       .g = [](const Eigen::VectorXd& x) { return x; },
       .W = Eigen::Matrix2d::Identity(),

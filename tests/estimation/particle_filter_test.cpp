@@ -188,7 +188,7 @@ TEST(ParticleFilter, SaysWhatIsWrong) {
   const Particles good = sampledParticles(walk.prior, 10, rng);
   EXPECT_REX_ERROR(ParticleFilter(Particles{}), "particles: found none, wanted one or more");
   EXPECT_REX_ERROR(sampledParticles(walk.prior, 0, rng), "particles: found 0, wanted at least 1");
-  EXPECT_REX_ERROR(ParticleFilter(good, {.threshold = 2}), "threshold of resampling: found 2, wanted 0 to 1");
+  EXPECT_REX_ERROR(ParticleFilter(good, {.threshold = 2}), "resampling threshold: found 2, wanted 0 to 1");
   EXPECT_REX_ERROR(ParticleFilter(good, {.fewest = 0}), "fewest particles: found 0, wanted at least 1");
   EXPECT_REX_ERROR(ParticleFilter(good, {.fewest = 5, .most = 4}), "most particles: found 4");
   EXPECT_REX_ERROR(ParticleFilter(good, {.error = 0}),

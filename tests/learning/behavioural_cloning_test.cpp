@@ -135,7 +135,7 @@ TEST(BehaviouralCloning, RefusesWrongInput) {
   EXPECT_REX_ERROR(cloneLinear(I, Eigen::Vector3d::Zero()), "actions of the demonstrations");
   EXPECT_REX_ERROR(cloneLinear(I, Eigen::MatrixXd(2, 0)), "actions of the demonstrations: found none");
   EXPECT_REX_ERROR(cloneLinear(I, Eigen::Vector2d(1, nan)),
-                   "action of demonstration 1: found not all finite");
+                   "action of demonstration 1: found entries that are not finite");
   EXPECT_REX_ERROR(cloneLinear(I, I, -1), "ridge: found -1, wanted a finite number, 0 or more");
   EXPECT_REX_ERROR(cloneSoftmax(I, {0}, 2), "actions of the demonstrations");
   EXPECT_REX_ERROR(cloneSoftmax(I, {0, 0}, 1), "actions: found 1, wanted at least 2");

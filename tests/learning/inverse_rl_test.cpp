@@ -104,7 +104,8 @@ TEST(InverseRl, RefusesWrongInput) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   refuses([](Lesson& l) { l.mdp.discount = 1; }, "discount of inverse learning: found 1, wanted less than 1");
   refuses([](Lesson& l) { l.features.resize(0, 36); }, "features: found 0 x 36, wanted one column for each");
-  refuses([&](Lesson& l) { l.features(2, 7) = nan; }, "features of state 7: found not all finite");
+  refuses([&](Lesson& l) { l.features(2, 7) = nan; },
+          "features of state 7: found entries that are not finite");
   refuses([](Lesson& l) { l.features.conservativeResize(9, 35); }, "columns of the features, one for each");
   refuses([](Lesson& l) { l.teacher.conservativeResize(8); }, "expectations of the teacher");
   refuses([&](Lesson& l) { l.teacher[3] = nan; }, "expectations of the teacher: number 3: found nan");

@@ -199,8 +199,9 @@ TEST(PolicyGradient, RefusesWrongInput) {
   refuses([](Episode& e) { e.noise.resize(1, 3); }, "rows of the noise of episode 1");
   refuses([](Episode& e) { e.noise.resize(2, 2); }, "columns of the noise of episode 1");
   refuses([&](Episode& e) { e.rewards[2] = nan; }, "rewards of episode 1: number 2: found nan");
-  refuses([&](Episode& e) { e.features(1, 1) = nan; }, "features of episode 1: found not all finite");
-  refuses([&](Episode& e) { e.noise(1, 1) = nan; }, "noise of episode 1: found not all finite");
+  refuses([&](Episode& e) { e.features(1, 1) = nan; },
+          "features of episode 1: found entries that are not finite");
+  refuses([&](Episode& e) { e.noise(1, 1) = nan; }, "noise of episode 1: found entries that are not finite");
   EXPECT_REX_ERROR(reinforceGradient(policy, {good}, 1.1), "discount: found 1.1, wanted a number in [0, 1]");
   EXPECT_REX_ERROR(episodicNaturalGradient(policy, {good}, -1), "discount: found -1");
   policy.Sigma = Eigen::Matrix2d{{1, 2}, {2, 1}};

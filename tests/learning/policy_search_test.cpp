@@ -74,7 +74,7 @@ TEST(PolicySearch, SaysWhyItStops) {
   };
   const PolicySearchResult stuck = improvedPolicy(rewarding(1), start, {}, rng);
   EXPECT_EQ(stuck.status, PolicySearchStatus::kStuck);
-  EXPECT_EQ(stuck.message, "no direction promises more after 0 iterations");
+  EXPECT_EQ(stuck.message, "no direction promises a higher return after 0 iterations");
   EXPECT_EQ(improvedPolicy(rewarding(0), start, {.method = SearchMethod::kPower}, rng).status,
             PolicySearchStatus::kStuck);
   const PolicySearchResult diverged = improvedPolicy(rewarding(INFINITY), start, {}, rng);

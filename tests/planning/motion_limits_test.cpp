@@ -63,7 +63,7 @@ TEST(JointLimits, RefuseDefaultsThatAreNone) {
   EXPECT_REX_ERROR(static_cast<void>(jointLimits(model, {.velocity = 0})),
                    "velocity of joints without a limit: found 0, wanted a positive, finite number");
   EXPECT_REX_ERROR(static_cast<void>(jointLimits(model, {.ramp = -1})),
-                   "seconds to the limit of velocity: found -1, wanted a positive, finite number");
+                   "seconds to the velocity limit: found -1, wanted a positive, finite number");
 }
 
 }  // namespace rex::motion_limits_test

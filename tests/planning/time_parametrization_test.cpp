@@ -422,17 +422,17 @@ TEST(TimeParametrization, RefusesWhatMakesNoSense) {
     static_cast<void>(parametrizeTime(curve, limits, options));
   };
   EXPECT_REX_ERROR(run({.velocity = Eigen::Vector3d(1, 1, 1)}),
-                   "limits of velocity: found a vector of size 3, wanted size 2");
+                   "velocity limits: found a vector of size 3, wanted size 2");
   EXPECT_REX_ERROR(run({.velocity = Eigen::Vector2d(1, 0)}),
-                   "limits of velocity: found 0, wanted a positive, finite number");
+                   "velocity limits: found 0, wanted a positive, finite number");
   EXPECT_REX_ERROR(run({.velocity = Eigen::Vector2d(kInf, 1)}),
-                   "limits of velocity: found inf, wanted a positive, finite number");
+                   "velocity limits: found inf, wanted a positive, finite number");
   EXPECT_REX_ERROR(run({.velocity = good.velocity, .acceleration = Eigen::Vector2d(1, -1)}),
-                   "limits of acceleration: found -1, wanted a positive number, or infinity");
+                   "acceleration limits: found -1, wanted a positive number, or infinity");
   EXPECT_REX_ERROR(run({.velocity = good.velocity, .effort = Eigen::Vector2d(1, NAN)}),
-                   "limits of effort: found nan, wanted a positive number, or infinity");
+                   "effort limits: found nan, wanted a positive number, or infinity");
   EXPECT_REX_ERROR(run({.velocity = good.velocity, .effort = Eigen::Vector2d(1, 1)}),
-                   "limits of effort: found no forces, wanted a function for inverse dynamics");
+                   "effort limits: found no forces, wanted a function for inverse dynamics");
   EXPECT_REX_ERROR(run({.velocity = good.velocity, .names = {"a"}}),
                    "names of coordinates: found a vector of size 1, wanted size 2");
   EXPECT_REX_ERROR(run(good, {.startSpeed = -1}),

@@ -106,11 +106,11 @@ TEST(MotionTerms, SayWhatIsWrong) {
   EXPECT_REX_ERROR(valueOf(limitsTerm(two, two), MatrixXd::Zero(3, 1), 1),
                    "limits of configurations: found a vector of size 2, wanted size 3");
   EXPECT_REX_ERROR(velocityLimitsTerm(Eigen::Vector2d(1, 0)),
-                   "limits of velocity: found 0, wanted a positive number, or infinity");
+                   "velocity limits: found 0, wanted a positive number, or infinity");
   EXPECT_REX_ERROR(velocityLimitsTerm(Eigen::Vector2d(1, NAN)),
-                   "limits of velocity: found nan, wanted a positive number, or infinity");
+                   "velocity limits: found nan, wanted a positive number, or infinity");
   EXPECT_REX_ERROR(valueOf(velocityLimitsTerm(two), MatrixXd::Zero(3, 2), 1),
-                   "limits of velocity: found a vector of size 2, wanted size 3");
+                   "velocity limits: found a vector of size 2, wanted size 3");
 }
 
 }  // namespace rex::motion_terms_test

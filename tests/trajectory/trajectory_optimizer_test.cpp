@@ -219,9 +219,9 @@ TEST(TrajectoryOptimizer, FindsTheShortestTimeOfAStep) {
   EXPECT_EQ(shortestTau(path, {}, {}), 0);
   EXPECT_EQ(shortestTau(path.leftCols(1), point(1, 1), point(1, 1)), 0);
   EXPECT_REX_ERROR(shortestTau(path, VectorXd::Ones(3), {}),
-                   "limits of velocity: found a vector of size 3, wanted size 2");
+                   "velocity limits: found a vector of size 3, wanted size 2");
   EXPECT_REX_ERROR(shortestTau(path, {}, point(1, 0)),
-                   "limits of acceleration: found 0, wanted a positive number, or infinity");
+                   "acceleration limits: found 0, wanted a positive number, or infinity");
 }
 
 TEST(TrajectoryOptimizer, SaysWhatIsWrong) {
