@@ -31,12 +31,12 @@ inline void ratesFit(rex::grading::Check& check, Student& student, const PoleCar
 inline void linearisationFits(rex::grading::Check& check, Student& student, const PoleCart& cart) {
   check.input(described(cart));
   const Plant wanted = plantOf(cart), got = student.linearised(cart);
-  // Also what good differences find.
+  // Loose enough for good finite differences.
   check.near("A", got.A, wanted.A, 1e-7);
   check.near("B", got.B, wanted.B, 1e-7);
 }
 
-// What a step makes of x with noise from the generator.
+// x after one Euler step, with noise from the generator.
 inline Eigen::Vector4d euler(const PoleCart& cart, const Eigen::Vector4d& x, double u, double tau,
                              double noise, rex::Rng& rng) {
   const double first = rng.normal(), second = rng.normal();
@@ -59,7 +59,7 @@ inline void stepFits(rex::grading::Check& check, Student& student, const PoleCar
   rng.next();
 }
 
-/// The states of an outing by the equations, until its end.
+/// The states of an outing according to the equations, until its end.
 inline Eigen::MatrixXd statesOf(const PoleCart& cart, const Eigen::MatrixXd& K, const Eigen::Vector4d& start,
                                 const Outing& outing, rex::Rng rng) {
   Eigen::MatrixXd run(4, outing.steps + 1);
@@ -70,7 +70,7 @@ inline Eigen::MatrixXd statesOf(const PoleCart& cart, const Eigen::MatrixXd& K, 
   return run.leftCols(t + 1);
 }
 
-/// One number of the states over time.
+/// One coordinate of the states over time.
 inline std::vector<double> rowOf(const Eigen::MatrixXd& states, Eigen::Index row) {
   const Eigen::VectorXd numbers = states.row(row);
   return {numbers.begin(), numbers.end()};
@@ -82,7 +82,7 @@ inline std::vector<double> timesOf(const Eigen::MatrixXd& states, double tau) {
   return times;
 }
 
-/// A film of some states, of which those after a cart has run 8 m away are left out.
+/// A film of every `stride`-th state, until the cart is 8 m away.
 inline rex::Film filmOf(const Eigen::MatrixXd& states, double tau, Eigen::Index stride) {
   rex::Film film;
   for (Eigen::Index k = 0; k < states.cols() && std::abs(states(0, k)) < 8; k += stride)
@@ -90,7 +90,7 @@ inline rex::Film filmOf(const Eigen::MatrixXd& states, double tau, Eigen::Index 
   return film;
 }
 
-/// The outing and the wanted one as a film that opens where step t has led.
+/// The outing beside the wanted one, as a film that opens after step t.
 inline rex::grading::Evidence seen(const Eigen::MatrixXd& states, const Eigen::MatrixXd& wanted, double tau,
                                    Eigen::Index t) {
   using rex::grading::gotCurve, rex::grading::wantedCurve;
@@ -111,8 +111,8 @@ inline rex::grading::Evidence seen(const Eigen::MatrixXd& states, const Eigen::M
           .moment = moment};
 }
 
-/// The cart under gains u = K x that came out and under those that were wanted, without noise; opens where
-/// the poles have parted by 0.05 rad.
+/// The cart under u = K x with the gains that were returned and with the wanted ones, without noise. Opens
+/// where the two angles theta first differ by 0.05 rad.
 inline rex::grading::Evidence seenUnder(const Eigen::MatrixXd& K, const Eigen::MatrixXd& wantedK) {
   const Outing calm{.noise = 0, .steps = 300};
   const auto statesUnder = [&](const Eigen::MatrixXd& gains) {
@@ -127,7 +127,8 @@ inline rex::grading::Evidence seenUnder(const Eigen::MatrixXd& K, const Eigen::M
   return evidence;
 }
 
-/// Each state follows from the one before it, and the last is where it had to end. Returns the states.
+/// Checks that each state follows from the one before it and that the outing ends when it must. Returns the
+/// states.
 inline Eigen::MatrixXd outingFits(rex::grading::Check& check, Student& student, const PoleCart& cart,
                                   const Eigen::MatrixXd& K, const Eigen::Vector4d& start,
                                   const Outing& outing) {
@@ -144,17 +145,18 @@ inline Eigen::MatrixXd outingFits(rex::grading::Check& check, Student& student, 
       check.show([&] { return seen(states, statesOf(cart, K, start, outing, given), outing.tau, t); });
   for (; t + 1 < states.cols(); ++t) {
     const Eigen::Vector4d x = states.col(t);
-    check.atMost("size of theta, before the end", std::abs(x[2]), std::numbers::pi / 2, "rad");
+    check.atMost("|theta| before the end", std::abs(x[2]), std::numbers::pi / 2, "rad");
     const Eigen::Vector4d wanted = euler(cart, x, (K * x)[0], outing.tau, outing.noise, same);
-    check.near("state after the one before it", states.col(t + 1), wanted, 1e-9 * (1 + wanted.norm()));
+    check.near("state, computed from the one before it", states.col(t + 1), wanted,
+               1e-9 * (1 + wanted.norm()));
   }
   if (states.cols() <= outing.steps)
-    check.atLeast("size of theta, where it ended early", std::abs(states(2, states.cols() - 1)),
-                  std::numbers::pi / 2, "rad");
+    check.atLeast("|theta| at the early end", std::abs(states(2, states.cols() - 1)), std::numbers::pi / 2,
+                  "rad");
   return states;
 }
 
-/// From the student's own A, B, P and K to an outing of 50 s. With the gains of the sheet's costs and noise
+/// Balances for 50 s with the student's own A, B, P and K. With the gains of the sheet's costs and noise
 /// 0.1, none of 40000 outings from 0.4 rad fell, and none of 40000 from 0.6 rad.
 inline void survivesFrom(rex::grading::Check& check, Student& student, double angle, double noise) {
   const PoleCart cart;
@@ -171,7 +173,7 @@ inline void survivesFrom(rex::grading::Check& check, Student& student, double an
   const Eigen::MatrixXd states =
       outingFits(check, student, cart, K, Eigen::Vector4d(0, 0, angle, 0), {.noise = noise});
   check.near("number of states", static_cast<double>(states.cols()), 3001, 0);
-  check.atMost("size of theta in the end", std::abs(states(2, 3000)), std::numbers::pi / 2, "rad");
+  check.atMost("|theta| at the end", std::abs(states(2, 3000)), std::numbers::pi / 2, "rad");
   if (noise > 0) return;
   check.near("last state", states.col(3000), Eigen::Vector4d::Zero(), 1e-3);
 }

@@ -72,7 +72,7 @@ void poles(Check& check, Student& student) {
   for (const std::size_t i : shuffled(check.rng(), 9)) fateFits(check, student, known[i]);
 }
 
-// The cart of the sheet alone would be answered by four numbers.
+// With the cart of the sheet alone, four fixed numbers would pass.
 void quick(Check& check, Student& student) {
   for (const PoleCart& cart : {PoleCart{}, randomCart(check.rng()), randomCart(check.rng())})
     gainsAreQuick(check, student, cart);
@@ -174,11 +174,12 @@ rex::grading::Checks<Student> checks() {
       {"hamiltonian", "riccati", "The Hamiltonian's stable half", 1, Group::kVisible, halves},
       {"gains", "riccati", "Gains and their sign", 1, Group::kVisible, gains},
       {"steps", "simulate", "One step with noise", 1, Group::kVisible, steps},
-      {"outings", "simulate", "From the start to the end, or to the fall", 1, Group::kVisible, outings},
+      {"outings", "simulate", "From the start to the end, or until the pole falls", 1, Group::kVisible,
+       outings},
       {"reach", "reach", "The controllability matrix and its rank", 1, Group::kVisible, reach},
       {"poles", "poles", "Poles and what they mean", 1, Group::kVisible, poles},
       {"quick", "quick", "A search for quick gains", 1, Group::kVisible, quick},
-      {"lyapunov", "lyapunov", "Candidates, right and wrong", 1, Group::kVisible, lyapunov},
+      {"lyapunov", "lyapunov", "Lyapunov candidates, right and wrong", 1, Group::kVisible, lyapunov},
       {"horizon", "horizon", "Gains for a point mass", 1, Group::kVisible, horizon},
       // <hidden>
       {"other-carts", "linear", "Other carts and poles", 1, Group::kHidden, otherCarts},

@@ -12,8 +12,8 @@
 
 // Part 1, the cart pole and its linearisation (12.11.1 a).
 
-/// A pole on a cart. Its state is x = (p, p', theta, theta'): where the cart is, and how far the pole leans
-/// from upright.
+/// A pole on a cart. Its state is x = (p, p', theta, theta'): the position of the cart, the angle of the
+/// pole from upright, and their rates.
 struct PoleCart {
   double poleMass = 1;  ///< M_p
   double cartMass = 1;  ///< M_c
@@ -24,7 +24,7 @@ struct PoleCart {
 /// x' under the force u on the cart: eqs. (13) and (14).
 Eigen::Vector4d rateOf(const PoleCart& cart, const Eigen::Vector4d& x, double u);
 
-/// x' = A x + B u; where it says so x_{t+1} = A x_t + B u_t.
+/// x' = A x + B u, or x_{t+1} = A x_t + B u_t where stated.
 struct Plant {
   Eigen::MatrixXd A;  ///< n x n
   Eigen::MatrixXd B;  ///< n x m
@@ -41,14 +41,14 @@ struct Costs {
   Eigen::MatrixXd R;  ///< m x m, all eigenvalues are positive
 };
 
-/// The iteration of 12.11.1 b from P_0 = Q. It ends with the first of P_0, P_1, ..., P_most for which no
-/// number in the bracket is larger than `tolerance` in size, and returns it; nothing if there is none.
+/// The iteration of 12.11.1 b from P_0 = Q. Returns the first of P_0, P_1, ..., P_most for which no entry
+/// of the bracket is larger than `tolerance` in size, or nothing if there is none.
 std::optional<Eigen::MatrixXd> iterated(const Plant& plant, const Costs& costs, double epsilon,
                                         double tolerance, int most);
 
 /// The symmetric P that solves the equation and makes the closed loop stable, from the stable half of the
-/// Hamiltonian matrix; the bracket is zero up to 1e-9 of its largest term. There is such a P, also where u
-/// does not reach all of x (what it does not reach dies by itself), and the closed loop then has no pole near
+/// Hamiltonian matrix; the bracket is zero up to 1e-9 of its largest term. Such a P exists even if u does
+/// not reach all of x, because what it does not reach decays by itself. The closed loop has no pole near
 /// the imaginary axis. Poles may differ in size by a factor of 1e4.
 Eigen::MatrixXd viaHamiltonian(const Plant& plant, const Costs& costs);
 
@@ -57,20 +57,20 @@ Eigen::MatrixXd gainOf(const Plant& plant, const Costs& costs, const Eigen::Matr
 
 // Part 3, simulation with noise (12.11.1 d).
 
-/// One step of tau seconds of explicit Euler from x under u: all of it moves with the rates before the step.
+/// One explicit Euler step of tau seconds from x under u: all states move with the rates before the step.
 /// Then noise * rng.normal() is added to p', and after that noise * rng.normal() to theta'.
 Eigen::Vector4d stepped(const PoleCart& cart, const Eigen::Vector4d& x, double u, double tau, double noise,
                         rex::Rng& rng);
 
-/// How long and in which world one balances.
+/// Step size [s], noise and length of an attempt to balance the pole.
 struct Outing {
   double tau = 1. / 60;
   double noise = 0.1;
   int steps = 3000;
 };
 
-/// The states of an outing with u = K x, one per column, `start` first: steps + 1 of them, or fewer, because
-/// the first with |theta| > pi / 2 is the last. A start is never as far as that.
+/// The states of an outing with u = K x, one per column, `start` first. There are steps + 1 of them, or
+/// fewer: the first with |theta| > pi / 2 is the last. The start is always within this limit.
 Eigen::MatrixXd balanced(const PoleCart& cart, const Eigen::MatrixXd& K, const Eigen::Vector4d& start,
                          const Outing& outing, rex::Rng& rng);
 
@@ -88,20 +88,20 @@ int reachable(const Plant& plant);
 double slowestPole(const Plant& plant, const Eigen::MatrixXd& K);
 
 enum class Fate {
-  dies,   ///< all motions of x' = A x end at zero
-  stays,  ///< none grows beyond all bounds, some do not end at zero
-  grows   ///< some grow beyond all bounds, be it slowly
+  dies,   ///< all motions of x' = A x converge to zero
+  stays,  ///< all are bounded, some do not converge to zero
+  grows   ///< some grow without bound, even if slowly
 };
 
-/// What becomes of the motions of x' = A x. Real parts below 1e-5 in size count as zero, and so do distances
-/// of eigenvalues below 1e-4; all others are above 0.01.
+/// The fate of the motions of x' = A x. Real parts below 1e-5 in size count as zero, and so do distances
+/// between eigenvalues below 1e-4; all others are above 0.01.
 Fate fateOf(const Eigen::MatrixXd& A);
 
 // Part 6, the fastest controller (8:39).
 
-/// A K (1 x n) with no number larger than `bound` in size, for which slowest(K), the slowestPole() of some
-/// plant, is 0.5 times the least possible one or lower. `start` (1 x n) is within the bound, and stable. You
-/// may ask slowest() 3000 times.
+/// A K (1 x n) with no entry larger than `bound` in size, for which slowest(K), the slowestPole() of some
+/// plant, is at most 0.5 times the lowest possible value. `start` (1 x n) is within the bound, and stable.
+/// You may call slowest() 3000 times.
 Eigen::MatrixXd quickGains(const std::function<double(const Eigen::MatrixXd&)>& slowest,
                            const Eigen::MatrixXd& start, double bound, rex::Rng& rng);
 
@@ -110,9 +110,9 @@ Eigen::MatrixXd quickGains(const std::function<double(const Eigen::MatrixXd&)>& 
 /// A rate f(x) of all states x, with f(0) = 0: x' = f(x).
 using Flow = std::function<Eigen::VectorXd(const Eigen::VectorXd& x)>;
 
-/// A point that disproves V = x^T P x (P symmetric) in the box |x_i| <= high_i: x is not 0, and V(x) <= 0 or
-/// V'(x) >= 0. Nothing if you find none. Find one where such points fill 1 % of the box, and where they lie
-/// on its axes, on which only one x_i is not zero. You may ask f 20000 times.
+/// A point that disproves V = x^T P x (P symmetric) in the box |x_i| <= high_i: x is not 0, and V(x) <= 0
+/// or V'(x) >= 0. Returns nothing if you find none. You must find one if such points fill 1 % of the box,
+/// or lie on its axes, on which only one x_i is not zero. You may call f 20000 times.
 std::optional<Eigen::VectorXd> counterexample(const Flow& f, const Eigen::MatrixXd& P,
                                               const Eigen::VectorXd& high, rex::Rng& rng);
 
@@ -121,8 +121,8 @@ double levelInside(const Eigen::MatrixXd& P, const Eigen::VectorXd& high);
 
 // Part 8, a finite horizon (8:19).
 
-/// The gains u_t = K[t] x_t, t = 0, ..., steps - 1, of a plant x_{t+1} = A x_t + B u_t, for which the costs
-/// of x_t and u_t, summed over these steps, and x^T F x of the last state are together least. F is symmetric,
-/// no eigenvalue is negative.
+/// The gains u_t = K[t] x_t, t = 0, ..., steps - 1, of a plant x_{t+1} = A x_t + B u_t. They minimise the
+/// costs of x_t and u_t, summed over these steps, plus x^T F x of the last state. F is symmetric and has no
+/// negative eigenvalue.
 std::vector<Eigen::MatrixXd> gainsOverTime(const Plant& plant, const Costs& costs, const Eigen::MatrixXd& F,
                                            int steps);

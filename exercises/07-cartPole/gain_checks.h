@@ -19,8 +19,8 @@ inline Eigen::MatrixXd imbalance(const Plant& plant, const Costs& costs, const E
   return PA + PA.transpose() - K.transpose() * costs.R * K + costs.Q;
 }
 
-/// Goes on in steps of epsilon until no number of the bracket is above the tolerance: how many steps that
-/// took, -1 for more than `most`.
+/// Iterates with step size epsilon until no entry of the bracket exceeds the tolerance. Returns the number
+/// of steps, or -1 if it is more than `most`.
 inline int stepsUntil(const Plant& plant, const Costs& costs, double epsilon, double tolerance, int most) {
   Eigen::MatrixXd now = costs.Q;
   for (int count = 0; count <= most; ++count) {
@@ -38,22 +38,22 @@ inline void iterationFits(rex::grading::Check& check, Student& student, const Re
   check.input(fmt::format("{}, epsilon = {:g}, tolerance {:g}, most = {}", described(plant), epsilon,
                           tolerance, steps + 1));
   const std::optional<Eigen::MatrixXd> P = student.iterated(plant, costs, epsilon, tolerance, steps + 1);
-  check.that("it arrives within the steps it needs", P.has_value());
+  check.that("the iteration converges within the steps it needs", P.has_value());
   check.shape("P", *P, plant.A.rows(), plant.A.rows());
   const double size = imbalance(plant, costs, *P).lpNorm<Eigen::Infinity>();
-  check.atMost("largest number in the bracket", size, tolerance * 1.001);
-  check.atLeast("largest number in the bracket of the first P that will do", size, tolerance * .8);
+  check.atMost("largest entry of the bracket", size, tolerance * 1.001);
+  check.atLeast("largest entry of the bracket for the first P within the tolerance", size, tolerance * .8);
   check.near("P", *P, optimal.X, 1e-3 * (1 + optimal.X.norm()));
-  check.that("nothing, if `most` is two steps too few",
+  check.that("no P if `most` is two steps too few",
              !student.iterated(plant, costs, epsilon, tolerance, steps - 2));
 }
 
-/// A = 0, B = (1, 0), Q = I: nobody moves the second state, and it costs for ever.
+/// A = 0, B = (1, 0), Q = I: the control cannot move the second state, so its costs never end.
 inline void iterationEnds(rex::grading::Check& check, Student& student) {
   const Plant plant{Eigen::MatrixXd::Zero(2, 2), Eigen::Vector2d(1, 0)};
   check.input("A = 0, B = (1, 0), Q = I, R = 1, epsilon = 0.01");
   const Costs costs{Eigen::MatrixXd::Identity(2, 2), Eigen::MatrixXd::Identity(1, 1)};
-  check.that("nothing where there is no P", !student.iterated(plant, costs, .01, 1e-3, 5000));
+  check.that("no P if none exists", !student.iterated(plant, costs, .01, 1e-3, 5000));
 }
 
 inline void hamiltonianFits(rex::grading::Check& check, Student& student, const Regulation& task) {
@@ -86,8 +86,9 @@ inline void gainsOfTheSheetFit(rex::grading::Check& check, Student& student) {
   check.near("K", K, wanted, 1e-8 * (1 + wanted.norm()));
 }
 
-/// Starts from the gains of the sheet's costs, none of which may become larger than the largest of them.
-/// In 1300 searches of the reference on random carts the share was below 0.82 in 1 %, and never below 0.71.
+/// The search starts from the gains that are optimal for the sheet's costs; no gain may become larger than
+/// the largest of them. In 1300 searches of the reference on random carts the share was below 0.82 in 1 %
+/// and never below 0.71.
 inline void gainsAreQuick(rex::grading::Check& check, Student& student, const PoleCart& cart) {
   const Regulation task = regulationOf(plantOf(cart), costsOfTheSheet());
   const Eigen::MatrixXd start = -task.optimal.K;
@@ -105,13 +106,13 @@ inline void gainsAreQuick(rex::grading::Check& check, Student& student, const Po
   const Eigen::MatrixXd K = student.quickGains(slowest, start, bound, check.rng().split(7));
   check.shape("K", K, 1, 4);
   check.atMost("number of calls of slowest()", asked, 3000);
-  check.atMost("largest number in K, of the bound", K.cwiseAbs().maxCoeff() / bound, 1 + 1e-9);
+  check.atMost("largest entry of K, as a share of the bound", K.cwiseAbs().maxCoeff() / bound, 1 + 1e-9);
   check.atLeast("slowest pole, as a share of what the library finds",
                 abscissa(task.plant.A + task.plant.B * K) / least, .5);
 }
 
-/// The first gain of a horizon of N steps: all controls at once, from the normal equations of the costs as a
-/// function of them.
+/// The first gain for a horizon of N steps, from the normal equations of the costs as a function of all
+/// controls.
 inline Eigen::MatrixXd firstGain(const Plant& plant, const Costs& costs, const Eigen::MatrixXd& F, int N) {
   const Eigen::Index n = plant.B.rows(), m = plant.B.cols();
   Eigen::MatrixXd fromStart = Eigen::MatrixXd::Identity(n, n);

@@ -52,7 +52,7 @@ inline Eigen::MatrixXd randomPositive(rex::Rng& rng, Eigen::Index n, double leas
   return root * root.transpose() + least * Eigen::MatrixXd::Identity(n, n);
 }
 
-/// Other coordinates for a state of n numbers, in which no zero stays a zero.
+/// A random change of coordinates of n states, in which no zero entry stays zero.
 inline Eigen::MatrixXd randomCoordinates(rex::Rng& rng, Eigen::Index n) {
   for (;;) {
     const Eigen::MatrixXd T = Eigen::MatrixXd::Identity(n, n) + .5 * randomMatrix(rng, n, n);
@@ -60,7 +60,7 @@ inline Eigen::MatrixXd randomCoordinates(rex::Rng& rng, Eigen::Index n) {
   }
 }
 
-/// x' = A x + B u for T x in place of x.
+/// The same plant, with T x as its state.
 inline Plant inCoordinates(const Plant& plant, const Eigen::MatrixXd& T) {
   const Eigen::MatrixXd back = rex::inverse(T);
   return {T * plant.A * back, T * plant.B};
@@ -70,7 +70,7 @@ inline Plant randomPlant(rex::Rng& rng, Eigen::Index n, Eigen::Index m) {
   return {randomMatrix(rng, n, n) / std::sqrt(static_cast<double>(n)), randomMatrix(rng, n, m)};
 }
 
-/// Two plants side by side, of which u moves the first only.
+/// Two plants side by side; u moves only the first.
 inline Plant besideUnmoved(const Plant& moved, const Eigen::MatrixXd& unmoved) {
   const Eigen::Index n = moved.A.rows(), k = unmoved.rows(), m = moved.B.cols();
   Plant both{Eigen::MatrixXd::Zero(n + k, n + k), Eigen::MatrixXd::Zero(n + k, m)};
@@ -87,16 +87,16 @@ inline double abscissa(const Eigen::MatrixXd& A) {
 struct Regulation {
   Plant plant;
   Costs costs;
-  rex::RiccatiResult optimal;  ///< u = -K x, as of the library
+  rex::RiccatiResult optimal;  ///< with the library's sign, u = -K x
 };
 
 inline Regulation regulationOf(const Plant& plant, const Costs& costs) {
   return {plant, costs, rex::solveCare(plant.A, plant.B, costs.Q, costs.R)};
 }
 
-/// A random one whose closed loop is neither slow nor fast, so that the iteration of the sheet gets there
-/// with epsilon = 0.005, and whose P is not large. Every second has a mode that dies by itself and that u
-/// does not reach.
+/// A random task whose closed loop is neither slow nor fast, so that the iteration of the sheet converges
+/// with epsilon = 0.005, and whose P is not large. If `hasUnmoved`, it has a mode that u does not reach and
+/// that decays by itself.
 inline Regulation randomRegulation(rex::Rng& rng, bool hasUnmoved) {
   for (;;) {
     const Eigen::Index n = 1 + rng.index(4), m = 1 + rng.index(2);
@@ -113,7 +113,7 @@ inline Regulation randomRegulation(rex::Rng& rng, bool hasUnmoved) {
   }
 }
 
-/// One with a pole some thousand times as fast as the others, which no iteration in small steps follows.
+/// A task with a pole some thousand times as fast as the others, too stiff for an iteration in small steps.
 inline Regulation stiffRegulation(rex::Rng& rng) {
   Plant plant = besideUnmoved(randomRegulation(rng, false).plant, Eigen::MatrixXd::Constant(1, 1, -3e3));
   plant.B.bottomRows(1).setOnes();

@@ -17,7 +17,7 @@ namespace {
 constexpr PoleCart kCart;
 constexpr double kTau = 1. / 60;
 
-// A number of the state over time.
+// A coordinate of the state over time.
 Series overTime(const std::string& label, const Eigen::MatrixXd& states, int row) {
   Series series{.label = label};
   for (Eigen::Index t = 0; t < states.cols(); ++t) {
@@ -38,7 +38,7 @@ Eigen::MatrixXd withoutNoise(const Eigen::MatrixXd& K, const Eigen::Vector4d& st
   return balanced(kCart, K, start, {.noise = 0, .steps = static_cast<int>(seconds / kTau)}, rng);
 }
 
-// The share of outings of 20 s that do not end with a fall.
+// The share of outings of 20 s that do not end in a fall.
 double survivors(const Eigen::MatrixXd& K, double angle, double noise) {
   constexpr int kRuns = 60, kSteps = 1200;
   int count = 0;
@@ -49,7 +49,7 @@ double survivors(const Eigen::MatrixXd& K, double angle, double noise) {
   return static_cast<double>(count) / kRuns;
 }
 
-// Of x' = (A + B K) x.
+// The poles of x' = (A + B K) x.
 Series polesOf(const std::string& label, const Plant& plant, const Eigen::MatrixXd& K, Marker marker) {
   Eigen::MatrixXd closed = plant.A;
   for (int i = 0; i < 4; ++i)
@@ -128,7 +128,7 @@ void showOutings(const Eigen::MatrixXd& K) {
 }
 
 void showSurvival(const Eigen::MatrixXd& K, const Eigen::MatrixXd& printed) {
-  Figure figure{.title = "How many of 60 outings of 20 s do not end with a fall",
+  Figure figure{.title = "Share of 60 outings of 20 s that do not end in a fall",
                 .xLabel = "theta at the start [rad]",
                 .yLabel = "share",
                 .yRange = AxisRange{-.02, 1.05},
@@ -246,12 +246,12 @@ void showRegion(const Plant& real) {
 
 void showHorizon(const Plant& real, const Costs& costs, const Eigen::MatrixXd& optimal) {
   constexpr int kSteps = 480;
-  // In discrete time, by steps of Euler.
+  // In discrete time, by Euler steps.
   Plant steps{kTau * real.A, kTau * real.B};
   for (int i = 0; i < 4; ++i) steps.A(i, i) += 1;
   const std::vector<Eigen::MatrixXd> K =
       gainsOverTime(steps, {kTau * costs.Q, kTau * costs.R}, Eigen::MatrixXd::Zero(4, 4), kSteps);
-  Figure figure{.title = "Gains of a horizon of 8 s (dashed: continuous time without an end)",
+  Figure figure{.title = "Gains of a horizon of 8 s (dashed: continuous time, infinite horizon)",
                 .xLabel = "time [s]",
                 .yLabel = "gain",
                 .legend = Legend::kOutside};

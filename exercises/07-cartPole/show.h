@@ -2,26 +2,26 @@
 
 #include "exercise.h"
 
-/// What the library says: A and B of the cart pole; the optimal gains, of u = K x; and the slowest pole that
-/// its search finds, from `start` on and with no gain above the largest of that.
+/// The library's results: A and B of the cart pole; the optimal gains, for u = K x; and the slowest pole
+/// that its search finds from `start`, with no gain larger than the largest of `start`.
 Plant plantOfTheLibrary();
 Eigen::MatrixXd gainsOfTheLibrary(const Plant& plant, const Costs& costs);
 double slowestOfTheLibrary(const Plant& plant, const Eigen::MatrixXd& start);
 
-/// A by differences of rateOf(), 4 x 4.
+/// A by finite differences of rateOf(), 4 x 4.
 Eigen::MatrixXd differencesByState(const PoleCart& cart);
 
 /// theta.png, position.png, force.png: from several angles, without noise. Up to 1.0 rad the pole comes back.
 void showOutings(const Eigen::MatrixXd& K);
 
-/// survival.png: the share of outings with noise that do not end with a fall, with K and with that of the
-/// sheet.
+/// survival.png: the share of outings with noise that do not end in a fall, with K and with the sheet's K.
 void showSurvival(const Eigen::MatrixXd& K, const Eigen::MatrixXd& printed);
 
-/// balanced.mp4: an outing with noise from 0.4 rad. Prints how far one without is from the library's.
+/// balanced.mp4: an outing with noise from 0.4 rad. Prints how far an outing without noise is from the
+/// library's.
 void showBalance(const Eigen::MatrixXd& K);
 
-/// Prints fateOf() three motions.
+/// Prints fateOf() for three motions.
 void showFates();
 
 /// poles.png: without control, and with three controllers. The quick K leaves several poles equally slow.
@@ -31,9 +31,10 @@ void showPoles(const Plant& real, const Eigen::MatrixXd& K, const Eigen::MatrixX
 /// quick.png: cart and pole from 0.2 rad, with the optimal gains and with the quick ones.
 void showQuick(const Eigen::MatrixXd& K, const Eigen::MatrixXd& quick);
 
-/// region.png: what V proves of a controller, where V begins to rise, and from where the pole really falls.
-/// Prints the box of counterexample() and the level of levelInside().
+/// region.png: what V proves about a controller, where V begins to rise, and from where the pole really
+/// falls. Prints the box of counterexample() and the level of levelInside().
 void showRegion(const Plant& real);
 
-/// horizon.png: long before the end the gains are constant, and nearly the optimal ones of an endless time.
+/// horizon.png: long before the end the gains are constant, and nearly the optimal ones for an infinite
+/// horizon.
 void showHorizon(const Plant& real, const Costs& costs, const Eigen::MatrixXd& optimal);

@@ -13,7 +13,7 @@
 #include "interface.h"
 #include "plants.h"
 
-// Parts 4, 5 and 7: what u reaches, what becomes of motions, and what proves it.
+// Parts 4, 5 and 7: controllability, poles and Lyapunov functions.
 
 inline void reachFits(rex::grading::Check& check, Student& student, const Plant& plant, Eigen::Index rank) {
   check.input(described(plant));
@@ -22,8 +22,8 @@ inline void reachFits(rex::grading::Check& check, Student& student, const Plant&
   check.near("its rank", student.reachable(plant), static_cast<double>(rank), 0);
 }
 
-/// `rank` of n numbers are reached, in coordinates that do not show which. Singular values between those that
-/// are zero but for rounding and those that are not: none from 1e-13 to 1e-6 of the largest.
+/// A plant in which u reaches `rank` of n dimensions, in coordinates that do not show which. No singular
+/// value lies between 1e-13 and 1e-6 of the largest, so that it is clear which are zero up to rounding.
 inline Plant partlyReached(rex::Rng& rng, Eigen::Index n, Eigen::Index rank, Eigen::Index m) {
   for (;;) {
     Plant plant = randomPlant(rng, rank, m);
@@ -51,7 +51,7 @@ inline Eigen::MatrixXd drift() { return (Eigen::MatrixXd(2, 2) << 0, 1, 0, 0).fi
 inline Eigen::MatrixXd swing(double w, double rate = 0) {
   return (Eigen::MatrixXd(2, 2) << rate, w, -w, rate).finished();
 }
-/// Two swings, the first of which drives the second.
+/// Two oscillators, the first of which drives the second.
 inline Eigen::MatrixXd drivenSwing(double w) {
   Eigen::MatrixXd A = beside(swing(w), swing(w));
   A.bottomLeftCorner(2, 2).setIdentity();
@@ -68,19 +68,19 @@ inline std::vector<KnownFate> knownFates(rex::Rng& rng) {
   const double w = rng.uniform(.5, 2), rate = rng.uniform(.1, 1);
   return {
       {"two decays", beside(decay(rate), decay(1)), Fate::dies},
-      {"a damped swing", swing(w, -rate), Fate::dies},
-      {"a swing", swing(w), Fate::stays},
-      {"a decay and rest", beside(decay(rate), rest()), Fate::stays},
+      {"a damped oscillation", swing(w, -rate), Fate::dies},
+      {"an oscillation", swing(w), Fate::stays},
+      {"a decay and a constant", beside(decay(rate), rest()), Fate::stays},
       {"a point mass on which no force acts", drift(), Fate::grows},
-      {"two numbers at rest", beside(rest(), rest()), Fate::stays},
-      {"two swings of the same frequency, one driven by the other", drivenSwing(w), Fate::grows},
-      {"two swings of the same frequency", beside(swing(w), swing(w)), Fate::stays},
-      {"a decay and a growing swing", beside(decay(1), swing(w, rate)), Fate::grows},
-      {"a slowly growing number", beside(decay(1), decay(-.02)), Fate::grows},
+      {"two constants", beside(rest(), rest()), Fate::stays},
+      {"two oscillators of the same frequency, one driven by the other", drivenSwing(w), Fate::grows},
+      {"two oscillators of the same frequency", beside(swing(w), swing(w)), Fate::stays},
+      {"a decay and a growing oscillation", beside(decay(1), swing(w, rate)), Fate::grows},
+      {"a decay and slow growth", beside(decay(1), decay(-.02)), Fate::grows},
       {"a point mass and a decay", beside(drift(), decay(rate)), Fate::grows},
-      {"a swing, rest and a decay", beside(swing(w), beside(rest(), decay(1))), Fate::stays},
-      {"a point mass, a third number and a swing", beside(beside(drift(), rest()), swing(w)), Fate::grows},
-      {"two swings and two decays", beside(beside(swing(w), swing(w)), beside(decay(1), decay(1))),
+      {"an oscillation, a constant and a decay", beside(swing(w), beside(rest(), decay(1))), Fate::stays},
+      {"a point mass, a constant and an oscillation", beside(beside(drift(), rest()), swing(w)), Fate::grows},
+      {"two oscillations and two decays", beside(beside(swing(w), swing(w)), beside(decay(1), decay(1))),
        Fate::stays}};
 }
 
@@ -103,7 +103,7 @@ inline void fateFits(rex::grading::Check& check, Student& student, const KnownFa
   check.input(known.name);
   const Fate got = student.fateOf(known.A);
   check.input(fmt::format("{}: got {}, wanted {}", known.name, nameOf(got), nameOf(known.fate)));
-  check.that("what becomes of the motions", got == known.fate);
+  check.that("the fate of the motions", got == known.fate);
 }
 
 /// A flow, a candidate and a box.
@@ -121,7 +121,7 @@ inline bool disproves(const Candidate& candidate, const Eigen::VectorXd& x, doub
          gradient.dot(rate) >= -slack * gradient.norm() * rate.norm();
 }
 
-/// The share of the box that disproves, of 4000 points.
+/// The share of the box that disproves the candidate, estimated from 4000 points.
 inline double wrongShare(const Candidate& candidate, rex::Rng& rng) {
   int count = 0;
   for (int i = 0; i < 4000; ++i)
@@ -130,7 +130,7 @@ inline double wrongShare(const Candidate& candidate, rex::Rng& rng) {
   return count / 4000.;
 }
 
-/// Whatever is returned must disprove it; so nothing right is refused.
+/// Accepts every point that disproves the candidate.
 inline void candidateIsJudged(rex::grading::Check& check, Student& student, const Candidate& candidate) {
   check.input(candidate.name);
   int asked = 0;
@@ -146,12 +146,12 @@ inline void candidateIsJudged(rex::grading::Check& check, Student& student, cons
   check.atMost("number of calls of f", asked, 20000);
   if (candidate.isWrong) check.that("a point that disproves V is found", x.has_value());
   if (!x) {
-    check.that("nothing is found where V is a Lyapunov function", !candidate.isWrong);
+    check.that("no point is returned if V is a Lyapunov function", !candidate.isWrong);
     return;
   }
   check.shape("the point", *x, candidate.high.size(), 1);
-  check.atLeast("size of the point", x->norm(), 1e-12);
-  check.atMost("the point, as a part of the box", (x->cwiseAbs().cwiseQuotient(candidate.high)).maxCoeff(),
+  check.atLeast("norm of the point", x->norm(), 1e-12);
+  check.atMost("the point, as a share of the box", (x->cwiseAbs().cwiseQuotient(candidate.high)).maxCoeff(),
                1 + 1e-9);
   check.that("the point disproves V", disproves(candidate, *x, 1e-9));
 }
@@ -160,9 +160,9 @@ inline Flow linearFlow(const Eigen::MatrixXd& A) {
   return [A](const Eigen::VectorXd& x) -> Eigen::VectorXd { return A * x; };
 }
 
-/// The point mass of 8:42 with Kp and Kd, its energy with that of the spring, and what becomes of it with a
-/// cross term: Kd / m is at least as large as what that adds. Place and velocity come in a drawn order, so
-/// that the axis on which a candidate fails is not known.
+/// The point mass of 8:42 under PD control. V is its kinetic energy, its energy with that of the spring, or
+/// the solution of the Lyapunov equation, which has a cross term. Position and velocity come in a random
+/// order, so that the axis on which a candidate fails is not known.
 inline std::vector<Candidate> energyCandidates(rex::Rng& rng) {
   const double m = rng.uniform(.5, 2), Kp = rng.uniform(.5, 2), Kd = rng.uniform(.5, 2);
   const int place = rng.index(2), velocity = 1 - place;
@@ -183,8 +183,8 @@ inline std::vector<Candidate> energyCandidates(rex::Rng& rng) {
           {"the same with the controller's sign wrong", linearFlow(-A), crossed, high, true}};
 }
 
-/// The cart pole under optimal gains, where all states cost: near upright the value function proves
-/// stability; in the large box V rises at four points of ten.
+/// The cart pole under optimal gains, with costs on all states: near upright the value function proves
+/// stability; in the large box V rises at four points out of ten.
 inline std::vector<Candidate> cartCandidates(const PoleCart& cart) {
   const Costs costs{Eigen::Vector4d(1, 1, 100, 100).asDiagonal(), Eigen::MatrixXd::Identity(1, 1)};
   const Regulation task = regulationOf(plantOf(cart), costs);
@@ -198,7 +198,8 @@ inline std::vector<Candidate> cartCandidates(const PoleCart& cart) {
           {"the same in a large box", f, task.optimal.X, Eigen::Vector4d(2, 2, 1.5, 2), true}};
 }
 
-/// Whether neither corners of the box nor its axes disprove: who looks nowhere else finds nothing.
+/// Whether the candidate holds at the corners of the box and on its axes, so that a search of these alone
+/// fails.
 inline bool holdsAtTheCorners(const Candidate& candidate) {
   const Eigen::Index n = candidate.high.size();
   for (int corner = 0; corner < 1 << n; ++corner) {
@@ -212,7 +213,8 @@ inline bool holdsAtTheCorners(const Candidate& candidate) {
   return true;
 }
 
-/// A linear flow with a cubic term, which makes V rise at a distance; and another V, which is wrong within.
+/// A linear flow with a cubic term, which makes V rise far from the origin; and the linear flow with a
+/// wrong V.
 inline std::vector<Candidate> cubicCandidates(rex::Rng& rng, Eigen::Index n) {
   for (;;) {
     Eigen::MatrixXd A = randomMatrix(rng, n, n);
@@ -234,11 +236,11 @@ inline std::vector<Candidate> cubicCandidates(rex::Rng& rng, Eigen::Index n) {
   }
 }
 
-/// The least of x^T P x on the faces x_i = high_i, by eliminating all other numbers.
+/// The minimum of x^T P x on the faces x_i = high_i, by eliminating all other coordinates.
 inline void levelFits(rex::grading::Check& check, Student& student, Eigen::Index n) {
   const Eigen::MatrixXd P = randomPositive(check.rng(), n, .1);
   const Eigen::VectorXd high = check.rng().uniformVector(static_cast<int>(n), .2, 2);
-  check.input(fmt::format("{} numbers", n));
+  check.input(fmt::format("{} states", n));
   double lowest = INFINITY;
   for (Eigen::Index face = 0; face < n; ++face) {
     std::vector<Eigen::Index> others;

@@ -1,5 +1,5 @@
 // caught by: iterates
-// mistake: returns the last P, wherever it is on its way.
+// mistake: returns the last P, even if it has not converged.
 
 // <solution iterated>
 const Eigen::MatrixXd S = plant.B * solve(costs.R, plant.B.transpose());

@@ -1,5 +1,5 @@
 // caught by: quick, quick-others
-// mistake: asks twice for each step.
+// mistake: calls slowest() twice per step.
 
 // <solution quickGains>
 Eigen::MatrixXd best = start;

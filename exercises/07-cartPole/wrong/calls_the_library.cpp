@@ -1,5 +1,5 @@
 // caught by: forbidden-call
-// mistake: P and K of the library.
+// mistake: takes P and K from the library.
 
 // <solution headers>
 #include "control/regulators.h"

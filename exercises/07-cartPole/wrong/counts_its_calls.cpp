@@ -1,5 +1,5 @@
 // caught by: poles, other-fates
-// mistake: answers by how often it was asked, in the order in which the checks list what they know.
+// mistake: counts its calls, and answers in the order in which the checks list their cases.
 
 // <solution fateOf>
 static int asked = 0;

@@ -1,5 +1,5 @@
 // caught by: horizon, other-horizons
-// mistake: begins with Q in place of F.
+// mistake: begins with Q instead of F.
 
 // <solution gainsOverTime>
 const Eigen::MatrixXd &A = plant.A, &B = plant.B;

@@ -1,5 +1,5 @@
 // caught by: horizon, other-horizons
-// mistake: the gains in the order in which they are found.
+// mistake: returns the gains in the order in which they are computed.
 
 // <solution gainsOverTime>
 const Eigen::MatrixXd &A = plant.A, &B = plant.B;

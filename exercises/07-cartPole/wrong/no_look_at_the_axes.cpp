@@ -1,5 +1,5 @@
 // caught by: lyapunov
-// mistake: random points only, and V' = 0 taken for falling.
+// mistake: tries random points only, and takes V' = 0 for falling.
 
 // <solution counterexample>
 for (int k = 0; k < 10000; ++k) {

@@ -1,5 +1,5 @@
 // caught by: steps, outings
-// mistake: takes the noise for one per second.
+// mistake: takes the noise as noise per second.
 
 // <solution stepped>
 Eigen::Vector4d next = x + tau * rateOf(cart, x, u);

@@ -1,5 +1,5 @@
 // caught by: lyapunov
-// mistake: does not ask whether V is positive.
+// mistake: does not check that V is positive.
 
 // <solution counterexample>
 const auto n = static_cast<int>(high.size());

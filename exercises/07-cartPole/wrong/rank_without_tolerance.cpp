@@ -1,5 +1,5 @@
 // caught by: reaches-others
-// mistake: counts singular values that are zero but for rounding.
+// mistake: counts singular values that are zero up to rounding.
 
 // <solution reachable>
 const Eigen::VectorXd sizes = svd(reachMatrix(plant)).s;
