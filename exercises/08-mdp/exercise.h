@@ -13,40 +13,40 @@
 /// Values of its states s1 to s7, in this order: 7 numbers each.
 struct MazeValues {
   Eigen::VectorXd random;   ///< going left or right with equal probability
-  Eigen::VectorXd optimal;  ///< going where it pays most
+  Eigen::VectorXd optimal;  ///< taking the best action
 };
 
-/// At the junction s1 one goes left to s2 or right to s3, at s2 to s4 or s5, at s3 to s6 or s7. Nothing is
-/// paid on the way; in s4 to s7 the `leaves` (4 numbers) are, and all ends. 12.10 has the leaves 4, 0, 2, 3
-/// and the discount .5; here they may be any.
+/// From the junction s1 one goes left to s2 or right to s3, from s2 to s4 or s5, from s3 to s6 or s7. There
+/// are no rewards on the way; s4 to s7 give the `leaves` (4 numbers) as rewards and are terminal. In 12.10
+/// the leaves are 4, 0, 2, 3 and the discount is .5; here they may have any values.
 MazeValues mazeValues(const Eigen::VectorXd& leaves, double discount);
 
 // Parts 2 to 4, processes of finitely many states (9:4, 12.10.1).
 
-/// In each state one takes an action and gets R(s, a); then comes the next state. Where all ends, nothing
-/// follows: such a row of P is zero for all actions. All other rows sum to 1.
+/// In each state one takes an action, receives the reward R(s, a) and moves on to the next state. Nothing
+/// follows a terminal state: its row of P is zero for all actions. All other rows sum to 1.
 struct Process {
-  std::vector<Eigen::MatrixXd> P;  ///< m times n x n: P[a](s, t) is the probability of t after a in s
+  std::vector<Eigen::MatrixXd> P;  ///< m matrices (n x n): P[a](s, t) is the probability of t after a in s
   Eigen::MatrixXd R;               ///< n x m
   double discount = 0.9;           ///< at least 0 and below 1
 };
 
-/// V (n) of a policy, whose entry (s, a) is its probability of a in s (n x m): eq. (9). Exact, up to 1e-9 of
-/// the greatest.
+/// The values V (n) of a policy, eq. (9). Entry (s, a) of `policy` (n x m) is the probability of a in s.
+/// Exact up to 1e-9 of the largest value.
 Eigen::VectorXd valuesOf(const Process& process, const Eigen::MatrixXd& policy);
 
 /// The bracket of eq. (10) for each state and action, with V* in place of the V^pi on the sheet (n x m).
 Eigen::MatrixXd worthOfActions(const Process& process, const Eigen::VectorXd& V);
 
-/// Value iteration: V_0 = 0 and the V_1, V_2, ... that eq. (10) makes one of the other. Ends with the first
-/// V_k for which discount / (1 - discount) times the greatest change since V_(k-1) is at most `tolerance`
-/// (above 1e-9): then V_k is that near V* in every state.
+/// Value iteration: V_0 = 0 and V_1, V_2, ..., each computed from the one before by eq. (10). Ends with the
+/// first V_k for which discount / (1 - discount) times the greatest change since V_(k-1) is at most
+/// `tolerance` (above 1e-9): then V_k is within `tolerance` of V* in every state.
 std::vector<Eigen::VectorXd> iterateValues(const Process& process, double tolerance);
 
-/// Policy iteration: policies as one action for each state. The first takes action 0 everywhere. Each further
-/// one takes in every state an action that is best by the values of the one before, and keeps its action
-/// where that is as good (up to 1e-9 of the greatest value). It ends with the one that is not changed any
-/// more, which stands there once.
+/// Policy iteration: policies as one action for each state. The first takes action 0 everywhere. Each
+/// further one takes in every state an action that is best by the values of the one before, and keeps its
+/// action where that is as good (up to 1e-9 of the greatest value). The last policy is the one that no
+/// longer changes; it is listed once.
 std::vector<std::vector<int>> iteratePolicies(const Process& process);
 
 // Parts 5 to 7, policies with noise and rollouts (9:16, 9:17, 12.10.1 d).
@@ -58,14 +58,14 @@ struct Policy {
   Eigen::MatrixXd L;     ///< k x k, invertible
 };
 
-/// What is learned from: a trial of T steps, one column each.
+/// A trial of T steps to learn from, one column per step.
 struct Rollout {
   Eigen::MatrixXd features;  ///< k x T: phi(s_t)
   Eigen::MatrixXd noise;     ///< k x T: epsilon_t
   Eigen::VectorXd rewards;   ///< T
 };
 
-/// What a step leads to. Where it failed, all ends, and this reward was the last.
+/// The result of a step. If it failed, the trial ends, and this reward is the last.
 struct Transition {
   Eigen::VectorXd next;
   double reward = 0;

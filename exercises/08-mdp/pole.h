@@ -4,8 +4,9 @@
 
 #include "exercise.h"
 
-// A pole on a motor that tips over: its angle [rad] and its rate [rad/s] are the state, and the action is a
-// torque over the inertia. It fails beyond half a radian. Upright and at rest, each step pays most.
+// A pole on a motor, which tips over. The state is its angle [rad] and rate [rad/s]; the action is a torque
+// divided by the inertia. It fails beyond half a radian. The reward of a step is highest upright and at
+// rest.
 
 inline constexpr int kPoleHorizon = 100;
 

@@ -13,7 +13,7 @@
 #include "learning/policy_values.h"
 #include "value_evidence.h"
 
-// Parts 1 to 4: decision processes of the grader, and what must hold for values and policies of them.
+// Parts 1 to 4: the grader's decision processes, and what must hold for their values and policies.
 
 inline rex::Mdp mdpOf(const Process& process) {
   rex::Mdp mdp;
@@ -29,7 +29,7 @@ inline Process processOf(const rex::Mdp& mdp) {
   return {rex::denseTransitions(mdp), mdp.rewards, mdp.discount};
 }
 
-/// Any rewards and transitions; some states end, if there are more than three.
+/// Random rewards and transitions; if there are more than three states, some are terminal.
 inline Process randomProcess(rex::Rng& rng, int n, int m, double discount) {
   Process process{{}, rng.normalVector(n * m).reshaped(n, m), discount};
   const int ends = n > 3 ? n / 4 : 0;
@@ -56,7 +56,7 @@ inline std::string described(const Process& process) {
                      process.R.cols(), process.discount);
 }
 
-/// The size of what is compared: tolerances are relative to it.
+/// The scale of the compared values: tolerances are relative to it.
 inline double scaleOf(const Process& process) {
   return process.R.cwiseAbs().maxCoeff() / (1 - process.discount);
 }
@@ -85,7 +85,7 @@ inline void policyIsWorth(rex::grading::Check& check, Student& student, const Pr
   const Eigen::VectorXd got = student.valuesOf(process, policy),
                         wanted = rex::policyValues(mdpOf(process), policy).V;
   const auto shown =
-      check.show([&] { return barsSeen("Values of a policy", "number of the state", got, wanted); });
+      check.show([&] { return barsSeen("Values of a policy", "index of the state", got, wanted); });
   check.near("values of a policy", got, wanted, 1e-9 * scaleOf(process));
 }
 
@@ -94,13 +94,12 @@ inline void actionsAreWorth(rex::grading::Check& check, Student& student, const 
   const Eigen::VectorXd V = check.rng().normalVector(static_cast<int>(process.R.rows()));
   const Eigen::MatrixXd got = student.worthOfActions(process, V),
                         wanted = rex::actionValues(mdpOf(process), V);
-  const auto shown = check.show([&] {
-    return barsSeen("What the actions are worth, action by action", "number of the entry", got, wanted);
-  });
+  const auto shown = check.show(
+      [&] { return barsSeen("Worth of the actions, action by action", "index of the entry", got, wanted); });
   check.near("worth of the actions", got, wanted, 1e-9);
 }
 
-// How sure one is of the second of two values.
+// The bound on the error of the second of two successive values.
 inline double boundOf(const Process& process, const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
   return process.discount / (1 - process.discount) * (after - before).cwiseAbs().maxCoeff();
 }
@@ -145,7 +144,7 @@ inline void policiesImprove(rex::grading::Check& check, Student& student, const 
       check.that("each policy differs from the one before", policies[i] != policies[i - 1]);
       const Eigen::MatrixXd Q = rex::actionValues(mdp, V);
       for (std::size_t s = 0; s < states; ++s) {
-        check.atMost("what the new action is worth less than the best one, by the values before",
+        check.atMost("how much less the new action is worth than the best one, by the values before",
                      Q.row(static_cast<int>(s)).maxCoeff() - Q(static_cast<int>(s), policies[i][s]),
                      1e-8 * scaleOf(process));
       }
@@ -155,8 +154,8 @@ inline void policiesImprove(rex::grading::Check& check, Student& student, const 
   check.near("values of the last policy", V, rex::policyIteration(mdp).V, 1e-7 * scaleOf(process));
 }
 
-/// From state 0, actions 1 and 2 lead to states 1 and 2, and from these all end in state 3. Of both ways the
-/// second is better at first, and none in the end: then the action that was taken stays.
+/// From state 0, actions 1 and 2 lead to states 1 and 2, from which every action leads to state 3. At first
+/// action 2 is better; in the end both are equally good, and the action taken before must stay.
 inline void tieStays(rex::grading::Check& check, Student& student) {
   Process process{std::vector<Eigen::MatrixXd>(3, Eigen::MatrixXd::Zero(4, 4)), Eigen::MatrixXd(4, 3), .5};
   for (Eigen::Index a = 0; a < 3; ++a) {
@@ -166,6 +165,6 @@ inline void tieStays(rex::grading::Check& check, Student& student) {
   process.R << -1, 0, 0, 0, 1, -1, .5, 1, -1, 0, 0, 0;
   policiesImprove(check, student, process);
   const std::vector<std::vector<int>> expected{{0, 0, 0, 0}, {2, 1, 1, 0}};
-  check.that("an action stays where another one is only as good",
+  check.that("an action is kept if another one is only as good",
              student.iteratePolicies(process) == expected);
 }

@@ -22,7 +22,7 @@ GridWorld slipperyFloor() {
       {.discount = .95, .stepReward = -.02, .slip = .2, .marks = {{'G', 1}, {'P', -1}}});
 }
 
-// The floor as a process of yours.
+// The floor as a Process.
 Process processOf(const GridWorld& world) {
   return {denseTransitions(world.mdp), world.mdp.rewards, world.mdp.discount};
 }
@@ -32,7 +32,7 @@ void plotOf(const char* name, const char* title, Figure figure) {
   plot(name, figure);
 }
 
-// Learning to balance a pole, several times, with fresh noise. None, where nothing is ever learned.
+// Learns to balance a pole several times, with fresh noise. Adds no curves if nothing is ever learned.
 using Update = std::function<Eigen::VectorXd(const Policy&, const std::vector<Rollout>&)>;
 void learnPole(const std::string& label, const Policy& first, const Update& update,
                std::vector<LearningCurves>& curves) {
@@ -66,13 +66,13 @@ void showRandomWalk() {
   const GridWorld world = slipperyFloor();
   const Process floor = processOf(world);
   const Eigen::VectorXd V = valuesOf(floor, Eigen::MatrixXd::Constant(floor.R.rows(), floor.R.cols(), .25));
-  if (V.isZero()) return nothingYet("a walk at random");
-  plotOf("random", "Values of walking at random", valueFigure(world, V));
+  if (V.isZero()) return nothingYet("a random walk");
+  plotOf("random", "Values of the random walk", valueFigure(world, V));
 
   const Eigen::MatrixXd worth = worthOfActions(floor, V);
   std::vector<int> best(static_cast<std::size_t>(V.size()));
   for (Eigen::Index s = 0; s < V.size(); ++s) worth.row(s).maxCoeff(&best[static_cast<std::size_t>(s)]);
-  plotOf("improved", "The best actions by the values of walking at random",
+  plotOf("improved", "The best actions by the values of the random walk",
          policyFigure(world, V, policyOf(world.mdp, best)));
 }
 
@@ -115,7 +115,7 @@ void showRollouts(const Policy& policy) {
       angle.y.push_back(states(0, t));
     }
   }
-  plotOf("rollouts", "The pole before anything is learned: eight trials", figure);
+  plotOf("rollouts", "The pole before learning: eight trials", figure);
 }
 
 void showLearning(const Policy& first) {

@@ -12,8 +12,8 @@
 #include "learning/power.h"
 #include "value_evidence.h"
 
-// Parts 5 to 7: a linear task with quadratic costs, of which the gradient is known, and what must hold for
-// trials and for what is learned from them.
+// Parts 5 to 7: a linear task with quadratic costs, whose gradient is known, and what must hold for trials
+// and for what is learned from them.
 
 struct LinearTask {
   Eigen::Matrix2d A, Q;
@@ -88,7 +88,7 @@ inline rex::LinearGaussianPolicy asLibrary(const Policy& policy) {
   return {policy.beta, policy.L * policy.L.transpose()};
 }
 
-/// The trial is what the step function saw, and stops where it should.
+/// Checks that the trial records what the step function saw, and stops when it should.
 inline void trialFits(rex::grading::Check& check, Student& student, int k, int horizon, int failsAfter) {
   rex::Rng& rng = check.rng();
   const Policy policy{rng.normalVector(k),
@@ -109,7 +109,7 @@ inline void trialFits(rex::grading::Check& check, Student& student, int k, int h
   rex::Rng given = rng.split(7);
   const Rollout trial = student.runTrial(step, start, policy, horizon, given);
   const int T = std::min(horizon, failsAfter);
-  check.near("number of steps that were taken", static_cast<double>(states.size()), T, 0);
+  check.near("number of steps taken", static_cast<double>(states.size()), T, 0);
   check.shape("features of the trial", trial.features, k, T);
   check.shape("noise of the trial", trial.noise, k, T);
   check.shape("rewards of the trial", trial.rewards, T, 1);
@@ -158,9 +158,10 @@ inline void gradientFits(rex::grading::Check& check, Student& student, int count
   check.near("gradient from these trials", got, exact, 1e-9 * (1 + exact.norm()));
 }
 
-/// A task, a policy and trials of equal length that tell the gradient well: the standard error of REINFORCE
-/// is below a 40th of its length, so that it is off by more than the cosine below allows (a seventh) once in
-/// more than 10^7 times. Rewards are counted from their mean in each step, which costs nothing but noise.
+/// A task, a policy and trials of equal length that determine the gradient well: the standard error of
+/// REINFORCE is below a 40th of the gradient's length, so that it exceeds the error that the cosine below
+/// allows (a seventh) less than once in 10^7 times. The mean reward of each step is subtracted, which only
+/// reduces the noise.
 struct Lesson {
   LinearTask task;
   Policy policy;
@@ -200,7 +201,7 @@ inline void powerFits(rex::grading::Check& check, Student& student, int count) {
   const Policy policy = randomPolicy(check.rng());
   check.input(fmt::format("{} trials, discount {:.3f}", count, task.discount));
   std::vector<Rollout> trials = trialsOf(task, policy, count, check.rng());
-  // Rewards that are all positive, and tell the trials apart.
+  // Positive rewards that differ between trials.
   for (Rollout& trial : trials) trial.rewards = (.2 * trial.rewards).array().exp();
   const Eigen::VectorXd got = student.power(policy, trials, task.discount),
                         wanted = rex::powerStep(asLibrary(policy), episodesOf(trials), task.discount).beta;

@@ -11,7 +11,7 @@
 #include "learning/dynamic_programming.h"
 #include "learning/policy_values.h"
 
-// What the checks show of values and policies that are not as they should be.
+// What the checks show if values or policies are wrong.
 
 /// The T-maze with a value in each of its states, as a number and a colour from `range`.
 inline rex::Figure mazeFigure(const std::string& title, const Eigen::VectorXd& values,
@@ -40,7 +40,7 @@ inline rex::Figure mazeFigure(const std::string& title, const Eigen::VectorXd& v
   return figure;
 }
 
-/// Values in the T-maze beside those that were wanted.
+/// Values in the T-maze beside the wanted ones.
 inline rex::grading::Evidence mazeSeen(const std::string& what, const Eigen::VectorXd& got,
                                        const Eigen::VectorXd& wanted) {
   if (got.size() != wanted.size()) return {};
@@ -50,7 +50,7 @@ inline rex::grading::Evidence mazeSeen(const std::string& what, const Eigen::Vec
                       mazeFigure(what + ": wanted", wanted, {low, high})}};
 }
 
-/// Numbers as bars, with those that were wanted as dots.
+/// Values as bars, with the wanted ones as dots.
 inline rex::grading::Evidence barsSeen(const std::string& title, const std::string& number,
                                        const Eigen::MatrixXd& got, const Eigen::MatrixXd& wanted) {
   const auto numbers = [](const Eigen::MatrixXd& M) {
@@ -69,7 +69,7 @@ inline rex::grading::Evidence barsSeen(const std::string& title, const std::stri
                        .histograms = {{.label = "got", .heights = numbers(got)}}}}};
 }
 
-/// How far V_0, V_1, ... are from V*, with what was wanted of the last.
+/// The bounds on the errors of V_1, V_2, ..., with the bound that only the last should reach.
 inline rex::grading::Evidence settlingSeen(const rex::Mdp& mdp, const std::vector<Eigen::VectorXd>& V,
                                            double tolerance) {
   const Eigen::VectorXd best = rex::policyIteration(mdp).V;
@@ -89,11 +89,11 @@ inline rex::grading::Evidence settlingSeen(const rex::Mdp& mdp, const std::vecto
                      .logY = true,
                      .yRange = rex::AxisRange(tolerance / 5, 2 * std::max(most, tolerance)),
                      .series = {error}};
-  figure.horizontalLines = {{.at = tolerance, .label = "wanted: the last at most, no other"}};
+  figure.horizontalLines = {{.at = tolerance, .label = "wanted: only the last is at most this"}};
   return {.figures = {figure}};
 }
 
-/// What the policies are worth, on average over the states, one after the other.
+/// The values of the policies, one after the other, averaged over the states.
 inline rex::grading::Evidence policiesSeen(const rex::Mdp& mdp,
                                            const std::vector<std::vector<int>>& policies) {
   rex::Series worth = rex::grading::gotCurve("got");
@@ -108,7 +108,7 @@ inline rex::grading::Evidence policiesSeen(const rex::Mdp& mdp,
               {.title = "Policy iteration: each policy is better than the one before",
                .xLabel = "number of the policy",
                .yLabel = "value, mean over the states",
-               .series = {worth, rex::grading::wantedCurve("wanted in the end", {0, end}, {best, best})}}}};
+               .series = {worth, rex::grading::wantedCurve("wanted at the end", {0, end}, {best, best})}}}};
 }
 
 /// Two directions in the plane, from `from`.

@@ -1,5 +1,5 @@
 // caught by: forbidden-call
-// mistake: the optimal policy of the library.
+// mistake: asks the library for the optimal policy.
 
 // <solution headers>
 #include "learning/dynamic_programming.h"

@@ -1,5 +1,5 @@
 // caught by: returns, gradient
-// mistake: sums what came before, too.
+// mistake: also sums the rewards before the step.
 
 // <solution returnsToGo>
 double sum = 0, weight = 1;

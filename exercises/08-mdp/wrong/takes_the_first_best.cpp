@@ -1,5 +1,5 @@
 // caught by: improves
-// mistake: changes to another action that is only as good.
+// mistake: switches to another action that is only as good.
 
 // <solution iteratePolicies>
 const auto n = static_cast<std::size_t>(process.R.rows());

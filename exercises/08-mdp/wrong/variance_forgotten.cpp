@@ -1,5 +1,5 @@
 // caught by: gradient
-// mistake: leaves the variance of the action out.
+// mistake: leaves out the variance of the action.
 
 // <solution reinforce>
 Eigen::VectorXd sum = Eigen::VectorXd::Zero(policy.beta.size());
