@@ -57,8 +57,8 @@ void searches(Check& check, Student& student) {
 void stays(Check& check, Student& student) { searchedPolicyStays(check, student, rewired({}, check.rng())); }
 
 // <hidden>
-// The energies of any racer from the velocities of its bodies, by complex steps, which are exact to rounding;
-// the equation of motion from those.
+// The energies of any racer from the velocities of its bodies, by complex steps, which are exact up to
+// rounding; the equation of motion follows from these energies.
 using Complex = std::complex<double>;
 
 // (x, z, angle) of the wheel and of the pendulum, one after the other.
@@ -87,7 +87,7 @@ double heightEnergy(const Eigen::Vector2d& q, const RacerModel& racer) {
   return racer.g * (racer.mA * poses[1] + racer.mB * poses[4]).real();
 }
 
-// d/dt dL/dq' - dL/dq without what q'' has of it: derivatives by q are differences of exact numbers.
+// d/dt dL/dq' - dL/dq without the terms in q''; derivatives by q are finite differences of exact numbers.
 Eigen::Vector2d numericForces(const Eigen::Vector2d& q, const Eigen::Vector2d& v, const RacerModel& racer) {
   constexpr double h = 1e-4;
   Eigen::Vector2d F = (inertiaAt(q + h * v / v.norm(), racer) - inertiaAt(q - h * v / v.norm(), racer)) * v *
@@ -102,7 +102,7 @@ Eigen::Vector2d numericForces(const Eigen::Vector2d& q, const Eigen::Vector2d& v
   return F;
 }
 
-// Differences are good to h^2, relative.
+// Finite differences have a relative error of h^2.
 void numericLagrangian(Check& check, Student& student) {
   check.forEachCase(10, [&](int) {
     const RacerModel racer = randomRacer(check.rng());
@@ -119,7 +119,7 @@ void numericLagrangian(Check& check, Student& student) {
   });
 }
 
-// Along 10 s without control, in steps in which the method of Runge and Kutta loses little also of the
+// Over 10 s without control, in steps so short that the Runge-Kutta method loses little energy even for the
 // fastest of these racers.
 void keepsEnergy(Check& check, Student& student) {
   check.forEachCase(4, [&](int i) {
@@ -137,8 +137,9 @@ void keepsEnergy(Check& check, Student& student) {
       worst = std::max(worst, std::abs(energy() - start));
       lowest = std::min(lowest, heightEnergy(x.head<2>(), racer));
     }
-    check.atMost("error of the energy in 10 s without control, of what a fall gives", worst / swing, .01);
-    check.atLeast("how deep the pendulum falls, of its length", (start - lowest) / swing, .3);
+    check.atMost("energy error in 10 s without control, as a share of the energy of a fall", worst / swing,
+                 .01);
+    check.atLeast("depth of the pendulum's fall, as a share of its length", (start - lowest) / swing, .3);
   });
 }
 
@@ -160,7 +161,7 @@ void unseenFeatures(Check& check, Student& student) {
 void otherRides(Check& check, Student& student) {
   check.forEachCase(8, [&](int i) {
     const Situation other{randomRacer(check.rng()), randomSensors(check.rng()), check.rng().uniform(.05, .2)};
-    // Short enough that rounding stays small also where a policy shakes.
+    // Short enough that rounding errors stay small even if a policy shakes.
     if (i % 2 == 0) rideFits(check, student, other, shaking(check.rng()), 25);
     if (i % 2 == 1) rideFits(check, student, other, tippingOver(check.rng()), 80);
   });
@@ -182,7 +183,7 @@ rex::grading::Checks<Student> checks() {
       {"noise", "simulation", "Noise of the right size", 1, Group::kVisible, noises},
       {"linear", "lqr", "The linear system near rest", 1, Group::kVisible, linearises},
       {"gain", "lqr", "The gain of the racer of the sheet", 1, Group::kVisible, gainOfTheSheet},
-      {"features", "features", "Features of readings one after another", 2, Group::kVisible, features},
+      {"features", "features", "Features of successive readings", 2, Group::kVisible, features},
       {"ride", "ride", "Rides that last", 1, Group::kVisible, rides},
       {"failed-ride", "ride", "Rides that end in a failure", 1, Group::kVisible, ridesThatFail},
       {"search", "search", "A policy that balances on unseen noise", 1, Group::kVisible, searches},

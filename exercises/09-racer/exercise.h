@@ -35,8 +35,8 @@ double energyOf(const Eigen::Vector4d& x, const RacerModel& racer);
 Eigen::Vector4d rateOf(const Eigen::Vector4d& x, double u, const RacerModel& racer);
 /// The state tau seconds later by one step of the classic method of Runge and Kutta, with u held; no noise.
 Eigen::Vector4d stepped(const Eigen::Vector4d& x, double u, double tau, const RacerModel& racer);
-/// Noise: what a run of so many steps adds to (x', theta') after each, one column per step (2 x steps).
-/// Independent normal numbers of deviation sqrt(tau) `noise`.
+/// The noise of a run, which is added to (x', theta') after each step: one column per step (2 x steps).
+/// Independent normal numbers with standard deviation sqrt(tau) `noise`.
 Eigen::MatrixXd kicks(int steps, double tau, double noise, rex::Rng& rng);
 
 // Part 3, LQR (8:16 to 8:19), for a racer whose state is known.
@@ -46,13 +46,13 @@ struct Linear {
   Eigen::Matrix4d A;
   Eigen::Vector4d B;
 };
-/// Near rest upright. Exact, or by differences: within 1e-6 of the largest entry.
+/// Linearised at rest, upright. Exact or by finite differences: within 1e-6 of the largest entry.
 Linear linearNearRest(const RacerModel& racer);
-/// K (4) of the u = -K x with the least integral of x^T Q x + R u^2, in continuous time: within 1e-6 of the
-/// largest entry. Q is diagonal with positive entries for x and theta, R is positive.
+/// The K (4) for which u = -K x minimises the integral of x^T Q x + R u^2 in continuous time: within 1e-6
+/// of the largest entry. Q is diagonal with positive entries for x and theta, R is positive.
 Eigen::Vector4d lqrGain(const Linear& system, const Eigen::Matrix4d& Q, double R);
 
-// Part 4, features of what the sensors said (12.12.1).
+// Part 4, features of the sensor readings (12.12.1).
 
 inline constexpr int kFeatures = 27;  ///< of a policy u = w . features
 
@@ -63,9 +63,9 @@ inline constexpr int kFeatures = 27;  ///< of a policy u = w . features
 ///   9 - 12  average of y with factor a = .5: a (the average before) + (1 - a) y; at the first reading y
 ///   13 - 16 average of the rate with a = .5; zero at the first reading
 ///   17 - 24 the same two averages with a = .9
-///   25, 26  the last control, and the one before; zero as long as there was none.
-/// `before` holds the features at the reading before, after which came the control u; they are all that is
-/// known of the past. At the first reading `before` is empty, and u means nothing.
+///   25, 26  the last control, and the one before; zero if there was none.
+/// `before` holds the features at the previous reading, which was followed by the control u; nothing else
+/// is known of the past. At the first reading `before` is empty, and u has no meaning.
 Eigen::VectorXd featuresAt(const Eigen::Vector4d& y, const Eigen::VectorXd& before, double u, double tau);
 
 // Part 5, one ride and what it costs (12.12.1).
@@ -74,37 +74,37 @@ inline constexpr double kTau = 0.01;          ///< seconds per step
 inline constexpr double kNoise = 0.1;         ///< of the racer of the sheet, see kicks()
 inline constexpr double kLargestControl = 5;  ///< N m: the motor gives no more, either way
 inline constexpr double kLargestAngle = 0.8;  ///< rad: beyond it, the racer has failed
-inline constexpr double kCostOfMissing = 10;  ///< of each step that is missing after a failure
+inline constexpr double kCostOfMissing = 10;  ///< for each step that is missing after a failure
 
 /// One ride of n steps.
 struct Ride {
-  Eigen::MatrixXd states;    ///< 4 x (n + 1), with the start in front
+  Eigen::MatrixXd states;    ///< 4 x (n + 1), beginning with the start
   Eigen::VectorXd controls;  ///< n
   double cost = 0;
 };
 
-/// A policy with weights w (27) rides from `start`. A step: read the sensors, u = w . features within
-/// +-kLargestControl (that is also the control that features remember), stepped() with kTau, and then
-/// the column of `noise` (2 x T) whose turn it is is added to (x', theta'). It ends after T steps, or with
-/// the first step after which |theta| > kLargestAngle. Cost: x^2 + 10 theta^2 in the state after each step
-/// that did not fail, and kCostOfMissing for each of the T steps that failed or did not come.
+/// A ride from `start` under the policy with weights w (27). In each step, read the sensors; take u = w .
+/// features, limited to +-kLargestControl (the features remember the limited control); call stepped() with
+/// kTau; and add this step's column of `noise` (2 x T) to (x', theta'). The ride ends after T steps, or
+/// with the first step after which |theta| > kLargestAngle. Cost: x^2 + 10 theta^2 in the state after each
+/// step that did not fail, and kCostOfMissing for each of the T steps that failed or did not come.
 Ride rideOf(const Eigen::VectorXd& w, const Eigen::Vector4d& start, const Eigen::MatrixXd& noise,
             const RacerModel& racer, const rex::RacerSensors& sensors);
 
 // Part 6, policy search (9:29 to 9:32, 12.12.1).
 
-/// Costs (m) of the policies in the columns of W (27 x m): of one ride each over `steps` steps, at most
-/// kLongestRide. In one call all have the same start, at rest with a theta from -.2 to .2, and the same
-/// noise; the next call has others. The motor, and each sensor, may be wired the other way round: u or that y
-/// then has the other sign. Each sensor may also count in larger units, up to three times: its y is then as
-/// much smaller. The two accelerometers may be turned against the body by any angle.
+/// The costs (m) of the policies in the columns of W (27 x m), from one ride each over `steps` steps, at
+/// most kLongestRide. All rides of a call have the same start, at rest with a theta from -.2 to .2, and the
+/// same noise; the next call has others. The motor and each sensor may be wired the other way round: u or
+/// that y then has the opposite sign. Each sensor may also use units up to three times as large: its y is
+/// then smaller by that factor. The two accelerometers may be rotated by any angle relative to the body.
 using Rides = std::function<Eigen::VectorXd(const Eigen::MatrixXd& W, int steps)>;
 
 inline constexpr int kLongestRide = 500;  ///< steps
 inline constexpr int kBudget = 30000;     ///< rides
 
-/// Weights (27) of a policy that keeps a racer upright and where it is, on unseen noise. It may try `budget`
-/// rides: m for a call with m columns. Of 100 other rides from such starts, 95 last 500 steps and 80 last
-/// 2000. Nor does it go away later: over 50000 steps of 16 rides, the cost of rideOf() is below .02 per step
-/// on average, so none may fall.
+/// Weights (27) of a policy that keeps a racer upright and where it is, on unseen noise. The search may use
+/// `budget` rides; a call with m columns uses m. Out of 100 other rides from such starts, at least 95 last
+/// 500 steps and 80 last 2000. The racer does not roll away later either: over 50000 steps of 16 rides, the
+/// cost of rideOf() is below .02 per step on average, so none may fall.
 Eigen::VectorXd searchedPolicy(const Rides& rides, int budget, rex::Rng& rng);

@@ -71,7 +71,7 @@ inline void forcesFit(rex::grading::Check& check, Student& student, const RacerM
   }
 }
 
-/// Right up to rounding: the error of the method is a thousand times as large.
+/// Exact up to rounding: the error of the method itself is a thousand times as large.
 inline void stepFits(rex::grading::Check& check, Student& student, const RacerModel& racer, double tau) {
   const rex::RacerDynamics plant = dynamicsOf(racer);
   for (int i = 0; i < 10; ++i) {
@@ -85,7 +85,7 @@ inline void stepFits(rex::grading::Check& check, Student& student, const RacerMo
   }
 }
 
-/// How often noise is how large, beside the density of normal numbers.
+/// A histogram of the noise beside the normal density.
 inline rex::grading::Evidence densityOf(const Eigen::MatrixXd& z) {
   rex::Histogram bars = normalized(rex::histogramOf({z.reshaped().begin(), z.reshaped().end()}, 40));
   bars.label = "got";
@@ -94,14 +94,14 @@ inline rex::grading::Evidence densityOf(const Eigen::MatrixXd& z) {
     x.push_back(at);
     density.push_back(std::exp(-at * at / 2) / std::sqrt(2 * M_PI));
   }
-  return {.figures = {{.title = "Noise over sqrt(tau) times its deviation",
-                       .xLabel = "noise, in deviations",
+  return {.figures = {{.title = "Noise, divided by sqrt(tau) times its deviation",
+                       .xLabel = "noise, in standard deviations",
                        .yLabel = "density",
                        .series = {rex::grading::wantedCurve("wanted", x, density)},
                        .histograms = {bars}}}};
 }
 
-/// Five or six standard errors to each side: about one false alarm in 10^6.
+/// Tolerances of five or six standard errors: about one false alarm in 10^6.
 inline void noiseFits(rex::grading::Check& check, Student& student, int steps, double tau, double noise) {
   rex::Rng given = check.rng().split(7);
   check.input(fmt::format("{} steps of {} s, noise {}", steps, tau, noise));
@@ -113,8 +113,8 @@ inline void noiseFits(rex::grading::Check& check, Student& student, int steps, d
   const Eigen::MatrixXd z = got / (std::sqrt(tau) * noise);
   const auto shown = check.show([&] { return densityOf(z); });
   const double n = 2. * steps;
-  check.near("mean, in deviations", z.mean(), 0, 6 / std::sqrt(n));
-  check.near("mean square, of what it should be", z.squaredNorm() / n, 1, 6 * std::sqrt(2 / n));
+  check.near("mean, in standard deviations", z.mean(), 0, 6 / std::sqrt(n));
+  check.near("mean square, relative to the wanted one", z.squaredNorm() / n, 1, 6 * std::sqrt(2 / n));
   check.near("mean of |noise| over the deviation (normal numbers)", z.cwiseAbs().mean(), std::sqrt(2 / M_PI),
              6 * .603 / std::sqrt(n));
   check.near("correlation of the two velocities", z.row(0).dot(z.row(1)) / steps, 0, 6 / std::sqrt(steps));
@@ -150,7 +150,7 @@ inline void gainFits(rex::grading::Check& check, Student& student, const RacerMo
   check.near("K", student.lqrGain({plant.A, plant.B}, Q, R), exact, 2e-6 * exact.cwiseAbs().maxCoeff());
 }
 
-/// The racer stands for 20 s by the student's linearisation and gain, with noise.
+/// The racer stays up for 20 s with noise, under the student's linearisation and gain.
 inline void gainHolds(rex::grading::Check& check, Student& student, const RacerModel& racer) {
   const rex::RacerDynamics plant = dynamicsOf(racer);
   const Eigen::Matrix4d Q = Eigen::Vector4d(1, 10, 0, 0).asDiagonal();

@@ -13,12 +13,13 @@
 
 // Parts 4 to 6: features, rides and policies, against the library's.
 
-/// What a policy has to do with.
+/// The world in which a policy rides.
 struct Situation {
   RacerModel racer{};
   rex::RacerSensors sensors{};
   double noise = kNoise;
-  Eigen::VectorXd wiring = Eigen::VectorXd::Ones(kFeatures);  ///< a policy has its weights times it
+  Eigen::VectorXd wiring =
+      Eigen::VectorXd::Ones(kFeatures);  ///< the weights of a policy are multiplied by it
 };
 
 inline rex::RacerRolloutOptions optionsOf(const Situation& in, int steps) {
@@ -40,7 +41,7 @@ inline rex::RacerSensors randomSensors(rex::Rng& rng) {
           .gyroBias = rng.uniform(-.1, .1)};
 }
 
-/// Somewhat other racers than that of the sheet.
+/// Racers that differ somewhat from that of the sheet.
 inline Situation similarSituation(rex::Rng& rng) {
   Situation in;
   const auto change = [&](double& number) { number *= rng.uniform(.85, 1.2); };
@@ -51,10 +52,10 @@ inline Situation similarSituation(rex::Rng& rng) {
   return in;
 }
 
-/// The same with motor and sensors wired the right way or the other, accelerometers at any angle, and sensors
-/// that count in larger units: weights that others found are of no use, even with all signs tried out. Of 40
-/// such policies 5 balance and none stays. In smaller units, a search over all 27 features would fail at
-/// times.
+/// The same with motor and sensors wired either way round, accelerometers at any angle, and sensors with
+/// larger units, so that weights found elsewhere are of no use, even if all signs are tried: of 40 such
+/// policies, 5 balance and none stays. With smaller units, a search over all 27 features would sometimes
+/// fail.
 inline Situation rewired(Situation in, rex::Rng& rng) {
   const auto sign = [&] { return rng.uniform(0, 1) < .5 ? -1. : 1.; };
   in.sensors.phi = rng.uniform(-std::numbers::pi, std::numbers::pi);
@@ -63,7 +64,7 @@ inline Situation rewired(Situation in, rex::Rng& rng) {
     const double both = motor * sign() * std::pow(3, rng.uniform(-1, 0));
     for (const int block : {1, 5, 9, 13, 17, 21}) in.wiring[block + sensor] = both;
   }
-  return in;  // what it remembers of its controls changes sign with the motor
+  return in;  // the remembered controls change sign with the motor
 }
 
 // Features.
@@ -101,8 +102,8 @@ inline void featuresFit(rex::grading::Check& check, Student& student, double tau
 
 // Rides.
 
-/// Weights that keep the racer of the sheet upright, with something of all features: less of rates, which are
-/// large.
+/// Weights that keep the racer of the sheet upright, with some weight on all features: less on the rates,
+/// which are large.
 inline Eigen::VectorXd balancing(rex::Rng& rng) {
   Eigen::VectorXd w = .001 * rng.normalVector(kFeatures);
   for (const int rates : {5, 13, 21}) w.segment<4>(rates) *= .1;
@@ -119,7 +120,7 @@ inline Eigen::VectorXd tippingOver(rex::Rng& rng) {
 /// Often asks for more than the motor gives.
 inline Eigen::VectorXd shaking(rex::Rng& rng) { return 8 * balancing(rng); }
 
-/// The noise of the library's rollout with that seed: what it adds to a racer that rests upright.
+/// The noise of the library's rollout with that seed, from what it adds to a racer at rest upright.
 inline Eigen::MatrixXd noiseOf(const Situation& in, std::uint64_t seed, int steps) {
   rex::Rng rng(seed);
   Eigen::MatrixXd noise(2, steps);
@@ -128,7 +129,7 @@ inline Eigen::MatrixXd noiseOf(const Situation& in, std::uint64_t seed, int step
   return noise;
 }
 
-/// The states of a ride under u(x), which leads to after(x, u, t), until it fails.
+/// The states of a ride under u(x) until it fails; step t leads to after(x, u, t).
 template <class Control, class Step>
 Eigen::MatrixXd ridden(const Eigen::Vector4d& start, Eigen::Index steps, const Control& u,
                        const Step& after) {
@@ -148,7 +149,7 @@ inline Eigen::Vector4d kicked(const Situation& in, const Eigen::Vector4d& x, dou
   return next;
 }
 
-/// The ride of a policy by the equations.
+/// The ride of a policy according to the equations.
 inline Eigen::MatrixXd statesOf(const Situation& in, const Eigen::VectorXd& w, const Eigen::Vector4d& start,
                                 const Eigen::MatrixXd& noise) {
   rex::RacerPolicy policy(optionsOf(in, 1).features, in.wiring.cwiseProduct(w), kTau, kLargestControl);
@@ -192,21 +193,21 @@ inline rex::grading::Evidence sideBySide(const Situation& in, const Eigen::Matri
   return {.figures = {figure}, .film = film, .view = {1.2, -1.6, .7}, .moment = time};
 }
 
-/// `t` tells which step is looked at.
+/// `t` is the step being checked.
 inline void statesFit(rex::grading::Check& check, const Situation& in, const Eigen::VectorXd& w,
                       const Eigen::MatrixXd& noise, const Ride& ride, Eigen::Index& t) {
   rex::RacerPolicy policy(optionsOf(in, 1).features, w, kTau, kLargestControl);
   for (; t < ride.controls.size(); ++t) {
     const Eigen::Vector4d x = ride.states.col(t);
     check.input(fmt::format("step {} of {}, from {}", t + 1, noise.cols(), described(in.racer, x)));
-    check.near("control by what was measured so far", ride.controls[t],
+    check.near("control, from the readings so far", ride.controls[t],
                policy.control(in.sensors.measured(x, in.racer.r)), 1e-7, "N m");
     const Eigen::Vector4d next = kicked(in, x, ride.controls[t], noise.col(t));
     check.near("state after a step", ride.states.col(t + 1), next, 1e-8 * (1 + next.norm()));
   }
 }
 
-/// The ride has the states and the length that the equations give it.
+/// Checks that the ride has the states and the length that follow from the equations.
 inline void rideFollows(rex::grading::Check& check, const Situation& in, const Eigen::VectorXd& w,
                         const Eigen::Vector4d& start, const Eigen::MatrixXd& noise, const Ride& ride,
                         int wantedSteps) {
@@ -219,7 +220,7 @@ inline void rideFollows(rex::grading::Check& check, const Situation& in, const E
   });
   statesFit(check, in, w, noise, ride, t);
   check.input(fmt::format("{} steps from theta {:.4g}", steps, start[1]));
-  check.near("number of steps, with the one that failed", static_cast<double>(ridden), wantedSteps, 0);
+  check.near("number of steps, including the one that failed", static_cast<double>(ridden), wantedSteps, 0);
 }
 
 inline void rideFits(rex::grading::Check& check, Student& student, const Situation& in,
@@ -240,7 +241,8 @@ inline void rideFits(rex::grading::Check& check, Student& student, const Situati
 
 // Policies.
 
-/// Where a search may try policies: counts the rides, and takes no more than the budget and what makes sense.
+/// The rides of a search. Counts them; beyond the budget, or if a call makes no sense, none is ridden any
+/// more.
 class Track {
  public:
   Track(const Situation& in, rex::Rng& rng) : in_(in), rng_(&rng) {}
@@ -285,7 +287,7 @@ inline std::vector<rex::Trial> unseenTrials(int count, rex::Rng& rng) {
 }
 
 /// One of the rides of a policy, beside one under the gain of part 3, which knows the state. Opens at the
-/// first step that costs much, or where it ends.
+/// first step with a high cost, or at the end.
 inline rex::grading::Evidence seen(const Situation& in, const Eigen::VectorXd& w, const rex::Trial& trial,
                                    int steps) {
   const Eigen::MatrixXd noise = noiseOf(in, trial.seed, steps), got = statesOf(in, w, trial.start, noise);
@@ -308,7 +310,7 @@ inline void searchSucceeds(rex::grading::Check& check, Student& student, const S
       rides.steps.col(0).minCoeff(&shortest);
       return seen(in, w, trials[static_cast<std::size_t>(shortest)], last);
     });
-    check.atLeast(fmt::format("of 100 other rides, those that last {} steps", steps),
+    check.atLeast(fmt::format("number of 100 other rides that last {} steps", steps),
                   static_cast<double>((rides.steps.array() == steps).count()), wanted);
   }
 }
@@ -323,5 +325,5 @@ inline void searchedPolicyStays(rex::grading::Check& check, Student& student, co
     rides.cost.col(0).maxCoeff(&dearest);
     return seen(in, w, trials[static_cast<std::size_t>(dearest)], 3000);
   });
-  check.atMost("cost per step of rides over 50000 steps", rides.cost.sum() / (1. * steps * count), .02);
+  check.atMost("mean cost per step of rides over 50000 steps", rides.cost.sum() / (1. * steps * count), .02);
 }

@@ -33,7 +33,7 @@ void addMotion(Figure& figure, const std::string& whose, const Eigen::MatrixXd& 
   }
 }
 
-// The state of a racer under u = -K x, by your simulation.
+// The state of a racer under u = -K x, in your simulation.
 Eigen::MatrixXd heldBy(const Eigen::Vector4d& K, double theta, const Eigen::MatrixXd& noise) {
   Eigen::MatrixXd X(4, noise.cols() + 1);
   X.col(0) = tilted(theta);
@@ -71,7 +71,7 @@ Rides ridesOfYours(Rng& rng) {
   };
 }
 
-// What became of a search.
+// The result of a search.
 struct Lesson {
   Eigen::VectorXd policy;
   Eigen::VectorXd halfTaught;      // the best of one call after the first thousand rides
@@ -113,7 +113,7 @@ void showLearning(const Lesson& yours) {
   }
   Figure figure = learningFigure({curves});
   figure.series.push_back({.label = "one search, in your simulator", .y = curveOf(yours)});
-  figure.title = "What a step of a ride costs while the search goes on";
+  figure.title = "Cost per step of a ride during the search";
   figure.xLabel = "share of the rides [%]";
   figure.yLabel = "cost per step";
   figure.logY = true;
@@ -126,7 +126,7 @@ void showLearning(const Lesson& yours) {
   plot("learning", figure);
 }
 
-// How far the wheel gets from where it began: root mean square of some long rides, until one fails.
+// The distance of the wheel from its start: root mean square over some long rides, until one fails.
 Series driftOf(const std::string& label, const Eigen::VectorXd& w) {
   constexpr int kRides = 10, kSteps = 10000;
   Rng rng(2);
@@ -145,7 +145,7 @@ Series driftOf(const std::string& label, const Eigen::VectorXd& w) {
   return series;
 }
 
-// Which share of 200 rides lasts all of 500 steps, with more and more noise.
+// The share of 200 rides that last all 500 steps, with more and more noise.
 Series robustnessOf(const std::string& label, const Eigen::VectorXd& w) {
   std::vector<Trial> trials;
   for (std::uint64_t seed = 0; seed < 200; ++seed) trials.push_back({tilted(seed % 2 == 0 ? .2 : -.2), seed});
@@ -158,7 +158,7 @@ Series robustnessOf(const std::string& label, const Eigen::VectorXd& w) {
   return series;
 }
 
-// Before, on the way and after, side by side; who fails stays as it is then.
+// Before, during and after the search, side by side; a racer that has failed stays as it is.
 void showFilm(const Lesson& lesson) {
   Rng rng(4);
   const Eigen::MatrixXd noise = kicks(kLongestRide, kTau, kNoise, rng);
@@ -194,7 +194,7 @@ void showEquation(const RacerModel& racer, const Eigen::Vector4d& x) {
 }
 
 void showEnergy(const RacerModel& racer, double tilt) {
-  Series runge{.label = "Runge and Kutta"}, euler{.label = "Euler"};
+  Series runge{.label = "Runge-Kutta"}, euler{.label = "Euler"};
   Eigen::Vector4d x = tilted(tilt), y = x;
   if (stepped(x, 0, kTau, racer) == x) return nothingYet("the simulation");
   const double start = energyOf(x, racer);
@@ -205,9 +205,9 @@ void showEnergy(const RacerModel& racer, double tilt) {
     x = stepped(x, 0, kTau, racer);
     y += kTau * rateOf(y, 0, racer);
   }
-  plot("energy", {.title = "Energy without control: how wrong it gets in 10 s",
+  plot("energy", {.title = "Energy without control: its error over 10 s",
                   .xLabel = "time [s]",
-                  .yLabel = "error of the energy [J]",
+                  .yLabel = "energy error [J]",
                   .logY = true,
                   .series = {runge, euler}});
 
@@ -235,7 +235,7 @@ void showLqr(const Linear& system, const Eigen::Matrix4d& Q, double R) {
 }
 
 void showFeatures() {
-  // Features of the gyroscope, by their numbers.
+  // Features of the gyroscope, by index.
   const std::vector<std::pair<int, std::string>> shown = {
       {3, "reading"}, {11, "its average, a = .5"}, {19, "its average, a = .9"}, {7, "its rate / 100"}};
   Figure figure{.title = "Features of a reading that jumps",
@@ -259,7 +259,7 @@ void showRides(const Eigen::VectorXd& w) {
   const Ride ride = rideOf(w, tilted(.2), kicks(2000, kTau, kNoise, rng), {}, {});
   if (ride.controls.size() == 0) return nothingYet("rides");
   std::printf("A ride of %.1f s costs %.3f.\n", kTau * static_cast<double>(ride.controls.size()), ride.cost);
-  Figure figure{.title = "A ride by the four readings alone", .xLabel = "time [s]", .yLabel = "[m], [rad]"};
+  Figure figure{.title = "A ride with the four readings alone", .xLabel = "time [s]", .yLabel = "[m], [rad]"};
   addMotion(figure, "", ride.states);
   plot("rides", figure);
 }
@@ -270,7 +270,7 @@ void showSearch(const Eigen::VectorXd& direct) {
   if (lesson.policy.isZero()) return nothingYet("a search");
   print("rides of the search", static_cast<double>(lesson.costs.size()));
   print("weights of 1, y and its rates", lesson.policy.head(9).transpose());
-  plot("drift", {.title = "Without a sense for the wheel's speed, a racer sways more and more",
+  plot("drift", {.title = "Without an estimate of the wheel's speed, a racer sways more and more",
                  .xLabel = "time [s]",
                  .yLabel = "root mean square of x [m]",
                  .series = {driftOf("a policy on (1, y)", direct), driftOf("your policy", lesson.policy)}});

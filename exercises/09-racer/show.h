@@ -2,14 +2,15 @@
 
 #include "exercise.h"
 
-/// Prints M, F, B and the energy at the state x; but for B, the library's, too.
+/// Prints M, F, B and the energy at the state x, and the library's for all but B.
 void showEquation(const RacerModel& racer, const Eigen::Vector4d& x);
 
-/// energy.png: without control, from this tilt [rad], your steps keep the energy far better than Euler's.
-/// Prints what the noise of one second amounts to.
+/// energy.png: without control, from this tilt [rad], your steps conserve the energy far better than
+/// Euler's. Prints the standard deviation of the noise of one second.
 void showEnergy(const RacerModel& racer, double tilt);
 
-/// lqr.png: x [m] and theta [rad] from a tilt of 0.2 rad, held by your gain, lie on those of the library's.
+/// lqr.png: x [m] and theta [rad] from a tilt of 0.2 rad, held by your gain, match those of the library's
+/// gain.
 void showLqr(const Linear& system, const Eigen::Matrix4d& Q, double R);
 
 /// features.png: the averages follow a reading that jumps, and the rate shows when it does.
@@ -19,6 +20,7 @@ void showFeatures();
 void showRides(const Eigen::VectorXd& w);
 
 /// Searches in your simulator. drift.png: how far the wheel sways in 100 s, compared with the policy
-/// `direct`; robust.png: how many rides last, with more and more noise; learning.png: costs while the search
-/// goes on, of yours and of ten more in the library's simulator; learnt.mp4: before, on the way and after.
+/// `direct`; robust.png: how many rides last, with more and more noise; learning.png: costs during your
+/// search and during ten more in the library's simulator; learnt.mp4: the racer before, during and after
+/// the search.
 void showSearch(const Eigen::VectorXd& direct);

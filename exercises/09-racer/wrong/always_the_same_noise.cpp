@@ -1,5 +1,5 @@
 // caught by: noise
-// mistake: a generator of its own, so that all rides meet the same noise.
+// mistake: uses a generator of its own, so that all rides have the same noise.
 
 // <solution kicks>
 Rng own(3);

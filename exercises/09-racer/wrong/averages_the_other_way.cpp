@@ -1,5 +1,5 @@
 // caught by: features, unseen-features
-// mistake: the factor of an average given to the new reading.
+// mistake: gives the factor of the average to the new reading.
 
 // <solution featuresAt>
 Eigen::VectorXd now = Eigen::VectorXd::Zero(kFeatures);

@@ -1,5 +1,5 @@
 // caught by: forbidden-call
-// mistake: the equation of motion of the library.
+// mistake: takes the equation of motion from the library.
 
 // <solution headers>
 #include "control/racer_dynamics.h"

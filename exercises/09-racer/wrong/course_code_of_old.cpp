@@ -1,5 +1,5 @@
 // caught by: forces, lagrangian
-// mistake: the terms of the course's old code: a Coriolis term twice, and another that is none.
+// mistake: the terms of the course's old code: one Coriolis term twice, and another that does not exist.
 
 // <solution forceTerm>
 const double swing = racer.mB * racer.l * std::sin(q[1]);

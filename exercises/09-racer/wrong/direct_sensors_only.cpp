@@ -1,5 +1,5 @@
 // caught by: stays
-// mistake: searches on (1, y) only, which cannot tell how fast the wheel turns.
+// mistake: searches on (1, y) only, which do not show how fast the wheel turns.
 
 // <solution searchedPolicy>
 constexpr int kSearches = 3, kSamples = 20, kRepeats = 4, kTests = 50, kSearched = 5;

@@ -1,5 +1,5 @@
 // caught by: failed-ride
-// mistake: the ride is cut, but what is missing costs nothing.
+// mistake: the ride is cut, but the missing steps cost nothing.
 
 // <solution rideOf>
 const Eigen::Index T = noise.cols();

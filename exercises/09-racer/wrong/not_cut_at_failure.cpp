@@ -1,5 +1,5 @@
 // caught by: failed-ride
-// mistake: goes on after the failure, and round and round.
+// mistake: goes on after the failure, turning round and round.
 
 // <solution rideOf>
 const Eigen::Index T = noise.cols();

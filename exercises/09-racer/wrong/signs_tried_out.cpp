@@ -1,7 +1,6 @@
 // caught by: search, stays, unseen-search
 // shown by: search
-// mistake: weights that balance the racer of the sheet, with all signs of motor and sensors tried out; no
-// search.
+// mistake: does not search; tries known weights with all signs of motor and sensors.
 
 // <solution searchedPolicy>
 Eigen::VectorXd known = Eigen::VectorXd::Zero(kFeatures);

@@ -1,5 +1,5 @@
 // caught by: unseen-search
-// mistake: weights that balance the racer of the sheet, as its motor and sensors are wired there; no search.
+// mistake: does not search; takes weights that balance the racer of the sheet, wired as it is there.
 
 // <solution searchedPolicy>
 Eigen::VectorXd w = Eigen::VectorXd::Zero(kFeatures);
