@@ -17,7 +17,8 @@ namespace {
 
 // Part 1.
 
-// A pocket on each side of the place where the bug meets the obstacle: it passes there again on its way out.
+// A pocket on each side of the cell where the bug meets the obstacle; it passes this cell again on its way
+// out.
 CellMap pocketMap() {
   return mapOf({"..............", "....###.......", "....#.#.......", "....#.#.......", "...##.#.......",
                 "......#.......", "...##.#.......", "....#.#.......", "....#.#.......", "....###.......",
@@ -38,7 +39,7 @@ void bugsOnKnownMaps(Check& check, Student& student) {
   bugObeys(check, student, roomMap(), kRoomStart, kRoomGoal);
 }
 
-// A closed room, and the same with a door: to stay where it is would not do.
+// A closed room, and the same with a door, so that a bug that never moves fails.
 void bugsAndRooms(Check& check, Student& student) {
   for (const bool isOpen : {false, true}) {
     const std::string room = isOpen ? "a room with a door" : "a closed room";
@@ -180,7 +181,8 @@ void potentials(Check& check, Student& student) {
     const Yard yard = i == 0 ? trapYard() : randomYard(rng, {8, 6}, 1 + i, 0.5);
     const Eigen::Vector2d goal = randomFreePlace(yard, rng);
     const FieldGains gains = randomGains(rng);
-    check.input(i == 0 ? "trapYard() of maps.h, random gains and places" : "a random yard, gains and places");
+    check.input(i == 0 ? "trapYard() of maps.h, random gains and positions"
+                       : "a random yard, gains and positions");
     for (int place = 0; place < 20; ++place) {
       const Eigen::Vector2d p = randomFreePlace(yard, rng);
       const double U = trueU(yard, goal, gains, p);
@@ -193,15 +195,16 @@ void potentials(Check& check, Student& student) {
   });
 }
 
-// Differences over 2e-5 m are right to 1e-10 / d^2 of what a block 0.1 m away pushes, far below 1e-4. Where d
-// is the reach, the gradient has a kink: places within 1e-4 m of that are left out.
+// Differences over 2e-5 m are accurate to 1e-10 / d^2 of the push of a block 0.1 m away, far below 1e-4.
+// Where d is the reach, the gradient has a kink: points within 1e-4 m of that are left out.
 void gradients(Check& check, Student& student) {
   check.forEachCase(6, [&](int i) {
     Rng& rng = check.rng();
     const Yard yard = i == 0 ? trapYard() : randomYard(rng, {8, 6}, 1 + i, 0.5);
     const Eigen::Vector2d goal = randomFreePlace(yard, rng);
     const FieldGains gains = randomGains(rng);
-    check.input(i == 0 ? "trapYard() of maps.h, random gains and places" : "a random yard, gains and places");
+    check.input(i == 0 ? "trapYard() of maps.h, random gains and positions"
+                       : "a random yard, gains and positions");
     for (int place = 0; place < 20;) {
       const Eigen::Vector2d p = randomFreePlace(yard, rng);
       const bool isPlain = std::all_of(yard.blocks.begin(), yard.blocks.end(), [&](const Block& block) {
@@ -228,7 +231,7 @@ void slidesInTheTrap(Check& check, Student& student) {
 }
 
 // <hidden>
-// Half of the cases are cut off from the goal, half are easy. See there what that means.
+// Half of the cases are cut off from the goal, half are easy; isCutOff() and isEasy() say what that means.
 void slidesAnywhere(Check& check, Student& student) {
   check.forEachCase(8, [&](int i) {
     if (i % 2 == 0) return slides(check, student, randomTrap(check.rng()), Ending::kStuck);
@@ -250,7 +253,7 @@ void straightWays(Check& check, Student& student) {
     if (way == Straight::kEither) continue;
     blocked += way == Straight::kBlocked ? 1 : 0;
     const auto shown = check.show([&] { return straightSeen(thin, a, b, way); });
-    check.that("the straight way is free, or is not",
+    check.that("whether the straight way is free",
                student.straightIsFree(thin, a, b, 0.05) == (way == Straight::kFree));
   }
   check.input("random yards, resolution 1 to 10 cm");
@@ -261,7 +264,7 @@ void straightWays(Check& check, Student& student) {
     const Straight way = judged(yard, a, b, resolution);
     if (way == Straight::kEither) continue;
     const auto shown = check.show([&] { return straightSeen(yard, a, b, way); });
-    check.that("the straight way is free, or is not",
+    check.that("whether the straight way is free",
                student.straightIsFree(yard, a, b, resolution) == (way == Straight::kFree));
   }
 }
@@ -319,7 +322,7 @@ void queriesInTheSlotYard(Check& check, Student& student) {
   }
   check.input("the same, with no arc that leaves the slot to the right");
   check.that(
-      "the way is empty where none leads",
+      "the way is empty if there is none",
       student.queryRoadmap(yard, nodes, joined({{0, 1}, {0, 2}}), kSlotStart, kSlotGoal, 1, 0.05).empty());
 }
 
@@ -340,8 +343,9 @@ double lengthOver(const Yard& yard, std::vector<Eigen::Vector2d> nodes, Network 
   return slowDistances(network, old.size())[old.size() + 1];
 }
 
-// Between two random places, over a roadmap of 60 nodes. Ways that pass for either leave room: the shortest
-// is at most as long as without all of these, and at least as with them.
+// A query between two random positions, over a roadmap of 60 nodes. Straight ways for which either answer
+// is accepted leave a range: the shortest way is at most as long as without all of these, and at least as
+// long as with them.
 void queryFits(Check& check, Student& student, const Yard& yard) {
   Rng& rng = check.rng();
   const std::vector<Eigen::Vector2d> nodes = randomNodes(yard, 60, rng);
@@ -374,11 +378,11 @@ void queries(Check& check, Student& student) {
 
 using Samples = std::vector<Eigen::Vector2d>;
 
-// Generators of students come from a stream of their own, one of each check: who winds them back does not
-// find what the grader draws.
+// Students' generators come from a stream of their own, one for each check, so that winding one back does
+// not reveal what the grader draws.
 Rng generatorsOf(Check& check) { return check.rng().split(7); }
 
-// `count` nodes, or as many as come of that many attempts; each attempt has random numbers of its own.
+// `count` nodes, or as many as that many attempts find; each attempt has random numbers of its own.
 template <class Sample>
 Samples gathered(Check& check, Rng& given, const Yard& yard, int count, int attempts, const Sample& sample) {
   Samples samples;
@@ -401,7 +405,7 @@ double fromBorder(const Yard& yard, const Eigen::Vector2d& q) {
   return std::min(q.minCoeff(), (yard.size - q).minCoeff());
 }
 
-// 300 uniform nodes: half of them in a half, up to 6 standard deviations of 0.029.
+// 300 uniform nodes: half of them lie in each half, up to 6 standard deviations of 0.029.
 void uniformFits(Check& check, Student& student, Rng& given) {
   const Yard wall{{4, 4}, {{{0, 0}, {2, 4}}}};
   check.input("a yard of 4 x 4 m whose left half is a block");
@@ -409,14 +413,14 @@ void uniformFits(Check& check, Student& student, Rng& given) {
       gathered(check, given, wall, 300, 900, [&](Rng rng) { return student.uniformSample(wall, rng); });
   const auto shown = check.show(
       [&] { return samplesSeen("Uniform nodes; wanted: evenly over the free half", wall, nodes); });
-  check.atLeast("number of uniform nodes of 900 attempts", static_cast<double>(nodes.size()), 300);
+  check.atLeast("number of uniform nodes from 900 attempts", static_cast<double>(nodes.size()), 300);
   check.near("share of uniform nodes in the upper half", share(nodes, {{2, 2}, {4, 4}}), 0.5, 0.17);
   check.near("share of uniform nodes in the right half", share(nodes, {{3, 0}, {4, 4}}), 0.5, 0.17);
 }
 
-// Far from the border of the yard, the density at a distance x from the wall goes with P(N(0, sigma) > x).
-// In sigmas, its mean is sqrt(2 pi) / 4 = 0.627 with a deviation of 0.523, its mean square 2 / 3 with one of
-// 1.075, and 11.4 % lie beyond 1.3. Six standard deviations are forgiven.
+// Far from the border of the yard, the density at a distance x from the wall is proportional to P(N(0,
+// sigma) > x). In sigmas, its mean is sqrt(2 pi) / 4 = 0.627 with a deviation of 0.523, its mean square 2 /
+// 3 with one of 1.075, and 11.4 % lie beyond 1.3. Six standard deviations are tolerated.
 void gaussianFits(Check& check, Student& student, Rng& given) {
   const double sigma = check.rng().uniform(0.25, 0.3);
   const Yard wall{{12, 4}, {{{0, 0}, {12, 2}}}};
@@ -434,7 +438,7 @@ void gaussianFits(Check& check, Student& student, Rng& given) {
     far += distance > 1.3 ? 1 : 0;
     ++count;
   }
-  check.atLeast("number of Gaussian nodes at the wall, of 12000 attempts", count, 250);
+  check.atLeast("number of Gaussian nodes at the wall, from 12000 attempts", count, 250);
   const double forgiven = 6 / std::sqrt(count);
   check.near("mean distance of Gaussian nodes from the wall, in sigmas", sum / count, 0.627,
              0.523 * forgiven);
@@ -443,7 +447,8 @@ void gaussianFits(Check& check, Student& student, Rng& given) {
              0.318 * forgiven);
 }
 
-// Blocks all over, but for three slots of that width: along x, along y, and slanted, as stairs of 10 cm.
+// Blocks everywhere except for three slots of that width: along x, along y, and slanted, as stairs of 10
+// cm.
 Yard threeSlots(Rng& rng, double width) {
   const double y = rng.uniform(0.6, 1.4), x = rng.uniform(2.6, 3.4);
   Yard yard{{6, 2},
@@ -465,13 +470,13 @@ Yard threeSlots(Rng& rng, double width) {
 void bridgesFit(Check& check, Student& student, Rng& given) {
   const double sigma = check.rng().uniform(0.25, 0.35);
   const Yard yard = threeSlots(check.rng(), 2 * sigma / 3);
-  check.input("a yard of 6 x 2 m, blocked but for three slots: along x, along y and slanted; sigma = " +
+  check.input("a yard of 6 x 2 m, blocked except for three slots: along x, along y and slanted; sigma = " +
               std::to_string(sigma) + " m");
   const Samples nodes = gathered(check, given, yard, 200, 12000,
                                  [&](Rng rng) { return student.bridgeSample(yard, sigma, rng); });
   const auto shown =
       check.show([&] { return samplesSeen("Bridge nodes; wanted: in all slots", yard, nodes); });
-  check.atLeast("number of bridge nodes of 12000 attempts", static_cast<double>(nodes.size()), 150);
+  check.atLeast("number of bridge nodes from 12000 attempts", static_cast<double>(nodes.size()), 150);
   check.atLeast("share of bridge nodes in the slot along x", share(nodes, {{0, 0}, {2, 2}}), 0.14);
   check.atLeast("share of bridge nodes in the slot along y", share(nodes, {{2, 0}, {4, 2}}), 0.14);
   check.atLeast("share of bridge nodes in the slanted slot", share(nodes, {{4, 0}, {6, 2}}), 0.14);
@@ -482,7 +487,7 @@ void samplers(Check& check, Student& student) {
   uniformFits(check, student, given);
   gaussianFits(check, student, given);
   bridgesFit(check, student, given);
-  // To be 3.5 sigma from all that is blocked, the ends of a bridge would have to be 7 sigma apart.
+  // For a node 3.5 sigma away from all blocks, the ends of its bridge would have to be 7 sigma apart.
   const Yard slot = slotYard(1.9, 0.2);
   check.input("slotYard() of maps.h, 0.2 m wide; sigma = 0.3 m");
   const Samples bridge =
@@ -490,11 +495,11 @@ void samplers(Check& check, Student& student) {
   const auto shown = check.show([&] {
     return samplesSeen("Bridge nodes; wanted: two of five in the slot, none far from blocks", slot, bridge);
   });
-  check.atLeast("number of bridge nodes of 6000 attempts", static_cast<double>(bridge.size()), 10);
+  check.atLeast("number of bridge nodes from 6000 attempts", static_cast<double>(bridge.size()), 10);
   for (const Eigen::Vector2d& q : bridge) {
     double distance = fromBorder(slot, q);
     for (const Block& block : slot.blocks) distance = std::min(distance, (q - nearestPoint(block, q)).norm());
-    check.atMost("distance of a bridge node from what is blocked", distance, 3.5 * 0.3, "m");
+    check.atMost("distance of a bridge node from the nearest block", distance, 3.5 * 0.3, "m");
   }
   check.atLeast("share of bridge nodes in the slot", share(bridge, {{2, 1.9}, {4, 2.1}}), 0.4);
 }
@@ -507,7 +512,7 @@ bool isSolved(const Yard& yard, Samples nodes) {
   return std::isfinite(slowDistances(roadmapOf(yard, nodes, 8, 0.05, Straight::kFree), start)[start + 1]);
 }
 
-// How often 40 nodes, half of them uniform, join start and goal: 1000 draws from both pools.
+// The rate at which 40 nodes, half of them uniform, join start and goal, over 1000 draws from both pools.
 double rateOf(const Yard& yard, const Samples& uniform, const Samples& others, Rng& rng) {
   double solved = 0;
   for (int run = 0; run < 1000; ++run) {
@@ -520,9 +525,9 @@ double rateOf(const Yard& yard, const Samples& uniform, const Samples& others, R
   return solved / 1000;
 }
 
-// Over 60 seeds, 14 % of the draws are solved with uniform nodes. Gaussian ones solve more by 0.13 with a
-// standard deviation of 0.028, bridges by 0.57 with one of 0.063. In the slot are 10.7 % of the Gaussian
-// nodes, with a standard deviation of 0.7 %, and 2.6 % of the uniform ones.
+// Over 60 seeds, 14 % of the draws are solved with uniform nodes. Gaussian nodes raise this rate by 0.13
+// with a standard deviation of 0.028, bridges by 0.57 with one of 0.063. The slot holds 10.7 % of the
+// Gaussian nodes, with a standard deviation of 0.7 %, and 2.6 % of the uniform ones.
 void narrowPassages(Check& check, Student& student) {
   Rng given = generatorsOf(check);
   gaussianFits(check, student, given);
@@ -535,9 +540,9 @@ void narrowPassages(Check& check, Student& student) {
                                     [&](Rng rng) { return student.gaussianSample(yard, 0.2, rng); });
   const Samples bridge =
       gathered(check, given, yard, 100, 30000, [&](Rng rng) { return student.bridgeSample(yard, 0.3, rng); });
-  check.atLeast("number of uniform nodes of 8000 attempts", static_cast<double>(uniform.size()), 3000);
-  check.atLeast("number of Gaussian nodes of 16000 attempts", static_cast<double>(gaussian.size()), 2000);
-  check.atLeast("number of bridge nodes of 30000 attempts", static_cast<double>(bridge.size()), 60);
+  check.atLeast("number of uniform nodes from 8000 attempts", static_cast<double>(uniform.size()), 3000);
+  check.atLeast("number of Gaussian nodes from 16000 attempts", static_cast<double>(gaussian.size()), 2000);
+  check.atLeast("number of bridge nodes from 30000 attempts", static_cast<double>(bridge.size()), 60);
   check.atLeast("share of Gaussian nodes in the slot", share(gaussian, {{2, low}, {4, low + 0.2}}), 0.06);
   const double usual = rateOf(yard, uniform, uniform, check.rng());
   const auto gain = [&](const Samples& others) { return rateOf(yard, uniform, others, check.rng()) - usual; };
@@ -563,7 +568,8 @@ void estimates(Check& check, Student& student) {
   }
 }
 
-// Distances are those from the start; 1e-9 is for rounding, and lets in what is as good as the way returned.
+// Distances are those from the start; 1e-9 allows for rounding, and for nodes on ways as short as the one
+// returned.
 void searches(Check& check, Student& student, const Network& network, std::size_t start, std::size_t goal,
               const std::vector<double>& estimates, const std::vector<double>& distances,
               const CellMap* map = nullptr) {

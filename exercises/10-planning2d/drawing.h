@@ -122,7 +122,7 @@ inline rex::Simulator sceneOf(const CellMap& map, MapCell start, MapCell goal) {
   return rex::Simulator(rex::SimulatorDescription{.sceneName = "map.ors", .sceneText = text, .q = {}});
 }
 
-// All arcs that hang together as one line, there and back again.
+// All connected arcs as one line that follows each of them there and back.
 inline void walkArcs(const Network& roadmap, std::size_t node, std::vector<bool>& isSeen,
                      std::vector<std::size_t>& line) {
   isSeen[node] = true;

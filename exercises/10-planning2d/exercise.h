@@ -26,7 +26,7 @@ struct CellMap {
   MapCell cellAt(std::size_t place) const {
     return {static_cast<int>(place) % width, static_cast<int>(place) / width};
   }
-  /// Outside nothing is free.
+  /// No cell outside the map is free.
   bool isFree(MapCell cell) const {
     return 0 <= cell.x && cell.x < width && 0 <= cell.y && cell.y < height && blocked[placeOf(cell)] == 0;
   }
@@ -42,37 +42,39 @@ using Network = std::vector<std::vector<Arc>>;
 
 // Part 1, a bug (4:7 to 4:11).
 
-/// Where a bug went, from its start on, each cell beside the one before; and whether it got to its goal.
+/// The cells of a bug's way from its start, each beside the one before, and whether it reached its goal.
 struct BugTrail {
   bool reached = false;
   std::vector<MapCell> cells;
 };
 
-/// Bug 2 (4:11). The m-line leads from start (its first cell) to goal (its last), each cell beside the one
-/// before; start and goal are free. isFree(cell) may be asked only about the eight cells that touch one where
-/// the bug goes; it moves up, down, left and right. Off the m-line it touches an obstacle in each cell
-/// (corner to corner counts). It takes at most the steps of the m-line, and for each time that this enters an
-/// obstacle once around it: four, and one for each side of a cell that it has in common with free ones.
-/// (Outside of the map is an obstacle, too.) It reaches the goal, or says that no way leads there. For that,
-/// Bug 2 turns to the same side each time, comes back to cells of the line that are nearer to the goal, and
-/// gives up when it is where it met the obstacle and would make the same step again.
+/// Bug 2 (4:11). The m-line leads from the start (its first cell) to the goal (its last), each cell beside
+/// the one before; both ends are free. isFree(cell) may be asked only about the eight cells around a cell
+/// that the bug visits; it moves up, down, left and right. In each cell off the m-line it touches an
+/// obstacle (corner to corner counts). It takes at most the steps of the m-line and, for each time that the
+/// m-line enters an obstacle, one circuit around this: four steps, plus one for each side of a cell that
+/// the obstacle shares with free cells. (The outside of the map is an obstacle, too.) It reaches the goal,
+/// or says that no way leads there. To do so, Bug 2 always turns to the same side, returns to the m-line
+/// only at cells that are nearer to the goal, and gives up when it is back where it met the obstacle and
+/// would make the same step again.
 BugTrail bugTwo(const std::vector<MapCell>& mLine, const std::function<bool(MapCell)>& isFree);
 
 // Part 2, wavefront and Dijkstra (4:18 to 4:26).
 
-/// The numbers of slides 4:18 to 4:25 for all cells: 2 at the goal, which is free, one more with each step to
-/// one of the eight cells around, 1 where blocked, 0 where no way leads.
+/// The numbers of slides 4:18 to 4:25 for all cells: 2 at the goal, which is free; one more with each step
+/// to one of the eight neighbours; 1 at blocked cells; 0 at cells that cannot be reached.
 std::vector<int> waveNumbers(const CellMap& map, MapCell goal);
 
 /// All cells as nodes, in the order of lists. Arcs join free cells: sides 1 m, diagonals sqrt(2) m. A
-/// diagonal arc is there only if both cells beside it are free, so that nothing scrapes along a corner.
+/// diagonal arc exists only if both cells beside it are free, so that nothing scrapes along a corner.
 Network cellNetwork(const CellMap& map);
 
 /// The length of the shortest way from one node to every node, itself included; infinite where there is none
 /// (4:26). All arcs have a positive length.
 std::vector<double> dijkstra(const Network& network, std::size_t from);
 
-/// A shortest way from `start` to where `distances` (of dijkstra()) are zero, both included; none: empty.
+/// A shortest way from `start` to the node where `distances` (from dijkstra()) is zero, both included.
+/// Empty if there is none.
 std::vector<std::size_t> wayDown(const Network& network, const std::vector<double>& distances,
                                  std::size_t start);
 
@@ -114,20 +116,20 @@ struct FieldGains {
 double fieldPotential(const Yard& yard, const Eigen::Vector2d& goal, const FieldGains& gains,
                       const Eigen::Vector2d& p);
 
-/// Its derivative by p, outside of blocks, as a column.
+/// Its derivative with respect to p, outside of blocks, as a column.
 Eigen::Vector2d fieldGradient(const Yard& yard, const Eigen::Vector2d& goal, const FieldGains& gains,
                               const Eigen::Vector2d& p);
 
-/// Where a point slid down, and how that ended.
+/// The points of a descent, and how it ended.
 enum class Ending { kAtGoal, kStuck };
 struct FieldTrail {
   Ending ending = Ending::kStuck;
   std::vector<Eigen::Vector2d> points;
 };
 
-/// From `start` (outside of blocks) down the potential, in steps of at most `stepSize` metres; each point is
-/// lower than the one before. It ends within stepSize of the goal, or stuck elsewhere, where the gradient is
-/// shorter than k times 0.01 m: slide 4:16.
+/// Descends the potential from `start` (outside of blocks) in steps of at most `stepSize` metres; each
+/// point is lower than the one before. It ends within stepSize of the goal, or stuck elsewhere, where the
+/// gradient is shorter than k times 0.01 m: slide 4:16.
 FieldTrail slideDown(const Yard& yard, const Eigen::Vector2d& goal, const FieldGains& gains,
                      const Eigen::Vector2d& start, double stepSize);
 
@@ -137,20 +139,19 @@ FieldTrail slideDown(const Yard& yard, const Eigen::Vector2d& goal, const FieldG
 /// more than `resolution` metres apart, are free.
 bool straightIsFree(const Yard& yard, const Eigen::Vector2d& a, const Eigen::Vector2d& b, double resolution);
 
-/// One attempt each to find a free node; none: not this time. Slides 4:31 (line 3 and 4) and 4:35. N(q1,
-/// sigma) adds a normal number of standard deviation sigma [m] to each coordinate; q2 may leave the yard,
-/// where nothing is free.
+/// Each makes one attempt to find a free node, and returns nothing if it fails. Slides 4:31 (line 3 and 4)
+/// and 4:35. N(q1, sigma) adds a normal number of standard deviation sigma [m] to each coordinate; q2 may
+/// leave the yard, where nothing is free.
 std::optional<Eigen::Vector2d> uniformSample(const Yard& yard, rex::Rng& rng);
 std::optional<Eigen::Vector2d> gaussianSample(const Yard& yard, double sigma, rex::Rng& rng);
 std::optional<Eigen::Vector2d> bridgeSample(const Yard& yard, double sigma, rex::Rng& rng);
 
-/// Lines 6 to 11 of slide 4:31 for nodes that are all different and more than k: an arc and the one back for
-/// each node q and each of the k other nodes nearest to it, where the straight way between is free; none
-/// twice.
+/// Lines 6 to 11 of slide 4:31, for more than k nodes, all different: arcs there and back between each node
+/// q and those of the k other nodes nearest to it to which the straight way is free. No arc occurs twice.
 Network joinNearest(const Yard& yard, const std::vector<Eigen::Vector2d>& nodes, int k, double resolution);
 
-/// The shortest way from start over the roadmap to goal, both included, when each of these two is joined to
-/// those of the k nodes nearest to it that a free straight way leads to; none: empty.
+/// The shortest way from start over the roadmap to goal, both included. Each of these two is joined to
+/// those of the k nodes nearest to it to which the straight way is free. Empty if there is no way.
 std::vector<Eigen::Vector2d> queryRoadmap(const Yard& yard, const std::vector<Eigen::Vector2d>& nodes,
                                           const Network& roadmap, const Eigen::Vector2d& start,
                                           const Eigen::Vector2d& goal, int k, double resolution);
@@ -160,9 +161,10 @@ std::vector<Eigen::Vector2d> queryRoadmap(const Yard& yard, const std::vector<Ei
 /// The length of the shortest way in a cellNetwork() of an endless map without obstacles.
 double emptyMapDistance(MapCell from, MapCell to);
 
-/// A shortest way from start to goal, both included; none: empty. `estimates` has a number for each node that
-/// is never more than the way from there to the goal, and differs along an arc by at most its length.
-/// arcsOf(node) gives the arcs of a node; it is dear: ask for no node twice, and only where the way from the
-/// start to the node plus its estimate is at most the length of the way you return.
+/// A shortest way from start to goal, both included; empty if there is none. `estimates` has a number for
+/// each node, which is at most the length of the way from there to the goal and changes along an arc by at
+/// most the arc's length. arcsOf(node) returns the arcs of a node. It is expensive: call it at most once
+/// for each node, and only if the length of the way from the start to the node plus its estimate is at most
+/// the length of the way you return.
 std::vector<std::size_t> aStar(const std::function<std::vector<Arc>(std::size_t)>& arcsOf, std::size_t start,
                                std::size_t goal, const std::vector<double>& estimates);

@@ -16,7 +16,7 @@
 #include "planning/bug.h"
 #include "planning/grid_search.h"
 
-// What parts 1, 2 and 5 are judged by: maps, and what is known about ways on them.
+// The checks of parts 1, 2 and 5: maps, and what is known about ways on them.
 
 inline rex::GridMap gridMapOf(const CellMap& map) {
   rex::GridMap grid(map.width, map.height);
@@ -69,8 +69,9 @@ inline void enclose(CellMap& map, MapCell middle, int reach) {
     }
 }
 
-// How many sides the obstacles have in common with free cells, told at each of their cells. Obstacles that
-// touch at a corner are one, and all that touch the border are one with it. A frame is added around the map.
+// The number of sides that an obstacle shares with free cells, stored at each of its cells. Obstacles that
+// touch at a corner are one, and all that touch the border are one with it. A frame is added around the
+// map.
 class Obstacles {
  public:
   explicit Obstacles(const CellMap& map) : map_(map) {
@@ -115,10 +116,10 @@ class Obstacles {
   std::vector<int> obstacleOf_, sides_;
 };
 
-// Lumelsky and Stepanov's bound, in cells: the m-line, and for each time that it enters an obstacle once
-// around that. Half the crossings with the border of an obstacle enter it: this is D + sum n p / 2. To go
-// round along sides of cells takes p + 4 steps: two at a corner that sticks out, none at one that does not,
-// and there are four more of the first kind.
+// Lumelsky and Stepanov's bound, in cells: the m-line and, for each time that it enters an obstacle, one
+// circuit around that. Half the crossings with the border of an obstacle enter it: this is D + sum n p / 2.
+// A circuit along p sides of cells takes p + 4 steps: two at a convex corner, none at a concave one, and
+// there are four more convex ones.
 inline double bugBound(const CellMap& map, const std::vector<MapCell>& line) {
   const Obstacles obstacles(map);
   double bound = static_cast<double>(line.size()) - 1;
@@ -152,13 +153,13 @@ inline bool touchesObstacle(const CellMap& map, MapCell cell) {
 inline bool isBeside(MapCell a, MapCell b) { return std::abs(a.x - b.x) + std::abs(a.y - b.y) == 1; }
 inline bool touches(MapCell a, MapCell b) { return std::abs(a.x - b.x) <= 1 && std::abs(a.y - b.y) <= 1; }
 
-// A look for points of figures.
+// A style for points in figures.
 inline rex::Series dots(const std::string& label, const rex::Color& color, double size,
                         rex::Marker marker = rex::Marker::kDot) {
   return {.label = label, .style = rex::SeriesStyle::kPoints, .marker = marker, .size = size, .color = color};
 }
 
-// Where a bug went, beside where the library's goes; until it went wrong if that is known.
+// The way of a bug beside that of the library's bug, up to where it went wrong if that is known.
 inline rex::grading::Evidence bugSeen(const CellMap& map, const std::vector<MapCell>& line,
                                       const std::vector<MapCell>& trail, const std::vector<MapCell>& asked) {
   rex::Figure figure = planOf("The way of the bug", map);
@@ -183,8 +184,8 @@ inline rex::grading::Evidence bugSeen(const CellMap& map, const std::vector<MapC
   return {.figures = {figure}};
 }
 
-// A bug that runs in circles is stopped by what it asks: a right one needs four answers a step at most, and
-// gets forty.
+// A bug that runs in circles is stopped by the limit on its questions: a correct one needs at most four
+// answers per step, and gets forty.
 inline void bugObeys(rex::grading::Check& check, Student& student, const CellMap& map, MapCell start,
                      MapCell goal) {
   const std::vector<MapCell> line = straightCells(start, goal);
@@ -196,7 +197,7 @@ inline void bugObeys(rex::grading::Check& check, Student& student, const CellMap
     check.that("isFree is asked only about cells that touch the trail",
                -1 <= cell.x && cell.x <= map.width && -1 <= cell.y && cell.y <= map.height);
     asked.push_back(cell);
-    check.atMost("number of questions to isFree", static_cast<double>(asked.size()), 40 * (bound + 10));
+    check.atMost("number of calls of isFree", static_cast<double>(asked.size()), 40 * (bound + 10));
     return map.isFree(cell);
   });
   const std::vector<MapCell>& cells = trail.cells;
@@ -221,13 +222,13 @@ inline void bugObeys(rex::grading::Check& check, Student& student, const CellMap
                std::any_of(cells.begin(), cells.end(), [&](MapCell at) { return touches(at, cell); }));
 }
 
-// Points in a square of 1 m, joined where they are near; far from all others there may be lonely ones.
+// Points in a square of 1 m, joined if they are near each other; some may be isolated.
 struct RandomNetwork {
   std::vector<Eigen::Vector2d> places;
   Network network;
 };
 
-// Arcs are longer than straight, by up to `detour`.
+// Arcs are longer than the straight line, by up to `detour`.
 inline RandomNetwork randomNetwork(rex::Rng& rng, int nodes, double reach, double detour) {
   RandomNetwork made;
   for (int i = 0; i < nodes; ++i) made.places.emplace_back(rng.uniformVector(2, 0, 1));
@@ -243,7 +244,7 @@ inline RandomNetwork randomNetwork(rex::Rng& rng, int nodes, double reach, doubl
   return made;
 }
 
-// Bellman and Ford: as simple as it is slow.
+// Bellman-Ford: as simple as it is slow.
 inline std::vector<double> slowDistances(const Network& network, std::size_t from) {
   std::vector<double> distances(network.size(), std::numeric_limits<double>::infinity());
   distances.at(from) = 0;
@@ -266,14 +267,15 @@ inline void distancesAgree(rex::grading::Check& check, const std::vector<double>
     if (std::isfinite(wanted[i]))
       check.near("distance", got[i], wanted[i], 1e-9, "m");
     else
-      check.that("where no way leads, the distance is infinite", got[i] == wanted[i]);
+      check.that("the distance is infinite if no way leads there", got[i] == wanted[i]);
   }
 }
 
-// A way between two nodes along arcs, of that length; if that is infinite, none.
+// Checks that this is a way of that length along arcs between two nodes, or empty if the length is
+// infinite.
 inline void isWay(rex::grading::Check& check, const Network& network, const std::vector<std::size_t>& way,
                   std::size_t from, std::size_t to, double length) {
-  if (!std::isfinite(length)) return check.that("the way is empty where none leads", way.empty());
+  if (!std::isfinite(length)) return check.that("the way is empty if there is none", way.empty());
   check.that("the way begins and ends where it should",
              !way.empty() && way.front() == from && way.back() == to);
   double sum = 0;

@@ -29,7 +29,8 @@ inline std::vector<MapCell> straightCells(MapCell from, MapCell to) {
   return line;
 }
 
-/// Where a bug that leaves its obstacle at any cell of the m-line runs in circles, whichever hand it uses.
+/// A map on which a bug runs in circles if it leaves its obstacle at any cell of the m-line, whichever hand
+/// it uses.
 inline CellMap hookMap() {
   return mapOf(
       {"..............................", "............##########........", "............#.................",
@@ -54,7 +55,7 @@ inline CellMap roomMap() {
 }
 inline constexpr MapCell kRoomStart{2, 15}, kRoomGoal{30, 1};
 
-/// A yard with a trap: a block, with arms, between what comes from the left and the goal.
+/// A yard with a trap: a block with arms between the left side and the goal.
 inline Yard trapYard() {
   return {{10, 6}, {{{5, 1.5}, {5.5, 4.5}}, {{4, 4}, {5, 4.5}}, {{4, 1.5}, {5, 2}}, {{7, 0}, {7.5, 1.5}}}};
 }

@@ -11,11 +11,11 @@
 #include "grid_checks.h"
 #include "yard_checks.h"
 
-// What the checks show of ways, maps and yards that are not as they should be.
+// What the checks show if ways, maps or yards are wrong.
 
 using Points = std::vector<Eigen::Vector2d>;
 
-/// Numbers of the cells beside those that were wanted, with a ring at the first that differs.
+/// Numbers of the cells beside the wanted ones, with a ring at the first that differs.
 inline rex::grading::Evidence wavesSeen(const CellMap& map, MapCell goal, const std::vector<int>& got,
                                         const std::vector<int>& wanted) {
   if (got.size() != wanted.size()) return {};
@@ -36,7 +36,7 @@ inline rex::grading::Evidence wavesSeen(const CellMap& map, MapCell goal, const 
   return {.figures = std::move(figures)};
 }
 
-/// Arcs of one network that another does not have, as lines between the places of nodes.
+/// Arcs of one network that another does not have, as lines between the positions of nodes.
 inline void addExtraArcs(rex::Figure& figure, const Points& places, const Network& network,
                          const Network& other, const rex::Series& look) {
   std::string label = look.label;
@@ -49,7 +49,7 @@ inline void addExtraArcs(rex::Figure& figure, const Points& places, const Networ
     }
 }
 
-/// A network over a plan: what is there too much, and what is missing of `least`.
+/// A network over a plan: the arcs that should not be there, and those of `least` that are missing.
 inline rex::grading::Evidence networkSeen(rex::Figure figure, const Points& places, const Network& got,
                                           const Network& all, const Network& least) {
   addExtraArcs(figure, places, got, {}, {.label = "got", .size = 0.5, .color = kGray});
@@ -73,7 +73,7 @@ inline std::vector<std::size_t> steepestWay(const Network& network, const std::v
   return way;
 }
 
-/// A way over a network between places, beside a shortest one.
+/// A way over a network between positions, beside a shortest one.
 inline rex::grading::Evidence waySeen(const RandomNetwork& made, const std::vector<std::size_t>& got,
                                       const std::vector<std::size_t>& wanted) {
   rex::Figure figure = planOf("A way over a network", {1, 1}, {});
@@ -90,7 +90,7 @@ inline rex::grading::Evidence waySeen(const RandomNetwork& made, const std::vect
   return {.figures = {figure}};
 }
 
-/// A straight way in a yard, and what it should pass for.
+/// A straight way in a yard, and the wanted answer.
 inline rex::grading::Evidence straightSeen(const Yard& yard, const Eigen::Vector2d& a,
                                            const Eigen::Vector2d& b, Straight wanted) {
   rex::Figure figure = planOf(
@@ -114,7 +114,7 @@ inline rex::grading::Evidence searchSeen(const CellMap& map, const std::vector<s
                                          const std::vector<std::size_t>& wanted) {
   rex::Figure figure = planOf("A search on a map", map);
   addLine(figure, centersOf(map, asked), dots("asked for", {.5f, .7f, .9f}, 1.5, rex::Marker::kSquare));
-  addLine(figure, centersOf(map, tooFar), dots("asked for in vain", rex::grading::kWrongColor, 1.5));
+  addLine(figure, centersOf(map, tooFar), dots("asked for, but not needed", rex::grading::kWrongColor, 1.5));
   addLine(figure, centersOf(map, got), rex::grading::gotCurve("got"));
   addLine(figure, centersOf(map, wanted), rex::grading::wantedCurve("wanted, or as long"));
   return {.figures = {figure}};

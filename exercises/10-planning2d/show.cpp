@@ -14,7 +14,7 @@ using namespace rex;
 
 namespace {
 
-void nothingYet(const char* what) { std::printf("Nothing to see yet of %s.\n", what); }
+void nothingYet(const char* what) { std::printf("Nothing to show yet for %s.\n", what); }
 
 constexpr int kNeighbors = 8;
 constexpr double kResolution = 0.02, kSigma = 0.3;

@@ -15,7 +15,7 @@
 #include "maps.h"
 #include "render/figure_builders.h"
 
-// What parts 3 and 4 are judged by: yards, potentials and roadmaps in them.
+// The checks of parts 3 and 4: yards, potentials and roadmaps in them.
 
 inline Eigen::Vector2d randomPlace(const Yard& yard, rex::Rng& rng) {
   return {rng.uniform(0, yard.size.x()), rng.uniform(0, yard.size.y())};
@@ -28,7 +28,7 @@ inline Eigen::Vector2d randomFreePlace(const Yard& yard, rex::Rng& rng) {
   }
 }
 
-// Blocks with corners on a raster of that width: what lies between two is as wide, or nothing.
+// Blocks with corners on a grid of that spacing: gaps between them are at least that wide.
 inline Yard randomYard(rex::Rng& rng, const Eigen::Vector2d& size, int blocks, double raster) {
   Yard yard{.size = size, .blocks = {}};
   const auto corner = [&](double length) { return raster * rng.index(static_cast<int>(length / raster)); };
@@ -56,8 +56,8 @@ inline double lengthIn(const Block& block, const Eigen::Vector2d& a, const Eigen
   return first > last ? -1 : (last - first) * (b - a).norm();
 }
 
-// What a straight way between free places is: blocked, if points so far apart must meet a block; free, if it
-// keeps off all blocks; else it may pass for either.
+// What a straight way between free positions is: blocked, if points at that spacing must hit a block; free,
+// if it keeps off all blocks; otherwise either answer is accepted.
 enum class Straight { kFree, kEither, kBlocked };
 inline Straight judged(const Yard& yard, const Eigen::Vector2d& a, const Eigen::Vector2d& b,
                        double resolution) {
@@ -89,7 +89,7 @@ inline Eigen::Vector2d trueGradient(const Yard& yard, const Eigen::Vector2d& goa
   return {(U(h, 0) - U(-h, 0)) / (2 * h), (U(0, h) - U(0, -h)) / (2 * h)};
 }
 
-// Whether p is farther than that from all blocks.
+// Whether p is farther than `distance` from all blocks.
 inline bool isClear(const Yard& yard, const Eigen::Vector2d& p, double distance) {
   return std::all_of(yard.blocks.begin(), yard.blocks.end(),
                      [&](const Block& block) { return (p - nearestPoint(block, p)).norm() > distance; });
@@ -103,8 +103,8 @@ struct Slide {
   double stepSize = 0.05;
 };
 
-// Whether no way leads from start to goal on which U stays below what it is at the start: whoever only goes
-// down gets stuck. Blocks stand on a raster of 0.5 m, and ways between them are seen on one of 0.1 m.
+// Whether U rises above its value at the start on every way to the goal, so that a descent gets stuck.
+// Blocks stand on a grid of 0.5 m, and ways between them are searched on one of 0.1 m.
 inline bool isCutOff(const Slide& slide) {
   const double h = 0.1, margin = 2;
   const auto columns = static_cast<int>((slide.yard.size.x() + 2 * margin) / h) + 1,
@@ -133,8 +133,8 @@ inline bool isCutOff(const Slide& slide) {
   return true;
 }
 
-// Whether the goal is reached with room to spare: also from places around the start, in other steps, and
-// nowhere on the way is the field nearly level.
+// Whether the goal is reached with a margin: also from positions around the start and with other step
+// sizes, and the field is nearly level nowhere on the way.
 inline bool isEasy(const Slide& slide) {
   for (int i = 0; i < 5; ++i) {
     const Eigen::Vector2d aside(i == 1 ? 0.2 : i == 2 ? -0.2 : 0, i == 3 ? 0.2 : i == 4 ? -0.2 : 0);
@@ -155,7 +155,7 @@ inline FieldGains randomGains(rex::Rng& rng) {
 }
 
 // A block with two arms, open to any of four sides, with the start between the arms and the goal behind the
-// block, among others.
+// block, among other blocks.
 inline Slide randomTrap(rex::Rng& rng) {
   while (true) {
     Slide slide{randomYard(rng, {8, 8}, 3, 0.5), {}, randomGains(rng), {}};
@@ -238,15 +238,15 @@ inline void slides(rex::grading::Check& check, Student& student, const Slide& sl
   const Eigen::Vector2d end = trail.points.back();
   if (wanted == Ending::kAtGoal) {
     check.that("no local minimum is in the way, and it ends at the goal", trail.ending == Ending::kAtGoal);
-    check.atMost("distance from the goal in the end", (end - goal).norm(), stepSize * (1 + 1e-9), "m");
+    check.atMost("distance from the goal at the end", (end - goal).norm(), stepSize * (1 + 1e-9), "m");
   } else {
     check.that("a local minimum is in the way, and it ends stuck", trail.ending == Ending::kStuck);
-    check.atMost("length of the gradient in the end", trueGradient(yard, goal, gains, end).norm(),
+    check.atMost("length of the gradient at the end", trueGradient(yard, goal, gains, end).norm(),
                  0.0101 * gains.attraction, "N");
   }
 }
 
-// The k nodes nearest to q, itself left out if it is node `self`.
+// The k nodes nearest to q, leaving out node `self`.
 inline std::vector<std::size_t> nearestTo(const std::vector<Eigen::Vector2d>& nodes, const Eigen::Vector2d& q,
                                           int k, std::size_t self) {
   std::vector<std::pair<double, std::size_t>> order;
@@ -259,7 +259,8 @@ inline std::vector<std::size_t> nearestTo(const std::vector<Eigen::Vector2d>& no
   return nearest;
 }
 
-// The roadmap that joinNearest() asks for; `with` says what becomes of ways that pass for either.
+// The roadmap that joinNearest() asks for; `with` says what to do with ways for which either answer is
+// accepted.
 inline Network roadmapOf(const Yard& yard, const std::vector<Eigen::Vector2d>& nodes, int k,
                          double resolution, Straight with) {
   std::set<std::pair<std::size_t, std::size_t>> pairs;
@@ -281,7 +282,7 @@ inline bool hasArc(const Network& network, std::size_t from, std::size_t to) {
                      [&](const Arc& arc) { return arc.to == to; });
 }
 
-// Arcs that no answer may leave out, and arcs that none may have.
+// Checks that no necessary arc is missing, and that there are no others than the possible ones.
 inline void isRoadmap(rex::grading::Check& check, const Yard& yard, const std::vector<Eigen::Vector2d>& nodes,
                       int k, double resolution, const Network& got) {
   const Network all = roadmapOf(yard, nodes, k, resolution, Straight::kEither),
@@ -293,10 +294,10 @@ inline void isRoadmap(rex::grading::Check& check, const Yard& yard, const std::v
       check.that("every arc leads to a node", to < nodes.size());
       check.that("no arc is there twice", ends.insert(to).second);
       check.that("every arc has one that leads back", hasArc(got, to, i));
-      check.that("arcs lead only along ways that are free, to one of the k nearest", hasArc(all, i, to));
+      check.that("arcs lead only along free ways to one of the k nearest nodes", hasArc(all, i, to));
       check.near("length of an arc", length, (nodes[i] - nodes[to]).norm(), 1e-9, "m");
     }
     for (const Arc& arc : least[i])
-      check.that("all free ways to the k nearest are there", hasArc(got, i, arc.to));
+      check.that("all free ways to the k nearest nodes have arcs", hasArc(got, i, arc.to));
   }
 }

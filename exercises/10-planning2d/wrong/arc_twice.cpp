@@ -1,5 +1,5 @@
 // caught by: grid-network
-// mistake: an arc of each cell takes the place of its last one: as many arcs as there should be, one twice.
+// mistake: one arc of each cell replaces its last one: the number of arcs is right, but one occurs twice.
 
 // <solution cellNetwork>
 for (std::size_t here = 0; here < network.size(); ++here) {

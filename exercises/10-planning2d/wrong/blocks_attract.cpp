@@ -1,6 +1,6 @@
 // caught by: field-gradient, field-slide, field-any-yard
 // shown by: field-slide
-// mistake: the sign of the repulsion.
+// mistake: the repulsion has the wrong sign.
 
 // <solution fieldGradient>
 gradient = gains.attraction * (p - goal);

@@ -1,5 +1,5 @@
 // caught by: astar-known-maps, astar-anything
-// mistake: the estimate of the start for every node: that is Dijkstra, which looks everywhere.
+// mistake: uses the estimate of the start for every node: that is Dijkstra, which looks everywhere.
 
 // <solution aStar>
 std::vector<double> lengths(estimates.size(), kInfinite);

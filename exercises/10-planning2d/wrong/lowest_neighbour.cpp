@@ -1,6 +1,6 @@
 // caught by: grid-way
 // shown by: grid-way
-// mistake: goes to the lowest neighbour, as slide 4:25 says; where arcs differ, that is a detour.
+// mistake: goes to the lowest neighbour, as slide 4:25 says; if arcs differ in length, that is a detour.
 
 // <solution wayDown>
 if (distances[start] == kInfinite) return {};

@@ -1,5 +1,5 @@
 // caught by: prm-samplers, prm-passage
-// mistake: uniform places near a block, and such with something blocked above and below; no normal numbers.
+// mistake: uniform positions near a block, and uniform ones with blocks above and below; no normal numbers.
 
 // <solution gaussianSample>
 const auto q = uniformSample(yard, rng);

@@ -1,5 +1,5 @@
 // caught by: bug-known-maps
-// mistake: takes passing by where it met the obstacle for having come round.
+// mistake: takes passing the cell where it met the obstacle for a full circuit.
 
 // <solution bugTwo>
 const auto leftmost = [&](MapCell cell, int heading) {

@@ -1,5 +1,5 @@
 // caught by: field-slide, field-any-yard
-// mistake: where the gradient vanishes, it must be the goal.
+// mistake: takes every point where the gradient vanishes for the goal.
 
 // <solution slideDown>
 while (fieldGradient(yard, goal, gains, trail.points.back()).norm() >= 0.01 * gains.attraction) {
