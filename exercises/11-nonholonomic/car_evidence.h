@@ -13,9 +13,9 @@
 #include "planning/car.h"
 #include "planning/dubins.h"
 
-// What the checks show of cars that are not where they should be.
+// What the checks show if cars are not where they should be.
 
-/// Outlines of the same look, of which the first has a label.
+/// Adds one of several outlines in the same style; only the first has a label.
 inline void addOutline(rex::Figure& figure, std::string& label, const CarModel& car, const Eigen::Vector3d& q,
                        const rex::Series& look) {
   rex::Series body = outline(car, q, look.color.value_or(rex::Color{}));
@@ -37,7 +37,7 @@ inline rex::Figure carFigure(const std::string& title, const std::vector<Block>&
   return figure;
 }
 
-/// Where a car starts, and where drives lead it: a solid outline, and the wanted one dashed.
+/// Where a car starts, and where drives lead it: solid outlines for got, a dashed one for wanted.
 inline rex::grading::Evidence endsSeen(const CarModel& car, const Eigen::Vector3d& start,
                                        const Eigen::Vector3d& got, const Poses& wanted) {
   rex::Figure figure = carFigure("Where a drive leads", {});
@@ -48,7 +48,7 @@ inline rex::grading::Evidence endsSeen(const CarModel& car, const Eigen::Vector3
   return {.figures = {figure}};
 }
 
-/// A row of poses, of which one may not follow from the one before.
+/// A sequence of poses, one of which may not follow from the one before.
 inline rex::grading::Evidence pathSeen(const std::string& title, const CarModel& car, const Poses& path,
                                        std::size_t broken) {
   rex::Figure figure = carFigure(title, {});
@@ -89,7 +89,7 @@ inline DrivenWay wayOf(const CarModel& car, const Eigen::Vector3d& start, const 
   for (const Drive& drive : plan) {
     const double metres = std::abs(drive.speed) * drive.seconds;
     length += metres;
-    if (!(length <= kLongest) || way.poses.size() > kMostPoses) break;  // of no sense, or not a number
+    if (!(length <= kLongest) || way.poses.size() > kMostPoses) break;  // senseless, or not a number
     const int count = std::max(1, static_cast<int>(std::ceil(metres / kPoseSpacing)));
     const Eigen::Vector3d from = way.poses.back();
     const bool isPossible = std::abs(drive.speed) <= 1 + 1e-9 && drive.steering <= car.maxSteering + 1e-9 &&
@@ -107,22 +107,22 @@ inline DrivenWay wayOf(const CarModel& car, const Eigen::Vector3d& start, const 
   return way;
 }
 
-/// The way of a car from above, with the place where something is in the way, and where it should end.
+/// The way of a car from above, with the pose at which something is wrong, and the wanted end.
 inline rex::Figure wayFigure(const std::string& title, const CarModel& car, const World& world,
                              const DrivenWay& way) {
   rex::Figure figure = carFigure(title, world.blocks);
   for (std::size_t i = 0; i < way.poses.size(); i += 12)
     figure.series.push_back(outline(car, way.poses[i], kSoft));
   figure.series.push_back(rex::grading::through(way.poses, rex::grading::gotCurve("got: the rear axle")));
-  addOutline(figure, car, world.goal, rex::grading::wantedCurve("wanted in the end"));
+  addOutline(figure, car, world.goal, rex::grading::wantedCurve("wanted at the end"));
   if (way.wrong > 0)
     addOutline(figure, car, way.poses[way.wrong], rex::grading::wrongCurve(way.why));
   else
-    addOutline(figure, car, way.poses.back(), {.label = "got in the end", .size = 2, .color = kGround});
+    addOutline(figure, car, way.poses.back(), {.label = "got at the end", .size = 2, .color = kGround});
   return figure;
 }
 
-/// Parking as a film with a pale car on the goal, which opens where it goes wrong, or in the end.
+/// Parking as a film with a pale car on the goal, which opens where it goes wrong, or at the end.
 inline rex::grading::Evidence parkingSeen(const CarModel& car, const World& lot,
                                           const std::vector<Drive>& plan) {
   const DrivenWay way = wayOf(car, lot.start, plan, lot.blocks);
@@ -157,11 +157,11 @@ inline rex::grading::Evidence driveSeen(const CarModel& car, const Eigen::Vector
   World world{.start = from, .goal = target, .blocks = blocks, .lower = {}, .upper = {}};
   rex::Figure figure = wayFigure("One drive towards a target", car, world, wayOf(car, from, {drive}, blocks));
   for (rex::Series& series : figure.series)
-    if (series.label == "wanted in the end") series.label = "target";
+    if (series.label == "wanted at the end") series.label = "target";
   return {.figures = {figure}};
 }
 
-/// A sound tree of drives, up to the node that is looked at; the edge to that is thick, and red where it
+/// A valid tree of drives, up to the node being checked; the edge to this node is thick, and red where it
 /// goes wrong.
 inline rex::grading::Evidence treeSeen(const CarModel& car, const World& world,
                                        const std::vector<CarNode>& tree, std::size_t node) {
@@ -177,7 +177,8 @@ inline rex::grading::Evidence treeSeen(const CarModel& car, const World& world,
   if (node >= 1 && node < tree.size()) {
     const Eigen::Vector3d& from = tree[static_cast<std::size_t>(tree[node].parent)].q;
     const DrivenWay way = wayOf(car, from, {tree[node].by}, world.blocks);
-    figure.series.push_back(rex::grading::through(way.poses, rex::grading::gotCurve("the edge looked at")));
+    figure.series.push_back(
+        rex::grading::through(way.poses, rex::grading::gotCurve("the edge being checked")));
     if (way.wrong > 0) addOutline(figure, car, way.poses[way.wrong], rex::grading::wrongCurve(way.why));
   }
   return {.figures = {figure}};
@@ -227,6 +228,6 @@ inline rex::grading::Evidence reversingSeen(const Rig& rig, const std::vector<Ei
   for (std::size_t i = 0; i < film.size(); ++i) film[i].time = tau * static_cast<double>(stride * i);
   const double moment = film.back().time;
   rex::Figure figure{.title = "Backward along a line", .xLabel = "x [m]", .yLabel = "y [m]"};
-  figure.series = {axle, rex::grading::wantedCurve("wanted in the end", {axle.x.front(), -56}, {0, 0})};
+  figure.series = {axle, rex::grading::wantedCurve("wanted at the end", {axle.x.front(), -56}, {0, 0})};
   return {.figures = {figure}, .film = std::move(film), .view = {-0.2, -0.8, 0.8}, .moment = moment};
 }

@@ -13,7 +13,7 @@ using Poses = std::vector<Eigen::Vector3d>;
 
 inline const rex::Color kGround{0.15f, 0.3f, 0.5f}, kAccent{0.8f, 0.25f, 0.1f}, kSoft{0.6f, 0.7f, 0.8f};
 
-// A rectangle around p, from `back` behind to `front` before it.
+// A rectangle around p, from `back` behind it to `front` ahead of it.
 inline rex::Series outline(const Eigen::Vector3d& p, double back, double front, double width,
                            const rex::Color& color) {
   rex::Series series{.size = 0.5, .color = color};

@@ -20,7 +20,7 @@ namespace {
 
 double wrapped(double angle) { return std::remainder(angle, 2 * kPi); }
 
-// Where a drive leads, by the library, which knows no limits here.
+// Where a drive leads according to the library, which has no limits here.
 Eigen::Vector3d exact(const CarModel& car, const Eigen::Vector3d& q, const Drive& drive, double share = 1) {
   return driveCar({car.wheelbase, 1.5}, q, {drive.speed, drive.steering}, share * drive.seconds);
 }
@@ -44,10 +44,10 @@ void checkLimits(Check& check, const CarModel& car, const Drive& drive) {
   check.atMost("speed, forward or backward", std::abs(drive.speed), 1 + 1e-9, "m/s");
   check.atMost("steering angle", drive.steering, car.maxSteering + 1e-9, "rad");
   check.atLeast("steering angle", drive.steering, car.minSteering - 1e-9, "rad");
-  check.that("drives last a finite time above zero", drive.seconds >= 0 && drive.seconds <= 200);
+  check.that("drives last from 0 to 200 s", drive.seconds >= 0 && drive.seconds <= 200);
 }
 
-// Every 4 cm of the way: corners then move by 6 cm at most, and 5 cm are forgiven.
+// Every 4 cm of the way: corners then move by 6 cm at most, and 5 cm are tolerated.
 void isFreeAlong(Check& check, const CarModel& car, const Eigen::Vector3d& from, const Drive& drive,
                  const std::vector<Block>& blocks) {
   const CarModel smaller = grown(car, -0.05);
@@ -74,8 +74,8 @@ void moves(Check& check, Student& student, const CarModel& car, double mostSpeed
     const auto shown = check.show([&] {
       return endsSeen(car, q, end, wayOf(car, q, {{speed, angle, drive.seconds}}, {}).poses);
     });
-    check.near("where the car gets to", end.head<2>(), exact(car, q, drive).head<2>(), 1e-3 * way + 1e-9,
-               "m");
+    check.near("position of the car after the drive", end.head<2>(), exact(car, q, drive).head<2>(),
+               1e-3 * way + 1e-9, "m");
     check.near("its heading, up to whole turns", wrapped(end[2] - exact(car, q, drive)[2]), 0,
                1e-3 * way + 1e-9, "rad");
   }
@@ -92,7 +92,7 @@ void anyCarMoves(Check& check, Student& student) {
 }
 // </hidden>
 
-// Arcs on from the last pose, until there are 13 poses.
+// Continues with arcs from the last pose, until there are 13 poses.
 void driveOn(Rng& rng, const CarModel& car, Poses& path) {
   while (path.size() < 13) {
     const double way = (rng.index(2) == 0 ? -1 : 1) * rng.uniform(0.3, 1.9);
@@ -103,9 +103,9 @@ void driveOn(Rng& rng, const CarModel& car, Poses& path) {
   }
 }
 
-// Breaks a path between two of its poses: to the side, by a turn on the spot, by an arc that is too tight, or
-// by one to the right, for a car that turns left only. What follows are arcs again, wherever the break leads
-// to.
+// Breaks a path between two of its poses: by a shift to the side, a turn on the spot, an arc that is too
+// tight, or an arc to the right for a car that turns left only. More arcs follow from wherever the break
+// leads.
 void breakPath(Rng& rng, const CarModel& car, Poses& path, std::size_t at, int how) {
   const Eigen::Vector3d& before = path[at - 1];
   const double sign = rng.index(2) == 0 ? -1 : 1;
@@ -126,7 +126,7 @@ Poses measured(Rng& rng, Poses path) {
   return path;
 }
 
-// Broken or not, and how, by chance: who counts the questions knows no answer.
+// Whether and how a path is broken is random, so that counting calls does not help.
 void followsTrajectories(Check& check, Student& student) {
   for (int i = 0; i < 100; ++i) {
     Rng& rng = check.rng();
@@ -140,11 +140,12 @@ void followsTrajectories(Check& check, Student& student) {
     if (!follows) breakPath(rng, car, path, broken, how);
     const std::string wanted = follows ? "wanted: it can be followed" : "wanted: it cannot be followed";
     const auto shown = check.show([&] { return pathSeen(wanted, car, path, broken); });
-    check.input(follows ? "twelve arcs, driven forward and backward"
-                        : std::array{"at one place to the side", "at one place turning on the spot",
-                                     "at one place an arc that is too tight", "at one place only to the side",
-                                     "at one place an arc to the right, and a car that turns left only"}
-                              [static_cast<std::size_t>(how)]);
+    check.input(
+        follows ? "twelve arcs, driven forward and backward"
+                : std::array{
+                      "a shift to the side at one pose", "a turn on the spot at one pose",
+                      "one arc that is too tight", "a pure shift to the side at one pose",
+                      "one arc to the right, for a car that turns left only"}[static_cast<std::size_t>(how)]);
     const bool got = student.canFollow(car, measured(rng, path));
     if (follows)
       check.that("a path of arcs can be followed", got);
@@ -169,8 +170,8 @@ void distances(Check& check, Student& student) {
   }
 }
 
-// Large and small blocks and long walls: some lie within the car, some across it with no corner of one inside
-// of the other. Free or not by chance, and none of them by less than a centimetre.
+// Large and small blocks and long walls: some lie within the car, some across it with no corner of one
+// inside of the other. Whether the car is free is random, and never decided by less than a centimetre.
 void findsOverlaps(Check& check, Student& student) {
   Rng& rng = check.rng();
   for (int i = 0; i < 200; ++i) {
@@ -196,8 +197,8 @@ void findsOverlaps(Check& check, Student& student) {
   }
 }
 
-// The share of random controls, of those whose way is free, that lead nearer to the target. None if fewer
-// than half of them are free.
+// Of the random controls whose way is free, the share that lead nearer to the target. Nothing if fewer than
+// half of them are free.
 std::optional<double> rankOf(Rng& rng, const CarModel& car, const Eigen::Vector3d& from,
                              const Eigen::Vector3d& target, double seconds, const std::vector<Block>& blocks,
                              double reached) {
@@ -216,12 +217,12 @@ std::optional<double> rankOf(Rng& rng, const CarModel& car, const Eigen::Vector3
   return 1. * nearer / free;
 }
 
-// The best of 20 has a rank of 1 / 21 on average, the best of n one of 1 / (n + 1); where some ways are
-// blocked, n is smaller. Over 30 seeds, 20 draws have 0.062 with a standard deviation of 0.0044, and 12 draws
-// 0.105 with one of 0.0073.
+// The best of 20 has a rank of 1 / 21 on average, the best of n one of 1 / (n + 1); if some ways are
+// blocked, n is smaller. Over 30 seeds, 20 draws have 0.062 with a standard deviation of 0.0044, and 12
+// draws 0.105 with one of 0.0073.
 void drivesTowards(Check& check, Student& student) {
   check.input(
-      "450 random targets, drives of 1 s, or of 7 s: longer than the car; a wall and a post stand about");
+      "450 random targets, drives of 1 s, or of 7 s, longer than the car; a wall and a post are in the way");
   Rng& rng = check.rng();
   double sum = 0;
   int count = 0;
@@ -238,7 +239,7 @@ void drivesTowards(Check& check, Student& student) {
     const auto drive = student.driveTowards(car, from, target, seconds, blocks, given);
     Rng own = rng.split(static_cast<std::uint64_t>(1000 + i));
     if (!drive) {
-      check.that("there is a drive where half of all controls are free",
+      check.that("a drive is returned if half of all controls are free",
                  !rankOf(own, car, from, target, seconds, blocks, 1e9));
       continue;
     }
@@ -253,12 +254,12 @@ void drivesTowards(Check& check, Student& student) {
     sum += *rank;
     ++count;
   }
-  check.atLeast("targets that the drives can be judged by", count, 120);
+  check.atLeast("number of targets by which the drives can be judged", count, 120);
   check.atMost("share of random controls that lead nearer to the target, on average",
                sum / std::max(1, count), 0.085);
   check.input("a block that the car stands in");
   Rng given = rng.split(99);
-  check.that("no drive where all ways are blocked",
+  check.that("no drive is returned if all ways are blocked",
              !student.driveTowards({}, {0, 0, 0}, {9, 0, 0}, 1.5, {{{2, 0, 0}, 9, 9}}, given).has_value());
 }
 
@@ -281,8 +282,8 @@ World room(Rng& rng) {
   }
 }
 
-// What poses are off is added up along each way, so that no car slides sideways in many tiny steps: 1 mm and
-// 1 mrad for each metre make 0.2 after 200 m.
+// The errors of poses are summed along each way, so that no car can slide sideways in many tiny steps: 1 mm
+// and 1 mrad for each metre make 0.2 after 200 m.
 void treeReaches(Check& check, Student& student, const CarModel& car, const World& world) {
   Rng given = check.rng().split(7);
   const std::vector<CarNode> tree = student.growTree(car, world, given);
@@ -303,10 +304,10 @@ void treeReaches(Check& check, Student& student, const CarModel& car, const Worl
     const Eigen::Vector3d from = tree[parent].q, end = exact(car, from, node.by);
     const double way = std::abs(node.by.speed) * node.by.seconds;
     const Eigen::Vector3d off(node.q[0] - end[0], node.q[1] - end[1], wrapped(node.q[2] - end[2]));
-    check.near("what the pose of a node is off, from its parent by its controls", off,
-               Eigen::Vector3d::Zero(), 2e-3 * way + 1e-6, "m, rad");
+    check.near("error of a node's pose, from its parent and its controls", off, Eigen::Vector3d::Zero(),
+               2e-3 * way + 1e-6, "m, rad");
     slid[i] = slid[parent] + off.cwiseAbs().maxCoeff();
-    check.atMost("what poses are off, added up on the way from the start to a node", slid[i], 0.2, "m, rad");
+    check.atMost("sum of the pose errors on the way from the start to a node", slid[i], 0.2, "m, rad");
     isFreeAlong(check, car, from, node.by, world.blocks);
   }
   const Eigen::Vector3d d = tree.back().q - world.goal;
@@ -377,7 +378,7 @@ void checkPieces(Check& check, const std::string& word, const std::array<double,
   }
   if (word[1] != 'S') check.atLeast("length of the middle arc", lengths[1], kPi * radius - 1e-6, "m");
   const Eigen::Vector3d end = endOf(word, lengths, from, radius);
-  check.near("where the pieces lead", end.head<2>(), to.head<2>(), 1e-5, "m");
+  check.near("position at the end of the pieces", end.head<2>(), to.head<2>(), 1e-5, "m");
   check.near("heading at the end, up to whole turns", wrapped(end[2] - to[2]), 0, 1e-5, "rad");
 }
 
@@ -449,7 +450,7 @@ void shortestAnywhere(Check& check, Student& student) {
 
 // Part 4.
 
-// By the grader's motion, whatever the student's is. The reference needs 65 drives at most.
+// Uses the grader's motion model, not the student's. The reference needs 65 drives at most.
 void parks(Check& check, Student& student, const CarModel& car, const World& lot) {
   const std::vector<Drive> plan = student.park(car, lot);
   const auto shown = check.show([&] { return parkingSeen(car, lot, plan); });
@@ -464,8 +465,9 @@ void parks(Check& check, Student& student, const CarModel& car, const World& lot
     isFreeAlong(check, car, q, drive, lot.blocks);
     q = exact(car, q, drive);
   }
-  check.near("where the car stands at the end", q.head<2>(), lot.goal.head<2>(), 0.1, "m");
-  check.near("heading at the end, from that of the space", wrapped(q[2] - lot.goal[2]), 0, 0.05, "rad");
+  check.near("position of the car at the end", q.head<2>(), lot.goal.head<2>(), 0.1, "m");
+  check.near("heading at the end, relative to that of the space", wrapped(q[2] - lot.goal[2]), 0, 0.05,
+             "rad");
 }
 
 CarModel leftOnly() { return {.minSteering = 0}; }

@@ -16,7 +16,7 @@
 struct CarModel {
   double wheelbase = 2.6;                        ///< L, from the rear axle to the front axle
   double minSteering = -0.6, maxSteering = 0.6;  ///< of the front wheels; a minSteering of 0: left turns only
-  double front = 3.5, back = 0.9;                ///< so far the body reaches before and behind the rear axle
+  double front = 3.5, back = 0.9;                ///< reach of the body ahead of and behind the rear axle
   double width = 1.8;
 };
 
@@ -25,17 +25,17 @@ struct Drive {
   double speed = 0, steering = 0, seconds = 0;
 };
 
-/// The velocity of q = (x, y, heading) of a car, whatever its limits: 4:48 with a dot over theta.
+/// The velocity of q = (x, y, heading) of a car, regardless of its limits: 4:48 with a dot over theta.
 Eigen::Vector3d velocityOf(const CarModel& car, const Eigen::Vector3d& q, double speed, double steering);
 
-/// Where a car that stands at q comes to. Within 1 mm and 1 mrad for each metre of way, exact or by many
-/// small steps; the steering angle may be zero, or tiny.
+/// The pose that a car at q reaches by a drive. Accurate to 1 mm and 1 mrad for each metre driven, in
+/// closed form or by many small steps; the steering angle may be zero, or tiny.
 Eigen::Vector3d driven(const CarModel& car, const Eigen::Vector3d& q, const Drive& drive);
 
-/// Could a car follow this trajectory (4:50)? Yes, if it comes from each pose to the next with controls that
-/// are held in between, within its limits, forward or backward. Poses are up to 2 m and 0.6 rad apart, and
-/// come with an error of up to 1 um and 1 urad. What cannot be followed misses by a centimetre or more of
-/// every metre, or needs a steering angle that is a tenth too large.
+/// Could a car follow this trajectory (4:50)? Yes, if it gets from each pose to the next with constant
+/// controls, within its limits, forward or backward. Poses are up to 2 m and 0.6 rad apart, and come with
+/// an error of up to 1 um and 1 urad. A trajectory that cannot be followed is off by a centimetre or more
+/// per metre, or needs a steering angle that is too large by a tenth.
 bool canFollow(const CarModel& car, const std::vector<Eigen::Vector3d>& path);
 
 // Part 2, a tree of controls (4:52, 4:58, 4:59).
@@ -52,18 +52,18 @@ struct Block {
   double length = 1, width = 1;
 };
 
-/// Whether the body of the car at q overlaps none of the blocks. Right up to 1 mm.
+/// Whether the body of the car at q overlaps none of the blocks. Accurate to 1 mm.
 bool isFree(const CarModel& car, const Eigen::Vector3d& q, const std::vector<Block>& blocks);
 
 /// Lines 5 to 7 of 4:58. Draws at least 20 pairs of a speed, -1 or 1 m/s, and a steering angle within the
-/// limits of the car, and returns the one that, held for so many `seconds`, leads nearest to the target by
-/// poseDistance(); of those only whose way is free, tested every 10 cm at least. None: all ways are blocked.
+/// limits of the car, each held for `seconds`. Of those whose way is free, tested at least every 10 cm, it
+/// returns the one that leads nearest to the target by poseDistance(); nothing if all ways are blocked.
 std::optional<Drive> driveTowards(const CarModel& car, const Eigen::Vector3d& from,
                                   const Eigen::Vector3d& target, double seconds,
                                   const std::vector<Block>& blocks, rex::Rng& rng);
 
-/// Where a car stands, where it shall go, and what is in the way. Nothing is gained outside of the rectangle
-/// from `lower` to `upper` (x, y): walls stand around it, and they are among the blocks.
+/// The start of a car, its goal, and what is in the way. There is no use in leaving the rectangle from
+/// `lower` to `upper` (x, y): it is surrounded by walls, which are among the blocks.
 struct World {
   Eigen::Vector3d start = Eigen::Vector3d::Zero(), goal = Eigen::Vector3d::Zero();
   std::vector<Block> blocks;
@@ -86,9 +86,9 @@ std::vector<CarNode> growTree(const CarModel& car, const World& world, rex::Rng&
 
 enum class DubinsWord { kLSL, kLSR, kRSL, kRSR, kLRL, kRLR };
 
-/// How long the three pieces of a word are [m], all of them driven forward: arcs of that radius, each shorter
-/// than a whole turn, the middle one of LRL and RLR longer than half a turn (4:60); d >= 0. None: this word
-/// does not lead from one pose to the other. Exact up to 1e-6 m.
+/// The lengths [m] of the three pieces of a word, all driven forward. Arcs have that radius and are shorter
+/// than a whole turn; the middle one of LRL and RLR is longer than half a turn (4:60); d >= 0. Returns
+/// nothing if this word does not lead from one pose to the other. Accurate to 1e-6 m.
 std::optional<std::array<double, 3>> dubinsLengths(DubinsWord word, const Eigen::Vector3d& from,
                                                    const Eigen::Vector3d& to, double radius);
 
@@ -103,11 +103,11 @@ DubinsWay shortestDubins(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
 
 // Part 4, parking (4:54 to 4:56).
 
-/// How a car gets from the start into a parking space, the goal of the world: one drive after the other, at 1
-/// m/s at most, 500 of them at most, 200 m at most. It ends within 0.1 m of the goal, in x and in y, and
-/// within 0.05 rad; it never steers beyond its limits, and nowhere on the way does its body touch a block. A
-/// scratch of 5 cm is forgiven, here and in part 2. Some cars turn left only. Spaces at the kerb are at least
-/// 1.6 m longer than the car (2.8 m for those cars), spaces across the street at least 2.5 m apart from
+/// The drives that take a car from the start into a parking space, the goal of the world: at most 500 of
+/// them and 200 m in all, at 1 m/s at most. The car ends within 0.1 m of the goal, in x and in y, and
+/// within 0.05 rad; it never steers beyond its limits, and its body touches no block on the way. A scratch
+/// of 5 cm is tolerated, here and in part 2. Some cars turn left only. Spaces at the kerb are at least 1.6
+/// m longer than the car (2.8 m for those cars), spaces across the street are at least 2.5 m apart from
 /// middle to middle; streets are 6.5 to 10 m wide. A check has up to five of them, and 10 s for all.
 std::vector<Drive> park(const CarModel& car, const World& lot);
 
@@ -127,9 +127,10 @@ Eigen::Vector4d rigVelocity(const Rig& rig, const Eigen::Vector4d& q, double spe
 /// rate [1/s].
 double hitchGrowth(const Rig& rig, double speed);
 
-/// Steering angle of a rig that drives backward along the x axis, towards -x, at -1 m/s. Asked anew every 50
-/// ms, it brings the axle of the trailer to the axis, from up to 1 m beside it, with headings of car and
-/// trailer up to 0.25 rad off it: after 40 m it is and stays within 5 cm, and both headings within 0.05 rad.
-/// On the way the angle between car and trailer stays below 1.2 rad. Hitches are 2.5 to 5 m long, wheelbases
-/// 2.3 to 3 m, and cars steer by 0.5 rad at least. Whole turns may have been added to either heading.
+/// The steering angle of a rig that drives backward along the x axis, towards -x, at -1 m/s. Called every
+/// 50 ms, it brings the axle of the trailer to the axis, from up to 1 m beside it, with headings of car and
+/// trailer up to 0.25 rad off: after 40 m the axle is and stays within 5 cm, and both headings within 0.05
+/// rad. On the way the angle between car and trailer stays below 1.2 rad. Hitches are 2.5 to 5 m long,
+/// wheelbases 2.3 to 3 m, and cars steer by 0.5 rad at least. Whole turns may have been added to either
+/// heading.
 double reverseSteering(const Rig& rig, const Eigen::Vector4d& q);

@@ -5,7 +5,7 @@
 
 #include "exercise.h"
 
-// Worlds that the checks draw at random; all of them stand somewhere, turned anyhow.
+// Worlds that the checks draw at random, each at a random pose.
 
 inline Eigen::Vector3d moved(const Eigen::Vector3d& X_WL, const Eigen::Vector3d& q) {
   const double c = std::cos(X_WL[2]), s = std::sin(X_WL[2]);
@@ -56,7 +56,7 @@ inline World streetLot(rex::Rng& rng, double width, double gap) {
   return lot;
 }
 
-/// Spaces side by side, across the street; one is free. `outwards`: the car shall look at the street.
+/// Spaces side by side, across the street; one is free. `outwards`: the car must face the street.
 inline World bayLot(rex::Rng& rng, double width, bool outwards) {
   World lot;
   const double pitch = rng.uniform(2.5, 2.8);
@@ -84,7 +84,7 @@ inline World mirrored(World world) {
   return world;
 }
 
-/// Somewhere, turned anyhow.
+/// A random pose.
 inline Eigen::Vector3d anywhere(rex::Rng& rng) {
   return {rng.uniform(-20, 20), rng.uniform(-20, 20), rng.uniform(-3.14, 3.14)};
 }

@@ -6,10 +6,10 @@
 
 #include "lots.h"
 
-// What the body of a car touches, by another method than that of the solution.
+// What the body of a car touches, by a method other than that of the solution.
 
-/// Rectangles overlap unless a side of one of them has the other wholly on its far side: corner by corner,
-/// where the solution compares shadows.
+/// Rectangles overlap unless one lies wholly beyond a side of the other. This tests corner by corner; the
+/// solution compares projections.
 inline bool overlap(const CarModel& car, const Eigen::Vector3d& q, const Block& block) {
   const auto corners = [](const Eigen::Vector3d& X, double back, double front, double half) {
     std::array<Eigen::Vector2d, 4> p;

@@ -13,14 +13,14 @@ using namespace rex;
 
 namespace {
 
-void nothingYet(const std::string& what) { std::printf("Nothing to see yet of %s.\n", what.c_str()); }
+void nothingYet(const std::string& what) { std::printf("Nothing to show yet for %s.\n", what.c_str()); }
 
 const std::array kWords{"LSL", "LSR", "RSL", "RSR", "LRL", "RLR"};
 const std::array<Color, 6> kWordColors{Color{0, 0.45f, 0.7f},  Color{0.85f, 0.37f, 0},
                                        Color{0, 0.62f, 0.45f}, Color{0.8f, 0.47f, 0.65f},
                                        Color{0.9f, 0.62f, 0},  Color{0.34f, 0.71f, 0.91f}};
 
-// The poses at which a car is every so many metres of its way.
+// The poses of a car along its way, `every` metres apart.
 Poses along(const CarModel& car, Eigen::Vector3d q, const std::vector<Drive>& drives, double every) {
   Poses poses{q};
   for (const Drive& drive : drives) {
@@ -131,7 +131,7 @@ void showTree(const CarModel& car, const World& world) {
 void showDubins(const CarModel& car, double radius) {
   const Eigen::Vector3d start = Eigen::Vector3d::Zero();
   if (lengthOf(shortestDubins(start, {14, 3, 0}, radius)) == 0) return nothingYet("Dubins curves");
-  Figure fan = seenFromAbove("Shortest ways forward to twelve headings at two places", {});
+  Figure fan = seenFromAbove("Shortest ways forward to twelve headings at two positions", {});
   fan.legend = Legend::kOutside;
   std::set<DubinsWord> named;
   for (const Eigen::Vector3d& place : {Eigen::Vector3d(14, 3, 0), Eigen::Vector3d(-4, -3, 0)}) {

@@ -4,8 +4,8 @@
 
 #include "exercise.h"
 
-/// drives.png: where the car gets in so many seconds at 1 m/s, for five steering angles; the rings, small
-/// steps with velocityOf(), lie on the lines. Prints two answers of canFollow().
+/// drives.png: where the car gets in that time at 1 m/s, for five steering angles; the rings, small steps
+/// with velocityOf(), lie on the lines. Prints two answers of canFollow().
 void showDrives(const CarModel& car, double seconds);
 
 /// tree.png: your tree of controls fills the world, and its way ends at the goal.

@@ -1,6 +1,6 @@
 // caught by: dubins-words, dubins-shortest, dubins-any
 // shown by: dubins-words
-// mistake: arcs the shorter way round, some of them backward.
+// mistake: takes arcs the shorter way round, some of them backward.
 
 // <solution dubinsLengths>
 const auto left = [&](char letter) { return letter == 'L' ? 1 : -1; };

@@ -1,6 +1,6 @@
 // caught by: car-follows, tree-overlap
 // shown by: car-follows
-// mistake: counts how often it was asked: yes and no in turn. Only on the way of a drive does it look.
+// mistake: counts its calls and answers yes and no in turn; it looks only on the way of a drive.
 
 // <solution canFollow>
 static int asked = 0;

@@ -1,5 +1,5 @@
 // caught by: tree-metrics
-// mistake: the difference of two angles, the long way round if need be.
+// mistake: takes the plain difference of two angles, even the long way round.
 
 // <solution angleDistance>
 return std::abs(a - b);

@@ -1,5 +1,5 @@
 // caught by: car-follows
-// mistake: each piece overwrites what the one before it was found to be.
+// mistake: each piece overwrites the verdict on the one before.
 
 // <solution canFollow>
 bool follows = true;

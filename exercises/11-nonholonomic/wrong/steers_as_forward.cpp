@@ -1,6 +1,6 @@
 // caught by: trailer-reverses, trailer-any
 // shown by: trailer-reverses
-// mistake: steers towards the axis, as a car would that drives forward.
+// mistake: steers towards the axis, as if the car drove forward.
 
 // <solution reverseSteering>
 const double offset = q[1] - rig.hitchLength * std::sin(q[3]);

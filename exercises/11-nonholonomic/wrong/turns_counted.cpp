@@ -1,5 +1,5 @@
 // caught by: trailer-any
-// mistake: takes whole turns of a heading for something to steer against.
+// mistake: steers against whole turns of a heading.
 
 // <solution reverseSteering>
 // From outside to inside, each orders the next: the offset a heading of the trailer, this an angle at the

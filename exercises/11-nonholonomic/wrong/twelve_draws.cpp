@@ -1,5 +1,5 @@
 // caught by: tree-drive
-// mistake: the best of twelve controls, where twenty are asked for.
+// mistake: returns the best of twelve controls instead of twenty.
 
 // <solution driveTowards>
 std::vector<std::pair<double, Drive>> trials;
