@@ -67,7 +67,7 @@ void costOfPowers(Check& check, Student& student) {
       for (int i = 0; i < 4 + T; ++i) path.col(i) = a * std::pow((i - 3) * tau, k) / std::tgamma(k + 1);
       check.input(described(2, k, tau) + ", constant " + kNames[static_cast<std::size_t>(k)] + ", T = 10");
       const double wanted = a.squaredNorm() * T * tau;
-      check.near("cost, of what the integral is",
+      check.near("cost, relative to the integral",
                  student.motionCost(path.leftCols(4), path.rightCols(T), k, tau) / wanted, 1, 1e-6);
     }
 }
@@ -107,7 +107,7 @@ void costsOfAnyPath(Check& check, Student& student) {
     double wanted = 0;
     for (int t = 0; t < T; ++t)
       wanted += (path.middleCols(prefix + t - k, k + 1) * weightsOf(k, tau)).squaredNorm();
-    check.near("cost, of what it should be",
+    check.near("cost, relative to the wanted one",
                student.motionCost(path.leftCols(prefix), path.rightCols(T), k, tau) / wanted, 1, 1e-9);
     isDifference(check, student, n, k);
     isTaskDifference(check, student, 1 + rng.index(5), n, k);
@@ -160,7 +160,7 @@ void factors(Check& check, Student& student) {
              static_cast<double>(student.bandCholesky(band).size()), 0, 0);
 }
 
-// All of a matrix of 16000 x 16000 would take 2 GB, which is twice what there is.
+// A dense matrix of 16000 x 16000 would take 2 GB, which is twice the memory available.
 void longBands(Check& check, Student& student) { isFactor(check, student, 6, 16000); }
 
 double costOf(const std::vector<Term>& terms) {
@@ -193,7 +193,7 @@ void descends(Check& check, Student& student, const std::string& name, const Ter
                denseSystem(terms(path.back()), n, steps).g.cwiseAbs().maxCoeff(), tolerance);
 }
 
-// Terms of which each fixes one configuration, and some none.
+// Terms that each fix one configuration; some configurations are fixed by none.
 Terms withGaps(Rng& rng, int n) {
   const Eigen::MatrixXd A = randomMatrix(rng, n, n) + 3 * Eigen::MatrixXd::Identity(n, n);
   return [=](const Eigen::MatrixXd& X) {
@@ -213,7 +213,7 @@ void descents(Check& check, Student& student) {
     for (int t = 0; t < 8; ++t) terms.push_back({Role::cost, t, X.col(t), Eigen::MatrixXd::Identity(2, 2)});
     return terms;
   };
-  descends(check, student, "linear terms, where one step does it, up to rounding", linear,
+  descends(check, student, "linear terms, for which one step suffices, up to rounding", linear,
            randomMatrix(rng, 2, 8), 5);
   descends(check, student, "arc tangents of all x, and differences", arcTangents(2, 0.1),
            rng.uniformVector(20, 2, 4).reshaped(2, 10), 300);
@@ -276,7 +276,7 @@ void replaces(Check& check, Student& student) {
     for (Eigen::Index row = 0; row < slope.size(); ++row) {
       if (term.role == Role::equality || slope[row] > 0) continue;
       slope[row] = curve[row] = 0;
-      check.near("r of an inequality that does not count", got.y[row], 0, 1e-12);
+      check.near("r of an inactive inequality", got.y[row], 0, 1e-12);
     }
     const double scale = 1 + mu;
     check.near("gradient of r^T r, over 1 + mu", 2 * got.J.transpose() * got.y / scale,
@@ -300,7 +300,7 @@ void updates(Check& check, Student& student) {
   });
 }
 
-// What a Minimum says of itself must hold, whatever the problem.
+// What a Minimum reports must hold for every problem.
 void isStationary(Check& check, const Terms& terms, const Minimum& got, const Accuracy& accuracy) {
   const std::vector<Term> all = terms(got.X);
   const auto n = static_cast<int>(got.X.rows()), steps = static_cast<int>(got.X.cols());
@@ -347,7 +347,8 @@ grading::Evidence roundsSeen(const Minimum& got) {
                        .series = {violation}}}};
 }
 
-// Costs curve by 2 or more along constraints, so that with these accuracies x is right to 1e-2 at least.
+// The curvature of the costs along constraints is 2 or more, so that with these accuracies x is accurate to
+// 1e-2 at least.
 void findsMinimum(Check& check, Student& student, const KnownProblem& problem) {
   const Accuracy accuracy;
   check.input(problem.name);
@@ -524,7 +525,7 @@ void aroundOthers(Check& check, Student& student) {
 rex::grading::Checks<Student> checks() {
   return {
       {"difference-terms", "terms", "Velocity, acceleration, jerk", 1, Group::kVisible, differences},
-      {"task-differences", "terms", "The same of task maps", 1, Group::kVisible, taskDifferences},
+      {"task-differences", "terms", "The same for task maps", 1, Group::kVisible, taskDifferences},
       {"cost-of-powers", "terms", "Costs are integrals", 1, Group::kVisible, costOfPowers},
       // <hidden>
       {"any-path", "terms", "Other sizes, paths and prefixes", 1, Group::kHidden, costsOfAnyPath},
@@ -547,7 +548,7 @@ rex::grading::Checks<Student> checks() {
       // <hidden>
       {"other-points", "via", "Other via points", 1, Group::kHidden, throughOthers},
       // </hidden>
-      {"kept-apart", "arm", "How near things are between steps", 1, Group::kVisible, keepsApart},
+      {"kept-apart", "arm", "Clearance between steps", 1, Group::kVisible, keepsApart},
       {"around-the-ball", "arm", "Around the ball", 1, Group::kVisible, aroundTheBall},
       // <hidden>
       {"around-others", "arm", "Around other balls", 2, Group::kHidden, aroundOthers},

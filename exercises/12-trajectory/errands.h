@@ -9,7 +9,7 @@
 #include "trajectory/motion_terms.h"
 #include "trajectory/trajectory_optimizer.h"
 
-// Errands for the checks, drawn so that nobody knows the way in advance.
+// Errands for the checks, drawn at random so that nobody knows the way in advance.
 
 /// Balls, where the arm starts among them, and what it is to do. The budget follows from the rest.
 struct Scene {
@@ -33,9 +33,9 @@ inline Scene turned(Scene scene, double angle, bool mirror) {
   return scene;
 }
 
-/// 25 % above what the library's optimiser costs from the way through the detour. Over 40 seeds of each scene
-/// the reference costs 0.94 to 1.09 of that, and with another start, penalty or number of samples 1.21 at
-/// most.
+/// 25 % above the cost that the library's optimiser reaches from the way through the detour. Over 40 seeds
+/// of each scene the reference reaches 0.94 to 1.09 of that cost, and at most 1.21 with another start,
+/// penalty or number of samples.
 inline double budgetOf(const Scene& scene) {
   const Errand& errand = scene.errand;
   const rex::Simulator S(armAmong(scene.balls, scene.start));
@@ -53,7 +53,8 @@ inline double budgetOf(const Scene& scene) {
   return 1.25 * least.solution.cost;
 }
 
-/// One like it elsewhere. Further away from it, ways through the detour end in several local minima.
+/// A random scene similar to this one. With larger changes, ways through the detour end in several local
+/// minima.
 inline Scene drawnLike(Scene scene, rex::Rng& rng) {
   for (Ball& ball : scene.balls) {
     ball.y += rng.uniform(-0.02, 0.02);

@@ -6,13 +6,13 @@
 
 #include "exercise.h"
 
-// Terms for the checks, made by chance, and problems whose minimum is known.
+// Random terms for the checks, and problems whose minimum is known.
 
 inline Eigen::MatrixXd randomMatrix(rex::Rng& rng, Eigen::Index rows, Eigen::Index columns) {
   return rng.normalVector(static_cast<int>(rows * columns)).reshaped(rows, columns);
 }
 
-/// Two terms or more at each step, of orders up to k; the largest occurs.
+/// At least two terms at each step, of orders up to k; order k occurs.
 inline std::vector<Term> randomTerms(rex::Rng& rng, int n, int steps, int k) {
   std::vector<Term> terms;
   for (int t = 0; t < steps; ++t)
@@ -85,7 +85,7 @@ inline Eigen::VectorXd times(const Eigen::MatrixXd& band, const Eigen::VectorXd&
   return y;
 }
 
-/// Something to minimise, with the only minimum there is.
+/// A problem with a unique minimum that is known.
 struct KnownProblem {
   std::string name;
   Terms terms;
@@ -141,7 +141,7 @@ inline KnownProblem nearestOnBall(rex::Rng& rng, Role role) {
 }
 
 /// Linear terms over T steps after a prefix. The minimum is drawn first; then costs x_t - c_t are chosen so
-/// that it is one, with multipliers that are drawn as well. Those costs make it the only one.
+/// that it is one, with random multipliers. These costs also make it unique.
 inline KnownProblem linearMotion(rex::Rng& rng, int n, int steps) {
   const Eigen::MatrixXd minimum = randomMatrix(rng, n, steps), prefix = randomMatrix(rng, n, 2);
   std::vector<Term> all = randomTerms(rng, n, steps, 2);
@@ -168,7 +168,7 @@ inline KnownProblem linearMotion(rex::Rng& rng, int n, int steps) {
           minimum};
 }
 
-/// Arc tangents, from where full steps lead away, and differences of neighbours.
+/// Arc tangents, for which full steps diverge, and differences of neighbours.
 inline Terms arcTangents(int n, double stiffness) {
   return [=](const Eigen::MatrixXd& X) {
     std::vector<Term> terms;
@@ -185,7 +185,8 @@ inline Terms arcTangents(int n, double stiffness) {
   };
 }
 
-/// The least sum of squared second differences through points and to rest, by one dense system: n x T.
+/// The motion (n x T) with the least sum of squared second differences through points and to rest, by one
+/// dense system.
 inline Eigen::MatrixXd leastAcceleration(const Eigen::VectorXd& start, const Eigen::MatrixXd& points,
                                          const std::vector<int>& when) {
   const Eigen::Index T = when.back() + 1, m = points.cols();
@@ -199,7 +200,7 @@ inline Eigen::MatrixXd leastAcceleration(const Eigen::VectorXd& start, const Eig
   E(m, T - 2) = 1;
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(T + m + 1, T + m + 1);
   A << 2 * D.transpose() * D, E.transpose(), E, Eigen::MatrixXd::Zero(m + 1, m + 1);
-  // Relative to the start, all before it is zero.
+  // Relative to the start, everything before it is zero.
   Eigen::MatrixXd b = Eigen::MatrixXd::Zero(T + m + 1, start.size());
   for (Eigen::Index i = 0; i < m; ++i) b.row(T + i) = (points.col(i) - start).transpose();
   b.row(T + m) = b.row(T + m - 1);

@@ -17,7 +17,7 @@ namespace {
 const Color kBlue{0.1f, 0.35f, 0.65f}, kOrange{0.85f, 0.4f, 0.05f}, kGrey{0.55f, 0.58f, 0.6f},
     kPale{0.68f, 0.78f, 0.9f};
 
-void nothingYet(const char* what) { std::printf("Nothing to see yet of %s.\n", what); }
+void nothingYet(const char* what) { std::printf("Nothing to show yet for %s.\n", what); }
 
 Figure axes(const char* title, const char* xLabel, const char* yLabel) {
   return {.title = title, .xLabel = xLabel, .yLabel = yLabel, .legend = Legend::kOutside, .width = 900};
@@ -145,7 +145,7 @@ Eigen::MatrixXd finely(const Eigen::MatrixXd& X, int each) {
   return fine;
 }
 
-// How the arm moves: its hand in its plane (y, z) and in space, and how near things are over time.
+// How the arm moves: its hand in its plane (y, z) and in space, and the clearance over time.
 struct Swing {
   Eigen::MatrixXd hand, nearest;
   std::vector<Eigen::Vector3d> way;
@@ -239,7 +239,7 @@ void showDescent() {
   };
   const std::vector<Eigen::MatrixXd> steps = descended(priced, path.guess(), 1e-3);
   if (steps.size() < 2) return nothingYet("Gauss-Newton steps");
-  Figure figure = discFigure("Gauss-Newton steps: the inside of the disc has a price", path);
+  Figure figure = discFigure("Gauss-Newton steps, with a penalty inside the disc", path);
   for (std::size_t i = 1; i + 1 < steps.size(); ++i)
     add(figure, i == 1 ? "on the way" : "", steps[i], kPale, Pen::line, .7);
   add(figure, "after " + std::to_string(steps.size() - 1) + " steps", steps.back(), kOrange, Pen::dots);

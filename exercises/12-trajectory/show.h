@@ -4,11 +4,12 @@
 
 #include "exercise.h"
 
-/// Prints what 3 s^2 - 2 s^3 costs from s = 0 to 1, which tends to 12 with more steps, and whether the
+/// Prints the cost of 3 s^2 - 2 s^3 from s = 0 to 1, which tends to 12 with more steps, and whether the
 /// Jacobian of taskDifference() fits its values.
 void showCosts();
 
-/// descent.png: from the straight way through a disc, step by step, around it; a price alone lets it cut in.
+/// descent.png: from the straight way through a disc to a way around it, step by step. With a penalty
+/// alone, the way still cuts into the disc.
 void showDescent();
 
 /// disc.png: with constraints the points keep out of the disc, and lie on the line of the library.

@@ -1,6 +1,6 @@
 // caught by: tree-room, tree-any
 // shown by: tree-room
-// mistake: nodes lie slightly beside where their controls lead; driving to and fro, the car slides to its goal.
+// mistake: nodes lie slightly beside where their controls lead; to and fro, the car slides to its goal.
 
 // <solution growTree>
 CarModel longer = car;

@@ -1,5 +1,5 @@
 // caught by: forbidden-call
-// mistake: the library's terms.
+// mistake: uses the library's terms.
 
 // <solution headers>
 #include "trajectory/motion_terms.h"

@@ -1,5 +1,5 @@
 // caught by: difference-terms, task-differences, any-path
-// mistake: the columns of x_t first.
+// mistake: puts the columns of x_t first.
 
 // <solution taskDifference>
 const std::vector<std::vector<double>> binomials{{-1, 1}, {1, -2, 1}, {-1, 3, -3, 1}};

@@ -1,5 +1,5 @@
 // caught by: long-band
-// mistake: makes the whole matrix of the band, most of it zeros.
+// mistake: builds the dense matrix of the band, most of it zeros.
 
 // <solution bandCholesky>
 const Eigen::Index rows = band.rows(), N = band.cols();

@@ -1,5 +1,5 @@
 // caught by: assembled, unseen-descents
-// mistake: the gradient of y^T y / 2 beside the second derivatives of y^T y: steps are half as long.
+// mistake: combines the gradient of y^T y / 2 with the second derivatives of y^T y: steps are half as long.
 
 // <solution assembled>
 const int rows = (orderOf(terms, n) + 1) * n;

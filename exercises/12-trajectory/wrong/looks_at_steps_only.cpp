@@ -1,6 +1,6 @@
 // caught by: around-the-ball, around-others
 // shown by: around-the-ball
-// mistake: looks at the configurations only: what is thin fits between two of them.
+// mistake: looks at the configurations only: thin obstacles fit between two of them.
 
 // <solution aroundObstacle>
 constexpr int kSamples = 1;

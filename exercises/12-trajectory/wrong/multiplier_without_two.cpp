@@ -1,5 +1,5 @@
 // caught by: multipliers, unseen-minima
-// mistake: mu y where the gradient has 2 mu y. Multipliers stay behind.
+// mistake: adds mu y where the gradient has 2 mu y, so that multipliers lag behind.
 
 // <solution nextMultipliers>
 if (term.role == Role::cost) return multipliers;

@@ -1,6 +1,6 @@
 // caught by: known-minima, unseen-minima
 // shown by: known-minima
-// mistake: squared penalties with one mu, and no multipliers: constraints give way.
+// mistake: squared penalties with one mu, and no multipliers: constraints are violated.
 
 // <solution minimised>
 Minimum result{start, {}, {}, {}};

@@ -1,5 +1,5 @@
 // caught by: through-points, other-points
-// mistake: straight from point to point.
+// mistake: goes straight from point to point.
 
 // <solution throughPoints>
 Eigen::MatrixXd X(start.size(), when.back() + 1);

@@ -1,5 +1,5 @@
 // caught by: assembled, unseen-descents
-// mistake: the blocks of H between two configurations stand transposed.
+// mistake: the blocks of H between two configurations are transposed.
 
 // <solution assembled>
 const int rows = (orderOf(terms, n) + 1) * n;
