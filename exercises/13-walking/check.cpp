@@ -16,11 +16,11 @@ namespace {
 void corners(Check& check, Student& student) {
   check.input("two soles side by side, with contacts in the middle of each side");
   cornersFit(check, student, shuffled(check.rng(), twoSoles()));
-  check.input("points with some on the edges and some in one place");
+  check.input("points, some of them on the edges and some coincident");
   for (int i = 0; i < 20; ++i) cornersFit(check, student, scattered(check.rng()));
   check.input("points on a line");
   for (const int count : {2, 3, 6}) cornersFit(check, student, inARow(check.rng(), count));
-  check.input("two points in one place");
+  check.input("two coincident points");
   cornersFit(check, student, inARow(check.rng(), 1));
   check.input("no contacts");
   cornersFit(check, student, Eigen::MatrixXd::Zero(2, 0));
@@ -82,7 +82,7 @@ void follows(Check& check, Student& student) {
   for (int i = 0; i < 3; ++i) lawIsFollowed(check, student, randomCart(check.rng()));
 }
 
-// The numbers are known from elsewhere, too, for g = 9.8.
+// For g = 9.8 the numbers are also known from other sources.
 void gains(Check& check, Student& student) {
   const CartTable cart{.g = 9.8};
   check.input(described(cart));
@@ -148,7 +148,8 @@ void otherSteps(Check& check, Student& student) {
   });
 }
 
-// Beyond some 4.4 degrees the symmetric gait is unstable, and whoever only walks on ends up limping.
+// Beyond some 4.4 degrees the symmetric gait is unstable, and a walker that simply walks on ends up
+// limping.
 void otherGaits(Check& check, Student& student) {
   check.forEachCase(6, [&](int i) {
     Walker walker = randomWalker(check.rng());
@@ -173,7 +174,8 @@ rex::grading::Checks<Student> checks() {
       {"sways", "zmp", "How the pendulum sways", 1, Group::kVisible, sways},
       {"capture", "zmp", "The capture point", 1, Group::kVisible, captures},
       // <hidden>
-      {"moment-any", "zmp", "The zero moment point on other grounds", 1, Group::kHidden, momentsAnywhere},
+      {"moment-any", "zmp", "The zero moment point at other ground heights", 1, Group::kHidden,
+       momentsAnywhere},
       // </hidden>
       {"follows", "preview", "The cart and the law", 1, Group::kVisible, follows},
       {"gains", "preview", "Gains of preview control", 1, Group::kVisible, gains},

@@ -15,7 +15,7 @@
 #include "interface.h"
 #include "locomotion/limit_cycle.h"
 
-// Part 4: walkers of the grader, and what must hold for impacts, steps and gaits.
+// Part 4: the grader's walkers, and what must hold for impacts, steps and gaits.
 
 inline constexpr double kDegree = std::numbers::pi / 180;
 
@@ -39,8 +39,8 @@ struct KnownGait {
   rex::LimitCycle cycle{};
 };
 
-/// From the walker of the paper to another shape and slope by small changes, then to another size: at l and g
-/// the rates grow with sqrt(g / l).
+/// Continues the gait of the paper's walker to another shape and slope by small changes, then scales it to
+/// another size: rates are proportional to sqrt(g / l).
 inline KnownGait gaitOf(const Walker& goal) {
   constexpr int kChanges = 10;
   const Walker first;
@@ -73,7 +73,7 @@ inline Walker randomWalker(rex::Rng& rng) {
           .g = rng.uniform(2, 12)};
 }
 
-/// A state that is not far from a gait: both feet on the slope, angles and rates some per cent off.
+/// A state that is not far from a gait: both feet on the slope, angles and rates a few per cent off.
 inline Eigen::Vector4d near(rex::Rng& rng, const KnownGait& gait, double share) {
   const double turn = share * rng.uniform(-.2, .2);
   Eigen::Vector4d x = gait.x + Eigen::Vector4d(turn, -turn, 0, 0);
@@ -81,7 +81,7 @@ inline Eigen::Vector4d near(rex::Rng& rng, const KnownGait& gait, double share) 
   return x;
 }
 
-/// The three masses as points: places as seen from the stance foot, and velocities.
+/// The three masses as points: positions relative to the stance foot, and velocities.
 struct LegMasses {
   Eigen::Vector2d hip, stance, swing, foot, hipRate, stanceRate, swingRate;
 };
@@ -118,7 +118,8 @@ inline void impactFits(rex::grading::Check& check, Student& student, const Walke
   const double before = walker.hipMass * planarCross(old.hip - old.foot, old.hipRate) +
                         m * planarCross(old.stance - old.foot, old.stanceRate) +
                         m * planarCross(old.swing - old.foot, old.swingRate);
-  // Both momenta are linear in the rates afterwards, so they tell which are wanted, and how large they are.
+  // Both momenta are linear in the rates after the impact, so they determine the wanted ones and their
+  // size.
   const auto momenta = [&](const LegMasses& legs) {
     return Eigen::Vector2d(walker.hipMass * planarCross(legs.hip, legs.hipRate) +
                                m * planarCross(legs.stance, legs.stanceRate) +
@@ -206,19 +207,19 @@ inline void hasNoGait(rex::grading::Check& check, Student& student, const Walker
     guess = {stance, -2 * walker.slope - stance, check.rng().uniform(-.5, .1), check.rng().uniform(-.5, -.2)};
   } while (libraryOf(walker).step(guess, 5).status != rex::StepStatus::kFellBackward);
   check.input(described(walker, guess));
-  check.that("there is none where the walker falls", !student.gaitNear(walker, guess).has_value());
+  check.that("no gait is returned if the walker falls", !student.gaitNear(walker, guess).has_value());
 }
 
 inline void gaitFits(rex::grading::Check& check, Student& student, const KnownGait& gait,
                      const Eigen::Vector4d& guess) {
   check.input(described(gait.walker, guess));
   const auto x = student.gaitNear(gait.walker, guess);
-  check.that("gaitNear() finds the gait that there is", x.has_value());
+  check.that("gaitNear() finds the existing gait", x.has_value());
   check.shape("gait", *x, 4, 1);
   const rex::WalkerStep step = libraryOf(gait.walker).step(*x, 5);
   check.that("from the state of the gait, the walker steps", step.status == rex::StepStatus::kStepped);
   check.near("change of the state by one step of the gait", step.after - *x, Eigen::Vector4d::Zero(), 1e-6);
-  // A change of 1e-6 by a step may be one of 1e-4 in the gait, where a multiplier is near one.
+  // A change of 1e-6 in a step may mean one of 1e-4 in the gait if a multiplier is near one.
   check.near("state of the gait", *x, gait.x, 1e-4);
   check.near("moduli of the multipliers", student.multiplierSizes(gait.walker, *x),
              gait.cycle.multipliers.cwiseAbs(), .01);

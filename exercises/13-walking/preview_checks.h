@@ -52,7 +52,7 @@ inline void cartMoves(rex::grading::Check& check, Student& student, const CartTa
              1e-9);
 }
 
-/// Gains that stop the cart, but not the best ones.
+/// Gains that stop the cart, but are not optimal.
 inline PreviewLaw someLaw(rex::Rng& rng, const CartTable& cart) {
   const rex::PreviewGains best = gainsOf(cart);
   PreviewLaw law{best.Gi, best.Gx, best.Gp};
@@ -102,12 +102,12 @@ inline void gainsFit(rex::grading::Check& check, Student& student, const CartTab
   const PreviewLaw got = student.previewLaw(cart);
   check.near("Gi", got.Gi, wanted.Gi, 1e-6 * wanted.Gi);
   for (int i = 0; i < 3; ++i)
-    check.near(fmt::format("Gx, number {}", i + 1), got.Gx[i], wanted.Gx[i], 1e-6 * std::abs(wanted.Gx[i]));
+    check.near(fmt::format("Gx, entry {}", i + 1), got.Gx[i], wanted.Gx[i], 1e-6 * std::abs(wanted.Gx[i]));
   check.shape("Gp", got.Gp, cart.ahead, 1);
   check.near("Gp", got.Gp, wanted.Gp, 1e-6 * wanted.Gp.cwiseAbs().maxCoeff());
 }
 
-/// A walk with turns and steps of any length, also back, and to the side.
+/// A walk with turns and steps of any length, including backward and sideways ones.
 inline rex::WalkPlan randomWalk(rex::Rng& rng) {
   rex::WalkPlan plan{.doubleSupport = rng.uniform(.1, .3), .singleSupport = rng.uniform(.5, .9)};
   const double width = rng.uniform(.17, .25);
@@ -140,7 +140,8 @@ inline rex::grading::Evidence walkSeen(const rex::WalkPlan& plan, const Eigen::M
   return {.figures = {above, comparison("x and y of the zero moment point, step by step", zmp, reference)}};
 }
 
-/// Over a whole walk: a cart that moves as a cart does, with its zero moment point on the soles that stand.
+/// Checks over a whole walk that the cart obeys its equation of motion, and that its zero moment point
+/// stays on the standing soles.
 inline void staysOnTheSoles(rex::grading::Check& check, Student& student, const CartTable& cart,
                             const rex::WalkPlan& plan) {
   check.input(fmt::format("{} footsteps, {:.3g} s on one foot, {:.3g} s on both, {}", plan.footsteps.size(),
@@ -158,7 +159,7 @@ inline void staysOnTheSoles(rex::grading::Check& check, Student& student, const 
       const double jerk = (x(2, k + 1) - x(2, k)) / cart.step;
       gap = std::max(gap, (cartAfter(cart, x.col(k), jerk) - x.col(k + 1)).norm());
     }
-    check.near("what a state differs by from a step of the cart after the one before", gap, 0, 1e-7);
+    check.near("difference of a state from cartStep() of the one before", gap, 0, 1e-7);
     zmp.row(axis) = x.row(0) - cart.height / cart.g * x.row(2);
   }
   Eigen::Index k = 0;

@@ -18,7 +18,7 @@ const Color kBlue{0.0f, 0.45f, 0.7f}, kOrange{0.84f, 0.37f, 0.0f}, kGrey{0.62f, 
 
 using Points = std::vector<Eigen::Vector2d>;
 
-void nothingYet(const char* what) { std::printf("Nothing to see yet of the %s.\n", what); }
+void nothingYet(const char* what) { std::printf("Nothing to show yet for the %s.\n", what); }
 
 Figure axes(const char* title, const char* xLabel, const char* yLabel, Legend legend = Legend::kAuto) {
   Figure figure;
@@ -137,7 +137,7 @@ void showSettling(const Way& way, const Eigen::Vector4d& gait, double largestMul
       axes("A walk that settles", "step", "distance of the states [rad, rad/s]", Legend::kTopRight);
   figure.logY = true;
   curve(figure, "distance from the gait", kBlue).style = SeriesStyle::kLinesPoints;
-  curve(figure, "largest multiplier to the power of the steps", kBlack).dashed = true;
+  curve(figure, "largest multiplier to the power of the step", kBlack).dashed = true;
   double power = (way.ends[0] - gait).norm();
   for (std::size_t i = 0; i < way.ends.size(); ++i, power *= largestMultiplier + 1e-9) {
     add(figure.series[0], static_cast<double>(i), (way.ends[i] - gait).norm() + 1e-12);
@@ -193,7 +193,7 @@ void showTipping() {
 void showCapture(const Pendulum& pendulum, const Sway& now) {
   const Eigen::Vector2d capture = capturePoint(pendulum, now);
   if (swayed(pendulum, now, capture, 1).c == now.c) return nothingYet("pendulum");
-  Figure figure = axes("Where the foot must go: the pendulum over three places", "time [s]",
+  Figure figure = axes("Where the foot must go: the pendulum over three points", "time [s]",
                        "centre of mass [m]", Legend::kTopLeft);
   figure.horizontalLines = {{capture.x(), "capture point"}};
   const char* labels[] = {"foot 2 cm behind it", "foot on the capture point", "foot 2 cm ahead of it"};

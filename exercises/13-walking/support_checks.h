@@ -13,9 +13,9 @@
 #include "interface.h"
 #include "locomotion/support_polygon.h"
 
-// Part 1: contacts of the grader, and what must hold for polygons, margins and robots that stand on them.
+// Part 1: the grader's contacts, and what must hold for polygons, margins and robots that stand on them.
 
-/// Any points, on a grid so that cross products are exact.
+/// The grid point nearest to p, so that cross products are exact.
 inline Eigen::Vector2d onGrid(const Eigen::Vector2d& p, double lines) {
   return (p * lines).array().round() / lines;
 }
@@ -32,7 +32,8 @@ inline Eigen::MatrixXd shuffled(rex::Rng& rng, Eigen::MatrixXd columns) {
   return columns;
 }
 
-/// How far the least corner sticks out: whoever allows for rounding must find the same corners.
+/// How far the flattest corner sticks out: far enough, a tolerance for rounding does not change the
+/// corners.
 inline double leastCorner(const Eigen::MatrixXd& corners) {
   const Eigen::Index count = corners.cols();
   double out = INFINITY;
@@ -44,7 +45,7 @@ inline double leastCorner(const Eigen::MatrixXd& corners) {
   return out;
 }
 
-/// Contacts that span a polygon, with points on its edges, inside and twice in one place.
+/// Contacts that span a polygon, with points on its edges, inside it, and duplicates.
 inline Eigen::MatrixXd scattered(rex::Rng& rng) {
   for (;;) {
     std::vector<Eigen::Vector2d> points;
@@ -95,7 +96,7 @@ inline rex::Series closedCurve(const Eigen::MatrixXd& corners, rex::Series curve
   return rex::grading::through(corners.leftCols(1).colwise(), std::move(curve));
 }
 
-/// The contacts with the polygon that came out, beside that which was wanted.
+/// The contacts with the returned polygon beside the wanted one.
 inline rex::grading::Evidence supportSeen(const Eigen::MatrixXd& contacts, const Eigen::MatrixXd& corners,
                                           const Eigen::MatrixXd& wanted) {
   rex::Figure figure{.title = "Support polygon",
@@ -128,7 +129,7 @@ inline void cornersFit(rex::grading::Check& check, Student& student, const Eigen
   double gap = 0;
   for (Eigen::Index i = 0; i < k; ++i)
     gap = std::max(gap, (corners.col((begin + i) % k) - wanted.col(i)).norm());
-  check.near("distance of a corner from where it should be, counter-clockwise", gap, 0, 1e-9, "m");
+  check.near("distance of a corner from the wanted one, counter-clockwise", gap, 0, 1e-9, "m");
 }
 
 inline void marginFits(rex::grading::Check& check, Student& student, const Eigen::MatrixXd& contacts,

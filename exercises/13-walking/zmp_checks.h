@@ -14,7 +14,7 @@
 
 // Part 2: the zero moment point by its definition, and the motions of the pendulum.
 
-/// Of all forces m (a - gravity) about a point: their sum, and that of their moments.
+/// The sum of all forces m (a - gravity), and the sum of their moments about a point.
 struct ForceAndMoment {
   Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();
 };
@@ -34,7 +34,7 @@ inline void hasNoMoment(rex::grading::Check& check, Student& student, const std:
                         double groundHeight, double g) {
   check.input(fmt::format("{} masses, the ground at {:.3g} m, g = {:.3g}", robot.size(), groundHeight, g));
   const auto zmp = student.zeroMoment(robot, groundHeight, g);
-  check.that("zeroMoment() gives a point where the ground pushes", zmp.has_value());
+  check.that("zeroMoment() returns a point if the ground pushes", zmp.has_value());
   check.shape("zero moment point", *zmp, 2, 1);
   const ForceAndMoment sum = inertialForce(robot, {zmp->x(), zmp->y(), groundHeight}, g);
   double size = 0;
@@ -56,7 +56,7 @@ inline void fallingHasNone(rex::grading::Check& check, Student& student, double 
   std::vector<MovingMass> robot = randomRobot(check.rng(), Eigen::Vector2d::Zero(), 1);
   for (MovingMass& part : robot) part.a.z() = -1.2 * g;
   check.input("all masses are pulled down, faster than they would fall");
-  check.that("there is no zero moment point where the ground would have to pull",
+  check.that("no zero moment point is returned if the ground would have to pull",
              !student.zeroMoment(robot, 0, g).has_value());
 }
 
@@ -101,7 +101,8 @@ inline rex::grading::Evidence captureSeen(const rex::InvertedPendulum& pendulum,
                        .series = {got, wanted}}}};
 }
 
-/// By what the capture point is for: over it, the motion dies out. What grows, grows by e^5 in this time.
+/// Tests the purpose of the capture point: over it, the motion dies out. The growing mode grows by e^5 in
+/// this time.
 inline void capturesTheMotion(rex::grading::Check& check, Student& student) {
   const Pendulum pendulum = randomPendulum(check.rng());
   const Sway now = randomSway(check.rng());

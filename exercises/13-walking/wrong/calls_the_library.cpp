@@ -1,5 +1,5 @@
 // caught by: forbidden-call
-// mistake: gains and gait of the library.
+// mistake: takes gains and gait from the library.
 
 // <solution headers>
 #include "locomotion/limit_cycle.h"

@@ -1,5 +1,5 @@
 // caught by: derivative, gait, other-gaits
-// mistake: the time of the step is held, so that the foot need not be on the ground when it lands.
+// mistake: keeps the time of the step fixed, so that the foot need not be on the ground when it lands.
 
 // <solution stepDerivative>
 constexpr double d = 1e-5;

@@ -1,5 +1,5 @@
 // caught by: border, stands-any
-// mistake: the distance from the lines on which the edges lie, however far they go.
+// mistake: measures the distance from the infinite lines on which the edges lie.
 
 // <solution borderDistance>
 const Eigen::Index k = corners.cols();

@@ -1,5 +1,5 @@
 // caught by: stands, stands-any
-// mistake: the middle of all parts, whatever they weigh.
+// mistake: takes the mean position of all parts, whatever they weigh.
 
 // <solution staticMargin>
 Eigen::Vector2d sum = Eigen::Vector2d::Zero();

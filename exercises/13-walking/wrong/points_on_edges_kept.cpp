@@ -1,6 +1,6 @@
 // caught by: corners
 // shown by: corners
-// mistake: points in a row are all corners, also those between two others.
+// mistake: counts all points in a row as corners, even those between two others.
 
 // <solution supportCorners>
 std::vector<Eigen::Vector2d> points;

@@ -1,6 +1,6 @@
 // caught by: follows
 // shown by: follows
-// mistake: the first gain of the preview meets the change of the reference that is over already.
+// mistake: applies the first gain of the preview to a change of the reference that is already past.
 
 // <solution followed>
 const Eigen::Index n = reference.size();
