@@ -18,7 +18,7 @@ struct Scene {
   Errand errand;
 };
 
-/// The same in a mirror, level with the shoulder at (0, 1), and turned about the shoulder.
+/// The same, mirrored at the height of the shoulder at (0, 1) if `mirror`, and turned about the shoulder.
 inline Scene turned(Scene scene, double angle, bool mirror) {
   const double sign = mirror ? -1 : 1, cosine = std::cos(angle), sine = std::sin(angle);
   for (Ball& ball : scene.balls) {

@@ -126,8 +126,8 @@ Eigen::MatrixXd throughPoints(const Eigen::VectorXd& start, const Eigen::MatrixX
 // Part 5, an arm among obstacles.
 
 /// How near bodies are on the straight way from x_{t-1} to x_t (`window`, n x 2): 1 - d / margin for the
-/// distance d of each pair of rex::clearances(S), in their order, at s = 1 / samples of the way, then at 2
-/// / samples, ..., last at x_t. J has 2 n columns, those of x_{t-1} first.
+/// distance d of each pair of rex::clearances(S), in their order, first at one `samples`-th of the way,
+/// then at two, ..., last at x_t. J has 2 n columns, those of x_{t-1} first.
 TermValue keptApart(rex::Simulator& S, const Eigen::MatrixXd& window, double margin, int samples);
 
 /// What the arm is to do, from rest at S's configuration, in `steps` steps of `tau` seconds.

@@ -32,8 +32,8 @@ inline Eigen::MatrixXd shuffled(rex::Rng& rng, Eigen::MatrixXd columns) {
   return columns;
 }
 
-/// How far the flattest corner sticks out: far enough, a tolerance for rounding does not change the
-/// corners.
+/// How far the flattest corner sticks out: if that is far enough, a tolerance for rounding does not change
+/// the corners.
 inline double leastCorner(const Eigen::MatrixXd& corners) {
   const Eigen::Index count = corners.cols();
   double out = INFINITY;

@@ -88,7 +88,8 @@ void conesAnywhere(Check& check, Student& student) {
 
 // Part 2.
 
-// Pairs of opposite wrenches along all axes but the last, along which there is one only, or a pair, too.
+// Pairs of opposite wrenches along all axes but the last, which has a pair if `closes`, otherwise a single
+// wrench.
 Eigen::MatrixXd pairsAlongAxes(int d, bool closes) {
   Eigen::MatrixXd W = Eigen::MatrixXd::Zero(d, closes ? 2 * d : 2 * d - 1);
   for (Eigen::Index k = 0; k < W.cols(); ++k) W(k / 2, k) = k % 2 == 0 ? 1 : -1;
@@ -96,7 +97,7 @@ Eigen::MatrixXd pairsAlongAxes(int d, bool closes) {
 }
 
 void verdicts(Check& check, Student& student) {
-  check.input("wrenches (1, 0), (-1, 0), (0, 1), and then (0, -1), too");
+  check.input("wrenches (1, 0), (-1, 0), (0, 1), and then also (0, -1)");
   for (const bool closes : {false, true}) judgedRightly(check, student, pairsAlongAxes(2, closes));
   check.input("a square with a smooth finger in the middle of each side");
   Eigen::MatrixXd square(3, 4);
@@ -146,7 +147,7 @@ void judgesTheBorder(Check& check, Student& student) {
   for (int d = 2; d <= 6; ++d)
     for (const bool closes : {false, true})
       judgedRightly(check, student, pairsAlongAxes(d, closes) * rng.uniform(0.1, 10));
-  for (int i = 0; i < 20; ++i) {  // wrenches that lie in a plane, where they would be closed
+  for (int i = 0; i < 20; ++i) {  // wrenches in a plane, within which they are closed
     const int d = 3 + i % 4;
     Eigen::MatrixXd frame(d, d - 1);
     for (Eigen::Index k = 0; k < d - 1; ++k) frame.col(k) = rng.normalVector(d);
@@ -267,7 +268,7 @@ Fingertips onPlate(Rng& rng, int count, double friction) {
 void keepsFew(Check& check, Student& student) {
   check.input("wrenches (1, 0), (-1, 0), (0, 1), one for each finger: open");
   keepsTheNeeded(check, student, pairsAlongAxes(2, false), {0, 1, 2});
-  check.input("wrenches (1, 0), (-1, 0), (0, 1), (0, -1), and once more the same");
+  check.input("wrenches (1, 0), (-1, 0), (0, 1), (0, -1), and the same four again");
   Eigen::MatrixXd twice(2, 8);
   twice << pairsAlongAxes(2, true), pairsAlongAxes(2, true);
   keepsTheNeeded(check, student, twice, {0, 1, 2, 3, 4, 5, 6, 7});
@@ -303,7 +304,7 @@ void placesFingers(Check& check, Student& student) {
 }
 
 // <hidden>
-// The quality of fingers at places along the outline, counted in edges: 2.5 is the middle of the third.
+// The quality of fingers at positions along the outline, in edges: 2.5 is the middle of the third edge.
 double qualityAt(const Plate& plate, double friction, const Eigen::VectorXd& places) {
   std::vector<PlanarFinger> fingers;
   for (const double place : places) {
@@ -319,7 +320,7 @@ double qualityAt(const Plate& plate, double friction, const Eigen::VectorXd& pla
   return graspQuality(wrenchesOf(fingers, plate.center, plate.length)).epsilon;
 }
 
-// The best of random places, of which the best few then wander about in ever smaller steps.
+// The best of random positions, after the best few are improved by random steps of shrinking size.
 double bestKnown(const Plate& plate, double friction, int count, Rng& rng) {
   std::vector<std::pair<double, Eigen::VectorXd>> grasps;
   for (int i = 0; i < 3000; ++i) {

@@ -11,7 +11,7 @@
 
 // Objects that the checks draw at random, and fingers on them.
 
-/// A polygon, counter-clockwise, with the middle of its area, and how far it reaches from there.
+/// A polygon, counter-clockwise, with the centroid of its area, and how far it reaches from there.
 struct Plate {
   std::vector<Eigen::Vector2d> corners;
   Eigen::Vector2d center = Eigen::Vector2d::Zero();
@@ -33,7 +33,7 @@ inline Plate plateOf(const std::vector<Eigen::Vector2d>& corners) {
   return plate;
 }
 
-/// 4 to 8 corners at any place, 8 to 20 cm across, often with dents; edges are 15 mm long or more.
+/// A polygon with 4 to 8 random corners, 8 to 20 cm across, often concave; edges are 15 mm long or more.
 inline Plate randomPlate(rex::Rng& rng) {
   for (;;) {
     const int n = 4 + rng.index(5);
@@ -52,7 +52,7 @@ inline Plate randomPlate(rex::Rng& rng) {
   }
 }
 
-/// A finger anywhere on the edges of a plate.
+/// A finger at a random position on the edges of a plate.
 inline PlanarFinger fingerOn(const Plate& plate, double friction, rex::Rng& rng) {
   const auto i = static_cast<std::size_t>(rng.index(static_cast<int>(plate.corners.size())));
   const Eigen::Vector2d &a = plate.corners[i], &b = plate.corners[(i + 1) % plate.corners.size()];

@@ -14,7 +14,7 @@
 inline constexpr double kBestOnSlab = 0.316227, kBestOnWedge = 0.18688;
 
 inline void isOnOutline(rex::grading::Check& check, const Plate& plate, const PlanarFinger& finger) {
-  check.shape("place of a finger", finger.p, 2, 1);
+  check.shape("position of a finger", finger.p, 2, 1);
   check.shape("normal of a finger", finger.normal, 2, 1);
   double least = INFINITY, fromCorner = INFINITY;
   Eigen::Vector2d inward(0, 0);
@@ -66,7 +66,7 @@ inline rex::Figure drawing(const Plate& plate, const std::vector<PlanarFinger>& 
     if (one.p.allFinite() && one.normal.allFinite() && std::isfinite(one.friction))
       addFinger(figure, one, plate.length);
   if (!figure.series.empty()) figure.series[0].label = "fingers";
-  rex::Series center{.label = "center", .x = {plate.center.x()}, .y = {plate.center.y()}};
+  rex::Series center{.label = "centre", .x = {plate.center.x()}, .y = {plate.center.y()}};
   center.style = rex::SeriesStyle::kPoints;
   center.marker = rex::Marker::kPlus;
   center.size = 2;
@@ -75,7 +75,7 @@ inline rex::Figure drawing(const Plate& plate, const std::vector<PlanarFinger>& 
   return figure;
 }
 
-/// A grasp as the contract wants it, at least 0.8 as good as the best that is known.
+/// Checks that a grasp meets the contract and is at least 0.8 as good as the best known one.
 inline void graspIsGood(rex::grading::Check& check, Student& student, const Plate& plate, double friction,
                         int count, double best) {
   check.input("a polygon of " + std::to_string(plate.corners.size()) + " corners, friction " +
@@ -90,5 +90,5 @@ inline void graspIsGood(rex::grading::Check& check, Student& student, const Plat
     check.near("friction of a finger", one.friction, friction, 1e-12);
   }
   const double quality = rex::graspQuality(wrenchesOf(fingers, plate.center, plate.length)).epsilon;
-  check.atLeast("radius of the ball, of the best known", quality / best, 0.8);
+  check.atLeast("radius of the ball, as a share of the best known", quality / best, 0.8);
 }

@@ -15,7 +15,7 @@ using namespace rex;
 
 namespace {
 
-void nothingYet(const char* what) { std::printf("Nothing to see yet of %s.\n", what); }
+void nothingYet(const char* what) { std::printf("Nothing to show yet for %s.\n", what); }
 
 std::string text(const char* format, double number) {
   char all[32];
@@ -35,9 +35,9 @@ std::vector<Eigen::Vector2d> plate() {
   return {{-0.08, -0.042}, {0.05, -0.05}, {0.085, 0.005}, {0.035, 0.045}, {0.005, 0.018}, {-0.06, 0.055}};
 }
 
-constexpr double kPlateLength = 0.0895;  // of its farthest corner from the origin [m]
+constexpr double kPlateLength = 0.0895;  // distance of its farthest corner from the origin [m]
 
-// The finger so many metres along the outline, from the first corner.
+// The finger `way` metres along the outline, from the first corner.
 PlanarFinger fingerAt(const std::vector<Eigen::Vector2d>& corners, double way, double friction) {
   for (std::size_t i = 0;; i = (i + 1) % corners.size()) {
     const std::size_t next = (i + 1) % corners.size();
@@ -85,7 +85,7 @@ Figure conesFigure(const std::string& title, const std::vector<Eigen::Vector2d>&
   figure.width = 950;
   figure.height = 600;
   figure.regions.push_back(regionOf(corners, kGrey));
-  constexpr double kCone = 0.025;  // m that a newton is long
+  constexpr double kCone = 0.025;  // length of a newton [m]
   for (std::size_t i = 0; i < fingers.size(); ++i) {
     const PlanarFinger& finger = fingers[i];
     const double side = kCone * finger.friction;
@@ -102,7 +102,7 @@ Figure conesFigure(const std::string& title, const std::vector<Eigen::Vector2d>&
     body.color = fingerColor(i);
     figure.series.push_back(std::move(body));
   }
-  addPoint(figure, "center", kBlack, Eigen::Vector2d::Zero());
+  addPoint(figure, "centre", kBlack, Eigen::Vector2d::Zero());
   return figure;
 }
 
@@ -136,8 +136,7 @@ void addBall(Figure& figure, double radius) {
   }
 }
 
-// How many planes (one normal per column, with its offset) two points lie in; those that are the same count
-// once.
+// How many planes (one normal per column, with its offset) two points lie in; identical planes count once.
 int planesThrough(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::MatrixXd& normals,
                   const Eigen::VectorXd& offsets) {
   std::vector<Eigen::Vector3d> planes;
@@ -269,15 +268,15 @@ Solid coneSolid(const Finger& finger, const Color& color) {
   return solid;
 }
 
-// Which of them are kept.
+// For each finger, whether it is kept.
 std::vector<bool> marksOf(std::size_t fingers, const std::vector<int>& kept) {
   std::vector<bool> isKept(fingers, false);
   for (const int finger : kept) isKept[static_cast<std::size_t>(finger)] = true;
   return isKept;
 }
 
-// Adds a moment of the film: the stone, which turns, and its fingers behind it, of which those before `at`
-// have gone unless they are kept; that at `at` is red if it goes next.
+// Adds a frame to the film: the turning stone and its fingers. Those before `at` that are not kept have
+// vanished; the one at `at` is red if it is not kept either.
 void addMoment(Film& film, const std::vector<Solid>& solids, const std::vector<bool>& isKept,
                std::size_t at) {
   constexpr int kRate = 20;

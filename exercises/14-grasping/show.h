@@ -8,8 +8,8 @@
 /// pyramid lie on its border.
 void showCone(double friction, int edges);
 
-/// contacts.png: three fingers so far [m] along the outline of a plate; wrenches.png: the hull of their
-/// wrenches.
+/// contacts.png: three fingers at these distances [m] along the outline of a plate; wrenches.png: the hull
+/// of their wrenches.
 void showWrenches(double friction, const std::vector<double>& ways);
 
 /// Prints your verdicts on a cube with a finger in the middle of each face, and the proofs.
@@ -22,7 +22,8 @@ void showMap(double friction);
 /// friction.png: known values of epsilon, dashed, on yours.
 void showFriction();
 
-/// Prints how many fingers on a stone you keep. deletion.mp4, deletion_sheet.png: those of the last friction.
+/// Prints how many fingers on a stone you keep. deletion.mp4, deletion_sheet.png: those for the last
+/// friction.
 void showDeletion(const std::vector<double>& frictions);
 
 /// cones.png, hull.png: fingers on the plate by your search, and the hull of their wrenches with the largest

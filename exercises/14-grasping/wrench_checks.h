@@ -38,8 +38,8 @@ inline rex::WrenchSet wrenchesOf(const std::vector<Finger>& fingers, int edges, 
   return rex::primitiveWrenches(rex::wrenchCones(contacts, {.p_OR = center, .length = length}), edges);
 }
 
-/// The torque about the center is the power that the force has if the object turns about it by one radian in
-/// a second: force times velocity of p.
+/// The torque about the centre is the power of the force if the object turns about it at one radian per
+/// second: force times velocity of p.
 inline void planarWrenchFits(rex::grading::Check& check, Student& student, const Eigen::Vector2d& p,
                              const Eigen::Vector2d& force, const Eigen::Vector2d& center, double length) {
   check.input("p = (" + text(p.x()) + ", " + text(p.y()) + "), force (" + text(force.x()) + ", " +
@@ -56,7 +56,7 @@ inline void planarWrenchFits(rex::grading::Check& check, Student& student, const
 inline void spatialWrenchFits(rex::grading::Check& check, Student& student, rex::Rng& rng) {
   const Eigen::Vector3d p = rng.normalVector(3), force = rng.normalVector(3), center = rng.normalVector(3);
   const double length = rng.uniform(0.1, 2);
-  check.input("p, force and center at random, length " + text(length));
+  check.input("random p, force and center, length " + text(length));
   const Eigen::VectorXd wrench = student.spatialWrench(p, force, center, length);
   check.shape("spatial wrench", wrench, 6, 1);
   check.near("force of a spatial wrench", wrench.head(3), force, 1e-12, "N");
@@ -90,27 +90,27 @@ inline rex::grading::Evidence edgesSeen(const Finger& finger, const Eigen::Matri
           .film = {}};
 }
 
-/// The columns are forces of one newton along the normal, on the cone, at equal angles: as many points of a
-/// circle, no two of them nearer than those of a regular polygon are, are a regular polygon.
+/// The columns are forces of one newton along the normal, on the cone, at equal angles: that many points on
+/// a circle form a regular polygon if no two of them are nearer than in one.
 inline void areEdges(rex::grading::Check& check, const Finger& finger, const Eigen::MatrixXd& forces,
                      int edges) {
   check.shape("edges of a pyramid", forces, 3, edges);
   const auto shown = check.show([&] { return edgesSeen(finger, forces); });
   for (Eigen::Index k = 0; k < edges; ++k) {
     const double along = finger.normal.dot(forces.col(k));
-    check.near("part along the normal of an edge", along, 1, 1e-9, "N");
-    check.near("part along the surface of an edge", (forces.col(k) - along * finger.normal).norm(),
+    check.near("normal component of an edge", along, 1, 1e-9, "N");
+    check.near("component of an edge along the surface", (forces.col(k) - along * finger.normal).norm(),
                finger.friction, 1e-9, "N");
   }
   const double side = 2 * finger.friction * std::sin(std::numbers::pi / edges);
   for (Eigen::Index k = 0; k < edges; ++k)
     for (Eigen::Index i = 0; i < k; ++i)
-      check.atLeast("distance of two edges, less that of neighbours",
+      check.atLeast("distance of two edges, minus that of neighbours",
                     (forces.col(k) - forces.col(i)).norm() - side, -1e-8, "N");
 }
 
-/// Forces a hundredth inside and outside of the cone, pulling, and none at all; shuffled, so that counting
-/// calls does not help.
+/// Forces one per cent inside and outside of the cone, a pulling force, and none at all; shuffled, so that
+/// counting calls does not help.
 inline void coneFits(rex::grading::Check& check, Student& student, rex::Rng& rng) {
   const Finger finger = randomFinger(rng, rng.uniform(0.3, 1.3)), smooth{finger.p, finger.normal, 0};
   const Eigen::Vector3d any = randomDirection(rng, 3), across = finger.normal.cross(any).normalized();
@@ -144,21 +144,21 @@ inline void coneFits(rex::grading::Check& check, Student& student, rex::Rng& rng
   }
 }
 
-/// The proof holds, whatever it says.
+/// Checks that the proof holds, whatever the verdict is.
 inline void isProven(rex::grading::Check& check, const Eigen::MatrixXd& W, const Verdict& verdict) {
   const Eigen::VectorXd sizes = W.colwise().norm().transpose();
   if (!verdict.closed) {
     check.shape("direction that proves an open grasp", verdict.proof, W.rows(), 1);
     check.near("length of the direction that proves an open grasp", verdict.proof.norm(), 1, 1e-9);
-    check.atLeast("least part of a wrench along the direction that proves an open grasp",
+    check.atLeast("smallest component of a wrench along the direction that proves an open grasp",
                   (W.transpose() * verdict.proof).cwiseQuotient(sizes).minCoeff(), -1e-8);
     return;
   }
   check.shape("weights that prove force closure", verdict.proof, W.cols(), 1);
   check.near("sum of the weights that prove force closure", verdict.proof.sum(), 1, 1e-9);
   check.atLeast("smallest weight that proves force closure", verdict.proof.minCoeff(), 1e-6);
-  check.atMost("weighted sum of the wrenches, of the longest", (W * verdict.proof).norm() / sizes.maxCoeff(),
-               1e-8);
+  check.atMost("weighted sum of the wrenches, relative to the longest",
+               (W * verdict.proof).norm() / sizes.maxCoeff(), 1e-8);
   check.that("wrenches with force closure span the space", rex::forceClosure(W).rank == W.rows());
 }
 
@@ -166,7 +166,7 @@ inline void judgedRightly(rex::grading::Check& check, Student& student, const Ei
   isProven(check, W, student.judged(W));
 }
 
-/// Not near to the border between open and closed.
+/// Whether W is not near the border between open and closed.
 inline bool isClear(const Eigen::MatrixXd& W) {
   const rex::Closure closure = rex::forceClosure(W);
   if (closure.status == rex::ClosureStatus::kUndecided) return false;
@@ -194,7 +194,7 @@ inline double reachOf(const rex::FacetHull& hull, const Eigen::VectorXd& directi
   return reach;
 }
 
-/// The hull of wrenches of two numbers, and how far it reaches.
+/// The hull of wrenches with two entries, and how far it reaches.
 inline rex::grading::Evidence reachSeen(const Eigen::MatrixXd& W, const Eigen::VectorXd& direction,
                                         double got, double wanted) {
   const rex::FacetHull hull = rex::facetHull(W);
@@ -211,8 +211,8 @@ inline rex::grading::Evidence reachSeen(const Eigen::MatrixXd& W, const Eigen::V
   rex::Series line = rex::grading::wantedCurve("wanted", {0, right.x()}, {0, right.y()});
   for (rex::Series* series : {&arrow, &line}) series->style = rex::SeriesStyle::kLinesPoints;
   return {.figures = {{.title = "How far the hull reaches",
-                       .xLabel = "first number of a wrench [N]",
-                       .yLabel = "second number [N]",
+                       .xLabel = "first entry of a wrench [N]",
+                       .yLabel = "second entry [N]",
                        .equalAxes = true,
                        .legend = rex::Legend::kOutside,
                        .series = {arrow, line},
@@ -247,7 +247,7 @@ inline Eigen::MatrixXd partOf(const Eigen::MatrixXd& W, const std::vector<int>& 
   return W(Eigen::all, columns);
 }
 
-/// Closed, and not only with weights smaller than a Verdict may name.
+/// Closed, and provable with weights that are large enough for a Verdict.
 inline bool isProvablyClosed(const Eigen::MatrixXd& W) {
   const rex::Closure closure = rex::forceClosure(W);
   return closure.status == rex::ClosureStatus::kClosed && closure.weights.minCoeff() > 1e-5;
@@ -263,7 +263,7 @@ inline void keepsTheNeeded(rex::grading::Check& check, Student& student, const E
              std::ranges::all_of(kept, [&](int one) { return std::ranges::count(finger, one) > 0; }));
   using enum rex::ClosureStatus;
   if (rex::forceClosure(W).status == kOpen || (kept.empty() && !isProvablyClosed(W)))
-    return check.that("nothing is kept of an open grasp", kept.empty());
+    return check.that("no finger of an open grasp is kept", kept.empty());
   check.that("the fingers kept have force closure",
              rex::forceClosure(partOf(W, finger, kept)).status != kOpen);
   for (const int one : kept) {

@@ -1,5 +1,5 @@
 // caught by: fewer, fewer-on-solids
-// mistake: looks which fingers are redundant, and deletes all of them at once.
+// mistake: finds the fingers that are redundant, and deletes all of them at once.
 
 // <solution keptFingers>
 const auto without = [&](int removed) {

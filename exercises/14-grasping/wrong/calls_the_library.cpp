@@ -1,5 +1,5 @@
 // caught by: forbidden-call
-// mistake: the library measures the quality.
+// mistake: lets the library measure the quality.
 
 // <solution headers>
 #include "grasping/quality.h"

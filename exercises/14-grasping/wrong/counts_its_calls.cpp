@@ -1,5 +1,5 @@
 // caught by: cones, any-cones
-// mistake: answers by how often it was asked, as if the six questions about a cone came in one order.
+// mistake: counts its calls, as if the six questions about a cone came in a fixed order.
 
 // <solution inCone>
 static int asked = 0;

@@ -1,5 +1,5 @@
 // caught by: fewer, fewer-on-solids
-// mistake: takes fingers one after the other until they hold, and asks no more whether all are needed.
+// mistake: adds fingers one after the other until they hold, and does not check that all are needed.
 
 // <solution keptFingers>
 std::vector<int> kept;

@@ -1,5 +1,5 @@
 // caught by: verdicts, border
-// mistake: weights for zero suffice, even if all wrenches lie in a plane.
+// mistake: accepts weights for zero, even if all wrenches lie in a plane.
 
 // <solution judged>
 const Eigen::Index n = wrenches.cols();
