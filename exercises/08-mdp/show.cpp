@@ -10,7 +10,7 @@ using namespace rex;
 
 namespace {
 
-void nothingYet(const char* what) { std::printf("Nothing to see yet of %s.\n", what); }
+void nothingYet(const char* what) { std::printf("Nothing to show yet for %s.\n", what); }
 
 GridWorld slipperyFloor() {
   return gridWorld(

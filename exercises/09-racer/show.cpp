@@ -15,7 +15,7 @@ using namespace rex;
 
 namespace {
 
-void nothingYet(const char* what) { std::printf("Nothing to see yet of %s.\n", what); }
+void nothingYet(const char* what) { std::printf("Nothing to show yet for %s.\n", what); }
 
 // A start at rest for a ride.
 Eigen::Vector4d tilted(double theta) { return {0, theta, 0, 0}; }

@@ -79,7 +79,7 @@ void differentiates(Check& check, Student& student, int cases, double turns) {
 void differentiatesEdges(Check& check, Student& student) { differentiates(check, student, 30, 1); }
 
 // <hidden>
-// Headings that have been counted on through whole turns, and errors on both sides of half a turn.
+// Headings with whole turns added, and errors on both sides of half a turn.
 void wrapsEverywhere(Check& check, Student& student) {
   differentiates(check, student, 30, 6);
   for (int k = 0; k < 60; ++k) {
@@ -97,7 +97,7 @@ void wrapsEverywhere(Check& check, Student& student) {
 
 void addsUpCosts(Check& check, Student& student) {
   check.forEachCase(8, [&](int number) {
-    check.input("a random map, edges in both directions, each with an information of its own");
+    check.input("a random map, edges in both directions, each with its own information");
     const PoseMap map = randomMap(check.rng(), 2 + number);
     const double wanted = trueCost(map);
     check.near("cost", student.mapCost(map), wanted, 1e-9 * wanted);
@@ -167,8 +167,8 @@ void formsAnyEquations(Check& check, Student& student) {
 void costsFall(Check& check, const PoseMap& map, const Adjusted& got, double least) {
   const auto shown = check.show([&] { return mapSeen(map, got, least); });
   checkPoses(check, got.poses, map.poses);
-  check.atLeast("costs: that of the start and of one step at least", static_cast<double>(got.costs.size()),
-                2);
+  check.atLeast("number of costs: of the start and of at least one step",
+                static_cast<double>(got.costs.size()), 2);
   const double start = trueCost(map);
   check.near("the first cost, of the start", got.costs.front(), start, 1e-6 * start);
   check.atMost("steps", static_cast<double>(got.costs.size()) - 1, 200);
@@ -182,7 +182,7 @@ void costsFall(Check& check, const PoseMap& map, const Adjusted& got, double lea
 // Two measurements of one motion, with headings that agree: the optimum is a mean weighted by information.
 void meetsInTheMiddle(Check& check, Student& student) {
   check.forEachCase(6, [&](int) {
-    check.input("two poses, measured twice: the headings agree, the positions do not; any information");
+    check.input("two poses, measured twice: the headings agree, the positions do not; random information");
     Rng& rng = check.rng();
     const double heading = rng.uniform(-3, 3);
     PoseMap map{{randomPose(rng, 2), {}}, {}};
@@ -256,14 +256,14 @@ void findsPartners(Check& check, Student& student) {
     const ScanPair pair = pairOfScans(check.rng());
     const std::vector<int> got = student.partners(pair.reference, pair.moving, pair.guess, 0.2);
     const auto shown = check.show([&] { return partnersSeen(pair, got, 0.2); });
-    check.that("one number for each moving point", got.size() == pair.moving.size());
+    check.that("one index for each moving point", got.size() == pair.moving.size());
     const Eigen::Matrix3d X = frameOf(pair.guess);
     for (std::size_t k = 0; k < got.size(); ++k) {
       const Eigen::Vector3d at = X * Eigen::Vector3d(pair.moving[k].x(), pair.moving[k].y(), 1);
       double nearest = 1e9;
       for (const Eigen::Vector2d& q : pair.reference)
         nearest = std::min(nearest, std::hypot(q.x() - at.x(), q.y() - at.y()));
-      check.that("numbers of points of the reference, or -1",
+      check.that("indices of points of the reference, or -1",
                  got[k] >= -1 && got[k] < static_cast<int>(pair.reference.size()));
       if (std::abs(nearest - 0.2) < 1e-9) continue;
       check.that("-1 where, and only where, no point is within the distance",
@@ -285,7 +285,7 @@ double squaresOf(const Points& from, const Points& to, const Eigen::Vector3d& mo
   return sum;
 }
 
-// Exact points have no error; of noisy ones, also of mirrored ones, no other motion has less.
+// With exact points there is no error; with noisy and mirrored ones, no other motion has a smaller one.
 void findsBestMotions(Check& check, Student& student) {
   check.forEachCase(12, [&](int number) {
     Rng& rng = check.rng();
@@ -324,8 +324,8 @@ std::pair<double, double> missOf(const Eigen::Vector3d& got, const Eigen::Vector
   return {std::hypot(got[0] - wanted[0], got[1] - wanted[1]), std::abs(byTurns(got[2] - wanted[2]))};
 }
 
-// How well the scans fit, by the motion that was returned. Points beside the bound may count or not after one
-// more step.
+// How well the scans fit, by the motion that was returned. Points near the bound may or may not count after
+// one more step.
 void fitsAsItSays(Check& check, const ScanPair& pair, const Aligned& got) {
   const Eigen::Matrix3d X = frameOf(got.motion);
   double count = 0, squares = 0;
@@ -361,14 +361,14 @@ void alignsPairs(Check& check, Student& student, int pairs) {
       worstPair = pair;
       worstGot = got;
     }
-    check.atMost("error of one motion", metres, 0.2, "m");
-    check.atMost("error of its heading", radians, 0.1, "rad");
+    check.atMost("position error of a motion", metres, 0.2, "m");
+    check.atMost("its heading error", radians, 0.1, "rad");
     way += metres / pairs;
     turn += radians / pairs;
     fitsAsItSays(check, pair, got);
   }
-  check.atMost("average error of the motions", way, 0.04, "m");
-  check.atMost("average error of their headings", turn, 0.02, "rad");
+  check.atMost("average position error", way, 0.04, "m");
+  check.atMost("average heading error", turn, 0.02, "rad");
 }
 
 void alignsScans(Check& check, Student& student) {
@@ -417,7 +417,7 @@ void tellsPlacesApart(Check& check, Student& student, int pairs) {
       gotOfLost = motion;
     }
   }
-  check.atLeast("pairs of one place that are found, and right", right, 0.9 * pairs);
+  check.atLeast("pairs of one place that are found with the right motion", right, 0.9 * pairs);
   check.atMost("pairs of different rooms taken for one place", wrong, 0.1 * pairs);
 }
 
@@ -432,9 +432,9 @@ void tellsMoreRoomsApart(Check& check, Student& student) { tellsPlacesApart(chec
 
 // Part 6.
 
-// Wrong loops join poses that are metres apart, as if they were one place. What is measured does not tell,
-// nor the numbers of the poses: they are turned as right ones are, with the same noise, and between the same
-// numbers of steps, for a walk comes by again after 20, 30, 40 ... of them.
+// Wrong loops join poses that are metres apart, as if they were one place. Neither measurements nor indices
+// of poses give them away: they have the same rotations and noise as right ones, and span the same numbers
+// of steps, because a walk comes by again after 20, 30, 40, ... of them.
 void addWrongLoops(Rng& rng, StreetWalk& walk, double share) {
   std::vector<MeasuredEdge> right;
   for (const MeasuredEdge& edge : walk.map.edges)
@@ -452,7 +452,7 @@ void addWrongLoops(Rng& rng, StreetWalk& walk, double share) {
         {i, j, onward(turn, deviations.cwiseProduct(rng.normalVector(3))), like.information, true});
     ++k;
   }
-  // Where an edge stands does not tell whether it is right.
+  // The position of an edge in the list does not show whether it is right.
   std::vector<MeasuredEdge> edges, mixed;
   for (const MeasuredEdge& edge : walk.map.edges) (edge.isLoop ? mixed : edges).push_back(edge);
   for (std::size_t k = mixed.size(); k > 1; --k)
@@ -461,8 +461,8 @@ void addWrongLoops(Rng& rng, StreetWalk& walk, double share) {
   walk.map.edges = std::move(edges);
 }
 
-// Whether no bound on how far the ends of a loop are apart by odometry keeps the right loops and drops the
-// wrong ones: odometry drifts as far as that.
+// Whether odometry drifts so far that no bound on the distance between the ends of a loop keeps the right
+// loops and drops the wrong ones.
 bool isBeyondOdometry(const StreetWalk& walk, const Poses& best) {
   return std::ranges::none_of(std::array{2., 3., 4.5}, [&](double bound) {
     PoseMap near = walk.map;
@@ -489,9 +489,9 @@ Misled misledWalk(Rng& rng, double noise, double share) {
   }
 }
 
-// By chance a wrong loop cannot be told from a right one: of 200 maps each the reference mends 90 % of those
-// with a few of them, 86 % of those with many; bounds on the distance by odometry, of 1.5 to 6 m, at most 15
-// %.
+// Some wrong loops cannot be distinguished from right ones: of 200 maps each, the reference repairs 90 % of
+// those with a few wrong loops and 86 % of those with many; bounds of 1.5 to 6 m on the distance by
+// odometry repair at most 15 %.
 void standsOnManyMaps(Check& check, Student& student, double noise, double share) {
   int right = 0;
   JudgedWalk wrong;
@@ -505,7 +505,7 @@ void standsOnManyMaps(Check& check, Student& student, double noise, double share
       wrong = {misled.walk, got, misled.best};
   }
   const auto shown = check.show([&] { return robustSeen(wrong); });
-  check.atLeast("maps of twelve that are as without the wrong loops, within 10 cm", right, 5);
+  check.atLeast("number of twelve maps that are as without the wrong loops, within 10 cm", right, 5);
 }
 
 void standsAFew(Check& check, Student& student) {

@@ -8,7 +8,7 @@
 #include "exercise.h"
 #include "grading/check.h"
 
-// Graphs for the checks, made by chance, and what is known of them.
+// Random graphs for the checks, and what is known about them.
 
 using Poses = std::vector<Eigen::Vector3d>;
 
@@ -44,14 +44,14 @@ inline Eigen::Vector3d randomPose(rex::Rng& rng, double reach, double turns = 1)
           rng.uniform(-turns * std::numbers::pi, turns * std::numbers::pi)};
 }
 
-/// Symmetric positive definite, its three axes unlike.
+/// Symmetric positive definite, with three different axes.
 inline Eigen::Matrix3d randomInformation(rex::Rng& rng) {
   Eigen::Matrix3d A;
   for (int c = 0; c < 3; ++c) A.col(c) = rng.normalVector(3) * rng.uniform(1, 8);
   return A * A.transpose() + Eigen::Matrix3d::Identity();
 }
 
-/// Any poses, and edges between them in both directions that fit badly.
+/// Random poses, and edges between them in both directions that fit badly.
 inline PoseMap randomMap(rex::Rng& rng, int poses) {
   PoseMap map;
   for (int k = 0; k < poses; ++k) map.poses.push_back(randomPose(rng, 4, 3));
@@ -68,8 +68,8 @@ inline PoseMap randomMap(rex::Rng& rng, int poses) {
   return map;
 }
 
-/// A walk over streets that cross at some angle, five poses a block; where the robot comes by again, loops
-/// are closed. All motions are measured with noise, and poses are those of odometry.
+/// A walk over streets that cross at some angle, five poses per block; loops are closed where the robot
+/// comes by again. All motions are measured with noise, and poses are those of odometry.
 struct StreetWalk {
   PoseMap map;
   Poses truth;
@@ -87,7 +87,7 @@ inline Poses anyWayAlongStreets(rex::Rng& rng, int poses, const Eigen::Vector3d&
   const double lengths[] = {rng.uniform(0.8, 1.2), rng.uniform(0.8, 1.2)};
   Poses way{start};
   for (int k = 1, street = 0; k < poses; ++k) {
-    // Four crossings a block: it turns left more often than not, and so comes by again.
+    // Four crossings per block: it turns left more often than not, and so comes by again.
     double turn = 0;
     if (k % 5 == 0 && rng.uniform() >= 0.3) turn = street++ % 2 == 0 ? corner : std::numbers::pi - corner;
     way.push_back(onward(onward(way.back(), {0, 0, turn}), {lengths[street % 2], 0, 0}));
@@ -120,7 +120,7 @@ inline StreetWalk anyStreetWalk(rex::Rng& rng, int poses, double noise, const Ei
   return walk;
 }
 
-/// One with ten loops at least.
+/// A street walk with at least ten loops.
 inline StreetWalk streetWalk(rex::Rng& rng, int poses, double noise,
                              const Eigen::Vector3d& start = {0, 0, 0}) {
   for (;;) {
@@ -163,7 +163,7 @@ inline void checkPoses(rex::grading::Check& check, const Poses& got, const Poses
   check.near("heading of pose 0, which stays", byTurns(got[0][2] - start[0][2]), 0, 1e-9, "rad");
 }
 
-/// H as a full matrix, after its entries were found to lie within it.
+/// H as a full matrix, after a check that its entries lie within it.
 inline Eigen::MatrixXd fullMatrix(rex::grading::Check& check, const std::vector<rex::MatrixEntry>& entries,
                                   int size) {
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(size, size);
@@ -176,8 +176,8 @@ inline Eigen::MatrixXd fullMatrix(rex::grading::Check& check, const std::vector<
   return H;
 }
 
-/// The errors of all edges with the square root of weight and information, one under the other: their
-/// derivatives make H and b without any formula.
+/// The stacked errors of all edges, scaled by the square root of weight and information: their derivatives
+/// give H and b without any formula.
 inline Eigen::VectorXd weightedErrors(const PoseMap& map, const std::vector<double>& weights,
                                       const Eigen::VectorXd& x) {
   Eigen::VectorXd errors(3 * static_cast<Eigen::Index>(map.edges.size()));

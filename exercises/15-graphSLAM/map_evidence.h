@@ -11,7 +11,7 @@
 #include "map_pictures.h"
 #include "scan_checks.h"
 
-// What the checks show of maps and scans that are not as they should be.
+// What the checks show if maps or scans are wrong.
 
 /// A map beside the best one, with its loops, and what it cost from step to step.
 inline rex::grading::Evidence mapSeen(const PoseMap& map, const Adjusted& got, double least) {
@@ -34,11 +34,11 @@ inline rex::grading::Evidence mapSeen(const PoseMap& map, const Adjusted& got, d
                        .xLabel = "step",
                        .yLabel = "cost",
                        .logY = true,
-                       .series = {costs, rex::grading::wantedCurve("wanted in the end", {0, end},
+                       .series = {costs, rex::grading::wantedCurve("wanted at the end", {0, end},
                                                                    {wanted, wanted})}}}};
 }
 
-/// A walk with wrong loops, what became of its map, and what it is without them.
+/// A walk with wrong loops, the returned poses, and the best ones without these loops.
 struct JudgedWalk {
   StreetWalk walk{};
   Poses got{}, best{};
@@ -64,7 +64,7 @@ inline rex::grading::Evidence robustSeen(const JudgedWalk& judged) {
   return {.figures = {figure}};
 }
 
-/// A scan over another by the motion that came out, and by the one that was wanted.
+/// One scan over another by the returned motion, and by the wanted one.
 inline rex::grading::Evidence scansSeen(const std::string& title, const ScanPair& pair,
                                         const std::optional<Eigen::Vector3d>& got,
                                         const std::optional<Eigen::Vector3d>& wanted) {
@@ -80,7 +80,7 @@ inline rex::grading::Evidence scansSeen(const std::string& title, const ScanPair
   return {.figures = {figure}};
 }
 
-/// Points and their partners: got, and the nearest one where that is another.
+/// Points and their partners: got, and the nearest one if it differs.
 inline rex::grading::Evidence partnersSeen(const ScanPair& pair, const std::vector<int>& got, double most) {
   if (got.size() != pair.moving.size()) return {};
   rex::grading::Evidence evidence = scansSeen("Partners of the moving points", pair, pair.guess, {});
@@ -108,7 +108,7 @@ inline rex::grading::Evidence partnersSeen(const ScanPair& pair, const std::vect
   return evidence;
 }
 
-/// Points moved by what came out, and where they should be.
+/// Points moved by the returned motion, and where they should be.
 inline rex::grading::Evidence motionSeen(const Points& from, const Points& to, const Eigen::Vector3d& got) {
   Points moved;
   for (const Eigen::Vector2d& p : from) moved.push_back(pointFrom(got, p));

@@ -42,7 +42,7 @@ inline double rangeOf(const Building& building, const Eigen::Vector2d& p, double
   return nearest;
 }
 
-/// A scan of 150 rays from a pose (x, y, heading), with noise of 2 cm; rays of more than 8 m end nowhere.
+/// A scan of 150 rays from a pose (x, y, heading), with noise of 2 cm; rays longer than 8 m give no point.
 inline Points scanFrom(const Building& building, const Eigen::Vector3d& pose, rex::Rng& rng) {
   constexpr int kRays = 150;
   constexpr double kMost = 8;
@@ -80,7 +80,7 @@ struct Walk {
   std::vector<Points> scans;
 };
 
-/// One and a quarter rounds through the house, from pose to pose by about 0.9 m.
+/// One and a quarter rounds through the house, with poses about 0.9 m apart.
 inline Walk walkThroughHouse(rex::Rng& rng) {
   const std::array<std::array<double, 2>, 4> corners{{{2, 2.1}, {15.8, 2.3}, {15.6, 9.8}, {2.2, 9.6}}};
   const Building building = house();

@@ -5,7 +5,7 @@
 #include "graph_checks.h"
 #include "rooms.h"
 
-// Rooms made by chance, and pairs of scans in them.
+// Random rooms, and pairs of scans in them.
 
 struct RandomRoom {
   Building walls;
@@ -48,7 +48,7 @@ inline Eigen::Vector3d openPose(rex::Rng& rng, const RandomRoom& room) {
   }
 }
 
-/// What of one scan another shows too: the share of points near one of its, at the true motion.
+/// The share of one scan that another shows too: its points near a point of the other, at the true motion.
 inline double sharedPart(const Points& reference, const Points& moving, const Eigen::Vector3d& motion) {
   const Eigen::Matrix3d X = frameOf(motion);
   int shared = 0;

@@ -14,7 +14,7 @@ using namespace rex;
 
 namespace {
 
-void nothingYet(const char* what) { std::printf("Nothing to see yet of %s.\n", what); }
+void nothingYet(const char* what) { std::printf("Nothing to show yet for %s.\n", what); }
 
 const Eigen::Vector3d kDeviations(0.05, 0.05, 0.03);  // of a step of odometry: m, m, rad
 
@@ -35,7 +35,7 @@ Eigen::Vector3d motionOf(const Walk& walk, std::size_t before, std::size_t after
   return {c * x + s * y, c * y - s * x, std::remainder(b[2] - a[2], 2 * std::numbers::pi)};
 }
 
-// Odometry with noise, replaced by what the scans say where they agree with it.
+// Odometry with noise, replaced by what the scans say if they agree with it.
 PoseMap mapOfWalk(const Walk& walk, Rng& rng) {
   PoseMap map{{walk.truth.front()}, {}};
   for (std::size_t k = 1; k < walk.truth.size(); ++k) {
@@ -104,7 +104,7 @@ Optimum byLibrary(const PoseMap& map) {
   return best;
 }
 
-// What a step of yours makes of the poses.
+// The poses after one of your steps.
 Poses stepped(const PoseMap& map) {
   const Eigen::VectorXd step = gaussNewtonStep(map, std::vector<double>(map.edges.size(), 1), 0);
   Poses poses = map.poses;
@@ -162,7 +162,7 @@ void showGivenLoops(const Walk& walk) {
   std::printf("cost by odometry %.3f, by the library %.3f\n", mapCost(map), library.costBefore);
   std::printf("cost after a step %.3f, after many %.3f, least by the library %.3f\n",
               mapCost({after, map.edges}), adjusted(map).costs.back(), library.cost);
-  Figure figure = planOf("Odometry and loops that are given");
+  Figure figure = planOf("Odometry and given loops");
   figure.series = {wayOf("odometry", map.poses, kGrey), wayOf("after one step", after, kRed)};
   addLoops(figure, map, map.poses, kGrey);
   if (const Poses best = adjusted(map).poses; best != map.poses)

@@ -1,5 +1,5 @@
 // caught by: error-frames, error-turns, adjust-turns
-// mistake: the difference of two headings is taken as it is.
+// mistake: takes the difference of two headings without wrapping it.
 
 // <solution wrapped>
 return angle;

@@ -1,6 +1,6 @@
 // caught by: scan-align
 // shown by: scan-align
-// mistake: tells how well the scans fit with partners up to twice as far as asked.
+// mistake: reports the fit for partners up to twice as far away as asked.
 
 // <solution aligned>
 for (int iteration = 0; iteration < 60; ++iteration) {

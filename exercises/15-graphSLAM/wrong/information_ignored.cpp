@@ -1,5 +1,5 @@
 // caught by: equations-cost, equations-normal, adjust-mean
-// mistake: every number of an error counts the same.
+// mistake: weighs all entries of an error equally.
 
 // <solution mapCost>
 for (const MeasuredEdge& edge : map.edges) {

@@ -1,6 +1,6 @@
 // caught by: scan-motion, scan-align
 // shown by: scan-motion
-// mistake: the rotation is that of the other direction.
+// mistake: returns the rotation of the opposite direction.
 
 // <solution bestMotion>
 Eigen::Vector2d a = Eigen::Vector2d::Zero(), b = a;  // the means
