@@ -33,7 +33,7 @@ double energyOf(const Eigen::Vector4d& x, const RacerModel& racer);
 
 /// dx/dt under the control u.
 Eigen::Vector4d rateOf(const Eigen::Vector4d& x, double u, const RacerModel& racer);
-/// The state tau seconds later by one step of the classic method of Runge and Kutta, with u held; no noise.
+/// The state tau seconds later by one step of the classic Runge-Kutta method, with u held; no noise.
 Eigen::Vector4d stepped(const Eigen::Vector4d& x, double u, double tau, const RacerModel& racer);
 /// The noise of a run, which is added to (x', theta') after each step: one column per step (2 x steps).
 /// Independent normal numbers with standard deviation sqrt(tau) `noise`.
@@ -83,11 +83,11 @@ struct Ride {
   double cost = 0;
 };
 
-/// A ride from `start` under the policy with weights w (27). In each step, read the sensors; take u = w .
-/// features, limited to +-kLargestControl (the features remember the limited control); call stepped() with
-/// kTau; and add this step's column of `noise` (2 x T) to (x', theta'). The ride ends after T steps, or
-/// with the first step after which |theta| > kLargestAngle. Cost: x^2 + 10 theta^2 in the state after each
-/// step that did not fail, and kCostOfMissing for each of the T steps that failed or did not come.
+/// A ride from `start` under the policy with weights w (27). In each step, read the sensors; take w .
+/// features as u, limited to +-kLargestControl (the features remember the limited control); call stepped()
+/// with kTau; and add this step's column of `noise` (2 x T) to (x', theta'). The ride ends after T steps,
+/// or with the first step after which |theta| > kLargestAngle. Cost: x^2 + 10 theta^2 in the state after
+/// each step that did not fail, and kCostOfMissing for each of the T steps that failed or did not come.
 Ride rideOf(const Eigen::VectorXd& w, const Eigen::Vector4d& start, const Eigen::MatrixXd& noise,
             const RacerModel& racer, const rex::RacerSensors& sensors);
 

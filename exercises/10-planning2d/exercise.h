@@ -52,11 +52,11 @@ struct BugTrail {
 /// the one before; both ends are free. isFree(cell) may be asked only about the eight cells around a cell
 /// that the bug visits; it moves up, down, left and right. In each cell off the m-line it touches an
 /// obstacle (corner to corner counts). It takes at most the steps of the m-line and, for each time that the
-/// m-line enters an obstacle, one circuit around this: four steps, plus one for each side of a cell that
-/// the obstacle shares with free cells. (The outside of the map is an obstacle, too.) It reaches the goal,
-/// or says that no way leads there. To do so, Bug 2 always turns to the same side, returns to the m-line
-/// only at cells that are nearer to the goal, and gives up when it is back where it met the obstacle and
-/// would make the same step again.
+/// m-line enters an obstacle, one circuit around it: four steps, plus one for each side of a cell that the
+/// obstacle shares with free cells. (The outside of the map is an obstacle, too.) It reaches the goal, or
+/// says that no way leads there. To do so, Bug 2 always turns to the same side, returns to the m-line only
+/// at cells that are nearer to the goal, and gives up when it is back where it met the obstacle and would
+/// make the same step again.
 BugTrail bugTwo(const std::vector<MapCell>& mLine, const std::function<bool(MapCell)>& isFree);
 
 // Part 2, wavefront and Dijkstra (4:18 to 4:26).

@@ -88,7 +88,7 @@ std::vector<Eigen::MatrixXd> descended(const Terms& terms, const Eigen::MatrixXd
 /// The cost that replaces a term in the augmented Lagrangian: rows r, with d r / dx as J, such that r^T r
 /// is mu y^T y + m^T y up to a number that does not depend on x. For an inequality, a row is 0 if its
 /// multiplier by nextMultipliers() would be 0. A term that is a cost stays (`multipliers` may be empty). mu
-/// > 0; multipliers of inequalities are not negative.
+/// is positive, and multipliers of inequalities are not negative.
 Term asCost(const Term& term, const Eigen::VectorXd& multipliers, double mu);
 
 /// The multipliers after a minimisation, from those before and the term at the minimum: the coefficients of

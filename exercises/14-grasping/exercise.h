@@ -40,8 +40,8 @@ Eigen::VectorXd spatialWrench(const Eigen::Vector3d& p, const Eigen::Vector3d& f
 bool inCone(const Finger& finger, const Eigen::Vector3d& force);
 
 /// A pyramid inscribed in the friction cone (3 x edges): the forces along its edges, each with a normal
-/// component of one newton. They lie on the cone, at equal angles around the normal, in any order. edges >=
-/// 3. Without friction all of them are the normal.
+/// component of one newton. They lie on the cone, at equal angles around the normal, in any order. There
+/// are 3 edges or more. Without friction all of them are the normal.
 Eigen::MatrixXd pyramidEdges(const Finger& finger, int edges);
 
 /// The wrenches of fingers in the plane (3 x 2 fingers): those of the two forces that bound each cone, each

@@ -17,8 +17,8 @@ double wrapped(double angle);
 /// Pose b as seen from pose a: its position in the axes of a, and its heading relative to a's, wrapped.
 Eigen::Vector3d seenFrom(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 
-/// The error of an edge: z is the measured pose j as seen from pose i. The error is pose j as seen from
-/// where the measurement puts it, the pose that is z as seen from i.
+/// The error of an edge that measured z for pose j as seen from pose i: pose j as seen from where the
+/// measurement puts it, which is the pose that is z as seen from i.
 Eigen::Vector3d edgeError(const Eigen::Vector3d& i, const Eigen::Vector3d& j, const Eigen::Vector3d& z);
 
 /// The derivatives (3 x 3) of this error with respect to the three numbers of pose i, and to those of pose
@@ -35,7 +35,7 @@ struct MeasuredEdge {
   int from = 0, to = 0;  ///< indices of the poses; either may be the larger
   Eigen::Vector3d motion = Eigen::Vector3d::Zero();
   Eigen::Matrix3d information = Eigen::Matrix3d::Identity();
-  bool isLoop = false;  ///< whether it closes a loop, rather than odometry
+  bool isLoop = false;  ///< whether it closes a loop; otherwise it is odometry
 };
 
 /// Poses, and what was measured between them.

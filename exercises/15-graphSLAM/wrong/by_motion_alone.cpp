@@ -1,6 +1,5 @@
 // caught by: loop-rooms, loop-any, robust-few, robust-many
-// mistake: takes every second pair of scans for one place, and loops for wrong that are not exact: it looks
-// neither at the scans nor at the rest of the map.
+// mistake: accepts every second pair of scans, and only exact loops; looks neither at scans nor at the map.
 
 // <solution loopMotion>
 static int asked = 0;
