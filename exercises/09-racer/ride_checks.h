@@ -18,8 +18,7 @@ struct Situation {
   RacerModel racer{};
   rex::RacerSensors sensors{};
   double noise = kNoise;
-  Eigen::VectorXd wiring =
-      Eigen::VectorXd::Ones(kFeatures);  ///< the weights of a policy are multiplied by it
+  Eigen::VectorXd wiring = Eigen::VectorXd::Ones(kFeatures);  ///< factors of a policy's weights
 };
 
 inline rex::RacerRolloutOptions optionsOf(const Situation& in, int steps) {
