@@ -117,7 +117,7 @@ class Textures {
     if (pixels_ > kMostPixelsTogether) {
       textures_.pop_back();
       throw Error({.what = what,
-                   .found = fmt::format("{} pixels of textures up to it", pixels_),
+                   .found = fmt::format("{} pixels of textures so far", pixels_),
                    .wanted = fmt::format("at most {} in a file", kMostPixelsTogether)});
     }
     return static_cast<Index>(textures_.size() - 1);
@@ -126,14 +126,14 @@ class Textures {
   std::string bytesOf(const std::string& path, const std::string& what) const {
     if (const aiTexture* inside = scene_.GetEmbeddedTexture(path.c_str())) {
       if (inside->mHeight == 0) return {reinterpret_cast<const char*>(inside->pcData), inside->mWidth};
-      throw Error({.what = what, .found = "bare pixels", .wanted = "PNG or JPEG"});
+      throw Error({.what = what, .found = "uncompressed pixels", .wanted = "PNG or JPEG"});
     }
     std::string name = path;
     std::replace(name.begin(), name.end(), '\\', '/');  // of other systems
     if (std::optional<std::string> content = folder_.contentOf(name.c_str())) return *std::move(content);
     throw Error({.what = what,
                  .found = "no such file of at most 16 MiB",
-                 .wanted = "one in the folder of the mesh or below"});
+                 .wanted = "one in the folder of the mesh or in a subfolder"});
   }
 
   const aiScene& scene_;

@@ -122,9 +122,9 @@ class TreeBuilder {
     int& incoming = tree_.incoming[static_cast<std::size_t>(child)];
     if (incoming >= 0) {
       fail(joint.where,
-           fmt::format("joint '{}': body '{}' already hangs on a joint", joint.name, joint.child),
+           fmt::format("joint '{}': body '{}' is already attached to a joint", joint.name, joint.child),
            fmt::format("joint '{}'", spec_.joints[static_cast<std::size_t>(incoming)].name),
-           "one joint into each body");
+           "one joint leading to each body");
     }
     incoming = j;
     siblings.push_back(child);
@@ -330,8 +330,8 @@ void narrowLimits(const JointSpec& spec, const Joint& joint, Coordinates& all) {
     most = std::min(most, upper[i]);
     if (least <= most) continue;
     fail(spec.where, fmt::format("joint '{}': limits", spec.name),
-         fmt::format("joint '{}' may be nowhere: {:.6g} > {:.6g}", spec.mimic, least, most),
-         "limits that both joints can keep");
+         fmt::format("joint '{}' has no position left: {:.6g} > {:.6g}", spec.mimic, least, most),
+         "limits that both joints can satisfy");
   }
 }
 
@@ -348,7 +348,7 @@ void shareCoordinates(std::vector<Joint>& joints, const std::vector<const JointS
       for (const JointSpec* other : specs)
         if (other != &spec && canFollow(spec, *other)) known.push_back(other->name);
       fail(spec.where, fmt::format("joint '{}': mimic", spec.name), fmt::format("'{}'", spec.mimic),
-           "a joint that mimics none, of the same type or like this one with one coordinate",
+           "a joint that mimics no other, of the same type or with one coordinate like this one",
            nearestNames(spec.mimic, known));
     }
     const Joint& followed = joints[static_cast<std::size_t>(target - specs.begin())];
@@ -375,14 +375,14 @@ PairChoice resolved(const CollisionChoice& choice,
     std::vector<std::string> known;
     for (const auto& [other, body] : bodyByName) known.push_back(other);
     std::sort(known.begin(), known.end());
-    fail(choice.where, "who may collide: unknown body", fmt::format("'{}'", name), "the name of a body",
+    fail(choice.where, "collision settings: unknown body", fmt::format("'{}'", name), "the name of a body",
          nearestNames(name, known));
   };
   PairChoice pair{.a = bodyOf(choice.a), .mayCollide = choice.mayCollide, .reason = choice.reason};
   if (choice.b.empty()) return pair;
   pair.b = bodyOf(choice.b);
   if (*pair.b == pair.a)
-    fail(choice.where, "who may collide: a pair", fmt::format("'{}' twice", choice.a), "two bodies");
+    fail(choice.where, "collision settings: a pair", fmt::format("'{}' twice", choice.a), "two bodies");
   return pair;
 }
 

@@ -105,7 +105,7 @@ TexturedMesh readIsolated(std::string_view bytes, const std::string& name,
   const IsolatedResult result = callIsolated(read, limits);
   if (result.end != IsolatedEnd::kReturned)
     fail(name, "cannot read the mesh file", complaint(result.end),
-         "a mesh, e.g. the same saved by another program or as STL");
+         "a mesh, e.g. the same one saved by another program or as STL");
   return fromBytes(result.bytes);
 }
 

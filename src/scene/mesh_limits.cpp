@@ -28,7 +28,7 @@ constexpr Kind kKinds[] = {{".stl", 32},  {".obj", 16}, {".ply", 32}, {".dae", 1
 
 void requireNodes(std::size_t deep, const std::string& name) {
   if (deep > kMostNodesDeep)
-    fail(name, "mesh file", fmt::format("{} nodes below each other", deep),
+    fail(name, "mesh file", fmt::format("nodes nested {} deep", deep),
          fmt::format("at most {}", kMostNodesDeep));
 }
 
@@ -36,7 +36,7 @@ void requireNodes(std::size_t deep, const std::string& name) {
 void requireIndices(std::string_view text, const std::string& name) {
   const std::size_t end = text.find_first_not_of("0123456789 \t\r\n");
   if (end != std::string_view::npos && text[end] != '<')
-    fail(name, "DAE file", "a list of indices with other things in it", "whole numbers");
+    fail(name, "DAE file", "a list of indices that holds something else, too", "whole numbers");
 }
 
 void checkCollada(std::string_view xml, const std::string& name) {
@@ -64,8 +64,8 @@ std::string_view jsonOfGlb(std::string_view bytes, const std::string& name) {
     std::memcpy(&length, rest.data(), sizeof(length));
     rest.remove_prefix(kPartHead);
     if (length > rest.size())
-      fail(name, "GLB file", fmt::format("a part of {} bytes", length),
-           fmt::format("the {} that follow", rest.size()));
+      fail(name, "GLB file", fmt::format("a chunk of {} bytes", length),
+           fmt::format("at most the {} that follow", rest.size()));
     if (part == 0) json = rest.substr(0, length);
     rest.remove_prefix(length);
   }
@@ -101,7 +101,7 @@ std::size_t countOf(const Json& accessors, const Json& index) {
 
 void checkGltf(std::string_view text, const std::string& name) {
   if (const int deep = bracketsDeep(text); deep > kMostBrackets)
-    fail(name, "mesh file", fmt::format("{} brackets in each other", deep),
+    fail(name, "mesh file", fmt::format("brackets nested {} deep", deep),
          fmt::format("at most {}", kMostBrackets));
   const Json json = Json::parse(text, nullptr, false);
   std::size_t vertices = 0, corners = 0;
@@ -132,9 +132,8 @@ std::size_t largestFile(const std::string& name) {
     if (ending == kind.ending) return kind.mostMiB << 20;
     known.emplace_back(kind.ending);
   }
-  fail(name, "not a kind of mesh file that rex reads",
-       ending.empty() ? "no ending" : fmt::format("'{}'", ending), fmt::format("{}", fmt::join(known, ", ")),
-       nearestNames(ending, known));
+  fail(name, "not a mesh file that rex can read", ending.empty() ? "no ending" : fmt::format("'{}'", ending),
+       fmt::format("{}", fmt::join(known, ", ")), nearestNames(ending, known));
 }
 
 void requireSize(std::size_t bytes, const std::string& name) {

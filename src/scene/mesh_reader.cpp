@@ -35,7 +35,7 @@ std::string readBytes(const fs::path& file) {
   std::string bytes(size, '\0');
   std::ifstream stream(file, std::ios::binary);
   stream.read(bytes.data(), static_cast<std::streamsize>(size));
-  if (!stream) fail(file.string(), "cannot read the mesh file", "no way to open it", "a file");
+  if (!stream) fail(file.string(), "cannot read the mesh file", "a file that cannot be opened", "a file");
   return bytes;
 }
 

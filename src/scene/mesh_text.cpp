@@ -90,7 +90,7 @@ void requireCorners(std::string_view face, std::size_t vertices, const std::stri
   constexpr const char* kDigits = "0123456789";
   for (std::size_t left = numberAt(nextWord(face)); left > 0; --left) {
     const std::string_view corner = nextWord(face);
-    if (corner.empty()) fail(name, "OFF file", "a face without all its corners", "as many as it says");
+    if (corner.empty()) fail(name, "OFF file", "a face with missing corners", "as many as the face declares");
     if (corner.find_first_not_of(kDigits) != corner.npos || numberAt(corner) >= vertices)
       fail(name, "OFF file", fmt::format("a face with corner {}", corner),
            fmt::format("indices below {}, the number of vertices", vertices));
@@ -159,7 +159,7 @@ void checkStl(std::string_view bytes, const std::string& name) {
   }
   while (!bytes.empty() && isSpace(bytes.back())) bytes.remove_suffix(1);
   std::string_view last = bytes.substr(bytes.rfind('\n') + 1);
-  if (nextWord(last) != "endsolid") fail(name, "STL file", "an end without 'endsolid'", "a whole file");
+  if (nextWord(last) != "endsolid") fail(name, "STL file", "no 'endsolid' at the end", "a complete file");
 }
 
 // After its counts, an OFF file has a line for each vertex, and one for each face. assimp runs over words
@@ -185,7 +185,7 @@ void checkOff(std::string_view bytes, const std::string& name) {
   }
   if (rows < counts[0] + counts[1])
     fail(name, "OFF file", fmt::format("{} lines of vertices and faces", rows),
-         fmt::format("{}, as it says", counts[0] + counts[1]));
+         fmt::format("{}, as its counts say", counts[0] + counts[1]));
 }
 
 }  // namespace rex::mesh

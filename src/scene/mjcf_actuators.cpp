@@ -102,7 +102,7 @@ std::optional<Follower> followerOf(const Styled& styled, BodyTree& tree) {
     if (positionCount(one->type) != 1)
       tag.fail(tag.where(one == &joint ? "joint1" : "joint2"), "a joint that follows another",
                fmt::format("'{}' of type '{}'", one->name, toString(one->type)),
-               "two of type hinge or slide");
+               "two joints of type hinge or slide");
   if (&joint == &leader) tag.fail(tag.where("joint2"), "a joint that follows itself", "", "another joint");
   if (!a.tail(3).isZero(0)) {
     tag.ignore("a <joint> in <equality> with a polynomial of higher degree");
@@ -170,7 +170,7 @@ void readActuators(const std::vector<Tag>& sections, Files& files, const Default
       if (std::find(kMotors.begin(), kMotors.end(), tag.name()) == kMotors.end()) continue;
       tag.expect(knownOfActuator());
       if (!tag.has("joint")) {
-        tag.ignore("an actuator of another thing than a joint");
+        tag.ignore("an actuator of something other than a joint");
         continue;
       }
       const Styled styled(tag, defaults.named(tag, "class", defaults.main()), Kind::kActuator);
@@ -205,13 +205,13 @@ void readEqualities(const std::vector<Tag>& sections, Files& files, const Defaul
       const std::optional<Follower> follower = followerOf(styled, tree);
       if (follower && !followers.emplace(tag.text("joint1"), *follower).second)
         tag.warn(tag.where("joint1"),
-                 fmt::format("'{}' follows another joint already; this is ignored", tag.text("joint1")));
+                 fmt::format("'{}' already follows another joint; this is ignored", tag.text("joint1")));
     }
   }
   for (const auto& [name, unresolved] : followers) {
     Follower follower = unresolved;
     if (!resolve(name, follower, followers)) {
-      follower.tag.warn(follower.tag.where(), "joints that follow each other in a ring; this is ignored");
+      follower.tag.warn(follower.tag.where(), "joints that follow each other in a loop; this is ignored");
       continue;
     }
     JointSpec& joint = tree.joints[tree.jointOfName.at(name)].spec;

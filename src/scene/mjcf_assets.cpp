@@ -73,7 +73,7 @@ Eigen::Vector4d colorIn(const Tag& tag) {
   const Eigen::Vector4d color = tag.numbers("rgba", 4);
   if (color.minCoeff() < 0 || color.maxCoeff() > 1)
     tag.forgiveAt("rgba", xml::quoted(tag.text("rgba")), "4 numbers from 0 to 1",
-                  "the nearest such numbers are taken");
+                  "the nearest such numbers are used");
   return color.cwiseMax(0).cwiseMin(1);
 }
 

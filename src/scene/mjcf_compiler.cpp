@@ -91,7 +91,7 @@ void readEulerOrder(const Tag& tag, Compiler& compiler) {
   if (!tag.has("eulerseq")) return;
   const std::string& order = tag.text("eulerseq");
   if (order.size() != 3 || order.find_first_not_of("xyzXYZ") != std::string::npos)
-    tag.failAt("eulerseq", xml::quoted(order), "three letters of x, y, z, X, Y and Z");
+    tag.failAt("eulerseq", xml::quoted(order), "three letters from x, y, z, X, Y and Z");
   compiler.eulerOrder = order;
 }
 
@@ -99,9 +99,9 @@ void readCoordinates(const Tag& tag, Compiler& compiler) {
   if (!tag.has("coordinate")) return;
   compiler.global = choice(tag, "coordinate", {"local", "global"}) == 1;
   if (compiler.global)
-    tag.warn(
-        tag.where("coordinate"),
-        "global coordinates, which MuJoCo has given up: a body without 'pos' has the frame of the world");
+    tag.warn(tag.where("coordinate"),
+             "global coordinates, which MuJoCo no longer supports: a body without 'pos' has the frame of the "
+             "world");
 }
 
 void readGroups(const Tag& tag, Compiler& compiler) {
@@ -194,7 +194,7 @@ bool isLimited(const Styled& tag, const char* limited, const char* range, const 
   if (said < 2) return said == 1;
   if (!tag.has(range)) return false;
   if (!compiler.autolimits)
-    tag.own().remark(fmt::format("{} of <{}> does not count: autolimits is off, and {} is not given", range,
+    tag.own().remark(fmt::format("{} of <{}> has no effect: autolimits is off, and {} is not given", range,
                                  tag.own().name(), limited));
   return compiler.autolimits;
 }

@@ -73,9 +73,9 @@ Files::File& Files::open(const Tag& include) {
   const std::filesystem::path path =
       assets_->find(name, include.where("file"), fmt::format("<include> of '{}'", name));
   if (!paths_.insert(internal::realPath(path).string()).second)
-    fail("a file that is there already", "each file once");
+    fail("a file that is already included", "each file once");
   if (files_.size() >= kMostFiles)
-    fail(fmt::format("the {}th file", files_.size() + 1), fmt::format("at most {}", kMostFiles));
+    fail(fmt::format("file number {}", files_.size() + 1), fmt::format("at most {}", kMostFiles));
   std::string text = readSceneText(path, kLargestFile);
   bytes_ += text.size();
   if (bytes_ > kMostBytesTogether)

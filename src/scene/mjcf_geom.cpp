@@ -49,7 +49,7 @@ Span spanOf(const Styled& styled) {
   const Eigen::Vector3d way = ends.head<3>() - ends.tail<3>();
   const double length = way.stableNorm();
   if (!(length > 1e-10 && length < 1e100))
-    tag.failAt("fromto", xml::quoted(tag.text("fromto")), "two points that differ");
+    tag.failAt("fromto", xml::quoted(tag.text("fromto")), "two different points");
   if (styled.own().has("fromto") && styled.own().has("pos"))
     tag.fail(tag.where("pos"), "attribute 'pos'", "'fromto' as well", "one of them");
   return {{rotationFromZ(way / length), (ends.head<3>() + ends.tail<3>()) / 2}, length / 2};
@@ -61,7 +61,7 @@ std::uint32_t bits(const Styled& styled, const char* attribute) {
   const double number = giver.number(attribute);
   constexpr double kMost = 4294967295, kLeast = -2147483648;
   if (number != std::floor(number) || number < kLeast || number > kMost)
-    giver.failAt(attribute, xml::quoted(giver.text(attribute)), "a whole number of 32 bits");
+    giver.failAt(attribute, xml::quoted(giver.text(attribute)), "a 32-bit integer");
   return static_cast<std::uint32_t>(static_cast<std::int64_t>(number));
 }
 

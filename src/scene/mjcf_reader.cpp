@@ -33,7 +33,7 @@ void noteOption(const Tag& given) {
   tag.ignore("<option>");
   const Eigen::Vector3d usual(0, 0, -9.81);
   if (tag.has("gravity") && !tag.numbers("gravity", 3).isApprox(usual, 1e-9))
-    tag.warn(tag.where("gravity"), "gravity is 9.81 m/s^2 along -z in all that rex computes");
+    tag.warn(tag.where("gravity"), "rex always computes with a gravity of 9.81 m/s^2 along -z");
 }
 
 // One warning for all joints whose start their ranges exclude.
@@ -50,7 +50,7 @@ void noteStarts(const std::vector<urdf::ReadJoint>& joints, Notes& notes) {
   const std::string others = count == 1   ? ""
                              : count == 2 ? ", and so does another joint"
                                           : fmt::format(", and so do {} other joints", count - 1);
-  notes.warn(first->where, fmt::format("joint '{}' begins outside its range, {:.4g} to {:.4g}{}", first->name,
+  notes.warn(first->where, fmt::format("joint '{}' starts outside its range, {:.4g} to {:.4g}{}", first->name,
                                        first->lower[0], first->upper[0], others));
 }
 
@@ -59,8 +59,9 @@ void noteMixed(const BodyTree& tree, Notes& notes) {
     const BodySpec& body = tree.spec.bodies[one.body];
     const auto touch = tree.touches.find(body.name);
     if (touch == tree.touches.end() || !touch->second.isMixed) continue;
-    notes.remark(body.where,
-                 "a body whose geoms differ in contype or conaffinity touches what one of them may touch");
+    notes.remark(
+        body.where,
+        "a body whose geoms differ in contype or conaffinity touches whatever any of them may touch");
   }
 }
 
@@ -97,7 +98,7 @@ void refuseFreeBase(const std::string& name, const ReadOptions& options) {
   throw Error({.what = "a free base",
                .where = {name},
                .found = "a model of MuJoCo",
-               .wanted = "a <freejoint/> in its first body, which says it"});
+               .wanted = "a <freejoint/> in its first body instead"});
 }
 
 SceneFile readModelFile(std::string_view text, const std::string& name, const Assets* assets,

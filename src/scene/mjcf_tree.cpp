@@ -289,7 +289,7 @@ class TreeMaker {
   void addJoint(const BodyNode& node, JointSpec joint) {
     if (tree_.joints.size() == kMostJoints)
       node.tag.fail(joint.where, "too many joints", "",
-                    fmt::format("at most {}, those of bodies that do not move counted", kMostJoints));
+                    fmt::format("at most {}, including those of bodies that do not move", kMostJoints));
     tree_.jointOfName.emplace(joint.name, tree_.joints.size());
     tree_.joints.push_back({std::move(joint), {}, {}, {}});
   }

@@ -92,7 +92,7 @@ void Attributes::requireOneStatement() const {
   for (std::size_t i = 1; i + 1 < node_.keys.size(); ++i) {
     const Word& word = node_.keys[i];
     if (word.text != "body" && word.text != "shape" && word.text != "joint") continue;
-    throw Error({.what = fmt::format("{}: a statement within its words", owner_),
+    throw Error({.what = fmt::format("{}: another statement among its words", owner_),
                  .where = word.where,
                  .found = fmt::format("'{}'", word.text),
                  .wanted = "{...} or the end of the line before it"});
@@ -213,7 +213,7 @@ void Attributes::failAtNumber(const Node& attribute, const Word& key) const {
     throw Error({.what = fmt::format("{}: a number without a name", owner_),
                  .where = key.where,
                  .found = fmt::format("'{}'", key.text),
-                 .wanted = "'.' as decimal mark, or an attribute NAME=VALUE"});
+                 .wanted = "'.' as the decimal point, or an attribute NAME=VALUE"});
   }
   throw Error({.what = fmt::format("{}: attribute '{}': '=' is missing", owner_, first),
                .where = key.where,

@@ -103,7 +103,7 @@ std::string Cursor::textUpTo(std::size_t end) {
 void Cursor::failAtByte() const {
   const char c = peek();
   const std::string byte = "'" + shown(text_.substr(at_, 1)) + "'";
-  if (c == 0) fail("a byte 0, as in text in UTF-16", byte, "UTF-8");
+  if (c == 0) fail("a zero byte, as in UTF-16 text", byte, "UTF-8");
   if (isControl(c)) fail("a control character", byte, "text");
   fail("a byte that is not UTF-8", byte, "text in UTF-8; only comments may have other bytes");
 }

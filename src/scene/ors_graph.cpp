@@ -84,8 +84,8 @@ class Parser {
       addWord(node.keys, " \t\r\n,;([{}=!");
       const Word& word = node.keys.back();
       if (word.text.starts_with("//") || word.text.starts_with("/*"))
-        Cursor::failAt(word.where, "a comment of another language", fmt::format("'{}'", word.text),
-                       "'#', with which comments begin");
+        Cursor::failAt(word.where, "a comment in the syntax of another language",
+                       fmt::format("'{}'", word.text), "'#', which starts a comment");
     }
     if (cursor_.peek() == '(') {
       readParents(node, list);

@@ -81,7 +81,7 @@ void readStart(const Attributes& attributes, JointSpec& joint, Diagnostics& note
     joint.q0 = jointCoordinates(joint.type, joint.axis, *Q);
     const Pose X_FM = jointMotion(joint.type, joint.axis, joint.pitch, joint.q0.data());
     if (!isApprox(X_FM, *Q, kNear) && !attributes.flag("fixed")) {
-      attributes.note("Q", "is not a motion of this joint: only the part that is one counts",
+      attributes.note("Q", "is not a motion of this joint: only the part that the joint can perform counts",
                       Severity::kWarning, notes);
     }
   }
@@ -123,7 +123,8 @@ void readLimits(const Attributes& attributes, JointSpec& joint) {
 void noteUseless(const Attributes& attributes, const JointSpec& joint, Diagnostics& notes) {
   for (const char* name : {"mimic_ratio", "mimic_offset"})
     if (joint.mimic.empty() && attributes.has(name))
-      attributes.note(name, "is ignored: without 'mimic' the joint follows none", Severity::kWarning, notes);
+      attributes.note(name, "is ignored: without 'mimic' the joint follows no other", Severity::kWarning,
+                      notes);
   if (joint.type != JointType::kScrew && attributes.has("pitch"))
     attributes.note("pitch", "is ignored: only a screw has one", Severity::kWarning, notes);
 }
@@ -174,15 +175,15 @@ void requireLeader(const Attributes& attributes, const JointSpec& joint, const J
   const int count = positionCount(joint.type);
   if (!leader.mimic.empty()) {
     attributes.fail("mimic", fmt::format("'{}', which mimics '{}'", leader.name, leader.mimic),
-                    "a joint that mimics none");
+                    "a joint that mimics no other");
   }
   if (count == 1 && positionCount(leader.type) == 1) return;
   if (joint.type != leader.type) {
     attributes.fail("mimic", fmt::format("'{}', a joint of type {}", leader.name, toString(leader.type)),
                     count == 1 ? "a joint with one coordinate"
-                               : fmt::format("a joint of type {} as this one", toString(joint.type)));
+                               : fmt::format("a joint of type {}, like this one", toString(joint.type)));
   }
-  const std::string wanted = fmt::format("none, for the joint has {} coordinates", count);
+  const std::string wanted = fmt::format("none, because the joint has {} coordinates", count);
   if (joint.mimicRatio != 1) attributes.fail("mimic_ratio", fmt::format("{}", joint.mimicRatio), wanted);
   if (joint.mimicOffset != 0) attributes.fail("mimic_offset", fmt::format("{}", joint.mimicOffset), wanted);
 }

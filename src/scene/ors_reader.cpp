@@ -47,7 +47,7 @@ std::optional<Eigen::Matrix3d> readInertia(const Attributes& attributes, Diagnos
   if (fault == InertiaFault::kNegative)
     attributes.fail("inertia", "a negative principal moment", "principal moments >= 0");
   if (fault == InertiaFault::kTriangle) {
-    attributes.note("inertia", "belongs to no solid: one principal moment exceeds the sum of the others",
+    attributes.note("inertia", "is physically impossible: one principal moment exceeds the sum of the others",
                     Severity::kWarning, notes);
   }
   return I;
@@ -123,7 +123,7 @@ class Reader {
       if (worldNodes_.contains(*parent.node)) return std::nullopt;
       if (const auto body = bodyOfNode_.find(*parent.node); body != bodyOfNode_.end()) return body->second;
       fail(parent.where, fmt::format("{}: {}", owner, role),
-           fmt::format("{}, which is not a body", parent.text), "the count of statements back to a body");
+           fmt::format("{}, which is not a body", parent.text), "the number of statements back to a body");
     }
     const auto found = firstOfName_.find(parent.text);
     if (found != firstOfName_.end()) return found->second;
@@ -225,7 +225,7 @@ class Reader {
     if (joint.child == kWorldName)
       fail(node.parents[1].where, attributes.owner(), "the world as the body that moves", "a body");
     if (joint.parent == joint.child) {
-      fail(node.parents[1].where, attributes.owner(), fmt::format("'{}' hung on itself", joint.child),
+      fail(node.parents[1].where, attributes.owner(), fmt::format("'{}' attached to itself", joint.child),
            "two different bodies");
     }
     const std::string mimic = ors::readMimic(attributes);
@@ -314,7 +314,7 @@ class Reader {
     if (endingOf(file->path) != ".urdf") fail(at, what, fmt::format("'{}'", file->path), "a .urdf file");
     if (!assets_)
       fail(at, what, "a scene that was given as text",
-           "no robots of other files: only scenes in files have them");
+           "no robots from other files: only scenes in files can have them");
     folder = assets_->folder();
     const std::filesystem::path path = assets_->find(file->path, at, what);
     const auto [known, isNew] = robotOfFile_.try_emplace(path.string());

@@ -25,7 +25,7 @@ struct Rows {
     if (length == 0) return;
     if (columns != 0 && length != columns && !mayDiffer) {
       cursor.fail("row of an array", fmt::format("{} numbers", length),
-                  fmt::format("{} as in the first row", columns));
+                  fmt::format("{}, as in the first row", columns));
     }
     columns = length;
     rowStart = numbers.size();
@@ -87,7 +87,7 @@ Pose readPoseElement(Cursor& cursor) {
   if (cursor.peek() != ')') cursor.fail(name, cursor.found(), fmt::format("')' after {} numbers", n.size()));
   cursor.take();
   if ((kind == 'd' || kind == 'r') && n[0] != 0 && n.tail<3>().isZero(0))
-    cursor.warn(start, name + " about a zero axis turns nothing: give the axis x y z");
+    cursor.warn(start, name + " about a zero axis has no effect: give the axis x y z");
   switch (kind) {
     case 't':
       return translation(n[0], n[1], n[2]);
@@ -109,7 +109,7 @@ Pose readPose(Cursor& cursor, const Place& open) {
     if (cursor.atEnd()) Cursor::failAt(open, "'<T' is never closed", "", "a '>'");
     X = X * readPoseElement(cursor);
   }
-  if (!X.p.allFinite()) Cursor::failAt(open, "pose", "a place farther than numbers reach", "metres");
+  if (!X.p.allFinite()) Cursor::failAt(open, "pose", "a position beyond the range of numbers", "metres");
   cursor.take();
   return X;
 }

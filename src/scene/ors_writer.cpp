@@ -38,7 +38,7 @@ void requireName(const char* role, const std::string& name, const SourceLocation
        .where = where,
        .found = fmt::format("'{}'", name),
        .wanted = fmt::format("a word of at most {} bytes without blanks and any of ,;()[]{{}}=!<>\"'#-, "
-                             "and without // or /* in front",
+                             "not starting with // or /*",
                              ors::kLongestWord)});
 }
 

@@ -12,7 +12,7 @@ void requireReadable(const std::string& text, const std::string& ending) {
     static_cast<void>(parseScene(text, "again" + ending));
   } catch (const Error& error) {
     ErrorParts parts = error.parts();
-    parts.what = fmt::format("as {} it could not be read again: {}", ending, parts.what);
+    parts.what = fmt::format("written as {}, it could not be read back: {}", ending, parts.what);
     parts.where = {};  // in a text that nobody sees
     throw Error(std::move(parts));
   }

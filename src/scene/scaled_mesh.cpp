@@ -19,7 +19,7 @@ void requireScale(const Vector3d& scale, const TriangleMesh& mesh, const std::st
                "numbers from 1e-9 to 1e9, or their negatives");
   const double reach = size.cwiseProduct(mesh.halfBounds()).maxCoeff();
   if (reach > mesh::kLargestCoordinate)
-    mesh::fail(name, "mesh, scaled", fmt::format("a vertex at {} m", reach), "at most 1e6 m");
+    mesh::fail(name, "scaled mesh", fmt::format("a vertex at {} m", reach), "at most 1e6 m");
 }
 
 }  // namespace

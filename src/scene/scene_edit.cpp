@@ -70,7 +70,7 @@ Eigen::VectorXd initialCoordinates(const SceneSpec& spec, const JointSpec& joint
   if (target == spec.joints.end() || !target->mimic.empty() ||
       positionCount(target->type) != positionCount(joint.type)) {
     fail(joint, "mimic", fmt::format("'{}'", joint.mimic),
-         "a joint that mimics none, with as many coordinates");
+         "a joint that mimics no other and has as many coordinates");
   }
   return (joint.mimicRatio * initialCoordinates(*target).array() + joint.mimicOffset).matrix();
 }
@@ -89,12 +89,13 @@ Eigen::VectorXd reordered(const Eigen::VectorXd& values, const JointReversal& re
 }
 
 void requireReversible(const SceneSpec& spec, const JointSpec& joint) {
-  if (joint.parent == kWorldName) fail(joint, "cannot be turned round", "a joint of the world", "a body's");
+  if (joint.parent == kWorldName)
+    fail(joint, "cannot be reversed", "a joint of the world", "a joint of a body");
   if (positionCount(joint.type) <= 1) return;
   if (!joint.mimic.empty() || follower(spec, joint) != nullptr)
-    fail(joint, "cannot be turned round", "several coordinates that mimic", "one, or no mimic");
+    fail(joint, "cannot be reversed", "a mimic with several coordinates", "one coordinate, or no mimic");
   if (joint.type == JointType::kFree && joint.lower.size() > 0)
-    fail(joint, "cannot be turned round", "limits of a free joint", "none");
+    fail(joint, "cannot be reversed", "limits of a free joint", "none");
   for (const Eigen::VectorXd* limits : {&joint.lower, &joint.upper}) {
     if (limits->size() != 0 && limits->size() != positionCount(joint.type))
       fail(joint, "limits", fmt::format("{} numbers", limits->size()),

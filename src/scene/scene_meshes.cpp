@@ -45,7 +45,7 @@ class Missing {
                                     ? ""
                                     : fmt::format(" (did you mean '{}'?)", group.reason.nearest.front());
       notes.push_back({group.where,
-                       fmt::format("{}{}; boxes of 0.1 m stand for what is missing; wanted {}", which, guess,
+                       fmt::format("{}{}; boxes of 0.1 m replace what is missing; wanted {}", which, guess,
                                    group.reason.wanted),
                        Severity::kWarning});
     }
@@ -113,7 +113,7 @@ class Loader {
     if (paths_.size() > kMostFiles)
       throw Error({.what = what,
                    .where = shape.where,
-                   .found = fmt::format("the {}th file of meshes", paths_.size()),
+                   .found = fmt::format("mesh file number {}", paths_.size()),
                    .wanted = fmt::format("at most {} different ones in a scene", kMostFiles)});
     if (isNew) {
       try {
@@ -167,7 +167,7 @@ class Loader {
       notes_.push_back({shape.where,
                         fmt::format("shape '{}': mesh '{}': {}; its colour is drawn instead{}", shape.name,
                                     shape.meshPath.string(), read.missing.front(),
-                                    more > 0 ? fmt::format(", and so it is of {} more", more) : ""),
+                                    more > 0 ? fmt::format(", as it is for {} more", more) : ""),
                         Severity::kWarning});
     }
     for (const Texture& texture : read.mesh.paint().textures) countPixels(texture.rgb.size() / 3);
@@ -177,7 +177,7 @@ class Loader {
   void countPixels(std::size_t pixels) {
     pixels_ += pixels;
     if (pixels_ > kMostPixelsTogether)
-      throw Error({.what = "all textures up to here",
+      throw Error({.what = "all textures so far",
                    .found = fmt::format("{} pixels", pixels_),
                    .wanted = fmt::format("at most {} in a scene", kMostPixelsTogether)});
   }
@@ -201,7 +201,7 @@ class Loader {
     vertices_ += mesh.positions().size();
     if (vertices_ > kMostVerticesTogether)
       throw Error(
-          {.what = "all meshes up to here",
+          {.what = "all meshes so far",
            .found = fmt::format("{} vertices", vertices_),
            .wanted = fmt::format("at most {} in all files and scales of a scene", kMostVerticesTogether)});
   }

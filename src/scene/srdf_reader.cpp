@@ -39,7 +39,7 @@ void requireSrdf(const xml::Document& document) {
   throw Error({.what = "not an SRDF",
                .where = document.where(wrong.at),
                .found = fmt::format("<{}>{}", wrong.name, isRobot ? ", a part of a URDF" : ""),
-               .wanted = isRobot ? "a semantic description, as <disable_collisions>" : "<robot>",
+               .wanted = isRobot ? "a semantic description, such as <disable_collisions>" : "<robot>",
                .nearest = isRobot ? std::vector<std::string>{} : nearestNames(root.name, {"robot"})});
 }
 
@@ -78,8 +78,9 @@ class SrdfReader {
     std::vector<std::string> kinds;
     for (const auto& [name, count] : counts)
       kinds.push_back(count > 1 ? fmt::format("<{}> ({} times)", name, count) : fmt::format("<{}>", name));
-    notes.push_back({reading_.document.where(first->at),
-                     fmt::format("of an SRDF only collisions are read: {} skipped", fmt::join(kinds, ", "))});
+    notes.push_back(
+        {reading_.document.where(first->at),
+         fmt::format("only the collisions of an SRDF are read: {} skipped", fmt::join(kinds, ", "))});
   }
 
  private:
@@ -120,7 +121,7 @@ class SrdfReader {
       const CollisionChoice& other = robot_.spec.collisionChoices[first->second];
       const char* const problem = other.mayCollide == choice.mayCollide
                                       ? "is given twice"
-                                      : "is enabled and disabled: disabled counts";
+                                      : "is both enabled and disabled: disabled counts";
       const std::string who = choice.b.empty() ? fmt::format("'{}'", choice.a)
                                                : fmt::format("the pair '{}' and '{}'", choice.a, choice.b);
       tag.warn(tag.where(), [&] {
@@ -152,7 +153,7 @@ void parseSrdf(std::string_view text, const std::string& name, SceneFile& robot)
 
 void readSrdf(const std::filesystem::path& file, SceneFile& robot) {
   if (const std::string obstacle = internal::obstacleAt(file); !obstacle.empty()) {
-    throw Error({.what = "cannot read who may collide",
+    throw Error({.what = "cannot read the collision settings",
                  .where = {file.string()},
                  .found = obstacle,
                  .wanted = "an SRDF file",

@@ -18,7 +18,7 @@ Texture emptyTexture(std::size_t width, std::size_t height, const std::string& w
       width * height > kMostTexturePixels)
     throw Error({.what = what,
                  .found = fmt::format("{} x {} pixels", width, height),
-                 .wanted = fmt::format("at most {} a side and {} together", kLongestTextureSide,
+                 .wanted = fmt::format("at most {} per side and {} in total", kLongestTextureSide,
                                        kMostTexturePixels)});
   return {static_cast<int>(width), static_cast<int>(height), std::vector<std::uint8_t>(3 * width * height)};
 }

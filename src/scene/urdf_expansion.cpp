@@ -35,7 +35,7 @@ std::vector<Part> partsOf(const JointSpec& joint) {
     switch (one.kind) {
       case JointMovement::Kind::kFixed:
       case JointMovement::Kind::kQuaternion:
-        fail(joint, fmt::format("URDF has no {} joint", toString(joint.type)), "three hinges, say");
+        fail(joint, fmt::format("URDF has no {} joint", toString(joint.type)), "three hinges, for example");
       case JointMovement::Kind::kHinge:
         parts.push_back({one.part, JointType::kHinge, one.axis});
         break;

@@ -91,7 +91,7 @@ void readGeometry(const Tag& geometry, ShapeSpec& spec) {
     if (std::ranges::find(kKnown.children, shape.name()) == kKnown.children.end()) continue;
     if (only)
       geometry.forgive(shape.where(), "two shapes", fmt::format("<{}> and <{}>", only->name(), shape.name()),
-                       "one", "the first is taken");
+                       "one", "the first is used");
     else
       only = shape;
   }
@@ -158,7 +158,7 @@ Eigen::Matrix3d withoutNegativeMoments(const Tag& tag, const Eigen::Matrix3d& I,
   const bool isOne = negative.size() == 1;
   const std::string instead =
       fmt::format("{} kg m^2 {} and {} as 0", fmt::join(negative, " and "),
-                  isRounding ? (isOne ? "is of the size of rounding" : "are of the size of rounding")
+                  isRounding ? (isOne ? "is within rounding error" : "are within rounding error")
                              : (isOne ? "is physically impossible" : "are physically impossible"),
                   isOne ? "counts" : "count");
   if (inertiaFault(I) == InertiaFault::kNegative) {

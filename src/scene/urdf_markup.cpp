@@ -13,8 +13,9 @@ void requireXml(const std::string& text, const std::string& markup) {
   try {
     static_cast<void>(xml::parse(fmt::format("<a b=\"{}\"/>", markup), "name"));
   } catch (const Error&) {
-    throw Error(
-        {.what = "a name in URDF", .found = xml::quoted(text), .wanted = "characters of XML, in UTF-8"});
+    throw Error({.what = "a name in URDF",
+                 .found = xml::quoted(text),
+                 .wanted = "characters that XML allows, in UTF-8"});
   }
 }
 

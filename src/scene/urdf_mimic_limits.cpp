@@ -35,7 +35,7 @@ double tiniestWidth(const Range& a, const Range& b) {
 
 std::string describe(const std::string& joint, const Range& range) {
   if (range.lower > range.upper)
-    return fmt::format("joint '{}' may be nowhere: {:.6g} > {:.6g}", joint, range.lower, range.upper);
+    return fmt::format("joint '{}' has no position left: {:.6g} > {:.6g}", joint, range.lower, range.upper);
   return fmt::format("joint '{}' may only be at {:.6g}", joint, range.lower + 0.0);  // no -0
 }
 
@@ -58,7 +58,7 @@ void keepTargetsMovable(std::vector<ReadJoint>& joints, Reading& reading) {
     reading.forgive({.what = fmt::format("joint '{}': limits", joint.name),
                      .where = joint.where,
                      .found = describe(joint.mimic, both),
-                     .wanted = "limits that both joints can keep"},
+                     .wanted = "limits that both joints can satisfy"},
                     fmt::format("those of '{}' are left out", joint.name));
     joint.lower.resize(0);
     joint.upper.resize(0);

@@ -64,7 +64,7 @@ void freeRoot(SceneSpec& spec, const BodySpec& root) {
     throw Error({.what = "joint of the free base",
                  .where = taken->where,
                  .found = fmt::format("another joint '{}'", name),
-                 .wanted = "another name for that"});
+                 .wanted = "another name for that joint"});
   JointSpec joint;
   joint.name = name;
   joint.parent = kWorldName;

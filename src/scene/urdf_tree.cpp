@@ -71,13 +71,13 @@ std::vector<Hold> connect(const std::vector<BodySpec>& links, const std::vector<
     const std::size_t parent = index.find(joint.parent, joints[j].parentAt, what + ": unknown parent");
     const std::size_t child = index.find(joint.child, joints[j].childAt, what + ": unknown child");
     if (parent == child)
-      fail(joints[j].childAt, what + ": parent and child are one link", xml::quoted(joint.child),
+      fail(joints[j].childAt, what + ": parent and child are the same link", xml::quoted(joint.child),
            "two links");
     if (joint.child == "world")
       fail(joints[j].childAt, what + ": child", "'world'", "another link: the world itself does not move");
     if (holds[child].joint != kNone) {
       fail(joints[j].childAt, fmt::format("{}: link '{}' already has a parent", what, joint.child),
-           fmt::format("joint '{}'", joints[holds[child].joint].spec.name), "one joint into each link");
+           fmt::format("joint '{}'", joints[holds[child].joint].spec.name), "one joint leading to each link");
     }
     holds[child] = {j, parent};
   }
@@ -92,7 +92,7 @@ std::size_t requireOneRoot(const std::vector<BodySpec>& links, const std::vector
   std::vector<std::string> names;
   for (const std::size_t root : roots) names.push_back(links[root].name);
   if (roots.size() > 1)
-    fail(links[roots[1]].where, "links that no joint holds together", listed(names, ", "), "one root");
+    fail(links[roots[1]].where, "links that no joint connects", listed(names, ", "), "one root");
   return kNone;
 }
 
@@ -127,7 +127,7 @@ void checkMimics(const std::vector<ReadJoint>& joints, const Index<ReadJoint>& i
     const JointSpec& target = joints[index.find(name, joint.mimicAt, what)].spec;
     if (!target.mimic.empty())
       fail(joint.mimicAt, what, fmt::format("'{}', which mimics '{}'", name, target.mimic),
-           "a joint that mimics none");
+           "a joint that mimics no other");
     if (positionCount(target.type) != 1)
       fail(joint.mimicAt, what, fmt::format("'{}'", name), "a revolute, continuous or prismatic joint");
   }

@@ -49,7 +49,7 @@ SceneSpec withOwnNames(SceneSpec spec, Losses& losses) {
   for (const BodySpec& body : spec.bodies) given.insert(body.name);
   for (BodySpec& body : spec.bodies) {
     if (taken.insert(body.name).second) continue;
-    losses.add("bodies of a name that was taken got a number", body.name, body.where);
+    losses.add("bodies whose name was taken got a number", body.name, body.where);
     int& number = lastNumbers.try_emplace(body.name, 1).first->second;
     std::string name;
     do name = fmt::format("{}_{}", body.name, ++number);
@@ -94,13 +94,12 @@ class Writer {
  private:
   void noteCollisions(const SceneSpec& spec) {
     for (const CollisionChoice& choice : spec.collisionChoices)
-      losses_.add("choices of who may collide are left out, which belong into an SRDF", choice.a,
-                  choice.where);
+      losses_.add("collision settings are left out: they belong in an SRDF", choice.a, choice.where);
     const auto touches = [](const ShapeSpec& shape) { return shape.contact; };
     if (spec.collisionRule != CollisionRule::kFourGenerations) return;
     for (const BodySpec& body : spec.bodies)
       if (std::any_of(body.shapes.begin(), body.shapes.end(), touches))
-        losses_.add("bodies within four generations may collide where it is read again", body.name,
+        losses_.add("bodies within four generations may collide when the file is read again", body.name,
                     body.where);
   }
 

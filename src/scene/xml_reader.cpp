@@ -110,7 +110,7 @@ class Builder {
 
   void refuseDocumentType() {  // expat has read more than its beginning
     stopAt(std::min<std::size_t>(text_.rfind("<!DOCTYPE", here()), here()), "a document type", "<!DOCTYPE",
-           "none: entities of one's own are not read");
+           "none: custom entities are not read");
   }
 
   void refuseEncoding(const std::string& encoding) {
@@ -182,7 +182,7 @@ class Builder {
     for (std::size_t i = 0; i < count; ++i) {
       element.attributes.push_back({attributes[2 * i], attributes[2 * i + 1]});
       if (const std::size_t size = element.attributes.back().name.size(); size > kLongestName)
-        return stop("name of an attribute too long", fmt::format("{} bytes", size),
+        return stop("attribute name too long", fmt::format("{} bytes", size),
                     fmt::format("at most {}", kLongestName));
     }
     findPlaces(text_, element.at, element.attributes);

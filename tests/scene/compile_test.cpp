@@ -115,10 +115,9 @@ TEST(Compile, AllowsWhatAllJointsOfACoordinateAllow) {
 }
 
 TEST(Compile, RefusesLimitsThatNoPositionKeeps) {
-  EXPECT_REX_ERROR(
-      model(std::string(kPair) + "mimic_ratio=2 mimic_offset=3 limits=[0 .5] }"),
-      "f:5:1: joint 'left': limits: found joint 'right' may be nowhere: -1 > -1.25, wanted limits "
-      "that both joints can keep");
+  EXPECT_REX_ERROR(model(std::string(kPair) + "mimic_ratio=2 mimic_offset=3 limits=[0 .5] }"),
+                   "f:5:1: joint 'left': limits: found joint 'right' has no position left: -1 > -1.25, "
+                   "wanted limits that both joints can satisfy");
 }
 
 TEST(Compile, ReadsTheStartFromQ) {
@@ -131,8 +130,8 @@ TEST(Compile, ReadsTheStartFromQ) {
 
 TEST(Compile, RefusesWhatIsNoTree) {
   EXPECT_REX_ERROR(model("body a {}\nbody b {}\nbody c {}\njoint (a c) {}\njoint (b c) {}"),
-                   "f:5:1: joint 'b>c': body 'c' already hangs on a joint: found joint 'a>c', wanted one "
-                   "joint into each body");
+                   "f:5:1: joint 'b>c': body 'c' is already attached to a joint: found joint 'a>c', wanted "
+                   "one joint leading to each body");
   EXPECT_REX_ERROR(model("body a {}\nbody b {}\njoint j (a b) {}\njoint j (b a) {}"),
                    "f:4:1: duplicate joint 'j': wanted a name of its own: the first stands at f:3:1");
   EXPECT_REX_ERROR(
@@ -175,8 +174,8 @@ TEST(Compile, RefusesBadNumbersInAnEditedSpec) {
                    "shape 'a': radius of the rounded edges: found 0.11 m, wanted at most half of the "
                    "shortest edge, 0.1 m");
   EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.joints[0].mimic = "j"; })),
-                   "f:3:1: joint 'j': mimic: found 'j', wanted a joint that mimics none, of the same type or "
-                   "like this one with one coordinate");
+                   "f:3:1: joint 'j': mimic: found 'j', wanted a joint that mimics no other, of the same "
+                   "type or with one coordinate like this one");
   EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.joints[0].axis.setZero(); })),
                    "joint 'j': axis: found a zero or non-finite vector");
   EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.bodies[0].p_BBcm.z() = nan; })),
@@ -221,7 +220,7 @@ TEST(Compile, RefusesBadNumbersInAnEditedSpec) {
   EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.joints[0].child = "c"; })),
                    "joint 'j': unknown child: found 'c'");
   EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.joints[0].mimic = "k"; })),
-                   "joint 'j': mimic: found 'k', wanted a joint that mimics none, of the same type");
+                   "joint 'j': mimic: found 'k', wanted a joint that mimics no other, of the same type");
 }
 
 TEST(Compile, LetsNothingCollideWithWhatStandsForAMesh) {

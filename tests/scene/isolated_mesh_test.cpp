@@ -33,7 +33,7 @@ TEST(ReadIsolated, GivesTheMeshThatAssimpGives) {
 TEST(ReadIsolated, RefusesWhatAssimpDoesNotSurvive) {
   EXPECT_REX_ERROR(readIsolated(crashing(), "a.dae", {}),
                    "a.dae: cannot read the mesh file: found one on which assimp crashes, wanted a mesh, e.g. "
-                   "the same saved by another program or as STL");
+                   "the same one saved by another program or as STL");
   EXPECT_REX_ERROR(
       readIsolated(slow(), "a.obj", {}, {.cpuSeconds = 1}),
       "a.obj: cannot read the mesh file: found one that assimp does not finish reading, wanted a mesh");

@@ -172,8 +172,9 @@ TEST_F(MeshReader, RespectsUnitsAndUpwardAxisOfCollada) {
 TEST_F(MeshReader, RefusesIndicesOfColladaThatAreNone) {
   std::string text = collada("");
   text.replace(text.find("<p>0 2 1"), 8, "<p>0 2'1");
-  EXPECT_REX_ERROR(parseMesh(text, "a.dae"),
-                   "a.dae: DAE file: found a list of indices with other things in it, wanted whole numbers");
+  EXPECT_REX_ERROR(
+      parseMesh(text, "a.dae"),
+      "a.dae: DAE file: found a list of indices that holds something else, too, wanted whole numbers");
 }
 
 TEST_F(MeshReader, TakesOtherKindsAsTheyStand) {
@@ -242,7 +243,7 @@ TEST_F(MeshReader, NamesWhatIsWrong) {
   EXPECT_REX_ERROR(readMesh(folder_.path() / "null.stl"), "cannot read the mesh file: found a device");
   EXPECT_REX_ERROR(readMesh(write("none.off", "OFF\n0 0 0\n")), "none.off");
   EXPECT_REX_ERROR(readMesh(write("a.tri", "")),
-                   "a.tri: not a kind of mesh file that rex reads: found '.tri', wanted .stl, .obj, .ply");
+                   "a.tri: not a mesh file that rex can read: found '.tri', wanted .stl, .obj, .ply");
   EXPECT_REX_ERROR(readMesh(write("a.sttl", "")), "(did you mean '.stl'?)");
   EXPECT_REX_ERROR(readMesh(write("a", "")), "found no ending");
   for (const char* name :
@@ -273,7 +274,7 @@ TEST_F(MeshReader, RefusesBrokenHeaders) {
     EXPECT_REX_ERROR(parseMesh("ply\nelement vertex 1\n" + std::string(line) + "\nend_header\n", "a.ply"),
                      "bytes of an unknown line, wanted 'element NAME COUNT', 'property TYPE NAME' or");
   EXPECT_REX_ERROR(parseMesh(std::string("glTF\2\0\0\0\40\0\0\0\20\0\0\0JSON{}", 22), "a.glb"),
-                   "a.glb: GLB file: found a part of 16 bytes, wanted the 2 that follow");
+                   "a.glb: GLB file: found a chunk of 16 bytes, wanted at most the 2 that follow");
   EXPECT_REX_ERROR(parseMesh("OFF\n3 1 3\n0 0 0\n1 0 0\n2 0 0\n3 0 1</p> 2\n", "a.off"),
                    "a.off: OFF file: found a word that is not a number, wanted numbers");
 }
@@ -299,11 +300,11 @@ TEST_F(MeshReader, RefusesWhatIsCutOff) {
   EXPECT_REX_ERROR(parseMesh(ply + corners + "3 0 1 2\n3 0", "a.ply"),
                    "a.ply: PLY file: found the end after 5 elements, wanted as many as its header says");
   EXPECT_REX_ERROR(parseMesh(stl, "a.stl"),
-                   "a.stl: STL file: found an end without 'endsolid', wanted a whole file");
+                   "a.stl: STL file: found no 'endsolid' at the end, wanted a complete file");
   EXPECT_REX_ERROR(parseMesh("OFF\n4 2 5\n" + corners + "3 0 1 2\n", "a.off"),
-                   "a.off: OFF file: found 5 lines of vertices and faces, wanted 6, as it says");
+                   "a.off: OFF file: found 5 lines of vertices and faces, wanted 6, as its counts say");
   EXPECT_REX_ERROR(parseMesh("OFF\n4 1 5\n" + corners + "3 0 1\n", "a.off"),
-                   "a.off: OFF file: found a face without all its corners, wanted as many as it says");
+                   "a.off: OFF file: found a face with missing corners, wanted as many as the face declares");
 }
 
 // Of another kind than its ending says: nobody has looked for what the reader of that kind does not bear.
@@ -366,21 +367,21 @@ TEST_F(MeshReader, RefusesDeepGltf) {
   const TriangleMesh mesh = readMesh(write("deep.gltf", gltf(chain(5'001), 1)));
   EXPECT_NEAR(mesh.halfBounds().y(), 5, 1e-3);
   EXPECT_REX_ERROR(readMesh(write("deeper.gltf", gltf(chain(50'001), 1))),
-                   "deeper.gltf: mesh file: found 50000 nodes below each other, wanted at most 5000");
+                   "deeper.gltf: mesh file: found nodes nested 50000 deep, wanted at most 5000");
   std::string binary(20, ' ');
   const std::string json = gltf(chain(50'001), 1);
   const auto length = static_cast<std::uint32_t>(json.size());
   std::memcpy(binary.data() + 12, &length, 4);
-  EXPECT_REX_ERROR(readMesh(write("deeper.glb", binary + json)), "found 50000 nodes below each other");
+  EXPECT_REX_ERROR(readMesh(write("deeper.glb", binary + json)), "found nodes nested 50000 deep");
   std::string collada = "<COLLADA><node/>";
   for (int i = 0; i < 5'001; ++i) collada += "<node id='n'>";
   EXPECT_REX_ERROR(readMesh(write("deep.dae", collada)),
-                   "deep.dae: mesh file: found 5001 nodes below each other, wanted at most 5000");
+                   "deep.dae: mesh file: found nodes nested 5001 deep, wanted at most 5000");
   for (int i = 0; i < 50'000; ++i) collada += "</node><node>";
-  EXPECT_REX_ERROR(readMesh(write("deep.dae", collada)), "found 5001 nodes below each other");
+  EXPECT_REX_ERROR(readMesh(write("deep.dae", collada)), "found nodes nested 5001 deep");
   const std::string brackets(1'000'000, '[');
   EXPECT_REX_ERROR(readMesh(write("brackets.gltf", brackets)),
-                   "brackets.gltf: mesh file: found 1000000 brackets in each other, wanted at most 100");
+                   "brackets.gltf: mesh file: found brackets nested 1000000 deep, wanted at most 100");
   // Brackets in a text are none.
   EXPECT_REX_ERROR(readMesh(write("text.gltf", "{\"\\\"" + brackets + "\"}")), "cannot read the mesh file");
 }

@@ -219,7 +219,7 @@ TEST_F(MeshTextures, ComeFromTheFolderOfTheMeshOnly) {
     EXPECT_LT((*read.mesh.parts()[0].color - Eigen::Vector4f(.2f, .4f, .6f, 1)).norm(), 1e-6f);
   };
   const std::string none =
-      "found no such file of at most 16 MiB, wanted one in the folder of the mesh or below";
+      "found no such file of at most 16 MiB, wanted one in the folder of the mesh or in a subfolder";
   for (const std::string& name : {std::string("none.png"), std::string("../secret.png"),
                                   std::string("link.png"), (folder_.path() / "secret.png").string()})
     expectMissing(name, "texture '" + name + "': " + none);
@@ -233,7 +233,7 @@ TEST_F(MeshTextures, SayWhatIsWrongWithThem) {
   EXPECT_REX_ERROR(mesh::readTexture(png.substr(0, 40), "t"), "t: found a faulty PNG file: ");
   EXPECT_REX_ERROR(mesh::readTexture(jpeg.substr(0, 200), "t"), "t: found a faulty JPEG file: ");
   EXPECT_REX_ERROR(mesh::readTexture(pngOf(8193, 1, std::vector<std::uint8_t>(3 * 8193)), "t"),
-                   "t: found 8193 x 1 pixels, wanted at most 8192 a side and 16777216 together");
+                   "t: found 8193 x 1 pixels, wanted at most 8192 per side and 16777216 in total");
   EXPECT_REX_ERROR(mesh::readTexture(jpegOf(9000, 1, std::vector<std::uint8_t>(3 * 9000)), "t"),
                    "t: found 9000 x 1 pixels");
 }
@@ -248,10 +248,9 @@ TEST_F(MeshTextures, AreReadOnRequestAndMissedWithOneWarning) {
   ASSERT_EQ(read.notes.size(), 1u);
   EXPECT_THAT(toString(read.notes[0]), HasSubstr("scene.ors:1:"));
   EXPECT_THAT(toString(read.notes[0]), HasSubstr("warning: shape 'a': mesh '"));
-  EXPECT_THAT(
-      toString(read.notes[0]),
-      HasSubstr("texture 'none.png': found no such file of at most 16 MiB, wanted one in the folder of "
-                "the mesh or below; its colour is drawn instead"));
+  EXPECT_THAT(toString(read.notes[0]),
+              HasSubstr("texture 'none.png': found no such file of at most 16 MiB, wanted one in the folder "
+                        "of the mesh or in a subfolder; its colour is drawn instead"));
   write("meshes/none.png", pngOf(2, 2, kFour));
   const SceneFile whole = readOrs(scene, {.textures = true});
   EXPECT_THAT(whole.notes, testing::IsEmpty());
@@ -268,8 +267,9 @@ TEST(PaintOfAMesh, IsChecked) {
   const std::vector<Vector2f> three(3, Vector2f::Zero());
   const Texture dot{1, 1, {1, 2, 3}};
   EXPECT_EQ(make(three, {dot}, 0u).paint().textures[0].rgb[2], 3);
-  EXPECT_REX_ERROR(make({Vector2f::Zero()}, {dot}, 0u), "mesh: found 1 points of textures, wanted 3");
-  EXPECT_REX_ERROR(make({three[0], three[0], {NAN, 0}}, {dot}, 0u), "a point of textures that is not finite");
+  EXPECT_REX_ERROR(make({Vector2f::Zero()}, {dot}, 0u), "mesh: found 1 texture coordinates, wanted 3");
+  EXPECT_REX_ERROR(make({three[0], three[0], {NAN, 0}}, {dot}, 0u),
+                   "a texture coordinate that is not finite");
   EXPECT_REX_ERROR(make(three, {dot}, 1u), "mesh: found a part with texture 1, wanted one below 1");
   EXPECT_REX_ERROR(make({}, {dot}, 0u), "mesh: found a part with texture 0");
   EXPECT_REX_ERROR(make(three, {{2, 1, {1, 2, 3}}}, 0u), "a texture of 2 x 1 pixels with 3 bytes");

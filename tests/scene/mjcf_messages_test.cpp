@@ -81,7 +81,7 @@ TEST(MjcfMessages, OfCompilers) {
       {compiler("angle='@degrees'"),
        "<compiler>: attribute 'angle': found 'degrees', wanted radian or degree (did you mean 'degree'?)"},
       {compiler("eulerseq='@xy'"),
-       "<compiler>: attribute 'eulerseq': found 'xy', wanted three letters of x, y, z, X, Y and Z"},
+       "<compiler>: attribute 'eulerseq': found 'xy', wanted three letters from x, y, z, X, Y and Z"},
       {compiler("autolimits='@yes'"),
        "<compiler>: attribute 'autolimits': found 'yes', wanted false or true"},
       {compiler("inertiafromgeom='@maybe'"),
@@ -182,7 +182,7 @@ TEST(MjcfMessages, OfGeoms) {
       {body("<geom type='cylinder' fromto='0 0 0 1 0 0' size='@-1'/>"),
        "body 'a': <geom>: attribute 'size': found '-1', wanted a radius > 0"},
       {body("<geom type='capsule' fromto='@1 0 0 1 0 0' size='1'/>"),
-       "body 'a': <geom>: attribute 'fromto': found '1 0 0 1 0 0', wanted two points that differ"},
+       "body 'a': <geom>: attribute 'fromto': found '1 0 0 1 0 0', wanted two different points"},
       {body("<geom type='capsule' fromto='1 0 0 0 0 0' pos='@0 0 0' size='1'/>"),
        "body 'a': <geom>: attribute 'pos': found 'fromto' as well, wanted one of them"},
       {body("<geom type='@capsul' size='1'/>"),
@@ -193,7 +193,7 @@ TEST(MjcfMessages, OfGeoms) {
       {body("<geom type='plane' size='@-1 1 1'/>"),
        "body 'a': <geom>: attribute 'size': found '-1 1 1', wanted half edges >= 0"},
       {body("<geom size='1' contype='@1.5'/>"),
-       "body 'a': <geom>: attribute 'contype': found '1.5', wanted a whole number of 32 bits"},
+       "body 'a': <geom>: attribute 'contype': found '1.5', wanted a 32-bit integer"},
       {body("<geom size='1' mass='@-1'/>"),
        "body 'a': <geom>: attribute 'mass': found -1, wanted a number >= 0"},
       {body("<geom size='@1 1 1 1'/>"),
@@ -208,8 +208,7 @@ TEST(MjcfMessages, OfGeoms) {
   checkNotes({
       {bright,
        "warning: body 'a': <geom>: attribute 'rgba': found '2 0 0 1', wanted 4 numbers from 0 to 1; the "
-       "nearest such "
-       "numbers are taken"},
+       "nearest such numbers are used"},
       {body("@<geom size='1' material='x'/><geom size='1' material='x'/>"),
        "note: unknown material 'x': the geom keeps its own colour (2 times)"},
       {body("@<geom type='ellipsoid' size='1 2 3'/>"),
@@ -253,7 +252,7 @@ TEST(MjcfMessages, OfJoints) {
       {body("<body name='b'>@<freejoint/></body>"),
        "body 'b': a free joint: found a body on 'a', wanted a body on the world"},
       {body(many + "@<joint/>"),
-       "body 'a': too many joints: wanted at most 1000, those of bodies that do not move counted"},
+       "body 'a': too many joints: wanted at most 1000, including those of bodies that do not move"},
   });
   const std::string turned = body("<joint range='@2 1'/>");
   check({{turned,
@@ -267,9 +266,9 @@ TEST(MjcfMessages, OfJoints) {
        "the joint has no range"},
       {body("@<joint type='ball' range='0 1'/>"), "note: the range of a <joint> of type 'ball' is ignored"},
       {body("@<joint range='0 1'/>").insert(9, "<compiler autolimits='false'/>"),
-       "note: range of <joint> does not count: autolimits is off, and limited is not given"},
+       "note: range of <joint> has no effect: autolimits is off, and limited is not given"},
       {body("@<joint name='j' type='slide' range='1 2'/><joint type='slide' range='3 4'/>"),
-       "warning: joint 'j' begins outside its range, 1 to 2, and so does another joint"},
+       "warning: joint 'j' starts outside its range, 1 to 2, and so does another joint"},
       {body("<joint @armature='1'/><joint armature='1' stiffness='2'/>"),
        "note: <joint>: attributes that are not read: armature (2 times), stiffness"},
   });
@@ -283,8 +282,7 @@ TEST(MjcfMessages, OfActuators) {
   checkNotes({
       {jointed("<actuator><motor tendon='t'/>@<motor joint='ball'/></actuator>"),
        "note: an actuator of a joint of type 'ball' or 'free' is ignored\nf:3:11: note: an actuator of "
-       "another thing "
-       "than a joint is ignored"},
+       "something other than a joint is ignored"},
       {jointed("<actuator>@<muscle joint='j'/></actuator>"), "note: <muscle> is ignored"},
   });
 }
@@ -294,9 +292,8 @@ TEST(MjcfMessages, OfEqualities) {
       {equal("<joint joint1='@elbow' joint2='j'/>"),
        "<equality>: <joint>: unknown joint: found 'elbow', wanted the name of a joint"},
       {equal("<joint joint1='j' joint2='@ball'/>"),
-       "<equality>: <joint>: a joint that follows another: found 'ball' of type 'ball', wanted two of type "
-       "hinge or "
-       "slide"},
+       "<equality>: <joint>: a joint that follows another: found 'ball' of type 'ball', wanted two joints of "
+       "type hinge or slide"},
       {equal("<joint joint1='j' joint2='@j'/>"),
        "<equality>: <joint>: a joint that follows itself: wanted another joint"},
       {equal("<joint joint1='j' active='@no'/>"),
@@ -307,7 +304,7 @@ TEST(MjcfMessages, OfEqualities) {
       {equal("@<joint joint1='j' joint2='k' polycoef='0 1 .5'/>"),
        "note: a <joint> in <equality> with a polynomial of higher degree is ignored"},
       {equal("<joint joint1='j' joint2='k'/><joint joint1='@j' joint2='k'/>"),
-       "warning: <equality>: <joint>: 'j' follows another joint already; this is ignored"},
+       "warning: <equality>: <joint>: 'j' already follows another joint; this is ignored"},
       {equal("@<joint joint1='j' joint2='k'/>\n<joint joint1='k' joint2='j'/>"),
        "warning: <equality>: <joint>: joints that follow each other in a ring; this is ignored\nf:4:1: "
        "warning: "
@@ -328,7 +325,7 @@ TEST(MjcfMessages, OfContacts) {
   checkNotes({
       {contact("@<pair geom1='x' geom2='y'/>"), "note: <pair> is ignored"},
       {world("@<body name='a'><geom size='1'/><geom size='1' contype='2' conaffinity='2'/></body><body/>"),
-       "note: a body whose geoms differ in contype or conaffinity touches what one of them may touch"},
+       "note: a body whose geoms differ in contype or conaffinity touches whatever any of them may touch"},
   });
 }
 
@@ -336,7 +333,8 @@ TEST(MjcfMessages, OfWhatIsNotRead) {
   checkNotes({
       {model("@<option timestep='.01' gravity='0 0 -9.81'/>"), "note: <option> is ignored"},
       {model("<option gravity='@0 0 0'/>"),
-       "warning: <option>: gravity is 9.81 m/s^2 along -z in all that rex computes\nf:2:1: note: <option> is "
+       "warning: <option>: rex always computes with a gravity of 9.81 m/s^2 along -z\nf:2:1: note: <option> "
+       "is "
        "ignored"},
       {model("@<sensor/><tendon/><sensor/>"),
        "note: <sensor> is ignored (2 times)\nf:2:10: note: <tendon> is ignored"},
@@ -352,9 +350,8 @@ TEST(MjcfMessages, OfFreeBases) {
     static_cast<void>(parseMjcf("<mujoco/>", "f", {.freeBase = true}));
     ADD_FAILURE();
   } catch (const Error& error) {
-    EXPECT_STREQ(
-        error.what(),
-        "f: a free base: found a model of MuJoCo, wanted a <freejoint/> in its first body, which says it");
+    EXPECT_STREQ(error.what(),
+                 "f: a free base: found a model of MuJoCo, wanted a <freejoint/> in its first body instead");
   }
 }
 

@@ -507,9 +507,9 @@ TEST_F(MjcfFile, RefusesIncludesThatCannotBe) {
   EXPECT_REX_ERROR(read("<include file='../../../etc/passwd'/>"), "wanted a file inside the asset root");
   EXPECT_REX_ERROR(
       read("<include file='part.xml'/><include file='part.xml'/>"),
-      "m.xml:1:61: <worldbody>: <include>: attribute 'file': found a file that is there already, wanted "
+      "m.xml:1:61: <worldbody>: <include>: attribute 'file': found a file that is already included, wanted "
       "each file once");
-  EXPECT_REX_ERROR(read("<include file='ring.xml'/>"), "found a file that is there already");
+  EXPECT_REX_ERROR(read("<include file='ring.xml'/>"), "found a file that is already included");
   EXPECT_REX_ERROR(
       read("<include file='robot.xml'/>"),
       "robot.xml:1:1: not an MJCF model: found <robot>, wanted <mujoco>; if it is a robot in URDF, name "
@@ -519,7 +519,7 @@ TEST_F(MjcfFile, RefusesIncludesThatCannotBe) {
     write("p" + std::to_string(i) + ".xml", "<mujoco/>");
     many += "<include file='p" + std::to_string(i) + ".xml'/>";
   }
-  EXPECT_REX_ERROR(read(many), "found the 65th file, wanted at most 64");
+  EXPECT_REX_ERROR(read(many), "found file number 65, wanted at most 64");
   EXPECT_REX_ERROR(
       world("<include file='part.xml'/>"),
       "m.xml:1:35: <worldbody>: <include>: attribute 'file': found a scene that was given as text, "

@@ -51,9 +51,9 @@ std::string errorOf(const std::string& text) {
 constexpr Row kErrors[] = {
     // what is not an .ors file
     {"@\xff\xfe@body a {}", "", "text in UTF-16: wanted UTF-8"},
-    {"bo@\0@dy a {}"sv, "", "a byte 0, as in text in UTF-16: found '\\x00', wanted UTF-8"},
-    {"@\0@b\0o\0d\0y\0"sv, "body b #", "a byte 0, as in text in UTF-16: found '\\x00', wanted UTF-8"},
-    {"body a { mass=@x^\0y@ }"sv, "1", "a byte 0, as in text in UTF-16: found '\\x00', wanted UTF-8"},
+    {"bo@\0@dy a {}"sv, "", "a zero byte, as in UTF-16 text: found '\\x00', wanted UTF-8"},
+    {"@\0@b\0o\0d\0y\0"sv, "body b #", "a zero byte, as in UTF-16 text: found '\\x00', wanted UTF-8"},
+    {"body a { mass=@x^\0y@ }"sv, "1", "a zero byte, as in UTF-16 text: found '\\x00', wanted UTF-8"},
     {"body a@\x07@ {}", "", "a control character: found '\\x07', wanted text"},
     {"# Gr\xfc\xdf\x65\nbody a@\xe4@b {}", "\xc3\xa4",
      "a byte that is not UTF-8: found '\\xe4', wanted text in UTF-8; only comments may have other bytes"},
@@ -64,7 +64,7 @@ constexpr Row kErrors[] = {
      "{attributes}"},
     {"@<robot name='r'/>@", "body a {}", "this is XML: wanted .ors; if it is a robot in URDF, name it .urdf"},
     {"@//@ an arm\nbody a {}", "#",
-     "a comment of another language: found '//', wanted '#', with which comments begin"},
+     "a comment in the syntax of another language: found '//', wanted '#', which starts a comment"},
     // the grammar
     {"body a { mass=@+-@5 }", "+", "not a number: found '+-5', wanted a number"},
     {"body a { X=<T t(0@,@ 0 1)> }", "",
@@ -73,7 +73,8 @@ constexpr Row kErrors[] = {
      "unknown element of a pose: found 'tt', wanted t(..), d(..), r(..), q(..), E(..), seven numbers, or "
      "'>'"},
     {"body a { mass=0@,@^5 }", ".",
-     "body 'a': a number without a name: found '5', wanted '.' as decimal mark, or an attribute NAME=VALUE"},
+     "body 'a': a number without a name: found '5', wanted '.' as the decimal point, or an attribute "
+     "NAME=VALUE"},
     {"body a { mass@ @^1 }", "=", "body 'a': attribute 'mass': '=' is missing: found '1', wanted mass=1"},
     {"body a { type=0 color=^[@255@ 0 0] }", "1",
      "body 'a': attribute 'color': found 255, wanted numbers from 0 to 1"},
@@ -92,7 +93,7 @@ constexpr Row kErrors[] = {
     {"body a { com=[0 @zero@ 0] }", "0", "not a number: found 'zero', wanted a number or ']'"},
     {"body a { com=[0 0 0 @@^}", "] ", "not a number: found '}', wanted a number or ']'"},
     {"body a { com=[0 0 0]\n X=^@[0@", "<T>}", "'[' is never closed: wanted a ']'"},
-    {"body a { size=[1 2; 3@@^] }", " 4", "row of an array: found 1 numbers, wanted 2 as in the first row"},
+    {"body a { size=[1 2; 3@@^] }", " 4", "row of an array: found 1 numbers, wanted 2, as in the first row"},
     {"body a { com=^[<@4@> 0 0 0] }", "3", "array with explicit dimensions: found 3 numbers, wanted 1 x 4"},
     {"body a { com=[<1 3@ 1@>^ 0 0 0] }", "", "array dimensions: found 3 of them, wanted one or two"},
     {"body a { com=[<1 @2.5@^> 0 0 0] }", "3", "array dimension: found 2.5, wanted a count"},
@@ -111,7 +112,7 @@ constexpr Row kErrors[] = {
     {"body a { X=<T ^q(0 0 0 @0@)> }", "1",
      "quaternion: found (0, 0, 0, 0), wanted a quaternion w x y z that is not zero"},
     {"body a { X=^<T t(1e308 0 0) t(@1e308@ 0 0)> }", "1",
-     "pose: found a place farther than numbers reach, wanted metres"},
+     "pose: found a position beyond the range of numbers, wanted metres"},
     {"body a { mass=@)@ }", "1",
      "syntax error: found ')', wanted a value: a number, word, \"text\", [array], <T pose> or {attributes}"},
     {"body a @)@ {}", "", "syntax error: found ')', wanted a name"},
@@ -124,7 +125,8 @@ constexpr Row kErrors[] = {
      "unknown statement: found 'bodi', wanted 'body', 'shape', 'joint', 'urdf' or 'collisions' (did you mean "
      "'body'?)"},
     {"body a@ @^body b {}", "\n",
-     "body 'b': a statement within its words: found 'body', wanted {...} or the end of the line before it"},
+     "body 'b': another statement among its words: found 'body', wanted {...} or the end of the line before "
+     "it"},
     {"^@body@ { mass=1 }", "body a", "body without a name: wanted 'body NAME { ... }'"},
     {"body a@\n@^{ mass=1 }", "",
      "a value without a name: found {...}, wanted '{' on the line of its body, shape or joint"},
@@ -190,7 +192,7 @@ constexpr Row kErrors[] = {
     {"body a {}\nshape (@-2@) { type=0 }", "-1",
      "parent: found -2, wanted -1 to -1, the statements before this one"},
     {"body a {}\nshape (a) { type=0 }\nshape (@-1@) { type=0 }", "-2",
-     "shape: parent: found -1, which is not a body, wanted the count of statements back to a body"},
+     "shape: parent: found -1, which is not a body, wanted the number of statements back to a body"},
     // joints
     {"body arm {}\nbody hand {}\njoint (arm @hnad@) {}", "hand",
      "joint 'arm>hnad': unknown child: found 'hnad', wanted the name of an earlier body (did you mean "
@@ -198,7 +200,7 @@ constexpr Row kErrors[] = {
     {"body a {}\nbody b {}\n^joint j (a@@) {}", " b",
      "joint 'j': found 1 bodies, wanted two: joint NAME (FROM TO) {...}"},
     {"body a {}\nbody b {}\njoint j (a @a@) {}", "b",
-     "joint 'j': found 'a' hung on itself, wanted two different bodies"},
+     "joint 'j': found 'a' attached to itself, wanted two different bodies"},
     {"body a {}\nbody b {}\njoint j (a @world@) {}", "b",
      "joint 'j': found the world as the body that moves, wanted a body"},
     {"body a {}\nbody b {}\nbody b {}\njoint j (a @-1@) {}", "-2",
@@ -230,7 +232,8 @@ constexpr Row kErrors[] = {
      "joint 'j': attribute 'mimic': found the number 3, wanted the name of a joint"},
     // the tree
     {"body a {}\nbody b {}\nbody c {}\nbody d {}\njoint j (a b) {}\n^joint k (c @b@) {}", "d",
-     "joint 'k': body 'b' already hangs on a joint: found joint 'j', wanted one joint into each body"},
+     "joint 'k': body 'b' is already attached to a joint: found joint 'j', wanted one joint leading to each "
+     "body"},
     {"body a {}\nbody b {}\nbody c {}\njoint j (a b) {}\n^joint @j@ (a c) {}", "k",
      "duplicate joint 'j': wanted a name of its own: the first stands at f:4:1"},
     {"body a {}\nbody b {}\nbody c {}\njoint j (a b) {}\n^joint k (b @a@) {}", "c",
@@ -241,16 +244,17 @@ constexpr Row kErrors[] = {
     {"body a {}\nbody b {}\nbody c {}\nbody d {}\njoint one (a b) {}\njoint two (a c) { mimic=one }\n"
      "joint three (a d) { mimic=@two@ }",
      "one",
-     "joint 'three': attribute 'mimic': found 'two', which mimics 'one', wanted a joint that mimics none"},
+     "joint 'three': attribute 'mimic': found 'two', which mimics 'one', wanted a joint that mimics no "
+     "other"},
     {"body a {}\nbody b {}\nbody c {}\njoint j (a b) { @fixed@ }\njoint k (a c) { type=1 mimic=^j }", "",
      "joint 'k': attribute 'mimic': found 'j', a joint of type rigid, wanted a joint with one coordinate"},
     {"body a {}\nbody b {}\nbody c {}\njoint j (a b) {}\njoint k (a c) { mimic=^j @type=free@ }", "type=1",
-     "joint 'k': attribute 'mimic': found 'j', a joint of type hinge, wanted a joint of type free as this "
+     "joint 'k': attribute 'mimic': found 'j', a joint of type hinge, wanted a joint of type free, like this "
      "one"},
     {"body a {}\nbody b {}\nbody c {}\njoint j (a b) { type=9 }\njoint k (a c) { mimic=j mimic_ratio=@2@ }",
-     "1", "joint 'k': attribute 'mimic_ratio': found 2, wanted none, for the joint has 2 coordinates"},
+     "1", "joint 'k': attribute 'mimic_ratio': found 2, wanted none, because the joint has 2 coordinates"},
     {"body a {}\nbody b {}\nbody c {}\njoint j (a b) { type=9 }\njoint k (a c) { mimic=j mimic_offset=@2@ }",
-     "0", "joint 'k': attribute 'mimic_offset': found 2, wanted none, for the joint has 2 coordinates"},
+     "0", "joint 'k': attribute 'mimic_offset': found 2, wanted none, because the joint has 2 coordinates"},
 };
 
 constexpr Row kNotes[] = {
@@ -283,17 +287,18 @@ constexpr Row kNotes[] = {
     {"shape { type=0 @meshscale=^2@ }", "",
      "warning: shape: attribute 'meshscale' is ignored: a shape of this type has no mesh"},
     {"body a {}\nbody b {}\njoint (a b) { @mimic_ratio=^2@ }", "",
-     "warning: joint 'a>b': attribute 'mimic_ratio' is ignored: without 'mimic' the joint follows none"},
+     "warning: joint 'a>b': attribute 'mimic_ratio' is ignored: without 'mimic' the joint follows no other"},
     {"body a {}\nbody b {}\njoint (a b) { @mimic_offset=^2@ }", "",
-     "warning: joint 'a>b': attribute 'mimic_offset' is ignored: without 'mimic' the joint follows none"},
+     "warning: joint 'a>b': attribute 'mimic_offset' is ignored: without 'mimic' the joint follows no other"},
     {"body a {}\nbody b {}\njoint (a b) { pitch=^2 @type=0@ }", "type=screw",
      "warning: joint 'a>b': attribute 'pitch' is ignored: only a screw has one"},
     {"body a { type=1 size=^[0 0 0@@] }", " 1",
      "warning: body 'a': attribute 'size' has three numbers: the radius, its fourth, is 0"},
     {"body a { X=<T ^d(90 0 0 @0@)> }", "1",
-     "warning: pose element 'd' about a zero axis turns nothing: give the axis x y z"},
+     "warning: pose element 'd' about a zero axis has no effect: give the axis x y z"},
     {"body a {}\nbody b {}\njoint j (a b) { type=hingeZ Q=^<T d(90 0 @1 0@)> }", "0 1",
-     "warning: joint 'j': attribute 'Q' is not a motion of this joint: only the part that is one counts"},
+     "warning: joint 'j': attribute 'Q' is not a motion of this joint: only the part that the joint can "
+     "perform counts"},
     {"body a {}\nbody b {}\njoint j (a b) { limits=[-1 1] q=@2@ }", "1",
      "warning: joint 'j': attribute 'q' starts outside the limits: 2 is not in -1 .. 1"},
     {"body a {}\nbody b {}\njoint j (a b) { limits=@[-90 90]@ }", "[-1 1]",
@@ -302,7 +307,8 @@ constexpr Row kNotes[] = {
      "warning: body 'a': unknown attribute 'mas' is ignored (did you mean 'mass'?)"},
     {"body a { @wheels@=4 }", "mass", "note: body 'a': unknown attribute 'wheels' is ignored"},
     {"body a { mass=1 inertia=@[1 1 5]@ }", "[1 1 1]",
-     "warning: body 'a': attribute 'inertia' belongs to no solid: one principal moment exceeds the sum of "
+     "warning: body 'a': attribute 'inertia' is physically impossible: one principal moment exceeds the sum "
+     "of "
      "the "
      "others"},
     {"body a { @@size=^[1 1 1] }", "type=0 ",

@@ -168,10 +168,9 @@ TEST_F(OrsRobot, SaysWhatIsWrong) {
                    "main.ors:3:11: urdf 'a': found 2 parents, wanted one body, or none");
   EXPECT_REX_ERROR(read("urdf a (x) { file='../robots/arm/arm.urdf' }"),
                    "urdf 'a': unknown parent: found 'x'");
-  EXPECT_REX_ERROR(
-      parseOrs("urdf a { file='arm.urdf' }", "f"),
-      "f:1:15: urdf 'a': file: found a scene that was given as text, wanted no robots of other files: "
-      "only scenes in files have them");
+  EXPECT_REX_ERROR(parseOrs("urdf a { file='arm.urdf' }", "f"),
+                   "f:1:15: urdf 'a': file: found a scene that was given as text, wanted no robots from "
+                   "other files: only scenes in files can have them");
   std::string many;
   for (int i = 0; i < 65; ++i)
     many += "urdf { file='../robots/arm/arm.urdf' prefix=p" + std::to_string(i) + "_ }\n";

@@ -238,7 +238,7 @@ TEST(OrsWriter, RefusesWhatTheFormatCannotSay) {
   EXPECT_REX_ERROR(
       refused([](SceneSpec& s) { s.bodies[1].name = "left arm"; })(),
       "f:2:1: body 'left arm': not a name in .ors: found 'left arm', wanted a word of at most 256 "
-      "bytes without blanks and any of ,;()[]{}=!<>\"'#-, and without // or /* in front");
+      "bytes without blanks and any of ,;()[]{}=!<>\"'#-, not starting with // or /*");
   EXPECT_REX_ERROR(refused([](SceneSpec& s) { s.bodies[0].name = ""; })(),
                    "f:1:1: body '': not a name in .ors");
   EXPECT_REX_ERROR(refused([](SceneSpec& s) { s.bodies[0].name = "-1"; })(), "body '-1': not a name");
@@ -258,7 +258,7 @@ TEST(OrsWriter, RefusesWhatTheFormatCannotSay) {
                        s.joints.back().child = s.bodies.back().name;
                      }
                    })(),
-                   "as .ors it could not be read again: too many joints: wanted at most 1000");
+                   "written as .ors, it could not be read back: too many joints: wanted at most 1000");
   EXPECT_REX_ERROR(refused([](SceneSpec& s) { s.bodies[0].name = "world"; })(),
                    "body 'world': found the name of the world itself, wanted another name");
   EXPECT_REX_ERROR(refused([](SceneSpec& s) { s.bodies[1].shapes[0].meshFile = ""; })(),

@@ -61,7 +61,7 @@ TEST(ScaledMesh, RefusesWhatIsNoSize) {
   EXPECT_REX_ERROR(scaledMesh(mesh, {1, 0, 1}, "a.stl"),
                    "wanted numbers from 1e-9 to 1e9, or their negatives");
   EXPECT_REX_ERROR(scaledMesh(mesh, {1, -2e6, 1}, "a.stl"),
-                   "a.stl: mesh, scaled: found a vertex at 2000000 m, wanted at most 1e6 m");
+                   "a.stl: scaled mesh: found a vertex at 2000000 m, wanted at most 1e6 m");
 }
 
 }  // namespace rex::scaled_mesh_test

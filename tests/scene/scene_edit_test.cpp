@@ -74,8 +74,8 @@ TEST(InitialPose, SaysWhichCoordinatesAreWrong) {
   SceneSpec spec = smallTree();
   spec.joints[0].mimic = "second";
   EXPECT_REX_ERROR(initialPose(spec, "b2"),
-                   "joint 'first': mimic: found 'second', wanted a joint that mimics none, with as many "
-                   "coordinates");
+                   "joint 'first': mimic: found 'second', wanted a joint that mimics no other and has "
+                   "as many coordinates");
   spec.joints[0].mimic = "first";
   EXPECT_REX_ERROR(initialPose(spec, "b1"), "joint 'first': mimic: found 'first'");
   spec.joints[0].mimic = "nobody";
@@ -167,14 +167,14 @@ TEST(ReconfigureRoot, SaysWhatCannotBeTurned) {
   spec.joints[2].lower = Eigen::VectorXd::Constant(7, -1);
   spec.joints[2].upper = Eigen::VectorXd::Constant(7, 1);
   EXPECT_REX_ERROR(reconfigureRoot(spec, "b3"),
-                   "joint 'third': cannot be turned round: found limits of a free joint, wanted none");
+                   "joint 'third': cannot be reversed: found limits of a free joint, wanted none");
   spec.joints[0].parent = "world";
   EXPECT_REX_ERROR(reconfigureRoot(spec, "b1"),
-                   "joint 'first': cannot be turned round: found a joint of the world");
+                   "joint 'first': cannot be reversed: found a joint of the world");
   spec = smallTree();
   spec.joints[0].type = spec.joints[1].type = JointType::kBall;
   EXPECT_REX_ERROR(reconfigureRoot(spec, "b1"),
-                   "joint 'first': cannot be turned round: found several coordinates that mimic");
+                   "joint 'first': cannot be reversed: found a mimic with several coordinates");
 }
 
 TEST(GlueBodies, HoldsABodyAndLetsItGoAgain) {

@@ -61,7 +61,7 @@ TEST_F(SceneMeshes, AreNotTooManyTogether) {
   for (int i = 1; i <= 4097; ++i) text += "shape { type=3 mesh='m" + std::to_string(i) + ".off' }\n";
   EXPECT_REX_ERROR(
       readOrs(scene(text), {.allowMissingMeshes = true}),
-      ":4097:21: shape '': mesh: found the 4097th file of meshes, wanted at most 4096 different ones "
+      ":4097:21: shape '': mesh: found mesh file number 4097, wanted at most 4096 different ones "
       "in a scene");
   std::ofstream cloud(folder_.path() / "meshes/cloud.ply");
   cloud << "ply\nformat ascii 1.0\nelement vertex 300000\nproperty float x\nproperty float y\n"
@@ -72,11 +72,10 @@ TEST_F(SceneMeshes, AreNotTooManyTogether) {
   for (int i = 1; i <= 20; ++i)
     text += "shape { type=3 mesh='meshes/cloud.ply' meshscale=" + std::to_string(i) + " }\n";
   EXPECT_EQ(readOrs(scene(text)).spec.worldShapes.size(), 20u);
-  EXPECT_REX_ERROR(
-      readOrs(scene(text + "shape { type=3 mesh='meshes/cloud.ply' meshscale=21 }")),
-      ":21:21: shape '': mesh '" + (folder_.path() / "meshes/cloud.ply").string() +
-          "': all meshes up to here: found 6300000 vertices, wanted at most 6000000 in all files "
-          "and scales of a scene");
+  EXPECT_REX_ERROR(readOrs(scene(text + "shape { type=3 mesh='meshes/cloud.ply' meshscale=21 }")),
+                   ":21:21: shape '': mesh '" + (folder_.path() / "meshes/cloud.ply").string() +
+                       "': all meshes so far: found 6300000 vertices, wanted at most 6000000 in all files "
+                       "and scales of a scene");
 }
 
 TEST_F(SceneMeshes, StandWhereTheFilePutsThem) {
@@ -143,7 +142,7 @@ TEST_F(SceneMeshes, ThatAreMissingMayBecomeBoxes) {
   EXPECT_EQ(toString(file.notes[0]),
             (folder_.path() / "scene.ors").string() +
                 ":1:22: warning: mesh 'pyramit.off' of 'meshes' was not " +
-                "found (did you mean 'pyramid.off'?); boxes of 0.1 m stand for what is missing; wanted " +
+                "found (did you mean 'pyramid.off'?); boxes of 0.1 m replace what is missing; wanted " +
                 (folder_.path() / "meshes/pyramit.off").string());
   EXPECT_EQ(compile(file.spec).shapes().size(), 2u);
 }
@@ -158,7 +157,7 @@ TEST_F(SceneMeshes, ThatAreMissingShareAWarningInAPackageOrFolder) {
   EXPECT_THAT(
       toString(file.notes[0]),
       testing::HasSubstr("scene.ors:1:21: warning: 3 meshes of package://dog were not found, the first "
-                         "is 'dae/base.dae'; boxes of 0.1 m stand for what is missing; wanted one of "));
+                         "is 'dae/base.dae'; boxes of 0.1 m replace what is missing; wanted one of "));
   EXPECT_THAT(toString(file.notes[1]),
               testing::HasSubstr(":2:21: warning: mesh 'x.stl' of the folder of the scene was not found"));
 }

@@ -83,7 +83,7 @@ TEST(SrdfReader, WarnsOfPairsThatAreGivenTwice) {
   EXPECT_EQ(
       notesOf(
           "<disable_collisions link1='base' link2='hand'/>\n<enable_collisions link1='base' link2='hand'/>"),
-      "arm.srdf:3:1: warning: <robot>: <enable_collisions>: the pair 'base' and 'hand' is enabled and "
+      "arm.srdf:3:1: warning: <robot>: <enable_collisions>: the pair 'base' and 'hand' is both enabled and "
       "disabled: disabled counts; the first stands at arm.srdf:2:1");
   EXPECT_THAT(notesOf("<disable_default_collisions link='hand'/><disable_default_collisions link='hand'/>"),
               HasSubstr("'hand' is given twice"));
@@ -92,7 +92,7 @@ TEST(SrdfReader, WarnsOfPairsThatAreGivenTwice) {
 TEST(SrdfReader, SaysInOneNoteWhatElseThereIs) {
   EXPECT_EQ(notesOf("<group name='a'><chain base_link='base' tip_link='hand'/></group>\n<group name='b'/>\n"
                     "<end_effector name='e'/><virtual_joint name='v'/>"),
-            "arm.srdf:2:1: note: of an SRDF only collisions are read: <end_effector>, <group> (2 times), "
+            "arm.srdf:2:1: note: only the collisions of an SRDF are read: <end_effector>, <group> (2 times), "
             "<virtual_joint> skipped");
 }
 
@@ -113,10 +113,9 @@ TEST(SrdfReader, RefusesWithThePlace) {
                    "arm.srdf:2:40: <robot>: <enable_collisions>: one link: found 'hand', wanted two links");
   EXPECT_REX_ERROR(withSrdf("<disable_default_collisions link=''/>"),
                    "arm.srdf:2:35: <robot>: <disable_default_collisions>: attribute 'link': found nothing");
-  EXPECT_REX_ERROR(
-      withSrdf("<link name='base'/>"),
-      "arm.srdf:2:1: not an SRDF: found <link>, a part of a URDF, wanted a semantic description, as "
-      "<disable_collisions>");
+  EXPECT_REX_ERROR(withSrdf("<link name='base'/>"),
+                   "arm.srdf:2:1: not an SRDF: found <link>, a part of a URDF, wanted a semantic "
+                   "description, such as <disable_collisions>");
   EXPECT_REX_ERROR(
       withSrdf("<group name='${side}_arm'/>"),
       "arm.srdf:2:14: this is xacro, not yet SRDF: found '${side}_arm', wanted plain SRDF: run 'xacro "
@@ -158,10 +157,10 @@ TEST_F(SrdfFile, MustBeThereWhereItIsAskedFor) {
   write("arms.srdf", "<robot name='arm'/>");
   EXPECT_REX_ERROR(
       readArm({.srdf = in("arm.srdf")}),
-      "arm.srdf: cannot read who may collide: found no such file, wanted an SRDF file (did you mean "
+      "arm.srdf: cannot read the collision settings: found no such file, wanted an SRDF file (did you mean "
       "'arm.urdf' or 'arms.srdf'?)");
   fs::create_directory(in("arm.srdf"));
-  EXPECT_REX_ERROR(readArm(), "cannot read who may collide: found a folder");
+  EXPECT_REX_ERROR(readArm(), "cannot read the collision settings: found a folder");
 }
 
 TEST(SrdfWriter, WritesWhatIsReadAgain) {

@@ -86,7 +86,7 @@ TEST(UrdfMessages, OfXml) {
        "not well-formed XML: undefined entity: found '&pi;', wanted &amp; where the text has a bare &"},
       {"<robot/>@<robot/>", "not well-formed XML: junk after document element"},
       {"@<!DOCTYPE robot [<!ENTITY a 'b'>]>\n<robot/>",
-       "a document type: found <!DOCTYPE, wanted none: entities of one's own are not read"},
+       "a document type: found <!DOCTYPE, wanted none: custom entities are not read"},
       {"@<?xml version='1.0' encoding='UTF-16'?><robot/>",
        "encoding of the file: found 'UTF-16', wanted UTF-8, US-ASCII or ISO-8859-1"},
       {"@<?xml version='1.0' encoding='koi8-r'?><robot/>",
@@ -120,7 +120,7 @@ TEST(UrdfMessages, OfLimits) {
       {"<robot>@<" + std::string(257, 'a') + "/></robot>",
        "name too long: found 257 bytes, wanted at most 256"},
       {"<robot>@<a " + std::string(257, 'a') + "=''/></robot>",
-       "name of an attribute too long: found 257 bytes, wanted at most 256"},
+       "attribute name too long: found 257 bytes, wanted at most 256"},
       {"<robot>" + joints + "@<joint/><joint/></robot>",
        "<robot>: too many <joint>: found 1002, wanted at most 1000"},
       {"<robot>" + numbered(0, 1001) + "@<link/></robot>",
@@ -248,7 +248,7 @@ TEST(UrdfMessages, OfJoints) {
       {two("<joint name='j' type='fixed'><parent link='arm'/><child link='@hnad'/></joint>"),
        "joint 'j': unknown child: found 'hnad', wanted the name of a link (did you mean 'hand'?)"},
       {two("<joint name='j' type='fixed'><parent link='arm'/><child link='@arm'/></joint>"),
-       "joint 'j': parent and child are one link: found 'arm', wanted two links"},
+       "joint 'j': parent and child are the same link: found 'arm', wanted two links"},
       {joint("continuous", "<axis xyz='@0 0 0'/>"),
        "joint 'j': <axis>: attribute 'xyz': found '0 0 0', wanted a direction"},
       {joint("continuous", "@<axis/>"), "joint 'j': <axis>: attribute 'xyz' is missing"},
@@ -278,7 +278,7 @@ TEST(UrdfMessages, OfMimics) {
       {mimic("continuous", "<mimic joint='@jj'/>"),
        "joint 'k': mimic: found 'jj', wanted the name of a joint (did you mean 'j'?)"},
       {mimic("continuous", "<mimic joint='@k'/>"),
-       "joint 'k': mimic: found 'k', which mimics 'k', wanted a joint that mimics none"},
+       "joint 'k': mimic: found 'k', which mimics 'k', wanted a joint that mimics no other"},
       {mimic("fixed", "<mimic joint='@j'/>"), "joint 'k': mimic: found 'j'" + wanted},
       {mimic("floating", "<mimic joint='@j'/>"), "joint 'k': mimic: found 'j'" + wanted},
       {joint("planar", "@<mimic joint='j'/>"),
@@ -291,7 +291,7 @@ TEST(UrdfMessages, OfMimics) {
            "<joint name='k' type='continuous'><parent link='b'/><child link='c'/><mimic joint='j'/></joint>\n"
            "<joint name='l' type='continuous'><parent link='c'/><child link='d'/><mimic "
            "joint='@k'/></joint>"),
-       "joint 'l': mimic: found 'k', which mimics 'j', wanted a joint that mimics none"},
+       "joint 'l': mimic: found 'k', which mimics 'j', wanted a joint that mimics no other"},
   });
 }
 
@@ -315,10 +315,10 @@ TEST(UrdfMessages, OfStrictReadings) {
           {joint("fixed", "@<mimic joint='j'/>"),
            "joint 'j': <mimic>: found a joint of type 'fixed', wanted revolute, continuous or prismatic"},
           {followed("0", "1", "2", "3"),
-           "joint 'k': limits: found joint 'j' may be nowhere: 2 > 1, wanted limits that both joints can "
-           "keep"},
+           "joint 'k': limits: found joint 'j' has no position left: 2 > 1, wanted limits that both joints "
+           "can satisfy"},
           {followed("0", "1", "1", "3"),
-           "joint 'k': limits: found joint 'j' may only be at 1, wanted limits that both joints can keep"},
+           "joint 'k': limits: found joint 'j' may only be at 1, wanted limits that both joints can satisfy"},
       },
       {.strict = true});
 }
@@ -326,12 +326,12 @@ TEST(UrdfMessages, OfStrictReadings) {
 TEST(UrdfMessages, OfTrees) {
   check({
       {third("<parent link='c'/><child link='@b'/>"),
-       "joint 'k': link 'b' already has a parent: found joint 'j', wanted one joint into each link"},
+       "joint 'k': link 'b' already has a parent: found joint 'j', wanted one joint leading to each link"},
       {robot("<link name='a'/><link name='b'/>\n@<link name='c'/>\n<joint name='j' type='fixed'>"
              "<parent link='a'/><child link='b'/></joint>"),
-       "links that no joint holds together: found 'a', 'c', wanted one root"},
+       "links that no joint connects: found 'a', 'c', wanted one root"},
       {robot("<link name='0'/>@" + numbered(1, 10)),
-       "links that no joint holds together: found '0', '1', '2', '3', '4', '5', '6', '7', 2 more, wanted one "
+       "links that no joint connects: found '0', '1', '2', '3', '4', '5', '6', '7', 2 more, wanted one "
        "root"},
       {robot("<link name='a'/><link name='b'/><link name='c'/>\n"
              "@<joint name='j' type='fixed'><parent link='c'/><child link='b'/></joint>\n"
@@ -350,7 +350,7 @@ TEST(UrdfMessages, OfTrees) {
           "of type 'floating' below 'world'"},
          {robot("<link name='a'/><link name='b'/>@<joint name='world>a' type='fixed'><parent link='a'/>"
                 "<child link='b'/></joint>"),
-          "joint of the free base: found another joint 'world>a', wanted another name for that"}},
+          "joint of the free base: found another joint 'world>a', wanted another name for that joint"}},
         {.freeBase = true});
 }
 

@@ -57,7 +57,7 @@ std::vector<Fault> allFaults() {
   const std::string nameless =
       ", wanted package://PACKAGE/PATH; the path is looked up in the folders above "
       "the file";
-  const std::string stuck = ", wanted limits that both joints can keep; those of 'follow' are left out";
+  const std::string stuck = ", wanted limits that both joints can satisfy; those of 'follow' are left out";
   return {
       {kHead, "\n@", blanks},
       {kHead, " \t \r\n@", blanks},
@@ -71,13 +71,13 @@ std::vector<Fault> allFaults() {
        "shape 'base': mesh '{}/robot/meshes/clear.obj': a material: found full transparency, wanted one that "
        "can be seen; it is drawn opaque"},
       {kMesh, "<box size='1 1 1'/>@<sphere radius='1'/>",
-       "link 'base': <geometry>: two shapes: found <box> and <sphere>, wanted one; the first is taken"},
+       "link 'base': <geometry>: two shapes: found <box> and <sphere>, wanted one; the first is used"},
       {kMass, "@0", massless},
       {kMass, "@0e3", massless},
       {kMoments, "@<inertia ixx='0' iyy='0' izz='0' ixy='0' ixz='2.4e-35' iyz='0'/>",
-       negative + "-2.4e-35 kg m^2 is of the size of rounding and counts as 0"},
+       negative + "-2.4e-35 kg m^2 is within rounding error and counts as 0"},
       {kMoments, "@<inertia ixx='-5e-20' iyy='-6e-20' izz='0' ixy='0' ixz='0' iyz='0'/>",
-       negative + "-6e-20 and -5e-20 kg m^2 are of the size of rounding and count as 0"},
+       negative + "-6e-20 and -5e-20 kg m^2 are within rounding error and count as 0"},
       {kMoments, "@<inertia ixx='1' iyy='1' izz='1' ixy='2' ixz='0' iyz='0'/>",
        negative + "-1 kg m^2 is physically impossible and counts as 0"},
       {kMoments, "@<inertia ixx='-3' iyy='-.5' izz='2' ixy='0' ixz='0' iyz='0'/>",
@@ -95,7 +95,7 @@ std::vector<Fault> allFaults() {
       {kFollower, follower("@", "0", "1"),
        "joint 'follow': limits: found joint 'turn' may only be at 0" + stuck},
       {kFollower, follower("@", "-3", "-2"),
-       "joint 'follow': limits: found joint 'turn' may be nowhere: 2 > 1" + stuck},
+       "joint 'follow': limits: found joint 'turn' has no position left: 2 > 1" + stuck},
   };
 }
 
@@ -220,10 +220,9 @@ TEST(UrdfRepairs, TellOfRoundingThatIsNeverRefused) {
   for (const bool strict : {false, true}) {
     const SceneFile file = parseUrdf(text, "f", {.strict = strict});
     ASSERT_EQ(file.notes.size(), 1u);
-    EXPECT_EQ(
-        toString(file.notes[0]),
-        "f:1:59: warning: link 'a': <inertia>: a negative principal moment; -1e-09 kg m^2 is of the size "
-        "of rounding and counts as 0");
+    EXPECT_EQ(toString(file.notes[0]),
+              "f:1:59: warning: link 'a': <inertia>: a negative principal moment; -1e-09 kg m^2 is within "
+              "rounding error and counts as 0");
     EXPECT_EQ((*file.spec.bodies[0].inertia)(0, 0), 0);
   }
 }
@@ -294,7 +293,7 @@ TEST(UrdfRepairs, OfPublishedFiles) {
   const std::string kMassless =
       "<mass>: an inertia without mass: found 0, wanted a mass > 0 kg; the link has neither";
   const std::string kNegative = "<inertia>: a negative principal moment: wanted principal moments >= 0; ";
-  const std::string kRounding = " kg m^2 is of the size of rounding and counts as 0";
+  const std::string kRounding = " kg m^2 is within rounding error and counts as 0";
   const std::string kFixed =
       "<mimic>: found a joint of type 'fixed', wanted revolute, continuous or prismatic; it is ignored";
   const std::map<std::string, std::vector<std::string>> wanted = {
@@ -310,7 +309,7 @@ TEST(UrdfRepairs, OfPublishedFiles) {
         "icub_reduced.urdf:103:13: warning: link 'l_ankle_2': " + kNegative + "-1.35525e-20" + kRounding,
         "icub_reduced.urdf:479:13: warning: link 'r_ankle_2': " + kNegative + "-1.35525e-20" + kRounding,
         "icub_reduced.urdf:613:13: warning: link 'r_hip_2': " + kNegative +
-            "-5.42101e-20 and -5.42101e-20 kg m^2 are of the size of rounding and count as 0",
+            "-5.42101e-20 and -5.42101e-20 kg m^2 are within rounding error and count as 0",
         "icub_reduced.urdf:643:13: warning: link 'r_lower_leg': " + kNegative + "-6.11488e-21" + kRounding,
         "icub_reduced.urdf:756:13: warning: link 'r_upper_leg': " + kNegative + "-1.80242e-22" + kRounding}},
       {"kuka_iiwa.urdf", {"kuka_iiwa.urdf:67:20: warning: link 'lbr_iiwa_link_0': " + kMassless}},

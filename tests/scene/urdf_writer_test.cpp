@@ -232,8 +232,7 @@ TEST(UrdfWriter, NumbersBodiesOfOneName) {
   const SceneSpec spec = parseOrs("body a {}\nbody a {}\nbody a_2 {}\nbody a {}", "f").spec;
   const UrdfText text = writeUrdf(spec);
   ASSERT_EQ(text.notes.size(), 1u);
-  EXPECT_EQ(toString(text.notes[0]),
-            "f:2:1: note: bodies of a name that was taken got a number: 2, first 'a'");
+  EXPECT_EQ(toString(text.notes[0]), "f:2:1: note: bodies whose name was taken got a number: 2, first 'a'");
   std::vector<std::string> names;
   for (const BodySpec& body : again(spec).bodies) names.push_back(body.name);
   EXPECT_EQ(names, (std::vector<std::string>{"a", "a_3", "a_2", "a_4"}));
@@ -356,7 +355,7 @@ TEST(UrdfWriter, NotesWhatUrdfCannotSay) {
   EXPECT_EQ(shape("type=9 size=[1 1 1 .1]"), Notes{"rounded boxes became boxes: 'a'"});
   EXPECT_EQ(shape("type=2 size=[0 0 1 .1]"), Notes{"capsules became cylinders and spheres: 'a'"});
   EXPECT_EQ(shape("type=2 size=[0 0 1 .1] contact"),
-            (Notes{"bodies within four generations may collide where it is read again: 'a'",
+            (Notes{"bodies within four generations may collide when the file is read again: 'a'",
                    "capsules became cylinders and spheres: 'a'"}));
   EXPECT_EQ(shape("type=5 size=[1 1 1 0]"), Notes{"markers are left out: 'a'"});
   EXPECT_EQ(shape("type=7 mesh='a.obj'"), Notes{"point clouds are left out: 'a'"});
@@ -393,13 +392,14 @@ TEST(UrdfWriter, SaysWhatItCannotWrite) {
   unplaced.bodies = {{.name = "", .X_WB = {}}};
   EXPECT_REX_ERROR(writeUrdf(unplaced), "a body without a name: wanted a name");
   unplaced.bodies = {{.name = "a\x01", .X_WB = {}}};
-  EXPECT_REX_ERROR(writeUrdf(unplaced), "a name in URDF: found 'a\\x01', wanted characters of XML, in UTF-8");
+  EXPECT_REX_ERROR(writeUrdf(unplaced),
+                   "a name in URDF: found 'a\\x01', wanted characters that XML allows, in UTF-8");
   unplaced.bodies = {{.name = "Kn\xf6"
                               "chel",
                       .X_WB = {}}};
-  EXPECT_REX_ERROR(writeUrdf(unplaced), "wanted characters of XML, in UTF-8");
+  EXPECT_REX_ERROR(writeUrdf(unplaced), "wanted characters that XML allows, in UTF-8");
   EXPECT_REX_ERROR(writeUrdf(ors("body a {}\nbody b {}\njoint j (a b) { type=quatBall }")),
-                   "f:3:1: joint 'j': URDF has no ball joint: wanted three hinges, say");
+                   "f:3:1: joint 'j': URDF has no ball joint: wanted three hinges, for example");
   EXPECT_REX_ERROR(writeUrdf(ors("body a {}\nshape s (a) { type=ST_cone size=[0 0 1 .3] }")),
                    "f:2:33: shape 's': found a cone, which URDF lacks, wanted a cylinder or a mesh");
   EXPECT_REX_ERROR(writeUrdf(ors("body a {}\nbody b {}\nbody c {}\njoint j (a b) { type=free }\n"
@@ -421,14 +421,15 @@ TEST(UrdfWriter, RefusesWhatItsReaderRefuses) {
   EXPECT_EQ(again(chains(500)).joints.size(), 1000u);
   EXPECT_REX_ERROR(
       writeUrdf(chains(501)),
-      "as .urdf it could not be read again: <robot>: too many <joint>: found 1002, wanted at most "
+      "written as .urdf, it could not be read back: <robot>: too many <joint>: found 1002, wanted at most "
       "1000");
   const std::string longest(254, 'b');
   EXPECT_REX_ERROR(
       writeUrdf(
           parseOrs("body a {}\nbody " + longest + " {}\njoint j (a " + longest + ") { B=<T t(1 2 3)> }", "f")
               .spec),
-      "as .urdf it could not be read again: <link>: attribute 'name': found 260 bytes, wanted at most 256");
+      "written as .urdf, it could not be read back: <link>: attribute 'name': found 260 bytes, wanted at "
+      "most 256");
 }
 
 }  // namespace rex::urdf_writer_test
