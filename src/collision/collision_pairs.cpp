@@ -163,8 +163,7 @@ std::string overlapWarning(const Model& model, const PairVerdict& verdict) {
   const std::string a = nameOf(model, verdict.a), b = nameOf(model, verdict.b);
   return fmt::format(
       "'{0}' and '{1}' overlap at home by {2:.3g} m (shapes '{3}' and '{4}'), so their collisions are never "
-      "looked "
-      "at: <disable_collisions link1=\"{0}\" link2=\"{1}\"/> in an SRDF says that this is meant, "
+      "checked: <disable_collisions link1=\"{0}\" link2=\"{1}\"/> in an SRDF says that this is intended, "
       "<enable_collisions .../> lets them collide",
       a, b, verdict.depth, shapeLabel(model, verdict.deepest->a), shapeLabel(model, verdict.deepest->b));
 }
@@ -231,7 +230,7 @@ Diagnostics collisionWarnings(const Model& model) {
     if (!choice.b || !choice.mayCollide) continue;
     const PairVerdict verdict = judge.verdict(choice.a, *choice.b);
     if (verdict.reason != PairReason::kSamePart && verdict.reason != PairReason::kCannotMove) continue;
-    warn(fmt::format("'{}' and '{}' are enabled to no effect: {}", nameOf(model, choice.a),
+    warn(fmt::format("'{}' and '{}' are enabled, which has no effect: {}", nameOf(model, choice.a),
                      nameOf(model, *choice.b), toString(verdict, model)));
   }
   return warnings;

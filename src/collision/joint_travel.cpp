@@ -19,8 +19,8 @@ double turn(const Joint& joint, const VectorXd& from, const VectorXd& to) {
   const double least = (from + t * d).norm();
   if (!(least > 1e-6 * std::max(from.norm(), to.norm())))
     throw Error({.what = fmt::format("motion of joint '{}'", joint.name),
-                 .found = "a quaternion that is zero on the way",
-                 .wanted = "quaternions of both ends with a positive product"});
+                 .found = "a quaternion that becomes zero on the way",
+                 .wanted = "quaternions at both ends with a positive inner product"});
   return 2 * d.norm() / least;
 }
 

@@ -24,7 +24,7 @@ constexpr int kMostDimensions = 9;
 
 void requirePoints(const MatrixArg& points) {
   if (points.rows() < 1 || points.rows() > kMostDimensions)
-    throw Error({.what = "hull: size of the points",
+    throw Error({.what = "hull: dimension of the points",
                  .found = fmt::format("{}", points.rows()),
                  .wanted = fmt::format("1 to {}", kMostDimensions)});
   if (points.cols() > kMostFacetHullPoints)

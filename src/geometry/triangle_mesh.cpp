@@ -42,7 +42,7 @@ void requireParts(const std::vector<TriangleMesh::Part>& parts, std::size_t tria
   }
   if (next != triangleCount)
     throw Error({.what = "mesh",
-                 .found = fmt::format("parts of {} triangles together", next),
+                 .found = fmt::format("parts with {} triangles in total", next),
                  .wanted = fmt::format("all {}", triangleCount)});
 }
 
@@ -52,10 +52,10 @@ void requirePaint(const TriangleMesh::Paint& paint, const std::vector<TriangleMe
     return Error({.what = "mesh", .found = std::move(found), .wanted = std::move(wanted)});
   };
   if (!paint.points.empty() && paint.points.size() != vertexCount)
-    throw fail(fmt::format("{} points of textures", paint.points.size()),
+    throw fail(fmt::format("{} texture coordinates", paint.points.size()),
                fmt::format("{}, one for each vertex, or none", vertexCount));
   for (const Eigen::Vector2f& point : paint.points)
-    if (!point.allFinite()) throw fail("a point of textures that is not finite", "finite numbers");
+    if (!point.allFinite()) throw fail("a texture coordinate that is not finite", "finite numbers");
   for (const Texture& texture : paint.textures) {
     const auto width = static_cast<std::size_t>(std::max(texture.width, 0)),
                height = static_cast<std::size_t>(std::max(texture.height, 0));
@@ -67,7 +67,7 @@ void requirePaint(const TriangleMesh::Paint& paint, const std::vector<TriangleMe
   for (const TriangleMesh::Part& part : parts)
     if (part.texture && (*part.texture >= paint.textures.size() || paint.points.empty()))
       throw fail(fmt::format("a part with texture {}", *part.texture),
-                 fmt::format("one below {}, and points of it", paint.textures.size()));
+                 fmt::format("one below {}, and texture coordinates", paint.textures.size()));
 }
 
 template <typename T>

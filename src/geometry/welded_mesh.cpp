@@ -165,7 +165,7 @@ TriangleMesh weldedMesh(const std::vector<Vector3f>& positions, const std::vecto
   paint.points.clear();
   if (!given.empty() && given.size() != positions.size())
     throw Error({.what = "mesh",
-                 .found = fmt::format("{} points of textures", given.size()),
+                 .found = fmt::format("{} texture coordinates", given.size()),
                  .wanted = fmt::format("{}, one for each vertex, or none", positions.size())});
   const TriangleMesh::Part whole{.triangleCount = static_cast<Index>(triangles.size())};
   const Places places = findPlaces(positions);

@@ -193,7 +193,7 @@ arr& arr::operator+=(double x) {
 }
 
 ArrayRow& ArrayRow::operator=(const arr& x) {
-  requireSameSize("a row and what it is to be", arr(*this), x);
+  requireSameSize("a row and its new values", arr(*this), x);
   matrix_.values_.row(row_) = x.values_.transpose();
   return *this;
 }
@@ -233,12 +233,12 @@ arr operator*(const arr& x, const arr& y) {
   if (x.nd == 1 && y.nd == 1)
     throw Error({.what = "product of two vectors",
                  .found = "x * y",
-                 .wanted = "scalarProduct(x, y), or x % y number by number, or x * ~y"});
+                 .wanted = "scalarProduct(x, y), or x % y element by element, or x * ~y"});
   const Eigen::MatrixXd left = x.matrix(), right = y.matrix();
   if (left.cols() != right.rows())
     throw Error({.what = "sizes of a product",
                  .found = fmt::format("{} times {}", sizeOf(x), sizeOf(y)),
-                 .wanted = "as many columns as rows"});
+                 .wanted = "as many columns on the left as rows on the right"});
   if (y.nd == 1) return arr(Eigen::VectorXd(left * right));
   return arr(Eigen::MatrixXd(left * right));
 }

@@ -15,7 +15,7 @@ std::optional<std::string> textOf(const std::string& name) {
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     if (arguments[i] != "-" + name) continue;
     if (i + 1 == arguments.size())
-      throw rex::Error({.what = "parameter -" + name, .found = "nothing behind it", .wanted = "its value"});
+      throw rex::Error({.what = "parameter -" + name, .found = "nothing after it", .wanted = "its value"});
     return arguments[i + 1];
   }
   return std::nullopt;

@@ -63,7 +63,7 @@ void Simulator::watch(bool, const char* text) {
   ++drawn;
   if (drawn <= kMostPictures) simulator_.watch(fmt::format("watch-{:02}", drawn));
   if (drawn == kMostPictures + 1)
-    std::fprintf(stderr, "watch: %d pictures are drawn, later calls draw none\n", kMostPictures);
+    std::fprintf(stderr, "watch: %d pictures have been drawn; later calls draw none\n", kMostPictures);
 }
 
 }  // namespace rex::legacy

@@ -57,8 +57,8 @@ void requireMasses(const Model& model) {
     const Joint& joint = model[model[BodyId{model.links()[i].body}].joint];
     if (inertias[i] == 0) failForNoMass(model, joint);
     throw Error({.what = fmt::format("physics: joint '{}'", joint.name),
-                 .found = "less to move than numbers can hold",
-                 .wanted = fmt::format("{:g} kg or kg m^2 at least", kLeastInertia)});
+                 .found = "too little mass or inertia to move",
+                 .wanted = fmt::format("at least {:g} kg or kg m^2", kLeastInertia)});
   }
 }
 

@@ -68,7 +68,7 @@ Message Channel::receive() {
   while (filled_ < sizeof(Header)) filled_ += readSome();
   Header header;
   std::memcpy(&header, buffer_.data(), sizeof header);
-  if (header.magic != kMagic) throw ProtocolError("the message does not start as a message does");
+  if (header.magic != kMagic) throw ProtocolError("the message does not start with the mark of a message");
   if (header.size > kMaxBody) throw ProtocolError("the message is larger than 16 MB");
   const std::size_t total = sizeof header + header.size;
   if (buffer_.size() < total) buffer_.resize(total);

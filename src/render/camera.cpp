@@ -71,7 +71,8 @@ Camera framing(const Bounds& bounds, const Eigen::Vector3d& direction, double as
                  .wanted = "at least one"});
   if (!bounds.low.allFinite() || !bounds.high.allFinite()) throw fail("infinite bounds", "finite ones");
   if (!direction.allFinite() || direction.norm() == 0) throw fail("no view direction", "a finite vector");
-  if (!(aspect > 0) || !std::isfinite(aspect)) throw fail("a strange aspect", "width / height, positive");
+  if (!(aspect > 0) || !std::isfinite(aspect))
+    throw fail("a strange aspect ratio", "width / height, positive");
 
   Camera camera;
   camera.X_WC.R = axesLookingAgainst(direction.normalized());

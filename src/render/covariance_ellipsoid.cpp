@@ -24,7 +24,7 @@ Ellipsoid covarianceEllipsoid(const Eigen::Vector3d& mean, const Eigen::Matrix3d
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance);
   const Eigen::Vector3d variances = eigen.eigenvalues();
   if (variances.minCoeff() < -rounding)
-    throw fail(fmt::format("a variance of {} along one axis", variances.minCoeff()), "none below 0");
+    throw fail(fmt::format("a variance of {} along one axis", variances.minCoeff()), "variances >= 0");
   Ellipsoid ellipsoid{.X_WE = {.R = eigen.eigenvectors(), .p = mean}, .color = color};
   ellipsoid.X_WE.R.col(2) = ellipsoid.X_WE.R.col(0).cross(ellipsoid.X_WE.R.col(1));
   ellipsoid.radii = sigmas * variances.cwiseMax(0).cwiseSqrt();

@@ -13,7 +13,7 @@ namespace {
 [[noreturn]] void failForNothingSeen(const Film& film) {
   throw Error({.what = "the film shows nothing",
                .found = fmt::format("no solid, line or point in any of {} frames", film.size()),
-               .wanted = "a camera that sees some, see framing()"});
+               .wanted = "a camera that sees some of them; see framing()"});
 }
 
 }  // namespace

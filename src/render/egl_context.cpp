@@ -45,7 +45,7 @@ class EglContext final : public GlContext {
     load(library, "eglDestroyContext", destroy_);
     load(library, "eglGetError", error_);
     display_ = getDisplay_(kSurfacelessPlatform, nullptr, nullptr);
-    if (display_ == nullptr) throw failure("no display without a screen", kPackages);
+    if (display_ == nullptr) throw failure("no display that works without a screen", kPackages);
     if (initialize_(display_, nullptr, nullptr) == 0)
       throw failure("a display that does not start", kPackages);
     constexpr std::array<int, 7> kAttributes = {kMajorVersion, 3,   kMinorVersion, 3, kProfileMask,

@@ -119,7 +119,7 @@ void requireLayer(const Figure& figure, const Histogram& histogram, const std::s
     if (edges[i] <= edges[i - 1])
       throw Error({.what = name,
                    .found = fmt::format("edges[{}] = {} after {}", i, edges[i], edges[i - 1]),
-                   .wanted = "edges that ascend"});
+                   .wanted = "ascending edges"});
 }
 
 void requireLayer(const Figure& figure, const CovarianceEllipse& ellipse, const std::string& name) {

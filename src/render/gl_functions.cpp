@@ -22,7 +22,7 @@ GlFunctions loadGlFunctions(const GlContext& context) {
 void requireNoGlError(const GlFunctions& gl, const char* doing) {
   const GLenum code = gl.GetError();
   if (code == GL_NO_ERROR) return;
-  throw Error({.what = fmt::format("OpenGL failed {}", doing),
+  throw Error({.what = fmt::format("OpenGL failed while {}", doing),
                .found = code == GL_OUT_OF_MEMORY ? "too little memory" : fmt::format("error {:#x}", code)});
 }
 

@@ -30,7 +30,7 @@ GlProgram::GlProgram(const GlFunctions& gl, const std::string& vertexSource,
   if (linked == GL_TRUE) return;
   std::array<char, 1024> log{};
   gl.GetProgramInfoLog(id_, static_cast<GLsizei>(log.size()), nullptr, log.data());
-  throw Error({.what = "OpenGL refuses a shader of rex", .found = log.data()});
+  throw Error({.what = "OpenGL rejects a shader of rex", .found = log.data()});
 }
 
 void GlProgram::set(const char* name, double value) const {

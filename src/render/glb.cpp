@@ -33,7 +33,7 @@ std::vector<float> timesOf(const Film& film) {
       throw Error({.what = fmt::format("frame {} of a film", k),
                    .found = fmt::format("time {}", frame.time) +
                             (k > 0 ? fmt::format(" after {}", film[k - 1].time) : ""),
-                   .wanted = "finite seconds that increase from frame to frame, in single precision too"});
+                   .wanted = "finite seconds that increase from frame to frame, even in single precision"});
     times.push_back(time);
   }
   return times;

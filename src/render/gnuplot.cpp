@@ -17,7 +17,7 @@ std::string runGnuplot(const std::string& script, const std::string& name, doubl
     return Error({.what = "cannot draw figure '" + name + "'", .found = found, .wanted = wanted});
   };
   if (!run.started) throw fail(run.error, "gnuplot, Debian package gnuplot-nox");
-  if (run.timedOut) throw fail("gnuplot still at work", fmt::format("its end within {:g} s", patience));
+  if (run.timedOut) throw fail("gnuplot still running", fmt::format("a picture within {:g} s", patience));
   if (run.signal != 0) throw fail(fmt::format("signal {} that ended gnuplot", run.signal));
   if (!run.ok()) throw fail("gnuplot says: " + run.error);
   if (run.output.empty() || run.output.size() == kLargestFile) throw fail("no complete picture from gnuplot");

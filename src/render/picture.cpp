@@ -42,7 +42,7 @@ void requireSolid(const Solid& solid, std::size_t index) {
   require(solid.shape.extent.minCoeff() >= 0 && solid.shape.radius >= 0, thing + ", size",
           "a negative length", "lengths of at least 0");
   if (!usesMesh(solid.shape.type)) return;
-  require(!solid.shape.mesh.isEmpty(), thing, "a mesh without vertices", "one as of readMesh()");
+  require(!solid.shape.mesh.isEmpty(), thing, "a mesh without vertices", "one as returned by readMesh()");
   requireUsable(isUsable(solid.shape.mesh.halfBounds()), thing + ", mesh");
 }
 

@@ -30,7 +30,7 @@ void removeFrames(const fs::path& folder) {
   int next = 0;
   while (::unlink(frameFile(folder, next).c_str()) == 0) ++next;
   if (errno != ENOENT)
-    throw Error({.what = "cannot remove '" + frameFile(folder, next).string() + "' of an earlier film",
+    throw Error({.what = "cannot remove '" + frameFile(folder, next).string() + "' from an earlier film",
                  .found = std::strerror(errno)});
 }
 

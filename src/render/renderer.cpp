@@ -339,8 +339,8 @@ Image Renderer::draw(const Picture& picture, const Camera& camera) {
   Impl::Drawing drawing = impl_->draw(picture, camera);
   if (drawing.hasScene && !drawing.sceneSeen)
     throw Error({.what = "the picture shows nothing of the scene",
-                 .found = "all solids, lines and points outside of it",
-                 .wanted = "a camera that sees some, see framing()"});
+                 .found = "all solids, lines and points outside it",
+                 .wanted = "a camera that sees some of them; see framing()"});
   if (!drawing.hasScene && showsNothing(drawing.image))
     throw Error({.what = "the picture is blank",
                  .found = "nothing that stands out from the background",

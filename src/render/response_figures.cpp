@@ -15,7 +15,7 @@ void requireCounts(const char* what, std::size_t found, std::size_t wanted) {
 
 Figure bodeFigure(const char* title, const char* yLabel, double guide, const std::vector<double>& frequencies,
                   const std::vector<double>& values) {
-  requireCounts("numbers of a Bode plot", values.size(), frequencies.size());
+  requireCounts("values of a Bode plot", values.size(), frequencies.size());
   Figure figure{.title = title, .xLabel = "frequency [rad/s]", .yLabel = yLabel, .logX = true};
   figure.series = {{.x = frequencies, .y = values}};
   figure.horizontalLines = {{.at = guide}};
@@ -33,7 +33,7 @@ Figure bodePhaseFigure(const std::vector<double>& frequencies, const std::vector
 }
 
 Figure nyquistFigure(const std::vector<std::complex<double>>& values, double reach) {
-  requireCounts("numbers of a Nyquist plot", values.size(), values.size());
+  requireCounts("values of a Nyquist plot", values.size(), values.size());
   requirePositive("reach of a Nyquist plot", reach);
   Figure figure{.title = "Response in the complex plane",
                 .xLabel = "real part [1]",

@@ -97,9 +97,9 @@ void VideoEncoder::requireSuccess(const ProcessResult& result, bool tookAll) con
   std::string cause = result.error.substr(0, result.error.find('\n'));
   if (!result.started) cause = "cannot start ffmpeg: " + cause;
   if (result.timedOut)
-    cause = fmt::format("ffmpeg did not go on for {:g} s", options_.patience);
+    cause = fmt::format("ffmpeg made no progress for {:g} s", options_.patience);
   else if (result.signal != 0)
-    cause = fmt::format("ffmpeg ended by signal {}", result.signal);
+    cause = fmt::format("ffmpeg was ended by signal {}", result.signal);
   else if (cause.empty() && result.ok())
     cause = "ffmpeg ended before the last frame";
   else if (cause.empty())

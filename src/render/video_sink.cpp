@@ -29,12 +29,13 @@ std::string missingForVideo(const std::filesystem::path& file) {
   // Its exit code is 0 for unknown encoders too; known ones are described on standard output.
   const ProcessResult asked = runProcess({"ffmpeg", "-v", "error", "-h", "encoder=" + format.encoder});
   if (!asked.started)
-    return fmt::format("{} is missing because ffmpeg is (apt-get install ffmpeg)", file.string());
+    return fmt::format("{} is missing because ffmpeg is not installed (apt-get install ffmpeg)",
+                       file.string());
   if (!asked.ok())
     return fmt::format("{} is missing because ffmpeg does not work: {}", file.string(), failureOf(asked));
   if (asked.output.empty())
     return fmt::format(
-        "{} is missing because this ffmpeg has no encoder {} (that of apt-get install ffmpeg has)",
+        "{} is missing because this ffmpeg has no encoder {} (the one from apt-get install ffmpeg has it)",
         file.string(), format.encoder);
   return {};
 }
@@ -72,7 +73,7 @@ VideoSink::~VideoSink() = default;
 
 void VideoSink::take(const Image& frame) {
   if (impl_->format.evenSize && (frame.width < 2 || frame.height < 2))
-    throw Error({.what = "size of a video's frames",
+    throw Error({.what = "size of the frames of a video",
                  .where = {impl_->name},
                  .found = fmt::format("{} x {}", frame.width, frame.height),
                  .wanted = "at least 2 x 2 pixels"});

@@ -152,7 +152,7 @@ TEST(CollisionPairs, LeavesOutWhatOverlapsAtHomeAndSaysSo) {
   EXPECT_EQ(
       toString(warnings[0]),
       "r.urdf: warning: 'A' and 'C' overlap at home by 0.05 m (shapes 'A' and 'C'), so their collisions are "
-      "never looked at: <disable_collisions link1=\"A\" link2=\"C\"/> in an SRDF says that this is meant, "
+      "never checked: <disable_collisions link1=\"A\" link2=\"C\"/> in an SRDF says that this is intended, "
       "<enable_collisions .../> lets them collide");
   EXPECT_THAT(collidingPairs(model), IsEmpty());
 }
@@ -191,7 +191,7 @@ TEST(CollisionPairs, SaysWhatIsEnabledToNoEffect) {
   const Diagnostics warnings = collisionWarnings(model);
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_EQ(toString(warnings[0]),
-            "r.urdf: warning: 'A' and 'B' are enabled to no effect: fixed to each other");
+            "r.urdf: warning: 'A' and 'B' are enabled, which has no effect: fixed to each other");
 }
 
 // Coupled joints.

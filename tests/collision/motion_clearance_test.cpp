@@ -248,7 +248,7 @@ TEST(MotionClearance, RefusesQuaternionsThatMeetInZero) {
   const Model model = clock(JointType::kBall);
   const VectorXd q = Eigen::Vector4d(1, 0, 0, 0);
   EXPECT_REX_ERROR(motionClearance(model, ContactModel(model, kBoth), q, -q, 1e-3),
-                   "motion of joint 'axle': found a quaternion that is zero on the way");
+                   "motion of joint 'axle': found a quaternion that becomes zero on the way");
 }
 
 }  // namespace rex::motion_clearance_test

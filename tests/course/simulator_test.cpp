@@ -399,7 +399,8 @@ TEST_F(SimulatorTest, LeavesTheFramesWhereThereIsNoFfmpeg) {
     writeVideo(S, in("swing"), {.width = 64, .height = 48});
   }
   EXPECT_EQ(testing::internal::GetCapturedStderr(),
-            in("swing.mp4") + " is missing because ffmpeg is (apt-get install ffmpeg); the frames are in " +
+            in("swing.mp4") +
+                " is missing because ffmpeg is not installed (apt-get install ffmpeg); the frames are in " +
                 in("swing") + "\n");
   EXPECT_TRUE(fs::exists(in("swing/0000.png")));
   EXPECT_FALSE(fs::exists(in("swing.mp4")));

@@ -147,8 +147,9 @@ TEST(FacetHull, RefusesBadPoints) {
   MatrixXd broken = MatrixXd::Zero(3, 5);
   broken(2, 4) = std::nan("");
   EXPECT_REX_ERROR(facetHull(broken), "hull: point 4: number 2: found nan");
-  EXPECT_REX_ERROR(facetHull(MatrixXd(0, 5)), "hull: size of the points: found 0, wanted 1 to 9");
-  EXPECT_REX_ERROR(facetHull(MatrixXd::Zero(10, 5)), "hull: size of the points: found 10, wanted 1 to 9");
+  EXPECT_REX_ERROR(facetHull(MatrixXd(0, 5)), "hull: dimension of the points: found 0, wanted 1 to 9");
+  EXPECT_REX_ERROR(facetHull(MatrixXd::Zero(10, 5)),
+                   "hull: dimension of the points: found 10, wanted 1 to 9");
   EXPECT_REX_ERROR(facetHull(MatrixXd::Zero(2, 10'001)), "hull: found 10001 points, wanted at most 10000");
 }
 

@@ -49,7 +49,7 @@ TEST(TriangleMesh, NamesWhatIsWrong) {
                    {Part{.triangleCount = 1}, Part{.firstTriangle = 0, .triangleCount = 1}}),
       "mesh: found part 1 starting at triangle 0, wanted triangle 1, where the part before ends");
   EXPECT_REX_ERROR(TriangleMesh(kPositions, kNormals, kTriangles, {Part{.triangleCount = 1}}),
-                   "mesh: found parts of 1 triangles together, wanted all 2");
+                   "mesh: found parts with 1 triangles in total, wanted all 2");
 }
 
 }  // namespace rex::triangle_mesh_test

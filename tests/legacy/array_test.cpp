@@ -153,7 +153,7 @@ TEST(Array, RefusesSizesThatDoNotFit) {
   EXPECT_REX_ERROR(A.append(x),
                    "append: found a vector of 2 after a matrix of 2 x 3, wanted rows of the same length");
   EXPECT_REX_ERROR(x.append(A), "append");
-  EXPECT_REX_ERROR(A[0] = x, "sizes of a row and what it is to be");
+  EXPECT_REX_ERROR(A[0] = x, "sizes of a row and its new values");
   EXPECT_REX_ERROR(inverse(A), "inverse");
 }
 

@@ -330,7 +330,7 @@ TEST(Parameters, ComeFromTheCommandLine) {
   EXPECT_REX_ERROR(MT::getParameter<int>("tau", 1), "parameter -tau: found '.5', wanted a whole number");
   EXPECT_REX_ERROR(MT::getParameter<double>("name", 1), "parameter -name: found 'arm', wanted a number");
   EXPECT_REX_ERROR(MT::getParameter<int>("last", 1),
-                   "parameter -last: found nothing behind it, wanted its value");
+                   "parameter -last: found nothing after it, wanted its value");
 }
 
 TEST(Helpers, AreThere) {

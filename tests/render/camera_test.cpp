@@ -98,7 +98,7 @@ TEST(Camera, RejectsNonsense) {
                    "least one");
   box.include({0, 0, 0});
   EXPECT_REX_ERROR(framing(box, {0, 0, 0}, 1), "found no view direction");
-  EXPECT_REX_ERROR(framing(box, kDefaultView, 0), "found a strange aspect");
+  EXPECT_REX_ERROR(framing(box, kDefaultView, 0), "found a strange aspect ratio");
   box.include({0, 0, std::numeric_limits<double>::infinity()});
   EXPECT_REX_ERROR(framing(box, kDefaultView, 1), "found infinite bounds");
 }

@@ -60,7 +60,7 @@ TEST(CovarianceEllipsoid, NamesWhatIsWrong) {
                    "covariance ellipsoid: found a covariance that is not symmetric, wanted a symmetric one");
   bad(1, 0) = 2;
   bad(0, 1) = 2;
-  EXPECT_REX_ERROR(covarianceEllipsoid(zero, bad), "along one axis, wanted none below 0");
+  EXPECT_REX_ERROR(covarianceEllipsoid(zero, bad), "along one axis, wanted variances >= 0");
   bad(2, 2) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_REX_ERROR(covarianceEllipsoid(zero, bad), "found a mean or covariance that is not finite");
   EXPECT_REX_ERROR(covarianceEllipsoid(zero, good, 0),

@@ -57,7 +57,7 @@ TEST(DrawFilm, RefusesAFilmThatShowsNothing) {
   MemorySink sink;
   const char* message =
       "the film shows nothing: found no solid, line or point in any of 3 frames, wanted a camera that sees "
-      "some, see framing()";
+      "some of them; see framing()";
   EXPECT_REX_ERROR((drawFilm(film, away, renderer, sink), 0), message);
   EXPECT_REX_ERROR(drawStill(film, away, renderer), message);
   EXPECT_REX_ERROR(renderer.draw(film[0].picture, away), "the picture shows nothing of the scene");

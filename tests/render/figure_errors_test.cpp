@@ -90,7 +90,7 @@ TEST(FigureErrors, Histograms) {
   EXPECT_REX_ERROR(draw(figure),
                    "histogram 0: found 2 edges and 2 heights, wanted one more edge than heights");
   figure.histograms[0].edges = {0, 1, 1};
-  EXPECT_REX_ERROR(draw(figure), "histogram 0: found edges[2] = 1 after 1, wanted edges that ascend");
+  EXPECT_REX_ERROR(draw(figure), "histogram 0: found edges[2] = 1 after 1, wanted ascending edges");
   figure.histograms[0].edges = {0, 1, kNan};
   EXPECT_REX_ERROR(draw(figure), "found edges[2] = nan");
   figure.histograms[0] = {.heights = {kNan}};

@@ -245,7 +245,7 @@ TEST_F(FigureWithOtherGnuplot, ReportsItsFailureAndLeavesNoFile) {
   EXPECT_REX_ERROR(writeFigure(parabola(), folder_ / "a.png"), "a.png': found signal 9 that ended gnuplot");
   installGnuplot("exec /bin/sleep 600\n");
   EXPECT_REX_ERROR(internal::runGnuplot("plot x", "a.png", 0.2),
-                   "a.png': found gnuplot still at work, wanted its end within 0.2 s");
+                   "a.png': found gnuplot still running, wanted a picture within 0.2 s");
   installGnuplot("exit 0\n");
   EXPECT_REX_ERROR(writeFigure(parabola(), folder_ / "a.png"), "found no complete picture from gnuplot");
   EXPECT_FALSE(fs::exists(folder_ / "a.png"));

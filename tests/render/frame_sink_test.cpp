@@ -85,7 +85,7 @@ TEST(PngSequence, SaysWhyItCannot) {
                    "loop' for frames: found Too many levels of symbolic links");
   fs::create_directories(temporary.path() / "film" / "0000.png");
   EXPECT_REX_ERROR(addTo(temporary.path() / "film"),
-                   "film/0000.png' of an earlier film: found Is a directory");
+                   "film/0000.png' from an earlier film: found Is a directory");
 }
 
 TEST(PngSequence, LeavesNoHalfAFileOnAFullDisk) {
@@ -116,7 +116,8 @@ TEST(MakeFrameSink, TellsWhatIsMissing) {
     const ChangedPath nowhere;
     const MadeSink made = makeFrameSink(file);
     EXPECT_EQ(made.sink, nullptr);
-    EXPECT_EQ(made.missing, file.string() + " is missing because ffmpeg is (apt-get install ffmpeg)");
+    EXPECT_EQ(made.missing,
+              file.string() + " is missing because ffmpeg is not installed (apt-get install ffmpeg)");
   }
   for (const auto& [script, cause] :
        {std::pair{"echo 'no libx264.so' >&2; echo more >&2; exit 127", "no libx264.so"},
@@ -132,8 +133,8 @@ TEST(MakeFrameSink, TellsWhatIsMissing) {
   const MadeSink made = makeFrameSink(file);
   EXPECT_EQ(made.sink, nullptr);
   EXPECT_EQ(made.missing, file.string() +
-                              " is missing because this ffmpeg has no encoder libvpx-vp9 (that of apt-get "
-                              "install ffmpeg has)");
+                              " is missing because this ffmpeg has no encoder libvpx-vp9 (the one from "
+                              "apt-get install ffmpeg has it)");
   EXPECT_EQ(folderContent(temporary.path()), Names{"ffmpeg"});
 }
 

@@ -57,8 +57,9 @@ void breakEgl(const char* function) { ::setenv("REX_BROKEN_EGL", function, 1); }
 TEST(GlContext, TellsWhereEglFails) {
   const std::string start = "OpenGL by EGL (" REX_BROKEN_EGL "): found ";
   breakEgl("eglGetPlatformDisplay");
-  EXPECT_REX_ERROR(internal::makeEglContext({REX_BROKEN_EGL}, true),
-                   start + "no display without a screen (error 0x3001), wanted EGL, Debian packages libegl1");
+  EXPECT_REX_ERROR(
+      internal::makeEglContext({REX_BROKEN_EGL}, true),
+      start + "no display that works without a screen (error 0x3001), wanted EGL, Debian packages libegl1");
   breakEgl("eglInitialize");
   EXPECT_REX_ERROR(
       internal::makeEglContext({REX_BROKEN_EGL}, true),
@@ -125,7 +126,8 @@ TEST(GlContext, ListsMissingFunctions) {
 TEST(GlContext, TurnsOpenGlErrorsIntoOurs) {
   internal::GlFunctions gl;
   gl.GetError = [] { return GLenum{GL_INVALID_ENUM}; };
-  EXPECT_REX_ERROR(internal::requireNoGlError(gl, "testing"), "OpenGL failed testing: found error 0x500");
+  EXPECT_REX_ERROR(internal::requireNoGlError(gl, "testing"),
+                   "OpenGL failed while testing: found error 0x500");
   gl.GetError = [] { return GLenum{GL_OUT_OF_MEMORY}; };
   EXPECT_REX_ERROR(internal::requireNoGlError(gl, "testing"), "found too little memory");
   gl.GetError = [] { return GLenum{GL_NO_ERROR}; };
@@ -138,7 +140,7 @@ TEST(GlContext, ShowsWhyAShaderIsRefused) {
   context->makeCurrent();
   const internal::GlFunctions gl = internal::loadGlFunctions(*context);
   EXPECT_REX_ERROR(internal::GlProgram(gl, "#version 330 core\nvoid main() { oops }\n", ""),
-                   "OpenGL refuses a shader of rex: found");
+                   "OpenGL rejects a shader of rex: found");
 }
 
 // In a process of its own, because Mesa keeps the driver of the first context. `swr` in the environment would

@@ -560,7 +560,7 @@ TEST(Glb, RefusesWhatCannotBePlayed) {
   film[3].time = std::nextafter(film[2].time, 6);
   EXPECT_REX_ERROR(glbOf(film),
                    "frame 3 of a film: found time 5.500000000000001 after 5.5, wanted finite seconds that "
-                   "increase from frame to frame, in single precision too");
+                   "increase from frame to frame, even in single precision");
   film[3].time = std::numeric_limits<double>::quiet_NaN();
   EXPECT_REX_ERROR(glbOf(film), "frame 3 of a film: found time nan after 5.5");
   film[0].time = std::numeric_limits<double>::infinity();

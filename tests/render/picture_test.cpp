@@ -83,7 +83,7 @@ TEST(RequireDrawable, NamesWhatIsWrong) {
        },
        "solid 'hand', mesh: found a number that is not finite, or beyond 1e9"},
       {[](Picture& p) { p.solids[0].shape.type = ShapeType::kMesh; },
-       "solid 'hand': found a mesh without vertices, wanted one as of readMesh()"},
+       "solid 'hand': found a mesh without vertices, wanted one as returned by readMesh()"},
       {[](Picture& p) { p.polylines[0].points[1].z() = kNan; }, "polyline 0, point 1: found a number"},
       {[](Picture& p) { p.polylines[0].width = 0; },
        "polyline 0: found a size in pixels that is not positive"},

@@ -62,10 +62,10 @@ TEST(ResponseFigures, AreDrawn) {
 
 TEST(ResponseFigures, SayWhatIsWrong) {
   EXPECT_REX_ERROR(bodeMagnitudeFigure({}, {}),
-                   "numbers of a Bode plot: found no numbers, wanted at least one");
+                   "values of a Bode plot: found no numbers, wanted at least one");
   EXPECT_REX_ERROR(bodePhaseFigure({1, 2}, {1}),
-                   "numbers of a Bode plot: found a vector of size 1, wanted size 2");
-  EXPECT_REX_ERROR(nyquistFigure({}), "numbers of a Nyquist plot: found no numbers");
+                   "values of a Bode plot: found a vector of size 1, wanted size 2");
+  EXPECT_REX_ERROR(nyquistFigure({}), "values of a Nyquist plot: found no numbers");
   EXPECT_REX_ERROR(nyquistFigure({1.}, 0),
                    "reach of a Nyquist plot: found 0, wanted a positive, finite number");
   EXPECT_REX_ERROR(stepFigure({0, 1}, Eigen::MatrixXd::Zero(1, 3)),

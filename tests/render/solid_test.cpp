@@ -347,7 +347,7 @@ TEST(Renderer, RefusesPicturesWithoutTheScene) {
   Renderer renderer({.width = 64, .height = 48});
   const Camera away = lookAt({0, -3, 0.5}, {0, -6, 0}), here = lookAt({0, -3, 0.5}, {0, 0, 0});
   const char* message =
-      "the picture shows nothing of the scene: found all solids, lines and points outside of it";
+      "the picture shows nothing of the scene: found all solids, lines and points outside it";
   const std::vector<std::function<void(Picture&)>> things = {
       [](Picture& p) {
         p.solids.push_back(ball({0, 0, 0.5}, 0.3, kRed));

@@ -161,7 +161,7 @@ TEST_F(VideoSinkTest, RefusesWhatCannotBeAVideo) {
   {
     VideoSink sink(file("a.MP4"));
     EXPECT_REX_ERROR(sink.add(Image(1, 8)),
-                     "a.MP4: size of a video's frames: found 1 x 8, wanted at least 2 x 2 pixels");
+                     "a.MP4: size of the frames of a video: found 1 x 8, wanted at least 2 x 2 pixels");
     EXPECT_REX_ERROR(sink.finish(), "a.MP4: a film without frames");
   }
   EXPECT_EQ(folderContent(folder()), Names());
@@ -174,7 +174,7 @@ TEST_F(VideoSinkTest, SaysHowFfmpegEnded) {
        "cannot make the video: found boom"},
       {"head -c 100000 >/dev/null; exit 3", "found ffmpeg ended with exit code 3"},
       {"head -c 100000 >/dev/null", "found ffmpeg ended before the last frame"},
-      {"cat >/dev/null; kill -9 $$", "found ffmpeg ended by signal 9"}};
+      {"cat >/dev/null; kill -9 $$", "found ffmpeg was ended by signal 9"}};
   for (const auto& [script, message] : endings) {
     {
       VideoSink sink = fake(script);
@@ -189,7 +189,7 @@ TEST_F(VideoSinkTest, GivesUpAnFfmpegThatHangs) {
   for (const char* script : {"sleep 600 & sleep 600", "cat >/dev/null; sleep 600"}) {
     {
       VideoSink sink = fake(script, 0.3);
-      EXPECT_REX_ERROR(feed(sink), "ffmpeg did not go on for 0.3 s");
+      EXPECT_REX_ERROR(feed(sink), "ffmpeg made no progress for 0.3 s");
     }
     EXPECT_EQ(folderContent(folder()), Names{"ffmpeg"});
   }

@@ -113,7 +113,8 @@ TEST_F(Doctor, NamesThePackagesOfMissingPrograms) {
             "cannot draw figure 'test': found No such file or directory, wanted gnuplot, Debian package "
             "gnuplot-nox");
   EXPECT_EQ(diagnosis.status.at("videos"), "missing");
-  EXPECT_EQ(diagnosis.text.at("videos"), "film.mp4 is missing because ffmpeg is (apt-get install ffmpeg)");
+  EXPECT_EQ(diagnosis.text.at("videos"),
+            "film.mp4 is missing because ffmpeg is not installed (apt-get install ffmpeg)");
   const std::string table = rex({"doctor", "--gl", "osmesa"}).output;
   EXPECT_TRUE(table.ends_with("\nTo do: apt-get install ffmpeg g++ gnuplot-nox\n")) << table;
 }
