@@ -17,7 +17,8 @@ using namespace internal;
 constexpr std::string_view kPackage = "package://";
 constexpr std::string_view kFile = "file://";
 
-// Where the path within a package may lie: in a folder called like it above the scene, or in the root.
+// Where a path within a package may lie: in a folder named after the package above the scene, or in the
+// root.
 std::vector<fs::path> placesOf(const std::string& package, const fs::path& rest, const fs::path& folder,
                                const fs::path& root) {
   std::vector<fs::path> places;
@@ -27,11 +28,11 @@ std::vector<fs::path> placesOf(const std::string& package, const fs::path& rest,
     places.push_back(above / package / rest);
     if (above == top) break;
   }
-  if (!package.empty()) places.push_back(root / rest);  // it has been among them otherwise
+  if (!package.empty()) places.push_back(root / rest);  // otherwise it is among them already
   return places;
 }
 
-// Where the scene may have meant the file, links followed, of which only those in the root are looked at.
+// The paths, with links followed, at which the scene may mean the file. Only those inside the root count.
 std::vector<fs::path> inRoot(const std::vector<fs::path>& places, const fs::path& root) {
   std::vector<fs::path> inside;
   for (const fs::path& place : places)

@@ -27,7 +27,7 @@ namespace {
 using Eigen::Matrix4d;
 using Index = std::uint32_t;
 
-// assimp's own work on a mesh trusts its indices.
+// assimp's own post-processing trusts the indices of a mesh.
 void requireFaces(const std::string& name, const aiScene& scene) {
   std::size_t triangles = 0;
   for (const aiMesh* mesh : std::span(scene.mMeshes, scene.mNumMeshes))
@@ -48,7 +48,7 @@ float fromLinearLight(float c) {
   return c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1 / 2.4f) - 0.055f;
 }
 
-// None for the material that stands for none.
+// Empty for the default material, which stands for no material.
 std::optional<Eigen::Vector4f> colorOf(const aiMaterial& material, bool linearLight) {
   aiString name;
   aiColor4D c;
@@ -71,7 +71,7 @@ Matrix4d matrixOf(const aiMatrix4x4& m) {
   return matrix;
 }
 
-// To z up, from y up: that is glTF's way, and assimp's for DAE, where it has turned what points elsewhere.
+// From y up to z up: glTF has y up, and so does what assimp reads from DAE, which it turns if necessary.
 Matrix4d fromYUp() {
   Matrix4d turn;
   turn << 1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1;
@@ -83,7 +83,7 @@ class Textures {
  public:
   Textures(const aiScene& scene, const MeshFolder& folder) : scene_(scene), folder_(folder) {}
 
-  // That of a material; none also for one that cannot be had, which is noted.
+  // The texture of a material. Also empty if the texture cannot be read, which is noted.
   std::optional<Index> of(const aiMaterial& material) {
     aiString path;
     if (material.GetTexture(aiTextureType_BASE_COLOR, 0, &path) != AI_SUCCESS &&
@@ -129,7 +129,7 @@ class Textures {
       throw Error({.what = what, .found = "uncompressed pixels", .wanted = "PNG or JPEG"});
     }
     std::string name = path;
-    std::replace(name.begin(), name.end(), '\\', '/');  // of other systems
+    std::replace(name.begin(), name.end(), '\\', '/');  // from other systems
     if (std::optional<std::string> content = folder_.contentOf(name.c_str())) return *std::move(content);
     throw Error({.what = what,
                  .found = "no such file of at most 16 MiB",
@@ -144,10 +144,10 @@ class Textures {
   std::size_t pixels_ = 0;
 };
 
-// All meshes of a file, as its nodes place them, in one.
+// All meshes of a file in one, placed as its nodes say.
 class Collector {
  public:
-  // Without textures if they are null.
+  // Leaves out textures if `textures` is null.
   Collector(const std::string& name, const aiScene& scene, Textures* textures)
       : name_(name), scene_(scene), textures_(textures) {
     const std::string ending = endingOf(name);
@@ -172,7 +172,7 @@ class Collector {
  private:
   // Each node before its children, without recursion: a chain may be thousands long.
   void addNodes(const Matrix4d& top) {
-    std::vector<std::pair<const aiNode*, Matrix4d>> waiting;  // with the place of the parent
+    std::vector<std::pair<const aiNode*, Matrix4d>> waiting;  // with the pose of the parent
     if (scene_.mRootNode != nullptr) waiting.emplace_back(scene_.mRootNode, top);
     while (!waiting.empty()) {
       const auto [node, parent] = waiting.back();
@@ -233,11 +233,11 @@ class Collector {
   std::vector<Eigen::Vector3f> positions_;
   std::vector<TriangleMesh::Triangle> triangles_;
   std::vector<TriangleMesh::Part> parts_;
-  std::vector<Eigen::Vector2f> points_;  // of textures, one for each position
+  std::vector<Eigen::Vector2f> points_;  // texture coordinates, one for each position
 };
 
-// assimp tries its other readers on a file that the one for its ending declines, and what a file must not
-// hold is known for one kind only.
+// If the reader for the ending declines a file, assimp tries its other readers. But what a file must not
+// hold is checked for the kind of its ending only.
 void keepReadersOf(const std::string& ending, Assimp::Importer& importer) {
   for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
     const aiImporterDesc* const about = importer.GetImporterInfo(i);

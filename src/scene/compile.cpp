@@ -15,7 +15,7 @@
 namespace rex {
 namespace {
 
-// With only a mass given, the inertia of a solid sphere of 0.7 m radius: see share/doc/ors-format.md.
+// If only a mass is given: the inertia of a solid sphere of 0.7 m radius: see share/doc/ors-format.md.
 constexpr double kInertiaPerMass = 0.2;
 
 [[noreturn]] void fail(const SourceLocation& where, std::string what, std::string found, std::string wanted,
@@ -32,8 +32,8 @@ bool commute(const JointMovement& a, const JointMovement& b) {
   return (a.kind == Kind::kSlider && b.kind == Kind::kSlider) || a.axis.cross(b.axis).isZero(1e-12);
 }
 
-// The twists of a joint: kParent stands for its frame F, kChild for its frame M. In one of the two each is
-// constant; where both would do, M leads to cheaper Jacobians.
+// The twists of a joint: kParent stands for its frame F, kChild for its frame M. Each twist is constant in
+// one of the two; if it is constant in both, M leads to cheaper Jacobians.
 std::array<DegreeOfFreedom, 6> freedomsOf(const JointMovements& all) {
   std::array<DegreeOfFreedom, 6> freedoms{};
   for (const JointMovement& one : all) {
@@ -63,7 +63,7 @@ std::array<DegreeOfFreedom, 6> freedomsOf(const JointMovements& all) {
   return freedoms;
 }
 
-// The same twist seen from a body in which the frame it is given in has the pose X.
+// The same twist seen from a body in which its frame has the pose X.
 DegreeOfFreedom seenThrough(const Pose& X, const DegreeOfFreedom& freedom) {
   const Eigen::Vector3d angular = X.R * freedom.angular;
   return {angular, X.R * freedom.linear - angular.cross(X.p), freedom.frame};
@@ -143,7 +143,7 @@ class TreeBuilder {
     if (order.size() < spec_.bodies.size()) failAtLoop();
   }
 
-  // Every body that was not reached descends from a loop: walk upwards until a body comes again.
+  // Every body that was not reached descends from a loop: walk upwards until a body is met again.
   [[noreturn]] void failAtLoop() const {
     std::vector<bool> reached(spec_.bodies.size());
     for (const int i : tree_.bodyOrder) reached[static_cast<std::size_t>(i)] = true;
@@ -168,7 +168,7 @@ class TreeBuilder {
   const SceneSpec& spec_;
   Tree tree_;
   std::vector<std::vector<int>> outgoing_;  // per body: children in the order of their joints
-  std::vector<int> ofWorld_;                // the same of the world
+  std::vector<int> ofWorld_;                // the same for the world
 };
 
 void checkBody(const BodySpec& body) {
@@ -286,7 +286,7 @@ struct Coordinates {
   int nv = 0;
 };
 
-// Of one side of a joint, nq: those of the spec, or `none` each.
+// The nq limits of a joint on one side: those of the spec, or `none` for each.
 Eigen::VectorXd limitsOf(const Eigen::VectorXd& given, int nq, double none) {
   return given.size() > 0 ? given : Eigen::VectorXd::Constant(nq, none);
 }
@@ -307,14 +307,15 @@ Coordinates indexCoordinates(std::vector<Joint>& joints, const std::vector<const
   return all;
 }
 
-// Joints of one coordinate follow one another at any ratio, of several only as the same type does.
+// Joints with one coordinate follow one another at any ratio. Those with several follow only their own
+// type, without ratio or offset.
 bool canFollow(const JointSpec& follower, const JointSpec& target) {
   if (!target.mimic.empty()) return false;
   if (positionCount(follower.type) == 1 && positionCount(target.type) == 1) return true;
   return follower.type == target.type && follower.mimicRatio == 1 && follower.mimicOffset == 0;
 }
 
-// Keeps the coordinate that a joint follows to where its own limits hold too.
+// Narrows the limits of the followed coordinate such that the limits of the follower hold, too.
 void narrowLimits(const JointSpec& spec, const Joint& joint, Coordinates& all) {
   if (joint.ratio == 0) return;  // it stands still
   const auto followed = [&](const Eigen::VectorXd& own) {
@@ -366,7 +367,7 @@ void shareCoordinates(std::vector<Joint>& joints, const std::vector<const JointS
   }
 }
 
-// Throws Error for a name that no body has, and for a pair of one body.
+// Throws Error if no body has the name, and if both bodies of a pair are the same.
 PairChoice resolved(const CollisionChoice& choice,
                     const std::unordered_map<std::string, BodyId>& bodyByName) {
   const auto bodyOf = [&](const std::string& name) {

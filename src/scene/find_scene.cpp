@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace internal;
 
-// A robot that has meshes has a folder of its own.
+// A robot with meshes has a folder of its own.
 std::vector<fs::path> scenesIn(const fs::path& library) {
   std::vector<fs::path> scenes;
   std::error_code ignored;
@@ -33,7 +33,7 @@ std::vector<fs::path> scenesIn(const fs::path& library) {
   return scenes;
 }
 
-// A path leads to what lies there, a bare name also to the scenes of the course.
+// A path means the file that lies there, a bare name may also mean a scene of the course.
 [[noreturn]] void failAtPath(const fs::path& scene) {
   throw Error({.what = fmt::format("there is no scene '{}'", scene.string()),
                .wanted = "an .ors, .urdf or .xml file",

@@ -9,7 +9,8 @@
 namespace rex::mesh {
 namespace {
 
-// A mesh on its way between processes: for each of its lists a count and the elements as they lie in memory.
+// A mesh as it is passed between processes: for each of its lists a count, then the elements as they lie in
+// memory.
 void addCount(std::string& bytes, std::uint64_t count) {
   bytes.append(reinterpret_cast<const char*>(&count), sizeof count);
 }
@@ -41,7 +42,7 @@ std::string toBytes(const TexturedMesh& read) {
   return bytes;
 }
 
-// Believes no count: a process that a file has harmed may say anything.
+// Trusts no count: a process that a file has corrupted may send anything.
 std::uint64_t takeCount(std::string_view& bytes) {
   std::uint64_t count = 0;
   if (bytes.size() < sizeof count) {

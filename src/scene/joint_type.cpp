@@ -13,7 +13,8 @@ namespace {
 using Kind = JointMovement::Kind;
 using Reordered = JointReversal::Coordinate;
 
-// What a movement turns about or goes along: an axis of F, the joint's own, or that by a screw's rise.
+// What a movement turns about or moves along: an axis of F, the axis of the joint, or that axis scaled by
+// the rise of a screw.
 enum class Way { kX, kY, kZ, kAxis, kRise };
 
 struct Step {
@@ -31,16 +32,16 @@ constexpr Step move(int coordinate, Way way, const char* part = "") {
 }
 constexpr Step quaternion(int coordinate) { return {.kind = Kind::kQuaternion, .coordinate = coordinate}; }
 
-/// All that is known of a joint type. Moves of a type stand together: no turn parts them.
+/// All that is known about a joint type. Its translations are adjacent: no rotation comes between them.
 struct Row {
   const char *name, *ors, *urdf = "";
   std::array<Step, 4> steps{};             ///< up to the first that is fixed
   std::optional<JointType> reversed{};     ///< as JointReversal says; empty: the same
   std::array<Reordered, 4> coordinates{};  ///< of JointReversal
-  bool halfTurn = false;                   ///< its X_FC: half a turn about x - y makes -y of x and -x of y
+  bool halfTurn = false;  ///< its X_FC is half a turn about x - y, which maps x to -y and y to -x
 };
 
-// The table of joint types. The compiler names this place where one is missing.
+// The table of joint types. If one is missing, the compiler points here.
 constexpr Row rowOf(JointType type) {
   using enum JointType;
   using enum Way;
@@ -114,7 +115,7 @@ Eigen::Vector3d directionOf(Way way, const Eigen::Vector3d& axis, double pitch) 
   return Eigen::Vector3d::Zero();
 }
 
-// Of positions, or of velocities, by what a quaternion has of them.
+// The number of positions or of velocities, depending on how many a quaternion counts as.
 int coordinateCount(JointType type, int ofQuaternion) {
   int count = 0;
   for (const Step& step : rowOf(type).steps)
@@ -123,13 +124,13 @@ int coordinateCount(JointType type, int ofQuaternion) {
   return count;
 }
 
-// Signed angle of the part of R that turns about the unit vector a, in (-pi, pi].
+// Signed angle, in (-pi, pi], of the part of R that turns about the unit vector a.
 double angleAbout(const Eigen::Vector3d& a, const Eigen::Matrix3d& R) {
   const Quaternion q = quaternionFromRotation(R);
   return wrapAngle(2 * std::atan2(a.dot(q.tail<3>()), q[0]));
 }
 
-// Of one turn its angle, of two turns about axes a and b at a right angle both.
+// Sets the angle of one turn, or the angles of two turns about perpendicular axes a and b.
 void setAngles(const JointMovements& all, const Eigen::Matrix3d& R, Eigen::VectorXd& q) {
   const JointMovement *first = nullptr, *second = nullptr;
   for (const JointMovement& one : all)

@@ -18,7 +18,7 @@ struct Place {
   Pose X_LA{};
 };
 
-// The frame with that z axis, which joints are brought to.
+// A frame with that z axis; the axes of joints are aligned with z.
 Pose frameAlong(const Eigen::Vector3d& z) {
   const Eigen::Vector3d x = z.unitOrthogonal();
   Pose X;
@@ -26,7 +26,7 @@ Pose frameAlong(const Eigen::Vector3d& z) {
   return X;
 }
 
-// The kind of link for a movement; a turn with a rise is a screw. None for what is not a link of its own.
+// The kind of link for a movement; a turn with a rise is a screw. Empty for what is not a link of its own.
 std::optional<Kind> kindOf(const JointMovement& movement, bool hasRise) {
   switch (movement.kind) {
     case JointMovement::Kind::kFixed:
@@ -41,7 +41,7 @@ std::optional<Kind> kindOf(const JointMovement& movement, bool hasRise) {
   return {};
 }
 
-// Appends the links of a joint. Returns the place of its child.
+// Appends the links of a joint. Returns where its child is attached.
 Place append(const Joint& joint, const Place& parent, std::vector<Link>& links) {
   Place at{parent.link, parent.X_LA * joint.X_PF};
   const JointMovements all = movements(joint);

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kLargestNeighbour = 16u << 20;
 
-// Bytes in memory, its own or of others.
+// Bytes in memory, either owned or borrowed.
 class Bytes : public Assimp::IOStream {
  public:
   explicit Bytes(std::string_view bytes) : bytes_(bytes) {}
@@ -64,7 +64,7 @@ std::optional<std::string> MeshFolder::contentOf(const char* name) const {
 
 void MeshFolder::Close(Assimp::IOStream* stream) { delete stream; }
 
-// Empty unless it is a file of the folder.
+// Empty unless it is a file in the folder.
 fs::path MeshFolder::find(const char* name) const {
   if (folder_.empty()) return {};
   std::error_code problem;

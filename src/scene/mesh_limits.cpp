@@ -32,7 +32,7 @@ void requireNodes(std::size_t deep, const std::string& name) {
          fmt::format("at most {}", kMostNodesDeep));
 }
 
-// assimp waits for ever for the end of a list that holds anything else.
+// assimp searches forever for the end of a list that holds anything else.
 void requireIndices(std::string_view text, const std::string& name) {
   const std::size_t end = text.find_first_not_of("0123456789 \t\r\n");
   if (end != std::string_view::npos && text[end] != '<')
@@ -55,7 +55,8 @@ void checkCollada(std::string_view xml, const std::string& name) {
   }
 }
 
-// The JSON of a binary glTF file, its first part, between whose sizes and the file's assimp does not compare.
+// The JSON of a binary glTF file, which is its first chunk. assimp does not check the sizes of chunks
+// against the size of the file.
 std::string_view jsonOfGlb(std::string_view bytes, const std::string& name) {
   constexpr std::size_t kHead = 12, kPartHead = 8;
   std::string_view json, rest = bytes.substr(std::min(kHead, bytes.size()));
@@ -90,7 +91,7 @@ const Json& at(const Json& parent, const char* key) {
   return parent.is_object() && found != parent.end() ? *found : kNone;
 }
 
-// How much of each accessor a primitive asks for: its corners are copied for each that uses them.
+// How many elements of an accessor a primitive uses. They are copied for each primitive that uses them.
 std::size_t countOf(const Json& accessors, const Json& index) {
   if (!index.is_number_unsigned() || !accessors.is_array() || index.get<std::size_t>() >= accessors.size())
     return 0;
@@ -112,7 +113,7 @@ void checkGltf(std::string_view text, const std::string& name) {
       requireCount(vertices, name);
       requireCount(corners, name, 3 * kMostTriangles);
     }
-  // An upper bound of what may stand below each other.
+  // An upper bound on how deep nodes may be nested.
   std::size_t parents = 0;
   for (const Json& node : at(json, "nodes")) parents += at(node, "children").empty() ? 0 : 1;
   requireNodes(parents, name);

@@ -30,7 +30,7 @@ std::string_view nextLine(std::string_view& text) {
   return line;
 }
 
-// How many triangles a face of an OBJ file becomes, after its first word.
+// How many triangles a face of an OBJ file becomes; the line without its first word.
 std::size_t trianglesOf(std::string_view corners) {
   std::size_t count = 0;
   while (!nextWord(corners).empty()) ++count;
@@ -52,7 +52,7 @@ struct PlyElement {
   std::vector<bool> isList{};  // of its properties
 };
 
-// "property float x" and "property list uchar int vertex_indices", after the first word.
+// "property float x" and "property list uchar int vertex_indices", without the first word.
 bool readPlyProperty(std::string_view line, std::vector<PlyElement>& elements) {
   const std::string_view type = nextWord(line);
   const bool isList = type == "list";
@@ -61,7 +61,7 @@ bool readPlyProperty(std::string_view line, std::vector<PlyElement>& elements) {
   return (isList || isPlyType(type, false)) && !nextWord(line).empty();
 }
 
-// assimp fills up what a text does not hold.
+// assimp makes up elements that are missing in a text.
 void checkPlyText(std::string_view body, const std::vector<PlyElement>& elements, const std::string& name) {
   std::size_t whole = 0;
   for (const PlyElement& element : elements) {
@@ -85,7 +85,7 @@ bool isNumber(std::string_view word) {
   return problem == std::errc() && end == word.data() + word.size();
 }
 
-// A face of an OFF file: how many corners, and which. assimp takes another vertex for one that there is not.
+// A face of an OFF file: how many corners, and which. If a vertex does not exist, assimp takes another one.
 void requireCorners(std::string_view face, std::size_t vertices, const std::string& name) {
   constexpr const char* kDigits = "0123456789";
   for (std::size_t left = numberAt(nextWord(face)); left > 0; --left) {
@@ -105,7 +105,7 @@ std::size_t numberAt(std::string_view text) {
   return problem == std::errc::result_out_of_range ? ~std::size_t{0} : number;
 }
 
-// assimp looks through all materials and groups for each that it meets.
+// assimp searches all materials and groups again for each one that it reads.
 void checkObj(std::string_view bytes, const std::string& name) {
   constexpr std::size_t kMostGroups = 10'000;
   std::size_t groups = 0, triangles = 0;
@@ -147,8 +147,8 @@ void checkPly(std::string_view bytes, const std::string& name) {
   if (isText) checkPlyText(bytes, elements, name);
 }
 
-// Of a text that is cut off, assimp keeps what it has. A binary file may begin as a text does, but has the
-// length that it says.
+// assimp keeps what it has of a text that is cut off. A binary file may begin like a text, but has the
+// length that it declares.
 void checkStl(std::string_view bytes, const std::string& name) {
   constexpr std::size_t kHead = 80, kTriangle = 50;
   std::uint32_t triangles = 0;
@@ -162,8 +162,8 @@ void checkStl(std::string_view bytes, const std::string& name) {
   if (nextWord(last) != "endsolid") fail(name, "STL file", "no 'endsolid' at the end", "a complete file");
 }
 
-// After its counts, an OFF file has a line for each vertex, and one for each face. assimp runs over words
-// that are no numbers, and keeps what it has of a file that is cut off.
+// After its counts, an OFF file has a line for each vertex, and one for each face. assimp skips words that
+// are not numbers, and keeps what it has of a file that is cut off.
 void checkOff(std::string_view bytes, const std::string& name) {
   std::size_t counts[3] = {}, known = 0, rows = 0;  // vertices, faces, edges
   while (!bytes.empty()) {

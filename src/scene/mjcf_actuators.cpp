@@ -72,7 +72,7 @@ JointSpec& jointIn(const Tag& tag, const char* attribute, BodyTree& tree) {
   return tree.joints[found->second].spec;
 }
 
-// A joint that follows another, q = ratio * q of that + offset, before chains are resolved.
+// A joint that follows another: q = ratio * (q of the other) + offset, before chains are resolved.
 struct Follower {
   Tag tag;
   std::string leader;
@@ -81,7 +81,7 @@ struct Follower {
 
 double startOf(const JointSpec& joint) { return joint.q0.size() > 0 ? joint.q0[0] : 0; }
 
-// Nothing for what rex cannot follow.
+// Empty for what rex cannot represent.
 std::optional<Follower> followerOf(const Styled& styled, BodyTree& tree) {
   const Tag& tag = styled.own();
   const JointSpec& joint = jointIn(tag, "joint1", tree);
@@ -111,7 +111,7 @@ std::optional<Follower> followerOf(const Styled& styled, BodyTree& tree) {
   return Follower{tag, leader.name, a[1], startOf(joint) + a[0] - a[1] * startOf(leader)};
 }
 
-// Follows those that a leader follows itself; false where they go round.
+// Follows the chain of leaders to its end; false if it is a loop.
 bool resolve(const std::string& joint, Follower& follower, const std::map<std::string, Follower>& followers) {
   for (std::size_t steps = 0; steps <= followers.size(); ++steps) {
     if (follower.leader == joint) return false;

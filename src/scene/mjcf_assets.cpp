@@ -37,7 +37,7 @@ void readMesh(const Styled& styled, const Compiler& compiler, MjcfAssets& assets
     if ((mesh.scale.array() == 0).any())
       giver.failAt("scale", xml::quoted(giver.text("scale")), "3 numbers that are not 0");
   }
-  // Without a name it is called like its file.
+  // Without a name it is named after its file.
   const bool isNamed = tag.has("name") || !tag.has("file");
   const std::string name = isNamed ? tag.nameIn("name") : fs::path(tag.text("file")).stem().string();
   add(tag, name, isNamed ? "name" : "file", std::move(mesh), assets.meshes);

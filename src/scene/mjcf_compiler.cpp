@@ -65,7 +65,7 @@ Eigen::Matrix3d orientationBy(const std::string& attribute, const Tag& tag, cons
   return rotationFromQuaternion(given / length);
 }
 
-// What the tag itself says counts more than its defaults.
+// The attributes of the tag itself override its defaults.
 Eigen::Matrix3d orientationOf(const Styled& styled, const Compiler& compiler) {
   const std::string* only = nullptr;
   for (const bool ofOwn : {true, false}) {

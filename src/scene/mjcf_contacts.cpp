@@ -11,7 +11,7 @@ bool mayTouch(const Touch& a, const Touch& b) {
   return (a.contype & b.conaffinity) != 0 || (b.contype & a.conaffinity) != 0;
 }
 
-// The bodies that have something to touch, in the order of the file, the world last.
+// The bodies with shapes in contact, in the order of the file, and the world last.
 std::vector<std::string> touchable(const BodyTree& tree) {
   std::vector<std::string> names;
   for (const BodyInFile& one : tree.bodies)
@@ -21,7 +21,7 @@ std::vector<std::string> touchable(const BodyTree& tree) {
   return names;
 }
 
-// Of each body the one that carries all that is fixed to each other; the world where that is fixed.
+// For each body, the one that carries the rigid group it belongs to: the world if the group is fixed.
 std::unordered_map<std::string, std::string> carriers(const BodyTree& tree) {
   std::unordered_map<std::string, std::string> carrierOf = {{kWorldName, kWorldName}};
   for (const BodyInFile& one : tree.bodies) {

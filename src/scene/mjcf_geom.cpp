@@ -12,7 +12,7 @@ const std::vector<std::string> kGeomTypes = {"sphere", "capsule", "cylinder", "b
                                              "mesh",   "plane",   "hfield",   "sdf"};
 enum GeomType { kSphere, kCapsule, kCylinder, kBox, kEllipsoid, kMesh, kPlane, kHeightField, kSdf };
 
-constexpr double kThickness = 1, kEndless = 50;  // of planes: they become boxes, metres
+constexpr double kThickness = 1, kEndless = 50;  // of planes, which become boxes; metres
 
 struct Sizes {
   int count;
@@ -37,7 +37,7 @@ Eigen::VectorXd sizeOf(const Styled& styled, GeomType type, bool hasEnds) {
   return size;
 }
 
-// From one end to the other: the pose in the middle, and half the way along z.
+// From one end to the other: the pose at the middle, and half the length along z.
 struct Span {
   Pose X;
   double half;
@@ -65,7 +65,7 @@ std::uint32_t bits(const Styled& styled, const char* attribute) {
   return static_cast<std::uint32_t>(static_cast<std::int64_t>(number));
 }
 
-// A colour of its own counts more than that of its material, unless it is what geoms have anyway.
+// A colour of its own overrides that of its material, unless it is the default colour of geoms.
 Eigen::Vector4d geomColor(const Styled& styled, const MjcfAssets& assets) {
   const Eigen::Vector4d usual(.5, .5, .5, 1);
   const Tag& giver = styled.giver("rgba");
@@ -128,7 +128,7 @@ bool readMesh(const Styled& styled, const MjcfAssets& assets, ShapeSpec& shape) 
   return true;
 }
 
-// Where and how large the geom is.
+// The pose and size of the geom.
 struct Extent {
   Pose X_BS;
   Eigen::Vector3d size;

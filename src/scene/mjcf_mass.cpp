@@ -17,7 +17,7 @@ Eigen::Matrix3d steiner(const Eigen::Vector3d& p) {
   return p.squaredNorm() * Eigen::Matrix3d::Identity() - p * p.transpose();
 }
 
-// Of density 1 about the centre, along the axes of the solid.
+// For density 1, about the centre and along the axes of the solid.
 MassProperties diagonal(double mass, const Eigen::Vector3d& moments) {
   return {mass, Eigen::Vector3d::Zero(), moments.asDiagonal()};
 }
@@ -67,7 +67,7 @@ MassProperties ofDensityOne(const Solid& solid, const std::vector<ShapeSpec>& sh
   return {};
 }
 
-// A scene given as text knows no mesh.
+// A scene given as text has no meshes.
 void requireMesh(const Solid& solid, const std::vector<ShapeSpec>& shapes) {
   if (!solid.mesh || shapes[*solid.mesh].meshMissing || !shapes[*solid.mesh].shape.mesh.isEmpty()) return;
   throw Error({.what = "<geom>: the mass of a mesh",
@@ -76,7 +76,7 @@ void requireMesh(const Solid& solid, const std::vector<ShapeSpec>& shapes) {
                .wanted = "an <inertial> of the body, or the model in a file"});
 }
 
-// With its mass, in the frame of the body; nothing of a mesh that encloses nothing.
+// The mass properties in the frame of the body; zero for a mesh that encloses no volume.
 MassProperties inBody(const Solid& solid, const std::vector<ShapeSpec>& shapes, Reading& reading) {
   requireMesh(solid, shapes);
   MassProperties all = ofDensityOne(solid, shapes);
@@ -94,7 +94,7 @@ MassProperties inBody(const Solid& solid, const std::vector<ShapeSpec>& shapes, 
   return all;
 }
 
-// Moments at least so large, and equal ones where no body has such.
+// Raises moments to the least one, and makes them equal if no body can have them.
 Eigen::Matrix3d bounded(const Eigen::Matrix3d& I, const Compiler& compiler) {
   if (compiler.leastMoment == 0 && !compiler.balancesMoments) return I;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(I);

@@ -20,7 +20,7 @@ const Known& knownOfModel() {
   return kKnown;
 }
 
-// The sections of a name, of all files.
+// The sections with that name in all files.
 std::vector<Tag> named(const std::vector<Tag>& sections, const char* name) {
   std::vector<Tag> found;
   for (const Tag& tag : sections)
@@ -36,7 +36,7 @@ void noteOption(const Tag& given) {
     tag.warn(tag.where("gravity"), "rex always computes with a gravity of 9.81 m/s^2 along -z");
 }
 
-// One warning for all joints whose start their ranges exclude.
+// One warning for all joints that start outside their ranges.
 void noteStarts(const std::vector<urdf::ReadJoint>& joints, Notes& notes) {
   const JointSpec* first = nullptr;
   int count = 0;

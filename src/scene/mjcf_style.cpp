@@ -10,7 +10,7 @@ namespace rex::mjcf {
 namespace {
 
 constexpr std::size_t kDeepestClass = 16;
-constexpr std::size_t kMostGuesses = 1000;  // names that a message may be near to
+constexpr std::size_t kMostGuesses = 1000;  // names among which a message looks for near ones
 constexpr const char* kMainClass = "main";
 
 const Known& knownOfDefault() {
@@ -59,7 +59,7 @@ const Tag& Styled::giver(const char* attribute) const {
 
 Defaults::Defaults() : main_(&classes_.emplace_back()) { byName_.emplace(kMainClass, main_); }
 
-// What later sections add to the main class does not reach classes that stand before them.
+// What later sections add to the main class does not affect classes defined before them.
 void Defaults::read(const Tag& tag, Files& files) {
   DefaultClass& own = classes_.emplace_back(DefaultClass{main_});
   const std::string name = tag.has("class") ? tag.nameIn("class") : kMainClass;

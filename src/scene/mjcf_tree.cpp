@@ -23,7 +23,7 @@ const Known& knownOfWorld() {
   return kKnown;
 }
 
-// A body as the file has it, before all names are known.
+// A body as it is in the file, before all names are known.
 struct BodyNode {
   Tag tag;
   Pose X_PB{};
@@ -79,7 +79,7 @@ class NodeReader {
  private:
   static bool isWorld(const BodyNode& body) { return body.name == kWorldName; }
 
-  // Reads what stands in a tag, seen from the body through the frames around it.
+  // Reads the contents of a tag. X_BF is the frame around it, seen from the body.
   void collect(const Tag& tag, const Known& known, const Pose& X_BF, const DefaultClass& style,
                BodyNode& body, std::size_t depth) {
     if (depth > kDeepestBody)
@@ -104,7 +104,7 @@ class NodeReader {
     } else {
       body.tag = given.of("<body>");
     }
-    // Of global coordinates X_PF is X_PW; a body that says nothing of its place has the world's frame then.
+    // With global coordinates X_PF is X_PW; a body without a pose then has the frame of the world.
     const Pose X_FB = poseOf(Styled(body.tag), compiler_);
     body.X_PB = X_PF * X_FB;
     const Pose X_BF = compiler_.global ? X_FB.inverse() : Pose{};
@@ -189,7 +189,7 @@ class NodeReader {
   std::unordered_map<std::string, SourceLocation> bodies_, joints_;  // that have names
 };
 
-// Names for things that have none.
+// Names for things without a name.
 class FreeNames {
  public:
   explicit FreeNames(const std::unordered_map<std::string, SourceLocation>& given) {
@@ -235,7 +235,7 @@ class TreeMaker {
     for (BodyNode& child : node.children) add(child, node.name);
   }
 
-  // Adds the body with its joints, and a body without mass between each two of them.
+  // Adds the body with its joints, and a massless body between consecutive ones.
   void hang(BodyNode& node, const std::string& parent) {
     requireFree(node, parent);
     std::vector<JointSpec> joints = node.joints;

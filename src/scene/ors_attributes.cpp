@@ -34,7 +34,7 @@ std::string rowOf(std::initializer_list<int> counts) {
   return number + (number.empty() ? "" : " or ") + arrays + " numbers";
 }
 
-// A long list of notes helps nobody and takes long to make.
+// A long list of notes helps nobody and takes a long time to make.
 bool isFull(Diagnostics& notes, const Place& where) {
   if (notes.size() == kMostNotes) notes.push_back({where, "further notes are left out"});
   return notes.size() > kMostNotes;

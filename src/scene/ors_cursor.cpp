@@ -12,13 +12,13 @@ namespace {
 
 constexpr std::string_view kBlank = " \t\r\n";
 
-// Whether a number that no double holds is too near to zero for one, rather than too far from it.
+// Whether a number that does not fit into a double is too close to zero, rather than too far from it.
 bool isTiny(const char* first, const char* last) {
   long double parsed = 0;
   return std::from_chars(first, last, parsed).ec == std::errc() && std::abs(parsed) < 1;
 }
 
-// How many bytes the letter of UTF-8 has that `text` begins with; 0: it begins with none.
+// The number of bytes of the UTF-8 character at the start of `text`; 0: there is none.
 std::size_t letterLength(std::string_view text) {
   const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
   const unsigned lead = byte(0), next = byte(1);
@@ -73,7 +73,8 @@ std::string Cursor::found() const {
   if (atEnd()) return "the end of the file";
   if (peek() == '\n' || peek() == '\r') return "the end of the line";
   std::size_t end = std::min({text_.find_first_of(" \t\r\n,;(){}[]<>=", at_ + 1), at_ + 40, text_.size()});
-  while (end < text_.size() && end > at_ + 37 && (text_[end] & 0xc0) == 0x80) --end;  // never half a letter
+  while (end < text_.size() && end > at_ + 37 && (text_[end] & 0xc0) == 0x80)
+    --end;  // never half a character
   return "'" + shown(text_.substr(at_, end - at_)) + "'";
 }
 

@@ -15,14 +15,14 @@
 namespace rex::ors {
 namespace {
 
-// In its shortest form, without a slash at the end; empty: the folder of the scene.
+// The folder in its shortest form, without a slash at the end; empty: the folder of the scene.
 std::string shortest(const std::filesystem::path& folder) {
   const std::filesystem::path path = (folder / "").lexically_normal();
   const std::string text = (path.has_filename() ? path : path.parent_path()).generic_string();
   return text == "." ? "" : text;
 }
 
-// Without the mark of UTF-8. Throws Error for what is not an .ors file at all.
+// The text without its byte order mark. Throws Error if it cannot be an .ors file.
 std::string_view requireOrs(std::string_view text, const std::string& file) {
   if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
     throw Error({.what = "text in UTF-16", .where = {file, 1, 1}, .wanted = "UTF-8"});

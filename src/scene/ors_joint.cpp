@@ -154,7 +154,7 @@ void noteStartOutside(const Attributes& attributes, const JointSpec& joint, Diag
   }
 }
 
-// Nothing moves any more: where the joint starts becomes part of its frame.
+// The joint no longer moves: its start becomes part of its frame.
 void fix(const Attributes& attributes, JointSpec& joint) {
   const bool isFree = joint.type != JointType::kRigid;
   const auto Q = isFree && !attributes.has("q") ? attributes.pose("Q") : std::nullopt;
@@ -170,7 +170,7 @@ std::string readMimic(const Attributes& attributes) {
   return attributes.text("mimic", "the name of a joint").value_or("");
 }
 
-// The same rules as those of compile(), which knows no attributes.
+// The same rules as in compile(), which does not know about attributes.
 void requireLeader(const Attributes& attributes, const JointSpec& joint, const JointSpec& leader) {
   const int count = positionCount(joint.type);
   if (!leader.mimic.empty()) {

@@ -60,7 +60,7 @@ std::optional<std::size_t> Merger::findSame(const Graph& attributes, const Node&
   return same == having.end() ? std::nullopt : std::optional(*same);
 }
 
-// Attributes are found by any of their keys, so an edited one takes its keys from all others.
+// Attributes are found by any of their keys, so an edited one takes its keys away from all others.
 void Merger::takeKeys(Graph& attributes, const Node& edit, std::optional<std::size_t> same) {
   for (const Word& key : edit.keys) {
     std::vector<std::size_t>& having = havingKey_[key.text];

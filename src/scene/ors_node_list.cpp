@@ -24,7 +24,7 @@ std::optional<int> NodeList::previous(std::size_t k) const {
   return nodes_[live_[live_.size() - k]].id;
 }
 
-// A parent that is counted back goes by its name, as in the name of a joint without one.
+// The name of a parent, also of one given by counting back; names of nameless joints consist of such names.
 std::string NodeList::nameOf(const Word& parent) const {
   if (!parent.node) return parent.text;
   const auto meant = std::lower_bound(nodes_.begin(), nodes_.end(), *parent.node,
@@ -32,13 +32,14 @@ std::string NodeList::nameOf(const Word& parent) const {
   return meant == nodes_.end() || meant->keys.empty() ? parent.text : meant->keys.back().text;
 }
 
-// What messages call a joint that has no name; empty for all else.
+// What messages call a joint without a name; empty for anything else.
 std::string NodeList::nameOfJoint(const Node& node) const {
   if (node.keys.size() != 1 || node.keys[0].text != "joint" || node.parents.size() != 2) return "";
   return nameOf(node.parents[0]) + ">" + nameOf(node.parents[1]);
 }
 
-// "(arm hand)". No statement has more than two; names of as many as there may be would take much memory.
+// "(arm hand)". A valid statement has at most two; the names of as many as a file may list would take much
+// memory.
 std::string NodeList::parentsOf(const Node& node) const {
   std::string text;
   for (const Word& parent : node.parents)
@@ -51,7 +52,7 @@ std::string NodeList::textOf(const Node& node) const {
   return keys + (keys.empty() || parents.empty() ? "" : " ") + parents;
 }
 
-// Parents are keys in brackets, which no other key has.
+// Parents count as keys in brackets, which occur in no other key.
 void NodeList::indexKeys() {
   const auto add = [&](const std::string& key) {
     std::vector<std::size_t>& having = havingKey_[key];
@@ -121,7 +122,7 @@ void NodeList::addTexts(std::size_t i, Index& firstOf) const {
   if (const std::string name = nameOfJoint(nodes_[i]); !name.empty()) firstOf.emplace("joint " + name, i);
 }
 
-// Only what has a name is recognised without its parents, and may so get others.
+// Only statements with a name are recognised without their parents, so that parents can be replaced.
 std::optional<std::size_t> NodeList::partnerOf(const Node& edit, const Index& firstOf) const {
   auto found = firstOf.find(textOf(edit));
   if (found == firstOf.end() && edit.keys.size() > 1) found = firstOf.find(joinedKeys(edit));

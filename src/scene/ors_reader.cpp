@@ -116,7 +116,7 @@ class Reader {
     return name.empty() ? role : fmt::format("{} '{}'", role, name);
   }
 
-  // The index of the body that is meant; none: the world.
+  // The index of the body that is meant; empty: the world.
   std::optional<std::size_t> bodyOf(const ors::Word& parent, const std::string& owner,
                                     const char* role) const {
     if (parent.node) {
@@ -283,7 +283,7 @@ class Reader {
          nearestNames(found, known));
   }
 
-  // A robot of URDF, with a prefix to its names, on a body or in the world.
+  // A URDF robot, with a prefix to its names, on a body or in the world.
   void readRobot(const Node& node) {
     const Attributes attributes(node, called("urdf", nameOf(node)));
     const std::string& owner = attributes.owner();
@@ -354,7 +354,7 @@ class Reader {
     for (CollisionChoice& choice : robot.collisionChoices) spec.collisionChoices.push_back(std::move(choice));
   }
 
-  // A joint whose attributes are not read yet: one may follow another that comes later.
+  // A joint whose attributes are not read yet, because it may follow a joint that comes later.
   struct Waiting {
     const Node* node;
     std::size_t index;
@@ -386,7 +386,7 @@ class Reader {
          fmt::format("'{}'", joint.mimic), "the name of a joint", nearestNames(joint.mimic, names));
   }
 
-  // What a joint calls the body, whose pose is X_WB.
+  // The name by which a joint refers to the body. Sets X_WB to the pose of the body.
   std::string connect(const ors::Word& parent, const std::string& owner, const char* role, Pose& X_WB) const {
     const auto index = bodyOf(parent, owner, role);
     if (!index) return kWorldName;
@@ -399,7 +399,7 @@ class Reader {
     return body.name;
   }
 
-  // In the name of a joint that has none.
+  // As it appears in the generated name of a joint.
   std::string nameOf(const ors::Word& parent) const {
     if (parent.node && worldNodes_.contains(*parent.node)) return kWorldName;
     const auto body = parent.node ? bodyOfNode_.find(*parent.node) : bodyOfNode_.end();
@@ -410,7 +410,7 @@ class Reader {
   const Assets* assets_;
   const ReadOptions& options_;
   std::size_t robots_ = 0;                        // statements 'urdf'
-  std::map<std::string, SceneSpec> robotOfFile_;  // by the files of these
+  std::map<std::string, SceneSpec> robotOfFile_;  // by file of the statement
   bool hasRule_ = false;                          // of collisions
   std::vector<Waiting> waiting_, followers_;
   std::unordered_map<std::string, std::size_t> firstOfName_, jointOfName_;

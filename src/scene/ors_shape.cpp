@@ -29,7 +29,7 @@ ShapeType readType(const Attributes& attributes, const Place& where, Diagnostics
   return kShapeTypes[*type];
 }
 
-// Whether the fourth number of its size matters, and a shape without it is likely a mistake.
+// Whether the fourth number of the size matters, so that leaving it out is probably a mistake.
 bool hasRadius(ShapeType type) {
   return type == ShapeType::kSphere || type == ShapeType::kCapsule || type == ShapeType::kCylinder ||
          type == ShapeType::kCone || type == ShapeType::kRoundedBox;

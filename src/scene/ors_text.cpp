@@ -18,13 +18,13 @@ std::string joined(const Eigen::Ref<const Eigen::VectorXd>& values) {
   return text;
 }
 
-// The same number without the last digits, if those come from rounding only.
+// The number without its last digits, if they are only rounding error.
 double neat(double value) {
   const double rounded = std::round(value * 1e9) / 1e9;
   return std::abs(rounded - value) <= kExact ? rounded : value;
 }
 
-// The turn about one coordinate axis, if R is one; in round degrees if they do.
+// R as a rotation about one coordinate axis, if it is one; in round degrees if they are exact enough.
 std::optional<std::string> degreesText(const Eigen::Matrix3d& R) {
   constexpr double kDegree = std::numbers::pi / 180;
   for (int i = 0; i < 3; ++i) {
@@ -40,7 +40,7 @@ std::optional<std::string> degreesText(const Eigen::Matrix3d& R) {
   return std::nullopt;
 }
 
-// In round numbers if they do.
+// In round numbers if they are exact enough.
 std::string quaternionText(const Eigen::Matrix3d& R) {
   const Quaternion q = quaternionFromRotation(R);
   const Quaternion rounded = (q * 1e6).array().round() / 1e6;

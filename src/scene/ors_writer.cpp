@@ -87,8 +87,8 @@ char letterOf(const Eigen::Vector3d& axis) {
   return '\0';
 }
 
-// Hinges and sliders are called after their axis; where it is none of x, y, z the attribute 'axis' turns that
-// of x.
+// Hinges and sliders are named after their axis. If it is none of x, y, z, they are named after x and have
+// an attribute 'axis'.
 bool isCalledAfterAxis(JointType type) { return type == JointType::kHinge || type == JointType::kSlider; }
 
 std::string typeName(const JointSpec& joint) {
@@ -107,7 +107,7 @@ std::string numbersText(const Eigen::VectorXd& values) {
   return values.size() == 1 ? numberText(values[0]) : arrayText(values);
 }
 
-// A joint that is called as it is read without a name needs none.
+// A joint with the name that the reader generates needs no name.
 std::string jointHead(const JointSpec& joint) {
   const bool isDefault = joint.name.empty() || joint.name == joint.parent + ">" + joint.child;
   if (!isDefault) requireName("joint", joint.name, joint.where);
@@ -116,7 +116,7 @@ std::string jointHead(const JointSpec& joint) {
 
 void addType(const JointSpec& joint, Parts& parts) {
   const std::string type = typeName(joint);
-  // A joint that mimics and gives no type has that of the joint it follows.
+  // A joint that mimics and has no type gets the type of the joint it follows.
   if (type != "hingeX" || !joint.mimic.empty()) parts.push_back("type=" + type);
   if (needsAxis(joint)) parts.push_back("axis=" + arrayText(joint.axis));
   if (joint.type == JointType::kScrew) parts.push_back("pitch=" + numberText(joint.pitch));
@@ -245,7 +245,7 @@ class Writer {
     return isName(shape.name) ? "shape " + shape.name : "shape";
   }
 
-  // A shape called like its body is written with it, if it comes first.
+  // The first shape is written as part of the body if it has the same name.
   void addBody(const BodySpec& body, std::vector<Line>& lines) {
     requireName("body", body.name, body.where);
     if (body.name == "world") {
@@ -254,7 +254,8 @@ class Writer {
                    .found = "the name of the world itself",
                    .wanted = "another name"});
     }
-    // A name means the first body that has it; the shapes of a further one count back to their body.
+    // A name means the first body that has it; the shapes of any other refer to their body by counting
+    // back.
     const bool isFirst = names_.insert(body.name).second;
     Line line{"body " + body.name, bodyParts(body)};
     const std::size_t own = !body.shapes.empty() && body.shapes[0].name == body.name ? 1 : 0;

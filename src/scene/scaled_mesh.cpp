@@ -31,7 +31,7 @@ TriangleMesh scaledMesh(const TriangleMesh& mesh, const Vector3d& scale, const s
   std::vector<Vector3f> normals(mesh.normals().begin(), mesh.normals().end());
   std::vector<TriangleMesh::Triangle> triangles(mesh.triangles().begin(), mesh.triangles().end());
   for (Vector3f& p : positions) p = p.cast<double>().cwiseProduct(scale).cast<float>();
-  // What is perpendicular to a surface stretches the other way round.
+  // Normals scale by the inverse.
   for (Vector3f& n : normals) n = n.cast<double>().cwiseQuotient(scale).normalized().cast<float>();
   if ((scale.array() < 0).count() % 2 == 1)
     for (TriangleMesh::Triangle& corners : triangles) std::swap(corners[1], corners[2]);

@@ -19,7 +19,7 @@ namespace {
                .wanted = std::move(wanted)});
 }
 
-// Of a scene that may be const or not.
+// For const and non-const scenes.
 template <class Spec>
 auto& bodyNamed(Spec& spec, const std::string& name) {
   std::vector<std::string> known;
@@ -103,7 +103,7 @@ void requireReversible(const SceneSpec& spec, const JointSpec& joint) {
   }
 }
 
-// X_FM(q)^-1 is again the motion of a joint: of one coordinate about the opposite axis.
+// X_FM(q)^-1 is the motion of a joint, too: with one coordinate, that about the opposite axis.
 void reverse(JointSpec& joint) {
   const JointReversal reversal = reversalOf(joint.type);
   const Pose X_PF = joint.X_MC.inverse() * reversal.X_FC;

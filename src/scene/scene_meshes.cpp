@@ -107,7 +107,7 @@ class Loader {
     }
   }
 
-  // Whether the file is there; if not, and that may be, a box takes the place of the shape.
+  // Whether the file exists. If it does not and missing files are allowed, a box replaces the shape.
   bool find(ShapeSpec& shape, const std::string& what) {
     const auto [known, isNew] = paths_.try_emplace(shape.meshFile);
     if (paths_.size() > kMostFiles)
@@ -145,7 +145,7 @@ class Loader {
     }
   }
 
-  // Shapes with the same file share its mesh, those with the same scale all of it.
+  // Shapes with the same file share its mesh, those with the same scale share the scaled one.
   const TriangleMesh& read(const ShapeSpec& shape) {
     const Eigen::Vector3d& scale = shape.meshScale;
     const std::string name = shape.meshPath.string();
@@ -182,8 +182,8 @@ class Loader {
                    .wanted = fmt::format("at most {} in a scene", kMostPixelsTogether)});
   }
 
-  // MeshLab's "Tr 1" and Collada's transparency of 0 are found in the files of robots that nobody wants
-  // invisible: some programs count transparency from the other end.
+  // MeshLab's "Tr 1" and Collada's transparency of 0 occur in files of robots that are meant to be visible:
+  // some programs write opacity instead of transparency.
   TriangleMesh seen(const TriangleMesh& mesh, const ShapeSpec& shape) {
     if (!hasInvisiblePart(mesh)) return mesh;
     const ErrorParts fault = {
@@ -196,7 +196,7 @@ class Loader {
     return withoutInvisibleParts(mesh);
   }
 
-  // A short scene may ask for many large meshes, or for one in many sizes.
+  // A short scene can request many large meshes, or one mesh in many sizes.
   void count(const TriangleMesh& mesh) {
     vertices_ += mesh.positions().size();
     if (vertices_ > kMostVerticesTogether)

@@ -18,7 +18,7 @@ using namespace urdf;
 
 constexpr std::size_t kLargestSrdf = 8u << 20;
 
-// What other programs read in an SRDF.
+// Tags of an SRDF that are for other programs.
 const std::vector<std::string> kOfOthers = {
     "group",         "group_state",    "end_effector", "virtual_joint",
     "passive_joint", "joint_property", "chained_to",   "link_sphere_approximation"};

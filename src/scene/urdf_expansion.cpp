@@ -18,7 +18,7 @@ namespace {
       {.what = fmt::format("joint '{}': {}", joint.name, what), .where = joint.where, .wanted = wanted});
 }
 
-// A link of the chain that stands for a joint: what is appended to its name, and how it moves.
+// A link of the chain that replaces a joint: what is appended to its name, and how it moves.
 struct Part {
   std::string_view suffix{};
   JointType type{};
@@ -47,8 +47,8 @@ std::vector<Part> partsOf(const JointSpec& joint) {
   return parts;
 }
 
-// Moves X_MC to the other side of the motion, where the motion allows it: all of its rotation, and of its
-// way what the motion does not turn.
+// Moves X_MC to the other side of the motion if the motion allows it: its whole rotation, and the part of
+// its translation that the motion does not rotate.
 bool absorbChildFrame(JointSpec& joint) {
   const Pose X = joint.X_MC;
   if (X.R.isIdentity(0) && X.p.isZero(0)) return true;
@@ -80,8 +80,8 @@ std::size_t lengthOf(const JointSpec& joint) {
   return parts.size() + (absorbChildFrame(last) ? 0 : 1);
 }
 
-// Coordinates count up breadth first, so chains that moving joints hang on must be of one length wherever
-// joints stand at one depth. Then all bodies of a depth still do, in their old order, and so do the joints.
+// Coordinates are numbered breadth-first. So chains at the same depth that carry moving joints must have
+// the same length: then bodies and joints at one depth stay at one depth, in their old order.
 class Levels {
  public:
   Levels() = default;
@@ -96,12 +96,12 @@ class Levels {
     }
   }
 
-  // How many links a chain of this length at a joint into `child` lacks.
+  // How many links are missing from a chain of this length at a joint to `child`.
   std::size_t missing(const std::string& child, std::size_t depth, std::size_t length) const {
     return carriers_.contains(child) ? lengths_[depth] - length : 0;
   }
 
-  // How many joints lie above a joint: roots are at the depth of what hangs on the world.
+  // The depth of a joint in the tree. A root counts as if a joint attached it to the world.
   std::size_t depthOf(const JointSpec& joint) const {
     std::size_t depth = 0;
     for (const JointSpec* at = &joint; at && at->parent != kWorldName; ++depth) {
@@ -188,7 +188,7 @@ class Expansion {
     return result_.bodies.back().name;
   }
 
-  // Part i of a joint: its own coordinate and limits, without place and parent.
+  // Part i of a joint: its own coordinate and limits, without pose and parent.
   JointSpec partOf(const JointSpec& joint, const Part& part, std::size_t i) const {
     JointSpec made = withMotion(joint, part);
     made.name = partNames_.at(joint.name)[i];
@@ -202,7 +202,7 @@ class Expansion {
     return made;
   }
 
-  // How a screw moves along its axis: with its turn.
+  // The translation of a screw along its axis, which follows its turn.
   JointSpec riseOf(const JointSpec& screw, const Part& part) const {
     const double rise = screw.pitch / (2 * std::numbers::pi);
     JointSpec made = screw;
@@ -241,7 +241,8 @@ class Expansion {
     }
   }
 
-  // With massless links that carry the frame on the child, if it needs one, and fill up the chain.
+  // Adds the last joint, with massless links that carry the frame on the child if it needs one, and that
+  // fill up the chain.
   void addLast(JointSpec joint, std::size_t fillers) {
     const std::string child = joint.child;
     Pose X_MC = joint.X_MC;

@@ -29,7 +29,7 @@ Eigen::Vector3d readAxis(const Tag& joint) {
   return axis;
 }
 
-// The plane of a planar joint stands across its axis; ours is that of x and y.
+// The plane of a planar joint is perpendicular to its axis; ours is the x-y plane.
 void turnPlane(JointSpec& joint) {
   const Eigen::Matrix3d R = rotationBetween(Eigen::Vector3d::UnitZ(), joint.axis);
   joint.X_PF.R *= R;
@@ -45,10 +45,10 @@ void readRange(const Tag& limit, JointSpec& joint) {
     return;
   }
   if (!limit.has("lower") && !limit.has("upper")) {
-    if (!joint.mimic.empty()) return;  // the other's range is meant
+    if (!joint.mimic.empty()) return;  // it has the range of the other
     limit.warn(limit.where(), "without 'lower' and 'upper' the joint stays at 0");
   }
-  // Larger numbers stand for no limit.
+  // Larger numbers mean that there is no limit.
   constexpr double kTwoTurns = 4 * std::numbers::pi, kLargestAngle = 1000;
   const double largest = std::max(std::abs(lower), std::abs(upper));
   if (joint.type == JointType::kHinge && largest > kTwoTurns && largest <= kLargestAngle)

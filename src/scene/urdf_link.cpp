@@ -144,8 +144,9 @@ Eigen::Matrix3d readMoments(const Tag& tag) {
   return (Eigen::Matrix3d() << xx, xy, xz, xy, yy, yz, xz, yz, zz).finished();
 }
 
-// Negative moments of a link of that mass become 0. The size of rounding is a millionth of what the file
-// gives with some six digits, and lengths below a micrometre, which no file means: mass times their square.
+// Negative moments of a link with that mass become 0. They count as rounding error up to a millionth of the
+// sum of moments, as files give some six digits, or up to mass times the square of a micrometre, as no file
+// means lengths below that.
 Eigen::Matrix3d withoutNegativeMoments(const Tag& tag, const Eigen::Matrix3d& I, double mass) {
   constexpr double kRelative = 1e-6, kLength = 1e-6, kOwnRounding = 1e-14;
   const Eigen::Vector3d moments = principalMoments(I);

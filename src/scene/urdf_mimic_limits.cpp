@@ -19,7 +19,7 @@ Range ownRange(const JointSpec& joint) {
   return {joint.lower[0], joint.upper[0]};
 }
 
-// Where the joint that is followed may be for the follower to keep its own limits, as compile() has it.
+// Where the followed joint may be such that the follower keeps its own limits, as in compile().
 Range leaderRange(const JointSpec& follower) {
   const Range own = ownRange(follower);
   const double a = (own.lower - follower.mimicOffset) / follower.mimicRatio;
@@ -27,7 +27,7 @@ Range leaderRange(const JointSpec& follower) {
   return {std::min(a, b), std::max(a, b)};
 }
 
-// Next to a millionth of the narrower range, what both share is a point.
+// An overlap of less than a millionth of the narrower range counts as a point.
 double tiniestWidth(const Range& a, const Range& b) {
   const double width = std::min(a.width(), b.width());
   return std::isfinite(width) ? 1e-6 * width : 0;

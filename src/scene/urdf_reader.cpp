@@ -106,7 +106,8 @@ SceneSpec readRobot(Reading& reading, const std::string& name, bool freeBase) {
   return spec;
 }
 
-// Who may collide stands in a file of its own, which is called like the robot unless somebody names another.
+// The collision settings are in a file of their own, which is named like the robot unless another one is
+// given.
 void readChoices(const std::filesystem::path& robot, const std::filesystem::path& given, SceneFile& scene) {
   if (!given.empty()) return readSrdf(given, scene);
   const std::filesystem::path beside = std::filesystem::path(robot).replace_extension(".srdf");

@@ -28,12 +28,12 @@ std::string guess(const std::string& name, const std::vector<std::string>& known
   return nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest.front());
 }
 
-// The numbers of a text, and where the first word that is none begins.
+// The numbers in a text, and where the first word that is not a number begins.
 struct Numbers {
   std::vector<double> values;
   std::optional<std::size_t> faultAt{};
   std::string fault{};
-  bool isNumber = false;  // the fault is one, but not finite
+  bool isNumber = false;  // the faulty word is a number, but not finite
 };
 
 Numbers parseNumbers(std::string_view text, std::size_t most) {
@@ -193,7 +193,7 @@ const std::string& Tag::nameIn(const char* attribute) const {
   if (name.empty()) failAt(attribute, "nothing", "a name");
   if (name.size() > kLongest)
     failAt(attribute, fmt::format("{} bytes", name.size()), fmt::format("at most {}", kLongest));
-  // XML allows no other control character but blanks.
+  // Other control characters, except blanks, are not allowed in XML.
   if (name.find('\x7f') != name.npos) failAt(attribute, "the control character \\x7f", "text");
   return name;
 }

@@ -20,7 +20,7 @@ std::string nameOf(const ReadJoint& joint) { return joint.spec.name; }
 const SourceLocation& whereOf(const BodySpec& link) { return link.where; }
 const SourceLocation& whereOf(const ReadJoint& joint) { return joint.spec.where; }
 
-// The things by their names, of which each may have only one.
+// The things by name; names must be unique.
 template <class Thing>
 class Index {
  public:
@@ -56,7 +56,7 @@ std::string listed(const std::vector<std::string>& names, const char* between) {
   return names.size() > kShown ? fmt::format("{}{}{} more", shown, between, names.size() - kShown) : shown;
 }
 
-// A link as the tree knows it.
+// A link in the tree.
 struct Hold {
   std::size_t joint = kNone;   // that moves it
   std::size_t parent = kNone;  // link on which that joint sits
@@ -96,7 +96,7 @@ std::size_t requireOneRoot(const std::vector<BodySpec>& links, const std::vector
   return kNone;
 }
 
-// Walks up from each link; what leads to the root once need not be walked again.
+// Walks up from each link; links known to lead to the root are not walked again.
 void refuseLoops(const std::vector<BodySpec>& links, const std::vector<ReadJoint>& joints,
                  const std::vector<Hold>& holds) {
   enum class Mark { kNew, kOnPath, kDone };

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace urdf;
 
-constexpr double kWide = 1e9;  // stands for "no limit", which URDF cannot say
+constexpr double kWide = 1e9;  // means "no limit", which URDF cannot express
 
 // URDF identifies things by their names.
 void requireNames(const SceneSpec& spec) {
@@ -42,7 +42,7 @@ void requireNames(const SceneSpec& spec) {
   }
 }
 
-// Joints name the first body of a name, so others can be called differently.
+// Joints refer to the first body of a name, so the others can be renamed.
 SceneSpec withOwnNames(SceneSpec spec, Losses& losses) {
   std::unordered_set<std::string> given, taken;
   std::unordered_map<std::string, int> lastNumbers;
@@ -61,7 +61,7 @@ SceneSpec withOwnNames(SceneSpec spec, Losses& losses) {
   return spec;
 }
 
-// A solid as URDF has them, in the frame of the shape.
+// A solid of a kind that URDF has, in the frame of the shape.
 struct Solid {
   Pose X_SG;
   const char* tag;
@@ -168,7 +168,7 @@ class Writer {
     }
   }
 
-  // What URDF has for a shape.
+  // The solids of URDF that make up a shape.
   std::vector<Solid> solidsOf(const ShapeSpec& shape, const std::string& name) {
     const Shape& s = shape.shape;
     const auto lose = [&](const char* kind) { losses_.add(kind, name, shape.where); };

@@ -8,7 +8,7 @@
 namespace rex::urdf {
 namespace {
 
-// What an element has that xacro must work on first.
+// The part of an element that xacro must process first.
 struct Xacro {
   SourceLocation where;
   std::string found;

@@ -29,7 +29,7 @@ bool isKnownEncoding(std::string_view name) {
   return std::find(kKnown.begin(), kKnown.end(), lowerCase(name)) != kKnown.end();
 }
 
-// How many bytes stand before the declaration, if they are blanks and marks of UTF-8.
+// The number of bytes before the declaration, if they are blanks and byte order marks.
 std::size_t bytesBeforeDeclaration(std::string_view text) {
   constexpr std::string_view kMark = "\xef\xbb\xbf", kDeclaration = "<?xml";
   std::string_view rest = text;
@@ -40,7 +40,7 @@ std::size_t bytesBeforeDeclaration(std::string_view text) {
   return isDeclared ? text.size() - rest.size() : 0;
 }
 
-// Gives the attributes of the tag that begins at `at` their places; expat knows that it is well-formed.
+// Finds the positions of the attributes of the tag at `at`, which expat has found to be well-formed.
 void findPlaces(std::string_view text, std::size_t at, std::vector<Attribute>& attributes) {
   at = text.find_first_of(" \t\r\n/>", at);
   for (Attribute& attribute : attributes) {
@@ -52,7 +52,7 @@ void findPlaces(std::string_view text, std::size_t at, std::vector<Attribute>& a
   }
 }
 
-// Builds the tree out of what expat reports, and stops it at the first breach of a limit.
+// Builds the tree from what expat reports, and stops it at the first breach of a limit.
 class Builder {
  public:
   Builder(std::string_view text, const std::string& file, std::size_t skipped, const std::string& root)
@@ -150,7 +150,7 @@ class Builder {
          quoted(text_.substr(at, text_.find(';', at) + 1 - at)), "&amp; where the text has a bare &");
   }
 
-  // The '&' after which expat stopped, for only with a name and ';' is it a reference.
+  // The '&' after which expat stopped, because a reference needs a name and ';'.
   std::optional<std::size_t> bareAnd() const {
     const std::size_t before = std::min<std::size_t>(here(), text_.size() - 1);
     const std::size_t at = text_.find_last_of("&<>;\"'", before);
@@ -186,7 +186,7 @@ class Builder {
                     fmt::format("at most {}", kLongestName));
     }
     findPlaces(text_, element.at, element.attributes);
-    // Only the innermost open element grows, so that pointers to open ones stay right.
+    // Only the innermost open element grows, so that pointers to open ones stay valid.
     if (open_.empty()) {
       document_.root = std::move(element);
       open_.push_back(&document_.root);
@@ -210,7 +210,7 @@ class Builder {
   };
 
   std::string_view text_;
-  std::size_t skipped_;  // bytes before what expat sees
+  std::size_t skipped_;  // bytes before the text that expat sees
   const std::string& root_;
   Document document_;
   std::unique_ptr<std::remove_pointer_t<XML_Parser>, Free> parser_;
