@@ -23,7 +23,7 @@ using BodyPair = std::pair<BodyId, BodyId>;
 
 BodyPair inOrder(BodyId a, BodyId b) { return std::minmax(a, b); }
 
-// A body and its next ancestors, the world left out: it is nobody's kin.
+// A body and its nearest ancestors without the world, which does not count as kin.
 class Kin {
  public:
   Kin(const Model& model, BodyId body) {
@@ -60,7 +60,7 @@ class Choices {
     }
   }
 
-  // Null without one.
+  // The choice for the pair; null if there is none.
   const PairChoice* find(BodyId a, BodyId b) const {
     if (const auto found = ofPairs_.find(inOrder(a, b)); found != ofPairs_.end()) return found->second;
     const PairChoice* ofOne = nullptr;
@@ -75,7 +75,7 @@ class Choices {
   std::map<BodyId, const PairChoice*> ofAll_;
 };
 
-// Judges pairs of bodies.
+// Decides which pairs of bodies may collide.
 class Judge {
  public:
   explicit Judge(const Model& model)
@@ -107,14 +107,14 @@ class Judge {
     return verdict;
   }
 
-  // The same without words.
+  // The same decision without its explanation.
   bool mayCollide(BodyId a, BodyId b) const {
     const PairReason reason = reasonByTree(a, b);
     if (reason == PairReason::kChosen) return choices_.find(a, b)->mayCollide;
     return reason == PairReason::kNone && !overlaps_.contains(inOrder(a, b));
   }
 
-  // At home, of pairs that could collide otherwise.
+  // The overlaps at home of pairs that could collide otherwise.
   const std::map<BodyPair, HomeOverlap>& overlaps() const { return overlaps_; }
 
  private:
@@ -139,7 +139,7 @@ class Judge {
   std::map<BodyPair, HomeOverlap> overlaps_;
 };
 
-// The shapes in contact, by their bodies; those of a body stand together.
+// The shapes in contact, grouped by body; those of a body are adjacent in the model.
 std::vector<std::vector<int>> shapesInContact(const Model& model) {
   std::vector<std::vector<int>> groups;
   BodyId last{-1};

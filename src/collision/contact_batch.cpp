@@ -17,7 +17,7 @@ using internal::kPoseNumbers;
 
 static_assert(kContactLanes == PoseBatch::kLanes);
 
-// What works through a batch, a block of configurations after the other.
+// Processes a batch, one block of configurations after another.
 class Blocks {
  public:
   Blocks(const ContactModel& contacts, const PoseBatch& poses)
@@ -46,7 +46,8 @@ class Blocks {
     }
   }
 
-  // The lanes, as bits, in which some pair is nearer than the margin; if one is enough, at least one of them.
+  // The lanes, as bits, in which some pair is closer than the margin; at least one of them if one is
+  // enough.
   unsigned hits(int block, double margin, bool isOneEnough) {
     place(block);
     const unsigned all = (1u << lanesOf(block)) - 1;
@@ -78,7 +79,7 @@ class Blocks {
 
   [[nodiscard]] const ContactSolid& solid(int i) const { return data_.solids[static_cast<std::size_t>(i)]; }
 
-  // Of solid i, in a lane of the block that is placed.
+  // The pose of solid i in a lane of the current block.
   [[nodiscard]] Pose pose(int i, int lane) const {
     const double* numbers = X_WS_.get() + i * kPoseNumbers + lane;
     Pose X_WS;
@@ -87,7 +88,7 @@ class Blocks {
     return X_WS;
   }
 
-  // What is not a number is never far.
+  // NaN never counts as far.
   [[nodiscard]] bool isNearer(const CorePair& pair, int lane, double margin) const {
     const Pose X_WA = pose(pair.a, lane), X_WB = pose(pair.b, lane);
     if ((X_WA.p - X_WB.p).norm() >= pair.reach + margin + internal::kCullSlack) return false;

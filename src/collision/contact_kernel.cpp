@@ -7,7 +7,7 @@ namespace {
 
 constexpr int kLane = kContactLanes;
 
-// The numbers of a solid from some lane on.
+// The numbers of a solid, starting at some lane.
 struct Solid {
   Solid(const LaneSolids& all, int place, int lane)
       : X_WS(all.X_WS + place * kPoseNumbers + lane), size(all.size + place * kSizeNumbers + lane) {}
@@ -76,13 +76,13 @@ void proximities(const CorePair& pair, int lanes, const LaneSolids& solids, Lane
   }
 }
 
-// Whether a is smaller than b in some lane; what is not a number counts as small, so that it is never free.
+// Whether a is smaller than b in some lane; NaN counts as small, so that it never counts as free.
 template <class T>
 bool isAnyBelow(const T& a, const T& b) {
   return any(select(a >= b, T(0.0), T(1.0)) > T(0.0));
 }
 
-// The lanes in which it is, as bits.
+// The lanes in which a is smaller than b, as bits.
 template <class T>
 unsigned lanesBelow(const T& a, const T& b) {
   double isBelow[kLanesOf<T>];
@@ -92,21 +92,21 @@ unsigned lanesBelow(const T& a, const T& b) {
   return bits;
 }
 
-// Whether in some lane a vector is not surely longer than `near`, which a margin below zero may make
-// negative: then everything is longer but zero, which stands for a point inside of a box.
+// Whether in some lane a vector may be no longer than `near`. A margin below zero can make that negative:
+// then every vector is longer except zero, which stands for a point inside a box.
 template <class T>
 bool isAnyShorter(const Vec3<T>& apart, const T& near) {
   const T enough = absolute(near) + T(kCullSlack);
   return isAnyBelow(dot(apart, apart), enough * enough);
 }
 
-// Whether in some lane the spheres about both solids are nearer than the margin.
+// Whether in some lane the bounding spheres of both solids are closer than the margin.
 template <class T>
 bool areSpheresNear(const Solid& a, const Solid& b, double reach, double margin) {
   return isAnyShorter(a.origin<T>() - b.origin<T>(), T(reach + margin));
 }
 
-// The same of the sphere about a segment and the box itself.
+// The same for the bounding sphere of a segment and the box itself.
 template <class T>
 bool isSphereNear(const Solid& segment, const Solid& box, double margin) {
   const Mat3<T> R{box.axis<T>(0), box.axis<T>(1), box.axis<T>(2)};
@@ -121,7 +121,7 @@ constexpr bool kIsSegmentAndBox = false;
 template <class T>
 constexpr bool kIsSegmentAndBox<Segment<T>, Box<T>> = true;
 
-// The lanes, as bits, in which a pair is nearer than the margin.
+// The lanes, as bits, in which a pair is closer than the margin.
 template <class T, class A, class B>
 unsigned hitsOf(const Solid& a, const Solid& b, double reach, double margin) {
   if (!areSpheresNear<T>(a, b, reach, margin)) return 0;

@@ -21,7 +21,7 @@ void requirePair(const Model& model, const ShapePair& pair) {
                .wanted = fmt::format("0 <= a < b < {}", count)});
 }
 
-// The solid of a shape, which is added when it is asked for first.
+// The solid of a shape, which is added on first use.
 int solidOf(ContactModel::Data& data, const Model& model, int place) {
   int& solid = data.solidOf[static_cast<std::size_t>(place)];
   if (solid >= 0) return solid;
@@ -40,7 +40,7 @@ int solidOf(ContactModel::Data& data, const Model& model, int place) {
   return solid;
 }
 
-// Sorts a pair in with those of its kind; kernels want segments before boxes.
+// Adds a pair to those of its kind; kernels expect segments before boxes.
 void addPair(ContactModel::Data& data, int row, int a, int b) {
   const auto& solids = data.solids;
   const auto solid = [&](int i) -> const ContactSolid& { return solids[static_cast<std::size_t>(i)]; };

@@ -25,7 +25,7 @@ void addDistanceDerivative(const Model& model, const BodyPoses& poses, const Pro
   row.noalias() -= direction * J;
 }
 
-// Not a number where the distance is none: std::max takes its first argument then.
+// NaN if the distance is NaN, because std::max then returns its first argument.
 double costOf(const Proxy& proxy, double margin) {
   return std::max(1 - proxy.proximity.distance / margin, 0.);
 }

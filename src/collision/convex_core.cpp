@@ -11,7 +11,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-// A plain scan: to walk from corner to corner would need neighbours, which nobody has prepared.
+// A plain scan: walking from corner to corner would need neighbours, which are not prepared.
 Vector3d supportOf(std::span<const Eigen::Vector3f> points, const Vector3d& direction) {
   std::size_t best = 0;
   double most = -std::numeric_limits<double>::infinity();
@@ -42,7 +42,7 @@ ConvexCore::ConvexCore(const Shape& shape) {
     case ShapeType::kPointCloud:
     case ShapeType::kSphereSweptConvex:
       kind_ = Kind::kPoints;
-      // Without a hull all points do as well, only slower.
+      // Without a hull, all points give the same result, only more slowly.
       points_ = (shape.hull.isEmpty() ? shape.mesh : shape.hull).positions();
       radius_ = shape.type == ShapeType::kSphereSweptConvex ? shape.radius : 0;
       assert(!points_.empty());
@@ -66,7 +66,7 @@ Vector3d ConvexCore::support(const Vector3d& direction) const {
       break;
   }
   const double across = std::hypot(direction.x(), direction.y());
-  // Straight along the axis the whole cap lies farthest; its middle is as good as any point of it.
+  // Exactly along the axis, all points of the cap are equally far; its centre is as good as any other.
   const double scale = across > 0 ? half_.x() / across : 0;
   const Vector3d onRim = corner(scale * direction.x(), scale * direction.y());
   if (kind_ == Kind::kCylinder) return onRim;

@@ -12,10 +12,10 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kDepthSlack = 1e-10, kCurvedSlack = 5e-7;  // metres
-constexpr double kFlat = 1e-9;                              // metres: what is thinner has no inside
+constexpr double kFlat = 1e-9;                              // metres: anything thinner has no interior
 constexpr double kPrecision = 1e-13;                        // of the size
 
-// Four corners that span the difference, or a direction in which it has no thickness.
+// Four corners that span the Minkowski difference, or a direction in which it has no thickness.
 struct Span {
   bool isFlat = true;
   Vector3d normal = Vector3d::UnitZ();
@@ -63,7 +63,7 @@ CoreProximity flatDepth(const MinkowskiDifference& difference, const Vector3d& n
   return {other, kFlat, -normal, touching};
 }
 
-// The gap along n is a lower bound of the distance.
+// The gap along n is a lower bound on the distance.
 void keepBetter(const Vector3d& n, const DifferencePoint& lowest, CoreProximity& best) {
   if (const double gap = n.dot(lowest.x); gap > best.distance) best.distance = gap, best.normal = n;
 }

@@ -11,12 +11,12 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kGapSlack = 1e-10;  // metres, between the bounds that end the search
-constexpr double kTouch = 1e-12;     // metres: nearer than this there is no direction to go by
+constexpr double kTouch = 1e-12;     // metres: below this distance the direction is undefined
 constexpr double kSliver = 1e-10;    // the sine of the least angle that counts
 constexpr double kNoFarther = 1 + 1e-15;
 constexpr int kMostSteps = 100;
 
-// Up to four points, and the weights that make their sum the point nearest to the origin.
+// Up to four points, and weights such that their weighted sum is the point nearest to the origin.
 struct Simplex {
   std::array<DifferencePoint, 4> points;
   std::array<double, 4> weights{};
@@ -28,7 +28,7 @@ struct Simplex {
     points[size] = point;
     weights[size++] = weight;
   }
-  // The point nearest to the origin lies inside of the simplex, in direction n. The direction is more precise
+  // The point nearest to the origin lies inside the simplex, in direction n. The direction is more precise
   // than the point, whose digits cancel near the origin.
   void finish(const Vector3d& direction) {
     n = direction.normalized();
@@ -93,7 +93,7 @@ bool holdsOrigin(const Simplex& s, const DifferencePoint& w) {
   return sign * volume(q, r, w.x) > 0 && sign * volume(r, p, w.x) > 0 && sign * volume(p, q, w.x) > 0;
 }
 
-// The nearest part of the simplex with the new point w, which is a corner of it.
+// The part of the simplex that is nearest to the origin, among those with the new point w as a corner.
 Simplex nearestWith(const Simplex& old, const DifferencePoint& w) {
   Simplex best;
   tryPoint(w, best);

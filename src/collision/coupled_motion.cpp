@@ -23,8 +23,8 @@ CoupledMotion::CoupledMotion(const Model& model) : model_(model) {
   for (const Joint& joint : model.joints()) addTwists(joint);
 }
 
-// A joint at x moves as exp(twist 1 x1) exp(twist 2 x2) ... does, seen from the world, because all of its
-// coordinates are 0 in the posture of reference, or what an offset makes of 0.
+// Seen from the world, a joint at x moves by exp(twist 1 x1) exp(twist 2 x2) ..., because in the reference
+// posture all of its coordinates are 0, or the offset of the joint.
 void CoupledMotion::addTwists(const Joint& joint) {
   std::vector<Twist>& twists = twists_.emplace_back();
   for (int i = 0; i < joint.nv; ++i) {
@@ -60,7 +60,7 @@ std::vector<CoupledMotion::Twist> CoupledMotion::twistsBetween(BodyId a, BodyId 
     }
     body = model_[body].parent;
   };
-  while (a != b) a > b ? climb(a, upwards) : climb(b, downwards);  // parents stand before children
+  while (a != b) a > b ? climb(a, upwards) : climb(b, downwards);  // parents come before children
   for (Twist& twist : upwards) {
     twist.angular = -twist.angular;
     twist.linear = -twist.linear;
@@ -69,7 +69,7 @@ std::vector<CoupledMotion::Twist> CoupledMotion::twistsBetween(BodyId a, BodyId 
   return upwards;
 }
 
-// exp(A x) ... exp(B x) = exp((A + B) x) ... if B commutes with A and all between.
+// exp(A x) ... exp(B x) = exp((A + B) x) ... if B commutes with A and with everything between them.
 bool CoupledMotion::mergeOnce(std::vector<Twist>& twists) {
   for (auto one = twists.begin(); one != twists.end(); ++one) {
     for (auto other = one + 1; other != twists.end(); ++other) {

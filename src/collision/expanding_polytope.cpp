@@ -14,7 +14,7 @@ namespace {
 constexpr double kNone = -std::numeric_limits<double>::infinity();
 constexpr double kGrazing = 1e-9;           // the sine of an angle
 constexpr double kOnePlane = 1e-9;          // metres
-constexpr std::size_t kUsualCorners = 256;  // fits into the room
+constexpr std::size_t kUsualCorners = 256;  // fits into the reserved memory
 
 }  // namespace
 
@@ -53,7 +53,7 @@ void ExpandingPolytope::setFace(int index, const std::array<int, 3>& corners,
   face.corners = corners;
   face.neighbours = neighbours;
   face.n = (corner(corners[1]) - p).cross(corner(corners[2]) - p).normalized();
-  // A sliver without normal hides between its neighbours, which know its points.
+  // A sliver without a normal is skipped: its neighbours have its points.
   face.offset = face.n.squaredNorm() > 0 ? face.n.dot(p) : kNone;
   order_.push_back({face.offset, index});
   std::push_heap(order_.begin(), order_.end());
@@ -66,7 +66,7 @@ DifferencePoint ExpandingPolytope::pointAgainst(const Vector3d& n) const {
   };
   double nearest = kNone;
   for (const Face& face : faces_) nearest = std::max(nearest, way(face));
-  // Of faces in one plane, the one that holds the point.
+  // Among faces in one plane, the one that contains the point.
   const Face* hit = &face(nearestFace());
   Vector3d shares = Vector3d::Constant(kNone);
   for (const Face& face : faces_) {
@@ -85,7 +85,7 @@ DifferencePoint ExpandingPolytope::pointAgainst(const Vector3d& n) const {
   return point;
 }
 
-// How the corners of a face make up the point x of its plane.
+// The barycentric coordinates of the point x in the plane of a face.
 Vector3d ExpandingPolytope::sharesOf(const Face& face, const Vector3d& x) const {
   std::array<Vector3d, 3> to;
   for (int k = 0; k < 3; ++k) to[k] = corner(face.corners[k]) - x;
@@ -105,8 +105,8 @@ bool ExpandingPolytope::add(const DifferencePoint& point, int seen) {
   return true;
 }
 
-// Also where x would make a sliver with an edge: it lies in the plane beyond, and the sliver would have no
-// normal.
+// Also true if x would form a sliver with the edge: then x lies on the line of the edge, and the sliver
+// would have no normal.
 bool ExpandingPolytope::sees(const Vector3d& x, int face, int from, int to) const {
   if (faces_[place(face)].n.dot(x) < faces_[place(face)].offset - precision_) return true;
   const Vector3d edge = corner(to) - corner(from);
@@ -127,7 +127,7 @@ void ExpandingPolytope::findSeen(const Vector3d& x, int first) {
   }
 }
 
-// The edges around what is seen, one after the other; false unless they make one simple ring.
+// Collects the edges around the visible faces in order; false unless they form one simple ring.
 bool ExpandingPolytope::findRim() {
   rim_.clear();
   for (const int index : seen_) {

@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// A shape where it stands, and the box along the axes that holds it.
+// A shape at its pose, and its axis-aligned bounding box.
 struct Standing {
   int shape;
   BodyId body;
@@ -32,7 +32,7 @@ std::vector<Standing> standing(const Model& model) {
   return all;
 }
 
-// The direction in which the boxes spread most, by which few of them overlap.
+// The axis along which the boxes are spread most, so that few of them overlap along it.
 int widestAxis(const std::vector<Standing>& all) {
   Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
   for (const Standing& one : all) {

@@ -11,7 +11,8 @@ namespace {
 
 using Eigen::VectorXd;
 
-// A quaternion that moves straight by d and is at least `least` long turns by no more than 2 |d| / least.
+// A quaternion that moves along a line by d, and whose length is at least `least`, turns by at most 2 |d| /
+// least.
 double turn(const Joint& joint, const VectorXd& from, const VectorXd& to) {
   const VectorXd d = to - from;
   if (d.isZero(0)) return 0;
@@ -31,8 +32,8 @@ JointTravel jointTravel(const Joint& joint, const VectorArg& from, const VectorA
   const VectorXd a = (ratio * from.segment(joint.qIndex, joint.nq)).array() + offset,
                  b = (ratio * to.segment(joint.qIndex, joint.nq)).array() + offset;
   JointTravel travel;
-  // From the last movement to the first: a turn carries what comes after it, which is farthest from the axis
-  // at one of the ends.
+  // From the last movement to the first: a rotation carries everything after it, which is farthest from the
+  // axis at one of the ends.
   Eigen::Vector3d moved = Eigen::Vector3d::Zero(), after_a = moved, after_b = moved;
   const JointMovements all = movements(joint);
   for (std::size_t k = all.size(); k-- > 0;) {

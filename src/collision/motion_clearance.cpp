@@ -20,11 +20,11 @@ namespace {
 using Eigen::Vector3d;
 using internal::JointTravel;
 
-constexpr double kLeastTolerance = 1e-9;  // metres: rounding does not allow for less
-constexpr double kFiner = 16;             // by so much each pass has a smaller tolerance than the one before
+constexpr double kLeastTolerance = 1e-9;  // metres: rounding does not allow less
+constexpr double kFiner = 16;             // each pass divides the tolerance of the previous one by this
 constexpr int kMostMeasurements = 500'000;
 
-// What is known of one pair at the ends of a stretch of the motion, and then in its middle; metres.
+// The distances of one pair at the ends of a stretch of the motion, and later at its middle; metres.
 struct Stretch {
   std::size_t pair;
   double atStart, atEnd, atMiddle = 0;
@@ -40,7 +40,7 @@ class MotionSearch {
     measureEnds();
   }
 
-  // Coarse passes find the least distance, so that fine ones may leave out all that stays away from it.
+  // Coarse passes find the least distance, so that fine ones can skip everything that stays farther away.
   ClearanceBounds run(double tolerance) {
     const std::vector<Stretch> whole = stretches_;
     double known = boundOf(whole);
@@ -106,7 +106,7 @@ class MotionSearch {
   }
 
   // How fast a pair's distance may change, metres per whole motion. Joints that carry both shapes do not
-  // count.
+  // contribute.
   double speed(const ShapePair& pair) const {
     const ContactSolid& a = solid(pair.a);
     const ContactSolid& b = solid(pair.b);

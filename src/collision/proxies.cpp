@@ -14,7 +14,7 @@ using internal::kContactLanes;
 using internal::kPoseNumbers;
 using internal::kSizeNumbers;
 
-// Pairs of one kind, each in a lane, with their solids a and b one after the other.
+// Pairs of one kind, one per lane, with solid a followed by solid b.
 class PairsInLanes {
  public:
   explicit PairsInLanes(const internal::PairKernel& kernel) : kernel_(kernel) {}
@@ -29,7 +29,7 @@ class PairsInLanes {
     swapped_[count_++] = b.shape < a.shape;
   }
 
-  // Asks the kernel, and empties the lanes.
+  // Runs the kernel and empties the lanes.
   void measure(std::vector<Proximity>& found) {
     if (count_ == 0) return;
     internal::LaneProximities lanes;
@@ -65,8 +65,8 @@ class PairsInLanes {
   double X_WS_[2 * kPoseNumbers] = {}, sizes_[2 * kSizeNumbers] = {};
 };
 
-// Calls visit(pair, solid a, X_WA, solid b, X_WB) for the pairs whose spheres are nearer than the cutoff, or
-// would be if rounded otherwise; here and below, what is not a number is never far.
+// Calls visit(pair, solid a, X_WA, solid b, X_WB) for the pairs whose bounding spheres are closer than the
+// cutoff, up to rounding. Here and below, NaN never counts as far.
 template <class Visit>
 void forEachNear(const ContactModel::Data& data, const std::vector<CorePair>& pairs,
                  const std::vector<Pose>& X_WS, double cutoff, const Visit& visit) {

@@ -9,7 +9,7 @@ namespace rex {
 namespace {
 
 std::string pointText(const Eigen::Vector3d& p) {
-  // What rounds to zero has no sign.
+  // Numbers that round to zero lose their sign.
   const auto rounded = [](double x) { return std::abs(x) < 5e-5 ? 0. : x; };
   return fmt::format("{:9.4f} {:8.4f} {:8.4f}", rounded(p.x()), rounded(p.y()), rounded(p.z()));
 }
@@ -20,7 +20,8 @@ std::string shapeLabel(const Model& model, int shape) {
   const auto until = model.shapes().first(static_cast<std::size_t>(shape) + 1);
   const ModelShape& chosen = until.back();
   const bool isNamed = !chosen.name.empty();
-  // What is only seen does not count among shapes that touch, though it may have the same name.
+  // Shapes that are only visual are not counted among shapes in contact, although they may have the same
+  // name.
   const auto isAlike = [&](const ModelShape& one) {
     return one.body == chosen.body && one.name == chosen.name && (!isNamed || one.contact == chosen.contact);
   };

@@ -8,7 +8,7 @@ constexpr double kSamePlace = 1e-9;  // metres: origins of joints that count as 
 
 std::size_t placeOf(BodyId body) { return static_cast<std::size_t>(body); }
 
-// Looks for the neighbours of parts.
+// Finds the neighbours of parts.
 class Neighbourhood {
  public:
   Neighbourhood(const Model& model, const RigidParts& parts)
@@ -25,8 +25,8 @@ class Neighbourhood {
     }
   }
 
-  // Towards the world from what `carrier` carries: the next part that is more than a frame between two joints
-  // in one place.
+  // The next part towards the world from the one that `carrier` carries. Parts that are only a frame
+  // between two joints at one position are skipped.
   std::optional<BodyId> above(BodyId carrier) const {
     for (;;) {
       const Joint& joint = model_[model_[carrier].joint];
@@ -39,8 +39,8 @@ class Neighbourhood {
   }
 
  private:
-  // What is fixed in the world may be far apart: only the body that carries the joint counts, or the next
-  // below it that has something to touch.
+  // Bodies fixed in the world may be far apart: only the body that carries the joint counts, or the next
+  // one towards the world that has a shape in contact.
   BodyId fixedNeighbour(BodyId body) const {
     while (!hasContact_[placeOf(body)] && body != kWorld && model_[body].parent != kWorld)
       body = model_[body].parent;

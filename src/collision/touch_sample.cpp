@@ -18,7 +18,7 @@ bool turnsWithoutMoving(const DegreeOfFreedom& freedom) {
   return !freedom.angular.isZero() && std::abs(freedom.angular.dot(freedom.linear)) < 1e-12;
 }
 
-// Between which numbers each coordinate is drawn.
+// The range from which each coordinate is drawn.
 class Ranges {
  public:
   explicit Ranges(const Model& model)

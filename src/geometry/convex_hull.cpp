@@ -19,13 +19,15 @@ using Eigen::Vector3f;
 using Index = std::uint32_t;
 using Triangle = TriangleMesh::Triangle;
 
-// Thinner than this part of their size, points lie in a plane, on a line or in one place.
+// If their thickness is below this share of their size, points count as lying in a plane, on a line or at
+// one point.
 constexpr double kFlat = 1e-7;
 
-// Seen from the middle of their box, so that places far from the origin lose no digits; each place once.
+// Relative to the centre of their box, so that positions far from the origin lose no digits; without
+// duplicates.
 struct Points {
   std::vector<Vector3d> at;
-  std::vector<Index> index;  // of the first point there
+  std::vector<Index> index;  // of the first point at that position
 };
 
 Points distinct(std::span<const Vector3f> points) {
@@ -117,7 +119,7 @@ std::vector<Index> flatHull(const std::vector<Vector3d>& points, const Extent& e
   return chain;
 }
 
-// Both sides, cut into triangles in different ways, so that no edge inside is that of four.
+// Both sides, cut into triangles in different ways, so that no inner edge is shared by four triangles.
 std::vector<Triangle> bothSides(std::vector<Index> polygon) {
   std::vector<Triangle> triangles;
   addFan(polygon, triangles);
@@ -143,7 +145,7 @@ std::vector<Triangle> trianglesOf(internal::Qhull& qhull) {
   return triangles;
 }
 
-// Where rounding defeats qhull, it may shift the points by some ulps.
+// If rounding defeats qhull, it may shift the points by some ulps.
 std::vector<Triangle> solidHull(std::vector<Vector3d>& points) {
   for (const char* options : {"qhull C-0 Q12 Pp", "qhull QJ Pp"}) {
     internal::Qhull qhull;
@@ -154,7 +156,8 @@ std::vector<Triangle> solidHull(std::vector<Vector3d>& points) {
   return {};
 }
 
-// The points that are corners of the triangles. Those that face away from `front` do not count for normals.
+// The points that are corners of the triangles. Triangles that face away from `front` do not contribute to
+// normals.
 TriangleMesh meshOf(std::span<const Vector3f> points, const Points& all, std::vector<Triangle> triangles,
                     const Vector3d& front) {
   constexpr Index kUnused = ~Index{0};

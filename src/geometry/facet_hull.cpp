@@ -35,7 +35,7 @@ void requirePoints(const MatrixArg& points) {
     requireFinite(fmt::format("hull: point {}", k), VectorXd(points.col(k)));
 }
 
-// qhull wants two dimensions or more; a line has its ends.
+// qhull needs at least two dimensions; the hull of points on a line are its ends.
 FacetHull lineHull(const MatrixXd& points) {
   FacetHull hull{.dimension = 1, .normals = MatrixXd(1, 2), .offsets = VectorXd(2)};
   hull.normals << 1, -1;
@@ -44,7 +44,7 @@ FacetHull lineHull(const MatrixXd& points) {
   return hull;
 }
 
-// The points without those that lie in one place with another.
+// The points without duplicates.
 MatrixXd apart(const MatrixXd& points) {
   std::vector<Eigen::Index> order(static_cast<std::size_t>(points.cols())), kept;
   std::iota(order.begin(), order.end(), 0);
@@ -61,8 +61,8 @@ MatrixXd apart(const MatrixXd& points) {
   return points(Eigen::all, kept);
 }
 
-// Whether qhull has all facets: areas times normals of a closed surface add up to zero (Minkowski). Where
-// points lie almost in one place, merging can lose facets that matter.
+// Whether qhull has all facets: areas times normals of a closed surface add up to zero (Minkowski). If
+// points almost coincide, merging can lose facets that matter.
 bool isClosed(internal::Qhull& qhull) {
   qhT* qh = &qhull.state();  // the name that qhull's macros expect
   qh_getarea(qh, qh->facet_list);
@@ -72,7 +72,7 @@ bool isClosed(internal::Qhull& qhull) {
   return sum.norm() <= kClosed * qh->totarea;
 }
 
-// From the facets of map^T centred.
+// The facets of the hull from those of map^T centred.
 void addFacets(internal::Qhull& qhull, const MatrixXd& centred, const MatrixXd& map, FacetHull& hull) {
   const qhT* qh = &qhull.state();  // the name that qhull's macros expect
   hull.volume = qh->totvol / map.colwise().norm().prod();
@@ -105,7 +105,8 @@ FacetHull facetHull(const MatrixArg& points) {
   const VectorXd width = singular / std::sqrt(static_cast<double>(points.cols()));
   const MatrixXd map = svd.matrixV() * width.cwiseInverse().asDiagonal();
   MatrixXd round = apart(map.transpose() * centred);
-  // Triangulated facets give the volume exactly; where rounding defeats qhull, it may shift points by ulps.
+  // Triangulated facets give the volume exactly; if rounding defeats qhull, it may shift the points by
+  // ulps.
   for (const char* options : {"qhull Qt Q12 Pp", "qhull Qt Qx Q12 Pp", "qhull QJ Pp"}) {
     internal::Qhull qhull;
     if (!qhull.run(static_cast<int>(round.rows()), static_cast<int>(round.cols()), round.data(), options) ||

@@ -29,7 +29,7 @@ Sinc sincs(double t) {
   return {std::sin(t) / t, 2 * half * half, c};
 }
 
-// v at length 1, also where the squares of its numbers would be too large or too small; zero stays.
+// v scaled to length 1, even if the squares of its components would overflow or underflow; zero stays zero.
 template <class Vector>
 Vector unit(const Vector& v) {
   constexpr double kLeast = 1e-140, kMost = 1e140;
@@ -134,7 +134,8 @@ Eigen::Vector3d rollPitchYawFromRotation(const Eigen::Matrix3d& R) {
   const double cosPitch = std::hypot(R(0, 0), R(1, 0));
   const double pitch = std::atan2(-R(2, 0), cosPitch);
   const double roll = cosPitch < 1e-15 ? 0 : std::atan2(R(2, 1), R(2, 2));
-  // Near pitch = pi/2 the roll is vague; the second column of R Rx(-roll) holds the yaw that goes with it.
+  // Near pitch = pi/2 the roll is ill-defined; the second column of R Rx(-roll) gives the yaw that matches
+  // it.
   const double c = std::cos(roll), s = std::sin(roll);
   return {roll, pitch, std::atan2(R(0, 2) * s - R(0, 1) * c, R(1, 1) * c - R(1, 2) * s)};
 }

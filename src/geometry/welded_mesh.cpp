@@ -22,7 +22,7 @@ using Eigen::Vector3f;
 using Index = std::uint32_t;
 using Triangle = TriangleMesh::Triangle;
 
-// The distinct places, and which of them each position is.
+// The distinct positions, and which of them each vertex has.
 struct Places {
   std::vector<Vector3f> positions;
   std::vector<Index> placeOf;
@@ -35,7 +35,7 @@ std::uint64_t hashOf(const Vector3f& p) {
   return hash;
 }
 
-// By a table of places, at least half of which stays free; a hash says where to begin to look.
+// Uses a hash table with linear probing, at least half of which stays free.
 Places findPlaces(const std::vector<Vector3f>& positions) {
   constexpr Index kFree = std::numeric_limits<Index>::max();
   const auto bits = std::bit_width(2 * positions.size() + 1);
@@ -56,12 +56,12 @@ Places findPlaces(const std::vector<Vector3f>& positions) {
 
 struct Face {
   Triangle corners;
-  Triangle given;  // the same as they were before welding
+  Triangle given;  // the corners before welding
   Vector3d normal;
   std::array<double, 3> angles;  // at the corners, radians
 };
 
-// None for a triangle without area, or so flat that it has no direction.
+// Empty for a triangle without area, or so thin that it has no normal.
 std::optional<Face> makeFace(const Places& welded, const Triangle& given) {
   constexpr double kFlatTriangle = 1e-9;
   Triangle corners = given;
@@ -89,7 +89,7 @@ double enclosedVolume(const std::vector<Vector3f>& places, const std::vector<Fac
   return six / 6;
 }
 
-// Whether each edge is run along once in each direction.
+// Whether each edge is traversed once in each direction.
 bool isClosed(const std::vector<Face>& faces) {
   std::vector<std::uint64_t> edges, reversed;
   for (const Face& face : faces) {
@@ -141,7 +141,7 @@ Meeting meetingAt(std::size_t placeCount, const std::vector<Face>& faces) {
   return meeting;
 }
 
-// More corners at one place make a fan, which stays flat: to compare all with all would cost their square.
+// More corners at one place form a fan, which stays flat: comparing all pairs would take quadratic time.
 constexpr std::size_t kMostMeeting = 256;
 
 Vector3f normalAt(const Corner& corner, std::span<const Corner> meeting, const std::vector<Face>& faces,

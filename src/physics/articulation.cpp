@@ -14,12 +14,12 @@ using Kind = MotionStep::Kind;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kBaseVelocities = 6;
-// A position motor closes the way to its target at this rate, 1/s: slow enough for arms to brake.
+// A position motor approaches its target at this rate, 1/s: slowly enough for arms to brake.
 constexpr double kPositionRate = 20;
-// Joints beyond a limit come back at this rate, 1/s, and at most this fast, rad/s or m/s: they keep the speed
-// when they are back, so that more would throw a robot that starts beyond its limits.
+// Joints beyond a limit come back at this rate, 1/s, and at most this fast, rad/s or m/s: they keep that
+// speed when they are back, so a higher one would throw a robot that starts beyond its limits.
 constexpr double kLimitRate = 20, kLimitSpeed = 1;
-// Limits take part from this far, radians or metres, and from twice the way of a step.
+// Limits become active within this distance, radians or metres, or within twice the motion of a step.
 constexpr double kLimitReach = 0.01;
 
 int linkCount(const Model& model, std::span<const BodyId> bodies) {
@@ -192,8 +192,8 @@ void Articulation::read(State& state) const {
   }
 }
 
-// A force on a shared freedom acts on its leader: the couplings carry it on, as the work that it does is the
-// same.
+// A force on a shared coordinate acts on its leader. The couplings pass it on, because it does the same
+// work.
 void Articulation::drive(std::span<const Motor> motors, double h) {
   if (base_) driveBase(motors, h);
   std::size_t row = baseDamping_ > 0 ? kBaseVelocities : 0;
@@ -215,7 +215,7 @@ void Articulation::drive(std::span<const Motor> motors, double h) {
   }
 }
 
-// Damping is the same in all directions, so that the axes of W do for rows.
+// Damping is the same in all directions, so the rows can use the axes of W.
 void Articulation::driveBase(std::span<const Motor> motors, double h) {
   const FreeMotion::LinkMotion motion = baseMotion();
   const FreeMotion::Wrench wrench = base_->wrench(motors, motion);

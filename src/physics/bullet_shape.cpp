@@ -6,8 +6,8 @@
 namespace rex::internal {
 namespace {
 
-// Bullet rounds the edges of boxes and cylinders inwards by its margin, where it does not know a pair's exact
-// contacts. A millimetre is as sharp as its search for nearest points allows.
+// Bullet rounds the edges of boxes and cylinders inwards by its margin, unless it computes exact contacts
+// for the pair. A millimetre is as sharp as its search for nearest points allows.
 constexpr double kMargin = 1e-3;
 
 template <class Solid>

@@ -18,18 +18,19 @@
 namespace rex::internal {
 namespace {
 
-// kg or kg m^2; Bullet holds joints still that have less than 2.2e-16 to move.
+// kg or kg m^2; Bullet does not move joints with less than 2.2e-16.
 constexpr double kLeastInertia = 1e-15;
-// Contacts yield a little, in parts of the resistance of a body of mean mass, and give back a tenth of what
-// is in overlap per step. The load of a stack then spreads over its contacts in one way only, and the solver,
-// which starts each step from the forces of the last one, comes to rest: 20 boxes of 0.2 m sink 0.3 mm at
-// steps of 1 ms and then stay.
+// Contacts are slightly soft, relative to a body of mean mass, and remove a tenth of the overlap per step.
+// The load of a stack is then distributed uniquely over its contacts, and the solver, which starts each
+// step from the forces of the last one, comes to rest: 20 boxes of 0.2 m sink 0.3 mm at steps of 1 ms and
+// then stay.
 constexpr double kSoftness = 0.05, kOverlapShare = 0.1;
-// What starts in overlap comes apart this fast at most, m/s: it keeps the speed when it is apart, so that
-// more would throw it. Falls of some metres do not overlap so deep in a step that this changes them.
+// Bodies that start in overlap separate at most this fast, m/s. They keep the speed afterwards, so a higher
+// one would throw them. Bodies that fall some metres do not overlap deeply enough in a step for this to
+// matter.
 constexpr double kPartingSpeed = 1;
 
-// Joints of plain coordinates may follow others, quaternions may not.
+// Joints with plain coordinates may mimic others, those with quaternions may not.
 void requirePlainMimics(const Model& model) {
   for (const Joint& joint : model.joints()) {
     if (!joint.mimics || joint.nq == joint.nv) continue;
@@ -45,8 +46,8 @@ void requirePlainMimics(const Model& model) {
                .wanted = fmt::format("some: give body '{}' a mass and an inertia", model[joint.child].name)});
 }
 
-// Whatever moves must resist: articulated bodies find the joint where something does not, at any scale.
-// Bullet moves also what follows others by itself.
+// Everything that moves must have inertia: forwardDynamics() finds the joint that moves none, at any scale.
+// Bullet also moves joints that mimic others on their own.
 void requireMasses(const Model& model) {
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(model.nv());
   if (std::ranges::none_of(model.joints(), [](const Joint& joint) { return joint.mimics; }))
@@ -62,7 +63,7 @@ void requireMasses(const Model& model) {
   }
 }
 
-// Of each body: whether nothing moves it, and the first body of its chain that moves.
+// For each body: whether nothing moves it, and the first body of its chain that moves.
 struct Stillness {
   std::vector<bool> isStill;
   std::vector<Pose> X_WB;  // of what stands still
@@ -147,7 +148,8 @@ void BulletWorld::setUpSolver(const Model& model, const PhysicsOptions& options)
   info.m_warmstartingFactor = info.m_articulatedWarmstartingFactor = 1;
   info.m_erp2 = kOverlapShare;
   world_.setPartingSpeed(kPartingSpeed);
-  // What bounces must not get energy from yielding or from being pushed out: bodies are moved out instead.
+  // Bodies that bounce must not gain energy from soft contacts or from being pushed apart: their positions
+  // are corrected instead.
   if (options.restitution > 0) {
     info.m_splitImpulsePenetrationThreshold = 0;
   } else if (model.mass() > 0) {
@@ -157,7 +159,7 @@ void BulletWorld::setUpSolver(const Model& model, const PhysicsOptions& options)
   }
 }
 
-// Leaders may stand after what follows them.
+// Leaders may come after their followers.
 void BulletWorld::addCouplings(const Model& model, const std::vector<Articulation*>& trees) {
   std::vector<CoordinatePlace> leaders(static_cast<std::size_t>(model.nq()));
   std::vector<Follower> followers;
@@ -205,7 +207,7 @@ btCollisionShape* BulletWorld::addShape(const Model& model, BodyId body, const P
   return shapes_.emplace_back(std::move(compound)).get();
 }
 
-// Where two objects touch, Bullet multiplies their numbers.
+// When two objects touch, Bullet multiplies their coefficients.
 void BulletWorld::setUp(btCollisionObject& object, BodyId body, const PhysicsOptions& options) {
   object.setUserIndex(static_cast<int>(body));
   object.setFriction(std::sqrt(options.friction));
@@ -268,7 +270,7 @@ int BulletWorld::shapeOf(const btCollisionObject& object, int child) const {
   return shapes[static_cast<std::size_t>(std::max(child, 0))];
 }
 
-// Calls visit(manifold, point) for all that touches.
+// Calls visit(manifold, point) for all contact points.
 template <class Visit>
 void BulletWorld::forEachContact(const Visit& visit) const {
   for (int i = 0; i < dispatcher_.getNumManifolds(); ++i) {

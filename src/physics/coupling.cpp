@@ -9,11 +9,12 @@
 namespace rex::internal {
 namespace {
 
-// Errors in position go at this rate, 1/s. They are of the size of rounding, for velocities are exact and
-// positions are linear in them; a share per step would divide that by the square of short steps.
+// Position errors decay at this rate, 1/s. They are only rounding errors, because velocities are exact and
+// positions are linear in them. Removing a share per step would amplify them by the inverse square of short
+// steps.
 constexpr double kErrorRate = 20;
 
-// The coefficient of a row at a place in the velocities of a body.
+// The coefficient of a row for one velocity of a body.
 struct Coefficient {
   const btMultiBody* body;
   int index;
@@ -36,8 +37,8 @@ CouplingRow::CouplingRow(const Follower& follower)
   CouplingRow::finalizeMultiDof();
 }
 
-// Where both are in one body, all stands in the Jacobian of A: Bullet adds what A and B resist by
-// themselves, but not what they do to each other.
+// If both are in one body, the Jacobian of A holds everything: Bullet adds the terms of A and B on their
+// own, but not the coupling between them.
 void CouplingRow::finalizeMultiDof() {
   allocateJacobiansMultiDof();
   jacobianA(0)[follower_.at.velocityIndex()] = 1;

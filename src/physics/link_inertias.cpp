@@ -22,7 +22,7 @@ Lump lumpOf(const Link& link) {
   return lump;
 }
 
-// In frame P, what is given in L.
+// The same quantities in frame P, given in L.
 Lump moved(const Lump& lump, const Pose& X_PL) {
   const Eigen::Matrix3d P = skew(X_PL.p), C = skew(X_PL.R * lump.moment);
   Lump in{.mass = lump.mass, .moment = X_PL.R * lump.moment + lump.mass * X_PL.p};

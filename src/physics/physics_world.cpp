@@ -16,12 +16,13 @@
 namespace rex {
 namespace {
 
-// Bullet turns free bodies by 45 degrees in a step at most, and its contacts want steps of a millisecond.
+// Bullet turns free bodies by at most 45 degrees per step, and its contacts need steps of about a
+// millisecond.
 constexpr double kInnerStep = 1e-3;
-// Seconds. Bullet leaves out steps that are a good deal shorter; longer ones are slips, such as milliseconds
+// Seconds. Bullet skips steps that are much shorter. Longer ones are mistakes, such as milliseconds taken
 // for seconds, and take minutes.
 constexpr double kShortestStep = 1e-9, kLongestStep = 1000;
-// Faster than this, in rad/s or m/s, nothing moves that is simulated well.
+// Nothing that is simulated well moves faster than this, in rad/s or m/s.
 constexpr double kRunawaySpeed = 1e6;
 
 void requireQuaternions(const Model& model, const Eigen::VectorXd& q) {
@@ -74,7 +75,7 @@ struct PhysicsWorld::Parts {
     events.update(now);
   }
 
-  // The place in v of what has become too fast, or -1.
+  // The index in v of a velocity that has become too large, or -1.
   [[nodiscard]] int runaway() const {
     for (const auto& mover : world.movers()) {
       const int iv = mover->runaway(kRunawaySpeed);

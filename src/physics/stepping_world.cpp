@@ -9,8 +9,8 @@ void SteppingWorld::solveConstraints(btContactSolverInfo& info) {
   if (couplings_ != nullptr) couplings_->settle();
 }
 
-// The solver wants a share of the depth to vanish within the step, and so it does not see more of it than it
-// may push out. Bullet has no other bound for that.
+// The solver removes a share of the depth within the step, so it is shown no more depth than it may push
+// out. Bullet has no other bound on that speed.
 void SteppingWorld::hideDepths(const btContactSolverInfo& info) {
   hidden_.clear();
   const double deepest = partingSpeed_ * info.m_timeStep / info.m_erp2;

@@ -11,7 +11,7 @@ void Reader::examine(const double* first, std::size_t count) {
     const double value = first[k];
     if (limits_->any || std::abs(value) <= limits_->magnitude || (limits_->infinite && std::isinf(value)))
       continue;
-    // Which sign a NaN has depends on the machine.
+    // The sign of a NaN depends on the machine.
     const std::string got = std::isnan(value) ? "nan" : fmt::format("{:g}", value);
     throw AnswerRefused(*function_,
                         fmt::format("number {} is {}, wanted {}", examined_ + 1, got,
