@@ -35,7 +35,7 @@ void requirePoints(const MatrixArg& points) {
     requireFinite(fmt::format("hull: point {}", k), VectorXd(points.col(k)));
 }
 
-// qhull needs at least two dimensions; the hull of points on a line are its ends.
+// qhull needs at least two dimensions; on a line, the hull consists of the two ends.
 FacetHull lineHull(const MatrixXd& points) {
   FacetHull hull{.dimension = 1, .normals = MatrixXd(1, 2), .offsets = VectorXd(2)};
   hull.normals << 1, -1;

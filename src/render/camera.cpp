@@ -11,7 +11,7 @@
 namespace rex {
 namespace {
 
-// Axes of a camera that looks against `back` (unit length) with z up in the picture.
+// Axes of a camera that looks along -`back` (unit length), with z up in the picture.
 Eigen::Matrix3d axesLookingAgainst(const Eigen::Vector3d& back) {
   constexpr double kAlmostVertical = 1 - 1e-9;
   const Eigen::Vector3d up =
@@ -23,8 +23,8 @@ Eigen::Matrix3d axesLookingAgainst(const Eigen::Vector3d& back) {
   return R_WC;
 }
 
-// Where the eye may stand so that corners (u, z) lie within the frustum |u - e_u| <= slope * (e_z - z) of one
-// picture axis: at e_z = `distance` only at e_u = `middle`, farther away in an interval around it.
+// Where the eye may stand so that corners (u, z) lie within the frustum |u - e_u| <= slope * (e_z - z) of
+// one picture axis: at e_z = `distance` only at e_u = `middle`, for larger e_z in an interval around it.
 struct AxisFit {
   double middle, distance;
 };

@@ -80,7 +80,7 @@ Image contactSheet(const std::vector<KeyFrame>& frames, const ContactSheetOption
   Image sheet = white(columns * cellWidth + kGap, rows * cellHeight + kGap);
   for (int i = 0; i < count; ++i) {
     const Image& picture = pictures[static_cast<std::size_t>(i)];
-    // Drawn on a cell of its own, a long caption ends there.
+    // Drawn on a cell of its own, so that a long caption is cut off at its edge.
     Image cell = white(cellWidth, cellHeight);
     paste(cell, picture, 1, 1);
     outline(cell, 1, 1, 1 + picture.width, 1 + picture.height);

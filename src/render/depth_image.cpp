@@ -16,7 +16,7 @@ namespace {
 using Rgb = std::array<double, 3>;
 
 constexpr Rgb kNothing = {236, 238, 240};
-// From near to far, darker by the same step each, as they look in grey.
+// From near to far, each darker by the same step when seen in grey.
 constexpr std::array<Rgb, 6> kScale = {
     {{250, 226, 70}, {129, 208, 94}, {46, 166, 133}, {43, 117, 142}, {57, 72, 135}, {48, 18, 77}}};
 
@@ -58,7 +58,7 @@ Image depthColors(const DepthImage& depth) {
     nearest = std::min(nearest, metres);
     farthest = std::max(farthest, metres);
   }
-  // Of nothing, or of one depth only, any range will do.
+  // If there is no depth, or only one, any range will do.
   if (nearest > farthest) nearest = 1;
   return depthColors(depth, nearest, farthest > nearest ? farthest : nearest + 1);
 }

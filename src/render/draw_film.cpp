@@ -19,7 +19,7 @@ namespace {
 }  // namespace
 
 void drawFilm(const Film& film, const Camera& camera, Renderer& renderer, FrameSink& sink) {
-  bool showsSomething = film.empty();  // of which the sink complains
+  bool showsSomething = film.empty();  // about which the sink complains
   for (const Frame& frame : film) {
     throwIfInterrupted();
     const DrawnFrame drawn = renderer.drawFrame(frame.picture, camera);

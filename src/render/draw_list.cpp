@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Where it is nearest to the camera; the box around it stands for the item.
+// The radius where the item is nearest to the camera, judged by its bounding box.
 double radiusInPixels(const DrawItem& item, const Camera& camera, int pictureHeight) {
   const Vector3d p_SC = item.X_WS.R.transpose() * (camera.X_WC.p - item.X_WS.p);
   const double distance = (p_SC.cwiseAbs() - halfExtent(item)).cwiseMax(0).norm();

@@ -10,7 +10,7 @@
 namespace rex::internal {
 namespace {
 
-// From <EGL/egl.h> and <EGL/eglext.h>; a dozen names are not worth a package.
+// From <EGL/egl.h> and <EGL/eglext.h>; a dozen names are not worth a dependency.
 using EglDisplay = void*;
 using EglHandle = void*;
 constexpr unsigned kSurfacelessPlatform = 0x31DD;
@@ -32,8 +32,8 @@ bool isSoftware(const std::string& renderer) {
 
 class EglContext final : public GlContext {
  public:
-  // The library stays loaded and the display alive. EGL has one display per process, and ending it would
-  // take the contexts of other threads along.
+  // The library stays loaded and the display alive. EGL has one display per process, and terminating it
+  // would destroy the contexts of other threads.
   EglContext(void* library, std::string name) : name_(std::move(name)) {
     load(library, "eglGetPlatformDisplay", getDisplay_);
     load(library, "eglInitialize", initialize_);
@@ -60,7 +60,7 @@ class EglContext final : public GlContext {
   }
 
   void makeCurrent() override {
-    // EGL takes a context for current that OSMesa has put aside behind its back, unless it is let go first.
+    // EGL would still take a context for current after OSMesa has replaced it, so it is released first.
     letGo();
     if (makeCurrent_(display_, nullptr, nullptr, context_) == 0)
       throw failure("a refusal of its own context", "");

@@ -16,7 +16,7 @@ std::string terminalFor(const std::filesystem::path& path) {
                .wanted = ".png or .svg"});
 }
 
-// What an SVG says beside the figure: which gnuplot drew it, and that cells may be blurred.
+// Removes the note on which gnuplot drew the SVG, and keeps viewers from blurring cells.
 std::string cleaned(std::string svg) {
   const std::string remark = "<desc>", end = "</desc>", image = "<image ";
   if (const std::size_t at = svg.find(remark); at != std::string::npos)
@@ -26,7 +26,7 @@ std::string cleaned(std::string svg) {
   return svg;
 }
 
-// The bytes of the picture; `name` stands for the figure in messages.
+// The bytes of the picture; `name` is what messages call the figure.
 std::string drawFigure(const Figure& figure, const std::string& terminal, const std::string& name) {
   std::string bytes = internal::runGnuplot(internal::figureScript(figure, terminal), name);
   return terminal == "svg" ? cleaned(std::move(bytes)) : bytes;

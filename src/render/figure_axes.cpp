@@ -20,12 +20,12 @@ struct Span {
   }
 };
 
-// The least of 1, 2, 5, 10, ... times a power of ten that cuts `length` into at most `parts`.
+// The smallest of 1, 2, 5, 10, ... times a power of ten that divides `length` into at most `parts`.
 double stepFor(double length, int parts) {
   const double least = length / parts;
   const int exponent = static_cast<int>(std::floor(std::log10(least)));
   for (const double digit : {1., 2., 5., 10.}) {
-    // A division by a power of ten is exact where a multiplication by 0.1 is not.
+    // Dividing by a power of ten is exact, multiplying by 0.1 is not.
     const double step = exponent < 0 ? digit / std::pow(10., -exponent) : digit * std::pow(10., exponent);
     if (step >= least * (1 - 1e-9)) return step;
   }
@@ -104,7 +104,7 @@ Axes axesOf(const Figure& figure, const std::vector<Trace>& traces) {
     y.whole &= trace.wholeY;
     for (const Eigen::Vector3d& point : trace.outline) {
       x.add(point.x());
-      // y spans what the range of x shows of it.
+      // y spans the data within the range of x.
       if (trace.extent == Extent::kArea || contains(figure.xRange, point.x())) y.add(point.y());
       z.add(point.z());
     }
@@ -118,7 +118,7 @@ Axes axesOf(const Figure& figure, const std::vector<Trace>& traces) {
     if (contains(figure.xRange, note.x)) y.add(note.y);
     z.add(note.z);
   }
-  // Room for a tic with its label, in pixels.
+  // Space for a tic with its label, in pixels.
   const int across = std::clamp(figure.width / 90, 3, 12), up = std::clamp(figure.height / 50, 3, 12);
   const int inDepth = std::max(2, across / 2);
   Axes axes{.x = axisOf(x, figure.xRange, figure.logX, inSpace(figure) ? inDepth : across),

@@ -125,7 +125,7 @@ Figure poleFigure(const std::vector<std::complex<double>>& poles,
                 .height = 500};
   if (!poles.empty()) figure.series.push_back(signsOf(poles, "poles", Marker::kCross));
   if (!zeros.empty()) figure.series.push_back(signsOf(zeros, "zeros", Marker::kCircle));
-  double reach = discrete ? 1 : 0;  // of the square around the origin that shows all
+  double reach = discrete ? 1 : 0;  // half the side of a square around the origin that shows everything
   for (const Series& series : figure.series)
     for (std::size_t i = 0; i < series.x.size(); ++i)
       reach = std::max({reach, std::abs(series.x[i]), std::abs(series.y[i])});

@@ -13,7 +13,7 @@ namespace {
 
 using Values = std::vector<double>;
 
-// gnuplot takes larger numbers for missing ones.
+// gnuplot treats larger numbers as missing.
 bool isNumber(double value) { return std::abs(value) <= 1e300; }
 
 bool isBlank(const std::string& text) { return singleLine(text).find_first_not_of(' ') == std::string::npos; }
@@ -25,7 +25,7 @@ std::string layerName(const Figure& figure, const char* kind, std::size_t index,
 }
 
 void requireNumber(double value, bool logarithmic, const std::string& name, const std::string& field) {
-  // The next decade below 1e-300 may be too small for a number.
+  // The next decade below 1e-300 may be too small for a double.
   if (isNumber(value) && (!logarithmic || value >= 1e-300)) return;
   throw Error({.what = name,
                .found = fmt::format("{} = {}", field, value),
@@ -52,7 +52,7 @@ void requireSome(const std::string& name, std::size_t count) {
 
 void requireRange(const AxisRange& range, bool logarithmic, const std::string& name) {
   const auto [low, high] = range;
-  // A part in 10^10 leaves digits for tics.
+  // One part in 10^10 leaves enough digits for tics.
   const bool apart = high - low > 1e-10 * std::max(std::abs(low), std::abs(high));
   if (isNumber(low) && isNumber(high) && apart && (!logarithmic || low >= 1e-300)) return;
   throw Error({.what = name,
@@ -129,7 +129,7 @@ void requireLayer(const Figure& figure, const CovarianceEllipse& ellipse, const 
     throw Error(
         {.what = name, .found = fmt::format("sigmas = {}", ellipse.sigmas), .wanted = "0 < sigmas <= 100"});
   const Eigen::Matrix2d& P = ellipse.covariance;
-  // A filter's rounding is not an asymmetry; the drawing takes the lower half.
+  // Rounding errors of a filter do not count as asymmetry; the drawing uses the lower triangle.
   const bool symmetric = std::abs(P(0, 1) - P(1, 0)) <= 1e-6 * P.cwiseAbs().maxCoeff();
   const bool finite = isNumber(P.cwiseAbs().maxCoeff()) && P.allFinite();
   if (!finite || !symmetric || P.llt().info() != Eigen::Success)

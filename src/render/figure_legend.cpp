@@ -13,7 +13,8 @@ namespace {
 using Eigen::Vector2d;
 using Box = Eigen::AlignedBox2d;
 
-// The part of the plot that a legend in the top right corner takes, from letters of the usual width.
+// The share of the plot that a legend in the top right corner takes up, estimated with letters of the usual
+// width.
 Vector2d sizeOf(const Figure& figure, const std::vector<Trace>& traces) {
   std::size_t longest = 0, lines = 0;
   for (const Trace& trace : traces) {
@@ -24,7 +25,7 @@ Vector2d sizeOf(const Figure& figure, const std::vector<Trace>& traces) {
   return {std::min(0.5, width / (figure.width - 90)), std::min(0.5, height / (figure.height - 90))};
 }
 
-// Points of the trace as shares of the plot, close together also along its lines.
+// Points of the trace as shares of the plot, spaced closely along its lines, too.
 template <typename Visit>
 void visitSamples(const Figure& figure, const Trace& trace, const Axes& axes, const Visit& visit) {
   std::optional<Vector2d> last;

@@ -15,7 +15,7 @@
 namespace rex::internal {
 namespace {
 
-// Room between the numbers where two axes meet.
+// Space between the numbers where two axes meet.
 constexpr const char* kSpaceStyle =
     "set border 127\nset xyplane relative 0\nset view 62,32,1.05\nset grid ztics\n"
     "set xtics offset -0.6,-0.4\nset ytics offset 0.9,-0.2\nset xlabel offset -0.5,-0.6\n"
@@ -23,8 +23,8 @@ constexpr const char* kSpaceStyle =
 
 using Script = std::back_insert_iterator<std::string>;
 
-// gnuplot runs the shell for backticks in double quotes and has macros; the lines of a data block it leaves
-// alone. A mark before each line keeps a text from ending the block.
+// gnuplot runs backticks in double quotes in a shell and expands macros, but leaves the lines of a data
+// block alone. A mark before each line keeps a text from ending the block.
 class Texts {
  public:
   /// An expression that has `text` as its value.
@@ -50,7 +50,7 @@ const char* placeOf(const Figure& figure, Legend legend) {
       return "set key bottom right";
     case Legend::kBottomLeft:
       return "set key bottom left";
-    case Legend::kOutside:  // to the right stands the colour bar
+    case Legend::kOutside:  // the colour bar is on the right
       return hasColorBar(figure) ? "set key above" : "set key outside right top";
     case Legend::kNone:
       return "set key off";
@@ -60,13 +60,13 @@ const char* placeOf(const Figure& figure, Legend legend) {
 
 void addAxis(Script out, const char* name, const Axis& axis, bool logarithmic) {
   if (logarithmic) fmt::format_to(out, "set logscale {0}\nset format {0} '%g'\n", name);
-  // {:e} has a decimal exponent always, so that no number is read as an integer.
+  // {:e} always writes an exponent, so that no number is read as an integer.
   fmt::format_to(out, "set {}range [{:.17e}:{:.17e}]\n", name, axis.low, axis.high);
   if (axis.step == 0) return;
   if (!logarithmic) {
     fmt::format_to(out, "set {}tics {:.17e}\n", name, axis.step);
   } else if (const double fold = std::log10(axis.step); fold > 1.5) {
-    // Told to step by many decades, gnuplot 5.4 counts all minor tics between, for minutes.
+    // If a step spans many decades, gnuplot 5.4 counts all minor tics in between, which takes minutes.
     fmt::format_to(out, "set {}tics (", name);
     const char* separator = "";
     for (double k = std::ceil(std::log10(axis.low) / fold - 1e-9); std::pow(10, k * fold) <= axis.high; ++k) {
@@ -107,7 +107,7 @@ Trace traceOf(const Guide& guide, const Axis& along, bool vertical) {
   return trace;
 }
 
-// Lines of equal value of the cells in `block`, at equal steps of colour, as the block $contours.
+// Contour lines of the cells in `block`, at equal steps of colour, as the block $contours.
 void addContours(Script out, const Figure& figure, const std::string& block, const Axis& color) {
   const HeatMap& heatMap = *figure.heatMap;
   fmt::format_to(out, "set cntrparam levels discrete ");

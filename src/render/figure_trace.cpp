@@ -18,7 +18,7 @@ bool isWhole(const Values& values) {
   return std::all_of(values.begin(), values.end(), [](double v) { return v == std::floor(v); });
 }
 
-// The numbers of style.gp's linetypes, which differ in marker, too.
+// The numbers of style.gp's linetypes, which also differ in their markers.
 int pointType(Marker marker) {
   switch (marker) {
     case Marker::kAuto:
@@ -123,7 +123,7 @@ Trace polygon(const std::string& label, const std::string& color, double opacity
 }
 
 void setOutline(Trace& trace, const Eigen::Matrix2Xd& points) {
-  // gnuplot closes the border only where the first point comes again.
+  // gnuplot closes the border only if the first point is repeated.
   trace.rows.resize(points.cols() + 1, 2);
   trace.rows << points.transpose(), points.col(0).transpose();
   for (const auto& point : points.colwise()) trace.outline.emplace_back(point.x(), point.y(), 0);
@@ -169,7 +169,7 @@ void setCells(Trace& trace, const AxisRange& xRange, const AxisRange& yRange, co
 
 Trace traceOf(const OccupancyCells& map) {
   Trace trace;
-  // Free cells are white; unknown ones stay light, so that what is drawn over them is seen.
+  // Free cells are white; unknown ones stay light, so that what is drawn over them is visible.
   const Eigen::ArrayXXd p = map.occupancy.array();
   const Eigen::MatrixXd grey = (255 - p * (30 + p * 195)).round().matrix();
   setCells(trace, map.xRange, map.yRange, grey);

@@ -24,7 +24,7 @@ std::vector<Vector2d> pointsOf(const Trace& trace, const Figure& figure) {
 
 bool crosses(const Box& view, const Vector2d& from, const Vector2d& to) {
   if (!view.intersects(Box(from.cwiseMin(to), from.cwiseMax(to)))) return false;
-  // The line through both points must not leave all corners on one side.
+  // The line through both points must not have all corners on one side.
   const Vector2d along = (to / 2 - from / 2).stableNormalized();
   bool left = false, right = false;
   for (int k = 0; k < 4; ++k) {
@@ -36,7 +36,7 @@ bool crosses(const Box& view, const Vector2d& from, const Vector2d& to) {
   return left && right;
 }
 
-// Even-odd rule: a ray to the right leaves an area an odd number of times.
+// Even-odd rule: a ray to the right from inside crosses the border an odd number of times.
 bool isInside(const std::vector<Vector2d>& outline, const Vector2d& p) {
   bool inside = false;
   for (std::size_t i = 0; i < outline.size(); ++i) {

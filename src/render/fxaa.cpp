@@ -26,8 +26,9 @@ void main() {
 }
 )";
 
-// The stairs of an edge are runs of pixels along it. A pixel's true share of the colour beyond the edge is a
-// half where its run ends with a step to its own side, and falls to none in the middle of the run.
+// The stairs of an edge are runs of pixels along it. The true share of the colour beyond the edge is one
+// half for a pixel where its run ends with a step to its own side, and decreases to zero in the middle of
+// the run.
 const std::string kBlend = kAround + R"(
 const float kFar = 14.0;   // pixels that an edge is followed each way
 const float kGrain = 0.5;  // how far single pixels are smoothed

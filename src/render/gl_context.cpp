@@ -15,7 +15,7 @@
 namespace rex {
 namespace {
 
-// An environment variable that is put back in the end.
+// An environment variable that is restored at the end.
 class ScopedVariable {
  public:
   ScopedVariable(const char* name, const std::string& value) : name_(name) {
@@ -74,7 +74,7 @@ std::unique_ptr<GlContext> makeContextFrom(const GlLibraries& libraries, const G
   requireDriver(options.driver);
   const std::lock_guard<std::mutex> lock(environmentMutex());
   const ScopedVariable driver("GALLIUM_DRIVER", options.driver);
-  // Without it, EGL on a computer with a graphics card would take that.
+  // Without this, EGL would use the graphics card of a computer that has one.
   std::optional<ScopedVariable> software;
   if (!options.allowHardware) software.emplace("LIBGL_ALWAYS_SOFTWARE", "1");
   switch (options.backend) {

@@ -73,7 +73,7 @@ class FilmWriter {
   static constexpr int kRoot = 0;
   using State = std::optional<GlbState>;
 
-  // Our z is up, glTF's y. `target` is what the camera looks at and turns around.
+  // Our z is up, glTF's y. `target` is the point that the camera looks at and orbits.
   int addRoot(const Camera& camera) {
     const Vector3d ahead = -camera.X_WC.R.col(2);
     const Vector3d target = camera.X_WC.p + ahead * ahead.dot(scene_.center() - camera.X_WC.p);
@@ -86,7 +86,8 @@ class FilmWriter {
                                                    {"toLight", listOf(light)}}}});
   }
 
-  // Calls nameOf(item, index) and stateOf(item) for what has the same index in all pictures of the film.
+  // Calls nameOf(item, index) and stateOf(item) for the items with the same index in all pictures of the
+  // film.
   template <class Item, class NameOf, class StateOf>
   void addAll(const std::vector<Item> Picture::*list, const NameOf& nameOf, const StateOf& stateOf) {
     std::size_t most = 0;
@@ -188,8 +189,8 @@ class FilmWriter {
   int meshOf(const Polyline& line, int points) { return meshes_.line(points, line.color, line.width); }
   int meshOf(const PointSet& set, int points) { return meshes_.points(points, set.color, set.size); }
 
-  // The points that an item has through the film, as accessors. A list that is the start of another, as of a
-  // growing trace, lies in the same data.
+  // The points of an item throughout the film, as accessors. A list that is the start of another, as in a
+  // growing trace, shares its data.
   template <class Item>
   void addAccessors(const std::vector<const Item*>& items, std::map<const Item*, int>& accessors) {
     std::vector<std::pair<const Item*, std::vector<Eigen::Vector3f>>> lists;

@@ -7,7 +7,7 @@
 namespace rex::internal {
 namespace {
 
-// The track without gaps: what is not there waits where it was or where it will appear.
+// The track without gaps: an absent item waits where it was, or where it will appear.
 std::vector<GlbState> withoutGaps(const GlbTrack& track) {
   const auto first = std::find_if(track.begin(), track.end(), [](const auto& s) { return s.has_value(); });
   std::vector<GlbState> way;
@@ -21,7 +21,8 @@ bool areConstant(const Keys& keys) {
   return std::all_of(keys.begin(), keys.end(), [&](const auto& key) { return key == keys.front(); });
 }
 
-// Neighbours have the same sign, or a viewer would take the long way round between them.
+// Neighbouring quaternions have the same sign, because a viewer would otherwise take the long way between
+// them.
 std::vector<Eigen::Vector4f> rotationKeys(const std::vector<GlbState>& way) {
   std::vector<Eigen::Vector4f> keys;
   Quaternion last(1, 0, 0, 0);
@@ -59,7 +60,7 @@ void GlbTracks::add(const std::string& name, const GlbTrack& track) {
                  .extras = form.second};
     const bool always = std::find(shown.begin(), shown.end(), false) == shown.end();
     const Eigen::Vector3d atFirst = Eigen::Vector3d::Constant(shown[0] ? 1 : 0);
-    // A scale of its own leaves no room for the one that hides it.
+    // If the item has a scale of its own, the scale of a parent node hides it.
     if (!always && sized) node.parent = writer_->addNode({.name = name, .parent = parent_, .scale = atFirst});
     if (!always && !sized) node.scale = atFirst;
     const int index = writer_->addNode(node);

@@ -27,7 +27,7 @@ tinygltf::Value valueOf(const GlbExtras& extras) {
   return tinygltf::Value(std::move(object));
 }
 
-// glTF counts light, a screen its own steps.
+// Colours are linear in glTF, but not on a screen.
 double linear(float part) {
   const double c = std::clamp<double>(part, 0, 1);
   return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
@@ -91,7 +91,7 @@ struct GlbWriter::Impl {
     return known->second;
   }
 
-  // glTF wants the distance of vertices spelled out where several accessors share them.
+  // glTF requires an explicit stride if several accessors share vertices.
   int vertexViewOf(std::span<const Eigen::Vector3f> values) {
     const int view = viewOf(values.data(), values.size_bytes(), TINYGLTF_TARGET_ARRAY_BUFFER);
     model.bufferViews[view].byteStride = sizeof(Eigen::Vector3f);

@@ -10,7 +10,7 @@ namespace rex::internal {
 
 std::string runGnuplot(const std::string& script, const std::string& name, double patience) {
   constexpr std::size_t kLargestFile = 256u << 20;
-  // gnuplot writes to a pipe, so no path ever becomes part of a script.
+  // gnuplot writes to a pipe, so that no path becomes part of a script.
   ProcessResult run = runProcess({"gnuplot", "--default-settings"},
                                  {.input = script, .timeout = patience, .outputLimit = kLargestFile});
   const auto fail = [&](const std::string& found, const std::string& wanted = "") {

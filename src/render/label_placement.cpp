@@ -7,8 +7,8 @@ namespace {
 
 constexpr int kRounds = 8;
 
-// Places around the point, best first: in each round a line of text farther up and down, at last also one
-// width farther to the sides.
+// Positions around the point, best first: each round moves one line of text farther up and down, and
+// finally one width farther to the sides, too.
 std::vector<PixelBox> candidates(const LabelWish& wish) {
   const int beside = wish.y + wish.lower - wish.height / 2;
   const int above = wish.y - kTextMargin - wish.height, below = wish.y + wish.lower + kTextMargin;

@@ -6,17 +6,17 @@
 #include "render/osmesa_context_internal.h"
 
 #ifdef __SANITIZE_ADDRESS__
-// OSMesa keeps 480 bytes of every context, also of destroyed ones.
+// OSMesa keeps 480 bytes of every context, even after it is destroyed.
 extern "C" const char* __lsan_default_suppressions() { return "leak:libOSMesa\n"; }
-// The search for leaks reads what it noted of variables of the library's threads after they are gone, and on
-// some layouts of memory that ends it; Mesa's are no concern of ours.
+// The leak checker reads its records of thread-local variables after the threads of the library have ended,
+// which makes it fail with some memory layouts. Those of Mesa do not matter here.
 extern "C" const char* __lsan_default_options() { return "print_suppressions=0:intercept_tls_get_addr=0"; }
 #endif
 
 namespace rex::internal {
 namespace {
 
-// From <GL/osmesa.h>, which Debian packages apart from the headers we need otherwise.
+// From <GL/osmesa.h>, which is in a Debian package of its own, apart from the other headers.
 using OsMesaHandle = struct osmesa_context*;
 constexpr int kOsMesaRgba = 0x1908;
 constexpr int kOsMesaFormat = 0x22;
@@ -66,7 +66,7 @@ class OsMesaContext final : public GlContext {
       throw Error({.what = "OpenGL", .found = name_ + " without " + symbol, .wanted = "Mesa 22 or later"});
   }
 
-  // OSMesa insists on a picture of its own; we draw into framebuffer objects.
+  // OSMesa insists on a buffer of its own; the renderer draws into framebuffer objects.
   static constexpr int kSize = 4;
   std::array<unsigned char, 4 * kSize * kSize> buffer_{};
   std::string name_;

@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 
 constexpr double kEndless = 1e6;  // pixels: no round end
 
-// How lines or discs of one kind look.
+// The appearance of lines or discs of one kind.
 struct Stroke {
   Stroke(double halfWidthInPixels, const Color& c) : halfWidth(halfWidthInPixels), reach(halfWidth + 0.5) {
     const auto byte = [](float x) { return static_cast<std::uint8_t>(std::clamp(x, 0.f, 1.f) * 255 + 0.5f); };
@@ -21,7 +21,7 @@ struct Stroke {
   }
 
   double halfWidth;
-  double reach;  // of its quads to each side
+  double reach;  // half the width of its quads
   std::array<std::uint8_t, 4> color{};
 };
 
@@ -94,7 +94,7 @@ class Builder {
  private:
   bool inFront(const Vector3d& p_C) const { return -p_C.z() >= camera_.nearPlane; }
 
-  // Moves the end of a line that lies too near to the near plane; false if both do.
+  // Clips a line at the near plane; false if nothing of it is left.
   bool clipToFront(Vector3d& a, Vector3d& b) const {
     const bool startsInside = inFront(a), endsInside = inFront(b);
     if (!startsInside && !endsInside) return false;
@@ -137,15 +137,16 @@ class Builder {
                      stroke.color});
   }
 
-  // How one end of a piece of a run is made: its corners lie at `cap` + `side` and `cap` - `side` from its
-  // point.
+  // The shape of one end of a segment of a polyline: its corners lie at `cap` + `side` and `cap` - `side`,
+  // relative to its point.
   struct End {
     Vector2d side, cap;
     bool round;
   };
 
-  // Pieces share their corners, so that a translucent line has no darker joints; at a sharp turn, or without
-  // a neighbour, a piece ends with a round cap. `outward` is 1 at the end of a piece, -1 at its start.
+  // Segments share their corners, so that a translucent line has no darker joints. At a sharp turn, or
+  // without a neighbour, a segment ends with a round cap. `outward` is 1 at the end of a segment, -1 at its
+  // start.
   static End endOf(const Vector2d& along, const Vector2d* neighbour, double outward, double reach) {
     constexpr double kSharpest = 0.5;  // cosine of half the turn
     if (neighbour != nullptr) {

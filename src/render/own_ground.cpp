@@ -11,8 +11,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Shares of the scene's radius. A step of the depth buffer is less than a ten-thousandth of it where
-// framing() sets the planes.
+// Shares of the scene's radius. With the planes that framing() sets, a step of the depth buffer is less
+// than a ten-thousandth of it.
 constexpr double kThin = 5e-4, kLowered = 1e-3, kAbout = 0.02;
 
 double areaFromAbove(const Bounds& box) { return (box.high - box.low).head<2>().prod(); }
@@ -23,7 +23,7 @@ bool isSurface(const Solid& solid) {
   return !usesMesh(type) || !solid.shape.mesh.triangles().empty();
 }
 
-// A cheap lower bound of its heights: that of the box about the origin of its frame.
+// A cheap lower bound on its height: that of the box around the origin of its frame.
 double lowestOf(const Solid& solid) {
   const Vector3d half = usesMesh(solid.shape.type)
                             ? Vector3d(solid.shape.mesh.halfBounds() + Vector3d::Constant(solid.shape.radius))
@@ -31,7 +31,7 @@ double lowestOf(const Solid& solid) {
   return solid.X_WS.p.z() - solid.X_WS.R.row(2).cwiseAbs().dot(half);
 }
 
-// The area of the triangles of a mesh that face up at a height, W, square metres.
+// The area, in square metres, of the triangles of a mesh that face up at that height in W.
 double floorArea(const Solid& solid, double height, double tolerance) {
   double area = 0;
   const std::span<const Eigen::Vector3f> positions = solid.shape.mesh.positions();

@@ -10,7 +10,7 @@
 namespace rex {
 namespace {
 
-// Beyond this many metres single precision, in which OpenGL computes, has nothing left to show.
+// Beyond this many metres, single precision, in which OpenGL computes, is too coarse to show anything.
 constexpr double kLargestNumber = 1e9;
 
 bool isUsable(double number) { return std::abs(number) <= kLargestNumber; }

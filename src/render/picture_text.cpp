@@ -11,7 +11,7 @@
 namespace rex::internal {
 namespace {
 
-// A line of text at its place.
+// A line of text at its position.
 struct PlacedText {
   std::string_view text;
   PixelBox box;
@@ -52,7 +52,7 @@ std::vector<PlacedText> placeCaptions(const std::vector<Caption>& captions, cons
   return texts;
 }
 
-// Those whose points are in the picture, the nearest first: they choose their places first.
+// The labels whose points are in the picture, the nearest first: they choose their positions first.
 std::vector<SeenLabel> seenLabels(const std::vector<Label>& labels, const Image& image, const Camera& camera,
                                   int lower) {
   std::vector<SeenLabel> seen;

@@ -25,7 +25,7 @@ void makeFolder(const fs::path& folder) {
         {.what = "cannot make the folder '" + folder.string() + "' for frames", .found = problem.message()});
 }
 
-// An earlier film ended where the numbers have a gap.
+// An earlier film ended at the first gap in the numbers.
 void removeFrames(const fs::path& folder) {
   int next = 0;
   while (::unlink(frameFile(folder, next).c_str()) == 0) ++next;

@@ -57,7 +57,7 @@ void requireUsable(const Camera& camera) {
                  .wanted = "0 < near < far"});
 }
 
-// What the driver can do of what is wanted.
+// The wanted anti-aliasing, or the best that the driver supports.
 AntiAliasing supported(const GlFunctions& gl, AntiAliasing wanted) {
   GLint most = 1;
   gl.GetIntegerv(GL_MAX_SAMPLES, &most);
@@ -73,8 +73,8 @@ GlFunctions currentFunctions(GlContext& context) {
   return internal::loadGlFunctions(context);
 }
 
-// The background changes from row to row only, so a picture of nothing has rows of one colour. (One column
-// cannot tell.)
+// The background changes from row to row only, so a picture of nothing has rows of one colour. (A single
+// column does not show that.)
 bool showsNothing(const Image& image) {
   if (image.width == 1) return false;
   for (int y = 0; y < image.height; ++y) {
@@ -96,8 +96,8 @@ bool hasScene(const Picture& picture, const DrawList& list) {
          any(picture.solids, internal::isOverlay);
 }
 
-// Lets OpenGL calls of this thread go to a context, and the context go in the end: another thread may use it
-// next.
+// Directs OpenGL calls of this thread to a context, and releases the context at the end, so that another
+// thread can use it.
 class CurrentContext {
  public:
   explicit CurrentContext(GlContext& context) : context_(context) { context.makeCurrent(); }
@@ -192,7 +192,7 @@ void Renderer::Impl::setBackground(const GlProgram& program) const {
   program.set("pictureHeight", options.height);
 }
 
-// After what hides it, to shade each pixel once.
+// Drawn after everything that hides it, so that each pixel is shaded once.
 void Renderer::Impl::drawBackground() const {
   background.use();
   setBackground(background);
@@ -279,7 +279,7 @@ void Renderer::Impl::drawOverlay(const Picture& picture, const Camera& camera) {
   if (overlayStore.isEmpty()) return;
   overlay.use();
   gl.Enable(GL_BLEND);
-  gl.Disable(GL_MULTISAMPLE);  // it is smooth by itself, and costs half as much
+  gl.Disable(GL_MULTISAMPLE);  // it is smooth anyway, and this halves the cost
   gl.DepthMask(GL_FALSE);
   visibility.watch([&] {
     for (const bool hidden : {true, false}) {

@@ -21,7 +21,7 @@
 namespace rex {
 namespace {
 
-// Text that is nothing but text, between tags and in attributes with double quotes.
+// Escapes text for use between tags and in attributes with double quotes.
 std::string escaped(std::string_view text) { return htmlText(internal::singleLines(text)); }
 
 std::string bytesOfHex(std::string_view digits) {
@@ -34,14 +34,14 @@ std::string bytesOfHex(std::string_view digits) {
   return bytes;
 }
 
-// The headline says the title.
+// The headline already gives the title.
 Film withoutCaption(Film film, const std::string& title) {
   for (Frame& frame : film)
     std::erase_if(frame.picture.captions, [&](const Caption& caption) { return caption.text == title; });
   return film;
 }
 
-// What is shown from `start` on; of the frames before it the last.
+// The frames shown from `start` on, with the last one before it.
 Film fromTime(const Film& film, double start) {
   const auto isLater = [&](const Frame& frame) { return frame.time > start; };
   const auto later = std::find_if(film.begin(), film.end(), isLater);
@@ -50,7 +50,7 @@ Film fromTime(const Film& film, double start) {
 
 std::string stillOf(const Film& film, const Report& report) {
   const RendererOptions& options = report.still;
-  Renderer renderer(options);  // refuses sizes that have no aspect
+  Renderer renderer(options);  // rejects sizes without an aspect ratio
   const Camera camera = framing(film, report.view, static_cast<double>(options.width) / options.height);
   return encodePng(drawStill(fromTime(film, report.start), camera, renderer));
 }
@@ -80,7 +80,7 @@ std::string factsOf(const Report& report) {
   return html + "</table>\n";
 }
 
-// What is filled in is not searched again, so no text can ask for another.
+// Inserted text is not searched again, so it cannot contain placeholders.
 std::string filled(std::string_view page, const std::map<std::string_view, std::string>& values) {
   std::string result;
   for (;;) {

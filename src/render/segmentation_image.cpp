@@ -10,8 +10,8 @@ namespace {
 
 using Rgb = std::array<std::uint8_t, 3>;
 
-// Hues that lie apart for any number of neighbours (steps of the golden ratio), in five kinds; hues come near
-// to each other again after 5, 8, 13, 21 ... steps, of which 5 is the first of one kind.
+// Hues that differ for any number of neighbours (steps of the golden ratio), in five kinds. Hues come close
+// to each other again after 5, 8, 13, 21 ... steps, of which 5 is the first between ids of one kind.
 Rgb colorOf(std::int32_t id) {
   if (id == SegmentationImage::kGround) return {176, 180, 186};
   if (id < 0) return {245, 246, 247};

@@ -7,7 +7,7 @@
 namespace rex::internal {
 namespace {
 
-// OpenGL has 1 / depth at hand, for it interpolates with it.
+// OpenGL provides 1 / depth, because it interpolates with it.
 constexpr const char* kSolidFragment = R"(#version 330 core
 uniform float id;
 out vec2 seen;

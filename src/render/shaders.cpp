@@ -22,8 +22,8 @@ uniform vec3 p_WS, halfSize, stretch;
 vec3 placed() { return R_WS * (halfSize * position + stretch * end) + p_WS; }
 )";
 
-// The point is moved off its surface, towards the light, before it is looked up, or the surface would shade
-// itself. Of an imported surface the light may shine on the back.
+// The point is moved off its surface, towards the light, before it is looked up, because the surface would
+// otherwise shade itself. Light may shine on the back of an imported surface.
 const std::string kShadowPoint = R"(
 #if SHADOW
 uniform mat4 shadowClipFromWorld;
@@ -39,7 +39,7 @@ void setShadowPoint(vec3 p, vec3 n) {}
 #endif
 )";
 
-// The rim of the map is empty, so that all outside is lit.
+// The rim of the map is empty, so that everything outside is lit.
 const std::string kLight = R"(
 #if SHADOW
 uniform sampler2DShadow shadowMap;

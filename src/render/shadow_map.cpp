@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kMapSize = 1024;
 
-// Rows: two directions across the light, and the one towards it.
+// Rows: two directions perpendicular to the light, and the one towards it.
 Eigen::Matrix3d lightAxes(const Eigen::Vector3d& toLight) {
   Eigen::Matrix3d R_LW;
   R_LW.row(2) = toLight.normalized();
@@ -40,7 +40,7 @@ ShadowView fitShadowView(const std::vector<DrawItem>& casters, const Eigen::Vect
     box.include(middle - half);
     box.include(middle + half);
   }
-  // An empty rim, which stands for all that lies outside; and depth for casters that are flat along the
+  // An empty rim, which represents everything outside, and some depth for casters that are flat along the
   // light.
   Eigen::Vector3d size = box.high - box.low;
   size += Eigen::Vector3d::Constant(4 * size.head<2>().maxCoeff() / mapSize);

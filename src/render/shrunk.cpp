@@ -7,7 +7,7 @@
 namespace rex {
 namespace {
 
-// One old cell under a new one, and its share of it.
+// One old cell covered by a new one, and its share of the new one.
 struct Part {
   int cell;
   double share;

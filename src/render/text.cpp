@@ -14,11 +14,12 @@ namespace {
 
 using Eigen::Vector2d;
 
-// Pixels per unit of the glyph table at scale 1: stems and the lines of capitals fall on whole pixels.
+// Pixels per unit of the glyph table at scale 1, such that stems and the lines of capitals fall on whole
+// pixels.
 constexpr double kUnitX = 1.25, kUnitY = 1.5;
 constexpr double kHalfStroke = 0.65, kEdge = 1.6;  // pixels at scale 1
 constexpr double kGap = 2.0, kSpace = 3.0;         // units between characters, of a space
-constexpr double kTop = 9.5, kBottom = -0.5;       // units: what a line of text may cover
+constexpr double kTop = 9.5, kBottom = -0.5;       // units: the vertical extent of a line of text
 
 struct Segment {
   Vector2d a, b;

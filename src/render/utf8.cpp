@@ -8,7 +8,7 @@ namespace {
 
 constexpr char32_t kInvalid = 0xFFFD;
 
-// Length of the character that starts with `lead`; 0: no character starts so.
+// Length of the character that starts with `lead`; 0: no character starts with it.
 int lengthOf(unsigned char lead) {
   if (lead < 0x80) return 1;
   if (lead >= 0xC2 && lead < 0xE0) return 2;

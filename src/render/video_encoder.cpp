@@ -72,7 +72,7 @@ void VideoEncoder::encode() {
   if (ffmpeg_) requireSuccess(ffmpeg_->finish(ChildProcess::after(options_.patience)), tookAll);
 }
 
-// The next frame to encode; none when all are, or when nobody wants them.
+// The next frame to encode; empty if all are encoded, or if nobody wants them.
 std::optional<Image> VideoEncoder::next() {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [&] { return !queue_.empty() || complete_ || abandoned_; });
@@ -93,7 +93,7 @@ void VideoEncoder::start(const Image& first) {
 
 void VideoEncoder::requireSuccess(const ProcessResult& result, bool tookAll) const {
   if (result.ok() && tookAll) return;
-  // What follows the first line are complaints about its consequences.
+  // The lines after the first are complaints about its consequences.
   std::string cause = result.error.substr(0, result.error.find('\n'));
   if (!result.started) cause = "cannot start ffmpeg: " + cause;
   if (result.timedOut)

@@ -21,11 +21,11 @@ constexpr const char* kYuv =
     "-colorspace bt709 -color_primaries bt709 -color_trc bt709 -color_range tv";
 constexpr const char* kMp4 = "-c:v libx264 -preset veryfast -crf 20";
 constexpr const char* kWebm = "-c:v libvpx-vp9 -deadline realtime -cpu-used 8 -crf 32 -b:v 0";
-// One palette for the whole film, which ffmpeg holds in memory for that.
+// One palette for the whole film, for which ffmpeg keeps the film in memory.
 constexpr const char* kGif =
     "-filter_complex "
     "split[a][b];[a]palettegen=stats_mode=full[p];[b][p]paletteuse=dither=bayer:bayer_scale=4";
-// With more threads the bytes depend on the machine's load; and no version stamps.
+// With more threads the bytes would depend on the load of the machine. Version stamps are left out.
 constexpr const char* kSameBytes = "-threads 1 -fflags +bitexact -flags:v +bitexact";
 
 }  // namespace
@@ -57,7 +57,7 @@ std::vector<std::string> ffmpegCommand(const VideoFormat& format, int width, int
   std::istringstream words(
       fmt::format(kInput, width, height, rate, format.arguments, kSameBytes, format.ending.substr(1)));
   std::vector<std::string> command(std::istream_iterator<std::string>(words), {});
-  command.push_back("file:" + file.string());  // else a colon in the name would start a protocol
+  command.push_back("file:" + file.string());  // otherwise a colon in the name would mean a protocol
   return command;
 }
 

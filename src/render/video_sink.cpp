@@ -40,7 +40,7 @@ std::string missingForVideo(const std::filesystem::path& file) {
   return {};
 }
 
-// Members die in reverse: ffmpeg ends before its file goes.
+// Members are destroyed in reverse order: ffmpeg ends before its file is removed.
 struct VideoSink::Impl {
   Impl(const std::filesystem::path& file, const VideoOptions& options)
       : name(file.string()),
