@@ -306,9 +306,9 @@ TEST(MjcfMessages, OfEqualities) {
       {equal("<joint joint1='j' joint2='k'/><joint joint1='@j' joint2='k'/>"),
        "warning: <equality>: <joint>: 'j' already follows another joint; this is ignored"},
       {equal("@<joint joint1='j' joint2='k'/>\n<joint joint1='k' joint2='j'/>"),
-       "warning: <equality>: <joint>: joints that follow each other in a ring; this is ignored\nf:4:1: "
+       "warning: <equality>: <joint>: joints that follow each other in a loop; this is ignored\nf:4:1: "
        "warning: "
-       "<equality>: <joint>: joints that follow each other in a ring; this is ignored"},
+       "<equality>: <joint>: joints that follow each other in a loop; this is ignored"},
       {equal("@<connect body1='a'/><weld/><weld/>"),
        "note: <connect> is ignored\nf:3:31: note: <weld> is ignored (2 times)"},
   });
