@@ -311,7 +311,8 @@ TEST_F(PicturesOfPrograms, ShowWhatWindowsShowed) {
   testing::internal::CaptureStderr();
   for (uint i = 0; i < 23; i++) S.watch(i == 0, i == 0 ? "start" : nullptr);
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "start\n");
-  EXPECT_EQ(testing::internal::GetCapturedStderr(), "watch: 20 pictures are drawn, later calls draw none\n");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(),
+            "watch: 20 pictures have been drawn; later calls draw none\n");
   EXPECT_GT(std::filesystem::file_size("watch-01.png"), 2000u);
   EXPECT_TRUE(std::filesystem::exists("watch-20.png"));
   EXPECT_FALSE(std::filesystem::exists("watch-21.png"));
