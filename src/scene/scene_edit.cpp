@@ -103,7 +103,7 @@ void requireReversible(const SceneSpec& spec, const JointSpec& joint) {
   }
 }
 
-// X_FM(q)^-1 is the motion of a joint, too: with one coordinate, that about the opposite axis.
+// X_FM(q)^-1 is the motion of a joint, too. With one coordinate it is the motion about the opposite axis.
 void reverse(JointSpec& joint) {
   const JointReversal reversal = reversalOf(joint.type);
   const Pose X_PF = joint.X_MC.inverse() * reversal.X_FC;
