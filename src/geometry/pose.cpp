@@ -4,6 +4,12 @@
 
 namespace rex {
 
+Pose Pose::operator*(const Pose& other) const { return {R * other.R, R * other.p + p}; }
+
+Eigen::Vector3d Pose::operator*(const Eigen::Vector3d& point) const { return R * point + p; }
+
+Pose Pose::inverse() const { return {R.transpose(), -(R.transpose() * p)}; }
+
 Pose translation(double x, double y, double z) { return {Eigen::Matrix3d::Identity(), {x, y, z}}; }
 
 Pose rotation(double angle, const Eigen::Vector3d& axis) {

@@ -10,9 +10,11 @@ struct Pose {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   Eigen::Vector3d p = Eigen::Vector3d::Zero();
 
-  [[nodiscard]] Pose operator*(const Pose& other) const { return {R * other.R, R * other.p + p}; }
-  [[nodiscard]] Eigen::Vector3d operator*(const Eigen::Vector3d& point) const { return R * point + p; }
-  [[nodiscard]] Pose inverse() const { return {R.transpose(), -(R.transpose() * p)}; }
+  // Not inline: whatever includes this, a student's file above all, would instantiate these products to
+  // compile.
+  [[nodiscard]] Pose operator*(const Pose& other) const;
+  [[nodiscard]] Eigen::Vector3d operator*(const Eigen::Vector3d& point) const;
+  [[nodiscard]] Pose inverse() const;
 };
 
 /// The pose that translates by (x, y, z) metres.
