@@ -108,12 +108,23 @@ std::vector<std::string> TomlTable::texts(std::string_view key) const {
   return list;
 }
 
+namespace {
+
+// Instants count whole seconds.
+std::string withoutFraction(std::string time) {
+  if (const std::size_t point = time.find('.'); point != std::string::npos)
+    time.erase(point, time.find_first_not_of("0123456789", point + 1) - point);
+  return time;
+}
+
+}  // namespace
+
 std::int64_t TomlTable::instant(std::string_view key) const {
   const std::string wanted = "a time with its zone, such as 2026-11-20T23:59:00+01:00";
   const auto value = node_->require(key, name_, wanted).value_exact<toml::date_time>();
   std::ostringstream text;
   if (value) text << *value;
-  const auto seconds = parseInstant(text.str().substr(0, text.str().find('.')));
+  const auto seconds = parseInstant(withoutFraction(text.str()));
   if (!value || !value->offset || !seconds) node_->complain(key, name_, wanted);
   return *seconds;
 }

@@ -24,13 +24,15 @@ class TomlTableTest : public ::testing::Test {
 TEST_F(TomlTableTest, GivesWhatIsThere) {
   const TomlTable top = table(
       "name = 'x'\ncount = 3\nshare = 0.5\nwords = ['a', 'b']\nkind = 'two'\n"
-      "due = 1970-01-01T01:00:10+01:00\n[inner]\nkey = 1\n[[row]]\nn = 1\n[[row]]\nn = 2\n");
+      "due = 1970-01-01T01:00:10+01:00\nlater = 1970-01-01T01:00:11.75+01:00\n[inner]\nkey = 1\n[[row]]\nn = "
+      "1\n[[row]]\nn = 2\n");
   EXPECT_EQ(top.text("name"), "x");
   EXPECT_EQ(top.integer("count", 0, 5), 3);
   EXPECT_EQ(top.number("share", 0, 1), 0.5);
   EXPECT_THAT(top.texts("words"), testing::ElementsAre("a", "b"));
   EXPECT_EQ((top.choice<int>("kind", {{"one", 1}, {"two", 2}})), 2);
   EXPECT_EQ(top.instant("due"), 10);
+  EXPECT_EQ(top.instant("later"), 11);
   EXPECT_EQ(top.table("inner", "[inner]", "a table")->integer("key", 0, 9), 1);
   EXPECT_FALSE(top.table("none", "[none]", "a table"));
   EXPECT_EQ(top.tables("row").at(1).integer("n", 0, 9), 2);
