@@ -150,7 +150,7 @@ LandmarkUpdate EkfSlam::observe(int landmark, const Eigen::Vector2d& y) {
   if (landmark < 0 || landmark > landmarks_) {
     throw Error({.what = "observed landmark",
                  .found = fmt::format("{}", landmark),
-                 .wanted = fmt::format("0 to {}, or {} for a new one", landmarks_ - 1, landmarks_)});
+                 .wanted = fmt::format("at least 0, at most {}, which is a new one", landmarks_)});
   }
   if (landmark == landmarks_) {
     add(y);

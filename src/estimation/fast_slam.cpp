@@ -175,7 +175,7 @@ FastSlamStep FastSlam::step(const PoseTransition& transition, std::span<const La
     if (sighting.landmark < 0 || sighting.landmark > next)
       throw Error({.what = "observed landmark",
                    .found = fmt::format("{}", sighting.landmark),
-                   .wanted = fmt::format("0 to {}, or {} for a new one", next - 1, next)});
+                   .wanted = fmt::format("at least 0, at most {}, which is a new one", next)});
     if (sighting.landmark < landmarks_) {
       known.push_back(sighting);
     } else {

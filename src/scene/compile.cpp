@@ -349,7 +349,9 @@ void shareCoordinates(std::vector<Joint>& joints, const std::vector<const JointS
       for (const JointSpec* other : specs)
         if (other != &spec && canFollow(spec, *other)) known.push_back(other->name);
       fail(spec.where, fmt::format("joint '{}': mimic", spec.name), fmt::format("'{}'", spec.mimic),
-           "a joint that mimics no other, of the same type or with one coordinate like this one",
+           "a joint that mimics no other, with one coordinate like this one, or of the same type and with "
+           "ratio "
+           "1 and offset 0",
            nearestNames(spec.mimic, known));
     }
     const Joint& followed = joints[static_cast<std::size_t>(target - specs.begin())];

@@ -205,7 +205,8 @@ TEST(EkfSlam, SaysWhatIsWrong) {
                    "pose: found a vector of size 2, wanted size 3");
   EXPECT_REX_ERROR(EkfSlam(kStart, {.W = Eigen::Matrix2d::Zero()}),
                    "covariance of the sensor: found the eigenvalue 0");
-  EXPECT_REX_ERROR(slam.observe(1, {0, 0}), "observed landmark: found 1, wanted 0 to -1, or 0 for a new one");
+  EXPECT_REX_ERROR(slam.observe(1, {0, 0}),
+                   "observed landmark: found 1, wanted at least 0, at most 0, which is a new one");
   EXPECT_REX_ERROR(slam.observe(0, {0, std::nan("")}), "observation: number 1: found nan");
   EXPECT_REX_ERROR(slam.landmark(0), "landmark: found 0");
   const std::vector<Eigen::Vector2d> ys{{1, 1}};

@@ -127,7 +127,7 @@ TEST(FastSlam, SaysWhatIsWrong) {
   FastSlam slam(Eigen::Vector3d::Zero(), world.sensor, {.particles = 3});
   const LandmarkSighting second{1, {1, 1}}, wrong{0, {std::nan(""), 0}};
   EXPECT_REX_ERROR(slam.step(world.transition(), std::vector{second}, rng),
-                   "observed landmark: found 1, wanted 0 to -1, or 0 for a new one");
+                   "observed landmark: found 1, wanted at least 0, at most 0, which is a new one");
   EXPECT_REX_ERROR(slam.step(world.transition(), std::vector{wrong}, rng), "sighting: number 0: found nan");
   EXPECT_REX_ERROR(slam.step({}, {}, rng), "transition: found no function for its mean");
   EXPECT_REX_ERROR(slam.landmark(0, 0), "landmark: found 0");

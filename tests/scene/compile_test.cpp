@@ -173,9 +173,10 @@ TEST(Compile, RefusesBadNumbersInAnEditedSpec) {
   EXPECT_REX_ERROR(compile(roundedBox(0.11)),
                    "shape 'a': radius of the rounded edges: found 0.11 m, wanted at most half of the "
                    "shortest edge, 0.1 m");
-  EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.joints[0].mimic = "j"; })),
-                   "f:3:1: joint 'j': mimic: found 'j', wanted a joint that mimics no other, of the same "
-                   "type or with one coordinate like this one");
+  EXPECT_REX_ERROR(
+      compile(broken([&](SceneSpec& s) { s.joints[0].mimic = "j"; })),
+      "f:3:1: joint 'j': mimic: found 'j', wanted a joint that mimics no other, with one coordinate "
+      "like this one, or of the same type and with ratio 1 and offset 0");
   EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.joints[0].axis.setZero(); })),
                    "joint 'j': axis: found a zero or non-finite vector");
   EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.bodies[0].p_BBcm.z() = nan; })),
@@ -220,7 +221,7 @@ TEST(Compile, RefusesBadNumbersInAnEditedSpec) {
   EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.joints[0].child = "c"; })),
                    "joint 'j': unknown child: found 'c'");
   EXPECT_REX_ERROR(compile(broken([&](SceneSpec& s) { s.joints[0].mimic = "k"; })),
-                   "joint 'j': mimic: found 'k', wanted a joint that mimics no other, of the same type");
+                   "joint 'j': mimic: found 'k', wanted a joint that mimics no other, with one");
 }
 
 TEST(Compile, LetsNothingCollideWithWhatStandsForAMesh) {
