@@ -220,8 +220,9 @@ class Attacks : public Battery, public ::testing::WithParamInterface<Attack> {
 
 TEST_P(Attacks, GainNothingAndHarmNobody) {
   const Attack& attack = GetParam();
-  const std::vector<int> levels = offeredLevels();
+  std::vector<int> levels = offeredLevels();
   if (levels.empty()) GTEST_SKIP() << "no sandbox is offered here";
+  if (!isLongRun()) levels.resize(1);
   const std::string before = honest(levels.front());
   std::optional<BuiltSubmission> built;
   for (const int level : levels) {

@@ -322,14 +322,14 @@ TEST(ReportSchema, FitsWhateverTheTextsAreAndTheySurvive) {
 TEST(ReportSchema, FitsAMegabyteOfAnything) {
   REX_NEEDS_REPORT_CHECKER();
   const TemporaryFolder folder;
-  for (const char* piece : {"x", "\n", "\xf0\x9f\xa4\x96", "\xff", "|", "]]>", "::error::x\n"}) {
-    GradeResult result = golden("graded");
-    std::string text;
-    while (text.size() < (1u << 20)) text += piece;
-    result.output.text = result.error.text = text;
-    result.checks[1].message = result.checks[1].title = text;
-    writeReports(folder.path(), std::to_string(static_cast<unsigned char>(*piece)), result);
-  }
+  GradeResult result = golden("graded");
+  std::string text;
+  while (text.size() < (1u << 20))
+    for (const char* piece : {"x", "\n", "\xf0\x9f\xa4\x96", "\xff", "|", "]]>", "::error::x\n"})
+      text += piece;
+  result.output.text = result.error.text = text;
+  result.checks[1].message = result.checks[1].title = text;
+  writeReports(folder.path(), "large", result);
   EXPECT_EQ(reportDifferences(folder.path()), "");
 }
 
