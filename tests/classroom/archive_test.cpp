@@ -174,7 +174,7 @@ TEST_F(ArchiveTest, RefusesWhatIsBrokenOrNone) {
   EXPECT_REX_ERROR(read("a.zip", "no archive"), "wanted an intact .zip, .tar or .tar.gz file");
   EXPECT_REX_ERROR(read("a.zip", ""), "a.zip: this archive is not accepted");
   const std::string tar = tarOf({{.name = "01/main.cpp", .text = std::string(5000, 'x')}});
-  EXPECT_REX_ERROR(read("a.tar", tar.substr(0, 3000)), "wanted a whole");
+  EXPECT_REX_ERROR(read("a.tar", tar.substr(0, 3000)), "wanted an intact");
 }
 
 // Whatever bytes a file has, reading ends, and with a list or an Error.

@@ -63,7 +63,7 @@ TEST(Program, NamesTheValuesOfOptionsAndTheEnvironmentOnce) {
     EXPECT_THAT(help, HasSubstr(option));
 }
 
-TEST(Program, KeepsHelpWithin100ColumnsAndFreeOfColour) {
+TEST(Program, KeepsHelpWithin90ColumnsAndFreeOfColour) {
   for (const char* command : {"list", "run", "test", "watch", "hint", "show", "reset", "solution", "submit",
                               "bench", "debug", "render", "simulate", "doctor", "dev"}) {
     const std::string help = rex({command, "--help"}).output;

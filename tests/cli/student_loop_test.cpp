@@ -80,7 +80,8 @@ TEST_F(StudentLoop, SaysWhereTheOtherHintsAreIfItCannotCount) {
   for (int k = 0; k < 2; ++k) {
     const Ended ended = rex({"hint", "98"});
     EXPECT_THAT(ended.output, HasSubstr("1 of 2: "));
-    EXPECT_THAT(ended.output, HasSubstr("  1 more in " + (exercise() / "exercise.toml").string() + ", as"));
+    EXPECT_THAT(ended.output,
+                HasSubstr("  1 more in " + (exercise() / "exercise.toml").string() + " (progress"));
     EXPECT_THAT(ended.output, Not(HasSubstr("scripts/rex hint")));
   }
 }

@@ -188,7 +188,7 @@ TEST(G2oFile, SaysWhereAndWhatIsWrong) {
   EXPECT_REX_ERROR(readG2o("."), "found a file that cannot be read");
   EXPECT_REX_ERROR(
       read("EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\nEDGE_SE2 2 3 1 0 0 1 0 0 1 0 1\n"),
-      "map.g2o:2:10: pose graph: found pose 2, which no edges join to pose 0, wanted a graph in one");
+      "map.g2o:2:10: pose graph: found pose 2, which no edges join to pose 0, wanted a connected graph");
   EXPECT_REX_ERROR(read(with("VERTEX_SE2 9 0 0 0\n")),
                    "map.g2o:7:12: pose graph: found pose 9, which no edges join to pose 3");
   EXPECT_REX_ERROR(read(with("FIX 7\n")),

@@ -131,7 +131,7 @@ TEST(BehaviouralCloning, RefusesWrongInput) {
   const Eigen::Matrix2d I = Eigen::Matrix2d::Identity();
   EXPECT_REX_ERROR(cloneLinear(Eigen::MatrixXd(0, 2), I), "features of the demonstrations: found 0 x 2");
   EXPECT_REX_ERROR(cloneLinear(Eigen::Matrix2d{{1, 0}, {nan, 1}}, I),
-                   "features of demonstration 1: found not");
+                   "features of demonstration 1: found entries that are not finite");
   EXPECT_REX_ERROR(cloneLinear(I, Eigen::Vector3d::Zero()), "actions of the demonstrations");
   EXPECT_REX_ERROR(cloneLinear(I, Eigen::MatrixXd(2, 0)), "actions of the demonstrations: found none");
   EXPECT_REX_ERROR(cloneLinear(I, Eigen::Vector2d(1, nan)),

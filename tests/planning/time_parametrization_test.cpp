@@ -199,8 +199,8 @@ TEST(TimeParametrization, KeepsToEfforts) {
       "no motion along the path: at s = 2.997 of 3: the effort of 'lift' is 19.62 even at rest, limit 19");
   EXPECT_THAT(
       parametrizeTime(straight(Eigen::VectorXd::Constant(1, 3)), limits).message,
-      ::testing::MatchesRegex("no motion along the path: at s = 0 of 3: from the speed 0 the path cannot "
-                              "be followed, but from 1.36[0-9]* to [0-9.]*; the effort of 'lift' is 19.62 "
+      ::testing::MatchesRegex("no motion along the path: at s = 0 of 3: the path cannot be followed from "
+                              "the speed 0, only from 1.36[0-9]* to [0-9.]*; the effort of 'lift' is 19.62 "
                               "even at rest, limit 19"));
   EXPECT_EQ(result.motion.duration(), 0);
   EXPECT_EQ(result.motion.at(1).q[0], 0);
