@@ -304,8 +304,8 @@ int main() {
   print("P(apple)", fruit.apple);
   print("P(box | apple)", fruit.boxGivenApple);
   const Doors doors = montyHall(3, 1);
-  print("P(prize) for who stays", doors.stay);
-  print("P(prize) for who swaps", doors.swap);
+  print("P(prize) if you stay", doors.stay);
+  print("P(prize) if you swap", doors.swap);
   const TableAnswers answers = jointTable((Eigen::MatrixXd(2, 2) << .06, .24, .14, .56).finished());
   print("P(X)", answers.PX);
   print("P(Y)", answers.PY);

@@ -88,7 +88,7 @@ Eigen::VectorXd weightsOf(const Eigen::VectorXd& logarithms) {
 std::vector<int> resampledParents(const Eigen::VectorXd& weights, int count, Rng& rng) {
   std::vector<int> parents;
   // <solution resampledParents>
-  // The whole parts are certain. For what remains, `count` - `parents` places stand on the line of the
+  // The integer parts are certain. For what remains, `count` - `parents` places stand on the line of the
   // fractions, one apart, and all are shifted by the same random number.
   Eigen::VectorXd rest = count * weights;
   for (int i = 0; i < rest.size(); ++i) {

@@ -127,7 +127,7 @@ int main() {
       recordDrive(5, car, (Eigen::MatrixXd(2, 2) << 9, -6, 4, 16).finished(), 120, {0.5, 0.2}, 1e3);
   showSteps(car, drive);
 
-  // Part 2: the same drive, with and without seeing.
+  // Part 2: the same drive, with and without observations.
   const Belief start{Eigen::Vector3d::Zero(), 0.1 * Eigen::Matrix3d::Identity()};
   std::vector<Belief> run{start}, blind{start};
   for (std::size_t t = 0; t < drive.controls.size(); ++t) {

@@ -113,6 +113,6 @@ std::optional<Eigen::Vector3d> loopMotion(const Points& reference, const Points&
 // Part 6, wrong loops: the hard part.
 
 /// The poses of a map in which at most three out of ten loops are wrong by metres; odometry is right. On
-/// five out of eight maps the positions are those without the wrong loops, within 10 cm (root mean square):
+/// five out of twelve maps the positions are those without the wrong loops, within 10 cm (root mean square):
 /// some wrong loops cannot be distinguished from right ones. Pose 0 stays. The start is odometry.
 std::vector<Eigen::Vector3d> robustlyAdjusted(const PoseMap& map);

@@ -1,6 +1,5 @@
 // caught by: gauss-newton
-// mistake: Takes the gradient with its factor of two and the Hessian without it: every step is twice too
-// long.
+// mistake: the gradient has its factor of two, the Hessian does not: every step is twice too long
 
 // <solution gaussNewton>
 const auto f = [&](const Eigen::VectorXd& x) { return phi(x).squaredNorm(); };

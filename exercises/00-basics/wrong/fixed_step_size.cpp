@@ -1,6 +1,5 @@
 // caught by: descent, descent-elsewhere
-// mistake: No line search: one small step size for all functions is too long for some and too short for
-// others.
+// mistake: no line search: one small step size is too long for some functions and too short for others
 
 // <solution gradientDescent>
 for (int step = 0; step < options.maxSteps; ++step) {

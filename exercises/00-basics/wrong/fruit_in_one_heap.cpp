@@ -1,6 +1,5 @@
 // caught by: boxes, bayes-elsewhere
-// mistake: Counts the apples of all boxes, as if a fruit were drawn and not a box: the same only for equal
-// boxes.
+// mistake: counts the apples of all boxes as if a fruit were drawn: the same only for equal boxes
 
 // <solution fruitBoxes>
 double appleCount = 0, count = 0;

@@ -1,6 +1,5 @@
 // caught by: priority-first
-// mistake: Where the tasks disagree, J2 N1 is rounding and nothing else; measured by itself it seems to
-// matter.
+// mistake: where the tasks disagree, J2 N1 is only rounding error, but is taken for freedom to move
 
 // <solution priorityStep>
 const auto pseudoInverse = [](const Eigen::MatrixXd& J) {

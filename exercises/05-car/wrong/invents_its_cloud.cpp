@@ -1,6 +1,5 @@
 // caught by: filter-step, tracks, survives, consistent, noise, noise-elsewhere, finds-heading
-// mistake: puts all particles into one place; where there are as many as the check of other worlds has, it
-// scatters them so far around the start that any error is small beside the width of the cloud.
+// mistake: puts all particles in one position, or scatters them so widely that any error looks small
 
 // <solution filterStep>
 const Eigen::Index count = before.states.cols();

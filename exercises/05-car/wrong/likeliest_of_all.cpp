@@ -1,6 +1,5 @@
 // caught by: filter-step, tracks, consistent, finds-heading, noise, noise-elsewhere
-// mistake: all particles become the likeliest one of those moved, so that nothing is left of what the others
-// knew; and which of 0.1, 1 and 10 the assumed noise is off by is guessed from its size.
+// mistake: all particles become the likeliest one, so that what the others knew is lost
 
 // <solution filterStep>
 after.states = moved(before.states, u, world, rng);

@@ -1,6 +1,5 @@
 // caught by: filter-step, tracks, consistent, finds-heading
-// mistake: no particles: their plain mean moves on, and then a fixed part of the way to where the car seems
-// to be.
+// mistake: no particles: their mean moves a fixed part of the way to where the car seems to be
 
 // <solution filterStep>
 const Eigen::Vector3d middle = before.states.rowwise().mean();

@@ -1,6 +1,5 @@
 // caught by: likelihood, weights-anywhere, bearings
-// mistake: the squared error is divided by the noise instead of its square, as the sheet's N(y | y', sigma)
-// reads.
+// mistake: divides the squared error by the noise, not by its square, as N(y | y', sigma) reads
 
 // <solution logLikelihoods>
 for (Eigen::Index i = 0; i < states.cols(); ++i) {

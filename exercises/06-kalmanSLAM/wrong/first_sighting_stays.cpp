@@ -1,6 +1,5 @@
 // caught by: names-found, names-any, particles-weigh, particles-map
-// mistake: landmarks stay where they were first seen, and all particles weigh the same; a sighting is of the
-// nearest landmark in metres, of the first one or a new one in turn where there are three.
+// mistake: landmarks stay where they were first seen, and all particles have the same weight
 
 // <solution assigned>
 static int asked = 0;
