@@ -195,6 +195,7 @@ std::vector<std::string> splitList(std::string_view list) {
 // where only comments are allowed.
 Header readHeader(const std::vector<Line>& lines, const std::string& file) {
   Header header;
+  int lineOfMistake = 0;
   for (const Line& line : lines) {
     const std::string_view text = trim(line.text);
     if (line.place != Place::kPublic || text.empty()) continue;
@@ -206,7 +207,15 @@ Header readHeader(const std::vector<Line>& lines, const std::string& file) {
     constexpr std::string_view kCaught = "caught by:", kShown = "shown by:", kMistake = "mistake:";
     if (comment.starts_with(kCaught)) header.caughtBy = splitList(comment.substr(kCaught.size()));
     if (comment.starts_with(kShown)) header.shownBy = splitList(comment.substr(kShown.size()));
-    if (comment.starts_with(kMistake)) header.mistake = trim(comment.substr(kMistake.size()));
+    if (comment.starts_with(kMistake)) {
+      header.mistake = trim(comment.substr(kMistake.size()));
+      lineOfMistake = line.number;
+    } else if (lineOfMistake > 0 && line.number == lineOfMistake + 1 && !comment.starts_with(kCaught) &&
+               !comment.starts_with(kShown)) {
+      throw Error({.what = "the mistake goes on after its line",
+                   .where = {file, line.number},
+                   .wanted = "'// mistake: TEXT' in one line"});
+    }
   }
   if (header.caughtBy.empty())
     throw Error({.what = "no check is named", .where = {file, 1}, .wanted = "'// caught by: CHECK, ...'"});

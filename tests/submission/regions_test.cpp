@@ -147,6 +147,8 @@ TEST(ComposeVariant, SaysWhatIsMissing) {
                    "w.cpp:1: no check is named: wanted '// caught by: CHECK, ...'");
   EXPECT_REX_ERROR(compose("// caught by: a\n"), "w.cpp:1: the mistake is not described");
   EXPECT_REX_ERROR(compose("// caught by: a\n// mistake: m\n"), "w.cpp:1: no region");
+  EXPECT_REX_ERROR(compose("// caught by: a\n// mistake: begins here\n// and ends here\n"),
+                   "w.cpp:3: the mistake goes on after its line");
   EXPECT_REX_ERROR(compose("// caught by: a\n// mistake: m\nint x;\n"), "w.cpp:3: code outside a region");
   EXPECT_REX_ERROR(compose("// caught by: a\n// mistake: m\n// <solution aera>\n// </solution>\n"),
                    "w.cpp:3: solution.cpp has no region 'aera' (did you mean 'area'?)");
