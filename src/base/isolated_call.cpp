@@ -23,12 +23,13 @@
 #include "base/pipe.h"
 #include "base/stop_requests_internal.h"
 
-#if defined(__has_feature)
+// GCC first: libraries define a __has_feature for it that knows of nothing.
+#if defined(__SANITIZE_ADDRESS__)
+#define REX_ADDRESS_SANITIZER
+#elif defined(__has_feature)
 #if __has_feature(address_sanitizer)
 #define REX_ADDRESS_SANITIZER
 #endif
-#elif defined(__SANITIZE_ADDRESS__)
-#define REX_ADDRESS_SANITIZER
 #endif
 
 namespace rex {
