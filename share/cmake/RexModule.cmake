@@ -31,7 +31,9 @@ function(rex_module name)
   set(target rex_${name})
   add_library(${target} SHARED ${ARG_SOURCES})
   set_property(GLOBAL APPEND PROPERTY REX_MODULE_TARGETS ${target})
-  set_target_properties(${target} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib)
+  # They find each other side by side, here as where they are installed.
+  set_target_properties(${target} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib
+                                             BUILD_WITH_INSTALL_RPATH ON INSTALL_RPATH "$ORIGIN")
   target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/src)
   target_compile_options(${target} PRIVATE ${REX_MODULE_OPTIONS})
   target_link_options(${target} PRIVATE -Wl,-Bsymbolic-functions $<$<NOT:$<BOOL:${REX_SANITIZE}>>:-Wl,-z,defs>)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,9 @@
 #include "base/error.h"
 #include "base/exit_code.h"
 #include "cli/command_line_internal.h"
+#include "cli/completion.h"
 #include "cli/hand_over.h"
+#include "cli/manual_page.h"
 #include "cli/terminal.h"
 
 namespace rex::cli {
@@ -106,12 +109,23 @@ void addCommands(CLI::App& program, const Room& room, Action& action) {
   }
 }
 
+Program ownerOf(const std::string& command, Program here) {
+  for (const TableEntry& entry : commandTable())
+    if (command == entry.name) return entry.program;
+  return here;
+}
+
 // The program that has the command which the arguments reached.
 Program ownerOf(const CLI::App& program, Program here) {
   const std::vector<CLI::App*> chosen = program.get_subcommands();
-  for (const TableEntry& entry : commandTable())
-    if (!chosen.empty() && chosen.front()->get_name() == entry.name) return entry.program;
-  return here;
+  return chosen.empty() ? here : ownerOf(chosen.front()->get_name(), here);
+}
+
+Action list(const std::vector<std::string>& lines) {
+  return [lines](const Project&) {
+    for (const std::string& line : lines) say(line);
+    return ExitCode::kFull;
+  };
 }
 
 Action parse(CLI::App& program, int argc, const char* const* argv, const Action& action) {
@@ -131,8 +145,9 @@ Action parse(CLI::App& program, int argc, const char* const* argv, const Action&
   return action;
 }
 
-Action actionOf(int argc, const char* const* argv, const Room& room) {
-  const auto handOver = [words = std::vector<std::string>(argv + 1, argv + argc)](Program other) {
+Action actionOf(int argc, const char* const* argv, const Room& room, const Project& here) {
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  const auto handOver = [words](Program other) {
     return [=](const Project& project) -> ExitCode { becomeProgram(project, other, words); };
   };
   Action action = room.withoutCommand ? room.withoutCommand : handOver(Program::kStudent);
@@ -142,6 +157,13 @@ Action actionOf(int argc, const char* const* argv, const Room& room) {
   program.get_formatter()->column_width(22);
   program.get_formatter()->label("REQUIRED", "");
   addCommands(program, room, action);
+  // For shells, and for `cmake --install`; neither is in the help.
+  if (!words.empty() && words.front() == "--complete") {
+    const Program owner = words.size() > 1 ? ownerOf(words[1], room.program) : room.program;
+    if (owner != room.program) return handOver(owner);
+    return list(completions(program, std::span(words).subspan(1), here));
+  }
+  if (!words.empty() && words.front() == "--man") return print(manualPage());
   Action asked = parse(program, argc, argv, action);
   const Program owner = ownerOf(program, room.program);
   return owner == room.program ? asked : handOver(owner);
@@ -152,7 +174,7 @@ Action actionOf(int argc, const char* const* argv, const Room& room) {
 int runCommandLine(int argc, const char* const* argv, const Project& project, const Room& room) {
   ExitCode code = ExitCode::kGraderFault;
   try {
-    code = actionOf(argc, argv, room)(project);
+    code = actionOf(argc, argv, room, project)(project);
   } catch (const UsageError& error) {
     note(wrap(fmt::format("rex: {}", error.what()), 2, 0));
     code = ExitCode::kUsage;

@@ -21,6 +21,8 @@ std::string programName(Program program) {
 std::span<const TableEntry> commandTable() {
   using enum Program;
   static constexpr auto kTable = std::to_array<TableEntry>({
+      {"init", "Make a course folder with the exercises, to work in", kStudent},
+      {"update", "Bring new and changed exercises into your course folder", kStudent},
       {"list", "Show all exercises with points, script section and title", kStudent},
       {"run", "Build and run your main.cpp or any .cpp file, list what it wrote", kStudent},
       {"test", "Grade your main.cpp: which checks pass, and their points", kStudent},

@@ -1,13 +1,38 @@
 #include "cli/project.h"
 
+#include "base/error.h"
+#include "base/own_folder.h"
 #include "cli/build_on_demand.h"
+#include "cli/out_folder.h"
 
 namespace rex::cli {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+fs::path courseAround(const fs::path& folder) {
+  std::error_code unreadable;
+  for (fs::path place = folder;; place = place.parent_path()) {
+    if (fs::exists(place / kCourseFile, unreadable)) return place;
+    if (place == place.parent_path()) return folder;
+  }
+}
+
+}  // namespace
+
+Project findProject() {
+  if (!isInstalled()) return {.root = homeFolder(), .build = ownFolder()};
+  return {.root = courseAround(fs::current_path()), .build = ownFolder(), .installed = homeFolder()};
+}
+
 std::vector<ExerciseInfo> Project::exercises() const {
-  return grading::listExercises(shown(root / "exercises"));
+  std::vector<ExerciseInfo> all = grading::listExercises(shown(files() / "exercises"));
+  if (installed.empty()) return all;
+  const fs::path here = root / "exercises";
+  std::erase_if(all, [&](const ExerciseInfo& one) { return !fs::is_directory(here / one.name); });
+  for (ExerciseInfo& one : all) one.folder = shown(here / one.name);
+  return all;
 }
 
 ExerciseInfo Project::exercise(std::string_view name) const {
@@ -16,11 +41,23 @@ ExerciseInfo Project::exercise(std::string_view name) const {
   if (name.ends_with("/main.cpp")) name.remove_suffix(std::string_view("/main.cpp").size());
   for (const std::string_view folder : {"./", "exercises/"})
     if (name.starts_with(folder)) name.remove_prefix(folder.size());
-  return grading::findExercise(exercises(), name);
+  const std::vector<ExerciseInfo> known = exercises();
+  if (known.empty() && !installed.empty())
+    throw UsageError({.what = "there are no exercises here",
+                      .where = {root.string()},
+                      .wanted = "a course folder; `rex init course` makes one"});
+  return grading::findExercise(known, name);
 }
 
 fs::path Project::buildFolder(const ExerciseInfo& exercise) const {
   return build / "exercises" / exercise.name;
+}
+
+fs::path Project::workPlace(const std::string& name) const {
+  if (!installed.empty()) return temporaryFolder();
+  const fs::path folder = build / name;
+  fs::create_directories(folder);
+  return folder;
 }
 
 fs::path Project::outFolder(const ExerciseInfo& exercise, bool solution) const {
@@ -34,7 +71,9 @@ std::string shown(const fs::path& path) {
 
 grading::Toolchain prepare(const Project& project, const ExerciseInfo& exercise) {
   bringUpToDate(project, {exercise.name + "_ready"}, "the grader of " + exercise.name);
-  return grading::readToolchain(project.buildFolder(exercise) / "build.json");
+  grading::Toolchain toolchain = grading::readToolchain(project.buildFolder(exercise) / "build.json");
+  if (!project.installed.empty()) toolchain.prefix = project.root / kPrefixFile;
+  return toolchain;
 }
 
 }  // namespace rex::cli

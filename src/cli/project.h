@@ -12,20 +12,42 @@ namespace rex::cli {
 
 using grading::ExerciseInfo;
 
-/// The absolute folders of the project and its build.
+/// The absolute folders that commands work with: the source tree and its build, or a course folder and the
+/// installed rex.
 struct Project {
-  std::filesystem::path root;
-  std::filesystem::path build;
+  std::filesystem::path root;         ///< where exercises/ and out/ are
+  std::filesystem::path build;        ///< where programs, libraries and graders are
+  std::filesystem::path installed{};  ///< the installed files, see homeFolder(); empty in a source tree
 
-  /// All exercises, by name. Throws Error for a bad exercise.toml.
+  /// The folder of data/, share/ and the exercises as handed out.
+  [[nodiscard]] const std::filesystem::path& files() const { return installed.empty() ? root : installed; }
+  /// All exercises in the root, by name. What they demand is read from files(), so that a student cannot
+  /// change it. Throws Error for a bad exercise.toml.
   [[nodiscard]] std::vector<ExerciseInfo> exercises() const;
-  /// The exercise of that name, number or topic. Throws UsageError naming the nearest.
+  /// The exercise of that name, number or topic. Throws UsageError naming the nearest, and outside of a
+  /// course folder.
   [[nodiscard]] ExerciseInfo exercise(std::string_view name) const;
   /// The build's folder of an exercise: grader, worker object, build.json.
   [[nodiscard]] std::filesystem::path buildFolder(const ExerciseInfo& exercise) const;
+  /// Where private folders are made to work in: the build's folder of that name, or the one for temporary
+  /// files if rex is installed. Throws Error if there is none.
+  [[nodiscard]] std::filesystem::path workPlace(const std::string& name) const;
   /// The default folder for results of an exercise; those of the reference solution have their own.
   [[nodiscard]] std::filesystem::path outFolder(const ExerciseInfo& exercise, bool solution) const;
 };
+
+/// The project of this program: the source tree that it was built in or, if it was installed, the course
+/// folder that contains the current folder. Outside of any, the current folder.
+[[nodiscard]] Project findProject();
+
+/// What commands without a course folder answer.
+inline constexpr const char* kNoCourseHere =
+    "There are no exercises here. `rex init course` makes a folder with all of them, to work in.\n"
+    "Other commands: rex --help";
+
+/// Files of a course folder: the one that says what was handed out, which marks the folder, and the one that
+/// programs are compiled from, see grading::prefixFlags().
+inline constexpr const char *kCourseFile = ".rex/course.json", *kPrefixFile = ".rex/prefix.h";
 
 /// The path as a user in the current folder would type it.
 [[nodiscard]] std::string shown(const std::filesystem::path& path);

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/escape.h"
+#include "base/own_folder.h"
 #include "base/printable.h"
 
 namespace rex::cli {
@@ -18,6 +19,16 @@ constexpr std::size_t kColumns = 80;
 std::size_t columns(std::string_view text) {
   return static_cast<std::size_t>(
       std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
+}
+
+// Messages name commands as they are typed in the source tree, where rex is not on the path.
+std::string asTyped(std::string_view line) {
+  constexpr std::string_view kInSourceTree = "scripts/rex";
+  std::string text(line);
+  static const bool isOnPath = isInstalled();
+  for (std::size_t at = 0; isOnPath && (at = text.find(kInSourceTree, at)) != text.npos;)
+    text.erase(at, kInSourceTree.size() - std::string_view("rex").size());
+  return text;
 }
 
 // No colours if NO_COLOR is set (no-color.org), nor in terminals that would print the codes.
@@ -82,14 +93,14 @@ std::string harmless(std::string_view text) {
 }
 
 void say(std::string_view line) {
-  const std::string text = terminalText(line);
+  const std::string text = terminalText(asTyped(line));
   std::fwrite(text.data(), 1, text.size(), stdout);
   std::fputc('\n', stdout);
 }
 
 void note(std::string_view line) {
   std::fflush(stdout);
-  const std::string text = terminalText(line);
+  const std::string text = terminalText(asTyped(line));
   std::fwrite(text.data(), 1, text.size(), stderr);
   std::fputc('\n', stderr);
 }

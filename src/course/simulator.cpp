@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/lower_case.h"
+#include "base/own_folder.h"
 #include "base/require.h"
 #include "base/rng.h"
 #include "collision/collision_pairs.h"
@@ -154,7 +155,7 @@ struct Simulator::Parts {
 };
 
 Simulator::Simulator(const std::string& sceneFile, const SimulatorOptions& options) {
-  const std::filesystem::path path = findScene(sceneFile, REX_DATA_DIR);
+  const std::filesystem::path path = findScene(sceneFile, homeFolder() / "data");
   SceneFile scene = readScene(path, readingOf(path, options));
   for (const Diagnostic& one : scene.notes)
     if (one.severity == Severity::kWarning) std::cerr << toString(one) << "\n";

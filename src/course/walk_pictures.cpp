@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/own_folder.h"
 #include "base/require.h"
 #include "course/plant_film_internal.h"
 #include "locomotion/walking_pattern.h"
@@ -68,9 +69,9 @@ struct Humanoid {
 };
 
 Humanoid courseHumanoid() {
-  Model model = compile(
-      readScene(REX_DATA_DIR "/robots/humanoid/humanoid.urdf", {.allowMissingMeshes = true, .freeBase = true})
-          .spec);
+  Model model = compile(readScene(homeFolder() / "data/robots/humanoid/humanoid.urdf",
+                                  {.allowMissingMeshes = true, .freeBase = true})
+                            .spec);
   Eigen::VectorXd start = model.initialPositions();
   for (const Joint& joint : model.joints()) {
     if (joint.name.ends_with("_hip_pitch") || joint.name.ends_with("_ankle_pitch"))

@@ -4,6 +4,7 @@
 
 #include <unistd.h>
 
+#include "sandbox/hidden_folders.h"
 #include "sandbox/system_files_internal.h"
 
 namespace rex::sandbox {
@@ -42,8 +43,10 @@ void show(Options& options, const char* how, const std::filesystem::path& path,
 }
 
 // The system's programs and libraries, harmless devices and the sandbox's own processes, all read-only.
-void addSystem(Options& options, bool compiles) {
+void addSystem(Options& options, bool compiles, const std::vector<std::filesystem::path>& hidden) {
   add(options, {"--ro-bind", "/usr", "/usr"});
+  for (const auto& folder : hidden)
+    add(options, {"--perms", "0755", "--size", "4194304", "--tmpfs", folder.string()});
   for (const char* name : kRootFolders) {
     const std::filesystem::path folder(name);
     if (std::filesystem::is_symlink(folder))
@@ -66,13 +69,15 @@ std::vector<std::string> bubblewrapOptions(const Confinement& confinement,
   Options options;
   addNamespaces(options, confinement.user.has_value());
   const bool compiles = confinement.mayStartProgramsOfItsOwn;
-  addSystem(options, compiles);
+  const std::vector<std::filesystem::path> hidden = hiddenFolders(launcher);
+  addSystem(options, compiles, hidden);
   add(options, {"--perms", "1777", "--size", compiles ? kCompilersFolderBytes : kMemoryFolderBytes, "--tmpfs",
                 kInsideFolder});
   for (const Readable& readable : confinement.readable)
     show(options, "--ro-bind", readable.path, readable.inside);
   if (!confinement.writable.empty()) show(options, "--bind", confinement.writable, confinement.writable);
   show(options, "--ro-bind", launcher, kInsideLauncher);
+  for (const auto& folder : hidden) add(options, {"--remount-ro", folder.string()});
   add(options, {"--remount-ro", "/", "--chdir", "/"});
   return options;
 }

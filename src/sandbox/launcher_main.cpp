@@ -25,6 +25,7 @@
 #include "base/exit_code.h"
 #include "sandbox/bubblewrap.h"
 #include "sandbox/confinement.h"
+#include "sandbox/hidden_folders.h"
 #include "sandbox/hidden_words.h"
 #include "sandbox/landlock.h"
 #include "sandbox/report.h"
@@ -176,8 +177,11 @@ void becomeUserOrPlainRoot(const Order& order) {
 [[noreturn]] void runAtLevelOne(const Order& order) {
   const Confinement& c = order.confinement;
   FileRules rules;
-  rules.allowReading("/usr");
-  for (const char* name : kRootFolders) rules.allowReading(name);
+  const auto hidden = hiddenFolders(std::filesystem::read_symlink("/proc/self/exe"));
+  for (const auto& path : allBut("/usr", hidden)) rules.allowReading(path);
+  // On newer systems these are links to folders in /usr, which are allowed already.
+  for (const char* name : kRootFolders)
+    if (hidden.empty() || !std::filesystem::is_symlink(name)) rules.allowReading(name);
   for (const char* name : kSystemFiles) rules.allowReading(name);
   for (const char* name : kDevices) rules.allowWriting(name);
   if (!c.mayStartProgramsOfItsOwn)

@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/exit_code.h"
 #include "base/once_more.h"
+#include "base/own_folder.h"
 #include "base/text_file.h"
 #include "sandbox/report.h"
 #include "submission/tool_failure.h"
@@ -41,7 +42,8 @@ void showAll(std::vector<sandbox::Readable>& readable, const std::vector<fs::pat
   for (const fs::path& path : paths) {
     const fs::path absolute = fs::absolute(path).lexically_normal();
     const bool ofSystem = absolute == "/" || absolute == "/usr" || absolute.string().starts_with("/usr/");
-    if (!path.empty() && !ofSystem && fs::exists(absolute)) readable.push_back({absolute, absolute});
+    if (!path.empty() && (isOwnFile(absolute) || !ofSystem) && fs::exists(absolute))
+      readable.push_back({absolute, absolute});
   }
 }
 

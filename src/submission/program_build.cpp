@@ -58,7 +58,7 @@ ProgramToolchain readProgramToolchain(const fs::path& programJson) {
                  .where = {programJson.string()},
                  .wanted = "this file, which building the project writes"});
   try {
-    const nlohmann::json json = nlohmann::json::parse(readTextFile(programJson));
+    const nlohmann::json json = nlohmann::json::parse(installedText(readTextFile(programJson)));
     ProgramToolchain program{.toolchain = {.compiler = json.at("compiler").get<std::string>(),
                                            .flags = json.at("compile_flags").get<Strings>(),
                                            .linkFlags = json.at("link_flags").get<Strings>(),

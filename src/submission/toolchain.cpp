@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/own_folder.h"
 #include "base/text_file.h"
 
 namespace rex::grading {
@@ -13,7 +14,26 @@ std::vector<std::filesystem::path> paths(const nlohmann::json& list) {
   return {texts.begin(), texts.end()};
 }
 
+void replaceAll(std::string& text, std::string_view word, const std::string& by) {
+  for (std::size_t at = text.find(word); at != text.npos; at = text.find(word, at + by.size()))
+    text.replace(at, word.size(), by);
+}
+
+// A path as part of a text in JSON.
+std::string inJson(const std::filesystem::path& path) {
+  const std::string quoted = nlohmann::json(path.string()).dump();
+  return quoted.substr(1, quoted.size() - 2);
+}
+
 }  // namespace
+
+std::string installedText(std::string text) {
+  if (text.find("{rex}") == text.npos) return text;
+  replaceAll(text, "{include}", inJson(std::filesystem::weakly_canonical(ownFolder() / "include")));
+  replaceAll(text, "{home}", inJson(homeFolder()));
+  replaceAll(text, "{rex}", inJson(ownFolder()));
+  return text;
+}
 
 Toolchain readToolchain(const std::filesystem::path& buildJson) {
   if (!std::filesystem::exists(buildJson))
@@ -21,7 +41,7 @@ Toolchain readToolchain(const std::filesystem::path& buildJson) {
                  .where = {buildJson.string()},
                  .wanted = "this file, which building the project writes"});
   try {
-    const nlohmann::json json = nlohmann::json::parse(readTextFile(buildJson));
+    const nlohmann::json json = nlohmann::json::parse(installedText(readTextFile(buildJson)));
     return {.compiler = json.at("compiler").get<std::string>(),
             .flags = json.at("compile_flags").get<std::vector<std::string>>(),
             .linkFlags = json.at("link_flags").get<std::vector<std::string>>(),

@@ -23,8 +23,12 @@ struct Toolchain {
   std::string objdump = "objdump";
 };
 
-/// Reads build.json. Throws Error if it is missing (the exercise is not built), or if a key other than
-/// prefix, show, worker_part, offers, objcopy and objdump is.
+/// Reads build.json, with the words of installedText() replaced. Throws Error if it is missing (the exercise
+/// is not built), or if a key other than prefix, show, worker_part, offers, objcopy and objdump is.
 [[nodiscard]] Toolchain readToolchain(const std::filesystem::path& buildJson);
+
+/// The text of an installed build description: it names folders as {rex} (ownFolder()), {home} (homeFolder())
+/// and {include} (the library's headers), so that it holds wherever the tree was moved.
+[[nodiscard]] std::string installedText(std::string text);
 
 }  // namespace rex::grading

@@ -147,7 +147,8 @@ std::string neededBy(const fs::path& object, const WorkerPartOrder& order) {
   for (const fs::path& library : order.libraries) {
     const std::string names = run({order.nm, "-D", "--defined-only", "-fjust-symbols", library.string()});
     const std::vector<std::string_view> lines = splitLines(names);
-    if (std::any_of(lines.begin(), lines.end(), isMissing)) needed += library.string() + "\n";
+    // Where rex is installed there are no links without a version: those are for compiling.
+    if (std::any_of(lines.begin(), lines.end(), isMissing)) needed += fs::canonical(library).string() + "\n";
   }
   return needed;
 }

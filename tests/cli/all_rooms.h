@@ -34,7 +34,9 @@ inline Program programOf(std::string_view command) {
 
 // All programs of rex as one, for trees in which none is built.
 inline int runRex(int argc, const char* const* argv, const Project& project) {
-  return runCommandLine(argc, argv, project, roomOf(argc > 1 ? programOf(argv[1]) : Program::kStudent));
+  const int command = argc > 2 && std::string_view(argv[1]) == "--complete" ? 2 : 1;
+  return runCommandLine(argc, argv, project,
+                        roomOf(argc > command ? programOf(argv[command]) : Program::kStudent));
 }
 
 }  // namespace rex::cli

@@ -18,7 +18,7 @@ std::vector<ExerciseInfo> chosen(const Project& project, const std::string& name
 // Prints one line for a gate, and what is wrong unless it passed.
 bool passes(const Project& project, const ExerciseInfo& exercise, const grading::Toolchain& toolchain,
             const std::string& gate, int seeds) {
-  const PrivateFolder work(project.buildFolder(exercise));
+  const PrivateFolder work(project.workPlace("exercises/" + exercise.name));
   const grading::GateResult result = grading::runGate({.root = project.root,
                                                        .exercise = exercise,
                                                        .toolchain = toolchain,

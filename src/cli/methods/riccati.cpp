@@ -165,9 +165,9 @@ std::string textOf(const char* name, const Eigen::MatrixXd& M) {
 // Solves an algebraic Riccati equation. kBelow if it has no stabilizing solution.
 ExitCode riccati(const Project& project, const RiccatiOptions& options) {
   const bool isExample =
-      !std::filesystem::exists(options.file) && std::filesystem::exists(project.root / options.file);
+      !std::filesystem::exists(options.file) && std::filesystem::exists(project.files() / options.file);
   const RiccatiResult result =
-      asWrongUse([&] { return solved(options, isExample ? project.root / options.file : options.file); });
+      asWrongUse([&] { return solved(options, isExample ? project.files() / options.file : options.file); });
   if (options.json)
     say(dump(jsonOf(result)));
   else {

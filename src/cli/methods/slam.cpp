@@ -163,8 +163,9 @@ ExitCode slam(const Project& project, const SlamOptions& options) {
                       .found = "'" + harmless(options.plot.string()) + "'",
                       .wanted = "a .png or .svg file"});
   const bool isExample =
-      !std::filesystem::exists(options.file) && std::filesystem::exists(project.root / options.file);
-  G2oFile file = asWrongUse([&] { return readG2o(isExample ? project.root / options.file : options.file); });
+      !std::filesystem::exists(options.file) && std::filesystem::exists(project.files() / options.file);
+  G2oFile file =
+      asWrongUse([&] { return readG2o(isExample ? project.files() / options.file : options.file); });
   for (const Diagnostic& one : file.notes) note(harmless(toString(one)));
   return std::visit([&](auto& graph) { return slam(options, file, graph); }, file.graph);
 }

@@ -73,7 +73,7 @@ void requireMeaning(const fs::path& file, const ReadOptions& reading) {
 }
 
 fs::path fileOf(const Project& project, const SceneOption& scene) {
-  return asWrongUse([&] { return shown(findScene(scene.file, project.root / "data")); });
+  return asWrongUse([&] { return shown(findScene(scene.file, project.files() / "data")); });
 }
 
 SceneSpec loadSpec(const Project& project, const SceneOption& scene) {

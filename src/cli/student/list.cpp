@@ -12,7 +12,8 @@ namespace {
 ExitCode list(const Project& project) {
   const std::vector<ExerciseInfo> exercises = project.exercises();
   if (exercises.empty()) {
-    say("There are no exercises yet. `scripts/rex dev new 99-demo` makes one.");
+    say(project.installed.empty() ? "There are no exercises yet. `scripts/rex dev new 99-demo` makes one."
+                                  : kNoCourseHere);
     return ExitCode::kFull;
   }
   std::size_t nameWidth = 0;

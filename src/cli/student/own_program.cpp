@@ -48,8 +48,9 @@ std::variant<fs::path, ExerciseInfo> programMeant(const Project& project, const 
   const fs::path file = argument;
   std::error_code ignored;
   if (file.extension() != ".cpp") return project.exercise(argument);
-  if (fs::is_regular_file(file, ignored)) {
-    const fs::path whole = fs::canonical(file);
+  const bool isExample = !fs::exists(file, ignored) && fs::is_regular_file(project.files() / file, ignored);
+  if (isExample || fs::is_regular_file(file, ignored)) {
+    const fs::path whole = fs::canonical(isExample ? project.files() / file : file);
     if (!isMainOfExercise(project, whole)) return whole;
     return project.exercise(whole.parent_path().filename().string());
   }
@@ -74,6 +75,7 @@ std::optional<fs::path> buildOwnProgram(const Project& project, const fs::path& 
   grading::ProgramToolchain program =
       grading::readProgramToolchain(project.build / "student" / "program.json");
   grading::Toolchain& toolchain = program.toolchain;
+  if (!project.installed.empty()) toolchain.prefix = project.root / kPrefixFile;
   const bool hasPrefix =
       !toolchain.prefix.empty() && grading::opensWithCourseHeader(readTextFile(file), toolchain.flags);
   if (hasPrefix) bringUpToDate(project, {"rex_student_prefix"}, "what programs start from");

@@ -67,6 +67,10 @@ void sayNextStep(const ExerciseInfo& exercise, const Progress& progress) {
 
 ExitCode progress(const Project& project) {
   const std::vector<ExerciseInfo> exercises = project.exercises();
+  if (exercises.empty() && !project.installed.empty()) {
+    say(kNoCourseHere);
+    return ExitCode::kFull;
+  }
   const AllProgress all = ProgressFile(project.root).read();
   std::size_t nameWidth = 0;
   for (const ExerciseInfo& exercise : exercises) nameWidth = std::max(nameWidth, exercise.name.size());

@@ -19,12 +19,13 @@ namespace {
 namespace fs = std::filesystem;
 
 // main.cpp as handed out: a release keeps a copy, the course makes it from the solution.
-std::string starterOf(const ExerciseInfo& exercise) {
-  const fs::path copy = exercise.folder / "starter.cpp", solution = exercise.folder / "solution.cpp";
+std::string starterOf(const fs::path& exercise) {
+  const fs::path copy = exercise / "starter.cpp", solution = exercise / "solution.cpp";
   if (fs::exists(copy)) return readTextFile(copy);
   if (fs::exists(solution)) return grading::stripSolution(readTextFile(solution), solution.string());
-  throw UsageError({.what = fmt::format("{} has no copy of main.cpp as it was handed out", exercise.name),
-                    .where = {copy.string()}});
+  throw UsageError(
+      {.what = fmt::format("{} has no copy of main.cpp as it was handed out", exercise.filename().string()),
+       .where = {copy.string()}});
 }
 
 // Keeps the file under an unused name. A hard link cannot be lost half way; if the file system has no hard
@@ -59,7 +60,7 @@ void replaceAndKeep(const fs::path& main, const std::string& starter) {
 ExitCode reset(const Project& project, const std::string& name) {
   const ExerciseInfo exercise = project.exercise(name);
   const fs::path main = exercise.folder / "main.cpp";
-  const std::string starter = starterOf(exercise);
+  const std::string starter = starterOf(project.files() / "exercises" / exercise.name);
   if (fs::exists(main)) {
     if (readTextFile(main) == starter) {
       say(fmt::format("{} is as it was handed out.", shown(main)));

@@ -60,8 +60,7 @@ ExitCode runFile(const Project& project, const fs::path& file, const RunOptions&
     throw UsageError({.what = "--solution", .found = shown(file), .wanted = "an exercise"});
   const fs::path out = fs::absolute(options.out.empty() ? outFolderOf(project, file) : options.out);
   makeOutFolder(out);
-  fs::create_directories(project.build / "student");
-  const PrivateFolder work(project.build / "student");
+  const PrivateFolder work(project.workPlace("student"));
   const auto program = buildOwnProgram(project, file, work.path(), out);
   if (!program) return ExitCode::kNotGradable;
   std::vector<std::string> command = {program->string()};
@@ -80,8 +79,7 @@ ExitCode run(const Project& project, const RunOptions& options) {
   const fs::path out =
       fs::absolute(options.out.empty() ? project.outFolder(exercise, options.solution) : options.out);
   makeOutFolder(out);
-  fs::create_directories(project.buildFolder(exercise));
-  const PrivateFolder work(project.buildFolder(exercise));
+  const PrivateFolder work(project.workPlace("exercises/" + exercise.name));
   const auto program = buildProgram(project, exercise, {.main = file, .workFolder = work.path()}, out);
   if (!program) return ExitCode::kNotGradable;
   return runIn(out, {program->string()}, fmt::format("To see where: scripts/rex debug {}", exercise.name));

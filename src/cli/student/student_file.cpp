@@ -35,6 +35,16 @@ std::string lineOf(const std::string& source, int number) {
   return line;
 }
 
+// In a course folder: the student's show.cpp if it is not as it was handed out, for then it is not compiled
+// yet.
+std::filesystem::path ownShow(const Project& project, const ExerciseInfo& exercise) {
+  const std::filesystem::path own = exercise.folder / "show.cpp",
+                              handedOut = project.files() / "exercises" / exercise.name / "show.cpp";
+  if (project.installed.empty() || !std::filesystem::exists(own)) return {};
+  const bool isSame = std::filesystem::exists(handedOut) && readTextFile(own) == readTextFile(handedOut);
+  return isSame ? std::filesystem::path() : own;
+}
+
 }  // namespace
 
 std::filesystem::path chooseStudentFile(const ExerciseInfo& exercise, bool solution,
@@ -66,7 +76,19 @@ void explain(const std::vector<CompileDiagnostic>& messages, const std::string& 
 std::optional<std::filesystem::path> buildProgram(const Project& project, const ExerciseInfo& exercise,
                                                   const grading::StudentBuildOptions& options,
                                                   const std::filesystem::path& out) {
-  return buildProgram(prepare(project, exercise), options, out, [](const grading::StudentObject&) {});
+  grading::Toolchain toolchain = prepare(project, exercise);
+  const std::filesystem::path show = ownShow(project, exercise);
+  if (!show.empty()) {
+    const grading::StudentObject object =
+        compileStudent(toolchain, {}, {.main = show, .workFolder = options.workFolder / "show"});
+    if (!object.ok) {
+      writeTextFile(out / "build.log", object.log);
+      explain(object.messages, object.source, out / "build.log");
+      return {};
+    }
+    toolchain.show = object.object;
+  }
+  return buildProgram(toolchain, options, out, [](const grading::StudentObject&) {});
 }
 
 std::optional<std::filesystem::path> buildProgram(

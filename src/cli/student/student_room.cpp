@@ -9,6 +9,7 @@ Room studentRoom() {
   return {.program = Program::kStudent,
           .commands = {{"debug", addDebug},
                        {"hint", addHint},
+                       {"init", addInit},
                        {"list", addList},
                        {"report", addReport},
                        {"reset", addReset},
@@ -17,6 +18,7 @@ Room studentRoom() {
                        {"solution", addSolution},
                        {"submit", addSubmit},
                        {"test", addTest},
+                       {"update", addUpdate},
                        {"watch", addWatch}},
           .withoutCommand = progress};
 }

@@ -7,6 +7,7 @@ namespace rex::cli {
 /// One file each; see Registration.
 void addDebug(CLI::App* command, Action& action);
 void addHint(CLI::App* command, Action& action);
+void addInit(CLI::App* command, Action& action);
 void addList(CLI::App* command, Action& action);
 void addReport(CLI::App* command, Action& action);
 void addReset(CLI::App* command, Action& action);
@@ -15,6 +16,7 @@ void addShow(CLI::App* command, Action& action);
 void addSolution(CLI::App* command, Action& action);
 void addSubmit(CLI::App* command, Action& action);
 void addTest(CLI::App* command, Action& action);
+void addUpdate(CLI::App* command, Action& action);
 void addWatch(CLI::App* command, Action& action);
 
 }  // namespace rex::cli

@@ -54,7 +54,7 @@ TestRun::TestRun(const Project& project, ExerciseInfo exercise, const TestOption
       file_(chooseStudentFile(exercise_, options.solution, options.main)),
       results_(resultsOf(project, exercise_, options)),
       toolchain_(prepare(project, exercise_)),
-      work_(project.buildFolder(exercise_)) {
+      work_(project.workPlace("exercises/" + exercise_.name)) {
   if (!options.job.secret.empty()) static_cast<void>(grading::readCourseSecret(options.job.secret));
 }
 

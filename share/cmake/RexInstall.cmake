@@ -1,0 +1,109 @@
+# What `cmake --install` copies, in components: runtime (the programs behind rex, libraries, headers, graders, data and
+# exercises), development (for other programs: find_package and pkg-config) and documentation. The tree may be moved:
+# its files find each other by relative paths. In PREFIX/lib/rex lies what lies in a build folder (ownFolder() in
+# src/base/own_folder.h), in PREFIX/share/rex what lies in the source tree (homeFolder()).
+
+set(REX_INSTALLED lib/rex)
+
+# The modules that other programs may link. Headers of the others are not installed.
+set(REX_PUBLIC_LAYERS base geometry optim remote scene estimation learning kinematics dynamics collision render physics
+                      planning trajectory control grasping locomotion course legacy)
+
+# Here, too, `home` and `include` lead to the files, so that a program needs not know where it runs.
+file(CREATE_LINK ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/home SYMBOLIC)
+
+function(rex_install_programs)
+  get_property(modules GLOBAL PROPERTY REX_MODULE_TARGETS)
+  install(TARGETS ${modules} LIBRARY DESTINATION ${REX_INSTALLED}/lib COMPONENT runtime)
+  install(TARGETS rex rex-robot rex-methods rex-instructor rex_sandbox_launcher rex_sandbox_probe
+          RUNTIME DESTINATION ${REX_INSTALLED} COMPONENT runtime)
+  foreach(layer IN LISTS REX_PUBLIC_LAYERS)
+    install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/${layer} DESTINATION include/rex COMPONENT runtime
+            FILES_MATCHING PATTERN "*.h" PATTERN "*_internal.h" EXCLUDE)
+  endforeach()
+  install(CODE "
+    function(rex_link place target)
+      file(MAKE_DIRECTORY \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/bin\")
+      file(CREATE_LINK \${target} \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/\${place}\" SYMBOLIC)
+    endfunction()
+    rex_link(bin/rex ../${REX_INSTALLED}/rex)
+    rex_link(${REX_INSTALLED}/home ../../share/rex)
+    rex_link(${REX_INSTALLED}/include ../../include/rex)" COMPONENT runtime)
+endfunction()
+
+# Installs a build description without the paths of this machine.
+function(rex_install_description file destination)
+  install(CODE "
+    file(READ \"${file}\" text)
+    string(REPLACE \"${PROJECT_BINARY_DIR}\" \"{rex}\" text \"\${text}\")
+    string(REPLACE \"${PROJECT_SOURCE_DIR}/src\" \"{include}\" text \"\${text}\")
+    string(REPLACE \"${PROJECT_SOURCE_DIR}\" \"{home}\" text \"\${text}\")
+    string(REGEX REPLACE \"\\\"prefix\\\": \\\"[^\\\"]*\\\"\" \"\\\"prefix\\\": \\\"\\\"\" text \"\${text}\")
+    file(WRITE \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${destination}\" \"\${text}\")" COMPONENT runtime)
+endfunction()
+
+function(rex_install_exercises)
+  rex_install_description(${PROJECT_BINARY_DIR}/student/program.json ${REX_INSTALLED}/student/program.json)
+  get_property(exercises GLOBAL PROPERTY REX_EXERCISES)
+  foreach(name IN LISTS exercises)
+    set(built ${PROJECT_BINARY_DIR}/exercises/${name})
+    set(destination ${REX_INSTALLED}/exercises/${name})
+    install(PROGRAMS ${built}/grader DESTINATION ${destination} COMPONENT runtime)
+    install(DIRECTORY ${built}/ DESTINATION ${destination} COMPONENT runtime
+            FILES_MATCHING PATTERN "worker*.o" PATTERN "worker*.options" PATTERN "worker.offers" PATTERN "show.a")
+    rex_install_description(${built}/build.json ${destination}/build.json)
+    install(DIRECTORY ${PROJECT_SOURCE_DIR}/exercises/${name} DESTINATION share/rex/exercises COMPONENT runtime
+            PATTERN "main.backup-*" EXCLUDE PATTERN "check.cpp" EXCLUDE)
+  endforeach()
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/data DESTINATION share/rex COMPONENT runtime)
+  install(FILES ${PROJECT_SOURCE_DIR}/share/completion/rex.bash
+          DESTINATION share/bash-completion/completions RENAME rex COMPONENT runtime)
+  install(FILES ${PROJECT_SOURCE_DIR}/share/completion/_rex DESTINATION share/zsh/vendor-completions COMPONENT runtime)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/share/course ${PROJECT_SOURCE_DIR}/share/examples
+                    ${PROJECT_SOURCE_DIR}/share/template
+          DESTINATION share/rex/share COMPONENT runtime)
+endfunction()
+
+function(rex_install_development)
+  include(CMakePackageConfigHelpers)
+  set(folder ${PROJECT_BINARY_DIR}/development)
+  get_property(modules GLOBAL PROPERTY REX_MODULE_TARGETS)
+  foreach(module IN LISTS modules)
+    get_target_property(sources ${module} SOURCE_DIR)
+    get_target_property(uses ${module} LINK_LIBRARIES)
+    get_filename_component(layer ${sources} NAME)
+    if(NOT layer IN_LIST REX_PUBLIC_LAYERS)
+      continue()
+    endif()
+    list(FILTER uses INCLUDE REGEX "^rex_")
+    string(REGEX REPLACE "^rex_" "" name ${module})
+    string(REGEX REPLACE "rex_" "rex::" targets "${uses}")
+    string(APPEND REX_CONFIG_MODULES "rex_imported(${name} Eigen3::Eigen;${targets})\n")
+    string(REGEX REPLACE "rex_([^;]+);?" "rex-\\1 " REX_PKG_REQUIRES "${uses}")
+    set(REX_PKG_NAME ${name})
+    configure_file(${PROJECT_SOURCE_DIR}/share/cmake/install/rex-module.pc.in ${folder}/rex-${name}.pc @ONLY)
+    list(APPEND descriptions ${folder}/rex-${name}.pc)
+  endforeach()
+  configure_file(${PROJECT_SOURCE_DIR}/share/cmake/install/rexConfig.cmake.in ${folder}/rexConfig.cmake @ONLY)
+  write_basic_package_version_file(${folder}/rexConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+  install(FILES ${folder}/rexConfig.cmake ${folder}/rexConfigVersion.cmake DESTINATION lib/cmake/rex
+          COMPONENT development)
+  install(FILES ${descriptions} DESTINATION lib/pkgconfig COMPONENT development)
+endfunction()
+
+function(rex_install_documentation)
+  install(CODE "
+    set(page \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/share/man/man1/rex.1\")
+    file(MAKE_DIRECTORY \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/share/man/man1\")
+    execute_process(COMMAND ${PROJECT_BINARY_DIR}/rex --man OUTPUT_FILE \${page} COMMAND_ERROR_IS_FATAL ANY)
+    execute_process(COMMAND gzip -9nf \${page} COMMAND_ERROR_IS_FATAL ANY)" COMPONENT documentation)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/share/doc/ DESTINATION share/doc/rex COMPONENT documentation)
+  install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md DESTINATION share/doc/rex
+          COMPONENT documentation OPTIONAL)
+  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION share/doc/rex RENAME copyright COMPONENT documentation)
+endfunction()
+
+rex_install_programs()
+rex_install_exercises()
+rex_install_development()
+rex_install_documentation()

@@ -1,0 +1,56 @@
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "cli/student/course_folder.h"
+#include "cli/student/student_room_internal.h"
+#include "cli/terminal.h"
+
+namespace rex::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string describe(const HandedOut& one) {
+  using enum HandedOut::Change;
+  const std::string file = one.file.generic_string();
+  switch (one.change) {
+    case kNew:
+      return "new        " + file;
+    case kReplaced:
+      return "changed    " + file;
+    case kKeptBeside:
+      return fmt::format("changed    {}; the one before is {}", file, one.kept.filename().string());
+    case kNotTouched:
+      return fmt::format("not yours  {} is handed out differently now; yours stays as it is", file);
+    case kNoLongerPart:
+      return fmt::format("left       {} is no longer part of the course; it stays", file);
+  }
+  return file;
+}
+
+ExitCode update(const Project& project) {
+  requireInstalled(project, "update");
+  if (!fs::exists(project.root / kCourseFile))
+    throw UsageError({.what = "there is no course folder here",
+                      .where = {project.root.string()},
+                      .wanted = "a folder that `rex init` made, or one in it"});
+  const auto changes = handOut(project.installed, project.root);
+  for (const HandedOut& one : changes) say(describe(one));
+  if (changes.empty()) say("Everything is as rex " REX_VERSION " hands it out.");
+  prepareTools(project);
+  return ExitCode::kFull;
+}
+
+}  // namespace
+
+void addUpdate(CLI::App* command, Action& action) {
+  command->footer(
+      "Example: rex update\n\n"
+      "Brings exercises and texts of the installed version. It never changes a main.cpp. If you\n"
+      "changed another file that is new now, or if it is a header with a contract, the one before\n"
+      "is kept beside the new one.");
+  command->callback([&action] { action = update; });
+}
+
+}  // namespace rex::cli

@@ -1,0 +1,154 @@
+#include "cli/student/course_folder.h"
+
+#include "cli/template_project.h"
+
+namespace rex::cli {
+namespace {
+
+using ::testing::HasSubstr;
+
+// An installed rex with one exercise, and a course folder beside it.
+class CourseFolder : public TemplateProject {
+ protected:
+  void SetUp() override {
+    TemplateProject::SetUp();
+    fs::create_directories(root() / "share" / "course" / ".vscode");
+    write(root() / "share" / "course" / "README.md", "Exercises\n");
+    write(root() / "share" / "course" / ".vscode" / "tasks.json", "{}\n");
+    fs::copy(exercise() / "main.cpp", exercise() / "starter.cpp");
+  }
+
+  fs::path course() const { return root() / "course"; }
+  fs::path mine(const std::string& name) const { return course() / "exercises" / "98-template" / name; }
+
+  // As from a folder of the course, or from the parent if there is none yet.
+  Ended installed(std::vector<std::string> arguments) const {
+    std::vector<const char*> argv = {"rex"};
+    for (const std::string& argument : arguments) argv.push_back(argument.c_str());
+    const fs::path here = fs::exists(course()) ? course() : root();
+    ::testing::internal::CaptureStdout();
+    ::testing::internal::CaptureStderr();
+    const int code = runRex(static_cast<int>(argv.size()), argv.data(),
+                            {.root = here, .build = REX_BINARY_DIR "/tests/template", .installed = root()});
+    std::string output = ::testing::internal::GetCapturedStdout();
+    return {code, std::move(output), ::testing::internal::GetCapturedStderr()};
+  }
+  void init() const {
+    const Ended ended = installed({"init", course().string()});
+    ASSERT_EQ(ended.code, 0) << ended.error;
+  }
+};
+
+TEST_F(CourseFolder, GetsWhatStudentsNeedAndNothingElse) {
+  init();
+  for (const char* name : {"main.cpp", "exercise.h", "exercise.toml", "README.md"})
+    EXPECT_TRUE(fs::exists(mine(name))) << name;
+  for (const char* name : {"check.cpp", "solution.cpp", "starter.cpp", "wrong"})
+    EXPECT_FALSE(fs::exists(mine(name))) << name;
+  EXPECT_TRUE(fs::exists(course() / ".vscode" / "tasks.json"));
+  EXPECT_TRUE(fs::exists(course() / kCourseFile));
+}
+
+TEST_F(CourseFolder, TellsEditorsHowFilesAreCompiled) {
+  init();
+  const std::string commands = fileText(course() / "compile_commands.json");
+  EXPECT_THAT(commands, HasSubstr(mine("main.cpp").string()));
+  EXPECT_THAT(commands, HasSubstr("-std=c++20"));
+}
+
+TEST_F(CourseFolder, IsWhereStudentsWork) {
+  init();
+  write(mine("main.cpp"), kGood);
+  const Ended ended = installed({"test", "98"});
+  EXPECT_EQ(ended.code, 0) << ended.output << ended.error;
+  EXPECT_TRUE(fs::exists(course() / "out" / "98-template" / "results.json"));
+  EXPECT_THAT(installed({}).output, HasSubstr("1 of 1 exercises solved"));
+  EXPECT_EQ(installed({"reset", "98"}).code, 0);
+  EXPECT_EQ(fileText(mine("main.cpp")), fileText(exercise() / "main.cpp"));
+}
+
+TEST_F(CourseFolder, CannotChangeWhatAnExerciseDemands) {
+  init();
+  write(mine("exercise.toml"), "title = \"easy\"\n");
+  write(mine("exercise.h"), "#error\n");
+  write(mine("main.cpp"), kGood);
+  EXPECT_EQ(installed({"test", "98"}).code, 0);
+  EXPECT_THAT(installed({"list"}).output, ::testing::Not(HasSubstr("easy")));
+}
+
+TEST_F(CourseFolder, IsMadeOnlyWhereNothingIs) {
+  write(root() / "course", "a file");
+  EXPECT_THAT(flat(installed({"init", course().string()}).error), HasSubstr("will not overwrite"));
+  fs::remove(root() / "course");
+  init();
+  const Ended again = installed({"init", course().string()});
+  EXPECT_EQ(again.code, 64);
+  EXPECT_THAT(flat(again.error), HasSubstr("is a course folder already: wanted `rex update` in it"));
+}
+
+TEST_F(CourseFolder, IsMadeByAnInstalledRexOnly) {
+  for (const char* command : {"update", "init"}) {
+    const Ended ended = command == std::string("init") ? rex({command, course().string()}) : rex({command});
+    EXPECT_EQ(ended.code, 64);
+    EXPECT_THAT(flat(ended.error), HasSubstr("found a source tree"));
+  }
+}
+
+TEST_F(CourseFolder, IsNeededForExercises) {
+  fs::create_directories(course());
+  EXPECT_THAT(flat(installed({"test", "98"}).error), HasSubstr("there are no exercises here"));
+  EXPECT_EQ(installed({"test", "98"}).code, 64);
+  EXPECT_THAT(installed({}).output, HasSubstr("`rex init course` makes a folder"));
+  EXPECT_THAT(installed({"list"}).output, HasSubstr("`rex init course` makes a folder"));
+  EXPECT_THAT(flat(installed({"update"}).error), HasSubstr("there is no course folder here"));
+}
+
+TEST_F(CourseFolder, IsUpdatedWithoutTouchingTheStudentsFile) {
+  init();
+  write(mine("main.cpp"), kGood);
+  EXPECT_THAT(installed({"update"}).output, HasSubstr("Everything is as rex"));
+  write(exercise() / "README.md", "new text\n");
+  write(exercise() / "main.cpp", "// a new start\n");
+  fs::create_directories(root() / "exercises" / "97-new");
+  fs::copy(exercise() / "exercise.toml", root() / "exercises" / "97-new" / "exercise.toml");
+  const Ended ended = installed({"update"});
+  EXPECT_THAT(ended.output, HasSubstr("new        exercises/97-new/exercise.toml"));
+  EXPECT_THAT(ended.output, HasSubstr("changed    exercises/98-template/README.md"));
+  EXPECT_THAT(ended.output, HasSubstr("exercises/98-template/main.cpp is handed out differently now"));
+  EXPECT_EQ(fileText(mine("main.cpp")), kGood);
+  EXPECT_EQ(fileText(mine("README.md")), "new text\n");
+}
+
+TEST_F(CourseFolder, KeepsContractsAndChangedFilesBesideNewOnes) {
+  init();
+  const std::string contract = fileText(mine("exercise.h"));
+  write(mine("README.md"), "my notes\n");
+  EXPECT_THAT(installed({"update"}).output, HasSubstr("Everything is as rex"));
+  EXPECT_EQ(fileText(mine("README.md")), "my notes\n");
+  write(exercise() / "exercise.h", contract + "// more\n");
+  write(exercise() / "README.md", "new text\n");
+  const Ended ended = installed({"update"});
+  EXPECT_THAT(ended.output, HasSubstr("exercise.h; the one before is exercise-" REX_VERSION ".h"));
+  EXPECT_EQ(fileText(mine("exercise-" REX_VERSION ".h")), contract);
+  EXPECT_EQ(fileText(mine("README-" REX_VERSION ".md")), "my notes\n");
+  write(exercise() / "exercise.h", contract);
+  EXPECT_THAT(installed({"update"}).output, HasSubstr("exercise-" REX_VERSION "-2.h"));
+}
+
+TEST_F(CourseFolder, SaysWhatIsNoLongerPartOfTheCourse) {
+  init();
+  fs::remove(exercise() / "README.md");
+  EXPECT_THAT(installed({"update"}).output, HasSubstr("README.md is no longer part of the course"));
+  EXPECT_TRUE(fs::exists(mine("README.md")));
+}
+
+TEST_F(CourseFolder, ReportsADamagedRecord) {
+  init();
+  write(course() / kCourseFile, "{");
+  const Ended ended = installed({"update"});
+  EXPECT_EQ(ended.code, 3);
+  EXPECT_THAT(flat(ended.error), HasSubstr("cannot read what was handed out"));
+}
+
+}  // namespace
+}  // namespace rex::cli
