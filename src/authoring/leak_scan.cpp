@@ -55,11 +55,18 @@ int lineOfMark(std::string_view text) {
   return 0;
 }
 
+// Where a file of an installed tree was before: share/cmake/RexInstall.cmake.
+fs::path beforeInstalling(const fs::path& name) {
+  if (isBelow("share/rex", name)) return name.lexically_relative("share/rex");
+  if (isBelow("include/rex", name)) return "src" / name.lexically_relative("include/rex");
+  return name;
+}
+
 /// Scans one tree.
 class Scanner {
  public:
-  Scanner(const std::vector<Secret>& secrets, fs::path library)
-      : secrets_(secrets), library_(std::move(library)) {
+  Scanner(const std::vector<Secret>& secrets, fs::path library, TreeKind kind)
+      : secrets_(secrets), library_(std::move(library)), isInstalled_(kind == TreeKind::kInstalled) {
     for (std::size_t k = 0; k < secrets.size(); ++k)
       for (const std::string& form : secrets[k].forms) index_.add(form, k);
   }
@@ -69,6 +76,7 @@ class Scanner {
     for (auto entry = fs::recursive_directory_iterator(tree); entry != fs::end(entry); ++entry) {
       const fs::path name = entry->path().lexically_relative(tree);
       if (entry->is_symlink()) {
+        if (isInstalled_ && isBelow(fs::canonical(tree), fs::weakly_canonical(entry->path()))) continue;
         refuse(name.generic_string(), "a link, whose target is not scanned,");
       } else if (name.filename() == ".git") {
         refuse(name.generic_string(), "a history, which is not scanned,");
@@ -78,7 +86,10 @@ class Scanner {
       }
     }
     std::sort(files.begin(), files.end());
-    for (const fs::path& name : files) scanFile(name.generic_string(), name, readTextFile(tree / name), 0);
+    for (const fs::path& name : files) {
+      const fs::path origin = isInstalled_ ? beforeInstalling(name) : name;
+      scanFile(name.generic_string(), origin, readTextFile(tree / name), 0);
+    }
     return std::move(found_);
   }
 
@@ -95,11 +106,12 @@ class Scanner {
     const bool isLibrary = depth == 0 && isOfTheLibrary(name, bytes);
     const bool isShown = isBelow("share/template", name);
     if (!isShown && !isLibrary) judgeName(place, name);
-    search(place, name.generic_string(), isLibrary, false);
-    search(place, bytes, isLibrary, true);
+    search(place, name, name.generic_string(), isLibrary, false);
+    search(place, name, bytes, isLibrary, true);
     if (const int line = isCode(name) && !isShown && !isLibrary ? lineOfMark(bytes) : 0; line > 0)
       refuse(place, "a mark of a region", line);
-    if (isCompiled(bytes) && told_.empty()) refuse(place, "a compiled file of unknown origin");
+    if (isCompiled(bytes) && told_.empty() && !isInstalled_)
+      refuse(place, "a compiled file of unknown origin");
     if (isPacked(bytes)) scanPacked(place, bytes, depth);
     told_ = before;
   }
@@ -136,13 +148,14 @@ class Scanner {
     return name.extension() == ".cpp" || name.extension() == ".h" || name.extension() == ".hpp";
   }
 
-  void search(const std::string& place, std::string_view text, bool isLibrary, bool hasLines) {
+  void search(const std::string& place, const fs::path& name, std::string_view text, bool isLibrary,
+              bool hasLines) {
     for (const Comments comments : {Comments::kKeep, Comments::kDrop}) {
       const NormalText normal = normalText(text, comments);
       index_.search(normal.letters, [&](std::size_t k, std::size_t at) {
         const Secret& secret = secrets_[k];
         if (isLibrary && secret.kind != SecretKind::kCourseSecret) return;
-        if (isUsualElsewhere(secret, place)) return;
+        if (isUsualElsewhere(secret, isInstalled_ ? name : fs::path(place))) return;
         if (!told_.insert(k).second) return;
         found_.leaks.push_back({.where = {place, hasLines ? normal.lines[at] : 0},
                                 .what = std::string(nameOf(secret.kind)),
@@ -162,6 +175,7 @@ class Scanner {
 
   const std::vector<Secret>& secrets_;
   fs::path library_;
+  bool isInstalled_;
   internal::FormIndex index_;
   std::set<std::size_t> told_{};  // in this file
   LeakScan found_{};
@@ -175,9 +189,10 @@ std::string toString(const Leak& leak) {
   return Error({.what = leak.what + " would reach students", .where = leak.where, .found = found}).what();
 }
 
-LeakScan scanForLeaks(const fs::path& tree, const std::vector<Secret>& secrets, const fs::path& library) {
+LeakScan scanForLeaks(const fs::path& tree, const std::vector<Secret>& secrets, const fs::path& library,
+                      TreeKind kind) {
   try {
-    return Scanner(secrets, library).scan(tree);
+    return Scanner(secrets, library, kind).scan(tree);
   } catch (const fs::filesystem_error& error) {
     throw Error({.what = "cannot look through this folder",
                  .where = {error.path1().empty() ? tree.string() : error.path1().string()},

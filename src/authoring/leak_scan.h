@@ -28,12 +28,17 @@ struct LeakScan {
   std::uintmax_t bytes = 0;   ///< unpacked
 };
 
+/// What a tree is. The files of an installed one are compared with those of the source tree by where they
+/// came from, and it may contain compiled files, and links that stay in it.
+enum class TreeKind { kSource, kInstalled };
+
 /// Searches names and contents of all files of a tree for secrets, in any layout, case and comments, also
 /// in nested archives and binary data. Also reports solution.cpp, wrong/, region markers in C++ files
 /// (except in share/template), git history, links, compiled files, and unreadable archives. In a file
 /// src/NAME equal to LIBRARY/NAME, only the secret of the course is a leak. Limits:
 /// share/doc/writing-an-exercise.md. Throws Error for files that cannot be read.
 [[nodiscard]] LeakScan scanForLeaks(const std::filesystem::path& tree, const std::vector<Secret>& secrets,
-                                    const std::filesystem::path& library = {});
+                                    const std::filesystem::path& library = {},
+                                    TreeKind kind = TreeKind::kSource);
 
 }  // namespace rex::grading

@@ -217,6 +217,27 @@ TEST_F(LeakScanTest, RefusesCompiledFilesAndNamesTheirOriginWhereItCan) {
             "clean.o: a compiled file of unknown origin would reach students");
 }
 
+TEST_F(LeakScanTest, FindsSecretsInTheProgramsOfAnInstalledTree) {
+  write("check.cpp", "const char* told() { return \"twice the radius, four times the area\"; }\n");
+  write("clean.cpp", "int four() { return 4; }\n");
+  ASSERT_TRUE(runProcess({"c++", "-c", "check.cpp", "clean.cpp"}, {.directory = folder_.path()}).ok());
+  write("tree/lib/rex/exercises/01-circle/clean.o", readTextFile(folder_.path() / "clean.o"));
+  write("tree/include/rex/area.h", "return 3.14159265 * square;\n");
+  write("library/area.h", "return 3.14159265 * square;\n");
+  fs::create_symlink("rex/exercises", tree() / "lib" / "link");
+  const auto found = [&] {
+    return scanForLeaks(tree(), secrets(), folder_.path() / "library", TreeKind::kInstalled).leaks;
+  };
+  EXPECT_THAT(found(), IsEmpty());
+  write("tree/lib/rex/exercises/01-circle/grader", readTextFile(folder_.path() / "check.o"));
+  ASSERT_EQ(found().size(), 1u);
+  EXPECT_THAT(toString(found()[0]), HasSubstr("lib/rex/exercises/01-circle/grader"));
+  fs::remove(tree() / "lib/rex/exercises/01-circle/grader");
+  write("tree/share/rex/exercises/01-circle/solution.cpp", "int main() {}\n");
+  fs::create_symlink("/etc/hostname", tree() / "outside");
+  EXPECT_EQ(found().size(), 2u);
+}
+
 TEST_F(LeakScanTest, LetsTheLibraryHoldAllButTheSecretOfTheCourse) {
   write("tree/src/area.cpp", "return 3.14159265 * square;\n");
   write("tree/src/solution.cpp", "// how the program shows one\n");

@@ -35,7 +35,8 @@ TEST(ManualPage, ListsAllCommands) {
   EXPECT_EQ(runRex(2, words, {"/", "/"}), 0);
   const std::string page = ::testing::internal::GetCapturedStdout();
   for (const TableEntry& entry : commandTable())  // hyphens are written in another way
-    EXPECT_THAT(page, ::testing::HasSubstr("\n.B " + std::string(entry.name.substr(0, entry.name.find('-')))));
+    EXPECT_THAT(page,
+                ::testing::HasSubstr("\n.B " + std::string(entry.name.substr(0, entry.name.find('-')))));
   EXPECT_THAT(page, ::testing::HasSubstr(".SH EXIT STATUS"));
 }
 

@@ -69,11 +69,16 @@ void addDevRelease(CLI::App* dev, Action& action) {
       command
           ->add_option("--prove-in", options->proveIn, "like --prove, but in this new folder, which is kept")
           ->type_name("FOLDER");
-  command->add_option("--scan", options->scan, "only look for leaks in this folder, write nothing")
-      ->type_name("FOLDER")
-      ->excludes(out)
-      ->excludes(prove)
-      ->excludes(proveIn);
+  CLI::Option* scan =
+      command->add_option("--scan", options->scan, "only look for leaks in this folder, write nothing")
+          ->type_name("FOLDER")
+          ->excludes(out)
+          ->excludes(prove)
+          ->excludes(proveIn);
+  command
+      ->add_flag("--installed", options->installed,
+                 "this folder is an installed tree, with programs and libraries")
+      ->needs(scan);
   command
       ->add_option("--secret-file", options->secret,
                    "secret of the course, which must not be in the tree either")

@@ -49,7 +49,9 @@ ExitCode scanOnly(const Project& project, const ReleaseOptions& options) {
   if (!fs::is_directory(options.scan))
     throw UsageError({.what = "no such folder", .where = {options.scan.string()}});
   const std::vector<grading::Secret> secrets = grading::secretsOfCourse(project.root, options.secret);
-  const grading::LeakScan scan = grading::scanForLeaks(options.scan, secrets, project.root / "src");
+  const grading::LeakScan scan =
+      grading::scanForLeaks(options.scan, secrets, project.root / "src",
+                            options.installed ? grading::TreeKind::kInstalled : grading::TreeKind::kSource);
   tellLeaks(scan.leaks);
   say(fmt::format("{} holds {}", shown(options.scan), sizeOf(scan)));
   saySecrets(secrets);

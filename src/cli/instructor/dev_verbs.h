@@ -29,6 +29,7 @@ ExitCode devStrip(const Project& project, const std::string& name);
 struct ReleaseOptions {
   std::filesystem::path out{};      ///< new folder
   std::filesystem::path scan{};     ///< only scan this tree, and write nothing
+  bool installed = false;           ///< what is scanned was installed: see grading::TreeKind
   std::filesystem::path secret{};   ///< file with the secret of the course; empty: none
   bool prove = false;               ///< see proveRelease()
   std::filesystem::path proveIn{};  ///< the same, in this folder, which is kept
