@@ -76,9 +76,10 @@ std::optional<fs::path> buildOwnProgram(const Project& project, const fs::path& 
       grading::readProgramToolchain(project.build / "student" / "program.json");
   grading::Toolchain& toolchain = program.toolchain;
   if (!project.installed.empty()) toolchain.prefix = project.root / kPrefixFile;
-  const bool hasPrefix =
-      !toolchain.prefix.empty() && grading::opensWithCourseHeader(readTextFile(file), toolchain.flags);
-  if (hasPrefix) bringUpToDate(project, {"rex_student_prefix"}, "what programs start from");
+  const std::string source = readTextFile(file);
+  if (!toolchain.prefix.empty() && grading::opensWithCourseHeader(source, toolchain.flags))
+    bringUpToDate(project, {"rex_student_prefix"}, "what programs start from");
+  const bool hasPrefix = !grading::prefixFlags(toolchain.prefix, source, toolchain.flags).empty();
   toolchain.flags.insert(toolchain.flags.end(), {"-I", file.parent_path().string()});
   const auto chooseLibraries = [&](const grading::StudentObject& object) {
     const ProcessResult table =
