@@ -53,7 +53,7 @@ function(rex_install_exercises)
             FILES_MATCHING PATTERN "worker*.o" PATTERN "worker*.options" PATTERN "worker.offers" PATTERN "show.a")
     rex_install_description(${built}/build.json ${destination}/build.json)
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/exercises/${name} DESTINATION share/rex/exercises COMPONENT runtime
-            PATTERN "main.backup-*" EXCLUDE PATTERN "check.cpp" EXCLUDE)
+            PATTERN "main.backup-*" EXCLUDE)
   endforeach()
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/data DESTINATION share/rex COMPONENT runtime)
   install(FILES ${PROJECT_SOURCE_DIR}/share/completion/rex.bash

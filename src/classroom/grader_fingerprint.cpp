@@ -48,9 +48,10 @@ const std::string& hashOfRunningProgram() {
 
 std::string graderFingerprint(const Toolchain& toolchain, const ExerciseInfo& exercise,
                               const fs::path& launcher) {
-  std::string text = fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n", REX_VERSION, exerciseVersion(exercise.folder),
-                                 toolchain.compiler, fmt::join(toolchain.flags, "\n"),
-                                 fmt::join(toolchain.linkFlags, "\n"), sha256(headersOf(toolchain.flags)));
+  std::string text =
+      fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n", REX_VERSION, exerciseVersion(exercise.definition),
+                  toolchain.compiler, fmt::join(toolchain.flags, "\n"), fmt::join(toolchain.linkFlags, "\n"),
+                  sha256(headersOf(toolchain.flags)));
   std::vector<fs::path> files = toolchain.libraries;
   files.insert(files.end(), {toolchain.grader, toolchain.workerObject});
   for (const fs::path& file : files) text += sha256(readTextFile(file)) + "\n";

@@ -79,7 +79,7 @@ ExerciseInfo readExerciseInfo(const path& folder) {
   top.refuseKeysBut({"title", "script", "solution", "allowed", "limits", "part", "forbidden"});
 
   ExerciseInfo info;
-  info.folder = folder;
+  info.folder = info.definition = folder;
   info.name = folder.filename().string();
   info.title = top.text("title");
   info.script = top.text("script");

@@ -35,7 +35,9 @@ enum class SolutionRule { kNever, kAfterPass, kAlways };
 /// The contents of exercise.toml.
 struct ExerciseInfo {
   std::string name;              ///< of the folder: "01-kinematics"
-  std::filesystem::path folder;  ///< as given
+  std::filesystem::path folder;  ///< as given; where students work
+  std::filesystem::path
+      definition;  ///< the same, or the folder of an installed rex that says what is demanded
   std::string title;
   std::string script;  ///< section of the course script
   SolutionRule solution = SolutionRule::kNever;

@@ -45,7 +45,7 @@ GradeResult startResult(const Toolchain& toolchain, const ExerciseInfo& exercise
   result.submissionId = result.snapshotSha256.substr(0, 12);
   result.files = {{object.name, result.snapshotSha256}};
   result.exerciseId = exercise.name;
-  result.exerciseVersion = exerciseVersion(exercise.folder);
+  result.exerciseVersion = exerciseVersion(exercise.definition);
   result.toolVersion = REX_VERSION;
   result.compiler = compilerVersion(toolchain.compiler);
   result.compile = {object.exitCode, object.messages, object.truncated};

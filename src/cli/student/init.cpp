@@ -31,7 +31,8 @@ ExitCode init(const Project& project, const fs::path& folder) {
   const Project course{.root = fs::canonical(place), .build = project.build, .installed = project.installed};
   prepareTools(course);
   const std::vector<ExerciseInfo> exercises = course.exercises();
-  say(fmt::format("{} has {} exercises, in {} files.", shown(place), exercises.size(), files.size()));
+  say(fmt::format("{} has {} exercise{}, in {} files.", shown(place), exercises.size(),
+                  exercises.size() == 1 ? "" : "s", files.size()));
   if (exercises.empty()) return ExitCode::kFull;
   const std::string first = exercises.front().name;
   say();

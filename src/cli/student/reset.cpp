@@ -60,7 +60,7 @@ void replaceAndKeep(const fs::path& main, const std::string& starter) {
 ExitCode reset(const Project& project, const std::string& name) {
   const ExerciseInfo exercise = project.exercise(name);
   const fs::path main = exercise.folder / "main.cpp";
-  const std::string starter = starterOf(project.files() / "exercises" / exercise.name);
+  const std::string starter = starterOf(exercise.definition);
   if (fs::exists(main)) {
     if (readTextFile(main) == starter) {
       say(fmt::format("{} is as it was handed out.", shown(main)));

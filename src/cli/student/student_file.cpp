@@ -37,10 +37,10 @@ std::string lineOf(const std::string& source, int number) {
 
 // In a course folder: the student's show.cpp if it is not as it was handed out, for then it is not compiled
 // yet.
-std::filesystem::path ownShow(const Project& project, const ExerciseInfo& exercise) {
+std::filesystem::path ownShow(const ExerciseInfo& exercise) {
   const std::filesystem::path own = exercise.folder / "show.cpp",
-                              handedOut = project.files() / "exercises" / exercise.name / "show.cpp";
-  if (project.installed.empty() || !std::filesystem::exists(own)) return {};
+                              handedOut = exercise.definition / "show.cpp";
+  if (exercise.folder == exercise.definition || !std::filesystem::exists(own)) return {};
   const bool isSame = std::filesystem::exists(handedOut) && readTextFile(own) == readTextFile(handedOut);
   return isSame ? std::filesystem::path() : own;
 }
@@ -77,7 +77,7 @@ std::optional<std::filesystem::path> buildProgram(const Project& project, const 
                                                   const grading::StudentBuildOptions& options,
                                                   const std::filesystem::path& out) {
   grading::Toolchain toolchain = prepare(project, exercise);
-  const std::filesystem::path show = ownShow(project, exercise);
+  const std::filesystem::path show = ownShow(exercise);
   if (!show.empty()) {
     const grading::StudentObject object =
         compileStudent(toolchain, {}, {.main = show, .workFolder = options.workFolder / "show"});

@@ -49,7 +49,7 @@ std::string receiptOf(const std::vector<HandedIn>& files) {
     list.push_back({{"name", file.name},
                     {"bytes", file.text.size()},
                     {"sha256", file.sha256},
-                    {"exercise_version", grading::exerciseVersion(file.exercise.folder)}});
+                    {"exercise_version", grading::exerciseVersion(file.exercise.definition)}});
   return Json{{"schema", "rex-receipt/1"}, {"tool", REX_VERSION}, {"files", list}}.dump(2) + "\n";
 }
 

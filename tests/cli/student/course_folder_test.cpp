@@ -86,6 +86,30 @@ TEST_F(CourseFolder, IsMadeOnlyWhereNothingIs) {
   EXPECT_THAT(flat(again.error), HasSubstr("is a course folder already: wanted `rex update` in it"));
 }
 
+TEST_F(CourseFolder, SaysWhyItCannotBeMade) {
+  write(root() / "file", "text");
+  const Ended ended = installed({"init", (root() / "file" / "course").string()});
+  EXPECT_EQ(ended.code, 3);
+  EXPECT_THAT(flat(ended.error), HasSubstr("cannot fill the course folder: found Not a directory"));
+}
+
+TEST_F(CourseFolder, WorksWithoutAPreparedCompiler) {
+  fs::create_directories(root() / "build" / "student");
+  fs::create_symlink(REX_BINARY_DIR "/tests/template/exercises", root() / "build" / "exercises");
+  write(
+      root() / "build" / "student" / "program.json",
+      R"({"compiler": "/bin/false", "compile_flags": [], "link_flags": [], "prefix": "", "source_folder": "",
+            "libraries": []})");
+  ::testing::internal::CaptureStdout();
+  ::testing::internal::CaptureStderr();
+  const std::string folder = course().string();
+  const char* const words[] = {"rex", "init", folder.c_str()};
+  EXPECT_EQ(runRex(3, words, {.root = root(), .build = root() / "build", .installed = root()}), 0);
+  EXPECT_THAT(::testing::internal::GetCapturedStdout(), HasSubstr("has 1 exercise, in"));
+  EXPECT_THAT(flat(::testing::internal::GetCapturedStderr()),
+              HasSubstr("Compiling will take longer: /bin/false: the compiler cannot read the library"));
+}
+
 TEST_F(CourseFolder, IsMadeByAnInstalledRexOnly) {
   for (const char* command : {"update", "init"}) {
     const Ended ended = command == std::string("init") ? rex({command, course().string()}) : rex({command});
