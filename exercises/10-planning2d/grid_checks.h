@@ -150,8 +150,11 @@ inline bool touchesObstacle(const CellMap& map, MapCell cell) {
   return false;
 }
 
-inline bool isBeside(MapCell a, MapCell b) { return std::abs(a.x - b.x) + std::abs(a.y - b.y) == 1; }
-inline bool touches(MapCell a, MapCell b) { return std::abs(a.x - b.x) <= 1 && std::abs(a.y - b.y) <= 1; }
+// In double precision, since answers may be any integers.
+inline double columnsBetween(MapCell a, MapCell b) { return std::abs(1. * a.x - b.x); }
+inline double rowsBetween(MapCell a, MapCell b) { return std::abs(1. * a.y - b.y); }
+inline bool isBeside(MapCell a, MapCell b) { return columnsBetween(a, b) + rowsBetween(a, b) == 1; }
+inline bool touches(MapCell a, MapCell b) { return columnsBetween(a, b) <= 1 && rowsBetween(a, b) <= 1; }
 
 // A style for points in figures.
 inline rex::Series dots(const std::string& label, const rex::Color& color, double size,
