@@ -48,7 +48,7 @@ function(rex_install_exercises)
   foreach(name IN LISTS exercises)
     set(built ${PROJECT_BINARY_DIR}/exercises/${name})
     set(destination ${REX_INSTALLED}/exercises/${name})
-    install(PROGRAMS ${built}/grader DESTINATION ${destination} COMPONENT runtime)
+    install(TARGETS ${name}_grader RUNTIME DESTINATION ${destination} COMPONENT runtime)
     install(DIRECTORY ${built}/ DESTINATION ${destination} COMPONENT runtime
             FILES_MATCHING PATTERN "worker*.o" PATTERN "worker*.options" PATTERN "worker.offers" PATTERN "show.a")
     rex_install_description(${built}/build.json ${destination}/build.json)
@@ -89,6 +89,7 @@ function(rex_install_development)
   install(FILES ${folder}/rexConfig.cmake ${folder}/rexConfigVersion.cmake DESTINATION lib/cmake/rex
           COMPONENT development)
   install(FILES ${descriptions} DESTINATION lib/pkgconfig COMPONENT development)
+  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION share/doc/librex-dev RENAME copyright COMPONENT development)
 endfunction()
 
 function(rex_install_documentation)

@@ -15,32 +15,32 @@ set(CPACK_COMPONENT_DEVELOPMENT_GROUP development)
 
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_PACKAGE_SECTION education)
-set(CPACK_DEBIAN_COMPRESSION_TYPE zstd)
+set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME rex)
 set(CPACK_DEBIAN_RUNTIME_FILE_NAME rex_${PROJECT_VERSION}_amd64.deb)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME librex-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_FILE_NAME librex-dev_${PROJECT_VERSION}_amd64.deb)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_RUNTIME_DESCRIPTION
-"robotics exercises: see, solve and test them
- A course in robotics: kinematics, dynamics, planning, estimation, control,
+"A course in robotics: kinematics, dynamics, planning, estimation, control,
  learning and grasping. Students complete functions in C++, look at pictures
  and replays of their robot, and have them graded.")
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION
-"robotics library of rex: files for other programs
- Targets for CMake and descriptions for pkg-config, one per module.")
+"Targets for CMake and descriptions for pkg-config, one per module of the
+ library, for programs outside of a course folder.")
 # What programs need of libraries is found in them; the rest is started by name, or is included by student code.
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/lib)
+string(REGEX MATCH "^[0-9]+" compiler "${CMAKE_CXX_COMPILER_VERSION}")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS
-    "g++ (>= 4:${CMAKE_CXX_COMPILER_VERSION_MAJOR}), binutils, libeigen3-dev, bubblewrap, gnuplot-nox, libgl1-mesa-dri, libosmesa6 | libegl1")
+    "g++ (>= 4:${compiler}), binutils, libeigen3-dev, bubblewrap, gnuplot-nox, libgl1-mesa-dri, libosmesa6 | libegl1")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "ffmpeg")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "gdb, librex-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "rex (= ${PROJECT_VERSION}), libeigen3-dev")
 
 # For machines without root: unpack it anywhere.
-file(STRINGS /etc/os-release system REGEX "^(ID|VERSION_ID)=")
-string(REGEX REPLACE "(ID|VERSION_ID)=|\"|;" "" system "${system}")
+cmake_host_system_information(RESULT system QUERY DISTRIB_INFO)
+set(system ${system_ID}${system_VERSION_ID})
 set(CPACK_ARCHIVE_COMPONENT_INSTALL OFF)
 set(CPACK_ARCHIVE_FILE_NAME rex-${PROJECT_VERSION}-${system})
 set(CPACK_PACKAGE_FILE_NAME rex-${PROJECT_VERSION}-${system})
