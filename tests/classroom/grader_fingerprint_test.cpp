@@ -32,7 +32,7 @@ class GraderFingerprint : public ::testing::Test {
     toolchain.grader = file("grader");
     toolchain.libraries = {file("library.so")};
     ExerciseInfo exercise;
-    exercise.folder = file("01-x");
+    exercise.folder = exercise.definition = file("01-x");
     return graderFingerprint(toolchain, exercise, file("launcher"));
   }
   // What a copy of this program computes of the same files.
