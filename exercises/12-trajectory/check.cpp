@@ -482,18 +482,20 @@ void getsAround(Check& check, Student& student, const Scene& scene) {
   check.shape("X", X, start.size(), T);
   Eigen::MatrixXd path(start.size(), T + 1);
   path << start, X;
-  const TrajectoryClearance clearance = trajectoryClearance(S.model(), ContactModel(S.model()), path, 1e-4);
+  TrajectoryClearance clearance;
   const auto shown = check.show([&] { return motionSeen(S, path, clearance.step); });
   check.near("configuration at the end", X.col(T - 1), errand.goal, 1e-3, "rad");
   check.near("configuration before the end", X.col(T - 2), errand.goal, 2e-3, "rad");
-  check.atLeast("least distance of any pair, also between steps", clearance.distance,
-                0.8 * errand.margin - 1e-4, "m");
   double cost = 0;
   Eigen::MatrixXd all(start.size(), T + 2);
   all << start, path;
   for (Eigen::Index t = 0; t < T; ++t)
     cost += (all.middleCols(t, 3) * weightsOf(2, errand.tau)).squaredNorm();
   check.atMost("cost of the motion", cost, errand.budget);
+  // Last, for it takes the longer the further the motion leads.
+  clearance = trajectoryClearance(S.model(), ContactModel(S.model()), path, 1e-4);
+  check.atLeast("least distance of any pair, also between steps", clearance.distance,
+                0.8 * errand.margin - 1e-4, "m");
 }
 
 void aroundTheBall(Check& check, Student& student) {
