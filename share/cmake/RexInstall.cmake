@@ -9,7 +9,7 @@ set(REX_INSTALLED lib/rex)
 set(REX_PUBLIC_LAYERS base geometry optim remote scene estimation learning kinematics dynamics collision render physics
                       planning trajectory control grasping locomotion course legacy)
 
-# Here, too, `home` and `include` lead to the files, so that a program needs not know where it runs.
+# Here, too, `home` leads to the files, so that a program need not know where it runs.
 file(CREATE_LINK ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/home SYMBOLIC)
 
 function(rex_install_programs)

@@ -11,6 +11,7 @@
 #include "authoring/form_index_internal.h"
 #include "authoring/normal_text.h"
 #include "authoring/unpack.h"
+#include "base/is_below.h"
 #include "base/lines.h"
 #include "base/text_file.h"
 
@@ -21,10 +22,6 @@ namespace fs = std::filesystem;
 
 // Depth of nested archives; deeper ones are made to hide something.
 constexpr int kDeepest = 4;
-
-bool isBelow(const fs::path& folder, const fs::path& file) {
-  return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
-}
 
 // Whether the bytes begin like those of a program or library.
 bool isCompiled(std::string_view bytes) {

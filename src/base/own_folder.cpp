@@ -1,9 +1,10 @@
 #include "base/own_folder.h"
 
-#include <algorithm>
 #include <cassert>
 
 #include <dlfcn.h>
+
+#include "base/is_below.h"
 
 namespace rex {
 namespace {
@@ -16,10 +17,6 @@ fs::path withoutLinks(const fs::path& path) {
   std::error_code missing;
   const fs::path real = fs::weakly_canonical(path, missing);
   return missing ? path : real;
-}
-
-bool isIn(const fs::path& folder, const fs::path& path) {
-  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
 
 fs::path folderOfThisLibrary() {
@@ -44,6 +41,6 @@ const fs::path& homeFolder() {
 
 bool isInstalled() { return !fs::exists(ownFolder() / "build.ninja"); }
 
-bool isOwnFile(const fs::path& path) { return isIn(ownFolder(), path) || isIn(homeFolder(), path); }
+bool isOwnFile(const fs::path& path) { return isBelow(ownFolder(), path) || isBelow(homeFolder(), path); }
 
 }  // namespace rex

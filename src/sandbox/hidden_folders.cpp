@@ -3,21 +3,19 @@
 #include <algorithm>
 #include <system_error>
 
+#include "base/is_below.h"
+
 namespace rex::sandbox {
 namespace {
 
 namespace fs = std::filesystem;
 
-bool isBelowOrSame(const fs::path& path, const fs::path& folder) {
-  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
-}
-
 void addAllBut(const fs::path& place, const std::vector<fs::path>& hidden, std::vector<fs::path>& found) {
   std::error_code failed;
   const fs::path real = fs::canonical(place, failed);
   if (failed) return;
-  const auto isHidden = [&](const fs::path& one) { return isBelowOrSame(real, one); };
-  const auto hides = [&](const fs::path& one) { return isBelowOrSame(one, real); };
+  const auto isHidden = [&](const fs::path& one) { return isBelow(one, real); };
+  const auto hides = [&](const fs::path& one) { return isBelow(real, one); };
   if (std::any_of(hidden.begin(), hidden.end(), isHidden)) return;
   if (std::none_of(hidden.begin(), hidden.end(), hides)) {
     found.push_back(place);
@@ -34,7 +32,7 @@ std::vector<fs::path> hiddenFolders(const fs::path& launcher) {
   for (const fs::path& folder : {own, own / "home"}) {
     std::error_code missing;
     const fs::path real = fs::canonical(folder, missing);
-    if (!missing && isBelowOrSame(real, "/usr")) hidden.push_back(real);
+    if (!missing && isBelow("/usr", real)) hidden.push_back(real);
   }
   return hidden;
 }

@@ -2,6 +2,7 @@
 #include <fstream>
 #include <system_error>
 
+#include "base/is_below.h"
 #include "scene/files_internal.h"
 
 namespace rex::internal {
@@ -31,10 +32,7 @@ fs::path realPath(const fs::path& path) {
   return found.empty() ? whole.lexically_normal() : found;
 }
 
-bool isInside(const fs::path& path, const fs::path& root) {
-  const fs::path inner = realPath(path), outer = realPath(root);
-  return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
-}
+bool isInside(const fs::path& path, const fs::path& root) { return isBelow(realPath(root), realPath(path)); }
 
 fs::path folderOf(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : "."; }
 

@@ -5,6 +5,7 @@
 
 #include <assimp/IOStream.hpp>
 
+#include "base/is_below.h"
 #include "scene/mesh_folder_internal.h"
 
 namespace rex::mesh {
@@ -72,9 +73,7 @@ fs::path MeshFolder::find(const char* name) const {
   const fs::path file = fs::canonical(folder / name, problem);
   if (problem || !fs::is_regular_file(file, problem) || fs::file_size(file, problem) > kLargestNeighbour)
     return {};
-  const bool isInside =
-      std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
-  return isInside ? file : fs::path();
+  return isBelow(folder, file) ? file : fs::path();
 }
 
 }  // namespace rex::mesh

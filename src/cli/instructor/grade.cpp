@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/is_below.h"
 #include "base/private_folder.h"
 #include "base/process_pool.h"
 #include "base/sha256.h"
@@ -108,15 +109,10 @@ std::optional<sandbox::Sandbox> chooseForStrangers(const Project& project,
   return chosen;
 }
 
-// Results inside the folder of submissions would be taken for submissions the next time.
-bool contains(const fs::path& outer, const fs::path& inner) {
-  return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first == outer.end();
-}
-
 // Files written into the other folder would be taken for submissions or results.
 void requireApart(const char* option, const fs::path& folder, const fs::path& other) {
   const fs::path here = fs::weakly_canonical(folder), there = fs::weakly_canonical(other);
-  if (contains(here, there) || contains(there, here))
+  if (isBelow(here, there) || isBelow(there, here))
     throw UsageError(
         {.what = option, .found = here.string(), .wanted = "a folder apart from " + there.string()});
 }

@@ -1,9 +1,9 @@
-#include <algorithm>
 #include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "base/is_below.h"
 #include "base/lower_case.h"
 #include "base/text_file.h"
 #include "cli/out_folder.h"
@@ -43,8 +43,7 @@ void warnOfMeshesOutside(const SceneSpec& spec, const fs::path& out) {
     for (const ShapeSpec& shape : shapes) {
       if (shape.meshPath.empty()) continue;
       const fs::path mesh = fs::weakly_canonical(shape.meshPath);
-      while (std::mismatch(root.begin(), root.end(), mesh.begin(), mesh.end()).first != root.end())
-        root = root.parent_path();
+      while (!isBelow(root, mesh)) root = root.parent_path();
     }
   };
   widen(spec.worldShapes);
