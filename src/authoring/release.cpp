@@ -150,7 +150,8 @@ void requireNoSolutionText(const path& exercise) {
   throw Error({.what = toString(first)});
 }
 
-Release writeStudentRelease(const path& root, const path& target, const path& courseSecret) {
+Release writeStudentRelease(const path& root, const path& target, const path& courseSecret,
+                            const std::vector<std::string>& only) {
   try {
     if (!isEmptyOrMissing(target))
       throw UsageError(
@@ -159,7 +160,11 @@ Release writeStudentRelease(const path& root, const path& target, const path& co
     throw unwritten(target, error);
   }
   try {
-    const std::vector<path> exercises = exercisesOf(root);
+    std::vector<path> exercises = exercisesOf(root);
+    if (!only.empty())
+      std::erase_if(exercises, [&](const path& exercise) {
+        return std::find(only.begin(), only.end(), exercise.filename()) == only.end();
+      });
     Release release{.exercises = static_cast<int>(exercises.size()),
                     .scan = {},
                     .secrets = secretsOfCourse(root, courseSecret)};

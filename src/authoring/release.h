@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "authoring/leak_scan.h"
@@ -14,14 +15,16 @@ struct Release {
   std::vector<Secret> secrets{};  ///< the secrets that the scan searched for
 };
 
-/// Writes the students' tree to `target`: all of `root` that builds and runs; exercises without
-/// solution.cpp and wrong/, with main.cpp and its copy starter.cpp remade from the solution, and check.cpp
-/// without hidden blocks; no tests, history or results. Finally scans it for leaks, also of the secret of
-/// the course if that file is given. Throws UsageError if the target is not empty, and Error, leaving
-/// nothing behind, for malformed markers and files that cannot be read or written.
+/// Writes the students' tree to `target`: all of `root` that builds and runs; exercises (those named by
+/// `only`, or all) without solution.cpp and wrong/, with main.cpp and its copy starter.cpp remade from the
+/// solution, and check.cpp without hidden blocks; no tests, history or results. Finally scans it for leaks
+/// of all exercises, also of the secret of the course if that file is given. Throws UsageError if the target
+/// is not empty, and Error, leaving nothing behind, for malformed markers and files that cannot be read or
+/// written.
 [[nodiscard]] Release writeStudentRelease(const std::filesystem::path& root,
                                           const std::filesystem::path& target,
-                                          const std::filesystem::path& courseSecret = {});
+                                          const std::filesystem::path& courseSecret = {},
+                                          const std::vector<std::string>& only = {});
 
 /// The secrets in `root` that must not reach students: see secretsOf().
 [[nodiscard]] std::vector<Secret> secretsOfCourse(const std::filesystem::path& root,

@@ -46,8 +46,9 @@ class PolicyReader {
  private:
   static void readRule(const TomlTable& keys, LateRule& rule) {
     constexpr int kMostMinutes = 60 * 24 * 365;
-    keys.refuseKeysBut({"deadline", "grace_minutes", "percent_per_day", "points_per_day", "cap_percent",
-                        "cap_points", "extensions"});
+    keys.refuseKeysBut({"opening", "deadline", "grace_minutes", "percent_per_day", "points_per_day",
+                        "cap_percent", "cap_points", "extensions"});
+    if (keys.has("opening")) rule.opening = keys.instant("opening");
     if (keys.has("deadline")) rule.deadline = keys.instant("deadline");
     if (keys.has("grace_minutes")) rule.graceSeconds = 60 * keys.integer("grace_minutes", 0, kMostMinutes);
     readCost(keys, "percent", "points", true, rule);

@@ -9,8 +9,9 @@
 
 namespace rex::grading {
 
-/// When an exercise is due and the penalty for lateness. Times in seconds since 1970 in UTC.
+/// When an exercise is given out and due, and the penalty for lateness. Times in seconds since 1970 in UTC.
 struct LateRule {
+  std::optional<std::int64_t> opening{};
   std::optional<std::int64_t> deadline{};
   std::map<std::string, std::int64_t> extensions{};  ///< later deadlines of individual students
   std::int64_t graceSeconds = 0;                     ///< lateness up to this is tolerated

@@ -45,6 +45,7 @@ grace_minutes = 15
 percent_per_day = 12.5
 cap_percent = 50
 [exercise.02-control]
+opening = 2026-11-18T08:00:00+01:00
 deadline = 2026-12-01T12:00:00Z
 points_per_day = 2
 cap_points = 5
@@ -58,6 +59,8 @@ alice = 2026-12-03T12:00:00Z
   EXPECT_EQ(first.perDay, 1250);
   EXPECT_EQ(first.cap, 5000);
   const LateRule& second = policy.at("02-control");
+  EXPECT_FALSE(first.opening.has_value());
+  EXPECT_EQ(instantText(second.opening.value()), "2026-11-18T07:00:00Z");
   EXPECT_EQ(instantText(second.deadline.value()), "2026-12-01T12:00:00Z");
   EXPECT_EQ(second.graceSeconds, 900);
   EXPECT_FALSE(second.isPercent);

@@ -57,14 +57,27 @@ void addDevStrip(CLI::App* dev, Action& action) {
 
 void addDevRelease(CLI::App* dev, Action& action) {
   const auto options = std::make_shared<ReleaseOptions>();
-  CLI::App* command = addVerb(dev, "release", "Write the tree that students get, and look for leaks in it",
-                              "Examples:\n  scripts/rex dev release /tmp/students --prove\n"
-                              "  scripts/rex dev release --scan handouts\n\n"
-                              "The tree has no solution, hidden check or wrong variant.\n"
-                              "Exit code 1: something leaks; nothing was written.");
+  CLI::App* command =
+      addVerb(dev, "release", "Write the tree that students get, and look for leaks in it",
+              "Examples:\n  scripts/rex dev release /tmp/students --prove\n"
+              "  scripts/rex dev release /tmp/students --until 2026-12-01 --deadlines deadlines.toml\n"
+              "  scripts/rex dev release --scan handouts\n\n"
+              "The tree has no solution, hidden check or wrong variant.\n"
+              "Exit code 1: something leaks; nothing was written.");
   CLI::Option* out = command->add_option("DIR", options->out, "new folder for the release")->type_name("");
   CLI::Option* prove = command->add_flag("--prove", options->prove,
                                          "build a copy and try every exercise in it (takes minutes)");
+  CLI::Option* only = command->add_option("--only", options->only, "release this exercise; may be repeated")
+                          ->allow_extra_args(false)
+                          ->type_name("EXERCISE");
+  CLI::Option* until =
+      command->add_option("--until", options->until, "release the exercises that open by then: 2026-12-01")
+          ->type_name("DATE")
+          ->excludes(only);
+  command->add_option("--deadlines", options->deadlines, "file with the openings, as for rex grade")
+      ->type_name("FILE.toml")
+      ->needs(until);
+  until->needs("--deadlines");
   CLI::Option* proveIn =
       command
           ->add_option("--prove-in", options->proveIn, "like --prove, but in this new folder, which is kept")
@@ -73,6 +86,8 @@ void addDevRelease(CLI::App* dev, Action& action) {
       command->add_option("--scan", options->scan, "only look for leaks in this folder, write nothing")
           ->type_name("FOLDER")
           ->excludes(out)
+          ->excludes(only)
+          ->excludes(until)
           ->excludes(prove)
           ->excludes(proveIn);
   command

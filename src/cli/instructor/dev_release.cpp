@@ -1,10 +1,13 @@
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "authoring/release.h"
 #include "base/error.h"
+#include "base/instant.h"
+#include "cli/instructor/collect.h"
 #include "cli/instructor/dev_verbs.h"
 #include "cli/instructor/release_proof.h"
 #include "cli/progress_line.h"
@@ -59,12 +62,43 @@ ExitCode scanOnly(const Project& project, const ReleaseOptions& options) {
   return scan.leaks.empty() ? ExitCode::kFull : ExitCode::kBelow;
 }
 
+// Whether it is given out by that time.
+bool isOpenAt(std::int64_t time, const std::string& name, const grading::LatePolicy& policy,
+              const fs::path& file) {
+  const std::optional<std::int64_t> opening = policy.at(name).opening;
+  if (!opening)
+    throw Error({.what = fmt::format("no opening for {}", name),
+                 .where = {shown(file)},
+                 .wanted = fmt::format("`opening` in the table [exercise.{}] or [all]", name)});
+  return *opening <= time;
+}
+
+// The exercises that are released; empty: all.
+std::vector<std::string> chosenExercises(const Project& project, const ReleaseOptions& options) {
+  std::vector<std::string> chosen;
+  for (const std::string& name : options.only) chosen.push_back(project.exercise(name).name);
+  if (options.until.empty()) return chosen;
+  const std::optional<std::int64_t> time = parseInstant(
+      options.until.find('T') == std::string::npos ? options.until + "T23:59:59Z" : options.until);
+  if (!time)
+    throw UsageError({.what = "--until",
+                      .found = harmless(options.until),
+                      .wanted = "a day such as 2026-12-01, or a time such as 2026-12-01T08:00:00+01:00"});
+  const grading::LatePolicy policy = readDeadlines(project, options.deadlines);
+  for (const ExerciseInfo& exercise : project.exercises())
+    if (isOpenAt(*time, exercise.name, policy, options.deadlines)) chosen.push_back(exercise.name);
+  if (chosen.empty())
+    throw UsageError(
+        {.what = "--until", .found = fmt::format("no exercise that opens by {}", options.until)});
+  return chosen;
+}
+
 }  // namespace
 
 ExitCode devRelease(const Project& project, const ReleaseOptions& options) {
   if (!options.scan.empty()) return scanOnly(project, options);
-  const grading::Release release =
-      grading::writeStudentRelease(project.root, fs::absolute(options.out), options.secret);
+  const grading::Release release = grading::writeStudentRelease(
+      project.root, fs::absolute(options.out), options.secret, chosenExercises(project, options));
   if (!release.scan.leaks.empty()) {
     tellLeaks(release.scan.leaks);
     note(fmt::format("Nothing was written: found {} leak{}.", release.scan.leaks.size(),

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "base/exit_code.h"
 #include "cli/project.h"
@@ -27,12 +28,15 @@ ExitCode devCheck(const Project& project, const CheckOptions& options);
 ExitCode devStrip(const Project& project, const std::string& name);
 
 struct ReleaseOptions {
-  std::filesystem::path out{};      ///< new folder
-  std::filesystem::path scan{};     ///< only scan this tree, and write nothing
-  bool installed = false;           ///< what is scanned was installed: see grading::TreeKind
-  std::filesystem::path secret{};   ///< file with the secret of the course; empty: none
-  bool prove = false;               ///< see proveRelease()
-  std::filesystem::path proveIn{};  ///< the same, in this folder, which is kept
+  std::filesystem::path out{};        ///< new folder
+  std::vector<std::string> only{};    ///< these exercises; empty: all
+  std::string until{};                ///< those whose opening is not after this time; empty: all
+  std::filesystem::path deadlines{};  ///< the file with the openings
+  std::filesystem::path scan{};       ///< only scan this tree, and write nothing
+  bool installed = false;             ///< what is scanned was installed: see grading::TreeKind
+  std::filesystem::path secret{};     ///< file with the secret of the course; empty: none
+  bool prove = false;                 ///< see proveRelease()
+  std::filesystem::path proveIn{};    ///< the same, in this folder, which is kept
 };
 /// Writes the students' tree, and prints what it contains. Returns kBelow, without writing anything, if
 /// anything leaks.

@@ -41,6 +41,36 @@ TEST_F(DevReleaseTest, WritesTheTreeAndSaysWhatItHolds) {
   EXPECT_THAT(flat(again.error), HasSubstr("will not overwrite: wanted an empty or new folder"));
 }
 
+TEST_F(DevReleaseTest, HoldsTheExercisesThatWereAskedFor) {
+  fs::copy(exercise(), root() / "exercises" / "99-other", fs::copy_options::recursive);
+  const Ended ended = release({"--only", "98"});
+  EXPECT_EQ(ended.code, 0) << ended.error;
+  EXPECT_THAT(flat(ended.output), HasSubstr("holds 1 exercise, "));
+  EXPECT_FALSE(fs::exists(students() / "exercises/99-other"));
+  EXPECT_THAT(rex({"dev", "release", (root() / "x").string(), "--only", "97"}).error,
+              HasSubstr("98-template"));
+}
+
+TEST_F(DevReleaseTest, HoldsTheExercisesThatAreOpenByADay) {
+  const fs::path file = root() / "deadlines.toml";
+  const auto until = [&](const std::string& time) {
+    return release({"--until", time, "--deadlines", file.string()});
+  };
+  write(file, "[exercise.98-template]\nopening = 2026-12-01T08:00:00+01:00\n");
+  EXPECT_THAT(flat(until("2026-11-30").error),
+              HasSubstr("--until: found no exercise that opens by 2026-11-30"));
+  EXPECT_EQ(until("2026-12-01T07:59:00+01:00").code, 64);
+  EXPECT_THAT(flat(until("soon").error), HasSubstr("--until: found soon, wanted a day such as 2026-12-01"));
+  EXPECT_EQ(until("2026-12-01").code, 0);
+  EXPECT_TRUE(fs::exists(students() / "exercises/98-template/main.cpp"));
+  fs::remove_all(students());
+  write(file, "[all]\ngrace_minutes = 5\n");
+  EXPECT_THAT(flat(until("2026-12-01").error),
+              HasSubstr("deadlines.toml: no opening for 98-template: wanted `opening` in the table "
+                        "[exercise.98-template] or [all]"));
+  EXPECT_EQ(rex({"dev", "release", "x", "--until", "2026-12-01"}).code, 64);
+}
+
 // The template itself is public, so the exercise needs a secret of its own.
 TEST_F(DevReleaseTest, WritesNothingThatLeaks) {
   replace(exercise() / "solution.cpp", "const double s = std::sin(angle);",
