@@ -3,6 +3,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/escape.h"
 #include "reports/report.h"
@@ -14,7 +15,7 @@ namespace {
 using namespace internal;
 
 constexpr std::size_t kLongestAnnotation = 1'000;
-constexpr std::size_t kMostOfAKind = 10;  // GitHub drops further annotations of a step
+constexpr std::size_t kMostAnnotations = 10;  // GitHub shows no more of a step
 
 struct Place {
   std::string file{};  // empty: none
@@ -70,12 +71,13 @@ std::string githubReport(const GradeResult& result) {
   addChecks(result, errors);
   if (result.outcome == Outcome::kCompileError && errors.empty())
     errors.push_back(command("error", exercise, {pathOf(result)}, compileText(result)));
-  std::string text;
-  for (auto* kind : {&errors, &warnings}) {
-    kind->resize(std::min(kind->size(), kMostOfAKind));
-    for (const std::string& line : *kind) text += line;
-  }
-  return text + command("notice", exercise, {}, pointsOf(result));
+  errors.insert(errors.end(), warnings.begin(), warnings.end());
+  const std::size_t shown = std::min(errors.size(), kMostAnnotations - 1), more = errors.size() - shown;
+  errors.resize(shown);
+  errors.push_back(
+      command("notice", exercise, {},
+              pointsOf(result) + (more == 0 ? "" : fmt::format("; {} more in the summary", more))));
+  return fmt::format("{}", fmt::join(errors, ""));
 }
 
 }  // namespace rex::grading

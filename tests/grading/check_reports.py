@@ -203,9 +203,13 @@ class Comparison:
         if self.is_broken and not wanted["error"]:
             self.expect("reason", [told for told, message in found["error"] if message], [title])
             wanted["error"] = found["error"]
+        # Ten at most, of which the last is the notice.
+        left = 9
         for kind in wanted:
-            self.expect(kind, found[kind], wanted[kind][:10])
-        self.expect("notice", found["notice"], [(title, self.points)])
+            self.expect(kind, found[kind], wanted[kind][:left])
+            left -= len(wanted[kind][:left])
+        more = sum(map(len, wanted.values())) - sum(len(found[kind]) for kind in wanted)
+        self.expect("notice", found["notice"], [(title, self.points + (f"; {more} more in the summary" if more else ""))])
 
     def markdown(self, text):
         def squeezed(value):
