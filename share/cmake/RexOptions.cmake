@@ -58,3 +58,8 @@ set(REX_COLD "$<$<CONFIG:Release>:-O1;-Wno-array-bounds;-Wno-maybe-uninitialized
 
 set(REX_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Wswitch-enum
                  -Woverloaded-virtual)
+# From version 13 on, g++ warns at -O2, too, of copies in std::vector whose length it does not know, and of references to
+# what lives as long as the program if a function that looks them up gets a temporary.
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13)
+  list(APPEND REX_WARNINGS -Wno-stringop-overflow -Wno-dangling-reference)
+endif()

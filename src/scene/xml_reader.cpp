@@ -94,7 +94,11 @@ class Builder {
   static Builder& of(void* self) { return *static_cast<Builder*>(self); }
 
   std::uint32_t here() const {
-    const XML_Index at = std::max<XML_Index>(0, XML_GetCurrentByteIndex(parser_.get()));
+#if XML_MAJOR_VERSION == 2 && XML_MINOR_VERSION < 9
+    const std::int64_t at = std::max<std::int64_t>(0, XML_GetCurrentByteIndex(parser_.get()));
+#else
+    const std::int64_t at = std::max<std::int64_t>(0, XML_GetCurrentByteIndex64(parser_.get()));
+#endif
     return static_cast<std::uint32_t>(skipped_ + static_cast<std::size_t>(at));
   }
 
