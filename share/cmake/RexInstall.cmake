@@ -5,6 +5,12 @@
 
 set(REX_INSTALLED lib/rex)
 
+# Who answers for a package is who makes it.
+set(REX_MAINTAINER "the rex maintainers <rex@localhost>")
+if(DEFINED ENV{REX_MAINTAINER})
+  set(REX_MAINTAINER "$ENV{REX_MAINTAINER}")
+endif()
+
 # The modules that other programs may link. Headers of the others are not installed.
 set(REX_PUBLIC_LAYERS base geometry optim remote scene estimation learning kinematics dynamics collision render physics
                       planning trajectory control grasping locomotion course legacy)
@@ -53,9 +59,11 @@ function(rex_install_exercises)
             FILES_MATCHING PATTERN "worker*.o" PATTERN "worker*.options" PATTERN "worker.offers" PATTERN "show.a")
     rex_install_description(${built}/build.json ${destination}/build.json)
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/exercises/${name} DESTINATION share/rex/exercises COMPONENT runtime
-            PATTERN "main.backup-*" EXCLUDE)
+            PATTERN "main.backup-*" EXCLUDE PATTERN solution.cpp EXCLUDE PATTERN wrong EXCLUDE)
   endforeach()
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/data DESTINATION share/rex COMPONENT runtime)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/share/ci DESTINATION share/rex COMPONENT runtime USE_SOURCE_PERMISSIONS
+          PATTERN "grade-*" EXCLUDE)
   install(FILES ${PROJECT_SOURCE_DIR}/share/completion/rex.bash
           DESTINATION share/bash-completion/completions RENAME rex COMPONENT runtime)
   install(FILES ${PROJECT_SOURCE_DIR}/share/completion/_rex DESTINATION share/zsh/vendor-completions COMPONENT runtime)
@@ -92,6 +100,13 @@ function(rex_install_development)
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION share/doc/librex-dev RENAME copyright COMPONENT development)
 endfunction()
 
+function(rex_install_changelog package component)
+  install(CODE "
+    set(folder \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/share/doc/${package}\")
+    file(COPY_FILE ${PROJECT_BINARY_DIR}/changelog \${folder}/changelog)
+    execute_process(COMMAND gzip -9nf \${folder}/changelog COMMAND_ERROR_IS_FATAL ANY)" COMPONENT ${component})
+endfunction()
+
 function(rex_install_documentation)
   install(CODE "
     set(page \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/share/man/man1/rex.1\")
@@ -102,6 +117,12 @@ function(rex_install_documentation)
   install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md DESTINATION share/doc/rex
           COMPONENT documentation OPTIONAL)
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION share/doc/rex RENAME copyright COMPONENT documentation)
+  # The form that Debian wants; what changed stands in CHANGELOG.md. By CMake the time is SOURCE_DATE_EPOCH, if that is set.
+  string(TIMESTAMP now "%a, %d %b %Y %H:%M:%S +0000" UTC)
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/changelog @ONLY
+       CONTENT "rex (@PROJECT_VERSION@) unstable; urgency=medium\n\n  * See CHANGELOG.md.\n\n -- @REX_MAINTAINER@  @now@\n")
+  rex_install_changelog(rex documentation)
+  rex_install_changelog(librex-dev development)
 endfunction()
 
 rex_install_programs()

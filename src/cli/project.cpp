@@ -26,6 +26,12 @@ Project findProject() {
   return {.root = courseAround(fs::current_path()), .build = ownFolder(), .installed = homeFolder()};
 }
 
+Project findProjectOfInstructor() {
+  Project project = findProject();
+  if (!project.installed.empty() && !fs::exists(project.root / kCourseFile)) project.root = project.installed;
+  return project;
+}
+
 std::vector<ExerciseInfo> Project::exercises() const {
   std::vector<ExerciseInfo> all = grading::listExercises(shown(files() / "exercises"));
   if (installed.empty()) return all;

@@ -40,6 +40,10 @@ struct Project {
 /// folder that contains the current folder. Outside of any, the current folder.
 [[nodiscard]] Project findProject();
 
+/// The same, but outside of any course folder all installed exercises as they were handed out: for commands
+/// that grade what was handed in.
+[[nodiscard]] Project findProjectOfInstructor();
+
 /// What commands without a course folder answer.
 inline constexpr const char* kNoCourseHere =
     "There are no exercises here. `rex init course` makes a folder with all of them, to work in.\n"

@@ -2,5 +2,5 @@
 #include "cli/run_program.h"
 
 int main(int argc, char** argv) {
-  return rex::cli::runProgram(argc, argv, rex::cli::findProject(), rex::cli::instructorRoom());
+  return rex::cli::runProgram(argc, argv, rex::cli::findProjectOfInstructor(), rex::cli::instructorRoom());
 }
