@@ -261,21 +261,23 @@ auto twice(void (*run)(Check&, Student&)) {
 
 // One step.
 
-// The size of the terms of the gradient below at the minimum, from the singular values of J.
-double sizeOfTerms(const Eigen::MatrixXd& J, const Eigen::VectorXd& dy, double sigma) {
+// By another way than the normal equations: from the singular values of J.
+Eigen::VectorXd minimumOf(const Eigen::MatrixXd& J, const Eigen::VectorXd& dy, double sigma) {
   const SingularValues parts = svd(J);
   const Eigen::ArrayXd s = parts.s.array(), along = (parts.U.transpose() * dy).array();
-  const Eigen::VectorXd wanted = s * along / (s.square() + sigma * sigma);
-  return (J.transpose() * dy).norm() + J.squaredNorm() * wanted.norm();
+  return parts.V * (s * along / (s.square() + sigma * sigma)).matrix();
 }
 
-// The minimum of |J dq - dy|^2 + sigma^2 |dq|^2 is where its gradient vanishes.
+// The minimum of |J dq - dy|^2 + sigma^2 |dq|^2 is where its gradient vanishes, compared with its terms.
 void isTheMinimum(Check& check, const Eigen::VectorXd& dq, const Eigen::MatrixXd& J,
                   const Eigen::VectorXd& dy, double sigma) {
   check.shape("dq", dq, J.cols(), 1);
-  const Eigen::VectorXd gradient = J.transpose() * (J * dq - dy) + sigma * sigma * dq;
+  const Eigen::VectorXd gradient = J.transpose() * (J * dq - dy) + sigma * sigma * dq,
+                        minimum = minimumOf(J, dy, sigma);
+  const double terms = (J.transpose() * dy).norm() + J.squaredNorm() * minimum.norm();
+  const auto mistaken = check.suspectUsualMistake(dq, minimum, 1e-6 * minimum.norm());
   // Loose enough for solving the normal equations, which costs digits.
-  check.atMost("relative gradient of the cost at dq", gradient.norm() / sizeOfTerms(J, dy, sigma), 1e-8);
+  check.atMost("relative gradient of the cost at dq", gradient.norm() / terms, 1e-8);
 }
 
 void stepIsTheMinimum(Check& check, Student& student, const Eigen::MatrixXd& J, const Eigen::VectorXd& dy,
@@ -361,6 +363,9 @@ void errorSequence(Check& check, Student& student, double alpha, int steps,
   checkPostures(check, motion, steps, S.getJointDimension());
   const auto shown =
       check.show([&] { return seen(S, "handR", motion, known.front().step, [](int) { return kTarget; }); });
+  const double start = (S.kinematicsPos("handR") - kTarget).norm();
+  const auto unmoved = check.suspect("The hand is still where it started: is S never moved?",
+                                     Eigen::MatrixXd::Constant(1, 1, start));
   for (const auto& [step, error] : known) {
     const double got = (placeAt(S, "handR", motion[static_cast<std::size_t>(step) - 1]) - kTarget).norm();
     check.near("task error after step " + std::to_string(step), got, error, 1e-4 + 1e-3 * error, "m");

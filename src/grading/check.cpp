@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/printable.h"
+#include "grading/usual_mistakes.h"
 #include "remote/bytes.h"
 #include "remote/signature.h"
 #include "remote/thrown.h"
@@ -26,6 +27,13 @@ std::string number(double value) { return std::isnan(value) ? "nan" : fmt::forma
 std::string withUnit(std::string text, std::string_view unit) {
   if (!unit.empty()) text.append(" ").append(unit);
   return text;
+}
+
+std::string atMostText(double limit, std::string_view unit) {
+  return "at most " + withUnit(number(limit), unit);
+}
+std::string atLeastText(double limit, std::string_view unit) {
+  return "at least " + withUnit(number(limit), unit);
 }
 
 std::string shapeText(Eigen::Index rows, Eigen::Index cols) { return fmt::format("{} x {}", rows, cols); }
@@ -66,20 +74,32 @@ bool Check::state(bool requirement) {
 }
 
 // Keeps the value that comes nearest to its limit or exceeds it most.
-void Check::measure(std::string_view property, double excess, double value, double limit,
-                    std::string_view unit) {
+void Check::measure(std::string_view property, double excess, std::string value, std::string limit) {
   if (!(excess > nearestExcess_)) return;
   nearestExcess_ = excess;
   nearest_ = {.property = std::string(property),
-              .value = withUnit(number(value), unit),
-              .limit = withUnit(number(limit), unit),
+              .value = std::move(value),
+              .limit = std::move(limit),
               .caseNumber = caseNumber_ + 1};
+}
+
+// Only students who see the check's numbers are asked.
+std::string Check::questionAbout(const MatrixArg& got, const MatrixArg& wanted, double tolerance,
+                                 std::string_view unit) const {
+  if (info_.group == Group::kHidden || !got.allFinite()) return "";
+  for (const auto& [question, value] : suspects_)
+    if (value.rows() == got.rows() && value.cols() == got.cols() &&
+        (got - value).cwiseAbs().maxCoeff() <= tolerance)
+      return question;
+  return usualMistake(got, wanted, tolerance, unit);
 }
 
 // Keeps the shortfall if it is the worst so far, and returns whether it is.
 bool Check::keep(Shortfall shortfall) {
   shortfall.input = input_;
   shortfall.caseNumber = caseNumber_;
+  if (shortfall.function.empty() && lastCalled_ && info_.group == Group::kVisible)
+    shortfall.function = lastCalled_();
   if (worst_ && !(shortfall.excess > worst_->excess)) return false;
   worst_ = std::move(shortfall);
   evidence_.reset();
@@ -87,6 +107,8 @@ bool Check::keep(Shortfall shortfall) {
 }
 
 void Check::fail(Shortfall shortfall, std::optional<Evidence> evidence) {
+  if (shortfall.question.empty() && comparison_)
+    shortfall.question = questionAbout(comparison_->got, comparison_->wanted, comparison_->tolerance, "");
   if (keep(std::move(shortfall)) && info_.group == Group::kVisible) {
     evidence_ = std::move(evidence);
     try {
@@ -109,13 +131,21 @@ void Check::near(std::string_view property, const MatrixArg& got, const MatrixAr
                  std::string_view unit) {
   requireSound(wanted.allFinite() && std::isfinite(tolerance) && tolerance >= 0, info_,
                "wants a value that is not finite");
+  if (got.rows() != wanted.rows() || got.cols() != wanted.cols()) {
+    state(false);
+    fail({.property = std::string(property),
+          .what = "wrong shape",
+          .got = shapeText(got.rows(), got.cols()),
+          .wanted = shapeText(wanted.rows(), wanted.cols()),
+          .question = questionAbout(got, wanted, tolerance, unit)});
+  }
   shape(property, got, wanted.rows(), wanted.cols());
   if (got.size() == 0) return;
   Eigen::Index row = 0;
   Eigen::Index col = 0;
   const double error = (got - wanted).cwiseAbs().maxCoeff(&row, &col);
   const double excess = excessOver(tolerance, error - tolerance);
-  measure(property, excess, error, tolerance, unit);
+  measure(property, excess, "off by " + withUnit(number(error), unit), atMostText(tolerance, unit));
   if (state(error <= tolerance)) return;
   constexpr Eigen::Index kManyNumbers = 8;
   std::optional<Evidence> evidence;
@@ -125,6 +155,7 @@ void Check::near(std::string_view property, const MatrixArg& got, const MatrixAr
         .got = withUnit(valueText(got, row, col), unit),
         .wanted = withUnit(valueText(wanted, row, col), unit),
         .tolerance = tolerance > 0 ? withUnit(number(tolerance), unit) : "",
+        .question = questionAbout(got, wanted, tolerance, unit),
         .excess = excess},
        std::move(evidence));
 }
@@ -133,11 +164,11 @@ void Check::atMost(std::string_view property, double got, double limit, std::str
   requireSound(std::isfinite(limit), info_, "wants a value that is not finite");
   shape(property, Eigen::Matrix<double, 1, 1>(got), 1, 1);
   const double excess = excessOver(limit, got - limit);
-  measure(property, excess, got, limit, unit);
+  measure(property, excess, withUnit(number(got), unit), atMostText(limit, unit));
   if (state(got <= limit)) return;
   fail({.property = std::string(property),
         .got = withUnit(number(got), unit),
-        .wanted = "at most " + withUnit(number(limit), unit),
+        .wanted = atMostText(limit, unit),
         .excess = excess});
 }
 
@@ -145,11 +176,11 @@ void Check::atLeast(std::string_view property, double got, double limit, std::st
   requireSound(std::isfinite(limit), info_, "wants a value that is not finite");
   shape(property, Eigen::Matrix<double, 1, 1>(got), 1, 1);
   const double excess = excessOver(limit, limit - got);
-  measure(property, excess, got, limit, unit);
+  measure(property, excess, withUnit(number(got), unit), atLeastText(limit, unit));
   if (state(got >= limit)) return;
   fail({.property = std::string(property),
         .got = withUnit(number(got), unit),
-        .wanted = "at least " + withUnit(number(limit), unit),
+        .wanted = atLeastText(limit, unit),
         .excess = excess});
 }
 
@@ -271,7 +302,8 @@ std::string Check::messageOf(const Shortfall& shortfall) const {
   if (!shortfall.wanted.empty()) text += ", wanted " + shortfall.wanted;
   if (!shortfall.tolerance.empty()) text += ", tolerance " + shortfall.tolerance;
   if (!shortfall.input.empty()) text += "; input: " + shortfall.input;
-  return fmt::format("{} (seed {})", text, seed_);
+  text += fmt::format(" (seed {})", seed_);
+  return shortfall.question.empty() ? text : text + ". " + shortfall.question;
 }
 
 }  // namespace rex::grading

@@ -48,6 +48,9 @@ class Check {
   void input(std::string text) { input_ = std::move(text); }
   const std::string& input() const { return input_; }
 
+  /// Says which of the student's functions answered last: where a requirement fails, it is named.
+  void nameFunctionsBy(std::function<std::string()> lastCalled) { lastCalled_ = std::move(lastCalled); }
+
   /// While the returned object is alive, a requirement that does not hold calls `make` and keeps the
   /// evidence for the picture and replay of a visible check. `make` is called before the check function
   /// ends, so it may capture local variables by reference.
@@ -63,6 +66,29 @@ class Check {
   /// Evidence for the requirement that decided the verdict of judge(). Empty if all requirements hold or
   /// the check is hidden.
   const std::optional<Evidence>& evidence() const { return evidence_; }
+
+  /// While the returned object is alive, near() whose `got` is that value (a wrong one, by a mistake that
+  /// students make) asks the question: "Is S never moved?" Others are found by usualMistake().
+  [[nodiscard]] auto suspect(std::string question, Eigen::MatrixXd value) {
+    struct Suspecting {
+      std::vector<std::pair<std::string, Eigen::MatrixXd>>& suspects;
+      std::size_t before;
+      ~Suspecting() { suspects.resize(before); }
+    };
+    suspects_.emplace_back(std::move(question), std::move(value));
+    return Suspecting{suspects_, suspects_.size() - 1};
+  }
+
+  /// While the returned object is alive, a requirement that does not hold asks about the usual mistake by
+  /// which `got` differs from `wanted`, if there is one: for requirements that do not compare them.
+  [[nodiscard]] auto suspectUsualMistake(Eigen::MatrixXd got, Eigen::MatrixXd wanted, double tolerance) {
+    struct Suspecting {
+      std::optional<Comparison>& comparison;
+      ~Suspecting() { comparison.reset(); }
+    };
+    comparison_ = {std::move(got), std::move(wanted), tolerance};
+    return Suspecting{comparison_};
+  }
 
   /// Requires |got - wanted| <= tolerance. Fails if `got` is not finite. All three have the same unit.
   void near(std::string_view property, double got, double wanted, double tolerance,
@@ -99,15 +125,22 @@ class Check {
     std::string wanted{};
     std::string tolerance{};
     std::string input{};
-    std::string function{};  ///< the student's function that threw
+    std::string question{};  ///< about the mistake that would explain it
+    std::string function{};  ///< the student's function that threw, or answered last
     double excess = kBeyondMeasure;
     int caseNumber = -1;
+  };
+  struct Comparison {
+    Eigen::MatrixXd got, wanted;
+    double tolerance = 0;
   };
   /// How far a value is beyond its limit, relative to the limit; negative within it.
   static constexpr double kBeyondMeasure = std::numeric_limits<double>::infinity();
 
   bool state(bool requirement);
-  void measure(std::string_view property, double excess, double value, double limit, std::string_view unit);
+  void measure(std::string_view property, double excess, std::string value, std::string limit);
+  std::string questionAbout(const MatrixArg& got, const MatrixArg& wanted, double tolerance,
+                            std::string_view unit) const;
   bool keep(Shortfall shortfall);
   void keepRefused(const remote::AnswerRefused& refused);
   [[noreturn]] void fail(Shortfall shortfall, std::optional<Evidence> evidence = {});
@@ -120,6 +153,9 @@ class Check {
   Rng rng_;
   std::string input_;
   MakeEvidence show_;
+  std::optional<Comparison> comparison_;
+  std::function<std::string()> lastCalled_;
+  std::vector<std::pair<std::string, Eigen::MatrixXd>> suspects_;
   std::optional<Evidence> evidence_;
   std::optional<Shortfall> worst_;  ///< the worst requirement that does not hold
   WorstValue nearest_;              ///< the one nearest to its limit, of all that were measured

@@ -170,6 +170,7 @@ Attempt attempt(const RunnableCheck& check, const Grading& grading, std::uint64_
   Check judge(check.info, seed);
   WorkerRun run = runWithWorker(grading.job, check.info.part, grading.signature, [&](remote::Caller& caller) {
     caller.whenFirstAnswered([&](const std::string& function) { standing.answeredBy(check.info, function); });
+    judge.nameFunctionsBy([&] { return caller.lastCalled(); });
     verdict = judge.judge([&](Check& requirements) { check.run(requirements, caller); });
   });
   if (run.failure) {

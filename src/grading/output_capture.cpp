@@ -6,6 +6,7 @@
 #include <sstream>
 #include <string_view>
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 namespace rex::grading {
@@ -14,13 +15,39 @@ namespace {
 constexpr std::size_t kHead = 64u << 10;
 constexpr std::size_t kTail = 4u << 10;
 
+// What assertions of Eigen and of the standard library mean that students' programs meet.
+const char* meaningOf(const std::string& assertion) {
+  constexpr std::pair<std::string_view, const char*> kMeanings[] = {
+      {"aLhs.rows() == aRhs.rows()",
+       "two matrices or vectors of different sizes are added, subtracted or compared"},
+      {"lhs.cols() == rhs.rows()", "the sizes of a matrix product do not fit"},
+      {"row >= 0 && row < rows()", "an index is outside of a matrix"},
+      {"index >= 0 && index < size()", "an index is outside of a vector"},
+      {"startRow >= 0", "a block reaches beyond its matrix"},
+      {"DenseBase::resize() does not actually allow",
+       "a value of another size is assigned to a part of a matrix"},
+      {"dst.rows() == src.rows()", "a value of another size is assigned to a part of a matrix"},
+      {"__n < this->size()", "an index is beyond the end of a std::vector or std::array"},
+      {"!this->empty()", "front(), back() or pop_back() of an empty container"},
+      {"_M_is_engaged()", "the value of an empty std::optional is used"},
+      {"_M_get() != nullptr", "an empty pointer is used"},
+      {"get() != pointer()", "an empty pointer is used"}};
+  for (const auto& [text, meaning] : kMeanings)
+    if (assertion.find(text) != std::string::npos) return meaning;
+  return nullptr;
+}
+
 // In "worker: src/Core/Block.h:120: Eigen::Block<...>::Block(...) [with ...]: Assertion `a' failed." only the
 // part from "Assertion" on is of use.
 std::string shorten(const std::string& line) {
   constexpr std::size_t kLongest = 300;
-  const std::size_t assertion = line.find("Assertion `");
-  const std::string useful = assertion == std::string::npos ? line : line.substr(assertion);
-  return useful.size() <= kLongest ? useful : useful.substr(0, kLongest) + " ...";
+  std::size_t assertion = line.find("Assertion `");
+  if (assertion == std::string::npos) assertion = line.find("Assertion '");
+  if (assertion == std::string::npos)
+    return line.substr(0, kLongest) + (line.size() > kLongest ? " ..." : "");
+  std::string useful = line.substr(assertion, kLongest) + (line.size() - assertion > kLongest ? " ..." : "");
+  if (const char* meaning = meaningOf(useful)) useful = fmt::format("{} ({})", meaning, useful);
+  return useful;
 }
 
 std::string trimmed(const std::string& line) {
@@ -55,8 +82,8 @@ void OutputCapture::drain() {
 }
 
 std::string tellingLine(const std::string& errorOutput) {
-  constexpr std::array<std::string_view, 3> kTelling = {"Assertion `", "ERROR: AddressSanitizer",
-                                                        "runtime error:"};
+  constexpr std::array<std::string_view, 4> kTelling = {"Assertion `", "Assertion '",
+                                                        "ERROR: AddressSanitizer", "runtime error:"};
   std::string last;
   std::istringstream lines(errorOutput);
   for (std::string line; std::getline(lines, line);) {

@@ -47,7 +47,7 @@ struct CheckResult {
   WorstValue worst{};
   int cases = 0;  ///< 0: the check has none
   int casesHeld = 0;
-  std::string function{};  ///< the student's function that ran when the check ended badly; empty: none
+  std::string function{};  ///< the student's function that ran or answered last when it failed; empty: none
   int line = 0;  ///< in the student's file: where that happened, or where the function begins; 0: unknown
   double wallSeconds = 0;  ///< volatile
   double cpuSeconds = 0;   ///< volatile

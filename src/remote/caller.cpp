@@ -18,6 +18,7 @@ void Caller::handshake(std::uint64_t signature) {
 
 Reader Caller::call(std::uint32_t method, const std::string& name, const Writer& arguments,
                     const Answer& answer) {
+  lastCalled_ = name;
   if (standIn_) return Reader(standIn_(method));
   const std::uint64_t id = ids_.next();
   const std::string outer = std::exchange(running_, name);

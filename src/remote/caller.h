@@ -40,6 +40,9 @@ class Caller {
   /// The function that is running, or was running when the worker failed; empty between calls.
   const std::string& running() const { return running_; }
 
+  /// The function that was called last; empty before the first call.
+  const std::string& lastCalled() const { return lastCalled_; }
+
   /// Replaces each result by what `tamper` returns, which must be valid until the next call.
   using Tamper = std::function<Bytes(std::uint32_t method, Bytes arguments, Bytes result)>;
   void tamperWithResults(Tamper tamper) { tamper_ = std::move(tamper); }
@@ -53,7 +56,7 @@ class Caller {
 
   Channel channel_;
   Rng ids_;
-  std::string running_;
+  std::string running_, lastCalled_;
   StandIn standIn_{};
   Tamper tamper_{};
   std::function<void(const std::string&)> told_{};

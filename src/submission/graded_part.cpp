@@ -10,18 +10,6 @@
 namespace rex::grading {
 namespace {
 
-using Names = std::set<std::string, std::less<>>;
-
-Names namesIn(std::string_view code) {
-  Names names;
-  for (std::size_t at = 0; at < code.size(); ++at) {
-    const std::size_t start = at;
-    while (at < code.size() && isWord(code[at])) ++at;
-    if (at > start) names.emplace(code.substr(start, at - start));
-  }
-  return names;
-}
-
 struct NamedPiece {
   FilePiece piece;
   Names names;  // mentioned in it

@@ -167,6 +167,16 @@ int macroDefinitionLineOf(std::string_view name, std::string_view source) {
   return 0;
 }
 
+Names namesIn(std::string_view code) {
+  Names names;
+  for (std::size_t at = 0; at < code.size(); ++at) {
+    const std::size_t start = at;
+    while (at < code.size() && isWord(code[at])) ++at;
+    if (at > start) names.emplace(code.substr(start, at - start));
+  }
+  return names;
+}
+
 int definitionLineOf(std::string_view function, std::string_view source) {
   if (function.empty()) return 0;
   const std::string code = codeOf(source);

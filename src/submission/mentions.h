@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -13,6 +14,10 @@ namespace rex::grading {
 /// A C++ source with comments, literals and numbers replaced by blanks; all other characters keep their
 /// positions.
 [[nodiscard]] std::string codeOf(std::string_view source);
+
+/// The names in a text that codeOf() made.
+using Names = std::set<std::string, std::less<>>;
+[[nodiscard]] Names namesIn(std::string_view code);
 
 /// A C++ source after splicing lines that end in a backslash, and the original position of each character.
 [[nodiscard]] std::pair<std::string, std::vector<std::size_t>> spliced(std::string_view source);

@@ -16,6 +16,7 @@
 #include "grading/result_file.h"
 #include "grading/unknown_check.h"
 #include "grading/worker_failure.h"
+#include "submission/cascades.h"
 #include "submission/compiler_messages.h"
 #include "submission/mentions.h"
 #include "submission/second_look.h"
@@ -170,6 +171,19 @@ std::optional<CrashSite> crashSiteOf(const Toolchain& toolchain, const ExerciseI
   return crashSiteIn(loadResult(job.results).error.text, mainFile);
 }
 
+// What the sanitizers found comes first; without their guess, the crash follows. An assertion says more than
+// they.
+std::string messageAbout(const CrashSite& site, const std::string& crash) {
+  constexpr std::string_view kAborts = "aborts";
+  constexpr std::size_t kLongestLine = 1000;
+  if (site.finding == kAborts || crash.find("Assertion") != std::string::npos) return crash;
+  std::string place = site.line > 0 ? fmt::format("line {}", site.line) : "";
+  if (!site.function.empty()) place += (place.empty() ? "in " : ", in ") + site.function;
+  return printable(fmt::format("{}{}{} ({})", place, place.empty() ? "" : ": ", site.finding,
+                               crash.substr(0, crash.find(" ("))),
+                   kLongestLine);
+}
+
 // Builds the same file with the sanitizers and repeats the visible checks that crashed, to find out where.
 // The verdict stays: whatever goes wrong here, the result is no worse than without.
 void findCrashes(const Toolchain& toolchain, const ExerciseInfo& exercise, const SubmissionOptions& options,
@@ -193,9 +207,7 @@ void findCrashes(const Toolchain& toolchain, const ExerciseInfo& exercise, const
       const auto site =
           crashSiteOf(toolchain, exercise, again, built.worker, check->id, built.start.files.front().name);
       if (!site) continue;
-      // The message of an abort already gives the reason.
-      if (!check->message.starts_with("aborted "))
-        check->message += "; a second look: " + printable(site->finding, 500);
+      check->message = messageAbout(*site, check->message);
       if (site->line > 0) check->line = site->line;
     }
   } catch (const Error&) {
@@ -225,6 +237,7 @@ GradeResult gradeBuilt(const BuiltSubmission& built, const Toolchain& toolchain,
   GradeResult result = callGrader(graderCommand(toolchain, job), job.results);
   if (built.worker.empty()) return result;
   for (CheckResult& check : result.checks) check.line = definitionLineOf(check.function, built.source);
+  explainCascades(result.checks, built.source);
   if (options.lookAgain || options.sanitize) findCrashes(toolchain, exercise, options, built, result);
   saveResult(result, job.results);
   return result;

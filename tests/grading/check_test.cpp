@@ -153,10 +153,34 @@ TEST(Cases, NameTheOneThatIsFurthestBeyondItsLimit) {
   EXPECT_EQ(result.message, "1 of 4 cases hold; case 3: error: got 8 m, wanted at most 1 m (seed 7)");
   EXPECT_EQ(result.worst.property, "error");
   EXPECT_EQ(result.worst.value, "8 m");
-  EXPECT_EQ(result.worst.limit, "1 m");
+  EXPECT_EQ(result.worst.limit, "at most 1 m");
   EXPECT_EQ(result.worst.caseNumber, 3);
   EXPECT_EQ(result.cases, 4);
   EXPECT_EQ(result.casesHeld, 1);
+}
+
+TEST(Check, AsksAboutUsualMistakesAndThoseThatTheAuthorSuspects) {
+  const Eigen::Vector2d wanted(1, 2), start(3, 5);
+  const auto answer = [&](const Eigen::Vector2d& got) {
+    return [&, got](Check& check) {
+      const auto unmoved = check.suspect("Is S never moved?", start);
+      check.near("posture", got, wanted, 1e-6, "rad");
+    };
+  };
+  EXPECT_EQ(messageOf(answer(start)),
+            "posture: got (3, 5) rad, wanted (1, 2) rad, tolerance 1e-06 rad (seed 7). Is S never moved?");
+  EXPECT_THAT(messageOf(answer(-wanted)), HasSubstr("(seed 7). Your value has the opposite sign"));
+  EXPECT_THAT(messageOf(answer(Eigen::Vector2d(4, 4))), ::testing::EndsWith("(seed 7)"));
+  EXPECT_THAT(judge(answer(start), Group::kHidden).message, "posture: does not hold");
+  EXPECT_THAT(
+      messageOf([&](Check& check) { check.near("row", wanted.transpose(), wanted, 1e-6); }),
+      HasSubstr("wrong shape: got 1 x 2, wanted 2 x 1 (seed 7). Your value is the wanted one transposed."));
+  EXPECT_THAT(messageOf([&](Check& check) {
+                { const auto unmoved = check.suspect("Is S never moved?", start); }
+                check.near("posture", start, wanted, 1e-6);
+              }),
+              Not(HasSubstr("never moved")))
+      << "the suspicion has ended";
 }
 
 // 0.09 of 0.1 is nearer to its limit than 0.5 of 1, and than 1.5 that should be at least 1.
@@ -174,8 +198,8 @@ TEST(Check, TellsHowNearToItsLimitTheWorstValueCame) {
         .worst;
   };
   EXPECT_EQ(judged(Group::kVisible).property, "position");
-  EXPECT_EQ(judged(Group::kVisible).value, "0.09 m");
-  EXPECT_EQ(judged(Group::kVisible).limit, "0.1 m");
+  EXPECT_EQ(judged(Group::kVisible).value, "off by 0.09 m");
+  EXPECT_EQ(judged(Group::kVisible).limit, "at most 0.1 m");
   EXPECT_EQ(judged(Group::kVisible).caseNumber, 0);
   EXPECT_EQ(judged(Group::kHidden).property, "") << "hidden checks show no numbers";
   EXPECT_EQ(judge([](Check& check) { check.that("it ends", true); }).worst.property, "");

@@ -112,8 +112,9 @@ TEST_P(Troubled, EndsInItsOutcomeAndHarmsNothingElse) {
 INSTANTIATE_TEST_SUITE_P(
     Workers, Troubled,
     ::testing::Values(
-        Trouble{"assertion", Outcome::kRuntimeError,
-                "aborted in ikStep: Assertion `index >= 0 && index < size()'"},
+        Trouble{
+            "assertion", Outcome::kRuntimeError,
+            "aborted in ikStep: an index is outside of a vector (Assertion `index >= 0 && index < size()'"},
         Trouble{"closed", Outcome::kProtocolError, "lost its connection to the grader in ikStep"},
         Trouble{"closed_and_asleep", Outcome::kProtocolError,
                 "closed its connection to the grader in ikStep"},

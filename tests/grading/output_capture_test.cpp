@@ -33,6 +33,9 @@ TEST(TellingLine, PrefersTheReasonToTheLastLine) {
   EXPECT_EQ(tellingLine("one\n  two \n\n"), "two");
   EXPECT_EQ(tellingLine("w: a.h:1: T f() [with T = X]: Assertion `i < n' failed.\nbye\n"),
             "Assertion `i < n' failed.");
+  EXPECT_EQ(
+      tellingLine("/c++/12/stl_vector.h:1123: T f() [with T = X]: Assertion '__n < this->size()' failed.\n"),
+      "an index is beyond the end of a std::vector or std::array (Assertion '__n < this->size()' failed.)");
   EXPECT_EQ(tellingLine("x.cpp:3:5: runtime error: division by zero\nmore\n"),
             "x.cpp:3:5: runtime error: division by zero");
   EXPECT_EQ(tellingLine("==1==ERROR: AddressSanitizer: heap-use-after-free\n==1==ABORTING\n"),

@@ -30,11 +30,11 @@ void sayIndented(const std::string& text) {
   say(std::string(kIndent, ' ') + wrap(harmless(text), kIndent, kIndent));
 }
 
-// How close a passed check came to its limit.
-std::string marginOf(const CheckResult& check) {
+// How close a passed check came to its limit: for those who look at one check.
+std::string marginOf(const CheckResult& check, bool isWhole) {
   const auto& worst = check.worst;
-  if (check.status != Outcome::kPass || worst.property.empty()) return "";
-  return fmt::format(": worst {}, limit {}", worst.value, worst.limit);
+  if (isWhole || check.status != Outcome::kPass || worst.property.empty()) return "";
+  return fmt::format(": {} {}, {}", harmless(worst.property), worst.value, worst.limit);
 }
 
 // Code is cut, not wrapped, to keep its layout.
@@ -65,10 +65,10 @@ void sayEvidence(const CheckResult& check, const std::filesystem::path& folder) 
 }
 
 void printCheck(const CheckResult& check, const grading::Submission& graded,
-                const std::filesystem::path& folder) {
+                const std::filesystem::path& folder, bool isWhole) {
   const std::string hidden = check.group == Group::kHidden ? ", hidden" : "";
   const std::string title =
-      fmt::format("{} [{}{}]{}", harmless(check.title), check.id, hidden, marginOf(check));
+      fmt::format("{} [{}{}]{}", harmless(check.title), check.id, hidden, marginOf(check, isWhole));
   say(fmt::format(" {} {:2}/{:<2}  {}", verdict(check), check.points, check.maxPoints,
                   wrap(title, kIndent, kIndent)));
   if (check.status == Outcome::kPass || check.message.empty()) return;
@@ -78,14 +78,14 @@ void printCheck(const CheckResult& check, const grading::Submission& graded,
 }
 
 void printChecks(const ExerciseInfo& exercise, const grading::Submission& graded,
-                 const std::filesystem::path& folder) {
+                 const std::filesystem::path& folder, bool isWhole) {
   const std::vector<CheckResult>& checks = graded.result.checks;
   for (const grading::ExercisePart& part : exercise.parts) {
     const auto isOfPart = [&](const CheckResult& check) { return check.part == part.id; };
     if (std::none_of(checks.begin(), checks.end(), isOfPart)) continue;
     say(paint(Colour::kBold, part.title));
     for (const CheckResult& check : checks)
-      if (isOfPart(check)) printCheck(check, graded, folder);
+      if (isOfPart(check)) printCheck(check, graded, folder, isWhole);
   }
 }
 
@@ -135,7 +135,7 @@ void printResult(const ExerciseInfo& exercise, const grading::Submission& graded
     explain(result.compile.diagnostics, graded.source, results.parent_path() / "build.log");
     say("Not graded: no check could run.");
   } else {
-    printChecks(exercise, graded, results.parent_path());
+    printChecks(exercise, graded, results.parent_path(), isWhole);
     for (const auto& message : result.compile.diagnostics) say(wrap(harmless(toString(message)), 2, 0));
     if (result.outcome == Outcome::kGraderError)
       say(wrap("The grader itself failed: not your fault, and not your grade. " + harmless(result.message), 0,

@@ -1,0 +1,45 @@
+#include "submission/cascades.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace rex::grading::cascades_test {
+
+constexpr const char* kSource = R"(
+double step(double x) { return -x; }  // like circle
+static double twice(double x) { return step(step(x)); }
+double circle(double x) { return twice(x); }
+double other(double x) { return x; /* step */ }
+int main() { step(1); }
+)";
+
+CheckResult check(const std::string& id, const std::string& function, Outcome status = Outcome::kFail,
+                  Group group = Group::kVisible) {
+  return {.id = id, .group = group, .status = status, .message = "wrong.", .function = function};
+}
+
+std::vector<std::string> messagesAfter(std::vector<CheckResult> checks) {
+  explainCascades(checks, kSource);
+  std::vector<std::string> messages;
+  for (const CheckResult& one : checks) messages.push_back(one.message);
+  return messages;
+}
+
+TEST(Cascades, NameTheFunctionThatFailedBefore) {
+  EXPECT_THAT(
+      messagesAfter({check("a", "step"), check("b", "circle"), check("c", "other"), check("d", "circle")}),
+      ::testing::ElementsAre("wrong.", "wrong. circle uses step, which fails above [a].", "wrong.",
+                             "wrong. circle uses step, which fails above [a]."));
+}
+
+TEST(Cascades, NeedAFailureBeforeThatStudentsCanSee) {
+  EXPECT_EQ(messagesAfter({check("a", "step", Outcome::kPass), check("b", "circle")}).back(), "wrong.");
+  EXPECT_EQ(messagesAfter({check("b", "circle"), check("a", "step")}).back(), "wrong.");
+  EXPECT_EQ(messagesAfter({check("a", "step", Outcome::kFail, Group::kHidden), check("b", "circle")}).back(),
+            "wrong.");
+  EXPECT_EQ(messagesAfter({check("a", "step"), check("b", "circle", Outcome::kFail, Group::kHidden)}).back(),
+            "wrong.");
+  EXPECT_EQ(messagesAfter({check("a", ""), check("b", "circle")}).back(), "wrong.");
+}
+
+}  // namespace rex::grading::cascades_test
