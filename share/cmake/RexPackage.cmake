@@ -13,7 +13,8 @@ set(CPACK_PACKAGE_VENDOR rex)
 set(CPACK_PACKAGE_CONTACT "${REX_MAINTAINER}")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "robotics exercises: see, solve and test them")
 set(CPACK_STRIP_FILES ON)
-set(CPACK_THREADS 0)
+# With several, the bytes depend on the number of processors.
+set(CPACK_THREADS 1)
 
 # Two packages: rex, with all that students need, and librex-dev, for other programs.
 set(CPACK_COMPONENTS_ALL runtime documentation development)

@@ -61,7 +61,10 @@ std::pair<int, int> originIn(std::string_view line, const std::string& mainFile)
 
 // The part of a header's path that a student knows: after the last include folder.
 std::string headerName(const std::string& file) {
-  for (const std::string_view folder : {"/eigen3/", "/include/c++/12/", "/src/", "/include/"}) {
+  constexpr std::string_view kStandard = "/include/c++/";
+  if (const std::size_t at = file.rfind(kStandard); at != std::string::npos)  // "/include/c++/12/vector"
+    return file.substr(std::min(file.find('/', at + kStandard.size()), file.size() - 1) + 1);
+  for (const std::string_view folder : {"/eigen3/", "/src/", "/include/"}) {
     const std::size_t at = file.rfind(folder);
     if (at != std::string::npos) return file.substr(at + folder.size());
   }

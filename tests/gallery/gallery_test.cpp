@@ -27,6 +27,7 @@ TEST(Gallery, ShowsWhatTheCodeDraws) {
   REX_NEEDS_OSMESA();
   REX_NEEDS_GNUPLOT();
   const fs::path drawn = freshFolder("gallery");
+  const FigureTolerance tolerance = figureTolerance();
   std::set<std::string> files;
   for (const std::string& name : drawAll(drawn)) {
     files.insert(name + ".png");
@@ -36,8 +37,8 @@ TEST(Gallery, ShowsWhatTheCodeDraws) {
     ASSERT_EQ(now.width, shown.width);
     ASSERT_EQ(now.height, shown.height);
     const ImageDifference apart = imageDifference(shown, now, 8);
-    EXPECT_LE(apart.largeShare, 0.005);
-    EXPECT_LE(apart.mean, 0.5);
+    EXPECT_LE(apart.largeShare, tolerance.largeShare);
+    EXPECT_LE(apart.mean, tolerance.mean);
     writePng(apart.picture, drawn / (name + "-difference.png"));
   }
   std::set<std::string> kept;

@@ -49,8 +49,8 @@ class Drawing {
     const std::size_t begin = svg_.find("id=\"gnuplot_plot_" + std::to_string(index) + "\"");
     if (begin == std::string::npos) return {};
     // Behind the last layer the axes are drawn again, in their own grey.
-    const std::size_t end =
-        std::min(svg_.find("id=\"gnuplot_plot_", begin + 1), svg_.find("rgb( 85,  85,  85)", begin));
+    const std::size_t end = std::min(svg_.find("id=\"gnuplot_plot_", begin + 1),
+                                     svg_.find("<path stroke='rgb( 85,  85,  85)'", begin));
     return pointsIn(svg_.substr(begin, end - begin));
   }
 

@@ -39,8 +39,8 @@ void expectGolden(const std::string& name, Figure figure) {
   writeFigure(figure, drawn);
   if (std::getenv("REX_UPDATE_GOLDEN") != nullptr) writeFigure(figure, golden);
   const ImageDifference apart = imageDifference(readPng(golden), readPng(drawn), 32);
-  EXPECT_LE(apart.largeShare, 0.005) << name << ": see " << drawn;
-  EXPECT_LE(apart.mean, 0.5) << name << ": see " << drawn;
+  EXPECT_LE(apart.largeShare, figureTolerance().largeShare) << name << ": see " << drawn;
+  EXPECT_LE(apart.mean, figureTolerance().mean) << name << ": see " << drawn;
 }
 
 TEST(FigureGallery, LooksAsStored) {

@@ -490,7 +490,7 @@ TEST_F(StudentBuildTest, BlamesTheMachineForAFullDisk) {
   const char* set = std::getenv("TMPDIR");
   const std::string before = set != nullptr ? set : "/tmp";
   std::set<std::string> reasons;
-  for (const int kilobytes : {16, 60, 120, 200, 280, 420, 4000}) {
+  for (const int kilobytes : {16, 40, 60, 90, 120, 160, 200, 240, 280, 340, 420, 4000}) {
     const TinyDisk disk(kilobytes);
     REX_NEEDS_DISK(disk);
     ::setenv("TMPDIR", disk.path().c_str(), 1);

@@ -1,5 +1,6 @@
 #include "support/allocations.h"
 
+#include <cerrno>
 #include <cstddef>
 
 namespace {
@@ -17,6 +18,11 @@ void* __libc_memalign(std::size_t alignment, std::size_t size);
 void* malloc(std::size_t size) {
   ++count;
   return __libc_malloc(size);
+}
+int posix_memalign(void** memory, std::size_t alignment, std::size_t size) {
+  ++count;
+  *memory = __libc_memalign(alignment, size);
+  return *memory == nullptr ? ENOMEM : 0;
 }
 void* aligned_alloc(std::size_t alignment, std::size_t size) {
   ++count;
