@@ -8,10 +8,6 @@ set(REX_STUDENT_FLAGS -std=c++20 -O1 -ffp-contract=off -fno-math-errno -Wall -We
                       -Werror=return-type -Werror=uninitialized -Wno-error=maybe-uninitialized
                       -ftrivial-auto-var-init=pattern -DEIGEN_INITIALIZE_MATRICES_BY_NAN -D_GLIBCXX_ASSERTIONS
                       -ffunction-sections -fno-gnu-unique --param=ggc-min-expand=400 --param=ggc-min-heapsize=1000000)
-# From version 14 on, g++ breaks its messages into lines, which parseCompilerJson() wants whole.
-if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 14)
-  list(APPEND REX_STUDENT_FLAGS -fno-diagnostics-json-formatting)
-endif()
 set(REX_STUDENT_LINK_FLAGS "")
 if(REX_SANITIZE)
   list(APPEND REX_STUDENT_FLAGS -g1 -fsanitize=address,undefined -fno-sanitize-recover=undefined

@@ -75,10 +75,16 @@ std::string headerName(const std::string& file) {
 
 std::vector<CompileDiagnostic> parseCompilerJson(std::string_view standardError) {
   std::vector<CompileDiagnostic> messages;
-  // The array is on one line; the driver adds lines of plain text.
-  for (const std::string_view line : splitLines(standardError)) {
-    if (!line.starts_with('[')) continue;
-    const Json array = Json::parse(line, nullptr, false);
+  const std::vector<std::string_view> lines = splitLines(standardError);
+  // An array is on one line or, from g++ 14 on, on several; the driver adds lines of plain text.
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    if (!lines[k].starts_with('[')) continue;
+    Json array = Json::parse(lines[k], nullptr, false);
+    for (std::size_t end = k + 1; array.is_discarded() && end < lines.size(); ++end) {
+      if (lines[end].starts_with('[')) break;
+      if (!lines[end].ends_with("}]")) continue;
+      array = Json::parse(lines[k].begin(), lines[end].end(), nullptr, false);
+    }
     if (!array.is_array()) continue;
     try {
       for (const Json& entry : array)

@@ -10,6 +10,26 @@ constexpr const char* kJson =
     R"( {"kind": "warning", "option": "-Wunused", "locations": [{"caret": {"line": 2, "file": "main.cpp", "column": 1}}], "message": "unused"},)"
     R"( {"kind": "fatal error", "locations": [], "message": "too\nbad"}])";
 
+TEST(CompilerJson, MayBeOnSeveralLinesAsOfGcc14) {
+  const std::string array =
+      R"([{"kind": "warning",
+  "message": "unused variable 'b'",
+  "option": "-Wunused-variable",
+  "children": [{"kind": "note", "message": "here", "locations": [{"caret": {"file": "main.cpp",
+                                                                         "line": 9}}]}],
+  "locations": [{"caret": {"file": "main.cpp",
+                           "line": 1,
+                           "column": 15}}],
+  "escape-source": false}]
+)";
+  for (const std::string& text : {array, "driver: says\n" + array + "more\n", "[broken\n" + array}) {
+    const auto messages = parseCompilerJson(text);
+    ASSERT_EQ(messages.size(), 1u) << text;
+    EXPECT_EQ(toString(messages.front()), "main.cpp:1:15: warning: unused variable 'b' [-Wunused-variable]");
+  }
+  EXPECT_TRUE(parseCompilerJson("[{\n}]\n[1,\n").empty());
+}
+
 TEST(ParseCompilerJson, KeepsErrorsAndWarnings) {
   const auto messages = parseCompilerJson(std::string(kJson) + "\ncompilation terminated.\n");
   ASSERT_EQ(messages.size(), 3u);
