@@ -27,8 +27,10 @@ class Diagnosis {
     // Where the tolerance is wide, something fits by accident.
     constexpr double kNarrow = 1e-3;
     if (!(limit_ <= kNarrow * size_)) return "";
+    const bool isSameShape = got_.rows() == wanted_.rows() && got_.cols() == wanted_.cols();
+    if (isSameShape && isNear()) return "";
     if (fits(got_.transpose())) return "Your value is the wanted one transposed.";
-    if (got_.rows() != wanted_.rows() || got_.cols() != wanted_.cols() || isNear()) return "";
+    if (!isSameShape) return "";
     for (auto test :
          {&Diagnosis::sign, &Diagnosis::degrees, &Diagnosis::shift, &Diagnosis::order, &Diagnosis::factor})
       if (std::string found = (this->*test)(); !found.empty()) return found;

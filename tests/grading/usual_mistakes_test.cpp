@@ -61,6 +61,7 @@ TEST(UsualMistake, SaysNothingWhereItCannotBeTold) {
   EXPECT_EQ(usualMistake(v, zero, kTight), "") << "nothing is wanted";
   EXPECT_EQ(usualMistake(zero, v, kTight), "") << "nothing was done";
   EXPECT_EQ(usualMistake(v + Eigen::Vector3d::Constant(5e-6), v, kTight), "") << "inexact";
+  EXPECT_EQ(usualMistake(one(1 + 1e-12), one(1), 0), "") << "rounding";
   EXPECT_EQ(usualMistake(one(4), one(2), 0), "") << "counts";
   EXPECT_EQ(usualMistake(one(0.3), one(0.1), kTight), "") << "three times is nothing usual";
   EXPECT_EQ(usualMistake(Eigen::MatrixXd(0, 3), Eigen::MatrixXd(0, 3), 0), "");
