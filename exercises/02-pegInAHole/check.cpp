@@ -15,6 +15,7 @@
 using namespace rex;
 using grading::Check;
 using grading::Group;
+using grading::Signal;
 
 namespace {
 
@@ -83,7 +84,8 @@ void isTheProjector(Check& check, Student& student, const Eigen::MatrixXd& J, in
   check.atMost("largest relative entry of J N", (J * N).cwiseAbs().maxCoeff() / J.cwiseAbs().maxCoeff(),
                1e-9);
   check.near("N N", N * N, N, 1e-9);
-  check.near("N transposed (W is the identity)", N.transpose(), N, 1e-9);
+  check.atMost("largest entry of N - N' (W is the identity)", (N - N.transpose()).cwiseAbs().maxCoeff(),
+               1e-9);
   check.near("trace of N, the number of free directions", N.trace(), static_cast<double>(n) - rank, 1e-9);
 }
 
@@ -179,54 +181,30 @@ Motion circleOf(Check& check, Student& student, const Simulator& S, const Circle
   return motion;
 }
 
-// The largest f(S, t) from step `first` on.
+// f(S, t) from step `first` on.
 template <class F>
-double largest(const Simulator& S, const Motion& motion, int first, const F& f) {
-  double most = 0;
+Signal along(const Simulator& S, const Motion& motion, int first, const F& f) {
+  Signal signal;
   Simulator moved = S;
   for (int t = first; t <= static_cast<int>(motion.size()); ++t) {
     moved.setJointAngles(motion[static_cast<std::size_t>(t) - 1]);
-    most = std::max(most, f(moved, t));
+    signal.add(t, f(moved, t));
   }
-  return most;
+  return signal;
 }
 
-// What is drawn with f: the largest value allowed, and the path in the world that the body should follow.
-struct Wanted {
-  std::string title{}, quantity{};
-  double most = 0;
-  std::vector<Eigen::Vector3d> path{};
-};
-
-// The motion from step `first` on, as a film that opens where f(S, t) is largest. A film of a long motion
-// skips steps.
-template <class F>
+// The motion from step `first` on as a film of at most some 300 frames, with the path in the world that the
+// body should follow.
 grading::Evidence seen(const Simulator& S, const std::string& body, const Motion& motion, int first,
-                       const F& f, const Wanted& wanted) {
-  const int stride = 1 + static_cast<int>(motion.size()) / 300;
+                       const std::vector<Eigen::Vector3d>& path = {}) {
+  const std::size_t stride = 1 + motion.size() / 300;
   Motion shown;
-  double most = -std::numeric_limits<double>::infinity();
-  std::size_t worst = 0;
-  Simulator moved = S;
-  Series curve = grading::gotCurve("got");
-  for (int t = first; t <= static_cast<int>(motion.size()); t += stride) {
-    shown.push_back(motion[static_cast<std::size_t>(t) - 1]);
-    moved.setJointAngles(shown.back());
-    const double here = f(moved, t);
-    curve.x.push_back(t);
-    curve.y.push_back(here);
-    if (here > most) worst = shown.size() - 1;
-    most = std::max(most, here);
-  }
-  Film film = filmOf(S, shown, {.traces = {body}, .paths = {wanted.path}});
+  for (std::size_t t = static_cast<std::size_t>(first) - 1; t < motion.size(); t += stride)
+    shown.push_back(motion[t]);
+  Film film = filmOf(S, shown, {.traces = {body}, .paths = {path}});
   for (Frame& frame : film)
-    if (!wanted.path.empty()) frame.picture.captions.push_back({.text = "grey: the wanted path"});
-  const double moment = film[worst].time;
-  Figure figure{
-      .title = wanted.title, .xLabel = "step", .yLabel = wanted.quantity, .series = {std::move(curve)}};
-  figure.horizontalLines = {{.at = wanted.most, .label = "wanted: at most"}};
-  figure.verticalLines = {grading::wrongFrom(static_cast<double>(first + stride * static_cast<int>(worst)))};
-  return {.figures = {std::move(figure)}, .film = std::move(film), .moment = moment};
+    if (!path.empty()) frame.picture.captions.push_back({.text = "grey: the wanted path"});
+  return {.film = std::move(film)};
 }
 
 // 2e-4 m is usual: the home task pulls the hand off its circle in proportion to the precisions.
@@ -239,11 +217,12 @@ void tracks(Check& check, const Simulator& S, const Circle& circle, const Motion
     return (moved.kinematicsPos(circle.hand) - wanted(t)).norm();
   };
   const auto shown = check.show([&] {
-    Wanted look{"Distance of " + circle.hand + " from the point on the circle", "distance [m]", most};
-    for (int t = 0; t < 126; ++t) look.path.push_back(wanted(t));
-    return seen(S, circle.hand, motion, 20, error, look);
+    std::vector<Eigen::Vector3d> path;
+    for (int t = 0; t < 126; ++t) path.push_back(wanted(t));
+    return seen(S, circle.hand, motion, 20, path);
   });
-  check.atMost("largest distance from the point on the circle", largest(S, motion, 20, error), most, "m");
+  check.atMostAlong("distance of " + circle.hand + " from the point on the circle",
+                    along(S, motion, 20, error), most, "m");
 }
 
 void staysAtHome(Check& check, const Simulator& S, const Motion& motion) {
@@ -252,22 +231,20 @@ void staysAtHome(Check& check, const Simulator& S, const Motion& motion) {
     return (moved.getJointAngles() - atFirst).cwiseAbs().maxCoeff();
   };
   const auto shown = check.show([&] {
-    grading::Evidence evidence =
-        seen(S, "handR", motion, 1, away, {"The joint farthest from its home angle", "angle [rad]", 2.2});
+    grading::Evidence evidence = seen(S, "handR", motion, 1);
     evidence.film = grading::withWanted(evidence.film, filmOf(S, Motion{atFirst}, {}));
     return evidence;
   });
-  check.atMost("largest deviation of a joint from its home angle", largest(S, motion, 1, away), 2.2, "rad");
+  check.atMostAlong("deviation of the joint that is farthest from its home angle", along(S, motion, 1, away),
+                    2.2, "rad");
 }
 
 void pointsUpwards(Check& check, const Simulator& S, const Circle& circle, const Motion& motion) {
   const auto tilt = [&](const Simulator& moved, int) {
     return (moved.kinematicsVec(circle.pointing) - kUp).norm();
   };
-  const auto shown = check.show([&] {
-    return seen(S, circle.pointing, motion, 100, tilt, {"|z axis - up| of the pointing hand", "1", 0.05});
-  });
-  check.atMost("largest |z axis - up| of the pointing hand", largest(S, motion, 100, tilt), 0.05);
+  const auto shown = check.show([&] { return seen(S, circle.pointing, motion, 100); });
+  check.atMostAlong("|z axis - up| of " + circle.pointing, along(S, motion, 100, tilt), 0.05);
 }
 
 void circleTracks(Check& check, Student& student) {
@@ -334,13 +311,12 @@ void interpolates(Check& check, Student& student) {
   const int n = 2 + rng.index(6), T = 10 + rng.index(20);
   const Eigen::VectorXd q0 = rng.normalVector(n), qT = rng.normalVector(n);
   const Motion motion = student.jointSpaceMotion(q0, qT, T);
-  check.input("two random postures");
+  check.input("two random postures", {{"q0", q0}, {"qT", qT}, {"T", T}});
   checkPostures(check, motion, T, n);
-  for (int t = 1; t <= T; ++t) {
-    const double share = (1 - std::cos(std::numbers::pi * t / T)) / 2;
-    check.near("posture " + std::to_string(t) + " of the motion", motion[static_cast<std::size_t>(t) - 1],
-               q0 + share * (qT - q0), 1e-9, "rad");
-  }
+  Motion wanted;
+  for (int t = 1; t <= T; ++t)
+    wanted.emplace_back(q0 + (1 - std::cos(std::numbers::pi * t / T)) / 2 * (qT - q0));
+  check.nearAlong("posture", grading::overSteps(motion), wanted, 1e-9, "rad");
 }
 
 constexpr double kMargin = 0.02;
@@ -374,13 +350,12 @@ double clearance(const Simulator& S) {
 // Without this, a joint that turns a million times would keep the check of the clearance busy for ever.
 void turnsLittle(Check& check, const Simulator& S, const Motion& motion, double limit) {
   Eigen::VectorXd before = S.getJointAngles();
-  double widest = 0;
-  for (const Eigen::VectorXd& q : motion) {
-    check.shape("posture", q, before.size(), 1);
-    widest = std::max(widest, (q - before).cwiseAbs().maxCoeff());
-    before = q;
+  Signal turns;
+  for (std::size_t k = 0; k < motion.size(); ++k) {
+    turns.add(static_cast<double>(k) + 1, (motion[k] - before).cwiseAbs().maxCoeff());
+    before = motion[k];
   }
-  check.atMost("largest turn of a joint from one posture to the next", widest, limit + 1e-9, "rad");
+  check.atMostAlong("largest turn of a joint since the posture before", turns, limit + 1e-9, "rad");
 }
 
 // The clearance between the postures counts, too. The computed bound is at most `slack` too low.
@@ -388,29 +363,25 @@ void clearanceIsKept(Check& check, const Simulator& S, const Motion& motion) {
   const double slack = 1e-4;
   const ContactModel contacts(S.model());
   Eigen::VectorXd before = S.getJointAngles();
-  double least = kQueryCutoff;
-  for (const Eigen::VectorXd& q : motion) {
-    least = lesser(least, motionClearance(S.model(), contacts, before, q, slack));
-    before = q;
+  Signal clearances;
+  for (std::size_t k = 0; k < motion.size(); ++k) {
+    clearances.add(static_cast<double>(k) + 1,
+                   std::min(motionClearance(S.model(), contacts, before, motion[k], slack), kQueryCutoff));
+    before = motion[k];
   }
-  check.atLeast("least clearance along the motion", least, 0.5 * kMargin - slack, "m");
+  check.atLeastAlong("clearance on the way to the posture", clearances, 0.5 * kMargin - slack, "m");
 }
 
-// The motion of the peg and the last part of the wanted path. It opens where something is nearest to
-// touching.
+// The motion of the peg and the last part of the wanted path.
 grading::Evidence wayOf(const Scene& scene, const Motion& motion) {
-  return seen(
-      scene.S, scene.peg, motion, 1, [](const Simulator& moved, int) { return -clearance(moved); },
-      {"Minus the clearance", "minus clearance [m]", -0.5 * kMargin, {scene.hole - 0.6 * kDown, scene.hole}});
+  return seen(scene.S, scene.peg, motion, 1, {scene.hole - 0.6 * kDown, scene.hole});
 }
 
 void pegIsAt(Check& check, const Scene& scene, const Eigen::VectorXd& q, const Eigen::Vector3d& place,
-             const Eigen::Vector3d& direction, double slack = 1) {
+             const Eigen::Vector3d& direction) {
   const Simulator there = at(scene.S, q);
-  check.atMost("distance of the peg from its wanted position",
-               (there.kinematicsPos(scene.peg) - place).norm(), 1e-3 * slack, "m");
-  check.atMost("|z axis of the peg - its wanted direction|",
-               (there.kinematicsVec(scene.peg) - direction).norm(), 0.01 * slack);
+  check.near("position of the peg", there.kinematicsPos(scene.peg), place, 1e-3, "m");
+  check.near("z axis of the peg", there.kinematicsVec(scene.peg), direction, 0.01);
 }
 
 void postureIsRight(Check& check, Student& student, const Scene& scene, const Eigen::Vector3d& place) {
@@ -436,11 +407,15 @@ void movesStraight(Check& check, Student& student) {
   const Motion motion = student.taskSpaceMotion(scene.S.description(), "peg", kHole, kMargin, T);
   checkPostures(check, motion, T, scene.S.getJointDimension());
   const auto shown = check.show([&] { return wayOf(scene, motion); });
-  for (int t = 1; t <= T; ++t) {
-    const double share = (1 - std::cos(std::numbers::pi * t / T)) / 2;
-    pegIsAt(check, scene, motion[static_cast<std::size_t>(t) - 1], start + share * (kHole - start), direction,
-            t < T ? 5 : 1);
-  }
+  Motion wanted;
+  for (int t = 1; t <= T; ++t)
+    wanted.emplace_back(start + (1 - std::cos(std::numbers::pi * t / T)) / 2 * (kHole - start));
+  const auto position = [](const Simulator& moved, int) { return moved.kinematicsPos("peg"); };
+  const auto axis = [](const Simulator& moved, int) { return moved.kinematicsVec("peg"); };
+  check.nearAlong("position of the peg", along(scene.S, motion, 1, position), wanted, 5e-3, "m");
+  check.nearAlong("z axis of the peg", along(scene.S, motion, 1, axis), Motion(wanted.size(), direction),
+                  0.05);
+  pegIsAt(check, scene, motion.back(), kHole, direction);
   turnsLittle(check, scene.S, motion, 0.1);
   clearanceIsKept(check, scene.S, motion);
 }
@@ -584,7 +559,7 @@ void circlesUndisturbed(Check& check, Student& student) {
   Simulator S("man.ors");
   const Eigen::Vector3d start = S.kinematicsPos("handR");
   check.input("man.ors, first handR on the circle, second handR at its start and its z axis upwards");
-  double error = 0;
+  Signal distance;
   for (int t = 1; t <= 200; ++t) {
     const Eigen::Vector3d wanted = kTarget + 0.2 * Eigen::Vector3d(std::cos(t / 20.), 0, std::sin(t / 20.));
     TwoTasks tasks{S.jacobianPos("handR"), wanted - S.kinematicsPos("handR"), Eigen::MatrixXd(6, 27),
@@ -593,10 +568,10 @@ void circlesUndisturbed(Check& check, Student& student) {
     tasks.dy2 << start - S.kinematicsPos("handR"), kUp - S.kinematicsVec("handR");
     tasks.dy2 *= 0.1;
     S.setJointAngles(S.getJointAngles() + stepOf(check, student, tasks));
-    if (t >= 20) error = std::max(error, (S.kinematicsPos("handR") - wanted).norm());
+    if (t >= 20) distance.add(t, (S.kinematicsPos("handR") - wanted).norm());
   }
-  check.atMost("largest distance of the hand from the point on the circle", error, 2e-3, "m");
-  check.atMost("|z axis of the hand - up| at the end", (S.kinematicsVec("handR") - kUp).norm(), 0.05);
+  check.atMostAlong("distance of handR from the point on the circle", distance, 2e-3, "m");
+  check.near("z axis of handR at the end", S.kinematicsVec("handR"), kUp, 0.05);
 }
 
 // <hidden>

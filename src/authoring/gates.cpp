@@ -8,6 +8,7 @@
 
 #include "authoring/named_symbols.h"
 #include "authoring/release.h"
+#include "authoring/seen_messages.h"
 #include "authoring/wrong_variants.h"
 #include "base/error.h"
 #include "base/lines.h"
@@ -197,8 +198,13 @@ GateResult solutionPassesSanitizers(const GateContext& context) {
   return failed("solution.cpp does not pass with the sanitizers: " + shortfalls(result));
 }
 
-// The gates of the variants prove that the picture exists.
+// The gates of the variants prove that the picture exists and that the messages are those of the file.
 GateResult mistakesAreShown(const GateContext& context) {
+  if (!variantNames(context.exercise).empty() &&
+      !std::filesystem::exists(seenMessagesFile(context.exercise.folder)))
+    return failed(fmt::format(
+        "wrong/seen.txt is missing; run: REX_UPDATE_GOLDEN=1 scripts/rex dev check {} --gate wrong",
+        context.exercise.name));
   for (const std::string& name : variantNames(context.exercise))
     if (!variantOf(context.exercise, name).shownBy.empty()) return kPassed;
   return failed("no wrong variant names a check that shows its mistake: '// shown by: CHECK, ...'");

@@ -17,6 +17,7 @@ struct GateContext {
   Toolchain toolchain;
   std::filesystem::path workFolder;  ///< empty and writable
   int seeds = 3;                     ///< number of seeds to grade the solution with: 1, 2, ...
+  std::filesystem::path sheet{};     ///< where gate wrong puts the pictures of failed checks; empty: nowhere
 };
 
 /// Whether an exercise passed a gate, and what to do if not.

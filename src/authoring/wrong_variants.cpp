@@ -1,13 +1,17 @@
 #include "authoring/wrong_variants.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include <fmt/format.h>
 
 #include "authoring/joint_build.h"
+#include "authoring/seen_messages.h"
 #include "base/error.h"
 #include "base/text_file.h"
 #include "grading/unknown_check.h"
+#include "render/contact_sheet.h"
+#include "render/png.h"
 #include "submission/submission.h"
 
 namespace rex::grading {
@@ -24,7 +28,8 @@ SubmissionOptions gradingOf(const GateContext& context, const WrongVariant& vari
   SubmissionOptions options{.main = context.workFolder / "main.cpp",
                             .workFolder = context.workFolder / "build",
                             .job = {.results = context.workFolder / "results.json"}};
-  if (!variant.shownBy.empty()) options.job.evidence = context.workFolder / "checks";
+  if (!variant.shownBy.empty() || !context.sheet.empty())
+    options.job.evidence = context.workFolder / "checks";
   return options;
 }
 
@@ -80,6 +85,12 @@ void requireChecks(const WrongVariant& variant, const std::vector<std::string>& 
         throw unknownCheck(id, known, {wrong.string(), 1});
 }
 
+GradeResult gradeWhole(const GateContext& context, const WrongVariant& variant) {
+  const SubmissionOptions options = gradingOf(context, variant);
+  writeTextFile(options.main, variant.source);
+  return gradeSubmission(context.toolchain, context.exercise, options).result;
+}
+
 // Runs only the checks that the variant names: as soon as one of them fails, the full score is out of reach.
 GradeResult gradeLinked(const GateContext& context, const BuiltSubmission& built,
                         const WrongVariant& variant) {
@@ -89,6 +100,31 @@ GradeResult gradeLinked(const GateContext& context, const BuiltSubmission& built
   options.job.checks = variant.caughtBy;
   options.job.checks.insert(options.job.checks.end(), variant.shownBy.begin(), variant.shownBy.end());
   return gradeBuilt(built, context.toolchain, context.exercise, options);
+}
+
+// The pictures of the checks of `ids` that failed, on the sheet.
+void addPictures(std::vector<KeyFrame>& sheet, const GradeResult& result, const std::vector<std::string>& ids,
+                 const std::string& name, const path& workFolder) {
+  for (const CheckResult& check : result.checks)
+    if (check.status != Outcome::kPass && !check.picture.empty() &&
+        std::find(ids.begin(), ids.end(), check.id) != ids.end())
+      sheet.push_back({readPng(workFolder / check.picture), fmt::format("{}: {}", name, check.id)});
+}
+
+void writeSheet(const std::vector<KeyFrame>& pictures, const path& file) {
+  if (pictures.empty()) return;
+  writePng(
+      contactSheet(pictures,
+                   {.pictures = static_cast<int>(pictures.size()) + 1, .columns = 2, .pictureWidth = 900}),
+      file);
+}
+
+// Complains if students read something else than the exercise's file says, or writes it there. The gate
+// `evidence` wants the file.
+Complaints whyNotSeen(const GateContext& context, const SeenMessages& seen) {
+  const path file = seenMessagesFile(context.exercise.folder);
+  if (std::getenv("REX_UPDATE_GOLDEN") != nullptr) writeSeenMessages(seen, file);
+  return std::filesystem::exists(file) ? changedMessages(seen, readSeenMessages(file)) : Complaints{};
 }
 
 // Adds the complaints of `find`, each with the name of the variant.
@@ -119,10 +155,8 @@ WrongVariant variantOf(const ExerciseInfo& exercise, const std::string& name) {
 
 std::vector<std::string> whyNotCaught(const GateContext& context, const std::string& name) {
   const WrongVariant variant = variantOf(context.exercise, name);
-  const SubmissionOptions options = gradingOf(context, variant);
-  writeTextFile(options.main, variant.source);
-  const GradeResult result = gradeSubmission(context.toolchain, context.exercise, options).result;
-  return whyNotCaughtIn(result, variant, fileOf(context.exercise, name), context.workFolder);
+  return whyNotCaughtIn(gradeWhole(context, variant), variant, fileOf(context.exercise, name),
+                        context.workFolder);
 }
 
 CaughtTogether whyNotCaughtTogether(const GateContext& context) {
@@ -141,14 +175,21 @@ CaughtTogether whyNotCaughtTogether(const GateContext& context) {
     });
   const path solution = context.exercise.folder / "solution.cpp";
   const JointBuild build(context, referenceText(readTextFile(solution), solution.string()), sources);
+  SeenMessages seen;
+  std::vector<KeyFrame> pictures;
   for (std::size_t k = 0; k < variants.size(); ++k) {
     if (!build.holds(k)) all.alone.push_back(names[k]);
     addComplaints(all.complaints, names[k], [&] {
-      if (!build.holds(k)) return whyNotCaught(context, names[k]);
-      const GradeResult result = gradeLinked(context, build.link(k), variants[k]);
+      const GradeResult result = build.holds(k) ? gradeLinked(context, build.link(k), variants[k])
+                                                : gradeWhole(context, variants[k]);
+      seen[path(names[k]).filename().string()] = seenMessage(result, variants[k].caughtBy);
+      addPictures(pictures, result, variants[k].caughtBy, names[k], context.workFolder);
       return whyNotCaughtIn(result, variants[k], fileOf(context.exercise, names[k]), context.workFolder);
     });
   }
+  if (!context.sheet.empty()) writeSheet(pictures, context.sheet);
+  const Complaints changed = whyNotSeen(context, seen);
+  all.complaints.insert(all.complaints.end(), changed.begin(), changed.end());
   return all;
 }
 

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/printable.h"
 #include "grading/usual_mistakes.h"
@@ -38,14 +40,36 @@ std::string atLeastText(double limit, std::string_view unit) {
 
 std::string shapeText(Eigen::Index rows, Eigen::Index cols) { return fmt::format("{} x {}", rows, cols); }
 
+std::vector<std::string> numbers(const Eigen::VectorXd& values) {
+  std::vector<std::string> texts;
+  for (const double value : values) texts.push_back(number(value));
+  return texts;
+}
+
+Eigen::Index largestEntry(const Eigen::VectorXd& values) {
+  Eigen::Index row = 0;
+  values.maxCoeff<Eigen::PropagateNaN>(&row);
+  return row;
+}
+
 /// A short vector in full; only the relevant entry of anything larger.
 std::string valueText(const MatrixArg& value, Eigen::Index row, Eigen::Index col) {
   constexpr Eigen::Index kShort = 6;
   if (value.cols() != 1 || value.rows() > kShort)
     return fmt::format("{} at ({}, {})", number(value(row, col)), row, col);
-  std::string text;
-  for (Eigen::Index k = 0; k < value.rows(); ++k) text += (k > 0 ? ", " : "") + number(value(k, 0));
-  return value.rows() == 1 ? text : "(" + text + ")";
+  return value.rows() == 1 ? number(value(0, 0)) : fmt::format("({})", fmt::join(numbers(value), ", "));
+}
+
+// The rows of a matrix as "[1, 2; 3, 4]"; its size if that would be long.
+std::string inputText(const Eigen::MatrixXd& value) {
+  constexpr Eigen::Index kMostNumbers = 40;
+  if (value.size() > kMostNumbers) return shapeText(value.rows(), value.cols()) + " numbers";
+  if (value.size() == 1) return number(value(0, 0));
+  if (value.cols() == 1) return "(" + fmt::format("{}", fmt::join(numbers(value), ", ")) + ")";
+  std::vector<std::string> rows;
+  for (Eigen::Index i = 0; i < value.rows(); ++i)
+    rows.push_back(fmt::format("{}", fmt::join(numbers(value.row(i).transpose()), ", ")));
+  return fmt::format("[{}]", fmt::join(rows, "; "));
 }
 
 // Relative to the limit. A limit of 0 has no scale: then the excess is plus or minus infinity.
@@ -106,17 +130,26 @@ bool Check::keep(Shortfall shortfall) {
   return true;
 }
 
-void Check::fail(Shortfall shortfall, std::optional<Evidence> evidence) {
+// A picture helps but decides nothing: without it, the message has to do.
+void Check::keepEvidence(const std::optional<Plot>& plot) {
+  try {
+    if (show_) evidence_ = show_();
+  } catch (const std::exception&) {
+    evidence_.reset();
+  }
+  if (!plot || (evidence_ && !plot->share)) return;
+  if (!evidence_) evidence_ = Evidence{};
+  evidence_->figures.insert(evidence_->figures.begin(), plot->figure);
+  if (plot->share && !evidence_->film.empty()) {
+    const double begin = evidence_->film.front().time, end = evidence_->film.back().time;
+    evidence_->moment = begin + *plot->share * (end - begin);
+  }
+}
+
+void Check::fail(Shortfall shortfall, const std::optional<Plot>& plot) {
   if (shortfall.question.empty() && comparison_)
     shortfall.question = questionAbout(comparison_->got, comparison_->wanted, comparison_->tolerance, "");
-  if (keep(std::move(shortfall)) && info_.group == Group::kVisible) {
-    evidence_ = std::move(evidence);
-    try {
-      if (show_) evidence_ = show_();
-    } catch (const std::exception&) {
-      // A picture helps but decides nothing: without it, the message has to do.
-    }
-  }
+  if (keep(std::move(shortfall)) && info_.group == Group::kVisible) keepEvidence(plot);
   throw RequirementFailed{};
 }
 
@@ -148,16 +181,17 @@ void Check::near(std::string_view property, const MatrixArg& got, const MatrixAr
   measure(property, excess, "off by " + withUnit(number(error), unit), atMostText(tolerance, unit));
   if (state(error <= tolerance)) return;
   constexpr Eigen::Index kManyNumbers = 8;
-  std::optional<Evidence> evidence;
+  std::optional<Plot> plot;
   if (std::max(got.rows(), got.cols()) >= kManyNumbers)
-    evidence = {.figures = {comparison(std::string(property), got, wanted)}};
+    plot = Plot{.figure = comparison(std::string(property), got, wanted)};
   fail({.property = std::string(property),
         .got = withUnit(valueText(got, row, col), unit),
         .wanted = withUnit(valueText(wanted, row, col), unit),
         .tolerance = tolerance > 0 ? withUnit(number(tolerance), unit) : "",
+        .deviation = "off by " + withUnit(number(error), unit),
         .question = questionAbout(got, wanted, tolerance, unit),
         .excess = excess},
-       std::move(evidence));
+       plot);
 }
 
 void Check::atMost(std::string_view property, double got, double limit, std::string_view unit) {
@@ -184,6 +218,99 @@ void Check::atLeast(std::string_view property, double got, double limit, std::st
         .excess = excess});
 }
 
+void Check::nearAngle(std::string_view property, double got, double wanted, double tolerance) {
+  requireSound(std::isfinite(wanted), info_, "wants a value that is not finite");
+  shape(property, Eigen::Matrix<double, 1, 1>(got), 1, 1);
+  const double error = std::abs(std::remainder(got - wanted, 2 * std::numbers::pi));
+  const double excess = excessOver(tolerance, error - tolerance);
+  measure(property, excess, "off by " + withUnit(number(error), "rad"), atMostText(tolerance, "rad"));
+  if (state(error <= tolerance)) return;
+  fail({.property = std::string(property),
+        .got = withUnit(number(got), "rad"),
+        .wanted = withUnit(number(wanted), "rad"),
+        .tolerance = withUnit(number(tolerance), "rad"),
+        .deviation = "off by " + withUnit(number(error), "rad"),
+        .question = questionAbout(Eigen::Matrix<double, 1, 1>(got), Eigen::Matrix<double, 1, 1>(wanted),
+                                  tolerance, "rad"),
+        .excess = excess});
+}
+
+void Check::along(std::string_view property, const Signal& got, const Rule& rule, std::string_view unit) {
+  const Breaches breaches = breachesOf(rule.beyond);
+  const auto place = [&](std::size_t i) { return " at " + placeOf(got, i); };
+  const auto value = [&](std::size_t i) {
+    return withUnit(valueText(got.values[i], largestEntry(rule.beyond[i]), 0), unit);
+  };
+  const auto off = [&](std::size_t i) {
+    const double beyond = rule.beyond[i].maxCoeff();
+    return rule.wanted.empty() ? value(i) : withUnit(number(beyond + rule.scale), unit);
+  };
+  const double excess = excessOver(rule.scale, breaches.most);
+  const std::string worst = off(breaches.worst) + place(breaches.worst);
+  measure(property, excess, (rule.wanted.empty() ? "" : "off by ") + worst, rule.limit);
+  if (state(!breaches.first)) return;
+  const std::size_t first = *breaches.first;
+  Shortfall shortfall{
+      .property = std::string(property), .got = value(first) + place(first), .excess = excess};
+  if (!got.values[first].allFinite()) {
+    shortfall.what = "not finite";
+  } else if (rule.wanted.empty()) {
+    shortfall.wanted = rule.limit;
+  } else {
+    shortfall.wanted = withUnit(valueText(rule.wanted[first], largestEntry(rule.beyond[first]), 0), unit);
+    shortfall.tolerance = withUnit(number(rule.scale), unit);
+    shortfall.deviation = "off by " + off(first);
+  }
+  if (shortfall.what.empty() && breaches.worst != first) shortfall.worst = worst;
+  Plot plot{
+      .figure = figureOf(std::string(property), got, rule.wanted, breaches.ofComponents, first, unit),
+      .share = static_cast<double>(first) / static_cast<double>(std::max<std::size_t>(1, got.at.size() - 1))};
+  plot.figure.horizontalLines = rule.limits;
+  fail(std::move(shortfall), plot);
+}
+
+// Throws std::logic_error unless the signal can be judged.
+void Check::requireSignal(const Signal& got) const {
+  requireSound(!got.at.empty() && got.at.size() == got.values.size(), info_, "measures an empty motion");
+  for (const Eigen::VectorXd& value : got.values)
+    requireSound(value.size() > 0 && value.size() == got.values.front().size(), info_,
+                 "measures values of different sizes");
+}
+
+void Check::nearAlong(std::string_view property, const Signal& got,
+                      const std::vector<Eigen::VectorXd>& wanted, double tolerance, std::string_view unit) {
+  requireSignal(got);
+  requireSound(std::isfinite(tolerance) && tolerance >= 0, info_, "wants a value that is not finite");
+  requireSound(wanted.size() == got.values.size(), info_, "wants another number of values");
+  Rule rule{.limit = atMostText(tolerance, unit), .scale = tolerance, .wanted = wanted};
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    requireSound(wanted[i].size() == got.values[i].size() && wanted[i].allFinite(), info_,
+                 "wants a value that is not finite, or of another size");
+    rule.beyond.emplace_back((got.values[i] - wanted[i]).array().abs() - tolerance);
+  }
+  along(property, got, rule, unit);
+}
+
+void Check::atMostAlong(std::string_view property, const Signal& got, double limit, std::string_view unit) {
+  requireSignal(got);
+  requireSound(std::isfinite(limit), info_, "wants a value that is not finite");
+  Rule rule{.limit = atMostText(limit, unit),
+            .scale = limit,
+            .limits = {{.at = limit, .label = "wanted: at most"}}};
+  for (const Eigen::VectorXd& value : got.values) rule.beyond.emplace_back(value.array() - limit);
+  along(property, got, rule, unit);
+}
+
+void Check::atLeastAlong(std::string_view property, const Signal& got, double limit, std::string_view unit) {
+  requireSignal(got);
+  requireSound(std::isfinite(limit), info_, "wants a value that is not finite");
+  Rule rule{.limit = atLeastText(limit, unit),
+            .scale = limit,
+            .limits = {{.at = limit, .label = "wanted: at least"}}};
+  for (const Eigen::VectorXd& value : got.values) rule.beyond.emplace_back(limit - value.array());
+  along(property, got, rule, unit);
+}
+
 void Check::shape(std::string_view property, const MatrixArg& got, Eigen::Index rows, Eigen::Index cols) {
   if (!state(got.rows() == rows && got.cols() == cols))
     fail({.property = std::string(property),
@@ -199,6 +326,13 @@ void Check::shape(std::string_view property, const MatrixArg& got, Eigen::Index 
 
 void Check::that(std::string_view property, bool holds) {
   if (!state(holds)) fail({.property = std::string(property)});
+}
+
+void Check::input(std::string text, std::initializer_list<InputValue> values) {
+  input_ = std::move(text);
+  const char* separator = ": ";
+  for (const auto& [name, value] : values)
+    input_ += fmt::format("{}{} = {}", std::exchange(separator, ", "), name, inputText(value));
 }
 
 void Check::forEachCase(int count, const std::function<void(int)>& run) {
@@ -300,7 +434,9 @@ std::string Check::messageOf(const Shortfall& shortfall) const {
   if (info_.group == Group::kHidden) return text;
   if (numbers) text += (threw ? "" : "got ") + shortfall.got;
   if (!shortfall.wanted.empty()) text += ", wanted " + shortfall.wanted;
-  if (!shortfall.tolerance.empty()) text += ", tolerance " + shortfall.tolerance;
+  if (!shortfall.deviation.empty()) text += ", " + shortfall.deviation;
+  if (!shortfall.tolerance.empty()) text += fmt::format(" (tolerance {})", shortfall.tolerance);
+  if (!shortfall.worst.empty()) text += ", at worst " + shortfall.worst;
   if (!shortfall.input.empty()) text += "; input: " + shortfall.input;
   text += fmt::format(" (seed {})", seed_);
   return shortfall.question.empty() ? text : text + ". " + shortfall.question;

@@ -2,10 +2,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -15,6 +17,7 @@
 #include "base/vector_arg.h"
 #include "grading/evidence.h"
 #include "grading/results.h"
+#include "grading/signal.h"
 
 namespace rex::remote {
 class AnswerRefused;
@@ -29,6 +32,17 @@ struct CheckInfo {
   std::string title{};  ///< one line for the student
   int points = 0;
   Group group = Group::kVisible;
+};
+
+/// A value from which a case can be computed by hand, with its name.
+struct InputValue {
+  InputValue(std::string itsName, const MatrixArg& itsValue) : name(std::move(itsName)), value(itsValue) {}
+  template <class Number>
+  requires std::is_arithmetic_v<Number> InputValue(std::string itsName, Number number)
+      : name(std::move(itsName)), value(Eigen::MatrixXd::Constant(1, 1, static_cast<double>(number))) {}
+
+  std::string name;
+  Eigen::MatrixXd value;
 };
 
 /// Passed to a check function, which states its requirements through it. The first requirement that does
@@ -46,6 +60,9 @@ class Check {
   /// Describes the input that the student's functions get from here on. It is shown if a requirement of a
   /// visible check fails.
   void input(std::string text) { input_ = std::move(text); }
+  /// The same with the values from which the case can be computed by hand: "a random task: J = [1, 2; 3, 4]".
+  /// Of a matrix of more than 40 numbers only the size is shown.
+  void input(std::string text, std::initializer_list<InputValue> values);
   const std::string& input() const { return input_; }
 
   /// Says which of the student's functions answered last: where a requirement fails, it is named.
@@ -101,6 +118,18 @@ class Check {
   /// Requires the shape rows x cols and finite entries. State this before the grader computes with a
   /// student's value.
   void shape(std::string_view property, const MatrixArg& got, Eigen::Index rows, Eigen::Index cols);
+  /// The same for angles in radians, of which only the difference modulo a whole turn counts.
+  void nearAngle(std::string_view property, double got, double wanted, double tolerance);
+
+  /// The same at every place of a motion. If a value breaks the rule, the message names the first such
+  /// place and the worst. The picture of a visible check plots the whole signal, before the figures of
+  /// show(), and a film of show(), which has to cover the same motion, opens at the first place. Throws
+  /// std::logic_error if the signal is empty or sizes do not fit.
+  void nearAlong(std::string_view property, const Signal& got, const std::vector<Eigen::VectorXd>& wanted,
+                 double tolerance, std::string_view unit = "");
+  void atMostAlong(std::string_view property, const Signal& got, double limit, std::string_view unit = "");
+  void atLeastAlong(std::string_view property, const Signal& got, double limit, std::string_view unit = "");
+
   /// Any other requirement; the property is a statement: "the path starts at q0".
   void that(std::string_view property, bool holds);
 
@@ -116,6 +145,20 @@ class Check {
   CheckResult judge(const std::function<void(Check&)>& run);
 
  private:
+  /// A requirement along a motion.
+  struct Rule {
+    std::string limit{};  ///< "at most 1 m"; empty: there are wanted values
+    double scale = 0;     ///< of the excess: the limit or the tolerance
+    std::vector<Eigen::VectorXd>
+        beyond{};  ///< by how much each value breaks the rule; at most 0 if it does not
+    std::vector<Eigen::VectorXd> wanted{};
+    std::vector<Guide> limits{};
+  };
+  /// A picture of what was measured.
+  struct Plot {
+    Figure figure{};
+    std::optional<double> share{};  ///< where it went wrong along a motion, from 0 to 1
+  };
   /// A requirement that does not hold. Texts carry their units.
   struct Shortfall {
     Outcome outcome = Outcome::kFail;
@@ -124,6 +167,8 @@ class Check {
     std::string got{};
     std::string wanted{};
     std::string tolerance{};
+    std::string deviation{};  ///< of `got` from `wanted`
+    std::string worst{};      ///< the worst value along a motion, if `got` is only the first
     std::string input{};
     std::string question{};  ///< about the mistake that would explain it
     std::string function{};  ///< the student's function that threw, or answered last
@@ -139,11 +184,14 @@ class Check {
 
   bool state(bool requirement);
   void measure(std::string_view property, double excess, std::string value, std::string limit);
+  void along(std::string_view property, const Signal& got, const Rule& rule, std::string_view unit);
+  void requireSignal(const Signal& got) const;
   std::string questionAbout(const MatrixArg& got, const MatrixArg& wanted, double tolerance,
                             std::string_view unit) const;
   bool keep(Shortfall shortfall);
   void keepRefused(const remote::AnswerRefused& refused);
-  [[noreturn]] void fail(Shortfall shortfall, std::optional<Evidence> evidence = {});
+  [[noreturn]] void fail(Shortfall shortfall, const std::optional<Plot>& plot = {});
+  void keepEvidence(const std::optional<Plot>& plot);
   bool runCase(int number, const std::function<void(int)>& run);
   CheckResult result() const;
   std::string messageOf(const Shortfall& shortfall) const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -10,6 +11,7 @@
 #include "render/draw_film.h"
 #include "render/png.h"
 #include "render/report.h"
+#include "render/text.h"
 
 namespace rex::grading {
 namespace {
@@ -25,10 +27,37 @@ const Frame& frameAt(const Film& film, double time) {
   return later == film.begin() ? *later : *(later - 1);
 }
 
-void drawMoment(const Evidence& evidence, const std::filesystem::path& file) {
+Image momentOf(const Evidence& evidence) {
   Renderer renderer({.width = kWidth, .height = kHeight});
   const Camera camera = framing(evidence.film, evidence.view, static_cast<double>(kWidth) / kHeight);
-  writePng(drawStill({frameAt(evidence.film, evidence.moment)}, camera, renderer), file);
+  return drawStill({frameAt(evidence.film, evidence.moment)}, camera, renderer);
+}
+
+// The words of a text in lines that are at most so many pixels wide.
+std::vector<std::string> linesOf(const std::string& text, int width) {
+  std::vector<std::string> lines{""};
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    const std::string longer = lines.back().empty() ? word : lines.back() + " " + word;
+    if (lines.back().empty() || textSize(longer).width <= width)
+      lines.back() = longer;
+    else
+      lines.push_back(word);
+  }
+  return lines;
+}
+
+Image withHeading(const Image& image, const std::string& text) {
+  constexpr int kMargin = 12;
+  const std::vector<std::string> lines = linesOf(text, image.width - 2 * kMargin);
+  const int lineHeight = textSize("").height;
+  const int heading = lineHeight * static_cast<int>(lines.size()) + 2 * kMargin;
+  Image whole(image.width, heading + image.height);
+  std::fill(whole.rgb.begin(), whole.rgb.end(), std::uint8_t{255});
+  std::copy(image.rgb.begin(), image.rgb.end(), whole.pixel(0, heading));
+  for (std::size_t k = 0; k < lines.size(); ++k)
+    drawText(whole, lines[k], kMargin, kMargin + lineHeight * static_cast<int>(k), kWrongColor);
+  return whole;
 }
 
 // The images side by side on white, in a picture as high as the tallest.
@@ -49,14 +78,13 @@ Image inARow(const std::vector<Image>& images) {
   return row;
 }
 
-void drawFigures(const std::vector<Figure>& figures, const std::filesystem::path& file) {
-  if (figures.size() == 1) return writeFigure(figures.front(), file);
+Image drawingOf(const std::vector<Figure>& figures, const std::filesystem::path& scratch) {
   std::vector<Image> images;
   for (const Figure& figure : figures) {
-    writeFigure(figure, file);
-    images.push_back(readPng(file));
+    writeFigure(figure, scratch);
+    images.push_back(readPng(scratch));
   }
-  writePng(inARow(images), file);
+  return inARow(images);
 }
 
 }  // namespace
@@ -85,19 +113,18 @@ Figure comparison(const std::string& title, const Eigen::Ref<const Eigen::Matrix
   return figure;
 }
 
-EvidenceFiles writeEvidence(const Evidence& evidence, const std::string& id, const std::string& title,
+EvidenceFiles writeEvidence(const Evidence& evidence, const std::string& id, const EvidenceText& text,
                             const std::filesystem::path& folder) {
   EvidenceFiles files;
   if (evidence.figures.empty() && evidence.film.empty()) return files;
   std::filesystem::create_directories(folder);
   files.picture = id + ".png";
-  if (evidence.figures.empty())
-    drawMoment(evidence, folder / files.picture);
-  else
-    drawFigures(evidence.figures, folder / files.picture);
+  const std::filesystem::path picture = folder / files.picture;
+  const Image drawn = evidence.figures.empty() ? momentOf(evidence) : drawingOf(evidence.figures, picture);
+  writePng(withHeading(drawn, text.failure), picture);
   if (evidence.film.empty()) return files;
   files.replay = id + ".html";
-  Report report{.title = title, .film = evidence.film, .view = evidence.view, .start = evidence.moment};
+  Report report{.title = text.title, .film = evidence.film, .view = evidence.view, .start = evidence.moment};
   for (const Figure& figure : evidence.figures) report.figures.push_back({figure, figure.title});
   writeReport(report, folder / files.replay);
   return files;

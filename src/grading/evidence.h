@@ -29,10 +29,16 @@ struct EvidenceFiles {
 [[nodiscard]] Figure comparison(const std::string& title, const Eigen::Ref<const Eigen::MatrixXd>& got,
                                 const Eigen::Ref<const Eigen::MatrixXd>& wanted);
 
-/// Draws the evidence as ID.png: the figures in a row, or else the film's frame at `moment`. Writes a film
-/// as ID.html, which opens at that moment with the figures next to it. Throws Error like writeFigure() and
-/// writeReport().
+/// What the evidence of a check says in words.
+struct EvidenceText {
+  std::string title{};    ///< of the check
+  std::string failure{};  ///< the requirement that failed, with its numbers
+};
+
+/// Draws the evidence as ID.png: the failure in words above the figures in a row, or else above the film's
+/// frame at `moment`. Writes a film as ID.html, which opens at that moment with the figures next to it.
+/// Throws Error like writeFigure() and writeReport().
 [[nodiscard]] EvidenceFiles writeEvidence(const Evidence& evidence, const std::string& id,
-                                          const std::string& title, const std::filesystem::path& folder);
+                                          const EvidenceText& text, const std::filesystem::path& folder);
 
 }  // namespace rex::grading

@@ -126,6 +126,14 @@ std::string seedIdOf(const Grading& grading) {
                                 : fmt::format("{} hidden:{}", visible, sha256(grading.secret).substr(0, 8));
 }
 
+// "position of the hand: got 1 m, wanted at most 0.5 m"
+std::string failureOf(const CheckResult& check) {
+  std::string text = check.property;
+  if (!check.got.empty()) text += ": got " + check.got;
+  if (!check.expected.empty()) text += ", wanted " + check.expected;
+  return text;
+}
+
 // A picture helps but decides nothing: if the numbers cannot be drawn, there is none.
 void keepEvidence(const Check& judge, const std::filesystem::path& folder, CheckResult& verdict) {
   if (folder.empty() || !judge.evidence() || verdict.status == Outcome::kPass) return;
@@ -133,7 +141,8 @@ void keepEvidence(const Check& judge, const std::filesystem::path& folder, Check
     return file.empty() ? file : (folder.filename() / file).generic_string();
   };
   try {
-    const EvidenceFiles files = writeEvidence(*judge.evidence(), verdict.id, verdict.title, folder);
+    const EvidenceText text{.title = verdict.title, .failure = failureOf(verdict)};
+    const EvidenceFiles files = writeEvidence(*judge.evidence(), verdict.id, text, folder);
     verdict.picture = named(files.picture);
     verdict.replay = named(files.replay);
   } catch (const Error&) {

@@ -24,6 +24,7 @@ class WrongVariantsTest : public ::testing::Test {
     fs::create_directories(exercise().parent_path());
     fs::copy(REX_BINARY_DIR "/tests/template/source", exercise(), fs::copy_options::recursive);
     fs::remove(exercise() / "wrong" / "library.cpp");
+    fs::remove(exercise() / "wrong" / "seen.txt");
     write("solution.cpp", "#include \"geometry/rotation.h\"\n" + fileText(exercise() / "solution.cpp"));
     writeVariant("library", "caught by: forbidden-call", kByLibrary);
   }
@@ -59,6 +60,14 @@ TEST_F(WrongVariantsTest, AreCaughtTogether) {
   const GateResult result = pass("wrong");
   EXPECT_TRUE(result.passed) << result.message;
   EXPECT_EQ(result.note, "");
+}
+
+TEST_F(WrongVariantsTest, AreReadAsTheFileSays) {
+  write("wrong/seen.txt", "clockwise\n    quarter-turn: something else\n");
+  EXPECT_THAT(pass("wrong").message, AllOf(HasSubstr("clockwise: a student reads: quarter-turn: point"),
+                                           HasSubstr("library: wrong/seen.txt does not say")));
+  fs::remove(exercise() / "wrong" / "seen.txt");
+  EXPECT_THAT(pass("evidence").message, HasSubstr("wrong/seen.txt is missing"));
 }
 
 TEST_F(WrongVariantsTest, AreToldApartByWhatIsWrong) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 
 #include <gmock/gmock.h>
@@ -76,13 +77,113 @@ TEST(Check, SaysPropertyGotWantedToleranceUnitInputAndSeed) {
     check.near("position", Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(1, 2, 3.5), 1e-3, "m");
   });
   EXPECT_EQ(result.message,
-            "position: got (1, 2, 3) m, wanted (1, 2, 3.5) m, tolerance 0.001 m; input: q = 0 "
+            "position: got (1, 2, 3) m, wanted (1, 2, 3.5) m, off by 0.5 m (tolerance 0.001 m); input: q = 0 "
             "(seed 7)");
   EXPECT_EQ(result.property, "position");
   EXPECT_EQ(result.got, "(1, 2, 3) m");
   EXPECT_EQ(result.expected, "(1, 2, 3.5) m");
   EXPECT_EQ(result.tolerance, "0.001 m");
   EXPECT_EQ(result.input, "q = 0");
+}
+
+TEST(Check, ShowsTheValuesOfItsInput) {
+  const CheckResult result = judge([](Check& check) {
+    check.input("two tasks", {{"J", (Eigen::MatrixXd(2, 2) << 1, 2, 3, 4.5).finished()},
+                              {"dy", Eigen::Vector2d(-1, 0)},
+                              {"n", 2},
+                              {"M", Eigen::MatrixXd::Zero(20, 3)}});
+    check.that("it holds", false);
+  });
+  EXPECT_EQ(result.input, "two tasks: J = [1, 2; 3, 4.5], dy = (-1, 0), n = 2, M = 20 x 3 numbers");
+}
+
+TEST(Check, ComparesAnglesModuloAWholeTurn) {
+  const double pi = std::numbers::pi;
+  const auto compare = [&](double got) {
+    return judge([&](Check& check) { check.nearAngle("heading", got, 3.1, 0.01); });
+  };
+  EXPECT_EQ(compare(3.1 - 2 * pi).status, Outcome::kPass);
+  EXPECT_EQ(compare(3.1 + 4 * pi).status, Outcome::kPass);
+  EXPECT_EQ(compare(-3).message,
+            "heading: got -3 rad, wanted 3.1 rad, off by 0.183185 rad (tolerance 0.01 rad) (seed 7)");
+  EXPECT_THAT(compare(std::nan("")).message, HasSubstr("not finite"));
+}
+
+// A quantity that leaves its limit at 2 s, and is farthest beyond it at 4 s.
+Signal leaving() {
+  Signal signal{.axis = "time [s]"};
+  for (const double value : {0.1, 0.2, 0.5, 0.4, 0.9})
+    signal.add(static_cast<double>(signal.at.size()), value);
+  return signal;
+}
+
+TEST(Check, NamesTheFirstAndTheWorstPlaceOfAMotion) {
+  const auto atMost = [](Check& check) { check.atMostAlong("distance", leaving(), 0.3, "m"); };
+  EXPECT_EQ(messageOf(atMost),
+            "distance: got 0.5 m at time 2 s, wanted at most 0.3 m, at worst 0.9 m at time 4 s (seed 7)");
+  const auto atLeast = [](Check& check) { check.atLeastAlong("clearance", leaving(), 0.15, "m"); };
+  EXPECT_EQ(messageOf(atLeast), "clearance: got 0.1 m at time 0 s, wanted at least 0.15 m (seed 7)");
+  const auto near = [](Check& check) {
+    const std::vector<Eigen::VectorXd> wanted(5, Eigen::VectorXd::Constant(1, 0.2));
+    check.nearAlong("height", leaving(), wanted, 0.1, "m");
+  };
+  EXPECT_EQ(messageOf(near),
+            "height: got 0.5 m at time 2 s, wanted 0.2 m, off by 0.3 m (tolerance 0.1 m), at worst 0.7 m at "
+            "time 4 s (seed 7)");
+  EXPECT_EQ(judge([](Check& check) { check.atMostAlong("distance", leaving(), 0.9); }).status,
+            Outcome::kPass);
+  const CheckResult passed = judge([](Check& check) { check.atMostAlong("distance", leaving(), 1, "m"); });
+  EXPECT_EQ(passed.worst.value, "0.9 m at time 4 s");
+  EXPECT_EQ(passed.worst.limit, "at most 1 m");
+}
+
+TEST(Check, StopsAtTheFirstValueOfAMotionThatIsNotFinite) {
+  Signal signal = leaving();
+  signal.values[1][0] = std::nan("");
+  EXPECT_EQ(messageOf([&](Check& check) { check.atMostAlong("distance", signal, 0.3, "m"); }),
+            "distance: not finite: got nan m at time 1 s (seed 7)");
+  EXPECT_EQ(messageOf([&](Check& check) { check.atLeastAlong("distance", signal, 0, "m"); }),
+            "distance: not finite: got nan m at time 1 s (seed 7)");
+}
+
+TEST(Check, ComparesVectorsAlongAMotion) {
+  const std::vector<Eigen::VectorXd> wanted(3, Eigen::Vector2d(1, 2));
+  std::vector<Eigen::VectorXd> got = wanted;
+  got[1][1] = 5;
+  EXPECT_EQ(
+      messageOf([&](Check& check) { check.nearAlong("posture", grading::overSteps(got), wanted, 0, "rad"); }),
+      "posture: got (1, 5) rad at step 2, wanted (1, 2) rad, off by 3 rad (tolerance 0 rad) (seed 7)");
+}
+
+TEST(Check, PlotsWhatFailedAlongAMotionBeforeWhatItShows) {
+  const Figure aside{.title = "aside"};
+  const auto plots = [&](Film film) {
+    Check check({.id = "c", .points = 1}, 7);
+    static_cast<void>(check.judge([&](Check& stated) {
+      const auto shown =
+          stated.show([&] { return Evidence{.figures = {aside}, .film = film, .moment = 0.1}; });
+      stated.atMostAlong("distance", leaving(), 0.3, "m");
+    }));
+    return check.evidence().value();
+  };
+  const Evidence evidence = plots({{.time = 1}, {.time = 2}, {.time = 3}});
+  ASSERT_EQ(evidence.figures.size(), 2u);
+  EXPECT_EQ(evidence.figures[0].title, "distance");
+  EXPECT_EQ(evidence.figures[0].series.at(0).y, (std::vector{0.1, 0.2, 0.5, 0.4, 0.9}));
+  EXPECT_EQ(evidence.figures[0].verticalLines.at(0).at, 2);
+  EXPECT_EQ(evidence.figures[0].horizontalLines.at(0).at, 0.3);
+  EXPECT_EQ(evidence.figures[1].title, "aside");
+  EXPECT_DOUBLE_EQ(evidence.moment, 2);  // half of the film, as 2 s is of the motion
+}
+
+TEST(FaultyCheck, MeasuresMotionsThatFit) {
+  const auto faulty = [](const Signal& signal, const std::vector<Eigen::VectorXd>& wanted) {
+    EXPECT_THROW(judge([&](Check& check) { check.nearAlong("x", signal, wanted, 1); }), std::logic_error);
+  };
+  faulty({}, {});
+  faulty(leaving(), {});
+  faulty(leaving(), std::vector<Eigen::VectorXd>(5, Eigen::Vector2d(0, 0)));
+  faulty(leaving(), std::vector<Eigen::VectorXd>(5, Eigen::VectorXd::Constant(1, std::nan(""))));
 }
 
 TEST(Check, NamesTheWorstEntryOfAMatrix) {
@@ -168,7 +269,8 @@ TEST(Check, AsksAboutUsualMistakesAndThoseThatTheAuthorSuspects) {
     };
   };
   EXPECT_EQ(messageOf(answer(start)),
-            "posture: got (3, 5) rad, wanted (1, 2) rad, tolerance 1e-06 rad (seed 7). Is S never moved?");
+            "posture: got (3, 5) rad, wanted (1, 2) rad, off by 3 rad (tolerance 1e-06 rad) (seed 7). Is S "
+            "never moved?");
   EXPECT_THAT(messageOf(answer(-wanted)), HasSubstr("(seed 7). Your value has the opposite sign"));
   EXPECT_THAT(messageOf(answer(Eigen::Vector2d(4, 4))), ::testing::EndsWith("(seed 7)"));
   EXPECT_THAT(judge(answer(start), Group::kHidden).message, "posture: does not hold");

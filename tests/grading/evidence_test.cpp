@@ -5,6 +5,7 @@
 
 #include "geometry/pose.h"
 #include "render/png.h"
+#include "render/text.h"
 #include "support/expect_error.h"
 #include "support/file_text.h"
 #include "support/fresh_folder.h"
@@ -55,7 +56,7 @@ class WriteEvidence : public ::testing::Test {
 
 TEST_F(WriteEvidence, DrawsTheFirstFigure) {
   const Evidence evidence{.figures = {comparison("x", Eigen::VectorXd::Zero(9), Eigen::VectorXd::Ones(9))}};
-  const EvidenceFiles files = writeEvidence(evidence, "line", "A line", folder_);
+  const EvidenceFiles files = writeEvidence(evidence, "line", {"A line", "x: got 0, wanted 1"}, folder_);
   EXPECT_EQ(files.picture, "line.png");
   EXPECT_EQ(files.replay, "");
   EXPECT_EQ(readPng(folder_ / "line.png").width, 800);
@@ -67,10 +68,15 @@ TEST_F(WriteEvidence, DrawsFiguresInARow) {
   narrow.height = 700;
   const Evidence evidence{
       .figures = {comparison("x", Eigen::VectorXd::Zero(9), Eigen::VectorXd::Ones(9)), narrow}};
-  EXPECT_EQ(writeEvidence(evidence, "row", "A row", folder_).picture, "row.png");
+  EXPECT_EQ(writeEvidence(evidence, "row", {"A row", "x: got 0"}, folder_).picture, "row.png");
   const Image row = readPng(folder_ / "row.png");
   EXPECT_EQ(row.width, 1300);
-  EXPECT_EQ(row.height, 700);
+  const int heading = textSize("").height + 24;  // one line and its margins
+  EXPECT_EQ(row.height, heading + 700);
+  int red = 0;
+  for (int y = 0; y < heading; ++y)
+    for (int x = 0; x < 200; ++x) red += row.at(x, y)[0] > row.at(x, y)[1] + 80 ? 1 : 0;
+  EXPECT_GT(red, 20);                                        // "x: got 0"
   EXPECT_EQ(row.at(400, 650), (std::array{255, 255, 255}));  // below the lower one
   const auto isDark = [&](int x, int y) { return row.at(x, y)[0] < 128; };
   int dark = 0;
@@ -81,7 +87,8 @@ TEST_F(WriteEvidence, DrawsFiguresInARow) {
 
 TEST_F(WriteEvidence, OpensAFilmAtItsMoment) {
   REX_NEEDS_OSMESA();
-  const EvidenceFiles files = writeEvidence({.film = ball(), .moment = 1.5}, "ball", "A <ball>", folder_);
+  const EvidenceFiles files =
+      writeEvidence({.film = ball(), .moment = 1.5}, "ball", {"A <ball>", "ball: got 1 m"}, folder_);
   EXPECT_EQ(files.picture, "ball.png");
   EXPECT_EQ(files.replay, "ball.html");
   EXPECT_TRUE(std::filesystem::exists(folder_ / "ball.png"));
@@ -91,7 +98,7 @@ TEST_F(WriteEvidence, OpensAFilmAtItsMoment) {
 }
 
 TEST_F(WriteEvidence, LeavesNothingOfNothing) {
-  const EvidenceFiles files = writeEvidence({}, "none", "None", folder_);
+  const EvidenceFiles files = writeEvidence({}, "none", {"None", ""}, folder_);
   EXPECT_EQ(files.picture + files.replay, "");
   EXPECT_FALSE(std::filesystem::exists(folder_));
 }

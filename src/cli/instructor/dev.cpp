@@ -22,13 +22,18 @@ void addDevCheck(CLI::App* dev, Action& action) {
   const auto options = std::make_shared<CheckOptions>();
   CLI::App* command =
       addVerb(dev, "check", "Check that exercises are complete, graded well and give nothing away",
-              "Examples:\n  scripts/rex dev check 01\n  scripts/rex dev check 01 --gate solution --seeds 20");
-  command->add_option("EXERCISE", options->exercise, "only this one (default: all)")->type_name("");
+              "Examples:\n  scripts/rex dev check 01\n  scripts/rex dev check 01 --gate solution --seeds 20\n"
+              "  scripts/rex dev check 01 --gate wrong --sheet pictures.png");
+  CLI::Option* exercise =
+      command->add_option("EXERCISE", options->exercise, "only this one (default: all)")->type_name("");
   command->add_option("--gate", options->gate, "only this gate")->type_name("NAME");
   command->add_flag("--list-gates", options->listGates, "print the names of the gates");
   command->add_option("--seeds", options->seeds, "seeds to try the solution with (default: 3)")
       ->type_name("N")
       ->check(CLI::Range(1, 10000).description(""));
+  command->add_option("--sheet", options->sheet, "draw the pictures of checks that wrong variants fail")
+      ->type_name("FILE.png")
+      ->needs(exercise);
   command->callback(
       [&action, options] { action = [options](const Project& p) { return devCheck(p, *options); }; });
 }

@@ -17,13 +17,14 @@ std::vector<ExerciseInfo> chosen(const Project& project, const std::string& name
 
 // Prints one line for a gate, and what is wrong unless it passed.
 bool passes(const Project& project, const ExerciseInfo& exercise, const grading::Toolchain& toolchain,
-            const std::string& gate, int seeds) {
+            const std::string& gate, const CheckOptions& options) {
   const PrivateFolder work(project.workPlace("exercises/" + exercise.name));
   const grading::GateResult result = grading::runGate({.root = project.root,
                                                        .exercise = exercise,
                                                        .toolchain = toolchain,
                                                        .workFolder = work.path(),
-                                                       .seeds = seeds},
+                                                       .seeds = options.seeds,
+                                                       .sheet = options.sheet},
                                                       gate);
   say(fmt::format(" {}  {}  {}", result.passed ? paint(Colour::kGreen, " ok ") : paint(Colour::kRed, "FAIL"),
                   exercise.name, gate));
@@ -38,8 +39,7 @@ int checkOne(const Project& project, const ExerciseInfo& exercise, const CheckOp
   const std::vector<std::string> gates =
       options.gate.empty() ? grading::gateNames(exercise) : std::vector<std::string>{options.gate};
   int open = 0;
-  for (const std::string& gate : gates)
-    open += passes(project, exercise, toolchain, gate, options.seeds) ? 0 : 1;
+  for (const std::string& gate : gates) open += passes(project, exercise, toolchain, gate, options) ? 0 : 1;
   return open;
 }
 

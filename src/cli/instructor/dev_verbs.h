@@ -18,6 +18,7 @@ struct CheckOptions {
   std::string exercise;  ///< empty: all
   std::string gate;      ///< empty: all
   bool listGates = false;
+  std::filesystem::path sheet{};  ///< a .png for the pictures of wrong variants; empty: none
   int seeds = 3;
 };
 /// Runs the gates that exercises must pass. Returns kBelow if one fails, kGraderFault if a grader does not

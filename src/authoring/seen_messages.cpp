@@ -1,0 +1,81 @@
+#include "authoring/seen_messages.h"
+
+#include <algorithm>
+#include <regex>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/lines.h"
+#include "base/text_file.h"
+
+namespace rex::grading {
+namespace {
+
+constexpr std::string_view kIndent = "    ";
+
+std::string withoutNumbers(const std::string& text) {
+  static const std::regex number(R"([-+]?(\d+(\.\d+)?(e[-+]?\d+)?|nan|inf)\b)");
+  return std::regex_replace(text, number, "#");
+}
+
+}  // namespace
+
+std::filesystem::path seenMessagesFile(const std::filesystem::path& exercise) {
+  return exercise / "wrong" / "seen.txt";
+}
+
+std::string seenMessage(const GradeResult& result, const std::vector<std::string>& ids) {
+  for (const Group group : {Group::kVisible, Group::kHidden})
+    for (const CheckResult& check : result.checks)
+      if (check.group == group && check.status != Outcome::kPass &&
+          std::find(ids.begin(), ids.end(), check.id) != ids.end())
+        return fmt::format("{}{}: {}", check.id, group == Group::kHidden ? " (hidden)" : "", check.message);
+  return result.compile.diagnostics.empty() ? result.message : toString(result.compile.diagnostics.front());
+}
+
+SeenMessages readSeenMessages(const std::filesystem::path& file) {
+  SeenMessages messages;
+  std::string name;
+  int number = 0;
+  const std::string text = readTextFile(file);
+  for (const std::string_view line : splitLines(text)) {
+    ++number;
+    if (!line.starts_with(kIndent)) {
+      name = line;
+    } else if (name.empty()) {
+      throw Error(
+          {.what = "a message without the name of a wrong variant", .where = {file.string(), number}});
+    } else {
+      messages[name] = line.substr(kIndent.size());
+    }
+  }
+  return messages;
+}
+
+void writeSeenMessages(const SeenMessages& messages, const std::filesystem::path& file) {
+  std::string text;
+  for (const auto& [name, message] : messages) text += fmt::format("{}\n{}{}\n", name, kIndent, message);
+  writeTextFile(file, text);
+}
+
+std::vector<std::string> changedMessages(const SeenMessages& now, const SeenMessages& stored) {
+  std::vector<std::string> changes;
+  for (const auto& [name, message] : now) {
+    const auto before = stored.find(name);
+    if (before == stored.end())
+      changes.push_back(
+          fmt::format("{}: wrong/seen.txt does not say what a student reads: {}", name, message));
+    else if (withoutNumbers(before->second) != withoutNumbers(message))
+      changes.push_back(
+          fmt::format("{}: a student reads: {}\n  wrong/seen.txt says: {}", name, message, before->second));
+  }
+  for (const auto& [name, message] : stored)
+    if (!now.contains(name))
+      changes.push_back(fmt::format("{}: is in wrong/seen.txt, but there is no such variant", name));
+  if (!changes.empty())
+    changes.emplace_back("If the new words are better, store them with REX_UPDATE_GOLDEN=1.");
+  return changes;
+}
+
+}  // namespace rex::grading

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "grading/results.h"
+
+namespace rex::grading {
+
+/// The file wrong/seen.txt of an exercise: what a student who makes the mistake of a wrong variant reads
+/// first. Lines "NAME" and, indented, "CHECK: MESSAGE".
+using SeenMessages = std::map<std::string, std::string>;
+
+[[nodiscard]] std::filesystem::path seenMessagesFile(const std::filesystem::path& exercise);
+
+/// The first failing check that has one of these ids, and its message: "CHECK: MESSAGE". Hidden checks count
+/// if no visible one fails. For a submission that was not graded, the compiler's first message.
+[[nodiscard]] std::string seenMessage(const GradeResult& result, const std::vector<std::string>& ids);
+
+/// Throws Error naming the line if a message has no variant.
+[[nodiscard]] SeenMessages readSeenMessages(const std::filesystem::path& file);
+void writeSeenMessages(const SeenMessages& messages, const std::filesystem::path& file);
+
+/// The messages that differ from those of the file in more than their numbers, which compilers and machines
+/// round in their own way, or that only one of both has. One line each; empty if there are none.
+[[nodiscard]] std::vector<std::string> changedMessages(const SeenMessages& now, const SeenMessages& stored);
+
+}  // namespace rex::grading

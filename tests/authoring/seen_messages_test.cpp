@@ -1,0 +1,76 @@
+#include "authoring/seen_messages.h"
+
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/expect_error.h"
+#include "support/file_text.h"
+#include "support/fresh_folder.h"
+
+namespace rex::grading::seen_messages_test {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+GradeResult graded() {
+  GradeResult result;
+  const auto add = [&](const char* id, Group group, Outcome status, const char* message) {
+    result.checks.push_back({.id = id, .group = group, .status = status, .message = message});
+  };
+  add("hidden", Group::kHidden, Outcome::kFail, "x: does not hold");
+  add("passed", Group::kVisible, Outcome::kPass, "");
+  add("first", Group::kVisible, Outcome::kFail, "y: got 1");
+  add("second", Group::kVisible, Outcome::kFail, "z: got 2");
+  return result;
+}
+
+TEST(SeenMessage, IsThatOfTheFirstVisibleCheckThatFails) {
+  EXPECT_EQ(seenMessage(graded(), {"second", "first", "hidden"}), "first: y: got 1");
+  EXPECT_EQ(seenMessage(graded(), {"second", "passed"}), "second: z: got 2");
+  EXPECT_EQ(seenMessage(graded(), {"hidden", "passed"}), "hidden (hidden): x: does not hold");
+}
+
+TEST(SeenMessage, IsTheCompilersIfNothingWasGraded) {
+  GradeResult result{.message = "does not compile"};
+  EXPECT_EQ(seenMessage(result, {"first"}), "does not compile");
+  result.compile.diagnostics = {
+      {.file = "main.cpp", .line = 3, .column = 1, .severity = "error", .message = "no"}};
+  EXPECT_EQ(seenMessage(result, {"first"}), "main.cpp:3:1: error: no");
+}
+
+class SeenMessagesFile : public ::testing::Test {
+ protected:
+  const std::filesystem::path file_ = freshFolderOfTest("seen_messages") / "seen.txt";
+};
+
+TEST_F(SeenMessagesFile, ReturnsWhatWasWritten) {
+  const SeenMessages messages{{"one", "first: y: got 1"}, {"two", "second: z: got 2"}};
+  writeSeenMessages(messages, file_);
+  EXPECT_EQ(fileText(file_), "one\n    first: y: got 1\ntwo\n    second: z: got 2\n");
+  EXPECT_EQ(readSeenMessages(file_), messages);
+}
+
+TEST_F(SeenMessagesFile, NamesAMessageWithoutVariant) {
+  std::ofstream(file_) << "    first: y: got 1\n";
+  EXPECT_REX_ERROR(static_cast<void>(readSeenMessages(file_)),
+                   file_.string() + ":1: a message without the name of a wrong variant");
+}
+
+TEST(ChangedMessages, LeaveNumbersAside) {
+  EXPECT_THAT(
+      changedMessages({{"one", "y: got -1.5e-07 m, wanted 0.1"}}, {{"one", "y: got 2 m, wanted 3e+10"}}),
+      IsEmpty());
+}
+
+TEST(ChangedMessages, NameWhatIsNewGoneOrOtherwise) {
+  EXPECT_THAT(changedMessages({{"new", "a"}, {"other", "b: got 1"}}, {{"gone", "c"}, {"other", "d: got 1"}}),
+              ElementsAre("new: wrong/seen.txt does not say what a student reads: a",
+                          "other: a student reads: b: got 1\n  wrong/seen.txt says: d: got 1",
+                          "gone: is in wrong/seen.txt, but there is no such variant",
+                          HasSubstr("REX_UPDATE_GOLDEN=1")));
+}
+
+}  // namespace rex::grading::seen_messages_test
