@@ -28,6 +28,21 @@ extern "C" __attribute__((no_sanitize("address", "undefined"))) const char* __ub
 }
 )";
 
+// The report itself takes some time, so the kernel's limit has to be far away.
+constexpr const char* kTimeHeader = R"(
+#include <csignal>
+#include <cstdlib>
+#include <sys/time.h>
+namespace {
+__attribute__((constructor)) void abortWhenTimeIsUp() {
+  std::signal(SIGPROF, [](int) { std::abort(); });
+  const itimerval time{{}, {REX_MICROSECONDS / 1000000, REX_MICROSECONDS % 1000000}};
+  setitimer(ITIMER_PROF, &time, nullptr);
+}
+}
+)";
+
+constexpr const char* kSanitizers = "-fsanitize=address,undefined";
 constexpr std::string_view kStackOverflow = "stack-overflow";
 
 std::string plainWords(std::string_view kind) {
@@ -94,6 +109,20 @@ const Frame& recursionIn(const std::vector<Frame>& stack) {
   return found != nullptr ? *found : stack.front();
 }
 
+Toolchain withReports(const Toolchain& toolchain, const std::filesystem::path& folder, std::size_t memory,
+                      const std::string& code) {
+  const std::filesystem::path header = folder / "sanitizer_options.h";
+  writeTextFile(header,
+                fmt::format("#pragma once\n#define REX_MEMORY_MEGABYTES \"{}\"", memory / kMegabyte) + code);
+  Toolchain changed = toolchain;
+  changed.prefix.clear();
+  for (const std::string& flag :
+       std::vector<std::string>{"-g1", "-fno-omit-frame-pointer", "-include", header})
+    changed.flags.push_back(flag);
+  changed.linkFlags.emplace_back(kSanitizers);
+  return changed;
+}
+
 }  // namespace
 
 std::optional<CrashSite> crashSiteIn(std::string_view standardError, const std::string& mainFile) {
@@ -116,23 +145,22 @@ std::optional<CrashSite> crashSiteIn(std::string_view standardError, const std::
 
 Toolchain sanitizedToolchain(const Toolchain& toolchain, const std::filesystem::path& folder,
                              std::size_t memory) {
-  const std::filesystem::path header = folder / "sanitizer_options.h";
-  writeTextFile(header, fmt::format("#pragma once\n#define REX_MEMORY_MEGABYTES \"{}\"", memory / kMegabyte) +
-                            kOptionsHeader);
-  constexpr const char* kSanitizers = "-fsanitize=address,undefined";
-  Toolchain sanitized = toolchain;
-  sanitized.prefix.clear();
-  for (const std::string& flag :
-       std::vector<std::string>{"-O0", "-g1", kSanitizers, "-fno-sanitize=vptr", "-fno-sanitize-recover=all",
-                                "-fno-omit-frame-pointer", "-include", header})
-    sanitized.flags.push_back(flag);
-  sanitized.linkFlags.push_back(kSanitizers);
+  Toolchain sanitized = withReports(toolchain, folder, memory, kOptionsHeader);
+  for (const char* flag : {"-O0", kSanitizers, "-fno-sanitize=vptr", "-fno-sanitize-recover=all"})
+    sanitized.flags.emplace_back(flag);
   // Eigen allocates differently under the address sanitizer, but memory that passes between the program and
   // the library must be freed the way it was allocated.
   const auto isSanitizer = [](const std::string& flag) { return flag.starts_with("-fsanitize="); };
   if (std::none_of(toolchain.flags.begin(), toolchain.flags.end(), isSanitizer))
     sanitized.flags.push_back("-DEIGEN_MALLOC_ALREADY_ALIGNED=1");
   return sanitized;
+}
+
+// Only the sanitizer's runtime is there, for its report.
+Toolchain locatingToolchain(const Toolchain& toolchain, const std::filesystem::path& folder,
+                            std::size_t memory, double seconds) {
+  const std::string time = fmt::format("\n#define REX_MICROSECONDS {:.0f}", 1e6 * seconds);
+  return withReports(toolchain, folder, memory, time + kOptionsHeader + kTimeHeader);
 }
 
 }  // namespace rex::grading

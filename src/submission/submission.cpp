@@ -1,6 +1,7 @@
 #include "submission/submission.h"
 
 #include <algorithm>
+#include <functional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -28,6 +29,7 @@ namespace {
 using std::filesystem::path;
 
 constexpr double kLongestGrading = 3600;
+constexpr std::size_t kLongestLine = 1000;
 // A program with the sanitizers is slow, and it keeps records of its memory and some of what it has freed.
 constexpr double kSanitizedSlowness = 20;
 constexpr std::size_t kSanitizedFactor = 2, kKeptBack = 256 * kMegabyte;
@@ -155,13 +157,24 @@ void compileAndLink(const Toolchain& toolchain, const ExerciseInfo& exercise,
   writeTextFile(options.job.results.parent_path() / "build.log", log);
 }
 
+BuiltSubmission buildWith(const Toolchain& toolchain, const ExerciseInfo& exercise,
+                          const SubmissionOptions& options) {
+  BuiltSubmission built;
+  try {
+    compileAndLink(toolchain, exercise, options, built);
+  } catch (const Error& error) {
+    built.start = startResult(toolchain, exercise, {});
+    built.start.message = error.what();  // the outcome is graderError unless a better one is found
+  }
+  return built;
+}
+
 // What the sanitizers find when one check runs on a build with them.
 std::optional<CrashSite> crashSiteOf(const Toolchain& toolchain, const ExerciseInfo& exercise,
                                      const SubmissionOptions& options, const path& worker,
                                      const std::string& check, const std::string& mainFile) {
   SubmissionOptions one = options;
   one.job.checks = {check};
-  one.job.jobs = 1;
   one.job.evidence.clear();
   one.job.results = options.workFolder / "second-look.json";
   std::filesystem::remove(one.job.results);
@@ -175,7 +188,6 @@ std::optional<CrashSite> crashSiteOf(const Toolchain& toolchain, const ExerciseI
 // they.
 std::string messageAbout(const CrashSite& site, const std::string& crash) {
   constexpr std::string_view kAborts = "aborts";
-  constexpr std::size_t kLongestLine = 1000;
   if (site.finding == kAborts || crash.find("Assertion") != std::string::npos) return crash;
   std::string place = site.line > 0 ? fmt::format("line {}", site.line) : "";
   if (!site.function.empty()) place += (place.empty() ? "in " : ", in ") + site.function;
@@ -184,32 +196,82 @@ std::string messageAbout(const CrashSite& site, const std::string& crash) {
                    kLongestLine);
 }
 
-// Builds the same file with the sanitizers and repeats the visible checks that crashed, to find out where.
-// The verdict stays: whatever goes wrong here, the result is no worse than without.
+// Visible checks with an outcome of which a second look says more.
+std::vector<CheckResult*> chosen(GradeResult& result, std::size_t most,
+                                 const std::function<bool(const CheckResult&)>& tells) {
+  std::vector<CheckResult*> checks;
+  for (CheckResult& check : result.checks)
+    if (check.group == Group::kVisible && tells(check)) checks.push_back(&check);
+  if (checks.size() > most) checks.resize(most);
+  return checks;
+}
+
+// Another build of the file repeats the checks to find out where they end. The verdict stays: whatever goes
+// wrong here, the result is no worse than without.
+void repeat(const std::vector<CheckResult*>& checks, const Toolchain& toolchain, const ExerciseInfo& exercise,
+            const SubmissionOptions& options, const BuiltSubmission& built,
+            const std::function<void(const CrashSite&, CheckResult&)>& explain) {
+  std::filesystem::create_directories(options.workFolder);
+  if (built.worker.empty()) return;
+  for (CheckResult* check : checks) {
+    const auto site =
+        crashSiteOf(toolchain, exercise, options, built.worker, check->id, built.start.files.front().name);
+    if (!site) continue;
+    explain(*site, *check);
+    if (site->line > 0) check->line = site->line;
+  }
+}
+
 void findCrashes(const Toolchain& toolchain, const ExerciseInfo& exercise, const SubmissionOptions& options,
                  const BuiltSubmission& graded, GradeResult& result) {
-  constexpr int kMostRepeated = 4;
-  std::vector<CheckResult*> crashed;
-  for (CheckResult& check : result.checks)
-    if (check.group == Group::kVisible && tellsOfCrash(check.message)) crashed.push_back(&check);
-  if (crashed.size() > kMostRepeated) crashed.resize(kMostRepeated);
-  // The sanitizers need to read and map memory in ways that a sandbox forbids.
-  if (crashed.empty() || isConfined(options.job.sandbox.level)) return;
+  const auto crashed =
+      chosen(result, 4, [](const CheckResult& check) { return tellsOfCrash(check.message); });
+  if (crashed.empty()) return;
   SubmissionOptions again = options;
   again.sanitize = true;
+  const BuiltSubmission built = options.sanitize ? graded : buildSubmission(toolchain, exercise, again);
+  repeat(crashed, toolchain, exercise, again, built, [](const CrashSite& site, CheckResult& check) {
+    check.message = messageAbout(site, check.message);
+  });
+}
+
+// The function that was called last need not be the one that never ends.
+void findEndlessLoops(const Toolchain& toolchain, const ExerciseInfo& exercise,
+                      const SubmissionOptions& options, GradeResult& result) {
+  constexpr double kMostSeconds = 3;
+  const auto late = chosen(result, 1, [](const CheckResult& check) {
+    return check.status == Outcome::kTimeLimit && !check.function.empty() &&
+           check.message.find("CPU time") != std::string::npos;  // not asleep
+  });
+  if (late.empty() || options.sanitize) return;
+  std::filesystem::create_directories(options.workFolder);
+  SubmissionOptions again = options;
+  again.sanitize = true;
+  ExerciseInfo timed = exercise;
+  timed.limits.wallSeconds = 10 * kMostSeconds;
+  const Toolchain locating = locatingToolchain(toolchain, std::filesystem::absolute(options.workFolder),
+                                               withSanitizers(exercise.limits).memory,
+                                               std::min(exercise.limits.cpuSeconds, kMostSeconds));
+  const BuiltSubmission built = buildWith(locating, timed, again);
+  repeat(late, locating, timed, again, built, [](const CrashSite& site, CheckResult& check) {
+    if (site.line == 0) return;
+    check.message = printable(fmt::format("{}; line {}, in {}, was running: an endless loop?", check.message,
+                                          site.line, site.function),
+                              kLongestLine);
+  });
+}
+
+void lookAgain(const Toolchain& toolchain, const ExerciseInfo& exercise, const SubmissionOptions& options,
+               const BuiltSubmission& graded, GradeResult& result) {
+  // The sanitizers need to read and map memory in ways that a sandbox forbids.
+  if (isConfined(options.job.sandbox.level)) return;
+  SubmissionOptions again = options;
   again.workFolder = options.workFolder / "second-look";
   again.job.results = again.workFolder / "results.json";
+  again.job.jobs = 1;
   try {
-    const BuiltSubmission built = options.sanitize ? graded : buildSubmission(toolchain, exercise, again);
-    std::filesystem::create_directories(again.workFolder);
-    if (built.worker.empty()) return;
-    for (CheckResult* check : crashed) {
-      const auto site =
-          crashSiteOf(toolchain, exercise, again, built.worker, check->id, built.start.files.front().name);
-      if (!site) continue;
-      check->message = messageAbout(*site, check->message);
-      if (site->line > 0) check->line = site->line;
-    }
+    findCrashes(toolchain, exercise, again, graded, result);
+    findEndlessLoops(toolchain, exercise, again, result);
   } catch (const Error&) {
     return;
   }
@@ -219,15 +281,7 @@ void findCrashes(const Toolchain& toolchain, const ExerciseInfo& exercise, const
 
 BuiltSubmission buildSubmission(const Toolchain& toolchain, const ExerciseInfo& exercise,
                                 const SubmissionOptions& options) {
-  BuiltSubmission built;
-  try {
-    compileAndLink(options.sanitize ? sanitized(toolchain, exercise, options) : toolchain, exercise, options,
-                   built);
-  } catch (const Error& error) {
-    built.start = startResult(toolchain, exercise, {});
-    built.start.message = error.what();  // the outcome is graderError unless a better one is found
-  }
-  return built;
+  return buildWith(options.sanitize ? sanitized(toolchain, exercise, options) : toolchain, exercise, options);
 }
 
 GradeResult gradeBuilt(const BuiltSubmission& built, const Toolchain& toolchain, const ExerciseInfo& exercise,
@@ -238,7 +292,7 @@ GradeResult gradeBuilt(const BuiltSubmission& built, const Toolchain& toolchain,
   if (built.worker.empty()) return result;
   for (CheckResult& check : result.checks) check.line = definitionLineOf(check.function, built.source);
   explainCascades(result.checks, built.source);
-  if (options.lookAgain || options.sanitize) findCrashes(toolchain, exercise, options, built, result);
+  if (options.lookAgain || options.sanitize) lookAgain(toolchain, exercise, options, built, result);
   saveResult(result, job.results);
   return result;
 }

@@ -17,14 +17,14 @@ namespace {
 
 struct TestCommand {
   std::vector<std::string> exercises;
-  bool all = false;  ///< instead of those
+  bool all = false;  ///< all exercises; with one exercise: all messages
   int jobs = 0;      ///< parallel gradings; 0: one per processor
   TestOptions each;
 };
 
 // The exercises, each once, in the given order.
 std::vector<ExerciseInfo> exercisesOf(const Project& project, const TestCommand& words) {
-  if (words.all) return project.exercises();
+  if (words.exercises.empty()) return project.exercises();
   std::vector<ExerciseInfo> chosen;
   for (const std::string& name : words.exercises) {
     ExerciseInfo exercise = project.exercise(name);
@@ -35,16 +35,17 @@ std::vector<ExerciseInfo> exercisesOf(const Project& project, const TestCommand&
 }
 
 ExitCode test(const Project& project, const TestCommand& words) {
-  if (words.all || words.exercises.size() != 1)
+  if (words.exercises.size() != 1)
     return testMany(project, exercisesOf(project, words), words.each, words.jobs);
   TestOptions one = words.each;
   one.exercise = words.exercises.front();
+  one.inFull = words.all;
   return testOne(project, one);
 }
 
 void addSeveral(CLI::App* command, TestCommand& words) {
   command->add_option("EXERCISE", words.exercises, kExercisesHelp)->type_name("");
-  command->add_flag("--all", words.all, "all exercises");
+  command->add_flag("--all", words.all, "all exercises; after one EXERCISE: all messages");
   command
       ->add_option("-j,--jobs", words.jobs,
                    "parallel gradings of several exercises (default: one per processor)")
@@ -61,6 +62,8 @@ void addTest(CLI::App* command, Action& action) {
       "Examples:\n  scripts/rex test 01\n  scripts/rex test 01 --check step-hand --seed 17\n"
       "  scripts/rex test 01 --main /tmp/other.cpp --json\n  scripts/rex test 01 02 -j2\n"
       "  scripts/rex test --all\n\n"
+      "After the first time it shows the first message and what has changed; EXERCISE --all\n"
+      "shows all messages.\n"
       "The result file is results.json, results-partial.json with --check, or\n"
       "results-debug.json with --debug. For several exercises -o DIR means DIR/EXERCISE,\n"
       "--json is {\"schema\": \"rex-results/1\", \"results\": [...]}, and the exit code is\n"
@@ -69,7 +72,9 @@ void addTest(CLI::App* command, Action& action) {
   addSeveral(command, *words);
   command->add_flag("--solution", options->solution, "grade the reference solution");
   command->add_option("--main", options->main, "grade this file instead of main.cpp")->type_name("FILE");
-  command->add_option("--check", options->job.checks, "only this check; may be given several times")
+  command
+      ->add_option("--check", options->job.checks,
+                   "only this check, or the checks of this part; may be given several times")
       ->allow_extra_args(false)
       ->type_name("NAME");
   addSeed(command, options->job.seed, "repeat the random cases of this seed");
@@ -83,7 +88,8 @@ void addTest(CLI::App* command, Action& action) {
       ->type_name("FILE");
   command->callback([&action, words] {
     const TestOptions& each = words->each;
-    if (words->exercises.empty() != words->all) throw CLI::RequiredError("either EXERCISE or --all");
+    if (words->exercises.empty() ? !words->all : words->all && words->exercises.size() > 1)
+      throw CLI::RequiredError("either EXERCISE or --all");
     if (each.solution && !each.main.empty()) throw CLI::ExcludesError("--main", "--solution");
     // The sanitizers read and map memory in ways that a sandbox forbids.
     if (each.debug && isConfined(each.level.value_or(sandbox::Level::kLimitsOnly)))

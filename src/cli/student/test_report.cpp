@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <sstream>
+#include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "cli/result_list.h"
 #include "cli/student/student_file.h"
@@ -64,28 +66,80 @@ void sayEvidence(const CheckResult& check, const std::filesystem::path& folder) 
     if (!file.empty()) say(fmt::format("{:{}}{}: {}", "", kIndent, kind, shown(folder / file)));
 }
 
-void printCheck(const CheckResult& check, const grading::Submission& graded,
-                const std::filesystem::path& folder, bool isWhole) {
+bool hasFailed(const CheckResult& check) { return check.status && *check.status != Outcome::kPass; }
+
+std::string lineOf(const CheckResult& check, const std::string& remark) {
   const std::string hidden = check.group == Group::kHidden ? ", hidden" : "";
-  const std::string title =
-      fmt::format("{} [{}{}]{}", harmless(check.title), check.id, hidden, marginOf(check, isWhole));
-  say(fmt::format(" {} {:2}/{:<2}  {}", verdict(check), check.points, check.maxPoints,
-                  wrap(title, kIndent, kIndent)));
+  const std::string title = fmt::format("{} [{}{}]{}", harmless(check.title), check.id, hidden, remark);
+  return fmt::format(" {} {:2}/{:<2}  {}", verdict(check), check.points, check.maxPoints,
+                     wrap(title, kIndent, kIndent));
+}
+
+void printInFull(const CheckResult& check, const grading::Submission& graded,
+                 const std::filesystem::path& folder, bool isWhole) {
+  say(lineOf(check, marginOf(check, isWhole)));
   if (check.status == Outcome::kPass || check.message.empty()) return;
   sayIndented(check.message);
   sayPlace(check, graded);
   sayEvidence(check, folder);
 }
 
-void printChecks(const ExerciseInfo& exercise, const grading::Submission& graded,
-                 const std::filesystem::path& folder, bool isWhole) {
+// Of failed checks only the first one in full, unless all are wanted. Returns the number of the others.
+int printChecks(const ExerciseInfo& exercise, const grading::Submission& graded,
+                const std::filesystem::path& folder, const ReportView& view) {
   const std::vector<CheckResult>& checks = graded.result.checks;
+  bool isFirst = true;
+  int shortened = 0;
   for (const grading::ExercisePart& part : exercise.parts) {
     const auto isOfPart = [&](const CheckResult& check) { return check.part == part.id; };
     if (std::none_of(checks.begin(), checks.end(), isOfPart)) continue;
     say(paint(Colour::kBold, part.title));
-    for (const CheckResult& check : checks)
-      if (isOfPart(check)) printCheck(check, graded, folder, isWhole);
+    for (const CheckResult& check : checks) {
+      if (!isOfPart(check)) continue;
+      if (!hasFailed(check) || view.inFull || std::exchange(isFirst, false)) {
+        printInFull(check, graded, folder, view.isWhole);
+      } else {
+        say(lineOf(check, ""));
+        ++shortened;
+      }
+    }
+  }
+  return shortened;
+}
+
+// The ids of checks of `now` whose verdict is `passed`, and was the opposite before.
+std::vector<std::string> turned(const grading::GradeResult& before, const grading::GradeResult& now,
+                                bool passed) {
+  std::vector<std::string> ids;
+  for (const CheckResult& check : now.checks)
+    for (const CheckResult& old : before.checks)
+      if (old.id == check.id && old.status && check.status && hasFailed(check) != passed &&
+          hasFailed(old) == passed)
+        ids.push_back(check.id);
+  return ids;
+}
+
+void sayChanges(const grading::GradeResult& before, const grading::GradeResult& now) {
+  if (before.checks.empty() || now.checks.empty()) return;
+  const std::vector<std::string> better = turned(before, now, true), worse = turned(before, now, false);
+  std::string text;
+  if (!better.empty()) text += fmt::format(" now passed: {};", fmt::join(better, ", "));
+  if (!worse.empty()) text += fmt::format(" passed before: {};", fmt::join(worse, ", "));
+  if (before.score != now.score) text += fmt::format(" {} points before;", before.score);
+  if (text.empty()) text = " no verdict has changed;";
+  text.back() = '.';
+  say(wrap("Since the last test:" + harmless(text), 2, 0));
+}
+
+// What the functions printed while they were graded. A loop can print much.
+void sayPrinted(const grading::GradeResult& result) {
+  constexpr int kMostLines = 40;
+  std::istringstream lines(result.output.text + result.error.text);
+  std::string line;
+  for (int count = 0; std::getline(lines, line); ++count) {
+    if (count == 0) say("Your functions printed:");
+    if (count == kMostLines) return say("  ...");
+    say("  " + harmless(line));
   }
 }
 
@@ -102,9 +156,7 @@ void sayIfSomeEndedBadly(const std::vector<CheckResult>& checks) {
 }
 
 void sayHowToRepeat(const ExerciseInfo& exercise, const grading::GradeResult& result) {
-  const auto failed = std::find_if(result.checks.begin(), result.checks.end(), [](const CheckResult& check) {
-    return check.status && *check.status != Outcome::kPass;
-  });
+  const auto failed = std::find_if(result.checks.begin(), result.checks.end(), hasFailed);
   if (failed == result.checks.end()) return;
   const std::size_t colon = result.seedId.rfind(':');
   say(fmt::format("One check alone: scripts/rex test {} --check {} --seed {}", exercise.name, failed->id,
@@ -118,7 +170,13 @@ void sayPoints(const grading::GradeResult& result, int unseen) {
       (unseen > 0 ? fmt::format("; hidden checks for {} more run when the course grades", unseen) : ""));
 }
 
-void sayFirst(const std::string& what, const std::vector<std::filesystem::path>& files) {
+// Files older than the program show what it did before its last change.
+void sayFirst(const std::string& what, std::vector<std::filesystem::path> files,
+              const std::filesystem::path& source) {
+  std::error_code missing;
+  const auto changed = std::filesystem::last_write_time(source, missing);
+  if (!missing)
+    std::erase_if(files, [&](const auto& file) { return std::filesystem::last_write_time(file) < changed; });
   if (files.empty()) return;
   const std::string more = files.size() > 1 ? fmt::format(" and {} more", files.size() - 1) : "";
   say(fmt::format("{}: {}{}", what, shown(files.front()), more));
@@ -127,26 +185,30 @@ void sayFirst(const std::string& what, const std::vector<std::filesystem::path>&
 }  // namespace
 
 void printResult(const ExerciseInfo& exercise, const grading::Submission& graded,
-                 const std::filesystem::path& results, bool isWhole) {
+                 const std::filesystem::path& results, const std::filesystem::path& source,
+                 const ReportView& view) {
   const grading::GradeResult& result = graded.result;
   say(paint(Colour::kBold, fmt::format("{}: {}", exercise.name, exercise.title)));
   if (result.outcome == Outcome::kCompileError) {
     std::fflush(stdout);
     explain(result.compile.diagnostics, graded.source, results.parent_path() / "build.log");
     say("Not graded: no check could run.");
-  } else {
-    printChecks(exercise, graded, results.parent_path(), isWhole);
-    for (const auto& message : result.compile.diagnostics) say(wrap(harmless(toString(message)), 2, 0));
-    if (result.outcome == Outcome::kGraderError)
-      say(wrap("The grader itself failed: not your fault, and not your grade. " + harmless(result.message), 0,
-               0));
-    sayIfSomeEndedBadly(result.checks);
-    sayHowToRepeat(exercise, result);
-    sayPoints(result, isWhole ? exercise.points() - result.maxScore : 0);
+    return say("Result: " + shown(results));
   }
+  const int shortened = printChecks(exercise, graded, results.parent_path(), view);
+  for (const auto& message : result.compile.diagnostics) say(wrap(harmless(toString(message)), 2, 0));
+  if (!view.isWhole) sayPrinted(result);
+  if (result.outcome == Outcome::kGraderError)
+    say(wrap("The grader itself failed: not your fault, and not your grade. " + harmless(result.message), 0,
+             0));
+  sayIfSomeEndedBadly(result.checks);
+  if (view.before) sayChanges(*view.before, result);
+  if (shortened > 0) say(fmt::format("All messages: scripts/rex test {} --all", exercise.name));
+  sayHowToRepeat(exercise, result);
+  sayPoints(result, view.isWhole ? exercise.points() - result.maxScore : 0);
   say("Result: " + shown(results));
-  sayFirst("Replay", filesIn(results.parent_path(), ".html"));
-  sayFirst("Picture", filesIn(results.parent_path(), ".png"));
+  sayFirst("Replay", filesIn(results.parent_path(), ".html"), source);
+  sayFirst("Picture", filesIn(results.parent_path(), ".png"), source);
 }
 
 }  // namespace rex::cli

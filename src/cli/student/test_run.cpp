@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/error.h"
 #include "base/text_file.h"
 #include "cli/out_folder.h"
 #include "cli/student/progress_file.h"
@@ -35,6 +36,32 @@ fs::path resultsOf(const Project& project, const ExerciseInfo& exercise, const T
   return out / resultName(options);
 }
 
+// An unreadable file tells nothing, and is replaced.
+std::optional<GradeResult> lastResult(const fs::path& file) {
+  if (!fs::exists(file)) return {};
+  try {
+    return grading::loadResult(file);
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+// With the checks of a part instead of its name.
+std::vector<std::string> withParts(const std::vector<std::string>& names, const ExerciseInfo& exercise,
+                                   const grading::Toolchain& toolchain) {
+  std::vector<std::string> checks;
+  for (const std::string& name : names) {
+    const auto isNamed = [&](const grading::ExercisePart& part) { return part.id == name; };
+    if (std::none_of(exercise.parts.begin(), exercise.parts.end(), isNamed)) {
+      checks.push_back(name);
+      continue;
+    }
+    for (const grading::CheckResult& check : grading::listChecks(toolchain))
+      if (check.part == name) checks.push_back(check.id);
+  }
+  return checks;
+}
+
 void remember(const Project& project, const ExerciseInfo& exercise, const GradeResult& result) {
   if (result.outcome == Outcome::kGraderError) return;
   ProgressFile(project.root).change(exercise.name, [&](Progress& progress) {
@@ -53,8 +80,10 @@ TestRun::TestRun(const Project& project, ExerciseInfo exercise, const TestOption
       options_(options),
       file_(chooseStudentFile(exercise_, options.solution, options.main)),
       results_(resultsOf(project, exercise_, options)),
+      before_(options.main.empty() ? lastResult(results_) : std::nullopt),
       toolchain_(prepare(project, exercise_)),
       work_(project.workPlace("exercises/" + exercise_.name)) {
+  options_.job.checks = withParts(options.job.checks, exercise_, toolchain_);
   if (!options.job.secret.empty()) static_cast<void>(grading::readCourseSecret(options.job.secret));
 }
 
@@ -95,7 +124,11 @@ void TestRun::publish(const Project& project, const GradeResult& result) const {
 }
 
 void TestRun::print(const grading::Submission& graded) const {
-  printResult(exercise_, graded, results_, options_.job.checks.empty());
+  const bool isWhole = options_.job.checks.empty();
+  printResult(exercise_, graded, results_, file_,
+              {.isWhole = isWhole,
+               .inFull = options_.inFull || !isWhole || !before_ || before_->checks.empty(),
+               .before = before_});
   if (options_.main.empty() && !fs::exists(file_))
     say(fmt::format("To restore it as it was handed out: scripts/rex reset {}", exercise_.name));
 }

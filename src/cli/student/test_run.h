@@ -20,6 +20,7 @@ struct TestOptions {
   grading::GradingJob job{};   ///< checks, seed and secret; the rest is set later
   bool json = false;
   bool debug = false;                     ///< with the sanitizers
+  bool inFull = false;                    ///< every message, also of checks that failed the last time
   std::filesystem::path out;              ///< empty: as for run
   std::optional<sandbox::Level> level{};  ///< empty: limits only
 };
@@ -28,7 +29,8 @@ struct TestOptions {
 /// same exercise at the same time.
 class TestRun {
  public:
-  /// Builds what the exercise needs and makes its folders. Throws UsageError and Error.
+  /// Builds what the exercise needs and makes its folders. The name of a part in the job's checks stands
+  /// for all its checks. Throws UsageError and Error.
   TestRun(const Project& project, ExerciseInfo exercise, const TestOptions& options);
 
   [[nodiscard]] const ExerciseInfo& exercise() const { return exercise_; }
@@ -50,6 +52,7 @@ class TestRun {
   ExerciseInfo exercise_;
   TestOptions options_;
   std::filesystem::path file_, results_;
+  std::optional<grading::GradeResult> before_;  // what the student's folder held
   grading::Toolchain toolchain_;
   PrivateFolder work_;
 };
