@@ -1,3 +1,4 @@
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <memory>
@@ -18,6 +19,9 @@
 #include "cli/student/student_file.h"
 #include "cli/student/student_room_internal.h"
 #include "cli/terminal.h"
+#include "grading/limits.h"
+#include "submission/second_look.h"
+#include "submission/student_build.h"
 
 namespace rex::cli {
 namespace {
@@ -27,33 +31,64 @@ namespace fs = std::filesystem;
 struct RunOptions {
   std::string program;  ///< an exercise, or a file
   bool solution = false;
+  int seconds = 120;                   ///< of CPU time
   std::filesystem::path out;           ///< empty: out/EXERCISE, out/EXERCISE-solution or out/FILE
   std::vector<std::string> arguments;  ///< for the user's own program
 };
 
-void listResults(const fs::path& folder) {
-  const std::vector<std::string> files = shortList(filesIn(folder));
+// Lists what was written since then: older files show what an earlier program did.
+void listResults(const fs::path& folder, fs::file_time_type since) {
+  std::vector<fs::path> written = filesIn(folder);
+  std::erase_if(written, [&](const fs::path& file) { return fs::last_write_time(file) < since; });
+  const std::vector<std::string> files = shortList(written);
   if (!files.empty()) say("\nFiles in " + shown(folder) + ":");
   for (const std::string& line : files) say("  " + line);
 }
 
-// Runs the program in `out` and waits for it; prints `help` if it crashes.
-ExitCode runIn(const fs::path& out, std::vector<std::string> command, const std::string& help) {
+// The program again for some seconds, to say where it is then.
+void sayWhereItIs(const Project& project, const ExerciseInfo& exercise, const fs::path& file) {
+  constexpr double kSeconds = 5;
+  const PrivateFolder work(project.workPlace("exercises/" + exercise.name));
+  const grading::Toolchain locating = grading::locatingToolchain(prepare(project, exercise), work.path(),
+                                                                 4096 * grading::kMegabyte, kSeconds);
+  const auto object = compileStudent(locating, {}, {.main = file, .workFolder = work.path() / "again"});
+  if (!object.ok) return;
+  const auto program = linkProgram(locating, object);
+  if (!program.ok) return;
+  const ProcessResult run = runProcess({program.program.string()}, {.directory = work.path()});
+  const auto site = grading::crashSiteIn(run.error, object.name);
+  if (site && site->line > 0)
+    note(fmt::format("After {:.0f} s it is in line {} of {}, in {}: an endless loop?", kSeconds, site->line,
+                     object.name, harmless(site->function)));
+}
+
+enum class Ended { kWell, kBadly, kCrashed, kTooLate };
+
+// Runs the program in `out`, waits for it and lists its files.
+Ended runIn(const fs::path& out, const std::vector<std::string>& command, int seconds) {
   std::fflush(stdout);
   constexpr double kNoTimeout = 1e6;
-  const ProcessResult result =
-      runProcess(command, {.directory = out, .timeout = kNoTimeout, .inheritOutput = true});
-  listResults(out);
-  if (result.ok()) return ExitCode::kFull;
-  if (result.signal != 0) {
-    note(
-        fmt::format("\nThe program was ended by signal {} ({}).", result.signal, ::strsignal(result.signal)));
-    if (result.signal != SIGINT && !help.empty()) note(help);
-  } else {
+  // The times of files come from a coarser clock.
+  const auto start = fs::file_time_type::clock::now() - std::chrono::milliseconds(20);
+  const ProcessResult result = runProcess(command, {.directory = out,
+                                                    .timeout = kNoTimeout,
+                                                    .inheritOutput = true,
+                                                    .cpuSeconds = static_cast<double>(seconds)});
+  listResults(out, start);
+  if (result.ok()) return Ended::kWell;
+  if (result.signal == 0) {
     note(fmt::format("\nThe program ended with exit code {}.", result.exitCode));
+    return Ended::kBadly;
   }
-  return ExitCode::kBelow;
+  if (result.signal == SIGXCPU || (result.signal == SIGKILL && result.cpuSeconds >= seconds)) {
+    note(fmt::format("\nThe program was stopped after {} s of CPU time; --seconds N allows more.", seconds));
+    return Ended::kTooLate;
+  }
+  note(fmt::format("\nThe program was ended by signal {} ({}).", result.signal, ::strsignal(result.signal)));
+  return result.signal == SIGINT ? Ended::kBadly : Ended::kCrashed;
 }
+
+ExitCode codeOf(Ended ended) { return ended == Ended::kWell ? ExitCode::kFull : ExitCode::kBelow; }
 
 ExitCode runFile(const Project& project, const fs::path& file, const RunOptions& options) {
   if (options.solution)
@@ -65,7 +100,7 @@ ExitCode runFile(const Project& project, const fs::path& file, const RunOptions&
   if (!program) return ExitCode::kNotGradable;
   std::vector<std::string> command = {program->string()};
   command.insert(command.end(), options.arguments.begin(), options.arguments.end());
-  return runIn(out, command, "");
+  return codeOf(runIn(out, command, options.seconds));
 }
 
 ExitCode run(const Project& project, const RunOptions& options) {
@@ -82,7 +117,10 @@ ExitCode run(const Project& project, const RunOptions& options) {
   const PrivateFolder work(project.workPlace("exercises/" + exercise.name));
   const auto program = buildProgram(project, exercise, {.main = file, .workFolder = work.path()}, out);
   if (!program) return ExitCode::kNotGradable;
-  return runIn(out, {program->string()}, fmt::format("To see where: scripts/rex debug {}", exercise.name));
+  const Ended ended = runIn(out, {program->string()}, options.seconds);
+  if (ended == Ended::kCrashed) note(fmt::format("To see where: scripts/rex debug {}", exercise.name));
+  if (ended == Ended::kTooLate) sayWhereItIs(project, exercise, file);
+  return codeOf(ended);
 }
 
 }  // namespace
@@ -103,6 +141,11 @@ void addRun(CLI::App* command, Action& action) {
   command->add_option("ARGUMENTS", options->arguments, "arguments of your own program, after --")
       ->type_name("");
   command->add_flag("--solution", options->solution, "run the reference solution instead of main.cpp");
+  command
+      ->add_option("--seconds", options->seconds,
+                   "CPU time after which the program is stopped (default: 120)")
+      ->check(CLI::Range(1, 1'000'000).description(""))
+      ->type_name("N");
   command->add_option("-o,--out", options->out, kOutHelp)->type_name("DIR");
   command->callback(
       [&action, options] { action = [options](const Project& p) { return run(p, *options); }; });
