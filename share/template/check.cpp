@@ -22,9 +22,14 @@ Evidence quarterTurn(const Eigen::Vector2d& q) {
 }
 
 void turnsAQuarter(Check& check, Student& student) {
-  check.input("p = (1, 0), angle = pi/2");
-  const Eigen::Vector2d q = student.rotated({1, 0}, std::acos(0.0));
+  const Eigen::Vector2d p(1, 0);
+  const double angle = std::acos(0.0);
+  check.input("a quarter turn", {{"p", p}, {"angle", angle}});
+  const Eigen::Vector2d q = student.rotated(p, angle);
   const auto shown = check.show([&] { return quarterTurn(q); });
+  const double radians = angle * std::acos(-1.0) / 180;
+  const auto suspected = check.suspect("Is the angle taken for one in degrees?",
+                                       Eigen::Vector2d(std::cos(radians), std::sin(radians)));
   check.near("point after a quarter turn", q, Eigen::Vector2d(0, 1), 1e-12, "m");
 }
 

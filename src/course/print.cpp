@@ -3,21 +3,36 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
 
 namespace rex {
 
-std::string formatMatrix(const std::string& name, const Eigen::MatrixXd& value) {
-  constexpr Eigen::Index kColumns = 6;  // as many as fit into 80 characters
+namespace {
+
+constexpr int kColumnWidth = 12, kUsualWidth = 80;
+
+int terminalWidth() {
+  winsize size{};
+  const bool isKnown = ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return isKnown ? size.ws_col : kUsualWidth;
+}
+
+}  // namespace
+
+std::string formatMatrix(const std::string& name, const Eigen::MatrixXd& value, int width) {
+  const Eigen::Index columns = std::max(1, width / kColumnWidth);
   // A column vector reads better as one row.
   const bool isVector = value.cols() == 1 && value.rows() > 1;
   const Eigen::MatrixXd rows = isVector ? Eigen::MatrixXd(value.transpose()) : value;
   std::string text = isVector ? fmt::format("{} ({})\n", name, value.rows())
                               : fmt::format("{} ({} x {})\n", name, value.rows(), value.cols());
-  for (Eigen::Index first = 0; first < rows.cols(); first += kColumns) {
-    const Eigen::Index last = std::min(first + kColumns, rows.cols()) - 1;
-    if (rows.cols() > kColumns) text += fmt::format("  {} to {}:\n", first, last);
+  for (Eigen::Index first = 0; first < rows.cols(); first += columns) {
+    const Eigen::Index last = std::min(first + columns, rows.cols()) - 1;
+    if (rows.cols() > columns) text += fmt::format("  {} to {}:\n", first, last);
     for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-      for (Eigen::Index j = first; j <= last; ++j) text += fmt::format(" {:>11.6g}", rows(i, j));
+      for (Eigen::Index j = first; j <= last; ++j)
+        text += fmt::format(" {:>{}.6g}", rows(i, j), kColumnWidth - 1);
       text += '\n';
     }
   }
@@ -27,7 +42,26 @@ std::string formatMatrix(const std::string& name, const Eigen::MatrixXd& value) 
 void print(const std::string& name, double value) { fmt::print("{} = {:.6g}\n", name, value); }
 
 void print(const std::string& name, const Eigen::MatrixXd& value) {
-  fmt::print("{}", formatMatrix(name, value));
+  fmt::print("{}", formatMatrix(name, value, terminalWidth()));
+}
+
+void print(const std::string& name, const std::vector<double>& values) {
+  print(name, Eigen::MatrixXd(Eigen::Map<const Eigen::VectorXd>(values.data(),
+                                                                static_cast<Eigen::Index>(values.size()))));
+}
+
+void print(const std::string& name, const std::vector<int>& values) {
+  print(name, std::vector<double>(values.begin(), values.end()));
+}
+
+void print(const std::string& name, const std::vector<Eigen::VectorXd>& values) {
+  const auto hasSize = [&](const Eigen::VectorXd& value) { return value.size() == values.front().size(); };
+  if (std::all_of(values.begin(), values.end(), hasSize)) {
+    Eigen::MatrixXd rows(values.size(), values.empty() ? 0 : values.front().size());
+    for (std::size_t i = 0; i < values.size(); ++i) rows.row(static_cast<Eigen::Index>(i)) = values[i];
+    return print(name, rows);
+  }
+  for (std::size_t i = 0; i < values.size(); ++i) print(fmt::format("{}[{}]", name, i), values[i]);
 }
 
 }  // namespace rex

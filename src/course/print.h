@@ -1,17 +1,21 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
 namespace rex {
 
 /// Prints a number, vector or matrix to standard output under its name: "J (3 x 7)", then its rows with six
-/// digits, six columns at a time.
+/// digits, as many columns at a time as the terminal has room for. Of several vectors each is a row.
 void print(const std::string& name, double value);
 void print(const std::string& name, const Eigen::MatrixXd& value);
+void print(const std::string& name, const std::vector<double>& values);
+void print(const std::string& name, const std::vector<int>& values);
+void print(const std::string& name, const std::vector<Eigen::VectorXd>& values);
 
-/// The text that print() writes.
-[[nodiscard]] std::string formatMatrix(const std::string& name, const Eigen::MatrixXd& value);
+/// The text that print() writes for lines of `width` characters.
+[[nodiscard]] std::string formatMatrix(const std::string& name, const Eigen::MatrixXd& value, int width = 80);
 
 }  // namespace rex

@@ -110,12 +110,18 @@ void Check::measure(std::string_view property, double excess, std::string value,
 // Only students who see the check's numbers are asked.
 std::string Check::questionAbout(const MatrixArg& got, const MatrixArg& wanted, double tolerance,
                                  std::string_view unit) const {
-  if (info_.group == Group::kHidden || !got.allFinite()) return "";
+  if (info_.group == Group::kHidden) return "";
+  const auto isGot = [&](const Eigen::MatrixXd& value) {
+    return value.rows() == got.rows() && value.cols() == got.cols() && got.size() > 0 &&
+           (got - value).cwiseAbs().maxCoeff() <= tolerance;
+  };
   for (const auto& [question, value] : suspects_)
-    if (value.rows() == got.rows() && value.cols() == got.cols() &&
-        (got - value).cwiseAbs().maxCoeff() <= tolerance)
-      return question;
-  return usualMistake(got, wanted, tolerance, unit);
+    if (isGot(value)) return question;
+  for (const InputValue& one : inputs_)
+    if (one.value.size() > 1 && isGot(one.value))
+      return fmt::format("Your value is the input {}, unchanged.", one.name);
+  const std::string strange = strangeNumber(got);
+  return strange.empty() ? usualMistake(got, wanted, tolerance, unit) : strange;
 }
 
 // Keeps the shortfall if it is the worst so far, and returns whether it is.
@@ -330,6 +336,7 @@ void Check::that(std::string_view property, bool holds) {
 
 void Check::input(std::string text, std::initializer_list<InputValue> values) {
   input_ = std::move(text);
+  inputs_ = values;
   const char* separator = ": ";
   for (const auto& [name, value] : values)
     input_ += fmt::format("{}{} = {}", std::exchange(separator, ", "), name, inputText(value));
@@ -339,15 +346,18 @@ void Check::forEachCase(int count, const std::function<void(int)>& run) {
   requireSound(count > 0, info_, "has no cases");
   const Rng start = rng_;
   const std::string inputOfAll = input_;
+  const std::vector<InputValue> valuesOfAll = inputs_;
   for (int k = 0; k < count; ++k) {
     rng_ = start.split(static_cast<std::uint64_t>(k));
     input_ = inputOfAll;
+    inputs_ = valuesOfAll;
     caseNumber_ = k;
     ++cases_;
     if (runCase(k, run)) ++casesPassed_;
   }
   caseNumber_ = -1;
   input_ = inputOfAll;
+  inputs_ = valuesOfAll;
   rng_ = start.split(static_cast<std::uint64_t>(count));
 }
 
@@ -379,6 +389,7 @@ bool Check::runCase(int number, const std::function<void(int)>& run) {
 void Check::keepRefused(const remote::AnswerRefused& refused) {
   keep({.property = "what " + refused.function() + " returned",
         .what = info_.group == Group::kVisible ? refused.what() : "not finite, or too large",
+        .question = info_.group == Group::kVisible ? "Is every number set before it is used?" : "",
         .function = refused.function()});
 }
 

@@ -59,9 +59,9 @@ class Check {
 
   /// Describes the input that the student's functions get from here on. It is shown if a requirement of a
   /// visible check fails.
-  void input(std::string text) { input_ = std::move(text); }
+  void input(std::string text) { input(std::move(text), {}); }
   /// The same with the values from which the case can be computed by hand: "a random task: J = [1, 2; 3, 4]".
-  /// Of a matrix of more than 40 numbers only the size is shown.
+  /// Of a matrix of more than 40 numbers only the size is shown. near() says if its `got` is one of them.
   void input(std::string text, std::initializer_list<InputValue> values);
   const std::string& input() const { return input_; }
 
@@ -200,6 +200,7 @@ class Check {
   std::uint64_t seed_;
   Rng rng_;
   std::string input_;
+  std::vector<InputValue> inputs_;
   MakeEvidence show_;
   std::optional<Comparison> comparison_;
   std::function<std::string()> lastCalled_;

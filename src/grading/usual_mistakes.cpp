@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -73,8 +74,13 @@ class Diagnosis {
     return "";
   }
 
+  // Of (0, 1) everything is some exchange.
+  bool isPlain() const {
+    return wanted_.unaryExpr([](double x) { return x == 0 || std::abs(x) == 1; }).all();
+  }
+
   std::string order() const {
-    if (got_.cols() != 1 || got_.rows() < 2) return "";
+    if (got_.cols() != 1 || got_.rows() < 2 || isPlain()) return "";
     Eigen::MatrixXd exchanged = got_;
     exchanged.row(0).swap(exchanged.row(1));
     if (fits(exchanged)) return "Your value has its first two entries exchanged.";
@@ -126,6 +132,16 @@ std::string usualMistake(const MatrixArg& got, const MatrixArg& wanted, double t
                          std::string_view unit) {
   if (got.size() == 0 || wanted.size() == 0) return "";
   return Diagnosis(got, wanted, tolerance, unit).sentence();
+}
+
+std::string strangeNumber(const MatrixArg& got) {
+  // Probabilities underflow, but hardly ever end up just below the smallest normal number.
+  constexpr double kSmallest = std::numeric_limits<double>::min(), kLargest = 1e150;
+  for (const double x : got.reshaped())
+    if (x != 0 && !(std::abs(x) >= kSmallest && std::abs(x) <= kLargest))
+      return fmt::format("Numbers such as {:.3g} come from memory that was never set, or is gone.",
+                         std::isnan(x) ? std::numeric_limits<double>::quiet_NaN() : x);
+  return "";
 }
 
 }  // namespace rex::grading

@@ -48,15 +48,28 @@ CompileDiagnostic readMessage(const Json& json) {
 
 // The line and column after "main.cpp:" in a line that names an origin; {0, 0} for any other line.
 std::pair<int, int> originIn(std::string_view line, const std::string& mainFile) {
-  const bool instantiated = line.starts_with(mainFile + ":") && line.find("required from") != line.npos;
-  const std::size_t included = line.find("from " + mainFile + ":");
-  if (!instantiated && included == line.npos) return {0, 0};
-  const char* at = line.data() + (instantiated ? 0 : included + 5) + mainFile.size() + 1;
+  std::size_t place = line.npos;  // of the name
+  if (line.starts_with(mainFile + ":") && line.find("required from") != line.npos) place = 0;
+  const std::size_t included = line.find("from " + mainFile + ":"),
+                    inlined = line.find(" at " + mainFile + ":");
+  if (included != line.npos) place = included + 5;
+  if (inlined != line.npos && line.find("inlined from") != line.npos) place = inlined + 4;
+  if (place == line.npos) return {0, 0};
+  const char* at = line.data() + place + mainFile.size() + 1;
   const char* end = line.data() + line.size();
   int row = 0, column = 0;
   const auto parsed = std::from_chars(at, end, row);
   if (parsed.ptr != end && *parsed.ptr == ':') std::from_chars(parsed.ptr + 1, end, column);
   return {row, column};
+}
+
+// GCC spells a part of a matrix as an expression that fills the screen.
+void shortenNames(CompileDiagnostic& message) {
+  const std::size_t end = std::min(message.message.find("' is used uninitialized"),
+                                   message.message.find("' may be used uninitialized"));
+  if (end == std::string::npos || message.message.find("<unnamed>") > end) return;
+  message.message.replace(
+      0, end + 1, "a part of a matrix that was never set, or is gone (a temporary that 'auto' refers to?),");
 }
 
 // The part of a header's path that a student knows: after the last include folder.
@@ -134,6 +147,7 @@ void blameMainFile(std::vector<CompileDiagnostic>& messages, const std::string& 
                    std::string_view plainText) {
   const std::vector<std::string_view> lines = splitLines(plainText);
   for (CompileDiagnostic& message : messages) {
+    shortenNames(message);
     if (message.file == mainFile) continue;
     const std::string start = toString(SourceLocation{message.file, message.line, message.column}) + ": ";
     auto at = std::find_if(lines.begin(), lines.end(), [&](auto line) { return line.starts_with(start); });

@@ -4,6 +4,8 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <functional>
+#include <optional>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -15,8 +17,10 @@
 #include "base/process.h"
 #include "base/text_file.h"
 #include "submission/build_tools.h"
+#include "submission/dangling_auto.h"
 #include "submission/graded_part.h"
 #include "submission/included_files.h"
+#include "submission/integer_division.h"
 #include "submission/line_markers.h"
 #include "submission/mentions.h"
 #include "submission/precompiled_prefix.h"
@@ -92,8 +96,13 @@ std::vector<std::string> compileCommand(const Toolchain& toolchain, const Studen
 
 // The compiler's report as plain text. Only this form says which line of the student's file caused an error
 // in a header. It quotes no source lines, as they could come from any file.
-std::string plainReport(std::vector<std::string> command, const std::string& name, const BuildTools& tools) {
-  command.insert(command.end(), {"-fmax-errors=20", "-fno-diagnostics-show-caret", "-fsyntax-only", name});
+std::string plainReport(std::vector<std::string> command, const std::string& name, const BuildTools& tools,
+                        bool ofOptimiser) {
+  command.insert(command.end(), {"-fmax-errors=20", "-fno-diagnostics-show-caret", name});
+  if (ofOptimiser)
+    command.insert(command.end(), {"-c", "-o", "plain.o"});
+  else
+    command.emplace_back("-fsyntax-only");
   return tools.runOnce(command).error;
 }
 
@@ -115,7 +124,10 @@ void explain(const ProcessResult& run, const std::vector<std::string>& command, 
   const auto explained = [&] { return std::any_of(result.messages.begin(), result.messages.end(), isError); };
   // g++ 12 writes no JSON when -fmax-errors stops it, so only the plain text has that limit. It takes over
   // when there are too many errors for complete JSON.
-  result.log = printable(plainReport(command, name, tools), kLogSize);
+  const bool ofOptimiser = std::any_of(result.messages.begin(), result.messages.end(), [](const auto& m) {
+    return m.rule.find("uninitialized") != std::string::npos;
+  });
+  result.log = printable(plainReport(command, name, tools, ofOptimiser), kLogSize);
   if (!explained()) result.messages = parseCompilerText(result.log);
   if (!explained()) result.messages = parseAssemblerText(run.error);
   if (!explained()) result.messages.push_back({name, 0, 0, "error", "", whyItGaveUp(run, tools, options)});
@@ -127,6 +139,21 @@ std::vector<std::string> lastNames(const std::vector<ForbiddenFunction>& forbidd
   for (const ForbiddenFunction& one : forbidden)
     names.push_back(one.function.substr(one.function.rfind(':') + 1));
   return names;
+}
+
+// Like compilePart(), with questions in the text that is only checked. Empty if there are none, or errors:
+// those are better reported without.
+std::optional<ProcessResult> askAboutAuto(const std::string& part, std::vector<std::string> command,
+                                          const std::string& name, const StudentObject& result,
+                                          const std::function<BuildTools(const path&)>& toolsFor) {
+  const std::string asking = withAutoQuestions(result.source);
+  if (asking.empty()) return {};
+  const path file = result.object.parent_path() / name;
+  writeSource(file, asking);
+  command.insert(command.end(), {"-include", kAutoQuestions});
+  std::optional<ProcessResult> run = compilePart(part, command, name, result.object, toolsFor);
+  writeSource(file, result.source);
+  return run && run->ok() ? run : std::nullopt;
 }
 
 // Compiles the graded part alone if that is wanted and the file allows it. It does not if the scan for
@@ -145,6 +172,7 @@ ProcessResult compileAll(const Toolchain& toolchain, const std::vector<Forbidden
       return BuildTools(toolchain, folder, options.sandbox,
                         {.seconds = options.seconds, .memory = options.memory});
     };
+    if (const auto run = askAboutAuto(part, withJson, name, result, toolsFor)) return *run;
     if (const auto run = compilePart(part, withJson, name, result.object, toolsFor)) return *run;
   }
   withJson.insert(withJson.end(), {"-c", name, "-o", result.object.filename().string()});
@@ -159,6 +187,9 @@ void compile(const Toolchain& toolchain, const std::vector<ForbiddenFunction>& f
   result.ok = run.ok();
   result.messages = parseCompilerJson(run.error);
   if (!run.ok()) explain(run, command, name, tools, options, result);
+  explainAutoAnswers(result.messages, result.source);
+  const std::vector<CompileDiagnostic> divisions = integerDivisions(result.source, name);
+  result.messages.insert(result.messages.end(), divisions.begin(), divisions.end());
   blameMainFile(result.messages, name, result.log);
   result.truncated = admitMessages(result.messages);
   if (result.log.empty()) result.log = writeLog(result.messages);

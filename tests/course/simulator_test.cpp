@@ -502,6 +502,22 @@ TEST(FormatMatrix, ShowsNameShapeAndNumbers) {
   EXPECT_EQ(formatMatrix("q", Eigen::VectorXd::LinSpaced(7, 0, 6)),
             "q (7)\n  0 to 5:\n           0           1           2           3           4           5\n"
             "  6 to 6:\n           6\n");
+  EXPECT_EQ(formatMatrix("q", Eigen::VectorXd::LinSpaced(7, 0, 6), 84),
+            "q (7)\n           0           1           2           3           4           5           6\n");
+}
+
+TEST(Print, TakesVectorsOfNumbersAndOfVectors) {
+  ::testing::internal::CaptureStdout();
+  print("x", std::vector<double>{1, 2.5});
+  print("n", std::vector{3, 4});
+  print("q", std::vector<Eigen::VectorXd>{Eigen::Vector2d(1, 2), Eigen::Vector2d(3, 4)});
+  print("p", std::vector<Eigen::VectorXd>{Eigen::Vector2d(1, 2), Eigen::Vector3d(3, 4, 5)});
+  print("e", std::vector<Eigen::VectorXd>{});
+  EXPECT_EQ(
+      ::testing::internal::GetCapturedStdout(),
+      "x (2)\n           1         2.5\nn (2)\n           3           4\n"
+      "q (2 x 2)\n           1           2\n           3           4\n"
+      "p[0] (2)\n           1           2\np[1] (3)\n           3           4           5\ne (0 x 0)\n");
 }
 
 }  // namespace rex::simulator_test

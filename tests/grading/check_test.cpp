@@ -97,6 +97,17 @@ TEST(Check, ShowsTheValuesOfItsInput) {
   EXPECT_EQ(result.input, "two tasks: J = [1, 2; 3, 4.5], dy = (-1, 0), n = 2, M = 20 x 3 numbers");
 }
 
+TEST(Check, SaysIfAnInputCameBackUnchanged) {
+  const auto message = [](const Eigen::Vector2d& got) {
+    return messageOf([&](Check& check) {
+      check.input("a point", {{"p", Eigen::Vector2d(3, 4)}, {"n", 2}});
+      check.near("the point", got, Eigen::Vector2d(4, 7), 1e-9);
+    });
+  };
+  EXPECT_THAT(message({3, 4}), HasSubstr("(seed 7). Your value is the input p, unchanged."));
+  EXPECT_THAT(message({3, 5}), Not(HasSubstr("unchanged")));
+}
+
 TEST(Check, ComparesAnglesModuloAWholeTurn) {
   const double pi = std::numbers::pi;
   const auto compare = [&](double got) {

@@ -1,5 +1,6 @@
 #include "grading/usual_mistakes.h"
 
+#include <cmath>
 #include <numbers>
 
 #include <gmock/gmock.h>
@@ -66,6 +67,16 @@ TEST(UsualMistake, SaysNothingWhereItCannotBeTold) {
   EXPECT_EQ(usualMistake(one(0.3), one(0.1), kTight), "") << "three times is nothing usual";
   EXPECT_EQ(usualMistake(Eigen::MatrixXd(0, 3), Eigen::MatrixXd(0, 3), 0), "");
   EXPECT_EQ(usualMistake(Eigen::Vector2d(1, 2), v, kTight), "") << "another size";
+}
+
+TEST(StrangeNumber, IsNamed) {
+  EXPECT_EQ(strangeNumber(Eigen::Vector3d(0, 1e-100, -1e100)), "");
+  EXPECT_EQ(strangeNumber(Eigen::Vector2d(1, -5.4861e303)),
+            "Numbers such as -5.49e+303 come from memory that was never set, or is gone.");
+  EXPECT_EQ(strangeNumber(Eigen::Vector2d(1.13e-313, 1)),
+            "Numbers such as 1.13e-313 come from memory that was never set, or is gone.");
+  EXPECT_EQ(strangeNumber(Eigen::Vector2d(1, -std::nan(""))),
+            "Numbers such as nan come from memory that was never set, or is gone.");
 }
 
 }  // namespace rex::grading::usual_mistakes_test

@@ -44,7 +44,9 @@ ExitCode debug(const Project& project, const DebugOptions& options) {
       buildProgram(project, exercise, {.main = file, .workFolder = work, .debug = true}, out);
   if (!program) return ExitCode::kNotGradable;
 
-  const std::vector<std::string> command = {"gdb", "-q", "-ex", "set cwd " + out.string(), program->string()};
+  const std::filesystem::path printers = project.files() / "share" / "gdb" / "eigen.py";
+  const std::vector<std::string> command = {
+      "gdb", "-q", "-ex", "set cwd " + out.string(), "-ex", "source " + printers.string(), program->string()};
   if (options.print) {
     std::string line;
     for (const std::string& argument : command) line += (line.empty() ? "" : " ") + quoted(argument);

@@ -1,0 +1,56 @@
+#include "submission/dangling_auto.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace rex::grading::dangling_auto_test {
+
+using ::testing::HasSubstr;
+
+std::string asking(const std::string& line) {
+  const std::string text = withAutoQuestions(line + "\n");
+  return text.empty() ? "" : text.substr(0, text.size() - 1);
+}
+
+TEST(AutoQuestions, FollowDeclarationsOnTheirLine) {
+  EXPECT_EQ(asking("  auto b = A * x;"),
+            "  auto b = A * x; static_assert(sizeof(::rex::guard::autoHolds(b)) == 1);");
+  EXPECT_EQ(
+      asking("const auto b = f(\"A\", {1, 2});  // twice"),
+      "const auto b = f(\"A\", {1, 2}); static_assert(sizeof(::rex::guard::autoHolds(b)) == 1);  // twice");
+}
+
+TEST(AutoQuestions, LeaveOtherTextAlone) {
+  for (const char* line :
+       {"int b = 3;", "for (auto b = 0; b < 3; ++b) {", "auto& b = A;", "auto [a, b] = f();",
+        "  auto b =", "auto b = [&](double t) {", "if (auto b = f()) return;", "auto f(int) -> double;",
+        "// auto b = A;", "auto b = 'c';"})
+    EXPECT_EQ(asking(line), "") << line;
+  EXPECT_EQ(withAutoQuestions(""), "");
+}
+
+TEST(AutoQuestions, TellViewsOfAnswersFromThoseOfVariables) {
+  for (const char* value : {"S.kinematicsPos(\"handR\").head(2)", "f(g(1), (2)).transpose()", "f() .array()"})
+    EXPECT_THAT(asking("auto v = " + std::string(value) + ";"), HasSubstr("autoViews(v)")) << value;
+  for (const char* value : {"x.head(2)", "A.transpose().row(1)", "(a + b).head(2)", "A.col(f(1)).head(2)"})
+    EXPECT_THAT(asking("auto v = " + std::string(value) + ";"), HasSubstr("autoHolds(v)")) << value;
+}
+
+TEST(AutoAnswers, AreOurWordsAtTheDeclaration) {
+  const std::string source = "int a;\n  auto b = A * x;\n";
+  std::vector<CompileDiagnostic> messages = {
+      {"main.cpp", 2, 44, "warning", "-Wdeprecated-declarations",
+       "'char rex::guard::autoHolds(const T&) [with T = ...]' is deprecated"},
+      {"src/course/auto_guard.h", 30, 21, "note", "", "declared here: rex::guard::autoHolds"},
+      {"main.cpp", 1, 5, "warning", "-Wunused-variable", "unused variable 'a'"}};
+  explainAutoAnswers(messages, source);
+  ASSERT_EQ(messages.size(), 2u);
+  EXPECT_EQ(
+      toString(messages[0]),
+      "main.cpp:2:3: warning: 'auto' makes 'b' an expression that refers to other values, which may be gone "
+      "when it is used: write its type instead, such as Eigen::VectorXd b, or end it with .eval() "
+      "[eigen-auto]");
+  EXPECT_EQ(messages[1].line, 1);
+}
+
+}  // namespace rex::grading::dangling_auto_test

@@ -1,0 +1,26 @@
+#include "submission/integer_division.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace rex::grading::integer_division_test {
+
+TEST(IntegerDivision, IsNamedWithItsResult) {
+  const auto found = integerDivisions("int a;\nx = 2 * (1 / 2) + 7/3;\n", "main.cpp");
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(toString(found[0]),
+            "main.cpp:2:10: warning: 1 / 2 is 0, as both are whole numbers: write 1. / 2 [integer-division]");
+  EXPECT_EQ(toString(found[1]),
+            "main.cpp:2:19: warning: 7 / 3 is 2, as both are whole numbers: write 7. / 3 [integer-division]");
+}
+
+TEST(IntegerDivision, IsNotSeenInOtherText) {
+  for (const char* line :
+       {"x = 1. / 2;", "x = 1 / 2.;", "x = 4 / 2;", "x = n / 2;", "x = a1 / 2;", "// 1 / 2",
+        "x = 3;  // slide 1/2", "/* 1 / 2 */", "print(\"1 / 2\");", "x = 1 / 2e3;", "x = 1 / 0;",
+        "x = 2.5 / 4;", "#include <a 1/2>", "x = 1 / 2_m;", "x = 1 / 2.5;", "/* a\n1 / 2\n*/"})
+    EXPECT_TRUE(integerDivisions(line, "main.cpp").empty()) << line;
+  EXPECT_EQ(integerDivisions("/* a\n */ x = 1 / 2;", "main.cpp").size(), 1u);
+}
+
+}  // namespace rex::grading::integer_division_test
