@@ -42,6 +42,51 @@ __attribute__((constructor)) void abortWhenTimeIsUp() {
 }
 )";
 
+// An assertion of Eigen that fails prints the two sides of its first comparison: sizes, or an index. The
+// operator <= binds as tightly as any that an assertion begins with.
+constexpr const char* kAssertionHeader = R"(
+#include <cstdio>
+#include <cstdlib>
+#include <type_traits>
+namespace rex_assertion {
+struct Sides {
+  double left = 0, right = 0;
+  bool known = false;
+  explicit operator bool() const { return false; }
+};
+template <class T>
+struct Left {
+  const T& value;
+  explicit operator bool() const { return false; }
+  template <class U>
+  Sides with(const U& right) const {
+    if constexpr (std::is_arithmetic_v<T> && std::is_arithmetic_v<U>)
+      return {static_cast<double>(value), static_cast<double>(right), true};
+    return {};
+  }
+  template <class U> Sides operator==(const U& right) const { return with(right); }
+  template <class U> Sides operator!=(const U& right) const { return with(right); }
+  template <class U> Sides operator<(const U& right) const { return with(right); }
+  template <class U> Sides operator<=(const U& right) const { return with(right); }
+  template <class U> Sides operator>(const U& right) const { return with(right); }
+  template <class U> Sides operator>=(const U& right) const { return with(right); }
+};
+struct First {
+  template <class T> Left<T> operator<=(const T& value) const { return {value}; }
+};
+template <class T> Sides operator&&(const Sides& sides, const T&) { return sides; }
+inline Sides sidesOf(const Sides& sides) { return sides; }
+template <class T> Sides sidesOf(const T&) { return {}; }
+[[noreturn]] inline void fail(const char* condition, const Sides& sides) {
+  if (sides.known) std::fprintf(stderr, "rex: the sides are %.10g and %.10g\n", sides.left, sides.right);
+  std::fprintf(stderr, "Assertion `%s' failed.\n", condition);
+  std::abort();
+}
+}
+#define eigen_assert(x) \
+  ((x) ? void() : ::rex_assertion::fail(#x, ::rex_assertion::sidesOf(::rex_assertion::First() <= x)))
+)";
+
 constexpr const char* kSanitizers = "-fsanitize=address,undefined";
 constexpr std::string_view kStackOverflow = "stack-overflow";
 
@@ -126,9 +171,12 @@ Toolchain withReports(const Toolchain& toolchain, const std::filesystem::path& f
 }  // namespace
 
 std::optional<CrashSite> crashSiteIn(std::string_view standardError, const std::string& mainFile) {
+  constexpr std::string_view kSides = "rex: the sides are ";
   CrashSite site;
   std::vector<Frame> stack;  // innermost first
+  std::string sides;
   for (const std::string_view line : splitLines(standardError)) {
+    if (line.starts_with(kSides)) sides = line.substr(kSides.size());
     if (site.finding.empty()) {
       site = findingIn(line, mainFile);
     } else if (auto frame = frameIn(line, mainFile)) {
@@ -136,6 +184,7 @@ std::optional<CrashSite> crashSiteIn(std::string_view standardError, const std::
     }
   }
   if (site.finding.empty()) return {};
+  site.sides = sides;
   if (stack.empty()) return site;
   const Frame& frame = site.finding == plainWords(kStackOverflow) ? recursionIn(stack) : stack.front();
   site.function = frame.function;
@@ -145,7 +194,8 @@ std::optional<CrashSite> crashSiteIn(std::string_view standardError, const std::
 
 Toolchain sanitizedToolchain(const Toolchain& toolchain, const std::filesystem::path& folder,
                              std::size_t memory) {
-  Toolchain sanitized = withReports(toolchain, folder, memory, kOptionsHeader);
+  Toolchain sanitized =
+      withReports(toolchain, folder, memory, std::string(kOptionsHeader) + kAssertionHeader);
   for (const char* flag : {"-O0", kSanitizers, "-fno-sanitize=vptr", "-fno-sanitize-recover=all"})
     sanitized.flags.emplace_back(flag);
   // Eigen allocates differently under the address sanitizer, but memory that passes between the program and

@@ -15,6 +15,7 @@ struct CrashSite {
   std::string finding{};   ///< in plain words: "reads or writes outside an array on the heap"
   std::string function{};  ///< the student's function; empty: unknown
   int line = 0;            ///< in the student's file; 0: none of its code was running
+  std::string sides{};     ///< of an assertion's first comparison: "2 and 3"; empty: unknown
 };
 
 /// The first finding in the error output of a program built with sanitizedToolchain(), at the innermost

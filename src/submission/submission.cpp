@@ -184,11 +184,20 @@ std::optional<CrashSite> crashSiteOf(const Toolchain& toolchain, const ExerciseI
   return crashSiteIn(loadResult(job.results).error.text, mainFile);
 }
 
+// "3 and 2" are sizes that differ, "7 and 0" an index that is compared with 0 before the size.
+std::string sentenceOn(const std::string& sides) {
+  const bool isIndex = sides.ends_with(" and 0");
+  return isIndex ? fmt::format("The index is {}.", sides.substr(0, sides.find(' ')))
+                 : fmt::format("The sizes are {}.", sides);
+}
+
 // What the sanitizers found comes first; without their guess, the crash follows. An assertion says more than
 // they.
 std::string messageAbout(const CrashSite& site, const std::string& crash) {
   constexpr std::string_view kAborts = "aborts";
-  if (site.finding == kAborts || crash.find("Assertion") != std::string::npos) return crash;
+  const bool isAssertion = crash.find("Assertion") != std::string::npos;
+  if (isAssertion && !site.sides.empty()) return crash + " " + sentenceOn(site.sides);
+  if (site.finding == kAborts || isAssertion) return crash;
   std::string place = site.line > 0 ? fmt::format("line {}", site.line) : "";
   if (!site.function.empty()) place += (place.empty() ? "in " : ", in ") + site.function;
   return printable(fmt::format("{}{}{} ({})", place, place.empty() ? "" : ": ", site.finding,

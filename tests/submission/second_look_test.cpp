@@ -47,6 +47,16 @@ TEST(CrashSiteIn, ReadsWhatTheSanitizerOfUndefinedBehaviourSays) {
             "execution reached the end of a value-returning function without returning a value");
 }
 
+TEST(CrashSiteIn, HasTheSidesOfAnAssertion) {
+  const auto site = crashSiteIn(
+      "rex: the sides are 3 and 2\nAssertion `a == b' failed.\n"
+      "==1==ERROR: AddressSanitizer: ABRT on unknown address\n    #0 0x1 in f() /w/main.cpp:5\n",
+      "main.cpp");
+  ASSERT_TRUE(site);
+  EXPECT_EQ(site->sides, "3 and 2");
+  EXPECT_EQ(site->line, 5);
+}
+
 TEST(CrashSiteIn, IsNothingWithoutAFinding) {
   EXPECT_FALSE(crashSiteIn("", "main.cpp"));
   EXPECT_FALSE(crashSiteIn("    #0 0x5 in rotated(double) /tmp/main.cpp:12\n", "main.cpp"));
