@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -24,7 +26,7 @@ inline rex::CompassGait libraryOf(const Walker& walker) {
 }
 
 inline std::string described(const Walker& walker) {
-  return fmt::format("a {:.4g}, b {:.4g}, legs {:.4g}, hip {:.4g}, slope {:.4g} degrees, g {:.4g}", walker.a,
+  return fmt::format("a {:.6g}, b {:.6g}, legs {:.6g}, hip {:.6g}, slope {:.6g} degrees, g {:.6g}", walker.a,
                      walker.b, walker.legMass, walker.hipMass, walker.slope / kDegree, walker.g);
 }
 
@@ -39,12 +41,22 @@ struct KnownGait {
   rex::LimitCycle cycle{};
 };
 
+/// The gait of the paper, that of the default walker.
+inline const Eigen::Vector4d kPaperGait(.218668802939, -.323388558059, -1.091826677490, -.377181558403);
+
+/// The moduli of complex numbers, the largest first.
+inline Eigen::VectorXd sizesOf(const Eigen::VectorXcd& numbers) {
+  Eigen::VectorXd sizes = numbers.cwiseAbs();
+  std::sort(sizes.begin(), sizes.end(), std::greater{});
+  return sizes;
+}
+
 /// Continues the gait of the paper's walker to another shape and slope by small changes, then scales it to
 /// another size: rates are proportional to sqrt(g / l).
 inline KnownGait gaitOf(const Walker& goal) {
   constexpr int kChanges = 10;
   const Walker first;
-  Eigen::Vector4d x(.218668802939, -.323388558059, -1.091826677490, -.377181558403);
+  Eigen::Vector4d x = kPaperGait;
   const double l = goal.a + goal.b;
   for (int i = 1; i <= kChanges; ++i) {
     const double s = 1. * i / kChanges;
@@ -111,8 +123,10 @@ inline void impactFits(rex::grading::Check& check, Student& student, const Walke
   const Eigen::Vector4d x(stance, -2 * walker.slope - stance, 2 * rng.normal(), 2 * rng.normal());
   check.input(described(walker, x));
   const Eigen::Vector4d after = student.impactOf(walker, x);
-  check.near("angles after the impact", after.head<2>(), Eigen::Vector2d(x[1], x[0]), 1e-12, "rad");
-  check.shape("state after the impact", after, 4, 1);
+  check.shape("state after impactOf", after, 4, 1);
+  const auto stays = check.suspect(
+      "Are the legs not exchanged? The first angle is that of the leg that lands.", x.head<2>());
+  check.near("angles after impactOf", after.head<2>(), Eigen::Vector2d(x[1], x[0]), 1e-12, "rad");
   const LegMasses old = massesOf(walker, x), now = massesOf(walker, after);
   const double m = walker.legMass;
   const double before = walker.hipMass * planarCross(old.hip - old.foot, old.hipRate) +
@@ -130,20 +144,62 @@ inline void impactFits(rex::grading::Check& check, Student& student, const Walke
   for (int k = 0; k < 2; ++k)
     ofRates.col(k) = momenta(massesOf(walker, Eigen::Vector4d(x[1], x[0], k == 0 ? 1 : 0, k)));
   const Eigen::Vector2d kept(before, m * planarCross(old.stance - old.hip, old.stanceRate));
-  const double size = (walker.hipMass + 2 * m) * std::pow(walker.a + walker.b, 2) *
-                      (x.tail<2>().norm() + rex::solve(ofRates, kept).norm());
+  const Eigen::Vector2d rates = rex::solve(ofRates, kept);
+  const double size =
+      (walker.hipMass + 2 * m) * std::pow(walker.a + walker.b, 2) * (x.tail<2>().norm() + rates.norm());
+  const auto swapped =
+      check.suspect("Are the rates only exchanged? The impact changes them.", Eigen::Vector2d(x[3], x[2]));
+  const auto unswapped =
+      check.suspect("Are the two rates in the wrong order?", Eigen::Vector2d(rates[1], rates[0]));
+  const auto usual = check.suspectUsualMistake(after.tail<2>(), rates, 1e-9);
   const Eigen::Vector2d got = momenta(now);
-  check.near("angular momentum of all masses about the foot that lands", got[0], kept[0], 1e-10 * size,
+  check.near("angular momentum about the foot that lands, after impactOf", got[0], kept[0], 1e-10 * size,
              "kg m^2/s");
   // The leg that stood before swings now.
-  check.near("angular momentum of the leg behind about the hip", got[1], kept[1], 1e-10 * size, "kg m^2/s");
+  check.near("angular momentum of the leg behind about the hip, after impactOf", got[1], kept[1],
+             1e-10 * size, "kg m^2/s");
 }
+
+/// The sum of the angles falls until both feet are on the slope.
+inline rex::grading::Evidence landingSeen(const Walker& walker, const Eigen::Vector4d& x, double wanted,
+                                          double got) {
+  rex::Series sum{.label = "theta_s + theta_ns"};
+  for (int i = 0; i < 200; ++i) {
+    sum.x.push_back(wanted * i / 200);
+    sum.y.push_back((i == 0 ? x : libraryOf(walker).step(x, sum.x.back()).before).head<2>().sum());
+  }
+  rex::Figure figure{.title = "Both feet are on the slope where the sum of the angles is -2 slope",
+                     .xLabel = "time [s]",
+                     .yLabel = "angle [rad]",
+                     .series = {std::move(sum)}};
+  figure.horizontalLines = {{.at = -2 * walker.slope, .label = "-2 slope"}};
+  figure.verticalLines = {{.at = got, .label = "your step ends here", .color = rex::grading::kWrongColor},
+                          {.at = wanted, .label = "wanted", .color = rex::grading::kWantedColor}};
+  return {.figures = {std::move(figure)}};
+}
+
+/// If a step ends too early or at the end of a whole time step, the question about that.
+inline std::string questionAboutLanding(const Walker& walker, const Eigen::Vector4d& x, double wanted,
+                                        double got) {
+  if (got > 0 && got < wanted - 1e-3) {
+    const Eigen::Vector4d then = libraryOf(walker).step(x, got).before;
+    if (then[1] <= then[0] + 1e-3)
+      return "Does the step end when the legs pass each other, where the swing foot is not in front?";
+  }
+  for (const double h : {1e-2, 5e-3, 2e-3, 1e-3, 5e-4, 1e-4})
+    if (std::abs(std::ceil(wanted / h) * h - got) < 1e-9)
+      return "Does the step end at the end of a time step? The impact is within it.";
+  return "";
+}
+
+inline constexpr rex::Color kSwingColor{.8f, .45f, 0};
 
 /// A step as a curve of each leg, angle and rate, and where it ended beside where it should.
 inline rex::grading::Evidence stepSeen(const Walker& walker, Eigen::Vector4d x, const rex::WalkerStep& wanted,
                                        const StepEnd& end) {
   const Eigen::Vector4d start = x;
-  rex::Series legs[] = {{.label = "stance leg"}, {.label = "swing leg"}};
+  rex::Series legs[] = {{.label = "stance leg", .color = rex::grading::kGotColor},
+                        {.label = "swing leg", .color = kSwingColor}};
   for (int i = 1; i <= 200; ++i) {
     for (int leg = 0; leg < 2; ++leg) {
       legs[leg].x.push_back(x[leg]);
@@ -152,18 +208,25 @@ inline rex::grading::Evidence stepSeen(const Walker& walker, Eigen::Vector4d x, 
     const double time = wanted.time * i / 200;
     x = time < wanted.time ? libraryOf(walker).step(start, time).before : wanted.before;
   }
-  rex::Series right = rex::grading::wantedCurve("wanted after the impact", {wanted.after[0], wanted.after[1]},
-                                                {wanted.after[2], wanted.after[3]});
-  rex::Series got = rex::grading::gotCurve("yours", {end.x[0], end.x[1]}, {end.x[2], end.x[3]});
-  got.style = right.style = rex::SeriesStyle::kPoints;
-  got.marker = rex::Marker::kCircle;
-  right.marker = rex::Marker::kCross;
-  right.size = 2;
-  return {.figures = {{.title = "A step of the compass walker",
-                       .xLabel = "angle [rad]",
-                       .yLabel = "rate [rad/s]",
-                       .legend = rex::Legend::kOutside,
-                       .series = {legs[0], legs[1], got, right}}}};
+  rex::Figure figure{.title = "A step of the compass walker, and the state after its impact",
+                     .xLabel = "angle [rad]",
+                     .yLabel = "rate [rad/s]",
+                     .legend = rex::Legend::kOutside,
+                     .series = {legs[0], legs[1]}};
+  const auto mark = [&](const std::string& label, const Eigen::Vector4d& state, int leg, rex::Marker marker) {
+    figure.series.push_back({.label = label,
+                             .x = {state[leg]},
+                             .y = {state[leg + 2]},
+                             .style = rex::SeriesStyle::kPoints,
+                             .marker = marker,
+                             .size = 2,
+                             .color = leg == 0 ? rex::grading::kGotColor : kSwingColor});
+  };
+  mark("stance leg, yours", end.x, 0, rex::Marker::kCircle);
+  mark("swing leg, yours", end.x, 1, rex::Marker::kCircle);
+  mark("stance leg, wanted", wanted.after, 0, rex::Marker::kCross);
+  mark("swing leg, wanted", wanted.after, 1, rex::Marker::kCross);
+  return {.figures = {std::move(figure)}};
 }
 
 inline void stepFits(rex::grading::Check& check, Student& student, const KnownGait& gait) {
@@ -175,16 +238,21 @@ inline void stepFits(rex::grading::Check& check, Student& student, const KnownGa
   } while (wanted.status != rex::StepStatus::kStepped);
   check.input(described(gait.walker, x));
   const auto end = student.stepFrom(gait.walker, x);
-  check.that("the walker steps", end.has_value());
+  check.that("stepFrom() returns the end of the step", end.has_value());
+  {
+    const auto shown = check.show([&] { return landingSeen(gait.walker, x, wanted.time, end->time); });
+    const auto when = check.suspect(questionAboutLanding(gait.walker, x, wanted.time, end->time),
+                                    Eigen::MatrixXd::Constant(1, 1, end->time));
+    check.near("time of stepFrom", end->time, wanted.time, 1e-7, "s");
+  }
   const auto shown = check.show([&] { return stepSeen(gait.walker, x, wanted, *end); });
-  check.near("time of the step", end->time, wanted.time, 1e-7, "s");
-  check.near("state after the step", end->x, wanted.after, 1e-7);
+  check.near("state after stepFrom", end->x, wanted.after, 1e-7);
 }
 
 inline void doesNotStep(rex::grading::Check& check, Student& student, const Walker& walker,
                         const Eigen::Vector4d& x) {
   check.input(described(walker, x));
-  check.that("a walker that falls makes no step", !student.stepFrom(walker, x).has_value());
+  check.that("stepFrom() returns nothing if the walker falls", !student.stepFrom(walker, x).has_value());
 }
 
 inline void derivativeFits(rex::grading::Check& check, Student& student, const KnownGait& gait) {
@@ -195,8 +263,19 @@ inline void derivativeFits(rex::grading::Check& check, Student& student, const K
     wanted = libraryOf(gait.walker).stepJacobian(x, 5);
   } while (wanted.step.status != rex::StepStatus::kStepped);
   check.input(described(gait.walker, x));
-  check.near("derivative of the step", student.stepDerivative(gait.walker, x), wanted.J,
-             1e-4 * wanted.J.cwiseAbs().maxCoeff());
+  const Eigen::Matrix4d got = student.stepDerivative(gait.walker, x);
+  check.shape("stepDerivative", got, 4, 4);
+  const double size = wanted.J.cwiseAbs().maxCoeff();
+  // What a later impact at the same state before it would change.
+  const Eigen::Vector4d& landing = wanted.step.before;
+  const Eigen::Vector4d drift =
+      (libraryOf(gait.walker).impactJacobian(landing) * libraryOf(gait.walker).derivative(landing))
+          .normalized();
+  const Eigen::Matrix4d error = got - wanted.J;
+  const bool isFixed = (error - drift * (drift.transpose() * error)).cwiseAbs().maxCoeff() < 1e-3 * size;
+  const auto fixed = check.suspect("Is the time of the step kept fixed? It depends on the start, too.",
+                                   isFixed ? got : Eigen::Matrix4d::Constant(NAN));
+  check.near("stepDerivative", got, wanted.J, 1e-4 * size);
 }
 
 /// Too slow to get over the foot it stands on.
@@ -207,7 +286,7 @@ inline void hasNoGait(rex::grading::Check& check, Student& student, const Walker
     guess = {stance, -2 * walker.slope - stance, check.rng().uniform(-.5, .1), check.rng().uniform(-.5, -.2)};
   } while (libraryOf(walker).step(guess, 5).status != rex::StepStatus::kFellBackward);
   check.input(described(walker, guess));
-  check.that("no gait is returned if the walker falls", !student.gaitNear(walker, guess).has_value());
+  check.that("gaitNear() returns nothing if the walker falls", !student.gaitNear(walker, guess).has_value());
 }
 
 inline void gaitFits(rex::grading::Check& check, Student& student, const KnownGait& gait,
@@ -215,12 +294,16 @@ inline void gaitFits(rex::grading::Check& check, Student& student, const KnownGa
   check.input(described(gait.walker, guess));
   const auto x = student.gaitNear(gait.walker, guess);
   check.that("gaitNear() finds the existing gait", x.has_value());
-  check.shape("gait", *x, 4, 1);
+  check.shape("gait of gaitNear", *x, 4, 1);
+  const auto ofPaper =
+      check.suspect("Is it the gait of the default walker, whatever the walker is?", kPaperGait);
+  check.near("gait of gaitNear", *x, gait.x, 1e-4);
   const rex::WalkerStep step = libraryOf(gait.walker).step(*x, 5);
-  check.that("from the state of the gait, the walker steps", step.status == rex::StepStatus::kStepped);
-  check.near("change of the state by one step of the gait", step.after - *x, Eigen::Vector4d::Zero(), 1e-6);
-  // A change of 1e-6 in a step may mean one of 1e-4 in the gait if a multiplier is near one.
-  check.near("state of the gait", *x, gait.x, 1e-4);
-  check.near("moduli of the multipliers", student.multiplierSizes(gait.walker, *x),
-             gait.cycle.multipliers.cwiseAbs(), .01);
+  check.that("the walker steps from the gait of gaitNear()", step.status == rex::StepStatus::kStepped);
+  check.near("state one step after the gait of gaitNear", step.after, *x, 1e-6);
+  const auto swing =
+      check.suspect("Are these eigenvalues of swingRate()? Wanted are those of stepDerivative().",
+                    sizesOf(rex::eigenvalues(libraryOf(gait.walker).derivativeJacobian(*x))));
+  check.near("multiplierSizes", student.multiplierSizes(gait.walker, *x), sizesOf(gait.cycle.multipliers),
+             .01);
 }

@@ -16,7 +16,7 @@
 // Part 3: the cart, its gains, and walks over footsteps.
 
 inline std::string described(const CartTable& cart) {
-  return fmt::format("height {:.4g}, g {:.4g}, steps of {:.4g} s, {} ahead, Qe {:.3g}, R {:.3g}", cart.height,
+  return fmt::format("height {:.6g}, g {:.6g}, steps of {:.6g} s, {} ahead, Qe {:.6g}, R {:.6g}", cart.height,
                      cart.g, cart.step, cart.ahead, cart.Qe, cart.R);
 }
 
@@ -46,10 +46,14 @@ inline Eigen::Vector3d cartAfter(const CartTable& cart, const Eigen::Vector3d& x
 inline void cartMoves(rex::grading::Check& check, Student& student, const CartTable& cart) {
   const Eigen::Vector3d x = check.rng().normalVector(3);
   const double jerk = 100 * check.rng().normal();
-  check.input(
-      fmt::format("{}, x = ({:.4g}, {:.4g}, {:.4g}), u = {:.4g}", described(cart), x[0], x[1], x[2], jerk));
-  check.near("state of the cart after a step", student.cartStep(cart, x, jerk), cartAfter(cart, x, jerk),
-             1e-9);
+  check.input(described(cart), {{"x", x}, {"u", jerk}});
+  const double tau = cart.step;
+  const auto euler = check.suspect("Are the terms with step^2 and step^3 missing? The state must be exact.",
+                                   x + tau * Eigen::Vector3d(x[1], x[2], jerk));
+  const auto noCube =
+      check.suspect("Is the term with step^3 missing?",
+                    cartAfter(cart, x, jerk) - Eigen::Vector3d(tau * tau * tau / 6 * jerk, 0, 0));
+  check.near("cartStep", student.cartStep(cart, x, jerk), cartAfter(cart, x, jerk), 1e-9);
 }
 
 /// Gains that stop the cart, but are not optimal.
@@ -61,21 +65,36 @@ inline PreviewLaw someLaw(rex::Rng& rng, const CartTable& cart) {
   return law;
 }
 
+/// The columns of a matrix over steps 0, 1, ...
+inline rex::grading::Signal columnsOf(const Eigen::MatrixXd& matrix) {
+  rex::grading::Signal signal;
+  for (const auto& column : matrix.colwise()) signal.add(static_cast<double>(signal.at.size()), column);
+  return signal;
+}
+
+/// What students get wrong about the law.
+struct Slip {
+  bool forgets = false;  ///< the law gives the jerk instead of its change
+  int late = 0;          ///< the preview begins so many steps too late
+};
+
 /// The law in the form that Kajita prints, with all changes summed up.
 inline Eigen::MatrixXd printedLaw(const CartTable& cart, const PreviewLaw& law,
-                                  const Eigen::VectorXd& reference) {
+                                  const Eigen::VectorXd& reference, const Slip& slip = {}) {
   const Eigen::Index steps = reference.size();
-  const auto r = [&](Eigen::Index k) { return reference[std::min(k, steps - 1)]; };
+  const auto r = [&](Eigen::Index k) { return reference[std::clamp<Eigen::Index>(k, 0, steps - 1)]; };
   Eigen::MatrixXd carts(3, steps);
   Eigen::Vector3d x(reference[0], 0, 0);
   const Eigen::Vector3d start = x;
-  double errors = 0;
+  double errors = 0, before = 0;
   for (Eigen::Index k = 0; k < steps; ++k) {
     carts.col(k) = x;
     errors += x[0] - cart.height / cart.g * x[2] - r(k);
-    double jerk = -law.Gi * errors - law.Gx.dot(x - start);
-    for (Eigen::Index j = 1; j <= law.Gp.size(); ++j) jerk += law.Gp[j - 1] * (r(k + j) - r(j - 1));
-    x = cartAfter(cart, x, jerk);
+    double sum = -law.Gi * errors - law.Gx.dot(x - start);
+    for (Eigen::Index j = 1; j <= law.Gp.size(); ++j)
+      sum += law.Gp[j - 1] * (r(k + j - slip.late) - r(j - 1 - slip.late));
+    x = cartAfter(cart, x, slip.forgets ? sum - before : sum);
+    before = sum;
   }
   return carts;
 }
@@ -87,24 +106,38 @@ inline void lawIsFollowed(rex::grading::Check& check, Student& student, CartTabl
   Eigen::VectorXd reference(150);
   double at = rng.uniform(-1, 1);
   for (double& r : reference) r = at += rng.index(20) == 0 ? .2 * rng.normal() : 0;
-  check.input(fmt::format("{}, a reference of 150 numbers with jumps", described(cart)));
+  check.input(described(cart) + ", a reference of 150 numbers with jumps",
+              {{"Gi", law.Gi}, {"Gx", law.Gx}, {"Gp", law.Gp}});
   const Eigen::MatrixXd wanted = printedLaw(cart, law, reference);
   const Eigen::MatrixXd got = student.followed(cart, law, reference);
-  check.shape("states", got, 3, 150);
-  const char* names[] = {"positions c of the cart", "velocities c'", "accelerations c''"};
+  check.shape("states of followed", got, 3, 150);
+  const double tolerance = 1e-7 * (1 + wanted.row(0).cwiseAbs().maxCoeff());
+  const auto forgets =
+      check.suspect("Is it the jerk that the law gives? It gives the change of the jerk, u_k - u_(k-1).",
+                    printedLaw(cart, law, reference, {.forgets = true}));
+  const auto late = check.suspect("Does the preview begin one step too late? Gp[0] belongs to r_(k+1) - r_k.",
+                                  printedLaw(cart, law, reference, {.late = 1}));
+  const auto early =
+      check.suspect("Does the preview begin one step too early? Gp[0] belongs to r_(k+1) - r_k.",
+                    printedLaw(cart, law, reference, {.late = -1}));
+  const auto slips = check.suspectUsualMistake(got, wanted, tolerance);
+  const char* names[] = {"position c of followed", "velocity c' of followed", "acceleration c'' of followed"};
+  const char* units[] = {"m", "m/s", "m/s^2"};
   for (int i = 0; i < 3; ++i)
-    check.near(names[i], got.row(i), wanted.row(i), 1e-7 * (1 + wanted.row(i).cwiseAbs().maxCoeff()));
+    check.nearAlong(names[i], columnsOf(got.row(i)), columnsOf(wanted.row(i)).values,
+                    1e-7 * (1 + wanted.row(i).cwiseAbs().maxCoeff()), units[i]);
 }
 
 inline void gainsFit(rex::grading::Check& check, Student& student, const CartTable& cart) {
   check.input(described(cart));
   const rex::PreviewGains wanted = gainsOf(cart);
   const PreviewLaw got = student.previewLaw(cart);
-  check.near("Gi", got.Gi, wanted.Gi, 1e-6 * wanted.Gi);
+  check.near("Gi of previewLaw", got.Gi, wanted.Gi, 1e-6 * wanted.Gi);
   for (int i = 0; i < 3; ++i)
-    check.near(fmt::format("Gx, entry {}", i + 1), got.Gx[i], wanted.Gx[i], 1e-6 * std::abs(wanted.Gx[i]));
-  check.shape("Gp", got.Gp, cart.ahead, 1);
-  check.near("Gp", got.Gp, wanted.Gp, 1e-6 * wanted.Gp.cwiseAbs().maxCoeff());
+    check.near(fmt::format("Gx[{}] of previewLaw", i), got.Gx[i], wanted.Gx[i],
+               1e-6 * std::abs(wanted.Gx[i]));
+  check.shape("Gp of previewLaw", got.Gp, cart.ahead, 1);
+  check.near("Gp of previewLaw", got.Gp, wanted.Gp, 1e-6 * wanted.Gp.cwiseAbs().maxCoeff());
 }
 
 /// A walk with turns and steps of any length, including backward and sideways ones.
@@ -126,7 +159,7 @@ inline rex::WalkPlan randomWalk(rex::Rng& rng) {
   return plan;
 }
 
-/// A walk from above, and sideways over time, up to the column where it went wrong.
+/// A walk from above, up to the column where it went wrong.
 inline rex::grading::Evidence walkSeen(const rex::WalkPlan& plan, const Eigen::MatrixXd& zmp,
                                        const Eigen::MatrixXd& reference, Eigen::Index until) {
   using namespace rex::grading;
@@ -137,7 +170,7 @@ inline rex::grading::Evidence walkSeen(const rex::WalkPlan& plan, const Eigen::M
   above.series = {through(before.colwise(), gotCurve("yours")),
                   through(reference.colwise(), wantedCurve("wanted")),
                   wrongPoint("off the soles", zmp(0, until), zmp(1, until))};
-  return {.figures = {above, comparison("x and y of the zero moment point, step by step", zmp, reference)}};
+  return {.figures = {above}};
 }
 
 /// Checks over a whole walk that the cart obeys its equation of motion, and that its zero moment point
@@ -148,25 +181,28 @@ inline void staysOnTheSoles(rex::grading::Check& check, Student& student, const 
                           plan.singleSupport, plan.doubleSupport, described(cart)));
   const Eigen::MatrixXd reference = rex::zmpReference(plan, cart.step);
   const PreviewLaw law = student.previewLaw(cart);
-  check.shape("Gp", law.Gp, cart.ahead, 1);
+  check.shape("Gp of previewLaw", law.Gp, cart.ahead, 1);
   Eigen::MatrixXd zmp(2, reference.cols());
   for (Eigen::Index axis = 0; axis < 2; ++axis) {
     const Eigen::MatrixXd x = student.followed(cart, law, reference.row(axis).transpose());
-    check.shape("states", x, 3, reference.cols());
-    check.near("the first state", x.col(0), Eigen::Vector3d(reference(axis, 0), 0, 0), 1e-9);
-    double gap = 0;
-    for (Eigen::Index k = 0; k + 1 < x.cols(); ++k) {
-      const double jerk = (x(2, k + 1) - x(2, k)) / cart.step;
-      gap = std::max(gap, (cartAfter(cart, x.col(k), jerk) - x.col(k + 1)).norm());
-    }
-    check.near("difference of a state from cartStep() of the one before", gap, 0, 1e-7);
+    check.shape("states of followed", x, 3, reference.cols());
+    check.near("first state of followed", x.col(0), Eigen::Vector3d(reference(axis, 0), 0, 0), 1e-9);
+    Eigen::MatrixXd wanted(3, x.cols() - 1);
+    for (Eigen::Index k = 0; k + 1 < x.cols(); ++k)
+      wanted.col(k) = cartAfter(cart, x.col(k), (x(2, k + 1) - x(2, k)) / cart.step);
+    check.nearAlong("state of followed, one cartStep() after the state before",
+                    columnsOf(x.rightCols(x.cols() - 1)), columnsOf(wanted).values, 1e-7);
     zmp.row(axis) = x.row(0) - cart.height / cart.g * x.row(2);
   }
-  Eigen::Index k = 0;
-  const auto shown = check.show([&] { return walkSeen(plan, zmp, reference, k); });
-  for (; k < zmp.cols(); ++k) {
-    const rex::WalkPhase phase = rex::phaseAt(plan, static_cast<double>(k) * cart.step);
-    check.atLeast("distance of the zero moment point from the border of the support polygon",
-                  rex::supportMargin(rex::supportOf(phase, plan.sole), zmp.col(k)).margin, 0, "m");
+  Eigen::Index left = zmp.cols();
+  rex::grading::Signal margin{.axis = "time [s]"};
+  for (Eigen::Index k = 0; k < zmp.cols(); ++k) {
+    const double time = static_cast<double>(k) * cart.step;
+    const rex::WalkPhase phase = rex::phaseAt(plan, time);
+    margin.add(time, rex::supportMargin(rex::supportOf(phase, plan.sole), zmp.col(k)).margin);
+    if (margin.values.back()[0] < 0) left = std::min(left, k);
   }
+  const auto shown = check.show([&] { return walkSeen(plan, zmp, reference, left); });
+  check.atLeastAlong("distance of the zero moment point from the border of the support polygon", margin, 0,
+                     "m");
 }

@@ -116,28 +116,54 @@ inline rex::grading::Evidence supportSeen(const Eigen::MatrixXd& contacts, const
   return {.figures = {figure}};
 }
 
-inline void cornersFit(rex::grading::Check& check, Student& student, const Eigen::MatrixXd& contacts) {
-  const Eigen::MatrixXd wanted = rex::supportPolygon(contacts).corners;
+inline void cornersFit(rex::grading::Check& check, Student& student, const std::string& name,
+                       const Eigen::MatrixXd& contacts) {
+  check.input(name, {{"contacts", contacts}});
+  const rex::SupportPolygon polygon = rex::supportPolygon(contacts);
+  const Eigen::MatrixXd wanted = polygon.corners;
   const Eigen::MatrixXd corners = student.supportCorners(contacts);
-  check.shape("corners", corners, 2, corners.cols());
+  check.shape("corners of supportCorners", corners, 2, corners.cols());
   const auto shown = check.show([&] { return supportSeen(contacts, corners, wanted); });
-  const Eigen::Index k = wanted.cols();
-  check.near("number of corners", static_cast<double>(corners.cols()), static_cast<double>(k), 0);
+  const auto k = static_cast<int>(wanted.cols());
+  const auto count = static_cast<double>(corners.cols());
+  bool areOnBorder = corners.cols() > k && k > 2;
+  for (const Eigen::Vector2d corner : corners.colwise())
+    areOnBorder = areOnBorder && std::abs(rex::supportMargin(polygon, corner).margin) < 1e-9;
+  const auto onEdges = check.suspect(
+      "Is a point counted that lies between two corners of an edge, or twice in the same place?",
+      Eigen::MatrixXd::Constant(1, 1, areOnBorder ? count : NAN));
+  check.near("number of corners of supportCorners", count, k, 0);
   if (k == 0) return;
   Eigen::Index begin = 0;
   (corners.colwise() - wanted.col(0)).colwise().norm().minCoeff(&begin);
-  double gap = 0;
-  for (Eigen::Index i = 0; i < k; ++i)
-    gap = std::max(gap, (corners.col((begin + i) % k) - wanted.col(i)).norm());
-  check.near("distance of a corner from the wanted one, counter-clockwise", gap, 0, 1e-9, "m");
+  Eigen::MatrixXd turned(2, k), backwards = wanted;
+  for (int i = 0; i < k; ++i) {
+    turned.col(i) = corners.col((begin + i) % k);
+    backwards.col(i) = wanted.col((k - i) % k);
+  }
+  const auto clockwise = check.suspect("Are the corners clockwise?", backwards);
+  check.near("corners of supportCorners, counter-clockwise", turned, wanted, 1e-9, "m");
+}
+
+/// The least distance from the lines on which the edges lie, negative outside.
+inline double distanceFromLines(const Eigen::MatrixXd& corners, const Eigen::Vector2d& point) {
+  double nearest = INFINITY;
+  for (int i = 0; i < corners.cols(); ++i) {
+    const Eigen::Vector2d along = (corners.col((i + 1) % corners.cols()) - corners.col(i)).normalized();
+    nearest =
+        std::min(nearest, along.dot(Eigen::Vector2d(point.y() - corners(1, i), corners(0, i) - point.x())));
+  }
+  return nearest;
 }
 
 inline void marginFits(rex::grading::Check& check, Student& student, const Eigen::MatrixXd& contacts,
                        const Eigen::Vector2d& point) {
   const rex::SupportPolygon polygon = rex::supportPolygon(contacts);
-  check.input(fmt::format("a polygon, number of corners: {}; the point ({:g}, {:g})", polygon.corners.cols(),
-                          point.x(), point.y()));
-  check.near("distance from the border", student.borderDistance(polygon.corners, point),
+  const Eigen::MatrixXd corners = polygon.corners;
+  check.input("a polygon and a point", {{"corners", corners}, {"point", point}});
+  const auto lines = check.suspect("Is it the distance from an infinite line? An edge ends at its corners.",
+                                   Eigen::MatrixXd::Constant(1, 1, distanceFromLines(corners, point)));
+  check.near("borderDistance", student.borderDistance(corners, point),
              rex::supportMargin(polygon, point).margin, 1e-9, "m");
 }
 
@@ -160,15 +186,34 @@ inline std::vector<MovingMass> randomRobot(rex::Rng& rng, const Eigen::Vector2d&
   return robot;
 }
 
+/// The masses of a robot and the columns of their positions, as an input.
+inline void describe(rex::grading::Check& check, const std::string& name,
+                     const std::vector<MovingMass>& robot, const rex::grading::InputValue& more) {
+  Eigen::VectorXd masses(robot.size());
+  Eigen::MatrixXd p(3, robot.size()), a = p;
+  for (int i = 0; i < masses.size(); ++i) {
+    const MovingMass& part = robot[static_cast<std::size_t>(i)];
+    masses[i] = part.mass;
+    p.col(i) = part.p;
+    a.col(i) = part.a;
+  }
+  check.input(name, {{"masses", masses}, {"columns p", p}, {"columns a", a}, more});
+}
+
 inline void standsAsItShould(rex::grading::Check& check, Student& student, const Eigen::MatrixXd& contacts) {
   const std::vector<MovingMass> robot = randomRobot(check.rng(), contacts.rowwise().mean(), 3);
-  check.input(fmt::format("{} contacts, {} masses", contacts.cols(), robot.size()));
-  Eigen::Vector2d center = Eigen::Vector2d::Zero();
+  describe(check, "a robot on contacts", robot, {"contacts", contacts});
+  Eigen::Vector2d center = Eigen::Vector2d::Zero(), mean = center;
   double whole = 0;
   for (const MovingMass& one : robot) {
     whole += one.mass;
     center += one.mass / whole * (one.p.head<2>() - center);
+    mean += one.p.head<2>() / static_cast<double>(robot.size());
   }
-  check.near("static margin", student.staticMargin(robot, contacts),
-             rex::supportMargin(rex::supportPolygon(contacts), center).margin, 1e-9, "m");
+  const rex::SupportPolygon polygon = rex::supportPolygon(contacts);
+  const auto unweighted =
+      check.suspect("Do all parts count the same, whatever their masses are?",
+                    Eigen::MatrixXd::Constant(1, 1, rex::supportMargin(polygon, mean).margin));
+  check.near("staticMargin", student.staticMargin(robot, contacts),
+             rex::supportMargin(polygon, center).margin, 1e-9, "m");
 }

@@ -14,60 +14,65 @@
 
 // Part 2: the zero moment point by its definition, and the motions of the pendulum.
 
-/// The sum of all forces m (a - gravity), and the sum of their moments about a point.
-struct ForceAndMoment {
-  Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();
-};
-
-inline ForceAndMoment inertialForce(const std::vector<MovingMass>& robot, const Eigen::Vector3d& about,
-                                    double g) {
-  ForceAndMoment sum;
-  for (const MovingMass& one : robot) {
-    const Eigen::Vector3d force = one.mass * (one.a - Eigen::Vector3d(0, 0, -g));
-    sum.force += force;
-    sum.moment += (one.p - about).cross(force);
+/// The zero moment point, computed as if one mistake had been made: gravity with the opposite sign, the
+/// ground at another height, or horizontal forces that act at `lever` times their heights.
+inline Eigen::Vector2d zeroMomentOf(const std::vector<MovingMass>& robot, double groundHeight, double g,
+                                    double lever = 1) {
+  Eigen::Vector2d moments = Eigen::Vector2d::Zero();
+  double down = 0;
+  for (const auto& [mass, p, a] : robot) {
+    const double weight = mass * (a.z() + g);
+    moments += weight * p.head<2>() - lever * (p.z() - groundHeight) * mass * a.head<2>();
+    down += weight;
   }
-  return sum;
+  return moments / down;
+}
+
+/// The sum of the vertical forces m (a + g).
+inline double pushOf(const std::vector<MovingMass>& robot, double g) {
+  double push = 0;
+  for (const MovingMass& one : robot) push += one.mass * (one.a.z() + g);
+  return push;
 }
 
 inline void hasNoMoment(rex::grading::Check& check, Student& student, const std::vector<MovingMass>& robot,
                         double groundHeight, double g) {
-  check.input(fmt::format("{} masses, the ground at {:.3g} m, g = {:.3g}", robot.size(), groundHeight, g));
+  describe(check, fmt::format("a moving robot, ground at z = {:.6g}", groundHeight), robot, {"g", g});
   const auto zmp = student.zeroMoment(robot, groundHeight, g);
   check.that("zeroMoment() returns a point if the ground pushes", zmp.has_value());
   check.shape("zero moment point", *zmp, 2, 1);
-  const ForceAndMoment sum = inertialForce(robot, {zmp->x(), zmp->y(), groundHeight}, g);
   double size = 0;
   for (const MovingMass& part : robot) size += part.mass * (part.a.norm() + g) * (1 + part.p.norm());
-  check.near("moment about it along x and y", sum.moment.head<2>(), Eigen::Vector2d::Zero(), 1e-9 * size,
-             "N m");
+  const auto upwards = check.suspect(
+      "Is the sign of gravity wrong? What counts is m (a - gravity), with gravity = (0, 0, -g).",
+      zeroMomentOf(robot, groundHeight, -g));
+  const auto asAtZero = check.suspect("Is the ground always at z = 0?", zeroMomentOf(robot, 0, g));
+  const auto wrongWay = check.suspect("Do horizontal forces move the point the wrong way?",
+                                      zeroMomentOf(robot, groundHeight, g, -1));
+  const auto noForces =
+      check.suspect("Do the horizontal accelerations not count?", zeroMomentOf(robot, groundHeight, g, 0));
+  check.near("zeroMoment", *zmp, zeroMomentOf(robot, groundHeight, g), 1e-9 * size / pushOf(robot, g), "m");
 }
 
 /// Masses that press on the ground with a tenth of their weight at least.
 inline std::vector<MovingMass> pressing(rex::Rng& rng, double g) {
   for (;;) {
     std::vector<MovingMass> robot = randomRobot(rng, rng.uniformVector(2, -1, 1), 6);
-    const double push = inertialForce(robot, Eigen::Vector3d::Zero(), g).force.z();
-    if (push > .1 * inertialForce(robot, Eigen::Vector3d::Zero(), 2 * g).force.z()) return robot;
+    if (pushOf(robot, g) > .1 * pushOf(robot, 2 * g)) return robot;
   }
 }
 
 inline void fallingHasNone(rex::grading::Check& check, Student& student, double g) {
   std::vector<MovingMass> robot = randomRobot(check.rng(), Eigen::Vector2d::Zero(), 1);
   for (MovingMass& part : robot) part.a.z() = -1.2 * g;
-  check.input("all masses are pulled down, faster than they would fall");
-  check.that("no zero moment point is returned if the ground would have to pull",
+  describe(check, "all masses are pulled down, faster than they would fall", robot, {"g", g});
+  check.that("zeroMoment() returns nothing if the ground would have to pull",
              !student.zeroMoment(robot, 0, g).has_value());
 }
 
 inline Pendulum randomPendulum(rex::Rng& rng) { return {rng.uniform(.3, 1.2), rng.uniform(2, 12)}; }
 inline rex::InvertedPendulum libraryOf(const Pendulum& pendulum) { return {pendulum.height, pendulum.g}; }
 inline Sway randomSway(rex::Rng& rng) { return {.2 * rng.normalVector(2), rng.normalVector(2)}; }
-
-inline std::string described(const Pendulum& pendulum, const Sway& at) {
-  return fmt::format("height {:.4g}, g {:.4g}, c = ({:.4g}, {:.4g}), v = ({:.4g}, {:.4g})", pendulum.height,
-                     pendulum.g, at.c.x(), at.c.y(), at.v.x(), at.v.y());
-}
 
 inline void swaysRight(rex::grading::Check& check, Student& student) {
   rex::Rng& rng = check.rng();
@@ -76,42 +81,56 @@ inline void swaysRight(rex::grading::Check& check, Student& student) {
   const Eigen::Vector2d p = .2 * rng.normalVector(2);
   const double omega = libraryOf(pendulum).omega(), t = rng.uniform(0, 4) / omega;
   check.input(
-      fmt::format("{}, p = ({:.4g}, {:.4g}), t = {:.4g}", described(pendulum, start), p.x(), p.y(), t));
+      "a pendulum",
+      {{"height", pendulum.height}, {"g", pendulum.g}, {"c", start.c}, {"v", start.v}, {"p", p}, {"t", t}});
   const rex::CenterMotion wanted = libraryOf(pendulum).after({start.c, start.v}, p, t);
   const Sway got = student.swayed(pendulum, start, p, t);
   const double size = (start.c.norm() + p.norm() + start.v.norm() / omega) * std::exp(omega * t);
-  check.near("position of the centre of mass", got.c, wanted.c, 1e-10 * size, "m");
-  check.near("its velocity", got.v, wanted.v, 1e-10 * size * omega, "m/s");
+  const auto hangs = check.suspect(
+      "Does the pendulum hang? The solution of c'' = omega^2 (c - p) grows instead of oscillating.",
+      p + std::cos(omega * t) * (start.c - p) + std::sin(omega * t) / omega * start.v);
+  const auto inverted =
+      check.suspect("Is omega^2 = g / height upside down?",
+                    rex::InvertedPendulum(pendulum.g, pendulum.height).after({start.c, start.v}, p, t).c);
+  check.near("position c of swayed", got.c, wanted.c, 1e-10 * size, "m");
+  check.near("velocity v of swayed", got.v, wanted.v, 1e-10 * size * omega, "m/s");
 }
 
-/// The pendulum over a point, x over time, beside how it comes to rest over the capture point.
+/// The pendulum over a point, beside how it comes to rest over the capture point, along the axis where they
+/// differ more.
 inline rex::grading::Evidence captureSeen(const rex::InvertedPendulum& pendulum, const rex::CenterMotion& now,
                                           const Eigen::Vector2d& p) {
+  const Eigen::Vector2d right = pendulum.capturePoint(now);
+  Eigen::Index axis = 0;
+  (p - right).cwiseAbs().maxCoeff(&axis);
   rex::Series got = rex::grading::gotCurve("over your point"), wanted = rex::grading::wantedCurve("wanted");
   for (int i = 0; i <= 40; ++i) {
     const double t = .05 * i / pendulum.omega();
     got.x.push_back(t);
-    got.y.push_back(pendulum.after(now, p, t).c.x());
+    got.y.push_back(pendulum.after(now, p, t).c[axis]);
     wanted.x.push_back(t);
-    wanted.y.push_back(pendulum.after(now, pendulum.capturePoint(now), t).c.x());
+    wanted.y.push_back(pendulum.after(now, right, t).c[axis]);
   }
-  return {.figures = {{.title = "The centre of mass, while the zero moment point stays where you put it",
-                       .xLabel = "time [s]",
-                       .yLabel = "x [m]",
-                       .series = {got, wanted}}}};
+  rex::Figure figure{.title = "The centre of mass, while the zero moment point stays at the capture point",
+                     .xLabel = "time [s]",
+                     .yLabel = axis == 0 ? "x [m]" : "y [m]",
+                     .series = {got, wanted}};
+  figure.horizontalLines = {{.at = p[axis], .label = "your capture point", .color = rex::grading::kGotColor},
+                            {.at = right[axis], .label = "wanted", .color = rex::grading::kWantedColor}};
+  return {.figures = {std::move(figure)}};
 }
 
-/// Tests the purpose of the capture point: over it, the motion dies out. The growing mode grows by e^5 in
-/// this time.
 inline void capturesTheMotion(rex::grading::Check& check, Student& student) {
   const Pendulum pendulum = randomPendulum(check.rng());
   const Sway now = randomSway(check.rng());
-  check.input(described(pendulum, now));
+  check.input("a pendulum", {{"height", pendulum.height}, {"g", pendulum.g}, {"c", now.c}, {"v", now.v}});
   const Eigen::Vector2d p = student.capturePoint(pendulum, now);
   check.shape("capture point", p, 2, 1);
-  const double time = 5 / libraryOf(pendulum).omega();
-  const rex::CenterMotion later = libraryOf(pendulum).after({now.c, now.v}, p, time);
-  const auto shown = check.show([&] { return captureSeen(libraryOf(pendulum), {now.c, now.v}, p); });
-  check.near("distance from the capture point after 5 / omega s", later.c - p, std::exp(-5) * (now.c - p),
-             1e-7, "m");
+  const rex::InvertedPendulum library = libraryOf(pendulum);
+  const auto shown = check.show([&] { return captureSeen(library, {now.c, now.v}, p); });
+  const auto times =
+      check.suspect("Is v multiplied by omega instead of divided by it?", now.c + library.omega() * now.v);
+  const auto behind =
+      check.suspect("Is v subtracted? The point lies ahead of the motion.", now.c - now.v / library.omega());
+  check.near("capturePoint", p, library.capturePoint({now.c, now.v}), 1e-9, "m");
 }

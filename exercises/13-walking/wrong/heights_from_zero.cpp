@@ -1,4 +1,4 @@
-// caught by: moment-any
+// caught by: moment, moment-any
 // mistake: the ground is always at zero.
 
 // <solution zeroMoment>
