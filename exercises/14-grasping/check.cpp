@@ -22,12 +22,12 @@ void wrenches(Check& check, Student& student) {
 }
 
 void cones(Check& check, Student& student) {
-  for (int i = 0; i < 20; ++i) coneFits(check, student, check.rng());
   for (const int edges : {3, 4, 8}) {
     const Finger finger = randomFinger(check.rng(), check.rng().uniform(0.2, 1));
-    check.input(std::to_string(edges) + " edges, friction " + text(finger.friction));
+    check.input("a pyramid", {{"edges", edges}, {"normal", finger.normal}, {"friction", finger.friction}});
     areEdges(check, finger, student.pyramidEdges(finger, edges), edges);
   }
+  for (int i = 0; i < 20; ++i) coneFits(check, student, check.rng());
 }
 
 // <hidden>
@@ -97,26 +97,26 @@ Eigen::MatrixXd pairsAlongAxes(int d, bool closes) {
 }
 
 void verdicts(Check& check, Student& student) {
-  check.input("wrenches (1, 0), (-1, 0), (0, 1), and then also (0, -1)");
-  for (const bool closes : {false, true}) judgedRightly(check, student, pairsAlongAxes(2, closes));
-  check.input("a square with a smooth finger in the middle of each side");
+  const auto isRight = [&](const std::string& name, const Eigen::MatrixXd& W) {
+    check.input(name, {{"wrenches", W}});
+    judgedRightly(check, student, W);
+  };
+  isRight("three in the plane", pairsAlongAxes(2, false));
+  isRight("two pairs in the plane", pairsAlongAxes(2, true));
   Eigen::MatrixXd square(3, 4);
   square << 1, -1, 0, 0, 0, 0, 1, -1, 0, 0, 0, 0;
-  judgedRightly(check, student, square);
-  check.input("a square with smooth fingers beside the middle, torques 0.5, 0.5, -0.5, -0.5");
+  isRight("a square with a smooth finger in the middle of each side", square);
   square.row(2) << 0.5, 0.5, -0.5, -0.5;
-  judgedRightly(check, student, square);
-  check.input("the same with all torques 0.5");
+  isRight("a square with smooth fingers beside the middle", square);
   square.row(2).setConstant(0.5);
-  judgedRightly(check, student, square);
+  isRight("the same with other torques", square);
   for (int i = 0; i < 20; ++i) {
     const int d = 2 + i % 2, count = d + i % 5;
     Eigen::MatrixXd W(d, count);
     do {
       for (Eigen::Index k = 0; k < count; ++k) W.col(k) = randomDirection(check.rng(), d);
     } while (!isClear(W));
-    check.input(std::to_string(count) + " random wrenches in " + std::to_string(d) + " dimensions");
-    judgedRightly(check, student, W);
+    isRight("random wrenches", W);
   }
 }
 
@@ -170,20 +170,19 @@ Eigen::MatrixXd cubeWrenches(double friction, int edges) {
 
 void reaches(Check& check, Student& student) {
   Eigen::MatrixXd diamond = pairsAlongAxes(2, true);
-  check.input("wrenches (1, 0), (-1, 0), (0, 1), (0, -1), direction (1, 0)");
-  reachIs(check, student, diamond, Eigen::Vector2d(1, 0), 1);
-  check.input("wrenches (1, 0), (-1, 0), (0, 1), (0, -1), direction (0.6, -0.8)");
-  reachIs(check, student, diamond, Eigen::Vector2d(0.6, -0.8), 1 / 1.4);
+  reachIs(check, student, "two pairs", diamond, Eigen::Vector2d(1, 0), 1);
+  reachIs(check, student, "two pairs", diamond, Eigen::Vector2d(0.6, -0.8), 1 / 1.4);
   for (const double friction : {0.3, 0.8}) {
-    check.input("a cube with fingers in the middle of all faces, friction " + text(friction) +
-                ", 8 edges, the weakest direction");
     const Eigen::MatrixXd W = cubeWrenches(friction, 8);
-    reachIs(check, student, W, graspQuality(W).weakest, friction * std::sqrt(2. / 3));
+    reachIs(check, student,
+            "a cube with fingers in the middle of all faces, friction " + text(friction) +
+                ", 8 edges, the weakest direction",
+            W, graspQuality(W).weakest, friction * std::sqrt(2. / 3));
   }
   for (int i = 0; i < 10; ++i) {
     const int d = 2 + i % 3;
-    check.input("10 random wrenches in " + std::to_string(d) + " dimensions");
-    reachFits(check, student, closedWrenches(check.rng(), d, 10), randomDirection(check.rng(), d));
+    reachFits(check, student, "random wrenches", closedWrenches(check.rng(), d, 10),
+              randomDirection(check.rng(), d));
   }
 }
 
@@ -193,23 +192,18 @@ Eigen::MatrixXd antipodal(double friction) {
 }
 
 void radii(Check& check, Student& student) {
-  for (const double mu : {0.1, 0.5, 1.}) {
-    check.input("two fingers on opposite sides, friction " + text(mu));
-    check.near("radius of the ball", student.epsilonOf(antipodal(mu)), mu / std::sqrt(2 + mu * mu), 1e-6,
-               "N");
-  }
-  check.input("four smooth fingers on a square, torques 0.5, 0.5, -0.5, -0.5");
+  for (const double mu : {0.1, 0.5, 1.})
+    radiusIs(check, student, "two fingers on opposite sides, friction " + text(mu), antipodal(mu),
+             mu / std::sqrt(2 + mu * mu));
   Eigen::MatrixXd square(3, 4);
   square << 1, -1, 0, 0, 0, 0, 1, -1, 0.5, 0.5, -0.5, -0.5;
-  check.near("radius of the ball", student.epsilonOf(square), std::sqrt(1. / 8), 1e-6, "N");
-  check.input("the same with all torques 0.5");
+  radiusIs(check, student, "four smooth fingers on a square", square, std::sqrt(1. / 8));
   square.row(2).setConstant(0.5);
-  check.near("radius of the ball", student.epsilonOf(square), 0, 1e-6, "N");
+  radiusIs(check, student, "the same with other torques", square, 0);
   for (int i = 0; i < 20; ++i) {
     Eigen::MatrixXd W(3, 4 + i);
     for (Eigen::Index k = 0; k < W.cols(); ++k) W.col(k) = check.rng().normalVector(3);
-    check.input(std::to_string(W.cols()) + " random wrenches");
-    radiusFits(check, student, W);
+    radiusFits(check, student, "random wrenches", W);
   }
 }
 
@@ -218,11 +212,11 @@ void reachesAnywhere(Check& check, Student& student) {
   Rng& rng = check.rng();
   for (int i = 0; i < 25; ++i) {
     const int d = 2 + i % 5;
-    reachFits(check, student, closedWrenches(rng, d, 4 * d + rng.index(8)), randomDirection(rng, d));
+    reachFits(check, student, "", closedWrenches(rng, d, 4 * d + rng.index(8)), randomDirection(rng, d));
   }
   for (const int edges : {4, 6, 8}) {
     const Eigen::MatrixXd W = cubeWrenches(rng.uniform(0.1, 1), edges);
-    reachFits(check, student, W, randomDirection(rng, 6));
+    reachFits(check, student, "", W, randomDirection(rng, 6));
   }
 }
 
@@ -235,14 +229,14 @@ void radiiAnywhere(Check& check, Student& student) {
     while (fingers.size() < 2 || graspQuality(wrenchesOf(fingers, plate.center, plate.length)).epsilon == 0)
       fingers.push_back(fingerOn(plate, friction, rng));
     const Eigen::MatrixXd W = wrenchesOf(fingers, plate.center, plate.length);
-    radiusFits(check, student, W * (i % 3 == 0 ? rng.uniform(0.05, 20) : 1));
-    radiusFits(check, student, closedWrenches(rng, 3, 6 + i));
+    radiusFits(check, student, "", W * (i % 3 == 0 ? rng.uniform(0.05, 20) : 1));
+    radiusFits(check, student, "", closedWrenches(rng, 3, 6 + i));
     Eigen::MatrixXd flat = closedWrenches(rng, 3, 6);
     flat.row(rng.index(3)).setConstant(rng.index(2));
-    radiusFits(check, student, flat);
+    radiusFits(check, student, "", flat);
     Eigen::MatrixXd half = closedWrenches(rng, 3, 5);
     half.row(rng.index(3)) = half.row(0).cwiseAbs().array() + 0.1;
-    radiusFits(check, student, half);
+    radiusFits(check, student, "", half);
   });
 }
 // </hidden>
@@ -266,17 +260,15 @@ Fingertips onPlate(Rng& rng, int count, double friction) {
 }
 
 void keepsFew(Check& check, Student& student) {
-  check.input("wrenches (1, 0), (-1, 0), (0, 1), one for each finger: open");
-  keepsTheNeeded(check, student, pairsAlongAxes(2, false), {0, 1, 2});
-  check.input("wrenches (1, 0), (-1, 0), (0, 1), (0, -1), and the same four again");
+  keepsTheNeeded(check, student, "one wrench for each finger", pairsAlongAxes(2, false), {0, 1, 2});
   Eigen::MatrixXd twice(2, 8);
   twice << pairsAlongAxes(2, true), pairsAlongAxes(2, true);
-  keepsTheNeeded(check, student, twice, {0, 1, 2, 3, 4, 5, 6, 7});
+  keepsTheNeeded(check, student, "one wrench for each finger", twice, {0, 1, 2, 3, 4, 5, 6, 7});
   for (int i = 0; i < 6; ++i) {
     const double friction = i % 2 == 0 ? 0 : 0.4;
-    check.input("20 fingers on a polygon, friction " + text(friction));
     const Fingertips tips = onPlate(check.rng(), 20, friction);
-    keepsTheNeeded(check, student, tips.wrenches, tips.finger);
+    keepsTheNeeded(check, student, "20 fingers on a polygon, friction " + text(friction), tips.wrenches,
+                   tips.finger);
   }
 }
 
@@ -287,9 +279,9 @@ void keepsFewOnSolids(Check& check, Student& student) {
     const int count = 30 + rng.index(20);
     const WrenchSet set = wrenchesOf(fingersOn(randomSolid(rng), count, rng.uniform(0.1, 0.6), rng),
                                      3 + i % 4, Eigen::Vector3d::Zero(), 0.1);
-    keepsTheNeeded(check, student, set.wrenches, set.contact);
+    keepsTheNeeded(check, student, "", set.wrenches, set.contact);
     const Fingertips tips = onPlate(rng, 5 + rng.index(30), i % 2 == 0 ? 0 : rng.uniform(0.1, 1));
-    keepsTheNeeded(check, student, tips.wrenches, tips.finger);
+    keepsTheNeeded(check, student, "", tips.wrenches, tips.finger);
   });
 }
 // </hidden>

@@ -14,8 +14,8 @@
 inline constexpr double kBestOnSlab = 0.316227, kBestOnWedge = 0.18688;
 
 inline void isOnOutline(rex::grading::Check& check, const Plate& plate, const PlanarFinger& finger) {
-  check.shape("position of a finger", finger.p, 2, 1);
-  check.shape("normal of a finger", finger.normal, 2, 1);
+  check.shape("position of a finger of bestGrasp", finger.p, 2, 1);
+  check.shape("normal of a finger of bestGrasp", finger.normal, 2, 1);
   double least = INFINITY, fromCorner = INFINITY;
   Eigen::Vector2d inward(0, 0);
   for (std::size_t i = 0; i < plate.corners.size(); ++i) {
@@ -28,9 +28,10 @@ inline void isOnOutline(rex::grading::Check& check, const Plate& plate, const Pl
     least = away;
     inward = {-side.y(), side.x()};
   }
-  check.atMost("distance of a finger from the edges", least, 1e-6, "m");
-  check.atLeast("distance of a finger from the nearest corner", fromCorner, 0.002 - 1e-6, "m");
-  check.near("normal of a finger", finger.normal, inward, 1e-6);
+  check.atMost("distance of a finger of bestGrasp from the edges", least, 1e-6, "m");
+  check.atLeast("distance of a finger of bestGrasp from the nearest corner", fromCorner, 0.002 - 1e-6, "m");
+  const auto outward = check.suspect("Does the normal point out of the object?", -inward);
+  check.near("normal of a finger of bestGrasp", finger.normal, inward, 1e-6);
 }
 
 /// The friction cone of a finger, 0.3 of the length deep, and the finger behind it.
@@ -78,17 +79,26 @@ inline rex::Figure drawing(const Plate& plate, const std::vector<PlanarFinger>& 
 /// Checks that a grasp meets the contract and is at least 0.8 as good as the best known one.
 inline void graspIsGood(rex::grading::Check& check, Student& student, const Plate& plate, double friction,
                         int count, double best) {
-  check.input("a polygon of " + std::to_string(plate.corners.size()) + " corners, friction " +
-              text(friction) + ", " + std::to_string(count) + " fingers");
+  Eigen::MatrixXd corners(2, plate.corners.size());
+  std::copy(plate.corners.begin(), plate.corners.end(), corners.colwise().begin());
+  check.input("a polygon", {{"corners", corners},
+                            {"center", plate.center},
+                            {"length", plate.length},
+                            {"friction", friction},
+                            {"count", count}});
   const std::vector<PlanarFinger> fingers =
       student.bestGrasp(plate.corners, plate.center, plate.length, friction, count);
-  const auto shown =
-      check.show([&] { return rex::grading::Evidence{.figures = {drawing(plate, fingers)}, .film = {}}; });
-  check.near("number of fingers", static_cast<double>(fingers.size()), count, 0);
+  rex::Figure figure = drawing(plate, fingers);
+  const auto shown = check.show([&] { return rex::grading::Evidence{.figures = {figure}, .film = {}}; });
+  check.near("number of fingers of bestGrasp", static_cast<double>(fingers.size()), count, 0);
   for (const PlanarFinger& one : fingers) {
+    const auto marked = check.show([&] {
+      figure.series.push_back(rex::grading::wrongPoint("this finger", one.p.x(), one.p.y()));
+      return rex::grading::Evidence{.figures = {figure}, .film = {}};
+    });
     isOnOutline(check, plate, one);
-    check.near("friction of a finger", one.friction, friction, 1e-12);
+    check.near("friction of a finger of bestGrasp", one.friction, friction, 1e-12);
   }
   const double quality = rex::graspQuality(wrenchesOf(fingers, plate.center, plate.length)).epsilon;
-  check.atLeast("radius of the ball, as a share of the best known", quality / best, 0.8);
+  check.atLeast("epsilonOf() the fingers of bestGrasp", quality, 0.8 * best, "N");
 }

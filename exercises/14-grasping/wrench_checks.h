@@ -22,6 +22,15 @@ inline std::string text(double value) {
   return digits.back() == '.' ? digits + '0' : digits;
 }
 
+/// Keeps two objects alive.
+template <class A, class B>
+struct Both {
+  A a;
+  B b;
+};
+template <class A, class B>
+Both(A, B) -> Both<A, B>;
+
 /// The wrenches of the library for the same fingers.
 inline Eigen::MatrixXd wrenchesOf(const std::vector<PlanarFinger>& fingers, const Eigen::Vector2d& center,
                                   double length) {
@@ -38,33 +47,51 @@ inline rex::WrenchSet wrenchesOf(const std::vector<Finger>& fingers, int edges, 
   return rex::primitiveWrenches(rex::wrenchCones(contacts, {.p_OR = center, .length = length}), edges);
 }
 
+/// While the returned object is alive, a requirement that does not hold asks the question if it `applies`.
+inline auto ask(rex::grading::Check& check, const std::string& question, bool applies) {
+  const Eigen::VectorXd one = Eigen::VectorXd::Ones(1);
+  return Both{check.suspect(question, applies ? one : 2 * one), check.suspectUsualMistake(one, one, 0)};
+}
+
+/// A torque that should be `wanted`, with the usual mistakes; `aboutOrigin` is the torque about the origin.
+inline void torqueIs(rex::grading::Check& check, const std::string& function, const Eigen::MatrixXd& got,
+                     const Eigen::MatrixXd& wanted, const Eigen::MatrixXd& aboutOrigin, double length) {
+  const auto reversed = check.suspect("Is it force x arm? The torque is arm x force.", -wanted);
+  const auto whole = check.suspect("Is the torque not divided by length?", length * wanted);
+  const auto elsewhere =
+      check.suspect("Is it the torque about the origin instead of the center?", aboutOrigin);
+  check.near("torque / length of " + function, got, wanted, 1e-10 * (1 + wanted.cwiseAbs().maxCoeff()), "N");
+}
+
 /// The torque about the centre is the power of the force if the object turns about it at one radian per
 /// second: force times velocity of p.
 inline void planarWrenchFits(rex::grading::Check& check, Student& student, const Eigen::Vector2d& p,
                              const Eigen::Vector2d& force, const Eigen::Vector2d& center, double length) {
-  check.input("p = (" + text(p.x()) + ", " + text(p.y()) + "), force (" + text(force.x()) + ", " +
-              text(force.y()) + "), center (" + text(center.x()) + ", " + text(center.y()) + "), length " +
-              text(length));
+  check.input("a force in the plane", {{"p", p}, {"force", force}, {"center", center}, {"length", length}});
   const Eigen::Vector3d wrench = student.planarWrench(p, force, center, length);
-  check.shape("planar wrench", wrench, 3, 1);
-  check.near("force of a planar wrench", wrench.head<2>(), force, 1e-12, "N");
-  const Eigen::Vector2d velocity(center.y() - p.y(), p.x() - center.x());
-  const double torque = velocity.dot(force) / length;
-  check.near("torque / length of a planar wrench", wrench[2], torque, 1e-10 * (1 + std::abs(torque)), "N");
+  check.shape("planarWrench", wrench, 3, 1);
+  check.near("force of planarWrench", wrench.head<2>(), force, 1e-12, "N");
+  const auto torque = [&](const Eigen::Vector2d& about) {
+    const Eigen::Vector2d velocity(about.y() - p.y(), p.x() - about.x());
+    return Eigen::MatrixXd::Constant(1, 1, velocity.dot(force) / length).eval();
+  };
+  torqueIs(check, "planarWrench", wrench.tail<1>(), torque(center), torque({0, 0}), length);
 }
 
 inline void spatialWrenchFits(rex::grading::Check& check, Student& student, rex::Rng& rng) {
   const Eigen::Vector3d p = rng.normalVector(3), force = rng.normalVector(3), center = rng.normalVector(3);
   const double length = rng.uniform(0.1, 2);
-  check.input("random p, force and center, length " + text(length));
+  check.input("a force in space", {{"p", p}, {"force", force}, {"center", center}, {"length", length}});
   const Eigen::VectorXd wrench = student.spatialWrench(p, force, center, length);
-  check.shape("spatial wrench", wrench, 6, 1);
-  check.near("force of a spatial wrench", wrench.head(3), force, 1e-12, "N");
-  for (int axis = 0; axis < 3; ++axis) {
-    const Eigen::Vector3d velocity = Eigen::Vector3d::Unit(axis).cross(p - center);
-    check.near("torque / length of a spatial wrench", wrench[3 + axis], velocity.dot(force) / length, 1e-9,
-               "N");
-  }
+  check.shape("spatialWrench", wrench, 6, 1);
+  check.near("force of spatialWrench", wrench.head(3), force, 1e-12, "N");
+  const auto torque = [&](const Eigen::Vector3d& about) {
+    Eigen::Vector3d powers;
+    for (int axis = 0; axis < 3; ++axis)
+      powers[axis] = Eigen::Vector3d::Unit(axis).cross(p - about).dot(force) / length;
+    return powers;
+  };
+  torqueIs(check, "spatialWrench", wrench.tail(3), torque(center), torque({0, 0, 0}), length);
 }
 
 /// The forces along the edges of a pyramid, seen along the normal, with the circle on which they should lie.
@@ -94,19 +121,28 @@ inline rex::grading::Evidence edgesSeen(const Finger& finger, const Eigen::Matri
 /// a circle form a regular polygon if no two of them are nearer than in one.
 inline void areEdges(rex::grading::Check& check, const Finger& finger, const Eigen::MatrixXd& forces,
                      int edges) {
-  check.shape("edges of a pyramid", forces, 3, edges);
-  const auto shown = check.show([&] { return edgesSeen(finger, forces); });
-  for (Eigen::Index k = 0; k < edges; ++k) {
-    const double along = finger.normal.dot(forces.col(k));
-    check.near("normal component of an edge", along, 1, 1e-9, "N");
-    check.near("component of an edge along the surface", (forces.col(k) - along * finger.normal).norm(),
-               finger.friction, 1e-9, "N");
-  }
-  const double side = 2 * finger.friction * std::sin(std::numbers::pi / edges);
+  check.shape("pyramidEdges", forces, 3, edges);
+  const auto number = [](double value) { return Eigen::MatrixXd::Constant(1, 1, value); };
+  const double mu = finger.friction;
+  const auto units =
+      check.suspect("Are the edges unit vectors? Their normal components should be one newton.",
+                    number(std::cos(std::atan(mu))));
   for (Eigen::Index k = 0; k < edges; ++k)
-    for (Eigen::Index i = 0; i < k; ++i)
-      check.atLeast("distance of two edges, minus that of neighbours",
-                    (forces.col(k) - forces.col(i)).norm() - side, -1e-8, "N");
+    check.near("normal component of an edge of pyramidEdges", finger.normal.dot(forces.col(k)), 1, 1e-9, "N");
+  const auto shown = check.show([&] { return edgesSeen(finger, forces); });
+  const auto angle = check.suspect("Is the friction taken for an angle? It is the tangent of that angle.",
+                                   number(std::tan(mu)));
+  const auto around =
+      check.suspect("Is the pyramid around the cone? It should be inside, with its edges on the cone.",
+                    number(mu / std::cos(std::numbers::pi / edges)));
+  for (const Eigen::Vector3d force : forces.colwise())
+    check.near("component along the surface, of an edge of pyramidEdges",
+               (force - force.dot(finger.normal) * finger.normal).norm(), mu, 1e-9, "N");
+  double nearest = 2 * mu;
+  for (Eigen::Index k = 0; k < edges; ++k)
+    for (Eigen::Index i = 0; i < k; ++i) nearest = std::min(nearest, (forces.col(k) - forces.col(i)).norm());
+  check.atLeast("distance of the two nearest edges of pyramidEdges", nearest,
+                2 * mu * std::sin(std::numbers::pi / edges) - 1e-8, "N");
 }
 
 /// Forces one per cent inside and outside of the cone, a pulling force, and none at all; shuffled, so that
@@ -119,7 +155,6 @@ inline void coneFits(rex::grading::Check& check, Student& student, rex::Rng& rng
                            (std::cos(angle) * finger.normal + std::sin(angle) * across));
   };
   const double limit = std::atan(finger.friction);
-  const std::string friction = "friction " + text(finger.friction);
   struct Question {
     std::string input, property;
     Finger finger;
@@ -127,43 +162,61 @@ inline void coneFits(rex::grading::Check& check, Student& student, rex::Rng& rng
     bool isInside;
   };
   std::vector<Question> questions{
-      {friction + ", a force at 0.99 times the angle of the cone", "a force within the cone can be exerted",
-       finger, force(0.99 * limit), true},
-      {friction + ", a force at 1.01 times the angle of the cone",
-       "a force outside the cone cannot be exerted", finger, force(1.01 * limit), false},
-      {friction + ", a force that pulls", "a finger cannot pull", finger, -force(rng.uniform(0, 0.5 * limit)),
-       false},
-      {friction + ", no force", "a finger can let go", finger, Eigen::Vector3d::Zero(), true},
-      {"no friction", "a smooth finger pushes along its normal", smooth, force(0), true},
-      {"no friction", "a smooth finger pushes along its normal only", smooth, force(0.01), false}};
+      {"a force at 0.99 times the angle of the cone", "inCone() is true for a force within the cone", finger,
+       force(0.99 * limit), true},
+      {"a force at 1.01 times the angle of the cone", "inCone() is false for a force outside of the cone",
+       finger, force(1.01 * limit), false},
+      {"a force that pulls", "inCone() is false for a force that pulls", finger,
+       -force(rng.uniform(0, 0.5 * limit)), false},
+      {"no force", "inCone() is true for no force", finger, Eigen::Vector3d::Zero(), true},
+      {"no friction, along the normal", "inCone() is true for a smooth finger that pushes along its normal",
+       smooth, force(0), true},
+      {"no friction, 0.01 rad from the normal", "inCone() is false for a smooth finger that pushes aside",
+       smooth, force(0.01), false}};
   for (std::size_t k = questions.size(); k > 0; --k) {
     std::swap(questions[k - 1], questions[static_cast<std::size_t>(rng.index(static_cast<int>(k)))]);
     const Question& one = questions[k - 1];
-    check.input(one.input);
+    check.input(one.input,
+                {{"friction", one.finger.friction}, {"normal", one.finger.normal}, {"force", one.force}});
     check.that(one.property, student.inCone(one.finger, one.force) == one.isInside);
   }
 }
 
-/// Checks that the proof holds, whatever the verdict is.
-inline void isProven(rex::grading::Check& check, const Eigen::MatrixXd& W, const Verdict& verdict) {
-  const Eigen::VectorXd sizes = W.colwise().norm().transpose();
+/// Checks that the verdict is right, and that its proof holds.
+inline void judgedRightly(rex::grading::Check& check, Student& student, const Eigen::MatrixXd& W) {
+  const Verdict verdict = student.judged(W);
+  const Eigen::VectorXd sizes = W.colwise().norm().transpose(), &proof = verdict.proof;
+  const rex::Closure closure = rex::forceClosure(W);
+  const bool weighs = verdict.closed && proof.size() == W.cols() && proof.allFinite() &&
+                      proof.minCoeff() > -1e-8 && (W * proof).norm() <= 1e-8 * sizes.maxCoeff();
+  {
+    const auto flat = ask(check, "Do the wrenches span the space? Weights alone do not prove that.",
+                          weighs && closure.rank < W.rows());
+    const auto zero = ask(check, "Are some of your weights zero? All have to be positive.",
+                          weighs && closure.rank == W.rows());
+    const auto spans = ask(check,
+                           "The weighted sum of the wrenches is not zero, or a weight is negative: is it "
+                           "enough for you that the wrenches span the space?",
+                           verdict.closed && !weighs && closure.rank == W.rows());
+    if (closure.status == rex::ClosureStatus::kOpen)
+      check.that("judged() finds that these wrenches have no force closure", !verdict.closed);
+  }
+  if (closure.status == rex::ClosureStatus::kClosed)
+    check.that("judged() finds that these wrenches have force closure", verdict.closed);
   if (!verdict.closed) {
-    check.shape("direction that proves an open grasp", verdict.proof, W.rows(), 1);
-    check.near("length of the direction that proves an open grasp", verdict.proof.norm(), 1, 1e-9);
-    check.atLeast("smallest component of a wrench along the direction that proves an open grasp",
-                  (W.transpose() * verdict.proof).cwiseQuotient(sizes).minCoeff(), -1e-8);
+    check.shape("direction u of judged", proof, W.rows(), 1);
+    check.near("length of the direction u of judged", proof.norm(), 1, 1e-9);
+    const Eigen::VectorXd along = (W.transpose() * proof).cwiseQuotient(sizes);
+    const auto turned = ask(check, "Does u have the wrong sign?", along.maxCoeff() <= 1e-8);
+    check.atLeast("smallest u.w of judged, for unit wrenches w", along.minCoeff(), -1e-8);
     return;
   }
-  check.shape("weights that prove force closure", verdict.proof, W.cols(), 1);
-  check.near("sum of the weights that prove force closure", verdict.proof.sum(), 1, 1e-9);
-  check.atLeast("smallest weight that proves force closure", verdict.proof.minCoeff(), 1e-6);
-  check.atMost("weighted sum of the wrenches, relative to the longest",
-               (W * verdict.proof).norm() / sizes.maxCoeff(), 1e-8);
-  check.that("wrenches with force closure span the space", rex::forceClosure(W).rank == W.rows());
-}
-
-inline void judgedRightly(rex::grading::Check& check, Student& student, const Eigen::MatrixXd& W) {
-  isProven(check, W, student.judged(W));
+  check.shape("weights of judged", proof, W.cols(), 1);
+  check.near("sum of the weights of judged", proof.sum(), 1, 1e-9);
+  check.atLeast("smallest weight of judged", proof.minCoeff(), 1e-6);
+  check.near("weighted sum of the wrenches, with the weights of judged", W * proof,
+             Eigen::VectorXd::Zero(W.rows()), 1e-8 * sizes.maxCoeff());
+  check.that("wrenches with force closure span the space", closure.rank == W.rows());
 }
 
 /// Whether W is not near the border between open and closed.
@@ -220,22 +273,67 @@ inline rex::grading::Evidence reachSeen(const Eigen::MatrixXd& W, const Eigen::V
           .film = {}};
 }
 
-inline void reachIs(rex::grading::Check& check, Student& student, const Eigen::MatrixXd& W,
-                    const Eigen::VectorXd& direction, double wanted) {
+/// The same if each weight were at most one, instead of all together.
+inline double reachOfEach(const Eigen::MatrixXd& W, const Eigen::VectorXd& direction) {
+  const Eigen::Index d = W.rows(), n = W.cols();
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(d + n, 2 * n + 1);  // weights, what they lack, reach
+  rows.topLeftCorner(d, n) = W;
+  rows.topRightCorner(d, 1) = -direction;
+  rows.bottomLeftCorner(n, 2 * n) << Eigen::MatrixXd::Identity(n, n), Eigen::MatrixXd::Identity(n, n);
+  Eigen::VectorXd right = Eigen::VectorXd::Ones(d + n);
+  right.head(d).setZero();
+  return -rex::minimizeLinear(rows, right, -Eigen::VectorXd::Unit(2 * n + 1, 2 * n)).value;
+}
+
+inline void reachIs(rex::grading::Check& check, Student& student, const std::string& name,
+                    const Eigen::MatrixXd& W, const Eigen::VectorXd& direction, double wanted) {
+  check.input(name, {{"wrenches", W}, {"direction", direction}});
   const double got = student.reachAlong(W, direction);
-  if (W.rows() != 2) return check.near("how far the hull reaches", got, wanted, 1e-6, "N");
+  const auto number = [](double value) { return Eigen::MatrixXd::Constant(1, 1, value); };
+  const auto corners = check.suspect("Is it how far a corner lies along the direction? The hull ends before.",
+                                     number((W.transpose() * direction).maxCoeff()));
+  const auto each = check.suspect("Is each weight at most one? All together sum to one.",
+                                  number(W.rows() == 2 ? reachOfEach(W, direction) : NAN));
+  if (W.rows() != 2) return check.near("reachAlong", got, wanted, 1e-6, "N");
   const auto shown = check.show([&] { return reachSeen(W, direction, got, wanted); });
-  check.near("how far the hull reaches", got, wanted, 1e-6, "N");
+  check.near("reachAlong", got, wanted, 1e-6, "N");
 }
 
-inline void reachFits(rex::grading::Check& check, Student& student, const Eigen::MatrixXd& W,
-                      const Eigen::VectorXd& direction) {
-  reachIs(check, student, W, direction, reachOf(rex::facetHull(W), direction));
+inline void reachFits(rex::grading::Check& check, Student& student, const std::string& name,
+                      const Eigen::MatrixXd& W, const Eigen::VectorXd& direction) {
+  reachIs(check, student, name, W, direction, reachOf(rex::facetHull(W), direction));
 }
 
-inline void radiusFits(rex::grading::Check& check, Student& student, const Eigen::MatrixXd& W) {
-  check.near("radius of the ball", student.epsilonOf(W), rex::graspQuality(W).epsilon,
-             1e-6 * W.colwise().norm().maxCoeff(), "N");
+/// The least distance of any plane through three wrenches, whether it bounds the hull or not.
+inline double nearestPlane(const Eigen::MatrixXd& W) {
+  double least = INFINITY;
+  for (int i = 0; i < W.cols(); ++i)
+    for (int j = 0; j < i; ++j)
+      for (int k = 0; k < j; ++k) {
+        const Eigen::Vector3d corner = W.col(i), side = W.col(j), other = W.col(k);
+        const Eigen::Vector3d normal = (side - corner).cross(other - corner);
+        if (normal.norm() > 1e-9) least = std::min(least, std::abs(normal.dot(corner)) / normal.norm());
+      }
+  return least;
+}
+
+inline void radiusIs(rex::grading::Check& check, Student& student, const std::string& name,
+                     const Eigen::MatrixXd& W, double wanted) {
+  check.input(name, {{"wrenches", W}});
+  const double got = student.epsilonOf(W);
+  const auto number = [](double value) { return Eigen::MatrixXd::Constant(1, 1, value); };
+  const auto outside = check.suspect("Is zero inside the hull? Without force closure the radius is 0.",
+                                     number(wanted == 0 ? got : NAN));
+  const auto corner = check.suspect("Is it the distance of the nearest corner? A face may be nearer.",
+                                    number(W.colwise().norm().minCoeff()));
+  const auto plane = check.suspect("Does the nearest plane cut the hull? Only planes that bound it count.",
+                                   number(nearestPlane(W)));
+  check.near("epsilonOf", got, wanted, 1e-6 * W.colwise().norm().maxCoeff(), "N");
+}
+
+inline void radiusFits(rex::grading::Check& check, Student& student, const std::string& name,
+                       const Eigen::MatrixXd& W) {
+  radiusIs(check, student, name, W, rex::graspQuality(W).epsilon);
 }
 
 /// The wrenches of those fingers.
@@ -254,21 +352,35 @@ inline bool isProvablyClosed(const Eigen::MatrixXd& W) {
 }
 
 /// The fingers kept have force closure, and none of them is redundant.
-inline void keepsTheNeeded(rex::grading::Check& check, Student& student, const Eigen::MatrixXd& W,
-                           const std::vector<int>& finger) {
+inline void keepsTheNeeded(rex::grading::Check& check, Student& student, const std::string& name,
+                           const Eigen::MatrixXd& W, const std::vector<int>& finger) {
+  check.input(name, {{"wrenches", W}});
   const std::vector<int> kept = student.keptFingers(W, finger);
-  check.that("fingers are in ascending order, each once",
+  std::string list;
+  for (const int one : kept) list += (list.empty() ? "" : ", ") + std::to_string(one);
+  check.input(check.input() + "; fingers kept: " + (list.empty() ? "none" : list));
+  check.that("fingers of keptFingers() are in ascending order, each once",
              std::ranges::adjacent_find(kept, std::greater_equal<>()) == kept.end());
-  check.that("fingers kept are among those given",
+  check.that("fingers of keptFingers() are among those given",
              std::ranges::all_of(kept, [&](int one) { return std::ranges::count(finger, one) > 0; }));
   using enum rex::ClosureStatus;
   if (rex::forceClosure(W).status == kOpen || (kept.empty() && !isProvablyClosed(W)))
-    return check.that("no finger of an open grasp is kept", kept.empty());
-  check.that("the fingers kept have force closure",
-             rex::forceClosure(partOf(W, finger, kept)).status != kOpen);
-  for (const int one : kept) {
-    std::vector<int> others = kept;
-    std::erase(others, one);
-    check.that("each finger kept is needed", !isProvablyClosed(partOf(W, finger, others)));
+    return check.that("keptFingers() is empty if all fingers have no force closure", kept.empty());
+  const auto without = [&](std::vector<int> fingers, int removed) {
+    std::erase(fingers, removed);
+    return partOf(W, finger, fingers);
+  };
+  const bool holds = rex::forceClosure(partOf(W, finger, kept)).status != kOpen;
+  std::vector<int> needed;
+  for (const int one : holds ? std::vector<int>() : finger)
+    if ((needed.empty() || needed.back() != one) && !isProvablyClosed(without(finger, one)))
+      needed.push_back(one);
+  {
+    const auto atOnce =
+        ask(check, "Are all fingers deleted at once that are redundant beside all others?", kept == needed);
+    check.that("the fingers of keptFingers() have force closure", holds);
   }
+  for (const int one : kept)
+    check.that("finger " + std::to_string(one) + " of keptFingers() is needed",
+               !isProvablyClosed(without(kept, one)));
 }
