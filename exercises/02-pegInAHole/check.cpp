@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "collision/contacts.h"
@@ -10,7 +9,9 @@
 #include "course/film.h"
 #include "grading/evidence_parts.h"
 #include "interface.h"
+#include "priority_checks.h"
 #include "scene/model.h"
+#include "task_checks.h"
 
 using namespace rex;
 using grading::Check;
@@ -23,10 +24,6 @@ using Motion = std::vector<Eigen::VectorXd>;
 
 const Eigen::Vector3d kTarget(-0.2, -0.4, 1.1), kUp(0, 0, 1), kDown(0, 0, -1);
 
-Eigen::MatrixXd randomMatrix(Rng& rng, int rows, int columns) {
-  return rng.normalVector(rows * columns).reshaped(rows, columns);
-}
-
 Eigen::MatrixXd randomMetric(Rng& rng, int n) {
   const Eigen::MatrixXd A = randomMatrix(rng, n, n);
   return A * A.transpose() / n + 0.3 * Eigen::MatrixXd::Identity(n, n);
@@ -38,15 +35,6 @@ Simulator at(const Simulator& S, const Eigen::VectorXd& q) {
   return Simulator(description);
 }
 
-// Columns that span the nullspace of J.
-Eigen::MatrixXd nullspace(const Eigen::MatrixXd& J) {
-  Eigen::MatrixXd square = Eigen::MatrixXd::Zero(std::max(J.rows(), J.cols()), J.cols());
-  square.topRows(J.rows()) = J;
-  const SingularValues parts = svd(square);
-  const auto rank = (parts.s.array() > 1e-9 * parts.s[0]).count();
-  return parts.V.rightCols(J.cols() - rank);
-}
-
 // There are `count` postures, each of n finite numbers.
 void checkPostures(Check& check, const Motion& motion, int count, int n) {
   check.near("number of postures", static_cast<double>(motion.size()), count, 0);
@@ -55,38 +43,15 @@ void checkPostures(Check& check, const Motion& motion, int count, int n) {
 
 // Part 1.
 
-// X minimises precision * |J X dy - dy|^2 + |X dy|_W^2 for every dy if this gradient vanishes.
-void inverseIsTheMinimum(Check& check, Student& student, const Eigen::MatrixXd& J, const Eigen::MatrixXd& W,
-                         double precision) {
-  const Eigen::MatrixXd X = student.regularisedInverse(J, W, precision);
-  check.shape("J#", X, J.cols(), J.rows());
-  const Eigen::MatrixXd gradient =
-      precision * J.transpose() * (J * X - Eigen::MatrixXd::Identity(J.rows(), J.rows())) + W * X;
-  const Eigen::MatrixXd wanted = solve(precision * J.transpose() * J + W, precision * J.transpose());
-  const double scale = (precision * J.squaredNorm() + W.norm()) * wanted.norm() + precision * J.norm();
-  check.atMost("relative gradient of the cost at J# dy", gradient.norm() / scale, 1e-8);
-}
-
 void inverses(Check& check, Student& student) {
   check.forEachCase(10, [&](int) {
     Rng& rng = check.rng();
     const int d = 1 + rng.index(4), n = d + rng.index(8);
-    check.input("a random Jacobian, a random metric W, a precision between 0.1 and 1e4");
-    inverseIsTheMinimum(check, student, randomMatrix(rng, d, n), randomMetric(rng, n),
-                        std::pow(10, rng.uniform(-1, 4)));
+    const Eigen::MatrixXd J = randomMatrix(rng, d, n), W = randomMetric(rng, n);
+    const double precision = std::pow(10, rng.uniform(-1, 4));
+    check.input("a random case", {{"J", J}, {"W", W}, {"precision", precision}});
+    inverseIsTheMinimum(check, student, J, W, precision);
   });
-}
-
-void isTheProjector(Check& check, Student& student, const Eigen::MatrixXd& J, int rank) {
-  const Eigen::Index n = J.cols();
-  const Eigen::MatrixXd N = student.nullspaceProjector(J);
-  check.shape("N", N, n, n);
-  check.atMost("largest relative entry of J N", (J * N).cwiseAbs().maxCoeff() / J.cwiseAbs().maxCoeff(),
-               1e-9);
-  check.near("N N", N * N, N, 1e-9);
-  check.atMost("largest entry of N - N' (W is the identity)", (N - N.transpose()).cwiseAbs().maxCoeff(),
-               1e-9);
-  check.near("trace of N, the number of free directions", N.trace(), static_cast<double>(n) - rank, 1e-9);
 }
 
 void projectors(Check& check, Student& student) {
@@ -99,8 +64,9 @@ void projectors(Check& check, Student& student) {
       isTheProjector(check, student, S.jacobianPos("handR"), 3);
     } else {
       const int d = 1 + rng.index(3), n = d + 2 + rng.index(8);
-      check.input("a random Jacobian of full rank");
-      isTheProjector(check, student, randomMatrix(rng, d, n), d);
+      const Eigen::MatrixXd J = randomMatrix(rng, d, n);
+      check.input("a random Jacobian of full rank", {{"J", J}});
+      isTheProjector(check, student, J, d);
     }
   });
 }
@@ -108,9 +74,9 @@ void projectors(Check& check, Student& student) {
 void projectorsOfLessRank(Check& check, Student& student) {
   check.input("pegArm.ors stretched out (q = 0), the Jacobian of the peg: it can only move up or down");
   isTheProjector(check, student, Simulator("pegArm.ors").jacobianPos("peg"), 1);
-  check.input("a random Jacobian whose last row is the sum of the others");
   Eigen::MatrixXd J = randomMatrix(check.rng(), 4, 7);
   J.row(3) = J.topRows(3).colwise().sum();
+  check.input("a random Jacobian whose last row is the sum of the others", {{"J", J}});
   isTheProjector(check, student, J, 3);
 }
 
@@ -133,24 +99,6 @@ void inversesOfAnySize(Check& check, Student& student) {
 
 // Part 2.
 
-void stepIsTheMinimum(Check& check, Student& student, const std::vector<TaskTerm>& tasks,
-                      const Eigen::MatrixXd& W) {
-  const Eigen::VectorXd dq = student.multiTaskStep(tasks, W);
-  check.shape("dq", dq, W.rows(), 1);
-  Eigen::MatrixXd H = W;
-  Eigen::VectorXd gradient = W * dq, pull = Eigen::VectorXd::Zero(W.rows());
-  for (const auto& [error, J, precision] : tasks) {
-    gradient += precision * J.transpose() * (error + J * dq);
-    H += precision * J.transpose() * J;
-    pull += precision * J.transpose() * error;
-  }
-  const double size = solve(H, pull).norm();  // of the wanted step
-  double scale = W.norm() * size;
-  for (const auto& [error, J, precision] : tasks)
-    scale += precision * (J.norm() * error.norm() + J.squaredNorm() * size);
-  check.atMost("relative gradient of the cost at dq", gradient.norm() / scale, 1e-8);
-}
-
 void stackedSteps(Check& check, Student& student) {
   check.forEachCase(10, [&](int i) {
     Rng& rng = check.rng();
@@ -160,8 +108,14 @@ void stackedSteps(Check& check, Student& student) {
       const int d = 1 + rng.index(4);
       tasks.push_back({rng.normalVector(d), randomMatrix(rng, d, n), std::pow(10, rng.uniform(-2, 4))});
     }
-    check.input("random tasks with precisions between 0.01 and 1e4, and a random metric W");
-    stepIsTheMinimum(check, student, tasks, randomMetric(rng, n));
+    const Eigen::MatrixXd W = randomMetric(rng, n);
+    const TaskTerm& task = tasks.back();
+    check.input("random tasks", {{"number of tasks", tasks.size()},
+                                 {"W", W},
+                                 {"error of the last", task.error},
+                                 {"J of the last", task.J},
+                                 {"precision of the last", task.precision}});
+    stepIsTheMinimum(check, student, tasks, W);
   });
 }
 
@@ -207,6 +161,18 @@ grading::Evidence seen(const Simulator& S, const std::string& body, const Motion
   return {.film = std::move(film)};
 }
 
+// The posture after the first step, if the circle were at t and home had that precision.
+Eigen::VectorXd firstPosture(const Simulator& S, const Circle& circle, int t, double home) {
+  const Eigen::VectorXd now = S.getJointAngles();
+  const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(now.size(), now.size());
+  const Eigen::Vector3d there =
+      circle.center + circle.radius * Eigen::Vector3d(std::cos(t / 20.), 0, std::sin(t / 20.));
+  return now + weightedStep({{S.kinematicsPos(circle.hand) - there, S.jacobianPos(circle.hand), 1e4},
+                             {S.kinematicsVec(circle.pointing) - kUp, S.jacobianVec(circle.pointing), 100},
+                             {Eigen::VectorXd::Zero(now.size()), I, home}},
+                            I);
+}
+
 // 2e-4 m is usual: the home task pulls the hand off its circle in proportion to the precisions.
 void tracks(Check& check, const Simulator& S, const Circle& circle, const Motion& motion,
             double most = 2e-3) {
@@ -221,7 +187,14 @@ void tracks(Check& check, const Simulator& S, const Circle& circle, const Motion
     for (int t = 0; t < 126; ++t) path.push_back(wanted(t));
     return seen(S, circle.hand, motion, 20, path);
   });
-  check.atMostAlong("distance of " + circle.hand + " from the point on the circle",
+  const auto strong = check.suspect("Is home as precise as the circle? Its precision is 0.01.",
+                                    firstPosture(S, circle, 1, 1e4));
+  const auto early = check.suspect("Does the circle begin at t = 0? The first step is t = 1.",
+                                   firstPosture(S, circle, 0, 0.01));
+  const auto late = check.suspect("Does the circle begin at t = 2? The first step is t = 1.",
+                                  firstPosture(S, circle, 2, 0.01));
+  const auto usual = check.suspectUsualMistake(motion.front(), firstPosture(S, circle, 1, 0.01), 1e-7);
+  check.atMostAlong("distance of " + circle.hand + " from its point on the circle, in circleWithTasks",
                     along(S, motion, 20, error), most, "m");
 }
 
@@ -235,16 +208,19 @@ void staysAtHome(Check& check, const Simulator& S, const Motion& motion) {
     evidence.film = grading::withWanted(evidence.film, filmOf(S, Motion{atFirst}, {}));
     return evidence;
   });
-  check.atMostAlong("deviation of the joint that is farthest from its home angle", along(S, motion, 1, away),
-                    2.2, "rad");
+  const auto moves = ask(check, "Is home the posture before the first step, in every step?", true);
+  check.atMostAlong("largest deviation of a joint from its home angle, in circleWithTasks",
+                    along(S, motion, 1, away), 2.2, "rad");
 }
 
 void pointsUpwards(Check& check, const Simulator& S, const Circle& circle, const Motion& motion) {
-  const auto tilt = [&](const Simulator& moved, int) {
-    return (moved.kinematicsVec(circle.pointing) - kUp).norm();
-  };
+  const auto axis = [&](const Simulator& moved, int) { return moved.kinematicsVec(circle.pointing); };
+  const Signal got = along(S, motion, 100, axis);
   const auto shown = check.show([&] { return seen(S, circle.pointing, motion, 100); });
-  check.atMostAlong("|z axis - up| of " + circle.pointing, along(S, motion, 100, tilt), 0.05);
+  const auto sign = ask(check, "Is the error the sum of both directions? It is their difference.",
+                        (got.values.front() + kUp).norm() < 0.05);
+  check.nearAlong("z axis of " + circle.pointing + ", in circleWithTasks", got,
+                  Motion(got.values.size(), kUp), 0.05);
 }
 
 void circleTracks(Check& check, Student& student) {
@@ -280,8 +256,8 @@ void restsNearHome(Check& check, Student& student, const Simulator& S, Circle ci
   Eigen::MatrixXd J(6, S.getJointDimension());
   J << end.jacobianPos(circle.hand), end.jacobianVec(circle.pointing);
   const Eigen::VectorXd away = motion.back() - S.getJointAngles();
-  check.atMost("deviation from home that no other task asks for", (nullspace(J).transpose() * away).norm(),
-               0.02, "rad");
+  check.atMost("deviation from home that no other task asks for, in circleWithTasks",
+               (nullspace(J).transpose() * away).norm(), 0.02, "rad");
 }
 
 void circleOfTheOtherHand(Check& check, Student& student) {
@@ -304,6 +280,7 @@ void circleOfTheOtherHand(Check& check, Student& student) {
 void interpolates(Check& check, Student& student) {
   for (int i = 0; i <= 10; ++i) {
     const double s = i / 10.;
+    const auto ramp = check.suspect("Is it a ramp?", Eigen::MatrixXd::Constant(1, 1, s));
     check.near("sineProfile(" + std::to_string(s).substr(0, 3) + ")", student.sineProfile(s),
                (1 - std::cos(std::numbers::pi * s)) / 2, 1e-9);
   }
@@ -316,7 +293,13 @@ void interpolates(Check& check, Student& student) {
   Motion wanted;
   for (int t = 1; t <= T; ++t)
     wanted.emplace_back(q0 + (1 - std::cos(std::numbers::pi * t / T)) / 2 * (qT - q0));
-  check.nearAlong("posture", grading::overSteps(motion), wanted, 1e-9, "rad");
+  Eigen::MatrixXd got(T, n), right(T, n);
+  for (int t = 0; t < T; ++t) {
+    got.row(t) = motion[static_cast<std::size_t>(t)].transpose();
+    right.row(t) = wanted[static_cast<std::size_t>(t)].transpose();
+  }
+  const auto usual = check.suspectUsualMistake(got, right, 1e-9);
+  check.nearAlong("posture of jointSpaceMotion", grading::overSteps(motion), wanted, 1e-9, "rad");
 }
 
 constexpr double kMargin = 0.02;
@@ -348,18 +331,19 @@ double clearance(const Simulator& S) {
 }
 
 // Without this, a joint that turns a million times would keep the check of the clearance busy for ever.
-void turnsLittle(Check& check, const Simulator& S, const Motion& motion, double limit) {
+void turnsLittle(Check& check, const Simulator& S, const std::string& function, const Motion& motion) {
   Eigen::VectorXd before = S.getJointAngles();
   Signal turns;
   for (std::size_t k = 0; k < motion.size(); ++k) {
     turns.add(static_cast<double>(k) + 1, (motion[k] - before).cwiseAbs().maxCoeff());
     before = motion[k];
   }
-  check.atMostAlong("largest turn of a joint since the posture before", turns, limit + 1e-9, "rad");
+  check.atMostAlong("largest turn of a joint since the posture before, in " + function, turns, 0.1 + 1e-9,
+                    "rad");
 }
 
 // The clearance between the postures counts, too. The computed bound is at most `slack` too low.
-void clearanceIsKept(Check& check, const Simulator& S, const Motion& motion) {
+void clearanceIsKept(Check& check, const Simulator& S, const std::string& function, const Motion& motion) {
   const double slack = 1e-4;
   const ContactModel contacts(S.model());
   Eigen::VectorXd before = S.getJointAngles();
@@ -369,7 +353,8 @@ void clearanceIsKept(Check& check, const Simulator& S, const Motion& motion) {
                    std::min(motionClearance(S.model(), contacts, before, motion[k], slack), kQueryCutoff));
     before = motion[k];
   }
-  check.atLeastAlong("clearance on the way to the posture", clearances, 0.5 * kMargin - slack, "m");
+  check.atLeastAlong("clearance on the way to the posture, in " + function, clearances, 0.5 * kMargin - slack,
+                     "m");
 }
 
 // The motion of the peg and the last part of the wanted path.
@@ -377,18 +362,19 @@ grading::Evidence wayOf(const Scene& scene, const Motion& motion) {
   return seen(scene.S, scene.peg, motion, 1, {scene.hole - 0.6 * kDown, scene.hole});
 }
 
-void pegIsAt(Check& check, const Scene& scene, const Eigen::VectorXd& q, const Eigen::Vector3d& place,
-             const Eigen::Vector3d& direction) {
+void pegIsAt(Check& check, const Scene& scene, const std::string& property, const Eigen::VectorXd& q,
+             const Eigen::Vector3d& place, const Eigen::Vector3d& direction) {
   const Simulator there = at(scene.S, q);
-  check.near("position of the peg", there.kinematicsPos(scene.peg), place, 1e-3, "m");
-  check.near("z axis of the peg", there.kinematicsVec(scene.peg), direction, 0.01);
+  check.near("position of the peg " + property, there.kinematicsPos(scene.peg), place, 1e-3, "m");
+  check.near("z axis of the peg " + property, there.kinematicsVec(scene.peg), direction, 0.01);
 }
 
 void postureIsRight(Check& check, Student& student, const Scene& scene, const Eigen::Vector3d& place) {
   const Eigen::VectorXd q = student.pegPosture(scene.S.description(), scene.peg, place, kDown, kMargin);
-  check.shape("posture", q, scene.S.getJointDimension(), 1);
-  pegIsAt(check, scene, q, place, kDown);
-  check.atLeast("clearance", clearance(at(scene.S, q)), 0.5 * kMargin, "m");
+  check.shape("posture of pegPosture", q, scene.S.getJointDimension(), 1);
+  const auto shown = check.show([&] { return wayOf(scene, {q}); });
+  pegIsAt(check, scene, "in pegPosture", q, place, kDown);
+  check.atLeast("clearance in pegPosture", clearance(at(scene.S, q)), 0.5 * kMargin, "m");
 }
 
 void postureAboveAndIn(Check& check, Student& student) {
@@ -412,23 +398,31 @@ void movesStraight(Check& check, Student& student) {
     wanted.emplace_back(start + (1 - std::cos(std::numbers::pi * t / T)) / 2 * (kHole - start));
   const auto position = [](const Simulator& moved, int) { return moved.kinematicsPos("peg"); };
   const auto axis = [](const Simulator& moved, int) { return moved.kinematicsVec("peg"); };
-  check.nearAlong("position of the peg", along(scene.S, motion, 1, position), wanted, 5e-3, "m");
-  check.nearAlong("z axis of the peg", along(scene.S, motion, 1, axis), Motion(wanted.size(), direction),
-                  0.05);
-  pegIsAt(check, scene, motion.back(), kHole, direction);
-  turnsLittle(check, scene.S, motion, 0.1);
-  clearanceIsKept(check, scene.S, motion);
+  Eigen::VectorXd aside(T);  // of each posture from the straight line between the first and the last
+  const Eigen::VectorXd first = motion.front(), chord = (motion.back() - first).normalized();
+  for (int t = 0; t < T; ++t) {
+    const Eigen::VectorXd gone = motion[static_cast<std::size_t>(t)] - first;
+    aside[t] = (gone - gone.dot(chord) * chord).norm();
+  }
+  const auto joints = ask(check, "Do the joints move straight instead of the peg?", aside.maxCoeff() < 1e-6);
+  check.nearAlong("position of the peg in taskSpaceMotion", along(scene.S, motion, 1, position), wanted, 5e-3,
+                  "m");
+  check.nearAlong("z axis of the peg in taskSpaceMotion", along(scene.S, motion, 1, axis),
+                  Motion(wanted.size(), direction), 0.05);
+  pegIsAt(check, scene, "at the end of taskSpaceMotion", motion.back(), kHole, direction);
+  turnsLittle(check, scene.S, "taskSpaceMotion", motion);
+  clearanceIsKept(check, scene.S, "taskSpaceMotion", motion);
 }
 
 void goesIn(Check& check, Student& student, const Scene& scene) {
   const Motion motion = student.insertPeg(scene.S.description(), scene.peg, scene.hole, kDown, kMargin);
-  check.atLeast("number of postures", static_cast<double>(motion.size()), 10);
-  check.atMost("number of postures", static_cast<double>(motion.size()), 1000);
+  check.atLeast("number of postures of insertPeg", static_cast<double>(motion.size()), 10);
+  check.atMost("number of postures of insertPeg", static_cast<double>(motion.size()), 1000);
   for (const Eigen::VectorXd& q : motion) check.shape("posture", q, scene.S.getJointDimension(), 1);
   const auto shown = check.show([&] { return wayOf(scene, motion); });
-  turnsLittle(check, scene.S, motion, 0.1);
-  pegIsAt(check, scene, motion.back(), scene.hole, kDown);
-  clearanceIsKept(check, scene.S, motion);
+  turnsLittle(check, scene.S, "insertPeg", motion);
+  pegIsAt(check, scene, "at the end of insertPeg", motion.back(), scene.hole, kDown);
+  clearanceIsKept(check, scene.S, "insertPeg", motion);
 }
 
 void goesIntoTheHole(Check& check, Student& student) {
@@ -476,81 +470,22 @@ void anotherPegAndHole(Check& check, Student& student) {
 
 // Part 4.
 
-struct TwoTasks {
-  Eigen::MatrixXd J1;
-  Eigen::VectorXd dy1;
-  Eigen::MatrixXd J2;
-  Eigen::VectorXd dy2;
-};
-
-TwoTasks randomTasks(Rng& rng, int d1, int d2, int n) {
-  return {randomMatrix(rng, d1, n), rng.normalVector(d1), randomMatrix(rng, d2, n), rng.normalVector(d2)};
-}
-
-Eigen::VectorXd stepOf(Check& check, Student& student, const TwoTasks& tasks) {
-  const Eigen::VectorXd dq = student.priorityStep(tasks.J1, tasks.dy1, tasks.J2, tasks.dy2);
-  check.shape("dq", dq, tasks.J1.cols(), 1);
-  return dq;
-}
-
-// The length of the wanted step. The second task is left out if the first leaves it no freedom.
-double wantedLength(const TwoTasks& tasks) {
-  const Eigen::VectorXd first = leastSquares(tasks.J1, tasks.dy1);
-  const Eigen::MatrixXd free = nullspace(tasks.J1);
-  Eigen::MatrixXd J = tasks.J2 * free;
-  J = (J.array().abs() < 1e-9).select(0, J);  // the rounding errors of a row that the first task has, too
-  if (J.size() == 0 || J.norm() == 0) return first.norm();
-  return (first + free * leastSquares(J, tasks.dy2 - tasks.J2 * first)).norm();
-}
-
-void firstIsFulfilled(Check& check, const TwoTasks& tasks, const Eigen::VectorXd& dq) {
-  const Eigen::VectorXd missing = tasks.J1.transpose() * (tasks.J1 * dq - tasks.dy1);
-  check.atMost("relative gradient of the error of the first task",
-               missing.norm() /
-                   (tasks.J1.squaredNorm() * wantedLength(tasks) + (tasks.J1.transpose() * tasks.dy1).norm()),
-               1e-7);
-}
-
-void secondIsAsGoodAsItCan(Check& check, const TwoTasks& tasks, const Eigen::VectorXd& dq) {
-  const Eigen::MatrixXd free = nullspace(tasks.J1);
-  const Eigen::VectorXd missing = tasks.J2 * dq - tasks.dy2;
-  check.atMost(
-      "relative gradient of the error of the second task in the directions that the first leaves free",
-      (free.transpose() * tasks.J2.transpose() * missing).norm() /
-          (tasks.J2.squaredNorm() * wantedLength(tasks) + tasks.J2.norm() * tasks.dy2.norm()),
-      1e-7);
-}
-
-void isTheShortest(Check& check, const TwoTasks& tasks, const Eigen::VectorXd& dq) {
-  Eigen::MatrixXd both(tasks.J1.rows() + tasks.J2.rows(), dq.size());
-  both << tasks.J1, tasks.J2;
-  check.atMost("relative part of dq that neither task asks for",
-               (nullspace(both).transpose() * dq).norm() / wantedLength(tasks), 1e-7);
-}
-
-void firstComesFirst(Check& check, Student& student) {
+void firstTasks(Check& check, Student& student) {
   check.forEachCase(10, [&](int i) {
     Rng& rng = check.rng();
-    TwoTasks tasks = randomTasks(rng, 3, 1 + rng.index(3), 7);
-    check.input("two random tasks for 7 joints");
-    if (i >= 5) {
-      tasks.J2 = randomMatrix(rng, static_cast<int>(tasks.J2.rows()), 3) * tasks.J1;
-      check.input("a second task that depends on the same joint motions as the first, and contradicts it");
-    }
-    const Eigen::VectorXd dq = stepOf(check, student, tasks);
-    firstIsFulfilled(check, tasks, dq);
-    check.near("J1 dq", tasks.J1 * dq, tasks.dy1, 1e-6);
+    const int d2 = 1 + rng.index(3);
+    TwoTasks tasks = i < 8 ? randomTasks(rng, 3, d2, 7) : exactTasks(rng, 3, d2, 7);
+    if (i >= 5 && i < 8) tasks.J2 = randomMatrix(rng, d2, 3) * tasks.J1;
+    describe(check, i < 5 ? "two random tasks" : "a second task that contradicts the first", tasks);
+    firstComesFirst(check, student, tasks, i >= 8);
   });
 }
 
-void secondComesSecond(Check& check, Student& student) {
+void secondTasks(Check& check, Student& student) {
   check.forEachCase(10, [&](int) {
     const TwoTasks tasks = randomTasks(check.rng(), 3, 1 + check.rng().index(3), 7);
-    check.input("two random tasks for 7 joints, which can both be fulfilled");
-    const Eigen::VectorXd dq = stepOf(check, student, tasks);
-    firstIsFulfilled(check, tasks, dq);
-    secondIsAsGoodAsItCan(check, tasks, dq);
-    isTheShortest(check, tasks, dq);
+    describe(check, "two random tasks, which can both be fulfilled", tasks);
+    secondComesSecond(check, student, tasks);
   });
 }
 
@@ -570,8 +505,9 @@ void circlesUndisturbed(Check& check, Student& student) {
     S.setJointAngles(S.getJointAngles() + stepOf(check, student, tasks));
     if (t >= 20) distance.add(t, (S.kinematicsPos("handR") - wanted).norm());
   }
-  check.atMostAlong("distance of handR from the point on the circle", distance, 2e-3, "m");
-  check.near("z axis of handR at the end", S.kinematicsVec("handR"), kUp, 0.05);
+  check.atMostAlong("distance of handR from its point on the circle, moved by priorityStep", distance, 2e-3,
+                    "m");
+  check.near("z axis of handR at the end, moved by priorityStep", S.kinematicsVec("handR"), kUp, 0.05);
 }
 
 // <hidden>
@@ -579,13 +515,15 @@ void anyTwoTasks(Check& check, Student& student) {
   check.forEachCase(12, [&](int i) {
     Rng& rng = check.rng();
     const int n = 3 + rng.index(8);
+    const bool isExact = i % 4 == 3;
     TwoTasks tasks = randomTasks(rng, 1 + rng.index(6), 1 + rng.index(6), n);
     // The first task loses rank, so that it cannot be fulfilled; the second may share a row with it.
     if (i % 3 > 0)
       tasks.J1 = randomMatrix(rng, static_cast<int>(tasks.J1.rows()), 1) * randomMatrix(rng, 1, n);
     if (i % 3 > 1) tasks.J2.row(0) = tasks.J1.row(0);
+    if (isExact) tasks = exactTasks(rng, 1 + rng.index(3), 1 + rng.index(3), n);
     const Eigen::VectorXd dq = stepOf(check, student, tasks);
-    firstIsFulfilled(check, tasks, dq);
+    firstIsFulfilled(check, tasks, dq, isExact ? 1e-7 : kRegularised);
     secondIsAsGoodAsItCan(check, tasks, dq);
     isTheShortest(check, tasks, dq);
   });
@@ -624,9 +562,9 @@ grading::Checks<Student> checks() {
        anotherPegAndHole},
       // </hidden>
       {"priority-first", "priority", "the second task never disturbs the first", 1, Group::kVisible,
-       firstComesFirst},
+       firstTasks},
       {"priority-second", "priority", "the second task gets all that the first leaves", 1, Group::kVisible,
-       secondComesSecond},
+       secondTasks},
       {"priority-circle", "priority", "the hand stays on its circle against a second task", 1,
        Group::kVisible, circlesUndisturbed},
       // <hidden>
