@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "band_checks.h"
 #include "collision/motion_clearance.h"
 #include "course/clearances.h"
 #include "course/film.h"
@@ -15,6 +16,7 @@
 #include "interface.h"
 #include "problems.h"
 #include "scenes.h"
+#include "term_checks.h"
 
 using namespace rex;
 using grading::Check;
@@ -26,58 +28,6 @@ namespace {
 // Part 1.
 
 const std::vector<std::string> kNames{"", "velocity", "acceleration", "jerk"};
-
-// The weights of x_{t-k}, ..., x_t in y, by repeated differences.
-Eigen::VectorXd weightsOf(int k, double tau) {
-  Eigen::VectorXd weights = Eigen::VectorXd::Unit(k + 1, k);
-  for (int i = 0; i < k; ++i) weights.head(k) -= Eigen::VectorXd(weights.tail(k));
-  return weights * std::sqrt(tau) / std::pow(tau, k);
-}
-
-// One block of a window in J after the other.
-Eigen::MatrixXd besideEachOther(const std::vector<TermValue>& blocks, const Eigen::VectorXd& weights) {
-  const Eigen::Index n = blocks[0].J.cols();
-  Eigen::MatrixXd J(blocks[0].J.rows(), n * weights.size());
-  for (Eigen::Index i = 0; i < weights.size(); ++i)
-    J.middleCols(i * n, n) = weights[i] * blocks[static_cast<std::size_t>(i)].J;
-  return J;
-}
-
-// The value and the Jacobian that a function returned for the values `phi` at a window. First the usual
-// mistakes with the power of tau, then those with the columns.
-void isQuotient(Check& check, const std::string& function, const TermValue& got,
-                const std::vector<TermValue>& phi, double tau) {
-  const int k = static_cast<int>(phi.size()) - 1;
-  const auto valueFor = [&](const Eigen::VectorXd& weights) {
-    Eigen::VectorXd y = Eigen::VectorXd::Zero(phi[0].y.size());
-    for (int i = 0; i <= k; ++i) y += weights[i] * phi[static_cast<std::size_t>(i)].y;
-    return y;
-  };
-  const Eigen::VectorXd weights = weightsOf(k, tau);
-  const double tolerance = 1e-9 * weights.cwiseAbs().maxCoeff();
-  const auto noTime = check.suspect("Is tau missing?", valueFor(weightsOf(k, 1)));
-  const auto noRoot = check.suspect("Is the factor sqrt(tau) missing, which makes sums of squares integrals?",
-                                    valueFor(weights / std::sqrt(tau)));
-  const auto whole =
-      check.suspect("Is it tau where it should be sqrt(tau)?", valueFor(weights * std::sqrt(tau)));
-  check.near("y of " + function, got.y, valueFor(weights), tolerance);
-  const std::vector<TermValue> backwards(phi.rbegin(), phi.rend());
-  const auto reversed = check.suspect("Does J begin with the columns of x_t? Those of x_{t-k} come first.",
-                                      besideEachOther(backwards, weights.reverse()));
-  const auto onlyNow =
-      check.suspect("Is the Jacobian at x_t used for the other configurations, too?",
-                    besideEachOther(std::vector<TermValue>(phi.size(), phi.back()), weights));
-  check.near("J of " + function, got.J, besideEachOther(phi, weights), tolerance);
-}
-
-void isDifference(Check& check, Student& student, int n, int k) {
-  const double tau = check.rng().uniform(0.02, 3);
-  const Eigen::MatrixXd window = randomMatrix(check.rng(), n, k + 1);
-  check.input("a random window", {{"k", k}, {"tau", tau}, {"window", window}});
-  std::vector<TermValue> phi;
-  for (int i = 0; i <= k; ++i) phi.push_back({window.col(i), Eigen::MatrixXd::Identity(n, n)});
-  isQuotient(check, "differenceTerm", student.differenceTerm(window, tau), phi, tau);
-}
 
 void differences(Check& check, Student& student) {
   for (const int k : {1, 2, 3})
@@ -100,21 +50,6 @@ void costOfPowers(Check& check, Student& student) {
       check.near("motionCost, the integral over time",
                  student.motionCost(path.leftCols(4), path.rightCols(T), k, tau), wanted, 1e-6 * wanted);
     }
-}
-
-void isTaskDifference(Check& check, Student& student, int d, int n, int k) {
-  Rng& rng = check.rng();
-  const double tau = rng.uniform(0.02, 3);
-  std::vector<TermValue> phi;
-  for (int i = 0; i <= k; ++i) phi.push_back({rng.normalVector(d), randomMatrix(rng, d, n)});
-  check.input("a random task map at a window, with what it is at x_{t-k} and x_t",
-              {{"k", k},
-               {"tau", tau},
-               {"phi.front().y", phi[0].y},
-               {"phi.front().J", phi[0].J},
-               {"phi.back().y", phi.back().y},
-               {"phi.back().J", phi.back().J}});
-  isQuotient(check, "taskDifference", student.taskDifference(phi, tau), phi, tau);
 }
 
 void taskDifferences(Check& check, Student& student) {
@@ -142,55 +77,9 @@ void costsOfAnyPath(Check& check, Student& student) {
 
 // Part 2.
 
-// The same with each block of two configurations transposed.
-Eigen::MatrixXd blocksTransposed(Eigen::MatrixXd H, int n) {
-  for (Eigen::Index i = 0; i < H.rows(); i += n)
-    for (Eigen::Index j = 0; j < H.cols(); j += n) H.block(i, j, n, n).transposeInPlace();
-  return H;
-}
-
-void isAssembled(Check& check, Student& student, int n, int steps, int k) {
-  check.input(fmt::format("terms up to order {}, n = {}, T = {}", k, n, steps));
-  const std::vector<Term> terms = randomTerms(check.rng(), n, steps, k);
-  const BandSystem got = student.assembled(terms, n, steps);
-  const FullSystem wanted = denseSystem(terms, n, steps);
-  std::vector<Term> later;
-  for (const Term& term : terms)
-    if (n * (term.t + 1) >= term.J.cols()) later.push_back(term);
-  const FullSystem without = denseSystem(later, n, steps);
-  const char* dropped =
-      "Are the terms left out that reach into the prefix? Only their columns of it do not count.";
-  const auto noGradient = check.suspect(dropped, without.g);
-  check.near("gradient g of assembled", got.g, wanted.g, 1e-9 * (1 + wanted.g.cwiseAbs().maxCoeff()));
-  const int rows = (k + 1) * n;
-  const auto noBand = check.suspect(dropped, bandOf(without.H, rows));
-  const auto transposed = check.suspect("Are the blocks of H between two configurations transposed?",
-                                        bandOf(blocksTransposed(wanted.H, n), rows));
-  check.near("band of H of assembled", got.band, bandOf(wanted.H, rows),
-             1e-9 * (1 + wanted.H.cwiseAbs().maxCoeff()));
-}
-
 void assembles(Check& check, Student& student) {
   for (const int k : {0, 1, 2, 3}) isAssembled(check, student, 2, 7, k);
   isAssembled(check, student, 3, 1, 2);
-}
-
-void isFactor(Check& check, Student& student, Eigen::Index rows, Eigen::Index columns) {
-  Rng& rng = check.rng();
-  const Eigen::MatrixXd factor = randomFactor(rng, rows, columns), band = squared(factor);
-  check.input(fmt::format("a band of {} x {}", rows, columns), {{"H", band}});
-  const Eigen::MatrixXd L = student.bandCholesky(band);
-  check.shape("L of bandCholesky", L, rows, columns);
-  const auto unit = check.suspect("Is D forgotten? The diagonal of L is 1 only in L D L^T.",
-                                  squared(factor.array().rowwise() / factor.row(0).array()));
-  // Entries are at most a few times the largest, 4 + 0.16 (rows - 1).
-  check.near("L L^T, with L of bandCholesky", squared(L), band, 1e-9 * static_cast<double>(rows));
-  const Eigen::VectorXd b = rng.normalVector(static_cast<int>(columns));
-  check.input(fmt::format("the L of bandCholesky, {} x {}", rows, columns), {{"L", L}, {"b", b}});
-  const Eigen::VectorXd x = student.bandSolve(L, b);
-  check.shape("x of bandSolve", x, columns, 1);
-  check.near("L L^T x, with x of bandSolve", times(band, x), b,
-             1e-9 * b.norm() * (1 + band.cwiseAbs().maxCoeff()));
 }
 
 void factors(Check& check, Student& student) {
@@ -207,53 +96,6 @@ void factors(Check& check, Student& student) {
 
 // A dense matrix of 16000 x 16000 would take 2 GB, which is twice the memory available.
 void longBands(Check& check, Student& student) { isFactor(check, student, 6, 16000); }
-
-double costOf(const std::vector<Term>& terms) {
-  double cost = 0;
-  for (const Term& term : terms) cost += term.y.squaredNorm();
-  return cost;
-}
-
-double slopeOf(const std::vector<Term>& terms, const Eigen::MatrixXd& X) {
-  return denseSystem(terms, static_cast<int>(X.rows()), static_cast<int>(X.cols())).g.cwiseAbs().maxCoeff();
-}
-
-grading::Evidence slopesSeen(const Terms& terms, const std::vector<Eigen::MatrixXd>& path, double tolerance) {
-  Series slopes = grading::gotCurve("got");
-  slopes.style = SeriesStyle::kLinesPoints;
-  for (const Eigen::MatrixXd& X : path) {
-    slopes.x.push_back(static_cast<double>(slopes.x.size()));
-    slopes.y.push_back(std::max(slopeOf(terms(X), X), 1e-15));
-  }
-  Figure figure{.title = "Largest entry of the gradient after each step",
-                .xLabel = "step",
-                .yLabel = "value [1]",
-                .logY = true,
-                .series = {std::move(slopes)}};
-  figure.horizontalLines = {{.at = tolerance, .label = "wanted: at most"}};
-  return {.figures = {std::move(figure)}};
-}
-
-void descends(Check& check, Student& student, const std::string& name, const Terms& terms,
-              const Eigen::MatrixXd& start, std::size_t mostSteps) {
-  const auto n = static_cast<int>(start.rows()), steps = static_cast<int>(start.cols());
-  const double tolerance = 1e-6;
-  check.input(name + fmt::format(", n = {}, T = {}, tolerance = {:g}", n, steps, tolerance));
-  const std::vector<Eigen::MatrixXd> path = student.descended(terms, start, tolerance);
-  check.atLeast("number of trajectories that descended returns", static_cast<double>(path.size()), 2);
-  check.atMost("number of steps of descended", static_cast<double>(path.size()) - 1, 300);
-  for (const Eigen::MatrixXd& X : path) check.shape("trajectory", X, n, steps);
-  check.near("first trajectory that descended returns", path.front(), start, 0);
-  const auto shown = check.show([&] { return slopesSeen(terms, path, tolerance); });
-  Signal changes;
-  for (std::size_t i = 1; i < path.size(); ++i)
-    changes.add(static_cast<double>(i), costOf(terms(path[i])) - costOf(terms(path[i - 1])));
-  check.atMostAlong("change of F by a step of descended", changes, 0);
-  check.atMost("largest entry of the gradient of F after the last step of descended",
-               slopeOf(terms(path.back()), path.back()), tolerance);
-  check.atMost("number of steps of descended until the gradient is small",
-               static_cast<double>(path.size()) - 1, static_cast<double>(mostSteps));
-}
 
 // Terms that each fix one configuration; some configurations are fixed by none.
 Terms withGaps(Rng& rng, int n) {
@@ -423,6 +265,9 @@ void isStationary(Check& check, const Terms& terms, const Minimum& got, const Ac
   }
   {
     const auto shown = check.show([&] { return roundsSeen(got, violation, accuracy.violation); });
+    double pull = 0;
+    for (const Eigen::VectorXd& m : got.multipliers) pull += m.cwiseAbs().sum();
+    const auto alone = ask(check, "Are all multipliers zero? A penalty alone is never exact.", pull == 0);
     check.atMost("largest violation of a constraint at the X of minimised", violation,
                  accuracy.violation * (1 + 1e-6));
   }
@@ -614,6 +459,8 @@ void getsAround(Check& check, Student& student, const Scene& scene) {
   }
   const double least = 0.8 * errand.margin - 1e-4;
   check.atLeastAlong("clearance of a configuration", clearancesAt, least, "m");
+  const auto between =
+      ask(check, "Are only the configurations kept apart, and not what lies between them?", true);
   check.atLeastAlong("clearance on the way from x_{t-1} to x_t", clearancesBetween, least, "m");
 }
 

@@ -1,0 +1,127 @@
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "grading/check.h"
+#include "grading/evidence_parts.h"
+#include "interface.h"
+#include "problems.h"
+#include "term_checks.h"
+
+// Part 2: what must hold for banded systems, their factors, and Gauss-Newton steps.
+
+/// The same with each block of two configurations transposed.
+inline Eigen::MatrixXd blocksTransposed(Eigen::MatrixXd H, int n) {
+  for (Eigen::Index i = 0; i < H.rows(); i += n)
+    for (Eigen::Index j = 0; j < H.cols(); j += n) H.block(i, j, n, n).transposeInPlace();
+  return H;
+}
+
+inline void isAssembled(rex::grading::Check& check, Student& student, int n, int steps, int k) {
+  check.input(fmt::format("terms up to order {}, n = {}, T = {}", k, n, steps));
+  const std::vector<Term> terms = randomTerms(check.rng(), n, steps, k);
+  const BandSystem got = student.assembled(terms, n, steps);
+  const FullSystem wanted = denseSystem(terms, n, steps);
+  std::vector<Term> later;
+  for (const Term& term : terms)
+    if (n * (term.t + 1) >= term.J.cols()) later.push_back(term);
+  const FullSystem without = denseSystem(later, n, steps);
+  const char* dropped =
+      "Are the terms left out that reach into the prefix? Only their columns of it do not count.";
+  const auto noGradient = check.suspect(dropped, without.g);
+  check.near("gradient g of assembled", got.g, wanted.g, 1e-9 * (1 + wanted.g.cwiseAbs().maxCoeff()));
+  const int rows = (k + 1) * n;
+  const auto noBand = check.suspect(dropped, bandOf(without.H, rows));
+  const auto transposed = check.suspect("Are the blocks of H between two configurations transposed?",
+                                        bandOf(blocksTransposed(wanted.H, n), rows));
+  check.near("band of H of assembled", got.band, bandOf(wanted.H, rows),
+             1e-9 * (1 + wanted.H.cwiseAbs().maxCoeff()));
+}
+
+/// The product of L^T with x, for a band L.
+inline Eigen::VectorXd upperTimes(const Eigen::MatrixXd& L, const Eigen::VectorXd& x) {
+  Eigen::VectorXd y(x.size());
+  for (Eigen::Index j = 0; j < x.size(); ++j) {
+    const Eigen::Index count = std::min(L.rows(), x.size() - j);
+    y[j] = L.col(j).head(count).dot(x.segment(j, count));
+  }
+  return y;
+}
+
+inline void isFactor(rex::grading::Check& check, Student& student, Eigen::Index rows, Eigen::Index columns) {
+  rex::Rng& rng = check.rng();
+  const Eigen::MatrixXd factor = randomFactor(rng, rows, columns), band = squared(factor);
+  check.input(fmt::format("a band of {} x {}", rows, columns), {{"H", band}});
+  const Eigen::MatrixXd L = student.bandCholesky(band);
+  check.shape("L of bandCholesky", L, rows, columns);
+  const auto unit = check.suspect("Is D forgotten? The diagonal of L is 1 only in L D L^T.",
+                                  squared(factor.array().rowwise() / factor.row(0).array()));
+  // Entries are at most a few times the largest, 4 + 0.16 (rows - 1).
+  check.near("L L^T, with L of bandCholesky", squared(L), band, 1e-9 * static_cast<double>(rows));
+  const Eigen::VectorXd wanted = rng.normalVector(static_cast<int>(columns)), b = times(band, wanted);
+  check.input(fmt::format("the L of bandCholesky, {} x {}", rows, columns), {{"L", L}, {"b", b}});
+  const Eigen::VectorXd x = student.bandSolve(L, b);
+  const auto half = check.suspect("Is the second sweep missing, L^T x = y?", upperTimes(L, wanted));
+  check.near("x of bandSolve", x, wanted, 1e-8);
+}
+
+inline double costOf(const std::vector<Term>& terms) {
+  double cost = 0;
+  for (const Term& term : terms) cost += term.y.squaredNorm();
+  return cost;
+}
+
+inline double slopeOf(const std::vector<Term>& terms, const Eigen::MatrixXd& X) {
+  return denseSystem(terms, static_cast<int>(X.rows()), static_cast<int>(X.cols())).g.cwiseAbs().maxCoeff();
+}
+
+inline rex::grading::Evidence slopesSeen(const Terms& terms, const std::vector<Eigen::MatrixXd>& path,
+                                         double tolerance) {
+  rex::Series slopes = rex::grading::gotCurve("got");
+  slopes.style = rex::SeriesStyle::kLinesPoints;
+  for (const Eigen::MatrixXd& X : path) {
+    slopes.x.push_back(static_cast<double>(slopes.x.size()));
+    slopes.y.push_back(std::max(slopeOf(terms(X), X), 1e-15));
+  }
+  rex::Figure figure{.title = "Largest entry of the gradient after each step",
+                     .xLabel = "step",
+                     .yLabel = "value [1]",
+                     .logY = true,
+                     .series = {std::move(slopes)}};
+  figure.horizontalLines = {{.at = tolerance, .label = "wanted: at most"}};
+  return {.figures = {std::move(figure)}};
+}
+
+inline void descends(rex::grading::Check& check, Student& student, const std::string& name,
+                     const Terms& terms, const Eigen::MatrixXd& start, std::size_t mostSteps) {
+  const auto n = static_cast<int>(start.rows()), steps = static_cast<int>(start.cols());
+  const double tolerance = 1e-6;
+  check.input(name + fmt::format(", n = {}, T = {}, tolerance = {:g}", n, steps, tolerance));
+  const std::vector<Eigen::MatrixXd> path = student.descended(terms, start, tolerance);
+  check.atLeast("number of trajectories that descended returns", static_cast<double>(path.size()), 2);
+  check.atMost("number of steps of descended", static_cast<double>(path.size()) - 1, 300);
+  for (const Eigen::MatrixXd& X : path) check.shape("trajectory", X, n, steps);
+  check.near("first trajectory that descended returns", path.front(), start, 0);
+  const auto shown = check.show([&] { return slopesSeen(terms, path, tolerance); });
+  rex::grading::Signal changes;
+  bool isFull = false;  // the first step after which F has grown
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    changes.add(static_cast<double>(i), costOf(terms(path[i])) - costOf(terms(path[i - 1])));
+    if (changes.values.back()[0] <= 0 || isFull) continue;
+    const FullSystem system = denseSystem(terms(path[i - 1]), n, steps);
+    const Eigen::VectorXd full = rex::leastSquares(system.H, -system.g);
+    isFull = ((path[i] - path[i - 1]).reshaped() - full).norm() < 1e-4 * full.norm();
+  }
+  {
+    const auto whole = ask(check, "Is a full step taken although F grows?", isFull);
+    check.atMostAlong("change of F by a step of descended", changes, 0);
+  }
+  check.atMost("largest entry of the gradient of F after the last step of descended",
+               slopeOf(terms(path.back()), path.back()), tolerance);
+  check.atMost("number of steps of descended until the gradient is small",
+               static_cast<double>(path.size()) - 1, static_cast<double>(mostSteps));
+}
