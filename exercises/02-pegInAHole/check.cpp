@@ -208,7 +208,7 @@ void staysAtHome(Check& check, const Simulator& S, const Motion& motion) {
     evidence.film = grading::withWanted(evidence.film, filmOf(S, Motion{atFirst}, {}));
     return evidence;
   });
-  const auto moves = ask(check, "Is home the posture before the first step, in every step?", true);
+  const auto moves = check.ask("Is home the posture before the first step, in every step?", true);
   check.atMostAlong("largest deviation of a joint from its home angle, in circleWithTasks",
                     along(S, motion, 1, away), 2.2, "rad");
 }
@@ -217,8 +217,8 @@ void pointsUpwards(Check& check, const Simulator& S, const Circle& circle, const
   const auto axis = [&](const Simulator& moved, int) { return moved.kinematicsVec(circle.pointing); };
   const Signal got = along(S, motion, 100, axis);
   const auto shown = check.show([&] { return seen(S, circle.pointing, motion, 100); });
-  const auto sign = ask(check, "Is the error the sum of both directions? It is their difference.",
-                        (got.values.front() + kUp).norm() < 0.05);
+  const auto sign = check.ask("Is the error the sum of both directions? It is their difference.",
+                              (got.values.front() + kUp).norm() < 0.05);
   check.nearAlong("z axis of " + circle.pointing + ", in circleWithTasks", got,
                   Motion(got.values.size(), kUp), 0.05);
 }
@@ -404,7 +404,7 @@ void movesStraight(Check& check, Student& student) {
     const Eigen::VectorXd gone = motion[static_cast<std::size_t>(t)] - first;
     aside[t] = (gone - gone.dot(chord) * chord).norm();
   }
-  const auto joints = ask(check, "Do the joints move straight instead of the peg?", aside.maxCoeff() < 1e-6);
+  const auto joints = check.ask("Do the joints move straight instead of the peg?", aside.maxCoeff() < 1e-6);
   check.nearAlong("position of the peg in taskSpaceMotion", along(scene.S, motion, 1, position), wanted, 5e-3,
                   "m");
   check.nearAlong("z axis of the peg in taskSpaceMotion", along(scene.S, motion, 1, axis),

@@ -23,21 +23,6 @@ inline Eigen::MatrixXd nullspace(const Eigen::MatrixXd& J) {
   return parts.V.rightCols(J.cols() - rank);
 }
 
-/// Keeps two objects alive.
-template <class A, class B>
-struct Both {
-  A a;
-  B b;
-};
-template <class A, class B>
-Both(A, B) -> Both<A, B>;
-
-/// While the returned object is alive, a requirement that does not hold asks the question if it `applies`.
-inline auto ask(rex::grading::Check& check, const std::string& question, bool applies) {
-  const Eigen::VectorXd one = Eigen::VectorXd::Ones(1);
-  return Both{check.suspect(question, applies ? one : 2 * one), check.suspectUsualMistake(one, one, 0)};
-}
-
 /// X minimises precision * |J X dy - dy|^2 + |X dy|_W^2 for every dy if this gradient vanishes.
 inline void inverseIsTheMinimum(rex::grading::Check& check, Student& student, const Eigen::MatrixXd& J,
                                 const Eigen::MatrixXd& W, double precision) {
@@ -66,8 +51,8 @@ inline void isTheProjector(rex::grading::Check& check, Student& student, const E
   const Eigen::MatrixXd N = student.nullspaceProjector(J);
   check.shape("N of nullspaceProjector", N, n, n);
   const Eigen::MatrixXd free = nullspace(J);
-  const auto limit = ask(check, "Is the precision only large where N is the limit for an infinite one?",
-                         (N - free * free.transpose()).cwiseAbs().maxCoeff() < 1e-2);
+  const auto limit = check.ask("Is the precision only large where N is the limit for an infinite one?",
+                               (N - free * free.transpose()).cwiseAbs().maxCoeff() < 1e-2);
   check.atMost("largest entry of J N of nullspaceProjector, relative to J",
                (J * N).cwiseAbs().maxCoeff() / J.cwiseAbs().maxCoeff(), 1e-9);
   check.near("trace of N of nullspaceProjector, the number of free directions", N.trace(),

@@ -117,7 +117,7 @@ inline void descends(rex::grading::Check& check, Student& student, const std::st
     isFull = ((path[i] - path[i - 1]).reshaped() - full).norm() < 1e-4 * full.norm();
   }
   {
-    const auto whole = ask(check, "Is a full step taken although F grows?", isFull);
+    const auto whole = check.ask("Is a full step taken although F grows?", isFull);
     check.atMostAlong("change of F by a step of descended", changes, 0);
   }
   check.atMost("largest entry of the gradient of F after the last step of descended",

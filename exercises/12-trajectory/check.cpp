@@ -267,7 +267,7 @@ void isStationary(Check& check, const Terms& terms, const Minimum& got, const Ac
     const auto shown = check.show([&] { return roundsSeen(got, violation, accuracy.violation); });
     double pull = 0;
     for (const Eigen::VectorXd& m : got.multipliers) pull += m.cwiseAbs().sum();
-    const auto alone = ask(check, "Are all multipliers zero? A penalty alone is never exact.", pull == 0);
+    const auto alone = check.ask("Are all multipliers zero? A penalty alone is never exact.", pull == 0);
     check.atMost("largest violation of a constraint at the X of minimised", violation,
                  accuracy.violation * (1 + 1e-6));
   }
@@ -460,7 +460,7 @@ void getsAround(Check& check, Student& student, const Scene& scene) {
   const double least = 0.8 * errand.margin - 1e-4;
   check.atLeastAlong("clearance of a configuration", clearancesAt, least, "m");
   const auto between =
-      ask(check, "Are only the configurations kept apart, and not what lies between them?", true);
+      check.ask("Are only the configurations kept apart, and not what lies between them?", true);
   check.atLeastAlong("clearance on the way from x_{t-1} to x_t", clearancesBetween, least, "m");
 }
 

@@ -10,21 +10,6 @@
 
 // Part 1: what must hold for terms of order k.
 
-/// Keeps two objects alive.
-template <class A, class B>
-struct Both {
-  A a;
-  B b;
-};
-template <class A, class B>
-Both(A, B) -> Both<A, B>;
-
-/// While the returned object is alive, a requirement that does not hold asks the question if it `applies`.
-inline auto ask(rex::grading::Check& check, const std::string& question, bool applies) {
-  const Eigen::VectorXd one = Eigen::VectorXd::Ones(1);
-  return Both{check.suspect(question, applies ? one : 2 * one), check.suspectUsualMistake(one, one, 0)};
-}
-
 /// The weights of x_{t-k}, ..., x_t in y, by repeated differences.
 inline Eigen::VectorXd weightsOf(int k, double tau) {
   Eigen::VectorXd weights = Eigen::VectorXd::Unit(k + 1, k);

@@ -22,15 +22,6 @@ inline std::string text(double value) {
   return digits.back() == '.' ? digits + '0' : digits;
 }
 
-/// Keeps two objects alive.
-template <class A, class B>
-struct Both {
-  A a;
-  B b;
-};
-template <class A, class B>
-Both(A, B) -> Both<A, B>;
-
 /// The wrenches of the library for the same fingers.
 inline Eigen::MatrixXd wrenchesOf(const std::vector<PlanarFinger>& fingers, const Eigen::Vector2d& center,
                                   double length) {
@@ -45,12 +36,6 @@ inline rex::WrenchSet wrenchesOf(const std::vector<Finger>& fingers, int edges, 
   std::vector<rex::Contact> contacts;
   for (const Finger& finger : fingers) contacts.push_back({finger.p, finger.normal, finger.friction});
   return rex::primitiveWrenches(rex::wrenchCones(contacts, {.p_OR = center, .length = length}), edges);
-}
-
-/// While the returned object is alive, a requirement that does not hold asks the question if it `applies`.
-inline auto ask(rex::grading::Check& check, const std::string& question, bool applies) {
-  const Eigen::VectorXd one = Eigen::VectorXd::Ones(1);
-  return Both{check.suspect(question, applies ? one : 2 * one), check.suspectUsualMistake(one, one, 0)};
 }
 
 /// A torque that should be `wanted`, with the usual mistakes; `aboutOrigin` is the torque about the origin.
@@ -190,14 +175,14 @@ inline void judgedRightly(rex::grading::Check& check, Student& student, const Ei
   const bool weighs = verdict.closed && proof.size() == W.cols() && proof.allFinite() &&
                       proof.minCoeff() > -1e-8 && (W * proof).norm() <= 1e-8 * sizes.maxCoeff();
   {
-    const auto flat = ask(check, "Do the wrenches span the space? Weights alone do not prove that.",
-                          weighs && closure.rank < W.rows());
-    const auto zero = ask(check, "Are some of your weights zero? All have to be positive.",
-                          weighs && closure.rank == W.rows());
-    const auto spans = ask(check,
-                           "The weighted sum of the wrenches is not zero, or a weight is negative: is it "
-                           "enough for you that the wrenches span the space?",
-                           verdict.closed && !weighs && closure.rank == W.rows());
+    const auto flat = check.ask("Do the wrenches span the space? Weights alone do not prove that.",
+                                weighs && closure.rank < W.rows());
+    const auto zero = check.ask("Are some of your weights zero? All have to be positive.",
+                                weighs && closure.rank == W.rows());
+    const auto spans = check.ask(
+        "The weighted sum of the wrenches is not zero, or a weight is negative: is it "
+        "enough for you that the wrenches span the space?",
+        verdict.closed && !weighs && closure.rank == W.rows());
     if (closure.status == rex::ClosureStatus::kOpen)
       check.that("judged() finds that these wrenches have no force closure", !verdict.closed);
   }
@@ -207,7 +192,7 @@ inline void judgedRightly(rex::grading::Check& check, Student& student, const Ei
     check.shape("direction u of judged", proof, W.rows(), 1);
     check.near("length of the direction u of judged", proof.norm(), 1, 1e-9);
     const Eigen::VectorXd along = (W.transpose() * proof).cwiseQuotient(sizes);
-    const auto turned = ask(check, "Does u have the wrong sign?", along.maxCoeff() <= 1e-8);
+    const auto turned = check.ask("Does u have the wrong sign?", along.maxCoeff() <= 1e-8);
     check.atLeast("smallest u.w of judged, for unit wrenches w", along.minCoeff(), -1e-8);
     return;
   }
@@ -377,7 +362,7 @@ inline void keepsTheNeeded(rex::grading::Check& check, Student& student, const s
       needed.push_back(one);
   {
     const auto atOnce =
-        ask(check, "Are all fingers deleted at once that are redundant beside all others?", kept == needed);
+        check.ask("Are all fingers deleted at once that are redundant beside all others?", kept == needed);
     check.that("the fingers of keptFingers() have force closure", holds);
   }
   for (const int one : kept)

@@ -31,7 +31,9 @@ std::string seenMessage(const GradeResult& result, const std::vector<std::string
       if (check.group == group && check.status != Outcome::kPass &&
           std::find(ids.begin(), ids.end(), check.id) != ids.end())
         return fmt::format("{}{}: {}", check.id, group == Group::kHidden ? " (hidden)" : "", check.message);
-  return result.compile.diagnostics.empty() ? result.message : toString(result.compile.diagnostics.front());
+  for (const CompileDiagnostic& one : result.compile.diagnostics)
+    if (one.severity == "error") return toString(one);
+  return result.message;
 }
 
 SeenMessages readSeenMessages(const std::filesystem::path& file) {

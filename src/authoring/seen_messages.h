@@ -16,7 +16,7 @@ using SeenMessages = std::map<std::string, std::string>;
 [[nodiscard]] std::filesystem::path seenMessagesFile(const std::filesystem::path& exercise);
 
 /// The first failing check that has one of these ids, and its message: "CHECK: MESSAGE". Hidden checks count
-/// if no visible one fails. For a submission that was not graded, the compiler's first message.
+/// if no visible one fails. For a submission that was not graded, the compiler's first error.
 [[nodiscard]] std::string seenMessage(const GradeResult& result, const std::vector<std::string>& ids);
 
 /// Throws Error naming the line if a message has no variant.

@@ -24,7 +24,10 @@ constexpr std::size_t kLongestText = 2000;
 struct RequirementFailed {};
 
 // The sign of a NaN depends on the machine.
-std::string number(double value) { return std::isnan(value) ? "nan" : fmt::format("{:.6g}", value); }
+std::string number(double value) {
+  if (std::isnan(value)) return "nan";
+  return fmt::format("{:.6g}", value == 0 ? 0.0 : value);  // not -0
+}
 
 std::string withUnit(std::string text, std::string_view unit) {
   if (!unit.empty()) text.append(" ").append(unit);
@@ -153,6 +156,8 @@ void Check::keepEvidence(const std::optional<Plot>& plot) {
 }
 
 void Check::fail(Shortfall shortfall, const std::optional<Plot>& plot) {
+  if (shortfall.question.empty() && !questions_.empty() && info_.group == Group::kVisible)
+    shortfall.question = questions_.front();
   if (shortfall.question.empty() && comparison_)
     shortfall.question = questionAbout(comparison_->got, comparison_->wanted, comparison_->tolerance, "");
   if (keep(std::move(shortfall)) && info_.group == Group::kVisible) keepEvidence(plot);
@@ -387,10 +392,17 @@ bool Check::runCase(int number, const std::function<void(int)>& run) {
 }
 
 void Check::keepRefused(const remote::AnswerRefused& refused) {
-  keep({.property = "what " + refused.function() + " returned",
-        .what = info_.group == Group::kVisible ? refused.what() : "not finite, or too large",
-        .question = info_.group == Group::kVisible ? "Is every number set before it is used?" : "",
-        .function = refused.function()});
+  Shortfall shortfall{.property = "what " + refused.function() + " returned",
+                      .what = "not finite, or too large",
+                      .function = refused.function()};
+  if (info_.group == Group::kVisible) {
+    shortfall.what = refused.what();
+    const bool isFilled = shortfall.what.find("e+30") != std::string::npos;  // as student builds fill memory
+    if (isFilled || shortfall.what.find(" is nan") != std::string::npos)
+      shortfall.question = isFilled ? "Is every number set before it is used?"
+                                    : "Is every number set before it is used, and nothing divided by zero?";
+  }
+  keep(std::move(shortfall));
 }
 
 CheckResult Check::judge(const std::function<void(Check&)>& run) {

@@ -96,6 +96,19 @@ class Check {
     return Suspecting{suspects_, suspects_.size() - 1};
   }
 
+  /// While the returned object is alive, a requirement that does not hold asks the question, if it
+  /// `applies`: for mistakes that no single wrong value shows. Of several the first one alive counts.
+  [[nodiscard]] auto ask(std::string question, bool applies = true) {
+    struct Asking {
+      std::vector<std::string>& questions;
+      std::size_t before;
+      ~Asking() { questions.resize(before); }
+    };
+    const std::size_t before = questions_.size();
+    if (applies) questions_.push_back(std::move(question));
+    return Asking{questions_, before};
+  }
+
   /// While the returned object is alive, a requirement that does not hold asks about the usual mistake by
   /// which `got` differs from `wanted`, if there is one: for requirements that do not compare them.
   [[nodiscard]] auto suspectUsualMistake(Eigen::MatrixXd got, Eigen::MatrixXd wanted, double tolerance) {
@@ -205,6 +218,7 @@ class Check {
   std::optional<Comparison> comparison_;
   std::function<std::string()> lastCalled_;
   std::vector<std::pair<std::string, Eigen::MatrixXd>> suspects_;
+  std::vector<std::string> questions_;
   std::optional<Evidence> evidence_;
   std::optional<Shortfall> worst_;  ///< the worst requirement that does not hold
   WorstValue nearest_;              ///< the one nearest to its limit, of all that were measured

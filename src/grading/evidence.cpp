@@ -97,6 +97,14 @@ Figure comparison(const std::string& title, const Eigen::Ref<const Eigen::Matrix
                  .found = fmt::format("{} x {} numbers", got.rows(), got.cols()),
                  .wanted = fmt::format("{} x {}", wanted.rows(), wanted.cols())});
   if (got.rows() > got.cols()) return comparison(title, got.transpose().eval(), wanted.transpose().eval());
+  // Of thousands of columns, those around the worst one: more would hide each other.
+  constexpr Eigen::Index kMostColumns = 400;
+  Eigen::Index worstRow = 0, worstColumn = 0;
+  (got - wanted).cwiseAbs().maxCoeff(&worstRow, &worstColumn);
+  const Eigen::Index columns = std::min(got.cols(), kMostColumns);
+  const Eigen::Index first = std::clamp<Eigen::Index>(worstColumn - columns / 2, 0, got.cols() - columns);
+  std::vector<double> entries(static_cast<std::size_t>(columns));
+  std::iota(entries.begin(), entries.end(), static_cast<double>(first));
   const Eigen::VectorXd error = (got - wanted).cwiseAbs().rowwise().maxCoeff();
   std::vector<Eigen::Index> rows(static_cast<std::size_t>(got.rows()));
   std::iota(rows.begin(), rows.end(), 0);
@@ -106,10 +114,12 @@ Figure comparison(const std::string& title, const Eigen::Ref<const Eigen::Matrix
   Figure figure{.title = title, .xLabel = "entry", .yLabel = "value"};
   for (const Eigen::Index row : rows) {
     const std::string name = got.rows() > 1 ? fmt::format("row {}, ", row) : "";
-    figure.series.push_back(gotCurve(name + "got", {}, valuesOf(got.row(row))));
+    figure.series.push_back(gotCurve(name + "got", entries, valuesOf(got.row(row).segment(first, columns))));
     figure.series.back().color.reset();  // each row has its own
-    figure.series.push_back(wantedCurve(name + "wanted", {}, valuesOf(wanted.row(row))));
+    figure.series.push_back(
+        wantedCurve(name + "wanted", entries, valuesOf(wanted.row(row).segment(first, columns))));
   }
+  if (figure.series.size() > 2) figure.legend = Legend::kOutside;
   return figure;
 }
 

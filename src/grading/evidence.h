@@ -24,8 +24,8 @@ struct EvidenceFiles {
 };
 
 /// Plots the rows of both matrices over their columns, or the columns of a tall matrix over its rows: at
-/// most four, those that differ most. Both must be finite and of the same size, with more than one row or
-/// column.
+/// most four, those that differ most, and of many columns the 400 around the worst. Both must be finite and
+/// of the same size, with more than one row or column.
 [[nodiscard]] Figure comparison(const std::string& title, const Eigen::Ref<const Eigen::MatrixXd>& got,
                                 const Eigen::Ref<const Eigen::MatrixXd>& wanted);
 

@@ -15,8 +15,8 @@ namespace rex::grading {
 [[nodiscard]] std::string usualMistake(const MatrixArg& got, const MatrixArg& wanted, double tolerance,
                                        std::string_view unit = "");
 
-/// A sentence about the first number that hardly any computation gives: not finite, beyond 1e150, or
-/// subnormal. Student builds fill what is never set with such numbers. Empty if there is none.
+/// A sentence about the first number that hardly any computation gives: not finite, or beyond 1e150.
+/// Student builds fill what is never set with such numbers. Empty if there is none.
 [[nodiscard]] std::string strangeNumber(const MatrixArg& got);
 
 }  // namespace rex::grading

@@ -37,6 +37,8 @@ TEST(SeenMessage, IsTheCompilersIfNothingWasGraded) {
   GradeResult result{.message = "does not compile"};
   EXPECT_EQ(seenMessage(result, {"first"}), "does not compile");
   result.compile.diagnostics = {
+      {.file = "main.cpp", .line = 2, .column = 1, .severity = "warning", .message = "unused"},
+
       {.file = "main.cpp", .line = 3, .column = 1, .severity = "error", .message = "no"}};
   EXPECT_EQ(seenMessage(result, {"first"}), "main.cpp:3:1: error: no");
 }

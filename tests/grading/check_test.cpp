@@ -97,6 +97,19 @@ TEST(Check, ShowsTheValuesOfItsInput) {
   EXPECT_EQ(result.input, "two tasks: J = [1, 2; 3, 4.5], dy = (-1, 0), n = 2, M = 20 x 3 numbers");
 }
 
+TEST(Check, AsksWhatAppliesOfAnyRequirement) {
+  const auto message = [](bool applies) {
+    return messageOf([&](Check& check) {
+      { const auto over = check.ask("Is it over?"); }
+      const auto first = check.ask("Is it the first?", applies);
+      const auto second = check.ask("Is it the second?");
+      check.that("it holds", false);
+    });
+  };
+  EXPECT_THAT(message(true), HasSubstr("(seed 7). Is it the first?"));
+  EXPECT_THAT(message(false), HasSubstr("(seed 7). Is it the second?"));
+}
+
 TEST(Check, SaysIfAnInputCameBackUnchanged) {
   const auto message = [](const Eigen::Vector2d& got) {
     return messageOf([&](Check& check) {

@@ -29,6 +29,15 @@ TEST(Comparison, DrawsTheRowsThatDifferMost) {
   EXPECT_EQ(figure.series[0].y.size(), 9u);
 }
 
+TEST(Comparison, ShowsOfManyColumnsThoseAroundTheWorst) {
+  Eigen::MatrixXd got = Eigen::MatrixXd::Zero(2, 1000);
+  got(1, 990) = 3;
+  const Figure figure = comparison("band", got, Eigen::MatrixXd::Zero(2, 1000));
+  EXPECT_EQ(figure.series[2].x.front(), 600);
+  EXPECT_EQ(figure.series[2].x.back(), 999);
+  EXPECT_EQ(figure.series[2].y[390], 3);
+}
+
 TEST(Comparison, LaysTallOnesDown) {
   const Figure figure = comparison("x", Eigen::VectorXd::Constant(9, 2), Eigen::VectorXd::Ones(9));
   ASSERT_EQ(figure.series.size(), 2u);

@@ -70,11 +70,9 @@ TEST(UsualMistake, SaysNothingWhereItCannotBeTold) {
 }
 
 TEST(StrangeNumber, IsNamed) {
-  EXPECT_EQ(strangeNumber(Eigen::Vector3d(0, 1e-100, -1e100)), "");
+  EXPECT_EQ(strangeNumber(Eigen::Vector3d(0, 1.1e-313, -1e100)), "");
   EXPECT_EQ(strangeNumber(Eigen::Vector2d(1, -5.4861e303)),
             "Numbers such as -5.49e+303 come from memory that was never set, or is gone.");
-  EXPECT_EQ(strangeNumber(Eigen::Vector2d(1.13e-313, 1)),
-            "Numbers such as 1.13e-313 come from memory that was never set, or is gone.");
   EXPECT_EQ(strangeNumber(Eigen::Vector2d(1, -std::nan(""))),
             "Numbers such as nan come from memory that was never set, or is gone.");
 }
