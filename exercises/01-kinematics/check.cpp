@@ -6,12 +6,14 @@
 
 #include "course/film.h"
 #include "geometry/rotation.h"
+#include "grading/evidence_parts.h"
 #include "interface.h"
 #include "kinematics/inverse_kinematics.h"
 
 using namespace rex;
 using grading::Check;
 using grading::Group;
+using grading::Signal;
 
 namespace {
 
@@ -66,7 +68,7 @@ void checkJacobianOf(Check& check, const Simulator& S, const Map& map) {
   const Eigen::MatrixXd numeric =
       numericJacobian(valuesOf(check, S, map, value.y.size()), S.getJointAngles());
   check.that("y changes when the robot moves", numeric.cwiseAbs().maxCoeff() > kNotZero);
-  check.near("J against numeric differences of y", value.J, numeric,
+  check.near("J, next to numeric differences of y", value.J, numeric,
              1e-5 * (1 + numeric.cwiseAbs().maxCoeff()));
 }
 
@@ -136,11 +138,16 @@ Eigen::Matrix3d frameOf(const Simulator& S, const std::string& body) {
 void lookAtIsZeroAtTheTarget(Check& check, Student& student, const Robot& robot) {
   const Eigen::Vector3d gaze = randomDirection(check.rng());
   const Eigen::Vector3d eye = robot.S.kinematicsPos(robot.body);
-  check.input(describe(robot, robot.body) + "; the target in several directions; zero only along the gaze");
-  isZeroOnlyAt(check, robot.S.kinematicsVec(robot.body, gaze), frameOf(robot.S, robot.body),
-               [&](const Eigen::Vector3d& direction) {
-                 return student.lookAt(robot.S.description(), robot.body, gaze, eye + 1.3 * direction);
-               });
+  check.input(describe(robot, robot.body) + "; the target in several directions; zero only along the gaze",
+              {{"gaze", gaze}});
+  const auto map = [&](const Eigen::Vector3d& direction) {
+    return student.lookAt(robot.S.description(), robot.body, gaze, eye + 1.3 * direction);
+  };
+  const Eigen::VectorXd ofBodyFrame = map(gaze).y;
+  const auto unturned = check.ask(
+      "It is zero where the gaze, taken as a vector of the world, would look: is it one of the body?",
+      ofBodyFrame.size() > 0 && ofBodyFrame.cwiseAbs().maxCoeff() <= kZero);
+  isZeroOnlyAt(check, robot.S.kinematicsVec(robot.body, gaze), frameOf(robot.S, robot.body), map);
 }
 
 void lookAtJacobian(Check& check, Student& student, const Robot& robot) {
@@ -174,14 +181,19 @@ void opposePalmsIsZeroWhenOpposite(Check& check, Student& student) {
   const Eigen::Matrix3d R_left = expSO3(check.rng().normalVector(3));
   const Eigen::Vector3d left = R_left * palm;
   check.input("two hands that rotate freely, in several directions; zero only if opposite to each other");
-  isZeroOnlyAt(check, -left, R_left, [&](const Eigen::Vector3d& right) {
+  const auto map = [&](const Eigen::Vector3d& right) {
     const Eigen::Matrix3d R_right =
         rotationAboutAxis(check.rng().uniform(0, 6), right) * rotationBetween(palm, right);
     const Eigen::Vector3d l = rollPitchYawFromRotation(R_left), r = rollPitchYawFromRotation(R_right);
     const Eigen::VectorXd q = (Eigen::VectorXd(6) << l[2], r[2], l[1], r[1], l[0], r[0]).finished();
     return student.opposePalms({.sceneName = "two hands", .sceneText = kTwoHands, .q = q}, "left", "right",
                                palm);
-  });
+  };
+  const Eigen::VectorXd alike = map(left).y;
+  const auto same =
+      check.ask("It is zero where both palms point in the same direction: wanted are opposite ones.",
+                alike.size() > 0 && alike.cwiseAbs().maxCoeff() <= kZero);
+  isZeroOnlyAt(check, -left, R_left, map);
 }
 
 // Moves the robot until its palms are opposite; false if that fails from its current posture.
@@ -268,16 +280,17 @@ Eigen::VectorXd minimumOf(const Eigen::MatrixXd& J, const Eigen::VectorXd& dy, d
   return parts.V * (s * along / (s.square() + sigma * sigma)).matrix();
 }
 
-// The minimum of |J dq - dy|^2 + sigma^2 |dq|^2 is where its gradient vanishes, compared with its terms.
+// The tolerance leaves room for the normal equations, which cost digits.
 void isTheMinimum(Check& check, const Eigen::VectorXd& dq, const Eigen::MatrixXd& J,
                   const Eigen::VectorXd& dy, double sigma) {
-  check.shape("dq", dq, J.cols(), 1);
-  const Eigen::VectorXd gradient = J.transpose() * (J * dq - dy) + sigma * sigma * dq,
-                        minimum = minimumOf(J, dy, sigma);
-  const double terms = (J.transpose() * dy).norm() + J.squaredNorm() * minimum.norm();
-  const auto mistaken = check.suspectUsualMistake(dq, minimum, 1e-6 * minimum.norm());
-  // Loose enough for solving the normal equations, which costs digits.
-  check.atMost("relative gradient of the cost at dq", gradient.norm() / terms, 1e-8);
+  check.shape("dq of ikStep", dq, J.cols(), 1);
+  const Eigen::VectorXd minimum = minimumOf(J, dy, sigma);
+  const auto bare = check.suspect("Is the term sigma^2 |dq|^2 missing?", minimumOf(J, dy, 1e-9));
+  const auto rooted = check.suspect("Is sigma not squared?", minimumOf(J, dy, std::sqrt(sigma)));
+  const double along = dq.dot(J.transpose() * dy) / (dq.norm() * (J.transpose() * dy).norm());
+  const auto downhill =
+      check.ask("It points along J^T dy: the transpose alone is no inverse.", along > 1 - 1e-9);
+  check.near("dq of ikStep", dq, minimum, 1e-7 * minimum.norm(), "rad");
 }
 
 void stepIsTheMinimum(Check& check, Student& student, const Eigen::MatrixXd& J, const Eigen::VectorXd& dy,
@@ -288,9 +301,9 @@ void stepIsTheMinimum(Check& check, Student& student, const Eigen::MatrixXd& J, 
 void stepOfTheHand(Check& check, Student& student) {
   check.forEachCase(4, [&](int) {
     const Robot robot = man(check.rng());
-    check.input("Jacobian of the right hand in a random posture, a change of 0.3 m, sigma 0.01");
-    stepIsTheMinimum(check, student, robot.S.jacobianPos("handR"), 0.3 * randomDirection(check.rng()),
-                     kSigma);
+    const Eigen::Vector3d dy = 0.3 * randomDirection(check.rng());
+    check.input("Jacobian of the right hand in a random posture", {{"dy", dy}, {"sigma", kSigma}});
+    stepIsTheMinimum(check, student, robot.S.jacobianPos("handR"), dy, kSigma);
   });
 }
 
@@ -303,8 +316,9 @@ void stepAtASingularity(Check& check, Student& student) {
   for (const Eigen::Vector3d& direction :
        {along, Eigen::Vector3d(1, 0, 0), Eigen::Vector3d((along + Eigen::Vector3d(1, 0, 0)) / 2)}) {
     const Eigen::VectorXd dq = student.ikStep(J, 0.3 * direction, kSigma);
-    check.shape("dq", dq, 3, 1);
-    check.atMost("length of dq for a change no joint can make", dq.norm(), 1e-6, "rad");
+    check.shape("dq of ikStep", dq, 3, 1);
+    check.near("dq of ikStep, for a change that no joint can make", dq, Eigen::VectorXd::Zero(3), 1e-6,
+               "rad");
   }
   check.input("pegArm.ors stretched out (q = 0), a change of 0.3 m across the arm");
   stepIsTheMinimum(check, student, J, Eigen::Vector3d(0, 0, 0.3), kSigma);
@@ -326,27 +340,30 @@ void checkPostures(Check& check, const Motion& motion, int count, int n) {
 
 using Place = std::function<Eigen::Vector3d(int step)>;
 
-// The motion, with the wanted position of the body at each step. The film opens where the body is farthest
-// from it.
-grading::Evidence seen(const Simulator& S, const std::string& body, const Motion& motion, int first,
+// The motion as a film, with the wanted position of the body at each step.
+grading::Evidence seen(const Simulator& S, const std::string& body, const Motion& motion,
                        const Place& wanted) {
-  Series error{.label = "distance from the red point"};
   std::vector<Eigen::Vector3d> way;
-  for (int t = 1; t <= static_cast<int>(motion.size()); ++t) {
-    error.x.push_back(t);
-    error.y.push_back((placeAt(S, body, motion[static_cast<std::size_t>(t) - 1]) - wanted(t)).norm());
-    way.push_back(wanted(t));
-  }
+  for (int t = 1; t <= static_cast<int>(motion.size()); ++t) way.push_back(wanted(t));
   Film film = filmOf(S, motion, {.traces = {body}, .paths = {way}});
   for (std::size_t i = 0; i < film.size(); ++i)
     film[i].picture.pointSets.push_back({.points = {way[i]}, .color = {.8f, .1f, .12f}, .size = 9});
-  const auto worst = std::max_element(error.y.begin() + (first - 1), error.y.end()) - error.y.begin();
-  return {.figures = {{.title = "Distance of " + body + " from its wanted position",
-                       .xLabel = "step",
-                       .yLabel = "distance [m]",
-                       .series = {error}}},
-          .film = film,
-          .moment = film[static_cast<std::size_t>(worst)].time};
+  return {.film = std::move(film)};
+}
+
+// The distance of the body from its wanted position, from step `first` on.
+Signal distance(const Simulator& S, const std::string& body, const Motion& motion, int first,
+                const Place& wanted) {
+  Signal signal;
+  for (int t = first; t <= static_cast<int>(motion.size()); ++t)
+    signal.add(t, (placeAt(S, body, motion[static_cast<std::size_t>(t) - 1]) - wanted(t)).norm());
+  return signal;
+}
+
+double largest(const Signal& signal) {
+  double value = 0;
+  for (const Eigen::VectorXd& one : signal.values) value = std::max(value, one[0]);
+  return value;
 }
 
 struct ErrorAfter {
@@ -361,15 +378,28 @@ void errorSequence(Check& check, Student& student, double alpha, int steps,
               std::string(alpha == 1 ? "1" : "0.1"));
   const Motion motion = student.smallSteps(S.description(), "handR", kTarget, alpha, kSigma, steps);
   checkPostures(check, motion, steps, S.getJointDimension());
-  const auto shown =
-      check.show([&] { return seen(S, "handR", motion, known.front().step, [](int) { return kTarget; }); });
+  const Signal got = distance(S, "handR", motion, 1, [](int) { return kTarget; });
+  const auto shown = check.show([&] {
+    grading::Evidence evidence = seen(S, "handR", motion, [](int) { return kTarget; });
+    Figure figure{.title = "Distance of handR from the target", .xLabel = "step", .yLabel = "distance [m]"};
+    figure.series = {grading::gotCurve("got", got.at), grading::wantedCurve("wanted")};
+    for (const Eigen::VectorXd& value : got.values) figure.series[0].y.push_back(value[0]);
+    for (const auto& [step, error] : known) {
+      figure.series[1].x.push_back(step);
+      figure.series[1].y.push_back(error);
+    }
+    evidence.moment = evidence.film[static_cast<std::size_t>(known.front().step) - 1].time;
+    evidence.figures = {std::move(figure)};
+    return evidence;
+  });
   const double start = (S.kinematicsPos("handR") - kTarget).norm();
   const auto unmoved = check.suspect("The hand is still where it started: is S never moved?",
                                      Eigen::MatrixXd::Constant(1, 1, start));
-  for (const auto& [step, error] : known) {
-    const double got = (placeAt(S, "handR", motion[static_cast<std::size_t>(step) - 1]) - kTarget).norm();
-    check.near("task error after step " + std::to_string(step), got, error, 1e-4 + 1e-3 * error, "m");
-  }
+  const auto same = check.ask("All postures are the same: does every step begin where the first one did?",
+                              motion.front() == motion.back());
+  for (const auto& [step, error] : known)
+    check.near("distance of handR from the target after step " + std::to_string(step),
+               got.values[static_cast<std::size_t>(step) - 1][0], error, 1e-4 + 1e-3 * error, "m");
 }
 
 void fullSteps(Check& check, Student& student) {
@@ -380,17 +410,6 @@ void stepsOfATenth(Check& check, Student& student) {
   errorSequence(check, student, 0.1, 100, {{1, 0.3041}, {10, 0.1179}, {50, 0.0018}, {100, 9e-6}});
 }
 
-// The largest distance of the body from its wanted position, from step `first` on.
-double largestError(const Simulator& S, const std::string& body, const Motion& motion, int first,
-                    const Place& wanted) {
-  double largest = 0;
-  for (int t = first; t <= static_cast<int>(motion.size()); ++t) {
-    largest =
-        std::max(largest, (placeAt(S, body, motion[static_cast<std::size_t>(t) - 1]) - wanted(t)).norm());
-  }
-  return largest;
-}
-
 void followsTheLine(Check& check, Student& student, const Simulator& S, const std::string& body,
                     const Eigen::Vector3d& target, int T, double tolerance) {
   const Eigen::Vector3d first = S.kinematicsPos(body);
@@ -399,9 +418,12 @@ void followsTheLine(Check& check, Student& student, const Simulator& S, const st
   const auto onLine = [&](int t) -> Eigen::Vector3d {
     return first + static_cast<double>(t) / T * (target - first);
   };
-  const auto shown = check.show([&] { return seen(S, body, motion, 1, onLine); });
-  check.atMost("largest distance from the moving target", largestError(S, body, motion, 1, onLine), tolerance,
-               "m");
+  const auto shown = check.show([&] { return seen(S, body, motion, onLine); });
+  const auto atOnce =
+      check.ask("Is the body sent to the far target at once, in every step?",
+                (placeAt(S, body, motion[4]) - target).norm() < 0.3 * (first - target).norm());
+  check.atMostAlong("distance of " + body + " from the moving target", distance(S, body, motion, 1, onLine),
+                    tolerance, "m");
 }
 
 void followsTheCircle(Check& check, Student& student, const Simulator& S, const std::string& body,
@@ -411,9 +433,19 @@ void followsTheCircle(Check& check, Student& student, const Simulator& S, const 
   const auto onCircle = [&](int t) -> Eigen::Vector3d {
     return center + radius * Eigen::Vector3d(std::cos(t / 20.), 0, std::sin(t / 20.));
   };
-  const auto shown = check.show([&] { return seen(S, body, motion, approach, onCircle); });
-  check.atMost("largest distance from the point on the circle",
-               largestError(S, body, motion, approach, onCircle), tolerance, "m");
+  const auto flat = [&](int t) -> Eigen::Vector3d {
+    return center + radius * Eigen::Vector3d(std::cos(t / 20.), std::sin(t / 20.), 0);
+  };
+  const auto fits = [&](const Place& place) {
+    return largest(distance(S, body, motion, approach, place)) <= tolerance;
+  };
+  const auto shown = check.show([&] { return seen(S, body, motion, onCircle); });
+  const auto lies =
+      check.ask("Does your circle lie in the plane of x and y? Wanted is that of x and z.", fits(flat));
+  const auto late = check.ask("Is the point on the circle that of one step earlier?",
+                              fits([&](int t) { return onCircle(t - 1); }));
+  check.atMostAlong("distance of " + body + " from the point on the circle",
+                    distance(S, body, motion, approach, onCircle), tolerance, "m");
 }
 
 void lineOfTheHand(Check& check, Student& student) {

@@ -147,14 +147,12 @@ Signal along(const Simulator& S, const Motion& motion, int first, const F& f) {
   return signal;
 }
 
-// The motion from step `first` on as a film of at most some 300 frames, with the path in the world that the
-// body should follow.
-grading::Evidence seen(const Simulator& S, const std::string& body, const Motion& motion, int first,
+// The motion as a film of at most some 300 frames, with the path in the world that the body should follow.
+grading::Evidence seen(const Simulator& S, const std::string& body, const Motion& motion,
                        const std::vector<Eigen::Vector3d>& path = {}) {
   const std::size_t stride = 1 + motion.size() / 300;
   Motion shown;
-  for (std::size_t t = static_cast<std::size_t>(first) - 1; t < motion.size(); t += stride)
-    shown.push_back(motion[t]);
+  for (std::size_t t = 0; t < motion.size(); t += stride) shown.push_back(motion[t]);
   Film film = filmOf(S, shown, {.traces = {body}, .paths = {path}});
   for (Frame& frame : film)
     if (!path.empty()) frame.picture.captions.push_back({.text = "grey: the wanted path"});
@@ -185,7 +183,7 @@ void tracks(Check& check, const Simulator& S, const Circle& circle, const Motion
   const auto shown = check.show([&] {
     std::vector<Eigen::Vector3d> path;
     for (int t = 0; t < 126; ++t) path.push_back(wanted(t));
-    return seen(S, circle.hand, motion, 20, path);
+    return seen(S, circle.hand, motion, path);
   });
   const auto strong = check.suspect("Is home as precise as the circle? Its precision is 0.01.",
                                     firstPosture(S, circle, 1, 1e4));
@@ -204,7 +202,7 @@ void staysAtHome(Check& check, const Simulator& S, const Motion& motion) {
     return (moved.getJointAngles() - atFirst).cwiseAbs().maxCoeff();
   };
   const auto shown = check.show([&] {
-    grading::Evidence evidence = seen(S, "handR", motion, 1);
+    grading::Evidence evidence = seen(S, "handR", motion);
     evidence.film = grading::withWanted(evidence.film, filmOf(S, Motion{atFirst}, {}));
     return evidence;
   });
@@ -216,7 +214,7 @@ void staysAtHome(Check& check, const Simulator& S, const Motion& motion) {
 void pointsUpwards(Check& check, const Simulator& S, const Circle& circle, const Motion& motion) {
   const auto axis = [&](const Simulator& moved, int) { return moved.kinematicsVec(circle.pointing); };
   const Signal got = along(S, motion, 100, axis);
-  const auto shown = check.show([&] { return seen(S, circle.pointing, motion, 100); });
+  const auto shown = check.show([&] { return seen(S, circle.pointing, motion); });
   const auto sign = check.ask("Is the error the sum of both directions? It is their difference.",
                               (got.values.front() + kUp).norm() < 0.05);
   check.nearAlong("z axis of " + circle.pointing + ", in circleWithTasks", got,
@@ -359,7 +357,7 @@ void clearanceIsKept(Check& check, const Simulator& S, const std::string& functi
 
 // The motion of the peg and the last part of the wanted path.
 grading::Evidence wayOf(const Scene& scene, const Motion& motion) {
-  return seen(scene.S, scene.peg, motion, 1, {scene.hole - 0.6 * kDown, scene.hole});
+  return seen(scene.S, scene.peg, motion, {scene.hole - 0.6 * kDown, scene.hole});
 }
 
 void pegIsAt(Check& check, const Scene& scene, const std::string& property, const Eigen::VectorXd& q,

@@ -247,6 +247,7 @@ void Check::nearAngle(std::string_view property, double got, double wanted, doub
 }
 
 void Check::along(std::string_view property, const Signal& got, const Rule& rule, std::string_view unit) {
+  constexpr double kLeast = 1e-9;  // the length of a motion that is one moment
   const Breaches breaches = breachesOf(rule.beyond);
   const auto place = [&](std::size_t i) { return " at " + placeOf(got, i); };
   const auto value = [&](std::size_t i) {
@@ -273,9 +274,10 @@ void Check::along(std::string_view property, const Signal& got, const Rule& rule
     shortfall.deviation = "off by " + off(first);
   }
   if (shortfall.what.empty() && breaches.worst != first) shortfall.worst = worst;
-  Plot plot{
-      .figure = figureOf(std::string(property), got, rule.wanted, breaches.ofComponents, first, unit),
-      .share = static_cast<double>(first) / static_cast<double>(std::max<std::size_t>(1, got.at.size() - 1))};
+  // A signal may begin later than its motion, whose first step is 1.
+  const double begin = std::min(got.axis == "step" ? 1.0 : 0.0, got.at.front());
+  Plot plot{.figure = figureOf(std::string(property), got, rule.wanted, breaches.ofComponents, first, unit),
+            .share = (got.at[first] - begin) / std::max(got.at.back() - begin, kLeast)};
   plot.figure.horizontalLines = rule.limits;
   fail(std::move(shortfall), plot);
 }
