@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "grading/check.h"
 #include "grading/evidence_parts.h"
 #include "interface.h"
@@ -47,14 +50,38 @@ inline void checkPath(rex::grading::Check& check, const std::vector<Eigen::Vecto
   check.atMost("number of steps", static_cast<double>(path.size()) - 1, maxSteps);
   for (const Eigen::VectorXd& x : path) check.shape("point of the path", x, start.size(), 1);
   check.near("first point of the path", path.front(), start, 0);
+  for (std::size_t t = 1; t < path.size(); ++t)
+    check.that("each point of the path differs from the one before", path[t] != path[t - 1]);
 }
 
-// Armijo's condition for a step of size alpha, up to the rounding of f.
-inline void decreases(rex::grading::Check& check, double before, double after, double alpha, double slope,
+// The angle between a step from x and its wanted direction d, radians, up to the rounding of x.
+inline double angleOf(const Eigen::VectorXd& step, const Eigen::VectorXd& d, double rounding) {
+  const double along = step.dot(d) / d.norm();
+  const double aside = (step - along * d.normalized()).norm() - rounding;
+  return std::atan2(std::max(0., aside), along);
+}
+
+// The steps of a path that should lead down: their angles to the wanted directions, their sizes alpha, and
+// what Armijo's condition compares: the decrease of f divided by what the slope promises.
+struct Steps {
+  rex::grading::Signal angles, sizes, decreases;
+};
+
+// The decrease, up to the rounding of f.
+inline double shareOfSlope(double before, double after, double alpha, double slope) {
+  return (before - after + 1e-13 * std::abs(before)) / (alpha * std::abs(slope)) + 1e-6;
+}
+
+inline void decreases(rex::grading::Check& check, const std::string& function, const Steps& steps,
                       double decrease) {
-  check.atMost("f after a step, beyond what sufficient decrease allows",
-               after - before - decrease * alpha * slope,
-               1e-6 * alpha * std::abs(slope) + 1e-13 * std::abs(before));
+  bool rises = false, full = true;
+  for (const Eigen::VectorXd& share : steps.decreases.values) rises = rises || share[0] < 0;
+  for (const Eigen::VectorXd& alpha : steps.sizes.values) full = full && std::abs(alpha[0] - 1) < 1e-9;
+  const auto whole = check.ask("Every step is a full one, alpha = 1: is the line search missing?", full);
+  const auto uphill = check.ask(
+      "f rises there: is the condition of sufficient decrease tested, with the slope's sign?", rises);
+  check.atLeastAlong("(f before - f after) / (alpha |slope|) of a step in " + function, steps.decreases,
+                     decrease);
 }
 
 /// The values along a path, and the largest value that Armijo's condition allows after each step.
@@ -78,11 +105,56 @@ inline rex::grading::Evidence descentSeen(const std::vector<double>& values,
   return {.figures = {figure}};
 }
 
+// How often a step size was multiplied by `shrink`, if its first trial was the size before times `grow`. With
+// `again`, each line search begins with 1.
+inline rex::grading::Signal timesShrunk(const rex::grading::Signal& sizes, double shrink, double grow,
+                                        bool again = false) {
+  rex::grading::Signal times;
+  double firstTrial = 1;
+  for (std::size_t i = 0; i < sizes.at.size(); ++i) {
+    const double alpha = sizes.values[i][0];
+    times.add(sizes.at[i], std::log(alpha / firstTrial) / std::log(shrink));
+    firstTrial = again ? 1 : alpha * grow;
+  }
+  return times;
+}
+
+// Whole numbers, not negative.
+inline std::vector<Eigen::VectorXd> wholeNumbers(const rex::grading::Signal& times) {
+  std::vector<Eigen::VectorXd> whole;
+  for (const Eigen::VectorXd& one : times.values) whole.emplace_back(one.array().round().max(0));
+  return whole;
+}
+
+inline void sizesAreTried(rex::grading::Check& check, const rex::grading::Signal& sizes,
+                          const SearchOptions& options) {
+  constexpr double kTolerance = 0.02;
+  const auto fits = [&](double shrink, double grow, bool again) {
+    const rex::grading::Signal times = timesShrunk(sizes, shrink, grow, again);
+    const std::vector<Eigen::VectorXd> whole = wholeNumbers(times);
+    for (std::size_t i = 0; i < whole.size(); ++i)
+      if (std::abs(times.values[i][0] - whole[i][0]) > kTolerance) return false;
+    return true;
+  };
+  const auto stays = check.ask("Is alpha never multiplied by `grow`?", fits(options.shrink, 1, false));
+  const auto again = check.ask(
+      "Does each line search begin with alpha = 1? It should begin with the last alpha, times `grow`.",
+      fits(options.shrink, 1, true));
+  const auto halved =
+      check.ask("Is alpha halved? It should be multiplied by `shrink`.", fits(0.5, options.grow, false));
+  const rex::grading::Signal times = timesShrunk(sizes, options.shrink, options.grow);
+  check.nearAlong("how often alpha was multiplied by `shrink` in a step of gradientDescent", times,
+                  wholeNumbers(times), kTolerance);
+}
+
 inline void descends(rex::grading::Check& check, Student& student, const Landscape& land,
                      SearchOptions options) {
   options.tolerance = 1e-5 * land.gradient(land.start).norm();
-  check.input(land.name + fmt::format(", shrink {:.2f}, grow {:.2f}, decrease {:.2f}", options.shrink,
-                                      options.grow, options.decrease));
+  check.input(land.name, {{"start", land.start},
+                          {"shrink", options.shrink},
+                          {"grow", options.grow},
+                          {"decrease", options.decrease},
+                          {"tolerance", options.tolerance}});
   const std::vector<Eigen::VectorXd> path =
       student.gradientDescent(land.f, land.gradient, land.start, options);
   const auto shown = check.show([&] {
@@ -93,22 +165,20 @@ inline void descends(rex::grading::Check& check, Student& student, const Landsca
     return descentSeen(values, allowed);
   });
   checkPath(check, path, land.start, options.maxSteps);
-  double firstTrial = 1;
+  Steps steps;
   for (std::size_t t = 1; t < path.size(); ++t) {
-    const Eigen::VectorXd step = path[t] - path[t - 1], g = land.gradient(path[t - 1]);
-    const double alpha = -step.dot(g) / g.squaredNorm();
-    check.that(
-        "every step goes along the negative gradient",
-        alpha > 0 && (step + alpha * g).norm() <= 1e-5 * alpha * g.norm() + 1e-13 * path[t - 1].norm());
-    decreases(check, land.f(path[t - 1]), land.f(path[t]), alpha, -g.squaredNorm(), options.decrease);
-    check.atMost("step size, relative to its first trial", alpha / firstTrial, 1 + 1e-4);
-    const double shrunk = std::log(alpha / firstTrial) / std::log(options.shrink);
-    check.atMost("distance of log(step size / first trial) / log(shrink) from the nearest integer",
-                 std::abs(shrunk - std::round(shrunk)), 0.02);
-    firstTrial = alpha * options.grow;
+    const Eigen::VectorXd x = path[t - 1], step = path[t] - x, g = land.gradient(x);
+    const double alpha = -step.dot(g) / g.squaredNorm(), place = static_cast<double>(t);
+    steps.angles.add(place, angleOf(step, -g, 1e-13 * x.norm()));
+    steps.sizes.add(place, alpha);
+    steps.decreases.add(place, shareOfSlope(land.f(x), land.f(path[t]), alpha, g.squaredNorm()));
   }
-  check.atMost("gradient at the end, relative to that at the start",
-               land.gradient(path.back()).norm() / land.gradient(land.start).norm(), 1.0001e-5);
+  check.atMostAlong("angle between a step of gradientDescent and the negative gradient", steps.angles, 1e-5,
+                    "rad");
+  decreases(check, "gradientDescent", steps, options.decrease);
+  sizesAreTried(check, steps.sizes, options);
+  check.atMost("norm of the gradient at the end of gradientDescent", land.gradient(path.back()).norm(),
+               1.0001 * options.tolerance);
 }
 
 // phi, its derivative, and a start.
@@ -157,7 +227,10 @@ inline void followsGaussNewton(rex::grading::Check& check, Student& student, con
     return Eigen::VectorXd(2 * problem.J(x).transpose() * problem.phi(x));
   };
   options.tolerance = 1e-5 * gradient(problem.start).norm();
-  check.input(problem.name + fmt::format(", decrease {:.2f}", options.decrease));
+  check.input("phi is " + problem.name, {{"start", problem.start},
+                                         {"shrink", options.shrink},
+                                         {"decrease", options.decrease},
+                                         {"tolerance", options.tolerance}});
   const std::vector<Eigen::VectorXd> path =
       student.gaussNewton(problem.phi, problem.J, problem.start, options);
   const auto shown = check.show([&] {
@@ -168,19 +241,26 @@ inline void followsGaussNewton(rex::grading::Check& check, Student& student, con
     return descentSeen(values, allowed);
   });
   checkPath(check, path, problem.start, options.maxSteps);
+  Steps steps;
   for (std::size_t t = 1; t < path.size(); ++t) {
-    const Eigen::VectorXd x = path[t - 1], step = path[t] - x;
-    const Eigen::MatrixXd J = problem.J(x);
-    const Eigen::VectorXd phi = problem.phi(x), full = -rex::leastSquares(J, phi);
-    const double alpha = step.dot(full) / full.squaredNorm();
-    check.that(
-        "every step goes along the d with J^T J d = -J^T phi",
-        alpha > 0 && (step - alpha * full).norm() <= 1e-5 * alpha * full.norm() + 1e-10 * (1 + x.norm()));
-    check.atMost("alpha of a step", alpha, 1 + 1e-4);
-    decreases(check, phi.squaredNorm(), problem.phi(path[t]).squaredNorm(), alpha, gradient(x).dot(full),
-              options.decrease);
+    const Eigen::VectorXd x = path[t - 1], step = path[t] - x, phi = problem.phi(x);
+    const Eigen::VectorXd full = -rex::leastSquares(problem.J(x), phi);
+    const double alpha = step.dot(full) / full.squaredNorm(), place = static_cast<double>(t);
+    steps.angles.add(place, angleOf(step, full, 1e-10 * (1 + x.norm())));
+    steps.sizes.add(place, alpha);
+    steps.decreases.add(place, shareOfSlope(phi.squaredNorm(), problem.phi(path[t]).squaredNorm(), alpha,
+                                            gradient(x).dot(full)));
   }
+  check.atMostAlong("angle between a step of gaussNewton and the d with J^T J d = -J^T phi", steps.angles,
+                    1e-5, "rad");
+  double longest = 0;
+  for (const Eigen::VectorXd& alpha : steps.sizes.values) longest = std::max(longest, alpha[0]);
+  const auto twice =
+      check.ask("Full steps are twice too long: does one side of J^T J d = -J^T phi have a factor 2?",
+                std::abs(longest - 2) < 1e-6);
+  check.atMostAlong("alpha of a step of gaussNewton, its length divided by that of d", steps.sizes, 1 + 1e-4);
+  decreases(check, "gaussNewton", steps, options.decrease);
   // The factor of two allows for solutions that compare half of the gradient with the tolerance.
-  check.atMost("gradient at the end, relative to that at the start",
-               gradient(path.back()).norm() / gradient(problem.start).norm(), 2.0001e-5);
+  check.atMost("norm of the gradient at the end of gaussNewton", gradient(path.back()).norm(),
+               2.0001 * options.tolerance);
 }

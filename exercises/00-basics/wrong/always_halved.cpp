@@ -1,4 +1,4 @@
-// caught by: descent-elsewhere
+// caught by: descent, descent-elsewhere
 // mistake: Trials are halved, whatever `shrink` says.
 
 // <solution backtracking>
