@@ -21,8 +21,8 @@ inline Eigen::VectorXd weightsOf(int k, double tau) {
 inline Eigen::MatrixXd besideEachOther(const std::vector<TermValue>& blocks, const Eigen::VectorXd& weights) {
   const Eigen::Index n = blocks[0].J.cols();
   Eigen::MatrixXd J(blocks[0].J.rows(), n * weights.size());
-  for (Eigen::Index i = 0; i < weights.size(); ++i)
-    J.middleCols(i * n, n) = weights[i] * blocks[static_cast<std::size_t>(i)].J;
+  for (Eigen::Index place = 0; place < weights.size(); ++place)
+    J.middleCols(place * n, n) = weights[place] * blocks[static_cast<std::size_t>(place)].J;
   return J;
 }
 

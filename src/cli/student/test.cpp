@@ -72,9 +72,7 @@ void addTest(CLI::App* command, Action& action) {
   addSeveral(command, *words);
   command->add_flag("--solution", options->solution, "grade the reference solution");
   command->add_option("--main", options->main, "grade this file instead of main.cpp")->type_name("FILE");
-  command
-      ->add_option("--check", options->job.checks,
-                   "only this check, or the checks of this part; may be given several times")
+  command->add_option("--check", options->job.checks, "only this check or part; may be given several times")
       ->allow_extra_args(false)
       ->type_name("NAME");
   addSeed(command, options->job.seed, "repeat the random cases of this seed");

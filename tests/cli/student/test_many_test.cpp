@@ -162,7 +162,7 @@ TEST_F(TestMany, RefusesWhatBelongsToOneExercise) {
   EXPECT_THAT(flat(check.error), HasSubstr("--check: found several exercises, wanted only one exercise"));
   EXPECT_THAT(rex({"test", "--all", "--main", "x.cpp"}).error, HasSubstr("--main: found several"));
   for (const std::vector<std::string>& words :
-       std::vector<std::vector<std::string>>{{"test"}, {"test", "98", "--all"}}) {
+       std::vector<std::vector<std::string>>{{"test"}, {"test", "98", "97", "--all"}}) {
     const Ended ended = rex(words);
     EXPECT_EQ(ended.code, 64);
     EXPECT_THAT(ended.error, HasSubstr("either EXERCISE or --all is required"));
