@@ -18,22 +18,29 @@ inline void ratesFit(rex::grading::Check& check, Student& student, const PoleCar
   rex::Rng& rng = check.rng();
   const Eigen::Vector4d x(rng.uniform(-2, 2), rng.normal(), rng.uniform(-4, 4), 2 * rng.normal());
   const double u = 5 * rng.normal();
-  check.input(fmt::format("{}, theta = {:g}, theta' = {:g}, u = {:g}", described(cart), x[2], x[3], u));
+  check.input(described(cart), {{"x", x}, {"u", u}});
   const Eigen::Vector4d wanted = dynamicsOf(cart).derivative(x, u);
-  const Eigen::Vector4d got = student.rateOf(cart, x, u);
-  const double tolerance = 1e-9 * (1 + wanted.norm());
-  check.near("rate of p", got[0], wanted[0], tolerance);
-  check.near("rate of theta", got[2], wanted[2], tolerance);
-  check.near("rate of theta', eq. (13)", got[3], wanted[3], tolerance);
-  check.near("rate of p', eq. (14)", got[1], wanted[1], tolerance);
+  const auto length =
+      check.ask("It is right for the cart of the sheet: is l left out, which is 1 there?", cart.l != 1);
+  check.near("(p', p'', theta', theta'') of rateOf", student.rateOf(cart, x, u), wanted,
+             1e-9 * (1 + wanted.norm()));
 }
 
 inline void linearisationFits(rex::grading::Check& check, Student& student, const PoleCart& cart) {
   check.input(described(cart));
   const Plant wanted = plantOf(cart), got = student.linearised(cart);
+  Eigen::MatrixXd exchanged = wanted.A, printed = wanted.A;
+  exchanged.row(1).swap(exchanged.row(3));
+  printed(1, 2) = -wanted.A(3, 2);
+  const auto rows = check.suspect(
+      "Are the rows of p'' and theta'' exchanged? The state is (p, p', theta, theta').", exchanged);
+  const auto sheet =
+      check.suspect("Is c2 missing in the row of p'', as in the A that the sheet prints?", printed);
   // Loose enough for good finite differences.
-  check.near("A", got.A, wanted.A, 1e-7);
-  check.near("B", got.B, wanted.B, 1e-7);
+  check.near("A of linearised", got.A, wanted.A, 1e-7);
+  const auto rowsOfB = check.suspect("Are the entries of p'' and theta'' exchanged?",
+                                     Eigen::Vector4d(wanted.B(0), wanted.B(3), wanted.B(2), wanted.B(1)));
+  check.near("B of linearised", got.B, wanted.B, 1e-7);
 }
 
 // x after one Euler step, with noise from the generator.
@@ -47,15 +54,28 @@ inline void stepFits(rex::grading::Check& check, Student& student, const PoleCar
   rex::Rng& rng = check.rng();
   const Eigen::Vector4d x = rng.normalVector(4);
   const double u = 5 * rng.normal(), tau = rng.uniform(.005, .1);
-  check.input(fmt::format("tau = {:g}, noise = {:g}", tau, noise));
+  check.input(described(cart), {{"x", x}, {"u", u}, {"tau", tau}, {"noise", noise}});
   const rex::Rng given = rng.split(7);
   const Eigen::Vector4d got = student.stepped(cart, x, u, tau, noise, given);
-  rex::Rng same = given;
-  const Eigen::Vector4d wanted = euler(cart, x, u, tau, noise, same);
-  check.near("p and theta after a step", Eigen::Vector2d(got[0], got[2]),
-             Eigen::Vector2d(wanted[0], wanted[2]), 1e-9);
-  check.near("p' and theta' after a step", Eigen::Vector2d(got[1], got[3]),
-             Eigen::Vector2d(wanted[1], wanted[3]), 1e-9);
+  const auto stepWith = [&](double ofNoise) {
+    rex::Rng same = given;
+    return euler(cart, x, u, tau, ofNoise, same);
+  };
+  const Eigen::Vector4d wanted = stepWith(noise);
+  const Eigen::Vector2d moved(x[0] + tau * wanted[1], x[2] + tau * wanted[3]), before(x[0], x[2]);
+  const auto newRates =
+      check.suspect("Are the new p' and theta' used? All states move with the rates before the step.", moved);
+  const auto unmoved = check.suspect("Are p and theta never moved?", before);
+  check.near("(p, theta) of stepped", Eigen::Vector2d(got[0], got[2]), Eigen::Vector2d(wanted[0], wanted[2]),
+             1e-9);
+  const auto ratesOf = [](const Eigen::Vector4d& state) { return Eigen::Vector2d(state[1], state[3]); };
+  const auto root = check.suspect("Is the noise multiplied by sqrt(tau)? It is added as it is, in each step.",
+                                  ratesOf(stepWith(noise * std::sqrt(tau))));
+  const auto times = check.suspect("Is the noise multiplied by tau? It is added as it is, in each step.",
+                                   ratesOf(stepWith(noise * tau)));
+  const auto none = check.suspect("Is the noise missing?", ratesOf(stepWith(0)));
+  const auto minus = check.suspect("Is the noise subtracted?", ratesOf(stepWith(-noise)));
+  check.near("(p', theta') of stepped", ratesOf(got), ratesOf(wanted), 1e-9);
   rng.next();
 }
 
@@ -90,11 +110,9 @@ inline rex::Film filmOf(const Eigen::MatrixXd& states, double tau, Eigen::Index 
   return film;
 }
 
-/// The outing beside the wanted one, as a film that opens after step t.
-inline rex::grading::Evidence seen(const Eigen::MatrixXd& states, const Eigen::MatrixXd& wanted, double tau,
-                                   Eigen::Index t) {
+/// The outing beside the wanted one, as a film.
+inline rex::grading::Evidence seen(const Eigen::MatrixXd& states, const Eigen::MatrixXd& wanted, double tau) {
   using rex::grading::gotCurve, rex::grading::wantedCurve;
-  const double moment = tau * static_cast<double>(t + 1);
   const std::vector<double> times = timesOf(states, tau), wantedTimes = timesOf(wanted, tau);
   rex::Figure figure{
       .title = "The outing until its end", .xLabel = "time [s]", .yLabel = "p [m], theta [rad]"};
@@ -103,12 +121,10 @@ inline rex::grading::Evidence seen(const Eigen::MatrixXd& states, const Eigen::M
                    wantedCurve("p and theta, wanted", wantedTimes, rowOf(wanted, 0)),
                    wantedCurve("", wantedTimes, rowOf(wanted, 2))};
   figure.series[1].color = rex::Color{.84f, .37f, 0};
-  figure.verticalLines = {rex::grading::wrongFrom(moment)};
   const Eigen::Index stride = 1 + std::max(states.cols(), wanted.cols()) / 400;
   return {.figures = {figure},
           .film = rex::grading::withWanted(filmOf(states, tau, stride), filmOf(wanted, tau, stride)),
-          .view = {.35, -2, .45},
-          .moment = moment};
+          .view = {.35, -2, .45}};
 }
 
 /// The cart under u = K x with the gains that were returned and with the wanted ones, without noise. Opens
@@ -122,7 +138,9 @@ inline rex::grading::Evidence seenUnder(const Eigen::MatrixXd& K, const Eigen::M
   Eigen::Index t = 0;
   const Eigen::Index last = std::min(got.cols(), wanted.cols()) - 1;
   while (t + 1 < last && std::abs(got(2, t + 1) - wanted(2, t + 1)) < .05) ++t;
-  rex::grading::Evidence evidence = seen(got, wanted, calm.tau, t);
+  rex::grading::Evidence evidence = seen(got, wanted, calm.tau);
+  evidence.moment = calm.tau * static_cast<double>(t + 1);
+  evidence.figures[0].verticalLines = {rex::grading::wrongFrom(evidence.moment)};
   evidence.figures[0].title = "The cart under these gains, from theta = 0.2 without noise";
   return evidence;
 }
@@ -135,24 +153,35 @@ inline Eigen::MatrixXd outingFits(rex::grading::Check& check, Student& student, 
   const rex::Rng given = check.rng().split(7);
   check.rng().next();
   const Eigen::MatrixXd states = student.balanced(cart, K, start, outing, given);
-  check.atLeast("number of states", static_cast<double>(states.cols()), 1);
-  check.atMost("number of states", static_cast<double>(states.cols()), outing.steps + 1);
-  check.shape("states", states, 4, states.cols());
-  check.near("first state", states.col(0), start, 0);
+  check.atLeast("number of states of balanced", static_cast<double>(states.cols()), 1);
+  check.atMost("number of states of balanced", static_cast<double>(states.cols()), outing.steps + 1);
+  check.shape("states of balanced", states, 4, states.cols());
+  check.near("first state of balanced", states.col(0), start, 0);
   rex::Rng same = given;
-  Eigen::Index t = 0;
-  const auto shown =
-      check.show([&] { return seen(states, statesOf(cart, K, start, outing, given), outing.tau, t); });
-  for (; t + 1 < states.cols(); ++t) {
+  rex::grading::Signal angles{.axis = "time [s]"}, got = angles;
+  std::vector<Eigen::VectorXd> wanted;
+  double largest = 1;
+  bool hasFallen = false;
+  for (Eigen::Index t = 0; t + 1 < states.cols(); ++t) {
     const Eigen::Vector4d x = states.col(t);
-    check.atMost("|theta| before the end", std::abs(x[2]), std::numbers::pi / 2, "rad");
-    const Eigen::Vector4d wanted = euler(cart, x, (K * x)[0], outing.tau, outing.noise, same);
-    check.near("state, computed from the one before it", states.col(t + 1), wanted,
-               1e-9 * (1 + wanted.norm()));
+    angles.add(outing.tau * static_cast<double>(t), std::abs(x[2]));
+    hasFallen = hasFallen || std::abs(x[2]) > std::numbers::pi / 2;
+    if (hasFallen) continue;  // numbers may become large
+    got.add(outing.tau * static_cast<double>(t + 1), states.col(t + 1));
+    wanted.emplace_back(euler(cart, x, (K * x)[0], outing.tau, outing.noise, same));
+    largest = std::max(largest, 1 + wanted.back().norm());
+  }
+  const auto shown =
+      check.show([&] { return seen(states, statesOf(cart, K, start, outing, given), outing.tau); });
+  if (!wanted.empty()) {
+    check.nearAlong("(p, p', theta, theta') in balanced, next to a step from the state before", got, wanted,
+                    1e-9 * largest);
+    const auto goesOn = check.ask("Does the outing go on after the pole has fallen?");
+    check.atMostAlong("|theta| before the last state of balanced", angles, std::numbers::pi / 2, "rad");
   }
   if (states.cols() <= outing.steps)
-    check.atLeast("|theta| at the early end", std::abs(states(2, states.cols() - 1)), std::numbers::pi / 2,
-                  "rad");
+    check.atLeast("|theta| in the last state of balanced, which came early",
+                  std::abs(states(2, states.cols() - 1)), std::numbers::pi / 2, "rad");
   return states;
 }
 
@@ -164,12 +193,12 @@ inline void survivesFrom(rex::grading::Check& check, Student& student, double an
   check.input(
       fmt::format("the cart pole of the sheet from theta = {:g}, noise {:g}, 3000 steps", angle, noise));
   const Plant plant = student.linearised(cart);
-  check.shape("A", plant.A, 4, 4);
-  check.shape("B", plant.B, 4, 1);
+  check.shape("A of linearised", plant.A, 4, 4);
+  check.shape("B of linearised", plant.B, 4, 1);
   const Eigen::MatrixXd P = student.viaHamiltonian(plant, costs);
-  check.shape("P", P, 4, 4);
+  check.shape("P of viaHamiltonian", P, 4, 4);
   const Eigen::MatrixXd K = student.gainOf(plant, costs, P);
-  check.shape("K", K, 1, 4);
+  check.shape("K of gainOf", K, 1, 4);
   const Eigen::MatrixXd states =
       outingFits(check, student, cart, K, Eigen::Vector4d(0, 0, angle, 0), {.noise = noise});
   check.near("number of states", static_cast<double>(states.cols()), 3001, 0);

@@ -62,10 +62,17 @@ void poles(Check& check, Student& student) {
   for (int i = 0; i < 10; ++i) {
     const Regulation task =
         i == 0 ? regulationOf(plantOf({}), costsOfTheSheet()) : randomRegulation(check.rng(), false);
-    check.input(described(task.plant));
-    check.near("slowest pole under optimal gains", student.slowestPole(task.plant, -task.optimal.K),
+    check.input("a plant under optimal gains",
+                {{"A", task.plant.A}, {"B", task.plant.B}, {"K", -task.optimal.K}});
+    const auto minus = check.suspect(
+        "Are these the poles of A - B K? Here u = K x.",
+        Eigen::MatrixXd::Constant(1, 1, abscissa(task.plant.A + task.plant.B * task.optimal.K)));
+    const auto open = check.suspect("Are these the poles of A, without control?",
+                                    Eigen::MatrixXd::Constant(1, 1, abscissa(task.plant.A)));
+    check.near("slowestPole under optimal gains", student.slowestPole(task.plant, -task.optimal.K),
                task.optimal.closedLoop.real().maxCoeff(), 1e-6, "1/s");
-    check.near("slowest pole without control", student.slowestPole(task.plant, 0 * task.optimal.K),
+    describe(check, "a plant with K = 0", task.plant);
+    check.near("slowestPole without control", student.slowestPole(task.plant, 0 * task.optimal.K),
                abscissa(task.plant.A), 1e-6, "1/s");
   }
   const std::vector<KnownFate> known = knownFates(check.rng());

@@ -35,16 +35,28 @@ inline void iterationFits(rex::grading::Check& check, Student& student, const Re
                           double epsilon, double tolerance) {
   const auto& [plant, costs, optimal] = task;
   const int steps = stepsUntil(plant, costs, epsilon, tolerance, 100000);
-  check.input(fmt::format("{}, epsilon = {:g}, tolerance {:g}, most = {}", described(plant), epsilon,
-                          tolerance, steps + 1));
+  check.input("a plant and its costs", {{"A", plant.A},
+                                        {"B", plant.B},
+                                        {"Q", costs.Q},
+                                        {"R", costs.R},
+                                        {"epsilon", epsilon},
+                                        {"tolerance", tolerance},
+                                        {"most", steps + 1}});
   const std::optional<Eigen::MatrixXd> P = student.iterated(plant, costs, epsilon, tolerance, steps + 1);
-  check.that("the iteration converges within the steps it needs", P.has_value());
-  check.shape("P", *P, plant.A.rows(), plant.A.rows());
+  check.that("iterated returns a P within the steps that it needs", P.has_value());
+  check.shape("P of iterated", *P, plant.A.rows(), plant.A.rows());
   const double size = imbalance(plant, costs, *P).lpNorm<Eigen::Infinity>();
-  check.atMost("largest entry of the bracket", size, tolerance * 1.001);
-  check.atLeast("largest entry of the bracket for the first P within the tolerance", size, tolerance * .8);
-  check.near("P", *P, optimal.X, 1e-3 * (1 + optimal.X.norm()));
-  check.that("no P if `most` is two steps too few",
+  {
+    const auto change =
+        check.ask("Is the change of P compared with the tolerance? It is epsilon times the bracket.",
+                  epsilon * size <= tolerance);
+    check.atMost("largest entry of the bracket for the P of iterated", size, tolerance * 1.001);
+  }
+  check.atLeast("largest entry of the bracket for the first P within the tolerance, in iterated", size,
+                tolerance * .8);
+  check.near("P of iterated", *P, optimal.X, 1e-3 * (1 + optimal.X.norm()));
+  const auto last = check.ask("Is the last P returned although its bracket exceeds the tolerance?");
+  check.that("iterated returns nothing if `most` is two steps too few",
              !student.iterated(plant, costs, epsilon, tolerance, steps - 2));
 }
 
@@ -53,37 +65,47 @@ inline void iterationEnds(rex::grading::Check& check, Student& student) {
   const Plant plant{Eigen::MatrixXd::Zero(2, 2), Eigen::Vector2d(1, 0)};
   check.input("A = 0, B = (1, 0), Q = I, R = 1, epsilon = 0.01");
   const Costs costs{Eigen::MatrixXd::Identity(2, 2), Eigen::MatrixXd::Identity(1, 1)};
-  check.that("no P if none exists", !student.iterated(plant, costs, .01, 1e-3, 5000));
+  check.that("iterated returns nothing if there is no P", !student.iterated(plant, costs, .01, 1e-3, 5000));
 }
 
+/// The bracket shows how exact P is, but not what is wrong with it: first P is compared with the wanted one,
+/// as far as that is known.
 inline void hamiltonianFits(rex::grading::Check& check, Student& student, const Regulation& task) {
   const auto& [plant, costs, optimal] = task;
-  check.input(described(plant));
+  describe(check, "a plant and its costs", plant, costs);
   const Eigen::MatrixXd P = student.viaHamiltonian(plant, costs);
-  check.shape("P", P, plant.A.rows(), plant.A.rows());
+  check.shape("P of viaHamiltonian", P, plant.A.rows(), plant.A.rows());
   const double scale = 1 + costs.Q.norm() + 2 * (optimal.X * plant.A).norm();
-  check.near("P, transposed", P.transpose(), P, 1e-9 * optimal.X.norm());
-  check.near("the bracket", imbalance(plant, costs, P), Eigen::MatrixXd::Zero(P.rows(), P.cols()),
-             1e-8 * scale);
-  check.atMost("slowest pole of the closed loop",
-               abscissa(plant.A - plant.B * rex::solve(costs.R, Eigen::MatrixXd(plant.B.transpose() * P))), 0,
-               "1/s");
+  const Costs ofOne{costs.Q, Eigen::MatrixXd::Identity(costs.R.rows(), costs.R.rows())};
+  const auto withoutR =
+      check.suspect("Is R left out, as if it were the identity?", regulationOf(plant, ofOne).optimal.X);
+  const auto unstable = check.ask(
+      "Does P belong to the unstable half of the Hamiltonian's eigenvalues?",
+      abscissa(plant.A - plant.B * rex::solveMatrix(costs.R, plant.B.transpose() * P)) > 0 &&
+          imbalance(plant, costs, P).lpNorm<Eigen::Infinity>() < 1e-6 * scale * (1 + P.squaredNorm()));
+  check.near("P of viaHamiltonian", P, optimal.X, 1e-3 * (1 + optimal.X.norm()));
+  check.near("P of viaHamiltonian, transposed", P.transpose(), P, 1e-9 * optimal.X.norm());
+  check.near("bracket for the P of viaHamiltonian", imbalance(plant, costs, P),
+             Eigen::MatrixXd::Zero(P.rows(), P.cols()), 1e-8 * scale);
 }
 
 inline void gainsFit(rex::grading::Check& check, Student& student, const Regulation& task) {
   const auto& [plant, costs, optimal] = task;
-  check.input(described(plant));
-  check.near("K", student.gainOf(plant, costs, optimal.X), -optimal.K, 1e-8 * (1 + optimal.K.norm()));
+  check.input("a plant, its costs and their P", {{"B", plant.B}, {"R", costs.R}, {"P", optimal.X}});
+  const auto sign = check.suspect("Is the sign that of u = -K x? Here it is u = K x.", optimal.K);
+  check.near("K of gainOf", student.gainOf(plant, costs, optimal.X), -optimal.K,
+             1e-8 * (1 + optimal.K.norm()));
 }
 
 /// The same for the cart of the sheet, with its motion.
 inline void gainsOfTheSheetFit(rex::grading::Check& check, Student& student) {
   const auto [plant, costs, optimal] = regulationOf(plantOf({}), costsOfTheSheet());
-  check.input(described(plant));
+  check.input("the cart of the sheet", {{"B", plant.B}, {"R", costs.R}, {"P", optimal.X}});
   const Eigen::MatrixXd K = student.gainOf(plant, costs, optimal.X), wanted = -optimal.K;
-  check.shape("K", K, 1, 4);
+  check.shape("K of gainOf", K, 1, 4);
   const auto shown = check.show([&] { return seenUnder(K, wanted); });
-  check.near("K", K, wanted, 1e-8 * (1 + wanted.norm()));
+  const auto sign = check.suspect("Is the sign that of u = -K x? Here it is u = K x.", optimal.K);
+  check.near("K of gainOf", K, wanted, 1e-8 * (1 + wanted.norm()));
 }
 
 /// The search starts from the gains that are optimal for the sheet's costs; no gain may become larger than
@@ -104,11 +126,11 @@ inline void gainsAreQuick(rex::grading::Check& check, Student& student, const Po
     return abscissa(task.plant.A + task.plant.B * K);
   };
   const Eigen::MatrixXd K = student.quickGains(slowest, start, bound, check.rng().split(7));
-  check.shape("K", K, 1, 4);
-  check.atMost("number of calls of slowest()", asked, 3000);
-  check.atMost("largest entry of K, as a share of the bound", K.cwiseAbs().maxCoeff() / bound, 1 + 1e-9);
-  check.atLeast("slowest pole, as a share of what the library finds",
-                abscissa(task.plant.A + task.plant.B * K) / least, .5);
+  check.shape("K of quickGains", K, 1, 4);
+  check.atMost("number of calls of slowest() by quickGains", asked, 3000);
+  check.atMost("largest entry of K of quickGains", K.cwiseAbs().maxCoeff(), bound * (1 + 1e-9));
+  check.atMost("slowest pole under K of quickGains", abscissa(task.plant.A + task.plant.B * K), .5 * least,
+               "1/s");
 }
 
 /// The first gain for a horizon of N steps, from the normal equations of the costs as a function of all
@@ -132,11 +154,23 @@ inline Eigen::MatrixXd firstGain(const Plant& plant, const Costs& costs, const E
 
 inline void horizonFits(rex::grading::Check& check, Student& student, const Plant& plant, const Costs& costs,
                         const Eigen::MatrixXd& F, int steps) {
-  check.input(fmt::format("{}, {} steps", described(plant), steps));
+  check.input("a plant in discrete time and its costs",
+              {{"A", plant.A}, {"B", plant.B}, {"Q", costs.Q}, {"R", costs.R}, {"F", F}, {"steps", steps}});
   const std::vector<Eigen::MatrixXd> K = student.gainsOverTime(plant, costs, F, steps);
-  check.near("number of gains", static_cast<double>(K.size()), steps, 0);
+  check.near("number of gains of gainsOverTime", static_cast<double>(K.size()), steps, 0);
   for (int t = 0; t < steps; ++t) {
     const Eigen::MatrixXd wanted = firstGain(plant, costs, F, steps - t);
-    check.near(fmt::format("K[{}]", t), K[static_cast<std::size_t>(t)], wanted, 1e-7 * (1 + wanted.norm()));
+    const auto noEnd = check.suspect("Is the last state weighted with Q instead of F?",
+                                     firstGain(plant, costs, costs.Q, steps - t));
+    const auto backward =
+        check.suspect("Are the gains in the order of their computation? K[0] is the last of it.",
+                      firstGain(plant, costs, F, t + 1));
+    const auto continuous =
+        check.suspect("Is it -R^-1 B^T P, as in continuous time?",
+                      t + 1 < steps ? Eigen::MatrixXd()
+                                    : Eigen::MatrixXd(-rex::solveMatrix(costs.R, plant.B.transpose() * F)));
+    const auto sign = check.suspect("Is the sign that of u = -K x? Here it is u = K x.", -wanted);
+    check.near(fmt::format("K[{}] of gainsOverTime", t), K[static_cast<std::size_t>(t)], wanted,
+               1e-7 * (1 + wanted.norm()));
   }
 }

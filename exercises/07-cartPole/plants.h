@@ -9,6 +9,7 @@
 #include "control/cart_pole_dynamics.h"
 #include "control/riccati.h"
 #include "exercise.h"
+#include "grading/check.h"
 
 // The plants and costs of the checks.
 
@@ -33,8 +34,14 @@ inline std::string described(const PoleCart& cart) {
                      cart.g);
 }
 
-inline std::string described(const Plant& plant) {
-  return fmt::format("{} states, {} controls", plant.A.rows(), plant.B.cols());
+/// What a check says about a task: `text`, and the plant by its values, with more of them.
+inline void describe(rex::grading::Check& check, const std::string& text, const Plant& plant) {
+  check.input(text, {{"A", plant.A}, {"B", plant.B}});
+}
+
+inline void describe(rex::grading::Check& check, const std::string& text, const Plant& plant,
+                     const Costs& costs) {
+  check.input(text, {{"A", plant.A}, {"B", plant.B}, {"Q", costs.Q}, {"R", costs.R}});
 }
 
 /// The costs of the sheet, with c = rho = 1.

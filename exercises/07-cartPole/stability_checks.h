@@ -15,11 +15,26 @@
 
 // Parts 4, 5 and 7: controllability, poles and Lyapunov functions.
 
+inline double rankOf(const Eigen::MatrixXd& M) {
+  const Eigen::VectorXd s = rex::svd(M).s;
+  return static_cast<double>((s.array() > 1e-9 * s[0]).count());
+}
+
 inline void reachFits(rex::grading::Check& check, Student& student, const Plant& plant, Eigen::Index rank) {
-  check.input(described(plant));
-  const Eigen::MatrixXd wanted = rex::controllabilityMatrix({.A = plant.A, .B = plant.B});
-  check.near("controllability matrix", student.reachMatrix(plant), wanted, 1e-9 * (1 + wanted.norm()));
-  check.near("its rank", student.reachable(plant), static_cast<double>(rank), 0);
+  describe(check, "a plant", plant);
+  const Eigen::Index n = plant.A.rows(), m = plant.B.cols();
+  const auto matrixOf = [&](const Eigen::MatrixXd& A) -> Eigen::MatrixXd {
+    return rex::controllabilityMatrix({.A = A, .B = plant.B});
+  };
+  const Eigen::MatrixXd wanted = matrixOf(plant.A);
+  const auto transposed = check.suspect("Is A transposed?", matrixOf(plant.A.transpose()));
+  const auto tooMany =
+      check.suspect("Is a power of A too many? The last is A^(n-1).",
+                    (Eigen::MatrixXd(n, (n + 1) * m) << plant.B, plant.A * wanted).finished());
+  check.near("reachMatrix", student.reachMatrix(plant), wanted, 1e-9 * (1 + wanted.norm()));
+  const auto ofB = check.suspect("Is it the rank of B?", Eigen::MatrixXd::Constant(1, 1, rankOf(plant.B)));
+  const auto ofA = check.suspect("Is it the rank of A?", Eigen::MatrixXd::Constant(1, 1, rankOf(plant.A)));
+  check.near("reachable, the rank", student.reachable(plant), static_cast<double>(rank), 0);
 }
 
 /// A plant in which u reaches `rank` of n dimensions, in coordinates that do not show which. No singular
@@ -100,10 +115,18 @@ inline std::string nameOf(Fate fate) {
 }
 
 inline void fateFits(rex::grading::Check& check, Student& student, const KnownFate& known) {
-  check.input(known.name);
+  check.input(known.name, {{"A", known.A}});
   const Fate got = student.fateOf(known.A);
-  check.input(fmt::format("{}: got {}, wanted {}", known.name, nameOf(got), nameOf(known.fate)));
-  check.that("the fate of the motions", got == known.fate);
+  check.input(fmt::format("{}, got `{}`, wanted `{}`", known.name, nameOf(got), nameOf(known.fate)),
+              {{"A", known.A}});
+  const auto lacks = check.ask(
+      "A double eigenvalue with a single eigenvector also lets motions grow, on the imaginary axis: is that "
+      "tested?",
+      known.fate == Fate::grows && got == Fate::stays && abscissa(known.A) < 1e-5);
+  const auto has =
+      check.ask("A double eigenvalue that has two eigenvectors does no harm on the imaginary axis.",
+                known.fate == Fate::stays && got == Fate::grows);
+  check.that("fateOf returns the fate of the motions", got == known.fate);
 }
 
 /// A flow, a candidate and a box.
@@ -130,9 +153,19 @@ inline double wrongShare(const Candidate& candidate, rex::Rng& rng) {
   return count / 4000.;
 }
 
+inline void asksForPoint(rex::grading::Check& check, const Candidate& candidate, bool isFound) {
+  rex::Rng rng(1);
+  const auto negative = check.ask("V is negative everywhere: is V(x) <= 0 tested, too?",
+                                  Eigen::MatrixXd(-candidate.P).llt().info() == Eigen::Success);
+  const auto many = check.ask("Such points fill more than 1 % of the box: is all of it searched?",
+                              !isFound && wrongShare(candidate, rng) > .01);
+  const auto axes = check.ask("Such points lie on the axes of the box: are these searched?");
+  check.that("counterexample finds a point that disproves V", isFound);
+}
+
 /// Accepts every point that disproves the candidate.
 inline void candidateIsJudged(rex::grading::Check& check, Student& student, const Candidate& candidate) {
-  check.input(candidate.name);
+  check.input(candidate.name, {{"P", candidate.P}, {"high", candidate.high}});
   int asked = 0;
   const Flow f = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
     ++asked;
@@ -143,10 +176,10 @@ inline void candidateIsJudged(rex::grading::Check& check, Student& student, cons
   const std::optional<Eigen::VectorXd> x =
       student.counterexample(f, candidate.P, candidate.high, check.rng().split(7));
   check.rng().next();
-  check.atMost("number of calls of f", asked, 20000);
-  if (candidate.isWrong) check.that("a point that disproves V is found", x.has_value());
+  check.atMost("number of calls of f by counterexample", asked, 20000);
+  if (candidate.isWrong) asksForPoint(check, candidate, x.has_value());
   if (!x) {
-    check.that("no point is returned if V is a Lyapunov function", !candidate.isWrong);
+    check.that("counterexample returns nothing if V is a Lyapunov function", !candidate.isWrong);
     return;
   }
   check.shape("the point", *x, candidate.high.size(), 1);
@@ -175,12 +208,15 @@ inline std::vector<Candidate> energyCandidates(rex::Rng& rng) {
   energy(place, place) = Kp / 2;
   const Eigen::Matrix2d crossed = rex::solveLyapunov(A, Eigen::Matrix2d::Identity());
   const Eigen::Vector2d high(rng.uniform(.5, 2), rng.uniform(.5, 2));
-  return {{"a point mass under PD control, V its kinetic energy as on slide 8:42", linearFlow(A), kinetic,
-           high, true},
-          {"the same with the energy of the spring", linearFlow(A), energy, high, true},
-          {"the same with a cross term", linearFlow(A), crossed, high, false},
-          {"the same with -V, running backward", linearFlow(-A), -crossed, high, true},
-          {"the same with the controller's sign wrong", linearFlow(-A), crossed, high, true}};
+  return {
+      {"a point mass under PD control, V its kinetic energy as on slide 8:42", linearFlow(A), kinetic, high,
+       true},
+      {"a point mass under PD control, V its kinetic energy and that of the spring", linearFlow(A), energy,
+       high, true},
+      {"a point mass under PD control, V with a cross term", linearFlow(A), crossed, high, false},
+      {"a point mass under PD control, backward in time, V negative", linearFlow(-A), -crossed, high, true},
+      {"a point mass under PD control of the wrong sign, V with a cross term", linearFlow(-A), crossed, high,
+       true}};
 }
 
 /// The cart pole under optimal gains, with costs on all states: near upright the value function proves
@@ -195,7 +231,8 @@ inline std::vector<Candidate> cartCandidates(const PoleCart& cart) {
   };
   return {{"the cart pole, optimal gains and V = x^T P x, a small box", f, task.optimal.X,
            Eigen::Vector4d(.2, .2, .05, .1), false},
-          {"the same in a large box", f, task.optimal.X, Eigen::Vector4d(2, 2, 1.5, 2), true}};
+          {"the cart pole, optimal gains and V = x^T P x, a large box", f, task.optimal.X,
+           Eigen::Vector4d(2, 2, 1.5, 2), true}};
 }
 
 /// Whether the candidate holds at the corners of the box and on its axes, so that a search of these alone
@@ -240,7 +277,7 @@ inline std::vector<Candidate> cubicCandidates(rex::Rng& rng, Eigen::Index n) {
 inline void levelFits(rex::grading::Check& check, Student& student, Eigen::Index n) {
   const Eigen::MatrixXd P = randomPositive(check.rng(), n, .1);
   const Eigen::VectorXd high = check.rng().uniformVector(static_cast<int>(n), .2, 2);
-  check.input(fmt::format("{} states", n));
+  check.input("a box |x_i| <= high_i", {{"P", P}, {"high", high}});
   double lowest = INFINITY;
   for (Eigen::Index face = 0; face < n; ++face) {
     std::vector<Eigen::Index> others;
@@ -252,5 +289,9 @@ inline void levelFits(rex::grading::Check& check, Student& student, Eigen::Index
                : P(face, face) - coupling.dot(rex::solve(Eigen::MatrixXd(P(others, others)), coupling));
     lowest = std::min(lowest, left * high[face] * high[face]);
   }
-  check.near("largest level in the box", student.levelInside(P, high), lowest, 1e-8 * lowest);
+  const auto number = [](double value) { return Eigen::MatrixXd::Constant(1, 1, value); };
+  const auto axes =
+      check.suspect("Is it where the ellipsoid meets the box on an axis? It leaves the box elsewhere.",
+                    number((P.diagonal().array() * high.array().square()).minCoeff()));
+  check.near("levelInside", student.levelInside(P, high), lowest, 1e-8 * lowest);
 }
