@@ -234,7 +234,7 @@ void repeat(const std::vector<CheckResult*>& checks, const Toolchain& toolchain,
 void findCrashes(const Toolchain& toolchain, const ExerciseInfo& exercise, const SubmissionOptions& options,
                  const BuiltSubmission& graded, GradeResult& result) {
   const auto crashed =
-      chosen(result, 4, [](const CheckResult& check) { return tellsOfCrash(check.message); });
+      chosen(result, 2, [](const CheckResult& check) { return tellsOfCrash(check.message); });
   if (crashed.empty()) return;
   SubmissionOptions again = options;
   again.sanitize = true;
@@ -300,8 +300,8 @@ GradeResult gradeBuilt(const BuiltSubmission& built, const Toolchain& toolchain,
   GradeResult result = callGrader(graderCommand(toolchain, job), job.results);
   if (built.worker.empty()) return result;
   for (CheckResult& check : result.checks) check.line = definitionLineOf(check.function, built.source);
-  explainCascades(result.checks, built.source);
   if (options.lookAgain || options.sanitize) lookAgain(toolchain, exercise, options, built, result);
+  explainCascades(result.checks, built.source);
   saveResult(result, job.results);
   return result;
 }
