@@ -196,7 +196,11 @@ Toolchain sanitizedToolchain(const Toolchain& toolchain, const std::filesystem::
                              std::size_t memory) {
   Toolchain sanitized =
       withReports(toolchain, folder, memory, std::string(kOptionsHeader) + kAssertionHeader);
-  for (const char* flag : {"-O0", kSanitizers, "-fno-sanitize=vptr", "-fno-sanitize-recover=all"})
+  // What is left out would test each use of a pointer, of which the address sanitizer finds those that
+  // matter; compiling takes a fifth less time without.
+  for (const char* flag :
+       {"-O0", kSanitizers, "-fno-sanitize=vptr,null,alignment,object-size,pointer-overflow",
+        "-fno-sanitize-recover=all"})
     sanitized.flags.emplace_back(flag);
   // Eigen allocates differently under the address sanitizer, but memory that passes between the program and
   // the library must be freed the way it was allocated.
