@@ -22,15 +22,15 @@ inline double rankOf(const Eigen::MatrixXd& M) {
 
 inline void reachFits(rex::grading::Check& check, Student& student, const Plant& plant, Eigen::Index rank) {
   describe(check, "a plant", plant);
-  const Eigen::Index n = plant.A.rows(), m = plant.B.cols();
   const auto matrixOf = [&](const Eigen::MatrixXd& A) -> Eigen::MatrixXd {
     return rex::controllabilityMatrix({.A = A, .B = plant.B});
   };
   const Eigen::MatrixXd wanted = matrixOf(plant.A);
   const auto transposed = check.suspect("Is A transposed?", matrixOf(plant.A.transpose()));
-  const auto tooMany =
-      check.suspect("Is a power of A too many? The last is A^(n-1).",
-                    (Eigen::MatrixXd(n, (n + 1) * m) << plant.B, plant.A * wanted).finished());
+  const auto tooMany = check.suspect(
+      "Is a power of A too many? The last is A^(n-1).",
+      (Eigen::MatrixXd(wanted.rows(), plant.B.cols() + wanted.cols()) << plant.B, plant.A * wanted)
+          .finished());
   check.near("reachMatrix", student.reachMatrix(plant), wanted, 1e-9 * (1 + wanted.norm()));
   const auto ofB = check.suspect("Is it the rank of B?", Eigen::MatrixXd::Constant(1, 1, rankOf(plant.B)));
   const auto ofA = check.suspect("Is it the rank of A?", Eigen::MatrixXd::Constant(1, 1, rankOf(plant.A)));
