@@ -8,6 +8,7 @@
 #include "approach_checks.h"
 #include "course/film.h"
 #include "grading/evidence_parts.h"
+#include "grading/signal.h"
 
 // What the checks show when a motion is wrong.
 
@@ -52,11 +53,17 @@ inline rex::Figure curveOf(const std::string& title, const std::string& quantity
           .horizontalLines = {{.at = wanted, .label = "wanted"}}};
 }
 
-/// A film of the postures beside the wanted ones, or beside a single wanted one; it opens at step `worst`.
-/// Every third step is shown.
+/// The same for a signal over time.
+inline rex::Figure curveOf(const std::string& title, const std::string& quantity,
+                           const rex::grading::Signal& got, double wanted) {
+  std::vector<double> values;
+  for (const Eigen::VectorXd& value : got.values) values.push_back(value[0]);
+  return curveOf(title, quantity, values, wanted);
+}
+
+/// A film of the postures beside the wanted ones, or beside a single wanted one. Every third step is shown.
 inline rex::grading::Evidence filmed(const rex::Simulator& S, const std::vector<Eigen::VectorXd>& got,
-                                     const std::vector<Eigen::VectorXd>& wanted, std::size_t worst,
-                                     rex::Figure figure) {
+                                     const std::vector<Eigen::VectorXd>& wanted) {
   constexpr std::size_t kStride = 3;
   std::vector<Eigen::VectorXd> shown, beside;
   for (std::size_t i = 0; i < got.size(); i += kStride) {
@@ -65,14 +72,6 @@ inline rex::grading::Evidence filmed(const rex::Simulator& S, const std::vector<
   }
   rex::Film film = rex::grading::withWanted(rex::filmOf(S, shown, {}), rex::filmOf(S, beside, {}));
   for (std::size_t i = 0; i < film.size(); ++i) film[i].time = kTau * static_cast<double>(kStride * i);
-  const double moment = kTau * static_cast<double>(std::max<std::size_t>(worst, 1));
-  figure.verticalLines.push_back(rex::grading::wrongFrom(moment));
-  return {.figures = {std::move(figure)}, .film = std::move(film), .moment = moment};
-}
-
-/// The index of the first number beyond the limit, or else of the greatest.
-inline std::size_t worstOf(const std::vector<double>& numbers, double limit) {
-  const auto first = std::find_if(numbers.begin(), numbers.end(), [&](double x) { return x > limit; });
-  const auto worst = first != numbers.end() ? first : std::max_element(numbers.begin(), numbers.end());
-  return static_cast<std::size_t>(worst - numbers.begin());
+  const double end = film.empty() ? 0 : film.back().time;
+  return {.film = std::move(film), .moment = end};
 }
