@@ -51,39 +51,53 @@ Simulator at(const Simulator& S, const Eigen::VectorXd& q) {
 
 using Map = std::function<TaskMapValue(const SimulatorDescription&)>;
 
-VectorFunction valuesOf(Check& check, const Simulator& S, const Map& map, Eigen::Index dimensions) {
-  return [&check, &S, &map, dimensions](const Eigen::VectorXd& q) {
+VectorFunction valuesOf(Check& check, const std::string& function, const Simulator& S, const Map& map,
+                        Eigen::Index dimensions) {
+  return [&check, &S, &map, function, dimensions](const Eigen::VectorXd& q) {
     const TaskMapValue there = map(at(S, q).description());
-    check.shape("y", there.y, dimensions, 1);
+    check.shape("y of " + function, there.y, dimensions, 1);
     return there.y;
   };
 }
 
-// J is the derivative of y, and y does change with q.
-void checkJacobianOf(Check& check, const Simulator& S, const Map& map) {
+// J is the derivative of y, and y does change with q. `throughPosition` is the part of it that comes from the
+// position of the body, if that is known: the sign of one part is a usual mistake.
+void checkJacobianOf(Check& check, const std::string& function, const Simulator& S, const Map& map,
+                     const std::function<Eigen::MatrixXd(Eigen::Index)>& throughPosition = {}) {
   const TaskMapValue value = map(S.description());
-  check.that("y has at least one entry", value.y.size() > 0);
-  check.shape("y", value.y, value.y.size(), 1);
-  check.shape("J", value.J, value.y.size(), S.getJointDimension());
+  check.that("y of " + function + " has at least one entry", value.y.size() > 0);
+  check.shape("y of " + function, value.y, value.y.size(), 1);
+  check.shape("J of " + function, value.J, value.y.size(), S.getJointDimension());
   const Eigen::MatrixXd numeric =
-      numericJacobian(valuesOf(check, S, map, value.y.size()), S.getJointAngles());
-  check.that("y changes when the robot moves", numeric.cwiseAbs().maxCoeff() > kNotZero);
-  check.near("J, next to numeric differences of y", value.J, numeric,
+      numericJacobian(valuesOf(check, function, S, map, value.y.size()), S.getJointAngles());
+  check.atLeast("largest derivative of y of " + function + " by a joint angle", numeric.cwiseAbs().maxCoeff(),
+                kNotZero);
+  const Eigen::MatrixXd part = throughPosition ? throughPosition(numeric.rows())
+                                               : Eigen::MatrixXd::Zero(numeric.rows(), numeric.cols());
+  const auto noPosition = check.suspect(
+      "Is the part missing that comes from the body's own motion, with jacobianPos?", numeric - part);
+  const auto sign = check.suspect("Does the part with jacobianPos have the wrong sign?", numeric - 2 * part);
+  const auto noDirection =
+      check.suspect("Is the part missing that comes from the turning gaze, with jacobianVec?", part);
+  check.near("J of " + function + ", beside differences of its y", value.J, numeric,
              1e-5 * (1 + numeric.cwiseAbs().maxCoeff()));
 }
 
 // A map like y = q has an easy Jacobian but says nothing about the task. A map of the task is zero where S
 // fulfils it, and nearby hardly larger than its derivative there predicts.
-void checkIsOfTheTask(Check& check, const Simulator& S, const Map& map) {
+void checkIsOfTheTask(Check& check, const std::string& function, const Simulator& S, const Map& map) {
   const Eigen::VectorXd y = map(S.description()).y;
-  check.that("y has at least one entry", y.size() > 0);
-  check.atMost("|y| where the task is fulfilled", y.cwiseAbs().maxCoeff(), kZero);
+  check.that("y of " + function + " has at least one entry", y.size() > 0);
+  const auto posture = check.ask("Is y the posture? It should depend on the task.",
+                                 y.size() == S.getJointDimension() && y.isApprox(S.getJointAngles()));
+  check.atMost("largest entry of |y| of " + function + " where the task is fulfilled",
+               y.cwiseAbs().maxCoeff(), kZero);
   const Eigen::VectorXd way = check.rng().uniformVector(S.getJointDimension(), -1e-3, 1e-3);
-  const VectorFunction f = valuesOf(check, S, map, y.size());
+  const VectorFunction f = valuesOf(check, function, S, map, y.size());
   const Eigen::VectorXd beside = S.getJointAngles() + way;
   const double change = (numericJacobian(f, beside).cwiseAbs() * way.cwiseAbs()).maxCoeff();
-  check.atMost("|y| a thousandth of a radian away from it", f(beside).cwiseAbs().maxCoeff(),
-               kZero + 10 * change);
+  check.atMost("largest entry of |y| of " + function + " a thousandth of a radian away from there",
+               f(beside).cwiseAbs().maxCoeff(), kZero + 10 * change);
 }
 
 // The three maps, for any robot.
@@ -96,35 +110,59 @@ std::optional<Eigen::Vector3d> mirrored(const Eigen::Vector3d& w, const Eigen::M
   return R * inFrame;
 }
 
+// A map of a direction, and the words for where it should be zero and for the opposite.
+struct DirectionMap {
+  std::string function, zero, opposite;
+  std::function<TaskMapValue(const Eigen::Vector3d&)> at;
+};
+
 // A map of a direction must be zero at w and nowhere else. A careless map may also be zero in the opposite
 // direction, beside w, at a right angle to it, or at its mirror images in the world and in a body's frame R.
-// A single number must not change its sign: it would be zero in between.
-void isZeroOnlyAt(Check& check, const Eigen::Vector3d& w, const Eigen::Matrix3d& R,
-                  const std::function<TaskMapValue(const Eigen::Vector3d&)>& map) {
+// A single number must not change its sign: it would be zero in between. `text` says what the case is.
+void isZeroOnlyAt(Check& check, const std::string& text, const Eigen::Vector3d& w, const Eigen::Matrix3d& R,
+                  const DirectionMap& map) {
   Eigen::Index dimensions = -1;
   const auto valueAt = [&](const Eigen::Vector3d& direction) {
-    const TaskMapValue value = map(direction);
+    const TaskMapValue value = map.at(direction);
     if (dimensions < 0) dimensions = value.y.size();
-    check.that("y has at least one entry", dimensions > 0);
-    check.shape("y", value.y, dimensions, 1);
+    check.that("y of " + map.function + " has at least one entry", dimensions > 0);
+    check.shape("y of " + map.function, value.y, dimensions, 1);
     return value.y;
   };
-  double sign = 0;
-  const auto notZero = [&](const char* where, const Eigen::Vector3d& direction) {
+  const auto isZero = [](const Eigen::VectorXd& y) { return y.cwiseAbs().maxCoeff() <= kZero; };
+  const std::string size = "largest entry of |y| of " + map.function + " ";
+  Eigen::VectorXd before;
+  const auto notZero = [&](const std::string& where, const Eigen::Vector3d& direction) {
     const Eigen::VectorXd y = valueAt(direction);
-    check.atLeast(std::string("|y| ") + where, y.cwiseAbs().maxCoeff(), kNotZero);
+    check.input(text, {{"zero only at", w}, {"direction", direction}, {"y", y}});
+    check.atLeast(size + where, y.cwiseAbs().maxCoeff(), kNotZero);
     if (dimensions > 1) return;
-    check.that("y, a single number, keeps its sign away from its zero", sign * y[0] >= 0);
-    sign = y[0];
+    if (before.size() == 0) before = y;
+    check.input(text, {{"direction", direction}, {"y", y}, {"y in the opposite direction", before}});
+    const auto cancel = check.ask("Can parts of either sign cancel in it?");
+    check.that("y of " + map.function + " is a single number, so it has the same sign in all directions",
+               before[0] * y[0] >= 0);
   };
-  check.atMost("|y| where it should be zero", valueAt(w).cwiseAbs().maxCoeff(), kZero);
-  notZero("in the opposite direction", -w);
+  const Eigen::VectorXd y = valueAt(w);
+  check.input(text, {{"direction", w}, {"y", y}});
+  {
+    const auto inBody = check.ask("Is the direction in the body's frame used as one in the world?",
+                                  isZero(valueAt(R.transpose() * w)));
+    const auto sign = check.ask("It is zero " + map.opposite + ": does a sign differ?", isZero(valueAt(-w)));
+    check.atMost(size + map.zero, y.cwiseAbs().maxCoeff(), kZero);
+  }
+  {
+    const auto cross = check.ask("Is it a cross product, or a square? These are zero there, too.");
+    notZero(map.opposite, -w);
+  }
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d aside = w.cross(randomDirection(check.rng())).normalized();
-    notZero("30 degrees beside it", std::cos(0.52) * w + std::sin(0.52) * aside);
-    notZero("at a right angle to it", aside);
+    notZero("30 degrees beside the right direction", std::cos(0.52) * w + std::sin(0.52) * aside);
+    notZero("at a right angle to the right direction", aside);
     for (const Eigen::Matrix3d& frame : {Eigen::Matrix3d(Eigen::Matrix3d::Identity()), R}) {
-      if (const auto image = mirrored(w, frame, i)) notZero("at a mirror image of it", *image);
+      const auto leftOut = check.ask("Is a coordinate of the direction left out?", dimensions > 1);
+      if (const auto image = mirrored(w, frame, i))
+        notZero("at a mirror image of the right direction", *image);
     }
   }
 }
@@ -138,16 +176,12 @@ Eigen::Matrix3d frameOf(const Simulator& S, const std::string& body) {
 void lookAtIsZeroAtTheTarget(Check& check, Student& student, const Robot& robot) {
   const Eigen::Vector3d gaze = randomDirection(check.rng());
   const Eigen::Vector3d eye = robot.S.kinematicsPos(robot.body);
-  check.input(describe(robot, robot.body) + "; the target in several directions; zero only along the gaze",
-              {{"gaze", gaze}});
-  const auto map = [&](const Eigen::Vector3d& direction) {
-    return student.lookAt(robot.S.description(), robot.body, gaze, eye + 1.3 * direction);
-  };
-  const Eigen::VectorXd ofBodyFrame = map(gaze).y;
-  const auto unturned = check.ask(
-      "It is zero where the gaze, taken as a vector of the world, would look: is it one of the body?",
-      ofBodyFrame.size() > 0 && ofBodyFrame.cwiseAbs().maxCoeff() <= kZero);
-  isZeroOnlyAt(check, robot.S.kinematicsVec(robot.body, gaze), frameOf(robot.S, robot.body), map);
+  isZeroOnlyAt(check, describe(robot, robot.body) + ", the target 1.3 m from it",
+               robot.S.kinematicsVec(robot.body, gaze), frameOf(robot.S, robot.body),
+               {"lookAt", "with the target along the gaze", "where the body looks away from the target",
+                [&](const Eigen::Vector3d& direction) {
+                  return student.lookAt(robot.S.description(), robot.body, gaze, eye + 1.3 * direction);
+                }});
 }
 
 void lookAtJacobian(Check& check, Student& student, const Robot& robot) {
@@ -158,10 +192,19 @@ void lookAtJacobian(Check& check, Student& student, const Robot& robot) {
     return [&, place](const SimulatorDescription& S) { return student.lookAt(S, robot.body, gaze, place); };
   };
   const Simulator& S = robot.S;
-  check.input(describe(robot, robot.body) + "; the target along the gaze");
-  checkIsOfTheTask(check, S, mapTo(S.kinematicsPos(robot.body) + S.kinematicsVec(robot.body, gaze)));
-  check.input(describe(robot, robot.body));
-  checkJacobianOf(check, S, mapTo(target));
+  check.input(describe(robot, robot.body) + ", the target 1 m along the gaze");
+  checkIsOfTheTask(check, "lookAt", S,
+                   mapTo(S.kinematicsPos(robot.body) + S.kinematicsVec(robot.body, gaze)));
+  check.input(describe(robot, robot.body), {{"gaze", gaze}, {"target", target}});
+  // A body that moves and does not turn does to y what the opposite motion of the target would.
+  checkJacobianOf(check, "lookAt", S, mapTo(target), [&](Eigen::Index dimensions) -> Eigen::MatrixXd {
+    const VectorFunction ofTarget = [&](const Eigen::VectorXd& place) {
+      const TaskMapValue value = mapTo(place)(S.description());
+      check.shape("y of lookAt", value.y, dimensions, 1);
+      return value.y;
+    };
+    return -numericJacobian(ofTarget, target) * S.jacobianPos(robot.body);
+  });
 }
 
 // Two hands that rotate freely: yaw, pitch and roll of each are joints.
@@ -180,7 +223,6 @@ void opposePalmsIsZeroWhenOpposite(Check& check, Student& student) {
   const Eigen::Vector3d palm = randomDirection(check.rng());
   const Eigen::Matrix3d R_left = expSO3(check.rng().normalVector(3));
   const Eigen::Vector3d left = R_left * palm;
-  check.input("two hands that rotate freely, in several directions; zero only if opposite to each other");
   const auto map = [&](const Eigen::Vector3d& right) {
     const Eigen::Matrix3d R_right =
         rotationAboutAxis(check.rng().uniform(0, 6), right) * rotationBetween(palm, right);
@@ -189,11 +231,8 @@ void opposePalmsIsZeroWhenOpposite(Check& check, Student& student) {
     return student.opposePalms({.sceneName = "two hands", .sceneText = kTwoHands, .q = q}, "left", "right",
                                palm);
   };
-  const Eigen::VectorXd alike = map(left).y;
-  const auto same =
-      check.ask("It is zero where both palms point in the same direction: wanted are opposite ones.",
-                alike.size() > 0 && alike.cwiseAbs().maxCoeff() <= kZero);
-  isZeroOnlyAt(check, -left, R_left, map);
+  isZeroOnlyAt(check, "two hands that rotate freely; the direction is that of the right palm", -left, R_left,
+               {"opposePalms", "with opposite palms", "with palms that point in the same direction", map});
 }
 
 // Moves the robot until its palms are opposite; false if that fails from its current posture.
@@ -215,32 +254,35 @@ void opposePalmsJacobian(Check& check, Student& student, const Robot& robot) {
   };
   Robot clapping = robot;
   while (!opposed(clapping, palm)) clapping.S = inRandomPosture(robot.S, check.rng(), 1);
-  check.input(describe(robot, robot.body) + ", where the palms are opposite");
-  checkIsOfTheTask(check, clapping.S, map);
-  check.input(describe(robot, robot.body));
-  checkJacobianOf(check, robot.S, map);
+  check.input(describe(robot, robot.body) + " with the palms opposite");
+  checkIsOfTheTask(check, "opposePalms", clapping.S, map);
+  check.input(describe(robot, robot.body), {{"palm", palm}});
+  checkJacobianOf(check, "opposePalms", robot.S, map);
 }
 
 void distanceIsZeroAtTheGoal(Check& check, Student& student, const Robot& robot) {
   const Eigen::Vector3d here = robot.S.kinematicsPos(robot.body);
   const auto valueAt = [&](const Eigen::Vector3d& goal) {
     const TaskMapValue value = student.distanceToGoal(robot.S.description(), robot.body, goal);
-    check.shape("y", value.y, 1, 1);
-    check.shape("J", value.J, 1, robot.S.getJointDimension());
+    check.shape("y of distanceToGoal", value.y, 1, 1);
+    check.shape("J of distanceToGoal", value.J, 1, robot.S.getJointDimension());
     return value.y[0];
   };
-  check.input(describe(robot, robot.body));
-  check.atMost("|y| at the goal", std::abs(valueAt(here)), kZero);
-  double sign = 0;
+  check.input(describe(robot, robot.body) + " at the goal");
+  check.near("y of distanceToGoal at the goal", valueAt(here), 0, kZero);
+  double before = 0;
   std::vector<Eigen::Vector3d> ways = {
       {0.3, 0, 0}, {0, 0.3, 0}, {0, 0, 0.3}, 0.5 * randomDirection(check.rng())};
   for (const Eigen::Vector3d& way : ways) {
     for (const Eigen::Vector3d& goal : {Eigen::Vector3d(here + way), Eigen::Vector3d(here - way)}) {
       const double y = valueAt(goal);
-      check.atLeast("|y| away from the goal", std::abs(y), kNotZero);
+      check.input(describe(robot, robot.body),
+                  {{"its position", here}, {"goal", goal}, {"y", y}, {"y at the goal before", before}});
+      check.atLeast("|y| of distanceToGoal away from the goal", std::abs(y), kNotZero);
       // A continuous function that changes its sign is zero in between, away from the goal.
-      check.that("y keeps its sign around the goal", sign * y >= 0);
-      sign = y;
+      const auto cancel = check.ask("Can differences of either sign cancel in it?");
+      check.that("y of distanceToGoal has the same sign all around the goal", before * y >= 0);
+      before = y;
     }
   }
 }
@@ -251,10 +293,11 @@ void distanceJacobian(Check& check, Student& student, const Robot& robot) {
   const auto mapTo = [&](const Eigen::Vector3d& place) {
     return [&, place](const SimulatorDescription& S) { return student.distanceToGoal(S, robot.body, place); };
   };
-  check.input(describe(robot, robot.body) + ", at the goal");
-  checkIsOfTheTask(check, robot.S, mapTo(robot.S.kinematicsPos(robot.body)));
-  check.input(describe(robot, robot.body));
-  checkJacobianOf(check, robot.S, mapTo(goal));
+  check.input(describe(robot, robot.body) + " at the goal");
+  checkIsOfTheTask(check, "distanceToGoal", robot.S, mapTo(robot.S.kinematicsPos(robot.body)));
+  check.input(describe(robot, robot.body),
+              {{"its position", robot.S.kinematicsPos(robot.body)}, {"goal", goal}});
+  checkJacobianOf(check, "distanceToGoal", robot.S, mapTo(goal));
 }
 
 using MapCheck = void (*)(Check&, Student&, const Robot&);
@@ -398,7 +441,7 @@ void errorSequence(Check& check, Student& student, double alpha, int steps,
   const auto same = check.ask("All postures are the same: does every step begin where the first one did?",
                               motion.front() == motion.back());
   for (const auto& [step, error] : known)
-    check.near("distance of handR from the target after step " + std::to_string(step),
+    check.near("distance of handR from the target after step " + std::to_string(step) + " of smallSteps",
                got.values[static_cast<std::size_t>(step) - 1][0], error, 1e-4 + 1e-3 * error, "m");
 }
 
@@ -422,8 +465,8 @@ void followsTheLine(Check& check, Student& student, const Simulator& S, const st
   const auto atOnce =
       check.ask("Is the body sent to the far target at once, in every step?",
                 (placeAt(S, body, motion[4]) - target).norm() < 0.3 * (first - target).norm());
-  check.atMostAlong("distance of " + body + " from the moving target", distance(S, body, motion, 1, onLine),
-                    tolerance, "m");
+  check.atMostAlong("distance of " + body + " from the moving target, in straightLine",
+                    distance(S, body, motion, 1, onLine), tolerance, "m");
 }
 
 void followsTheCircle(Check& check, Student& student, const Simulator& S, const std::string& body,
@@ -444,7 +487,7 @@ void followsTheCircle(Check& check, Student& student, const Simulator& S, const 
       check.ask("Does your circle lie in the plane of x and y? Wanted is that of x and z.", fits(flat));
   const auto late = check.ask("Is the point on the circle that of one step earlier?",
                               fits([&](int t) { return onCircle(t - 1); }));
-  check.atMostAlong("distance of " + body + " from the point on the circle",
+  check.atMostAlong("distance of " + body + " from its point on the circle, in circle",
                     distance(S, body, motion, approach, onCircle), tolerance, "m");
 }
 
