@@ -1,9 +1,7 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <complex>
 #include <string>
 
 #include <fmt/format.h>
@@ -11,11 +9,9 @@
 #include "control/racer_dynamics.h"
 #include "control/regulators.h"
 #include "grading/check.h"
-#include "grading/evidence_parts.h"
 #include "interface.h"
-#include "render/figure_builders.h"
 
-// Parts 1 to 3: the motion of a racer and its regulator, against the library's.
+// Parts 1 to 3 without noise: the motion of a racer and its regulator, against the library's.
 
 inline rex::RacerDynamics dynamicsOf(const RacerModel& racer) {
   return {racer.r, racer.l, racer.mA, racer.mB, racer.IA, racer.IB, racer.g};
@@ -37,38 +33,88 @@ inline RacerModel randomRacer(rex::Rng& rng) {
 }
 
 inline std::string described(const RacerModel& racer) {
-  return fmt::format("r {:.4g}, l {:.4g}, mA {:.4g}, mB {:.4g}, IA {:.4g}, IB {:.4g}, g {:.4g}", racer.r,
-                     racer.l, racer.mA, racer.mB, racer.IA, racer.IB, racer.g);
-}
-
-inline std::string described(const RacerModel& racer, const Eigen::Vector4d& x) {
-  return fmt::format("state ({:.4g}, {:.4g}, {:.4g}, {:.4g}), {}", x[0], x[1], x[2], x[3], described(racer));
+  return fmt::format("r = {:.6g}, l = {:.6g}, mA = {:.6g}, mB = {:.6g}, IA = {:.6g}, IB = {:.6g}, g = {:.6g}",
+                     racer.r, racer.l, racer.mA, racer.mB, racer.IA, racer.IB, racer.g);
 }
 
 inline Eigen::Vector4d randomState(rex::Rng& rng) {
   return stateOf(2 * rng.normalVector(2), 3 * rng.normalVector(2));
 }
 
+/// While the returned object is alive, that wrong number asks the question.
+[[nodiscard]] inline auto suspectNumber(rex::grading::Check& check, const char* question, double value) {
+  return check.suspect(question, Eigen::MatrixXd::Constant(1, 1, value));
+}
+
 inline void massFits(rex::grading::Check& check, Student& student, const RacerModel& racer) {
+  const rex::RacerDynamics plant = dynamicsOf(racer);
   for (int i = 0; i < 10; ++i) {
     const Eigen::Vector4d x = randomState(check.rng());
-    check.input(described(racer, x));
-    const rex::RacerDynamics plant = dynamicsOf(racer);
-    check.near("M", student.massMatrix(x.head<2>(), racer), plant.massMatrix(x.head<2>()), 1e-12);
-    check.near("energy", student.energyOf(x, racer), plant.energy(x), 1e-11, "J");
+    check.input(described(racer), {{"q", x.head<2>()}, {"q'", x.tail<2>()}});
+    const Eigen::Matrix2d M = plant.massMatrix(x.head<2>());
+    const Eigen::Matrix2d rolling = Eigen::Vector2d(racer.IA / (racer.r * racer.r), 0).asDiagonal(),
+                          tilting = Eigen::Vector2d(0, racer.IB).asDiagonal();
+    const auto wheel =
+        check.suspect("Is the rotation of the wheel left out? It turns by x / r.", M - rolling);
+    const auto pendulum =
+        check.suspect("Is the rotation of the pendulum about its centre of mass left out?", M - tilting);
+    check.near("M of massMatrix", student.massMatrix(x.head<2>(), racer), M, 1e-12);
+    const double potential = plant.energy(stateOf(x.head<2>(), {0, 0})),
+                 kinetic = plant.energy(x) - potential;
+    const auto minus = suspectNumber(check, "Is it T - U? The energy is T + U.", kinetic - potential);
+    const auto axle =
+        suspectNumber(check, "Is the potential energy zero on the axle? It is zero on the ground.",
+                      plant.energy(x) - racer.g * racer.r * (racer.mA + racer.mB));
+    const auto half =
+        suspectNumber(check, "Is the kinetic energy twice too large?", plant.energy(x) + kinetic);
+    check.near("energy of energyOf", student.energyOf(x, racer), plant.energy(x), 1e-11, "J");
   }
 }
 
-inline void forcesFit(rex::grading::Check& check, Student& student, const RacerModel& racer) {
-  const rex::RacerDynamics plant = dynamicsOf(racer);
+inline void directionFits(rex::grading::Check& check, Student& student, const RacerModel& racer) {
   check.input(described(racer));
-  check.near("B", student.controlDirection(racer), plant.controlDirection(), 1e-12);
+  const auto back = check.suspect("What turns the pendulum back? The motor acts between wheel and pendulum.",
+                                  Eigen::Vector2d(1 / racer.r, 0));
+  const auto sign = check.suspect("Does u turn the pendulum forwards? It turns the wheel forwards.",
+                                  Eigen::Vector2d(1 / racer.r, 1));
+  const auto force =
+      check.suspect("Is 1 / r missing? u is a torque, and x a length.", Eigen::Vector2d(1, -1));
+  check.near("B of controlDirection", student.controlDirection(racer), dynamicsOf(racer).controlDirection(),
+             1e-12);
+}
+
+inline void forcesFit(rex::grading::Check& check, Student& student, const RacerModel& racer) {
+  directionFits(check, student, racer);
   for (int i = 0; i < 10; ++i) {
     const Eigen::Vector4d x = randomState(check.rng());
-    check.input(described(racer, x));
-    check.near("F", student.forceTerm(x.head<2>(), x.tail<2>(), racer),
-               plant.forces(x.head<2>(), x.tail<2>()), 1e-11);
+    check.input(described(racer), {{"q", x.head<2>()}, {"q'", x.tail<2>()}});
+    const double s = racer.mB * racer.l * std::sin(x[1]), turning = s * x[3] * x[3], mixed = s * x[2] * x[3];
+    const double fall = s * racer.g;
+    const auto hangs = check.suspect("Has gravity the sign of a hanging pendulum? theta is 0 upright.",
+                                     Eigen::Vector2d(-turning, fall));
+    const auto old = check.suspect(
+        "Is this the F of the course's original code, which conserves energy and is nevertheless wrong?",
+        Eigen::Vector2d(-2 * turning, mixed - fall));
+    const auto noSlope = check.suspect("Is dT/dq left out?", Eigen::Vector2d(-turning, -mixed - fall));
+    const auto noRate = check.suspect("Is dM/dt q' left out? d/dt dT/dq' is more than M q''.",
+                                      Eigen::Vector2d(0, mixed - fall));
+    const auto noGravity = check.suspect("Is gravity left out?", Eigen::Vector2d(-turning, 0));
+    check.near("F of forceTerm", student.forceTerm(x.head<2>(), x.tail<2>(), racer),
+               dynamicsOf(racer).forces(x.head<2>(), x.tail<2>()), 1e-11);
   }
+}
+
+inline void rateFits(rex::grading::Check& check, Student& student, const RacerModel& racer,
+                     const Eigen::Vector4d& x, double u) {
+  const rex::RacerDynamics plant = dynamicsOf(racer);
+  const Eigen::Vector2d F = plant.forces(x.head<2>(), x.tail<2>()), push = plant.controlDirection() * u;
+  const Eigen::Matrix2d inverse = plant.massMatrix(x.head<2>()).inverse();
+  const auto sign = check.suspect("Is F added to B u? In M q'' + F = B u it is on the other side.",
+                                  stateOf(x.tail<2>(), inverse * (push + F)));
+  const auto control = check.suspect("Is u left out?", stateOf(x.tail<2>(), inverse * -F));
+  const auto mass = check.suspect("Is the inverse of M left out?", stateOf(x.tail<2>(), push - F));
+  const Eigen::Vector4d wanted = plant.derivative(x, u);
+  check.near("dx/dt of rateOf", student.rateOf(x, u, racer), wanted, 1e-10 * (1 + wanted.norm()));
 }
 
 /// Exact up to rounding: the error of the method itself is a thousand times as large.
@@ -77,50 +123,24 @@ inline void stepFits(rex::grading::Check& check, Student& student, const RacerMo
   for (int i = 0; i < 10; ++i) {
     const Eigen::Vector4d x = randomState(check.rng());
     const double u = check.rng().normal();
-    check.input(fmt::format("u {:.4g}, {}", u, described(racer, x)));
-    const Eigen::Vector4d rate = plant.derivative(x, u);
-    check.near("rate of the state", student.rateOf(x, u, racer), rate, 1e-10 * (1 + rate.norm()));
-    check.near("state after a step", student.stepped(x, u, tau, racer), plant.rungeKuttaStep(x, u, tau),
-               1e-10 * (1 + tau * rate.norm()));
+    check.input(described(racer), {{"x", x}, {"u", u}, {"tau", tau}});
+    rateFits(check, student, racer, x, u);
+    const Eigen::Vector4d rate = plant.derivative(x, u), euler = x + tau * rate;
+    const Eigen::Vector2d moved = x.head<2>() + tau * euler.tail<2>();
+    const auto first = check.suspect(
+        "Is it one step of Euler's method? A Runge-Kutta step takes the weighted mean of four rates.", euler);
+    const auto mixed = check.suspect(
+        "Is it one step of Euler's method, in which x and theta move with the new velocities? A Runge-Kutta "
+        "step takes the weighted mean of four rates.",
+        stateOf(moved, euler.tail<2>()));
+    const auto middle =
+        check.suspect("Is it one step of the midpoint method, which takes only the second of the four rates?",
+                      x + tau * plant.derivative(x + tau / 2 * rate, u));
+    const auto fixed =
+        check.suspect("Is the step kTau long, whatever tau is?", plant.rungeKuttaStep(x, u, kTau));
+    check.near("state after a step of stepped", student.stepped(x, u, tau, racer),
+               plant.rungeKuttaStep(x, u, tau), 1e-10 * (1 + tau * rate.norm()));
   }
-}
-
-/// A histogram of the noise beside the normal density.
-inline rex::grading::Evidence densityOf(const Eigen::MatrixXd& z) {
-  rex::Histogram bars = normalized(rex::histogramOf({z.reshaped().begin(), z.reshaped().end()}, 40));
-  bars.label = "got";
-  std::vector<double> x, density;
-  for (double at = -4; at <= 4; at += .05) {
-    x.push_back(at);
-    density.push_back(std::exp(-at * at / 2) / std::sqrt(2 * M_PI));
-  }
-  return {.figures = {{.title = "Noise, divided by sqrt(tau) times its deviation",
-                       .xLabel = "noise, in standard deviations",
-                       .yLabel = "density",
-                       .series = {rex::grading::wantedCurve("wanted", x, density)},
-                       .histograms = {bars}}}};
-}
-
-/// Tolerances of five or six standard errors: about one false alarm in 10^6.
-inline void noiseFits(rex::grading::Check& check, Student& student, int steps, double tau, double noise) {
-  rex::Rng given = check.rng().split(7);
-  check.input(fmt::format("{} steps of {} s, noise {}", steps, tau, noise));
-  const Eigen::MatrixXd got = student.kicks(steps, tau, noise, given);
-  check.shape("noise", got, 2, steps);
-  const Eigen::MatrixXd other = student.kicks(steps, tau, noise, check.rng().split(8));
-  check.shape("noise", other, 2, steps);
-  check.that("another rng gives other noise", !other.isApprox(got, 1e-9));
-  const Eigen::MatrixXd z = got / (std::sqrt(tau) * noise);
-  const auto shown = check.show([&] { return densityOf(z); });
-  const double n = 2. * steps;
-  check.near("mean, in standard deviations", z.mean(), 0, 6 / std::sqrt(n));
-  check.near("mean square, relative to the wanted one", z.squaredNorm() / n, 1, 6 * std::sqrt(2 / n));
-  check.near("mean of |noise| over the deviation (normal numbers)", z.cwiseAbs().mean(), std::sqrt(2 / M_PI),
-             6 * .603 / std::sqrt(n));
-  check.near("correlation of the two velocities", z.row(0).dot(z.row(1)) / steps, 0, 6 / std::sqrt(steps));
-  check.near("correlation of a step with the next",
-             z.leftCols(steps - 1).reshaped().dot(z.rightCols(steps - 1).reshaped()) / n, 0,
-             6 / std::sqrt(n));
 }
 
 inline rex::LinearizedPlant nearRest(const RacerModel& racer) {
@@ -130,9 +150,13 @@ inline rex::LinearizedPlant nearRest(const RacerModel& racer) {
 inline void linearFits(rex::grading::Check& check, Student& student, const RacerModel& racer) {
   check.input(described(racer));
   const rex::LinearizedPlant exact = nearRest(racer);
+  Eigen::Matrix4d M = Eigen::Matrix4d::Identity();
+  M.bottomRightCorner<2, 2>() = dynamicsOf(racer).massMatrix({0, 0});
+  const auto massOfA = check.suspect("Is the inverse of M left out?", M * exact.A);
+  const auto massOfB = check.suspect("Is the inverse of M left out?", M * exact.B);
   const Linear got = student.linearNearRest(racer);
-  check.near("A", got.A, exact.A, 2e-6 * exact.A.cwiseAbs().maxCoeff());
-  check.near("B", got.B, exact.B, 2e-6 * exact.B.cwiseAbs().maxCoeff());
+  check.near("A of linearNearRest", got.A, exact.A, 2e-6 * exact.A.cwiseAbs().maxCoeff());
+  check.near("B of linearNearRest", got.B, exact.B, 2e-6 * exact.B.cwiseAbs().maxCoeff());
 }
 
 inline Eigen::Vector4d bestGain(const RacerModel& racer, const Eigen::Matrix4d& Q, double R) {
@@ -142,12 +166,15 @@ inline Eigen::Vector4d bestGain(const RacerModel& racer, const Eigen::Matrix4d& 
 
 inline void gainFits(rex::grading::Check& check, Student& student, const RacerModel& racer,
                      const Eigen::Vector2d& costs, double R) {
-  check.input(
-      fmt::format("Q = diag({:.4g}, {:.4g}, 0, 0), R = {:.4g}, {}", costs[0], costs[1], R, described(racer)));
   const rex::LinearizedPlant plant = nearRest(racer);
   const Eigen::Matrix4d Q = Eigen::Vector4d(costs[0], costs[1], 0, 0).asDiagonal();
+  check.input("a racer near rest and its costs", {{"A", plant.A}, {"B", plant.B}, {"Q", Q}, {"R", R}});
   const Eigen::Vector4d exact = bestGain(racer, Q, R);
-  check.near("K", student.lqrGain({plant.A, plant.B}, Q, R), exact, 2e-6 * exact.cwiseAbs().maxCoeff());
+  const auto sign = check.suspect("Is it the K of u = K x? Here u = -K x.", -exact);
+  const auto one = check.suspect("Is R left out, as if it were 1?", bestGain(racer, Q, 1));
+  const auto last = check.suspect("Is B^T P not divided by R?", R * exact);
+  check.near("K of lqrGain", student.lqrGain({plant.A, plant.B}, Q, R), exact,
+             2e-6 * exact.cwiseAbs().maxCoeff());
 }
 
 /// The racer stays up for 20 s with noise, under the student's linearisation and gain.
@@ -155,15 +182,15 @@ inline void gainHolds(rex::grading::Check& check, Student& student, const RacerM
   const rex::RacerDynamics plant = dynamicsOf(racer);
   const Eigen::Matrix4d Q = Eigen::Vector4d(1, 10, 0, 0).asDiagonal();
   const Eigen::Vector4d K = student.lqrGain(student.linearNearRest(racer), Q, 1);
-  check.shape("K", K, 4, 1);
+  check.shape("K of lqrGain", K, 4, 1);
   for (const double tilt : {-.2, .2}) {
     Eigen::Vector4d x(0, tilt, 0, 0);
-    double farthest = 0;
-    for (int t = 0; t < 2000 && farthest <= kLargestAngle; ++t) {
+    rex::grading::Signal angle{.axis = "time [s]"};
+    for (int t = 0; t < 2000 && std::abs(x[1]) <= kLargestAngle; ++t) {
       const double u = std::clamp(-K.dot(x), -kLargestControl, kLargestControl);
       x = plant.noisyStep(x, u, kTau, kNoise, check.rng());
-      farthest = std::max(farthest, std::abs(x[1]));
+      angle.add(kTau * (t + 1), std::abs(x[1]));
     }
-    check.atMost("greatest angle in 20 s under u = -K x, with noise", farthest, kLargestAngle, "rad");
+    check.atMostAlong("|theta| under u = -K x, with noise", angle, kLargestAngle, "rad");
   }
 }

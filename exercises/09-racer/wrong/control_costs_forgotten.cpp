@@ -1,4 +1,4 @@
-// caught by: unseen-lqr
+// caught by: gain, unseen-lqr
 // mistake: forgets R, which is 1 on the sheet.
 
 // <solution lqrGain>

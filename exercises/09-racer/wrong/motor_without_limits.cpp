@@ -1,4 +1,4 @@
-// caught by: unseen-rides
+// caught by: failed-ride, unseen-rides
 // mistake: the motor gives whatever the policy asks for.
 
 // <solution rideOf>

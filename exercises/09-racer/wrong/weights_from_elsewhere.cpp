@@ -1,4 +1,4 @@
-// caught by: unseen-search
+// caught by: search, stays, unseen-search
 // mistake: does not search; takes weights that balance the racer of the sheet, wired as it is there.
 
 // <solution searchedPolicy>
