@@ -122,7 +122,7 @@ inline rex::Figure rowOf(const Pair& rides, Eigen::Index row, Eigen::Index momen
   figure.series = {curve(rides.got, rex::grading::gotCurve("got")),
                    curve(rides.other, rex::grading::wantedCurve(rides.name))};
   figure.verticalLines = {rex::grading::wrongFrom(kTau * static_cast<double>(rides.first + moment))};
-  if (row == 4) {  // without limits, controls that shake soon hide all others
+  if (row == 4 && rides.got.row(4).cwiseAbs().maxCoeff() > 3 * kLargestControl) {  // it would hide the rest
     figure.yRange = {-3 * kLargestControl, 3 * kLargestControl};
     figure.horizontalLines = {{.at = kLargestControl, .label = "limits of the motor"},
                               {.at = -kLargestControl}};
