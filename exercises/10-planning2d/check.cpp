@@ -4,9 +4,14 @@
 #include <numbers>
 #include <set>
 
+#include <fmt/format.h>
+
+#include "bug_checks.h"
+#include "field_checks.h"
 #include "grid_checks.h"
 #include "interface.h"
 #include "plan_evidence.h"
+#include "roadmap_checks.h"
 #include "yard_checks.h"
 
 using namespace rex;
@@ -74,11 +79,25 @@ void bugsAnywhere(Check& check, Student& student) {
 // Part 2.
 
 void wavesAgree(Check& check, Student& student, const CellMap& map, MapCell goal) {
+  const std::string input = check.input();
+  const GridMap grid = gridMapOf(map);
   const std::vector<int> got = student.waveNumbers(map, goal),
-                         wanted = wavefront(gridMapOf(map), {goal.x, goal.y}, Connectivity::kEight);
-  const auto shown = check.show([&] { return wavesSeen(map, goal, got, wanted); });
-  check.that("there is a number for each cell", got.size() == wanted.size());
-  for (std::size_t i = 0; i < wanted.size(); ++i) check.near("number of a cell", got[i], wanted[i], 0);
+                         wanted = wavefront(grid, {goal.x, goal.y}, Connectivity::kEight),
+                         four = wavefront(grid, {goal.x, goal.y}, Connectivity::kFour);
+  MapCell here = goal;
+  const auto shown = check.show([&] { return wavesSeen(map, goal, got, wanted, here); });
+  check.near("number of numbers of waveNumbers", static_cast<double>(got.size()),
+             static_cast<double>(wanted.size()), 0);
+  check.near("number of the goal by waveNumbers", got[map.placeOf(goal)], 2, 0);
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    here = map.cellAt(i);
+    check.input(fmt::format("{}, cell {}, goal {}", input, nameOf(here), nameOf(goal)));
+    const auto sides =
+        check.suspect("Are the diagonal neighbours left out?", Eigen::MatrixXd::Constant(1, 1, four[i]));
+    check.near(
+        map.isFree(here) ? "number of a free cell by waveNumbers" : "number of a blocked cell by waveNumbers",
+        got[i], wanted[i], 0);
+  }
 }
 
 void wavesOnKnownMaps(Check& check, Student& student) {
@@ -94,28 +113,44 @@ void wavesOnKnownMaps(Check& check, Student& student) {
   wavesAgree(check, student, map, kRoomGoal);
 }
 
+// `here` is the arc.
+void arcFits(Check& check, const CellMap& map, const ArcEnds& here, double length) {
+  const MapCell at = map.cellAt(here.from), end = map.cellAt(here.to);
+  const std::string where = fmt::format("arc from {} to {}", nameOf(at), nameOf(end));
+  holdsWhere(check, "arcs of cellNetwork join free cells that touch",
+             map.isFree(at) && map.isFree(end) && touches(at, end) && !(at == end), where);
+  holdsWhere(check, "no diagonal arc of cellNetwork cuts the corner of a blocked cell",
+             map.isFree({end.x, at.y}) && map.isFree({at.x, end.y}), where);
+  const auto one = check.suspect("Are diagonal steps as long as the others? They are sqrt(2) m long.",
+                                 Eigen::MatrixXd::Constant(1, 1, 1));
+  check.near("length of an arc of cellNetwork", length, std::hypot(end.x - at.x, end.y - at.y), 1e-12, "m");
+}
+
 void networkFits(Check& check, Student& student, const CellMap& map) {
   const Network network = student.cellNetwork(map), wanted = networkOf(map);
+  ArcEnds here;
   const auto shown = check.show([&] {
     Points places;
     for (std::size_t place = 0; place < wanted.size(); ++place) places.push_back(centerOf(map.cellAt(place)));
-    return networkSeen(planOf("The map as a network", map), places, network, wanted, wanted);
+    return networkSeen(planOf("The map as a network", map), places, network, wanted, wanted, here);
   });
-  check.that("there is a list of arcs for each cell", network.size() == map.blocked.size());
+  check.near("number of lists of arcs of cellNetwork", static_cast<double>(network.size()),
+             static_cast<double>(map.blocked.size()), 0);
+  const std::string input = check.input();
   for (std::size_t place = 0; place < network.size(); ++place) {
-    const MapCell at = map.cellAt(place);
-    check.near("number of arcs of a cell", static_cast<double>(network[place].size()),
-               static_cast<double>(wanted[place].size()), 0);
     std::set<std::size_t> ends;
     for (const auto& [to, length] : network[place]) {
-      check.that("arcs lead to cells of the map", to < network.size());
-      check.that("no arc is there twice", ends.insert(to).second);
-      const MapCell end = map.cellAt(to);
-      check.that("arcs lead to free cells that touch", map.isFree(end) && touches(at, end) && !(at == end));
-      check.that("no diagonal arc leads past a blocked cell",
-                 map.isFree({end.x, at.y}) && map.isFree({at.x, end.y}));
-      check.near("length of an arc", length, std::hypot(end.x - at.x, end.y - at.y), 1e-12, "m");
+      here = {place, to};
+      check.that("arcs of cellNetwork lead to cells of the map", to < network.size());
+      holdsWhere(check, "no arc of cellNetwork is there twice", ends.insert(to).second,
+                 fmt::format("arc from {} to {}", nameOf(map.cellAt(place)), nameOf(map.cellAt(to))));
+      arcFits(check, map, here, length);
     }
+    here = {place, place};
+    check.input(input + ", cell " + nameOf(map.cellAt(place)));
+    check.near("number of arcs of a cell by cellNetwork", static_cast<double>(network[place].size()),
+               static_cast<double>(wanted[place].size()), 0);
+    check.input(input);
   }
 }
 
@@ -133,8 +168,11 @@ void distancesOnNetworks(Check& check, Student& student) {
     check.input("a random network");
     const RandomNetwork made = randomNetwork(check.rng(), 80, i % 2 == 0 ? 0.3 : 0.1, 3);
     const auto from = static_cast<std::size_t>(check.rng().index(80));
-    distancesAgree(check, student.dijkstra.orInfinite()(made.network, from),
-                   slowDistances(made.network, from));
+    const std::vector<double> wanted = slowDistances(made.network, from);
+    std::size_t here = from;
+    const auto shown = check.show([&] { return waySeen(made, {}, steepestWay(made.network, wanted, here)); });
+    distancesAgree(check, made.network, student.dijkstra.orInfinite()(made.network, from), wanted, from,
+                   here);
   });
 }
 
@@ -149,7 +187,14 @@ void waysDown(Check& check, Student& student) {
       const std::vector<std::size_t> way = student.wayDown(made.network, distances, start);
       const auto shown =
           check.show([&] { return waySeen(made, way, steepestWay(made.network, distances, start)); });
-      isWay(check, made.network, way, start, goal, distances[start]);
+      const auto lowest = check.ask(
+          "Does each step go to the neighbour with the lowest distance? Arcs differ in length, and the arc "
+          "there "
+          "counts, too.",
+          std::isfinite(distances[start]) && way == steepestWay(made.network, distances, start, 0));
+      check.input("a random network with its distances",
+                  {{"start", static_cast<double>(start)}, {"goal", static_cast<double>(goal)}});
+      isWay(check, "wayDown", made.network, way, start, goal, distances[start]);
     }
   });
 }
@@ -163,11 +208,14 @@ void unseenMaps(Check& check, Student& student) {
     if (i % 4 == 3) enclose(map, goal, 3);
     wavesAgree(check, student, map, goal);
     const Network network = student.cellNetwork(map);
-    check.that("there is a list of arcs for each cell", network.size() == map.blocked.size());
+    check.near("number of lists of arcs of cellNetwork", static_cast<double>(network.size()),
+               static_cast<double>(map.blocked.size()), 0);
     const std::vector<double> distances = distancesOn(map, goal, Connectivity::kEightWithRoom);
-    distancesAgree(check, student.dijkstra.orInfinite()(network, map.placeOf(goal)), distances);
+    std::size_t here = 0;
+    const std::size_t end = map.placeOf(goal);
+    distancesAgree(check, networkOf(map), student.dijkstra.orInfinite()(network, end), distances, end, here);
     const std::size_t start = map.placeOf(randomFreeCell(map, rng));
-    isWay(check, network, student.wayDown(network, distances, start), start, map.placeOf(goal),
+    isWay(check, "wayDown", network, student.wayDown(network, distances, start), start, map.placeOf(goal),
           distances[start]);
   });
 }
@@ -181,16 +229,12 @@ void potentials(Check& check, Student& student) {
     const Yard yard = i == 0 ? trapYard() : randomYard(rng, {8, 6}, 1 + i, 0.5);
     const Eigen::Vector2d goal = randomFreePlace(yard, rng);
     const FieldGains gains = randomGains(rng);
-    check.input(i == 0 ? "trapYard() of maps.h, random gains and positions"
-                       : "a random yard, gains and positions");
-    for (int place = 0; place < 20; ++place) {
-      const Eigen::Vector2d p = randomFreePlace(yard, rng);
-      const double U = trueU(yard, goal, gains, p);
-      check.near("potential", student.fieldPotential(yard, goal, gains, p), U, 1e-9 * (1 + U), "J");
-    }
-    const Block& block = yard.blocks.front();
-    check.that("the potential is infinite in a block",
-               student.fieldPotential.orInfinite()(yard, goal, gains, (block.lower + block.upper) / 2) ==
+    for (int place = 0; place < 20; ++place)
+      potentialFits(check, student, yard, goal, gains, randomFreePlace(yard, rng));
+    const Eigen::Vector2d inside = (yard.blocks.front().lower + yard.blocks.front().upper) / 2;
+    describe(check, yard, goal, gains, inside);
+    check.that("fieldPotential is infinite in a block",
+               student.fieldPotential.orInfinite()(yard, goal, gains, inside) ==
                    std::numeric_limits<double>::infinity());
   });
 }
@@ -203,8 +247,6 @@ void gradients(Check& check, Student& student) {
     const Yard yard = i == 0 ? trapYard() : randomYard(rng, {8, 6}, 1 + i, 0.5);
     const Eigen::Vector2d goal = randomFreePlace(yard, rng);
     const FieldGains gains = randomGains(rng);
-    check.input(i == 0 ? "trapYard() of maps.h, random gains and positions"
-                       : "a random yard, gains and positions");
     for (int place = 0; place < 20;) {
       const Eigen::Vector2d p = randomFreePlace(yard, rng);
       const bool isPlain = std::all_of(yard.blocks.begin(), yard.blocks.end(), [&](const Block& block) {
@@ -212,9 +254,7 @@ void gradients(Check& check, Student& student) {
         return apart > 0.1 && std::abs(apart - gains.reach) > 1e-4;
       });
       if (!isPlain) continue;
-      const Eigen::Vector2d wanted = trueGradient(yard, goal, gains, p);
-      check.near("gradient of the potential", student.fieldGradient(yard, goal, gains, p), wanted,
-                 1e-4 * (1 + wanted.norm()), "N");
+      gradientFits(check, student, yard, goal, gains, p);
       ++place;
     }
   });
@@ -242,30 +282,32 @@ void slidesAnywhere(Check& check, Student& student) {
 
 // Part 4.
 
+// Whether the straight way between two random positions is free, if that is beyond doubt; returns what it is.
+Straight straightFits(Check& check, Student& student, const Yard& yard, double resolution) {
+  const Eigen::Vector2d a = randomFreePlace(yard, check.rng()), b = randomFreePlace(yard, check.rng());
+  const Straight way = judged(yard, a, b, resolution);
+  if (way == Straight::kEither) return way;
+  check.input(
+      "a straight way",
+      {{"a", a}, {"b", b}, {"resolution", resolution}, {"blocks, from x, y to x, y", cornersOf(yard)}});
+  const auto shown = check.show([&] { return straightSeen(yard, a, b, way); });
+  const auto between = check.ask("Are points between the ends tested, no more than `resolution` apart?",
+                                 way == Straight::kBlocked);
+  const bool got = student.straightIsFree(yard, a, b, resolution);
+  check.that(way == Straight::kFree ? "straightIsFree returns true, since no block is in the way"
+                                    : "straightIsFree returns false, since a block is in the way",
+             got == (way == Straight::kFree));
+  return way;
+}
+
+// A wall 6 cm thick, across which ways lead at any angle; then random yards.
 void straightWays(Check& check, Student& student) {
-  Rng& rng = check.rng();
-  check.input("a wall 6 cm thick, across which ways lead at any angle; resolution 5 cm");
   const Yard thin{{4, 4}, {{{1.97, 0}, {2.03, 3}}}};
-  int blocked = 0;
-  while (blocked < 20) {
-    const Eigen::Vector2d a = randomFreePlace(thin, rng), b = randomFreePlace(thin, rng);
-    const Straight way = judged(thin, a, b, 0.05);
-    if (way == Straight::kEither) continue;
-    blocked += way == Straight::kBlocked ? 1 : 0;
-    const auto shown = check.show([&] { return straightSeen(thin, a, b, way); });
-    check.that("whether the straight way is free",
-               student.straightIsFree(thin, a, b, 0.05) == (way == Straight::kFree));
-  }
-  check.input("random yards, resolution 1 to 10 cm");
+  for (int blocked = 0; blocked < 20;)
+    blocked += straightFits(check, student, thin, 0.05) == Straight::kBlocked ? 1 : 0;
   for (int i = 0; i < 40; ++i) {
-    const Yard yard = randomYard(rng, {4, 4}, 6, 0.2);
-    const double resolution = rng.uniform(0.01, 0.1);
-    const Eigen::Vector2d a = randomFreePlace(yard, rng), b = randomFreePlace(yard, rng);
-    const Straight way = judged(yard, a, b, resolution);
-    if (way == Straight::kEither) continue;
-    const auto shown = check.show([&] { return straightSeen(yard, a, b, way); });
-    check.that("whether the straight way is free",
-               student.straightIsFree(yard, a, b, resolution) == (way == Straight::kFree));
+    const Yard yard = randomYard(check.rng(), {4, 4}, 6, 0.2);
+    straightFits(check, student, yard, check.rng().uniform(0.01, 0.1));
   }
 }
 
@@ -280,15 +322,16 @@ void roadmaps(Check& check, Student& student) {
     Rng& rng = check.rng();
     const Yard yard = i == 0 ? slotYard(1.8, 0.4) : randomYard(rng, {6, 6}, 8, 0.5);
     const int k = 3 + rng.index(6);
-    check.input(i == 0 ? "slotYard() of maps.h, 50 nodes" : "a random yard, 50 nodes");
+    check.input(fmt::format("{}, 50 nodes, k = {}", i == 0 ? "slotYard() of maps.h" : "a random yard", k));
     const std::vector<Eigen::Vector2d> nodes = randomNodes(yard, 50, rng);
     const Network got = student.joinNearest(yard, nodes, k, 0.05);
+    ArcEnds here;
     const auto shown = check.show([&] {
       return networkSeen(planOf("The roadmap", yard.size, yard.blocks), nodes, got,
                          roadmapOf(yard, nodes, k, 0.05, Straight::kEither),
-                         roadmapOf(yard, nodes, k, 0.05, Straight::kFree));
+                         roadmapOf(yard, nodes, k, 0.05, Straight::kFree), here);
     });
-    isRoadmap(check, yard, nodes, k, 0.05, got);
+    isRoadmap(check, yard, nodes, k, 0.05, got, here);
   });
 }
 
@@ -317,12 +360,13 @@ void queriesInTheSlotYard(Check& check, Student& student) {
       addLine(figure, nodes, dots("nodes", kBlack, 1.5));
       return grading::Evidence{.figures = {figure}};
     });
-    check.near("number of points of the way", static_cast<double>(way.size()), 5, 0);
-    for (std::size_t i = 0; i < wanted.size(); ++i) check.near("point of the way", way[i], wanted[i], 0, "m");
+    check.near("number of points in the way of queryRoadmap", static_cast<double>(way.size()), 5, 0);
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+      check.near(fmt::format("point {} in the way of queryRoadmap", i), way[i], wanted[i], 0, "m");
   }
   check.input("the same, with no arc that leaves the slot to the right");
   check.that(
-      "the way is empty if there is none",
+      "the way of queryRoadmap is empty if there is none",
       student.queryRoadmap(yard, nodes, joined({{0, 1}, {0, 2}}), kSlotStart, kSlotGoal, 1, 0.05).empty());
 }
 
@@ -354,18 +398,18 @@ void queryFits(Check& check, Student& student, const Yard& yard) {
   const auto way = student.queryRoadmap(yard, nodes, roadmap, ends[0], ends[1], 6, 0.05);
   const double least = lengthOver(yard, nodes, roadmap, ends, 6, Straight::kEither),
                most = lengthOver(yard, nodes, roadmap, ends, 6, Straight::kFree);
-  if (way.empty()) return check.that("a way is found where there is one", !std::isfinite(most));
-  check.that("a way is found only where there is one", std::isfinite(least));
-  check.near("first point of the way", way.front(), ends[0], 0, "m");
-  check.near("last point of the way", way.back(), ends[1], 0, "m");
+  if (way.empty()) return check.that("queryRoadmap finds a way where there is one", !std::isfinite(most));
+  check.that("queryRoadmap finds a way only where there is one", std::isfinite(least));
+  check.near("first point in the way of queryRoadmap", way.front(), ends[0], 0, "m");
+  check.near("last point in the way of queryRoadmap", way.back(), ends[1], 0, "m");
   double length = 0;
   for (std::size_t leg = 1; leg < way.size(); ++leg) {
     length += (way[leg] - way[leg - 1]).norm();
-    check.that("every leg of the way is free",
+    check.that("every leg in the way of queryRoadmap is free",
                judged(yard, way[leg - 1], way[leg], 0.05) != Straight::kBlocked);
   }
-  check.atLeast("length of the way", length, least - 1e-9, "m");
-  if (std::isfinite(most)) check.atMost("length of the way", length, most + 1e-9, "m");
+  check.atLeast("length of the way of queryRoadmap", length, least - 1e-9, "m");
+  if (std::isfinite(most)) check.atMost("length of the way of queryRoadmap", length, most + 1e-9, "m");
 }
 
 void queries(Check& check, Student& student) {
@@ -382,14 +426,31 @@ using Samples = std::vector<Eigen::Vector2d>;
 // not reveal what the grader draws.
 Rng generatorsOf(Check& check) { return check.rng().split(7); }
 
+// The samplers, and what to ask whoever returns a node that is not free.
+struct Sampler {
+  const char *name, *question;
+};
+constexpr Sampler kUniform{"uniformSample", "Is the point tested?"},
+    kGaussian{"gaussianSample", "Which of the two points is the node? It is the free one."},
+    kBridge{"bridgeSample", "Is the middle tested? It has to be free, and both ends blocked."};
+
 // `count` nodes, or as many as that many attempts find; each attempt has random numbers of its own.
 template <class Sample>
-Samples gathered(Check& check, Rng& given, const Yard& yard, int count, int attempts, const Sample& sample) {
+Samples gathered(Check& check, Rng& given, const Yard& yard, int count, int attempts, const Sampler& sampler,
+                 const Sample& sample) {
   Samples samples;
   for (int i = 0; i < attempts && std::ssize(samples) < count; ++i) {
     const std::optional<Eigen::Vector2d> q = sample(Rng(given.next()));
     if (!q) continue;
-    check.that("every node is free", q->allFinite() && isFree(yard, *q));
+    const auto shown = check.show([&] {
+      grading::Evidence evidence = samplesSeen(std::string("Nodes of ") + sampler.name, yard, samples);
+      if (q->allFinite())
+        evidence.figures.front().series.push_back(grading::wrongPoint("got, not free", q->x(), q->y()));
+      return evidence;
+    });
+    const auto asked = check.ask(sampler.question);
+    holdsWhere(check, std::string("every node of ") + sampler.name + " is free",
+               q->allFinite() && isFree(yard, *q), fmt::format("node ({:.4g}, {:.4g})", q->x(), q->y()));
     samples.push_back(*q);
   }
   return samples;
@@ -409,13 +470,15 @@ double fromBorder(const Yard& yard, const Eigen::Vector2d& q) {
 void uniformFits(Check& check, Student& student, Rng& given) {
   const Yard wall{{4, 4}, {{{0, 0}, {2, 4}}}};
   check.input("a yard of 4 x 4 m whose left half is a block");
-  const Samples nodes =
-      gathered(check, given, wall, 300, 900, [&](Rng rng) { return student.uniformSample(wall, rng); });
+  const Samples nodes = gathered(check, given, wall, 300, 900, kUniform,
+                                 [&](Rng rng) { return student.uniformSample(wall, rng); });
   const auto shown = check.show(
       [&] { return samplesSeen("Uniform nodes; wanted: evenly over the free half", wall, nodes); });
-  check.atLeast("number of uniform nodes from 900 attempts", static_cast<double>(nodes.size()), 300);
-  check.near("share of uniform nodes in the upper half", share(nodes, {{2, 2}, {4, 4}}), 0.5, 0.17);
-  check.near("share of uniform nodes in the right half", share(nodes, {{3, 0}, {4, 4}}), 0.5, 0.17);
+  check.atLeast("number of nodes of uniformSample from 900 attempts", static_cast<double>(nodes.size()), 300);
+  check.near("share of the nodes of uniformSample in the upper half", share(nodes, {{2, 2}, {4, 4}}), 0.5,
+             0.17);
+  check.near("share of the nodes of uniformSample in the right half", share(nodes, {{3, 0}, {4, 4}}), 0.5,
+             0.17);
 }
 
 // Far from the border of the yard, the density at a distance x from the wall is proportional to P(N(0,
@@ -424,27 +487,30 @@ void uniformFits(Check& check, Student& student, Rng& given) {
 void gaussianFits(Check& check, Student& student, Rng& given) {
   const double sigma = check.rng().uniform(0.25, 0.3);
   const Yard wall{{12, 4}, {{{0, 0}, {12, 2}}}};
-  check.input("a yard of 12 x 4 m whose lower half is a block; sigma = " + std::to_string(sigma) + " m");
-  const Samples nodes = gathered(check, given, wall, 12000, 12000,
+  check.input("a yard of 12 x 4 m whose lower half is a block", {{"sigma", sigma}});
+  const Samples nodes = gathered(check, given, wall, 12000, 12000, kGaussian,
                                  [&](Rng rng) { return student.gaussianSample(wall, sigma, rng); });
-  const auto shown = check.show(
-      [&] { return samplesSeen("Gaussian nodes; wanted: near the wall, within some 0.6 m", wall, nodes); });
-  double sum = 0, squares = 0, far = 0, count = 0;
-  for (const Eigen::Vector2d& q : nodes) {
-    if (q.x() < 1.2 || q.x() > 10.8 || q.y() > 3.2) continue;
-    const double distance = (q.y() - 2) / sigma;
-    sum += distance;
-    squares += distance * distance;
-    far += distance > 1.3 ? 1 : 0;
-    ++count;
-  }
-  check.atLeast("number of Gaussian nodes at the wall, from 12000 attempts", count, 250);
-  const double forgiven = 6 / std::sqrt(count);
-  check.near("mean distance of Gaussian nodes from the wall, in sigmas", sum / count, 0.627,
+  std::vector<double> distances;
+  for (const Eigen::Vector2d& q : nodes)
+    if (q.x() >= 1.2 && q.x() <= 10.8 && q.y() <= 3.2) distances.push_back((q.y() - 2) / sigma);
+  const auto shown = check.show([&] {
+    grading::Evidence evidence = samplesSeen("Gaussian nodes; wanted: near the wall", wall, nodes);
+    if (!distances.empty()) evidence.figures.insert(evidence.figures.begin(), distancesSeen(distances));
+    return evidence;
+  });
+  const double count = static_cast<double>(distances.size()), forgiven = 6 / std::sqrt(count);
+  check.atLeast("number of nodes of gaussianSample at the wall, from 12000 attempts", count, 250);
+  const Eigen::ArrayXd d = Eigen::Map<const Eigen::ArrayXd>(distances.data(), std::ssize(distances));
+  const auto sharp = check.ask(
+      "Is every free point near a block a node? The other point is at a normal distance, and not free.",
+      d.maxCoeff() < 1.5);
+  const auto root = check.ask("Is sigma taken for the variance? It is the standard deviation.",
+                              std::abs(d.mean() - 0.627 / std::sqrt(sigma)) < 0.1);
+  check.near("mean distance of the nodes of gaussianSample from the wall, in sigmas", d.mean(), 0.627,
              0.523 * forgiven);
-  check.near("mean square of this distance, in sigmas squared", squares / count, 2 / 3., 1.075 * forgiven);
-  check.near("share of Gaussian nodes that are more than 1.3 sigmas from the wall", far / count, 0.114,
-             0.318 * forgiven);
+  check.near("mean square of this distance, in sigmas squared", d.square().mean(), 2 / 3., 1.075 * forgiven);
+  check.near("share of the nodes of gaussianSample more than 1.3 sigmas from the wall",
+             (d > 1.3).cast<double>().mean(), 0.114, 0.318 * forgiven);
 }
 
 // Blocks everywhere except for three slots of that width: along x, along y, and slanted, as stairs of 10
@@ -470,16 +536,20 @@ Yard threeSlots(Rng& rng, double width) {
 void bridgesFit(Check& check, Student& student, Rng& given) {
   const double sigma = check.rng().uniform(0.25, 0.35);
   const Yard yard = threeSlots(check.rng(), 2 * sigma / 3);
-  check.input("a yard of 6 x 2 m, blocked except for three slots: along x, along y and slanted; sigma = " +
-              std::to_string(sigma) + " m");
-  const Samples nodes = gathered(check, given, yard, 200, 12000,
+  check.input("a yard of 6 x 2 m, blocked except for three slots: along x, along y and slanted",
+              {{"sigma", sigma}});
+  const Samples nodes = gathered(check, given, yard, 200, 12000, kBridge,
                                  [&](Rng rng) { return student.bridgeSample(yard, sigma, rng); });
   const auto shown =
       check.show([&] { return samplesSeen("Bridge nodes; wanted: in all slots", yard, nodes); });
-  check.atLeast("number of bridge nodes from 12000 attempts", static_cast<double>(nodes.size()), 150);
-  check.atLeast("share of bridge nodes in the slot along x", share(nodes, {{0, 0}, {2, 2}}), 0.14);
-  check.atLeast("share of bridge nodes in the slot along y", share(nodes, {{2, 0}, {4, 2}}), 0.14);
-  check.atLeast("share of bridge nodes in the slanted slot", share(nodes, {{4, 0}, {6, 2}}), 0.14);
+  check.atLeast("number of nodes of bridgeSample from 12000 attempts", static_cast<double>(nodes.size()),
+                150);
+  check.atLeast("share of the nodes of bridgeSample in the slot along x", share(nodes, {{0, 0}, {2, 2}}),
+                0.14);
+  check.atLeast("share of the nodes of bridgeSample in the slot along y", share(nodes, {{2, 0}, {4, 2}}),
+                0.14);
+  check.atLeast("share of the nodes of bridgeSample in the slanted slot", share(nodes, {{4, 0}, {6, 2}}),
+                0.14);
 }
 
 void samplers(Check& check, Student& student) {
@@ -490,18 +560,18 @@ void samplers(Check& check, Student& student) {
   // For a node 3.5 sigma away from all blocks, the ends of its bridge would have to be 7 sigma apart.
   const Yard slot = slotYard(1.9, 0.2);
   check.input("slotYard() of maps.h, 0.2 m wide; sigma = 0.3 m");
-  const Samples bridge =
-      gathered(check, given, slot, 60, 6000, [&](Rng rng) { return student.bridgeSample(slot, 0.3, rng); });
+  const Samples bridge = gathered(check, given, slot, 60, 6000, kBridge,
+                                  [&](Rng rng) { return student.bridgeSample(slot, 0.3, rng); });
   const auto shown = check.show([&] {
     return samplesSeen("Bridge nodes; wanted: two of five in the slot, none far from blocks", slot, bridge);
   });
-  check.atLeast("number of bridge nodes from 6000 attempts", static_cast<double>(bridge.size()), 10);
+  check.atLeast("number of nodes of bridgeSample from 6000 attempts", static_cast<double>(bridge.size()), 10);
   for (const Eigen::Vector2d& q : bridge) {
     double distance = fromBorder(slot, q);
     for (const Block& block : slot.blocks) distance = std::min(distance, (q - nearestPoint(block, q)).norm());
-    check.atMost("distance of a bridge node from the nearest block", distance, 3.5 * 0.3, "m");
+    check.atMost("distance of a node of bridgeSample from the nearest block", distance, 3.5 * 0.3, "m");
   }
-  check.atLeast("share of bridge nodes in the slot", share(bridge, {{2, 1.9}, {4, 2.1}}), 0.4);
+  check.atLeast("share of the nodes of bridgeSample in the slot", share(bridge, {{2, 1.9}, {4, 2.1}}), 0.4);
 }
 
 // <hidden>
@@ -534,16 +604,20 @@ void narrowPassages(Check& check, Student& student) {
   bridgesFit(check, student, given);
   const double low = check.rng().uniform(1.3, 2.1);
   const Yard yard = slotYard(low, 0.2);
-  const Samples uniform =
-      gathered(check, given, yard, 3000, 8000, [&](Rng rng) { return student.uniformSample(yard, rng); });
-  const Samples gaussian = gathered(check, given, yard, 2000, 16000,
+  const Samples uniform = gathered(check, given, yard, 3000, 8000, kUniform,
+                                   [&](Rng rng) { return student.uniformSample(yard, rng); });
+  const Samples gaussian = gathered(check, given, yard, 2000, 16000, kGaussian,
                                     [&](Rng rng) { return student.gaussianSample(yard, 0.2, rng); });
-  const Samples bridge =
-      gathered(check, given, yard, 100, 30000, [&](Rng rng) { return student.bridgeSample(yard, 0.3, rng); });
-  check.atLeast("number of uniform nodes from 8000 attempts", static_cast<double>(uniform.size()), 3000);
-  check.atLeast("number of Gaussian nodes from 16000 attempts", static_cast<double>(gaussian.size()), 2000);
-  check.atLeast("number of bridge nodes from 30000 attempts", static_cast<double>(bridge.size()), 60);
-  check.atLeast("share of Gaussian nodes in the slot", share(gaussian, {{2, low}, {4, low + 0.2}}), 0.06);
+  const Samples bridge = gathered(check, given, yard, 100, 30000, kBridge,
+                                  [&](Rng rng) { return student.bridgeSample(yard, 0.3, rng); });
+  check.atLeast("number of nodes of uniformSample from 8000 attempts", static_cast<double>(uniform.size()),
+                3000);
+  check.atLeast("number of nodes of gaussianSample from 16000 attempts", static_cast<double>(gaussian.size()),
+                2000);
+  check.atLeast("number of nodes of bridgeSample from 30000 attempts", static_cast<double>(bridge.size()),
+                60);
+  check.atLeast("share of the nodes of gaussianSample in the slot",
+                share(gaussian, {{2, low}, {4, low + 0.2}}), 0.06);
   const double usual = rateOf(yard, uniform, uniform, check.rng());
   const auto gain = [&](const Samples& others) { return rateOf(yard, uniform, others, check.rng()) - usual; };
   check.atLeast("rate of success with Gaussian nodes, minus that with uniform ones", gain(gaussian), 0.01);
@@ -555,15 +629,23 @@ void narrowPassages(Check& check, Student& student) {
 
 void estimates(Check& check, Student& student) {
   Rng& rng = check.rng();
-  check.input("random cells of an empty map");
   const CellMap map = mapOf(std::vector<std::string>(20, std::string(25, '.')));
   for (int i = 0; i < 10; ++i) {
     const MapCell to = randomFreeCell(map, rng);
     const std::vector<double> distances = distancesOn(map, to, Connectivity::kEightWithRoom);
     for (int j = 0; j < 20; ++j) {
       const MapCell from = j == 0 ? to : randomFreeCell(map, rng);
-      check.near("distance on an empty map", student.emptyMapDistance(from, to), distances[map.placeOf(from)],
-                 1e-9, "m");
+      const Eigen::Vector2d a(from.x, from.y), b(to.x, to.y), apart = (b - a).cwiseAbs();
+      check.input("two cells", {{"from", a}, {"to", b}});
+      const auto suspect = [&](const char* question, double value) {
+        return check.suspect(question, Eigen::MatrixXd::Constant(1, 1, value));
+      };
+      const auto sum = suspect("Are diagonal steps left out?", apart.sum());
+      const auto line = suspect("Is it the straight line? Steps lead to the eight neighbours.", apart.norm());
+      const auto most =
+          suspect("Is a diagonal step as long as the others? It is sqrt(2) m long.", apart.maxCoeff());
+      check.near("emptyMapDistance", student.emptyMapDistance(from, to), distances[map.placeOf(from)], 1e-9,
+                 "m");
     }
   }
 }
@@ -575,22 +657,36 @@ void searches(Check& check, Student& student, const Network& network, std::size_
               const CellMap* map = nullptr) {
   std::vector<bool> isAsked(network.size());
   std::vector<std::size_t> way, asked, tooFar;
+  std::vector<double> reached;
   const auto shown = check.show([&] {
     if (map == nullptr) return grading::Evidence{};
     std::vector<std::size_t> wanted = steepestWay(network, distances, goal);
     return searchSeen(*map, way, asked, tooFar, wanted);
   });
+  const std::string input = check.input();
   const auto arcsOf = [&](std::size_t node) {
-    check.that("arcs are asked for nodes of the network", node < network.size());
-    const bool isNeeded = distances[node] + estimates[node] <= distances[goal] + 1e-9;
+    check.that("aStar asks for arcs only of nodes of the network", node < network.size());
+    const double through = distances[node] + estimates[node];
+    const bool isNeeded = through <= distances[goal] + 1e-9;
     (isNeeded ? asked : tooFar).push_back(node);
-    check.that("arcs are asked for no node twice", !isAsked[node]);
+    reached.push_back(distances[node]);
+    const std::string name =
+        map == nullptr ? fmt::format("node {}", node) : "cell " + nameOf(map->cellAt(node));
+    check.input(input + ", arcs asked for: " + name);
+    check.that("aStar asks for the arcs of no node twice", !isAsked[node]);
     isAsked[node] = true;
-    check.that("arcs are asked only where the shortest way could lead", isNeeded);
+    const auto dijkstra = check.ask(
+        "Is the estimate of the node left out of the order of the queue, as in Dijkstra's algorithm?",
+        !isNeeded && std::is_sorted(reached.begin(), reached.end()));
+    if (std::isfinite(through) && std::isfinite(distances[goal]))
+      check.atMost("length of the way to a node asked for by aStar, plus its estimate", through,
+                   distances[goal] + 1e-9, "m");
+    check.that("aStar asks for arcs only where the shortest way could lead", isNeeded);
     return network[node];
   };
   way = student.aStar(arcsOf, start, goal, estimates);
-  isWay(check, network, way, start, goal, distances[goal]);
+  check.input(input);
+  isWay(check, "aStar", network, way, start, goal, distances[goal]);
 }
 
 void searchesMap(Check& check, Student& student, const CellMap& map, MapCell start, MapCell goal) {
