@@ -4,16 +4,14 @@
 #include <cmath>
 #include <optional>
 
-#include "course/film.h"
 #include "geometry/rotation.h"
-#include "grading/evidence_parts.h"
 #include "interface.h"
 #include "kinematics/inverse_kinematics.h"
+#include "motion_checks.h"
 
 using namespace rex;
 using grading::Check;
 using grading::Group;
-using grading::Signal;
 
 namespace {
 
@@ -23,12 +21,12 @@ struct Robot {
   std::string body, other;
 };
 
-const Eigen::Vector3d kTarget(-0.2, -0.4, 1.1);
-constexpr double kSigma = 0.01;
 // Values below this count as zero: maps that use an arc cosine keep only half of their digits at the zero.
 constexpr double kZero = 1e-5;
 // Values of at least this much count as nonzero: 1 - cos(0.3 rad) is 0.04.
 constexpr double kNotZero = 1e-3;
+// Half a millimetre beside the goal even the fourth power of the distance is larger than this.
+constexpr double kBeside = 1e-14;
 
 Simulator inRandomPosture(Simulator S, Rng& rng, double spread) {
   S.setJointAngles(S.getJointAngles() + spread * rng.normalVector(S.getJointDimension()));
@@ -41,12 +39,6 @@ Eigen::Vector3d randomDirection(Rng& rng) { return rng.normalVector(3).normalize
 
 std::string describe(const Robot& robot, const std::string& body) {
   return robot.S.description().sceneName + ", body '" + body + "', random posture";
-}
-
-Simulator at(const Simulator& S, const Eigen::VectorXd& q) {
-  SimulatorDescription description = S.description();
-  description.q = q;
-  return Simulator(description);
 }
 
 using Map = std::function<TaskMapValue(const SimulatorDescription&)>;
@@ -285,6 +277,11 @@ void distanceIsZeroAtTheGoal(Check& check, Student& student, const Robot& robot)
       before = y;
     }
   }
+  const Eigen::Vector3d near = here + 5e-4 * randomDirection(check.rng());
+  check.input(describe(robot, robot.body), {{"its position", here}, {"goal", near}});
+  const auto guarded = check.ask("Is there a tolerance around the goal? Only the goal itself may give zero.");
+  check.atLeast("|y| of distanceToGoal half a millimetre away from the goal", std::abs(valueAt(near)),
+                kBeside);
 }
 
 void distanceJacobian(Check& check, Student& student, const Robot& robot) {
@@ -316,29 +313,9 @@ auto twice(void (*run)(Check&, Student&)) {
 
 // One step.
 
-// By another way than the normal equations: from the singular values of J.
-Eigen::VectorXd minimumOf(const Eigen::MatrixXd& J, const Eigen::VectorXd& dy, double sigma) {
-  const SingularValues parts = svd(J);
-  const Eigen::ArrayXd s = parts.s.array(), along = (parts.U.transpose() * dy).array();
-  return parts.V * (s * along / (s.square() + sigma * sigma)).matrix();
-}
-
-// The tolerance leaves room for the normal equations, which cost digits.
-void isTheMinimum(Check& check, const Eigen::VectorXd& dq, const Eigen::MatrixXd& J,
-                  const Eigen::VectorXd& dy, double sigma) {
-  check.shape("dq of ikStep", dq, J.cols(), 1);
-  const Eigen::VectorXd minimum = minimumOf(J, dy, sigma);
-  const auto bare = check.suspect("Is the term sigma^2 |dq|^2 missing?", minimumOf(J, dy, 1e-9));
-  const auto rooted = check.suspect("Is sigma not squared?", minimumOf(J, dy, std::sqrt(sigma)));
-  const double along = dq.dot(J.transpose() * dy) / (dq.norm() * (J.transpose() * dy).norm());
-  const auto downhill =
-      check.ask("It points along J^T dy: the transpose alone is no inverse.", along > 1 - 1e-9);
-  check.near("dq of ikStep", dq, minimum, 1e-7 * minimum.norm(), "rad");
-}
-
 void stepIsTheMinimum(Check& check, Student& student, const Eigen::MatrixXd& J, const Eigen::VectorXd& dy,
                       double sigma) {
-  isTheMinimum(check, student.ikStep(J, dy, sigma), J, dy, sigma);
+  isTheMinimum(check, "dq of ikStep", student.ikStep(J, dy, sigma), J, dy, sigma);
 }
 
 void stepOfTheHand(Check& check, Student& student) {
@@ -368,128 +345,6 @@ void stepAtASingularity(Check& check, Student& student) {
 }
 
 // Motions.
-
-Eigen::Vector3d placeAt(const Simulator& S, const std::string& body, const Eigen::VectorXd& q) {
-  return at(S, q).kinematicsPos(body);
-}
-
-using Motion = std::vector<Eigen::VectorXd>;
-
-// There are `count` postures, each of n finite numbers.
-void checkPostures(Check& check, const Motion& motion, int count, int n) {
-  check.near("number of postures", static_cast<double>(motion.size()), count, 0);
-  for (const Eigen::VectorXd& q : motion) check.shape("posture", q, n, 1);
-}
-
-using Place = std::function<Eigen::Vector3d(int step)>;
-
-// The motion as a film, with the wanted position of the body at each step.
-grading::Evidence seen(const Simulator& S, const std::string& body, const Motion& motion,
-                       const Place& wanted) {
-  std::vector<Eigen::Vector3d> way;
-  for (int t = 1; t <= static_cast<int>(motion.size()); ++t) way.push_back(wanted(t));
-  Film film = filmOf(S, motion, {.traces = {body}, .paths = {way}});
-  for (std::size_t i = 0; i < film.size(); ++i)
-    film[i].picture.pointSets.push_back({.points = {way[i]}, .color = {.8f, .1f, .12f}, .size = 9});
-  return {.film = std::move(film)};
-}
-
-// The distance of the body from its wanted position, from step `first` on.
-Signal distance(const Simulator& S, const std::string& body, const Motion& motion, int first,
-                const Place& wanted) {
-  Signal signal;
-  for (int t = first; t <= static_cast<int>(motion.size()); ++t)
-    signal.add(t, (placeAt(S, body, motion[static_cast<std::size_t>(t) - 1]) - wanted(t)).norm());
-  return signal;
-}
-
-double largest(const Signal& signal) {
-  double value = 0;
-  for (const Eigen::VectorXd& one : signal.values) value = std::max(value, one[0]);
-  return value;
-}
-
-struct ErrorAfter {
-  int step;
-  double error;
-};
-
-void errorSequence(Check& check, Student& student, double alpha, int steps,
-                   const std::vector<ErrorAfter>& known) {
-  const Simulator S("man.ors");
-  check.input("man.ors, handR to (-0.2, -0.4, 1.1), sigma 0.01, alpha " +
-              std::string(alpha == 1 ? "1" : "0.1"));
-  const Motion motion = student.smallSteps(S.description(), "handR", kTarget, alpha, kSigma, steps);
-  checkPostures(check, motion, steps, S.getJointDimension());
-  const Signal got = distance(S, "handR", motion, 1, [](int) { return kTarget; });
-  const auto shown = check.show([&] {
-    grading::Evidence evidence = seen(S, "handR", motion, [](int) { return kTarget; });
-    Figure figure{.title = "Distance of handR from the target", .xLabel = "step", .yLabel = "distance [m]"};
-    figure.series = {grading::gotCurve("got", got.at), grading::wantedCurve("wanted")};
-    for (const Eigen::VectorXd& value : got.values) figure.series[0].y.push_back(value[0]);
-    for (const auto& [step, error] : known) {
-      figure.series[1].x.push_back(step);
-      figure.series[1].y.push_back(error);
-    }
-    evidence.moment = evidence.film[static_cast<std::size_t>(known.front().step) - 1].time;
-    evidence.figures = {std::move(figure)};
-    return evidence;
-  });
-  const double start = (S.kinematicsPos("handR") - kTarget).norm();
-  const auto unmoved = check.suspect("The hand is still where it started: is S never moved?",
-                                     Eigen::MatrixXd::Constant(1, 1, start));
-  const auto same = check.ask("All postures are the same: does every step begin where the first one did?",
-                              motion.front() == motion.back());
-  for (const auto& [step, error] : known)
-    check.near("distance of handR from the target after step " + std::to_string(step) + " of smallSteps",
-               got.values[static_cast<std::size_t>(step) - 1][0], error, 1e-4 + 1e-3 * error, "m");
-}
-
-void fullSteps(Check& check, Student& student) {
-  errorSequence(check, student, 1, 6, {{1, 0.1750}, {2, 0.0297}, {3, 0.0015}, {4, 4e-6}});
-}
-
-void stepsOfATenth(Check& check, Student& student) {
-  errorSequence(check, student, 0.1, 100, {{1, 0.3041}, {10, 0.1179}, {50, 0.0018}, {100, 9e-6}});
-}
-
-void followsTheLine(Check& check, Student& student, const Simulator& S, const std::string& body,
-                    const Eigen::Vector3d& target, int T, double tolerance) {
-  const Eigen::Vector3d first = S.kinematicsPos(body);
-  const Motion motion = student.straightLine(S.description(), body, target, kSigma, T);
-  checkPostures(check, motion, T, S.getJointDimension());
-  const auto onLine = [&](int t) -> Eigen::Vector3d {
-    return first + static_cast<double>(t) / T * (target - first);
-  };
-  const auto shown = check.show([&] { return seen(S, body, motion, onLine); });
-  const auto atOnce =
-      check.ask("Is the body sent to the far target at once, in every step?",
-                (placeAt(S, body, motion[4]) - target).norm() < 0.3 * (first - target).norm());
-  check.atMostAlong("distance of " + body + " from the moving target, in straightLine",
-                    distance(S, body, motion, 1, onLine), tolerance, "m");
-}
-
-void followsTheCircle(Check& check, Student& student, const Simulator& S, const std::string& body,
-                      const Eigen::Vector3d& center, double radius, int T, int approach, double tolerance) {
-  const Motion motion = student.circle(S.description(), body, center, radius, kSigma, T);
-  checkPostures(check, motion, T, S.getJointDimension());
-  const auto onCircle = [&](int t) -> Eigen::Vector3d {
-    return center + radius * Eigen::Vector3d(std::cos(t / 20.), 0, std::sin(t / 20.));
-  };
-  const auto flat = [&](int t) -> Eigen::Vector3d {
-    return center + radius * Eigen::Vector3d(std::cos(t / 20.), std::sin(t / 20.), 0);
-  };
-  const auto fits = [&](const Place& place) {
-    return largest(distance(S, body, motion, approach, place)) <= tolerance;
-  };
-  const auto shown = check.show([&] { return seen(S, body, motion, onCircle); });
-  const auto lies =
-      check.ask("Does your circle lie in the plane of x and y? Wanted is that of x and z.", fits(flat));
-  const auto late = check.ask("Is the point on the circle that of one step earlier?",
-                              fits([&](int t) { return onCircle(t - 1); }));
-  check.atMostAlong("distance of " + body + " from its point on the circle, in circle",
-                    distance(S, body, motion, approach, onCircle), tolerance, "m");
-}
 
 void lineOfTheHand(Check& check, Student& student) {
   check.input("man.ors, handR to (-0.2, -0.4, 1.1) in 100 steps");
@@ -527,33 +382,59 @@ Simulator bentArm(Rng& rng) {
   return S;
 }
 
-// Each posture follows from the one before by alpha times the best step; nothing else is checked.
-void stepsFollowOneAnother(Check& check, Student& student, const Simulator& S,
-                           const Eigen::Vector3d& target) {
-  Rng& rng = check.rng();
-  const double alpha = rng.uniform(0.1, 1), sigma = rng.uniform(0.01, 0.3);
-  const Motion motion = student.smallSteps(S.description(), "peg", target, alpha, sigma, 12);
-  checkPostures(check, motion, 12, S.getJointDimension());
+// Each posture follows from the one before by alpha times the best step to its target; nothing else is
+// checked.
+void stepsFollowOneAnother(Check& check, const std::string& function, const Simulator& S,
+                           const Motion& motion, const Place& target, double alpha, double sigma) {
   Simulator before = S;
-  for (const Eigen::VectorXd& q : motion) {
-    const Eigen::Vector3d dy = target - before.kinematicsPos("peg");
+  for (int t = 1; t <= static_cast<int>(motion.size()); ++t) {
+    const Eigen::VectorXd& q = motion[static_cast<std::size_t>(t) - 1];
+    const Eigen::Vector3d dy = target(t) - before.kinematicsPos("peg");
     if (dy.norm() < 1e-4) break;  // from here on the difference of two postures is mostly rounding
-    isTheMinimum(check, (q - before.getJointAngles()) / alpha, before.jacobianPos("peg"), dy, sigma);
+    isTheMinimum(check, "step from one posture to the next in " + function,
+                 (q - before.getJointAngles()) / alpha, before.jacobianPos("peg"), dy, sigma);
     before.setJointAngles(q);
   }
+}
+
+void stepsToATarget(Check& check, Student& student, const Simulator& S, const Eigen::Vector3d& target) {
+  const double alpha = check.rng().uniform(0.1, 1), sigma = check.rng().uniform(0.01, 0.3);
+  const Motion motion = student.smallSteps(S.description(), "peg", target, alpha, sigma, 12);
+  checkPostures(check, motion, 12, S.getJointDimension());
+  stepsFollowOneAnother(
+      check, "smallSteps", S, motion, [&](int) { return target; }, alpha, sigma);
+}
+
+// Full steps with another sigma, along the line and around the circle.
+void stepsOfTheLine(Check& check, Student& student, const Simulator& S, const Eigen::Vector3d& target) {
+  const double sigma = check.rng().uniform(0.05, 0.3);
+  const Eigen::Vector3d first = S.kinematicsPos("peg");
+  const Motion motion = student.straightLine(S.description(), "peg", target, sigma, 20);
+  checkPostures(check, motion, 20, S.getJointDimension());
+  const Place onLine = [&](int t) -> Eigen::Vector3d { return first + t / 20. * (target - first); };
+  stepsFollowOneAnother(check, "straightLine", S, motion, onLine, 1, sigma);
+}
+
+void stepsOfTheCircle(Check& check, Student& student, const Simulator& S, const Eigen::Vector3d& center) {
+  const double sigma = check.rng().uniform(0.05, 0.3);
+  const Motion motion = student.circle(S.description(), "peg", center, 0.1, sigma, 20);
+  checkPostures(check, motion, 20, S.getJointDimension());
+  const Place onCircle = [&](int t) -> Eigen::Vector3d {
+    return center + 0.1 * Eigen::Vector3d(std::cos(t / 20.), 0, std::sin(t / 20.));
+  };
+  stepsFollowOneAnother(check, "circle", S, motion, onCircle, 1, sigma);
 }
 
 void motionsOfAnotherRobot(Check& check, Student& student) {
   check.forEachCase(8, [&](int i) {
     const Simulator S = bentArm(check.rng());
-    const Eigen::Vector3d place = S.kinematicsPos("peg");
-    if (i < 2) {
-      stepsFollowOneAnother(check, student, S, place + 0.3 * randomDirection(check.rng()));
-    } else if (i < 5) {
-      followsTheLine(check, student, S, "peg", place + 0.3 * randomDirection(check.rng()), 60 + 10 * i, 1e-3);
-    } else {
-      followsTheCircle(check, student, S, "peg", place - Eigen::Vector3d(0.1, 0, 0), 0.1, 130, 10, 1e-3);
-    }
+    const Eigen::Vector3d place = S.kinematicsPos("peg"), center = place - Eigen::Vector3d(0.1, 0, 0);
+    const Eigen::Vector3d target = place + 0.3 * randomDirection(check.rng());
+    if (i < 2) stepsToATarget(check, student, S, target);
+    if (i == 2) stepsOfTheLine(check, student, S, target);
+    if (i == 3 || i == 4) followsTheLine(check, student, S, "peg", target, 60 + 10 * i, 1e-3);
+    if (i == 5) stepsOfTheCircle(check, student, S, center);
+    if (i > 5) followsTheCircle(check, student, S, "peg", center, 0.1, 130, 10, 1e-3);
   });
 }
 // </hidden>
