@@ -5,18 +5,12 @@
 
 #include "exercise.h"
 #include "grading/check.h"
+#include "grading/evidence_parts.h"
 #include "interface.h"
+#include "planning/phase_space.h"
+#include "tree_checks.h"
 
-// What motions with the least effort must satisfy.
-
-/// Integral by Simpson's rule, exact for cubics, with f at 21 times from 0 to T.
-template <class F>
-double integral(double T, const F& f) {
-  const int n = 20;
-  double sum = 0;
-  for (int i = 0; i <= n; ++i) sum += (i == 0 || i == n ? 1 : i % 2 == 1 ? 4 : 2) * f(i);
-  return sum * T / (3 * n);
-}
+// Part 6: motions with the least effort, against the library's; there is exactly one such motion.
 
 struct Transfer {
   Eigen::Vector2d from, to;
@@ -27,27 +21,116 @@ inline Transfer randomTransfer(rex::Rng& rng) {
   return {rng.uniformVector(2, -3, 3), rng.uniformVector(2, -3, 3), rng.uniform(0.5, 4)};
 }
 
-/// The force must bring the point there, with the least effort. Pushes at three consecutive times in
-/// proportion to 1, -2 and 1 change neither the final velocity nor the final position, so that none of them
-/// may change the effort to first order. All changes of the force that keep the final state are sums of
-/// these.
-inline void leastEffortIsRight(rex::grading::Check& check, Student& student, const Transfer& x) {
-  const double T = x.T;
-  std::vector<double> u;
-  for (int i = 0; i <= 20; ++i) u.push_back(student.forceAt(x.from, x.to, T, T * i / 20));
-  const auto at = [&](int i) { return u[static_cast<std::size_t>(i)]; };
-  // From the wanted force at both ends; in between it is a straight line.
-  const double way = x.to[0] - x.from[0];
-  const double scale = 1 + std::abs(6 * way - 2 * T * (2 * x.from[1] + x.to[1])) / (T * T) +
-                       std::abs(6 * way - 2 * T * (x.from[1] + 2 * x.to[1])) / (T * T);
-  check.near("final velocity under that force", x.from[1] + integral(T, at), x.to[1], 1e-8 * scale, "m/s");
-  check.near("final position under that force",
-             x.from[0] + T * x.from[1] + integral(T, [&](int i) { return T * (1 - i / 20.) * at(i); }),
-             x.to[0], 1e-8 * scale * T, "m");
-  const double needed = integral(T, [&](int i) { return at(i) * at(i); });
-  check.near("effort against the integral of the squared force", student.effort(x.from, x.to, T), needed,
-             1e-8 * scale * scale * T, "N^2 s");
-  for (int i = 1; i < 20; ++i)
-    check.near("change of the effort by pushes that keep the final state", at(i - 1) - 2 * at(i) + at(i + 1),
-               0, 4e-8 * scale, "N");
+/// The force at 21 times of the motion.
+inline void forceFits(rex::grading::Check& check, Student& student, const Transfer& x) {
+  constexpr int kPieces = 20;
+  rex::grading::Signal got{.axis = "time [s]"};
+  std::vector<Eigen::VectorXd> wanted;
+  bool isBack = true, isOpposite = true, isConstant = true;
+  for (int i = 0; i <= kPieces; ++i) {
+    const double t = x.T * i / kPieces;
+    got.add(t, student.forceAt(x.from, x.to, x.T, t));
+    wanted.emplace_back(Eigen::VectorXd::Constant(1, rex::leastEffortForce(x.from, x.to, x.T, t)));
+  }
+  const double first = wanted.front()[0], last = wanted.back()[0],
+               scale = 1e-8 * (1 + std::abs(first) + std::abs(last));
+  for (std::size_t i = 0; i <= kPieces; ++i) {
+    isBack = isBack && std::abs(got.values[i][0] - wanted[kPieces - i][0]) <= scale;
+    isOpposite = isOpposite && std::abs(got.values[i][0] + wanted[i][0]) <= scale;
+    isConstant = isConstant && std::abs(got.values[i][0] - got.values[0][0]) <= scale;
+  }
+  const auto back = check.ask("Is it the force at T - t? A push at time t moves the end by T - t.", isBack);
+  const auto opposite = check.ask("Has the force the opposite sign?", isOpposite);
+  const auto constant = check.ask("Is the force the same all the time? It changes linearly.", isConstant);
+  const auto noDrift = check.ask(
+      "Is the drift T v left out? Without any force the point does not stay where it is.",
+      std::abs(got.values[0][0] -
+               rex::leastEffortForce(x.from + Eigen::Vector2d(-x.T * x.from[1], 0), x.to, x.T, 0)) <= scale);
+  check.nearAlong("force of forceAt", got, wanted, scale, "N");
+}
+
+inline void effortFits(rex::grading::Check& check, Student& student, const Transfer& x) {
+  check.input("a motion", {{"from", x.from}, {"to", x.to}, {"T", x.T}});
+  forceFits(check, student, x);
+  const Eigen::Vector2d along = x.to - x.from, missing = along - Eigen::Vector2d(x.T * x.from[1], 0);
+  const double wanted = rex::leastEffort(x.from, x.to, x.T), u = rex::leastEffortForce(x.from, x.to, x.T, 0);
+  const auto number = [&](const char* question, double value) {
+    return suspectNumber(check, question, value);
+  };
+  const char* const euclid = "Is it the length of the difference? What looks near may need much effort.";
+  const auto length = number(euclid, along.norm()), square = number(euclid, along.squaredNorm()),
+             overTime = number(euclid, along.squaredNorm() / x.T);
+  const auto noDrift =
+      number("Is the drift T v left out? Without any force the point does not stay where it is.",
+             rex::leastEffort(x.from - Eigen::Vector2d(x.T * x.from[1], 0), x.to, x.T));
+  const auto root = number("Is it the root? The effort is the integral of u^2.", std::sqrt(wanted));
+  const auto other = number("Are `from` and `to` exchanged?", rex::leastEffort(x.to, x.from, x.T));
+  const auto half = number("Is it half of the integral?", wanted / 2);
+  const auto constant = number("Is it u^2 T for the first u? The force changes with time.", u * u * x.T);
+  const auto unweighted = number("Is G^-1 left out? The effort is d^T G^-1 d.", missing.squaredNorm());
+  check.near("effort", student.effort(x.from, x.to, x.T), wanted, 1e-8 * (1 + wanted + u * u * x.T), "N^2 s");
+}
+
+/// States, the motion that is wanted from one of them, and the step that was returned.
+inline rex::grading::Evidence phaseSeen(const Eigen::Matrix2Xd& states, const Transfer& x, double tau,
+                                        const PhaseNode& got, int wanted) {
+  rex::Series motion = rex::grading::wantedCurve("wanted");
+  for (int i = 0; i <= 50; ++i) {
+    const Eigen::Vector2d at = rex::leastEffortState(states.col(wanted), x.to, x.T, tau * i / 50);
+    motion.x.push_back(at[0]);
+    motion.y.push_back(at[1]);
+  }
+  const auto dots = [](const Eigen::Matrix2Xd& points, const char* label, rex::Marker marker,
+                       rex::Color color) {
+    return rex::grading::through(
+        points.colwise(),
+        rex::Series{
+            .label = label, .style = rex::SeriesStyle::kPoints, .marker = marker, .size = 2, .color = color});
+  };
+  rex::Figure figure{.title = "A step in phase space",
+                     .xLabel = "position [m]",
+                     .yLabel = "velocity [m/s]",
+                     .legend = rex::Legend::kOutside};
+  figure.series = {dots(states, "states", rex::Marker::kDot, {.5f, .5f, .5f}), motion,
+                   dots(x.to, "target", rex::Marker::kCross, {0, 0, 0})};
+  if (got.parent >= 0 && got.parent < states.cols()) {
+    Eigen::Matrix2Xd ends(2, 2);
+    ends << states.col(got.parent), got.x;
+    figure.series.push_back(rex::grading::through(ends.colwise(), rex::grading::gotCurve("got")));
+  }
+  return {.figures = {figure}};
+}
+
+/// A step of tau seconds from the state that needs the least effort.
+inline void phaseStepFits(rex::grading::Check& check, Student& student,
+                          const std::vector<Eigen::Vector2d>& states, const Transfer& x, double tau) {
+  std::size_t best = 0, nearest = 0;
+  Eigen::Matrix2Xd columns(2, static_cast<Eigen::Index>(states.size()));
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    columns.col(static_cast<Eigen::Index>(k)) = states[k];
+    if (rex::leastEffort(states[k], x.to, x.T) < rex::leastEffort(states[best], x.to, x.T)) best = k;
+    if ((states[k] - x.to).norm() < (states[nearest] - x.to).norm()) nearest = k;
+  }
+  check.input(states.size() == 1 ? "a step from one state" : "a step from one of several states",
+              {{"states, in columns", columns}, {"target", x.to}, {"T", x.T}, {"tau", tau}});
+  const PhaseNode node = student.phaseStep(states, x.to, x.T, tau);
+  const Eigen::Vector2d& from = states[best];
+  const auto shown = check.show([&] { return phaseSeen(columns, x, tau, node, static_cast<int>(best)); });
+  {
+    const auto metric =
+        suspectNumber(check, "Is it the nearest state in the picture? Wanted is that with the least effort.",
+                      static_cast<double>(nearest));
+    check.near("parent of phaseStep: the number of the state", node.parent, static_cast<double>(best), 0);
+  }
+  const double u = rex::leastEffortForce(from, x.to, x.T, 0);
+  const auto constant =
+      check.suspect("Is the force constant during the step? It changes linearly.",
+                    Eigen::Vector2d(from[0] + tau * from[1] + tau * tau / 2 * u, from[1] + tau * u));
+  const auto euler = check.suspect("Is it one step of Euler's method? The motion is known exactly.",
+                                   Eigen::Vector2d(from[0] + tau * from[1], from[1] + tau * u));
+  const auto drift =
+      check.suspect("Is the force left out?", Eigen::Vector2d(from[0] + tau * from[1], from[1]));
+  const auto whole = check.suspect("Is it the whole motion? Wanted is the state after tau seconds.", x.to);
+  const Eigen::Vector2d wanted = rex::leastEffortState(from, x.to, x.T, tau);
+  check.near("state x of phaseStep", node.x, wanted, 1e-8 * (1 + x.T * x.T));
 }

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "exercise.h"
 #include "grading/check.h"
@@ -20,8 +23,15 @@ class EdgeRecord {
   EdgeTest test() {
     return [this](const Eigen::VectorXd& qa, const Eigen::VectorXd& qb) { return ask(qa, qb); };
   }
+  bool wasAsked(const Eigen::VectorXd& qa, const Eigen::VectorXd& qb) const {
+    return answers_.count(key(qa, qb)) > 0 || answers_.count(key(qb, qa)) > 0;
+  }
   bool wasFree(const Eigen::VectorXd& qa, const Eigen::VectorXd& qb) const {
-    return free_.count(key(qa, qb)) > 0 || free_.count(key(qb, qa)) > 0;
+    const auto isFree = [&](const std::vector<double>& both) {
+      const auto found = answers_.find(both);
+      return found != answers_.end() && found->second;
+    };
+    return isFree(key(qa, qb)) || isFree(key(qb, qa));
   }
   bool isMalformed() const { return malformed_; }
 
@@ -36,78 +46,151 @@ class EdgeRecord {
   bool ask(const Eigen::VectorXd& qa, const Eigen::VectorXd& qb) {
     const bool fits = qa.size() == size_ && qb.size() == size_ && qa.allFinite() && qb.allFinite();
     malformed_ = malformed_ || !fits;
-    if (!fits || ++asked_ > kMost || !isFree_(qa, qb)) return false;
-    free_.insert(key(qa, qb));
-    return true;
+    if (!fits || ++asked_ > kMost) return false;
+    return answers_[key(qa, qb)] = isFree_(qa, qb);
   }
 
   EdgeTest isFree_;
   int size_;
   long asked_ = 0;
   bool malformed_ = false;
-  std::set<std::vector<double>> free_;
+  std::map<std::vector<double>, bool> answers_;
 };
 
-inline void askedWell(rex::grading::Check& check, const EdgeRecord& record) {
-  check.that("edgeFree is asked about configurations of the right size, with finite numbers",
+/// A requirement at a place, which the input names if it does not hold.
+inline void holdsAt(rex::grading::Check& check, const std::string& property, bool holds,
+                    const std::string& where) {
+  if (!holds) check.input(check.input() + ", " + where);
+  check.that(property, holds);
+}
+
+inline void askedWell(rex::grading::Check& check, const std::string& function, const EdgeRecord& record) {
+  check.that(function + " calls edgeFree with configurations of the right size, with finite numbers",
              !record.isMalformed());
 }
 
+/// "from node 3 at (0.1, 0.2) to node 7 at (0.2, 0.2)"; joint angles are left out.
+inline std::string nameOfEdge(const std::string& what, std::size_t i, const Eigen::VectorXd& qa,
+                              std::size_t k, const Eigen::VectorXd& qb) {
+  const auto at = [](const Eigen::VectorXd& q) {
+    return q.size() == 2 ? fmt::format(" at ({:.6g}, {:.6g})", q[0], q[1]) : "";
+  };
+  return fmt::format("from {0} {1}{2} to {0} {3}{4}", what, i, at(qa), k, at(qb));
+}
+
+inline const char* unitOf(const Eigen::VectorXd& q) { return q.size() == 2 ? "m" : "rad"; }
+
 /// Root, sizes, and parents that lead to the root; `inOrder`: they come before their children.
-inline void isTree(rex::grading::Check& check, const Tree& tree, const Eigen::VectorXd& root, bool inOrder) {
-  check.that("the tree has nodes", !tree.nodes.empty());
-  check.near("number of parents", static_cast<double>(tree.parents.size()),
-             static_cast<double>(tree.nodes.size()), 0);
-  for (const Eigen::VectorXd& q : tree.nodes) check.shape("node", q, root.size(), 1);
-  check.near("the root", tree.nodes[0], root, 0);
+inline void isTree(rex::grading::Check& check, const std::string& function, const Tree& tree,
+                   const Eigen::VectorXd& root, bool inOrder) {
   const int count = static_cast<int>(tree.nodes.size());
-  check.near("parent of the root", tree.parents[0], -1, 0);
+  check.atLeast("number of nodes in the tree of " + function, count, 1);
+  check.near("number of parents in the tree of " + function, static_cast<double>(tree.parents.size()), count,
+             0);
+  for (const Eigen::VectorXd& q : tree.nodes)
+    check.shape("a node in the tree of " + function, q, root.size(), 1);
+  check.near("root of the tree of " + function, tree.nodes[0], root, 0);
+  check.near("parent of the root of " + function, tree.parents[0], -1, 0);
   for (int i = 1; i < count; ++i) {
     const int parent = tree.parents[static_cast<std::size_t>(i)];
-    check.that("every other node has a parent in the tree", parent >= 0 && parent < count);
-    if (inOrder) check.that("a parent comes before its children", parent < i);
+    const std::string where =
+        parent >= 0 && parent < count ? "" : fmt::format("node {} has parent {}", i, parent);
+    holdsAt(check, "every node in the tree of " + function + " but the root has a parent there",
+            where.empty(), where);
+    if (inOrder && parent >= i)
+      holdsAt(check, "parents in the tree of " + function + " come before their children", false,
+              fmt::format("node {} has parent {}", i, parent));
   }
   for (int i = 0; i < count && !inOrder; ++i) {
     int steps = 0;
     for (int at = i; at > 0 && steps <= count; ++steps) at = tree.parents[static_cast<std::size_t>(at)];
-    check.that("parents lead to the root", steps <= count);
+    check.that("parents in the tree of " + function + " lead to the root", steps <= count);
   }
 }
 
-/// No edge is longer than a step; each was tested, and is free according to the grader itself.
-inline void edgesAreSound(rex::grading::Check& check, const Tree& tree, double stepSize,
-                          const EdgeRecord& record, const EdgeTest& isFree) {
-  for (std::size_t i = 1; i < tree.nodes.size(); ++i) {
-    const Eigen::VectorXd &qa = tree.nodes[static_cast<std::size_t>(tree.parents[i])], &qb = tree.nodes[i];
-    check.atMost("length of an edge of the tree", (qb - qa).norm(), stepSize + 1e-9);
-    check.that("edgeFree was called for every edge of the tree and returned true", record.wasFree(qa, qb));
-    check.that("every edge of the tree is free", isFree(qa, qb));
+/// While the returned objects are alive, failures ask how an edge was tested.
+[[nodiscard]] inline auto askAboutEdge(rex::grading::Check& check, const EdgeRecord& record,
+                                       const Eigen::VectorXd& qa, const Eigen::VectorXd& qb) {
+  const char* question = record.wasFree(qa, qb)    ? ""
+                         : record.wasAsked(qa, qb) ? "Is the answer of edgeFree ignored?"
+                         : record.wasAsked(qb, qb)
+                             ? "Is only the new node tested? What lies between two free nodes may be blocked."
+                             : "Was edgeFree never asked about it?";
+  return check.ask(question, *question != '\0');
+}
+
+/// No edge is longer than a step; each is free according to the grader itself, and was tested. `seen` shows
+/// the edge to a node.
+template <class Seen>
+void edgesAreSound(rex::grading::Check& check, const std::string& function, const Tree& tree, double stepSize,
+                   const EdgeRecord& record, const EdgeTest& isFree, const Seen& seen) {
+  std::size_t here = 1;
+  const auto shown = check.show([&] { return seen(here); });
+  for (; here < tree.nodes.size(); ++here) {
+    const auto parent = static_cast<std::size_t>(tree.parents[here]);
+    const Eigen::VectorXd &qa = tree.nodes[parent], &qb = tree.nodes[here];
+    const double length = (qb - qa).norm();
+    const bool free = isFree(qa, qb), asked = record.wasFree(qa, qb);
+    const std::string where =
+        free && asked && length <= stepSize ? "" : nameOfEdge("node", parent, qa, here, qb);
+    const std::string input = check.input();
+    if (length > stepSize + 1e-9) check.input(input + ", " + where);
+    check.atMost("length of an edge in the tree of " + function, length, stepSize + 1e-9, unitOf(qa));
+    if (free && asked) continue;
+    const auto how = askAboutEdge(check, record, qa, qb);
+    holdsAt(check, "every edge in the tree of " + function + " is free", free, where);
+    holdsAt(check, "edgeFree was called for every edge in the tree of " + function + " and returned true",
+            asked, where);
   }
+}
+
+inline void endsFit(rex::grading::Check& check, const std::string& function, const Path& path,
+                    const Eigen::VectorXd& start, const Eigen::VectorXd& goal) {
+  const bool begins = path.front() == start, ends = path.back() == goal;
+  const auto reversed = check.ask("Does the path lead from the goal to the start? Wanted is the opposite.",
+                                  path.front() == goal && path.back() == start);
+  const auto noStart = check.ask("Is the start missing?", ends && !begins && path.size() > 2);
+  const auto noGoal = check.ask("Is the goal missing?", begins && !ends && path.size() > 2);
+  check.near("first configuration in the path of " + function, path.front(), start, 0, unitOf(start));
+  check.near("last configuration in the path of " + function, path.back(), goal, 0, unitOf(start));
 }
 
 /// From start to goal, in steps, over free edges.
-inline void pathIsSound(rex::grading::Check& check, const Path& path, const Eigen::VectorXd& start,
-                        const Eigen::VectorXd& goal, double stepSize, const EdgeTest& isFree) {
-  check.that("a path is found", path.size() >= 2);
-  for (const Eigen::VectorXd& q : path) check.shape("configuration of the path", q, start.size(), 1);
-  check.near("first configuration of the path", path.front(), start, 0);
-  check.near("last configuration of the path", path.back(), goal, 0);
+inline void pathIsSound(rex::grading::Check& check, const std::string& function, const Path& path,
+                        const Eigen::VectorXd& start, const Eigen::VectorXd& goal, double stepSize,
+                        const EdgeRecord& record, const EdgeTest& isFree) {
+  check.that(function + " finds a path", path.size() >= 2);
+  for (const Eigen::VectorXd& q : path)
+    check.shape("a configuration in the path of " + function, q, start.size(), 1);
+  endsFit(check, function, path, start, goal);
+  rex::grading::Signal lengths{.axis = "piece"};
+  for (std::size_t i = 1; i < path.size(); ++i)
+    lengths.add(static_cast<double>(i), (path[i] - path[i - 1]).norm());
+  check.atMostAlong("lengths of the pieces in the path of " + function, lengths, stepSize + 1e-9,
+                    unitOf(start));
   for (std::size_t i = 1; i < path.size(); ++i) {
-    check.atMost("length of a piece of the path", (path[i] - path[i - 1]).norm(), stepSize + 1e-9);
-    check.that("every piece of the path is free", isFree(path[i - 1], path[i]));
+    if (isFree(path[i - 1], path[i])) continue;
+    const auto how = askAboutEdge(check, record, path[i - 1], path[i]);
+    holdsAt(check, "every piece in the path of " + function + " is free", false,
+            nameOfEdge("configuration", i - 1, path[i - 1], i, path[i]));
   }
 }
 
 /// Every configuration of a path is a node of a tree, and none appears twice in a row.
-inline void pathIsOfTrees(rex::grading::Check& check, const Path& path, const std::vector<Tree>& trees) {
-  for (const Eigen::VectorXd& q : path) {
+inline void pathIsOfTrees(rex::grading::Check& check, const std::string& function, const Path& path,
+                          const std::vector<Tree>& trees) {
+  for (std::size_t i = 0; i < path.size(); ++i) {
     bool found = false;
     for (const Tree& tree : trees)
-      found = found || std::find(tree.nodes.begin(), tree.nodes.end(), q) != tree.nodes.end();
-    check.that("the path consists of nodes of the tree", found);
+      found = found || std::find(tree.nodes.begin(), tree.nodes.end(), path[i]) != tree.nodes.end();
+    holdsAt(check, "the path of " + function + " consists of nodes of its tree", found,
+            fmt::format("configuration {} of the path", i));
   }
-  check.that("no configuration appears twice in a row",
-             std::adjacent_find(path.begin(), path.end()) == path.end());
+  const auto twice = std::adjacent_find(path.begin(), path.end());
+  const auto meeting =
+      check.ask("Is the node where the trees meet there twice? It belongs to both.", trees.size() == 2);
+  holdsAt(check, "no configuration is twice in a row in the path of " + function, twice == path.end(),
+          fmt::format("configurations {0} and {0} + 1", twice - path.begin()));
 }
 
 /// n nodes at random free positions. The parent of each is a random earlier node with a free edge to it, not
@@ -177,73 +260,38 @@ inline TreeWithWay treeAround(const Path& way, rex::Rng& rng) {
   return made;
 }
 
-inline void isPath(rex::grading::Check& check, const Path& path, const Path& wanted) {
-  check.near("number of configurations", static_cast<double>(path.size()), static_cast<double>(wanted.size()),
-             0);
+/// The wanted configurations, one after the other.
+inline void isPath(rex::grading::Check& check, const std::string& function, const Path& path,
+                   const Path& wanted) {
+  const Path reversed(path.rbegin(), path.rend());
+  const auto order = check.ask("Is the path in the reverse order?", reversed == wanted && path != wanted);
+  const auto isPart = [&](auto begin, auto end) { return path == Path(begin, end); };
+  const auto noFirst =
+      check.ask("Is the first configuration missing?", isPart(wanted.begin() + 1, wanted.end()));
+  const auto noLast =
+      check.ask("Is the last configuration missing?", isPart(wanted.begin(), wanted.end() - 1));
+  const auto twice = check.ask("Is a configuration there twice in a row?",
+                               std::adjacent_find(path.begin(), path.end()) != path.end());
+  check.near("number of configurations in the path of " + function, static_cast<double>(path.size()),
+             static_cast<double>(wanted.size()), 0);
   for (std::size_t i = 0; i < path.size(); ++i)
-    check.near("configuration " + std::to_string(i) + " of the path", path[i], wanted[i], 0);
+    check.near(fmt::format("configuration {} in the path of {}", i, function), path[i], wanted[i], 0, "m");
 }
 
-/// All nodes within `reach` of q, in random order.
-inline std::vector<int> nodesNear(const Tree& tree, const Eigen::VectorXd& q, double reach, rex::Rng& rng) {
-  std::vector<int> near;
-  for (std::size_t i = 0; i < tree.nodes.size(); ++i)
-    if ((tree.nodes[i] - q).norm() <= reach) near.push_back(static_cast<int>(i));
-  for (int i = static_cast<int>(near.size()) - 1; i > 0; --i)
-    std::swap(near[static_cast<std::size_t>(i)], near[static_cast<std::size_t>(rng.index(i + 1))]);
-  return near;
+/// The nodes in the columns.
+inline Eigen::MatrixXd nodesOf(const std::vector<Eigen::VectorXd>& nodes) {
+  Eigen::MatrixXd columns(nodes.empty() ? 0 : nodes[0].size(), static_cast<Eigen::Index>(nodes.size()));
+  for (std::size_t i = 0; i < nodes.size(); ++i) columns.col(static_cast<Eigen::Index>(i)) = nodes[i];
+  return columns;
 }
 
-/// Whether a node of the tree would be reached at less cost through another, over a free edge.
-inline bool gains(const PlaneWorld& world, const Tree& tree, int one, int through) {
-  const auto i = static_cast<std::size_t>(one), by = static_cast<std::size_t>(through);
-  const Eigen::VectorXd &q = tree.nodes[i], &via = tree.nodes[by];
-  return tree.costs[by] + (q - via).norm() < tree.costs[i] - 1e-9 && wayIsFree(world, via, q);
+inline Eigen::VectorXd numbersOf(const std::vector<int>& numbers) {
+  Eigen::VectorXd column(static_cast<Eigen::Index>(numbers.size()));
+  for (std::size_t i = 0; i < numbers.size(); ++i) column[static_cast<Eigen::Index>(i)] = numbers[i];
+  return column;
 }
 
-/// The share of the total cost of all nodes that would be saved if each took the best parent at most `reach`
-/// away.
-inline double leftToGain(const PlaneWorld& world, const Tree& tree, double reach) {
-  double gain = 0, sum = 0;
-  for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
-    double best = tree.costs[i];
-    sum += best;
-    for (std::size_t k = 0; k < tree.nodes.size(); ++k) {
-      const double way = (tree.nodes[i] - tree.nodes[k]).norm(), cost = tree.costs[k] + way;
-      if (way <= reach && cost < best && wayIsFree(world, tree.nodes[k], tree.nodes[i])) best = cost;
-    }
-    gain += tree.costs[i] - best;
-  }
-  return gain / sum;
-}
-
-/// The share of free positions with a node at most `reach` away.
-inline double shareReached(const PlaneWorld& world, const Tree& tree, double reach, rex::Rng& rng) {
-  int free = 0, reached = 0;
-  while (free < 200) {
-    const Eigen::VectorXd place = rng.uniformVector(2, 0, 1);
-    if (!wayIsFree(world, place, place)) continue;
-    ++free;
-    const auto nearest = static_cast<std::size_t>(nearestOf(tree.nodes, place));
-    if ((tree.nodes[nearest] - place).norm() <= reach) ++reached;
-  }
-  return 1. * reached / free;
-}
-
-/// What holds for the tree of RRT*, but not for a short path alone. Over 900 seeds the reference solution has
-/// at least 0.7 nodes per sample, with one near every position, and reaches the goal within 0.6 of the
-/// samples. Better parents would save at most 0.002 of the costs, but at least 0.045 if nothing is rewired.
-inline void growsWhileItImproves(rex::grading::Check& check, const StarSearch& search,
-                                 const PlaneWorld& world, const SearchSettings& settings) {
-  check.atLeast("number of nodes per sample",
-                static_cast<double>(search.tree.nodes.size()) / settings.maxSamples, 1. / 3);
-  check.atLeast("share of the free positions with a node within a step",
-                shareReached(world, search.tree, settings.stepSize, check.rng()), 0.95);
-  check.atMost("share of the cost of all nodes that better parents within a step would save",
-               leftToGain(world, search.tree, settings.stepSize), 0.01);
-  const double early = search.best[static_cast<std::size_t>(0.9 * settings.maxSamples)];
-  check.that("the goal is reached before the last tenth of the samples", early < 1e9);
-  const auto first =
-      std::find_if(search.best.begin(), search.best.end(), [](double cost) { return cost < 1e9; });
-  check.that("the cost of the goal falls after it is first reached", *first > search.best.back());
+/// While the returned object is alive, that wrong number asks the question.
+[[nodiscard]] inline auto suspectNumber(rex::grading::Check& check, const char* question, double value) {
+  return check.suspect(question, Eigen::MatrixXd::Constant(1, 1, value));
 }

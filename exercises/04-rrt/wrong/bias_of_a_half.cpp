@@ -1,4 +1,5 @@
-// caught by: backward-worlds
+// caught by: backward-plane, backward-worlds
+// shown by: backward-plane
 // mistake: a hard-coded bias.
 
 // <solution growBackward>
