@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <tuple>
 
@@ -83,7 +84,7 @@ void plotMap(const std::string& name, const std::string& title, const std::vecto
   for (Series& series : map.series)
     if (series.label == "particles") series.values = steps;
   map.colorLabel = "step";
-  map.colorRange = AxisRange{0, 360};
+  map.colorRange = AxisRange{0, kSteps};
   map.legend = Legend::kBottomLeft;
   map.xRange = AxisRange{-14, 20};
   map.yRange = AxisRange{-3, 25};
@@ -108,7 +109,7 @@ void film(const std::string& name, const std::string& caption, const std::vector
 }  // namespace
 
 RecordedDrive recordDrive(const CarWorld& world, const Eigen::Vector2d& u) {
-  CarSimulator car(1, static_cast<int>(world.landmarks.cols()),
+  CarSimulator car(9, static_cast<int>(world.landmarks.cols()),
                    {.observationNoise = world.observationNoise,
                     .rangeBearing = world.rangeBearing,
                     .bearingNoise = world.bearingNoise});
@@ -210,7 +211,7 @@ void showAssumptions(const RecordedDrive& drive, const CarWorld& world) {
                .yLabel = "effective size",
                .logY = true,
                .legend = Legend::kOutside};
-  Figure weights{.title = "Weights in step 150, sorted",
+  Figure weights{.title = "Weights, sorted in each step, on average over all steps",
                  .xLabel = "rank of the particle",
                  .yLabel = "weight",
                  .logY = true,
@@ -220,10 +221,14 @@ void showAssumptions(const RecordedDrive& drive, const CarWorld& world) {
     guessed.observationNoise *= factor;
     const std::string label = factor > 1 ? "10 sigma" : factor < 1 ? "sigma / 10" : "sigma";
     const std::vector<Cloud> clouds = filtered(drive.log, guessed);
-    std::vector<double> size, sorted;
-    for (const Cloud& cloud : clouds) size.push_back(effectiveSize(cloud.weights));
-    for (const double weight : clouds[150].weights) sorted.push_back(std::max(weight, 1e-9));
-    std::sort(sorted.rbegin(), sorted.rend());
+    std::vector<double> size, sorted(100, 1e-9);
+    for (const Cloud& cloud : clouds) {
+      size.push_back(effectiveSize(cloud.weights));
+      Eigen::VectorXd ordered = cloud.weights;
+      std::sort(ordered.begin(), ordered.end(), std::greater<>());
+      for (Eigen::Index i = 0; i < std::min<Eigen::Index>(100, ordered.size()); ++i)
+        sorted[static_cast<std::size_t>(i)] += ordered[i] / kSteps;
+    }
     errors.series.push_back({.label = label, .y = errorsOf(meansOf(clouds), drive.truth)});
     sizes.series.push_back({.label = label, .y = size});
     weights.series.push_back({.label = label, .y = sorted, .style = SeriesStyle::kLinesPoints, .size = 0.7});

@@ -1,0 +1,218 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cloud_evidence.h"
+#include "drives.h"
+#include "grading/check.h"
+#include "interface.h"
+#include "resampling_checks.h"
+
+// Part 1: the motion of the car and of its particles, against the library's.
+
+/// While the returned object is alive, that wrong number asks the question.
+[[nodiscard]] inline auto suspectNumber(rex::grading::Check& check, const char* question, double value) {
+  return check.suspect(question, Eigen::MatrixXd::Constant(1, 1, value));
+}
+
+inline void positionFits(rex::grading::Check& check, const Eigen::Vector2d& got, const Eigen::Vector3d& x,
+                         double speed, double tau, double turn, const Eigen::Vector2d& wanted) {
+  const double way = tau * speed, c = std::cos(x[2]), s = std::sin(x[2]);
+  const auto wrongly = [&](const char* question, double alongX, double alongY) {
+    return check.suspect(question, Eigen::Vector2d(x[0] + alongX, x[1] + alongY));
+  };
+  const auto still = wrongly("Does the car stay where it is?", 0, 0);
+  const auto turned = wrongly("Does the car turn first? All terms use the heading before the step.",
+                              way * std::cos(x[2] + turn), way * std::sin(x[2] + turn));
+  const auto middle =
+      wrongly("Is it the heading in the middle of the step? All terms use that before the step.",
+              way * std::cos(x[2] + turn / 2), way * std::sin(x[2] + turn / 2));
+  const auto exchanged = wrongly("Are sine and cosine exchanged?", way * s, way * c);
+  const auto noTau = wrongly("Is tau left out?", speed * c, speed * s);
+  const auto noState = wrongly("Is it the motion alone, without the position before the step?",
+                               way * c - x[0], way * s - x[1]);
+  const auto back = wrongly("Does the car drive backwards?", -way * c, -way * s);
+  check.near("position after a step of carStep", got, wanted, 1e-9, "m");
+}
+
+inline void headingFits(rex::grading::Check& check, double got, double heading, double way,
+                        const Eigen::Vector2d& u, const CarWorld& world, double wanted) {
+  const auto number = [&](const char* question, double value) {
+    return suspectNumber(check, question, value);
+  };
+  const double L = world.wheelbase, tangent = std::tan(u[1]);
+  const auto still = number("Does the heading not change?", heading);
+  const auto rate =
+      number("Is it the rate of theta? The heading changes by tau times that.", u[0] / L * tangent);
+  const auto change =
+      number("Is it the change alone, without the heading before the step?", way / L * tangent);
+  const auto noTau = number("Is tau left out?", heading + u[0] / L * tangent);
+  const auto noTangent = number("Is the tangent of the steering angle left out?", heading + way / L * u[1]);
+  const auto sine = number("Is it the sine of the steering angle? Wanted is the tangent.",
+                           heading + way / L * std::sin(u[1]));
+  const auto noBase = number("Is the wheelbase left out?", heading + way * tangent);
+  const auto times =
+      number("Is it multiplied by the wheelbase? Wanted is divided.", heading + way * L * tangent);
+  const auto other = number("Does the car turn to the wrong side?", heading - way / L * tangent);
+  check.nearAngle("heading after a step of carStep", got, wanted, 1e-9);
+}
+
+inline void stepFits(rex::grading::Check& check, Student& student, const CarWorld& world,
+                     const Eigen::Vector3d& x, const Eigen::Vector2d& u) {
+  check.input("a car", {{"x", x}, {"u", u}, {"tau", world.tau}, {"wheelbase", world.wheelbase}});
+  const Eigen::Vector3d got = student.carStep(x, u, world), wanted = mapOf(world).getMeanStateAfterStep(x, u);
+  check.shape("state after a step of carStep", got, 3, 1);
+  const double way = world.tau * u[0], turn = way / world.wheelbase * std::tan(u[1]);
+  const auto shown = check.show([&] { return stepSeen(x, got, wanted); });
+  positionFits(check, got.head<2>(), x, u[0], world.tau, turn, wanted.head<2>());
+  headingFits(check, got[2], x[2], way, u, world, wanted[2]);
+}
+
+/// Particles before and after moved(), and how the car moves them without noise.
+struct Moved {
+  Eigen::MatrixXd before, after, still;
+  Eigen::MatrixXd noise() const {
+    Eigen::MatrixXd d(3, after.cols());
+    for (Eigen::Index k = 0; k < d.cols(); ++k) d.col(k) = poseError(after.col(k), still.col(k));
+    return d;
+  }
+};
+
+/// The number of columns that fit, and whether these are only the first or only the last.
+template <class Fits>
+int countOf(Eigen::Index columns, const Fits& fits, bool& isFirst, bool& isLast) {
+  int count = 0;
+  for (Eigen::Index k = 0; k < columns; ++k) count += fits(k) ? 1 : 0;
+  isFirst = count == 1 && fits(0);
+  isLast = count == 1 && fits(columns - 1);
+  return count;
+}
+
+/// Every particle moves, and with noise.
+inline void allMove(rex::grading::Check& check, const std::string& function, const Moved& move) {
+  bool isFirst = false, isLast = false;
+  const Eigen::MatrixXd d = move.noise();
+  const auto shown = check.show([&] { return movesSeen(move.before, move.after, move.still); });
+  const int unmoved = countOf(
+      d.cols(), [&](Eigen::Index k) { return move.after.col(k) == move.before.col(k); }, isFirst, isLast);
+  {
+    const auto all = check.ask("Do no particles move?", unmoved == d.cols());
+    const auto one = check.ask(isFirst ? "Is the first particle left out?" : "Is the last particle left out?",
+                               isFirst || isLast);
+    check.near("number of particles that " + function + " leaves where they are", unmoved, 0, 0);
+  }
+  const int silent = countOf(
+      d.cols(), [&](Eigen::Index k) { return d.col(k).cwiseAbs().maxCoeff() < 1e-9; }, isFirst, isLast);
+  const auto all = check.ask("Is the noise left out?", silent == d.cols());
+  const auto one =
+      check.ask(isFirst ? "Does the first particle get no noise?" : "Does the last particle get no noise?",
+                isFirst || isLast);
+  check.near("number of particles that " + function + " moves without noise", silent, 0, 0);
+}
+
+/// Deviations of x, y and heading from their means.
+inline Eigen::Vector3d deviationsOf(const Eigen::MatrixXd& d) {
+  Eigen::Vector3d deviations;
+  const double n = static_cast<double>(d.cols());
+  for (int i = 0; i < 3; ++i) {
+    double mean = 0, square = 0;
+    for (Eigen::Index k = 0; k < d.cols(); ++k) mean += d(i, k) / n;
+    for (Eigen::Index k = 0; k < d.cols(); ++k) square += (d(i, k) - mean) * (d(i, k) - mean) / n;
+    deviations[i] = std::sqrt(square);
+  }
+  return deviations;
+}
+
+inline void widthFits(rex::grading::Check& check, const std::string& function, const Eigen::MatrixXd& d,
+                      const CarWorld& world) {
+  const double noise = world.dynamicsNoise;
+  const Eigen::Vector3d got = deviationsOf(d);
+  const auto isAll = [&](double deviation) {
+    return std::all_of(got.begin(), got.end(),
+                       [&](double one) { return std::abs(one / deviation - 1) < .04; });
+  };
+  const auto common = check.ask("Do all particles get the same noise?", got.maxCoeff() < 1e-9);
+  const auto noHeading =
+      check.ask("Does the heading get no noise?", got[2] < 1e-9 && std::min(got[0], got[1]) > 1e-9);
+  const auto noPosition =
+      check.ask("Do x and y get no noise?", std::max(got[0], got[1]) < 1e-9 && got[2] > 1e-9);
+  const auto root = check.ask("Is dynamicsNoise taken for a variance? It is a standard deviation.",
+                              isAll(std::sqrt(noise)));
+  const auto square =
+      check.ask("Is dynamicsNoise squared? It is a standard deviation.", isAll(noise * noise));
+  const auto byTau = check.ask("Is the noise multiplied by tau? It is that of a step, however long it takes.",
+                               isAll(world.tau * noise));
+  const auto byRoot =
+      check.ask("Is the noise multiplied by the root of tau? It is that of a step, however long it takes.",
+                isAll(std::sqrt(world.tau) * noise));
+  const auto none = check.ask("Is dynamicsNoise left out?", isAll(1));
+  const auto uniform = check.ask("Are the numbers uniform? Wanted are normal ones: rng.normal().",
+                                 isAll(noise / std::sqrt(3.)) || isAll(noise / std::sqrt(12.)));
+  const double n = static_cast<double>(d.cols());
+  check.near("standard deviations of the noise of " + function + " in x, y and heading", got,
+             Eigen::Vector3d::Constant(noise), kSigmas / std::sqrt(2 * n) * noise);
+}
+
+/// The noise has that width and mean zero, is normal, and its numbers are independent of each other and of
+/// those of the next particle.
+inline void noiseFits(rex::grading::Check& check, const std::string& function, const Eigen::MatrixXd& d,
+                      const CarWorld& world) {
+  const double noise = world.dynamicsNoise, n = static_cast<double>(d.cols());
+  const auto shown = check.show([&] { return noiseSeen(d, noise); });
+  widthFits(check, function, d, world);
+  check.near("means of the noise of " + function + " in x, y and heading", d.rowwise().mean(),
+             Eigen::Vector3d::Zero(), kSigmas / std::sqrt(n) * noise);
+  const Eigen::Matrix3d of = d * d.transpose() / (n * noise * noise);
+  const auto one = check.ask("Do x, y and heading get the same number?",
+                             of(0, 1) > .95 && of(0, 2) > .95 && of(1, 2) > .95);
+  check.near("correlations of the noise of " + function + ": x and y, x and heading, y and heading",
+             Eigen::Vector3d(of(0, 1), of(0, 2), of(1, 2)), Eigen::Vector3d::Zero(), kSigmas / std::sqrt(n));
+  const auto next = check.show([&] { return neighboursSeen(d, noise); });
+  const double neighbours =
+      d.leftCols(d.cols() - 1).cwiseProduct(d.rightCols(d.cols() - 1)).sum() / (3 * n * noise * noise);
+  check.near("correlation of the noise of one particle and the next in " + function, neighbours, 0,
+             kSigmas / std::sqrt(n));
+  const auto bars = check.show([&] { return densitySeen(d, noise); });
+  const double size = d.cwiseAbs().mean() / noise;
+  const auto uniform = check.ask("Are the numbers uniform? Wanted are normal ones: rng.normal().",
+                                 std::abs(size - std::sqrt(.75)) < .02);
+  check.near("mean of the absolute noise of " + function + ", over dynamicsNoise", size, std::sqrt(2 / M_PI),
+             kSigmas * .603 / std::sqrt(3 * n));
+  check.atMost("largest noise of " + function + ", over dynamicsNoise", d.cwiseAbs().maxCoeff() / noise, 8);
+}
+
+/// 3000 particles, by turns in two poses.
+inline void spreadsWell(rex::grading::Check& check, Student& student, double noise, double tau) {
+  rex::Rng& rng = check.rng();
+  CarWorld world = worldWith(2, rng);
+  world.dynamicsNoise = noise;
+  world.tau = tau;
+  const Eigen::Vector2d u(rng.uniform(0.5, 2), rng.uniform(-0.5, 0.5));
+  const Eigen::Vector3d a = randomPose(rng), b = randomPose(rng);
+  Moved move{Eigen::MatrixXd(3, 3000), {}, Eigen::MatrixXd(3, 3000)};
+  for (Eigen::Index k = 0; k < 3000; ++k) move.before.col(k) = k % 2 == 0 ? a : b;
+  check.input(
+      "3000 particles, by turns in pose a and in pose b",
+      {{"a", a}, {"b", b}, {"u", u}, {"dynamicsNoise", noise}, {"tau", tau}, {"wheelbase", world.wheelbase}});
+  const rex::CarSimulator map = mapOf(world);
+  for (Eigen::Index k = 0; k < 3000; ++k)
+    move.still.col(k) = map.getMeanStateAfterStep(move.before.col(k), u);
+  const std::uint64_t seed = rng.next(), second = rng.next();
+  move.after = student.moved(move.before, u, world, rex::Rng(seed));
+  check.shape("states of moved", move.after, 3, 3000);
+  allMove(check, "moved", move);
+  noiseFits(check, "moved", move.noise(), world);
+  const Eigen::MatrixXd other = student.moved(move.before, u, world, rex::Rng(second)),
+                        again = student.moved(move.before, u, world, rex::Rng(seed));
+  {
+    const auto own = check.ask("Does moved make a generator of its own? All randomness comes from rng.");
+    check.that("moved gives other noise with another rng", other != move.after);
+  }
+  const auto outside = check.ask("Is there other randomness, as from rand()? All randomness comes from rng.");
+  check.that("moved gives the same noise with the same rng", again == move.after);
+}
