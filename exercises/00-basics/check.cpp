@@ -1,5 +1,6 @@
 #include "grading/check.h"
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -11,6 +12,7 @@
 
 #include "belief_checks.h"
 #include "descent_checks.h"
+#include "gauss_newton_checks.h"
 #include "interface.h"
 #include "matrix_checks.h"
 
@@ -184,7 +186,8 @@ void tableOf(Check& check, Student& student, const Eigen::MatrixXd& P_XY, bool i
   const auto other = check.suspect("Is it P(Y | X)? Wanted are columns whose sum is 1.", ofX);
   check.near("P(X | Y) of jointTable", answers.XGivenY, ofY, 1e-12);
   const auto exact =
-      check.ask("Are numbers compared with ==? Rounding changes their last digits.", independent);
+      check.ask("Are numbers compared with ==, or more exactly than to within 1e-9?", independent);
+  const auto coarse = check.ask("Is every entry of the table compared, and to within 1e-9?", !independent);
   check.that(independent ? "`independent` of jointTable is true" : "`independent` of jointTable is false",
              answers.independent == independent);
 }
@@ -202,6 +205,10 @@ void tables(Check& check, Student& student) {
   tableOf(check, student, (Eigen::MatrixXd(3, 3) << .03, .03, .04, .06, .06, .08, .21, .21, .28).finished(),
           true);
   tableOf(check, student, (Eigen::MatrixXd(2, 3) << .1, .2, .1, .3, .1, .2).finished(), false);
+  // A little dependent, and not in the first row and column.
+  Eigen::MatrixXd P_XY = (Eigen::MatrixXd(3, 3) << .03, .03, .04, .06, .06, .08, .21, .21, .28).finished();
+  P_XY.bottomRightCorner(2, 2) += 1e-6 * (Eigen::Matrix2d() << 1, -1, -1, 1).finished();
+  tableOf(check, student, P_XY, false);
 }
 
 // Part 5.
@@ -353,8 +360,8 @@ void bayesElsewhere(Check& check, Student& student) {
       const Eigen::VectorXd px = rng.uniformVector(rows, 0.2, 1), py = rng.uniformVector(cols, 0.2, 1);
       Eigen::MatrixXd P_XY = px * py.transpose();
       // Keeps both marginals, so only the table itself shows that X and Y depend on each other.
-      const double change = i % 2 == 0 ? 0 : 0.02;
-      P_XY.topLeftCorner(2, 2) += change * (Eigen::Matrix2d() << 1, -1, -1, 1).finished();
+      const double change = std::array{0., 0.02, 1e-10, 1e-7}[static_cast<std::size_t>(i) - 8];
+      P_XY.bottomRightCorner(2, 2) += change * (Eigen::Matrix2d() << 1, -1, -1, 1).finished();
       tableOf(check, student, P_XY / P_XY.sum(), i % 2 == 0);
     }
   });

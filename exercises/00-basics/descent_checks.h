@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
 
 #include "grading/check.h"
 #include "grading/evidence_parts.h"
@@ -62,9 +65,10 @@ inline double angleOf(const Eigen::VectorXd& step, const Eigen::VectorXd& d, dou
 }
 
 // The steps of a path that should lead down: their angles to the wanted directions, their sizes alpha, and
-// what Armijo's condition compares: the decrease of f divided by what the slope promises.
+// what Armijo's condition compares: the decrease of f divided by what the slope promises, also for the trials
+// with alpha / shrink before those steps that were shrunk.
 struct Steps {
-  rex::grading::Signal angles, sizes, decreases;
+  rex::grading::Signal angles, sizes, decreases, trials;
 };
 
 // The decrease, up to the rounding of f.
@@ -82,6 +86,37 @@ inline void decreases(rex::grading::Check& check, const std::string& function, c
       "f rises there: is the condition of sufficient decrease tested, with the slope's sign?", rises);
   check.atLeastAlong("(f before - f after) / (alpha |slope|) of a step in " + function, steps.decreases,
                      decrease);
+}
+
+// A step that was shrunk: the trial before it must not have been good enough. `value` is f, and `trial` where
+// that trial was. Values that are not finite are never good enough.
+inline void addTrialBefore(rex::grading::Signal& trials, double place, const ScalarFunction& value,
+                           const Eigen::VectorXd& x, const Eigen::VectorXd& trial, double alpha,
+                           double slope) {
+  const double before = value(x), after = value(trial);
+  if (!std::isfinite(after)) return;
+  trials.add(place, (before - after - 1e-13 * std::abs(before)) / (alpha * std::abs(slope)) - 1e-6);
+}
+
+inline void takesTheFirst(rex::grading::Check& check, const std::string& function,
+                          const rex::grading::Signal& trials, double decrease) {
+  if (trials.at.empty()) return;
+  const auto late =
+      check.ask("Does the line search begin with the right alpha, and end with the first that holds?");
+  check.atMostAlong(
+      "(f before - f) / (alpha |slope|) of the trial before, with alpha / shrink, in " + function, trials,
+      decrease);
+}
+
+// A search that takes `steps` steps takes fewer if there may not be as many.
+inline void stopsAfter(rex::grading::Check& check, const std::string& function, std::size_t steps,
+                       const std::function<std::vector<Eigen::VectorXd>(int maxSteps)>& search) {
+  const int most = std::min(3, static_cast<int>(steps) / 2);
+  if (most < 1) return;
+  const double taken = static_cast<double>(search(most).size()) - 1;
+  const auto rejected = check.ask("Do rejected trials count as steps?", taken < most);
+  const auto more = check.ask("Is there a step after the last one?", taken == most + 1);
+  check.near(fmt::format("number of steps of {} with maxSteps = {}", function, most), taken, most, 0);
 }
 
 /// The values along a path, and the largest value that Armijo's condition allows after each step.
@@ -126,17 +161,23 @@ inline std::vector<Eigen::VectorXd> wholeNumbers(const rex::grading::Signal& tim
   return whole;
 }
 
+constexpr double kWholeNumber = 0.02;
+
 inline void sizesAreTried(rex::grading::Check& check, const rex::grading::Signal& sizes,
-                          const SearchOptions& options) {
-  constexpr double kTolerance = 0.02;
-  const auto fits = [&](double shrink, double grow, bool again) {
-    const rex::grading::Signal times = timesShrunk(sizes, shrink, grow, again);
+                          const rex::grading::Signal& lengths, const SearchOptions& options) {
+  const auto agree = [&](const rex::grading::Signal& values, double shrink, double grow, bool again) {
+    const rex::grading::Signal times = timesShrunk(values, shrink, grow, again);
     const std::vector<Eigen::VectorXd> whole = wholeNumbers(times);
     for (std::size_t i = 0; i < whole.size(); ++i)
-      if (std::abs(times.values[i][0] - whole[i][0]) > kTolerance) return false;
+      if (std::abs(times.values[i][0] - whole[i][0]) > kWholeNumber) return false;
     return true;
   };
-  const auto stays = check.ask("Is alpha never multiplied by `grow`?", fits(options.shrink, 1, false));
+  const auto fits = [&](double shrink, double grow, bool again) { return agree(sizes, shrink, grow, again); };
+  const auto unit =
+      check.ask("Is the direction of length one? It is the gradient itself, with the opposite sign.",
+                agree(lengths, options.shrink, options.grow, false));
+  const auto stays =
+      check.ask("Is alpha never multiplied by `grow`, or kept below 1?", fits(options.shrink, 1, false));
   const auto again = check.ask(
       "Does each line search begin with alpha = 1? It should begin with the last alpha, times `grow`.",
       fits(options.shrink, 1, true));
@@ -144,7 +185,7 @@ inline void sizesAreTried(rex::grading::Check& check, const rex::grading::Signal
       check.ask("Is alpha halved? It should be multiplied by `shrink`.", fits(0.5, options.grow, false));
   const rex::grading::Signal times = timesShrunk(sizes, options.shrink, options.grow);
   check.nearAlong("how often alpha was multiplied by `shrink` in a step of gradientDescent", times,
-                  wholeNumbers(times), kTolerance);
+                  wholeNumbers(times), kWholeNumber);
 }
 
 inline void descends(rex::grading::Check& check, Student& student, const Landscape& land,
@@ -166,101 +207,30 @@ inline void descends(rex::grading::Check& check, Student& student, const Landsca
   });
   checkPath(check, path, land.start, options.maxSteps);
   Steps steps;
+  rex::grading::Signal lengths;
+  double firstTrial = 1;
   for (std::size_t t = 1; t < path.size(); ++t) {
     const Eigen::VectorXd x = path[t - 1], step = path[t] - x, g = land.gradient(x);
     const double alpha = -step.dot(g) / g.squaredNorm(), place = static_cast<double>(t);
     steps.angles.add(place, angleOf(step, -g, 1e-13 * x.norm()));
     steps.sizes.add(place, alpha);
+    lengths.add(place, step.norm());
     steps.decreases.add(place, shareOfSlope(land.f(x), land.f(path[t]), alpha, g.squaredNorm()));
+    const double before = alpha / options.shrink;
+    if (before < 1.001 * firstTrial)
+      addTrialBefore(steps.trials, place, land.f, x, x - before * g, before, g.squaredNorm());
+    firstTrial = alpha * options.grow;
   }
   check.atMostAlong("angle between a step of gradientDescent and the negative gradient", steps.angles, 1e-5,
                     "rad");
   decreases(check, "gradientDescent", steps, options.decrease);
-  sizesAreTried(check, steps.sizes, options);
+  sizesAreTried(check, steps.sizes, lengths, options);
+  takesTheFirst(check, "gradientDescent", steps.trials, options.decrease);
   check.atMost("norm of the gradient at the end of gradientDescent", land.gradient(path.back()).norm(),
                1.0001 * options.tolerance);
-}
-
-// phi, its derivative, and a start.
-struct Residuals {
-  std::string name;
-  rex::VectorFunction phi;
-  MatrixFunction J;
-  Eigen::VectorXd start;
-};
-
-inline Residuals affine(rex::Rng& rng, int d, int n) {
-  const Eigen::MatrixXd A = wellConditioned(rng, d, n);
-  const Eigen::VectorXd y = rng.normalVector(d);
-  return {sizes("phi = A x - y, A", d, n),
-          [=](const Eigen::VectorXd& x) { return Eigen::VectorXd(A * x - y); },
-          [=](const Eigen::VectorXd&) { return A; }, rng.normalVector(n)};
-}
-
-// Full steps lead away from the zero. All entries start at the same distance from it: otherwise a step could
-// bring one entry nearer and send another so far away that J loses rank.
-inline Residuals arcTangent(rex::Rng& rng, int n) {
-  return {fmt::format("the arc tangent of each of {} entries of x", n),
-          [](const Eigen::VectorXd& x) { return Eigen::VectorXd(x.array().atan()); },
-          [](const Eigen::VectorXd& x) {
-            return Eigen::MatrixXd((1 / (1 + x.array().square())).matrix().asDiagonal());
-          },
-          rng.uniform(2, 4) * rng.normalVector(n).cwiseSign()};
-}
-
-inline Residuals curvedValley(rex::Rng& rng) {
-  const double steep = rng.uniform(3, 10);
-  return {fmt::format("(1 - x1, {:.2f} (x2 - x1^2))", steep),
-          [=](const Eigen::VectorXd& x) {
-            return Eigen::VectorXd(Eigen::Vector2d(1 - x[0], steep * (x[1] - x[0] * x[0])));
-          },
-          [=](const Eigen::VectorXd& x) {
-            return (Eigen::MatrixXd(2, 2) << -1, 0, -2 * steep * x[0], steep).finished();
-          },
-          Eigen::Vector2d(rng.uniform(-1.5, -1), rng.uniform(0, 2))};
-}
-
-// Every step is a fraction alpha <= 1 of the Gauss-Newton step, with sufficient decrease.
-inline void followsGaussNewton(rex::grading::Check& check, Student& student, const Residuals& problem,
-                               SearchOptions options) {
-  const auto gradient = [&](const Eigen::VectorXd& x) {
-    return Eigen::VectorXd(2 * problem.J(x).transpose() * problem.phi(x));
-  };
-  options.tolerance = 1e-5 * gradient(problem.start).norm();
-  check.input("phi is " + problem.name, {{"start", problem.start},
-                                         {"shrink", options.shrink},
-                                         {"decrease", options.decrease},
-                                         {"tolerance", options.tolerance}});
-  const std::vector<Eigen::VectorXd> path =
-      student.gaussNewton(problem.phi, problem.J, problem.start, options);
-  const auto shown = check.show([&] {
-    std::vector<double> values, allowed;
-    for (const Eigen::VectorXd& x : path) values.push_back(problem.phi(x).squaredNorm());
-    for (std::size_t t = 0; t + 1 < path.size(); ++t)
-      allowed.push_back(values[t] + options.decrease * gradient(path[t]).dot(path[t + 1] - path[t]));
-    return descentSeen(values, allowed);
+  stopsAfter(check, "gradientDescent", path.size() - 1, [&](int maxSteps) {
+    SearchOptions few = options;
+    few.maxSteps = maxSteps;
+    return student.gradientDescent(land.f, land.gradient, land.start, few);
   });
-  checkPath(check, path, problem.start, options.maxSteps);
-  Steps steps;
-  for (std::size_t t = 1; t < path.size(); ++t) {
-    const Eigen::VectorXd x = path[t - 1], step = path[t] - x, phi = problem.phi(x);
-    const Eigen::VectorXd full = -rex::leastSquares(problem.J(x), phi);
-    const double alpha = step.dot(full) / full.squaredNorm(), place = static_cast<double>(t);
-    steps.angles.add(place, angleOf(step, full, 1e-10 * (1 + x.norm())));
-    steps.sizes.add(place, alpha);
-    steps.decreases.add(place, shareOfSlope(phi.squaredNorm(), problem.phi(path[t]).squaredNorm(), alpha,
-                                            gradient(x).dot(full)));
-  }
-  check.atMostAlong("angle between a step of gaussNewton and the d with J^T J d = -J^T phi", steps.angles,
-                    1e-5, "rad");
-  double longest = 0;
-  for (const Eigen::VectorXd& alpha : steps.sizes.values) longest = std::max(longest, alpha[0]);
-  const auto twice =
-      check.ask("Full steps are twice too long: does one side of J^T J d = -J^T phi have a factor 2?",
-                std::abs(longest - 2) < 1e-6);
-  check.atMostAlong("alpha of a step of gaussNewton, its length divided by that of d", steps.sizes, 1 + 1e-4);
-  decreases(check, "gaussNewton", steps, options.decrease);
-  // The factor of two allows for solutions that compare half of the gradient with the tolerance.
-  check.atMost("norm of the gradient at the end of gaussNewton", gradient(path.back()).norm(),
-               2.0001 * options.tolerance);
 }
