@@ -10,6 +10,7 @@
 #include "chain_checks.h"
 #include "hand_checks.h"
 #include "interface.h"
+#include "pid_checks.h"
 #include "random_chain.h"
 
 using namespace rex;
@@ -53,6 +54,8 @@ void stepsAndPulls(Check& check, Student& student) {
     const double v = at.v + tau * u / mass;
     const auto newVelocity = check.suspect(
         "Is the position moved with the new velocity? Wanted is the old one.", number(at.q + tau * v));
+    const auto exact = check.suspect("Is it the exact motion? Wanted is the step of Euler, without tau^2.",
+                                     number(at.q + tau * (at.v + v) / 2));
     check.near("q of eulerStep", next.q, at.q + tau * at.v, 1e-12, "m");
     const auto noMass = check.suspect("Is the mass left out?", number(at.v + tau * u));
     const auto timesMass =
@@ -147,6 +150,8 @@ void pidSteps(Check& check, Student& student) {
     const double pd = gains.Kp * e + gains.Kd * (wanted.v - at.v);
     const auto kept =
         check.suspect("Is the integral not set to 0 by `restart`?", number(pd + gains.Ki * before));
+    const auto atRest = check.suspect("Is the wanted velocity left out?",
+                                      number(gains.Kp * e - gains.Kd * at.v + gains.Ki * sum));
     const auto early =
         check.suspect("Is the integral updated before it is used?", number(pd + gains.Ki * (sum + kTau * e)));
     check.near("force u of pidStep", step.u, pd + gains.Ki * sum, 1e-9, "N");
@@ -170,53 +175,6 @@ void pidSteps(Check& check, Student& student) {
     if (!(std::abs(at.q) < 100)) break;
   }
   check.near("position under pidStep after 15 s", at.q, 1, 1e-3, "m");
-}
-
-// The greatest real part of the roots of m s^3 + Kd s^2 + Kp s + Ki, or of m s^2 + Kd s + Kp if Ki is zero.
-double growth(const PidSettings& gains, double mass) {
-  const int order = gains.Ki == 0 ? 2 : 3;
-  const Eigen::Vector3d coefficients = -Eigen::Vector3d(gains.Kd, gains.Kp, gains.Ki) / mass;
-  Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(order, order);
-  companion.row(0) = coefficients.head(order).transpose();
-  companion.bottomLeftCorner(order - 1, order - 1).setIdentity();
-  return eigenvalues(companion).real().maxCoeff();
-}
-
-struct KnownLoop {
-  PidSettings gains{};
-  double mass = kMass;
-  bool isStable = false;
-};
-
-// Shuffled, so that counting calls does not help. Random gains whose roots are too close to the imaginary
-// axis are left out; the cases on the axis are exact.
-void judgesPid(Check& check, Student& student) {
-  std::vector<KnownLoop> loops{{.gains = {0, 2, 0}},  // Ki alone
-                               {.gains = {0, 2, 3}},  // Ki and Kd
-                               {.gains = {5, 0, 0}},  // oscillates for ever
-                               {.gains = {0, 0, 5}},  // comes to rest anywhere
-                               {.gains = {5, 0, 3}, .isStable = true},
-                               {.gains = {4, 6, 3}, .mass = 2},  // on the border
-                               {.gains = {-4, 1, -3}, .mass = 2}};
-  Rng& rng = check.rng();
-  while (loops.size() < 67) {
-    const PidSettings gains{rng.uniform(-3, 10), rng.index(3) == 0 ? 0 : rng.uniform(-3, 10),
-                            rng.uniform(-3, 10)};
-    const double mass = rng.uniform(0.5, 5), rate = growth(gains, mass);
-    // Half of the cases are stable, half are not.
-    if (std::abs(rate) < 1e-3 || (rate < 0) != (loops.size() % 2 == 0)) continue;
-    loops.push_back({gains, mass, rate < 0});
-  }
-  for (std::size_t k = loops.size(); k > 0; --k) {
-    std::swap(loops[k - 1], loops[static_cast<std::size_t>(rng.index(static_cast<int>(k)))]);
-    const auto& [gains, mass, isStable] = loops[k - 1];
-    check.input(isStable ? "a point that comes to rest" : "a point that does not come to rest",
-                {{"Kp", gains.Kp}, {"Ki", gains.Ki}, {"Kd", gains.Kd}, {"mass", mass}});
-    const auto positive = check.ask("Is it enough that no gain is negative? A large Ki is too much.",
-                                    !isStable && gains.Kp > 0 && gains.Kd > 0 && gains.Ki > 0);
-    check.that(isStable ? "isStable returns true" : "isStable returns false",
-               student.isStable(gains, mass) == isStable);
-  }
 }
 
 // Part 3.
@@ -378,6 +336,7 @@ void accelerates(Check& check, Student& student) {
     const Eigen::VectorXd wanted = reference.ydd + back;
     const double tolerance = 1e-9 * (1 + wanted.norm() + back.norm());
     const auto noReference = check.suspect("Is the acceleration of the reference left out?", back);
+    const auto half = check.suspect("Is the factor 2 of the damping missing?", wanted + xi / lambda * ed);
     const auto minus =
         check.suspect("Is the acceleration of the reference subtracted?", back - reference.ydd);
     const Eigen::VectorXd a = student.wantedAcceleration(y, yd, reference, lambda, xi);
