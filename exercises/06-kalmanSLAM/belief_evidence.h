@@ -1,7 +1,5 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,15 +25,26 @@ inline std::vector<rex::PlanarGaussian> landmarksOf(const Belief& joint) {
   return places;
 }
 
+/// What is measured of several runs, in each of them, with the limits of the mean.
+inline rex::Figure overRuns(const std::string& title, const std::string& unit,
+                            const std::vector<double>& values, const std::vector<rex::Guide>& limits) {
+  rex::Series series = rex::grading::gotCurve("got", {}, values);
+  for (std::size_t i = 0; i < values.size(); ++i) series.x.push_back(static_cast<double>(i + 1));
+  series.style = rex::SeriesStyle::kPoints;
+  series.marker = rex::Marker::kDot;
+  series.size = 2;
+  return {.title = title, .xLabel = "run", .yLabel = unit, .series = {series}, .horizontalLines = limits};
+}
+
 /// A map built on a run, drawn over the true one.
-inline rex::grading::Evidence mapSeen(const CarRun& run, const Belief& joint) {
+inline rex::Figure mapSeen(const CarRun& run, const Belief& joint) {
   rex::Figure figure = rex::figureOf({.car = run.states.back(),
                                       .estimate = joint.mean.head<3>(),
                                       .landmarks = run.landmarks,
                                       .landmarkBeliefs = landmarksOf(joint),
                                       .ways = {wayOf("wanted: the car", run.states)}});
-  figure.title = "The map: ellipses (got) and true positions (wanted)";
-  return {.figures = {figure}};
+  figure.title = "A map: ellipses (got) and true positions (wanted)";
+  return figure;
 }
 
 /// A filter's beliefs of a run: one after each step.
@@ -45,33 +54,33 @@ struct TrackedRun {
   double error = -1;  ///< the greatest position error, m
 };
 
-/// A film of the car and its estimate, which opens where they are farthest from each other.
-inline rex::grading::Evidence trackSeen(const TrackedRun& tracked) {
-  const CarRun& run = tracked.run;
+/// A film of the car and its estimate in the worst of several runs, which opens where they are farthest from
+/// each other. Beside it `figure` with values of all runs, one per step.
+inline rex::grading::Evidence trackSeen(const TrackedRun& worst, rex::Figure figure,
+                                        const Eigen::VectorXd& values) {
+  const CarRun& run = worst.run;
   rex::Film film;
-  rex::Series error = rex::grading::gotCurve("got"),
-              sigmas = rex::grading::wantedCurve("2 sigma of the filter");
-  for (std::size_t t = 0; t < tracked.beliefs.size(); ++t) {
+  rex::Series curve = rex::grading::gotCurve("got");
+  double largest = -1, moment = 0;
+  for (std::size_t t = 0; t < worst.beliefs.size(); ++t) {
     const double time = run.car.tau * static_cast<double>(t + 1);
-    const Belief& belief = tracked.beliefs[t];
+    const Belief& belief = worst.beliefs[t];
     const Eigen::Matrix2d spread = belief.covariance.topLeftCorner<2, 2>();
     film.push_back({time, pictureOf(rex::CarView{.car = run.states[t + 1],
                                                  .estimate = belief.mean.head<3>(),
                                                  .landmarks = run.landmarks,
                                                  .poseBeliefs = {{belief.mean.head<2>(), spread}},
-                                                 .caption = "solid: the car; pale: the estimate"})});
-    for (rex::Series* series : {&error, &sigmas}) series->x.push_back(time);
-    error.y.push_back((belief.mean.head<2>() - run.states[t + 1].head<2>()).norm());
-    sigmas.y.push_back(2 * std::sqrt(spread.trace()));
+                                                 .caption = "the worst run; solid: the car; pale: the "
+                                                            "estimate"})});
+    curve.x.push_back(static_cast<double>(t + 1));
+    curve.y.push_back(values[static_cast<Eigen::Index>(t)]);
+    const double error = (belief.mean - run.states[t + 1]).head(2).norm();
+    if (error <= largest) continue;
+    largest = error;
+    moment = time;
   }
-  if (film.empty()) return {};
-  const auto worst = std::max_element(error.y.begin(), error.y.end()) - error.y.begin();
-  const double moment = film[static_cast<std::size_t>(worst)].time;
-  rex::Figure figure{.title = "Position error in the worst of the runs",
-                     .xLabel = "time [s]",
-                     .yLabel = "distance [m]",
-                     .series = {error, sigmas}};
-  figure.verticalLines = {rex::grading::wrongFrom(moment)};
+  figure.xLabel = "step";
+  figure.series = {curve};
   return {
       .figures = {figure}, .film = std::move(film), .view = rex::CarPictureOptions{}.view, .moment = moment};
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -11,12 +10,13 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <fmt/format.h>
 
 #include "course/car_simulator.h"
 #include "estimation/consistency.h"
+#include "estimation/landmark_sensor.h"
 #include "geometry/rotation.h"
 #include "grading/check.h"
-#include "grading/evidence_parts.h"
 #include "interface.h"
 
 // Random cars, their runs, beliefs, and second opinions on how beliefs change.
@@ -45,6 +45,13 @@ inline CarSetup randomCar(rex::Rng& rng, bool rangeBearing) {
   return car;
 }
 
+inline std::string described(const CarSetup& car) {
+  return fmt::format("tau = {:.6g}, L = {:.6g}, dynamicsNoise = {:.6g}, observationNoise = {:.6g}", car.tau,
+                     car.wheelbase, car.dynamicsNoise, car.observationNoise) +
+         (car.rangeBearing ? fmt::format(", bearingNoise = {:.6g}, distance and bearing", car.bearingNoise)
+                           : ", metres ahead and left");
+}
+
 inline Eigen::Vector3d randomState(rex::Rng& rng) {
   return {rng.uniform(-5, 5), rng.uniform(-5, 5), rng.uniform(-7, 7)};
 }
@@ -58,6 +65,29 @@ inline Eigen::Vector2d randomLandmark(rex::Rng& rng, const Eigen::Vector3d& x) {
   const double angle = rng.uniform(-kPi, kPi), distance = rng.uniform(3, 9);
   return {x[0] + distance * std::cos(angle), x[1] + distance * std::sin(angle)};
 }
+
+// Behind x, a milliradian to the left.
+inline Eigen::Vector2d placeBehind(rex::Rng& rng, const Eigen::Vector3d& x) {
+  const double angle = x[2] + kPi - 1e-3, distance = rng.uniform(3, 9);
+  return {x[0] + distance * std::cos(angle), x[1] + distance * std::sin(angle)};
+}
+
+// Sums and products of whole matrices: each other expression would take its own time to compile.
+
+inline Eigen::MatrixXd sum(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double factor = 1) {
+  return a + factor * b;
+}
+
+inline Eigen::MatrixXd product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) { return a * b; }
+
+// A S A^T.
+inline Eigen::MatrixXd carried(const Eigen::MatrixXd& A, const Eigen::MatrixXd& S) {
+  return A * S * A.transpose();
+}
+
+inline Eigen::MatrixXd transposed(const Eigen::MatrixXd& a) { return a.transpose(); }
+
+inline Eigen::MatrixXd unitMatrix(int n) { return Eigen::MatrixXd::Identity(n, n); }
 
 // The standard deviation in every direction is about 0.05 to 0.4.
 inline Eigen::MatrixXd randomCovariance(rex::Rng& rng, int n) {
@@ -76,59 +106,11 @@ inline Belief randomJoint(rex::Rng& rng, int landmarks) {
   return joint;
 }
 
-// Checks shapes, finite numbers, exact symmetry, and variance in every direction.
-inline void requireBelief(rex::grading::Check& check, const Belief& belief, Eigen::Index n) {
-  check.shape("mean", belief.mean, n, 1);
-  check.shape("covariance", belief.covariance, n, n);
-  check.that("the covariance is exactly symmetric", belief.covariance == belief.covariance.transpose());
-  check.that("the covariance is positive definite",
-             Eigen::LLT<Eigen::MatrixXd>(belief.covariance).info() == Eigen::Success);
-}
-
 // got - wanted for states that begin with x, y and a heading; the headings may differ by whole turns.
 inline Eigen::VectorXd gapOf(const Eigen::VectorXd& got, const Eigen::VectorXd& wanted) {
   Eigen::VectorXd gap = got - wanted;
   if (gap.size() > 2) gap[2] = rex::wrapAngle(gap[2]);  // landmarks have two
   return gap;
-}
-
-/// Two beliefs of the same size, drawn for the two entries in which they differ most.
-inline rex::grading::Evidence beliefSeen(const Belief& got, const Belief& wanted) {
-  const Eigen::VectorXd apart = gapOf(got.mean, wanted.mean).cwiseAbs() +
-                                (got.covariance - wanted.covariance).cwiseAbs().rowwise().sum();
-  Eigen::Index one = 0, other = 0;
-  apart.maxCoeff(&one);
-  for (Eigen::Index i = 0; i < apart.size(); ++i)
-    if (i != one && (other == one || apart[i] > apart[other])) other = i;
-  const std::array<Eigen::Index, 2> both{std::min(one, other), std::max(one, other)};
-  rex::Figure figure{.title = "The two entries in which the beliefs differ most",
-                     .xLabel = "entry " + std::to_string(both[0]) + " of the belief",
-                     .yLabel = "entry " + std::to_string(both[1]) + " of the belief",
-                     .equalAxes = true};
-  const auto add = [&](const std::string& label, const Belief& belief, const rex::Color& color) {
-    figure.ellipses.push_back({.label = label + ", 2 sigma",
-                               .mean = belief.mean(both),
-                               .covariance = belief.covariance(both, both),
-                               .color = color});
-    figure.series.push_back({.label = label + ", mean",
-                             .x = {belief.mean[both[0]]},
-                             .y = {belief.mean[both[1]]},
-                             .style = rex::SeriesStyle::kPoints,
-                             .marker = rex::Marker::kDot,
-                             .size = 2,
-                             .color = color});
-  };
-  add("got", got, rex::grading::kGotColor);
-  add("wanted", wanted, rex::grading::kWantedColor);
-  return {.figures = {figure}};
-}
-
-inline void sameBelief(rex::grading::Check& check, const Belief& got, const Belief& wanted,
-                       double tolerance) {
-  requireBelief(check, got, wanted.mean.size());
-  const auto shown = check.show([&] { return beliefSeen(got, wanted); });
-  check.near("mean", wanted.mean + gapOf(got.mean, wanted.mean), wanted.mean, tolerance);
-  check.near("covariance", got.covariance, wanted.covariance, tolerance);
 }
 
 // By central differences; accurate to 1e-8 for numbers of this size.
@@ -155,6 +137,20 @@ inline Eigen::MatrixXd noiseOf(const CarSetup& car, Eigen::Index landmarks) {
   const Eigen::Vector2d deviations(car.observationNoise,
                                    car.rangeBearing ? car.bearingNoise : car.observationNoise);
   return deviations.cwiseAbs2().replicate(landmarks, 1).asDiagonal();
+}
+
+// y - expected for stacked sightings.
+inline Eigen::VectorXd gapsOf(const CarSetup& car, const Eigen::VectorXd& y,
+                              const Eigen::VectorXd& expected) {
+  Eigen::VectorXd gap = y - expected;
+  if (car.rangeBearing)
+    for (Eigen::Index i = 1; i < gap.size(); i += 2) gap[i] = rex::wrapAngle(gap[i]);
+  return gap;
+}
+
+inline rex::LandmarkSensor sensorOf(const CarSetup& car) {
+  using Kind = rex::LandmarkSensor::Kind;
+  return {car.rangeBearing ? Kind::kRangeBearing : Kind::kCartesian, noiseOf(car, 1)};
 }
 
 // The correction in canonical form, where precisions add (7:27, the line before the Woodbury identity).
@@ -199,8 +195,9 @@ inline double curvatureOf(const CarSetup& car, const Eigen::Vector2d& u) {
 
 // A run from 0 that comes no nearer than 2 m to a landmark: closer, a bearing is anything but linear, and no
 // extended Kalman filter is consistent.
+// Speed and steering vary by `sway`.
 inline CarRun randomRun(rex::Rng& rng, const CarSetup& car, int landmarks, int steps,
-                        const Eigen::Vector2d& u) {
+                        const Eigen::Vector2d& u, double sway = 0) {
   while (true) {
     rex::CarSimulator simulator(rng.next(), landmarks, optionsOf(car));
     CarRun run;
@@ -210,8 +207,9 @@ inline CarRun randomRun(rex::Rng& rng, const CarSetup& car, int landmarks, int s
     simulator.setLandmarks(run.landmarks);
     double nearest = 2;
     for (int t = 0; t < steps; ++t) {
-      simulator.step(u);
-      run.controls.push_back(u);
+      const double more = sway > 0 ? 1 + rng.uniform(-sway, sway) : 1;
+      run.controls.emplace_back(more * u);
+      simulator.step(run.controls.back());
       run.states.push_back(simulator.getState());
       run.sightings.push_back(simulator.getRealNoisyObservation());
       const Eigen::Vector2d place = run.states.back().head<2>();
