@@ -64,7 +64,9 @@ void projectors(Check& check, Student& student) {
       isTheProjector(check, student, S.jacobianPos("handR"), 3);
     } else {
       const int d = 1 + rng.index(3), n = d + 2 + rng.index(8);
-      const Eigen::MatrixXd J = randomMatrix(rng, d, n);
+      Eigen::MatrixXd J = randomMatrix(rng, d, n);
+      if (i == 2) J *= 1e-6;         // a robot of a micrometre
+      if (i == 3) J.row(0) *= 1e-5;  // a task that hardly moves
       check.input("a random Jacobian of full rank", {{"J", J}});
       isTheProjector(check, student, J, d);
     }
@@ -308,11 +310,13 @@ const Eigen::VectorXd kAbove =
 // Bent, away from the hole; small steps lead from here to postures with room for the elbow.
 const Eigen::VectorXd kStart = 0.6 * kAbove;
 
-// An arm with a peg, a hole, and where to start.
+// An arm with a peg, a hole with the direction into it, and where to start.
 struct Scene {
   Simulator S;
   std::string peg;
   Eigen::Vector3d hole;
+  Eigen::Vector3d direction = kDown;
+  Eigen::Vector3d before() const { return hole - 0.6 * direction; }
 };
 
 Scene pegInAHole(const Eigen::VectorXd& q) { return {at(Simulator("pegInAHole.ors"), q), "peg", kHole}; }
@@ -357,7 +361,7 @@ void clearanceIsKept(Check& check, const Simulator& S, const std::string& functi
 
 // The motion of the peg and the last part of the wanted path.
 grading::Evidence wayOf(const Scene& scene, const Motion& motion) {
-  return seen(scene.S, scene.peg, motion, {scene.hole - 0.6 * kDown, scene.hole});
+  return seen(scene.S, scene.peg, motion, {scene.before(), scene.hole});
 }
 
 void pegIsAt(Check& check, const Scene& scene, const std::string& property, const Eigen::VectorXd& q,
@@ -368,10 +372,11 @@ void pegIsAt(Check& check, const Scene& scene, const std::string& property, cons
 }
 
 void postureIsRight(Check& check, Student& student, const Scene& scene, const Eigen::Vector3d& place) {
-  const Eigen::VectorXd q = student.pegPosture(scene.S.description(), scene.peg, place, kDown, kMargin);
+  const Eigen::VectorXd q =
+      student.pegPosture(scene.S.description(), scene.peg, place, scene.direction, kMargin);
   check.shape("posture of pegPosture", q, scene.S.getJointDimension(), 1);
   const auto shown = check.show([&] { return wayOf(scene, {q}); });
-  pegIsAt(check, scene, "in pegPosture", q, place, kDown);
+  pegIsAt(check, scene, "in pegPosture", q, place, scene.direction);
   check.atLeast("clearance in pegPosture", clearance(at(scene.S, q)), 0.5 * kMargin, "m");
 }
 
@@ -413,13 +418,14 @@ void movesStraight(Check& check, Student& student) {
 }
 
 void goesIn(Check& check, Student& student, const Scene& scene) {
-  const Motion motion = student.insertPeg(scene.S.description(), scene.peg, scene.hole, kDown, kMargin);
+  const Motion motion =
+      student.insertPeg(scene.S.description(), scene.peg, scene.hole, scene.direction, kMargin);
   check.atLeast("number of postures of insertPeg", static_cast<double>(motion.size()), 10);
   check.atMost("number of postures of insertPeg", static_cast<double>(motion.size()), 1000);
   for (const Eigen::VectorXd& q : motion) check.shape("posture", q, scene.S.getJointDimension(), 1);
   const auto shown = check.show([&] { return wayOf(scene, motion); });
   turnsLittle(check, scene.S, "insertPeg", motion);
-  pegIsAt(check, scene, "at the end of insertPeg", motion.back(), scene.hole, kDown);
+  pegIsAt(check, scene, "at the end of insertPeg", motion.back(), scene.hole, scene.direction);
   clearanceIsKept(check, scene.S, "insertPeg", motion);
 }
 
@@ -436,28 +442,32 @@ std::string replaced(std::string text, const std::string& what, const std::strin
   return text;
 }
 
-// Another hole, a thicker rod instead of the peg, and another start with more room than the margin.
-Scene anotherHole(Rng& rng) {
+// Another hole, upright or tilted towards the arm, a thicker rod instead of the peg, and another start with
+// more room than the margin.
+Scene anotherHole(Rng& rng, bool isTilted) {
   SimulatorDescription description = Simulator("pegInAHole.ors").description();
   const Eigen::Vector3d hole = kHole + rng.uniformVector(3, -0.08, 0.08);
   const auto number = [](double x) { return std::to_string(x); };
   const std::string place = number(hole.x()) + " " + number(hole.y()) + " " + number(hole.z());
-  description.sceneText = replaced(description.sceneText, "t(0 -1 1)", "t(" + place + ")");
+  const double angle = isTilted ? rng.uniform(12, 18) : 0, turn = std::numbers::pi + rng.uniform(-.6, .6);
+  const std::string tilt =
+      " d(" + number(angle) + " " + number(std::cos(turn)) + " " + number(std::sin(turn)) + " 0)";
+  description.sceneText = replaced(description.sceneText, "t(0 -1 1)", "t(" + place + ")" + tilt);
   description.sceneText = replaced(description.sceneText, "[0 0 0.6 0.05]", "[0 0 0.6 0.06]");
   description.sceneText = replaced(description.sceneText, "peg", "rod");
   Simulator S(description);
   do S.setJointAngles(kStart + rng.uniformVector(7, -0.1, 0.1));
   while (!(clearance(S) >= 1.5 * kMargin));
-  return {S, "rod", S.kinematicsPos("hole")};
+  return {S, "rod", S.kinematicsPos("hole"), -S.kinematicsVec("hole")};
 }
 
 void anotherPegAndHole(Check& check, Student& student) {
   check.forEachCase(4, [&](int i) {
-    const Scene other = anotherHole(check.rng());
+    const Scene other = anotherHole(check.rng(), i > 0);
     if (i < 2) {
       goesIn(check, student, other);
     } else if (i == 2) {
-      postureIsRight(check, student, other, other.hole - 0.6 * kDown);
+      postureIsRight(check, student, other, other.before());
     } else {
       const Eigen::VectorXd near = kAbove + check.rng().uniformVector(7, -0.02, 0.02);
       postureIsRight(check, student, pegInAHole(near), kHole);

@@ -53,6 +53,10 @@ inline void isTheProjector(rex::grading::Check& check, Student& student, const E
   const Eigen::MatrixXd free = nullspace(J);
   const auto limit = check.ask("Is the precision only large where N is the limit for an infinite one?",
                                (N - free * free.transpose()).cwiseAbs().maxCoeff() < 1e-2);
+  const bool isOther =
+      (N * N - N).cwiseAbs().maxCoeff() < 1e-6 && std::abs(N.trace() - static_cast<double>(n - rank)) > 0.5;
+  const auto zeros = check.ask("Which singular values count as zero? Those below 1e-9 of the largest.",
+                               isOther && !N.isIdentity());
   check.atMost("largest entry of J N of nullspaceProjector, relative to J",
                (J * N).cwiseAbs().maxCoeff() / J.cwiseAbs().maxCoeff(), 1e-9);
   check.near("trace of N of nullspaceProjector, the number of free directions", N.trace(),
