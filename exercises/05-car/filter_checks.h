@@ -97,7 +97,6 @@ inline void copiesFit(rex::grading::Check& check, const Heaps& heaps, const Clou
     noise.col(k) = poseError(x, heaps.still.col(heaps.heapOf(x)));
     for (const auto& pose : heaps.poses.colwise()) unmoved += pose == x ? 1 : 0;
   }
-  const auto same = check.ask("Are all particles in one state? Wanted is a cloud.", isOneState(after.states));
   const double sigma = heaps.world.dynamicsNoise, far = noise.cwiseAbs().maxCoeff() / sigma;
   {
     const auto still = check.ask("Are particles not moved? They are where they were before the step.",
@@ -174,6 +173,7 @@ inline void goesThroughAllLines(rex::grading::Check& check, Student& student, bo
   const std::uint64_t seed = check.rng().next();
   const Cloud after = student.filterStep(heaps.before, heaps.u, heaps.y, heaps.world, rex::Rng(seed));
   cloudIsSound(check, after, 200);
+  const auto same = check.ask("Are all particles in one state? Wanted is a cloud.", isOneState(after.states));
   copiesFit(check, heaps, after);
   childrenFit(check, heaps, after);
   weightsOfStepFit(check, heaps, after, isLost);
