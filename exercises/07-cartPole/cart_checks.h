@@ -75,6 +75,12 @@ inline void stepFits(rex::grading::Check& check, Student& student, const PoleCar
                                    ratesOf(stepWith(noise * tau)));
   const auto none = check.suspect("Is the noise missing?", ratesOf(stepWith(0)));
   const auto minus = check.suspect("Is the noise subtracted?", ratesOf(stepWith(-noise)));
+  const Eigen::Vector2d still = ratesOf(stepWith(0)), kick = ratesOf(wanted) - still;
+  const auto one = check.suspect("Is the same random number added to both?",
+                                 Eigen::Vector2d(still[0] + kick[0], still[1] + kick[0]));
+  const auto exchanged =
+      check.suspect("Are the random numbers drawn in the wrong order? That of p' comes first.",
+                    Eigen::Vector2d(still[0] + kick[1], still[1] + kick[0]));
   check.near("(p', theta') of stepped", ratesOf(got), ratesOf(wanted), 1e-9);
   rng.next();
 }
@@ -179,9 +185,14 @@ inline Eigen::MatrixXd outingFits(rex::grading::Check& check, Student& student, 
     const auto goesOn = check.ask("Does the outing go on after the pole has fallen?");
     check.atMostAlong("|theta| before the last state of balanced", angles, std::numbers::pi / 2, "rad");
   }
-  if (states.cols() <= outing.steps)
+  if (states.cols() <= outing.steps) {
+    const auto fallen = check.ask("Is the state left out in which the pole has fallen?",
+                                  std::abs(states(2, states.cols() - 1)) > 1);
+    const auto few = check.ask("There are steps + 1 states, with the start: is one missing?",
+                               states.cols() == outing.steps);
     check.atLeast("|theta| in the last state of balanced, which came early",
                   std::abs(states(2, states.cols() - 1)), std::numbers::pi / 2, "rad");
+  }
   return states;
 }
 

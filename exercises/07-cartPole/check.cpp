@@ -3,6 +3,7 @@
 #include "cart_checks.h"
 #include "gain_checks.h"
 #include "interface.h"
+#include "lyapunov_checks.h"
 #include "stability_checks.h"
 
 using rex::grading::Check;
@@ -56,6 +57,12 @@ void reach(Check& check, Student& student) {
   reachFits(check, student, {drift(), Eigen::Vector2d(1, 0)}, 1);
   reachFits(check, student, plantOf({}), 4);
   reachFits(check, student, partlyReached(check.rng(), 4, 3, 2), 3);
+  // The rank does not depend on the unit of u.
+  for (const double unit : {1e-11, 1e7}) {
+    Plant plant = partlyReached(check.rng(), 3, 2, 1);
+    plant.B *= unit;
+    reachFits(check, student, plant, 2);
+  }
 }
 
 void poles(Check& check, Student& student) {
@@ -88,6 +95,7 @@ void quick(Check& check, Student& student) {
 void lyapunov(Check& check, Student& student) {
   for (const Candidate& candidate : energyCandidates(check.rng()))
     candidateIsJudged(check, student, candidate);
+  candidateIsJudged(check, student, farFriction(check.rng()));
   for (const Candidate& candidate : cartCandidates({})) candidateIsJudged(check, student, candidate);
   for (const Eigen::Index n : {2, 3})
     for (const Candidate& candidate : cubicCandidates(check.rng(), n))

@@ -112,7 +112,7 @@ using Flow = std::function<Eigen::VectorXd(const Eigen::VectorXd& x)>;
 
 /// A point that disproves V = x^T P x (P symmetric) in the box |x_i| <= high_i: x is not 0, and V(x) <= 0
 /// or V'(x) >= 0. Returns nothing if you find none. You must find one if such points fill 1 % of the box,
-/// or lie on its axes, on which only one x_i is not zero. You may call f 20000 times.
+/// or a tenth of one of its axes, on which only one x_i is not zero. You may call f 20000 times.
 std::optional<Eigen::VectorXd> counterexample(const Flow& f, const Eigen::MatrixXd& P,
                                               const Eigen::VectorXd& high, rex::Rng& rng);
 

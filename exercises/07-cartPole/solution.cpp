@@ -215,9 +215,10 @@ std::optional<Eigen::VectorXd> counterexample(const Flow& f, const Eigen::Matrix
   };
   const auto n = static_cast<int>(high.size());
   for (int axis = 0; axis < n; ++axis)
-    for (const double part : {-1., -.1, .1, 1.}) {
+    for (int part = -20; part <= 20; ++part) {
+      if (part == 0) continue;
       Eigen::VectorXd x = Eigen::VectorXd::Zero(n);
-      x[axis] = part * high[axis];
+      x[axis] = part / 20. * high[axis];
       if (isOne(x)) return x;
     }
   for (int k = 0; k < 10000; ++k) {
