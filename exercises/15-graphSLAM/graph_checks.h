@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "estimation/pose_graph.h"
@@ -156,11 +157,14 @@ inline double apart(const Poses& a, const Poses& b) {
   return std::sqrt(sum / static_cast<double>(a.size()));
 }
 
-inline void checkPoses(rex::grading::Check& check, const Poses& got, const Poses& start) {
-  check.that("as many poses as before", got.size() == start.size());
-  for (const Eigen::Vector3d& pose : got) check.shape("a pose", pose, 3, 1);
-  check.near("position of pose 0, which stays", got[0].head<2>(), start[0].head<2>(), 1e-9, "m");
-  check.near("heading of pose 0, which stays", byTurns(got[0][2] - start[0][2]), 0, 1e-9, "rad");
+inline void checkPoses(rex::grading::Check& check, const std::string& function, const Poses& got,
+                       const Poses& start) {
+  check.near("number of poses of " + function, static_cast<double>(got.size()),
+             static_cast<double>(start.size()), 0);
+  for (const Eigen::Vector3d& pose : got) check.shape("a pose of " + function, pose, 3, 1);
+  const auto moves = check.ask("Pose 0 stays where it is: is it moved along with the others?");
+  check.near("position of pose 0 of " + function, got[0].head<2>(), start[0].head<2>(), 1e-9, "m");
+  check.nearAngle("heading of pose 0 of " + function, got[0][2], start[0][2], 1e-9);
 }
 
 /// H as a full matrix, after a check that its entries lie within it.
@@ -168,11 +172,11 @@ inline Eigen::MatrixXd fullMatrix(rex::grading::Check& check, const std::vector<
                                   int size) {
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(size, size);
   for (const rex::MatrixEntry& entry : entries) {
-    check.that("rows and columns of H from 0 to 3 n - 1",
+    check.that("rows and columns of the entries of H of normalEquations are from 0 to 3 n - 1",
                entry.row >= 0 && entry.row < size && entry.column >= 0 && entry.column < size);
     H(entry.row, entry.column) += entry.value;
   }
-  check.shape("H", H, size, size);
+  check.shape("H of normalEquations", H, size, size);
   return H;
 }
 

@@ -80,6 +80,21 @@ inline rex::grading::Evidence scansSeen(const std::string& title, const ScanPair
   return {.figures = {figure}};
 }
 
+/// What is measured of pairs of scans, with the limit of its mean.
+inline rex::grading::Evidence overPairs(const std::string& title, const std::string& unit,
+                                        const std::vector<double>& values, double limit) {
+  rex::Series series = rex::grading::gotCurve("got", {}, values);
+  for (std::size_t k = 0; k < values.size(); ++k) series.x.push_back(static_cast<double>(k + 1));
+  series.style = rex::SeriesStyle::kPoints;
+  series.marker = rex::Marker::kDot;
+  series.size = 2;
+  return {.figures = {{.title = title,
+                       .xLabel = "pair of scans",
+                       .yLabel = unit,
+                       .series = {series},
+                       .horizontalLines = {{.at = limit, .label = "at most, on average"}}}}};
+}
+
 /// Points and their partners: got, and the nearest one if it differs.
 inline rex::grading::Evidence partnersSeen(const ScanPair& pair, const std::vector<int>& got, double most) {
   if (got.size() != pair.moving.size()) return {};

@@ -1,4 +1,4 @@
-// caught by: equations-any
+// caught by: equations-step, equations-any
 // mistake: the step solves the equations of a map whose edges all count alike.
 
 // <solution gaussNewtonStep>
