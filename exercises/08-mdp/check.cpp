@@ -1,6 +1,10 @@
 #include "grading/check.h"
 
+#include "gradient_checks.h"
 #include "interface.h"
+#include "iteration_checks.h"
+#include "lesson.h"
+#include "maze_checks.h"
 #include "process_checks.h"
 #include "trial_checks.h"
 
@@ -12,22 +16,24 @@ namespace {
 void mazeOfTheSheet(Check& check, Student& student) { mazeFits(check, student, {4, 0, 2, 3}, .5); }
 
 void valuesOfPolicies(Check& check, Student& student) {
-  for (const int n : {1, 3, 8})
+  for (const int n : {3, 1, 6})
     policyIsWorth(check, student, randomProcess(check.rng(), n, 2, check.rng().uniform(.3, .9)));
   policyIsWorth(check, student, processOf(rex::tMaze()));
 }
 
 void worths(Check& check, Student& student) {
-  for (const int n : {1, 3, 8})
+  for (const int n : {3, 1, 6})
     actionsAreWorth(check, student, randomProcess(check.rng(), n, 3, check.rng().uniform(.3, .9)));
 }
 
 void settles(Check& check, Student& student) {
   valuesSettle(check, student, processOf(rex::tMaze()), 1e-6);
-  valuesSettle(check, student, randomProcess(check.rng(), 6, 2, .95), 1e-3);
+  valuesSettle(check, student, randomProcess(check.rng(), 4, 2, .95), 1e-3);
+  valuesSettle(check, student, randomProcess(check.rng(), 8, 3, .9), .1);
 }
 
 void improves(Check& check, Student& student) {
+  policiesImprove(check, student, improvableProcess(check.rng()));
   policiesImprove(check, student, processOf(rex::tMaze()));
   for (int i = 0; i < 3; ++i) policiesImprove(check, student, randomProcess(check.rng(), 8, 3, .9));
   tieStays(check, student);
@@ -37,18 +43,23 @@ void trials(Check& check, Student& student) {
   trialFits(check, student, 2, 15, 100);
   trialFits(check, student, 3, 15, 6);
   trialFits(check, student, 2, 15, 15);
+  trialFits(check, student, 1, 8, 1);
 }
 
 void returns(Check& check, Student& student) {
-  for (const int T : {1, 2, 7}) returnsFit(check, student, T);
+  for (const int T : {4, 1, 7}) returnsFit(check, student, T);
 }
 
 void gradients(Check& check, Student& student) {
-  for (const int count : {1, 4}) gradientFits(check, student, count);
+  gradientFits(check, student, 2, 1);
+  gradientFits(check, student, 3, 4);
+  gradientFits(check, student, 1, 2);
 }
 
 void powers(Check& check, Student& student) {
-  for (const int count : {3, 10}) powerFits(check, student, count);
+  powerFits(check, student, 2, 1);
+  powerFits(check, student, 3, 10);
+  powerFits(check, student, 1, 3);
 }
 
 // <hidden>
@@ -92,7 +103,7 @@ void trueGradient(Check& check, Student& student) {
 }
 
 void morePower(Check& check, Student& student) {
-  check.forEachCase(8, [&](int i) { powerFits(check, student, 3 + 5 * i); });
+  check.forEachCase(8, [&](int i) { powerFits(check, student, 1 + i % 4, 3 + 5 * i); });
 }
 // </hidden>
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,9 +13,9 @@
 #include "learning/dynamic_programming.h"
 #include "learning/mazes.h"
 #include "learning/policy_values.h"
-#include "value_evidence.h"
+#include "mistakes.h"
 
-// Parts 1 to 4: the grader's decision processes, and what must hold for their values and policies.
+// Part 2, and the grader's decision processes: what their states and actions are worth.
 
 inline rex::Mdp mdpOf(const Process& process) {
   rex::Mdp mdp;
@@ -29,31 +31,50 @@ inline Process processOf(const rex::Mdp& mdp) {
   return {rex::denseTransitions(mdp), mdp.rewards, mdp.discount};
 }
 
-/// Random rewards and transitions; if there are more than three states, some are terminal.
+inline double twoDigits(double x) { return std::round(100 * x) / 100; }
+
+/// Normal numbers with two digits.
+inline Eigen::MatrixXd someNumbers(rex::Rng& rng, Eigen::Index rows, Eigen::Index cols = 1) {
+  Eigen::MatrixXd numbers(rows, cols);
+  for (Eigen::Index i = 0; i < numbers.size(); ++i) numbers.data()[i] = twoDigits(rng.normal());
+  return numbers;
+}
+
+/// Random rewards, and transitions in quarters, so that cases can be computed by hand; about a quarter of
+/// the states are terminal.
 inline Process randomProcess(rex::Rng& rng, int n, int m, double discount) {
-  Process process{{}, rng.normalVector(n * m).reshaped(n, m), discount};
-  const int ends = n > 3 ? n / 4 : 0;
+  Process process{{}, someNumbers(rng, n, m), twoDigits(discount)};
+  const int ends = (n + 2) / 4;
   for (int a = 0; a < m; ++a) {
     Eigen::MatrixXd P = Eigen::MatrixXd::Zero(n, n);
-    for (int s = 0; s < n - ends; ++s) {
-      for (int i = 0; i < 3; ++i) P(s, rng.index(n)) += rng.uniform(.1, 1);
-      P.row(s) /= P.row(s).sum();
-    }
+    for (int s = 0; s < n - ends; ++s)
+      for (int i = 0; i < 4; ++i) P(s, rng.index(n)) += .25;
     process.P.push_back(P);
   }
   return process;
 }
 
+/// A policy in hundredths.
 inline Eigen::MatrixXd randomPolicy(rex::Rng& rng, const Process& process) {
-  const Eigen::Index n = process.R.rows(), m = process.R.cols();
-  Eigen::MatrixXd policy = rng.uniformVector(static_cast<int>(n * m), .01, 1).reshaped(n, m);
-  policy.array().colwise() /= policy.rowwise().sum().array().eval();
+  const int m = static_cast<int>(process.R.cols());
+  Eigen::MatrixXd policy = Eigen::MatrixXd::Constant(process.R.rows(), m, .01);
+  for (Eigen::Index s = 0; s < policy.rows(); ++s)
+    for (int percent = m; percent < 100; ++percent) policy(s, rng.index(m)) += .01;
   return policy;
 }
 
 inline std::string described(const Process& process) {
-  return fmt::format("a process of {} states and {} actions, discount {:.2f}", process.R.rows(),
-                     process.R.cols(), process.discount);
+  if (process.R.rows() == 7 && process.R.cols() == 2 && process.R == rex::tMaze().rewards)
+    return "the T-maze of the sheet";
+  return fmt::format("a process of {} states and {} actions", process.R.rows(), process.R.cols());
+}
+
+/// P[0], P[1], ... one below the other.
+inline Eigen::MatrixXd stacked(const Process& process) {
+  const Eigen::Index n = process.R.rows(), m = process.R.cols();
+  Eigen::MatrixXd all(n * m, n);
+  for (Eigen::Index a = 0; a < m; ++a) all.middleRows(a * n, n) = process.P[static_cast<std::size_t>(a)];
+  return all;
 }
 
 /// The scale of the compared values: tolerances are relative to it.
@@ -61,110 +82,124 @@ inline double scaleOf(const Process& process) {
   return process.R.cwiseAbs().maxCoeff() / (1 - process.discount);
 }
 
-inline void mazeFits(rex::grading::Check& check, Student& student, const Eigen::Vector4d& leaves,
-                     double discount) {
-  check.input(fmt::format("leaves {:g}, {:g}, {:g}, {:g}, discount {:g}", leaves[0], leaves[1], leaves[2],
-                          leaves[3], discount));
-  rex::Mdp maze = rex::tMaze();
-  maze.discount = discount;
-  maze.rewards.bottomRows(4).colwise() = leaves;
-  const MazeValues values = student.mazeValues(leaves, discount);
-  const Eigen::VectorXd random = rex::policyValues(maze, rex::uniformPolicy(maze)).V,
-                        optimal = rex::policyIteration(maze).V;
-  {
-    const auto shown = check.show([&] { return mazeSeen("The random policy", values.random, random); });
-    check.near("values of the random policy", values.random, random, 1e-9);
+/// Transitions and rewards under a policy, or whatever other weights of the actions.
+struct Chain {
+  Eigen::MatrixXd P;
+  Eigen::VectorXd r;
+};
+inline Chain chainOf(const Process& process, const Eigen::MatrixXd& weights, bool isTurned = false) {
+  const Eigen::Index n = process.R.rows(), m = process.R.cols();
+  Chain chain{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n)};
+  for (Eigen::Index a = 0; a < m; ++a) {
+    const Eigen::MatrixXd& P = process.P[static_cast<std::size_t>(a)];
+    for (Eigen::Index s = 0; s < n; ++s) {
+      chain.r[s] += weights(s, a) * process.R(s, a);
+      for (Eigen::Index t = 0; t < n; ++t) chain.P(s, t) += weights(s, a) * (isTurned ? P(t, s) : P(s, t));
+    }
   }
-  const auto shown = check.show([&] { return mazeSeen("The best policy", values.optimal, optimal); });
-  check.near("optimal values", values.optimal, optimal, 1e-9);
+  return chain;
+}
+
+/// V = r + discount P V; empty if there is none.
+inline Eigen::VectorXd solved(const Chain& chain, double discount, double factorOfRewards = 1) {
+  const Eigen::Index n = chain.r.size();
+  const Eigen::MatrixXd M = Eigen::MatrixXd::Identity(n, n) - discount * chain.P;
+  try {
+    return factorOfRewards * rex::solveMatrix(M, chain.r);
+  } catch (const rex::Error&) {
+    return {};
+  }
+}
+
+inline std::vector<Mistake> mistakenValues(const Process& process, const Eigen::MatrixXd& policy) {
+  const double discount = process.discount, m = static_cast<double>(policy.cols());
+  const Eigen::MatrixXd all = Eigen::MatrixXd::Ones(policy.rows(), policy.cols());
+  const Chain right = chainOf(process, policy), sums = chainOf(process, all);
+  const char* const columns = "Are columns of P taken for rows? P[a](s, t) leads from s to t.";
+  return {
+      {"Is the discount forgotten?", solved(right, 1)},
+      {columns, solved(chainOf(process, policy, true), discount)},
+      {columns, solved({right.P.transpose(), right.r}, discount)},
+      {"Is it only the reward of the first step?", right.r},
+      {"Is the reward in s discounted, too? Only what follows is.", solved(right, discount, discount)},
+      {"Does what follows have the wrong sign? V - discount P V is the reward.", solved(right, -discount)},
+      {"Are all actions taken to be equally likely? Their probabilities are in `policy`.",
+       solved(chainOf(process, Eigen::MatrixXd::Constant(policy.rows(), policy.cols(), 1 / m)), discount)},
+      {"Are the rewards added up without the probabilities of the actions?",
+       solved({right.P, sums.r}, discount)},
+      {"Are the matrices P added up without the probabilities of the actions?",
+       solved({sums.P, right.r}, discount)},
+      {"Are these the optimal values? Wanted are those of the given policy.",
+       rex::policyIteration(mdpOf(process)).V}};
 }
 
 inline void policyIsWorth(rex::grading::Check& check, Student& student, const Process& process) {
-  check.input(described(process));
   const Eigen::MatrixXd policy = randomPolicy(check.rng(), process);
+  check.input(described(process), {{"P, action by action", stacked(process)},
+                                   {"R", process.R},
+                                   {"discount", process.discount},
+                                   {"policy", policy}});
   const Eigen::VectorXd got = student.valuesOf(process, policy),
                         wanted = rex::policyValues(mdpOf(process), policy).V;
-  const auto shown =
-      check.show([&] { return barsSeen("Values of a policy", "index of the state", got, wanted); });
-  check.near("values of a policy", got, wanted, 1e-9 * scaleOf(process));
+  const double tolerance = 1e-9 * scaleOf(process);
+  check.shape("V of valuesOf", got, wanted.size(), 1);
+  const auto shown = check.show([&] { return barsSeen("V of valuesOf", "state", got, wanted); });
+  const auto mistake = suspectAmong(check, got, tolerance, mistakenValues(process, policy));
+  const auto early = check.ask("Does an iteration end too early? Eq. (9) is a linear system for V.",
+                               distance(got, wanted) < 1e-4 * scaleOf(process));
+  check.near("V of valuesOf", got, wanted, tolerance);
+}
+
+/// R + discount times what follows if an action with transitions P is taken in s.
+inline Eigen::MatrixXd worthWith(
+    const Process& process, const std::function<double(const Eigen::MatrixXd&, Eigen::Index)>& following) {
+  Eigen::MatrixXd worth = process.R;
+  for (Eigen::Index s = 0; s < worth.rows(); ++s)
+    for (Eigen::Index a = 0; a < worth.cols(); ++a)
+      worth(s, a) += process.discount * following(process.P[static_cast<std::size_t>(a)], s);
+  return worth;
+}
+
+inline std::vector<Mistake> mistakenWorths(const Process& process, const Eigen::VectorXd& V) {
+  using Matrix = Eigen::MatrixXd;
+  using Index = Eigen::Index;
+  const double discount = process.discount;
+  const Matrix &R = process.R, wanted = rex::actionValues(mdpOf(process), V), following = wanted - R;
+  const auto best = [&](const Matrix& P, Index s) {
+    double most = -INFINITY;
+    for (Index t = 0; t < V.size(); ++t)
+      if (P(s, t) > 0) most = std::max(most, V[t]);
+    return std::isfinite(most) ? most : 0;
+  };
+  const auto inColumn = [&](const Matrix& P, Index s) {
+    double sum = 0;
+    for (Index t = 0; t < V.size(); ++t) sum += P(t, s) * V[t];
+    return sum;
+  };
+  return {{"Is the discount forgotten?", R + following / discount},
+          {"Are columns of P taken for rows? P[a](s, t) leads from s to t.", worthWith(process, inColumn)},
+          {"Is it the value of s that follows? It is that of the next state, on average.",
+           worthWith(process, [&](const Matrix&, Index s) { return V[s]; })},
+          {"Is it the best next state that follows? All of them count, by their probabilities.",
+           worthWith(process, best)},
+          {"Does P[0] serve for all actions?",
+           worthWith(process, [&](const Matrix&, Index s) { return following(s, 0) / discount; })},
+          {"Is the reward discounted, too? Only what follows is.", wanted - (1 - discount) * R},
+          {"Is the reward left out?", following}};
 }
 
 inline void actionsAreWorth(rex::grading::Check& check, Student& student, const Process& process) {
-  check.input(described(process));
-  const Eigen::VectorXd V = check.rng().normalVector(static_cast<int>(process.R.rows()));
+  const Eigen::VectorXd V = someNumbers(check.rng(), process.R.rows());
+  check.input(described(process), {{"P, action by action", stacked(process)},
+                                   {"R", process.R},
+                                   {"discount", process.discount},
+                                   {"V", V}});
   const Eigen::MatrixXd got = student.worthOfActions(process, V),
                         wanted = rex::actionValues(mdpOf(process), V);
-  const auto shown = check.show(
-      [&] { return barsSeen("Worth of the actions, action by action", "index of the entry", got, wanted); });
-  check.near("worth of the actions", got, wanted, 1e-9);
-}
-
-// The bound on the error of the second of two successive values.
-inline double boundOf(const Process& process, const Eigen::VectorXd& before, const Eigen::VectorXd& after) {
-  return process.discount / (1 - process.discount) * (after - before).cwiseAbs().maxCoeff();
-}
-
-inline void valuesSettle(rex::grading::Check& check, Student& student, const Process& process,
-                         double tolerance) {
-  check.input(described(process) + fmt::format(", tolerance {:g}", tolerance));
-  const std::vector<Eigen::VectorXd> V = student.iterateValues(process, tolerance);
-  const rex::Mdp mdp = mdpOf(process);
-  const auto shown = check.show([&] { return settlingSeen(mdp, V, tolerance); });
-  check.atLeast("number of values V_0, V_1, ...", static_cast<double>(V.size()), 2);
-  check.near("V_0", V.front(), Eigen::VectorXd::Zero(process.R.rows()), 0);
-  for (std::size_t i = 1; i < V.size(); ++i)
-    check.near("V_k from V_(k-1)", V[i], rex::actionValues(mdp, V[i - 1]).rowwise().maxCoeff(),
-               1e-11 * scaleOf(process));
-  check.near("the last V", V.back(), rex::policyIteration(mdp).V, tolerance + 1e-10 * scaleOf(process));
-  check.atMost("bound on the error of the last V", boundOf(process, V[V.size() - 2], V.back()),
-               tolerance * (1 + 1e-6));
-  if (V.size() < 3) return;
-  check.atLeast("bound on the error of the V before the last",
-                boundOf(process, V[V.size() - 3], V[V.size() - 2]), tolerance * (1 - 1e-6));
-}
-
-inline void policiesImprove(rex::grading::Check& check, Student& student, const Process& process) {
-  check.input(described(process));
-  const std::vector<std::vector<int>> policies = student.iteratePolicies(process);
-  const auto states = static_cast<std::size_t>(process.R.rows());
-  const int m = static_cast<int>(process.R.cols());
-  const rex::Mdp mdp = mdpOf(process);
-  check.atLeast("number of policies", static_cast<double>(policies.size()), 1);
-  for (const std::vector<int>& actions : policies) {
-    check.near("number of states of a policy", static_cast<double>(actions.size()),
-               static_cast<double>(states), 0);
-    check.that("actions are 0 to m - 1",
-               std::all_of(actions.begin(), actions.end(), [&](int a) { return a >= 0 && a < m; }));
-  }
-  check.that("the first policy takes action 0", policies.front() == std::vector<int>(states, 0));
-  const auto shown = check.show([&] { return policiesSeen(mdp, policies); });
-  Eigen::VectorXd V;
-  for (std::size_t i = 0; i < policies.size(); ++i) {
-    if (i > 0) {
-      check.that("each policy differs from the one before", policies[i] != policies[i - 1]);
-      const Eigen::MatrixXd Q = rex::actionValues(mdp, V);
-      for (std::size_t s = 0; s < states; ++s) {
-        check.atMost("how much less the new action is worth than the best one, by the values before",
-                     Q.row(static_cast<int>(s)).maxCoeff() - Q(static_cast<int>(s), policies[i][s]),
-                     1e-8 * scaleOf(process));
-      }
-    }
-    V = rex::policyValues(mdp, rex::policyOf(mdp, policies[i])).V;
-  }
-  check.near("values of the last policy", V, rex::policyIteration(mdp).V, 1e-7 * scaleOf(process));
-}
-
-/// From state 0, actions 1 and 2 lead to states 1 and 2, from which every action leads to state 3. At first
-/// action 2 is better; in the end both are equally good, and the action taken before must stay.
-inline void tieStays(rex::grading::Check& check, Student& student) {
-  Process process{std::vector<Eigen::MatrixXd>(3, Eigen::MatrixXd::Zero(4, 4)), Eigen::MatrixXd(4, 3), .5};
-  for (Eigen::Index a = 0; a < 3; ++a) {
-    Eigen::MatrixXd& P = process.P[static_cast<std::size_t>(a)];
-    P(0, a == 0 ? 3 : a) = P(1, 3) = P(2, 3) = 1;
-  }
-  process.R << -1, 0, 0, 0, 1, -1, .5, 1, -1, 0, 0, 0;
-  policiesImprove(check, student, process);
-  const std::vector<std::vector<int>> expected{{0, 0, 0, 0}, {2, 1, 1, 0}};
-  check.that("an action is kept if another one is only as good",
-             student.iteratePolicies(process) == expected);
+  const auto shown = check.show([&] {
+    return barsSeen("Worth of actions by worthOfActions, action by action", "states of action 0, 1, ...", got,
+                    wanted);
+  });
+  const auto mistake = suspectAmong(check, got, 1e-9, mistakenWorths(process, V));
+  check.near("worth of actions by worthOfActions (states x actions)", got, wanted, 1e-9);
 }

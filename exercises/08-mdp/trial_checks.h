@@ -1,214 +1,189 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "grading/check.h"
 #include "interface.h"
-#include "learning/policy_gradient.h"
-#include "learning/power.h"
-#include "value_evidence.h"
+#include "mistakes.h"
+#include "process_checks.h"
 
-// Parts 5 to 7: a linear task with quadratic costs, whose gradient is known, and what must hold for trials
-// and for what is learned from them.
+// Part 5: what trials record, and when they end.
 
-struct LinearTask {
-  Eigen::Matrix2d A, Q;
-  Eigen::Vector2d B, start;
-  double R = 0, discount = 1;
-  int horizon = 12;
-};
+/// A task for trials: what the step function was called with, and what it returned. It fails in one step.
+struct TrialTask {
+  Eigen::MatrixXd A;
+  Eigen::VectorXd start;
+  int failsAfter;
+  std::vector<Eigen::VectorXd> states{};
+  std::vector<double> actions{}, rewards{};
 
-inline LinearTask randomTask(rex::Rng& rng) {
-  LinearTask task;
-  task.A << 1, .2, rng.uniform(-.2, .1), rng.uniform(.8, 1);
-  task.B << .05, rng.uniform(.2, .4);
-  task.Q = Eigen::Vector2d(rng.uniform(.5, 2), rng.uniform(.1, .5)).asDiagonal();
-  task.R = rng.uniform(.05, .2);
-  task.start = Eigen::Vector2d(1, rng.uniform(-.5, .5));
-  task.discount = rng.uniform(.85, .95);
-  return task;
-}
-
-inline Policy randomPolicy(rex::Rng& rng) {
-  Policy policy{Eigen::Vector2d(rng.uniform(-1, 0), rng.uniform(-.8, 0)), Eigen::Matrix2d::Zero()};
-  policy.L << rng.uniform(.3, .5), 0, rng.uniform(-.2, .2), rng.uniform(.3, .5);
-  return policy;
-}
-
-inline std::vector<Rollout> trialsOf(const LinearTask& task, const Policy& policy, int count, rex::Rng& rng,
-                                     double bonus = 0) {
-  std::vector<Rollout> trials;
-  for (int i = 0; i < count; ++i) {
-    const int T = task.horizon - i % 2;  // some are shorter
-    Rollout trial{Eigen::MatrixXd(2, T), Eigen::MatrixXd(2, T), Eigen::VectorXd(T)};
-    Eigen::Vector2d x = task.start;
-    for (int t = 0; t < T; ++t) {
-      trial.features.col(t) = x;
-      trial.noise.col(t) = policy.L * rng.normalVector(2);
-      const double a = x.dot(policy.beta + trial.noise.col(t));
-      trial.rewards[t] = bonus - x.dot(task.Q * x) - task.R * a * a;
-      x = task.A * x + task.B * a;
-    }
-    trials.push_back(trial);
+  Eigen::VectorXd after(const Eigen::VectorXd& state, double action) const {
+    Eigen::VectorXd next = A * state;
+    next[0] += .5 + .1 * std::tanh(action);
+    return next;
   }
-  return trials;
-}
-
-/// The gradient of the expected return of `horizon` steps, by the adjoint of the second moments of the state.
-inline Eigen::Vector2d exactGradient(const LinearTask& task, const Policy& policy, int horizon) {
-  const Eigen::Matrix2d closed = task.A + task.B * policy.beta.transpose();
-  const Eigen::Matrix2d Sigma = policy.L * policy.L.transpose();
-  std::vector<Eigen::Matrix2d> X{task.start * task.start.transpose()};
-  for (int t = 1; t < horizon; ++t)
-    X.push_back(closed * X.back() * closed.transpose() +
-                task.B * task.B.transpose() * (Sigma * X.back()).trace());
-  Eigen::Matrix2d P = Eigen::Matrix2d::Zero();
-  Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
-  for (int t = horizon - 1; t >= 0; --t) {
-    const Eigen::Matrix2d& now = X[static_cast<std::size_t>(t)];
-    gradient -= 2 * std::pow(task.discount, t) * now *
-                (task.R * policy.beta + task.discount * closed.transpose() * P * task.B);
-    P = task.Q + task.R * (policy.beta * policy.beta.transpose() + Sigma) +
-        task.discount * (closed.transpose() * P * closed + Sigma * task.B.dot(P * task.B));
-  }
-  return gradient;
-}
-
-inline std::vector<rex::Episode> episodesOf(const std::vector<Rollout>& trials) {
-  std::vector<rex::Episode> episodes;
-  for (const Rollout& trial : trials) episodes.push_back({trial.features, trial.noise, trial.rewards});
-  return episodes;
-}
-
-inline rex::LinearGaussianPolicy asLibrary(const Policy& policy) {
-  return {policy.beta, policy.L * policy.L.transpose()};
-}
-
-/// Checks that the trial records what the step function saw, and stops when it should.
-inline void trialFits(rex::grading::Check& check, Student& student, int k, int horizon, int failsAfter) {
-  rex::Rng& rng = check.rng();
-  const Policy policy{rng.normalVector(k),
-                      Eigen::MatrixXd::Identity(k, k) + .3 * rng.normalVector(k * k).reshaped(k, k)};
-  check.input(fmt::format("{} features, horizon {}, failure in step {}", k, horizon, failsAfter));
-  const Eigen::MatrixXd A = rng.normalVector(k * k).reshaped(k, k) / (2 * std::sqrt(k));
-  std::vector<Eigen::VectorXd> states;
-  std::vector<double> actions, rewards;
-  const StepFunction step = [&](const Eigen::VectorXd& state, double action) {
+  Transition step(const Eigen::VectorXd& state, double action) {
     states.push_back(state);
     actions.push_back(action);
     rewards.push_back(.1 * action + static_cast<double>(states.size()));
-    Eigen::VectorXd next = A * state;
-    next[0] += .5 + .1 * std::tanh(action);
-    return Transition{next, rewards.back(), static_cast<int>(states.size()) == failsAfter};
-  };
-  const Eigen::VectorXd start = rng.normalVector(k);
-  rex::Rng given = rng.split(7);
-  const Rollout trial = student.runTrial(step, start, policy, horizon, given);
-  const int T = std::min(horizon, failsAfter);
-  check.near("number of steps taken", static_cast<double>(states.size()), T, 0);
-  check.shape("features of the trial", trial.features, k, T);
-  check.shape("noise of the trial", trial.noise, k, T);
-  check.shape("rewards of the trial", trial.rewards, T, 1);
-  Eigen::VectorXd expected = start;
-  Eigen::MatrixXd white(k, T);
-  for (int t = 0; t < T; ++t) {
-    const auto at = static_cast<std::size_t>(t);
-    check.near("state in which the step was taken", states[at], expected, 1e-9);
-    check.near("features of a step", trial.features.col(t), states[at], 1e-12);
-    check.near("action of a step", actions[at], states[at].dot(policy.beta + trial.noise.col(t)), 1e-9);
-    check.near("reward of a step", trial.rewards[t], rewards[at], 1e-12);
-    expected = A * states[at];
-    expected[0] += .5 + .1 * std::tanh(actions[at]);
+    return {after(state, action), rewards.back(), static_cast<int>(states.size()) == failsAfter};
   }
-  rex::Rng same = rng.split(7);
-  for (int t = 0; t < T; ++t) white.col(t) = same.normalVector(k);
-  const Eigen::MatrixXd wanted = policy.L * white;
-  const auto shown = check.show([&] {
-    return rex::grading::Evidence{
-        .figures = {rex::grading::comparison("Noise of the steps", trial.noise, wanted)}};
-  });
-  for (int t = 0; t < T; ++t) check.near("noise of a step", trial.noise.col(t), wanted.col(t), 1e-9);
-}
-
-inline void returnsFit(rex::grading::Check& check, Student& student, int T) {
-  rex::Rng& rng = check.rng();
-  const Eigen::VectorXd rewards = rng.normalVector(T);
-  const double discount = rng.uniform(.3, 1);
-  check.input(fmt::format("{} rewards, discount {:.3f}", T, discount));
-  const Eigen::VectorXd got = student.returnsToGo(rewards, discount),
-                        wanted = rex::returnsToGo(rewards, discount);
-  const auto shown = check.show([&] { return barsSeen("Returns to go", "step", got, wanted); });
-  check.near("returns to go", got, wanted, 1e-9);
-}
-
-inline void gradientFits(rex::grading::Check& check, Student& student, int count) {
-  const LinearTask task = randomTask(check.rng());
-  const Policy policy = randomPolicy(check.rng());
-  check.input(fmt::format("{} trials, discount {:.3f}", count, task.discount));
-  const std::vector<Rollout> trials = trialsOf(task, policy, count, check.rng());
-  const Eigen::VectorXd exact =
-      rex::reinforceGradient(asLibrary(policy), episodesOf(trials), task.discount, rex::Baseline::kNone)
-          .gradient;
-  const Eigen::VectorXd got = student.reinforce(policy, trials, task.discount);
-  const auto shown = check.show([&] { return arrowsSeen("Gradient from these trials", {0, 0}, got, exact); });
-  check.near("gradient from these trials", got, exact, 1e-9 * (1 + exact.norm()));
-}
-
-/// A task, a policy and trials of equal length that determine the gradient well: the standard error of
-/// REINFORCE is below a 40th of the gradient's length, so that it exceeds the error that the cosine below
-/// allows (a seventh) less than once in 10^7 times. The mean reward of each step is subtracted, which only
-/// reduces the noise.
-struct Lesson {
-  LinearTask task;
-  Policy policy;
-  std::vector<Rollout> trials;
-  Eigen::Vector2d exact;
 };
 
-inline Lesson tellingLesson(rex::Rng& rng) {
-  for (;;) {
-    Lesson lesson{randomTask(rng), randomPolicy(rng), {}, {}};
-    lesson.task.horizon = 8;
-    Eigen::VectorXd mean = Eigen::VectorXd::Zero(8);
-    for (const Rollout& trial : trialsOf(lesson.task, lesson.policy, 20000, rng)) {
-      if (trial.rewards.size() != 8) continue;
-      lesson.trials.push_back(trial);
-      mean += trial.rewards / 10000;
-    }
-    for (Rollout& trial : lesson.trials) trial.rewards -= mean;
-    lesson.exact = exactGradient(lesson.task, lesson.policy, 8);
-    const rex::PolicyGradient found = rex::reinforceGradient(
-        asLibrary(lesson.policy), episodesOf(lesson.trials), lesson.task.discount, rex::Baseline::kNone);
-    if (found.standardError.norm() < lesson.exact.norm() / 40) return lesson;
+/// Requires that the columns of two matrices agree, one for each step. `describe` is called with the first
+/// that does not.
+inline void columnsAgree(rex::grading::Check& check, const std::string& property, const Eigen::MatrixXd& got,
+                         const Eigen::MatrixXd& wanted, const std::function<void(Eigen::Index)>& describe) {
+  constexpr double kTolerance = 1e-9;
+  check.shape(property, got, wanted.rows(), wanted.cols());
+  std::vector<Eigen::VectorXd> columns, others;
+  Eigen::Index first = -1;
+  for (Eigen::Index t = 0; t < wanted.cols(); ++t) {
+    columns.emplace_back(got.col(t));
+    others.emplace_back(wanted.col(t));
+    if (first < 0 && !(distance(columns.back(), others.back()) <= kTolerance)) first = t;
+  }
+  describe(std::max<Eigen::Index>(first, 0));
+  const auto usual = check.suspectUsualMistake(got, wanted, kTolerance);
+  check.nearAlong(property, rex::grading::overSteps(columns), others, kTolerance);
+}
+
+/// Where and when steps are taken, and the sizes of the trial.
+inline void trialEnds(rex::grading::Check& check, const Rollout& trial, const TrialTask& task, int horizon) {
+  const Eigen::Index T = std::min(horizon, task.failsAfter), k = task.start.size();
+  const auto taken = static_cast<Eigen::Index>(task.states.size());
+  {
+    const auto on = check.ask("Does the trial go on after a failure? Failed steps are the last.",
+                              T < horizon && taken > T);
+    const auto none = check.ask("Is step() never called?", taken == 0);
+    check.near("number of calls of step by runTrial", static_cast<double>(taken), static_cast<double>(T), 0);
+  }
+  struct Sized {
+    const char* name;
+    const Eigen::MatrixXd value;
+    Eigen::Index rows, cols;
+  };
+  for (const auto& [name, value, rows, cols] : {Sized{"features of runTrial", trial.features, k, T},
+                                                {"noise of runTrial", trial.noise, k, T},
+                                                {"rewards of runTrial", trial.rewards, T, 1}}) {
+    const Eigen::Index got = cols == 1 ? value.rows() : value.cols();
+    const auto left = check.ask("Is the step that failed left out? It is the last of the trial.",
+                                T < horizon && got == T - 1);
+    const auto uncut =
+        check.ask("Is the trial not cut to the steps that were taken?", T < horizon && got == horizon);
+    const auto start = check.ask("Is there a column before the first step, or after the last?", got == T + 1);
+    check.shape(name, value, rows, cols);
   }
 }
 
-inline void gradientIsTheTrueOne(rex::grading::Check& check, Student& student) {
-  const Lesson lesson = tellingLesson(check.rng());
-  check.input(fmt::format("{} trials of a linear task with quadratic costs", lesson.trials.size()));
-  const Eigen::VectorXd found = student.reinforce(lesson.policy, lesson.trials, lesson.task.discount);
-  check.shape("gradient", found, 2, 1);
-  check.atLeast("cosine of the angle to the exact gradient",
-                found.dot(lesson.exact) / found.norm() / lesson.exact.norm(), .99);
+inline std::vector<Mistake> mistakenNoise(const Policy& policy, const Eigen::MatrixXd& white) {
+  const Eigen::MatrixXd turned = policy.L.transpose(), right = policy.L * white, wrong = turned * white;
+  Eigen::MatrixXd shifted = right, first = right;
+  for (Eigen::Index t = 0; t < white.cols(); ++t) {
+    shifted.col(t) += policy.beta;
+    first.col(t) = right.col(0);
+  }
+  return {{"Is the noise drawn once for the whole trial? It is drawn anew in each step.", first},
+          {"Is L left out? With a normal z, epsilon = L z.", white},
+          {"Is it L^T z? With a normal z, epsilon = L z.", wrong},
+          {"Is it Sigma z? With a normal z, epsilon = L z.", policy.L * wrong},
+          {"Is beta added to the noise?", shifted}};
 }
 
-inline void powerFits(rex::grading::Check& check, Student& student, int count) {
-  const LinearTask task = randomTask(check.rng());
-  const Policy policy = randomPolicy(check.rng());
-  check.input(fmt::format("{} trials, discount {:.3f}", count, task.discount));
-  std::vector<Rollout> trials = trialsOf(task, policy, count, check.rng());
-  // Positive rewards that differ between trials.
-  for (Rollout& trial : trials) trial.rewards = (.2 * trial.rewards).array().exp();
-  const Eigen::VectorXd got = student.power(policy, trials, task.discount),
-                        wanted = rex::powerStep(asLibrary(policy), episodesOf(trials), task.discount).beta;
-  const auto shown = check.show([&] {
-    if (got.size() != 2) return rex::grading::Evidence{};
-    return arrowsSeen("From the old parameters to the new ones", policy.beta, got - policy.beta,
-                      wanted - policy.beta);
+inline Eigen::MatrixXd rowOf(const std::vector<double>& numbers) {
+  Eigen::MatrixXd row(1, static_cast<Eigen::Index>(numbers.size()));
+  std::copy(numbers.begin(), numbers.end(), row.data());
+  return row;
+}
+
+/// Checks that steps lead on, and that the trial records what the step function saw; step t in words is
+/// stepped(t). Returns the states as columns.
+inline Eigen::MatrixXd statesFit(rex::grading::Check& check, const Rollout& trial, const TrialTask& task,
+                                 const std::function<std::string(Eigen::Index)>& stepped) {
+  const auto T = static_cast<Eigen::Index>(task.states.size());
+  Eigen::MatrixXd seen(task.start.size(), T), next(task.start.size(), T + 1), still(task.start.size(), T);
+  next.col(0) = task.start;
+  for (Eigen::Index t = 0; t < T; ++t) {
+    const auto at = static_cast<std::size_t>(t);
+    check.shape("state that runTrial passes to step", task.states[at], task.start.size(), 1);
+    seen.col(t) = task.states[at];
+    still.col(t) = task.start;
+    next.col(t + 1) = task.after(task.states[at], task.actions[at]);
+  }
+  {
+    const auto mistake = askThat(
+        check,
+        questionAbout(seen, 1e-9,
+                      {{"Is the state never moved on? The next one is what step() returned.", still}}));
+    columnsAgree(check, "state that runTrial passes to step", seen, next.leftCols(T), [&](Eigen::Index t) {
+      const Eigen::VectorXd wanted = next.col(t);
+      check.input(stepped(t), {{t == 0 ? "start" : "state after the step before", wanted}});
+    });
+  }
+  const auto late =
+      askThat(check, questionAbout(trial.features, 1e-9,
+                                   {{"Are the features those after the step? Wanted are those before it.",
+                                     next.rightCols(T)}}));
+  columnsAgree(check, "features of runTrial", trial.features, seen, [&](Eigen::Index t) {
+    const Eigen::VectorXd state = seen.col(t);
+    check.input(stepped(t), {{"state passed to step", state}});
   });
-  check.near("new parameters", got, wanted, 1e-8);
+  return seen;
+}
+
+/// Noise and actions of a trial whose states are the columns of `seen`.
+inline void actionsFit(rex::grading::Check& check, const Policy& policy, const Rollout& trial,
+                       const TrialTask& task, const Eigen::MatrixXd& seen, rex::Rng rng,
+                       const std::function<std::string(Eigen::Index)>& stepped) {
+  const Eigen::Index k = seen.rows(), T = seen.cols();
+  Eigen::MatrixXd white(k, T), noisy(1, T), plain(1, T), opposite(1, T);
+  for (Eigen::Index t = 0; t < T; ++t) {
+    white.col(t) = rng.normalVector(static_cast<int>(k));
+    const Eigen::VectorXd phi = seen.col(t), epsilon = trial.noise.col(t);
+    plain(t) = phi.dot(policy.beta);
+    noisy(t) = plain(t) + phi.dot(epsilon);
+    opposite(t) = 2 * plain(t) - noisy(t);
+  }
+  {
+    const auto mistake = askThat(check, questionAbout(trial.noise, 1e-9, mistakenNoise(policy, white)));
+    columnsAgree(check, "noise of runTrial", trial.noise, policy.L * white, [&](Eigen::Index t) {
+      const Eigen::VectorXd z = white.col(t);
+      check.input(stepped(t), {{"z of rng.normalVector", z}, {"L", policy.L}});
+    });
+  }
+  const Eigen::MatrixXd actions = rowOf(task.actions);
+  const auto mistake =
+      askThat(check, questionAbout(actions, 1e-9,
+                                   {{"Is the noise left out of the action?", plain},
+                                    {"Is the noise subtracted? a = phi^T (beta + epsilon).", opposite},
+                                    {"Is beta left out of the action?", noisy - plain}}));
+  columnsAgree(check, "action that runTrial passes to step", actions, noisy, [&](Eigen::Index t) {
+    const Eigen::VectorXd phi = seen.col(t), epsilon = trial.noise.col(t);
+    check.input(stepped(t), {{"phi", phi}, {"beta", policy.beta}, {"epsilon", epsilon}});
+  });
+}
+
+inline void trialFits(rex::grading::Check& check, Student& student, int k, int horizon, int failsAfter) {
+  rex::Rng& rng = check.rng();
+  const Policy policy{someNumbers(rng, k), Eigen::MatrixXd::Identity(k, k) + .5 * someNumbers(rng, k, k)};
+  TrialTask task{.3 * someNumbers(rng, k, k), someNumbers(rng, k), failsAfter};
+  const std::string text = failsAfter <= horizon ? fmt::format("a trial that fails in step {}", failsAfter)
+                                                 : "a trial without a failure";
+  check.input(text, {{"horizon", horizon}, {"start", task.start}, {"beta", policy.beta}, {"L", policy.L}});
+  rex::Rng given = rng.split(7);
+  const Rollout trial =
+      student.runTrial([&](const Eigen::VectorXd& state, double action) { return task.step(state, action); },
+                       task.start, policy, horizon, given);
+  trialEnds(check, trial, task, horizon);
+  const auto stepped = [&](Eigen::Index t) { return fmt::format("{}, step {}", text, t + 1); };
+  const Eigen::MatrixXd seen = statesFit(check, trial, task, stepped), rewards = rowOf(task.rewards);
+  columnsAgree(check, "rewards of runTrial", trial.rewards.transpose(), rewards, [&](Eigen::Index t) {
+    check.input(stepped(t), {{"reward of step()", rewards(t)}});
+  });
+  actionsFit(check, policy, trial, task, seen, rng.split(7), stepped);
 }

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "grading/check.h"
+#include "grading/evidence_parts.h"
+
+// What the checks ask, and what they show.
+
+/// What a mistake makes of a value, and what to ask whoever gets that.
+struct Mistake {
+  const char* question;
+  Eigen::MatrixXd value;
+};
+
+/// The largest difference of two entries; infinite if the sizes differ.
+inline double distance(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  if (a.rows() != b.rows() || a.cols() != b.cols()) return INFINITY;
+  return a.size() == 0 ? 0 : (a - b).cwiseAbs().maxCoeff();
+}
+
+/// The question about the first mistake that explains `got`, or nullptr.
+inline const char* questionAbout(const Eigen::MatrixXd& got, double tolerance,
+                                 const std::vector<Mistake>& mistakes) {
+  for (const auto& [question, value] : mistakes)
+    if (distance(got, value) <= tolerance) return question;
+  return nullptr;
+}
+
+/// While the returned object is alive, near() asks that question about `got`; none if it is nullptr.
+[[nodiscard]] inline auto suspectThat(rex::grading::Check& check, const char* question,
+                                      const Eigen::MatrixXd& got) {
+  return check.suspect(question == nullptr ? "" : question, question == nullptr ? Eigen::MatrixXd() : got);
+}
+
+/// The same about the first mistake that explains `got`.
+[[nodiscard]] inline auto suspectAmong(rex::grading::Check& check, const Eigen::MatrixXd& got,
+                                       double tolerance, const std::vector<Mistake>& mistakes) {
+  return suspectThat(check, questionAbout(got, tolerance, mistakes), got);
+}
+
+/// While the returned object is alive, any requirement asks the question, unless it is nullptr.
+[[nodiscard]] inline auto askThat(rex::grading::Check& check, const char* question) {
+  return check.ask(question == nullptr ? "" : question, question != nullptr);
+}
+
+/// Values as bars, with the wanted ones as dots and a ring where they differ most.
+inline rex::grading::Evidence barsSeen(const std::string& title, const std::string& number,
+                                       const Eigen::MatrixXd& got, const Eigen::MatrixXd& wanted) {
+  if (got.size() != wanted.size() || got.size() == 0) return {};
+  const auto numbers = [](const Eigen::MatrixXd& M) {
+    return std::vector<double>(M.data(), M.data() + M.size());
+  };
+  const rex::Series dots{.label = "wanted",
+                         .y = numbers(wanted),
+                         .style = rex::SeriesStyle::kPoints,
+                         .marker = rex::Marker::kDot,
+                         .size = 2,
+                         .color = rex::grading::kWantedColor};
+  Eigen::Index worst = 0;
+  for (Eigen::Index i = 1; i < got.size(); ++i)
+    if (std::abs(got.data()[i] - wanted.data()[i]) > std::abs(got.data()[worst] - wanted.data()[worst]))
+      worst = i;
+  return {.figures = {{.title = title,
+                       .xLabel = number,
+                       .yLabel = "value",
+                       .series = {dots, rex::grading::wrongPoint("differs most", static_cast<double>(worst),
+                                                                 got.data()[worst])},
+                       .histograms = {{.label = "got", .heights = numbers(got)}}}}};
+}

@@ -1,0 +1,19 @@
+// caught by: power, more-power
+// shown by: power
+// mistake: weights each step with its own reward.
+
+// <solution power>
+const Eigen::Index k = policy.beta.size();
+Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(k, k);
+Eigen::VectorXd moves = Eigen::VectorXd::Zero(k);
+for (const Rollout& trial : trials) {
+  const Eigen::VectorXd& Q = trial.rewards;
+  for (Eigen::Index t = 0; t < Q.size(); ++t) {
+    const Eigen::VectorXd phi = trial.features.col(t);
+    const Eigen::MatrixXd W = phi * phi.transpose() / (policy.L.transpose() * phi).squaredNorm();
+    weights += W * Q[t];
+    moves += W * trial.noise.col(t) * Q[t];
+  }
+}
+return policy.beta + solve(weights, moves);
+// </solution>
