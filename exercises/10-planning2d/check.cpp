@@ -12,6 +12,7 @@
 #include "interface.h"
 #include "plan_evidence.h"
 #include "roadmap_checks.h"
+#include "sampler_checks.h"
 #include "yard_checks.h"
 
 using namespace rex;
@@ -239,7 +240,8 @@ void potentials(Check& check, Student& student) {
   });
 }
 
-// Differences over 2e-5 m are accurate to 1e-10 / d^2 of the push of a block 0.1 m away, far below 1e-4.
+// Differences over 2e-5 m are accurate to a few 1e-10 / d^2 of the push of a block at the distance d, far
+// below 1e-4. Every fourth point is nearer to a block than 0.1 m, where the push is large.
 // Where d is the reach, the gradient has a kink: points within 1e-4 m of that are left out.
 void gradients(Check& check, Student& student) {
   check.forEachCase(6, [&](int i) {
@@ -251,9 +253,9 @@ void gradients(Check& check, Student& student) {
       const Eigen::Vector2d p = randomFreePlace(yard, rng);
       const bool isPlain = std::all_of(yard.blocks.begin(), yard.blocks.end(), [&](const Block& block) {
         const double apart = (p - nearestPoint(block, p)).norm();
-        return apart > 0.1 && std::abs(apart - gains.reach) > 1e-4;
+        return apart > 0.02 && std::abs(apart - gains.reach) > 1e-4;
       });
-      if (!isPlain) continue;
+      if (!isPlain || (place % 4 == 0 && isClear(yard, p, 0.1))) continue;
       gradientFits(check, student, yard, goal, gains, p);
       ++place;
     }
@@ -282,17 +284,22 @@ void slidesAnywhere(Check& check, Student& student) {
 
 // Part 4.
 
-// Whether the straight way between two random positions is free, if that is beyond doubt; returns what it is.
-Straight straightFits(Check& check, Student& student, const Yard& yard, double resolution) {
-  const Eigen::Vector2d a = randomFreePlace(yard, check.rng()), b = randomFreePlace(yard, check.rng());
-  const Straight way = judged(yard, a, b, resolution);
+// Whether the straight way from a to b is free, if that is beyond doubt; returns what it is.
+Straight straightFits(Check& check, Student& student, const Yard& yard, const Eigen::Vector2d& a,
+                      const Eigen::Vector2d& b, double resolution) {
+  const bool isOpen = isFree(yard, a) && isFree(yard, b);
+  const Straight way = isOpen ? judged(yard, a, b, resolution) : Straight::kBlocked;
   if (way == Straight::kEither) return way;
   check.input(
       "a straight way",
       {{"a", a}, {"b", b}, {"resolution", resolution}, {"blocks, from x, y to x, y", cornersOf(yard)}});
   const auto shown = check.show([&] { return straightSeen(yard, a, b, way); });
   const auto between = check.ask("Are points between the ends tested, no more than `resolution` apart?",
-                                 way == Straight::kBlocked);
+                                 way == Straight::kBlocked && isOpen);
+  const auto ends = check.ask("Are both ends tested, too?", !isOpen);
+  const auto shorter =
+      check.ask("How many points does a way shorter than `resolution` have? At least its ends.",
+                way == Straight::kFree && (b - a).norm() < resolution);
   const bool got = student.straightIsFree(yard, a, b, resolution);
   check.that(way == Straight::kFree ? "straightIsFree returns true, since no block is in the way"
                                     : "straightIsFree returns false, since a block is in the way",
@@ -300,14 +307,27 @@ Straight straightFits(Check& check, Student& student, const Yard& yard, double r
   return way;
 }
 
-// A wall 6 cm thick, across which ways lead at any angle; then random yards.
+Straight straightFits(Check& check, Student& student, const Yard& yard, double resolution) {
+  const Eigen::Vector2d a = randomFreePlace(yard, check.rng()), b = randomFreePlace(yard, check.rng());
+  return straightFits(check, student, yard, a, b, resolution);
+}
+
+// A wall 6 cm thick, across which ways lead at any angle, or into which they lead by a millimetre; then
+// random yards, and short ways.
 void straightWays(Check& check, Student& student) {
   const Yard thin{{4, 4}, {{{1.97, 0}, {2.03, 3}}}};
   for (int blocked = 0; blocked < 20;)
     blocked += straightFits(check, student, thin, 0.05) == Straight::kBlocked ? 1 : 0;
+  for (int i = 0; i < 8; ++i) {
+    Rng& rng = check.rng();
+    const Eigen::Vector2d out(rng.uniform(0.2, 1.9), rng.uniform(0.5, 2.5)), in(1.971, out.y() + 0.3);
+    straightFits(check, student, thin, i % 2 == 0 ? out : in, i % 2 == 0 ? in : out, 0.05);
+  }
   for (int i = 0; i < 40; ++i) {
     const Yard yard = randomYard(check.rng(), {4, 4}, 6, 0.2);
     straightFits(check, student, yard, check.rng().uniform(0.01, 0.1));
+    const Eigen::Vector2d a = randomFreePlace(yard, check.rng());
+    straightFits(check, student, yard, a, a + Eigen::Vector2d(0, 0.004 * (i % 2)), 0.01);
   }
 }
 
@@ -333,6 +353,27 @@ void roadmaps(Check& check, Student& student) {
     });
     isRoadmap(check, yard, nodes, k, 0.05, got, here);
   });
+}
+
+// The node nearest to the start lies behind a block: over it there is no way, and over the second nearest one
+// there is.
+void queriesBehindABlock(Check& check, Student& student) {
+  const Yard yard = slotYard(1.8, 0.4);
+  const std::vector<Eigen::Vector2d> nodes{{1.3, 0.9}, {1.9, 2}, {4.1, 2}};
+  Network network(nodes.size());
+  for (const std::size_t to : {0u, 2u}) {
+    const double length = (nodes[1] - nodes[to]).norm();
+    network[1].push_back({to, length});
+    network[to].push_back({1, length});
+  }
+  const auto tested = check.ask("Are the straight ways from start and goal to the nodes tested?");
+  for (const int k : {1, 2}) {
+    check.input(
+        fmt::format("slotYard(1.8, 0.4) of maps.h, the node nearest to the start behind a block, k = {}", k));
+    const auto way = student.queryRoadmap(yard, nodes, network, kSlotStart, kSlotGoal, k, 0.05);
+    check.near("number of points in the way of queryRoadmap", static_cast<double>(way.size()), k == 1 ? 0 : 4,
+               0);
+  }
 }
 
 // Four nodes in and before the slot, two of them side by side: the way leads over the better one. Without the
@@ -368,6 +409,7 @@ void queriesInTheSlotYard(Check& check, Student& student) {
   check.that(
       "the way of queryRoadmap is empty if there is none",
       student.queryRoadmap(yard, nodes, joined({{0, 1}, {0, 2}}), kSlotStart, kSlotGoal, 1, 0.05).empty());
+  queriesBehindABlock(check, student);
 }
 
 // <hidden>
@@ -413,166 +455,13 @@ void queryFits(Check& check, Student& student, const Yard& yard) {
 }
 
 void queries(Check& check, Student& student) {
-  check.forEachCase(8, [&](int i) {
+  check.forEachCase(9, [&](int i) {
     Rng& rng = check.rng();
+    if (i == 8) return queriesBehindABlock(check, student);
     queryFits(check, student, i < 2 ? slotYard(rng.uniform(0.5, 3), 0.4) : randomYard(rng, {6, 6}, 8, 0.5));
   });
 }
 // </hidden>
-
-using Samples = std::vector<Eigen::Vector2d>;
-
-// Students' generators come from a stream of their own, one for each check, so that winding one back does
-// not reveal what the grader draws.
-Rng generatorsOf(Check& check) { return check.rng().split(7); }
-
-// The samplers, and what to ask whoever returns a node that is not free.
-struct Sampler {
-  const char *name, *question;
-};
-constexpr Sampler kUniform{"uniformSample", "Is the point tested?"},
-    kGaussian{"gaussianSample", "Which of the two points is the node? It is the free one."},
-    kBridge{"bridgeSample", "Is the middle tested? It has to be free, and both ends blocked."};
-
-// `count` nodes, or as many as that many attempts find; each attempt has random numbers of its own.
-template <class Sample>
-Samples gathered(Check& check, Rng& given, const Yard& yard, int count, int attempts, const Sampler& sampler,
-                 const Sample& sample) {
-  Samples samples;
-  for (int i = 0; i < attempts && std::ssize(samples) < count; ++i) {
-    const std::optional<Eigen::Vector2d> q = sample(Rng(given.next()));
-    if (!q) continue;
-    const auto shown = check.show([&] {
-      grading::Evidence evidence = samplesSeen(std::string("Nodes of ") + sampler.name, yard, samples);
-      if (q->allFinite())
-        evidence.figures.front().series.push_back(grading::wrongPoint("got, not free", q->x(), q->y()));
-      return evidence;
-    });
-    const auto asked = check.ask(sampler.question);
-    holdsWhere(check, std::string("every node of ") + sampler.name + " is free",
-               q->allFinite() && isFree(yard, *q), fmt::format("node ({:.4g}, {:.4g})", q->x(), q->y()));
-    samples.push_back(*q);
-  }
-  return samples;
-}
-
-double share(const Samples& samples, const Block& block) {
-  double inside = 0;
-  for (const Eigen::Vector2d& q : samples) inside += nearestPoint(block, q) == q ? 1 : 0;
-  return inside / static_cast<double>(samples.size());
-}
-
-double fromBorder(const Yard& yard, const Eigen::Vector2d& q) {
-  return std::min(q.minCoeff(), (yard.size - q).minCoeff());
-}
-
-// 300 uniform nodes: half of them lie in each half, up to 6 standard deviations of 0.029.
-void uniformFits(Check& check, Student& student, Rng& given) {
-  const Yard wall{{4, 4}, {{{0, 0}, {2, 4}}}};
-  check.input("a yard of 4 x 4 m whose left half is a block");
-  const Samples nodes = gathered(check, given, wall, 300, 900, kUniform,
-                                 [&](Rng rng) { return student.uniformSample(wall, rng); });
-  const auto shown = check.show(
-      [&] { return samplesSeen("Uniform nodes; wanted: evenly over the free half", wall, nodes); });
-  check.atLeast("number of nodes of uniformSample from 900 attempts", static_cast<double>(nodes.size()), 300);
-  check.near("share of the nodes of uniformSample in the upper half", share(nodes, {{2, 2}, {4, 4}}), 0.5,
-             0.17);
-  check.near("share of the nodes of uniformSample in the right half", share(nodes, {{3, 0}, {4, 4}}), 0.5,
-             0.17);
-}
-
-// Far from the border of the yard, the density at a distance x from the wall is proportional to P(N(0,
-// sigma) > x). In sigmas, its mean is sqrt(2 pi) / 4 = 0.627 with a deviation of 0.523, its mean square 2 /
-// 3 with one of 1.075, and 11.4 % lie beyond 1.3. Six standard deviations are tolerated.
-void gaussianFits(Check& check, Student& student, Rng& given) {
-  const double sigma = check.rng().uniform(0.25, 0.3);
-  const Yard wall{{12, 4}, {{{0, 0}, {12, 2}}}};
-  check.input("a yard of 12 x 4 m whose lower half is a block", {{"sigma", sigma}});
-  const Samples nodes = gathered(check, given, wall, 12000, 12000, kGaussian,
-                                 [&](Rng rng) { return student.gaussianSample(wall, sigma, rng); });
-  std::vector<double> distances;
-  for (const Eigen::Vector2d& q : nodes)
-    if (q.x() >= 1.2 && q.x() <= 10.8 && q.y() <= 3.2) distances.push_back((q.y() - 2) / sigma);
-  const auto shown = check.show([&] {
-    grading::Evidence evidence = samplesSeen("Gaussian nodes; wanted: near the wall", wall, nodes);
-    if (!distances.empty()) evidence.figures.insert(evidence.figures.begin(), distancesSeen(distances));
-    return evidence;
-  });
-  const double count = static_cast<double>(distances.size()), forgiven = 6 / std::sqrt(count);
-  check.atLeast("number of nodes of gaussianSample at the wall, from 12000 attempts", count, 250);
-  const Eigen::ArrayXd d = Eigen::Map<const Eigen::ArrayXd>(distances.data(), std::ssize(distances));
-  const auto sharp = check.ask(
-      "Is every free point near a block a node? The other point is at a normal distance, and not free.",
-      d.maxCoeff() < 1.5);
-  const auto root = check.ask("Is sigma taken for the variance? It is the standard deviation.",
-                              std::abs(d.mean() - 0.627 / std::sqrt(sigma)) < 0.1);
-  check.near("mean distance of the nodes of gaussianSample from the wall, in sigmas", d.mean(), 0.627,
-             0.523 * forgiven);
-  check.near("mean square of this distance, in sigmas squared", d.square().mean(), 2 / 3., 1.075 * forgiven);
-  check.near("share of the nodes of gaussianSample more than 1.3 sigmas from the wall",
-             (d > 1.3).cast<double>().mean(), 0.114, 0.318 * forgiven);
-}
-
-// Blocks everywhere except for three slots of that width: along x, along y, and slanted, as stairs of 10
-// cm.
-Yard threeSlots(Rng& rng, double width) {
-  const double y = rng.uniform(0.6, 1.4), x = rng.uniform(2.6, 3.4);
-  Yard yard{{6, 2},
-            {{{0, 0}, {2, y - width / 2}},
-             {{0, y + width / 2}, {2, 2}},
-             {{2, 0}, {x - width / 2, 2}},
-             {{x + width / 2, 0}, {4, 2}}}};
-  const double slope = rng.uniform(0.6, 0.8) * (rng.index(2) == 0 ? -1 : 1);
-  for (int i = 0; i < 20; ++i) {
-    const double left = 4 + 0.1 * i, middle = 1 + slope * (left - 4.95),
-                 half = std::hypot(1, slope) * width / 2;
-    yard.blocks.push_back({{left, 0}, {left + 0.1, middle - half}});
-    yard.blocks.push_back({{left, middle + half}, {left + 0.1, 2}});
-  }
-  return yard;
-}
-
-// Over 20 seeds, the reference has shares of 0.33, 0.29 and 0.38, with standard deviations below 0.045.
-void bridgesFit(Check& check, Student& student, Rng& given) {
-  const double sigma = check.rng().uniform(0.25, 0.35);
-  const Yard yard = threeSlots(check.rng(), 2 * sigma / 3);
-  check.input("a yard of 6 x 2 m, blocked except for three slots: along x, along y and slanted",
-              {{"sigma", sigma}});
-  const Samples nodes = gathered(check, given, yard, 200, 12000, kBridge,
-                                 [&](Rng rng) { return student.bridgeSample(yard, sigma, rng); });
-  const auto shown =
-      check.show([&] { return samplesSeen("Bridge nodes; wanted: in all slots", yard, nodes); });
-  check.atLeast("number of nodes of bridgeSample from 12000 attempts", static_cast<double>(nodes.size()),
-                150);
-  check.atLeast("share of the nodes of bridgeSample in the slot along x", share(nodes, {{0, 0}, {2, 2}}),
-                0.14);
-  check.atLeast("share of the nodes of bridgeSample in the slot along y", share(nodes, {{2, 0}, {4, 2}}),
-                0.14);
-  check.atLeast("share of the nodes of bridgeSample in the slanted slot", share(nodes, {{4, 0}, {6, 2}}),
-                0.14);
-}
-
-void samplers(Check& check, Student& student) {
-  Rng given = generatorsOf(check);
-  uniformFits(check, student, given);
-  gaussianFits(check, student, given);
-  bridgesFit(check, student, given);
-  // For a node 3.5 sigma away from all blocks, the ends of its bridge would have to be 7 sigma apart.
-  const Yard slot = slotYard(1.9, 0.2);
-  check.input("slotYard() of maps.h, 0.2 m wide; sigma = 0.3 m");
-  const Samples bridge = gathered(check, given, slot, 60, 6000, kBridge,
-                                  [&](Rng rng) { return student.bridgeSample(slot, 0.3, rng); });
-  const auto shown = check.show([&] {
-    return samplesSeen("Bridge nodes; wanted: two of five in the slot, none far from blocks", slot, bridge);
-  });
-  check.atLeast("number of nodes of bridgeSample from 6000 attempts", static_cast<double>(bridge.size()), 10);
-  for (const Eigen::Vector2d& q : bridge) {
-    double distance = fromBorder(slot, q);
-    for (const Block& block : slot.blocks) distance = std::min(distance, (q - nearestPoint(block, q)).norm());
-    check.atMost("distance of a node of bridgeSample from the nearest block", distance, 3.5 * 0.3, "m");
-  }
-  check.atLeast("share of the nodes of bridgeSample in the slot", share(bridge, {{2, 1.9}, {4, 2.1}}), 0.4);
-}
 
 // <hidden>
 bool isSolved(const Yard& yard, Samples nodes) {

@@ -139,9 +139,9 @@ FieldTrail slideDown(const Yard& yard, const Eigen::Vector2d& goal, const FieldG
 /// more than `resolution` metres apart, are free.
 bool straightIsFree(const Yard& yard, const Eigen::Vector2d& a, const Eigen::Vector2d& b, double resolution);
 
-/// Each makes one attempt to find a free node, and returns nothing if it fails. Slides 4:31 (line 3 and 4)
-/// and 4:35. N(q1, sigma) adds a normal number of standard deviation sigma [m] to each coordinate; q2 may
-/// leave the yard, where nothing is free.
+/// Each makes one attempt to find a free node, with random numbers of rng, and returns nothing if it fails.
+/// Slides 4:31 (line 3 and 4) and 4:35. N(q1, sigma) adds a normal number of standard deviation sigma [m] to
+/// each coordinate; q2 may leave the yard, where nothing is free.
 std::optional<Eigen::Vector2d> uniformSample(const Yard& yard, rex::Rng& rng);
 std::optional<Eigen::Vector2d> gaussianSample(const Yard& yard, double sigma, rex::Rng& rng);
 std::optional<Eigen::Vector2d> bridgeSample(const Yard& yard, double sigma, rex::Rng& rng);
