@@ -120,7 +120,7 @@ void likelihoodsOfTwo(Check& check, Student& student) {
 
 void normalises(Check& check, Student& student) {
   const Eigen::VectorXd logs = check.rng().uniformVector(8, -5, 0);
-  for (const double shift : {0., -1e5, 1e4, -1e300}) {
+  for (const double shift : {0., -1e5, 1e4}) {
     check.input("logarithms a + b", {{"a", logs}, {"b", shift}});
     const Eigen::VectorXd shifted = (logs.array() + shift).matrix();
     weightsFit(check, student.weightsOf(shifted), shifted);
