@@ -92,12 +92,14 @@ inline void requireCovariance(rex::grading::Check& check, const std::string& fun
   Eigen::Index row = 0, col = 0;
   const Eigen::MatrixXd apart = (S - S.transpose()).cwiseAbs();
   const double most = apart.maxCoeff(&row, &col);
-  const auto rounding = check.ask(
-      "These are rounding errors: the mean of a matrix and its transpose is symmetric to the last digit.",
-      most <= 1e-9 * S.cwiseAbs().maxCoeff());
-  check.atMost(fmt::format("difference of entries ({0}, {1}) and ({1}, {0}) of the covariance of {2}",
-                           std::min(row, col), std::max(row, col), function),
-               most, 0);
+  {
+    const auto rounding = check.ask(
+        "These are rounding errors: the mean of a matrix and its transpose is symmetric to the last digit.",
+        most <= 1e-9 * S.cwiseAbs().maxCoeff());
+    check.atMost(fmt::format("difference of entries ({0}, {1}) and ({1}, {0}) of the covariance of {2}",
+                             std::min(row, col), std::max(row, col), function),
+                 most, 0);
+  }
   check.atLeast("smallest variance on the diagonal of the covariance of " + function, S.diagonal().minCoeff(),
                 0);
   check.that("the covariance of " + function + " is positive definite",

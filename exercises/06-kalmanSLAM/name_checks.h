@@ -248,6 +248,20 @@ inline std::string questionAboutName(const CarSetup& car, const NamingCase& one,
   return "";
 }
 
+// Two sightings of one landmark, only one of which can have its name.
+inline void namesOnlyOnce(rex::grading::Check& check, Student& student) {
+  const CarSetup car{.observationNoise = 0.05, .bearingNoise = 0.01};
+  NamingCase one = namingCase(check.rng(), car, false);
+  const std::size_t k = one.names[0] >= 0 ? 0 : 1;
+  one.ys.emplace_back(one.ys[k] + Eigen::Vector2d(0.01, -0.02));
+  check.input(described(car), {{"one y", one.ys[k]}, {"another y", one.ys.back()}});
+  const std::vector<int> names = student.assigned(car, one.joint, one.ys);
+  check.near("number of names by assigned", static_cast<double>(names.size()), 3, 0);
+  const auto both = check.ask("What if two sightings want the same landmark?");
+  check.atMost("sightings that get the same landmark by assigned",
+               static_cast<double>(std::count(names.begin(), names.end(), one.names[k])), 1);
+}
+
 // Vague landmarks and new ones, with both sensors; shuffled, so that counting calls does not help.
 inline void namesByCovariance(rex::grading::Check& check, Student& student) {
   rex::Rng& rng = check.rng();
@@ -277,4 +291,5 @@ inline void namesByCovariance(rex::grading::Check& check, Student& student) {
       check.near("name of a sighting by assigned (-1: new, -2: unclear)", names[k], one.names[k], 0);
     }
   }
+  namesOnlyOnce(check, student);
 }
