@@ -184,7 +184,7 @@ inline std::string questionAboutLanding(const Walker& walker, const Eigen::Vecto
   if (got > 0 && got < wanted - 1e-3) {
     const Eigen::Vector4d then = libraryOf(walker).step(x, got).before;
     if (then[1] <= then[0] + 1e-3)
-      return "Does the step end when the legs pass each other, where the swing foot is not in front?";
+      return "Does the step end where the swing foot is not in front, such as when the legs pass each other?";
   }
   for (const double h : {1e-2, 5e-3, 2e-3, 1e-3, 5e-4, 1e-4})
     if (std::abs(std::ceil(wanted / h) * h - got) < 1e-9)
@@ -229,11 +229,13 @@ inline rex::grading::Evidence stepSeen(const Walker& walker, Eigen::Vector4d x, 
   return {.figures = {std::move(figure)}};
 }
 
-inline void stepFits(rex::grading::Check& check, Student& student, const KnownGait& gait) {
+/// A step that begins with the swing foot lifted by that angle: then the sum of the angles falls through its
+/// value at once, while the foot is still behind.
+inline void stepFits(rex::grading::Check& check, Student& student, const KnownGait& gait, double lift = 0) {
   Eigen::Vector4d x;
   rex::WalkerStep wanted;
   do {
-    x = near(check.rng(), gait, .1);
+    x = near(check.rng(), gait, .1) + Eigen::Vector4d(0, lift, 0, 0);
     wanted = libraryOf(gait.walker).step(x, 5);
   } while (wanted.status != rex::StepStatus::kStepped);
   check.input(described(gait.walker, x));
