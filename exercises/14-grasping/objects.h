@@ -52,6 +52,20 @@ inline Plate randomPlate(rex::Rng& rng) {
   }
 }
 
+/// A U whose centroid lies in its opening or near it: the normals of the opening's sides point away from it.
+inline Plate randomFork(rex::Rng& rng) {
+  const double width = rng.uniform(0.08, 0.12), height = rng.uniform(0.08, 0.12),
+               bar = rng.uniform(0.018, 0.025);
+  const double turn = rng.uniform(0, 6);
+  std::vector<Eigen::Vector2d> corners{
+      {0, 0},     {width, 0},    {width, height}, {width - bar, height}, {width - bar, bar},
+      {bar, bar}, {bar, height}, {0, height}};
+  for (Eigen::Vector2d& corner : corners)
+    corner = Eigen::Vector2d(std::cos(turn) * corner.x() - std::sin(turn) * corner.y(),
+                             std::sin(turn) * corner.x() + std::cos(turn) * corner.y());
+  return plateOf(corners);
+}
+
 /// A finger at a random position on the edges of a plate.
 inline PlanarFinger fingerOn(const Plate& plate, double friction, rex::Rng& rng) {
   const auto i = static_cast<std::size_t>(rng.index(static_cast<int>(plate.corners.size())));

@@ -151,6 +151,8 @@ inline void coneFits(rex::grading::Check& check, Student& student, rex::Rng& rng
        force(0.99 * limit), true},
       {"a force at 1.01 times the angle of the cone", "inCone() is false for a force outside of the cone",
        finger, force(1.01 * limit), false},
+      {"a tiny force at 1.01 times the angle of the cone",
+       "inCone() is false for a force outside of the cone", finger, 1e-9 * force(1.01 * limit), false},
       {"a force that pulls", "inCone() is false for a force that pulls", finger,
        -force(rng.uniform(0, 0.5 * limit)), false},
       {"no force", "inCone() is true for no force", finger, Eigen::Vector3d::Zero(), true},
