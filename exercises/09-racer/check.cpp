@@ -14,9 +14,16 @@ using rex::grading::Group;
 
 namespace {
 
-void massAndEnergy(Check& check, Student& student) { massFits(check, student, RacerModel{}); }
+// The wheel of the sheet could be a disc that turns about a diameter; that of another racer could not.
+void massAndEnergy(Check& check, Student& student) {
+  massFits(check, student, RacerModel{});
+  massFits(check, student, randomRacer(check.rng()));
+}
 
-void forces(Check& check, Student& student) { forcesFit(check, student, RacerModel{}); }
+void forces(Check& check, Student& student) {
+  forcesFit(check, student, RacerModel{});
+  forcesFit(check, student, randomRacer(check.rng()));
+}
 
 void steps(Check& check, Student& student) {
   stepFits(check, student, RacerModel{}, .01);
@@ -183,8 +190,8 @@ void unseenSearch(Check& check, Student& student) {
 
 rex::grading::Checks<Student> checks() {
   return {
-      {"mass", "lagrange", "M and the energy of the racer of the sheet", 1, Group::kVisible, massAndEnergy},
-      {"forces", "lagrange", "F and B of the racer of the sheet", 1, Group::kVisible, forces},
+      {"mass", "lagrange", "M and the energy of two racers", 1, Group::kVisible, massAndEnergy},
+      {"forces", "lagrange", "F and B of two racers", 1, Group::kVisible, forces},
       {"step", "simulation", "Rate and step", 1, Group::kVisible, steps},
       {"noise", "simulation", "Noise of the right size", 1, Group::kVisible, noises},
       {"linear", "lqr", "The linear system near rest", 1, Group::kVisible, linearises},

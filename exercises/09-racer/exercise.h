@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <utility>
 
 #include "control/racer_sensors.h"
 #include "course/course.h"
@@ -18,7 +19,8 @@ struct RacerModel {
   double g = 9.8;                    ///< m/s^2
 };
 
-// Part 1, Euler and Lagrange (12.6.1, 3:21 to 3:24): M(q) q'' + F(q, q') = B u.
+// Part 1, Euler and Lagrange (12.6.1, 3:21 to 3:24): M(q) q'' + F(q, q') = B u. F may be computed by central
+// differences; M, B and the energy are exact up to rounding.
 
 /// M(q).
 Eigen::Matrix2d massMatrix(const Eigen::Vector2d& q, const RacerModel& racer);
@@ -38,6 +40,12 @@ Eigen::Vector4d stepped(const Eigen::Vector4d& x, double u, double tau, const Ra
 /// The noise of a run, which is added to (x', theta') after each step: one column per step (2 x steps).
 /// Independent normal numbers with standard deviation sqrt(tau) `noise`.
 Eigen::MatrixXd kicks(int steps, double tau, double noise, rex::Rng& rng);
+/// Given: the noise of two runs, one after the other, with one generator.
+inline std::pair<Eigen::MatrixXd, Eigen::MatrixXd> kicksOfTwo(int steps, double tau, double noise,
+                                                              rex::Rng& rng) {
+  Eigen::MatrixXd first = kicks(steps, tau, noise, rng);
+  return {first, kicks(steps, tau, noise, rng)};
+}
 
 // Part 3, LQR (8:16 to 8:19), for a racer whose state is known.
 

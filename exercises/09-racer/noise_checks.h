@@ -83,6 +83,11 @@ inline void noiseFits(rex::grading::Check& check, Student& student, int steps, d
   });
   const auto own = check.ask("Does kicks use a generator of its own? All randomness comes from rng.");
   check.that("kicks gives other noise with another rng", !other.isApprox(got, 1e-9));
+  const auto [first, second] = student.kicksOfTwo(steps, tau, noise, check.rng().split(10));
+  check.shape("noise of kicks", first, 2, steps);
+  const auto copy = check.ask("Does kicks draw from a copy of rng? Pass rng by reference.");
+  check.that("kicks gives other noise when it is called again with the same rng",
+             !second.isApprox(first, 1e-9));
 }
 
 /// The numbers of one ride are independent of each other.
