@@ -4,6 +4,6 @@
 // <solution massMatrix>
 const double IA = racer.mA * racer.r * racer.r / 4, c = racer.mB * racer.l * std::cos(q[1]);
 Eigen::Matrix2d M;
-M << racer.mA + racer.mB + IA / (racer.r * racer.r), c, c, racer.IB + racer.mB * racer.l * racer.l;
+M << racer.mA + racer.mB + IA / (racer.r * racer.r), c, c, racer.IB + racer.mB* racer.l* racer.l;
 return M;
 // </solution>
