@@ -120,7 +120,11 @@ inline void gaussianFits(rex::grading::Check& check, Student& student, rex::Rng&
     return evidence;
   });
   const double count = static_cast<double>(distances.size()), forgiven = 6 / std::sqrt(count);
-  check.atLeast("number of nodes of gaussianSample at the wall, from 12000 attempts", count, 250);
+  // Of the pairs, 24000 / 48 sigma / sqrt(2 pi) per metre of wall: up to six standard deviations fewer.
+  const double wanted = 9.6 * 500 * sigma / std::sqrt(2 * M_PI);
+  const auto both = check.ask("Is q2 the node if q2 is free and q1 is not? The slide says: or vice versa.",
+                              std::abs(count / wanted - 0.5) < 0.15);
+  check.atLeast("number of nodes of gaussianSample at the wall, from 12000 attempts", count, 0.7 * wanted);
   const Eigen::ArrayXd d = Eigen::Map<const Eigen::ArrayXd>(distances.data(), std::ssize(distances));
   const auto sharp = check.ask(
       "Is every free point near a block a node? The other point is at a normal distance, and not free.",
