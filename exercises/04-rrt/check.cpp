@@ -83,10 +83,38 @@ void readsTheWay(Check& check, Student& student) {
   for (const int count : {1, 2, 5, 12}) wayFits(check, student, count);
 }
 
+// The goal is shut in, so that few targets give a node, and none a path.
+void givesUp(Check& check, Student& student, Rng& given) {
+  const PlaneWorld cell{.boxes = {{{0.78, 0.78}, {1, 0.8}}, {{0.78, 0.78}, {0.8, 1}}}};
+  const SearchSettings settings = inThePlane(0.06, 0.1, 400);
+  describe(check, "a goal that is shut in by walls", {cell, kLowerLeft, kUpperRight}, settings);
+  int calls = 0;
+  const EdgeTest counted = [&calls, isFree = freeIn(cell)](const Eigen::VectorXd& qa,
+                                                           const Eigen::VectorXd& qb) {
+    ++calls;
+    return qa.size() == 2 && qb.size() == 2 && isFree(qa, qb);
+  };
+  const TreeSearch search =
+      student.growBackward(kLowerLeft, kUpperRight, settings, counted, Rng(given.next()));
+  check.that("the path of growBackward is empty if there is none", search.path.empty());
+  const auto nodes = check.ask("Do only targets count that give a node? maxSamples limits all of them.");
+  check.atMost("calls of edgeFree by growBackward, with 400 targets and no path", calls,
+               3 * settings.maxSamples);
+}
+
+// A wall between the start and nodes that are nearer than a step; and a goal without a way.
+void endsWell(Check& check, Student& student, Rng& given) {
+  const PlaneProblem behindAWall{{.boxes = {{{0.12, 0}, {0.13, 0.5}}}}, kLowerLeft, kUpperRight};
+  for (int i = 0; i < 3; ++i)
+    growsBackward(check, student, "a thin wall close to the start, in the unit square", behindAWall, given);
+  givesUp(check, student, given);
+}
+
 void backwardInThePlane(Check& check, Student& student) {
   Rng given = generatorsOf(check);
   growsBackward(check, student, "two thin walls in the unit square", {kThinWalls, kLowerLeft, kUpperRight},
                 given);
+  endsWell(check, student, given);
   aimsAtTheStart(check, student, given);
 }
 
@@ -94,6 +122,7 @@ void backwardInThePlane(Check& check, Student& student) {
 void backwardAnywhere(Check& check, Student& student) {
   Rng given = generatorsOf(check);
   for (int i = 0; i < 4; ++i) growsBackward(check, student, "two walls", twoWalls(check.rng()), given);
+  endsWell(check, student, given);
   aimsAtTheStart(check, student, given);
 }
 // </hidden>
