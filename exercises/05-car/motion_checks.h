@@ -167,7 +167,9 @@ inline void noiseFits(rex::grading::Check& check, const std::string& function, c
   widthFits(check, function, d, world);
   check.near("means of the noise of " + function + " in x, y and heading", d.rowwise().mean(),
              Eigen::Vector3d::Zero(), kSigmas / std::sqrt(n) * noise);
-  const Eigen::Matrix3d of = d * d.transpose() / (n * noise * noise);
+  const Eigen::Matrix3d products = d * d.transpose();
+  const Eigen::Vector3d widths = products.diagonal().cwiseSqrt();
+  const Eigen::Matrix3d of = products.cwiseQuotient(widths * widths.transpose());
   const auto one = check.ask("Do x, y and heading get the same number?",
                              of(0, 1) > .95 && of(0, 2) > .95 && of(1, 2) > .95);
   check.near("correlations of the noise of " + function + ": x and y, x and heading, y and heading",
