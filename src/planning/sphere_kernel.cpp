@@ -367,7 +367,7 @@ struct Stretch {
   float middle, half;
 };
 
-// Stretches that are not proven yet. Of a full stack the caller gives up.
+// Stretches that are not proven yet. It never fills up: it grows by less than eight per halving of a stretch.
 struct Stack {
   static constexpr int kMost = 512;
   Stretch all[kMost];
@@ -410,21 +410,27 @@ class Motion {
     for (int b = 0; b < blocks; ++b) {
       // Each block is spread over the whole motion, to meet obstacles early wherever they are.
       for (int i = 0; i < 8; ++i) parts[i] = {half * static_cast<float>(2 * (i * blocks + b) + 1), half};
-      ++count.blocks;
-      if (!take(parts)) return false;
+      if (!take(parts, count)) return false;
+      if (stack_.count > Stack::kMost / 2 && !proveRest(count)) return false;
     }
+    return proveRest(count);
+  }
+
+ private:
+  // Divides what is not proven yet until it is.
+  bool proveRest(SphereCount& count) {
+    Stretch parts[8];
     while (stack_.count > 0) {
       if (stack_.all[stack_.count - 1].half * longest_ < scene_.finest) return false;
       divide(stack_, parts);
-      ++count.blocks;
-      if (!take(parts)) return false;
+      if (!take(parts, count)) return false;
     }
     return true;
   }
 
- private:
   // Checks eight stretches and keeps the unproven ones; false in overlap.
-  bool take(const Stretch* parts) {
+  bool take(const Stretch* parts, SphereCount& count) {
+    ++count.blocks;
     float middles[8], halves[8];
     for (int i = 0; i < 8; ++i) {
       middles[i] = parts[i].middle;

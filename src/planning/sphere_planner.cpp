@@ -15,21 +15,21 @@ namespace {
 
 using internal::SphereCount;
 using internal::SphereKernel;
-using Posture = Eigen::VectorXf;
+using PostureF = Eigen::VectorXf;
 
 // Nodes of a tree, in blocks of eight for the search of the nearest.
 class SphereTree {
  public:
-  SphereTree(const SphereKernel& kernel, const Posture& root) : kernel_(kernel), n_(root.size()) {
+  SphereTree(const SphereKernel& kernel, const PostureF& root) : kernel_(kernel), n_(root.size()) {
     add(root, -1);
   }
 
   int size() const { return static_cast<int>(parents_.size()); }
   int parent(int i) const { return parents_[static_cast<std::size_t>(i)]; }
-  void get(int i, Posture& q) const {
+  void get(int i, PostureF& q) const {
     for (Eigen::Index j = 0; j < n_; ++j) q[j] = points_[place(i, j)];
   }
-  int add(const Posture& q, int parent) {
+  int add(const PostureF& q, int parent) {
     constexpr float kFarAway = 1e15f;
     const int i = size();
     if (i % 8 == 0) points_.resize(points_.size() + static_cast<std::size_t>(8 * n_), kFarAway);
@@ -37,7 +37,7 @@ class SphereTree {
     parents_.push_back(parent);
     return i;
   }
-  int nearest(const Posture& q, float& distance) const {
+  int nearest(const PostureF& q, float& distance) const {
     const int found = kernel_.nearest(points_.data(), size(), static_cast<int>(n_), q.data(), distance);
     distance = std::sqrt(distance);
     return found;
@@ -55,9 +55,9 @@ class SphereTree {
 };
 
 // The branch from the root to a node.
-std::vector<Posture> branch(const SphereTree& tree, int node, Eigen::Index n) {
-  std::vector<Posture> postures;
-  for (Posture q(n); node >= 0; node = tree.parent(node)) {
+std::vector<PostureF> branchTo(const SphereTree& tree, int node, Eigen::Index n) {
+  std::vector<PostureF> postures;
+  for (PostureF q(n); node >= 0; node = tree.parent(node)) {
     tree.get(node, q);
     postures.push_back(q);
   }
@@ -75,12 +75,12 @@ class SphereSearch {
         width_((world.robot.upperLimits() - world.robot.lowerLimits()).cast<float>()) {}
 
   // Tries again and again until so many blocks are checked; the path from start to goal, or none.
-  std::vector<Posture> run(Halton& halton, float range, long blocks) {
+  std::vector<PostureF> run(Halton& halton, float range, long blocks) {
     if (isFree(start_, goal_)) return {start_, goal_};
     constexpr float kRanges[] = {1, 0.5f, 2};
     for (std::size_t i = 0; count_.blocks < blocks; ++i) {
       const long all = std::min(blocks, count_.blocks + kFirstTry * static_cast<long>(i + 1));
-      std::vector<Posture> path = grow(halton, range * kRanges[i % std::size(kRanges)], all);
+      std::vector<PostureF> path = grow(halton, range * kRanges[i % std::size(kRanges)], all);
       if (!path.empty()) return path;
     }
     return {};
@@ -94,14 +94,14 @@ class SphereSearch {
   // Farther from the tree than so many steps, targets pull only at its rim.
   static constexpr float kFarthest = 5;
 
-  bool isFree(const Posture& from, const Posture& to) {
+  bool isFree(const PostureF& from, const PostureF& to) {
     return world_.kernel.isFree(world_.scene, from.data(), to.data(), count_);
   }
 
   // Grows trees until they meet, or so many blocks are checked.
-  std::vector<Posture> grow(Halton& halton, float range, long blocks) {
+  std::vector<PostureF> grow(Halton& halton, float range, long blocks) {
     SphereTree trees[2] = {{world_.kernel, start_}, {world_.kernel, goal_}};
-    Posture target(start_.size()), near(start_.size());
+    PostureF target(start_.size()), near(start_.size());
     for (int far = 0; count_.blocks < blocks && far < kMostFarInARow; ++samples_) {
       const int side = trees[0].size() <= trees[1].size() ? 0 : 1;
       halton.next(target);
@@ -117,8 +117,8 @@ class SphereSearch {
       const int node = trees[side].add(target, nearest);
       const int met = connect(trees[1 - side], target, range);
       if (met < 0) continue;
-      std::vector<Posture> path = branch(trees[0], side == 0 ? node : met, start_.size());
-      const std::vector<Posture> rest = branch(trees[1], side == 0 ? met : node, start_.size());
+      std::vector<PostureF> path = branchTo(trees[0], side == 0 ? node : met, start_.size());
+      const std::vector<PostureF> rest = branchTo(trees[1], side == 0 ? met : node, start_.size());
       path.insert(path.end(), rest.rbegin(), rest.rend());
       return path;
     }
@@ -126,15 +126,15 @@ class SphereSearch {
   }
 
   // Grows the tree to the target in steps; its node next to the target if it gets there, otherwise -1.
-  int connect(SphereTree& tree, const Posture& target, float range) {
+  int connect(SphereTree& tree, const PostureF& target, float range) {
     float distance;
     int at = tree.nearest(target, distance);
-    Posture from(target.size());
+    PostureF from(target.size());
     tree.get(at, from);
     const int steps = std::max(1, static_cast<int>(std::ceil(distance / range)));
-    const Posture step = (target - from) / static_cast<float>(steps);
+    const PostureF step = (target - from) / static_cast<float>(steps);
     for (int i = 1; i <= steps; ++i) {
-      const Posture to = i < steps ? Posture(from + step) : target;
+      const PostureF to = i < steps ? PostureF(from + step) : target;
       if (!isFree(from, to)) return -1;
       if (i < steps) at = tree.add(to, at);
       from = to;
@@ -145,7 +145,7 @@ class SphereSearch {
   static constexpr int kMostFarInARow = 10000;
 
   const SphereWorld::Data& world_;
-  Posture start_, goal_, lower_, width_;
+  PostureF start_, goal_, lower_, width_;
   SphereCount count_;
   int samples_ = 0;
 };
@@ -153,7 +153,7 @@ class SphereSearch {
 // Shortens a path in place.
 class Shortening {
  public:
-  Shortening(const SphereWorld::Data& world, std::vector<Posture>& path) : world_(world), path_(path) {}
+  Shortening(const SphereWorld::Data& world, std::vector<PostureF>& path) : world_(world), path_(path) {}
 
   void run() {
     constexpr int kRounds = 60, kMostFailures = 15;
@@ -171,10 +171,10 @@ class Shortening {
  private:
   struct Point {
     std::size_t segment;
-    Posture q;
+    PostureF q;
   };
 
-  bool isFree(const Posture& from, const Posture& to) {
+  bool isFree(const PostureF& from, const PostureF& to) {
     return world_.kernel.isFree(world_.scene, from.data(), to.data(), count_);
   }
 
@@ -219,12 +219,12 @@ class Shortening {
   }
 
   const SphereWorld::Data& world_;
-  std::vector<Posture>& path_;
+  std::vector<PostureF>& path_;
   std::vector<float> lengths_;  // from the start to the end of each segment
   SphereCount count_;
 };
 
-Eigen::MatrixXd matrixOf(const std::vector<Posture>& path, const VectorArg& start, const VectorArg& goal) {
+Eigen::MatrixXd withEnds(const std::vector<PostureF>& path, const VectorArg& start, const VectorArg& goal) {
   Eigen::MatrixXd result(start.size(), static_cast<Eigen::Index>(path.size()));
   for (std::size_t i = 0; i < path.size(); ++i)
     result.col(static_cast<Eigen::Index>(i)) = path[i].cast<double>();
@@ -255,14 +255,15 @@ PathResult planSpheres(const SphereWorld& world, const VectorArg& start, const V
   requireFree(world, space, "goal", goal);
   SphereSearch search(world.data(), start, goal);
   Halton halton(robot.nq(), options.firstPoint);
-  const std::vector<Posture> path = search.run(halton, static_cast<float>(options.range), options.budget / 8);
+  const std::vector<PostureF> path =
+      search.run(halton, static_cast<float>(options.range), options.budget / 8);
   PathResult result{.samples = search.samples(), .asked = 8 * search.blocks()};
   if (path.empty()) {
     result.message = fmt::format("no path was found within {} postures", options.budget);
     return result;
   }
   result.status = PathStatus::kFound;
-  result.path = matrixOf(path, start, goal);
+  result.path = withEnds(path, start, goal);
   result.length = pathLength(space, result.path);
   return result;
 }
@@ -271,10 +272,10 @@ Eigen::MatrixXd shortenPath(const SphereWorld& world, const MatrixArg& path) {
   requireSize("postures of a path", path.rows(), world.data().scene.coordinates);
   if (path.cols() < 2)
     throw Error({.what = "path", .found = fmt::format("{} postures", path.cols()), .wanted = "at least two"});
-  std::vector<Posture> postures;
+  std::vector<PostureF> postures;
   for (Eigen::Index k = 0; k < path.cols(); ++k) postures.push_back(path.col(k).cast<float>());
   Shortening(world.data(), postures).run();
-  return matrixOf(postures, path.col(0), path.col(path.cols() - 1));
+  return withEnds(postures, path.col(0), path.col(path.cols() - 1));
 }
 
 }  // namespace rex

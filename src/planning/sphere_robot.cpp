@@ -21,13 +21,13 @@ using internal::SphereGroup;
 using internal::SphereLink;
 using internal::SpherePair;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t asIndex(int i) { return static_cast<std::size_t>(i); }
 
 Pose constantOf(const Link& link) {
   return {Eigen::Map<const Eigen::Matrix3d>(link.X_PL), Eigen::Map<const Eigen::Vector3d>(link.X_PL + 9)};
 }
 
-void require(bool isSound, std::string what, std::string found, std::string wanted) {
+void requireRobot(bool isSound, std::string what, std::string found, std::string wanted) {
   if (!isSound)
     throw Error({.what = std::move(what), .found = std::move(found), .wanted = std::move(wanted)});
 }
@@ -37,54 +37,58 @@ void noteExchange(const Eigen::Matrix3d& R, SphereLink& link) {
   constexpr double kSame = 1e-9;
   link.isExchange = true;
   for (int i = 0; i < 3; ++i) {
-    const double largest = R.col(i).cwiseAbs().maxCoeff(&link.axis[i]);
+    Eigen::Index row;
+    const double largest = R.col(i).cwiseAbs().maxCoeff(&row);
     link.isExchange = link.isExchange && largest > 1 - kSame;
-    link.sign[i] = R(link.axis[i], i) < 0 ? -1.0f : 1.0f;
+    link.axis[i] = static_cast<int>(row);
+    link.sign[i] = R(row, i) < 0 ? -1.0f : 1.0f;
   }
 }
 
 // Collects the data of a SphereRobot.
-class Builder {
+class SphereRobotBuilder {
  public:
-  explicit Builder(const Model& model) : model_(model), links_(model.links()) {
+  explicit SphereRobotBuilder(const Model& model) : model_(model), links_(model.links()) {
     requireSupported();
     placeBodies();
     addLinks();
     addGroups();
     addReach();
     addPairs();
-    require(data_.nodes.size() <= internal::kMostNodes && data_.linkPairs.size() <= internal::kMostLinkPairs,
-            fmt::format("robot '{}'", model.name()),
-            fmt::format("{} nodes of sphere trees and {} pairs of links", data_.nodes.size(),
-                        data_.linkPairs.size()),
-            fmt::format("at most {} and {}", internal::kMostNodes, internal::kMostLinkPairs));
+    requireRobot(
+        data_.nodes.size() <= internal::kMostNodes && data_.linkPairs.size() <= internal::kMostLinkPairs,
+        fmt::format("robot '{}'", model.name()),
+        fmt::format("{} nodes of sphere trees and {} pairs of links", data_.nodes.size(),
+                    data_.linkPairs.size()),
+        fmt::format("at most {} and {}", internal::kMostNodes, internal::kMostLinkPairs));
     addBalls();
   }
   SphereRobot::Data take() { return std::move(data_); }
 
  private:
   int count() const { return static_cast<int>(links_.size()); }
-  const Link& link(int l) const { return links_[at(l)]; }
+  const Link& link(int l) const { return links_[asIndex(l)]; }
 
   void requireSupported() {
     const std::string robot = fmt::format("robot '{}'", model_.name());
-    require(model_.nq() <= internal::kMostCoordinates, robot, fmt::format("{} coordinates", model_.nq()),
-            fmt::format("at most {}", internal::kMostCoordinates));
-    require(count() <= internal::kMostLinks, robot, fmt::format("{} moving links", count()),
-            fmt::format("at most {}", internal::kMostLinks));
+    requireRobot(model_.nq() <= internal::kMostCoordinates, robot, fmt::format("{} coordinates", model_.nq()),
+                 fmt::format("at most {}", internal::kMostCoordinates));
+    requireRobot(count() <= internal::kMostLinks, robot, fmt::format("{} moving links", count()),
+                 fmt::format("at most {}", internal::kMostLinks));
     for (const Link& link : links_)
-      require(link.kind == Link::Kind::kHinge || link.kind == Link::Kind::kSlider,
-              fmt::format("joint of body '{}'", model_.bodies()[at(link.body)].name),
-              "a screw or a ball joint", "hinges and sliders");
+      requireRobot(link.kind == Link::Kind::kHinge || link.kind == Link::Kind::kSlider,
+                   fmt::format("joint of body '{}'", model_.bodies()[asIndex(link.body)].name),
+                   "a screw or a ball joint", "hinges and sliders");
     for (int i = 0; i < model_.nq(); ++i)
-      require(std::isfinite(model_.lowerLimits()[i]) && std::isfinite(model_.upperLimits()[i]),
-              fmt::format("coordinate {}", i),
-              fmt::format("limits {:g} and {:g}", model_.lowerLimits()[i], model_.upperLimits()[i]),
-              "finite limits");
+      requireRobot(std::isfinite(model_.lowerLimits()[i]) && std::isfinite(model_.upperLimits()[i]),
+                   fmt::format("coordinate {}", i),
+                   fmt::format("limits {:g} and {:g}", model_.lowerLimits()[i], model_.upperLimits()[i]),
+                   "finite limits");
     for (std::size_t i = 0; i < model_.shapes().size(); ++i)
-      require(!model_.shapes()[i].contact || model_.shapes()[i].shape.type == ShapeType::kSphere,
-              fmt::format("shape '{}'", shapeLabel(model_, static_cast<int>(i))),
-              fmt::format("a {}", toString(model_.shapes()[i].shape.type)), "spheres as shapes in contact");
+      requireRobot(!model_.shapes()[i].contact || model_.shapes()[i].shape.type == ShapeType::kSphere,
+                   fmt::format("shape '{}'", shapeLabel(model_, static_cast<int>(i))),
+                   fmt::format("a {}", toString(model_.shapes()[i].shape.type)),
+                   "spheres as shapes in contact");
     data_.lower = model_.lowerLimits();
     data_.upper = model_.upperLimits();
   }
@@ -93,13 +97,13 @@ class Builder {
   void placeBodies() {
     const std::size_t bodies = model_.bodies().size();
     linkOf_.assign(bodies, -1);
-    for (int l = 0; l < count(); ++l) linkOf_[at(link(l).body)] = l;
+    for (int l = 0; l < count(); ++l) linkOf_[asIndex(link(l).body)] = l;
     for (std::size_t b = 1; b < bodies; ++b)
-      if (linkOf_[b] < 0) linkOf_[b] = linkOf_[at(static_cast<int>(model_.bodies()[b].parent))];
+      if (linkOf_[b] < 0) linkOf_[b] = linkOf_[asIndex(static_cast<int>(model_.bodies()[b].parent))];
     std::vector<Pose> X_WL;
     for (const Link& link : links_) {
       Pose X = constantOf(link);
-      if (link.parent >= 0) X = X_WL[at(link.parent)] * X;
+      if (link.parent >= 0) X = X_WL[asIndex(link.parent)] * X;
       X = X * (link.kind == Link::Kind::kHinge ? rotation(link.offset, Eigen::Vector3d::UnitZ())
                                                : translation(0, 0, link.offset));
       X_WL.push_back(X);
@@ -108,14 +112,14 @@ class Builder {
     spheres_.resize(links_.size() + 1);
     for (const ModelShape& shape : model_.shapes()) {
       if (!shape.contact) continue;
-      const int body = static_cast<int>(shape.body), l = linkOf_[at(body)];
+      const int body = static_cast<int>(shape.body), l = linkOf_[asIndex(body)];
       Eigen::Vector3d center = poses[shape.body] * shape.X_BS.p;
-      if (l >= 0) center = X_WL[at(l)].inverse() * center;
+      if (l >= 0) center = X_WL[asIndex(l)].inverse() * center;
       spheresOf(l).push_back({center, shape.shape.radius, body});
     }
   }
 
-  std::vector<LinkSphere>& spheresOf(int l) { return spheres_[l < 0 ? links_.size() : at(l)]; }
+  std::vector<LinkSphere>& spheresOf(int l) { return spheres_[l < 0 ? links_.size() : asIndex(l)]; }
 
   void addLinks() {
     for (const Link& link : links_) {
@@ -157,9 +161,11 @@ class Builder {
   }
 
   SphereGroup group(int l, int root) const {
-    const auto center = [&](int n) { return Eigen::Map<const Eigen::Vector3f>(data_.nodes[at(n)].center); };
+    const auto center = [&](int n) {
+      return Eigen::Map<const Eigen::Vector3f>(data_.nodes[asIndex(n)].center);
+    };
     SphereGroup group{.link = l, .node = root};
-    for (int n = root; n < data_.nodes[at(root)].next; ++n)
+    for (int n = root; n < data_.nodes[asIndex(root)].next; ++n)
       group.spread = std::max(group.spread, 1e-6f + (center(n) - center(root)).norm());
     return group;
   }
@@ -193,13 +199,13 @@ class Builder {
   void write(std::vector<float>& table, int k, std::size_t column, std::size_t columns, double number) const {
     const std::size_t width = (columns + 7) / 8 * 8;
     table.resize(links_.size() * width);
-    table[at(k) * width + column] = static_cast<float>(number);
+    table[asIndex(k) * width + column] = static_cast<float>(number);
   }
 
   void addReach() {
     for (int l = 0; l < count(); ++l)
       for (int k = l; k >= 0; k = link(k).parent)
-        write(data_.reach, k, at(l), links_.size(), spheresOf(l).empty() ? 0 : reachOf(k, l) + 1e-6);
+        write(data_.reach, k, asIndex(l), links_.size(), spheresOf(l).empty() ? 0 : reachOf(k, l) + 1e-6);
   }
 
   bool moves(int k, int l) const {
@@ -218,7 +224,7 @@ class Builder {
     std::map<std::pair<int, int>, std::vector<SpherePair>> byLinks;
     for (const PairVerdict& verdict : pairVerdicts(model_)) {
       if (!verdict.mayCollide) continue;
-      const auto a = at(static_cast<int>(verdict.a)), b = at(static_cast<int>(verdict.b));
+      const auto a = asIndex(static_cast<int>(verdict.a)), b = asIndex(static_cast<int>(verdict.b));
       if (linkOf_[a] <= linkOf_[b])
         byLinks[{linkOf_[a], linkOf_[b]}].push_back({groupOfBody_[a], groupOfBody_[b]});
       else
@@ -239,9 +245,9 @@ class Builder {
   }
 
   void addBalls() {
-    data_.balls.assign(at((data_.guards + 7) / 8 * 32), 0);
+    data_.balls.assign(asIndex((data_.guards + 7) / 8 * 32), 0);
     for (int g = 0; g < data_.guards; ++g) {
-      const int l = data_.groups[at(g)].link;
+      const int l = data_.groups[asIndex(g)].link;
       int first = l;
       while (link(first).parent >= 0) first = link(first).parent;
       const Eigen::Vector3d center = constantOf(link(first)).p;
@@ -262,7 +268,8 @@ class Builder {
 
 }  // namespace
 
-SphereRobot::SphereRobot(const Model& model) : data_(std::make_shared<const Data>(Builder(model).take())) {}
+SphereRobot::SphereRobot(const Model& model)
+    : data_(std::make_shared<const Data>(SphereRobotBuilder(model).take())) {}
 
 int SphereRobot::nq() const { return static_cast<int>(data_->lower.size()); }
 const Eigen::VectorXd& SphereRobot::lowerLimits() const { return data_->lower; }

@@ -43,7 +43,7 @@ class SphereWorld {
   /// slack(). Throws Error for a wrong size and numbers that are not finite.
   [[nodiscard]] bool isFree(const VectorArg& q) const;
   /// Whether all pairs stay apart while q moves straight from `from` to `to`: then that is proven. If not,
-  /// they overlap or come nearer than three times slack() somewhere. Throws as above.
+  /// they overlap or come nearer than 3 mm somewhere. Throws as above.
   [[nodiscard]] bool isFree(const VectorArg& from, const VectorArg& to) const;
   /// More than rounding to single precision changes any distance, metres: some 1e-5 within a few metres.
   [[nodiscard]] double slack() const;

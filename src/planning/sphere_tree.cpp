@@ -13,7 +13,7 @@ struct Ball {
   double radius;
 };
 
-double farthest(const LinkSphere& sphere, const Eigen::Vector3d& from) {
+double farthestFrom(const LinkSphere& sphere, const Eigen::Vector3d& from) {
   return (sphere.center - from).norm() + sphere.radius;
 }
 
@@ -24,7 +24,7 @@ Ball ballAround(Spheres spheres) {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   for (const LinkSphere& sphere : spheres) center += sphere.center / static_cast<double>(spheres.size());
   const auto isNearer = [&](const LinkSphere& a, const LinkSphere& b) {
-    return farthest(a, center) < farthest(b, center);
+    return farthestFrom(a, center) < farthestFrom(b, center);
   };
   for (int i = 2; i < 500; ++i) {
     const LinkSphere& last = *std::max_element(spheres.begin(), spheres.end(), isNearer);
@@ -33,11 +33,11 @@ Ball ballAround(Spheres spheres) {
     if (distance == 0) break;
     center += apart * ((distance + last.radius) / distance / i);
   }
-  return {center, farthest(*std::max_element(spheres.begin(), spheres.end(), isNearer), center)};
+  return {center, farthestFrom(*std::max_element(spheres.begin(), spheres.end(), isNearer), center)};
 }
 
 // Sorts the spheres along the direction in which they spread most, and returns where to divide them.
-std::size_t divide(Spheres spheres) {
+std::size_t middleOf(Spheres spheres) {
   Eigen::Vector3d low = spheres[0].center, high = low;
   for (const LinkSphere& sphere : spheres) {
     low = low.cwiseMin(sphere.center);
@@ -57,14 +57,15 @@ bool isOneBody(Spheres spheres) {
 }
 
 // Where the second half of the bodies begins; spheres of a body are adjacent.
-std::size_t divideBodies(Spheres spheres) {
+std::size_t middleOfBodies(Spheres spheres) {
   std::size_t middle = spheres.size() / 2, after = middle;
   while (middle > 0 && spheres[middle - 1].body == spheres[middle].body) --middle;
   while (after < spheres.size() && spheres[after].body == spheres[spheres.size() / 2].body) ++after;
   return middle > 0 ? middle : after;
 }
 
-int append(Spheres spheres, bool isPartOfBody, std::vector<SphereNode>& nodes, std::vector<int>& rootOfBody) {
+int appendTree(Spheres spheres, bool isPartOfBody, std::vector<SphereNode>& nodes,
+               std::vector<int>& rootOfBody) {
   const int root = static_cast<int>(nodes.size());
   const Ball ball = ballAround(spheres);
   SphereNode node{.radius = static_cast<float>(ball.radius), .isLeaf = spheres.size() == 1};
@@ -73,9 +74,9 @@ int append(Spheres spheres, bool isPartOfBody, std::vector<SphereNode>& nodes, s
   const bool isOne = isOneBody(spheres);
   if (isOne && !isPartOfBody) rootOfBody[static_cast<std::size_t>(spheres[0].body)] = root;
   if (spheres.size() > 1) {
-    const std::size_t middle = isOne ? divide(spheres) : divideBodies(spheres);
-    append(spheres.subspan(0, middle), isOne, nodes, rootOfBody);
-    append(spheres.subspan(middle), isOne, nodes, rootOfBody);
+    const std::size_t middle = isOne ? middleOf(spheres) : middleOfBodies(spheres);
+    appendTree(spheres.subspan(0, middle), isOne, nodes, rootOfBody);
+    appendTree(spheres.subspan(middle), isOne, nodes, rootOfBody);
   }
   nodes[static_cast<std::size_t>(root)].next = static_cast<int>(nodes.size());
   return root;
@@ -85,7 +86,7 @@ int append(Spheres spheres, bool isPartOfBody, std::vector<SphereNode>& nodes, s
 
 int appendSphereTree(std::vector<LinkSphere> spheres, std::vector<SphereNode>& nodes,
                      std::vector<int>& rootOfBody) {
-  return append(spheres, false, nodes, rootOfBody);
+  return appendTree(spheres, false, nodes, rootOfBody);
 }
 
 }  // namespace rex::internal

@@ -11,9 +11,9 @@ namespace rex {
 namespace {
 
 using internal::SphereObstacle;
-using Kind = SphereObstacle::Kind;
+using ObstacleKind = SphereObstacle::Kind;
 
-bool isUpright(const Eigen::Matrix3d& R) { return std::abs(R(2, 0)) < 1e-7 && std::abs(R(2, 1)) < 1e-7; }
+bool isUprightBox(const Eigen::Matrix3d& R) { return std::abs(R(2, 0)) < 1e-7 && std::abs(R(2, 1)) < 1e-7; }
 
 SphereObstacle obstacleOf(const ShapeSpec& spec) {
   const Shape& shape = spec.shape;
@@ -22,15 +22,15 @@ SphereObstacle obstacleOf(const ShapeSpec& spec) {
   for (int i = 0; i < 3; ++i) obstacle.p[i] = static_cast<float>(spec.X_BS.p[i]);
   switch (shape.type) {
     case ShapeType::kBox:
-      obstacle.kind = isUpright(spec.X_BS.R) ? Kind::kUprightBox : Kind::kBox;
+      obstacle.kind = isUprightBox(spec.X_BS.R) ? ObstacleKind::kUprightBox : ObstacleKind::kBox;
       for (int i = 0; i < 3; ++i) obstacle.half[i] = static_cast<float>(shape.extent[i] / 2);
       return obstacle;
     case ShapeType::kSphere:
-      obstacle.kind = Kind::kCapsule;
+      obstacle.kind = ObstacleKind::kCapsule;
       return obstacle;
     case ShapeType::kCapsule:
     case ShapeType::kCylinder:
-      obstacle.kind = shape.type == ShapeType::kCapsule ? Kind::kCapsule : Kind::kCylinder;
+      obstacle.kind = shape.type == ShapeType::kCapsule ? ObstacleKind::kCapsule : ObstacleKind::kCylinder;
       obstacle.half[2] = static_cast<float>(shape.extent.z() / 2);
       return obstacle;
     default:
@@ -41,7 +41,7 @@ SphereObstacle obstacleOf(const ShapeSpec& spec) {
 }
 
 // How far an obstacle extends from the origin.
-double sizeOf(const ShapeSpec& spec) { return spec.X_BS.p.norm() + halfBounds(spec.shape).norm(); }
+double extentOf(const ShapeSpec& spec) { return spec.X_BS.p.norm() + halfBounds(spec.shape).norm(); }
 
 // Twenty times what double the roundings of a chain of ten links cost, in metres and radians of order one.
 constexpr double kSlack = 2e-6;
@@ -76,7 +76,7 @@ SphereWorld::SphereWorld(const SphereRobot& robot, std::span<const ShapeSpec> ob
   double size = parts.size;
   for (const ShapeSpec& obstacle : obstacles) {
     data_->obstacles.push_back(obstacleOf(obstacle));
-    size = std::max(size, sizeOf(obstacle));
+    size = std::max(size, extentOf(obstacle));
   }
   addGuards(*data_);
   data_->scene = {.slack = static_cast<float>(kSlack * (1 + size) * std::max(1., parts.largestAngle / 4)),
