@@ -20,24 +20,19 @@ SphereObstacle obstacleOf(const ShapeSpec& spec) {
   SphereObstacle obstacle{.radius = static_cast<float>(shape.radius)};
   for (int i = 0; i < 9; ++i) obstacle.R[i] = static_cast<float>(spec.X_BS.R(i % 3, i / 3));
   for (int i = 0; i < 3; ++i) obstacle.p[i] = static_cast<float>(spec.X_BS.p[i]);
-  switch (shape.type) {
-    case ShapeType::kBox:
-      obstacle.kind = isUprightBox(spec.X_BS.R) ? ObstacleKind::kUprightBox : ObstacleKind::kBox;
-      for (int i = 0; i < 3; ++i) obstacle.half[i] = static_cast<float>(shape.extent[i] / 2);
-      return obstacle;
-    case ShapeType::kSphere:
-      obstacle.kind = ObstacleKind::kCapsule;
-      return obstacle;
-    case ShapeType::kCapsule:
-    case ShapeType::kCylinder:
-      obstacle.kind = shape.type == ShapeType::kCapsule ? ObstacleKind::kCapsule : ObstacleKind::kCylinder;
-      obstacle.half[2] = static_cast<float>(shape.extent.z() / 2);
-      return obstacle;
-    default:
-      throw Error({.what = fmt::format("obstacle '{}'", spec.name),
-                   .found = fmt::format("a {}", toString(shape.type)),
-                   .wanted = "a box, sphere, capsule or cylinder"});
+  if (shape.type == ShapeType::kBox) {
+    obstacle.kind = isUprightBox(spec.X_BS.R) ? ObstacleKind::kUprightBox : ObstacleKind::kBox;
+    for (int i = 0; i < 3; ++i) obstacle.half[i] = static_cast<float>(shape.extent[i] / 2);
+    return obstacle;
   }
+  const bool isCylinder = shape.type == ShapeType::kCylinder, isSphere = shape.type == ShapeType::kSphere;
+  if (!isCylinder && !isSphere && shape.type != ShapeType::kCapsule)
+    throw Error({.what = fmt::format("obstacle '{}'", spec.name),
+                 .found = fmt::format("a {}", toString(shape.type)),
+                 .wanted = "a box, sphere, capsule or cylinder"});
+  obstacle.kind = isCylinder ? ObstacleKind::kCylinder : ObstacleKind::kCapsule;
+  if (!isSphere) obstacle.half[2] = static_cast<float>(shape.extent.z() / 2);
+  return obstacle;
 }
 
 // How far an obstacle extends from the origin.
@@ -71,7 +66,7 @@ SphereWorld::SphereWorld(const SphereRobot& robot, std::span<const ShapeSpec> ob
     : SphereWorld(robot, obstacles, cpuLanes()) {}
 
 SphereWorld::SphereWorld(const SphereRobot& robot, std::span<const ShapeSpec> obstacles, int lanes)
-    : data_(new Data{.robot = robot, .kernel = kernelFor<internal::SphereKernel>(lanes)}) {
+    : data_(std::make_unique<Data>(robot, kernelFor<internal::SphereKernel>(lanes))) {
   const SphereRobot::Data& parts = robot.data();
   double size = parts.size;
   for (const ShapeSpec& obstacle : obstacles) {

@@ -25,6 +25,8 @@ struct SphereRobot::Data {
 };
 
 struct SphereWorld::Data {
+  Data(const SphereRobot& one, const internal::SphereKernel& table) : robot(one), kernel(table) {}
+
   SphereRobot robot;
   internal::SphereKernel kernel;
   std::vector<internal::SphereObstacle> obstacles;

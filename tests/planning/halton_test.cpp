@@ -21,10 +21,10 @@ double radicalInverse(long index, int base) {
 }
 
 TEST(Halton, HasTheValuesOfItsPaper) {
-  EXPECT_EQ(pointOf(3, 0), Eigen::Vector3f(0, 0, 0));
-  EXPECT_EQ(pointOf(3, 1), Eigen::Vector3f(1. / 2, 1. / 3, 1. / 5));
-  EXPECT_EQ(pointOf(3, 2), Eigen::Vector3f(1. / 4, 2. / 3, 2. / 5));
-  EXPECT_EQ(pointOf(3, 6), Eigen::Vector3f(3. / 8, 2. / 9, 6. / 25));
+  EXPECT_TRUE(pointOf(3, 0).isApprox(Eigen::Vector3f(0, 0, 0), 1e-6f));
+  EXPECT_TRUE(pointOf(3, 1).isApprox(Eigen::Vector3f(1.f / 2, 1.f / 3, 1.f / 5), 1e-6f));
+  EXPECT_TRUE(pointOf(3, 2).isApprox(Eigen::Vector3f(1.f / 4, 2.f / 3, 2.f / 5), 1e-6f));
+  EXPECT_TRUE(pointOf(3, 6).isApprox(Eigen::Vector3f(3.f / 8, 2.f / 9, 6.f / 25), 1e-6f));
 }
 
 TEST(Halton, CountsOnFromAnyPoint) {
