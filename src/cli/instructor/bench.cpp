@@ -49,12 +49,18 @@ void addBench(CLI::App* command, Action& action) {
       "  scripts/rex bench panda --problems DIR");
   command->add_option("NAME", options->names, "groups to measure (default: all)")->type_name("");
   command->add_flag("--json", options->json, "print JSON instead of a table");
-  command->add_option("--problems", options->problems, "panda: a folder of motion planning problems");
-  command->add_option("--urdf", options->urdf,
-                      "panda: the robot (default: ../urdf/panda_spherized.urdf beside DIR)");
-  command->add_option("--srdf", options->srdf,
-                      "panda: which links may collide (default: NAME.srdf beside the URDF)");
-  command->add_option("--seed", options->seed, "panda: the first point of the Halton sequence (default: 1)");
+  command->add_option("--problems", options->problems, "panda: a folder of motion planning problems")
+      ->type_name("DIR");
+  command
+      ->add_option("--urdf", options->urdf,
+                   "panda: the robot (default: ../urdf/panda_spherized.urdf beside DIR)")
+      ->type_name("FILE.urdf");
+  command
+      ->add_option("--srdf", options->srdf,
+                   "panda: which links may collide (default: NAME.srdf beside the URDF)")
+      ->type_name("FILE.srdf");
+  command->add_option("--seed", options->seed, "panda: the first point of the Halton sequence (default: 1)")
+      ->type_name("N");
   command->callback(
       [&action, options] { action = [options](const Project& p) { return bench(p, *options); }; });
 }
