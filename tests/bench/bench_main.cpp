@@ -1,13 +1,17 @@
 // rex_bench [NAME...] [--json]: measures ours against its peers; `rex bench` runs it.
+// rex_bench panda --problems DIR [--urdf FILE] [--srdf FILE] [--seed N] [--json]: solves motion planning
+// problems.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <stdlib.h>
 
 #include "base/error.h"
+#include "bench/panda_problems.h"
 #include "bench/report.h"
 
 namespace rex::bench {
@@ -74,6 +78,21 @@ void run(const std::vector<std::string>& names, bool asJson) {
   if (asJson) fmt::print("{}", json(lines));
 }
 
+// The group of problems has options of its own, and needs them.
+bool wantsPanda(const std::vector<std::string>& names, const PandaOptions& panda) {
+  const bool isNamed = std::count(names.begin(), names.end(), "panda") > 0;
+  if (isNamed && panda.problems.empty())
+    throw UsageError({.what = "benchmark 'panda'",
+                      .found = "no --problems",
+                      .wanted = "a folder of problem files, as in share/doc/planning-problems.md"});
+  const bool isAlone = names.size() == 1 && isNamed;
+  if (!panda.problems.empty() && !isAlone)
+    throw UsageError({.what = "--problems",
+                      .found = names.empty() ? "no name" : fmt::format("'{}'", fmt::join(names, "', '")),
+                      .wanted = "the benchmark 'panda' alone"});
+  return isNamed;
+}
+
 int main(int argc, char** argv) {
   CLI::App app(
       "Measures rex against its peers: CPU time, the smallest of several runs of both sides in turn.",
@@ -82,11 +101,22 @@ int main(int argc, char** argv) {
   bool asJson = false;
   app.add_option("NAME", names, "groups or rows of the table; none: all");
   app.add_flag("--json", asJson, "print JSON instead of a table");
+  PandaOptions panda;
+  app.add_option("--problems", panda.problems, "panda: the folder of problems");
+  app.add_option("--urdf", panda.urdf,
+                 "panda: the robot (default: ../urdf/panda_spherized.urdf beside the folder)");
+  app.add_option("--srdf", panda.srdf,
+                 "panda: which links may collide (default: NAME.srdf beside NAME.urdf)");
+  app.add_option("--seed", panda.seed, "panda: the first point of the Halton sequence (default: 1)");
   try {
     app.parse(argc, argv);
     // Both sides draw on one thread: processor time then holds no waiting of threads for each other.
     ::setenv("LP_NUM_THREADS", "0", 0);
-    run(names, asJson);
+    panda.asJson = asJson;
+    if (wantsPanda(names, panda))
+      runPandaProblems(panda);
+    else
+      run(names, asJson);
     return 0;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kUsageError;
