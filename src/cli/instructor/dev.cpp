@@ -23,11 +23,15 @@ void addDevCheck(CLI::App* dev, Action& action) {
   CLI::App* command =
       addVerb(dev, "check", "Check that exercises are complete, graded well and give nothing away",
               "Examples:\n  scripts/rex dev check 01\n  scripts/rex dev check 01 --gate solution --seeds 20\n"
+              "  scripts/rex dev check 01 --gate points --gate names --json\n"
               "  scripts/rex dev check 01 --gate wrong --sheet pictures.png");
   CLI::Option* exercise =
       command->add_option("EXERCISE", options->exercise, "only this one (default: all)")->type_name("");
-  command->add_option("--gate", options->gate, "only this gate")->type_name("NAME");
+  command->add_option("--gate", options->gates, "only this gate; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("NAME");
   command->add_flag("--list-gates", options->listGates, "print the names of the gates");
+  command->add_flag("--json", options->json, "print JSON");
   command->add_option("--seeds", options->seeds, "seeds to try the solution with (default: 3)")
       ->type_name("N")
       ->check(CLI::Range(1, 10000).description(""));
@@ -99,6 +103,7 @@ void addDevRelease(CLI::App* dev, Action& action) {
       ->add_flag("--installed", options->installed,
                  "this folder is an installed tree, with programs and libraries")
       ->needs(scan);
+  command->add_flag("--json", options->json, "print JSON");
   command
       ->add_option("--secret-file", options->secret,
                    "secret of the course, which must not be in the tree either")

@@ -221,6 +221,8 @@ TEST_F(Doctor, AttacksTheSandboxAndEndsWellOnlyAtTheAskedLevel) {
     EXPECT_THAT(result.output,
                 HasSubstr("sandbox level " + std::to_string(std::min(asked, level)) + " of 3"));
   }
+  const Diagnosis whole = diagnose();
+  EXPECT_THAT(whole.text.at("sandbox"), HasSubstr("sandbox level " + std::to_string(level) + " of 3"));
   EXPECT_EQ(rex({"doctor", "--level", "1"}).exitCode, 64);
 }
 
