@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include "cli/command_schema.h"
 #include "cli/template_project.h"
 
 namespace rex::cli::workflow_test {
@@ -18,6 +19,7 @@ TEST_F(WorkflowTest, ListsExercises) {
 }
 
 TEST_F(WorkflowTest, ListsExercisesAsJson) {
+  EXPECT_EQ(schemaFaultsOf(rex({"list", "--json"}).output, "list"), "");
   EXPECT_EQ(
       rex({"list", "--json"}).output,
       "{\"exercises\":[{\"name\":\"98-template\",\"title\":\"Rotating points (template)\",\"script\":\"2.1\","
@@ -278,8 +280,8 @@ TEST_F(WorkflowTest, FindsWhatIsWrongWithTheStarter) {
                  "the untouched main.cpp gets 0 points (no check passes), exercise.toml says floor = 1");
   replace(exercise() / "exercise.toml", "floor = 1", "floor = 0");
   replace(exercise() / "main.cpp", "return Eigen::Vector2d::Zero();", "return angle < 9 ? p : p;");
-  expectOpenGate("main-floor", "gets 1 point (keeps-length 1), exercise.toml says floor = 0");
-  replace(exercise() / "main.cpp", "return Eigen", "int unused;\n  return Eigen");
+  expectOpenGate("main-floor", "gets 2 points (keeps-length 1, angles-add 1), exercise.toml says floor = 0");
+  replace(exercise() / "main.cpp", "return angle", "int unused;\n  return angle");
   expectOpenGate("main-floor", "main.cpp does not compile cleanly");
 }
 
@@ -316,8 +318,11 @@ TEST_F(WorkflowTest, RunsTheChosenGatesAndPrintsThemAsJson) {
       "{\"gates\":[{\"exercise\":\"98-template\",\"gate\":\"points\",\"passed\":true,\"message\":\"\","
       "\"note\":\"\"},{\"exercise\":\"98-template\",\"gate\":\"names\",\"passed\":true,\"message\":\"\","
       "\"note\":\"\"}],\"blocked\":[]}\n");
-  EXPECT_THAT(rex({"dev", "check", "98", "--list-gates", "--json"}).output,
-              HasSubstr("{\"98-template\":[\"main-current\",\"points\","));
+  EXPECT_EQ(schemaFaultsOf(ended.output, "dev_check"), "");
+  EXPECT_EQ(schemaFaultsOf("{\"gates\": [], \"blokced\": []}", "dev_check").empty(), false);
+  const std::string names = rex({"dev", "check", "98", "--list-gates", "--json"}).output;
+  EXPECT_EQ(schemaFaultsOf(names, "dev_check_gates"), "");
+  EXPECT_THAT(names, HasSubstr("{\"98-template\":[\"main-current\",\"points\","));
 }
 
 TEST_F(WorkflowTest, ABrokenDescriptionFailsItsOwnExerciseOnly) {

@@ -119,7 +119,7 @@ void addDevStats(CLI::App* dev, Action& action) {
   CLI::App* command = addVerb(dev, "stats", "Show how a class did: points, and which checks fail most",
                               "Examples:\n  scripts/rex dev stats results\n"
                               "  scripts/rex dev stats results --json\n"
-                              "  scripts/rex dev stats results -o points.png\n\n"
+                              "  scripts/rex dev stats results -o points.png --parts parts.png\n\n"
                               "Exit code 2: some results could not be read; they are named.");
   command->add_option("DIR", options->results, "the folder of results that `rex grade` wrote")
       ->type_name("")
@@ -127,6 +127,7 @@ void addDevStats(CLI::App* dev, Action& action) {
   CLI::Option* json = command->add_flag("--json", options->json, "print JSON");
   command->add_flag("--csv", options->csv, "print a table of the checks")->excludes(json);
   command->add_option("-o,--out", options->figure, "draw the points of each exercise")->type_name("FILE.png");
+  command->add_option("--parts", options->parts, "draw the mean points of each part")->type_name("FILE.png");
   command->callback(
       [&action, options] { action = [options](const Project& p) { return devStats(p, *options); }; });
 }

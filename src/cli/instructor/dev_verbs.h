@@ -47,7 +47,8 @@ ExitCode devRelease(const Project& project, const ReleaseOptions& options);
 
 struct StatsOptions {
   std::filesystem::path results{};  ///< folder that `rex grade` wrote
-  std::filesystem::path figure{};   ///< .png or .svg; empty: none
+  std::filesystem::path figure{};   ///< the points of each exercise, .png or .svg; empty: none
+  std::filesystem::path parts{};    ///< the points of each part, likewise
   bool json = false;
   bool csv = false;
 };

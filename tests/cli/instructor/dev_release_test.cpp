@@ -1,4 +1,5 @@
 // `rex dev release`: the tree, what is said of it, and its proof on a tree whose build is a script.
+#include "cli/command_schema.h"
 #include "cli/template_project.h"
 
 namespace rex::cli::dev_release_test {
@@ -85,6 +86,20 @@ TEST_F(DevReleaseTest, WritesNothingThatLeaks) {
                 "exercises/98-template/solution.cpp:"));
   EXPECT_THAT(ended.error, HasSubstr("Nothing was written: found 1 leak."));
   EXPECT_FALSE(fs::exists(students()));
+}
+
+TEST_F(DevReleaseTest, PrintsJson) {
+  const Ended written = release({"--json"});
+  EXPECT_EQ(written.code, 0) << written.error;
+  EXPECT_EQ(schemaFaultsOf(written.output, "dev_release"), "");
+  EXPECT_THAT(written.output, HasSubstr("\"exercises\":1,"));
+  EXPECT_THAT(written.output, HasSubstr("\"leaks\":[],\"proven\":false}\n"));
+  write(students() / "solution.cpp", "");
+  const Ended scanned = rex({"dev", "release", "--scan", students().string(), "--json"});
+  EXPECT_EQ(scanned.code, 1);
+  EXPECT_EQ(schemaFaultsOf(scanned.output, "dev_release"), "");
+  EXPECT_THAT(scanned.output, HasSubstr("{\"written\":null,"));
+  EXPECT_THAT(scanned.output, HasSubstr("\"leaks\":[\"solution.cpp: "));
 }
 
 TEST_F(DevReleaseTest, LooksThroughAnyFolder) {
