@@ -79,7 +79,7 @@ TEST(Similar, IgnoresWhatWasHandedOut) {
   EXPECT_TRUE(pairsOf({{"anna", kHandedOut}, {"bert", kHandedOut}}).empty());
   const TemporaryFolder folder;
   EXPECT_EQ(similarPairs({{"anna", kHandedOut}, {"bert", kHandedOut}}, "", 70, folder.path()).size(), 1u);
-  EXPECT_EQ(withoutHandedOut("  a\nb\n\n c\n", "a\nc"), "\nb\n\n\n");
+  EXPECT_EQ(withoutHandedOut("  a\nb\n\n c\n}\n", "a\nc\n}\n"), "\nb\n\n\n}\n");
 }
 
 TEST(Similar, ComparesNoneAndOne) {
@@ -91,7 +91,7 @@ TEST(Similar, ComparesNoneAndOne) {
 TEST(Similar, SaysWhatIsMissing) {
   const ChangedPath changed;
   EXPECT_REX_ERROR(
-      pairsOf({{"anna", "x"}}),
+      pairsOf({{"anna", "x"}, {"bert", "y"}}),
       "submissions cannot be compared: found no program sim_c++, wanted apt-get install similarity-tester");
 }
 
