@@ -114,6 +114,22 @@ void addDevRelease(CLI::App* dev, Action& action) {
   });
 }
 
+void addDevSite(CLI::App* dev, Action& action) {
+  const auto options = std::make_shared<SiteOptions>();
+  CLI::App* command = addVerb(dev, "site", "Write pages about the course, for a browser or a printer",
+                              "Example: scripts/rex dev site /tmp/site\n\n"
+                              "Exercises, documents, gallery and a search; no server or network is needed.\n"
+                              "Exit code 1: something leaks; nothing was written.");
+  command->add_option("DIR", options->out, "new folder for the pages")->type_name("")->required();
+  command
+      ->add_option("--secret-file", options->secret,
+                   "secret of the course, which must not be in the pages either")
+      ->type_name("FILE");
+  command->add_flag("--json", options->json, "print JSON");
+  command->callback(
+      [&action, options] { action = [options](const Project& p) { return devSite(p, *options); }; });
+}
+
 void addDevStats(CLI::App* dev, Action& action) {
   const auto options = std::make_shared<StatsOptions>();
   CLI::App* command = addVerb(dev, "stats", "Show how a class did: points, and which checks fail most",
@@ -145,6 +161,7 @@ void addDev(CLI::App* dev, Action& action) {
   addDevNew(dev, action), addDevCheck(dev, action);
   addDevStrip(dev, action);
   addDevRelease(dev, action);
+  addDevSite(dev, action);
   addDevStats(dev, action);
 }
 

@@ -45,6 +45,14 @@ struct ReleaseOptions {
 /// anything leaks.
 ExitCode devRelease(const Project& project, const ReleaseOptions& options);
 
+struct SiteOptions {
+  std::filesystem::path out{};     ///< new folder
+  std::filesystem::path secret{};  ///< file with the secret of the course; empty: none
+  bool json = false;
+};
+/// Writes the pages of the course. Returns kBelow, without writing anything, if anything leaks.
+ExitCode devSite(const Project& project, const SiteOptions& options);
+
 struct StatsOptions {
   std::filesystem::path results{};  ///< folder that `rex grade` wrote
   std::filesystem::path figure{};   ///< the points of each exercise, .png or .svg; empty: none

@@ -145,4 +145,16 @@ TEST_F(DevReleaseTest, ProvesThatTheTreeWorksAlone) {
   }
 }
 
+TEST_F(DevReleaseTest, WritesPagesOfTheCourse) {
+  fs::copy(REX_SOURCE_DIR "/share/site", root() / "share" / "site");
+  const std::string site = (root() / "site").string();
+  const Ended ended = rex({"dev", "site", site, "--json"});
+  EXPECT_EQ(ended.code, 0) << ended.error;
+  EXPECT_EQ(schemaFaultsOf(ended.output, "dev_site"), "");
+  EXPECT_TRUE(fs::exists(root() / "site" / "exercises" / "98-template.html"));
+  EXPECT_EQ(rex({"dev", "site", site}).code, 64);
+  fs::remove_all(site);
+  EXPECT_THAT(rex({"dev", "site", site}).output, HasSubstr("2 pages, 0.0 MB, nothing leaks: open "));
+}
+
 }  // namespace rex::cli::dev_release_test
