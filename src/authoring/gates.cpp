@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdlib>
 #include <map>
+#include <regex>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -75,8 +77,36 @@ GateResult mainIsCurrent(const GateContext& context) {
   return failed(fmt::format("main.cpp has {} lines, wanted at most {}", lines, kMostLines));
 }
 
-// The checks of each part must be worth what exercise.toml promises.
+// What headings of README.md promise: "## Part 2: the step (5 points)". Headings are in the order of the
+// parts.
+std::vector<std::string> wrongHeadings(const ExerciseInfo& exercise) {
+  const std::string text = readTextFile(exercise.folder / "README.md");
+  static const std::regex kHeading(R"(^#+ .*\((\d+) points?\))"), kNumber(R"(^#+ +Part +(\d+))");
+  std::vector<std::string> complaints;
+  std::size_t line = 0, next = 0;
+  for (const std::string_view one : splitLines(text)) {
+    ++line;
+    const std::string heading(one);
+    std::smatch promised, number;
+    if (!std::regex_search(heading, promised, kHeading)) continue;
+    const std::size_t part = std::regex_search(heading, number, kNumber) ? std::stoul(number[1]) - 1 : next;
+    next = part + 1;
+    const int points = std::stoi(promised[1]);
+    const std::string where = fmt::format("README.md:{}: the heading promises {} points", line, points);
+    if (part >= exercise.parts.size())
+      complaints.push_back(fmt::format("{}, but exercise.toml has only {} part{}", where,
+                                       exercise.parts.size(), exercise.parts.size() == 1 ? "" : "s"));
+    else if (points != exercise.parts[part].points)
+      complaints.push_back(fmt::format("{}, exercise.toml says {} for part '{}'", where,
+                                       exercise.parts[part].points, exercise.parts[part].id));
+  }
+  return complaints;
+}
+
+// The checks of each part must be worth what exercise.toml and README.md promise, and exercises at most as
+// much as each other.
 GateResult pointsAddUp(const GateContext& context) {
+  constexpr int kMost = 20;
   Points checked;
   for (const CheckResult& check : listChecks(context.toolchain)) checked[check.part] += check.maxPoints;
   std::vector<std::string> complaints;
@@ -88,6 +118,11 @@ GateResult pointsAddUp(const GateContext& context) {
   }
   for (const auto& [part, points] : checked)
     complaints.push_back(fmt::format("checks name a part '{}' that exercise.toml does not have", part));
+  if (context.exercise.points() > kMost)
+    complaints.push_back(
+        fmt::format("exercise.toml: the parts are worth {} points together, wanted at most {}",
+                    context.exercise.points(), kMost));
+  for (std::string& heading : wrongHeadings(context.exercise)) complaints.push_back(std::move(heading));
   return judge(complaints);
 }
 
@@ -112,13 +147,19 @@ GateResult mainScoresFloor(const GateContext& context) {
     return failed("main.cpp does not compile cleanly: " + toString(result.compile.diagnostics.front()));
   if (result.outcome == Outcome::kGraderError) return failed("the grader failed: " + result.message);
   Points scored;
-  for (const CheckResult& check : result.checks) scored[check.part] += check.points;
+  std::map<std::string, std::vector<std::string>> checks;  // with points, by part
+  for (const CheckResult& check : result.checks) {
+    scored[check.part] += check.points;
+    if (check.points > 0) checks[check.part].push_back(fmt::format("{} {}", check.id, check.points));
+  }
   std::vector<std::string> complaints;
   for (const ExercisePart& part : context.exercise.parts)
     if (scored[part.id] != part.floor)
-      complaints.push_back(
-          fmt::format("part '{}': the untouched main.cpp gets {} points, exercise.toml says floor = {}",
-                      part.id, scored[part.id], part.floor));
+      complaints.push_back(fmt::format(
+          "part '{}': the untouched main.cpp gets {} point{} ({}), exercise.toml says floor = {}", part.id,
+          scored[part.id], scored[part.id] == 1 ? "" : "s",
+          checks[part.id].empty() ? "no check passes" : fmt::format("{}", fmt::join(checks[part.id], ", ")),
+          part.floor));
   return judge(complaints);
 }
 
@@ -198,8 +239,24 @@ GateResult solutionPassesSanitizers(const GateContext& context) {
   return failed("solution.cpp does not pass with the sanitizers: " + shortfalls(result));
 }
 
+// The parts whose checks catch no wrong variant: nothing proves that they can fail.
+std::vector<std::string> partsWithoutMistake(const GateContext& context) {
+  std::map<std::string, std::string> partOf;  // by check
+  for (const CheckResult& check : listChecks(context.toolchain)) partOf[check.id] = check.part;
+  std::set<std::string> tried;
+  for (const std::string& name : variantNames(context.exercise))
+    for (const std::string& check : variantOf(context.exercise, name).caughtBy) tried.insert(partOf[check]);
+  std::vector<std::string> complaints;
+  for (const ExercisePart& part : context.exercise.parts)
+    if (!tried.contains(part.id))
+      complaints.push_back(
+          fmt::format("part '{}': no wrong variant is caught by one of its checks", part.id));
+  return complaints;
+}
+
 // The gates of the variants prove that the picture exists and that the messages are those of the file.
 GateResult mistakesAreShown(const GateContext& context) {
+  if (const auto untried = partsWithoutMistake(context); !untried.empty()) return judge(untried);
   if (!variantNames(context.exercise).empty() &&
       !std::filesystem::exists(seenMessagesFile(context.exercise.folder)))
     return failed(fmt::format(

@@ -69,7 +69,7 @@ Complaints whyNotCaughtIn(const GradeResult& result, const WrongVariant& variant
     return {"it was not graded: " + result.message};
   for (const std::string& id : variant.caughtBy)
     if (checkNamed(result, id, wrong).status == Outcome::kPass)
-      return {fmt::format("check '{}' passes although: {}", id, variant.mistake)};
+      return {fmt::format("check '{}' does not catch this mistake: {}", id, variant.mistake)};
   if (result.score >= result.maxScore) return {"it gets the full score"};
   Complaints missing;
   for (const std::string& id : variant.shownBy)

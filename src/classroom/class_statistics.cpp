@@ -1,8 +1,11 @@
 #include "classroom/class_statistics.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
+#include <string_view>
 #include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -48,16 +51,68 @@ std::size_t binOf(int points, int possible) {
   return static_cast<std::size_t>(4 - quarters);
 }
 
+CheckStatistics& statisticsFor(const CheckResult& check, std::vector<CheckStatistics>& checks) {
+  const auto known = std::find_if(checks.begin(), checks.end(),
+                                  [&](const CheckStatistics& one) { return one.id == check.id; });
+  if (known != checks.end()) return *known;
+  checks.push_back({.id = check.id, .part = check.part, .title = check.title, .group = check.group});
+  return checks.back();
+}
+
 void count(const GradeResult& result, std::vector<CheckStatistics>& checks) {
   for (const CheckResult& check : result.checks) {
-    auto known = std::find_if(checks.begin(), checks.end(),
-                              [&](const CheckStatistics& one) { return one.id == check.id; });
-    if (known == checks.end())
-      known = checks.insert(checks.end(), {.id = check.id, .title = check.title, .group = check.group});
+    CheckStatistics& known = statisticsFor(check, checks);
     if (check.status == Outcome::kPass) continue;
-    ++known->failed;
-    ++known->classes[classOf(check, result)];
+    ++known.failed;
+    ++known.classes[classOf(check, result)];
+    if (const std::string question = questionOf(check.message); !question.empty())
+      ++known.questions[question];
   }
+}
+
+// Points of each part, over the results that have checks of it.
+void countParts(const GradeResult& result, std::vector<PartStatistics>& parts) {
+  std::vector<PartStatistics> own;
+  for (const CheckResult& check : result.checks) {
+    auto known =
+        std::find_if(own.begin(), own.end(), [&](const PartStatistics& one) { return one.id == check.part; });
+    if (known == own.end()) known = own.insert(own.end(), {.id = check.part});
+    known->maxPoints += check.maxPoints;
+    known->meanPoints += check.points;
+  }
+  for (const PartStatistics& part : own) {
+    auto known = std::find_if(parts.begin(), parts.end(),
+                              [&](const PartStatistics& one) { return one.id == part.id; });
+    if (known == parts.end()) known = parts.insert(parts.end(), {.id = part.id});
+    known->maxPoints = std::max(known->maxPoints, part.maxPoints);
+    known->meanPoints += part.meanPoints;  // the sum, until all are counted
+    known->full += part.meanPoints >= part.maxPoints ? 1 : 0;
+  }
+}
+
+// The correlation coefficient of pairs; nothing if either number is the same in all pairs.
+std::optional<double> correlationOf(const std::vector<std::pair<double, double>>& pairs) {
+  double meanX = 0, meanY = 0, xx = 0, yy = 0, xy = 0;
+  const auto n = static_cast<double>(pairs.size());
+  for (const auto& [x, y] : pairs) meanX += x / n, meanY += y / n;
+  for (const auto& [x, y] : pairs) {
+    xx += (x - meanX) * (x - meanX);
+    yy += (y - meanY) * (y - meanY);
+    xy += (x - meanX) * (y - meanY);
+  }
+  constexpr double kRounding = 1e-12;
+  if (xx <= kRounding || yy <= kRounding) return {};
+  return xy / std::sqrt(xx * yy);
+}
+
+std::optional<double> discriminationOf(const std::string& check,
+                                       const std::vector<const StudentResult*>& results) {
+  std::vector<std::pair<double, double>> pairs;
+  for (const StudentResult* one : results)
+    for (const CheckResult& result : one->result.checks)
+      if (result.id == check && one->result.outcome != Outcome::kGraderError)
+        pairs.emplace_back(result.points, one->result.score - result.points);
+  return correlationOf(pairs);
 }
 
 // `results` holds at least one result, all of the same exercise.
@@ -84,9 +139,12 @@ ExerciseStatistics statisticsOfOne(const std::vector<const StudentResult*>& resu
       std::tie(all.slowest, all.longestSeconds) = std::tie(one->student, result.usage.wallSeconds);
     versions.insert(result.exerciseVersion);
     count(result, all.checks);
+    countParts(result, all.parts);
   }
   all.versions = static_cast<int>(versions.size());
   all.meanPoints /= std::max(1, all.graded);
+  for (PartStatistics& part : all.parts) part.meanPoints /= std::max(1, all.graded);
+  for (CheckStatistics& check : all.checks) check.discrimination = discriminationOf(check.id, results);
   all.medianPoints = medianOf(points);
   all.medianSeconds = medianOf(seconds);
   std::stable_sort(all.checks.begin(), all.checks.end(),
@@ -95,6 +153,13 @@ ExerciseStatistics statisticsOfOne(const std::vector<const StudentResult*>& resu
 }
 
 }  // namespace
+
+std::string questionOf(const std::string& message) {
+  constexpr std::string_view kAfterInput = "). ";
+  const std::size_t end = message.rfind(kAfterInput);
+  const std::string rest = end == message.npos ? "" : message.substr(end + kAfterInput.size());
+  return rest.find('?') == rest.npos ? "" : rest;
+}
 
 double medianOf(std::vector<double> values) {
   if (values.empty()) return 0;

@@ -3,6 +3,7 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,10 +28,24 @@ struct ClassResults {
 
 struct CheckStatistics {
   std::string id{};
+  std::string part{};
   std::string title{};
   Group group = Group::kVisible;
   int failed = 0;                        ///< number of students who did not pass it fully
   std::map<std::string, int> classes{};  ///< how many of them by class: "compile", "crash", "timeout", ...
+  /// How many of them were asked what: "Is S never moved?"
+  std::map<std::string, int> questions{};
+  /// The correlation, over graded results, of the points of this check with those of all others: near 1, it
+  /// separates those who master the exercise from those who do not; near 0 or below, it measures something
+  /// else. Nothing if either number is the same for all.
+  std::optional<double> discrimination{};
+};
+
+struct PartStatistics {
+  std::string id{};
+  int maxPoints = 0;
+  double meanPoints = 0;
+  int full = 0;  ///< number of students with all of them
 };
 
 /// From full points down to none: full, at least 75 %, 50 %, 25 %, less, none.
@@ -51,6 +66,7 @@ struct ExerciseStatistics {
   double longestSeconds = 0;
   std::string slowest{};                  ///< the student with the longest time
   std::vector<CheckStatistics> checks{};  ///< most failed first, then in the order of the results
+  std::vector<PartStatistics> parts{};    ///< in the order of the results
 };
 
 [[nodiscard]] std::vector<ExerciseStatistics> statisticsOf(const std::vector<StudentResult>& results);
@@ -58,6 +74,9 @@ struct ExerciseStatistics {
 /// "compile", "crash", "timeout", "memory", "output", "protocol", "security", "non-finite", "shape",
 /// "wrong" or "not run", for a check that did not pass.
 [[nodiscard]] std::string classOf(const CheckResult& check, const GradeResult& whole);
+
+/// The question at the end of a message, after the input: "Is S never moved?"; empty if there is none.
+[[nodiscard]] std::string questionOf(const std::string& message);
 
 /// The median; for an even count the mean of the middle two; 0 if empty.
 [[nodiscard]] double medianOf(std::vector<double> values);

@@ -32,28 +32,41 @@ Project findProjectOfInstructor() {
   return project;
 }
 
+std::vector<std::string> Project::exerciseNames() const {
+  std::vector<std::string> names = grading::exerciseNames(files() / "exercises");
+  if (!installed.empty())
+    std::erase_if(names, [&](const std::string& one) { return !fs::is_directory(root / "exercises" / one); });
+  return names;
+}
+
+ExerciseInfo Project::read(const std::string& name) const {
+  ExerciseInfo exercise = grading::readExerciseInfo(shown(files() / "exercises" / name));
+  exercise.folder = shown(root / "exercises" / name);
+  return exercise;
+}
+
 std::vector<ExerciseInfo> Project::exercises() const {
-  std::vector<ExerciseInfo> all = grading::listExercises(shown(files() / "exercises"));
-  if (installed.empty()) return all;
-  const fs::path here = root / "exercises";
-  std::erase_if(all, [&](const ExerciseInfo& one) { return !fs::is_directory(here / one.name); });
-  for (ExerciseInfo& one : all) one.folder = shown(here / one.name);
+  std::vector<ExerciseInfo> all;
+  for (const std::string& name : exerciseNames()) all.push_back(read(name));
   return all;
 }
 
-ExerciseInfo Project::exercise(std::string_view name) const {
+std::string Project::exerciseName(std::string_view name) const {
   while (name.ends_with('/')) name.remove_suffix(1);
   // Accepts what a shell makes of a completed path.
   if (name.ends_with("/main.cpp")) name.remove_suffix(std::string_view("/main.cpp").size());
   for (const std::string_view folder : {"./", "exercises/"})
     if (name.starts_with(folder)) name.remove_prefix(folder.size());
-  const std::vector<ExerciseInfo> known = exercises();
+  std::vector<ExerciseInfo> known;
+  for (std::string& one : exerciseNames()) known.emplace_back().name = std::move(one);
   if (known.empty() && !installed.empty())
     throw UsageError({.what = "there are no exercises here",
                       .where = {root.string()},
                       .wanted = "a course folder; `rex init course` makes one"});
-  return grading::findExercise(known, name);
+  return grading::findExercise(known, name).name;
 }
+
+ExerciseInfo Project::exercise(std::string_view name) const { return read(exerciseName(name)); }
 
 fs::path Project::buildFolder(const ExerciseInfo& exercise) const {
   return build / "exercises" / exercise.name;

@@ -21,11 +21,15 @@ struct Project {
 
   /// The folder of data/, share/ and the exercises as handed out.
   [[nodiscard]] const std::filesystem::path& files() const { return installed.empty() ? root : installed; }
-  /// All exercises in the root, by name. What they demand is read from files(), so that a student cannot
-  /// change it. Throws Error for a bad exercise.toml.
+  /// The names of all exercises in the root, in order.
+  [[nodiscard]] std::vector<std::string> exerciseNames() const;
+  /// These exercises. What they demand is read from files(), so that a student cannot change it. Throws Error
+  /// for a bad exercise.toml.
   [[nodiscard]] std::vector<ExerciseInfo> exercises() const;
-  /// The exercise of that name, number or topic. Throws UsageError naming the nearest, and outside of a
-  /// course folder.
+  /// The full name of the exercise with that name, number or topic. Throws UsageError naming the nearest, and
+  /// outside of a course folder.
+  [[nodiscard]] std::string exerciseName(std::string_view name) const;
+  /// That exercise; the others are not read. Throws like exerciseName(), and Error for a bad exercise.toml.
   [[nodiscard]] ExerciseInfo exercise(std::string_view name) const;
   /// The build's folder of an exercise: grader, worker object, build.json.
   [[nodiscard]] std::filesystem::path buildFolder(const ExerciseInfo& exercise) const;
@@ -34,6 +38,9 @@ struct Project {
   [[nodiscard]] std::filesystem::path workPlace(const std::string& name) const;
   /// The default folder for results of an exercise; those of the reference solution have their own.
   [[nodiscard]] std::filesystem::path outFolder(const ExerciseInfo& exercise, bool solution) const;
+
+ private:
+  [[nodiscard]] ExerciseInfo read(const std::string& name) const;
 };
 
 /// The project of this program: the source tree that it was built in or, if it was installed, the course

@@ -92,16 +92,21 @@ ExerciseInfo readExerciseInfo(const path& folder) {
   return info;
 }
 
-std::vector<ExerciseInfo> listExercises(const path& folder) {
-  std::vector<path> folders;
+std::vector<std::string> exerciseNames(const path& folder) {
+  std::vector<std::string> names;
   if (std::filesystem::is_directory(folder)) {
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-      if (std::filesystem::exists(entry.path() / "exercise.toml")) folders.push_back(entry.path());
+      if (std::filesystem::exists(entry.path() / "exercise.toml"))
+        names.push_back(entry.path().filename().string());
     }
   }
-  std::sort(folders.begin(), folders.end());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::vector<ExerciseInfo> listExercises(const path& folder) {
   std::vector<ExerciseInfo> exercises;
-  for (const path& one : folders) exercises.push_back(readExerciseInfo(one));
+  for (const std::string& name : exerciseNames(folder)) exercises.push_back(readExerciseInfo(folder / name));
   return exercises;
 }
 

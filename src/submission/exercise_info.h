@@ -53,7 +53,10 @@ struct ExerciseInfo {
 /// or missing key, and a value of the wrong type or out of range.
 [[nodiscard]] ExerciseInfo readExerciseInfo(const std::filesystem::path& folder);
 
-/// All subfolders that hold an exercise.toml, by name. Throws like readExerciseInfo does.
+/// The subfolders that hold an exercise.toml, in order; none is read.
+[[nodiscard]] std::vector<std::string> exerciseNames(const std::filesystem::path& folder);
+
+/// The exercises of exerciseNames(). Throws like readExerciseInfo does.
 [[nodiscard]] std::vector<ExerciseInfo> listExercises(const std::filesystem::path& folder);
 
 /// The exercise named "01-kinematics", "01" or "kinematics". Throws Error if none or several match.

@@ -1,6 +1,8 @@
 #include "classroom/class_statistics.h"
 
+#include <cmath>
 #include <filesystem>
+#include <map>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -148,6 +150,78 @@ TEST(ClassResults, AreReadAndForeignFilesTold) {
                   HasSubstr("eve/01-a/results.json: not counted: found a result of '02-b', wanted one "
                             "of '01-a'")));
   EXPECT_REX_ERROR(readClassResults(folder.path() / "none"), "none: cannot read this folder: found ");
+}
+
+// Three checks of one point each: those of part p are passed by the good half, the odd one by the others.
+std::vector<StudentResult> halves() {
+  std::vector<StudentResult> results;
+  for (int k = 0; k < 8; ++k) {
+    const bool good = k < 4;
+    StudentResult one{.student = "s" + std::to_string(k), .exercise = "01-a", .result = {}};
+    const auto point = [&](const std::string& id, const std::string& part, bool has) {
+      CheckResult result = check(id, has ? Outcome::kPass : Outcome::kFail);
+      if (!has) result.message = "length: got 2, wanted 1; input: x = (1, 2) (seed 1). Is it a " + id + "?";
+      result.part = part;
+      result.points = has ? 1 : 0;
+      result.maxPoints = 1;
+      one.result.score += result.points;
+      one.result.checks.push_back(result);
+    };
+    point("a", "p", good), point("b", "p", good), point("odd", "q", !good), point("all", "q", true);
+    one.result.outcome = Outcome::kFail;
+    one.result.maxScore = 4;
+    results.push_back(one);
+  }
+  return results;
+}
+
+TEST(ClassStatistics, SayHowEachCheckSeparatesStudents) {
+  const ExerciseStatistics all = statisticsOf(halves()).front();
+  std::map<std::string, CheckStatistics> checks;
+  for (const CheckStatistics& one : all.checks) checks[one.id] = one;
+  // (1, 2) for the good half and (0, 2) for the others: b and all, or odd and all.
+  EXPECT_FALSE(checks["a"].discrimination) << "the rest is the same for all";
+  EXPECT_FALSE(checks["all"].discrimination) << "everybody passes it";
+  EXPECT_NEAR(checks["odd"].discrimination.value(), -1, 1e-12);
+  EXPECT_THAT(checks["a"].questions, ElementsAre(Pair("Is it a a?", 4)));
+  EXPECT_EQ(checks["odd"].part, "q");
+}
+
+// The formula for a coefficient of two binary numbers, (n11 n00 - n10 n01) / root of the product of the sums.
+TEST(ClassStatistics, AgreeWithTheCorrelationOfFourFields) {
+  std::vector<StudentResult> results;
+  const int fields[2][2] = {{5, 2}, {1, 4}};
+  for (int x = 0; x < 2; ++x)
+    for (int y = 0; y < 2; ++y)
+      for (int k = 0; k < fields[x][y]; ++k) {
+        StudentResult one{.student = "s", .exercise = "01-a", .result = {}};
+        CheckResult tried = check("a", x == 1 ? Outcome::kPass : Outcome::kFail);
+        tried.points = x;
+        one.result.checks = {tried};
+        one.result.score = x + y;
+        one.result.maxScore = 2;
+        one.result.outcome = Outcome::kFail;
+        results.push_back(one);
+      }
+  EXPECT_NEAR(statisticsOf(results).front().checks.front().discrimination.value(),
+              (5 * 4 - 2 * 1) / std::sqrt(7.0 * 5 * 6 * 6), 1e-12);
+}
+
+TEST(ClassStatistics, AddUpThePointsOfParts) {
+  const std::vector<PartStatistics> parts = statisticsOf(halves()).front().parts;
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_EQ(parts[0].id, "p");
+  EXPECT_EQ(parts[0].maxPoints, 2);
+  EXPECT_DOUBLE_EQ(parts[0].meanPoints, 1);
+  EXPECT_EQ(parts[0].full, 4);
+  EXPECT_DOUBLE_EQ(parts[1].meanPoints, 1.5);
+}
+
+TEST(ClassStatistics, FindTheQuestionOfAMessage) {
+  EXPECT_EQ(questionOf("a: got 1.5, wanted 2; input: q = (1, 2) (seed 7). Is it 1? It is not."),
+            "Is it 1? It is not.");
+  EXPECT_EQ(questionOf("a: got 1, wanted 2; input: n = 2 (seed 7)"), "");
+  EXPECT_EQ(questionOf("a: got 1, wanted 2; input: n = 2 (seed 7). A remark."), "");
 }
 
 }  // namespace rex::grading::class_statistics_test

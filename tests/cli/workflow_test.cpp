@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include "cli/command_schema.h"
 #include "cli/template_project.h"
 
 namespace rex::cli::workflow_test {
@@ -15,6 +16,17 @@ TEST_F(WorkflowTest, ListsExercises) {
   const Ended ended = rex({"list"});
   EXPECT_EQ(ended.code, 0);
   EXPECT_THAT(ended.output, HasSubstr("98-template   3 points  Rotating points (template)\n"));
+}
+
+TEST_F(WorkflowTest, ListsExercisesAsJson) {
+  EXPECT_EQ(schemaFaultsOf(rex({"list", "--json"}).output, "list"), "");
+  EXPECT_EQ(
+      rex({"list", "--json"}).output,
+      "{\"exercises\":[{\"name\":\"98-template\",\"title\":\"Rotating points (template)\",\"script\":\"2.1\","
+      "\"folder\":\"" +
+          shown(exercise()) +
+          "\",\"points\":3,\"parts\":[{\"id\":\"rotate\","
+          "\"title\":\"Rotation in the plane\",\"points\":3}]}]}\n");
 }
 
 TEST_F(WorkflowTest, FindsExercisesByNumberTopicFolderAndNearMiss) {
@@ -249,6 +261,12 @@ TEST_F(WorkflowTest, FindsWhatIsWrongWithTheTexts) {
   expectOpenGate("names", "'rotatd' does not exist (did you mean 'rotated'?)");
   replace(exercise() / "exercise.toml", "points = 3", "points = 4");
   expectOpenGate("points", "part 'rotate': checks are worth 3 points, exercise.toml says 4");
+  expectOpenGate("points",
+                 "README.md:11: the heading promises 3 points, exercise.toml says 4 for part 'rotate'");
+  replace(exercise() / "exercise.toml", "points = 4", "points = 21");
+  expectOpenGate("points", "the parts are worth 21 points together, wanted at most 20");
+  replace(exercise() / "README.md", "## Part 1", "## Part 2");
+  expectOpenGate("points", "the heading promises 3 points, but exercise.toml has only 1 part");
   replace(exercise() / "README.md", "# 98", "`const double s = std::sin(angle);`\n# 98");
   expectOpenGate("release", "a line of the solution would reach students");
   const Ended unknown = rex({"dev", "check", "98", "--gate", "nmes"});
@@ -258,8 +276,12 @@ TEST_F(WorkflowTest, FindsWhatIsWrongWithTheTexts) {
 
 TEST_F(WorkflowTest, FindsWhatIsWrongWithTheStarter) {
   replace(exercise() / "exercise.toml", "floor = 0", "floor = 1");
-  expectOpenGate("main-floor", "the untouched main.cpp gets 0 points, exercise.toml says floor = 1");
-  replace(exercise() / "main.cpp", "return Eigen", "int unused;\n  return Eigen");
+  expectOpenGate("main-floor",
+                 "the untouched main.cpp gets 0 points (no check passes), exercise.toml says floor = 1");
+  replace(exercise() / "exercise.toml", "floor = 1", "floor = 0");
+  replace(exercise() / "main.cpp", "return Eigen::Vector2d::Zero();", "return angle < 9 ? p : p;");
+  expectOpenGate("main-floor", "gets 2 points (keeps-length 1, angles-add 1), exercise.toml says floor = 0");
+  replace(exercise() / "main.cpp", "return angle", "int unused;\n  return angle");
   expectOpenGate("main-floor", "main.cpp does not compile cleanly");
 }
 
@@ -273,7 +295,7 @@ TEST_F(WorkflowTest, FindsWhatIsWrongWithTheSolution) {
 
 TEST_F(WorkflowTest, FindsMistakesThatAreNotCaught) {
   replace(exercise() / "wrong" / "clockwise.cpp", "caught by: quarter-turn", "caught by: keeps-length");
-  expectOpenGate("wrong/clockwise", "check 'keeps-length' passes although: turns clockwise.");
+  expectOpenGate("wrong/clockwise", "check 'keeps-length' does not catch this mistake: turns clockwise.");
   replace(exercise() / "wrong" / "clockwise.cpp", "keeps-length", "keeps-lenght");
   expectOpenGate("wrong/clockwise", "no check is called 'keeps-lenght'");
   replace(exercise() / "wrong" / "clockwise.cpp", "shown by: quarter-turn", "shown by: keeps-length");
@@ -281,9 +303,36 @@ TEST_F(WorkflowTest, FindsMistakesThatAreNotCaught) {
   expectOpenGate("wrong/clockwise", "check 'keeps-length' leaves no picture");
   replace(exercise() / "wrong" / "clockwise.cpp", "// shown by: keeps-length\n", "");
   expectOpenGate("evidence", "no wrong variant names a check that shows its mistake");
+  fs::remove(exercise() / "wrong" / "clockwise.cpp");
+  expectOpenGate("evidence", "part 'rotate': no wrong variant is caught by one of its checks");
   replace(exercise() / "wrong" / "library.cpp", "rex::rotationAboutAxis(angle, Eigen::Vector3d::UnitZ())",
           "Eigen::Matrix3d::Identity()");
   expectOpenGate("wrong/library", "no call was found");
+}
+
+TEST_F(WorkflowTest, RunsTheChosenGatesAndPrintsThemAsJson) {
+  const Ended ended = rex({"dev", "check", "98", "--gate", "points", "--gate", "names", "--json"});
+  EXPECT_EQ(ended.code, 0) << ended.error;
+  EXPECT_EQ(
+      ended.output,
+      "{\"gates\":[{\"exercise\":\"98-template\",\"gate\":\"points\",\"passed\":true,\"message\":\"\","
+      "\"note\":\"\"},{\"exercise\":\"98-template\",\"gate\":\"names\",\"passed\":true,\"message\":\"\","
+      "\"note\":\"\"}],\"blocked\":[]}\n");
+  EXPECT_EQ(schemaFaultsOf(ended.output, "dev_check"), "");
+  EXPECT_EQ(schemaFaultsOf("{\"gates\": [], \"blokced\": []}", "dev_check").empty(), false);
+  const std::string names = rex({"dev", "check", "98", "--list-gates", "--json"}).output;
+  EXPECT_EQ(schemaFaultsOf(names, "dev_check_gates"), "");
+  EXPECT_THAT(names, HasSubstr("{\"98-template\":[\"main-current\",\"points\","));
+}
+
+TEST_F(WorkflowTest, ABrokenDescriptionFailsItsOwnExerciseOnly) {
+  fs::create_directory(root() / "exercises" / "99-broken");
+  write(root() / "exercises" / "99-broken" / "exercise.toml", "title = \"no end\n");
+  EXPECT_EQ(rex({"dev", "check", "98", "--gate", "points"}).code, 0);
+  const Ended broken = rex({"dev", "check", "--gate", "points"});
+  EXPECT_EQ(broken.code, 1);
+  EXPECT_THAT(broken.output, HasSubstr(" ok   98-template  points\n FAIL  99-broken  exercise.toml\n"));
+  EXPECT_THAT(flat(broken.output), HasSubstr("99-broken/exercise.toml:1:"));
 }
 
 TEST_F(WorkflowTest, MakesANewExercise) {

@@ -139,6 +139,7 @@ TEST_F(ExerciseInfoTest, ListsByNameAndFindsByNumberOrTopic) {
   EXPECT_REX_ERROR(findExercise(all, "kinematcs"),
                    "no exercise is called 'kinematcs': wanted one of 01-kinematics, 01-warmUp, 02-pegInAHole "
                    "(did you mean 'kinematics' or '01-kinematics'?)");
+  EXPECT_TRUE(exerciseNames("no/where").empty());
   EXPECT_TRUE(listExercises("no/where").empty());
 }
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cstdlib>
 #include <map>
+#include <set>
+#include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -18,12 +21,12 @@ double percentOf(const grading::GradeResult& result) {
 }
 
 // The position of each exercise on the axis.
-std::map<std::string, int> placesOf(const std::vector<StudentResult>& results) {
+std::map<std::string, int> placesOf(const std::set<std::string>& exercises) {
   std::map<std::string, int> places;
   int last = 0;
-  for (const StudentResult& one : results) {
-    const int number = std::atoi(one.exercise.c_str());
-    places[one.exercise] = number;
+  for (const std::string& one : exercises) {
+    const int number = std::atoi(one.c_str());
+    places[one] = number;
     last = std::max(last, number);
   }
   for (auto& [exercise, place] : places)
@@ -38,10 +41,21 @@ double offsetOf(int k, int count) {
   return (k % 2 == 1 ? 1 : -1) * ((k + 1) / 2) * step;
 }
 
+// A field of one part; `share` is the part of the points that the class got.
+Region fieldOf(double x, double y, double share) {
+  constexpr double kHalfWidth = 0.48, kHalfHeight = 0.42;
+  const auto missing = static_cast<float>(1 - std::clamp(share, 0.0, 1.0));
+  return {.x = {x - kHalfWidth, x + kHalfWidth, x + kHalfWidth, x - kHalfWidth},
+          .y = {y - kHalfHeight, y - kHalfHeight, y + kHalfHeight, y + kHalfHeight},
+          .color = Color{1 - 0.1F * missing, 1 - 0.55F * missing, 1 - missing}};
+}
+
 }  // namespace
 
 Figure pointsFigure(const std::vector<StudentResult>& results) {
-  const std::map<std::string, int> places = placesOf(results);
+  std::set<std::string> exercises;
+  for (const StudentResult& one : results) exercises.insert(one.exercise);
+  const std::map<std::string, int> places = placesOf(exercises);
   std::map<int, std::vector<double>> points;
   for (const StudentResult& one : results)
     if (one.result.outcome != grading::Outcome::kGraderError)
@@ -66,6 +80,39 @@ Figure pointsFigure(const std::vector<StudentResult>& results) {
           .yRange = AxisRange{-5, 105},
           .legend = Legend::kOutside,
           .series = {std::move(students), std::move(medians)}};
+}
+
+Figure partsFigure(const std::vector<grading::ExerciseStatistics>& all) {
+  std::set<std::string> exercises;
+  for (const grading::ExerciseStatistics& one : all)
+    if (one.graded > 0 && !one.parts.empty()) exercises.insert(one.exercise);
+  if (exercises.empty()) throw Error({.what = "no points to draw", .found = "only faults of the grader"});
+  const std::map<std::string, int> places = placesOf(exercises);
+  Figure figure{.title = "Mean points of the parts (darker: fewer)",
+                .xLabel = "part",
+                .yLabel = "number of the exercise",
+                .legend = Legend::kNone};
+  std::size_t columns = 0;
+  int first = places.begin()->second, last = first;
+  for (const grading::ExerciseStatistics& one : all) {
+    if (!exercises.contains(one.exercise)) continue;
+    const int row = places.at(one.exercise);
+    first = std::min(first, row), last = std::max(last, row);
+    columns = std::max(columns, one.parts.size());
+    for (std::size_t k = 0; k < one.parts.size(); ++k) {
+      const grading::PartStatistics& part = one.parts[k];
+      const double share = part.maxPoints > 0 ? part.meanPoints / part.maxPoints : 0;
+      const auto column = static_cast<double>(k + 1);
+      figure.regions.push_back(fieldOf(column, row, share));
+      figure.notes.push_back(
+          {.text = fmt::format("{} {:.0f} %", part.id, 100 * share), .x = column - 0.47, .y = double(row)});
+    }
+  }
+  figure.width = static_cast<int>(std::min<std::size_t>(8192, 200 + 130 * columns));
+  figure.height = std::min(8192, 170 + 40 * (last - first + 1));
+  figure.xRange = AxisRange{0.5, static_cast<double>(columns) + 0.5};
+  figure.yRange = AxisRange{first - 0.5, last + 0.5};
+  return figure;
 }
 
 }  // namespace rex::cli

@@ -12,4 +12,8 @@ namespace rex::cli {
 /// side by side, with a line at each median. Grader errors are left out. Throws Error if nothing is left.
 [[nodiscard]] Figure pointsFigure(const std::vector<grading::StudentResult>& results);
 
+/// A row of fields for each exercise, one for each part, with its name and the mean of its points in percent;
+/// the fewer points, the darker. Throws Error if there is nothing to draw.
+[[nodiscard]] Figure partsFigure(const std::vector<grading::ExerciseStatistics>& all);
+
 }  // namespace rex::cli

@@ -23,11 +23,15 @@ void addDevCheck(CLI::App* dev, Action& action) {
   CLI::App* command =
       addVerb(dev, "check", "Check that exercises are complete, graded well and give nothing away",
               "Examples:\n  scripts/rex dev check 01\n  scripts/rex dev check 01 --gate solution --seeds 20\n"
+              "  scripts/rex dev check 01 --gate points --gate names --json\n"
               "  scripts/rex dev check 01 --gate wrong --sheet pictures.png");
   CLI::Option* exercise =
       command->add_option("EXERCISE", options->exercise, "only this one (default: all)")->type_name("");
-  command->add_option("--gate", options->gate, "only this gate")->type_name("NAME");
+  command->add_option("--gate", options->gates, "only this gate; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("NAME");
   command->add_flag("--list-gates", options->listGates, "print the names of the gates");
+  command->add_flag("--json", options->json, "print JSON");
   command->add_option("--seeds", options->seeds, "seeds to try the solution with (default: 3)")
       ->type_name("N")
       ->check(CLI::Range(1, 10000).description(""));
@@ -99,6 +103,7 @@ void addDevRelease(CLI::App* dev, Action& action) {
       ->add_flag("--installed", options->installed,
                  "this folder is an installed tree, with programs and libraries")
       ->needs(scan);
+  command->add_flag("--json", options->json, "print JSON");
   command
       ->add_option("--secret-file", options->secret,
                    "secret of the course, which must not be in the tree either")
@@ -109,12 +114,28 @@ void addDevRelease(CLI::App* dev, Action& action) {
   });
 }
 
+void addDevSite(CLI::App* dev, Action& action) {
+  const auto options = std::make_shared<SiteOptions>();
+  CLI::App* command = addVerb(dev, "site", "Write pages about the course, for a browser or a printer",
+                              "Example: scripts/rex dev site /tmp/site\n\n"
+                              "Exercises, documents, gallery and a search; no server or network is needed.\n"
+                              "Exit code 1: something leaks; nothing was written.");
+  command->add_option("DIR", options->out, "new folder for the pages")->type_name("")->required();
+  command
+      ->add_option("--secret-file", options->secret,
+                   "secret of the course, which must not be in the pages either")
+      ->type_name("FILE");
+  command->add_flag("--json", options->json, "print JSON");
+  command->callback(
+      [&action, options] { action = [options](const Project& p) { return devSite(p, *options); }; });
+}
+
 void addDevStats(CLI::App* dev, Action& action) {
   const auto options = std::make_shared<StatsOptions>();
   CLI::App* command = addVerb(dev, "stats", "Show how a class did: points, and which checks fail most",
                               "Examples:\n  scripts/rex dev stats results\n"
                               "  scripts/rex dev stats results --json\n"
-                              "  scripts/rex dev stats results -o points.png\n\n"
+                              "  scripts/rex dev stats results -o points.png --parts parts.png\n\n"
                               "Exit code 2: some results could not be read; they are named.");
   command->add_option("DIR", options->results, "the folder of results that `rex grade` wrote")
       ->type_name("")
@@ -122,6 +143,7 @@ void addDevStats(CLI::App* dev, Action& action) {
   CLI::Option* json = command->add_flag("--json", options->json, "print JSON");
   command->add_flag("--csv", options->csv, "print a table of the checks")->excludes(json);
   command->add_option("-o,--out", options->figure, "draw the points of each exercise")->type_name("FILE.png");
+  command->add_option("--parts", options->parts, "draw the mean points of each part")->type_name("FILE.png");
   command->callback(
       [&action, options] { action = [options](const Project& p) { return devStats(p, *options); }; });
 }
@@ -139,6 +161,7 @@ void addDev(CLI::App* dev, Action& action) {
   addDevNew(dev, action), addDevCheck(dev, action);
   addDevStrip(dev, action);
   addDevRelease(dev, action);
+  addDevSite(dev, action);
   addDevStats(dev, action);
 }
 

@@ -5,66 +5,118 @@
 #include "base/private_folder.h"
 #include "cli/build_on_demand.h"
 #include "cli/instructor/dev_verbs.h"
+#include "cli/json_internal.h"
 #include "cli/terminal.h"
 
 namespace rex::cli {
 namespace {
 
-std::vector<ExerciseInfo> chosen(const Project& project, const std::string& name) {
-  if (name.empty()) return project.exercises();
-  return {project.exercise(name)};
-}
+// What became of all gates: printed line by line, or collected for JSON.
+class GateReport {
+ public:
+  explicit GateReport(bool json) : json_(json) {}
 
-// Prints one line for a gate, and what is wrong unless it passed.
-bool passes(const Project& project, const ExerciseInfo& exercise, const grading::Toolchain& toolchain,
-            const std::string& gate, const CheckOptions& options) {
+  void add(const std::string& exercise, const std::string& gate, const grading::GateResult& result) {
+    open_ += result.passed ? 0 : 1;
+    if (json_) {
+      gates_.push_back({{"exercise", exercise},
+                        {"gate", gate},
+                        {"passed", result.passed},
+                        {"message", result.message},
+                        {"note", result.note}});
+      return;
+    }
+    say(fmt::format(" {}  {}  {}",
+                    result.passed ? paint(Colour::kGreen, " ok ") : paint(Colour::kRed, "FAIL"), exercise,
+                    gate));
+    if (!result.passed) say("       " + wrap(harmless(result.message), 7, 7));
+    if (!result.note.empty()) say("       " + wrap(harmless(result.note), 7, 7));
+  }
+
+  void addBlocked(const std::string& exercise, const std::string& why) {
+    if (json_)
+      blocked_.push_back({{"exercise", exercise}, {"message", why}});
+    else
+      note(fmt::format("rex: {}", why));
+    ++blockedCount_;
+  }
+
+  [[nodiscard]] ExitCode end() const {
+    if (json_) {
+      say(dump(Json{{"gates", gates_}, {"blocked", blocked_}}));
+    } else {
+      if (open_ > 0) note(fmt::format("{} gate{} not passed.", open_, open_ == 1 ? "" : "s"));
+      if (blockedCount_ > 0)
+        note(fmt::format("{} exercise{} not checked.", blockedCount_, blockedCount_ == 1 ? "" : "s"));
+    }
+    if (blockedCount_ > 0) return ExitCode::kGraderFault;
+    return open_ == 0 ? ExitCode::kFull : ExitCode::kBelow;
+  }
+
+ private:
+  bool json_;
+  Json gates_ = Json::array(), blocked_ = Json::array();
+  int open_ = 0, blockedCount_ = 0;
+};
+
+grading::GateResult resultOf(const Project& project, const ExerciseInfo& exercise,
+                             const grading::Toolchain& toolchain, const std::string& gate,
+                             const CheckOptions& options) {
   const PrivateFolder work(project.workPlace("exercises/" + exercise.name));
-  const grading::GateResult result = grading::runGate({.root = project.root,
-                                                       .exercise = exercise,
-                                                       .toolchain = toolchain,
-                                                       .workFolder = work.path(),
-                                                       .seeds = options.seeds,
-                                                       .sheet = options.sheet},
-                                                      gate);
-  say(fmt::format(" {}  {}  {}", result.passed ? paint(Colour::kGreen, " ok ") : paint(Colour::kRed, "FAIL"),
-                  exercise.name, gate));
-  if (!result.passed) say("       " + wrap(harmless(result.message), 7, 7));
-  if (!result.note.empty()) say("       " + wrap(harmless(result.note), 7, 7));
-  return result.passed;
+  return grading::runGate({.root = project.root,
+                           .exercise = exercise,
+                           .toolchain = toolchain,
+                           .workFolder = work.path(),
+                           .seeds = options.seeds,
+                           .sheet = options.sheet},
+                          gate);
 }
 
-// The number of gates that did not pass.
-int checkOne(const Project& project, const ExerciseInfo& exercise, const CheckOptions& options) {
+void checkOne(const Project& project, const std::string& name, const CheckOptions& options,
+              GateReport& report) {
+  ExerciseInfo exercise;
+  try {
+    exercise = project.exercise(name);
+  } catch (const Error& error) {
+    report.add(name, "exercise.toml", {.passed = false, .message = error.what()});
+    return;
+  }
   const grading::Toolchain toolchain = prepare(project, exercise);
-  const std::vector<std::string> gates =
-      options.gate.empty() ? grading::gateNames(exercise) : std::vector<std::string>{options.gate};
-  int open = 0;
-  for (const std::string& gate : gates) open += passes(project, exercise, toolchain, gate, options) ? 0 : 1;
-  return open;
+  for (const std::string& gate : options.gates.empty() ? grading::gateNames(exercise) : options.gates)
+    report.add(name, gate, resultOf(project, exercise, toolchain, gate, options));
+}
+
+void sayGates(const Project& project, const std::vector<std::string>& names, bool json) {
+  Json all = Json::object();
+  for (const std::string& name : names) {
+    const std::vector<std::string> gates = grading::gateNames(project.exercise(name));
+    all[name] = gates;
+    for (const std::string& gate : gates)
+      if (!json) say(gate);
+  }
+  if (json) say(dump(all));
 }
 
 }  // namespace
 
 ExitCode devCheck(const Project& project, const CheckOptions& options) {
-  const std::vector<ExerciseInfo> exercises = chosen(project, options.exercise);
-  if (exercises.empty()) note("There are no exercises to check.");
-  int open = 0, blocked = 0;
-  for (const ExerciseInfo& exercise : exercises) {
-    if (options.listGates) {
-      for (const std::string& gate : grading::gateNames(exercise)) say(gate);
-      continue;
-    }
+  const std::vector<std::string> names =
+      options.exercise.empty() ? project.exerciseNames()
+                               : std::vector<std::string>{project.exerciseName(options.exercise)};
+  if (names.empty()) note("There are no exercises to check.");
+  if (options.listGates) {
+    sayGates(project, names, options.json);
+    return ExitCode::kFull;
+  }
+  GateReport report(options.json);
+  for (const std::string& name : names) {
     try {
-      open += checkOne(project, exercise, options);
+      checkOne(project, name, options, report);
     } catch (const BuildFailure& failure) {
-      note(fmt::format("rex: {}", failure.what()));
-      ++blocked;
+      report.addBlocked(name, failure.what());
     }
   }
-  if (open > 0) note(fmt::format("{} gate{} not passed.", open, open == 1 ? "" : "s"));
-  if (blocked > 0) note(fmt::format("{} exercise{} not checked.", blocked, blocked == 1 ? "" : "s"));
-  if (blocked > 0) return ExitCode::kGraderFault;
-  return open == 0 ? ExitCode::kFull : ExitCode::kBelow;
+  return report.end();
 }
 
 }  // namespace rex::cli

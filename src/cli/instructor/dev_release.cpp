@@ -10,6 +10,7 @@
 #include "cli/instructor/collect.h"
 #include "cli/instructor/dev_verbs.h"
 #include "cli/instructor/release_proof.h"
+#include "cli/json_internal.h"
 #include "cli/progress_line.h"
 #include "cli/terminal.h"
 
@@ -48,6 +49,19 @@ void saySecrets(const std::vector<grading::Secret>& secrets) {
   say("  looked for  " + wrap(fmt::format("{}", fmt::join(parts, ", ")), kColumn, kColumn));
 }
 
+// `out`: the release; empty after a mere scan, or if something leaks.
+void sayJson(const grading::LeakScan& scan, const fs::path& out, int exercises, bool proven) {
+  Json leaks = Json::array();
+  for (const grading::Leak& leak : scan.leaks) leaks.push_back(toString(leak));
+  say(dump(Json{{"written", out.empty() ? Json() : Json(shown(out))},
+                {"exercises", exercises},
+                {"files", scan.files},
+                {"archives", scan.packed},
+                {"bytes", scan.bytes},
+                {"leaks", leaks},
+                {"proven", proven}}));
+}
+
 ExitCode scanOnly(const Project& project, const ReleaseOptions& options) {
   if (!fs::is_directory(options.scan))
     throw UsageError({.what = "no such folder", .where = {options.scan.string()}});
@@ -55,11 +69,16 @@ ExitCode scanOnly(const Project& project, const ReleaseOptions& options) {
   const grading::LeakScan scan =
       grading::scanForLeaks(options.scan, secrets, project.root / "src",
                             options.installed ? grading::TreeKind::kInstalled : grading::TreeKind::kSource);
+  const ExitCode code = scan.leaks.empty() ? ExitCode::kFull : ExitCode::kBelow;
+  if (options.json) {
+    sayJson(scan, {}, 0, false);
+    return code;
+  }
   tellLeaks(scan.leaks);
   say(fmt::format("{} holds {}", shown(options.scan), sizeOf(scan)));
   saySecrets(secrets);
   say(fmt::format("  found       {} leak{}", scan.leaks.size(), scan.leaks.size() == 1 ? "" : "s"));
-  return scan.leaks.empty() ? ExitCode::kFull : ExitCode::kBelow;
+  return code;
 }
 
 // Whether it is given out by that time.
@@ -100,20 +119,29 @@ ExitCode devRelease(const Project& project, const ReleaseOptions& options) {
   const grading::Release release = grading::writeStudentRelease(
       project.root, fs::absolute(options.out), options.secret, chosenExercises(project, options));
   if (!release.scan.leaks.empty()) {
-    tellLeaks(release.scan.leaks);
-    note(fmt::format("Nothing was written: found {} leak{}.", release.scan.leaks.size(),
-                     release.scan.leaks.size() == 1 ? "" : "s"));
+    if (options.json) {
+      sayJson(release.scan, {}, 0, false);
+    } else {
+      tellLeaks(release.scan.leaks);
+      note(fmt::format("Nothing was written: found {} leak{}.", release.scan.leaks.size(),
+                       release.scan.leaks.size() == 1 ? "" : "s"));
+    }
     return ExitCode::kBelow;
   }
-  say(fmt::format("The student release is in {}", shown(options.out)));
-  say(fmt::format("  holds       {} exercise{}, {}", release.exercises, release.exercises == 1 ? "" : "s",
-                  sizeOf(release.scan)));
-  saySecrets(release.secrets);
-  if (options.prove || !options.proveIn.empty()) {
+  if (!options.json) {
+    say(fmt::format("The student release is in {}", shown(options.out)));
+    say(fmt::format("  holds       {} exercise{}, {}", release.exercises, release.exercises == 1 ? "" : "s",
+                    sizeOf(release.scan)));
+    saySecrets(release.secrets);
+  }
+  const bool prove = options.prove || !options.proveIn.empty();
+  if (prove)
     proveRelease(fs::absolute(options.out),
                  options.proveIn.empty() ? fs::path() : fs::absolute(options.proveIn));
+  if (options.json)
+    sayJson(release.scan, options.out, release.exercises, prove);
+  else if (prove)
     say("  proven      a copy of it builds, every exercise is graded and draws its pictures");
-  }
   return ExitCode::kFull;
 }
 

@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -17,6 +19,7 @@ namespace {
 
 using grading::CheckStatistics;
 using grading::ExerciseStatistics;
+using grading::PartStatistics;
 
 std::string groupOf(const CheckStatistics& check) {
   return check.group == grading::Group::kHidden ? "hidden" : "visible";
@@ -28,14 +31,46 @@ std::string classesOf(const CheckStatistics& check) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
+// How the parts went, so that one sees which is too hard.
+void sayParts(const ExerciseStatistics& all) {
+  std::size_t width = 0;
+  for (const PartStatistics& part : all.parts) width = std::max(width, part.id.size());
+  for (const PartStatistics& part : all.parts) {
+    const double share = part.maxPoints > 0 ? part.meanPoints / part.maxPoints : 0;
+    say(fmt::format("  part {:{}}  {} {:3.0f} % of {} points, {} of {} have them all", harmless(part.id),
+                    width, bar(static_cast<int>(std::lround(share * 1000)), 1000), 100 * share,
+                    part.maxPoints, part.full, all.graded));
+  }
+}
+
+// The question that most of those who failed were asked, and how many.
+std::pair<std::string, int> mostAsked(const CheckStatistics& check) {
+  const auto most = std::max_element(check.questions.begin(), check.questions.end(),
+                                     [](const auto& a, const auto& b) { return a.second < b.second; });
+  return most == check.questions.end() ? std::pair<std::string, int>("", 0)
+                                       : std::pair<std::string, int>(*most);
+}
+
+std::string commonQuestion(const CheckStatistics& check) {
+  const auto [question, count] = mostAsked(check);
+  return count == 0 ? "" : fmt::format("; {} were asked: {}", count, question);
+}
+
+std::string discriminationText(const CheckStatistics& check) {
+  return check.discrimination ? fmt::format("{:.2f}", *check.discrimination) : "";
+}
+
 void sayChecks(const ExerciseStatistics& all) {
   const auto passed = std::count_if(all.checks.begin(), all.checks.end(),
                                     [](const CheckStatistics& check) { return check.failed == 0; });
   for (const CheckStatistics& check : all.checks) {
     if (check.failed == 0) continue;
     const std::string mark = check.group == grading::Group::kHidden ? ", hidden" : "";
-    const std::string text = fmt::format("{} of {} failed: {} [{}{}]: {}", check.failed, all.graded,
-                                         harmless(check.title), harmless(check.id), mark, classesOf(check));
+    const std::string worth =
+        check.discrimination ? fmt::format("; correlation with the rest {:.2f}", *check.discrimination) : "";
+    const std::string text =
+        fmt::format("{} of {} failed: {} [{}{}]: {}{}{}", check.failed, all.graded, harmless(check.title),
+                    harmless(check.id), mark, classesOf(check), harmless(commonQuestion(check)), worth);
     say("  " + wrap(text, 6, 6));
   }
   if (passed > 0) say(fmt::format("  {} check{} passed by all", passed, passed == 1 ? "" : "s"));
@@ -57,19 +92,28 @@ void sayExercise(const ExerciseStatistics& all) {
   say("  at least " + bins);
   say(fmt::format("  grading  median {:.1f} s, longest {:.1f} s ({})", all.medianSeconds, all.longestSeconds,
                   harmless(all.slowest)));
+  sayParts(all);
   sayChecks(all);
 }
 
 Json toJson(const ExerciseStatistics& all) {
-  Json distribution = Json::object(), checks = Json::array();
+  Json distribution = Json::object(), checks = Json::array(), parts = Json::array();
   for (std::size_t k = 0; k < all.distribution.size(); ++k)
     distribution[grading::kDistribution[k]] = all.distribution[k];
   for (const CheckStatistics& check : all.checks)
     checks.push_back({{"id", check.id},
+                      {"part", check.part},
                       {"title", check.title},
                       {"group", groupOf(check)},
                       {"failed", check.failed},
-                      {"classes", check.classes}});
+                      {"classes", check.classes},
+                      {"questions", check.questions},
+                      {"discrimination", check.discrimination ? Json(*check.discrimination) : Json()}});
+  for (const PartStatistics& part : all.parts)
+    parts.push_back({{"id", part.id},
+                     {"max_points", part.maxPoints},
+                     {"mean_points", part.meanPoints},
+                     {"full", part.full}});
   return {{"exercise", all.exercise},
           {"graded", all.graded},
           {"full", all.full},
@@ -82,16 +126,18 @@ Json toJson(const ExerciseStatistics& all) {
           {"median_seconds", all.medianSeconds},
           {"longest_seconds", all.longestSeconds},
           {"slowest", all.slowest},
+          {"parts", parts},
           {"checks", checks}};
 }
 
 void printCsv(const std::vector<ExerciseStatistics>& all) {
-  std::string text = grading::csvLine({"exercise", "check", "group", "graded", "failed", "classes"});
+  std::string text = grading::csvLine(
+      {"exercise", "part", "check", "group", "graded", "failed", "classes", "question", "discrimination"});
   for (const ExerciseStatistics& exercise : all)
     for (const CheckStatistics& check : exercise.checks)
-      text +=
-          grading::csvLine({exercise.exercise, check.id, groupOf(check), fmt::format("{}", exercise.graded),
-                            fmt::format("{}", check.failed), classesOf(check)});
+      text += grading::csvLine({exercise.exercise, check.part, check.id, groupOf(check),
+                                fmt::format("{}", exercise.graded), fmt::format("{}", check.failed),
+                                classesOf(check), mostAsked(check).first, discriminationText(check)});
   std::fputs(text.c_str(), stdout);
 }
 
@@ -130,6 +176,10 @@ ExitCode devStats(const Project&, const StatsOptions& options) {
   if (!options.figure.empty()) {
     writeFigure(pointsFigure(read.results), options.figure);
     note(fmt::format("Drawn: {}", shown(options.figure)));
+  }
+  if (!options.parts.empty()) {
+    writeFigure(partsFigure(all), options.parts);
+    note(fmt::format("Drawn: {}", shown(options.parts)));
   }
   return read.complaints.empty() ? ExitCode::kFull : ExitCode::kNotGradable;
 }

@@ -15,14 +15,15 @@ namespace rex::cli {
 ExitCode devNew(const Project& project, const std::string& name);
 
 struct CheckOptions {
-  std::string exercise;  ///< empty: all
-  std::string gate;      ///< empty: all
+  std::string exercise{};            ///< empty: all
+  std::vector<std::string> gates{};  ///< empty: all
   bool listGates = false;
+  bool json = false;
   std::filesystem::path sheet{};  ///< a .png for the pictures of wrong variants; empty: none
   int seeds = 3;
 };
-/// Runs the gates that exercises must pass. Returns kBelow if one fails, kGraderFault if a grader does not
-/// build; the other exercises are still tested.
+/// Runs the gates that exercises must pass; a bad exercise.toml counts as a gate that is not passed. Returns
+/// kBelow if one is not, kGraderFault if a grader does not build; the other exercises are still tested.
 ExitCode devCheck(const Project& project, const CheckOptions& options);
 
 /// Makes main.cpp of that exercise from its solution.cpp.
@@ -38,14 +39,24 @@ struct ReleaseOptions {
   std::filesystem::path secret{};     ///< file with the secret of the course; empty: none
   bool prove = false;                 ///< see proveRelease()
   std::filesystem::path proveIn{};    ///< the same, in this folder, which is kept
+  bool json = false;
 };
 /// Writes the students' tree, and prints what it contains. Returns kBelow, without writing anything, if
 /// anything leaks.
 ExitCode devRelease(const Project& project, const ReleaseOptions& options);
 
+struct SiteOptions {
+  std::filesystem::path out{};     ///< new folder
+  std::filesystem::path secret{};  ///< file with the secret of the course; empty: none
+  bool json = false;
+};
+/// Writes the pages of the course. Returns kBelow, without writing anything, if anything leaks.
+ExitCode devSite(const Project& project, const SiteOptions& options);
+
 struct StatsOptions {
   std::filesystem::path results{};  ///< folder that `rex grade` wrote
-  std::filesystem::path figure{};   ///< .png or .svg; empty: none
+  std::filesystem::path figure{};   ///< the points of each exercise, .png or .svg; empty: none
+  std::filesystem::path parts{};    ///< the points of each part, likewise
   bool json = false;
   bool csv = false;
 };

@@ -27,6 +27,7 @@
 #include "cli/instructor/collect.h"
 #include "cli/instructor/grading_options_internal.h"
 #include "cli/instructor/instructor_room_internal.h"
+#include "cli/instructor/similar.h"
 #include "cli/progress_line.h"
 #include "cli/sandbox_choice.h"
 #include "cli/shared_options_internal.h"
@@ -55,6 +56,8 @@ struct GradeManyOptions {
   bool regrade = false;               ///< also submissions that have a valid result
   bool evidence = false;              ///< keep pictures and replays of failed visible checks
   std::string reports{};              ///< formats of `rex report` to write, separated by commas; empty: none
+  fs::path similar{};                 ///< folder for pages of similar submissions; empty: none
+  int similarPercent = kSimilarPercent;
 };
 
 using grading::Task;
@@ -123,6 +126,10 @@ void requireApart(const GradeManyOptions& options) {
         {.what = "no such folder", .where = {options.folder.string()}, .wanted = "a folder of submissions"});
   requireApart("--out", options.out, options.folder);
   if (!options.manifest.empty()) grading::requireNameOfResults(options.manifest, options.out);
+  if (!options.similar.empty()) {
+    requireApart("--similar", options.similar, options.folder);
+    requireApart("--similar", options.similar, options.out);
+  }
   if (options.workers.empty()) return;
   requireApart("--workers", options.workers, options.folder);
   requireApart("--workers", options.workers, options.out);
@@ -273,6 +280,8 @@ ExitCode gradeMany(const Project& project, const GradeManyOptions& options) {
   const int graded = gradeOpen(tasks, options, *sandbox, graders);
   tellTimes(tasks, options);
   writeReports(tasks, options.out, reports);
+  if (!options.similar.empty())
+    writeSimilar(project, tasks, options.out, options.similar, options.similarPercent);
   const bool complete = writeGrades(tasks, options.out, policy, options.csv);
   note(
       fmt::format("{} submission{} at sandbox level {}: {} graded, {} kept, {} could not be taken. Table: {}",
@@ -289,7 +298,8 @@ void addGrade(CLI::App* command, Action& action) {
   command->footer(
       "Examples:\n  scripts/rex grade handed-in --out results -j8\n"
       "  scripts/rex grade handed-in --out results --deadlines deadlines.toml --csv\n"
-      "  scripts/rex grade handed-in --out results --reports=markdown,junit --evidence\n\n"
+      "  scripts/rex grade handed-in --out results --reports=markdown,junit --evidence\n"
+      "  scripts/rex grade handed-in --out results --similar similar\n\n"
       "DIR holds STUDENT/EXERCISE/main.cpp. A second run grades only what has changed.\n" +
       std::string(kGradingCodes));
   command->add_option("DIR", options->folder, "folder of submissions")->type_name("")->required();
@@ -318,6 +328,16 @@ void addGrade(CLI::App* command, Action& action) {
   command->add_flag("--csv", options->csv, "print the table of grades");
   addReports(command, options->reports);
   addEvidence(command, options->evidence);
+  CLI::Option* similar = command
+                             ->add_option("--similar", options->similar,
+                                          "show submissions that are nearly the same in this folder")
+                             ->type_name("FOLDER");
+  command
+      ->add_option("--similar-percent", options->similarPercent,
+                   fmt::format("how much they must have in common (default: {})", kSimilarPercent))
+      ->check(CLI::Range(1, 100).description(""))
+      ->type_name("N")
+      ->needs(similar);
   command->callback(
       [&action, options] { action = [options](const Project& p) { return gradeMany(p, *options); }; });
 }

@@ -27,6 +27,7 @@
 #include "cli/robot/render_plan.h"
 #include "cli/robot/robot_options_internal.h"
 #include "cli/robot/robot_room_internal.h"
+#include "cli/sandbox_choice.h"
 #include "cli/shared_options_internal.h"
 #include "cli/terminal.h"
 #include "render/figure.h"
@@ -34,6 +35,7 @@
 #include "render/renderer.h"
 #include "render/report.h"
 #include "render/video_sink.h"
+#include "sandbox/probes.h"
 
 namespace rex::cli {
 namespace {
@@ -231,9 +233,13 @@ Finding tryWatching(const fs::path& folder) {
   return {.name = "watch", .text = FileWatcher(folder / "main.cpp").describe()};
 }
 
-Finding aboutSandbox() {
-  return {.name = "sandbox",
-          .text = "level 0 of 3: limits on time, memory and output; grade only your own code"};
+// The level that `rex grade` would use. Own programs need none.
+Finding trySandbox(const Project& project, const fs::path& folder) {
+  const sandbox::Available best = sandbox::bestLevel(launcherOf(project), probeOf(project), folder);
+  const std::string warning = sandbox::warningOf(best.level);
+  std::string text = warning.empty() ? sandbox::describe(best.level) : warning;
+  for (const std::string& reason : best.reasons) text += "; " + harmless(reason);
+  return {.name = "sandbox", .text = text + "; all attacks: rex doctor --sandbox"};
 }
 
 Finding aboutRex() {
@@ -289,7 +295,7 @@ void sayJson(const std::vector<Finding>& findings, bool ok) {
 
 // Tries everything that pictures need on this machine. kGraderFault if something needed does not work. One of
 // the two OpenGL backends is enough unless `gl` names the one that must work.
-ExitCode doctor(const Project&, const DoctorOptions& options) {
+ExitCode doctor(const Project& project, const DoctorOptions& options) {
   const GlBackend backend = backendOf(options.gl);
   const PrivateFolder folder(temporaryFolder());
   std::vector<Finding> findings = tryBackends(backend, folder.path());
@@ -299,7 +305,7 @@ ExitCode doctor(const Project&, const DoctorOptions& options) {
   findings.push_back(tryVideos(folder.path()));
   findings.push_back(replays);
   findings.push_back(tryWatching(folder.path()));
-  findings.push_back(aboutSandbox());
+  findings.push_back(trySandbox(project, folder.path()));
   const bool ok = std::all_of(findings.begin(), findings.end(), isWell);
   options.json ? sayJson(findings, ok) : sayAll(findings);
   return ok ? ExitCode::kFull : ExitCode::kGraderFault;

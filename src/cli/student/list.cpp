@@ -1,16 +1,38 @@
 #include <algorithm>
+#include <memory>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "cli/json_internal.h"
 #include "cli/student/student_room_internal.h"
 #include "cli/terminal.h"
 
 namespace rex::cli {
 namespace {
 
-ExitCode list(const Project& project) {
+void sayJson(const std::vector<ExerciseInfo>& exercises) {
+  Json all = Json::array();
+  for (const ExerciseInfo& exercise : exercises) {
+    Json parts = Json::array();
+    for (const grading::ExercisePart& part : exercise.parts)
+      parts.push_back({{"id", part.id}, {"title", part.title}, {"points", part.points}});
+    all.push_back({{"name", exercise.name},
+                   {"title", exercise.title},
+                   {"script", exercise.script},
+                   {"folder", exercise.folder.string()},
+                   {"points", exercise.points()},
+                   {"parts", parts}});
+  }
+  say(dump(Json{{"exercises", all}}));
+}
+
+ExitCode list(const Project& project, bool json) {
   const std::vector<ExerciseInfo> exercises = project.exercises();
+  if (json) {
+    sayJson(exercises);
+    return ExitCode::kFull;
+  }
   if (exercises.empty()) {
     say(project.installed.empty() ? "There are no exercises yet. `scripts/rex dev new 99-demo` makes one."
                                   : kNoCourseHere);
@@ -35,8 +57,10 @@ ExitCode list(const Project& project) {
 }  // namespace
 
 void addList(CLI::App* command, Action& action) {
-  command->footer("Example: scripts/rex list");
-  command->callback([&action] { action = list; });
+  const auto json = std::make_shared<bool>(false);
+  command->footer("Examples:\n  scripts/rex list\n  scripts/rex list --json");
+  command->add_flag("--json", *json, "print JSON");
+  command->callback([&action, json] { action = [json](const Project& p) { return list(p, *json); }; });
 }
 
 }  // namespace rex::cli

@@ -48,4 +48,21 @@ TEST(ClassFigure, NeedsPoints) {
   EXPECT_REX_ERROR(pointsFigure(results), "no points to draw: found only faults of the grader");
 }
 
+TEST(ClassFigure, ShowsWhichPartIsHard) {
+  grading::ExerciseStatistics first{.exercise = "03-a", .graded = 2}, second{.exercise = "05-b", .graded = 2};
+  first.parts = {{.id = "easy", .maxPoints = 4, .meanPoints = 4},
+                 {.id = "hard", .maxPoints = 4, .meanPoints = 1}};
+  second.parts = {{.id = "half", .maxPoints = 2, .meanPoints = 1}};
+  const Figure figure = partsFigure({first, second});
+  ASSERT_EQ(figure.notes.size(), 3u);
+  EXPECT_EQ(figure.notes[1].text, "hard 25 %");
+  EXPECT_EQ(figure.notes[1].y, 3);
+  EXPECT_EQ(figure.notes[2].text, "half 50 %");
+  EXPECT_EQ(figure.notes[2].y, 5);
+  const auto blueOf = [&](std::size_t k) { return figure.regions[k].color->b; };
+  EXPECT_GT(blueOf(0), blueOf(2));
+  EXPECT_GT(blueOf(2), blueOf(1));
+  EXPECT_REX_ERROR(partsFigure({{.exercise = "01-a"}}), "no points to draw: found only faults of the grader");
+}
+
 }  // namespace rex::cli::class_figure_test

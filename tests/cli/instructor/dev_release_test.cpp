@@ -1,4 +1,5 @@
 // `rex dev release`: the tree, what is said of it, and its proof on a tree whose build is a script.
+#include "cli/command_schema.h"
 #include "cli/template_project.h"
 
 namespace rex::cli::dev_release_test {
@@ -87,6 +88,20 @@ TEST_F(DevReleaseTest, WritesNothingThatLeaks) {
   EXPECT_FALSE(fs::exists(students()));
 }
 
+TEST_F(DevReleaseTest, PrintsJson) {
+  const Ended written = release({"--json"});
+  EXPECT_EQ(written.code, 0) << written.error;
+  EXPECT_EQ(schemaFaultsOf(written.output, "dev_release"), "");
+  EXPECT_THAT(written.output, HasSubstr("\"exercises\":1,"));
+  EXPECT_THAT(written.output, HasSubstr("\"leaks\":[],\"proven\":false}\n"));
+  write(students() / "solution.cpp", "");
+  const Ended scanned = rex({"dev", "release", "--scan", students().string(), "--json"});
+  EXPECT_EQ(scanned.code, 1);
+  EXPECT_EQ(schemaFaultsOf(scanned.output, "dev_release"), "");
+  EXPECT_THAT(scanned.output, HasSubstr("{\"written\":null,"));
+  EXPECT_THAT(scanned.output, HasSubstr("\"leaks\":[\"solution.cpp: "));
+}
+
 TEST_F(DevReleaseTest, LooksThroughAnyFolder) {
   fs::create_directory(root() / "handouts");
   write(root() / "handouts" / "a.txt", "The key: the secret of THE COURSE\n");
@@ -128,6 +143,18 @@ TEST_F(DevReleaseTest, ProvesThatTheTreeWorksAlone) {
     EXPECT_EQ(ended.output.find("proven") != std::string::npos, message.empty());
     EXPECT_FALSE(fs::exists(students() / "build")) << "a copy is built";
   }
+}
+
+TEST_F(DevReleaseTest, WritesPagesOfTheCourse) {
+  fs::copy(REX_SOURCE_DIR "/share/site", root() / "share" / "site");
+  const std::string site = (root() / "site").string();
+  const Ended ended = rex({"dev", "site", site, "--json"});
+  EXPECT_EQ(ended.code, 0) << ended.error;
+  EXPECT_EQ(schemaFaultsOf(ended.output, "dev_site"), "");
+  EXPECT_TRUE(fs::exists(root() / "site" / "exercises" / "98-template.html"));
+  EXPECT_EQ(rex({"dev", "site", site}).code, 64);
+  fs::remove_all(site);
+  EXPECT_THAT(rex({"dev", "site", site}).output, HasSubstr("2 pages, 0.0 MB, nothing leaks: open "));
 }
 
 }  // namespace rex::cli::dev_release_test

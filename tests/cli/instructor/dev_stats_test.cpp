@@ -1,6 +1,7 @@
 // `rex dev stats` on results that are made by hand.
 #include <nlohmann/json.hpp>
 
+#include "cli/command_schema.h"
 #include "cli/template_project.h"
 #include "grading/results.h"
 #include "support/needs_gnuplot.h"
@@ -21,9 +22,20 @@ class DevStatsTest : public TemplateProject {
     result.score = score;
     result.maxScore = 3;
     result.usage.wallSeconds = seconds;
-    result.checks = {
-        {.id = "keeps", .title = "Keeps, \"all\"", .status = Outcome::kPass},
-        {.id = "turns", .title = "Turns", .group = grading::Group::kHidden, .status = first, .message = ""}};
+    result.checks = {{.id = "keeps",
+                      .part = "p",
+                      .title = "Keeps, \"all\"",
+                      .status = Outcome::kPass,
+                      .points = 1,
+                      .maxPoints = 1},
+                     {.id = "turns",
+                      .part = "r",
+                      .title = "Turns",
+                      .group = grading::Group::kHidden,
+                      .status = first,
+                      .points = first == Outcome::kPass ? 2 : 0,
+                      .maxPoints = 2,
+                      .message = ""}};
     fs::create_directories(results() / student / "98-template");
     write(results() / student / "98-template" / "results.json", toJson(result));
   }
@@ -47,25 +59,34 @@ TEST_F(DevStatsTest, PrintsATable) {
             "  points   mean 1.5, median 1.5 of 3\n"
             "  at least full: 1   75 %: 0   50 %: 1   25 %: 1   less: 0   none: 1\n"
             "  grading  median 2.5 s, longest 9.0 s (bob)\n"
-            "  3 of 4 failed: Turns [turns, hidden]: 1 timeout, 2 wrong\n"
+            "  part p  #################### 100 % of 1 points, 4 of 4 have them all\n"
+            "  part r  #####...............  25 % of 2 points, 1 of 4 have them all\n"
+            "  3 of 4 failed: Turns [turns, hidden]: 1 timeout, 2 wrong; correlation with\n"
+            "      the rest 0.00\n"
             "  1 check passed by all\n");
 }
 
 TEST_F(DevStatsTest, PrintsJsonAndCsv) {
-  const Json json = Json::parse(stats({"--json"}).output);
+  const std::string text = stats({"--json"}).output;
+  EXPECT_EQ(schemaFaultsOf(text, "dev_stats"), "");
+  const Json json = Json::parse(text);
   const Json& one = json.at("exercises").at(0);
   EXPECT_EQ(one.at("mean_points"), 1.5);
   EXPECT_EQ(one.at("distribution").at("none"), 1);
+  EXPECT_EQ(one.at("parts").at(1), (Json{{"id", "r"}, {"max_points", 2}, {"mean_points", 0.5}, {"full", 1}}));
   EXPECT_EQ(one.at("checks").at(0), (Json{{"id", "turns"},
+                                          {"part", "r"},
                                           {"title", "Turns"},
                                           {"group", "hidden"},
                                           {"failed", 3},
-                                          {"classes", {{"timeout", 1}, {"wrong", 2}}}}));
+                                          {"classes", {{"timeout", 1}, {"wrong", 2}}},
+                                          {"questions", Json::object()},
+                                          {"discrimination", 0.0}}));
   EXPECT_TRUE(json.at("not_counted").empty());
   EXPECT_EQ(stats({"--csv"}).output,
-            "exercise,check,group,graded,failed,classes\n"
-            "98-template,turns,hidden,4,3,\"1 timeout, 2 wrong\"\n"
-            "98-template,keeps,visible,4,0,\n");
+            "exercise,part,check,group,graded,failed,classes,question,discrimination\n"
+            "98-template,r,turns,hidden,4,3,\"1 timeout, 2 wrong\",,0.00\n"
+            "98-template,p,keeps,visible,4,0,,,\n");
 }
 
 TEST_F(DevStatsTest, TellsWhatItDoesNotCount) {
@@ -97,6 +118,9 @@ TEST_F(DevStatsTest, DrawsThePoints) {
   EXPECT_EQ(ended.code, 0) << ended.error;
   EXPECT_TRUE(fileText(figure).starts_with("\x89PNG"));
   EXPECT_THAT(ended.error, HasSubstr("Drawn: "));
+  const fs::path parts = root() / "parts.png";
+  EXPECT_EQ(stats({"--parts", parts.string()}).code, 0);
+  EXPECT_TRUE(fileText(parts).starts_with("\x89PNG"));
 }
 
 }  // namespace rex::cli::dev_stats_test

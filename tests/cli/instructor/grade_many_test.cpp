@@ -421,4 +421,27 @@ TEST_F(GradeManyTest, LetsTheExerciseWaitWhoseGraderDoesNotBuild) {
   EXPECT_THAT(table(), Not(HasSubstr("97-other")));
 }
 
+TEST_F(GradeManyTest, ShowsSimilarSubmissionsApartFromTheResults) {
+  if (!runProcess({"sim_c++", "-v"}).started) GTEST_SKIP() << "similarity-tester is not installed";
+  std::string renamed = kGood;
+  for (std::size_t at = 0; (at = renamed.find("std::", at)) != std::string::npos; at += 7)
+    renamed.insert(at, "  ");
+  handIn("anna", kGood), handIn("bert", renamed), handIn("carl", kWrong);
+  const std::string pages = (root() / "similar").string();
+  const Ended ended = grade({"--similar", pages});
+  EXPECT_EQ(ended.code, 0) << ended.error;
+  EXPECT_THAT(flat(ended.output),
+              HasSubstr("98-template: 1 group of similar submissions, to be looked at: "));
+  EXPECT_THAT(ended.output, HasSubstr("\n  anna, bert\n"));
+  EXPECT_THAT(fileText(root() / "similar" / "98-template.html"), HasSubstr("<h2>anna and bert</h2>"));
+  EXPECT_EQ(fileText(root() / "similar" / "98-template" / "submissions" / "carl" / "main.cpp"), kWrong);
+  EXPECT_TRUE(fs::exists(root() / "similar" / "98-template" / "base" / "main.cpp"));
+  handIn("bert", kWrong), fs::remove_all(in() / "carl");
+  EXPECT_THAT(flat(grade({"--similar", pages}).output),
+              HasSubstr("98-template: no two of 2 submissions have 70 % in common"));
+  EXPECT_FALSE(fs::exists(root() / "similar" / "98-template.html"));
+  EXPECT_EQ(grade({"--similar", results().string()}).code, 64);
+  EXPECT_EQ(grade({"--similar-percent", "50"}).code, 64);
+}
+
 }  // namespace rex::cli::grade_many_test

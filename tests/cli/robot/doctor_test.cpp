@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <stdlib.h>
 
+#include "cli/command_schema.h"
 #include "cli/rex_command.h"
 #include "support/changed_path.h"
 #include "support/needs_egl.h"
@@ -211,6 +212,8 @@ TEST_F(Doctor, RefusesAnUnknownBackend) {
 
 TEST_F(Doctor, AttacksTheSandboxAndEndsWellOnlyAtTheAskedLevel) {
   const ProcessResult best = rex({"doctor", "--sandbox", "--json"});
+  EXPECT_EQ(schemaFaultsOf(best.output, "doctor_sandbox"), "");
+  EXPECT_EQ(schemaFaultsOf(rex({"doctor", "--json"}).output, "doctor"), "");
   const auto json = nlohmann::json::parse(best.output);
   const int level = json.at("level");
   EXPECT_EQ(best.exitCode, level > 0 ? 0 : 4);
@@ -221,6 +224,8 @@ TEST_F(Doctor, AttacksTheSandboxAndEndsWellOnlyAtTheAskedLevel) {
     EXPECT_THAT(result.output,
                 HasSubstr("sandbox level " + std::to_string(std::min(asked, level)) + " of 3"));
   }
+  const Diagnosis whole = diagnose();
+  EXPECT_THAT(whole.text.at("sandbox"), HasSubstr("sandbox level " + std::to_string(level) + " of 3"));
   EXPECT_EQ(rex({"doctor", "--level", "1"}).exitCode, 64);
 }
 

@@ -1,0 +1,208 @@
+#include "authoring/course_site.h"
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "authoring/markdown.h"
+#include "authoring/release.h"
+#include "base/error.h"
+#include "base/escape.h"
+#include "base/text_file.h"
+#include "submission/exercise_info.h"
+
+namespace rex::grading {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+// In the order in which the first page names them.
+struct Document {
+  const char* name;
+  const char* title;
+};
+constexpr Document kDocuments[] = {{"student.md", "For students: the commands and what they say"},
+                                   {"course-map.md", "From slides to code"},
+                                   {"gallery.md", "Gallery"},
+                                   {"notation.md", "Notation"},
+                                   {"ors-format.md", "Scene files"},
+                                   {"urdf.md", "URDF and SRDF"},
+                                   {"mjcf.md", "MJCF"},
+                                   {"legacy.md", "Older course material"},
+                                   {"writing-an-exercise.md", "Writing an exercise"},
+                                   {"grading-many.md", "Grading many submissions"},
+                                   {"report-formats.md", "Report formats"},
+                                   {"sandbox.md", "The sandbox"},
+                                   {"architecture.md", "Architecture"}};
+
+// Writes pages, and keeps what the search looks through.
+class SiteWriter {
+ public:
+  SiteWriter(fs::path root, fs::path target) : root_(std::move(root)), target_(std::move(target)) {}
+
+  // A page from Markdown text whose links are relative to the folder `from` of the project.
+  void addMarkdown(const fs::path& file, const std::string& markdown, const fs::path& from,
+                   const std::string& before, const std::string& after) {
+    const fs::path folder = file.parent_path();
+    const MarkdownPage page =
+        pageOf(markdown, [&](const std::string& link) { return targetOf(link, from, folder); });
+    const std::string title = page.sections.empty() ? file.stem().string() : page.sections.front().title;
+    for (const PageSection& section : page.sections)
+      entries_.push_back({{"page", title},
+                          {"heading", section.title},
+                          {"url", file.generic_string() + "#" + section.anchor},
+                          {"text", section.text}});
+    write(file, title, before + page.html + after);
+  }
+
+  void write(const fs::path& file, const std::string& title, const std::string& body) {
+    const std::string home = file.has_parent_path() ? "../" : "./";
+    writeTextFile(
+        target_ / file,
+        fmt::format(
+            "<!DOCTYPE html>\n<html lang=\"en\" data-home=\"{0}\">\n<head>\n<meta charset=\"utf-8\">\n"
+            "<meta name=\"viewport\" content=\"width=device-width\">\n<title>{1}</title>\n"
+            "<link rel=\"stylesheet\" href=\"{0}style.css\">\n</head>\n<body>\n"
+            "<nav><a href=\"{0}index.html\">All exercises</a>"
+            "<a href=\"{0}documents/course-map.html\">Course map</a>"
+            "<a href=\"{0}documents/gallery.html\">Gallery</a>"
+            "<span class=\"search\"><input type=\"search\" placeholder=\"Search\" "
+            "aria-label=\"Search\"><ol></ol></span></nav>\n<main>\n{2}</main>\n"
+            "<script src=\"{0}entries.js\"></script>\n<script src=\"{0}search.js\"></script>\n"
+            "</body>\n</html>\n",
+            home, htmlText(title), body));
+    ++pages_;
+  }
+
+  void finish() {
+    // A text of pages, not one of scripts: "</script>" in it must not end the element.
+    std::string text = entries_.dump(-1, ' ', false, Json::error_handler_t::replace);
+    for (std::size_t at = 0; (at = text.find("</", at)) != text.npos; at += 3) text.insert(at + 1, "\\");
+    writeTextFile(target_ / "entries.js", "const entries = " + text + ";\n");
+    for (const char* name : {"style.css", "search.js"})
+      writeTextFile(target_ / name, readTextFile(root_ / "share" / "site" / name));
+    for (const fs::path& picture : pictures_) {
+      fs::create_directories((target_ / "documents" / picture).parent_path());
+      fs::copy_file(root_ / "share" / "doc" / picture, target_ / "documents" / picture);
+    }
+  }
+
+  [[nodiscard]] int pages() const { return pages_; }
+
+ private:
+  // Where a link of a file in that folder leads from a page in `page`; empty: to nothing on the site.
+  std::string targetOf(const std::string& link, const fs::path& from, const fs::path& page) {
+    if (link.starts_with('#') || link.starts_with("http:") || link.starts_with("https:")) return link;
+    const std::size_t hash = std::min(link.find('#'), link.size());
+    const fs::path there = (from / link.substr(0, hash)).lexically_normal();
+    const fs::path place = placeOf(there);
+    if (place.empty()) return "";
+    return place.lexically_relative(page.empty() ? "." : page).generic_string() + link.substr(hash);
+  }
+
+  // The file of the site that shows a file or folder of the project.
+  fs::path placeOf(const fs::path& file) {
+    const std::string name = file.generic_string();
+    if (const fs::path inside = file.lexically_relative("share/doc"); name.starts_with("share/doc/")) {
+      if (file.extension() == ".png" && fs::is_regular_file(root_ / file)) {
+        pictures_.insert(inside);
+        return "documents" / inside;
+      }
+      const auto isIt = [&](const Document& one) { return inside == one.name; };
+      if (std::any_of(std::begin(kDocuments), std::end(kDocuments), isIt) && fs::exists(root_ / file))
+        return fs::path("documents") / inside.stem().concat(".html");
+    }
+    if (const fs::path inside = file.lexically_relative("exercises"); name.starts_with("exercises/")) {
+      const fs::path exercise = *inside.begin();
+      if (fs::exists(root_ / "exercises" / exercise / "exercise.toml"))
+        return fs::path("exercises") / (exercise.string() + ".html");
+    }
+    return {};
+  }
+
+  fs::path root_, target_;
+  std::set<fs::path> pictures_;
+  Json entries_ = Json::array();
+  int pages_ = 0;
+};
+
+std::string pointsTable(const ExerciseInfo& exercise) {
+  std::string rows;
+  for (const ExercisePart& part : exercise.parts)
+    rows += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", htmlText(part.title), part.points);
+  return fmt::format(
+      "<h2 id=\"points\">Points</h2>\n<table>\n<tr><th>part</th><th>points</th></tr>\n{}"
+      "<tr><th>together</th><th>{}</th></tr>\n</table>\n",
+      rows, exercise.points());
+}
+
+std::string contract(const fs::path& folder) {
+  return fmt::format("<h2 id=\"contract\">The functions: exercise.h</h2>\n<pre><code>{}</code></pre>\n",
+                     htmlText(readTextFile(folder / "exercise.h")));
+}
+
+std::string firstPage(const std::vector<ExerciseInfo>& exercises,
+                      const std::vector<const Document*>& documents) {
+  std::string rows, list;
+  for (const ExerciseInfo& one : exercises)
+    rows += fmt::format(
+        "<tr><td><a href=\"exercises/{0}.html\">{0}</a></td><td>{1}</td><td>{2}</td><td>{3}</td></tr>\n",
+        htmlText(one.name), htmlText(one.title), htmlText(one.script), one.points());
+  for (const Document* one : documents)
+    list += fmt::format("<li><a href=\"documents/{}.html\">{}</a></li>\n",
+                        fs::path(one->name).stem().string(), one->title);
+  return fmt::format(
+      "<h1>Robotics exercises</h1>\n<table>\n<tr><th>exercise</th><th>about</th>"
+      "<th>script</th><th>points</th></tr>\n{}</table>\n<h2>Documents</h2>\n<ul>\n{}</ul>\n",
+      rows, list);
+}
+
+int writePages(const fs::path& root, const fs::path& target) {
+  SiteWriter site(root, target);
+  const std::vector<ExerciseInfo> exercises = listExercises(root / "exercises");
+  for (const ExerciseInfo& one : exercises)
+    site.addMarkdown(fs::path("exercises") / (one.name + ".html"), readTextFile(one.folder / "README.md"),
+                     fs::path("exercises") / one.name, "", pointsTable(one) + contract(one.folder));
+  std::vector<const Document*> documents;
+  for (const Document& one : kDocuments) {
+    const fs::path file = root / "share" / "doc" / one.name;
+    if (!fs::exists(file)) continue;
+    documents.push_back(&one);
+    site.addMarkdown(fs::path("documents") / fs::path(one.name).stem().concat(".html"), readTextFile(file),
+                     "share/doc", "", "");
+  }
+  site.write("index.html", "Robotics exercises", firstPage(exercises, documents));
+  site.finish();
+  return site.pages();
+}
+
+}  // namespace
+
+CourseSite writeCourseSite(const fs::path& root, const fs::path& target, const fs::path& courseSecret) {
+  if (fs::exists(target) && !(fs::is_directory(target) && fs::is_empty(target)))
+    throw UsageError(
+        {.what = "will not overwrite", .where = {target.string()}, .wanted = "an empty or new folder"});
+  try {
+    CourseSite site{.pages = writePages(root, target)};
+    site.scan = scanForLeaks(target, secretsOfCourse(root, courseSecret));
+    if (!site.scan.leaks.empty()) fs::remove_all(target);
+    return site;
+  } catch (const fs::filesystem_error& error) {
+    std::error_code ignored;
+    fs::remove_all(target, ignored);
+    throw Error({.what = "cannot write the pages of the course",
+                 .where = {(error.path1().empty() ? target : error.path1()).string()},
+                 .found = error.code().message()});
+  } catch (...) {
+    std::error_code ignored;
+    fs::remove_all(target, ignored);
+    throw;
+  }
+}
+
+}  // namespace rex::grading

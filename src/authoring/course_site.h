@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+
+#include "authoring/leak_scan.h"
+
+namespace rex::grading {
+
+/// What a page of the course consists of, and the result of its scan.
+struct CourseSite {
+  int pages = 0;
+  LeakScan scan{};  ///< if it has leaks, the folder was removed
+};
+
+/// Writes to `target` static pages about the course in `root`: each exercise with its task, points and
+/// contract, the documents of share/doc for students and lecturers with their pictures, and a search over all
+/// of them. They need no server and no network, and print well. Finally scans them for leaks like a student
+/// release. Throws UsageError if the target is not empty, and Error for files that cannot be read or written.
+[[nodiscard]] CourseSite writeCourseSite(const std::filesystem::path& root,
+                                         const std::filesystem::path& target,
+                                         const std::filesystem::path& courseSecret = {});
+
+}  // namespace rex::grading

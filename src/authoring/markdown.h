@@ -1,0 +1,32 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rex::grading {
+
+/// A heading of a page and the text below it, up to the next heading.
+struct PageSection {
+  std::string title{};
+  std::string anchor{};  ///< the id of the heading: "part-1-dead-reckoning"
+  int level = 1;
+  std::string text{};  ///< without markup
+};
+
+/// A page made from Markdown.
+struct MarkdownPage {
+  std::string html{};  ///< for the inside of a body; nothing in it comes from HTML in the source
+  std::vector<PageSection> sections{};
+};
+
+/// Converts Markdown with tables, as GitHub reads it. `newTarget` gives the new target of each link and
+/// picture; where it gives none, a link becomes plain text. HTML in the source is shown as text.
+[[nodiscard]] MarkdownPage pageOf(std::string_view markdown,
+                                  const std::function<std::string(const std::string&)>& newTarget);
+
+/// What GitHub makes of a heading in links: small letters and digits, blanks as dashes, nothing else.
+[[nodiscard]] std::string anchorOf(std::string_view heading);
+
+}  // namespace rex::grading

@@ -1,0 +1,153 @@
+#include "classroom/similar.h"
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <regex>
+#include <set>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/lines.h"
+#include "base/process.h"
+#include "base/text_file.h"
+
+namespace rex::grading {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kProgram = "sim_c++";
+
+std::string_view trimmed(std::string_view line) {
+  const std::size_t begin = line.find_first_not_of(" \t\r");
+  if (begin == line.npos) return {};
+  return line.substr(begin, line.find_last_not_of(" \t\r") - begin + 1);
+}
+
+bool isWordLetter(char c) {
+  return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
+std::set<std::string_view> linesOf(std::string_view text) {
+  std::set<std::string_view> lines;
+  for (const std::string_view line : splitLines(text)) lines.insert(trimmed(line));
+  return lines;
+}
+
+// Names that sim can neither take for options nor print otherwise than we wrote them.
+std::string fileName(std::size_t k) { return fmt::format("{:06}.cpp", k); }
+
+std::string runSim(std::vector<std::string> arguments, const std::string& input, const fs::path& folder) {
+  arguments.insert(arguments.begin(), kProgram);
+  constexpr double kLongest = 3600;
+  constexpr std::size_t kMostOutput = 256u << 20;
+  const ProcessResult run = runProcess(
+      arguments, {.input = input, .directory = folder, .timeout = kLongest, .outputLimit = kMostOutput});
+  if (!run.started)
+    throw Error({.what = "submissions cannot be compared",
+                 .found = fmt::format("no program {}", kProgram),
+                 .wanted = "apt-get install similarity-tester"});
+  if (!run.ok())
+    throw Error(
+        {.what = fmt::format("{} failed", kProgram), .found = run.error.substr(0, run.error.find('\n'))});
+  return run.output;
+}
+
+int numberIn(const std::string& text) {
+  int number = 0;
+  std::from_chars(text.data(), text.data() + text.size(), number);
+  return number;
+}
+
+// From lines such as "000000.cpp consists for 49 % of 000001.cpp material": how much of the first file is in
+// the second one.
+std::map<std::pair<int, int>, int> percentagesIn(const std::string& output) {
+  static const std::regex kLine(R"((\d+)\.cpp consists for (\d+) % of (\d+)\.cpp material)");
+  std::map<std::pair<int, int>, int> percentages;
+  for (std::sregex_iterator found(output.begin(), output.end(), kLine), end; found != end; ++found)
+    percentages[{numberIn((*found)[1]), numberIn((*found)[3])}] = numberIn((*found)[2]);
+  return percentages;
+}
+
+// From lines such as "000000.cpp: line 12-215  |000001.cpp: line 12-215  [1910]".
+std::vector<SimilarRun> runsIn(const std::string& output, int first) {
+  static const std::regex kLine(R"((\d+)\.cpp: line (\d+)-(\d+)\s*\|(\d+)\.cpp: line (\d+)-(\d+))");
+  std::vector<SimilarRun> runs;
+  for (std::sregex_iterator found(output.begin(), output.end(), kLine), end; found != end; ++found) {
+    std::pair left{numberIn((*found)[2]), numberIn((*found)[3])};
+    std::pair right{numberIn((*found)[5]), numberIn((*found)[6])};
+    if (numberIn((*found)[1]) != first) std::swap(left, right);
+    runs.push_back({.first = left, .second = right});
+  }
+  std::sort(runs.begin(), runs.end(),
+            [](const SimilarRun& a, const SimilarRun& b) { return a.first < b.first; });
+  return runs;
+}
+
+}  // namespace
+
+std::string withoutHandedOut(std::string_view text, std::string_view handedOut) {
+  const std::set<std::string_view> known = linesOf(handedOut);
+  std::string rest;
+  for (const std::string_view line : splitLines(text)) {
+    // A lone brace belongs to what it encloses.
+    const bool hasWords = std::any_of(line.begin(), line.end(), isWordLetter);
+    if (!hasWords || !known.contains(trimmed(line))) rest += line;
+    rest += '\n';
+  }
+  return rest;
+}
+
+std::vector<SimilarPair> similarPairs(const std::vector<ComparedText>& texts, std::string_view handedOut,
+                                      int leastPercent, const fs::path& folder) {
+  if (texts.size() < 2) return {};
+  std::string names;
+  for (std::size_t k = 0; k < texts.size(); ++k) {
+    writeTextFile(folder / fileName(k), withoutHandedOut(texts[k].text, handedOut));
+    names += fileName(k) + '\n';
+  }
+  // Each file with each other (-a), alone (-e), and not with itself (-s).
+  const auto percentages = percentagesIn(
+      runSim({"-p", "-a", "-e", "-s", "-T", "-t", fmt::format("{}", leastPercent), "-i"}, names, folder));
+  std::vector<SimilarPair> pairs;
+  for (const auto& [files, percent] : percentages) {
+    const auto [first, second] = files;
+    const auto back = percentages.find({second, first});
+    if (first > second || back == percentages.end()) continue;
+    const std::string output = runSim(
+        {"-n", "-e", "-s", "-T", "-w", "200", fileName(std::size_t(first)), fileName(std::size_t(second))},
+        "", folder);
+    pairs.push_back({.first = texts[std::size_t(first)].student,
+                     .second = texts[std::size_t(second)].student,
+                     .firstPercent = percent,
+                     .secondPercent = back->second,
+                     .runs = runsIn(output, first)});
+  }
+  std::stable_sort(pairs.begin(), pairs.end(), [](const SimilarPair& a, const SimilarPair& b) {
+    return std::min(a.firstPercent, a.secondPercent) > std::min(b.firstPercent, b.secondPercent);
+  });
+  return pairs;
+}
+
+std::vector<std::vector<std::string>> groupsOf(const std::vector<SimilarPair>& pairs) {
+  std::map<std::string, std::set<std::string>> groups;  // by their first member
+  std::map<std::string, std::string> first;             // of each student's group
+  for (const SimilarPair& pair : pairs) {
+    for (const std::string& student : {pair.first, pair.second})
+      if (first.try_emplace(student, student).second) groups[student] = {student};
+    const std::string a = first[pair.first], b = first[pair.second];
+    if (a == b) continue;
+    const auto [keep, drop] = std::minmax(a, b);
+    for (const std::string& student : groups[drop]) first[student] = keep;
+    groups[keep].merge(groups[drop]);
+    groups.erase(drop);
+  }
+  std::vector<std::vector<std::string>> all;
+  for (const auto& [name, members] : groups) all.emplace_back(members.begin(), members.end());
+  return all;
+}
+
+}  // namespace rex::grading

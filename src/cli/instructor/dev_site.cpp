@@ -1,0 +1,29 @@
+#include <fmt/format.h>
+
+#include "authoring/course_site.h"
+#include "cli/instructor/dev_verbs.h"
+#include "cli/json_internal.h"
+#include "cli/terminal.h"
+
+namespace rex::cli {
+
+ExitCode devSite(const Project& project, const SiteOptions& options) {
+  const grading::CourseSite site =
+      grading::writeCourseSite(project.root, std::filesystem::absolute(options.out), options.secret);
+  const bool leaks = !site.scan.leaks.empty();
+  if (options.json) {
+    Json list = Json::array();
+    for (const grading::Leak& leak : site.scan.leaks) list.push_back(toString(leak));
+    say(dump(Json{
+        {"written", leaks ? Json() : Json(shown(options.out))}, {"pages", site.pages}, {"leaks", list}}));
+  } else if (leaks) {
+    for (const grading::Leak& leak : site.scan.leaks) note(wrap(harmless(toString(leak)), 2, 0));
+    note("Nothing was written.");
+  } else {
+    say(fmt::format("{} pages, {:.1f} MB, nothing leaks: open {}", site.pages,
+                    static_cast<double>(site.scan.bytes) / 1e6, shown(options.out / "index.html")));
+  }
+  return leaks ? ExitCode::kBelow : ExitCode::kFull;
+}
+
+}  // namespace rex::cli

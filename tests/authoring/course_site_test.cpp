@@ -1,0 +1,82 @@
+#include "authoring/course_site.h"
+
+#include <fstream>
+#include <regex>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/text_file.h"
+#include "support/expect_error.h"
+#include "support/file_text.h"
+#include "support/temporary_folder.h"
+
+namespace rex::grading::course_site_test {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class CourseSiteTest : public ::testing::Test {
+ protected:
+  fs::path out() const { return temporary_.path() / "site"; }
+  TemporaryFolder temporary_;
+};
+
+// The project itself: every link and picture leads to a file of the site, and every anchor exists.
+TEST_F(CourseSiteTest, HasNoDeadLinks) {
+  const CourseSite site = writeCourseSite(REX_SOURCE_DIR, out());
+  ASSERT_TRUE(site.scan.leaks.empty()) << toString(site.scan.leaks.front());
+  int links = 0, pages = 0;
+  static const std::regex kTarget(R"re((href|src)="([^"#]*)(#([^"]*))?")re");
+  for (const auto& entry : fs::recursive_directory_iterator(out())) {
+    if (entry.path().extension() != ".html") continue;
+    ++pages;
+    const std::string html = fileText(entry.path());
+    for (std::sregex_iterator found(html.begin(), html.end(), kTarget), end; found != end; ++found) {
+      const std::string target = (*found)[2], anchor = (*found)[4];
+      if (target.starts_with("http")) continue;
+      ++links;
+      const fs::path file = target.empty() ? entry.path() : entry.path().parent_path() / target;
+      ASSERT_TRUE(fs::is_regular_file(file)) << entry.path() << ": " << (*found)[0];
+      if (!anchor.empty()) EXPECT_THAT(fileText(file), HasSubstr("id=\"" + anchor + "\"")) << entry.path();
+    }
+  }
+  EXPECT_EQ(pages, site.pages);
+  EXPECT_GT(pages, 25);
+  EXPECT_GT(links, 200);
+  EXPECT_THAT(fileText(out() / "index.html"), HasSubstr("<a href=\"exercises/05-car.html\">05-car</a>"));
+  EXPECT_THAT(fileText(out() / "exercises" / "05-car.html"), HasSubstr("exercise.h</h2>"));
+  EXPECT_TRUE(fs::exists(out() / "documents" / "gallery" / "motion.png"));
+  EXPECT_THAT(fileText(out() / "entries.js"),
+              HasSubstr("\"url\":\"exercises/05-car.html#part-3-resampling-723\""));
+  EXPECT_THAT(fileText(out() / "entries.js"), Not(HasSubstr("</")));
+}
+
+TEST_F(CourseSiteTest, WritesNothingThatLeaks) {
+  const fs::path root = temporary_.path() / "course", exercise = root / "exercises" / "98-a";
+  writeTextFile(
+      exercise / "exercise.toml",
+      "title = \"T\"\nscript = \"1\"\n[[part]]\nid = \"p\"\ntitle = \"P\"\npoints = 1\nhints = [\"h?\"]\n");
+  writeTextFile(exercise / "exercise.h", "double f(double x);\n");
+  writeTextFile(exercise / "solution.cpp",
+                "// <solution f>\ndouble f(double x) { return 7 * std::sin(x) + 31 * std::cos(x); }\n// "
+                "<todo>\n// </solution>\n");
+  writeTextFile(exercise / "check.cpp", "\n");
+  for (const char* file : {"style.css", "search.js"}) writeTextFile(root / "share" / "site" / file, "");
+  writeTextFile(exercise / "README.md", "# 98\n\n    return 7 * std::sin(x) + 31 * std::cos(x);\n");
+  const CourseSite site = writeCourseSite(root, out());
+  ASSERT_FALSE(site.scan.leaks.empty());
+  EXPECT_THAT(toString(site.scan.leaks.front()), HasSubstr("98-a.html"));
+  EXPECT_FALSE(fs::exists(out()));
+}
+
+TEST_F(CourseSiteTest, OverwritesNothing) {
+  writeTextFile(out() / "notes.txt", "mine");
+  EXPECT_REX_ERROR(static_cast<void>(writeCourseSite(REX_SOURCE_DIR, out())),
+                   "will not overwrite: wanted an empty or new folder");
+  EXPECT_REX_ERROR(static_cast<void>(writeCourseSite(REX_SOURCE_DIR, "/proc/site")), "cannot write");
+  EXPECT_EQ(fileText(out() / "notes.txt"), "mine");
+}
+
+}  // namespace rex::grading::course_site_test

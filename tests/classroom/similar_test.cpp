@@ -1,0 +1,127 @@
+#include "classroom/similar.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/process.h"
+#include "support/changed_path.h"
+#include "support/expect_error.h"
+#include "support/temporary_folder.h"
+
+namespace rex::grading::similar_test {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+#define REX_NEEDS_SIM() \
+  if (!runProcess({"sim_c++", "-v"}).started) GTEST_SKIP() << "similarity-tester is not installed"
+
+constexpr const char* kHandedOut = R"(#include "exercise.h"
+
+// The mean of some numbers, which are at least one, computed without the library of the course at all.
+double mean(const std::vector<double>& values) {
+  return 0;
+}
+
+int main() {
+  const std::vector<double> some = {1, 2, 3, 4, 5, 6, 7, 8};
+  for (std::size_t k = 0; k < some.size(); ++k) std::printf("%g %g\n", some[k], mean({some[k], some[0]}));
+  return some.empty() ? 1 : 0;
+}
+)";
+
+// The handed-out text with another body of the function.
+std::string with(const std::string& body) {
+  std::string text = kHandedOut;
+  return text.replace(text.find("  return 0;\n"), 12, body);
+}
+
+const std::string kLoop = R"(  double sum = 0;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    sum = sum + values[k];
+  }
+  const double count = static_cast<double>(values.size());
+  return sum / count;
+)";
+const std::string kRenamed = R"(  double total = 0;  // of all
+  for (std::size_t number = 0; number < values.size(); ++number) { total = total + values[number]; }
+  const double howMany = static_cast<double>(values.size());
+  return total / howMany;
+)";
+const std::string kOwn =
+    R"(  return std::accumulate(values.begin(), values.end(), 0.0, [](double a, double b) { return a + b; }) *
+         std::pow(double(values.size()), -1);
+)";
+
+std::vector<SimilarPair> pairsOf(const std::vector<ComparedText>& texts, int percent = 70) {
+  const TemporaryFolder folder;
+  return similarPairs(texts, kHandedOut, percent, folder.path());
+}
+
+TEST(Similar, FindsARenamedCopyAndNothingElse) {
+  REX_NEEDS_SIM();
+  const std::vector<ComparedText> texts = {
+      {"anna", with(kLoop)}, {"bert", with(kOwn)}, {"carl", with(kRenamed)}};
+  const std::vector<SimilarPair> pairs = pairsOf(texts);
+  ASSERT_EQ(pairs.size(), 1u);
+  EXPECT_EQ(pairs[0].first, "anna");
+  EXPECT_EQ(pairs[0].second, "carl");
+  EXPECT_GE(std::min(pairs[0].firstPercent, pairs[0].secondPercent), 90);
+  ASSERT_FALSE(pairs[0].runs.empty());
+  EXPECT_EQ(pairs[0].runs[0].first.first, 5) << "where the function begins";
+  EXPECT_GE(pairs[0].runs[0].first.second, 10);
+  EXPECT_EQ(pairs[0].runs[0].second.first, 5);
+  EXPECT_GE(pairs[0].runs[0].second.second, 8);
+}
+
+// main() would be alike in all.
+TEST(Similar, IgnoresWhatWasHandedOut) {
+  REX_NEEDS_SIM();
+  EXPECT_TRUE(pairsOf({{"anna", kHandedOut}, {"bert", kHandedOut}}).empty());
+  const TemporaryFolder folder;
+  EXPECT_EQ(similarPairs({{"anna", kHandedOut}, {"bert", kHandedOut}}, "", 70, folder.path()).size(), 1u);
+  EXPECT_EQ(withoutHandedOut("  a\nb\n\n c\n}\n", "a\nc\n}\n"), "\nb\n\n\n}\n");
+}
+
+TEST(Similar, ComparesNoneAndOne) {
+  REX_NEEDS_SIM();
+  EXPECT_TRUE(pairsOf({}).empty());
+  EXPECT_TRUE(pairsOf({{"anna", with(kLoop)}}).empty());
+}
+
+TEST(Similar, SaysWhatIsMissing) {
+  const ChangedPath changed;
+  EXPECT_REX_ERROR(
+      pairsOf({{"anna", "x"}, {"bert", "y"}}),
+      "submissions cannot be compared: found no program sim_c++, wanted apt-get install similarity-tester");
+}
+
+TEST(Similar, JoinsPairsToGroups) {
+  const std::vector<SimilarPair> pairs = {{.first = "b", .second = "c"},
+                                          {.first = "x", .second = "y"},
+                                          {.first = "a", .second = "c"},
+                                          {.first = "a", .second = "b"}};
+  EXPECT_THAT(groupsOf(pairs), ElementsAre(ElementsAre("a", "b", "c"), ElementsAre("x", "y")));
+  EXPECT_TRUE(groupsOf({}).empty());
+}
+
+TEST(Similar, ShowsPairsSideBySideAsTextOnly) {
+  const std::vector<ComparedText> texts = {{"<b>anna", with("  return \"<script>\";\n")},
+                                           {"carl", with(kOwn)}};
+  const SimilarPair pair{.first = "<b>anna",
+                         .second = "carl",
+                         .firstPercent = 81,
+                         .secondPercent = 72,
+                         .runs = {{.first = {5, 5}, .second = {5, 6}}}};
+  const std::string page = similarPage("01-a", texts, kHandedOut, {pair});
+  EXPECT_THAT(page, Not(HasSubstr("<script")));
+  EXPECT_THAT(page, Not(HasSubstr("<b>")));
+  EXPECT_THAT(page,
+              HasSubstr("81 % of &#60;b&#62;anna is also in carl, 72 % of carl is also in &#60;b&#62;anna."));
+  EXPECT_THAT(page, HasSubstr("<span class=\"alike\">   5    return &#34;&#60;script&#62;&#34;;</span>"));
+  EXPECT_THAT(page, HasSubstr("<span class=\"given\">   1  #include &#34;exercise.h&#34;</span>"));
+  EXPECT_THAT(page, HasSubstr("this page decides nothing"));
+}
+
+}  // namespace rex::grading::similar_test
