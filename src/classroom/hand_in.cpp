@@ -13,6 +13,8 @@
 #include "base/printable.h"
 #include "base/text_file.h"
 #include "classroom/archive.h"
+#include "classroom/download.h"
+#include "classroom/import_table.h"
 #include "submission/student_build.h"
 
 namespace rex::grading {
@@ -31,13 +33,6 @@ std::string nameOf(fs::file_type type) {
   return "a pipe or device";
 }
 
-// Files that operating systems create by themselves.
-bool isOfSystem(const fs::path& name) {
-  const std::string file = lowerCase(name.filename().string());
-  return (!name.empty() && *name.begin() == "__MACOSX") || file.starts_with("._") || file == ".ds_store" ||
-         file == "thumbs.db" || file == "desktop.ini";
-}
-
 /// Collects the contents of one folder of submissions.
 class HandInReader {
  public:
@@ -52,6 +47,7 @@ class HandInReader {
       const bool isFile = entry.type == fs::file_type::regular,
                  isArchive = isFile && isArchiveName(entry.name);
       const std::string name = isArchive ? withoutArchiveEnding(entry.name) : entry.name;
+      if (isFile && entry.name == kImportTable) continue;
       if ((isFile && entry.name.starts_with('.')) || isOfSystem(entry.name))
         found_.notes.push_back(fmt::format("{}: ignored", (path / entry.name).string()));
       else if (entry.type != fs::file_type::directory && !isArchive)
@@ -121,9 +117,10 @@ class HandInReader {
   }
 
   void complainOfNone(bool isEmpty, const fs::path& student) {
-    if (isEmpty && only_.empty())
+    const std::string& example = only_.empty() && !exercises_.empty() ? exercises_.front().name : only_;
+    if (isEmpty)
       complain("nothing to grade", student, "no exercise folder",
-               exercises_.empty() ? "" : exercises_.front().name + "/" + kFile);
+               example.empty() ? "" : example + "/" + kFile);
   }
 
   // ROOT/EXERCISE/main.cpp.

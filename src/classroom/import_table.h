@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rex::grading {
+
+/// The name of the table that `rex import` writes beside the students' folders.
+inline constexpr const char* kImportTable = "import.json";
+
+enum class HandInStatus {
+  kHandedIn,
+  kNothing,  ///< the student is on the platform's list, without a file
+  kNotTaken  ///< there is a file, but none that can be graded
+};
+
+/// What a platform says about one student and one exercise. Empty texts: it says nothing.
+struct ImportedExercise {
+  std::string platform{};      ///< moodle, classroom, gradescope or folders
+  std::string identifier{};    ///< by which that platform takes this grade back: "Participant 501"
+  std::string maximumGrade{};  ///< of Moodle's grading worksheet, as written there
+  HandInStatus status = HandInStatus::kNothing;
+  std::string why{};                        ///< of a file that was not taken
+  std::string handedInBy{};                 ///< the student whose folder holds the file: one for each group
+  std::string group{};                      ///< its name on the platform
+  std::optional<std::int64_t> submitted{};  ///< seconds since 1970 in UTC
+  std::string timeFrom{};                   ///< platform, git (the student's clock) or file
+  std::string commit{};                     ///< of a repository
+  std::string source{};                     ///< path inside the download
+  std::string sha256{};                     ///< of main.cpp as it was imported
+
+  bool operator==(const ImportedExercise&) const = default;
+};
+
+struct ImportedStudent {
+  std::string student{};  ///< the name of the folder, and of the student in all tables
+  std::string id{};       ///< such as a matriculation number
+  std::string name{};     ///< in Unicode's composed form (NFC)
+  std::string email{};
+  std::string githubUsername{};  ///< also the user of a GitLab clone
+  std::map<std::string, ImportedExercise> exercises{};
+
+  bool operator==(const ImportedStudent&) const = default;
+};
+
+/// Who handed in what, when and through which platform: share/grading/import.schema.json.
+struct ImportTable {
+  std::vector<ImportedStudent> students{};  ///< sorted by student
+
+  /// The entry of that student; none: nullptr.
+  [[nodiscard]] const ImportedStudent* find(const std::string& student) const;
+  [[nodiscard]] const ImportedExercise* find(const std::string& student, const std::string& exercise) const;
+};
+
+/// Reads what importTableText() wrote. Throws Error, with the place inside the file, for anything else.
+[[nodiscard]] ImportTable readImportTable(const std::filesystem::path& file);
+
+/// The table in a folder of submissions; empty if it has none.
+[[nodiscard]] ImportTable importTableIn(const std::filesystem::path& handedIn);
+
+/// The text of import.json. The same table gives the same bytes.
+[[nodiscard]] std::string importTableText(const ImportTable& table);
+
+}  // namespace rex::grading
