@@ -48,6 +48,10 @@ Collected collect(const std::vector<Task>& tasks, const std::filesystem::path& o
         found.stale.push_back(number);
         row[4] = "stale";
         break;
+      case TaskState::kRefused:
+        found.refused.push_back(number);
+        row[4] = "refused";
+        break;
       case TaskState::kFailed:
         found.failed.push_back(number);
         row[4] = toString(Outcome::kGraderError);

@@ -14,6 +14,7 @@ struct Collected {
   std::string csv{};           ///< one line per task, in their order
   std::vector<int> missing{};  ///< without a result
   std::vector<int> stale{};    ///< with a result for other inputs
+  std::vector<int> refused{};  ///< with a result that was changed after the grading
   std::vector<int> failed{};   ///< the grader failed: to be repeated, never zero points
 };
 

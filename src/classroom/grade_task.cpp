@@ -9,6 +9,8 @@
 #include "classroom/grader_fingerprint.h"
 #include "classroom/kept_workers.h"
 #include "grading/hidden_seed.h"
+#include "grading/result_file.h"
+#include "reports/report.h"
 #include "submission/student_build.h"
 #include "submission/submission.h"
 
@@ -46,10 +48,12 @@ std::string workerKey(const Task& task) {
 }
 
 std::string withInputs(const fs::path& results, const Task& task, bool evidence) {
-  Json json = Json::parse(readTextFile(results));
+  const std::string text = readTextFile(results);
+  Json json = Json::parse(text);
   json["inputs"] = {{"sha256", task.inputsSha256()},
                     {"source_sha256", task.sourceSha256},
-                    {"grader_sha256", task.graderSha256}};
+                    {"grader_sha256", task.graderSha256},
+                    {"result_sha256", sealOf(text, results.string())}};
   json["volatile"]["evidence"] = evidence;
   return json.dump(2) + "\n";
 }
@@ -68,10 +72,30 @@ TaskState stateOf(const Task& task, const fs::path& out) {
   try {
     const Json json = Json::parse(readTextFile(file));
     if (json.at("inputs").at("sha256") != task.inputsSha256()) return TaskState::kStale;
-    return json.at("outcome") == toString(Outcome::kGraderError) ? TaskState::kFailed : TaskState::kDone;
+    if (json.at("outcome") == toString(Outcome::kGraderError)) return TaskState::kFailed;
   } catch (const Json::exception&) {
     return TaskState::kStale;  // some other file of that name
   }
+  return whyRefused(task, out).empty() ? TaskState::kDone : TaskState::kRefused;
+}
+
+std::string whyRefused(const Task& task, const fs::path& out) {
+  try {
+    const fs::path file = resultFolder(out, task) / kResults;
+    const GradeResult result = loadSoundResult(file);
+    if (result.exerciseId == task.exercise) return {};
+    return Error({.what = "a result of another exercise",
+                  .where = {file.string()},
+                  .found = "'" + result.exerciseId + "'",
+                  .wanted = "'" + task.exercise + "'"})
+        .what();
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+void removeReports(const fs::path& folder) {
+  for (const ReportFormat& format : reportFormats()) fs::remove(folder / format.file);
 }
 
 bool hasEvidence(const Task& task, const fs::path& out) {
@@ -113,7 +137,9 @@ GradeResult gradeTask(const Task& task, const Toolchain& toolchain, const Exerci
   fs::create_directories(folder);
   const fs::path log = results.parent_path() / kBuildLog;
   if (fs::exists(log)) replaceTextFile(folder / kBuildLog, readTextFile(log), "the log of the compiler");
-  // Pictures of an earlier text would mislead. New ones are written before the result that names them.
+  // Reports and pictures of an earlier result would mislead. New pictures are written before the result that
+  // names them.
+  removeReports(folder);
   fs::remove_all(folder / kEvidence);
   if (options.evidence && fs::exists(evidence))
     fs::copy(evidence, folder / kEvidence, fs::copy_options::recursive);

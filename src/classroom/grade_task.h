@@ -18,9 +18,15 @@ namespace rex::grading {
 [[nodiscard]] std::filesystem::path resultFolder(const std::filesystem::path& out, const Task& task);
 
 /// The state of a task's result. A stale result is one for other inputs; a failed one reports a grader
-/// error, which is never a grade.
-enum class TaskState { kMissing, kStale, kFailed, kDone };
+/// error, which is never a grade; a refused one was changed after the grading.
+enum class TaskState { kMissing, kStale, kFailed, kRefused, kDone };
 [[nodiscard]] TaskState stateOf(const Task& task, const std::filesystem::path& out);
+
+/// Why a result for the inputs of the task is not believed: the message of loadSoundResult(); empty if it is.
+[[nodiscard]] std::string whyRefused(const Task& task, const std::filesystem::path& out);
+
+/// Removes the reports in a folder of results, all formats.
+void removeReports(const std::filesystem::path& folder);
 
 /// Whether the pictures and replays of a finished task were kept and still exist.
 [[nodiscard]] bool hasEvidence(const Task& task, const std::filesystem::path& out);
@@ -36,8 +42,8 @@ struct TaskOptions {
 };
 
 /// Grades a task and writes OUT/STUDENT/EXERCISE/results.json, the hash of the inputs, build.log and, on
-/// request, the folder checks; each file is written completely or not at all. Throws Error without writing
-/// a result if the file or the grader is not that of the task.
+/// request, the folder checks; each file is written completely or not at all. Reports of an earlier result
+/// are removed. Throws Error without writing a result if the file or the grader is not that of the task.
 [[nodiscard]] GradeResult gradeTask(const Task& task, const Toolchain& toolchain,
                                     const ExerciseInfo& exercise, const TaskOptions& options);
 

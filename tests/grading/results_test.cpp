@@ -8,6 +8,7 @@
 
 #include "grading/result_file.h"
 #include "support/expect_error.h"
+#include "support/temporary_folder.h"
 
 namespace rex::grading::results_test {
 
@@ -148,6 +149,50 @@ TEST(ResultFile, IsReplacedAndReadBack) {
   std::filesystem::create_directory(folder / "taken");
   EXPECT_REX_ERROR(saveResult(someResult(), folder / "taken"), "cannot write the result file");
   std::filesystem::remove_all(folder);
+}
+
+TEST(ResultFile, IsNotBelievedUnlessItAddsUp) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "r.json";
+  GradeResult sound = someResult();
+  sound.outcome = Outcome::kFail;
+  sound.checks = {{.id = "hand", .status = Outcome::kPass, .points = 3, .maxPoints = 3},
+                  {.id = "foot", .status = Outcome::kFail, .points = 1, .maxPoints = 2}};
+  sound.score = 4, sound.maxScore = 5;
+  saveResult(sound, file);
+  EXPECT_EQ(toJson(loadSoundResult(file)), toJson(sound));
+  const auto expectRefusal = [&](GradeResult edited, const std::string& why) {
+    saveResult(edited, file);
+    EXPECT_REX_ERROR(loadSoundResult(file), "r.json: a result that does not add up: " + why);
+  };
+  GradeResult edited = sound;
+  edited.score = 5;
+  expectRefusal(edited, "score: found 5, wanted 4, the sum over its checks");
+  edited = sound, edited.maxScore = 4;
+  expectRefusal(edited, "max_score: found 4, wanted 5, the sum over its checks");
+  edited = sound, edited.checks[0].points = 4;
+  expectRefusal(edited, "check 'hand': found 4 points, wanted 0 to 3");
+  edited = sound, edited.outcome = Outcome::kPass;
+  expectRefusal(edited, "outcome: found pass, wanted the outcome of the check that did not pass");
+}
+
+TEST(ResultFile, IsNotBelievedIfItWasChangedAfterItWasSealed) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "r.json";
+  GradeResult result;
+  result.outcome = Outcome::kFail;
+  auto json = nlohmann::json::parse(toJson(result));
+  json["inputs"]["result_sha256"] = sealOf(json.dump(), "r.json");
+  json["volatile"]["usage"]["cpu_ms"] = 7;
+  std::ofstream(file) << json.dump();
+  EXPECT_EQ(loadSoundResult(file).outcome, Outcome::kFail) << "neither times nor the order of keys count";
+  json["message"] = "well done";
+  std::ofstream(file) << json.dump();
+  EXPECT_REX_ERROR(loadSoundResult(file), "r.json: a result that was changed after the grading: found hash ");
+  json["inputs"].erase("result_sha256");
+  std::ofstream(file) << json.dump();
+  EXPECT_REX_ERROR(loadSoundResult(file), "wanted none, or a new grading");
+  EXPECT_REX_ERROR(sealOf("[]", "r.json"), "r.json: result file: not JSON: wanted a result");
 }
 
 }  // namespace rex::grading::results_test

@@ -41,6 +41,13 @@ void tell(const std::string& what, const std::vector<int>& numbers, const std::v
   if (numbers.size() > kMostNamed) note(fmt::format("  and {} more", numbers.size() - kMostNamed));
 }
 
+// Says of each refused result which file, what was found and what was wanted.
+void tellRefused(const std::vector<int>& numbers, const std::vector<Task>& tasks,
+                 const std::filesystem::path& out) {
+  for (const int number : numbers)
+    note(wrap(harmless(grading::whyRefused(tasks[static_cast<std::size_t>(number) - 1], out)), 2, 0));
+}
+
 // An incomplete file left by an earlier run does not count, as its text differs.
 bool holds(const std::filesystem::path& file, const std::string& text) {
   return std::filesystem::exists(file) && readTextFile(file) == text;
@@ -72,24 +79,29 @@ std::vector<grading::ReportFormat> reportsOf(const std::string& names) {
 
 void writeReports(const std::vector<Task>& tasks, const std::filesystem::path& out,
                   const std::vector<grading::ReportFormat>& reports) {
+  const auto isRequested = [&](const grading::ReportFormat& format) {
+    return std::any_of(reports.begin(), reports.end(),
+                       [&](const auto& one) { return one.name == format.name; });
+  };
   int written = 0, kept = 0;
   for (const Task& task : tasks) {
     const std::filesystem::path folder = grading::resultFolder(out, task);
     const grading::TaskState state = grading::stateOf(task, out);
-    const bool isGraded = state == grading::TaskState::kDone || state == grading::TaskState::kFailed;
-    for (const grading::ReportFormat& format : reports) {
+    if (state != grading::TaskState::kDone && state != grading::TaskState::kFailed) {
+      grading::removeReports(folder);
+      continue;
+    }
+    for (const grading::ReportFormat& format : grading::reportFormats()) {
       const std::filesystem::path file = folder / format.file;
-      if (!isGraded) {
-        std::filesystem::remove(file);
-        continue;
-      }
+      if (!isRequested(format) && !std::filesystem::exists(file)) continue;
       const std::string text = format.write(grading::loadResult(folder / "results.json"));
       const bool isThere = holds(file, text);
       if (!isThere) replaceTextFile(file, text, "the report");
-      ++(isThere ? kept : written);
+      if (!isThere) ++written;
+      if (isThere && isRequested(format)) ++kept;
     }
   }
-  if (!reports.empty()) note(fmt::format("Reports: {} written, {} kept", written, kept));
+  if (!reports.empty() || written > 0) note(fmt::format("Reports: {} written, {} kept", written, kept));
 }
 
 grading::LatePolicy readDeadlines(const Project& project, const std::filesystem::path& file) {
@@ -110,9 +122,12 @@ bool writeGrades(const std::vector<Task>& tasks, const std::filesystem::path& ou
   if (print) std::fputs(found.csv.c_str(), stdout);
   tell("no result", found.missing, tasks);
   tell("a result for other inputs", found.stale, tasks);
+  tell("a result that was changed after the grading", found.refused, tasks);
+  tellRefused(found.refused, tasks, out);
   tell("the grader failed", found.failed, tasks);
   std::vector<int> again = found.missing;
   again.insert(again.end(), found.stale.begin(), found.stale.end());
+  again.insert(again.end(), found.refused.begin(), found.refused.end());
   again.insert(again.end(), found.failed.begin(), found.failed.end());
   if (again.empty()) return true;
   note(fmt::format("To repeat: {}", grading::rangesOf(again)));

@@ -16,8 +16,8 @@ namespace rex::cli {
 /// The report formats with these comma-separated names. Throws UsageError naming the nearest.
 [[nodiscard]] std::vector<grading::ReportFormat> reportsOf(const std::string& names);
 
-/// Writes missing reports next to the result of each task that has one, and removes reports in these
-/// formats that no longer have a result.
+/// Writes missing reports next to the result of each task that has one, renews outdated ones in any format,
+/// and removes those that no longer have a result.
 void writeReports(const std::vector<grading::Task>& tasks, const std::filesystem::path& out,
                   const std::vector<grading::ReportFormat>& reports);
 

@@ -24,7 +24,7 @@ struct ReportOptions {
 // Converts a result file to the format of another program. kGraderFault if the result is a grader fault.
 ExitCode report(const ReportOptions& options) {
   const grading::ReportFormat& format = reportFormat(options.format, "--format");
-  const grading::GradeResult result = grading::loadResult(options.results);
+  const grading::GradeResult result = grading::loadSoundResult(options.results);
   const std::string text = format.write(result);
   if (options.out.empty())
     std::fputs(text.c_str(), stdout);
