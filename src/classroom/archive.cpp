@@ -16,6 +16,7 @@
 #include "base/isolated_call.h"
 #include "base/lower_case.h"
 #include "base/printable.h"
+#include "classroom/composed_text.h"
 
 namespace rex::grading {
 namespace {
@@ -58,18 +59,6 @@ std::string fromCodePage437(std::string_view bytes) {
   return text;
 }
 
-// The JSON library replaces invalid bytes by U+FFFD: the text is UTF-8 if that adds none.
-bool isUtf8(const std::string& text) {
-  const auto marksIn = [](std::string_view in) {
-    int count = 0;
-    for (std::size_t at = in.find("\uFFFD"); at != in.npos; at = in.find("\uFFFD", at + 1)) ++count;
-    return count;
-  };
-  const std::string replaced =
-      nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  return marksIn(replaced) == marksIn(text);
-}
-
 // The name in UTF-8 if the archive has one. The other form depends on the locale and need not be UTF-8; it is
 // then read as code page 437.
 std::string nameOf(archive_entry* entry) {
@@ -104,18 +93,38 @@ std::string nameOfType(archive_entry* entry) {
   }
 }
 
+/// Where the bytes of an archive are: in an opened file or in memory.
+struct ArchiveSource {
+  int fd = -1;
+  std::string_view bytes{};
+  std::size_t size = 0;
+};
+
+ArchiveSource sourceOf(const OpenedFile& opened) { return {.fd = opened.fd(), .size = opened.size()}; }
+
+using IsWanted = std::function<bool(const std::string& name)>;
+
 /// Reads one archive, in a process that may crash on it.
 class ArchiveReader {
  public:
-  ArchiveReader(const OpenedFile& opened, const fs::path& file, const ArchiveLimits& limits)
-      : file_(file), limits_(limits), archiveBytes_(opened.size()), archive_(::archive_read_new()) {
+  // With `isWanted` as readBundle() does, else as readArchive().
+  ArchiveReader(const ArchiveSource& source, const fs::path& file, const ArchiveLimits& limits,
+                const IsWanted& isWanted)
+      : file_(file),
+        limits_(limits),
+        isWanted_(isWanted),
+        archiveBytes_(source.size),
+        archive_(::archive_read_new()) {
     if (archiveBytes_ > limits.bytes)
       throw refusal("", fmt::format("{} bytes", archiveBytes_), fmt::format("at most {}", limits.bytes));
     ::archive_read_support_filter_gzip(archive_.get());
     ::archive_read_support_format_tar(archive_.get());
     ::archive_read_support_format_zip_seekable(archive_.get());
     constexpr std::size_t kBlock = 10240;
-    if (::archive_read_open_fd(archive_.get(), opened.fd(), kBlock) != ARCHIVE_OK) throw broken("");
+    const int opened =
+        source.fd >= 0 ? ::archive_read_open_fd(archive_.get(), source.fd, kBlock)
+                       : ::archive_read_open_memory(archive_.get(), source.bytes.data(), source.bytes.size());
+    if (opened != ARCHIVE_OK) throw broken("");
   }
 
   ArchiveContent read() {
@@ -123,20 +132,70 @@ class ArchiveReader {
     archive_entry* entry = nullptr;
     for (int count = 1;; ++count) {
       const int end = ::archive_read_next_header(archive_.get(), &entry);
-      if (end == ARCHIVE_EOF) return content;
+      if (end == ARCHIVE_EOF) break;
       if (end < ARCHIVE_WARN) throw broken("");
       if (count > limits_.members)
         throw refusal("", "more members", fmt::format("at most {}", limits_.members));
-      const std::string name = checkedName(entry), type = nameOfType(entry);
-      std::string text = textOf(name);
-      if (!type.empty())
-        content.leftOut.push_back({name, type});
-      else if (::archive_entry_filetype(entry) == AE_IFREG)
-        content.files.push_back({name, std::move(text)});
+      if (isWanted_)
+        readBundled(entry, content);
+      else
+        readMember(entry, content);
     }
+    for (const std::string& name : twice_)
+      if (std::erase_if(content.files, [&](const ArchiveFile& file) { return file.name == name; }) > 0)
+        content.leftOut.push_back({name, "a second file of that name"});
+    return content;
   }
 
  private:
+  void readMember(archive_entry* entry, ArchiveContent& content) {
+    const std::string name = checkedName(entry), type = nameOfType(entry);
+    std::string text = textOf(name);
+    if (!type.empty())
+      content.leftOut.push_back({name, type});
+    else if (::archive_entry_filetype(entry) == AE_IFREG)
+      content.files.push_back({name, std::move(text), ::archive_entry_mtime(entry)});
+  }
+
+  void readBundled(archive_entry* entry, ArchiveContent& content) {
+    const std::string name = nameOf(entry);
+    std::string why = whyUnsafe(name, limits_);
+    if (why.empty()) why = nameOfType(entry);
+    if (why.empty() && ::archive_entry_is_encrypted(entry) != 0) why = "an encrypted file";
+    if (why.empty() && ::archive_entry_filetype(entry) != AE_IFREG) return;
+    if (why.empty() && !names_.insert(name).second) {
+      twice_.insert(name);
+      return;
+    }
+    std::string text;
+    if (why.empty() && isWanted_(name)) why = readBundledText(name, text);
+    if (why.empty())
+      content.files.push_back({name, std::move(text), ::archive_entry_mtime(entry)});
+    else
+      content.leftOut.push_back({name, why});
+  }
+
+  // Why the text cannot be had; libarchive skips the rest of the member.
+  std::string readBundledText(const std::string& name, std::string& text) {
+    const ArchiveLimits one;
+    const void* block = nullptr;
+    std::size_t size = 0;
+    la_int64_t offset = 0;
+    for (;;) {
+      const int end = ::archive_read_data_block(archive_.get(), &block, &size, &offset);
+      if (end == ARCHIVE_EOF) break;
+      if (end != ARCHIVE_OK) return saidBy("corrupt data");
+      if (static_cast<std::size_t>(offset) + size > one.bytes)
+        return fmt::format("more than {} MiB", one.bytes >> 20);
+      text.resize(static_cast<std::size_t>(offset));
+      text.append(static_cast<const char*>(block), size);
+    }
+    bytes_ += text.size();
+    if (bytes_ > limits_.bytes)
+      throw refusal(name, "more bytes", fmt::format("at most {} in all files", limits_.bytes));
+    return {};
+  }
+
   std::string checkedName(archive_entry* entry) {
     const std::string name = nameOf(entry), shown = printable(name, 100);
     if (const std::string why = whyUnsafe(name, limits_); !why.empty())
@@ -179,25 +238,59 @@ class ArchiveReader {
                   .wanted = std::move(wanted)});
   }
   Error broken(const std::string& member) const {
+    return refusal(member, saidBy("corrupt data"), "an intact .zip, .tar or .tar.gz file");
+  }
+  std::string saidBy(const char* otherwise) const {
     const char* said = ::archive_error_string(archive_.get());
-    return refusal(member, said == nullptr ? "corrupt data" : said, "an intact .zip, .tar or .tar.gz file");
+    return said == nullptr ? otherwise : said;
   }
 
   fs::path file_;
   ArchiveLimits limits_;
+  IsWanted isWanted_;
   std::size_t archiveBytes_;
   std::unique_ptr<archive, FreeArchive> archive_;
-  std::set<std::string> names_;
+  std::set<std::string> names_, twice_;
   std::size_t bytes_ = 0;
 };
 
 std::string packed(const ArchiveContent& content) {
   nlohmann::json files = nlohmann::json::array(), leftOut = nlohmann::json::array();
-  for (const ArchiveFile& file : content.files) files.push_back({file.name, file.text});
+  for (const ArchiveFile& file : content.files) files.push_back({file.name, file.text, file.modifiedAt});
   for (const auto& [name, why] : content.leftOut) leftOut.push_back({name, why});
   std::string bytes;
   nlohmann::json::to_cbor(nlohmann::json{{"files", files}, {"left_out", leftOut}}, bytes);
   return bytes;
+}
+
+// A bundle is as large as a class, and may take as long.
+IsolationLimits isolationOf(const IsWanted& isWanted) {
+  if (isWanted) return {.cpuSeconds = 120, .wallSeconds = 600, .memory = std::size_t{4} << 30};
+  return {.cpuSeconds = 10, .wallSeconds = 60, .memory = std::size_t{512} << 20};
+}
+
+ArchiveContent readIsolated(const ArchiveSource& source, const fs::path& file, const ArchiveLimits& limits,
+                            const IsWanted& isWanted) {
+  const auto readAll = [&] {
+    // In this process only: in the plain locale libarchive has no names for members that are not ASCII.
+    std::setlocale(LC_CTYPE, "C.UTF-8");
+    return packed(ArchiveReader(source, file, limits, isWanted).read());
+  };
+  const IsolatedResult read = callIsolated(readAll, isolationOf(isWanted));
+  if (read.end != IsolatedEnd::kReturned)
+    throw Error({.what = "this archive is not accepted",
+                 .where = {file.string()},
+                 .found = read.end == IsolatedEnd::kCrashed ? "one that crashes its reader"
+                                                            : "one that takes too long or too much memory",
+                 .wanted = "an intact .zip, .tar or .tar.gz file"});
+  const nlohmann::json content = nlohmann::json::from_cbor(read.bytes);
+  ArchiveContent all;
+  for (const nlohmann::json& entry : content.at("files"))
+    all.files.push_back(
+        {entry.at(0).get<std::string>(), entry.at(1).get<std::string>(), entry.at(2).get<std::int64_t>()});
+  for (const nlohmann::json& entry : content.at("left_out"))
+    all.leftOut.push_back({entry.at(0).get<std::string>(), entry.at(1).get<std::string>()});
+  return all;
 }
 
 }  // namespace
@@ -209,31 +302,23 @@ std::string withoutArchiveEnding(const std::string& name) {
 }
 
 ArchiveContent readArchive(const OpenedFile& opened, const fs::path& file, const ArchiveLimits& limits) {
-  const auto readAll = [&] {
-    // In this process only: in the plain locale libarchive has no names for members that are not ASCII.
-    std::setlocale(LC_CTYPE, "C.UTF-8");
-    return packed(ArchiveReader(opened, file, limits).read());
-  };
-  const IsolatedResult read =
-      callIsolated(readAll, {.cpuSeconds = 10, .wallSeconds = 60, .memory = 512u << 20});
-  if (read.end != IsolatedEnd::kReturned)
-    throw Error({.what = "this archive is not accepted",
-                 .where = {file.string()},
-                 .found = read.end == IsolatedEnd::kCrashed ? "one that crashes its reader"
-                                                            : "one that takes too long or too much memory",
-                 .wanted = "an intact .zip, .tar or .tar.gz file"});
-  const nlohmann::json content = nlohmann::json::from_cbor(read.bytes);
-  ArchiveContent all;
-  for (const nlohmann::json& entry : content.at("files"))
-    all.files.push_back({entry.at(0).get<std::string>(), entry.at(1).get<std::string>()});
-  for (const nlohmann::json& entry : content.at("left_out"))
-    all.leftOut.push_back({entry.at(0).get<std::string>(), entry.at(1).get<std::string>()});
-  return all;
+  return readIsolated(sourceOf(opened), file, limits, {});
 }
 
 ArchiveContent readArchive(const fs::path& file, const ArchiveLimits& limits) {
   const OpenedFolder folder(file.has_parent_path() ? file.parent_path() : fs::path("."));
   return readArchive(folder.file(file.filename().string()), file, limits);
+}
+
+ArchiveContent readArchive(std::string_view bytes, const fs::path& file, const ArchiveLimits& limits) {
+  return readIsolated({.bytes = bytes, .size = bytes.size()}, file, limits, {});
+}
+
+ArchiveContent readBundle(const fs::path& file, const IsWanted& isWanted) {
+  const OpenedFolder folder(file.has_parent_path() ? file.parent_path() : fs::path("."));
+  const OpenedFile opened = folder.file(file.filename().string());
+  constexpr ArchiveLimits kBundle{.members = 50'000, .bytes = std::size_t{512} << 20, .ratio = 0};
+  return readIsolated(sourceOf(opened), file, kBundle, isWanted);
 }
 
 }  // namespace rex::grading

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/opened_folder.h"
@@ -11,6 +14,7 @@ namespace rex::grading {
 struct ArchiveFile {
   std::string name{};  ///< with slashes
   std::string text{};
+  std::int64_t modifiedAt = 0;  ///< as the archive says, seconds since 1970 in UTC
 };
 
 /// Limits on one archive. If one is exceeded, the whole archive is rejected.
@@ -28,7 +32,7 @@ struct ArchiveContent {
     std::string why{};  ///< "a symbolic link"
   };
   std::vector<ArchiveFile> files{};
-  std::vector<LeftOut> leftOut{};  ///< members that are neither files nor folders: links, pipes, devices
+  std::vector<LeftOut> leftOut{};  ///< links, pipes and devices; of a bundle also what breaks its rules
 };
 
 /// Whether the name ends in .zip, .tar, .tar.gz or .tgz.
@@ -46,5 +50,17 @@ struct ArchiveContent {
 /// The same for an opened archive; `file` is for messages.
 [[nodiscard]] ArchiveContent readArchive(const OpenedFile& opened, const std::filesystem::path& file,
                                          const ArchiveLimits& limits = {});
+
+/// The same for the bytes of an archive, which may lie in another one.
+[[nodiscard]] ArchiveContent readArchive(std::string_view bytes, const std::filesystem::path& file,
+                                         const ArchiveLimits& limits = {});
+
+/// Reads the files of many students that a platform packed together. What readArchive() would refuse the
+/// whole archive for is left out with its reason, so that one student cannot hide the others: names that
+/// leave their folder, the same name twice, encrypted files, and files of more than 20 MiB. Files that
+/// `isWanted` does not name are listed without their text. Throws Error for a broken archive and for more
+/// than 50 000 members or 512 MiB.
+[[nodiscard]] ArchiveContent readBundle(const std::filesystem::path& file,
+                                        const std::function<bool(const std::string& name)>& isWanted);
 
 }  // namespace rex::grading

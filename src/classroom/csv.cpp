@@ -11,7 +11,7 @@ std::string csvLine(const std::vector<std::string>& fields) {
   return line + '\n';
 }
 
-std::vector<CsvRow> parseCsv(std::string_view text, const std::string& file) {
+std::vector<CsvRow> parseCsv(std::string_view text, const std::string& file, char separator) {
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
   std::vector<CsvRow> rows;
   CsvRow row{.line = 1, .fields = {""}};
@@ -28,9 +28,9 @@ std::vector<CsvRow> parseCsv(std::string_view text, const std::string& file) {
       row.fields.back() += text[k++];
     else if (c == '"')
       isQuoted = !isQuoted;
-    else if (isQuoted || (c != ',' && c != '\n' && c != '\r'))
+    else if (isQuoted || (c != separator && c != '\n' && c != '\r'))
       row.fields.back() += c;
-    else if (c == ',')
+    else if (c == separator)
       row.fields.emplace_back();
     else if (c == '\n')
       endRow();

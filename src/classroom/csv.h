@@ -11,11 +11,13 @@ namespace rex::grading {
 [[nodiscard]] std::string csvLine(const std::vector<std::string>& fields);
 
 /// The rows of a CSV file, quoted or not. Empty lines and a UTF-8 byte order mark are skipped. `file` is
-/// for messages. Throws Error with the line for an unterminated quote.
+/// for messages. Fields are separated by commas unless `separator` says otherwise. Throws Error with the line
+/// for an unterminated quote.
 struct CsvRow {
   int line = 0;
   std::vector<std::string> fields{};
 };
-[[nodiscard]] std::vector<CsvRow> parseCsv(std::string_view text, const std::string& file);
+[[nodiscard]] std::vector<CsvRow> parseCsv(std::string_view text, const std::string& file,
+                                           char separator = ',');
 
 }  // namespace rex::grading

@@ -157,6 +157,7 @@ class BookMaker {
     if (state == TaskState::kMissing) row.remark = "there is no result yet";
     if (state == TaskState::kStale) row.remark = "the result is for other inputs";
     if (state == TaskState::kFailed) row.remark = "the grader failed";
+    if (state == TaskState::kRefused) row.remark = "the result was changed after the grading";
     if (state != TaskState::kDone) return;
     row.result = loadResult(resultFolder(source_.out, task) / "results.json");
     row.status = RowStatus::kGraded;
@@ -329,6 +330,14 @@ const GradeRow* Gradebook::row(const std::string& student, const std::string& ex
     return row.student.id == student && row.exercise == exercise;
   });
   return found == rows.end() ? nullptr : &*found;
+}
+
+const GradeRow* rowOfTask(const Gradebook& book, std::size_t task) {
+  const GradeRow* found = nullptr;
+  for (const std::vector<GradeRow>* rows : {&book.strangers, &book.rows})
+    for (const GradeRow& row : *rows)
+      if (row.task == task && (found == nullptr || row.student.id == row.handedInAs)) found = &row;
+  return found;
 }
 
 Gradebook makeGradebook(const GradebookSource& source) { return BookMaker(source).make(); }

@@ -9,6 +9,7 @@
 
 #include "classroom/adjustments.h"
 #include "classroom/course_file.h"
+#include "classroom/hand_in.h"
 #include "classroom/import_table.h"
 #include "classroom/task_list.h"
 #include "grading/results.h"
@@ -71,13 +72,6 @@ struct Gradebook {
   [[nodiscard]] const GradeRow* row(const std::string& student, const std::string& exercise) const;
 };
 
-/// Something that was handed in but not taken. `exercise` may be empty: it is not known which one was meant.
-struct NotTaken {
-  std::string student{};
-  std::string exercise{};
-  std::string why{};
-};
-
 /// What grade books are made of.
 struct GradebookSource {
   std::vector<Task> tasks{};
@@ -108,6 +102,10 @@ struct GradebookSource {
 [[nodiscard]] std::optional<Judgement> judgementOf(const GradeRow& row);
 /// How the grade came about, a line each, for those who grade.
 [[nodiscard]] std::vector<std::string> explain(const GradeRow& row);
+
+/// The row of a task: that of the student who handed it in, else of a member of the group. Empty: a later
+/// submission counts instead.
+[[nodiscard]] const GradeRow* rowOfTask(const Gradebook& book, std::size_t task);
 
 /// What a grading could not take, kept beside its results for `rex collect`.
 [[nodiscard]] std::string notTakenText(const std::vector<NotTaken>& all);

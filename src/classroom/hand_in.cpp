@@ -13,6 +13,8 @@
 #include "base/printable.h"
 #include "base/text_file.h"
 #include "classroom/archive.h"
+#include "classroom/download.h"
+#include "classroom/import_table.h"
 #include "submission/student_build.h"
 
 namespace rex::grading {
@@ -31,13 +33,6 @@ std::string nameOf(fs::file_type type) {
   return "a pipe or device";
 }
 
-// Files that operating systems create by themselves.
-bool isOfSystem(const fs::path& name) {
-  const std::string file = lowerCase(name.filename().string());
-  return (!name.empty() && *name.begin() == "__MACOSX") || file.starts_with("._") || file == ".ds_store" ||
-         file == "thumbs.db" || file == "desktop.ini";
-}
-
 /// Collects the contents of one folder of submissions.
 class HandInReader {
  public:
@@ -52,6 +47,7 @@ class HandInReader {
       const bool isFile = entry.type == fs::file_type::regular,
                  isArchive = isFile && isArchiveName(entry.name);
       const std::string name = isArchive ? withoutArchiveEnding(entry.name) : entry.name;
+      if (isFile && entry.name == kImportTable) continue;
       if ((isFile && entry.name.starts_with('.')) || isOfSystem(entry.name))
         found_.notes.push_back(fmt::format("{}: ignored", (path / entry.name).string()));
       else if (entry.type != fs::file_type::directory && !isArchive)
@@ -62,7 +58,7 @@ class HandInReader {
       else
         students[lowerCase(name)].push_back(entry);
     }
-    for (const auto& [name, entries] : students) readStudent(folder, entries);
+    for (const auto& [name, entries] : students) readStudent(folder, entries), student_.clear();
     std::sort(found_.files.begin(), found_.files.end(), [](const HandIn& a, const HandIn& b) {
       return std::pair(a.student, a.exercise) < std::pair(b.student, b.exercise);
     });
@@ -76,7 +72,11 @@ class HandInReader {
               .found = std::move(found),
               .wanted = std::move(wanted)});
   }
-  void complain(ErrorParts parts) { found_.complaints.emplace_back(Error(std::move(parts)).what()); }
+  void complain(ErrorParts parts) {
+    found_.complaints.emplace_back(Error(parts).what());
+    parts.where = {};
+    if (!student_.empty()) found_.notTaken.push_back({student_, exercise_, Error(std::move(parts)).what()});
+  }
 
   // Complains if there are several spellings: nobody knows which one is meant.
   bool isOneSpelling(const std::vector<std::string>& names, const fs::path& where, const std::string& of) {
@@ -90,6 +90,7 @@ class HandInReader {
   void readStudent(const OpenedFolder& folder, const std::vector<OpenedFolder::Entry>& entries) {
     std::vector<std::string> names;
     for (const OpenedFolder::Entry& entry : entries) names.push_back(entry.name);
+    student_ = isArchiveName(names.front()) ? withoutArchiveEnding(names.front()) : names.front();
     if (!isOneSpelling(names, folder.path(), "a student")) return;
     try {
       if (entries.front().type == fs::file_type::directory)
@@ -121,9 +122,10 @@ class HandInReader {
   }
 
   void complainOfNone(bool isEmpty, const fs::path& student) {
-    if (isEmpty && only_.empty())
+    const std::string& example = only_.empty() && !exercises_.empty() ? exercises_.front().name : only_;
+    if (isEmpty)
       complain("nothing to grade", student, "no exercise folder",
-               exercises_.empty() ? "" : exercises_.front().name + "/" + kFile);
+               example.empty() ? "" : example + "/" + kFile);
   }
 
   // ROOT/EXERCISE/main.cpp.
@@ -238,7 +240,9 @@ class HandInReader {
       file.submitted = read.modifiedAt;
     } catch (const Error& error) {
       file.whyNot = error.parts().found;
+      exercise_ = exercise;
       complain(error.parts());
+      exercise_.clear();
     }
     found_.files.push_back(std::move(file));
   }
@@ -246,6 +250,7 @@ class HandInReader {
   const std::vector<ExerciseInfo>& exercises_;
   std::string only_;
   HandIns found_{};
+  std::string student_{}, exercise_{};  // of complaints, if known
 };
 
 }  // namespace

@@ -138,6 +138,13 @@ const ImportedStudent* ImportTable::find(const std::string& student) const {
   return found == students.end() ? nullptr : &*found;
 }
 
+const ImportedExercise* ImportTable::find(const std::string& student, const std::string& exercise) const {
+  const ImportedStudent* entry = find(student);
+  if (entry == nullptr) return nullptr;
+  const auto found = entry->exercises.find(exercise);
+  return found == entry->exercises.end() ? nullptr : &found->second;
+}
+
 ImportTable readImportTable(const fs::path& file) { return ImportTableReader(file).read(); }
 
 ImportTable importTableIn(const fs::path& handedIn) {

@@ -53,6 +53,7 @@ struct ImportTable {
 
   /// The entry of that student; none: nullptr.
   [[nodiscard]] const ImportedStudent* find(const std::string& student) const;
+  [[nodiscard]] const ImportedExercise* find(const std::string& student, const std::string& exercise) const;
 };
 
 /// Reads what importTableText() wrote. Throws Error, with the place inside the file, for anything else.

@@ -92,6 +92,15 @@ TEST_F(HandInTest, ComplainsOfAnUnknownExercise) {
                                     "01-kinematics/main.cpp")));
 }
 
+TEST_F(HandInTest, ComplainsOfStudentsWithoutAnExerciseEvenIfOnlyOneIsWanted) {
+  write("zoe/main.cpp"), write("adam/01/main.cpp");
+  const HandIns found = read("02");
+  EXPECT_THAT(found.complaints,
+              ElementsAre(HasSubstr("in/zoe: nothing to grade: found no exercise folder, wanted "
+                                    "02-control/main.cpp")));
+  EXPECT_THAT(found.files, IsEmpty());
+}
+
 TEST_F(HandInTest, ComplainsOfAMissingFileAndLetsGradingSaySo) {
   fs::create_directories(folder() / "zoe" / "01");
   expectComplaint("in/zoe/01/main.cpp: cannot be graded: found no file, wanted a C++ source file");

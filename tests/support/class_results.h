@@ -8,6 +8,7 @@
 #include "base/text_file.h"
 #include "classroom/grade_task.h"
 #include "classroom/task_list.h"
+#include "grading/result_file.h"
 #include "grading/results.h"
 
 namespace rex::grading {
@@ -56,7 +57,8 @@ inline void saveSample(const std::filesystem::path& out, const Task& task, Grade
   nlohmann::ordered_json json = nlohmann::ordered_json::parse(toJson(result));
   json["inputs"] = {{"sha256", task.inputsSha256()},
                     {"source_sha256", task.sourceSha256},
-                    {"grader_sha256", task.graderSha256}};
+                    {"grader_sha256", task.graderSha256},
+                    {"result_sha256", sealOf(toJson(result), "")}};
   writeTextFile(resultFolder(out, task) / "results.json", json.dump(2) + "\n");
   writeTextFile(out / task.file, text);
 }

@@ -19,9 +19,11 @@
 #include "base/process_pool.h"
 #include "base/sha256.h"
 #include "base/text_file.h"
+#include "classroom/download_layout.h"
 #include "classroom/grade_task.h"
 #include "classroom/grader_fingerprint.h"
 #include "classroom/hand_in.h"
+#include "classroom/import_table.h"
 #include "classroom/submission_times.h"
 #include "cli/build_on_demand.h"
 #include "cli/instructor/collect.h"
@@ -136,6 +138,23 @@ void makeFolder(const fs::path& out) {
         {.what = "cannot make the folder of results", .where = {out.string()}, .found = failure.message()});
 }
 
+// What an import could not take is in no folder, and must not be forgotten.
+void addNotTaken(const fs::path& folder, const std::string& only, grading::HandIns& handedIn) {
+  for (const grading::ImportedStudent& student : grading::importTableIn(folder).students)
+    for (const auto& [exercise, told] : student.exercises)
+      if (told.status == grading::HandInStatus::kNotTaken && (only.empty() || only == exercise))
+        handedIn.complaints.push_back(
+            fmt::format("{} {}: not taken by the import: {}", student.student, exercise, told.why));
+}
+
+// A download as it came from a platform is no folder of submissions yet.
+void adviseImport(const fs::path& folder, const std::vector<ExerciseInfo>& exercises) {
+  const grading::Layout layout = grading::layoutOfFolder(folder, exercises);
+  if (layout.platform)
+    note(fmt::format("`rex import {0} {1} -o HANDED_IN` makes a folder of submissions of what is there",
+                     grading::toString(*layout.platform), shown(folder)));
+}
+
 void tell(const grading::HandIns& handedIn) {
   for (const std::string& complaint : handedIn.complaints) note(wrap(harmless(complaint), 2, 0));
   constexpr std::size_t kMostNotes = 5;
@@ -167,6 +186,7 @@ std::vector<Task> tasksOf(const grading::HandIns& handedIn, const GradeManyOptio
                           const std::set<std::string>& blocked, Graders& graders) {
   std::optional<grading::SubmissionTimes> times;
   if (!options.submitted.empty()) times.emplace(options.submitted, exercises);
+  const grading::ImportTable imports = grading::importTableIn(options.folder);
   const std::string secretId = grading::secretIdOf(options.secret);
   std::vector<Task> tasks;
   for (const grading::HandIn& file : handedIn.files) {
@@ -179,8 +199,13 @@ std::vector<Task> tasksOf(const grading::HandIns& handedIn, const GradeManyOptio
     task.seed = options.seed;
     task.secretId = secretId;
     const auto told = times ? times->of(file.student, file.exercise) : std::nullopt;
+    const grading::ImportedExercise* imported = imports.find(file.student, file.exercise);
     task.submitted = told.value_or(file.submitted);
     task.timeFrom = told ? "table" : "file";
+    if (!told && imported != nullptr && imported->submitted) {
+      task.submitted = *imported->submitted;
+      task.timeFrom = imported->timeFrom;
+    }
     tasks.push_back(std::move(task));
   }
   return tasks;
@@ -198,7 +223,10 @@ int gradeApart(const Task& task, const Graders::Grader& grader, const grading::T
 }
 
 bool isOpen(const Task& task, const GradeManyOptions& options) {
-  if (options.regrade || grading::stateOf(task, options.out) != grading::TaskState::kDone) return true;
+  const grading::TaskState state = grading::stateOf(task, options.out);
+  if (state == grading::TaskState::kRefused)
+    note(wrap(harmless(grading::whyRefused(task, options.out)) + "; it is graded again", 2, 0));
+  if (options.regrade || state != grading::TaskState::kDone) return true;
   return options.evidence && !grading::hasEvidence(task, options.out);
 }
 
@@ -239,11 +267,15 @@ int gradeOpen(const std::vector<Task>& tasks, const GradeManyOptions& options,
 
 void tellTimes(const std::vector<Task>& tasks, const GradeManyOptions& options) {
   if (options.deadlines.empty()) return;
-  const auto told =
-      std::count_if(tasks.begin(), tasks.end(), [](const Task& task) { return task.timeFrom == "table"; });
-  note(fmt::format("Times of submission: {} from {}, {} from modification times of files", told,
-                   options.submitted.empty() ? "a table" : shown(options.submitted),
-                   static_cast<std::ptrdiff_t>(tasks.size()) - told));
+  const auto from = [&](const char* source) {
+    return std::count_if(tasks.begin(), tasks.end(),
+                         [&](const Task& task) { return task.timeFrom == source; });
+  };
+  std::string text = fmt::format("Times of submission: {} from {}", from("table"),
+                                 options.submitted.empty() ? "a table" : shown(options.submitted));
+  if (from("platform") > 0) text += fmt::format(", {} from the platform", from("platform"));
+  if (from("git") > 0) text += fmt::format(", {} from commits, which students can date", from("git"));
+  note(text + fmt::format(", {} from modification times of files", from("file")));
 }
 
 // Grades the submissions of many students. kFull whatever the grades are; kNotGradable if a submission could
@@ -255,8 +287,10 @@ ExitCode gradeMany(const Project& project, const GradeManyOptions& options) {
   const auto sandbox = chooseForStrangers(project, options.level, options.accept);
   if (!sandbox) return ExitCode::kWeakSandbox;
   const std::vector<ExerciseInfo> exercises = project.exercises();
-  const grading::HandIns handedIn = grading::readHandIns(options.folder, exercises, options.only);
+  grading::HandIns handedIn = grading::readHandIns(options.folder, exercises, options.only);
+  addNotTaken(options.folder, options.only.empty() ? "" : project.exercise(options.only).name, handedIn);
   tell(handedIn);
+  if (handedIn.files.empty()) adviseImport(options.folder, exercises);
   makeFolder(options.out);
   Graders graders(project);
   const std::set<std::string> blocked = blockedOf(handedIn, graders);

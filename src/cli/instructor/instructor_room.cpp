@@ -10,7 +10,8 @@ Room instructorRoom() {
                        {"collect", addCollect},
                        {"dev", addDev},
                        {"grade", addGrade},
-                       {"grade-one", addGradeOne}}};
+                       {"grade-one", addGradeOne},
+                       {"import", addImport}}};
 }
 
 }  // namespace rex::cli

@@ -10,5 +10,6 @@ void addCollect(CLI::App* command, Action& action);
 void addDev(CLI::App* command, Action& action);
 void addGrade(CLI::App* command, Action& action);
 void addGradeOne(CLI::App* command, Action& action);
+void addImport(CLI::App* command, Action& action);
 
 }  // namespace rex::cli

@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 
 #include "cli/template_project.h"
+#include "grading/result_file.h"
 #include "support/rounds.h"
 
 namespace rex::cli::grade_many_test {
@@ -357,6 +358,75 @@ TEST_F(GradeManyTest, WritesReportsBesideResultsWithoutGradingAgain) {
   EXPECT_EQ(unknown.code, 64);
   EXPECT_THAT(flat(unknown.error), HasSubstr("--reports: found markdwn, wanted one of exercism, github"));
   EXPECT_THAT(flat(unknown.error), HasSubstr("did you mean 'markdown'?"));
+}
+
+// A report of an earlier result would carry a wrong grade.
+TEST_F(GradeManyTest, KeepsNoReportLongerThanItsResult) {
+  handIn("adam", kGood), handIn("bob", kGood);
+  const fs::path adam = results() / "adam/98-template", bob = results() / "bob/98-template";
+  EXPECT_EQ(grade({"--reports=markdown,gradescope"}).code, 0);
+  const std::string summary = fileText(bob / "summary.md");
+  handIn("adam", kWrong);
+  EXPECT_EQ(grade().code, 0);
+  EXPECT_FALSE(fs::exists(adam / "summary.md"));
+  EXPECT_FALSE(fs::exists(adam / "gradescope.json"));
+  EXPECT_EQ(fileText(bob / "summary.md"), summary) << "its result is the same";
+  write(bob / "summary.md", "8 of 8");
+  EXPECT_THAT(flat(rex({"collect", results().string()}).error), HasSubstr("Reports: 1 written, 0 kept"));
+  EXPECT_EQ(fileText(bob / "summary.md"), summary) << "outdated, and renewed though nobody asked";
+  fs::remove(bob / "results.json");
+  EXPECT_EQ(rex({"collect", results().string()}).code, 3);
+  EXPECT_FALSE(fs::exists(bob / "summary.md"));
+  EXPECT_FALSE(fs::exists(bob / "gradescope.json"));
+}
+
+TEST_F(GradeManyTest, BelievesNoResultThatWasEdited) {
+  handIn("adam", kWrong);
+  EXPECT_EQ(grade({"--reports"}).code, 0);
+  const fs::path file = results() / "adam/98-template/results.json";
+  const std::string whole = fileText(file), before = row("adam");
+  Json json = result("adam");
+  const int possible = json.at("max_score");
+  json["score"] = possible;
+  write(file, json.dump());
+  const Ended collected = rex({"collect", results().string()});
+  EXPECT_EQ(collected.code, 3);
+  EXPECT_THAT(flat(collected.error),
+              HasSubstr("a result that was changed after the grading: tasks 1 adam 98-template"));
+  EXPECT_THAT(flat(collected.error), HasSubstr("results.json: a result that does not add up: score: found " +
+                                               std::to_string(possible) + ", wanted "));
+  EXPECT_EQ(row("adam"), "adam,98-template,,,refused,,,") << "never a grade";
+  EXPECT_FALSE(fs::exists(file.parent_path() / "summary.md"));
+  EXPECT_EQ(rex({"report", file.string(), "--format", "markdown"}).code, 3);
+  // It adds up, but is not what the grader wrote.
+  json = Json::parse(whole);
+  json["message"] = "well done";
+  write(file, json.dump());
+  EXPECT_EQ(rex({"collect", results().string()}).code, 3);
+  const Ended report = rex({"report", file.string(), "--format", "markdown"});
+  EXPECT_EQ(report.code, 3);
+  EXPECT_THAT(flat(report.error), HasSubstr("results.json: a result that was changed after the grading"));
+  json = Json::parse(whole);
+  json["exercise"]["id"] = "97-other";
+  json["inputs"]["result_sha256"] = grading::sealOf(json.dump(), "");
+  write(file, json.dump());
+  EXPECT_THAT(flat(rex({"collect", results().string()}).error),
+              HasSubstr("a result of another exercise: found '97-other', wanted '98-template'"));
+  const Ended again = grade();
+  EXPECT_EQ(again.code, 0);
+  EXPECT_THAT(flat(again.error), HasSubstr("wanted '98-template'; it is graded again"));
+  EXPECT_THAT(flat(again.error), HasSubstr("1 graded, 0 kept"));
+  EXPECT_EQ(row("adam"), before);
+}
+
+TEST_F(GradeManyTest, TellsWithOnlyWhatItCouldNotTake) {
+  fs::create_directories(in() / "adam_501_assignsubmission_file_");
+  write(in() / "adam_501_assignsubmission_file_/main.cpp", kGood);
+  handIn("bob", kGood);
+  const Ended ended = grade({"--only", "98", "--manifest", (root() / "tasks.tsv").string()});
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_THAT(flat(ended.error),
+              HasSubstr("nothing to grade: found no exercise folder, wanted 98-template/main.cpp"));
 }
 
 TEST_F(GradeManyTest, GradesAgainForEvidenceThatIsMissing) {

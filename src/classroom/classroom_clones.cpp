@@ -1,0 +1,274 @@
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/instant.h"
+#include "base/opened_folder.h"
+#include "base/printable.h"
+#include "classroom/arrivals.h"
+#include "classroom/composed_text.h"
+#include "classroom/platform_table.h"
+#include "classroom/platform_time.h"
+#include "classroom/repository.h"
+
+namespace rex::grading {
+namespace {
+
+namespace fs = std::filesystem;
+using Columns = std::vector<std::string>;
+
+const Columns kUser = {"github_username", "username"}, kRosterId = {"identifier"}, kRosterName = {"name"},
+              kRecordId = {"roster_identifier", "identifier"},
+              kRepositoryName = {"student_repository_name", "repository"},
+              kHandedInAt = {"submission_timestamp", "submitted"}, kCommit = {"commit", "commit_sha", "sha"},
+              kGroupName = {"group_name"};
+
+/// What the platform recorded about one repository.
+struct Recorded {
+  std::vector<Person> people{};
+  std::optional<std::int64_t> submitted{};
+  std::string commit{};
+  std::string group{};
+};
+
+Person personOfRoster(std::string id, std::string name, std::string user) {
+  Person person{.id = std::move(id), .name = std::move(name), .githubUsername = std::move(user)};
+  if (person.id.find('@') != std::string::npos) person.email = person.id;
+  person.identifier = person.githubUsername;
+  return person;
+}
+
+std::vector<Person> readRoster(const fs::path& file) {
+  std::vector<Person> people;
+  if (file.empty()) return people;
+  const PlatformTable table(file, "a classroom roster");
+  table.require(kRosterId);
+  for (std::size_t k = 0; k < table.size(); ++k)
+    people.push_back(
+        personOfRoster(table.text(k, kRosterId), table.text(k, kRosterName), table.text(k, kUser)));
+  return people;
+}
+
+/// Finds out whose clones there are, and which commit counts.
+class CloneReader {
+ public:
+  CloneReader(const ClassroomOptions& options)
+      : options_(options), roster_(readRoster(options.roster)), record_(readRecord(options.record)) {}
+
+  Arrivals read(const fs::path& source) {
+    found_.platform = Platform::kClassroom;
+    const OpenedFolder folder(source);
+    std::vector<std::string> names;
+    for (const OpenedFolder::Entry& entry : folder.entries()) {
+      if (isOfSystem(entry.name)) continue;
+      if (entry.type == fs::file_type::directory)
+        names.push_back(entry.name);
+      else
+        found_.notes.push_back(fmt::format("{}: ignored", entry.name));
+    }
+    prefix_ = options_.assignment.empty() ? commonPrefix(names) : options_.assignment + "-";
+    for (const std::string& name : names) readEntry(folder.folder(name), name);
+    addMissing();
+    tellClocks();
+    return std::move(found_);
+  }
+
+ private:
+  static std::map<std::string, Recorded> readRecord(const fs::path& file) {
+    std::map<std::string, Recorded> record;
+    if (file.empty()) return record;
+    const PlatformTable table(file, "a record of the platform");
+    table.require(kRepositoryName);
+    const PlatformZone zone("");
+    for (std::size_t k = 0; k < table.size(); ++k) {
+      Recorded& one = record[caseless(table.text(k, kRepositoryName))];
+      one.people.push_back(personOfRoster(table.text(k, kRecordId), "", table.text(k, kUser)));
+      one.commit = table.text(k, kCommit);
+      one.group = table.text(k, kGroupName);
+      const std::string time = table.text(k, kHandedInAt);
+      if (!time.empty()) one.submitted = zone.instantOf(time, table.place(k));
+    }
+    return record;
+  }
+
+  // "kinematics-" of kinematics-adam and kinematics-zoe.
+  static std::string commonPrefix(const std::vector<std::string>& names) {
+    if (names.size() < 2) return {};
+    std::string common = names.front();
+    for (const std::string& name : names) {
+      const auto [end, other] = std::mismatch(common.begin(), common.end(), name.begin(), name.end());
+      common.erase(end, common.end());
+    }
+    const std::size_t dash = common.rfind('-');
+    return dash == common.npos ? "" : common.substr(0, dash + 1);
+  }
+
+  // A clone, or a folder with the only clone of one person, as GitLab's groups have it.
+  void readEntry(const OpenedFolder& folder, const std::string& name) {
+    try {
+      if (folder.typeOf(".git") != fs::file_type::not_found) return readClone(folder, name);
+      std::vector<std::string> clones;
+      for (const OpenedFolder::Entry& entry : folder.entries())
+        if (entry.type == fs::file_type::directory &&
+            folder.folder(entry.name).typeOf(".git") != fs::file_type::not_found)
+          clones.push_back(entry.name);
+      if (clones.size() == 1) return readClone(folder.folder(clones.front()), name);
+      found_.complaints.push_back(fmt::format("{}: no clone: found {}, wanted a folder .git", name,
+                                              clones.empty() ? "none" : "several in it"));
+    } catch (const Error& error) {
+      found_.complaints.emplace_back(error.what());
+    }
+  }
+
+  void readClone(const OpenedFolder& clone, const std::string& name) {
+    Arrival arrival = arrivalOf(name);
+    seen_.insert(caseless(name));
+    try {
+      const Repository repository(clone);
+      const Recorded& recorded = recordOf(name);
+      if (const std::optional<Commit> commit = choose(repository, recorded, arrival)) {
+        arrival.commit = commit->id;
+        addFiles(repository, *commit, arrival);
+      }
+    } catch (const Error& error) {
+      arrival.whyNone = error.what();
+    }
+    found_.all.push_back(std::move(arrival));
+  }
+
+  const Recorded& recordOf(const std::string& name) const {
+    static const Recorded kNothing;
+    const auto found = record_.find(caseless(name));
+    return found == record_.end() ? kNothing : found->second;
+  }
+
+  Arrival arrivalOf(const std::string& name) {
+    const Recorded& recorded = recordOf(name);
+    Arrival arrival{.people = recorded.people, .group = recorded.group, .place = name};
+    if (arrival.people.empty()) {
+      if (!record_.empty())
+        found_.complaints.push_back(fmt::format("{}: not in the record of the platform", name));
+      const std::string user = userOf(name);
+      arrival.people = {{.githubUsername = user, .identifier = user}};
+    }
+    for (Person& person : arrival.people) {
+      const auto listed = std::find_if(roster_.begin(), roster_.end(), [&](const Person& one) {
+        const bool isUser =
+            !one.githubUsername.empty() && caseless(one.githubUsername) == caseless(person.githubUsername);
+        return isUser || (!person.id.empty() && one.id == person.id);
+      });
+      if (listed != roster_.end()) {
+        person.id = listed->id, person.name = listed->name, person.email = listed->email;
+      } else if (!roster_.empty()) {
+        found_.notes.push_back(fmt::format("{}: '{}' is not on the roster", name, person.githubUsername));
+      }
+    }
+    return arrival;
+  }
+
+  // By the roster, whose names may contain dashes; else what follows the name of the assignment.
+  std::string userOf(const std::string& name) const {
+    std::string longest;
+    for (const Person& person : roster_) {
+      const std::string& user = person.githubUsername;
+      const bool fits = !user.empty() &&
+                        (caseless(name) == caseless(user) || caseless(name).ends_with("-" + caseless(user)));
+      if (fits && user.size() > longest.size()) longest = user;
+    }
+    if (!longest.empty()) return longest;
+    return name.size() > prefix_.size() && name.starts_with(prefix_) ? name.substr(prefix_.size()) : name;
+  }
+
+  std::optional<Commit> choose(const Repository& repository, const Recorded& recorded, Arrival& arrival) {
+    if (!recorded.commit.empty()) {
+      const std::optional<Commit> commit = repository.find(recorded.commit);
+      if (!commit)
+        arrival.whyNone = fmt::format("the clone lacks the commit {} of the record", recorded.commit);
+      arrival.submitted = recorded.submitted;
+      arrival.timeFrom = recorded.submitted ? "platform" : "";
+      if (commit && !recorded.submitted) arrival.submitted = commit->time, arrival.timeFrom = "git";
+      return commit;
+    }
+    const std::vector<Commit> history = repository.history();
+    std::optional<std::int64_t> last = options_.deadline;
+    const bool isRecorded = recorded.submitted && (!last || *recorded.submitted <= *last);
+    if (isRecorded) last = recorded.submitted;
+    const auto commit = std::find_if(history.begin(), history.end(),
+                                     [&](const Commit& one) { return !last || one.time <= *last; });
+    if (commit == history.end()) {
+      arrival.whyNone = history.empty() ? "no commit" : fmt::format("no commit until {}", instantText(*last));
+      return {};
+    }
+    if (commit != history.begin())
+      found_.notes.push_back(fmt::format("{}: {} newer commit{} left out", arrival.place,
+                                         commit - history.begin(), commit - history.begin() == 1 ? "" : "s"));
+    ++(isRecorded ? chosenByTime_ : chosenByClock_);
+    arrival.submitted = isRecorded ? *recorded.submitted : commit->time;
+    arrival.timeFrom = isRecorded ? "platform" : "git";
+    return *commit;
+  }
+
+  static void addFiles(const Repository& repository, const Commit& commit, Arrival& arrival) {
+    const std::vector<CommittedFile> files = repository.filesNamed("main.cpp", commit);
+    std::vector<std::string> contents = repository.contentsOf(files);
+    for (std::size_t k = 0; k < files.size(); ++k) {
+      DownloadedFile& file = arrival.files.emplace_back(DownloadedFile{
+          .name = files[k].path, .place = arrival.place + "/" + files[k].path, .whyNot = files[k].whyNot});
+      if (file.whyNot.empty()) file.text = std::move(contents[k]);
+    }
+    if (files.empty()) arrival.whyNone = "no main.cpp in its commit " + commit.id.substr(0, 7);
+  }
+
+  // Who is in the record or on the roster, without a clone.
+  void addMissing() {
+    for (const auto& [name, recorded] : record_)
+      if (!seen_.contains(name) && recorded.submitted)
+        found_.all.push_back(
+            {.people = recorded.people, .group = recorded.group, .place = name, .whyNone = "no clone of it"});
+    for (const Person& person : roster_) {
+      const bool isThere = std::any_of(found_.all.begin(), found_.all.end(), [&](const Arrival& arrival) {
+        return std::any_of(arrival.people.begin(), arrival.people.end(),
+                           [&](const Person& one) { return one.id == person.id; });
+      });
+      if (!isThere) found_.all.push_back({.people = {person}});
+    }
+  }
+
+  void tellClocks() {
+    if (chosenByClock_ > 0)
+      found_.notes.push_back(
+          fmt::format("{} clone{}: which commit counts, and when it was made, is known from dates in the "
+                      "clone alone, which "
+                      "students can set; --record FILE.csv gives the platform's record",
+                      chosenByClock_, chosenByClock_ == 1 ? "" : "s"));
+    if (chosenByTime_ > 0)
+      found_.notes.push_back(
+          fmt::format("{} clone{}: the record has a time but no commit; taken is the last commit that is "
+                      "dated until then, and "
+                      "students can set that date",
+                      chosenByTime_, chosenByTime_ == 1 ? "" : "s"));
+  }
+
+  ClassroomOptions options_;
+  std::vector<Person> roster_;
+  std::map<std::string, Recorded> record_;  // by name of the repository
+  std::set<std::string> seen_{};            // clones, as in the record
+  std::string prefix_{};
+  int chosenByClock_ = 0, chosenByTime_ = 0;
+  Arrivals found_{};
+};
+
+}  // namespace
+
+Arrivals readClassroom(const fs::path& source, const ClassroomOptions& options,
+                       const std::vector<ExerciseInfo>& exercises) {
+  if (!fs::is_directory(source))
+    throw UsageError({.what = "no such folder", .where = {source.string()}, .wanted = "a folder of clones"});
+  requireLayout(Platform::kClassroom, source, exercises);
+  return CloneReader(options).read(source);
+}
+
+}  // namespace rex::grading

@@ -1,0 +1,268 @@
+#include "classroom/importing.h"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/instant.h"
+#include "base/sha256.h"
+#include "base/text_file.h"
+#include "classroom/import_names.h"
+#include "submission/student_build.h"
+
+namespace rex::grading {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// An arrival whose files have been sorted.
+struct SortedArrival {
+  const Arrival& arrival;
+  PickedFiles picked{};
+};
+
+/// Brings one download into one folder.
+class Importer {
+ public:
+  Importer(const Arrivals& arrivals, const PickOptions& options, const fs::path& handedIn)
+      : arrivals_(arrivals), options_(options), folder_(handedIn), table_(importTableIn(handedIn)) {
+    report_.complaints = arrivals.complaints;
+    report_.notes = arrivals.notes;
+  }
+
+  ImportReport run() {
+    std::vector<SortedArrival> sorted;
+    for (const Arrival& arrival : arrivals_.all)
+      sorted.push_back({arrival, arrival.files.empty() ? PickedFiles{} : pickFiles(arrival.files, options_)});
+    exercises_ = exercisesOf(sorted);
+    fs::create_directories(folder_);
+    ImportNames names(table_, arrivals_);
+    for (const SortedArrival& one : sorted) take(one, names);
+    tellNames(names);
+    std::sort(table_.students.begin(), table_.students.end(),
+              [](const auto& a, const auto& b) { return a.student < b.student; });
+    replaceTextFile(folder_ / kImportTable, importTableText(table_), "the table of imports");
+    return std::move(report_);
+  }
+
+ private:
+  // Of this download: the wanted one, or all that somebody handed in.
+  std::vector<std::string> exercisesOf(const std::vector<SortedArrival>& sorted) const {
+    if (!options_.exercise.empty()) return {options_.exercise};
+    std::set<std::string> names;
+    for (const SortedArrival& one : sorted)
+      for (const PickedFile& file : one.picked.files) names.insert(file.exercise);
+    return {names.begin(), names.end()};
+  }
+
+  void take(const SortedArrival& one, ImportNames& names) {
+    std::vector<std::string> members;
+    for (const Person& person : one.arrival.people) members.push_back(names.folderOf(person, exercises_));
+    report_.complaints.insert(report_.complaints.end(), one.picked.complaints.begin(),
+                              one.picked.complaints.end());
+    report_.notes.insert(report_.notes.end(), one.picked.notes.begin(), one.picked.notes.end());
+    const std::string why = whyNone(one);
+    if (!one.arrival.whyNone.empty()) report_.complaints.push_back(one.arrival.place + ": not taken: " + why);
+    for (const std::string& exercise : exercises_) {
+      const auto file = std::find_if(one.picked.files.begin(), one.picked.files.end(),
+                                     [&](const PickedFile& picked) { return picked.exercise == exercise; });
+      if (file != one.picked.files.end())
+        takeFile(one.arrival, *file, members);
+      else
+        takeNothing(one.arrival, exercise, members, why);
+    }
+  }
+
+  static std::string whyNone(const SortedArrival& one) {
+    if (!one.arrival.whyNone.empty()) return one.arrival.whyNone;
+    return one.picked.complaints.empty() ? "" : one.picked.complaints.front();
+  }
+
+  ImportedStudent& entryOf(const std::string& student) {
+    return *std::find_if(table_.students.begin(), table_.students.end(),
+                         [&](const ImportedStudent& entry) { return entry.student == student; });
+  }
+
+  ImportedExercise startOf(const Arrival& arrival, std::size_t member) const {
+    return {.platform = std::string(toString(arrivals_.platform)),
+            .identifier = arrival.people[member].identifier,
+            .maximumGrade = arrival.people[member].maximumGrade,
+            .group = arrival.group};
+  }
+
+  // One for all: who held it before, else the first.
+  std::string holderOf(const std::string& exercise, const std::vector<std::string>& members) {
+    for (const std::string& member : members) {
+      const auto before = entryOf(member).exercises.find(exercise);
+      if (before != entryOf(member).exercises.end() &&
+          std::find(members.begin(), members.end(), before->second.handedInBy) != members.end())
+        return before->second.handedInBy;
+    }
+    return members.front();
+  }
+
+  void takeFile(const Arrival& arrival, const PickedFile& file, const std::vector<std::string>& members) {
+    const std::string holder = holderOf(file.exercise, members);
+    const std::optional<std::int64_t> time =
+        arrival.submitted || file.modifiedAt == 0 ? arrival.submitted : file.modifiedAt;
+    if (!isFirst(file, members) || !write(holder, file, time)) {
+      for (std::size_t k = 0; k < members.size(); ++k) {
+        if (entryOf(members[k]).exercises.contains(file.exercise))
+          ++report_.notTaken;
+        else
+          noteNothing(arrival, k, file.exercise, members[k], "another file is there already");
+      }
+      return;
+    }
+    for (std::size_t k = 0; k < members.size(); ++k) {
+      ImportedExercise entry = startOf(arrival, k);
+      entry.status = HandInStatus::kHandedIn;
+      entry.handedInBy = holder;
+      entry.submitted = time;
+      entry.timeFrom = !time ? "" : arrival.timeFrom.empty() ? "file" : arrival.timeFrom;
+      entry.commit = arrival.commit;
+      entry.source = file.source;
+      entry.sha256 = sha256(file.text);
+      if (members[k] != holder) removeOwn(members[k], file.exercise);
+      count(entry);
+      entryOf(members[k]).exercises[file.exercise] = std::move(entry);
+    }
+  }
+
+  // A platform keeps one file of each student; if there are two, nobody knows which one counts.
+  bool isFirst(const PickedFile& file, const std::vector<std::string>& members) {
+    for (const std::string& member : members) {
+      const auto [first, isNew] = takenFrom_.emplace(std::pair(member, file.exercise), file.source);
+      if (isNew) continue;
+      report_.complaints.push_back(fmt::format("{}: a second file of {} for {}: not taken, the first is '{}'",
+                                               file.source, member, file.exercise, first->second));
+      return false;
+    }
+    return true;
+  }
+
+  void count(const ImportedExercise& entry) {
+    ++report_.handedIn;
+    ++(entry.timeFrom == "platform" ? report_.timesOfPlatform
+       : entry.timeFrom == "git"    ? report_.timesOfGit
+       : entry.timeFrom == "file"   ? report_.timesOfFiles
+                                    : report_.withoutTime);
+  }
+
+  // The hash of the file in the folder of submissions; nothing if there is none, "" if it is no text file.
+  std::optional<std::string> presentHash(const fs::path& file) const {
+    if (fs::symlink_status(file).type() == fs::file_type::not_found) return {};
+    try {
+      return sha256(readStudentFile(file));
+    } catch (const Error&) {
+      return "";
+    }
+  }
+
+  std::string recordedHash(const std::string& student, const std::string& exercise) {
+    const auto& exercises = entryOf(student).exercises;
+    const auto found = exercises.find(exercise);
+    return found == exercises.end() ? "" : found->second.sha256;
+  }
+
+  // Returns false if there is a file that no import wrote.
+  bool write(const std::string& holder, const PickedFile& file, const std::optional<std::int64_t>& time) {
+    const fs::path path = folder_ / holder / file.exercise / "main.cpp";
+    const std::optional<std::string> present = presentHash(path);
+    const std::string recorded = recordedHash(holder, file.exercise), wanted = sha256(file.text);
+    if (present && *present != wanted && (recorded.empty() || *present != recorded)) {
+      report_.complaints.emplace_back(
+          Error({.what = fmt::format("not replaced by '{}'", file.source),
+                 .where = {path.string()},
+                 .found = recorded.empty() ? "a file that no import wrote" : "a file that was edited since",
+                 .wanted = "none: remove it to import it"})
+              .what());
+      return false;
+    }
+    ++(!present ? report_.added : *present == wanted ? report_.same : report_.changed);
+    if (present && *present != wanted) {
+      const auto before = entryOf(holder).exercises.at(file.exercise).submitted;
+      const auto text = [](const auto& at) { return at ? instantText(*at) : "at an unknown time"; };
+      report_.changes.push_back(
+          fmt::format("{} {}: handed in {}, before {}", holder, file.exercise, text(time), text(before)));
+    }
+    if (!present || *present != wanted) {
+      fs::create_directories(path.parent_path());
+      replaceTextFile(path, file.text, "the copy of what was handed in");
+    }
+    return true;
+  }
+
+  // Of a member whose group hands in under another name now.
+  void removeOwn(const std::string& member, const std::string& exercise) {
+    const fs::path path = folder_ / member / exercise / "main.cpp";
+    const std::optional<std::string> present = presentHash(path);
+    if (!present) return;
+    if (*present != recordedHash(member, exercise)) {
+      report_.complaints.push_back(
+          fmt::format("{}: not removed, though the group of {} hands in together: no import "
+                      "wrote it",
+                      path.string(), member));
+      return;
+    }
+    fs::remove(path);
+    std::error_code notEmpty;
+    fs::remove(path.parent_path(), notEmpty);
+    fs::remove(path.parent_path().parent_path(), notEmpty);
+    report_.changes.push_back(fmt::format("{} {}: removed, now handed in by the group", member, exercise));
+  }
+
+  void takeNothing(const Arrival& arrival, const std::string& exercise,
+                   const std::vector<std::string>& members, const std::string& why) {
+    for (std::size_t k = 0; k < members.size(); ++k) {
+      const auto& before = entryOf(members[k]).exercises;
+      const auto found = before.find(exercise);
+      if (found != before.end() && found->second.status == HandInStatus::kHandedIn) {
+        report_.notes.push_back(fmt::format(
+            "{} {}: no longer in the download; the file of an earlier import stays", members[k], exercise));
+        continue;
+      }
+      noteNothing(arrival, k, exercise, members[k], why);
+    }
+  }
+
+  void noteNothing(const Arrival& arrival, std::size_t k, const std::string& exercise,
+                   const std::string& member, const std::string& why) {
+    ImportedExercise entry = startOf(arrival, k);
+    entry.status = why.empty() ? HandInStatus::kNothing : HandInStatus::kNotTaken;
+    entry.why = why;
+    if (!why.empty()) {
+      entry.submitted = arrival.submitted;
+      entry.timeFrom = arrival.timeFrom;
+    }
+    ++(why.empty() ? report_.missing : report_.notTaken);
+    entryOf(member).exercises[exercise] = std::move(entry);
+  }
+
+  void tellNames(const ImportNames& names) {
+    if (const int count = names.knownByNameAlone(); count > 0 && arrivals_.platform != Platform::kFolders)
+      report_.notes.push_back(
+          fmt::format("{} {} known by the name alone: another person of that name in another assignment "
+                      "would be taken for the "
+                      "same; the platform's table of grades gives addresses",
+                      count, count == 1 ? "student is" : "students are"));
+  }
+
+  const Arrivals& arrivals_;
+  const PickOptions& options_;
+  fs::path folder_;
+  ImportTable table_;
+  std::vector<std::string> exercises_{};
+  std::map<std::pair<std::string, std::string>, std::string> takenFrom_{};  // by student and exercise
+  ImportReport report_{};
+};
+
+}  // namespace
+
+ImportReport importArrivals(const Arrivals& arrivals, const PickOptions& options, const fs::path& handedIn) {
+  return Importer(arrivals, options, handedIn).run();
+}
+
+}  // namespace rex::grading

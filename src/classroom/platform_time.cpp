@@ -1,0 +1,229 @@
+#include "classroom/platform_time.h"
+
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+#include <regex>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/isolated_call.h"
+#include "classroom/composed_text.h"
+
+namespace rex::grading {
+namespace {
+
+using namespace std::chrono;
+
+constexpr const char* kZoneFiles = "/usr/share/zoneinfo";
+constexpr const char* kTimeExamples =
+    "a time such as '2026-11-20T23:58:00+01:00', 'Friday, 20 November 2026, 11:58 PM' or 'Freitag, 20. "
+    "November "
+    "2026, 23:58'";
+
+int numberIn(std::string_view digits) {
+  int value = 0;
+  std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  return value;
+}
+
+// Of a word with at least three letters; 0: none. English and German, whole or cut.
+int monthOf(const std::string& word) {
+  static constexpr std::array<std::array<std::string_view, 3>, 12> kMonths = {
+      {{"january", "januar", "jänner"},
+       {"february", "februar", ""},
+       {"march", "märz", "maerz"},
+       {"april", "", ""},
+       {"may", "mai", ""},
+       {"june", "juni", ""},
+       {"july", "juli", ""},
+       {"august", "", ""},
+       {"september", "sept", ""},
+       {"october", "oktober", ""},
+       {"november", "", ""},
+       {"december", "dezember", ""}}};
+  if (word.size() < 3) return 0;
+  for (std::size_t k = 0; k < kMonths.size(); ++k)
+    for (const std::string_view name : kMonths[k])
+      if (name.starts_with(word)) return static_cast<int>(k) + 1;
+  return 0;
+}
+
+// 1 for Monday to 7 for Sunday; 0: no weekday.
+int weekdayOf(const std::string& word) {
+  static constexpr std::array<std::array<std::string_view, 3>, 7> kDays = {{{"monday", "montag", "mo"},
+                                                                            {"tuesday", "dienstag", "di"},
+                                                                            {"wednesday", "mittwoch", "mi"},
+                                                                            {"thursday", "donnerstag", "do"},
+                                                                            {"friday", "freitag", "fr"},
+                                                                            {"saturday", "samstag", "sa"},
+                                                                            {"sunday", "sonntag", "so"}}};
+  if (word.size() < 2) return 0;
+  for (std::size_t k = 0; k < kDays.size(); ++k)
+    for (const std::string_view name : kDays[k])
+      if (name.starts_with(word)) return static_cast<int>(k) + 1;
+  return word == "sonnabend" ? 6 : 0;
+}
+
+// Seconds of "Z", "UTC", "+01:00" or "+0100"; nothing for other texts.
+std::optional<int> zoneOf(const std::string& text) {
+  static const std::regex kZone("([+-])([0-9]{2}):?([0-9]{2})");
+  if (text == "z" || text == "utc" || text == "gmt") return 0;
+  std::smatch match;
+  if (!std::regex_match(text, match, kZone)) return {};
+  const int hours = numberIn(match[2].str()), minutes = numberIn(match[3].str());
+  if (hours > 23 || minutes > 59) return {};
+  return (match[1] == "-" ? -60 : 60) * (60 * hours + minutes);
+}
+
+std::optional<PlatformTime> parseIso(const std::string& text) {
+  static const std::regex kIso(
+      "([0-9]{4})-([0-9]{2})-([0-9]{2})[t ]+([0-9]{2}):([0-9]{2})(:([0-9]{2})([.][0-9]+)?)? *(.*)");
+  static const std::regex kDotted(
+      "([0-9]{1,2})[.]([0-9]{1,2})[.]([0-9]{4}),? +([0-9]{1,2}):([0-9]{2})(:([0-9]{2}))?( uhr)?");
+  std::smatch match;
+  const auto number = [&](std::size_t k) { return numberIn(match[k].str()); };
+  if (std::regex_match(text, match, kDotted))
+    return PlatformTime{number(3), number(2), number(1), number(4), number(5), number(7)};
+  if (!std::regex_match(text, match, kIso)) return {};
+  PlatformTime time{number(1), number(2), number(3), number(4), number(5), number(7)};
+  time.zoneSeconds = zoneOf(match[9].str());
+  if (!time.zoneSeconds && match[9].length() > 0) return {};
+  return time;
+}
+
+/// Reads words and numbers in the orders in which English and German write them.
+class WordedTime {
+ public:
+  explicit WordedTime(const std::string& text) {
+    static const std::regex kWord("([0-9]{1,2}):([0-9]{2})(:([0-9]{2}))?|[0-9]+|[^0-9:,. \t]+");
+    for (auto word = std::sregex_iterator(text.begin(), text.end(), kWord); word != std::sregex_iterator();
+         ++word)
+      take(*word);
+  }
+
+  std::optional<PlatformTime> time() const {
+    if (!isUnderstood_ || month_ == 0 || numbers_.size() != 2 || !hasClock_) return {};
+    PlatformTime time = clock_;
+    time.month = month_, time.day = numbers_[0], time.year = numbers_[1];
+    if (half_ != 0 && (time.hour < 1 || time.hour > 12)) return {};
+    if (half_ != 0) time.hour = time.hour % 12 + (half_ == 'p' ? 12 : 0);
+    const sys_days day = year(time.year) / time.month / time.day;
+    if (weekday_ != 0 && static_cast<int>(weekday(day).iso_encoding()) != weekday_) return {};
+    return time;
+  }
+
+ private:
+  void take(const std::smatch& match) {
+    const std::string word = match.str();
+    if (match[1].matched) {
+      isUnderstood_ = isUnderstood_ && !hasClock_;
+      hasClock_ = true;
+      clock_.hour = numberIn(match[1].str()), clock_.minute = numberIn(match[2].str());
+      clock_.second = numberIn(match[4].str());
+    } else if (word.find_first_not_of("0123456789") == word.npos) {
+      numbers_.push_back(numberIn(word));
+    } else if (word == "am" || word == "pm") {
+      half_ = word.front();
+    } else if (const int month = monthOf(word); month != 0 && month_ == 0) {
+      month_ = month;
+    } else if (const int day = weekdayOf(word); day != 0 && weekday_ == 0) {
+      weekday_ = day;
+    } else if (word != "uhr" && word != "at" && word != "um") {
+      isUnderstood_ = false;
+    }
+  }
+
+  std::vector<int> numbers_{};
+  PlatformTime clock_{};
+  int month_ = 0, weekday_ = 0;
+  char half_ = 0;  // a or p
+  bool hasClock_ = false, isUnderstood_ = true;
+};
+
+bool exists(const PlatformTime& time) {
+  const year_month_day day{year(time.year), month(static_cast<unsigned>(time.month)),
+                           std::chrono::day(static_cast<unsigned>(time.day))};
+  return day.ok() && time.year >= 1970 && time.year < 2200 && time.hour < 24 && time.minute < 60 &&
+         time.second < 60;
+}
+
+std::int64_t asIfUtc(const PlatformTime& time) {
+  const sys_days day = year(time.year) / time.month / time.day;
+  return std::int64_t{day.time_since_epoch().count()} * 86400 + time.hour * 3600 + time.minute * 60 +
+         time.second;
+}
+
+// Asks the C library, which knows zones by a variable of the environment: in a process of its own. Nothing if
+// the hour does not exist there.
+std::optional<std::int64_t> instantIn(const std::string& zone, const PlatformTime& time) {
+  const auto ask = [&]() -> std::string {
+    ::setenv("TZ", (":" + zone).c_str(), 1);
+    ::tzset();
+    std::optional<std::int64_t> first;
+    for (const int summer : {1, 0}) {
+      std::tm local{};
+      local.tm_year = time.year - 1900, local.tm_mon = time.month - 1, local.tm_mday = time.day;
+      local.tm_hour = time.hour, local.tm_min = time.minute, local.tm_sec = time.second;
+      local.tm_isdst = summer;
+      const std::time_t instant = std::mktime(&local);
+      const bool isSame =
+          local.tm_hour == time.hour && local.tm_min == time.minute && local.tm_mday == time.day;
+      if (isSame && (!first || instant < *first)) first = instant;
+    }
+    return first ? fmt::format("{}", *first) : "";
+  };
+  const std::string answer = callIsolated(ask).bytes;
+  if (answer.empty()) return {};
+  return std::stoll(answer);
+}
+
+}  // namespace
+
+std::optional<PlatformTime> parsePlatformTime(std::string_view text) {
+  std::string plain = caseless(text);
+  for (const std::string blank : {"\u00A0", "\u202F"})  // some write them before AM and PM
+    for (std::size_t at; (at = plain.find(blank)) != plain.npos;) plain.replace(at, blank.size(), " ");
+  const std::size_t first = plain.find_first_not_of(' '), last = plain.find_last_not_of(' ');
+  if (first == plain.npos || plain.size() > 100) return {};
+  const std::string trimmed = plain.substr(first, last - first + 1);
+  std::optional<PlatformTime> time = parseIso(trimmed);
+  if (!time) time = WordedTime(trimmed).time();
+  return time && exists(*time) ? time : std::nullopt;
+}
+
+PlatformZone::PlatformZone(std::string name) : name_(std::move(name)) {
+  if (name_.empty()) return;
+  fixedSeconds_ = zoneOf(caseless(name_));
+  const bool isPlain = name_.find("..") == name_.npos && name_.front() != '/' && name_.front() != '.';
+  if (!fixedSeconds_ &&
+      (!isPlain || !std::filesystem::is_regular_file(std::filesystem::path(kZoneFiles) / name_)))
+    throw UsageError({.what = "not a time zone",
+                      .found = "'" + name_ + "'",
+                      .wanted = "a name such as Europe/Berlin, or a difference such as +01:00"});
+}
+
+std::int64_t PlatformZone::instantOf(const std::string& text, const std::string& place) const {
+  const std::optional<PlatformTime> time = parsePlatformTime(text);
+  if (!time)
+    throw Error({.what = "not a time", .where = {place}, .found = "'" + text + "'", .wanted = kTimeExamples});
+  const std::optional<int> fixed = time->zoneSeconds ? time->zoneSeconds : fixedSeconds_;
+  if (fixed) return asIfUtc(*time) - *fixed;
+  if (name_.empty())
+    throw UsageError({.what = "a time without a zone",
+                      .where = {place},
+                      .found = "'" + text + "'",
+                      .wanted = "--time-zone ZONE, such as Europe/Berlin: that of the platform"});
+  if (const auto instant = instantIn(name_, *time)) return *instant;
+  throw Error({.what = "an hour that does not exist in " + name_,
+               .where = {place},
+               .found = "'" + text + "'",
+               .wanted = "another time, or another zone"});
+}
+
+}  // namespace rex::grading

@@ -1,0 +1,166 @@
+#include "classroom/student_files.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/printable.h"
+#include "classroom/archive.h"
+
+namespace rex::grading {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kMainFile = "main.cpp";
+constexpr const char* kReceiptOfSubmit = "receipt.json";
+
+// As grading refuses a file.
+std::string whyNoSource(const std::string& text) {
+  constexpr std::size_t kLargest = 1u << 20;
+  if (text.size() > kLargest) return "more than 1 MiB";
+  if (text.find('\0') != text.npos) return "NUL bytes, as in a binary or UTF-16 file";
+  return {};
+}
+
+/// Sorts the files of one student.
+class FilePicker {
+ public:
+  explicit FilePicker(const PickOptions& options) : options_(options) {}
+
+  PickedFiles pick(const std::vector<DownloadedFile>& files) {
+    for (const DownloadedFile& file : files) look(file, false);
+    takeOther();
+    for (auto& [exercise, found] : found_) take(exercise, found);
+    for (const DownloadedFile* file : others_) picked_.notes.push_back(ignored(file->place));
+    if (picked_.files.empty() && picked_.complaints.empty() && isLeft_)
+      complain("nothing to grade", files.front().place,
+               files.size() == 1 ? "this file" : fmt::format("this and {} more", files.size() - 1),
+               example());
+    return std::move(picked_);
+  }
+
+ private:
+  void look(const DownloadedFile& file, bool isPacked) {
+    const fs::path path(file.name);
+    if (isOfSystem(path) || path.filename() == kReceiptOfSubmit) return;
+    isLeft_ = true;
+    const bool isMain = path.filename() == kMainFile, isArchive = isArchiveName(file.name);
+    if (!file.text && !file.whyNot.empty() && (isMain || isArchive || isSourceName(file.name)))
+      complain("not accepted", file.place, file.whyNot, "a C++ source file or an archive");
+    else if (!file.text)
+      picked_.notes.push_back(ignored(file.place) + (file.whyNot.empty() ? "" : ": " + file.whyNot));
+    else if (isMain)
+      lookAtMain(file);
+    else if (isArchive && !isPacked)
+      unpack(file);
+    else if (isSourceName(file.name))
+      others_.push_back(&keep(file));
+    else
+      picked_.notes.push_back(ignored(file.place));
+  }
+
+  void unpack(const DownloadedFile& file) {
+    try {
+      ArchiveContent content = readArchive(*file.text, file.place);
+      for (ArchiveFile& member : content.files)
+        look({.name =
+                  withoutArchiveEnding(file.name) + "/" + fs::path(member.name).lexically_normal().string(),
+              .place = file.place + "/" + member.name,
+              .text = std::move(member.text),
+              .modifiedAt = file.modifiedAt},
+             true);
+      for (const auto& [member, why] : content.leftOut)
+        look({.name = member, .place = file.place + "/" + member, .whyNot = why}, true);
+    } catch (const Error& error) {
+      picked_.complaints.emplace_back(error.what());
+    }
+  }
+
+  void lookAtMain(const DownloadedFile& file) {
+    std::string exercise = exerciseAround(file.name);
+    if (exercise.empty()) exercise = options_.exercise;
+    if (exercise.empty())
+      complain("no exercise folder around it", file.place, "a file", example() + ", or --exercise EXERCISE");
+    else if (!options_.exercise.empty() && exercise != options_.exercise)
+      picked_.notes.push_back(fmt::format("{}: not of {}", file.place, options_.exercise));
+    else
+      found_[exercise].push_back(&keep(file));
+  }
+
+  // The innermost folder that has the name of an exercise.
+  std::string exerciseAround(const std::string& name) const {
+    for (fs::path folder = fs::path(name).parent_path(); !folder.empty(); folder = folder.parent_path()) {
+      try {
+        return findExercise(options_.exercises, folder.filename().string()).name;
+      } catch (const Error&) {
+        continue;
+      }
+    }
+    return {};
+  }
+
+  // Students give their file a name of their own, or the platform does: "main (1).cpp".
+  void takeOther() {
+    if (options_.exercise.empty() || found_.contains(options_.exercise) || others_.empty()) return;
+    if (others_.size() > 1) {
+      complain("more than one source file", others_.front()->place,
+               fmt::format("also '{}'", printable(others_.back()->place, 200)), "one, or main.cpp");
+      return;
+    }
+    picked_.notes.push_back(fmt::format("{}: taken as main.cpp", others_.front()->place));
+    found_[options_.exercise].push_back(others_.front());
+    others_.clear();
+  }
+
+  void take(const std::string& exercise, const std::vector<const DownloadedFile*>& found) {
+    const DownloadedFile& file = *found.front();
+    const auto other = std::find_if(found.begin(), found.end(),
+                                    [&](const DownloadedFile* one) { return *one->text != *file.text; });
+    const auto handedOut = options_.handedOut.find(exercise);
+    if (other != found.end())
+      complain("two files for " + exercise, file.place,
+               fmt::format("another text in '{}'", printable((*other)->place, 200)), "one of them");
+    else if (const std::string why = whyNoSource(*file.text); !why.empty())
+      complain("cannot be graded", file.place, why, "a C++ source file");
+    else if (handedOut != options_.handedOut.end() && handedOut->second == *file.text)
+      picked_.notes.push_back(fmt::format("{}: as it was handed out, not taken", file.place));
+    else
+      picked_.files.push_back({exercise, *file.text, file.place, file.modifiedAt});
+  }
+
+  const DownloadedFile& keep(const DownloadedFile& file) {
+    return *kept_.emplace_back(std::make_unique<DownloadedFile>(file));
+  }
+
+  static std::string ignored(const std::string& name) { return fmt::format("{}: ignored", name); }
+
+  std::string example() const {
+    if (!options_.exercise.empty()) return kMainFile;
+    return options_.exercises.empty() ? kMainFile : options_.exercises.front().name + "/" + kMainFile;
+  }
+
+  void complain(std::string what, const std::string& where, std::string found, std::string wanted) {
+    picked_.complaints.emplace_back(Error({.what = std::move(what),
+                                           .where = {where},
+                                           .found = std::move(found),
+                                           .wanted = std::move(wanted)})
+                                        .what());
+  }
+
+  const PickOptions& options_;
+  PickedFiles picked_{};
+  bool isLeft_ = false;  ///< there is a file of the student's own
+  std::vector<std::unique_ptr<DownloadedFile>> kept_{};
+  std::map<std::string, std::vector<const DownloadedFile*>> found_{};
+  std::vector<const DownloadedFile*> others_{};
+};
+
+}  // namespace
+
+PickedFiles pickFiles(const std::vector<DownloadedFile>& files, const PickOptions& options) {
+  return FilePicker(options).pick(files);
+}
+
+}  // namespace rex::grading

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "classroom/download.h"
+#include "submission/exercise_info.h"
+
+namespace rex::grading {
+
+/// One main.cpp that a student handed in.
+struct PickedFile {
+  std::string exercise{};  ///< full name
+  std::string text{};
+  std::string source{};  ///< path in the download, through archives: "zoe.zip/01/main.cpp"
+  std::int64_t modifiedAt = 0;
+};
+
+/// What was found in the files of one student.
+struct PickedFiles {
+  std::vector<PickedFile> files{};        ///< one for each exercise, by exercise
+  std::vector<std::string> complaints{};  ///< what was not taken: file, finding, what was wanted
+  std::vector<std::string> notes{};       ///< other things that were found
+};
+
+/// How to find exercises.
+struct PickOptions {
+  const std::vector<ExerciseInfo>& exercises;
+  std::string exercise{};  ///< full name of the only one wanted, also for files outside of exercise folders
+  std::map<std::string, std::string>
+      handedOut{};  ///< texts by exercise; a file that is the same is not taken
+};
+
+/// Finds the main.cpp of each exercise among the files that one student handed in, also inside archives. The
+/// folder around it names the exercise. For the exercise of the options, a main.cpp anywhere else will do,
+/// and so will a single source file of any other name. Of two files for one exercise, with different texts,
+/// neither is taken. Never throws for what a student handed in.
+[[nodiscard]] PickedFiles pickFiles(const std::vector<DownloadedFile>& files, const PickOptions& options);
+
+}  // namespace rex::grading
