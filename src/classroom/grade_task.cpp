@@ -81,7 +81,8 @@ TaskState stateOf(const Task& task, const fs::path& out) {
   if (!fs::exists(file)) return TaskState::kMissing;
   try {
     const Json json = Json::parse(readTextFile(file));
-    if (json.at("inputs").at("sha256") != task.inputsSha256() && !isHeldBack(task, out)) return TaskState::kStale;
+    if (json.at("inputs").at("sha256") != task.inputsSha256() && !isHeldBack(task, out))
+      return TaskState::kStale;
     if (json.at("outcome") == toString(Outcome::kGraderError)) return TaskState::kFailed;
   } catch (const Json::exception&) {
     return TaskState::kStale;  // some other file of that name
@@ -110,7 +111,8 @@ void removeReports(const fs::path& folder) {
 
 bool isHeldBack(const Task& task, const fs::path& out) {
   const fs::path folder = resultFolder(out, task);
-  return fs::exists(folder / kRegraded / kResults) && inputOf(folder / kResults, "source_sha256") == task.sourceSha256 &&
+  return fs::exists(folder / kRegraded / kResults) &&
+         inputOf(folder / kResults, "source_sha256") == task.sourceSha256 &&
          inputOf(folder / kRegraded / kResults, "sha256") == task.inputsSha256();
 }
 
@@ -177,7 +179,8 @@ GradeResult gradeTask(const Task& task, const Toolchain& toolchain, const Exerci
           : buildOnce({options.workers, workerKey(task), options.anew}, toolchain, exercise, submission);
   GradeResult result = gradeBuilt(built, toolchain, exercise, submission);
   const std::optional<int> before = pointsBefore(task, options.out);
-  const bool isHeld = !options.accept && before && result.outcome != Outcome::kGraderError && result.score < *before;
+  const bool isHeld =
+      !options.accept && before && result.outcome != Outcome::kGraderError && result.score < *before;
   const fs::path whole = resultFolder(options.out, task), folder = isHeld ? whole / kRegraded : whole;
   fs::remove_all(whole / kRegraded);
   fs::create_directories(folder);

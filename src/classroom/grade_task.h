@@ -55,7 +55,8 @@ struct TaskOptions {
 /// Grades a task and writes OUT/STUDENT/EXERCISE/results.json, the hash of the inputs, build.log and, on
 /// request, the folder checks; each file is written completely or not at all. Reports of an earlier result
 /// are removed. If the same text had more points before, that result stays, and the new one waits in the
-/// folder `regraded` (isHeldBack()). Throws Error without writing a result if the file or the grader is not that of the task.
+/// folder `regraded` (isHeldBack()). Throws Error without writing a result if the file or the grader is not
+/// that of the task.
 [[nodiscard]] GradeResult gradeTask(const Task& task, const Toolchain& toolchain,
                                     const ExerciseInfo& exercise, const TaskOptions& options);
 

@@ -22,7 +22,7 @@ struct GradeOneOptions {
   std::filesystem::path out{};
   std::filesystem::path secret{};
   bool evidence = false;
-  bool accept = false;  ///< take a result with fewer points, too
+  bool accept = false;              ///< take a result with fewer points, too
   std::filesystem::path workers{};  ///< folder that keeps compiled programs; empty: none
 };
 

@@ -2,8 +2,9 @@
 
 namespace rex::cli {
 
-void addDeadlines(CLI::App* command, std::filesystem::path& file) {
-  command->add_option("--deadlines", file, "deadlines, grace and late penalties (share/doc/grading-many.md)")
+CLI::Option* addDeadlines(CLI::App* command, std::filesystem::path& file) {
+  return command
+      ->add_option("--deadlines", file, "deadlines, grace and late penalties (share/doc/grading-many.md)")
       ->type_name("FILE.toml");
 }
 
@@ -21,7 +22,8 @@ void addReports(CLI::App* command, std::string& reports) {
 }
 
 void addAccept(CLI::App* command, bool& accept) {
-  command->add_flag("--accept", accept, "also take results in which the same file has fewer points than before");
+  command->add_flag("--accept", accept,
+                    "also take results in which the same file has fewer points than before");
 }
 
 void addEvidence(CLI::App* command, bool& evidence) {
