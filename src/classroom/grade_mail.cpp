@@ -24,11 +24,11 @@ std::string oneLine(const std::string& text) {
 // RFC 2047: every text is encoded, so none can end the header. A word has at most 75 characters, and no
 // character of the text is cut.
 std::string encodedWords(const std::string& text) {
-  constexpr std::size_t kMostBytes = 42;
+  constexpr std::size_t kWordBytes = 42;
   const std::string line = oneLine(text);
   std::string words;
   for (std::size_t at = 0; at < line.size();) {
-    std::size_t end = std::min(at + kMostBytes, line.size());
+    std::size_t end = std::min(at + kWordBytes, line.size());
     while (end < line.size() && (static_cast<unsigned char>(line[end]) & 0xC0) == 0x80) --end;
     words += fmt::format("{}=?UTF-8?B?{}?=", words.empty() ? "" : "\r\n ", base64(line.substr(at, end - at)));
     at = end;

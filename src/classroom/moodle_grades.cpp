@@ -41,7 +41,7 @@ std::string plainLine(const std::vector<std::string>& fields, const std::string&
   return line + end;
 }
 
-std::string digitsAtEnd(const std::string& text) {
+std::string numberAtEnd(const std::string& text) {
   const std::size_t last = text.find_last_not_of("0123456789");
   return last == std::string::npos ? text : text.substr(last + 1);
 }
@@ -118,7 +118,7 @@ class WorksheetWriter {
 
   void complete(CsvRow& row) {
     const std::string id = studentIn(row), who = printable(cell(row, name_));
-    sheet_.rows.push_back({id, cell(row, name_), digitsAtEnd(cell(row, identifier_))});
+    sheet_.rows.push_back({id, cell(row, name_), numberAtEnd(cell(row, identifier_))});
     if (id.empty()) {
       sheet_.notes.push_back(
           fmt::format("{}:{}: '{}' is nobody here; the grade stays as it is", file_, row.line, who));
@@ -183,7 +183,7 @@ std::vector<WorksheetRow> moodleStudents(const Gradebook& book, const std::strin
     const auto entry = person.exercises.find(exercise);
     const std::string id = studentOf(person, everyone);
     if (entry == person.exercises.end() || entry->second.platform != "moodle" || id.empty()) continue;
-    if (const std::string number = digitsAtEnd(entry->second.identifier); !number.empty())
+    if (const std::string number = numberAtEnd(entry->second.identifier); !number.empty())
       rows.push_back({id, person.name, number});
   }
   return rows;

@@ -21,7 +21,7 @@ void tellEmpty(const Gradebook& book, PlatformGrades& grades) {
           fmt::format("{} {}: no grade yet ({})", row.student.id, row.exercise, row.remark));
 }
 
-std::string numberOf(const CourseStudent& student) {
+std::string sisOf(const CourseStudent& student) {
   return student.number.empty() ? student.id : student.number;
 }
 
@@ -40,7 +40,7 @@ PlatformGrades gradescopeGrades(const Gradebook& book) {
   headings.emplace_back("Max Points");
   PlatformGrades grades{.csv = csvLine(headings)};
   for (const StudentTotal& sum : book.totals) {
-    std::vector<std::string> cells = {shownName(sum.student), numberOf(sum.student), sum.student.email};
+    std::vector<std::string> cells = {shownName(sum.student), sisOf(sum.student), sum.student.email};
     for (const std::string& exercise : book.exercises)
       cells.push_back(finalText(book.row(sum.student.id, exercise)));
     cells.push_back(sum.total ? hundredthsText(*sum.total) : "");
@@ -61,7 +61,7 @@ PlatformGrades canvasGrades(const Gradebook& book) {
   }
   PlatformGrades grades{.csv = csvLine(headings) + csvLine(possible)};
   for (const StudentTotal& sum : book.totals) {
-    std::vector<std::string> cells = {shownName(sum.student), "", numberOf(sum.student), sum.student.id,
+    std::vector<std::string> cells = {shownName(sum.student), "", sisOf(sum.student), sum.student.id,
                                       sum.student.section};
     for (const std::string& exercise : book.exercises)
       cells.push_back(finalText(book.row(sum.student.id, exercise)));
@@ -91,7 +91,7 @@ PlatformGrades classroomGrades(const Gradebook& book, const std::string& exercis
     if (user.empty() && row.final)
       grades.notes.push_back(fmt::format("{}: no user name at GitHub is known", row.student.id));
     grades.csv +=
-        csvLine({exercise, "", "", user, numberOf(row.student), "", "",
+        csvLine({exercise, "", "", user, sisOf(row.student), "", "",
                  row.task ? instantText(row.submitted) : "", finalText(&row), hundredthsText(row.possible)});
   }
   tellEmpty(book, grades);

@@ -8,19 +8,19 @@
 namespace rex::grading {
 namespace {
 
-bool isSame(const std::string& a, const std::string& b) { return !a.empty() && lowerCase(a) == lowerCase(b); }
+bool isEqualText(const std::string& a, const std::string& b) { return !a.empty() && lowerCase(a) == lowerCase(b); }
 
 }  // namespace
 
 std::string studentOf(const ImportedStudent& person, const Course& course) {
   for (const CourseStudent& student : course.students)
-    if (isSame(person.student, student.id) || isSame(person.id, student.id) ||
-        isSame(person.id, student.number) || isSame(person.email, student.email) ||
-        isSame(person.githubUsername, student.id))
+    if (isEqualText(person.student, student.id) || isEqualText(person.id, student.id) ||
+        isEqualText(person.id, student.number) || isEqualText(person.email, student.email) ||
+        isEqualText(person.githubUsername, student.id))
       return student.id;
   std::vector<std::string> named;
   for (const CourseStudent& student : course.students)
-    if (isSame(person.name, student.name)) named.push_back(student.id);
+    if (isEqualText(person.name, student.name)) named.push_back(student.id);
   return named.size() == 1 ? named.front() : "";
 }
 
@@ -50,7 +50,7 @@ std::vector<std::string> SubmissionOwners::of(const std::string& folder, const s
   if (!ids.empty()) return withGroups(ids);
   if (const auto own = ids_.find(lowerCase(folder)); own != ids_.end()) return withGroups({own->second});
   for (const std::string& group : course_.groups())
-    if (isSame(group, folder)) return course_.members(group);
+    if (isEqualText(group, folder)) return course_.members(group);
   if (const auto person = people_.find(folder); person != people_.end()) return withGroups({person->second});
   return {};
 }
