@@ -49,10 +49,11 @@ int writeFeedbackFolders(const Gradebook& book, const fs::path& results, const f
                    .wanted = "a plain name"});
     const fs::path folder = out / row.student.id / row.exercise;
     fs::remove_all(folder);
+    fs::create_directories(folder / "checks");
     const std::vector<FeedbackFile> files = evidenceOf(row, results);
     for (const FeedbackFile& file : files)
       if (!file.name.ends_with(".png")) replaceTextFile(folder / file.name, file.bytes, "a replay");
-    fs::create_directories(folder);
+    if (fs::is_empty(folder / "checks")) fs::remove(folder / "checks");
     replaceTextFile(folder / "feedback.html", feedbackPage(*feedback, files), "the feedback");
     ++written;
   }

@@ -68,7 +68,8 @@ std::string whyNoAddress(const std::string& address) {
   if (!isPlain)
     return fmt::format("'{}', which has other characters than letters, digits and signs", oneLine(address));
   const std::size_t at = address.find('@');
-  if (at == 0 || at + 1 >= address.size() || address.find('@', at + 1) != std::string::npos)
+  if (at == std::string::npos || at == 0 || at + 1 >= address.size() ||
+      address.find('@', at + 1) != std::string::npos)
     return fmt::format("'{}', which is not NAME@HOST", address);
   return address.size() > 250 ? "more than 250 characters" : "";
 }

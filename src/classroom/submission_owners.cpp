@@ -8,7 +8,9 @@
 namespace rex::grading {
 namespace {
 
-bool isEqualText(const std::string& a, const std::string& b) { return !a.empty() && lowerCase(a) == lowerCase(b); }
+bool isEqualText(const std::string& a, const std::string& b) {
+  return !a.empty() && lowerCase(a) == lowerCase(b);
+}
 
 }  // namespace
 

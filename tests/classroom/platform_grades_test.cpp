@@ -88,7 +88,7 @@ TEST_F(PlatformGradesTest, KnowsStudentsByTheIdentifierOfTheImport) {
   source_.imported.students = {{.student = "adam"}};
   source_.imported.students[0].exercises[kEx] = {.platform = "moodle", .identifier = "Teilnehmer/in 501"};
   const Worksheet sheet = worksheet("ID,Bewertung\nTeilnehmer/in 501,\n");
-  EXPECT_EQ(sheet.csv, "ID,Bewertung\nTeilnehmer/in 501,7\n");
+  EXPECT_EQ(sheet.csv, "ID,Bewertung\n\"Teilnehmer/in 501\",7\n");
   EXPECT_THAT(sheet.notes, IsEmpty());
   const std::vector<WorksheetRow> rows = moodleStudents(book(), kEx, source_.imported);
   ASSERT_EQ(rows.size(), 1u);

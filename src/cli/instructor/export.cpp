@@ -21,6 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kFeedbackZip = "feedback.zip";
 constexpr const char* kExportCodes =
     "Exit codes: 0 written; 2 written, but somebody was left out, who is named; 3 a file is broken;\n"
     "64 wrong use.";
@@ -68,6 +69,7 @@ ExitCode told(const std::vector<std::string>& notes) {
 }
 
 ExitCode write(const grading::PlatformGrades& grades, const fs::path& file) {
+  makeOutFolder(file.parent_path());
   replaceTextFile(file, grades.csv, "the table of grades");
   say(fmt::format("Grades: {}", shown(file)));
   return told(grades.notes);
@@ -122,6 +124,7 @@ ExitCode exportMail(const Project& project, const ExportOptions& options) {
     throw UsageError({.what = "--from", .found = why, .wanted = "the address of the sender"});
   const Export all = read(project, options);
   const std::int64_t date = timeOf(options.results / "tasks.tsv");
+  makeOutFolder(options.out);
   std::vector<std::string> notes;
   int written = 0;
   for (const grading::StudentTotal& sum : all.book.totals) {
@@ -174,8 +177,8 @@ ExitCode exportMoodle(const Project& project, const ExportOptions& options) {
   if (entries.empty())
     notes.emplace_back("no feedback is written: nobody's number in Moodle is known");
   else
-    grading::writeZip(options.out / "feedback.zip", entries);
-  if (!entries.empty()) say(fmt::format("Feedback: {}", shown(options.out / "feedback.zip")));
+    grading::writeZip(options.out / kFeedbackZip, entries);
+  if (!entries.empty()) say(fmt::format("Feedback: {}", shown(options.out / kFeedbackZip)));
   return told(notes);
 }
 
