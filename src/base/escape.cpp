@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cstdint>
 
@@ -77,7 +78,9 @@ std::string xmlText(std::string_view text) { return withNumbers(printable(text),
 std::string htmlText(std::string_view text) { return withNumbers(printable(text), "&<>\"'`"); }
 
 std::string markdownText(std::string_view text) {
-  constexpr std::string_view kMarkup = "&<>|\\`*_~[]()#$@!{}^=";
+  // Parentheses and exclamation marks are nothing without brackets, an underscore nothing inside a word.
+  constexpr std::string_view kMarkup = "&<>|\\`*~[]#$@";
+  const auto isWord = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; };
   const std::string shown = printable(text);
   std::string safe;
   for (std::size_t k = 0; k < shown.size(); ++k) {
@@ -85,10 +88,12 @@ std::string markdownText(std::string_view text) {
     // Addresses would become links automatically.
     const bool isAddress =
         (c == ':' && shown.compare(k + 1, 1, "/") == 0) || (c == '.' && k > 0 && shown[k - 1] == 'w');
+    const bool isEmphasis =
+        c == '_' && (k == 0 || k + 1 == shown.size() || !isWord(shown[k - 1]) || !isWord(shown[k + 1]));
     if (c == '\n' || c == '\t')
       safe += ' ';
     else
-      safe += isAddress || isOneOf(kMarkup, c) ? numbered(c) : std::string(1, c);
+      safe += isAddress || isEmphasis || isOneOf(kMarkup, c) ? numbered(c) : std::string(1, c);
   }
   return safe;
 }

@@ -129,6 +129,15 @@ std::int64_t TomlTable::instant(std::string_view key) const {
   return *seconds;
 }
 
+std::string TomlTable::day(std::string_view key) const {
+  const std::string wanted = "a date without a time, such as 2026-11-20";
+  const auto value = node_->require(key, name_, wanted).value_exact<toml::date>();
+  if (!value) node_->complain(key, name_, wanted);
+  std::ostringstream text;
+  text << *value;
+  return text.str();
+}
+
 std::size_t TomlTable::indexOf(std::string_view key, const std::vector<std::string>& names) const {
   const std::string wanted = fmt::format("one of {}", fmt::join(names, ", "));
   const auto text = node_->require(key, name_, wanted).value_exact<std::string>();

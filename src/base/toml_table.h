@@ -32,6 +32,7 @@ class TomlTable {
   double number(std::string_view key, double above, double highest) const;
   std::vector<std::string> texts(std::string_view key) const;
   std::int64_t instant(std::string_view key) const;  ///< seconds since 1970 in UTC
+  std::string day(std::string_view key) const;       ///< a date without a time: "2026-11-20"
 
   template <class Value>
   Value choice(std::string_view key, const std::vector<std::pair<std::string, Value>>& choices) const {

@@ -1,7 +1,6 @@
 #include "classroom/grade_table.h"
 
 #include <algorithm>
-#include <cstdlib>
 
 #include <fmt/format.h>
 
@@ -9,16 +8,10 @@
 #include "classroom/csv.h"
 #include "classroom/grade_task.h"
 #include "grading/result_file.h"
+#include "reports/judgement.h"
 
 namespace rex::grading {
 namespace {
-
-std::string hundredthsText(std::int64_t value) {
-  if (value % 100 == 0) return fmt::format("{}", value / 100);
-  std::string text = fmt::format("{}.{:02}", value / 100, value % 100);
-  if (text.ends_with('0')) text.pop_back();
-  return text;
-}
 
 std::vector<std::string> rowOf(const Task& task, const std::filesystem::path& out, const LatePolicy& policy) {
   const GradeResult result = loadResult(resultFolder(out, task) / "results.json");

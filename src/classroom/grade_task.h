@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,15 @@ enum class TaskState { kMissing, kStale, kFailed, kRefused, kDone };
 /// Removes the reports in a folder of results, all formats.
 void removeReports(const std::filesystem::path& folder);
 
+/// Whether a result with fewer points for these inputs waits to be accepted, while the old one counts.
+[[nodiscard]] bool isHeldBack(const Task& task, const std::filesystem::path& out);
+/// Puts that result in the place of the old one, if there is one.
+void acceptRegrading(const Task& task, const std::filesystem::path& out);
+/// The points of a result for the same text, whatever graded it; empty: there is none.
+[[nodiscard]] std::optional<int> pointsBefore(const Task& task, const std::filesystem::path& out);
+/// The points of the result that waits, or else of the one that counts, if there is a valid one.
+[[nodiscard]] std::optional<int> pointsNow(const Task& task, const std::filesystem::path& out);
+
 /// Whether the pictures and replays of a finished task were kept and still exist.
 [[nodiscard]] bool hasEvidence(const Task& task, const std::filesystem::path& out);
 
@@ -38,12 +48,15 @@ struct TaskOptions {
   std::filesystem::path secret{};      ///< file with the secret of the course; empty: none
   bool evidence = false;               ///< keep pictures and replays of failed visible checks
   std::filesystem::path workers{};     ///< where compiled programs are kept; empty: they are not
+  bool accept = false;                 ///< take a result with fewer points for the same text, too
   bool anew = false;                   ///< recompile even what is kept there
 };
 
 /// Grades a task and writes OUT/STUDENT/EXERCISE/results.json, the hash of the inputs, build.log and, on
 /// request, the folder checks; each file is written completely or not at all. Reports of an earlier result
-/// are removed. Throws Error without writing a result if the file or the grader is not that of the task.
+/// are removed. If the same text had more points before, that result stays, and the new one waits in the
+/// folder `regraded` (isHeldBack()). Throws Error without writing a result if the file or the grader is not
+/// that of the task.
 [[nodiscard]] GradeResult gradeTask(const Task& task, const Toolchain& toolchain,
                                     const ExerciseInfo& exercise, const TaskOptions& options);
 

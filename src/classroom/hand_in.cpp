@@ -58,7 +58,7 @@ class HandInReader {
       else
         students[lowerCase(name)].push_back(entry);
     }
-    for (const auto& [name, entries] : students) readStudent(folder, entries);
+    for (const auto& [name, entries] : students) readStudent(folder, entries), student_.clear();
     std::sort(found_.files.begin(), found_.files.end(), [](const HandIn& a, const HandIn& b) {
       return std::pair(a.student, a.exercise) < std::pair(b.student, b.exercise);
     });
@@ -72,7 +72,11 @@ class HandInReader {
               .found = std::move(found),
               .wanted = std::move(wanted)});
   }
-  void complain(ErrorParts parts) { found_.complaints.emplace_back(Error(std::move(parts)).what()); }
+  void complain(ErrorParts parts) {
+    found_.complaints.emplace_back(Error(parts).what());
+    parts.where = {};
+    if (!student_.empty()) found_.notTaken.push_back({student_, exercise_, Error(std::move(parts)).what()});
+  }
 
   // Complains if there are several spellings: nobody knows which one is meant.
   bool isOneSpelling(const std::vector<std::string>& names, const fs::path& where, const std::string& of) {
@@ -86,6 +90,7 @@ class HandInReader {
   void readStudent(const OpenedFolder& folder, const std::vector<OpenedFolder::Entry>& entries) {
     std::vector<std::string> names;
     for (const OpenedFolder::Entry& entry : entries) names.push_back(entry.name);
+    student_ = isArchiveName(names.front()) ? withoutArchiveEnding(names.front()) : names.front();
     if (!isOneSpelling(names, folder.path(), "a student")) return;
     try {
       if (entries.front().type == fs::file_type::directory)
@@ -235,7 +240,9 @@ class HandInReader {
       file.submitted = read.modifiedAt;
     } catch (const Error& error) {
       file.whyNot = error.parts().found;
+      exercise_ = exercise;
       complain(error.parts());
+      exercise_.clear();
     }
     found_.files.push_back(std::move(file));
   }
@@ -243,6 +250,7 @@ class HandInReader {
   const std::vector<ExerciseInfo>& exercises_;
   std::string only_;
   HandIns found_{};
+  std::string student_{}, exercise_{};  // of complaints, if known
 };
 
 }  // namespace

@@ -20,10 +20,18 @@ struct HandIn {
   std::int64_t submitted = 0;         ///< when `from` or its archive was modified, seconds since 1970 in UTC
 };
 
+/// Something that a student handed in but that was not taken as it is.
+struct NotTaken {
+  std::string student{};   ///< the name of the folder or archive, without its ending
+  std::string exercise{};  ///< empty: it is not known which one was meant
+  std::string why{};       ///< one sentence without the path
+};
+
 /// The contents of a folder of submissions.
 struct HandIns {
   std::vector<HandIn> files{};            ///< by student, then by exercise
   std::vector<std::string> complaints{};  ///< what was not accepted as it is: file, finding, what was wanted
+  std::vector<NotTaken> notTaken{};       ///< those of the complaints that concern one student
   std::vector<std::string> notes{};       ///< other things that were found
 };
 

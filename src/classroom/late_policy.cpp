@@ -22,11 +22,10 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 /// Reads one file of deadlines.
 class PolicyReader {
  public:
-  PolicyReader(const std::filesystem::path& file, const std::vector<std::string>& exercises)
-      : exercises_(exercises), top_(TomlTable::read(file, "the file of deadlines", "a file of deadlines")) {}
+  PolicyReader(const TomlTable& file, const std::vector<std::string>& exercises)
+      : exercises_(exercises), top_(file) {}
 
   LatePolicy read() const {
-    top_.refuseKeysBut({"all", "exercise"});
     LateRule all;
     if (const auto table = top_.table("all", "[all]", "a table")) readRule(*table, all);
     LatePolicy policy;
@@ -47,7 +46,7 @@ class PolicyReader {
   static void readRule(const TomlTable& keys, LateRule& rule) {
     constexpr int kMostMinutes = 60 * 24 * 365;
     keys.refuseKeysBut({"opening", "deadline", "grace_minutes", "percent_per_day", "points_per_day",
-                        "cap_percent", "cap_points", "extensions"});
+                        "cap_percent", "cap_points", "extensions", "weight"});
     if (keys.has("opening")) rule.opening = keys.instant("opening");
     if (keys.has("deadline")) rule.deadline = keys.instant("deadline");
     if (keys.has("grace_minutes")) rule.graceSeconds = 60 * keys.integer("grace_minutes", 0, kMostMinutes);
@@ -81,25 +80,40 @@ class PolicyReader {
   }
 
   const std::vector<std::string>& exercises_;
-  TomlTable top_;
+  const TomlTable& top_;
 };
 
 }  // namespace
 
-Lateness latenessOf(const LateRule& rule, const std::string& student, std::int64_t submitted, int points) {
-  std::optional<std::int64_t> deadline = rule.deadline;
+std::optional<std::int64_t> deadlineOf(const LateRule& rule, const std::string& student) {
   // An extension for all exercises must not shorten the time for one that is due later.
-  if (const auto own = rule.extensions.find(student); deadline && own != rule.extensions.end())
-    deadline = std::max(*deadline, own->second);
+  if (const auto own = rule.extensions.find(student); rule.deadline && own != rule.extensions.end())
+    return std::max(*rule.deadline, own->second);
+  return rule.deadline;
+}
+
+Lateness latenessOf(const LateRule& rule, const std::string& student, std::int64_t submitted, int points) {
+  return latenessOfHundredths(rule, student, submitted, std::int64_t{100} * points);
+}
+
+Lateness latenessOfHundredths(const LateRule& rule, const std::string& student, std::int64_t submitted,
+                              std::int64_t points) {
+  const std::optional<std::int64_t> deadline = deadlineOf(rule, student);
   if (!deadline || submitted <= *deadline + rule.graceSeconds) return {};
   const std::int64_t late = submitted - *deadline, days = (late + kDay - 1) / kDay;
   const std::int64_t cost = std::min(days * rule.perDay, rule.cap.value_or(days * rule.perDay));
   // The cost is in hundredths of a percent or of a point, the penalty in hundredths of a point.
-  const std::int64_t penalty = rule.isPercent ? (points * cost + 50) / 100 : cost;
-  return {static_cast<int>(days), std::min(penalty, std::int64_t{100} * points)};
+  const std::int64_t penalty = rule.isPercent ? (points * cost + 5000) / 10000 : cost;
+  return {static_cast<int>(days), std::min(penalty, points)};
 }
 
 LatePolicy readLatePolicy(const std::filesystem::path& file, const std::vector<std::string>& exercises) {
+  const TomlTable top = TomlTable::read(file, "the file of deadlines", "a file of deadlines");
+  top.refuseKeysBut(kCourseKeys);
+  return latePolicyOf(top, exercises);
+}
+
+LatePolicy latePolicyOf(const TomlTable& file, const std::vector<std::string>& exercises) {
   return PolicyReader(file, exercises).read();
 }
 

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "base/toml_table.h"
+
 namespace rex::grading {
 
 /// When an exercise is given out and due, and the penalty for lateness. Times in seconds since 1970 in UTC.
@@ -31,13 +33,27 @@ struct Lateness {
 [[nodiscard]] Lateness latenessOf(const LateRule& rule, const std::string& student, std::int64_t submitted,
                                   int points);
 
+/// The same for hundredths of points.
+[[nodiscard]] Lateness latenessOfHundredths(const LateRule& rule, const std::string& student,
+                                            std::int64_t submitted, std::int64_t points);
+
+/// The deadline of a student, with an extension that is later; empty: none.
+[[nodiscard]] std::optional<std::int64_t> deadlineOf(const LateRule& rule, const std::string& student);
+
 /// Rules by full exercise name; a missing exercise has no deadline.
 using LatePolicy = std::map<std::string, LateRule>;
 
-/// Reads a file of deadlines (share/doc/grading-many.md). Throws Error with the position for malformed
-/// files and for exercises that do not exist.
+/// Reads a file of deadlines, or the deadlines of a course file (share/doc/grading-many.md). Throws Error
+/// with the position for malformed files and for exercises that do not exist.
 [[nodiscard]] LatePolicy readLatePolicy(const std::filesystem::path& file,
                                         const std::vector<std::string>& exercises);
+
+/// The same from the tables [all] and [exercise.NAME] of a file.
+[[nodiscard]] LatePolicy latePolicyOf(const TomlTable& file, const std::vector<std::string>& exercises);
+
+/// All keys at the top of a course file; those of a file of deadlines are the first two.
+inline const std::vector<std::string> kCourseKeys = {"all",     "exercise",    "title",  "students",
+                                                     "student", "adjustments", "results"};
 
 /// A sentence for each student with an extension who is not in `students`, as the name may be misspelt.
 [[nodiscard]] std::vector<std::string> unknownExtensions(const LatePolicy& policy,

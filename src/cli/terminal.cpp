@@ -61,7 +61,7 @@ std::string bar(int part, int whole) {
 std::string wrap(std::string_view text, std::size_t indent, std::size_t used) {
   std::string wrapped;
   std::size_t column = used;
-  bool first = true;
+  bool first = true, isFresh = false;  // the first word; the start of a line that the text begins
   while (!text.empty()) {
     const std::size_t end = std::min(text.find_first_of(" \n"), text.size());
     const std::string_view word = text.substr(0, end);
@@ -70,17 +70,18 @@ std::string wrap(std::string_view text, std::size_t indent, std::size_t used) {
       if (!first && column + 1 + columns(word) > kColumns) {
         wrapped += "\n" + std::string(indent, ' ');
         column = indent;
-      } else if (!first && column > indent) {
+      } else if (!first && !isFresh) {
         wrapped += ' ';
         ++column;
       }
       wrapped += word;
       column += columns(word);
-      first = false;
+      first = isFresh = false;
     }
     if (breaks) {
       wrapped += "\n" + std::string(indent, ' ');
       column = indent;
+      isFresh = true;
     }
     text.remove_prefix(std::min(end + 1, text.size()));
   }

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/escape.h"
-#include "render/base64_internal.h"
+#include "base/base64.h"
 #include "render/draw_film.h"
 #include "render/glb.h"
 #include "render/gzip_internal.h"
@@ -65,7 +65,7 @@ std::string figuresOf(const Report& report) {
     const std::string alt = escaped(internal::singleLine(item.figure.title));
     html += fmt::format(
         "<figure><img src=\"data:image/svg+xml;base64,{}\" alt=\"{}\" width=\"{}\" height=\"{}\">",
-        internal::base64(encodeSvg(item.figure)), alt, item.figure.width, item.figure.height);
+        base64(encodeSvg(item.figure)), alt, item.figure.width, item.figure.height);
     if (!item.caption.empty()) html += "<figcaption>" + escaped(item.caption) + "</figcaption>";
     html += "</figure>\n";
   }
@@ -102,19 +102,19 @@ std::string reportPage(const Report& report) {
   const internal::ReportTemplate parts = internal::reportTemplate();
   return filled(parts.html, {{"title", escaped(report.title)},
                              {"style", std::string(parts.style)},
-                             {"styleHash", internal::base64(bytesOfHex(parts.styleHash))},
+                             {"styleHash", base64(bytesOfHex(parts.styleHash))},
                              {"viewer", std::string(parts.viewer)},
-                             {"viewerHash", internal::base64(bytesOfHex(parts.viewerHash))},
-                             {"threeJs", internal::base64(internal::gzip(parts.threeJs))},
-                             {"threeJsHash", internal::base64(bytesOfHex(parts.threeJsHash))},
+                             {"viewerHash", base64(bytesOfHex(parts.viewerHash))},
+                             {"threeJs", base64(internal::gzip(parts.threeJs))},
+                             {"threeJsHash", base64(bytesOfHex(parts.threeJsHash))},
                              {"layout", report.figures.empty() ? "alone" : "withFigures"},
                              {"backgroundTop", partsOf(report.still.backgroundTop)},
                              {"backgroundBottom", partsOf(report.still.backgroundBottom)},
-                             {"still", internal::base64(stillOf(film, report))},
+                             {"still", base64(stillOf(film, report))},
                              {"start", fmt::format("{}", report.start)},
                              {"facts", factsOf(report)},
                              {"figures", figuresOf(report)},
-                             {"film", internal::base64(glb)}});
+                             {"film", base64(glb)}});
 }
 
 void writeReport(const Report& report, const std::filesystem::path& path) {

@@ -43,14 +43,17 @@ Json errorOf(const std::string& message) {
 
 }  // namespace
 
-std::string exercismReport(const GradeResult& result) {
+std::string exercismReport(const GradeResult& result, const Judgement* judgement) {
   if (result.outcome == Outcome::kGraderError) return errorOf(kGraderFailed).dump(2) + "\n";
-  if (result.outcome == Outcome::kCompileError) return errorOf(compileText(result)).dump(2) + "\n";
+  if (result.outcome == Outcome::kCompileError)
+    return errorOf(judgedText(judgement, compileText(result))).dump(2) + "\n";
   Json tests = Json::array();
   for (const CheckResult& check : result.checks)
     if (!isHidden(check)) tests.push_back(exercismTest(check, fileOf(result)));
   if (std::any_of(result.checks.begin(), result.checks.end(), isHidden))
     tests.push_back(testOfHidden(result));
+  if (judgement != nullptr)
+    tests.push_back({{"name", judgedText(judgement, "")}, {"status", "pass"}, {"message", Json()}});
   const Json json = {{"version", 3},
                      {"status", result.outcome == Outcome::kPass ? "pass" : "fail"},
                      {"message", Json()},

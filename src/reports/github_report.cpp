@@ -63,7 +63,7 @@ void addChecks(const GradeResult& result, std::vector<std::string>& errors) {
 
 }  // namespace
 
-std::string githubReport(const GradeResult& result) {
+std::string githubReport(const GradeResult& result, const Judgement* judgement) {
   const std::string exercise = shownText(result.exerciseId);
   if (result.outcome == Outcome::kGraderError) return command("error", exercise, {}, kGraderFailed);
   std::vector<std::string> errors, warnings;
@@ -74,9 +74,10 @@ std::string githubReport(const GradeResult& result) {
   errors.insert(errors.end(), warnings.begin(), warnings.end());
   const std::size_t shown = std::min(errors.size(), kMostAnnotations - 1), more = errors.size() - shown;
   errors.resize(shown);
-  errors.push_back(
-      command("notice", exercise, {},
-              pointsOf(result) + (more == 0 ? "" : fmt::format("; {} more in the summary", more))));
+  std::string points = pointsOf(result);
+  if (judgement != nullptr) points += fmt::format("; {}", fmt::join(sentencesOf(*judgement), " "));
+  errors.push_back(command("notice", exercise, {},
+                           points + (more == 0 ? "" : fmt::format("; {} more in the summary", more))));
   return fmt::format("{}", fmt::join(errors, ""));
 }
 

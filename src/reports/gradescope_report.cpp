@@ -54,11 +54,14 @@ std::string outputOf(const GradeResult& result) {
 
 }  // namespace
 
-std::string gradescopeReport(const GradeResult& result) {
+std::string gradescopeReport(const GradeResult& result, const Judgement* judgement) {
   Json json;
-  if (result.outcome != Outcome::kGraderError) json["score"] = result.score;
+  if (result.outcome != Outcome::kGraderError) {
+    json["score"] = result.score;
+    if (judgement != nullptr) json["score"] = static_cast<double>(judgement->final) / 100;
+  }
   json["execution_time"] = visibleSeconds(result);
-  json["output"] = outputOf(result);
+  json["output"] = judgedText(judgement, outputOf(result));
   for (const char* format : {"output_format", "test_output_format", "test_name_format"})
     json[format] = "text";
   json["stdout_visibility"] = "hidden";

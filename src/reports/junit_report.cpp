@@ -68,7 +68,7 @@ std::string textOf(const TestCase& test, const GradeResult& result) {
   return test.body.empty() ? start + "/>\n" : fmt::format("{}>\n{}    </testcase>\n", start, test.body);
 }
 
-std::string propertiesOf(const GradeResult& result) {
+std::string propertiesOf(const GradeResult& result, const Judgement* judgement) {
   std::string text = "    <properties>\n";
   const auto add = [&](const char* name, const std::string& value) {
     text += fmt::format("      <property{}{}/>\n", attribute("name", name), attribute("value", value));
@@ -82,6 +82,11 @@ std::string propertiesOf(const GradeResult& result) {
   add("tool_version", shownText(result.toolVersion));
   add("compiler", shownText(result.compiler));
   add("sandbox_level", fmt::format("{}", result.sandboxLevel));
+  if (judgement != nullptr) {
+    add("student", shownText(judgement->student));
+    add("final", hundredthsText(judgement->final));
+    for (const std::string& sentence : sentencesOf(*judgement)) add("judgement", shownText(sentence));
+  }
   return text + "    </properties>\n";
 }
 
@@ -98,7 +103,7 @@ std::string wholeOf(const GradeResult& result, Counts& counts) {
 
 }  // namespace
 
-std::string junitReport(const GradeResult& result) {
+std::string junitReport(const GradeResult& result, const Judgement* judgement) {
   Counts counts;
   std::string cases = wholeOf(result, counts);
   int hidden = 0;
@@ -112,7 +117,7 @@ std::string junitReport(const GradeResult& result) {
     return fmt::format("    <{}>{}</{}>\n", name, xmlText(shownText(kept.text, kLongestText)), name);
   };
   return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites" + totals + ">\n  <testsuite" + totals +
-         ">\n" + propertiesOf(result) + cases + stream("system-out", result.output) +
+         ">\n" + propertiesOf(result, judgement) + cases + stream("system-out", result.output) +
          stream("system-err", result.error) + "  </testsuite>\n</testsuites>\n";
 }
 

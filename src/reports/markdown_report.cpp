@@ -23,9 +23,8 @@ std::string block(const char* title, const std::string& text) {
 }
 
 std::string row(const CheckResult& check, const GradeResult& result, int& hidden) {
-  const std::string name = isHidden(check)
-                               ? fmt::format("Hidden check {}", ++hidden)
-                               : fmt::format("{} &#91;{}&#93;", cell(check.title), cell(check.id));
+  const std::string name = isHidden(check) ? fmt::format("Hidden check {}", ++hidden)
+                                           : fmt::format("{} ({})", cell(check.title), cell(check.id));
   const std::string found =
       isPassed(check) || isHidden(check) || !check.status ? "" : cell(messageOf(check, fileOf(result)));
   return fmt::format("| {} | {} | {}/{} | {} |\n", statusOf(check), name, check.points, check.maxPoints,
@@ -39,13 +38,21 @@ std::string table(const GradeResult& result) {
   return text;
 }
 
+// Whose result it is, what people changed, what lateness costs, and what remains.
+std::string judgementText(const Judgement* judgement) {
+  if (judgement == nullptr) return "";
+  std::string text = fmt::format("\n{}\n\n", cell(judgement->student));
+  for (const std::string& sentence : sentencesOf(*judgement)) text += fmt::format("- {}\n", cell(sentence));
+  return text;
+}
+
 }  // namespace
 
-std::string markdownReport(const GradeResult& result) {
+std::string markdownReport(const GradeResult& result, const Judgement* judgement) {
   const std::string exercise = cell(result.exerciseId);
   if (result.outcome == Outcome::kGraderError)
     return fmt::format("## {}: not graded\n\n{}\n", exercise, kGraderFailed);
-  std::string text = fmt::format("## {}: {}\n", exercise, pointsOf(result));
+  std::string text = fmt::format("## {}: {}\n", exercise, pointsOf(result)) + judgementText(judgement);
   if (result.outcome == Outcome::kCompileError) {
     text += block("Cannot be graded:", compileText(result));
   } else {

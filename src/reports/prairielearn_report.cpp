@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "reports/report.h"
@@ -27,15 +29,18 @@ std::string formatErrorOf(const GradeResult& result) {
 
 }  // namespace
 
-std::string prairielearnReport(const GradeResult& result) {
+std::string prairielearnReport(const GradeResult& result, const Judgement* judgement) {
   const std::string formatError = formatErrorOf(result);
   Json json = {{"gradable", formatError.empty()}};
   if (!formatError.empty()) {
-    json["format_errors"] = {formatError};
+    json["format_errors"] = {judgedText(judgement, formatError)};
     return json.dump(2) + "\n";
   }
   json["score"] = result.maxScore > 0 ? static_cast<double>(result.score) / result.maxScore : 0.0;
-  json["message"] = pointsOf(result);
+  if (judgement != nullptr && judgement->possible > 0)
+    json["score"] = std::clamp(
+        static_cast<double>(judgement->final) / static_cast<double>(judgement->possible), 0.0, 1.0);
+  json["message"] = judgedText(judgement, pointsOf(result));
   json["output"] = printedText(result);
   json["tests"] = Json::array();
   for (const CheckResult& check : result.checks)

@@ -9,6 +9,7 @@ TEST(Wrap, BreaksAtBlanksWithinEightyColumns) {
   EXPECT_EQ(wrap(word + " " + word + " " + word, 4, 0), word + " " + word + "\n    " + word);
   EXPECT_EQ(wrap(word + " " + word, 4, 60), word.substr(0, 0) + word + "\n    " + word);
   EXPECT_EQ(wrap("a\nb  c", 2, 0), "a\n  b c");
+  EXPECT_EQ(wrap("1 day\na b", 2, 0), "1 day\n  a b") << "a first word that is shorter than the indent";
   EXPECT_EQ(wrap(std::string(200, 'x'), 2, 0), std::string(200, 'x'));
   EXPECT_EQ(wrap("", 2, 0), "");
 }

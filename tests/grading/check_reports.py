@@ -233,7 +233,7 @@ class Comparison:
         for check in [] if self.is_broken else self.checks:
             is_hidden = check["group"] == "hidden"
             hidden += is_hidden
-            name = f"Hidden check {hidden}" if is_hidden else f"{line(check['title'])} [{line(check['id'])}]"
+            name = f"Hidden check {hidden}" if is_hidden else f"{line(check['title'])} ({line(check['id'])})"
             silent = is_hidden or check["status"] in ("pass", "not_run")
             wanted += [squeezed(cell) for cell in (
                 check["status"].replace("_", " "), name, f"{check['points']}/{check['max_points']}",

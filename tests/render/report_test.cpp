@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "base/process.h"
-#include "render/base64_internal.h"
+#include "base/base64.h"
 #include "render/glb.h"
 #include "render/png.h"
 #include "support/expect_error.h"
@@ -164,11 +164,11 @@ int count(const std::string& text, const std::string& part) {
 }
 
 TEST(Base64, FollowsTheStandard) {
-  EXPECT_EQ(internal::base64(""), "");
-  EXPECT_EQ(internal::base64("f"), "Zg==");
-  EXPECT_EQ(internal::base64("fo"), "Zm8=");
-  EXPECT_EQ(internal::base64("foo"), "Zm9v");
-  EXPECT_EQ(internal::base64("\xff\xfe\xfd"), "//79");
+  EXPECT_EQ(base64(""), "");
+  EXPECT_EQ(base64("f"), "Zg==");
+  EXPECT_EQ(base64("fo"), "Zm8=");
+  EXPECT_EQ(base64("foo"), "Zm9v");
+  EXPECT_EQ(base64("\xff\xfe\xfd"), "//79");
 }
 
 TEST(Report, HoldsTheFilmAndItsPicture) {
@@ -280,7 +280,7 @@ std::string sha256(const std::string& text) {
   std::string digits = runProcess({"sha256sum"}, {.input = text}).output.substr(0, 64), bytes;
   for (std::size_t i = 0; i + 1 < digits.size(); i += 2)
     bytes += static_cast<char>(std::stoi(digits.substr(i, 2), nullptr, 16));
-  return "'sha256-" + internal::base64(bytes) + "'";
+  return "'sha256-" + base64(bytes) + "'";
 }
 
 TEST(Report, AllowsItsOwnScriptsOnly) {

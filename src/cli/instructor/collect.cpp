@@ -11,6 +11,7 @@
 #include "base/text_file.h"
 #include "classroom/grade_table.h"
 #include "classroom/grade_task.h"
+#include "cli/instructor/class_grades.h"
 #include "cli/instructor/grading_options_internal.h"
 #include "cli/instructor/instructor_room_internal.h"
 #include "cli/report_format.h"
@@ -23,7 +24,8 @@ namespace {
 struct CollectOptions {
   std::filesystem::path out{};
   std::filesystem::path manifest{};
-  std::filesystem::path deadlines{};
+  ClassFiles files{};
+  std::vector<std::string> explain{};  ///< a student and an exercise
   bool csv = false;
   std::string reports{};  ///< formats of `rex report`, separated by commas; empty: none
 };
@@ -58,11 +60,18 @@ ExitCode collectResults(const Project& project, const CollectOptions& options) {
   const std::filesystem::path manifest =
       options.manifest.empty() ? options.out / "tasks.tsv" : options.manifest;
   const std::vector<Task> tasks = grading::readManifest(manifest);
-  writeReports(tasks, options.out, reportsOf(options.reports));
-  const bool complete =
-      writeGrades(tasks, options.out, readDeadlines(project, options.deadlines), options.csv);
+  const grading::Gradebook book = gradebookOf(project, options.files, tasks, options.out);
+  if (!options.explain.empty()) {
+    explainGrade(book, project, options.explain[0], options.explain[1]);
+    return ExitCode::kFull;
+  }
+  writeReports(tasks, options.out, reportsOf(options.reports), book);
+  const bool complete = writeGrades(tasks, options.out, readDeadlines(project, options.files.deadlines),
+                                    options.files.hasBook() ? &book : nullptr, options.csv);
+  const int held = tellHeldBack(tasks, options.out);
   note(fmt::format("{} tasks. Table: {}", tasks.size(), shown(options.out / "grades.csv")));
-  return complete ? ExitCode::kFull : ExitCode::kGraderFault;
+  if (!complete) return ExitCode::kGraderFault;
+  return held > 0 ? ExitCode::kBelow : ExitCode::kFull;
 }
 
 }  // namespace
@@ -78,13 +87,16 @@ std::vector<grading::ReportFormat> reportsOf(const std::string& names) {
 }
 
 void writeReports(const std::vector<Task>& tasks, const std::filesystem::path& out,
-                  const std::vector<grading::ReportFormat>& reports) {
+                  const std::vector<grading::ReportFormat>& reports, const grading::Gradebook& book) {
   const auto isRequested = [&](const grading::ReportFormat& format) {
     return std::any_of(reports.begin(), reports.end(),
                        [&](const auto& one) { return one.name == format.name; });
   };
   int written = 0, kept = 0;
-  for (const Task& task : tasks) {
+  for (std::size_t k = 0; k < tasks.size(); ++k) {
+    const Task& task = tasks[k];
+    const grading::GradeRow* row = rowOfTask(book, k);
+    const auto judgement = row == nullptr ? std::nullopt : judgementOf(*row);
     const std::filesystem::path folder = grading::resultFolder(out, task);
     const grading::TaskState state = grading::stateOf(task, out);
     if (state != grading::TaskState::kDone && state != grading::TaskState::kFailed) {
@@ -94,7 +106,8 @@ void writeReports(const std::vector<Task>& tasks, const std::filesystem::path& o
     for (const grading::ReportFormat& format : grading::reportFormats()) {
       const std::filesystem::path file = folder / format.file;
       if (!isRequested(format) && !std::filesystem::exists(file)) continue;
-      const std::string text = format.write(grading::loadResult(folder / "results.json"));
+      const std::string text =
+          format.write(grading::loadResult(folder / "results.json"), judgement ? &*judgement : nullptr);
       const bool isThere = holds(file, text);
       if (!isThere) replaceTextFile(file, text, "the report");
       if (!isThere) ++written;
@@ -112,14 +125,18 @@ grading::LatePolicy readDeadlines(const Project& project, const std::filesystem:
 }
 
 bool writeGrades(const std::vector<Task>& tasks, const std::filesystem::path& out,
-                 const grading::LatePolicy& policy, bool print) {
+                 const grading::LatePolicy& policy, const grading::Gradebook* book, bool print) {
   std::vector<std::string> students;
   for (const Task& task : tasks) students.push_back(task.student);
+  if (book != nullptr) writeBook(*book, out, print);
   for (const std::string& sentence : grading::unknownExtensions(policy, students))
     note(wrap(harmless(sentence), 2, 0));
   const grading::Collected found = grading::collect(tasks, out, policy);
-  replaceTextFile(out / "grades.csv", found.csv, "the table of grades");
-  if (print) std::fputs(found.csv.c_str(), stdout);
+  if (book == nullptr) {
+    replaceTextFile(out / "grades.csv", found.csv, "the table of grades");
+    for (const char* other : {kTotals, kStrangers}) std::filesystem::remove(out / other);
+    if (print) std::fputs(found.csv.c_str(), stdout);
+  }
   tell("no result", found.missing, tasks);
   tell("a result for other inputs", found.stale, tasks);
   tell("a result that was changed after the grading", found.refused, tasks);
@@ -134,14 +151,28 @@ bool writeGrades(const std::vector<Task>& tasks, const std::filesystem::path& ou
   return false;
 }
 
+int tellHeldBack(const std::vector<Task>& tasks, const std::filesystem::path& out) {
+  std::vector<int> held;
+  for (std::size_t k = 0; k < tasks.size(); ++k)
+    if (grading::isHeldBack(tasks[k], out)) held.push_back(static_cast<int>(k) + 1);
+  tell("fewer points than before wait for `rex grade --accept`", held, tasks);
+  return static_cast<int>(held.size());
+}
+
 void addCollect(CLI::App* command, Action& action) {
   const auto options = std::make_shared<CollectOptions>();
-  command->footer("Example: scripts/rex collect results --manifest tasks.tsv\n\n" +
-                  std::string(kGradingCodes));
+  command->footer(
+      "Examples:\n  scripts/rex collect results --manifest tasks.tsv\n"
+      "  scripts/rex collect results --course course.toml --reports\n"
+      "  scripts/rex collect results --course course.toml --explain zoe 01\n\n" +
+      std::string(kGradingCodes));
   command->add_option("DIR", options->out, "the folder of results")->type_name("")->required();
   command->add_option("--manifest", options->manifest, "the list of tasks (default: DIR/tasks.tsv)")
       ->type_name("FILE.tsv");
-  addDeadlines(command, options->deadlines);
+  addClassFiles(command, options->files);
+  command->add_option("--explain", options->explain, "only print how this grade came about")
+      ->expected(2)
+      ->type_name("STUDENT EXERCISE");
   command->add_flag("--csv", options->csv, "print the table of grades");
   addReports(command, options->reports);
   command->callback(

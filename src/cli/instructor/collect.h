@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "classroom/gradebook.h"
 #include "classroom/late_policy.h"
 #include "classroom/task_list.h"
 #include "cli/project.h"
@@ -19,11 +20,15 @@ namespace rex::cli {
 /// Writes missing reports next to the result of each task that has one, renews outdated ones in any format,
 /// and removes those that no longer have a result.
 void writeReports(const std::vector<grading::Task>& tasks, const std::filesystem::path& out,
-                  const std::vector<grading::ReportFormat>& reports);
+                  const std::vector<grading::ReportFormat>& reports, const grading::Gradebook& book);
 
-/// Writes OUT/grades.csv, and prints it on request. Reports tasks without a valid result, and returns false
+/// Writes OUT/grades.csv, with the other tables of a grade book if there is one, and prints it on request.
+/// Reports tasks without a valid result, and returns false
 /// if there are any.
 [[nodiscard]] bool writeGrades(const std::vector<grading::Task>& tasks, const std::filesystem::path& out,
-                               const grading::LatePolicy& policy, bool print);
+                               const grading::LatePolicy& policy, const grading::Gradebook* book, bool print);
+
+/// Says which results with fewer points wait to be accepted; their number.
+int tellHeldBack(const std::vector<grading::Task>& tasks, const std::filesystem::path& out);
 
 }  // namespace rex::cli

@@ -19,6 +19,7 @@
 #include "base/process_pool.h"
 #include "base/sha256.h"
 #include "base/text_file.h"
+#include "classroom/csv.h"
 #include "classroom/download_layout.h"
 #include "classroom/grade_task.h"
 #include "classroom/grader_fingerprint.h"
@@ -26,6 +27,7 @@
 #include "classroom/import_table.h"
 #include "classroom/submission_times.h"
 #include "cli/build_on_demand.h"
+#include "cli/instructor/class_grades.h"
 #include "cli/instructor/collect.h"
 #include "cli/instructor/grading_options_internal.h"
 #include "cli/instructor/instructor_room_internal.h"
@@ -51,7 +53,8 @@ struct GradeManyOptions {
   std::filesystem::path secret{};     ///< file; empty: the seed decides hidden checks, too
   std::filesystem::path workers{};    ///< folder that keeps compiled programs; empty: none
   std::string only{};                 ///< exercise; empty: all
-  std::filesystem::path deadlines{};  ///< TOML file; empty: none
+  ClassFiles files{};                 ///< roster, dates and adjustments
+  bool acceptFewer = false;           ///< take results of the same text with fewer points, too
   std::filesystem::path submitted{};  ///< CSV file; empty: use the times of the files
   std::filesystem::path manifest{};   ///< only write the list of tasks here; empty: grade
   bool csv = false;                   ///< print grades.csv
@@ -262,6 +265,7 @@ int gradeOpen(const std::vector<Task>& tasks, const GradeManyOptions& options,
                            .secret = options.secret,
                            .evidence = options.evidence,
                            .workers = options.workers,
+                           .accept = options.acceptFewer,
                            .anew = options.regrade});
       },
       [&](int k, int) {
@@ -273,7 +277,7 @@ int gradeOpen(const std::vector<Task>& tasks, const GradeManyOptions& options,
 }
 
 void tellTimes(const std::vector<Task>& tasks, const GradeManyOptions& options) {
-  if (options.deadlines.empty()) return;
+  if (options.files.deadlines.empty() && options.files.course.empty()) return;
   const auto from = [&](const char* source) {
     return std::count_if(tasks.begin(), tasks.end(),
                          [&](const Task& task) { return task.timeFrom == source; });
@@ -285,12 +289,73 @@ void tellTimes(const std::vector<Task>& tasks, const GradeManyOptions& options) 
   note(text + fmt::format(", {} from modification times of files", from("file")));
 }
 
+// `rex collect` has only the folder of results.
+void keepWhatCollectNeeds(const grading::HandIns& handedIn, const GradeManyOptions& options) {
+  replaceTextFile(options.out / kNotTakenFile, grading::notTakenText(handedIn.notTaken),
+                  "the list of what was not taken");
+  const fs::path imported = options.folder / grading::kImportTable;
+  if (fs::exists(imported))
+    replaceTextFile(options.out / grading::kImportTable, readTextFile(imported), "the table of imports");
+  else
+    fs::remove(options.out / grading::kImportTable);
+}
+
+/// The points of each file before and after it is graded again, by another grader or other random cases.
+class Regrading {
+ public:
+  Regrading(const std::vector<Task>& tasks, const GradeManyOptions& options)
+      : tasks_(tasks), out_(options.out) {
+    for (const Task& task : tasks) {
+      before_.push_back(isOpen(task, options) || grading::isHeldBack(task, out_)
+                            ? grading::pointsBefore(task, out_)
+                            : std::nullopt);
+      if (options.acceptFewer) grading::acceptRegrading(task, out_);
+    }
+  }
+
+  void tell() const {
+    constexpr int kMostTold = 20;
+    std::string table = grading::csvLine({"student", "exercise", "before", "after", "counts"});
+    int changed = 0, same = 0;
+    for (std::size_t k = 0; k < tasks_.size(); ++k) {
+      const Task& task = tasks_[k];
+      const std::optional<int> after = grading::pointsNow(task, out_);
+      if (!before_[k] || !after) continue;
+      const bool isHeld = grading::isHeldBack(task, out_);
+      table += grading::csvLine({task.student, task.exercise, fmt::format("{}", *before_[k]),
+                                 fmt::format("{}", *after), isHeld ? "before" : "after"});
+      if (*before_[k] == *after) {
+        ++same;
+      } else if (++changed <= kMostTold) {
+        note(wrap(
+            harmless(fmt::format("{} {}: {} points, {} before{}", task.student, task.exercise, *after,
+                                 *before_[k], isHeld ? "; the points from before count until --accept" : "")),
+            2, 0));
+      }
+    }
+    if (changed + same == 0) return;
+    replaceTextFile(out_ / kRegradedFile, table, "the table of regradings");
+    note(fmt::format("Graded again: {} with other points, {} with the same. Table: {}", changed, same,
+                     shown(out_ / kRegradedFile)));
+  }
+
+ private:
+  const std::vector<Task>& tasks_;
+  fs::path out_;
+  std::vector<std::optional<int>> before_{};
+};
+
 // Grades the submissions of many students. kFull whatever the grades are; kNotGradable if a submission could
 // not be taken, kGraderFault if something must be graded again.
-ExitCode gradeMany(const Project& project, const GradeManyOptions& options) {
+ExitCode gradeMany(const Project& project, GradeManyOptions options) {
+  const grading::Course course = courseOf(project, options.files);
+  if (options.out.empty()) options.out = course.results;
+  if (options.out.empty())
+    throw UsageError(
+        {.what = "--out", .found = "no folder", .wanted = "one for the results, here or in the course file"});
   requireApart(options);
   const std::vector<grading::ReportFormat> reports = reportsOf(options.reports);
-  const grading::LatePolicy policy = readDeadlines(project, options.deadlines);
+  const grading::LatePolicy policy = readDeadlines(project, options.files.deadlines);
   const auto sandbox = chooseForStrangers(project, options.level, options.accept);
   if (!sandbox) return ExitCode::kWeakSandbox;
   const std::vector<ExerciseInfo> exercises = project.exercises();
@@ -307,22 +372,30 @@ ExitCode gradeMany(const Project& project, const GradeManyOptions& options) {
   const ExitCode taken = !blocked.empty()              ? ExitCode::kGraderFault
                          : handedIn.complaints.empty() ? ExitCode::kFull
                                                        : ExitCode::kNotGradable;
+  keepWhatCollectNeeds(handedIn, options);
   if (!options.manifest.empty()) {
     say(fmt::format("{} tasks: {}", tasks.size(), shown(manifest)));
     return taken;
   }
+  Regrading regrading(tasks, options);
   const int graded = gradeOpen(tasks, options, *sandbox, graders);
+  regrading.tell();
   tellTimes(tasks, options);
-  writeReports(tasks, options.out, reports);
+  const std::string only = options.only.empty() ? "" : project.exercise(options.only).name;
+  const grading::Gradebook book = gradebookOf(project, options.files, tasks, options.out, only);
+  writeReports(tasks, options.out, reports, book);
+  const bool complete =
+      writeGrades(tasks, options.out, policy, options.files.hasBook() ? &book : nullptr, options.csv);
   if (!options.similar.empty())
     writeSimilar(project, tasks, options.out, options.similar, options.similarPercent);
-  const bool complete = writeGrades(tasks, options.out, policy, options.csv);
+  const int held = tellHeldBack(tasks, options.out);
   note(
       fmt::format("{} submission{} at sandbox level {}: {} graded, {} kept, {} could not be taken. Table: {}",
                   tasks.size(), tasks.size() == 1 ? "" : "s", numberOf(sandbox->level), graded,
                   static_cast<int>(tasks.size()) - graded, handedIn.complaints.size(),
                   shown(options.out / "grades.csv")));
-  return complete ? taken : ExitCode::kGraderFault;
+  if (!complete || taken == ExitCode::kGraderFault) return ExitCode::kGraderFault;
+  return held > 0 ? ExitCode::kBelow : taken;
 }
 
 }  // namespace
@@ -332,12 +405,13 @@ void addGrade(CLI::App* command, Action& action) {
   command->footer(
       "Examples:\n  scripts/rex grade handed-in --out results -j8\n"
       "  scripts/rex grade handed-in --out results --deadlines deadlines.toml --csv\n"
+      "  scripts/rex grade handed-in --course course.toml --out results\n"
       "  scripts/rex grade handed-in --out results --reports=markdown,junit --evidence\n"
       "  scripts/rex grade handed-in --out results --similar similar\n\n"
       "DIR holds STUDENT/EXERCISE/main.cpp. A second run grades only what has changed.\n" +
       std::string(kGradingCodes));
   command->add_option("DIR", options->folder, "folder of submissions")->type_name("")->required();
-  addResults(command, options->out);
+  addResults(command, options->out)->required(false);
   command->add_option("-j,--jobs", options->jobs, "parallel gradings (default: one per processor)")
       ->check(CLI::Range(1, 1024).description(""))
       ->type_name("N");
@@ -351,7 +425,7 @@ void addGrade(CLI::App* command, Action& action) {
   addSecret(command, options->secret);
   addWorkers(command, options->workers);
   command->add_option("--only", options->only, "only this exercise")->type_name("EXERCISE");
-  addDeadlines(command, options->deadlines);
+  addClassFiles(command, options->files);
   command
       ->add_option("--submitted", options->submitted,
                    "times of submission: columns student, submitted, exercise (default: times of the files)")
@@ -360,6 +434,7 @@ void addGrade(CLI::App* command, Action& action) {
       ->type_name("FILE.tsv");
   command->add_flag("--regrade", options->regrade, "also grade what has a valid result");
   command->add_flag("--csv", options->csv, "print the table of grades");
+  addAccept(command, options->acceptFewer);
   addReports(command, options->reports);
   addEvidence(command, options->evidence);
   CLI::Option* similar = command

@@ -2,8 +2,9 @@
 
 namespace rex::cli {
 
-void addDeadlines(CLI::App* command, std::filesystem::path& file) {
-  command->add_option("--deadlines", file, "deadlines, grace and late penalties (share/doc/grading-many.md)")
+CLI::Option* addDeadlines(CLI::App* command, std::filesystem::path& file) {
+  return command
+      ->add_option("--deadlines", file, "deadlines, grace and late penalties (share/doc/grading-many.md)")
       ->type_name("FILE.toml");
 }
 
@@ -20,6 +21,11 @@ void addReports(CLI::App* command, std::string& reports) {
       ->type_name("");
 }
 
+void addAccept(CLI::App* command, bool& accept) {
+  command->add_flag("--accept", accept,
+                    "also take results in which the same file has fewer points than before");
+}
+
 void addEvidence(CLI::App* command, bool& evidence) {
   command->add_flag("--evidence", evidence, "keep pictures and replays of failed visible checks");
 }
@@ -31,8 +37,8 @@ void addWorkers(CLI::App* command, std::filesystem::path& folder) {
       ->type_name("DIR");
 }
 
-void addResults(CLI::App* command, std::filesystem::path& out) {
-  command->add_option("-o,--out", out, "folder for STUDENT/EXERCISE/results.json and grades.csv")
+CLI::Option* addResults(CLI::App* command, std::filesystem::path& out) {
+  return command->add_option("-o,--out", out, "folder for STUDENT/EXERCISE/results.json and grades.csv")
       ->type_name("DIR")
       ->required();
 }

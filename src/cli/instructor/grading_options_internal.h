@@ -8,11 +8,12 @@
 namespace rex::cli {
 
 inline constexpr const char* kGradingCodes =
-    "Exit codes: 0 graded, whatever the grades; 2 something could not be taken; 3 a grading must be\n"
-    "repeated; 4 the sandbox is weaker than required; 64 wrong use.";
+    "Exit codes: 0 graded, whatever the grades; 1 fewer points wait for --accept;\n"
+    "2 something could not be taken; 3 a grading must be repeated; 4 the sandbox is\n"
+    "weaker than required; 64 wrong use.";
 
 /// Options that several commands of the instructor's desk have in common: share/doc/grading-many.md.
-void addDeadlines(CLI::App* command, std::filesystem::path& file);
+CLI::Option* addDeadlines(CLI::App* command, std::filesystem::path& file);
 void addSecret(CLI::App* command, std::filesystem::path& file);
 /// Formats of `rex report`, with commas between.
 void addReports(CLI::App* command, std::string& reports);
@@ -20,6 +21,8 @@ void addEvidence(CLI::App* command, bool& evidence);
 /// `--workers`: the folder that keeps compiled programs.
 void addWorkers(CLI::App* command, std::filesystem::path& folder);
 /// `--out`: the folder of results.
-void addResults(CLI::App* command, std::filesystem::path& out);
+CLI::Option* addResults(CLI::App* command, std::filesystem::path& out);
+/// `--accept`: take results of the same text with fewer points.
+void addAccept(CLI::App* command, bool& accept);
 
 }  // namespace rex::cli

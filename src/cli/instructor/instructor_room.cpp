@@ -9,6 +9,7 @@ Room instructorRoom() {
           .commands = {{"bench", addBench},
                        {"collect", addCollect},
                        {"dev", addDev},
+                       {"export", addExport},
                        {"grade", addGrade},
                        {"grade-one", addGradeOne},
                        {"import", addImport}}};

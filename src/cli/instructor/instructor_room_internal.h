@@ -8,6 +8,7 @@ namespace rex::cli {
 void addBench(CLI::App* command, Action& action);
 void addCollect(CLI::App* command, Action& action);
 void addDev(CLI::App* command, Action& action);
+void addExport(CLI::App* command, Action& action);
 void addGrade(CLI::App* command, Action& action);
 void addGradeOne(CLI::App* command, Action& action);
 void addImport(CLI::App* command, Action& action);

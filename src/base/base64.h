@@ -3,9 +3,9 @@
 #include <string>
 #include <string_view>
 
-namespace rex::internal {
+namespace rex {
 
 /// Bytes as text in base 64, with padding (RFC 4648).
 [[nodiscard]] std::string base64(std::string_view bytes);
 
-}  // namespace rex::internal
+}  // namespace rex

@@ -1,8 +1,8 @@
 #include <cstdint>
 
-#include "render/base64_internal.h"
+#include "base/base64.h"
 
-namespace rex::internal {
+namespace rex {
 
 std::string base64(std::string_view bytes) {
   constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -18,4 +18,4 @@ std::string base64(std::string_view bytes) {
   return text;
 }
 
-}  // namespace rex::internal
+}  // namespace rex

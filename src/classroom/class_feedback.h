@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "classroom/gradebook.h"
+#include "reports/feedback_page.h"
+
+namespace rex::grading {
+
+/// What the student of a row gets back; empty if nothing was graded. Reads main.cpp from the folder of
+/// results. Throws Error if it cannot be read.
+[[nodiscard]] std::optional<Feedback> feedbackOf(const GradeRow& row, const std::filesystem::path& out);
+
+/// Pictures and replays of the visible checks of a row, from the folder that was graded for it. A name in
+/// the result that leaves that folder is ignored.
+[[nodiscard]] std::vector<FeedbackFile> evidenceOf(const GradeRow& row, const std::filesystem::path& out);
+
+/// Writes OUT/STUDENT/EXERCISE/feedback.html with its replays for each row; their number. Throws Error for a
+/// student whose name cannot be that of a folder.
+int writeFeedbackFolders(const Gradebook& book, const std::filesystem::path& results,
+                         const std::filesystem::path& out);
+
+/// A mail to a student about all rows: the text of a file .eml (RFC 5322). `date` in seconds since 1970.
+/// Throws Error for addresses that cannot stand in a header.
+[[nodiscard]] std::string gradeMail(const Gradebook& book, const CourseStudent& student,
+                                    const std::filesystem::path& results, const std::string& course,
+                                    const std::string& from, std::int64_t date);
+
+/// Why this cannot be an e-mail address in a header; empty if it can.
+[[nodiscard]] std::string whyNoAddress(const std::string& address);
+
+/// The whole book for programs: schema rex-grades/1, share/grading/grades.schema.json.
+[[nodiscard]] std::string gradesJson(const Gradebook& book, const Course& course);
+
+}  // namespace rex::grading

@@ -1,0 +1,237 @@
+#include "classroom/course_file.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/lower_case.h"
+#include "base/printable.h"
+#include "base/text_file.h"
+#include "classroom/csv.h"
+#include "classroom/hand_in.h"
+
+namespace rex::grading {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kCourseStudent = "a student";
+const std::vector<std::string> kRosterKeys = {"id", "name", "email", "group", "number", "section"};
+
+std::string& fieldOf(CourseStudent& student, const std::string& key) {
+  if (key == "id") return student.id;
+  if (key == "name") return student.name;
+  if (key == "email") return student.email;
+  if (key == "group") return student.group;
+  return key == "number" ? student.number : student.section;
+}
+
+/// Students with the places where they stand, until it is known that they are different people.
+class RosterReader {
+ public:
+  explicit RosterReader(Course& course) : course_(course) {}
+
+  void add(CourseStudent student, const SourceLocation& where) {
+    if (const std::string why = whyNoStudentName(student.id); !why.empty())
+      throw Error({.what = fmt::format("{}: 'id'", kCourseStudent),
+                   .where = where,
+                   .found = student.id.empty() ? "none" : why,
+                   .wanted = "the name of the folder that is handed in"});
+    for (const std::string& key : kRosterKeys) requireOneLine(fieldOf(student, key), key, where);
+    requireNew(ids_, student.id, "id", where);
+    if (!student.email.empty()) requireNew(emails_, student.email, "e-mail", where);
+    course_.students.push_back(std::move(student));
+  }
+
+  // A folder of that name would belong to two.
+  void end() {
+    for (const CourseStudent& student : course_.students)
+      if (const auto same = ids_.find(lowerCase(student.group)); same != ids_.end())
+        throw Error({.what = fmt::format("the group '{}' is also the id of a student", student.group),
+                     .where = same->second,
+                     .wanted = "another name for the group"});
+    std::sort(course_.students.begin(), course_.students.end(),
+              [](const CourseStudent& a, const CourseStudent& b) { return a.id < b.id; });
+  }
+
+ private:
+  static void requireOneLine(const std::string& text, const std::string& key, const SourceLocation& where) {
+    if (printable(text) == text && text.find('\n') == std::string::npos) return;
+    throw Error({.what = fmt::format("{}: '{}'", kCourseStudent, key),
+                 .where = where,
+                 .found = "a line break or an invisible character",
+                 .wanted = "one line of text"});
+  }
+  static void requireNew(std::map<std::string, SourceLocation>& seen, const std::string& text,
+                         const std::string& what, const SourceLocation& where) {
+    const auto [first, isNew] = seen.emplace(lowerCase(text), where);
+    if (!isNew)
+      throw Error({.what = fmt::format("a second student with the {} '{}'", what, text),
+                   .where = where,
+                   .wanted = fmt::format("one; the first is at {}", toString(first->second))});
+  }
+
+  Course& course_;
+  std::map<std::string, SourceLocation> ids_{}, emails_{};  // in lower case
+};
+
+void readStudentTables(const TomlTable& top, RosterReader& roster) {
+  for (const TomlTable& table : top.tables("student")) {
+    table.refuseKeysBut(kRosterKeys);
+    CourseStudent student{.id = table.text("id")};
+    for (const std::string& key : kRosterKeys)
+      if (table.has(key)) fieldOf(student, key) = table.text(key);
+    roster.add(std::move(student), table.where("id"));
+  }
+}
+
+void readStudentRows(const fs::path& file, RosterReader& roster) {
+  const std::vector<CsvRow> rows = parseCsv(readTextFile(file), file.string());
+  const CsvRow headings = rows.empty() ? CsvRow{.line = 1} : rows.front();
+  const auto has = [&](const std::string& key) {
+    return std::find(headings.fields.begin(), headings.fields.end(), key) != headings.fields.end();
+  };
+  if (!has("id"))
+    throw Error({.what = "not a table of students",
+                 .where = {file.string(), 1, 0},
+                 .found = fmt::format("the columns {}", fmt::join(headings.fields, ", ")),
+                 .wanted = fmt::format("id, and any of {}", fmt::join(kRosterKeys, ", "))});
+  for (std::size_t k = 1; k < rows.size(); ++k) {
+    const SourceLocation where{file.string(), rows[k].line, 0};
+    if (rows[k].fields.size() != headings.fields.size())
+      throw Error({.what = "not a table of students",
+                   .where = where,
+                   .found = fmt::format("{} fields", rows[k].fields.size()),
+                   .wanted = fmt::format("{}", headings.fields.size())});
+    CourseStudent student;
+    for (std::size_t column = 0; column < headings.fields.size(); ++column)
+      if (std::find(kRosterKeys.begin(), kRosterKeys.end(), headings.fields[column]) != kRosterKeys.end())
+        fieldOf(student, headings.fields[column]) = rows[k].fields[column];
+    roster.add(std::move(student), where);
+  }
+}
+
+/// Reads one course file.
+class CourseReader {
+ public:
+  CourseReader(const fs::path& file, const std::vector<ExerciseInfo>& exercises)
+      : folder_(file.parent_path()), top_(TomlTable::read(file, "the course file", "a course file")) {
+    for (const ExerciseInfo& exercise : exercises) exercises_.push_back(exercise.name);
+  }
+
+  Course read() {
+    top_.refuseKeysBut(kCourseKeys);
+    if (top_.has("title")) course_.title = top_.text("title");
+    if (top_.has("results")) course_.results = folder_ / top_.text("results");
+    if (top_.has("adjustments")) course_.adjustments = folder_ / top_.text("adjustments");
+    readStudents();
+    course_.policy = latePolicyOf(top_, exercises_);
+    const auto exercises = top_.table("exercise", "[exercise]", "a table");
+    for (const std::string& name : exercises ? exercises->keys() : std::vector<std::string>{})
+      readExercise(*exercises->table(name, fmt::format("[exercise.{}]", name), "a table"), name);
+    if (const auto all = top_.table("all", "[all]", "a table")) {
+      if (all->has("weight"))
+        throw Error({.what = "[all]: 'weight'",
+                     .where = all->where("weight"),
+                     .wanted = "a weight in the table of an exercise"});
+      requireExtensions(*all);
+    }
+    for (auto& [exercise, rule] : course_.policy) giveToMembers(rule);
+    return std::move(course_);
+  }
+
+ private:
+  void readStudents() {
+    RosterReader roster(course_);
+    if (top_.has("students")) {
+      const fs::path file = folder_ / top_.text("students");
+      if (!fs::is_regular_file(file))
+        throw Error({.what = "no such table of students",
+                     .where = top_.where("students"),
+                     .found = file.string(),
+                     .wanted = "a CSV file with the column id"});
+      readStudentRows(file, roster);
+    }
+    readStudentTables(top_, roster);
+    roster.end();
+  }
+
+  void readExercise(const TomlTable& keys, const std::string& name) {
+    constexpr double kMostWeight = 1000;
+    course_.weights[name] =
+        keys.has("weight") ? std::llround(100 * keys.number("weight", 0, kMostWeight)) : 100;
+    if (course_.weights[name] == 0)
+      throw Error({.what = fmt::format("[exercise.{}]: 'weight'", name),
+                   .where = keys.where("weight"),
+                   .wanted = "at least 0.01"});
+    requireExtensions(keys);
+  }
+
+  // An extension for a name that nobody has is one that somebody misses.
+  void requireExtensions(const TomlTable& keys) const {
+    const auto extensions = keys.table("extensions", "extensions", "a table");
+    if (!extensions || course_.students.empty()) return;
+    std::vector<std::string> known = course_.ids();
+    for (const std::string& group : course_.groups()) known.push_back(group);
+    for (const std::string& name : extensions->keys())
+      if (std::find(known.begin(), known.end(), name) == known.end())
+        throw Error({.what = fmt::format("an extension for '{}'", name),
+                     .where = extensions->where(name),
+                     .found = "nobody of this name on the roster",
+                     .wanted = "the id of a student, or a group",
+                     .nearest = nearestNames(name, known)});
+  }
+
+  void giveToMembers(LateRule& rule) const {
+    for (const CourseStudent& student : course_.students)
+      if (const auto own = rule.extensions.find(student.group); own != rule.extensions.end())
+        rule.extensions[student.id] = std::max(rule.extensions[student.id], own->second);
+  }
+
+  fs::path folder_;
+  std::vector<std::string> exercises_{};
+  TomlTable top_;
+  Course course_{};
+};
+
+}  // namespace
+
+const CourseStudent* Course::student(const std::string& id) const {
+  const auto found = std::find_if(students.begin(), students.end(),
+                                  [&](const CourseStudent& student) { return student.id == id; });
+  return found == students.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> Course::ids() const {
+  std::vector<std::string> ids;
+  for (const CourseStudent& student : students) ids.push_back(student.id);
+  return ids;
+}
+
+std::vector<std::string> Course::groups() const {
+  std::vector<std::string> groups;
+  for (const CourseStudent& student : students)
+    if (!student.group.empty()) groups.push_back(student.group);
+  std::sort(groups.begin(), groups.end());
+  groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
+  return groups;
+}
+
+std::vector<std::string> Course::members(const std::string& group) const {
+  std::vector<std::string> ids;
+  for (const CourseStudent& student : students)
+    if (!group.empty() && student.group == group) ids.push_back(student.id);
+  return ids;
+}
+
+Course readCourse(const fs::path& file, const std::vector<ExerciseInfo>& exercises) {
+  return CourseReader(file, exercises).read();
+}
+
+std::string shownName(const CourseStudent& student) {
+  return student.name.empty() ? student.id : student.name;
+}
+
+}  // namespace rex::grading

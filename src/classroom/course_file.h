@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "classroom/late_policy.h"
+#include "submission/exercise_info.h"
+
+namespace rex::grading {
+
+/// One person on the roster.
+struct CourseStudent {
+  std::string id{};       ///< the name of the folder that is handed in, and the key of everything
+  std::string name{};     ///< empty: unknown
+  std::string email{};    ///< empty: unknown
+  std::string group{};    ///< those who hand in together; empty: alone
+  std::string number{};   ///< what a platform calls this person: a matriculation number; empty: the id
+  std::string section{};  ///< of the course, for Canvas
+};
+
+/// The contents of a course file (share/doc/grading-many.md).
+struct Course {
+  std::string title{};
+  std::vector<CourseStudent> students{};          ///< by id; empty: there is no roster
+  LatePolicy policy{};                            ///< extensions of groups stand there for each member
+  std::map<std::string, std::int64_t> weights{};  ///< of the exercises of the course, in hundredths
+  std::filesystem::path results{};                ///< where results go; empty: not said
+  std::filesystem::path adjustments{};            ///< empty: none
+
+  [[nodiscard]] const CourseStudent* student(const std::string& id) const;
+  [[nodiscard]] std::vector<std::string> ids() const;
+  [[nodiscard]] std::vector<std::string> groups() const;
+  [[nodiscard]] std::vector<std::string> members(const std::string& group) const;
+};
+
+/// Paths in the file are relative to its folder. Throws Error with file, line and column for malformed
+/// files, unknown exercises, extensions for nobody, and students without id or with that of another.
+[[nodiscard]] Course readCourse(const std::filesystem::path& file,
+                                const std::vector<ExerciseInfo>& exercises);
+
+/// A name as people write it: "Zoe Müller", or the id if none is known.
+[[nodiscard]] std::string shownName(const CourseStudent& student);
+
+}  // namespace rex::grading

@@ -1,0 +1,364 @@
+#include "classroom/gradebook.h"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/instant.h"
+#include "base/lines.h"
+#include "base/text_file.h"
+#include "classroom/grade_task.h"
+#include "classroom/submission_owners.h"
+#include "grading/result_file.h"
+
+namespace rex::grading {
+namespace {
+
+constexpr std::int64_t kWhole = 100;  // hundredths of a point
+
+bool holds(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+// The number of a hidden check is all that students learn about it.
+std::string targetOf(const GradeResult& result, const CheckResult& check) {
+  if (check.group == Group::kVisible) return fmt::format("{} [{}]", check.title, check.id);
+  int number = 0;
+  for (const CheckResult& one : result.checks) {
+    if (one.group == Group::kHidden) ++number;
+    if (&one == &check) break;
+  }
+  return fmt::format("Hidden check {}", number);
+}
+
+/// Makes the rows of a grade book.
+class BookMaker {
+ public:
+  explicit BookMaker(const GradebookSource& source)
+      : source_(source),
+        course_(withStudents(source.course, source.tasks, source.imported)),
+        owners_(course_, source.imported) {}
+
+  Gradebook make() {
+    book_.hasRoster = !source_.course.students.empty();
+    chooseExercises();
+    assignTasks();
+    assignNotTaken();
+    for (const CourseStudent& student : course_.students)
+      for (const std::string& exercise : shown_)
+        if (holds(book_.exercises, exercise) || candidates_.contains({student.id, exercise}))
+          book_.rows.push_back(rowOf(student, exercise));
+    for (const CourseStudent& student : course_.students) book_.totals.push_back(totalOf(student));
+    tellUnused();
+    return std::move(book_);
+  }
+
+ private:
+  // An exercise that nobody handed in has not been graded yet: nobody misses points in it.
+  void chooseExercises() {
+    std::set<std::string> graded;
+    for (const Task& task : source_.tasks) graded.insert(task.exercise);
+    for (const std::string& exercise : graded) {
+      if (!source_.only.empty() && exercise != source_.only) continue;
+      shown_.push_back(exercise);
+      if (weights().empty() || weights().contains(exercise))
+        book_.exercises.push_back(exercise);
+      else
+        book_.notes.push_back(
+            fmt::format("{} is not an exercise of the course: it does not count", exercise));
+    }
+    for (const auto& [exercise, weight] : weights())
+      if (!graded.contains(exercise) && source_.only.empty())
+        book_.notes.push_back(fmt::format("{}: nobody has handed it in, so it does not count yet", exercise));
+  }
+
+  void assignTasks() {
+    for (std::size_t k = 0; k < source_.tasks.size(); ++k) {
+      const Task& task = source_.tasks[k];
+      const std::vector<std::string> ids = owners_.of(task.student, task.exercise);
+      for (const std::string& id : ids) candidates_[{id, task.exercise}].push_back(k);
+      if (ids.empty() && holds(shown_, task.exercise)) book_.strangers.push_back(strangerOf(k));
+    }
+    std::set<std::string> told;
+    for (auto& [key, tasks] : candidates_) {
+      std::stable_sort(tasks.begin(), tasks.end(), [&](std::size_t a, std::size_t b) {
+        return source_.tasks[a].submitted < source_.tasks[b].submitted;
+      });
+      if (tasks.size() > 1 && holds(shown_, key.second))
+        if (const std::string text = severalText(tasks); told.insert(text).second)
+          book_.notes.push_back(text);
+    }
+  }
+
+  std::string severalText(const std::vector<std::size_t>& tasks) const {
+    std::vector<std::string> names;
+    for (const std::size_t k : tasks)
+      names.push_back(
+          fmt::format("'{}' ({})", source_.tasks[k].student, instantText(source_.tasks[k].submitted)));
+    return fmt::format("{} was handed in {} times by one student or group: {}; the last one counts",
+                       source_.tasks[tasks.front()].exercise, tasks.size(), fmt::join(names, ", "));
+  }
+
+  void assignNotTaken() {
+    for (const NotTaken& one : source_.notTaken) {
+      const std::vector<std::string> ids = owners_.of(one.student, one.exercise);
+      for (const std::string& id : ids) notTaken_[{id, one.exercise}].push_back(one);
+      if (ids.empty() && book_.hasRoster)
+        book_.notes.push_back(fmt::format("'{}' is not on the roster: {}", one.student, one.why));
+    }
+    for (const ImportedStudent& person : source_.imported.students)
+      for (const auto& [exercise, entry] : person.exercises)
+        if (const std::string id = studentOf(person, course_);
+            entry.status == HandInStatus::kNotTaken && !id.empty())
+          notTaken_[{id, exercise}].push_back({person.student, exercise, entry.why});
+  }
+
+  GradeRow strangerOf(std::size_t task) {
+    GradeRow row{.student = {.id = source_.tasks[task].student}, .exercise = source_.tasks[task].exercise};
+    if (const ImportedStudent* person = source_.imported.find(row.student.id))
+      row.student.name = person->name, row.student.email = person->email;
+    row.remark = "not on the roster";
+    take(task, row);
+    finish(row);
+    return row;
+  }
+
+  GradeRow rowOf(const CourseStudent& student, const std::string& exercise) {
+    GradeRow row{.student = student, .exercise = exercise};
+    const auto points = source_.points.find(exercise);
+    if (points != source_.points.end()) row.possible = kWhole * points->second;
+    if (const auto rule = course_.policy.find(exercise); rule != course_.policy.end()) {
+      row.deadline = deadlineOf(rule->second, student.id);
+      row.isExtended = row.deadline != rule->second.deadline;
+    }
+    const auto found = candidates_.find({student.id, exercise});
+    if (found != candidates_.end()) take(found->second.back(), row);
+    tellNotTaken(row);
+    for (const Comment& comment : source_.adjustments.comments)
+      if (comment.exercise == exercise && holds(comment.students, student.id)) addComment(comment, row);
+    std::stable_sort(row.comments.begin(), row.comments.end(),
+                     [](const Comment& a, const Comment& b) { return a.line < b.line; });
+    finish(row);
+    return row;
+  }
+
+  void take(std::size_t index, GradeRow& row) {
+    const Task& task = source_.tasks[index];
+    row.task = index;
+    row.handedInAs = task.student;
+    row.submitted = task.submitted;
+    row.timeFrom = task.timeFrom;
+    row.status = RowStatus::kToRepeat;
+    const TaskState state = stateOf(task, source_.out);
+    if (task.student != row.student.id)
+      row.remark += (row.remark.empty() ? "" : "; ") + ("handed in by " + task.student);
+    if (state == TaskState::kMissing) row.remark = "there is no result yet";
+    if (state == TaskState::kStale) row.remark = "the result is for other inputs";
+    if (state == TaskState::kFailed) row.remark = "the grader failed";
+    if (state == TaskState::kRefused) row.remark = "the result was changed after the grading";
+    if (state != TaskState::kDone) return;
+    row.result = loadResult(resultFolder(source_.out, task) / "results.json");
+    row.status = RowStatus::kGraded;
+    row.possible = kWhole * row.result->maxScore;
+  }
+
+  // A file that could not be read has a result that says so; what has no task has none.
+  void tellNotTaken(GradeRow& row) const {
+    for (const std::string& exercise : {row.exercise, std::string()}) {
+      const auto found = notTaken_.find({row.student.id, exercise});
+      if (found == notTaken_.end()) continue;
+      for (const NotTaken& one : found->second) {
+        if (row.task && (one.student != row.handedInAs || exercise.empty())) continue;
+        if (row.status != RowStatus::kToRepeat) row.status = RowStatus::kNotTaken;
+        row.remark += (row.remark.empty() ? "" : "; ") + one.why;
+      }
+    }
+  }
+
+  void addComment(const Comment& comment, GradeRow& row) {
+    if (!row.task) {
+      book_.notes.push_back(fmt::format("{}: '{}' handed in no {} to comment on", toString(comment.where),
+                                        row.student.id, row.exercise));
+      return;
+    }
+    const std::string text = readTextFile(source_.out / source_.tasks[*row.task].file);
+    const auto lines = splitLines(text).size();
+    if (comment.line > static_cast<int>(lines))
+      throw Error({.what = fmt::format("a comment on line {} of {}", comment.line, row.student.id),
+                   .where = comment.where,
+                   .found = fmt::format("a file of {} lines", lines),
+                   .wanted = "one of them"});
+    row.comments.push_back(comment);
+  }
+
+  // Checks first, then lateness, then the final points.
+  void finish(GradeRow& row) {
+    if (row.result) {
+      row.points = kWhole * row.result->score;
+      adjustChecks(row);
+      const auto rule = course_.policy.find(row.exercise);
+      if (rule != course_.policy.end())
+        row.late = latenessOfHundredths(rule->second, row.student.id, row.submitted, row.points);
+      if (row.late.days > 0 && row.status == RowStatus::kGraded) row.status = RowStatus::kLate;
+      row.final = row.points - row.late.penalty;
+    }
+    adjustFinal(row);
+  }
+
+  std::vector<const Adjustment*> adjustmentsOf(const GradeRow& row, bool ofChecks) const {
+    std::vector<const Adjustment*> found;
+    for (const Adjustment& one : source_.adjustments.adjustments)
+      if (one.exercise == row.exercise && one.check.empty() != ofChecks &&
+          holds(one.students, row.student.id))
+        found.push_back(&one);
+    return found;
+  }
+
+  void adjustChecks(GradeRow& row) {
+    std::map<std::string, std::int64_t> now;
+    for (const Adjustment* one : adjustmentsOf(row, true)) {
+      const CheckResult& check = checkOf(*row.result, *one);
+      const std::int64_t most = kWhole * check.maxPoints;
+      const std::int64_t before = now.try_emplace(check.id, kWhole * check.points).first->second;
+      if (one->points && *one->points > most)
+        throw Error({.what = fmt::format("[[adjustment]] of the check '{}'", check.id),
+                     .where = one->where,
+                     .found = hundredthsText(*one->points) + " points",
+                     .wanted = fmt::format("at most {}", check.maxPoints)});
+      const std::int64_t after = one->points.value_or(std::clamp(before + one->add, std::int64_t{0}, most));
+      if (!one->points && after != before + one->add)
+        book_.notes.push_back(fmt::format("{}: the check '{}' of {} stays within 0 and {} points",
+                                          toString(one->where), check.id, row.student.id, check.maxPoints));
+      row.applied.push_back({*one, before, after, targetOf(*row.result, check)});
+      row.points += after - before;
+      now[check.id] = after;
+    }
+  }
+
+  static const CheckResult& checkOf(const GradeResult& result, const Adjustment& adjustment) {
+    std::vector<std::string> ids;
+    for (const CheckResult& check : result.checks) {
+      if (check.id == adjustment.check) return check;
+      ids.push_back(check.id);
+    }
+    throw Error({.what = fmt::format("{} has no check '{}'", adjustment.exercise, adjustment.check),
+                 .where = adjustment.where,
+                 .wanted = "the id of a check, or no check to change the final points",
+                 .nearest = nearestNames(adjustment.check, ids)});
+  }
+
+  void adjustFinal(GradeRow& row) {
+    if (!row.result)
+      for (const Adjustment* one : adjustmentsOf(row, true)) tellNoResult(*one, row);
+    for (const Adjustment* one : adjustmentsOf(row, false)) {
+      if (row.status == RowStatus::kToRepeat) {
+        tellNoResult(*one, row);
+        continue;
+      }
+      const std::int64_t before = row.final.value_or(0),
+                         after = one->points.value_or(std::max(before + one->add, std::int64_t{0}));
+      row.applied.push_back({*one, before, after, "Final points"});
+      row.final = after;
+    }
+  }
+
+  void tellNoResult(const Adjustment& one, const GradeRow& row) {
+    book_.notes.push_back(fmt::format("{}: '{}' has no result for {} to adjust", toString(one.where),
+                                      row.student.id, row.exercise));
+  }
+
+  StudentTotal totalOf(const CourseStudent& student) const {
+    StudentTotal sum{.student = student, .total = 0};
+    std::int64_t total = 0, possible = 0;  // hundredths of hundredths
+    for (const GradeRow& row : book_.rows) {
+      if (row.student.id != student.id || !holds(book_.exercises, row.exercise)) continue;
+      const auto given = weights().find(row.exercise);
+      const std::int64_t weight = given == weights().end() ? kWhole : given->second;
+      if (row.status == RowStatus::kToRepeat) sum.total.reset();
+      total += weight * row.final.value_or(0);
+      possible += weight * row.possible;
+    }
+    if (sum.total) sum.total = (total + kWhole / 2) / kWhole;
+    sum.possible = (possible + kWhole / 2) / kWhole;
+    return sum;
+  }
+
+  // Adjustments that met no row are mistakes that somebody would wait for.
+  void tellUnused() {
+    const auto tell = [&](const std::string& exercise, const SourceLocation& where) {
+      if (!holds(shown_, exercise) && source_.only.empty())
+        book_.notes.push_back(fmt::format("{}: nobody has handed in {}", toString(where), exercise));
+    };
+    for (const Adjustment& one : source_.adjustments.adjustments) tell(one.exercise, one.where);
+    for (const Comment& one : source_.adjustments.comments) tell(one.exercise, one.where);
+  }
+
+  const std::map<std::string, std::int64_t>& weights() const { return course_.weights; }
+
+  using Key = std::pair<std::string, std::string>;  // student, exercise
+  const GradebookSource& source_;
+  Course course_;
+  SubmissionOwners owners_;
+  std::vector<std::string> shown_{};                      // exercises with rows
+  std::map<Key, std::vector<std::size_t>> candidates_{};  // tasks, the last one counts
+  std::map<Key, std::vector<NotTaken>> notTaken_{};
+  Gradebook book_{};
+};
+
+}  // namespace
+
+std::string_view toString(RowStatus status) {
+  switch (status) {
+    case RowStatus::kGraded:
+      return "graded";
+    case RowStatus::kLate:
+      return "late";
+    case RowStatus::kMissing:
+      return "missing";
+    case RowStatus::kNotTaken:
+      return "not taken";
+    case RowStatus::kToRepeat:
+      return "to repeat";
+  }
+  return "";
+}
+
+const GradeRow* Gradebook::row(const std::string& student, const std::string& exercise) const {
+  const auto found = std::find_if(rows.begin(), rows.end(), [&](const GradeRow& row) {
+    return row.student.id == student && row.exercise == exercise;
+  });
+  return found == rows.end() ? nullptr : &*found;
+}
+
+const GradeRow* rowOfTask(const Gradebook& book, std::size_t task) {
+  const GradeRow* found = nullptr;
+  for (const std::vector<GradeRow>* rows : {&book.strangers, &book.rows})
+    for (const GradeRow& row : *rows)
+      if (row.task == task && (found == nullptr || row.student.id == row.handedInAs)) found = &row;
+  return found;
+}
+
+Gradebook makeGradebook(const GradebookSource& source) { return BookMaker(source).make(); }
+
+Course withStudents(Course course, const std::vector<Task>& tasks, const ImportTable& imported) {
+  if (course.students.empty()) {
+    std::set<std::string> ids;
+    for (const Task& task : tasks) ids.insert(task.student);
+    for (const ImportedStudent& person : imported.students) ids.insert(person.student);
+    for (const std::string& id : ids) course.students.push_back({.id = id});
+  }
+  for (const ImportedStudent& person : imported.students) {
+    const std::string id = studentOf(person, course);
+    for (CourseStudent& student : course.students) {
+      if (student.id != id) continue;
+      if (student.name.empty()) student.name = person.name;
+      if (student.email.empty()) student.email = person.email;
+      if (student.number.empty()) student.number = person.id;
+    }
+  }
+  return course;
+}
+
+}  // namespace rex::grading

@@ -1,0 +1,115 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "classroom/adjustments.h"
+#include "classroom/course_file.h"
+#include "classroom/hand_in.h"
+#include "classroom/import_table.h"
+#include "classroom/task_list.h"
+#include "grading/results.h"
+#include "reports/judgement.h"
+
+namespace rex::grading {
+
+/// What became of one exercise of one student.
+enum class RowStatus {
+  kGraded,
+  kLate,      ///< graded, with a penalty or without
+  kMissing,   ///< nothing was handed in
+  kNotTaken,  ///< something was handed in that could not be taken as it is
+  kToRepeat   ///< there is no valid result: to be graded, again or at all
+};
+[[nodiscard]] std::string_view toString(RowStatus status);
+
+/// An adjustment as it was applied, in hundredths of points.
+struct AppliedAdjustment {
+  Adjustment adjustment{};
+  std::int64_t before = 0, after = 0;
+  std::string target{};  ///< for students: "Check hand", "Hidden check 2", "Total"
+};
+
+/// One line of the grade book. Points are in hundredths.
+struct GradeRow {
+  CourseStudent student{};
+  std::string exercise{};
+  RowStatus status = RowStatus::kMissing;
+  std::string remark{};                      ///< why it was not taken, who else handed it in
+  std::optional<std::size_t> task{};         ///< the index of what counts
+  std::string handedInAs{};                  ///< the folder of it, which may be that of another member
+  std::optional<GradeResult> result{};       ///< as graded, without adjustments
+  std::vector<AppliedAdjustment> applied{};  ///< in order: checks, then the final points
+  std::vector<Comment> comments{};           ///< by line
+  std::int64_t points = 0;                   ///< after adjustments of checks, before lateness
+  std::int64_t possible = 0;
+  Lateness late{};
+  std::optional<std::int64_t> deadline{};  ///< with extension
+  bool isExtended = false;
+  std::optional<std::int64_t> final{};  ///< empty: no grade
+  std::int64_t submitted = 0;
+  std::string timeFrom{};
+};
+
+struct StudentTotal {
+  CourseStudent student{};
+  std::optional<std::int64_t> total{};  ///< with weights; empty while a grading must be repeated
+  std::int64_t possible = 0;
+};
+
+/// The grades of a class.
+struct Gradebook {
+  bool hasRoster = false;
+  std::vector<std::string> exercises{};  ///< those that count
+  std::vector<GradeRow> rows{};          ///< by student, then by exercise
+  std::vector<GradeRow> strangers{};     ///< what people handed in who are not on the roster
+  std::vector<StudentTotal> totals{};    ///< by student
+  std::vector<std::string> notes{};      ///< for whoever reads the grades
+  [[nodiscard]] const GradeRow* row(const std::string& student, const std::string& exercise) const;
+};
+
+/// What grade books are made of.
+struct GradebookSource {
+  std::vector<Task> tasks{};
+  std::filesystem::path out{};  ///< the folder of results
+  Course course{};              ///< without students: everybody who handed something in
+  Adjustments adjustments{};
+  ImportTable imported{};
+  std::vector<NotTaken> notTaken{};
+  std::map<std::string, int> points{};  ///< of each exercise, for rows without a result
+  std::string only{};                   ///< exercise; empty: all
+};
+
+/// Everyone on the roster gets a row for each exercise of the course that was graded. If a student and the
+/// members of the student's group handed in several, the last one counts for all. Throws Error for results
+/// that cannot be read, and for adjustments and comments that do not fit what was graded.
+[[nodiscard]] Gradebook makeGradebook(const GradebookSource& source);
+
+/// The course, with everybody who handed something in if it has no roster. Names and e-mails that the
+/// roster lacks come from the platforms.
+[[nodiscard]] Course withStudents(Course course, const std::vector<Task>& tasks, const ImportTable& imported);
+
+/// grades.csv with a roster, or the people who are not on it.
+[[nodiscard]] std::string gradesCsv(const std::vector<GradeRow>& rows);
+/// A line per student, a column per exercise, and the weighted total.
+[[nodiscard]] std::string totalsCsv(const Gradebook& book);
+
+/// For reports of this result. Empty if there is no grade.
+[[nodiscard]] std::optional<Judgement> judgementOf(const GradeRow& row);
+/// How the grade came about, a line each, for those who grade.
+[[nodiscard]] std::vector<std::string> explain(const GradeRow& row);
+
+/// The row of a task: that of the student who handed it in, else of a member of the group. Empty: a later
+/// submission counts instead.
+[[nodiscard]] const GradeRow* rowOfTask(const Gradebook& book, std::size_t task);
+
+/// What a grading could not take, kept beside its results for `rex collect`.
+[[nodiscard]] std::string notTakenText(const std::vector<NotTaken>& all);
+/// Reads that file; empty if there is none. Throws Error with the line if it is malformed.
+[[nodiscard]] std::vector<NotTaken> readNotTaken(const std::filesystem::path& file);
+
+}  // namespace rex::grading

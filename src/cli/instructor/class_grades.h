@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "classroom/gradebook.h"
+#include "cli/project.h"
+
+namespace rex::cli {
+
+/// The files that turn results into grades.
+struct ClassFiles {
+  std::filesystem::path course{};       ///< empty: no roster
+  std::filesystem::path deadlines{};    ///< instead of a course; empty: none
+  std::filesystem::path adjustments{};  ///< empty: those that the course names
+  [[nodiscard]] bool hasBook() const { return !course.empty() || !adjustments.empty(); }
+};
+
+/// `--course`, `--deadlines` and `--adjustments`.
+void addClassFiles(CLI::App* command, ClassFiles& files);
+
+/// Files beside the results.
+inline constexpr const char *kNotTakenFile = "not_taken.tsv", *kTotals = "totals.csv",
+                            *kStrangers = "not_on_roster.csv", *kRegradedFile = "regraded.csv";
+
+/// The course, or one without a roster. Throws like grading::readCourse().
+[[nodiscard]] grading::Course courseOf(const Project& project, const ClassFiles& files);
+
+/// The grade book of a folder of results: the list of tasks, what was not taken and the table of imports lie
+/// in it. Throws like the readers of these files.
+[[nodiscard]] grading::Gradebook gradebookOf(const Project& project, const ClassFiles& files,
+                                             const std::vector<grading::Task>& tasks,
+                                             const std::filesystem::path& out, const std::string& only = {});
+
+/// Writes grades.csv, totals.csv and the table of people who are not on the roster, and tells the notes.
+void writeBook(const grading::Gradebook& book, const std::filesystem::path& out, bool print);
+
+/// Prints how a grade came about. Throws UsageError, with the nearest names, if there is no such row.
+void explainGrade(const grading::Gradebook& book, const Project& project, const std::string& student,
+                  const std::string& exercise);
+
+}  // namespace rex::cli

@@ -1,0 +1,245 @@
+#include <chrono>
+#include <cstdio>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/text_file.h"
+#include "classroom/class_feedback.h"
+#include "classroom/platform_grades.h"
+#include "cli/command_line_internal.h"
+#include "cli/instructor/class_grades.h"
+#include "cli/instructor/instructor_room_internal.h"
+#include "cli/out_folder.h"
+#include "cli/terminal.h"
+#include "submission/zip_file.h"
+
+namespace rex::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kFeedbackZip = "feedback.zip";
+constexpr const char* kExportCodes =
+    "Exit codes: 0 written; 2 written, but somebody was left out, who is named; 3 a file is broken;\n"
+    "64 wrong use.";
+
+struct ExportOptions {
+  fs::path results{};
+  fs::path out{};
+  ClassFiles files{};
+  std::string exercise{};  ///< empty: all
+  fs::path worksheet{};    ///< of Moodle; empty: none
+  bool scale = false;
+  std::string from{};  ///< the sender of mails
+};
+
+/// What all exports are made of.
+struct Export {
+  std::vector<grading::Task> tasks{};
+  grading::Course course{};
+  grading::Gradebook book{};
+  grading::ImportTable imported{};
+};
+
+Export read(const Project& project, const ExportOptions& options) {
+  if (!fs::is_regular_file(options.results / "tasks.tsv"))
+    throw UsageError({.what = "no folder of results",
+                      .where = {options.results.string()},
+                      .wanted = "the one that rex grade wrote, with tasks.tsv"});
+  Export all{.tasks = grading::readManifest(options.results / "tasks.tsv")};
+  const std::string only = options.exercise.empty() ? "" : project.exercise(options.exercise).name;
+  all.course = courseOf(project, options.files);
+  all.book = gradebookOf(project, options.files, all.tasks, options.results, only);
+  all.imported = grading::importTableIn(options.results);
+  if (all.book.rows.empty())
+    throw UsageError({.what = "nothing to export",
+                      .where = {options.results.string()},
+                      .found = only.empty() ? "no grades" : "no grades for " + only,
+                      .wanted = "an exercise that somebody has handed in"});
+  for (const std::string& sentence : all.book.notes) note(wrap(harmless(sentence), 2, 0));
+  return all;
+}
+
+ExitCode told(const std::vector<std::string>& notes) {
+  for (const std::string& sentence : notes) note(wrap(harmless(sentence), 2, 0));
+  return notes.empty() ? ExitCode::kFull : ExitCode::kNotGradable;
+}
+
+ExitCode write(const grading::PlatformGrades& grades, const fs::path& file) {
+  makeOutFolder(file.parent_path());
+  replaceTextFile(file, grades.csv, "the table of grades");
+  say(fmt::format("Grades: {}", shown(file)));
+  return told(grades.notes);
+}
+
+ExitCode exportGradescope(const Project& project, const ExportOptions& options) {
+  return write(gradescopeGrades(read(project, options).book), options.out / "grades.csv");
+}
+
+ExitCode exportCanvas(const Project& project, const ExportOptions& options) {
+  return write(canvasGrades(read(project, options).book), options.out / "grades.csv");
+}
+
+ExitCode exportClassroom(const Project& project, const ExportOptions& options) {
+  const Export all = read(project, options);
+  ExitCode code = ExitCode::kFull;
+  for (const std::string& exercise : all.book.exercises)
+    if (write(classroomGrades(all.book, exercise, all.imported), options.out / (exercise + ".csv")) !=
+        ExitCode::kFull)
+      code = ExitCode::kNotGradable;
+  return code;
+}
+
+ExitCode exportJson(const Project& project, const ExportOptions& options) {
+  const Export all = read(project, options);
+  const std::string text = grading::gradesJson(all.book, all.course);
+  if (options.out.empty()) {
+    std::fputs(text.c_str(), stdout);
+    return ExitCode::kFull;
+  }
+  replaceTextFile(options.out, text, "the grades");
+  say(fmt::format("Grades: {}", shown(options.out)));
+  return ExitCode::kFull;
+}
+
+ExitCode exportHtml(const Project& project, const ExportOptions& options) {
+  const Export all = read(project, options);
+  makeOutFolder(options.out);
+  const int written = grading::writeFeedbackFolders(all.book, options.results, options.out);
+  say(fmt::format("Feedback: {} pages in {}", written, shown(options.out)));
+  return ExitCode::kFull;
+}
+
+// Mails are dated by the grading, so that the same results give the same bytes.
+std::int64_t timeOf(const fs::path& file) {
+  const auto time = std::chrono::file_clock::to_sys(fs::last_write_time(file));
+  return std::chrono::duration_cast<std::chrono::seconds>(time.time_since_epoch()).count();
+}
+
+ExitCode exportMail(const Project& project, const ExportOptions& options) {
+  if (const std::string why = grading::whyNoAddress(options.from); !why.empty())
+    throw UsageError({.what = "--from", .found = why, .wanted = "the address of the sender"});
+  const Export all = read(project, options);
+  const std::int64_t date = timeOf(options.results / "tasks.tsv");
+  makeOutFolder(options.out);
+  std::vector<std::string> notes;
+  int written = 0;
+  for (const grading::StudentTotal& sum : all.book.totals) {
+    if (const std::string why = grading::whyNoAddress(sum.student.email); !why.empty()) {
+      notes.push_back(fmt::format("no mail to '{}': the e-mail address is {}", sum.student.id, why));
+      continue;
+    }
+    replaceTextFile(
+        options.out / (sum.student.id + ".eml"),
+        grading::gradeMail(all.book, sum.student, options.results, all.course.title, options.from, date),
+        "a mail");
+    ++written;
+  }
+  say(fmt::format("Mails: {} in {}", written, shown(options.out)));
+  return told(notes);
+}
+
+void addFeedback(const Export& all, const ExportOptions& options, const std::string& exercise,
+                 const grading::WorksheetRow& row, std::vector<grading::ZipEntry>& entries) {
+  const grading::GradeRow* graded = all.book.row(row.student, exercise);
+  const auto feedback = graded == nullptr ? std::nullopt : grading::feedbackOf(*graded, options.results);
+  if (!feedback) return;
+  const std::string folder = grading::moodleFolder(row);
+  const auto files = grading::evidenceOf(*graded, options.results);
+  entries.push_back({folder + "/feedback.html", grading::feedbackPage(*feedback, files)});
+  for (const grading::FeedbackFile& file : files)
+    if (!file.name.ends_with(".png")) entries.push_back({folder + "/" + file.name, file.bytes});
+}
+
+ExitCode exportMoodle(const Project& project, const ExportOptions& options) {
+  const Export all = read(project, options);
+  const std::string exercise = project.exercise(options.exercise).name;
+  makeOutFolder(options.out);
+  std::vector<std::string> notes;
+  std::vector<grading::WorksheetRow> rows;
+  if (options.worksheet.empty()) {
+    rows = grading::moodleStudents(all.book, exercise, all.imported);
+    notes.emplace_back("no grades are written without --worksheet, the grading worksheet of this assignment");
+  } else {
+    const grading::Worksheet sheet =
+        grading::moodleGrades(options.worksheet, all.book, exercise, all.imported, options.scale);
+    replaceTextFile(options.out / "grades.csv", sheet.csv, "the grading worksheet");
+    say(fmt::format("Grades: {}", shown(options.out / "grades.csv")));
+    rows = sheet.rows;
+    notes = sheet.notes;
+  }
+  std::vector<grading::ZipEntry> entries;
+  for (const grading::WorksheetRow& row : rows)
+    if (!row.student.empty() && !row.number.empty()) addFeedback(all, options, exercise, row, entries);
+  if (entries.empty())
+    notes.emplace_back("no feedback is written: nobody's number in Moodle is known");
+  else
+    grading::writeZip(options.out / kFeedbackZip, entries);
+  if (!entries.empty()) say(fmt::format("Feedback: {}", shown(options.out / kFeedbackZip)));
+  return told(notes);
+}
+
+using Exporter = ExitCode (*)(const Project&, const ExportOptions&);
+
+CLI::App* addTarget(CLI::App* all, Action& action, const std::string& name, const std::string& purpose,
+                    const std::string& example, Exporter exporter, std::shared_ptr<ExportOptions> options) {
+  CLI::App* command =
+      addVerb(all, name, purpose, "Example: scripts/rex export " + example + "\n\n" + kExportCodes);
+  command->add_option("RESULTS", options->results, "the folder of results that rex grade wrote")
+      ->type_name("")
+      ->required();
+  CLI::Option* out = command->add_option(
+      "-o,--out", options->out, name == "json" ? "file to write (default: print)" : "folder to write");
+  out->type_name(name == "json" ? "FILE" : "DIR");
+  if (name != "json") out->required();
+  addClassFiles(command, options->files);
+  command
+      ->add_option("--exercise", options->exercise,
+                   name == "moodle" ? "the exercise of this assignment" : "only this exercise (default: all)")
+      ->type_name("EXERCISE")
+      ->required(name == "moodle");
+  command->callback([&action, options, exporter] {
+    action = [options, exporter](const Project& p) { return exporter(p, *options); };
+  });
+  return command;
+}
+
+}  // namespace
+
+void addExport(CLI::App* all, Action& action) {
+  all->footer(
+      "Examples:\n  scripts/rex export html results --course course.toml -o feedback\n"
+      "  scripts/rex export moodle results --exercise 01 --worksheet grades.csv -o moodle\n\n"
+      "What students get shows nothing of other students, and of hidden checks only points.");
+  all->require_subcommand(0, 1);
+  all->callback([&action, all] {
+    if (all->get_subcommands().empty()) action = print(all->help("rex"));
+  });
+  const auto options = [] { return std::make_shared<ExportOptions>(); };
+  const auto moodle = options(), mail = options();
+  CLI::App* command =
+      addTarget(all, action, "moodle", "The grading worksheet filled in, and a zip of feedback",
+                "moodle results --exercise 01 --worksheet grades.csv -o moodle", exportMoodle, moodle);
+  command->add_option("--worksheet", moodle->worksheet, "grading worksheet that was downloaded from Moodle")
+      ->type_name("FILE.csv");
+  command->add_flag("--scale", moodle->scale, "scale points to the maximum grade of the worksheet");
+  addTarget(all, action, "gradescope", "Grades by SID and e-mail",
+            "gradescope results --course course.toml -o grades", exportGradescope, options());
+  addTarget(all, action, "canvas", "Grades for the grade book of Canvas",
+            "canvas results --course course.toml -o grades", exportCanvas, options());
+  addTarget(all, action, "classroom", "Grades in the columns of GitHub Classroom, a file per exercise",
+            "classroom results --course course.toml -o grades", exportClassroom, options());
+  command =
+      addTarget(all, action, "mail", "A mail per student, as a file .eml",
+                "mail results --course course.toml --from tutor@uni.example -o mails", exportMail, mail);
+  command->add_option("--from", mail->from, "address of the sender")->type_name("ADDRESS")->required();
+  addTarget(all, action, "json", "All grades for programs",
+            "json results --course course.toml -o grades.json", exportJson, options());
+  addTarget(all, action, "html", "A page of feedback per student and exercise",
+            "html results --course course.toml -o feedback", exportHtml, options());
+}
+
+}  // namespace rex::cli

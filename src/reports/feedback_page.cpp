@@ -1,0 +1,147 @@
+#include "reports/feedback_page.h"
+
+#include <fmt/format.h>
+
+#include "base/base64.h"
+#include "base/escape.h"
+#include "base/lines.h"
+#include "reports/report_text_internal.h"
+
+namespace rex::grading {
+namespace {
+
+using namespace internal;
+
+constexpr const char* kPageStart = R"(<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; img-src data:; style-src 'unsafe-inline'">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>{title}</title>
+<style>
+body {{ font: 16px/1.5 system-ui, sans-serif; color: #1d2530; max-width: 60rem; margin: 2rem auto; padding: 0 1rem; }}
+table {{ border-collapse: collapse; }}
+td, th {{ text-align: left; vertical-align: top; padding: .2rem .8rem .2rem 0; border-bottom: 1px solid #dde3e9; }}
+.code td {{ border: 0; padding: 0 .8rem 0 0; font: 13px/1.5 monospace; white-space: pre-wrap; }}
+.code td:first-child {{ color: #5c6875; text-align: right; }}
+.note td {{ background: #fff6d6; font: inherit; padding: .2rem .8rem; }}
+img {{ max-width: 100%; border: 1px solid #dde3e9; }}
+</style>
+</head>
+<body>
+)";
+
+std::string html(const std::string& text, std::size_t limit = kLongestMessage) {
+  return htmlText(shownText(text, limit));
+}
+
+// "Hidden check 2", or title and id.
+std::string nameOfCheck(const CheckResult& check, int& hidden) {
+  return isHidden(check) ? fmt::format("Hidden check {}", ++hidden)
+                         : fmt::format("{} ({})", shownText(check.title), shownText(check.id));
+}
+
+std::string foundBy(const CheckResult& check, const GradeResult& result) {
+  return isPassed(check) || isHidden(check) || !check.status ? "" : messageOf(check, fileOf(result));
+}
+
+std::string tableOfChecks(const GradeResult& result) {
+  std::string text =
+      "<table>\n<tr><th>Result</th><th>Check</th><th>Points</th><th>What was found</th></tr>\n";
+  int hidden = 0;
+  for (const CheckResult& check : result.checks)
+    text += fmt::format("<tr><td>{}</td><td>{}</td><td>{}/{}</td><td>{}</td></tr>\n", html(statusOf(check)),
+                        html(nameOfCheck(check, hidden)), check.points, check.maxPoints,
+                        html(foundBy(check, result)));
+  return text + "</table>\n";
+}
+
+std::string evidence(const GradeResult& result, const std::vector<FeedbackFile>& files) {
+  std::string text;
+  for (const CheckResult& check : result.checks) {
+    if (isHidden(check)) continue;
+    for (const FeedbackFile& file : files) {
+      if (file.check != check.id) continue;
+      if (file.name.ends_with(".png"))
+        text +=
+            fmt::format("<h3>{}</h3>\n<p><img alt=\"What happened\" src=\"data:image/png;base64,{}\"></p>\n",
+                        html(check.title), base64(file.bytes));
+      else
+        text += fmt::format("<p><a href=\"{}\">Replay: {}</a></p>\n", html(file.name), html(check.title));
+    }
+  }
+  return text.empty() ? "" : "<h2>Pictures</h2>\n" + text;
+}
+
+std::string author(const LineComment& comment) {
+  return comment.author.empty() ? "" : fmt::format(" ({})", comment.author);
+}
+
+std::string noteOf(const LineComment& comment) {
+  return fmt::format("<tr class=\"note\"><td></td><td>{}</td></tr>\n", html(comment.text + author(comment)));
+}
+
+std::string listing(const Feedback& feedback) {
+  std::string text = "<h2>main.cpp</h2>\n<table class=\"code\">\n";
+  for (const LineComment& comment : feedback.comments)
+    if (comment.line == 0) text += noteOf(comment);
+  const auto lines = splitLines(feedback.source);
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    text += fmt::format("<tr id=\"line{0}\"><td>{0}</td><td>{1}</td></tr>\n", k + 1, htmlText(lines[k]));
+    for (const LineComment& comment : feedback.comments)
+      if (comment.line == static_cast<int>(k) + 1) text += noteOf(comment);
+  }
+  return text + "</table>\n";
+}
+
+std::string gradeOf(const Feedback& feedback) {
+  const GradeResult& result = feedback.result;
+  if (result.outcome == Outcome::kGraderError) return kGraderFailed;
+  return feedback.judgement ? fmt::format("{} of {} points", hundredthsText(feedback.judgement->final),
+                                          hundredthsText(feedback.judgement->possible))
+                            : pointsOf(result);
+}
+
+}  // namespace
+
+std::string feedbackPage(const Feedback& feedback, const std::vector<FeedbackFile>& files) {
+  const GradeResult& result = feedback.result;
+  const std::string title = fmt::format("{}: {}", result.exerciseId, gradeOf(feedback));
+  std::string page = fmt::format(fmt::runtime(kPageStart), fmt::arg("title", html(title)));
+  page += fmt::format("<h1>{}</h1>\n<p>{}</p>\n", html(title), html(feedback.student));
+  if (feedback.judgement) {
+    page += "<ul>\n";
+    for (const std::string& sentence : sentencesOf(*feedback.judgement))
+      page += fmt::format("<li>{}</li>\n", html(sentence));
+    page += "</ul>\n";
+  }
+  if (result.outcome == Outcome::kCompileError)
+    page += fmt::format("<p>Cannot be graded:</p>\n<pre>{}</pre>\n", html(compileText(result), kLongestText));
+  else if (result.outcome != Outcome::kGraderError)
+    page += tableOfChecks(result) + evidence(result, files);
+  return page + listing(feedback) + "</body>\n</html>\n";
+}
+
+std::string feedbackText(const Feedback& feedback) {
+  const GradeResult& result = feedback.result;
+  std::string text = fmt::format("{}: {}\n", shownText(result.exerciseId), gradeOf(feedback));
+  int hidden = 0;
+  if (result.outcome == Outcome::kCompileError)
+    text += "  Cannot be graded:\n" + compileText(result) + "\n";
+  else if (result.outcome != Outcome::kGraderError)
+    for (const CheckResult& check : result.checks) {
+      text += fmt::format("  {}/{}  {}: {}\n", check.points, check.maxPoints, nameOfCheck(check, hidden),
+                          statusOf(check));
+      if (const std::string found = foundBy(check, result); !found.empty()) text += "        " + found + "\n";
+    }
+  if (feedback.judgement)
+    for (const std::string& sentence : sentencesOf(*feedback.judgement))
+      text += "  " + shownText(sentence) + "\n";
+  for (const LineComment& comment : feedback.comments)
+    text += fmt::format("  {}{}{}\n", comment.line > 0 ? fmt::format("main.cpp:{}: ", comment.line) : "",
+                        shownText(comment.text), shownText(author(comment)));
+  return text;
+}
+
+}  // namespace rex::grading

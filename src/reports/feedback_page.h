@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "grading/results.h"
+#include "reports/judgement.h"
+
+namespace rex::grading {
+
+/// What a person writes about a line of main.cpp.
+struct LineComment {
+  int line = 0;  ///< 0: the whole file
+  std::string text{};
+  std::string author{};
+};
+
+/// What a student gets back for one exercise.
+struct Feedback {
+  std::string student{};  ///< the name
+  GradeResult result{};
+  std::optional<Judgement> judgement{};
+  std::string source{};  ///< main.cpp, as it was graded
+  std::vector<LineComment> comments{};
+};
+
+/// A picture or replay of a visible check, by its path beside the page.
+struct FeedbackFile {
+  std::string check{};  ///< its id
+  std::string name{};   ///< "checks/hand.png"
+  std::string bytes{};
+};
+
+/// One HTML page that needs no network: grade, checks, pictures inside the page, links to replays beside it,
+/// and main.cpp with the comments. Of hidden checks it shows only number, kind of outcome and points. All
+/// texts are escaped, and no script may run.
+[[nodiscard]] std::string feedbackPage(const Feedback& feedback, const std::vector<FeedbackFile>& files);
+
+/// The same as plain text without pictures, for mails.
+[[nodiscard]] std::string feedbackText(const Feedback& feedback);
+
+}  // namespace rex::grading

@@ -1,0 +1,141 @@
+#include "classroom/class_feedback.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "base/text_file.h"
+#include "support/class_results.h"
+#include "support/expect_error.h"
+#include "support/file_text.h"
+#include "support/temporary_folder.h"
+
+namespace rex::grading::class_feedback_test {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+namespace fs = std::filesystem;
+const std::string kEx = "01-kinematics";
+
+class ClassFeedbackTest : public ::testing::Test {
+ protected:
+  ClassFeedbackTest() {
+    source_.out = folder_.path() / "results";
+    source_.points = {{kEx, 10}};
+    for (const char* student : {"adam", "zoe"}) {
+      const std::string mark = std::string("PLANTED-") + student;
+      source_.course.students.push_back(
+          {.id = student, .name = mark + "-name", .email = std::string(student) + "@uni.example"});
+      GradeResult result = sampleResult(3, 1, 0);
+      result.checks[1].message = mark + "-message <b>";
+      result.checks[0].picture = "checks/hand.png", result.checks[1].replay = "checks/turn.html";
+      result.checks[2].picture = "checks/far.png";
+      const Task task = sampleTask(student);
+      saveSample(source_.out, task, result, "int main() {}\n// " + mark + "-line </td>\n");
+      for (const char* name : {"hand.png", "turn.html", "far.png"})
+        writeTextFile(resultFolder(source_.out, task) / "checks" / name, mark + "-" + name);
+      source_.tasks.push_back(task);
+      source_.adjustments.comments.push_back(
+          {.students = {student}, .exercise = kEx, .line = 2, .text = mark + "-comment", .author = "Tutor"});
+    }
+  }
+  Gradebook book() const { return makeGradebook(source_); }
+
+  TemporaryFolder folder_;
+  GradebookSource source_;
+};
+
+TEST_F(ClassFeedbackTest, ShowsEachStudentNothingOfOthersNorOfHiddenChecks) {
+  const fs::path out = folder_.path() / "feedback";
+  EXPECT_EQ(writeFeedbackFolders(book(), source_.out, out), 2);
+  for (const std::string student : {"adam", "zoe"}) {
+    const std::string other = student == "adam" ? "zoe" : "adam", mark = "PLANTED-" + student;
+    std::string all;
+    for (const auto& entry : fs::recursive_directory_iterator(out / student))
+      if (entry.is_regular_file()) all += entry.path().string() + fileText(entry.path());
+    EXPECT_THAT(all, Not(HasSubstr(other)));
+    EXPECT_THAT(all, Not(HasSubstr("SECRET")));
+    EXPECT_THAT(all, Not(HasSubstr("far")));
+    for (const char* own :
+         {"-name", "-message &#60;b&#62;", "-line &#60;/td&#62;", "-comment (Tutor)", "-turn.html"})
+      EXPECT_THAT(all, HasSubstr(mark + own));
+    const std::string mail =
+        gradeMail(book(), *source_.course.student(student), source_.out, "Robotics", "tutor@uni.example", 0);
+    EXPECT_THAT(mail, Not(HasSubstr(other)));
+  }
+  const std::string page = fileText(out / "adam" / kEx / "feedback.html");
+  EXPECT_THAT(page, HasSubstr("<h1>01-kinematics: 4 of 10 points</h1>"));
+  EXPECT_THAT(page, HasSubstr("<td>fail</td><td>Hidden check 1</td><td>0/3</td><td></td>"));
+  EXPECT_THAT(page, HasSubstr("src=\"data:image/png;base64,UExBTlRFRC1hZGFtLWhhbmQucG5n\""));
+  EXPECT_THAT(page, HasSubstr("<a href=\"checks/turn.html\">Replay: Turns</a>"));
+  EXPECT_THAT(page, HasSubstr("<tr id=\"line2\">"));
+  EXPECT_FALSE(fs::exists(out / "adam" / kEx / "checks/hand.png")) << "it is in the page";
+}
+
+TEST_F(ClassFeedbackTest, NeverTakesFilesFromElsewhere) {
+  const Task task = source_.tasks[0];
+  for (const char* name : {"../../zoe/01-kinematics/main.cpp", "/etc/hostname", "checks/../main.cpp",
+                           "checks/none.png", "main.cpp"}) {
+    GradeResult result = sampleResult(3, 1, 0);
+    result.checks[0].picture = name;
+    saveSample(source_.out, task, result);
+    source_.adjustments.comments.clear();
+    EXPECT_TRUE(evidenceOf(*book().row("adam", kEx), source_.out).empty()) << name;
+  }
+}
+
+TEST_F(ClassFeedbackTest, SaysWhatDoesNotCompileAndGivesNothingForNothing) {
+  GradeResult result = sampleResult(0, 0, 0);
+  result.outcome = Outcome::kCompileError;
+  for (CheckResult& check : result.checks) check.status = {};
+  result.compile.diagnostics = {
+      {.file = "main.cpp", .line = 2, .severity = "error", .message = "expected '}' <x>"}};
+  saveSample(source_.out, source_.tasks[0], result, "a\nb\n");
+  source_.tasks.pop_back();
+  source_.adjustments = {};
+  const auto feedback = feedbackOf(*book().row("adam", kEx), source_.out).value();
+  EXPECT_THAT(feedbackPage(feedback, {}),
+              HasSubstr("<pre>main.cpp:2: error: expected &#39;}&#39; &#60;x&#62;"));
+  EXPECT_THAT(feedbackText(feedback), HasSubstr("  Cannot be graded:\nmain.cpp:2: error: expected"));
+  EXPECT_FALSE(feedbackOf(*book().row("zoe", kEx), source_.out).has_value());
+}
+
+TEST_F(ClassFeedbackTest, LetsNoNameForgeAHeaderOfAMail) {
+  CourseStudent student = source_.course.students[0];
+  student.name = "Zoë\r\nBcc: all@uni.example\r\n\r\n<b> " + std::string(60, 'x');
+  const std::string mail = gradeMail(book(), student, source_.out, "Robotics\nX: y", "tutor@uni.example", 0);
+  const std::string head = mail.substr(0, mail.find("\r\n\r\n"));
+  EXPECT_THAT(head, Not(HasSubstr("Bcc")));
+  EXPECT_THAT(
+      head,
+      HasSubstr("Date: Thu, 01 Jan 1970 00:00:00 +0000\r\nFrom: <tutor@uni.example>\r\nTo: =?UTF-8?B?"));
+  student.email = "a@b>\r\nBcc: c@d";
+  EXPECT_REX_ERROR((void)gradeMail(book(), student, source_.out, "", "tutor@uni.example", 0),
+                   "the e-mail address of 'adam': found 'a@b>");
+  student.email = "a@b";
+  EXPECT_REX_ERROR((void)gradeMail(book(), student, source_.out, "", "", 0),
+                   "the e-mail address of the sender: found none, wanted");
+  EXPECT_THAT(whyNoAddress("a.b"), HasSubstr("which is not NAME@HOST"));
+  EXPECT_THAT(whyNoAddress("a@b@c"), HasSubstr("which is not NAME@HOST"));
+  EXPECT_THAT(whyNoAddress(std::string(300, 'a') + "@b"), HasSubstr("more than 250 characters"));
+  EXPECT_EQ(whyNoAddress("zoe.m+x@uni-b.example"), "");
+}
+
+TEST_F(ClassFeedbackTest, RefusesStudentsWhoseNameIsNoFolder) {
+  Gradebook all = book();
+  all.rows[0].student.id = "../zoe";
+  EXPECT_REX_ERROR(writeFeedbackFolders(all, source_.out, folder_.path() / "x"),
+                   "no folder for '../zoe': found ");
+}
+
+TEST_F(ClassFeedbackTest, GivesAllGradesToPrograms) {
+  const auto json = nlohmann::json::parse(gradesJson(book(), source_.course));
+  EXPECT_EQ(json.at("schema"), "rex-grades/1");
+  EXPECT_EQ(json.at("students").size(), 2u);
+  EXPECT_EQ(json.at("students")[0].at("grades")[0].at("final"), 4);
+  EXPECT_EQ(json.at("students")[0].at("grades")[0].at("comments")[0].at("line"), 2);
+  EXPECT_EQ(json.at("exercises")[0].at("weight"), 1);
+}
+
+}  // namespace rex::grading::class_feedback_test

@@ -1,0 +1,302 @@
+#include "classroom/gradebook.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/class_results.h"
+#include "support/expect_error.h"
+#include "support/temporary_folder.h"
+
+namespace rex::grading::gradebook_test {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr std::int64_t kTime = 1'700'000'000, kDay = 86400;
+const std::string kEx = "01-kinematics";
+
+class GradebookTest : public ::testing::Test {
+ protected:
+  GradebookTest() {
+    source_.out = folder_.path();
+    source_.points = {{kEx, 10}, {"02-control", 20}};
+    source_.course.students = {{.id = "adam", .name = "Adam A.", .group = "pair"},
+                               {.id = "bob"},
+                               {.id = "carl"},
+                               {.id = "zoe", .group = "pair"}};
+  }
+  void handIn(const std::string& student, int points, std::int64_t submitted = kTime,
+              const std::string& exercise = kEx) {
+    const Task task = sampleTask(student, exercise, submitted);
+    saveSample(source_.out, task,
+               sampleResult(std::min(points, 3), std::clamp(points - 3, 0, 4), std::max(points - 7, 0)));
+    source_.tasks.push_back(task);
+  }
+  Adjustment adjustment(const std::string& student, const std::string& check) const {
+    return {.students = {student},
+            .exercise = kEx,
+            .check = check,
+            .reason = "seen",
+            .author = "Tutor",
+            .date = "2026-12-01",
+            .where = {"a.toml", 3, 1}};
+  }
+  GradeRow row(const std::string& student) const { return *makeGradebook(source_).row(student, kEx); }
+
+  TemporaryFolder folder_;
+  GradebookSource source_;
+};
+
+TEST_F(GradebookTest, GivesEveryoneOnTheRosterARow) {
+  handIn("bob", 7), handIn("Dora", 10);
+  source_.notTaken = {{"carl", "", "no exercise is called '01-kinematic'"}, {"emil", "", "a link"}};
+  const Gradebook book = makeGradebook(source_);
+  ASSERT_EQ(book.rows.size(), 4u);
+  EXPECT_EQ(book.row("adam", kEx)->status, RowStatus::kMissing);
+  EXPECT_FALSE(book.row("adam", kEx)->final.has_value());
+  EXPECT_EQ(book.row("adam", kEx)->possible, 1000) << "of the exercise";
+  EXPECT_EQ(book.row("bob", kEx)->status, RowStatus::kGraded);
+  EXPECT_EQ(book.row("bob", kEx)->final, 700);
+  EXPECT_EQ(book.row("carl", kEx)->status, RowStatus::kNotTaken);
+  EXPECT_EQ(book.row("carl", kEx)->remark, "no exercise is called '01-kinematic'");
+  ASSERT_EQ(book.strangers.size(), 1u);
+  EXPECT_EQ(book.strangers[0].student.id, "Dora");
+  EXPECT_EQ(book.strangers[0].final, 1000);
+  EXPECT_THAT(book.notes, Contains("'emil' is not on the roster: a link"));
+  EXPECT_EQ(gradesCsv({*book.row("bob", kEx)}),
+            "student,name,email,group,exercise,status,points,possible,outcome,adjusted,late,penalty,final,"
+            "submitted,"
+            "time_from,handed_in_as,remark\n"
+            "bob,,,,01-kinematics,graded,7,10,fail,,0,0,7,2023-11-14T22:13:20Z,table,bob,\n");
+  EXPECT_THAT(gradesCsv({*book.row("adam", kEx)}),
+              HasSubstr("\nadam,Adam A.,,pair,01-kinematics,missing,,10,,,,,,,,,\n"));
+}
+
+TEST_F(GradebookTest, CountsWhatCouldNotBeReadAsNotTaken) {
+  handIn("bob", 0);
+  source_.notTaken = {{"bob", kEx, "found a symbolic link"}};
+  EXPECT_EQ(row("bob").status, RowStatus::kNotTaken);
+  EXPECT_EQ(row("bob").remark, "found a symbolic link");
+  EXPECT_EQ(row("bob").final, 0);
+}
+
+TEST_F(GradebookTest, GivesNoGradeWithoutAValidResult) {
+  handIn("bob", 7), handIn("carl", 7), handIn("zoe", 7);
+  source_.tasks[0].seed = 3;
+  saveSample(source_.out, source_.tasks[1], [] {
+    GradeResult result = sampleResult(0, 0, 0);
+    result.outcome = Outcome::kGraderError;
+    return result;
+  }());
+  std::filesystem::remove(source_.out / "zoe" / kEx / "results.json");
+  const Gradebook book = makeGradebook(source_);
+  for (const char* student : {"adam", "bob", "carl", "zoe"}) {
+    EXPECT_EQ(book.row(student, kEx)->status, RowStatus::kToRepeat) << student;
+    EXPECT_FALSE(book.row(student, kEx)->final.has_value());
+  }
+  EXPECT_EQ(row("bob").remark, "the result is for other inputs");
+  EXPECT_EQ(row("carl").remark, "the grader failed");
+  EXPECT_EQ(row("zoe").remark, "there is no result yet");
+  EXPECT_FALSE(book.totals[1].total.has_value()) << "never a zero";
+}
+
+// The last submission of a pair counts for both, whoever handed it in.
+TEST_F(GradebookTest, CountsTheLastSubmissionOfAGroupForEachMember) {
+  handIn("adam", 7), handIn("zoe", 5, kTime + 60);
+  Gradebook book = makeGradebook(source_);
+  EXPECT_EQ(book.row("adam", kEx)->final, 500);
+  EXPECT_EQ(book.row("adam", kEx)->handedInAs, "zoe");
+  EXPECT_EQ(book.row("adam", kEx)->remark, "handed in by zoe");
+  EXPECT_EQ(book.row("zoe", kEx)->final, 500);
+  EXPECT_THAT(book.notes,
+              ElementsAre(kEx + " was handed in 2 times by one student or group: 'adam' "
+                                "(2023-11-14T22:13:20Z), 'zoe' (2023-11-14T22:14:20Z); the last one counts"));
+  EXPECT_TRUE(book.strangers.empty());
+}
+
+TEST_F(GradebookTest, TakesTheFolderOfAGroup) {
+  handIn("PAIR", 9);
+  EXPECT_EQ(row("adam").final, 900);
+  EXPECT_EQ(row("zoe").final, 900);
+  EXPECT_EQ(row("bob").status, RowStatus::kMissing);
+}
+
+TEST_F(GradebookTest, KnowsPeopleByWhatPlatformsSayOfThem) {
+  source_.course.students = {{.id = "adam", .number = "4711"},
+                             {.id = "bob", .email = "bob@uni.example"},
+                             {.id = "carl", .name = "Carl C."},
+                             {.id = "dora"},
+                             {.id = "emil"}};
+  const auto person = [&](const std::string& folder, ImportedStudent known, const std::string& by) {
+    known.student = folder;
+    known.exercises[kEx] = {.status = HandInStatus::kHandedIn, .handedInBy = by};
+    source_.imported.students.push_back(known);
+  };
+  person("501", {.id = "4711", .name = "Adam A."}, "501");
+  person("502", {.email = "BOB@uni.example"}, "502");
+  person("503", {.name = "Carl C."}, "503");
+  person("504", {.githubUsername = "dora"}, "503");
+  source_.imported.students.push_back({.student = "505", .githubUsername = "emil"});
+  source_.imported.students.back().exercises[kEx] = {.status = HandInStatus::kNotTaken, .why = "two files"};
+  handIn("501", 1), handIn("502", 2), handIn("503", 3);
+  EXPECT_EQ(row("adam").final, 100);
+  EXPECT_EQ(row("adam").student.name, "Adam A.");
+  EXPECT_EQ(row("bob").final, 200);
+  EXPECT_EQ(row("carl").final, 300);
+  EXPECT_EQ(row("dora").final, 300) << "a group of the platform";
+  EXPECT_EQ(row("emil").status, RowStatus::kNotTaken);
+  EXPECT_EQ(row("emil").remark, "two files");
+}
+
+TEST_F(GradebookTest, HasARowForEachSubmissionWithoutARoster) {
+  source_.course.students.clear();
+  source_.imported.students = {{.student = "bob", .name = "Bob B."}, {.student = "eve"}};
+  handIn("bob", 7);
+  const Gradebook book = makeGradebook(source_);
+  EXPECT_FALSE(book.hasRoster);
+  EXPECT_EQ(book.row("bob", kEx)->student.name, "Bob B.");
+  EXPECT_EQ(book.row("eve", kEx)->status, RowStatus::kMissing);
+}
+
+TEST_F(GradebookTest, AddsWhatCountsByItsWeight) {
+  source_.course.weights = {{kEx, 250}, {"02-control", 100}, {"03-later", 100}};
+  handIn("bob", 7), handIn("bob", 4, kTime, "02-control"), handIn("bob", 9, kTime, "04-other");
+  const Gradebook book = makeGradebook(source_);
+  EXPECT_THAT(book.exercises, ElementsAre(kEx, "02-control"));
+  EXPECT_EQ(book.totals[1].total, 2150) << "2.5 times 7, and 4";
+  EXPECT_EQ(book.totals[1].possible, 3500);
+  EXPECT_EQ(book.totals[0].total, 0) << "nothing handed in";
+  EXPECT_EQ(book.totals[0].possible, 4500);
+  EXPECT_THAT(book.notes, ElementsAre("04-other is not an exercise of the course: it does not count",
+                                      "03-later: nobody has handed it in, so it does not count yet"));
+  EXPECT_THAT(totalsCsv(book), HasSubstr("student,name,email,group,01-kinematics,02-control,total,possible\n"
+                                         "adam,Adam A.,,pair,,,0,45\nbob,,,,7,4,21.5,35\n"));
+  source_.only = kEx;
+  EXPECT_EQ(makeGradebook(source_).rows.size(), 4u);
+}
+
+TEST_F(GradebookTest, AppliesAdjustmentsOfChecksBeforeAndOfTheTotalAfterLateness) {
+  handIn("bob", 5, kTime + kDay);
+  source_.course.policy[kEx] = {.deadline = kTime, .perDay = 1000};
+  Adjustment hand = adjustment("bob", "turn"), bonus = adjustment("bob", "");
+  hand.points = 400, bonus.add = 50;
+  source_.adjustments.adjustments = {bonus, hand};
+  const GradeRow graded = row("bob");
+  EXPECT_EQ(graded.status, RowStatus::kLate);
+  EXPECT_EQ(graded.result->score, 5) << "the result itself never changes";
+  EXPECT_EQ(graded.points, 700);
+  EXPECT_EQ(graded.late.penalty, 70);
+  EXPECT_EQ(graded.final, 680);
+  EXPECT_THAT(gradesCsv({graded}), HasSubstr("late,5,10,fail,2.5,1,0.7,6.8,"));
+  const Judgement judgement = judgementOf(graded).value();
+  EXPECT_THAT(sentencesOf(judgement),
+              ElementsAre("Turns [turn]: 4 instead of 2 points: seen (Tutor, 2026-12-01)",
+                          "Final points: 6.8 instead of 6.3 points: seen (Tutor, 2026-12-01)",
+                          "1 day late: 0.7 of 7 points are taken away.", "Final grade: 6.8 of 10 points."));
+  EXPECT_THAT(
+      explain(graded),
+      ElementsAre("bob (bob), 01-kinematics: late",
+                  "Handed in at 2023-11-15T22:13:20Z (time from table) as 'bob'",
+                  "Deadline 2023-11-14T22:13:20Z", "Checks: 5 of 10 points (fail)",
+                  "  3/3 Position of the hand [hand]: pass", "  2/4 Turns [turn]: fail",
+                  "  0/3 SECRET title [far, hidden]: fail",
+                  "Adjusted, a.toml:3:1: Turns [turn]: 4 instead of 2 points: seen (Tutor, 2026-12-01)",
+                  "1 day late: 0.7 of 7 points are taken away.",
+                  "Adjusted, a.toml:3:1: Final points: 6.8 instead of 6.3 points: seen (Tutor, 2026-12-01)",
+                  "Final: 6.8 of 10 points"));
+}
+
+TEST_F(GradebookTest, TellsStudentsOnlyTheNumberOfAHiddenCheck) {
+  handIn("bob", 7);
+  Adjustment far = adjustment("bob", "far");
+  far.points = 150;
+  source_.adjustments.adjustments = {far};
+  const std::vector<std::string> sentences = sentencesOf(judgementOf(row("bob")).value());
+  EXPECT_EQ(sentences.at(0), "Hidden check 1: 1.5 instead of 0 points: seen (Tutor, 2026-12-01)");
+}
+
+TEST_F(GradebookTest, KeepsAdjustmentsWithinTheirCheckAndFinalPointsAboveZero) {
+  handIn("bob", 5);
+  Adjustment more = adjustment("bob", "turn"), less = adjustment("bob", "");
+  more.add = 900, less.add = -2000;
+  source_.adjustments.adjustments = {more};
+  EXPECT_EQ(row("bob").final, 700);
+  EXPECT_THAT(makeGradebook(source_).notes,
+              Contains("a.toml:3:1: the check 'turn' of bob stays within 0 and 4 points"));
+  source_.adjustments.adjustments = {less};
+  EXPECT_EQ(row("bob").final, 0);
+}
+
+TEST_F(GradebookTest, GivesPointsForWhatWasNotHandedIn) {
+  handIn("bob", 5);
+  Adjustment oral = adjustment("carl", ""), check = adjustment("carl", "hand");
+  oral.points = 600, check.add = 100;
+  source_.adjustments.adjustments = {oral, check};
+  EXPECT_EQ(row("carl").status, RowStatus::kMissing);
+  EXPECT_EQ(row("carl").final, 600);
+  EXPECT_THAT(makeGradebook(source_).notes,
+              ElementsAre("a.toml:3:1: 'carl' has no result for 01-kinematics to adjust"));
+  source_.tasks[0].seed = 3;  // stale
+  oral.students = {"bob"};
+  source_.adjustments.adjustments = {oral};
+  EXPECT_FALSE(row("bob").final.has_value());
+  EXPECT_THAT(makeGradebook(source_).notes,
+              ElementsAre("a.toml:3:1: 'bob' has no result for 01-kinematics to adjust"));
+}
+
+TEST_F(GradebookTest, RefusesAdjustmentsThatDoNotFit) {
+  handIn("bob", 5);
+  Adjustment one = adjustment("bob", "turns");
+  source_.adjustments.adjustments = {one};
+  EXPECT_REX_ERROR((void)row("bob"),
+                   "a.toml:3:1: 01-kinematics has no check 'turns': wanted the id of a check, or no "
+                   "check to change the final points (did you mean 'turn'?)");
+  one.check = "turn", one.points = 500;
+  source_.adjustments.adjustments = {one};
+  EXPECT_REX_ERROR((void)row("bob"),
+                   "a.toml:3:1: [[adjustment]] of the check 'turn': found 5 points, wanted at most 4");
+  one.exercise = "02-control";
+  source_.adjustments.adjustments = {one};
+  EXPECT_THAT(makeGradebook(source_).notes, ElementsAre("a.toml:3:1: nobody has handed in 02-control"));
+}
+
+TEST_F(GradebookTest, GivesCommentsToTheFileThatCounts) {
+  handIn("zoe", 5);
+  const Comment first{
+      .students = {"adam", "zoe"}, .exercise = kEx, .line = 1, .text = "nice", .where = {"a.toml", 9, 1}};
+  Comment other = first;
+  other.students = {"bob"}, other.line = 0;
+  source_.adjustments.comments = {first, other};
+  EXPECT_EQ(row("adam").comments.size(), 1u);
+  EXPECT_THAT(makeGradebook(source_).notes,
+              ElementsAre("a.toml:9:1: 'bob' handed in no 01-kinematics to comment on"));
+  source_.adjustments.comments[0].line = 2;
+  EXPECT_REX_ERROR((void)row("adam"),
+                   "a.toml:9:1: a comment on line 2 of adam: found a file of 1 lines, wanted one of them");
+}
+
+TEST_F(GradebookTest, TellsWhoHasAnExtension) {
+  handIn("bob", 5, kTime + kDay);
+  source_.course.policy[kEx] = {.deadline = kTime, .extensions = {{"bob", kTime + kDay}}, .perDay = 1000};
+  EXPECT_EQ(row("bob").status, RowStatus::kGraded);
+  EXPECT_THAT(explain(row("bob")), Contains("Deadline 2023-11-15T22:13:20Z, an extension of this student"));
+  EXPECT_THAT(explain(row("carl")), Contains("No grade (of 10 points)"));
+}
+
+TEST(NotTakenList, KeepsWhatWasNotTaken) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "not_taken.tsv";
+  EXPECT_TRUE(readNotTaken(file).empty());
+  writeTextFile(file, notTakenText({{"zoe", kEx, "a\tlink"}, {"adam", "", "x"}}));
+  const std::vector<NotTaken> all = readNotTaken(file);
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_EQ(all[0].why, "a link");
+  EXPECT_EQ(all[1].exercise, "");
+  writeTextFile(file, "student\texercise\twhy\nzoe\n");
+  EXPECT_REX_ERROR((void)readNotTaken(file),
+                   ":2: not a list of what was not taken: wanted student, exercise and reason");
+}
+
+}  // namespace rex::grading::gradebook_test

@@ -1,0 +1,126 @@
+#include "classroom/platform_grades.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/text_file.h"
+#include "support/class_results.h"
+#include "support/expect_error.h"
+#include "support/temporary_folder.h"
+
+namespace rex::grading::platform_grades_test {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+const std::string kEx = "01-kinematics";
+
+class PlatformGradesTest : public ::testing::Test {
+ protected:
+  PlatformGradesTest() {
+    source_.out = folder_.path() / "results";
+    source_.points = {{kEx, 10}};
+    source_.course.students = {
+        {.id = "adam", .name = "Adam =1+2", .email = "adam@uni.example", .number = "4711"},
+        {.id = "bob", .name = "Müller, Bob", .section = "A"}};
+    saveSample(source_.out, sampleTask("adam"), sampleResult(3, 4, 0));
+    source_.tasks = {sampleTask("adam")};
+  }
+  Gradebook book() const { return makeGradebook(source_); }
+  Worksheet worksheet(const std::string& text, bool scale = false) const {
+    writeTextFile(file(), text);
+    return moodleGrades(file(), book(), kEx, source_.imported, scale);
+  }
+  std::string file() const { return (folder_.path() / "worksheet.csv").string(); }
+
+  TemporaryFolder folder_;
+  GradebookSource source_;
+};
+
+TEST_F(PlatformGradesTest, WritesTheColumnsOfGradescopeAndCanvas) {
+  EXPECT_EQ(gradescopeGrades(book()).csv,
+            "Name,SID,Email,01-kinematics,Total Score,Max Points\n"
+            "Adam =1+2,4711,adam@uni.example,7,7,10\n\"Müller, Bob\",bob,,,0,10\n");
+  EXPECT_EQ(canvasGrades(book()).csv,
+            "Student,ID,SIS User ID,SIS Login ID,Section,01-kinematics\n"
+            "    Points Possible,,,,,10\n"
+            "Adam =1+2,,4711,adam,,7\n\"Müller, Bob\",,bob,bob,A,\n");
+  EXPECT_THAT(canvasGrades(book()).notes, IsEmpty());
+  source_.tasks[0].seed = 3;  // another seed: the result is stale
+  EXPECT_THAT(gradescopeGrades(book()).notes,
+              ElementsAre("adam 01-kinematics: no grade yet (the result is for other inputs)"));
+}
+
+TEST_F(PlatformGradesTest, WritesTheColumnsOfClassroom) {
+  EXPECT_THAT(classroomGrades(book(), kEx, {}).notes, ElementsAre("adam: no user name at GitHub is known"));
+  const ImportTable imported{{{.student = "adam", .githubUsername = "octo"}}};
+  const PlatformGrades grades = classroomGrades(book(), kEx, imported);
+  EXPECT_THAT(grades.csv, HasSubstr("points_awarded,points_available\n01-kinematics,,,octo,4711,,,"
+                                    "2023-11-14T22:13:20Z,7,10\n01-kinematics,,,,bob,,,,,10\n"));
+  EXPECT_THAT(grades.notes, IsEmpty());
+}
+
+// What Moodle compares when it reads the worksheet must come back as it was.
+TEST_F(PlatformGradesTest, CompletesTheWorksheetOfMoodleAndKeepsItsOtherCells) {
+  const std::string head =
+      "\xef\xbb\xbfIdentifier,\"Full name\",\"Email address\",Status,Grade,\"Maximum Grade\",\"Last modified "
+      "(grade)\"\r\n";
+  const Worksheet sheet = worksheet(head +
+                                    "\"Participant 501\",Adam,ADAM@uni.example,\"=x, "
+                                    "\"\"y\"\"\",,10.00,\"Friday, 20 November 2026, 11:59 PM\"\r\n"
+                                    "\"Participant 502\",\"Müller, Bob\",,,3,10.00,-\r\n\"Participant "
+                                    "503\",Eve,eve@uni.example,,5,10.00,-\r\n");
+  EXPECT_EQ(sheet.csv,
+            "\xef\xbb\xbfIdentifier,\"Full name\",\"Email address\",Status,Grade,\"Maximum Grade\",\"Last "
+            "modified (grade)\"\r\n"
+            "\"Participant 501\",Adam,ADAM@uni.example,\"=x, \"\"y\"\"\",7,10.00,\"Friday, 20 November 2026, "
+            "11:59 PM\"\r\n"
+            "\"Participant 502\",\"Müller, Bob\",,,3,10.00,-\r\n\"Participant "
+            "503\",Eve,eve@uni.example,,5,10.00,-\r\n");
+  EXPECT_THAT(sheet.notes, ElementsAre(file() + ":4: 'Eve' is nobody here; the grade stays as it is"));
+  ASSERT_EQ(sheet.rows.size(), 3u);
+  EXPECT_EQ(sheet.rows[0].student, "adam");
+  EXPECT_EQ(moodleFolder(sheet.rows[1]), "Müller, Bob_502_assignsubmission_file_");
+}
+
+TEST_F(PlatformGradesTest, KnowsStudentsByTheIdentifierOfTheImport) {
+  source_.imported.students = {{.student = "adam"}};
+  source_.imported.students[0].exercises[kEx] = {.platform = "moodle", .identifier = "Teilnehmer/in 501"};
+  const Worksheet sheet = worksheet("ID,Bewertung\nTeilnehmer/in 501,\n");
+  EXPECT_EQ(sheet.csv, "ID,Bewertung\n\"Teilnehmer/in 501\",7\n");
+  EXPECT_THAT(sheet.notes, IsEmpty());
+  const std::vector<WorksheetRow> rows = moodleStudents(book(), kEx, source_.imported);
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0].number, "501");
+  EXPECT_THAT(worksheet("Identifier,Grade\nParticipant 9,\n").notes,
+              ElementsAre(HasSubstr("'' is nobody here"), "'adam' has a grade and no row in " + file()));
+}
+
+TEST_F(PlatformGradesTest, ScalesOnlyOnRequest) {
+  const std::string text =
+      "Identifier,Email address,Grade,Maximum Grade\nParticipant 1,adam@uni.example,,\"100,00\"\n";
+  EXPECT_REX_ERROR((void)worksheet(text),
+                   "worksheet.csv:2: the maximum grade of 01-kinematics in Moodle: found 100,00, "
+                   "wanted 10, the points of the exercise, or --scale");
+  EXPECT_THAT(worksheet(text, true).csv, HasSubstr("adam@uni.example,70,"));
+}
+
+TEST_F(PlatformGradesTest, RefusesWhatIsNoWorksheet) {
+  EXPECT_REX_ERROR((void)worksheet("a,b\n"),
+                   "worksheet.csv:1: not a grading worksheet of Moodle: found the columns a, b, "
+                   "wanted Identifier and Grade");
+  EXPECT_REX_ERROR((void)worksheet("Identifier,Grade\nx\n"),
+                   ":2: not a grading worksheet: found 1 fields, wanted 2");
+  EXPECT_REX_ERROR(
+      (void)worksheet("Identifier,Grade,Email address\nA 1,,adam@uni.example\nA 2,,adam@uni.example\n"),
+      ":3: a second row for 'adam': wanted one; the first is in line 2");
+}
+
+TEST(MoodleFolder, LeavesNoNameThatMoodleTakesApart) {
+  EXPECT_EQ(moodleFolder({"", "../_a/b\\c_9_assignsubmission_file_", "7"}),
+            "a b c 9 assignsubmission file _7_assignsubmission_file_");
+  EXPECT_EQ(moodleFolder({"", "", "7"}), "Student_7_assignsubmission_file_");
+}
+
+}  // namespace rex::grading::platform_grades_test
