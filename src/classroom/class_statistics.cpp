@@ -32,7 +32,7 @@ StudentResult readOne(const fs::path& folder) {
         {.what = "not counted", .where = {file.string()}, .found = "no result", .wanted = "this file"});
   StudentResult read{.student = folder.parent_path().filename().string(),
                      .exercise = folder.filename().string(),
-                     .result = loadSoundResult(file)};
+                     .result = loadResult(file)};
   if (read.result.exerciseId != read.exercise)
     throw Error({.what = "not counted",
                  .where = {file.string()},

@@ -104,10 +104,9 @@ Layout layoutOf(const std::vector<std::string>& names, const std::vector<Exercis
       layout.platform = Platform::kMoodle;
     else if (parts.size() > 2 && has(".git"))
       layout.platform = Platform::kClassroom;
-    isClass = isClass || (parts.size() == 3 && parts[2] == "main.cpp" && isExerciseName(exercises, parts[1]));
-    isFlat = isFlat ||
-             (parts.size() == 2 && parts[1] == "main.cpp" && !isExerciseName(exercises, parts[0])) ||
-             (parts.size() == 1 && (isSourceName(name) || isArchiveName(name)));
+    const bool isInExercise = parts.size() > 1 && isExerciseName(exercises, parts[parts.size() - 2]);
+    isClass = isClass || (parts.size() == 3 && parts[2] == "main.cpp" && isInExercise);
+    isFlat = isFlat || ((isSourceName(name) || isArchiveName(name)) && (parts.size() > 3 || !isInExercise));
   }
   layout.isReady = !layout.platform && isClass;
   if (!layout.platform && isFlat && !isClass) layout.platform = Platform::kFolders;

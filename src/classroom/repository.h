@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "base/opened_folder.h"
 #include "base/private_folder.h"
 

@@ -34,7 +34,7 @@ class FilePicker {
     takeOther();
     for (auto& [exercise, found] : found_) take(exercise, found);
     for (const DownloadedFile* file : others_) picked_.notes.push_back(ignored(file->place));
-    if (picked_.files.empty() && picked_.complaints.empty() && isLeft_)
+    if (picked_.files.empty() && picked_.complaints.empty() && isLeft_ && !isUntouched_)
       complain("nothing to grade", files.front().place,
                files.size() == 1 ? "this file" : fmt::format("this and {} more", files.size() - 1),
                example());
@@ -125,6 +125,7 @@ class FilePicker {
     else if (const std::string why = whyNoSource(*file.text); !why.empty())
       complain("cannot be graded", file.place, why, "a C++ source file");
     else if (handedOut != options_.handedOut.end() && handedOut->second == *file.text)
+      isUntouched_ = true,
       picked_.notes.push_back(fmt::format("{}: as it was handed out, not taken", file.place));
     else
       picked_.files.push_back({exercise, *file.text, file.place, file.modifiedAt});
@@ -151,7 +152,8 @@ class FilePicker {
 
   const PickOptions& options_;
   PickedFiles picked_{};
-  bool isLeft_ = false;  ///< there is a file of the student's own
+  bool isLeft_ = false;       ///< there is a file of the student's own
+  bool isUntouched_ = false;  ///< there is one as it was handed out
   std::vector<std::unique_ptr<DownloadedFile>> kept_{};
   std::map<std::string, std::vector<const DownloadedFile*>> found_{};
   std::vector<const DownloadedFile*> others_{};

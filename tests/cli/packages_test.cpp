@@ -44,8 +44,8 @@ Names filesOfTheBuild() {
 }
 
 Names filesOfTheRun() {
-  Names files = {"/usr/share/javascript/three/three.min.js"};
-  for (const char* program : {"c++", "cmake", "ninja", "ld", "nm", "gnuplot", "ffmpeg", "bwrap"})
+  Names files = {"/usr/share/javascript/three/three.min.js", "/usr/share/zoneinfo/Europe/Berlin"};
+  for (const char* program : {"c++", "cmake", "ninja", "ld", "nm", "gnuplot", "ffmpeg", "bwrap", "git"})
     files.insert(fs::canonical(std::string("/usr/bin/") + program).string());
   for (const char* library : {"libOSMesa.so.8", "libEGL.so.1"})
     for (const std::string& line : split(outputOf({"/sbin/ldconfig", "-p"}), '\n'))

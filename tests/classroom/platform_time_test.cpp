@@ -1,0 +1,73 @@
+#include "classroom/platform_time.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/instant.h"
+#include "classroom/composed_text.h"
+#include "support/expect_error.h"
+
+namespace rex::grading::platform_time_test {
+
+std::string instant(const std::string& text, const std::string& zone) {
+  return instantText(PlatformZone(zone).instantOf(text, "grades.csv:3"));
+}
+
+TEST(PlatformTime, ReadsWhatPlatformsWrite) {
+  const PlatformTime wanted{2026, 11, 20, 23, 58, 0, {}};
+  for (const char* text :
+       {"Friday, 20 November 2026, 11:58 PM", "Friday, November 20, 2026, 11:58 PM", "20 Nov 2026, 23:58",
+        "Freitag, 20. November 2026, 23:58", "Fr, 20. Nov. 2026, 23:58 Uhr", "20.11.2026 23:58",
+        "20.11.2026, 23:58", "2026-11-20 23:58", "2026-11-20T23:58:00",
+        " Friday, 20 November 2026, 11:58\u202FPM "})
+    EXPECT_EQ(parsePlatformTime(text), wanted) << text;
+  EXPECT_EQ(parsePlatformTime("Montag, 1. Ma\u0308rz 2027, 00:05"), (PlatformTime{2027, 3, 1, 0, 5, 0, {}}));
+  EXPECT_EQ(parsePlatformTime("Samstag, 2. Jänner 2027, 12:00"), (PlatformTime{2027, 1, 2, 12, 0, 0, {}}));
+  EXPECT_EQ(parsePlatformTime("1 May 2026, 12:05 AM"), (PlatformTime{2026, 5, 1, 0, 5, 0, {}}));
+  EXPECT_EQ(parsePlatformTime("1 May 2026, 12:05 PM"), (PlatformTime{2026, 5, 1, 12, 5, 0, {}}));
+  EXPECT_EQ(parsePlatformTime("2026-11-20 23:58:01.250000000 -08:00"),
+            (PlatformTime{2026, 11, 20, 23, 58, 1, -8 * 3600}));
+  EXPECT_EQ(parsePlatformTime("2026-11-20 23:58:01 UTC"), (PlatformTime{2026, 11, 20, 23, 58, 1, 0}));
+}
+
+TEST(PlatformTime, GuessesNothing) {
+  for (const char* text : {"", "-", "yesterday", "11/10/2026 11:58", "20 November 2026",
+                           "31 November 2026, 11:58 PM", "Monday, 20 November 2026, 11:58 PM",
+                           "20 November 2026, 13:58 PM", "20 November 2026, 25:00", "20 Brumaire 2026, 10:00",
+                           "2026-11-20 23:58 CET", "20 November 26, 10:00", "20 20 November 2026, 10:00"})
+    EXPECT_EQ(parsePlatformTime(text), std::nullopt) << text;
+}
+
+TEST(PlatformZone, KnowsSummerAndWinter) {
+  EXPECT_EQ(instant("20.11.2026 23:58", "Europe/Berlin"), "2026-11-20T22:58:00Z");
+  EXPECT_EQ(instant("20.07.2026 23:58", "Europe/Berlin"), "2026-07-20T21:58:00Z");
+  EXPECT_EQ(instant("20.11.2026 23:58", "+05:30"), "2026-11-20T18:28:00Z");
+  EXPECT_EQ(instant("20.11.2026 23:58", "UTC"), "2026-11-20T23:58:00Z");
+  EXPECT_EQ(instant("2026-11-20 23:58:00 -0100", "Europe/Berlin"), "2026-11-21T00:58:00Z")
+      << "it says its zone";
+  // The hour that exists twice is the earlier one, in favour of the student.
+  EXPECT_EQ(instant("25.10.2026 02:30", "Europe/Berlin"), "2026-10-25T00:30:00Z");
+  EXPECT_REX_ERROR(instant("29.03.2026 02:30", "Europe/Berlin"),
+                   "grades.csv:3: an hour that does not exist in Europe/Berlin: found '29.03.2026 02:30'");
+}
+
+TEST(PlatformZone, SaysWhatItWants) {
+  EXPECT_REX_ERROR(instant("20.11.2026 23:58", ""),
+                   "grades.csv:3: a time without a zone: found '20.11.2026 23:58', wanted --time-zone ZONE");
+  EXPECT_REX_ERROR(instant("soon", "UTC"), "grades.csv:3: not a time: found 'soon', wanted a time such as");
+  for (const char* zone : {"Europe/Belin", "../../etc/passwd", "/etc/passwd", "+25:00", "Europe"})
+    EXPECT_REX_ERROR(PlatformZone{zone},
+                     "not a time zone: found '" + std::string(zone) + "', wanted a name such as");
+}
+
+TEST(ComposedText, MakesOneOfTwoWaysToTypeAnUmlaut) {
+  EXPECT_EQ(composed("Ju\u0308rgen"), "Jürgen");
+  EXPECT_EQ(composed("Jürgen"), "Jürgen");
+  EXPECT_EQ(caseless("JU\u0308RGEN"), caseless("jürgen"));
+  EXPECT_NE(caseless("Jurgen"), caseless("Jürgen"));
+  EXPECT_EQ(composed("\xff"), "\xff");
+  EXPECT_TRUE(isUtf8("ü"));
+  EXPECT_FALSE(isUtf8("\xfc"));
+}
+
+}  // namespace rex::grading::platform_time_test
