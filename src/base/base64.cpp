@@ -1,6 +1,6 @@
-#include <cstdint>
-
 #include "base/base64.h"
+
+#include <cstdint>
 
 namespace rex {
 

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "base/escape.h"
 #include "base/base64.h"
+#include "base/escape.h"
 #include "render/draw_film.h"
 #include "render/glb.h"
 #include "render/gzip_internal.h"

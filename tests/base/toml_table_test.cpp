@@ -24,7 +24,8 @@ class TomlTableTest : public ::testing::Test {
 TEST_F(TomlTableTest, GivesWhatIsThere) {
   const TomlTable top = table(
       "name = 'x'\ncount = 3\nshare = 0.5\nwords = ['a', 'b']\nkind = 'two'\n"
-      "due = 1970-01-01T01:00:10+01:00\nlater = 1970-01-01T01:00:11.75+01:00\nday = 2026-11-20\n[inner]\nkey = 1\n[[row]]\nn = "
+      "due = 1970-01-01T01:00:10+01:00\nlater = 1970-01-01T01:00:11.75+01:00\nday = 2026-11-20\n[inner]\nkey "
+      "= 1\n[[row]]\nn = "
       "1\n[[row]]\nn = 2\n");
   EXPECT_EQ(top.text("name"), "x");
   EXPECT_EQ(top.integer("count", 0, 5), 3);

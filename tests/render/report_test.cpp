@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "base/process.h"
 #include "base/base64.h"
+#include "base/process.h"
 #include "render/glb.h"
 #include "render/png.h"
 #include "support/expect_error.h"

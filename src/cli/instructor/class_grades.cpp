@@ -2,29 +2,18 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
 #include "base/text_file.h"
 #include "cli/instructor/collect.h"
-#include "cli/instructor/grading_options_internal.h"
 #include "cli/terminal.h"
 
 namespace rex::cli {
 
 namespace fs = std::filesystem;
-
-void addClassFiles(CLI::App* command, ClassFiles& files) {
-  CLI::Option* course =
-      command->add_option("--course", files.course, "roster, dates and weights (share/doc/grading-many.md)")
-          ->type_name("FILE.toml");
-  addDeadlines(command, files.deadlines)->excludes(course);
-  command
-      ->add_option("--adjustments", files.adjustments,
-                   "points and comments by people (default: those that the course names)")
-      ->type_name("FILE.toml");
-}
 
 grading::Course courseOf(const Project& project, const ClassFiles& files) {
   if (!files.course.empty()) return grading::readCourse(files.course, project.exercises());

@@ -4,8 +4,6 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "classroom/gradebook.h"
 #include "cli/project.h"
 
@@ -18,9 +16,6 @@ struct ClassFiles {
   std::filesystem::path adjustments{};  ///< empty: those that the course names
   [[nodiscard]] bool hasBook() const { return !course.empty() || !adjustments.empty(); }
 };
-
-/// `--course`, `--deadlines` and `--adjustments`.
-void addClassFiles(CLI::App* command, ClassFiles& files);
 
 /// Files beside the results.
 inline constexpr const char *kNotTakenFile = "not_taken.tsv", *kTotals = "totals.csv",

@@ -11,6 +11,7 @@
 #include "classroom/platform_grades.h"
 #include "cli/command_line_internal.h"
 #include "cli/instructor/class_grades.h"
+#include "cli/instructor/grading_options_internal.h"
 #include "cli/instructor/instructor_room_internal.h"
 #include "cli/out_folder.h"
 #include "cli/terminal.h"

@@ -8,6 +8,17 @@ CLI::Option* addDeadlines(CLI::App* command, std::filesystem::path& file) {
       ->type_name("FILE.toml");
 }
 
+void addClassFiles(CLI::App* command, ClassFiles& files) {
+  CLI::Option* course =
+      command->add_option("--course", files.course, "roster, dates and weights (share/doc/grading-many.md)")
+          ->type_name("FILE.toml");
+  addDeadlines(command, files.deadlines)->excludes(course);
+  command
+      ->add_option("--adjustments", files.adjustments,
+                   "points and comments by people (default: those that the course names)")
+      ->type_name("FILE.toml");
+}
+
 void addSecret(CLI::App* command, std::filesystem::path& file) {
   command->add_option("--secret-file", file, "secret of the course, for the seeds of hidden checks")
       ->type_name("FILE");

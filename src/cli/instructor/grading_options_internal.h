@@ -5,6 +5,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/instructor/class_grades.h"
+
 namespace rex::cli {
 
 inline constexpr const char* kGradingCodes =
@@ -15,6 +17,8 @@ inline constexpr const char* kGradingCodes =
 /// Options that several commands of the instructor's desk have in common: share/doc/grading-many.md.
 CLI::Option* addDeadlines(CLI::App* command, std::filesystem::path& file);
 void addSecret(CLI::App* command, std::filesystem::path& file);
+/// `--course`, `--deadlines` and `--adjustments`.
+void addClassFiles(CLI::App* command, ClassFiles& files);
 /// Formats of `rex report`, with commas between.
 void addReports(CLI::App* command, std::string& reports);
 void addEvidence(CLI::App* command, bool& evidence);
