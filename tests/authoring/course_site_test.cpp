@@ -39,7 +39,8 @@ TEST_F(CourseSiteTest, HasNoDeadLinks) {
       ++links;
       const fs::path file = target.empty() ? entry.path() : entry.path().parent_path() / target;
       ASSERT_TRUE(fs::is_regular_file(file)) << entry.path() << ": " << (*found)[0];
-      if (!anchor.empty()) EXPECT_THAT(fileText(file), HasSubstr("id=\"" + anchor + "\"")) << entry.path();
+      const std::string id = anchor.empty() ? "" : "id=\"" + anchor + "\"";
+      EXPECT_THAT(fileText(file), HasSubstr(id)) << entry.path();
     }
   }
   EXPECT_EQ(pages, site.pages);
@@ -60,7 +61,7 @@ TEST_F(CourseSiteTest, WritesNothingThatLeaks) {
       "title = \"T\"\nscript = \"1\"\n[[part]]\nid = \"p\"\ntitle = \"P\"\npoints = 1\nhints = [\"h?\"]\n");
   writeTextFile(exercise / "exercise.h", "double f(double x);\n");
   writeTextFile(exercise / "solution.cpp",
-                "// <solution f>\ndouble f(double x) { return 7 * std::sin(x) + 31 * std::cos(x); }\n// "
+                "// <solution f>\ndouble f(double x) {\n  return 7 * std::sin(x) + 31 * std::cos(x);\n}\n// "
                 "<todo>\n// </solution>\n");
   writeTextFile(exercise / "check.cpp", "\n");
   for (const char* file : {"style.css", "search.js"}) writeTextFile(root / "share" / "site" / file, "");
