@@ -43,9 +43,9 @@ std::string fileName(std::size_t k) { return fmt::format("{:06}.cpp", k); }
 std::string runSim(std::vector<std::string> arguments, const std::string& input, const fs::path& folder) {
   arguments.insert(arguments.begin(), kProgram);
   constexpr double kLongest = 3600;
-  constexpr std::size_t kMostOutput = 256u << 20;
+  constexpr std::size_t kMostPrinted = 256u << 20;
   const ProcessResult run = runProcess(
-      arguments, {.input = input, .directory = folder, .timeout = kLongest, .outputLimit = kMostOutput});
+      arguments, {.input = input, .directory = folder, .timeout = kLongest, .outputLimit = kMostPrinted});
   if (!run.started)
     throw Error({.what = "submissions cannot be compared",
                  .found = fmt::format("no program {}", kProgram),

@@ -53,7 +53,7 @@ std::pair<std::string, int> mostAsked(const CheckStatistics& check) {
 
 std::string commonQuestion(const CheckStatistics& check) {
   const auto [question, count] = mostAsked(check);
-  return count == 0 ? "" : fmt::format("; {} were asked: {}", count, question);
+  return count == 0 ? "" : fmt::format("; {} asked: {}", count, question);
 }
 
 std::string discriminationText(const CheckStatistics& check) {
