@@ -1,6 +1,7 @@
 #include "cli/instructor/class_figure.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <map>
 #include <set>
@@ -20,17 +21,15 @@ double percentOf(const grading::GradeResult& result) {
   return result.maxScore > 0 ? 100.0 * result.score / result.maxScore : 0;
 }
 
-// The position of each exercise on the axis.
+// The position of each exercise on the axis: its number, or the next after the largest.
 std::map<std::string, int> placesOf(const std::set<std::string>& exercises) {
+  const auto hasNumber = [](const std::string& name) { return name[0] >= '0' && name[0] <= '9'; };
   std::map<std::string, int> places;
   int last = 0;
-  for (const std::string& one : exercises) {
-    const int number = std::atoi(one.c_str());
-    places[one] = number;
-    last = std::max(last, number);
-  }
-  for (auto& [exercise, place] : places)
-    if (place == 0) place = ++last;
+  for (const std::string& one : exercises)
+    if (hasNumber(one)) last = std::max(last, places[one] = std::atoi(one.c_str()));
+  for (const std::string& one : exercises)
+    if (!hasNumber(one)) places[one] = ++last;
   return places;
 }
 
@@ -44,10 +43,11 @@ double offsetOf(int k, int count) {
 // A field of one part; `share` is the part of the points that the class got.
 Region fieldOf(double x, double y, double share) {
   constexpr double kHalfWidth = 0.48, kHalfHeight = 0.42;
-  const auto missing = static_cast<float>(1 - std::clamp(share, 0.0, 1.0));
+  // A tenth less must be seen.
+  const auto shade = static_cast<float>(std::sqrt(1 - std::clamp(share, 0.0, 1.0)));
   return {.x = {x - kHalfWidth, x + kHalfWidth, x + kHalfWidth, x - kHalfWidth},
           .y = {y - kHalfHeight, y - kHalfHeight, y + kHalfHeight, y + kHalfHeight},
-          .color = Color{1 - 0.1F * missing, 1 - 0.55F * missing, 1 - missing}};
+          .color = Color{1 - 0.2F * shade, 1 - 0.8F * shade, 1 - shade}};
 }
 
 }  // namespace
@@ -108,9 +108,9 @@ Figure partsFigure(const std::vector<grading::ExerciseStatistics>& all) {
           {.text = fmt::format("{} {:.0f} %", part.id, 100 * share), .x = column - 0.47, .y = double(row)});
     }
   }
-  figure.width = static_cast<int>(std::min<std::size_t>(8192, 200 + 130 * columns));
+  figure.width = static_cast<int>(std::min<std::size_t>(8192, 330 + 130 * columns));
   figure.height = std::min(8192, 170 + 40 * (last - first + 1));
-  figure.xRange = AxisRange{0.5, static_cast<double>(columns) + 0.5};
+  figure.xRange = AxisRange{0.5, static_cast<double>(columns) + 1.5};  // room for the last names
   figure.yRange = AxisRange{first - 0.5, last + 0.5};
   return figure;
 }

@@ -53,6 +53,9 @@ TEST(ClassFigure, ShowsWhichPartIsHard) {
   first.parts = {{.id = "easy", .maxPoints = 4, .meanPoints = 4},
                  {.id = "hard", .maxPoints = 4, .meanPoints = 1}};
   second.parts = {{.id = "half", .maxPoints = 2, .meanPoints = 1}};
+  grading::ExerciseStatistics zeroth{.exercise = "00-c", .graded = 2};
+  zeroth.parts = {{.id = "all", .maxPoints = 2, .meanPoints = 2}};
+  EXPECT_EQ(partsFigure({zeroth, first}).notes[0].y, 0);
   const Figure figure = partsFigure({first, second});
   ASSERT_EQ(figure.notes.size(), 3u);
   EXPECT_EQ(figure.notes[1].text, "hard 25 %");
