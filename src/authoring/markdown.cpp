@@ -53,7 +53,8 @@ std::string convert(std::string_view markdown) {
 // Gives each link and picture its new target, or only its text.
 std::string withTargets(const std::string& html,
                         const std::function<std::string(const std::string&)>& newTarget) {
-  static const std::regex kLink(R"re(<a href="([^"]*)"( title="[^"]*")?>([\s\S]*?)</a>|<img src="([^"]*)")re");
+  static const std::regex kLink(
+      R"re(<a href="([^"]*)"( title="[^"]*")?>([\s\S]*?)</a>|<img src="([^"]*)")re");
   std::string result;
   auto last = html.begin();
   for (std::sregex_iterator found(html.begin(), html.end(), kLink), end; found != end; ++found) {
