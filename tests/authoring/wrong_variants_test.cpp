@@ -92,7 +92,7 @@ TEST_F(WrongVariantsTest, AreToldApartByWhatIsWrong) {
           HasSubstr("c_unknown.cpp:1: no check is called 'quarter-trun' (did you mean 'quarter-turn'?)"),
           HasSubstr("h_empty.cpp:1: no check is named"),
           StartsWith("wrong/a_typo: it was not graded: main.cpp:9:8: error: 'angel' was not declared"),
-          "wrong/b_right: check 'quarter-turn' passes although: b_right.",
+          "wrong/b_right: check 'quarter-turn' does not catch this mistake: b_right.",
           "wrong/d_unseen: check 'angles-add' leaves no picture",
           "wrong/e_allowed: it should call a forbidden function, but no call was found",
           HasSubstr(
