@@ -56,7 +56,7 @@ inline double squaresOf(const Points& from, const Points& to, const Eigen::Vecto
 }
 
 inline Eigen::Vector2d meanOf(const Points& points) {
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  Eigen::Vector2d sum(0, 0);
   for (const Eigen::Vector2d& p : points) sum += p;
   return sum / static_cast<double>(points.size());
 }
