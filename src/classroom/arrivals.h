@@ -29,7 +29,7 @@ struct Arrival {
   std::string group{};
   std::string place{};                  ///< in the download, for messages
   std::vector<DownloadedFile> files{};  ///< named from the student's own folder on
-  std::string whyNone{};                ///< why there is no file although something was handed in
+  std::string whyNone{};                ///< why no file could be taken from what was handed in
   std::optional<std::int64_t> submitted{};
   std::string timeFrom{};  ///< platform or git; empty: the files tell it
   std::string commit{};

@@ -51,7 +51,7 @@ class ImportTableReader {
     try {
       json = Json::parse(readTextFile(file_));
     } catch (const Json::parse_error&) {
-      throw refusal("", "text that is no JSON", kMadeBy);
+      throw refusal("", "text that is not JSON", kMadeBy);
     }
     if (textIn(json, "schema", "") != kImportSchema)
       throw refusal("schema", "'" + textIn(json, "schema", "") + "'", kImportSchema);

@@ -23,7 +23,7 @@ bool isCommitId(const std::string& text, std::size_t fewest = 40) {
          text.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
-// A small text file of a clone, without its last line break; nothing if it does not exist or is no file.
+// A small text file of a clone, without its last line break; nothing if there is no such file.
 std::optional<std::string> textIn(const OpenedFolder& folder, const std::string& name) {
   constexpr std::size_t kLargest = std::size_t{8} << 20;
   if (folder.typeOf(name) != fs::file_type::regular) return {};

@@ -73,7 +73,7 @@ TEST_F(ImportTableTest, ConformsToItsSchema) {
 
 TEST_F(ImportTableTest, SaysWhereItIsWrong) {
   const std::string start = R"({"schema": "rex-import/1", "students": )";
-  EXPECT_REX_ERROR(read("{"), "import.json: not a table of imports: found text that is no JSON");
+  EXPECT_REX_ERROR(read("{"), "import.json: not a table of imports: found text that is not JSON");
   EXPECT_REX_ERROR(read("[]"), "not a table of imports: found no table");
   EXPECT_REX_ERROR(read("{}"), "not a table of imports: schema: found '', wanted rex-import/1");
   EXPECT_REX_ERROR(read(start + "3}"), "students: found no list, wanted a table that `rex import` wrote");
