@@ -22,15 +22,20 @@ struct Row {
   std::optional<double> target{};  ///< what ours / peer should not exceed
   std::string unit = "ns";         ///< ns, us, ms, s; % of shares; k, thousands, of counts
   int repetitions = 15;            ///< measurements of each side
-  bool isMedian = false;           ///< each measurement is of another case: take medians, not the smallest
+  bool isMedian = false;           ///< each measurement is of another case: compare medians, not the smallest
 };
 
-/// The smallest or the median of several measurements of each side, taken in turn, in the row's unit.
+/// The smallest and the median of several measurements of one side, in the row's unit.
+struct Spread {
+  double smallest = 0, median = 0;
+};
+/// Both sides, measured in turn; empty: not measured.
 struct Result {
-  std::optional<double> ours{}, peer{};
-  [[nodiscard]] std::optional<double> ratio() const;
+  std::optional<Spread> ours{}, peer{};
 };
 [[nodiscard]] Result measure(const Row& row);
+/// Ours divided by the peer's: of medians where the row says so, else of the smallest; what `target` limits.
+[[nodiscard]] std::optional<double> ratio(const Row& row, const Result& result);
 
 /// The groups, a file each. Setting one up takes little time; it throws std::logic_error where ours and a
 /// peer do not compute the same.
