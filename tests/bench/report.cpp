@@ -59,6 +59,14 @@ std::string verdict(const Line& line) {
 
 }  // namespace
 
+Machine thisMachine() {
+  return {.cpu = cpuInfo("model name"),
+          .flags = vectorFlags(),
+          .compiler = REX_BENCH_COMPILER,
+          .kernels = REX_BENCH_KERNELS,
+          .lanes = cpuLanes()};
+}
+
 std::string tableHead() {
   return fmt::format(kTableFormat, "group", "name", "ours", "median", "peer", "median", "", "", "ratio",
                      "target", "");
@@ -87,12 +95,13 @@ std::string json(const std::vector<Line>& lines) {
                     {"ratio_of", row.isMedian ? "medians" : "smallest"},
                     {"target", orNull(row.target)}});
   }
-  const Json machine{{"cpu", cpuInfo("model name")},
-                     {"flags", vectorFlags()},
-                     {"lanes", cpuLanes()},
-                     {"compiler", REX_BENCH_COMPILER},
-                     {"kernels", REX_BENCH_KERNELS}};
-  return Json{{"machine", machine}, {"rows", rows}}.dump(2) + "\n";
+  const Machine machine = thisMachine();
+  const Json about{{"cpu", machine.cpu},
+                   {"flags", machine.flags},
+                   {"lanes", machine.lanes},
+                   {"compiler", machine.compiler},
+                   {"kernels", machine.kernels}};
+  return Json{{"machine", about}, {"rows", rows}}.dump(2) + "\n";
 }
 
 }  // namespace rex::bench

@@ -22,4 +22,11 @@ struct Line {
 /// what is not there; `flags` are the CPU's vector extensions, `lanes` what our kernels use of them.
 [[nodiscard]] std::string json(const std::vector<Line>& lines);
 
+/// What the machine is, by the names of "machine" above.
+struct Machine {
+  std::string cpu, flags, compiler, kernels;
+  int lanes = 0;
+};
+[[nodiscard]] Machine thisMachine();
+
 }  // namespace rex::bench

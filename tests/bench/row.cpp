@@ -1,6 +1,7 @@
 #include "bench/row.h"
 
 #include <algorithm>
+#include <chrono>
 #include <map>
 
 #include <benchmark/benchmark.h>
@@ -40,6 +41,14 @@ Measurement timed(std::function<void()> work) {
     Collector collector;
     benchmark::RunSpecifiedBenchmarks(&collector);
     return collector.seconds;
+  };
+}
+
+Measurement timedByWall(std::function<void()> work) {
+  return [work = std::move(work)] {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
 }
 
