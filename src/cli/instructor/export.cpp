@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/is_below.h"
+#include "base/leftovers.h"
 #include "base/text_file.h"
 #include "classroom/class_feedback.h"
 #include "classroom/platform_grades.h"
@@ -46,11 +48,12 @@ struct Export {
 };
 
 Export read(const Project& project, const ExportOptions& options) {
-  if (!fs::is_regular_file(options.results / "tasks.tsv"))
-    throw UsageError({.what = "no folder of results",
-                      .where = {options.results.string()},
-                      .wanted = "the one that rex grade wrote, with tasks.tsv"});
-  Export all{.tasks = grading::readManifest(options.results / "tasks.tsv")};
+  if (isBelow(fs::weakly_canonical(options.out), fs::weakly_canonical(options.results)))
+    throw UsageError({.what = "--out",
+                      .found = options.out.string(),
+                      .wanted = "a folder outside of the results, where it could be taken for a student"});
+  removeLeftovers(options.out);
+  Export all{.tasks = tasksIn(options.results)};
   const std::string only = options.exercise.empty() ? "" : project.exercise(options.exercise).name;
   all.course = courseOf(project, options.files);
   all.book = gradebookOf(project, options.files, all.tasks, options.results, only);
@@ -130,6 +133,7 @@ ExitCode exportMail(const Project& project, const ExportOptions& options) {
   int written = 0;
   for (const grading::StudentTotal& sum : all.book.totals) {
     if (const std::string why = grading::whyNoAddress(sum.student.email); !why.empty()) {
+      fs::remove(options.out / (sum.student.id + ".eml"));  // of an earlier export
       notes.push_back(fmt::format("no mail to '{}': the e-mail address is {}", sum.student.id, why));
       continue;
     }
@@ -175,11 +179,13 @@ ExitCode exportMoodle(const Project& project, const ExportOptions& options) {
   std::vector<grading::ZipEntry> entries;
   for (const grading::WorksheetRow& row : rows)
     if (!row.student.empty() && !row.number.empty()) addFeedback(all, options, exercise, row, entries);
-  if (entries.empty())
+  if (entries.empty()) {
+    fs::remove(options.out / kFeedbackZip);  // of an earlier export
     notes.emplace_back("no feedback is written: nobody's number in Moodle is known");
-  else
+  } else {
     grading::writeZip(options.out / kFeedbackZip, entries);
-  if (!entries.empty()) say(fmt::format("Feedback: {}", shown(options.out / kFeedbackZip)));
+    say(fmt::format("Feedback: {}", shown(options.out / kFeedbackZip)));
+  }
   return told(notes);
 }
 
