@@ -29,11 +29,13 @@ Regrading::Regrading(const std::vector<Task>& tasks, const std::filesystem::path
     : tasks_(tasks), out_(out) {
   readNotes();
   for (const Task& task : tasks) {
-    if (const auto noted = noted_.find(keyOf(task)); noted != noted_.end())
-      before_.emplace_back(noted->second);
-    else
-      before_.push_back(isOpen(task) || grading::isHeldBack(task, out_) ? grading::pointsBefore(task, out_)
-                                                                        : std::nullopt);
+    const auto noted = noted_.find(keyOf(task));
+    const bool isOld = noted != noted_.end(), isHeld = grading::isHeldBack(task, out_),
+               isAgain = isOld || isOpen(task);
+    before_.push_back(isOld               ? std::optional<int>(noted->second)
+                      : isAgain || isHeld ? grading::pointsBefore(task, out_)
+                                          : std::nullopt);
+    isNew_ = isNew_ || (before_.back() && (isAgain || accept));
   }
   writeNotes();
   if (!accept) return;
@@ -84,7 +86,7 @@ void Regrading::tell() const {
                 2, 0));
     }
   }
-  if (changed + same > 0) {
+  if (isNew_ && changed + same > 0) {
     replaceTextFile(out_ / kRegradedFile, table, "the table of regradings");
     note(fmt::format("Graded again: {} with other points, {} with the same. Table: {}", changed, same,
                      shown(out_ / kRegradedFile)));

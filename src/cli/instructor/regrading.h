@@ -20,7 +20,8 @@ class Regrading {
   Regrading(const std::vector<grading::Task>& tasks, const std::filesystem::path& out,
             const std::function<bool(const grading::Task&)>& isOpen, bool accept);
 
-  /// Says which points have changed, and writes regraded.csv if anything was graded again.
+  /// Says which points have changed. Writes regraded.csv if anything was graded again or accepted in this
+  /// run; the table of an earlier one stays.
   void tell() const;
 
  private:
@@ -29,8 +30,9 @@ class Regrading {
 
   const std::vector<grading::Task>& tasks_;
   std::filesystem::path out_;
-  std::vector<std::optional<int>> before_{};      ///< of each task; empty: it was not graded before
-  std::map<std::string, int> noted_{};            ///< of an interrupted run: by student, exercise and text
+  std::vector<std::optional<int>> before_{};  ///< of each task; empty: it was not graded before
+  std::map<std::string, int> noted_{};        ///< of an interrupted run: by student, exercise and text
+  bool isNew_ = false;                        ///< something is graded again, or accepted
 };
 
 }  // namespace rex::cli
