@@ -1,4 +1,4 @@
-"""A project in a folder of its own: some exercises of this one, and the one that the attacks of tests/grading are for."""
+"""A project in a folder of its own: exercises of this one, and the one that the attacks of tests/grading are for."""
 
 import pathlib
 import shutil

@@ -4,28 +4,30 @@ Of twenty in a row seven are honest, two wrong, two lucky, two attack, two are l
 hands in an archive that nobody should unpack, and one a file that does not compile. Every file holds a mark of its own.
 """
 
+import csv
 import dataclasses
+import datetime
 import io
 import json
 import os
-import pathlib
 import random
 import re
 import subprocess
 import unicodedata
 import zipfile
+import zoneinfo
 
 import submissions
 from attacked_project import ATTACKED, ROOT
 
 BASICS = "00-basics"
-KINDS = ["honest"] * 7 + ["wrong"] * 2 + ["lucky"] * 2 + ["attack"] * 2 + ["late", "late wrong", "missing", "pair", "pair",
-                                                                          "hostile", "broken"]
+KINDS = (["honest"] * 7 + ["wrong"] * 2 + ["lucky"] * 2 + ["attack"] * 2 +
+         ["late", "late wrong", "missing", "pair", "pair", "hostile", "broken"])
 DEADLINE = 1_795_215_540  # 2026-11-20T22:59:00Z
 # The second and the third are one name, composed and decomposed. Commas, quotes and blanks are those of real lists.
 NAMES = ["Zoe Miller", "Jürgen Groß", unicodedata.normalize("NFD", "Jürgen Groß"), "José Peña", "Nguyễn Thị Hoa",
-         "Łukasz Żak", "Adam O'Hara", "Änne Müller-Weiß", "Li Wei", "Bo", "Çağla Öztürk", "Max, jun.", "Ada", "Ïa \"Io\" Q",
-         "Eva", "Tim", "Uwe", "Ana", "Kim", "Jo"]
+         "Łukasz Żak", "Adam O'Hara", "Änne Müller-Weiß", "Li Wei", "Bo", "Çağla Öztürk", "Max, jun.", "Ada",
+         "Ïa \"Io\" Q", "Eva", "Tim", "Uwe", "Ana", "Kim", "Jo"]
 # They keep the compiler or the machine busy until a limit.
 SLOW = re.compile(r"A0[569]|A1[04-6]|A34")
 MARK = re.compile(r"MARK-\d{4}-[0-9a-f]{8}")
@@ -56,7 +58,8 @@ def made_up_class(count, seed):
     honest = (ROOT / "tests/grading/battery/honest.cpp").read_text()
     lines = [line.split("\t") for line in (ROOT / "tests/grading/attacks.tsv").read_text().splitlines()[1:]]
     attacks = [(line[0], int(line[4])) for line in lines if not SLOW.match(line[0])]
-    solution, wrong = submissions.reference(ROOT / "exercises" / BASICS), submissions.wrong_variants(ROOT / "exercises" / BASICS)
+    basics = ROOT / "exercises" / BASICS
+    solution, wrong = submissions.reference(basics), submissions.wrong_variants(basics)
     students = []
     for k in range(count):
         place = k % 20
@@ -109,13 +112,10 @@ def those_of(students, exercise):
 
 
 def instant(time, zone="UTC", form="%Y-%m-%dT%H:%M:%SZ"):
-    import datetime
-    import zoneinfo
     return datetime.datetime.fromtimestamp(time, zoneinfo.ZoneInfo(zone)).strftime(form)
 
 
 def write_csv(file, rows):
-    import csv
     with open(file, "w", newline="", encoding="utf-8") as lines:
         csv.writer(lines).writerows(rows)
 
@@ -128,7 +128,8 @@ def moodle(folder, students, exercise, points):
     for student in students:
         has = exercise in student.texts
         if has:
-            where = f"{student.group + '-' if student.group else ''}{student.name}_{first + student.k}_assignsubmission_file_"
+            group = student.group + "-" if student.group else ""
+            where = f"{group}{student.name}_{first + student.k}_assignsubmission_file_"
             for name, content in upload(student.partner if student.is_second else student, exercise).items():
                 members[f"{where}/{name}"] = content
         time = instant(student.time, "Europe/Berlin", "%A, %d %B %Y, %I:%M %p") if has else "-"
@@ -146,7 +147,8 @@ def gradescope(folder, students, exercise):
         name = f"submission_{500 + student.k}"
         text += f"{name}:\n  :submitters:\n"
         for one in [student] + ([student.partner] if student.partner else []):
-            text += f"  - :name: {quoted(one.name, ensure_ascii=False)}\n    :sid: '{one.number}'\n    :email: {one.email}\n"
+            text += f"  - :name: {quoted(one.name, ensure_ascii=False)}\n    :sid: '{one.number}'\n"
+            text += f"    :email: {one.email}\n"
         text += f"  :created_at: {instant(student.time, form='%Y-%m-%d %H:%M:%S')}.250000000 Z\n  :history:\n"
         text += "".join(f"  - :id: {k}\n    :score: 0.0\n" for k in range(student.attempts - 1)) or "  []\n"
         for file, content in upload(student, exercise).items():
@@ -169,8 +171,8 @@ def folders(folder, students, exercise):
 def classroom(folder, students):
     """Clones with a whole course inside, roster and record."""
     handed_out = (ROOT / "exercises" / BASICS / "main.cpp").read_text()
-    record = [["assignment_name", "github_username", "roster_identifier", "student_repository_name", "submission_timestamp",
-               "points_awarded", "points_available", "group_name", "commit"]]
+    record = [["assignment_name", "github_username", "roster_identifier", "student_repository_name",
+               "submission_timestamp", "points_awarded", "points_available", "group_name", "commit"]]
     write_csv(folder / "roster.csv", [["identifier", "github_username", "github_id", "name"]] +
               [[student.id, student.user, student.k, student.name] for student in students])
 
@@ -220,13 +222,15 @@ weight = 2
     if late:
         text += f"[exercise.{ATTACKED}.extensions]\n{late[0]} = {instant(DEADLINE + 86400)}\n"
     for student in students:
-        text += f"[[student]]\nid = {quoted(student.id)}\nname = {quoted(student.name)}\nemail = {quoted(student.email)}\n"
-        text += f"number = {quoted(student.number)}\n" + (f"group = {quoted(student.group)}\n" if student.group else "")
+        text += f"[[student]]\nid = {quoted(student.id)}\nname = {quoted(student.name)}\n"
+        text += f"email = {quoted(student.email)}\nnumber = {quoted(student.number)}\n"
+        text += f"group = {quoted(student.group)}\n" if student.group else ""
     file.write_text(text, encoding="utf-8")
     wrong, group = students[7].id, next((student.group for student in students if student.group), "")
     by = f'exercise = "{ATTACKED}"\nauthor = "A. Tutor"\n'
     said = f'[[adjustment]]\nstudent = "s0000"\n{by}add = 0.5\nreason = "a good question"\ndate = 2026-12-01\n'
-    said += f'[[adjustment]]\nstudent = "{wrong}"\n{by}check = "examples"\npoints = 3\nreason = "our sign"\ndate = 2026-12-01\n'
+    said += f'[[adjustment]]\nstudent = "{wrong}"\n{by}check = "examples"\npoints = 3\n'
+    said += 'reason = "our sign"\ndate = 2026-12-01\n'
     said += f'[[comment]]\nstudent = "{wrong}"\n{by}line = 3\ntext = "One too many & <b>."\n'
     if group:
         said += f'[[comment]]\ngroup = "{group}"\n{by}text = "Well done, both."\n'

@@ -10,8 +10,8 @@
 
 namespace rex::grading {
 
-/// What the student of a row gets back; empty if nothing was graded. Reads main.cpp below `out`, the folder of
-/// results. Throws Error if it cannot be read.
+/// What the student of a row gets back; empty if nothing was graded. Reads main.cpp below `out`, the folder
+/// of results. Throws Error if it cannot be read.
 [[nodiscard]] std::optional<Feedback> feedbackOf(const GradeRow& row, const std::filesystem::path& out);
 
 /// Pictures and replays of the visible checks of a row, from the folder that was graded for it. A name in

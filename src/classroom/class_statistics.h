@@ -86,8 +86,8 @@ struct ExerciseStatistics {
   std::array<int, kDistribution.size()> distribution{};
   double medianSeconds = 0;  ///< wall time of the checks of a file that compiles
   double longestSeconds = 0;
-  std::string slowest{};                  ///< the student with the longest time
-  std::optional<FirstFull> firstFull{};   ///< empty: nobody, or the times are unknown
+  std::string slowest{};                 ///< the student with the longest time
+  std::optional<FirstFull> firstFull{};  ///< empty: nobody, or the times are unknown
   AttemptStatistics attempts{};
   std::vector<CheckStatistics> checks{};  ///< most failed first, then in the order of the results
   std::vector<PartStatistics> parts{};    ///< in the order of the results

@@ -75,10 +75,9 @@ std::vector<GradescopeEntry> readMetadata(const DownloadedFile& file, const std:
                  .wanted = "YAML"});
   std::vector<GradescopeEntry> entries;
   for (const nlohmann::json& json : nlohmann::json::parse(read.bytes)) {
-    GradescopeEntry& entry =
-        entries.emplace_back(GradescopeEntry{.folder = json.at(0).get<std::string>(),
-                                             .createdAt = json.at(1).get<std::string>(),
-                                             .attempts = json.at(3).get<int>()});
+    GradescopeEntry& entry = entries.emplace_back(GradescopeEntry{.folder = json.at(0).get<std::string>(),
+                                                                  .createdAt = json.at(1).get<std::string>(),
+                                                                  .attempts = json.at(3).get<int>()});
     for (const nlohmann::json& fields : json.at(2)) {
       Person person{.id = composed(fields.at(1).get<std::string>()),
                     .name = composed(fields.at(0).get<std::string>()),

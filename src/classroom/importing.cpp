@@ -66,8 +66,8 @@ class Importer {
       for (const auto& [exercise, entry] : student.exercises) {
         const fs::path file = folder_ / entry.handedInBy / exercise / "main.cpp";
         const bool isWritten = entry.status == HandInStatus::kHandedIn &&
-                               whyNoStudentName(entry.handedInBy).empty() && whyNoStudentName(exercise).empty() &&
-                               presentHash(file) == entry.sha256;
+                               whyNoStudentName(entry.handedInBy).empty() &&
+                               whyNoStudentName(exercise).empty() && presentHash(file) == entry.sha256;
         if (!isWritten) continue;
         if (table_.find(student.student) == nullptr) {
           table_.students.push_back(student);

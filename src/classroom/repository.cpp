@@ -177,8 +177,8 @@ std::vector<CommittedFile> Repository::filesNamed(const std::string& name, const
 
 std::map<std::string, int> Repository::changesOf(const std::string& name, const Commit& commit) const {
   std::map<std::string, int> changes;
-  const std::string list = git({"log", "--first-parent", "--no-renames", "--format=", "--name-only", "-z", "-n",
-                                "20000", commit.id, "--", ":(glob)**/" + name});
+  const std::string list = git({"log", "--first-parent", "--no-renames", "--format=", "--name-only", "-z",
+                                "-n", "20000", commit.id, "--", ":(glob)**/" + name});
   std::size_t at = 0;
   while (at < list.size()) {
     const std::size_t end = std::min(list.find('\0', at), list.size());

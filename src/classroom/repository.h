@@ -42,8 +42,8 @@ class Repository {
   /// Its files of that name, in any folder. Throws Error if git cannot read it.
   [[nodiscard]] std::vector<CommittedFile> filesNamed(const std::string& name, const Commit& commit) const;
 
-  /// How many commits, from this one back on the side that history() takes, changed each file of that name, in
-  /// any folder. Throws Error if git cannot read it.
+  /// How many commits, from this one back on the side that history() takes, changed each file of that name,
+  /// in any folder. Throws Error if git cannot read it.
   [[nodiscard]] std::map<std::string, int> changesOf(const std::string& name, const Commit& commit) const;
 
   /// The contents of files, in their order; empty texts for those with a `whyNot`. Throws Error if git cannot

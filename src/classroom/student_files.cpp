@@ -48,7 +48,8 @@ class FilePicker {
     isLeft_ = true;
     const bool isMain = path.filename() == kMainFile, isArchive = isArchiveName(file.name);
     if (!file.text && !file.whyNot.empty() && (isMain || isArchive || isSourceName(file.name)))
-      complain(isArchive ? "" : exerciseOf(file), "not accepted", file.place, file.whyNot, "a C++ source file or an archive");
+      complain(isArchive ? "" : exerciseOf(file), "not accepted", file.place, file.whyNot,
+               "a C++ source file or an archive");
     else if (!file.text)
       picked_.notes.push_back(ignored(file.place) + (file.whyNot.empty() ? "" : ": " + file.whyNot));
     else if (isMain)
@@ -82,7 +83,8 @@ class FilePicker {
   void lookAtMain(const DownloadedFile& file) {
     const std::string exercise = exerciseOf(file);
     if (exercise.empty())
-      complain({}, "no exercise folder around it", file.place, "a file", example() + ", or --exercise EXERCISE");
+      complain({}, "no exercise folder around it", file.place, "a file",
+               example() + ", or --exercise EXERCISE");
     else if (!options_.exercise.empty() && exercise != options_.exercise)
       picked_.notes.push_back(fmt::format("{}: not of {}", file.place, options_.exercise));
     else

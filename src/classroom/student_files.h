@@ -13,7 +13,7 @@ namespace rex::grading {
 struct PickedFile {
   std::string exercise{};  ///< full name
   std::string text{};
-  std::string source{};  ///< path in the download, through archives: "zoe.zip/01/main.cpp"
+  std::string source{};         ///< path in the download, through archives: "zoe.zip/01/main.cpp"
   std::int64_t modifiedAt = 0;  ///< seconds since 1970 in UTC; 0: unknown
   int attempts = 0;             ///< how often it was handed in; 0: unknown
 };

@@ -136,8 +136,9 @@ TEST_F(ClassFeedbackTest, ReplacesItsOwnFilesAndNoOthers) {
   EXPECT_EQ(writeFeedbackFolders(book(), source_.out, out), 1);
   EXPECT_FALSE(fs::exists(zoe)) << "of a result that is no more";
   writeTextFile(zoe / "main.cpp", "mine");
-  EXPECT_REX_ERROR(writeFeedbackFolders(book(), source_.out, out),
-                   "not replaced by feedback: found 'main.cpp', which no export wrote, wanted another folder");
+  EXPECT_REX_ERROR(
+      writeFeedbackFolders(book(), source_.out, out),
+      "not replaced by feedback: found 'main.cpp', which no export wrote, wanted another folder");
   EXPECT_EQ(fileText(zoe / "main.cpp"), "mine");
 }
 

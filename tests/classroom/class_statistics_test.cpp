@@ -196,9 +196,11 @@ TEST(ClassResults, KnowTimesAndAttemptsAndRefuseWhatWasEdited) {
   EXPECT_EQ(read.results[0].timeFrom, "table");
   EXPECT_EQ(read.results[0].attempts, 3);
   EXPECT_EQ(read.results[0].attemptsFrom, "platform");
-  EXPECT_THAT(read.complaints, ElementsAre(HasSubstr("zoe/01-kinematics/results.json: a result that does not add up")));
+  EXPECT_THAT(read.complaints,
+              ElementsAre(HasSubstr("zoe/01-kinematics/results.json: a result that does not add up")));
   writeTextFile(folder.path() / "tasks.tsv", "x");
-  EXPECT_THAT(readClassResults(folder.path()).complaints, ::testing::Contains(HasSubstr("not a list of tasks")));
+  EXPECT_THAT(readClassResults(folder.path()).complaints,
+              ::testing::Contains(HasSubstr("not a list of tasks")));
 }
 
 // Three checks of one point each: those of part p are passed by the good half, the odd one by the others.

@@ -61,9 +61,10 @@ TEST(DownloadLayout, OfAFolderLooksIntoNoRepository) {
   EXPECT_EQ(layoutOfFolder(folder.path(), twoExercises()).platform, Platform::kClassroom);
   EXPECT_EQ(layoutOfFolder(folder.path(), twoExercises()).found, "2 files such as 'hw-zoe/.git/HEAD'");
   requireLayout(Platform::kClassroom, folder.path(), twoExercises());
-  EXPECT_REX_ERROR(requireLayout(Platform::kMoodle, folder.path(), twoExercises()),
-                   "nothing that `rex import moodle` knows: found 2 files such as 'hw-zoe/.git/HEAD', wanted the "
-                   "zip of \"Download all submissions\"");
+  EXPECT_REX_ERROR(
+      requireLayout(Platform::kMoodle, folder.path(), twoExercises()),
+      "nothing that `rex import moodle` knows: found 2 files such as 'hw-zoe/.git/HEAD', wanted the "
+      "zip of \"Download all submissions\"");
 }
 
 TEST(DownloadLayout, IsRequiredOfArchives) {
@@ -71,10 +72,11 @@ TEST(DownloadLayout, IsRequiredOfArchives) {
   const std::filesystem::path zip = folder.path() / "all.zip";
   writeTextFile(zip, zipOf({{.name = "Zoe_501_assignsubmission_file_/main.cpp", .text = "x"}}));
   EXPECT_EQ(readDownloadOf(Platform::kMoodle, zip, twoExercises()).files.size(), 1u);
-  EXPECT_REX_ERROR((void)readDownloadOf(Platform::kFolders, zip, twoExercises()),
-                   "nothing that `rex import folders` knows: found 1 file such as "
-                   "'Zoe_501_assignsubmission_file_/main.cpp', wanted 'NAME/main.cpp', 'NAME.cpp' or 'NAME.zip' for "
-                   "each student; `rex import moodle` takes what is there");
+  EXPECT_REX_ERROR(
+      (void)readDownloadOf(Platform::kFolders, zip, twoExercises()),
+      "nothing that `rex import folders` knows: found 1 file such as "
+      "'Zoe_501_assignsubmission_file_/main.cpp', wanted 'NAME/main.cpp', 'NAME.cpp' or 'NAME.zip' for "
+      "each student; `rex import moodle` takes what is there");
 }
 
 TEST(MoodleNames, ComeApart) {
@@ -85,8 +87,9 @@ TEST(MoodleNames, ComeApart) {
   EXPECT_EQ(parts->kind, "file");
   EXPECT_EQ(parts->file, "main_1.cpp");
   EXPECT_EQ(parseMoodleName("Zoe_7_assignsubmission_onlinetext_").value().kind, "onlinetext");
-  for (const char* other : {"", "zoe", "_assignsubmission_file_", "Zoe_assignsubmission_file_", "501_assignsubmission_file_",
-                            "Zoe__assignsubmission_file_", "Zoe_5x_assignsubmission_file_", "Zoe_501_assignsubmission_file"})
+  for (const char* other :
+       {"", "zoe", "_assignsubmission_file_", "Zoe_assignsubmission_file_", "501_assignsubmission_file_",
+        "Zoe__assignsubmission_file_", "Zoe_5x_assignsubmission_file_", "Zoe_501_assignsubmission_file"})
     EXPECT_FALSE(parseMoodleName(other)) << other;
 }
 

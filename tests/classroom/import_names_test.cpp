@@ -36,7 +36,8 @@ TEST_F(ImportNamesTest, AreTheFirstThatIsKnownAndCanBeAFolder) {
 TEST_F(ImportNamesTest, TellPeopleOfOneNameApart) {
   EXPECT_EQ(namesOf({{.name = "Bo", .number = "4"}, {.name = "bO", .number = "5"}}), (Names{"Bo-4", "bO-5"}));
   EXPECT_EQ(byNameAlone_, 2);
-  EXPECT_EQ(namesOf({{.name = "Zoe", .email = "a@x"}, {.name = "Zoe", .email = "b@x"}}), (Names{"a@x", "b@x"}));
+  EXPECT_EQ(namesOf({{.name = "Zoe", .email = "a@x"}, {.name = "Zoe", .email = "b@x"}}),
+            (Names{"a@x", "b@x"}));
   EXPECT_EQ(byNameAlone_, 0);
 }
 
@@ -49,7 +50,8 @@ TEST_F(ImportNamesTest, StayOnceTheyAreGiven) {
   EXPECT_EQ(table_.students[0].id, "31");
   EXPECT_EQ(table_.students[0].email, "J@x");
   EXPECT_EQ(table_.students[0].name, "J. G.");
-  EXPECT_EQ(namesOf({{.name = "J. G.", .email = "other@x"}}), Names{"other@x"}) << "of that name, but another";
+  EXPECT_EQ(namesOf({{.name = "J. G.", .email = "other@x"}}), Names{"other@x"})
+      << "of that name, but another";
 }
 
 TEST_F(ImportNamesTest, BelieveTheIdentifierOfThePlatformForItsOwnExercise) {

@@ -75,8 +75,9 @@ TEST_F(ImportTableTest, ConformsToItsSchema) {
 
 TEST_F(ImportTableTest, AsksToGoOnAfterAnInterruption) {
   writeTextFile(folder_.path() / kBegunTable, importTableText(sample()));
-  EXPECT_REX_ERROR(importTableIn(folder_.path()),
-                   ": an import into this folder was interrupted: wanted the same `rex import` again, which goes on");
+  EXPECT_REX_ERROR(
+      importTableIn(folder_.path()),
+      ": an import into this folder was interrupted: wanted the same `rex import` again, which goes on");
 }
 
 TEST_F(ImportTableTest, SaysWhereItIsWrong) {

@@ -207,7 +207,8 @@ TEST_F(ImportingTest, GoesOnAfterAnInterruption) {
   };
   const fs::path table = handedIn() / kImportTable, begun = handedIn() / kBegunTable;
   again();
-  const std::string before = fileText(table), old = fileText(handedIn() / all_[4].email / kExercise / "main.cpp");
+  const std::string before = fileText(table),
+                    old = fileText(handedIn() / all_[4].email / kExercise / "main.cpp");
   for (const std::size_t k : {0u, 1u, 4u}) all_[k].text += "// better\n";
   again();
   const std::string whole = fileText(table);
@@ -246,7 +247,9 @@ TEST_F(ImportingTest, CountsWhatGradescopeKeepsAsAttempts) {
   import(readGradescope(zip("g.zip", {{.name = "submission_metadata.yml", .text = metadata},
                                       {.name = "submission_1/main.cpp", .text = "a"},
                                       {.name = "submission_2/w.zip",
-                                       .text = zipOf({{.name = "main.cpp", .text = "b"}})}}),
+                                       .text = zipOf(
+                                           {{.name = "main.cpp",
+                                             .text = "b" }}) }}),
                         exercises_));
   const ImportTable table = readImportTable(handedIn() / kImportTable);
   EXPECT_EQ(table.find("31", kExercise)->attempts, 3);
@@ -257,17 +260,18 @@ TEST_F(ImportingTest, CountsWhatGradescopeKeepsAsAttempts) {
 TEST_F(ImportingTest, BlamesNoExerciseForTheFaultOfAnother) {
   const auto arrival = [&](DownloadedFile file) {
     file.place = file.name;
-    return Arrivals{.platform = Platform::kFolders,
-                    .all = {{.people = {{.name = "Zoe"}},
-                             .files = {{.name = "02/main.cpp", .place = "02/main.cpp", .text = "b"},
-                                       std::move(file)}},
-                            {.people = {{.name = "Yan"}},
-                             .files = {{.name = "01/main.cpp", .place = "01/main.cpp", .text = "a"}}}}};
+    return Arrivals{
+        .platform = Platform::kFolders,
+        .all = {{.people = {{.name = "Zoe"}},
+                 .files = {{.name = "02/main.cpp", .place = "02/main.cpp", .text = "b"}, std::move(file)}},
+                {.people = {{.name = "Yan"}},
+                 .files = {{.name = "01/main.cpp", .place = "01/main.cpp", .text = "a"}}}}};
   };
   import(arrival({.name = "01/main.cpp", .whyNot = "a symbolic link"}), "");
   EXPECT_EQ(readImportTable(handedIn() / kImportTable).find("Zoe", "01-kinematics")->status,
             HandInStatus::kNotTaken);
-  EXPECT_EQ(readImportTable(handedIn() / kImportTable).find("Zoe", "02-control")->status, HandInStatus::kHandedIn);
+  EXPECT_EQ(readImportTable(handedIn() / kImportTable).find("Zoe", "02-control")->status,
+            HandInStatus::kHandedIn);
   fs::remove_all(handedIn());
   import(arrival({.name = "03/main.cpp", .text = "c"}), "");
   EXPECT_EQ(readImportTable(handedIn() / kImportTable).find("Zoe", "01-kinematics")->status,

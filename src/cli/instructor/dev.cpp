@@ -132,12 +132,13 @@ void addDevSite(CLI::App* dev, Action& action) {
 
 void addDevStats(CLI::App* dev, Action& action) {
   const auto options = std::make_shared<StatsOptions>();
-  CLI::App* command = addVerb(dev, "stats", "Show how a class did: points, and which checks fail most",
-                              "Examples:\n  scripts/rex dev stats results\n"
-                              "  scripts/rex dev stats results --json --deadlines course.toml\n"
-                              "  scripts/rex dev stats results --students\n"
-                              "  scripts/rex dev stats results -o points.png --parts parts.png\n\n"
-                              "Exit code 2: some results could not be read, or were changed; they are named.");
+  CLI::App* command =
+      addVerb(dev, "stats", "Show how a class did: points, and which checks fail most",
+              "Examples:\n  scripts/rex dev stats results\n"
+              "  scripts/rex dev stats results --json --deadlines course.toml\n"
+              "  scripts/rex dev stats results --students\n"
+              "  scripts/rex dev stats results -o points.png --parts parts.png\n\n"
+              "Exit code 2: some results could not be read, or were changed; they are named.");
   command->add_option("DIR", options->results, "the folder of results that `rex grade` wrote")
       ->type_name("")
       ->required();

@@ -104,13 +104,13 @@ void sayFirstFull(const ExerciseStatistics& all, const grading::LateRule& rule) 
     return;
   }
   const grading::FirstFull& first = *all.firstFull;
-  say("  " + wrap(fmt::format("first full score: {}, handed in {}{}{} (time from {})", harmless(first.student),
-                              instantText(first.submitted),
-                              relationText(first.submitted, rule.opening, "opening"),
-                              relationText(first.submitted, rule.deadline, "deadline"),
-                              first.timeFrom == "file" ? "files, which may be when they were copied"
-                                                       : harmless(first.timeFrom)),
-                  6, 6));
+  say("  " +
+      wrap(fmt::format("first full score: {}, handed in {}{}{} (time from {})", harmless(first.student),
+                       instantText(first.submitted), relationText(first.submitted, rule.opening, "opening"),
+                       relationText(first.submitted, rule.deadline, "deadline"),
+                       first.timeFrom == "file" ? "files, which may be when they were copied"
+                                                : harmless(first.timeFrom)),
+           6, 6));
 }
 
 void sayAttempts(const ExerciseStatistics& all) {
@@ -119,9 +119,9 @@ void sayAttempts(const ExerciseStatistics& all) {
     say("  attempts unknown: neither a platform nor an import has counted them");
     return;
   }
-  std::string text = fmt::format("attempts median {:.4g}, most {} ({}); known of {} of {}", attempts.median,
-                                 attempts.most, harmless(attempts.mostBy), attempts.known,
-                                 all.graded + all.graderFailed);
+  std::string text =
+      fmt::format("attempts median {:.4g}, most {} ({}); known of {} of {}", attempts.median, attempts.most,
+                  harmless(attempts.mostBy), attempts.known, all.graded + all.graderFailed);
   if (attempts.atLeast > 0)
     text += fmt::format(", of {} as the number of imports that brought another file: at least so many",
                         attempts.atLeast);
@@ -237,11 +237,11 @@ void printStudents(const std::vector<grading::StudentResult>& results) {
                                        "time_from", "attempts", "attempts_from"});
   for (const grading::StudentResult& one : results) {
     const bool isGraded = one.result.outcome != grading::Outcome::kGraderError;
-    text += grading::csvLine({one.student, one.exercise, isGraded ? fmt::format("{}", one.result.score) : "",
-                              fmt::format("{}", one.result.maxScore),
-                              std::string(toString(one.result.outcome)),
-                              one.submitted ? instantText(*one.submitted) : "", one.timeFrom,
-                              one.attempts > 0 ? fmt::format("{}", one.attempts) : "", one.attemptsFrom});
+    text +=
+        grading::csvLine({one.student, one.exercise, isGraded ? fmt::format("{}", one.result.score) : "",
+                          fmt::format("{}", one.result.maxScore), std::string(toString(one.result.outcome)),
+                          one.submitted ? instantText(*one.submitted) : "", one.timeFrom,
+                          one.attempts > 0 ? fmt::format("{}", one.attempts) : "", one.attemptsFrom});
   }
   std::fputs(text.c_str(), stdout);
 }

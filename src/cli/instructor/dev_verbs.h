@@ -54,9 +54,9 @@ struct SiteOptions {
 ExitCode devSite(const Project& project, const SiteOptions& options);
 
 struct StatsOptions {
-  std::filesystem::path results{};  ///< folder that `rex grade` wrote
-  std::filesystem::path figure{};   ///< the points of each exercise, .png or .svg; empty: none
-  std::filesystem::path parts{};    ///< the points of each part, likewise
+  std::filesystem::path results{};    ///< folder that `rex grade` wrote
+  std::filesystem::path figure{};     ///< the points of each exercise, .png or .svg; empty: none
+  std::filesystem::path parts{};      ///< the points of each part, likewise
   std::filesystem::path deadlines{};  ///< a file of deadlines or course file; empty: none
   bool json = false;
   bool csv = false;       ///< a table of the checks

@@ -96,7 +96,8 @@ ExitCode exportClassroom(const Project& project, const ExportOptions& options) {
   const Export all = read(project, options);
   ExitCode code = ExitCode::kFull;
   for (const std::string& exercise : all.book.exercises)
-    if (write(classroomGrades(all.book, exercise, all.imported), options, exercise + ".csv") != ExitCode::kFull)
+    if (write(classroomGrades(all.book, exercise, all.imported), options, exercise + ".csv") !=
+        ExitCode::kFull)
       code = ExitCode::kNotGradable;
   return code;
 }

@@ -52,20 +52,20 @@ struct GradeManyOptions {
   std::optional<sandbox::Level> level{};   ///< empty: the best that holds here
   std::optional<sandbox::Level> accept{};  ///< the lowest level to accept, though too weak for strangers
   std::optional<std::uint64_t> seed{};
-  std::filesystem::path secret{};     ///< file; empty: the seed decides hidden checks, too
-  std::filesystem::path workers{};    ///< folder that keeps compiled programs; empty: none
-  std::string only{};                 ///< exercise; empty: all
-  ClassFiles files{};                 ///< roster, dates and adjustments
-  bool acceptFewer = false;           ///< take results of the same text with fewer points, too
-  std::filesystem::path submitted{};  ///< CSV file; empty: use the times of the files
-  std::filesystem::path manifest{};   ///< only write the list of tasks here; empty: grade
-  bool csv = false;                   ///< print grades.csv
-  bool json = false;                  ///< print what was done
+  std::filesystem::path secret{};      ///< file; empty: the seed decides hidden checks, too
+  std::filesystem::path workers{};     ///< folder that keeps compiled programs; empty: none
+  std::string only{};                  ///< exercise; empty: all
+  ClassFiles files{};                  ///< roster, dates and adjustments
+  bool acceptFewer = false;            ///< take results of the same text with fewer points, too
+  std::filesystem::path submitted{};   ///< CSV file; empty: use the times of the files
+  std::filesystem::path manifest{};    ///< only write the list of tasks here; empty: grade
+  bool csv = false;                    ///< print grades.csv
+  bool json = false;                   ///< print what was done
   std::vector<std::string> explain{};  ///< a student and an exercise: only say how this grade came about
-  bool regrade = false;               ///< also submissions that have a valid result
-  bool evidence = false;              ///< keep pictures and replays of failed visible checks
-  std::string reports{};              ///< formats of `rex report` to write, separated by commas; empty: none
-  fs::path similar{};                 ///< folder for pages of similar submissions; empty: none
+  bool regrade = false;                ///< also submissions that have a valid result
+  bool evidence = false;               ///< keep pictures and replays of failed visible checks
+  std::string reports{};               ///< formats of `rex report` to write, separated by commas; empty: none
+  fs::path similar{};                  ///< folder for pages of similar submissions; empty: none
   int similarPercent = kSimilarPercent;
 };
 
@@ -300,9 +300,8 @@ void keepWhatCollectNeeds(const grading::HandIns& handedIn, const GradeManyOptio
 ExitCode sayTasks(const std::vector<Task>& tasks, const grading::HandIns& handedIn, const fs::path& manifest,
                   const GradeManyOptions& options, ExitCode taken) {
   if (options.json)
-    say(dump(Json{{"tasks", tasks.size()},
-                  {"manifest", manifest.string()},
-                  {"not_taken", handedIn.complaints}}));
+    say(dump(
+        Json{{"tasks", tasks.size()}, {"manifest", manifest.string()}, {"not_taken", handedIn.complaints}}));
   else
     say(fmt::format("{} tasks: {}", tasks.size(), shown(manifest)));
   return taken;
@@ -412,7 +411,8 @@ void addGrade(CLI::App* command, Action& action) {
       ->type_name("FILE.tsv");
   command->add_flag("--regrade", options->regrade, "also grade what has a valid result");
   CLI::Option* csv = command->add_flag("--csv", options->csv, "print the table of grades");
-  CLI::Option* json = command->add_flag("--json", options->json, "print what was done as JSON")->excludes(csv);
+  CLI::Option* json =
+      command->add_flag("--json", options->json, "print what was done as JSON")->excludes(csv);
   addExplain(command, options->explain);
   addAccept(command, options->acceptFewer);
   addReports(command, options->reports);

@@ -41,14 +41,14 @@ Json statesJson(const std::vector<Task>& tasks, const std::filesystem::path& out
           grading::loadResult(grading::resultFolder(out, task) / "results.json");
       points = result.score, possible = result.maxScore;
     }
-    list.push_back({{"task", k + 1},
-                    {"student", task.student},
-                    {"exercise", task.exercise},
-                    {"state", nameOf(state)},
-                    {"points", optionalJson(points)},
-                    {"possible", optionalJson(possible)},
-                    {"waiting", grading::isHeldBack(task, out) ? optionalJson(grading::pointsNow(task, out))
-                                                               : Json()}});
+    list.push_back(
+        {{"task", k + 1},
+         {"student", task.student},
+         {"exercise", task.exercise},
+         {"state", nameOf(state)},
+         {"points", optionalJson(points)},
+         {"possible", optionalJson(possible)},
+         {"waiting", grading::isHeldBack(task, out) ? optionalJson(grading::pointsNow(task, out)) : Json()}});
   }
   return {{"tasks", list}, {"complete", isComplete}, {"table", (out / "grades.csv").string()}};
 }

@@ -80,10 +80,10 @@ void Regrading::tell() const {
     if (*before_[k] == *after) {
       ++same;
     } else if (++changed <= kMostTold) {
-      note(wrap(harmless(fmt::format("{} {}: {} points, {} before{}", task.student, task.exercise, *after,
-                                     *before_[k],
-                                     isHeld ? "; the points from before count until --accept" : "")),
-                2, 0));
+      note(wrap(
+          harmless(fmt::format("{} {}: {} points, {} before{}", task.student, task.exercise, *after,
+                               *before_[k], isHeld ? "; the points from before count until --accept" : "")),
+          2, 0));
     }
   }
   if (isNew_ && changed + same > 0) {

@@ -189,15 +189,19 @@ TEST_F(CourseTest, SaysThatAFolderOfResultsIsMissing) {
     words.push_back((root() / "result").string());
     const Ended ended = rex(words);
     EXPECT_EQ(ended.code, 64) << verb;
-    EXPECT_THAT(flat(ended.error), HasSubstr("result: no such folder: wanted the folder of results that rex grade "
-                                             "wrote (did you mean 'results'?)"))
+    EXPECT_THAT(flat(ended.error),
+                HasSubstr("result: no such folder: wanted the folder of results that rex grade "
+                          "wrote (did you mean 'results'?)"))
         << verb;
   }
-  EXPECT_THAT(flat(rex({"collect", course()}).error), HasSubstr("course.toml: not a folder: wanted the folder of"));
-  EXPECT_THAT(flat(rex({"collect", root().string()}).error), HasSubstr("no folder of results: wanted the one"));
+  EXPECT_THAT(flat(rex({"collect", course()}).error),
+              HasSubstr("course.toml: not a folder: wanted the folder of"));
+  EXPECT_THAT(flat(rex({"collect", root().string()}).error),
+              HasSubstr("no folder of results: wanted the one"));
   const Ended list = rex({"collect", results().string(), "--manifest", (root() / "none.tsv").string()});
   EXPECT_EQ(list.code, 64);
-  EXPECT_THAT(flat(list.error), HasSubstr("none.tsv: no such list of tasks: wanted one that rex grade --manifest"));
+  EXPECT_THAT(flat(list.error),
+              HasSubstr("none.tsv: no such list of tasks: wanted one that rex grade --manifest"));
 }
 
 TEST_F(CourseTest, NamesThePlaceOfWhatIsWrong) {
@@ -302,7 +306,8 @@ TEST_F(CourseTest, TellsWrongUseOfExports) {
   for (const fs::path& out : {results(), results() / "pages"}) {
     const Ended inside = rex({"export", "html", results().string(), "-o", out.string()});
     EXPECT_EQ(inside.code, 64);
-    EXPECT_THAT(flat(inside.error), HasSubstr("--out: found " + out.string() + ", wanted a folder outside of the"));
+    EXPECT_THAT(flat(inside.error),
+                HasSubstr("--out: found " + out.string() + ", wanted a folder outside of the"));
   }
   write(results() / "tasks.tsv", grading::toManifest({}));
   EXPECT_THAT(flat(exported("html").error),

@@ -107,7 +107,8 @@ TEST_F(DevStatsTest, SaysWhenTheFirstFullScoreCameAndHowOftenStudentsHandedIn) {
   save("dora", true, Outcome::kPass, 3);
   std::vector<grading::Task> tasks;
   for (const auto& [student, submitted] : {std::pair("adam", 1'700'000'000), {"dora", 1'699'990'000}}) {
-    tasks.push_back({.student = student, .exercise = "98-template", .submitted = submitted, .timeFrom = "platform"});
+    tasks.push_back(
+        {.student = student, .exercise = "98-template", .submitted = submitted, .timeFrom = "platform"});
   }
   write(results() / "tasks.tsv", grading::toManifest(tasks));
   const auto entry = [](const std::string& student, int attempts, const std::string& from) {
@@ -125,9 +126,10 @@ TEST_F(DevStatsTest, SaysWhenTheFirstFullScoreCameAndHowOftenStudentsHandedIn) {
   write(deadlines, "[all]\nopening = 2023-11-13T00:00:00Z\ndeadline = 2023-11-14T21:00:00Z\n");
   const Ended ended = stats({"--deadlines", deadlines});
   EXPECT_EQ(ended.code, 0) << ended.error;
-  EXPECT_THAT(flat(ended.output),
-              HasSubstr("first full score: dora, handed in 2023-11-14T19:26:40Z, 1 day 19 h after the opening, "
-                        "1 h 33 min before the deadline (time from platform)"));
+  EXPECT_THAT(
+      flat(ended.output),
+      HasSubstr("first full score: dora, handed in 2023-11-14T19:26:40Z, 1 day 19 h after the opening, "
+                "1 h 33 min before the deadline (time from platform)"));
   EXPECT_THAT(flat(ended.output),
               HasSubstr("attempts median 3.5, most 5 (adam); known of 2 of 4, of 1 as the number of imports "
                         "that brought another file: at least so many"));
@@ -154,7 +156,8 @@ TEST_F(DevStatsTest, BelievesNoResultThatWasEdited) {
   write(file, json.dump());
   const Ended ended = stats();
   EXPECT_EQ(ended.code, 2);
-  EXPECT_THAT(flat(ended.error), HasSubstr("carl/98-template/results.json: a result that does not add up: score"));
+  EXPECT_THAT(flat(ended.error),
+              HasSubstr("carl/98-template/results.json: a result that does not add up: score"));
   EXPECT_THAT(ended.output, HasSubstr("98-template: 3 graded"));
 }
 

@@ -467,7 +467,8 @@ TEST_F(GradeManyTest, PrintsJsonForPrograms) {
   EXPECT_EQ(json.at("kept"), 0);
   EXPECT_EQ(json.at("level"), 0);
   EXPECT_TRUE(json.at("complete"));
-  EXPECT_THAT(json.at("not_taken").at(0).get<std::string>(), HasSubstr("no exercise is called '98-tempalte'"));
+  EXPECT_THAT(json.at("not_taken").at(0).get<std::string>(),
+              HasSubstr("no exercise is called '98-tempalte'"));
   EXPECT_EQ(json.at("tasks").at(0).at("points"), result("adam").at("score"));
   EXPECT_EQ(Json::parse(grade({"--json"}).output).at("kept"), 1);
   EXPECT_EQ(grade({"--json", "--csv"}).code, 64);
@@ -485,8 +486,8 @@ TEST_F(GradeManyTest, GoesOnAfterAnInterruptedRegrading) {
   const std::string points = std::to_string(result("adam").at("score").get<int>());
   const std::string sha = result("adam").at("inputs").at("source_sha256");
   fs::remove(results() / "regraded.csv");
-  write(results() / "regrading.tsv", "adam\t98-template\t" + sha + "\t" + points + "\nbob\t98-template\t" + sha +
-                                         "\t" + points + "\n");
+  write(results() / "regrading.tsv",
+        "adam\t98-template\t" + sha + "\t" + points + "\nbob\t98-template\t" + sha + "\t" + points + "\n");
   write(results() / "grades.csv.999999999.new", "half");
   write(results() / "bob" / "98-template" / "results.json.999999999.new", "half");
   grade({"--seed", "5"});
@@ -497,8 +498,9 @@ TEST_F(GradeManyTest, GoesOnAfterAnInterruptedRegrading) {
   write(results() / "regrading.tsv", "adam\t98-template\tx\tmany\n");
   const Ended broken = grade({"--seed", "5"});
   EXPECT_EQ(broken.code, 3);
-  EXPECT_THAT(flat(broken.error), HasSubstr("regrading.tsv:1: not the notes of a regrading: wanted those of an "
-                                            "interrupted `rex grade`; without this file, it begins anew"));
+  EXPECT_THAT(flat(broken.error),
+              HasSubstr("regrading.tsv:1: not the notes of a regrading: wanted those of an "
+                        "interrupted `rex grade`; without this file, it begins anew"));
 }
 
 TEST_F(GradeManyTest, AsksForTheRestOfAnInterruptedImport) {
@@ -524,7 +526,8 @@ TEST_F(GradeManyTest, RefusesFoldersInsideEachOther) {
   }
   const Ended none = rex({"grade", (root() / "im").string(), "--out", results().string()});
   EXPECT_EQ(none.code, 64);
-  EXPECT_THAT(flat(none.error), HasSubstr("im: no such folder: wanted a folder of submissions (did you mean 'in'?)"));
+  EXPECT_THAT(flat(none.error),
+              HasSubstr("im: no such folder: wanted a folder of submissions (did you mean 'in'?)"));
   const Ended denied = grade({}, "../../../../../../../proc/results");
   EXPECT_EQ(denied.code, 3);
   EXPECT_THAT(flat(denied.error), HasSubstr("cannot make the folder of results: found "));
