@@ -345,14 +345,24 @@ TEST_F(CourseTest, KeepsOldPointsUntilFewerAreAccepted) {
   EXPECT_THAT(fileText(results() / "grades.csv"),
               AllOf(HasSubstr("98-template,late,10,10,pass,"),
                     HasSubstr("carl@uni.example,,98-template,not taken,")));
+  write(results() / "regraded.csv", "of an earlier run");
   const Ended again = grade();
   EXPECT_EQ(again.code, 1);
   EXPECT_THAT(flat(again.error), HasSubstr("0 graded, 1 kept"));
+  EXPECT_EQ(fileText(results() / "regraded.csv"), "of an earlier run") << "nothing was graded again";
   EXPECT_EQ(collect().code, 1);
+  const Json task = Json::parse(collect({"--json"}).output).at("tasks").at(0);
+  EXPECT_EQ(task.at("points"), 10);
+  EXPECT_EQ(task.at("waiting"), 0);
   const Ended accepted = grade({"--accept"});
   EXPECT_EQ(accepted.code, 2) << "carl's folder could not be taken";
   EXPECT_THAT(flat(accepted.error), HasSubstr("adam 98-template: 0 points, 10 before Graded again"));
   EXPECT_THAT(fileText(results() / "grades.csv"), HasSubstr("98-template,late,0,"));
+  EXPECT_FALSE(fs::exists(results() / "adam/98-template/regraded"));
+  // Killed when the result had moved already.
+  fs::create_directories(results() / "adam/98-template/regraded");
+  write(results() / "adam/98-template/regraded/build.log", "the same");
+  EXPECT_EQ(grade({"--accept"}).code, 2);
   EXPECT_FALSE(fs::exists(results() / "adam/98-template/regraded"));
   EXPECT_THAT(collect({"--explain", "carl", "98"}).output, HasSubstr("no exercise is called '98-tempalte'"));
 }
