@@ -45,9 +45,9 @@ class SiteWriter {
  public:
   SiteWriter(fs::path root, fs::path target) : root_(std::move(root)), target_(std::move(target)) {}
 
-  // A page from a Markdown file of the project, between two pieces of HTML.
-  void addMarkdown(const fs::path& file, const fs::path& source, const std::string& before = "",
-                   const std::string& after = "") {
+  // A page from a Markdown file of the project, between two pieces of HTML. Returns its title.
+  std::string addMarkdown(const fs::path& file, const fs::path& source, const std::string& before = "",
+                          const std::string& after = "") {
     const MarkdownPage page = pageFrom(source, file.parent_path());
     const std::string title = page.sections.empty() ? file.stem().string() : page.sections.front().title;
     for (const PageSection& section : page.sections)
@@ -56,6 +56,7 @@ class SiteWriter {
                           {"url", file.generic_string() + "#" + section.anchor},
                           {"text", section.text}});
     write(file, title, before + page.html + after);
+    return title;
   }
 
   void write(const fs::path& file, const std::string& title, const std::string& body) {
@@ -158,27 +159,27 @@ std::string contract(const fs::path& folder) {
                      htmlText(readTextFile(folder / "exercise.h")));
 }
 
-std::string firstPage(const std::vector<ExerciseInfo>& exercises,
-                      const std::vector<const Document*>& documents, const std::vector<std::string>& notes) {
-  std::string rows, list, notesList;
+std::string linkTo(const std::string& file, const std::string& title) {
+  return fmt::format("<li><a href=\"{}\">{}</a></li>\n", htmlText(file), htmlText(title));
+}
+
+// `documents` and `notes` are items of lists.
+std::string firstPage(const std::vector<ExerciseInfo>& exercises, const std::string& documents,
+                      const std::string& notes) {
+  std::string rows;
   for (const ExerciseInfo& one : exercises)
     rows += fmt::format(
         "<tr><td><a href=\"exercises/{0}.html\">{0}</a></td><td>{1}</td><td>{2}</td><td>{3}</td></tr>\n",
         htmlText(one.name), htmlText(one.title), htmlText(one.script), one.points());
-  for (const Document* one : documents)
-    list += fmt::format("<li><a href=\"documents/{}.html\">{}</a></li>\n",
-                        fs::path(one->name).stem().string(), one->title);
-  for (const std::string& one : notes)
-    notesList += fmt::format("<li><a href=\"notes/{0}.html\">{0}</a></li>\n", htmlText(one));
   return fmt::format(
-             "<h1>Robotics exercises</h1>\n<table>\n<tr><th>exercise</th><th>about</th>"
+             "<h1>Robotics exercises</h1>\n<table class=\"names\">\n<tr><th>exercise</th><th>about</th>"
              "<th>script</th><th>points</th></tr>\n{}</table>\n<h2>Documents</h2>\n<ul>\n{}</ul>\n",
-             rows, list) +
-         (notes.empty() ? "" : "<h2>Lecturer's notes</h2>\n<ul>\n" + notesList + "</ul>\n");
+             rows, documents) +
+         (notes.empty() ? "" : "<h2>Lecturer's notes</h2>\n<ul>\n" + notes + "</ul>\n");
 }
 
-// The names of the notes, sorted.
-std::vector<std::string> addNotes(SiteWriter& site, const fs::path& root) {
+// Returns links to them.
+std::string addNotes(SiteWriter& site, const fs::path& root) {
   std::vector<std::string> names;
   if (fs::is_directory(root / "notes"))
     for (const auto& entry : fs::directory_iterator(root / "notes"))
@@ -188,10 +189,14 @@ std::vector<std::string> addNotes(SiteWriter& site, const fs::path& root) {
                  .where = {(root / "notes").string()},
                  .wanted = "files such as 01-kinematics.md"});
   std::sort(names.begin(), names.end());
-  for (const std::string& name : names)
-    site.addMarkdown(fs::path("notes") / (name + ".html"), fs::path("notes") / (name + ".md"),
-                     "<p class=\"private\">For lecturers: students must not get this page.</p>\n");
-  return names;
+  std::string links;
+  for (const std::string& name : names) {
+    const std::string page = "notes/" + name + ".html";
+    links += linkTo(
+        page, site.addMarkdown(page, "notes/" + name + ".md",
+                               "<p class=\"private\">For lecturers: students must not get this page.</p>\n"));
+  }
+  return links;
 }
 
 int writePages(const fs::path& root, const fs::path& target, SiteReaders readers) {
@@ -201,14 +206,14 @@ int writePages(const fs::path& root, const fs::path& target, SiteReaders readers
     site.addMarkdown(fs::path("exercises") / (one.name + ".html"),
                      fs::path("exercises") / one.name / "README.md", "",
                      pointsTable(one) + contract(one.folder));
-  std::vector<const Document*> documents;
+  std::string documents, notes;
   for (const Document& one : kDocuments) {
     const fs::path file = fs::path("share/doc") / one.name;
     if (!fs::exists(root / file)) continue;
-    documents.push_back(&one);
-    site.addMarkdown(fs::path("documents") / file.stem().concat(".html"), file);
+    const fs::path page = fs::path("documents") / file.stem().concat(".html");
+    site.addMarkdown(page, file);
+    documents += linkTo(page.generic_string(), one.title);
   }
-  std::vector<std::string> notes;
   if (readers == SiteReaders::kLecturers) notes = addNotes(site, root);
   site.write("index.html", "Robotics exercises", firstPage(exercises, documents, notes));
   site.finish();
@@ -219,9 +224,19 @@ int writePages(const fs::path& root, const fs::path& target, SiteReaders readers
 
 CourseSite writeCourseSite(const fs::path& root, const fs::path& target, const fs::path& courseSecret,
                            SiteReaders readers) {
-  if (fs::exists(target) && !(fs::is_directory(target) && fs::is_empty(target)))
-    throw UsageError(
-        {.what = "will not overwrite", .where = {target.string()}, .wanted = "an empty or new folder"});
+  const auto unwritten = [&](const fs::filesystem_error& error) {
+    return Error({.what = "cannot write the pages of the course",
+                  .where = {(error.path1().empty() ? target : error.path1()).string()},
+                  .found = error.code().message()});
+  };
+  try {
+    if (fs::exists(target) && !(fs::is_directory(target) && fs::is_empty(target)))
+      throw UsageError(
+          {.what = "will not overwrite", .where = {target.string()}, .wanted = "an empty or new folder"});
+  } catch (const fs::filesystem_error& error) {
+    throw unwritten(error);
+  }
+  std::error_code ignored;
   try {
     CourseSite site{.pages = writePages(root, target, readers)};
     std::vector<Secret> secrets = secretsOfCourse(root, courseSecret);
@@ -231,13 +246,9 @@ CourseSite writeCourseSite(const fs::path& root, const fs::path& target, const f
     if (!site.scan.leaks.empty()) fs::remove_all(target);
     return site;
   } catch (const fs::filesystem_error& error) {
-    std::error_code ignored;
     fs::remove_all(target, ignored);
-    throw Error({.what = "cannot write the pages of the course",
-                 .where = {(error.path1().empty() ? target : error.path1()).string()},
-                 .found = error.code().message()});
+    throw unwritten(error);
   } catch (...) {
-    std::error_code ignored;
     fs::remove_all(target, ignored);
     throw;
   }

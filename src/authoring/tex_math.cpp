@@ -30,7 +30,7 @@ const Names kSigns = {
     {"ge", "≥"},     {"ne", "≠"},     {"approx", "≈"},    {"sim", "∼"},        {"propto", "∝"},
     {"to", "→"},     {"mapsto", "↦"}, {"leftarrow", "←"}, {"Rightarrow", "⇒"}, {"Leftrightarrow", "⇔"},
     {"in", "∈"},     {"subset", "⊂"}, {"forall", "∀"},    {"exists", "∃"},     {"ldots", "…"},
-    {"cdots", "⋯"},  {"vdots", "⋮"},  {"ddots", "⋱"},     {"mid", "|"},        {"perp", "⊥"},
+    {"cdots", "⋯"},  {"vdots", "⋮"},  {"ddots", "⋱"},     {"mid", "∣"},        {"perp", "⊥"},
     {"ll", "≪"},     {"gg", "≫"},     {"equiv", "≡"},     {"cup", "∪"},        {"cap", "∩"},
     {"colon", ":"},  {"lbrace", "{"}, {"rbrace", "}"},    {"{", "{"},          {"}", "}"},
     {"|", "‖"},      {"vert", "|"},   {"Vert", "‖"},      {"lfloor", "⌊"},     {"rfloor", "⌋"},
@@ -188,11 +188,12 @@ class TexReader {
     return {c == '-' ? element("mo", "−") : sign(std::string(1, c))};
   }
 
-  // Brackets grow only between \left and \right, as in TeX.
+  // Brackets grow only between \left and \right, and bars and slashes have no space around them, as in TeX.
   static std::string sign(std::string_view text) {
-    constexpr std::string_view kBrackets = "()[]{}|‖⟨⟩⌊⌋/";
-    if (kBrackets.find(text) != kBrackets.npos)
-      return fmt::format("<mo stretchy=\"false\">{}</mo>", htmlText(text));
+    constexpr std::string_view kBrackets = "()[]{}⟨⟩⌊⌋", kTight = "|‖/";
+    if (kBrackets.find(text) != kBrackets.npos) return fmt::format("<mo stretchy=\"false\">{}</mo>", text);
+    if (kTight.find(text) != kTight.npos)
+      return fmt::format("<mo stretchy=\"false\" lspace=\"0\" rspace=\"0\">{}</mo>", text);
     return element("mo", htmlText(text));
   }
 
@@ -217,7 +218,8 @@ class TexReader {
       return {fmt::format("<mover accent=\"true\">{}<mo stretchy=\"false\">{}</mo></mover>", argument(),
                           found->second)};
     if (std::find(std::begin(kFunctions), std::end(kFunctions), name) != std::end(kFunctions))
-      return {element("mi", name) + "<mspace width=\"0.1em\"></mspace>", false};
+      return {fmt::format("<mo lspace=\"0\" rspace=\"0.17em\" movablelimits=\"true\">{}</mo>", name),
+              name == "max" || name == "min" || name == "lim"};
     if (name == "frac") {
       const std::string above = argument();
       return {element("mfrac", above + argument())};

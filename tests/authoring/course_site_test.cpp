@@ -65,7 +65,7 @@ TEST_F(CourseSiteTest, HasNotesForLecturers) {
   const CourseSite site = writeCourseSite(REX_SOURCE_DIR, out(), {}, SiteReaders::kLecturers);
   ASSERT_TRUE(site.scan.leaks.empty()) << toString(site.scan.leaks.front());
   EXPECT_EQ(expectLiveLinks(out(), 200), site.pages);
-  EXPECT_THAT(fileText(out() / "index.html"), HasSubstr("<a href=\"notes/05-car.html\">05-car</a>"));
+  EXPECT_THAT(fileText(out() / "index.html"), HasSubstr("<a href=\"notes/05-car.html\">Notes on 05 "));
   int notes = 0;
   for (const auto& entry : fs::directory_iterator(out() / "notes")) {
     ++notes;
@@ -114,6 +114,8 @@ TEST_F(CourseSiteTest, OverwritesNothing) {
   EXPECT_REX_ERROR(static_cast<void>(writeCourseSite(REX_SOURCE_DIR, out())),
                    "will not overwrite: wanted an empty or new folder");
   EXPECT_REX_ERROR(static_cast<void>(writeCourseSite(REX_SOURCE_DIR, "/proc/site")), "cannot write");
+  EXPECT_REX_ERROR(static_cast<void>(writeCourseSite(REX_SOURCE_DIR, out() / std::string(300, 'x'))),
+                   "cannot write the pages of the course: found File name too long");
   EXPECT_EQ(fileText(out() / "notes.txt"), "mine");
 }
 

@@ -64,8 +64,9 @@ TEST(LectureNotes, AnswerEveryQuestion) {
     for (const Answer& answer : answersIn(readTextFile(root / "notes" / (name + ".md")))) {
       EXPECT_GT(answer.letters, 150u) << name << ": " << answer.question;
       // What only the script asks begins with its number.
-      if (!answer.question.starts_with("12."))
-        EXPECT_THAT(questions, Contains(answer.question)) << "no question of " << name;
+      const bool isOfTheScript = answer.question.starts_with("12.");
+      EXPECT_TRUE(isOfTheScript || ::testing::Value(questions, Contains(answer.question)))
+          << name << " does not ask: " << answer.question;
       quoted.push_back(answer.question);
     }
     for (const std::string& question : questions)

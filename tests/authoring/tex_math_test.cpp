@@ -21,6 +21,7 @@ TEST(TexMath, ReadsLettersNumbersAndSigns) {
   EXPECT_EQ(inside("x = 2.5y"), "<mi>x</mi><mo>=</mo><mn>2.5</mn><mi>y</mi>");
   EXPECT_EQ(inside("a<b-1."), "<mi>a</mi><mo>&#60;</mo><mi>b</mi><mo>−</mo><mn>1</mn><mo>.</mo>");
   EXPECT_EQ(inside("\\theta \\le \\infty"), "<mi>θ</mi><mo>≤</mo><mi>∞</mi>");
+  EXPECT_EQ(inside("a/b"), "<mi>a</mi><mo stretchy=\"false\" lspace=\"0\" rspace=\"0\">/</mo><mi>b</mi>");
   EXPECT_EQ(inside("(x)"), "<mo stretchy=\"false\">(</mo><mi>x</mi><mo stretchy=\"false\">)</mo>");
   EXPECT_EQ(mathMlOf("", true), "<math display=\"block\"><mrow></mrow></math>");
 }
@@ -47,7 +48,8 @@ TEST(TexMath, ReadsWordsAndAlphabets) {
   EXPECT_EQ(inside("\\operatorname{tr}"), "<mi>tr</mi>");
   EXPECT_EQ(inside("\\mathbb{R}\\mathbb{E}\\mathcal{N}\\mathbf{I}"),
             "<mi>ℝ</mi><mi>𝔼</mi><mi>𝒩</mi><mi>𝐈</mi>");
-  EXPECT_THAT(inside("\\sin x"), HasSubstr("<mi>sin</mi>"));
+  EXPECT_THAT(inside("\\sin x"), HasSubstr(">sin</mo><mi>x</mi>"));
+  EXPECT_THAT(inside("\\min_i x_i"), ::testing::StartsWith("<munder><mo lspace"));
 }
 
 TEST(TexMath, ReadsBracketsAndMatrices) {
