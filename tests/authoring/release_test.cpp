@@ -27,7 +27,7 @@ class ReleaseTest : public ::testing::Test {
           "exercises/CMakeLists.txt", "exercises/01-demo/exercise.h", "exercises/01-demo/wrong/a.cpp"})
       write(file, file);
     write("exercises/01-demo/README.md", "Write `twice`.\n");
-    write("README.md", "Run scripts/rex.\nRun scripts/test.\n| `tests/` | tests |\n");
+    write("README.md", "Run scripts/rex.\nRun scripts/test.\n| `tests/` | tests |\n| `notes/` | notes |\n");
     write("exercises/01-demo/main.cpp", "out of date\n");
     write("exercises/01-demo/check.cpp", "visible();\n// <hidden>\nsecret();\n// </hidden>\n");
     write("exercises/01-demo/solution.cpp",
