@@ -205,7 +205,7 @@ TEST(LectureNotesOnControl, RoundingErrorsThatGrow) {
     const MatrixXd root = rng.normalVector(16).reshaped(4, 4);
     Matrix4d P = solveDare(A, B, balanced.Q, MatrixXd::Identity(1, 1)).X;
     P += 1e-9 * (root - root.transpose());
-    for (int k = 0; k < 300; ++k) {
+    for (int k = 0; k < 600; ++k) {
       const double weight = 1 + B.dot(P * B);
       const RowVector4d K = -(B.transpose() * P * A) / weight;
       const Matrix4d closed = A + B * K;
@@ -321,7 +321,7 @@ TEST(LectureNotesOnControl, SteeperIsNotProportionallyFaster) {
 TEST(LectureNotesOnControl, GraspsInOtherUnits) {
   // Weights that prove closure prove it in other units, too, while epsilon is another.
   Rng rng(7);
-  const MatrixXd G = Eigen::Vector3d(1, 1, 4).asDiagonal();
+  const MatrixXd G = Eigen::Vector3d(1, 1, .25).asDiagonal();
   MatrixXd wrenches(3, 4);
   wrenches << 1, -1, 0, 0, 1, 1, -1, -1, 0, 0, 1, -1;  // columns add up to zero
   EXPECT_LT(wrenches.rowwise().sum().norm(), 1e-12);
@@ -337,7 +337,7 @@ TEST(LectureNotesOnControl, GraspsInOtherUnits) {
     }
     return least;
   };
-  EXPECT_GT(epsilon(G * wrenches), 1.1 * epsilon(wrenches));
+  EXPECT_LT(epsilon(G * wrenches), .9 * epsilon(wrenches));
   expectWritten("14-grasping", fmt::format("for 3 mm and a length of 5 cm that is {:.2f}", .003 / .05));
   expectWritten("14-grasping", fmt::format("press with {:.0f} N in all", 1 / .001));
 }

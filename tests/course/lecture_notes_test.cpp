@@ -154,7 +154,7 @@ TEST(LectureNotes, StepsOfInverseKinematics) {
   for (const double rho : {1., 1e2, 1e4, 1e6}) {
     const MatrixXd C = rho * C0, sharp = (J.transpose() * C * J + W).inverse() * J.transpose() * C;
     const MatrixXd loss = (I3 + S * C).inverse();
-    EXPECT_LT((I3 - J * sharp - loss).norm(), 1e-7 * loss.norm() + 1e-9);
+    EXPECT_LT((I3 - J * sharp - loss).norm(), 1e-7 * loss.norm() + 1e-7);
     EXPECT_LT((J * (I7 - sharp * J) * a - loss * J * a).norm(), 1e-7);
     last = (I3 - J * sharp).norm();
   }
