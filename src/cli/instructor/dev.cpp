@@ -125,6 +125,7 @@ void addDevSite(CLI::App* dev, Action& action) {
       ->add_option("--secret-file", options->secret,
                    "secret of the course, which must not be in the pages either")
       ->type_name("FILE");
+  command->add_flag("--notes", options->notes, "also the lecturer's notes: pages that students must not get");
   command->add_flag("--json", options->json, "print JSON");
   command->callback(
       [&action, options] { action = [options](const Project& p) { return devSite(p, *options); }; });

@@ -48,6 +48,7 @@ ExitCode devRelease(const Project& project, const ReleaseOptions& options);
 struct SiteOptions {
   std::filesystem::path out{};     ///< new folder
   std::filesystem::path secret{};  ///< file with the secret of the course; empty: none
+  bool notes = false;
   bool json = false;
 };
 /// Writes the pages of the course. Returns kBelow, without writing anything, if anything leaks.
