@@ -3,7 +3,7 @@
 
 // <solution assembled>
 const int rows = (orderOf(terms, n) + 1) * n;
-BandSystem system{Eigen::MatrixXd::Zero(rows, n * steps), Eigen::VectorXd::Zero(n * steps)};
+BandSystem system{Eigen::MatrixXd::Zero(rows, n* steps), Eigen::VectorXd::Zero(n* steps)};
 for (const Term& term : terms) {
   const Eigen::Index columns = term.J.cols(), first = n * (term.t + 1) - rows;
   for (Eigen::Index a = std::max<Eigen::Index>(0, -first); a < columns; ++a) {
