@@ -1,9 +1,15 @@
 #pragma once
 
-#include "base/derivative_check.h"
 #include "graph_checks.h"
+#include "graph_mistakes.h"
 
 // Starts from which plain steps go astray.
+
+using BothEnds = Eigen::Matrix<double, 6, 1>;
+
+inline Eigen::Vector3d errorBetween(const BothEnds& ends, const Eigen::Vector3d& z) {
+  return turnedWrongly(z, turnedWrongly(ends.head<3>(), ends.tail<3>(), 1), 1);
+}
 
 /// What to add to the numbers of all poses but the first: (H + damping) dx = -b, by differences of each edge.
 inline Eigen::VectorXd dampedStep(const PoseMap& map, double damping) {
@@ -11,15 +17,18 @@ inline Eigen::VectorXd dampedStep(const PoseMap& map, double damping) {
   std::vector<rex::MatrixEntry> H;
   Eigen::VectorXd b = Eigen::VectorXd::Zero(size);
   for (const MeasuredEdge& by : map.edges) {
-    Eigen::VectorXd ends(6);
+    BothEnds ends;
     ends << map.poses[static_cast<std::size_t>(by.from)], map.poses[static_cast<std::size_t>(by.to)];
-    const Eigen::Vector3d e = trueError(ends.head<3>(), ends.tail<3>(), by.motion);
-    const auto change = [&](const Eigen::VectorXd& at) -> Eigen::VectorXd {
-      const Eigen::Vector3d d = trueError(at.head<3>(), at.tail<3>(), by.motion) - e;
-      return Eigen::Vector3d(d[0], d[1], byTurns(d[2]));
-    };
-    const Eigen::MatrixXd J = rex::numericJacobian(change, ends), block = J.transpose() * by.information * J;
-    const Eigen::VectorXd slope = J.transpose() * by.information * e;
+    Eigen::Matrix<double, 3, 6> J;
+    for (int k = 0; k < 6; ++k) {
+      constexpr double kStep = 1e-6;
+      const BothEnds change = kStep * BothEnds::Unit(k);
+      Eigen::Vector3d d = errorBetween(ends + change, by.motion) - errorBetween(ends - change, by.motion);
+      d[2] = byTurns(d[2]);
+      J.col(k) = d / (2 * kStep);
+    }
+    const Eigen::Matrix<double, 6, 6> block = J.transpose() * by.information * J;
+    const BothEnds slope = J.transpose() * by.information * errorBetween(ends, by.motion);
     const auto number = [&](int k) { return k < 3 ? 3 * by.from + k : 3 * by.to + k - 3; };
     for (int row = 0; row < 6; ++row) {
       b[number(row)] += slope[row];
