@@ -35,8 +35,7 @@ void requireOptions(const ParticleFilterOptions& options, Eigen::Index stateSize
 }
 
 void requireNumbers(const Eigen::MatrixXd& states, Eigen::Index first = 0) {
-  // 0 times a number that is not finite is not a number.
-  if ((0 * states.reshaped().array()).sum() == 0) return;
+  if (states.allFinite()) return;
   for (Eigen::Index i = 0; i < states.cols(); ++i)
     if (!states.col(i).allFinite())
       throw Error(

@@ -26,7 +26,10 @@ constexpr double kAlike = 1e-9;      // of directions and, times the arm's size,
 constexpr double kTouching = 1e-12;  // of graphs that touch zero, relative to their largest value
 constexpr double kExact = 1e-10;
 
-double wrapped(double angle) { return std::remainder(angle, 2 * std::numbers::pi); }
+// Faster than std::remainder().
+double wrapped(double angle) {
+  return angle - 2 * std::numbers::pi * std::nearbyint(angle / (2 * std::numbers::pi));
+}
 
 Vector3d turned(const Vector3d& axis, double angle, const Vector3d& v) {
   const double c = std::cos(angle), s = std::sin(angle);
@@ -400,9 +403,9 @@ std::vector<ClosedFormPosture> ClosedFormArm::postures(const Pose& X_WT, const V
   else
     addByParallels(X, near, found);
   const auto isSame = [](const Angles6& a, const Angles6& b) {
-    double gap = 0;
-    for (std::size_t i = 0; i < 6; ++i) gap = std::max(gap, std::abs(wrapped(a.angle[i] - b.angle[i])));
-    return gap < 1e-6;
+    for (std::size_t i = 0; i < 6; ++i)
+      if (!(std::abs(wrapped(a.angle[i] - b.angle[i])) < 1e-6)) return false;
+    return true;
   };
   for (Angles6& one : found) {
     if (!polish(X, one)) continue;

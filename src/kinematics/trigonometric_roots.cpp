@@ -8,6 +8,17 @@
 namespace rex::internal {
 namespace {
 
+// The cosine of k pi / 4.
+double cosineOf(int k) {
+  constexpr double kHalf = std::numbers::sqrt2 / 2;
+  constexpr std::array<double, 8> kCosines{1, kHalf, 0, -kHalf, -1, -kHalf, 0, kHalf};
+  return kCosines[static_cast<std::size_t>(k % 8)];
+}
+
+double wrappedAngle(double x) {
+  return x - 2 * std::numbers::pi * std::nearbyint(x / (2 * std::numbers::pi));
+}
+
 double valueOf(std::span<const double> a, double x) {
   double sum = 0;
   for (std::size_t i = a.size(); i-- > 0;) sum = sum * x + a[i];
@@ -74,8 +85,8 @@ Angles rootsOfLine(double a, double b, double d, double least) {
   const double cosine = d / size;
   if (std::abs(cosine) > 1 + kRounding) return result;
   const double middle = std::atan2(b, a), half = std::acos(std::clamp(cosine, -1., 1.));
-  result.add(std::remainder(middle + half, 2 * std::numbers::pi));
-  if (half > 0 && half < std::numbers::pi) result.add(std::remainder(middle - half, 2 * std::numbers::pi));
+  result.add(wrappedAngle(middle + half));
+  if (half > 0 && half < std::numbers::pi) result.add(wrappedAngle(middle - half));
   return result;
 }
 
@@ -89,12 +100,11 @@ Angles rootsOfSecondOrder(const std::array<double, 8>& values, double tolerance)
   double constant = 0, c1 = 0, s1 = 0, c2 = 0, s2 = 0;
   for (int k = 0; k < 8; ++k) {
     const double value = values[static_cast<std::size_t>((opposite + 4 + k) % 8)] / 8;
-    const double angle = k * std::numbers::pi / 4;
     constant += value;
-    c1 += 2 * value * std::cos(angle);
-    s1 += 2 * value * std::sin(angle);
-    c2 += 2 * value * std::cos(2 * angle);
-    s2 += 2 * value * std::sin(2 * angle);
+    c1 += 2 * value * cosineOf(k);
+    s1 += 2 * value * cosineOf(k + 6);
+    c2 += 2 * value * cosineOf(2 * k);
+    s2 += 2 * value * cosineOf(2 * k + 6);
   }
   const std::array<double, 5> a{constant + c1 + c2, 2 * s1 + 4 * s2, 2 * constant - 6 * c2, 2 * s1 - 4 * s2,
                                 constant - c1 + c2};
@@ -102,7 +112,7 @@ Angles rootsOfSecondOrder(const std::array<double, 8>& values, double tolerance)
   const double start = static_cast<double>((opposite + 4) % 8) * std::numbers::pi / 4;
   for (int k = 0; k < result.count; ++k) {
     double& one = result.angle[static_cast<std::size_t>(k)];
-    one = std::remainder(start + 2 * std::atan(one), 2 * std::numbers::pi);
+    one = wrappedAngle(start + 2 * std::atan(one));
   }
   return result;
 }

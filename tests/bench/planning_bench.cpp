@@ -135,7 +135,7 @@ std::vector<Row> planningRows() {
           nearestRow("nearest-3d-100k", 3, 100000, 1),
           nearestRow("nearest-7d-100k", 7, 100000, 1),
           nearestRow("nearest-12d-100k", 12, 100000, 1),
-          growingRow("nearest-7d-growing", 7, 1000, 0.5),
+          growingRow("nearest-7d-growing", 7, 1000, 0.6),
           connectRow("rrt-connect-tip", tipInHole(scene), scene, 201),
           connectRow("rrt-connect-peg", pegInHole(scene), scene, 41)};
 }
