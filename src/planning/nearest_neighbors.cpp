@@ -11,12 +11,12 @@
 #include "base/cpu_lanes.h"
 #include "base/error.h"
 #include "base/require.h"
+#include "planning/neighbor_kernel_internal.h"
 
 namespace rex {
 namespace {
 
 using Kind = SpacePart::Kind;
-using internal::NeighborPart;
 
 constexpr double kEndless = std::numeric_limits<double>::infinity();
 constexpr float kEndlessFloat = std::numeric_limits<float>::infinity();

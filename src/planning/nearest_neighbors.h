@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "planning/neighbor_kernel_internal.h"
+#include "planning/neighbor_part.h"
 #include "planning/space.h"
 
 namespace rex {
@@ -99,12 +99,12 @@ class NearestNeighbors {
   void search(const Query& query, double reach2, bool isForOne, const Visit& visit) const;
 
   Space space_;
-  bool isLine_ = true;                         // all parts are lines
-  bool isStraight_ = true;                     // those in single precision are
-  std::vector<internal::NeighborPart> parts_;  // in single precision
-  std::size_t width_ = 0;                      // numbers of a point in single precision
-  float largest_ = 0;                          // of these numbers and periods
-  std::vector<double> points_;                 // as added
+  bool isLine_ = true;               // all parts are lines
+  bool isStraight_ = true;           // those in single precision are
+  std::vector<NeighborPart> parts_;  // in single precision
+  std::size_t width_ = 0;            // numbers of a point in single precision
+  float largest_ = 0;                // of these numbers and periods
+  std::vector<double> points_;       // as added
   std::vector<double> scaled_;
   int root_ = -1;
   std::vector<Leaf> leaves_;

@@ -1,14 +1,9 @@
 #pragma once
 
+#include "planning/neighbor_part.h"
+
 // Squared distances in single precision, of which NearestNeighbors knows how far they may be off.
 namespace rex::internal {
-
-/// A part of a space whose numbers are scaled by its weight. A chord is two lines, cosine and sine.
-struct NeighborPart {
-  enum class Kind { kLine, kCircle, kQuaternion };
-  Kind kind = Kind::kLine;
-  float period = 0;  ///< of a circle; angles are at most half of it
-};
 
 /// `count` parts, together of `size` numbers.
 struct NeighborParts {

@@ -9,6 +9,7 @@
 
 #include "base/cpu_lanes.h"
 #include "base/rng.h"
+#include "planning/neighbor_kernel_internal.h"
 #include "support/expect_error.h"
 
 namespace rex::nearest_neighbors_test {
@@ -131,7 +132,6 @@ TEST(NearestNeighbors, AgreeForPointsThatComeInOrderOrAreHardToTell) {
 
 // All numbers of lanes give the bits of plain single precision.
 TEST(NeighborKernel, GivesTheSameBitsInAllLanes) {
-  using internal::NeighborPart;
   const NeighborPart parts[] = {{},
                                 {NeighborPart::Kind::kCircle, 4},
                                 {NeighborPart::Kind::kQuaternion},
