@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <tuple>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -121,43 +122,48 @@ std::optional<ClosedFormArm> ClosedFormArm::of(const Model& model, BodyId tip, s
   }
   if (!(arm.size_ > 0)) return none("all axes meet in a point");
   const Axes axes = arm.axis_, points = arm.at_;
-  for (const bool isReversed : {false, true}) {
-    arm.isReversed_ = isReversed;
-    // From its tip to the world, an arm turns the other way round about the same axes.
-    for (std::size_t i = 0; i < 6; ++i) {
-      arm.axis_[i] = isReversed ? Vector3d(-axes[5 - i]) : axes[i];
-      arm.at_[i] = isReversed ? points[5 - i] : points[i];
+  for (const Kind kind : {Kind::kWrist, Kind::kParallel})
+    for (const bool isReversed : {false, true}) {
+      arm.kind_ = kind;
+      arm.orient(axes, points, isReversed);
+      if (kind == Kind::kWrist ? arm.meetAtEnd() : arm.areParallelInTheMiddle()) return arm;
     }
-    const auto [c4, c5] = nearestPoints(arm.axis_[3], arm.at_[3], arm.axis_[4], arm.at_[4]);
-    const bool isWrist = (c4 - c5).norm() < kAlike * arm.size_ &&
-                         (arm.at_[5] - c5).cross(arm.axis_[5]).norm() < kAlike * arm.size_ &&
-                         !areParallel(arm.axis_[3], arm.axis_[4]) && !areParallel(arm.axis_[4], arm.axis_[5]);
-    if (isWrist) {
-      arm.kind_ = Kind::kWrist;
-      arm.at_[3] = arm.at_[4] = arm.at_[5] = c5;
-      std::tie(arm.at_[0], arm.at_[1]) = nearestPoints(arm.axis_[0], arm.at_[0], arm.axis_[1], arm.at_[1]);
-      return arm;
-    }
-  }
-  for (const bool isReversed : {false, true}) {
-    arm.isReversed_ = isReversed;
-    for (std::size_t i = 0; i < 6; ++i) {
-      arm.axis_[i] = isReversed ? Vector3d(-axes[5 - i]) : axes[i];
-      arm.at_[i] = isReversed ? points[5 - i] : points[i];
-    }
-    if (areParallel(arm.axis_[1], arm.axis_[2]) && areParallel(arm.axis_[2], arm.axis_[3]) &&
-        !areParallel(arm.axis_[0], arm.axis_[1]) && !areParallel(arm.axis_[3], arm.axis_[4]) &&
-        !areParallel(arm.axis_[4], arm.axis_[5])) {
-      arm.kind_ = Kind::kParallel;
-      std::tie(arm.at_[4], arm.at_[5]) = nearestPoints(arm.axis_[4], arm.at_[4], arm.axis_[5], arm.at_[5]);
-      return arm;
-    }
-  }
   return none("neither three of its axes meet at an end, nor three in the middle are parallel");
 }
 
-// Of a wrist at `center`, the first three angles put it there: with f the wrist seen from the third axis, it
-// is a1 + R2 f from the first one, whose length and height along the first axis are known (Pieper 1968).
+// From its tip to the world, an arm turns the other way round about the same axes.
+void ClosedFormArm::orient(const Axes& axes, const Axes& points, bool isReversed) {
+  isReversed_ = isReversed;
+  for (std::size_t i = 0; i < 6; ++i) {
+    axis_[i] = isReversed ? Vector3d(-axes[5 - i]) : axes[i];
+    at_[i] = isReversed ? points[5 - i] : points[i];
+  }
+}
+
+// Whether the last three axes meet; if so, their points are where they do.
+bool ClosedFormArm::meetAtEnd() {
+  const auto [on4, center] = nearestPoints(axis_[3], at_[3], axis_[4], at_[4]);
+  const double apart = (on4 - center).norm() + (at_[5] - center).cross(axis_[5]).norm();
+  if (apart > kAlike * size_ || areParallel(axis_[3], axis_[4]) || areParallel(axis_[4], axis_[5]))
+    return false;
+  at_[3] = at_[4] = at_[5] = center;
+  std::tie(at_[0], at_[1]) = nearestPoints(axis_[0], at_[0], axis_[1], at_[1]);
+  return true;
+}
+
+// Whether the second to fourth axis are; if so, the points of the last two are the nearest to each other.
+bool ClosedFormArm::areParallelInTheMiddle() {
+  const std::array<bool, 5> isLikeNext{areParallel(axis_[0], axis_[1]), areParallel(axis_[1], axis_[2]),
+                                       areParallel(axis_[2], axis_[3]), areParallel(axis_[3], axis_[4]),
+                                       areParallel(axis_[4], axis_[5])};
+  if (isLikeNext != std::array{false, true, true, false, false}) return false;
+  std::tie(at_[4], at_[5]) = nearestPoints(axis_[4], at_[4], axis_[5], at_[5]);
+  return true;
+}
+
+// The first three angles put the centre of the wrist where it belongs: with f the wrist seen from the third
+// axis, it is a1 + R2 f from the first one, whose length and height along the first axis are known (Pieper
+// 1968).
 void ClosedFormArm::addByWrist(const Pose& X, const Angles6& reference, std::vector<Angles6>& found) const {
   const Vector3d w = X * at_[3] - at_[0], a1 = at_[1] - at_[0], a2 = at_[2] - at_[1], a3 = at_[3] - at_[2];
   const Vector3d &h1 = axis_[0], &h2 = axis_[1], &h3 = axis_[2];

@@ -56,6 +56,9 @@ class ClosedFormArm {
   };
 
   ClosedFormArm() = default;
+  void orient(const Axes& axes, const Axes& points, bool isReversed);
+  bool meetAtEnd();
+  bool areParallelInTheMiddle();
   void addByWrist(const Pose& X, const Angles6& reference, std::vector<Angles6>& found) const;
   void addWrists(const Eigen::Matrix3d& R, Angles6 arm, const Angles6& reference,
                  std::vector<Angles6>& found) const;

@@ -26,15 +26,16 @@ struct Hinge {
 std::string numbers(const Vector3d& v) { return fmt::format("{:.17g} {:.17g} {:.17g}", v[0], v[1], v[2]); }
 
 // A chain of hinges in the order of their origins, each seen from the last, and a tip.
-Model chainOf(const std::vector<Hinge>& hinges, const Vector3d& tip, const std::string& type = "revolute") {
+Model chainOf(const std::vector<Hinge>& hinges, const Vector3d& tip, const std::string& type = "revolute",
+              const std::string& inLast = "") {
   std::string urdf = "<robot name='chain'><link name='l0'/>";
   for (std::size_t i = 0; i < hinges.size(); ++i)
     urdf += fmt::format(
         "<link name='l{1}'/><joint name='j{1}' type='{6}'><parent link='l{0}'/><child link='l{1}'/>"
         "<origin xyz='{2}' rpy='0 0 0'/><axis xyz='{3}'/><limit lower='{4}' upper='{5}' effort='1' "
-        "velocity='1'/></joint>",
+        "velocity='1'/>{7}</joint>",
         i, i + 1, numbers(hinges[i].origin), numbers(hinges[i].axis), hinges[i].lower, hinges[i].upper,
-        i + 1 == hinges.size() ? type : "revolute");
+        i + 1 == hinges.size() ? type : "revolute", i + 1 == hinges.size() ? inLast : "");
   urdf += fmt::format(
       "<link name='tip'/><joint name='fixed' type='fixed'><parent link='l{}'/><child link='tip'/>"
       "<origin xyz='{}' rpy='.3 .2 .1'/></joint></robot>",
@@ -245,6 +246,8 @@ TEST(ClosedFormArm, SaysWhyThereIsNone) {
   any.push_back({kX, kY});
   EXPECT_EQ(reason(chainOf(any, kX)), "7 joints move the tip, not six");
   EXPECT_EQ(reason(chainOf(industrial(), kX, "prismatic")), "joint 'j6' is no hinge");
+  EXPECT_EQ(reason(chainOf(industrial(), kX, "revolute", "<mimic joint='j1'/>")),
+            "joint 'j6' mimics another");
   EXPECT_EQ(
       reason(chainOf({{kNone, kX}, {kNone, kY}, {kNone, kZ}, {kNone, kX}, {kNone, kY}, {kNone, kZ}}, kX)),
       "all axes meet in a point");
