@@ -106,7 +106,7 @@ Row particleRow() {
   return {.name = "particle-and-step",
           .ours = [=] { return step() / kParticles; },
           .peerName = "limit",
-          .peer = [] { return 25e-9; },
+          .peer = [] { return 15e-9; },
           .target = 1.};
 }
 
