@@ -77,7 +77,7 @@ Row nearestRow(const std::string& name, int dimension, Eigen::Index count, doubl
   const auto known = std::make_shared<const Neighbors>(dimension, count);
   const auto ours = [=](Eigen::Index k) { return known->tree.nearest(known->questions.col(k)); };
   const NeighborPeer peer = nanoflannPeer(known->points, known->questions);
-  for (Eigen::Index k = 0; k < kQuestions; ++k) {
+  for (Eigen::Index k = 0; k<kQuestions; k += count> 1000 ? 20 : 1) {
     int nearest = 0;
     (known->points.colwise() - known->questions.col(k)).colwise().squaredNorm().minCoeff(&nearest);
     if (ours(k) != nearest) throw std::logic_error("the nearest point is another");
