@@ -78,7 +78,11 @@ class SphereSearch {
   std::vector<PostureF> run(Halton& halton, float range, long blocks) {
     if (isFree(start_, goal_)) return {start_, goal_};
     constexpr float kRanges[] = {1, 0.5f, 2};
-    for (std::size_t i = 0; count_.blocks < blocks; ++i) {
+    // Steps so short that every target is too far check nothing: then no other target would do.
+    long checked = 0;
+    for (std::size_t i = 0, idle = 0; count_.blocks < blocks && idle < std::size(kRanges); ++i) {
+      idle = count_.blocks == checked ? idle + 1 : 0;
+      checked = count_.blocks;
       const long all = std::min(blocks, count_.blocks + kFirstTry * static_cast<long>(i + 1));
       std::vector<PostureF> path = grow(halton, range * kRanges[i % std::size(kRanges)], all);
       if (!path.empty()) return path;

@@ -82,6 +82,12 @@ TEST(PlanSpheres, SaysThatItFoundNoPath) {
   EXPECT_EQ(plan.message, "no path was found within 40000 postures");
 }
 
+TEST(PlanSpheres, EndsIfItsStepsAreTooShortForEveryTarget) {
+  const SphereRobot robot(compile(sphereArm()));
+  const SphereWorld world(robot, kWall);
+  EXPECT_EQ(planSpheres(world, kLeft, kRight, {.range = 1e-6}).status, PathStatus::kBudgetSpent);
+}
+
 TEST(PlanSpheres, SaysWhatIsWrong) {
   const SphereRobot robot(compile(sphereArm()));
   const SphereWorld world(robot, kWall);
