@@ -42,7 +42,8 @@ void requireTrials(const LinearGaussianPolicy& policy, const std::vector<Episode
 
 /// Runs `count` episodes of a policy. This is the interface to all simulators, which may run them in
 /// parallel.
-using Rollouts = std::function<std::vector<Episode>(const LinearGaussianPolicy& policy, int count, Rng& rng)>;
+using RolloutSource =
+    std::function<std::vector<Episode>(const LinearGaussianPolicy& policy, int count, Rng& rng)>;
 
 /// sum_{t' >= t} discount^(t' - t) r_t' for each t: Q(s_t, a_t, t) of slide 9:17, estimated from one
 /// episode.
@@ -65,6 +66,6 @@ struct ControlTask {
 };
 /// Rollouts of a task. Throws Error for missing functions and a horizon that is not positive; the rollouts
 /// throw like requirePolicy, and for the wrong number of features.
-[[nodiscard]] Rollouts rolloutsOf(ControlTask task);
+[[nodiscard]] RolloutSource rolloutsOf(ControlTask task);
 
 }  // namespace rex

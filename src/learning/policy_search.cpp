@@ -46,7 +46,7 @@ bool areFinite(const std::vector<Episode>& episodes) {
 
 }  // namespace
 
-PolicySearchResult improvedPolicy(const Rollouts& rollouts, const LinearGaussianPolicy& start,
+PolicySearchResult improvedPolicy(const RolloutSource& rollouts, const LinearGaussianPolicy& start,
                                   const PolicySearchOptions& options, Rng& rng) {
   requirePolicy(start);
   requireOptions(options);

@@ -37,7 +37,8 @@ struct PolicySearchResult {
 
 /// Improves a policy with its own episodes. Throws Error for options out of range, like requirePolicy, and
 /// like the chosen method (learning/policy_gradient.h, learning/power.h).
-[[nodiscard]] PolicySearchResult improvedPolicy(const Rollouts& rollouts, const LinearGaussianPolicy& start,
+[[nodiscard]] PolicySearchResult improvedPolicy(const RolloutSource& rollouts,
+                                                const LinearGaussianPolicy& start,
                                                 const PolicySearchOptions& options, Rng& rng);
 
 }  // namespace rex

@@ -20,7 +20,7 @@ struct LqTask {
   double discount = .95;
   double bonus = 0;  ///< added to each reward
 
-  Rollouts rollouts() const {
+  RolloutSource rollouts() const {
     ControlTask task;
     task.horizon = horizon;
     task.start = [*this](Rng& rng) -> Eigen::VectorXd {

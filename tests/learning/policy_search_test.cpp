@@ -65,7 +65,7 @@ TEST(PolicySearch, PowerHitsTheTarget) {
 TEST(PolicySearch, SaysWhyItStops) {
   Rng rng(2);
   const LinearGaussianPolicy start{Eigen::VectorXd::Zero(1), Eigen::MatrixXd::Ones(1, 1)};
-  const auto rewarding = [](double reward) -> Rollouts {
+  const auto rewarding = [](double reward) -> RolloutSource {
     return [reward](const LinearGaussianPolicy&, int count, Rng&) {
       const Episode one{Eigen::MatrixXd::Ones(1, 1), Eigen::MatrixXd::Zero(1, 1),
                         Eigen::VectorXd::Constant(1, reward)};
