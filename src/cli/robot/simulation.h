@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "cli/robot/hold.h"
+#include "live/hold.h"
 #include "cli/robot/posture_option.h"
 #include "cli/robot/torque_file.h"
 #include "dynamics/energy.h"
