@@ -27,7 +27,7 @@ const rexControls = (function () {
     const label = element('span', 'name', name);
     label.title = name;
     box.append(label, number, element('span', 'unit', unit), range);
-    if (labels) {
+    if (labels && !(low === null && high === null)) {
       const limits = element('span', 'limits');
       limits.append(element('span', '', low === null ? 'no limit' : shown(low)),
         element('span', '', high === null ? 'no limit' : shown(high)));

@@ -123,7 +123,22 @@
     }
   }
 
+  // Where drawing a picture takes too long, as without a graphics card, fewer pixels are drawn, and the page says so.
+  let pictures = 0, slow = 0, quality = 1;
+  function watchSpeed() {
+    if (++pictures % 8 !== 0 || quality < 0.4 || !scene) return;
+    const start = performance.now(), gl = view.renderer.getContext();
+    view.renderer.render(scene.current.scene, view.view);
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));  // waits until it is drawn
+    slow = performance.now() - start > 25 ? slow + 1 : 0;
+    if (slow < 2) return;
+    slow = 0, quality /= 1.5;
+    setTimeout(() => view.setQuality(quality));
+    setState('live, drawn more coarsely: this computer draws slowly', false);
+  }
+
   function beforeDraw() {
+    watchSpeed();
     if (!isStale || !frame || !scene) return;
     isStale = false;
     showPoses();
@@ -141,18 +156,19 @@
     const isRobot = about.kind === 'robot';
     document.title = about.title;
     get('title').textContent = about.title;
-    for (const id of ['jointPanel', 'physicsPanel', 'lookPanel', 'bodyPanel']) get(id).hidden = !isRobot;
+    for (const id of ['jointPanel', 'physicsPanel']) get(id).hidden = !isRobot;
+    for (const id of ['lookPanel', 'bodyPanel']) get(id).hidden = about.bodies.length === 0;
+    for (const id of ['com', 'contacts', 'avoid']) get(id).parentElement.hidden = !isRobot;
     for (const button of [get('run'), get('step'), get('stop'), get('speed'), get('clock')]) button.hidden = !isRobot;
     get('modes').hidden = !isRobot;
-    if (!isRobot) return;
     get('joints').textContent = '';
-    sliders = about.coordinates.map((one, i) => {
+    sliders = !isRobot ? [] : about.coordinates.map((one, i) => {
       const span = one.unit === 'm' ? 2 : one.turns ? 1 : 3.1416;
       const made = slider({ ...one, span }, value => send({ do: 'move', q: { [i]: value } }, 'q' + i));
       get('joints').append(made.box);
       return made;
     });
-    if (sliders.length === 0) get('joints').append(element('p', 'state', 'No joint of this scene moves.'));
+    if (isRobot && sliders.length === 0) get('joints').append(element('p', 'state', 'No joint of this scene moves.'));
     get('bodies').textContent = '';
     about.bodies.forEach((body, i) => {
       if (!about.shapes.some(shape => shape.body === i && shape.drawn)) return;
@@ -210,7 +226,7 @@
       if (showFrame.told !== undefined || frame.notice.number > 0) tell(frame.notice.text);
       showFrame.told = frame.notice.number;
     }
-    if (window.rexProgram) window.rexProgram.show(frame, send);
+    rexProgram.show(frame, send);
   }
 
   function showNear() {
@@ -420,22 +436,31 @@
     source.onopen = () => setState('live', false);
     source.onerror = () => setState(source.readyState === EventSource.CLOSED ?
       'The program has ended. Start it again and open its new address.' : 'The program does not answer; waiting for it.', true);
-    let loading = false;
-    source.onmessage = async ({ data }) => {
-      const next = JSON.parse(data);
-      if (loading) return;
-      if (frame && next.version !== frame.version) {
-        loading = true;
-        await load().catch(cause => tell(cause.message));
-        loading = false;
+    let newest = null, isBusy = false;
+    async function take() {
+      if (isBusy) return;
+      isBusy = true;
+      while (newest) {
+        const next = newest;
+        newest = null;
+        try {
+          if (!scene || next.version !== frame.version) await load();
+          frame = next;
+          isStale = true;
+          showFrame();
+          view.draw();
+        } catch (cause) {
+          tell('The scene cannot be shown: ' + cause.message);
+        }
       }
-      frame = next;
-      isStale = true;
-      showFrame();
-      view.draw();
+      isBusy = false;
+    }
+    source.onmessage = ({ data }) => {
+      newest = JSON.parse(data);
+      take();
     };
   }
-  load().then(listen).catch(cause => setState('The scene cannot be shown: ' + cause.message, true));
+  listen();
 
   // What tests ask.
   window.rexLive = {

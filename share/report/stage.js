@@ -110,6 +110,7 @@ const rexStage = (function () {
       resolution: { value: new THREE.Vector2(1, 1) }
     };
     let current = null;  // what load() has put there
+    let quality = 1;
 
     // Shows this scene instead of the one before. `room`: how far things may move, in sizes of the scene.
     async function load(gltf, room) {
@@ -243,13 +244,13 @@ const rexStage = (function () {
       sun.position.copy(center).addScaledVector(toLight, 3 * reach);
       sun.target.position.copy(center);
       sun.castShadow = true;
-      sun.shadow.mapSize.set(2048, 2048);
+      sun.shadow.mapSize.set(2048 * quality, 2048 * quality);
       const box = { left: -reach, right: reach, bottom: -reach, top: reach, near: reach, far: 20 * reach };
       Object.assign(sun.shadow.camera, box);
-      shared.shadowTexel.value = 2 * reach / 2048;
+      shared.shadowTexel.value = 2 * reach / (2048 * quality);
       scene.add(sun, sun.target);
       clear();
-      current = { scene, world, parser, nodes, texts, sized, corners, target, home, radius };
+      current = { scene, world, parser, nodes, texts, sized, corners, target, home, radius, sun, reach };
       resize();
       return current;
     }
@@ -321,7 +322,7 @@ const rexStage = (function () {
 
     function resize() {
       if (!current) return;
-      const ratio = Math.min(window.devicePixelRatio || 1, 2), size = new THREE.Vector2();
+      const ratio = quality * Math.min(window.devicePixelRatio || 1, 2), size = new THREE.Vector2();
       renderer.setPixelRatio(ratio);
       renderer.setSize(stage.clientWidth, stage.clientHeight, false);
       renderer.getDrawingBufferSize(size);
@@ -332,6 +333,17 @@ const rexStage = (function () {
       view.updateProjectionMatrix();
       if (isFirstView) resetView();
       else draw();
+    }
+
+    // 1 is the best; less draws fewer pixels, faster where no graphics card does it.
+    function setQuality(next) {
+      quality = next;
+      const { sun, reach } = current;
+      sun.shadow.mapSize.set(2048 * quality, 2048 * quality);
+      if (sun.shadow.map) sun.shadow.map.dispose();
+      sun.shadow.map = null;
+      shared.shadowTexel.value = 2 * reach / (2048 * quality);
+      resize();
     }
 
     // Turns the view as a drag does.
@@ -357,7 +369,7 @@ const rexStage = (function () {
 
     window.addEventListener('resize', resize);
     renderer.domElement.addEventListener('webglcontextrestored', draw);
-    return { renderer, view, controls, load, draw, resize, resetView, lookFrom, obeys };
+    return { renderer, view, controls, load, draw, resize, resetView, lookFrom, obeys, setQuality };
   }
 
   const parse = glb => new Promise((resolve, reject) => new THREE.GLTFLoader().parse(glb, '', resolve, reject));

@@ -14,7 +14,7 @@ Model modelOf(const std::string& text) { return compile(parseScene(text, "scene.
 
 TEST(LiveScene, NamesNodesByShapes) {
   const Model model = modelOf("body a { mass=1 }\nshape (a) { type=0 size=[.1 .1 .1 0] }\n"
-                              "shape (a) { type=1 size=[0 0 0 .2] rel=<t(0 0 1)> }\n");
+                              "shape (a) { type=1 size=[0 0 0 .2] rel=<T t(0 0 1)> }\n");
   const std::string glb = liveGlb(model, forwardKinematics(model, model.initialPositions()));
   EXPECT_THAT(glb, testing::HasSubstr("\"s0\""));
   EXPECT_THAT(glb, testing::HasSubstr("\"s1\""));
@@ -32,7 +32,7 @@ TEST(LiveScene, SaysUnitsAndLimits) {
 }
 
 TEST(LiveScene, WritesPosesAsFloats) {
-  const Model model = modelOf("body a { pose=<t(1 2 3)> mass=1 }\nshape (a) { type=0 size=[.1 .1 .1 0] }\n");
+  const Model model = modelOf("body a { X=<T t(1 2 3)> mass=1 }\nshape (a) { type=0 size=[.1 .1 .1 0] }\n");
   // Two bodies of seven floats each: 56 bytes, 76 characters.
   EXPECT_EQ(posesText(forwardKinematics(model, model.initialPositions())).size(), 76u);
 }

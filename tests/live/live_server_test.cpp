@@ -191,7 +191,7 @@ TEST_F(LiveServerTest, SurvivesAThousandConnections) {
 
 TEST_F(LiveServerTest, OffersThePage) {
   offerLivePage(server);
-  for (const char* name : {"", "style.css", "three.js", "stage.js", "controls.js", "live.js"})
+  for (const char* name : {"", "style.css", "three.js", "stage.js", "controls.js", "program.js", "live.js"})
     EXPECT_THAT(answer(line("GET", name) + "\r\n"), StartsWith("HTTP/1.1 200")) << name;
 }
 
