@@ -79,7 +79,8 @@ const rexControls = (function () {
       try {
         const events = sent.map(({ event }) => event);
         const answer = await fetch('events', { method: 'POST', body: JSON.stringify(events) });
-        if (!answer.ok) failed(answer.status === 429 ? 'The program has no time for more events.' : 'The program refused an event.');
+        if (!answer.ok)
+          failed(answer.status === 429 ? 'The program has no time for more events.' : 'The program refused an event.');
       } catch (cause) {
         failed('The program does not answer.');
       }

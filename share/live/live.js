@@ -29,7 +29,8 @@
       if (!answer.ok) throw new Error(name + ' cannot be had');
       return answer;
     };
-    const [next, glb] = await Promise.all([read('scene.json').then(a => a.json()), read('scene.glb').then(a => a.arrayBuffer())]);
+    const [next, glb] = await Promise.all([
+      read('scene.json').then(a => a.json()), read('scene.glb').then(a => a.arrayBuffer())]);
     const current = await view.load(await rexStage.parse(glb), 1.7);
     about = next;
     const bodies = about.bodies.map(() => current.world.add(new THREE.Group()).children.slice(-1)[0]);
@@ -58,9 +59,11 @@
   function addMarks() {
     const size = 0.1 * scene.current.radius;
     scene.com = new THREE.Mesh(new THREE.SphereGeometry(0.12 * size, 24, 16), flat('#d55e00', 0.9));
-    scene.contacts = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: '#c2185b', depthTest: false }));
-    scene.points = new THREE.Points(new THREE.BufferGeometry(), new THREE.PointsMaterial({ color: '#c2185b', size: 6, sizeAttenuation: false, depthTest: false }));
-    scene.pull = new THREE.Line(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: '#1f5fa8', depthTest: false }));
+    const line = color => new THREE.LineBasicMaterial({ color, depthTest: false }), empty = () => new THREE.BufferGeometry();
+    scene.contacts = new THREE.LineSegments(empty(), line('#c2185b'));
+    const dot = { color: '#c2185b', size: 6, sizeAttenuation: false, depthTest: false };
+    scene.points = new THREE.Points(empty(), new THREE.PointsMaterial(dot));
+    scene.pull = new THREE.Line(empty(), line('#1f5fa8'));
     scene.arrow = new THREE.ArrowHelper(new THREE.Vector3(0, 0, 1), new THREE.Vector3(), 1, '#d55e00');
     for (const part of scene.arrow.children) part.material.depthTest = false;
     for (const mark of [scene.com, scene.contacts, scene.points, scene.pull, scene.arrow]) {
@@ -110,7 +113,8 @@
     scene.names.forEach((name, i) => { name.visible = get('names').checked && i > 0; });
     const near = frame.contacts || [];
     scene.contacts.visible = scene.points.visible = near.length > 0;
-    if (near.length > 0) for (const object of [scene.contacts, scene.points]) setPoints(object, near.flatMap(c => [c[3], c[4]]));
+    const ends = near.flatMap(contact => [contact[3], contact[4]]);
+    for (const object of [scene.contacts, scene.points]) if (ends.length > 0) setPoints(object, ends);
     scene.pull.visible = Boolean(frame.drag);
     if (frame.drag) setPoints(scene.pull, [frame.drag.at, frame.drag.to]);
     scene.arrow.visible = Boolean(frame.push);
@@ -203,7 +207,7 @@
     if (settings) {
       const target = frame.simulates && settings.hold !== 'free' ? frame.target : frame.q;
       sliders.forEach((one, i) => one.set(target[i]));
-      for (const [id, key] of [['gravity', 'gravity'], ['floor', 'floor'], ['contacts', 'contacts'], ['avoid', 'avoid']]) get(id).checked = settings[key];
+      for (const id of ['gravity', 'floor', 'contacts', 'avoid']) get(id).checked = settings[id];
       get('hold').value = settings.hold;
       if (document.activeElement !== get('friction')) get('friction').value = settings.friction;
       if (settings.floor && document.activeElement !== get('height')) get('height').value = settings.height;
@@ -235,7 +239,8 @@
     get('near').textContent = '';
     for (const [a, b, distance] of near.slice(0, 12)) {
       const line = element('li', distance <= 0 ? 'touching' : '');
-      line.append(element('span', '', labelOf(a) + ' – ' + labelOf(b)), element('span', '', (1000 * distance).toFixed(1) + ' mm'));
+      line.append(element('span', '', labelOf(a) + ' – ' + labelOf(b)),
+        element('span', '', (1000 * distance).toFixed(1) + ' mm'));
       get('near').append(line);
     }
   }
@@ -255,14 +260,16 @@
   }
 
   const settings = () => send({
-    do: 'settings', gravity: get('gravity').checked, floor: get('floor').checked, height: Number(get('height').value) || 0,
-    friction: Math.max(Number(get('friction').value) || 0, 0), hold: get('hold').value
+    do: 'settings', gravity: get('gravity').checked, floor: get('floor').checked,
+    height: Number(get('height').value) || 0, friction: Math.max(Number(get('friction').value) || 0, 0), hold: get('hold').value
   }, 'settings');
   for (const id of ['gravity', 'floor', 'height', 'friction', 'hold']) get(id).addEventListener('change', settings);
   get('height').addEventListener('input', () => { get('height').dataset.touched = 'yes'; });
   for (const id of ['contacts', 'avoid'])
-    get(id).addEventListener('change', () => send({ do: 'contacts', show: get('contacts').checked, avoid: get('avoid').checked }));
-  for (const id of ['names', 'frames', 'com']) get(id).addEventListener('change', () => { isStale = true; view.draw(); });
+    get(id).addEventListener('change', () =>
+      send({ do: 'contacts', show: get('contacts').checked, avoid: get('avoid').checked }));
+  const redraw = () => { isStale = true; view.draw(); };
+  for (const id of ['names', 'frames', 'com']) get(id).addEventListener('change', redraw);
   get('collision').addEventListener('change', showShapes);
   get('home').addEventListener('click', () => send({ do: 'home' }));
   const run = () => send({ do: 'run', on: !(frame && frame.runs) });
@@ -315,7 +322,8 @@
     mode = next;
     stage.classList.toggle('drag', mode === 'drag');
     stage.classList.toggle('push', mode === 'push');
-    for (const button of get('modes').children) button.setAttribute('aria-pressed', String(button.dataset.mode === mode));
+    for (const button of get('modes').children)
+      button.setAttribute('aria-pressed', String(button.dataset.mode === mode));
     if (mode !== 'drag') choose(null);
   }
   for (const button of get('modes').children) button.addEventListener('click', () => setMode(button.dataset.mode));
@@ -413,8 +421,9 @@
   }
 
   const keys = {
-    1: () => setMode('look'), 2: () => setMode('drag'), 3: () => setMode('push'), ' ': run, '.': () => send({ do: 'step' }),
-    r: view.resetView, t: () => gizmo.setMode(gizmo.mode === 'translate' ? 'rotate' : 'translate'), Escape: () => choose(null)
+    1: () => setMode('look'), 2: () => setMode('drag'), 3: () => setMode('push'), Escape: () => choose(null),
+    ' ': run, '.': () => send({ do: 'step' }), r: view.resetView,
+    t: () => gizmo.setMode(gizmo.mode === 'translate' ? 'rotate' : 'translate')
   };
   document.addEventListener('keydown', event => {
     if (event.ctrlKey || event.altKey || event.metaKey || !about || about.kind !== 'robot') return view.obeys(event);
@@ -435,7 +444,8 @@
     const source = new EventSource('frames');
     source.onopen = () => setState('live', false);
     source.onerror = () => setState(source.readyState === EventSource.CLOSED ?
-      'The program has ended. Start it again and open its new address.' : 'The program does not answer; waiting for it.', true);
+      'The program has ended. Start it again and open its new address.' :
+      'The program does not answer; waiting for it.', true);
     let newest = null, isBusy = false;
     async function take() {
       if (isBusy) return;

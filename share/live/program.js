@@ -9,7 +9,8 @@ const rexProgram = (function () {
 
   function make({ kind, name, low, high }) {
     if (kind === 'slider') {
-      const made = slider({ name, low, high, unit: '' }, value => send({ do: 'slider', name, value }, 'slider ' + name));
+      const changed = value => send({ do: 'slider', name, value }, 'slider ' + name);
+      const made = slider({ name, low, high, unit: '' }, changed);
       return { box: made.box, show: one => made.set(one.value) };
     }
     if (kind === 'button') {

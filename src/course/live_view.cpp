@@ -1,7 +1,5 @@
 #include "course/live_view.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -13,6 +11,7 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include "base/error.h"
 #include "course/gl_choice.h"
@@ -35,7 +34,8 @@ constexpr microseconds kFrameTime{33333};
 constexpr std::size_t kMostRecorded = 900;
 constexpr std::size_t kMostControls = 64;
 
-// Students' programs have no command line: this is their boundary. REX_LIVE=1 serves without a terminal, 0 never.
+// Students' programs have no command line: this is their boundary. REX_LIVE=1 serves without a terminal, 0
+// never.
 bool isServed() {
   const char* choice = std::getenv("REX_LIVE");
   if (choice != nullptr && *choice != '\0') return *choice != '0';
@@ -104,9 +104,15 @@ struct LiveView::Parts {
     if (!server || version == 0) return;
     ViewJson asked = ViewJson::array();
     for (const Control& one : controls)
-      asked.push_back({{"kind", one.kind}, {"name", one.name}, {"low", one.low}, {"high", one.high},
-                       {"value", one.value}, {"x", one.x}, {"y", one.y}});
-    const ViewJson frame = {{"version", version}, {"q", q}, {"poses", poses}, {"asked", asked}, {"paused", isPaused}};
+      asked.push_back({{"kind", one.kind},
+                       {"name", one.name},
+                       {"low", one.low},
+                       {"high", one.high},
+                       {"value", one.value},
+                       {"x", one.x},
+                       {"y", one.y}});
+    const ViewJson frame = {
+        {"version", version}, {"q", q}, {"poses", poses}, {"asked", asked}, {"paused", isPaused}};
     server->publish(frame.dump(-1, ' ', false, ViewJson::error_handler_t::replace));
   }
 
@@ -161,7 +167,9 @@ LiveView::~LiveView() {
     const double end = static_cast<double>(parts_->count - 1) / 30;
     if (parts_->film.back().time < end) parts_->film.push_back({.time = end, .picture = *parts_->last});
     settleGround(parts_->film);
-    writeReport({.title = parts_->name, .film = parts_->film, .still = {.width = 640, .height = 480, .gl = glChoice()}},
+    writeReport({.title = parts_->name,
+                 .film = parts_->film,
+                 .still = {.width = 640, .height = 480, .gl = glChoice()}},
                 parts_->name + ".html");
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}.html was not written: {}\n", parts_->name, error.what());
@@ -183,7 +191,8 @@ void LiveView::show(const Simulator& simulator) {
     parts.model = &simulator.model(), parts.shapes = simulator.model().shapes().size();
     ViewJson about = ViewJson::parse(liveDescription(simulator.model()));
     about["kind"] = "program", about["title"] = parts.name;
-    parts.offer(liveGlb(simulator.model(), poses), about.dump(-1, ' ', false, ViewJson::error_handler_t::replace));
+    parts.offer(liveGlb(simulator.model(), poses),
+                about.dump(-1, ' ', false, ViewJson::error_handler_t::replace));
   }
   parts.poses = posesText(poses);
   parts.q = std::vector<double>(q.begin(), q.end());
@@ -196,9 +205,9 @@ void LiveView::show(const Picture& picture) {
   parts.record(picture);
   if (!parts.server) return;
   parts.model = nullptr;
-  const ViewJson about = {{"kind", "program"}, {"title", parts.name}, {"mass", 0},
-                          {"bodies", ViewJson::array()}, {"shapes", ViewJson::array()},
-                          {"coordinates", ViewJson::array()}};
+  const ViewJson about = {
+      {"kind", "program"},           {"title", parts.name},         {"mass", 0},
+      {"bodies", ViewJson::array()}, {"shapes", ViewJson::array()}, {"coordinates", ViewJson::array()}};
   parts.offer(glbOf({{.picture = picture}}), about.dump(-1, ' ', false, ViewJson::error_handler_t::replace));
   parts.poses.clear(), parts.q = ViewJson::array();
   parts.waitForTurn();

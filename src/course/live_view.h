@@ -8,10 +8,11 @@ namespace rex {
 class Simulator;
 struct Picture;
 
-/// Shows a program while it runs, as a page in a browser with sliders, buttons and plots of the program's own.
-/// In a terminal it prints the address of the page and waits half a minute at most for somebody to open it.
-/// Without anybody to look, as in tests, no method ever waits. In any case it writes NAME.html at the end, a
-/// replay of what was shown. `rex run FILE.cpp` links the library course_live, which it needs, by itself.
+/// Shows a program while it runs, as a page in a browser with sliders, buttons and plots of the program's
+/// own. In a terminal it prints the address of the page and waits half a minute at most for somebody to open
+/// it. Without anybody to look, as in tests, no method ever waits. In any case it writes NAME.html at the
+/// end, a replay of what was shown. `rex run FILE.cpp` links the library course_live, which it needs, by
+/// itself.
 class LiveView {
  public:
   explicit LiveView(const std::string& name = "live");

@@ -73,7 +73,8 @@ VectorXd stepWithin(const Model& model, const VectorXd& q, LinearTask task, cons
       if (joint.mimics || joint.nq != joint.nv) continue;
       for (int i = 0; i < joint.nq; ++i) {
         double& value = next[joint.qIndex + i];
-        const double low = model.lowerLimits()[joint.qIndex + i], high = model.upperLimits()[joint.qIndex + i];
+        const double low = model.lowerLimits()[joint.qIndex + i],
+                     high = model.upperLimits()[joint.qIndex + i];
         if (value >= low && value <= high) continue;
         value = std::clamp(value, low, high);
         if (task.J.col(joint.vIndex + i).isZero(0)) continue;

@@ -90,12 +90,8 @@ std::string liveDescription(const Model& model) {
                       {"drawn", isDrawable(shape)},
                       {"visible", shape.visible || !anyVisible},
                       {"contact", shape.contact}});
-  const LiveJson all = {{"kind", "robot"},
-                        {"title", model.name()},
-                        {"mass", model.mass()},
-                        {"bodies", bodies},
-                        {"shapes", shapes},
-                        {"coordinates", coordinatesJson(model)}};
+  const LiveJson all = {{"kind", "robot"},  {"title", model.name()}, {"mass", model.mass()},
+                        {"bodies", bodies}, {"shapes", shapes},      {"coordinates", coordinatesJson(model)}};
   return all.dump(-1, ' ', false, LiveJson::error_handler_t::replace);
 }
 

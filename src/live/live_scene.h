@@ -8,7 +8,8 @@
 namespace rex {
 
 /// The shapes of a model as a GLB for the live page, at these poses of the bodies: shape i of
-/// Model::shapes() is the node "s<i>". Shapes whose mesh was not loaded are left out. Throws Error as glbOf().
+/// Model::shapes() is the node "s<i>". Shapes whose mesh was not loaded are left out. Throws Error as
+/// glbOf().
 [[nodiscard]] std::string liveGlb(const Model& model, const BodyPoses& poses);
 
 /// What the page says about a model, as JSON: bodies, shapes with their poses on bodies, coordinates with

@@ -1,10 +1,5 @@
 #include "live/live_server.h"
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
-#include <sys/random.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -17,8 +12,12 @@
 #include <string_view>
 #include <thread>
 
+#include <arpa/inet.h>
 #include <fmt/format.h>
 #include <httplib.h>
+#include <netinet/in.h>
+#include <sys/random.h>
+#include <unistd.h>
 
 #include "base/error.h"
 
@@ -81,7 +80,8 @@ bool isSame(std::string_view a, std::string_view b) {
 }
 
 constexpr const char* kPolicy =
-    "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src 'self' blob: data:; "
+    "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src 'self' blob: "
+    "data:; "
     "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
 }  // namespace
@@ -121,7 +121,8 @@ struct LiveServer::Parts {
 
   // The status with which to refuse a request, or 0.
   int refusal(const httplib::Request& request) const {
-    if (request.get_header_value_count("Host") != 1 || !isOurHost(request.get_header_value("Host"))) return 403;
+    if (request.get_header_value_count("Host") != 1 || !isOurHost(request.get_header_value("Host")))
+      return 403;
     const bool isPost = request.method == "POST";
     if (request.method != "GET" && !isPost) return 405;
     const std::string own = "http://" + request.get_header_value("Host");
@@ -250,7 +251,8 @@ LiveServer::~LiveServer() {
     parts_->isEnding = true;
     parts_->changed.notify_all();
   }
-  while (!parts_->http.is_running() && !parts_->hasEnded) std::this_thread::yield();  // stop() needs one of them
+  while (!parts_->http.is_running() && !parts_->hasEnded)
+    std::this_thread::yield();  // stop() needs one of them
   parts_->http.stop();
   parts_->listener.join();
 }

@@ -9,7 +9,7 @@ namespace rex {
 
 /// Something that a browser may fetch from a LiveServer.
 struct LiveFile {
-  std::string type{};   ///< media type, such as "text/html; charset=utf-8"
+  std::string type{};  ///< media type, such as "text/html; charset=utf-8"
   std::string bytes{};
 };
 
@@ -25,7 +25,8 @@ struct LiveServerOptions {
 /// Serves one page to browsers from memory, never from the disk: files by name, a stream of frames of which a
 /// slow viewer misses some, and events that pages send. Only those who know the token are served, and only
 /// under an address of this machine, so that no other page in the same browser can reach it. The number of
-/// connections and viewers, and the sizes of requests, are bounded. All methods may be called from any thread.
+/// connections and viewers, and the sizes of requests, are bounded. All methods may be called from any
+/// thread.
 class LiveServer {
  public:
   static constexpr int kMostConnections = 256, kMostViewers = 32;

@@ -21,10 +21,10 @@ using SessionJson = nlohmann::ordered_json;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double kAvoidMargin = 0.02;      // metres
-constexpr double kRecordingRate = 30;      // postures per second
-constexpr double kMostPerTick = 0.05;      // seconds simulated in one tick: where that is too slow, it lags
-constexpr double kStrongestPush = 1e4;     // newtons
+constexpr double kAvoidMargin = 0.02;   // metres
+constexpr double kRecordingRate = 30;   // postures per second
+constexpr double kMostPerTick = 0.05;   // seconds simulated in one tick: where that is too slow, it lags
+constexpr double kStrongestPush = 1e4;  // newtons
 
 Model compiled(const SceneSpec& spec) { return compile(spec); }
 
@@ -73,11 +73,13 @@ struct LiveSession::Event {
   VectorXd vector(const char* key, long size) const {
     const bool isList = has(key) && json[key].is_array();
     if (!isList || static_cast<long>(json[key].size()) != size)
-      refuse(key, isList ? fmt::format("{} numbers", json[key].size()) : "no list", fmt::format("{} numbers", size));
+      refuse(key, isList ? fmt::format("{} numbers", json[key].size()) : "no list",
+             fmt::format("{} numbers", size));
     VectorXd v(size);
     for (long i = 0; i < size; ++i) {
       const SessionJson& one = json[key][static_cast<std::size_t>(i)];
-      if (!one.is_number() || !std::isfinite(one.get<double>())) refuse(key, "something else", "finite numbers");
+      if (!one.is_number() || !std::isfinite(one.get<double>()))
+        refuse(key, "something else", "finite numbers");
       v[i] = one.get<double>();
     }
     return v;
@@ -146,8 +148,10 @@ void LiveSession::obeySimulation(const Event& event) {
     if (next.friction < 0 || next.friction > 100) refuse("friction", "out of range", "0 to 100");
     if (next.floor && std::abs(*next.floor) > 1e3) refuse("height", "out of range", "-1000 to 1000 m");
     const std::string hold = event.text("hold");
-    const auto known = std::find_if(std::begin(kHolds), std::end(kHolds), [&](auto& h) { return hold == h.name; });
-    if (known == std::end(kHolds)) refuse("hold", "'" + printable(hold) + "'", "free, pd, gravity, exact or motor");
+    const auto known =
+        std::find_if(std::begin(kHolds), std::end(kHolds), [&](auto& h) { return hold == h.name; });
+    if (known == std::end(kHolds))
+      refuse("hold", "'" + printable(hold) + "'", "free, pd, gravity, exact or motor");
     next.hold = known->hold;
     settings_ = next;
     if (simulation_) restartSimulation();
@@ -166,7 +170,8 @@ void LiveSession::move(const Event& event) {
     const auto [end, fault] = std::from_chars(key.data(), key.data() + key.size(), index);
     if (fault != std::errc() || end != key.data() + key.size() || index < 0 || index >= model_.nq())
       refuse("q", "'" + printable(key) + "'", fmt::format("0 to {}", model_.nq() - 1));
-    if (!value.is_number() || !std::isfinite(value.get<double>())) refuse("q", "something else", "finite numbers");
+    if (!value.is_number() || !std::isfinite(value.get<double>()))
+      refuse("q", "something else", "finite numbers");
     q[index] = value.get<double>();
   }
   setTarget(q);
@@ -206,7 +211,8 @@ void LiveSession::drag(const Event& event) {
 }
 
 void LiveSession::push(const Event& event) {
-  Push next{.body = event.body(model_), .p_BQ = event.vector("point", 3), .force_W = event.vector("force", 3)};
+  Push next{
+      .body = event.body(model_), .p_BQ = event.vector("point", 3), .force_W = event.vector("force", 3)};
   if (next.force_W.norm() > kStrongestPush) next.force_W *= kStrongestPush / next.force_W.norm();
   push_ = next;
   patience_ = kPatience;

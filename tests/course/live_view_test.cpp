@@ -1,10 +1,10 @@
 #include "course/live_view.h"
 
-#include <gmock/gmock.h>
-
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
+
+#include <gmock/gmock.h>
 
 #include "base/error.h"
 #include "course/simulator.h"
@@ -66,7 +66,8 @@ TEST_F(LiveViewTest, WritesNothingIfNothingWasShown) {
 TEST_F(LiveViewTest, RefusesSlidersOutOfOrderAndTooManyControls) {
   LiveView view(in("none"));
   EXPECT_THAT([&] { view.slider("gain", 0, 1, 2); },
-              testing::ThrowsMessage<Error>(HasSubstr("slider 'gain': found 2 from 0 to 1, wanted finite numbers in order")));
+              testing::ThrowsMessage<Error>(
+                  HasSubstr("slider 'gain': found 2 from 0 to 1, wanted finite numbers in order")));
   for (int k = 0; k < 64; ++k) view.button(std::to_string(k));
   EXPECT_THAT([&] { view.button("one more"); },
               testing::ThrowsMessage<Error>(HasSubstr("button 'one more': found 64 others on the page")));

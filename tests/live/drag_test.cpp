@@ -1,8 +1,8 @@
 #include "live/drag.h"
 
-#include <gmock/gmock.h>
-
 #include <limits>
+
+#include <gmock/gmock.h>
 
 #include "base/error.h"
 #include "base/rng.h"
@@ -31,7 +31,8 @@ TEST(Drag, ReachesPointsOfOtherPosturesWithinTheLimits) {
     const DragGoal goal{.body = last, .p_BQ = p_BQ, .p_WQ = forwardKinematics(arm, wanted)[last] * p_BQ};
     Eigen::VectorXd q = start;
     for (int tick = 0; tick < 60; ++tick) q = dragged(arm, q, goal);
-    EXPECT_TRUE((q.array() >= arm.lowerLimits().array()).all() && (q.array() <= arm.upperLimits().array()).all());
+    EXPECT_TRUE((q.array() >= arm.lowerLimits().array()).all() &&
+                (q.array() <= arm.upperLimits().array()).all());
     if ((forwardKinematics(arm, q)[last] * p_BQ - goal.p_WQ).norm() < 1e-6) ++reached;
   }
   EXPECT_GE(reached, 40);  // the others end at a limit or stretched
@@ -42,13 +43,15 @@ TEST(Drag, LeavesFreeBasesAndOtherBranchesWhereTheyAre) {
   const BodyId hand = man.bodiesInFileOrder().back();
   const Eigen::VectorXd q = man.initialPositions();
   const BodyPoses before = forwardKinematics(man, q);
-  const BodyPoses after = forwardKinematics(man, dragged(man, q, {.body = hand, .p_WQ = before[hand].p + Eigen::Vector3d(0.05, 0, 0.05)}));
+  const BodyPoses after = forwardKinematics(
+      man, dragged(man, q, {.body = hand, .p_WQ = before[hand].p + Eigen::Vector3d(0.05, 0, 0.05)}));
   std::vector<bool> carries(man.bodies().size());
   for (BodyId at = hand; at != kWorld; at = man[at].parent) carries[static_cast<std::size_t>(at)] = true;
   for (std::size_t i = 1; i < carries.size(); ++i) {
     BodyId top{static_cast<int>(i)};
     bool isBeyond = false;
-    for (BodyId at = top; at != kWorld; at = man[at].parent) isBeyond |= carries[static_cast<std::size_t>(at)];
+    for (BodyId at = top; at != kWorld; at = man[at].parent)
+      isBeyond |= carries[static_cast<std::size_t>(at)];
     if (isBeyond) continue;
     EXPECT_EQ(after.X_WB[i].p, before.X_WB[i].p) << man.bodies()[i].name;
   }
@@ -63,7 +66,8 @@ TEST(Drag, TurnsABodyAndStaysClearOfContacts) {
   const Pose goal = forwardKinematics(arm, q)[last];
   Eigen::VectorXd at = arm.initialPositions();
   for (int tick = 0; tick < 100; ++tick)
-    at = dragged(arm, at, {.body = last, .p_WQ = goal.p, .R_WB = goal.R}, contactTask(ContactModel(arm), 0.001));
+    at = dragged(arm, at, {.body = last, .p_WQ = goal.p, .R_WB = goal.R},
+                 contactTask(ContactModel(arm), 0.001));
   EXPECT_LT((forwardKinematics(arm, at)[last].R - goal.R).norm(), 1e-3);
 }
 

@@ -13,8 +13,9 @@ using Json = nlohmann::ordered_json;
 Model modelOf(const std::string& text) { return compile(parseScene(text, "scene.ors").spec); }
 
 TEST(LiveScene, NamesNodesByShapes) {
-  const Model model = modelOf("body a { mass=1 }\nshape (a) { type=0 size=[.1 .1 .1 0] }\n"
-                              "shape (a) { type=1 size=[0 0 0 .2] rel=<T t(0 0 1)> }\n");
+  const Model model = modelOf(
+      "body a { mass=1 }\nshape (a) { type=0 size=[.1 .1 .1 0] }\n"
+      "shape (a) { type=1 size=[0 0 0 .2] rel=<T t(0 0 1)> }\n");
   const std::string glb = liveGlb(model, forwardKinematics(model, model.initialPositions()));
   EXPECT_THAT(glb, testing::HasSubstr("\"s0\""));
   EXPECT_THAT(glb, testing::HasSubstr("\"s1\""));

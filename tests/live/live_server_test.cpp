@@ -1,5 +1,9 @@
 #include "live/live_server.h"
 
+#include <chrono>
+#include <memory>
+#include <thread>
+
 #include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <netinet/in.h>
@@ -7,10 +11,6 @@
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <unistd.h>
-
-#include <chrono>
-#include <memory>
-#include <thread>
 
 #include "base/error.h"
 #include "live/live_page.h"
@@ -26,7 +26,8 @@ constexpr const char* kToken = "0123456789abcdef0123456789abcdef";
 // A connection that sends text and reads until the other side is silent for a while, or says enough.
 class Connection {
  public:
-  explicit Connection(int port, int flags = 0) : fd_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | flags, 0)) {
+  explicit Connection(int port, int flags = 0)
+      : fd_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | flags, 0)) {
     sockaddr_in to{};
     to.sin_family = AF_INET, to.sin_port = htons(static_cast<std::uint16_t>(port));
     to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
@@ -73,7 +74,8 @@ class LiveServerTest : public testing::Test {
     return connection.readUntil("\r\n\r\n");
   }
   std::string posted(const std::string& body, const std::string& headers) const {
-    return line("POST", "events") + headers + "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body;
+    return line("POST", "events") + headers + "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" +
+           body;
   }
   std::string own() const { return "Origin: http://" + host() + "\r\n"; }
 
@@ -92,8 +94,9 @@ TEST_F(LiveServerTest, ServesThePageUnderItsAddressOnly) {
 }
 
 TEST_F(LiveServerTest, ServesNoFileOfTheMachine) {
-  for (const char* path : {"../etc/passwd", "../../../../../../etc/passwd", "/etc/passwd", "%2e%2e/%2e%2e/etc/passwd",
-                           "..%2f..%2fetc%2fpasswd", "file:///etc/passwd", "%00", "page.html\\..\\..\\etc"}) {
+  for (const char* path :
+       {"../etc/passwd", "../../../../../../etc/passwd", "/etc/passwd", "%2e%2e/%2e%2e/etc/passwd",
+        "..%2f..%2fetc%2fpasswd", "file:///etc/passwd", "%00", "page.html\\..\\..\\etc"}) {
     const std::string reply = answer(line("GET", path) + "\r\n");
     EXPECT_THAT(reply, StartsWith("HTTP/1.1 404")) << path;
     EXPECT_EQ(reply.find("root:"), std::string::npos);
@@ -102,7 +105,8 @@ TEST_F(LiveServerTest, ServesNoFileOfTheMachine) {
 
 TEST_F(LiveServerTest, RefusesOtherHostsAndOrigins) {
   const std::string get = std::string("GET /") + kToken + "/ HTTP/1.1\r\n";
-  for (const char* name : {"evil.example", "127.0.0.1.evil.example", "localhost.evil.example", "[::2]", "10.0.0.1", ""})
+  for (const char* name :
+       {"evil.example", "127.0.0.1.evil.example", "localhost.evil.example", "[::2]", "10.0.0.1", ""})
     EXPECT_THAT(answer(get + "Host: " + name + "\r\n\r\n"), StartsWith("HTTP/1.1 403")) << name;
   EXPECT_THAT(answer(get + "\r\n"), StartsWith("HTTP/1.1 403"));
   EXPECT_THAT(answer(get + "Host: localhost:8080\r\n\r\n"), StartsWith("HTTP/1.1 200"));  // as through ssh -L
@@ -121,12 +125,15 @@ TEST_F(LiveServerTest, TakesMessagesInOrder) {
 }
 
 TEST_F(LiveServerTest, BoundsMessages) {
-  EXPECT_THAT(answer(posted(std::string(LiveServer::kLongestMessage + 1, ' '), own())), StartsWith("HTTP/1.1 413"));
+  EXPECT_THAT(answer(posted(std::string(LiveServer::kLongestMessage + 1, ' '), own())),
+              StartsWith("HTTP/1.1 413"));
   EXPECT_THAT(answer(line("POST", "events") + own() + "Transfer-Encoding: chunked\r\n\r\n5\r\n[    \r\n"),
               StartsWith("HTTP/1.1 411"));
   EXPECT_THAT(answer(line("POST", "events") + own() + "\r\n"), StartsWith("HTTP/1.1 411"));
-  EXPECT_THAT(answer(line("PUT", "events") + own() + "Content-Length: 0\r\n\r\n"), StartsWith("HTTP/1.1 405"));
-  EXPECT_THAT(answer(line("POST", "other") + own() + "Content-Length: 0\r\n\r\n"), StartsWith("HTTP/1.1 404"));
+  EXPECT_THAT(answer(line("PUT", "events") + own() + "Content-Length: 0\r\n\r\n"),
+              StartsWith("HTTP/1.1 405"));
+  EXPECT_THAT(answer(line("POST", "other") + own() + "Content-Length: 0\r\n\r\n"),
+              StartsWith("HTTP/1.1 404"));
   EXPECT_THAT(answer("GET /" + std::string(100000, 'a') + " HTTP/1.1\r\nHost: " + host() + "\r\n\r\n"),
               testing::AnyOf(StartsWith("HTTP/1.1 4"), testing::IsEmpty()));
   for (std::size_t k = 0; k < LiveServer::kMostMessages; ++k) answer(posted("[]", own()));
@@ -180,7 +187,8 @@ TEST_F(LiveServerTest, SurvivesAThousandConnections) {
   EXPECT_THAT(viewer.readUntil("before"), HasSubstr("before"));
   {
     std::vector<std::unique_ptr<Connection>> crowd;
-    for (int k = 0; k < 1000; ++k) crowd.push_back(std::make_unique<Connection>(server.port(), SOCK_NONBLOCK));
+    for (int k = 0; k < 1000; ++k)
+      crowd.push_back(std::make_unique<Connection>(server.port(), SOCK_NONBLOCK));
     for (const auto& one : crowd) one->send("GET /");
     server.publish("amid");
     EXPECT_THAT(viewer.readUntil("amid"), HasSubstr("amid"));
@@ -210,13 +218,16 @@ std::string refusalOf(const LiveServerOptions& options) {
 }
 
 TEST(LiveServer, RefusesWhatItCannotServe) {
-  EXPECT_THAT(refusalOf({.token = "short"}), HasSubstr("found 5 characters, wanted at least 16 hexadecimal digits"));
-  EXPECT_THAT(refusalOf({.address = "192.0.2.1", .port = 4711}), HasSubstr("serving 192.0.2.1:4711: found the system refuses it"));
+  EXPECT_THAT(refusalOf({.token = "short"}),
+              HasSubstr("found 5 characters, wanted at least 16 hexadecimal digits"));
+  EXPECT_THAT(refusalOf({.address = "192.0.2.1", .port = 4711}),
+              HasSubstr("serving 192.0.2.1:4711: found the system refuses it"));
 }
 
 TEST(LiveServer, IsServedOnOtherAddressesUnderNumbers) {
   const LiveServer server({.address = "0.0.0.0", .token = kToken});
-  for (const auto& [name, status] : {std::pair{"192.0.2.7", "200"}, {"evil.example", "403"}, {"localhost", "200"}}) {
+  for (const auto& [name, status] :
+       {std::pair{"192.0.2.7", "200"}, {"evil.example", "403"}, {"localhost", "200"}}) {
     Connection connection(server.port());
     connection.send(std::string("GET /") + kToken + "/none HTTP/1.1\r\nHost: " + name + "\r\n\r\n");
     EXPECT_THAT(connection.readUntil("\r\n\r\n"), HasSubstr(status == std::string("200") ? "404" : status));

@@ -48,7 +48,9 @@ TEST(LiveSession, DragsUntilNobodyRenewsIt) {
   const BodyId last = session.model().bodiesInFileOrder().back();
   const Eigen::Vector3d at = forwardKinematics(session.model(), session.state().q)[last].p;
   const Json to = {at.x() + 0.05, at.y() + 0.05, at.z()};
-  session.obey(Json::array({{{"do", "drag"}, {"body", static_cast<int>(last)}, {"point", {0, 0, 0}}, {"to", to}}}).dump());
+  session.obey(
+      Json::array({{{"do", "drag"}, {"body", static_cast<int>(last)}, {"point", {0, 0, 0}}, {"to", to}}})
+          .dump());
   for (int tick = 0; tick < 30; ++tick) session.advance(1 / 60.);
   EXPECT_TRUE(session.isMoving());
   EXPECT_TRUE(frameOf(session).contains("drag"));
@@ -62,8 +64,9 @@ TEST(LiveSession, FallsWhenFreeAndStaysWhenHeld) {
     LiveSession session = sessionOf("arm3.ors");
     session.obey(R"([{"do": "move", "q": [0.4, 0.3, 0.2]}])");
     const Eigen::VectorXd q = session.state().q;
-    session.obey(std::string(R"([{"do": "settings", "gravity": true, "floor": false, "friction": 0.6, "hold": ")") +
-                 (isHeld ? "gravity" : "free") + R"("}, {"do": "run", "on": true}])");
+    session.obey(
+        std::string(R"([{"do": "settings", "gravity": true, "floor": false, "friction": 0.6, "hold": ")") +
+        (isHeld ? "gravity" : "free") + R"("}, {"do": "run", "on": true}])");
     for (int tick = 0; tick < 60; ++tick) session.advance(1 / 60.);
     EXPECT_NEAR(session.state().time, 1, 0.02);
     const double moved = (session.state().q - q).norm();
@@ -82,7 +85,11 @@ TEST(LiveSession, IsPushedAndFollowsSlidersWhileHeld) {
   session.obey(R"([{"do": "run", "on": true}])");
   const Eigen::VectorXd q = session.state().q;
   for (int tick = 0; tick < 30; ++tick) {
-    session.obey(Json::array({{{"do", "push"}, {"body", static_cast<int>(last)}, {"point", {0, 0, 0}}, {"force", {30, 0, 30}}}}).dump());
+    session.obey(Json::array({{{"do", "push"},
+                               {"body", static_cast<int>(last)},
+                               {"point", {0, 0, 0}},
+                               {"force", {30, 0, 30}}}})
+                     .dump());
     session.advance(1 / 60.);
   }
   EXPECT_GT((session.state().q - q).norm(), 1e-4);
@@ -131,8 +138,11 @@ TEST(LiveSession, EndsLongRecordings) {
 }
 
 TEST(LiveSession, TellsWhatItCannotSimulate) {
-  const SceneSpec spec = parseScene("body a {}\nbody b {}\njoint j (a b) { type=0 }\n"
-                                    "shape (b) { type=0 size=[.1 .1 .1 0] }\n", "massless.ors").spec;
+  const SceneSpec spec = parseScene(
+                             "body a {}\nbody b {}\njoint j (a b) { type=0 }\n"
+                             "shape (b) { type=0 size=[.1 .1 .1 0] }\n",
+                             "massless.ors")
+                             .spec;
   LiveSession session(spec, compile(spec).initialPositions());
   EXPECT_NE(refusalOf(session, R"([{"do": "run", "on": true}])"), "accepted");
   EXPECT_FALSE(frameOf(session)["runs"].get<bool>());
@@ -145,7 +155,8 @@ TEST(LiveSession, RefusesWhatIsWrong) {
   EXPECT_THAT(refused("{"), HasSubstr("found no list in JSON"));
   EXPECT_THAT(refused("[3]"), HasSubstr("wanted a list of objects"));
   EXPECT_THAT(refused("[{}]"), HasSubstr("do: found no text"));
-  EXPECT_THAT(refused(R"([{"do": "fly"}])"), HasSubstr("do: found 'fly', wanted something that the page can do"));
+  EXPECT_THAT(refused(R"([{"do": "fly"}])"),
+              HasSubstr("do: found 'fly', wanted something that the page can do"));
   EXPECT_THAT(refused(R"([{"do": "move"}])"), HasSubstr("q: found no list or object"));
   EXPECT_THAT(refused(R"([{"do": "move", "q": [1]}])"), HasSubstr("found 1 numbers, wanted 3 numbers"));
   EXPECT_THAT(refused(R"([{"do": "move", "q": [1, 2, null]}])"), HasSubstr("wanted finite numbers"));
@@ -159,34 +170,45 @@ TEST(LiveSession, RefusesWhatIsWrong) {
   session.obey(R"([{"do": "stop"}])");
   EXPECT_THAT(refused(R"([{"do": "speed", "value": "fast"}])"), HasSubstr("value: found no finite number"));
   const std::string settings = R"([{"do": "settings", "gravity": true, "floor": true, )";
-  EXPECT_THAT(refused(settings + R"("height": 1e9, "friction": 1, "hold": "pd"}])"), HasSubstr("height: found out of range"));
-  EXPECT_THAT(refused(settings + R"("height": 0, "friction": -1, "hold": "pd"}])"), HasSubstr("friction: found out of range"));
-  EXPECT_THAT(refused(settings + R"("height": 0, "friction": 1, "hold": "glue"}])"), HasSubstr("hold: found 'glue'"));
+  EXPECT_THAT(refused(settings + R"("height": 1e9, "friction": 1, "hold": "pd"}])"),
+              HasSubstr("height: found out of range"));
+  EXPECT_THAT(refused(settings + R"("height": 0, "friction": -1, "hold": "pd"}])"),
+              HasSubstr("friction: found out of range"));
+  EXPECT_THAT(refused(settings + R"("height": 0, "friction": 1, "hold": "glue"}])"),
+              HasSubstr("hold: found 'glue'"));
   EXPECT_EQ(session.frame(), start);
   session.obey(R"([{"do": "run", "on": true}])");
-  EXPECT_THAT(refused(R"([{"do": "drag", "body": 1, "point": [0,0,0], "to": [0,0,0]}])"), HasSubstr("wanted a push"));
+  EXPECT_THAT(refused(R"([{"do": "drag", "body": 1, "point": [0,0,0], "to": [0,0,0]}])"),
+              HasSubstr("wanted a push"));
 }
 
 TEST(LiveSession, RefusesAQuaternionOfLengthZero) {
-  const SceneSpec spec = parseScene("body a { mass=1 }\nbody b { mass=1 }\njoint j (a b) { type=free }\n"
-                                    "shape (b) { type=0 size=[.1 .1 .1 0] }\n", "free.ors").spec;
+  const SceneSpec spec = parseScene(
+                             "body a { mass=1 }\nbody b { mass=1 }\njoint j (a b) { type=free }\n"
+                             "shape (b) { type=0 size=[.1 .1 .1 0] }\n",
+                             "free.ors")
+                             .spec;
   LiveSession session(spec, compile(spec).initialPositions());
   ASSERT_EQ(session.model().nq(), 7);
-  EXPECT_THAT(refusalOf(session, R"([{"do": "move", "q": [0,0,0,0,0,0,0]}])"), HasSubstr("a quaternion of length zero"));
+  EXPECT_THAT(refusalOf(session, R"([{"do": "move", "q": [0,0,0,0,0,0,0]}])"),
+              HasSubstr("a quaternion of length zero"));
 }
 
 TEST(LiveSession, SurvivesRandomEvents) {
   LiveSession session = sessionOf("man.ors");
   Rng rng(5);
-  const std::vector<std::string> things = {"move", "home", "drag", "push", "release", "contacts", "record", "run", "step", "stop", "speed", "settings", "?"};
+  const std::vector<std::string> things = {"move", "home", "drag", "push",  "release",  "contacts", "record",
+                                           "run",  "step", "stop", "speed", "settings", "?"};
   for (int k = 0; k < 400; ++k) {
     Json event = {{"do", things[static_cast<std::size_t>(rng.index(static_cast<int>(things.size())))]}};
     const auto three = [&] { return Json{rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)}; };
     event["body"] = rng.index(20), event["point"] = three(), event["to"] = three(), event["force"] = three();
     event["q"] = {{std::to_string(rng.index(40)), rng.uniform(-4, 4)}};
     for (const char* flag : {"on", "show", "avoid", "gravity", "floor"}) event[flag] = rng.index(2) == 1;
-    event["value"] = rng.uniform(-1, 3), event["height"] = rng.uniform(-2, 1), event["friction"] = rng.uniform(-1, 2);
-    event["hold"] = std::vector<std::string>{"free", "pd", "gravity", "exact", "motor"}[static_cast<std::size_t>(rng.index(5))];
+    event["value"] = rng.uniform(-1, 3), event["height"] = rng.uniform(-2, 1),
+    event["friction"] = rng.uniform(-1, 2);
+    event["hold"] = std::vector<std::string>{"free", "pd", "gravity", "exact",
+                                             "motor"}[static_cast<std::size_t>(rng.index(5))];
     static_cast<void>(refusalOf(session, Json::array({event}).dump()));
     session.advance(0.005);
     ASSERT_TRUE(session.state().q.allFinite());

@@ -1,7 +1,3 @@
-#include <fcntl.h>
-#include <spawn.h>
-#include <unistd.h>
-
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -11,7 +7,10 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <spawn.h>
+#include <unistd.h>
 
 #include "base/error.h"
 #include "base/escape.h"
@@ -52,8 +51,9 @@ std::string variable(const char* name) {
 // Opens a page that leads on to the address: as an argument, everybody on this machine could read the token.
 void openBrowser(const std::string& url, const PrivateFolder& folder) {
   const std::filesystem::path page = folder.path() / "view.html";
-  writeTextFile(page, "<!DOCTYPE html><meta charset=\"utf-8\"><meta http-equiv=\"refresh\" content=\"0; url=" +
-                          htmlText(url) + "\">\n");
+  writeTextFile(page,
+                "<!DOCTYPE html><meta charset=\"utf-8\"><meta http-equiv=\"refresh\" content=\"0; url=" +
+                    htmlText(url) + "\">\n");
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
@@ -139,7 +139,8 @@ ExitCode view(const Project& project, const ViewOptions& options) {
   say("press Ctrl-C to end");
   std::fflush(stdout);
   const bool hasScreen = !variable("DISPLAY").empty() || !variable("WAYLAND_DISPLAY").empty();
-  if (!options.noBrowser && hasScreen && variable("SSH_CONNECTION").empty()) openBrowser(server->url(), folder);
+  if (!options.noBrowser && hasScreen && variable("SSH_CONNECTION").empty())
+    openBrowser(server->url(), folder);
   try {
     serve(*server, session);
   } catch (const Interrupted&) {
@@ -159,7 +160,8 @@ void addView(CLI::App* command, Action& action) {
       "forward the port. Ctrl-C ends it.");
   addSceneFile(command, "SCENE", options->scene.file);
   addPosture(command, options->posture);
-  command->add_option("--port", options->port, "port of the page (default: one that is free)")->type_name("N");
+  command->add_option("--port", options->port, "port of the page (default: one that is free)")
+      ->type_name("N");
   command->add_option("--bind", options->bind, "address to serve (default: 127.0.0.1, this machine only)")
       ->type_name("ADDRESS");
   command->add_flag("--no-browser", options->noBrowser, "do not open a browser");
