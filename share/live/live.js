@@ -59,7 +59,8 @@
   function addMarks() {
     const size = 0.1 * scene.current.radius;
     scene.com = new THREE.Mesh(new THREE.SphereGeometry(0.12 * size, 24, 16), flat('#d55e00', 0.9));
-    const line = color => new THREE.LineBasicMaterial({ color, depthTest: false }), empty = () => new THREE.BufferGeometry();
+    const line = color => new THREE.LineBasicMaterial({ color, depthTest: false });
+    const empty = () => new THREE.BufferGeometry();
     scene.contacts = new THREE.LineSegments(empty(), line('#c2185b'));
     const dot = { color: '#c2185b', size: 6, sizeAttenuation: false, depthTest: false };
     scene.points = new THREE.Points(empty(), new THREE.PointsMaterial(dot));
@@ -261,7 +262,8 @@
 
   const settings = () => send({
     do: 'settings', gravity: get('gravity').checked, floor: get('floor').checked,
-    height: Number(get('height').value) || 0, friction: Math.max(Number(get('friction').value) || 0, 0), hold: get('hold').value
+    height: Number(get('height').value) || 0, friction: Math.max(Number(get('friction').value) || 0, 0),
+    hold: get('hold').value
   }, 'settings');
   for (const id of ['gravity', 'floor', 'height', 'friction', 'hold']) get(id).addEventListener('change', settings);
   get('height').addEventListener('input', () => { get('height').dataset.touched = 'yes'; });
