@@ -9,7 +9,7 @@
   let scene = null;     // what the stage shows of it
   let frame = null;     // the last one that came
   let isStale = false;  // whether the scene does not show it yet
-  let drawnFrames = 0;
+  let drawnFrames = 0, firstPicture = null;
 
   function tell(text) {
     get('notice').textContent = text;
@@ -131,13 +131,13 @@
   // Where drawing a picture takes too long, as without a graphics card, fewer pixels are drawn, and the page says so.
   let pictures = 0, slow = 0, quality = 1;
   function watchSpeed() {
-    if (++pictures % 8 !== 0 || quality < 0.4 || !scene) return;
+    if (++pictures % 8 !== 0 || quality <= 0.5 || !scene) return;
     const start = performance.now(), gl = view.renderer.getContext();
     view.renderer.render(scene.current.scene, view.view);
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));  // waits until it is drawn
     slow = performance.now() - start > 25 ? slow + 1 : 0;
     if (slow < 2) return;
-    slow = 0, quality /= 1.5;
+    slow = 0, quality = Math.max(0.5, quality / 1.4);
     setTimeout(() => view.setQuality(quality));
     setState('live, drawn more coarsely: this computer draws slowly', false);
   }
@@ -149,7 +149,7 @@
     showPoses();
     showMarks();
     followHandle();
-    ++drawnFrames;
+    if (++drawnFrames === 1) firstPicture = performance.now();
   }
 
   // --- The panels.
@@ -357,7 +357,7 @@
     held = { ...hit, plane: new THREE.Plane().setFromNormalAndCoplanarPoint(normal, hit.at), to: hit.at.clone() };
     view.controls.enabled = false;
     stage.setPointerCapture(event.pointerId);
-    if (mode === 'drag') choose({ body: hit.body, point: hit.point });
+    choose(null);  // the handle would be dragged as well
     pull();
   });
   stage.addEventListener('pointermove', event => {
@@ -369,6 +369,7 @@
   });
   const release = () => {
     if (!held) return;
+    if (mode === 'drag') choose({ body: held.body, point: held.point });
     held = null;
     view.controls.enabled = true;
     send({ do: 'release' });
@@ -395,6 +396,7 @@
 
   // A handle with arrows stays where a body was taken; t changes between moving and turning.
   gizmo.setSize(0.7);
+  gizmo.setSpace('local');  // that of the handle, whose z is up
   gizmo.addEventListener('change', view.draw);
   gizmo.addEventListener('dragging-changed', event => {
     view.controls.enabled = !event.value;
@@ -476,7 +478,7 @@
 
   // What tests ask.
   window.rexLive = {
-    frame: () => frame, frames: () => drawnFrames, about: () => about, scene: () => scene, view, send,
+    frame: () => frame, frames: () => drawnFrames, firstPicture: () => firstPicture, about: () => about, scene: () => scene, view, send,
     position: i => Array.from(scene.poses.slice(7 * i, 7 * i + 3)),
     pixel: p => {
       const at = scene.current.world.localToWorld(new THREE.Vector3().fromArray(p)).project(view.view);
