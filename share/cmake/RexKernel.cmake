@@ -1,3 +1,5 @@
+set(REX_KERNEL_FLAGS_4_LANES -mavx2)
+
 # rex_kernel(TARGET kernel.cpp ...)
 #
 # Compiles kernels (see src/base/pack.h), all that TARGET has, three times, with REX_LANES = 1, 2 and 4: the first two
@@ -12,6 +14,6 @@ function(rex_kernel target)
     target_compile_options(${objects} PRIVATE ${REX_WARNINGS})
     target_sources(${target} PRIVATE $<TARGET_OBJECTS:${objects}>)
   endforeach()
-  target_compile_options(${target}_4_lanes PRIVATE -mavx2)
+  target_compile_options(${target}_4_lanes PRIVATE ${REX_KERNEL_FLAGS_4_LANES})
   set_property(GLOBAL APPEND PROPERTY REX_KERNEL_OBJECTS $<TARGET_OBJECTS:${target}_4_lanes>)
 endfunction()

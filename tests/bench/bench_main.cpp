@@ -1,9 +1,12 @@
-// rex_bench [NAME...] [--json]: measures ours against its peers; `rex bench` runs it.
+// rex_bench [NAME...] [--json] [--report FILE.html]: measures ours against its peers; `rex bench` runs it.
 // rex_bench panda --problems DIR [--urdf FILE] [--srdf FILE] [--seed N] [--json]: solves motion planning
 // problems.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
+#include <fstream>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -11,8 +14,10 @@
 #include <stdlib.h>
 
 #include "base/error.h"
+#include "base/text_file.h"
 #include "bench/panda_problems.h"
 #include "bench/report.h"
+#include "bench/report_page.h"
 
 namespace rex::bench {
 namespace {
@@ -49,33 +54,61 @@ std::vector<Group> select(std::vector<Group> groups, const std::vector<std::stri
   return groups;
 }
 
-void run(const std::vector<std::string>& names, bool asJson) {
+// The most memory that this process has held since the last call; nothing where the kernel does not say.
+std::optional<double> peakBytes() {
+  std::ifstream status("/proc/self/status");
+  std::optional<double> peak;
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("VmHWM:")) peak = 1024 * std::stod(line.substr(6));
+  std::ofstream("/proc/self/clear_refs") << "5";
+  return peak;
+}
+
+// Of ours and the peers together.
+Line memoryLine(const std::string& group) {
+  Line line{group, {.name = "peak-memory-" + group, .unit = "MB"}, {}};
+  if (const std::optional<double> bytes = peakBytes())
+    line.result.ours = Spread{*bytes * 1e-6, *bytes * 1e-6};
+  return line;
+}
+
+enum class Form { kTable, kJson, kPage };
+
+void run(const std::vector<std::string>& names, Form form, const std::filesystem::path& page) {
   const std::vector<Group> groups = select({{"collision", collisionRows()},
                                             {"control", controlRows()},
                                             {"dynamics", dynamicsRows()},
                                             {"dynamics", steppingRows()},
                                             {"estimation", estimationRows()},
                                             {"grading", gradingRows()},
+                                            {"growth", growthRows()},
                                             {"ik", ikRows()},
                                             {"kinematics", kinematicsRows()},
                                             {"learning", cmaRows()},
                                             {"learning", policySearchRows()},
                                             {"physics", physicsRows()},
                                             {"planning", planningRows()},
+                                            {"planning", rrtStarRows()},
                                             {"render", renderRows()},
                                             {"scene", sceneRows()},
                                             {"trajectory", trajectoryRows()}},
                                            names);
-  if (!asJson) fmt::print("{}", tableHead());
+  const bool isTold = form != Form::kJson;
+  if (isTold) fmt::print("{}", tableHead());
   std::vector<Line> lines;
   for (const Group& group : groups) {
-    for (const Row& row : group.rows) {
-      lines.push_back({group.name, row, measure(row)});
-      if (!asJson) fmt::print("{}", tableLine(lines.back()));
+    if (group.rows.empty()) continue;
+    static_cast<void>(peakBytes());
+    const auto add = [&](const Line& line) {
+      lines.push_back(line);
+      if (isTold) fmt::print("{}", tableLine(line));
       std::fflush(stdout);
-    }
+    };
+    for (const Row& row : group.rows) add({group.name, row, measure(row)});
+    if (names.empty()) add(memoryLine(group.name));
   }
-  if (asJson) fmt::print("{}", json(lines));
+  if (form == Form::kJson) fmt::print("{}", json(lines));
+  if (form == Form::kPage) writeTextFile(page, reportPage(lines));
 }
 
 // The group of problems has options of its own, and needs them.
@@ -101,6 +134,8 @@ int main(int argc, char** argv) {
   bool asJson = false;
   app.add_option("NAME", names, "groups or rows of the table; none: all");
   app.add_flag("--json", asJson, "print JSON instead of a table");
+  std::filesystem::path page;
+  app.add_option("--report", page, "also write a page with figures to this HTML file");
   PandaOptions panda;
   app.add_option("--problems", panda.problems, "panda: the folder of problems");
   app.add_option("--urdf", panda.urdf,
@@ -116,7 +151,7 @@ int main(int argc, char** argv) {
     if (wantsPanda(names, panda))
       runPandaProblems(panda);
     else
-      run(names, asJson);
+      run(names, asJson ? Form::kJson : page.empty() ? Form::kTable : Form::kPage, page);
     return 0;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kUsageError;

@@ -10,13 +10,17 @@ namespace {
 
 class BoxWorld {
  public:
-  explicit BoxWorld(int iterations) {
+  BoxWorld(const Boxes& boxes, int iterations) {
     world_.setGravity({0, 0, -9.81});
     world_.getSolverInfo().m_numIterations = iterations;
     world_.getSolverInfo().m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
     add(0, ground_, {0, 0, -0.5});
-    for (int i = 0; i < kBoxes; ++i)
-      add(kBoxMass, box_, {kBoxDistance * (i % 5), kBoxDistance * (i / 5), kBoxEdge / 2});
+    for (int row = 0; row < boxes.rows; ++row) {
+      for (int column = 0; column < boxes.columns; ++column) {
+        const Eigen::Vector3d p = boxes.center(row, column);
+        add(kBoxMass, box_, {p.x(), p.y(), p.z()});
+      }
+    }
   }
   ~BoxWorld() {
     for (const auto& body : bodies_) world_.removeRigidBody(body.get());
@@ -49,8 +53,8 @@ class BoxWorld {
 
 }  // namespace
 
-PhysicsPeer bulletBoxes(int iterations) {
-  const auto world = std::make_shared<BoxWorld>(iterations);
+PhysicsPeer bulletBoxes(const Boxes& boxes, int iterations) {
+  const auto world = std::make_shared<BoxWorld>(boxes, iterations);
   return {[world] { world->step(); }, [world] { return world->height(); }};
 }
 

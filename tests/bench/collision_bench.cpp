@@ -30,11 +30,19 @@ std::vector<Row> collisionRows() {
   const auto free = [scene, out = Eigen::Array<bool, Eigen::Dynamic, 1>()]() mutable {
     contactFreeBatch(scene->contacts, scene->batch, 0, out);
   };
+  // One configuration after the other, as those who ask about one do.
+  const auto ones = std::make_shared<std::vector<PoseBatch>>(ContactScene::kPostures);
+  for (int k = 0; k < ContactScene::kPostures; ++k)
+    forwardKinematicsBatch(scene->model, scene->Q.col(k), (*ones)[static_cast<std::size_t>(k)]);
+  const auto freeInTurn = [scene, ones] {
+    for (const PoseBatch& one : *ones) static_cast<void>(allContactFree(scene->contacts, one, 0));
+  };
   const auto single = [scene] {
     for (const BodyPoses& poses : scene->poses) static_cast<void>(proxies(scene->contacts, poses));
   };
-  return {{"distances-arm7", perPosture(distances), "Bullet", bullet, 0.2},
-          {"contact-free-arm7", perPosture(free), "FCL", fcl, 0.15},
+  return {{"distances-batch-arm7", perPosture(distances), "Bullet", bullet, 0.2},
+          {"contact-free-batch-arm7", perPosture(free), "FCL", fcl, 0.15},
+          {"contact-free-arm7", perPosture(freeInTurn), "FCL", fcl},
           {"proxies-arm7", perPosture(single), "Bullet", bullet}};
 }
 

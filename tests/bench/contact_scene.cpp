@@ -33,7 +33,7 @@ ContactScene::ContactScene()
       contacts(model, armAndFrame(model)) {
   if (contacts.pairs().size() != 43) throw std::logic_error("the scene of the benchmark has changed");
   Rng rng(2);
-  Eigen::MatrixXd Q(model.nq(), kPostures);
+  Q.resize(model.nq(), kPostures);
   for (auto q : Q.colwise()) {
     q = rng.uniformVector(model.nq(), -2, 2);
     poses.push_back(forwardKinematics(model, q));

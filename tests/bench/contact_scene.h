@@ -15,9 +15,10 @@ struct ContactScene {
 
   Model model;
   ContactModel contacts;
-  std::vector<BodyPoses> poses;  ///< kPostures
-  PoseBatch batch;               ///< the same
-  Eigen::MatrixXd distances;     ///< of all pairs, in columns
+  Eigen::MatrixXd Q;  ///< kPostures, in columns
+  std::vector<BodyPoses> poses;
+  PoseBatch batch;
+  Eigen::MatrixXd distances;  ///< of all pairs, in columns
 
   [[nodiscard]] const ModelShape& shape(int i) const { return model.shapes()[static_cast<std::size_t>(i)]; }
   /// X_WS of a shape at posture k.

@@ -14,16 +14,17 @@ namespace {
 
 // Ours, with the storage a hot loop keeps.
 struct Workspace {
-  explicit Workspace(Robot r) : robot(std::move(r)), J(3, robot.model.nv()) {}
+  explicit Workspace(Robot r) : robot(std::move(r)), J(6, robot.model.nv()), J_com(3, robot.model.nv()) {}
 
   void forwardKinematics(int k) { rex::forwardKinematics(robot.model, robot.Q.col(k), poses); }
   void jacobian(int k) {
     forwardKinematics(k);
-    positionJacobian(robot.model, poses, robot.tip, Eigen::Vector3d::Zero(), J);
+    positionJacobian(robot.model, poses, robot.tip, Eigen::Vector3d::Zero(), J.topRows<3>());
+    angularJacobian(robot.model, poses, robot.tip, J.bottomRows<3>());
   }
   void centerOfMassJacobian(int k) {
     forwardKinematics(k);
-    rex::centerOfMassJacobian(robot.model, poses, moments, J);
+    rex::centerOfMassJacobian(robot.model, poses, moments, J_com);
   }
   void forwardKinematicsBatch(int lanes) {
     const auto kernel = kernelFor<internal::ForwardKinematicsKernel>(lanes);
@@ -32,13 +33,15 @@ struct Workspace {
   void jacobianBatch() {
     forwardKinematicsBatch(cpuLanes());
     positionJacobianBatch(robot.model, poseBatch, robot.tip, Eigen::Vector3d::Zero(), jacobians);
+    angularJacobianBatch(robot.model, poseBatch, robot.tip, angularJacobians);
   }
 
   Robot robot;
   BodyPoses poses;
   PoseBatch poseBatch;
-  JacobianBatch jacobians;
-  Eigen::Matrix3Xd J, moments;
+  JacobianBatch jacobians, angularJacobians;
+  Eigen::Matrix<double, 6, Eigen::Dynamic> J;
+  Eigen::Matrix3Xd J_com, moments;
 };
 
 }  // namespace
@@ -65,7 +68,8 @@ std::vector<Row> kinematicsRows() {
     const std::string on = "-" + ours->robot.name;
     rows.push_back({"fk" + on, fk, "KDL", timedInTurn(kdl.forwardKinematics), 0.35});
     rows.push_back({"fk" + on + "-mujoco", fk, "MuJoCo", timedInTurn(mujoco.forwardKinematics)});
-    rows.push_back({"jacobian" + on, jacobian, "KDL", timedInTurn(kdl.jacobian), 0.3});
+    rows.push_back(
+        {"jacobian" + on, jacobian, "KDL", timedInTurn(kdl.jacobian), on == "-chain30" ? 0.18 : 0.2});
     rows.push_back({"jacobian" + on + "-mujoco", jacobian, "MuJoCo", timedInTurn(mujoco.jacobian)});
     rows.push_back({"fk-batch" + on, fkBatch(cpuLanes()), "KDL", timedInTurn(kdl.forwardKinematics), 0.1});
     rows.push_back({"fk-batch-2-lanes" + on, fkBatch(2), "KDL", timedInTurn(kdl.forwardKinematics), 0.25});

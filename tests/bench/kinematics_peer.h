@@ -6,8 +6,9 @@
 
 namespace rex::bench {
 
-/// What a peer does with a robot at its posture k: all body poses; the position Jacobian of the tip's origin
-/// and the centre of mass with its Jacobian, each with the forward kinematics it needs. Empty: it cannot.
+/// What a peer does with a robot at its posture k: all body poses; the six rows of the Jacobian at the tip's
+/// origin, and the centre of mass with its Jacobian, each with the forward kinematics it needs. Empty: it
+/// cannot.
 struct KinematicsPeer {
   std::function<void(int k)> forwardKinematics{}, jacobian{}, centerOfMassJacobian{};
 };

@@ -22,6 +22,7 @@ struct Simulation {
   explicit Simulation(const Robot& robot)
       : model(loadMujoco(mujocoXml(robot.model))), data(mj_makeData(model.get())) {
     J.setZero(3, model->nv);
+    J_angular = J;
     tip = mj_name2id(model.get(), mjOBJ_BODY, robot.model[robot.tip].name.c_str());
     Q.resize(model->nq, Robot::kPostures);
     for (const Joint& joint : robot.model.joints()) {
@@ -38,7 +39,7 @@ struct Simulation {
   void jacobian(int k) {
     forwardKinematics(k);
     mj_comPos(model.get(), data.get());
-    mj_jac(model.get(), data.get(), J.data(), nullptr, data->xpos + 3 * tip, tip);
+    mj_jac(model.get(), data.get(), J.data(), J_angular.data(), data->xpos + 3 * tip, tip);
   }
   void centerOfMassJacobian(int k) {
     forwardKinematics(k);
@@ -49,7 +50,7 @@ struct Simulation {
   MujocoModel model;
   std::unique_ptr<mjData, DataDeleter> data;
   Eigen::MatrixXd Q;  // the postures in MuJoCo's order
-  RowMajor J;
+  RowMajor J, J_angular;
   int tip = 0;
   std::vector<int> columns;  // theirs, for each of ours
 };
@@ -68,6 +69,9 @@ void requireSameResults(const Robot& robot, Simulation& mujoco, int k) {
   requireAgreement(robot.name + ": MuJoCo Jacobian",
                    positionJacobian(robot.model, poses, robot.tip, Eigen::Vector3d::Zero()),
                    mujoco.J(Eigen::all, mujoco.columns));
+  requireAgreement(robot.name + ": MuJoCo Jacobian of rotations",
+                   angularJacobian(robot.model, poses, robot.tip),
+                   mujoco.J_angular(Eigen::all, mujoco.columns));
   mujoco.centerOfMassJacobian(k);
   requireAgreement(robot.name + ": MuJoCo centre of mass", centerOfMass(robot.model, poses),
                    Eigen::Map<const Eigen::Vector3d>(mujoco.data->subtree_com));

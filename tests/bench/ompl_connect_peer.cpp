@@ -1,45 +1,28 @@
-#include <cstdint>
 #include <memory>
 #include <stdexcept>
 
+#include <ompl/base/PlannerTerminationCondition.h>
 #include <ompl/base/ProblemDefinition.h>
-#include <ompl/base/SpaceInformation.h>
-#include <ompl/base/spaces/RealVectorStateSpace.h>
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
 #include <ompl/util/Console.h>
 #include <ompl/util/RandomNumbers.h>
 
 #include "bench/arm_plans.h"
 #include "bench/cpu_seconds.h"
+#include "bench/ompl_space.h"
 
 namespace rex::bench {
 namespace {
 
-namespace ob = ompl::base;
-using State = ob::RealVectorStateSpace::StateType;
-
-constexpr double kMostSeconds = 1000;
-
-ob::ScopedState<> stateOf(const ob::SpaceInformationPtr& information, const Eigen::VectorXd& q) {
-  ob::ScopedState<> state(information);
-  for (Eigen::Index i = 0; i < q.size(); ++i) state[static_cast<unsigned>(i)] = q[i];
-  return state;
-}
-
 ob::SpaceInformationPtr informationOf(const ContactScene& scene, const ArmPlan& plan) {
-  const auto parts = plan.problem.space.parts();
-  const auto space = std::make_shared<ob::RealVectorStateSpace>();
-  for (const SpacePart& part : parts) space->addDimension(part.lower, part.upper);
-  const auto information = std::make_shared<ob::SpaceInformation>(space);
+  const ob::SpaceInformationPtr information = omplSpace(plan.problem);
   information->setStateValidityChecker([model = std::make_shared<const Model>(scene.model),
                                         touches = fclContact(scene), q = Eigen::VectorXd(plan.problem.start),
                                         poses = BodyPoses()](const ob::State* state) mutable {
-    const double* numbers = state->as<State>()->values;
-    for (Eigen::Index i = 0; i < q.size(); ++i) q[i] = numbers[i];
+    copyNumbers(*state, q);
     forwardKinematics(*model, q, poses);
     return !touches(poses);
   });
-  information->setStateValidityCheckingResolution(plan.problem.resolution / space->getMaximumExtent());
   information->setup();
   return information;
 }
@@ -52,8 +35,8 @@ Measurement omplConnect(const ContactScene& scene, const ArmPlan& plan) {
   static_cast<void>(kIsSeeded);
   const ob::SpaceInformationPtr information = informationOf(scene, plan);
   const auto definition = std::make_shared<ob::ProblemDefinition>(information);
-  definition->setStartAndGoalStates(stateOf(information, plan.problem.start),
-                                    stateOf(information, plan.problem.goal));
+  definition->setStartAndGoalStates(omplState(information, plan.problem.start),
+                                    omplState(information, plan.problem.goal));
   return [=] {
     definition->clearSolutionPaths();
     ompl::geometric::RRTConnect planner(information);
@@ -61,7 +44,8 @@ Measurement omplConnect(const ContactScene& scene, const ArmPlan& plan) {
     planner.setProblemDefinition(definition);
     planner.setup();
     const double before = cpuSeconds();
-    const ob::PlannerStatus status = planner.ob::Planner::solve(kMostSeconds);
+    // Never, and not a limit of time: that starts a thread that looks at the clock.
+    const ob::PlannerStatus status = planner.solve(ob::plannerNonTerminatingCondition());
     const double seconds = cpuSeconds() - before;
     if (status != ob::PlannerStatus::EXACT_SOLUTION) throw std::logic_error("OMPL finds no path to the hole");
     return seconds;

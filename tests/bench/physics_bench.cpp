@@ -3,6 +3,8 @@
 #include <stdexcept>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "bench/physics_peer.h"
 #include "bench/row.h"
 #include "physics/physics_world.h"
@@ -13,39 +15,58 @@
 namespace rex::bench {
 namespace {
 
-Model boxes() {
+Model modelOf(const Boxes& boxes) {
   SceneSpec spec;
   addGround(spec);
-  for (int i = 0; i < kBoxes; ++i) {
-    addLoose(spec, "box" + std::to_string(i), kBoxMass, boxShape(kBoxEdge, kBoxEdge, kBoxEdge),
-             translation(kBoxDistance * (i % 5), kBoxDistance * (i / 5), kBoxEdge / 2));
+  for (int row = 0; row < boxes.rows; ++row) {
+    for (int column = 0; column < boxes.columns; ++column)
+      addLoose(spec, fmt::format("box{}_{}", row, column), kBoxMass, boxShape(kBoxEdge, kBoxEdge, kBoxEdge),
+               {.p = boxes.center(row, column)});
   }
   return compile(spec);
 }
 
-// Both must have come to lie where the boxes touch the plane.
-void requireRest(const std::string& who, double height) {
-  if (std::abs(height - kBoxEdge / 2) < 1e-3) return;
+// Both must have come to lie where the last box belongs.
+void requireRest(const std::string& who, double height, const Boxes& boxes) {
+  if (std::abs(height - boxes.center(boxes.rows - 1, boxes.columns - 1).z()) < 5e-3) return;
   throw std::logic_error(who + " does not hold its boxes");
 }
 
-}  // namespace
-
-std::vector<Row> physicsRows() {
-  const PhysicsOptions options;
-  const auto ours = std::make_shared<PhysicsWorld>(boxes(), options);
-  const PhysicsPeer bullet = bulletBoxes(options.iterations);
+// Once they lie. Bullet by itself takes ten iterations.
+Row boxesRow(const std::string& name, const Boxes& boxes, int bulletIterations, double target) {
+  const auto ours = std::make_shared<PhysicsWorld>(modelOf(boxes));
+  const PhysicsPeer bullet = bulletBoxes(boxes, bulletIterations);
   for (int i = 0; i < 500; ++i) {
     ours->step(kPhysicsStep);
     bullet.step();
   }
   const State state = ours->state();
-  requireRest("rex", state.q[state.q.size() - 5]);
-  requireRest("Bullet", bullet.height());
+  requireRest("rex", state.q[state.q.size() - 5], boxes);
+  requireRest("Bullet", bullet.height(), boxes);
+  return {name, timed([ours] { ours->step(kPhysicsStep); }), "Bullet", timed(bullet.step), target, "us"};
+}
+
+}  // namespace
+
+Eigen::Vector3d Boxes::center(int row, int column) const {
+  const double x = distance * column;
+  return isWall ? Eigen::Vector3d(x, 0, (row + 0.5) * kBoxEdge)
+                : Eigen::Vector3d(x, distance * row, kBoxEdge / 2);
+}
+
+std::vector<Row> physicsRows() {
+  const Boxes apart, wall{.columns = 10, .rows = 10, .distance = 0.21, .isWall = true};
   const auto arm =
       std::make_shared<PhysicsWorld>(compile(readScene(sourcePath("data/robots/arm7dof/arm7dof.urdf")).spec));
-  return {{"boxes-20", timed([ours] { ours->step(kPhysicsStep); }), "Bullet", timed(bullet.step), 1 / 0.9},
-          {"physics-arm7", timed([arm] { arm->step(kPhysicsStep); })}};
+  return {boxesRow("boxes-20-as-many-iterations", apart, PhysicsOptions().iterations, 1 / 0.9),
+          boxesRow("boxes-20", apart, 10, 2.),
+          boxesRow("wall-100-boxes", wall, 10, 1.2),
+          {.name = "physics-arm7",
+           .ours = timed([arm] { arm->step(kPhysicsStep); }),
+           .peerName = "limit",
+           .peer = [] { return 1.8e-6; },
+           .target = 1.,
+           .unit = "us"}};
 }
 
 }  // namespace rex::bench

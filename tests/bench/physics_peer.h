@@ -6,17 +6,23 @@
 
 namespace rex::bench {
 
-/// Edge length, distance and mass of the boxes that lie on the plane, five in a row.
-inline constexpr int kBoxes = 20;
-inline constexpr double kBoxEdge = 0.2, kBoxDistance = 0.5, kBoxMass = 1;
+/// Equal boxes on a plane: `columns` side by side, at `distance` from centre to centre, in rows one behind
+/// the other or, as a wall, one on top of the other.
+struct Boxes {
+  int columns = 5, rows = 4;
+  double distance = 0.5;  ///< metres
+  bool isWall = false;
+  [[nodiscard]] Eigen::Vector3d center(int row, int column) const;
+};
+inline constexpr double kBoxEdge = 0.2, kBoxMass = 1;
 inline constexpr double kPhysicsStep = 1e-3;  ///< seconds
 
-/// The same boxes, hand-made with Bullet alone, which does the same work: as many iterations, and friction in
-/// both directions of a contact. A step, and the height of the last box.
+/// The same boxes, hand-made with Bullet alone, with friction in both directions of a contact, as ours. A
+/// step, and the height of the last box.
 struct PhysicsPeer {
   std::function<void()> step;
   std::function<double()> height;
 };
-[[nodiscard]] PhysicsPeer bulletBoxes(int iterations);
+[[nodiscard]] PhysicsPeer bulletBoxes(const Boxes& boxes, int iterations);
 
 }  // namespace rex::bench

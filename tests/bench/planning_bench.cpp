@@ -80,8 +80,9 @@ Row nearestRow() {
 }
 
 // A seed is soon done or takes long: medians need many.
-Row connectRow(const std::string& name, const ArmPlan& plan, const ContactScene& scene, int seeds) {
-  return {name, ourConnect(plan), "OMPL+FCL", omplConnect(scene, plan), 0.25, "ms", seeds, true};
+Row connectRow(const std::string& name, const ArmPlan& plan, const ContactScene& scene, double target,
+               int seeds) {
+  return {name, ourConnect(plan), "OMPL+FCL", omplConnect(scene, plan), target, "ms", seeds, true};
 }
 
 }  // namespace
@@ -97,8 +98,8 @@ std::vector<Row> planningRows() {
   return {{"dubins", perWay(poses, dubins), "OMPL", perWay(poses, ompl.dubins), 0.3},
           {"reeds-shepp", perWay(poses, reedsShepp), "OMPL", perWay(poses, ompl.reedsShepp), 0.3},
           nearestRow(),
-          connectRow("rrt-connect-tip", tipInHole(scene), scene, 201),
-          connectRow("rrt-connect-peg", pegInHole(scene), scene, 41)};
+          connectRow("rrt-connect-tip", tipInHole(scene), scene, 0.1, 201),
+          connectRow("rrt-connect-peg", pegInHole(scene), scene, 0.25, 41)};
 }
 
 }  // namespace rex::bench

@@ -6,12 +6,15 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/cpu_lanes.h"
+
 namespace rex::bench {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kTableFormat = "{:<11} {:<22} {:>12} {:>12} {:<8} {:>7} {:>7}  {}\n";
+constexpr const char* kTableFormat =
+    "{:<11} {:<30} {:>10} {:>10} {:>10} {:>10} {:<4} {:<14} {:>6} {:>6}  {}\n";
 
 // The value of the first line of /proc/cpuinfo with that key.
 std::string cpuInfo(const std::string& key) {
@@ -38,45 +41,67 @@ Json orNull(const std::optional<T>& value) {
   return value ? Json(*value) : Json();
 }
 
-std::string number(const std::optional<double>& value, const std::string& unit = "") {
-  if (!value) return "-";
-  return unit.empty() ? fmt::format("{:.2f}", *value) : fmt::format("{:.4g} {}", *value, unit);
+std::string number(const std::optional<double>& value) { return value ? fmt::format("{:.2f}", *value) : "-"; }
+
+std::string figure(const std::optional<Spread>& spread, double Spread::*which) {
+  return spread ? fmt::format("{:.4g}", (*spread).*which) : "-";
+}
+
+Json numbers(const std::optional<Spread>& spread, double Spread::*which) {
+  return spread ? Json((*spread).*which) : Json();
 }
 
 std::string verdict(const Line& line) {
-  const std::optional<double> ratio = line.result.ratio();
-  if (!line.row.target || !ratio) return "-";
-  return *ratio <= *line.row.target ? "met" : "not met";
+  const std::optional<double> measured = ratio(line.row, line.result);
+  if (!line.row.target || !measured) return "-";
+  return *measured <= *line.row.target ? "met" : "not met";
 }
 
 }  // namespace
 
+Machine thisMachine() {
+  return {.cpu = cpuInfo("model name"),
+          .flags = vectorFlags(),
+          .compiler = REX_BENCH_COMPILER,
+          .kernels = REX_BENCH_KERNELS,
+          .lanes = cpuLanes()};
+}
+
 std::string tableHead() {
-  return fmt::format(kTableFormat, "group", "name", "ours", "peer", "", "ratio", "target", "");
+  return fmt::format(kTableFormat, "group", "name", "ours", "median", "peer", "median", "", "", "ratio",
+                     "target", "");
 }
 
 std::string tableLine(const Line& line) {
-  const Row& row = line.row;
-  return fmt::format(kTableFormat, line.group, row.name, number(line.result.ours, row.unit),
-                     number(line.result.peer, row.unit), row.peerName, number(line.result.ratio()),
+  const auto& [group, row, result] = line;
+  return fmt::format(kTableFormat, group, row.name, figure(result.ours, &Spread::smallest),
+                     figure(result.ours, &Spread::median), figure(result.peer, &Spread::smallest),
+                     figure(result.peer, &Spread::median), row.unit, row.peerName, number(ratio(row, result)),
                      number(row.target), verdict(line));
 }
 
 std::string json(const std::vector<Line>& lines) {
   Json rows = Json::array();
-  for (const Line& line : lines) {
-    rows.push_back({{"group", line.group},
-                    {"name", line.row.name},
-                    {"ours", orNull(line.result.ours)},
-                    {"peer", orNull(line.result.peer)},
-                    {"peer_name", line.row.peerName.empty() ? Json() : Json(line.row.peerName)},
-                    {"unit", line.row.unit},
-                    {"ratio", orNull(line.result.ratio())},
-                    {"target", orNull(line.row.target)}});
+  for (const auto& [group, row, result] : lines) {
+    rows.push_back({{"group", group},
+                    {"name", row.name},
+                    {"ours", numbers(result.ours, &Spread::smallest)},
+                    {"ours_median", numbers(result.ours, &Spread::median)},
+                    {"peer", numbers(result.peer, &Spread::smallest)},
+                    {"peer_median", numbers(result.peer, &Spread::median)},
+                    {"peer_name", row.peerName.empty() ? Json() : Json(row.peerName)},
+                    {"unit", row.unit},
+                    {"ratio", orNull(ratio(row, result))},
+                    {"ratio_of", row.isMedian ? "medians" : "smallest"},
+                    {"target", orNull(row.target)}});
   }
-  const Json machine{
-      {"cpu", cpuInfo("model name")}, {"flags", vectorFlags()}, {"compiler", REX_BENCH_COMPILER}};
-  return Json{{"machine", machine}, {"rows", rows}}.dump(2) + "\n";
+  const Machine machine = thisMachine();
+  const Json about{{"cpu", machine.cpu},
+                   {"flags", machine.flags},
+                   {"lanes", machine.lanes},
+                   {"compiler", machine.compiler},
+                   {"kernels", machine.kernels}};
+  return Json{{"machine", about}, {"rows", rows}}.dump(2) + "\n";
 }
 
 }  // namespace rex::bench

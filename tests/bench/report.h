@@ -17,8 +17,16 @@ struct Line {
 [[nodiscard]] std::string tableHead();
 [[nodiscard]] std::string tableLine(const Line& line);
 
-/// {"machine": {"cpu", "flags", "compiler"}, "rows": [{"group", "name", "ours", "peer", "peer_name", "unit",
-/// "ratio", "target"}]}, with null for what is not there; `flags` are the CPU's vector extensions.
+/// {"machine": {"cpu", "flags", "lanes", "compiler", "kernels"}, "rows": [{"group", "name", "ours",
+/// "ours_median", "peer", "peer_median", "peer_name", "unit", "ratio", "ratio_of", "target"}]}, with null for
+/// what is not there; `flags` are the CPU's vector extensions, `lanes` what our kernels use of them.
 [[nodiscard]] std::string json(const std::vector<Line>& lines);
+
+/// What the machine is, by the names of "machine" above.
+struct Machine {
+  std::string cpu, flags, compiler, kernels;
+  int lanes = 0;
+};
+[[nodiscard]] Machine thisMachine();
 
 }  // namespace rex::bench

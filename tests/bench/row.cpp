@@ -1,6 +1,7 @@
 #include "bench/row.h"
 
 #include <algorithm>
+#include <chrono>
 #include <map>
 
 #include <benchmark/benchmark.h>
@@ -21,8 +22,8 @@ class Collector : public benchmark::BenchmarkReporter {
 };
 
 double perSecond(const std::string& unit) {
-  static const std::map<std::string, double> kPerSecond{{"ns", 1e9}, {"us", 1e6}, {"ms", 1e3},
-                                                        {"s", 1},    {"%", 100},  {"k", 1e-3}};
+  static const std::map<std::string, double> kPerSecond{{"ns", 1e9}, {"us", 1e6}, {"ms", 1e3},  {"s", 1},
+                                                        {"%", 100},  {"k", 1e-3}, {"MB", 1e-6}, {"", 1}};
   return kPerSecond.at(unit);
 }
 
@@ -43,8 +44,19 @@ Measurement timed(std::function<void()> work) {
   };
 }
 
-std::optional<double> Result::ratio() const {
-  return ours && peer && *peer > 0 ? std::optional(*ours / *peer) : std::nullopt;
+Measurement timedByWall(std::function<void()> work) {
+  return [work = std::move(work)] {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+}
+
+std::optional<double> ratio(const Row& row, const Result& result) {
+  if (!result.ours || !result.peer) return std::nullopt;
+  const auto compared = row.isMedian ? &Spread::median : &Spread::smallest;
+  const double ours = (*result.ours).*compared, peer = (*result.peer).*compared;
+  return peer > 0 ? std::optional(ours / peer) : std::nullopt;
 }
 
 Result measure(const Row& row) {
@@ -55,12 +67,12 @@ Result measure(const Row& row) {
     ours.push_back(row.ours());
     if (row.peer) peer.push_back(row.peer());
   }
-  const auto result = [&](std::vector<double>& measured) {
-    const auto taken = measured.begin() + (row.isMedian ? row.repetitions / 2 : 0);
-    std::nth_element(measured.begin(), taken, measured.end());
-    return *taken * perSecond(row.unit);
+  const auto spread = [&](std::vector<double>& measured) {
+    std::sort(measured.begin(), measured.end());
+    const double scale = perSecond(row.unit);
+    return Spread{scale * measured.front(), scale * measured[measured.size() / 2]};
   };
-  return {.ours = result(ours), .peer = row.peer ? std::optional(result(peer)) : std::nullopt};
+  return {.ours = spread(ours), .peer = row.peer ? std::optional(spread(peer)) : std::nullopt};
 }
 
 }  // namespace rex::bench

@@ -12,6 +12,8 @@ using Measurement = std::function<double()>;
 
 /// Measures one call of `work` with Google Benchmark, as the mean of as many calls as take 20 ms.
 [[nodiscard]] Measurement timed(std::function<void()> work);
+/// Measures the wall time of one call, for work that other processes share.
+[[nodiscard]] Measurement timedByWall(std::function<void()> work);
 
 /// One line of the table: ours against a peer that does the same, or against a fixed limit.
 struct Row {
@@ -20,17 +22,22 @@ struct Row {
   std::string peerName{};          ///< empty: nothing to compare with; "limit": `peer` returns a fixed number
   Measurement peer{};              ///< empty: the peer is not installed
   std::optional<double> target{};  ///< what ours / peer should not exceed
-  std::string unit = "ns";         ///< ns, us, ms, s; % of shares; k, thousands, of counts
+  std::string unit = "ns";         ///< ns, us, ms, s; MB; % of shares; k, thousands, of counts; none
   int repetitions = 15;            ///< measurements of each side
-  bool isMedian = false;           ///< each measurement is of another case: take medians, not the smallest
+  bool isMedian = false;           ///< each measurement is of another case: compare medians, not the smallest
 };
 
-/// The smallest or the median of several measurements of each side, taken in turn, in the row's unit.
+/// The smallest and the median of several measurements of one side, in the row's unit.
+struct Spread {
+  double smallest = 0, median = 0;
+};
+/// Both sides, measured in turn; empty: not measured.
 struct Result {
-  std::optional<double> ours{}, peer{};
-  [[nodiscard]] std::optional<double> ratio() const;
+  std::optional<Spread> ours{}, peer{};
 };
 [[nodiscard]] Result measure(const Row& row);
+/// Ours divided by the peer's: of medians where the row says so, else of the smallest; what `target` limits.
+[[nodiscard]] std::optional<double> ratio(const Row& row, const Result& result);
 
 /// The groups, a file each. Setting one up takes little time; it throws std::logic_error where ours and a
 /// peer do not compute the same.
@@ -40,12 +47,14 @@ struct Result {
 [[nodiscard]] std::vector<Row> dynamicsRows();
 [[nodiscard]] std::vector<Row> estimationRows();
 [[nodiscard]] std::vector<Row> gradingRows();
+[[nodiscard]] std::vector<Row> growthRows();
 [[nodiscard]] std::vector<Row> ikRows();
 [[nodiscard]] std::vector<Row> kinematicsRows();
 [[nodiscard]] std::vector<Row> physicsRows();
 [[nodiscard]] std::vector<Row> planningRows();
 [[nodiscard]] std::vector<Row> policySearchRows();
 [[nodiscard]] std::vector<Row> renderRows();
+[[nodiscard]] std::vector<Row> rrtStarRows();
 [[nodiscard]] std::vector<Row> sceneRows();
 [[nodiscard]] std::vector<Row> steppingRows();
 [[nodiscard]] std::vector<Row> trajectoryRows();

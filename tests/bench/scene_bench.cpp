@@ -1,4 +1,5 @@
 #include "bench/row.h"
+#include "scene/mesh_reader.h"
 #include "scene/model.h"
 #include "scene/ors_reader.h"
 #include "support/paths.h"
@@ -9,7 +10,12 @@ std::vector<Row> sceneRows() {
   const auto load = [file = sourcePath("data/robots/man.ors")] {
     static_cast<void>(compile(readOrs(file).spec));
   };
-  return {{.name = "load-man", .ours = timed(load), .unit = "us"}};
+  // In a process of its own, as every mesh.
+  const auto loadMesh = [file = sourcePath("data/robots/balancer/meshes/rim.stl")] {
+    static_cast<void>(readMesh(file));
+  };
+  return {{.name = "load-man", .ours = timed(load), .unit = "us"},
+          {.name = "load-mesh", .ours = timedByWall(loadMesh), .unit = "ms"}};
 }
 
 }  // namespace rex::bench

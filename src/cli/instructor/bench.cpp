@@ -15,6 +15,7 @@ namespace {
 struct BenchOptions {
   std::vector<std::string> names;
   bool json = false;
+  std::string report;
   std::string problems, urdf, srdf, seed;  ///< of the group panda
 };
 
@@ -29,6 +30,7 @@ ExitCode bench(const Project& project, const BenchOptions& options) {
   const auto pass = [&](const char* name, const std::string& value) {
     if (!value.empty()) command.insert(command.end(), {name, value});
   };
+  pass("--report", options.report);
   pass("--problems", options.problems);
   pass("--urdf", options.urdf);
   pass("--srdf", options.srdf);
@@ -45,10 +47,11 @@ ExitCode bench(const Project& project, const BenchOptions& options) {
 void addBench(CLI::App* command, Action& action) {
   const auto options = std::make_shared<BenchOptions>();
   command->footer(
-      "Examples:\n  scripts/rex bench\n  scripts/rex bench kinematics --json\n"
+      "Examples:\n  scripts/rex bench --report out/bench.html\n  scripts/rex bench kinematics --json\n"
       "  scripts/rex bench panda --problems DIR");
   command->add_option("NAME", options->names, "groups to measure (default: all)")->type_name("");
   command->add_flag("--json", options->json, "print JSON instead of a table");
+  command->add_option("--report", options->report, "also write a page with figures")->type_name("FILE.html");
   command->add_option("--problems", options->problems, "panda: a folder of motion planning problems")
       ->type_name("DIR");
   command
