@@ -129,13 +129,14 @@
   }
 
   // Where drawing a picture takes too long, as without a graphics card, fewer pixels are drawn, and the page says so.
-  let pictures = 0, slow = 0, quality = 1;
+  let pictures = 0, slow = 0, fast = 0, quality = 1;
   function watchSpeed() {
-    if (++pictures % 8 !== 0 || quality <= 0.5 || !scene) return;
+    if (++pictures % 8 !== 0 || fast > 10 || quality <= 0.5 || !scene) return;
     const start = performance.now(), gl = view.renderer.getContext();
     view.renderer.render(scene.current.scene, view.view);
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));  // waits until it is drawn
-    slow = performance.now() - start > 25 ? slow + 1 : 0;
+    const isSlow = performance.now() - start > 25;
+    slow = isSlow ? slow + 1 : 0, fast = isSlow ? 0 : fast + 1;
     if (slow < 2) return;
     slow = 0, quality = Math.max(0.5, quality / 1.4);
     setTimeout(() => view.setQuality(quality));

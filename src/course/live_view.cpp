@@ -160,6 +160,8 @@ LiveView::LiveView(const std::string& name) : parts_(std::make_unique<Parts>()) 
   std::fflush(stdout);
 }
 
+LiveView::LiveView(const Simulator& simulator, const std::string& name) : LiveView(name) { show(simulator); }
+
 LiveView::~LiveView() {
   parts_->server.reset();
   if (!parts_->last) return;

@@ -16,6 +16,8 @@ struct Picture;
 class LiveView {
  public:
   explicit LiveView(const std::string& name = "live");
+  /// The same, and shows the robot at once.
+  explicit LiveView(const Simulator& simulator, const std::string& name = "live");
   ~LiveView();
   LiveView(const LiveView&) = delete;
   LiveView& operator=(const LiveView&) = delete;

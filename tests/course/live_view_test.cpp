@@ -34,8 +34,8 @@ class LiveViewTest : public testing::Test {
 
 TEST_F(LiveViewTest, WritesAReplayWhereNobodyLooks) {
   {
-    LiveView view(in("arm"));
     Simulator simulator("arm3");
+    LiveView view(simulator, in("arm"));
     for (int k = 0; k < 2000; ++k) {
       const double angle = view.slider("angle", 0, 1, 0.25);
       EXPECT_EQ(angle, 0.25);
