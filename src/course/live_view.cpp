@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
-#include <map>
 #include <optional>
-#include <thread>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
