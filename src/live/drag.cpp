@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -32,24 +33,22 @@ std::vector<bool> movable(const Model& model, BodyId body) {
 
 struct LinearTask {
   MatrixXd J;
-  VectorXd dy;
+  VectorXd dy;  // what is missing, metres
 };
 
-LinearTask linearTask(const Model& model, const VectorXd& q, const BodyPoses& poses, const DragGoal& goal,
+LinearTask linearTask(const Model& model, const VectorXd& q, const DragGoal& goal,
                       const std::optional<TaskMap>& avoid) {
-  constexpr double kFastest = 0.1, kContactWeight = 0.02;  // metres per step; metres per unit of cost
+  constexpr double kArm = 0.2, kContactWeight = 0.02;  // metres that count as a radian, and as a unit of cost
+  const BodyPoses poses = forwardKinematics(model, q);
   const int turned = goal.R_WB ? 3 : 0, avoided = avoid ? 1 : 0;
   LinearTask task{MatrixXd::Zero(3 + turned + avoided, model.nv()), VectorXd::Zero(3 + turned + avoided)};
-  const Eigen::Vector3d way = goal.p_WQ - poses[goal.body] * goal.p_BQ;
   task.J.topRows<3>() = positionJacobian(model, poses, goal.body, goal.p_BQ);
-  task.dy.head<3>() = way * std::min(1., kFastest / std::max(way.norm(), 1e-12));
+  task.dy.head<3>() = goal.p_WQ - poses[goal.body] * goal.p_BQ;
   if (goal.R_WB) {
-    constexpr double kArm = 0.2;  // metres: what a radian counts as
     TaskValue turn;
     orientationTask(goal.body, *goal.R_WB)({model, q, poses}, turn);
-    const Eigen::Vector3d back = -turn.y;
     task.J.middleRows<3>(3) = kArm * turn.J;
-    task.dy.segment<3>(3) = kArm * back * std::min(1., 0.5 / std::max(back.norm(), 1e-12));
+    task.dy.segment<3>(3) = -kArm * turn.y;
   }
   if (avoid) {
     TaskValue cost;
@@ -61,13 +60,15 @@ LinearTask linearTask(const Model& model, const VectorXd& q, const BodyPoses& po
 }
 
 // One step; joints that would leave their limits are held, and the others do it without them.
-VectorXd stepWithin(const Model& model, const VectorXd& q, LinearTask task, const std::vector<bool>& may) {
-  constexpr double kDamping = 0.02;  // metres
+VectorXd stepWithin(const Model& model, const VectorXd& q, LinearTask task, const std::vector<bool>& may,
+                    double damping) {
+  constexpr double kFarthest = 0.1;  // metres
+  task.dy *= std::min(1., kFarthest / std::max(task.dy.norm(), 1e-12));
   for (int i = 0; i < model.nv(); ++i)
     if (!may[static_cast<std::size_t>(i)]) task.J.col(i).setZero();
   VectorXd next = q;
   for (int round = 0; round <= model.nv(); ++round) {
-    next = integrate(model, q, inverseKinematicsStep(task.J, task.dy, kDamping));
+    next = integrate(model, q, inverseKinematicsStep(task.J, task.dy, damping));
     bool isHeld = false;
     for (const Joint& joint : model.joints()) {
       if (joint.mimics || joint.nq != joint.nv) continue;
@@ -94,12 +95,22 @@ VectorXd dragged(const Model& model, const VectorXd& q, const DragGoal& goal,
   if (!goal.p_BQ.allFinite() || !goal.p_WQ.allFinite() || (goal.R_WB && !goal.R_WB->allFinite()))
     throw Error({.what = "the goal of a drag", .found = "a number that is not finite"});
   const std::vector<bool> may = movable(model, goal.body);
+  constexpr double kLeastDamping = 1e-3, kMostDamping = 10;  // metres
+  constexpr double kMostTurn = 0.3;                          // radians or metres per step
   VectorXd at = q;
-  for (int step = 0; step < steps; ++step) {
-    const BodyPoses poses = forwardKinematics(model, at);
-    const LinearTask task = linearTask(model, at, poses, goal, avoid);
+  LinearTask task = linearTask(model, at, goal, avoid);
+  double damping = 0.02;
+  // A step that leads away or far, as near a stretched posture, is damped more: the robot never shakes.
+  for (int step = 0; step < steps && damping < kMostDamping; ++step) {
     if (task.dy.lpNorm<Eigen::Infinity>() < 1e-9) break;
-    at = stepWithin(model, at, task, may);
+    const VectorXd next = stepWithin(model, at, task, may, damping);
+    LinearTask there = linearTask(model, next, goal, avoid);
+    if (there.dy.norm() < task.dy.norm() && (next - at).lpNorm<Eigen::Infinity>() < kMostTurn) {
+      at = next, task = std::move(there);
+      damping = std::max(damping / 2, kLeastDamping);
+    } else {
+      damping *= 4;
+    }
   }
   return at;
 }

@@ -16,10 +16,10 @@ struct DragGoal {
 };
 
 /// A posture (nq) nearer to the goal, within the limits of the joints: by at most `steps` damped steps of
-/// inverse kinematics from q (slide 2:29), none of which moves the point by more than 0.1 m. Joints at a
-/// limit rest there. Free joints do not move if the body hangs on others. `avoid`, if any, is a cost such as
-/// contactTask(), weighed against the distance as if 1 were 2 cm. Throws Error for numbers that are not
-/// finite.
+/// inverse kinematics from q (slide 2:29), each of which aims at most 0.1 m farther and leads nearer. Joints
+/// at a limit rest there. Free joints do not move if the body hangs on others. `avoid`, if any, is a cost
+/// such as contactTask(), weighed against the distance as if 1 were 2 cm. Throws Error for numbers that are
+/// not finite.
 [[nodiscard]] Eigen::VectorXd dragged(const Model& model, const Eigen::VectorXd& q, const DragGoal& goal,
                                       const std::optional<TaskMap>& avoid = {}, int steps = 20);
 

@@ -71,6 +71,23 @@ TEST(Drag, TurnsABodyAndStaysClearOfContacts) {
   EXPECT_LT((forwardKinematics(arm, at)[last].R - goal.R).norm(), 1e-3);
 }
 
+// The arm is stretched at the start, where small steps may turn joints far.
+TEST(Drag, StretchesTowardsWhatIsOutOfReachWithoutShaking) {
+  const Model arm = sceneOf("arm7.ors");
+  const BodyId last = arm.joints().back().child;
+  Eigen::VectorXd q = arm.initialPositions();
+  const Pose start = forwardKinematics(arm, q)[last];
+  const DragGoal goal{.body = last, .p_WQ = start.p + Eigen::Vector3d(-0.09, -0.09, -0.08)};
+  double before = (start.p - goal.p_WQ).norm();
+  for (int tick = 0; tick < 200; ++tick) {
+    q = dragged(arm, q, goal);
+    const double distance = (forwardKinematics(arm, q)[last].p - goal.p_WQ).norm();
+    EXPECT_LE(distance, before + 1e-12);
+    before = distance;
+  }
+  EXPECT_LT((dragged(arm, q, goal) - q).norm(), 1e-3);
+}
+
 TEST(Drag, RefusesGoalsThatAreNotFinite) {
   const Model arm = sceneOf("arm3.ors");
   try {

@@ -7,16 +7,14 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <unistd.h>
 
 #include "base/error.h"
 #include "base/escape.h"
 #include "base/interruption.h"
 #include "base/private_folder.h"
 #include "base/text_file.h"
+#include "cli/open_browser.h"
 #include "cli/option_value_internal.h"
 #include "cli/out_folder.h"
 #include "cli/robot/posture_option.h"
@@ -49,21 +47,12 @@ std::string variable(const char* name) {
 }
 
 // Opens a page that leads on to the address: as an argument, everybody on this machine could read the token.
-void openBrowser(const std::string& url, const PrivateFolder& folder) {
+void openPage(const std::string& url, const PrivateFolder& folder) {
   const std::filesystem::path page = folder.path() / "view.html";
   writeTextFile(page,
                 "<!DOCTYPE html><meta charset=\"utf-8\"><meta http-equiv=\"refresh\" content=\"0; url=" +
                     htmlText(url) + "\">\n");
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-    posix_spawn_file_actions_addopen(&actions, fd, "/dev/null", O_RDWR, 0);
-  std::string program = "xdg-open", argument = page.string();
-  char* const argv[] = {program.data(), argument.data(), nullptr};
-  pid_t child = 0;
-  if (posix_spawnp(&child, program.c_str(), &actions, nullptr, argv, environ) != 0)
-    note("no browser could be opened; open the address above in one");
-  posix_spawn_file_actions_destroy(&actions);
+  openInBrowser(page.string());
 }
 
 // How those who came over ssh reach the page.
@@ -138,9 +127,7 @@ ExitCode view(const Project& project, const ViewOptions& options) {
   sayForwarding(server->port());
   say("press Ctrl-C to end");
   std::fflush(stdout);
-  const bool hasScreen = !variable("DISPLAY").empty() || !variable("WAYLAND_DISPLAY").empty();
-  if (!options.noBrowser && hasScreen && variable("SSH_CONNECTION").empty())
-    openBrowser(server->url(), folder);
+  if (!options.noBrowser && hasScreen()) openPage(server->url(), folder);
   try {
     serve(*server, session);
   } catch (const Interrupted&) {
