@@ -161,16 +161,35 @@ grading::Evidence seen(const Simulator& S, const std::string& body, const Motion
   return {.film = std::move(film)};
 }
 
-// The posture after the first step, if the circle were at t and home had that precision.
-Eigen::VectorXd firstPosture(const Simulator& S, const Circle& circle, int t, double home) {
+/// The precisions of the three tasks.
+struct Precisions {
+  double circle = 1e4, pointing = 100, home = 0.01;
+};
+
+// The posture after the first step, if the circle were at t and the tasks had those precisions.
+Eigen::VectorXd firstPosture(const Simulator& S, const Circle& circle, int t, const Precisions& of = {}) {
   const Eigen::VectorXd now = S.getJointAngles();
   const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(now.size(), now.size());
   const Eigen::Vector3d there =
       circle.center + circle.radius * Eigen::Vector3d(std::cos(t / 20.), 0, std::sin(t / 20.));
-  return now + weightedStep({{S.kinematicsPos(circle.hand) - there, S.jacobianPos(circle.hand), 1e4},
-                             {S.kinematicsVec(circle.pointing) - kUp, S.jacobianVec(circle.pointing), 100},
-                             {Eigen::VectorXd::Zero(now.size()), I, home}},
-                            I);
+  return now +
+         weightedStep({{S.kinematicsPos(circle.hand) - there, S.jacobianPos(circle.hand), of.circle},
+                       {S.kinematicsVec(circle.pointing) - kUp, S.jacobianVec(circle.pointing), of.pointing},
+                       {Eigen::VectorXd::Zero(now.size()), I, of.home}},
+                      I);
+}
+
+// Whether the first step is that of precisions in another order.
+std::string questionAboutPrecisions(const Simulator& S, const Circle& circle, const Motion& motion) {
+  const auto isThatOf = [&](const Precisions& of) {
+    return (motion.front() - firstPosture(S, circle, 1, of)).cwiseAbs().maxCoeff() < 1e-7;
+  };
+  const std::string are = " are 1e4 for the circle, 100 for pointing, 0.01 for home.";
+  if (isThatOf({1e4, 0.01, 100})) return "Are the precisions of pointing and of home exchanged? They" + are;
+  if (isThatOf({100, 1e4, 0.01}))
+    return "Are the precisions of the circle and of pointing exchanged? They" + are;
+  if (isThatOf({0.01, 100, 1e4})) return "Are the precisions of the circle and of home exchanged? They" + are;
+  return "";
 }
 
 // 2e-4 m is usual: the home task pulls the hand off its circle in proportion to the precisions.
@@ -188,12 +207,14 @@ void tracks(Check& check, const Simulator& S, const Circle& circle, const Motion
     return seen(S, circle.hand, motion, path);
   });
   const auto strong = check.suspect("Is home as precise as the circle? Its precision is 0.01.",
-                                    firstPosture(S, circle, 1, 1e4));
-  const auto early = check.suspect("Does the circle begin at t = 0? The first step is t = 1.",
-                                   firstPosture(S, circle, 0, 0.01));
-  const auto late = check.suspect("Does the circle begin at t = 2? The first step is t = 1.",
-                                  firstPosture(S, circle, 2, 0.01));
-  const auto usual = check.suspectUsualMistake(motion.front(), firstPosture(S, circle, 1, 0.01), 1e-7);
+                                    firstPosture(S, circle, 1, {.home = 1e4}));
+  const auto early =
+      check.suspect("Does the circle begin at t = 0? The first step is t = 1.", firstPosture(S, circle, 0));
+  const auto late =
+      check.suspect("Does the circle begin at t = 2? The first step is t = 1.", firstPosture(S, circle, 2));
+  const auto usual = check.suspectUsualMistake(motion.front(), firstPosture(S, circle, 1), 1e-7);
+  const std::string question = questionAboutPrecisions(S, circle, motion);
+  const auto exchanged = check.ask(question, !question.empty());
   check.atMostAlong("distance of " + circle.hand + " from its point on the circle, in circleWithTasks",
                     along(S, motion, 20, error), most, "m");
 }
@@ -219,6 +240,8 @@ void pointsUpwards(Check& check, const Simulator& S, const Circle& circle, const
   const auto shown = check.show([&] { return seen(S, circle.pointing, motion); });
   const auto sign = check.ask("Is the error the sum of both directions? It is their difference.",
                               (got.values.front() + kUp).norm() < 0.05);
+  const std::string question = questionAboutPrecisions(S, circle, motion);
+  const auto exchanged = check.ask(question, !question.empty());
   check.nearAlong("z axis of " + circle.pointing + ", in circleWithTasks", got,
                   Motion(got.values.size(), kUp), 0.05);
 }

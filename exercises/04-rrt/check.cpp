@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "both_checks.h"
 #include "interface.h"
 #include "peg_problem.h"
 #include "phase_checks.h"

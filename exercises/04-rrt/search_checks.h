@@ -12,8 +12,7 @@
 
 // Parts 3 to 5: searches in the plane and for the arm, and shorter paths.
 
-/// The random generators passed to students come from a separate stream in each check: rewinding them does
-/// not reveal what the grader draws.
+/// Students get generators of a separate stream: rewinding them does not reveal what the grader draws.
 inline rex::Rng generatorsOf(rex::grading::Check& check) { return check.rng().split(7); }
 
 inline void describe(rex::grading::Check& check, const std::string& world, const PlaneProblem& problem,
@@ -125,11 +124,21 @@ inline void aimsAtTheStart(rex::grading::Check& check, Student& student, rex::Rn
     check.input(fmt::format("{} searches without obstacles, with 80 steps from the goal to the start",
                             searches.size()),
                 {{"goalBias", goalBias}});
-    const OpenSearch& last = searches.back();
-    const auto shown =
-        check.show([&] { return treesSeen(last.problem, {last.search.tree}, last.search.path); });
     const std::string property =
         fmt::format("mean number of nodes in the trees of growBackward with goalBias = {}", goalBias);
+    const auto shown = check.show([&] {
+      rex::Figure figure{
+          .title = "Nodes of each search, and their mean", .xLabel = "search", .yLabel = "nodes"};
+      rex::Histogram sizes{.label = "got"};
+      for (const OpenSearch& one : searches)
+        sizes.heights.push_back(static_cast<double>(one.search.tree.nodes.size()));
+      figure.histograms = {sizes};
+      figure.horizontalLines = {
+          {.at = least, .label = "wanted: mean of at least"},
+          {.at = most, .label = "wanted: mean of at most"},
+          {.at = meanOf(searches), .label = "mean", .color = rex::grading::kWrongColor}};
+      return rex::grading::Evidence{.figures = {figure}};
+    });
     check.atLeast(property, meanOf(searches), least);
     check.atMost(property, meanOf(searches), most);
   };
@@ -138,64 +147,6 @@ inline void aimsAtTheStart(rex::grading::Check& check, Student& student, rex::Rn
                 std::abs(meanOf(rare) / meanOf(often) - 1) < .15);
   fits(0.1, rare, 150, 340);
   fits(0.4, often, 105, 155);
-}
-
-inline void twoTreesAreSound(rex::grading::Check& check, const TwoTreeSearch& search,
-                             const PlaneProblem& problem, double stepSize, const EdgeRecord& record,
-                             const EdgeTest& isFree) {
-  const std::vector<Tree> trees{search.fromStart, search.fromGoal};
-  askedWell(check, "growBoth", record);
-  isTree(check, "growBoth, from the start", search.fromStart, problem.start, true);
-  isTree(check, "growBoth, from the goal", search.fromGoal, problem.goal, true);
-  for (const std::size_t which : {0, 1})
-    edgesAreSound(check, which == 0 ? "growBoth, from the start" : "growBoth, from the goal", trees[which],
-                  stepSize, record, isFree,
-                  [&](std::size_t here) { return treesSeen(problem, trees, search.path, which, here); });
-  const auto shown = check.show([&] { return treesSeen(problem, trees, search.path); });
-  pathIsSound(check, "growBoth", search.path, problem.start, problem.goal, stepSize, record, isFree);
-  pathIsOfTrees(check, "growBoth", search.path, trees);
-}
-
-/// The number of edges of a tree in the plane that do not lead towards a node of the other tree.
-inline int randomSteps(const Tree& tree, const Tree& other) {
-  int count = 0;
-  for (std::size_t i = 1; i < tree.nodes.size(); ++i) {
-    const Eigen::Vector2d from = tree.nodes[static_cast<std::size_t>(tree.parents[i])],
-                          along = (tree.nodes[i] - from).normalized();
-    const auto isAhead = [&](const Eigen::Vector2d& q) {
-      const Eigen::Vector2d way = q - from;
-      return std::abs(along.x() * way.y() - along.y() * way.x()) < 1e-9 && along.dot(way) > -1e-9;
-    };
-    count += std::any_of(other.nodes.begin(), other.nodes.end(), isAhead) ? 0 : 1;
-  }
-  return count;
-}
-
-/// In these worlds both trees have to grow, since one alone would take much longer to get through two gaps:
-/// at least one node in twenty belongs to the smaller of the two. The bias has no effect, even if it is 1.
-inline void growsFromBoth(rex::grading::Check& check, Student& student, const std::string& world,
-                          const PlaneProblem& problem, double goalBias, rex::Rng& given) {
-  const SearchSettings settings = inThePlane(0.06, goalBias, 20000);
-  describe(check, world, problem, settings);
-  const EdgeTest isFree = freeIn(problem.world);
-  EdgeRecord record(isFree, 2);
-  const TwoTreeSearch search =
-      student.growBoth(problem.start, problem.goal, settings, record.test(), rex::Rng(given.next()));
-  const auto biased =
-      check.ask("Do targets depend on goalBias? In growBoth it has no effect.", goalBias == 1);
-  twoTreesAreSound(check, search, problem, settings.stepSize, record, isFree);
-  const double one = static_cast<double>(search.fromStart.nodes.size());
-  const double other = static_cast<double>(search.fromGoal.nodes.size());
-  const auto shown = check.show([&] {
-    return treesSeen(problem, {search.fromStart, search.fromGoal}, search.path);
-  });
-  const auto swapped = check.ask("Do the trees never swap? Each takes random steps in turn.");
-  check.atLeast("number of random steps of the tree from the start in growBoth",
-                randomSteps(search.fromStart, search.fromGoal), 1);
-  check.atLeast("number of random steps of the tree from the goal in growBoth",
-                randomSteps(search.fromGoal, search.fromStart), 1);
-  check.atLeast("number of nodes in the smaller tree of growBoth", std::min(one, other),
-                0.05 * (one + other));
 }
 
 /// The arm as students see it in the checks: its joint angles are rotated at random, q = R (joint angles).

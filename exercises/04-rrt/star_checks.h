@@ -66,11 +66,16 @@ inline void growsWhileItImproves(rex::grading::Check& check, const StarSearch& s
                   shareReached(problem.world, grown, settings.stepSize, check.rng()), 0.95);
   }
   {
-    const auto shown = check.show([&] { return treesSeen(problem, {grown}, {}); });
+    const auto count = std::count(grown.nodes.begin(), grown.nodes.end(), problem.goal);
+    const auto shown = check.show([&] {
+      rex::grading::Evidence evidence = treesSeen(problem, {grown}, {});
+      evidence.figures[0].series.push_back(rex::grading::wrongPoint(
+          fmt::format("{} nodes in one place", count), problem.goal[0], problem.goal[1]));
+      return evidence;
+    });
     const auto again =
         check.ask("Do targets still aim at the goal after a step ended there? Then they are wasted on it.");
-    check.near("number of nodes of growStar that are the goal",
-               static_cast<double>(std::count(grown.nodes.begin(), grown.nodes.end(), problem.goal)), 1, 0);
+    check.near("number of nodes of growStar that are the goal", static_cast<double>(count), 1, 0);
   }
   const Savings savings(problem.world, grown, settings.stepSize);
   {

@@ -143,6 +143,19 @@ inline rex::grading::Evidence rewiredSeen(const PlaneWorld& world, const Tree& g
   return {.figures = {figure}};
 }
 
+/// Marks pieces of a path that are not free, and ends that are not those of the problem.
+inline void markPath(rex::Figure& figure, const PlaneProblem& problem, const Path& path) {
+  const EdgeTest isFree = freeIn(problem.world, 1e-9);
+  std::string label = "not free";
+  for (std::size_t i = 1; i < path.size(); ++i)
+    if (!isFree(path[i - 1], path[i]))
+      figure.series.push_back(rex::grading::through(Path{path[i - 1], path[i]},
+                                                    rex::grading::wrongCurve(std::exchange(label, ""))));
+  label = "not where it should be";
+  for (const auto& [q, wanted] : {std::pair{path.front(), problem.start}, {path.back(), problem.goal}})
+    if (q != wanted) figure.series.push_back(rex::grading::wrongPoint(std::exchange(label, ""), q[0], q[1]));
+}
+
 /// Sound trees between start and goal with the path found in them, and the edge to node `here` of one of
 /// them.
 inline rex::grading::Evidence treesSeen(const PlaneProblem& problem, const std::vector<Tree>& trees,
@@ -154,6 +167,7 @@ inline rex::grading::Evidence treesSeen(const PlaneProblem& problem, const std::
   if (isPath && !path.empty())
     figure.series.push_back(rex::grading::through(path, rex::grading::gotCurve("path")));
   figure.series.push_back(dotsOf("start and goal", 3, kBlack, {problem.start, problem.goal}));
+  if (isPath && !path.empty()) markPath(figure, problem, path);
   if (which >= trees.size() || here == 0 || here >= trees[which].nodes.size()) return {.figures = {figure}};
   const Tree& tree = trees[which];
   const Path ends{tree.nodes[static_cast<std::size_t>(tree.parents[here])], tree.nodes[here]};

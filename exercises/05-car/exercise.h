@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "course/course.h"
@@ -35,6 +36,13 @@ Eigen::Vector3d carStep(const Eigen::Vector3d& x, const Eigen::Vector2d& u, cons
 /// Line 3 of 7:22. Each column of `states` (3 x N) one step later, each with its own noise.
 Eigen::MatrixXd moved(const Eigen::MatrixXd& states, const Eigen::Vector2d& u, const CarWorld& world,
                       rex::Rng& rng);
+/// Given: what two calls make of the same states, one after the other, with one generator.
+inline std::pair<Eigen::MatrixXd, Eigen::MatrixXd> movesOfTwo(const Eigen::MatrixXd& states,
+                                                              const Eigen::Vector2d& u, const CarWorld& world,
+                                                              rex::Rng& rng) {
+  const Eigen::MatrixXd first = moved(states, u, world, rng);
+  return {first, moved(states, u, world, rng)};
+}
 
 // Part 2, how well the particles explain an observation (12.9.1 b).
 

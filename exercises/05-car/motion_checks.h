@@ -215,6 +215,10 @@ inline void spreadsWell(rex::grading::Check& check, Student& student, double noi
     const auto own = check.ask("Does moved make a generator of its own? All randomness comes from rng.");
     check.that("moved gives other noise with another rng", other != move.after);
   }
-  const auto outside = check.ask("Is there other randomness, as from rand()? All randomness comes from rng.");
+  const auto outside = check.ask("Is there other randomness, as from rand()? All randomness comes from rng.",
+                                 again != move.after);
   check.that("moved gives the same noise with the same rng", again == move.after);
+  const auto [once, twice] = student.movesOfTwo(move.before, u, world, rex::Rng(seed));
+  const auto copy = check.ask("Does moved draw from a copy of rng? Pass rng by reference.");
+  check.that("moved gives other noise when it is called again with the same rng", once != twice);
 }

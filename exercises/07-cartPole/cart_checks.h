@@ -22,6 +22,14 @@ inline void ratesFit(rex::grading::Check& check, Student& student, const PoleCar
   const Eigen::Vector4d wanted = dynamicsOf(cart).derivative(x, u);
   const auto length =
       check.ask("It is right for the cart of the sheet: is l left out, which is 1 there?", cart.l != 1);
+  // The denominator of eq. (14) with 1 in place of 4 / 3.
+  const double share = cart.l * cart.poleMass / (cart.poleMass + cart.cartMass), c = std::cos(x[2]),
+               rest = cart.l - share * c * c;
+  Eigen::Vector4d whole = wanted;
+  whole[3] *= (rest + cart.l / 3) / rest;
+  whole[1] -= share * c * (whole[3] - wanted[3]);
+  const auto integers =
+      check.suspect("Is 4 / 3 computed with integers? That is 1 in C++; write 4. / 3.", whole);
   check.near("(p', p'', theta', theta'') of rateOf", student.rateOf(cart, x, u), wanted,
              1e-9 * (1 + wanted.norm()));
 }
@@ -50,6 +58,13 @@ inline Eigen::Vector4d euler(const PoleCart& cart, const Eigen::Vector4d& x, dou
   return x + tau * dynamicsOf(cart).derivative(x, u) + noise * Eigen::Vector4d(0, first, 0, second);
 }
 
+/// Two uniform numbers of that generator: of deviation 1, in [-1, 1], in [-1/2, 1/2] and in [0, 1].
+inline std::vector<Eigen::Vector2d> uniformNumbers(rex::Rng rng) {
+  const double first = rng.uniform(), second = rng.uniform();
+  const Eigen::Vector2d drawn(first, second), middle = drawn.array() - .5;
+  return {std::sqrt(12) * middle, 2 * middle, middle, drawn};
+}
+
 inline void stepFits(rex::grading::Check& check, Student& student, const PoleCart& cart, double noise) {
   rex::Rng& rng = check.rng();
   const Eigen::Vector4d x = rng.normalVector(4);
@@ -73,6 +88,14 @@ inline void stepFits(rex::grading::Check& check, Student& student, const PoleCar
                                   ratesOf(stepWith(noise * std::sqrt(tau))));
   const auto times = check.suspect("Is the noise multiplied by tau? It is added as it is, in each step.",
                                    ratesOf(stepWith(noise * tau)));
+  const std::vector<Eigen::Vector2d> uniform = uniformNumbers(given);
+  const auto asUniform = [&](std::size_t i) -> Eigen::Vector2d {
+    return ratesOf(stepWith(0)) + noise * uniform[i];
+  };
+  const char* isUniform = "Is the noise uniform? Wanted are normal numbers, those of rng.normal().";
+  const auto asWide = check.suspect(isUniform, asUniform(0)), asOne = check.suspect(isUniform, asUniform(1)),
+             asHalf = check.suspect(isUniform, asUniform(2)),
+             asPositive = check.suspect(isUniform, asUniform(3));
   const auto none = check.suspect("Is the noise missing?", ratesOf(stepWith(0)));
   const auto minus = check.suspect("Is the noise subtracted?", ratesOf(stepWith(-noise)));
   const Eigen::Vector2d still = ratesOf(stepWith(0)), kick = ratesOf(wanted) - still;
@@ -167,7 +190,7 @@ inline Eigen::MatrixXd outingFits(rex::grading::Check& check, Student& student, 
   rex::grading::Signal angles{.axis = "time [s]"}, got = angles;
   std::vector<Eigen::VectorXd> wanted;
   double largest = 1;
-  bool hasFallen = false;
+  bool hasFallen = false, isRepeated = outing.noise > 0 && states.cols() > 2;
   for (Eigen::Index t = 0; t + 1 < states.cols(); ++t) {
     const Eigen::Vector4d x = states.col(t);
     angles.add(outing.tau * static_cast<double>(t), std::abs(x[2]));
@@ -176,10 +199,15 @@ inline Eigen::MatrixXd outingFits(rex::grading::Check& check, Student& student, 
     got.add(outing.tau * static_cast<double>(t + 1), states.col(t + 1));
     wanted.emplace_back(euler(cart, x, (K * x)[0], outing.tau, outing.noise, same));
     largest = std::max(largest, 1 + wanted.back().norm());
+    rex::Rng first = given;
+    const Eigen::Vector4d repeated = euler(cart, x, (K * x)[0], outing.tau, outing.noise, first);
+    isRepeated = isRepeated && (repeated - states.col(t + 1)).norm() < 1e-9 * largest;
   }
   const auto shown =
       check.show([&] { return seen(states, statesOf(cart, K, start, outing, given), outing.tau); });
   if (!wanted.empty()) {
+    const auto copied = check.ask(
+        "Does each step get the same noise? Pass rng on by reference, not a copy of it.", isRepeated);
     check.nearAlong("(p, p', theta, theta') in balanced, next to a step from the state before", got, wanted,
                     1e-9 * largest);
     const auto goesOn = check.ask("Does the outing go on after the pole has fallen?");

@@ -46,10 +46,15 @@ inline const char* questionAbout(const Eigen::MatrixXd& got, double tolerance,
   return check.ask(question == nullptr ? "" : question, question != nullptr);
 }
 
-/// Values as bars, with the wanted ones as dots and a ring where they differ most.
+/// Values as bars, with the wanted ones as dots and a ring where they differ most. If no bar shows that
+/// difference, bars of it.
 inline rex::grading::Evidence barsSeen(const std::string& title, const std::string& number,
                                        const Eigen::MatrixXd& got, const Eigen::MatrixXd& wanted) {
   if (got.size() != wanted.size() || got.size() == 0) return {};
+  const double most = (got.reshaped() - wanted.reshaped()).cwiseAbs().maxCoeff();
+  if (most > 0 && most < 0.01 * wanted.cwiseAbs().maxCoeff())
+    return barsSeen(title + ", minus what was wanted", number, got.reshaped() - wanted.reshaped(),
+                    Eigen::VectorXd::Zero(got.size()));
   const auto numbers = [](const Eigen::MatrixXd& M) {
     return std::vector<double>(M.data(), M.data() + M.size());
   };

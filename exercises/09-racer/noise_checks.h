@@ -100,13 +100,14 @@ inline void noiseIsIndependent(rex::grading::Check& check, Student& student, int
       check.show([&] { return cloudOf(got, deviation, "noise of x' [m/s]", "noise of theta' [rad/s]"); });
   {
     const auto same = check.ask("Do both velocities get the same number?", got.row(0) == got.row(1));
-    check.near("correlation of the noise of x' and of theta'", correlationOf(got), 0, 6 / std::sqrt(steps));
+    check.near("correlation of the noise of x' and of theta' by kicks", correlationOf(got), 0,
+               6 / std::sqrt(steps));
   }
   Eigen::Matrix2Xd successive(2, 2 * steps - 2);
   successive << got.leftCols(steps - 1).reshaped().transpose(),
       got.rightCols(steps - 1).reshaped().transpose();
   const auto inTime =
       check.show([&] { return cloudOf(successive, deviation, "noise of a step", "noise of the next step"); });
-  check.near("correlation of the noise of a step and of the next", correlationOf(successive), 0,
+  check.near("correlation of the noise of a step and of the next by kicks", correlationOf(successive), 0,
              6 / std::sqrt(2. * steps));
 }

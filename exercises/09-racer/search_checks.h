@@ -150,7 +150,7 @@ inline void searchSucceeds(rex::grading::Check& check, Student& student, const S
       evidence.figures.insert(evidence.figures.begin(), lengths);
       return evidence;
     });
-    check.atLeast(fmt::format("number of 100 other rides that last {} steps", steps),
+    check.atLeast(fmt::format("number of 100 other rides with searchedPolicy that last {} steps", steps),
                   static_cast<double>((rides.steps.array() == steps).count()), wanted);
   }
 }
@@ -177,5 +177,5 @@ inline void searchedPolicyStays(rex::grading::Check& check, Student& student, co
     evidence.figures.insert(evidence.figures.begin(), all);
     return evidence;
   });
-  check.atMost("mean cost per step of 16 rides over 50000 steps", costs.mean(), limit);
+  check.atMost("mean cost per step of 16 rides with searchedPolicy over 50000 steps", costs.mean(), limit);
 }

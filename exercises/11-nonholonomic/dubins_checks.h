@@ -86,9 +86,22 @@ inline void checkPieces(rex::grading::Check& check, const std::string& function,
                      {"to", to},
                      {"radius", radius},
                      {"your lengths", Eigen::Vector3d(lengths[0], lengths[1], lengths[2])}});
+  const auto isLong = [&](std::size_t i) {
+    const double least = i == 1 && word[1] != 'S' ? kPi * radius - 1e-6 : 0;
+    return lengths[i] >= least && (word[i] == 'S' || lengths[i] <= 2 * kPi * radius + 1e-6);
+  };
   const auto shown = check.show([&] {
-    return dubinsSeen(word + " from start to goal", piecesOf(word, lengths, from, radius), from, to, radius,
-                      false);
+    const Poses pieces = piecesOf(word, lengths, from, radius);
+    rex::grading::Evidence evidence =
+        dubinsSeen(word + " from start to goal", pieces, from, to, radius, false);
+    for (std::size_t i = 0; i < 3; ++i)
+      if (!isLong(i)) {
+        const auto first = pieces.begin() + 50 * static_cast<std::ptrdiff_t>(i);
+        evidence.figures.front().series.push_back(rex::grading::through(
+            Poses(first, first + 51), rex::grading::wrongCurve("a piece of impossible length", {}, {})));
+        break;
+      }
+    return evidence;
   });
   const auto asked = askThat(check, whyAstray(word, lengths, from, to, radius));
   for (std::size_t i = 0; i < 3; ++i) {

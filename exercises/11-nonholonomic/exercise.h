@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "course/course.h"
@@ -29,7 +30,8 @@ struct Drive {
 Eigen::Vector3d velocityOf(const CarModel& car, const Eigen::Vector3d& q, double speed, double steering);
 
 /// The pose that a car at q reaches by a drive. Accurate to 1 mm and 1 mrad for each metre driven, in
-/// closed form or by many small steps; the steering angle may be zero, or tiny.
+/// closed form, or in small steps, each along its mean heading: 10 cm are short enough, and park() may call
+/// this a million times. The steering angle may be zero, or tiny.
 Eigen::Vector3d driven(const CarModel& car, const Eigen::Vector3d& q, const Drive& drive);
 
 /// Could a car follow this trajectory (4:50)? Yes, if it gets from each pose to the next with constant
@@ -61,6 +63,13 @@ bool isFree(const CarModel& car, const Eigen::Vector3d& q, const std::vector<Blo
 std::optional<Drive> driveTowards(const CarModel& car, const Eigen::Vector3d& from,
                                   const Eigen::Vector3d& target, double seconds,
                                   const std::vector<Block>& blocks, rex::Rng& rng);
+/// Given: the drives of two calls, one after the other, with one generator.
+inline std::pair<std::optional<Drive>, std::optional<Drive>> drivesOfTwo(
+    const CarModel& car, const Eigen::Vector3d& from, const Eigen::Vector3d& target, double seconds,
+    const std::vector<Block>& blocks, rex::Rng& rng) {
+  const std::optional<Drive> first = driveTowards(car, from, target, seconds, blocks, rng);
+  return {first, driveTowards(car, from, target, seconds, blocks, rng)};
+}
 
 /// The start of a car, its goal, and what is in the way. There is no use in leaving the rectangle from
 /// `lower` to `upper` (x, y): it is surrounded by walls, which are among the blocks.
@@ -108,7 +117,7 @@ DubinsWay shortestDubins(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
 /// within 0.05 rad; it never steers beyond its limits, and its body touches no block on the way. A scratch
 /// of 5 cm is tolerated, here and in part 2. Some cars turn left only. Spaces at the kerb are at least 1.6
 /// m longer than the car (2.8 m for those cars), spaces across the street are at least 2.5 m apart from
-/// middle to middle; streets are 6.5 to 10 m wide. A check has up to five of them, and 10 s for all.
+/// middle to middle; streets are 6.5 to 10 m wide. A check has up to five of them, and 20 s for all.
 std::vector<Drive> park(const CarModel& car, const World& lot);
 
 // Part 5, a trailer (4:57).

@@ -100,6 +100,18 @@ inline void shareFits(rex::grading::Check& check, Nearness shares, int count, co
                shares[0], kMost);
 }
 
+/// The drives of two calls with one generator, of which each draws its own controls.
+inline void drivesDiffer(rex::grading::Check& check, Student& student) {
+  const CarModel car;
+  const Eigen::Vector3d from = randomPose(check.rng(), 5), target = moved(from, {6, 3, 1});
+  check.input("two calls with one rng, and nothing in the way", {{"from", from}, {"target", target}});
+  const auto [first, second] = student.drivesOfTwo(car, from, target, 2, {}, check.rng().split(98));
+  check.that("driveTowards returns a drive, since nothing is in the way", first && second);
+  const auto copy = check.ask("Does driveTowards draw from a copy of rng? Pass rng by reference.");
+  check.that("driveTowards draws other controls when it is called again with the same rng",
+             first->steering != second->steering);
+}
+
 inline void drivesFit(rex::grading::Check& check, Student& student) {
   rex::Rng& rng = check.rng();
   std::array<Nearness, 2> sums{};
@@ -146,6 +158,7 @@ inline void drivesFit(rex::grading::Check& check, Student& student) {
   rex::Rng given = rng.split(99);
   check.that("driveTowards returns nothing, since all ways are blocked",
              !student.driveTowards({}, {0, 0, 0}, {9, 0, 0}, 1.5, {{{2, 0, 0}, 9, 9}}, given).has_value());
+  drivesDiffer(check, student);
 }
 
 /// A room of 24 m x 16 m: two walls that leave a gap of 4 m at one end at least, something small between

@@ -32,9 +32,23 @@ inline void isAssembled(rex::grading::Check& check, Student& student, int n, int
   const FullSystem without = denseSystem(later, n, steps);
   const char* dropped =
       "Are the terms left out that reach into the prefix? Only their columns of it do not count.";
+  // The same rows, one block of columns further to the left for each order that a term lacks.
+  std::vector<Term> early = terms;
+  for (Term& term : early) {
+    const Eigen::MatrixXd J = term.J;
+    term.J = Eigen::MatrixXd::Zero(J.rows(), (k + 1) * n);
+    term.J.leftCols(J.cols()) = J;
+  }
+  const FullSystem shifted = denseSystem(early, n, steps);
+  const char* columns =
+      "Does the J of each term begin k configurations back, with the largest order k? That of a term of "
+      "order i "
+      "begins i back.";
+  const auto earlyGradient = check.suspect(columns, shifted.g);
   const auto noGradient = check.suspect(dropped, without.g);
   check.near("gradient g of assembled", got.g, wanted.g, 1e-9 * (1 + wanted.g.cwiseAbs().maxCoeff()));
   const int rows = (k + 1) * n;
+  const auto earlyBand = check.suspect(columns, bandOf(shifted.H, rows));
   const auto noBand = check.suspect(dropped, bandOf(without.H, rows));
   const auto transposed = check.suspect("Are the blocks of H between two configurations transposed?",
                                         bandOf(blocksTransposed(wanted.H, n), rows));
@@ -96,12 +110,26 @@ inline rex::grading::Evidence slopesSeen(const Terms& terms, const std::vector<E
   return {.figures = {std::move(figure)}};
 }
 
+/// Whether H of the last trajectory is singular, although the gradient is not small.
+inline bool endsWhereSingular(const Terms& terms, const std::vector<Eigen::MatrixXd>& path,
+                              const Eigen::MatrixXd& start, double tolerance) {
+  const Eigen::MatrixXd& X = path.empty() ? start : path.back();
+  if (X.rows() != start.rows() || X.cols() != start.cols() || !X.allFinite()) return false;
+  const FullSystem system = denseSystem(terms(X), static_cast<int>(X.rows()), static_cast<int>(X.cols()));
+  const Eigen::VectorXd s = rex::svd(system.H).s;
+  return system.g.cwiseAbs().maxCoeff() > tolerance && s[s.size() - 1] < 1e-9 * s[0];
+}
+
 inline void descends(rex::grading::Check& check, Student& student, const std::string& name,
                      const Terms& terms, const Eigen::MatrixXd& start, std::size_t mostSteps) {
   const auto n = static_cast<int>(start.rows()), steps = static_cast<int>(start.cols());
   const double tolerance = 1e-6;
   check.input(name + fmt::format(", n = {}, T = {}, tolerance = {:g}", n, steps, tolerance));
   const std::vector<Eigen::MatrixXd> path = student.descended(terms, start, tolerance);
+  const auto singular = check.ask(
+      "Does it end where H is singular? Add a number to the diagonal of H, and try again: that damps the "
+      "step.",
+      endsWhereSingular(terms, path, start, tolerance));
   check.atLeast("number of trajectories that descended returns", static_cast<double>(path.size()), 2);
   check.atMost("number of steps of descended", static_cast<double>(path.size()) - 1, 300);
   for (const Eigen::MatrixXd& X : path) check.shape("trajectory", X, n, steps);

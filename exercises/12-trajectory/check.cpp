@@ -447,7 +447,7 @@ void getsAround(Check& check, Student& student, const Scene& scene) {
     cost += (all.middleCols(t, 3) * weightsOf(2, errand.tau)).squaredNorm();
     costs.add(static_cast<double>(t), cost);
   }
-  check.atMostAlong("cost of the motion up to a step", costs, errand.budget);
+  check.atMostAlong("cost of the motion of aroundObstacle up to a step", costs, errand.budget);
   const ContactModel contacts(S.model());
   const auto clearance = [&](Eigen::Index from, Eigen::Index to) {
     return motionClearance(S.model(), contacts, path.col(from), path.col(to), 1e-4);
@@ -458,10 +458,11 @@ void getsAround(Check& check, Student& student, const Scene& scene) {
     clearancesBetween.add(static_cast<double>(t), clearance(t, t + 1));
   }
   const double least = 0.8 * errand.margin - 1e-4;
-  check.atLeastAlong("clearance of a configuration", clearancesAt, least, "m");
+  check.atLeastAlong("clearance of a configuration of aroundObstacle", clearancesAt, least, "m");
   const auto between =
       check.ask("Are only the configurations kept apart, and not what lies between them?", true);
-  check.atLeastAlong("clearance on the way from x_{t-1} to x_t", clearancesBetween, least, "m");
+  check.atLeastAlong("clearance on the way from x_{t-1} to x_t of aroundObstacle", clearancesBetween, least,
+                     "m");
 }
 
 void aroundTheBall(Check& check, Student& student) {

@@ -117,11 +117,44 @@ void impacts(Check& check, Student& student) {
   for (int i = 0; i < 20; ++i) impactFits(check, student, {});
 }
 
+bool hasFallen(rex::StepStatus status) {
+  return status == rex::StepStatus::kFellForward || status == rex::StepStatus::kFellBackward;
+}
+
+// Whether the legs would come down after the fall, if they could swing on below the ground.
+bool wouldLandLater(const Walker& walker, Eigen::Vector4d x) {
+  const rex::CompassGait library = libraryOf(walker);
+  const double tau = 1e-3;
+  const auto sum = [&](const Eigen::Vector4d& at) { return at[0] + at[1] + 2 * walker.slope; };
+  for (double time = 0; time < 4.5 && std::abs(x[0]) < 3; time += tau) {
+    const Eigen::Vector4d middle = x + tau / 2 * library.derivative(x), before = x;
+    x += tau * library.derivative(middle);
+    if (sum(before) > 0 && sum(x) <= 0 && x[1] > x[0] + .05) return true;
+  }
+  return false;
+}
+
+// A fall ends the step, and so do five seconds: with a hundredth of g all takes ten times as long.
+void endsInTime(Check& check, Student& student, const KnownGait& gait) {
+  Eigen::Vector4d x;
+  do {
+    const double stance = check.rng().uniform(.1, .25);
+    x = {stance, -2 * gait.walker.slope - stance, check.rng().uniform(-3, 3), check.rng().uniform(-6, 6)};
+  } while (!hasFallen(libraryOf(gait.walker).step(x, 5).status) || !wouldLandLater(gait.walker, x));
+  doesNotStep(check, student, gait.walker, x, "the walker falls");
+  Walker floating = gait.walker;
+  floating.g /= 100;
+  x = gait.x;
+  x.tail<2>() /= 10;
+  doesNotStep(check, student, floating, x, "the foot lands after more than 5 s");
+}
+
 void steps(Check& check, Student& student) {
   const KnownGait gait = gaitOf({});
   for (int i = 0; i < 5; ++i) stepFits(check, student, gait);
   stepFits(check, student, gait, .03);
-  doesNotStep(check, student, gait.walker, {.22, -.22 - 2 * gait.walker.slope, -.3, -.3});
+  doesNotStep(check, student, gait.walker, {.22, -.22 - 2 * gait.walker.slope, -.3, -.3}, "the walker falls");
+  endsInTime(check, student, gait);
 }
 
 void derivatives(Check& check, Student& student) {

@@ -252,9 +252,9 @@ inline void stepFits(rex::grading::Check& check, Student& student, const KnownGa
 }
 
 inline void doesNotStep(rex::grading::Check& check, Student& student, const Walker& walker,
-                        const Eigen::Vector4d& x) {
+                        const Eigen::Vector4d& x, const std::string& reason) {
   check.input(described(walker, x));
-  check.that("stepFrom() returns nothing if the walker falls", !student.stepFrom(walker, x).has_value());
+  check.that("stepFrom() returns nothing if " + reason, !student.stepFrom(walker, x).has_value());
 }
 
 inline void derivativeFits(rex::grading::Check& check, Student& student, const KnownGait& gait) {

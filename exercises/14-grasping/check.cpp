@@ -340,7 +340,7 @@ void placesFingersAnywhere(Check& check, Student& student) {
   check.forEachCase(6, [&](int i) {
     const int count = 2 + i % 3;
     for (;;) {
-      const Plate plate = i == 4 ? randomFork(rng) : randomPlate(rng);
+      const Plate plate = i == 1 ? randomWings(rng) : i == 4 ? randomFork(rng) : randomPlate(rng);
       const double friction = i == 5 ? 0 : rng.uniform(count == 2 ? 0.4 : 0.2, 0.8);
       const double best = bestKnown(plate, friction, count, rng);
       if (best < 0.1) continue;

@@ -52,18 +52,33 @@ inline Plate randomPlate(rex::Rng& rng) {
   }
 }
 
+inline std::vector<Eigen::Vector2d> rotatedBy(double turn, std::vector<Eigen::Vector2d> corners) {
+  for (Eigen::Vector2d& corner : corners)
+    corner = Eigen::Vector2d(std::cos(turn) * corner.x() - std::sin(turn) * corner.y(),
+                             std::sin(turn) * corner.x() + std::cos(turn) * corner.y());
+  return corners;
+}
+
+/// A V whose centroid lies in its opening: the normals of two of its four sides point away from it.
+inline Plate randomWings(rex::Rng& rng) {
+  const double reach = rng.uniform(0.05, 0.08), height = rng.uniform(0.09, 0.12),
+               middle = rng.uniform(0.02, 0.03);
+  return plateOf(rotatedBy(rng.uniform(0, 6), {{0, 0}, {reach, height}, {0, middle}, {-reach, height}}));
+}
+
 /// A U whose centroid lies in its opening or near it: the normals of the opening's sides point away from it.
 inline Plate randomFork(rex::Rng& rng) {
   const double width = rng.uniform(0.08, 0.12), height = rng.uniform(0.08, 0.12),
                bar = rng.uniform(0.018, 0.025);
   const double turn = rng.uniform(0, 6);
-  std::vector<Eigen::Vector2d> corners{
-      {0, 0},     {width, 0},    {width, height}, {width - bar, height}, {width - bar, bar},
-      {bar, bar}, {bar, height}, {0, height}};
-  for (Eigen::Vector2d& corner : corners)
-    corner = Eigen::Vector2d(std::cos(turn) * corner.x() - std::sin(turn) * corner.y(),
-                             std::sin(turn) * corner.x() + std::cos(turn) * corner.y());
-  return plateOf(corners);
+  return plateOf(rotatedBy(turn, {{0, 0},
+                                  {width, 0},
+                                  {width, height},
+                                  {width - bar, height},
+                                  {width - bar, bar},
+                                  {bar, bar},
+                                  {bar, height},
+                                  {0, height}}));
 }
 
 /// A finger at a random position on the edges of a plate.

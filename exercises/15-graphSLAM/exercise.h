@@ -22,7 +22,8 @@ Eigen::Vector3d seenFrom(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 Eigen::Vector3d edgeError(const Eigen::Vector3d& i, const Eigen::Vector3d& j, const Eigen::Vector3d& z);
 
 /// The derivatives (3 x 3) of this error with respect to the three numbers of pose i, and to those of pose
-/// j. By a formula or by finite differences, accurate to 1e-5.
+/// j. By a formula or by finite differences, accurate to 1e-5; also where the heading of the error jumps
+/// from pi to -pi: the jump itself does not count.
 struct EdgeJacobians {
   Eigen::Matrix3d byI = Eigen::Matrix3d::Zero(), byJ = Eigen::Matrix3d::Zero();
 };
@@ -114,5 +115,6 @@ std::optional<Eigen::Vector3d> loopMotion(const Points& reference, const Points&
 
 /// The poses of a map in which at most three out of ten loops are wrong by metres; odometry is right. On
 /// five out of twelve maps the positions are those without the wrong loops, within 10 cm (root mean square):
-/// some wrong loops cannot be distinguished from right ones. Pose 0 stays. The start is odometry.
+/// some wrong loops cannot be distinguished from right ones. Pose 0 stays. The start is odometry. Twelve maps
+/// of 120 poses have 10 s together: time for some hundred steps per map.
 std::vector<Eigen::Vector3d> robustlyAdjusted(const PoseMap& map);

@@ -99,6 +99,9 @@ inline void derivativesFit(rex::grading::Check& check, const EdgeJacobians& got,
   Eigen::MatrixXd opposite = byI, still = byI;
   opposite.col(2).head(2) *= -1;
   still.col(2).head(2).setZero();
+  const auto jumps =
+      check.ask("Is the difference of two headings not wrapped? It may jump by a whole turn.",
+                std::max(got.byI.row(2).cwiseAbs().maxCoeff(), got.byJ.row(2).cwiseAbs().maxCoeff()) > 100);
   const char* ofJ = "Has it the sign of the derivative by pose i? Where j moves, the error moves along.";
   const char* ofZ = "Is z left out of the rotation? The error is in the axes of where z puts j.";
   nearOrAsk(check, "byI of edgeJacobians", got.byI, byI, 1e-5,

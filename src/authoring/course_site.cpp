@@ -45,12 +45,10 @@ class SiteWriter {
  public:
   SiteWriter(fs::path root, fs::path target) : root_(std::move(root)), target_(std::move(target)) {}
 
-  // A page from Markdown text whose links are relative to the folder `from` of the project.
-  void addMarkdown(const fs::path& file, const std::string& markdown, const fs::path& from,
-                   const std::string& before, const std::string& after) {
-    const fs::path folder = file.parent_path();
-    const MarkdownPage page =
-        pageOf(markdown, [&](const std::string& link) { return targetOf(link, from, folder); });
+  // A page from a Markdown file of the project, between two pieces of HTML. Returns its title.
+  std::string addMarkdown(const fs::path& file, const fs::path& source, const std::string& before = "",
+                          const std::string& after = "") {
+    const MarkdownPage page = pageFrom(source, file.parent_path());
     const std::string title = page.sections.empty() ? file.stem().string() : page.sections.front().title;
     for (const PageSection& section : page.sections)
       entries_.push_back({{"page", title},
@@ -58,6 +56,7 @@ class SiteWriter {
                           {"url", file.generic_string() + "#" + section.anchor},
                           {"text", section.text}});
     write(file, title, before + page.html + after);
+    return title;
   }
 
   void write(const fs::path& file, const std::string& title, const std::string& body) {
@@ -95,6 +94,17 @@ class SiteWriter {
   [[nodiscard]] int pages() const { return pages_; }
 
  private:
+  MarkdownPage pageFrom(const fs::path& source, const fs::path& folder) {
+    try {
+      return pageOf(readTextFile(root_ / source),
+                    [&](const std::string& link) { return targetOf(link, source.parent_path(), folder); });
+    } catch (const Error& error) {
+      ErrorParts parts = error.parts();
+      if (parts.where.file.empty()) parts.where.file = source.generic_string();
+      throw Error(std::move(parts));
+    }
+  }
+
   // Where a link of a file in that folder leads from a page in `page`; empty: to nothing on the site.
   std::string targetOf(const std::string& link, const fs::path& from, const fs::path& page) {
     if (link.starts_with('#') || link.starts_with("http:") || link.starts_with("https:")) return link;
@@ -117,6 +127,9 @@ class SiteWriter {
       if (std::any_of(std::begin(kDocuments), std::end(kDocuments), isIt) && fs::exists(root_ / file))
         return fs::path("documents") / inside.stem().concat(".html");
     }
+    if (name.starts_with("notes/") && file.extension() == ".md" &&
+        fs::exists(target_ / "notes" / file.stem().concat(".html")))
+      return fs::path("notes") / file.stem().concat(".html");
     if (const fs::path inside = file.lexically_relative("exercises"); name.starts_with("exercises/")) {
       const fs::path exercise = *inside.begin();
       if (fs::exists(root_ / "exercises" / exercise / "exercise.toml"))
@@ -146,60 +159,96 @@ std::string contract(const fs::path& folder) {
                      htmlText(readTextFile(folder / "exercise.h")));
 }
 
-std::string firstPage(const std::vector<ExerciseInfo>& exercises,
-                      const std::vector<const Document*>& documents) {
-  std::string rows, list;
+std::string linkTo(const std::string& file, const std::string& title) {
+  return fmt::format("<li><a href=\"{}\">{}</a></li>\n", htmlText(file), htmlText(title));
+}
+
+// `documents` and `notes` are items of lists.
+std::string firstPage(const std::vector<ExerciseInfo>& exercises, const std::string& documents,
+                      const std::string& notes) {
+  std::string rows;
   for (const ExerciseInfo& one : exercises)
     rows += fmt::format(
         "<tr><td><a href=\"exercises/{0}.html\">{0}</a></td><td>{1}</td><td>{2}</td><td>{3}</td></tr>\n",
         htmlText(one.name), htmlText(one.title), htmlText(one.script), one.points());
-  for (const Document* one : documents)
-    list += fmt::format("<li><a href=\"documents/{}.html\">{}</a></li>\n",
-                        fs::path(one->name).stem().string(), one->title);
   return fmt::format(
-      "<h1>Robotics exercises</h1>\n<table>\n<tr><th>exercise</th><th>about</th>"
-      "<th>script</th><th>points</th></tr>\n{}</table>\n<h2>Documents</h2>\n<ul>\n{}</ul>\n",
-      rows, list);
+             "<h1>Robotics exercises</h1>\n<table class=\"names\">\n<tr><th>exercise</th><th>about</th>"
+             "<th>script</th><th>points</th></tr>\n{}</table>\n<h2>Documents</h2>\n<ul>\n{}</ul>\n",
+             rows, documents) +
+         (notes.empty() ? "" : "<h2>Lecturer's notes</h2>\n<ul>\n" + notes + "</ul>\n");
 }
 
-int writePages(const fs::path& root, const fs::path& target) {
+// Returns links to them.
+std::string addNotes(SiteWriter& site, const fs::path& root) {
+  std::vector<std::string> names;
+  if (fs::is_directory(root / "notes"))
+    for (const auto& entry : fs::directory_iterator(root / "notes"))
+      if (entry.path().extension() == ".md") names.push_back(entry.path().stem().string());
+  if (names.empty())
+    throw Error({.what = "no lecturer's notes",
+                 .where = {(root / "notes").string()},
+                 .wanted = "files such as 01-kinematics.md"});
+  std::sort(names.begin(), names.end());
+  std::string links;
+  for (const std::string& name : names) {
+    const std::string page = "notes/" + name + ".html";
+    links += linkTo(
+        page, site.addMarkdown(page, "notes/" + name + ".md",
+                               "<p class=\"private\">For lecturers: students must not get this page.</p>\n"));
+  }
+  return links;
+}
+
+int writePages(const fs::path& root, const fs::path& target, SiteReaders readers) {
   SiteWriter site(root, target);
   const std::vector<ExerciseInfo> exercises = listExercises(root / "exercises");
   for (const ExerciseInfo& one : exercises)
-    site.addMarkdown(fs::path("exercises") / (one.name + ".html"), readTextFile(one.folder / "README.md"),
-                     fs::path("exercises") / one.name, "", pointsTable(one) + contract(one.folder));
-  std::vector<const Document*> documents;
+    site.addMarkdown(fs::path("exercises") / (one.name + ".html"),
+                     fs::path("exercises") / one.name / "README.md", "",
+                     pointsTable(one) + contract(one.folder));
+  std::string documents, notes;
   for (const Document& one : kDocuments) {
-    const fs::path file = root / "share" / "doc" / one.name;
-    if (!fs::exists(file)) continue;
-    documents.push_back(&one);
-    site.addMarkdown(fs::path("documents") / fs::path(one.name).stem().concat(".html"), readTextFile(file),
-                     "share/doc", "", "");
+    const fs::path file = fs::path("share/doc") / one.name;
+    if (!fs::exists(root / file)) continue;
+    const fs::path page = fs::path("documents") / file.stem().concat(".html");
+    site.addMarkdown(page, file);
+    documents += linkTo(page.generic_string(), one.title);
   }
-  site.write("index.html", "Robotics exercises", firstPage(exercises, documents));
+  if (readers == SiteReaders::kLecturers) notes = addNotes(site, root);
+  site.write("index.html", "Robotics exercises", firstPage(exercises, documents, notes));
   site.finish();
   return site.pages();
 }
 
 }  // namespace
 
-CourseSite writeCourseSite(const fs::path& root, const fs::path& target, const fs::path& courseSecret) {
-  if (fs::exists(target) && !(fs::is_directory(target) && fs::is_empty(target)))
-    throw UsageError(
-        {.what = "will not overwrite", .where = {target.string()}, .wanted = "an empty or new folder"});
+CourseSite writeCourseSite(const fs::path& root, const fs::path& target, const fs::path& courseSecret,
+                           SiteReaders readers) {
+  const auto unwritten = [&](const fs::filesystem_error& error) {
+    return Error({.what = "cannot write the pages of the course",
+                  .where = {(error.path1().empty() ? target : error.path1()).string()},
+                  .found = error.code().message()});
+  };
   try {
-    CourseSite site{.pages = writePages(root, target)};
-    site.scan = scanForLeaks(target, secretsOfCourse(root, courseSecret));
+    if (fs::exists(target) && !(fs::is_directory(target) && fs::is_empty(target)))
+      throw UsageError(
+          {.what = "will not overwrite", .where = {target.string()}, .wanted = "an empty or new folder"});
+  } catch (const fs::filesystem_error& error) {
+    throw unwritten(error);
+  }
+  std::error_code ignored;
+  try {
+    CourseSite site{.pages = writePages(root, target, readers)};
+    std::vector<Secret> secrets = secretsOfCourse(root, courseSecret);
+    if (readers == SiteReaders::kLecturers)
+      std::erase_if(secrets, [](const Secret& one) { return one.kind == SecretKind::kLecturersNote; });
+    site.scan = scanForLeaks(target, secrets);
     if (!site.scan.leaks.empty()) fs::remove_all(target);
     return site;
   } catch (const fs::filesystem_error& error) {
-    std::error_code ignored;
     fs::remove_all(target, ignored);
-    throw Error({.what = "cannot write the pages of the course",
-                 .where = {(error.path1().empty() ? target : error.path1()).string()},
-                 .found = error.code().message()});
+    throw unwritten(error);
   } catch (...) {
-    std::error_code ignored;
     fs::remove_all(target, ignored);
     throw;
   }

@@ -6,7 +6,10 @@
 
 namespace rex::grading {
 
-/// What a page of the course consists of, and the result of its scan.
+/// Whether the pages contain the lecturer's notes, which students must not get.
+enum class SiteReaders { kEverybody, kLecturers };
+
+/// What the pages of a course consist of, and the result of their scan.
 struct CourseSite {
   int pages = 0;
   LeakScan scan{};  ///< if it has leaks, the folder was removed
@@ -18,6 +21,7 @@ struct CourseSite {
 /// release. Throws UsageError if the target is not empty, and Error for files that cannot be read or written.
 [[nodiscard]] CourseSite writeCourseSite(const std::filesystem::path& root,
                                          const std::filesystem::path& target,
-                                         const std::filesystem::path& courseSecret = {});
+                                         const std::filesystem::path& courseSecret = {},
+                                         SiteReaders readers = SiteReaders::kEverybody);
 
 }  // namespace rex::grading

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <md4c-html.h>
 
+#include "authoring/tex_math.h"
 #include "base/error.h"
 
 namespace rex::grading {
@@ -44,29 +45,49 @@ std::string convert(std::string_view markdown) {
   const auto append = [](const MD_CHAR* text, MD_SIZE size, void* to) {
     static_cast<std::string*>(to)->append(text, size);
   };
-  constexpr unsigned kDialect = MD_DIALECT_GITHUB | MD_FLAG_NOHTML;
+  constexpr unsigned kDialect = MD_DIALECT_GITHUB | MD_FLAG_NOHTML | MD_FLAG_LATEXMATHSPANS;
   if (md_html(markdown.data(), static_cast<MD_SIZE>(markdown.size()), append, &html, kDialect, 0) != 0)
     throw Error({.what = "cannot convert Markdown", .found = "no memory"});
   return html;
 }
 
-// Gives each link and picture its new target, or only its text.
+// Gives each link and picture its new target; without one, the text that stands for it.
 std::string withTargets(const std::string& html,
                         const std::function<std::string(const std::string&)>& newTarget) {
-  static const std::regex kLink(
-      R"re(<a href="([^"]*)"( title="[^"]*")?>([\s\S]*?)</a>|<img src="([^"]*)")re");
+  static const std::regex kTag(
+      R"re(<a href="([^"]*)"([^>]*)>|<(/)a>|<img src="([^"]*)" alt="([^"]*)"([^>]*)>)re");
+  std::string result;
+  bool isDropped = false;  // the link that is open: links do not contain each other
+  auto last = html.begin();
+  for (std::sregex_iterator found(html.begin(), html.end(), kTag), end; found != end; ++found) {
+    const std::smatch& tag = *found;
+    result.append(last, tag[0].first);
+    last = tag[0].second;
+    if (tag[3].matched) {
+      if (!isDropped) result += "</a>";
+    } else if (tag[4].matched) {
+      const std::string target = newTarget(tag[4]);
+      result += target.empty()
+                    ? tag[5].str()
+                    : fmt::format("<img src=\"{}\" alt=\"{}\"{}>", target, tag[5].str(), tag[6].str());
+    } else {
+      const std::string target = newTarget(tag[1]);
+      isDropped = target.empty();
+      if (!isDropped) result += fmt::format("<a href=\"{}\"{}>", target, tag[2].str());
+    }
+  }
+  return result.append(last, html.end());
+}
+
+std::string withFormulas(const std::string& html) {
+  static const std::regex kFormula(R"re(<x-equation( type="display")?>([^<]*)</x-equation>)re");
   std::string result;
   auto last = html.begin();
-  for (std::sregex_iterator found(html.begin(), html.end(), kLink), end; found != end; ++found) {
-    const std::smatch& link = *found;
-    result.append(last, link[0].first);
-    last = link[0].second;
-    if (link[4].matched) {
-      result += fmt::format("<img src=\"{}\"", newTarget(link[4]));
-      continue;
-    }
-    const std::string target = newTarget(link[1]);
-    result += target.empty() ? link[3].str() : fmt::format("<a href=\"{}\">{}</a>", target, link[3].str());
+  for (std::sregex_iterator found(html.begin(), html.end(), kFormula), end; found != end; ++found) {
+    const std::smatch& formula = *found;
+    result.append(last, formula[0].first);
+    result += mathMlOf(plainText(formula[2].str()), formula[1].matched);
+    last = formula[0].second;
   }
   return result.append(last, html.end());
 }
@@ -87,7 +108,7 @@ std::string anchorOf(std::string_view heading) {
 MarkdownPage pageOf(std::string_view markdown,
                     const std::function<std::string(const std::string&)>& newTarget) {
   static const std::regex kHeading(R"(<h([1-6])>([\s\S]*?)</h\1>)");
-  const std::string html = withTargets(convert(markdown), newTarget);
+  const std::string html = withFormulas(withTargets(convert(markdown), newTarget));
   MarkdownPage page;
   std::set<std::string> taken;
   auto last = html.begin();

@@ -21,8 +21,9 @@ struct MarkdownPage {
   std::vector<PageSection> sections{};
 };
 
-/// Converts Markdown with tables, as GitHub reads it. `newTarget` gives the new target of each link and
-/// picture; where it gives none, a link becomes plain text. HTML in the source is shown as text.
+/// Converts Markdown with tables and TeX between $ or $$, as GitHub reads it. `newTarget` gives the new
+/// target of each link and picture; where it gives none, only their text remains. HTML in the source is shown
+/// as text. Throws Error for formulas that mathMlOf() does not know.
 [[nodiscard]] MarkdownPage pageOf(std::string_view markdown,
                                   const std::function<std::string(const std::string&)>& newTarget);
 

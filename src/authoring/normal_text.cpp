@@ -7,8 +7,17 @@
 namespace rex::grading {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, char>, 6> kMeanings = {
-    {{"&lt;", '<'}, {"&gt;", '>'}, {"&amp;", '&'}, {"&quot;", '"'}, {"&#39;", '\''}, {"\\\"", '"'}}};
+// Both ways to write them: the second is that of htmlText().
+constexpr std::array<std::pair<std::string_view, char>, 10> kMeanings = {{{"&lt;", '<'},
+                                                                          {"&gt;", '>'},
+                                                                          {"&amp;", '&'},
+                                                                          {"&quot;", '"'},
+                                                                          {"&#60;", '<'},
+                                                                          {"&#62;", '>'},
+                                                                          {"&#38;", '&'},
+                                                                          {"&#34;", '"'},
+                                                                          {"&#39;", '\''},
+                                                                          {"\\\"", '"'}}};
 // Line breaks and tabs in literals, and lines that continue on the next.
 constexpr std::array<std::string_view, 5> kNothing = {"\\n", "\\t", "\\r", "\\\n", "\\\r\n"};
 constexpr std::array<std::string_view, 3> kCommentSigns = {"//", "/*", "*/"};

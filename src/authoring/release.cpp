@@ -78,11 +78,13 @@ void releaseExercise(const Copier& copier, const path& from, const path& to) {
   }
 }
 
-// The tests of rex itself stay behind, and so do the commands for them and the lines that mention either.
+// The tests of rex itself and the notes stay behind, and so do the commands for them and the lines that
+// mention either.
 void leaveOutTheTests(const path& target) {
   constexpr auto kLeftOut = std::to_array<std::string_view>(
-      {"scripts/test", "scripts/gallery", "scripts/fuzz", "scripts/check-replay", "scripts/slurm-selftest",
-       "scripts/grading", "scripts/grading-campaign", "`tests/`", "tests/gallery"});
+      {"scripts/test", "scripts/gallery", "scripts/fuzz", "scripts/check-replay", "scripts/check-site",
+       "scripts/check-site.html", "scripts/slurm-selftest", "scripts/grading", "scripts/grading-campaign",
+       "`notes/`", "`tests/`", "tests/gallery"});
   for (const std::string_view name : kLeftOut) fs::remove_all(target / name);
   for (const char* document : {"README.md", "share/doc/architecture.md", "share/doc/gallery.md"}) {
     if (!fs::exists(target / document)) continue;

@@ -24,6 +24,8 @@ using Block = std::vector<BlockLine>;
 constexpr std::size_t kShortestRun = 48;
 // For a line without its comment.
 constexpr std::size_t kShortestCode = 20;
+// For a line of the lecturer's notes: shorter ones end paragraphs.
+constexpr std::size_t kShortestNote = 40;
 
 std::string letters(std::string_view text, Comments comments) { return normalText(text, comments).letters; }
 
@@ -64,6 +66,21 @@ class Collector {
     if (!fs::is_directory(exercise / "wrong")) return;
     for (const auto& entry : fs::directory_iterator(exercise / "wrong"))
       if (entry.is_regular_file()) addWrong(entry.path());
+  }
+
+  void readNotes(const fs::path& folder) {
+    if (!fs::is_directory(folder)) return;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      if (entry.path().extension() != ".md") continue;
+      int number = 0;
+      const std::string text = readTextFile(entry.path());
+      for (const std::string_view line : splitLines(text)) {
+        ++number;
+        std::string form = letters(line, Comments::kKeep);
+        if (!line.starts_with('>') && form.size() >= kShortestNote)
+          add(SecretKind::kLecturersNote, {number, std::string(line)}, entry.path(), {std::move(form)});
+      }
+    }
   }
 
   std::vector<Secret> take() && {
@@ -178,6 +195,8 @@ std::string_view nameOf(SecretKind kind) {
       return "a text of a hidden check";
     case SecretKind::kWrongVariant:
       return "a wrong variant";
+    case SecretKind::kLecturersNote:
+      return "a line of the lecturer's notes";
     case SecretKind::kCourseSecret:
       break;
   }
@@ -187,6 +206,7 @@ std::string_view nameOf(SecretKind kind) {
 std::vector<Secret> secretsOf(const std::vector<fs::path>& exercises, const fs::path& root) {
   Collector collector(exercises, root);
   for (const fs::path& exercise : exercises) collector.read(exercise);
+  collector.readNotes(root / "notes");
   return std::move(collector).take();
 }
 

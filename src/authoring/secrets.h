@@ -10,7 +10,7 @@
 namespace rex::grading {
 
 /// What students must not get before they solve an exercise, or ever.
-enum class SecretKind { kSolution, kHiddenCheck, kHiddenName, kWrongVariant, kCourseSecret };
+enum class SecretKind { kSolution, kHiddenCheck, kHiddenName, kWrongVariant, kLecturersNote, kCourseSecret };
 
 /// "a line of the solution", "a hidden check".
 [[nodiscard]] std::string_view nameOf(SecretKind kind);
@@ -25,9 +25,10 @@ struct Secret {
 inline constexpr std::size_t kShortestForm = 16;
 
 /// The secrets of these exercise folders below `root`: each line of a solution's regions; runs of at least
-/// 48 letters of hidden checks and wrong variants; literals of hidden checks; and the headers of wrong
-/// variants. Public text is excluded: code outside regions, the template and, except from solutions, todos,
-/// headers and visible checks. Throws Error for malformed markers.
+/// 48 letters of hidden checks and wrong variants; literals of hidden checks; the headers of wrong variants;
+/// and the long lines of the lecturer's notes in ROOT/notes, except for the questions that they quote. Public
+/// text is excluded: code outside regions, the template and, except from solutions, todos, headers and
+/// visible checks. Throws Error for malformed markers.
 [[nodiscard]] std::vector<Secret> secretsOf(const std::vector<std::filesystem::path>& exercises,
                                             const std::filesystem::path& root);
 

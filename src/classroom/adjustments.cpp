@@ -73,7 +73,7 @@ class AdjustmentReader {
 
   std::vector<std::string> students(const TomlTable& table) const {
     if (table.has("student") == table.has("group"))
-      throw Error({.what = "no student",
+      throw Error({.what = "whom it is about",
                    .where = table.where(table.has("group") ? "group" : "exercise"),
                    .found = table.has("group") ? "both student and group" : "neither student nor group",
                    .wanted = "one of them"});

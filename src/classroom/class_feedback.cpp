@@ -3,12 +3,33 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/printable.h"
 #include "base/text_file.h"
 #include "classroom/hand_in.h"
 
 namespace rex::grading {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kFeedbackPage = "feedback.html";
+
+// Removes what an earlier export wrote, also an interrupted one. Other files are somebody's work.
+void clearFeedback(const fs::path& folder) {
+  if (!fs::exists(folder)) return;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name != "checks" && !name.starts_with(kFeedbackPage))
+      throw Error({.what = "not replaced by feedback",
+                   .where = {folder.string()},
+                   .found = fmt::format("'{}', which no export wrote", printable(name, 100)),
+                   .wanted = "another folder for feedback"});
+  }
+  fs::remove_all(folder);
+}
+
+}  // namespace
 
 std::optional<Feedback> feedbackOf(const GradeRow& row, const fs::path& out) {
   if (!row.result) return {};
@@ -41,20 +62,20 @@ std::vector<FeedbackFile> evidenceOf(const GradeRow& row, const fs::path& out) {
 int writeFeedbackFolders(const Gradebook& book, const fs::path& results, const fs::path& out) {
   int written = 0;
   for (const GradeRow& row : book.rows) {
-    const auto feedback = feedbackOf(row, results);
-    if (!feedback) continue;
     if (const std::string why = whyNoStudentName(row.student.id); !why.empty())
       throw Error({.what = fmt::format("no folder for '{}'", row.student.id),
                    .found = why,
                    .wanted = "a plain name"});
     const fs::path folder = out / row.student.id / row.exercise;
-    fs::remove_all(folder);
+    clearFeedback(folder);
+    const auto feedback = feedbackOf(row, results);
+    if (!feedback) continue;
     fs::create_directories(folder / "checks");
     const std::vector<FeedbackFile> files = evidenceOf(row, results);
     for (const FeedbackFile& file : files)
       if (!file.name.ends_with(".png")) replaceTextFile(folder / file.name, file.bytes, "a replay");
     if (fs::is_empty(folder / "checks")) fs::remove(folder / "checks");
-    replaceTextFile(folder / "feedback.html", feedbackPage(*feedback, files), "the feedback");
+    replaceTextFile(folder / kFeedbackPage, feedbackPage(*feedback, files), "the feedback");
     ++written;
   }
   return written;

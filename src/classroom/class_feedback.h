@@ -10,16 +10,17 @@
 
 namespace rex::grading {
 
-/// What the student of a row gets back; empty if nothing was graded. Reads main.cpp from the folder of
-/// results. Throws Error if it cannot be read.
+/// What the student of a row gets back; empty if nothing was graded. Reads main.cpp below `out`, the folder
+/// of results. Throws Error if it cannot be read.
 [[nodiscard]] std::optional<Feedback> feedbackOf(const GradeRow& row, const std::filesystem::path& out);
 
 /// Pictures and replays of the visible checks of a row, from the folder that was graded for it. A name in
 /// the result that leaves that folder is ignored.
 [[nodiscard]] std::vector<FeedbackFile> evidenceOf(const GradeRow& row, const std::filesystem::path& out);
 
-/// Writes OUT/STUDENT/EXERCISE/feedback.html with its replays for each row; their number. Throws Error for a
-/// student whose name cannot be that of a folder.
+/// Writes OUT/STUDENT/EXERCISE/feedback.html with its replays for each row that has a result, and removes
+/// that of an earlier export for the others; returns the number of pages. Throws Error for a student whose
+/// name cannot be that of a folder, and for a folder with files that no export wrote.
 int writeFeedbackFolders(const Gradebook& book, const std::filesystem::path& results,
                          const std::filesystem::path& out);
 

@@ -10,6 +10,8 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "classroom/import_table.h"
+#include "classroom/task_list.h"
 #include "grading/result_file.h"
 
 namespace rex::grading {
@@ -35,7 +37,7 @@ StudentResult readOne(const fs::path& folder) {
         {.what = "not counted", .where = {file.string()}, .found = "no result", .wanted = "this file"});
   StudentResult read{.student = folder.parent_path().filename().string(),
                      .exercise = folder.filename().string(),
-                     .result = loadResult(file)};
+                     .result = loadSoundResult(file)};
   if (read.result.exerciseId != read.exercise)
     throw Error({.what = "not counted",
                  .where = {file.string()},
@@ -115,6 +117,23 @@ std::optional<double> discriminationOf(const std::string& check,
   return correlationOf(pairs);
 }
 
+void countAttempts(const std::vector<const StudentResult*>& results, AttemptStatistics& all) {
+  std::vector<double> attempts;
+  for (const StudentResult* one : results) {
+    if (one->attempts == 0) continue;
+    ++all.known;
+    if (one->attemptsFrom == "imports") ++all.atLeast;
+    attempts.push_back(one->attempts);
+    if (one->attempts > all.most) std::tie(all.most, all.mostBy) = std::tie(one->attempts, one->student);
+  }
+  all.median = medianOf(attempts);
+}
+
+void noteFull(const StudentResult& one, std::optional<FirstFull>& first) {
+  if (one.submitted && (!first || *one.submitted < first->submitted))
+    first = FirstFull{one.student, *one.submitted, one.timeFrom};
+}
+
 // `results` holds at least one result, all of the same exercise.
 ExerciseStatistics statisticsOfOne(const std::vector<const StudentResult*>& results) {
   ExerciseStatistics all{.exercise = results.front()->exercise};
@@ -129,7 +148,7 @@ ExerciseStatistics statisticsOfOne(const std::vector<const StudentResult*>& resu
     ++all.graded;
     const std::size_t bin = binOf(result.score, result.maxScore);
     ++all.distribution[bin];
-    if (bin == 0) ++all.full;
+    if (bin == 0) ++all.full, noteFull(*one, all.firstFull);
     all.maxPoints = std::max(all.maxPoints, result.maxScore);
     all.meanPoints += result.score;
     points.push_back(result.score);
@@ -145,11 +164,26 @@ ExerciseStatistics statisticsOfOne(const std::vector<const StudentResult*>& resu
   all.meanPoints /= std::max(1, all.graded);
   for (PartStatistics& part : all.parts) part.meanPoints /= std::max(1, all.graded);
   for (CheckStatistics& check : all.checks) check.discrimination = discriminationOf(check.id, results);
+  countAttempts(results, all.attempts);
   all.medianPoints = medianOf(points);
   all.medianSeconds = medianOf(seconds);
   std::stable_sort(all.checks.begin(), all.checks.end(),
                    [](const CheckStatistics& a, const CheckStatistics& b) { return a.failed > b.failed; });
   return all;
+}
+
+// What the list of tasks and the table of imports know. Without them, nothing.
+void addHandIns(const fs::path& folder, ClassResults& all) {
+  std::map<std::pair<std::string, std::string>, StudentResult*> results;
+  for (StudentResult& one : all.results) results[{one.student, one.exercise}] = &one;
+  const fs::path tasks = folder / "tasks.tsv";
+  for (const Task& task : fs::exists(tasks) ? readManifest(tasks) : std::vector<Task>{})
+    if (const auto found = results.find({task.student, task.exercise}); found != results.end())
+      found->second->submitted = task.submitted, found->second->timeFrom = task.timeFrom;
+  for (const ImportedStudent& student : importTableIn(folder).students)
+    for (const auto& [exercise, entry] : student.exercises)
+      if (const auto found = results.find({entry.handedInBy, exercise}); found != results.end())
+        found->second->attempts = entry.attempts, found->second->attemptsFrom = entry.attemptsFrom;
 }
 
 }  // namespace
@@ -182,6 +216,11 @@ ClassResults readClassResults(const fs::path& folder) {
     } catch (const Error& error) {
       all.complaints.emplace_back(error.what());
     }
+  }
+  try {
+    addHandIns(folder, all);
+  } catch (const Error& error) {
+    all.complaints.emplace_back(error.what());
   }
   std::stable_sort(all.results.begin(), all.results.end(),
                    [](const StudentResult& a, const StudentResult& b) { return a.exercise < b.exercise; });

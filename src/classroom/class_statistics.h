@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -15,12 +16,17 @@ struct StudentResult {
   std::string student{};
   std::string exercise{};
   GradeResult result{};
+  std::optional<std::int64_t> submitted{};  ///< seconds since 1970 in UTC, as the list of tasks has it
+  std::string timeFrom{};                   ///< table, platform, git or file
+  int attempts = 0;                         ///< 0: nobody counted them
+  std::string attemptsFrom{};               ///< see ImportedExercise
 };
 
-/// The results R/STUDENT/EXERCISE/results.json of a folder R.
+/// The results R/STUDENT/EXERCISE/results.json of a folder R, with what its list of tasks and its table of
+/// imports say about them.
 struct ClassResults {
   std::vector<StudentResult> results{};   ///< by exercise, then by student
-  std::vector<std::string> complaints{};  ///< files that are not results, or not of that exercise
+  std::vector<std::string> complaints{};  ///< files that are not results, were changed, or of other exercises
 };
 
 /// Throws Error if the folder itself cannot be read.
@@ -48,6 +54,22 @@ struct PartStatistics {
   int full = 0;  ///< number of students with all of them
 };
 
+/// The student with full points who handed in first, by the times that are known.
+struct FirstFull {
+  std::string student{};
+  std::int64_t submitted = 0;  ///< seconds since 1970 in UTC
+  std::string timeFrom{};
+};
+
+/// How often students handed in, over those of whom it is known.
+struct AttemptStatistics {
+  int known = 0;    ///< number of students
+  int atLeast = 0;  ///< how many of them by imports, which may have missed some
+  double median = 0;
+  int most = 0;
+  std::string mostBy{};
+};
+
 /// From full points down to none: full, at least 75 %, 50 %, 25 %, less, none.
 inline constexpr std::array<const char*, 6> kDistribution = {"full", "75 %", "50 %", "25 %", "less", "none"};
 
@@ -64,7 +86,9 @@ struct ExerciseStatistics {
   std::array<int, kDistribution.size()> distribution{};
   double medianSeconds = 0;  ///< wall time of the checks of a file that compiles
   double longestSeconds = 0;
-  std::string slowest{};                  ///< the student with the longest time
+  std::string slowest{};                 ///< the student with the longest time
+  std::optional<FirstFull> firstFull{};  ///< empty: nobody, or the times are unknown
+  AttemptStatistics attempts{};
   std::vector<CheckStatistics> checks{};  ///< most failed first, then in the order of the results
   std::vector<PartStatistics> parts{};    ///< in the order of the results
 };

@@ -214,10 +214,12 @@ class CloneReader {
   static void addFiles(const Repository& repository, const Commit& commit, Arrival& arrival) {
     const std::vector<CommittedFile> files = repository.filesNamed("main.cpp", commit);
     std::vector<std::string> contents = repository.contentsOf(files);
+    const std::map<std::string, int> changes = repository.changesOf("main.cpp", commit);
     for (std::size_t k = 0; k < files.size(); ++k) {
       DownloadedFile& file = arrival.files.emplace_back(DownloadedFile{
           .name = files[k].path, .place = arrival.place + "/" + files[k].path, .whyNot = files[k].whyNot});
       if (file.whyNot.empty()) file.text = std::move(contents[k]);
+      if (const auto found = changes.find(file.name); found != changes.end()) file.attempts = found->second;
     }
     if (files.empty()) arrival.whyNone = "no main.cpp in its commit " + commit.id.substr(0, 7);
   }

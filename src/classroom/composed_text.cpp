@@ -1,10 +1,13 @@
 #include "classroom/composed_text.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <memory>
 #include <optional>
 
 #include <utf8proc.h>
+
+#include "base/lower_case.h"
 
 namespace rex::grading {
 namespace {
@@ -27,6 +30,9 @@ constexpr int kComposed = UTF8PROC_STABLE | UTF8PROC_COMPOSE;
 std::string composed(std::string_view text) { return mapped(text, kComposed).value_or(std::string(text)); }
 
 std::string caseless(std::string_view text) {
+  // Most names, and quicker: tables compare each with each.
+  if (std::all_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; }))
+    return lowerCase(text);
   return composed(mapped(text, kComposed | UTF8PROC_CASEFOLD).value_or(std::string(text)));
 }
 

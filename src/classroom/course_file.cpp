@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/lower_case.h"
 #include "base/printable.h"
 #include "base/text_file.h"
+#include "classroom/composed_text.h"
 #include "classroom/csv.h"
 #include "classroom/hand_in.h"
 
@@ -48,7 +48,7 @@ class RosterReader {
   // A folder of that name would belong to two.
   void end() {
     for (const CourseStudent& student : course_.students)
-      if (const auto same = ids_.find(lowerCase(student.group)); same != ids_.end())
+      if (const auto same = ids_.find(caseless(student.group)); same != ids_.end())
         throw Error({.what = fmt::format("the group '{}' is also the id of a student", student.group),
                      .where = same->second,
                      .wanted = "another name for the group"});
@@ -66,7 +66,7 @@ class RosterReader {
   }
   static void requireNew(std::map<std::string, SourceLocation>& seen, const std::string& text,
                          const std::string& what, const SourceLocation& where) {
-    const auto [first, isNew] = seen.emplace(lowerCase(text), where);
+    const auto [first, isNew] = seen.emplace(caseless(text), where);
     if (!isNew)
       throw Error({.what = fmt::format("a second student with the {} '{}'", what, text),
                    .where = where,
@@ -74,7 +74,7 @@ class RosterReader {
   }
 
   Course& course_;
-  std::map<std::string, SourceLocation> ids_{}, emails_{};  // in lower case
+  std::map<std::string, SourceLocation> ids_{}, emails_{};  // by caseless() text
 };
 
 void readStudentTables(const TomlTable& top, RosterReader& roster) {

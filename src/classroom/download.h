@@ -15,6 +15,7 @@ struct DownloadedFile {
   std::optional<std::string> text{};  ///< of sources, archives and tables; empty: others, and what is refused
   std::string whyNot{};               ///< why a wanted file has no text: "a symbolic link"
   std::int64_t modifiedAt = 0;        ///< seconds since 1970 in UTC; 0: unknown
+  int attempts = 0;                   ///< how often it was handed in; 0: the platform does not say
 };
 
 /// What a lecturer downloaded from a platform: an archive, or the folder that it was unpacked into.

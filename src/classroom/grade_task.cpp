@@ -118,12 +118,18 @@ bool isHeldBack(const Task& task, const fs::path& out) {
 
 void acceptRegrading(const Task& task, const fs::path& out) {
   const fs::path folder = resultFolder(out, task), regraded = folder / kRegraded;
-  if (!isHeldBack(task, out)) return;
-  removeReports(folder);
-  fs::remove_all(folder / kEvidence);
-  for (const char* name : {kBuildLog, kEvidence, kResults})
-    if (fs::exists(regraded / name)) fs::rename(regraded / name, folder / name);
-  fs::remove_all(regraded);
+  if (isHeldBack(task, out)) {
+    // Copies until the result itself moves: after an interruption, all of it can be done again.
+    removeReports(folder);
+    fs::remove_all(folder / kEvidence);
+    if (fs::exists(regraded / kBuildLog))
+      replaceTextFile(folder / kBuildLog, readTextFile(regraded / kBuildLog), "the log of the compiler");
+    if (fs::exists(regraded / kEvidence))
+      fs::copy(regraded / kEvidence, folder / kEvidence, fs::copy_options::recursive);
+    fs::rename(regraded / kResults, folder / kResults);
+    bringToDisk(folder);
+  }
+  if (!fs::exists(regraded / kResults)) fs::remove_all(regraded);
 }
 
 std::optional<int> pointsBefore(const Task& task, const fs::path& out) {

@@ -31,7 +31,7 @@ void removeReports(const std::filesystem::path& folder);
 
 /// Whether a result with fewer points for these inputs waits to be accepted, while the old one counts.
 [[nodiscard]] bool isHeldBack(const Task& task, const std::filesystem::path& out);
-/// Puts that result in the place of the old one, if there is one.
+/// Puts that result in the place of the old one, if there is one; goes on after an interruption.
 void acceptRegrading(const Task& task, const std::filesystem::path& out);
 /// The points of a result for the same text, whatever graded it; empty: there is none.
 [[nodiscard]] std::optional<int> pointsBefore(const Task& task, const std::filesystem::path& out);

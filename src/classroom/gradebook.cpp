@@ -332,6 +332,12 @@ const GradeRow* Gradebook::row(const std::string& student, const std::string& ex
   return found == rows.end() ? nullptr : &*found;
 }
 
+Course Gradebook::everyone() const {
+  Course course;
+  for (const StudentTotal& sum : totals) course.students.push_back(sum.student);
+  return course;
+}
+
 const GradeRow* rowOfTask(const Gradebook& book, std::size_t task) {
   const GradeRow* found = nullptr;
   for (const std::vector<GradeRow>* rows : {&book.strangers, &book.rows})

@@ -75,7 +75,7 @@ std::string gradesJson(const Gradebook& book, const Course& course) {
   }
   for (const GradeRow& row : book.strangers) {
     GradesJson student = whoJson(row.student);
-    student["grades"] = {rowJson(row)};
+    student["grades"] = GradesJson::array({rowJson(row)});
     strangers.push_back(student);
   }
   const GradesJson json = {{"schema", "rex-grades/1"}, {"title", course.title},      {"exercises", exercises},

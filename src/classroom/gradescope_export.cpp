@@ -19,6 +19,7 @@ namespace {
 struct GradescopeEntry {
   std::string folder{};  ///< "submission_123"
   std::string createdAt{};
+  int attempts = 1;  ///< with those of its history
   std::vector<Person> people{};
 };
 
@@ -37,7 +38,7 @@ YAML::Node listIn(const YAML::Node& map, const std::string& key) {
   return YAML::Node(YAML::NodeType::Sequence);
 }
 
-// Entries as JSON: [[folder, created_at, [[name, sid, email], ...]], ...].
+// Entries as JSON: [[folder, created_at, [[name, sid, email], ...], attempts], ...].
 std::string entriesOf(const std::string& text, const std::string& place) {
   nlohmann::json entries = nlohmann::json::array();
   try {
@@ -50,7 +51,8 @@ std::string entriesOf(const std::string& text, const std::string& place) {
       nlohmann::json people = nlohmann::json::array();
       for (const YAML::Node& person : listIn(item.second, "submitters"))
         people.push_back({scalarIn(person, "name"), scalarIn(person, "sid"), scalarIn(person, "email")});
-      entries.push_back({item.first.Scalar(), scalarIn(item.second, "created_at"), people});
+      entries.push_back({item.first.Scalar(), scalarIn(item.second, "created_at"), people,
+                         1 + listIn(item.second, "history").size()});
     }
   } catch (const YAML::Exception& error) {
     throw Error({.what = "not Gradescope's metadata",
@@ -73,8 +75,9 @@ std::vector<GradescopeEntry> readMetadata(const DownloadedFile& file, const std:
                  .wanted = "YAML"});
   std::vector<GradescopeEntry> entries;
   for (const nlohmann::json& json : nlohmann::json::parse(read.bytes)) {
-    GradescopeEntry& entry =
-        entries.emplace_back(GradescopeEntry{json.at(0).get<std::string>(), json.at(1).get<std::string>()});
+    GradescopeEntry& entry = entries.emplace_back(GradescopeEntry{.folder = json.at(0).get<std::string>(),
+                                                                  .createdAt = json.at(1).get<std::string>(),
+                                                                  .attempts = json.at(3).get<int>()});
     for (const nlohmann::json& fields : json.at(2)) {
       Person person{.id = composed(fields.at(1).get<std::string>()),
                     .name = composed(fields.at(0).get<std::string>()),
@@ -100,6 +103,7 @@ Arrivals readGradescope(const std::filesystem::path& source, const std::vector<E
                     place = (source / metadata->place).string();
   Arrivals found{.platform = Platform::kGradescope};
   std::map<std::string, Arrival> arrivals;
+  std::map<std::string, int> attempts;
   for (GradescopeEntry& entry : readMetadata(*metadata, place)) {
     Arrival arrival{.people = std::move(entry.people), .place = root + entry.folder};
     if (arrival.people.empty()) {
@@ -111,6 +115,7 @@ Arrivals readGradescope(const std::filesystem::path& source, const std::vector<E
       arrival.submitted = PlatformZone("").instantOf(entry.createdAt, place + ": " + entry.folder);
       arrival.timeFrom = "platform";
     }
+    attempts[entry.folder] = entry.attempts;
     arrivals.emplace(entry.folder, std::move(arrival));
   }
   for (DownloadedFile& file : download.files) {
@@ -120,6 +125,7 @@ Arrivals readGradescope(const std::filesystem::path& source, const std::vector<E
     const auto arrival = arrivals.find(inside.substr(0, slash));
     if (slash != inside.npos && arrival != arrivals.end()) {
       file.name = inside.substr(slash + 1);
+      file.attempts = attempts.at(arrival->first);
       arrival->second.files.push_back(std::move(file));
     } else if (slash != inside.npos && inside.starts_with("submission_")) {
       found.complaints.push_back(

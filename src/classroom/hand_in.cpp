@@ -13,6 +13,7 @@
 #include "base/printable.h"
 #include "base/text_file.h"
 #include "classroom/archive.h"
+#include "classroom/composed_text.h"
 #include "classroom/download.h"
 #include "classroom/import_table.h"
 #include "submission/student_build.h"
@@ -56,7 +57,7 @@ class HandInReader {
         complain("not the name of a student", path / entry.name, why,
                  "letters, digits, blanks and signs such as - _ . @");
       else
-        students[lowerCase(name)].push_back(entry);
+        students[caseless(name)].push_back(entry);
     }
     for (const auto& [name, entries] : students) readStudent(folder, entries), student_.clear();
     std::sort(found_.files.begin(), found_.files.end(), [](const HandIn& a, const HandIn& b) {

@@ -39,7 +39,8 @@ constexpr TextKey<ImportedExercise> kExerciseKeys[] = {{"platform", &ImportedExe
                                                        {"time_from", &ImportedExercise::timeFrom},
                                                        {"commit", &ImportedExercise::commit},
                                                        {"source", &ImportedExercise::source},
-                                                       {"sha256", &ImportedExercise::sha256}};
+                                                       {"sha256", &ImportedExercise::sha256},
+                                                       {"attempts_from", &ImportedExercise::attemptsFrom}};
 
 /// Reads one table and knows the place in it, as in "students[3].exercises.01-kinematics".
 class ImportTableReader {
@@ -69,6 +70,7 @@ class ImportTableReader {
   }
 
  private:
+  static constexpr int kMostAttempts = 1'000'000;
   static constexpr const char* kMadeBy = "a table that `rex import` wrote";
 
   ImportedStudent student(const Json& json, const std::string& place) const {
@@ -95,6 +97,11 @@ class ImportTableReader {
     read.submitted = parseInstant(submitted);
     if (!submitted.empty() && !read.submitted)
       throw refusal(place + ".submitted", "'" + submitted + "'", "a time such as 2026-11-20T22:59:00Z");
+    if (json.contains("attempts")) {
+      if (!json["attempts"].is_number_unsigned() || json["attempts"] < 1 || json["attempts"] > kMostAttempts)
+        throw refusal(place + ".attempts", json["attempts"].dump(), "a number from 1 on");
+      read.attempts = json["attempts"].get<int>();
+    }
     return read;
   }
 
@@ -127,6 +134,7 @@ Json jsonOf(const ImportedExercise& exercise) {
   Json json = {{"status", kStatus[static_cast<std::size_t>(exercise.status)]}};
   putTexts(json, exercise, kExerciseKeys);
   if (exercise.submitted) json["submitted"] = instantText(*exercise.submitted);
+  if (exercise.attempts > 0) json["attempts"] = exercise.attempts;
   return json;
 }
 
@@ -147,8 +155,12 @@ const ImportedExercise* ImportTable::find(const std::string& student, const std:
 
 ImportTable readImportTable(const fs::path& file) { return ImportTableReader(file).read(); }
 
-ImportTable importTableIn(const fs::path& handedIn) {
-  const fs::path file = handedIn / kImportTable;
+ImportTable importTableIn(const fs::path& folder) {
+  if (fs::exists(folder / kBegunTable))
+    throw Error({.what = "an import into this folder was interrupted",
+                 .where = {folder.string()},
+                 .wanted = "the same `rex import` again, which goes on"});
+  const fs::path file = folder / kImportTable;
   return fs::exists(file) ? readImportTable(file) : ImportTable{};
 }
 

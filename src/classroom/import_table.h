@@ -11,6 +11,8 @@ namespace rex::grading {
 
 /// The name of the table that `rex import` writes beside the students' folders.
 inline constexpr const char* kImportTable = "import.json";
+/// The same table while the files that it names are being written: what an interrupted import leaves.
+inline constexpr const char* kBegunTable = "import.begun.json";
 
 enum class HandInStatus {
   kHandedIn,
@@ -32,6 +34,8 @@ struct ImportedExercise {
   std::string commit{};                     ///< of a repository
   std::string source{};                     ///< path inside the download
   std::string sha256{};                     ///< of main.cpp as it was imported
+  int attempts = 0;                         ///< how often it was handed in; 0: unknown
+  std::string attemptsFrom{};  ///< platform, git (commits that changed it) or imports (at least so often)
 
   bool operator==(const ImportedExercise&) const = default;
 };
@@ -59,8 +63,9 @@ struct ImportTable {
 /// Reads what importTableText() wrote. Throws Error, with the place inside the file, for anything else.
 [[nodiscard]] ImportTable readImportTable(const std::filesystem::path& file);
 
-/// The table in a folder of submissions; empty if it has none.
-[[nodiscard]] ImportTable importTableIn(const std::filesystem::path& handedIn);
+/// The table in a folder of submissions or results; empty if it has none. Throws Error, too, after an import
+/// that was interrupted.
+[[nodiscard]] ImportTable importTableIn(const std::filesystem::path& folder);
 
 /// The text of import.json. The same table gives the same bytes.
 [[nodiscard]] std::string importTableText(const ImportTable& table);

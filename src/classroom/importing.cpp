@@ -7,8 +7,10 @@
 
 #include "base/error.h"
 #include "base/instant.h"
+#include "base/leftovers.h"
 #include "base/sha256.h"
 #include "base/text_file.h"
+#include "classroom/hand_in.h"
 #include "classroom/import_names.h"
 #include "submission/student_build.h"
 
@@ -27,9 +29,15 @@ struct SortedArrival {
 class Importer {
  public:
   Importer(const Arrivals& arrivals, const PickOptions& options, const fs::path& handedIn)
-      : arrivals_(arrivals), options_(options), folder_(handedIn), table_(importTableIn(handedIn)) {
+      : arrivals_(arrivals),
+        options_(options),
+        folder_(handedIn),
+        table_(tableAt(handedIn / kImportTable)),
+        before_(table_) {
     report_.complaints = arrivals.complaints;
     report_.notes = arrivals.notes;
+    removeLeftovers(folder_, 2);
+    takeBegun(tableAt(folder_ / kBegunTable));
   }
 
   ImportReport run() {
@@ -37,17 +45,63 @@ class Importer {
     for (const Arrival& arrival : arrivals_.all)
       sorted.push_back({arrival, arrival.files.empty() ? PickedFiles{} : pickFiles(arrival.files, options_)});
     exercises_ = exercisesOf(sorted);
-    fs::create_directories(folder_);
     ImportNames names(table_, arrivals_);
     for (const SortedArrival& one : sorted) take(one, names);
     tellNames(names);
     std::sort(table_.students.begin(), table_.students.end(),
               [](const auto& a, const auto& b) { return a.student < b.student; });
-    replaceTextFile(folder_ / kImportTable, importTableText(table_), "the table of imports");
+    writeAll();
     return std::move(report_);
   }
 
  private:
+  static ImportTable tableAt(const fs::path& file) {
+    return fs::exists(file) ? readImportTable(file) : ImportTable{};
+  }
+
+  // What an interrupted import has written already counts as imported.
+  void takeBegun(const ImportTable& begun) {
+    int taken = 0;
+    for (const ImportedStudent& student : begun.students)
+      for (const auto& [exercise, entry] : student.exercises) {
+        const fs::path file = folder_ / entry.handedInBy / exercise / "main.cpp";
+        const bool isWritten = entry.status == HandInStatus::kHandedIn &&
+                               whyNoStudentName(entry.handedInBy).empty() &&
+                               whyNoStudentName(exercise).empty() && presentHash(file) == entry.sha256;
+        if (!isWritten) continue;
+        if (table_.find(student.student) == nullptr) {
+          table_.students.push_back(student);
+          table_.students.back().exercises.clear();
+        }
+        entryOf(student.student).exercises[exercise] = entry;
+        ++taken;
+      }
+    if (!begun.students.empty())
+      report_.notes.push_back(
+          fmt::format("goes on with an interrupted import, of which {} file{} had been written", taken,
+                      taken == 1 ? "" : "s"));
+  }
+
+  // All is decided before the first file is touched. The new table comes first, under another name: if the
+  // import is interrupted, it tells the next one what is ours.
+  void writeAll() {
+    fs::create_directories(folder_);
+    const fs::path begun = folder_ / kBegunTable;
+    replaceTextFile(begun, importTableText(table_), "the table of imports");
+    for (const auto& [path, text] : writes_) {
+      fs::create_directories(path.parent_path());
+      replaceTextFile(path, text, "the copy of what was handed in");
+    }
+    for (const fs::path& path : removals_) {
+      fs::remove(path);
+      std::error_code notEmpty;
+      fs::remove(path.parent_path(), notEmpty);
+      fs::remove(path.parent_path().parent_path(), notEmpty);
+    }
+    fs::rename(begun, folder_ / kImportTable);
+    bringToDisk(folder_);
+  }
+
   // Of this download: the wanted one, or all that somebody handed in.
   std::vector<std::string> exercisesOf(const std::vector<SortedArrival>& sorted) const {
     if (!options_.exercise.empty()) return {options_.exercise};
@@ -63,21 +117,25 @@ class Importer {
     report_.complaints.insert(report_.complaints.end(), one.picked.complaints.begin(),
                               one.picked.complaints.end());
     report_.notes.insert(report_.notes.end(), one.picked.notes.begin(), one.picked.notes.end());
-    const std::string why = whyNone(one);
-    if (!one.arrival.whyNone.empty()) report_.complaints.push_back(one.arrival.place + ": not taken: " + why);
+    if (!one.arrival.whyNone.empty())
+      report_.complaints.push_back(one.arrival.place + ": not taken: " + one.arrival.whyNone);
     for (const std::string& exercise : exercises_) {
       const auto file = std::find_if(one.picked.files.begin(), one.picked.files.end(),
                                      [&](const PickedFile& picked) { return picked.exercise == exercise; });
       if (file != one.picked.files.end())
         takeFile(one.arrival, *file, members);
       else
-        takeNothing(one.arrival, exercise, members, why);
+        takeNothing(one.arrival, exercise, members, whyNone(one, exercise));
     }
   }
 
-  static std::string whyNone(const SortedArrival& one) {
+  // A fault of one exercise says nothing about the others.
+  static std::string whyNone(const SortedArrival& one, const std::string& exercise) {
     if (!one.arrival.whyNone.empty()) return one.arrival.whyNone;
-    return one.picked.complaints.empty() ? "" : one.picked.complaints.front();
+    for (const std::string& about : {exercise, std::string()})
+      if (const auto found = one.picked.whyNone.find(about); found != one.picked.whyNone.end())
+        return found->second;
+    return {};
   }
 
   ImportedStudent& entryOf(const std::string& student) {
@@ -125,10 +183,23 @@ class Importer {
       entry.commit = arrival.commit;
       entry.source = file.source;
       entry.sha256 = sha256(file.text);
+      countAttempts(file, members[k], entry);
       if (members[k] != holder) removeOwn(members[k], file.exercise);
       count(entry);
       entryOf(members[k]).exercises[file.exercise] = std::move(entry);
     }
+  }
+
+  // If the platform keeps no attempts, each import that brought another text is one of at least so many.
+  void countAttempts(const PickedFile& file, const std::string& member, ImportedExercise& entry) {
+    entry.attempts = file.attempts;
+    entry.attemptsFrom = arrivals_.platform == Platform::kClassroom ? "git" : "platform";
+    if (file.attempts > 0) return;
+    const auto before = entryOf(member).exercises.find(file.exercise);
+    const bool isKnown = before != entryOf(member).exercises.end() && !before->second.sha256.empty();
+    entry.attempts = isKnown ? std::max(before->second.attempts, 1) : 1;
+    if (isKnown && before->second.sha256 != entry.sha256) ++entry.attempts;
+    entry.attemptsFrom = "imports";
   }
 
   // A platform keeps one file of each student; if there are two, nobody knows which one counts.
@@ -161,22 +232,26 @@ class Importer {
     }
   }
 
-  std::string recordedHash(const std::string& student, const std::string& exercise) {
-    const auto& exercises = entryOf(student).exercises;
-    const auto found = exercises.find(exercise);
-    return found == exercises.end() ? "" : found->second.sha256;
+  // Whether an import wrote a file with that hash for this student; no hash: whether it wrote any.
+  bool isOurs(const std::string& student, const std::string& exercise, const std::string& hash = {}) const {
+    for (const ImportTable* table : {&table_, &before_}) {
+      const ImportedExercise* entry = table->find(student, exercise);
+      if (entry != nullptr && (hash.empty() ? !entry->sha256.empty() : entry->sha256 == hash)) return true;
+    }
+    return false;
   }
 
   // Returns false if there is a file that no import wrote.
   bool write(const std::string& holder, const PickedFile& file, const std::optional<std::int64_t>& time) {
     const fs::path path = folder_ / holder / file.exercise / "main.cpp";
     const std::optional<std::string> present = presentHash(path);
-    const std::string recorded = recordedHash(holder, file.exercise), wanted = sha256(file.text);
-    if (present && *present != wanted && (recorded.empty() || *present != recorded)) {
+    const std::string wanted = sha256(file.text);
+    if (present && *present != wanted && (present->empty() || !isOurs(holder, file.exercise, *present))) {
       report_.complaints.emplace_back(
           Error({.what = fmt::format("not replaced by '{}'", file.source),
                  .where = {path.string()},
-                 .found = recorded.empty() ? "a file that no import wrote" : "a file that was edited since",
+                 .found = isOurs(holder, file.exercise) ? "a file that was edited since"
+                                                        : "a file that no import wrote",
                  .wanted = "none: remove it to import it"})
               .what());
       return false;
@@ -188,10 +263,7 @@ class Importer {
       report_.changes.push_back(
           fmt::format("{} {}: handed in {}, before {}", holder, file.exercise, text(time), text(before)));
     }
-    if (!present || *present != wanted) {
-      fs::create_directories(path.parent_path());
-      replaceTextFile(path, file.text, "the copy of what was handed in");
-    }
+    if (!present || *present != wanted) writes_.emplace_back(path, file.text);
     return true;
   }
 
@@ -200,17 +272,14 @@ class Importer {
     const fs::path path = folder_ / member / exercise / "main.cpp";
     const std::optional<std::string> present = presentHash(path);
     if (!present) return;
-    if (*present != recordedHash(member, exercise)) {
+    if (present->empty() || !isOurs(member, exercise, *present)) {
       report_.complaints.push_back(
           fmt::format("{}: not removed, though the group of {} hands in together: no import "
                       "wrote it",
                       path.string(), member));
       return;
     }
-    fs::remove(path);
-    std::error_code notEmpty;
-    fs::remove(path.parent_path(), notEmpty);
-    fs::remove(path.parent_path().parent_path(), notEmpty);
+    removals_.push_back(path);
     report_.changes.push_back(fmt::format("{} {}: removed, now handed in by the group", member, exercise));
   }
 
@@ -254,7 +323,10 @@ class Importer {
   const PickOptions& options_;
   fs::path folder_;
   ImportTable table_;
+  ImportTable before_;  // as the last finished import left it
   std::vector<std::string> exercises_{};
+  std::vector<std::pair<fs::path, std::string>> writes_{};  // file, text
+  std::vector<fs::path> removals_{};
   std::map<std::pair<std::string, std::string>, std::string> takenFrom_{};  // by student and exercise
   ImportReport report_{};
 };

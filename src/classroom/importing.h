@@ -24,8 +24,9 @@ struct ImportReport {
 /// import may have begun. A file that is not as an import wrote it is never replaced, and nothing is removed
 /// but the file of a student who has become a member of a group that another one hands in for. Students keep
 /// the name they have in the table; new ones get the first of these that is known, free and can be the name
-/// of a folder: id, e-mail, GitHub name, name, name with the platform's number. Throws Error if something
-/// cannot be written.
+/// of a folder: id, e-mail, GitHub name, name, name with the platform's number. If the process is killed, the
+/// same import goes on and ends with the same files. Throws Error if something cannot be written, and like
+/// readImportTable().
 [[nodiscard]] ImportReport importArrivals(const Arrivals& arrivals, const PickOptions& options,
                                           const std::filesystem::path& handedIn);
 

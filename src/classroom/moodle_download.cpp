@@ -8,20 +8,15 @@
 #include "base/printable.h"
 #include "classroom/arrivals.h"
 #include "classroom/composed_text.h"
+#include "classroom/moodle_worksheet_internal.h"
 #include "classroom/platform_table.h"
 #include "classroom/platform_time.h"
 
 namespace rex::grading {
 namespace {
 
-using Headings = std::vector<std::string>;
-
-// In English and German.
-const Headings kIdentifier = {"Identifier", "ID"}, kFullName = {"Full name", "Vollständiger Name"},
-               kIdNumber = {"ID number", "ID-Nummer", "Matrikelnummer", "Student ID"},
-               kEmail = {"Email address", "E-Mail-Adresse", "E-Mail"}, kMoodleStatus = {"Status"},
-               kMaximum = {"Maximum Grade", "Bestwertung"},
-               kSubmitted = {"Last modified (submission)", "Zuletzt geändert (Abgabe)"};
+const MoodleHeadings kMoodleStatus = {"Status"},
+                     kMoodleSubmitted = {"Last modified (submission)", "Zuletzt geändert (Abgabe)"};
 
 /// What Moodle's grading worksheet says about one participant.
 struct MoodleRow {
@@ -31,31 +26,26 @@ struct MoodleRow {
   bool isHandedIn = false;
 };
 
-std::string digitsAtEnd(const std::string& text) {
-  const std::size_t last = text.find_last_not_of("0123456789");
-  return last == text.npos ? text : text.substr(last + 1);
-}
-
 std::map<std::string, MoodleRow> readWorksheet(const MoodleOptions& options) {
   std::map<std::string, MoodleRow> rows;
   if (options.worksheet.empty()) return rows;
   const PlatformTable table(options.worksheet, "Moodle's grading worksheet");
-  table.require(kIdentifier);
+  table.require(kMoodleIdentifier);
   const PlatformZone zone(options.timeZone);
   for (std::size_t k = 0; k < table.size(); ++k) {
-    MoodleRow row{.person = {.id = table.text(k, kIdNumber),
-                             .name = table.text(k, kFullName),
-                             .email = table.text(k, kEmail),
-                             .identifier = table.text(k, kIdentifier),
-                             .number = digitsAtEnd(table.text(k, kIdentifier)),
-                             .maximumGrade = table.text(k, kMaximum)},
+    MoodleRow row{.person = {.id = table.text(k, kMoodleIdNumber),
+                             .name = table.text(k, kMoodleName),
+                             .email = table.text(k, kMoodleEmail),
+                             .identifier = table.text(k, kMoodleIdentifier),
+                             .number = participantNumber(table.text(k, kMoodleIdentifier)),
+                             .maximumGrade = table.text(k, kMoodleMaximum)},
                   .status = table.text(k, kMoodleStatus)};
     if (row.person.number.empty())
       throw UsageError({.what = "not Moodle's grading worksheet",
                         .where = {table.place(k)},
                         .found = "'" + printable(row.person.identifier, 100) + "'",
                         .wanted = "an identifier such as 'Participant 501'"});
-    const std::string time = table.text(k, kSubmitted);
+    const std::string time = table.text(k, kMoodleSubmitted);
     if (!time.empty() && time != "-") row.submitted = zone.instantOf(time, table.place(k));
     const std::string number = row.person.number;
     if (!rows.emplace(number, std::move(row)).second)

@@ -8,7 +8,9 @@
 #include "base/lower_case.h"
 #include "base/printable.h"
 #include "base/text_file.h"
+#include "classroom/composed_text.h"
 #include "classroom/csv.h"
+#include "classroom/moodle_worksheet_internal.h"
 #include "classroom/platform_grades.h"
 #include "classroom/submission_owners.h"
 
@@ -17,11 +19,10 @@ namespace {
 
 constexpr std::size_t kNoColumn = static_cast<std::size_t>(-1);
 
-// Moodle's words in English and German.
-std::size_t columnOfAny(const CsvRow& headings, const std::vector<std::string>& names) {
+std::size_t columnOfAny(const CsvRow& headings, const MoodleHeadings& names) {
   for (const std::string& name : names)
     for (std::size_t k = 0; k < headings.fields.size(); ++k)
-      if (headings.fields[k] == name) return k;
+      if (caseless(headings.fields[k]) == caseless(name)) return k;
   return kNoColumn;
 }
 
@@ -41,17 +42,6 @@ std::string plainLine(const std::vector<std::string>& fields, const std::string&
   return line + end;
 }
 
-std::string numberAtEnd(const std::string& text) {
-  const std::size_t last = text.find_last_not_of("0123456789");
-  return last == std::string::npos ? text : text.substr(last + 1);
-}
-
-Course everyoneIn(const Gradebook& book) {
-  Course course;
-  for (const StudentTotal& sum : book.totals) course.students.push_back(sum.student);
-  return course;
-}
-
 /// Completes one worksheet.
 class WorksheetWriter {
  public:
@@ -61,7 +51,7 @@ class WorksheetWriter {
         text_(readTextFile(file)),
         book_(book),
         exercise_(exercise),
-        everyone_(everyoneIn(book)),
+        everyone_(book.everyone()),
         scale_(scale) {
     for (const ImportedStudent& person : imported.students)
       if (const auto entry = person.exercises.find(exercise); entry != person.exercises.end())
@@ -93,12 +83,12 @@ class WorksheetWriter {
 
  private:
   void findColumns(const CsvRow& headings) {
-    identifier_ = columnOfAny(headings, {"Identifier", "ID"});
+    identifier_ = columnOfAny(headings, kMoodleIdentifier);
     grade_ = columnOfAny(headings, {"Grade", "Bewertung"});
-    name_ = columnOfAny(headings, {"Full name", "Vollständiger Name"});
-    email_ = columnOfAny(headings, {"Email address", "E-Mail-Adresse"});
-    number_ = columnOfAny(headings, {"ID number", "ID-Nummer"});
-    maximum_ = columnOfAny(headings, {"Maximum Grade", "Maximum grade", "Bestwertung"});
+    name_ = columnOfAny(headings, kMoodleName);
+    email_ = columnOfAny(headings, kMoodleEmail);
+    number_ = columnOfAny(headings, kMoodleIdNumber);
+    maximum_ = columnOfAny(headings, kMoodleMaximum);
     if (identifier_ == kNoColumn || grade_ == kNoColumn)
       throw Error({.what = "not a grading worksheet of Moodle",
                    .where = {file_, 1, 0},
@@ -118,7 +108,7 @@ class WorksheetWriter {
 
   void complete(CsvRow& row) {
     const std::string id = studentIn(row), who = printable(cell(row, name_));
-    sheet_.rows.push_back({id, cell(row, name_), numberAtEnd(cell(row, identifier_))});
+    sheet_.rows.push_back({id, cell(row, name_), participantNumber(cell(row, identifier_))});
     if (id.empty()) {
       sheet_.notes.push_back(
           fmt::format("{}:{}: '{}' is nobody here; the grade stays as it is", file_, row.line, who));
@@ -139,8 +129,13 @@ class WorksheetWriter {
     double maximum = 0;
     const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), maximum);
     const std::int64_t most = static_cast<std::int64_t>(100 * maximum + 0.5);
-    if (failure != std::errc() || end != text.data() + text.size() || most == graded.possible)
-      return *graded.final;
+    const bool isNumber = failure == std::errc() && end == text.data() + text.size();
+    if (!isNumber && scale_)
+      throw Error({.what = fmt::format("the maximum grade of {} in Moodle", exercise_),
+                   .where = {file_, row.line, 0},
+                   .found = text.empty() ? "none" : text,
+                   .wanted = "a number, to scale the points to it"});
+    if (!isNumber || most == graded.possible) return *graded.final;
     if (!scale_ || graded.possible == 0)
       throw Error({.what = fmt::format("the maximum grade of {} in Moodle", exercise_),
                    .where = {file_, row.line, 0},
@@ -177,13 +172,13 @@ Worksheet moodleGrades(const std::filesystem::path& worksheet, const Gradebook& 
 
 std::vector<WorksheetRow> moodleStudents(const Gradebook& book, const std::string& exercise,
                                          const ImportTable& imported) {
-  const Course everyone = everyoneIn(book);
+  const Course everyone = book.everyone();
   std::vector<WorksheetRow> rows;
   for (const ImportedStudent& person : imported.students) {
     const auto entry = person.exercises.find(exercise);
     const std::string id = studentOf(person, everyone);
     if (entry == person.exercises.end() || entry->second.platform != "moodle" || id.empty()) continue;
-    if (const std::string number = numberAtEnd(entry->second.identifier); !number.empty())
+    if (const std::string number = participantNumber(entry->second.identifier); !number.empty())
       rows.push_back({id, person.name, number});
   }
   return rows;

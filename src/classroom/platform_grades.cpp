@@ -78,13 +78,10 @@ PlatformGrades classroomGrades(const Gradebook& book, const std::string& exercis
                       "roster_identifier", "student_repository_name", "student_repository_url",
                       "submission_timestamp", "points_awarded", "points_available"})};
   std::map<std::string, std::string> users;
-  const Course everyone = [&] {
-    Course course;
-    for (const StudentTotal& sum : book.totals) course.students.push_back(sum.student);
-    return course;
-  }();
+  const Course everyone = book.everyone();
   for (const ImportedStudent& person : imported.students)
-    if (const std::string id = studentOf(person, everyone); !id.empty()) users[id] = person.githubUsername;
+    if (const std::string id = studentOf(person, everyone); !id.empty() && !person.githubUsername.empty())
+      users[id] = person.githubUsername;
   for (const GradeRow& row : book.rows) {
     if (row.exercise != exercise) continue;
     const std::string& user = users[row.student.id];

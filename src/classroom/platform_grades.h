@@ -41,7 +41,8 @@ struct Worksheet {
 /// Completes a worksheet that was downloaded. Students are found by what the import knows of this exercise,
 /// by e-mail, by number or by a name that only one has. `scale`: to its maximum grade, if that is another
 /// than the points that are possible. Throws Error, with the line, if the columns Identifier and Grade are
-/// missing, or if the maximum is another and `scale` is not set.
+/// missing, for two rows of one student, if the maximum is another and `scale` is not set, and if it is set
+/// and there is none.
 [[nodiscard]] Worksheet moodleGrades(const std::filesystem::path& worksheet, const Gradebook& book,
                                      const std::string& exercise, const ImportTable& imported, bool scale);
 

@@ -175,6 +175,19 @@ std::vector<CommittedFile> Repository::filesNamed(const std::string& name, const
   return files;
 }
 
+std::map<std::string, int> Repository::changesOf(const std::string& name, const Commit& commit) const {
+  std::map<std::string, int> changes;
+  const std::string list = git({"log", "--first-parent", "--no-renames", "--format=", "--name-only", "-z",
+                                "-n", "20000", commit.id, "--", ":(glob)**/" + name});
+  std::size_t at = 0;
+  while (at < list.size()) {
+    const std::size_t end = std::min(list.find('\0', at), list.size());
+    if (end > at) ++changes[list.substr(at, end - at)];
+    at = end + 1;
+  }
+  return changes;
+}
+
 // git answers each id with "ID blob SIZE", a line break, the content and another line break.
 std::vector<std::string> Repository::contentsOf(const std::vector<CommittedFile>& files) const {
   std::string ids;

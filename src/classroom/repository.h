@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -40,6 +41,10 @@ class Repository {
 
   /// Its files of that name, in any folder. Throws Error if git cannot read it.
   [[nodiscard]] std::vector<CommittedFile> filesNamed(const std::string& name, const Commit& commit) const;
+
+  /// How many commits, from this one back on the side that history() takes, changed each file of that name,
+  /// in any folder. Throws Error if git cannot read it.
+  [[nodiscard]] std::map<std::string, int> changesOf(const std::string& name, const Commit& commit) const;
 
   /// The contents of files, in their order; empty texts for those with a `whyNot`. Throws Error if git cannot
   /// read one.

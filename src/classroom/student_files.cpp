@@ -35,7 +35,7 @@ class FilePicker {
     for (auto& [exercise, found] : found_) take(exercise, found);
     for (const DownloadedFile* file : others_) picked_.notes.push_back(ignored(file->place));
     if (picked_.files.empty() && picked_.complaints.empty() && isLeft_ && !isUntouched_)
-      complain("nothing to grade", files.front().place,
+      complain({}, "nothing to grade", files.front().place,
                files.size() == 1 ? "this file" : fmt::format("this and {} more", files.size() - 1),
                example());
     return std::move(picked_);
@@ -48,7 +48,8 @@ class FilePicker {
     isLeft_ = true;
     const bool isMain = path.filename() == kMainFile, isArchive = isArchiveName(file.name);
     if (!file.text && !file.whyNot.empty() && (isMain || isArchive || isSourceName(file.name)))
-      complain("not accepted", file.place, file.whyNot, "a C++ source file or an archive");
+      complain(isArchive ? "" : exerciseOf(file), "not accepted", file.place, file.whyNot,
+               "a C++ source file or an archive");
     else if (!file.text)
       picked_.notes.push_back(ignored(file.place) + (file.whyNot.empty() ? "" : ": " + file.whyNot));
     else if (isMain)
@@ -69,24 +70,30 @@ class FilePicker {
                   withoutArchiveEnding(file.name) + "/" + fs::path(member.name).lexically_normal().string(),
               .place = file.place + "/" + member.name,
               .text = std::move(member.text),
-              .modifiedAt = file.modifiedAt},
+              .modifiedAt = file.modifiedAt,
+              .attempts = file.attempts},
              true);
       for (const auto& [member, why] : content.leftOut)
         look({.name = member, .place = file.place + "/" + member, .whyNot = why}, true);
     } catch (const Error& error) {
-      picked_.complaints.emplace_back(error.what());
+      add({}, error);
     }
   }
 
   void lookAtMain(const DownloadedFile& file) {
-    std::string exercise = exerciseAround(file.name);
-    if (exercise.empty()) exercise = options_.exercise;
+    const std::string exercise = exerciseOf(file);
     if (exercise.empty())
-      complain("no exercise folder around it", file.place, "a file", example() + ", or --exercise EXERCISE");
+      complain({}, "no exercise folder around it", file.place, "a file",
+               example() + ", or --exercise EXERCISE");
     else if (!options_.exercise.empty() && exercise != options_.exercise)
       picked_.notes.push_back(fmt::format("{}: not of {}", file.place, options_.exercise));
     else
       found_[exercise].push_back(&keep(file));
+  }
+
+  std::string exerciseOf(const DownloadedFile& file) const {
+    const std::string around = exerciseAround(file.name);
+    return around.empty() ? options_.exercise : around;
   }
 
   // The innermost folder that has the name of an exercise.
@@ -105,7 +112,7 @@ class FilePicker {
   void takeOther() {
     if (options_.exercise.empty() || found_.contains(options_.exercise) || others_.empty()) return;
     if (others_.size() > 1) {
-      complain("more than one source file", others_.front()->place,
+      complain(options_.exercise, "more than one source file", others_.front()->place,
                fmt::format("also '{}'", printable(others_.back()->place, 200)), "one, or main.cpp");
       return;
     }
@@ -120,15 +127,15 @@ class FilePicker {
                                     [&](const DownloadedFile* one) { return *one->text != *file.text; });
     const auto handedOut = options_.handedOut.find(exercise);
     if (other != found.end())
-      complain("two files for " + exercise, file.place,
+      complain(exercise, "two files for " + exercise, file.place,
                fmt::format("another text in '{}'", printable((*other)->place, 200)), "one of them");
     else if (const std::string why = whyNoSource(*file.text); !why.empty())
-      complain("cannot be graded", file.place, why, "a C++ source file");
+      complain(exercise, "cannot be graded", file.place, why, "a C++ source file");
     else if (handedOut != options_.handedOut.end() && handedOut->second == *file.text)
       isUntouched_ = true,
       picked_.notes.push_back(fmt::format("{}: as it was handed out, not taken", file.place));
     else
-      picked_.files.push_back({exercise, *file.text, file.place, file.modifiedAt});
+      picked_.files.push_back({exercise, *file.text, file.place, file.modifiedAt, file.attempts});
   }
 
   const DownloadedFile& keep(const DownloadedFile& file) {
@@ -142,12 +149,16 @@ class FilePicker {
     return options_.exercises.empty() ? kMainFile : options_.exercises.front().name + "/" + kMainFile;
   }
 
-  void complain(std::string what, const std::string& where, std::string found, std::string wanted) {
-    picked_.complaints.emplace_back(Error({.what = std::move(what),
-                                           .where = {where},
-                                           .found = std::move(found),
-                                           .wanted = std::move(wanted)})
-                                        .what());
+  void complain(const std::string& exercise, std::string what, const std::string& where, std::string found,
+                std::string wanted) {
+    add(exercise, Error({.what = std::move(what),
+                         .where = {where},
+                         .found = std::move(found),
+                         .wanted = std::move(wanted)}));
+  }
+  void add(const std::string& exercise, const Error& error) {
+    picked_.complaints.emplace_back(error.what());
+    picked_.whyNone.emplace(exercise, error.what());
   }
 
   const PickOptions& options_;

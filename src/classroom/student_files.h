@@ -13,8 +13,9 @@ namespace rex::grading {
 struct PickedFile {
   std::string exercise{};  ///< full name
   std::string text{};
-  std::string source{};  ///< path in the download, through archives: "zoe.zip/01/main.cpp"
-  std::int64_t modifiedAt = 0;
+  std::string source{};         ///< path in the download, through archives: "zoe.zip/01/main.cpp"
+  std::int64_t modifiedAt = 0;  ///< seconds since 1970 in UTC; 0: unknown
+  int attempts = 0;             ///< how often it was handed in; 0: unknown
 };
 
 /// What was found in the files of one student.
@@ -22,6 +23,8 @@ struct PickedFiles {
   std::vector<PickedFile> files{};        ///< one for each exercise, by exercise
   std::vector<std::string> complaints{};  ///< what was not taken: file, finding, what was wanted
   std::vector<std::string> notes{};       ///< other things that were found
+  /// The first complaint about each exercise; "": about what could be any.
+  std::map<std::string, std::string> whyNone{};
 };
 
 /// How to find exercises.

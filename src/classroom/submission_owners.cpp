@@ -3,32 +3,35 @@
 #include <algorithm>
 #include <set>
 
-#include "base/lower_case.h"
+#include "classroom/composed_text.h"
 
 namespace rex::grading {
 namespace {
 
-bool isEqualText(const std::string& a, const std::string& b) {
-  return !a.empty() && lowerCase(a) == lowerCase(b);
+bool isSameText(const std::string& a, const std::string& b) {
+  return !a.empty() && !b.empty() && caseless(a) == caseless(b);
 }
 
 }  // namespace
 
 std::string studentOf(const ImportedStudent& person, const Course& course) {
-  for (const CourseStudent& student : course.students)
-    if (isEqualText(person.student, student.id) || isEqualText(person.id, student.id) ||
-        isEqualText(person.id, student.number) || isEqualText(person.email, student.email) ||
-        isEqualText(person.githubUsername, student.id))
-      return student.id;
+  // What the platform knows for certain comes first: a folder may be called like another student.
+  using Field = std::pair<const std::string&, std::string CourseStudent::*>;
+  for (const auto& [told, known] :
+       {Field{person.id, &CourseStudent::id}, Field{person.id, &CourseStudent::number},
+        Field{person.email, &CourseStudent::email}, Field{person.student, &CourseStudent::id},
+        Field{person.githubUsername, &CourseStudent::id}})
+    for (const CourseStudent& student : course.students)
+      if (isSameText(told, student.*known)) return student.id;
   std::vector<std::string> named;
   for (const CourseStudent& student : course.students)
-    if (isEqualText(person.name, student.name)) named.push_back(student.id);
+    if (isSameText(person.name, student.name)) named.push_back(student.id);
   return named.size() == 1 ? named.front() : "";
 }
 
 SubmissionOwners::SubmissionOwners(const Course& course, const ImportTable& imported)
     : course_(course), imported_(imported) {
-  for (const CourseStudent& student : course.students) ids_[lowerCase(student.id)] = student.id;
+  for (const CourseStudent& student : course.students) ids_[caseless(student.id)] = student.id;
   for (const ImportedStudent& person : imported.students)
     if (const std::string id = studentOf(person, course); !id.empty()) people_[person.student] = id;
 }
@@ -50,9 +53,9 @@ std::vector<std::string> SubmissionOwners::of(const std::string& folder, const s
       ids.push_back(id->second);
   }
   if (!ids.empty()) return withGroups(ids);
-  if (const auto own = ids_.find(lowerCase(folder)); own != ids_.end()) return withGroups({own->second});
+  if (const auto own = ids_.find(caseless(folder)); own != ids_.end()) return withGroups({own->second});
   for (const std::string& group : course_.groups())
-    if (isEqualText(group, folder)) return course_.members(group);
+    if (isSameText(group, folder)) return course_.members(group);
   if (const auto person = people_.find(folder); person != people_.end()) return withGroups({person->second});
   return {};
 }

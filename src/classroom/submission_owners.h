@@ -9,8 +9,9 @@
 
 namespace rex::grading {
 
-/// The student of the course who is this person of a platform: by id, number, e-mail or user name, else by
-/// a full name that only one has. Empty: nobody.
+/// The id of the student of the course who is this person of a platform: by id, number, e-mail, name of the
+/// folder or user name, in this order, else by a full name that only one has. Case does not count, nor how
+/// umlauts are written. Empty: nobody.
 [[nodiscard]] std::string studentOf(const ImportedStudent& person, const Course& course);
 
 /// Whose submissions the folders of a class are.
@@ -27,7 +28,7 @@ class SubmissionOwners {
 
   const Course& course_;
   const ImportTable& imported_;
-  std::map<std::string, std::string> ids_{};     ///< in lower case: the id
+  std::map<std::string, std::string> ids_{};     ///< by caseless(id)
   std::map<std::string, std::string> people_{};  ///< of a platform: folder, id
 };
 

@@ -39,7 +39,7 @@ SubmissionTimes::SubmissionTimes(const std::filesystem::path& file,
   for (std::size_t k = 1; k < rows.size(); ++k) {
     const auto& [line, fields] = rows[k];
     if (fields.size() != headings.fields.size())
-      throw fail(line, "submission times", fmt::format("{} fields", fields.size()),
+      throw fail(line, "a broken row of submission times", fmt::format("{} fields", fields.size()),
                  fmt::format("{}", headings.fields.size()));
     if (fields[submitted].empty()) continue;
     const auto time = parseInstant(fields[submitted]);

@@ -45,16 +45,18 @@ inline void weighSome(const Sighting* sightings, long sighted, const double* sta
   store(load<T>(logWeights + i) - T(0.5) * sum, logWeights + i);
 }
 
+// Flat, because the compiler would otherwise call sinCos() and pass its registers through memory.
 template <class T>
-void move(const CarStep& step, const double* normals, double* states, long stride, long count) {
+__attribute__((flatten)) void move(const CarStep& step, const double* normals, double* states, long stride,
+                                   long count) {
   long i = 0;
   for (; i + kLanesOf<T> <= count; i += kLanesOf<T>) moveSome<T>(step, normals, states, stride, count, i);
   for (; i < count; ++i) moveSome<double>(step, normals, states, stride, count, i);
 }
 
 template <class T>
-void weigh(const Sighting* sightings, long sighted, const double* states, long stride, long count,
-           double* logWeights) {
+__attribute__((flatten)) void weigh(const Sighting* sightings, long sighted, const double* states,
+                                    long stride, long count, double* logWeights) {
   long i = 0;
   for (; i + kLanesOf<T> <= count; i += kLanesOf<T>)
     weighSome<T>(sightings, sighted, states, stride, logWeights, i);

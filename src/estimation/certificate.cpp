@@ -1,11 +1,12 @@
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <utility>
 #include <vector>
 
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
+#include <Eigen/Core>
 
+#include "estimation/block_cholesky_internal.h"
 #include "estimation/pose_edge_internal.h"
 #include "estimation/pose_graph.h"
 
@@ -19,6 +20,9 @@
 namespace rex {
 namespace {
 
+using internal::BlockCholesky;
+using internal::BlockPattern;
+
 template <int D>
 struct IsotropicEdge {
   int from, to;
@@ -27,6 +31,8 @@ struct IsotropicEdge {
   internal::IsotropicWeights weights;
 };
 
+// Node i holds position and rotation of pose i as columns of Y, or a landmark; what a node lacks is 1 on the
+// diagonal of S and 0 in Y.
 template <int D>
 class Certificate {
  public:
@@ -34,83 +40,83 @@ class Certificate {
   using Position = Eigen::Matrix<double, D, 1>;
 
   Certificate(std::vector<Rotation> R, const std::vector<Position>& t,
+              const std::shared_ptr<const BlockPattern>& pattern,
               const Eigen::Matrix<double, D, Eigen::Dynamic>& landmarks = {})
-      : R_(std::move(R)),
-        first_((1 + D) * static_cast<int>(R_.size()) - 1),
-        size_(first_ + static_cast<int>(landmarks.cols())) {
-    Y_.resize(D, size_);
-    if (size_ > first_) Y_.rightCols(size_ - first_) = landmarks.colwise() - t[0];
+      : R_(std::move(R)), S_(pattern) {
+    Y_.setZero(kSize * pattern->nodes(), D);
     for (std::size_t i = 0; i < R_.size(); ++i) {
-      if (i > 0) Y_.col(position(static_cast<int>(i))) = t[i] - t[0];
-      Y_.template middleCols<D>(rotation(static_cast<int>(i))) = R_[i];
+      const int at = kSize * static_cast<int>(i);
+      Y_.row(at) = (t[i] - t[0]).transpose();
+      Y_.template middleRows<D>(at + 1) = R_[i].transpose();
     }
+    for (Eigen::Index i = 0; i < landmarks.cols(); ++i)
+      Y_.row(kSize * (poses() + i)) = (landmarks.col(i) - t[0]).transpose();
   }
 
+  // |R_j - R_i R_ij|^2, then |t_j - t_i - R_i t_ij|^2: squares of Y times A and B, of the nodes i and j.
   void add(const IsotropicEdge<D>& edge) {
-    // |R_j - R_i R_ij|^2, then |t_j - t_i - R_i t_ij|^2: squares of Y times a few columns.
-    for (int k = 0; k < D; ++k) {
-      Column column;
-      column.emplace_back(rotation(edge.to) + k, 1);
-      for (int l = 0; l < D; ++l) column.emplace_back(rotation(edge.from) + l, -edge.R(l, k));
-      addSquare(column, edge.weights.rotation);
-    }
-    Column column;
-    if (edge.to > 0) column.emplace_back(position(edge.to), 1);
-    if (edge.from > 0) column.emplace_back(position(edge.from), -1);
-    for (int l = 0; l < D; ++l) column.emplace_back(rotation(edge.from) + l, -edge.t[l]);
-    addSquare(column, edge.weights.translation);
+    Block A = Block::Zero(), B = Block::Zero();
+    A.template bottomRightCorner<D, D>() = -edge.R;
+    B.template bottomRightCorner<D, D>().setIdentity();
+    addSquare(edge.from, A, edge.to, B, edge.weights.rotation);
+    addDifference(edge.from, edge.to, edge.t, edge.weights.translation);
   }
 
   void addSighting(int pose, int landmark, const Position& seen, double weight) {
-    Column column = {{first_ + landmark, 1}};
-    if (pose > 0) column.emplace_back(position(pose), -1);
-    for (int l = 0; l < D; ++l) column.emplace_back(rotation(pose) + l, -seen[l]);
-    addSquare(column, weight);
+    addDifference(pose, poses() + landmark, seen, weight);
   }
 
   double gap() {
-    Eigen::SparseMatrix<double> S(size_, size_);
-    S.setFromTriplets(entries_.begin(), entries_.end());
-    const Eigen::MatrixXd YM = Y_ * S.selfadjointView<Eigen::Lower>();
-    double atPositions = Y_.rightCols(size_ - first_).cwiseProduct(YM.rightCols(size_ - first_)).sum();
-    for (std::size_t i = 0; i < R_.size(); ++i) {
-      const int at = rotation(static_cast<int>(i));
-      if (i > 0) atPositions += Y_.col(at - 1).dot(YM.col(at - 1));
-      const Rotation multiplier = R_[i].transpose() * YM.template middleCols<D>(at);
-      for (int c = 0; c < D; ++c)
-        for (int r = c; r < D; ++r) S.coeffRef(at + r, at + c) -= 0.5 * (multiplier(r, c) + multiplier(c, r));
+    const Eigen::MatrixXd MY = S_.times(Y_);
+    double atPositions = 0, scale = 0;
+    for (int i = 0; i < S_.pattern().nodes(); ++i) {
+      Block& S = S_.diagonal(i);
+      atPositions += Y_.row(kSize * i).dot(MY.row(kSize * i));
+      if (i < poses()) {
+        const Rotation multiplier =
+            Y_.template middleRows<D>(kSize * i + 1) * MY.template middleRows<D>(kSize * i + 1).transpose();
+        S.template bottomRightCorner<D, D>() -= 0.5 * (multiplier + multiplier.transpose());
+      }
+      scale = std::max(scale, S.diagonal().cwiseAbs().maxCoeff());
     }
-    S.makeCompressed();
-    const double scale = Eigen::VectorXd(S.diagonal()).cwiseAbs().maxCoeff();
-    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor;
-    factor.analyzePattern(S);
+    for (int i = 0; i < S_.pattern().nodes(); ++i) {
+      if (i == 0) S_.diagonal(i)(0, 0) = scale;
+      if (i >= poses()) S_.diagonal(i).template bottomRightCorner<D, D>().diagonal().setConstant(scale);
+    }
+    double raised = 0;
     for (double share = 1e-13; share < 1e-2; share *= 10) {
-      Eigen::SparseMatrix<double> shifted = S;
-      for (std::size_t i = 0; i < R_.size(); ++i)
-        for (int k = 0; k < D; ++k)
-          shifted.coeffRef(rotation(static_cast<int>(i)) + k, rotation(static_cast<int>(i)) + k) +=
-              share * scale;
-      factor.factorize(shifted);
-      if (factor.info() == Eigen::Success && factor.vectorD().minCoeff() > 0)
-        return std::max(atPositions, 0.) + share * scale * D * static_cast<double>(R_.size());
+      for (int i = 0; i < poses(); ++i)
+        S_.diagonal(i).template bottomRightCorner<D, D>().diagonal().array() += share * scale - raised;
+      raised = share * scale;
+      if (S_.factorize(0)) return std::max(atPositions, 0.) + raised * D * static_cast<double>(R_.size());
     }
     return std::numeric_limits<double>::infinity();
   }
 
  private:
-  using Column = std::vector<std::pair<int, double>>;
-  static int position(int pose) { return (1 + D) * pose - 1; }
-  static int rotation(int pose) { return (1 + D) * pose; }
-  void addSquare(const Column& column, double weight) {
-    for (const auto& [r, a] : column)
-      for (const auto& [c, b] : column)
-        if (r >= c) entries_.emplace_back(r, c, weight * a * b);
+  static constexpr int kSize = 1 + D;
+  using Block = Eigen::Matrix<double, kSize, kSize>;
+
+  int poses() const { return static_cast<int>(R_.size()); }
+  void addDifference(int i, int j, const Position& t, double weight) {
+    Block A = Block::Zero(), B = Block::Zero();
+    A(0, 0) = -1;
+    A.template bottomLeftCorner<D, 1>() = -t;
+    B(0, 0) = 1;
+    // Position 0 is left out.
+    if (i == 0) A(0, 0) = 0;
+    if (j == 0) B(0, 0) = 0;
+    addSquare(i, A, j, B, weight);
+  }
+  void addSquare(int i, const Block& A, int j, const Block& B, double weight) {
+    S_.diagonal(i) += weight * A * A.transpose();
+    S_.diagonal(j) += weight * B * B.transpose();
+    S_.add(i, j, weight * A * B.transpose());
   }
 
   std::vector<Rotation> R_;
-  int first_, size_;  // the first landmark, and all
-  Eigen::Matrix<double, D, Eigen::Dynamic> Y_;
-  std::vector<Eigen::Triplet<double>> entries_;
+  BlockCholesky<kSize> S_;
+  Eigen::MatrixXd Y_;  // transposed
 };
 
 }  // namespace
@@ -125,7 +131,8 @@ double certifiedGap(const PlanarPoseGraph& graph) {
     R.push_back(internal::planarRotation(pose[2]));
     t.push_back(pose.head<2>());
   }
-  Certificate<2> certificate(std::move(R), t, graph.landmarks);
+  Certificate<2> certificate(std::move(R), t, internal::patternOf<internal::PlanarGraphTraits>(graph, 0),
+                             graph.landmarks);
   for (const PlanarEdge& edge : graph.edges)
     certificate.add({edge.from, edge.to, internal::planarRotation(edge.motion[2]), edge.motion.head<2>(),
                      internal::isotropic(edge)});
@@ -144,7 +151,7 @@ double certifiedGap(const SpatialPoseGraph& graph) {
     R.push_back(pose.R);
     t.push_back(pose.p);
   }
-  Certificate<3> certificate(std::move(R), t);
+  Certificate<3> certificate(std::move(R), t, internal::patternOf<internal::SpatialGraphTraits>(graph, 0));
   for (const SpatialEdge& edge : graph.edges)
     certificate.add({edge.from, edge.to, edge.motion.R, edge.motion.p, internal::isotropic(edge)});
   return certificate.gap();

@@ -1,13 +1,13 @@
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include <Eigen/LU>
 #include <Eigen/SVD>
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
 
+#include "estimation/block_cholesky_internal.h"
 #include "estimation/pose_edge_internal.h"
 
 // Two linear least-squares problems (Carlone, Tron, Daniilidis and Dellaert 2015): the rotations as free
@@ -23,8 +23,9 @@ class LinearGraph {
   using Matrix = Eigen::Matrix<double, Size, Size>;
   using Value = Eigen::Matrix<double, Size, Columns>;
 
-  LinearGraph(int poses, const Value& first) : first_(first), heaviest_(static_cast<std::size_t>(poses), 0) {
-    rhs_.setZero(Size * (poses - 1), Columns);
+  LinearGraph(const std::shared_ptr<const BlockPattern>& pattern, const Value& first)
+      : first_(first), heaviest_(static_cast<std::size_t>(pattern->nodes()) + 1, 0), H_(pattern) {
+    rhs_.setZero(Size * pattern->nodes(), Columns);
   }
 
   void add(int i, int j, double w, const Matrix& M, const Value& b) {
@@ -32,9 +33,9 @@ class LinearGraph {
       double& heaviest = heaviest_[static_cast<std::size_t>(pose)];
       heaviest = std::max(heaviest, w);
     }
-    if (j > 0) addBlock(j, j, w * Matrix::Identity());
-    if (i > 0) addBlock(i, i, w * M.transpose() * M);
-    if (i > 0 && j > 0) (i > j ? addBlock(i, j, -w * M.transpose()) : addBlock(j, i, -w * M));
+    if (j > 0) H_.diagonal(j - 1) += w * Matrix::Identity();
+    if (i > 0) H_.diagonal(i - 1) += w * M.transpose() * M;
+    if (i > 0 && j > 0) H_.add(j - 1, i - 1, -w * M);
     const Value known = (i == 0 ? Value(M * first_) : Value::Zero()) - (j == 0 ? first_ : Value::Zero()) + b;
     if (j > 0) rhs_.middleRows(Size * (j - 1), Size) += w * known;
     if (i > 0) rhs_.middleRows(Size * (i - 1), Size) -= w * M.transpose() * known;
@@ -44,33 +45,23 @@ class LinearGraph {
   // Call it after add().
   void anchor(int i, const Value& value) {
     const double heaviest = heaviest_[static_cast<std::size_t>(i)], w = heaviest > 0 ? 1e-14 * heaviest : 1;
-    addBlock(i, i, w * Matrix::Identity());
+    H_.diagonal(i - 1) += w * Matrix::Identity();
     rhs_.middleRows(Size * (i - 1), Size) += w * value;
   }
 
-  // One row of blocks for each pose but the first; empty if rounding left nothing to solve.
-  Eigen::MatrixXd solve() const {
-    Eigen::SparseMatrix<double> H(rhs_.rows(), rhs_.rows());
-    H.setFromTriplets(entries_.begin(), entries_.end());
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(H);
-    if (factor.info() != Eigen::Success) return {};
-    Eigen::MatrixXd values = factor.solve(rhs_);
+  // One row of blocks for each node but the first; empty if rounding left nothing to solve.
+  Eigen::MatrixXd solve() {
+    if (!H_.factorize(0)) return {};
+    Eigen::MatrixXd values = H_.solve(rhs_);
     if (!values.allFinite()) values.resize(0, 0);
     return values;
   }
 
  private:
-  void addBlock(int row, int column, const Matrix& block) {
-    for (int c = 0; c < Size; ++c)
-      for (int r = 0; r < Size; ++r)
-        if (row != column || r >= c)
-          entries_.emplace_back(Size * (row - 1) + r, Size * (column - 1) + c, block(r, c));
-  }
-
   Value first_;
   std::vector<double> heaviest_;  // weight of the edges of each pose
   Eigen::MatrixXd rhs_;
-  std::vector<Eigen::Triplet<double>> entries_;
+  BlockCholesky<Size> H_;
 };
 
 using Scalar = Eigen::Matrix<double, 1, 1>;
@@ -78,19 +69,21 @@ const Scalar kUnturned(1.0);
 
 }  // namespace
 
-void setChordalPoses(PlanarPoseGraph& graph) {
+void setChordalPoses(PlanarPoseGraph& graph, const std::shared_ptr<const BlockPattern>& pattern) {
   const int poses = PlanarGraphTraits::poses(graph);
   Eigen::Matrix3Xd start = graph.poses;
   // First columns of the rotations, as (cos, sin): R_j e = R_i R_ij e turns that of i by the angle.
-  LinearGraph<2, 1> rotations(poses, planarRotation(start(2, 0)).col(0));
+  LinearGraph<2, 1> rotations(pattern, planarRotation(start(2, 0)).col(0));
   for (const PlanarEdge& edge : graph.edges)
     rotations.add(edge.from, edge.to, isotropic(edge).rotation, planarRotation(edge.motion[2]),
                   Eigen::Vector2d::Zero());
   for (int i = 1; i < poses; ++i) rotations.anchor(i, planarRotation(start(2, i)).col(0));
+  const auto landmarks = static_cast<int>(graph.landmarks.cols());
+  for (int i = 0; i < landmarks; ++i) rotations.anchor(poses + i, Eigen::Vector2d::Zero());  // they have none
   const Eigen::MatrixXd headings = rotations.solve();
   if (headings.size() == 0) return;
   for (int i = 1; i < poses; ++i) start(2, i) = std::atan2(headings(2 * i - 1, 0), headings(2 * i - 2, 0));
-  LinearGraph<1, 2> positions(PlanarGraphTraits::nodes(graph), start.col(0).head<2>().transpose());
+  LinearGraph<1, 2> positions(pattern, start.col(0).head<2>().transpose());
   for (const PlanarEdge& edge : graph.edges)
     positions.add(edge.from, edge.to, isotropic(edge).translation, kUnturned,
                   (planarRotation(start(2, edge.from)) * edge.motion.head<2>()).transpose());
@@ -98,7 +91,6 @@ void setChordalPoses(PlanarPoseGraph& graph) {
     positions.add(edge.pose, poses + edge.landmark, isotropic(edge).translation, kUnturned,
                   (planarRotation(start(2, edge.pose)) * edge.position).transpose());
   for (int i = 1; i < poses; ++i) positions.anchor(i, start.col(i).head<2>().transpose());
-  const auto landmarks = static_cast<int>(graph.landmarks.cols());
   for (int i = 0; i < landmarks; ++i) positions.anchor(poses + i, graph.landmarks.col(i).transpose());
   const Eigen::MatrixXd found = positions.solve();
   if (found.size() == 0) return;
@@ -107,12 +99,12 @@ void setChordalPoses(PlanarPoseGraph& graph) {
   graph.landmarks = found.bottomRows(landmarks).transpose();
 }
 
-void setChordalPoses(SpatialPoseGraph& graph) {
+void setChordalPoses(SpatialPoseGraph& graph, const std::shared_ptr<const BlockPattern>& pattern) {
   const int poses = SpatialGraphTraits::poses(graph);
   std::vector<Pose> start = graph.poses;
   const auto at = [&](int i) -> Pose& { return start[static_cast<std::size_t>(i)]; };
   // Transposed rotations: R_j^T = R_ij^T R_i^T.
-  LinearGraph<3, 3> rotations(poses, at(0).R.transpose());
+  LinearGraph<3, 3> rotations(pattern, at(0).R.transpose());
   for (const SpatialEdge& edge : graph.edges)
     rotations.add(edge.from, edge.to, isotropic(edge).rotation, edge.motion.R.transpose(),
                   Eigen::Matrix3d::Zero());
@@ -125,7 +117,7 @@ void setChordalPoses(SpatialPoseGraph& graph) {
     const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
     at(i).R = svd.matrixU() * Eigen::Vector3d(1, 1, sign).asDiagonal() * svd.matrixV().transpose();
   }
-  LinearGraph<1, 3> positions(poses, at(0).p.transpose());
+  LinearGraph<1, 3> positions(pattern, at(0).p.transpose());
   for (const SpatialEdge& edge : graph.edges)
     positions.add(edge.from, edge.to, isotropic(edge).translation, kUnturned,
                   (at(edge.from).R * edge.motion.p).transpose());

@@ -7,11 +7,13 @@
 #include <Eigen/Cholesky>
 #include <fmt/format.h>
 
+#include "base/cpu_lanes.h"
 #include "base/error.h"
 #include "base/require.h"
 #include "estimation/covariance.h"
 #include "estimation/innovation_internal.h"
 #include "estimation/pose_transition_internal.h"
+#include "estimation/rank_two_kernel_internal.h"
 
 namespace rex {
 namespace {
@@ -129,9 +131,8 @@ void EkfSlam::update(int landmark, const Innovation& innovation) {
   factor.matrixU().solveInPlace<Eigen::OnTheRight>(U);
   requireVariances(n);
   mean_.head(n).noalias() += U * factor.matrixL().solve(innovation.error);
-  for (int j = 0; j < n; ++j)
-    covariance_.col(j).segment(j, n - j).noalias() -=
-        U(j, 0) * U.col(0).tail(n - j) + U(j, 1) * U.col(1).tail(n - j);
+  kernelFor<internal::RankTwoKernel>(cpuLanes())
+      .subtract(U.col(0).data(), U.col(1).data(), n, covariance_.data(), covariance_.outerStride());
 }
 
 // Cancellation leaves no digits if the sensor is far more precise than the prior.

@@ -42,14 +42,17 @@ void requireNumbers(const Eigen::MatrixXd& states, Eigen::Index first = 0) {
           {.what = fmt::format("state of particle {}", first + i), .found = "numbers that are not finite"});
 }
 
-void requireLogWeights(const Eigen::VectorXd& logWeights) {
-  if (logWeights.maxCoeff<Eigen::PropagateNaN>() < std::numeric_limits<double>::infinity()) return;
+// The largest log weight.
+double requireLogWeights(const Eigen::VectorXd& logWeights) {
+  const double largest = logWeights.maxCoeff<Eigen::PropagateNaN>();
+  if (largest < std::numeric_limits<double>::infinity()) return largest;
   for (Eigen::Index i = 0; i < logWeights.size(); ++i) {
     if (logWeights[i] < std::numeric_limits<double>::infinity()) continue;
     throw Error({.what = fmt::format("log weight of particle {}", i),
                  .found = fmt::format("{:g}", std::abs(logWeights[i])),
                  .wanted = "a number, or minus infinity"});
   }
+  return largest;
 }
 
 // The cell that a state lies in.
@@ -102,10 +105,18 @@ void ParticleFilter::gather(const std::vector<int>& parents) {
   const Eigen::Index n = particles_.states.rows();
   next_.resize(n, static_cast<Eigen::Index>(parents.size()));
   double* child = next_.data();
-  for (const int parent : parents) {
-    const double* state = particles_.states.data() + n * parent;
-    for (Eigen::Index i = 0; i < n; ++i) *child++ = state[i];
+  const double* states = particles_.states.data();
+  if (n == 3) {  // a pose in the plane: no inner loop
+    for (const int parent : parents) {
+      const double* state = states + 3 * static_cast<std::ptrdiff_t>(parent);
+      child[0] = state[0];
+      child[1] = state[1];
+      child[2] = state[2];
+      child += 3;
+    }
+    return;
   }
+  for (const int parent : parents) child = std::copy_n(states + n * parent, n, child);
 }
 
 // Keeps drawing until the number of occupied cells requires no more particles.
@@ -152,10 +163,12 @@ ParticleStep ParticleFilter::step(const Propose& propose, const Weigh& weigh, Rn
   }
   proposed_ = logWeights_;
   weigh(next_, logWeights_);
-  requireLogWeights(logWeights_);
-  report.lost = std::isinf(logWeights_.maxCoeff());
-  if (report.lost) logWeights_ = std::isinf(proposed_.maxCoeff()) ? proposed_.setZero() : proposed_;
-  const double largest = logWeights_.maxCoeff();
+  double largest = requireLogWeights(logWeights_);
+  report.lost = std::isinf(largest);
+  if (report.lost) {
+    logWeights_ = std::isinf(proposed_.maxCoeff()) ? proposed_.setZero() : proposed_;
+    largest = logWeights_.maxCoeff();
+  }
   std::swap(particles_.states, next_);
   Eigen::VectorXd& weights = particles_.weights;
   weights.resize(logWeights_.size());

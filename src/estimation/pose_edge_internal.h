@@ -1,9 +1,12 @@
 #pragma once
 
+#include <algorithm>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "estimation/block_pattern_internal.h"
 #include "estimation/pose_graph.h"
 
 namespace rex::internal {
@@ -84,9 +87,21 @@ void requireSound(const SpatialPoseGraph& graph);
 void requireConnected(const PlanarPoseGraph& graph);
 void requireConnected(const SpatialPoseGraph& graph);
 
+/// The pattern of all nodes but the first `known` ones: node i of the graph is node i - known of the pattern.
+template <class Traits>
+[[nodiscard]] std::shared_ptr<const BlockPattern> patternOf(const typename Traits::Graph& graph, int known) {
+  std::vector<std::pair<int, int>> edges;
+  edges.reserve(Traits::terms(graph));
+  for (std::size_t k = 0; k < Traits::terms(graph); ++k) {
+    const auto [a, b] = Traits::ends(graph, k);
+    if (std::min(a, b) >= known) edges.emplace_back(a - known, b - known);
+  }
+  return std::make_shared<const BlockPattern>(Traits::nodes(graph) - known, edges);
+}
+
 /// Sets the poses and landmarks to the chordal start; pose 0 stays, and so do all where rounding leaves no
-/// such start.
-void setChordalPoses(PlanarPoseGraph& graph);
-void setChordalPoses(SpatialPoseGraph& graph);
+/// such start. `pattern` is patternOf(graph, 1).
+void setChordalPoses(PlanarPoseGraph& graph, const std::shared_ptr<const BlockPattern>& pattern);
+void setChordalPoses(SpatialPoseGraph& graph, const std::shared_ptr<const BlockPattern>& pattern);
 
 }  // namespace rex::internal

@@ -3,19 +3,20 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <utility>
 
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
+#include <Eigen/Core>
 #include <fmt/format.h>
 
 #include "base/require.h"
+#include "estimation/block_cholesky_internal.h"
 #include "estimation/pose_edge_internal.h"
 
 namespace rex {
 namespace {
 
-using internal::EdgeTerm;
+using internal::BlockPattern;
 using internal::PlanarGraphTraits;
 using internal::SpatialGraphTraits;
 
@@ -57,43 +58,25 @@ double cost(const typename Traits::Graph& graph, const PoseGraphOptions& options
 
 constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();  // of a few operations
 
-// H delta = -g, of all nodes but the first pose: the lower triangle of H by blocks. The position of each
-// block in the values of H is found once, since edges do not change.
+// H delta = -g, of all nodes but the first pose. The place of each edge's block is found once, since edges do
+// not change.
 template <class Traits>
 class NormalEquations {
  public:
   static constexpr int kSize = Traits::kSize;
   using Block = Eigen::Matrix<double, kSize, kSize>;
 
-  explicit NormalEquations(const typename Traits::Graph& graph) {
-    const int blocks = Traits::nodes(graph) - 1;
-    std::vector<std::vector<int>> below(static_cast<std::size_t>(blocks));  // of each column of blocks, rows
-    for (int i = 0; i < blocks; ++i) below[static_cast<std::size_t>(i)].push_back(i);
+  NormalEquations(const typename Traits::Graph& graph, const std::shared_ptr<const BlockPattern>& pattern)
+      : H_(pattern) {
     for (std::size_t k = 0; k < Traits::terms(graph); ++k) {
       const auto [from, to] = Traits::ends(graph, k);
-      if (from > 0 && to > 0)
-        below[static_cast<std::size_t>(std::min(from, to) - 1)].push_back(std::max(from, to) - 1);
+      places_.push_back(from > 0 && to > 0 ? pattern->place(from - 1, to - 1) : BlockPattern::Place());
     }
-    for (auto& rows : below) {
-      std::sort(rows.begin(), rows.end());
-      rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-    }
-    layOut(below);
-    for (std::size_t k = 0; k < Traits::terms(graph); ++k) {
-      const auto [from, to] = Traits::ends(graph, k);
-      const int row = std::max(from, to) - 1, column = std::min(from, to) - 1;
-      if (column < 0) {
-        places_.push_back(0);
-        continue;
-      }
-      const auto& rows = below[static_cast<std::size_t>(column)];
-      places_.push_back(static_cast<int>(std::lower_bound(rows.begin(), rows.end(), row) - rows.begin()));
-    }
-    g_.setZero(H_.rows());
+    g_.setZero(kSize * pattern->nodes());
   }
 
   void assemble(const typename Traits::Graph& graph, const PoseGraphOptions& options) {
-    std::fill_n(H_.valuePtr(), H_.nonZeros(), 0.);
+    H_.setZero();
     g_.setZero();
     rounding_ = 0;
     for (std::size_t k = 0; k < Traits::terms(graph); ++k) {
@@ -103,59 +86,38 @@ class NormalEquations {
       const double weight = robust(term.e.dot(weighed), options).weight;
       rounding_ += kRounding * kRounding * term.scale.cwiseAbs2().dot(term.information.diagonal());
       const Block WJi = weight * term.information * term.Ji, WJj = weight * term.information * term.Jj;
-      if (from > 0) add(from, 0, term.Ji.transpose() * WJi, term.Ji.transpose() * (weight * weighed));
-      if (to > 0) add(to, 0, term.Jj.transpose() * WJj, term.Jj.transpose() * (weight * weighed));
-      if (from > 0 && to > 0)
-        addBlock(std::min(from, to), places_[k],
-                 from > to ? Block(term.Ji.transpose() * WJj) : Block(term.Jj.transpose() * WJi));
+      if (from > 0) add(from, term.Ji.transpose() * WJi, term.Ji.transpose() * (weight * weighed));
+      if (to > 0) add(to, term.Jj.transpose() * WJj, term.Jj.transpose() * (weight * weighed));
+      if (from > 0 && to > 0) H_.add(places_[k], term.Ji.transpose() * WJj);
     }
   }
 
   // Empty if H + damping is not positive definite.
   Eigen::VectorXd solve(double damping) {
-    if (!analysed_) factor_.analyzePattern(H_);
-    analysed_ = true;
-    factor_.setShift(damping);
-    factor_.factorize(H_);
-    if (factor_.info() != Eigen::Success || !(factor_.vectorD().minCoeff() > 0)) return {};
-    return factor_.solve(-g_);
+    if (!H_.factorize(damping)) return {};
+    return H_.solve(-g_);
   }
 
-  double largestDiagonal() const { return Eigen::VectorXd(H_.diagonal()).maxCoeff(); }
+  double largestDiagonal() const {
+    double largest = 0;
+    for (int i = 0; i < H_.pattern().nodes(); ++i)
+      largest = std::max(largest, H_.diagonal(i).diagonal().maxCoeff());
+    return largest;
+  }
   const Eigen::VectorXd& gradient() const { return g_; }
   // The cost that rounding alone can give edges that fit exactly.
   double rounding() const { return rounding_; }
 
  private:
-  void layOut(const std::vector<std::vector<int>>& below) {
-    const int size = kSize * static_cast<int>(below.size());
-    H_.resize(size, size);
-    Eigen::VectorXi counts(size);
-    for (int j = 0; j < size; ++j)
-      counts[j] = kSize * static_cast<int>(below[static_cast<std::size_t>(j / kSize)].size());
-    H_.reserve(counts);
-    for (int j = 0; j < size; ++j)
-      for (const int row : below[static_cast<std::size_t>(j / kSize)])
-        for (int r = 0; r < kSize; ++r) H_.insert(kSize * row + r, j) = 0;
-    H_.makeCompressed();
-  }
-  template <class Diagonal, class Slope>
-  void add(int pose, int place, const Diagonal& block, const Slope& slope) {
-    addBlock(pose, place, block);
-    g_.template segment<kSize>(kSize * (pose - 1)) += slope;
-  }
-  void addBlock(int columnPose, int place, const Block& block) {
-    for (int c = 0; c < kSize; ++c) {
-      double* values = H_.valuePtr() + H_.outerIndexPtr()[kSize * (columnPose - 1) + c] + kSize * place;
-      for (int r = 0; r < kSize; ++r) values[r] += block(r, c);
-    }
+  template <class Slope>
+  void add(int node, const Block& block, const Slope& slope) {
+    H_.diagonal(node - 1) += block;
+    g_.template segment<kSize>(kSize * (node - 1)) += slope;
   }
 
-  Eigen::SparseMatrix<double> H_;
+  internal::BlockCholesky<kSize> H_;
   Eigen::VectorXd g_;
-  std::vector<int> places_;  // of each edge: which block of its column
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
-  bool analysed_ = false;
+  std::vector<BlockPattern::Place> places_;  // of each edge
   double rounding_ = 0;
 };
 
@@ -163,8 +125,9 @@ constexpr double kLeastDamping = 1e-10, kMostDamping = 1e12;
 
 // Levenberg and Marquardt's steps; the damping follows how well the model predicted the gain (Nielsen 1999).
 template <class Traits>
-void descend(typename Traits::Graph& graph, const PoseGraphOptions& options, PoseGraphResult& result) {
-  NormalEquations<Traits> equations(graph);
+void descend(typename Traits::Graph& graph, const PoseGraphOptions& options,
+             const std::shared_ptr<const BlockPattern>& pattern, PoseGraphResult& result) {
+  NormalEquations<Traits> equations(graph, pattern);
   equations.assemble(graph, options);
   double damping = 0, growth = 10;  // damping relative to the largest entry of the diagonal
   auto before = Traits::unknowns(graph);
@@ -217,6 +180,19 @@ std::string endOf(const PoseGraphResult& result) {
   return count;
 }
 
+// Keeps the chordal start if it costs less than the given poses.
+template <class Traits>
+void startChordal(typename Traits::Graph& graph, const PoseGraphOptions& options,
+                  const std::shared_ptr<const BlockPattern>& pattern, PoseGraphResult& result) {
+  auto given = Traits::unknowns(graph);
+  internal::setChordalPoses(graph, pattern);
+  const double chordal = cost<Traits>(graph, options);
+  if (chordal < result.cost)
+    result.cost = chordal;
+  else
+    Traits::set(graph, std::move(given));
+}
+
 template <class Traits>
 PoseGraphResult optimizeGraph(typename Traits::Graph& graph, const PoseGraphOptions& options) {
   internal::requireSound(graph);
@@ -224,19 +200,13 @@ PoseGraphResult optimizeGraph(typename Traits::Graph& graph, const PoseGraphOpti
   requireOptions(options);
   PoseGraphResult result;
   result.cost = result.initialCost = cost<Traits>(graph, options);
-  if (options.chordalStart && Traits::nodes(graph) > 1) {
-    auto given = Traits::unknowns(graph);
-    internal::setChordalPoses(graph);
-    const double chordal = cost<Traits>(graph, options);
-    if (chordal < result.cost)
-      result.cost = chordal;
-    else
-      Traits::set(graph, std::move(given));
+  result.status = PoseGraphStatus::kConverged;
+  if (Traits::nodes(graph) > 1) {
+    const auto pattern = internal::patternOf<Traits>(graph, 1);
+    if (options.chordalStart) startChordal<Traits>(graph, options, pattern, result);
+    result.status = PoseGraphStatus::kBudgetSpent;
+    descend<Traits>(graph, options, pattern, result);
   }
-  if (Traits::nodes(graph) > 1)
-    descend<Traits>(graph, options, result);
-  else
-    result.status = PoseGraphStatus::kConverged;
   result.message =
       fmt::format("{}: cost {:.10g}, {:.10g} at the start", endOf(result), result.cost, result.initialCost);
   return result;

@@ -121,7 +121,13 @@ inline Eight<kWidth> rooted(const Eight<kWidth>& a) {
   return result;
 }
 
-/// Stores eight numbers.
+/// Loads a V from the numbers that start at `from`, and stores it.
+template <class V>
+inline V loadAt(const float* from) {
+  V result;
+  __builtin_memcpy(&result, from, sizeof result);
+  return result;
+}
 template <int kWidth>
 inline void storeEight(const Eight<kWidth>& x, float* to) {
   __builtin_memcpy(to, &x, sizeof x);

@@ -1,44 +1,42 @@
 #include "planning/nearest_neighbors.h"
 
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
+#include "base/cpu_lanes.h"
 #include "base/error.h"
 #include "base/require.h"
+#include "planning/neighbor_kernel_internal.h"
 
 namespace rex {
 namespace {
 
 using Kind = SpacePart::Kind;
-constexpr std::size_t kUsualDepth = 64;  // of a search; deeper ones take more memory
 
 constexpr double kEndless = std::numeric_limits<double>::infinity();
+constexpr float kEndlessFloat = std::numeric_limits<float>::infinity();
+constexpr float kFar = 3e38f;
+constexpr int kBlock = 8;  // points, or boxes, side by side
+// Of a stack of branches: at most five sixths of a node's points are below one of its children.
+constexpr std::size_t kMostOpen = 2048;
+constexpr int kGrowth = 3;  // of a subtree until it is built anew
+
+const internal::NeighborKernel& neighborKernel() {
+  static const auto kernel = kernelFor<internal::NeighborKernel>(cpuLanes());
+  return kernel;
+}
+
+int blocksOf(int count) { return (count + kBlock - 1) / kBlock; }
 
 // The squared chord between two angles in [-pi, pi].
 double squaredChord(const SpacePart& part, double a, double b) {
   const double chord = 2 * part.weight * std::sin((a - b) / 2);
   return chord * chord;
-}
-
-// The squared distance of x from an interval on a line that closes up after `period`.
-double squaredGap(double x, double lower, double upper, double period = kEndless) {
-  const double gap = std::max({lower - x, x - upper, 0.});
-  const double shorter = std::min(gap, period - (upper - lower) - gap);
-  return shorter * shorter;
-}
-
-// Adds the squared distances of x from points on such a line.
-template <class Lanes>
-inline void addSquaredGaps(double x, const double* points, double period, Lanes& sum) {
-  const Lanes gap = x - Lanes::Map(points);
-  if (period < kEndless)
-    sum += gap.abs().min(period - gap.abs()).square();
-  else
-    sum += gap.square();
 }
 
 std::vector<int> pointsOf(std::vector<Neighbor> neighbors) {
@@ -50,104 +48,272 @@ std::vector<int> pointsOf(std::vector<Neighbor> neighbors) {
 
 }  // namespace
 
-NearestNeighbors::NearestNeighbors(Space space) : space_(std::move(space)), isFlat_(true) {
-  for (const SpacePart& part : space_.parts()) {
-    isFlat_ = isFlat_ && (part.kind == Kind::kLine || part.kind == Kind::kCircle);
-    periods_.push_back(part.kind == Kind::kCircle ? 2 * std::numbers::pi * part.weight : kEndless);
+// A configuration in the scaled coordinates, and bounds of what single precision does to distances from it:
+// the square is at most (1 + relative) times that in double precision, plus absolute.
+struct NearestNeighbors::Query {
+  Eigen::VectorXd x;
+  std::vector<float> rounded;
+  float largest = 0;
+  internal::NeighborParts parts{};
+  double relative = 0, absolute = 0;
+
+  // The squared distance in single precision that no point within the squared distance exceeds.
+  float widened(double distance2) const {
+    const double wide = distance2 * (1 + relative) + absolute;
+    return wide < 1e37 ? static_cast<float>(wide * (1 + 1e-6)) : kEndlessFloat;
   }
+};
+
+NearestNeighbors::NearestNeighbors(Space space) : space_(std::move(space)) {
+  for (const SpacePart& part : space_.parts()) {
+    isLine_ = isLine_ && part.kind == Kind::kLine;
+    if (part.kind == Kind::kCircle) {
+      parts_.push_back({NeighborPart::Kind::kCircle, static_cast<float>(2 * std::numbers::pi * part.weight)});
+      largest_ = std::max(largest_, parts_.back().period);
+    } else if (part.kind == Kind::kQuaternion) {
+      parts_.push_back({NeighborPart::Kind::kQuaternion});
+    } else {
+      parts_.insert(parts_.end(), part.kind == Kind::kChord ? 2 : 1, {});
+    }
+    width_ += static_cast<std::size_t>(part.kind == Kind::kChord ? 2 : sizeOf(part.kind));
+  }
+  isStraight_ = width_ == parts_.size() && largest_ == 0;
 }
 
 // The coordinates times their weights, except for chords; angles are first wrapped to [-pi, pi].
-Eigen::VectorXd NearestNeighbors::scaled(const VectorArg& q) const {
+NearestNeighbors::Query NearestNeighbors::scaled(const VectorArg& q) const {
   requireSize("configuration", q.size(), space_.size());
   requireFinite("configuration", q);
-  Eigen::VectorXd x = q;
+  Query query{.x = q, .rounded = std::vector<float>(width_)};
   Eigen::Index i = 0;
+  float* rounded = query.rounded.data();
   for (const SpacePart& part : space_.parts()) {
-    const int count = sizeOf(part.kind);
     const bool isAngle = part.kind == Kind::kCircle || part.kind == Kind::kChord;
-    if (isAngle && std::abs(x[i]) > std::numbers::pi) x[i] = std::remainder(x[i], 2 * std::numbers::pi);
-    if (part.kind != Kind::kChord) x.segment(i, count) *= part.weight;
-    i += count;
+    double& x = query.x[i];
+    if (isAngle && std::abs(x) > std::numbers::pi) x = std::remainder(x, 2 * std::numbers::pi);
+    if (part.kind == Kind::kChord) {
+      *rounded++ = static_cast<float>(part.weight * std::cos(x));
+      *rounded++ = static_cast<float>(part.weight * std::sin(x));
+      ++i;
+    } else {
+      for (const Eigen::Index end = i + sizeOf(part.kind); i < end; ++i)
+        *rounded++ = static_cast<float>(query.x[i] *= part.weight);
+    }
   }
-  return x;
+  query.largest = largest_;
+  for (const float one : query.rounded) query.largest = std::max(query.largest, std::abs(one));
+  // Each number is off by 2^-24 of the largest, and so is each sum or difference on a circle. The root of the
+  // sum of the squares is off by less than E = 2^-21 largest sqrt(width), and (d + E)^2 <= d^2 (1 + c) +
+  // E^2 (1 + 1/c).
+  const double width = static_cast<double>(width_), error = 0x1p-21 * query.largest;
+  constexpr double kShare = 0x1p-20;
+  query.relative = kShare + width * 0x1p-22;
+  query.absolute = width * error * error * (1 + 1 / kShare);
+  query.parts = {parts_.data(), static_cast<int>(parts_.size()), static_cast<int>(width_), isStraight_};
+  return query;
 }
 
+// Points in single precision, one after the other.
+struct NearestNeighbors::Rows {
+  std::vector<float> numbers;
+  std::vector<int> points;
+};
+
 int NearestNeighbors::newLeaf() {
-  nodes_.push_back({.bucket = static_cast<int>(buckets_.size())});
-  buckets_.push_back({std::vector<double>(size() * kBucket), {}});
-  boxes_.insert(boxes_.end(), size(), kEndless);
-  boxes_.insert(boxes_.end(), size(), -kEndless);
+  if (!freeLeaves_.empty()) {
+    const int at = freeLeaves_.back();
+    freeLeaves_.pop_back();
+    clear(at);
+    return at;
+  }
+  leaves_.emplace_back();
+  leafNumbers_.resize(leafNumbers_.size() + kBucket * width_, kFar);
+  return ~(static_cast<int>(leaves_.size()) - 1);
+}
+
+int NearestNeighbors::newNode() {
+  if (!freeNodes_.empty()) {
+    const int at = freeNodes_.back();
+    freeNodes_.pop_back();
+    node(at) = {};
+    return at;
+  }
+  nodes_.emplace_back();
+  boxes_.resize(boxes_.size() + 2 * kFan * width_, 0);
   return static_cast<int>(nodes_.size()) - 1;
 }
 
-void NearestNeighbors::put(int leaf, const double* x, int point) {
-  Bucket& bucket = buckets_[static_cast<std::size_t>(node(leaf).bucket)];
-  const std::size_t slot = bucket.points.size();
-  for (std::size_t i = 0; i < size(); ++i) bucket.numbers[place(i, slot)] = x[i];
-  bucket.points.push_back(point);
+void NearestNeighbors::clear(int at) {
+  leaf(at).count = 0;
+  std::fill_n(&number(at, 0, 0), kBucket * width_, kFar);
 }
 
-void NearestNeighbors::grow(int at, const double* x) {
-  ++node(at).count;
-  double* lower = box(at);
-  for (std::size_t i = 0; i < size(); ++i) {
-    lower[i] = std::min(lower[i], x[i]);
-    lower[size() + i] = std::max(lower[size() + i], x[i]);
+// Number k of the point in a slot of a leaf. Empty slots are far away.
+float& NearestNeighbors::number(int at, int slot, std::size_t k) {
+  const auto block = static_cast<std::size_t>(~at * (kBucket / kBlock) + slot / kBlock);
+  return leafNumbers_[(block * width_ + k) * kBlock + static_cast<std::size_t>(slot % kBlock)];
+}
+
+// Number k of a child's box: the lower one, or the upper one.
+float& NearestNeighbors::bound(int at, int i, std::size_t k, bool isUpper) {
+  const auto block = static_cast<std::size_t>(at * (kFan / kBlock) + i / kBlock);
+  return boxes_[((2 * block + isUpper) * width_ + k) * kBlock + static_cast<std::size_t>(i % kBlock)];
+}
+
+void NearestNeighbors::put(int at, const float* x, int point) {
+  Leaf& to = leaf(at);
+  for (std::size_t k = 0; k < width_; ++k) number(at, to.count, k) = x[k];
+  to.points[static_cast<std::size_t>(to.count++)] = point;
+}
+
+void NearestNeighbors::append(int at, int inside) {
+  Node& to = node(at);
+  to.children[static_cast<std::size_t>(to.count)] = inside;
+  enclose(at, to.count++);
+}
+
+void NearestNeighbors::extend(int at, int i, const float* x) {
+  for (std::size_t k = 0; k < width_; ++k) {
+    bound(at, i, k, false) = std::min(bound(at, i, k, false), x[k]);
+    bound(at, i, k, true) = std::max(bound(at, i, k, true), x[k]);
   }
 }
 
-// The branch whose box has to grow less; if both are equal, the one with fewer points.
-int NearestNeighbors::branchFor(const Node& at, const double* x) const {
-  const auto growth = [&](int branch) {
-    const double *lower = box(branch), *upper = lower + size();
-    double sum = 0;
-    for (std::size_t i = 0; i < size(); ++i) sum += std::max({lower[i] - x[i], x[i] - upper[i], 0.});
-    return sum;
-  };
-  const double left = growth(at.left), right = growth(at.right);
-  if (left != right) return left < right ? at.left : at.right;
-  return node(at.left).count <= node(at.right).count ? at.left : at.right;
+// Sets the box of a child to what is in it.
+void NearestNeighbors::enclose(int at, int i) {
+  const int inside = child(at, i);
+  const int count = isLeaf(inside) ? leaf(inside).count : node(inside).count;
+  for (std::size_t k = 0; k < width_; ++k) {
+    float lower = kEndlessFloat, upper = -kEndlessFloat;
+    for (int j = 0; j < count; ++j) {
+      lower = std::min(lower, isLeaf(inside) ? number(inside, j, k) : bound(inside, j, k, false));
+      upper = std::max(upper, isLeaf(inside) ? number(inside, j, k) : bound(inside, j, k, true));
+    }
+    bound(at, i, k, false) = lower;
+    bound(at, i, k, true) = upper;
+  }
 }
 
-// Halves a full leaf across the side on which its box is longest.
-void NearestNeighbors::split(int at) {
-  const double *lower = box(at), *upper = lower + size();
-  std::size_t longest = 0;
-  for (std::size_t i = 1; i < size(); ++i)
-    if (upper[i] - lower[i] > upper[longest] - lower[longest]) longest = i;
-  const Bucket full = std::exchange(buckets_[static_cast<std::size_t>(node(at).bucket)], Bucket{});
-  std::array<int, kBucket> order;
-  for (int k = 0; k < kBucket; ++k) order[static_cast<std::size_t>(k)] = k;
-  const auto key = [&](int k) {
-    return std::pair(full.numbers[place(longest, static_cast<std::size_t>(k))], k);
-  };
-  std::nth_element(order.begin(), order.begin() + kBucket / 2, order.end(),
-                   [&](int a, int b) { return key(a) < key(b); });
-  const int left = newLeaf(), right = newLeaf();
-  Eigen::VectorXd x(space_.size());
-  for (int k = 0; k < kBucket; ++k) {
-    const auto slot = static_cast<std::size_t>(order[static_cast<std::size_t>(k)]);
-    for (std::size_t i = 0; i < size(); ++i) x[static_cast<Eigen::Index>(i)] = full.numbers[place(i, slot)];
-    const int leaf = k < kBucket / 2 ? left : right;
-    grow(leaf, x.data());
-    put(leaf, x.data(), full.points[slot]);
+// The nearest child, the first of equals.
+int NearestNeighbors::nearestChild(int at, const Query& query) const {
+  std::array<float, kFan> distances;
+  neighborKernel().ofBoxes(query.parts, boxesOf(at), blocksOf(node(at).count), query.rounded.data(),
+                           distances.data());
+  return static_cast<int>(std::min_element(distances.begin(), distances.begin() + node(at).count) -
+                          distances.begin());
+}
+
+// Moves the points below a node or leaf to the end of `rows`.
+void NearestNeighbors::takeApart(int at, Rows& rows) {
+  if (!isLeaf(at)) {
+    for (int i = 0; i < node(at).count; ++i) takeApart(child(at, i), rows);
+    freeNodes_.push_back(at);
+    return;
   }
-  node(at).left = left;
-  node(at).right = right;
+  for (int slot = 0; slot < leaf(at).count; ++slot)
+    for (std::size_t k = 0; k < width_; ++k) rows.numbers.push_back(number(at, slot, k));
+  rows.points.insert(rows.points.end(), leaf(at).points.begin(), leaf(at).points.begin() + leaf(at).count);
+  freeLeaves_.push_back(at);
+}
+
+// A leaf or node of some rows, with at most `most` leaves below.
+int NearestNeighbors::built(const Rows& rows, std::span<int> chosen, std::size_t most) {
+  const std::size_t leaves = std::min(most, (chosen.size() + kFill - 1) / kFill);
+  if (leaves <= 1) {
+    const int at = newLeaf();
+    for (const int row : chosen)
+      put(at, rows.numbers.data() + static_cast<std::size_t>(row) * width_,
+          rows.points[static_cast<std::size_t>(row)]);
+    return at;
+  }
+  const int at = newNode();
+  node(at).points = node(at).built = static_cast<int>(chosen.size());
+  std::size_t below = 1;
+  while (below * kBuiltFan < leaves) below *= kBuiltFan;
+  addChildren(at, rows, chosen, (leaves + below - 1) / below, below);
+  return at;
+}
+
+// Divides the rows across the longest sides of their boxes into children with at most `most` leaves each.
+void NearestNeighbors::addChildren(int at, const Rows& rows, std::span<int> chosen, std::size_t children,
+                                   std::size_t most) {
+  if (children == 1) return append(at, built(rows, chosen, most));
+  const auto number = [&](int row, std::size_t k) {
+    return rows.numbers[static_cast<std::size_t>(row) * width_ + k];
+  };
+  std::vector<float> lower(width_, kEndlessFloat), upper(width_, -kEndlessFloat);
+  for (const int row : chosen)
+    for (std::size_t k = 0; k < width_; ++k) {
+      lower[k] = std::min(lower[k], number(row, k));
+      upper[k] = std::max(upper[k], number(row, k));
+    }
+  std::size_t side = 0;
+  for (std::size_t k = 1; k < width_; ++k)
+    if (upper[k] - lower[k] > upper[side] - lower[side]) side = k;
+  const std::size_t left = children / 2, middle = chosen.size() * left / children;
+  std::nth_element(
+      chosen.begin(), chosen.begin() + static_cast<std::ptrdiff_t>(middle), chosen.end(),
+      [&](int a, int b) { return std::pair(number(a, side), a) < std::pair(number(b, side), b); });
+  addChildren(at, rows, chosen.first(middle), left, most);
+  addChildren(at, rows, chosen.subspan(middle), children - left, most);
+}
+
+// The same points in a balanced tree.
+int NearestNeighbors::rebuilt(int at) {
+  Rows rows;
+  takeApart(at, rows);
+  std::vector<int> all(rows.points.size());
+  std::iota(all.begin(), all.end(), 0);
+  return built(rows, all, all.size());
+}
+
+// Puts half of the points of a full leaf into another.
+void NearestNeighbors::splitLeaf(int at, int i) {
+  Rows rows;
+  takeApart(child(at, i), rows);
+  std::vector<int> all(rows.points.size());
+  std::iota(all.begin(), all.end(), 0);
+  Node& parent = node(at);
+  std::swap(parent.children[static_cast<std::size_t>(i)],
+            parent.children[static_cast<std::size_t>(--parent.count)]);
+  enclose(at, i);
+  addChildren(at, rows, all, 2, 1);
 }
 
 int NearestNeighbors::add(const VectorArg& q) {
-  const Eigen::VectorXd x = scaled(q);
+  const Query query = scaled(q);
   const int point = count();
   points_.insert(points_.end(), q.begin(), q.end());
-  if (nodes_.empty()) newLeaf();
-  int at = 0;
-  for (grow(at, x.data()); !isLeaf(at) || isFull(at); grow(at, x.data())) {
-    if (isLeaf(at)) split(at);
-    at = branchFor(node(at), x.data());
+  scaled_.insert(scaled_.end(), query.x.begin(), query.x.end());
+  largest_ = query.largest;
+  if (leaves_.empty()) root_ = newLeaf();
+  int parent = -1, i = 0;
+  const auto replace = [&](int by) {
+    return parent < 0 ? root_ = by : node(parent).children[static_cast<std::size_t>(i)] = by;
+  };
+  int at = root_;
+  while (!isLeaf(at) || leaf(at).count == kBucket) {
+    if (isLeaf(at)) {
+      if (parent < 0 || node(parent).count == kFan) {
+        const int between = newNode();
+        node(between).points = node(between).built = kBucket;
+        append(between, at);
+        replace(between);
+        parent = between;
+        i = 0;
+        ++node(parent).points;
+      }
+      splitLeaf(parent, i);
+    } else {
+      if (node(at).points >= kGrowth * node(at).built) at = replace(rebuilt(at));
+      ++node(at).points;
+      parent = at;
+    }
+    i = nearestChild(parent, query);
+    extend(parent, i, query.rounded.data());
+    at = child(parent, i);
   }
-  put(at, x.data(), point);
+  put(at, query.rounded.data(), point);
   return point;
 }
 
@@ -155,114 +321,99 @@ Eigen::Map<const Eigen::VectorXd> NearestNeighbors::point(int i) const {
   return {points_.data() + static_cast<std::size_t>(i) * size(), space_.size()};
 }
 
-// The squared distance of x from the box of a node: at most that from any point below it.
-double NearestNeighbors::boxDistance2(int at, const double* x) const {
-  const double *lower = box(at), *upper = lower + size();
+// The squared distance of x from a point.
+double NearestNeighbors::distance2(const double* x, int point) const {
+  const double* y = scaled_.data() + static_cast<std::size_t>(point) * size();
   double sum = 0;
-  if (isFlat_) {
-    for (std::size_t i = 0; i < size(); ++i) sum += squaredGap(x[i], lower[i], upper[i], periods_[i]);
+  if (isLine_) {
+    for (std::size_t i = 0; i < size(); ++i) sum += (x[i] - y[i]) * (x[i] - y[i]);
     return sum;
   }
-  std::size_t i = 0;
-  for (std::size_t p = 0; p < periods_.size(); ++p) {
-    const SpacePart& part = space_.parts()[p];
+  for (const SpacePart& part : space_.parts()) {
     if (part.kind == Kind::kQuaternion) {
       double same = 0, opposite = 0;
-      for (std::size_t k = i; k < i + 4; ++k) {
-        same += squaredGap(x[k], lower[k], upper[k]);
-        opposite += squaredGap(-x[k], lower[k], upper[k]);
+      for (int k = 0; k < 4; ++k) {
+        same += (x[k] - y[k]) * (x[k] - y[k]);
+        opposite += (x[k] + y[k]) * (x[k] + y[k]);
       }
       sum += std::min(same, opposite);
-    } else if (part.kind != Kind::kChord) {
-      sum += squaredGap(x[i], lower[i], upper[i], periods_[p]);
-    } else if (x[i] < lower[i] || x[i] > upper[i]) {
-      sum += std::min(squaredChord(part, x[i], lower[i]), squaredChord(part, x[i], upper[i]));
+    } else if (part.kind == Kind::kChord) {
+      sum += squaredChord(part, *x, *y);
+    } else {
+      const double gap = std::abs(*x - *y);
+      const double way =
+          part.kind == Kind::kCircle ? std::min(gap, 2 * std::numbers::pi * part.weight - gap) : gap;
+      sum += way * way;
     }
-    i += static_cast<std::size_t>(sizeOf(part.kind));
+    x += sizeOf(part.kind);
+    y += sizeOf(part.kind);
   }
   return sum;
-}
-
-// Writes the squared distances of x from the points of a chunk. Returns the smallest, or less: unused entries
-// are zeros, not points.
-double NearestNeighbors::chunkDistances2(const double* numbers, const double* x, double* distances) const {
-  using Lanes = Eigen::Array<double, kChunk, 1>;
-  const auto lanes = [numbers](std::size_t i) { return Lanes::Map(numbers + i * kChunk); };
-  Lanes sum = Lanes::Zero();
-  if (isFlat_) {
-    for (std::size_t i = 0; i < size(); ++i) addSquaredGaps(x[i], numbers + i * kChunk, periods_[i], sum);
-    Lanes::Map(distances) = sum;
-    return sum.minCoeff();
-  }
-  std::size_t i = 0;
-  for (std::size_t p = 0; p < periods_.size(); ++p) {
-    const SpacePart& part = space_.parts()[p];
-    if (part.kind == Kind::kQuaternion) {
-      Lanes same = Lanes::Zero(), opposite = Lanes::Zero();
-      for (std::size_t k = i; k < i + 4; ++k) {
-        same += (x[k] - lanes(k)).square();
-        opposite += (x[k] + lanes(k)).square();
-      }
-      sum += same.min(opposite);
-    } else if (part.kind != Kind::kChord) {
-      addSquaredGaps(x[i], numbers + i * kChunk, periods_[p], sum);
-    } else {
-      for (int k = 0; k < kChunk; ++k) sum[k] += squaredChord(part, x[i], lanes(i)[k]);
-    }
-    i += static_cast<std::size_t>(sizeOf(part.kind));
-  }
-  Lanes::Map(distances) = sum;
-  return sum.minCoeff();
 }
 
 // Calls visit(squared distance, point) for the points of a leaf within reach; each call returns the new
 // reach.
 template <class Visit>
-void NearestNeighbors::searchLeaf(int leaf, const double* x, double& reach2, const Visit& visit) const {
-  const Bucket& bucket = buckets_[static_cast<std::size_t>(node(leaf).bucket)];
-  std::array<double, kChunk> distances;
-  for (std::size_t first = 0; first < bucket.points.size(); first += kChunk) {
-    if (chunkDistances2(bucket.numbers.data() + first * size(), x, distances.data()) > reach2) continue;
-    const std::size_t count = std::min<std::size_t>(kChunk, bucket.points.size() - first);
-    for (std::size_t k = 0; k < count; ++k)
-      if (distances[k] <= reach2) reach2 = visit(distances[k], bucket.points[first + k]);
+void NearestNeighbors::searchLeaf(int at, const Query& query, bool isForOne, double& reach2, float& reach,
+                                  const Visit& visit) const {
+  const Leaf& from = leaf(at);
+  const int blocks = blocksOf(from.count);
+  std::array<float, kBucket> distances;
+  const float least =
+      neighborKernel().ofPoints(query.parts, numbersOf(at), blocks, query.rounded.data(), distances.data());
+  if (least > reach) return;
+  // Points that single precision cannot confuse with the nearest of the leaf are farther than it.
+  const float narrow = isForOne ? std::min(reach, query.widened(query.widened(least))) : reach;
+  auto near = neighborKernel().within(distances.data(), blocks, narrow) & ~0ull >> (64 - from.count);
+  for (; near != 0; near &= near - 1) {
+    const int point = from.points[static_cast<std::size_t>(std::countr_zero(near))];
+    const double exact = distance2(query.x.data(), point);
+    if (exact > reach2) continue;
+    reach2 = visit(exact, point);
+    reach = query.widened(reach2);
   }
 }
 
 // Calls visit(squared distance, point) for all points that may be within the squared distance that it
-// returned last, near branches first.
+// returned last, near branches first. If it is for one point, those farther than others may be left out.
 template <class Visit>
-void NearestNeighbors::search(const double* x, double reach2, const Visit& visit) const {
-  if (nodes_.empty()) return;
+void NearestNeighbors::search(const Query& query, double reach2, bool isForOne, const Visit& visit) const {
+  if (leaves_.empty()) return;
   struct Branch {
-    double bound;  // of squared distances
-    int node;
+    float bound;  // of squared distances
+    int at;
   };
-  std::vector<Branch> open;  // postponed
-  Branch at{0, 0};
-  for (;;) {
-    while (!isLeaf(at.node)) {
-      Branch near{boxDistance2(node(at.node).left, x), node(at.node).left};
-      Branch far{boxDistance2(node(at.node).right, x), node(at.node).right};
-      if (far.bound < near.bound) std::swap(near, far);
-      if (open.empty()) open.reserve(kUsualDepth);
-      if (far.bound <= reach2) open.push_back(far);
-      at = near;
+  std::array<Branch, kMostOpen> open;
+  std::size_t count = 0;
+  open[count++] = {0, root_};
+  float reach = query.widened(reach2);
+  while (count > 0) {
+    const Branch branch = open[--count];
+    if (branch.bound > reach) continue;
+    if (isLeaf(branch.at)) {
+      searchLeaf(branch.at, query, isForOne, reach2, reach, visit);
+      continue;
     }
-    if (at.bound <= reach2) searchLeaf(at.node, x, reach2, visit);
-    while (!open.empty() && open.back().bound > reach2) open.pop_back();
-    if (open.empty()) return;
-    at = open.back();
-    open.pop_back();
+    const Node& from = node(branch.at);
+    std::array<float, kFan> distances;
+    neighborKernel().ofBoxes(query.parts, boxesOf(branch.at), blocksOf(from.count), query.rounded.data(),
+                             distances.data());
+    const std::size_t first = count;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(from.count); ++i) {
+      if (distances[i] > reach) continue;
+      std::size_t slot = count++;
+      for (; slot > first && open[slot - 1].bound < distances[i]; --slot) open[slot] = open[slot - 1];
+      open[slot] = {distances[i], from.children[i]};
+    }
   }
 }
 
 int NearestNeighbors::nearest(const VectorArg& q) const {
-  const Eigen::VectorXd x = scaled(q);
+  const Query query = scaled(q);
   if (count() == 0)
     throw Error({.what = "nearest neighbour", .found = "no points", .wanted = "at least one"});
   Neighbor best{kEndless, 0};
-  search(x.data(), best.distance, [&](double distance2, int point) {
+  search(query, best.distance, true, [&](double distance2, int point) {
     best = std::min(best, {distance2, point});
     return best.distance;
   });
@@ -270,11 +421,11 @@ int NearestNeighbors::nearest(const VectorArg& q) const {
 }
 
 std::vector<int> NearestNeighbors::nearest(const VectorArg& q, int most) const {
-  const Eigen::VectorXd x = scaled(q);
+  const Query query = scaled(q);
   std::vector<Neighbor> heap;
   const auto limit = static_cast<std::size_t>(std::max(0, most));
   if (limit == 0) return {};
-  search(x.data(), kEndless, [&](double distance2, int point) {
+  search(query, kEndless, false, [&](double distance2, int point) {
     heap.push_back({distance2, point});
     std::push_heap(heap.begin(), heap.end());
     if (heap.size() > limit) {
@@ -287,10 +438,10 @@ std::vector<int> NearestNeighbors::nearest(const VectorArg& q, int most) const {
 }
 
 void NearestNeighbors::within(const VectorArg& q, double radius, std::vector<Neighbor>& out) const {
-  const Eigen::VectorXd x = scaled(q);
+  const Query query = scaled(q);
   requireNotNegativeOrInfinite("radius around a configuration", radius);
   out.clear();
-  search(x.data(), radius * radius, [&](double distance2, int point) {
+  search(query, radius * radius, false, [&](double distance2, int point) {
     out.push_back({std::sqrt(distance2), point});
     return radius * radius;
   });

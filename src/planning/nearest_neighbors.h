@@ -1,8 +1,11 @@
 #pragma once
 
+#include <array>
 #include <compare>
+#include <span>
 #include <vector>
 
+#include "planning/neighbor_part.h"
 #include "planning/space.h"
 
 namespace rex {
@@ -14,10 +17,11 @@ struct Neighbor {
   auto operator<=>(const Neighbor&) const = default;
 };
 
-/// Finds the nearest configurations of a tree or roadmap. Points are added one at a time to a k-d tree with
-/// bounding boxes that splits where they gather (Friedman, Bentley and Finkel 1977); a query among n points
-/// takes time like log n in few dimensions. Results equal those of an exhaustive search; among equally near
-/// points the first added comes first.
+/// Finds the nearest configurations of a tree or roadmap. Points are added one at a time to a tree of
+/// bounding boxes that splits where they gather (Guttman 1984); a query among n points takes time like log n
+/// in few dimensions. Eight boxes or points at once are compared in single precision, and in double precision
+/// those that may be nearest. Results equal those of an exhaustive search; among equally near points the
+/// first added comes first.
 class NearestNeighbors {
  public:
   explicit NearestNeighbors(Space space);
@@ -41,50 +45,73 @@ class NearestNeighbors {
   void within(const VectorArg& q, double radius, std::vector<Neighbor>& out) const;
 
  private:
-  // A leaf holds up to kBucket points, any other node two nodes. Distances are computed for kChunk points
-  // at once.
-  static constexpr int kBucket = 64, kChunk = 8;
+  // A leaf has up to kBucket points and the number ~k, another node up to kFan children and the number k.
+  // Numbers lie in blocks of eight points or boxes, as the kernel wants them. Full leaves are split; a
+  // subtree that has grown threefold is built anew, with kFill points in a leaf and kBuiltFan children.
+  static constexpr int kBucket = 32, kFill = 28, kFan = 16, kBuiltFan = 8;
+  struct Leaf {
+    int count = 0;
+    std::array<int, kBucket> points;
+  };
   struct Node {
-    int left = -1, right = -1;  // a leaf has none
-    int count = 0;              // points below
-    int bucket = -1;            // of a leaf
+    int count = 0, points = 0,
+        built = 0;  // children; points below, and how many there were when it was built
+    std::array<int, kFan> children;
   };
-  struct Bucket {
-    std::vector<double> numbers;  // chunk after chunk: number i of point k of a chunk at [i * kChunk + k]
-    std::vector<int> points;
-  };
+  struct Query;
+  struct Rows;
 
-  Node& node(int i) { return nodes_[static_cast<std::size_t>(i)]; }
-  const Node& node(int i) const { return nodes_[static_cast<std::size_t>(i)]; }
-  double* box(int i) { return boxes_.data() + 2 * static_cast<std::size_t>(i) * size(); }
-  const double* box(int i) const { return boxes_.data() + 2 * static_cast<std::size_t>(i) * size(); }
   std::size_t size() const { return static_cast<std::size_t>(space_.size()); }
-  bool isLeaf(int i) const { return node(i).left < 0; }
-  std::size_t place(std::size_t i, std::size_t slot) const {
-    return (slot / kChunk * size() + i) * kChunk + slot % kChunk;
+  static bool isLeaf(int at) { return at < 0; }
+  Leaf& leaf(int at) { return leaves_[static_cast<std::size_t>(~at)]; }
+  const Leaf& leaf(int at) const { return leaves_[static_cast<std::size_t>(~at)]; }
+  Node& node(int at) { return nodes_[static_cast<std::size_t>(at)]; }
+  const Node& node(int at) const { return nodes_[static_cast<std::size_t>(at)]; }
+  int child(int at, int i) const { return node(at).children[static_cast<std::size_t>(i)]; }
+  const float* numbersOf(int leaf) const {
+    return leafNumbers_.data() + static_cast<std::size_t>(~leaf) * kBucket * width_;
   }
-  bool isFull(int i) const { return node(i).count > kBucket; }
+  const float* boxesOf(int node) const {
+    return boxes_.data() + static_cast<std::size_t>(node) * 2 * kFan * width_;
+  }
 
-  [[nodiscard]] Eigen::VectorXd scaled(const VectorArg& q) const;
+  [[nodiscard]] Query scaled(const VectorArg& q) const;
+  double distance2(const double* x, int point) const;
   int newLeaf();
-  void put(int leaf, const double* x, int point);
-  void grow(int at, const double* x);
-  int branchFor(const Node& at, const double* x) const;
-  void split(int at);
-  double boxDistance2(int at, const double* x) const;
-  double chunkDistances2(const double* numbers, const double* x, double* distances) const;
+  int newNode();
+  void clear(int leaf);
+  float& number(int leaf, int slot, std::size_t k);
+  float& bound(int node, int i, std::size_t k, bool isUpper);
+  void put(int leaf, const float* x, int point);
+  void append(int node, int inside);
+  void extend(int node, int i, const float* x);
+  void enclose(int node, int i);
+  int nearestChild(int node, const Query& query) const;
+  void takeApart(int at, Rows& rows);
+  int built(const Rows& rows, std::span<int> chosen, std::size_t most);
+  void addChildren(int node, const Rows& rows, std::span<int> chosen, std::size_t children, std::size_t most);
+  int rebuilt(int node);
+  void splitLeaf(int node, int i);
   template <class Visit>
-  void searchLeaf(int leaf, const double* x, double& reach2, const Visit& visit) const;
+  void searchLeaf(int at, const Query& query, bool isForOne, double& reach2, float& reach,
+                  const Visit& visit) const;
   template <class Visit>
-  void search(const double* x, double reach2, const Visit& visit) const;
+  void search(const Query& query, double reach2, bool isForOne, const Visit& visit) const;
 
   Space space_;
-  bool isFlat_;                  // all parts are lines or circles
-  std::vector<double> periods_;  // of the scaled circle of each part; infinite for other parts
-  std::vector<double> points_;   // as added
-  std::vector<double> boxes_;    // lower corners, then upper ones, of each node's scaled points
+  bool isLine_ = true;               // all parts are lines
+  bool isStraight_ = true;           // those in single precision are
+  std::vector<NeighborPart> parts_;  // in single precision
+  std::size_t width_ = 0;            // numbers of a point in single precision
+  float largest_ = 0;                // of these numbers and periods
+  std::vector<double> points_;       // as added
+  std::vector<double> scaled_;
+  int root_ = -1;
+  std::vector<Leaf> leaves_;
+  std::vector<float> leafNumbers_;
   std::vector<Node> nodes_;
-  std::vector<Bucket> buckets_;
+  std::vector<float> boxes_;
+  std::vector<int> freeLeaves_, freeNodes_;
 };
 
 }  // namespace rex

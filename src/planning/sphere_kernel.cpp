@@ -10,13 +10,6 @@ using Kind = SphereObstacle::Kind;
 constexpr float kCoarseTravel = 0.12f;
 
 template <class V>
-inline V loadAt(const float* from) {
-  V result;
-  __builtin_memcpy(&result, from, sizeof result);
-  return result;
-}
-
-template <class V>
 struct Vec {
   V x, y, z;
 };

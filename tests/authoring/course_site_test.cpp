@@ -23,13 +23,11 @@ class CourseSiteTest : public ::testing::Test {
   TemporaryFolder temporary_;
 };
 
-// The project itself: every link and picture leads to a file of the site, and every anchor exists.
-TEST_F(CourseSiteTest, HasNoDeadLinks) {
-  const CourseSite site = writeCourseSite(REX_SOURCE_DIR, out());
-  ASSERT_TRUE(site.scan.leaks.empty()) << toString(site.scan.leaks.front());
+// Every link and picture leads to a file of the site, and every anchor exists. Returns the number of pages.
+int expectLiveLinks(const fs::path& site, int fewest) {
   int links = 0, pages = 0;
   static const std::regex kTarget(R"re((href|src)="([^"#]*)(#([^"]*))?")re");
-  for (const auto& entry : fs::recursive_directory_iterator(out())) {
+  for (const auto& entry : fs::recursive_directory_iterator(site)) {
     if (entry.path().extension() != ".html") continue;
     ++pages;
     const std::string html = fileText(entry.path());
@@ -38,20 +36,56 @@ TEST_F(CourseSiteTest, HasNoDeadLinks) {
       if (target.starts_with("http")) continue;
       ++links;
       const fs::path file = target.empty() ? entry.path() : entry.path().parent_path() / target;
-      ASSERT_TRUE(fs::is_regular_file(file)) << entry.path() << ": " << (*found)[0];
+      EXPECT_TRUE(fs::is_regular_file(file)) << entry.path() << ": " << (*found)[0];
       const std::string id = anchor.empty() ? "" : "id=\"" + anchor + "\"";
       EXPECT_THAT(fileText(file), HasSubstr(id)) << entry.path();
     }
   }
-  EXPECT_EQ(pages, site.pages);
-  EXPECT_GT(pages, 25);
-  EXPECT_GT(links, 200);
+  EXPECT_GT(links, fewest);
+  return pages;
+}
+
+// The project itself.
+TEST_F(CourseSiteTest, HasNoDeadLinks) {
+  const CourseSite site = writeCourseSite(REX_SOURCE_DIR, out());
+  ASSERT_TRUE(site.scan.leaks.empty()) << toString(site.scan.leaks.front());
+  EXPECT_EQ(expectLiveLinks(out(), 200), site.pages);
+  EXPECT_GT(site.pages, 25);
   EXPECT_THAT(fileText(out() / "index.html"), HasSubstr("<a href=\"exercises/05-car.html\">05-car</a>"));
   EXPECT_THAT(fileText(out() / "exercises" / "05-car.html"), HasSubstr("exercise.h</h2>"));
   EXPECT_TRUE(fs::exists(out() / "documents" / "gallery" / "motion.png"));
   EXPECT_THAT(fileText(out() / "entries.js"),
               HasSubstr("\"url\":\"exercises/05-car.html#part-3-resampling-723\""));
   EXPECT_THAT(fileText(out() / "entries.js"), Not(HasSubstr("</")));
+  EXPECT_FALSE(fs::exists(out() / "notes"));
+  EXPECT_THAT(fileText(out() / "index.html"), Not(HasSubstr("notes/")));
+}
+
+TEST_F(CourseSiteTest, HasNotesForLecturers) {
+  const CourseSite site = writeCourseSite(REX_SOURCE_DIR, out(), {}, SiteReaders::kLecturers);
+  ASSERT_TRUE(site.scan.leaks.empty()) << toString(site.scan.leaks.front());
+  EXPECT_EQ(expectLiveLinks(out(), 200), site.pages);
+  EXPECT_THAT(fileText(out() / "index.html"), HasSubstr("<a href=\"notes/05-car.html\">Notes on 05 "));
+  int notes = 0;
+  for (const auto& entry : fs::directory_iterator(out() / "notes")) {
+    ++notes;
+    const std::string html = fileText(entry.path());
+    EXPECT_THAT(html, HasSubstr("students must not get this page"));
+    EXPECT_THAT(html, HasSubstr("<math"));
+    EXPECT_THAT(html, Not(HasSubstr("$"))) << entry.path() << ": a formula that was not recognised";
+    EXPECT_THAT(html, Not(HasSubstr("\\frac"))) << entry.path();
+  }
+  EXPECT_EQ(notes, 16);
+}
+
+TEST_F(CourseSiteTest, SaysWhatIsWrongWithNotes) {
+  const fs::path root = temporary_.path() / "course";
+  fs::create_directories(root / "exercises");
+  const auto written = [&] { static_cast<void>(writeCourseSite(root, out(), {}, SiteReaders::kLecturers)); };
+  EXPECT_REX_ERROR(written(), "notes: no lecturer's notes: wanted files such as 01-kinematics.md");
+  writeTextFile(root / "notes" / "01-a.md", "# A\n\n$\\fraq{1}{2}$\n");
+  EXPECT_REX_ERROR(written(), "notes/01-a.md: cannot read the formula '\\fraq{1}{2}'");
+  EXPECT_FALSE(fs::exists(out()));
 }
 
 TEST_F(CourseSiteTest, WritesNothingThatLeaks) {
@@ -80,6 +114,8 @@ TEST_F(CourseSiteTest, OverwritesNothing) {
   EXPECT_REX_ERROR(static_cast<void>(writeCourseSite(REX_SOURCE_DIR, out())),
                    "will not overwrite: wanted an empty or new folder");
   EXPECT_REX_ERROR(static_cast<void>(writeCourseSite(REX_SOURCE_DIR, "/proc/site")), "cannot write");
+  EXPECT_REX_ERROR(static_cast<void>(writeCourseSite(REX_SOURCE_DIR, out() / std::string(300, 'x'))),
+                   "cannot write the pages of the course: found File name too long");
   EXPECT_EQ(fileText(out() / "notes.txt"), "mine");
 }
 

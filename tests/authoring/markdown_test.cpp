@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/expect_error.h"
+
 namespace rex::grading::markdown_test {
 
 using ::testing::HasSubstr;
@@ -35,6 +37,23 @@ TEST(Markdown, GivesLinksAndPicturesNewTargets) {
   EXPECT_EQ(
       html,
       "<p><a href=\"a.html#b\">one <code>x</code></a> and two, <img src=\"q.png\" alt=\"picture\"></p>\n");
+}
+
+TEST(Markdown, KeepsTitlesAndMovesPicturesInLinks) {
+  const auto moved = [](const std::string& target) { return target == "gone.md" ? "" : "to/" + target; };
+  EXPECT_EQ(pageOf("[![p](a.png)](b.md) [x](c.md \"t\")\n", moved).html,
+            "<p><a href=\"to/b.md\"><img src=\"to/a.png\" alt=\"p\"></a> <a href=\"to/c.md\" "
+            "title=\"t\">x</a></p>\n");
+  EXPECT_EQ(pageOf("[![p](a.png)](gone.md) ![q & r](gone.md)\n", moved).html,
+            "<p><img src=\"to/a.png\" alt=\"p\"> q &amp; r</p>\n");
+}
+
+TEST(Markdown, DrawsFormulas) {
+  EXPECT_EQ(pageOf("# F\n\n$x<y$ and `$z$`\n\n$$\na \\, b\n$$\n", same).html,
+            "<h1 id=\"f\">F</h1>\n<p><math><mrow><mi>x</mi><mo>&#60;</mo><mi>y</mi></mrow></math> and "
+            "<code>$z$</code></p>\n<p><math display=\"block\"><mrow><mi>a</mi><mspace "
+            "width=\"0.17em\"></mspace><mi>b</mi></mrow></math></p>\n");
+  EXPECT_REX_ERROR(static_cast<void>(pageOf("$\\foo$\n", same)), "cannot read the formula '\\foo'");
 }
 
 TEST(Markdown, ShowsHtmlAsText) {

@@ -24,6 +24,7 @@ TEST(NormalText, DropsCommentsWhereAsked) {
 
 TEST(NormalText, ReadsEscapesEntitiesAndWideText) {
   EXPECT_EQ(letters("if (a &lt; b &amp;&amp; c &gt; d) &quot;&#39;"), "if(a<b&&c>d)\"'");
+  EXPECT_EQ(letters("a &#60; b &#38;&#38; c &#62; d &#34;"), "a<b&&c>d\"") << "as htmlText() writes it";
   EXPECT_EQ(letters(R"({"code": "say(\"hello\");\n"})"), R"({"code":"say("hello");"})");
   EXPECT_EQ(letters(std::string_view("x\0 \0=\0A\0", 8)), "x=a");
   EXPECT_EQ(letters("&lt"), "&lt");

@@ -27,7 +27,7 @@ class ReleaseTest : public ::testing::Test {
           "exercises/CMakeLists.txt", "exercises/01-demo/exercise.h", "exercises/01-demo/wrong/a.cpp"})
       write(file, file);
     write("exercises/01-demo/README.md", "Write `twice`.\n");
-    write("README.md", "Run scripts/rex.\nRun scripts/test.\n| `tests/` | tests |\n");
+    write("README.md", "Run scripts/rex.\nRun scripts/test.\n| `tests/` | tests |\n| `notes/` | notes |\n");
     write("exercises/01-demo/main.cpp", "out of date\n");
     write("exercises/01-demo/check.cpp", "visible();\n// <hidden>\nsecret();\n// </hidden>\n");
     write("exercises/01-demo/solution.cpp",
@@ -69,6 +69,25 @@ TEST_F(ReleaseTest, HoldsWhatStudentsNeedAndNothingElse) {
   EXPECT_EQ(released("exercises/01-demo/starter.cpp"), released("exercises/01-demo/main.cpp"));
   EXPECT_EQ(released("exercises/01-demo/check.cpp"), "visible();\n");
   EXPECT_EQ(released("README.md"), "Run scripts/rex.\n");
+}
+
+TEST_F(ReleaseTest, HoldsNoLecturersNotes) {
+  const std::string question = "> Why does the doubling converge to the answer of the tutorial?\n";
+  write("notes/01-demo.md",
+        question + "\nBecause every step halves what is left of the interval.\nShort line.\n");
+  write("exercises/01-demo/README.md", question + "Short line.\n");
+  EXPECT_EQ(released(), "no leak");
+  EXPECT_FALSE(fs::exists(target() / "notes"));
+  fs::remove_all(target());
+  write("share/hints.md", "\n\nbecause every step\nhalves what is left of the interval\n");
+  EXPECT_EQ(released(), "no leak") << "the full stop is a letter, too";
+  fs::remove_all(target());
+  write("share/hints.md", "\n\nbecause every step\nhalves what is left of the interval.\n");
+  EXPECT_EQ(released(),
+            "share/hints.md:3: a line of the lecturer's notes would reach students: found 'Because every "
+            "step halves "
+            "what is left of the interval.' of notes/01-demo.md:3");
+  EXPECT_FALSE(fs::exists(target()));
 }
 
 TEST_F(ReleaseTest, LeavesOutWhatResetKeeps) {

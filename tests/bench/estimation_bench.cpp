@@ -3,6 +3,9 @@
 #include <stdexcept>
 #include <string>
 
+#include <immintrin.h>
+
+#include "base/cpu_lanes.h"
 #include "base/rng.h"
 #include "bench/row.h"
 #include "estimation/car_particles.h"
@@ -44,6 +47,23 @@ Row poseGraphRow(int poses, double target) {
   return row;
 }
 
+// The lower triangle minus u u^T + v v^T in one pass, four numbers at once.
+__attribute__((target("avx2"))) void plainRankTwoUpdate(const Eigen::VectorXd& u, const Eigen::VectorXd& v,
+                                                        Eigen::MatrixXd& matrix) {
+  const Eigen::Index n = matrix.rows();
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const __m256d uj = _mm256_set1_pd(u[j]), vj = _mm256_set1_pd(v[j]);
+    double* column = matrix.data() + j * n;
+    Eigen::Index i = j;
+    for (; i + 4 <= n; i += 4) {
+      const __m256d square = _mm256_add_pd(_mm256_mul_pd(uj, _mm256_loadu_pd(u.data() + i)),
+                                           _mm256_mul_pd(vj, _mm256_loadu_pd(v.data() + i)));
+      _mm256_storeu_pd(column + i, _mm256_sub_pd(_mm256_loadu_pd(column + i), square));
+    }
+    for (; i < n; ++i) column[i] -= u[j] * u[i] + v[j] * v[i];
+  }
+}
+
 // An update of 500 landmarks and a pose by one sighting, against what it cannot do without: a symmetric
 // update of that covariance by two columns.
 Row slamUpdateRow() {
@@ -59,14 +79,10 @@ Row slamUpdateRow() {
   });
   const Eigen::Index n = 3 + 2 * kLandmarks;
   const auto covariance = std::make_shared<Eigen::MatrixXd>(Eigen::MatrixXd::Identity(n, n));
-  const Eigen::MatrixXd columns = 1e-3 * Eigen::MatrixXd::Random(n, 2);
-  const auto floor = timed([=] { covariance->selfadjointView<Eigen::Lower>().rankUpdate(columns, -1e-9); });
-  return {.name = "ekf-slam-500",
-          .ours = ours,
-          .peerName = "rank-2 update",
-          .peer = floor,
-          .target = 2.,
-          .unit = "us"};
+  const Eigen::VectorXd u = 1e-9 * Eigen::VectorXd::Random(n), v = 1e-9 * Eigen::VectorXd::Random(n);
+  Row row{.name = "ekf-slam-500", .ours = ours, .peerName = "plain AVX2 pass", .target = 1.4, .unit = "us"};
+  if (cpuLanes() == 4) row.peer = timed([=] { plainRankTwoUpdate(u, v, *covariance); });
+  return row;
 }
 
 // A step of a filter of the car with two landmarks (exercise 12.9): resampled, moved, weighed.
@@ -90,7 +106,7 @@ Row particleRow() {
   return {.name = "particle-and-step",
           .ours = [=] { return step() / kParticles; },
           .peerName = "limit",
-          .peer = [] { return 25e-9; },
+          .peer = [] { return 15e-9; },
           .target = 1.};
 }
 

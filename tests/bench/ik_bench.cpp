@@ -1,10 +1,16 @@
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <memory>
+#include <stdexcept>
+
+#include <fmt/format.h>
 
 #include "base/rng.h"
 #include "bench/ik_peer.h"
 #include "bench/row.h"
 #include "geometry/rotation.h"
+#include "kinematics/closed_form_arm.h"
 #include "kinematics/inverse_kinematics_solver.h"
 #include "kinematics/task_maps.h"
 #include "scene/urdf_reader.h"
@@ -82,6 +88,41 @@ void addRows(const std::shared_ptr<ReachableRobot>& robot, std::vector<Row>& row
       {"ik-" + on + "-missed-nr", missed, "KDL", missedShare(robot, kdl.newtonWithLimits), {}, "%", 1});
 }
 
+// A chain of six hinges along or across each other, with a tip.
+std::string sixHinges(const std::array<const char*, 6>& origins, const std::array<const char*, 6>& axes) {
+  std::string urdf = "<robot name='arm'><link name='l0'/>";
+  for (std::size_t i = 0; i < 6; ++i)
+    urdf += fmt::format(
+        "<link name='l{1}'/><joint name='j{1}' type='revolute'><parent link='l{0}'/><child link='l{1}'/>"
+        "<origin xyz='{2}'/><axis xyz='{3}'/><limit lower='-3.1' upper='3.1' effort='1' "
+        "velocity='1'/></joint>",
+        i, i + 1, origins[i], axes[i]);
+  return urdf + "</robot>";
+}
+
+// All postures of an arm in closed form: the mean over poses.
+Row closedFormRow(const std::string& name, const std::string& urdf) {
+  const auto model = std::make_shared<const Model>(compile(parseUrdf(urdf, name + ".urdf").spec));
+  const auto arm =
+      std::make_shared<const ClosedFormArm>(ClosedFormArm::of(*model, model->body("l6")).value());
+  const auto targets = std::make_shared<std::vector<Pose>>();
+  Rng rng(1);
+  Eigen::VectorXd q(6);
+  for (std::size_t k = 0; k < kTimedPoses; ++k) {
+    for (double& angle : q) angle = rng.uniform(-3, 3);
+    targets->push_back(forwardKinematics(*model, q)[model->body("l6")]);
+    double nearest = 1;
+    for (const ClosedFormPosture& one : arm->postures(targets->back(), q))
+      nearest = std::min(nearest, (one.q - q).lpNorm<Eigen::Infinity>());
+    if (nearest > 1e-6) throw std::logic_error("a posture is missing");
+  }
+  const Measurement all = timed([=] {
+    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(6);
+    for (const Pose& X_WT : *targets) static_cast<void>(arm->postures(X_WT, zero));
+  });
+  return {name, [=] { return all() / kTimedPoses; }, "limit", [] { return 6e-6; }, 1, "us"};
+}
+
 }  // namespace
 
 // Poses that random postures within the limits reach, from the middle of all joints. The first robot is not
@@ -95,6 +136,13 @@ std::vector<Row> ikRows() {
     rows.push_back({.name = "ik-panda", .peerName = "no " + panda.filename().string(), .unit = "us"});
   }
   addRows(reachableRobot("arm7dof", sourcePath("data/robots/arm7dof/arm7dof.urdf"), "flange"), rows);
+  const char *x = "1 0 0", *y = "0 1 0", *z = "0 0 1", *none = "0 0 0";
+  rows.push_back(closedFormRow(
+      "ik-6r-wrist",
+      sixHinges({none, ".35 0 .7", "0 0 1.1", ".5 0 -.04", ".7 0 0", none}, {z, y, y, x, y, x})));
+  rows.push_back(closedFormRow("ik-6r-parallel", sixHinges({"0 0 .0892", "0 .1358 0", "0 -.1197 .425",
+                                                            "0 0 .3922", "0 .093 0", "0 0 .0946"},
+                                                           {z, y, y, y, z, y})));
   return rows;
 }
 

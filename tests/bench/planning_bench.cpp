@@ -1,4 +1,5 @@
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <numbers>
 #include <stdexcept>
@@ -6,6 +7,7 @@
 
 #include "base/rng.h"
 #include "bench/arm_plans.h"
+#include "bench/nanoflann_peer.h"
 #include "bench/ompl_peer.h"
 #include "bench/row.h"
 #include "planning/dubins.h"
@@ -46,37 +48,70 @@ void requireSame(const std::vector<Eigen::Vector3d>& poses, const CurvePeer::Len
       throw std::logic_error("lengths of curves differ from ours");
 }
 
-// The nearest of 1000 points in seven dimensions, by the tree and by a look at all: the mean over many
-// questions.
-Row nearestRow() {
-  constexpr int kDimension = 7, kPoints = 1000, kQuestions = 200;
-  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(kDimension);
-  const Space space = Space::box(-ones, ones);
-  const auto tree = std::make_shared<NearestNeighbors>(space);
-  Rng rng(2);
-  Eigen::MatrixXd points(kDimension, kPoints), questions(kDimension, kQuestions);
-  for (Eigen::Index k = 0; k < kPoints; ++k) {
-    space.sample(rng, points.col(k));
-    tree->add(points.col(k));
+constexpr Eigen::Index kQuestions = 200;
+
+// Points and questions in a cube, and the tree of the points.
+struct Neighbors {
+  Eigen::MatrixXd points, questions;
+  NearestNeighbors tree;
+
+  Neighbors(int dimension, Eigen::Index count)
+      : points(dimension, count),
+        questions(dimension, kQuestions),
+        tree(Space::box(Eigen::VectorXd::Constant(dimension, -1), Eigen::VectorXd::Ones(dimension))) {
+    Rng rng(2);
+    for (Eigen::Index k = 0; k < count + kQuestions; ++k) {
+      auto q = k < count ? points.col(k) : questions.col(k - count);
+      for (double& number : q) number = rng.uniform(-1, 1);
+      if (k < count) tree.add(q);
+    }
   }
-  for (Eigen::Index k = 0; k < kQuestions; ++k) space.sample(rng, questions.col(k));
-  const auto byTree = [=](Eigen::Index k) { return tree->nearest(questions.col(k)); };
-  const auto byLook = [=](Eigen::Index k) {
+};
+
+Measurement perOne(Eigen::Index count, const std::function<void()>& all) {
+  return [measured = timed(all), count] { return measured() / static_cast<double>(count); };
+}
+
+// The nearest of points in a cube: the mean over many questions.
+Row nearestRow(const std::string& name, int dimension, Eigen::Index count, double target) {
+  const auto known = std::make_shared<const Neighbors>(dimension, count);
+  const auto ours = [=](Eigen::Index k) { return known->tree.nearest(known->questions.col(k)); };
+  const NeighborPeer peer = nanoflannPeer(known->points, known->questions);
+  for (Eigen::Index k = 0; k<kQuestions; k += count> 1000 ? 20 : 1) {
     int nearest = 0;
-    (points.colwise() - questions.col(k)).colwise().squaredNorm().minCoeff(&nearest);
-    return nearest;
-  };
-  for (Eigen::Index k = 0; k < kQuestions; ++k)
-    if (byTree(k) != byLook(k)) throw std::logic_error("the nearest point is another");
-  const auto perQuestion = [](const auto& ask) -> Measurement {
-    const Measurement all = timed([=] {
+    (known->points.colwise() - known->questions.col(k)).colwise().squaredNorm().minCoeff(&nearest);
+    if (ours(k) != nearest) throw std::logic_error("the nearest point is another");
+    if (peer.nearest && peer.nearest(k) != nearest)
+      throw std::logic_error("nanoflann's nearest point is another");
+  }
+  const auto perQuestion = [](const std::function<int(Eigen::Index)>& ask) -> Measurement {
+    if (!ask) return {};
+    return perOne(kQuestions, [=] {
       long sum = 0;
       for (Eigen::Index k = 0; k < kQuestions; ++k) sum += ask(k);
       if (sum == 0) throw std::logic_error("all questions have the same answer");
     });
-    return [all] { return all() / kQuestions; };
   };
-  return {"nearest-7d", perQuestion(byTree), "look at all", perQuestion(byLook), 1.};
+  return {name, perQuestion(ours), "nanoflann", perQuestion(peer.nearest), target};
+}
+
+// A point is added and the nearest of those that are there is asked for, as in a search.
+Row growingRow(const std::string& name, int dimension, Eigen::Index count, double target) {
+  const auto known = std::make_shared<const Neighbors>(dimension, count);
+  const auto grow = [=] {
+    NearestNeighbors tree(
+        Space::box(Eigen::VectorXd::Constant(dimension, -1), Eigen::VectorXd::Ones(dimension)));
+    int sum = 0;
+    for (Eigen::Index k = 0; k < count; ++k) {
+      tree.add(known->points.col(k));
+      sum += tree.nearest(known->questions.col(k % kQuestions));
+    }
+    return sum;
+  };
+  const NeighborPeer peer = nanoflannPeer(known->points, known->questions);
+  if (peer.grow && peer.grow() != grow()) throw std::logic_error("nanoflann's nearest points are others");
+  return {name, perOne(count, grow), "nanoflann", peer.grow ? perOne(count, peer.grow) : Measurement{},
+          target};
 }
 
 // A seed is soon done or takes long: medians need many.
@@ -97,7 +132,11 @@ std::vector<Row> planningRows() {
   requireSame(*poses, reedsShepp, ompl.reedsShepp);
   return {{"dubins", perWay(poses, dubins), "OMPL", perWay(poses, ompl.dubins), 0.3},
           {"reeds-shepp", perWay(poses, reedsShepp), "OMPL", perWay(poses, ompl.reedsShepp), 0.3},
-          nearestRow(),
+          nearestRow("nearest-7d", 7, 1000, 0.79),
+          nearestRow("nearest-3d-100k", 3, 100000, 1),
+          nearestRow("nearest-7d-100k", 7, 100000, 1),
+          nearestRow("nearest-12d-100k", 12, 100000, 1),
+          growingRow("nearest-7d-growing", 7, 1000, 0.6),
           connectRow("rrt-connect-tip", tipInHole(scene), scene, 0.1, 201),
           connectRow("rrt-connect-peg", pegInHole(scene), scene, 0.25, 41)};
 }

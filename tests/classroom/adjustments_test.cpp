@@ -66,7 +66,7 @@ TEST_F(AdjustmentsTest, NamesThePlaceOfWhatIsWrong) {
               HasSubstr("unknown key 'adjustments' in the file of adjustments"));
   EXPECT_THAT(messageFor(zoe + "point = 1\n"), HasSubstr("unknown key 'point' in [[adjustment]]"));
   EXPECT_THAT(messageFor(kHead + add + kBy),
-              HasSubstr(at + "2:12: no student: found neither student nor group"));
+              HasSubstr(at + "2:12: whom it is about: found neither student nor group, wanted one of them"));
   EXPECT_THAT(messageFor(zoe + "group = \"pair\"\n" + add + kBy), HasSubstr("found both student and group"));
   EXPECT_THAT(messageFor(kHead + "student = \"zo\"\n" + add + kBy),
               HasSubstr(at + "3:11: no student 'zo': wanted the id of a student (did you mean 'zoe'?)"));

@@ -129,6 +129,19 @@ TEST_F(ClassFeedbackTest, RefusesStudentsWhoseNameIsNoFolder) {
                    "no folder for '../zoe': found ");
 }
 
+TEST_F(ClassFeedbackTest, ReplacesItsOwnFilesAndNoOthers) {
+  const fs::path out = folder_.path() / "feedback", zoe = out / "zoe" / kEx;
+  EXPECT_EQ(writeFeedbackFolders(book(), source_.out, out), 2);
+  fs::remove(source_.out / "zoe" / kEx / "results.json");
+  EXPECT_EQ(writeFeedbackFolders(book(), source_.out, out), 1);
+  EXPECT_FALSE(fs::exists(zoe)) << "of a result that is no more";
+  writeTextFile(zoe / "main.cpp", "mine");
+  EXPECT_REX_ERROR(
+      writeFeedbackFolders(book(), source_.out, out),
+      "not replaced by feedback: found 'main.cpp', which no export wrote, wanted another folder");
+  EXPECT_EQ(fileText(zoe / "main.cpp"), "mine");
+}
+
 TEST_F(ClassFeedbackTest, GivesAllGradesToPrograms) {
   const auto json = nlohmann::json::parse(gradesJson(book(), source_.course));
   EXPECT_EQ(json.at("schema"), "rex-grades/1");

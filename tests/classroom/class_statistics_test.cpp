@@ -8,7 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "base/text_file.h"
+#include "classroom/import_table.h"
 #include "grading/result_file.h"
+#include "support/class_results.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
@@ -150,6 +152,55 @@ TEST(ClassResults, AreReadAndForeignFilesTold) {
                   HasSubstr("eve/01-a/results.json: not counted: found a result of '02-b', wanted one "
                             "of '01-a'")));
   EXPECT_REX_ERROR(readClassResults(folder.path() / "none"), "none: cannot read this folder: found ");
+}
+
+TEST(ClassStatistics, NameTheFirstFullScoreAndCountAttempts) {
+  std::vector<StudentResult> results = staircase(3);
+  for (StudentResult& one : results) one.result.score = one.result.maxScore;
+  EXPECT_FALSE(statisticsOf(results).front().firstFull) << "at an unknown time";
+  EXPECT_EQ(statisticsOf(results).front().attempts.known, 0);
+  results[0].submitted = 300, results[1].submitted = 200, results[1].timeFrom = "platform";
+  results[2].submitted = 100, results[2].result.score = 0;
+  results[0].attempts = 4, results[0].attemptsFrom = "platform";
+  results[2].attempts = 1, results[2].attemptsFrom = "imports";
+  const ExerciseStatistics all = statisticsOf(results).front();
+  EXPECT_EQ(all.firstFull.value().student, "s1");
+  EXPECT_EQ(all.firstFull->submitted, 200);
+  EXPECT_EQ(all.firstFull->timeFrom, "platform");
+  EXPECT_EQ(all.attempts.known, 2);
+  EXPECT_EQ(all.attempts.atLeast, 1);
+  EXPECT_DOUBLE_EQ(all.attempts.median, 2.5);
+  EXPECT_EQ(all.attempts.most, 4);
+  EXPECT_EQ(all.attempts.mostBy, "s0");
+}
+
+TEST(ClassResults, KnowTimesAndAttemptsAndRefuseWhatWasEdited) {
+  const TemporaryFolder folder;
+  const Task adam = sampleTask("adam"), zoe = sampleTask("zoe");
+  saveSample(folder.path(), adam, sampleResult(3, 4, 3));
+  GradeResult edited = sampleResult(3, 0, 0);
+  edited.score = 10;
+  saveSample(folder.path(), zoe, edited);
+  writeTextFile(folder.path() / "tasks.tsv", toManifest({adam, zoe}));
+  const ImportTable imported{{{.student = "adam",
+                               .exercises = {{"01-kinematics",
+                                              {.platform = "gradescope",
+                                               .status = HandInStatus::kHandedIn,
+                                               .handedInBy = "adam",
+                                               .attempts = 3,
+                                               .attemptsFrom = "platform"}}}}}};
+  writeTextFile(folder.path() / kImportTable, importTableText(imported));
+  const ClassResults read = readClassResults(folder.path());
+  ASSERT_EQ(read.results.size(), 1u);
+  EXPECT_EQ(read.results[0].submitted, adam.submitted);
+  EXPECT_EQ(read.results[0].timeFrom, "table");
+  EXPECT_EQ(read.results[0].attempts, 3);
+  EXPECT_EQ(read.results[0].attemptsFrom, "platform");
+  EXPECT_THAT(read.complaints,
+              ElementsAre(HasSubstr("zoe/01-kinematics/results.json: a result that does not add up")));
+  writeTextFile(folder.path() / "tasks.tsv", "x");
+  EXPECT_THAT(readClassResults(folder.path()).complaints,
+              ::testing::Contains(HasSubstr("not a list of tasks")));
 }
 
 // Three checks of one point each: those of part p are passed by the good half, the odd one by the others.

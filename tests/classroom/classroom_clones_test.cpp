@@ -111,6 +111,17 @@ TEST_F(ClassroomClonesTest, TakesAClassWithItsRosterAndRecord) {
   }
 }
 
+TEST_F(ClassroomClonesTest, CountsTheCommitsThatChangedAFile) {
+  commit("hw-adam", "// 1", kNoon), commit("hw-adam", "// other", kNoon, "exercises/02-control/main.cpp");
+  commit("hw-adam", "// 2", kNoon + 60), commit("hw-adam", "// 3", kNoon + 7200);
+  commit("hw-anna", "// a", kNoon);
+  import(read({.deadline = kNoon + 3600}));
+  const ImportTable table = readImportTable(handedIn() / kImportTable);
+  EXPECT_EQ(table.find("adam", kExercise)->attempts, 2) << "until the deadline";
+  EXPECT_EQ(table.find("adam", kExercise)->attemptsFrom, "git");
+  EXPECT_EQ(table.find("adam", "02-control")->attempts, 1);
+}
+
 TEST_F(ClassroomClonesTest, SaysThatDatesOfCommitsAreTheStudents) {
   commit("hw-adam", "// early", kNoon), commit("hw-adam", "// late", kNoon + 7200),
       commit("hw-anna", "// a", kNoon);

@@ -114,6 +114,9 @@ TEST_F(CourseFileTest, NamesThePlaceOfWhatIsWrong) {
   EXPECT_THAT(
       messageFor(zoe + "[[student]]\nid = \"Zoe\"\n"),
       HasSubstr(at + "4:6: a second student with the id 'Zoe': wanted one; the first is at " + at + "2:6"));
+  EXPECT_THAT(messageFor("[[student]]\nid = \"\u00C4nne\"\n[[student]]\nid = \"a\u0308nne\"\n"),
+              HasSubstr("a second student with the id 'a\u0308nne'"))
+      << "of one folder on some machines";
   EXPECT_THAT(messageFor(zoe + "email = \"a@b\"\n[[student]]\nid = \"adam\"\nemail = \"A@b\"\n"),
               HasSubstr("a second student with the e-mail 'A@b'"));
   EXPECT_THAT(messageFor(zoe + "[[student]]\nid = \"adam\"\ngroup = \"zoe\"\n"),

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "classroom/submission_owners.h"
 #include "support/class_results.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
@@ -148,6 +149,17 @@ TEST_F(GradebookTest, KnowsPeopleByWhatPlatformsSayOfThem) {
   EXPECT_EQ(row("dora").final, 300) << "a group of the platform";
   EXPECT_EQ(row("emil").status, RowStatus::kNotTaken);
   EXPECT_EQ(row("emil").remark, "two files");
+}
+
+TEST(SubmissionOwnersTest, BelieveAddressesRatherThanNamesOfFolders) {
+  const Course course{.students = {{.id = "adam", .name = "J\u00FCrgen Gro\u00DF"},
+                                   {.id = "bob", .email = "bob@uni.example"},
+                                   {.id = "\u00C4nne"}}};
+  EXPECT_EQ(studentOf({.student = "adam", .email = "Bob@uni.example"}, course), "bob");
+  EXPECT_EQ(studentOf({.student = "ADAM", .email = "x@uni.example"}, course), "adam");
+  EXPECT_EQ(studentOf({.student = "7", .name = "Ju\u0308rgen GROSS"}, course), "adam") << "decomposed";
+  EXPECT_EQ(studentOf({.student = "a\u0308nne"}, course), "\u00C4nne");
+  EXPECT_EQ(studentOf({.student = "7"}, course), "");
 }
 
 TEST_F(GradebookTest, HasARowForEachSubmissionWithoutARoster) {

@@ -27,7 +27,9 @@ ImportTable sample() {
                             .timeFrom = "platform",
                             .commit = "3f2a",
                             .source = "a/main.cpp",
-                            .sha256 = "ab"}},
+                            .sha256 = "ab",
+                            .attempts = 3,
+                            .attemptsFrom = "imports"}},
                           {"02-control",
                            {.platform = "moodle", .status = HandInStatus::kNotTaken, .why = "a zip"}}}},
            {.student = "zz", .exercises = {{"01-kinematics", {.platform = "moodle"}}}}}};
@@ -71,7 +73,18 @@ TEST_F(ImportTableTest, ConformsToItsSchema) {
   EXPECT_FALSE(runProcess({kPython, "-c", check, schema, file().string()}).ok());
 }
 
+TEST_F(ImportTableTest, AsksToGoOnAfterAnInterruption) {
+  writeTextFile(folder_.path() / kBegunTable, importTableText(sample()));
+  EXPECT_REX_ERROR(
+      importTableIn(folder_.path()),
+      ": an import into this folder was interrupted: wanted the same `rex import` again, which goes on");
+}
+
 TEST_F(ImportTableTest, SaysWhereItIsWrong) {
+  EXPECT_REX_ERROR(
+      read(R"({"schema": "rex-import/1", "students": [{"student": "zoe", "exercises": {"01-kinematics": )"
+           R"({"status": "handed_in", "attempts": 0}}}]})"),
+      "students[0].exercises.01-kinematics.attempts: found 0, wanted a number from 1 on");
   const std::string start = R"({"schema": "rex-import/1", "students": )";
   EXPECT_REX_ERROR(read("{"), "import.json: not a table of imports: found text that is not JSON");
   EXPECT_REX_ERROR(read("[]"), "not a table of imports: found no table");

@@ -200,6 +200,85 @@ TEST_F(ImportingTest, BringsUpToDateAndSaysWhatHasChanged) {
   expectAll(emailOf, "platform", true);
 }
 
+// As a process leaves it that was killed in the middle of an import which changes three files.
+TEST_F(ImportingTest, GoesOnAfterAnInterruption) {
+  const auto again = [&] {
+    return import(moodle(zip("all.zip", moodleMembers(all_, kExercise)), moodleWorksheet(all_)));
+  };
+  const fs::path table = handedIn() / kImportTable, begun = handedIn() / kBegunTable;
+  again();
+  const std::string before = fileText(table),
+                    old = fileText(handedIn() / all_[4].email / kExercise / "main.cpp");
+  for (const std::size_t k : {0u, 1u, 4u}) all_[k].text += "// better\n";
+  again();
+  const std::string whole = fileText(table);
+  EXPECT_FALSE(fs::exists(begun));
+  fs::rename(table, begun);
+  writeTextFile(table, before);
+  writeTextFile(handedIn() / all_[4].email / kExercise / "main.cpp", old);  // not yet
+  fs::remove(handedIn() / all_[1].email / kExercise / "main.cpp");          // lost
+  writeTextFile(handedIn() / all_[0].email / kExercise / "main.cpp.999999999.new", "half");
+  const ImportReport report = again();
+  EXPECT_THAT(report.notes, Contains(HasSubstr("goes on with an interrupted import, of which ")));
+  EXPECT_EQ(static_cast<int>(report.complaints.size()), attacks());
+  EXPECT_EQ(fileText(table), whole);
+  EXPECT_FALSE(fs::exists(begun));
+  expectAll(emailOf, "platform", true);
+  EXPECT_EQ(readImportTable(table).find(all_[0].email, kExercise)->attempts, 2);
+  EXPECT_EQ(readImportTable(table).find(all_[5].email, kExercise)->attempts, 1);
+}
+
+// The first import of all was interrupted, and by the next one a student has handed in another file.
+TEST_F(ImportingTest, KnowsItsFilesEvenIfTheDownloadHasChangedSince) {
+  const auto again = [&] {
+    return import(moodle(zip("all.zip", moodleMembers(all_, kExercise)), moodleWorksheet(all_)));
+  };
+  again();
+  fs::rename(handedIn() / kImportTable, handedIn() / kBegunTable);
+  all_[0].text += "// better\n";
+  EXPECT_EQ(static_cast<int>(again().complaints.size()), attacks());
+  expectAll(emailOf, "platform", true);
+}
+
+TEST_F(ImportingTest, CountsWhatGradescopeKeepsAsAttempts) {
+  const std::string metadata =
+      "submission_1:\n  :submitters:\n  - :name: Zoe\n    :sid: '31'\n  :history:\n  - :id: 7\n  - :id: 8\n"
+      "submission_2:\n  :submitters:\n  - :name: Yan\n    :sid: '32'\n";
+  import(readGradescope(zip("g.zip", {{.name = "submission_metadata.yml", .text = metadata},
+                                      {.name = "submission_1/main.cpp", .text = "a"},
+                                      {.name = "submission_2/w.zip",
+                                       .text = zipOf(
+                                           {{.name = "main.cpp",
+                                             .text = "b" }}) }}),
+                        exercises_));
+  const ImportTable table = readImportTable(handedIn() / kImportTable);
+  EXPECT_EQ(table.find("31", kExercise)->attempts, 3);
+  EXPECT_EQ(table.find("31", kExercise)->attemptsFrom, "platform");
+  EXPECT_EQ(table.find("32", kExercise)->attempts, 1);
+}
+
+TEST_F(ImportingTest, BlamesNoExerciseForTheFaultOfAnother) {
+  const auto arrival = [&](DownloadedFile file) {
+    file.place = file.name;
+    return Arrivals{
+        .platform = Platform::kFolders,
+        .all = {{.people = {{.name = "Zoe"}},
+                 .files = {{.name = "02/main.cpp", .place = "02/main.cpp", .text = "b"}, std::move(file)}},
+                {.people = {{.name = "Yan"}},
+                 .files = {{.name = "01/main.cpp", .place = "01/main.cpp", .text = "a"}}}}};
+  };
+  import(arrival({.name = "01/main.cpp", .whyNot = "a symbolic link"}), "");
+  EXPECT_EQ(readImportTable(handedIn() / kImportTable).find("Zoe", "01-kinematics")->status,
+            HandInStatus::kNotTaken);
+  EXPECT_EQ(readImportTable(handedIn() / kImportTable).find("Zoe", "02-control")->status,
+            HandInStatus::kHandedIn);
+  fs::remove_all(handedIn());
+  import(arrival({.name = "03/main.cpp", .text = "c"}), "");
+  EXPECT_EQ(readImportTable(handedIn() / kImportTable).find("Zoe", "01-kinematics")->status,
+            HandInStatus::kNotTaken)
+      << "nobody knows which one was meant";
+}
+
 TEST_F(ImportingTest, ReplacesNothingThatNoImportWrote) {
   const auto again = [&] {
     return import(moodle(zip("all.zip", moodleMembers(all_, kExercise)), moodleWorksheet(all_)));

@@ -104,6 +104,10 @@ TEST_F(PlatformGradesTest, ScalesOnlyOnRequest) {
                    "worksheet.csv:2: the maximum grade of 01-kinematics in Moodle: found 100,00, "
                    "wanted 10, the points of the exercise, or --scale");
   EXPECT_THAT(worksheet(text, true).csv, HasSubstr("adam@uni.example,70,"));
+  EXPECT_REX_ERROR(
+      (void)worksheet("ID,E-Mail,Grade\n1,adam@uni.example,\n", true),
+      "worksheet.csv:2: the maximum grade of 01-kinematics in Moodle: found none, wanted a number, to "
+      "scale the points to it");
 }
 
 TEST_F(PlatformGradesTest, RefusesWhatIsNoWorksheet) {

@@ -5,9 +5,12 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include "base/cpu_lanes.h"
 #include "base/derivative_check.h"
+#include "base/rng.h"
 #include "estimation/consistency.h"
 #include "estimation/kalman_filter.h"
+#include "estimation/rank_two_kernel_internal.h"
 #include "random_gaussian.h"
 #include "slam_world.h"
 #include "support/expect_error.h"
@@ -229,5 +232,26 @@ TEST(EkfSlam, SaysWhatIsWrong) {
   };
   EXPECT_REX_ERROR(slam.predict(move), "derivative of the transition: found entries that are not finite");
 }
+
+class RankTwoInLanes : public testing::TestWithParam<int> {};
+
+// Against Eigen, to the bit, and above the diagonal nothing changes.
+TEST_P(RankTwoInLanes, SubtractTwoSquaresFromTheLowerTriangle) {
+  if (GetParam() > cpuLanes()) GTEST_SKIP() << "this CPU has no AVX2";
+  Rng rng(5);
+  for (const int n : {1, 2, 3, 8, 23}) {
+    const Eigen::MatrixXd before = rng.normalVector(30 * n).reshaped(30, n);
+    const Eigen::VectorXd u = rng.normalVector(n), v = rng.normalVector(n);
+    Eigen::MatrixXd after = before;
+    kernelFor<internal::RankTwoKernel>(GetParam()).subtract(u.data(), v.data(), n, after.data(), 30);
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < 30; ++i) {
+        const bool isChanged = i >= j && i < n;
+        EXPECT_EQ(after(i, j), isChanged ? before(i, j) - (u[j] * u[i] + v[j] * v[i]) : before(i, j));
+      }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(OneTwoAndFour, RankTwoInLanes, testing::Values(1, 2, 4));
 
 }  // namespace rex::ekf_slam_test

@@ -7,8 +7,10 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/is_below.h"
 #include "base/text_file.h"
 #include "cli/instructor/collect.h"
+#include "cli/json_internal.h"
 #include "cli/terminal.h"
 
 namespace rex::cli {
@@ -56,20 +58,61 @@ void writeBook(const grading::Gradebook& book, const fs::path& out, bool print) 
   note(fmt::format("{} students: {}", book.totals.size(), fmt::join(parts, ", ")));
 }
 
-void explainGrade(const grading::Gradebook& book, const Project& project, const std::string& student,
-                  const std::string& exercise) {
-  const std::string name = project.exercise(exercise).name;
+ExitCode explainResults(const Project& project, const ExplainOptions& options) {
+  const std::string name = project.exercise(options.exercise).name;
+  const grading::Gradebook book =
+      gradebookOf(project, options.files, tasksIn(options.out, options.manifest), options.out);
   std::vector<std::string> known;
   for (const auto* rows : {&book.rows, &book.strangers})
     for (const grading::GradeRow& row : *rows) {
       known.push_back(row.student.id);
-      if (row.student.id != student || row.exercise != name) continue;
-      for (const std::string& line : grading::explain(row)) say(wrap(harmless(line), 2, 0));
-      return;
+      if (row.student.id != options.student || row.exercise != name) continue;
+      const std::vector<std::string> lines = grading::explain(row);
+      if (options.json)
+        say(dump(Json{{"student", options.student}, {"exercise", name}, {"lines", lines}}));
+      else
+        for (const std::string& line : lines) say(wrap(harmless(line), 2, 0));
+      return ExitCode::kFull;
     }
-  throw UsageError({.what = fmt::format("no grade of '{}' for {}", student, name),
+  throw UsageError({.what = fmt::format("no grade of '{}' for {}", options.student, name),
                     .wanted = "the id of a student, and an exercise that was graded",
-                    .nearest = nearestNames(student, known)});
+                    .nearest = nearestNames(options.student, known)});
+}
+
+void requireApart(const std::string& option, const fs::path& folder, const fs::path& other) {
+  const fs::path here = fs::weakly_canonical(folder), there = fs::weakly_canonical(other);
+  if (isBelow(here, there) || isBelow(there, here))
+    throw UsageError(
+        {.what = option, .found = here.string(), .wanted = "a folder apart from " + there.string()});
+}
+
+void requireFolder(const fs::path& folder, const std::string& wanted) {
+  if (fs::is_directory(folder)) return;
+  const fs::path whole = fs::absolute(folder).lexically_normal(),
+                 path = whole.has_filename() ? whole : whole.parent_path();
+  std::vector<std::string> beside;
+  std::error_code failure;
+  for (fs::directory_iterator entry(path.parent_path(), failure), end; !failure && entry != end;
+       entry.increment(failure))
+    if (entry->is_directory(failure)) beside.push_back(entry->path().filename().string());
+  throw UsageError({.what = fs::exists(folder) ? "not a folder" : "no such folder",
+                    .where = {folder.string()},
+                    .wanted = wanted,
+                    .nearest = nearestNames(path.filename().string(), beside)});
+}
+
+std::vector<grading::Task> tasksIn(const fs::path& results, const fs::path& manifest) {
+  requireFolder(results, "the folder of results that rex grade wrote");
+  const fs::path file = manifest.empty() ? results / "tasks.tsv" : manifest;
+  if (manifest.empty() && !fs::is_regular_file(file))
+    throw UsageError({.what = "no folder of results",
+                      .where = {results.string()},
+                      .wanted = "the one that rex grade wrote, with tasks.tsv"});
+  if (!fs::is_regular_file(file))
+    throw UsageError({.what = "no such list of tasks",
+                      .where = {file.string()},
+                      .wanted = "one that rex grade --manifest wrote"});
+  return grading::readManifest(file);
 }
 
 }  // namespace rex::cli

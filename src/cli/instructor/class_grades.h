@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/exit_code.h"
 #include "classroom/gradebook.h"
 #include "cli/project.h"
 
@@ -33,8 +34,29 @@ inline constexpr const char *kNotTakenFile = "not_taken.tsv", *kTotals = "totals
 /// Writes grades.csv, totals.csv and the table of people who are not on the roster, and tells the notes.
 void writeBook(const grading::Gradebook& book, const std::filesystem::path& out, bool print);
 
-/// Prints how a grade came about. Throws UsageError, with the nearest names, if there is no such row.
-void explainGrade(const grading::Gradebook& book, const Project& project, const std::string& student,
-                  const std::string& exercise);
+struct ExplainOptions {
+  std::filesystem::path out{};       ///< the folder of results
+  std::filesystem::path manifest{};  ///< the list of tasks; empty: tasks.tsv in it
+  ClassFiles files{};
+  std::string student{}, exercise{};
+  bool json = false;
+};
+/// Prints how a grade came about. Throws UsageError, with the nearest names, if there is no such row, and
+/// like tasksIn().
+ExitCode explainResults(const Project& project, const ExplainOptions& options);
+
+/// Throws UsageError if one of the folders is in the other one: files written there would be taken for
+/// submissions or results. `option` names the first.
+void requireApart(const std::string& option, const std::filesystem::path& folder,
+                  const std::filesystem::path& other);
+
+/// Throws UsageError, with the nearest names beside it, unless there is such a folder; `wanted` says what
+/// should be in it.
+void requireFolder(const std::filesystem::path& folder, const std::string& wanted);
+
+/// The list of tasks of a folder of results; `manifest`: another file with it. Throws UsageError if there is
+/// no such folder or list, and Error like readManifest().
+[[nodiscard]] std::vector<grading::Task> tasksIn(const std::filesystem::path& results,
+                                                 const std::filesystem::path& manifest = {});
 
 }  // namespace rex::cli

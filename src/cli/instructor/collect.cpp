@@ -12,6 +12,7 @@
 #include "classroom/grade_table.h"
 #include "classroom/grade_task.h"
 #include "cli/instructor/class_grades.h"
+#include "cli/instructor/grading_json.h"
 #include "cli/instructor/grading_options_internal.h"
 #include "cli/instructor/instructor_room_internal.h"
 #include "cli/report_format.h"
@@ -27,6 +28,7 @@ struct CollectOptions {
   ClassFiles files{};
   std::vector<std::string> explain{};  ///< a student and an exercise
   bool csv = false;
+  bool json = false;
   std::string reports{};  ///< formats of `rex report`, separated by commas; empty: none
 };
 
@@ -57,18 +59,20 @@ bool holds(const std::filesystem::path& file, const std::string& text) {
 
 // Makes grades.csv from all results and names the tasks to repeat. kGraderFault if there are any.
 ExitCode collectResults(const Project& project, const CollectOptions& options) {
-  const std::filesystem::path manifest =
-      options.manifest.empty() ? options.out / "tasks.tsv" : options.manifest;
-  const std::vector<Task> tasks = grading::readManifest(manifest);
+  if (!options.explain.empty())
+    return explainResults(project, {.out = options.out,
+                                    .manifest = options.manifest,
+                                    .files = options.files,
+                                    .student = options.explain[0],
+                                    .exercise = options.explain[1],
+                                    .json = options.json});
+  const std::vector<Task> tasks = tasksIn(options.out, options.manifest);
   const grading::Gradebook book = gradebookOf(project, options.files, tasks, options.out);
-  if (!options.explain.empty()) {
-    explainGrade(book, project, options.explain[0], options.explain[1]);
-    return ExitCode::kFull;
-  }
   writeReports(tasks, options.out, reportsOf(options.reports), book);
   const bool complete = writeGrades(tasks, options.out, readDeadlines(project, options.files.deadlines),
                                     options.files.hasBook() ? &book : nullptr, options.csv);
   const int held = tellHeldBack(tasks, options.out);
+  if (options.json) say(collectJson(tasks, options.out));
   note(fmt::format("{} tasks. Table: {}", tasks.size(), shown(options.out / "grades.csv")));
   if (!complete) return ExitCode::kGraderFault;
   return held > 0 ? ExitCode::kBelow : ExitCode::kFull;
@@ -170,10 +174,9 @@ void addCollect(CLI::App* command, Action& action) {
   command->add_option("--manifest", options->manifest, "the list of tasks (default: DIR/tasks.tsv)")
       ->type_name("FILE.tsv");
   addClassFiles(command, options->files);
-  command->add_option("--explain", options->explain, "only print how this grade came about")
-      ->expected(2)
-      ->type_name("STUDENT EXERCISE");
-  command->add_flag("--csv", options->csv, "print the table of grades");
+  addExplain(command, options->explain);
+  CLI::Option* csv = command->add_flag("--csv", options->csv, "print the table of grades");
+  command->add_flag("--json", options->json, "print the state of each task as JSON")->excludes(csv);
   addReports(command, options->reports);
   command->callback(
       [&action, options] { action = [options](const Project& p) { return collectResults(p, *options); }; });

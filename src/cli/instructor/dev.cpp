@@ -125,6 +125,7 @@ void addDevSite(CLI::App* dev, Action& action) {
       ->add_option("--secret-file", options->secret,
                    "secret of the course, which must not be in the pages either")
       ->type_name("FILE");
+  command->add_flag("--notes", options->notes, "also the lecturer's notes: pages that students must not get");
   command->add_flag("--json", options->json, "print JSON");
   command->callback(
       [&action, options] { action = [options](const Project& p) { return devSite(p, *options); }; });
@@ -132,16 +133,27 @@ void addDevSite(CLI::App* dev, Action& action) {
 
 void addDevStats(CLI::App* dev, Action& action) {
   const auto options = std::make_shared<StatsOptions>();
-  CLI::App* command = addVerb(dev, "stats", "Show how a class did: points, and which checks fail most",
-                              "Examples:\n  scripts/rex dev stats results\n"
-                              "  scripts/rex dev stats results --json\n"
-                              "  scripts/rex dev stats results -o points.png --parts parts.png\n\n"
-                              "Exit code 2: some results could not be read; they are named.");
+  CLI::App* command =
+      addVerb(dev, "stats", "Show how a class did: points, and which checks fail most",
+              "Examples:\n  scripts/rex dev stats results\n"
+              "  scripts/rex dev stats results --json --deadlines course.toml\n"
+              "  scripts/rex dev stats results --students\n"
+              "  scripts/rex dev stats results -o points.png --parts parts.png\n\n"
+              "Exit code 2: some results could not be read, or were changed; they are named.");
   command->add_option("DIR", options->results, "the folder of results that `rex grade` wrote")
       ->type_name("")
       ->required();
   CLI::Option* json = command->add_flag("--json", options->json, "print JSON");
-  command->add_flag("--csv", options->csv, "print a table of the checks")->excludes(json);
+  CLI::Option* csv = command->add_flag("--csv", options->csv, "print a table of the checks")->excludes(json);
+  command
+      ->add_flag("--students", options->students,
+                 "print a table of the students: points, time and number of attempts")
+      ->excludes(json)
+      ->excludes(csv);
+  command
+      ->add_option("--deadlines", options->deadlines,
+                   "say how the first full score lies to opening and deadline (a course file will do)")
+      ->type_name("FILE.toml");
   command->add_option("-o,--out", options->figure, "draw the points of each exercise")->type_name("FILE.png");
   command->add_option("--parts", options->parts, "draw the mean points of each part")->type_name("FILE.png");
   command->callback(

@@ -40,7 +40,8 @@ void saySecrets(const std::vector<grading::Secret>& secrets) {
            {grading::SecretKind::kSolution, "lines of solutions"},
            {grading::SecretKind::kHiddenCheck, "passages of hidden checks"},
            {grading::SecretKind::kHiddenName, "texts of hidden checks"},
-           {grading::SecretKind::kWrongVariant, "passages of wrong variants"}})
+           {grading::SecretKind::kWrongVariant, "passages of wrong variants"},
+           {grading::SecretKind::kLecturersNote, "lines of lecturer's notes"}})
     parts.push_back(fmt::format("{} {}", counts[kind], name));
   parts.emplace_back(counts.contains(grading::SecretKind::kCourseSecret)
                          ? "the secret of the course"

@@ -8,8 +8,10 @@
 namespace rex::cli {
 
 ExitCode devSite(const Project& project, const SiteOptions& options) {
+  using grading::SiteReaders;
   const grading::CourseSite site =
-      grading::writeCourseSite(project.root, std::filesystem::absolute(options.out), options.secret);
+      grading::writeCourseSite(project.root, std::filesystem::absolute(options.out), options.secret,
+                               options.notes ? SiteReaders::kLecturers : SiteReaders::kEverybody);
   const bool leaks = !site.scan.leaks.empty();
   if (options.json) {
     Json list = Json::array();

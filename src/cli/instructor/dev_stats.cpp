@@ -7,9 +7,12 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/instant.h"
 #include "classroom/class_statistics.h"
 #include "classroom/csv.h"
 #include "cli/instructor/class_figure.h"
+#include "cli/instructor/class_grades.h"
+#include "cli/instructor/collect.h"
 #include "cli/instructor/dev_verbs.h"
 #include "cli/json_internal.h"
 #include "cli/terminal.h"
@@ -76,7 +79,56 @@ void sayChecks(const ExerciseStatistics& all) {
   if (passed > 0) say(fmt::format("  {} check{} passed by all", passed, passed == 1 ? "" : "s"));
 }
 
-void sayExercise(const ExerciseStatistics& all) {
+// "2 days 5 h", "5 h 12 min", "12 min".
+std::string durationText(std::int64_t seconds) {
+  const std::int64_t minutes = seconds / 60, hours = minutes / 60, days = hours / 24;
+  if (days > 0) return fmt::format("{} day{} {} h", days, days == 1 ? "" : "s", hours % 24);
+  return hours > 0 ? fmt::format("{} h {} min", hours, minutes % 60) : fmt::format("{} min", minutes);
+}
+
+std::string relationText(std::int64_t time, const std::optional<std::int64_t>& to, const char* what) {
+  if (!to) return "";
+  return fmt::format(", {} {} the {}", durationText(std::abs(time - *to)), time <= *to ? "before" : "after",
+                     what);
+}
+
+grading::LateRule ruleOf(const grading::LatePolicy& policy, const std::string& exercise) {
+  const auto rule = policy.find(exercise);
+  return rule == policy.end() ? grading::LateRule{} : rule->second;
+}
+
+void sayFirstFull(const ExerciseStatistics& all, const grading::LateRule& rule) {
+  if (all.full == 0) return;
+  if (!all.firstFull) {
+    say("  first full score: at an unknown time, as no list of tasks (tasks.tsv) has it");
+    return;
+  }
+  const grading::FirstFull& first = *all.firstFull;
+  say("  " +
+      wrap(fmt::format("first full score: {}, handed in {}{}{} (time from {})", harmless(first.student),
+                       instantText(first.submitted), relationText(first.submitted, rule.opening, "opening"),
+                       relationText(first.submitted, rule.deadline, "deadline"),
+                       first.timeFrom == "file" ? "files, which may be when they were copied"
+                                                : harmless(first.timeFrom)),
+           6, 6));
+}
+
+void sayAttempts(const ExerciseStatistics& all) {
+  const grading::AttemptStatistics& attempts = all.attempts;
+  if (attempts.known == 0) {
+    say("  attempts unknown: neither a platform nor an import has counted them");
+    return;
+  }
+  std::string text =
+      fmt::format("attempts median {:.4g}, most {} ({}); known of {} of {}", attempts.median, attempts.most,
+                  harmless(attempts.mostBy), attempts.known, all.graded + all.graderFailed);
+  if (attempts.atLeast > 0)
+    text += fmt::format(", of {} as the number of imports that brought another file: at least so many",
+                        attempts.atLeast);
+  say("  " + wrap(text, 6, 6));
+}
+
+void sayExercise(const ExerciseStatistics& all, const grading::LateRule& rule) {
   say(fmt::format("{}: {} graded, {} with full score", harmless(all.exercise), all.graded, all.full));
   if (all.graderFailed > 0)
     say(fmt::format("  the grader failed on {} more: not counted, to be graded again", all.graderFailed));
@@ -92,11 +144,47 @@ void sayExercise(const ExerciseStatistics& all) {
   say("  at least " + bins);
   say(fmt::format("  grading  median {:.1f} s, longest {:.1f} s ({})", all.medianSeconds, all.longestSeconds,
                   harmless(all.slowest)));
+  sayFirstFull(all, rule);
+  sayAttempts(all);
   sayParts(all);
   sayChecks(all);
 }
 
-Json toJson(const ExerciseStatistics& all) {
+Json firstFullJson(const ExerciseStatistics& all, const grading::LateRule& rule) {
+  if (!all.firstFull) return {};
+  const grading::FirstFull& first = *all.firstFull;
+  return {{"student", first.student},
+          {"submitted", instantText(first.submitted)},
+          {"time_from", first.timeFrom},
+          {"seconds_after_opening", rule.opening ? Json(first.submitted - *rule.opening) : Json()},
+          {"seconds_before_deadline", rule.deadline ? Json(*rule.deadline - first.submitted) : Json()}};
+}
+
+Json attemptsJson(const grading::AttemptStatistics& attempts) {
+  if (attempts.known == 0) return {};
+  return {{"known", attempts.known},
+          {"at_least", attempts.atLeast},
+          {"median", attempts.median},
+          {"most", attempts.most},
+          {"most_by", attempts.mostBy}};
+}
+
+Json studentsJson(const std::vector<grading::StudentResult>& results, const std::string& exercise) {
+  Json students = Json::array();
+  for (const grading::StudentResult& one : results)
+    if (one.exercise == exercise)
+      students.push_back({{"student", one.student},
+                          {"points", one.result.score},
+                          {"outcome", toString(one.result.outcome)},
+                          {"submitted", one.submitted ? Json(instantText(*one.submitted)) : Json()},
+                          {"time_from", one.timeFrom},
+                          {"attempts", one.attempts > 0 ? Json(one.attempts) : Json()},
+                          {"attempts_from", one.attemptsFrom}});
+  return students;
+}
+
+Json toJson(const ExerciseStatistics& all, const grading::LateRule& rule,
+            const std::vector<grading::StudentResult>& results) {
   Json distribution = Json::object(), checks = Json::array(), parts = Json::array();
   for (std::size_t k = 0; k < all.distribution.size(); ++k)
     distribution[grading::kDistribution[k]] = all.distribution[k];
@@ -126,6 +214,9 @@ Json toJson(const ExerciseStatistics& all) {
           {"median_seconds", all.medianSeconds},
           {"longest_seconds", all.longestSeconds},
           {"slowest", all.slowest},
+          {"first_full", firstFullJson(all, rule)},
+          {"attempts", attemptsJson(all.attempts)},
+          {"students", studentsJson(results, all.exercise)},
           {"parts", parts},
           {"checks", checks}};
 }
@@ -141,29 +232,44 @@ void printCsv(const std::vector<ExerciseStatistics>& all) {
   std::fputs(text.c_str(), stdout);
 }
 
+void printStudents(const std::vector<grading::StudentResult>& results) {
+  std::string text = grading::csvLine({"student", "exercise", "points", "possible", "outcome", "submitted",
+                                       "time_from", "attempts", "attempts_from"});
+  for (const grading::StudentResult& one : results) {
+    const bool isGraded = one.result.outcome != grading::Outcome::kGraderError;
+    text +=
+        grading::csvLine({one.student, one.exercise, isGraded ? fmt::format("{}", one.result.score) : "",
+                          fmt::format("{}", one.result.maxScore), std::string(toString(one.result.outcome)),
+                          one.submitted ? instantText(*one.submitted) : "", one.timeFrom,
+                          one.attempts > 0 ? fmt::format("{}", one.attempts) : "", one.attemptsFrom});
+  }
+  std::fputs(text.c_str(), stdout);
+}
+
 void print(const std::vector<ExerciseStatistics>& all, const grading::ClassResults& read,
-           const StatsOptions& options) {
+           const grading::LatePolicy& policy, const StatsOptions& options) {
   if (options.json) {
     Json list = Json::array();
-    for (const ExerciseStatistics& exercise : all) list.push_back(toJson(exercise));
+    for (const ExerciseStatistics& exercise : all)
+      list.push_back(toJson(exercise, ruleOf(policy, exercise.exercise), read.results));
     say(dump(Json{{"exercises", list}, {"not_counted", read.complaints}}));
   } else if (options.csv) {
     printCsv(all);
+  } else if (options.students) {
+    printStudents(read.results);
   } else {
     for (std::size_t k = 0; k < all.size(); ++k) {
       if (k > 0) say();
-      sayExercise(all[k]);
+      sayExercise(all[k], ruleOf(policy, all[k].exercise));
     }
   }
 }
 
 }  // namespace
 
-ExitCode devStats(const Project&, const StatsOptions& options) {
-  if (!std::filesystem::is_directory(options.results))
-    throw UsageError({.what = "no such folder",
-                      .where = {options.results.string()},
-                      .wanted = "the folder of results that rex grade wrote"});
+ExitCode devStats(const Project& project, const StatsOptions& options) {
+  requireFolder(options.results, "the folder of results that rex grade wrote");
+  const grading::LatePolicy policy = readDeadlines(project, options.deadlines);
   const grading::ClassResults read = grading::readClassResults(options.results);
   for (const std::string& complaint : read.complaints) note(wrap(harmless(complaint), 2, 0));
   if (read.results.empty())
@@ -172,7 +278,7 @@ ExitCode devStats(const Project&, const StatsOptions& options) {
                       .found = "no results",
                       .wanted = "STUDENT/EXERCISE/results.json in it"});
   const std::vector<ExerciseStatistics> all = grading::statisticsOf(read.results);
-  print(all, read, options);
+  print(all, read, policy, options);
   if (!options.figure.empty()) {
     writeFigure(pointsFigure(read.results), options.figure);
     note(fmt::format("Drawn: {}", shown(options.figure)));

@@ -48,19 +48,23 @@ ExitCode devRelease(const Project& project, const ReleaseOptions& options);
 struct SiteOptions {
   std::filesystem::path out{};     ///< new folder
   std::filesystem::path secret{};  ///< file with the secret of the course; empty: none
+  bool notes = false;
   bool json = false;
 };
 /// Writes the pages of the course. Returns kBelow, without writing anything, if anything leaks.
 ExitCode devSite(const Project& project, const SiteOptions& options);
 
 struct StatsOptions {
-  std::filesystem::path results{};  ///< folder that `rex grade` wrote
-  std::filesystem::path figure{};   ///< the points of each exercise, .png or .svg; empty: none
-  std::filesystem::path parts{};    ///< the points of each part, likewise
+  std::filesystem::path results{};    ///< folder that `rex grade` wrote
+  std::filesystem::path figure{};     ///< the points of each exercise, .png or .svg; empty: none
+  std::filesystem::path parts{};      ///< the points of each part, likewise
+  std::filesystem::path deadlines{};  ///< a file of deadlines or course file; empty: none
   bool json = false;
-  bool csv = false;
+  bool csv = false;       ///< a table of the checks
+  bool students = false;  ///< a table of the students
 };
-/// Prints the results of a class, per exercise and check. Returns kNotGradable if a result cannot be read.
+/// Prints the results of a class, per exercise and check. Returns kNotGradable if a result cannot be read or
+/// was changed after the grading.
 ExitCode devStats(const Project& project, const StatsOptions& options);
 
 }  // namespace rex::cli

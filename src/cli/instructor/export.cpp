@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/is_below.h"
+#include "base/leftovers.h"
 #include "base/text_file.h"
 #include "classroom/class_feedback.h"
 #include "classroom/platform_grades.h"
@@ -46,11 +48,7 @@ struct Export {
 };
 
 Export read(const Project& project, const ExportOptions& options) {
-  if (!fs::is_regular_file(options.results / "tasks.tsv"))
-    throw UsageError({.what = "no folder of results",
-                      .where = {options.results.string()},
-                      .wanted = "the one that rex grade wrote, with tasks.tsv"});
-  Export all{.tasks = grading::readManifest(options.results / "tasks.tsv")};
+  Export all{.tasks = tasksIn(options.results)};
   const std::string only = options.exercise.empty() ? "" : project.exercise(options.exercise).name;
   all.course = courseOf(project, options.files);
   all.book = gradebookOf(project, options.files, all.tasks, options.results, only);
@@ -64,31 +62,41 @@ Export read(const Project& project, const ExportOptions& options) {
   return all;
 }
 
+// In the results, a folder could be taken for a student, and feedback for a result.
+void makePlace(const ExportOptions& options) {
+  if (isBelow(fs::weakly_canonical(options.results), fs::weakly_canonical(options.out)))
+    throw UsageError(
+        {.what = "--out", .found = options.out.string(), .wanted = "a folder outside of the results"});
+  makeOutFolder(options.out);
+  removeLeftovers(options.out);
+}
+
 ExitCode told(const std::vector<std::string>& notes) {
   for (const std::string& sentence : notes) note(wrap(harmless(sentence), 2, 0));
   return notes.empty() ? ExitCode::kFull : ExitCode::kNotGradable;
 }
 
-ExitCode write(const grading::PlatformGrades& grades, const fs::path& file) {
-  makeOutFolder(file.parent_path());
+ExitCode write(const grading::PlatformGrades& grades, const ExportOptions& options, const std::string& name) {
+  makePlace(options);
+  const fs::path file = options.out / name;
   replaceTextFile(file, grades.csv, "the table of grades");
   say(fmt::format("Grades: {}", shown(file)));
   return told(grades.notes);
 }
 
 ExitCode exportGradescope(const Project& project, const ExportOptions& options) {
-  return write(gradescopeGrades(read(project, options).book), options.out / "grades.csv");
+  return write(gradescopeGrades(read(project, options).book), options, "grades.csv");
 }
 
 ExitCode exportCanvas(const Project& project, const ExportOptions& options) {
-  return write(canvasGrades(read(project, options).book), options.out / "grades.csv");
+  return write(canvasGrades(read(project, options).book), options, "grades.csv");
 }
 
 ExitCode exportClassroom(const Project& project, const ExportOptions& options) {
   const Export all = read(project, options);
   ExitCode code = ExitCode::kFull;
   for (const std::string& exercise : all.book.exercises)
-    if (write(classroomGrades(all.book, exercise, all.imported), options.out / (exercise + ".csv")) !=
+    if (write(classroomGrades(all.book, exercise, all.imported), options, exercise + ".csv") !=
         ExitCode::kFull)
       code = ExitCode::kNotGradable;
   return code;
@@ -108,7 +116,7 @@ ExitCode exportJson(const Project& project, const ExportOptions& options) {
 
 ExitCode exportHtml(const Project& project, const ExportOptions& options) {
   const Export all = read(project, options);
-  makeOutFolder(options.out);
+  makePlace(options);
   const int written = grading::writeFeedbackFolders(all.book, options.results, options.out);
   say(fmt::format("Feedback: {} pages in {}", written, shown(options.out)));
   return ExitCode::kFull;
@@ -125,11 +133,12 @@ ExitCode exportMail(const Project& project, const ExportOptions& options) {
     throw UsageError({.what = "--from", .found = why, .wanted = "the address of the sender"});
   const Export all = read(project, options);
   const std::int64_t date = timeOf(options.results / "tasks.tsv");
-  makeOutFolder(options.out);
+  makePlace(options);
   std::vector<std::string> notes;
   int written = 0;
   for (const grading::StudentTotal& sum : all.book.totals) {
     if (const std::string why = grading::whyNoAddress(sum.student.email); !why.empty()) {
+      fs::remove(options.out / (sum.student.id + ".eml"));  // of an earlier export
       notes.push_back(fmt::format("no mail to '{}': the e-mail address is {}", sum.student.id, why));
       continue;
     }
@@ -158,7 +167,7 @@ void addFeedback(const Export& all, const ExportOptions& options, const std::str
 ExitCode exportMoodle(const Project& project, const ExportOptions& options) {
   const Export all = read(project, options);
   const std::string exercise = project.exercise(options.exercise).name;
-  makeOutFolder(options.out);
+  makePlace(options);
   std::vector<std::string> notes;
   std::vector<grading::WorksheetRow> rows;
   if (options.worksheet.empty()) {
@@ -175,11 +184,13 @@ ExitCode exportMoodle(const Project& project, const ExportOptions& options) {
   std::vector<grading::ZipEntry> entries;
   for (const grading::WorksheetRow& row : rows)
     if (!row.student.empty() && !row.number.empty()) addFeedback(all, options, exercise, row, entries);
-  if (entries.empty())
+  if (entries.empty()) {
+    fs::remove(options.out / kFeedbackZip);  // of an earlier export
     notes.emplace_back("no feedback is written: nobody's number in Moodle is known");
-  else
+  } else {
     grading::writeZip(options.out / kFeedbackZip, entries);
-  if (!entries.empty()) say(fmt::format("Feedback: {}", shown(options.out / kFeedbackZip)));
+    say(fmt::format("Feedback: {}", shown(options.out / kFeedbackZip)));
+  }
   return told(notes);
 }
 

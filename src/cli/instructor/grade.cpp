@@ -14,12 +14,11 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/is_below.h"
+#include "base/leftovers.h"
 #include "base/private_folder.h"
 #include "base/process_pool.h"
 #include "base/sha256.h"
 #include "base/text_file.h"
-#include "classroom/csv.h"
 #include "classroom/download_layout.h"
 #include "classroom/grade_task.h"
 #include "classroom/grader_fingerprint.h"
@@ -29,9 +28,12 @@
 #include "cli/build_on_demand.h"
 #include "cli/instructor/class_grades.h"
 #include "cli/instructor/collect.h"
+#include "cli/instructor/grading_json.h"
 #include "cli/instructor/grading_options_internal.h"
 #include "cli/instructor/instructor_room_internal.h"
+#include "cli/instructor/regrading.h"
 #include "cli/instructor/similar.h"
+#include "cli/json_internal.h"
 #include "cli/progress_line.h"
 #include "cli/sandbox_choice.h"
 #include "cli/shared_options_internal.h"
@@ -50,18 +52,20 @@ struct GradeManyOptions {
   std::optional<sandbox::Level> level{};   ///< empty: the best that holds here
   std::optional<sandbox::Level> accept{};  ///< the lowest level to accept, though too weak for strangers
   std::optional<std::uint64_t> seed{};
-  std::filesystem::path secret{};     ///< file; empty: the seed decides hidden checks, too
-  std::filesystem::path workers{};    ///< folder that keeps compiled programs; empty: none
-  std::string only{};                 ///< exercise; empty: all
-  ClassFiles files{};                 ///< roster, dates and adjustments
-  bool acceptFewer = false;           ///< take results of the same text with fewer points, too
-  std::filesystem::path submitted{};  ///< CSV file; empty: use the times of the files
-  std::filesystem::path manifest{};   ///< only write the list of tasks here; empty: grade
-  bool csv = false;                   ///< print grades.csv
-  bool regrade = false;               ///< also submissions that have a valid result
-  bool evidence = false;              ///< keep pictures and replays of failed visible checks
-  std::string reports{};              ///< formats of `rex report` to write, separated by commas; empty: none
-  fs::path similar{};                 ///< folder for pages of similar submissions; empty: none
+  std::filesystem::path secret{};      ///< file; empty: the seed decides hidden checks, too
+  std::filesystem::path workers{};     ///< folder that keeps compiled programs; empty: none
+  std::string only{};                  ///< exercise; empty: all
+  ClassFiles files{};                  ///< roster, dates and adjustments
+  bool acceptFewer = false;            ///< take results of the same text with fewer points, too
+  std::filesystem::path submitted{};   ///< CSV file; empty: use the times of the files
+  std::filesystem::path manifest{};    ///< only write the list of tasks here; empty: grade
+  bool csv = false;                    ///< print grades.csv
+  bool json = false;                   ///< print what was done
+  std::vector<std::string> explain{};  ///< a student and an exercise: only say how this grade came about
+  bool regrade = false;                ///< also submissions that have a valid result
+  bool evidence = false;               ///< keep pictures and replays of failed visible checks
+  std::string reports{};               ///< formats of `rex report` to write, separated by commas; empty: none
+  fs::path similar{};                  ///< folder for pages of similar submissions; empty: none
   int similarPercent = kSimilarPercent;
 };
 
@@ -117,18 +121,8 @@ std::optional<sandbox::Sandbox> chooseForStrangers(const Project& project,
   return chosen;
 }
 
-// Files written into the other folder would be taken for submissions or results.
-void requireApart(const char* option, const fs::path& folder, const fs::path& other) {
-  const fs::path here = fs::weakly_canonical(folder), there = fs::weakly_canonical(other);
-  if (isBelow(here, there) || isBelow(there, here))
-    throw UsageError(
-        {.what = option, .found = here.string(), .wanted = "a folder apart from " + there.string()});
-}
-
-void requireApart(const GradeManyOptions& options) {
-  if (!fs::is_directory(options.folder))
-    throw UsageError(
-        {.what = "no such folder", .where = {options.folder.string()}, .wanted = "a folder of submissions"});
+void requireFolders(const GradeManyOptions& options) {
+  requireFolder(options.folder, "a folder of submissions");
   requireApart("--out", options.out, options.folder);
   if (!options.manifest.empty()) grading::requireNameOfResults(options.manifest, options.out);
   if (!options.similar.empty()) {
@@ -233,11 +227,14 @@ int gradeApart(const Task& task, const Graders::Grader& grader, const grading::T
 }
 
 bool isOpen(const Task& task, const GradeManyOptions& options) {
-  const grading::TaskState state = grading::stateOf(task, options.out);
-  if (state == grading::TaskState::kRefused)
-    note(wrap(harmless(grading::whyRefused(task, options.out)) + "; it is graded again", 2, 0));
-  if (options.regrade || state != grading::TaskState::kDone) return true;
+  if (options.regrade || grading::stateOf(task, options.out) != grading::TaskState::kDone) return true;
   return options.evidence && !grading::hasEvidence(task, options.out);
+}
+
+void tellRefused(const std::vector<Task>& tasks, const fs::path& out) {
+  for (const Task& task : tasks)
+    if (grading::stateOf(task, out) == grading::TaskState::kRefused)
+      note(wrap(harmless(grading::whyRefused(task, out)) + "; it is graded again", 2, 0));
 }
 
 // Grades the tasks without a valid result; returns their number.
@@ -300,50 +297,15 @@ void keepWhatCollectNeeds(const grading::HandIns& handedIn, const GradeManyOptio
     fs::remove(options.out / grading::kImportTable);
 }
 
-/// The points of each file before and after it is graded again, by another grader or other random cases.
-class Regrading {
- public:
-  Regrading(const std::vector<Task>& tasks, const GradeManyOptions& options)
-      : tasks_(tasks), out_(options.out) {
-    for (const Task& task : tasks) {
-      before_.push_back(isOpen(task, options) || grading::isHeldBack(task, out_)
-                            ? grading::pointsBefore(task, out_)
-                            : std::nullopt);
-      if (options.acceptFewer) grading::acceptRegrading(task, out_);
-    }
-  }
-
-  void tell() const {
-    constexpr int kMostTold = 20;
-    std::string table = grading::csvLine({"student", "exercise", "before", "after", "counts"});
-    int changed = 0, same = 0;
-    for (std::size_t k = 0; k < tasks_.size(); ++k) {
-      const Task& task = tasks_[k];
-      const std::optional<int> after = grading::pointsNow(task, out_);
-      if (!before_[k] || !after) continue;
-      const bool isHeld = grading::isHeldBack(task, out_);
-      table += grading::csvLine({task.student, task.exercise, fmt::format("{}", *before_[k]),
-                                 fmt::format("{}", *after), isHeld ? "before" : "after"});
-      if (*before_[k] == *after) {
-        ++same;
-      } else if (++changed <= kMostTold) {
-        note(wrap(
-            harmless(fmt::format("{} {}: {} points, {} before{}", task.student, task.exercise, *after,
-                                 *before_[k], isHeld ? "; the points from before count until --accept" : "")),
-            2, 0));
-      }
-    }
-    if (changed + same == 0) return;
-    replaceTextFile(out_ / kRegradedFile, table, "the table of regradings");
-    note(fmt::format("Graded again: {} with other points, {} with the same. Table: {}", changed, same,
-                     shown(out_ / kRegradedFile)));
-  }
-
- private:
-  const std::vector<Task>& tasks_;
-  fs::path out_;
-  std::vector<std::optional<int>> before_{};
-};
+ExitCode sayTasks(const std::vector<Task>& tasks, const grading::HandIns& handedIn, const fs::path& manifest,
+                  const GradeManyOptions& options, ExitCode taken) {
+  if (options.json)
+    say(dump(
+        Json{{"tasks", tasks.size()}, {"manifest", manifest.string()}, {"not_taken", handedIn.complaints}}));
+  else
+    say(fmt::format("{} tasks: {}", tasks.size(), shown(manifest)));
+  return taken;
+}
 
 // Grades the submissions of many students. kFull whatever the grades are; kNotGradable if a submission could
 // not be taken, kGraderFault if something must be graded again.
@@ -353,7 +315,13 @@ ExitCode gradeMany(const Project& project, GradeManyOptions options) {
   if (options.out.empty())
     throw UsageError(
         {.what = "--out", .found = "no folder", .wanted = "one for the results, here or in the course file"});
-  requireApart(options);
+  if (!options.explain.empty())
+    return explainResults(project, {.out = options.out,
+                                    .files = options.files,
+                                    .student = options.explain[0],
+                                    .exercise = options.explain[1],
+                                    .json = options.json});
+  requireFolders(options);
   const std::vector<grading::ReportFormat> reports = reportsOf(options.reports);
   const grading::LatePolicy policy = readDeadlines(project, options.files.deadlines);
   const auto sandbox = chooseForStrangers(project, options.level, options.accept);
@@ -374,10 +342,12 @@ ExitCode gradeMany(const Project& project, GradeManyOptions options) {
                                                        : ExitCode::kNotGradable;
   keepWhatCollectNeeds(handedIn, options);
   if (!options.manifest.empty()) {
-    say(fmt::format("{} tasks: {}", tasks.size(), shown(manifest)));
-    return taken;
+    return sayTasks(tasks, handedIn, manifest, options, taken);
   }
-  Regrading regrading(tasks, options);
+  removeLeftovers(options.out, 3);
+  tellRefused(tasks, options.out);
+  const Regrading regrading(
+      tasks, options.out, [&](const Task& task) { return isOpen(task, options); }, options.acceptFewer);
   const int graded = gradeOpen(tasks, options, *sandbox, graders);
   regrading.tell();
   tellTimes(tasks, options);
@@ -389,6 +359,12 @@ ExitCode gradeMany(const Project& project, GradeManyOptions options) {
   if (!options.similar.empty())
     writeSimilar(project, tasks, options.out, options.similar, options.similarPercent);
   const int held = tellHeldBack(tasks, options.out);
+  if (options.json)
+    say(gradingJson(tasks, options.out,
+                    GradingSummary{.level = numberOf(sandbox->level),
+                                   .graded = graded,
+                                   .notTaken = handedIn.complaints,
+                                   .blocked = {blocked.begin(), blocked.end()}}));
   note(
       fmt::format("{} submission{} at sandbox level {}: {} graded, {} kept, {} could not be taken. Table: {}",
                   tasks.size(), tasks.size() == 1 ? "" : "s", numberOf(sandbox->level), graded,
@@ -407,10 +383,11 @@ void addGrade(CLI::App* command, Action& action) {
       "  scripts/rex grade handed-in --out results --deadlines deadlines.toml --csv\n"
       "  scripts/rex grade handed-in --course course.toml --out results\n"
       "  scripts/rex grade handed-in --out results --reports=markdown,junit --evidence\n"
-      "  scripts/rex grade handed-in --out results --similar similar\n\n"
+      "  scripts/rex grade handed-in --out results --similar similar\n"
+      "  scripts/rex grade --explain zoe 01 --course course.toml --out results\n\n"
       "DIR holds STUDENT/EXERCISE/main.cpp. A second run grades only what has changed.\n" +
       std::string(kGradingCodes));
-  command->add_option("DIR", options->folder, "folder of submissions")->type_name("")->required();
+  command->add_option("DIR", options->folder, "folder of submissions")->type_name("");
   addResults(command, options->out)->required(false);
   command->add_option("-j,--jobs", options->jobs, "parallel gradings (default: one per processor)")
       ->check(CLI::Range(1, 1024).description(""))
@@ -433,22 +410,28 @@ void addGrade(CLI::App* command, Action& action) {
   command->add_option("--manifest", options->manifest, "only write the list of tasks, without grading")
       ->type_name("FILE.tsv");
   command->add_flag("--regrade", options->regrade, "also grade what has a valid result");
-  command->add_flag("--csv", options->csv, "print the table of grades");
+  CLI::Option* csv = command->add_flag("--csv", options->csv, "print the table of grades");
+  CLI::Option* json =
+      command->add_flag("--json", options->json, "print what was done as JSON")->excludes(csv);
+  addExplain(command, options->explain);
   addAccept(command, options->acceptFewer);
   addReports(command, options->reports);
   addEvidence(command, options->evidence);
   CLI::Option* similar = command
                              ->add_option("--similar", options->similar,
                                           "show submissions that are nearly the same in this folder")
-                             ->type_name("FOLDER");
+                             ->type_name("FOLDER")
+                             ->excludes(json);
   command
       ->add_option("--similar-percent", options->similarPercent,
                    fmt::format("how much they must have in common (default: {})", kSimilarPercent))
       ->check(CLI::Range(1, 100).description(""))
       ->type_name("N")
       ->needs(similar);
-  command->callback(
-      [&action, options] { action = [options](const Project& p) { return gradeMany(p, *options); }; });
+  command->callback([&action, options] {
+    if (options->folder.empty() && options->explain.empty()) throw CLI::RequiredError("DIR");
+    action = [options](const Project& p) { return gradeMany(p, *options); };
+  });
 }
 
 }  // namespace rex::cli

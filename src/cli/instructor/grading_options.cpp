@@ -37,6 +37,12 @@ void addAccept(CLI::App* command, bool& accept) {
                     "also take results in which the same file has fewer points than before");
 }
 
+void addExplain(CLI::App* command, std::vector<std::string>& explain) {
+  command->add_option("--explain", explain, "only print how this grade came about")
+      ->expected(2)
+      ->type_name("STUDENT EXERCISE");
+}
+
 void addEvidence(CLI::App* command, bool& evidence) {
   command->add_flag("--evidence", evidence, "keep pictures and replays of failed visible checks");
 }

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -26,6 +27,8 @@ void addEvidence(CLI::App* command, bool& evidence);
 void addWorkers(CLI::App* command, std::filesystem::path& folder);
 /// `--out`: the folder of results.
 CLI::Option* addResults(CLI::App* command, std::filesystem::path& out);
+/// `--explain`: a student and an exercise.
+void addExplain(CLI::App* command, std::vector<std::string>& explain);
 /// `--accept`: take results of the same text with fewer points.
 void addAccept(CLI::App* command, bool& accept);
 

@@ -9,11 +9,11 @@
 
 #include "base/error.h"
 #include "base/instant.h"
-#include "base/is_below.h"
 #include "base/text_file.h"
 #include "classroom/arrivals.h"
 #include "classroom/importing.h"
 #include "cli/command_line_internal.h"
+#include "cli/instructor/class_grades.h"
 #include "cli/instructor/instructor_room_internal.h"
 #include "cli/terminal.h"
 
@@ -38,10 +38,7 @@ using Read =
 void requireApartFromSource(const ImportOptions& options) {
   if (!fs::exists(options.source))
     throw UsageError({.what = "no such file or folder", .where = {options.source.string()}});
-  const fs::path source = fs::weakly_canonical(options.source), out = fs::weakly_canonical(options.handedIn);
-  if (isBelow(out, source) || isBelow(source, out))
-    throw UsageError(
-        {.what = "--out", .found = out.string(), .wanted = "a folder apart from " + source.string()});
+  requireApart("--out", options.handedIn, options.source);
 }
 
 // A course folder brings the files of all exercises, most of them untouched.

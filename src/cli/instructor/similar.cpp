@@ -18,7 +18,7 @@ using grading::ComparedText;
 
 void writeForOthers(const fs::path& folder, const std::vector<ComparedText>& texts,
                     const std::string& handedOut) {
-  fs::remove_all(folder);
+  for (const char* name : {"base", "submissions"}) fs::remove_all(folder / name);
   writeTextFile(folder / "base" / "main.cpp", handedOut);
   for (const ComparedText& one : texts)
     writeTextFile(folder / "submissions" / one.student / "main.cpp", one.text);

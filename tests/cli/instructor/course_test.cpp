@@ -3,6 +3,7 @@
 
 #include "base/process.h"
 #include "base/sha256.h"
+#include "cli/command_schema.h"
 #include "cli/template_project.h"
 #include "support/class_results.h"
 #include "support/report_checker.h"
@@ -124,6 +125,11 @@ TEST_F(CourseTest, ExplainsAGrade) {
   EXPECT_THAT(collect({"--explain", "adam", "98"}).output,
               HasSubstr("Deadline 2023-12-01T00:00:00Z, an extension"));
   EXPECT_THAT(collect({"--explain", "dora", "98"}).output, HasSubstr("Remark: not on the roster"));
+  const std::vector<std::string> byGrade = {"grade", "--explain", "zoe", "98", "--course", course()};
+  EXPECT_EQ(rex(byGrade).output, ended.output) << "the results are those of the course file";
+  const std::string json = collect({"--explain", "zoe", "98", "--json"}).output;
+  EXPECT_EQ(schemaFaultsOf(json, "explain"), "");
+  EXPECT_EQ(Json::parse(json).at("lines").back(), "Final: 6.8 of 10 points");
   const Ended nobody = collect({"--explain", "zo", "98"});
   EXPECT_EQ(nobody.code, 64);
   EXPECT_THAT(flat(nobody.error),
@@ -154,6 +160,48 @@ TEST_F(CourseTest, ShowsAdjustmentsInEveryReport) {
                                                                        {"exercism", "exercism.json"},
                                                                        {"prairielearn", "prairielearn.json"}})
     EXPECT_EQ(schemaFaults(format, {zoe / file}), "") << format;
+}
+
+TEST_F(CourseTest, PrintsTheStateOfEachTaskAsJson) {
+  fs::remove(results() / "adam/98-template/results.json");
+  const Ended ended = collect({"--json"});
+  EXPECT_EQ(ended.code, 3);
+  EXPECT_EQ(schemaFaultsOf(ended.output, "collect"), "");
+  const Json json = Json::parse(ended.output);
+  EXPECT_FALSE(json.at("complete"));
+  EXPECT_EQ(json.at("tasks").at(0), (Json{{"task", 1},
+                                          {"student", "zoe"},
+                                          {"exercise", kEx},
+                                          {"state", "graded"},
+                                          {"points", 7},
+                                          {"possible", 10},
+                                          {"waiting", nullptr}}));
+  EXPECT_EQ(json.at("tasks").at(1).at("state"), "missing");
+  EXPECT_EQ(json.at("tasks").at(1).at("points"), nullptr);
+  EXPECT_EQ(collect({"--json", "--csv"}).code, 64);
+}
+
+TEST_F(CourseTest, SaysThatAFolderOfResultsIsMissing) {
+  for (const char* verb : {"collect", "export", "dev"}) {
+    std::vector<std::string> words = {verb};
+    if (words[0] == "export") words.emplace_back("json");
+    if (words[0] == "dev") words.emplace_back("stats");
+    words.push_back((root() / "result").string());
+    const Ended ended = rex(words);
+    EXPECT_EQ(ended.code, 64) << verb;
+    EXPECT_THAT(flat(ended.error),
+                HasSubstr("result: no such folder: wanted the folder of results that rex grade "
+                          "wrote (did you mean 'results'?)"))
+        << verb;
+  }
+  EXPECT_THAT(flat(rex({"collect", course()}).error),
+              HasSubstr("course.toml: not a folder: wanted the folder of"));
+  EXPECT_THAT(flat(rex({"collect", root().string()}).error),
+              HasSubstr("no folder of results: wanted the one"));
+  const Ended list = rex({"collect", results().string(), "--manifest", (root() / "none.tsv").string()});
+  EXPECT_EQ(list.code, 64);
+  EXPECT_THAT(flat(list.error),
+              HasSubstr("none.tsv: no such list of tasks: wanted one that rex grade --manifest"));
 }
 
 TEST_F(CourseTest, NamesThePlaceOfWhatIsWrong) {
@@ -209,6 +257,8 @@ TEST_F(CourseTest, WritesAMailForEachStudent) {
   const Ended ended = exported("mail", {"--from", "tutor@uni.example"});
   EXPECT_EQ(ended.code, 2);
   EXPECT_THAT(flat(ended.error), HasSubstr("no mail to 'adam': the e-mail address is none"));
+  write(root() / "mail" / "adam.eml", "of an earlier export");
+  exported("mail", {"--from", "tutor@uni.example"});
   const Json mails = readBack({"mail", (root() / "mail").string()});
   EXPECT_EQ(mails.size(), 3u);
   const Json& zoe = mails.at("zoe");
@@ -253,6 +303,12 @@ TEST_F(CourseTest, TellsWrongUseOfExports) {
   EXPECT_EQ(none.code, 64);
   EXPECT_THAT(flat(none.error),
               HasSubstr("no folder of results: wanted the one that rex grade wrote, with tasks.tsv"));
+  for (const fs::path& out : {results(), results() / "pages"}) {
+    const Ended inside = rex({"export", "html", results().string(), "-o", out.string()});
+    EXPECT_EQ(inside.code, 64);
+    EXPECT_THAT(flat(inside.error),
+                HasSubstr("--out: found " + out.string() + ", wanted a folder outside of the"));
+  }
   write(results() / "tasks.tsv", grading::toManifest({}));
   EXPECT_THAT(flat(exported("html").error),
               HasSubstr("nothing to export: found no grades, wanted an exercise"));
@@ -289,14 +345,24 @@ TEST_F(CourseTest, KeepsOldPointsUntilFewerAreAccepted) {
   EXPECT_THAT(fileText(results() / "grades.csv"),
               AllOf(HasSubstr("98-template,late,10,10,pass,"),
                     HasSubstr("carl@uni.example,,98-template,not taken,")));
+  write(results() / "regraded.csv", "of an earlier run");
   const Ended again = grade();
   EXPECT_EQ(again.code, 1);
   EXPECT_THAT(flat(again.error), HasSubstr("0 graded, 1 kept"));
+  EXPECT_EQ(fileText(results() / "regraded.csv"), "of an earlier run") << "nothing was graded again";
   EXPECT_EQ(collect().code, 1);
+  const Json task = Json::parse(collect({"--json"}).output).at("tasks").at(0);
+  EXPECT_EQ(task.at("points"), 10);
+  EXPECT_EQ(task.at("waiting"), 0);
   const Ended accepted = grade({"--accept"});
   EXPECT_EQ(accepted.code, 2) << "carl's folder could not be taken";
   EXPECT_THAT(flat(accepted.error), HasSubstr("adam 98-template: 0 points, 10 before Graded again"));
   EXPECT_THAT(fileText(results() / "grades.csv"), HasSubstr("98-template,late,0,"));
+  EXPECT_FALSE(fs::exists(results() / "adam/98-template/regraded"));
+  // Killed when the result had moved already.
+  fs::create_directories(results() / "adam/98-template/regraded");
+  write(results() / "adam/98-template/regraded/build.log", "the same");
+  EXPECT_EQ(grade({"--accept"}).code, 2);
   EXPECT_FALSE(fs::exists(results() / "adam/98-template/regraded"));
   EXPECT_THAT(collect({"--explain", "carl", "98"}).output, HasSubstr("no exercise is called '98-tempalte'"));
 }

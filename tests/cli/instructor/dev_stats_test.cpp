@@ -1,6 +1,8 @@
 // `rex dev stats` on results that are made by hand.
 #include <nlohmann/json.hpp>
 
+#include "classroom/import_table.h"
+#include "classroom/task_list.h"
 #include "cli/command_schema.h"
 #include "cli/template_project.h"
 #include "grading/results.h"
@@ -15,25 +17,25 @@ using Json = nlohmann::json;
 class DevStatsTest : public TemplateProject {
  protected:
   fs::path results() const { return root() / "results"; }
-  void save(const std::string& student, int score, std::optional<Outcome> first, double seconds) const {
+  void save(const std::string& student, bool keeps, Outcome turns, double seconds) const {
     grading::GradeResult result;
     result.exerciseId = "98-template";
-    result.outcome = score == 3 ? Outcome::kPass : Outcome::kFail;
-    result.score = score;
+    result.score = (keeps ? 1 : 0) + (turns == Outcome::kPass ? 2 : 0);
+    result.outcome = result.score == 3 ? Outcome::kPass : Outcome::kFail;
     result.maxScore = 3;
     result.usage.wallSeconds = seconds;
     result.checks = {{.id = "keeps",
                       .part = "p",
                       .title = "Keeps, \"all\"",
-                      .status = Outcome::kPass,
-                      .points = 1,
+                      .status = keeps ? Outcome::kPass : Outcome::kFail,
+                      .points = keeps ? 1 : 0,
                       .maxPoints = 1},
                      {.id = "turns",
                       .part = "r",
                       .title = "Turns",
                       .group = grading::Group::kHidden,
-                      .status = first,
-                      .points = first == Outcome::kPass ? 2 : 0,
+                      .status = turns,
+                      .points = turns == Outcome::kPass ? 2 : 0,
                       .maxPoints = 2,
                       .message = ""}};
     fs::create_directories(results() / student / "98-template");
@@ -46,8 +48,8 @@ class DevStatsTest : public TemplateProject {
   }
   void SetUp() override {
     TemplateProject::SetUp();
-    save("adam", 3, Outcome::kPass, 1), save("bob", 1, Outcome::kTimeLimit, 9),
-        save("carl", 0, Outcome::kFail, 2), save("dora", 2, Outcome::kFail, 3);
+    save("adam", true, Outcome::kPass, 1), save("bob", true, Outcome::kTimeLimit, 9),
+        save("carl", false, Outcome::kFail, 2), save("dora", false, Outcome::kPass, 3);
   }
 };
 
@@ -59,11 +61,14 @@ TEST_F(DevStatsTest, PrintsATable) {
             "  points   mean 1.5, median 1.5 of 3\n"
             "  at least full: 1   75 %: 0   50 %: 1   25 %: 1   less: 0   none: 1\n"
             "  grading  median 2.5 s, longest 9.0 s (bob)\n"
-            "  part p  #################### 100 % of 1 points, 4 of 4 have them all\n"
-            "  part r  #####...............  25 % of 2 points, 1 of 4 have them all\n"
-            "  3 of 4 failed: Turns [turns, hidden]: 1 timeout, 2 wrong; correlation with\n"
-            "      the rest 0.00\n"
-            "  1 check passed by all\n");
+            "  first full score: at an unknown time, as no list of tasks (tasks.tsv) has it\n"
+            "  attempts unknown: neither a platform nor an import has counted them\n"
+            "  part p  ##########..........  50 % of 1 points, 2 of 4 have them all\n"
+            "  part r  ##########..........  50 % of 2 points, 2 of 4 have them all\n"
+            "  2 of 4 failed: Keeps, \"all\" [keeps]: 2 wrong; correlation with the rest\n"
+            "      0.00\n"
+            "  2 of 4 failed: Turns [turns, hidden]: 1 timeout, 1 wrong; correlation with\n"
+            "      the rest 0.00\n");
 }
 
 TEST_F(DevStatsTest, PrintsJsonAndCsv) {
@@ -73,20 +78,20 @@ TEST_F(DevStatsTest, PrintsJsonAndCsv) {
   const Json& one = json.at("exercises").at(0);
   EXPECT_EQ(one.at("mean_points"), 1.5);
   EXPECT_EQ(one.at("distribution").at("none"), 1);
-  EXPECT_EQ(one.at("parts").at(1), (Json{{"id", "r"}, {"max_points", 2}, {"mean_points", 0.5}, {"full", 1}}));
-  EXPECT_EQ(one.at("checks").at(0), (Json{{"id", "turns"},
+  EXPECT_EQ(one.at("parts").at(1), (Json{{"id", "r"}, {"max_points", 2}, {"mean_points", 1.0}, {"full", 2}}));
+  EXPECT_EQ(one.at("checks").at(1), (Json{{"id", "turns"},
                                           {"part", "r"},
                                           {"title", "Turns"},
                                           {"group", "hidden"},
-                                          {"failed", 3},
-                                          {"classes", {{"timeout", 1}, {"wrong", 2}}},
+                                          {"failed", 2},
+                                          {"classes", {{"timeout", 1}, {"wrong", 1}}},
                                           {"questions", Json::object()},
                                           {"discrimination", 0.0}}));
   EXPECT_TRUE(json.at("not_counted").empty());
   EXPECT_EQ(stats({"--csv"}).output,
             "exercise,part,check,group,graded,failed,classes,question,discrimination\n"
-            "98-template,r,turns,hidden,4,3,\"1 timeout, 2 wrong\",,0.00\n"
-            "98-template,p,keeps,visible,4,0,,,\n");
+            "98-template,p,keeps,visible,4,2,2 wrong,,0.00\n"
+            "98-template,r,turns,hidden,4,2,\"1 timeout, 1 wrong\",,0.00\n");
 }
 
 TEST_F(DevStatsTest, TellsWhatItDoesNotCount) {
@@ -96,6 +101,64 @@ TEST_F(DevStatsTest, TellsWhatItDoesNotCount) {
   EXPECT_THAT(flat(ended.error), HasSubstr("adam/98-template/results.json: result file: not JSON"));
   EXPECT_EQ(Json::parse(ended.output).at("not_counted").size(), 1u);
   EXPECT_EQ(Json::parse(ended.output).at("exercises").at(0).at("graded"), 3);
+}
+
+TEST_F(DevStatsTest, SaysWhenTheFirstFullScoreCameAndHowOftenStudentsHandedIn) {
+  save("dora", true, Outcome::kPass, 3);
+  std::vector<grading::Task> tasks;
+  for (const auto& [student, submitted] : {std::pair("adam", 1'700'000'000), {"dora", 1'699'990'000}}) {
+    tasks.push_back(
+        {.student = student, .exercise = "98-template", .submitted = submitted, .timeFrom = "platform"});
+  }
+  write(results() / "tasks.tsv", grading::toManifest(tasks));
+  const auto entry = [](const std::string& student, int attempts, const std::string& from) {
+    return grading::ImportedStudent{.student = student,
+                                    .exercises = {{"98-template",
+                                                   {.platform = "moodle",
+                                                    .status = grading::HandInStatus::kHandedIn,
+                                                    .handedInBy = student,
+                                                    .attempts = attempts,
+                                                    .attemptsFrom = from}}}};
+  };
+  write(results() / "import.json",
+        grading::importTableText({{entry("adam", 5, "platform"), entry("bob", 2, "imports")}}));
+  const std::string deadlines = (root() / "deadlines.toml").string();
+  write(deadlines, "[all]\nopening = 2023-11-13T00:00:00Z\ndeadline = 2023-11-14T21:00:00Z\n");
+  const Ended ended = stats({"--deadlines", deadlines});
+  EXPECT_EQ(ended.code, 0) << ended.error;
+  EXPECT_THAT(
+      flat(ended.output),
+      HasSubstr("first full score: dora, handed in 2023-11-14T19:26:40Z, 1 day 19 h after the opening, "
+                "1 h 33 min before the deadline (time from platform)"));
+  EXPECT_THAT(flat(ended.output),
+              HasSubstr("attempts median 3.5, most 5 (adam); known of 2 of 4, of 1 as the number of imports "
+                        "that brought another file: at least so many"));
+  const std::string text = stats({"--json", "--deadlines", deadlines}).output;
+  EXPECT_EQ(schemaFaultsOf(text, "dev_stats"), "");
+  const Json one = Json::parse(text).at("exercises").at(0);
+  EXPECT_EQ(one.at("first_full").at("student"), "dora");
+  EXPECT_EQ(one.at("first_full").at("seconds_before_deadline"), 5600);
+  EXPECT_EQ(one.at("attempts"),
+            (Json{{"known", 2}, {"at_least", 1}, {"median", 3.5}, {"most", 5}, {"most_by", "adam"}}));
+  EXPECT_THAT(stats({"--students"}).output,
+              ::testing::StartsWith(
+                  "student,exercise,points,possible,outcome,submitted,time_from,attempts,attempts_from\n"
+                  "adam,98-template,3,3,pass,2023-11-14T22:13:20Z,platform,5,platform\n"
+                  "bob,98-template,1,3,fail,,,2,imports\n"));
+  write(deadlines, "[all]\ndeadline = 2023-11-14T19:20:00Z\n");
+  EXPECT_THAT(flat(stats({"--deadlines", deadlines}).output), HasSubstr("Z, 6 min after the deadline (time"));
+}
+
+TEST_F(DevStatsTest, BelievesNoResultThatWasEdited) {
+  const fs::path file = results() / "carl" / "98-template" / "results.json";
+  Json json = Json::parse(fileText(file));
+  json["score"] = 3;
+  write(file, json.dump());
+  const Ended ended = stats();
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_THAT(flat(ended.error),
+              HasSubstr("carl/98-template/results.json: a result that does not add up: score"));
+  EXPECT_THAT(ended.output, HasSubstr("98-template: 3 graded"));
 }
 
 TEST_F(DevStatsTest, TellsWrongUse) {
@@ -109,6 +172,7 @@ TEST_F(DevStatsTest, TellsWrongUse) {
   EXPECT_THAT(flat(empty.error),
               HasSubstr("nothing to evaluate: found no results, wanted STUDENT/EXERCISE/"));
   EXPECT_EQ(stats({"--json", "--csv"}).code, 64);
+  EXPECT_EQ(stats({"--json", "--students"}).code, 64);
 }
 
 TEST_F(DevStatsTest, DrawsThePoints) {

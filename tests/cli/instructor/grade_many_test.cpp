@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
+#include "cli/command_schema.h"
 #include "cli/template_project.h"
 #include "grading/result_file.h"
 #include "support/rounds.h"
@@ -452,6 +453,64 @@ TEST_F(GradeManyTest, GradesAgainForEvidenceThatIsMissing) {
   EXPECT_FALSE(fs::exists(folder / "checks"));
 }
 
+TEST_F(GradeManyTest, PrintsJsonForPrograms) {
+  handIn("adam", kGood), handIn("bob", kBroken, "98-tempalte");
+  const Ended list = grade({"--json", "--manifest", (root() / "tasks.tsv").string()});
+  EXPECT_EQ(list.code, 2);
+  EXPECT_EQ(schemaFaultsOf(list.output, "grade_manifest"), "");
+  EXPECT_EQ(Json::parse(list.output).at("tasks"), 1);
+  const Ended ended = grade({"--json"});
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_EQ(schemaFaultsOf(ended.output, "grade"), "");
+  const Json json = Json::parse(ended.output);
+  EXPECT_EQ(json.at("graded"), 1);
+  EXPECT_EQ(json.at("kept"), 0);
+  EXPECT_EQ(json.at("level"), 0);
+  EXPECT_TRUE(json.at("complete"));
+  EXPECT_THAT(json.at("not_taken").at(0).get<std::string>(),
+              HasSubstr("no exercise is called '98-tempalte'"));
+  EXPECT_EQ(json.at("tasks").at(0).at("points"), result("adam").at("score"));
+  EXPECT_EQ(Json::parse(grade({"--json"}).output).at("kept"), 1);
+  EXPECT_EQ(grade({"--json", "--csv"}).code, 64);
+  EXPECT_EQ(rex({"grade", "--out", results().string()}).code, 64) << "without DIR";
+}
+
+// As killed processes leave it: one of two is graded again, and files are half written.
+TEST_F(GradeManyTest, GoesOnAfterAnInterruptedRegrading) {
+  handIn("adam", kGood), handIn("bob", kGood);
+  grade();
+  grade({"--seed", "5"});
+  const std::string whole = fileText(results() / "regraded.csv");
+  EXPECT_THAT(whole, HasSubstr("adam,98-template,"));
+  EXPECT_FALSE(fs::exists(results() / "regrading.tsv"));
+  const std::string points = std::to_string(result("adam").at("score").get<int>());
+  const std::string sha = result("adam").at("inputs").at("source_sha256");
+  fs::remove(results() / "regraded.csv");
+  write(results() / "regrading.tsv",
+        "adam\t98-template\t" + sha + "\t" + points + "\nbob\t98-template\t" + sha + "\t" + points + "\n");
+  write(results() / "grades.csv.999999999.new", "half");
+  write(results() / "bob" / "98-template" / "results.json.999999999.new", "half");
+  grade({"--seed", "5"});
+  EXPECT_EQ(fileText(results() / "regraded.csv"), whole);
+  EXPECT_FALSE(fs::exists(results() / "regrading.tsv"));
+  EXPECT_FALSE(fs::exists(results() / "grades.csv.999999999.new"));
+  EXPECT_FALSE(fs::exists(results() / "bob" / "98-template" / "results.json.999999999.new"));
+  write(results() / "regrading.tsv", "adam\t98-template\tx\tmany\n");
+  const Ended broken = grade({"--seed", "5"});
+  EXPECT_EQ(broken.code, 3);
+  EXPECT_THAT(flat(broken.error),
+              HasSubstr("regrading.tsv:1: not the notes of a regrading: wanted those of an "
+                        "interrupted `rex grade`; without this file, it begins anew"));
+}
+
+TEST_F(GradeManyTest, AsksForTheRestOfAnInterruptedImport) {
+  handIn("adam", kGood);
+  write(in() / "import.begun.json", "{}");
+  const Ended ended = grade();
+  EXPECT_EQ(ended.code, 3);
+  EXPECT_THAT(flat(ended.error), HasSubstr("an import into this folder was interrupted: wanted the same"));
+}
+
 TEST_F(GradeManyTest, RefusesFoldersInsideEachOther) {
   handIn("adam", kGood);
   for (const fs::path& out : {in() / "results", in(), root()}) {
@@ -465,7 +524,10 @@ TEST_F(GradeManyTest, RefusesFoldersInsideEachOther) {
     EXPECT_THAT(flat(ended.error),
                 HasSubstr("--workers: found " + workers.string() + ", wanted a folder apart from"));
   }
-  EXPECT_EQ(rex({"grade", (root() / "none").string(), "--out", results().string()}).code, 64);
+  const Ended none = rex({"grade", (root() / "im").string(), "--out", results().string()});
+  EXPECT_EQ(none.code, 64);
+  EXPECT_THAT(flat(none.error),
+              HasSubstr("im: no such folder: wanted a folder of submissions (did you mean 'in'?)"));
   const Ended denied = grade({}, "../../../../../../../proc/results");
   EXPECT_EQ(denied.code, 3);
   EXPECT_THAT(flat(denied.error), HasSubstr("cannot make the folder of results: found "));
@@ -505,10 +567,13 @@ TEST_F(GradeManyTest, ShowsSimilarSubmissionsApartFromTheResults) {
   EXPECT_THAT(fileText(root() / "similar" / "98-template.html"), HasSubstr("<h2>anna and bert</h2>"));
   EXPECT_EQ(fileText(root() / "similar" / "98-template" / "submissions" / "carl" / "main.cpp"), kWrong);
   EXPECT_TRUE(fs::exists(root() / "similar" / "98-template" / "base" / "main.cpp"));
+  write(root() / "similar" / "98-template" / "notes.txt", "mine");
   handIn("bert", kWrong), fs::remove_all(in() / "carl");
   EXPECT_THAT(flat(grade({"--similar", pages}).output),
               HasSubstr("98-template: no two of 2 submissions have 70 % in common"));
   EXPECT_FALSE(fs::exists(root() / "similar" / "98-template.html"));
+  EXPECT_FALSE(fs::exists(root() / "similar" / "98-template" / "submissions" / "carl"));
+  EXPECT_TRUE(fs::exists(root() / "similar" / "98-template" / "notes.txt"));
   EXPECT_EQ(grade({"--similar", results().string()}).code, 64);
   EXPECT_EQ(grade({"--similar-percent", "50"}).code, 64);
 }

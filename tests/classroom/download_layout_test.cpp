@@ -1,0 +1,103 @@
+#include "classroom/download_layout.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/text_file.h"
+#include "support/archive_samples.h"
+#include "support/expect_error.h"
+#include "support/temporary_folder.h"
+
+namespace rex::grading::download_layout_test {
+
+using ::testing::HasSubstr;
+
+std::vector<ExerciseInfo> twoExercises() {
+  std::vector<ExerciseInfo> exercises(2);
+  exercises[0].name = "01-kinematics";
+  exercises[1].name = "02-control";
+  return exercises;
+}
+
+Layout layout(const std::vector<std::string>& names) { return layoutOf(names, twoExercises()); }
+
+TEST(DownloadLayout, IsKnownByTheNamesThatPlatformsGive) {
+  const std::pair<const char*, Platform> samples[] = {
+      {"Zoe Miller_501_assignsubmission_file_/main.cpp", Platform::kMoodle},
+      {"Robotics-501/Zoe_501_assignsubmission_file_/course.zip", Platform::kMoodle},
+      {"Zoe_501_assignsubmission_file_main.cpp", Platform::kMoodle},
+      {"kinematics-zoe/.git/HEAD", Platform::kClassroom},
+      {"zoe/kinematics/.git/HEAD", Platform::kClassroom},
+      {"assignment_7_export/submission_metadata.yml", Platform::kGradescope},
+      {"zoe/main.cpp", Platform::kFolders},
+      {"zoe.cpp", Platform::kFolders},
+      {"mails/zoe.zip", Platform::kFolders}};
+  for (const auto& [name, platform] : samples) {
+    EXPECT_EQ(layout({name}).platform, platform) << name;
+    EXPECT_FALSE(layout({name}).isReady) << name;
+  }
+}
+
+TEST(DownloadLayout, IsReadyForGradingWithAFolderPerStudentAndExercise) {
+  EXPECT_TRUE(layout({"zoe/01-kinematics/main.cpp"}).isReady);
+  EXPECT_TRUE(layout({"zoe/01/main.cpp", "notes.txt"}).isReady);
+  EXPECT_FALSE(layout({"zoe/01/main.cpp"}).platform);
+  EXPECT_FALSE(layout({"zoe/07/main.cpp"}).isReady) << "no exercise";
+}
+
+TEST(DownloadLayout, SaysWhatIsThere) {
+  EXPECT_EQ(layout({}).found, "nothing");
+  EXPECT_EQ(layout({"__MACOSX/a.cpp", ".DS_Store"}).found, "nothing");
+  EXPECT_EQ(layout({"a/b.txt"}).found, "1 file such as 'a/b.txt'");
+  EXPECT_EQ(layout({"a/b.txt", "a/c.txt"}).found, "2 files such as 'a/b.txt'");
+  EXPECT_EQ(layout({"b/c.txt", "a/b.txt", "a/d.txt"}).found, "2 entries such as 'a'");
+  EXPECT_FALSE(layout({"a/b.txt"}).platform);
+}
+
+TEST(DownloadLayout, OfAFolderLooksIntoNoRepository) {
+  const TemporaryFolder folder;
+  writeTextFile(folder.path() / "hw-zoe/.git/objects/Zoe_1_assignsubmission_file_", "x");
+  writeTextFile(folder.path() / "hw-zoe/01/main.cpp", "x");
+  EXPECT_EQ(layoutOfFolder(folder.path(), twoExercises()).platform, Platform::kClassroom);
+  EXPECT_EQ(layoutOfFolder(folder.path(), twoExercises()).found, "2 files such as 'hw-zoe/.git/HEAD'");
+  requireLayout(Platform::kClassroom, folder.path(), twoExercises());
+  EXPECT_REX_ERROR(
+      requireLayout(Platform::kMoodle, folder.path(), twoExercises()),
+      "nothing that `rex import moodle` knows: found 2 files such as 'hw-zoe/.git/HEAD', wanted the "
+      "zip of \"Download all submissions\"");
+}
+
+TEST(DownloadLayout, IsRequiredOfArchives) {
+  const TemporaryFolder folder;
+  const std::filesystem::path zip = folder.path() / "all.zip";
+  writeTextFile(zip, zipOf({{.name = "Zoe_501_assignsubmission_file_/main.cpp", .text = "x"}}));
+  EXPECT_EQ(readDownloadOf(Platform::kMoodle, zip, twoExercises()).files.size(), 1u);
+  EXPECT_REX_ERROR(
+      (void)readDownloadOf(Platform::kFolders, zip, twoExercises()),
+      "nothing that `rex import folders` knows: found 1 file such as "
+      "'Zoe_501_assignsubmission_file_/main.cpp', wanted 'NAME/main.cpp', 'NAME.cpp' or 'NAME.zip' for "
+      "each student; `rex import moodle` takes what is there");
+}
+
+TEST(MoodleNames, ComeApart) {
+  const auto parts = parseMoodleName("Group A-Zoe_M_501_assignsubmission_file_main_1.cpp");
+  ASSERT_TRUE(parts);
+  EXPECT_EQ(parts->person, "Group A-Zoe_M");
+  EXPECT_EQ(parts->number, "501");
+  EXPECT_EQ(parts->kind, "file");
+  EXPECT_EQ(parts->file, "main_1.cpp");
+  EXPECT_EQ(parseMoodleName("Zoe_7_assignsubmission_onlinetext_").value().kind, "onlinetext");
+  for (const char* other :
+       {"", "zoe", "_assignsubmission_file_", "Zoe_assignsubmission_file_", "501_assignsubmission_file_",
+        "Zoe__assignsubmission_file_", "Zoe_5x_assignsubmission_file_", "Zoe_501_assignsubmission_file"})
+    EXPECT_FALSE(parseMoodleName(other)) << other;
+}
+
+TEST(Platforms, HaveTheNamesOfTheirCommands) {
+  EXPECT_EQ(toString(Platform::kMoodle), "moodle");
+  EXPECT_EQ(toString(Platform::kClassroom), "classroom");
+  EXPECT_EQ(toString(Platform::kGradescope), "gradescope");
+  EXPECT_EQ(toString(Platform::kFolders), "folders");
+}
+
+}  // namespace rex::grading::download_layout_test

@@ -1,0 +1,359 @@
+// The same as lecture_notes_test.cpp for what the notes say about dynamics, control, walking, grasps and
+// graphs.
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include <Eigen/Dense>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "base/derivative_check.h"
+#include "base/rng.h"
+#include "control/cart_pole_dynamics.h"
+#include "control/controllability.h"
+#include "control/racer_dynamics.h"
+#include "control/riccati.h"
+#include "control/stability.h"
+#include "locomotion/compass_gait.h"
+#include "locomotion/limit_cycle.h"
+#include "support/lecture_note.h"
+
+namespace rex::lecture_notes_control_test {
+
+using Eigen::Matrix2d;
+using Eigen::Matrix4d;
+using Eigen::MatrixXd;
+using Eigen::RowVector4d;
+using Eigen::Vector2d;
+using Eigen::Vector4d;
+using Eigen::VectorXd;
+using Complex = std::complex<double>;
+
+void expectWritten(const std::string& exercise, const std::string& words) {
+  EXPECT_NE(lectureNote(exercise).find(words), std::string::npos)
+      << "notes/" << exercise << ".md does not say: " << words;
+}
+
+// Damping ratio of a step matrix for a mode, from its eigenvalues.
+double dampingOf(const Matrix2d& step) {
+  const Complex z = Eigen::EigenSolver<MatrixXd>(step).eigenvalues()[0], s = std::log(z);
+  return -s.real() / std::abs(s);
+}
+
+TEST(LectureNotesOnControl, DampingOfEulerSteps) {
+  for (const double xi : {0., .2, .7}) {
+    const double a = 1e-3;  // tau / lambda
+    Matrix2d plain, semi;
+    plain << 1, a, -a, 1 - 2 * xi * a;
+    semi << 1 - a * a, a * (1 - 2 * xi * a), -a, 1 - 2 * xi * a;
+    EXPECT_NEAR((dampingOf(plain) - xi) / (-a / 2 * (1 - xi * xi)), 1, 5e-3);
+    EXPECT_NEAR(dampingOf(semi) - xi, a / 2 * xi * xi, 1e-6);
+    EXPECT_NEAR(semi.determinant(), 1 - 2 * xi * a, 1e-12);
+  }
+}
+
+TEST(LectureNotesOnControl, TheLimitOfTheIntegral) {
+  const double m = 2, Kp = 3, Kd = .5;
+  const auto stable = [&](double Ki) {
+    Eigen::Matrix3d A;
+    A << 0, 1, 0, 0, 0, 1, -Ki / m, -Kp / m, -Kd / m;
+    return stabilityOf(A).rate < 0;
+  };
+  EXPECT_TRUE(stable(.999 * Kp * Kd / m));
+  EXPECT_FALSE(stable(1.001 * Kp * Kd / m));
+}
+
+TEST(LectureNotesOnControl, AWrongModel) {
+  Rng rng(1);
+  const double delta = .2, lambda = .3, xi = .8;
+  const MatrixXd root = rng.normalVector(9).reshaped(3, 3),
+                 M = root * root.transpose() + MatrixXd::Identity(3, 3);
+  const VectorXd F = rng.normalVector(3), wanted = rng.normalVector(3);
+  const VectorXd u = (1 + delta) * (M * wanted + F);
+  EXPECT_LT((M.inverse() * (u - F) - (1 + delta) * wanted - delta * M.inverse() * F).norm(), 1e-9);
+  // At rest: q'' = -e / lambda^2 is what it wants, and nothing moves.
+  const VectorXd e = delta / (1 + delta) * lambda * lambda * M.inverse() * F;
+  EXPECT_LT(((1 + delta) * (M * (-e / (lambda * lambda)) + F) - F).norm(), 1e-9);
+  const double Kp = 1.2 / (lambda * lambda), Kd = 1.2 * 2 * xi / lambda;
+  expectWritten(
+      "03-dynamics",
+      fmt::format("the factor $1 / \\sqrt{{1.2}} = {:.3f}$ and $\\xi$ grows by $\\sqrt{{1.2}} = {:.3f}$",
+                  1 / std::sqrt(Kp) / lambda, Kd / (2 * std::sqrt(Kp)) / xi));
+  // The torque near a singular posture is largest at s = sqrt(H / C).
+  const double C = 50, H = .02;
+  double largest = 0;
+  for (double s = 1e-4; s < 1; s += 1e-4) largest = std::max(largest, s * C / (s * s * C + H));
+  EXPECT_NEAR(largest, std::sqrt(C) / (2 * std::sqrt(H)), 1e-2);
+}
+
+// The cart pole of the script, and u = K x of minimal cost.
+struct BalancedPole {
+  LinearizedPlant plant = CartPoleDynamics{}.linearized(Vector4d::Zero(), 0);
+  MatrixXd Q = Vector4d(1, 0, 1, 0).asDiagonal();
+  RiccatiResult care = solveCare(plant.A, plant.B, Q, MatrixXd::Identity(1, 1));
+  RowVector4d K = -care.K;
+  Matrix4d closed = plant.A + plant.B * K;
+  Eigen::VectorXcd poles = Eigen::EigenSolver<MatrixXd>(closed).eigenvalues();
+};
+
+TEST(LectureNotesOnControl, FirstTheOtherWay) {
+  // The integral of x e^(-lambda t) vanishes for a pin that was brought from rest to rest: the cart pole's
+  // theta follows (4/3 l) theta'' = g theta - p'' near upright.
+  const BalancedPole balanced;
+  const double lambda = std::sqrt(9.8 / (4. / 3));
+  const Vector4d goal(-1, 0, 0, 0);
+  // Exactly, by the resolvent: the Laplace transform of x' = A x + B K (x - goal) at lambda.
+  const Vector4d forced = -balanced.plant.B * (balanced.K * goal)(0);
+  const Vector4d transform =
+      (lambda * Matrix4d::Identity() - balanced.closed).partialPivLu().solve(forced / lambda);
+  EXPECT_NEAR(transform[0], 0, 1e-9);
+  EXPECT_LT(balanced.poles.real().maxCoeff(), 0) << "it arrives";
+}
+
+TEST(LectureNotesOnControl, TheIterationForTheRiccatiEquation) {
+  const BalancedPole balanced;
+  double bound = 1e9;
+  for (const Complex& first : balanced.poles)
+    for (const Complex& second : balanced.poles)
+      bound = std::min(bound, -2 * (first + second).real() / std::norm(first + second));
+  expectWritten("07-cartPole", fmt::format("For the cart pole this is {:.3f}.", bound));
+  expectWritten("07-cartPole",
+                fmt::format("(here $\\mu_{{\\max}} = {:.3f}$, so a factor of {:.5f} per step)",
+                            balanced.poles.real().maxCoeff(), 1 + 2e-3 * balanced.poles.real().maxCoeff()));
+  // A small symmetric error decays just below the bound, and grows just above.
+  const auto grows = [&](double epsilon) {
+    Rng rng(2);
+    const MatrixXd root = rng.normalVector(16).reshaped(4, 4);
+    MatrixXd E = root + root.transpose();
+    const double before = E.norm();
+    for (int k = 0; k < 20000 && E.norm() < 1e6 * before; ++k)
+      E += epsilon * (balanced.closed.transpose() * E + E * balanced.closed);
+    return E.norm() > before;
+  };
+  EXPECT_FALSE(grows(.98 * bound));
+  EXPECT_TRUE(grows(1.02 * bound));
+  double step = 1e9;
+  for (const Complex& pole : balanced.poles) step = std::min(step, -2 * pole.real() / std::norm(pole));
+  expectWritten("07-cartPole", fmt::format("the bound is {:.3f} s", step));
+}
+
+TEST(LectureNotesOnControl, HamiltonianMatrices) {
+  const BalancedPole balanced;
+  const MatrixXd& B = balanced.plant.B;
+  Eigen::Matrix<double, 8, 8> H, turn = Eigen::Matrix<double, 8, 8>::Zero();
+  H << balanced.plant.A, -B * B.transpose(), -balanced.Q, -balanced.plant.A.transpose();
+  turn.topRightCorner(4, 4).setIdentity();
+  turn.bottomLeftCorner(4, 4) = -MatrixXd::Identity(4, 4);
+  EXPECT_LT((turn * H - (turn * H).transpose()).norm(), 1e-12);
+  EXPECT_LT((turn * H * turn.inverse() + H.transpose()).norm(), 1e-9);
+  // No solution: A = 0, B = (1, 0), Q = I.
+  const RiccatiResult none =
+      solveCare(MatrixXd::Zero(2, 2), Vector2d(1, 0), MatrixXd::Identity(2, 2), MatrixXd::Identity(1, 1));
+  EXPECT_EQ(none.status, RiccatiStatus::kNotStabilizable);
+  // Semidefinite, rank 3.
+  const MatrixXd cost = balanced.Q + balanced.K.transpose() * balanced.K;
+  EXPECT_EQ(Eigen::FullPivLU<MatrixXd>(cost).rank(), 3);
+}
+
+TEST(LectureNotesOnControl, DecreasingAndYetEscaping) {
+  Vector2d x(5, 2);
+  const auto V = [](const Vector2d& at) { return at[0] * at[0] / (1 + at[0] * at[0]) + at[1] * at[1]; };
+  const auto rate = [](const Vector2d& at) -> Vector2d {
+    const double w = 1 + at[0] * at[0];
+    return {-6 * at[0] / (w * w) + 2 * at[1], -2 * (at[0] + at[1]) / (w * w)};
+  };
+  for (int k = 0; k < 100000; ++k) {
+    const double before = V(x), w = 1 + x[0] * x[0];
+    const Vector2d slope(2 * x[0] / (w * w), 2 * x[1]);
+    ASSERT_NEAR(slope.dot(rate(x)), -12 * x[0] * x[0] / std::pow(w, 4) - 4 * x[1] * x[1] / (w * w), 1e-12);
+    const Vector2d middle = x + 5e-4 * rate(x);
+    const double old = x[0];
+    x += 1e-3 * rate(middle);
+    ASSERT_GT(x[0], old);
+    ASSERT_LE(V(x), before);
+  }
+  EXPECT_GT(x[0], 100);
+}
+
+TEST(LectureNotesOnControl, ThePointMassOfTheSlides) {
+  for (const double rho : {.01, 1., 1e6}) {
+    const double m = 1.7, epsilon = .3, c = m * std::sqrt(rho * epsilon),
+                 b = m * std::sqrt(rho) * std::sqrt(2 * c + epsilon);
+    Matrix2d A, P;
+    A << 0, 1, 0, 0;
+    P << b * c / (rho * m * m), c, c, b;
+    const RiccatiResult care =
+        solveCare(A, Vector2d(0, 1 / m), epsilon * MatrixXd::Identity(2, 2), rho * MatrixXd::Identity(1, 1));
+    EXPECT_LT((care.X - P).norm(), 1e-6 * P.norm());
+    const double xi = .5 * std::sqrt(2 + std::sqrt(epsilon / rho) / m);
+    EXPECT_NEAR(care.K(0, 1) / (2 * std::sqrt(m * care.K(0, 0))), xi, 1e-6);
+    EXPECT_NEAR(b / (2 * m * std::sqrt(rho * c)), xi, 1e-9);
+  }
+  EXPECT_NEAR(.5 * std::sqrt(2 + std::sqrt(.3 / 1e6) / 1.7), 1 / std::sqrt(2), 1e-3);
+  Matrix2d shear;
+  shear << 1, 1, 0, 1;
+  EXPECT_EQ(discreteStabilityOf(shear).stability, Stability::kUnstable);
+}
+
+TEST(LectureNotesOnControl, RoundingErrorsThatGrow) {
+  const BalancedPole balanced;
+  const Matrix4d A = Matrix4d::Identity() + .01 * balanced.plant.A;
+  const Vector4d B = .01 * balanced.plant.B;
+  const auto asymmetryAfter = [&](int form) {
+    Rng rng(3);
+    const MatrixXd root = rng.normalVector(16).reshaped(4, 4);
+    Matrix4d P = solveDare(A, B, balanced.Q, MatrixXd::Identity(1, 1)).X;
+    P += 1e-9 * (root - root.transpose());
+    for (int k = 0; k < 600; ++k) {
+      const double weight = 1 + B.dot(P * B);
+      const RowVector4d K = -(B.transpose() * P * A) / weight;
+      const Matrix4d closed = A + B * K;
+      if (form == 0) P = (balanced.Q + A.transpose() * P * A - K.transpose() * weight * K).eval();
+      if (form == 1) P = (balanced.Q + A.transpose() * P * closed).eval();
+      if (form == 2) P = (balanced.Q + K.transpose() * K + closed.transpose() * P * closed).eval();
+    }
+    return (P - P.transpose()).norm() / 1e-9;
+  };
+  EXPECT_GT(asymmetryAfter(0), 1e3);
+  EXPECT_LT(asymmetryAfter(1), 1);
+  EXPECT_LT(asymmetryAfter(2), 1);
+}
+
+TEST(LectureNotesOnControl, TheRacer) {
+  const RacerDynamics racer;
+  Rng rng(4);
+  const VectorXd x = rng.normalVector(4);
+  const Vector2d q = x.head<2>(), v = x.tail<2>();
+  const double ml = racer.mB * racer.l;
+  Matrix2d M;
+  M << racer.mA + racer.IA / (racer.r * racer.r) + racer.mB, ml * std::cos(q[1]), ml * std::cos(q[1]),
+      racer.IB + racer.mB * racer.l * racer.l;
+  const Vector2d F(-ml * std::sin(q[1]) * v[1] * v[1], -racer.g * ml * std::sin(q[1]));
+  EXPECT_LT((racer.massMatrix(q) - M).norm(), 1e-12);
+  EXPECT_LT((racer.forces(q, v) - F).norm(), 1e-12);
+  EXPECT_LT((racer.controlDirection() - Vector2d(1 / racer.r, -1)).norm(), 1e-12);
+  // The wrong F does no work, and changes the momentum.
+  const Vector2d wrong(-ml * std::sin(q[1]) * v[1] * v[1], ml * std::sin(q[1]) * v[0] * v[1]);
+  EXPECT_NEAR(v.dot(wrong), 0, 1e-12);
+  const Vector2d acceleration = M.inverse() * (-F - wrong);
+  const double momentumRate = M.row(0).dot(acceleration) - ml * std::sin(q[1]) * v[1] * v[1];
+  EXPECT_NEAR(momentumRate, ml * std::sin(q[1]) * v[1] * v[1], 1e-12);
+}
+
+TEST(LectureNotesOnControl, SensorsAloneCannotBringTheRacerToRest) {
+  const RacerDynamics racer;
+  const LinearizedPlant plant = racer.linearized(Vector4d::Zero(), 0);
+  Rng rng(5);
+  double best = -1e9;
+  for (int k = 0; k < 2000; ++k) {
+    const VectorXd w = 20 * rng.normalVector(3);
+    const RowVector4d K(w[2] / racer.r, w[0] - w[2], 0, w[1]);
+    const Matrix4d closed = plant.A + plant.B * K;
+    const Eigen::VectorXcd roots = Eigen::EigenSolver<MatrixXd>(closed).eigenvalues();
+    // The coefficient of s is minus the sum of the products of three roots.
+    Complex triples = 0, scale = 0;
+    for (int out = 0; out < 4; ++out) {
+      Complex product = 1;
+      for (int i = 0; i < 4; ++i)
+        if (i != out) product *= roots[i];
+      triples += product;
+      scale += std::abs(product);
+    }
+    EXPECT_LT(std::abs(triples), 1e-7 * std::abs(scale));
+    best = std::max(best, -roots.real().maxCoeff());
+  }
+  EXPECT_LT(best, 1e-6);
+}
+
+TEST(LectureNotesOnControl, StandingAndTipping) {
+  const auto work = [](double d) { return 30 * 9.81 * (std::sqrt(.64 + d * d) - .8); };
+  expectWritten("13-walking", fmt::format("{:.2f} J at 5 cm and {:.2f} J at 10 cm", work(.05), work(.1)));
+  expectWritten("13-walking",
+                fmt::format("{:.2f} s for $h$ = 0.814 m", std::log(10) / std::sqrt(9.81 / .814)));
+  expectWritten("13-walking", fmt::format("with 2 cm, {:.2f} mm for each", 1e3 * .02 / 9.81));
+  // The only bounded motion for a jump of p: continuous, with continuous velocity, and 1/2 at the jump.
+  const double omega = 3.5, h = 1e-3;
+  const auto c = [&](double t) { return t < 0 ? .5 * std::exp(omega * t) : 1 - .5 * std::exp(-omega * t); };
+  EXPECT_DOUBLE_EQ(c(0), .5);
+  EXPECT_NEAR((c(h) - c(0)) / h, (c(0) - c(-h)) / h, 1e-2);
+  for (const double t : {-.3, .4})
+    EXPECT_NEAR((c(t + h) - 2 * c(t) + c(t - h)) / (h * h), omega * omega * (c(t) - (t > 0 ? 1 : 0)), 1e-4);
+}
+
+TEST(LectureNotesOnControl, TheCompassWalker) {
+  const CompassGait walker;
+  Rng rng(6);
+  const VectorXd x = rng.normalVector(4);
+  const double a = walker.a, b = walker.b, l = a + b, m = walker.legMass, mH = walker.hipMass,
+               turn = x[0] - x[1];
+  Matrix2d M;
+  M << mH * l * l + m * a * a + m * l * l, -m * l * b * std::cos(turn), -m * l * b * std::cos(turn),
+      m * b * b;
+  const Vector2d rest =
+      m * l * b * std::sin(turn) * Vector2d(-x[3] * x[3], x[2] * x[2]) +
+      walker.g * Vector2d(-(mH * l + m * a + m * l) * std::sin(x[0]), m * b * std::sin(x[1]));
+  EXPECT_LT((walker.derivative(x).tail<2>() + M.inverse() * rest).norm(), 1e-9);
+  // After an impact both feet are on the slope, and one multiplier is zero.
+  const Vector4d guess(.218668803, -.323388558, -1.091826677, -.377181558);
+  const LimitCycle gait = findLimitCycle(walker, guess);
+  ASSERT_EQ(gait.status, LimitCycle::Status::kFound);
+  EXPECT_NEAR(gait.x[0] + gait.x[1], -2 * walker.slope, 1e-9);
+  EXPECT_LT(std::abs(gait.multipliers[3]), 1e-9);
+}
+
+TEST(LectureNotesOnControl, SteeperIsNotProportionallyFaster) {
+  // Step length over period of the simplest walker at two small slopes.
+  const auto speed = [](double slope) {
+    // Garcia et al. 1998: theta is about .970956 slope^(1/3) at the long gait.
+    const double theta = .970956 * std::cbrt(slope), rate = -1.045203 * std::cbrt(slope);
+    const CompassGait walker = simplestWalker(slope);
+    const double swing = theta - slope - 2 * theta;  // the angle between the legs is 2 theta
+    const LimitCycle gait =
+        findLimitCycle(walker, Vector4d(theta - slope, swing, rate, rate * (1 - (1 - std::cos(2 * theta)))));
+    EXPECT_EQ(gait.status, LimitCycle::Status::kFound) << gait.message;
+    return 2 * std::sin((gait.x[0] - gait.x[1]) / 2) / gait.period;
+  };
+  expectWritten("13-walking", fmt::format("$2^{{1/3}} = {:.2f}$ times as fast", std::cbrt(2)));
+  EXPECT_NEAR(speed(2e-4) / speed(1e-4), std::cbrt(2), .01);
+}
+
+TEST(LectureNotesOnControl, GraspsInOtherUnits) {
+  // Weights that prove closure prove it in other units, too, while epsilon is another.
+  Rng rng(7);
+  const MatrixXd G = Eigen::Vector3d(1, 1, .25).asDiagonal();
+  MatrixXd wrenches(3, 4);
+  wrenches << 1, -1, 0, 0, 1, 1, -1, -1, 0, 0, 1, -1;  // columns add up to zero
+  EXPECT_LT(wrenches.rowwise().sum().norm(), 1e-12);
+  EXPECT_LT((G * wrenches).rowwise().sum().norm(), 1e-12);
+  const auto epsilon = [](const MatrixXd& W) {
+    double least = 1e9;  // over the faces, each without one of the four
+    for (int out = 0; out < 4; ++out) {
+      Eigen::Matrix3d face;
+      for (int k = 0, i = 0; k < 4; ++k)
+        if (k != out) face.col(i++) = W.col(k);
+      const Eigen::Vector3d normal = face.transpose().fullPivLu().solve(Eigen::Vector3d::Ones());
+      least = std::min(least, 1 / normal.norm());
+    }
+    return least;
+  };
+  EXPECT_LT(epsilon(G * wrenches), .9 * epsilon(wrenches));
+  expectWritten("14-grasping", fmt::format("for 3 mm and a length of 5 cm that is {:.2f}", .003 / .05));
+  expectWritten("14-grasping", fmt::format("press with {:.0f} N in all", 1 / .001));
+}
+
+TEST(LectureNotesOnControl, MapsThatMayMoveAsAWhole) {
+  // The relative pose of two poses does not change in the three directions of the null space.
+  Rng rng(8);
+  const VectorXd both = rng.normalVector(6);
+  const auto relative = [](const VectorXd& x) -> VectorXd {
+    Eigen::Vector3d seen;
+    seen << Eigen::Rotation2Dd(-x[2]) * Vector2d(x.segment<2>(3) - x.head<2>()), x[5] - x[2];
+    return seen;
+  };
+  MatrixXd null(6, 3);
+  null << 1, 0, -both[1], 0, 1, both[0], 0, 0, 1, 1, 0, -both[4], 0, 1, both[3], 0, 0, 1;
+  EXPECT_LT((numericJacobian(relative, both) * null).norm(), 1e-7);
+}
+
+}  // namespace rex::lecture_notes_control_test

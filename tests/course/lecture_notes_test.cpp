@@ -1,0 +1,465 @@
+// What the lecturer's notes (notes/) say in numbers and formulas is computed here in another way. Numbers are
+// formatted as they stand there, so that neither can change alone.
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include <Eigen/Dense>
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/derivative_check.h"
+#include "base/rng.h"
+#include "course/simulator.h"
+#include "estimation/gaussian.h"
+#include "estimation/resampling.h"
+#include "kinematics/inverse_kinematics.h"
+#include "learning/power.h"
+#include "planning/dubins.h"
+#include "support/lecture_note.h"
+
+namespace rex::lecture_notes_test {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using ::testing::HasSubstr;
+constexpr double kPi = std::numbers::pi;
+
+void expectStated(const std::string& exercise, const std::string& words) {
+  EXPECT_NE(lectureNote(exercise).find(words), std::string::npos)
+      << "notes/" << exercise << ".md does not say: " << words;
+}
+
+MatrixXd randomMatrix(int rows, int columns, Rng& rng) {
+  return rng.normalVector(rows * columns).reshaped(rows, columns);
+}
+MatrixXd randomMetric(int size, Rng& rng) {
+  const MatrixXd root = randomMatrix(size, size, rng);
+  return root * root.transpose() + .1 * MatrixXd::Identity(size, size);
+}
+
+// The integral of f from a to b, by Simpson's rule.
+template <class F>
+double integral(double a, double b, const F& f, int pieces = 20000) {
+  double sum = f(a) + f(b);
+  const double h = (b - a) / pieces;
+  for (int k = 1; k < pieces; ++k) sum += (k % 2 == 1 ? 4 : 2) * f(a + k * h);
+  return sum * h / 3;
+}
+
+TEST(LectureNotes, MatrixEquations) {
+  Rng rng(1);
+  const MatrixXd A = randomMatrix(4, 4, rng), B = randomMatrix(4, 4, rng), C = randomMatrix(4, 4, rng);
+  const MatrixXd I = MatrixXd::Identity(4, 4);
+  const MatrixXd a = (I - A.transpose()) * A.inverse();
+  EXPECT_LT((a * A + A.transpose() - I).norm(), 1e-9);
+  const MatrixXd b = (C.transpose() - 2 * A).inverse() * 2 * A * B;
+  EXPECT_LT((b.transpose() * C - (2 * A * (b + B)).transpose()).norm(), 1e-9);
+  const MatrixXd tall = randomMatrix(7, 4, rng), metric = randomMetric(4, rng);
+  const VectorXd y = rng.normalVector(7);
+  const VectorXd d = (tall.transpose() * tall + metric).inverse() * tall.transpose() * y;
+  EXPECT_LT(((tall * d - y).transpose() * tall + d.transpose() * metric).norm(), 1e-9);
+  // 12.1.2 e: the minimum, and that nothing near it is smaller.
+  const MatrixXd weight = randomMetric(7, rng);
+  const auto cost = [&](const VectorXd& x) -> double {
+    return (tall * x - y).dot(weight * (tall * x - y)) + x.dot(metric * x);
+  };
+  const VectorXd best = (tall.transpose() * weight * tall + metric).inverse() * tall.transpose() * weight * y;
+  EXPECT_NEAR(cost(best), y.dot(weight * y) - y.dot(weight * tall * best), 1e-9);
+  for (int k = 0; k < 20; ++k) EXPECT_GT(cost(best + 1e-3 * rng.normalVector(4)), cost(best));
+}
+
+TEST(LectureNotes, StepsThatGainLessAndLess) {
+  double x = 2;
+  for (int k = 1; k < 60; ++k) {
+    const double next = (k % 2 ? -1 : 1) * (1 + std::pow(2., -k));
+    if (k < 50) {
+      EXPECT_LT(next * next, x * x);
+    }
+    x = next;
+  }
+  EXPECT_NEAR(x * x, 1, 1e-12);
+}
+
+TEST(LectureNotes, GradientDescentInAValley) {
+  // f = (x^2 + 100 y^2) / 2 with exact steps, from the worst start.
+  Eigen::Vector2d x(100, 1);
+  const Eigen::Vector2d curvature(1, 100);
+  const auto f = [&] { return .5 * x.dot(curvature.cwiseProduct(x)); };
+  double factor = 0;
+  for (int k = 0; k < 20; ++k) {
+    const double before = f();
+    const Eigen::Vector2d gradient = curvature.cwiseProduct(x);
+    x -= gradient * gradient.squaredNorm() / gradient.dot(curvature.cwiseProduct(gradient));
+    const Eigen::Vector2d next = curvature.cwiseProduct(x);
+    EXPECT_NEAR(gradient.dot(next) / gradient.norm() / next.norm(), 0, 1e-9) << "zigzag";
+    factor = f() / before;
+  }
+  expectStated("00-basics", fmt::format("the factor is {:.4f}: {:.0f} steps for one decimal digit", factor,
+                                        std::ceil(std::log(.1) / std::log(factor))));
+}
+
+TEST(LectureNotes, BoxesAndHosts) {
+  // By counting equally likely cases: 12 of the script, and a box of 6.
+  const double apple = .5 * 8 / 12 + .5 * 5 / 6, pooled = 13. / 18;
+  EXPECT_DOUBLE_EQ(apple, .75);
+  EXPECT_DOUBLE_EQ(.5 * 8 / 12 / apple, 4. / 9);
+  expectStated("00-basics", fmt::format("$13/18 = {:.3f}$ and $8/13 = {:.3f}$", pooled, 8. / 13));
+  // The host who guesses, by simulation.
+  Rng rng(2);
+  int empty = 0, mine = 0;
+  for (int k = 0; k < 200000; ++k) {
+    const int prize = rng.index(3), opened = 1 + rng.index(2);
+    if (opened == prize) continue;
+    ++empty;
+    mine += prize == 0;
+  }
+  EXPECT_NEAR(static_cast<double>(mine) / empty, .5, .01);
+  expectStated("00-basics", fmt::format("it is $1.01/1.02 = {:.3f}$", 1.01 / 1.02));
+}
+
+TEST(LectureNotes, ProofsAboutGaussians) {
+  Rng rng(3);
+  const VectorXd a = rng.normalVector(3), b = rng.normalVector(3), x = rng.normalVector(3),
+                 f = rng.normalVector(3);
+  const MatrixXd A = randomMetric(3, rng), B = randomMetric(3, rng), F = randomMatrix(3, 3, rng);
+  const double logF = std::log(std::abs(F.determinant()));
+  EXPECT_NEAR(logDensity({a, A}, x), logDensity({x, A}, a), 1e-9);
+  EXPECT_NEAR(logDensity({a, A}, x), logF + logDensity({F * a, F * A * F.transpose()}, F * x), 1e-8);
+  EXPECT_NEAR(logDensity({a, A}, F * x + f),
+              -logF + logDensity({F.inverse() * (a - f), F.inverse() * A * F.inverse().transpose()}, x),
+              1e-8);
+  const MatrixXd C = (A.inverse() + B.inverse()).inverse();
+  const VectorXd c = C * (A.inverse() * a + B.inverse() * b);
+  EXPECT_NEAR(logDensity({a, A}, x) + logDensity({b, B}, x),
+              logDensity({c, C}, x) + logDensity({b, A + B}, a), 1e-8);
+  EXPECT_GT(Eigen::SelfAdjointEigenSolver<MatrixXd>(A - C).eigenvalues().minCoeff(), 0);
+  // The precision that is left in x after integrating over y.
+  const MatrixXd W = A.inverse(),
+                 left = W - W * F * (B.inverse() + F.transpose() * W * F).inverse() * F.transpose() * W;
+  EXPECT_LT((left - (A + F * B * F.transpose()).inverse()).norm(), 1e-8);
+}
+
+TEST(LectureNotes, StepsOfInverseKinematics) {
+  Rng rng(4);
+  const MatrixXd J = randomMatrix(3, 7, rng), W = randomMetric(7, rng), C0 = randomMetric(3, rng);
+  const VectorXd dy = rng.normalVector(3), a = rng.normalVector(7);
+  // 12.4.1 a: the gradient vanishes.
+  const VectorXd step = -(J.transpose() * J + W).inverse() * J.transpose() * dy;
+  EXPECT_LT((W * step + J.transpose() * (dy + J * step)).norm(), 1e-9);
+  const MatrixXd S = J * W.inverse() * J.transpose(), I3 = MatrixXd::Identity(3, 3),
+                 I7 = MatrixXd::Identity(7, 7);
+  double last = 0;
+  for (const double rho : {1., 1e2, 1e4, 1e6}) {
+    const MatrixXd C = rho * C0, sharp = (J.transpose() * C * J + W).inverse() * J.transpose() * C;
+    const MatrixXd loss = (I3 + S * C).inverse();
+    EXPECT_LT((I3 - J * sharp - loss).norm(), 1e-7 * loss.norm() + 1e-7);
+    EXPECT_LT((J * (I7 - sharp * J) * a - loss * J * a).norm(), 1e-7);
+    last = (I3 - J * sharp).norm();
+  }
+  EXPECT_LT(last, 1e-4) << "12.4.1 b and c: the limit";
+  // Without full row rank: b still holds, c does not.
+  MatrixXd deficient = J;
+  deficient.row(2) = deficient.row(0);
+  const MatrixXd sharp =
+      (1e6 * deficient.transpose() * deficient + W).inverse() * deficient.transpose() * 1e6;
+  EXPECT_LT((deficient * (I7 - sharp * deficient) * a).norm(), 1e-3);
+  EXPECT_GT(((I3 - deficient * sharp) * Eigen::Vector3d(1, 0, -1)).norm(), 1);
+  // The share of a singular direction that a step leaves.
+  expectStated("01-kinematics", fmt::format("one part in {:.0f} for $s = 0.5$", .5 * .5 / (.01 * .01)));
+  MatrixXd one(1, 1);
+  one << .5;
+  EXPECT_NEAR(1 - .5 * inverseKinematicsStep(one, VectorXd::Ones(1), .01)[0], 1e-4 / (.25 + 1e-4), 1e-15);
+}
+
+TEST(LectureNotes, WeightedPriorities) {
+  // The deviation of the first task in proportion to the ratio of the precisions, and strict priority as its
+  // limit.
+  Rng rng(5);
+  const MatrixXd J1 = randomMatrix(2, 4, rng), J2 = randomMatrix(3, 4, rng);
+  const VectorXd y1 = rng.normalVector(2), y2 = rng.normalVector(3);
+  const auto deviation = [&](double ratio) {
+    const MatrixXd H = ratio * J1.transpose() * J1 + J2.transpose() * J2 + 1e-9 * MatrixXd::Identity(4, 4);
+    const VectorXd q = H.ldlt().solve(ratio * J1.transpose() * y1 + J2.transpose() * y2);
+    return (J1 * q - y1).norm();
+  };
+  EXPECT_NEAR(deviation(1e3) / deviation(1e4), 10, .2);
+  EXPECT_NEAR(deviation(1e4) / deviation(1e5), 10, .02);
+}
+
+// 01: the lag of the hand behind a target on a line of T steps.
+double lagOnLine(int T) {
+  Simulator S("man.ors");
+  const Eigen::Vector3d start = S.kinematicsPos("handR"), end(-.2, -.4, 1.1);
+  double largest = 0;
+  for (int t = 1; t <= T; ++t) {
+    const Eigen::Vector3d wanted = start + static_cast<double>(t) / T * (end - start);
+    S.setJointAngles(S.getJointAngles() +
+                     inverseKinematicsStep(S.jacobianPos("handR"), wanted - S.kinematicsPos("handR"), .01));
+    largest = std::max(largest, (S.kinematicsPos("handR") - wanted).norm());
+  }
+  return largest;
+}
+
+TEST(LectureNotes, TheLagOnTheLine) {
+  const double slow = lagOnLine(200), fast = lagOnLine(100);
+  expectStated("01-kinematics",
+               fmt::format("With $T = 100$ the hand lags by at most {:.3f} mm, with $T = 200$ by {:.4f} mm",
+                           1e3 * fast, 1e3 * slow));
+}
+
+TEST(LectureNotes, DirectionsAndDensities) {
+  const auto share = [](int n) {
+    const auto f = [&](double t) { return std::pow(std::sin(t), n - 2); };
+    return integral(0, kPi / 9, f) / integral(0, kPi, f);
+  };
+  expectStated("04-rrt",
+               fmt::format("this is {:.3f} in the plane, but {:.6f} in seven dimensions: one step in {:.0f}",
+                           share(2), share(7), std::round(1 / share(7) / 100) * 100));
+  // The density of the radius against the histogram of uniform angles.
+  Rng rng(6);
+  const double l1 = .7, l2 = .4, low = .6, high = .9;
+  int inside = 0;
+  for (int k = 0; k < 200000; ++k) {
+    const double q2 = rng.uniform(-kPi, kPi), r = std::sqrt(l1 * l1 + l2 * l2 + 2 * l1 * l2 * std::cos(q2));
+    inside += r > low && r < high;
+  }
+  const auto density = [&](double r) {
+    const double cosine = (r * r - l1 * l1 - l2 * l2) / (2 * l1 * l2);
+    return r / (kPi * l1 * l2 * std::sqrt(1 - cosine * cosine));
+  };
+  EXPECT_NEAR(inside / 200000., integral(low, high, density), .005);
+  expectStated(
+      "04-rrt",
+      fmt::format("the mean is {:.1f} s; giving up after 1 s and starting again takes $1 / 0.9 = {:.2f}$ s",
+                  .9 * 1 + .1 * 1000, 1 / .9));
+}
+
+// 12.7.2 in n pieces: the least sum of u^2 tau of piecewise constant forces that end d away from the drift.
+double leastEffort(const Eigen::Vector2d& d, double T, int n = 2000) {
+  MatrixXd effect(2, n);
+  const double tau = T / n;
+  for (int k = 0; k < n; ++k) effect.col(k) << tau * (T - (k + .5) * tau), tau;
+  const VectorXd u = effect.transpose() * (effect * effect.transpose()).ldlt().solve(d);
+  return tau * u.squaredNorm();
+}
+
+TEST(LectureNotes, DistancesInPhaseSpace) {
+  const auto between = [](const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+    return leastEffort({to[0] - from[0] - from[1], to[1] - from[1]}, 1);
+  };
+  expectStated("04-rrt",
+               fmt::format("From $(0, 1)$ to $(1, 0)$ in one second it is {:.0f}; the other way it is {:.0f}",
+                           between({0, 1}, {1, 0}), between({1, 0}, {0, 1})));
+  expectStated("04-rrt", fmt::format("(from $(0, 1)$ to $(0, 1)$ in one second it is {:.0f})",
+                                     between({0, 1}, {0, 1})));
+  const double T = 1.7, d1 = .3, d2 = -.8;
+  EXPECT_NEAR(leastEffort({d1, d2}, T), 12 / (T * T * T) * d1 * d1 - 12 / (T * T) * d1 * d2 + 4 / T * d2 * d2,
+              1e-5);
+  // With a price on time: by search over T.
+  double best = 1e9, at = 0;
+  for (double time = 1; time < 5; time += 1e-3)
+    if (const double cost = time + leastEffort({1, 0}, time, 200); cost < best) best = cost, at = time;
+  EXPECT_NEAR(at, std::sqrt(6), 3e-3);
+  expectStated("04-rrt",
+               fmt::format("For $D = 1$, $T^* = {:.3f}$ and the cost is {:.3f}", std::sqrt(6), best));
+}
+
+TEST(LectureNotes, CarsWithoutReverse) {
+  expectStated("11-nonholonomic", "the length tends to $2 \\pi R$");
+  EXPECT_NEAR(dubinsLength({0, 0, 0}, {-1e-6, 0, 0}, 3), 2 * kPi * 3, 1e-2);
+  EXPECT_NEAR(dubinsLength({-1e-6, 0, 0}, {0, 0, 0}, 3), 1e-6, 1e-9);
+  // Left, right, straight back.
+  const double R = 5, delta = .01, s = R * std::acos(1 - delta / (2 * R));
+  const double length = 2 * s + 2 * R * std::sin(s / R);
+  EXPECT_NEAR(length, 4 * std::sqrt(R * delta), 2e-3);
+  expectStated("11-nonholonomic", fmt::format("for $R$ = 5 m and 1 cm that is {:.3f} m", length));
+  expectStated("11-nonholonomic", fmt::format("for $d$ = 2 m and 1 m/s in {:.2f} s", 2 * std::log(2)));
+  // LSL reaches random poses.
+  Rng rng(7);
+  for (int k = 0; k < 100; ++k)
+    EXPECT_TRUE(std::isfinite(dubinsLength({0, 0, 0}, 3 * rng.normalVector(3), 1)));
+}
+
+TEST(LectureNotes, TheMeanOfACloud) {
+  Rng rng(8);
+  const int n = 40, samples = 20000;
+  const double v = .1, turn = .1, sigma = .2;
+  Eigen::Vector2d mean(0, 0), closed(0, 0);
+  for (int k = 0; k < samples; ++k) {
+    double heading = 0;
+    for (int t = 0; t < n; ++t) {
+      mean += v * Eigen::Vector2d(std::cos(heading), std::sin(heading)) / samples;
+      heading += turn + sigma * rng.normal();
+    }
+  }
+  for (int t = 0; t < n; ++t)
+    closed += v * std::exp(-t * sigma * sigma / 2) * Eigen::Vector2d(std::cos(t * turn), std::sin(t * turn));
+  EXPECT_LT((mean - closed).norm(), .02);
+  // The width across a straight way.
+  double square = 0;
+  for (int k = 0; k < samples; ++k) {
+    double heading = 0, across = 0;
+    for (int t = 0; t < 200; ++t) across += v * (heading += .001 * rng.normal());
+    square += across * across / samples;
+  }
+  EXPECT_NEAR(std::sqrt(square) / (v * .001 * std::sqrt(200. * 200 * 200 / 3)), 1, .03);
+}
+
+TEST(LectureNotes, VariancesOfResampling) {
+  const Eigen::Vector3d weights(.55, .25, .2);
+  Rng rng(9);
+  const auto variances = [&](Resampling how) {
+    const int runs = 200000;
+    Eigen::Vector3d square(0, 0, 0);
+    for (int k = 0; k < runs; ++k) {
+      Eigen::Vector3d children(0, 0, 0);
+      for (const int parent : resampled(weights, 10, how, rng)) children[parent] += 1;
+      square += (children - 10 * weights).cwiseAbs2() / runs;
+    }
+    return square;
+  };
+  const Eigen::Vector3d multinomial = variances(Resampling::kMultinomial),
+                        residual = variances(Resampling::kResidual);
+  EXPECT_LT((multinomial - Eigen::Vector3d(2.475, 1.875, 1.6)).cwiseAbs().maxCoeff(), .03);
+  EXPECT_LT((residual - Eigen::Vector3d(.25, .25, 0)).cwiseAbs().maxCoeff(), .005);
+  expectStated("05-car", "the variances 2.475, 1.875 and 1.6, residual resampling 0.25, 0.25 and 0");
+  // Until all descend from one.
+  double rounds = 0;
+  const int N = 50, runs = 300;
+  for (int k = 0; k < runs; ++k) {
+    std::vector<int> origin(N);
+    for (int i = 0; i < N; ++i) origin[static_cast<std::size_t>(i)] = i;
+    while (std::set<int>(origin.begin(), origin.end()).size() > 1) {
+      std::vector<int> next;
+      for (const int parent : resampled(VectorXd::Ones(N), N, Resampling::kMultinomial, rng))
+        next.push_back(origin[static_cast<std::size_t>(parent)]);
+      origin = next;
+      rounds += 1. / runs;
+    }
+  }
+  EXPECT_NEAR(rounds / (2 * N), 1, .15);
+}
+
+TEST(LectureNotes, EffectiveShares) {
+  const auto share = [](double r) {
+    const auto prior = [](double x) { return std::exp(-x * x / 2) / std::sqrt(2 * kPi); };
+    const auto weight = [&](double x) { return std::exp(-x * x / (2 * r * r)); };
+    const double first = integral(-9, 9, [&](double x) { return prior(x) * weight(x); });
+    return first * first / integral(-9, 9, [&](double x) { return prior(x) * weight(x) * weight(x); });
+  };
+  expectStated("05-car",
+               fmt::format("which is {:.3f} for $r = s$ and {:.3f} for $r = s / 10$", share(1), share(.1)));
+  expectStated("05-car", fmt::format("$20 \\cdot 20 \\cdot 18 = {}$ cells", 20 * 20 * 18));
+  EXPECT_NEAR(7200. * 7200 / 5e7, 1, .05);
+}
+
+TEST(LectureNotes, FiltersAndMaps) {
+  // The car of the sheet, one step: turn by the model and by x + B u.
+  const double L = 2, v = .1, steer = .2;
+  expectStated("06-kalmanSLAM",
+               fmt::format("it turns by {:.5f} rad per step instead of {:.5f}",
+                           std::tan(steer) / L * v + v / (L * std::pow(std::cos(steer), 2)) * steer,
+                           v / L * std::tan(steer)));
+  // A landmark seen n times from an uncertain start, as a product of Gaussians.
+  const double P0 = .7, r = .3;
+  const int n = 25;
+  Eigen::Matrix2d precision;  // of the start and the landmark
+  precision << 1 / P0 + n / r, -n / r, -n / r, n / r;
+  EXPECT_NEAR(precision.inverse()(1, 1), P0 + r / n, 1e-12);
+  expectStated("06-kalmanSLAM", fmt::format("$g = {:.2f}$ accepts 99 %", -2 * std::log(.01)));
+  expectStated("06-kalmanSLAM", fmt::format("$1 - 0.99^{{300}} = {:.3f}$", 1 - std::pow(.99, 300)));
+  // 12.13.1: the derivatives of the view.
+  Rng rng(10);
+  const VectorXd z = rng.normalVector(5);  // position, heading, landmark
+  const auto view = [](const VectorXd& at) -> VectorXd {
+    return Eigen::Rotation2Dd(at[2]).inverse() * Eigen::Vector2d(at.tail<2>() - at.head<2>());
+  };
+  const Eigen::Matrix2d back = Eigen::Rotation2Dd(-z[2]).toRotationMatrix();
+  Eigen::Matrix2d quarter;
+  quarter << 0, -1, 1, 0;
+  MatrixXd J(2, 5);
+  J << -back, -quarter * back * (z.tail<2>() - z.head<2>()), back;
+  EXPECT_LT((J - numericJacobian(view, z)).norm(), 1e-7);
+}
+
+TEST(LectureNotes, ThePowerOfSeveralFeatures) {
+  // The formula of 12.10.1 d, from samples, against the library; and the derivative of log pi.
+  Rng rng(11);
+  LinearGaussianPolicy policy{.beta = rng.normalVector(2), .Sigma = randomMetric(2, rng)};
+  std::vector<Episode> episodes;
+  MatrixXd matrix = MatrixXd::Zero(2, 2);
+  VectorXd vector = VectorXd::Zero(2);
+  for (int k = 0; k < 50; ++k) {
+    Episode one{.features = randomMatrix(2, 4, rng),
+                .noise = randomMatrix(2, 4, rng),
+                .rewards = rng.uniformVector(4, 0, 1)};
+    for (int t = 0; t < 4; ++t) {
+      const VectorXd phi = one.features.col(t);
+      const MatrixXd W = phi * phi.transpose() / phi.dot(policy.Sigma * phi);
+      const double Q = one.rewards.tail(4 - t).sum();
+      matrix += W * Q;
+      vector += W * one.noise.col(t) * Q;
+    }
+    episodes.push_back(one);
+  }
+  EXPECT_LT((powerStep(policy, episodes, 1).beta - policy.beta - matrix.inverse() * vector).norm(), 1e-9);
+  const VectorXd phi = rng.normalVector(2);
+  const double action = .4, variance = phi.dot(policy.Sigma * phi);
+  const auto logarithm = [&](const VectorXd& beta) -> VectorXd {
+    return VectorXd::Constant(1, -std::pow(action - phi.dot(beta), 2) / (2 * variance));
+  };
+  const MatrixXd derivative = phi.transpose() * (action - phi.dot(policy.beta)) / variance;
+  EXPECT_LT((numericJacobian(logarithm, policy.beta) - derivative).norm(), 1e-6);
+  expectStated("08-mdp", fmt::format("for $\\gamma = 0.99$, {:.0f} times the change", .99 / (1 - .99)));
+}
+
+TEST(LectureNotes, FewStepsFromRestToRest) {
+  const auto cost = [](int T) {
+    MatrixXd conditions(2, T);
+    const double tau = 1. / T;
+    for (int k = 1; k <= T; ++k) conditions.col(k - 1) << tau, tau * tau * (T - k + 1);
+    const VectorXd a =
+        conditions.transpose() * (conditions * conditions.transpose()).ldlt().solve(Eigen::Vector2d(0, 1));
+    return tau * a.squaredNorm();
+  };
+  EXPECT_NEAR(cost(7), 12 / (1 - 1. / 49), 1e-9);
+  EXPECT_NEAR(integral(0, 1, [](double t) { return std::pow(6 - 12 * t, 2); }), 12, 1e-9);
+  expectStated("12-trajectory",
+               fmt::format("For 5 steps it is {:.1f}, for 20 steps {:.2f}", cost(5), cost(20)));
+  expectStated("12-trajectory", fmt::format("{} 000 against {:.0f} million", 700 * 20 * 20 / 2 / 1000,
+                                            std::pow(700, 3) / 6e6));
+}
+
+TEST(LectureNotes, PenaltiesAreNeverExact) {
+  // The nearest point to 0 outside a disc of radius 1 around (.3, 0), along the axis: f = x^2, g = 1 - (x +
+  // .3).
+  const double lambda = 2 * .7;  // from 2 x - lambda = 0 at x = .7
+  for (const double rho : {1e2, 1e4}) {
+    const double x = rho * .7 / (1 + rho);  // of x^2 + rho (.7 - x)^2
+    EXPECT_NEAR((.7 - x) * 2 * rho / lambda, 1, 2 / rho);
+  }
+  EXPECT_NEAR((.7001 * .7001 - .49) / 1e-4, lambda, 1e-3) << "the price";
+}
+
+TEST(LectureNotes, CostsThatGrowLessThanASquare) {
+  const double c = 1.3;
+  const auto cost = [&](const VectorXd& e) -> VectorXd {
+    return VectorXd::Constant(1, e[0] * e[0] / (1 + e[0] * e[0] / (c * c)));
+  };
+  for (const double e : {.1, 1., 3 * c}) {
+    const double weight = numericJacobian(cost, VectorXd::Constant(1, e))(0, 0) / (2 * e);
+    EXPECT_NEAR(weight, std::pow(1 + e * e / (c * c), -2), 1e-6);
+  }
+  EXPECT_NEAR(std::pow(1 + 9., -2), .01, 1e-12) << "an error of 3 c counts a hundredth";
+  const auto bend = [&](double e) {
+    const double h = 1e-3;
+    const auto at = [&](double x) { return cost(VectorXd::Constant(1, x))[0]; };
+    return at(e - h) - 2 * at(e) + at(e + h);
+  };
+  EXPECT_GT(bend(.99 * c / std::sqrt(3)), 0);
+  EXPECT_LT(bend(1.01 * c / std::sqrt(3)), 0);
+}
+
+}  // namespace rex::lecture_notes_test

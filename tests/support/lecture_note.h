@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cctype>
+#include <filesystem>
+#include <string>
+
+#include "support/file_text.h"
+
+namespace rex {
+
+/// The lecturer's notes on an exercise, in one line: text is found wherever it was broken.
+inline std::string lectureNote(const std::string& exercise) {
+  std::string line;
+  for (const char c : fileText(std::filesystem::path(REX_SOURCE_DIR) / "notes" / (exercise + ".md"))) {
+    const char letter = std::isspace(static_cast<unsigned char>(c)) ? ' ' : c;
+    if (letter != ' ' || (!line.empty() && line.back() != ' ')) line += letter;
+  }
+  return line;
+}
+
+}  // namespace rex
