@@ -32,7 +32,7 @@ TEST(WatchPage, ShowsChecksPicturesAndWhatHasChanged) {
   const std::string page =
       watchPage(resultWith(Outcome::kFail, Outcome::kPass), before, "int main() {}", folder.path());
   EXPECT_THAT(page, HasSubstr("<meta http-equiv=\"refresh\" content=\"2\">"));
-  EXPECT_THAT(page, HasSubstr("<li>Fails now: the &lt;b&gt;hand&lt;/b&gt;</li>"));
+  EXPECT_THAT(page, HasSubstr("<li>Fails now: the &#60;b&#62;hand&#60;/b&#62;</li>"));
   EXPECT_THAT(page, HasSubstr("<li>Now passes: the foot</li>"));
   EXPECT_THAT(page, HasSubstr("data:image/png;base64,cGljdHVyZQ=="));
   EXPECT_THAT(page, HasSubstr("<a href=\"checks/hand.html\">"));
