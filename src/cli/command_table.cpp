@@ -35,6 +35,7 @@ std::span<const TableEntry> commandTable() {
       {"submit", "Write the zip file to hand in, with a receipt", kStudent},
       {"debug", "Run your main.cpp in the debugger gdb", kStudent},
       {"scene", "Inspect, check or convert a scene", kRobot},
+      {"view", "Move a robot in a browser: sliders, dragging, simulation", kRobot},
       {"render", "Draw a scene: a picture, a film, a model or a page with a replay", kRobot},
       {"simulate", "Let a robot fall, or hold it: a log, an energy plot and a film", kRobot},
       {"plan", "Plan a path of a robot around obstacles: path, film and replay", kRobot},

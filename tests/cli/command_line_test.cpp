@@ -33,6 +33,7 @@ TEST(Program, WelcomesAndHelps) {
                                              {"debug", "--help"},
                                              {"render", "--help"},
                                              {"simulate", "--help"},
+                                             {"view", "--help"},
                                              {"doctor", "--help"},
                                              {"watch", "--help"},
                                              {"hint", "--help"},
@@ -65,7 +66,7 @@ TEST(Program, NamesTheValuesOfOptionsAndTheEnvironmentOnce) {
 
 TEST(Program, KeepsHelpWithin90ColumnsAndFreeOfColour) {
   for (const char* command : {"list", "run", "test", "watch", "hint", "show", "reset", "solution", "submit",
-                              "bench", "debug", "render", "simulate", "doctor", "dev"}) {
+                              "bench", "debug", "render", "simulate", "doctor", "dev", "view"}) {
     const std::string help = rex({command, "--help"}).output;
     EXPECT_EQ(help.find('\033'), std::string::npos);
     for (std::size_t start = 0; start < help.size();) {

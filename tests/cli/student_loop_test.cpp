@@ -308,6 +308,18 @@ TEST_F(Watching, GradesAgainAtEverySaveUntilAllIsRight) {
   }
 }
 
+TEST_F(Watching, RenewsItsPageAtEverySave) {
+  rex({"reset", "98"});
+  const pid_t child = start({"--open"});
+  ASSERT_TRUE(waitUntil([&] { return log().find("page: ") != std::string::npos; })) << log();
+  const fs::path page = root() / "out" / "98-template" / "watch.html";
+  EXPECT_THAT(fileText(page), Not(HasSubstr("Now passes: ")));
+  write(root() / "saved", kGood);
+  fs::rename(root() / "saved", main());
+  EXPECT_EQ(exitCodeOf(child), 0);
+  EXPECT_THAT(fileText(page), HasSubstr("<li>Now passes: A quarter turn</li>"));
+}
+
 TEST_F(Watching, EndsWhenItIsAskedTo) {
   for (const int signal : {SIGINT, SIGTERM}) {
     fs::remove(root() / "log");

@@ -11,7 +11,8 @@ Room robotRoom() {
                        {"render", addRender},
                        {"scene", addScene},
                        {"simulate", addSimulate},
-                       {"trajectory", addTrajectory}}};
+                       {"trajectory", addTrajectory},
+                       {"view", addView}}};
 }
 
 }  // namespace rex::cli

@@ -11,5 +11,6 @@ void addRender(CLI::App* command, Action& action);
 void addScene(CLI::App* command, Action& action);
 void addSimulate(CLI::App* command, Action& action);
 void addTrajectory(CLI::App* command, Action& action);
+void addView(CLI::App* command, Action& action);
 
 }  // namespace rex::cli

@@ -25,6 +25,7 @@
 #include "cli/robot/start_overlaps.h"
 #include "cli/shared_options_internal.h"
 #include "cli/wrong_use_internal.h"
+#include "live/live_simulation.h"
 #include "render/figure.h"
 
 namespace rex::cli {
@@ -272,16 +273,6 @@ void report(const Model& model, const SimulationPlan& plan, const Record& record
                   first.energy.total(), last.energy.total(), record.largestChange()));
   sayPostures(model, first.state.q, last.state.q);
   for (const std::string& file : files) say(file);
-}
-
-// A slab that is not drawn: films draw their own ground at the height of the lowest shape.
-ShapeSpec floorAt(double height) {
-  constexpr double kThickness = 1, kWidth = 100;
-  return {.name = "floor",
-          .X_BS = translation(0, 0, height - kThickness / 2),
-          .shape = {.type = ShapeType::kBox, .extent = {kWidth, kWidth, kThickness}},
-          .contact = true,
-          .visible = false};
 }
 
 Model modelOf(const Project& project, const SimulateOptions& options) {

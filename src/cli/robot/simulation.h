@@ -5,11 +5,11 @@
 #include <optional>
 #include <vector>
 
-#include "cli/robot/hold.h"
 #include "cli/robot/posture_option.h"
 #include "cli/robot/torque_file.h"
 #include "dynamics/energy.h"
 #include "dynamics/stepper.h"
+#include "live/hold.h"
 #include "physics/physics_world.h"
 
 namespace rex::cli {

@@ -1,4 +1,4 @@
-#include "cli/robot/hold.h"
+#include "live/hold.h"
 
 #include <cmath>
 #include <limits>
@@ -9,7 +9,7 @@
 #include "dynamics/mass_matrix.h"
 #include "scene/coordinates.h"
 
-namespace rex::cli {
+namespace rex {
 namespace {
 
 constexpr double kStiffness = 0.1;  // seconds: wave length of the held joints, which are critically damped
@@ -115,4 +115,4 @@ std::vector<std::string> Holder::unheld() const {
   return names;
 }
 
-}  // namespace rex::cli
+}  // namespace rex

@@ -8,7 +8,7 @@
 #include "dynamics/inverse_dynamics.h"
 #include "physics/physics_world.h"
 
-namespace rex::cli {
+namespace rex {
 
 /// How joints are held in their initial posture. A free joint is not held, because it has no motor, and a
 /// mimic joint moves with its target.
@@ -53,4 +53,4 @@ class Holder {
   std::vector<int> carrying_;  // those of them that carry driven joints
 };
 
-}  // namespace rex::cli
+}  // namespace rex

@@ -1,0 +1,138 @@
+'use strict';
+// The parts of the live page that know nothing of robots: sliders with numbers, a plot, messages to the server.
+const rexControls = (function () {
+  function element(name, className, text) {
+    const made = document.createElement(name);
+    if (className) made.className = className;
+    if (text !== undefined) made.textContent = text;  // never as HTML: names come from files
+    return made;
+  }
+
+  const shown = value => value === null ? '' : String(Math.round(value * 1e4) / 1e4);
+
+  // A slider with a number beside it. Without limits it spans `span` to both sides of 0, and the number any more.
+  // `changed(value)` is called for what the user does. set(value) shows a value, unless the user holds the slider.
+  function slider({ name, low, high, unit, span = 3.2, labels = true }, changed) {
+    const box = element('div', 'joint'), range = element('input'), number = element('input');
+    const from = low === null ? -span : low, to = high === null ? span : high;
+    const isFree = low === null || high === null;
+    const step = 10 ** Math.round(Math.log10((to - from) / 500));
+    range.type = 'range';
+    Object.assign(range, { min: from, max: to, step: 'any' });
+    number.type = 'number';
+    number.step = step;
+    if (low !== null) number.min = low;
+    if (high !== null) number.max = high;
+    for (const input of [range, number]) input.setAttribute('aria-label', name);
+    const label = element('span', 'name', name);
+    label.title = name;
+    box.append(label, number, element('span', 'unit', unit), range);
+    if (labels && !(low === null && high === null)) {
+      const limits = element('span', 'limits');
+      limits.append(element('span', '', low === null ? 'no limit' : shown(low)),
+        element('span', '', high === null ? 'no limit' : shown(high)));
+      box.append(limits);
+    }
+    let value = null, held = 0;
+    const clamped = x => Math.min(Math.max(x, low === null ? -Infinity : low), high === null ? Infinity : high);
+    function choose(next) {
+      held = performance.now() + 300;
+      show(clamped(next));
+      changed(value);
+    }
+    function show(next) {
+      if (next === value) return;
+      value = next;
+      if (isFree && (next < range.min || next > range.max))
+        range.min = Math.min(range.min, next), range.max = Math.max(range.max, next);
+      range.value = next;
+      if (document.activeElement !== number || performance.now() > held) number.value = shown(next);
+    }
+    range.addEventListener('input', () => choose(Number(range.value)));
+    number.addEventListener('change', () => {
+      if (number.value.trim() !== '' && Number.isFinite(Number(number.value))) choose(Number(number.value));
+      else number.value = shown(value);
+    });
+    range.addEventListener('keydown', event => {
+      const way = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -10, PageUp: 10 }[event.key];
+      if (!way) return;
+      event.preventDefault();
+      choose(value + way * step * (event.shiftKey ? 10 : 1));
+    });
+    range.addEventListener('wheel', event => {
+      if (document.activeElement !== range) return;  // or scrolling the panel would move the robot
+      event.preventDefault();
+      choose(value - Math.sign(event.deltaY) * step * (event.shiftKey ? 10 : 1));
+    }, { passive: false });
+    return { box, range, number, set: next => { if (performance.now() > held) show(next); } };
+  }
+
+  // Events for the server, at most one message on its way: what comes meanwhile is sent with the next one, and of
+  // events with the same key only the last.
+  function messenger(failed) {
+    let waiting = [], busy = false;
+    async function flush() {
+      if (busy || waiting.length === 0) return;
+      busy = true;
+      const sent = waiting;
+      waiting = [];
+      try {
+        const events = sent.map(({ event }) => event);
+        const answer = await fetch('events', { method: 'POST', body: JSON.stringify(events) });
+        if (!answer.ok)
+          failed(answer.status === 429 ? 'The program has no time for more events.' : 'The program refused an event.');
+      } catch (cause) {
+        failed('The program does not answer.');
+      }
+      busy = false;
+      flush();
+    }
+    return function send(event, key) {
+      const same = key === undefined ? -1 : waiting.findIndex(one => one.key === key);
+      if (same >= 0) waiting[same] = { event, key };
+      else if (waiting.length < 200) waiting.push({ event, key });
+      flush();
+    };
+  }
+
+  // Curves over the last seconds. `colors`: one per curve.
+  function plot(canvas, colors, seconds) {
+    const samples = [];
+    function add(time, values) {
+      if (samples.length > 0 && time < samples[samples.length - 1].time) samples.length = 0;
+      if (samples.length > 0 && time === samples[samples.length - 1].time) return;
+      samples.push({ time, values });
+      while (samples[0].time < time - seconds) samples.shift();
+    }
+    function draw() {
+      const ratio = Math.min(window.devicePixelRatio || 1, 2), width = canvas.clientWidth, height = canvas.clientHeight;
+      if (width === 0) return;
+      canvas.width = width * ratio, canvas.height = height * ratio;
+      const pen = canvas.getContext('2d');
+      pen.scale(ratio, ratio);
+      pen.font = '12px system-ui, "DejaVu Sans", sans-serif';
+      const all = samples.flatMap(({ values }) => values).concat([0]);
+      let low = Math.min(...all), high = Math.max(...all);
+      if (high - low < 1e-9) high = low + 1;
+      const margin = 56, last = samples.length ? samples[samples.length - 1].time : 0;
+      const x = t => margin + (width - margin - 4) * (1 - (last - t) / seconds);
+      const y = v => 6 + (height - 12) * (high - v) / (high - low);
+      pen.strokeStyle = '#dde3e9', pen.fillStyle = '#5c6875', pen.textAlign = 'right', pen.textBaseline = 'middle';
+      for (const value of [low, 0, high]) {
+        if (value === 0 && Math.min(y(low) - y(0), y(0) - y(high)) < 14 && low !== 0 && high !== 0) continue;
+        pen.beginPath(), pen.moveTo(margin, y(value)), pen.lineTo(width - 4, y(value)), pen.stroke();
+        pen.fillText(Number(value.toPrecision(3)), margin - 6, Math.min(Math.max(y(value), 7), height - 7));
+      }
+      pen.lineWidth = 1.8, pen.lineJoin = 'round';
+      colors.forEach((color, k) => {
+        pen.strokeStyle = color;
+        pen.beginPath();
+        for (const { time, values } of samples) pen.lineTo(x(time), y(values[k]));
+        pen.stroke();
+      });
+    }
+    return { add, draw, clear: () => { samples.length = 0; } };
+  }
+
+  return { element, slider, messenger, plot, shown };
+})();

@@ -1,0 +1,51 @@
+'use strict';
+// What a program asks for by LiveView: sliders, buttons and plots of its own.
+const rexProgram = (function () {
+  const { element, slider, plot } = rexControls;
+  const panel = document.getElementById('program'), asked = document.getElementById('asked');
+  const goOn = document.getElementById('goOn');
+  const known = new Map();
+  let send = () => {};
+
+  function make({ kind, name, low, high }) {
+    if (kind === 'slider') {
+      const changed = value => send({ do: 'slider', name, value }, 'slider ' + name);
+      const made = slider({ name, low, high, unit: '' }, changed);
+      return { box: made.box, show: one => made.set(one.value) };
+    }
+    if (kind === 'button') {
+      const button = element('button', '', name);
+      button.type = 'button';
+      button.addEventListener('click', () => send({ do: 'button', name }));
+      return { box: button, show: () => {} };
+    }
+    const box = element('div'), canvas = element('canvas', 'own'), curve = plot(canvas, ['#1f5fa8'], 10);
+    box.append(element('p', 'legend', name), canvas);
+    let last = null;
+    return {
+      box, show: one => {
+        if (last === one.x) return;
+        last = one.x;
+        curve.add(one.x, [one.y]);
+        curve.draw();
+      }
+    };
+  }
+
+  goOn.addEventListener('click', () => send({ do: 'go on' }));
+
+  function show(frame, sender) {
+    send = sender;
+    goOn.hidden = !frame.paused;
+    panel.hidden = !frame.paused && !(frame.asked && frame.asked.length > 0);
+    for (const one of frame.asked || []) {
+      const key = one.kind + ' ' + one.name;
+      if (!known.has(key)) {
+        known.set(key, make(one));
+        asked.append(known.get(key).box);
+      }
+      known.get(key).show(one);
+    }
+  }
+  return { show };
+})();

@@ -1,0 +1,160 @@
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/escape.h"
+#include "base/interruption.h"
+#include "base/private_folder.h"
+#include "base/text_file.h"
+#include "cli/open_browser.h"
+#include "cli/option_value_internal.h"
+#include "cli/out_folder.h"
+#include "cli/robot/posture_option.h"
+#include "cli/robot/robot_options_internal.h"
+#include "cli/robot/robot_room_internal.h"
+#include "cli/robot/scene_option.h"
+#include "cli/terminal.h"
+#include "cli/wrong_use_internal.h"
+#include "live/live_page.h"
+#include "live/live_server.h"
+#include "live/live_session.h"
+
+namespace rex::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using std::chrono::microseconds;
+
+struct ViewOptions {
+  SceneOption scene{};
+  std::string posture{};  ///< see parsePosture(); empty: that of the file
+  int port = 0;
+  std::string bind = "127.0.0.1";
+  bool noBrowser = false;
+};
+
+std::string variable(const char* name) {
+  const char* value = std::getenv(name);
+  return value != nullptr ? value : "";
+}
+
+// Opens a page that leads on to the address: as an argument, everybody on this machine could read the token.
+void openPage(const std::string& url, const PrivateFolder& folder) {
+  const std::filesystem::path page = folder.path() / "view.html";
+  writeTextFile(page,
+                "<!DOCTYPE html><meta charset=\"utf-8\"><meta http-equiv=\"refresh\" content=\"0; url=" +
+                    htmlText(url) + "\">\n");
+  openInBrowser(page.string());
+}
+
+// How those who came over ssh reach the page.
+void sayForwarding(int port) {
+  const std::string connection = variable("SSH_CONNECTION");  // client, its port, server, its port
+  if (connection.empty()) return;
+  std::vector<std::string> words(1);
+  for (const char c : connection) c == ' ' ? words.emplace_back() : words.back() += c;
+  const std::string user = variable("USER"), server = words.size() > 2 ? words[2] : "SERVER";
+  say(fmt::format("on your own machine, run: ssh -N -L {0}:127.0.0.1:{0} {1}{2}", port,
+                  user.empty() ? "" : harmless(user) + "@", harmless(server)));
+}
+
+void offerRecording(LiveServer& server, LiveSession& session) {
+  const std::optional<LiveRecording> recording = session.takeRecording();
+  if (!recording) return;
+  server.offer("motion.csv", {"text/csv; charset=utf-8", tableOf(session.model(), *recording)});
+  session.tell("The recording is ready: save it below \"Record\".");
+  try {
+    server.offer("replay.html", {"application/octet-stream", replayOf(session.model(), *recording)});
+  } catch (const Error& error) {
+    session.tell(error.what());
+  }
+}
+
+// Obeys and shows until the user ends it. While nothing moves, it waits.
+[[noreturn]] void serve(LiveServer& server, LiveSession& session) {
+  constexpr microseconds kTick{16667}, kPause{200000};
+  std::string shown;
+  Clock::time_point last = Clock::now(), next = last;
+  for (;;) {
+    throwIfInterrupted();
+    const microseconds left = std::chrono::duration_cast<microseconds>(next - Clock::now());
+    const bool wasMoving = session.isMoving();
+    const auto messages = server.takeMessages(wasMoving ? std::max(left, microseconds(0)) : kPause);
+    for (const std::string& message : messages) {
+      try {
+        session.obey(message);
+      } catch (const Error& error) {
+        session.tell(error.what());
+      }
+    }
+    const Clock::time_point now = Clock::now();
+    if (!wasMoving) last = now, next = now;
+    if (session.isMoving() && now >= next) {
+      session.advance(std::chrono::duration<double>(now - last).count());
+      last = now, next = std::max(next + kTick, now);
+    }
+    offerRecording(server, session);
+    std::string frame = session.frame();
+    if (frame != shown) server.publish(frame);
+    shown = std::move(frame);
+  }
+}
+
+ExitCode view(const Project& project, const ViewOptions& options) {
+  requireBetween("--port", options.port, 0, 65535);
+  const SceneSpec spec = loadSpec(project, options.scene);
+  const Model model = asWrongUse([&] { return compile(spec); });
+  const Eigen::VectorXd q =
+      options.posture.empty() ? model.initialPositions() : parsePosture(model, options.posture);
+  LiveSession session = asWrongUse([&] { return LiveSession(spec, q); });
+  const HeldSignals held;
+  const PrivateFolder folder(temporaryFolder());
+  const auto server = asWrongUse([&] {
+    return std::make_unique<LiveServer>(LiveServerOptions{.address = options.bind, .port = options.port});
+  });
+  offerLivePage(*server);
+  server->offer("scene.json", {"application/json", session.description()});
+  server->offer("scene.glb", {"model/gltf-binary", session.glb()});
+  say(server->url());
+  sayForwarding(server->port());
+  say("press Ctrl-C to end");
+  std::fflush(stdout);
+  if (!options.noBrowser && hasScreen()) openPage(server->url(), folder);
+  try {
+    serve(*server, session);
+  } catch (const Interrupted&) {
+    return ExitCode::kFull;  // as the user wants it
+  }
+}
+
+}  // namespace
+
+void addView(CLI::App* command, Action& action) {
+  const auto options = std::make_shared<ViewOptions>();
+  command->footer(
+      "Examples:\n  scripts/rex view man\n  scripts/rex view my_robot.urdf --q 0 --port 8080\n\n"
+      "Sliders move the joints, the mouse drags and pushes bodies, a simulation shows how they\n"
+      "move; share/doc/live.md is a tour. The first line is the address of the page, with a\n"
+      "token that keeps others out; nobody else should see it. Over ssh, a line says how to\n"
+      "forward the port. Ctrl-C ends it.");
+  addSceneFile(command, "SCENE", options->scene.file);
+  addPosture(command, options->posture);
+  command->add_option("--port", options->port, "port of the page (default: one that is free)")
+      ->type_name("N");
+  command->add_option("--bind", options->bind, "address to serve (default: 127.0.0.1, this machine only)")
+      ->type_name("ADDRESS");
+  command->add_flag("--no-browser", options->noBrowser, "do not open a browser");
+  addReading(command, options->scene.reading);
+  command->callback(
+      [&action, options] { action = [options](const Project& p) { return view(p, *options); }; });
+}
+
+}  // namespace rex::cli

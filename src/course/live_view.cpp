@@ -1,0 +1,256 @@
+#include "course/live_view.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "course/gl_choice.h"
+#include "course/simulator.h"
+#include "live/live_page.h"
+#include "live/live_scene.h"
+#include "live/live_server.h"
+#include "render/glb.h"
+#include "render/report.h"
+#include "render/scene_picture.h"
+
+namespace rex {
+namespace {
+
+using LiveClock = std::chrono::steady_clock;
+using ViewJson = nlohmann::ordered_json;
+using std::chrono::microseconds;
+
+constexpr microseconds kFrameTime{33333};
+constexpr std::size_t kMostRecorded = 900;
+constexpr std::size_t kMostControls = 64;
+
+// Students' programs have no command line: this is their boundary. REX_LIVE=1 serves without a terminal, 0
+// never.
+bool isServed() {
+  const char* choice = std::getenv("REX_LIVE");
+  if (choice != nullptr && *choice != '\0') return *choice != '0';
+  return ::isatty(STDOUT_FILENO) == 1 && ::isatty(STDIN_FILENO) == 1;
+}
+
+}  // namespace
+
+struct LiveView::Parts {
+  struct Control {
+    std::string kind, name;
+    double low = 0, high = 1, value = 0;
+    int pressed = 0;
+    double x = 0, y = 0;
+  };
+
+  std::string name{};
+  std::unique_ptr<LiveServer> server{};
+  bool hasWaited = false, isPaused = false;
+  LiveClock::time_point shown{};
+  int version = 0;
+  const Model* model = nullptr;  // of the simulator shown last; only compared
+  std::size_t shapes = 0;
+  std::string poses{};
+  ViewJson q = ViewJson::array();
+  std::vector<Control> controls{};
+  Film film{};
+  std::size_t stride = 1, count = 0;
+  std::optional<Picture> last{};
+
+  Control& control(const std::string& kind, const std::string& called) {
+    for (Control& one : controls)
+      if (one.kind == kind && one.name == called) return one;
+    if (controls.size() >= kMostControls)
+      throw Error({.what = kind + " '" + called + "'",
+                   .found = fmt::format("{} others on the page", controls.size()),
+                   .wanted = "fewer"});
+    controls.push_back({.kind = kind, .name = called});
+    return controls.back();
+  }
+
+  // What the page asked for; anything else is not for us.
+  void hear(microseconds atMost) {
+    if (!server) return;
+    for (const std::string& message : server->takeMessages(atMost)) {
+      const ViewJson events = ViewJson::parse(message, nullptr, false);
+      if (!events.is_array()) continue;
+      for (const ViewJson& event : events)
+        if (event.is_object() && event.contains("do") && event["do"].is_string()) obey(event);
+    }
+  }
+
+  void obey(const ViewJson& event) {
+    const std::string what = event["do"].get<std::string>();
+    if (what == "go on") isPaused = false;
+    if (!event.contains("name") || !event["name"].is_string()) return;
+    for (Control& one : controls) {
+      if (one.kind != what || one.name != event["name"].get<std::string>()) continue;
+      if (what == "button") ++one.pressed;
+      if (what == "slider" && event.contains("value") && event["value"].is_number())
+        one.value = std::clamp(event["value"].get<double>(), one.low, one.high);
+    }
+  }
+
+  void publish() {
+    if (!server || version == 0) return;
+    ViewJson asked = ViewJson::array();
+    for (const Control& one : controls)
+      asked.push_back({{"kind", one.kind},
+                       {"name", one.name},
+                       {"low", one.low},
+                       {"high", one.high},
+                       {"value", one.value},
+                       {"x", one.x},
+                       {"y", one.y}});
+    const ViewJson frame = {
+        {"version", version}, {"q", q}, {"poses", poses}, {"asked", asked}, {"paused", isPaused}};
+    server->publish(frame.dump(-1, ' ', false, ViewJson::error_handler_t::replace));
+  }
+
+  void offer(const std::string& glb, const std::string& description) {
+    server->offer("scene.glb", {"model/gltf-binary", glb});
+    server->offer("scene.json", {"application/json", description});
+    ++version;
+  }
+
+  // For somebody to open the page, once; then until it is time for the next picture.
+  void waitForTurn() {
+    if (!server) return;
+    if (!hasWaited) {
+      hasWaited = true;
+      publish();
+      for (int k = 0; k < 300 && server->viewers() == 0; ++k) hear(std::chrono::milliseconds(100));
+    }
+    while (server->viewers() > 0 && LiveClock::now() < shown + kFrameTime)
+      hear(std::chrono::duration_cast<microseconds>(shown + kFrameTime - LiveClock::now()));
+    hear(microseconds(0));
+    shown = LiveClock::now();
+  }
+
+  // Evenly, so that a long run takes no more memory than a short one.
+  void record(Picture picture) {
+    if (count % stride == 0) {
+      if (film.size() >= kMostRecorded) {
+        for (std::size_t k = 0; 2 * k < film.size(); ++k) film[k] = std::move(film[2 * k]);
+        film.resize((film.size() + 1) / 2);
+        stride *= 2;
+      }
+      if (count % stride == 0) film.push_back({.time = static_cast<double>(count) / 30, .picture = picture});
+    }
+    ++count;
+    last = std::move(picture);
+  }
+};
+
+LiveView::LiveView(const std::string& name) : parts_(std::make_unique<Parts>()) {
+  parts_->name = name;
+  if (!isServed()) return;
+  parts_->server = std::make_unique<LiveServer>(LiveServerOptions{});
+  offerLivePage(*parts_->server);
+  fmt::print("{}\nopen this page; the program waits for it half a minute\n", parts_->server->url());
+  std::fflush(stdout);
+}
+
+LiveView::LiveView(const Simulator& simulator, const std::string& name) : LiveView(name) { show(simulator); }
+
+LiveView::~LiveView() {
+  parts_->server.reset();
+  if (!parts_->last) return;
+  try {
+    const double end = static_cast<double>(parts_->count - 1) / 30;
+    if (parts_->film.back().time < end) parts_->film.push_back({.time = end, .picture = *parts_->last});
+    settleGround(parts_->film);
+    writeReport({.title = parts_->name,
+                 .film = parts_->film,
+                 .still = {.width = 640, .height = 480, .gl = glChoice()}},
+                parts_->name + ".html");
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}.html was not written: {}\n", parts_->name, error.what());
+  }
+}
+
+bool LiveView::isWatched() {
+  parts_->hear(microseconds(0));
+  return parts_->server && parts_->server->viewers() > 0;
+}
+
+void LiveView::show(const Simulator& simulator) {
+  Parts& parts = *parts_;
+  const Eigen::VectorXd q = simulator.getJointAngles();
+  const BodyPoses poses = forwardKinematics(simulator.model(), q);
+  parts.record(pictureOf(simulator.model(), poses));
+  if (!parts.server) return;
+  if (parts.model != &simulator.model() || parts.shapes != simulator.model().shapes().size()) {
+    parts.model = &simulator.model(), parts.shapes = simulator.model().shapes().size();
+    ViewJson about = ViewJson::parse(liveDescription(simulator.model()));
+    about["kind"] = "program", about["title"] = parts.name;
+    parts.offer(liveGlb(simulator.model(), poses),
+                about.dump(-1, ' ', false, ViewJson::error_handler_t::replace));
+  }
+  parts.poses = posesText(poses);
+  parts.q = std::vector<double>(q.begin(), q.end());
+  parts.waitForTurn();
+  parts.publish();
+}
+
+void LiveView::show(const Picture& picture) {
+  Parts& parts = *parts_;
+  parts.record(picture);
+  if (!parts.server) return;
+  parts.model = nullptr;
+  const ViewJson about = {
+      {"kind", "program"},           {"title", parts.name},         {"mass", 0},
+      {"bodies", ViewJson::array()}, {"shapes", ViewJson::array()}, {"coordinates", ViewJson::array()}};
+  parts.offer(glbOf({{.picture = picture}}), about.dump(-1, ' ', false, ViewJson::error_handler_t::replace));
+  parts.poses.clear(), parts.q = ViewJson::array();
+  parts.waitForTurn();
+  parts.publish();
+}
+
+double LiveView::slider(const std::string& name, double low, double high, double start) {
+  if (!(low <= start && start <= high && std::isfinite(high - low)))
+    throw Error({.what = "slider '" + name + "'",
+                 .found = fmt::format("{:g} from {:g} to {:g}", start, low, high),
+                 .wanted = "finite numbers in order"});
+  const std::size_t before = parts_->controls.size();
+  Parts::Control& one = parts_->control("slider", name);
+  if (parts_->controls.size() > before) one.value = start;
+  one.low = low, one.high = high;
+  parts_->hear(microseconds(0));
+  return one.value = std::clamp(one.value, low, high);
+}
+
+bool LiveView::button(const std::string& name) {
+  Parts::Control& one = parts_->control("button", name);
+  parts_->hear(microseconds(0));
+  return std::exchange(one.pressed, 0) > 0;
+}
+
+void LiveView::plot(const std::string& name, double x, double y) {
+  Parts::Control& one = parts_->control("plot", name);
+  one.x = x, one.y = y;
+}
+
+void LiveView::pause() {
+  if (!isWatched()) return;
+  parts_->isPaused = true;
+  parts_->publish();
+  // A page that is loaded again is away for a moment.
+  for (int away = 0; parts_->isPaused && away < 30;) {
+    parts_->hear(std::chrono::milliseconds(100));
+    away = parts_->server->viewers() > 0 ? 0 : away + 1;
+  }
+  parts_->isPaused = false;
+  parts_->publish();
+}
+
+}  // namespace rex

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+namespace rex {
+
+class Simulator;
+struct Picture;
+
+/// Shows a program while it runs, as a page in a browser with sliders, buttons and plots of the program's
+/// own. In a terminal it prints the address of the page and waits half a minute at most for somebody to open
+/// it. Without anybody to look, as in tests, no method ever waits. In any case it writes NAME.html at the
+/// end, a replay of what was shown. `rex run FILE.cpp` links the library course_live, which it needs, by
+/// itself.
+class LiveView {
+ public:
+  explicit LiveView(const std::string& name = "live");
+  /// The same, and shows the robot at once.
+  explicit LiveView(const Simulator& simulator, const std::string& name = "live");
+  ~LiveView();
+  LiveView(const LiveView&) = delete;
+  LiveView& operator=(const LiveView&) = delete;
+
+  /// Whether a page shows this now. A program whose loop should run while somebody looks asks this.
+  [[nodiscard]] bool isWatched();
+
+  /// Shows the robot in its present posture, or a picture of anything; 1/30 s after the one before, while
+  /// somebody looks. Throws Error as glbOf() (render/glb.h), and for a robot without any shape.
+  void show(const Simulator& simulator);
+  void show(const Picture& picture);
+
+  /// The value of a slider on the page, which first is `start`. Throws Error unless low <= start <= high.
+  double slider(const std::string& name, double low, double high, double start);
+  /// Whether this button was pressed since the last call.
+  bool button(const std::string& name);
+  /// Adds a point to the curve of this name.
+  void plot(const std::string& name, double x, double y);
+  /// Waits until somebody presses "Go on" on the page, as long as one is open.
+  void pause();
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace rex

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "kinematics/forward_kinematics.h"
+#include "scene/model.h"
+
+namespace rex {
+
+/// The shapes of a model as a GLB for the live page, at these poses of the bodies: shape i of
+/// Model::shapes() is the node "s<i>". Shapes whose mesh was not loaded are left out. Throws Error as
+/// glbOf().
+[[nodiscard]] std::string liveGlb(const Model& model, const BodyPoses& poses);
+
+/// What the page says about a model, as JSON: bodies, shapes with their poses on bodies, coordinates with
+/// names, units and limits. Names are as in the scene.
+[[nodiscard]] std::string liveDescription(const Model& model);
+
+/// Poses as the page reads them: for each body x y z and a quaternion x y z w as little-endian floats, in
+/// base 64.
+[[nodiscard]] std::string posesText(const BodyPoses& poses);
+
+}  // namespace rex

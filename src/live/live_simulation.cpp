@@ -1,0 +1,56 @@
+#include "live/live_simulation.h"
+
+#include "kinematics/jacobians.h"
+
+namespace rex {
+namespace {
+
+Model withFloor(SceneSpec spec, const std::optional<double>& height) {
+  if (height) spec.worldShapes.push_back(floorAt(*height));
+  return compile(spec);
+}
+
+}  // namespace
+
+ShapeSpec floorAt(double height) {
+  constexpr double kThickness = 1, kWidth = 100;
+  return {.name = "floor",
+          .X_BS = translation(0, 0, height - kThickness / 2),
+          .shape = {.type = ShapeType::kBox, .extent = {kWidth, kWidth, kThickness}},
+          .contact = true,
+          .visible = false};
+}
+
+LiveSimulation::LiveSimulation(const SceneSpec& spec, const LiveSimulationOptions& options,
+                               const State& start)
+    : model_(withFloor(spec, options.floor)),
+      options_(options),
+      gravity_W_(options.gravity ? earthGravity() : Eigen::Vector3d::Zero()),
+      world_(model_, {.gravity_W = gravity_W_, .friction = options.friction}),
+      holder_(model_, options.hold, start.q, gravity_W_) {
+  world_.setState(start);
+}
+
+void LiveSimulation::holdAt(const Eigen::VectorXd& q) {
+  holder_ = Holder(model_, options_.hold, q, gravity_W_);
+}
+
+void LiveSimulation::advance(int milliseconds, const std::optional<Push>& push) {
+  for (int k = 0; k < milliseconds; ++k) {
+    const State now = world_.state();
+    Eigen::VectorXd u = holder_.forces(now);
+    if (push) {
+      const BodyPoses poses = forwardKinematics(model_, now.q);
+      u += positionJacobian(model_, poses, push->body, push->p_BQ).transpose() * push->force_W;
+    }
+    world_.setMotors(holder_.motors(u));
+    world_.step(1e-3);
+  }
+}
+
+Energy LiveSimulation::energyNow() const {
+  const State now = world_.state();
+  return energy(model_, now.q, now.v, gravity_W_);
+}
+
+}  // namespace rex

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "dynamics/energy.h"
+#include "live/hold.h"
+#include "physics/physics_world.h"
+#include "scene/scene_spec.h"
+#include "scene/state.h"
+
+namespace rex {
+
+struct LiveSimulationOptions {
+  bool gravity = true;
+  std::optional<double> floor{};  ///< its height, metres
+  double friction = 0.6;
+  Hold hold = Hold::kNone;
+};
+
+/// A push at a point of a body, p_BQ in its frame.
+struct Push {
+  BodyId body{};
+  Eigen::Vector3d p_BQ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d force_W = Eigen::Vector3d::Zero();  ///< newtons
+};
+
+/// A scene that moves with contacts while somebody holds and pushes it.
+class LiveSimulation {
+ public:
+  /// Joints are held where they are at the start. Throws Error as PhysicsWorld.
+  LiveSimulation(const SceneSpec& spec, const LiveSimulationOptions& options, const State& start);
+
+  /// From now on the joints are held at this posture (nq).
+  void holdAt(const Eigen::VectorXd& q);
+  /// Advances by this many milliseconds. Throws Error as PhysicsWorld::step().
+  void advance(int milliseconds, const std::optional<Push>& push);
+  [[nodiscard]] State state() const { return world_.state(); }
+  [[nodiscard]] Energy energyNow() const;
+  [[nodiscard]] std::vector<PhysicsContact> contacts() const { return world_.contacts(); }
+  /// The model with its floor; bodies and coordinates are those of the scene.
+  [[nodiscard]] const Model& model() const { return model_; }
+
+ private:
+  Model model_;
+  LiveSimulationOptions options_;
+  Eigen::Vector3d gravity_W_;
+  PhysicsWorld world_;
+  Holder holder_;
+};
+
+/// A slab under the scene, which is not drawn: pictures have their own ground.
+[[nodiscard]] ShapeSpec floorAt(double height);
+
+}  // namespace rex

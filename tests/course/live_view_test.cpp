@@ -1,0 +1,76 @@
+#include "course/live_view.h"
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include <gmock/gmock.h>
+
+#include "base/error.h"
+#include "course/simulator.h"
+#include "render/picture.h"
+#include "support/temporary_folder.h"
+
+namespace rex::live_view_test {
+
+using testing::HasSubstr;
+
+std::string textOf(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+// As in the grader: no terminal, nobody who looks.
+class LiveViewTest : public testing::Test {
+ protected:
+  void SetUp() override { ::setenv("REX_LIVE", "0", 1); }
+  void TearDown() override { ::unsetenv("REX_LIVE"); }
+  std::string in(const std::string& name) const { return (folder_.path() / name).string(); }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+TEST_F(LiveViewTest, WritesAReplayWhereNobodyLooks) {
+  {
+    Simulator simulator("arm3");
+    LiveView view(simulator, in("arm"));
+    for (int k = 0; k < 2000; ++k) {
+      const double angle = view.slider("angle", 0, 1, 0.25);
+      EXPECT_EQ(angle, 0.25);
+      EXPECT_FALSE(view.button("next"));
+      simulator.setJointAngles(Eigen::Vector3d::Constant(angle * k / 2000));
+      view.plot("angle", k, angle);
+      view.show(simulator);
+      view.pause();
+    }
+    EXPECT_FALSE(view.isWatched());
+  }
+  EXPECT_THAT(textOf(in("arm.html")), HasSubstr("<html"));
+}
+
+TEST_F(LiveViewTest, ShowsPictures) {
+  {
+    LiveView view(in("dots"));
+    for (int k = 0; k < 3; ++k) view.show(Picture{.pointSets = {{.points = {{0.1 * k, 0, 0}, {1, 1, 1}}}}});
+  }
+  EXPECT_THAT(textOf(in("dots.html")), HasSubstr("<html"));
+}
+
+TEST_F(LiveViewTest, WritesNothingIfNothingWasShown) {
+  { LiveView view(in("empty")); }
+  EXPECT_FALSE(std::filesystem::exists(in("empty.html")));
+}
+
+TEST_F(LiveViewTest, RefusesSlidersOutOfOrderAndTooManyControls) {
+  LiveView view(in("none"));
+  EXPECT_THAT([&] { view.slider("gain", 0, 1, 2); },
+              testing::ThrowsMessage<Error>(
+                  HasSubstr("slider 'gain': found 2 from 0 to 1, wanted finite numbers in order")));
+  for (int k = 0; k < 64; ++k) view.button(std::to_string(k));
+  EXPECT_THAT([&] { view.button("one more"); },
+              testing::ThrowsMessage<Error>(HasSubstr("button 'one more': found 64 others on the page")));
+}
+
+}  // namespace rex::live_view_test
