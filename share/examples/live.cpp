@@ -11,13 +11,13 @@ using namespace rex;
 int main() {
   Simulator S("arm3");
   LiveView view("live");
-  const Eigen::VectorXd home = S.getJointAngles();
+  const Eigen::VectorXd rest = S.getJointAngles();
   double distance = 0;
   for (int t = 0; t < 150 || view.isWatched(); ++t) {
     const double height = view.slider("height of the hand [m]", 0.6, 1.8, 1.2);
     const double damping = view.slider("damping", 0.01, 1, 0.1);
     Eigen::VectorXd q = S.getJointAngles();
-    if (view.button("home")) q = home;
+    if (view.button("home")) q = rest;
     const Eigen::Vector3d missing = Eigen::Vector3d(0, -0.5, height) - S.kinematicsPos("eff");
     const Eigen::MatrixXd J = S.jacobianPos("eff");
     const Eigen::Matrix3d A = J * J.transpose() + damping * Eigen::Matrix3d::Identity();

@@ -11,6 +11,7 @@
 #include <mutex>
 #include <string_view>
 #include <thread>
+#include <utility>
 
 #include <arpa/inet.h>
 #include <fmt/format.h>
@@ -27,8 +28,11 @@ namespace {
 // One thread per connection, up to a bound. Beyond that new connections wait until others end, and idle ones
 // end after two seconds.
 class BoundedQueue : public httplib::TaskQueue {
+  // Nothing, or, in the library's newer versions, whether it was taken.
+  using Enqueued = decltype(std::declval<httplib::TaskQueue&>().enqueue({}));
+
  public:
-  void enqueue(std::function<void()> serve) override {
+  Enqueued enqueue(std::function<void()> serve) override {
     std::unique_lock lock(mutex_);
     ended_.wait(lock, [&] { return running_ < LiveServer::kMostConnections; });
     ++running_;
@@ -38,6 +42,7 @@ class BoundedQueue : public httplib::TaskQueue {
       --running_;
       ended_.notify_all();
     }).detach();
+    return Enqueued(true);
   }
 
   void shutdown() override {
