@@ -25,12 +25,7 @@ class AdjustmentsTest : public ::testing::Test {
     return readAdjustments(file(), course, exercises());
   }
   std::string messageFor(const std::string& text) const {
-    try {
-      static_cast<void>(read(text));
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "no error";
+    return messageOf([&] { return read(text); });
   }
   std::string file() const { return (folder_.path() / "adjustments.toml").string(); }
 

@@ -25,12 +25,7 @@ class CourseFileTest : public ::testing::Test {
     return readCourse(file(), exercises());
   }
   std::string messageFor(const std::string& text) const {
-    try {
-      static_cast<void>(read(text));
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "no error";
+    return messageOf([&] { return read(text); });
   }
   std::string file() const { return (folder_.path() / "course.toml").string(); }
 

@@ -25,12 +25,7 @@ class LatePolicyTest : public ::testing::Test {
     return readLatePolicy(file(), {"01-kinematics", "02-control"});
   }
   std::string messageFor(const std::string& text) const {
-    try {
-      read(text);
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "no error";
+    return messageOf([&] { return read(text); });
   }
   std::string file() const { return (folder_.path() / "deadlines.toml").string(); }
 
