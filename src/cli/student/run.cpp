@@ -50,8 +50,8 @@ void listResults(const fs::path& folder, fs::file_time_type since) {
 void sayWhereItIs(const Project& project, const ExerciseInfo& exercise, const fs::path& file, int allowed) {
   const double seconds = std::min(2, allowed);
   const PrivateFolder work(project.workPlace("exercises/" + exercise.name));
-  const grading::Toolchain locating = grading::locatingToolchain(prepare(project, exercise), work.path(),
-                                                                 4096 * grading::kMegabyte, seconds);
+  const grading::Toolchain locating =
+      grading::locatingToolchain(prepare(project, exercise), work.path(), 4096 * grading::kMegabyte, seconds);
   const auto object = compileStudent(locating, {}, {.main = file, .workFolder = work.path() / "again"});
   if (!object.ok) return;
   const auto program = linkProgram(locating, object);
