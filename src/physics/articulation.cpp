@@ -19,8 +19,6 @@ constexpr double kPositionRate = 20;
 // Joints beyond a limit come back at this rate, 1/s, and at most this fast, rad/s or m/s: they keep that
 // speed when they are back, so a higher one would throw a robot that starts beyond its limits.
 constexpr double kLimitRate = 20, kLimitSpeed = 1;
-// Limits become active within this distance, radians or metres, or within twice the motion of a step.
-constexpr double kLimitReach = 0.01;
 
 int linkCount(const Model& model, std::span<const BodyId> bodies) {
   std::size_t count = 0;

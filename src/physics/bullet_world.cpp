@@ -184,7 +184,8 @@ void BulletWorld::addCouplings(const Model& model, const std::vector<Articulatio
     failForNoMass(model, model[joint]);
 }
 
-void BulletWorld::step(double h) {
+void BulletWorld::step(double h, bool isApart) {
+  world_.setApart(isApart);
   world_.getSolverInfo().m_globalCfm = softness_ * h;
   world_.stepSimulation(h, 0);
 }
@@ -257,6 +258,7 @@ void BulletWorld::removeAll() {
 }
 
 void BulletWorld::reset(const State& state) {
+  world_.setApart(false);
   removeAll();
   broadphase_.resetPool(&dispatcher_);
   solver_.reset();

@@ -7,6 +7,9 @@
 
 namespace rex::internal {
 
+/// Limits become active within this distance, radians or metres, or within twice the motion of a step.
+inline constexpr double kLimitReach = 0.01;
+
 /// Constraints on one velocity of a joint or of a base that is free, all solved along with the contacts:
 /// motor, limits, friction, damping.
 class JointRow : public btMultiBodyConstraint {

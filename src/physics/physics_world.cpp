@@ -8,9 +8,11 @@
 
 #include "base/error.h"
 #include "base/require.h"
+#include "collision/clearance_watch.h"
 #include "physics/bullet_math_internal.h"
 #include "physics/bullet_world_internal.h"
 #include "physics/contact_events_internal.h"
+#include "physics/untouched_motion_internal.h"
 #include "scene/coordinates.h"
 
 namespace rex {
@@ -24,6 +26,8 @@ constexpr double kInnerStep = 1e-3;
 constexpr double kShortestStep = 1e-9, kLongestStep = 1000;
 // Nothing that is simulated well moves faster than this, in rad/s or m/s.
 constexpr double kRunawaySpeed = 1e6;
+// What stays farther away than this, in metres, beside twice its motion in a step, cannot touch in that step.
+constexpr double kNear = 5e-3;
 
 void requireQuaternions(const Model& model, const Eigen::VectorXd& q) {
   forEachQuaternion(model, [&](int iq, int iv) {
@@ -64,19 +68,88 @@ struct PhysicsWorld::Parts {
   double time = 0;
   internal::BulletWorld world;
   internal::ContactEvents events{};
+  ClearanceWatch watch;
+  internal::UntouchedMotion untouched;
+  // While nothing touches and only forces act, the state is here, and Bullet's is older.
+  bool isUntouched = false;
+  State now, start;
+  bool startsUntouched = false;  // whether the last step began so, at `start`
 
   Parts(const Model& m, const PhysicsOptions& options)
-      : model(m), motors(static_cast<std::size_t>(m.nv())), world(model, options) {}
+      : model(m),
+        motors(static_cast<std::size_t>(m.nv())),
+        world(model, options),
+        watch(model),
+        untouched(model, options),
+        now(initialState(model)),
+        start(now) {}
 
-  void innerStep(double h, double now) {
-    for (const auto& mover : world.movers()) mover->drive(motors, h);
-    world.step(h);
-    world.collectTouching(events.touching());
-    events.update(now);
+  void reset(const State& state) {
+    isUntouched = false;
+    watch.reset();
+    untouched.reset();
+    world.reset(state);
+    events.reset();
+  }
+
+  void read(State& state) const {
+    if (isUntouched) {
+      state.q = now.q;
+      state.v = now.v;
+    } else {
+      for (const auto& mover : world.movers()) mover->read(state);
+    }
+  }
+
+  // Tells Bullet the state.
+  void handOver() {
+    if (!isUntouched) return;
+    isUntouched = false;
+    world.reset(now);
+  }
+
+  void innerStep(double h, double at) {
+    bool isApart = false;
+    if (watch.isAble()) {
+      if (!isUntouched) read(now);
+      isApart = watch.isApart(model, now.q, now.v, 2 * h, kNear);
+    }
+    if (isApart && untouched.step(now, h)) {
+      isUntouched = true;
+      events.touching().clear();
+    } else {
+      handOver();
+      for (const auto& mover : world.movers()) mover->drive(motors, h);
+      world.step(h, isApart);
+      world.collectTouching(events.touching());
+    }
+    events.update(at);
+  }
+
+  void remember() {
+    startsUntouched = isUntouched;
+    if (isUntouched) {
+      start = now;
+    } else {
+      for (const auto& mover : world.movers()) mover->remember();
+    }
+  }
+
+  void undo() {
+    if (startsUntouched) return reset(start);
+    for (const auto& mover : world.movers()) mover->undo();
+    isUntouched = false;
+    read(now);
+    reset(State(now));
   }
 
   // The index in v of a velocity that has become too large, or -1.
   [[nodiscard]] int runaway() const {
+    if (isUntouched) {
+      for (Eigen::Index i = 0; i < now.v.size(); ++i)
+        if (!(std::abs(now.v[i]) < kRunawaySpeed)) return static_cast<int>(i);
+      return -1;
+    }
     for (const auto& mover : world.movers()) {
       const int iv = mover->runaway(kRunawaySpeed);
       if (iv >= 0) return iv;
@@ -96,7 +169,7 @@ PhysicsWorld::~PhysicsWorld() = default;
 
 State PhysicsWorld::state() const {
   State state = initialState(parts_->model);
-  for (const auto& mover : parts_->world.movers()) mover->read(state);
+  parts_->read(state);
   state.time = parts_->time;
   return state;
 }
@@ -109,8 +182,7 @@ void PhysicsWorld::setState(const State& state) {
   requireFinite("physics: joint velocities v", state.v);
   requireQuaternions(model, state.q);
   requireFinite("physics: time", state.time);
-  parts_->world.reset(state);
-  parts_->events.reset();
+  parts_->reset(state);
   parts_->time = state.time;
 }
 
@@ -118,6 +190,7 @@ void PhysicsWorld::setMotors(std::span<const Motor> motors) {
   requireSize("physics: motors", static_cast<long>(motors.size()), parts_->model.nv());
   for (std::size_t i = 0; i < motors.size(); ++i) requireMotor(parts_->model, static_cast<int>(i), motors[i]);
   parts_->motors.assign(motors.begin(), motors.end());
+  parts_->untouched.setMotors(motors);
 }
 
 void PhysicsWorld::step(double h) {
@@ -126,17 +199,14 @@ void PhysicsWorld::step(double h) {
                  .found = fmt::format("{:g}", h),
                  .wanted = fmt::format("{:g} to {:g} seconds", kShortestStep, kLongestStep)});
   }
-  internal::BulletWorld& world = parts_->world;
   const double count = std::ceil(h / kInnerStep * (1 - 1e-9));
   parts_->events.clear();
-  for (const auto& mover : world.movers()) mover->remember();
+  parts_->remember();
   for (double i = 0; i < count; ++i) {
     parts_->innerStep(h / count, parts_->time + i * h / count);
     const int iv = parts_->runaway();
     if (iv < 0) continue;
-    for (const auto& mover : world.movers()) mover->undo();
-    world.reset(state());
-    parts_->events.reset();
+    parts_->undo();
     throw Error(
         {.what = fmt::format("physics: joint '{}' at {:.6g} s", jointOfVelocity(parts_->model, iv).name,
                              parts_->time + (i + 1) * h / count),
@@ -146,11 +216,15 @@ void PhysicsWorld::step(double h) {
   parts_->time += h;
 }
 
-std::vector<PhysicsContact> PhysicsWorld::contacts() const { return parts_->world.contacts(); }
+std::vector<PhysicsContact> PhysicsWorld::contacts() const {
+  if (parts_->isUntouched) return {};
+  return parts_->world.contacts();
+}
 
 std::vector<PhysicsContact> PhysicsWorld::overlaps(double depth) {
-  parts_->events.reset();
-  return parts_->world.overlaps(state(), depth);
+  const State state = this->state();
+  parts_->reset(state);
+  return parts_->world.overlaps(state, depth);
 }
 
 std::vector<ContactEvent> PhysicsWorld::events() const { return parts_->events.events(); }
@@ -159,6 +233,8 @@ std::optional<RayHit> PhysicsWorld::rayCast(const Eigen::Vector3d& from_W,
                                             const Eigen::Vector3d& to_W) const {
   requireFinite("physics: start of the ray", from_W);
   requireFinite("physics: end of the ray", to_W);
+  parts_->handOver();
+  if (parts_->watch.isAble()) parts_->world.updateBounds();
   return parts_->world.rayCast(from_W, to_W);
 }
 

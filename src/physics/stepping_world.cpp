@@ -2,6 +2,18 @@
 
 namespace rex::internal {
 
+void SteppingWorld::setApart(bool isApart) {
+  if (isApart && !isApart_) {
+    for (int i = 0; i < getDispatcher()->getNumManifolds(); ++i)
+      getDispatcher()->getManifoldByIndexInternal(i)->clearManifold();
+  }
+  isApart_ = isApart;
+}
+
+void SteppingWorld::performDiscreteCollisionDetection() {
+  if (!isApart_) btMultiBodyDynamicsWorld::performDiscreteCollisionDetection();
+}
+
 void SteppingWorld::solveConstraints(btContactSolverInfo& info) {
   hideDepths(info);
   btMultiBodyDynamicsWorld::solveConstraints(info);

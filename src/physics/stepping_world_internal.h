@@ -18,6 +18,10 @@ class SteppingWorld : public btMultiBodyDynamicsWorld {
   /// How fast contacts may push apart what is in overlap, m/s.
   void setPartingSpeed(double speed) { partingSpeed_ = speed; }
 
+  /// Whether nothing can touch in the next steps, so that no contacts need to be looked for. Those found
+  /// before are then forgotten.
+  void setApart(bool isApart);
+  void performDiscreteCollisionDetection() override;
   void solveConstraints(btContactSolverInfo& info) override;
 
  private:
@@ -30,6 +34,7 @@ class SteppingWorld : public btMultiBodyDynamicsWorld {
   Couplings* couplings_ = nullptr;
   double partingSpeed_ = BT_LARGE_FLOAT;
   std::vector<Deep> hidden_;
+  bool isApart_ = false;
 };
 
 }  // namespace rex::internal

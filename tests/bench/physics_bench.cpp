@@ -46,6 +46,20 @@ Row boxesRow(const std::string& name, const Boxes& boxes, int bulletIterations, 
   return {name, timed([ours] { ours->step(kPhysicsStep); }), "Bullet", timed(bullet.step), target, "us"};
 }
 
+// Without friction, as MuJoCo's side of step-beeman-arm7, and like that it begins anew after a second.
+struct FreeArm {
+  explicit FreeArm(const Model& model)
+      : world(model, {.jointLimits = false, .jointFriction = false}), start(initialState(model)) {}
+  void step() {
+    if (steps++ % 1000 == 0) world.setState(start);
+    world.step(kPhysicsStep);
+  }
+
+  PhysicsWorld world;
+  State start;
+  int steps = 0;
+};
+
 }  // namespace
 
 Eigen::Vector3d Boxes::center(int row, int column) const {
@@ -56,13 +70,20 @@ Eigen::Vector3d Boxes::center(int row, int column) const {
 
 std::vector<Row> physicsRows() {
   const Boxes apart, wall{.columns = 10, .rows = 10, .distance = 0.21, .isWall = true};
-  const auto arm =
-      std::make_shared<PhysicsWorld>(compile(readScene(sourcePath("data/robots/arm7dof/arm7dof.urdf")).spec));
+  const Model model = compile(readScene(sourcePath("data/robots/arm7dof/arm7dof.urdf")).spec);
+  const auto arm = std::make_shared<PhysicsWorld>(model);
+  const auto freeArm = std::make_shared<FreeArm>(model);
   return {boxesRow("boxes-20-as-many-iterations", apart, PhysicsOptions().iterations, 1 / 0.9),
           boxesRow("boxes-20", apart, 10, 2.),
           boxesRow("wall-100-boxes", wall, 10, 1.2),
           {.name = "physics-arm7",
            .ours = timed([arm] { arm->step(kPhysicsStep); }),
+           .peerName = "limit",
+           .peer = [] { return 1.8e-6; },
+           .target = 1.,
+           .unit = "us"},
+          {.name = "physics-arm7-without-friction",
+           .ours = timed([freeArm] { freeArm->step(); }),
            .peerName = "limit",
            .peer = [] { return 1.8e-6; },
            .target = 1.,

@@ -60,11 +60,16 @@ double accelerationError(const Model& model, const State& state, const Eigen::Ve
   return (bullet - ours).lpNorm<Eigen::Infinity>() / ours.lpNorm<Eigen::Infinity>();
 }
 
-Model robotWithoutContact(const char* file) {
+// With a body that flies alone, Bullet moves all; else a robot moves by our own dynamics.
+Model robotWithoutContact(const char* file, bool isAlone = false) {
   SceneSpec spec = readScene(sourcePath(file)).spec;
   for (BodySpec& body : spec.bodies)
     for (ShapeSpec& shape : body.shapes) shape.contact = false;
   for (ShapeSpec& shape : spec.worldShapes) shape.contact = false;
+  if (!isAlone) {
+    addLoose(spec, "elsewhere", 1, ballShape(0.1), translation(9, 0, 0));
+    spec.bodies.back().shapes.back().contact = false;
+  }
   return compile(spec);
 }
 
@@ -160,6 +165,70 @@ TEST(PhysicsDynamics, SwingsLikeRungeKutta) {
   const double coarse = error(1e-3), fine = error(5e-4);
   EXPECT_LT(coarse, 0.05);
   EXPECT_NEAR(coarse / fine, 2, 0.2);
+}
+
+// Friction of joints switched off, nothing near: it swings for ten seconds, and its lightest links spin.
+TEST(PhysicsDynamics, AnUntouchedArmKeepsItsEnergy) {
+  const Model model = robotWithoutContact("data/robots/arm7dof/arm7dof.urdf", true);
+  PhysicsWorld world(model, kBare);
+  State ours = initialState(model);
+  ours.q.setConstant(0.3);
+  world.setState(ours);
+  Stepper stepper(model, {.integrator = Integrator::kBeeman});
+  const double before = energy(model, ours.q, ours.v).total();
+  double mostKinetic = 0, worst = 0;
+  for (int i = 0; i < 10'000; ++i) {
+    world.step(1e-3);
+    const State state = world.state();
+    if (i < 100) {
+      stepper.step(ours, Eigen::VectorXd::Zero(model.nv()), 1e-3);
+      EXPECT_EQ(state.q, ours.q);
+      EXPECT_EQ(state.v, ours.v);
+    }
+    const Energy now = energy(model, state.q, state.v);
+    mostKinetic = std::max(mostKinetic, now.kinetic);
+    worst = std::max(worst, std::abs(now.total() - before));
+  }
+  RecordProperty("drift", std::to_string(worst / mostKinetic));
+  EXPECT_LT(worst, 1e-3 * mostKinetic);
+}
+
+// A pendulum falls to the ground, on its own dynamics at first, then on Bullet's: no jump between them, and
+// the same contact as with a body elsewhere, when all is Bullet's.
+TEST(PhysicsDynamics, HandsOverWhatTouches) {
+  SceneSpec spec;
+  addHinged(spec, "wheel", 1, 0.1);
+  JointSpec& joint = addHinged(spec, "bob", 1, 1e-3);
+  joint.parent = "wheel";
+  joint.X_MC = translation(0.5, 0, 0);
+  ShapeSpec& ball = spec.bodies.back().shapes.emplace_back();
+  ball.shape = ballShape(0.1);
+  ball.contact = true;
+  addGround(spec, translation(0, 0, -0.4));
+  SceneSpec crowded = spec;
+  addLoose(crowded, "elsewhere", 1, ballShape(0.1), translation(9, 0, 9));
+  PhysicsWorld world(compile(spec)), bullets(compile(crowded));
+  const auto begins = [](PhysicsWorld& one, int& at, int step) {
+    one.step(1e-3);
+    if (at < 0 && !one.events().empty()) at = step;
+  };
+  int first = -1, firstOfBullet = -1;
+  State last = world.state();
+  for (int i = 0; i < 1000; ++i) {
+    begins(world, first, i);
+    begins(bullets, firstOfBullet, i);
+    const State now = world.state();
+    if (first < 0) {
+      EXPECT_NEAR(now.v[1] - last.v[1], 0.01, 0.0101) << i;
+      EXPECT_NEAR(now.q[1] - last.q[1], 1e-3 * (now.v[1] + last.v[1]) / 2, 2e-5) << i;
+    }
+    last = now;
+  }
+  EXPECT_GT(first, 100) << world.state().q.transpose();
+  EXPECT_NEAR(first, firstOfBullet, 2);
+  ASSERT_EQ(world.contacts().size(), bullets.contacts().size());
+  EXPECT_NEAR(world.state().q[1], bullets.state().q[8], 1e-4);  // after the free joint
+  EXPECT_NEAR(world.contacts()[0].impulse, bullets.contacts()[0].impulse, 1e-5);
 }
 
 TEST(PhysicsDynamics, PendulumKeepsItsEnergy) {

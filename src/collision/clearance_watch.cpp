@@ -1,0 +1,114 @@
+#include "collision/clearance_watch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "collision/contact_data_internal.h"
+#include "kinematics/forward_kinematics.h"
+
+namespace rex {
+namespace {
+
+constexpr double kCutoff = 0.5;  // metres: whoever is farther counts as this far
+constexpr int kPause = 8;        // calls after a failure without measuring
+
+std::vector<BodyId> chainOf(const Model& model, BodyId body) {
+  std::vector<BodyId> chain{body};
+  while (chain.back() != kWorld) chain.push_back(model[chain.back()].parent);
+  return chain;
+}
+
+bool isMoved(const Model& model, BodyId body) {
+  const std::vector<BodyId> chain = chainOf(model, body);
+  return std::any_of(chain.begin(), chain.end(), [&](BodyId at) {
+    return at != kWorld && model[at].joint != kNoJoint && model[model[at].joint].type == JointType::kHinge;
+  });
+}
+
+// Adds what each hinge below `carrier` can do to the points of a ball of this radius about p_BS: no posture
+// stretches the chain farther than the sum of its links.
+void addLevers(const Model& model, BodyId body, BodyId carrier, double farthest,
+               Eigen::Ref<Eigen::VectorXd> levers) {
+  for (BodyId at = body; at != carrier; at = model[at].parent) {
+    const JointId id = model[at].joint;
+    if (id == kNoJoint) {
+      farthest += model[at].X_PB.p.norm();
+      continue;
+    }
+    const Joint& joint = model[id];
+    farthest += joint.X_MC.p.norm();
+    if (joint.type == JointType::kHinge) levers[joint.qIndex] += std::abs(joint.ratio) * farthest;
+    farthest += joint.X_PF.p.norm();
+  }
+}
+
+}  // namespace
+
+ClearanceWatch::ClearanceWatch(const Model& model) : contacts_(model) {
+  for (const Joint& joint : model.joints())
+    isAble_ = isAble_ && (joint.type == JointType::kHinge || joint.type == JointType::kRigid);
+  if (!isAble_) return;
+  const std::span<const ShapePair> all = contacts_.pairs();
+  levers_.setZero(0, model.nq());
+  for (const ShapePair& pair : all) addPair(model, pair);
+  distances_.resize(static_cast<Eigen::Index>(pairs_.size()));
+}
+
+void ClearanceWatch::addPair(const Model& model, const ShapePair& pair) {
+  const ContactModel::Data& data = contacts_.data();
+  const auto solid = [&](int shape) -> const ContactSolid& {
+    return data.solids[static_cast<std::size_t>(data.solidOf[static_cast<std::size_t>(shape)])];
+  };
+  const ContactSolid &a = solid(pair.a), &b = solid(pair.b);
+  if (!isMoved(model, a.body) && !isMoved(model, b.body)) return;
+  const std::vector<BodyId> above = chainOf(model, a.body);
+  BodyId common = b.body;
+  while (std::find(above.begin(), above.end(), common) == above.end()) common = model[common].parent;
+  Eigen::VectorXd levers = Eigen::VectorXd::Zero(model.nq());
+  addLevers(model, a.body, common, a.X_BS.p.norm() + a.reach, levers);
+  addLevers(model, b.body, common, b.X_BS.p.norm() + b.reach, levers);
+  pairs_.push_back(static_cast<std::size_t>(&pair - contacts_.pairs().data()));
+  levers_.conservativeResize(levers_.rows() + 1, Eigen::NoChange);
+  levers_.bottomRows<1>() = levers.transpose();
+}
+
+void ClearanceWatch::reset() {
+  isMeasured_ = false;
+  wait_ = 0;
+}
+
+void ClearanceWatch::measure(const Model& model, const Eigen::VectorXd& q) {
+  forwardKinematics(model, q, poses_);
+  proxies(contacts_, poses_, kCutoff, storage_);
+  for (std::size_t i = 0; i < pairs_.size(); ++i)
+    distances_[static_cast<Eigen::Index>(i)] = std::min(kCutoff, storage_.pairs[pairs_[i]].distance);
+  at_ = q;
+  isMeasured_ = true;
+}
+
+bool ClearanceWatch::isProven(const Eigen::VectorXd& way, double distance) {
+  left_ = distances_;
+  left_.noalias() -= levers_ * way;
+  return (left_.array() > distance).all();
+}
+
+bool ClearanceWatch::isApart(const Model& model, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                             double reserve, double distance) {
+  if (!isAble_) return false;
+  if (pairs_.empty()) return true;
+  if (wait_ > 0) {
+    --wait_;
+    return false;
+  }
+  if (isMeasured_) {
+    way_ = (q - at_).cwiseAbs() + reserve * v.cwiseAbs();
+    if (isProven(way_, distance)) return true;
+  }
+  measure(model, q);
+  way_ = reserve * v.cwiseAbs();
+  if (isProven(way_, distance)) return true;
+  wait_ = kPause - 1;
+  return false;
+}
+
+}  // namespace rex
