@@ -18,7 +18,8 @@
     tell.timer = setTimeout(() => { get('notice').hidden = true; }, 9000);
   }
   const send = messenger(tell);
-  const view = rexStage.open(stage, beforeDraw);
+  const isPlain = rexStage.isSoftware();
+  const view = rexStage.open(stage, beforeDraw, isPlain);
   const energies = plot(get('plot'), ['#d55e00', '#0072b2', '#1d2530'], 10);
 
   // --- The scene. Bodies are groups in the frame of the world, z up, and have their shapes.
@@ -140,7 +141,7 @@
     if (slow < 2) return;
     slow = 0, quality = Math.max(0.5, quality / 1.4);
     setTimeout(() => view.setQuality(quality));
-    setState('live, drawn more coarsely: this computer draws slowly', false);
+    setState('live, drawn coarsely: this browser has no fast graphics', false);
   }
 
   function beforeDraw() {
@@ -253,12 +254,20 @@
     if (isOn) get('recorded').textContent = '', showRecording.wasOn = true;
     else if (showRecording.wasOn) {
       showRecording.wasOn = false;
-      for (const [name, text] of [['replay.html', 'Replay'], ['motion.csv', 'Table of q']]) {
-        const link = element('a', '', text);
-        link.href = name, link.download = name;
-        get('recorded').append(link);
-      }
+      addDownload('replay.html', 'Replay');
+      addDownload('motion.csv', 'Table of q');
+      const film = element('button', '', 'Draw a film');
+      film.type = 'button';
+      film.addEventListener('click', () => send({ do: 'film' }));
+      get('recorded').append(film);
     }
+    if (frame.film !== showRecording.film && !isOn) addDownload('film.mp4', 'Film');
+    showRecording.film = frame.film;
+  }
+  function addDownload(name, text) {
+    const link = element('a', '', text);
+    link.href = name, link.download = name;
+    get('recorded').append(link);
   }
 
   const settings = () => send({
@@ -447,7 +456,8 @@
   }
   function listen() {
     const source = new EventSource('frames');
-    source.onopen = () => setState('live', false);
+    source.onopen = () =>
+      setState(isPlain ? 'live, drawn without shadows: this browser has no graphics card' : 'live', false);
     source.onerror = () => setState(source.readyState === EventSource.CLOSED ?
       'The program has ended. Start it again and open its new address.' :
       'The program does not answer; waiting for it.', true);

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "authoring/markdown.h"
+#include "reports/markdown.h"
 #include "authoring/release.h"
 #include "base/error.h"
 #include "base/escape.h"

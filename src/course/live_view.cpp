@@ -18,7 +18,7 @@
 #include "course/simulator.h"
 #include "live/live_page.h"
 #include "live/live_scene.h"
-#include "live/live_server.h"
+#include "web/live_server.h"
 #include "render/glb.h"
 #include "render/report.h"
 #include "render/scene_picture.h"
