@@ -46,8 +46,12 @@ std::string nameOfCheck(const CheckResult& check, int& hidden) {
                          : fmt::format("{} ({})", shownText(check.title), shownText(check.id));
 }
 
-std::string foundBy(const CheckResult& check, const GradeResult& result) {
-  return isPassed(check) || isHidden(check) || !check.status ? "" : messageOf(check, fileOf(result));
+// With the place, unless links lead there.
+std::string foundBy(const CheckResult& check, const GradeResult& result, const std::string& path = "") {
+  if (isPassed(check) || isHidden(check) || !check.status) return "";
+  CheckResult placeless = check;
+  if (!path.empty()) placeless.line = 0;
+  return messageOf(placeless, fileOf(result));
 }
 
 // For addresses, in which everything but these characters is written as its bytes.
@@ -83,7 +87,7 @@ std::string tableOfChecks(const GradeResult& result, const std::string& path) {
                         : isPassed(check) ? " class=\"passes\""
                                           : " class=\"fails\"",
                         html(statusOf(check)), html(nameOfCheck(check, hidden)), check.points, check.maxPoints,
-                        html(foundBy(check, result)),
+                        html(foundBy(check, result, path)),
                         isShown ? placeOf(path, fileOf(result), check.line) : "");
   }
   return text + "</table>\n";

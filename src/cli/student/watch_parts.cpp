@@ -150,8 +150,7 @@ std::string sourcePart(const GradeResult& result, const std::string& source, con
   const std::string file = result.files.empty() ? "main.cpp" : result.files.front().name;
   for (const CheckResult& check : result.checks)
     if (check.group == grading::Group::kVisible && !passes(check) && check.line > 0)
-      feedback.comments.push_back(
-          {.line = check.line, .text = check.title + (check.message.empty() ? "" : ": " + check.message)});
+      feedback.comments.push_back({.line = check.line, .text = "Fails: " + check.title});
   for (const grading::CompileDiagnostic& message : result.compile.diagnostics)
     if (message.file == file && message.severity != "note")
       feedback.comments.push_back({.line = message.line, .text = message.severity + ": " + message.message});
