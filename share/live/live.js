@@ -30,8 +30,8 @@
       if (!answer.ok) throw new Error(name + ' cannot be had');
       return answer;
     };
-    const [next, glb] = await Promise.all([
-      read('scene.json').then(a => a.json()), read('scene.glb').then(a => a.arrayBuffer())]);
+    const next = await read('scene.json').then(a => a.json());
+    const glb = next.pieces ? await assemble(next, read) : await read('scene.glb').then(a => a.arrayBuffer());
     const current = await view.load(await rexStage.parse(glb), 1.7);
     about = next;
     const bodies = about.bodies.map(() => current.world.add(new THREE.Group()).children.slice(-1)[0]);
@@ -52,6 +52,24 @@
     buildPanels();
     isStale = true;
     view.draw();
+  }
+
+  // Programs send their pictures in pieces, of which most are those of the picture before.
+  let pieces = new Map();
+  async function assemble({ gltf, pieces: wanted }, read) {
+    const before = pieces, encoder = new TextEncoder();
+    pieces = new Map();
+    for (const [at, name] of wanted)
+      pieces.set(name, before.get(name) || read(name).then(a => a.arrayBuffer()).then(bytes => new Uint8Array(bytes)));
+    const all = await Promise.all(wanted.map(async ([at, name]) => [at, await pieces.get(name)]));
+    const json = encoder.encode(gltf), binary = Math.max(0, ...all.map(([at, bytes]) => at + bytes.length));
+    const padded = Math.ceil(binary / 4) * 4, glb = new Uint8Array(28 + json.length + padded);
+    const head = new DataView(glb.buffer), start = 28 + json.length;
+    [0x46546c67, 2, glb.length, json.length, 0x4e4f534a].forEach((value, k) => head.setUint32(4 * k, value, true));
+    glb.set(json, 20);
+    head.setUint32(start - 8, padded, true), head.setUint32(start - 4, 0x4e4942, true);
+    for (const [at, bytes] of all) glb.set(bytes, start + at);
+    return glb.buffer;
   }
 
   const flat = (color, opacity = 1) =>
@@ -475,7 +493,8 @@
           showFrame();
           view.draw();
         } catch (cause) {
-          tell('The scene cannot be shown: ' + cause.message);
+          pieces.clear();
+          if (!newest) tell('The scene cannot be shown: ' + cause.message);
         }
       }
       isBusy = false;

@@ -306,6 +306,11 @@ void LiveServer::offer(const std::string& name, LiveFile file) {
   parts_->files[name] = std::make_shared<const LiveFile>(std::move(file));
 }
 
+void LiveServer::withdraw(const std::string& name) {
+  const std::lock_guard lock(parts_->mutex);
+  parts_->files.erase(name);
+}
+
 void LiveServer::publish(const std::string& frame) {
   const std::lock_guard lock(parts_->mutex);
   parts_->frame = frame;

@@ -46,6 +46,8 @@ class LiveServer {
   [[nodiscard]] std::string url() const;
   /// From now on serves this file under URL/NAME; the empty name is the page itself.
   void offer(const std::string& name, LiveFile file);
+  /// No longer serves it.
+  void withdraw(const std::string& name);
   /// Sends a frame, one line, to all viewers. Those who come later get the last one.
   void publish(const std::string& frame);
   /// The messages that have arrived, oldest first; waits for the first one, at most this long.
