@@ -1,16 +1,15 @@
 #include "base/sha256.h"
 
-#include "base/error.h"
-#include "base/process.h"
+#include <array>
+
+#include <sha2.h>
 
 namespace rex {
 
 std::string sha256(std::string_view bytes) {
-  constexpr std::size_t kDigits = 64;
-  const ProcessResult summed = runProcess({"sha256sum"}, {.input = std::string(bytes)});
-  if (!summed.ok() || summed.output.size() < kDigits)
-    throw Error({.what = "cannot run sha256sum", .found = summed.error, .wanted = "the package coreutils"});
-  return summed.output.substr(0, kDigits);
+  std::array<char, SHA256_DIGEST_STRING_LENGTH> digits{};
+  SHA256Data(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(), digits.data());
+  return digits.data();
 }
 
 }  // namespace rex

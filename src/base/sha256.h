@@ -5,8 +5,7 @@
 
 namespace rex {
 
-/// The SHA-256 hash of the bytes as 64 lower-case hexadecimal digits, from sha256sum. Throws Error if that
-/// program cannot run.
+/// The SHA-256 hash of the bytes as 64 lower-case hexadecimal digits.
 [[nodiscard]] std::string sha256(std::string_view bytes);
 
 }  // namespace rex

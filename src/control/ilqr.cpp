@@ -182,4 +182,18 @@ IlqrResult ilqr(const ControlProblem& problem, const Eigen::MatrixXd& U, const I
   return result;
 }
 
+Eigen::MatrixXd followedPlan(const ControlProblem& problem, const IlqrResult& last) {
+  if (last.K.empty())
+    throw Error({.what = "the last plan", .found = "no policy", .wanted = "a result of ilqr()"});
+  requireSize("start of a control problem", problem.start.size(), last.X.rows());
+  const Eigen::Index N = last.U.cols();
+  return rolledOut(problem, last.U.rows(), N,
+                   [&](Eigen::Index t, const auto& x) -> Eigen::VectorXd {
+                     if (t + 1 == N) return last.U.col(t);
+                     return last.U.col(t + 1) -
+                            last.K[static_cast<std::size_t>(t + 1)] * (x - last.X.col(t + 1));
+                   })
+      .U;
+}
+
 }  // namespace rex

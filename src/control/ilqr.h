@@ -56,4 +56,9 @@ struct IlqrResult {
 [[nodiscard]] IlqrResult ilqr(const ControlProblem& problem, const Eigen::MatrixXd& U,
                               const IlqrOptions& options = {});
 
+/// Controls for the first guess of a plan one step after `last`, from problem.start: those of its policy
+/// without the first step, and the last one twice. The policy's feedback keeps the guess close to `last`
+/// where the system is unstable. Throws Error for a start that does not fit, and if `last` has no policy.
+[[nodiscard]] Eigen::MatrixXd followedPlan(const ControlProblem& problem, const IlqrResult& last);
+
 }  // namespace rex

@@ -7,6 +7,7 @@
 
 #include "base/rng.h"
 #include "bench/row.h"
+#include "control/predictive_controller.h"
 #include "control/riccati.h"
 #ifdef REX_WITH_SLICOT
 #include "bench/slicot_peer.h"
@@ -53,8 +54,50 @@ Row careRow(int n) {
   return row;
 }
 
+// Seven joints as double integrators, 20 steps of .05 s ahead, with limits on accelerations, rates and
+// positions, on the way of one second from a random posture home: planned anew from the last plan and a state
+// that noise has moved.
+Row predictiveRow() {
+  constexpr int kJoints = 7;
+  LinearSystem arm{.A = Eigen::MatrixXd::Zero(2 * kJoints, 2 * kJoints),
+                   .B = Eigen::MatrixXd::Zero(2 * kJoints, kJoints)};
+  arm.A.topRightCorner(kJoints, kJoints).setIdentity();
+  arm.B.bottomRows(kJoints).setIdentity();
+  arm = discretized(arm, 0.05);
+  PredictiveOptions options{.Q = Eigen::MatrixXd::Identity(2 * kJoints, 2 * kJoints),
+                            .R = 0.01 * Eigen::MatrixXd::Identity(kJoints, kJoints)};
+  options.uMax.setConstant(kJoints, 2);
+  options.uMin = -options.uMax;
+  options.xMax.setConstant(2 * kJoints, 1);
+  options.xMax.head(kJoints).setConstant(3);
+  options.xMin = -options.xMax;
+  struct Way {
+    PredictiveController controller;
+    std::vector<Eigen::VectorXd> states;
+    std::vector<PredictedMotion> plans;
+  };
+  const auto way = std::make_shared<Way>(Way{PredictiveController(arm, options), {}, {}});
+  Rng rng(1);
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(2 * kJoints);
+  x.head(kJoints) = rng.uniformVector(kJoints, -2.5, 2.5);
+  for (int t = 0; t <= 20; ++t) {
+    way->states.push_back(x);
+    way->plans.push_back(way->controller.plan(x));
+    if (way->plans.back().status != QuadraticStatus::kOptimal)
+      throw std::logic_error(way->plans.back().message);
+    x = arm.A * x + arm.B * way->plans.back().U.col(0) + 0.002 * rng.normalVector(2 * kJoints);
+  }
+  const auto replan = [way] {
+    for (std::size_t t = 1; t < way->states.size(); ++t)
+      (void)way->controller.plan(way->states[t], &way->plans[t - 1]);
+  };
+  return {.name = "predictive-control-arm7",
+          .ours = [=, all = timed(replan)] { return all() / 20; },
+          .unit = "us"};
+}
+
 }  // namespace
 
-std::vector<Row> controlRows() { return {careRow(4), careRow(10), careRow(50)}; }
+std::vector<Row> controlRows() { return {careRow(4), careRow(10), careRow(50), predictiveRow()}; }
 
 }  // namespace rex::bench

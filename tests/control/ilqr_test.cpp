@@ -7,6 +7,7 @@
 
 #include "base/derivative_check.h"
 #include "base/rng.h"
+#include "control/cart_pole_dynamics.h"
 #include "control/finite_horizon.h"
 #include "support/expect_error.h"
 
@@ -151,6 +152,43 @@ TEST(Ilqr, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(ilqr(pendulum(), U, {.damping = -1}), "damping of iLQR: found -1");
   EXPECT_REX_ERROR(ilqr(pendulum(), U, {.maxIterations = -1}),
                    "iterations of iLQR: found -1, wanted 0 or more");
+}
+
+// Model-predictive control: planned anew at each step, from the policy of the step before.
+TEST(Ilqr, PlannedAnewInEachStepSwingsThePoleUpUnderNoise) {
+  const CartPoleDynamics pole;
+  ControlProblem problem{
+      .next = [&](const VectorXd& x, const VectorXd& u) -> VectorXd {
+        return pole.eulerStep(x, 20 * std::tanh(u[0] / 20), 0.05);
+      },
+      .stage = [](const VectorXd& x, const VectorXd& u, int) -> VectorXd {
+        return VectorXd{{0.1 * x[0], 0.1 * x[1], std::sin(x[2] / 2), 0.05 * x[3], 0.02 * u[0]}};
+      },
+      .final = [](const VectorXd& x) -> VectorXd {
+        return VectorXd{{x[0], x[1], 20 * std::sin(x[2] / 2), 3 * x[3]}};
+      },
+      .start = Eigen::Vector4d(0, 0, M_PI, 0)};
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    SCOPED_TRACE(seed);
+    Rng rng(seed);
+    problem.start = Eigen::Vector4d(0, 0, M_PI, 0);
+    IlqrResult plan = ilqr(problem, MatrixXd::Constant(1, 40, 0.5));
+    for (int t = 0; t < 120; ++t) {
+      problem.start = problem.next(problem.start, plan.U.col(0)) + 0.01 * rng.normalVector(4);
+      plan = ilqr(problem, followedPlan(problem, plan), {.maxIterations = 3});
+      ASSERT_TRUE(std::isfinite(plan.cost)) << t;
+      if (t >= 80) {
+        EXPECT_GT(std::cos(problem.start[2]), 0.98) << t;
+      }
+    }
+  }
+  IlqrResult none;
+  EXPECT_REX_ERROR((void)followedPlan(problem, none),
+                   "the last plan: found no policy, wanted a result of ilqr()");
+  const IlqrResult plan = ilqr(problem, MatrixXd::Zero(1, 5), {.maxIterations = 0});
+  problem.start = Eigen::Vector2d(0, 0);
+  EXPECT_REX_ERROR((void)followedPlan(problem, plan),
+                   "start of a control problem: found a vector of size 2, wanted size 4");
 }
 
 }  // namespace rex::ilqr_test

@@ -15,6 +15,7 @@
 #include "control/racer_dynamics.h"
 #include "control/riccati.h"
 #include "control/stability.h"
+#include "course/linear_algebra.h"
 #include "locomotion/compass_gait.h"
 #include "locomotion/limit_cycle.h"
 #include "support/lecture_note.h"
@@ -37,7 +38,7 @@ void expectWritten(const std::string& exercise, const std::string& words) {
 
 // Damping ratio of a step matrix for a mode, from its eigenvalues.
 double dampingOf(const Matrix2d& step) {
-  const Complex z = Eigen::EigenSolver<MatrixXd>(step).eigenvalues()[0], s = std::log(z);
+  const Complex z = Eigen::EigenSolver<MatrixXd>(MatrixXd(step)).eigenvalues()[0], s = std::log(z);
   return -s.real() / std::abs(s);
 }
 
@@ -71,9 +72,9 @@ TEST(LectureNotesOnControl, AWrongModel) {
                  M = root * root.transpose() + MatrixXd::Identity(3, 3);
   const VectorXd F = rng.normalVector(3), wanted = rng.normalVector(3);
   const VectorXd u = (1 + delta) * (M * wanted + F);
-  EXPECT_LT((M.inverse() * (u - F) - (1 + delta) * wanted - delta * M.inverse() * F).norm(), 1e-9);
+  EXPECT_LT((inverse(M) * (u - F) - (1 + delta) * wanted - delta * inverse(M) * F).norm(), 1e-9);
   // At rest: q'' = -e / lambda^2 is what it wants, and nothing moves.
-  const VectorXd e = delta / (1 + delta) * lambda * lambda * M.inverse() * F;
+  const VectorXd e = delta / (1 + delta) * lambda * lambda * inverse(M) * F;
   EXPECT_LT(((1 + delta) * (M * (-e / (lambda * lambda)) + F) - F).norm(), 1e-9);
   const double Kp = 1.2 / (lambda * lambda), Kd = 1.2 * 2 * xi / lambda;
   expectWritten(
@@ -94,7 +95,7 @@ struct BalancedPole {
   RiccatiResult care = solveCare(plant.A, plant.B, Q, MatrixXd::Identity(1, 1));
   RowVector4d K = -care.K;
   Matrix4d closed = plant.A + plant.B * K;
-  Eigen::VectorXcd poles = Eigen::EigenSolver<MatrixXd>(closed).eigenvalues();
+  Eigen::VectorXcd poles = Eigen::EigenSolver<MatrixXd>(MatrixXd(closed)).eigenvalues();
 };
 
 TEST(LectureNotesOnControl, FirstTheOtherWay) {
@@ -106,7 +107,7 @@ TEST(LectureNotesOnControl, FirstTheOtherWay) {
   // Exactly, by the resolvent: the Laplace transform of x' = A x + B K (x - goal) at lambda.
   const Vector4d forced = -balanced.plant.B * (balanced.K * goal)(0);
   const Vector4d transform =
-      (lambda * Matrix4d::Identity() - balanced.closed).partialPivLu().solve(forced / lambda);
+      inverse(lambda * Matrix4d::Identity() - balanced.closed) * (forced / lambda);
   EXPECT_NEAR(transform[0], 0, 1e-9);
   EXPECT_LT(balanced.poles.real().maxCoeff(), 0) << "it arrives";
 }
@@ -146,7 +147,7 @@ TEST(LectureNotesOnControl, HamiltonianMatrices) {
   turn.topRightCorner(4, 4).setIdentity();
   turn.bottomLeftCorner(4, 4) = -MatrixXd::Identity(4, 4);
   EXPECT_LT((turn * H - (turn * H).transpose()).norm(), 1e-12);
-  EXPECT_LT((turn * H * turn.inverse() + H.transpose()).norm(), 1e-9);
+  EXPECT_LT((turn * H * inverse(turn) + H.transpose()).norm(), 1e-9);
   // No solution: A = 0, B = (1, 0), Q = I.
   const RiccatiResult none =
       solveCare(MatrixXd::Zero(2, 2), Vector2d(1, 0), MatrixXd::Identity(2, 2), MatrixXd::Identity(1, 1));
@@ -236,7 +237,7 @@ TEST(LectureNotesOnControl, TheRacer) {
   // The wrong F does no work, and changes the momentum.
   const Vector2d wrong(-ml * std::sin(q[1]) * v[1] * v[1], ml * std::sin(q[1]) * v[0] * v[1]);
   EXPECT_NEAR(v.dot(wrong), 0, 1e-12);
-  const Vector2d acceleration = M.inverse() * (-F - wrong);
+  const Vector2d acceleration = inverse(M) * (-F - wrong);
   const double momentumRate = M.row(0).dot(acceleration) - ml * std::sin(q[1]) * v[1] * v[1];
   EXPECT_NEAR(momentumRate, ml * std::sin(q[1]) * v[1] * v[1], 1e-12);
 }
@@ -250,7 +251,7 @@ TEST(LectureNotesOnControl, SensorsAloneCannotBringTheRacerToRest) {
     const VectorXd w = 20 * rng.normalVector(3);
     const RowVector4d K(w[2] / racer.r, w[0] - w[2], 0, w[1]);
     const Matrix4d closed = plant.A + plant.B * K;
-    const Eigen::VectorXcd roots = Eigen::EigenSolver<MatrixXd>(closed).eigenvalues();
+    const Eigen::VectorXcd roots = Eigen::EigenSolver<MatrixXd>(MatrixXd(closed)).eigenvalues();
     // The coefficient of s is minus the sum of the products of three roots.
     Complex triples = 0, scale = 0;
     for (int out = 0; out < 4; ++out) {
@@ -293,7 +294,7 @@ TEST(LectureNotesOnControl, TheCompassWalker) {
   const Vector2d rest =
       m * l * b * std::sin(turn) * Vector2d(-x[3] * x[3], x[2] * x[2]) +
       walker.g * Vector2d(-(mH * l + m * a + m * l) * std::sin(x[0]), m * b * std::sin(x[1]));
-  EXPECT_LT((walker.derivative(x).tail<2>() + M.inverse() * rest).norm(), 1e-9);
+  EXPECT_LT((walker.derivative(x).tail<2>() + inverse(M) * rest).norm(), 1e-9);
   // After an impact both feet are on the slope, and one multiplier is zero.
   const Vector4d guess(.218668803, -.323388558, -1.091826677, -.377181558);
   const LimitCycle gait = findLimitCycle(walker, guess);

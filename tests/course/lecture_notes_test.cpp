@@ -11,6 +11,7 @@
 
 #include "base/derivative_check.h"
 #include "base/rng.h"
+#include "course/linear_algebra.h"
 #include "course/simulator.h"
 #include "estimation/gaussian.h"
 #include "estimation/resampling.h"
@@ -52,20 +53,20 @@ TEST(LectureNotes, MatrixEquations) {
   Rng rng(1);
   const MatrixXd A = randomMatrix(4, 4, rng), B = randomMatrix(4, 4, rng), C = randomMatrix(4, 4, rng);
   const MatrixXd I = MatrixXd::Identity(4, 4);
-  const MatrixXd a = (I - A.transpose()) * A.inverse();
+  const MatrixXd a = (I - A.transpose()) * inverse(A);
   EXPECT_LT((a * A + A.transpose() - I).norm(), 1e-9);
-  const MatrixXd b = (C.transpose() - 2 * A).inverse() * 2 * A * B;
+  const MatrixXd b = inverse(C.transpose() - 2 * A) * 2 * A * B;
   EXPECT_LT((b.transpose() * C - (2 * A * (b + B)).transpose()).norm(), 1e-9);
   const MatrixXd tall = randomMatrix(7, 4, rng), metric = randomMetric(4, rng);
   const VectorXd y = rng.normalVector(7);
-  const VectorXd d = (tall.transpose() * tall + metric).inverse() * tall.transpose() * y;
+  const VectorXd d = inverse(tall.transpose() * tall + metric) * tall.transpose() * y;
   EXPECT_LT(((tall * d - y).transpose() * tall + d.transpose() * metric).norm(), 1e-9);
   // 12.1.2 e: the minimum, and that nothing near it is smaller.
   const MatrixXd weight = randomMetric(7, rng);
   const auto cost = [&](const VectorXd& x) -> double {
     return (tall * x - y).dot(weight * (tall * x - y)) + x.dot(metric * x);
   };
-  const VectorXd best = (tall.transpose() * weight * tall + metric).inverse() * tall.transpose() * weight * y;
+  const VectorXd best = inverse(tall.transpose() * weight * tall + metric) * tall.transpose() * weight * y;
   EXPECT_NEAR(cost(best), y.dot(weight * y) - y.dot(weight * tall * best), 1e-9);
   for (int k = 0; k < 20; ++k) EXPECT_GT(cost(best + 1e-3 * rng.normalVector(4)), cost(best));
 }
@@ -128,17 +129,17 @@ TEST(LectureNotes, ProofsAboutGaussians) {
   EXPECT_NEAR(logDensity({a, A}, x), logDensity({x, A}, a), 1e-9);
   EXPECT_NEAR(logDensity({a, A}, x), logF + logDensity({F * a, F * A * F.transpose()}, F * x), 1e-8);
   EXPECT_NEAR(logDensity({a, A}, F * x + f),
-              -logF + logDensity({F.inverse() * (a - f), F.inverse() * A * F.inverse().transpose()}, x),
+              -logF + logDensity({inverse(F) * (a - f), inverse(F) * A * inverse(F).transpose()}, x),
               1e-8);
-  const MatrixXd C = (A.inverse() + B.inverse()).inverse();
-  const VectorXd c = C * (A.inverse() * a + B.inverse() * b);
+  const MatrixXd C = inverse(inverse(A) + inverse(B));
+  const VectorXd c = C * (inverse(A) * a + inverse(B) * b);
   EXPECT_NEAR(logDensity({a, A}, x) + logDensity({b, B}, x),
               logDensity({c, C}, x) + logDensity({b, A + B}, a), 1e-8);
-  EXPECT_GT(Eigen::SelfAdjointEigenSolver<MatrixXd>(A - C).eigenvalues().minCoeff(), 0);
+  EXPECT_GT(Eigen::SelfAdjointEigenSolver<MatrixXd>(MatrixXd(A - C)).eigenvalues().minCoeff(), 0);
   // The precision that is left in x after integrating over y.
-  const MatrixXd W = A.inverse(),
-                 left = W - W * F * (B.inverse() + F.transpose() * W * F).inverse() * F.transpose() * W;
-  EXPECT_LT((left - (A + F * B * F.transpose()).inverse()).norm(), 1e-8);
+  const MatrixXd W = inverse(A),
+                 left = W - W * F * inverse(inverse(B) + F.transpose() * W * F) * F.transpose() * W;
+  EXPECT_LT((left - inverse(A + F * B * F.transpose())).norm(), 1e-8);
 }
 
 TEST(LectureNotes, StepsOfInverseKinematics) {
@@ -146,14 +147,14 @@ TEST(LectureNotes, StepsOfInverseKinematics) {
   const MatrixXd J = randomMatrix(3, 7, rng), W = randomMetric(7, rng), C0 = randomMetric(3, rng);
   const VectorXd dy = rng.normalVector(3), a = rng.normalVector(7);
   // 12.4.1 a: the gradient vanishes.
-  const VectorXd step = -(J.transpose() * J + W).inverse() * J.transpose() * dy;
+  const VectorXd step = -inverse(J.transpose() * J + W) * J.transpose() * dy;
   EXPECT_LT((W * step + J.transpose() * (dy + J * step)).norm(), 1e-9);
-  const MatrixXd S = J * W.inverse() * J.transpose(), I3 = MatrixXd::Identity(3, 3),
+  const MatrixXd S = J * inverse(W) * J.transpose(), I3 = MatrixXd::Identity(3, 3),
                  I7 = MatrixXd::Identity(7, 7);
   double last = 0;
   for (const double rho : {1., 1e2, 1e4, 1e6}) {
-    const MatrixXd C = rho * C0, sharp = (J.transpose() * C * J + W).inverse() * J.transpose() * C;
-    const MatrixXd loss = (I3 + S * C).inverse();
+    const MatrixXd C = rho * C0, sharp = inverse(J.transpose() * C * J + W) * J.transpose() * C;
+    const MatrixXd loss = inverse(I3 + S * C);
     EXPECT_LT((I3 - J * sharp - loss).norm(), 1e-7 * loss.norm() + 1e-7);
     EXPECT_LT((J * (I7 - sharp * J) * a - loss * J * a).norm(), 1e-7);
     last = (I3 - J * sharp).norm();
@@ -163,7 +164,7 @@ TEST(LectureNotes, StepsOfInverseKinematics) {
   MatrixXd deficient = J;
   deficient.row(2) = deficient.row(0);
   const MatrixXd sharp =
-      (1e6 * deficient.transpose() * deficient + W).inverse() * deficient.transpose() * 1e6;
+      inverse(1e6 * deficient.transpose() * deficient + W) * deficient.transpose() * 1e6;
   EXPECT_LT((deficient * (I7 - sharp * deficient) * a).norm(), 1e-3);
   EXPECT_GT(((I3 - deficient * sharp) * Eigen::Vector3d(1, 0, -1)).norm(), 1);
   // The share of a singular direction that a step leaves.
@@ -241,7 +242,7 @@ double leastEffort(const Eigen::Vector2d& d, double T, int n = 2000) {
   MatrixXd effect(2, n);
   const double tau = T / n;
   for (int k = 0; k < n; ++k) effect.col(k) << tau * (T - (k + .5) * tau), tau;
-  const VectorXd u = effect.transpose() * (effect * effect.transpose()).ldlt().solve(d);
+  const VectorXd u = effect.transpose() * inverse(effect * effect.transpose()) * d;
   return tau * u.squaredNorm();
 }
 
@@ -367,7 +368,7 @@ TEST(LectureNotes, FiltersAndMaps) {
   const int n = 25;
   Eigen::Matrix2d precision;  // of the start and the landmark
   precision << 1 / P0 + n / r, -n / r, -n / r, n / r;
-  EXPECT_NEAR(precision.inverse()(1, 1), P0 + r / n, 1e-12);
+  EXPECT_NEAR(inverse(precision)(1, 1), P0 + r / n, 1e-12);
   expectStated("06-kalmanSLAM", fmt::format("$g = {:.2f}$ accepts 99 %", -2 * std::log(.01)));
   expectStated("06-kalmanSLAM", fmt::format("$1 - 0.99^{{300}} = {:.3f}$", 1 - std::pow(.99, 300)));
   // 12.13.1: the derivatives of the view.
@@ -404,7 +405,7 @@ TEST(LectureNotes, ThePowerOfSeveralFeatures) {
     }
     episodes.push_back(one);
   }
-  EXPECT_LT((powerStep(policy, episodes, 1).beta - policy.beta - matrix.inverse() * vector).norm(), 1e-9);
+  EXPECT_LT((powerStep(policy, episodes, 1).beta - policy.beta - inverse(matrix) * vector).norm(), 1e-9);
   const VectorXd phi = rng.normalVector(2);
   const double action = .4, variance = phi.dot(policy.Sigma * phi);
   const auto logarithm = [&](const VectorXd& beta) -> VectorXd {
@@ -421,7 +422,7 @@ TEST(LectureNotes, FewStepsFromRestToRest) {
     const double tau = 1. / T;
     for (int k = 1; k <= T; ++k) conditions.col(k - 1) << tau, tau * tau * (T - k + 1);
     const VectorXd a =
-        conditions.transpose() * (conditions * conditions.transpose()).ldlt().solve(Eigen::Vector2d(0, 1));
+        conditions.transpose() * inverse(conditions * conditions.transpose()) * Eigen::Vector2d(0, 1);
     return tau * a.squaredNorm();
   };
   EXPECT_NEAR(cost(7), 12 / (1 - 1. / 49), 1e-9);
