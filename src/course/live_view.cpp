@@ -22,10 +22,10 @@
 #include "live/live_page.h"
 #include "live/live_pieces.h"
 #include "live/live_scene.h"
-#include "web/live_server.h"
 #include "render/glb.h"
 #include "render/report.h"
 #include "render/scene_picture.h"
+#include "web/live_server.h"
 
 namespace rex {
 namespace {
@@ -64,7 +64,7 @@ struct LiveView::Parts {
   const Model* model = nullptr;  // of the simulator shown last; only compared
   std::size_t shapes = 0;
   std::string poses{};
-  std::map<std::string, int> offered{};           // pieces, by how many of these have them:
+  std::map<std::string, int> offered{};        // pieces, by how many of these have them:
   std::deque<std::set<std::string>> recent{};  // the last pictures
   ViewJson q = ViewJson::array();
   std::vector<Control> controls{};
@@ -122,8 +122,8 @@ struct LiveView::Parts {
     server->publish(frame.dump(-1, ' ', false, ViewJson::error_handler_t::replace));
   }
 
-  // Pictures change often, but most of their meshes do not: each piece is offered once, and withdrawn when the
-  // last pictures did without it.
+  // Pictures change often, but most of their meshes do not: each piece is offered once, and withdrawn when
+  // the last pictures did without it.
   void offer(const std::string& glb, ViewJson about) {
     constexpr std::size_t kKept = 30;
     const LivePieces cut = piecesOf(glb);

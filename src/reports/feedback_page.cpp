@@ -58,7 +58,8 @@ std::string foundBy(const CheckResult& check, const GradeResult& result, const s
 std::string addressOf(const std::string& path) {
   std::string text;
   for (const char c : path) {
-    const bool isPlain = std::isalnum(static_cast<unsigned char>(c)) != 0 || std::strchr("/-._~", c) != nullptr;
+    const bool isPlain =
+        std::isalnum(static_cast<unsigned char>(c)) != 0 || std::strchr("/-._~", c) != nullptr;
     text += isPlain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
   }
   return text;
@@ -72,8 +73,9 @@ std::string editorLink(const std::string& path, int line, const std::string& tex
 // "main.cpp:47" as a link to the editor, and the whole path to copy; empty if there is no path or no line.
 std::string placeOf(const std::string& path, const std::string& file, int line) {
   if (path.empty() || line <= 0) return "";
-  return fmt::format("<p class=\"place\">{} <button type=\"button\" data-copy=\"{}:{}\">Copy path</button></p>",
-                     editorLink(path, line, html(fmt::format("{}:{}", file, line))), htmlText(path), line);
+  return fmt::format(
+      "<p class=\"place\">{} <button type=\"button\" data-copy=\"{}:{}\">Copy path</button></p>",
+      editorLink(path, line, html(fmt::format("{}:{}", file, line))), htmlText(path), line);
 }
 
 std::string tableOfChecks(const GradeResult& result, const std::string& path) {
@@ -83,11 +85,11 @@ std::string tableOfChecks(const GradeResult& result, const std::string& path) {
   for (const CheckResult& check : result.checks) {
     const bool isShown = !isPassed(check) && !isHidden(check);
     text += fmt::format("<tr{}><td>{}</td><td>{}</td><td>{}/{}</td><td>{}{}</td></tr>\n",
-                        path.empty()       ? ""
+                        path.empty()      ? ""
                         : isPassed(check) ? " class=\"passes\""
                                           : " class=\"fails\"",
-                        html(statusOf(check)), html(nameOfCheck(check, hidden)), check.points, check.maxPoints,
-                        html(foundBy(check, result, path)),
+                        html(statusOf(check)), html(nameOfCheck(check, hidden)), check.points,
+                        check.maxPoints, html(foundBy(check, result, path)),
                         isShown ? placeOf(path, fileOf(result), check.line) : "");
   }
   return text + "</table>\n";
@@ -173,8 +175,7 @@ std::string feedbackPage(const Feedback& feedback, const std::vector<FeedbackFil
     page += "</ul>\n";
   }
   page += checksHtml(result);
-  const bool hasChecks =
-      result.outcome != Outcome::kCompileError && result.outcome != Outcome::kGraderError;
+  const bool hasChecks = result.outcome != Outcome::kCompileError && result.outcome != Outcome::kGraderError;
   if (hasChecks) page += evidence(result, files);
   return page + listingHtml(feedback) + "</body>\n</html>\n";
 }

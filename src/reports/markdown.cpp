@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <md4c-html.h>
 
-#include "reports/tex_math.h"
 #include "base/error.h"
+#include "reports/tex_math.h"
 
 namespace rex::grading {
 namespace {

@@ -13,8 +13,8 @@ namespace rex {
 /// byte now and then, or takes one, would hold one of few. httplib bounds only the time between two bytes.
 class Connections {
  public:
-  /// `requestTime`: from the beginning of a connection, or the last answer, to the end of a request. An answer
-  /// may take twelve times as long; streams take any time.
+  /// `requestTime`: from the beginning of a connection, or the last answer, to the end of a request. An
+  /// answer may take twelve times as long; streams take any time.
   explicit Connections(std::chrono::milliseconds requestTime) : requestTime_(requestTime) {}
 
   /// Finds the connection to `port` that was accepted last. Returns a descriptor of its own for it, or -1. No

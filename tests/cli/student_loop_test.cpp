@@ -326,7 +326,8 @@ TEST_F(Watching, RenewsItsPageAtEverySave) {
                   "\r\nOrigin: http://" + host + "\r\nContent-Length: " + std::to_string(ask.size()) +
                   "\r\n\r\n" + ask);
   EXPECT_THAT(connection.readUntil("\r\n\r\n"), HasSubstr("204"));
-  ASSERT_TRUE(waitUntil([&] { return fetched(url, "frames", "\"source\"").find("Open hint 2") != std::string::npos; }));
+  ASSERT_TRUE(waitUntil(
+      [&] { return fetched(url, "frames", "\"source\"").find("Open hint 2") != std::string::npos; }));
   EXPECT_THAT(fileText(root() / ".rex" / "progress.json"), HasSubstr("\"rotate\": 1"));
   write(root() / "saved", kGood);
   fs::rename(root() / "saved", main());

@@ -43,7 +43,8 @@ TEST(LiveScene, WritesPosesAsFloats) {
 TEST(LiveScene, CutsPicturesIntoPiecesThatStayTheSame) {
   Picture picture;
   picture.solids.push_back({.shape = {.type = ShapeType::kBox, .extent = {1, 2, 3}}, .name = "one"});
-  picture.solids.push_back({.shape = {.type = ShapeType::kSphere, .radius = 1}, .X_WS = translation(0, 0, 4), .name = "two"});
+  picture.solids.push_back(
+      {.shape = {.type = ShapeType::kSphere, .radius = 1}, .X_WS = translation(0, 0, 4), .name = "two"});
   const std::string glb = glbOf({{.picture = picture}});
   const LivePieces first = piecesOf(glb);
   picture.solids[1].X_WS = translation(0, 0, 5);

@@ -163,7 +163,8 @@ TEST(LiveServer, EndsConnectionsThatTakeTheirTime) {
   viewer.send(start + "\r\n");
   EXPECT_THAT(viewer.readUntil("now"), HasSubstr("now"));
   slow.send(start + "X: ");
-  slowBody.send(std::string("POST /") + kToken + "/events HTTP/1.1\r\nHost: localhost\r\nOrigin: http://localhost\r\n" +
+  slowBody.send(std::string("POST /") + kToken +
+                "/events HTTP/1.1\r\nHost: localhost\r\nOrigin: http://localhost\r\n" +
                 "Content-Length: 60000\r\n\r\n");
   for (int k = 0; k < 200 && !(slow.hasEnded() && slowBody.hasEnded()); ++k) {
     slow.send("x"), slowBody.send("x");

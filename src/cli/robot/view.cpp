@@ -21,8 +21,8 @@
 #include "cli/terminal.h"
 #include "cli/wrong_use_internal.h"
 #include "live/live_page.h"
-#include "web/live_server.h"
 #include "live/live_session.h"
+#include "web/live_server.h"
 
 namespace rex::cli {
 namespace {

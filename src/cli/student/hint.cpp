@@ -49,7 +49,8 @@ void sayHint(const ExercisePart& part, int number) {
 
 }  // namespace
 
-ShownHints openHint(const Project& project, const ExerciseInfo& exercise, const ExercisePart& part, bool again) {
+ShownHints openHint(const Project& project, const ExerciseInfo& exercise, const ExercisePart& part,
+                    bool again) {
   const int all = static_cast<int>(part.hints.size());
   ShownHints hints;
   hints.isKept = ProgressFile(project.root).change(exercise.name, [&](Progress& progress) {

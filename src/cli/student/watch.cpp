@@ -70,7 +70,8 @@ class ResultPage {
 
 // Grades like `rex test`, only `check` unless that is empty. Reports a fault of the project, which may be
 // repaired while watching.
-ExitCode gradeOnce(const Project& project, const std::string& name, const std::string& check, ResultPage& page) {
+ExitCode gradeOnce(const Project& project, const std::string& name, const std::string& check,
+                   ResultPage& page) {
   page.startGrading();
   const auto start = std::chrono::steady_clock::now();
   ExitCode code = ExitCode::kGraderFault;
@@ -130,7 +131,7 @@ ExitCode watch(const Project& project, const WatchOptions& options) {
   if (options.open) address.emplace();
   ExitCode code = ExitCode::kBelow;
   std::string name = project.exercise(options.exercise).name;
-  while (!name.empty()) 
+  while (!name.empty())
     name = watchOne(project, project.exercise(name), options, keyboard, address ? &*address : nullptr, code);
   return code;
 }

@@ -74,8 +74,8 @@ void WatchPage::renew(const std::string& text) {
     const std::vector<WatchFile> files = filesOfChecks(now, folder_);
     offerFiles(server_, files);
     parts_["news"] = newsPart(now, last_);
-    parts_["checks"] =
-        fmt::format("<h2>{} of {} points</h2>\n", now.score, now.maxScore) + grading::checksHtml(now, main.string());
+    parts_["checks"] = fmt::format("<h2>{} of {} points</h2>\n", now.score, now.maxScore) +
+                       grading::checksHtml(now, main.string());
     parts_["evidence"] = evidencePart(now, files);
     parts_["source"] = sourcePart(now, fs::exists(main) ? readTextFile(main) : "", main.string());
     last_ = std::move(now);
@@ -112,19 +112,27 @@ void WatchPage::hear(const std::string& message) {
 
 void WatchPage::serve(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
-    for (const std::string& message : server_.takeMessages(std::chrono::milliseconds(200))) hear(message);
-    std::string stamp = stampOf(folder_) + stampOf(project_.root / ".rex");
-    if (stamp == stamp_) continue;
-    stamp_ = std::move(stamp);
-    const std::lock_guard lock(mutex_);
+    const std::vector<std::string> messages = server_.takeMessages(std::chrono::milliseconds(200));
     try {
-      renewHints();
-      renewOwn();
-    } catch (const Error& error) {  // a file that is just being written; the next change brings it
+      for (const std::string& message : messages) hear(message);
+      renewWhatChanged();
+    } catch (
+        const std::exception& error) {  // such as a file that is just being written: its next change helps
+      const std::lock_guard lock(mutex_);
       text_ = error.what();
+      publish();
     }
-    publish();
   }
+}
+
+void WatchPage::renewWhatChanged() {
+  std::string stamp = stampOf(folder_) + stampOf(project_.root / ".rex");
+  if (stamp == stamp_) return;
+  stamp_ = std::move(stamp);
+  const std::lock_guard lock(mutex_);
+  renewHints();
+  renewOwn();
+  publish();
 }
 
 }  // namespace rex::cli

@@ -35,6 +35,7 @@ class WatchPage {
   void renewOwn();
   void hear(const std::string& message);
   void serve(const std::stop_token& stop);
+  void renewWhatChanged();
 
   const Project& project_;
   const ExerciseInfo& exercise_;

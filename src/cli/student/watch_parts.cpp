@@ -23,7 +23,9 @@ using grading::Outcome;
 
 bool passes(const CheckResult& check) { return check.status == Outcome::kPass; }
 
-std::string textOrNothing(const fs::path& file) { return fs::is_regular_file(file) ? readTextFile(file) : ""; }
+std::string textOrNothing(const fs::path& file) {
+  return fs::is_regular_file(file) ? readTextFile(file) : "";
+}
 
 std::string taskOf(const fs::path& readMe) {
   const auto target = [](const std::string& link) {
@@ -41,10 +43,11 @@ std::string pointsOf(const grading::ExerciseInfo& exercise) {
   std::string text = "<h2>Points</h2>\n<table>\n";
   for (const ExercisePart& part : exercise.parts)
     text += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", htmlText(part.title), part.points);
-  return text + fmt::format("<tr><th>together</th><th>{}</th></tr>\n</table>\n<p class=\"soft\">A check may take "
-                            "{:g} s of processor time and {} MB of memory.</p>\n",
-                            exercise.points(), exercise.limits.cpuSeconds,
-                            exercise.limits.memory / grading::kMegabyte);
+  return text + fmt::format(
+                    "<tr><th>together</th><th>{}</th></tr>\n</table>\n<p class=\"soft\">A check may take "
+                    "{:g} s of processor time and {} MB of memory.</p>\n",
+                    exercise.points(), exercise.limits.cpuSeconds,
+                    exercise.limits.memory / grading::kMegabyte);
 }
 
 void fillIn(std::string& page, const std::string& name, const std::string& text) {
@@ -63,8 +66,10 @@ std::string shownFile(const WatchFile& file, const std::string& title) {
   if (file.name.ends_with(".png"))
     return fmt::format("<p><img alt=\"{}\" src=\"{}\"></p>\n", htmlText(title), address);
   return fmt::format(
-      "<details data-key=\"{0}\"><summary>Replay: {1}</summary>\n<iframe title=\"{1}\" data-src=\"{2}\"></iframe>\n"
-      "</details>\n<p class=\"soft\"><a href=\"{2}\" target=\"_blank\" rel=\"noopener\">Replay on a page of its "
+      "<details data-key=\"{0}\"><summary>Replay: {1}</summary>\n<iframe title=\"{1}\" "
+      "data-src=\"{2}\"></iframe>\n"
+      "</details>\n<p class=\"soft\"><a href=\"{2}\" target=\"_blank\" rel=\"noopener\">Replay on a page of "
+      "its "
       "own</a></p>\n",
       htmlText(file.name), htmlText(title), address);
 }
@@ -120,8 +125,8 @@ std::string evidencePart(const GradeResult& result, const std::vector<WatchFile>
 std::string ownPart(const std::vector<WatchFile>& files) {
   std::string text;
   for (const WatchFile& file : files)
-    text += fmt::format("<figure><figcaption class=\"soft\">{}</figcaption>{}</figure>\n", htmlText(file.name),
-                        shownFile(file, file.name));
+    text += fmt::format("<figure><figcaption class=\"soft\">{}</figcaption>{}</figure>\n",
+                        htmlText(file.name), shownFile(file, file.name));
   return text.empty() ? "" : "<h2>What your program has drawn</h2>\n" + text;
 }
 

@@ -28,7 +28,8 @@ struct WatchFile {
 };
 
 /// Pictures and replays of checks, as far as they are among the files.
-[[nodiscard]] std::string evidencePart(const grading::GradeResult& result, const std::vector<WatchFile>& files);
+[[nodiscard]] std::string evidencePart(const grading::GradeResult& result,
+                                       const std::vector<WatchFile>& files);
 
 /// What the student's own program has drawn.
 [[nodiscard]] std::string ownPart(const std::vector<WatchFile>& files);

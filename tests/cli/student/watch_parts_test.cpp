@@ -73,7 +73,8 @@ TEST(WatchParts, ShowPicturesAndReplaysOfChecksAndOfTheProgram) {
 
 TEST(WatchParts, OfferTheNextHintOfEachPart) {
   ExerciseInfo exercise;
-  exercise.parts = {{.id = "a", .title = "A", .hints = {"one <", "two"}}, {.id = "b", .title = "B", .hints = {"b1"}}};
+  exercise.parts = {{.id = "a", .title = "A", .hints = {"one <", "two"}},
+                    {.id = "b", .title = "B", .hints = {"b1"}}};
   EXPECT_THAT(hintsPart(exercise, {}), Not(HasSubstr("one")));
   EXPECT_THAT(hintsPart(exercise, {}), HasSubstr("data-hint=\"a\">Open hint 1 of 2"));
   const std::string later = hintsPart(exercise, {{"a", 1}, {"b", 99}});
