@@ -59,9 +59,10 @@
   async function assemble({ gltf, pieces: wanted }, read) {
     const before = pieces, encoder = new TextEncoder();
     pieces = new Map();
-    for (const [at, name] of wanted)
-      pieces.set(name, before.get(name) || read(name).then(a => a.arrayBuffer()).then(bytes => new Uint8Array(bytes)));
-    const all = await Promise.all(wanted.map(async ([at, name]) => [at, await pieces.get(name)]));
+    for (const [, name] of wanted)
+      if (name) pieces.set(name, before.get(name) || read(name).then(a => a.arrayBuffer()));
+    const all = await Promise.all(wanted.map(async ([at, name, small]) =>
+      [at, new Uint8Array(name ? await pieces.get(name) : rexStage.bytesOf(small))]));
     const json = encoder.encode(gltf), binary = Math.max(0, ...all.map(([at, bytes]) => at + bytes.length));
     const padded = Math.ceil(binary / 4) * 4, glb = new Uint8Array(28 + json.length + padded);
     const head = new DataView(glb.buffer), start = 28 + json.length;

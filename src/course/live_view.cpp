@@ -16,6 +16,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "base/base64.h"
 #include "base/error.h"
 #include "course/gl_choice.h"
 #include "course/simulator.h"
@@ -123,15 +124,16 @@ struct LiveView::Parts {
   }
 
   // Pictures change often, but most of their meshes do not: each piece is offered once, and withdrawn when
-  // the last pictures did without it.
+  // the last pictures did without it. Small ones are no request of their own.
   void offer(const std::string& glb, ViewJson about) {
-    constexpr std::size_t kKept = 30;
+    constexpr std::size_t kKept = 30, kSmall = 512;
     const LivePieces cut = piecesOf(glb);
     ViewJson list = ViewJson::array();
     std::set<std::string> names;
     for (const LivePiece& piece : cut.pieces) {
-      list.push_back({piece.at, piece.name});
-      if (names.insert(piece.name).second && ++offered[piece.name] == 1)
+      const bool isSmall = piece.bytes.size() <= kSmall;
+      list.push_back({piece.at, isSmall ? "" : piece.name, isSmall ? base64(piece.bytes) : ""});
+      if (!isSmall && names.insert(piece.name).second && ++offered[piece.name] == 1)
         server->offer(piece.name, {"application/octet-stream", piece.bytes});
     }
     recent.push_back(std::move(names));
