@@ -75,7 +75,7 @@ TEST_F(FeedbackTest, StopsAProgramThatDoesNotEndAndNamesTheLine) {
   EXPECT_THAT(ended.error,
               HasSubstr("The program was stopped after 1 s of CPU time; --seconds N allows more."));
   EXPECT_THAT(ended.error,
-              ::testing::ContainsRegex("After 5 s it is in line [4-8] of main.cpp, in (rotated|main)"));
+              ::testing::ContainsRegex("After 1 s it is in line [4-8] of main.cpp, in (rotated|main)"));
 }
 
 TEST_F(FeedbackTest, ShowsMatricesInTheDebugger) {

@@ -106,8 +106,7 @@ TEST(LectureNotesOnControl, FirstTheOtherWay) {
   const Vector4d goal(-1, 0, 0, 0);
   // Exactly, by the resolvent: the Laplace transform of x' = A x + B K (x - goal) at lambda.
   const Vector4d forced = -balanced.plant.B * (balanced.K * goal)(0);
-  const Vector4d transform =
-      inverse(lambda * Matrix4d::Identity() - balanced.closed) * (forced / lambda);
+  const Vector4d transform = inverse(lambda * Matrix4d::Identity() - balanced.closed) * (forced / lambda);
   EXPECT_NEAR(transform[0], 0, 1e-9);
   EXPECT_LT(balanced.poles.real().maxCoeff(), 0) << "it arrives";
 }

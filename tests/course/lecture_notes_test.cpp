@@ -129,8 +129,7 @@ TEST(LectureNotes, ProofsAboutGaussians) {
   EXPECT_NEAR(logDensity({a, A}, x), logDensity({x, A}, a), 1e-9);
   EXPECT_NEAR(logDensity({a, A}, x), logF + logDensity({F * a, F * A * F.transpose()}, F * x), 1e-8);
   EXPECT_NEAR(logDensity({a, A}, F * x + f),
-              -logF + logDensity({inverse(F) * (a - f), inverse(F) * A * inverse(F).transpose()}, x),
-              1e-8);
+              -logF + logDensity({inverse(F) * (a - f), inverse(F) * A * inverse(F).transpose()}, x), 1e-8);
   const MatrixXd C = inverse(inverse(A) + inverse(B));
   const VectorXd c = C * (inverse(A) * a + inverse(B) * b);
   EXPECT_NEAR(logDensity({a, A}, x) + logDensity({b, B}, x),
@@ -163,8 +162,7 @@ TEST(LectureNotes, StepsOfInverseKinematics) {
   // Without full row rank: b still holds, c does not.
   MatrixXd deficient = J;
   deficient.row(2) = deficient.row(0);
-  const MatrixXd sharp =
-      inverse(1e6 * deficient.transpose() * deficient + W) * deficient.transpose() * 1e6;
+  const MatrixXd sharp = inverse(1e6 * deficient.transpose() * deficient + W) * deficient.transpose() * 1e6;
   EXPECT_LT((deficient * (I7 - sharp * deficient) * a).norm(), 1e-3);
   EXPECT_GT(((I3 - deficient * sharp) * Eigen::Vector3d(1, 0, -1)).norm(), 1);
   // The share of a singular direction that a step leaves.

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/rng.h"
+#include "control/value_grid.h"
 #include "kinematics/forward_kinematics.h"
 #include "kinematics/inverse_kinematics.h"
 #include "kinematics/jacobians.h"
@@ -234,6 +235,49 @@ Figure pendulum() {
   return figure;
 }
 
+// A rod of 1 kg and 1 m whose motor is too weak to lift it at once.
+Figure valueOfAPendulum() {
+  const PlanarControlProblem problem{
+      .rate = [](const Vector2d& x,
+                 double u) { return Vector2d(x[1], 9.81 * std::sin(x[0]) - 0.1 * x[1] + u); },
+      .cost = [](const Vector2d& x,
+                 double u) { return 2 * (1 - std::cos(x[0])) + 0.05 * x[1] * x[1] + 0.02 * u * u; },
+      .uMin = -3,
+      .uMax = 3,
+      .discount = 0.1};
+  const ValueGrid grid(
+      problem,
+      {.lower = {-kPi, -9}, .upper = {kPi, 9}, .nodes = {201, 201}, .isAngle = {1, 0}, .controls = 13});
+  Figure figure{.title = "Cost of swinging up a pendulum from each state",
+                .xLabel = "angle from upright [rad]",
+                .yLabel = "angular velocity [rad/s]",
+                .colorLabel = "cost [1]",
+                .legend = Legend::kNone,
+                .series = {},
+                .heatMap = heatMapOf(
+                    [&](double x, double y) {
+                      return grid.value({x, y});
+                    },
+                    {-kPi, kPi}, {-9, 9}, 200, 200),
+                .notes = {{.text = "hangs", .x = -kPi, .y = 0}, {.text = "stands", .x = 0, .y = 0}},
+                .width = 720,
+                .height = 560};
+  figure.heatMap->contours = 10;
+  Vector2d x(-kPi + 1e-3, 0);
+  Series path{.size = 2, .color = Color{0.95f, 0.35f, 0.1f}};
+  for (int t = 0; t < 2000; ++t) {
+    append(path, x);
+    const double u = grid.control(x);
+    x += 0.005 * problem.rate(x + 0.0025 * problem.rate(x, u), u);
+    if (std::abs(x[0]) <= kPi) continue;
+    x[0] -= std::copysign(2 * kPi, x[0]);  // comes in again from the other side
+    figure.series.push_back(path);
+    path.x.clear(), path.y.clear();
+  }
+  figure.series.push_back(path);
+  return figure;
+}
+
 // A cart with an upright pendulum, sampled at 10 Hz: the optimal regulator by iteration of Riccati's
 // equation.
 Figure polesOfARegulator() {
@@ -406,6 +450,7 @@ std::vector<std::pair<std::string, Figure>> galleryFigures() {
           {"belief", beliefInACorridor()},
           {"contour", costAndPaths()},
           {"phase-portrait", pendulum()},
+          {"pendulum-value", valueOfAPendulum()},
           {"poles-discrete", polesOfARegulator()},
           {"poles-continuous", polesAndZeros()},
           {"covariance-ellipses", localisation()},

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -45,12 +46,12 @@ void listResults(const fs::path& folder, fs::file_time_type since) {
   for (const std::string& line : files) say("  " + line);
 }
 
-// The program again for some seconds, to say where it is then.
-void sayWhereItIs(const Project& project, const ExerciseInfo& exercise, const fs::path& file) {
-  constexpr double kSeconds = 5;
+// The program again for two seconds, or less where it was given less, to say where it is then.
+void sayWhereItIs(const Project& project, const ExerciseInfo& exercise, const fs::path& file, int allowed) {
+  const double seconds = std::min(2, allowed);
   const PrivateFolder work(project.workPlace("exercises/" + exercise.name));
-  const grading::Toolchain locating = grading::locatingToolchain(prepare(project, exercise), work.path(),
-                                                                 4096 * grading::kMegabyte, kSeconds);
+  const grading::Toolchain locating =
+      grading::locatingToolchain(prepare(project, exercise), work.path(), 4096 * grading::kMegabyte, seconds);
   const auto object = compileStudent(locating, {}, {.main = file, .workFolder = work.path() / "again"});
   if (!object.ok) return;
   const auto program = linkProgram(locating, object);
@@ -58,7 +59,7 @@ void sayWhereItIs(const Project& project, const ExerciseInfo& exercise, const fs
   const ProcessResult run = runProcess({program.program.string()}, {.directory = work.path()});
   const auto site = grading::crashSiteIn(run.error, object.name);
   if (site && site->line > 0)
-    note(fmt::format("After {:.0f} s it is in line {} of {}, in {}: an endless loop?", kSeconds, site->line,
+    note(fmt::format("After {:.0f} s it is in line {} of {}, in {}: an endless loop?", seconds, site->line,
                      object.name, harmless(site->function)));
 }
 
@@ -119,7 +120,7 @@ ExitCode run(const Project& project, const RunOptions& options) {
   if (!program) return ExitCode::kNotGradable;
   const Ended ended = runIn(out, {program->string()}, options.seconds);
   if (ended == Ended::kCrashed) note(fmt::format("To see where: scripts/rex debug {}", exercise.name));
-  if (ended == Ended::kTooLate) sayWhereItIs(project, exercise, file);
+  if (ended == Ended::kTooLate) sayWhereItIs(project, exercise, file, options.seconds);
   return codeOf(ended);
 }
 
