@@ -137,14 +137,14 @@ std::string hintsPart(const grading::ExerciseInfo& exercise, const std::map<std:
     const int all = static_cast<int>(part.hints.size());
     const int shown = std::clamp(found == shownHints.end() ? 0 : found->second, 0, all);
     if (all == 0) continue;
-    text += fmt::format("<h3>{}</h3>\n", htmlText(part.title));
-    if (shown > 0) text += "<ol>\n";
+    text += fmt::format("<p class=\"part\">{}", htmlText(part.title));
+    if (shown < all)
+      text += fmt::format("<button type=\"button\" data-hint=\"{}\">Open hint {} of {}</button>",
+                          htmlText(part.id), shown + 1, all);
+    text += "</p>\n<ol>\n";
     for (int k = 0; k < shown; ++k)
       text += "<li>" + htmlText(part.hints[static_cast<std::size_t>(k)]) + "</li>\n";
-    if (shown > 0) text += "</ol>\n";
-    if (shown < all)
-      text += fmt::format("<p><button type=\"button\" data-hint=\"{}\">Open hint {} of {}</button></p>\n",
-                          htmlText(part.id), shown + 1, all);
+    text += "</ol>\n";
   }
   if (text.empty()) return "";
   return "<h2>Hints</h2>\n" + text + "<p class=\"soft\">They count as those of rex hint.</p>\n";
