@@ -29,10 +29,11 @@ constexpr const char* kReplayPolicy =
 
 void offerFiles(LiveServer& server, const std::vector<WatchFile>& files) {
   for (const WatchFile& file : files) {
-    const bool isPicture = file.name.ends_with(".png");
-    server.offer(file.name, {.type = isPicture ? "image/png" : "text/html; charset=utf-8",
-                             .bytes = file.bytes,
-                             .policy = isPicture ? "" : kReplayPolicy});
+    const bool isPage = file.name.ends_with(".html");
+    const char* const type = isPage                        ? "text/html; charset=utf-8"
+                             : file.name.ends_with(".png") ? "image/png"
+                                                           : "video/mp4";
+    server.offer(file.name, {.type = type, .bytes = file.bytes, .policy = isPage ? kReplayPolicy : ""});
   }
 }
 

@@ -65,6 +65,8 @@ std::string shownFile(const WatchFile& file, const std::string& title) {
   const std::string address = addressOf(file);
   if (file.name.ends_with(".png"))
     return fmt::format("<p><img alt=\"{}\" src=\"{}\"></p>\n", htmlText(title), address);
+  if (file.name.ends_with(".mp4"))
+    return fmt::format("<p><video controls preload=\"metadata\" src=\"{}\"></video></p>\n", address);
   return fmt::format(
       "<details data-key=\"{0}\"><summary>Replay: {1}</summary>\n<iframe title=\"{1}\" "
       "data-src=\"{2}\"></iframe>\n"
@@ -77,7 +79,7 @@ std::string shownFile(const WatchFile& file, const std::string& title) {
 bool isShowable(const fs::path& file) {
   constexpr std::uintmax_t kMost = 8'000'000;
   std::error_code problem;
-  return (file.extension() == ".png" || file.extension() == ".html") &&
+  return (file.extension() == ".png" || file.extension() == ".html" || file.extension() == ".mp4") &&
          fs::symlink_status(file, problem).type() == fs::file_type::regular &&
          fs::file_size(file, problem) <= kMost && !problem;
 }

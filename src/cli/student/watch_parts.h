@@ -42,7 +42,8 @@ struct WatchFile {
 [[nodiscard]] std::string sourcePart(const grading::GradeResult& result, const std::string& source,
                                      const std::string& path);
 
-/// The files that checks left, and those of the program: pictures and pages, at most thirty of at most 8 MB.
+/// The files that checks left, and those of the program: pictures, pages and films, at most thirty of at most
+/// 8 MB.
 [[nodiscard]] std::vector<WatchFile> filesOfChecks(const grading::GradeResult& result,
                                                    const std::filesystem::path& folder);
 [[nodiscard]] std::vector<WatchFile> filesOfProgram(const std::filesystem::path& folder);
