@@ -47,6 +47,7 @@ std::span<const TableEntry> commandTable() {
       {"cma", "Count the evaluations that CMA-ES needs for a test function", kMethods},
       {"care", "Solve an algebraic Riccati equation in continuous time", kMethods},
       {"dare", "Solve an algebraic Riccati equation in discrete time", kMethods},
+      {"linear", "Judge a linear system: stability, control, observation, Bode and Nyquist plots", kMethods},
       {"import", "Take submissions from Moodle, Classroom, Gradescope or folders", kInstructor},
       {"grade", "Grade the submissions of many students", kInstructor},
       {"grade-one", "Grade one line of a list of tasks, unless it is done", kInstructor},

@@ -11,6 +11,7 @@ Room methodsRoom() {
                        {"curves", addCurves},
                        {"dare", addDare},
                        {"filter", addFilter},
+                       {"linear", addLinear},
                        {"slam", addSlam}}};
 }
 
