@@ -45,6 +45,7 @@ std::span<const TableEntry> commandTable() {
       {"slam", "Optimize a pose graph, so that the map fits its measurements", kMethods},
       {"filter", "Let a filter track the car: errors, consistency and a film", kMethods},
       {"cma", "Count the evaluations that CMA-ES needs for a test function", kMethods},
+      {"search", "Compare searches without derivatives on test functions", kMethods},
       {"care", "Solve an algebraic Riccati equation in continuous time", kMethods},
       {"dare", "Solve an algebraic Riccati equation in discrete time", kMethods},
       {"linear", "Judge a linear system: stability, control, observation, Bode and Nyquist plots", kMethods},

@@ -12,6 +12,7 @@ Room methodsRoom() {
                        {"dare", addDare},
                        {"filter", addFilter},
                        {"linear", addLinear},
+                       {"search", addSearch},
                        {"slam", addSlam}}};
 }
 
