@@ -82,15 +82,15 @@ double bestOf(const Eigen::MatrixXd& Q, int s) { return Q.row(s).maxCoeff(); }
 
 Eigen::MatrixXd learnedBy(const Eigen::MatrixXd& Q, const std::vector<Experience>& steps, double stepSize,
                           double discount, bool isSarsa) {
-  Eigen::MatrixXd learned = Q;
+  Eigen::MatrixXd after(Q);
   for (std::size_t t = 0; t < steps.size(); ++t) {
     const bool isLast = t + 1 == steps.size();
     if (isSarsa && isLast && !steps[t].ended) break;
-    rex::learnFrom(learned, tabular(steps[t]),
+    rex::learnFrom(after, tabular(steps[t]),
                    isSarsa && !isLast ? std::optional(steps[t + 1].action) : std::nullopt, stepSize,
                    discount);
   }
-  return learned;
+  return after;
 }
 
 // Episodes that end, episodes that do not, and no steps at all.
@@ -169,14 +169,13 @@ void estimates(Check& check, Student& student, int states, int actions, int coun
     const auto shown = check.show([&] { return tableSeen("R", got.R, wanted.R); });
     check.near("R", got.R, wanted.R, 1e-9);
   }
-  for (int a = 0; a < actions; ++a) {
-    const auto& P = wanted.P[static_cast<std::size_t>(a)];
-    const Eigen::MatrixXd& mine = got.P[static_cast<std::size_t>(a)];
+  for (std::size_t a = 0; a < wanted.P.size(); ++a) {
+    const Eigen::MatrixXd &P = wanted.P[a], &mine = got.P[a];
     const std::string property = fmt::format("P of action {}", a);
     check.shape(property, mine, states, states);
     Eigen::MatrixXd counts = P, normed = P;
-    for (int s = 0; s < states; ++s) {
-      counts.row(s) *= wanted.visits(s, a);
+    for (Eigen::Index s = 0; s < P.rows(); ++s) {
+      counts.row(s) *= wanted.visits(s, static_cast<Eigen::Index>(a));
       if (P.row(s).sum() > 0) normed.row(s) /= P.row(s).sum();
     }
     const auto counted = check.suspect("Are these counts? Wanted are frequencies.", counts);

@@ -8,7 +8,7 @@
 // <solution qLearned>
 Eigen::MatrixXd learned = Q;
 for (const Experience& e : steps)
-  learnFrom(learned, {e.state, e.action, e.reward, e.ended ? std::nullopt : std::optional(e.next)}, std::nullopt,
-            stepSize, discount);
+  learnFrom(learned, {e.state, e.action, e.reward, e.ended ? std::nullopt : std::optional(e.next)},
+            std::nullopt, stepSize, discount);
 return learned;
 // </solution>
