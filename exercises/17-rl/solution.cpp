@@ -60,8 +60,8 @@ Eigen::MatrixXd sarsaLearned(const Eigen::MatrixXd& Q, const std::vector<Experie
 
 LearnedWorld estimated(const std::vector<Experience>& steps, int states, int actions) {
   // <solution estimated>
-  const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(states, actions);
-  LearnedWorld model{{}, none, none};
+  LearnedWorld model;
+  model.R = model.visits = Eigen::MatrixXd::Zero(states, actions);
   model.P.assign(static_cast<std::size_t>(actions), Eigen::MatrixXd::Zero(states, states));
   for (const Experience& step : steps) {
     model.visits(step.state, step.action) += 1;

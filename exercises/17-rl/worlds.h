@@ -98,12 +98,13 @@ inline Eigen::MatrixXd exactValues(const LearnedWorld& model, double discount) {
 
 /// The model in which pairs that are not known are worth that much.
 inline LearnedWorld hopeful(LearnedWorld model, int known, double worth) {
-  for (Eigen::Index s = 0; s < model.R.rows(); ++s)
-    for (Eigen::Index a = 0; a < model.R.cols(); ++a)
-      if (!(model.visits(s, a) >= known)) {
-        model.P[static_cast<std::size_t>(a)].row(s) *= 0;
-        model.R(s, a) = worth;
-      }
+  for (std::size_t a = 0; a < model.P.size(); ++a)
+    for (Eigen::Index s = 0; s < model.visits.rows(); ++s) {
+      const auto column = static_cast<Eigen::Index>(a);
+      if (!(model.visits(s, column) < known)) continue;
+      model.P[a].row(s) *= 0;
+      model.R(s, column) = worth;
+    }
   return model;
 }
 

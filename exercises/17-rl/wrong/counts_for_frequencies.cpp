@@ -3,8 +3,8 @@
 // mistake: does not divide the counts.
 
 // <solution estimated>
-const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(states, actions);
-LearnedWorld model{{}, none, none};
+LearnedWorld model;
+model.R = model.visits = Eigen::MatrixXd::Zero(states, actions);
 model.P.assign(static_cast<std::size_t>(actions), Eigen::MatrixXd::Zero(states, states));
 for (const Experience& step : steps) {
   model.visits(step.state, step.action) += 1;
