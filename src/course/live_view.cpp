@@ -65,6 +65,7 @@ struct LiveView::Parts {
   Film film{};
   std::size_t stride = 1, count = 0;
   std::optional<Picture> last{};
+  Eigen::Vector3d view = kDefaultView;
 
   Control& control(const std::string& kind, const std::string& called) {
     for (Control& one : controls)
@@ -171,6 +172,7 @@ LiveView::~LiveView() {
     settleGround(parts_->film);
     writeReport({.title = parts_->name,
                  .film = parts_->film,
+                 .view = parts_->view,
                  .still = {.width = 640, .height = 480, .gl = glChoice()}},
                 parts_->name + ".html");
   } catch (const std::exception& error) {
@@ -210,11 +212,14 @@ void LiveView::show(const Picture& picture) {
   const ViewJson about = {
       {"kind", "program"},           {"title", parts.name},         {"mass", 0},
       {"bodies", ViewJson::array()}, {"shapes", ViewJson::array()}, {"coordinates", ViewJson::array()}};
-  parts.offer(glbOf({{.picture = picture}}), about.dump(-1, ' ', false, ViewJson::error_handler_t::replace));
+  parts.offer(glbOf({{.picture = picture}}, parts.view),
+              about.dump(-1, ' ', false, ViewJson::error_handler_t::replace));
   parts.poses.clear(), parts.q = ViewJson::array();
   parts.waitForTurn();
   parts.publish();
 }
+
+void LiveView::lookFrom(const Eigen::Vector3d& direction) { parts_->view = direction; }
 
 double LiveView::slider(const std::string& name, double low, double high, double start) {
   if (!(low <= start && start <= high && std::isfinite(high - low)))

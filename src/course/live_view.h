@@ -3,6 +3,8 @@
 #include <memory>
 #include <string>
 
+#include <Eigen/Core>
+
 namespace rex {
 
 class Simulator;
@@ -29,6 +31,9 @@ class LiveView {
   /// somebody looks. Throws Error as glbOf() (render/glb.h), and for a robot without any shape.
   void show(const Simulator& simulator);
   void show(const Picture& picture);
+
+  /// Lets the page and the replay look at pictures from this direction (W, any length) from now on.
+  void lookFrom(const Eigen::Vector3d& direction);
 
   /// The value of a slider on the page, which first is `start`. Throws Error unless low <= start <= high.
   double slider(const std::string& name, double low, double high, double start);

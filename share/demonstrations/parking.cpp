@@ -1,0 +1,89 @@
+// Chapter 4: A car parks. A tree of drives grows from the street into the gap between two parked cars; then
+// the car drives the way that it found. Sliders change gap and steering; cars cannot slide sideways, which
+// makes it hard.
+#include "course/car_pictures.h"
+#include "course/course.h"
+#include "course/live_view.h"
+#include "planning/car.h"
+#include "planning/control_tree.h"
+#include "planning/reeds_shepp.h"
+#include "render/picture.h"
+
+using namespace rex;
+
+int main() {
+  LiveView view("parking");
+  view.lookFrom({0, -0.7, 1});
+  Eigen::Vector3d last(0, 0, 0);
+  ControlPath way;
+  int age = 0, seed = 1;
+  for (int t = 0; t < 330 || view.isWatched(); ++t, ++age) {
+    const double gap = view.slider("gap [m]", 3.6, 9, 5.5),
+                 steering = view.slider("largest steering [rad]", 0.3, 1, 0.7);
+    if (view.button("another tree")) ++seed, last.setZero();
+    if (const Eigen::Vector3d now(gap, steering, 0); now != last) last = now, age = 0;
+    const Car car{.wheelbase = 2, .maxSteering = steering};
+    // Cars are 3 m long and 1.5 m wide; their poses are 0.5 m ahead of the rear end.
+    const auto isFree = [&](const VectorArg& x) {
+      for (const double ahead : {-0.5, 0., 0.5, 1., 1.5, 2., 2.5})
+        for (const double aside : {-0.75, 0., 0.75}) {
+          const double px = x[0] + ahead * std::cos(x[2]) - aside * std::sin(x[2]),
+                       py = x[1] + ahead * std::sin(x[2]) + aside * std::cos(x[2]);
+          if (py < 0 || py > 6.5 || (py < 1.8 && std::abs(px) > gap / 2)) return false;
+        }
+      return true;
+    };
+    const double radius = car.turningRadius();
+    const ControlSystem system{
+        .space = Space::se2({-9, 0.5}, {8, 6}),
+        .lower = Eigen::Vector2d(-1, -steering),
+        .upper = Eigen::Vector2d(1, steering),
+        .motion = [&](const VectorArg& x, const VectorArg& u,
+                      double s) { return Eigen::VectorXd(driveCar(car, x, u, s)); },
+        .distance = [&](const VectorArg& a, const VectorArg& b) { return reedsSheppLength(a, b, radius); }};
+    const PathProblem problem{.space = system.space,
+                              .allValid = eachColumn(isFree),
+                              .start = Eigen::Vector3d(-7.5, 3.2, 0),
+                              .goal = Eigen::Vector3d(-1, 0.95, 0)};
+    constexpr int kEach = 25, kMost = 120;  // targets for each picture, pictures of the search
+    if (age <= kMost && (age == 0 || way.found.status != PathStatus::kFound)) {
+      Rng rng(seed);
+      way = growControlTree(
+          system, problem,
+          {.duration = 0.8, .trials = 12, .goalBias = 0.2, .tolerance = 0.5, .maxSamples = 1 + kEach * age},
+          rng);
+      if (way.found.status == PathStatus::kFound) age = kMost + 1;
+    }
+    CarView show{.car = problem.start, .estimate = problem.goal};
+    if (way.found.path.cols() > 1) {
+      const double at = std::fmod(std::max(0, age - kMost - 1) / 12., way.found.path.cols() + 2.);
+      const int piece = std::min(static_cast<int>(at), static_cast<int>(way.found.path.cols()) - 1);
+      Eigen::Vector3d x = way.found.path.col(piece);
+      if (piece < way.controls.cols())
+        x = driveCar(car, x, way.controls.col(piece), (at - piece) * way.duration);
+      show.car = x;
+    }
+    show.caption = way.found.status == PathStatus::kFound
+                       ? "found after " + std::to_string(way.found.samples) + " targets"
+                       : "the tree grows";
+    Picture picture = pictureOf(show);
+    LineSet tree{.color = kEstimateColor, .width = 1.5};
+    for (const PathTree& one : way.found.trees)
+      for (int i = 0; i < one.nodes.cols(); ++i)
+        if (const int p = one.parents[i]; p >= 0)
+          tree.segments.push_back(
+              {{one.nodes(0, i), one.nodes(1, i), 0.03}, {one.nodes(0, p), one.nodes(1, p), 0.03}});
+    if (!tree.segments.empty()) picture.lineSets.push_back(tree);
+    for (const double side : {-1., 1.})
+      picture.solids.push_back({{.type = ShapeType::kBox, .extent = {3, 1.5, 1}},
+                                translation(side * (gap / 2 + 1.5), 1, 0.5),
+                                kTruthColor,
+                                "parked"});
+    picture.solids.push_back({{.type = ShapeType::kBox, .extent = {20, 0.3, 0.2}},
+                              translation(0, -0.15, 0.1),
+                              kScanColor,
+                              "kerb"});
+    view.plot("nodes of the tree", t / 30., static_cast<double>(tree.segments.size()));
+    view.show(picture);
+  }
+}
