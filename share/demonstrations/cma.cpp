@@ -13,7 +13,7 @@ using namespace rex;
 
 int main() {
   LiveView view("cma");
-  view.lookFrom({0, -0.3, 1});
+  view.lookFrom({0, -0.25, 1});
   const auto height = [](double x, double y) {
     return std::pow(1 - x, 2) + 100 * std::pow(y - x * x, 2);
   };                           // Rosenbrock
@@ -55,12 +55,13 @@ int main() {
       Eigen::VectorXd values(X.cols());
       for (int i = 0; i < X.cols(); ++i) values[i] = height(X(0, i), X(1, i));
       search->update(X, values);
-      view.plot("log10 of the best value", search->generation(), std::log10(values.minCoeff() + 1e-12));
-      view.plot("log10 of sigma", search->generation(), std::log10(search->sigma()));
+      view.plot("log10 of the best value", search->generation(), std::log10(values.minCoeff() + 1e-12),
+                "generation");
+      view.plot("log10 of sigma", search->generation(), std::log10(search->sigma()), "generation");
       search->sample(X, rng);
       way.push_back({search->mean()[0], search->mean()[1], 0.02});
     }
-    Picture picture{.ground = {.height = -0.02}};
+    Picture picture{.ground = {.visible = false}};
     picture.lineSets = rings;
     Eigen::Matrix3d flat = 1e-6 * Eigen::Matrix3d::Identity();
     flat.topLeftCorner<2, 2>() = search->sigma() * search->sigma() * search->covariance();

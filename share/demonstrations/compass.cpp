@@ -34,7 +34,7 @@ int main() {
         x += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4), left -= h;
       } else if (coming.status == StepStatus::kStepped) {
         view.plot("length of steps [m]", ++steps,
-                  2 * std::sin(std::abs(coming.after[0] - coming.after[1]) / 2));
+                  2 * std::sin(std::abs(coming.after[0] - coming.after[1]) / 2), "step");
         x = coming.after, leftStands = !leftStands, coming = walker.step(x), left = coming.time;
       } else {
         fell = true, wait = 60, x = coming.before;

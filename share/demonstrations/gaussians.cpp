@@ -13,7 +13,7 @@ using namespace rex;
 
 int main() {
   LiveView view("gaussians");
-  view.lookFrom({0, -0.5, 1});
+  view.lookFrom({0, -0.25, 1});
   Rng rng(1);
   const Gaussian unit{.mean = Eigen::Vector2d::Zero(), .covariance = Eigen::Matrix2d::Identity()};
   const Eigen::MatrixXd draws = sampledParticles(unit, 400, rng).states;
@@ -32,7 +32,7 @@ int main() {
                         .covariance = noise};
     const Gaussian posterior = multiplied(prior, seen).gaussian;
 
-    Picture picture{.ground = {.height = -0.1}};
+    Picture picture{.ground = {.visible = false}};
     const auto draw = [&](const Gaussian& one, Color color, const std::string& name, double z) {
       Eigen::Matrix3d flat = 1e-4 * Eigen::Matrix3d::Identity();
       flat.topLeftCorner<2, 2>() = one.covariance;

@@ -59,7 +59,7 @@ int main() {
     picture.lineSets.push_back(lines);
     Color pale = color;
     pale.a = 0.3f;
-    if (!hull.triangles.empty())
+    if (!hull.triangles().empty())
       picture.solids.push_back({{.type = ShapeType::kMesh, .mesh = hull}, middle, pale, "hull"});
     if (isHeld)
       picture.ellipsoids.push_back({.X_WE = middle,

@@ -32,11 +32,11 @@ Polyline lineOf(const Eigen::Matrix3Xd& poses, const Color& color, double z, dou
 
 int main() {
   LiveView view("loops");
-  view.lookFrom({0, -0.6, 1});
+  view.lookFrom({0, -0.25, 1});
   Rng rng(4);
   PlanarPoseGraph graph;
   Eigen::Matrix3Xd truth, odometry;
-  for (int t = 0, age = 0; t < 330 || view.isWatched(); ++t, ++age) {
+  for (int t = 0, age = 0; t < 300 || view.isWatched(); ++t, ++age) {
     const double drift = view.slider("drift of odometry", 0, 0.1, 0.03),
                  closure = view.slider("noise of closures", 0.01, 1, 0.05);
     const double wrong = view.slider("wrong closures", 0, 1, 0),
@@ -68,7 +68,7 @@ int main() {
             break;
           }
     }
-    Picture picture{.ground = {.height = -0.05}};
+    Picture picture{.ground = {.visible = false}};
     if (truth.cols() > 1) {
       picture.polylines = {lineOf(truth, {0.6f, 0.6f, 0.6f}, 0, 6),
                            lineOf(odometry, kDeadReckoningColor, 0.02, 2.5),

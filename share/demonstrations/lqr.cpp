@@ -1,6 +1,9 @@
 // Chapter 8: Linear quadratic regulation. Costs Q of errors and R of force give the feedback that balances
 // the pole; pushes come every three seconds. Cheap force (small R) acts hard and fast, dear force lets it
 // sway.
+#include <iomanip>
+#include <sstream>
+
 #include "control/regulators.h"
 #include "course/cart_pole.h"
 #include "course/cart_pole_pictures.h"
@@ -19,7 +22,7 @@ int main() {
     const double place = view.slider("Q of the place", 0, 50, 1),
                  angle = view.slider("Q of the angle", 0, 100, 10);
     const double force = view.slider("log10 of R", -3, 2, -1),
-                 strength = view.slider("push [rad/s]", 0, 3, 1.2);
+                 strength = view.slider("push [rad/s]", 0, 3, 0.8);
     const RiccatiResult regulator =
         lqr({.A = upright.A, .B = upright.B},
             Eigen::Vector4d(place + 1e-6, 0, angle, 0).asDiagonal().toDenseMatrix(),
@@ -28,12 +31,14 @@ int main() {
     if (view.button("push right") || t % 90 == 30) plant.x[3] += strength;
     if (view.button("set upright") || std::abs(plant.x[2]) > 1.5 || std::abs(plant.x[0]) > 6)
       plant.x.setZero();
+    std::ostringstream text;
+    if (regulator.K.size() > 0) text << std::setprecision(3) << "K = " << regulator.K;
     double u = 0;
     for (int i = 0; i < 10; ++i)
       plant.step(u = regulator.K.size() > 0 ? -regulator.K.row(0).dot(plant.x) : 0);
     view.plot("place [m]", t / 30., plant.x[0]);
     view.plot("angle [rad]", t / 30., plant.x[2]);
     view.plot("force [N]", t / 30., u);
-    view.show(pictureOf(CartPoleView{.x = plant.x, .u = u}));
+    view.show(pictureOf(CartPoleView{.x = plant.x, .u = u, .caption = text.str()}));
   }
 }

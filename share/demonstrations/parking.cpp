@@ -45,34 +45,33 @@ int main() {
                               .allValid = eachColumn(isFree),
                               .start = Eigen::Vector3d(-7.5, 3.2, 0),
                               .goal = Eigen::Vector3d(-1, 0.95, 0)};
-    constexpr int kEach = 25, kMost = 120;  // targets for each picture, pictures of the search
-    if (age <= kMost && (age == 0 || way.found.status != PathStatus::kFound)) {
+    if (age == 0) {
       Rng rng(seed);
       way = growControlTree(
           system, problem,
-          {.duration = 0.8, .trials = 12, .goalBias = 0.2, .tolerance = 0.5, .maxSamples = 1 + kEach * age},
-          rng);
-      if (way.found.status == PathStatus::kFound) age = kMost + 1;
+          {.duration = 0.8, .trials = 8, .goalBias = 0.2, .tolerance = 0.5, .maxSamples = 1500}, rng);
     }
+    const int nodes = static_cast<int>(way.found.trees.at(0).nodes.cols()),
+              shown = std::min(nodes, 1 + nodes * age / 120);  // four seconds
     CarView show{.car = problem.start, .estimate = problem.goal};
-    if (way.found.path.cols() > 1) {
-      const double at = std::fmod(std::max(0, age - kMost - 1) / 12., way.found.path.cols() + 2.);
+    if (way.found.path.cols() > 1 && shown == nodes) {
+      const double at = std::fmod(std::max(0, age - 125) / 12., way.found.path.cols() + 2.);
       const int piece = std::min(static_cast<int>(at), static_cast<int>(way.found.path.cols()) - 1);
       Eigen::Vector3d x = way.found.path.col(piece);
       if (piece < way.controls.cols())
         x = driveCar(car, x, way.controls.col(piece), (at - piece) * way.duration);
       show.car = x;
     }
-    show.caption = way.found.status == PathStatus::kFound
-                       ? "found after " + std::to_string(way.found.samples) + " targets"
-                       : "the tree grows";
+    const std::string end =
+        way.found.status == PathStatus::kFound ? " drives: found" : " drives: nothing found";
+    show.caption = std::to_string(shown) + (shown < nodes ? " drives" : end);
     Picture picture = pictureOf(show);
     LineSet tree{.color = kEstimateColor, .width = 1.5};
-    for (const PathTree& one : way.found.trees)
-      for (int i = 0; i < one.nodes.cols(); ++i)
-        if (const int p = one.parents[i]; p >= 0)
-          tree.segments.push_back(
-              {{one.nodes(0, i), one.nodes(1, i), 0.03}, {one.nodes(0, p), one.nodes(1, p), 0.03}});
+    const PathTree& one = way.found.trees[0];
+    for (int i = 0; i < shown; ++i)
+      if (const int p = one.parents[i]; p >= 0)
+        tree.segments.push_back(
+            {{one.nodes(0, i), one.nodes(1, i), 0.03}, {one.nodes(0, p), one.nodes(1, p), 0.03}});
     if (!tree.segments.empty()) picture.lineSets.push_back(tree);
     for (const double side : {-1., 1.})
       picture.solids.push_back({{.type = ShapeType::kBox, .extent = {3, 1.5, 1}},

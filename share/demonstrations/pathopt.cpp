@@ -12,7 +12,7 @@ using namespace rex;
 
 int main() {
   LiveView view("pathopt");
-  view.lookFrom({0, -0.6, 1});
+  view.lookFrom({0, -0.25, 1});
   const int steps = 40;
   const Eigen::Vector2d start(0.5, 3), goal(9.5, 3);
   Eigen::MatrixXd X = straightTrajectory(start, goal, steps);
@@ -40,7 +40,7 @@ int main() {
     const TrajectoryProblem problem(terms, start.replicate(1, 2), steps, 0.1);
     X = optimizeTrajectory(problem, X, {.maxIterations = 3}).X;
 
-    Picture picture{.ground = {.height = -0.02}};
+    Picture picture{.ground = {.visible = false}};
     for (const Eigen::Vector2d& d : discs)
       picture.solids.push_back({{.type = ShapeType::kCylinder, .extent = {0, 0, 0.3}, .radius = radius},
                                 translation(d.x(), d.y(), 0.15),

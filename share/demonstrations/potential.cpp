@@ -10,7 +10,7 @@ using namespace rex;
 
 int main() {
   LiveView view("potential");
-  view.lookFrom({0, -0.6, 1});
+  view.lookFrom({0, -0.25, 1});
   for (int t = 0; t < 240 || view.isWatched(); ++t) {
     const double move = view.slider("pocket moves by [m]", 0, 2, 1.5),
                  middle = view.slider("pocket at y [m]", 2, 6, 4);
@@ -19,7 +19,7 @@ int main() {
                  reach = view.slider("reach [m]", 0.2, 2, 1);
     const double y = middle + move * std::sin(t / 38.1972);
     GridMap map(60, 40, 0.2);
-    Picture picture{.ground = {.height = -0.02}};
+    Picture picture{.ground = {.visible = false}};
     const Eigen::Array4d boxes[] = {
         {6.6, y - 1, 7.0, y + 1}, {5.6, y - 1, 6.6, y - 0.6}, {5.6, y + 0.6, 6.6, y + 1}, {3, 1, 3.8, 2.2}};
     for (const Eigen::Array4d& b : boxes)

@@ -15,12 +15,12 @@ int main() {
   const Eigen::Vector3d right = S.kinematicsPos("handR"), left = S.kinematicsPos("handL");
   bool rightFirst = true;
   for (int t = 0; t < 360 || view.isWatched(); ++t) {
-    const double apart = view.slider("targets apart [m]", 0, 1.5, 0.7),
-                 ahead = view.slider("ahead [m]", -0.5, 1, 0.3);
+    const double apart = view.slider("targets apart [m]", 0, 1.5, 0.45),
+                 ahead = view.slider("ahead [m]", -0.5, 1, 0.2);
     if (view.button("swap priorities") || t == 200) rightFirst = !rightFirst;
     const double share = std::min(1., t / 100.);
-    const Eigen::Vector3d targets[] = {right + share * Eigen::Vector3d(-apart, -ahead, 0.3),
-                                       left + share * Eigen::Vector3d(apart, -ahead, 0.3)};
+    const Eigen::Vector3d targets[] = {right + share * Eigen::Vector3d(-apart, -ahead, 0.1),
+                                       left + share * Eigen::Vector3d(apart, -ahead, 0.1)};
     const char* hands[] = {"handR", "handL"};
     Eigen::VectorXd q = S.getJointAngles();
     std::vector<TaskLevel> levels;

@@ -15,24 +15,24 @@ int main() {
   view.lookFrom({0, -0.6, 1});
   Eigen::Matrix2Xd posts(2, 16);
   for (int i = 0; i < 16; ++i)
-    posts.col(i) = Eigen::Vector2d(0, 20) +
-                   (i % 2 == 0 ? 24 : 16) * Eigen::Vector2d(std::sin(i / 2.5465), -std::cos(i / 2.5465));
+    posts.col(i) = Eigen::Vector2d(0, 12) +
+                   (i % 2 == 0 ? 15 : 9) * Eigen::Vector2d(std::sin(i / 2.5465), -std::cos(i / 2.5465));
   CarSimulator car(1, 16, {.dynamicsNoise = 0});
   std::optional<EkfSlam> slam;
   std::vector<int> number;  // of each landmark in the map; -1: not seen yet
   Rng rng(2);
   int age = 0, loop = 0;
-  for (int t = 0; t < 480 || view.isWatched(); ++t, ++age) {
-    const double noise = view.slider("noise of landmarks [m]", 0.05, 2, 0.3),
-                 drift = view.slider("noise of the motion", 0.01, 0.3, 0.05);
-    const double range = view.slider("range of sight [m]", 5, 40, 10);
+  for (int t = 0; t < 300 || view.isWatched(); ++t, ++age) {
+    const double noise = view.slider("noise of landmarks [m]", 0.05, 2, 0.4),
+                 drift = view.slider("noise of the motion", 0.01, 0.3, 0.08);
+    const double range = view.slider("range of sight [m]", 3, 40, 7);
     if (view.button("from the start") || !slam) {
       car.setState(Eigen::Vector3d::Zero()), car.setLandmarks(posts), number.assign(16, -1), age = 0;
       slam.emplace(
           Gaussian{.mean = Eigen::Vector3d::Zero(), .covariance = 1e-6 * Eigen::Matrix3d::Identity()},
           LandmarkSensor{.W = noise * noise * Eigen::Matrix2d::Identity()});
     }
-    const Eigen::Vector2d u(0.5, std::atan(2. / 20));  // a circle of 20 m, 251 steps
+    const Eigen::Vector2d u(0.5, std::atan(2. / 12));  // a circle of 12 m, 151 steps
     Eigen::Vector3d x = car.getMeanStateAfterStep(car.getState(), u);
     car.setState(x + drift * Eigen::Vector3d(1, 1, 0.3).cwiseProduct(Eigen::Vector3d(rng.normalVector(3))));
     slam->predict(
@@ -61,12 +61,12 @@ int main() {
     const Gaussian pose = slam->pose();
     show.estimate = Eigen::Vector3d(pose.mean),
     show.poseBeliefs = {{pose.mean.head<2>(), pose.covariance.topLeftCorner<2, 2>()}};
-    loop = age / 251 + 1;
+    loop = age / 151 + 1;
     show.caption =
         "loop " + std::to_string(loop) + ", " + std::to_string(slam->landmarks()) + " landmarks in the map";
     Picture picture = pictureOf(show);
     picture.polylines.push_back(
-        {.points = {{-28, -8, 0}, {28, -8, 0}, {28, 48, 0}, {-28, 48, 0}, {-28, -8, 0}},
+        {.points = {{-18, -6, 0}, {18, -6, 0}, {18, 30, 0}, {-18, 30, 0}, {-18, -6, 0}},
          .color = kTruthColor});
     view.plot("mean deviation of a landmark [m]", t / 30., area);
     view.plot("error of the pose [m]", t / 30., (pose.mean - x).head<2>().norm());

@@ -43,7 +43,7 @@ int main() {
       for (Solid one : solidsOf(model, forwardKinematics(model, arms[k].getJointAngles())))
         one.X_WS = place * one.X_WS, picture.solids.push_back(one);
       picture.labels.push_back({.text = k == 0 ? "PD" : "computed torque",
-                                .p_WQ = place.p + Eigen::Vector3d(0, 0, 2.2),
+                                .p_WQ = place.p + Eigen::Vector3d(0, 0, 1.55),
                                 .scale = 2});
       view.plot(k == 0 ? "error of PD [rad]" : "error of computed torque [rad]", t / 30.,
                 (wanted.q - arms[k].getJointAngles()).norm());

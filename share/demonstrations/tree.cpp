@@ -10,7 +10,7 @@ using namespace rex;
 
 int main() {
   LiveView view("tree");
-  view.lookFrom({0, -0.6, 1});
+  view.lookFrom({0, -0.25, 1});
   const Eigen::Array4d walls[] = {
       {2.6, 0, 3.0, 4.2}, {5.6, 1.8, 6.0, 6}, {7.6, 0, 8.0, 3.6}};  // from x, y to x, y
   const auto isFree = [&](const VectorArg& q) {
@@ -29,10 +29,10 @@ int main() {
     if (view.button("another tree") || age == 240) last[0] = -1, ++seed;
     if (const Eigen::Vector4d now(x, y, step, bias); now != last) last = now, age = 0;
     problem.goal = Eigen::Vector2d(x, y);
-    Picture picture{.ground = {.height = -0.02}};
+    Picture picture{.ground = {.visible = false}};
     for (const Eigen::Array4d& w : walls)
-      picture.solids.push_back({{.type = ShapeType::kBox, .extent = {w[2] - w[0], w[3] - w[1], 0.4}},
-                                translation((w[0] + w[2]) / 2, (w[1] + w[3]) / 2, 0.2),
+      picture.solids.push_back({{.type = ShapeType::kBox, .extent = {w[2] - w[0], w[3] - w[1], 0.1}},
+                                translation((w[0] + w[2]) / 2, (w[1] + w[3]) / 2, -0.05),
                                 kTruthColor,
                                 "wall"});
     picture.polylines.push_back(

@@ -19,9 +19,9 @@ int main() {
     const double discount = view.slider("discount", 0.5, 0.99, 0.9),
                  slip = view.slider("slipping", 0, 0.6, 0.1);
     const double pace = view.slider("sweeps a second", 0.5, 10, 3);
-    const GridWorld world = gridWorld(
-        "..........\n.###.####.\n.#......#.\n.#.####.#.\n...#GT..#.\n.#.####...\n.#......#.\n..........",
-        {.discount = discount, .slip = slip, .marks = {{}, {.letter = 'T', .reward = -1}}});
+    const GridWorld world =
+        gridWorld("..........\n.####.###.\n.#......#.\n.#.##.#.#.\n.....T#.G.\n.#.####.#.\n..........",
+                  {.discount = discount, .slip = slip, .marks = {{}, {.letter = 'T', .reward = -1}}});
     const Mdp& mdp = world.mdp;
     if (view.button("from zero") || last != Eigen::Vector2d(discount, slip))
       last = {discount, slip}, V = Eigen::VectorXd::Zero(mdp.states()), sweeps = 0;
@@ -29,10 +29,10 @@ int main() {
     for (int a = 0; a < mdp.actions(); ++a) Q.col(a) += discount * (mdp.transitions[a] * V);
     if (std::fmod(t * pace / 30, 1) < pace / 30) {  // V <- max_a R + discount P V
       const Eigen::VectorXd next = Q.rowwise().maxCoeff();
-      view.plot("largest change in a sweep", ++sweeps, (next - V).cwiseAbs().maxCoeff());
+      view.plot("largest change in a sweep", ++sweeps, (next - V).cwiseAbs().maxCoeff(), "sweep");
       V = next;
     }
-    Picture picture{.ground = {.height = -0.3}};
+    Picture picture{.ground = {.visible = false}};
     for (int s = 0; s < mdp.states(); ++s) {
       const auto [column, row] = world.cells[s];
       const float v = static_cast<float>(std::clamp(V[s], 0., 1.));
@@ -57,7 +57,7 @@ int main() {
           {.from = top - half, .to = top + half, .color = kDeadReckoningColor, .radius = 0.04});
     }
     picture.polylines.push_back(
-        {.points = {{-0.5, -0.5, 2.1}, {-0.5, -0.5, 0}, {9.5, -0.5, 0}, {9.5, 7.5, 0}},
+        {.points = {{-0.5, -0.5, 2.1}, {-0.5, -0.5, 0}, {9.5, -0.5, 0}, {9.5, 6.5, 0}},
          .color = kTruthColor});
     picture.captions.push_back({.text = "after " + std::to_string(sweeps) + " sweeps", .scale = 1.5});
     view.show(picture);

@@ -50,6 +50,8 @@ struct LiveView::Parts {
     double low = 0, high = 1, value = 0;
     int pressed = 0;
     double x = 0, y = 0;
+    Series curve{};  // of a plot
+    std::string xLabel{};
   };
 
   std::string name{};
@@ -137,6 +139,30 @@ struct LiveView::Parts {
     shown = LiveClock::now();
   }
 
+  // The curves for the replay, of which long ones become coarser.
+  static void keepPoint(Series& curve, double x, double y) {
+    constexpr std::size_t kMostPoints = 4000;
+    if (!std::isfinite(x) || !std::isfinite(y)) return;
+    if (curve.x.size() >= kMostPoints)
+      for (std::vector<double>* all : {&curve.x, &curve.y}) {
+        for (std::size_t k = 0; 2 * k < all->size(); ++k) (*all)[k] = (*all)[2 * k];
+        all->resize(all->size() / 2);
+      }
+    curve.x.push_back(x), curve.y.push_back(y);
+  }
+
+  std::vector<ReportFigure> figures() const {
+    std::vector<ReportFigure> all;
+    for (const Control& one : controls)
+      if (one.curve.x.size() > 1)
+        all.push_back({.figure = {.title = one.name,
+                                  .xLabel = one.xLabel,
+                                  .yLabel = "value",
+                                  .series = {one.curve},
+                                  .height = 300}});
+    return all;
+  }
+
   // Evenly, so that a long run takes no more memory than a short one.
   void record(Picture picture) {
     if (count % stride == 0) {
@@ -173,6 +199,7 @@ LiveView::~LiveView() {
     writeReport({.title = parts_->name,
                  .film = parts_->film,
                  .view = parts_->view,
+                 .figures = parts_->figures(),
                  .still = {.width = 640, .height = 480, .gl = glChoice()}},
                 parts_->name + ".html");
   } catch (const std::exception& error) {
@@ -240,9 +267,10 @@ bool LiveView::button(const std::string& name) {
   return std::exchange(one.pressed, 0) > 0;
 }
 
-void LiveView::plot(const std::string& name, double x, double y) {
+void LiveView::plot(const std::string& name, double x, double y, const std::string& xLabel) {
   Parts::Control& one = parts_->control("plot", name);
-  one.x = x, one.y = y;
+  one.x = x, one.y = y, one.xLabel = xLabel;
+  Parts::keepPoint(one.curve, x, y);
 }
 
 void LiveView::pause() {

@@ -39,8 +39,8 @@ class LiveView {
   double slider(const std::string& name, double low, double high, double start);
   /// Whether this button was pressed since the last call.
   bool button(const std::string& name);
-  /// Adds a point to the curve of this name.
-  void plot(const std::string& name, double x, double y);
+  /// Adds a point to the curve of this name, on the page and in the replay.
+  void plot(const std::string& name, double x, double y, const std::string& xLabel = "time [s]");
   /// Waits until somebody presses "Go on" on the page, as long as one is open.
   void pause();
 

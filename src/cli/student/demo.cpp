@@ -80,7 +80,8 @@ ExitCode writePage(const Project& project, const Demonstration& one, const fs::p
   makeOutPlace(page);
   const PrivateFolder work(project.workPlace("student"));
   const ExitCode code = runOwnProgram(
-      project, one.file, {.out = work.path(), .seconds = kLecture, .environment = {"REX_LIVE=0"}});
+      project, one.file,
+      {.out = work.path(), .seconds = kLecture, .environment = {"REX_LIVE=0"}, .listsFiles = false});
   if (code != ExitCode::kFull) return code;
   fs::copy_file(work.path() / (one.name + ".html"), page, fs::copy_options::overwrite_existing);
   say(shown(page));

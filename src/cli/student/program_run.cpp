@@ -31,25 +31,25 @@ void listResults(const fs::path& folder, fs::file_time_type since) {
 
 }  // namespace
 
-Ended runIn(const fs::path& out, const std::vector<std::string>& command, int seconds,
-            const std::vector<std::string>& environment) {
+Ended runIn(const std::vector<std::string>& command, const OwnRun& options) {
   std::fflush(stdout);
   constexpr double kNoTimeout = 1e6;
   // The times of files come from a coarser clock.
   const auto start = fs::file_time_type::clock::now() - std::chrono::milliseconds(20);
-  const ProcessResult result = runProcess(command, {.directory = out,
-                                                    .environment = environment,
+  const ProcessResult result = runProcess(command, {.directory = options.out,
+                                                    .environment = options.environment,
                                                     .timeout = kNoTimeout,
                                                     .inheritOutput = true,
-                                                    .cpuSeconds = static_cast<double>(seconds)});
-  listResults(out, start);
+                                                    .cpuSeconds = static_cast<double>(options.seconds)});
+  if (options.listsFiles) listResults(options.out, start);
   if (result.ok()) return Ended::kWell;
   if (result.signal == 0) {
     note(fmt::format("\nThe program ended with exit code {}.", result.exitCode));
     return Ended::kBadly;
   }
-  if (result.signal == SIGXCPU || (result.signal == SIGKILL && result.cpuSeconds >= seconds)) {
-    note(fmt::format("\nThe program was stopped after {} s of CPU time; --seconds N allows more.", seconds));
+  if (result.signal == SIGXCPU || (result.signal == SIGKILL && result.cpuSeconds >= options.seconds)) {
+    note(fmt::format("\nThe program was stopped after {} s of CPU time; --seconds N allows more.",
+                     options.seconds));
     return Ended::kTooLate;
   }
   note(fmt::format("\nThe program was ended by signal {} ({}).", result.signal, ::strsignal(result.signal)));
@@ -65,7 +65,7 @@ ExitCode runOwnProgram(const Project& project, const fs::path& file, const OwnRu
   if (!program) return ExitCode::kNotGradable;
   std::vector<std::string> command = {program->string()};
   command.insert(command.end(), options.arguments.begin(), options.arguments.end());
-  return codeOf(runIn(options.out, command, options.seconds, options.environment));
+  return codeOf(runIn(command, options));
 }
 
 }  // namespace rex::cli

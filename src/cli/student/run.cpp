@@ -77,7 +77,7 @@ ExitCode run(const Project& project, const RunOptions& options) {
   const PrivateFolder work(project.workPlace("exercises/" + exercise.name));
   const auto program = buildProgram(project, exercise, {.main = file, .workFolder = work.path()}, out);
   if (!program) return ExitCode::kNotGradable;
-  const Ended ended = runIn(out, {program->string()}, options.seconds);
+  const Ended ended = runIn({program->string()}, {.out = out, .seconds = options.seconds});
   if (ended == Ended::kCrashed) note(fmt::format("To see where: scripts/rex debug {}", exercise.name));
   if (ended == Ended::kTooLate) sayWhereItIs(project, exercise, file, options.seconds);
   return codeOf(ended);
