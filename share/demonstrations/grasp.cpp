@@ -14,8 +14,8 @@ int main() {
   LiveView view("grasp");
   view.lookFrom({0.25, -1.2, 1});
   for (int t = 0; t < 300 || view.isWatched(); ++t) {
-    const double friction = view.slider("friction", 0, 1, 0.4),
-                 move = view.slider("third finger moves by [rad]", 0, 3, 1.6);
+    const double friction = view.slider("friction", 0, 1, 0.25),
+                 move = view.slider("third finger moves by [rad]", 0, 3, 2.4);
     const double angles[] = {
         view.slider("first finger [rad]", -3.2, 3.2, 0.5), view.slider("second finger [rad]", -3.2, 3.2, 2.6),
         view.slider("third finger [rad]", -3.2, 3.2, -1.57) + move * std::sin(t / 23.873)};
@@ -29,7 +29,7 @@ int main() {
     const bool isHeld = quality.status == HullStatus::kInside;
     const Color color = isHeld ? kEstimateColor : kDeadReckoningColor;
 
-    Picture picture{.ground = {.height = -1.2}};
+    Picture picture{.ground = {.visible = false}};
     picture.solids.push_back({{.type = ShapeType::kCylinder, .extent = {0, 0, 0.3}, .radius = 1},
                               translation(-1.9, 0, 0),
                               {0.8f, 0.8f, 0.82f},
@@ -70,7 +70,8 @@ int main() {
                               .p_WQ = place + Eigen::Vector3d(0, 0, 1.2),
                               .scale = 1.5});
     picture.polylines.push_back(
-        {.points = {{-3.9, -2, -1.2}, {3.4, -2, -1.2}, {3.4, 2, -1.2}, {-3.9, 2, -1.2}, {-3.9, -2, -1.2}},
+        {.points =
+             {{-3.8, -1.9, -0.8}, {3.2, -1.9, -0.8}, {3.2, 1.9, -0.8}, {-3.8, 1.9, -0.8}, {-3.8, -1.9, -0.8}},
          .color = kTruthColor});
     view.plot("epsilon [N]", t / 30., quality.epsilon);
     view.show(picture);

@@ -17,15 +17,15 @@ int main() {
   view.lookFrom({0, -0.6, 1});
   Rng rng(1);
   const Gaussian start{.mean = Eigen::Vector3d::Zero(), .covariance = 0.01 * Eigen::Matrix3d::Identity()};
-  ParticleFilter particles(sampledParticles(start, 800, rng));
+  ParticleFilter particles(sampledParticles(start, 300, rng));
   Gaussian kalman = start;
   for (int t = 0; t < 300 || view.isWatched(); ++t) {
     const double noise = view.slider("noise of landmarks [m]", 0.2, 5, 1),
-                 drift = view.slider("noise of the motion", 0.01, 0.5, 0.05);
-    const double lost = view.slider("share that starts anywhere", 0, 0.2, 0.02),
+                 drift = view.slider("noise of the motion", 0.01, 0.5, 0.03);
+    const double lost = view.slider("share that starts anywhere", 0, 0.2, 0.01),
                  steering = view.slider("steering [rad]", -0.5, 0.5, 0.1);
     if (view.button("kidnap") || t == 90)
-      car.setState(Eigen::Vector3d(rng.uniform(-15, 15), rng.uniform(-15, 15), rng.uniform(-3, 3)));
+      car.setState(Eigen::Vector3d(rng.uniform(-12, 12), rng.uniform(-12, 12), rng.uniform(-3, 3)));
     const Eigen::Vector2d u(0.25, steering);
     car.step(u);
     Eigen::VectorXd y = car.getMeanObservationAtState(car.getState());
@@ -37,7 +37,7 @@ int main() {
       drive(X, logWeights, random);
       for (int i = 0; i < X.cols(); ++i)
         if (random.uniform() < lost)
-          X.col(i) << random.uniform(-20, 20), random.uniform(-20, 20), random.uniform(-3.14, 3.14);
+          X.col(i) << random.uniform(-15, 15), random.uniform(-15, 15), random.uniform(-3.14, 3.14);
     };
     const LandmarkSensor sensor{.W = noise * noise * Eigen::Matrix2d::Identity()};
     (void)particles.step(propose, landmarkWeights(sensor, car.getLandmarks(), y), rng);
@@ -61,7 +61,7 @@ int main() {
                           .weights = particles.particles().weights,
                           .poseBeliefs = {{kalman.mean.head<2>(), kalman.covariance.topLeftCorner<2, 2>()}}});
     picture.polylines.push_back(
-        {.points = {{-22, -22, 0}, {22, -22, 0}, {22, 22, 0}, {-22, 22, 0}, {-22, -22, 0}},
+        {.points = {{-17, -17, 0}, {17, -17, 0}, {17, 17, 0}, {-17, 17, 0}, {-17, -17, 0}},
          .color = kTruthColor});
     view.plot("error of the particle filter [m]", t / 30.,
               (momentsOf(particles.particles()).mean - truth).head<2>().norm());

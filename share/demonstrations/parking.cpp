@@ -1,6 +1,6 @@
-// Chapter 4: A car parks. A tree of drives grows from the street into the gap between two parked cars; then
-// the car drives the way that it found. Sliders change gap and steering; cars cannot slide sideways, which
-// makes it hard.
+// Chapter 4: A car parks. It cannot slide sideways, so a tree of drives grows out of the gap until it meets
+// the waiting car, which then drives the way back in: drives can be reversed. Sliders change gap and
+// steering.
 #include "course/car_pictures.h"
 #include "course/course.h"
 #include "course/live_view.h"
@@ -18,7 +18,7 @@ int main() {
   ControlPath way;
   int age = 0, seed = 1;
   for (int t = 0; t < 330 || view.isWatched(); ++t, ++age) {
-    const double gap = view.slider("gap [m]", 3.6, 9, 5.5),
+    const double gap = view.slider("gap [m]", 3.6, 9, 5),
                  steering = view.slider("largest steering [rad]", 0.3, 1, 0.7);
     if (view.button("another tree")) ++seed, last.setZero();
     if (const Eigen::Vector3d now(gap, steering, 0); now != last) last = now, age = 0;
@@ -43,23 +43,24 @@ int main() {
         .distance = [&](const VectorArg& a, const VectorArg& b) { return reedsSheppLength(a, b, radius); }};
     const PathProblem problem{.space = system.space,
                               .allValid = eachColumn(isFree),
-                              .start = Eigen::Vector3d(-7.5, 3.2, 0),
-                              .goal = Eigen::Vector3d(-1, 0.95, 0)};
+                              .start = Eigen::Vector3d(-1, 0.95, 0),
+                              .goal = Eigen::Vector3d(-6.5, 4, 0)};
     if (age == 0) {
       Rng rng(seed);
       way = growControlTree(
           system, problem,
-          {.duration = 0.8, .trials = 8, .goalBias = 0.2, .tolerance = 0.5, .maxSamples = 1500}, rng);
+          {.duration = 0.8, .trials = 8, .goalBias = 0.2, .tolerance = 0.6, .maxSamples = 1500}, rng);
     }
     const int nodes = static_cast<int>(way.found.trees.at(0).nodes.cols()),
               shown = std::min(nodes, 1 + nodes * age / 120);  // four seconds
-    CarView show{.car = problem.start, .estimate = problem.goal};
+    CarView show{.car = problem.goal, .estimate = problem.start};
     if (way.found.path.cols() > 1 && shown == nodes) {
-      const double at = std::fmod(std::max(0, age - 125) / 12., way.found.path.cols() + 2.);
-      const int piece = std::min(static_cast<int>(at), static_cast<int>(way.found.path.cols()) - 1);
+      const int pieces = static_cast<int>(way.controls.cols());
+      const double at =
+          std::max(0., pieces - std::fmod(std::max(0, age - 125) / 12., pieces + 2.));  // backward
+      const int piece = std::min(static_cast<int>(at), pieces - 1);
       Eigen::Vector3d x = way.found.path.col(piece);
-      if (piece < way.controls.cols())
-        x = driveCar(car, x, way.controls.col(piece), (at - piece) * way.duration);
+      x = driveCar(car, x, way.controls.col(piece), (at - piece) * way.duration);
       show.car = x;
     }
     const std::string end =

@@ -36,7 +36,10 @@ int main() {
     };
     std::vector<TrajectoryTerm> terms = {accelerationTerm(Eigen::Vector2d::Constant(smooth)),
                                          {.name = "obstacles", .function = nearness}};
-    for (const TrajectoryTerm& one : restAt(goal, steps)) terms.push_back(one);
+    const auto atGoal = [&](const TrajectoryWindow& window, FunctionValue& out) {
+      out.y = 30 * (window.X.col(0) - goal), out.J = 30 * Eigen::Matrix2d::Identity();
+    };
+    terms.push_back({.name = "goal", .function = atGoal, .first = steps - 2});  // twice: at rest
     const TrajectoryProblem problem(terms, start.replicate(1, 2), steps, 0.1);
     X = optimizeTrajectory(problem, X, {.maxIterations = 3}).X;
 

@@ -15,7 +15,7 @@ int main() {
   const Eigen::Vector3d right = S.kinematicsPos("handR"), left = S.kinematicsPos("handL");
   bool rightFirst = true;
   for (int t = 0; t < 360 || view.isWatched(); ++t) {
-    const double apart = view.slider("targets apart [m]", 0, 1.5, 0.45),
+    const double apart = view.slider("targets apart [m]", 0, 1.5, 0.6),
                  ahead = view.slider("ahead [m]", -0.5, 1, 0.2);
     if (view.button("swap priorities") || t == 200) rightFirst = !rightFirst;
     const double share = std::min(1., t / 100.);

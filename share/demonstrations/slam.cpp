@@ -6,6 +6,7 @@
 #include "course/course.h"
 #include "course/live_view.h"
 #include "estimation/ekf_slam.h"
+#include "render/covariance_ellipsoid.h"
 #include "render/picture.h"
 
 using namespace rex;
@@ -53,9 +54,13 @@ int main() {
     show.sightings.resize(2, static_cast<int>(sightings.size()));
     for (int i = 0; i < show.sightings.cols(); ++i) show.sightings.col(i) = sightings[i];
     double area = 0;
+    std::vector<Ellipsoid> ellipses;
     for (int i = 0; i < slam->landmarks(); ++i) {
       const Gaussian one = slam->landmark(i);
-      show.landmarkBeliefs.push_back({one.mean, one.covariance});
+      Eigen::Matrix3d flat = 1e-4 * Eigen::Matrix3d::Identity();
+      flat.topLeftCorner<2, 2>() = one.covariance;
+      ellipses.push_back(
+          covarianceEllipsoid({one.mean[0], one.mean[1], 0.02}, flat, 2, {0, 0.62f, 0.45f, 0.45f}));
       area += std::sqrt(one.covariance.trace()) / slam->landmarks();
     }
     const Gaussian pose = slam->pose();
@@ -65,6 +70,7 @@ int main() {
     show.caption =
         "loop " + std::to_string(loop) + ", " + std::to_string(slam->landmarks()) + " landmarks in the map";
     Picture picture = pictureOf(show);
+    for (const Ellipsoid& one : ellipses) picture.ellipsoids.push_back(one);
     picture.polylines.push_back(
         {.points = {{-18, -6, 0}, {18, -6, 0}, {18, 30, 0}, {-18, 30, 0}, {-18, -6, 0}},
          .color = kTruthColor});

@@ -18,7 +18,7 @@ int main() {
   WalkPlan plan;
   PreviewMotion motion;
   double time = 0;
-  for (int t = 0; t < 330 || view.isWatched(); ++t) {
+  for (int t = 0; t < 255 || view.isWatched(); ++t) {
     const Eigen::Vector4d now(view.slider("preview [s]", 0.05, 2, 1.6),
                               view.slider("length of steps [m]", 0, 0.5, 0.25),
                               view.slider("seconds on one foot", 0.3, 1.5, 0.7),

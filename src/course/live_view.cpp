@@ -155,12 +155,29 @@ struct LiveView::Parts {
     std::vector<ReportFigure> all;
     for (const Control& one : controls)
       if (one.curve.x.size() > 1)
-        all.push_back({.figure = {.title = one.name,
-                                  .xLabel = one.xLabel,
-                                  .yLabel = "value",
+        all.push_back({.figure = {.xLabel = one.xLabel,
+                                  .yLabel = one.name,
                                   .series = {one.curve},
-                                  .height = 300}});
+                                  .width = 560,
+                                  .height = 260}});
     return all;
+  }
+
+  // Without gnuplot there are no curves.
+  void write() const {
+    Report report{.title = name,
+                  .film = film,
+                  .view = view,
+                  .figures = figures(),
+                  .still = {.width = 640, .height = 480, .gl = glChoice()}};
+    try {
+      writeReport(report, name + ".html");
+    } catch (const std::exception& error) {
+      if (report.figures.empty()) throw;
+      fmt::print(stderr, "{}.html has no curves: {}\n", name, error.what());
+      report.figures.clear();
+      writeReport(report, name + ".html");
+    }
   }
 
   // Evenly, so that a long run takes no more memory than a short one.
@@ -196,12 +213,7 @@ LiveView::~LiveView() {
     const double end = static_cast<double>(parts_->count - 1) / 30;
     if (parts_->film.back().time < end) parts_->film.push_back({.time = end, .picture = *parts_->last});
     settleGround(parts_->film);
-    writeReport({.title = parts_->name,
-                 .film = parts_->film,
-                 .view = parts_->view,
-                 .figures = parts_->figures(),
-                 .still = {.width = 640, .height = 480, .gl = glChoice()}},
-                parts_->name + ".html");
+    parts_->write();
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}.html was not written: {}\n", parts_->name, error.what());
   }

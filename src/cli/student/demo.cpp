@@ -82,8 +82,9 @@ ExitCode writePage(const Project& project, const Demonstration& one, const fs::p
   const ExitCode code = runOwnProgram(
       project, one.file,
       {.out = work.path(), .seconds = kLecture, .environment = {"REX_LIVE=0"}, .listsFiles = false});
-  if (code != ExitCode::kFull) return code;
-  fs::copy_file(work.path() / (one.name + ".html"), page, fs::copy_options::overwrite_existing);
+  const fs::path replay = work.path() / (one.name + ".html");
+  if (code != ExitCode::kFull || !fs::exists(replay)) return std::max(code, ExitCode::kBelow);
+  fs::copy_file(replay, page, fs::copy_options::overwrite_existing);
   say(shown(page));
   return code;
 }
