@@ -26,7 +26,7 @@ int main() {
     std::vector<TaskLevel> levels;
     for (const int k : {rightFirst ? 0 : 1, rightFirst ? 1 : 0})
       levels.push_back({.J = S.jacobianPos(hands[k]), .dy = 0.2 * (targets[k] - S.kinematicsPos(hands[k]))});
-    q += hierarchicalStep(levels, {.a = 0.02 * (rest - q), .damping = 0.1});
+    q += hierarchicalStep(levels, {.a = 0.02 * (rest - q), .damping = 0.03});
     S.setJointAngles(q);
 
     Picture picture = pictureOf(S.model(), forwardKinematics(S.model(), q));

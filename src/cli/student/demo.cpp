@@ -103,8 +103,8 @@ ExitCode demo(const Project& project, const DemoOptions& options) {
   const Demonstration& one = choose(all, options.which);
   note(wrap(fmt::format("Chapter {}: {}. {}", one.chapter, one.title, one.about), 0, 0));
   if (fs::path(options.out).extension() == ".html") return writePage(project, one, fs::absolute(options.out));
-  OwnRun how{.out = fs::absolute(options.out), .seconds = kLecture, .environment = {"REX_LIVE=0"}};
-  if (options.out.empty()) how.out = project.root / "out" / "demonstrations", how.environment.clear();
+  OwnRun how{.out = project.root / "out" / "demonstrations", .seconds = kLecture};
+  if (!options.out.empty()) how.out = fs::absolute(options.out), how.environment = {"REX_LIVE=0"};
   return runOwnProgram(project, one.file, how);
 }
 
