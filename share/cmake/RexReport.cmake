@@ -1,5 +1,5 @@
-# The pages for browsers become part of the program: share/report for replays, share/live for the live page, and
-# three.js with its loader and controls.
+# The pages for browsers become part of the program: share/report for replays, share/live for the live page with
+# three.js, its loader and controls, and share/watch for exercises.
 
 find_path(REX_THREE three.min.js PATHS /usr/share/javascript/three NO_DEFAULT_PATH)
 if(NOT REX_THREE)
@@ -31,6 +31,17 @@ function(rex_live_page output)
   file(READ ${folder}/live.js REX_LIVE_SCRIPT)
   rex_three_js(REX_LIVE_THREEJS controls/TransformControls)
   configure_file(${PROJECT_SOURCE_DIR}/src/live/live_page.cpp.in ${output} @ONLY)
+endfunction()
+
+# rex_watch_page(OUTPUT): writes a source file with the page of `rex watch --open`.
+function(rex_watch_page output)
+  set(folder ${PROJECT_SOURCE_DIR}/share/watch)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS
+    ${folder}/page.html ${folder}/style.css ${folder}/watch.js)
+  file(READ ${folder}/page.html REX_WATCH_PAGE)
+  file(READ ${folder}/style.css REX_WATCH_STYLE)
+  file(READ ${folder}/watch.js REX_WATCH_SCRIPT)
+  configure_file(${PROJECT_SOURCE_DIR}/src/cli/student/watch_files.cpp.in ${output} @ONLY)
 endfunction()
 
 # rex_report_page(OUTPUT): writes a source file with the template, the style, the scripts and the hashes that let

@@ -2,7 +2,7 @@
 
 # What the sanitizers look at in a short run: modules that read files of users or talk to processes, but not the
 # grader, which links with nearly all of the library. scripts/test --long looks at all.
-set(REX_SANITIZED_MODULES base geometry remote scene)
+set(REX_SANITIZED_MODULES base geometry remote scene web)
 
 # What nearly all tests include takes longer to compile than the rest of them.
 function(rex_test_headers)

@@ -18,7 +18,8 @@
     tell.timer = setTimeout(() => { get('notice').hidden = true; }, 9000);
   }
   const send = messenger(tell);
-  const view = rexStage.open(stage, beforeDraw);
+  const isPlain = rexStage.isSoftware();
+  const view = rexStage.open(stage, beforeDraw, isPlain);
   const energies = plot(get('plot'), ['#d55e00', '#0072b2', '#1d2530'], 10);
 
   // --- The scene. Bodies are groups in the frame of the world, z up, and have their shapes.
@@ -29,8 +30,8 @@
       if (!answer.ok) throw new Error(name + ' cannot be had');
       return answer;
     };
-    const [next, glb] = await Promise.all([
-      read('scene.json').then(a => a.json()), read('scene.glb').then(a => a.arrayBuffer())]);
+    const next = await read('scene.json').then(a => a.json());
+    const glb = next.pieces ? await assemble(next, read) : await read('scene.glb').then(a => a.arrayBuffer());
     const current = await view.load(await rexStage.parse(glb), 1.7);
     about = next;
     const bodies = about.bodies.map(() => current.world.add(new THREE.Group()).children.slice(-1)[0]);
@@ -51,6 +52,25 @@
     buildPanels();
     isStale = true;
     view.draw();
+  }
+
+  // Programs send their pictures in pieces, of which most are those of the picture before.
+  let pieces = new Map();
+  async function assemble({ gltf, pieces: wanted }, read) {
+    const before = pieces, encoder = new TextEncoder();
+    pieces = new Map();
+    for (const [, name] of wanted)
+      if (name) pieces.set(name, before.get(name) || read(name).then(a => a.arrayBuffer()));
+    const all = await Promise.all(wanted.map(async ([at, name, small]) =>
+      [at, new Uint8Array(name ? await pieces.get(name) : rexStage.bytesOf(small))]));
+    const json = encoder.encode(gltf), binary = Math.max(0, ...all.map(([at, bytes]) => at + bytes.length));
+    const padded = Math.ceil(binary / 4) * 4, glb = new Uint8Array(28 + json.length + padded);
+    const head = new DataView(glb.buffer), start = 28 + json.length;
+    [0x46546c67, 2, glb.length, json.length, 0x4e4f534a].forEach((value, k) => head.setUint32(4 * k, value, true));
+    glb.set(json, 20);
+    head.setUint32(start - 8, padded, true), head.setUint32(start - 4, 0x4e4942, true);
+    for (const [at, bytes] of all) glb.set(bytes, start + at);
+    return glb.buffer;
   }
 
   const flat = (color, opacity = 1) =>
@@ -140,7 +160,7 @@
     if (slow < 2) return;
     slow = 0, quality = Math.max(0.5, quality / 1.4);
     setTimeout(() => view.setQuality(quality));
-    setState('live, drawn more coarsely: this computer draws slowly', false);
+    setState('live, drawn coarsely: this browser has no fast graphics', false);
   }
 
   function beforeDraw() {
@@ -253,12 +273,20 @@
     if (isOn) get('recorded').textContent = '', showRecording.wasOn = true;
     else if (showRecording.wasOn) {
       showRecording.wasOn = false;
-      for (const [name, text] of [['replay.html', 'Replay'], ['motion.csv', 'Table of q']]) {
-        const link = element('a', '', text);
-        link.href = name, link.download = name;
-        get('recorded').append(link);
-      }
+      addDownload('replay.html', 'Replay');
+      addDownload('motion.csv', 'Table of q');
+      const film = element('button', '', 'Draw a film');
+      film.type = 'button';
+      film.addEventListener('click', () => send({ do: 'film' }));
+      get('recorded').append(film);
     }
+    if (frame.film !== showRecording.film && !isOn) addDownload('film.mp4', 'Film');
+    showRecording.film = frame.film;
+  }
+  function addDownload(name, text) {
+    const link = element('a', '', text);
+    link.href = name, link.download = name;
+    get('recorded').append(link);
   }
 
   const settings = () => send({
@@ -447,7 +475,8 @@
   }
   function listen() {
     const source = new EventSource('frames');
-    source.onopen = () => setState('live', false);
+    source.onopen = () =>
+      setState(isPlain ? 'live, drawn without shadows: this browser has no graphics card' : 'live', false);
     source.onerror = () => setState(source.readyState === EventSource.CLOSED ?
       'The program has ended. Start it again and open its new address.' :
       'The program does not answer; waiting for it.', true);
@@ -465,7 +494,8 @@
           showFrame();
           view.draw();
         } catch (cause) {
-          tell('The scene cannot be shown: ' + cause.message);
+          pieces.clear();
+          if (!newest) tell('The scene cannot be shown: ' + cause.message);
         }
       }
       isBusy = false;

@@ -81,8 +81,17 @@ const rexStage = (function () {
     }`;
   const hiddenOpacity = 0.25;
 
+  // Whether the processor draws in place of a graphics card, at a tenth of its speed.
+  function isSoftware() {
+    const gl = document.createElement('canvas').getContext('webgl');
+    const names = gl && gl.getExtension('WEBGL_debug_renderer_info');
+    const name = names ? gl.getParameter(names.UNMASKED_RENDERER_WEBGL) : '';
+    return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+  }
+
   // Shows scenes in `stage`, an element whose data say the background. Calls beforeDraw(now) before each picture.
-  function open(stage, beforeDraw) {
+  // `isPlain`: without shadows and smooth edges, which take longest.
+  function open(stage, beforeDraw, isPlain = false) {
     // The background of the picture, which mixes squares of colours, as steps from top to bottom.
     const partsOf = name => stage.dataset[name].split(' ').map(Number);
     const backgroundTop = partsOf('top'), backgroundBottom = partsOf('bottom'), steps = [];
@@ -92,7 +101,7 @@ const rexStage = (function () {
     }
     stage.style.background = 'linear-gradient(' + steps + ')';
 
-    const renderer = new THREE.WebGLRenderer({ antialias: true, alpha: true });
+    const renderer = new THREE.WebGLRenderer({ antialias: !isPlain, alpha: true });
     stage.appendChild(renderer.domElement);
     const view = new THREE.PerspectiveCamera();
     const controls = new THREE.OrbitControls(view, renderer.domElement);
@@ -102,7 +111,7 @@ const rexStage = (function () {
     controls.addEventListener('change', draw);
     let isFirstView = true;  // until the user turns it
     controls.addEventListener('start', () => { isFirstView = false; });
-    renderer.shadowMap.enabled = true;
+    renderer.shadowMap.enabled = !isPlain;
     renderer.shadowMap.type = THREE.PCFSoftShadowMap;
     const shared = {
       toLight: { value: null }, shadowTexel: { value: 0 }, height: { value: 1 },
@@ -243,7 +252,7 @@ const rexStage = (function () {
       const sun = new THREE.DirectionalLight(0xffffff, 1), reach = 1.05 * radius * room;
       sun.position.copy(center).addScaledVector(toLight, 3 * reach);
       sun.target.position.copy(center);
-      sun.castShadow = true;
+      sun.castShadow = !isPlain;
       sun.shadow.mapSize.set(2048 * quality, 2048 * quality);
       const box = { left: -reach, right: reach, bottom: -reach, top: reach, near: reach, far: 20 * reach };
       Object.assign(sun.shadow.camera, box);
@@ -373,5 +382,5 @@ const rexStage = (function () {
   }
 
   const parse = glb => new Promise((resolve, reject) => new THREE.GLTFLoader().parse(glb, '', resolve, reject));
-  return { bytesOf, open, parse };
+  return { bytesOf, isSoftware, open, parse };
 })();

@@ -8,11 +8,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "authoring/markdown.h"
 #include "authoring/release.h"
 #include "base/error.h"
 #include "base/escape.h"
 #include "base/text_file.h"
+#include "reports/markdown.h"
 #include "submission/exercise_info.h"
 
 namespace rex::grading {

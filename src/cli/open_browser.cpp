@@ -2,20 +2,26 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <vector>
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <spawn.h>
 #include <unistd.h>
 
+#include "base/escape.h"
+#include "base/text_file.h"
 #include "cli/terminal.h"
 
 namespace rex::cli {
 namespace {
 
-bool isSet(const char* name) {
-  const char* value = std::getenv(name);
-  return value != nullptr && *value != '\0';
+std::string valueOf(const char* variable) {
+  const char* value = std::getenv(variable);
+  return value != nullptr ? value : "";
 }
+
+bool isSet(const char* variable) { return !valueOf(variable).empty(); }
 
 }  // namespace
 
@@ -41,6 +47,24 @@ void openInBrowser(const std::string& file) {
     note("no browser could be opened: there is no xdg-open");
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
+}
+
+void openAddress(const std::string& url, const PrivateFolder& folder) {
+  const std::filesystem::path page = folder.path() / "open.html";
+  writeTextFile(page,
+                "<!DOCTYPE html><meta charset=\"utf-8\"><meta http-equiv=\"refresh\" content=\"0; url=" +
+                    htmlText(url) + "\">\n");
+  openInBrowser(page.string());
+}
+
+void sayForwarding(int port) {
+  const std::string connection = valueOf("SSH_CONNECTION");  // client, its port, server, its port
+  if (connection.empty()) return;
+  std::vector<std::string> words(1);
+  for (const char c : connection) c == ' ' ? words.emplace_back() : words.back() += c;
+  const std::string user = valueOf("USER"), server = words.size() > 2 ? words[2] : "SERVER";
+  say(fmt::format("on your own machine, run: ssh -N -L {0}:127.0.0.1:{0} {1}{2}", port,
+                  user.empty() ? "" : harmless(user) + "@", harmless(server)));
 }
 
 }  // namespace rex::cli

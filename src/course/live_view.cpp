@@ -5,7 +5,10 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <deque>
+#include <map>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -13,15 +16,17 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "base/base64.h"
 #include "base/error.h"
 #include "course/gl_choice.h"
 #include "course/simulator.h"
 #include "live/live_page.h"
+#include "live/live_pieces.h"
 #include "live/live_scene.h"
-#include "live/live_server.h"
 #include "render/glb.h"
 #include "render/report.h"
 #include "render/scene_picture.h"
+#include "web/live_server.h"
 
 namespace rex {
 namespace {
@@ -62,6 +67,8 @@ struct LiveView::Parts {
   const Model* model = nullptr;  // of the simulator shown last; only compared
   std::size_t shapes = 0;
   std::string poses{};
+  std::map<std::string, int> offered{};        // pieces, by how many of these have them:
+  std::deque<std::set<std::string>> recent{};  // the last pictures
   ViewJson q = ViewJson::array();
   std::vector<Control> controls{};
   Film film{};
@@ -119,9 +126,28 @@ struct LiveView::Parts {
     server->publish(frame.dump(-1, ' ', false, ViewJson::error_handler_t::replace));
   }
 
-  void offer(const std::string& glb, const std::string& description) {
-    server->offer("scene.glb", {"model/gltf-binary", glb});
-    server->offer("scene.json", {"application/json", description});
+  // Pictures change often, but most of their meshes do not: each piece is offered once, and withdrawn when
+  // the last pictures did without it. Small ones are no request of their own.
+  void offer(const std::string& glb, ViewJson about) {
+    constexpr std::size_t kKept = 30, kSmall = 512;
+    const LivePieces cut = piecesOf(glb);
+    ViewJson list = ViewJson::array();
+    std::set<std::string> names;
+    for (const LivePiece& piece : cut.pieces) {
+      const bool isSmall = piece.bytes.size() <= kSmall;
+      list.push_back({piece.at, isSmall ? "" : piece.name, isSmall ? base64(piece.bytes) : ""});
+      if (!isSmall && names.insert(piece.name).second && ++offered[piece.name] == 1)
+        server->offer(piece.name, {"application/octet-stream", piece.bytes});
+    }
+    recent.push_back(std::move(names));
+    if (recent.size() > kKept) {
+      for (const std::string& old : recent.front())
+        if (--offered[old] == 0) server->withdraw(old), offered.erase(old);
+      recent.pop_front();
+    }
+    about["gltf"] = cut.json, about["pieces"] = list;
+    server->offer("scene.json",
+                  {"application/json", about.dump(-1, ' ', false, ViewJson::error_handler_t::replace)});
     ++version;
   }
 
@@ -234,8 +260,7 @@ void LiveView::show(const Simulator& simulator) {
     parts.model = &simulator.model(), parts.shapes = simulator.model().shapes().size();
     ViewJson about = ViewJson::parse(liveDescription(simulator.model()));
     about["kind"] = "program", about["title"] = parts.name;
-    parts.offer(liveGlb(simulator.model(), poses),
-                about.dump(-1, ' ', false, ViewJson::error_handler_t::replace));
+    parts.offer(liveGlb(simulator.model(), poses), about);
   }
   parts.poses = posesText(poses);
   parts.q = std::vector<double>(q.begin(), q.end());
@@ -251,8 +276,7 @@ void LiveView::show(const Picture& picture) {
   const ViewJson about = {
       {"kind", "program"},           {"title", parts.name},         {"mass", 0},
       {"bodies", ViewJson::array()}, {"shapes", ViewJson::array()}, {"coordinates", ViewJson::array()}};
-  parts.offer(glbOf({{.picture = picture}}, parts.view),
-              about.dump(-1, ' ', false, ViewJson::error_handler_t::replace));
+  parts.offer(glbOf({{.picture = picture}}, parts.view), about);
   parts.poses.clear(), parts.q = ViewJson::array();
   parts.waitForTurn();
   parts.publish();

@@ -124,6 +124,10 @@ void LiveSession::obeyOne(const Event& event) {
   }
   if (what == "contacts") return setContactsShown(event.flag("show"), event.flag("avoid"));
   if (what == "record") return record(event);
+  if (what == "film") {
+    wantsFilm_ = true;
+    return;
+  }
   obeySimulation(event);
 }
 
@@ -304,6 +308,8 @@ bool LiveSession::isMoving() const { return isRunning_ || drag_ || push_ || reco
 
 std::optional<LiveRecording> LiveSession::takeRecording() { return std::exchange(recorded_, std::nullopt); }
 
+bool LiveSession::takeFilmWish() { return std::exchange(wantsFilm_, false); }
+
 std::string LiveSession::frame() const {
   SessionJson all = {{"time", state_.time},
                      {"simulates", simulation_.has_value()},
@@ -344,6 +350,7 @@ std::string LiveSession::frame() const {
     all["push"] = {{"at", listOf(at)}, {"force", listOf(push_->force_W)}};
   }
   if (recording_) all["recording"] = std::round(recordedFor_ * 10) / 10;
+  if (films_ > 0) all["film"] = films_;
   if (noticeNumber_ > 0) all["notice"] = {{"number", noticeNumber_}, {"text", notice_}};
   return all.dump(-1, ' ', false, SessionJson::error_handler_t::replace);
 }

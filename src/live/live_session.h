@@ -43,6 +43,10 @@ class LiveSession {
   [[nodiscard]] std::string frame() const;
   /// The recording, once somebody has ended it.
   [[nodiscard]] std::optional<LiveRecording> takeRecording();
+  /// Whether somebody has asked for a film of the recording since the last call.
+  [[nodiscard]] bool takeFilmWish();
+  /// Tells pages that there is a new film of it.
+  void addFilm() { ++films_; }
   /// Whether time changes anything: while nothing does, frames stay the same.
   [[nodiscard]] bool isMoving() const;
 
@@ -83,6 +87,8 @@ class LiveSession {
 
   std::optional<LiveRecording> recording_{}, recorded_{};
   double recordedFor_ = 0, sinceRecorded_ = 0;
+  bool wantsFilm_ = false;
+  int films_ = 0;
   std::string notice_{};
   int noticeNumber_ = 0;
 };

@@ -56,6 +56,18 @@ double rastrigin(const VectorArg& x) {
   return sum;
 }
 
+// Turned by one radian in the plane of each coordinate and the next: no coordinate can be searched alone.
+double rotatedRastrigin(const VectorArg& x) {
+  const double c = std::cos(1), s = std::sin(1);
+  Eigen::VectorXd turned = x;
+  for (Eigen::Index i = 0; i + 1 < x.size(); ++i) {
+    const double a = turned[i], b = turned[i + 1];
+    turned[i] = c * a - s * b;
+    turned[i + 1] = s * a + c * b;
+  }
+  return rastrigin(turned);
+}
+
 // The best coordinate, and what it contributes, to all digits: so the least value is 0.
 constexpr double kSchwefelPlace = 420.968746359982, kSchwefelDepth = 418.98288727243374;
 
@@ -77,6 +89,7 @@ constexpr std::array kFunctions = {TestFunction{"sphere", sphere, 0, 1, 5, 2, 1e
                                    TestFunction{"ackley", ackley, 0, 1, 30, 14.5, 1e-3},
                                    TestFunction{"griewank", griewank, 0, 10, 600, 295, 1e-3},
                                    TestFunction{"rastrigin", rastrigin, 0, 1, 5, 2, 0.9},
+                                   TestFunction{"rotated-rastrigin", rotatedRastrigin, 0, 1, 5, 2, 0.9, 2},
                                    TestFunction{"schwefel", schwefel, kSchwefelPlace, -500, 500, 500, 1e-3}};
 
 }  // namespace

@@ -19,7 +19,7 @@ struct TestFunction {
   int leastDimension = 1;
 };
 
-/// sphere, ellipsoid, cigar, rosenbrock, ackley, griewank, rastrigin, schwefel.
+/// sphere, ellipsoid, cigar, rosenbrock, ackley, griewank, rastrigin, rotated-rastrigin, schwefel.
 [[nodiscard]] std::span<const TestFunction> testFunctions();
 
 /// The test function of that name. Throws Error with the nearest names if there is none.

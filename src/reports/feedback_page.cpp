@@ -1,5 +1,9 @@
 #include "reports/feedback_page.h"
 
+#include <cctype>
+#include <cstring>
+#include <set>
+
 #include <fmt/format.h>
 
 #include "base/base64.h"
@@ -42,19 +46,63 @@ std::string nameOfCheck(const CheckResult& check, int& hidden) {
                          : fmt::format("{} ({})", shownText(check.title), shownText(check.id));
 }
 
-std::string foundBy(const CheckResult& check, const GradeResult& result) {
-  return isPassed(check) || isHidden(check) || !check.status ? "" : messageOf(check, fileOf(result));
+// With the place, unless links lead there.
+std::string foundBy(const CheckResult& check, const GradeResult& result, const std::string& path = "") {
+  if (isPassed(check) || isHidden(check) || !check.status) return "";
+  CheckResult placeless = check;
+  if (!path.empty()) placeless.line = 0;
+  return messageOf(placeless, fileOf(result));
 }
 
-std::string tableOfChecks(const GradeResult& result) {
+// For addresses, in which everything but these characters is written as its bytes.
+std::string addressOf(const std::string& path) {
+  std::string text;
+  for (const char c : path) {
+    const bool isPlain =
+        std::isalnum(static_cast<unsigned char>(c)) != 0 || std::strchr("/-._~", c) != nullptr;
+    text += isPlain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  }
+  return text;
+}
+
+std::string editorLink(const std::string& path, int line, const std::string& text) {
+  return fmt::format("<a class=\"line\" href=\"vscode://file{}:{}\" title=\"Open in VS Code\">{}</a>",
+                     addressOf(path), line, text);
+}
+
+// "main.cpp:47" as a link to the editor, and the whole path to copy; empty if there is no path or no line.
+std::string placeOf(const std::string& path, const std::string& file, int line) {
+  if (path.empty() || line <= 0) return "";
+  return fmt::format(
+      "<p class=\"place\">{} <button type=\"button\" data-copy=\"{}:{}\">Copy path</button></p>",
+      editorLink(path, line, html(fmt::format("{}:{}", file, line))), htmlText(path), line);
+}
+
+std::string tableOfChecks(const GradeResult& result, const std::string& path) {
   std::string text =
       "<table>\n<tr><th>Result</th><th>Check</th><th>Points</th><th>What was found</th></tr>\n";
   int hidden = 0;
-  for (const CheckResult& check : result.checks)
-    text += fmt::format("<tr><td>{}</td><td>{}</td><td>{}/{}</td><td>{}</td></tr>\n", html(statusOf(check)),
-                        html(nameOfCheck(check, hidden)), check.points, check.maxPoints,
-                        html(foundBy(check, result)));
+  for (const CheckResult& check : result.checks) {
+    const bool isShown = !isPassed(check) && !isHidden(check);
+    text += fmt::format("<tr{}><td>{}</td><td>{}</td><td>{}/{}</td><td>{}{}</td></tr>\n",
+                        path.empty()      ? ""
+                        : isPassed(check) ? " class=\"passes\""
+                                          : " class=\"fails\"",
+                        html(statusOf(check)), html(nameOfCheck(check, hidden)), check.points,
+                        check.maxPoints, html(foundBy(check, result, path)),
+                        isShown ? placeOf(path, fileOf(result), check.line) : "");
+  }
   return text + "</table>\n";
+}
+
+// Where the compiler found something, one place for each line.
+std::string compilerPlaces(const GradeResult& result, const std::string& path) {
+  std::string text;
+  std::set<int> seen;
+  for (const CompileDiagnostic& message : result.compile.diagnostics)
+    if (message.file == fileOf(result) && message.severity != "note" && seen.insert(message.line).second)
+      text += placeOf(path, fileOf(result), message.line);
+  return text;
 }
 
 std::string evidence(const GradeResult& result, const std::vector<FeedbackFile>& files) {
@@ -82,19 +130,6 @@ std::string noteOf(const LineComment& comment) {
   return fmt::format("<tr class=\"note\"><td></td><td>{}</td></tr>\n", html(comment.text + author(comment)));
 }
 
-std::string listing(const Feedback& feedback) {
-  std::string text = "<h2>main.cpp</h2>\n<table class=\"code\">\n";
-  for (const LineComment& comment : feedback.comments)
-    if (comment.line == 0) text += noteOf(comment);
-  const auto lines = splitLines(feedback.source);
-  for (std::size_t k = 0; k < lines.size(); ++k) {
-    text += fmt::format("<tr id=\"line{0}\"><td>{0}</td><td>{1}</td></tr>\n", k + 1, htmlText(lines[k]));
-    for (const LineComment& comment : feedback.comments)
-      if (comment.line == static_cast<int>(k) + 1) text += noteOf(comment);
-  }
-  return text + "</table>\n";
-}
-
 std::string gradeOf(const Feedback& feedback) {
   const GradeResult& result = feedback.result;
   if (result.outcome == Outcome::kGraderError) return kGraderFailed;
@@ -104,6 +139,29 @@ std::string gradeOf(const Feedback& feedback) {
 }
 
 }  // namespace
+
+std::string checksHtml(const GradeResult& result, const std::string& path) {
+  if (result.outcome == Outcome::kGraderError) return "";
+  if (result.outcome != Outcome::kCompileError) return tableOfChecks(result, path);
+  return fmt::format("<p>Cannot be graded:</p>\n<pre>{}</pre>\n", html(compileText(result), kLongestText)) +
+         compilerPlaces(result, path);
+}
+
+std::string listingHtml(const Feedback& feedback, const std::string& path) {
+  std::string text = "<h2>main.cpp</h2>\n<table class=\"code\">\n";
+  for (const LineComment& comment : feedback.comments)
+    if (comment.line == 0) text += noteOf(comment);
+  const auto lines = splitLines(feedback.source);
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    const int line = static_cast<int>(k) + 1;
+    const std::string number = std::to_string(line);
+    text += fmt::format("<tr id=\"line{}\"><td>{}</td><td>{}</td></tr>\n", line,
+                        path.empty() ? number : editorLink(path, line, number), htmlText(lines[k]));
+    for (const LineComment& comment : feedback.comments)
+      if (comment.line == line) text += noteOf(comment);
+  }
+  return text + "</table>\n";
+}
 
 std::string feedbackPage(const Feedback& feedback, const std::vector<FeedbackFile>& files) {
   const GradeResult& result = feedback.result;
@@ -116,11 +174,10 @@ std::string feedbackPage(const Feedback& feedback, const std::vector<FeedbackFil
       page += fmt::format("<li>{}</li>\n", html(sentence));
     page += "</ul>\n";
   }
-  if (result.outcome == Outcome::kCompileError)
-    page += fmt::format("<p>Cannot be graded:</p>\n<pre>{}</pre>\n", html(compileText(result), kLongestText));
-  else if (result.outcome != Outcome::kGraderError)
-    page += tableOfChecks(result) + evidence(result, files);
-  return page + listing(feedback) + "</body>\n</html>\n";
+  page += checksHtml(result);
+  const bool hasChecks = result.outcome != Outcome::kCompileError && result.outcome != Outcome::kGraderError;
+  if (hasChecks) page += evidence(result, files);
+  return page + listingHtml(feedback) + "</body>\n</html>\n";
 }
 
 std::string feedbackText(const Feedback& feedback) {

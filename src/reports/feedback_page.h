@@ -37,6 +37,11 @@ struct FeedbackFile {
 /// texts are escaped, and no script may run.
 [[nodiscard]] std::string feedbackPage(const Feedback& feedback, const std::vector<FeedbackFile>& files);
 
+/// Parts of that page for other pages: the table of checks, or what the compiler says; and main.cpp with the
+/// comments. If `path`, absolute, says where main.cpp is, lines lead to it in an editor.
+[[nodiscard]] std::string checksHtml(const GradeResult& result, const std::string& path = "");
+[[nodiscard]] std::string listingHtml(const Feedback& feedback, const std::string& path = "");
+
 /// The same as plain text without pictures, for mails.
 [[nodiscard]] std::string feedbackText(const Feedback& feedback);
 

@@ -13,6 +13,7 @@
 #include "base/process.h"
 #include "cli/template_project.h"
 #include "support/tiny_disk.h"
+#include "support/web_connection.h"
 
 namespace rex::cli::student_loop_test {
 
@@ -311,13 +312,29 @@ TEST_F(Watching, GradesAgainAtEverySaveUntilAllIsRight) {
 TEST_F(Watching, RenewsItsPageAtEverySave) {
   rex({"reset", "98"});
   const pid_t child = start({"--open"});
-  ASSERT_TRUE(waitUntil([&] { return log().find("page: ") != std::string::npos; })) << log();
-  const fs::path page = root() / "out" / "98-template" / "watch.html";
-  EXPECT_THAT(fileText(page), Not(HasSubstr("Now passes: ")));
+  ASSERT_TRUE(waitUntil([&] { return hasGraded(1); })) << log();
+  const std::string text = log(), start = text.substr(text.find("page: ") + 6);
+  const std::string url = start.substr(0, start.find('\n'));
+  EXPECT_THAT(fetched(url, "", "</html>"), HasSubstr("<h1 id=\"98-template"));
+  const std::string before = fetched(url, "frames", "graded in");
+  EXPECT_THAT(before, HasSubstr("vscode://file"));
+  EXPECT_THAT(before, Not(HasSubstr("Now passes: ")));
+  // A hint that is opened in the page counts.
+  const std::string host = url.substr(7, url.find('/', 7) - 7), ask = R"({"hint":"rotate"})";
+  Connection connection(std::stoi(host.substr(host.find(':') + 1)));
+  connection.send("POST " + url.substr(7 + host.size()) + "events HTTP/1.1\r\nHost: " + host +
+                  "\r\nOrigin: http://" + host + "\r\nContent-Length: " + std::to_string(ask.size()) +
+                  "\r\n\r\n" + ask);
+  EXPECT_THAT(connection.readUntil("\r\n\r\n"), HasSubstr("204"));
+  ASSERT_TRUE(waitUntil(
+      [&] { return fetched(url, "frames", "\"source\"").find("Open hint 2") != std::string::npos; }));
+  EXPECT_THAT(fileText(root() / ".rex" / "progress.json"), HasSubstr("\"rotate\": 1"));
   write(root() / "saved", kGood);
   fs::rename(root() / "saved", main());
+  Connection viewer(std::stoi(host.substr(host.find(':') + 1)));
+  viewer.send("GET " + url.substr(7 + host.size()) + "frames HTTP/1.1\r\nHost: " + host + "\r\n\r\n");
+  EXPECT_THAT(viewer.readUntil("Now passes: A quarter turn", 60000), HasSubstr("Now passes: A quarter turn"));
   EXPECT_EQ(exitCodeOf(child), 0);
-  EXPECT_THAT(fileText(page), HasSubstr("<li>Now passes: A quarter turn</li>"));
 }
 
 TEST_F(Watching, EndsWhenItIsAskedTo) {

@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "live/live_pieces.h"
+#include "render/glb.h"
 #include "scene/scene_file.h"
 
 namespace rex::live_scene_test {
@@ -36,6 +38,25 @@ TEST(LiveScene, WritesPosesAsFloats) {
   const Model model = modelOf("body a { X=<T t(1 2 3)> mass=1 }\nshape (a) { type=0 size=[.1 .1 .1 0] }\n");
   // Two bodies of seven floats each: 56 bytes, 76 characters.
   EXPECT_EQ(posesText(forwardKinematics(model, model.initialPositions())).size(), 76u);
+}
+
+TEST(LiveScene, CutsPicturesIntoPiecesThatStayTheSame) {
+  Picture picture;
+  picture.solids.push_back({.shape = {.type = ShapeType::kBox, .extent = {1, 2, 3}}, .name = "one"});
+  picture.solids.push_back(
+      {.shape = {.type = ShapeType::kSphere, .radius = 1}, .X_WS = translation(0, 0, 4), .name = "two"});
+  const std::string glb = glbOf({{.picture = picture}});
+  const LivePieces first = piecesOf(glb);
+  picture.solids[1].X_WS = translation(0, 0, 5);
+  const LivePieces moved = piecesOf(glbOf({{.picture = picture}}));
+  ASSERT_GE(first.pieces.size(), 4u);
+  std::size_t same = 0;
+  for (const LivePiece& piece : first.pieces) {
+    EXPECT_EQ(glb.substr(20 + first.json.size() + 8 + piece.at, piece.bytes.size()), piece.bytes);
+    for (const LivePiece& other : moved.pieces) same += piece.name == other.name;
+  }
+  EXPECT_GE(same, 4u);
+  EXPECT_NE(first.json, moved.json);
 }
 
 TEST(LiveScene, RefusesASceneWithoutAnythingToSee) {

@@ -127,6 +127,13 @@ TEST(LiveSession, RecordsForAReplayAndATable) {
   EXPECT_NEAR(static_cast<double>(recording->times.size()), 31, 1);
   EXPECT_THAT(tableOf(session.model(), *recording), HasSubstr("time,"));
   EXPECT_THAT(replayOf(session.model(), *recording), HasSubstr("<html"));
+  EXPECT_FALSE(session.takeFilmWish());
+  session.obey(R"([{"do": "film"}])");
+  EXPECT_TRUE(session.takeFilmWish());
+  EXPECT_FALSE(session.takeFilmWish());
+  EXPECT_FALSE(frameOf(session).contains("film"));
+  session.addFilm();
+  EXPECT_EQ(frameOf(session)["film"], 1);
 }
 
 TEST(LiveSession, EndsLongRecordings) {

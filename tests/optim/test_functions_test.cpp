@@ -43,6 +43,9 @@ TEST(TestFunctions, AgreeWithValuesByHand) {
   EXPECT_DOUBLE_EQ(valueAt("cigar", Eigen::Vector3d(3, 1, 2)), 9 + 5e6);
   EXPECT_DOUBLE_EQ(valueAt("rosenbrock", Vector2d(-1, 2)), 104);
   EXPECT_DOUBLE_EQ(valueAt("rastrigin", Vector2d(0.5, 1)), 0.25 + 20 + 1);
+  // Turned by one radian: (1, 0) lies at (cos 1, sin 1).
+  EXPECT_NEAR(valueAt("rotated-rastrigin", Vector2d(1, 0)),
+              valueAt("rastrigin", Vector2d(std::cos(1), std::sin(1))), 1e-12);
   EXPECT_NEAR(valueAt("griewank", Vector2d(std::numbers::pi, 0)), std::pow(std::numbers::pi, 2) / 4000 + 2,
               1e-12);
   EXPECT_NEAR(valueAt("ackley", Vector2d(1, 1)), 20 * (1 - std::exp(-0.2)), 1e-12);
@@ -61,7 +64,7 @@ TEST(TestFunctions, PenalizeSchwefelOutsideItsBox) {
 TEST(TestFunctions, NameTheNearest) {
   EXPECT_REX_ERROR(testFunction("rastrign"),
                    "test function: found 'rastrign', wanted sphere, ellipsoid, cigar, rosenbrock, ackley, "
-                   "griewank, rastrigin, schwefel (did you mean 'rastrigin'?)");
+                   "griewank, rastrigin, rotated-rastrigin, schwefel (did you mean 'rastrigin'?)");
 }
 
 }  // namespace rex::test_functions_test

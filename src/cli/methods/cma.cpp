@@ -178,8 +178,8 @@ void addCma(CLI::App* command, Action& action) {
       "Examples:\n  scripts/rex cma --function ackley --dim 20 --seeds 20 -o curve\n"
       "  scripts/rex cma --function rastrigin --dim 10 --lambda 200 --seeds 10 --json\n"
       "  scripts/rex cma --function rastrigin --dim 10 --restarts 9\n\n"
-      "Functions: sphere, ellipsoid, cigar, rosenbrock, ackley, griewank, rastrigin and schwefel. Their\n"
-      "minimum is 0. Unless given, starts, step sizes and targets are those of slide 9:32.\n"
+      "Functions: sphere, ellipsoid, cigar, rosenbrock, ackley, griewank, rastrigin, rotated-rastrigin and\n"
+      "schwefel. Their minimum is 0. Unless given, starts, step sizes and targets are those of slide 9:32.\n"
       "Exit code 1: no run reached the target.");
   command->add_option("--function", options->function, "what to minimise")->type_name("NAME")->required();
   command->add_option("--dim", options->dimension, "dimension of the function (default: 10)")->type_name("N");

@@ -11,6 +11,8 @@ Room methodsRoom() {
                        {"curves", addCurves},
                        {"dare", addDare},
                        {"filter", addFilter},
+                       {"linear", addLinear},
+                       {"search", addSearch},
                        {"slam", addSlam}}};
 }
 

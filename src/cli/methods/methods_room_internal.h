@@ -10,6 +10,8 @@ void addCma(CLI::App* command, Action& action);
 void addCurves(CLI::App* command, Action& action);
 void addDare(CLI::App* command, Action& action);
 void addFilter(CLI::App* command, Action& action);
+void addLinear(CLI::App* command, Action& action);
+void addSearch(CLI::App* command, Action& action);
 void addSlam(CLI::App* command, Action& action);
 
 }  // namespace rex::cli

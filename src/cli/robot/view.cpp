@@ -1,6 +1,4 @@
 #include <chrono>
-#include <cstdlib>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,10 +8,8 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/escape.h"
 #include "base/interruption.h"
 #include "base/private_folder.h"
-#include "base/text_file.h"
 #include "cli/open_browser.h"
 #include "cli/option_value_internal.h"
 #include "cli/out_folder.h"
@@ -21,11 +17,12 @@
 #include "cli/robot/robot_options_internal.h"
 #include "cli/robot/robot_room_internal.h"
 #include "cli/robot/scene_option.h"
+#include "cli/robot/view_film.h"
 #include "cli/terminal.h"
 #include "cli/wrong_use_internal.h"
 #include "live/live_page.h"
-#include "live/live_server.h"
 #include "live/live_session.h"
+#include "web/live_server.h"
 
 namespace rex::cli {
 namespace {
@@ -41,35 +38,17 @@ struct ViewOptions {
   bool noBrowser = false;
 };
 
-std::string variable(const char* name) {
-  const char* value = std::getenv(name);
-  return value != nullptr ? value : "";
-}
-
-// Opens a page that leads on to the address: as an argument, everybody on this machine could read the token.
-void openPage(const std::string& url, const PrivateFolder& folder) {
-  const std::filesystem::path page = folder.path() / "view.html";
-  writeTextFile(page,
-                "<!DOCTYPE html><meta charset=\"utf-8\"><meta http-equiv=\"refresh\" content=\"0; url=" +
-                    htmlText(url) + "\">\n");
-  openInBrowser(page.string());
-}
-
-// How those who came over ssh reach the page.
-void sayForwarding(int port) {
-  const std::string connection = variable("SSH_CONNECTION");  // client, its port, server, its port
-  if (connection.empty()) return;
-  std::vector<std::string> words(1);
-  for (const char c : connection) c == ' ' ? words.emplace_back() : words.back() += c;
-  const std::string user = variable("USER"), server = words.size() > 2 ? words[2] : "SERVER";
-  say(fmt::format("on your own machine, run: ssh -N -L {0}:127.0.0.1:{0} {1}{2}", port,
-                  user.empty() ? "" : harmless(user) + "@", harmless(server)));
-}
-
-void offerRecording(LiveServer& server, LiveSession& session) {
+void offerRecording(LiveServer& server, LiveSession& session, ViewFilm& film) {
+  if (session.takeFilmWish()) session.tell(film.draw());
+  if (const std::optional<ViewFilm::Drawn> drawn = film.takeDrawn()) {
+    session.tell(drawn->text);
+    if (!drawn->bytes.empty()) server.offer("film.mp4", {"video/mp4", drawn->bytes}), session.addFilm();
+  }
   const std::optional<LiveRecording> recording = session.takeRecording();
   if (!recording) return;
-  server.offer("motion.csv", {"text/csv; charset=utf-8", tableOf(session.model(), *recording)});
+  const std::string table = tableOf(session.model(), *recording);
+  film.setMotion(table);
+  server.offer("motion.csv", {"text/csv; charset=utf-8", table});
   session.tell("The recording is ready: save it below \"Record\".");
   try {
     server.offer("replay.html", {"application/octet-stream", replayOf(session.model(), *recording)});
@@ -79,7 +58,7 @@ void offerRecording(LiveServer& server, LiveSession& session) {
 }
 
 // Obeys and shows until the user ends it. While nothing moves, it waits.
-[[noreturn]] void serve(LiveServer& server, LiveSession& session) {
+[[noreturn]] void serve(LiveServer& server, LiveSession& session, ViewFilm& film) {
   constexpr microseconds kTick{16667}, kPause{200000};
   std::string shown;
   Clock::time_point last = Clock::now(), next = last;
@@ -101,7 +80,7 @@ void offerRecording(LiveServer& server, LiveSession& session) {
       session.advance(std::chrono::duration<double>(now - last).count());
       last = now, next = std::max(next + kTick, now);
     }
-    offerRecording(server, session);
+    offerRecording(server, session, film);
     std::string frame = session.frame();
     if (frame != shown) server.publish(frame);
     shown = std::move(frame);
@@ -127,9 +106,10 @@ ExitCode view(const Project& project, const ViewOptions& options) {
   sayForwarding(server->port());
   say("press Ctrl-C to end");
   std::fflush(stdout);
-  if (!options.noBrowser && hasScreen()) openPage(server->url(), folder);
+  if (!options.noBrowser && hasScreen()) openAddress(server->url(), folder);
+  ViewFilm film(session.model(), facingOf(fileOf(project, options.scene)), folder.path());
   try {
-    serve(*server, session);
+    serve(*server, session, film);
   } catch (const Interrupted&) {
     return ExitCode::kFull;  // as the user wants it
   }

@@ -49,6 +49,20 @@ void sayHint(const ExercisePart& part, int number) {
 
 }  // namespace
 
+ShownHints openHint(const Project& project, const ExerciseInfo& exercise, const ExercisePart& part,
+                    bool again) {
+  const int all = static_cast<int>(part.hints.size());
+  ShownHints hints;
+  hints.isKept = ProgressFile(project.root).change(exercise.name, [&](Progress& progress) {
+    int& shownSoFar = progress.hints[part.id];
+    hints.before = std::clamp(shownSoFar, 0, all);
+    hints.now = again ? hints.before : std::min(hints.before + 1, all);
+    shownSoFar = hints.now;
+  });
+  if (!again) hints.now = std::max(hints.now, 1);  // also if progress cannot be stored
+  return hints;
+}
+
 ExitCode hint(const Project& project, const HintOptions& options) {
   const ExerciseInfo exercise = project.exercise(options.exercise);
   const ExercisePart& part =
@@ -58,14 +72,7 @@ ExitCode hint(const Project& project, const HintOptions& options) {
     say(fmt::format("There are no hints for part '{}' of {}.", part.id, exercise.name));
     return ExitCode::kFull;
   }
-  int before = 0, now = 0;
-  const bool kept = ProgressFile(project.root).change(exercise.name, [&](Progress& progress) {
-    int& shownSoFar = progress.hints[part.id];
-    before = std::clamp(shownSoFar, 0, all);
-    now = options.again ? before : std::min(before + 1, all);
-    shownSoFar = now;
-  });
-  if (!options.again) now = std::max(now, 1);  // also if progress cannot be stored
+  const auto [before, now, kept] = openHint(project, exercise, part, options.again);
   say(paint(Colour::kBold, fmt::format("{} [{}]", part.title, part.id)));
   if (options.again && now == 0) say("  no hint was shown yet");
   // Hints that were shown before are repeated only on request or if there is no new one.

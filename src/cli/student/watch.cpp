@@ -1,14 +1,17 @@
 #include <chrono>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/private_folder.h"
 #include "cli/file_watcher.h"
 #include "cli/open_browser.h"
+#include "cli/out_folder.h"
 #include "cli/student/exercise_option_internal.h"
 #include "cli/student/keyboard.h"
 #include "cli/student/student_room_internal.h"
@@ -16,6 +19,7 @@
 #include "cli/student/watch_keys.h"
 #include "cli/student/watch_page.h"
 #include "cli/terminal.h"
+#include "web/live_server.h"
 
 namespace rex::cli {
 namespace {
@@ -26,9 +30,49 @@ struct WatchOptions {
   bool open = false;  ///< also as a page
 };
 
+// The address of `--open`, which the pages of all exercises that are watched have in common.
+class WatchAddress {
+ public:
+  WatchAddress() : server_({}), folder_(temporaryFolder()) {
+    say("page: " + server_.url());
+    sayForwarding(server_.port());
+    std::fflush(stdout);
+    if (hasScreen()) openAddress(server_.url(), folder_);
+  }
+  [[nodiscard]] LiveServer& server() { return server_; }
+
+ private:
+  LiveServer server_;
+  PrivateFolder folder_;  // while the browser reads it
+};
+
+// Shows each grading if there is a page.
+class ResultPage {
+ public:
+  ResultPage(const Project& project, const ExerciseInfo& exercise, WatchAddress* address) {
+    if (address != nullptr) page_.emplace(project, exercise, address->server());
+  }
+
+  void startGrading() {
+    if (page_) page_->startGrading();
+  }
+  void renew(const std::string& text) {
+    try {
+      if (page_) page_->renew(text);
+    } catch (const Error& error) {
+      note(wrap(fmt::format("rex: {}", error.what()), 2, 0));
+    }
+  }
+
+ private:
+  std::optional<WatchPage> page_{};
+};
+
 // Grades like `rex test`, only `check` unless that is empty. Reports a fault of the project, which may be
 // repaired while watching.
-ExitCode gradeOnce(const Project& project, const std::string& name, const std::string& check) {
+ExitCode gradeOnce(const Project& project, const std::string& name, const std::string& check,
+                   ResultPage& page) {
+  page.startGrading();
   const auto start = std::chrono::steady_clock::now();
   ExitCode code = ExitCode::kGraderFault;
   try {
@@ -40,32 +84,11 @@ ExitCode gradeOnce(const Project& project, const std::string& name, const std::s
     note(wrap(fmt::format("rex: {}", error.what()), 2, 0));
   }
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-  say(fmt::format("graded in {:.1f} s", taken.count()));
+  const std::string graded = fmt::format("graded in {:.1f} s", taken.count());
+  say(graded);
+  page.renew(code == ExitCode::kGraderFault ? "could not be graded: see the terminal" : graded);
   return code;
 }
-
-// The page of `--open`, which is opened as soon as there is a result.
-class ResultPage {
- public:
-  ResultPage(const Project& project, const ExerciseInfo& exercise, bool isWanted)
-      : page_(project.outFolder(exercise, false), exercise.folder / "main.cpp"), isWanted_(isWanted) {}
-
-  void renew() {
-    try {
-      if (!isWanted_ || !page_.renew() || isOpen_) return;
-    } catch (const Error& error) {
-      note(wrap(fmt::format("rex: {}", error.what()), 2, 0));
-      return;
-    }
-    isOpen_ = true;
-    say("page: " + shown(page_.file()));
-    if (hasScreen()) openInBrowser(std::filesystem::absolute(page_.file()).string());
-  }
-
- private:
-  WatchPage page_;
-  bool isWanted_, isOpen_ = false;
-};
 
 void separate() { say("\n" + std::string(80, '-')); }
 
@@ -78,16 +101,15 @@ std::string nextExercise(const Project& project, const std::string& name) {
 
 // Watches one exercise. Returns the name of the next one to watch, or "" to end.
 std::string watchOne(const Project& project, const ExerciseInfo& exercise, const WatchOptions& options,
-                     const Keyboard& keyboard, ExitCode& code) {
+                     const Keyboard& keyboard, WatchAddress* address, ExitCode& code) {
   const std::filesystem::path main = exercise.folder / "main.cpp";
   FileWatcher watcher(main, options.poll ? FileWatcher::Method::kPolling : FileWatcher::Method::kInotify);
-  ResultPage page(project, exercise, options.open);
+  ResultPage page(project, exercise, address);
   WatchKeys keys(project, exercise, keyboard, watcher);
   say(fmt::format("watching {} by {}; press Ctrl-C to end", shown(main), watcher.describe()));
   std::fflush(stdout);
   for (;;) {
-    code = gradeOnce(project, exercise.name, keys.check());
-    page.renew();
+    code = gradeOnce(project, exercise.name, keys.check(), page);
     const bool isSolved = code == ExitCode::kFull && keys.check().empty();
     std::fflush(stdout);
     if (keyboard.isThere()) {
@@ -105,9 +127,12 @@ std::string watchOne(const Project& project, const ExerciseInfo& exercise, const
 // Grades now and after each save. Without a keyboard it ends by itself at the full score.
 ExitCode watch(const Project& project, const WatchOptions& options) {
   const Keyboard keyboard;
+  std::optional<WatchAddress> address;
+  if (options.open) address.emplace();
   ExitCode code = ExitCode::kBelow;
   std::string name = project.exercise(options.exercise).name;
-  while (!name.empty()) name = watchOne(project, project.exercise(name), options, keyboard, code);
+  while (!name.empty())
+    name = watchOne(project, project.exercise(name), options, keyboard, address ? &*address : nullptr, code);
   return code;
 }
 
@@ -118,11 +143,11 @@ void addWatch(CLI::App* command, Action& action) {
   command->footer(
       "Example: scripts/rex watch 01\n\n"
       "Notices saves by inotify, or by polling five times a second if that fails, and says which.\n"
-      "--open shows the result in your browser, too: checks, pictures of failed ones, replays,\n"
-      "and what has changed since the last save.\n"
+      "--open serves the exercise as a page, too: task, functions, hints to open, checks, replays\n"
+      "of failed ones, and what has changed since the last save; only this machine can read it.\n"
       "In a terminal single keys give hints and more; elsewhere it ends at the full score.");
   addExercise(command, options->exercise);
-  command->add_flag("--open", options->open, "also show the result as a page that renews itself");
+  command->add_flag("--open", options->open, "also show the exercise as a page that renews itself");
   command->add_flag("--poll", options->poll, "poll the file instead of using inotify");
   command->callback(
       [&action, options] { action = [options](const Project& p) { return watch(p, *options); }; });

@@ -119,7 +119,7 @@ TEST_F(RiccatiCommand, SaysWhatIsWrong) {
          "problem.json:3:1: not valid JSON: wanted an object with the fields A, B, Q and R");
   expect("dare", "{\"A\": [[nan]]}", "problem.json:1:10: not valid JSON");
   expect("dare", "", "problem.json:1:1: not valid JSON");
-  expect("care", "[1]", "Riccati equation: found a JSON value of type array");
+  expect("care", "[1]", "matrices: found a JSON value of type array");
   expect("care", "{\"A\": [[1]]}", "matrix B: found no field with this name, wanted a list of rows");
   expect("care", "{\"a\": [[1]]}", "no field with this name, wanted a list of rows (did you mean 'a'?)");
   expect("care", problem("5", "[[1]]", "[[1]]", "[[1]]"), "matrix A: found no list of rows");

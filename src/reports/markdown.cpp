@@ -1,4 +1,4 @@
-#include "authoring/markdown.h"
+#include "reports/markdown.h"
 
 #include <cctype>
 #include <regex>
@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <md4c-html.h>
 
-#include "authoring/tex_math.h"
 #include "base/error.h"
+#include "reports/tex_math.h"
 
 namespace rex::grading {
 namespace {

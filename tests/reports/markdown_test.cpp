@@ -1,4 +1,4 @@
-#include "authoring/markdown.h"
+#include "reports/markdown.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "authoring/tex_math.h"
+#include "reports/tex_math.h"
 
 #include <algorithm>
 #include <cctype>

@@ -11,12 +11,15 @@ namespace rex {
 struct LiveFile {
   std::string type{};  ///< media type, such as "text/html; charset=utf-8"
   std::string bytes{};
+  std::string policy{};  ///< content security policy; empty: that of the page, which loads only from here
 };
 
 struct LiveServerOptions {
   std::string address = "127.0.0.1";  ///< of the interface to serve
   int port = 0;                       ///< 0: any that is free
   std::string token{};                ///< hexadecimal digits in the address of the page; empty: randomToken()
+  /// Who takes longer for a request is cut off.
+  std::chrono::milliseconds requestTime{10000};
 };
 
 /// 32 hexadecimal digits that nobody can guess, from the operating system. Throws Error if that has none.
@@ -25,8 +28,8 @@ struct LiveServerOptions {
 /// Serves one page to browsers from memory, never from the disk: files by name, a stream of frames of which a
 /// slow viewer misses some, and events that pages send. Only those who know the token are served, and only
 /// under an address of this machine, so that no other page in the same browser can reach it. The number of
-/// connections and viewers, and the sizes of requests, are bounded. All methods may be called from any
-/// thread.
+/// connections and viewers, and the sizes and times of requests, are bounded. All methods may be called from
+/// any thread.
 class LiveServer {
  public:
   static constexpr int kMostConnections = 256, kMostViewers = 32;
@@ -43,6 +46,8 @@ class LiveServer {
   [[nodiscard]] std::string url() const;
   /// From now on serves this file under URL/NAME; the empty name is the page itself.
   void offer(const std::string& name, LiveFile file);
+  /// No longer serves it.
+  void withdraw(const std::string& name);
   /// Sends a frame, one line, to all viewers. Those who come later get the last one.
   void publish(const std::string& frame);
   /// The messages that have arrived, oldest first; waits for the first one, at most this long.

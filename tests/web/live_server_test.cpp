@@ -1,19 +1,14 @@
-#include "live/live_server.h"
+#include "web/live_server.h"
 
 #include <chrono>
 #include <memory>
 #include <thread>
 
-#include <arpa/inet.h>
 #include <gmock/gmock.h>
-#include <netinet/in.h>
-#include <poll.h>
 #include <sys/resource.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include "base/error.h"
-#include "live/live_page.h"
+#include "support/web_connection.h"
 
 namespace rex::live_server_test {
 
@@ -22,43 +17,6 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 constexpr const char* kToken = "0123456789abcdef0123456789abcdef";
-
-// A connection that sends text and reads until the other side is silent for a while, or says enough.
-class Connection {
- public:
-  explicit Connection(int port, int flags = 0)
-      : fd_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | flags, 0)) {
-    sockaddr_in to{};
-    to.sin_family = AF_INET, to.sin_port = htons(static_cast<std::uint16_t>(port));
-    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    static_cast<void>(::connect(fd_, reinterpret_cast<const sockaddr*>(&to), sizeof to));
-  }
-  ~Connection() { ::close(fd_); }
-  Connection(const Connection&) = delete;
-  Connection& operator=(const Connection&) = delete;
-
-  void send(const std::string& text) {
-    for (std::size_t done = 0; done < text.size();) {
-      const ssize_t n = ::send(fd_, text.data() + done, text.size() - done, MSG_NOSIGNAL);
-      if (n <= 0) return;
-      done += static_cast<std::size_t>(n);
-    }
-  }
-  std::string readUntil(const std::string& end, int milliseconds = 10000) {
-    std::string all;
-    pollfd one{fd_, POLLIN, 0};
-    while (all.find(end) == std::string::npos && ::poll(&one, 1, milliseconds) == 1) {
-      char bytes[4096];
-      const ssize_t n = ::recv(fd_, bytes, sizeof bytes, 0);
-      if (n <= 0) break;
-      all.append(bytes, static_cast<std::size_t>(n));
-    }
-    return all;
-  }
-
- private:
-  int fd_;
-};
 
 class LiveServerTest : public testing::Test {
  protected:
@@ -197,10 +155,32 @@ TEST_F(LiveServerTest, SurvivesAThousandConnections) {
   setrlimit(RLIMIT_NOFILE, &most);
 }
 
-TEST_F(LiveServerTest, OffersThePage) {
-  offerLivePage(server);
-  for (const char* name : {"", "style.css", "three.js", "stage.js", "controls.js", "program.js", "live.js"})
-    EXPECT_THAT(answer(line("GET", name) + "\r\n"), StartsWith("HTTP/1.1 200")) << name;
+TEST(LiveServer, EndsConnectionsThatTakeTheirTime) {
+  LiveServer server({.token = kToken, .requestTime = 300ms});
+  server.publish("now");
+  const std::string start = std::string("GET /") + kToken + "/frames HTTP/1.1\r\nHost: localhost\r\n";
+  Connection viewer(server.port()), slow(server.port()), slowBody(server.port());
+  viewer.send(start + "\r\n");
+  EXPECT_THAT(viewer.readUntil("now"), HasSubstr("now"));
+  slow.send(start + "X: ");
+  slowBody.send(std::string("POST /") + kToken +
+                "/events HTTP/1.1\r\nHost: localhost\r\nOrigin: http://localhost\r\n" +
+                "Content-Length: 60000\r\n\r\n");
+  for (int k = 0; k < 200 && !(slow.hasEnded() && slowBody.hasEnded()); ++k) {
+    slow.send("x"), slowBody.send("x");
+    std::this_thread::sleep_for(50ms);
+  }
+  EXPECT_TRUE(slow.hasEnded());
+  EXPECT_TRUE(slowBody.hasEnded());
+  server.publish("later");
+  EXPECT_THAT(viewer.readUntil("later"), HasSubstr("later")) << "streams take any time";
+}
+
+TEST_F(LiveServerTest, GivesFilesPoliciesOfTheirOwn) {
+  server.offer("replay.html", {.type = "text/html", .bytes = "film", .policy = "sandbox"});
+  const std::string replay = answer(line("GET", "replay.html?v=1") + "\r\n");
+  EXPECT_THAT(replay, HasSubstr("Content-Security-Policy: sandbox\r\n"));
+  EXPECT_THAT(replay, testing::Not(HasSubstr("default-src")));
 }
 
 TEST(LiveServer, TokensAreRandom) {

@@ -1,4 +1,4 @@
-#include "live/live_server.h"
+#include "web/live_server.h"
 
 #include <algorithm>
 #include <array>
@@ -21,23 +21,35 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "web/connections_internal.h"
 
 namespace rex {
 namespace {
 
-// One thread per connection, up to a bound. Beyond that new connections wait until others end, and idle ones
-// end after two seconds.
+constexpr std::chrono::milliseconds kLook{200};  // between two looks for slow connections
+
+// One thread per connection, up to a bound. Beyond that new connections wait until others end; idle and slow
+// ones end soon.
 class BoundedQueue : public httplib::TaskQueue {
   // Nothing, or, in the library's newer versions, whether it was taken.
   using Enqueued = decltype(std::declval<httplib::TaskQueue&>().enqueue({}));
 
  public:
+  BoundedQueue(Connections& connections, const int& port) : connections_(connections), port_(port) {}
+
   Enqueued enqueue(std::function<void()> serve) override {
+    const int connection = connections_.accepted(port_);
+    connections_.endSlow();
     std::unique_lock lock(mutex_);
-    ended_.wait(lock, [&] { return running_ < LiveServer::kMostConnections; });
+    while (running_ >= LiveServer::kMostConnections) {
+      ended_.wait_for(lock, kLook);
+      connections_.endSlow();
+    }
     ++running_;
-    std::thread([this, serve = std::move(serve)] {
+    std::thread([this, connection, serve = std::move(serve)] {
+      connections_.begin(connection);
       serve();
+      connections_.end();
       const std::lock_guard held(mutex_);
       --running_;
       ended_.notify_all();
@@ -45,12 +57,16 @@ class BoundedQueue : public httplib::TaskQueue {
     return Enqueued(true);
   }
 
+  void on_idle() override { connections_.endSlow(); }
+
   void shutdown() override {
     std::unique_lock lock(mutex_);
     ended_.wait(lock, [&] { return running_ == 0; });
   }
 
  private:
+  Connections& connections_;
+  const int& port_;
   std::mutex mutex_;
   std::condition_variable ended_;
   int running_ = 0;
@@ -84,10 +100,11 @@ bool isSame(std::string_view a, std::string_view b) {
   return difference == 0;
 }
 
+constexpr const char* kPolicyHeader = "Content-Security-Policy";
 constexpr const char* kPolicy =
-    "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src 'self' blob: "
-    "data:; "
-    "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+    "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; "
+    "img-src 'self' blob: data:; frame-src 'self'; media-src 'self'; base-uri 'none'; "
+    "form-action 'none'; frame-ancestors 'none'";
 
 }  // namespace
 
@@ -101,15 +118,18 @@ std::string randomToken() {
 }
 
 struct LiveServer::Parts {
-  LiveServerOptions options{};
+  explicit Parts(const LiveServerOptions& given) : options(given), connections(given.requestTime) {}
+
+  LiveServerOptions options;
   int port = 0;
+  Connections connections;
   httplib::Server http{};
   std::thread listener{};
   std::atomic<bool> hasEnded = false;
 
   std::mutex mutex{};
   std::condition_variable changed{};  // a new frame, a new message, or the end
-  std::map<std::string, LiveFile> files{};
+  std::map<std::string, std::shared_ptr<const LiveFile>> files{};
   std::string frame{};
   std::uint64_t frameNumber = 0;
   std::deque<std::string> messages{};
@@ -154,17 +174,28 @@ struct LiveServer::Parts {
 
   void get(const httplib::Request& request, httplib::Response& response) {
     const std::string name = nameIn(request);
+    connections.beginAnswer(name == "frames");
     if (name == "frames") return stream(response);
     const std::lock_guard lock(mutex);
-    const auto file = files.find(name);
-    if (file == files.end()) {
+    const auto found = files.find(name);
+    if (found == files.end()) {
       response.status = 404;
       return;
     }
-    response.set_content(file->second.bytes, file->second.type);
+    const std::shared_ptr<const LiveFile> file = found->second;
+    // In parts: whole texts would be compressed first, which takes two seconds per megabyte.
+    const auto part = [file](std::size_t from, std::size_t size, httplib::DataSink& sink) {
+      return sink.write(file->bytes.data() + from, size);
+    };
+    if (file->bytes.empty()) response.set_content("", file->type);
+    if (!file->bytes.empty()) response.set_content_provider(file->bytes.size(), file->type, part);
+    if (file->policy.empty()) return;
+    response.headers.erase(kPolicyHeader);
+    response.set_header(kPolicyHeader, file->policy);
   }
 
   void post(const httplib::Request& request, httplib::Response& response) {
+    connections.beginAnswer(false);
     const std::lock_guard lock(mutex);
     response.status = nameIn(request) != "events" ? 404 : messages.size() >= kMostMessages ? 429 : 204;
     if (response.status != 204) return;
@@ -189,7 +220,7 @@ struct LiveServer::Parts {
             std::unique_lock lock(mutex);
             const bool isNews = changed.wait_for(lock, std::chrono::seconds(2),
                                                  [&] { return isEnding || frameNumber != last; });
-            if (isEnding) return false;
+            if (isEnding && frameNumber == last) return false;  // or the last one would be lost
             text = isNews ? "data: " + frame + "\n\n" : ": nothing new\n\n";
             last = frameNumber;
           }
@@ -202,14 +233,16 @@ struct LiveServer::Parts {
   }
 
   void prepare() {
-    http.new_task_queue = [] { return new BoundedQueue; };
+    http.new_task_queue = [this] { return new BoundedQueue(connections, port); };
+    http.set_idle_interval(kLook);
+    http.set_logger([this](const httplib::Request&, const httplib::Response&) { connections.endAnswer(); });
     http.set_tcp_nodelay(true);
     http.set_keep_alive_max_count(1000000);
     http.set_keep_alive_timeout(2);
     http.set_read_timeout(2);
     http.set_write_timeout(5);
     http.set_payload_max_length(kLongestMessage);
-    http.set_default_headers({{"Content-Security-Policy", kPolicy},
+    http.set_default_headers({{kPolicyHeader, kPolicy},
                               {"X-Content-Type-Options", "nosniff"},
                               {"Cross-Origin-Resource-Policy", "same-origin"},
                               {"Referrer-Policy", "no-referrer"},
@@ -227,9 +260,8 @@ struct LiveServer::Parts {
   }
 };
 
-LiveServer::LiveServer(const LiveServerOptions& options) : parts_(std::make_unique<Parts>()) {
+LiveServer::LiveServer(const LiveServerOptions& options) : parts_(std::make_unique<Parts>(options)) {
   Parts& parts = *parts_;
-  parts.options = options;
   std::string& token = parts.options.token;
   if (token.empty()) token = randomToken();
   if (token.size() < 16 || !std::all_of(token.begin(), token.end(), isHex))
@@ -272,7 +304,12 @@ std::string LiveServer::url() const {
 
 void LiveServer::offer(const std::string& name, LiveFile file) {
   const std::lock_guard lock(parts_->mutex);
-  parts_->files[name] = std::move(file);
+  parts_->files[name] = std::make_shared<const LiveFile>(std::move(file));
+}
+
+void LiveServer::withdraw(const std::string& name) {
+  const std::lock_guard lock(parts_->mutex);
+  parts_->files.erase(name);
 }
 
 void LiveServer::publish(const std::string& frame) {

@@ -1,0 +1,247 @@
+// `rex linear`: what chapter 8 says about a linear system, with Bode and Nyquist plots.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <Eigen/Eigenvalues>
+#include <fmt/format.h>
+
+#include "cli/methods/matrix_file_internal.h"
+#include "cli/methods/methods_room_internal.h"
+#include "cli/out_folder.h"
+#include "cli/result_list.h"
+#include "cli/terminal.h"
+#include "cli/wrong_use_internal.h"
+#include "control/controllability.h"
+#include "control/regulators.h"
+#include "control/responses.h"
+#include "control/stability.h"
+#include "render/figure_builders.h"
+#include "render/response_figures.h"
+
+namespace rex::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct LinearOptions {
+  fs::path file{};
+  fs::path out{};  ///< a folder for figures; empty: none
+  int input = 1, output = 1;
+  bool json = false;
+};
+
+// What the file asks for; empty where it has no weights or no noise.
+struct Findings {
+  LinearSystem system{};
+  StabilityResult stability{};
+  ReachableStates controllable{}, observable{};
+  std::optional<RiccatiResult> regulator{};
+  std::optional<SteadyKalman> filter{};
+  std::optional<Lqg> lqg{};
+  // With the regulator, from a disturbance of u to y, and the loop when it is cut at u.
+  std::optional<LinearSystem> closed{}, loop{};
+};
+
+Eigen::VectorXcd polesOf(const LinearSystem& system) {
+  return Eigen::EigenSolver<Eigen::MatrixXd>(system.A, false).eigenvalues();
+}
+
+// From u through the system and the controller to -u.
+LinearSystem loopThrough(const LinearSystem& system, const LinearSystem& controller) {
+  const Eigen::Index n = system.A.rows(), k = controller.A.rows();
+  LinearSystem loop{.A = Eigen::MatrixXd::Zero(n + k, n + k), .step = system.step};
+  loop.A.topLeftCorner(n, n) = system.A;
+  loop.A.bottomLeftCorner(k, n) = controller.B * system.C;
+  loop.A.bottomRightCorner(k, k) = controller.A;
+  loop.B.resize(n + k, system.B.cols());
+  loop.B << system.B, controller.B * system.D;
+  loop.C.setZero(controller.C.rows(), n + k);
+  loop.C.rightCols(k) = -controller.C;
+  return loop;
+}
+
+Findings findingsOf(const MatrixFile& file) {
+  Findings f;
+  f.system = {.A = file.matrix("A"), .B = file.matrix("B")};
+  if (file.has("C")) f.system.C = file.matrix("C");
+  if (file.has("D")) f.system.D = file.matrix("D");
+  if (file.has("step")) f.system.step = file.number("step");
+  f.system = completed(f.system);
+  f.stability = f.system.step ? discreteStabilityOf(f.system.A) : stabilityOf(f.system.A);
+  f.controllable = controllability(f.system);
+  f.observable = observability(f.system);
+  const bool hasWeights = file.has("Q") || file.has("R"), hasNoise = file.has("W") || file.has("V");
+  if (hasWeights) f.regulator = lqr(f.system, file.matrix("Q"), file.matrix("R"));
+  if (hasNoise) f.filter = steadyKalman(f.system, file.matrix("W"), file.matrix("V"));
+  if (hasWeights && hasNoise)
+    f.lqg = lqg(f.system, file.matrix("Q"), file.matrix("R"), file.matrix("W"), file.matrix("V"));
+  if (f.lqg && f.lqg->status == RiccatiStatus::kSolved) {
+    f.closed = closedLoop(f.system, f.lqg->controller);
+    f.loop = loopThrough(f.system, f.lqg->controller);
+  } else if (f.regulator && f.regulator->K.size() > 0) {
+    const Eigen::MatrixXd& K = f.regulator->K;
+    f.closed = f.system;
+    f.closed->A -= f.system.B * K;
+    f.closed->C -= f.system.D * K;
+    f.loop = {.A = f.system.A, .B = f.system.B, .C = K, .step = f.system.step};
+  }
+  return f;
+}
+
+// A hundredth of the slowest to a hundred times the fastest motion, within what a discrete system can show.
+// Poles at zero are no motion; rounding moves them.
+std::vector<double> frequenciesFor(const LinearSystem& system) {
+  std::vector<double> rates;
+  for (const std::complex<double> pole : polesOf(system))
+    rates.push_back(std::abs(system.step ? std::log(pole + 1e-300) / *system.step : pole));
+  const double fastest = *std::max_element(rates.begin(), rates.end());
+  std::erase_if(rates, [&](double rate) { return !(rate > 1e-5 * fastest); });
+  const double slowest = rates.empty() ? 1 : *std::min_element(rates.begin(), rates.end());
+  double high = 100 * (rates.empty() ? 1 : fastest);
+  if (system.step) high = std::min(high, 0.999 * std::numbers::pi / *system.step);
+  return frequenciesBetween(std::min(slowest / 100, high / 10), high);
+}
+
+std::vector<fs::path> drawn(const Findings& f, const LinearOptions& options) {
+  const int input = options.input - 1, output = options.output - 1;
+  std::vector<fs::path> files;
+  const auto draw = [&](Figure figure, const char* name, const std::string& title) {
+    figure.title = title;
+    writeFigure(figure, files.emplace_back(options.out / name));
+  };
+  makeOutFolder(options.out);
+  const std::string way = fmt::format("u{} to y{}", options.input, options.output);
+  const FrequencyResponse plant = frequencyResponse(f.system, input, output, frequenciesFor(f.system));
+  draw(bodeMagnitudeFigure(plant.frequencies, plant.magnitudes), "bode-magnitude.png", "From " + way);
+  draw(bodePhaseFigure(plant.frequencies, plant.phases), "bode-phase.png", "From " + way);
+  const TimeDomain domain = f.system.step ? TimeDomain::kDiscrete : TimeDomain::kContinuous;
+  const auto listOf = [](const Eigen::VectorXcd& values) {
+    return std::vector(values.begin(), values.end());
+  };
+  Figure poles = poleFigure(listOf(f.stability.eigenvalues), {}, domain);
+  if (f.closed) {
+    Figure closed = poleFigure(listOf(polesOf(*f.closed)), {}, domain);
+    poles.series[0].label = "alone";
+    closed.series[0].label = "with the regulator";
+    closed.series[0].color = Color{0.95f, 0.35f, 0.1f};
+    poles.series.push_back(closed.series[0]);
+  }
+  draw(poles, "poles.png", "Poles");
+  if (!f.closed) return files;
+  const FrequencyResponse loop = frequencyResponse(*f.loop, input, input, frequenciesFor(*f.loop));
+  draw(nyquistFigure(loop.values), "nyquist.png", fmt::format("The loop, cut at u{}", options.input));
+  double slowest = 1e3;
+  for (const std::complex<double> pole : polesOf(*f.closed))
+    slowest =
+        std::min(slowest, f.system.step ? -std::log(std::abs(pole) + 1e-300) / *f.system.step : -pole.real());
+  const TimeResponse step = stepResponse(*f.closed, input, 6 / std::max(slowest, 1e-3));
+  draw(stepFigure(step.times, step.y), "step.png",
+       fmt::format("With the regulator, pushed by 1 at u{} from 0 s on", options.input));
+  return files;
+}
+
+void sayFindings(const Findings& f) {
+  const auto counted = [](Eigen::Index count, const char* name) {
+    return fmt::format("{} {}{}", count, name, count == 1 ? "" : "s");
+  };
+  say(fmt::format("{}, {}, {}; {}", counted(f.system.A.rows(), "state"),
+                  counted(f.system.B.cols(), "control"), counted(f.system.C.rows(), "measurement"),
+                  f.system.step ? fmt::format("in steps of {:g} s", *f.system.step) : "in continuous time"));
+  say(f.stability.message);
+  sayComplex(f.stability.eigenvalues);
+  say(f.controllable.isComplete ? "controllable" : f.controllable.message);
+  say(f.observable.isComplete ? "observable" : f.observable.message);
+  if (f.regulator) {
+    say("LQR: " + f.regulator->message);
+    if (f.regulator->K.size() > 0) say(matrixText("K", f.regulator->K));
+    sayComplex(f.regulator->closedLoop);
+  }
+  if (f.filter) {
+    say("Kalman filter: " + f.filter->message);
+    if (f.filter->L.size() > 0) say(matrixText("L", f.filter->L));
+    sayComplex(f.filter->closedLoop);
+  }
+  if (f.lqg && f.lqg->status != RiccatiStatus::kSolved) say("LQG: " + f.lqg->message);
+}
+
+Json jsonOf(const Findings& f, const std::vector<fs::path>& files) {
+  const auto rows = [](const Eigen::MatrixXd& M) { return M.size() > 0 ? jsonOfRows(M) : Json(); };
+  const auto states = [](const ReachableStates& s) {
+    return Json{{"rank", s.rank}, {"complete", s.isComplete}, {"message", s.message}};
+  };
+  Json json{{"eigenvalues", jsonOfComplex(f.stability.eigenvalues)},
+            {"stability", f.stability.message},
+            {"controllable", states(f.controllable)},
+            {"observable", states(f.observable)},
+            {"regulator", nullptr},
+            {"filter", nullptr},
+            {"files", Json::array()}};
+  if (f.regulator)
+    json["regulator"] = {{"K", rows(f.regulator->K)},
+                         {"eigenvalues", jsonOfComplex(f.regulator->closedLoop)},
+                         {"message", f.regulator->message}};
+  if (f.filter)
+    json["filter"] = {{"L", rows(f.filter->L)},
+                      {"eigenvalues", jsonOfComplex(f.filter->closedLoop)},
+                      {"message", f.filter->message}};
+  for (const fs::path& file : files) json["files"].push_back(file.string());
+  return json;
+}
+
+ExitCode linear(const Project& project, const LinearOptions& options) {
+  const MatrixFile file = asWrongUse([&] {
+    return MatrixFile(inProject(project, options.file), options.file,
+                      {"A", "B", "C", "D", "step", "Q", "R", "W", "V"});
+  });
+  const Findings findings = asWrongUse([&] { return file.blamed([&] { return findingsOf(file); }); });
+  const auto requireOne = [](const char* option, int number, Eigen::Index count) {
+    if (number < 1 || number > count)
+      throw UsageError(
+          {.what = option, .found = std::to_string(number), .wanted = fmt::format("1 to {}", count)});
+  };
+  requireOne("--input", options.input, findings.system.B.cols());
+  requireOne("--output", options.output, findings.system.C.rows());
+  std::vector<fs::path> files;
+  if (!options.out.empty()) files = drawn(findings, options);
+  if (options.json) {
+    say(dump(jsonOf(findings, files)));
+  } else {
+    sayFindings(findings);
+    for (const fs::path& written : files) say(shown(written));
+  }
+  const bool isSolved = (!findings.regulator || findings.regulator->K.size() > 0) &&
+                        (!findings.filter || findings.filter->L.size() > 0);
+  return isSolved ? ExitCode::kFull : ExitCode::kBelow;
+}
+
+}  // namespace
+
+void addLinear(CLI::App* command, Action& action) {
+  const auto options = std::make_shared<LinearOptions>();
+  command->footer(
+      "Examples:\n  scripts/rex linear data/control/cart-pole-seen.json\n"
+      "  scripts/rex linear data/control/cart-pole-seen.json -o figures --json\n\n"
+      "x' = A x + B u, y = C x + D u, or x_{t+1} with a \"step\" in seconds: stability, controllability,\n"
+      "observability. With Q and R the regulator u = -K x, with W and V (intensities of the noise of\n"
+      "motion and measurement) the Kalman filter, with all four LQG. Exit code 1: one of them does not\n"
+      "exist; the message says why.");
+  command->add_option("file", options->file, "{\"A\": [[...], ...], \"B\": ...}; also C, D, step, Q, R, W, V")
+      ->type_name("FILE.json")
+      ->required();
+  command->add_option("-o,--out", options->out, "draw Bode, Nyquist, poles and a step into this folder")
+      ->type_name("FOLDER");
+  command->add_option("--input", options->input, "the control that the figures show (default: 1)");
+  command->add_option("--output", options->output, "the measurement that they show (default: 1)");
+  command->add_flag("--json", options->json, "print JSON");
+  command->callback(
+      [&action, options] { action = [options](const Project& p) { return linear(p, *options); }; });
+}
+
+}  // namespace rex::cli

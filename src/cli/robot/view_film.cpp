@@ -1,0 +1,53 @@
+#include "cli/robot/view_film.h"
+
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+#include "base/interruption.h"
+#include "base/text_file.h"
+#include "cli/robot/film_file.h"
+#include "cli/robot/posture_option.h"
+
+namespace rex::cli {
+
+std::string ViewFilm::draw() {
+  if (table_.empty()) return "There is no recording yet.";
+  const std::lock_guard lock(mutex_);
+  if (isBusy_) return "A film is being drawn.";
+  isBusy_ = true;
+  painter_ = std::jthread([this, table = table_] {
+    Drawn made;
+    try {
+      made = drawn(table);
+    } catch (const std::exception& error) {
+      made = {.text = error.what()};
+    } catch (const Interrupted&) {  // the program ends
+    }
+    const std::lock_guard held(mutex_);
+    drawn_ = std::move(made), isBusy_ = false;
+  });
+  return "The film is being drawn.";
+}
+
+std::optional<ViewFilm::Drawn> ViewFilm::takeDrawn() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(drawn_, std::nullopt);
+}
+
+ViewFilm::Drawn ViewFilm::drawn(const std::string& table) const {
+  const std::filesystem::path motion = folder_ / "motion.csv", out = folder_ / "film.mp4";
+  writeTextFile(motion, table);
+  std::filesystem::remove(out);
+  const Motion moved = readMotion(model_, motion, kFilmRate);
+  std::vector<std::size_t> shown(moved.postures.size());
+  std::iota(shown.begin(), shown.end(), std::size_t{0});
+  const std::filesystem::path written =
+      writeFilm({model_, moved, shown, {}, ""}, planOf({.motion = motion, .out = out}, facing_), out);
+  if (written != out)
+    return {.text = "There is no ffmpeg here to make films (apt-get install ffmpeg). The replay needs none."};
+  return {.text = "The film is ready: film.mp4, below \"Record\".", .bytes = readTextFile(out)};
+}
+
+}  // namespace rex::cli

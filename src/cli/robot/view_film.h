@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "cli/robot/view_option.h"
+#include "scene/model.h"
+
+namespace rex::cli {
+
+/// Films of what was recorded on the live page, drawn beside it as by `rex render --motion`.
+class ViewFilm {
+ public:
+  struct Drawn {
+    std::string text{};   ///< a sentence for the user
+    std::string bytes{};  ///< of the film, MP4; empty: there is none
+  };
+
+  /// Draws in `folder`. Keeps a reference to the model.
+  ViewFilm(const Model& model, Facing facing, std::filesystem::path folder)
+      : model_(model), facing_(facing), folder_(std::move(folder)) {}
+
+  /// The table of the motion that is drawn next; see tableOf().
+  void setMotion(const std::string& table) { table_ = table; }
+  /// Begins to draw, unless it draws already or there is no motion. Returns a sentence about it.
+  [[nodiscard]] std::string draw();
+  /// What was drawn since the last call.
+  [[nodiscard]] std::optional<Drawn> takeDrawn();
+
+ private:
+  Drawn drawn(const std::string& table) const;
+
+  const Model& model_;
+  Facing facing_;
+  std::filesystem::path folder_;
+  std::string table_{};
+  std::mutex mutex_{};
+  bool isBusy_ = false;
+  std::optional<Drawn> drawn_{};
+  std::jthread painter_{};
+};
+
+}  // namespace rex::cli

@@ -1,0 +1,66 @@
+// `rex search` as a user meets it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "base/rng.h"
+#include "cli/rex_command.h"
+#include "optim/simplex_search.h"
+#include "optim/test_functions.h"
+
+namespace rex::cli::search_test {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+using SearchCommand = RexCommand;
+
+TEST_F(SearchCommand, CountsAsTheLibraryDoes) {
+  const ProcessResult result = rex({"search", "--function", "rosenbrock", "--method", "simplex,cma", "--dim",
+                                    "3", "--seeds", "2", "--json"});
+  ASSERT_EQ(result.exitCode, 0) << result.error;
+  const json cells = json::parse(result.output)["cells"];
+  ASSERT_EQ(cells.size(), 2u);
+  EXPECT_EQ(cells[0]["method"], "cma");
+  double spent = 0;
+  for (const std::uint64_t seed : {0, 1}) {
+    Rng rng(seed);
+    const TestFunction& function = testFunction("rosenbrock");
+    const SearchResult own =
+        minimizeBySimplex(function.value, rng.uniformVector(3, function.low, function.high),
+                          {.step = function.deviation, .maxEvaluations = 100'000, .target = function.target});
+    EXPECT_EQ(own.status, SearchStatus::kTargetReached);
+    spent += static_cast<double>(own.evaluations);
+  }
+  EXPECT_EQ(cells[1]["evaluations_per_success"].get<double>(), spent / 2);
+}
+
+TEST_F(SearchCommand, ComparesAllMethodsOnAllFunctions) {
+  const ProcessResult result = rex({"search", "--seeds", "1", "--dim", "2", "--max-evaluations", "5000"});
+  EXPECT_EQ(result.exitCode, 0);
+  for (const TestFunction& function : testFunctions())
+    EXPECT_THAT(result.output, HasSubstr("\n" + std::string(function.name) + " "));
+  EXPECT_THAT(flat(result.output),
+              HasSubstr("cma one-plus-one evolution distribution simplex annealing climbing"));
+  EXPECT_EQ(rex({"search", "--seeds", "1", "--dim", "2", "--max-evaluations", "5000"}).output, result.output);
+}
+
+TEST_F(SearchCommand, SaysWhatIsWrong) {
+  const auto expect = [&](std::vector<std::string> words, const char* text) {
+    words.insert(words.begin(), "search");
+    const ProcessResult result = rex(words);
+    EXPECT_EQ(result.exitCode, 64) << result.error;
+    EXPECT_THAT(flat(result.error), HasSubstr(text));
+  };
+  expect({"--method", "simplx"}, "--method: found 'simplx', wanted cma, one-plus-one,");
+  expect({"--method", "simplx"}, "(did you mean 'simplex'?)");
+  expect({"--function", "spere"}, "--function: found 'spere', wanted sphere, ellipsoid,");
+  expect({"--dim", "1"}, "--dim: found 1, wanted 2 to 100");
+  expect({"--seeds", "0"}, "--seeds: found 0, wanted 1 to 1000");
+  expect({"--max-evaluations", "1"}, "--max-evaluations: found 1, wanted 10 to 1e+08");
+  EXPECT_EQ(rex({"search", "--method", "climbing", "--function", "rosenbrock", "--dim", "20", "--seeds", "1",
+                 "--max-evaluations", "100"})
+                .exitCode,
+            1);
+}
+
+}  // namespace rex::cli::search_test
