@@ -53,7 +53,7 @@ TEST_F(Demo, SaysWhatThereIsInstead) {
   EXPECT_THAT(unknown.error, HasSubstr("did you mean 'swing'?"));
   EXPECT_THAT(rex({"demo", "12"}).error, HasSubstr("no demonstration belongs to chapter 12"));
   demonstration("broken", "int main() {}\n");
-  EXPECT_THAT(rex({"demo"}).error, HasSubstr("broken.cpp:1: the first comment of a demonstration"));
+  EXPECT_THAT(rex({"demo"}).error, HasSubstr("broken.cpp:1: the first comment"));
 }
 
 }  // namespace rex::cli::demo_test
