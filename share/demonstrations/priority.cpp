@@ -16,7 +16,7 @@ int main() {
   bool rightFirst = true;
   for (int t = 0; t < 360 || view.isWatched(); ++t) {
     const double apart = view.slider("targets apart [m]", 0, 1.5, 0.6),
-                 ahead = view.slider("ahead [m]", -0.5, 1, 0.2);
+                 ahead = view.slider("ahead [m]", -0.5, 1, 0);
     if (view.button("swap priorities") || t == 200) rightFirst = !rightFirst;
     const double share = std::min(1., t / 100.);
     const Eigen::Vector3d targets[] = {right + share * Eigen::Vector3d(-apart, -ahead, 0.1),
@@ -25,8 +25,8 @@ int main() {
     Eigen::VectorXd q = S.getJointAngles();
     std::vector<TaskLevel> levels;
     for (const int k : {rightFirst ? 0 : 1, rightFirst ? 1 : 0})
-      levels.push_back({.J = S.jacobianPos(hands[k]), .dy = 0.2 * (targets[k] - S.kinematicsPos(hands[k]))});
-    q += hierarchicalStep(levels, {.a = 0.02 * (rest - q), .damping = 0.03});
+      levels.push_back({.J = S.jacobianPos(hands[k]), .dy = 0.1 * (targets[k] - S.kinematicsPos(hands[k]))});
+    q += hierarchicalStep(levels, {.a = 0.02 * (rest - q), .damping = 0.2});
     S.setJointAngles(q);
 
     Picture picture = pictureOf(S.model(), forwardKinematics(S.model(), q));
