@@ -72,7 +72,8 @@ Mdp LearnedModel::modelWith(double discount, int known, double unknownReward) co
 
 Mdp LearnedModel::mostLikely(double discount) const {
   Mdp mdp = modelWith(discount, 1, 0);
-  mdp.rewards = paid_.cwiseQuotient(tried_.cwiseMax(1));  // 0 / (1 - discount) is no number for 1
+  mdp.rewards =
+      paid_.cwiseQuotient(tried_.cwiseMax(1));  // 0 / (1 - discount) is not a number if the discount is 1
   requireMdp(mdp);
   return mdp;
 }

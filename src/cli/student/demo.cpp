@@ -92,6 +92,10 @@ ExitCode writePage(const Project& project, const Demonstration& one, const fs::p
 ExitCode demo(const Project& project, const DemoOptions& options) {
   const std::vector<Demonstration> all = demonstrations(project);
   if (options.json) {
+    if (!options.which.empty() || !options.out.empty())
+      throw UsageError({.what = "--json lists all demonstrations",
+                        .found = harmless(options.which + options.out),
+                        .wanted = "nothing else"});
     sayJson(all);
     return ExitCode::kFull;
   }

@@ -52,6 +52,8 @@ TEST_F(Demo, SaysWhatThereIsInstead) {
   EXPECT_THAT(unknown.error, HasSubstr("there is no demonstration 'swimg'"));
   EXPECT_THAT(unknown.error, HasSubstr("did you mean 'swing'?"));
   EXPECT_THAT(rex({"demo", "12"}).error, HasSubstr("no demonstration belongs to chapter 12"));
+  EXPECT_THAT(flat(rex({"demo", "3", "--json"}).error),
+              HasSubstr("--json lists all demonstrations: found 3, wanted nothing else"));
   demonstration("broken", "int main() {}\n");
   EXPECT_THAT(rex({"demo"}).error, HasSubstr("broken.cpp:1: the first comment"));
 }
