@@ -67,7 +67,7 @@ function(rex_install_exercises)
   install(FILES ${PROJECT_SOURCE_DIR}/share/completion/rex.bash
           DESTINATION share/bash-completion/completions RENAME rex COMPONENT runtime)
   install(FILES ${PROJECT_SOURCE_DIR}/share/completion/_rex DESTINATION share/zsh/vendor-completions COMPONENT runtime)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/share/course ${PROJECT_SOURCE_DIR}/share/examples ${PROJECT_SOURCE_DIR}/share/gdb
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/share/course ${PROJECT_SOURCE_DIR}/share/demonstrations ${PROJECT_SOURCE_DIR}/share/examples ${PROJECT_SOURCE_DIR}/share/gdb
                     ${PROJECT_SOURCE_DIR}/share/template
           DESTINATION share/rex/share COMPONENT runtime)
 endfunction()

@@ -33,6 +33,7 @@ std::span<const TableEntry> commandTable() {
       {"reset", "Restore main.cpp as it was handed out", kStudent},
       {"solution", "Print the reference solution, if the course allows it", kStudent},
       {"submit", "Write the zip file to hand in, with a receipt", kStudent},
+      {"demo", "Show a demonstration of a chapter in a browser, or as a page", kStudent},
       {"debug", "Run your main.cpp in the debugger gdb", kStudent},
       {"scene", "Inspect, check or convert a scene", kRobot},
       {"view", "Move a robot in a browser: sliders, dragging, simulation", kRobot},

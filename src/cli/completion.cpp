@@ -4,6 +4,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "cli/demonstrations.h"
+
 namespace rex::cli {
 namespace {
 
@@ -23,10 +25,9 @@ const CLI::App& reachedBy(const CLI::App& program, std::span<const std::string> 
   return *command;
 }
 
-bool takesExercise(const CLI::App& command) {
-  const auto isMeant = [](const CLI::Option* option) {
-    const std::string name = option->get_positional() ? option->get_name(true) : "";
-    return name.find("EXERCISE") != name.npos || name.find("PROGRAM") != name.npos;
+bool takes(std::string_view what, const CLI::App& command) {
+  const auto isMeant = [&](const CLI::Option* option) {
+    return option->get_positional() && option->get_name(true).find(what) != std::string::npos;
   };
   return std::ranges::any_of(command.get_options(), isMeant);
 }
@@ -43,8 +44,10 @@ std::vector<std::string> completions(const CLI::App& program, std::span<const st
       for (const std::string& name : option->get_lnames()) found.push_back("--" + name);
   } else {
     for (const CLI::App* verb : verbsOf(command)) found.push_back(verb->get_name());
-    if (takesExercise(command))
+    if (takes("EXERCISE", command) || takes("PROGRAM", command))
       for (const ExerciseInfo& one : project.exercises()) found.push_back(one.name);
+    if (takes("DEMONSTRATION", command))
+      for (const Demonstration& one : demonstrations(project)) found.push_back(one.name);
   }
   std::erase_if(found, [&](const std::string& one) { return !one.starts_with(begun); });
   std::ranges::sort(found);

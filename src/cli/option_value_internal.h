@@ -31,7 +31,7 @@ Value choose(const char* option, const std::string& name,
 inline void requireBetween(const char* option, double number, double least, double most) {
   if (number >= least && number <= most) return;
   throw UsageError({.what = option,
-                    .found = fmt::format("{}", number),
+                    .found = fmt::format("{:.9g}", number),
                     .wanted = fmt::format("{:g} to {:g}", least, most)});
 }
 

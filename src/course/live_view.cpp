@@ -55,6 +55,8 @@ struct LiveView::Parts {
     double low = 0, high = 1, value = 0;
     int pressed = 0;
     double x = 0, y = 0;
+    Series curve{};  // of a plot
+    std::string xLabel{};
   };
 
   std::string name{};
@@ -72,6 +74,7 @@ struct LiveView::Parts {
   Film film{};
   std::size_t stride = 1, count = 0;
   std::optional<Picture> last{};
+  Eigen::Vector3d view = kDefaultView;
 
   Control& control(const std::string& kind, const std::string& called) {
     for (Control& one : controls)
@@ -162,6 +165,47 @@ struct LiveView::Parts {
     shown = LiveClock::now();
   }
 
+  // The curves for the replay, of which long ones become coarser.
+  static void keepPoint(Series& curve, double x, double y) {
+    constexpr std::size_t kMostPoints = 4000;
+    if (!std::isfinite(x) || !std::isfinite(y)) return;
+    if (curve.x.size() >= kMostPoints)
+      for (std::vector<double>* all : {&curve.x, &curve.y}) {
+        for (std::size_t k = 0; 2 * k < all->size(); ++k) (*all)[k] = (*all)[2 * k];
+        all->resize(all->size() / 2);
+      }
+    curve.x.push_back(x), curve.y.push_back(y);
+  }
+
+  std::vector<ReportFigure> figures() const {
+    std::vector<ReportFigure> all;
+    for (const Control& one : controls)
+      if (one.curve.x.size() > 1)
+        all.push_back({.figure = {.xLabel = one.xLabel,
+                                  .yLabel = one.name,
+                                  .series = {one.curve},
+                                  .width = 560,
+                                  .height = 260}});
+    return all;
+  }
+
+  // Without gnuplot there are no curves.
+  void write() const {
+    Report report{.title = name,
+                  .film = film,
+                  .view = view,
+                  .figures = figures(),
+                  .still = {.width = 640, .height = 480, .gl = glChoice()}};
+    try {
+      writeReport(report, name + ".html");
+    } catch (const std::exception& error) {
+      if (report.figures.empty()) throw;
+      fmt::print(stderr, "{}.html has no curves: {}\n", name, error.what());
+      report.figures.clear();
+      writeReport(report, name + ".html");
+    }
+  }
+
   // Evenly, so that a long run takes no more memory than a short one.
   void record(Picture picture) {
     if (count % stride == 0) {
@@ -195,10 +239,7 @@ LiveView::~LiveView() {
     const double end = static_cast<double>(parts_->count - 1) / 30;
     if (parts_->film.back().time < end) parts_->film.push_back({.time = end, .picture = *parts_->last});
     settleGround(parts_->film);
-    writeReport({.title = parts_->name,
-                 .film = parts_->film,
-                 .still = {.width = 640, .height = 480, .gl = glChoice()}},
-                parts_->name + ".html");
+    parts_->write();
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}.html was not written: {}\n", parts_->name, error.what());
   }
@@ -235,11 +276,13 @@ void LiveView::show(const Picture& picture) {
   const ViewJson about = {
       {"kind", "program"},           {"title", parts.name},         {"mass", 0},
       {"bodies", ViewJson::array()}, {"shapes", ViewJson::array()}, {"coordinates", ViewJson::array()}};
-  parts.offer(glbOf({{.picture = picture}}), about);
+  parts.offer(glbOf({{.picture = picture}}, parts.view), about);
   parts.poses.clear(), parts.q = ViewJson::array();
   parts.waitForTurn();
   parts.publish();
 }
+
+void LiveView::lookFrom(const Eigen::Vector3d& direction) { parts_->view = direction; }
 
 double LiveView::slider(const std::string& name, double low, double high, double start) {
   if (!(low <= start && start <= high && std::isfinite(high - low)))
@@ -260,9 +303,10 @@ bool LiveView::button(const std::string& name) {
   return std::exchange(one.pressed, 0) > 0;
 }
 
-void LiveView::plot(const std::string& name, double x, double y) {
+void LiveView::plot(const std::string& name, double x, double y, const std::string& xLabel) {
   Parts::Control& one = parts_->control("plot", name);
-  one.x = x, one.y = y;
+  one.x = x, one.y = y, one.xLabel = xLabel;
+  Parts::keepPoint(one.curve, x, y);
 }
 
 void LiveView::pause() {

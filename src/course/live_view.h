@@ -3,6 +3,8 @@
 #include <memory>
 #include <string>
 
+#include <Eigen/Core>
+
 namespace rex {
 
 class Simulator;
@@ -30,12 +32,15 @@ class LiveView {
   void show(const Simulator& simulator);
   void show(const Picture& picture);
 
+  /// Lets the page and the replay look at pictures from this direction (W, any length) from now on.
+  void lookFrom(const Eigen::Vector3d& direction);
+
   /// The value of a slider on the page, which first is `start`. Throws Error unless low <= start <= high.
   double slider(const std::string& name, double low, double high, double start);
   /// Whether this button was pressed since the last call.
   bool button(const std::string& name);
-  /// Adds a point to the curve of this name.
-  void plot(const std::string& name, double x, double y);
+  /// Adds a point to the curve of this name, on the page and in the replay.
+  void plot(const std::string& name, double x, double y, const std::string& xLabel = "time [s]");
   /// Waits until somebody presses "Go on" on the page, as long as one is open.
   void pause();
 

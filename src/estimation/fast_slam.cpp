@@ -56,10 +56,15 @@ Gaussian FastSlam::landmark(int particle, int i) const {
   return {one.mean, one.covariance};
 }
 
-int FastSlam::likeliest() const {
-  Eigen::Index best = 0;
-  weights_.maxCoeff(&best);
-  return static_cast<int>(best);
+Gaussian FastSlam::landmark(int i) const {
+  Gaussian mixture{Eigen::Vector2d::Zero(), Eigen::Matrix2d::Zero()};
+  for (int k = 0; k < weights_.size(); ++k) mixture.mean += weights_[k] * landmark(k, i).mean;
+  for (int k = 0; k < weights_.size(); ++k) {
+    const Gaussian one = landmark(k, i);
+    const Eigen::Vector2d offset = one.mean - mixture.mean;
+    mixture.covariance += weights_[k] * (one.covariance + offset * offset.transpose());
+  }
+  return mixture;
 }
 
 Eigen::Vector3d FastSlam::meanPose() const {

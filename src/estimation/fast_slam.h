@@ -50,8 +50,9 @@ class FastSlam {
   const Eigen::Matrix3Xd& poses() const { return poses_; }     ///< one particle per column
   const Eigen::VectorXd& weights() const { return weights_; }  ///< sum to one
   [[nodiscard]] Gaussian landmark(int particle, int i) const;  ///< throws Error if it does not exist
-  [[nodiscard]] int likeliest() const;                         ///< the particle with the largest weight
-  [[nodiscard]] Eigen::Vector3d meanPose() const;              ///< headings averaged on the circle
+  /// Mean and covariance of the mixture of all particles. Throws Error if it does not exist.
+  [[nodiscard]] Gaussian landmark(int i) const;
+  [[nodiscard]] Eigen::Vector3d meanPose() const;  ///< headings averaged on the circle
 
  private:
   struct Landmark {

@@ -1,6 +1,7 @@
 #include "learning/q_learning.h"
 
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -23,35 +24,86 @@ void requireOptions(const TabularOptions& options) {
   require(options.epsilon >= 0 && options.epsilon <= 1, "epsilon", options.epsilon, "a number in [0, 1]");
   require(options.stepExponent > .5 && options.stepExponent <= 1, "stepExponent", options.stepExponent,
           "a number above .5, up to 1: otherwise the values do not converge");
+  require(options.stepSize >= 0 && options.stepSize <= 1, "stepSize", options.stepSize, "a number in [0, 1]");
+  requireCount("planning steps", options.planningSteps, 0);
 }
 
 int epsilonGreedyAction(const Eigen::MatrixXd& Q, int s, double epsilon, Rng& rng) {
   if (rng.uniform() < epsilon) return rng.index(static_cast<int>(Q.cols()));
-  int best = 0;
-  Q.row(s).maxCoeff(&best);
-  return best;
+  const double best = Q.row(s).maxCoeff();
+  const auto ties = static_cast<int>((Q.row(s).array() == best).count());
+  int left = ties > 1 ? rng.index(ties) : 0;
+  for (int a = 0;; ++a)
+    if (Q(s, a) == best && left-- == 0) return a;
 }
 
-double runEpisode(const Mdp& mdp, const TabularOptions& options, Target target, int s, TabularResult& result,
-                  Rng& rng) {
-  double sum = 0, weight = 1;
-  int a = epsilonGreedyAction(result.Q, s, options.epsilon, rng);
-  for (int t = 0; t < options.maxSteps; ++t) {
-    const bool ends = mdp.isTerminal(s);
-    const double reward = mdp.rewards(s, a);
-    const int next = ends ? s : sampledNext(mdp, s, a, rng);
-    const int nextAction = ends ? a : epsilonGreedyAction(result.Q, next, options.epsilon, rng);
-    const double later = target == Target::kBest ? result.Q.row(next).maxCoeff() : result.Q(next, nextAction);
-    const double step = std::pow(++result.visits(s, a), -options.stepExponent);
-    result.Q(s, a) += step * (reward + (ends ? 0 : mdp.discount * later) - result.Q(s, a));
-    sum += weight * reward;
-    weight *= mdp.discount;
-    if (ends) break;
-    s = next;
-    a = nextAction;
+class Learner {
+ public:
+  Learner(const Mdp& mdp, const TabularOptions& options, Target target)
+      : mdp_(mdp),
+        options_(options),
+        target_(target),
+        memory_(options.planningSteps > 0 ? static_cast<std::size_t>(mdp.rewards.size()) : 0) {
+    result_.Q.setZero(mdp.states(), mdp.actions());
+    result_.visits.setZero(mdp.states(), mdp.actions());
   }
-  return sum;
-}
+
+  void runEpisode(int s, Rng& rng) {
+    double sum = 0, weight = 1;
+    int a = epsilonGreedyAction(result_.Q, s, options_.epsilon, rng);
+    int t = 0;
+    for (; t < options_.maxSteps; ++t) {
+      const bool ends = mdp_.isTerminal(s);
+      const TabularStep step{s, a, mdp_.rewards(s, a),
+                             ends ? std::nullopt : std::optional(sampledNext(mdp_, s, a, rng))};
+      const int nextAction = ends ? a : epsilonGreedyAction(result_.Q, *step.next, options_.epsilon, rng);
+      ++result_.visits(s, a);
+      learn(step, target_ == Target::kTaken ? std::optional(nextAction) : std::nullopt);
+      if (options_.planningSteps > 0) plan(step, rng);
+      sum += weight * step.reward;
+      weight *= mdp_.discount;
+      if (ends) break;
+      s = *step.next;
+      // Q-learning may have changed its mind about s; SARSA must do what it learned from.
+      a = target_ == Target::kTaken || options_.planningSteps == 0
+              ? nextAction
+              : epsilonGreedyAction(result_.Q, s, options_.epsilon, rng);
+    }
+    result_.returns.push_back(sum);
+    result_.steps.push_back(t);
+  }
+
+  TabularResult takeResult() {
+    result_.untried = static_cast<int>((result_.visits.array() == 0).count());
+    return std::move(result_);
+  }
+
+ private:
+  void learn(const TabularStep& step, std::optional<int> nextAction) {
+    const double size = options_.stepSize > 0
+                            ? options_.stepSize
+                            : std::pow(result_.visits(step.s, step.a), -options_.stepExponent);
+    learnFrom(result_.Q, step, nextAction, size, mdp_.discount);
+  }
+
+  void plan(const TabularStep& step, Rng& rng) {
+    const auto pair = static_cast<std::size_t>(step.s * mdp_.actions() + step.a);
+    if (memory_[pair].empty()) tried_.push_back(pair);
+    memory_[pair].push_back(step);
+    for (int i = 0; i < options_.planningSteps; ++i) {
+      const std::vector<TabularStep>& seen =
+          memory_[tried_[static_cast<std::size_t>(rng.index(static_cast<int>(tried_.size())))]];
+      learn(seen[static_cast<std::size_t>(rng.index(static_cast<int>(seen.size())))], std::nullopt);
+    }
+  }
+
+  const Mdp& mdp_;
+  const TabularOptions& options_;
+  Target target_;
+  TabularResult result_{};
+  std::vector<std::vector<TabularStep>> memory_;  // of each pair
+  std::vector<std::size_t> tried_{};              // pairs
+};
 
 TabularResult learned(const Mdp& mdp, const TabularOptions& options, Target target, Rng& rng) {
   requireMdp(mdp);
@@ -63,22 +115,30 @@ TabularResult learned(const Mdp& mdp, const TabularOptions& options, Target targ
     requireStart(mdp, options.start);
     start = options.start.transpose();
   }
-  TabularResult result;
-  result.Q.setZero(mdp.states(), mdp.actions());
-  result.visits.setZero(mdp.states(), mdp.actions());
-  for (int i = 0; i < options.episodes; ++i)
-    result.returns.push_back(runEpisode(mdp, options, target, sampledAction(start, 0, rng), result, rng));
-  result.untried = static_cast<int>((result.visits.array() == 0).count());
-  return result;
+  Learner learner(mdp, options, target);
+  for (int i = 0; i < options.episodes; ++i) learner.runEpisode(sampledAction(start, 0, rng), rng);
+  return learner.takeResult();
 }
 
 }  // namespace
+
+void learnFrom(Eigen::MatrixXd& Q, const TabularStep& step, std::optional<int> nextAction, double size,
+               double discount) {
+  double wanted = step.reward;
+  if (step.next)
+    wanted += discount * (nextAction ? Q(*step.next, *nextAction) : Q.row(*step.next).maxCoeff());
+  Q(step.s, step.a) += size * (wanted - Q(step.s, step.a));
+}
 
 TabularResult qLearning(const Mdp& mdp, const TabularOptions& options, Rng& rng) {
   return learned(mdp, options, Target::kBest, rng);
 }
 
 TabularResult sarsa(const Mdp& mdp, const TabularOptions& options, Rng& rng) {
+  if (options.planningSteps > 0)
+    throw Error({.what = "planning steps of SARSA",
+                 .found = fmt::format("{}", options.planningSteps),
+                 .wanted = "none: remembered steps do not tell what it would do next"});
   return learned(mdp, options, Target::kTaken, rng);
 }
 

@@ -13,7 +13,7 @@ TEST(Sha256, GivesThePublishedHashes) {
 
 TEST(Sha256, AgreesWithTheProgramOfCoreutils) {
   std::string bytes;
-  for (int i = 0; i < 100000; ++i) bytes += static_cast<char>(i * i % 251);
+  for (int i = 0; i < 100000; ++i) bytes += static_cast<char>(i % 251 * (i % 97) % 256);
   EXPECT_EQ(sha256(bytes), runProcess({"sha256sum"}, {.input = bytes}).output.substr(0, 64));
 }
 

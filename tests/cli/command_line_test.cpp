@@ -66,7 +66,7 @@ TEST(Program, NamesTheValuesOfOptionsAndTheEnvironmentOnce) {
 
 TEST(Program, KeepsHelpWithin90ColumnsAndFreeOfColour) {
   for (const char* command : {"list", "run", "test", "watch", "hint", "show", "reset", "solution", "submit",
-                              "bench", "debug", "render", "simulate", "doctor", "dev", "view"}) {
+                              "bench", "debug", "demo", "render", "simulate", "doctor", "dev", "view"}) {
     const std::string help = rex({command, "--help"}).output;
     EXPECT_EQ(help.find('\033'), std::string::npos);
     for (std::size_t start = 0; start < help.size();) {

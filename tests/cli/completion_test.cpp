@@ -12,7 +12,7 @@ class Completion : public TemplateProject {
 };
 
 TEST_F(Completion, KnowsTheCommandsOfAllPrograms) {
-  EXPECT_EQ(after({"s"}), "scene\nshow\nsimulate\nslam\nsolution\nsubmit\n");
+  EXPECT_EQ(after({"s"}), "scene\nsearch\nshow\nsimulate\nslam\nsolution\nsubmit\n");
 }
 
 TEST_F(Completion, KnowsTheExercises) {

@@ -85,11 +85,10 @@ class FastSlamCar final : public CarFilter {
     for (double& heading : errors.row(2)) heading = wrapAngle(heading);
     return {mean, errors * slam_.weights().asDiagonal() * errors.transpose()};
   }
-  // The map of the likeliest particle.
   std::vector<FoundLandmark> map() const override {
     std::vector<FoundLandmark> found;
     for (int i = 0; i < slam_.landmarks(); ++i)
-      found.push_back({seen_.names()[static_cast<std::size_t>(i)], slam_.landmark(slam_.likeliest(), i)});
+      found.push_back({seen_.names()[static_cast<std::size_t>(i)], slam_.landmark(i)});
     return found;
   }
   void addTo(CarView& view) const override {

@@ -17,7 +17,7 @@ namespace rex::cli {
 class MatrixFile {
  public:
   /// Reads it, and notes on stderr which fields are not among `known`. `given`: the name for messages. Throws
-  /// Error for what is no JSON object.
+  /// Error unless it holds a JSON object.
   MatrixFile(const std::filesystem::path& path, const std::filesystem::path& given,
              const std::vector<std::string>& known);
 

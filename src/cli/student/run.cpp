@@ -17,6 +17,7 @@
 #include "cli/result_list.h"
 #include "cli/student/exercise_option_internal.h"
 #include "cli/student/own_program.h"
+#include "cli/student/program_run.h"
 #include "cli/student/student_file.h"
 #include "cli/student/student_room_internal.h"
 #include "cli/terminal.h"
@@ -37,15 +38,6 @@ struct RunOptions {
   std::vector<std::string> arguments;  ///< for the user's own program
 };
 
-// Lists what was written since then: older files show what an earlier program did.
-void listResults(const fs::path& folder, fs::file_time_type since) {
-  std::vector<fs::path> written = filesIn(folder);
-  std::erase_if(written, [&](const fs::path& file) { return fs::last_write_time(file) < since; });
-  const std::vector<std::string> files = shortList(written);
-  if (!files.empty()) say("\nFiles in " + shown(folder) + ":");
-  for (const std::string& line : files) say("  " + line);
-}
-
 // The program again for two seconds, or less where it was given less, to say where it is then.
 void sayWhereItIs(const Project& project, const ExerciseInfo& exercise, const fs::path& file, int allowed) {
   const double seconds = std::min(2, allowed);
@@ -63,45 +55,12 @@ void sayWhereItIs(const Project& project, const ExerciseInfo& exercise, const fs
                      object.name, harmless(site->function)));
 }
 
-enum class Ended { kWell, kBadly, kCrashed, kTooLate };
-
-// Runs the program in `out`, waits for it and lists its files.
-Ended runIn(const fs::path& out, const std::vector<std::string>& command, int seconds) {
-  std::fflush(stdout);
-  constexpr double kNoTimeout = 1e6;
-  // The times of files come from a coarser clock.
-  const auto start = fs::file_time_type::clock::now() - std::chrono::milliseconds(20);
-  const ProcessResult result = runProcess(command, {.directory = out,
-                                                    .timeout = kNoTimeout,
-                                                    .inheritOutput = true,
-                                                    .cpuSeconds = static_cast<double>(seconds)});
-  listResults(out, start);
-  if (result.ok()) return Ended::kWell;
-  if (result.signal == 0) {
-    note(fmt::format("\nThe program ended with exit code {}.", result.exitCode));
-    return Ended::kBadly;
-  }
-  if (result.signal == SIGXCPU || (result.signal == SIGKILL && result.cpuSeconds >= seconds)) {
-    note(fmt::format("\nThe program was stopped after {} s of CPU time; --seconds N allows more.", seconds));
-    return Ended::kTooLate;
-  }
-  note(fmt::format("\nThe program was ended by signal {} ({}).", result.signal, ::strsignal(result.signal)));
-  return result.signal == SIGINT ? Ended::kBadly : Ended::kCrashed;
-}
-
-ExitCode codeOf(Ended ended) { return ended == Ended::kWell ? ExitCode::kFull : ExitCode::kBelow; }
-
 ExitCode runFile(const Project& project, const fs::path& file, const RunOptions& options) {
   if (options.solution)
     throw UsageError({.what = "--solution", .found = shown(file), .wanted = "an exercise"});
   const fs::path out = fs::absolute(options.out.empty() ? outFolderOf(project, file) : options.out);
-  makeOutFolder(out);
-  const PrivateFolder work(project.workPlace("student"));
-  const auto program = buildOwnProgram(project, file, work.path(), out);
-  if (!program) return ExitCode::kNotGradable;
-  std::vector<std::string> command = {program->string()};
-  command.insert(command.end(), options.arguments.begin(), options.arguments.end());
-  return codeOf(runIn(out, command, options.seconds));
+  return runOwnProgram(project, file,
+                       {.out = out, .arguments = options.arguments, .seconds = options.seconds});
 }
 
 ExitCode run(const Project& project, const RunOptions& options) {
@@ -118,7 +77,7 @@ ExitCode run(const Project& project, const RunOptions& options) {
   const PrivateFolder work(project.workPlace("exercises/" + exercise.name));
   const auto program = buildProgram(project, exercise, {.main = file, .workFolder = work.path()}, out);
   if (!program) return ExitCode::kNotGradable;
-  const Ended ended = runIn(out, {program->string()}, options.seconds);
+  const Ended ended = runIn({program->string()}, {.out = out, .seconds = options.seconds});
   if (ended == Ended::kCrashed) note(fmt::format("To see where: scripts/rex debug {}", exercise.name));
   if (ended == Ended::kTooLate) sayWhereItIs(project, exercise, file, options.seconds);
   return codeOf(ended);

@@ -8,6 +8,7 @@ namespace rex::cli {
 Room studentRoom() {
   return {.program = Program::kStudent,
           .commands = {{"debug", addDebug},
+                       {"demo", addDemo},
                        {"hint", addHint},
                        {"init", addInit},
                        {"list", addList},

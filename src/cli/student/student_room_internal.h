@@ -6,6 +6,7 @@ namespace rex::cli {
 
 /// One file each; see Registration.
 void addDebug(CLI::App* command, Action& action);
+void addDemo(CLI::App* command, Action& action);
 void addHint(CLI::App* command, Action& action);
 void addInit(CLI::App* command, Action& action);
 void addList(CLI::App* command, Action& action);

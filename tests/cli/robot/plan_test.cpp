@@ -263,7 +263,7 @@ TEST_F(PlanCommand, RefusesOptionsThatMakeNoSense) {
   expectRefusalOnBoard({"--step", "-1"}, "--step: found -1, wanted 0.001 to 1000");
   expectRefusalOnBoard({"--samples", "0"}, "--samples: found 0, wanted 1 to 1e+07");
   expectRefusalOnBoard({"--planner", "prm", "--samples", "1000000"},
-                       "--samples: found 1e+06, wanted 1 to 100000");
+                       "--samples: found 1000000, wanted 1 to 100000");
   expectRefusalOnBoard({"--seeds", "0"}, "--seeds: found 0, wanted 1 to 10000");
   expectRefusalOnBoard({"--seed", "-1"}, "--seed: found -1, wanted a whole number of at most 18 digits");
   expectRefusalOnBoard({"--speed", "0"}, "--speed: found 0, wanted 0.001 to 1000");

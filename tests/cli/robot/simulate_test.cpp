@@ -123,7 +123,7 @@ TEST_F(SimulateCommand, RefusesWhatItCannotSimulate) {
   expectRefusal({"--seconds", "-1"}, "--seconds: found -1, wanted 1e-06 to 120");
   expectRefusal({"--seconds", "0.01", "--tau", "0.1"},
                 "--seconds / --tau, steps: found 0.1, wanted 1 to 200000");
-  expectRefusal({"--seconds", "100", "--tau", "1e-5"}, "--seconds / --tau, steps: found 1e+07");
+  expectRefusal({"--seconds", "100", "--tau", "1e-5"}, "--seconds / --tau, steps: found 10000000");
   expectRefusal({"--speed", "1001"}, "--speed: found 1001, wanted 0.001 to 1000");
   expectRefusal({"--noise", "-1"}, "--noise: found -1, wanted 0 to 1e+06");
   expectRefusal({"--engine", "rk5"}, "--engine: found 'rk5', wanted rk4, beeman, leapfrog");

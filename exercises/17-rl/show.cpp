@@ -1,0 +1,131 @@
+#include "show.h"
+
+#include <cstdio>
+
+#include "course/mdp_figures.h"
+#include "learning/mdp_rollout.h"
+
+using namespace rex;
+
+namespace {
+
+void nothingYet(const char* what) { std::printf("Nothing to show yet for %s.\n", what); }
+
+// A step costs 1, a fall 100 and leads back to the start.
+GridWorld cliff() {
+  return gridWorld(
+      "............\n............\n............\nSCCCCCCCCCCG",
+      {.discount = 1,
+       .stepReward = -1,
+       .marks = {
+           {'S', -1, false}, {'G', 0}, {.letter = 'C', .reward = -99, .isTerminal = false, .jumpTo = 'S'}}});
+}
+
+// One step, in which entering a terminal state ends the episode and pays what that state pays.
+Experience stepIn(const Mdp& mdp, int s, int a, Rng& rng) {
+  Experience step{s, a, mdp.rewards(s, a), sampledNext(mdp, s, a, rng), false};
+  step.ended = mdp.isTerminal(step.next);
+  if (step.ended) step.reward += mdp.rewards(step.next, 0);
+  return step;
+}
+
+struct Learned {
+  Eigen::MatrixXd Q;
+  std::vector<double> returns{};
+};
+
+// Learns after each step, SARSA as soon as the next action is known.
+Learned learnCliff(const GridWorld& world, bool isSarsa, double epsilon, Rng& rng) {
+  Learned result{Eigen::MatrixXd::Zero(world.mdp.states(), world.mdp.actions())};
+  for (int e = 0; e < 500; ++e) {
+    std::vector<Experience> last;
+    double sum = 0;
+    int s = *world.state(0, 0);
+    for (int t = 0; t < 1000 && (last.empty() || !last.back().ended); ++t) {
+      const int a = chosenAction(result.Q.row(s), epsilon, rng);
+      last.push_back(stepIn(world.mdp, s, a, rng));
+      sum += last.back().reward;
+      s = last.back().next;
+      if (!isSarsa) {
+        result.Q = qLearned(result.Q, {last.back()}, .5, 1);
+      } else if (last.size() > 1) {
+        // The step before; of this one only the action is known.
+        Experience now = last.back();
+        now.ended = false;
+        result.Q = sarsaLearned(result.Q, {last[last.size() - 2], now}, .5, 1);
+      }
+    }
+    if (isSarsa && last.back().ended) result.Q = sarsaLearned(result.Q, {last.back()}, .5, 1);
+    result.returns.push_back(sum);
+  }
+  return result;
+}
+
+}  // namespace
+
+void showCliff(double epsilon) {
+  const GridWorld world = cliff();
+  std::vector<LearningCurves> curves;
+  for (const bool isSarsa : {false, true}) {
+    const char* name = isSarsa ? "SARSA" : "Q-learning";
+    LearningCurves curve{name, {}};
+    Learned one;
+    for (std::uint64_t seed = 0; seed < 30; ++seed) {
+      Rng rng(seed);
+      one = learnCliff(world, isSarsa, epsilon, rng);
+      if (one.Q.isZero(0)) break;
+      std::vector<double> smooth;  // means of ten episodes
+      for (std::size_t e = 0; e + 10 <= one.returns.size(); e += 10) {
+        smooth.push_back(0);
+        for (std::size_t i = e; i < e + 10; ++i) smooth.back() += one.returns[i] / 10;
+      }
+      curve.runs.push_back(smooth);
+    }
+    if (one.Q.isZero(0)) {
+      nothingYet(name);
+      continue;
+    }
+    Eigen::VectorXd V = one.Q.rowwise().maxCoeff().cwiseMax(-40);
+    for (int column = 1; column < 11; ++column) V[*world.state(column, 0)] = -40;
+    Figure figure = policyFigure(world, V, epsilonGreedy(one.Q, 0));
+    figure.title = name;
+    plot(isSarsa ? "sarsa" : "q", figure);
+    curves.push_back(curve);
+  }
+  if (curves.empty()) return;
+  Figure figure = learningFigure(curves);
+  figure.title = "Walking along a cliff: 30 runs each";
+  figure.xLabel = "tens of episodes";
+  figure.yRange = AxisRange(-150, 0);
+  plot("learning", figure);
+}
+
+void showExploration() {
+  const GridWorld world = gridWorld(
+      "S.........\n.########.\n.#......#.\n.#.####.#.\n.#.#G.#.#.\n...##.#.#.\n.####.#.#.\n......#...",
+      {.discount = .95, .marks = {{'S', 0, false}, {'G', 1}}});
+  const Mdp& mdp = world.mdp;
+  Figure figure{.title = "Pairs of state and action that were tried",
+                .xLabel = "steps",
+                .yLabel = "pairs",
+                .series = {{.label = "R-max"}, {.label = "by chance"}}};
+  for (const bool isPlanned : {true, false}) {
+    Rng rng(1);
+    std::vector<Experience> steps;
+    int s = *world.state(0, 7);
+    const auto plan = [&] {
+      return optimisticValues(estimated(steps, mdp.states(), mdp.actions()), 1, 1, mdp.discount);
+    };
+    for (int t = 0; t < 600; ++t) {
+      const Eigen::MatrixXd Q = isPlanned ? plan() : Eigen::MatrixXd::Zero(mdp.states(), mdp.actions());
+      if (isPlanned && Q.isZero(0)) return nothingYet("R-max");
+      int a = rng.index(mdp.actions());
+      if (isPlanned) Q.row(s).maxCoeff(&a);
+      steps.push_back(stepIn(mdp, s, a, rng));
+      s = steps.back().ended ? *world.state(0, 7) : steps.back().next;
+      const double tried = (estimated(steps, mdp.states(), mdp.actions()).visits.array() > 0).count();
+      figure.series[isPlanned ? 0 : 1].y.push_back(tried);
+    }
+  }
+  plot("explored", figure);
+}

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "exercise.h"
+
+/// q.png and sarsa.png: what both learn about a cliff in 500 episodes. learning.png: returns of 30 runs.
+void showCliff(double epsilon);
+
+/// explored.png: how many pairs of state and action are known after each step in a maze, for R-max and for
+/// actions drawn by chance.
+void showExploration();

@@ -1,0 +1,13 @@
+// caught by: q-steps, more-steps
+// shown by: q-steps
+// mistake: forgets the discount.
+
+// <solution qLearned>
+Eigen::MatrixXd learned = Q;
+for (const Experience& step : steps) {
+  const double later = step.ended ? 0 : learned.row(step.next).maxCoeff();
+  double& q = learned(step.state, step.action);
+  q += stepSize * (step.reward + later - q);
+}
+return learned;
+// </solution>

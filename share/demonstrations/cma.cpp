@@ -1,0 +1,81 @@
+// Chapter 9: CMA-ES finds its way through a curved valley. Each generation draws samples (dots) from an
+// ellipse (two deviations) that adapts to them; it stretches along the valley. Sliders change samples and
+// first deviation.
+#include "course/car_view.h"
+#include "course/course.h"
+#include "course/live_view.h"
+#include "optim/cma_es.h"
+#include "optim/test_functions.h"
+#include "render/covariance_ellipsoid.h"
+#include "render/picture.h"
+
+using namespace rex;
+
+int main() {
+  LiveView view("cma");
+  view.lookFrom({0, -0.25, 1});
+  const auto height = [](double x, double y) {
+    return std::pow(1 - x, 2) + 100 * std::pow(y - x * x, 2);
+  };                           // Rosenbrock
+  std::vector<LineSet> rings;  // where it is 0.3, 1, 3, ...: cells of which one corner is above and one below
+  for (const double level : {0.3, 1., 3., 10., 30., 100., 300., 1000.}) {
+    LineSet ring{.color = {0.55f, 0.6f, 0.66f}, .width = 1.5};
+    const double d = 0.05;
+    for (double x = -2; x < 2; x += d)
+      for (double y = -1; y < 3; y += d) {
+        std::vector<Eigen::Vector3d> cut;
+        const Eigen::Vector2d corners[] = {{x, y}, {x + d, y}, {x + d, y + d}, {x, y + d}, {x, y}};
+        for (int k = 0; k < 4; ++k) {
+          const Eigen::Vector2d &p = corners[k], &q = corners[k + 1];
+          const double a = height(p.x(), p.y()) - level, b = height(q.x(), q.y()) - level;
+          if ((a < 0) == (b < 0)) continue;
+          const Eigen::Vector2d m = p + a / (a - b) * (q - p);
+          cut.push_back({m.x(), m.y(), 0});
+        }
+        if (cut.size() >= 2) ring.segments.push_back({cut[0], cut[1]});
+      }
+    rings.push_back(ring);
+  }
+  std::optional<CmaEs> search;
+  Eigen::MatrixXd X;
+  Eigen::Vector2d last(-1, -1);
+  std::vector<Eigen::Vector3d> way;
+  Rng rng(3);
+  for (int t = 0; t < 330 || view.isWatched(); ++t) {
+    const double samples = std::round(view.slider("samples", 4, 60, 12)),
+                 deviation = view.slider("first deviation", 0.05, 1, 0.3);
+    const double pace = view.slider("generations a second", 0.5, 15, 5);
+    if (view.button("from the start") || last != Eigen::Vector2d(samples, deviation)) {
+      last = {samples, deviation}, way = {{-1.5, 2.5, 0.02}};
+      search.emplace(Eigen::Vector2d(-1.5, 2.5), Eigen::Vector2d::Constant(deviation),
+                     CmaOptions{.lambda = static_cast<int>(samples)});
+      X.resize(2, search->lambda()), search->sample(X, rng);
+    }
+    if (std::fmod(t * pace / 30, 1) < pace / 30 && search->sigma() > 1e-6) {
+      Eigen::VectorXd values(X.cols());
+      for (int i = 0; i < X.cols(); ++i) values[i] = height(X(0, i), X(1, i));
+      search->update(X, values);
+      view.plot("log10 of the best value", search->generation(), std::log10(values.minCoeff() + 1e-12),
+                "generation");
+      view.plot("log10 of sigma", search->generation(), std::log10(search->sigma()), "generation");
+      search->sample(X, rng);
+      way.push_back({search->mean()[0], search->mean()[1], 0.02});
+    }
+    Picture picture{.ground = {.visible = false}};
+    picture.lineSets = rings;
+    Eigen::Matrix3d flat = 1e-6 * Eigen::Matrix3d::Identity();
+    flat.topLeftCorner<2, 2>() = search->sigma() * search->sigma() * search->covariance();
+    picture.ellipsoids.push_back(covarianceEllipsoid(way.back(), flat, 2));
+    PointSet dots{.color = kDeadReckoningColor, .size = 8};
+    for (const auto& x : X.colwise())
+      if (x.cwiseAbs().maxCoeff() < 4) dots.points.push_back({x[0], x[1], 0.04});
+    if (!dots.points.empty()) picture.pointSets.push_back(dots);
+    if (way.size() > 1) picture.polylines.push_back({.points = way, .color = kEstimateColor, .width = 3});
+    picture.pointSets.push_back({.points = {{1, 1, 0.01}}, .color = kLandmarkColor, .size = 16});
+    picture.polylines.push_back(
+        {.points = {{-2.2, -1.2, 0}, {2.2, -1.2, 0}, {2.2, 3.2, 0}, {-2.2, 3.2, 0}, {-2.2, -1.2, 0}},
+         .color = kTruthColor});
+    picture.captions.push_back({.text = "generation " + std::to_string(search->generation()), .scale = 1.5});
+    view.show(picture);
+  }
+}

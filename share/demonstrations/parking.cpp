@@ -1,0 +1,89 @@
+// Chapter 4: A car parks. It cannot slide sideways, so a tree of drives grows out of the gap until it meets
+// the waiting car, which then drives the way back in: drives can be reversed. Sliders change gap and
+// steering.
+#include "course/car_pictures.h"
+#include "course/course.h"
+#include "course/live_view.h"
+#include "planning/car.h"
+#include "planning/control_tree.h"
+#include "planning/reeds_shepp.h"
+#include "render/picture.h"
+
+using namespace rex;
+
+int main() {
+  LiveView view("parking");
+  view.lookFrom({0, -0.7, 1});
+  Eigen::Vector3d last(0, 0, 0);
+  ControlPath way;
+  int age = 0, seed = 1;
+  for (int t = 0; t < 330 || view.isWatched(); ++t, ++age) {
+    const double gap = view.slider("gap [m]", 3.6, 9, 5),
+                 steering = view.slider("largest steering [rad]", 0.3, 1, 0.7);
+    if (view.button("another tree")) ++seed, last.setZero();
+    if (const Eigen::Vector3d now(gap, steering, 0); now != last) last = now, age = 0;
+    const Car car{.wheelbase = 2, .maxSteering = steering};
+    // Cars are 3 m long and 1.5 m wide; their poses are 0.5 m ahead of the rear end.
+    const auto isFree = [&](const VectorArg& x) {
+      for (const double ahead : {-0.5, 0., 0.5, 1., 1.5, 2., 2.5})
+        for (const double aside : {-0.75, 0., 0.75}) {
+          const double px = x[0] + ahead * std::cos(x[2]) - aside * std::sin(x[2]),
+                       py = x[1] + ahead * std::sin(x[2]) + aside * std::cos(x[2]);
+          if (py < 0 || py > 6.5 || (py < 1.8 && std::abs(px) > gap / 2)) return false;
+        }
+      return true;
+    };
+    const double radius = car.turningRadius();
+    const ControlSystem system{
+        .space = Space::se2({-9, 0.5}, {8, 6}),
+        .lower = Eigen::Vector2d(-1, -steering),
+        .upper = Eigen::Vector2d(1, steering),
+        .motion = [&](const VectorArg& x, const VectorArg& u,
+                      double s) { return Eigen::VectorXd(driveCar(car, x, u, s)); },
+        .distance = [&](const VectorArg& a, const VectorArg& b) { return reedsSheppLength(a, b, radius); }};
+    const PathProblem problem{.space = system.space,
+                              .allValid = eachColumn(isFree),
+                              .start = Eigen::Vector3d(-1, 0.95, 0),
+                              .goal = Eigen::Vector3d(-6.5, 4, 0)};
+    if (age == 0) {
+      Rng rng(seed);
+      way = growControlTree(
+          system, problem,
+          {.duration = 0.8, .trials = 8, .goalBias = 0.2, .tolerance = 0.6, .maxSamples = 1500}, rng);
+    }
+    const int nodes = static_cast<int>(way.found.trees.at(0).nodes.cols()),
+              shown = std::min(nodes, 1 + nodes * age / 120);  // four seconds
+    CarView show{.car = problem.goal, .estimate = problem.start};
+    if (way.found.path.cols() > 1 && shown == nodes) {
+      const int pieces = static_cast<int>(way.controls.cols());
+      const double at =
+          std::max(0., pieces - std::fmod(std::max(0, age - 125) / 12., pieces + 2.));  // backward
+      const int piece = std::min(static_cast<int>(at), pieces - 1);
+      Eigen::Vector3d x = way.found.path.col(piece);
+      x = driveCar(car, x, way.controls.col(piece), (at - piece) * way.duration);
+      show.car = x;
+    }
+    const std::string end =
+        way.found.status == PathStatus::kFound ? " drives: found" : " drives: nothing found";
+    show.caption = std::to_string(shown) + (shown < nodes ? " drives" : end);
+    Picture picture = pictureOf(show);
+    LineSet tree{.color = kEstimateColor, .width = 1.5};
+    const PathTree& one = way.found.trees[0];
+    for (int i = 0; i < shown; ++i)
+      if (const int p = one.parents[i]; p >= 0)
+        tree.segments.push_back(
+            {{one.nodes(0, i), one.nodes(1, i), 0.03}, {one.nodes(0, p), one.nodes(1, p), 0.03}});
+    if (!tree.segments.empty()) picture.lineSets.push_back(tree);
+    for (const double side : {-1., 1.})
+      picture.solids.push_back({{.type = ShapeType::kBox, .extent = {3, 1.5, 1}},
+                                translation(side * (gap / 2 + 1.5), 1, 0.5),
+                                kTruthColor,
+                                "parked"});
+    picture.solids.push_back({{.type = ShapeType::kBox, .extent = {20, 0.3, 0.2}},
+                              translation(0, -0.15, 0.1),
+                              kScanColor,
+                              "kerb"});
+    view.plot("nodes of the tree", t / 30., static_cast<double>(tree.segments.size()));
+    view.show(picture);
+  }
+}

@@ -1,0 +1,48 @@
+// Chapter 2: Priorities of tasks. A man reaches for two targets (orange: right hand, green: left) that drift
+// apart: the hand that comes first reaches its target, the other one does what is left. A button swaps them.
+#include "course/car_view.h"
+#include "course/course.h"
+#include "course/live_view.h"
+#include "kinematics/hierarchical_step.h"
+#include "render/scene_picture.h"
+
+using namespace rex;
+
+int main() {
+  Simulator S("man");
+  LiveView view("priority");
+  const Eigen::VectorXd rest = S.getJointAngles();
+  const Eigen::Vector3d right = S.kinematicsPos("handR"), left = S.kinematicsPos("handL");
+  bool rightFirst = true;
+  for (int t = 0; t < 360 || view.isWatched(); ++t) {
+    const double apart = view.slider("targets apart [m]", 0, 1.5, 0.6),
+                 ahead = view.slider("ahead [m]", -0.5, 1, 0);
+    if (view.button("swap priorities") || t == 200) rightFirst = !rightFirst;
+    const double share = std::min(1., t / 100.);
+    const Eigen::Vector3d targets[] = {right + share * Eigen::Vector3d(-apart, -ahead, 0.1),
+                                       left + share * Eigen::Vector3d(apart, -ahead, 0.1)};
+    const char* hands[] = {"handR", "handL"};
+    Eigen::VectorXd q = S.getJointAngles();
+    std::vector<TaskLevel> levels;
+    for (const int k : {rightFirst ? 0 : 1, rightFirst ? 1 : 0})
+      levels.push_back({.J = S.jacobianPos(hands[k]), .dy = 0.1 * (targets[k] - S.kinematicsPos(hands[k]))});
+    q += hierarchicalStep(levels, {.a = 0.02 * (rest - q), .damping = 0.2});
+    S.setJointAngles(q);
+
+    Picture picture = pictureOf(S.model(), forwardKinematics(S.model(), q));
+    for (int k = 0; k < 2; ++k) {
+      const Eigen::Vector3d hand = S.kinematicsPos(hands[k]), &target = targets[k];
+      const Color color = k == 0 ? kDeadReckoningColor : kLandmarkColor;
+      picture.solids.push_back({{.type = ShapeType::kSphere, .radius = 0.06},
+                                translation(target.x(), target.y(), target.z()),
+                                color,
+                                "target"});
+      picture.polylines.push_back({.points = {hand, target}, .color = color, .width = 4});
+      view.plot(k == 0 ? "error of the right hand [m]" : "error of the left hand [m]", t / 30.,
+                (target - hand).norm());
+    }
+    picture.captions.push_back(
+        {.text = rightFirst ? "first: right hand (orange)" : "first: left hand (green)", .scale = 1.5});
+    view.show(picture);
+  }
+}

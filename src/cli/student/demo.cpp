@@ -1,0 +1,138 @@
+#include <algorithm>
+#include <charconv>
+#include <memory>
+#include <optional>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/private_folder.h"
+#include "cli/demonstrations.h"
+#include "cli/json_internal.h"
+#include "cli/out_folder.h"
+#include "cli/student/program_run.h"
+#include "cli/student/student_room_internal.h"
+#include "cli/terminal.h"
+
+namespace rex::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kLecture = 100'000;  // seconds of CPU time: as long as somebody looks
+
+struct DemoOptions {
+  std::string which;  ///< a name or a chapter; empty: list all
+  std::string out;    ///< a folder, or an .html file; empty: live
+  bool json = false;
+};
+
+void sayJson(const std::vector<Demonstration>& all) {
+  Json list = Json::array();
+  for (const Demonstration& one : all)
+    list.push_back({{"name", one.name},
+                    {"chapter", one.chapter},
+                    {"title", one.title},
+                    {"about", one.about},
+                    {"file", one.file.string()}});
+  say(dump(Json{{"demonstrations", list}}));
+}
+
+void sayTable(const std::vector<Demonstration>& all) {
+  std::size_t width = 0;
+  for (const Demonstration& one : all) width = std::max(width, one.name.size());
+  for (const Demonstration& one : all) {
+    const std::string start = fmt::format("{:2}  {:{}}  ", one.chapter, one.name, width);
+    say(paint(Colour::kBold, start) + wrap(one.title, start.size(), start.size()));
+  }
+}
+
+std::optional<int> chapterIn(const std::string& text) {
+  int chapter = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), chapter);
+  if (error != std::errc{} || end != text.data() + text.size()) return {};
+  return chapter;
+}
+
+// The one of that name, or the first of that chapter, whose others it names.
+const Demonstration& choose(const std::vector<Demonstration>& all, const std::string& which) {
+  const std::optional<int> chapter = chapterIn(which);
+  const auto found = std::ranges::find_if(
+      all, [&](const Demonstration& one) { return chapter ? one.chapter == *chapter : one.name == which; });
+  if (found == all.end()) {
+    std::vector<std::string> names;
+    for (const Demonstration& one : all) names.push_back(one.name);
+    throw UsageError({.what = chapter ? fmt::format("no demonstration belongs to chapter {}", *chapter)
+                                      : fmt::format("there is no demonstration '{}'", harmless(which)),
+                      .wanted = "a name or a chapter that `rex demo` lists",
+                      .nearest = nearestNames(which, names)});
+  }
+  std::string others;
+  for (const Demonstration& one : all)
+    if (chapter && one.chapter == *chapter && one.name != found->name) others += " " + one.name;
+  if (!others.empty())
+    note(wrap(fmt::format("This is {}; chapter {} also has:{}", found->name, *chapter, others), 2, 0));
+  return *found;
+}
+
+ExitCode writePage(const Project& project, const Demonstration& one, const fs::path& page) {
+  makeOutPlace(page);
+  const PrivateFolder work(project.workPlace("student"));
+  const ExitCode code = runOwnProgram(
+      project, one.file,
+      {.out = work.path(), .seconds = kLecture, .environment = {"REX_LIVE=0"}, .listsFiles = false});
+  const fs::path replay = work.path() / (one.name + ".html");
+  if (code != ExitCode::kFull || !fs::exists(replay)) return std::max(code, ExitCode::kBelow);
+  fs::copy_file(replay, page, fs::copy_options::overwrite_existing);
+  say(shown(page));
+  return code;
+}
+
+ExitCode demo(const Project& project, const DemoOptions& options) {
+  const std::vector<Demonstration> all = demonstrations(project);
+  if (options.json) {
+    if (!options.which.empty() || !options.out.empty())
+      throw UsageError({.what = "--json lists all demonstrations",
+                        .found = harmless(options.which + options.out),
+                        .wanted = "nothing else"});
+    sayJson(all);
+    return ExitCode::kFull;
+  }
+  if (options.which.empty()) {
+    sayTable(all);
+    say("\nTo show one: scripts/rex demo NAME");
+    return ExitCode::kFull;
+  }
+  const Demonstration& one = choose(all, options.which);
+  note(wrap(fmt::format("Chapter {}: {}. {}", one.chapter, one.title, one.about), 0, 0));
+  if (fs::path(options.out).extension() == ".html") return writePage(project, one, fs::absolute(options.out));
+  OwnRun how{.out = project.root / "out" / "demonstrations", .seconds = kLecture};
+  if (!options.out.empty()) how.out = fs::absolute(options.out), how.environment = {"REX_LIVE=0"};
+  return runOwnProgram(project, one.file, how);
+}
+
+}  // namespace
+
+void addDemo(CLI::App* command, Action& action) {
+  const auto options = std::make_shared<DemoOptions>();
+  command->footer(
+      "Examples:\n  scripts/rex demo\n  scripts/rex demo pid\n  scripts/rex demo 4\n"
+      "  scripts/rex demo kidnapped -o kidnapped.html\n\n"
+      "The first line on standard output is the address of a page with sliders and buttons,\n"
+      "which waits half a minute for a browser. Without a terminal, or with -o, the\n"
+      "demonstration plays by itself and becomes a page to replay. Of a chapter with several,\n"
+      "the first is shown. Each is a short program in share/demonstrations.");
+  command
+      ->add_option("DEMONSTRATION", options->which, "a name, or a chapter of the script; without: list all")
+      ->type_name("");
+  command
+      ->add_option("-o,--out", options->out,
+                   "write the replay to this folder or .html file, and serve nothing")
+      ->type_name("PATH");
+  command->add_flag("--json", options->json, "list all as JSON");
+  command->callback(
+      [&action, options] { action = [options](const Project& p) { return demo(p, *options); }; });
+}
+
+}  // namespace rex::cli

@@ -1,0 +1,61 @@
+// rex demo: which demonstrations there are, and what it says to names that are none. They run in
+// tests/examples.
+#include <set>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "cli/command_schema.h"
+#include "cli/demonstrations.h"
+#include "cli/template_project.h"
+
+namespace rex::cli::demo_test {
+
+using ::testing::HasSubstr;
+
+class Demo : public TemplateProject {
+ protected:
+  void demonstration(const std::string& name, const std::string& text) const {
+    fs::create_directories(root() / "share" / "demonstrations");
+    write(root() / "share" / "demonstrations" / (name + ".cpp"), text);
+  }
+};
+
+TEST(Demonstrations, CoverChapters2To11) {
+  std::set<int> chapters;
+  Project project;
+  project.root = REX_SOURCE_DIR;
+  for (const Demonstration& one : demonstrations(project)) {
+    chapters.insert(one.chapter);
+    EXPECT_FALSE(one.title.empty() || one.about.empty()) << one.name;
+  }
+  EXPECT_EQ(chapters, (std::set<int>{2, 3, 4, 5, 6, 7, 8, 9, 10, 11}));
+}
+
+TEST_F(Demo, ListsByChapter) {
+  demonstration("swing", "// Chapter 3: A swing. It swings\n// to and fro.\nint main() {}\n");
+  demonstration("arm", "// Chapter 2: An arm. It moves.\nint main() {}\n");
+  EXPECT_EQ(rex({"demo"}).output,
+            " 2  arm    An arm\n 3  swing  A swing\n\nTo show one: scripts/rex demo NAME\n");
+  const Ended asJson = rex({"demo", "--json"});
+  EXPECT_EQ(schemaFaultsOf(asJson.output, "demo"), "");
+  const auto all = nlohmann::json::parse(asJson.output).at("demonstrations");
+  EXPECT_EQ(all.at(1).at("about"), "It swings to and fro.");
+  EXPECT_THAT(rex({"--complete", "demo", "s"}).output, HasSubstr("swing"));
+}
+
+TEST_F(Demo, SaysWhatThereIsInstead) {
+  demonstration("swing", "// Chapter 3: A swing. It swings.\nint main() {}\n");
+  const Ended unknown = rex({"demo", "swimg"});
+  EXPECT_EQ(unknown.code, 64);
+  EXPECT_THAT(unknown.error, HasSubstr("there is no demonstration 'swimg'"));
+  EXPECT_THAT(unknown.error, HasSubstr("did you mean 'swing'?"));
+  EXPECT_THAT(rex({"demo", "12"}).error, HasSubstr("no demonstration belongs to chapter 12"));
+  EXPECT_THAT(flat(rex({"demo", "3", "--json"}).error),
+              HasSubstr("--json lists all demonstrations: found 3, wanted nothing else"));
+  demonstration("broken", "int main() {}\n");
+  EXPECT_THAT(rex({"demo"}).error, HasSubstr("broken.cpp:1: the first comment"));
+}
+
+}  // namespace rex::cli::demo_test
