@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "collision/contact_data_internal.h"
+#include "collision/joint_travel_internal.h"
 #include "kinematics/forward_kinematics.h"
 
 namespace rex {
@@ -11,19 +12,6 @@ namespace {
 
 constexpr double kCutoff = 0.5;  // metres: whoever is farther counts as this far
 constexpr int kPause = 8;        // calls after a failure without measuring
-
-std::vector<BodyId> chainOf(const Model& model, BodyId body) {
-  std::vector<BodyId> chain{body};
-  while (chain.back() != kWorld) chain.push_back(model[chain.back()].parent);
-  return chain;
-}
-
-bool isMoved(const Model& model, BodyId body) {
-  const std::vector<BodyId> chain = chainOf(model, body);
-  return std::any_of(chain.begin(), chain.end(), [&](BodyId at) {
-    return at != kWorld && model[at].joint != kNoJoint && model[model[at].joint].type == JointType::kHinge;
-  });
-}
 
 // Adds what each hinge below `carrier` can do to the points of a ball of this radius about p_BS: no posture
 // stretches the chain farther than the sum of its links.
@@ -60,13 +48,11 @@ void ClearanceWatch::addPair(const Model& model, const ShapePair& pair) {
     return data.solids[static_cast<std::size_t>(data.solidOf[static_cast<std::size_t>(shape)])];
   };
   const ContactSolid &a = solid(pair.a), &b = solid(pair.b);
-  if (!isMoved(model, a.body) && !isMoved(model, b.body)) return;
-  const std::vector<BodyId> above = chainOf(model, a.body);
-  BodyId common = b.body;
-  while (std::find(above.begin(), above.end(), common) == above.end()) common = model[common].parent;
+  const BodyId common = internal::carrierOfBoth(model, a.body, b.body);
   Eigen::VectorXd levers = Eigen::VectorXd::Zero(model.nq());
   addLevers(model, a.body, common, a.X_BS.p.norm() + a.reach, levers);
   addLevers(model, b.body, common, b.X_BS.p.norm() + b.reach, levers);
+  if (levers.isZero(0)) return;
   pairs_.push_back(static_cast<std::size_t>(&pair - contacts_.pairs().data()));
   levers_.conservativeResize(levers_.rows() + 1, Eigen::NoChange);
   levers_.bottomRows<1>() = levers.transpose();

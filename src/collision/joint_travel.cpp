@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -60,6 +61,13 @@ JointTravel jointTravel(const Joint& joint, const VectorArg& from, const VectorA
   }
   travel.way += moved.norm();
   return travel;
+}
+
+BodyId carrierOfBoth(const Model& model, BodyId a, BodyId b) {
+  std::vector<BodyId> above{a};
+  while (above.back() != kWorld) above.push_back(model[above.back()].parent);
+  while (std::find(above.begin(), above.end(), b) == above.end()) b = model[b].parent;
+  return b;
 }
 
 }  // namespace rex::internal

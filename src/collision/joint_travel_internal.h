@@ -13,4 +13,7 @@ struct JointTravel {
 /// Throws Error for a quaternion that is zero on the way.
 [[nodiscard]] JointTravel jointTravel(const Joint& joint, const VectorArg& from, const VectorArg& to);
 
+/// The last body that carries both, perhaps one of them.
+[[nodiscard]] BodyId carrierOfBoth(const Model& model, BodyId a, BodyId b);
+
 }  // namespace rex::internal

@@ -110,10 +110,7 @@ class MotionSearch {
   double speed(const ShapePair& pair) const {
     const ContactSolid& a = solid(pair.a);
     const ContactSolid& b = solid(pair.b);
-    std::vector<BodyId> above = {a.body};
-    while (above.back() != kWorld) above.push_back(model_[above.back()].parent);
-    BodyId common = b.body;
-    while (std::find(above.begin(), above.end(), common) == above.end()) common = model_[common].parent;
+    const BodyId common = internal::carrierOfBoth(model_, a.body, b.body);
     return speedBelow(common, a) + speedBelow(common, b);
   }
 

@@ -12,13 +12,7 @@ namespace {
 
 using Kind = MotionStep::Kind;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kBaseVelocities = 6;
-// A position motor approaches its target at this rate, 1/s: slowly enough for arms to brake.
-constexpr double kPositionRate = 20;
-// Joints beyond a limit come back at this rate, 1/s, and at most this fast, rad/s or m/s: they keep that
-// speed when they are back, so a higher one would throw a robot that starts beyond its limits.
-constexpr double kLimitRate = 20, kLimitSpeed = 1;
 
 int linkCount(const Model& model, std::span<const BodyId> bodies) {
   std::size_t count = 0;
@@ -98,7 +92,6 @@ Articulation::Grown Articulation::grow(const Model& model, JointId id, const Bul
 void Articulation::addCoordinate(const Model& model, JointId id, const JointMovement& move,
                                  const Eigen::Matrix3d& R_ML) {
   const Joint& joint = model[id];
-  const bool rubs = options_.jointFriction && !move.isRise;
   const double way = move.isRise ? move.axis.norm() : 1;
   Coordinate coordinate{.link = next_,
                         .qIndex = joint.qIndex + move.coordinate,
@@ -108,15 +101,12 @@ void Articulation::addCoordinate(const Model& model, JointId id, const JointMove
                         .follows = joint.mimics || move.isRise,
                         .ratio = way * joint.ratio,
                         .offset = way * joint.offset,
-                        .joint = id,
-                        .lower = -kInfinity,
-                        .upper = kInfinity,
-                        .damping = rubs ? joint.damping : 0,
-                        .friction = rubs ? joint.friction : 0,
-                        .maxVelocity = joint.maxVelocity};
-  if (!coordinate.isBall && !coordinate.follows && options_.jointLimits) {
-    coordinate.lower = model.lowerLimits()[coordinate.qIndex];
-    coordinate.upper = model.upperLimits()[coordinate.qIndex];
+                        .joint = id};
+  if (!move.isRise) coordinate.law = jointLaw(model, joint, move.coordinate, options_);
+  // What it follows has limits.
+  if (coordinate.follows) {
+    coordinate.law.lower = -kInfinity;
+    coordinate.law.upper = kInfinity;
   }
   coordinates_.push_back(coordinate);
 }
@@ -226,8 +216,9 @@ void Articulation::driveBase(std::span<const Motor> motors, double h) {
       rows_[i]->measureBase(toBullet(base_->p_LM_W(motion).cross(axis)), toBullet(axis));
     else
       rows_[i]->measureBase(toBullet(axis), {0, 0, 0});
-    rows_[i]->clearGoals();
-    rows_[i]->set(JointRow::kDamping, {0, -kInfinity, kInfinity, 1 / (baseDamping_ * h)});
+    JointGoals goals;
+    goals[kDamping] = {0, -kInfinity, kInfinity, 1 / (baseDamping_ * h)};
+    rows_[i]->setGoals(goals);
   }
 }
 
@@ -235,21 +226,7 @@ void Articulation::setGoals(const Coordinate& one, int place, const Motor& motor
                             JointRow& row) const {
   const double q = body_->getJointPosMultiDof(one.link)[place];
   const double v = body_->getJointVelMultiDof(one.link)[place];
-  row.clearGoals();
-  if (motor.kind != Motor::Kind::kForce) {
-    const double rate = std::min(kPositionRate, 1 / h);
-    const double wanted = motor.kind == Motor::Kind::kVelocity ? motor.target : rate * (motor.target - q);
-    row.set(JointRow::kMotor,
-            {std::clamp(wanted, -one.maxVelocity, one.maxVelocity), -motor.maxForce * h, motor.maxForce * h});
-  }
-  if (one.damping > 0) row.set(JointRow::kDamping, {0, -kInfinity, kInfinity, 1 / (one.damping * h)});
-  if (one.friction > 0) row.set(JointRow::kFriction, {0, -one.friction * h, one.friction * h});
-  const double reach = kLimitReach + 2 * h * std::abs(v);
-  const auto backOff = [&](double beyond) {
-    return beyond > 0 ? std::min(kLimitRate * beyond, kLimitSpeed) : beyond / h;
-  };
-  if (one.lower - q > -reach) row.set(JointRow::kLowerLimit, {backOff(one.lower - q), 0, kInfinity});
-  if (q - one.upper > -reach) row.set(JointRow::kUpperLimit, {-backOff(q - one.upper), -kInfinity, 0});
+  row.setGoals(jointGoals(one.law, motor, q, v, h));
 }
 
 FreeMotion::LinkMotion Articulation::baseMotion() const {

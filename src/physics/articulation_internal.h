@@ -61,7 +61,7 @@ class Articulation : public Mover {
     bool follows = false;  // its coordinate is ratio * q[qIndex] + offset, and no motor acts on it directly
     double ratio = 1, offset = 0;
     JointId joint = kNoJoint;
-    double lower = 0, upper = 0, damping = 0, friction = 0, maxVelocity = 0;
+    JointLaw law{};
   };
   struct Collider {
     std::unique_ptr<btMultiBodyLinkCollider> object;

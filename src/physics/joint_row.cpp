@@ -7,14 +7,15 @@
 namespace rex::internal {
 
 JointRow::JointRow(btMultiBody& body, int link, int place)
-    : btMultiBodyConstraint(&body, &body, link, body.getLink(link).m_parent, kPurposes, true,
+    : btMultiBodyConstraint(&body, &body, link, body.getLink(link).m_parent, kJointPurposes, true,
                             MULTIBODY_CONSTRAINT_1DOF_JOINT_MOTOR),
       place_(place) {
   JointRow::finalizeMultiDof();
 }
 
 JointRow::JointRow(btMultiBody& body)
-    : btMultiBodyConstraint(&body, &body, -1, -1, kPurposes, true, MULTIBODY_CONSTRAINT_1DOF_JOINT_MOTOR) {
+    : btMultiBodyConstraint(&body, &body, -1, -1, kJointPurposes, true,
+                            MULTIBODY_CONSTRAINT_1DOF_JOINT_MOTOR) {
   JointRow::finalizeMultiDof();
 }
 
@@ -32,8 +33,8 @@ void JointRow::measureBase(const btVector3& angular, const btVector3& linear) {
 }
 
 void JointRow::forget() {
-  clearGoals();
-  for (int i = 0; i < kPurposes; ++i) internalSetAppliedImpulse(i, 0);
+  setGoals({});
+  for (int i = 0; i < kJointPurposes; ++i) internalSetAppliedImpulse(i, 0);
 }
 
 int JointRow::getIslandIdA() const { return m_bodyA->getBaseCollider()->getIslandTag(); }
@@ -41,12 +42,12 @@ int JointRow::getIslandIdA() const { return m_bodyA->getBaseCollider()->getIslan
 void JointRow::createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
                                     const btContactSolverInfo& info) {
   const btVector3 none(0, 0, 0);
-  for (int i = 0; i < kPurposes; ++i) {
+  for (int i = 0; i < kJointPurposes; ++i) {
     if (!goals_[i]) {
       internalSetAppliedImpulse(i, 0);
       continue;
     }
-    const Goal& goal = *goals_[i];
+    const JointGoal& goal = *goals_[i];
     btMultiBodySolverConstraint& row = rows.expandNonInitializing();
     row.m_orgConstraint = this;
     row.m_orgDofIndex = i;

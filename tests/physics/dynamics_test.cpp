@@ -193,6 +193,32 @@ TEST(PhysicsDynamics, AnUntouchedArmKeepsItsEnergy) {
   EXPECT_LT(worst, 1e-3 * mostKinetic);
 }
 
+// Motors of both kinds, friction, damping and limits: exactly and together here, and by Bullet, which a body
+// elsewhere makes move the arm, in iterations that start from the step before. Both are of first order.
+TEST(PhysicsDynamics, JointsAreDrivenAndHeldAsInBullet) {
+  const char* const file = "data/robots/arm7dof/arm7dof.urdf";
+  const Model alone = robotWithoutContact(file, true), crowded = robotWithoutContact(file);
+  PhysicsWorld world(alone), bullets(crowded, {.iterations = 200});
+  std::vector<Motor> motors(static_cast<std::size_t>(alone.nv()));
+  motors[0] = {Motor::Kind::kVelocity, 0.5, 20};
+  motors[1] = {Motor::Kind::kPosition, 0.8, 30};  // too weak to hold it everywhere
+  motors[2] = {Motor::Kind::kForce, 1};
+  motors[4] = {Motor::Kind::kVelocity, 2, 1e6};  // reaches its limit and is stopped there
+  world.setMotors(motors);
+  motors.insert(motors.begin(), 6, Motor{});  // of the body elsewhere
+  bullets.setMotors(motors);
+  double farthest = 0, worst = 0;
+  for (int i = 0; i < 2000; ++i) {
+    world.step(1e-3);
+    bullets.step(1e-3);
+    const State ours = world.state(), theirs = bullets.state();
+    worst = std::max(worst, (ours.q - theirs.q.tail(alone.nq())).lpNorm<Eigen::Infinity>());
+    farthest = std::max(farthest, ours.q.lpNorm<Eigen::Infinity>());
+  }
+  EXPECT_GT(farthest, 1);
+  EXPECT_LT(worst, 1e-5);
+}
+
 // A pendulum falls to the ground, on its own dynamics at first, then on Bullet's: no jump between them, and
 // the same contact as with a body elsewhere, when all is Bullet's.
 TEST(PhysicsDynamics, HandsOverWhatTouches) {
