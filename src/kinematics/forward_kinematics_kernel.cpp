@@ -1,4 +1,5 @@
 #include "base/sin_cos.h"
+#include "geometry/kernel_columns.h"
 #include "geometry/kernel_math.h"
 #include "kinematics/forward_kinematics_kernel_internal.h"
 
@@ -6,6 +7,11 @@ namespace rex::internal {
 namespace {
 
 using Kind = MotionStep::Kind;
+
+template <class T>
+inline T coordinate(const MotionStep& step, const double* const* q) {
+  return T(step.ratio) * gathered<T>(q, step.qIndex) + T(step.offset);
+}
 
 // The two numbers in which every joint motion except that of a quaternion is linear.
 template <class T>
@@ -16,7 +22,7 @@ struct Factors {
 template <class T>
 inline Factors<T> factors(const MotionStep& step, const double* const* q) {
   if (step.kind != Kind::kHinge && step.kind != Kind::kSlider) return {T(0.0), T(0.0)};
-  const T x = T(step.ratio) * gathered<T>(q, step.qIndex) + T(step.offset);
+  const T x = coordinate<T>(step, q);
   if (step.kind == Kind::kSlider) return {x, T(0.0)};
   const SinCos<T> turn = sinCos(x);
   return {turn.cosine, turn.sine};
@@ -73,11 +79,68 @@ void placeAll(const MotionStep* steps, int stepCount, const double* const* q, do
   }
 }
 
+#ifdef __AVX__
+// One configuration in lanes: four sines at once, and poses by columns. A pose stays in registers as long as
+// the next one follows it.
+inline PoseColumns moved(const PoseColumns& X, const MotionStep& step, const Factors<double>& f) {
+  alignas(Quad) double motion[MotionStep::kPoseSize];
+  for (int e = 0; e < MotionStep::kPoseSize; e += kLanesOf<Quad>)
+    store(load<Quad>(step.constant + e) + Quad(f.first) * load<Quad>(step.first + e) +
+              Quad(f.second) * load<Quad>(step.second + e),
+          motion + e);
+  return {turned(X, motion), turned(X, motion + 3), turned(X, motion + 6), turned(X, motion + 9) + X.p};
+}
+
+void placeOne(const MotionStep* steps, int stepCount, const double* const* q, double* X_WB) {
+  constexpr int kAhead = 16;
+  PoseColumns X{};
+  int at = -1;  // the body whose pose X is
+  for (int begin = 0; begin < stepCount; begin += kAhead) {
+    const int end = begin + kAhead < stepCount ? begin + kAhead : stepCount;
+    double x[kAhead] = {}, sines[kAhead], cosines[kAhead];
+    for (int s = begin; s < end; ++s)
+      if (steps[s].kind == Kind::kHinge || steps[s].kind == Kind::kSlider)
+        x[s - begin] = coordinate<double>(steps[s], q);
+    for (int i = 0; i < end - begin; i += kLanesOf<Quad>) {
+      const SinCos<Quad> turn = sinCos(load<Quad>(x + i));
+      store(turn.sine, sines + i);
+      store(turn.cosine, cosines + i);
+    }
+    for (int s = begin; s < end; ++s) {
+      const MotionStep& step = steps[s];
+      const double* const X_WP = X_WB + MotionStep::kPoseSize * step.from;
+      double* const X_WC = X_WB + MotionStep::kPoseSize * step.to;
+      if (step.kind == Kind::kQuaternion) {
+        place<double>(step, {}, q, X_WP, X_WC, 1);
+        at = -1;
+        continue;
+      }
+      if (step.kind == Kind::kFixed && step.from == 0) {
+        X = loadColumns(step.constant);
+      } else {
+        if (step.from != at) X = loadColumns(X_WP);
+        const int i = s - begin;
+        const Factors<double> f = step.kind == Kind::kHinge    ? Factors<double>{cosines[i], sines[i]}
+                                  : step.kind == Kind::kSlider ? Factors<double>{x[i], 0}
+                                                               : Factors<double>{0, 0};
+        X = moved(X, step, f);
+      }
+      storeColumns(X, X_WC);
+      at = step.to;
+    }
+  }
+}
+#endif
+
 }  // namespace
 
 template <int kLanes>
 ForwardKinematicsKernel ForwardKinematicsKernel::compiled() {
-  return {&placeAll<double, 1>, &placeAll<InLanes<kLanes>, kBlock>};
+  Place one = &placeAll<double, 1>;
+#ifdef __AVX__
+  one = &placeOne;
+#endif
+  return {one, &placeAll<InLanes<kLanes>, kBlock>};
 }
 template ForwardKinematicsKernel ForwardKinematicsKernel::compiled<REX_LANES>();
 

@@ -1,3 +1,4 @@
+#include "geometry/kernel_columns.h"
 #include "geometry/kernel_math.h"
 #include "kinematics/jacobian_kernel_internal.h"
 
@@ -31,16 +32,49 @@ void addAngular(const double* X_WF, const double* angular, double* column) {
   }
 }
 
+inline bool isZero(const double* v) { return ((bitsOf(v[0]) | bitsOf(v[1]) | bitsOf(v[2])) << 1) == 0; }
+
+template <class T, int kCount>
+void addTwist(const double* X_WF, const double* angular, const double* linear, const double* p_WQ,
+              double* column) {
+  const bool onlyTurns = isZero(linear);
+  for (int k = 0; k < kCount; k += kLanesOf<T>) {
+    const KernelPose<T> X = loadPose<T>(X_WF + k, kCount);
+    const Vec3<T> axis = X.R * broadcastVec3<T>(angular);
+    Vec3<T> velocity = cross(axis, loadVec3<T>(p_WQ + k, kCount) - X.p);
+    if (!onlyTurns) velocity = velocity + X.R * broadcastVec3<T>(linear);
+    double* const turn = column + 3 * kCount;
+    storeVec3(loadVec3<T>(column + k, kCount) + velocity, column + k, kCount);
+    storeVec3(loadVec3<T>(turn + k, kCount) + axis, turn + k, kCount);
+  }
+}
+
+#ifdef __AVX__
+void addTwistInLanes(const double* X_WF, const double* angular, const double* linear, const double* p_WQ,
+                     double* column) {
+  const PoseColumns X = loadColumns(X_WF);
+  const Quad axis = turned(X, angular);
+  Quad velocity = crossColumns(axis, Quad(Quad::Numbers{p_WQ[0], p_WQ[1], p_WQ[2], 0}) - X.p);
+  if (!isZero(linear)) velocity = velocity + turned(X, linear);
+  const Quad turn = __builtin_shuffle(load<Quad>(column + 2).numbers, Quad::Mask{1, 2, 3, 3});
+  storePair(load<Quad>(column) + velocity, turn + axis, column);
+}
+#endif
+
 template <class T, int kCount>
 JacobianKernel::Functions functions() {
-  return {&point<T, kCount>, &addVelocity<T, kCount>, &addAngular<T, kCount>};
+  return {&point<T, kCount>, &addVelocity<T, kCount>, &addTwist<T, kCount>, &addAngular<T, kCount>};
 }
 
 }  // namespace
 
 template <int kLanes>
 JacobianKernel JacobianKernel::compiled() {
-  return {functions<double, 1>(), functions<InLanes<kLanes>, kBlock>()};
+  Functions one = functions<double, 1>();
+#ifdef __AVX__
+  one.addTwist = &addTwistInLanes;
+#endif
+  return {one, functions<InLanes<kLanes>, kBlock>()};
 }
 template JacobianKernel JacobianKernel::compiled<REX_LANES>();
 

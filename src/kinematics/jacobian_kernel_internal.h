@@ -11,6 +11,9 @@ struct JacobianKernel {
     /// Adds to `column` the velocity of Q where a twist given in frame X_WF moves by 1.
     void (*addVelocity)(const double* X_WF, const double* angular, const double* linear, const double* p_WQ,
                         double* column);
+    /// Adds to `column` that velocity and, behind it, the angular velocity: six numbers.
+    void (*addTwist)(const double* X_WF, const double* angular, const double* linear, const double* p_WQ,
+                     double* column);
     /// Adds to `column` its angular velocity.
     void (*addAngular)(const double* X_WF, const double* angular, double* column);
   };

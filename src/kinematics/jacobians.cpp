@@ -1,5 +1,6 @@
 #include "kinematics/jacobians.h"
 
+#include <algorithm>
 #include <cassert>
 
 #include <Eigen/Geometry>
@@ -14,7 +15,10 @@ namespace {
 using internal::forEachFreedomAbove;
 
 // The kernel that takes one configuration.
-internal::JacobianKernel::Functions kernel() { return kernelFor<internal::JacobianKernel>(cpuLanes()).one; }
+const internal::JacobianKernel::Functions& kernel() {
+  static const internal::JacobianKernel::Functions kOne = kernelFor<internal::JacobianKernel>(cpuLanes()).one;
+  return kOne;
+}
 
 // The entries of a pose, column by column.
 const double* numbers(const Pose& X) { return X.R.data(); }
@@ -33,7 +37,7 @@ void positionJacobian(const Model& model, const BodyPoses& poses, BodyId body, c
                       Eigen::Ref<Eigen::Matrix3Xd> J) {
   assert(J.cols() == model.nv());
   assert(poses.X_WB.size() == model.bodies().size());
-  const internal::JacobianKernel::Functions one = kernel();
+  const internal::JacobianKernel::Functions& one = kernel();
   Eigen::Vector3d p_WQ;
   one.point(numbers(poses[body]), p_BQ.data(), p_WQ.data());
   J.setZero();
@@ -54,6 +58,22 @@ void angularJacobian(const Model& model, const BodyPoses& poses, BodyId body,
   });
 }
 
+void poseJacobian(const Model& model, const BodyPoses& poses, BodyId body, const Eigen::Vector3d& p_BQ,
+                  Eigen::Ref<Matrix6Xd> J) {
+  assert(J.cols() == model.nv());
+  assert(poses.X_WB.size() == model.bodies().size());
+  const internal::JacobianKernel::Functions& one = kernel();
+  Eigen::Vector3d p_WQ;
+  one.point(numbers(poses[body]), p_BQ.data(), p_WQ.data());
+  if (J.outerStride() == J.rows())
+    std::fill_n(J.data(), J.size(), 0.);  // much faster than by columns
+  else
+    J.setZero();
+  forEachFreedomAbove(model, body, [&](int column, const DegreeOfFreedom& f, BodyId frame) {
+    one.addTwist(numbers(poses[frame]), f.angular.data(), f.linear.data(), p_WQ.data(), J.col(column).data());
+  });
+}
+
 Eigen::Matrix3Xd positionJacobian(const Model& model, const BodyPoses& poses, BodyId body,
                                   const Eigen::Vector3d& p_BQ) {
   Eigen::Matrix3Xd J(3, model.nv());
@@ -64,6 +84,12 @@ Eigen::Matrix3Xd positionJacobian(const Model& model, const BodyPoses& poses, Bo
 Eigen::Matrix3Xd angularJacobian(const Model& model, const BodyPoses& poses, BodyId body) {
   Eigen::Matrix3Xd J(3, model.nv());
   angularJacobian(model, poses, body, J);
+  return J;
+}
+
+Matrix6Xd poseJacobian(const Model& model, const BodyPoses& poses, BodyId body, const Eigen::Vector3d& p_BQ) {
+  Matrix6Xd J(6, model.nv());
+  poseJacobian(model, poses, body, p_BQ, J);
   return J;
 }
 

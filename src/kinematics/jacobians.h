@@ -4,6 +4,8 @@
 
 namespace rex {
 
+using Matrix6Xd = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+
 // Jacobians have one column for each of the nv entries of v and are expressed in the world frame W. `poses`
 // are those of the posture.
 
@@ -23,9 +25,15 @@ namespace rex {
 /// slide 2:54.
 [[nodiscard]] Eigen::Matrix3Xd angularJacobian(const Model& model, const BodyPoses& poses, BodyId body);
 
-/// Overloads for hot loops: the caller owns J, which must be 3 x nv already. They allocate nothing.
+/// Both, positionJacobian() above angularJacobian(): 6 x nv.
+[[nodiscard]] Matrix6Xd poseJacobian(const Model& model, const BodyPoses& poses, BodyId body,
+                                     const Eigen::Vector3d& p_BQ);
+
+/// Overloads for hot loops: the caller owns J, which must have its size already. They allocate nothing.
 void positionJacobian(const Model& model, const BodyPoses& poses, BodyId body, const Eigen::Vector3d& p_BQ,
                       Eigen::Ref<Eigen::Matrix3Xd> J);
 void angularJacobian(const Model& model, const BodyPoses& poses, BodyId body, Eigen::Ref<Eigen::Matrix3Xd> J);
+void poseJacobian(const Model& model, const BodyPoses& poses, BodyId body, const Eigen::Vector3d& p_BQ,
+                  Eigen::Ref<Matrix6Xd> J);
 
 }  // namespace rex

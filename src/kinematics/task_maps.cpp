@@ -51,20 +51,6 @@ void requireDirection(const Quaternion& nearest) {
   static_cast<void>(rotationFromQuaternion(nearest));  // throws for zero and numbers that are not finite
 }
 
-void writePosition(const Posture& at, BodyId body, const Eigen::Vector3d& p_BQ, const Eigen::Vector3d& p_WT,
-                   Eigen::Ref<Eigen::VectorXd> y, Columns J) {
-  y = position(at.poses, body, p_BQ) - p_WT;
-  positionJacobian(at.model, at.poses, body, p_BQ, J);
-}
-
-void writeOrientation(const Posture& at, BodyId body, const Eigen::Matrix3d& R_WT,
-                      Eigen::Ref<Eigen::VectorXd> y, Columns J) {
-  const Eigen::Vector3d e = logSO3(at.poses[body].R * R_WT.transpose());
-  y = e;
-  angularJacobian(at.model, at.poses, body, J);
-  transformColumns(leftJacobianSO3(e).inverse(), J);
-}
-
 void writeVector(const Posture& at, BodyId body, const Eigen::Vector3d& vector_B, TaskValue& out) {
   out.y = direction(at.poses, body, vector_B);
   out.J.resize(3, at.model.nv());
@@ -76,9 +62,9 @@ void writeVector(const Posture& at, BodyId body, const Eigen::Vector3d& vector_B
 
 TaskMap positionTask(BodyId body, const Eigen::Vector3d& p_BQ) {
   return [=](const Posture& at, TaskValue& out) {
-    out.y.resize(3);
+    out.y = position(at.poses, body, p_BQ);
     out.J.resize(3, at.model.nv());
-    writePosition(at, body, p_BQ, Eigen::Vector3d::Zero(), out.y, out.J);
+    positionJacobian(at.model, at.poses, body, p_BQ, out.J);
   };
 }
 
@@ -95,9 +81,10 @@ TaskMap quaternionTask(BodyId body, const Quaternion& nearest) {
 
 TaskMap orientationTask(BodyId body, const Eigen::Matrix3d& R_WT) {
   return [=](const Posture& at, TaskValue& out) {
-    out.y.resize(3);
+    out.y = logSO3(at.poses[body].R * R_WT.transpose());
     out.J.resize(3, at.model.nv());
-    writeOrientation(at, body, R_WT, out.y, out.J);
+    angularJacobian(at.model, at.poses, body, out.J);
+    transformColumns(leftJacobianSO3(out.y).inverse(), out.J);
   };
 }
 
@@ -105,8 +92,9 @@ TaskMap poseTask(BodyId body, const Pose& X_WT, const Eigen::Vector3d& p_BQ) {
   return [=](const Posture& at, TaskValue& out) {
     out.y.resize(6);
     out.J.resize(6, at.model.nv());
-    writePosition(at, body, p_BQ, X_WT.p, out.y.head<3>(), out.J.topRows<3>());
-    writeOrientation(at, body, X_WT.R, out.y.tail<3>(), out.J.bottomRows<3>());
+    out.y << position(at.poses, body, p_BQ) - X_WT.p, logSO3(at.poses[body].R * X_WT.R.transpose());
+    poseJacobian(at.model, at.poses, body, p_BQ, out.J);
+    transformColumns(leftJacobianSO3(out.y.tail<3>()).inverse(), out.J.bottomRows<3>());
   };
 }
 

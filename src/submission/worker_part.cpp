@@ -122,6 +122,16 @@ void dropUnusedNames(const fs::path& object, const fs::path& list, const WorkerP
   run({order.objcopy, "--strip-symbols=" + list.string(), object.string()});
 }
 
+// A path as the compiler reads it in a file of options, a line.
+std::string optionLine(const fs::path& file) {
+  std::string line;
+  for (const char c : file.string()) {
+    if (c == ' ' || c == '\t' || c == '\\' || c == '"' || c == '\'') line += '\\';
+    line += c;
+  }
+  return line + '\n';
+}
+
 // Section groups are resolved here, so that a student's copy of a template does not replace ours.
 void link(const WorkerPartOrder& order, const fs::path& object, const Names& offers,
           const std::string& options) {
@@ -129,8 +139,8 @@ void link(const WorkerPartOrder& order, const fs::path& object, const Names& off
   Names roots = offers;
   roots.insert({"main", kRefusal});
   for (const std::string& name : roots) arguments += fmt::format("-Wl,--undefined={}\n", name);
-  arguments += order.worker.string() + "\n";
-  for (const fs::path& one : order.objects) arguments += one.string() + "\n";
+  arguments += optionLine(order.worker);
+  for (const fs::path& one : order.objects) arguments += optionLine(one);
   const fs::path list = fs::path(object).replace_extension(".args");
   writeTextFile(list, arguments);
   run({order.compiler, "-r", "-nostdlib", "-fno-lto", "@" + list.string(), "-o", object.string()});
@@ -151,7 +161,7 @@ std::string neededBy(const fs::path& object, const WorkerPartOrder& order) {
     const std::string names = run({order.nm, "-D", "--defined-only", "-fjust-symbols", library.string()});
     const std::vector<std::string_view> lines = splitLines(names);
     // Where rex is installed there are no links without a version: those are for compiling.
-    if (std::any_of(lines.begin(), lines.end(), isMissing)) needed += fs::canonical(library).string() + "\n";
+    if (std::any_of(lines.begin(), lines.end(), isMissing)) needed += optionLine(fs::canonical(library));
   }
   return needed;
 }

@@ -19,8 +19,7 @@ struct Workspace {
   void forwardKinematics(int k) { rex::forwardKinematics(robot.model, robot.Q.col(k), poses); }
   void jacobian(int k) {
     forwardKinematics(k);
-    positionJacobian(robot.model, poses, robot.tip, Eigen::Vector3d::Zero(), J.topRows<3>());
-    angularJacobian(robot.model, poses, robot.tip, J.bottomRows<3>());
+    poseJacobian(robot.model, poses, robot.tip, Eigen::Vector3d::Zero(), J);
   }
   void centerOfMassJacobian(int k) {
     forwardKinematics(k);
@@ -40,7 +39,7 @@ struct Workspace {
   BodyPoses poses;
   PoseBatch poseBatch;
   JacobianBatch jacobians, angularJacobians;
-  Eigen::Matrix<double, 6, Eigen::Dynamic> J;
+  Matrix6Xd J;
   Eigen::Matrix3Xd J_com, moments;
 };
 
@@ -68,8 +67,10 @@ std::vector<Row> kinematicsRows() {
     const std::string on = "-" + ours->robot.name;
     rows.push_back({"fk" + on, fk, "KDL", timedInTurn(kdl.forwardKinematics), 0.35});
     rows.push_back({"fk" + on + "-mujoco", fk, "MuJoCo", timedInTurn(mujoco.forwardKinematics)});
-    rows.push_back(
-        {"jacobian" + on, jacobian, "KDL", timedInTurn(kdl.jacobian), on == "-chain30" ? 0.18 : 0.2});
+    // Of the man, KDL computes one chain, and we place all bodies: no target.
+    const std::optional<double> target =
+        on == "-man" ? std::nullopt : std::optional(on == "-arm7" ? 0.2 : 0.18);
+    rows.push_back({"jacobian" + on, jacobian, "KDL", timedInTurn(kdl.jacobian), target});
     rows.push_back({"jacobian" + on + "-mujoco", jacobian, "MuJoCo", timedInTurn(mujoco.jacobian)});
     rows.push_back({"fk-batch" + on, fkBatch(cpuLanes()), "KDL", timedInTurn(kdl.forwardKinematics), 0.1});
     rows.push_back({"fk-batch-2-lanes" + on, fkBatch(2), "KDL", timedInTurn(kdl.forwardKinematics), 0.25});

@@ -83,6 +83,9 @@ TEST_P(BatchOfLanes, JacobiansHaveTheBitsOfOne) {
         const BodyPoses poses = forwardKinematics(model, Q.col(k));
         ASSERT_TRUE(haveSameBits(linear.jacobian(k), positionJacobian(model, poses, body, p_BQ))) << i;
         ASSERT_TRUE(haveSameBits(angular.jacobian(k), angularJacobian(model, poses, body))) << i;
+        const Matrix6Xd both = poseJacobian(model, poses, body, p_BQ);
+        ASSERT_TRUE(haveSameBits(linear.jacobian(k), Eigen::Matrix3Xd(both.topRows<3>()))) << i;
+        ASSERT_TRUE(haveSameBits(angular.jacobian(k), Eigen::Matrix3Xd(both.bottomRows<3>()))) << i;
       }
     }
   }

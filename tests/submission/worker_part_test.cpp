@@ -28,13 +28,14 @@ constexpr const char* kLoop =
 
 class WorkerPart : public ::testing::Test {
  protected:
-  WorkerPart() {
+  WorkerPart() : folder_(temporary_.path() / "it's a \"folder\"") {
+    fs::create_directory(folder_);
     writeTextFile(folder() / "groups.toml", "course = [\"rex::easy\", \"rex::Rng\"]\n");
     compile("library", kLibrary);
     compile("loop", kLoop);
   }
 
-  const fs::path& folder() const { return temporary_.path(); }
+  const fs::path& folder() const { return folder_; }
 
   void compile(const std::string& name, const std::string& text) const {
     const ProcessResult done = runProcess({"g++", "-x", "c++", "-O1", "-fPIC", "-ffunction-sections", "-c",
@@ -74,6 +75,7 @@ class WorkerPart : public ::testing::Test {
 
  private:
   TemporaryFolder temporary_;
+  fs::path folder_;
 };
 
 constexpr const char* kForbidsHard = "\n[[forbidden]]\nfunction = \"rex::hard\"\nreason = \"it is part 1\"\n";
@@ -145,7 +147,7 @@ TEST_F(WorkerPart, IsLinkedWithThoseLibrariesOfOthersThatItNeeds) {
           "extern \"C\" void rexNotAllowedHere() { throw 1; }\n");
   const fs::path options = linkOptions(folder() / "worker_part.o");
   link("allowed = [\"course\"]");
-  EXPECT_EQ(readTextFile(options), libraries_[0].string() + "\n");
+  EXPECT_THAT(readTextFile(options), testing::MatchesRegex("[^\n]*/libone.so\n"));
   link("allowed = [\"rex::Rng\"]");
   EXPECT_EQ(readTextFile(options), "");
   libraries_ = {folder() / "libnone.so"};

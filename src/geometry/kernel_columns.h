@@ -1,0 +1,48 @@
+#pragma once
+
+#include "base/pack.h"
+
+// One pose in lanes, for kernels of four: its columns, each in the first three lanes of a pack. All numbers
+// have the bits that kernel_math.h gives. See base/pack.h for the reason for the anonymous namespace.
+#ifdef __AVX__
+namespace rex {
+namespace {
+
+using Quad = Pack<4>;
+
+/// The fourth lanes are arbitrary.
+struct PoseColumns {
+  Quad x, y, z, p;
+};
+
+/// The layout of rex::Pose: twelve numbers.
+inline PoseColumns loadColumns(const double* X) {
+  const Quad end = load<Quad>(X + 8);
+  return {load<Quad>(X), load<Quad>(X + 3), load<Quad>(X + 6),
+          __builtin_shuffle(end.numbers, Quad::Mask{1, 2, 3, 3})};
+}
+
+/// Stores two columns one behind the other, six numbers; the second store overwrites the fourth lane of a.
+inline void storePair(const Quad& a, const Quad& b, double* to) {
+  store(a, to);
+  store(Quad(__builtin_shuffle(a.numbers, b.numbers, Quad::Mask{2, 4, 5, 6})), to + 2);
+}
+inline void storeColumns(const PoseColumns& X, double* to) {
+  storePair(X.x, X.y, to);
+  storePair(X.z, X.p, to + 6);
+}
+
+/// R v.
+inline Quad turned(const PoseColumns& X, const double* v) {
+  return X.x * Quad(v[0]) + X.y * Quad(v[1]) + X.z * Quad(v[2]);
+}
+
+inline Quad crossColumns(const Quad& a, const Quad& b) {
+  const Quad::Mask yzx{1, 2, 0, 3}, zxy{2, 0, 1, 3};
+  return __builtin_shuffle(a.numbers, yzx) * __builtin_shuffle(b.numbers, zxy) -
+         __builtin_shuffle(a.numbers, zxy) * __builtin_shuffle(b.numbers, yzx);
+}
+
+}  // namespace
+}  // namespace rex
+#endif
