@@ -1,16 +1,16 @@
+#include "dynamics/link_columns_internal.h"
 #include "dynamics/link_kernel_internal.h"
 #include "dynamics/mass_matrix_kernel_internal.h"
 
 namespace rex::internal {
 namespace {
 
-// A link, in the axes of the world and about the origin O of its tree; mass, moment and inertia end up
-// including everything that it carries.
+// A link, in the axes of the world and about the origin O of its tree.
 struct Part {
   KernelPose<double> X;  // in the parent, then in the world
-  double mass;
+  Sym3<double> inertia;  // from here to the mass, ten numbers, of what it carries, too
   Vec3<double> moment;
-  Sym3<double> inertia;
+  double mass;
   int root;         // of its tree
   int origin;       // of a root: the part whose origin is O
   int lastFreedom;  // its own last
@@ -60,28 +60,60 @@ inline Sym3<double> symmetricProduct(const Vec3<double>& a, const Vec3<double>& 
           2 * a.y * b.y, a.y * b.z + a.z * b.y, 2 * a.z * b.z};
 }
 
-// Poses are independent of one another until they are multiplied: first all sines, then the chain. O is the
-// origin of the first link with a mass, so that inertias stay small even far from the world's origin.
+// Poses are independent of one another until they are multiplied: first all sines, then the chain.
 inline void place(const Link* links, int count, const double* q, Part* parts) {
+#ifdef __AVX__
+  placeByColumns(links, count, q, [&](int i) { return reinterpret_cast<double*>(&parts[i].X); });
+#else
   for (int i = 0; i < count; ++i) parts[i].X = poseInParent<double>(links[i], &q);
+  for (int i = 0; i < count; ++i)
+    if (links[i].parent != Link::kNoParent) parts[i].X = parts[links[i].parent].X * parts[i].X;
+#endif
+}
+
+// O is the origin of the first link with a mass, so that inertias stay small even far from the world's
+// origin.
+inline void chooseOrigins(const Link* links, int count, Part* parts) {
   for (int i = 0; i < count; ++i) {
     const int parent = links[i].parent;
     Part& part = parts[i];
-    if (parent == Link::kNoParent) {
-      part.root = part.origin = i;
-      continue;
-    }
-    part.X = parts[parent].X * part.X;
-    part.root = parts[parent].root;
+    part.root = parent == Link::kNoParent ? i : parts[parent].root;
     Part& root = parts[part.root];
-    if (links[root.origin].mass == 0) root.origin = i;
+    if (part.root == i || links[root.origin].mass == 0) root.origin = i;
   }
 }
 
-// Mass, moment and inertia of the link alone.
+// Mass, moment and inertia of the link alone. About O, the latter comes from the squares of r = p + d with
+// the link's d: r r = p p + (p d + d p) + d d, summed by mass.
+#ifdef __AVX__
+inline void weigh(const Link& link, const Vec3<double>& p_OL, Part& part) {
+  const double* const R = reinterpret_cast<const double*>(&part.X);
+  const double* const S = link.inertia;
+  const double Sy[] = {S[1], S[3], S[4]}, Sz[] = {S[2], S[4], S[5]};
+  const PoseColumns X = loadColumns(R);
+  const Quad p(Quad::Numbers{p_OL.x, p_OL.y, p_OL.z, 0}), h = turned(X, link.moment), mass(link.mass);
+  const Quad half = Quad(0.5) * p, twice = mass * p + Quad(2.0) * h;
+  const Quad RS[] = {turned(X, S), turned(X, Sy), turned(X, Sz)};
+  double a[4], b[4];
+  store(half, a);
+  store(twice, b);
+  const double trace = 2 * a[0] * b[0] + 2 * a[1] * b[1] + 2 * a[2] * b[2];
+  const auto column = [&](int k, Quad traceAtK) {
+    const Quad turnedBack = RS[0] * Quad(R[k]) + RS[1] * Quad(R[3 + k]) + RS[2] * Quad(R[6 + k]);
+    return turnedBack + (traceAtK - (half * Quad(b[k]) + twice * Quad(a[k])));
+  };
+  const Quad x = column(0, Quad::Numbers{trace, 0, 0, 0}), y = column(1, Quad::Numbers{0, trace, 0, 0}),
+             z = column(2, Quad::Numbers{0, 0, trace, 0});
+  const auto xy = __builtin_shuffle(x.numbers, y.numbers, Quad::Mask{0, 4, 5, 5});
+  store(Quad(__builtin_shuffle(xy, z.numbers, Quad::Mask{0, 1, 4, 2})), &part.inertia.xx);
+  // The stores spill numbers, which the next ones overwrite.
+  store(Quad(__builtin_shuffle(z.numbers, Quad::Mask{1, 2, 2, 2})), &part.inertia.yz);
+  store(h + mass * p, &part.moment.x);
+  part.mass = link.mass;
+}
+#else
 inline void weigh(const Link& link, const Vec3<double>& p_OL, Part& part) {
   const Vec3<double> h = part.X.R * broadcastVec3<double>(link.moment);
-  // About O, from the squares of r = p + d with the link's d: r r = p p + (p d + d p) + d d, summed by mass.
   const Vec3<double> twice = link.mass * p_OL + 2.0 * h;
   const Sym3<double> moved = symmetricProduct(0.5 * p_OL, twice);
   const double trace = moved.xx + moved.yy + moved.zz;
@@ -91,6 +123,7 @@ inline void weigh(const Link& link, const Vec3<double>& p_OL, Part& part) {
   part.inertia = {I.xx + (trace - moved.xx), I.xy - moved.xy, I.xz - moved.xz,
                   I.yy + (trace - moved.yy), I.yz - moved.yz, I.zz + (trace - moved.zz)};
 }
+#endif
 
 // Appends the freedoms of the link, below freedom `parent`.
 inline void appendFreedoms(const Link& link, const KernelPose<double>& X, const Vec3<double>& p_OL,
@@ -144,6 +177,15 @@ inline void addRow(const Part& part, const Freedoms& freedoms, int own, double* 
   }
 }
 
+// Inertia, moment and mass of what a carrier carries.
+template <class T>
+inline void addTo(double* carrier, const double* carried) {
+  constexpr int kNumbers = 10, kPacked = kNumbers / kLanesOf<T> * kLanesOf<T>;
+  for (int e = 0; e < kPacked; e += kLanesOf<T>)
+    store(load<T>(carrier + e) + load<T>(carried + e), carrier + e);
+  for (int e = kPacked; e < kNumbers; ++e) carrier[e] += carried[e];
+}
+
 // Composite rigid bodies.
 template <class T>
 void compute(const Link* links, int linkCount, const double* q, void* memory, double* M, long stride,
@@ -154,6 +196,7 @@ void compute(const Link* links, int linkCount, const double* q, void* memory, do
     return links[i].parent == Link::kNoParent ? kNone : parts[links[i].parent].lastFreedom;
   };
   place(links, linkCount, q, parts);
+  chooseOrigins(links, linkCount, parts);
   for (int i = 0; i < linkCount; ++i) {
     Part& part = parts[i];
     const Vec3<double> p_OL = part.X.p - parts[parts[part.root].origin].X.p;
@@ -161,17 +204,16 @@ void compute(const Link* links, int linkCount, const double* q, void* memory, do
     appendFreedoms(links[i], part.X, p_OL, lastAbove(i), freedoms);
     part.lastFreedom = freedoms.count - 1;
   }
-  for (int k = 0; k < nv; ++k)
-    __builtin_memset(M + stride * k, 0, sizeof(double) * static_cast<unsigned long>(nv));
+  const bool isDense = stride == nv;  // one long column
+  const long rows = isDense ? stride * nv : nv;
+  for (int k = 0; k < (isDense ? 1 : nv); ++k)
+    __builtin_memset(M + stride * k, 0, sizeof(double) * static_cast<unsigned long>(rows));
   for (int i = linkCount - 1; i >= 0; --i) {
     const Part& part = parts[i];
     for (int own = part.lastFreedom; own != lastAbove(i); own = freedoms.parents[own])
       addRow<T>(part, freedoms, own, M, stride);
     if (links[i].parent == Link::kNoParent) continue;
-    Part& carrier = parts[links[i].parent];
-    carrier.mass += part.mass;
-    carrier.moment = carrier.moment + part.moment;
-    carrier.inertia = carrier.inertia + part.inertia;
+    addTo<T>(&parts[links[i].parent].inertia.xx, &part.inertia.xx);
   }
 }
 

@@ -37,6 +37,11 @@ inline Quad turned(const PoseColumns& X, const double* v) {
   return X.x * Quad(v[0]) + X.y * Quad(v[1]) + X.z * Quad(v[2]);
 }
 
+/// X times the pose at `motion`, which has the layout of rex::Pose.
+inline PoseColumns times(const PoseColumns& X, const double* motion) {
+  return {turned(X, motion), turned(X, motion + 3), turned(X, motion + 6), turned(X, motion + 9) + X.p};
+}
+
 inline Quad crossColumns(const Quad& a, const Quad& b) {
   const Quad::Mask yzx{1, 2, 0, 3}, zxy{2, 0, 1, 3};
   return __builtin_shuffle(a.numbers, yzx) * __builtin_shuffle(b.numbers, zxy) -

@@ -88,7 +88,7 @@ inline PoseColumns moved(const PoseColumns& X, const MotionStep& step, const Fac
     store(load<Quad>(step.constant + e) + Quad(f.first) * load<Quad>(step.first + e) +
               Quad(f.second) * load<Quad>(step.second + e),
           motion + e);
-  return {turned(X, motion), turned(X, motion + 3), turned(X, motion + 6), turned(X, motion + 9) + X.p};
+  return times(X, motion);
 }
 
 void placeOne(const MotionStep* steps, int stepCount, const double* const* q, double* X_WB) {
