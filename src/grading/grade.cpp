@@ -264,7 +264,7 @@ void add(GradeResult& whole, std::size_t k, const GradeResult& part) {
 }
 
 // Limits the copy of this process in which a check is judged. The worker has limits of its own.
-void limitJudging(const Limits& limits) {
+void limitJudging([[maybe_unused]] const Limits& limits) {
   const itimerval time{.it_interval = {}, .it_value = {.tv_sec = kJudgingSeconds, .tv_usec = 0}};
   ::setitimer(ITIMER_PROF, &time, nullptr);
 #ifndef __SANITIZE_ADDRESS__
