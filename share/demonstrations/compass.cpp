@@ -63,7 +63,7 @@ int main() {
     picture.solids.push_back(
         {{.type = ShapeType::kBox, .extent = {3, 0.5, 0.05}}, ramp, {0.82f, 0.84f, 0.86f}, "slope"});
     picture.captions.push_back(
-        {.text = fell ? "it fell: " + coming.message : std::to_string(steps) + " steps", .scale = 1.5});
+        {.text = fell ? "it fell: " + coming.message : "steps: " + std::to_string(steps), .scale = 1.5});
     view.show(picture);
   }
 }

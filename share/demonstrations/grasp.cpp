@@ -1,6 +1,6 @@
 // Chapter 10: Force closure. Fingers move on a disc (left); the hull of their wrenches (right: forces x and
-// y, torque upward) turns from orange to blue when it holds zero inside, with the largest ball in it. Sliders
-// place the fingers.
+// y, torque upward) turns from orange to blue when it holds zero inside, with the largest ball in it. The
+// mouse moves the fingers.
 #include "course/car_view.h"
 #include "course/course.h"
 #include "course/live_view.h"
@@ -16,9 +16,14 @@ int main() {
   for (int t = 0; t < 300 || view.isWatched(); ++t) {
     const double friction = view.slider("friction", 0, 1, 0.25),
                  move = view.slider("third finger moves by [rad]", 0, 3, 2.4);
-    const double angles[] = {
-        view.slider("first finger [rad]", -3.2, 3.2, 0.5), view.slider("second finger [rad]", -3.2, 3.2, 2.6),
-        view.slider("third finger [rad]", -3.2, 3.2, -1.57) + move * std::sin(t / 23.873)};
+    double angles[] = {0.5, 2.6, -1.57};
+    const char* names[] = {"first", "second", "third"};
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d start(1.8 * std::cos(angles[k]) - 1.9, 1.8 * std::sin(angles[k]), 0.2);
+      const Eigen::Vector3d hold = view.handle(names[k], start, Eigen::Vector3d::UnitZ());
+      angles[k] = std::atan2(hold.y(), hold.x() + 1.9);
+    }
+    angles[2] += move * std::sin(t / 23.873);
     std::vector<PlanarContact> fingers;
     for (const double angle : angles) {
       const Eigen::Vector2d out(std::cos(angle), std::sin(angle));

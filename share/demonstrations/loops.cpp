@@ -80,7 +80,7 @@ int main() {
                                        {graph.poses(0, e.to), graph.poses(1, e.to), 0.06}});
       if (!closures.segments.empty()) picture.lineSets.push_back(closures);
       picture.captions.push_back(
-          {.text = std::to_string(closures.segments.size()) + " loops closed", .scale = 1.5});
+          {.text = "closed loops: " + std::to_string(closures.segments.size()), .scale = 1.5});
       view.plot("error of odometry [m]", t / 30., (odometry - truth).topRows<2>().colwise().norm().mean());
       view.plot("error of the graph [m]", t / 30.,
                 (graph.poses - truth).topRows<2>().colwise().norm().mean());

@@ -1,5 +1,5 @@
 // Chapter 2: Inverse kinematics and the nullspace. The hand of an arm with seven joints follows a target that
-// sliders move; the elbow swings in the nullspace, which does not move the hand. Too little damping shakes
+// the mouse moves; the elbow swings in the nullspace, which does not move the hand. Too little damping shakes
 // out of reach.
 #include "course/car_view.h"
 #include "course/course.h"
@@ -16,16 +16,14 @@ int main() {
   S.setJointAngles(rest);
   std::vector<Eigen::Vector3d> way;
   for (int t = 0; t < 360 || view.isWatched(); ++t) {
-    const double x = view.slider("target x [m]", 0.2, 1, 0.45), y = view.slider("target y [m]", -0.6, 0.6, 0);
-    const double z = view.slider("target z [m]", 0.1, 1, 0.45),
-                 circle = view.slider("circle [m]", 0, 0.3, 0.15);
+    const Eigen::Vector3d middle = view.handle("target", {0.45, 0, 0.45});
+    const double circle = view.slider("circle [m]", 0, 0.3, 0.15);
     const double swing = view.slider("nullspace motion", 0, 1, 0.5),
                  damping = view.slider("damping", 0.001, 0.5, 0.05);
     // Four seconds each: the hand moves, the elbow moves, both move.
     const int act = t / 120 % 3;
     const double angle = act == 1 ? 0 : t / 19.0986;  // 120 frames are one turn
-    const Eigen::Vector3d target =
-        Eigen::Vector3d(x, y, z) + circle * Eigen::Vector3d(0, std::sin(angle), std::cos(angle) - 1);
+    const Eigen::Vector3d target = middle + circle * Eigen::Vector3d(0, std::sin(angle), std::cos(angle) - 1);
     Eigen::VectorXd q = S.getJointAngles();
     Eigen::VectorXd wish = 0.02 * (rest - q);
     if (act > 0) wish[2] += 0.06 * swing * std::cos(t / 9.5493);

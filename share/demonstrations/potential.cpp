@@ -1,5 +1,6 @@
 // Chapter 4: Potential fields and their local minima. Eight robots roll downhill to the goal (orange) around
-// a box and a pocket that moves; those that end in a local minimum are violet. Sliders move pocket and goal.
+// a box and a pocket that moves; those that end in a local minimum are violet. The mouse moves pocket and
+// goal.
 #include "course/car_view.h"
 #include "course/course.h"
 #include "course/live_view.h"
@@ -12,16 +13,18 @@ int main() {
   LiveView view("potential");
   view.lookFrom({0, -0.25, 1});
   for (int t = 0; t < 240 || view.isWatched(); ++t) {
-    const double move = view.slider("pocket moves by [m]", 0, 2, 1.5),
-                 middle = view.slider("pocket at y [m]", 2, 6, 4);
-    const double goalY = view.slider("goal y [m]", 0.5, 7.5, 4);
+    const Eigen::Vector3d up = Eigen::Vector3d::UnitZ(), pocket = view.handle("pocket", {5.9, 4, 0.5}, up),
+                          to = view.handle("goal", {10.9, 4, 0}, up);
+    const double move = view.slider("pocket moves by [m]", 0, 2, 1.5);
     const double repulsion = view.slider("repulsion", 0.01, 3, 0.4),
                  reach = view.slider("reach [m]", 0.2, 2, 1);
-    const double y = middle + move * std::sin(t / 38.1972);
+    const double x = pocket.x(), y = pocket.y() + move * std::sin(t / 38.1972);
     GridMap map(60, 40, 0.2);
     Picture picture{.ground = {.visible = false}};
-    const Eigen::Array4d boxes[] = {
-        {6.6, y - 1, 7.0, y + 1}, {5.6, y - 1, 6.6, y - 0.6}, {5.6, y + 0.6, 6.6, y + 1}, {3, 1, 3.8, 2.2}};
+    const Eigen::Array4d boxes[] = {{x + 0.7, y - 1, x + 1.1, y + 1},
+                                    {x - 0.3, y - 1, x + 0.7, y - 0.6},
+                                    {x - 0.3, y + 0.6, x + 0.7, y + 1},
+                                    {3, 1, 3.8, 2.2}};
     for (const Eigen::Array4d& b : boxes)
       for (int i = 0; i < 60; ++i)
         for (int j = 0; j < 40; ++j)
@@ -33,7 +36,7 @@ int main() {
                                 translation((b[0] + b[2]) / 2, (b[1] + b[3]) / 2, 0.2),
                                 kTruthColor,
                                 "obstacle"});
-    const Eigen::Vector2d goal(10.9, goalY);
+    const Eigen::Vector2d goal(std::clamp(to.x(), 0.1, 11.9), std::clamp(to.y(), 0.1, 7.9));
     const PotentialField field(map, goal, {.attraction = 0.1, .repulsion = repulsion, .reach = reach});
     LineSet slopes{.color = {0.6f, 0.63f, 0.67f}, .width = 1.5};
     for (double px = 0.3; px < 12; px += 0.6)

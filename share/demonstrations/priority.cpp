@@ -1,5 +1,6 @@
 // Chapter 2: Priorities of tasks. A man reaches for two targets (orange: right hand, green: left) that drift
-// apart: the hand that comes first reaches its target, the other one does what is left. A button swaps them.
+// apart and that the mouse moves: the hand that comes first reaches its target, the other one does what is
+// left. A button swaps them.
 #include "course/car_view.h"
 #include "course/course.h"
 #include "course/live_view.h"
@@ -15,12 +16,11 @@ int main() {
   const Eigen::Vector3d right = S.kinematicsPos("handR"), left = S.kinematicsPos("handL");
   bool rightFirst = true;
   for (int t = 0; t < 360 || view.isWatched(); ++t) {
-    const double apart = view.slider("targets apart [m]", 0, 1.5, 0.6),
-                 ahead = view.slider("ahead [m]", -0.5, 1, 0);
+    const Eigen::Vector3d goals[] = {view.handle("right", right + Eigen::Vector3d(-0.6, 0, 0.1)),
+                                     view.handle("left", left + Eigen::Vector3d(0.6, 0, 0.1))};
     if (view.button("swap priorities") || t == 200) rightFirst = !rightFirst;
     const double share = std::min(1., t / 100.);
-    const Eigen::Vector3d targets[] = {right + share * Eigen::Vector3d(-apart, -ahead, 0.1),
-                                       left + share * Eigen::Vector3d(apart, -ahead, 0.1)};
+    const Eigen::Vector3d targets[] = {right + share * (goals[0] - right), left + share * (goals[1] - left)};
     const char* hands[] = {"handR", "handL"};
     Eigen::VectorXd q = S.getJointAngles();
     std::vector<TaskLevel> levels;

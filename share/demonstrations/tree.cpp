@@ -1,5 +1,5 @@
 // Chapter 4: A rapidly exploring random tree. It grows from the start (blue) until it finds the goal (orange)
-// behind the walls. Sliders move the goal and change step and goal bias, which starts a new tree.
+// behind the walls. Move the goal with the mouse, or change step and goal bias: a new tree starts.
 #include "course/car_view.h"
 #include "course/course.h"
 #include "course/live_view.h"
@@ -24,7 +24,8 @@ int main() {
   Eigen::Vector4d last = Eigen::Vector4d::Zero();
   int seed = 1, age = 0;
   for (int t = 0; t < 330 || view.isWatched(); ++t, ++age) {
-    const double x = view.slider("goal x [m]", 0, 10, 9.2), y = view.slider("goal y [m]", 0, 6, 1);
+    const Eigen::Vector3d goal = view.handle("goal", {9.2, 1, 0}, Eigen::Vector3d::UnitZ());
+    const double x = std::clamp(goal.x(), 0., 10.), y = std::clamp(goal.y(), 0., 6.);
     const double step = view.slider("step [m]", 0.05, 1, 0.25), bias = view.slider("goal bias", 0, 0.5, 0.05);
     if (view.button("another tree") || age == 240) last[0] = -1, ++seed;
     if (const Eigen::Vector4d now(x, y, step, bias); now != last) last = now, age = 0;

@@ -59,7 +59,7 @@ int main() {
     picture.polylines.push_back(
         {.points = {{-0.5, -0.5, 2.1}, {-0.5, -0.5, 0}, {9.5, -0.5, 0}, {9.5, 6.5, 0}},
          .color = kTruthColor});
-    picture.captions.push_back({.text = "after " + std::to_string(sweeps) + " sweeps", .scale = 1.5});
+    picture.captions.push_back({.text = "sweeps: " + std::to_string(sweeps), .scale = 1.5});
     view.show(picture);
   }
 }

@@ -47,7 +47,7 @@
     const overlay = new THREE.Group();
     current.world.add(overlay);
     const ground = current.nodes.find(one => one.name === 'ground');
-    scene = { current, bodies, shapes, overlay, ground: ground ? ground.position.z : 0, hidden: new Set() };
+    scene = { current, bodies, shapes, overlay, handles: new Map(), ground: ground ? ground.position.z : 0, hidden: new Set() };
     addMarks();
     buildPanels();
     isStale = true;
@@ -148,6 +148,27 @@
     }
   }
 
+  // Points of the program that the mouse moves: as large as a finger at any distance.
+  function showHandles() {
+    for (const { kind, name, at } of frame.asked || []) {
+      if (kind !== 'handle') continue;
+      if (!scene.handles.has(name)) {
+        const mark = new THREE.Mesh(new THREE.SphereGeometry(1, 24, 16), flat('#e69f00', 0.7));
+        mark.renderOrder = 1e6, mark.frustumCulled = false;
+        scene.overlay.add(mark);
+        addText(mark, name, '#7a4b00').style.marginLeft = '14px';
+        scene.handles.set(name, mark);
+      }
+      scene.handles.get(name).position.fromArray(grasped && grasped.name === name ? grasped.at : at);
+    }
+  }
+  function sizeHandles() {
+    for (const mark of scene.handles.values()) {
+      const place = mark.getWorldPosition(new THREE.Vector3());
+      mark.scale.setScalar(0.012 * place.distanceTo(view.view.position));
+    }
+  }
+
   // Where drawing a picture takes too long, as without a graphics card, fewer pixels are drawn, and the page says so.
   let pictures = 0, slow = 0, fast = 0, quality = 1;
   function watchSpeed() {
@@ -165,10 +186,13 @@
 
   function beforeDraw() {
     watchSpeed();
+    if (scene) sizeHandles();
     if (!isStale || !frame || !scene) return;
     isStale = false;
     showPoses();
     showMarks();
+    showHandles();
+    sizeHandles();
     followHandle();
     if (++drawnFrames === 1) firstPicture = performance.now();
   }
@@ -374,9 +398,43 @@
     const body = about.shapes[hit.object.userData.shape].body;
     return { body, point: scene.bodies[body].worldToLocal(hit.point.clone()), at: hit.point };
   }
+  function pixelOf(p) {
+    const at = scene.current.world.localToWorld(new THREE.Vector3().fromArray(p)).project(view.view);
+    const box = stage.getBoundingClientRect();
+    return [box.left + (at.x + 1) / 2 * box.width, box.top + (1 - at.y) / 2 * box.height];
+  }
   const inWorld = point => scene.current.world.worldToLocal(point.clone());  // z up
 
+  // The handle of a program under the mouse; grasped: { name, plane, at }, at in the world.
+  let grasped = null;
+  function handleAt(event) {
+    let nearest = null, least = 18;
+    for (const one of (scene && frame && frame.asked) || []) {
+      if (one.kind !== 'handle') continue;
+      const [x, y] = pixelOf(one.at), distance = Math.hypot(event.clientX - x, event.clientY - y);
+      if (distance < least) nearest = one, least = distance;
+    }
+    return nearest;
+  }
+  function grasp({ name, at, normal }, event) {
+    const world = scene.current.world, place = world.localToWorld(new THREE.Vector3().fromArray(at));
+    const across = normal.some(Boolean) ? new THREE.Vector3().fromArray(normal).transformDirection(world.matrixWorld)
+      : view.view.getWorldDirection(new THREE.Vector3());
+    grasped = { name, at, plane: new THREE.Plane().setFromNormalAndCoplanarPoint(across, place) };
+    view.controls.enabled = false;
+    stage.setPointerCapture(event.pointerId);
+  }
+  function moveGrasped(event) {
+    const to = new THREE.Vector3();
+    if (!rayAt(event).ray.intersectPlane(grasped.plane, to)) return;
+    grasped.at = inWorld(to).toArray();
+    send({ do: 'handle', name: grasped.name, to: grasped.at }, 'handle ' + grasped.name);
+    redraw();
+  }
+
   stage.addEventListener('pointerdown', event => {
+    const near = event.button === 0 ? handleAt(event) : null;
+    if (near) return grasp(near, event);
     if (mode === 'look' || event.button !== 0 || !scene || gizmo.axis !== null) return;
     const hit = hitAt(event);
     if (!hit || hit.body === 0) return;
@@ -390,6 +448,8 @@
     pull();
   });
   stage.addEventListener('pointermove', event => {
+    if (grasped) return moveGrasped(event);
+    stage.classList.toggle('grasp', Boolean(handleAt(event)));
     if (!held) return;
     const to = new THREE.Vector3();
     if (!rayAt(event).ray.intersectPlane(held.plane, to)) return;
@@ -397,6 +457,10 @@
     pull();
   });
   const release = () => {
+    if (grasped) {
+      grasped = null;
+      view.controls.enabled = true;
+    }
     if (!held) return;
     if (mode === 'drag') choose({ body: held.body, point: held.point });
     held = null;
@@ -475,11 +539,20 @@
   }
   function listen() {
     const source = new EventSource('frames');
-    source.onopen = () =>
+    source.onopen = () => {
+      failures = 0;
       setState(isPlain ? 'live, drawn without shadows: this browser has no graphics card' : 'live', false);
-    source.onerror = () => setState(source.readyState === EventSource.CLOSED ?
-      'The program has ended. Start it again and open its new address.' :
-      'The program does not answer; waiting for it.', true);
+    };
+    const end = () => {
+      source.close();
+      setState('The program has ended. Start it again and open its new address.', true);
+    };
+    source.addEventListener('end', end);
+    let failures = 0;  // one after the other
+    source.onerror = () => {
+      if (source.readyState === EventSource.CLOSED || ++failures > 9) return end();
+      setState('The program does not answer; waiting for it.', true);
+    };
     let newest = null, isBusy = false;
     async function take() {
       if (isBusy) return;
@@ -511,10 +584,6 @@
   window.rexLive = {
     frame: () => frame, frames: () => drawnFrames, firstPicture: () => firstPicture, about: () => about, scene: () => scene, view, send,
     position: i => Array.from(scene.poses.slice(7 * i, 7 * i + 3)),
-    pixel: p => {
-      const at = scene.current.world.localToWorld(new THREE.Vector3().fromArray(p)).project(view.view);
-      const box = stage.getBoundingClientRect();
-      return [box.left + (at.x + 1) / 2 * box.width, box.top + (1 - at.y) / 2 * box.height];
-    }
+    pixel: pixelOf
   };
 })();

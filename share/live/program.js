@@ -38,7 +38,7 @@ const rexProgram = (function () {
     send = sender;
     goOn.hidden = !frame.paused;
     panel.hidden = !frame.paused && !(frame.asked && frame.asked.length > 0);
-    for (const one of frame.asked || []) {
+    for (const one of (frame.asked || []).filter(({ kind }) => kind !== 'handle')) {
       const key = one.kind + ' ' + one.name;
       if (!known.has(key)) {
         known.set(key, make(one));

@@ -55,8 +55,17 @@
     setState(text, busy ? 'busy' : '');
     ++news;
   };
-  source.onerror = () => setState(source.readyState === EventSource.CLOSED ?
-    'rex watch has ended; start it again and open its new address' : 'rex watch does not answer: has it ended?', 'lost');
+  const end = () => {
+    source.close();
+    setState('rex watch has ended; start it again and open its new address', 'lost');
+  };
+  source.addEventListener('end', end);
+  let failures = 0;  // one after the other
+  source.onopen = () => { failures = 0; };
+  source.onerror = () => {
+    if (source.readyState === EventSource.CLOSED || ++failures > 9) return end();
+    setState('rex watch does not answer: has it ended?', 'lost');
+  };
 
   window.rexWatch = { news: () => news };  // what tests ask
 })();

@@ -27,6 +27,7 @@
 #include "render/report.h"
 #include "render/scene_picture.h"
 #include "web/live_server.h"
+#include "web/open_browser.h"
 
 namespace rex {
 namespace {
@@ -38,6 +39,7 @@ using std::chrono::microseconds;
 constexpr microseconds kFrameTime{33333};
 constexpr std::size_t kMostRecorded = 900;
 constexpr std::size_t kMostControls = 64;
+constexpr double kFarthest = 1000;  // metres that a handle goes
 
 // Students' programs have no command line: this is their boundary. REX_LIVE=1 serves without a terminal, 0
 // never.
@@ -54,6 +56,7 @@ struct LiveView::Parts {
     std::string kind, name;
     double low = 0, high = 1, value = 0;
     int pressed = 0;
+    Eigen::Vector3d at = Eigen::Vector3d::Zero(), normal = at;  // of a handle
     double x = 0, y = 0;
     Series curve{};  // of a plot
     std::string xLabel{};
@@ -61,6 +64,7 @@ struct LiveView::Parts {
 
   std::string name{};
   std::unique_ptr<LiveServer> server{};
+  std::optional<PrivateFolder> folder{};  // while the browser reads it
   bool hasWaited = false, isPaused = false;
   LiveClock::time_point shown{};
   int version = 0;
@@ -87,6 +91,18 @@ struct LiveView::Parts {
     return controls.back();
   }
 
+  // Opens a browser, unless REX_LIVE=1 asks for the address only.
+  void invite() {
+    const char* choice = std::getenv("REX_LIVE");
+    try {
+      if (choice == nullptr || *choice == '\0') folder.emplace(std::filesystem::temp_directory_path());
+      const std::string more = bringToUser(*server, folder ? &*folder : nullptr);
+      if (!more.empty()) fmt::print("{}\n", more);
+    } catch (const Error& error) {
+      fmt::print(stderr, "no browser is opened: {}\n", error.what());
+    }
+  }
+
   // What the page asked for; anything else is not for us.
   void hear(microseconds atMost) {
     if (!server) return;
@@ -107,7 +123,15 @@ struct LiveView::Parts {
       if (what == "button") ++one.pressed;
       if (what == "slider" && event.contains("value") && event["value"].is_number())
         one.value = std::clamp(event["value"].get<double>(), one.low, one.high);
+      if (what == "handle" && event.contains("to")) moveTo(event["to"], one.at);
     }
+  }
+
+  static void moveTo(const ViewJson& to, Eigen::Vector3d& at) {
+    if (!to.is_array() || to.size() != 3) return;
+    if (!std::ranges::all_of(to, [](const ViewJson& one) { return one.is_number(); })) return;
+    for (std::size_t i = 0; i < 3; ++i)
+      at[static_cast<Eigen::Index>(i)] = std::clamp(to[i].get<double>(), -kFarthest, kFarthest);
   }
 
   void publish() {
@@ -120,7 +144,9 @@ struct LiveView::Parts {
                        {"high", one.high},
                        {"value", one.value},
                        {"x", one.x},
-                       {"y", one.y}});
+                       {"y", one.y},
+                       {"at", {one.at.x(), one.at.y(), one.at.z()}},
+                       {"normal", {one.normal.x(), one.normal.y(), one.normal.z()}}});
     const ViewJson frame = {
         {"version", version}, {"q", q}, {"poses", poses}, {"asked", asked}, {"paused", isPaused}};
     server->publish(frame.dump(-1, ' ', false, ViewJson::error_handler_t::replace));
@@ -227,6 +253,7 @@ LiveView::LiveView(const std::string& name) : parts_(std::make_unique<Parts>()) 
   parts_->server = std::make_unique<LiveServer>(LiveServerOptions{});
   offerLivePage(*parts_->server);
   fmt::print("{}\nopen this page; the program waits for it half a minute\n", parts_->server->url());
+  parts_->invite();
   std::fflush(stdout);
 }
 
@@ -295,6 +322,20 @@ double LiveView::slider(const std::string& name, double low, double high, double
   one.low = low, one.high = high;
   parts_->hear(microseconds(0));
   return one.value = std::clamp(one.value, low, high);
+}
+
+Eigen::Vector3d LiveView::handle(const std::string& name, const Eigen::Vector3d& start,
+                                 const Eigen::Vector3d& normal) {
+  if (!start.allFinite() || !normal.allFinite())
+    throw Error({.what = "handle '" + name + "'",
+                 .found = "a place or a normal that is not finite",
+                 .wanted = "three numbers each"});
+  const std::size_t before = parts_->controls.size();
+  Parts::Control& one = parts_->control("handle", name);
+  if (parts_->controls.size() > before) one.at = start;
+  one.normal = normal;
+  parts_->hear(microseconds(0));
+  return one.at;
 }
 
 bool LiveView::button(const std::string& name) {

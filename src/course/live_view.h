@@ -10,11 +10,10 @@ namespace rex {
 class Simulator;
 struct Picture;
 
-/// Shows a program while it runs, as a page in a browser with sliders, buttons and plots of the program's
-/// own. In a terminal it prints the address of the page and waits half a minute at most for somebody to open
-/// it. Without anybody to look, as in tests, no method ever waits. In any case it writes NAME.html at the
-/// end, a replay of what was shown. `rex run FILE.cpp` links the library course_live, which it needs, by
-/// itself.
+/// Shows a program while it runs, as a page in a browser with sliders, buttons, handles and plots of the
+/// program's own. In a terminal it prints the address of the page, opens a browser where there is a screen,
+/// and waits half a minute at most for somebody to look. Without anybody, as in tests, no method ever waits.
+/// In any case it writes NAME.html at the end, a replay of what was shown. `rex run` links what it needs.
 class LiveView {
  public:
   explicit LiveView(const std::string& name = "live");
@@ -37,6 +36,11 @@ class LiveView {
 
   /// The value of a slider on the page, which first is `start`. Throws Error unless low <= start <= high.
   double slider(const std::string& name, double low, double high, double start);
+  /// A point that the mouse moves on the page, metres in W; first `start`. It moves in the plane with this
+  /// normal, such as the third axis for flat worlds, and parallel to the window if that is zero. Throws Error
+  /// for numbers that are not finite.
+  Eigen::Vector3d handle(const std::string& name, const Eigen::Vector3d& start,
+                         const Eigen::Vector3d& normal = Eigen::Vector3d::Zero());
   /// Whether this button was pressed since the last call.
   bool button(const std::string& name);
   /// Adds a point to the curve of this name, on the page and in the replay.

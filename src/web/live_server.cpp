@@ -214,14 +214,15 @@ struct LiveServer::Parts {
     }
     response.set_chunked_content_provider(
         "text/event-stream",
-        [this, last = std::uint64_t{0}](std::size_t, httplib::DataSink& sink) mutable {
+        [this, last = std::uint64_t{0}, isOver = false](std::size_t, httplib::DataSink& sink) mutable {
+          if (isOver) return false;
           std::string text;
           {
             std::unique_lock lock(mutex);
-            const bool isNews = changed.wait_for(lock, std::chrono::seconds(2),
-                                                 [&] { return isEnding || frameNumber != last; });
-            if (isEnding && frameNumber == last) return false;  // or the last one would be lost
-            text = isNews ? "data: " + frame + "\n\n" : ": nothing new\n\n";
+            changed.wait_for(lock, std::chrono::seconds(2), [&] { return isEnding || frameNumber != last; });
+            isOver = isEnding;
+            text = frameNumber != last ? "data: " + frame + "\n\n" : ": nothing new\n\n";
+            if (isOver) text += "event: end\ndata: end\n\n";  // or the page would ask again and again
             last = frameNumber;
           }
           return sink.write(text.data(), text.size());

@@ -169,10 +169,16 @@ TEST_F(WorkflowTest, SaysWhenTheProjectOrTheMachineIsAtFault) {
 }
 
 TEST_F(WorkflowTest, RunsTheProgramInItsFolderAndListsWhatItWrote) {
+  const fs::path student = fs::path(REX_BINARY_DIR) / "tests" / "template" / "student";
+  fs::create_directories(student);
+  fs::copy_file(fs::path(REX_BINARY_DIR) / "student" / "program.json", student / "program.json",
+                fs::copy_options::overwrite_existing);
   write(exercise() / "main.cpp",
         std::string(kGood).replace(std::string(kGood).find("int main() {}"), 13,
-                                   "#include <fstream>\nint main() {\n  for (int k = 0; k < 9; ++k)\n"
-                                   "    std::ofstream(\"frame\" + std::to_string(k) + \".png\") << k;\n}"));
+                                   "#include <fstream>\n#include \"course/live_view.h\"\n"
+                                   "int main() {\n  for (int k = 0; k < 9; ++k)\n"
+                                   "    std::ofstream(\"frame\" + std::to_string(k) + \".png\") << k;\n"
+                                   "  return rex::LiveView(\"page\").isWatched();\n}"));
   const Ended ended = rex({"run", "98"});
   EXPECT_EQ(ended.code, 0) << ended.error;
   EXPECT_THAT(ended.output, HasSubstr("frame0.png ... frame8.png (9 files)"));

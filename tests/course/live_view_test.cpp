@@ -1,5 +1,6 @@
 #include "course/live_view.h"
 
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -40,6 +41,7 @@ TEST_F(LiveViewTest, WritesAReplayWhereNobodyLooks) {
       const double angle = view.slider("angle", 0, 1, 0.25);
       EXPECT_EQ(angle, 0.25);
       EXPECT_FALSE(view.button("next"));
+      EXPECT_EQ(view.handle("goal", {1, 2, 3}), Eigen::Vector3d(1, 2, 3));
       simulator.setJointAngles(Eigen::Vector3d::Constant(angle * k / 2000));
       view.plot("angle", k, angle);
       view.show(simulator);
@@ -68,6 +70,12 @@ TEST_F(LiveViewTest, RefusesSlidersOutOfOrderAndTooManyControls) {
   EXPECT_THAT([&] { view.slider("gain", 0, 1, 2); },
               testing::ThrowsMessage<Error>(
                   HasSubstr("slider 'gain': found 2 from 0 to 1, wanted finite numbers in order")));
+  EXPECT_THAT(
+      [&] {
+        view.handle("goal", {0, NAN, 0});
+      },
+      testing::ThrowsMessage<Error>(HasSubstr("handle 'goal': found a place or a normal that is not "
+                                              "finite, wanted three numbers each")));
   for (int k = 0; k < 64; ++k) view.button(std::to_string(k));
   EXPECT_THAT([&] { view.button("one more"); },
               testing::ThrowsMessage<Error>(HasSubstr("button 'one more': found 64 others on the page")));

@@ -112,6 +112,17 @@ TEST_F(LiveServerTest, StreamsFramesAlsoToLateViewers) {
   EXPECT_EQ(server.viewers(), 2);
 }
 
+TEST(LiveServer, TellsViewersTheLastFrameAndThatItEnds) {
+  auto server = std::make_unique<LiveServer>(LiveServerOptions{.token = kToken});
+  Connection viewer(server->port());
+  viewer.send(std::string("GET /") + kToken + "/frames HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  viewer.readUntil("event-stream");
+  server->publish("last");
+  server.reset();
+  EXPECT_THAT(viewer.readUntil("data: end"),
+              testing::ContainsRegex("data: last\n\n[^d]*event: end\ndata: end"));
+}
+
 TEST_F(LiveServerTest, ASlowViewerMissesFramesAndSlowsNobody) {
   Connection slow(server.port()), fast(server.port());
   slow.send(line("GET", "frames") + "\r\n");

@@ -10,7 +10,6 @@
 #include "base/error.h"
 #include "base/interruption.h"
 #include "base/private_folder.h"
-#include "cli/open_browser.h"
 #include "cli/option_value_internal.h"
 #include "cli/out_folder.h"
 #include "cli/robot/posture_option.h"
@@ -23,6 +22,7 @@
 #include "live/live_page.h"
 #include "live/live_session.h"
 #include "web/live_server.h"
+#include "web/open_browser.h"
 
 namespace rex::cli {
 namespace {
@@ -103,10 +103,10 @@ ExitCode view(const Project& project, const ViewOptions& options) {
   server->offer("scene.json", {"application/json", session.description()});
   server->offer("scene.glb", {"model/gltf-binary", session.glb()});
   say(server->url());
-  sayForwarding(server->port());
+  const std::string more = bringToUser(*server, options.noBrowser ? nullptr : &folder);
+  if (!more.empty()) say(more);
   say("press Ctrl-C to end");
   std::fflush(stdout);
-  if (!options.noBrowser && hasScreen()) openAddress(server->url(), folder);
   ViewFilm film(session.model(), facingOf(fileOf(project, options.scene)), folder.path());
   try {
     serve(*server, session, film);

@@ -26,6 +26,7 @@ struct DemoOptions {
   std::string which;  ///< a name or a chapter; empty: list all
   std::string out;    ///< a folder, or an .html file; empty: live
   bool json = false;
+  bool noBrowser = false;
 };
 
 void sayJson(const std::vector<Demonstration>& all) {
@@ -108,6 +109,7 @@ ExitCode demo(const Project& project, const DemoOptions& options) {
   note(wrap(fmt::format("Chapter {}: {}. {}", one.chapter, one.title, one.about), 0, 0));
   if (fs::path(options.out).extension() == ".html") return writePage(project, one, fs::absolute(options.out));
   OwnRun how{.out = project.root / "out" / "demonstrations", .seconds = kLecture};
+  if (options.noBrowser) how.environment = {"REX_LIVE=1"};
   if (!options.out.empty()) how.out = fs::absolute(options.out), how.environment = {"REX_LIVE=0"};
   return runOwnProgram(project, one.file, how);
 }
@@ -120,9 +122,10 @@ void addDemo(CLI::App* command, Action& action) {
       "Examples:\n  scripts/rex demo\n  scripts/rex demo pid\n  scripts/rex demo 4\n"
       "  scripts/rex demo kidnapped -o kidnapped.html\n\n"
       "The first line on standard output is the address of a page with sliders and buttons,\n"
-      "which waits half a minute for a browser. Without a terminal, or with -o, the\n"
-      "demonstration plays by itself and becomes a page to replay. Of a chapter with several,\n"
-      "the first is shown. Each is a short program in share/demonstrations.");
+      "which waits half a minute for a browser; where there is a screen, one opens. Without a\n"
+      "terminal, or with -o, the demonstration plays by itself and becomes a page to replay. Of\n"
+      "a chapter with several, the first is shown. Each is a short program in\n"
+      "share/demonstrations.");
   command
       ->add_option("DEMONSTRATION", options->which, "a name, or a chapter of the script; without: list all")
       ->type_name("");
@@ -130,6 +133,7 @@ void addDemo(CLI::App* command, Action& action) {
       ->add_option("-o,--out", options->out,
                    "write the replay to this folder or .html file, and serve nothing")
       ->type_name("PATH");
+  command->add_flag("--no-browser", options->noBrowser, "serve the page, and open no browser");
   command->add_flag("--json", options->json, "list all as JSON");
   command->callback(
       [&action, options] { action = [options](const Project& p) { return demo(p, *options); }; });

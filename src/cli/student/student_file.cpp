@@ -7,7 +7,9 @@
 
 #include "base/error.h"
 #include "base/text_file.h"
+#include "cli/build_on_demand.h"
 #include "cli/terminal.h"
+#include "submission/program_build.h"
 
 namespace rex::cli {
 
@@ -43,6 +45,20 @@ std::filesystem::path ownShow(const ExerciseInfo& exercise) {
   if (exercise.folder == exercise.definition || !std::filesystem::exists(own)) return {};
   const bool isSame = std::filesystem::exists(handedOut) && readTextFile(own) == readTextFile(handedOut);
   return isSame ? std::filesystem::path() : own;
+}
+
+// Exercises are not linked with the server of a live page, which main() may want.
+void addLiveView(const Project& project, const grading::StudentObject& object,
+                 grading::Toolchain& toolchain) {
+  constexpr const char* kHeader = "course/live_view.h";
+  if (object.source.find(kHeader) == std::string::npos) return;
+  const auto program = grading::readProgramToolchain(project.build / "student" / "program.json");
+  std::vector<std::string> targets;
+  for (const grading::LibraryPart& one : librariesFor(program, {program.sourceFolder / kHeader}, "")) {
+    targets.push_back(one.target);
+    toolchain.libraries.push_back(one.file);
+  }
+  bringUpToDate(project, targets, "the live page");
 }
 
 }  // namespace
@@ -88,7 +104,8 @@ std::optional<std::filesystem::path> buildProgram(const Project& project, const 
     }
     toolchain.show = object.object;
   }
-  return buildProgram(toolchain, options, out, [](const grading::StudentObject&) {});
+  return buildProgram(toolchain, options, out,
+                      [&](const grading::StudentObject& object) { addLiveView(project, object, toolchain); });
 }
 
 std::optional<std::filesystem::path> buildProgram(

@@ -10,7 +10,6 @@
 #include "base/error.h"
 #include "base/private_folder.h"
 #include "cli/file_watcher.h"
-#include "cli/open_browser.h"
 #include "cli/out_folder.h"
 #include "cli/student/exercise_option_internal.h"
 #include "cli/student/keyboard.h"
@@ -20,6 +19,7 @@
 #include "cli/student/watch_page.h"
 #include "cli/terminal.h"
 #include "web/live_server.h"
+#include "web/open_browser.h"
 
 namespace rex::cli {
 namespace {
@@ -35,9 +35,9 @@ class WatchAddress {
  public:
   WatchAddress() : server_({}), folder_(temporaryFolder()) {
     say("page: " + server_.url());
-    sayForwarding(server_.port());
+    const std::string more = bringToUser(server_, &folder_);
+    if (!more.empty()) say(more);
     std::fflush(stdout);
-    if (hasScreen()) openAddress(server_.url(), folder_);
   }
   [[nodiscard]] LiveServer& server() { return server_; }
 
