@@ -29,6 +29,9 @@ constexpr double kSoftness = 0.05, kOverlapShare = 0.1;
 // one would throw them. Bodies that fall some metres do not overlap deeply enough in a step for this to
 // matter.
 constexpr double kPartingSpeed = 1;
+// An iteration that changes no velocity along a contact or joint by more than this, in m/s or rad/s, is the
+// last: what lies still is soon solved, as each step starts from the forces of the last one.
+constexpr double kSettled = 1e-8;
 
 // Joints with plain coordinates may mimic others, those with quaternions may not.
 void requirePlainMimics(const Model& model) {
@@ -144,6 +147,7 @@ BulletWorld::~BulletWorld() { removeAll(); }
 void BulletWorld::setUpSolver(const Model& model, const PhysicsOptions& options) {
   btContactSolverInfo& info = world_.getSolverInfo();
   info.m_numIterations = options.iterations;
+  info.m_leastSquaresResidualThreshold = kSettled * kSettled;
   info.m_solverMode |= SOLVER_USE_ARTICULATED_WARMSTARTING;
   info.m_warmstartingFactor = info.m_articulatedWarmstartingFactor = 1;
   info.m_erp2 = kOverlapShare;

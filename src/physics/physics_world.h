@@ -15,7 +15,7 @@ struct PhysicsOptions {
   double restitution = 0;     ///< 0: nothing bounces, 1: no energy loss. Stacks are most stable with 0
   bool jointLimits = true;    ///< a joint that starts beyond comes back at 1 rad/s or m/s at most
   bool jointFriction = true;  ///< Joint::damping and friction of the scene (of free joints, damping only)
-  int iterations = 20;        ///< iterations of the solver per step
+  int iterations = 20;        ///< iterations of the solver per step, at most; it stops where nothing changes
 };
 
 /// The drive of an entry of v (see Joint::vIndex): a force, or, unless it belongs to a quaternion, a motor
