@@ -19,7 +19,13 @@ constexpr double kBorder = 1e-12;  // of the longest wrench
 constexpr std::size_t kMostNewWrenches = 32;
 
 // The wrench of the cones that lies farthest along a direction.
-VectorXd farthest(std::span<const WrenchCone> cones, const VectorXd& direction) {
+VectorXd farthest(std::span<const WrenchCone> cones, const VectorXd& direction, ForceBudget budget) {
+  if (budget == ForceBudget::kPerFinger) {
+    VectorXd sum = VectorXd::Zero(direction.size());
+    for (const WrenchCone& cone : cones)
+      if (const VectorXd one = cone.lowest(-direction); direction.dot(one) > 0) sum += one;
+    return sum;
+  }
   VectorXd best = cones[0].lowest(-direction);
   for (const WrenchCone& cone : cones.subspan(1))
     if (VectorXd other = cone.lowest(-direction); direction.dot(other) > direction.dot(best))
@@ -38,13 +44,13 @@ std::vector<Index> lowFacets(const FacetHull& hull, double limit) {
 }
 
 // Lowers the upper bound by what the cones reach along low facets, and adds those wrenches to the hull's.
-void refine(std::span<const WrenchCone> cones, const FacetHull& hull, double tolerance, EpsilonBounds& bounds,
-            MatrixXd& wrenches) {
+void refine(std::span<const WrenchCone> cones, const FacetHull& hull, double tolerance, ForceBudget budget,
+            EpsilonBounds& bounds, MatrixXd& wrenches) {
   std::vector<VectorXd> more;
   for (const Index f : lowFacets(hull, bounds.atMost - tolerance)) {
     if (more.size() == kMostNewWrenches || hull.offsets[f] >= bounds.atMost - tolerance) break;
     const VectorXd direction = hull.normals.col(f);
-    more.push_back(farthest(cones, direction));
+    more.push_back(farthest(cones, direction, budget));
     const double reached = std::max(0.0, direction.dot(more.back()));
     if (reached < bounds.atMost) bounds.atMost = reached, bounds.weakest = direction;
   }
@@ -73,7 +79,8 @@ GraspQuality graspQuality(const MatrixArg& wrenches) {
   return quality;
 }
 
-EpsilonBounds exactEpsilon(std::span<const WrenchCone> cones, double tolerance, int mostRounds) {
+EpsilonBounds exactEpsilon(std::span<const WrenchCone> cones, double tolerance, int mostRounds,
+                           ForceBudget budget) {
   requirePositive("epsilon: tolerance", tolerance);
   requireCount("epsilon: rounds", mostRounds, 0);
   EpsilonBounds bounds;
@@ -85,7 +92,7 @@ EpsilonBounds exactEpsilon(std::span<const WrenchCone> cones, double tolerance, 
     if (hull.normals.cols() == 0) return {.status = HullStatus::kFlat};
     bounds.atLeast = std::max(0.0, hull.offsets.minCoeff());
     bounds.status = bounds.atLeast > 0 ? HullStatus::kInside : HullStatus::kOutside;
-    refine(cones, hull, tolerance, bounds, wrenches);
+    refine(cones, hull, tolerance, budget, bounds, wrenches);
     if (bounds.atMost - bounds.atLeast <= tolerance) break;
   }
   return bounds;

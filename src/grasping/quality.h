@@ -32,9 +32,13 @@ struct GraspQuality {
 /// counts as outside if closer to a facet than 1e-12 of the longest wrench. Throws Error like facetHull().
 [[nodiscard]] GraspQuality graspQuality(const MatrixArg& wrenches);
 
+/// What the normal forces of the fingers are bounded by: their sum is at most one newton (the L1 metric of
+/// Ferrari and Canny), or each is (their L-infinity metric).
+enum class ForceBudget { kShared, kPerFinger };
+
 /// Bounds on the epsilon of exact friction cones, newtons.
 struct EpsilonBounds {
-  double atLeast = 0;                      ///< proven by the hull of edges
+  double atLeast = 0;                      ///< proven by a hull of wrenches that the fingers can exert
   double atMost = 0;                       ///< what the cones reach along `weakest`
   Eigen::VectorXd weakest{};               ///< empty if there are no cones or no direction is known
   HullStatus status = HullStatus::kEmpty;  ///< of the hull of edges
@@ -46,6 +50,6 @@ struct EpsilonBounds {
 /// without force closure. Throws Error like primitiveWrenches() and facetHull(), for a tolerance that is
 /// not positive, and for a negative number of rounds.
 [[nodiscard]] EpsilonBounds exactEpsilon(std::span<const WrenchCone> cones, double tolerance = 1e-6,
-                                         int mostRounds = 100);
+                                         int mostRounds = 100, ForceBudget budget = ForceBudget::kShared);
 
 }  // namespace rex

@@ -10,6 +10,11 @@
 namespace rex {
 namespace {
 
+constexpr int kMostOrder = 3;
+// Binomials with alternating signs, of x_t, x_{t-1}, x_{t-2}, x_{t-3}.
+constexpr double kDifferences[kMostOrder + 1][kMostOrder + 1] = {
+    {1, 0, 0, 0}, {1, -1, 0, 0}, {1, -2, 1, 0}, {1, -3, 3, -1}};
+
 void requireUsable(const Task& task, int order) {
   const auto refuse = [&](const char* part, std::string found, const char* wanted) {
     throw Error(
@@ -17,11 +22,8 @@ void requireUsable(const Task& task, int order) {
   };
   if (!task.map) refuse("map", "none", "a function");
   requirePositive(fmt::format("task '{}': precision", task.name), task.precision);
-  if (order < 0 || order > 2) refuse("order", fmt::format("{}", order), "0, 1 or 2");
+  if (order < 0 || order > kMostOrder) refuse("order", fmt::format("{}", order), "0, 1, 2 or 3");
 }
-
-// Binomials with alternating signs, of x_t, x_{t-1}, x_{t-2}.
-constexpr double kDifferences[3][3] = {{1, 0, 0}, {1, -1, 0}, {1, -2, 1}};
 
 class TaskOverTime {
  public:

@@ -142,6 +142,58 @@ TEST(Quality, OfExactConesLiesBetweenThoseOfPyramids) {
   EXPECT_GT(closed, 3);
 }
 
+// All sums of one wrench per finger: nothing, or one of the two edges of its cone.
+MatrixXd sumsOf(const std::vector<WrenchCone>& cones) {
+  const MatrixXd edges = primitiveWrenches(cones).wrenches;
+  MatrixXd sums = MatrixXd::Zero(3, 1);
+  for (Eigen::Index i = 0; i < edges.cols(); i += 2) {
+    MatrixXd more(3, 3 * sums.cols());
+    more << sums, sums.colwise() + edges.col(i), sums.colwise() + edges.col(i + 1);
+    sums = more;
+  }
+  return sums;
+}
+
+TEST(Quality, OfFingersThatAreLimitedEach) {
+  Rng rng(34);
+  int closed = 0;
+  for (int trial = 0; trial < 30; ++trial) {
+    std::vector<PlanarContact> contacts;
+    for (int i = 0; i < 2 + trial % 3; ++i) {
+      const double angle = rng.uniform(0, 2 * std::numbers::pi);
+      const Vector2d p(std::cos(angle), std::sin(angle));
+      contacts.push_back({p, -p, rng.uniform(0.3, 0.9)});
+    }
+    const std::vector<WrenchCone> cones = wrenchCones(contacts);
+    const EpsilonBounds each = exactEpsilon(cones, 1e-9, 100, ForceBudget::kPerFinger);
+    const EpsilonBounds shared = exactEpsilon(cones, 1e-9);
+    EXPECT_EQ(each.status, shared.status);
+    if (each.status != HullStatus::kInside) continue;
+    ++closed;
+    EXPECT_NEAR(each.atLeast, graspQuality(sumsOf(cones)).epsilon, 1e-9) << trial;
+    EXPECT_LE(each.atMost - each.atLeast, 1e-9);
+    EXPECT_GE(each.atLeast, shared.atLeast - 1e-9);
+    EXPECT_LE(each.atLeast, static_cast<double>(cones.size()) * shared.atMost + 1e-9);
+  }
+  EXPECT_GT(closed, 8);
+}
+
+// In space, no direction may reach less than what is proven, and `weakest` reaches what is claimed.
+TEST(Quality, OfACubeWhoseFingersAreLimitedEach) {
+  const std::vector<WrenchCone> cones = wrenchCones(cubeFaces(0.5));
+  const EpsilonBounds each = exactEpsilon(cones, 1e-3, 14, ForceBudget::kPerFinger);
+  const auto reach = [&](const VectorXd& direction) {
+    double sum = 0;
+    for (const WrenchCone& cone : cones) sum += std::max(0., direction.dot(cone.lowest(-direction)));
+    return sum;
+  };
+  EXPECT_NEAR(reach(each.weakest), each.atMost, 1e-12);
+  EXPECT_LE(each.atMost, 1.5 * each.atLeast);
+  EXPECT_GT(each.atLeast, exactEpsilon(cones, 1e-3).atMost);
+  Rng rng(35);
+  for (int k = 0; k < 20000; ++k) ASSERT_GE(reach(rng.normalVector(6).normalized()), each.atLeast);
+}
+
 TEST(Quality, SaysWhatIsWrongWithAHull) {
   EXPECT_EQ(graspQuality(MatrixXd(3, 0)).status, HullStatus::kEmpty);
   EXPECT_EQ(graspQuality(MatrixXd(3, 0)).dimension, -1);
