@@ -2,11 +2,13 @@
 // rex_bench panda --problems DIR [--urdf FILE] [--srdf FILE] [--seed N] [--json]: solves motion planning
 // problems.
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -29,9 +31,39 @@ struct Group {
   std::vector<Row> rows;
 };
 
-// All groups, or of each what the names select: the whole group or single rows.
-std::vector<Group> select(std::vector<Group> groups, const std::vector<std::string>& names) {
-  if (names.empty()) return groups;
+constexpr auto kGroups =
+    std::to_array<std::pair<const char*, std::vector<Row> (*)()>>({{"collision", collisionRows},
+                                                                   {"control", controlRows},
+                                                                   {"dynamics", dynamicsRows},
+                                                                   {"dynamics", steppingRows},
+                                                                   {"estimation", estimationRows},
+                                                                   {"grading", gradingRows},
+                                                                   {"growth", growthRows},
+                                                                   {"ik", ikRows},
+                                                                   {"kinematics", kinematicsRows},
+                                                                   {"learning", cmaRows},
+                                                                   {"learning", policySearchRows},
+                                                                   {"physics", physicsRows},
+                                                                   {"planning", planningRows},
+                                                                   {"planning", rrtStarRows},
+                                                                   {"render", renderRows},
+                                                                   {"scene", sceneRows},
+                                                                   {"trajectory", trajectoryRows}});
+
+// All groups, or of each what the names select: the whole group or single rows. Making rows takes a while, so
+// that names of groups make no others.
+std::vector<Group> select(const std::vector<std::string>& names) {
+  const auto isNamed = [&](const std::string& name) {
+    return std::count(names.begin(), names.end(), name) > 0;
+  };
+  const bool areGroups = std::all_of(names.begin(), names.end(), [](const std::string& name) {
+    return std::any_of(kGroups.begin(), kGroups.end(),
+                       [&](const auto& group) { return group.first == name; });
+  });
+  std::vector<Group> groups;
+  for (const auto& [name, rows] : kGroups)
+    if (names.empty() || !areGroups || isNamed(name)) groups.push_back({name, rows()});
+  if (areGroups) return groups;
   std::vector<std::string> known;
   for (const Group& group : groups) {
     known.push_back(group.name);
@@ -44,9 +76,6 @@ std::vector<Group> select(std::vector<Group> groups, const std::vector<std::stri
                         .nearest = nearestNames(name, known)});
     }
   }
-  const auto isNamed = [&](const std::string& name) {
-    return std::count(names.begin(), names.end(), name) > 0;
-  };
   for (Group& group : groups) {
     if (isNamed(group.name)) continue;
     std::erase_if(group.rows, [&](const Row& row) { return !isNamed(row.name); });
@@ -75,24 +104,7 @@ Line memoryLine(const std::string& group) {
 enum class Form { kTable, kJson, kPage };
 
 void run(const std::vector<std::string>& names, Form form, const std::filesystem::path& page) {
-  const std::vector<Group> groups = select({{"collision", collisionRows()},
-                                            {"control", controlRows()},
-                                            {"dynamics", dynamicsRows()},
-                                            {"dynamics", steppingRows()},
-                                            {"estimation", estimationRows()},
-                                            {"grading", gradingRows()},
-                                            {"growth", growthRows()},
-                                            {"ik", ikRows()},
-                                            {"kinematics", kinematicsRows()},
-                                            {"learning", cmaRows()},
-                                            {"learning", policySearchRows()},
-                                            {"physics", physicsRows()},
-                                            {"planning", planningRows()},
-                                            {"planning", rrtStarRows()},
-                                            {"render", renderRows()},
-                                            {"scene", sceneRows()},
-                                            {"trajectory", trajectoryRows()}},
-                                           names);
+  const std::vector<Group> groups = select(names);
   const bool isTold = form != Form::kJson;
   if (isTold) fmt::print("{}", tableHead());
   std::vector<Line> lines;
