@@ -35,7 +35,7 @@ void requireOptions(const ParticleFilterOptions& options, Eigen::Index stateSize
 }
 
 void requireNumbers(const Eigen::MatrixXd& states, Eigen::Index first = 0) {
-  if (states.allFinite()) return;
+  if ((0 * states.array()).sum() == 0) return;  // vectorised, as allFinite() is not
   for (Eigen::Index i = 0; i < states.cols(); ++i)
     if (!states.col(i).allFinite())
       throw Error(
