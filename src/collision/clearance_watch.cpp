@@ -32,18 +32,27 @@ void addLevers(const Model& model, BodyId body, BodyId carrier, double farthest,
 
 }  // namespace
 
-ClearanceWatch::ClearanceWatch(const Model& model) : contacts_(model) {
+ClearanceWatch::ClearanceWatch(const Model& model) {
   for (const Joint& joint : model.joints())
     isAble_ = isAble_ && (joint.type == JointType::kHinge || joint.type == JointType::kRigid);
   if (!isAble_) return;
-  const std::span<const ShapePair> all = contacts_.pairs();
-  levers_.setZero(0, model.nq());
-  for (const ShapePair& pair : all) addPair(model, pair);
-  distances_.resize(static_cast<Eigen::Index>(pairs_.size()));
+  contacts_.emplace(model);
+  const std::span<const ShapePair> all = contacts_->pairs();
+  std::vector<Eigen::VectorXd> levers;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Eigen::VectorXd one = leversOf(model, all[i]);
+    if (one.isZero(0)) continue;
+    pairs_.push_back(i);
+    levers.push_back(one);
+  }
+  levers_.resize(static_cast<Eigen::Index>(levers.size()), model.nq());
+  for (std::size_t i = 0; i < levers.size(); ++i)
+    levers_.row(static_cast<Eigen::Index>(i)) = levers[i].transpose();
+  distances_.resize(levers_.rows());
 }
 
-void ClearanceWatch::addPair(const Model& model, const ShapePair& pair) {
-  const ContactModel::Data& data = contacts_.data();
+Eigen::VectorXd ClearanceWatch::leversOf(const Model& model, const ShapePair& pair) const {
+  const ContactModel::Data& data = contacts_->data();
   const auto solid = [&](int shape) -> const ContactSolid& {
     return data.solids[static_cast<std::size_t>(data.solidOf[static_cast<std::size_t>(shape)])];
   };
@@ -52,10 +61,7 @@ void ClearanceWatch::addPair(const Model& model, const ShapePair& pair) {
   Eigen::VectorXd levers = Eigen::VectorXd::Zero(model.nq());
   addLevers(model, a.body, common, a.X_BS.p.norm() + a.reach, levers);
   addLevers(model, b.body, common, b.X_BS.p.norm() + b.reach, levers);
-  if (levers.isZero(0)) return;
-  pairs_.push_back(static_cast<std::size_t>(&pair - contacts_.pairs().data()));
-  levers_.conservativeResize(levers_.rows() + 1, Eigen::NoChange);
-  levers_.bottomRows<1>() = levers.transpose();
+  return levers;
 }
 
 void ClearanceWatch::reset() {
@@ -65,7 +71,7 @@ void ClearanceWatch::reset() {
 
 void ClearanceWatch::measure(const Model& model, const Eigen::VectorXd& q) {
   forwardKinematics(model, q, poses_);
-  proxies(contacts_, poses_, kCutoff, storage_);
+  proxies(*contacts_, poses_, kCutoff, storage_);
   for (std::size_t i = 0; i < pairs_.size(); ++i)
     distances_[static_cast<Eigen::Index>(i)] = std::min(kCutoff, storage_.pairs[pairs_[i]].distance);
   at_ = q;

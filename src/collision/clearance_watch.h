@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "collision/contacts.h"
 
 namespace rex {
@@ -23,11 +25,11 @@ class ClearanceWatch {
   void reset();
 
  private:
-  void addPair(const Model& model, const ShapePair& pair);
+  [[nodiscard]] Eigen::VectorXd leversOf(const Model& model, const ShapePair& pair) const;
   void measure(const Model& model, const Eigen::VectorXd& q);
   [[nodiscard]] bool isProven(const Eigen::VectorXd& way, double distance);
 
-  ContactModel contacts_;
+  std::optional<ContactModel> contacts_{};  // if it can prove anything
   bool isAble_ = true;
   std::vector<std::size_t> pairs_;  // of contacts_
   Eigen::MatrixXd levers_;          // of each pair, metres per entry of q: how far it can move their points

@@ -23,13 +23,13 @@ UntouchedMotion::UntouchedMotion(const Model& model, const PhysicsOptions& optio
       gravity_W_(options.gravity_W),
       isAble_(std::ranges::all_of(model.joints(), isHinge)),
       motors_(static_cast<std::size_t>(model.nv())),
-      stepper_(model, {.integrator = Integrator::kBeeman, .gravity_W = options.gravity_W}),
-      fastStepper_(model, {.gravity_W = options.gravity_W}),
-      impulses_(model.nv()),
+      impulses_(isAble_ ? model.nv() : 0),
       u_(Eigen::VectorXd::Zero(model.nv())),
       p_(u_),
       v_(u_) {
   if (!isAble_) return;
+  stepper_.emplace(model, StepperOptions{.integrator = Integrator::kBeeman, .gravity_W = options.gravity_W});
+  fastStepper_.emplace(model, StepperOptions{.gravity_W = options.gravity_W});
   laws_.resize(static_cast<std::size_t>(model.nv()));
   for (const Joint& joint : model.joints()) {
     if (joint.nv == 0) continue;
@@ -50,7 +50,7 @@ void UntouchedMotion::setMotors(std::span<const Motor> motors) {
 }
 
 void UntouchedMotion::reset() {
-  stepper_.reset();
+  if (stepper_) stepper_->reset();
   impulses_.reset();
 }
 
@@ -65,9 +65,9 @@ bool UntouchedMotion::onlyForcesAct(const State& state, double h) const {
 }
 
 void UntouchedMotion::stepFreely(State& state, double h, int count) {
-  if (count == 1) return stepper_.step(state, u_, h);
+  if (count == 1) return stepper_->step(state, u_, h);
   next_ = state;
-  for (int i = 0; i < count; ++i) fastStepper_.step(next_, u_, h / count);
+  for (int i = 0; i < count; ++i) fastStepper_->step(next_, u_, h / count);
   std::swap(state, next_);
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <optional>
 #include <span>
+#include <vector>
 
 #include "dynamics/mass_matrix.h"
 #include "dynamics/stepper.h"
@@ -32,7 +34,7 @@ class UntouchedMotion {
   bool isAble_, hasForcesOnly_ = true, resists_ = false;
   std::vector<JointLaw> laws_{};
   std::vector<Motor> motors_;
-  Stepper stepper_, fastStepper_;
+  std::optional<Stepper> stepper_{}, fastStepper_{};  // if it is able
   JointImpulses impulses_;
   Eigen::VectorXd u_, p_, v_;
   EquationOfMotion motion_{};
