@@ -7,6 +7,7 @@
 #include <Eigen/QR>
 
 #include "collision/motion_clearance.h"
+#include "interface.h"
 #include "peg_problem.h"
 #include "tree_evidence.h"
 
