@@ -72,15 +72,17 @@ inline void place(const Link* links, int count, const double* q, Part* parts) {
 }
 
 // O is the origin of the first link with a mass, so that inertias stay small even far from the world's
-// origin.
+// origin: nearly always the root, and only else the others are asked.
 inline void chooseOrigins(const Link* links, int count, Part* parts) {
+  bool areRoots = true;
   for (int i = 0; i < count; ++i) {
     const int parent = links[i].parent;
-    Part& part = parts[i];
-    part.root = parent == Link::kNoParent ? i : parts[parent].root;
-    Part& root = parts[part.root];
-    if (part.root == i || links[root.origin].mass == 0) root.origin = i;
+    parts[i].root = parent == Link::kNoParent ? i : parts[parent].root;
+    parts[i].origin = i;
+    areRoots = areRoots && (parent != Link::kNoParent || links[i].mass != 0);
   }
+  for (int i = 0; i < count && !areRoots; ++i)
+    if (Part& root = parts[parts[i].root]; links[root.origin].mass == 0) root.origin = i;
 }
 
 // Mass, moment and inertia of the link alone. About O, the latter comes from the squares of r = p + d with
