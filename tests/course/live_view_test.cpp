@@ -1,11 +1,15 @@
 #include "course/live_view.h"
 
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
 
 #include <gmock/gmock.h>
+#include <pty.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "base/error.h"
 #include "course/simulator.h"
@@ -58,6 +62,30 @@ TEST_F(LiveViewTest, ShowsPictures) {
     for (int k = 0; k < 3; ++k) view.show(Picture{.pointSets = {{.points = {{0.1 * k, 0, 0}, {1, 1, 1}}}}});
   }
   EXPECT_THAT(textOf(in("dots.html")), HasSubstr("<html"));
+}
+
+// `rex run` leaves programs the terminal for their output, and nothing to read.
+TEST(LiveViewInATerminal, SaysItsAddress) {
+  int terminal = -1;
+  const pid_t child = ::forkpty(&terminal, nullptr, nullptr, nullptr);
+  if (child == 0) {
+    for (const char* variable : {"REX_LIVE", "DISPLAY", "WAYLAND_DISPLAY", "SSH_CONNECTION"})
+      ::unsetenv(variable);
+    if (::freopen("/dev/null", "r", stdin) == nullptr) ::_exit(1);
+    { const LiveView view("page"); }
+    ::_exit(0);
+  }
+  ASSERT_GT(child, 0);
+  std::string said;
+  char bytes[1024];
+  for (ssize_t n = 0; (n = ::read(terminal, bytes, sizeof bytes)) > 0;)
+    said.append(bytes, static_cast<std::size_t>(n));
+  int status = -1;
+  EXPECT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_EQ(status, 0);
+  EXPECT_THAT(said, testing::StartsWith("http://127.0.0.1:"));
+  EXPECT_THAT(said, HasSubstr("open this page"));
+  ::close(terminal);
 }
 
 TEST_F(LiveViewTest, WritesNothingIfNothingWasShown) {
