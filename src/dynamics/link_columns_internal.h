@@ -36,11 +36,7 @@ inline void placeByColumns(const Link* links, int count, const double* q, const 
     for (int i = begin; i < end; ++i)
       if (links[i].kind != Link::Kind::kQuaternion)
         x[i - begin] = links[i].ratio * q[links[i].qIndex] + links[i].offset;
-    for (int i = 0; i < end - begin; i += kLanesOf<Quad>) {
-      const SinCos<Quad> turn = sinCos(load<Quad>(x + i));
-      store(turn.sine, sines + i);
-      store(turn.cosine, cosines + i);
-    }
+    sinesOf(x, end - begin, sines, cosines);
     for (int i = begin; i < end; ++i) {
       const Link& link = links[i];
       double motion[12];

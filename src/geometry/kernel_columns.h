@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/pack.h"
+#include "base/sin_cos.h"
 
 // One pose in lanes, for kernels of four: its columns, each in the first three lanes of a pack. All numbers
 // have the bits that kernel_math.h gives. See base/pack.h for the reason for the anonymous namespace.
@@ -40,6 +41,15 @@ inline Quad turned(const PoseColumns& X, const double* v) {
 /// X times the pose at `motion`, which has the layout of rex::Pose.
 inline PoseColumns times(const PoseColumns& X, const double* motion) {
   return {turned(X, motion), turned(X, motion + 3), turned(X, motion + 6), turned(X, motion + 9) + X.p};
+}
+
+/// Sines and cosines of `count` angles, four at once; all three have room for whole packs.
+inline void sinesOf(const double* angles, int count, double* sines, double* cosines) {
+  for (int i = 0; i < count; i += kLanesOf<Quad>) {
+    const SinCos<Quad> turn = sinCos(load<Quad>(angles + i));
+    store(turn.sine, sines + i);
+    store(turn.cosine, cosines + i);
+  }
 }
 
 inline Quad crossColumns(const Quad& a, const Quad& b) {

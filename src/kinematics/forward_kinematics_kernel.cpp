@@ -101,11 +101,7 @@ void placeOne(const MotionStep* steps, int stepCount, const double* const* q, do
     for (int s = begin; s < end; ++s)
       if (steps[s].kind == Kind::kHinge || steps[s].kind == Kind::kSlider)
         x[s - begin] = coordinate<double>(steps[s], q);
-    for (int i = 0; i < end - begin; i += kLanesOf<Quad>) {
-      const SinCos<Quad> turn = sinCos(load<Quad>(x + i));
-      store(turn.sine, sines + i);
-      store(turn.cosine, cosines + i);
-    }
+    sinesOf(x, end - begin, sines, cosines);
     for (int s = begin; s < end; ++s) {
       const MotionStep& step = steps[s];
       const double* const X_WP = X_WB + MotionStep::kPoseSize * step.from;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <utility>
 
 #include <Eigen/Dense>
 #include <fmt/format.h>
@@ -412,6 +413,24 @@ TEST(LectureNotes, ThePowerOfSeveralFeatures) {
   const MatrixXd derivative = phi.transpose() * (action - phi.dot(policy.beta)) / variance;
   EXPECT_LT((numericJacobian(logarithm, policy.beta) - derivative).norm(), 1e-6);
   expectStated("08-mdp", fmt::format("for $\\gamma = 0.99$, {:.0f} times the change", .99 / (1 - .99)));
+}
+
+TEST(LectureNotes, FallsAndSlips) {
+  // A flood from the start of the cliff walk, 4 rows of 12 cells whose lowest is cliff but for its ends.
+  MatrixXd steps = MatrixXd::Constant(4, 12, -1);
+  steps(0, 0) = 0;
+  for (int reached = 0; steps(0, 11) < 0; ++reached)
+    for (int row = 0; row < 4; ++row)
+      for (int column = 0; column < 12; ++column)
+        for (const auto& [up, right] : {std::pair(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
+          const int r = row + up, c = column + right;
+          const bool isFree = r >= 0 && r < 4 && c >= 0 && c < 12 && (r > 0 || c == 0 || c == 11);
+          if (steps(row, column) == reached && isFree && steps(r, c) < 0) steps(r, c) = reached + 1;
+        }
+  expectStated("17-rl", fmt::format("the shortest way, of {:g} steps", steps(0, 11)));
+  const double random = .1, down = 1. / 4;
+  expectStated("17-rl", fmt::format("about one fall for {:g} steps", 1 / (random * down)));
+  expectStated("17-rl", fmt::format("still {:.0f} %", 100 * std::pow(1 - .2, 10)));
 }
 
 TEST(LectureNotes, FewStepsFromRestToRest) {
