@@ -29,25 +29,26 @@ int main() {
     }
     const Eigen::VectorXd arms = (Eigen::VectorXd(5) << 0.3, 0.4, 0.5, 0.6, 0.6 + gap).finished();
     for (int n = 0; n < static_cast<int>(speed); ++n, ++pulls)
-      for (int r = 0; r < 3; ++r) {
-        const int arm = nextArm(records[r], rules[r], rng, epsilon);
-        ++records[r].pulls[arm];
-        records[r].paid[arm] += rng.uniform() < arms[arm];
-        regret[r] += arms[4] - arms[arm];
+      for (int rule = 0; rule < 3; ++rule) {
+        const int arm = nextArm(records[rule], rules[rule], rng, epsilon);
+        ++records[rule].pulls[arm];
+        records[rule].paid[arm] += rng.uniform() < arms[arm];
+        regret[rule] += arms[4] - arms[arm];
       }
 
     Picture picture{.ground = {.visible = false}};
     const Color colors[] = {kDeadReckoningColor, kLandmarkColor, kEstimateColor};
-    for (int r = 0; r < 3; ++r) {
+    for (int rule = 0; rule < 3; ++rule) {
       for (int k = 0; k < 5; ++k) {
-        const double height = 0.02 + 3.0 * records[r].pulls[k] / pulls;
+        const double height = 0.02 + 3.0 * records[rule].pulls[k] / pulls;
         picture.solids.push_back({{.type = ShapeType::kBox, .extent = {0.6, 0.6, height}},
-                                  translation(k, 1.4 * r, height / 2),
-                                  colors[r],
-                                  names[r]});
+                                  translation(k, 1.4 * rule, height / 2),
+                                  colors[rule],
+                                  names[rule]});
       }
-      picture.labels.push_back({.text = names[r], .p_WQ = Eigen::Vector3d(-1.4, 1.4 * r, 0.2), .scale = 1.3});
-      view.plot(std::string("regret of ") + names[r], t / 30., regret[r]);
+      picture.labels.push_back(
+          {.text = names[rule], .p_WQ = Eigen::Vector3d(-1.4, 1.4 * rule, 0.2), .scale = 1.3});
+      view.plot(std::string("regret of ") + names[rule], t / 30., regret[rule]);
     }
     for (int k = 0; k < 5; ++k)
       picture.labels.push_back(
