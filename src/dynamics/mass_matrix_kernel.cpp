@@ -61,7 +61,7 @@ inline Sym3<double> symmetricProduct(const Vec3<double>& a, const Vec3<double>& 
 }
 
 // Poses are independent of one another until they are multiplied: first all sines, then the chain.
-inline void place(const Link* links, int count, const double* q, Part* parts) {
+[[gnu::flatten]] inline void place(const Link* links, int count, const double* q, Part* parts) {
 #ifdef __AVX__
   placeByColumns(links, count, q, [&](int i) { return reinterpret_cast<double*>(&parts[i].X); });
 #else

@@ -58,9 +58,10 @@ inline void place(const MotionStep& step, const Factors<T>& f, const double* con
 }
 
 // Sines are independent of one another, but each pose needs the one before and would wait for its sine if
-// they were interleaved: so some sines come first, then their poses.
+// they were interleaved: so some sines come first, then their poses. Flat, because the compiler would
+// otherwise call sinCos() and pass its registers through memory.
 template <class T, int kCount>
-void placeAll(const MotionStep* steps, int stepCount, const double* const* q, double* X_WB) {
+[[gnu::flatten]] void placeAll(const MotionStep* steps, int stepCount, const double* const* q, double* X_WB) {
   constexpr int kAhead = 16, kPacks = kCount / kLanesOf<T>;
   Factors<T> ahead[kAhead][kPacks];
   for (int begin = 0; begin < stepCount; begin += kAhead) {
@@ -91,7 +92,7 @@ inline PoseColumns moved(const PoseColumns& X, const MotionStep& step, const Fac
   return times(X, motion);
 }
 
-void placeOne(const MotionStep* steps, int stepCount, const double* const* q, double* X_WB) {
+[[gnu::flatten]] void placeOne(const MotionStep* steps, int stepCount, const double* const* q, double* X_WB) {
   constexpr int kAhead = 16;
   PoseColumns X{};
   int at = -1;  // the body whose pose X is
