@@ -129,7 +129,9 @@ TEST(RacerRollouts, AllocateForTheirResultsOnly) {
     return allocations() - before;
   };
   const long few = allocated(2, 3);
+#ifndef __SANITIZE_ADDRESS__  // where allocations are not counted
   EXPECT_GE(few, 2);
+#endif
   EXPECT_EQ(allocated(40, 20), few);
 }
 
