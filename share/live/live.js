@@ -186,13 +186,15 @@
 
   function beforeDraw() {
     watchSpeed();
-    if (scene) sizeHandles();
-    if (!isStale || !frame || !scene) return;
+    if (!frame || !scene) return;
+    if (isStale) showFrameInScene();
+    sizeHandles();
+  }
+  function showFrameInScene() {
     isStale = false;
     showPoses();
     showMarks();
     showHandles();
-    sizeHandles();
     followHandle();
     if (++drawnFrames === 1) firstPicture = performance.now();
   }

@@ -192,6 +192,7 @@ inline void addTo(double* carrier, const double* carried) {
 template <class T>
 void compute(const Link* links, int linkCount, const double* q, void* memory, double* M, long stride,
              int nv) {
+  if (nv == 0) return;
   Part* parts = static_cast<Part*>(memory);
   Freedoms freedoms = freedomsIn(parts + linkCount, linkCount);
   const auto lastAbove = [&](int i) {
@@ -208,7 +209,7 @@ void compute(const Link* links, int linkCount, const double* q, void* memory, do
   }
   const bool isDense = stride == nv;  // one long column
   const long rows = isDense ? stride * nv : nv;
-  for (int k = 0; k < (isDense && nv > 0 ? 1 : nv); ++k)
+  for (int k = 0; k < (isDense ? 1 : nv); ++k)
     __builtin_memset(M + stride * k, 0, sizeof(double) * static_cast<unsigned long>(rows));
   for (int i = linkCount - 1; i >= 0; --i) {
     const Part& part = parts[i];

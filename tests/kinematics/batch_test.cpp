@@ -84,6 +84,10 @@ TEST_P(BatchOfLanes, JacobiansHaveTheBitsOfOne) {
         ASSERT_TRUE(haveSameBits(linear.jacobian(k), positionJacobian(model, poses, body, p_BQ))) << i;
         ASSERT_TRUE(haveSameBits(angular.jacobian(k), angularJacobian(model, poses, body))) << i;
         const Matrix6Xd both = poseJacobian(model, poses, body, p_BQ);
+        Eigen::MatrixXd larger = Eigen::MatrixXd::Ones(8, model.nv());
+        poseJacobian(model, poses, body, p_BQ, larger.middleRows<6>(1));
+        ASSERT_EQ(larger.middleRows<6>(1), both) << i;
+        ASSERT_TRUE(larger.row(0).isOnes(0) && larger.row(7).isOnes(0)) << i;
         ASSERT_TRUE(haveSameBits(linear.jacobian(k), Eigen::Matrix3Xd(both.topRows<3>()))) << i;
         ASSERT_TRUE(haveSameBits(angular.jacobian(k), Eigen::Matrix3Xd(both.bottomRows<3>()))) << i;
       }

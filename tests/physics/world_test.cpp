@@ -73,6 +73,47 @@ TEST(PhysicsWorld, RepeatsItselfToTheBit) {
   EXPECT_EQ(numbersOf(moved), numbersOf(second));
 }
 
+// Freely, driven, held by friction and stopped by limits: our own dynamics remember nothing, either.
+TEST(PhysicsWorld, AnArmRepeatsItselfToTheBit) {
+  const Model model = compile(readScene(sourcePath("data/robots/arm7dof/arm7dof.urdf")).spec);
+  for (const bool isFree : {true, false}) {
+    const PhysicsOptions options{.jointLimits = !isFree, .jointFriction = !isFree};
+    PhysicsWorld first(model, options), second(model, options);
+    std::vector<Motor> motors(static_cast<std::size_t>(model.nv()));
+    if (!isFree) motors[1] = {Motor::Kind::kVelocity, 1, 50};
+    first.setMotors(motors);
+    second.setMotors(motors);
+    run(first, 1);
+    run(second, 1);
+    const std::vector<double> numbers = numbersOf(first);
+    EXPECT_EQ(numbers, numbersOf(second));
+    first.setState(initialState(model));
+    run(first, 1);
+    EXPECT_EQ(numbers, numbersOf(first));
+    PhysicsWorld moved = std::move(first);
+    run(moved, 0.1);
+    run(second, 0.1);
+    EXPECT_EQ(numbersOf(moved), numbersOf(second));
+  }
+}
+
+TEST(PhysicsWorld, AnArmThatBlowsUpGoesBackToWhereItWas) {
+  const Model model = compile(readScene(sourcePath("data/robots/arm7dof/arm7dof.urdf")).spec);
+  PhysicsWorld world(model);
+  run(world, 0.1);
+  const State before = world.state();
+  std::vector<Motor> motors(static_cast<std::size_t>(model.nv()));
+  motors[0].target = 1e12;
+  world.setMotors(motors);
+  EXPECT_REX_ERROR(world.step(1e-3), "found a motion that grows without bounds");
+  EXPECT_EQ(world.state().q, before.q);
+  EXPECT_EQ(world.state().v, before.v);
+  EXPECT_EQ(world.state().time, before.time);
+  world.setMotors(std::vector<Motor>(motors.size()));
+  run(world, 0.1);
+  EXPECT_NEAR(world.state().time, before.time + 0.1, 1e-9);
+}
+
 // The library that computes this is Debian's, the same bytes on every machine of the course.
 TEST(PhysicsWorld, HasAGoldenHash) {
   PhysicsWorld world(heap());
