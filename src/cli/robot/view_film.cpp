@@ -1,8 +1,11 @@
 #include "cli/robot/view_film.h"
 
+#include <csignal>
 #include <numeric>
 #include <utility>
 #include <vector>
+
+#include <unistd.h>
 
 #include "base/error.h"
 #include "base/interruption.h"
@@ -12,18 +15,27 @@
 
 namespace rex::cli {
 
+ViewFilm::~ViewFilm() {
+  if (!painter_.joinable()) return;
+  isEnding_ = true;
+  ::pthread_kill(painter_.native_handle(), SIGTERM);  // held there, until drawing asks for it
+  painter_.join();
+}
+
 std::string ViewFilm::draw() {
   if (table_.empty()) return "There is no recording yet.";
   const std::lock_guard lock(mutex_);
   if (isBusy_) return "A film is being drawn.";
   isBusy_ = true;
-  painter_ = std::jthread([this, table = table_] {
+  if (painter_.joinable()) painter_.join();
+  painter_ = std::thread([this, table = table_] {
     Drawn made;
     try {
       made = drawn(table);
     } catch (const std::exception& error) {
       made = {.text = error.what()};
-    } catch (const Interrupted&) {  // the program ends
+    } catch (const Interrupted& stop) {
+      if (!isEnding_) ::kill(::getpid(), stop.signal);  // it comes once, and the owner waits for it, too
     }
     const std::lock_guard held(mutex_);
     drawn_ = std::move(made), isBusy_ = false;
