@@ -12,15 +12,17 @@
 namespace rex::sandbox {
 namespace {
 
-constexpr std::uint64_t kHighest = std::uint64_t{1} << 38;  // also for machines with short addresses
-constexpr std::size_t kPage = 65536, kStep = 16;            // for all kinds of machines
+// The second is for machines with short addresses; the sanitizers keep all that is below it for themselves.
+constexpr std::uint64_t kHighest[] = {std::uint64_t{1} << 46, std::uint64_t{1} << 38};
+constexpr std::size_t kPage = 65536, kStep = 16;  // for all kinds of machines
 
 // That many bytes at a random address, which may be anywhere within its page.
 void* randomPlace(std::size_t size) {
   for (int attempt = 0; attempt < 100; ++attempt) {
     std::uint64_t random = 0;
     if (::getrandom(&random, sizeof random, 0) != sizeof random) break;
-    const std::uint64_t address = random % kHighest / kStep * kStep, page = address / kPage * kPage;
+    const std::uint64_t address = random % kHighest[attempt % 2] / kStep * kStep,
+                        page = address / kPage * kPage;
     if (page == 0) continue;
     const std::size_t length = (address - page + size + kPage - 1) / kPage * kPage;
     void* place = ::mmap(reinterpret_cast<void*>(page), length, PROT_READ | PROT_WRITE,

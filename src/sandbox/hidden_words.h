@@ -6,9 +6,9 @@
 
 namespace rex::sandbox {
 
-/// Words for a system call, as a null-terminated list of pointers at a random address of 34 bits: three of
-/// them cannot be guessed together. They stay until the process executes another program. Throws Error if
-/// there is no memory.
+/// Words for a system call, as a null-terminated list of pointers at a random address of at least 34 bits:
+/// three of them cannot be guessed together. They stay until the process executes another program. Throws
+/// Error if there is no memory.
 [[nodiscard]] char* const* hiddenWords(const std::vector<std::string>& words);
 
 /// The same for one word.
