@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -286,6 +287,20 @@ void tellTimes(const std::vector<Task>& tasks, const GradeManyOptions& options) 
   note(text + fmt::format(", {} from modification times of files", from("file")));
 }
 
+// The tables are of what was asked for, not of all that lies in the folder.
+void tellWhatTablesLeaveOut(const fs::path& manifest, const std::string& only) {
+  if (only.empty() || !fs::exists(manifest)) return;
+  std::istringstream lines(readTextFile(manifest));  // only counted: it may be of another version
+  int others = -1;                                   // without the headings
+  for (std::string line; std::getline(lines, line);)
+    if (line.find("\t" + only + "\t") == std::string::npos) ++others;
+  if (others < 1) return;
+  note(wrap(fmt::format("{} and grades.csv now list {} alone; the results of {} other submission{} stay, and "
+                        "are listed again by rex grade without --only",
+                        shown(manifest), only, others, others == 1 ? "" : "s"),
+            2, 0));
+}
+
 // `rex collect` has only the folder of results.
 void keepWhatCollectNeeds(const grading::HandIns& handedIn, const GradeManyOptions& options) {
   replaceTextFile(options.out / kNotTakenFile, grading::notTakenText(handedIn.notTaken),
@@ -328,7 +343,8 @@ ExitCode gradeMany(const Project& project, GradeManyOptions options) {
   if (!sandbox) return ExitCode::kWeakSandbox;
   const std::vector<ExerciseInfo> exercises = project.exercises();
   grading::HandIns handedIn = grading::readHandIns(options.folder, exercises, options.only);
-  addNotTaken(options.folder, options.only.empty() ? "" : project.exercise(options.only).name, handedIn);
+  const std::string only = options.only.empty() ? "" : project.exercise(options.only).name;
+  addNotTaken(options.folder, only, handedIn);
   tell(handedIn);
   if (handedIn.files.empty()) adviseImport(options.folder, exercises);
   makeFolder(options.out);
@@ -336,6 +352,7 @@ ExitCode gradeMany(const Project& project, GradeManyOptions options) {
   const std::set<std::string> blocked = blockedOf(handedIn, graders);
   const std::vector<Task> tasks = tasksOf(handedIn, options, sandbox->level, exercises, blocked, graders);
   const fs::path manifest = options.manifest.empty() ? options.out / "tasks.tsv" : options.manifest;
+  if (options.manifest.empty()) tellWhatTablesLeaveOut(manifest, only);
   replaceTextFile(manifest, grading::toManifest(tasks), "the list of tasks");
   const ExitCode taken = !blocked.empty()              ? ExitCode::kGraderFault
                          : handedIn.complaints.empty() ? ExitCode::kFull
@@ -351,7 +368,6 @@ ExitCode gradeMany(const Project& project, GradeManyOptions options) {
   const int graded = gradeOpen(tasks, options, *sandbox, graders);
   regrading.tell();
   tellTimes(tasks, options);
-  const std::string only = options.only.empty() ? "" : project.exercise(options.only).name;
   const grading::Gradebook book = gradebookOf(project, options.files, tasks, options.out, only);
   writeReports(tasks, options.out, reports, book);
   const bool complete =

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
+#include "base/text_file.h"
 #include "cli/command_schema.h"
 #include "cli/template_project.h"
 #include "grading/result_file.h"
@@ -427,6 +428,17 @@ TEST_F(GradeManyTest, TellsWithOnlyWhatItCouldNotTake) {
   EXPECT_EQ(ended.code, 2);
   EXPECT_THAT(flat(ended.error),
               HasSubstr("nothing to grade: found no exercise folder, wanted 98-template/main.cpp"));
+}
+
+TEST_F(GradeManyTest, TellsWithOnlyWhatItsTablesLeaveOut) {
+  handIn("adam", kGood);
+  EXPECT_THAT(grade().error, Not(HasSubstr("alone")));
+  const fs::path list = results() / "tasks.tsv";
+  write(list, readTextFile(list) + "2\tadam\t97-other\n");
+  EXPECT_THAT(flat(grade({"--only", "98"}).error),
+              HasSubstr("results/tasks.tsv and grades.csv now list 98-template alone; the results of 1 other "
+                        "submission stay, and are listed again by rex grade without --only"));
+  EXPECT_THAT(grade({"--only", "98"}).error, Not(HasSubstr("alone")));
 }
 
 TEST_F(GradeManyTest, GradesAgainForEvidenceThatIsMissing) {
