@@ -11,6 +11,12 @@
 
 using namespace rex;
 
+double durationOf(const ControlPath& way) {
+  double seconds = 0;
+  for (const HeldControl& one : way.controls) seconds += one.seconds;
+  return seconds;
+}
+
 int main() {
   LiveView view("parking");
   view.lookFrom({0, -0.7, 1});
@@ -47,21 +53,25 @@ int main() {
                               .goal = Eigen::Vector3d(-6.5, 4, 0)};
     if (age == 0) {
       Rng rng(seed);
-      way = growControlTree(
-          system, problem,
-          {.duration = 0.8, .trials = 8, .goalBias = 0.2, .tolerance = 0.6, .maxSamples = 1500}, rng);
+      way = growControlTree(system, problem,
+                            {.shortest = 0.4,
+                             .longest = 0.8,
+                             .trials = 8,
+                             .goalBias = 0.2,
+                             .tolerance = 0.6,
+                             .maxSamples = 1500},
+                            rng);
     }
     const int nodes = static_cast<int>(way.found.trees.at(0).nodes.cols()),
               shown = std::min(nodes, 1 + nodes * age / 120);  // four seconds
     CarView show{.car = problem.goal, .estimate = problem.start};
     if (way.found.path.cols() > 1 && shown == nodes) {
-      const int pieces = static_cast<int>(way.controls.cols());
-      const double at =
-          std::max(0., pieces - std::fmod(std::max(0, age - 125) / 12., pieces + 2.));  // backward
-      const int piece = std::min(static_cast<int>(at), pieces - 1);
-      Eigen::Vector3d x = way.found.path.col(piece);
-      x = driveCar(car, x, way.controls.col(piece), (at - piece) * way.duration);
-      show.car = x;
+      double left = std::fmod(std::max(0, age - 125) / 15., durationOf(way) + 1.5);  // driven backward
+      std::size_t piece = way.controls.size() - 1;
+      for (; piece > 0 && left > way.controls[piece].seconds; --piece) left -= way.controls[piece].seconds;
+      const auto& [u, seconds] = way.controls[piece];
+      const Eigen::Vector3d x = way.found.path.col(static_cast<Eigen::Index>(piece));
+      show.car = driveCar(car, x, u, std::max(0., seconds - left));
     }
     const std::string end =
         way.found.status == PathStatus::kFound ? " drives: found" : " drives: nothing found";

@@ -1,7 +1,9 @@
 #include "planning/control_tree.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -26,8 +28,13 @@ void requireSound(const ControlSystem& system, const ControlTreeOptions& options
                  .found = "no motion",
                  .wanted = "a function that gives the state after a motion"});
   requireSize("upper bounds of controls", system.upper.size(), system.lower.size());
-  requirePositive("duration of controls", options.duration, kSeconds);
-  requireCount("checks of a motion", options.checks, 1);
+  requirePositive("shortest duration of controls", options.shortest, kSeconds);
+  requirePositive("longest duration of controls", options.longest, kSeconds);
+  if (options.shortest > options.longest)
+    throw Error({.what = "shortest duration of controls",
+                 .found = fmt::format("{:g} s", options.shortest),
+                 .wanted = fmt::format("at most the longest, {:g} s", options.longest)});
+  requirePositive("time between checks of a motion", options.checkEvery, kSeconds);
   requireCount("trials of controls", options.trials, 1);
   requireCount("number of samples", options.maxSamples, 1);
   requireNotNegative("tolerance of a goal", options.tolerance);
@@ -46,22 +53,21 @@ class ControlTree {
         options_(options),
         rng_(rng),
         tree_(system.space, problem.start),
-        controls_{Eigen::VectorXd::Zero(system.lower.size())} {}
+        edges_(1) {}
 
   ControlPath grow() {
-    int goal = distance(problem_.start, problem_.goal) <= options_.tolerance ? 0 : -1;
+    if (distance(problem_.start, problem_.goal) <= options_.tolerance) goal_ = 0;
+    if (goal_ < 0) tryGoal(0);
     Eigen::VectorXd target(system_.space.size());
-    while (goal < 0 && samples_ < options_.maxSamples) {
+    while (goal_ < 0 && samples_ < options_.maxSamples) {
       ++samples_;
       if (rng_.uniform() < options_.goalBias)
         target = problem_.goal;
       else
         system_.space.sample(rng_, target);
-      const int node = options_.towardsTargets ? extend(nearest(target), target, options_.trials)
-                                               : extend(rng_.index(tree_.count()), target, 1);
-      if (node >= 0 && distance(tree_.points().point(node), problem_.goal) <= options_.tolerance) goal = node;
+      extend(target);
     }
-    return finish(goal);
+    return finish();
   }
 
  private:
@@ -96,46 +102,122 @@ class ControlTree {
     return next;
   }
 
-  // The node that the best of some random controls leads to, -1 if something is in the way.
-  int extend(int from, const VectorArg& target, int trials) {
+  // A step from the tree towards a target, if nothing is in the way.
+  void extend(const Eigen::VectorXd& target) {
+    const int from = options_.towardsTargets ? nearest(target) : rng_.index(tree_.count());
     const Eigen::VectorXd x = tree_.points().point(from);
-    Eigen::VectorXd best;
-    double nearest = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < trials; ++i) {
-      const Eigen::VectorXd u =
-          system_.lower.array() + rng_.uniformVector(static_cast<int>(system_.lower.size()), 0, 1).array() *
-                                      (system_.upper - system_.lower).array();
-      const double distance = this->distance(move(x, u, options_.duration), target);
-      if (best.size() > 0 && distance >= nearest) continue;
-      nearest = distance;
-      best = u;
+    if (!system_.steer || !options_.towardsTargets) {
+      static_cast<void>(follow(from, {shot(x, target)}));
+      return;
     }
-    Eigen::MatrixXd states(x.size(), options_.checks);
-    for (int k = 0; k < options_.checks; ++k)
-      states.col(k) = move(x, best, options_.duration * (k + 1) / options_.checks);
-    asked_ += options_.checks;
-    if (!problem_.allValid(states)) return -1;
-    controls_.push_back(best);
-    return tree_.add(states.rightCols<1>(), from);
+    const int node = follow(from, shortened(steered(x, target), drawnDuration()));
+    if (node >= 0 && goal_ < 0) tryGoal(node);
   }
 
-  ControlPath finish(int goal) const {
-    ControlPath path{.controls = Eigen::MatrixXd(system_.lower.size(), 0), .duration = options_.duration};
+  // All the way to the goal.
+  void tryGoal(int from) {
+    if (system_.steer && options_.towardsTargets)
+      static_cast<void>(follow(from, steered(tree_.points().point(from), problem_.goal)));
+  }
+
+  double drawnDuration() { return rng_.uniform(options_.shortest, options_.longest); }
+
+  // The best of some random controls.
+  HeldControl shot(const Eigen::VectorXd& x, const Eigen::VectorXd& target) {
+    HeldControl best;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < (options_.towardsTargets ? options_.trials : 1); ++i) {
+      const Eigen::VectorXd share = rng_.uniformVector(static_cast<int>(system_.lower.size()), 0, 1);
+      const HeldControl one{system_.lower + share.cwiseProduct(system_.upper - system_.lower),
+                            drawnDuration()};
+      const double distance = this->distance(move(x, one.u, one.seconds), target);
+      if (i > 0 && distance >= nearest) continue;
+      nearest = distance;
+      best = one;
+    }
+    return best;
+  }
+
+  std::vector<HeldControl> steered(const Eigen::VectorXd& x, const Eigen::VectorXd& target) const {
+    std::vector<HeldControl> controls = system_.steer(x, target);
+    for (const HeldControl& one : controls) {
+      requireSize("control that steers", one.u.size(), system_.lower.size());
+      const bool isWithin =
+          (one.u.array() >= system_.lower.array()).all() && (one.u.array() <= system_.upper.array()).all();
+      if (isWithin && std::isfinite(one.seconds) && one.seconds >= 0) continue;
+      throw Error({.what = fmt::format("steering from {} to {}", listed(x), listed(target)),
+                   .found = fmt::format("{} for {:g} s", listed(one.u), one.seconds),
+                   .wanted = fmt::format("controls from {} to {}, for 0 s or more", listed(system_.lower),
+                                         listed(system_.upper))});
+    }
+    return controls;
+  }
+
+  // What of it happens in that time.
+  static std::vector<HeldControl> shortened(std::vector<HeldControl> controls, double seconds) {
+    for (std::size_t i = 0; i < controls.size(); ++i) {
+      if (controls[i].seconds >= seconds) {
+        controls[i].seconds = seconds;
+        controls.resize(i + 1);
+      } else {
+        seconds -= controls[i].seconds;
+      }
+    }
+    return controls;
+  }
+
+  // The end of a motion from x; nothing if something is in the way.
+  std::optional<Eigen::VectorXd> driven(const Eigen::VectorXd& x, const HeldControl& one) {
+    constexpr long kMostAtOnce = 32;
+    const long checks = static_cast<long>(std::ceil(one.seconds / options_.checkEvery));
+    Eigen::MatrixXd states = x;
+    for (long done = 0; done < checks; done += states.cols()) {
+      states.resize(x.size(), std::min(kMostAtOnce, checks - done));
+      for (Eigen::Index k = 0; k < states.cols(); ++k)
+        states.col(k) =
+            move(x, one.u, one.seconds * static_cast<double>(done + k + 1) / static_cast<double>(checks));
+      asked_ += states.cols();
+      if (!problem_.allValid(states)) return std::nullopt;
+    }
+    return states.rightCols<1>();
+  }
+
+  // Applies controls and adds a node after each. Returns the last one, or -1 if there is none or something is
+  // in the way; then nothing is added.
+  int follow(int from, std::vector<HeldControl> controls) {
+    std::erase_if(controls, [](const HeldControl& one) { return one.seconds == 0; });
+    std::vector<Eigen::VectorXd> states{tree_.points().point(from)};
+    for (const HeldControl& one : controls) {
+      const std::optional<Eigen::VectorXd> end = driven(states.back(), one);
+      if (!end) return -1;
+      states.push_back(*end);
+    }
+    for (std::size_t i = 0; i < controls.size() && goal_ < 0; ++i) {
+      from = tree_.add(states[i + 1], from);
+      edges_.push_back(controls[i]);
+      if (distance(states[i + 1], problem_.goal) <= options_.tolerance) goal_ = from;
+    }
+    return controls.empty() ? -1 : from;
+  }
+
+  ControlPath finish() {
+    ControlPath path;
     PathResult& found = path.found;
     found.samples = samples_;
     found.asked = asked_;
     found.trees.push_back(tree_.drawn());
-    const bool isFound = goal >= 0;
+    const bool isFound = goal_ >= 0;
     found.message = fmt::format("{} after {} samples: {} nodes, {} states checked",
                                 isFound ? "found a path" : "no path", samples_, tree_.count(), asked_);
-    if (!isFound) return path;
-    found.status = PathStatus::kFound;
-    found.path = tree_.wayTo(goal);
-    found.length = pathLength(system_.space, found.path);
-    path.controls.resize(Eigen::NoChange, found.path.cols() - 1);
-    for (Eigen::Index k = path.controls.cols() - 1, at = goal; k >= 0;
-         --k, at = tree_.parent(static_cast<int>(at)))
-      path.controls.col(k) = controls_[static_cast<std::size_t>(at)];
+    if (isFound) {
+      found.status = PathStatus::kFound;
+      found.path = tree_.wayTo(goal_);
+      found.length = pathLength(system_.space, found.path);
+      for (int at = goal_; at > 0; at = tree_.parent(at))
+        path.controls.push_back(edges_[static_cast<std::size_t>(at)]);
+      std::reverse(path.controls.begin(), path.controls.end());
+    }
+    path.edges = std::move(edges_);
     return path;
   }
 
@@ -144,7 +226,8 @@ class ControlTree {
   const ControlTreeOptions& options_;
   Rng& rng_;
   internal::SearchTree tree_;
-  std::vector<Eigen::VectorXd> controls_;  // that led to each node
+  std::vector<HeldControl> edges_;  // that led to each node
+  int goal_ = -1;                   // the node that reached it
   int samples_ = 0;
   long asked_ = 0;
 };

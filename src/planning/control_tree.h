@@ -1,12 +1,19 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "planning/path_problem.h"
 
 namespace rex {
 
 class Rng;
+
+/// A control that is held for some time.
+struct HeldControl {
+  Eigen::VectorXd u{};
+  double seconds = 0;
+};
 
 /// A system that moves by its controls, such as a car.
 struct ControlSystem {
@@ -16,13 +23,17 @@ struct ControlSystem {
   std::function<Eigen::VectorXd(const VectorArg& x, const VectorArg& u, double seconds)> motion{};
   /// The distance between two states, which need not be symmetric; empty: the metric of the space.
   std::function<double(const VectorArg& from, const VectorArg& to)> distance{};
+  /// The controls, one after the other, that lead from one state to another if nothing is in the way, or
+  /// none if it knows no way: the local planner of slide 4:58. Empty: shooting, which takes the best of some
+  /// random controls.
+  std::function<std::vector<HeldControl>(const VectorArg& from, const VectorArg& to)> steer{};
 };
 
 struct ControlTreeOptions {
-  double duration = 0.5;       ///< tau: seconds for which a control is held
-  int checks = 10;             ///< states that are checked during that time
-  int trials = 10;             ///< controls that are tried for a target; the best one is taken
-  bool towardsTargets = true;  ///< false: any node, any control (slide 4:52)
+  double shortest = 0.1, longest = 0.5;  ///< tau: seconds of a step towards a target, drawn between these
+  double checkEvery = 0.05;              ///< most seconds between states that are checked
+  int trials = 10;                       ///< controls that shooting tries for a target
+  bool towardsTargets = true;            ///< false: any node, any control (slide 4:52)
   double goalBias = 0.05;
   double tolerance = 0.1;  ///< the goal counts as reached within this distance of the system
   int maxSamples = 20000;
@@ -30,15 +41,16 @@ struct ControlTreeOptions {
 
 /// A path with its controls.
 struct ControlPath {
-  PathResult found{};          ///< path: the states between controls
-  Eigen::MatrixXd controls{};  ///< one column for each piece of the path
-  double duration = 0;         ///< seconds of each piece
+  PathResult found{};                   ///< path: the states between controls
+  std::vector<HeldControl> controls{};  ///< one for each piece of the path
+  std::vector<HeldControl> edges{};     ///< that lead to each node of the tree from its parent; root: none
 };
 
 /// Grows a tree of states by applying controls: towards random targets (slide 4:58; LaValle and Kuffner,
-/// Randomized kinodynamic planning, 2001), or with random controls from random nodes (slide 4:52). Throws
-/// like growRrt, for a system without a motion, bounds of different sizes, and a motion or distance that is
-/// not finite, naming the state.
+/// Randomized kinodynamic planning, 2001), or with random controls from random nodes (slide 4:52). If the
+/// system can steer, each new node also tries to reach the goal. Throws like growRrt, for a system without a
+/// motion, bounds of different sizes, a motion or distance that is not finite, and steering beyond the
+/// bounds or by a negative time, naming the state.
 [[nodiscard]] ControlPath growControlTree(const ControlSystem& system, const PathProblem& problem,
                                           const ControlTreeOptions& options, Rng& rng);
 

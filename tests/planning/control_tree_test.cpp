@@ -38,14 +38,17 @@ PathProblem lot() {
 void expectDriven(const ControlSystem& system, const PathProblem& problem, const ControlTreeOptions& options,
                   const ControlPath& path) {
   ASSERT_EQ(path.found.status, PathStatus::kFound) << path.found.message;
-  ASSERT_EQ(path.controls.cols() + 1, path.found.path.cols());
+  ASSERT_EQ(path.controls.size() + 1, static_cast<std::size_t>(path.found.path.cols()));
   EXPECT_EQ(path.found.path.col(0), problem.start);
-  for (Eigen::Index k = 0; k < path.controls.cols(); ++k) {
-    const Eigen::VectorXd u = path.controls.col(k), x = path.found.path.col(k);
+  Eigen::Index at = 0;
+  for (const auto& [u, seconds] : path.controls) {
+    const Eigen::VectorXd x = path.found.path.col(at++);
     EXPECT_TRUE((u.array() >= system.lower.array()).all() && (u.array() <= system.upper.array()).all());
-    EXPECT_LT((system.motion(x, u, path.duration) - path.found.path.col(k + 1)).norm(), 1e-12);
-    for (int i = 1; i <= options.checks; ++i)
-      EXPECT_TRUE(problem.allValid(system.motion(x, u, path.duration * i / options.checks)));
+    EXPECT_TRUE(seconds >= options.shortest && seconds <= options.longest);
+    EXPECT_LT((system.motion(x, u, seconds) - path.found.path.col(at)).norm(), 1e-12);
+    const int checks = static_cast<int>(std::ceil(seconds / options.checkEvery));
+    for (int i = 1; i <= checks; ++i)
+      EXPECT_TRUE(problem.allValid(system.motion(x, u, seconds * i / checks)));
   }
   EXPECT_LE(system.space.distance(path.found.path.rightCols<1>(), problem.goal), options.tolerance);
 }
@@ -86,11 +89,44 @@ TEST(ControlTree, ExploresLessByRandomControls) {
         system, problem,
         {.towardsTargets = towardsTargets, .goalBias = 0, .tolerance = 0, .maxSamples = 1000}, rng);
     EXPECT_EQ(path.found.status, PathStatus::kBudgetSpent);
-    EXPECT_EQ(path.controls.cols(), 0);
+    EXPECT_TRUE(path.controls.empty());
     const Eigen::MatrixXd& nodes = path.found.trees[0].nodes;
     return (nodes.topRows<2>().colwise() - problem.start.head<2>()).colwise().norm().mean();
   };
   EXPECT_GT(reach(true), 1.3 * reach(false));
+}
+
+// Steps towards targets end when their time is over, after any number of controls.
+TEST(ControlTree, CutsSteeringShort) {
+  ControlSystem system = carSystem();
+  system.steer = [](const VectorArg& from, const VectorArg&) -> std::vector<HeldControl> {
+    if (from[0] > 3) return {};  // it knows no way from there
+    return {{Eigen::Vector2d(1, 0), .2}, {Eigen::Vector2d(1, .5), 0}, {Eigen::Vector2d(1, -.5), .7}};
+  };
+  PathProblem problem = lot();
+  problem.allValid = eachColumn([](const VectorArg&) { return true; });
+  const ControlTreeOptions options{.shortest = .3, .longest = .4, .tolerance = 0, .maxSamples = 300};
+  Rng rng(1);
+  const ControlPath path = growControlTree(system, problem, options, rng);
+  const PathTree& tree = path.found.trees[0];
+  ASSERT_EQ(path.edges.size(), tree.parents.size());
+  int steps = 0, whole = 0;
+  for (std::size_t k = 1; k < path.edges.size(); ++k) {
+    const auto& [u, seconds] = path.edges[k];
+    const Eigen::VectorXd from = tree.nodes.col(tree.parents[k]);
+    EXPECT_LT((system.motion(from, u, seconds) - tree.nodes.col(static_cast<Eigen::Index>(k))).norm(), 1e-12);
+    if (u[1] == 0) {
+      EXPECT_EQ(seconds, .2);
+      EXPECT_LE(from[0], 3);
+    } else {
+      EXPECT_EQ(tree.parents[k], static_cast<int>(k) - 1);
+      const bool isWhole = seconds == .7;
+      EXPECT_TRUE(isWhole || (seconds > .1 - 1e-12 && seconds < .2)) << seconds;
+      ++(isWhole ? whole : steps);
+    }
+  }
+  EXPECT_GT(steps, 10);
+  EXPECT_GT(whole, 10) << "towards the goal";
 }
 
 TEST(ControlTree, SaysWhatIsWrong) {
@@ -100,10 +136,12 @@ TEST(ControlTree, SaysWhatIsWrong) {
   const auto grow = [&](const ControlSystem& one, const ControlTreeOptions& options) {
     static_cast<void>(growControlTree(one, problem, options, rng));
   };
-  EXPECT_REX_ERROR(grow(system, {.duration = 0}),
-                   "duration of controls: found 0 s, wanted a positive, finite number of seconds");
-  EXPECT_REX_ERROR(grow(system, {.duration = INFINITY}), "duration of controls: found inf s");
-  EXPECT_REX_ERROR(grow(system, {.checks = 0}), "checks of a motion: found 0, wanted at least 1");
+  EXPECT_REX_ERROR(grow(system, {.shortest = 0}),
+                   "shortest duration of controls: found 0 s, wanted a positive, finite number of seconds");
+  EXPECT_REX_ERROR(grow(system, {.longest = INFINITY}), "longest duration of controls: found inf s");
+  EXPECT_REX_ERROR(grow(system, {.shortest = 2, .longest = 1}),
+                   "shortest duration of controls: found 2 s, wanted at most the longest, 1 s");
+  EXPECT_REX_ERROR(grow(system, {.checkEvery = 0}), "time between checks of a motion: found 0 s");
   EXPECT_REX_ERROR(grow(system, {.trials = 0}), "trials of controls: found 0, wanted at least 1");
   EXPECT_REX_ERROR(grow(system, {.maxSamples = 0}), "number of samples: found 0, wanted at least 1");
   EXPECT_REX_ERROR(grow(system, {.goalBias = -1}),
@@ -124,6 +162,22 @@ TEST(ControlTree, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(
       grow(broken, {}),
       "distance from (0.5, 0.5, 0) to (3.5, 0.5, -1.5): found not a number, wanted a number, 0 or more");
+  broken = system;
+  broken.steer = [](const VectorArg&, const VectorArg&) {
+    return std::vector<HeldControl>{{Eigen::Vector2d(.5, 0), 1}, {Eigen::Vector2d(0, 2), 1}};
+  };
+  EXPECT_REX_ERROR(
+      grow(broken, {}),
+      "steering from (0.5, 0.5, 0) to (3.5, 0.5, -1.5): found (0, 2) for 1 s, wanted controls from "
+      "(-1, -0.6) to (1, 0.6), for 0 s or more");
+  broken.steer = [](const VectorArg&, const VectorArg&) {
+    return std::vector<HeldControl>{{Eigen::Vector2d(.5, 0), -1}};
+  };
+  EXPECT_REX_ERROR(grow(broken, {}), "found (0.5, 0) for -1 s");
+  broken.steer = [](const VectorArg&, const VectorArg&) {
+    return std::vector<HeldControl>{{Eigen::VectorXd::Zero(3), 1}};
+  };
+  EXPECT_REX_ERROR(grow(broken, {}), "control that steers: found a vector of size 3, wanted size 2");
   broken = system;
   broken.upper = Eigen::VectorXd::Ones(3);
   EXPECT_REX_ERROR(grow(broken, {}), "upper bounds of controls: found a vector of size 3, wanted size 2");
