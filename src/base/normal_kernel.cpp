@@ -62,7 +62,7 @@ void fillBlocks(std::uint64_t* words, double* numbers, long blocks) {
       const T u = T(2.0) - fromOneToTwo<T>(generator.next());  // in (0, 1]
       const T turn = fromOneToTwo<T>(generator.next()) - T(1.5);
       const T radius = squareRoot(T(-2.0) * logarithm(u));
-      const SinCos<T> direction = sinCos(turn * T(kTwoPi));
+      const SinCos<T> direction = sinCosBelowLimit(turn * T(kTwoPi));
       store(radius * direction.cosine, out);
       store(radius * direction.sine, out + kStreams);
     }

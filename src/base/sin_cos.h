@@ -36,13 +36,16 @@ inline SinCos<T> withLargeAngles(const T& angle, double limit, const SinCos<T>& 
   return {load<T>(sines), load<T>(cosines)};
 }
 
-/// Sine and cosine of an angle in radians, with an error of 3e-16.
+/// The largest angle for sinCosBelowLimit().
+inline constexpr double kAngleLimit = 1e5;
+
+/// As sinCos(), of angles below kAngleLimit in all lanes.
 template <class T>
-inline SinCos<T> sinCos(const T& angle) {
+inline SinCos<T> sinCosBelowLimit(const T& angle) {
   // pi/2 in three parts (Cody and Waite 1980); the first two have 33 bits, so their products with n are
   // exact.
   constexpr double kPart1 = 0x1.921fb544p+0, kPart2 = 0x1.0b4611a6p-34, kPart3 = 0x1.3198a2e037073p-69;
-  constexpr double kQuartersPerRadian = 0x1.45f306dc9c883p-1, kLargest = 1e5;
+  constexpr double kQuartersPerRadian = 0x1.45f306dc9c883p-1;
   // Adding it to a number rounds that to an integer, which is then in the last bits.
   constexpr double kRounding = 0x1.8p52;
 
@@ -57,10 +60,20 @@ inline SinCos<T> sinCos(const T& angle) {
   // that of the cosine.
   const auto quarter = bitsOf(rounded);
   const auto swap = (sine ^ cosine) & -(quarter & 1);
-  const SinCos<T> result{fromBits<T>(sine ^ swap ^ ((quarter & 2) << 62)),
-                         fromBits<T>(cosine ^ swap ^ (((quarter + 1) & 2) << 62))};
-  if (all(absolute(angle) < T(kLargest))) return result;
-  return withLargeAngles(angle, kLargest, result);
+  return {fromBits<T>(sine ^ swap ^ ((quarter & 2) << 62)),
+          fromBits<T>(cosine ^ swap ^ (((quarter + 1) & 2) << 62))};
+}
+
+template <class T>
+inline bool isBelowLimit(const T& angle) {
+  return all(absolute(angle) < T(kAngleLimit));
+}
+
+/// Sine and cosine of an angle in radians, with an error of 3e-16.
+template <class T>
+inline SinCos<T> sinCos(const T& angle) {
+  const SinCos<T> result = sinCosBelowLimit(angle);
+  return isBelowLimit(angle) ? result : withLargeAngles(angle, kAngleLimit, result);
 }
 
 }  // namespace

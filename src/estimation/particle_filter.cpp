@@ -34,8 +34,13 @@ void requireOptions(const ParticleFilterOptions& options, Eigen::Index stateSize
   requireNotNegative("sizes of cells", options.cellSize);
 }
 
+double largestFrom(double least, const double* numbers, Eigen::Index count) {
+  return kernelFor<internal::WeightsKernel>(cpuLanes()).largest(numbers, count, least);
+}
+
 void requireNumbers(const Eigen::MatrixXd& states, Eigen::Index first = 0) {
-  if ((0 * states.array()).sum() == 0) return;  // vectorised, as allFinite() is not
+  constexpr double kLeast = std::numeric_limits<double>::lowest();
+  if (!std::isnan(largestFrom(kLeast, states.data(), states.size()))) return;
   for (Eigen::Index i = 0; i < states.cols(); ++i)
     if (!states.col(i).allFinite())
       throw Error(
@@ -44,10 +49,11 @@ void requireNumbers(const Eigen::MatrixXd& states, Eigen::Index first = 0) {
 
 // The largest log weight.
 double requireLogWeights(const Eigen::VectorXd& logWeights) {
-  const double largest = logWeights.maxCoeff<Eigen::PropagateNaN>();
-  if (largest < std::numeric_limits<double>::infinity()) return largest;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const double largest = largestFrom(-kInfinity, logWeights.data(), logWeights.size());
+  if (!std::isnan(largest)) return largest;
   for (Eigen::Index i = 0; i < logWeights.size(); ++i) {
-    if (logWeights[i] < std::numeric_limits<double>::infinity()) continue;
+    if (logWeights[i] < kInfinity) continue;
     throw Error({.what = fmt::format("log weight of particle {}", i),
                  .found = fmt::format("{:g}", std::abs(logWeights[i])),
                  .wanted = "a number, or minus infinity"});
@@ -172,12 +178,10 @@ ParticleStep ParticleFilter::step(const Propose& propose, const Weigh& weigh, Rn
   std::swap(particles_.states, next_);
   Eigen::VectorXd& weights = particles_.weights;
   weights.resize(logWeights_.size());
-  kernelFor<internal::WeightsKernel>(cpuLanes())
-      .exponentials(logWeights_.data(), largest, weights.size(), weights.data());
-  const double sum = weights.sum();
+  const auto kernel = kernelFor<internal::WeightsKernel>(cpuLanes());
+  const double sum = kernel.exponentials(logWeights_.data(), largest, weights.size(), weights.data());
   report.logEvidence = report.lost ? -std::numeric_limits<double>::infinity() : largest + std::log(sum);
-  weights /= sum;
-  report.effectiveSize = 1 / weights.squaredNorm();
+  report.effectiveSize = 1 / kernel.divide(weights.data(), sum, weights.size(), weights.data()).squared;
   return report;
 }
 

@@ -4,19 +4,29 @@
 #include <cmath>
 #include <limits>
 
+#include "base/cpu_lanes.h"
 #include "base/error.h"
 #include "base/require.h"
 #include "base/rng.h"
+#include "estimation/weights_kernel_internal.h"
 
 namespace rex {
 namespace {
 
 // The weights divided by the largest, so that no sum of them overflows or vanishes.
-Eigen::VectorXd scaledWeights(const VectorArg& weights) {
-  requireNotNegative("weights of particles", weights);
-  const double largest = weights.size() == 0 ? 0 : weights.maxCoeff();
+struct ScaledWeights {
+  Eigen::VectorXd weights;
+  internal::WeightsKernel::Sums sums;
+};
+
+ScaledWeights scaledWeights(const VectorArg& weights) {
+  const auto kernel = kernelFor<internal::WeightsKernel>(cpuLanes());
+  const double largest = kernel.largest(weights.data(), weights.size(), 0);
+  if (std::isnan(largest)) requireNotNegative("weights of particles", weights);  // throws
   if (!(largest > 0)) throw Error({.what = "weights", .found = "only zeros", .wanted = "a positive one"});
-  return weights / largest;
+  ScaledWeights scaled{Eigen::VectorXd(weights.size()), {}};
+  scaled.sums = kernel.divide(weights.data(), largest, weights.size(), scaled.weights.data());
+  return scaled;
 }
 
 // Calls take(i) for each of `count` ascending places place(k) in [0, total), with the weight it falls into.
@@ -98,16 +108,18 @@ void drawResidual(const Eigen::VectorXd& weights, int size, int count, double to
 }  // namespace
 
 void resample(const VectorArg& weights, int count, Resampling how, Rng& rng, std::vector<int>& parents) {
-  const Eigen::VectorXd scaled = scaledWeights(weights);
-  const double total = scaled.sum();
+  const auto [scaled, sums] = scaledWeights(weights);
+  const double total = sums.plain;
   requireCount("particles to draw", count, 0);
-  parents.clear();
-  parents.reserve(static_cast<std::size_t>(count));
   // Up to the last weight that is not zero: rounding must not lead beyond.
   int size = static_cast<int>(scaled.size());
   while (scaled[size - 1] == 0) --size;
   const double slice = total / count;
-  const auto weightOf = [&](int i) { return scaled[i]; };
+  if (how == Resampling::kSystematic)  // leaves its children where they are: clearing would take a pass
+    return drawSystematic(scaled, size, count, slice, rng.uniform(), parents);
+  parents.clear();
+  parents.reserve(static_cast<std::size_t>(count));
+  const auto weightOf = [&scaled = scaled](int i) { return scaled[i]; };
   const auto take = [&](int i) { parents.push_back(i); };
   switch (how) {
     case Resampling::kMultinomial:
@@ -118,7 +130,7 @@ void resample(const VectorArg& weights, int count, Resampling how, Rng& rng, std
       return drawAscending(
           size, count, weightOf, [&](int k) { return slice * (k + rng.uniform()); }, take);
     case Resampling::kSystematic:
-      return drawSystematic(scaled, size, count, slice, rng.uniform(), parents);
+      break;
   }
 }
 
@@ -129,8 +141,8 @@ std::vector<int> resampled(const VectorArg& weights, int count, Resampling how, 
 }
 
 double effectiveSampleSize(const VectorArg& weights) {
-  const Eigen::VectorXd scaled = scaledWeights(weights);
-  return scaled.sum() * scaled.sum() / scaled.squaredNorm();
+  const auto sums = scaledWeights(weights).sums;
+  return sums.plain * sums.plain / sums.squared;
 }
 
 int adaptiveSampleSize(int cells, double error, double quantile) {

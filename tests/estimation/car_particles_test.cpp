@@ -187,7 +187,9 @@ TEST_P(ParticlesInLanes, HaveTheBitsOfOne) {
   if (GetParam() > cpuLanes()) GTEST_SKIP() << "this CPU has no AVX2";
   Rng rng(12);
   const int count = 1027;
-  const Eigen::MatrixXd X = someStates(count, rng);
+  Eigen::MatrixXd X = someStates(count, rng);
+  X(2, 17) = 3e5;  // lanes do not compute sines of such headings
+  X(2, 18) = std::numeric_limits<double>::quiet_NaN();
   const Eigen::VectorXd normals = rng.normalVector(3 * count);
   const std::vector<internal::Sighting> sightings{{{3, 4}, {1, 2}, {2, 0.1, 1}},
                                                   {{-3, 1}, {0, 2}, {1, 0, 3}}};
@@ -197,11 +199,52 @@ TEST_P(ParticlesInLanes, HaveTheBitsOfOne) {
     Eigen::VectorXd logWeights = Eigen::VectorXd::Zero(count), weights(count);
     kernel.move({0.4, 0.1, {0.1, 0.2, 0.3}}, normals.data(), next.data(), 3, count);
     kernel.weigh(sightings.data(), 2, next.data(), 3, count, logWeights.data());
-    kernelFor<internal::WeightsKernel>(lanes).exponentials(logWeights.data(), logWeights.maxCoeff(), count,
-                                                           weights.data());
-    return std::tuple(next, logWeights, weights);
+    EXPECT_TRUE(std::isnan(logWeights[18]));
+    next.col(18).setZero();
+    logWeights[18] = 0;
+    const auto weighing = kernelFor<internal::WeightsKernel>(lanes);
+    const double largest = weighing.largest(logWeights.data(), count, -HUGE_VAL);
+    EXPECT_EQ(largest, logWeights.maxCoeff());
+    const double sum = weighing.exponentials(logWeights.data(), largest, count, weights.data());
+    EXPECT_NEAR(sum, weights.sum(), 1e-12 * sum);
+    return std::tuple(next, logWeights, weights, sum);
   };
   EXPECT_EQ(computed(1), computed(GetParam()));
+}
+
+TEST_P(ParticlesInLanes, AddUpAndDivideToTheBit) {
+  if (GetParam() > cpuLanes()) GTEST_SKIP() << "this CPU has no AVX2";
+  const auto one = kernelFor<internal::WeightsKernel>(1),
+             many = kernelFor<internal::WeightsKernel>(GetParam());
+  Rng rng(13);
+  for (const int count : {1, 2, 3, 4, 5, 6, 7, 8, 11, 1000}) {
+    const Eigen::VectorXd weights = rng.uniformVector(count, 0, 1);
+    Eigen::VectorXd quotients(count), again(count);
+    const auto sums = one.divide(weights.data(), 0.3, count, quotients.data());
+    EXPECT_EQ(quotients, weights / 0.3);
+    EXPECT_NEAR(sums.plain, quotients.sum(), 1e-13 * count);
+    EXPECT_NEAR(sums.squared, quotients.squaredNorm(), 1e-13 * count);
+    const auto sumsAgain = many.divide(weights.data(), 0.3, count, again.data());
+    EXPECT_EQ(std::tuple(sums.plain, sums.squared), std::tuple(sumsAgain.plain, sumsAgain.squared));
+    EXPECT_EQ(quotients, again);
+  }
+}
+
+// A number that is not in range is seen wherever it is, and the least is in range.
+TEST_P(ParticlesInLanes, SeeWhatIsOutOfRange) {
+  if (GetParam() > cpuLanes()) GTEST_SKIP() << "this CPU has no AVX2";
+  const auto kernel = kernelFor<internal::WeightsKernel>(GetParam());
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (int i = 0; i < 7; ++i) {
+    Eigen::VectorXd numbers = Eigen::VectorXd::LinSpaced(7, 0, 6);
+    EXPECT_EQ(kernel.largest(numbers.data(), 7, 0), 6);
+    for (const double wrong : {nan, HUGE_VAL, -1e-300}) {
+      numbers[i] = wrong;
+      EXPECT_TRUE(std::isnan(kernel.largest(numbers.data(), 7, 0))) << i << ' ' << wrong;
+    }
+    numbers[i] = -HUGE_VAL;
+    EXPECT_EQ(kernel.largest(numbers.data(), 7, -HUGE_VAL), i == 6 ? 5 : 6);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(TwoAndFour, ParticlesInLanes, testing::Values(2, 4));
