@@ -1,12 +1,18 @@
 #include "kinematics/inverse_kinematics_solver.h"
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "base/require.h"
+#include "kinematics/closed_form_arm.h"
 #include "kinematics/damped_step_internal.h"
 #include "kinematics/joint_limits_internal.h"
+#include "kinematics/task_maps.h"
 #include "scene/coordinates.h"
 #include "scene/state.h"
 
@@ -220,10 +226,20 @@ Result resultOf(std::span<const Task> tasks, const Descent& descent, Descent::En
   return result;
 }
 
-}  // namespace
+Result refusedResult(Result refused, const Descent& descent, int restarts) {
+  refused.status = Result::Status::kRefused;
+  refused.iterations = descent.iterations();
+  refused.restarts = restarts;
+  refused.message =
+      fmt::format("no posture that reaches the target is allowed: found after {} iterations and {} restarts",
+                  refused.iterations, refused.restarts);
+  return refused;
+}
 
-Result solveInverseKinematics(const Model& model, std::span<const Task> tasks, const VectorArg& start,
-                              const Options& options, Rng& rng) {
+using IsAllowed = std::function<bool(const Eigen::VectorXd& q)>;
+
+Result search(const Model& model, std::span<const Task> tasks, const VectorArg& start, const Options& options,
+              Rng& rng, const IsAllowed& isAllowed, std::optional<Result> refused = {}) {
   requireProblem(model, tasks, start, options);
   Descent descent(model, tasks, options);
   PostureSampler sampler(model, start);
@@ -232,13 +248,85 @@ Result solveInverseKinematics(const Model& model, std::span<const Task> tasks, c
   for (int restarts = 0; restarts <= options.maxRestarts; ++restarts) {
     if (restarts > 0) q = sampler.draw(rng);
     const Descent::End end = descent.run(q, false);
-    if (descent.here().fulfilled) return resultOf(tasks, descent, end, restarts);
+    if (descent.here().fulfilled) {
+      if (!isAllowed || isAllowed(descent.here().q)) return resultOf(tasks, descent, end, restarts);
+      if (!refused) refused = resultOf(tasks, descent, end, restarts);
+    }
     if (descent.here().cost >= leastCost) continue;
     leastCost = descent.here().cost;
     nearest = descent.here().q;
   }
+  if (refused) return refusedResult(*refused, descent, options.maxRestarts);
   const Descent::End end = descent.run(nearest, true);
   return resultOf(tasks, descent, end, options.maxRestarts);
+}
+
+// Moves angles of a closed form by full turns towards `start`. It has done so itself between two limits.
+void turnTowards(const Model& model, const ClosedFormArm& arm, const Eigen::VectorXd& start,
+                 Eigen::VectorXd& q) {
+  constexpr double kTurn = 2 * std::numbers::pi;
+  for (const JointId joint : arm.joints()) {
+    const int iq = model[joint].qIndex;
+    const double lower = model.lowerLimits()[iq], upper = model.upperLimits()[iq];
+    if (std::isfinite(lower) && std::isfinite(upper)) continue;
+    const double turns = std::nearbyint((start[iq] - q[iq]) / kTurn);
+    q[iq] +=
+        kTurn * std::clamp(turns, std::ceil((lower - q[iq]) / kTurn), std::floor((upper - q[iq]) / kTurn));
+  }
+}
+
+// The allowed posture in closed form that is nearest to `start`, or else, kRefused, the nearest of all.
+std::optional<Result> solveInClosedForm(const Model& model, const PoseTarget& target, const Task& task,
+                                        const Eigen::VectorXd& start) {
+  const std::optional<ClosedFormArm> arm = ClosedFormArm::of(model, target.body);
+  if (!arm) return std::nullopt;
+  std::vector<Eigen::VectorXd> postures;
+  for (ClosedFormPosture& one : arm->postures(target.X_WB, start)) {
+    turnTowards(model, *arm, start, one.q);
+    postures.push_back(std::move(one.q));
+  }
+  std::sort(postures.begin(), postures.end(), [&](const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+    return (a - start).squaredNorm() < (b - start).squaredNorm();
+  });
+  std::optional<Result> refused;
+  for (const Eigen::VectorXd& q : postures) {
+    std::vector<TaskValue> values;
+    TaskValue phi;
+    stackTasks({&task, 1}, {model, q, forwardKinematics(model, q)}, values, phi);
+    const double error = taskError(task, values.front());
+    if (error > target.tolerance) continue;
+    const bool isAllowed = !target.isAllowed || target.isAllowed(q);
+    if (!isAllowed && refused) continue;
+    Result result{.status = isAllowed ? Result::Status::kSolved : Result::Status::kRefused,
+                  .q = q,
+                  .residuals = {error},
+                  .cost = phi.y.squaredNorm(),
+                  .message = "solved in closed form"};
+    if (isAllowed) return result;
+    refused = std::move(result);
+  }
+  return refused;
+}
+
+}  // namespace
+
+Result solveInverseKinematics(const Model& model, std::span<const Task> tasks, const VectorArg& start,
+                              const Options& options, Rng& rng) {
+  return search(model, tasks, start, options, rng, {});
+}
+
+Result solveInverseKinematics(const Model& model, const PoseTarget& target, const VectorArg& start,
+                              const Options& options, Rng& rng) {
+  requirePositive("inverse kinematics: tolerance", target.tolerance);
+  const Task task{.name = model[target.body].name,
+                  .map = poseTask(target.body, target.X_WB),
+                  .tolerance = target.tolerance};
+  requireProblem(model, {&task, 1}, start, options);
+  Eigen::VectorXd clamped = start;
+  internal::clampToLimits(internal::jointLimits(model), clamped);
+  std::optional<Result> closed = solveInClosedForm(model, target, task, clamped);
+  if (closed && closed->status == Result::Status::kSolved) return *closed;
+  return search(model, {&task, 1}, start, options, rng, target.isAllowed, std::move(closed));
 }
 
 }  // namespace rex

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "base/rng.h"
 #include "kinematics/task.h"
 
@@ -15,6 +17,7 @@ struct InverseKinematicsResult {
   enum class Status {
     kSolved,         ///< all tasks with a tolerance are within it, and those without are minimised
     kUnreached,      ///< no start succeeded; q is the nearest posture found, which no small step improves
+    kRefused,        ///< of a PoseTarget: only postures that are not allowed reach it; q is one of them
     kIterationLimit  ///< as kUnreached, but q might still improve
   };
   Status status = Status::kIterationLimit;
@@ -33,6 +36,26 @@ struct InverseKinematicsResult {
 /// without limits, within half a turn or a metre of `start`. Throws Error if there are no tasks, for wrong
 /// sizes, options that are not positive, and as stackTasks.
 [[nodiscard]] InverseKinematicsResult solveInverseKinematics(const Model& model, std::span<const Task> tasks,
+                                                             const VectorArg& start,
+                                                             const InverseKinematicsOptions& options,
+                                                             Rng& rng);
+
+/// A pose for a body, and the postures that may lead there.
+struct PoseTarget {
+  BodyId body{};
+  Pose X_WB{};
+  double tolerance = 1e-6;  ///< of each of the six numbers of poseTask, metres and radians
+  /// Whether a posture within the limits is allowed: for example that it is free of contacts
+  /// (collision/contacts.h). Empty: all are.
+  std::function<bool(const Eigen::VectorXd& q)> isAllowed{};
+};
+
+/// A posture that is allowed, within the joint limits, and brings the body to the pose. For an arm that has a
+/// closed form (ClosedFormArm), it is the one nearest to `start` in |q - start|, full turns included; only on
+/// a line of singular postures, one represents the others. Otherwise, and if the closed form has none, the
+/// solver above searches, and restarts also after postures that are not allowed. Throws Error as that does,
+/// as ClosedFormArm::postures(), and for a tolerance that is not positive.
+[[nodiscard]] InverseKinematicsResult solveInverseKinematics(const Model& model, const PoseTarget& target,
                                                              const VectorArg& start,
                                                              const InverseKinematicsOptions& options,
                                                              Rng& rng);

@@ -2,6 +2,7 @@
 #include "kinematics/closed_form_arm.h"
 
 #include <cmath>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -229,6 +230,126 @@ TEST(ClosedFormArm, KeepsLimitsAndListsTurns) {
     EXPECT_TRUE((one.q.array() <= arm.model.upperLimits().array()).all());
     EXPECT_LT((arm.at(one.q).p - X_WT.p).norm(), 1e-9);
   }
+}
+
+using Status = InverseKinematicsResult::Status;
+
+// The second opinions: all turns of all postures, of which none is nearer, and the numeric solver.
+TEST(PoseTarget, TakesTheNearestPostureInClosedForm) {
+  Rng rng(5);
+  const Eigen::VectorXd lower = Eigen::VectorXd::Constant(6, -5), upper = -lower;
+  for (std::vector<Hinge> hinges : {industrial(), parallelArm(), reversed(parallelArm()), randomWrist(rng)}) {
+    for (Hinge& hinge : hinges) std::tie(hinge.lower, hinge.upper) = std::pair(-5, 5);
+    const Arm arm(hinges);
+    for (int k = 0; k < 20; ++k) {
+      const Pose X_WT = arm.at(randomPosture(rng));
+      const Eigen::VectorXd start = rng.uniformVector(6, -5, 5);
+      const auto found = solveInverseKinematics(arm.model, {.body = arm.tip, .X_WB = X_WT}, start, {}, rng);
+      ASSERT_EQ(found.status, Status::kSolved);
+      EXPECT_EQ(found.message, "solved in closed form");
+      const Pose X = arm.at(found.q);
+      EXPECT_LT((X.R - X_WT.R).norm() + (X.p - X_WT.p).norm(), 1e-9);
+      EXPECT_LT(found.residuals.at(0), 1e-9);
+      EXPECT_TRUE((found.q.array() >= lower.array()).all() && (found.q.array() <= upper.array()).all());
+      const double way = (found.q - start).norm();
+      for (const auto& one : arm.closed.postures(X_WT, start, {.listsTurns = true}))
+        EXPECT_LE(way, (one.q - start).norm() + 1e-9);
+      const Task task{.name = "tip", .map = poseTask(arm.tip, X_WT), .tolerance = 1e-9};
+      const auto numeric = solveInverseKinematics(arm.model, std::span(&task, 1), start, {}, rng);
+      if (numeric.status == Status::kSolved) {
+        EXPECT_LE(way, (numeric.q - start).norm() + 1e-6);
+      }
+    }
+  }
+}
+
+TEST(PoseTarget, TakesThatOfTheAllowedPosturesWhichIsNearest) {
+  const Arm arm(industrial());
+  Rng rng(6);
+  int chosenAnew = 0, refused = 0;
+  for (int k = 0; k < 40; ++k) {
+    const Pose X_WT = arm.at(randomPosture(rng));
+    const Eigen::VectorXd start = randomPosture(rng);
+    const auto isAllowed = [](const Eigen::VectorXd& q) { return q[1] > 0 && q[4] > 0; };
+    const auto any = solveInverseKinematics(arm.model, {.body = arm.tip, .X_WB = X_WT}, start, {}, rng);
+    const auto found = solveInverseKinematics(
+        arm.model, {.body = arm.tip, .X_WB = X_WT, .isAllowed = isAllowed}, start, {.maxRestarts = 5}, rng);
+    double least = HUGE_VAL;
+    for (const ClosedFormPosture& one : arm.closed.postures(X_WT, start))
+      if (isAllowed(one.q)) least = std::min(least, (one.q - start).norm());
+    const Pose X = arm.at(found.q);
+    EXPECT_LT((X.R - X_WT.R).norm() + (X.p - X_WT.p).norm(), 1e-5) << "even a refused posture leads there";
+    if (std::isinf(least)) {
+      EXPECT_EQ(found.status, Status::kRefused);
+      EXPECT_FALSE(isAllowed(found.q));
+      EXPECT_EQ(found.message.find("no posture that reaches the target is allowed: found after "), 0u);
+      ++refused;
+    } else {
+      EXPECT_EQ(found.status, Status::kSolved);
+      EXPECT_TRUE(isAllowed(found.q));
+      EXPECT_NEAR((found.q - start).norm(), least, 1e-9);
+      chosenAnew += found.q == any.q ? 0 : 1;
+    }
+  }
+  EXPECT_GT(chosenAnew, 0);
+  EXPECT_GT(refused, 0);
+}
+
+// Joints without limits turn the shorter way; those that do not move the tip stay.
+TEST(PoseTarget, TurnsEndlessJointsTheShorterWay) {
+  const Model model = chainOf(industrial(), {.1, .05, .2}, "continuous");
+  const BodyId tip = model.body("tip");
+  Eigen::VectorXd q(6), start(6);
+  q << .3, .4, -.5, .6, .8, 11.5;
+  start << .31, .39, -.52, .61, .79, 11.7;
+  const Pose X_WT = forwardKinematics(model, q)[tip];
+  Rng rng(7);
+  const auto found = solveInverseKinematics(model, {.body = tip, .X_WB = X_WT}, start, {}, rng);
+  EXPECT_LT((found.q - q).norm(), 1e-9);
+}
+
+TEST(PoseTarget, IsSearchedWhereThereIsNoClosedForm) {
+  std::vector<Hinge> seven = industrial();
+  seven.push_back({{.1, 0, 0}, kZ});
+  const Model model = chainOf(seven, {.1, .05, .2});
+  const BodyId tip = model.body("tip");
+  Rng rng(8);
+  for (int k = 0; k < 10; ++k) {
+    const Pose X_WT = forwardKinematics(model, rng.uniformVector(7, -3, 3))[tip];
+    const auto isAllowed = [](const Eigen::VectorXd& q) { return q[0] > 0; };
+    const auto found = solveInverseKinematics(model, {.body = tip, .X_WB = X_WT, .isAllowed = isAllowed},
+                                              Eigen::VectorXd::Zero(7), {}, rng);
+    ASSERT_EQ(found.status, Status::kSolved) << found.message;
+    EXPECT_GT(found.q[0], 0);
+    const Pose X = forwardKinematics(model, found.q)[tip];
+    EXPECT_LT((X.R - X_WT.R).norm() + (X.p - X_WT.p).norm(), 1e-5);
+  }
+}
+
+// Nothing reaches: as near as the numeric solver comes.
+TEST(PoseTarget, SaysHowFarOffItIs) {
+  const Arm arm(industrial());
+  Rng rng(9);
+  const PoseTarget far{.body = arm.tip, .X_WB = {Eigen::Matrix3d::Identity(), {9, 0, 0}}};
+  const auto found = solveInverseKinematics(arm.model, far, Eigen::VectorXd::Zero(6), {}, rng);
+  EXPECT_NE(found.status, Status::kSolved);
+  EXPECT_EQ(found.message.find("task 'tip' misses its target by"), 0u) << found.message;
+  EXPECT_GT(found.residuals.at(0), 1);
+}
+
+TEST(PoseTarget, RefusesWhatIsNone) {
+  const Arm arm(industrial());
+  Rng rng(10);
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(6);
+  const auto solve = [&](const PoseTarget& target, const Eigen::VectorXd& start) {
+    static_cast<void>(solveInverseKinematics(arm.model, target, start, {}, rng));
+  };
+  EXPECT_REX_ERROR(solve({.body = arm.tip, .tolerance = 0}, zero),
+                   "inverse kinematics: tolerance: found 0, wanted a positive, finite number");
+  EXPECT_REX_ERROR(solve({.body = arm.tip}, Eigen::VectorXd::Zero(5)),
+                   "start posture: found a vector of size 5, wanted size 6");
+  EXPECT_REX_ERROR(solve({.body = arm.tip, .X_WB = {2 * Eigen::Matrix3d::Identity(), kX}}, zero),
+                   "orientation of the tip: found no rotation matrix");
 }
 
 std::string reason(const Model& model) {
