@@ -12,6 +12,7 @@
 #include "kinematics/forward_kinematics.h"
 #include "kinematics/inverse_kinematics.h"
 #include "kinematics/jacobians.h"
+#include "optim/bayesian_search.h"
 #include "render/figure_builders.h"
 #include "scene/ors_reader.h"
 #include "support/paths.h"
@@ -440,6 +441,61 @@ Figure handPath() {
   return figure;
 }
 
+// Seven values of a function, what a Gaussian process makes of them, and where a search evaluates it next.
+Figure bayesianSearch() {
+  const auto f = [](double x) {
+    return std::sin(3 * x) + 0.5 * std::cos(7 * x + 1) + 0.15 * (x - 2) * (x - 2);
+  };
+  Figure figure{.title = "Bayesian optimisation: where to measure next?",
+                .xLabel = "x [1]",
+                .yLabel = "f [1]",
+                .xRange = AxisRange{0, 4},
+                .yRange = AxisRange{-3.1, 2.8},
+                .legend = Legend::kOutside,
+                .series = {{.label = "mean"},
+                           {.label = "f, unknown", .dashed = true, .color = Color{0.4f, 0.4f, 0.4f}},
+                           {.label = "measured",
+                            .style = SeriesStyle::kPoints,
+                            .marker = Marker::kDot,
+                            .size = 2.2,
+                            .color = Color{}},
+                           {.label = "next",
+                            .style = SeriesStyle::kPoints,
+                            .marker = Marker::kTriangle,
+                            .size = 2.2,
+                            .color = Color{0.84f, 0.37f, 0}}},
+                .bands = {{.label = "two deviations"}},
+                .regions = {{.label = "expected improvement", .color = Color{0, 0.62f, 0.45f}}}};
+  BayesianSearch search(VectorXd::Zero(1), VectorXd::Constant(1, 4));
+  Rng rng(2);
+  for (int i = 0; i < 7; ++i) {
+    const VectorXd x = search.next(rng);
+    append(figure.series[2], Vector2d(x[0], f(x[0])));
+    search.add(x, f(x[0]));
+  }
+  const VectorXd next = search.next(rng);
+  const double most = std::exp(search.acquisition(next)), bottom = -3;
+  append(figure.series[3], Vector2d(next[0], search.process()->predict(next).mean));
+  figure.verticalLines = {{.at = next[0]}};
+  const auto above = [&](double x, double height) {
+    figure.regions[0].x.push_back(x);
+    figure.regions[0].y.push_back(bottom + height);
+  };
+  above(0, 0);
+  for (int i = 0; i <= 400; ++i) {
+    const VectorXd x = VectorXd::Constant(1, 0.01 * i);
+    const GaussianPrediction at = search.process()->predict(x);
+    append(figure.series[0], Vector2d(x[0], at.mean));
+    append(figure.series[1], Vector2d(x[0], f(x[0])));
+    figure.bands[0].x.push_back(x[0]);
+    figure.bands[0].low.push_back(at.mean - 2 * at.deviation);
+    figure.bands[0].high.push_back(at.mean + 2 * at.deviation);
+    above(x[0], std::exp(search.acquisition(x)) / most);
+  }
+  above(4, 0);
+  return figure;
+}
+
 }  // namespace
 
 std::vector<std::pair<std::string, Figure>> galleryFigures() {
@@ -455,7 +511,8 @@ std::vector<std::pair<std::string, Figure>> galleryFigures() {
           {"poles-continuous", polesAndZeros()},
           {"covariance-ellipses", localisation()},
           {"map", gridMap()},
-          {"path-3d", handPath()}};
+          {"path-3d", handPath()},
+          {"bayes", bayesianSearch()}};
 }
 
 }  // namespace rex

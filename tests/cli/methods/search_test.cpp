@@ -44,6 +44,29 @@ TEST_F(SearchCommand, ComparesAllMethodsOnAllFunctions) {
   EXPECT_EQ(rex({"search", "--seeds", "1", "--dim", "2", "--max-evaluations", "5000"}).output, result.output);
 }
 
+// With few evaluations a model pays: less is left than after as many of the other methods.
+TEST_F(SearchCommand, ShowsWhatIsBestAfterFewEvaluations) {
+  const std::vector<std::string> few = {
+      "search", "--function", "rosenbrock", "--dim", "2", "--max-evaluations", "40", "--seeds", "3"};
+  const ProcessResult result = rex([&] {
+    std::vector<std::string> words = few;
+    words.insert(words.end(), {"--best", "--json"});
+    return words;
+  }());
+  const json cells = json::parse(result.output)["cells"];
+  ASSERT_EQ(cells.size(), 8u);
+  EXPECT_EQ(cells[7]["method"], "bayes");
+  for (int i = 0; i < 7; ++i) {
+    if (cells[i]["median"].is_null()) continue;  // one generation of `distribution` has more samples
+    EXPECT_LT(cells[7]["median"].get<double>(), cells[i]["median"].get<double>()) << cells[i]["method"];
+  }
+  EXPECT_TRUE(cells[0]["median"].is_number());
+  std::vector<std::string> words = few;
+  words.insert(words.end(), {"--best", "--method", "simplex"});
+  EXPECT_THAT(flat(rex(words).output),
+              HasSubstr("The best value found in 2 dimensions with 40 evaluations, the median of 3 runs."));
+}
+
 TEST_F(SearchCommand, SaysWhatIsWrong) {
   const auto expect = [&](std::vector<std::string> words, const char* text) {
     words.insert(words.begin(), "search");
@@ -57,6 +80,7 @@ TEST_F(SearchCommand, SaysWhatIsWrong) {
   expect({"--dim", "1"}, "--dim: found 1, wanted 2 to 100");
   expect({"--seeds", "0"}, "--seeds: found 0, wanted 1 to 1000");
   expect({"--max-evaluations", "1"}, "--max-evaluations: found 1, wanted 10 to 1e+08");
+  expect({"--method", "bayes"}, "--max-evaluations of bayes: found 100000, wanted 10 to 300");
   EXPECT_EQ(rex({"search", "--method", "climbing", "--function", "rosenbrock", "--dim", "20", "--seeds", "1",
                  "--max-evaluations", "100"})
                 .exitCode,
