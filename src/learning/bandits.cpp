@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/require.h"
 #include "base/rng.h"
+#include "learning/dirichlet_internal.h"
 
 namespace rex {
 namespace {
@@ -30,18 +31,9 @@ void requireRecord(const ArmRecord& record, double epsilon) {
                    .wanted = "from 0 to 1 for each pull"});
 }
 
-// From the Gamma distribution of this shape >= 1 and scale 1, by rejection; Marsaglia and Tsang, 2000.
-double drawnGamma(double shape, Rng& rng) {
-  const double d = shape - 1. / 3, c = 1 / std::sqrt(9 * d);
-  for (;;) {
-    const double x = rng.normal(), v = std::pow(1 + c * x, 3);
-    if (v > 0 && std::log(rng.uniform()) < x * x / 2 + d - d * v + d * std::log(v)) return d * v;
-  }
-}
-
 double drawnBeta(double a, double b, Rng& rng) {
-  const double x = drawnGamma(a, rng);
-  return x / (x + drawnGamma(b, rng));
+  const double x = internal::drawnGamma(a, rng);
+  return x / (x + internal::drawnGamma(b, rng));
 }
 
 // One of the largest, each with the same probability.

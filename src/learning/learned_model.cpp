@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/require.h"
+#include "learning/dirichlet_internal.h"
 #include "learning/dynamic_programming.h"
 #include "learning/mdp_rollout.h"
 #include "learning/policy_values.h"
@@ -85,15 +86,79 @@ Mdp LearnedModel::optimistic(double discount, int known, double maxReward) const
   return mdp;
 }
 
-RMaxResult rMax(const Mdp& mdp, const RMaxOptions& options, Rng& rng) {
-  requireMdp(mdp);
-  requireCount("episodes", options.episodes, 1);
-  requireCount("steps of an episode", options.maxSteps, 1);
-  Eigen::MatrixXd start = Eigen::MatrixXd::Constant(1, mdp.states(), 1. / mdp.states());
-  if (options.start.size() > 0) {
-    requireStart(mdp, options.start);
-    start = options.start.transpose();
+Mdp LearnedModel::sampled(double discount, const ModelPrior& prior, Rng& rng) const {
+  requirePositive("visits of a prior", prior.visits);
+  requireFinite("mean reward of a prior", prior.rewardMean);
+  requirePositive("deviation of the mean reward of a prior", prior.rewardDeviation);
+  requirePositive("noise of rewards of a prior", prior.rewardNoise);
+  const Eigen::Index n = tried_.rows();
+  Mdp mdp{.rewards = Eigen::MatrixXd(n, tried_.cols()), .discount = discount, .terminal = terminal_};
+  const double believed = std::pow(prior.rewardDeviation, -2), precision = std::pow(prior.rewardNoise, -2);
+  for (Eigen::Index a = 0; a < tried_.cols(); ++a) {
+    Eigen::MatrixXd P = Eigen::MatrixXd::Zero(n, n);
+    for (Eigen::Index s = 0; s < n; ++s) {
+      const double certainty = believed + precision * tried_(s, a);
+      const double mean = (believed * prior.rewardMean + precision * paid_(s, a)) / certainty;
+      mdp.rewards(s, a) = mean + rng.normal() / std::sqrt(certainty);
+      if (terminal_[static_cast<std::size_t>(s)]) continue;
+      const Eigen::VectorXd weights =
+          counts_[static_cast<std::size_t>(a)].row(s).array() + prior.visits / static_cast<double>(n);
+      P.row(s) = internal::drawnDirichlet(weights, rng).transpose();
+    }
+    mdp.transitions.emplace_back(P.sparseView());
   }
+  requireMdp(mdp);
+  return mdp;
+}
+
+namespace {
+
+// One episode by a table Q that `learn` may change after each step; the discounted return.
+template <class Learn>
+double episodeBy(const Eigen::MatrixXd& Q, const Mdp& mdp, const Eigen::VectorXd& start, int maxSteps,
+                 LearnedModel& model, Rng& rng, const Learn& learn) {
+  double sum = 0, weight = 1;
+  int s = sampledAction(start.transpose(), 0, rng);
+  for (int t = 0; t < maxSteps; ++t) {
+    int a = 0;
+    Q.row(s).maxCoeff(&a);
+    const bool ends = mdp.isTerminal(s);
+    const int next = ends ? s : sampledNext(mdp, s, a, rng);
+    model.observe(s, a, mdp.rewards(s, a), ends ? std::nullopt : std::optional(next));
+    sum += weight * mdp.rewards(s, a);
+    weight *= mdp.discount;
+    learn(s, a);
+    if (ends) break;
+    s = next;
+  }
+  return sum;
+}
+
+// Throws Error unless episodes can run; where they start.
+Eigen::VectorXd startOfEpisodes(const Mdp& mdp, int episodes, int maxSteps, const Eigen::VectorXd& start) {
+  requireMdp(mdp);
+  requireCount("episodes", episodes, 1);
+  requireCount("steps of an episode", maxSteps, 1);
+  if (start.size() == 0) return Eigen::VectorXd::Constant(mdp.states(), 1. / mdp.states());
+  requireStart(mdp, start);
+  return start;
+}
+
+}  // namespace
+
+PosteriorSamplingResult posteriorSampling(const Mdp& mdp, const PosteriorSamplingOptions& options, Rng& rng) {
+  const Eigen::VectorXd start = startOfEpisodes(mdp, options.episodes, options.maxSteps, options.start);
+  PosteriorSamplingResult result{.model = LearnedModel(mdp.states(), mdp.actions())};
+  for (int e = 0; e < options.episodes; ++e) {
+    result.Q = valueIteration(result.model.sampled(mdp.discount, options.prior, rng), {.tolerance = 1e-6}).Q;
+    result.returns.push_back(
+        episodeBy(result.Q, mdp, start, options.maxSteps, result.model, rng, [](int, int) {}));
+  }
+  return result;
+}
+
+RMaxResult rMax(const Mdp& mdp, const RMaxOptions& options, Rng& rng) {
+  const Eigen::VectorXd start = startOfEpisodes(mdp, options.episodes, options.maxSteps, options.start);
   RMaxResult result{.model = LearnedModel(mdp.states(), mdp.actions())};
   const auto plan = [&] {
     result.Q = valueIteration(result.model.optimistic(mdp.discount, options.known, options.maxReward),
@@ -101,23 +166,11 @@ RMaxResult rMax(const Mdp& mdp, const RMaxOptions& options, Rng& rng) {
                    .Q;
   };
   plan();
-  for (int e = 0; e < options.episodes; ++e) {
-    double weight = 1;
-    result.returns.push_back(0);
-    int s = sampledAction(start, 0, rng);
-    for (int t = 0; t < options.maxSteps; ++t) {
-      int a = 0;
-      result.Q.row(s).maxCoeff(&a);
-      const bool ends = mdp.isTerminal(s);
-      const int next = ends ? s : sampledNext(mdp, s, a, rng);
-      result.model.observe(s, a, mdp.rewards(s, a), ends ? std::nullopt : std::optional(next));
-      result.returns.back() += weight * mdp.rewards(s, a);
-      weight *= mdp.discount;
-      if (result.model.visits(s, a) == options.known) plan();
-      if (ends) break;
-      s = next;
-    }
-  }
+  const auto learn = [&](int s, int a) {
+    if (result.model.visits(s, a) == options.known) plan();
+  };
+  for (int e = 0; e < options.episodes; ++e)
+    result.returns.push_back(episodeBy(result.Q, mdp, start, options.maxSteps, result.model, rng, learn));
   for (int s = 0; s < mdp.states(); ++s)
     for (int a = 0; a < mdp.actions(); ++a)
       result.unknown += result.model.visits(s, a) < options.known ? 1 : 0;

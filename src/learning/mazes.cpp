@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/require.h"
 
 namespace rex {
 namespace {
@@ -165,6 +166,24 @@ Mdp tMaze() {
   maze.rewards.bottomRows(4).colwise() = Eigen::Vector4d(4, 0, 2, 3);
   maze.terminal = {false, false, false, true, true, true, true};
   return maze;
+}
+
+Mdp riverSwim(int states) {
+  requireCount("states of a river", states, 3);
+  const int last = states - 1;
+  Eigen::MatrixXd left = Eigen::MatrixXd::Zero(states, states), right = left;
+  for (int s = 0; s < states; ++s) {
+    left(s, std::max(s - 1, 0)) = 1;
+    const double up = s == 0 ? .6 : s < last ? .35 : 0, down = s == 0 ? 0 : s < last ? .05 : .4;
+    right(s, s) = 1 - up - down;
+    if (s < last) right(s, s + 1) = up;
+    if (s > 0) right(s, s - 1) = down;
+  }
+  Mdp river{.rewards = Eigen::MatrixXd::Zero(states, 2), .discount = .95};
+  river.transitions = {left.sparseView(), right.sparseView()};
+  river.rewards(0, 0) = .005;
+  river.rewards(last, 1) = 1;
+  return river;
 }
 
 std::optional<int> GridWorld::state(int column, int row) const {

@@ -36,6 +36,27 @@ TEST(Mazes, TMazeHasTheValuesOfTheCourse) {
   EXPECT_EQ(solution.actions[2], 1);
 }
 
+// Always to the right is a chain of births and deaths: where it is in the long run follows from the balance
+// between neighbours, p_i up_i = p_(i+1) down_(i+1), and what it earns per step is the share of the last
+// state.
+TEST(Mazes, RiverSwimPaysWhatItsBalanceSays) {
+  Mdp river = riverSwim();
+  const double p[] = {1, 12, 12 * 7., 12 * 49., 12 * 343., 12 * 343 * .875};
+  const double gain = p[5] / (p[0] + p[1] + p[2] + p[3] + p[4] + p[5]);
+  EXPECT_NEAR(gain, .4286, 1e-4);
+  river.discount = 1 - 1e-7;
+  const Eigen::VectorXd V = policyValues(river, policyOf(river, std::vector<int>(6, 1))).V;
+  for (int s = 0; s < 6; ++s) EXPECT_NEAR(1e-7 * V[s], gain, 1e-5);
+  const MdpSolution solution = policyIteration(river);
+  EXPECT_EQ(solution.actions, std::vector<int>(6, 1));
+  EXPECT_LT((solution.V - V).cwiseAbs().maxCoeff(), 1e-6 * V[0]);
+  // At the discount that it has, too; going left for ever pays .005 / (1 - .95).
+  river = riverSwim();
+  EXPECT_EQ(policyIteration(river).actions, std::vector<int>(6, 1));
+  EXPECT_NEAR(policyValues(river, policyOf(river, std::vector<int>(6, 0))).V[0], .1, 1e-12);
+  EXPECT_REX_ERROR((void)riverSwim(2), "states of a river: found 2, wanted at least 3");
+}
+
 // Sutton and Barto, Reinforcement Learning, 2nd edition: examples 3.5 and 3.8, figures 3.2 and 3.5.
 TEST(Mazes, JumpsHaveThePublishedValues) {
   const GridWorld world =
