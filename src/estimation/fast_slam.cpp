@@ -5,54 +5,33 @@
 #include <limits>
 #include <utility>
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <fmt/format.h>
 
 #include "base/error.h"
 #include "base/require.h"
 #include "base/rng.h"
 #include "estimation/covariance.h"
+#include "estimation/landmark_particle_internal.h"
 #include "estimation/pose_transition_internal.h"
 
 namespace rex {
-namespace {
-
-// log N(error | 0, S) without its constant.
-template <int Size>
-double logNormal(const Eigen::Matrix<double, Size, 1>& error, const Eigen::Matrix<double, Size, Size>& S) {
-  const Eigen::LLT<Eigen::Matrix<double, Size, Size>> factor(S);
-  return -0.5 * factor.matrixL().solve(error).squaredNorm() -
-         factor.matrixLLT().diagonal().array().log().sum();
-}
-
-}  // namespace
 
 FastSlam::FastSlam(const Eigen::Vector3d& pose, const LandmarkSensor& sensor, const FastSlamOptions& options)
     : sensor_(sensor), options_(options) {
-  requireFinite("pose", pose);
-  requireCovariance("covariance of the sensor", sensor.W, 2, Definiteness::kPositive);
-  requireCount("particles", options.particles, 1);
-  if (!(options.threshold >= 0 && options.threshold <= 1))
-    throw Error({.what = "resampling threshold",
-                 .found = fmt::format("{:g}", options.threshold),
-                 .wanted = "0 to 1"});
+  internal::requireFastSlam(pose, sensor, options.particles, options.threshold);
   poses_ = pose.replicate(1, options.particles);
   weights_.setConstant(options.particles, 1.0 / options.particles);
   maps_.resize(static_cast<std::size_t>(options.particles) * static_cast<std::size_t>(room_));
 }
 
 Gaussian FastSlam::landmark(int particle, int i) const {
-  if (particle < 0 || particle >= weights_.size())
-    throw Error({.what = "particle",
-                 .found = fmt::format("{}", particle),
-                 .wanted = fmt::format("0 to {}", weights_.size() - 1)});
+  internal::requireParticle(particle, weights_.size());
   if (i < 0 || i >= landmarks_)
     throw Error({.what = "landmark",
                  .found = fmt::format("{}", i),
                  .wanted = fmt::format("0 to {}", landmarks_ - 1)});
-  const Landmark& one = maps_[static_cast<std::size_t>(particle) * static_cast<std::size_t>(room_) +
-                              static_cast<std::size_t>(i)];
+  const LandmarkBelief& one = maps_[static_cast<std::size_t>(particle) * static_cast<std::size_t>(room_) +
+                                    static_cast<std::size_t>(i)];
   return {one.mean, one.covariance};
 }
 
@@ -67,12 +46,7 @@ Gaussian FastSlam::landmark(int i) const {
   return mixture;
 }
 
-Eigen::Vector3d FastSlam::meanPose() const {
-  Eigen::Vector3d mean = poses_ * weights_;
-  mean[2] = std::atan2(poses_.row(2).array().sin().matrix().dot(weights_),
-                       poses_.row(2).array().cos().matrix().dot(weights_));
-  return mean;
-}
+Eigen::Vector3d FastSlam::meanPose() const { return internal::meanPoseOf(poses_, weights_); }
 
 void FastSlam::makeRoom(int landmarks) {
   if (landmarks <= room_) return;
@@ -80,7 +54,7 @@ void FastSlam::makeRoom(int landmarks) {
   while (room_ < landmarks) room_ *= 2;
   const std::size_t after = static_cast<std::size_t>(room_),
                     count = static_cast<std::size_t>(weights_.size());
-  std::vector<Landmark> wider(count * after);
+  std::vector<LandmarkBelief> wider(count * after);
   for (std::size_t k = 0; k < count; ++k)
     std::copy_n(maps_.begin() + static_cast<std::ptrdiff_t>(k * before), before,
                 wider.begin() + static_cast<std::ptrdiff_t>(k * after));
@@ -91,7 +65,7 @@ void FastSlam::resampleParticles(Rng& rng) {
   const std::vector<int> parents =
       resampled(weights_, static_cast<int>(weights_.size()), Resampling::kSystematic, rng);
   Eigen::Matrix3Xd poses(3, poses_.cols());
-  std::vector<Landmark> maps(maps_.size());
+  std::vector<LandmarkBelief> maps(maps_.size());
   const std::size_t room = static_cast<std::size_t>(room_);
   for (std::size_t k = 0; k < parents.size(); ++k) {
     const std::size_t parent = static_cast<std::size_t>(parents[k]);
@@ -104,64 +78,29 @@ void FastSlam::resampleParticles(Rng& rng) {
   weights_.setConstant(1.0 / static_cast<double>(weights_.size()));
 }
 
-double FastSlam::drawPose(Eigen::Index particle, const PoseTransition& transition,
-                          const Eigen::Matrix3d& root, std::span<const LandmarkSighting> known, Rng& rng) {
-  const Eigen::Vector3d predicted = transition.mean(poses_.col(particle));
-  requireFinite("next pose", predicted);
-  if (!options_.observedProposal || known.empty()) {
-    poses_.col(particle) = predicted + root * rng.normalVector(3);
-    return 0;
-  }
-  // The motion corrected by one sighting after the other, each along its tangent.
-  Eigen::Vector3d mean = predicted;
-  Eigen::Matrix3d P = transition.noise;
-  for (const LandmarkSighting& sighting : known) {
-    const Landmark& one = at(particle, sighting.landmark);
-    const LandmarkView view = viewOf(sensor_, mean, one.mean);
-    const Eigen::Matrix2d S =
-        view.Jx * P * view.Jx.transpose() + view.Jl * one.covariance * view.Jl.transpose() + sensor_.W;
-    const Eigen::Matrix<double, 3, 2> K = P * view.Jx.transpose() * S.inverse();
-    mean += K * innovation(sensor_, sighting.y, view.y);
-    P = (P - K * S * K.transpose()).eval();
-    P = (0.5 * (P + P.transpose())).eval();
-  }
-  const Eigen::Vector3d next = mean + covarianceRoot(P) * rng.normalVector(3);
-  poses_.col(particle) = next;
-  return logNormal<3>(next - predicted, transition.noise) - logNormal<3>(next - mean, P);
-}
-
-double FastSlam::seeLandmark(Eigen::Index particle, const LandmarkSighting& sighting, bool isNew) {
-  Landmark& one = at(particle, sighting.landmark);
-  const Eigen::Vector3d pose = poses_.col(particle);
-  if (isNew) {
-    const LandmarkPlace place = placeOf(sensor_, pose, sighting.y);
-    one = {place.landmark, place.Jy * sensor_.W * place.Jy.transpose()};
-    return 0;
-  }
-  const LandmarkView view = viewOf(sensor_, pose, one.mean);
-  const Eigen::Vector2d error = innovation(sensor_, sighting.y, view.y);
-  const Eigen::Matrix2d S = view.Jl * one.covariance * view.Jl.transpose() + sensor_.W;
-  const Eigen::Matrix2d K = one.covariance * view.Jl.transpose() * S.inverse();
-  const double logWeight = logNormal<2>(error, S);  // the expected likelihood of slide 7:41
-  one.mean += K * error;
-  const Eigen::Matrix2d less = one.covariance - K * S * K.transpose();
-  one.covariance = 0.5 * (less + less.transpose());
-  return logWeight;
-}
-
 Eigen::VectorXd FastSlam::advance(const PoseTransition& transition, std::span<const LandmarkSighting> known,
                                   std::span<const LandmarkSighting> fresh, int landmarks, Rng& rng) {
   makeRoom(landmarks);
-  const Eigen::Matrix3d root = covarianceRoot(transition.noise);
+  const internal::PoseNoise noise{transition.noise, covarianceRoot(transition.noise)};
   Eigen::VectorXd logWeights = weights_.array().log();
+  std::vector<internal::LandmarkSeen> seen(options_.observedProposal ? known.size() : 0);
   for (Eigen::Index k = 0; k < weights_.size(); ++k) {
-    logWeights[k] += drawPose(k, transition, root, known, rng);
-    for (const LandmarkSighting& sighting : known) logWeights[k] += seeLandmark(k, sighting, false);
-    int seen = landmarks_;
+    const Eigen::Vector3d predicted = transition.mean(poses_.col(k));
+    requireFinite("next pose", predicted);
+    for (std::size_t i = 0; i < seen.size(); ++i) seen[i] = {&at(k, known[i].landmark), known[i].y};
+    const auto [pose, logWeight] = internal::drawPose(sensor_, predicted, noise, seen, rng);
+    poses_.col(k) = pose;
+    logWeights[k] += logWeight;
+    for (const LandmarkSighting& sighting : known)
+      logWeights[k] += internal::updateBelief(sensor_, pose, sighting.y, at(k, sighting.landmark));
+    int count = landmarks_;
     for (const LandmarkSighting& sighting : fresh) {
-      const bool isNew = sighting.landmark == seen;
-      if (isNew) ++seen;
-      logWeights[k] += seeLandmark(k, sighting, isNew);
+      if (sighting.landmark == count) {
+        at(k, sighting.landmark) = internal::firstBelief(sensor_, pose, sighting.y);
+        ++count;
+      } else {
+        logWeights[k] += internal::updateBelief(sensor_, pose, sighting.y, at(k, sighting.landmark));
+      }
     }
     if (std::isnan(logWeights[k])) logWeights[k] = -std::numeric_limits<double>::infinity();
   }

@@ -55,11 +55,7 @@ class FastSlam {
   [[nodiscard]] Eigen::Vector3d meanPose() const;  ///< headings averaged on the circle
 
  private:
-  struct Landmark {
-    Eigen::Vector2d mean;
-    Eigen::Matrix2d covariance;
-  };
-  [[nodiscard]] Landmark& at(Eigen::Index particle, int i) {
+  [[nodiscard]] LandmarkBelief& at(Eigen::Index particle, int i) {
     return maps_[static_cast<std::size_t>(particle) * static_cast<std::size_t>(room_) +
                  static_cast<std::size_t>(i)];
   }
@@ -68,16 +64,12 @@ class FastSlam {
                           std::span<const LandmarkSighting> fresh, int landmarks, Rng& rng);
   void makeRoom(int landmarks);
   void resampleParticles(Rng& rng);
-  /// Draws the next pose of a particle; returns the log weight that the draw adds.
-  double drawPose(Eigen::Index particle, const PoseTransition& transition, const Eigen::Matrix3d& root,
-                  std::span<const LandmarkSighting> known, Rng& rng);
-  double seeLandmark(Eigen::Index particle, const LandmarkSighting& sighting, bool isNew);
 
   LandmarkSensor sensor_;
   FastSlamOptions options_;
   Eigen::Matrix3Xd poses_;
   Eigen::VectorXd weights_;
-  std::vector<Landmark> maps_;  // of each particle, `room_` landmarks
+  std::vector<LandmarkBelief> maps_;  // of each particle, `room_` landmarks
   int landmarks_ = 0, room_ = 8;
 };
 

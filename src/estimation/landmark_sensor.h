@@ -14,6 +14,12 @@ struct LandmarkSensor {
   Eigen::Matrix2d W = Eigen::Matrix2d::Identity();  ///< covariance of the noise
 };
 
+/// What a particle knows about the position of a landmark.
+struct LandmarkBelief {
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
+};
+
 /// The predicted observation, and its derivatives.
 struct LandmarkView {
   Eigen::Vector2d y;
