@@ -105,6 +105,7 @@ class Simulator {
 
   /// A posture that brings a body's frame to X_WB, or the point `rel` of the body to p_W (metres). The
   /// search starts at the present posture and continues from random ones; its result is the same each time.
+  /// For a pose of an arm of six hinges that has a closed form, it is the nearest of all its postures.
   /// The robot does not move. Programs must link the library course_inverse_kinematics; `rex run FILE.cpp`
   /// adds it by itself. Slide 2:27; see kinematics/inverse_kinematics_solver.h for several tasks at once.
   [[nodiscard]] ReachedPosture inverseKinematics(const std::string& body, const Pose& X_WB) const;

@@ -7,12 +7,7 @@ namespace {
 
 constexpr double kReach = 1e-6;  // metres and radians
 
-ReachedPosture reach(const Simulator& simulator, const std::string& body, TaskMap map,
-                     Eigen::VectorXd target) {
-  const Task task{.name = body, .map = std::move(map), .target = std::move(target), .tolerance = kReach};
-  Rng rng(1);
-  InverseKinematicsResult found =
-      solveInverseKinematics(simulator.model(), {&task, 1}, simulator.getJointAngles(), {}, rng);
+ReachedPosture reached(InverseKinematicsResult found) {
   return {.isReached = found.status == InverseKinematicsResult::Status::kSolved,
           .q = std::move(found.q),
           .error = found.residuals.front(),
@@ -22,12 +17,17 @@ ReachedPosture reach(const Simulator& simulator, const std::string& body, TaskMa
 }  // namespace
 
 ReachedPosture Simulator::inverseKinematics(const std::string& body, const Pose& X_WB) const {
-  return reach(*this, body, poseTask(model().body(body), X_WB), {});
+  const PoseTarget target{.body = model().body(body), .X_WB = X_WB, .tolerance = kReach};
+  Rng rng(1);
+  return reached(solveInverseKinematics(model(), target, getJointAngles(), {}, rng));
 }
 
 ReachedPosture Simulator::inverseKinematics(const std::string& body, const Eigen::Vector3d& p_W,
                                             const Eigen::Vector3d& rel) const {
-  return reach(*this, body, positionTask(model().body(body), rel), p_W);
+  const Task task{
+      .name = body, .map = positionTask(model().body(body), rel), .target = p_W, .tolerance = kReach};
+  Rng rng(1);
+  return reached(solveInverseKinematics(model(), {&task, 1}, getJointAngles(), {}, rng));
 }
 
 }  // namespace rex

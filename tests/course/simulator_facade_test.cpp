@@ -169,6 +169,24 @@ TEST_F(SimulatorFacade, ReachesPosesAndPlaces) {
             S.inverseKinematics("tool", Vector3d(.3, .3, .5)).q);
 }
 
+// Six hinges, the last three of which meet: the nearest posture in closed form.
+TEST_F(SimulatorFacade, ReachesPosesInClosedForm) {
+  const std::string text =
+      "body b0 {} body b1 {} body b2 {} body b3 {} body b4 {} body b5 {} body b6 {}\n"
+      "joint (b0 b1) { type=hingeZ } joint (b1 b2) { A=<T t(.3 0 .7)> type=hingeY }\n"
+      "joint (b2 b3) { A=<T t(0 0 1)> type=hingeY } joint (b3 b4) { A=<T t(.5 0 0)> type=hingeX }\n"
+      "joint (b4 b5) { A=<T t(.7 0 0)> type=hingeY } joint (b5 b6) { type=hingeX }\n";
+  Simulator S(SimulatorDescription{.sceneName = "six.ors", .sceneText = text, .q = {}});
+  VectorXd q(6);
+  q << .3, .4, -.5, .6, .8, .2;
+  const Pose X_WB = forwardKinematics(S.model(), q)[S.model().body("b6")];
+  S.setJointAngles(q + VectorXd::Constant(6, .05));
+  const ReachedPosture found = S.inverseKinematics("b6", X_WB);
+  EXPECT_TRUE(found.isReached);
+  EXPECT_EQ(found.message, "solved in closed form");
+  EXPECT_LT((found.q - q).norm(), 1e-9);
+}
+
 TEST_F(SimulatorFacade, SaysHowFarOffWhatItCannotReachIs) {
   Simulator S(SimulatorDescription{.sceneName = "arm.ors",
                                    .sceneText = "body post {} body arm {}\n"
