@@ -239,7 +239,56 @@ void hopes(Check& check, Student& student, int states, double maxReward, double 
 
 void hopesSmall(Check& check, Student& student) { hopes(check, student, 4, 2, .8); }
 
+void bounds(Check& check, Student& student, const Eigen::VectorXi& pulls, const Eigen::VectorXd& paid) {
+  check.input("arms", {{"pulls", Eigen::VectorXd(pulls.cast<double>())}, {"paid", paid}});
+  const Eigen::VectorXd got = student.upperBounds(pulls, paid);
+  const Eigen::Index m = pulls.size();
+  check.shape("upper bounds", got, m, 1);
+  // Bounds of which the margin is the root of `numerator` / pulls, above the mean, or above the sum.
+  const auto boundsBy = [&](const Eigen::VectorXd& numerators, double sign = 1) {
+    Eigen::VectorXd b(m);
+    for (Eigen::Index k = 0; k < m; ++k)
+      b[k] = paid[k] / pulls[k] + sign * std::sqrt(numerators[k] / pulls[k]);
+    return b;
+  };
+  const double n = pulls.sum();
+  const auto same = [&](double number) -> Eigen::VectorXd { return Eigen::VectorXd::Constant(m, number); };
+  const Eigen::VectorXd own = pulls.cast<double>().array().log();
+  const Eigen::VectorXd wanted = boundsBy(same(2 * std::log(n))), means = boundsBy(same(0));
+  const auto ownPulls =
+      check.suspect("Is n the number of pulls of the arm itself? It is that of all arms.", boundsBy(2 * own));
+  const auto armCount = check.suspect("Is n the number of arms? It is that of all pulls.",
+                                      boundsBy(same(2 * std::log(static_cast<double>(m)))));
+  const auto half = check.suspect("Is the power of n forgotten? Hoeffding's inequality should allow n^-4.",
+                                  boundsBy(same(std::log(n) / 2)));
+  const auto below = check.suspect("Is it the lower bound?", boundsBy(same(2 * std::log(n)), -1));
+  const auto sums = check.suspect("Is the margin added to the sum of what was paid? It belongs to the mean.",
+                                  wanted - means + paid);
+  const auto noMargin = check.suspect("Is there no margin?", means);
+  const auto shown = check.show([&] { return tableSeen("Upper bounds", got, wanted); });
+  check.near("upper bounds", got, wanted, 1e-9);
+}
+
+void boundsOfThree(Check& check, Student& student) {
+  bounds(check, student, Eigen::Vector3i(10, 4, 2), Eigen::Vector3d(6, 1, 1));
+  bounds(check, student, Eigen::Vector2i(1, 30), Eigen::Vector2d(0, 12.5));
+}
+
 // <hidden>
+void otherBounds(Check& check, Student& student) {
+  check.forEachCase(6, [&](int i) {
+    rex::Rng& rng = check.rng();
+    const int m = 2 + i;
+    Eigen::VectorXi pulls(m);
+    Eigen::VectorXd paid(m);
+    for (int k = 0; k < m; ++k) {
+      pulls[k] = 1 + rng.index(k % 2 == 0 ? 5 : 2000);
+      paid[k] = .01 * rng.index(100 * pulls[k] + 1);
+    }
+    bounds(check, student, pulls, paid);
+  });
+}
+
 void otherChoices(Check& check, Student& student) {
   choosesAsOften(check, student, Eigen::Vector2d(-3, -2), 1);
   choosesAsOften(check, student, Eigen::VectorXd::Zero(5), 0);
@@ -283,6 +332,7 @@ rex::grading::Checks<Student> checks() {
       {"estimate", "model", "The model of a few steps", 1, Group::kVisible, estimatesFew},
       {"plan", "model", "A plan in a model", 1, Group::kVisible, plansSmall},
       {"hope", "rmax", "A plan that hopes", 1, Group::kVisible, hopesSmall},
+      {"bounds", "bandits", "Upper confidence bounds of a few arms", 1, Group::kVisible, boundsOfThree},
       // <hidden>
       {"other-choices", "q", "Other numbers of actions", 1, Group::kHidden, otherChoices},
       {"more-steps", "q", "Q-learning from other steps", 1, Group::kHidden, moreSteps},
@@ -290,6 +340,7 @@ rex::grading::Checks<Student> checks() {
       {"unseen-map", "model", "A model and a plan on an unseen map", 1, Group::kHidden, unseenMap},
       {"more-plans", "model", "Plans in other models", 1, Group::kHidden, plansMore},
       {"more-hope", "rmax", "Plans that hope in other models", 1, Group::kHidden, hopesMore},
+      {"other-bounds", "bandits", "Upper confidence bounds of other arms", 1, Group::kHidden, otherBounds},
       // </hidden>
   };
 }

@@ -64,3 +64,11 @@ Eigen::MatrixXd plannedValues(const LearnedWorld& model, double discount);
 /// The same if whatever is not known is believed to pay `maxReward` in every step for ever. A pair is known
 /// if it was tried at least `known` times, and then the model holds for it.
 Eigen::MatrixXd optimisticValues(const LearnedWorld& model, int known, double maxReward, double discount);
+
+// Part 5, a bonus: bandits (6:22).
+
+/// What each arm of a bandit pays on average at best, its upper confidence bound (m): the mean of what it
+/// paid, and a margin b. Payments are between 0 and 1; arm k was pulled N_k = `pulls`[k] times, at least
+/// once, and paid `paid`[k] together. After n pulls of all arms, b is such that Hoeffding's inequality,
+/// P(true mean > mean + b) <= exp(-2 N_k b^2), allows n^-4.
+Eigen::VectorXd upperBounds(const Eigen::VectorXi& pulls, const Eigen::VectorXd& paid);

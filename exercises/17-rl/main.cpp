@@ -39,6 +39,11 @@ Eigen::MatrixXd optimisticValues(const LearnedWorld& model, int known, double ma
   return Eigen::MatrixXd::Zero(model.R.rows(), model.R.cols());
 }
 
+Eigen::VectorXd upperBounds(const Eigen::VectorXi& pulls, const Eigen::VectorXd& paid) {
+  // TODO: the mean of each arm, and its margin.
+  return Eigen::VectorXd::Zero(pulls.size());
+}
+
 // What follows is given, and never graded: change it as you like. show.h says what each line draws.
 
 int main() {
@@ -46,4 +51,6 @@ int main() {
   showCliff(.1);
   // Parts 3 and 4: a maze, explored by chance and with a plan.
   showExploration();
+  // Part 5: five arms, one of which pays best.
+  showBandits(.1);
 }

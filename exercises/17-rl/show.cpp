@@ -1,5 +1,7 @@
 #include "show.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <cstdio>
 
 #include "course/mdp_figures.h"
@@ -128,4 +130,39 @@ void showExploration() {
     }
   }
   plot("explored", figure);
+}
+
+void showBandits(double epsilon) {
+  const Eigen::VectorXd arms = Eigen::VectorXd::LinSpaced(5, .1, .9);
+  std::vector<LearningCurves> curves;
+  for (const bool isBound : {true, false}) {
+    LearningCurves curve{isBound ? "upper confidence bounds" : "epsilon-greedy", {}};
+    for (std::uint64_t seed = 0; seed < 30; ++seed) {
+      Rng rng(seed);
+      Eigen::VectorXi pulls = Eigen::VectorXi::Zero(5);
+      Eigen::VectorXd paid = Eigen::VectorXd::Zero(5);
+      double regret = 0;
+      std::vector<double> regrets;
+      for (int n = 0; n < 10000; ++n) {
+        int arm = n;  // each of them once
+        if (n >= 5) {
+          const Eigen::VectorXd means = paid.cwiseQuotient(pulls.cast<double>());
+          const Eigen::VectorXd worth = isBound ? upperBounds(pulls, paid) : means;
+          if (isBound && (worth.size() != 5 || worth.isZero(0))) return nothingYet("bandits");
+          arm = std::clamp(chosenAction(worth, isBound ? 0 : epsilon, rng), 0, 4);
+        }
+        ++pulls[arm];
+        paid[arm] += rng.uniform() < arms[arm] ? 1 : 0;
+        regret += arms[4] - arms[arm];
+        if (n % 100 == 99) regrets.push_back(regret);
+      }
+      curve.runs.push_back(regrets);
+    }
+    curves.push_back(curve);
+  }
+  Figure figure = learningFigure(curves);
+  figure.title = "A bandit with five arms: 30 runs each";
+  figure.xLabel = "hundreds of pulls";
+  figure.yLabel = "regret";
+  plot("bandits", figure);
 }

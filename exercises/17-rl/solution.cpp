@@ -116,6 +116,16 @@ Eigen::MatrixXd optimisticValues(const LearnedWorld& model, int known, double ma
   // </solution>
 }
 
+Eigen::VectorXd upperBounds(const Eigen::VectorXi& pulls, const Eigen::VectorXd& paid) {
+  // <solution upperBounds>
+  const Eigen::ArrayXd N = pulls.cast<double>();
+  return paid.array() / N + (2 * std::log(N.sum()) / N).sqrt();
+  // <todo>
+  //| // TODO: the mean of each arm, and its margin.
+  //| return Eigen::VectorXd::Zero(pulls.size());
+  // </solution>
+}
+
 // What follows is given, and never graded: change it as you like. show.h says what each line draws.
 
 int main() {
@@ -123,4 +133,6 @@ int main() {
   showCliff(.1);
   // Parts 3 and 4: a maze, explored by chance and with a plan.
   showExploration();
+  // Part 5: five arms, one of which pays best.
+  showBandits(.1);
 }
