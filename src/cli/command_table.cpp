@@ -40,6 +40,7 @@ std::span<const TableEntry> commandTable() {
       {"render", "Draw a scene: a picture, a film, a model or a page with a replay", kRobot},
       {"simulate", "Let a robot fall, or hold it: a log, an energy plot and a film", kRobot},
       {"plan", "Plan a path of a robot around obstacles: path, film and replay", kRobot},
+      {"park", "Park a car in a scene: path, film and replay", kRobot},
       {"trajectory", "Move a body smoothly to a point past obstacles: motion, costs, film and replay",
        kRobot},
       {"curves", "Find the shortest paths of a car with a turning radius", kMethods},

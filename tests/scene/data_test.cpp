@@ -35,7 +35,8 @@ const std::vector<Entry> kData = {{"robots/man.ors", 27, 13.06},
                                   {"robots/hand/hand.urdf", 15, 0.6314},
                                   {"scenes/table.ors", 27, 13.06},
                                   {"scenes/board.ors", 3, 3.5},
-                                  {"scenes/maze.ors", 3, 5}};
+                                  {"scenes/maze.ors", 3, 5},
+                                  {"scenes/street.ors", 3, 1000}};
 
 class Data : public testing::TestWithParam<Entry> {};
 

@@ -21,15 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void writeExplored(Picture picture, RenderPlan plan, std::string caption, const fs::path& out) {
-  picture.captions.push_back({.text = std::move(caption)});
-  plan.renderer.antiAliasing = AntiAliasing::kMsaa4;
-  Studio studio(plan, bounds(picture));
-  const Image image = studio.draw(picture);
-  studio.requireSomethingSeen();
-  writePng(image, out);
-}
-
 // Contains no computing times: the same input gives the same bytes.
 Report replayOf(const PathTask& task, const PlanOptions& options, const FoundPath& found,
                 const PathTiming& timing, const Motion& motion) {
@@ -70,6 +61,15 @@ std::vector<fs::path> writeMotion(const PathTask& task, const PlanOptions& optio
 }
 
 }  // namespace
+
+void writeExplored(Picture picture, RenderPlan plan, std::string caption, const fs::path& out) {
+  picture.captions.push_back({.text = std::move(caption)});
+  plan.renderer.antiAliasing = AntiAliasing::kMsaa4;
+  Studio studio(plan, bounds(picture));
+  const Image image = studio.draw(picture);
+  studio.requireSomethingSeen();
+  writePng(image, out);
+}
 
 std::string titleOf(const PathTask& task, const PlanOptions& options, const FoundPath& found) {
   return fmt::format("{}, {}, seed {}", harmless(task.model.name()), options.planner, found.seed);

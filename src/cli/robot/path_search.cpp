@@ -4,9 +4,12 @@
 #include <cstddef>
 #include <ctime>
 
+#include <fmt/format.h>
+
 #include "base/interruption.h"
 #include "base/rng.h"
 #include "cli/option_value_internal.h"
+#include "cli/terminal.h"
 #include "planning/path_clearance.h"
 #include "planning/path_spline.h"
 #include "planning/roadmap.h"
@@ -89,6 +92,17 @@ Planner plannerOf(const std::string& name) {
 
 bool growsTrees(Planner planner) {
   return planner == Planner::kRrt || planner == Planner::kRrtConnect || planner == Planner::kRrtStar;
+}
+
+void requireFreeEnds(const PathProblem& problem, double margin) {
+  const auto requireFree = [&](const char* option, const Eigen::VectorXd& q) {
+    if (problem.allValid(q)) return;
+    throw UsageError({.what = option,
+                      .found = harmless(problem.reason(q)),
+                      .wanted = fmt::format("all shapes {:g} m apart, the --margin", margin)});
+  };
+  requireFree("--start", problem.start);
+  requireFree("--goal", problem.goal);
 }
 
 FoundPath searchPath(const PathTask& task, const PathSearch& search, std::uint64_t seed) {

@@ -33,6 +33,9 @@ struct PathTask {
   PathProblem problem;
 };
 
+/// Throws UsageError naming --start or --goal if it is not valid, with the reason.
+void requireFreeEnds(const PathProblem& problem, double margin);
+
 /// How `rex plan` searches.
 struct PathSearch {
   Planner planner = Planner::kRrtConnect;

@@ -57,14 +57,7 @@ PathTask taskOf(Model model, const PlanOptions& options) {
   const Eigen::VectorXd goal = postureWithinLimits(model, "--goal", options.goal);
   PathProblem problem = asWrongUse(
       [&] { return robotProblem(model, contacts, start, goal, options.margin, options.resolution); });
-  const auto requireFree = [&](const char* option, const Eigen::VectorXd& q) {
-    if (problem.allValid(q)) return;
-    throw UsageError({.what = option,
-                      .found = harmless(problem.reason(q)),
-                      .wanted = fmt::format("all shapes {:g} m apart, the --margin", options.margin)});
-  };
-  requireFree("--start", start);
-  requireFree("--goal", goal);
+  requireFreeEnds(problem, options.margin);
   return {std::move(model), contacts, std::move(problem)};
 }
 

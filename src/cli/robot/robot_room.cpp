@@ -7,6 +7,7 @@ namespace rex::cli {
 Room robotRoom() {
   return {.program = Program::kRobot,
           .commands = {{"doctor", addDoctor},
+                       {"park", addPark},
                        {"plan", addPlan},
                        {"render", addRender},
                        {"scene", addScene},

@@ -6,6 +6,7 @@ namespace rex::cli {
 
 /// One file each; see Registration.
 void addDoctor(CLI::App* command, Action& action);
+void addPark(CLI::App* command, Action& action);
 void addPlan(CLI::App* command, Action& action);
 void addRender(CLI::App* command, Action& action);
 void addScene(CLI::App* command, Action& action);

@@ -1,0 +1,129 @@
+// `rex park` as a user meets it.
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "cli/rex_command.h"
+#include "collision/motion_clearance.h"
+#include "planning/car.h"
+#include "scene/scene_file.h"
+#include "support/file_text.h"
+#include "support/film_length.h"
+#include "support/needs_gnuplot.h"
+#include "support/needs_osmesa.h"
+#include "support/paths.h"
+
+namespace rex::cli::park_test {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::MatchesRegex;
+using ::testing::StartsWith;
+
+constexpr const char* kGoal = "-1.3,1.1,0";
+
+class ParkCommand : public RexCommand {
+ protected:
+  ProcessResult park(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), "park");
+    arguments.insert(arguments.end(), {"--size", "64x48", "-o", "out"});
+    return rex(arguments);
+  }
+  void expectRefusal(const std::vector<std::string>& arguments, const std::string& message) const {
+    const ProcessResult result = park(arguments);
+    EXPECT_EQ(result.exitCode, 64) << message;
+    EXPECT_THAT(flat(result.error), HasSubstr(message));
+    EXPECT_FALSE(fs::exists(in("out"))) << message;
+  }
+};
+
+TEST_F(ParkCommand, WritesPathTreeFilmAndReplay) {
+  REX_NEEDS_OSMESA();
+  REX_NEEDS_GNUPLOT();
+  if (!runProcess({"ffmpeg", "-version"}).ok()) GTEST_SKIP() << "needs the package ffmpeg";
+  const ProcessResult result = park({"street", "--goal", kGoal, "--speed", "8"});
+  ASSERT_EQ(result.exitCode, 0) << result.error;
+  EXPECT_THAT(result.output, StartsWith("street, hybrid A*: found a path of "));
+  EXPECT_THAT(result.output, HasSubstr(", no path on the grid costs less than "));
+  EXPECT_THAT(result.output, HasSubstr("\nout/tree.png\nout/path.csv\nout/path.mp4\nout/path.html\n"));
+  const std::string table = fileText(in("out/path.csv"));
+  const double seconds = std::stod(table.substr(table.rfind('\n', table.size() - 2) + 1));
+  EXPECT_NEAR(replaySeconds(in("out/path.html")), seconds / 8, 1e-4);
+  EXPECT_THAT(fileText(in("out/path.html")), HasSubstr("changes of direction"));
+  EXPECT_EQ(rex({"render", "street", "--motion", "out/path.csv", "--size", "64x48", "-o", "a.png"}).exitCode,
+            0);
+}
+
+// The drives lead to the goal, and touch nothing, by the scene that a user sees.
+TEST_F(ParkCommand, AnswersProgramsWithDrivesThatPark) {
+  REX_NEEDS_OSMESA();
+  const ProcessResult result = park({"street", "--goal", kGoal, "--no-film", "--json"});
+  ASSERT_EQ(result.exitCode, 0) << result.error;
+  const nlohmann::json json = nlohmann::json::parse(result.output);
+  EXPECT_EQ(json.at("found"), true);
+  EXPECT_EQ(json.at("files").size(), 2u);
+  const Model model = compile(readScene(sourcePath("data/scenes/street.ors")).spec);
+  const ContactModel contacts(model);
+  Eigen::Vector3d q = model.initialPositions();
+  double length = 0, nearest = 1;
+  for (const auto& drive : json.at("drives")) {
+    const double way = drive[0], steering = drive[1];
+    length += std::abs(way);
+    const int pieces = static_cast<int>(std::ceil(std::abs(way) / .02));
+    for (int i = 0; i < pieces; ++i) {
+      const Eigen::Vector3d next =
+          driveCar({.wheelbase = 2.6, .maxSteering = .6}, q, {way, steering}, 1. / pieces);
+      nearest = std::min(nearest, motionClearance(model, contacts, q, next, 1e-3));
+      q = next;
+    }
+  }
+  EXPECT_LT((q - Eigen::Vector3d(-1.3, 1.1, 0)).norm(), 1e-9);
+  EXPECT_NEAR(length, json.at("length"), 1e-9);
+  EXPECT_GT(nearest, 0);
+  EXPECT_NEAR(nearest, json.at("clearance"), 3e-3);
+  EXPECT_EQ(json.at("switches"), 2);
+}
+
+TEST_F(ParkCommand, SaysThatASpaceIsTooShort) {
+  REX_NEEDS_OSMESA();
+  std::string scene = fileText(sourcePath("data/scenes/street.ors"));
+  for (const auto& [from, to] : {std::pair{"t(5.1 ", "t(4.4 "}, {"t(-5.1 ", "t(-4.4 "}})
+    scene.replace(scene.find(from), std::string(from).size(), to);
+  std::ofstream(in("short.ors")) << scene;
+  const ProcessResult result = park({in("short.ors"), "--goal", kGoal, "--margin", "0.03", "--no-film"});
+  EXPECT_EQ(result.exitCode, 1) << result.error;
+  EXPECT_THAT(flat(result.output), HasSubstr("no path on this grid: the goal is reached from only"));
+  EXPECT_TRUE(fs::exists(in("out/tree.png")));
+  EXPECT_FALSE(fs::exists(in("out/path.csv")));
+}
+
+TEST_F(ParkCommand, HasExamplesThatRun) {
+  REX_NEEDS_OSMESA();
+  const auto examples = examplesOf("park");
+  EXPECT_EQ(examples.size(), 2u);
+  for (std::vector<std::string> example : examples) {
+    example.insert(example.end(), {"--no-film", "--size", "64x48"});
+    EXPECT_EQ(rex(example).exitCode, 0);
+  }
+}
+
+TEST_F(ParkCommand, SaysWhatIsWrong) {
+  expectRefusal(
+      {"board", "--goal", "0,0,0"},
+      "board: found 3 coordinates, wanted one joint of type transXYPhi, that of the car, and no other");
+  expectRefusal({"street"}, "--goal is required");
+  expectRefusal({"street", "--goal", "5,1.1,0"}, "--goal: found '");
+  expectRefusal({"street", "--goal", "5,9,0"}, "--goal");
+  expectRefusal({"street", "--goal", kGoal, "--start", "5,1.1,0"}, "--start: found '");
+  for (const char* option :
+       {"--wheelbase", "--steering", "--resolution", "--cell", "--reverse-cost", "--states", "--speed"})
+    expectRefusal({"street", "--goal", kGoal, option, "0"}, std::string(option) + ": found 0, wanted");
+  for (const char* option : {"--margin", "--switch-cost", "--slack"})
+    expectRefusal({"street", "--goal", kGoal, option, "-1"}, std::string(option) + ": found -1, wanted");
+}
+
+}  // namespace rex::cli::park_test
