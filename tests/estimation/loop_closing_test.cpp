@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "building.h"
+#include "scanned_halls.h"
 #include "support/expect_error.h"
 
 namespace rex::loop_closing_test {
@@ -61,19 +61,19 @@ TEST(LoopClosing, SaysWhyNot) {
 }
 
 // Two rooms with the same things in them, side by side on a corridor.
-test::Building lookAlikeRooms() {
-  test::Building building;
+Building lookAlikeRooms() {
+  Building building;
   for (const double x : {0., 4.2}) {
-    test::addBox(building, x + 0.6, 0, 0.9, 0.7);
-    test::addBox(building, x + 3.2, 2.5, 0.6, 0.8);
-    building.insert(building.end(), {{x, 0, x + 4.2, 0},
-                                     {x, 0, x, 5},
-                                     {x + 4.2, 0, x + 4.2, 5},
-                                     {x, 5, x + 1.6, 5},
-                                     {x + 2.8, 5, x + 4.2, 5}});
+    building.addBox(x + 0.6, 0, 0.9, 0.7);
+    building.addBox(x + 3.2, 2.5, 0.6, 0.8);
+    building.walls.insert(building.walls.end(), {{x, 0, x + 4.2, 0},
+                                                 {x, 0, x, 5},
+                                                 {x + 4.2, 0, x + 4.2, 5},
+                                                 {x, 5, x + 1.6, 5},
+                                                 {x + 2.8, 5, x + 4.2, 5}});
   }
-  building.insert(building.end(),
-                  {{0, 5, 0, 7.5}, {0, 7.5, 8.4, 7.5}, {8.4, 5, 8.4, 7.5}, {5, 7.5, 5.5, 6.8}});
+  building.walls.insert(building.walls.end(),
+                        {{0, 5, 0, 7.5}, {0, 7.5, 8.4, 7.5}, {8.4, 5, 8.4, 7.5}, {5, 7.5, 5.5, 6.8}});
   return building;
 }
 
@@ -212,7 +212,7 @@ TEST(LoopClosing, RefusesWhatIsNotSound) {
 
 // Nothing is seen along a corridor: what little rounding leaves there must not make an information negative.
 TEST(LoopClosing, GraphOfACorridorCanBeOptimized) {
-  const test::Building corridor{{-50, -1, 50, -1}, {-50, 1, 50, 1}};
+  const Building corridor{{{-50, -1, 50, -1}, {-50, 1, 50, 1}}};
   const RangeScanner scanner = test::scannerOf(180, 8);
   Rng rng(61);
   for (int k = 0; k < 30; ++k) {

@@ -9,7 +9,7 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
-#include "building.h"
+#include "scanned_halls.h"
 #include "support/expect_error.h"
 
 namespace rex::scan_matching_test {
@@ -82,12 +82,13 @@ TEST(ScanMatching, NoMotionOfAGridFitsBetter) {
   const RangeScanner scanner = test::scannerOf(180, 10);
   const auto first = test::scanOf(test::room(), scanner, kFirst, kNoise, rng),
              second = test::scanOf(test::room(), scanner, kSecond, kNoise, rng);
+  const Building room = test::room();
   const auto distance = [&](const Eigen::Vector3d& motion) {
     const Eigen::Matrix2Xd points = moved(moved(second, motion), kFirst);
     double sum = 0;
     for (Eigen::Index k = 0; k < points.cols(); ++k) {
       double nearest = 1;
-      for (const Eigen::Vector4d& wall : test::room()) {
+      for (const Eigen::Vector4d& wall : room.walls) {
         const Eigen::Vector2d a = wall.head<2>(), w = wall.tail<2>() - a, p = points.col(k) - a;
         nearest = std::min(nearest, (p - std::clamp(p.dot(w) / w.squaredNorm(), 0., 1.) * w).norm());
       }
@@ -128,7 +129,7 @@ TEST(ScanMatching, SearchesWhereTheGuessIsFarOff) {
 // it.
 TEST(ScanMatching, NamesTheWayAlongACorridor) {
   Rng rng(11);
-  const test::Building corridor{{-50, 0, 50, 0}, {-50, 2, 50, 2}};
+  const Building corridor{{{-50, 0, 50, 0}, {-50, 2, 50, 2}}};
   const RangeScanner scanner = test::scannerOf(180, 10);
   const Eigen::Vector3d first(0, 1, .2), second(.3, 1.1, .3);
   const auto p = test::scanOf(corridor, scanner, first, kNoise, rng),

@@ -1,42 +1,16 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <vector>
 
 #include "base/rng.h"
+#include "estimation/building.h"
 #include "estimation/scan_matching.h"
 #include "street_graph.h"
 
 namespace rex::test {
-
-/// A building seen from above: straight walls (x1, y1, x2, y2).
-using Building = std::vector<Eigen::Vector4d>;
-
-inline void addBox(Building& building, double x, double y, double width, double height) {
-  building.insert(building.end(), {{x, y, x + width, y},
-                                   {x + width, y, x + width, y + height},
-                                   {x + width, y + height, x, y + height},
-                                   {x, y + height, x, y}});
-}
-
-/// Metres from p along the angle to the first wall, at most maxRange.
-inline double distanceToWall(const Building& building, const Eigen::Vector2d& p, double angle,
-                             double maxRange) {
-  const Eigen::Vector2d d(std::cos(angle), std::sin(angle));
-  double nearest = maxRange;
-  for (const Eigen::Vector4d& wall : building) {
-    const Eigen::Vector2d a = wall.head<2>() - p, w = wall.tail<2>() - wall.head<2>();
-    const double across = d.x() * w.y() - d.y() * w.x();
-    if (std::abs(across) < 1e-12) continue;
-    const double t = (a.x() * w.y() - a.y() * w.x()) / across, s = (a.x() * d.y() - a.y() * d.x()) / across;
-    if (t > 0 && s >= 0 && s <= 1) nearest = std::min(nearest, t);
-  }
-  return nearest;
-}
 
 inline RangeScanner scannerOf(int rays, double maxRange) {
   RangeScanner scanner{.maxRange = maxRange};
@@ -47,25 +21,17 @@ inline RangeScanner scannerOf(int rays, double maxRange) {
 /// What a scanner at a pose (x, y, heading) reads, with normal noise, as points in its frame.
 inline Eigen::Matrix2Xd scanOf(const Building& building, const RangeScanner& scanner,
                                const Eigen::Vector3d& pose, double noise, Rng& rng) {
-  Eigen::VectorXd ranges(static_cast<Eigen::Index>(scanner.angles.size()));
-  for (Eigen::Index i = 0; i < ranges.size(); ++i) {
-    const double angle = pose[2] + scanner.angles[static_cast<std::size_t>(i)];
-    const double range = distanceToWall(building, pose.head<2>(), angle, scanner.maxRange);
-    ranges[i] = range < scanner.maxRange
-                    ? std::clamp(range + noise * rng.normal(), 0., scanner.maxRange - 1e-9)
-                    : scanner.maxRange;
-  }
-  return scanPoints(scanner, ranges);
+  return scanPoints(scanner, noisyRanges(building, scanner, pose, noise, rng));
 }
 
 /// One room with things in it, 8 x 6 m, without symmetry.
 inline Building room() {
   Building building;
-  addBox(building, 0, 0, 8, 6);
-  addBox(building, 5, 3.5, 1.5, 0.8);
-  addBox(building, 1, 4.5, 0.7, 0.7);
-  building.push_back({3, 0, 3, 1.5});
-  building.push_back({6.5, 0, 8, 1.2});
+  building.addBox(0, 0, 8, 6);
+  building.addBox(5, 3.5, 1.5, 0.8);
+  building.addBox(1, 4.5, 0.7, 0.7);
+  building.walls.push_back({3, 0, 3, 1.5});
+  building.walls.push_back({6.5, 0, 8, 1.2});
   return building;
 }
 
@@ -73,8 +39,8 @@ inline Building room() {
 /// the things of its own in each corner, the two rooms at its long sides look alike.
 inline Building hall() {
   Building building;
-  addBox(building, 0, 0, 24, 16);
-  addBox(building, 5, 5, 14, 6);
+  building.addBox(0, 0, 24, 16);
+  building.addBox(5, 5, 14, 6);
   for (const double side : {0., 1.}) {  // the same room at both long sides, turned by half a turn
     const auto place = [side](double x, double y) {
       return side > 0 ? Eigen::Vector2d(24 - x, 16 - y) : Eigen::Vector2d(x, y);
@@ -87,15 +53,15 @@ inline Building hall() {
                                          {13., 5., 13., 4.2}}) {
       Eigen::Vector4d wall;
       wall << place(x1, y1), place(x2, y2);
-      building.push_back(wall);
+      building.walls.push_back(wall);
     }
   }
-  addBox(building, 0, 0, 1.5, 0.7);
-  addBox(building, 20, 2, 0.8, 1.1);
-  addBox(building, 23, 12, 1, 1.6);
-  addBox(building, 1.6, 9, 0.6, 0.6);
-  building.push_back({0, 13, 2, 16});
-  building.push_back({19, 16, 20.5, 14.5});
+  building.addBox(0, 0, 1.5, 0.7);
+  building.addBox(20, 2, 0.8, 1.1);
+  building.addBox(23, 12, 1, 1.6);
+  building.addBox(1.6, 9, 0.6, 0.6);
+  building.walls.push_back({0, 13, 2, 16});
+  building.walls.push_back({19, 16, 20.5, 14.5});
   return building;
 }
 
