@@ -22,7 +22,7 @@ int main() {
   for (int t = 0; t < 300 || view.isWatched(); ++t) {
     const double noise = view.slider("noise of landmarks [m]", 0.2, 5, 1),
                  drift = view.slider("noise of the motion", 0.01, 0.5, 0.08);
-    const double lost = view.slider("share that starts anywhere", 0, 0.2, 0.02),
+    const double lost = view.slider("share from anywhere", 0, 0.2, 0.02),
                  steering = view.slider("steering [rad]", -0.5, 0.5, 0.1);
     if (view.button("kidnap") || t == 90)
       car.setState(Eigen::Vector3d(rng.uniform(-12, 12), rng.uniform(-12, 12), rng.uniform(-3, 3)));
