@@ -153,9 +153,9 @@ struct LiveView::Parts {
   }
 
   // Pictures change often, but most of their meshes do not: each piece is offered once, and withdrawn when
-  // the last pictures did without it. Small ones are no request of their own.
+  // the pictures of the last five seconds did without it. Small ones are no request of their own.
   void offer(const std::string& glb, ViewJson about) {
-    constexpr std::size_t kKept = 30, kSmall = 512;
+    constexpr std::size_t kKept = 150, kSmall = 512;
     const LivePieces cut = piecesOf(glb);
     ViewJson list = ViewJson::array();
     std::set<std::string> names;

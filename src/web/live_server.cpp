@@ -18,6 +18,7 @@
 #include <httplib.h>
 #include <netinet/in.h>
 #include <sys/random.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include "base/error.h"
@@ -237,6 +238,11 @@ struct LiveServer::Parts {
     http.new_task_queue = [this] { return new BoundedQueue(connections, port); };
     http.set_idle_interval(kLook);
     http.set_logger([this](const httplib::Request&, const httplib::Response&) { connections.endAnswer(); });
+    // The library's own choice would let another program serve on this port, too.
+    http.set_socket_options([](int socket) {
+      const int yes = 1;
+      ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+    });
     http.set_tcp_nodelay(true);
     http.set_keep_alive_max_count(1000000);
     http.set_keep_alive_timeout(2);

@@ -213,6 +213,8 @@ TEST(LiveServer, RefusesWhatItCannotServe) {
               HasSubstr("found 5 characters, wanted at least 16 hexadecimal digits"));
   EXPECT_THAT(refusalOf({.address = "192.0.2.1", .port = 4711}),
               HasSubstr("serving 192.0.2.1:4711: found the system refuses it"));
+  const LiveServer server({.token = kToken});
+  EXPECT_THAT(refusalOf({.port = server.port()}), HasSubstr("found the system refuses it"));
 }
 
 TEST(LiveServer, IsServedOnOtherAddressesUnderNumbers) {
