@@ -231,6 +231,7 @@ struct LiveServer::Parts {
         [this](bool) {
           const std::lock_guard lock(mutex);
           --viewers;
+          changed.notify_all();
         });
   }
 
@@ -291,9 +292,11 @@ LiveServer::LiveServer(const LiveServerOptions& options) : parts_(std::make_uniq
 
 LiveServer::~LiveServer() {
   {
-    const std::lock_guard lock(parts_->mutex);
+    std::unique_lock lock(parts_->mutex);
     parts_->isEnding = true;
     parts_->changed.notify_all();
+    // stop() cuts streams off: those that read learn before that it ends.
+    parts_->changed.wait_for(lock, std::chrono::seconds(1), [&] { return parts_->viewers == 0; });
   }
   while (!parts_->http.is_running() && !parts_->hasEnded)
     std::this_thread::yield();  // stop() needs one of them
