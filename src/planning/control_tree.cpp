@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/require.h"
 #include "base/rng.h"
+#include "estimation/motion_model.h"
 #include "planning/search_tree_internal.h"
 
 namespace rex {
@@ -233,6 +234,16 @@ class ControlTree {
 };
 
 }  // namespace
+
+ControlSystem controlSystemOf(const MotionModel& model, const Space& space, const VectorArg& lower,
+                              const VectorArg& upper) {
+  requireSize("space of a motion model", space.size(), model.states);
+  requireSize("lower bounds of controls", lower.size(), model.controls);
+  requireSize("upper bounds of controls", upper.size(), model.controls);
+  if (!model.f)
+    throw Error({.what = "motion model", .found = "no function f", .wanted = "the state after a motion"});
+  return {.space = space, .lower = lower, .upper = upper, .motion = model.f};
+}
 
 ControlPath growControlTree(const ControlSystem& system, const PathProblem& problem,
                             const ControlTreeOptions& options, Rng& rng) {

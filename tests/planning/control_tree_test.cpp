@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "base/rng.h"
+#include "estimation/mobile_bases.h"
+#include "estimation/planar_quadrotor.h"
 #include "planning/car.h"
 #include "planning/phase_space.h"
 #include "planning/reeds_shepp.h"
@@ -127,6 +129,44 @@ TEST(ControlTree, CutsSteeringShort) {
   }
   EXPECT_GT(steps, 10);
   EXPECT_GT(whole, 10) << "towards the goal";
+}
+
+// Any motion model: a differential drive gets through the gate, and a trailer and a quadrotor move as they
+// must.
+TEST(ControlTree, MovesAsAnyModelSays) {
+  const Space plane = Space::se2({0, 0}, {4, 4}, .3);
+  const MotionModel drive = motionOf(DifferentialDrive{});
+  const ControlSystem wheels =
+      controlSystemOf(drive, plane, Eigen::Vector2d(-20, -20), Eigen::Vector2d(20, 20));
+  const ControlTreeOptions options{.tolerance = .3, .maxSamples = 60000};
+  Rng rng(1);
+  expectDriven(wheels, lot(), options, growControlTree(wheels, lot(), options, rng));
+  using Kind = SpacePart::Kind;
+  const SpacePart side{.lower = 0, .upper = 4}, angle{.kind = Kind::kCircle}, speed{.lower = -3, .upper = 3};
+  const auto expectEdges = [&](const MotionModel& model, const Space& space, const VectorArg& lower,
+                               const VectorArg& upper) {
+    PathProblem problem{.space = space, .allValid = eachColumn([](const VectorArg&) { return true; })};
+    problem.start = Eigen::VectorXd::Zero(model.states);
+    problem.goal = Eigen::VectorXd::Constant(model.states, 2.5);
+    const ControlPath path = growControlTree(controlSystemOf(model, space, lower, upper), problem,
+                                             {.tolerance = 0, .maxSamples = 200}, rng);
+    const PathTree& tree = path.found.trees.at(0);
+    ASSERT_EQ(tree.parents.size(), 201u);
+    for (std::size_t k = 1; k < tree.parents.size(); ++k) {
+      const Eigen::VectorXd from = tree.nodes.col(tree.parents[k]), to = tree.nodes.col(static_cast<int>(k));
+      EXPECT_LT((meanAfter(model, from, path.edges[k].u, path.edges[k].seconds) - to).norm(), 1e-12);
+    }
+  };
+  expectEdges(motionOf(TrailerBase{}), Space({side, side, angle, angle}), Eigen::Vector2d(-1, -.6),
+              Eigen::Vector2d(1, .6));
+  expectEdges(motionOf(PlanarQuadrotor{}), Space({side, side, angle, speed, speed, speed}),
+              Eigen::Vector2d(0, 0), Eigen::Vector2d(5, 5));
+  const Eigen::Vector2d two(1, 1);
+  EXPECT_REX_ERROR(controlSystemOf(drive, Space::box(-two, two), -two, two),
+                   "space of a motion model: found");
+  EXPECT_REX_ERROR(controlSystemOf(drive, plane, Eigen::Vector3d(0, 0, 0), two), "lower bounds of controls");
+  EXPECT_REX_ERROR(controlSystemOf(drive, plane, -two, Eigen::Vector3d(0, 0, 0)), "upper bounds of controls");
+  EXPECT_REX_ERROR(controlSystemOf({.states = 3, .controls = 2}, plane, -two, two), "motion model: found no");
 }
 
 TEST(ControlTree, SaysWhatIsWrong) {
