@@ -11,7 +11,7 @@
 #include "base/require.h"
 #include "base/rng.h"
 #include "estimation/covariance.h"
-#include "estimation/landmark_particle_internal.h"
+#include "estimation/slam_particle_internal.h"
 #include "estimation/pose_transition_internal.h"
 
 namespace rex {

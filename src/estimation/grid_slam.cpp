@@ -14,12 +14,12 @@
 #include "base/require.h"
 #include "base/rng.h"
 #include "estimation/covariance.h"
-#include "estimation/landmark_particle_internal.h"
 #include "estimation/pose_edge_internal.h"
 #include "estimation/pose_transition_internal.h"
 #include "estimation/range_scan_internal.h"
 #include "estimation/resampling.h"
 #include "estimation/scan_matching.h"
+#include "estimation/slam_particle_internal.h"
 #include "geometry/rotation.h"
 
 namespace rex {
@@ -55,8 +55,9 @@ std::vector<Eigen::Vector2d> filledGaps(const Eigen::Matrix2Xd& points, double s
 
 }  // namespace
 
-// p(scan | map, x) p(x | last pose), without constants. End points near those of earlier rays are likely;
-// those where nothing is known can be anywhere, those in free space are unlikely.
+// The logarithm of how likely a pose is, up to a constant: by the scan and the map, and by the motion. End
+// points near those of earlier rays are likely; those where nothing is known can be anywhere, those in free
+// space are unlikely.
 struct GridSlam::Target {
   Target(const GridSlamOptions& options, double maxRange, const Eigen::Matrix2Xd& ends,
          const Eigen::Matrix3d& noise)

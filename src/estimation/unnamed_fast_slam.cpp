@@ -9,7 +9,7 @@
 #include "base/rng.h"
 #include "estimation/assignment.h"
 #include "estimation/covariance.h"
-#include "estimation/landmark_particle_internal.h"
+#include "estimation/slam_particle_internal.h"
 #include "estimation/pose_transition_internal.h"
 
 namespace rex {

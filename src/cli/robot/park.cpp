@@ -26,6 +26,7 @@
 #include "cli/robot/robot_room_internal.h"
 #include "cli/terminal.h"
 #include "cli/wrong_use_internal.h"
+#include "collision/collision_pairs.h"
 #include "collision/contacts.h"
 
 namespace rex::cli {
@@ -60,6 +61,17 @@ void requireSensible(const ParkOptions& options) {
   requireBetween("--speed", options.speed, 1e-3, 1e3);
 }
 
+// Whoever puts obstacles there would see the car drive through them.
+void tellWhatIsNoObstacle(const Model& model) {
+  for (const PairVerdict& pair : pairVerdicts(model))
+    if (pair.reason == PairReason::kNeighbours)
+      note(wrap(
+          fmt::format("shapes of '{}' and '{}' do not stop each other, because a joint links these bodies: "
+                      "put obstacles on a body of their own",
+                      harmless(model[pair.a].name), harmless(model[pair.b].name)),
+          2, 0));
+}
+
 PathTask taskOf(Model model, const ParkOptions& options) {
   const ContactModel contacts = contactModelOf(model);
   const Eigen::VectorXd start =
@@ -69,6 +81,7 @@ PathTask taskOf(Model model, const ParkOptions& options) {
     return parkingTask(std::move(model), contacts, start, goal, options.margin, options.resolution);
   });
   requireFreeEnds(task.problem, options.margin);
+  tellWhatIsNoObstacle(task.model);
   return task;
 }
 
@@ -186,14 +199,13 @@ void addPark(CLI::App* command, Action& action) {
   command->footer(
       "Examples:\n  scripts/rex park street --goal -1.3,1.1,0 -o park\n"
       "  scripts/rex park street --start -1.3,1.1,0 --goal 8,4.5,0 --reverse-cost 3 -o leave --no-film\n\n"
-      "The scene has one joint that moves, of type transXYPhi: x and y of the middle of the rear axle, and "
-      "the\n"
-      "heading. Hybrid A* (Dolgov 2010) finds a path of arcs past all shapes. DIR gets path.csv (time at 1 "
-      "m/s,\n"
-      "and joints; `rex render --motion` reads it), tree.png (what was explored, from the goal back), "
-      "path.mp4\n"
-      "and path.html (a replay).\n"
+      "The scene has one joint that moves, of type transXYPhi: x and y of the middle of the rear axle,\n"
+      "and the heading. Shapes of the body to which it joins the car are no obstacles. Hybrid A*\n"
+      "(Dolgov 2010) finds a path of arcs past all others. DIR gets path.csv (time at 1 m/s, and joints;\n"
+      "`rex render --motion` reads it), tree.png (what was explored, from the goal back), path.mp4 and\n"
+      "path.html (a replay).\n"
       "Exit codes: 0 found a path, 1 found none or one not proven clear, 64 wrong use.");
+  const HybridAStarOptions& search = options->search;
   addSceneFile(command, "SCENE", options->scene.file);
   command->add_option("-o,--out", options->out, "folder for the results")->type_name("DIR")->required();
   command->add_option("--start", options->start, "x,y,heading, or file (default: file)")->type_name("POSE");
@@ -210,21 +222,27 @@ void addPark(CLI::App* command, Action& action) {
       ->add_option("--resolution", options->resolution,
                    "distance between checks along the path (default: 0.05)")
       ->type_name("METRES");
-  command->add_option("--cell", options->search.cellSize, "size of cells (default: 0.25)")
+  command
+      ->add_option("--cell", options->search.cellSize,
+                   fmt::format("size of cells (default: {:g})", search.cellSize))
       ->type_name("METRES");
   command
       ->add_option("--reverse-cost", options->search.reverseFactor,
-                   "cost of a metre backward, at least 1 (default: 1.5)")
+                   fmt::format("cost of a metre backward, at least 1 (default: {:g})", search.reverseFactor))
       ->type_name("X");
   command
       ->add_option("--switch-cost", options->search.switchCost,
-                   "cost of changing direction, in metres (default: 1)")
+                   fmt::format("cost of changing direction, in metres (default: {:g})", search.switchCost))
       ->type_name("X");
   command
-      ->add_option("--slack", options->search.slack,
-                   "by what share a path may cost more than the best one on the grid (default: 0.1)")
+      ->add_option(
+          "--slack", options->search.slack,
+          fmt::format("by what share a path may cost more than the best one on the grid (default: {:g})",
+                      search.slack))
       ->type_name("X");
-  command->add_option("--states", options->search.maxExpanded, "budget of expanded states (default: 500000)")
+  command
+      ->add_option("--states", options->search.maxExpanded,
+                   fmt::format("budget of expanded states (default: {})", search.maxExpanded))
       ->type_name("N");
   addFilmSpeed(command, options->speed);
   command->add_flag("--no-film", options->noFilm, "do not make path.mp4 and path.html");

@@ -21,7 +21,7 @@ namespace rex::cli::park_test {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
-using ::testing::MatchesRegex;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 constexpr const char* kGoal = "-1.3,1.1,0";
@@ -99,6 +99,19 @@ TEST_F(ParkCommand, SaysThatASpaceIsTooShort) {
   EXPECT_THAT(flat(result.output), HasSubstr("no path on this grid: the goal is reached from only"));
   EXPECT_TRUE(fs::exists(in("out/tree.png")));
   EXPECT_FALSE(fs::exists(in("out/path.csv")));
+}
+
+TEST_F(ParkCommand, TellsWhichShapesAreNoObstacles) {
+  REX_NEEDS_OSMESA();
+  std::string scene = fileText(sourcePath("data/scenes/street.ors"));
+  const std::string joint = "joint drive (road car) { A=<T t(0 -4 0.05)>";
+  scene.replace(scene.find(joint), joint.size(), "joint drive (world car) { A=<T t(0 0 0)>");
+  std::ofstream(in("world.ors")) << scene;
+  const ProcessResult result = park({in("world.ors"), "--goal", "5,1.1,0", "--no-film"});
+  EXPECT_EQ(result.exitCode, 0) << "it parks where another car stands";
+  EXPECT_THAT(flat(result.error),
+              HasSubstr("shapes of 'world' and 'car' do not stop each other, because a joint"));
+  EXPECT_THAT(park({"street", "--goal", kGoal, "--no-film"}).error, Not(HasSubstr("do not stop")));
 }
 
 TEST_F(ParkCommand, HasExamplesThatRun) {

@@ -9,6 +9,7 @@
 #include "cli/robot/view_film.h"
 #include "live/live_recording.h"
 #include "scene/ors_reader.h"
+#include "support/needs_osmesa.h"
 
 namespace rex::cli::view_test {
 
@@ -73,6 +74,7 @@ class ViewFilmTest : public ::testing::Test {
 };
 
 TEST_F(ViewFilmTest, EndsWithItsOwner) {
+  REX_NEEDS_OSMESA();
   {
     ViewFilm film(arm, {}, folder.path());
     EXPECT_EQ(film.draw(), "There is no recording yet.");
@@ -83,6 +85,7 @@ TEST_F(ViewFilmTest, EndsWithItsOwner) {
 }
 
 TEST_F(ViewFilmTest, LeavesTheUsersSignalToItsOwner) {
+  REX_NEEDS_OSMESA();
   ViewFilm film(arm, {}, folder.path());
   drawFor(film);
   ::kill(::getpid(), SIGINT);

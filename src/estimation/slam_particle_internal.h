@@ -11,6 +11,7 @@ namespace rex {
 
 class Rng;
 
+/// What all kinds of SLAM with particles share: poses that are drawn, and beliefs of landmarks.
 namespace internal {
 
 /// An observation and the landmark of a particle that it belongs to.

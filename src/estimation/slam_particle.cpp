@@ -7,7 +7,7 @@
 #include "base/require.h"
 #include "base/rng.h"
 #include "estimation/covariance.h"
-#include "estimation/landmark_particle_internal.h"
+#include "estimation/slam_particle_internal.h"
 
 namespace rex::internal {
 
