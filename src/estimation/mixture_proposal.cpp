@@ -46,7 +46,8 @@ void requireWithin(const char* what, double found, bool isRight, const char* wan
 // What mixtureProposal() draws from: p is the prediction, q the mixture.
 class Mixture {
  public:
-  Mixture(NonlinearModel transition, const Particles& belief, StateDensity observed, MixtureOptions options)
+  Mixture(NonlinearModel transition, const Particles& belief, StateDensity observed,
+          MixtureProposalOptions options)
       : transition_(std::move(transition)),
         observed_(std::move(observed)),
         options_(std::move(options)),
@@ -109,7 +110,7 @@ class Mixture {
 
   NonlinearModel transition_;
   StateDensity observed_;
-  MixtureOptions options_;
+  MixtureProposalOptions options_;
   Eigen::MatrixXd root_;
   Eigen::MatrixXd means_;  // of the motion of each particle of the belief
   Eigen::VectorXd weights_;
@@ -162,7 +163,7 @@ StateDensity gridDensity(const StateGrid& grid, const VectorArg& weights) {
 }
 
 Propose mixtureProposal(NonlinearModel transition, const Particles& belief, StateDensity observed,
-                        MixtureOptions options) {
+                        MixtureProposalOptions options) {
   if (!transition.g) throw Error({.what = "transition", .found = "no function g"});
   const Eigen::Index n = belief.states.rows();
   requireCovariance("transition: covariance of the noise", transition.W, n, Definiteness::kPositive);

@@ -31,7 +31,7 @@ struct StateGrid {
 /// cells or of sizes that do not fit, and for weights like resampled.
 [[nodiscard]] StateDensity gridDensity(const StateGrid& grid, const VectorArg& weights);
 
-struct MixtureOptions {
+struct MixtureProposalOptions {
   double share = 0.1;         ///< of the particles that are drawn from the observation, 0 to 1, less than 1
   double kidnapping = 0;      ///< probability that the motion ends anywhere, 0 to 1
   StateDensity anywhere{};    ///< where, if that is possible
@@ -45,6 +45,6 @@ struct MixtureOptions {
 /// weights of Klaas, de Freitas and Doucet 2005. The time grows with the square of the number of particles.
 /// Throws Error for a noise that is not definite, options out of range, and missing functions.
 [[nodiscard]] Propose mixtureProposal(NonlinearModel transition, const Particles& belief,
-                                      StateDensity observed, MixtureOptions options = {});
+                                      StateDensity observed, MixtureProposalOptions options = {});
 
 }  // namespace rex

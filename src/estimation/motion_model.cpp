@@ -45,9 +45,9 @@ Eigen::VectorXd moved(const MotionModel& model, const VectorArg& x, const Vector
   return next;
 }
 
-MotionJacobians jacobiansOf(const MotionModel& model, const VectorArg& x, const VectorArg& u, double dt) {
+StepJacobians jacobiansOf(const MotionModel& model, const VectorArg& x, const VectorArg& u, double dt) {
   requireArguments(model, x, u, dt);
-  MotionJacobians at;
+  StepJacobians at;
   at.A = model.A ? model.A(x, u, dt)
                  : numericJacobian([&](const Eigen::VectorXd& y) { return model.f(y, u, dt); }, x);
   at.B = model.B ? model.B(x, u, dt)

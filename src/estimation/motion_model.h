@@ -28,12 +28,12 @@ struct MotionModel {
                                     double dt, Rng& rng);
 
 /// The model linearised at (x, u): x' - f(x, u) = A dx + B du.
-struct MotionJacobians {
+struct StepJacobians {
   Eigen::MatrixXd A{};  ///< states x states
   Eigen::MatrixXd B{};  ///< states x controls
 };
-[[nodiscard]] MotionJacobians jacobiansOf(const MotionModel& model, const VectorArg& x, const VectorArg& u,
-                                          double dt);
+[[nodiscard]] StepJacobians jacobiansOf(const MotionModel& model, const VectorArg& x, const VectorArg& u,
+                                        double dt);
 
 /// The transition for Kalman filters: extendedPredict(belief, transitionOf(model, belief.mean, u, dt)). Its
 /// noise is that at x.

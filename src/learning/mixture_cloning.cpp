@@ -1,6 +1,7 @@
 #include "learning/mixture_cloning.h"
 
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include <Eigen/Cholesky>
@@ -25,7 +26,8 @@ VectorXd logNormals(const MatrixXd& X, const VectorXd& mean, const MatrixXd& cov
   const MatrixXd solved = factors.solve(offsets);
   VectorXd logs(X.cols());
   for (Index i = 0; i < X.cols(); ++i) logs[i] = -offsets.col(i).dot(solved.col(i)) / 2;
-  return logs.array() - (logDeterminant + static_cast<double>(mean.size()) * std::log(2 * M_PI)) / 2;
+  return logs.array() -
+         (logDeterminant + static_cast<double>(mean.size()) * std::log(2 * std::numbers::pi)) / 2;
 }
 
 double logSumExp(const Eigen::RowVectorXd& logs) {
@@ -98,7 +100,7 @@ MixtureExpert conditioned(double weight, const VectorXd& mean, const MatrixXd& c
 }
 
 MixtureClone runFrom(JointMixture mixture, const MatrixXd& Z, Index d, const VectorXd& penalty,
-                     const MixtureOptions& options) {
+                     const MixtureCloneOptions& options) {
   MixtureClone clone;
   for (int iteration = 0; iteration <= options.maxIterations; ++iteration) {
     MatrixXd shares = mixture.logTerms(Z);
@@ -171,7 +173,7 @@ int MixturePolicy::expertFor(const VectorArg& state, std::optional<int> previous
 }
 
 MixtureClone cloneMixture(const MatrixArg& states, const MatrixArg& actions, Rng& rng,
-                          const MixtureOptions& options) {
+                          const MixtureCloneOptions& options) {
   requireCount("experts", options.experts, 1);
   requireCount("starts of expectation maximisation", options.starts, 1);
   requireCount("iterations of expectation maximisation", options.maxIterations, 1);

@@ -38,7 +38,7 @@ struct MixturePolicy {
   [[nodiscard]] int expertFor(const VectorArg& state, std::optional<int> previous, Rng& rng) const;
 };
 
-struct MixtureOptions {
+struct MixtureCloneOptions {
   int experts = 2;
   int starts = 5;  ///< the best of so many runs from random centres
   int maxIterations = 500;
@@ -61,6 +61,6 @@ struct MixtureClone {
 /// d, actions n x m, one demonstration per row. Throws Error for sizes that do not fit, numbers that are not
 /// finite, fewer demonstrations than experts, a coordinate that never changes, and options out of range.
 [[nodiscard]] MixtureClone cloneMixture(const MatrixArg& states, const MatrixArg& actions, Rng& rng,
-                                        const MixtureOptions& options = {});
+                                        const MixtureCloneOptions& options = {});
 
 }  // namespace rex

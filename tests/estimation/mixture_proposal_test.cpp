@@ -221,7 +221,9 @@ TEST(MixtureProposal, SaysWhatIsWrong) {
                             .W = Eigen::MatrixXd::Ones(1, 1)};
   const Particles belief{Eigen::RowVectorXd::Zero(2), Eigen::Vector2d(.5, .5)};
   const StateDensity good = gridDensity(Corridor::grid(3), Eigen::Vector3d::Ones());
-  const auto make = [&](MixtureOptions options) { return mixtureProposal(rest, belief, good, options); };
+  const auto make = [&](MixtureProposalOptions options) {
+    return mixtureProposal(rest, belief, good, options);
+  };
   EXPECT_REX_ERROR(mixtureProposal({}, belief, good), "transition: found no function g");
   EXPECT_REX_ERROR(mixtureProposal({.g = rest.g, .W = Eigen::MatrixXd::Zero(1, 1)}, belief, good),
                    "transition: covariance of the noise");

@@ -106,7 +106,7 @@ TEST(MotionModel, HasJacobiansLikeDifferences) {
       const VectorXd x = scale * rng.uniformVector(model.states, -2, 2);
       const VectorXd u =
           scale * rng.uniformVector(model.controls, -robot.largestControl, robot.largestControl);
-      const MotionJacobians at = jacobiansOf(model, x, u, .4);
+      const StepJacobians at = jacobiansOf(model, x, u, .4);
       const JacobianCheck A =
           checkJacobian([&](const VectorXd& y) { return model.f(y, u, .4); }, at.A, x, 1e-8);
       const JacobianCheck B =
