@@ -181,7 +181,7 @@ ExitCode search(const SearchOptions& options) {
     if (!options.methods.empty())
       requireBetween(fmt::format("--max-evaluations of {}", method->name).c_str(), options.maxEvaluations, 10,
                      static_cast<double>(method->mostEvaluations));
-    note(fmt::format("{} is left out: it takes at most {} --max-evaluations", method->name,
+    note(fmt::format("{} is left out: it is compared with --max-evaluations up to {}", method->name,
                      method->mostEvaluations));
     return true;
   });

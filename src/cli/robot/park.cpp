@@ -73,6 +73,7 @@ void tellWhatIsNoObstacle(const Model& model) {
 }
 
 PathTask taskOf(Model model, const ParkOptions& options) {
+  requireCar(model);
   const ContactModel contacts = contactModelOf(model);
   const Eigen::VectorXd start =
       postureWithinLimits(model, "--start", options.start.empty() ? "file" : options.start);

@@ -42,14 +42,17 @@ constexpr double kPosesPerSecond = 100;  // poses per second, and so per metre, 
 
 }  // namespace
 
-PathTask parkingTask(Model model, const ContactModel& contacts, const VectorArg& start, const VectorArg& goal,
-                     double margin, double resolution) {
+void requireCar(const Model& model) {
   const bool isCar =
       model.nq() == 3 && std::ranges::count(model.joints(), JointType::kPlanarXYPhi, &Joint::type) == 1;
   if (!isCar)
     throw UsageError({.what = harmless(model.name()),
                       .found = fmt::format("{} coordinates", model.nq()),
                       .wanted = "one joint of type transXYPhi, that of the car, and no other that moves"});
+}
+
+PathTask parkingTask(Model model, const ContactModel& contacts, const VectorArg& start, const VectorArg& goal,
+                     double margin, double resolution) {
   PathProblem problem = robotProblem(model, contacts, start, goal, margin, resolution);
   problem.space = Space::se2(model.lowerLimits().head<2>(), model.upperLimits().head<2>());
   return {std::move(model), contacts, std::move(problem)};

@@ -7,9 +7,11 @@
 
 namespace rex::cli {
 
+/// Throws UsageError for a scene in which anything but one joint of type transXYPhi moves.
+void requireCar(const Model& model);
+
 /// The task of a car in a scene: from a pose (x, y, heading) to another, with all pairs of shapes `margin`
-/// metres apart. Throws UsageError for a scene in which anything but one joint of type transXYPhi moves, and
-/// like robotProblem().
+/// metres apart. Throws like robotProblem().
 [[nodiscard]] PathTask parkingTask(Model model, const ContactModel& contacts, const VectorArg& start,
                                    const VectorArg& goal, double margin, double resolution);
 

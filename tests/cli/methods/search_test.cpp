@@ -41,6 +41,8 @@ TEST_F(SearchCommand, ComparesAllMethodsOnAllFunctions) {
     EXPECT_THAT(result.output, HasSubstr("\n" + std::string(function.name) + " "));
   EXPECT_THAT(flat(result.output),
               HasSubstr("cma one-plus-one evolution distribution simplex annealing climbing"));
+  EXPECT_THAT(flat(result.error),
+              HasSubstr("bayes is left out: it is compared with --max-evaluations up to 300"));
   EXPECT_EQ(rex({"search", "--seeds", "1", "--dim", "2", "--max-evaluations", "5000"}).output, result.output);
 }
 

@@ -128,6 +128,7 @@ TEST_F(ParkCommand, SaysWhatIsWrong) {
   expectRefusal(
       {"board", "--goal", "0,0,0"},
       "board: found 3 coordinates, wanted one joint of type transXYPhi, that of the car, and no other");
+  expectRefusal({"man", "--goal", "0,0,0"}, "man: found 27 coordinates, wanted one joint of type transXYPhi");
   expectRefusal({"street"}, "--goal is required");
   expectRefusal({"street", "--goal", "5,1.1,0"}, "--goal: found '");
   expectRefusal({"street", "--goal", "5,9,0"}, "--goal");
