@@ -11,8 +11,8 @@
 #include "base/require.h"
 #include "base/rng.h"
 #include "estimation/covariance.h"
-#include "estimation/slam_particle_internal.h"
 #include "estimation/pose_transition_internal.h"
+#include "estimation/slam_particle_internal.h"
 
 namespace rex {
 

@@ -9,8 +9,8 @@
 #include "base/rng.h"
 #include "estimation/assignment.h"
 #include "estimation/covariance.h"
-#include "estimation/slam_particle_internal.h"
 #include "estimation/pose_transition_internal.h"
+#include "estimation/slam_particle_internal.h"
 
 namespace rex {
 namespace {
