@@ -39,11 +39,11 @@ std::string readBytes(const fs::path& file) {
   return bytes;
 }
 
-// Ten times what good files take, plus a second: not every file on which assimp never returns is recognised
-// beforehand. A glTF file keeps most of its data, and all textures, in other files.
+// Ten times what good files take, plus four seconds for slow machines: not every file on which assimp never
+// returns is recognised beforehand. A glTF file keeps most of its data, and all textures, in other files.
 IsolationLimits limitsFor(std::size_t bytes, const std::string& name, bool textures) {
   IsolationLimits limits;
-  if (endingOf(name) != ".gltf" && !textures) limits.cpuSeconds = 1 + static_cast<double>(bytes >> 22);
+  if (endingOf(name) != ".gltf" && !textures) limits.cpuSeconds = 4 + static_cast<double>(bytes >> 22);
   return limits;
 }
 
