@@ -1,19 +1,25 @@
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "bench/graded_class.h"
 #include "bench/row.h"
 #include "bench/tested_exercises.h"
 #include "bench/watched_exercise.h"
 #include "grading/worker_process.h"
 #include "interface.h"
+#include "sandbox/probes.h"
+#include "support/temporary_folder.h"
 
 namespace rex::bench {
 namespace {
+
+namespace fs = std::filesystem;
 
 // Wall seconds of one call to a real worker: two processes on one core take turns, so that neither's clock
 // tells alone. The median of many short rows of calls.
@@ -37,6 +43,26 @@ double roundTrip() {
   if (run.failure) throw std::runtime_error(run.failure->message);
   std::nth_element(rows.begin(), rows.begin() + kRows / 2, rows.end());
   return rows[kRows / 2];
+}
+
+// Starting and ending a worker in the best sandbox that holds here.
+Measurement sandboxStart() {
+  const auto job = std::make_shared<grading::GradingJob>();
+  const auto start = timedByWall([job] {
+    const grading::WorkerRun run =
+        grading::runWithWorker(*job, "", Student::signature(), [](remote::Caller&) {});
+    if (run.failure) throw std::runtime_error(run.failure->message);
+  });
+  return [=] {
+    if (job->worker.empty()) {
+      const TemporaryFolder folder;
+      const fs::path binary = REX_BINARY_DIR;
+      sandbox::Sandbox best{.launcher = binary / "rex-sandbox"};
+      best.level = sandbox::bestLevel(best.launcher, binary / "rex-sandbox-probe", folder.path()).level;
+      *job = {.worker = binary / "tests/sample/good", .sandbox = best};
+    }
+    return start();
+  };
 }
 
 // `rex test` of each reference solution, against the most that one may take; then the medians of all
@@ -68,7 +94,7 @@ std::vector<Row> testRows() {
 }  // namespace
 
 std::vector<Row> gradingRows() {
-  constexpr double kLimit = 8e-6, kLoopLimit = 4;
+  constexpr double kLimit = 8e-6, kLoopLimit = 4, kStartLimit = 20e-3;
   // Made by the first measurement.
   const auto loop = [watched = std::make_shared<std::unique_ptr<WatchedExercise>>()]() -> WatchedExercise& {
     if (!*watched) *watched = std::make_unique<WatchedExercise>();
@@ -94,7 +120,23 @@ std::vector<Row> gradingRows() {
                             .peer = [] { return kLoopLimit; },
                             .target = 1,
                             .unit = "s",
-                            .repetitions = 5}};
+                            .repetitions = 5},
+                           {.name = "sandbox-start",
+                            .ours = sandboxStart(),
+                            .peerName = "limit",
+                            .peer = [] { return kStartLimit; },
+                            .target = 1,
+                            .unit = "ms"},
+                           {.name = "grade-class",  // processor seconds of each file
+                            .ours = [made = std::make_shared<std::unique_ptr<GradedClass>>()] {
+                              if (!*made) *made = std::make_unique<GradedClass>();
+                              return (*made)->cpuSecondsPerFile();
+                            },
+                            .peerName = "limit",
+                            .peer = [] { return kLoopLimit; },
+                            .target = 1,
+                            .unit = "s",
+                            .repetitions = 3}};
   for (Row& row : testRows()) rows.push_back(std::move(row));
   return rows;
 }

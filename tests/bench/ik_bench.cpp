@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/rng.h"
+#include "bench/ik_boxes.h"
 #include "bench/ik_peer.h"
 #include "bench/row.h"
 #include "geometry/rotation.h"
@@ -123,6 +124,24 @@ Row closedFormRow(const std::string& name, const std::string& urdf) {
   return {name, [=] { return all() / kTimedPoses; }, "limit", [] { return 6e-6; }, 1, "us"};
 }
 
+// A posture free of contact for each pose. All answers are checked first, and each counts that is wrong or
+// missing.
+void addRowsAmongBoxes(std::vector<Row>& rows) {
+  const auto problem = std::make_shared<const IkAmongBoxes>(static_cast<int>(kTimedPoses));
+  double missed = 0;
+  for (std::size_t k = 0; k < kTimedPoses; ++k) {
+    const InverseKinematicsResult found = solve(*problem, k);
+    const bool isSolved = found.status == InverseKinematicsResult::Status::kSolved;
+    if (isSolved && !isRight(*problem, k, found.q)) throw std::logic_error("a posture that is none");
+    missed += isSolved ? 0 : 1. / kTimedPoses;
+  }
+  const Measurement all = timed([=] {
+    for (std::size_t k = 0; k < kTimedPoses; ++k) static_cast<void>(solve(*problem, k));
+  });
+  rows.push_back({.name = "ik-boxes", .ours = [=] { return all() / kTimedPoses; }, .unit = "us"});
+  rows.push_back({.name = "ik-boxes-missed", .ours = [=] { return missed; }, .unit = "%", .repetitions = 1});
+}
+
 }  // namespace
 
 // Poses that random postures within the limits reach, from the middle of all joints. The first robot is not
@@ -136,6 +155,7 @@ std::vector<Row> ikRows() {
     rows.push_back({.name = "ik-panda", .peerName = "no " + panda.filename().string(), .unit = "us"});
   }
   addRows(reachableRobot("arm7dof", sourcePath("data/robots/arm7dof/arm7dof.urdf"), "flange"), rows);
+  addRowsAmongBoxes(rows);
   const char *x = "1 0 0", *y = "0 1 0", *z = "0 0 1", *none = "0 0 0";
   rows.push_back(closedFormRow(
       "ik-6r-wrist",
