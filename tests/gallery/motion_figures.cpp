@@ -3,6 +3,7 @@
 #include "locomotion/footsteps.h"
 #include "locomotion/limit_cycle.h"
 #include "locomotion/preview_control.h"
+#include "locomotion/spring_walk.h"
 #include "trajectory/b_spline.h"
 #include "trajectory/cubic_spline.h"
 
@@ -106,10 +107,39 @@ Figure gait() {
   return figure;
 }
 
+// How hard each leg of a walker on springs pushes upwards, step by step.
+Figure springWalk() {
+  const SpringLeg leg{.stiffness = 14000, .angle = 1.2042771838760873};  // 69 degrees
+  const WalkingGait gait = findWalkingGait(leg, {.height = 0.97, .speed = 1.1});
+  const double weight = leg.mass * leg.g;
+  Figure figure{.title = "People walk like this: two humps, and a valley over the foot",
+                .xLabel = "time [s]",
+                .yLabel = "vertical force / weight",
+                .legend = Legend::kOutside,
+                .series = {{.label = "one leg"},
+                           {.label = "the other leg"},
+                           {.label = "both together", .dashed = true, .color = kGrey}},
+                .height = 420};
+  double before = 0;
+  for (std::size_t step = 0; step < 4; ++step) {
+    const std::vector<WalkSample> samples = walkSamples(leg, gait.at, 60);
+    for (const WalkSample& at : samples) {
+      append(figure.series[step % 2], before + at.time, at.hind[1] / weight);
+      append(figure.series[(step + 1) % 2], before + at.time, at.front[1] / weight);
+      append(figure.series[2], before + at.time, (at.hind + at.front)[1] / weight);
+    }
+    before += samples.back().time;
+  }
+  return figure;
+}
+
 }  // namespace
 
 std::vector<std::pair<std::string, Figure>> motionFigures() {
-  return {{"splines", splines()}, {"preview-control", preview()}, {"compass-gait", gait()}};
+  return {{"splines", splines()},
+          {"preview-control", preview()},
+          {"compass-gait", gait()},
+          {"spring-walk", springWalk()}};
 }
 
 }  // namespace rex
