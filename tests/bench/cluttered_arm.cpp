@@ -8,11 +8,12 @@
 #include "base/rng.h"
 #include "collision/proximity.h"
 #include "geometry/rotation.h"
-#include "kinematics/forward_kinematics.h"
+#include "kinematics/jacobians.h"
 #include "scene/ors_reader.h"
 #include "support/paths.h"
 #include "trajectory/contact_terms.h"
 #include "trajectory/motion_terms.h"
+#include "trajectory/task_terms.h"
 
 namespace rex::bench {
 namespace {
@@ -43,7 +44,8 @@ Model armAmong(const std::vector<ShapeSpec>& obstacles) {
 }
 
 ShapeSpec obstacleAt(const Eigen::Vector3d& p_W, int k, Rng& rng) {
-  ShapeSpec one{.name = "obstacle" + std::to_string(k), .X_BS = {expSO3(rng.normalVector(3)), p_W}};
+  ShapeSpec one{
+      .name = "obstacle" + std::to_string(k), .X_BS = {expSO3(rng.normalVector(3)), p_W}, .shape = {}};
   if (k % 2 == 0)
     one.shape = {.type = ShapeType::kSphere, .radius = rng.uniform(0.05, 0.12)};
   else
@@ -76,7 +78,8 @@ std::array<Eigen::MatrixXd, 3> startsOf(const ClutteredTask& task, Rng& rng) {
 ClutteredTask randomClutteredTask(Rng& rng) {
   const Model alone = armAmong({});
   for (;;) {
-    ClutteredTask task{rng.uniformVector(alone.nq(), -1.2, 1.2), rng.uniformVector(alone.nq(), -1.2, 1.2), {}};
+    ClutteredTask task{
+        rng.uniformVector(alone.nq(), -1.2, 1.2), rng.uniformVector(alone.nq(), -1.2, 1.2), {}};
     const Eigen::VectorXd middle = (task.from + task.to) / 2;
     for (int k = 0; k < kObstacles; ++k) {
       const Eigen::VectorXd q = k == 0 ? middle : rng.uniformVector(alone.nq(), -1.2, 1.2);

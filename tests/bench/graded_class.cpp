@@ -46,9 +46,10 @@ GradedClass::GradedClass() {
 double GradedClass::cpuSecondsPerFile() const {
   const fs::path results = folder_.path() / "results";
   fs::remove_all(results);
-  const ProcessResult graded = runProcess({REX_OF_TREE, folder_.path().string(), "grade",
-                                           (folder_.path() / "handed-in").string(), "--out", results.string()},
-                                          {.timeout = 600});
+  const ProcessResult graded =
+      runProcess({REX_OF_TREE, folder_.path().string(), "grade", (folder_.path() / "handed-in").string(),
+                  "--out", results.string()},
+                 {.timeout = 600});
   if (graded.exitCode != 0) throw std::runtime_error("rex grade: " + graded.output + graded.error);
   for (int k = 0; k < kFiles; ++k)
     if (!fs::exists(results / ("student" + std::to_string(k)) / "01-kinematics" / "results.json"))

@@ -128,10 +128,11 @@ std::vector<Row> gradingRows() {
                             .target = 1,
                             .unit = "ms"},
                            {.name = "grade-class",  // processor seconds of each file
-                            .ours = [made = std::make_shared<std::unique_ptr<GradedClass>>()] {
-                              if (!*made) *made = std::make_unique<GradedClass>();
-                              return (*made)->cpuSecondsPerFile();
-                            },
+                            .ours =
+                                [made = std::make_shared<std::unique_ptr<GradedClass>>()] {
+                                  if (!*made) *made = std::make_unique<GradedClass>();
+                                  return (*made)->cpuSecondsPerFile();
+                                },
                             .peerName = "limit",
                             .peer = [] { return kLoopLimit; },
                             .target = 1,

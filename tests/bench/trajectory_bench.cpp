@@ -16,7 +16,8 @@ Measurement solving(int steps, bool hasObstacle) {
   return timed([arm] { (void)solve(*arm); });
 }
 
-// Ten problems, each from three starts. All are made, solved and judged by the first measurement of either row.
+// Ten problems, each from three starts. All are made, solved and judged by the first measurement of either
+// row.
 class Clutter {
  public:
   // The mean over all starts, seconds.
@@ -43,8 +44,8 @@ class Clutter {
     Rng rng(1);
     for (int k = 0; k < 10; ++k) {
       const ClutteredArm& arm = arms_.emplace_back(randomClutteredTask(rng), rng);
-      const auto missed =
-          std::ranges::count_if(arm.starts, [&](const auto& from) { return !isRight(arm, solve(arm, from)); });
+      const auto missed = std::ranges::count_if(
+          arm.starts, [&](const auto& from) { return !isRight(arm, solve(arm, from)); });
       missedStarts_ += static_cast<double>(missed);
       missedProblems_ += missed == 3 ? 1 : 0;
     }
