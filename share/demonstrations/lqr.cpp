@@ -1,6 +1,6 @@
 // Chapter 8: Linear quadratic regulation. Costs Q of errors and R of force give the feedback that balances
-// the pole; pushes come every three seconds. Cheap force (small R) acts hard and fast, dear force lets it
-// sway.
+// the pole; pushes come every three seconds. Cheap force (small R) acts hard and fast, expensive force
+// lets it sway.
 #include <iomanip>
 #include <sstream>
 
@@ -18,6 +18,7 @@ int main() {
   LiveView view("lqr");
   view.lookFrom({0.2, -2, 0.35});
   const LinearizedPlant upright = plant.getLinearization();
+  int lost = -60;  // when it was last set upright again
   for (int t = 0; t < 360 || view.isWatched(); ++t) {
     const double place = view.slider("Q of the place", 0, 50, 1),
                  angle = view.slider("Q of the angle", 0, 100, 10);
@@ -29,9 +30,11 @@ int main() {
             Eigen::MatrixXd::Constant(1, 1, std::pow(10, force)));
     if (view.button("push left")) plant.x[3] -= strength;
     if (view.button("push right") || t % 90 == 30) plant.x[3] += strength;
-    if (view.button("set upright") || std::abs(plant.x[2]) > 1.5 || std::abs(plant.x[0]) > 6)
-      plant.x.setZero();
+    const bool isLost = std::abs(plant.x[2]) > 1.5 || std::abs(plant.x[0]) > 6;
+    if (view.button("set upright") || isLost) plant.x.setZero();
+    if (isLost) lost = t;
     std::ostringstream text;
+    if (t < lost + 60) text << "it fell, or left the rails, and was set upright again. ";
     if (regulator.K.size() > 0) text << std::setprecision(3) << "K = " << regulator.K;
     double u = 0;
     for (int i = 0; i < 10; ++i)

@@ -61,7 +61,7 @@ int main() {
     picture.pointSets.push_back(
         {.points = {{goal.x(), goal.y(), 0.05}}, .color = kDeadReckoningColor, .size = 20});
     picture.captions.push_back({.text = std::to_string(stuck) + " of 8 in a local minimum", .scale = 1.5});
-    view.plot("in a local minimum", t / 30., stuck);
+    view.plot("robots in a local minimum", t / 30., stuck);
     view.show(picture);
   }
 }

@@ -18,7 +18,7 @@ int main() {
   for (int t = 0; t < 360 || view.isWatched(); ++t) {
     const Eigen::Vector3d goals[] = {view.handle("right", right + Eigen::Vector3d(-0.6, 0, 0.1)),
                                      view.handle("left", left + Eigen::Vector3d(0.6, 0, 0.1))};
-    if (view.button("swap priorities") || t == 200) rightFirst = !rightFirst;
+    if (view.button("swap priorities") || (t == 200 && !view.isWatched())) rightFirst = !rightFirst;
     const double share = std::min(1., t / 100.);
     const Eigen::Vector3d targets[] = {right + share * (goals[0] - right), left + share * (goals[1] - left)};
     const char* hands[] = {"handR", "handL"};

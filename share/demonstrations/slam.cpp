@@ -22,13 +22,13 @@ int main() {
   std::optional<EkfSlam> slam;
   std::vector<int> number;  // of each landmark in the map; -1: not seen yet
   Rng rng(2);
-  int age = 0, loop = 0;
-  for (int t = 0; t < 300 || view.isWatched(); ++t, ++age) {
-    const double noise = view.slider("noise of landmarks [m]", 0.05, 2, 0.4),
-                 drift = view.slider("noise of the motion", 0.01, 0.3, 0.08);
+  double turned = 0;  // radians
+  for (int t = 0; t < 300 || view.isWatched(); ++t) {
+    const double noise = view.slider("noise of landmarks [m]", 0.05, 1, 0.4),
+                 drift = view.slider("noise of the motion", 0.01, 0.15, 0.08);
     const double range = view.slider("range of sight [m]", 3, 40, 7);
     if (view.button("from the start") || !slam) {
-      car.setState(Eigen::Vector3d::Zero()), car.setLandmarks(posts), number.assign(16, -1), age = 0;
+      car.setState(Eigen::Vector3d::Zero()), car.setLandmarks(posts), number.assign(16, -1), turned = 0;
       slam.emplace(
           Gaussian{.mean = Eigen::Vector3d::Zero(), .covariance = 1e-6 * Eigen::Matrix3d::Identity()},
           LandmarkSensor{.W = noise * noise * Eigen::Matrix2d::Identity()});
@@ -40,6 +40,7 @@ int main() {
         {.mean = [&](const Eigen::Vector3d& at) { return Eigen::Vector3d(car.getMeanStateAfterStep(at, u)); },
          .jacobian = [&](const Eigen::Vector3d& at) { return Eigen::Matrix3d(car.getStateJacobian(at, u)); },
          .noise = drift * drift * Eigen::Vector3d(1, 1, 0.09).asDiagonal().toDenseMatrix()});
+    turned += std::remainder(car.getState()[2] - x[2], 6.283185307179586) + 0.5 / 12;
     x = car.getState();
     CarView show{.car = x, .landmarks = posts};
     std::vector<Eigen::Vector2d> sightings;
@@ -66,9 +67,8 @@ int main() {
     const Gaussian pose = slam->pose();
     show.estimate = Eigen::Vector3d(pose.mean),
     show.poseBeliefs = {{pose.mean.head<2>(), pose.covariance.topLeftCorner<2, 2>()}};
-    loop = age / 151 + 1;
-    show.caption =
-        "loop " + std::to_string(loop) + ", " + std::to_string(slam->landmarks()) + " landmarks in the map";
+    show.caption = "loop " + std::to_string(1 + static_cast<int>(turned / 6.283185307179586)) + ", " +
+                   std::to_string(slam->landmarks()) + " landmarks in the map";
     Picture picture = pictureOf(show);
     for (const Ellipsoid& one : ellipses) picture.ellipsoids.push_back(one);
     picture.polylines.push_back(

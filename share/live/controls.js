@@ -8,6 +8,10 @@ const rexControls = (function () {
     return made;
   }
 
+  // Of a plot, in eight characters at most.
+  const short = value => Math.abs(value) > 0 && (Math.abs(value) < 1e-3 || Math.abs(value) >= 1e5)
+    ? value.toExponential(1) : String(Number(value.toPrecision(3)));
+
   const shown = value => value === null ? '' : String(Math.round(value * 1e4) / 1e4);
 
   // A slider with a number beside it. Without limits it spans `span` to both sides of 0, and the number any more.
@@ -114,15 +118,20 @@ const rexControls = (function () {
       const all = samples.flatMap(({ values }) => values).concat([0]);
       let low = Math.min(...all), high = Math.max(...all);
       if (high - low < 1e-9) high = low + 1;
-      const margin = 56, last = samples.length ? samples[samples.length - 1].time : 0;
+      const margin = 60, axis = 16, last = samples.length ? samples[samples.length - 1].time : 0;
       const x = t => margin + (width - margin - 4) * (1 - (last - t) / seconds);
-      const y = v => 6 + (height - 12) * (high - v) / (high - low);
+      const y = v => 6 + (height - 12 - axis) * (high - v) / (high - low);
       pen.strokeStyle = '#dde3e9', pen.fillStyle = '#5c6875', pen.textAlign = 'right', pen.textBaseline = 'middle';
       for (const value of [low, 0, high]) {
         if (value === 0 && Math.min(y(low) - y(0), y(0) - y(high)) < 14 && low !== 0 && high !== 0) continue;
         pen.beginPath(), pen.moveTo(margin, y(value)), pen.lineTo(width - 4, y(value)), pen.stroke();
-        pen.fillText(Number(value.toPrecision(3)), margin - 6, Math.min(Math.max(y(value), 7), height - 7));
+        pen.fillText(short(value), margin - 6, Math.min(Math.max(y(value), 7), height - axis - 7));
       }
+      pen.textBaseline = 'bottom';
+      pen.fillText('now', width - 4, height);
+      pen.fillText((seconds / 2) + ' s ago', x(last - seconds / 2) + 20, height);
+      pen.textAlign = 'left';
+      pen.fillText(seconds + ' s ago', margin, height);
       pen.lineWidth = 1.8, pen.lineJoin = 'round';
       colors.forEach((color, k) => {
         pen.strokeStyle = color;

@@ -522,12 +522,13 @@
   const keys = {
     1: () => setMode('look'), 2: () => setMode('drag'), 3: () => setMode('push'), Escape: () => choose(null),
     ' ': run, '.': () => send({ do: 'step' }), r: view.resetView,
-    t: () => gizmo.setMode(gizmo.mode === 'translate' ? 'rotate' : 'translate')
+    t: () => { if (chosen) gizmo.setMode(gizmo.mode === 'translate' ? 'rotate' : 'translate'); }
   };
   document.addEventListener('keydown', event => {
     if (event.ctrlKey || event.altKey || event.metaKey || !about || about.kind !== 'robot') return view.obeys(event);
-    const typed = event.target.closest && event.target.closest('input, select, button, textarea');
-    const isKey = keys[event.key] && !typed;
+    const within = what => event.target.closest && event.target.closest(what);
+    const isTyped = within('input[type=number], select, textarea') || (event.key === ' ' && within('input, button'));
+    const isKey = keys[event.key] && !isTyped;
     if (isKey) keys[event.key]();
     if (isKey || view.obeys(event)) event.preventDefault();
   });

@@ -3,7 +3,8 @@
 const rexProgram = (function () {
   const { element, slider, plot } = rexControls;
   const panel = document.getElementById('program'), asked = document.getElementById('asked');
-  const goOn = document.getElementById('goOn');
+  const goOn = document.getElementById('goOn'), pause = document.getElementById('pause');
+  const plots = document.getElementById('plots');
   const known = new Map();
   let send = () => {};
 
@@ -33,16 +34,19 @@ const rexProgram = (function () {
   }
 
   goOn.addEventListener('click', () => send({ do: 'go on' }));
+  pause.addEventListener('click', () => send({ do: 'pause' }));
 
   function show(frame, sender) {
     send = sender;
-    goOn.hidden = !frame.paused;
-    panel.hidden = !frame.paused && !(frame.asked && frame.asked.length > 0);
-    for (const one of (frame.asked || []).filter(({ kind }) => kind !== 'handle')) {
+    if (!frame.asked) return;
+    panel.hidden = false;
+    goOn.hidden = !frame.paused, pause.hidden = frame.paused;
+    for (const one of frame.asked.filter(({ kind }) => kind !== 'handle')) {
       const key = one.kind + ' ' + one.name;
       if (!known.has(key)) {
         known.set(key, make(one));
-        asked.append(known.get(key).box);
+        (one.kind === 'plot' ? plots : asked).append(known.get(key).box);
+        plots.hidden = plots.children.length === 0;
       }
       known.get(key).show(one);
     }

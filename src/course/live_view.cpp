@@ -117,6 +117,7 @@ struct LiveView::Parts {
   void obey(const ViewJson& event) {
     const std::string what = event["do"].get<std::string>();
     if (what == "go on") isPaused = false;
+    if (what == "pause") isPaused = true;
     if (!event.contains("name") || !event["name"].is_string()) return;
     for (Control& one : controls) {
       if (one.kind != what || one.name != event["name"].get<std::string>()) continue;
@@ -188,7 +189,19 @@ struct LiveView::Parts {
     while (server->viewers() > 0 && LiveClock::now() < shown + kFrameTime)
       hear(std::chrono::duration_cast<microseconds>(shown + kFrameTime - LiveClock::now()));
     hear(microseconds(0));
+    if (isPaused) stayPaused();
     shown = LiveClock::now();
+  }
+
+  // Until somebody presses "Go on", as long as a page is open. One that is loaded again is away for a moment.
+  void stayPaused() {
+    publish();
+    for (int away = 0; isPaused && away < 30;) {
+      hear(std::chrono::milliseconds(100));
+      away = server->viewers() > 0 ? 0 : away + 1;
+    }
+    isPaused = false;
+    publish();
   }
 
   // The curves for the replay, of which long ones become coarser.
@@ -353,14 +366,7 @@ void LiveView::plot(const std::string& name, double x, double y, const std::stri
 void LiveView::pause() {
   if (!isWatched()) return;
   parts_->isPaused = true;
-  parts_->publish();
-  // A page that is loaded again is away for a moment.
-  for (int away = 0; parts_->isPaused && away < 30;) {
-    parts_->hear(std::chrono::milliseconds(100));
-    away = parts_->server->viewers() > 0 ? 0 : away + 1;
-  }
-  parts_->isPaused = false;
-  parts_->publish();
+  parts_->stayPaused();
 }
 
 }  // namespace rex

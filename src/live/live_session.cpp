@@ -115,7 +115,7 @@ void LiveSession::obey(std::string_view message) {
 void LiveSession::obeyOne(const Event& event) {
   const std::string what = event.text("do");
   if (what == "move") return move(event);
-  if (what == "home") return setTarget(model_.initialPositions());
+  if (what == "home") return goHome();
   if (what == "drag") return drag(event);
   if (what == "push") return push(event);
   if (what == "release") {
@@ -182,6 +182,15 @@ void LiveSession::move(const Event& event) {
 }
 
 // In a simulation joints that are held follow; others jump.
+// No motor moves a free base: in a simulation it is put back, with all the rest.
+void LiveSession::goHome() {
+  if (!simulation_ || !hasFloatingBase(model_)) return setTarget(model_.initialPositions());
+  state_.q = target_ = model_.initialPositions();
+  state_.v.setZero();
+  poses_ = forwardKinematics(model_, state_.q);
+  restartSimulation();
+}
+
 void LiveSession::setTarget(const VectorXd& wanted) {
   VectorXd q = wanted.cwiseMax(model_.lowerLimits()).cwiseMin(model_.upperLimits());
   for (const Joint& joint : model_.joints()) {

@@ -55,6 +55,7 @@ class LiveSession {
   void obeyOne(const Event& event);
   void obeySimulation(const Event& event);
   void move(const Event& event);
+  void goHome();
   void setTarget(const Eigen::VectorXd& q);
   void drag(const Event& event);
   void push(const Event& event);

@@ -43,6 +43,20 @@ TEST(LiveSession, MovesToPosturesWithinTheLimits) {
   EXPECT_FALSE(session.isMoving());
 }
 
+TEST(LiveSession, PutsAFreeBaseBack) {
+  const std::string file = std::string(REX_SOURCE_DIR) + "/data/robots/humanoid/humanoid.urdf";
+  const SceneSpec spec = readScene(file, {.freeBase = true}).spec;
+  const Eigen::VectorXd home = compile(spec).initialPositions();
+  LiveSession session(spec, home);
+  session.obey(R"([{"do": "run", "on": true}])");
+  for (int tick = 0; tick < 30; ++tick) session.advance(1 / 60.);
+  EXPECT_LT(session.state().q[2], home[2] - 0.5) << "it falls";
+  session.obey(R"([{"do": "home"}])");
+  EXPECT_EQ(session.state().q, home);
+  EXPECT_TRUE(session.state().v.isZero());
+  EXPECT_TRUE(session.isMoving()) << "and falls again";
+}
+
 TEST(LiveSession, DragsUntilNobodyRenewsIt) {
   LiveSession session = sessionOf("arm3.ors");
   const BodyId last = session.model().bodiesInFileOrder().back();
