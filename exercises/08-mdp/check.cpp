@@ -5,6 +5,7 @@
 #include "iteration_checks.h"
 #include "lesson.h"
 #include "maze_checks.h"
+#include "natural_checks.h"
 #include "process_checks.h"
 #include "trial_checks.h"
 
@@ -64,6 +65,12 @@ void powers(Check& check, Student& student) {
   powerFits(check, student, 1, 3);
 }
 
+void naturalGradients(Check& check, Student& student) {
+  naturalGradientFits(check, student, 2, 1);
+  naturalGradientFits(check, student, 3, 4);
+  naturalGradientFits(check, student, 1, 2);
+}
+
 // <hidden>
 void mazesOfOtherLeaves(Check& check, Student& student) {
   check.forEachCase(10, [&](int) {
@@ -107,6 +114,53 @@ void trueGradient(Check& check, Student& student) {
 void morePower(Check& check, Student& student) {
   check.forEachCase(8, [&](int i) { powerFits(check, student, 1 + i % 4, 3 + 5 * i); });
 }
+
+// Returns that are linear in dlog pi, as 9:17 approximates them, have their coefficients as the result.
+void linearReturns(Check& check, Student& student) {
+  check.forEachCase(8, [&](int i) {
+    const int k = 1 + i % 4;
+    Practice given = naturalPractice(check.rng(), k, k + 2 * i).given;
+    const Eigen::VectorXd wanted = someNumbers(check.rng(), k);
+    for (Rollout& trial : given.trials) {
+      double after = 0;
+      for (auto t = trial.rewards.size() - 1; t >= 0; --t) {
+        const Eigen::VectorXd phi = trial.features.col(t), seen = given.policy.L.transpose() * phi;
+        const double now = phi.dot(wanted) * phi.dot(trial.noise.col(t)) / seen.dot(seen);
+        trial.rewards[t] = now - given.discount * after;
+        after = now;
+      }
+    }
+    const Eigen::VectorXd got = student.naturalGradientOf(given.policy, given.trials, given.discount);
+    check.near("w where the returns to go are linear in dlog pi", got, wanted, 1e-6 * wanted.norm());
+  });
+}
+
+// With features M phi, the parameters that mean the same are M^-T beta; so a step must become M^-T w. The
+// tolerance is what exercise.h allows times 100, more than the condition of M.
+void otherFeatures(Check& check, Student& student) {
+  check.forEachCase(8, [&](int i) {
+    const int k = 1 + i % 4;
+    const NaturalPractice made = naturalPractice(check.rng(), k, k + 2 * i);
+    const Practice& given = made.given;
+    Eigen::MatrixXd M = .3 * someNumbers(check.rng(), k, k);
+    for (int j = 0; j < k; ++j) {
+      M.row(j).head(j).setZero();
+      M(j, j) = check.rng().uniform(.5, 2);
+    }
+    const Eigen::MatrixXd turned = M.transpose(), back = rex::inverse(turned);
+    Practice other{{back * given.policy.beta, back * given.policy.L}, {}, given.discount};
+    for (const Rollout& trial : given.trials)
+      other.trials.push_back({M * trial.features, back * trial.noise, trial.rewards});
+
+    const Eigen::VectorXd w = student.naturalGradientOf(given.policy, given.trials, given.discount),
+                          changed = student.naturalGradientOf(other.policy, other.trials, other.discount);
+    check.shape("w of naturalGradientOf", w, k, 1);
+    check.atLeast("cosine of the angle between w and the gradient of reinforce",
+                  w.dot(made.g) / w.norm() / made.g.norm(), .01);
+    const Eigen::VectorXd wanted = back * w;
+    check.near("w for other features", changed, wanted, 1e-4 * wanted.norm());
+  });
+}
 // </hidden>
 
 }  // namespace
@@ -122,6 +176,7 @@ rex::grading::Checks<Student> checks() {
       {"returns", "gradient", "Returns to go", 1, Group::kVisible, returns},
       {"gradient", "gradient", "The gradient of given trials", 1, Group::kVisible, gradients},
       {"power", "power", "One step of PoWER", 1, Group::kVisible, powers},
+      {"natural", "natural", "The natural gradient of given trials", 1, Group::kVisible, naturalGradients},
       // <hidden>
       {"other-mazes", "maze", "T-mazes with other leaves", 1, Group::kHidden, mazesOfOtherLeaves},
       {"larger", "values", "Processes of any size", 1, Group::kHidden, largerProcesses},
@@ -130,6 +185,9 @@ rex::grading::Checks<Student> checks() {
       {"true-gradient", "gradient", "The gradient of a task where it is known", 1, Group::kHidden,
        trueGradient},
       {"more-power", "power", "PoWER on more trials", 1, Group::kHidden, morePower},
+      {"linear-returns", "natural", "Returns that are linear in dlog pi", 1, Group::kHidden, linearReturns},
+      {"other-features", "natural", "The natural gradient for other features", 1, Group::kHidden,
+       otherFeatures},
       // </hidden>
   };
 }

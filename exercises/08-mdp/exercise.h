@@ -49,7 +49,7 @@ std::vector<Eigen::VectorXd> iterateValues(const Process& process, double tolera
 /// longer changes; it is listed once.
 std::vector<std::vector<int>> iteratePolicies(const Process& process);
 
-// Parts 5 to 7, policies with noise and rollouts (9:16, 9:17, 12.10.1 d).
+// Parts 5 to 8, policies with noise and rollouts (9:16, 9:17, 12.10.1 d).
 
 /// The action in a state s is a = phi(s)^T (beta + epsilon), with an epsilon ~ N(0, Sigma), Sigma = L L^T,
 /// drawn anew in each step. Here the features phi(s) are the state itself.
@@ -88,3 +88,9 @@ Eigen::VectorXd reinforce(const Policy& policy, const std::vector<Rollout>& tria
 /// The new beta (k) of PoWER, for any number of features: 12.10.1 d with W = phi phi^T / (phi^T Sigma phi)
 /// and epsilon_t for its e_t. All Q_t are positive, and the features of the trials are not all in one plane.
 Eigen::VectorXd power(const Policy& policy, const std::vector<Rollout>& trials, double discount);
+
+// Part 8, a bonus: the natural gradient (9:17).
+
+/// w = F^-1 g (k) with the g of `reinforce`. F is the mean over trials of sum_t discount^t (d/dbeta log
+/// pi(a_t | s_t)) (d/dbeta log pi(a_t | s_t))^T, and invertible. Exact up to a millionth of the length of w.
+Eigen::VectorXd naturalGradientOf(const Policy& policy, const std::vector<Rollout>& trials, double discount);

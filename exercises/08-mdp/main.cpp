@@ -52,6 +52,11 @@ Eigen::VectorXd power(const Policy& policy, const std::vector<Rollout>& trials, 
   return policy.beta;
 }
 
+Eigen::VectorXd naturalGradientOf(const Policy& policy, const std::vector<Rollout>& trials, double discount) {
+  // TODO: F is a mean over the trials, like reinforce(). Then solve F w = g.
+  return Eigen::VectorXd::Zero(policy.beta.size());
+}
+
 // What follows is given, and never graded: change it as you like. show.h says what each line draws.
 
 int main() {
@@ -64,7 +69,7 @@ int main() {
   showRandomWalk();
   showOptimum(1e-6);
 
-  // Parts 5 to 7: a pole to balance. Learning begins with parameters of zero and a noise of 10 in both.
+  // Parts 5 to 8: a pole to balance. Learning begins with parameters of zero and a noise of 10 in both.
   const Policy first{Eigen::Vector2d::Zero(), 10 * Eigen::Matrix2d::Identity()};
   showRollouts(first);
   showLearning(first);

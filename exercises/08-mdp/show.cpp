@@ -1,6 +1,8 @@
 #include "show.h"
 
+#include <cmath>
 #include <cstdio>
+#include <numbers>
 
 #include "course/mdp_figures.h"
 #include "learning/dynamic_programming.h"
@@ -32,11 +34,10 @@ void plotOf(const char* name, const char* title, Figure figure) {
   plot(name, figure);
 }
 
-// Learns to balance a pole several times, with fresh noise. Adds no curves if nothing is ever learned.
+// Learns to balance a pole several times, with fresh noise. There are no curves if nothing is ever learned.
 using Update = std::function<Eigen::VectorXd(const Policy&, const std::vector<Rollout>&)>;
-void learnPole(const std::string& label, const Policy& first, const Update& update,
-               std::vector<LearningCurves>& curves) {
-  LearningCurves learned{label, {}};
+std::vector<std::vector<double>> learnPole(const Policy& first, const Update& update) {
+  std::vector<std::vector<double>> runs;
   bool isLearning = false;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     Rng rng(seed);
@@ -53,11 +54,41 @@ void learnPole(const std::string& label, const Policy& first, const Update& upda
       const Eigen::VectorXd next = update(policy, trials);
       if (next.allFinite()) policy.beta = next;
     }
-    learned.runs.push_back(returns);
+    runs.push_back(returns);
     isLearning = isLearning || policy.beta != first.beta;
   }
-  if (isLearning) return curves.push_back(learned);
-  nothingYet(("learning by " + label).c_str());
+  if (!isLearning) runs.clear();
+  return runs;
+}
+
+// Steps of length 1 along the gradient.
+Eigen::VectorXd byReinforce(const Policy& policy, const std::vector<Rollout>& trials) {
+  const Eigen::VectorXd g = reinforce(policy, trials, 1);
+  return policy.beta + g / (g.norm() + 1e-9);
+}
+
+// Steps of length 1 in the metric F: w^T F w = w^T g.
+Eigen::VectorXd byNaturalGradient(const Policy& policy, const std::vector<Rollout>& trials) {
+  const Eigen::VectorXd w = naturalGradientOf(policy, trials, 1), g = reinforce(policy, trials, 1);
+  return policy.beta + w / (std::sqrt(w.dot(g)) + 1e-9);
+}
+
+Eigen::VectorXd byPower(const Policy& policy, const std::vector<Rollout>& trials) {
+  return power(policy, trials, 1);
+}
+
+// The same method if the angle, the first feature, is in degrees.
+Update inDegrees(const Update& update) {
+  return [update](const Policy& policy, const std::vector<Rollout>& trials) {
+    const Eigen::Vector2d degrees(180 / std::numbers::pi, 1), radians = degrees.cwiseInverse();
+    std::vector<Rollout> converted = trials;
+    for (Rollout& trial : converted) {
+      trial.features = degrees.asDiagonal() * trial.features;
+      trial.noise = radians.asDiagonal() * trial.noise;
+    }
+    const Policy same{radians.asDiagonal() * policy.beta, radians.asDiagonal() * policy.L};
+    return Eigen::VectorXd(degrees.asDiagonal() * update(same, converted));
+  };
 }
 
 }  // namespace
@@ -121,21 +152,23 @@ void showRollouts(const Policy& policy) {
 void showLearning(const Policy& first) {
   Rng rng(1);
   if (runTrial(poleStep(rng), poleStart(rng), first, kPoleHorizon, rng).rewards.size() == 0) return;
-  std::vector<LearningCurves> curves;
-  // Steps of length 1 along the gradient.
-  learnPole(
-      "REINFORCE", first,
-      [](const Policy& policy, const std::vector<Rollout>& trials) {
-        const Eigen::VectorXd g = reinforce(policy, trials, 1);
-        return Eigen::VectorXd(policy.beta + g / (g.norm() + 1e-9));
-      },
-      curves);
-  learnPole(
-      "PoWER", first,
-      [](const Policy& policy, const std::vector<Rollout>& trials) { return power(policy, trials, 1); },
-      curves);
+  std::vector<LearningCurves> curves, converted;
+  const auto learnBy = [&](const std::string& label, const Update& update) {
+    curves.push_back({label, learnPole(first, update)});
+    if (!curves.back().runs.empty()) return converted.push_back({label, learnPole(first, inDegrees(update))});
+    curves.pop_back();
+    nothingYet(("learning by " + label).c_str());
+  };
+  learnBy("REINFORCE", byReinforce);
+  learnBy("natural gradient", byNaturalGradient);
+  learnBy("PoWER", byPower);
   if (curves.empty()) return;
-  Figure figure = learningFigure(curves);
-  figure.xLabel = "iterations of 20 trials";
-  plotOf("learning", "Balancing a pole: ten runs each", figure);
+  const auto draw = [](const char* name, const char* title, const std::vector<LearningCurves>& drawn) {
+    Figure figure = learningFigure(drawn);
+    figure.xLabel = "iterations of 20 trials";
+    figure.yRange = AxisRange(0, 100);
+    plotOf(name, title, figure);
+  };
+  draw("learning", "Balancing a pole: ten runs each", curves);
+  draw("degrees", "Balancing a pole with the angle in degrees", converted);
 }

@@ -13,5 +13,6 @@ void showOptimum(double tolerance);
 /// rollouts.png: the angle [rad] of the pole over time in a few trials of this policy; it soon falls.
 void showRollouts(const Policy& policy);
 
-/// learning.png: returns of ten runs of REINFORCE and of PoWER, mean and spread; the maximum is 100.
+/// learning.png: returns of ten runs of REINFORCE, the natural gradient and PoWER, mean and spread; the
+/// maximum is 100. degrees.png: the same if the angle is in degrees, with the same rules for the step size.
 void showLearning(const Policy& first);

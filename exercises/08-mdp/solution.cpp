@@ -168,6 +168,25 @@ Eigen::VectorXd power(const Policy& policy, const std::vector<Rollout>& trials, 
   // </solution>
 }
 
+Eigen::VectorXd naturalGradientOf(const Policy& policy, const std::vector<Rollout>& trials, double discount) {
+  // <solution naturalGradientOf>
+  const Eigen::Index k = policy.beta.size();
+  Eigen::MatrixXd F = Eigen::MatrixXd::Zero(k, k);
+  for (const Rollout& trial : trials) {
+    for (Eigen::Index t = 0; t < trial.noise.cols(); ++t) {
+      const Eigen::VectorXd phi = trial.features.col(t);
+      const double variance = (policy.L.transpose() * phi).squaredNorm();
+      const Eigen::VectorXd slope = phi.dot(trial.noise.col(t)) / variance * phi;
+      F += std::pow(discount, t) * slope * slope.transpose();
+    }
+  }
+  return solve(F / static_cast<double>(trials.size()), reinforce(policy, trials, discount));
+  // <todo>
+  //| // TODO: F is a mean over the trials, like reinforce(). Then solve F w = g.
+  //| return Eigen::VectorXd::Zero(policy.beta.size());
+  // </solution>
+}
+
 // What follows is given, and never graded: change it as you like. show.h says what each line draws.
 
 int main() {
@@ -180,7 +199,7 @@ int main() {
   showRandomWalk();
   showOptimum(1e-6);
 
-  // Parts 5 to 7: a pole to balance. Learning begins with parameters of zero and a noise of 10 in both.
+  // Parts 5 to 8: a pole to balance. Learning begins with parameters of zero and a noise of 10 in both.
   const Policy first{Eigen::Vector2d::Zero(), 10 * Eigen::Matrix2d::Identity()};
   showRollouts(first);
   showLearning(first);

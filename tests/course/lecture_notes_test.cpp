@@ -17,6 +17,7 @@
 #include "estimation/gaussian.h"
 #include "estimation/resampling.h"
 #include "kinematics/inverse_kinematics.h"
+#include "learning/policy_gradient.h"
 #include "learning/power.h"
 #include "planning/dubins.h"
 #include "support/lecture_note.h"
@@ -413,6 +414,54 @@ TEST(LectureNotes, ThePowerOfSeveralFeatures) {
   const MatrixXd derivative = phi.transpose() * (action - phi.dot(policy.beta)) / variance;
   EXPECT_LT((numericJacobian(logarithm, policy.beta) - derivative).norm(), 1e-6);
   expectStated("08-mdp", fmt::format("for $\\gamma = 0.99$, {:.0f} times the change", .99 / (1 - .99)));
+}
+
+TEST(LectureNotes, TheNaturalGradient) {
+  // Other features: M^T M g, and w as before.
+  Rng rng(12);
+  const double discount = .9;
+  const MatrixXd M = randomMatrix(2, 2, rng), back = inverse(M.transpose());
+  const LinearGaussianPolicy policy{.beta = rng.normalVector(2), .Sigma = randomMetric(2, rng)},
+      same{.beta = back * policy.beta, .Sigma = back * policy.Sigma * back.transpose()};
+  std::vector<Episode> episodes, changed;
+  MatrixXd scores(2, 80);  // each times the root of its weight
+  VectorXd Q(80);
+  for (int k = 0; k < 20; ++k) {
+    const Episode one{.features = randomMatrix(2, 4, rng),
+                      .noise = randomMatrix(2, 4, rng),
+                      .rewards = rng.normalVector(4)};
+    episodes.push_back(one);
+    changed.push_back({.features = M * one.features, .noise = back * one.noise, .rewards = one.rewards});
+    double after = 0;
+    for (int t = 3; t >= 0; --t) {
+      after = one.rewards[t] + discount * after;
+      const double root = std::pow(discount, .5 * t);
+      scores.col(4 * k + t) = root * logGradients(policy, one).col(t);
+      Q[4 * k + t] = root * after;
+    }
+  }
+  const auto gradient = [&](const LinearGaussianPolicy& at, const std::vector<Episode>& trials) -> VectorXd {
+    return reinforceGradient(at, trials, discount, Baseline::kNone).gradient;
+  };
+  const auto fisher = [&](const LinearGaussianPolicy& at, const std::vector<Episode>& trials) -> MatrixXd {
+    return naturalGradient(at, trials, discount).fisher;
+  };
+  const VectorXd g = gradient(policy, episodes), w = solve(fisher(policy, episodes), g);
+  EXPECT_LT((M.transpose() * gradient(same, changed) - M.transpose() * M * g).norm(), 1e-9);
+  EXPECT_LT((M.transpose() * solve(fisher(same, changed), gradient(same, changed)) - w).norm(), 1e-9);
+  expectStated("08-mdp", fmt::format("$(180/\\pi)^2 = {:.0f}$", std::pow(180 / kPi, 2)));
+  // The fit of Q, by least squares; its errors do not change the gradient.
+  EXPECT_LT((leastSquares(scores.transpose(), Q) - w).norm(), 1e-9);
+  EXPECT_LT((scores * (scores.transpose() * w) / 20 - g).norm(), 1e-9);
+  // The divergence of two normal densities, by its integral.
+  const VectorXd phi = rng.normalVector(2), delta = rng.normalVector(2);
+  const double variance = phi.dot(policy.Sigma * phi), shift = phi.dot(delta),
+               reach = 12 * std::sqrt(variance);
+  const auto difference = [&](double a) {
+    return std::exp(-a * a / (2 * variance)) / std::sqrt(2 * kPi * variance) *
+           (std::pow(a - shift, 2) - a * a) / (2 * variance);
+  };
+  EXPECT_NEAR(integral(-reach, reach, difference), shift * shift / (2 * variance), 1e-9);
 }
 
 TEST(LectureNotes, FallsAndSlips) {
