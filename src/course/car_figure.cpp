@@ -62,7 +62,7 @@ void addBeliefs(Figure& figure, const std::vector<PlanarGaussian>& beliefs, cons
 }
 
 // Seen from above, with a pointed front.
-Region carAt(const Eigen::Vector3d& pose, const char* label, const Color& color) {
+Region carAt(const Eigen::Vector3d& pose, double scale, const char* label, const Color& color) {
   using internal::kCarLength, internal::kCarMiddle, internal::kCarWidth;
   constexpr double kBack = kCarMiddle - kCarLength / 2, kFront = kCarMiddle + kCarLength / 2;
   Region car{.label = label, .color = color};
@@ -71,7 +71,7 @@ Region carAt(const Eigen::Vector3d& pose, const char* label, const Color& color)
                                     {kFront, 0.},
                                     {kFront - 0.8, kCarWidth / 2},
                                     {kBack, kCarWidth / 2}}) {
-    const Eigen::Vector2d corner = internal::placeAt(pose, ahead, left);
+    const Eigen::Vector2d corner = internal::placeAt(pose, scale * ahead, scale * left);
     car.x.push_back(corner.x());
     car.y.push_back(corner.y());
   }
@@ -103,11 +103,18 @@ Figure figureOf(const CarView& view) {
                 .width = 900,
                 .height = 600};
   std::ranges::replace(figure.title, '\n', ' ');
+  if (view.map) {
+    const Eigen::Matrix2d corners = internal::cornersOf(*view.map);
+    figure.map = OccupancyCells{.xRange = {corners(0, 0), corners(0, 1)},
+                                .yRange = {corners(1, 0), corners(1, 1)},
+                                .occupancy = internal::probabilitiesOf(*view.map)};
+  }
   addBeliefs(figure, view.landmarkBeliefs, "landmarks", view.sigmas, kLandmarkColor);
   addBeliefs(figure, view.poseBeliefs, "poses", view.sigmas, kEstimateColor);
   addSightings(figure, view);
-  if (view.car) figure.regions.push_back(carAt(*view.car, "car now", kTruthColor));
-  if (view.estimate) figure.regions.push_back(carAt(*view.estimate, "estimate now", kEstimateColor));
+  if (view.car) figure.regions.push_back(carAt(*view.car, view.carScale, "car now", kTruthColor));
+  if (view.estimate)
+    figure.regions.push_back(carAt(*view.estimate, view.carScale, "estimate now", kEstimateColor));
   addDots(figure, "scan", view.scan, kScanColor, Marker::kDot, 0.5);
   addParticles(figure, view);
   for (const Way& way : view.ways) {

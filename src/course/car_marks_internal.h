@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "course/car_view.h"
+#include "render/picture.h"
 
 namespace rex::internal {
 
@@ -23,5 +24,12 @@ inline constexpr double kCarMiddle = 1, kCarLength = 3, kCarWidth = 1.5;
 
 /// Where a point ahead and to the left of the car at `pose` lies.
 [[nodiscard]] Eigen::Vector2d placeAt(const Eigen::Vector3d& pose, double ahead, double left);
+
+/// A floor with the map painted on it, and a low block for each occupied cell.
+[[nodiscard]] std::vector<Solid> solidsOf(const OccupancyMap& map);
+/// The probability of being occupied, one row of cells per row.
+[[nodiscard]] Eigen::MatrixXd probabilitiesOf(const OccupancyMap& map);
+/// Two opposite corners of the map.
+[[nodiscard]] Eigen::Matrix2d cornersOf(const OccupancyMap& map);
 
 }  // namespace rex::internal

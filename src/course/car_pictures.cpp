@@ -37,21 +37,23 @@ std::vector<Eigen::Vector3d> allLifted(const Eigen::Matrix2Xd& places, double he
   return points;
 }
 
-void addCar(Picture& picture, const Eigen::Vector3d& pose, const char* name, const Color& body,
+void addCar(Picture& picture, const Eigen::Vector3d& pose, double scale, const char* name, const Color& body,
             const Color& cabin) {
   const Pose X_WR = translation(pose.x(), pose.y(), 0) * rotation(pose.z(), Eigen::Vector3d::UnitZ());
-  const Shape box{.extent = {kCarLength, kCarWidth, 0.5}}, roof{.extent = {1.3, 1.25, 0.4}};
-  picture.solids.push_back({box, X_WR * translation(kCarMiddle, 0, 0.3), body, name});
-  picture.solids.push_back({roof, X_WR * translation(kCarMiddle, 0, 0.75), cabin, name});
+  const Shape box{.extent = scale * Eigen::Vector3d(kCarLength, kCarWidth, 0.5)},
+      roof{.extent = scale * Eigen::Vector3d(1.3, 1.25, 0.4)};
+  const double middle = scale * kCarMiddle;
+  picture.solids.push_back({box, X_WR * translation(middle, 0, scale * 0.3), body, name});
+  picture.solids.push_back({roof, X_WR * translation(middle, 0, scale * 0.75), cabin, name});
 }
 
-void addOutline(Picture& picture, const Eigen::Vector3d& pose) {
+void addOutline(Picture& picture, const Eigen::Vector3d& pose, double scale) {
   constexpr double kHeight = 0.55, kLeft = kCarWidth / 2;
   constexpr double kBack = kCarMiddle - kCarLength / 2, kFront = kCarMiddle + kCarLength / 2;
   Polyline line{.color = kEstimateColor, .width = 2};
   for (const auto& [ahead, left] :
        {std::pair{kBack, -kLeft}, {kFront, -kLeft}, {kFront, kLeft}, {kBack, kLeft}, {kBack, -kLeft}})
-    line.points.push_back(lifted(placeAt(pose, ahead, left), kHeight));
+    line.points.push_back(lifted(placeAt(pose, scale * ahead, scale * left), scale * kHeight));
   picture.polylines.push_back(std::move(line));
 }
 
@@ -66,13 +68,13 @@ void addLandmarks(Picture& picture, const Eigen::Matrix2Xd& landmarks) {
 }
 
 void addParticles(Picture& picture, const CarView& view) {
-  constexpr double kStroke = 0.9;  // metres
+  const double stroke = 0.9 * view.carScale;  // metres
   for (const internal::ParticleGroup& group : internal::particleGroups(view)) {
     PointSet dots{.color = faded(kEstimateColor, group.strength), .size = 3};
     LineSet strokes{.color = faded(kEstimateColor, 0.4 * group.strength), .width = 1};
     for (const Eigen::Vector3d& pose : group.poses) {
       dots.points.push_back(lifted(pose.head<2>(), kPoseHeight));
-      strokes.segments.emplace_back(dots.points.back(), lifted(placeAt(pose, kStroke, 0), kPoseHeight));
+      strokes.segments.emplace_back(dots.points.back(), lifted(placeAt(pose, stroke, 0), kPoseHeight));
     }
     picture.lineSets.push_back(std::move(strokes));
     picture.pointSets.push_back(std::move(dots));
@@ -126,7 +128,11 @@ void include(Bounds& bounds, const CarView& view) {
     for (const auto& place : places.colwise()) square(place.template head<2>(), 0.5);
   };
   for (const auto& car : {view.car, view.estimate})
-    if (car) square(car->head<2>(), kCarMiddle + kCarLength / 2);
+    if (car) square(car->head<2>(), view.carScale * (kCarMiddle + kCarLength / 2));
+  if (view.map) {
+    const Eigen::Matrix2d corners = internal::cornersOf(*view.map);
+    for (const auto& corner : corners.colwise()) square(corner, 0);
+  }
   all(view.landmarks), all(view.particles), all(view.sightings), all(view.scan);
   for (const Way& way : view.ways) all(way.points);
   constexpr double kReach = 5;
@@ -154,7 +160,9 @@ Picture pictureOf(const CarView& view) {
   Picture picture;
   picture.ground.cell = 5;
   if (!view.caption.empty()) picture.captions.push_back({.text = view.caption});
-  if (view.car) addCar(picture, *view.car, "car", {0.32f, 0.35f, 0.41f}, {0.80f, 0.82f, 0.86f});
+  if (view.map) picture.solids = internal::solidsOf(*view.map);
+  if (view.car)
+    addCar(picture, *view.car, view.carScale, "car", {0.32f, 0.35f, 0.41f}, {0.80f, 0.82f, 0.86f});
   addLandmarks(picture, view.landmarks);
   if (view.scan.cols() > 0) picture.pointSets.push_back({allLifted(view.scan, kDotHeight), kScanColor, 3});
   addBeliefs(picture, view.landmarkBeliefs, view.sigmas, kLandmarkColor, kEllipseHeight);
@@ -163,8 +171,9 @@ Picture pictureOf(const CarView& view) {
   addParticles(picture, view);
   addSightings(picture, view);
   if (view.estimate) {
-    addCar(picture, *view.estimate, "estimate", faded(kEstimateColor, 0.45), faded(kEstimateColor, 0.45));
-    addOutline(picture, *view.estimate);
+    addCar(picture, *view.estimate, view.carScale, "estimate", faded(kEstimateColor, 0.45),
+           faded(kEstimateColor, 0.45));
+    addOutline(picture, *view.estimate, view.carScale);
   }
   return picture;
 }

@@ -63,6 +63,7 @@ void requireDrawable(const CarView& view) {
   requireBeliefs("belief of a pose", view.poseBeliefs);
   requireBeliefs("belief of a landmark", view.landmarkBeliefs);
   requirePositive("sigmas", view.sigmas);
+  requirePositive("scale of the car", view.carScale);
   if (view.sightings.cols() > 0 && !view.car && !view.estimate)
     throw Error({.what = "sightings", .found = "no car and no estimate", .wanted = "one that sees them"});
 }

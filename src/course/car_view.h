@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "estimation/occupancy_map.h"
 #include "render/color.h"
 
 namespace rex {
@@ -37,6 +38,8 @@ struct Way {
 struct CarView {
   std::optional<Eigen::Vector3d> car{};       ///< the true pose: a solid car
   std::optional<Eigen::Vector3d> estimate{};  ///< a translucent car with an outline
+  double carScale = 1;                        ///< of both cars' drawn size: 3 x 1.5 m
+  std::optional<OccupancyMap> map{};          ///< walls, and grey where nothing is known
   Eigen::Matrix2Xd landmarks{};               ///< true positions: green posts
   Eigen::Matrix3Xd particles{};               ///< poses; at most 3000, evenly chosen, are drawn
   Eigen::VectorXd weights{};                  ///< of the particles, none negative; empty: all equal
@@ -51,7 +54,7 @@ struct CarView {
 
 /// Throws Error naming what cannot be drawn: numbers that are not finite or beyond 1e9, weights that are
 /// negative or do not match the particles in number, matrices that are not covariances, sigmas or widths
-/// that are not positive, sightings without a car or estimate.
+/// that are not positive, a car's scale that is not positive, sightings without a car or estimate.
 void requireDrawable(const CarView& view);
 
 }  // namespace rex

@@ -119,6 +119,35 @@ TEST(CarPicture, LinesLeadFromTheCarToWhatItSees) {
   EXPECT_EQ(linesOf(view)[0].first.head<2>(), Eigen::Vector2d(1.5, 2.5)) << "then from the estimate";
 }
 
+TEST(CarPicture, ShowsMapsAndSmallCars) {
+  OccupancyMap map(4, 3, 0.5, {1, 2});
+  for (const auto& [x, y] : {std::pair{0, 1}, {1, 1}, {3, 2}}) map.setLogOdds(x, y, 5);
+  map.setLogOdds(2, 0, -5);
+  const CarView view{.car = Eigen::Vector3d(2, 3, 0), .carScale = 0.5, .map = map};
+  const Picture picture = pictureOf(view);
+  ASSERT_EQ(picture.solids.size(), 4u) << "floor, walls, car and cabin";
+  const Texture& paint = picture.solids[0].shape.mesh.paint().textures.at(0);
+  EXPECT_EQ(paint.width, 4);
+  EXPECT_EQ(paint.height, 3);
+  const auto shade = [&](int x, int y) { return paint.rgb[static_cast<std::size_t>(3 * (4 * y + x))]; };
+  EXPECT_LT(shade(0, 1), shade(0, 0)) << "occupied is darker than unknown";
+  EXPECT_GT(shade(2, 0), shade(0, 0)) << "free is lighter";
+  EXPECT_EQ(picture.solids[1].shape.mesh.triangles().size(), 20u) << "two blocks of five sides";
+  Bounds walls;
+  for (const Eigen::Vector3f& p : picture.solids[1].shape.mesh.positions()) walls.include(p.cast<double>());
+  EXPECT_LT(
+      (walls.low - Eigen::Vector3d(1, 2.5, 0)).norm() + (walls.high - Eigen::Vector3d(3, 3.5, 0.4)).norm(),
+      1e-6);
+  EXPECT_EQ(picture.solids[2].shape.extent, Eigen::Vector3d(1.5, 0.75, 0.25));
+  const Figure figure = figureOf(view);
+  ASSERT_TRUE(figure.map);
+  EXPECT_NEAR(figure.map->xRange.first, 1, 1e-12);
+  EXPECT_NEAR(figure.map->yRange.second, 3.5, 1e-12);
+  EXPECT_NEAR(figure.map->occupancy(1, 0), 1, 0.01);
+  EXPECT_NEAR(figure.map->occupancy(0, 2), 0, 0.01);
+  EXPECT_EQ(figure.map->occupancy(0, 0), 0.5);
+}
+
 TEST(CarPicture, OfNothingIsEmpty) {
   const Picture picture = pictureOf(CarView{});
   EXPECT_TRUE(bounds(picture).isEmpty());
@@ -153,6 +182,7 @@ TEST(CarPicture, SaysWhatCannotBeDrawn) {
          "way 'true way', width: found 0, wanted more than 0, at most 50 pixels");
   expect([](CarView& v) { v.sigmas = 0; }, "sigmas: found 0, wanted a positive, finite number");
   expect([&](CarView& v) { v.sigmas = kNan; }, "sigmas: found nan");
+  expect([](CarView& v) { v.carScale = 0; }, "scale of the car: found 0, wanted a positive, finite number");
   expect([](CarView& v) { v.car.reset(), v.estimate.reset(); },
          "sightings: found no car and no estimate, wanted one that sees them");
 }
