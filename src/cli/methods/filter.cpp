@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "cli/json_internal.h"
+#include "cli/methods/film_folder.h"
 #include "cli/methods/filter_files.h"
 #include "cli/methods/filter_run.h"
 #include "cli/methods/filter_statistics.h"
@@ -113,7 +114,7 @@ std::string jsonTextOf(const FilterOptions& options, const FilterStatistics& all
 ExitCode filter(const FilterOptions& options) {
   const CarScenario scenario = scenarioOf(options);
   const bool writes = !options.out.empty();
-  if (writes) makeFilterFolder(options.out);
+  if (writes) makeFilmFolder(options.out, "filter");
   ShownRun shownRun;
   const OnStep watch = [&](int step, const auto& view) {
     if (isFilmed(step, scenario.steps)) shownRun.frames.push_back(view());

@@ -1,18 +1,12 @@
 #include "cli/methods/filter_files.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <iterator>
-#include <system_error>
 
 #include <fmt/format.h>
 
-#include "base/error.h"
 #include "base/text_file.h"
-#include "cli/option_value_internal.h"
 #include "cli/project.h"
 #include "course/car_figure.h"
 #include "course/car_pictures.h"
@@ -133,18 +127,6 @@ Figure mapFigure(CarView view, const FilterRun& run) {
 }  // namespace
 
 bool isFilmed(int step, int steps) { return step % filmStride(steps) == 0; }
-
-void makeFilterFolder(const fs::path& folder) {
-  const auto refuse = [&](const std::string& found, const std::string& wanted) {
-    throw UsageError({.what = "-o " + harmless(folder.string()), .found = found, .wanted = wanted});
-  };
-  std::error_code problem;
-  fs::create_directories(folder, problem);
-  if (problem || !fs::is_directory(folder)) refuse(problem ? problem.message() : "a file", "a folder");
-  if (!std::ofstream(folder / "filter.csv", std::ios::app))
-    refuse(std::strerror(errno), "a folder to write to");
-  for (const char* name : {"filter.mp4", "filter_sheet.png"}) fs::remove(folder / name, problem);
-}
 
 std::string csvOf(const FilterRun& run) {
   fmt::memory_buffer table;

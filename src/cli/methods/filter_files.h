@@ -19,10 +19,6 @@ struct ShownRun {
 /// Whether the film shows step 1, 2, ... of a run: at most 150, evenly spaced.
 [[nodiscard]] bool isFilmed(int step, int steps);
 
-/// Makes the folder, and removes the film and contact sheet of an earlier run. Throws UsageError naming -o
-/// if it cannot be made or written to.
-void makeFilterFolder(const std::filesystem::path& folder);
-
 /// Every step of a run as a table: true and estimated pose, covariance, dead reckoning, NEES and NIS.
 [[nodiscard]] std::string csvOf(const FilterRun& run);
 

@@ -12,6 +12,7 @@ Room methodsRoom() {
                        {"dare", addDare},
                        {"filter", addFilter},
                        {"linear", addLinear},
+                       {"map", addMap},
                        {"search", addSearch},
                        {"slam", addSlam}}};
 }
