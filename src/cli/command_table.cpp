@@ -46,6 +46,7 @@ std::span<const TableEntry> commandTable() {
       {"curves", "Find the shortest paths of a car with a turning radius", kMethods},
       {"slam", "Optimize a pose graph, so that the map fits its measurements", kMethods},
       {"map", "Map a building by grid SLAM: how true the map is, and a film", kMethods},
+      {"localize", "Find a robot in a known map by its scans: errors and a film", kMethods},
       {"filter", "Let a filter track the car: errors, consistency and a film", kMethods},
       {"cma", "Count the evaluations that CMA-ES needs for a test function", kMethods},
       {"search", "Compare searches without derivatives on test functions", kMethods},

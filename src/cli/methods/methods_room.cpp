@@ -12,6 +12,7 @@ Room methodsRoom() {
                        {"dare", addDare},
                        {"filter", addFilter},
                        {"linear", addLinear},
+                       {"localize", addLocalize},
                        {"map", addMap},
                        {"search", addSearch},
                        {"slam", addSlam}}};

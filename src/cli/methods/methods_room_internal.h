@@ -11,6 +11,7 @@ void addCurves(CLI::App* command, Action& action);
 void addDare(CLI::App* command, Action& action);
 void addFilter(CLI::App* command, Action& action);
 void addLinear(CLI::App* command, Action& action);
+void addLocalize(CLI::App* command, Action& action);
 void addMap(CLI::App* command, Action& action);
 void addSearch(CLI::App* command, Action& action);
 void addSlam(CLI::App* command, Action& action);
