@@ -99,14 +99,14 @@ const rexControls = (function () {
     };
   }
 
-  // Curves over the last seconds. `colors`: one per curve.
-  function plot(canvas, colors, seconds) {
+  // Curves over the last `span` of what `label` names. `colors`: one per curve.
+  function plot(canvas, colors, span, label) {
     const samples = [];
     function add(time, values) {
       if (samples.length > 0 && time < samples[samples.length - 1].time) samples.length = 0;
       if (samples.length > 0 && time === samples[samples.length - 1].time) return;
       samples.push({ time, values });
-      while (samples[0].time < time - seconds) samples.shift();
+      while (samples[0].time < time - span) samples.shift();
     }
     function draw() {
       const ratio = Math.min(window.devicePixelRatio || 1, 2), width = canvas.clientWidth, height = canvas.clientHeight;
@@ -118,8 +118,9 @@ const rexControls = (function () {
       const all = samples.flatMap(({ values }) => values).concat([0]);
       let low = Math.min(...all), high = Math.max(...all);
       if (high - low < 1e-9) high = low + 1;
-      const margin = 60, axis = 16, last = samples.length ? samples[samples.length - 1].time : 0;
-      const x = t => margin + (width - margin - 4) * (1 - (last - t) / seconds);
+      const margin = 60, axis = 16;
+      const last = Math.max(samples.length ? samples[samples.length - 1].time : 0, span);
+      const x = t => margin + (width - margin - 4) * (1 - (last - t) / span);
       const y = v => 6 + (height - 12 - axis) * (high - v) / (high - low);
       pen.strokeStyle = '#dde3e9', pen.fillStyle = '#5c6875', pen.textAlign = 'right', pen.textBaseline = 'middle';
       for (const value of [low, 0, high]) {
@@ -128,10 +129,11 @@ const rexControls = (function () {
         pen.fillText(short(value), margin - 6, Math.min(Math.max(y(value), 7), height - axis - 7));
       }
       pen.textBaseline = 'bottom';
-      pen.fillText('now', width - 4, height);
-      pen.fillText((seconds / 2) + ' s ago', x(last - seconds / 2) + 20, height);
+      pen.fillText(short(last), width - 4, height);
       pen.textAlign = 'left';
-      pen.fillText(seconds + ' s ago', margin, height);
+      pen.fillText(short(last - span), margin, height);
+      pen.textAlign = 'center';
+      pen.fillText(label, (margin + width) / 2, height);
       pen.lineWidth = 1.8, pen.lineJoin = 'round';
       colors.forEach((color, k) => {
         pen.strokeStyle = color;

@@ -20,7 +20,7 @@
   const send = messenger(tell);
   const isPlain = rexStage.isSoftware();
   const view = rexStage.open(stage, beforeDraw, isPlain);
-  const energies = plot(get('plot'), ['#d55e00', '#0072b2', '#1d2530'], 10);
+  const energies = plot(get('plot'), ['#d55e00', '#0072b2', '#1d2530'], 10, 'time [s]');
 
   // --- The scene. Bodies are groups in the frame of the world, z up, and have their shapes.
 

@@ -8,7 +8,7 @@ const rexProgram = (function () {
   const known = new Map();
   let send = () => {};
 
-  function make({ kind, name, low, high }) {
+  function make({ kind, name, low, high, xLabel }) {
     if (kind === 'slider') {
       const changed = value => send({ do: 'slider', name, value }, 'slider ' + name);
       const made = slider({ name, low, high, unit: '' }, changed);
@@ -20,7 +20,7 @@ const rexProgram = (function () {
       button.addEventListener('click', () => send({ do: 'button', name }));
       return { box: button, show: () => {} };
     }
-    const box = element('div'), canvas = element('canvas', 'own'), curve = plot(canvas, ['#1f5fa8'], 10);
+    const box = element('div'), canvas = element('canvas', 'own'), curve = plot(canvas, ['#1f5fa8'], 10, xLabel);
     box.append(element('p', 'legend', name), canvas);
     let last = null;
     return {

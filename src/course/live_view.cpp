@@ -146,6 +146,7 @@ struct LiveView::Parts {
                        {"value", one.value},
                        {"x", one.x},
                        {"y", one.y},
+                       {"xLabel", one.xLabel},
                        {"at", {one.at.x(), one.at.y(), one.at.z()}},
                        {"normal", {one.normal.x(), one.normal.y(), one.normal.z()}}});
     const ViewJson frame = {

@@ -58,18 +58,34 @@ Vector6d stanceRate(const RaibertHopper& hopper, const RaibertGains& gains, cons
   return d;
 }
 
+// A part of stance, with the same rest length of the leg.
+struct HopperPart {
+  Vector6d x;  // at its begin
+  double thrust = 0, time = 0;
+
+  [[nodiscard]] internal::EventPoint<Vector6d> follow(const RaibertHopper& hopper, const RaibertGains& gains,
+                                                      double end, std::span<const HopperEvent> events) const {
+    return internal::integrateToEvent<Vector6d>(
+        [&](const Vector6d& at) { return stanceRate(hopper, gains, at, thrust); }, x, end,
+        0.1 * std::sqrt(hopper.mass / hopper.stiffness), events);
+  }
+};
+
 // A hop while it goes on.
 struct Hopping {
   const RaibertHopper& hopper;
   const RaibertGains& gains;
   HopperHop hop{};
+  double fall = 0;  // seconds before touchdown
+  std::vector<HopperPart> parts{};
 
   // Follows a part of stance to one of two events; none if it takes too long.
   std::optional<int> follow(Vector6d& x, double thrust, const std::array<HopperEvent, 2>& events) {
     constexpr double kLongest = 5;
-    const auto end = internal::integrateToEvent<Vector6d>(
-        [&](const Vector6d& y) { return stanceRate(hopper, gains, y, thrust); }, x, kLongest,
-        0.1 * std::sqrt(hopper.mass / hopper.stiffness), std::span(events));
+    HopperPart part{.x = x, .thrust = thrust};
+    const auto end = part.follow(hopper, gains, kLongest, std::span(events));
+    part.time = end.t;
+    parts.push_back(part);
     x = end.x;
     hop.time += end.t;
     hop.apex.stanceTime += end.t;
@@ -87,28 +103,25 @@ double footBeforeHip(const RaibertGains& gains, const HopperCommand& command, co
   return apex.speed * apex.stanceTime / 2 + gains.placement * (apex.speed - command.speed);
 }
 
-}  // namespace
-
-HopperHop hop(const RaibertHopper& hopper, const RaibertGains& gains, const HopperCommand& command,
-              const HopperApex& apex) {
-  requireHopper(hopper, gains);
+HopperHop hopThrough(Hopping& now, const HopperCommand& command, const HopperApex& apex) {
+  const RaibertHopper& hopper = now.hopper;
+  requireHopper(hopper, now.gains);
   requireState(command, apex);
   enum : int { kNext, kFall };
   const HopperEvent ground{[](const Vector6d& x) { return x[1]; }};
-  Hopping now{.hopper = hopper, .gains = gains};
   HopperHop& hop = now.hop;
   // The leg reaches no farther than it is long.
   const double most = 0.9 * hopper.restLength,
-               before = std::clamp(footBeforeHip(gains, command, apex), -most, most);
+               before = std::clamp(footBeforeHip(now.gains, command, apex), -most, most);
   hop.legAngle = std::asin(before / hopper.restLength);
   const double setting = hopper.restLength * std::cos(hop.legAngle), drop = apex.height - setting;
   if (!(drop > 0)) return now.ended(HopStatus::kNoTouchdown, "the apex is too low to set the leg");
-  hop.time = std::sqrt(2 * drop / hopper.g);
+  hop.time = now.fall = std::sqrt(2 * drop / hopper.g);
   hop.foot = apex.x + apex.speed * hop.time + before;
   Vector6d x;
   x << -before, setting, apex.pitch + apex.rate * hop.time, apex.speed, -hopper.g * hop.time, apex.rate;
   hop.stance.colwise() = x;
-  hop.apex = {.thrust = std::max(0., apex.thrust + gains.height * (command.height - apex.height)),
+  hop.apex = {.thrust = std::max(0., apex.thrust + now.gains.height * (command.height - apex.height)),
               .stanceTime = 0};
   if (legRate(x) >= 0) return now.ended(HopStatus::kNoRise, "took off downwards");
 
@@ -134,6 +147,53 @@ HopperHop hop(const RaibertHopper& hopper, const RaibertGains& gains, const Hopp
   hop.apex.pitch = x[2] + x[5] * rising;
   hop.apex.rate = x[5];
   return now.ended(HopStatus::kHopped, "hopped");
+}
+
+}  // namespace
+
+HopperHop hop(const RaibertHopper& hopper, const RaibertGains& gains, const HopperCommand& command,
+              const HopperApex& apex) {
+  Hopping now{.hopper = hopper, .gains = gains};
+  return hopThrough(now, command, apex);
+}
+
+std::vector<HopperSample> hopSamples(const RaibertHopper& hopper, const RaibertGains& gains,
+                                     const HopperCommand& command, const HopperApex& apex, int count) {
+  requireCount("hopper: number of samples", count, 2);
+  Hopping now{.hopper = hopper, .gains = gains};
+  const HopperHop all = hopThrough(now, command, apex);
+  std::vector<HopperSample> samples;
+  const auto flyThrough = [&](double from, double time, const Eigen::Vector2d& hip,
+                              const Eigen::Vector2d& rate, double pitch, double turning, double fromAngle,
+                              double toAngle) {
+    for (int i = 0; i < count; ++i) {
+      const double share = static_cast<double>(i) / (count - 1), t = share * time,
+                   angle = fromAngle + share * (toAngle - fromAngle);
+      const Eigen::Vector2d at = hip + t * rate - Eigen::Vector2d(0, hopper.g * t * t / 2);
+      samples.push_back({.time = from + t,
+                         .hip = at,
+                         .foot = at + hopper.restLength * Eigen::Vector2d(std::sin(angle), -std::cos(angle)),
+                         .pitch = pitch + t * turning});
+    }
+  };
+  flyThrough(0, now.fall, {apex.x, apex.height}, {apex.speed, 0}, apex.pitch, apex.rate, 0, all.legAngle);
+  double before = now.fall;
+  for (const HopperPart& part : now.parts) {
+    for (int i = 0; i < count; ++i) {
+      const double t = part.time * i / (count - 1);
+      const Vector6d x = part.follow(hopper, gains, t, {}).x;
+      samples.push_back({.time = before + t,
+                         .hip = x.head<2>() + Eigen::Vector2d(all.foot, 0),
+                         .foot = {all.foot, 0},
+                         .pitch = x[2]});
+    }
+    before += part.time;
+  }
+  if (all.status != HopStatus::kHopped) return samples;
+  const Vector6d last = all.stance.col(2);
+  flyThrough(before, all.time - before, samples.back().hip, last.segment<2>(3), last[2], last[5],
+             std::atan2(-last[0], last[1]), 0);
+  return samples;
 }
 
 }  // namespace rex

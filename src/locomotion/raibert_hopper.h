@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -62,5 +63,19 @@ struct HopperHop {
 /// time or a wanted height that are not positive, negative gains or damping, and numbers that are not finite.
 [[nodiscard]] HopperHop hop(const RaibertHopper& hopper, const RaibertGains& gains,
                             const HopperCommand& command, const HopperApex& apex);
+
+/// The hopper at one time of a hop, in the world: metres, radians.
+struct HopperSample {
+  double time = 0;  ///< seconds since the apex
+  Eigen::Vector2d hip = Eigen::Vector2d::Zero(), foot = Eigen::Vector2d::Zero();
+  double pitch = 0;
+};
+
+/// A hop in samples, `count` for each of its phases (down, shorter, longer, up), as far as it goes: to draw
+/// it. In flight the leg swings evenly to the vertical, and on to its next place. Throws Error like hop(),
+/// and for a count below 2.
+[[nodiscard]] std::vector<HopperSample> hopSamples(const RaibertHopper& hopper, const RaibertGains& gains,
+                                                   const HopperCommand& command, const HopperApex& apex,
+                                                   int count);
 
 }  // namespace rex

@@ -141,6 +141,24 @@ TEST(RaibertHopper, NeedsEachOfItsControllers) {
   EXPECT_GT(growth({.rate = 0}), 1);
 }
 
+// Its samples lead from apex to apex, without a jump, and the foot stays where it is.
+TEST(RaibertHopper, IsDrawnAsItHops) {
+  const HopperApex apex{.x = 2, .height = 1.3, .speed = 1, .pitch = 0.2, .rate = -0.5};
+  const HopperHop one = hop({}, {}, {}, apex);
+  const std::vector<HopperSample> samples = hopSamples({}, {}, {}, apex, 50);
+  ASSERT_EQ(samples.size(), 200u);
+  EXPECT_EQ(samples.front().hip, Eigen::Vector2d(apex.x, apex.height));
+  EXPECT_LT((samples.back().hip - Eigen::Vector2d(one.apex.x, one.apex.height)).norm(), 1e-12);
+  EXPECT_NEAR(samples.back().pitch, one.apex.pitch, 1e-12);
+  EXPECT_NEAR(samples.back().time, one.time, 1e-12);
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    EXPECT_LT((samples[i].hip - samples[i - 1].hip).norm(), 0.05) << i;
+    EXPECT_LT((samples[i].foot - samples[i - 1].foot).norm(), 0.08) << i;
+  }
+  for (std::size_t i = 50; i < 150; ++i) EXPECT_EQ(samples[i].foot, Eigen::Vector2d(one.foot, 0)) << i;
+  EXPECT_EQ(hopSamples({}, {}, {}, {.height = 0.9}, 2).size(), 2u);
+}
+
 TEST(RaibertHopper, SaysHowItFails) {
   const HopperHop low = hop({}, {}, {}, {.height = 0.9});
   EXPECT_EQ(low.status, HopStatus::kNoTouchdown);
@@ -175,6 +193,7 @@ TEST(RaibertHopper, NamesWhatIsWrong) {
   EXPECT_REX_ERROR(hop({}, {}, {}, {.pitch = NAN}), "hopper: pitch: found nan");
   EXPECT_REX_ERROR(hop({}, {}, {}, {.rate = NAN}), "hopper: rate: found nan");
   EXPECT_REX_ERROR(hop({}, {}, {}, {.thrust = NAN}), "hopper: thrust: found nan");
+  EXPECT_REX_ERROR(hopSamples({}, {}, {}, {}, 1), "hopper: number of samples: found 1, wanted at least 2");
   EXPECT_REX_ERROR(hop({}, {}, {}, {.stanceTime = 0}), "hopper: stance time: found 0");
 }
 
