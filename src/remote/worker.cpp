@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include <malloc.h>
 #include <unistd.h>
 
 #include "base/error.h"
@@ -9,6 +10,9 @@
 namespace rex::remote {
 
 void runWorker(std::span<const Method> methods) {
+  // By default, large vectors get fresh pages again and again, which cost more than what is computed in them.
+  ::mallopt(M_MMAP_THRESHOLD, 64 << 20);
+  ::mallopt(M_TRIM_THRESHOLD, 256 << 20);
   // Line by line, so that the last lines before a crash arrive.
   std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
   int exitCode = 0;
