@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cerrno>
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -277,12 +278,14 @@ LiveServer::LiveServer(const LiveServerOptions& options) : parts_(std::make_uniq
                  .found = fmt::format("{} characters", token.size()),
                  .wanted = "at least 16 hexadecimal digits"});
   parts.prepare();
+  errno = 0;
   const bool isBound = options.port == 0
                            ? (parts.port = parts.http.bind_to_any_port(options.address)) > 0
                            : parts.http.bind_to_port(options.address, parts.port = options.port);
+  const int cause = errno;
   if (!isBound)
     throw Error({.what = fmt::format("serving {}:{}", options.address, options.port),
-                 .found = "the system refuses it",
+                 .found = cause == EADDRINUSE ? "another program there" : "the system refuses it",
                  .wanted = "an address of this machine, and a port that is free"});
   parts.listener = std::thread([&parts] {
     parts.http.listen_after_bind();
