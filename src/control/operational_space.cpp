@@ -6,7 +6,6 @@
 
 #include <Eigen/Cholesky>
 
-#include "base/derivative_check.h"
 #include "control/require_internal.h"
 #include "dynamics/forward_dynamics.h"
 #include "dynamics/mass_matrix.h"
@@ -66,23 +65,6 @@ std::vector<TaskLevel> wishesOf(const Model& model, const State& state,
 }
 
 }  // namespace
-
-Eigen::VectorXd velocityAcceleration(const Model& model, const State& state, const TaskMap& map) {
-  requireSize("joint velocities v", state.v.size(), model.nv());
-  internal::requireFinite(state);
-  Eigen::VectorXd q(model.nq());
-  BodyPoses poses;
-  TaskValue value;
-  const double speed = state.v.size() > 0 ? state.v.cwiseAbs().maxCoeff() : 0;
-  const Eigen::VectorXd direction = speed > 0 ? Eigen::VectorXd(state.v / speed) : state.v;
-  const auto velocityAt = [&](const Eigen::VectorXd& way) {
-    q = integrate(model, state.q, way[0] * direction);
-    forwardKinematics(model, q, poses);
-    map({model, q, poses}, value);
-    return Eigen::VectorXd(value.J * direction);
-  };
-  return speed * speed * numericJacobian(velocityAt, Eigen::VectorXd::Zero(1));
-}
 
 Eigen::VectorXd operationalSpaceForces(const Model& model, const State& state,
                                        std::span<const OperationalTask> tasks,

@@ -4,8 +4,8 @@
 
 #include "control/pd_gains.h"
 #include "dynamics/inverse_dynamics.h"
+#include "dynamics/velocity_acceleration.h"
 #include "kinematics/task.h"
-#include "scene/state.h"
 
 namespace rex {
 
@@ -29,12 +29,6 @@ struct OperationalSpaceOptions {
   /// than this are damped.
   double damping = 1e-3;
 };
-
-/// J' v (d): the acceleration of a map's value when the joints do not accelerate. Computed from differences
-/// of J v along v, which works for every map and is accurate to about 1e-10 |v|^2 for lengths of metres,
-/// except at a jump or kink of the map. Throws Error for wrong sizes and numbers that are not finite.
-[[nodiscard]] Eigen::VectorXd velocityAcceleration(const Model& model, const State& state,
-                                                   const TaskMap& map);
 
 /// The forces u (nv) that minimise the sum of rho_i |y_i'' - y_i''*|^2 over all tasks, with precisions
 /// rho_i, plus |u - u0|_H^2: u = T# (y''* - J' v + T F) + (Id - T# T) u0, T# = (T^T C T + H)^-1 T^T C.

@@ -1,9 +1,15 @@
 #include "gallery/motion_figures.h"
 
+#include <array>
+#include <cmath>
+
+#include "kinematics/closed_loops.h"
+#include "kinematics/jacobians.h"
 #include "locomotion/footsteps.h"
 #include "locomotion/limit_cycle.h"
 #include "locomotion/preview_control.h"
 #include "locomotion/spring_walk.h"
+#include "support/four_bar.h"
 #include "trajectory/b_spline.h"
 #include "trajectory/cubic_spline.h"
 
@@ -107,6 +113,45 @@ Figure gait() {
   return figure;
 }
 
+// What points of the coupler of a four-bar draw while its crank turns.
+Figure couplerCurves() {
+  const FourBar bar;
+  const Model model = compile(bar.scene());
+  const std::array loops{bar.pin(model)};
+  constexpr std::array<int, 1> kCrank{0};
+  const Vector2d points[] = {{0.45, 0.35}, {0.9, 0.5}, {0.45, -0.35}};
+  Figure figure{.title = "What points of a coupler draw: a four-bar closes its loop",
+                .xLabel = "x [m]",
+                .yLabel = "z [m]",
+                .equalAxes = true,
+                .legend = Legend::kOutside,
+                .series = {{.label = "crank, coupler, rocker",
+                            .style = SeriesStyle::kLinesPoints,
+                            .size = 2.4,
+                            .color = kGrey},
+                           {.label = "a point above"},
+                           {.label = "one above its end"},
+                           {.label = "one below"}},
+                .height = 420};
+  VectorXd q = bar.closedForm(0.9);
+  const auto placed = [&](const char* body, double x, double z) -> Vector2d {
+    const Eigen::Vector3d p = position(forwardKinematics(model, q), model.body(body), {x, 0, z});
+    return {p.x(), p.z()};
+  };
+  for (const Vector2d& p :
+       {Vector2d(0, 0), placed("coupler", 0, 0), placed("coupler", bar.coupler, 0), Vector2d(bar.ground, 0)})
+    append(figure.series[0], p.x(), p.y());
+  for (int k = 0; k <= 180; ++k) {
+    q[0] = 0.9 + k * M_PI / 90;
+    q = assemble(model, loops, q, kCrank).q;
+    for (std::size_t i = 0; i < std::size(points); ++i) {
+      const Vector2d p = placed("coupler", points[i].x(), points[i].y());
+      append(figure.series[i + 1], p.x(), p.y());
+    }
+  }
+  return figure;
+}
+
 // How hard each leg of a walker on springs pushes upwards, step by step.
 Figure springWalk() {
   const SpringLeg leg{.stiffness = 14000, .angle = 1.2042771838760873};  // 69 degrees
@@ -139,7 +184,8 @@ std::vector<std::pair<std::string, Figure>> motionFigures() {
   return {{"splines", splines()},
           {"preview-control", preview()},
           {"compass-gait", gait()},
-          {"spring-walk", springWalk()}};
+          {"spring-walk", springWalk()},
+          {"four-bar", couplerCurves()}};
 }
 
 }  // namespace rex

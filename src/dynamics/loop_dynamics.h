@@ -1,0 +1,35 @@
+#pragma once
+
+#include <span>
+
+#include "dynamics/inverse_dynamics.h"
+#include "kinematics/task_map.h"
+#include "scene/state.h"
+
+namespace rex {
+
+struct LoopDynamicsOptions {
+  /// 1/s: errors of the loops decay like critically damped springs of this rate (Baumgarte 1972); 0: not at
+  /// all, as befits states that are closed.
+  double stabilisation = 0;
+  Eigen::Vector3d gravity_W = earthGravity();
+};
+
+/// How a mechanism with closed loops accelerates.
+struct LoopMotion {
+  Eigen::VectorXd a{};       ///< nv
+  Eigen::VectorXd forces{};  ///< lambda, one per row of the maps: newtons for rows in metres
+};
+
+/// Solves M a + F = u + J^T lambda and J a = -J' v for a tree of joints whose `loops` (closed_loops.h) stay
+/// closed: slide 3:28 with constraints; Featherstone, chapter 8. Where rows depend on each other lambda is
+/// the shortest. Throws Error like forwardDynamics() and velocityAcceleration(), and for a negative
+/// stabilisation.
+[[nodiscard]] LoopMotion loopDynamics(const Model& model, const State& state, std::span<const TaskMap> loops,
+                                      const VectorArg& u, const LoopDynamicsOptions& options = {});
+
+/// The closed state near one that a step of integration has left: q by assemble(), v with the least change
+/// of kinetic energy. Throws Error if the loops cannot be closed.
+[[nodiscard]] State closedState(const Model& model, const State& state, std::span<const TaskMap> loops);
+
+}  // namespace rex
