@@ -1,6 +1,6 @@
 // Chapter 7: A kidnapped robot. A particle filter (dots) and a Kalman filter (pale car, ellipse) follow a car
-// among landmarks; at 3 s somebody puts it elsewhere. Few particles that start anywhere find it again;
-// sliders say how many.
+// among landmarks; at 3 s somebody puts it elsewhere. Few particles that start anywhere find it at once;
+// without them the others creep after it. Sliders say how many.
 #include "course/car_pictures.h"
 #include "course/car_simulator.h"
 #include "course/course.h"
@@ -60,11 +60,13 @@ int main() {
                           .particles = particles.particles().states,
                           .weights = particles.particles().weights,
                           .poseBeliefs = {{kalman.mean.head<2>(), kalman.covariance.topLeftCorner<2, 2>()}}});
+    const double error = (momentsOf(particles.particles()).mean - truth).head<2>().norm();
+    picture.captions.push_back(
+        {.text = error > 3 ? "the particles are lost" : "the particles are with the car", .scale = 1.5});
     picture.polylines.push_back(
         {.points = {{-17, -17, 0}, {17, -17, 0}, {17, 17, 0}, {-17, 17, 0}, {-17, -17, 0}},
          .color = kTruthColor});
-    view.plot("error of the particle filter [m]", t / 30.,
-              (momentsOf(particles.particles()).mean - truth).head<2>().norm());
+    view.plot("error of the particle filter [m]", t / 30., error);
     view.plot("error of the Kalman filter [m]", t / 30., (kalman.mean - truth).head<2>().norm());
     view.show(picture);
   }

@@ -36,9 +36,12 @@ int main() {
     std::ostringstream text;
     if (t < lost + 60) text << "it fell, or left the rails, and was set upright again. ";
     if (regulator.K.size() > 0) text << std::setprecision(3) << "K = " << regulator.K;
-    double u = 0;
-    for (int i = 0; i < 10; ++i)
-      plant.step(u = regulator.K.size() > 0 ? -regulator.K.row(0).dot(plant.x) : 0);
+    double u = 0;  // the largest since the last picture
+    for (int i = 0; i < 10; ++i) {
+      const double now = regulator.K.size() > 0 ? -regulator.K.row(0).dot(plant.x) : 0;
+      if (std::abs(now) > std::abs(u)) u = now;
+      plant.step(now);
+    }
     view.plot("place [m]", t / 30., plant.x[0]);
     view.plot("angle [rad]", t / 30., plant.x[2]);
     view.plot("force [N]", t / 30., u);

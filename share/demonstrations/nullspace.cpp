@@ -45,8 +45,9 @@ int main() {
     picture.polylines.push_back({.points = way, .color = kEstimateColor});
     const char* says[] = {"the hand follows the target", "the elbow moves, the hand stands still",
                           "both move"};
-    picture.captions.push_back({.text = says[act], .scale = 1.5});
-    view.plot("hand to target [m]", t / 30., (target - way.back()).norm());
+    const double away = (target - way.back()).norm();
+    picture.captions.push_back({.text = away > 0.1 ? "the target is out of reach" : says[act], .scale = 1.5});
+    view.plot("hand to target [m]", t / 30., away);
     view.plot("joint 3 [rad]", t / 30., q[2]);
     view.show(picture);
   }

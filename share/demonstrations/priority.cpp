@@ -30,6 +30,8 @@ int main() {
     S.setJointAngles(q);
 
     Picture picture = pictureOf(S.model(), forwardKinematics(S.model(), q));
+    std::erase_if(picture.solids,
+                  [](const Solid& one) { return one.name.find("Target") != std::string::npos; });
     for (int k = 0; k < 2; ++k) {
       const Eigen::Vector3d hand = S.kinematicsPos(hands[k]), &target = targets[k];
       const Color color = k == 0 ? kDeadReckoningColor : kLandmarkColor;

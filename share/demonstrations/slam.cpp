@@ -25,7 +25,7 @@ int main() {
   double turned = 0;  // radians
   for (int t = 0; t < 300 || view.isWatched(); ++t) {
     const double noise = view.slider("noise of landmarks [m]", 0.05, 1, 0.4),
-                 drift = view.slider("noise of the motion", 0.01, 0.15, 0.08);
+                 drift = view.slider("noise of the motion", 0.01, 0.12, 0.08);
     const double range = view.slider("range of sight [m]", 3, 40, 7);
     if (view.button("from the start") || !slam) {
       car.setState(Eigen::Vector3d::Zero()), car.setLandmarks(posts), number.assign(16, -1), turned = 0;
@@ -33,7 +33,12 @@ int main() {
           Gaussian{.mean = Eigen::Vector3d::Zero(), .covariance = 1e-6 * Eigen::Matrix3d::Identity()},
           LandmarkSensor{.W = noise * noise * Eigen::Matrix2d::Identity()});
     }
-    const Eigen::Vector2d u(0.5, std::atan(2. / 12));  // a circle of 12 m, 151 steps
+    // Somebody steers it along a circle of 12 m, 151 steps.
+    const Eigen::Vector2d from = car.getState().head<2>() - Eigen::Vector2d(0, 12);
+    const double away = from.norm() - 12,
+                 turn =
+                     std::remainder(std::atan2(from.x(), -from.y()) - car.getState()[2], 6.283185307179586);
+    const Eigen::Vector2d u(0.5, std::clamp(std::atan(2. / 12) + 0.1 * away + 0.6 * turn, -0.6, 0.6));
     Eigen::Vector3d x = car.getMeanStateAfterStep(car.getState(), u);
     car.setState(x + drift * Eigen::Vector3d(1, 1, 0.3).cwiseProduct(Eigen::Vector3d(rng.normalVector(3))));
     slam->predict(

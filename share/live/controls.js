@@ -9,7 +9,7 @@ const rexControls = (function () {
   }
 
   // Of a plot, in eight characters at most.
-  const short = value => Math.abs(value) > 0 && (Math.abs(value) < 1e-3 || Math.abs(value) >= 1e5)
+  const short = value => Math.abs(value) < 1e-12 ? '0' : (Math.abs(value) < 1e-3 || Math.abs(value) >= 1e5)
     ? value.toExponential(1) : String(Number(value.toPrecision(3)));
 
   const shown = value => value === null ? '' : String(Math.round(value * 1e4) / 1e4);

@@ -24,10 +24,11 @@ const rexProgram = (function () {
     box.append(element('p', 'legend', name), canvas);
     let last = null;
     return {
-      box, show: one => {
-        if (last === one.x) return;
-        last = one.x;
-        curve.add(one.x, [one.y]);
+      box, show: ({ points }) => {
+        const end = points.length > 0 ? points[points.length - 1][0] : last;
+        if (last === end) return;
+        for (const [x, y] of points) if (last === null || end < last || x > last) curve.add(x, [y]);
+        last = end;
         curve.draw();
       }
     };

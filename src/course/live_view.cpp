@@ -57,8 +57,7 @@ struct LiveView::Parts {
     double low = 0, high = 1, value = 0;
     int pressed = 0;
     Eigen::Vector3d at = Eigen::Vector3d::Zero(), normal = at;  // of a handle
-    double x = 0, y = 0;
-    Series curve{};  // of a plot
+    Series curve{};                                             // of a plot
     std::string xLabel{};
   };
 
@@ -135,6 +134,15 @@ struct LiveView::Parts {
       at[static_cast<Eigen::Index>(i)] = std::clamp(to[i].get<double>(), -kFarthest, kFarthest);
   }
 
+  // The last points of a curve, [[x, y], ...]: a slow page misses pictures, but no peaks.
+  static ViewJson newest(const Series& curve) {
+    constexpr std::size_t kMost = 40;
+    ViewJson points = ViewJson::array();
+    for (std::size_t k = curve.x.size() - std::min(kMost, curve.x.size()); k < curve.x.size(); ++k)
+      points.push_back({curve.x[k], curve.y[k]});
+    return points;
+  }
+
   void publish() {
     if (!server || version == 0) return;
     ViewJson asked = ViewJson::array();
@@ -144,8 +152,7 @@ struct LiveView::Parts {
                        {"low", one.low},
                        {"high", one.high},
                        {"value", one.value},
-                       {"x", one.x},
-                       {"y", one.y},
+                       {"points", newest(one.curve)},
                        {"xLabel", one.xLabel},
                        {"at", {one.at.x(), one.at.y(), one.at.z()}},
                        {"normal", {one.normal.x(), one.normal.y(), one.normal.z()}}});
@@ -360,7 +367,7 @@ bool LiveView::button(const std::string& name) {
 
 void LiveView::plot(const std::string& name, double x, double y, const std::string& xLabel) {
   Parts::Control& one = parts_->control("plot", name);
-  one.x = x, one.y = y, one.xLabel = xLabel;
+  one.xLabel = xLabel;
   Parts::keepPoint(one.curve, x, y);
 }
 
