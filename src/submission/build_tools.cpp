@@ -93,7 +93,7 @@ sandbox::Confinement confinement(const Toolchain& toolchain, const fs::path& wor
 }  // namespace
 
 double clockSeconds(double seconds, sandbox::Level level) {
-  return (isConfined(level) ? 10 : 5) * seconds + 2;  // other processes may be busy, too
+  return (isConfined(level) ? 10 : 2) * seconds + 2;
 }
 
 BuildTools::BuildTools(const Toolchain& toolchain, const fs::path& workFolder,
