@@ -24,15 +24,13 @@ using Eigen::Vector3d;
 
 Image explored(const std::string& file, const Eigen::VectorXd& goal, double margin, const PathSearch& search,
                const Vector3d& direction) {
-  constexpr int kWidth = 560, kHeight = 420;
   const Model model = compile(readScene(sourcePath("data") / file).spec);
   const ContactModel contacts(model);
   const PathTask task{model, contacts,
                       robotProblem(model, contacts, model.initialPositions(), goal, margin, 0.02)};
   const FoundPath found = cli::searchPath(task, search, 9);
   const Picture picture = cli::exploredPicture(task, cli::farthestBody(model), found);
-  return Renderer({.width = kWidth, .height = kHeight})
-      .draw(picture, framing(bounds(picture), direction, static_cast<double>(kWidth) / kHeight));
+  return Renderer({.width = 560, .height = 420}).draw(picture, framing(bounds(picture), direction, 4. / 3));
 }
 
 Image peg() {

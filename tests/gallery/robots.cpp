@@ -99,7 +99,6 @@ Posture waving() {
 
 // The simulation closes the hand; the arrows are forces within the friction cones that carry the ball.
 Image grasp() {
-  constexpr int kWidth = 560, kHeight = 420;
   constexpr double kLength = 0.04;  // metres of an arrow for 1 N
   const Shape ball = ballShape(0.03);
   const Model model = closing_hand::handAnd(ball);
@@ -121,8 +120,7 @@ Image grasp() {
   }
   picture.ground.cell = 0.05;
   const Vector3d direction(1.5, -0.3, 0.1);
-  return Renderer({.width = kWidth, .height = kHeight})
-      .draw(picture, framing(bounds(picture), direction, static_cast<double>(kWidth) / kHeight));
+  return Renderer({.width = 560, .height = 420}).draw(picture, framing(bounds(picture), direction, 4. / 3));
 }
 
 }  // namespace
