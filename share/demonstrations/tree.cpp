@@ -27,7 +27,7 @@ int main() {
     const Eigen::Vector3d goal = view.handle("goal", {9.2, 1, 0}, Eigen::Vector3d::UnitZ());
     const double x = std::clamp(goal.x(), 0., 10.), y = std::clamp(goal.y(), 0., 6.);
     const double step = view.slider("step [m]", 0.05, 1, 0.25), bias = view.slider("goal bias", 0, 0.5, 0.05);
-    if (view.button("another tree") || age == 240) last[0] = -1, ++seed;
+    if (view.button("another tree") || age == 300) last[0] = -1, ++seed;
     if (const Eigen::Vector4d now(x, y, step, bias); now != last) last = now, age = 0;
     problem.goal = Eigen::Vector2d(x, y);
     Picture picture{.ground = {.visible = false}};
@@ -55,7 +55,7 @@ int main() {
       Polyline path{.width = 6};
       for (const auto& q : found.path.colwise()) path.points.push_back({q[0], q[1], 0.05});
       if (path.points.size() > 1) picture.polylines.push_back(path);
-      says = std::to_string(found.samples) + " targets" + (found.path.size() > 0 ? ": a path" : "");
+      says = std::to_string(found.samples) + " targets" + (found.path.size() > 0 ? ": a path" : ": no path yet");
       view.plot("nodes of the tree", t / 30., static_cast<double>(tree.segments.size()));
     }
     picture.captions.push_back({.text = says, .scale = 1.5});
