@@ -1,5 +1,5 @@
 // Chapter 4: Potential fields and their local minima. Eight robots roll downhill to the goal (orange) around
-// a box and a pocket that moves; those that end in a local minimum are violet. The mouse moves pocket and
+// a box and a pocket that moves; those that end in a local minimum are pink. The mouse moves pocket and
 // goal.
 #include "course/car_view.h"
 #include "course/course.h"
