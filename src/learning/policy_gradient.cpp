@@ -112,8 +112,8 @@ NaturalGradient naturalGradient(const LinearGaussianPolicy& policy, const std::v
   // Features may have any units, so the rank is judged with a diagonal of ones.
   const Eigen::VectorXd diagonal = result.fisher.diagonal();
   const Eigen::VectorXd scale = (diagonal.array() > 0).select(diagonal.array().rsqrt(), 0.);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * result.fisher *
-                                                             scale.asDiagonal());
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * result.fisher * scale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scaled);
   const Eigen::VectorXd& values = eigen.eigenvalues();
   Eigen::VectorXd inverse = Eigen::VectorXd::Zero(values.size());
   for (Eigen::Index i = 0; i < values.size(); ++i) {
