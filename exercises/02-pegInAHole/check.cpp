@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "balance_checks.h"
+#include "circle_checks.h"
 #include "collision/contacts.h"
 #include "collision/motion_clearance.h"
-#include "course/film.h"
-#include "grading/evidence_parts.h"
 #include "interface.h"
 #include "priority_checks.h"
 #include "scene/model.h"
@@ -20,25 +20,11 @@ using grading::Signal;
 
 namespace {
 
-using Motion = std::vector<Eigen::VectorXd>;
-
-const Eigen::Vector3d kTarget(-0.2, -0.4, 1.1), kUp(0, 0, 1), kDown(0, 0, -1);
+const Eigen::Vector3d kDown(0, 0, -1);
 
 Eigen::MatrixXd randomMetric(Rng& rng, int n) {
   const Eigen::MatrixXd A = randomMatrix(rng, n, n);
   return A * A.transpose() / n + 0.3 * Eigen::MatrixXd::Identity(n, n);
-}
-
-Simulator at(const Simulator& S, const Eigen::VectorXd& q) {
-  SimulatorDescription description = S.description();
-  description.q = q;
-  return Simulator(description);
-}
-
-// There are `count` postures, each of n finite numbers.
-void checkPostures(Check& check, const Motion& motion, int count, int n) {
-  check.near("number of postures", static_cast<double>(motion.size()), count, 0);
-  for (const Eigen::VectorXd& q : motion) check.shape("posture", q, n, 1);
 }
 
 // Part 1.
@@ -119,137 +105,6 @@ void stackedSteps(Check& check, Student& student) {
                                  {"precision of the last", task.precision}});
     stepIsTheMinimum(check, student, tasks, W);
   });
-}
-
-struct Circle {
-  std::string hand;
-  Eigen::Vector3d center;
-  double radius;
-  std::string pointing;
-};
-
-const Circle kCircle{"handR", kTarget, 0.2, "handL"};
-
-Motion circleOf(Check& check, Student& student, const Simulator& S, const Circle& circle, int T) {
-  const Motion motion =
-      student.circleWithTasks(S.description(), circle.hand, circle.center, circle.radius, circle.pointing, T);
-  checkPostures(check, motion, T, S.getJointDimension());
-  return motion;
-}
-
-// f(S, t) from step `first` on.
-template <class F>
-Signal along(const Simulator& S, const Motion& motion, int first, const F& f) {
-  Signal signal;
-  Simulator moved = S;
-  for (int t = first; t <= static_cast<int>(motion.size()); ++t) {
-    moved.setJointAngles(motion[static_cast<std::size_t>(t) - 1]);
-    signal.add(t, f(moved, t));
-  }
-  return signal;
-}
-
-// The motion as a film of at most some 300 frames, with the path in the world that the body should follow.
-grading::Evidence seen(const Simulator& S, const std::string& body, const Motion& motion,
-                       const std::vector<Eigen::Vector3d>& path = {}) {
-  const std::size_t stride = 1 + motion.size() / 300;
-  Motion shown;
-  for (std::size_t t = 0; t < motion.size(); t += stride) shown.push_back(motion[t]);
-  Film film = filmOf(S, shown, {.traces = {body}, .paths = {path}});
-  for (Frame& frame : film)
-    if (!path.empty()) frame.picture.captions.push_back({.text = "grey: the wanted path"});
-  return {.film = std::move(film)};
-}
-
-/// The precisions of the three tasks.
-struct Precisions {
-  double circle = 1e4, pointing = 100, home = 0.01;
-};
-
-// The posture after the first step, if the circle were at t and the tasks had those precisions.
-Eigen::VectorXd firstPosture(const Simulator& S, const Circle& circle, int t, const Precisions& of = {}) {
-  const Eigen::VectorXd now = S.getJointAngles();
-  const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(now.size(), now.size());
-  const Eigen::Vector3d there =
-      circle.center + circle.radius * Eigen::Vector3d(std::cos(t / 20.), 0, std::sin(t / 20.));
-  return now +
-         weightedStep({{S.kinematicsPos(circle.hand) - there, S.jacobianPos(circle.hand), of.circle},
-                       {S.kinematicsVec(circle.pointing) - kUp, S.jacobianVec(circle.pointing), of.pointing},
-                       {Eigen::VectorXd::Zero(now.size()), I, of.home}},
-                      I);
-}
-
-// Whether the first step is that of precisions in another order.
-std::string questionAboutPrecisions(const Simulator& S, const Circle& circle, const Motion& motion) {
-  const auto isThatOf = [&](const Precisions& of) {
-    return (motion.front() - firstPosture(S, circle, 1, of)).cwiseAbs().maxCoeff() < 1e-7;
-  };
-  const std::string are = " are 1e4 for the circle, 100 for pointing, 0.01 for home.";
-  if (isThatOf({1e4, 0.01, 100})) return "Are the precisions of pointing and of home exchanged? They" + are;
-  if (isThatOf({100, 1e4, 0.01}))
-    return "Are the precisions of the circle and of pointing exchanged? They" + are;
-  if (isThatOf({0.01, 100, 1e4})) return "Are the precisions of the circle and of home exchanged? They" + are;
-  return "";
-}
-
-// 2e-4 m is usual: the home task pulls the hand off its circle in proportion to the precisions.
-void tracks(Check& check, const Simulator& S, const Circle& circle, const Motion& motion,
-            double most = 2e-3) {
-  const auto wanted = [&](int t) -> Eigen::Vector3d {
-    return circle.center + circle.radius * Eigen::Vector3d(std::cos(t / 20.), 0, std::sin(t / 20.));
-  };
-  const auto error = [&](const Simulator& moved, int t) {
-    return (moved.kinematicsPos(circle.hand) - wanted(t)).norm();
-  };
-  const auto shown = check.show([&] {
-    std::vector<Eigen::Vector3d> path;
-    for (int t = 0; t < 126; ++t) path.push_back(wanted(t));
-    return seen(S, circle.hand, motion, path);
-  });
-  const auto strong = check.suspect("Is home as precise as the circle? Its precision is 0.01.",
-                                    firstPosture(S, circle, 1, {.home = 1e4}));
-  const auto early =
-      check.suspect("Does the circle begin at t = 0? The first step is t = 1.", firstPosture(S, circle, 0));
-  const auto late =
-      check.suspect("Does the circle begin at t = 2? The first step is t = 1.", firstPosture(S, circle, 2));
-  const auto usual = check.suspectUsualMistake(motion.front(), firstPosture(S, circle, 1), 1e-7);
-  const std::string question = questionAboutPrecisions(S, circle, motion);
-  const auto exchanged = check.ask(question, !question.empty());
-  check.atMostAlong("distance of " + circle.hand + " from its point on the circle, in circleWithTasks",
-                    along(S, motion, 20, error), most, "m");
-}
-
-void staysAtHome(Check& check, const Simulator& S, const Motion& motion) {
-  const Eigen::VectorXd atFirst = S.getJointAngles();
-  const auto away = [&](const Simulator& moved, int) {
-    return (moved.getJointAngles() - atFirst).cwiseAbs().maxCoeff();
-  };
-  const auto shown = check.show([&] {
-    grading::Evidence evidence = seen(S, "handR", motion);
-    evidence.film = grading::withWanted(evidence.film, filmOf(S, Motion{atFirst}, {}));
-    return evidence;
-  });
-  const auto moves = check.ask("Is home the posture before the first step, in every step?", true);
-  check.atMostAlong("largest deviation of a joint from its home angle, in circleWithTasks",
-                    along(S, motion, 1, away), 2.2, "rad");
-}
-
-void pointsUpwards(Check& check, const Simulator& S, const Circle& circle, const Motion& motion) {
-  const auto axis = [&](const Simulator& moved, int) { return moved.kinematicsVec(circle.pointing); };
-  const Signal got = along(S, motion, 100, axis);
-  const auto shown = check.show([&] { return seen(S, circle.pointing, motion); });
-  const auto sign = check.ask("Is the error the sum of both directions? It is their difference.",
-                              (got.values.front() + kUp).norm() < 0.05);
-  const std::string question = questionAboutPrecisions(S, circle, motion);
-  const auto exchanged = check.ask(question, !question.empty());
-  check.nearAlong("z axis of " + circle.pointing + ", in circleWithTasks", got,
-                  Motion(got.values.size(), kUp), 0.05);
-}
-
-void circleTracks(Check& check, Student& student) {
-  check.input("man.ors, handR around (-0.2, -0.4, 1.1), radius 0.2 m, handL up, steps 20 to 300");
-  const Simulator S("man.ors");
-  tracks(check, S, kCircle, circleOf(check, student, S, kCircle, 300));
 }
 
 void circleStaysAtHome(Check& check, Student& student) {
@@ -561,6 +416,41 @@ void anyTwoTasks(Check& check, Student& student) {
 }
 // </hidden>
 
+// Part 5. The tree comes first, since it is small enough to compute by hand.
+
+Standing someRobot(Rng& rng, int i) {
+  return inRandomPosture(rng, i < 3 ? randomTree(rng, 2 + i) : limitedMan(rng));
+}
+
+void sumsOverRobots(Check& check, Student& student) {
+  check.forEachCase(5, [&](int i) {
+    const Standing robot = someRobot(check.rng(), i);
+    limitsFit(check, student, robot);
+    centerFits(check, student, robot);
+  });
+}
+
+void positionsInFrames(Check& check, Student& student) {
+  check.forEachCase(6, [&](int i) { positionFits(check, student, someRobot(check.rng(), i)); });
+}
+
+// <hidden>
+void mapsOfOtherRobots(Check& check, Student& student) {
+  check.forEachCase(8, [&](int i) {
+    Standing robot = inRandomPosture(check.rng(), randomTree(check.rng(), 3 + i));
+    if (i == 0) robot.frame = robot.body;  // a point of the frame itself never moves there
+    if (i == 1) robot.frame = "b0";        // and this frame does not turn
+    differencesFit(check, "jointLimits", robot, jointLimitsTask(robot.margin),
+                   [&](const auto& S) { return student.jointLimits(S, robot.margin); });
+    differencesFit(check, "massCenter", robot, centerOfMassTask(),
+                   [&](const auto& S) { return student.massCenter(S, robot.masses); });
+    differencesFit(check, "relativePosition", robot, relativePositionOf(robot), [&](const auto& S) {
+      return student.relativePosition(S, robot.body, robot.inBody, robot.frame, robot.inFrame);
+    });
+  });
+}
+// </hidden>
+
 }  // namespace
 
 grading::Checks<Student> checks() {
@@ -574,8 +464,8 @@ grading::Checks<Student> checks() {
        inversesOfAnySize},
       // </hidden>
       {"stack", "tasks", "multiTaskStep minimises the sum of its costs", 1, Group::kVisible, stackedSteps},
-      {"circle-tracks", "tasks", "the hand follows the circle", 1, Group::kVisible, circleTracks},
-      {"circle-home", "tasks", "the posture stays near home", 1, Group::kVisible, circleStaysAtHome},
+      {"circle-home", "tasks", "the hand follows the circle, and the posture stays near home", 1,
+       Group::kVisible, circleStaysAtHome},
       {"circle-points", "tasks", "the other hand points upwards", 1, Group::kVisible, circlePoints},
       // <hidden>
       {"circle-other-hand", "tasks", "the circle with the other hand, from another posture", 1,
@@ -586,10 +476,10 @@ grading::Checks<Student> checks() {
       {"peg-posture", "peg", "postures above the hole and in it", 1, Group::kVisible, postureAboveAndIn},
       {"peg-straight", "peg", "the peg moves straight into the hole and touches nothing", 1, Group::kVisible,
        movesStraight},
-      {"peg-insert", "peg", "the whole motion into the hole, also between the postures", 2, Group::kVisible,
+      {"peg-insert", "peg", "the whole motion into the hole, also between the postures", 1, Group::kVisible,
        goesIntoTheHole},
       // <hidden>
-      {"peg-other-hole", "peg", "another peg, another hole, another start", 2, Group::kHidden,
+      {"peg-other-hole", "peg", "another peg, another hole, another start", 1, Group::kHidden,
        anotherPegAndHole},
       // </hidden>
       {"priority-first", "priority", "the second task never disturbs the first", 1, Group::kVisible,
@@ -600,6 +490,12 @@ grading::Checks<Student> checks() {
        Group::kVisible, circlesUndisturbed},
       // <hidden>
       {"priority-any", "priority", "tasks of any size and rank", 1, Group::kHidden, anyTwoTasks},
+      // </hidden>
+      {"sums", "balance", "joint limits and the centre of mass", 1, Group::kVisible, sumsOverRobots},
+      {"frames", "balance", "positions in the axes of another body", 1, Group::kVisible, positionsInFrames},
+      // <hidden>
+      {"other-robots", "balance", "the three maps of other robots, and differences of their values", 1,
+       Group::kHidden, mapsOfOtherRobots},
       // </hidden>
   };
 }

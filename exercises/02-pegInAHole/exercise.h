@@ -84,3 +84,30 @@ std::vector<Eigen::VectorXd> insertPeg(rex::Simulator& S, const std::string& peg
 /// regularisation of 1e-10 or so (2:51) is accurate enough.
 Eigen::VectorXd priorityStep(const Eigen::MatrixXd& J1, const Eigen::VectorXd& dy1, const Eigen::MatrixXd& J2,
                              const Eigen::VectorXd& dy2);
+
+// Part 5, a bonus: three task maps for a body that stands and bends.
+
+/// A task map at the present posture: its value y (d numbers) and its Jacobian J = dy/dq (d x n).
+struct TaskMapValue {
+  Eigen::VectorXd y;
+  Eigen::MatrixXd J;
+};
+
+/// Joint limits (2:59, d = 1): how far joint angles are within `margin` (> 0) of their limits or beyond them,
+/// in all, divided by `margin`. Joints without limits have infinite ones, and add nothing.
+TaskMapValue jointLimits(const rex::Simulator& S, double margin);
+
+/// One of the masses that a robot consists of.
+struct BodyMass {
+  std::string body;
+  double mass = 0;                                   ///< kg, not negative
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< its centre of mass, in the body's frame, metres
+};
+
+/// The centre of mass of all these masses in the world (2:61, d = 3), metres. Not all of them are zero.
+TaskMapValue massCenter(const rex::Simulator& S, const std::vector<BodyMass>& masses);
+
+/// The vector from a point of `frame` to a point of `body`, in the axes of `frame` (2:55, d = 3), metres. The
+/// points are given as `inFrame` and `inBody`, each in the frame of its own body.
+TaskMapValue relativePosition(const rex::Simulator& S, const std::string& body, const Eigen::Vector3d& inBody,
+                              const std::string& frame, const Eigen::Vector3d& inFrame);

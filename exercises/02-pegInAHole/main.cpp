@@ -76,6 +76,29 @@ Eigen::VectorXd priorityStep(const Eigen::MatrixXd& J1, const Eigen::VectorXd& d
   return Eigen::VectorXd::Zero(J1.cols());
 }
 
+TaskMapValue jointLimits(const Simulator& S, double margin) {
+  const Eigen::VectorXd q = S.getJointAngles(), low = S.getLowerLimits(), high = S.getUpperLimits();
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(1);
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(1, q.size());
+  // TODO: slide 2:59. Which joints add to y, and how does y change when one of them turns?
+  return {y, J};
+}
+
+TaskMapValue massCenter(const Simulator& S, const std::vector<BodyMass>& masses) {
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(3);
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(3, S.getJointDimension());
+  // TODO: slide 2:61. Check the unit of what it prints: is it one of a position?
+  return {y, J};
+}
+
+TaskMapValue relativePosition(const Simulator& S, const std::string& body, const Eigen::Vector3d& inBody,
+                              const std::string& frame, const Eigen::Vector3d& inFrame) {
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(3);
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(3, S.getJointDimension());
+  // TODO: slide 2:55. S.kinematicsVec gives the axes of the frame. Which of the factors change with q?
+  return {y, J};
+}
+
 // What follows is given: the parts of the exercise one after another. show.cpp draws the pictures.
 int main() {
   // Part 1: the task of the right hand, which takes three of the 27 joint angles.
@@ -112,4 +135,7 @@ int main() {
 
   // Part 4: a second wish pulls the right hand away from its circle.
   showPriority(center);
+
+  // Part 5: the man on his own feet picks something up from the floor, with his balance in mind and without.
+  showBalance({-0.15, -0.55, 0.1});
 }

@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "course/film.h"
+#include "course/film_files.h"
 #include "kinematics/hierarchical_step.h"
+#include "scene/model.h"
 
 using namespace rex;
 
@@ -187,4 +191,117 @@ void showPriority(const Eigen::Vector3d& center) {
             {.label = "weights 10 : 1", .y = errorsWithTwoWishes(center, weighted)},
             {.label = "strict priority", .y = errorsWithTwoWishes(center, strict)},
             {.label = "strict, library", .y = errorsWithTwoWishes(center, byLibrary), .dashed = true}}});
+}
+
+namespace {
+
+// man.ors on its own right foot, with limits for the joints of its legs, radians, and without the red balls.
+Simulator standingMan() {
+  SimulatorDescription scene = Simulator("man.ors").description();
+  std::string& text = scene.sceneText;
+  for (const auto& [joint, range] :
+       {std::pair("(waist back)", "-0.8 0.8"), std::pair("(back chest)", "-0.8 0.8"),
+        std::pair("(chest shoulders)", "-0.8 0.8"), std::pair("(lhip lup)", "-1.5 1.5"),
+        std::pair("(rhip rup)", "-1.5 1.5"), std::pair("(lup ldn)", "-1.8 0.65"),
+        std::pair("(rup rdn)", "-1.8 0.65"), std::pair("(ldn lfoot)", "-0.7 0.7"),
+        std::pair("(rdn rfoot)", "-0.7 0.7")})
+    text.insert(text.find("{", text.find(joint)) + 1, " limits=[" + std::string(range) + "]");
+  text.resize(text.find("# where the hands shall reach"));
+  Simulator S(scene);
+  S.anchorKinematicChainIn("rfoot");
+  return S;
+}
+
+std::vector<BodyMass> massesOf(const Simulator& S) {
+  std::vector<BodyMass> masses;
+  for (const Body& one : S.model().bodies()) masses.push_back({one.name, one.mass, one.p_BBcm});
+  masses.erase(masses.begin());  // the world
+  return masses;
+}
+
+// Which of your maps are tasks, too.
+struct Wishes {
+  bool isBalanced = false, isWithinLimits = false, isHandOnHip = false;
+};
+
+// The right hand goes to `target` in 150 steps and stays there, and the left foot stays where it is. If
+// wished, the centre of mass stays above the middle of the feet, joints keep away from their limits, and the
+// left hand goes to the hip.
+Postures reach(Simulator S, const Eigen::Vector3d& target, const Wishes& wishes) {
+  const Simulator start = S;
+  const std::vector<BodyMass> masses = massesOf(S);
+  const Eigen::VectorXd home = S.getJointAngles(), noCost = Eigen::VectorXd::Zero(1);
+  const Eigen::MatrixXd W = Eigen::MatrixXd::Identity(home.size(), home.size());
+  const Eigen::Vector3d right = S.kinematicsPos("handR"), zero = Eigen::Vector3d::Zero(),
+                        hip(-0.02, 0.02, 0.22);
+  const Eigen::VectorXd left = relativePosition(S, "handL", zero, "waist", zero).y;
+  const Eigen::Vector2d middle = 0.5 * (S.kinematicsPos("lfoot") + S.kinematicsPos("rfoot")).head<2>();
+  return moved(S, 200, [&](int t) {
+    const double s = sineProfile(std::min(1., t / 150.));
+    std::vector<TaskTerm> tasks;
+    const auto add = [&](const TaskMapValue& map, const Eigen::VectorXd& wanted, double precision) {
+      tasks.push_back({map.y.head(wanted.size()) - wanted, map.J.topRows(wanted.size()), precision});
+    };
+    add({S.kinematicsPos("handR"), S.jacobianPos("handR")}, right + s * (target - right), 1e4);
+    add({S.getJointAngles(), W}, home, 0.1);
+    for (const Eigen::Vector3d& point : {Eigen::Vector3d(0, 0.1, 0), {0.05, -0.1, 0}, {-0.05, -0.1, 0}})
+      add({S.kinematicsPos("lfoot", point), S.jacobianPos("lfoot", point)},
+          start.kinematicsPos("lfoot", point), 1e5);
+    if (wishes.isBalanced) add(massCenter(S, masses), middle, 1e4);
+    if (wishes.isWithinLimits) add(jointLimits(S, 0.2), noCost, 0.5);
+    if (wishes.isHandOnHip)
+      add(relativePosition(S, "handL", zero, "waist", zero), left + s * (hip - left), 1e3);
+    return multiTaskStep(tasks, W);
+  });
+}
+
+// The plumb line of the centre of mass.
+std::vector<Eigen::Vector3d> plumbLine(const Simulator& S) {
+  const Eigen::Vector2d under = S.kinematicsCOM();
+  return {{under.x(), under.y(), 0}, {under.x(), under.y(), 1}};
+}
+
+}  // namespace
+
+void showBalance(const Eigen::Vector3d& target) {
+  const Simulator start = standingMan();
+  const Postures alone = reach(start, target, {}), standing = reach(start, target, {true, false, false}),
+                 all = reach(start, target, {true, true, true});
+  const double middle = start.kinematicsPos("rfoot").y();
+  const auto curves = [&](const auto& f) -> std::vector<Series> {
+    return {{.label = "hand alone", .y = along(start, alone, f)},
+            {.label = "with the centre of mass", .y = along(start, standing, f)},
+            {.label = "with all three maps", .y = along(start, all, f), .dashed = true}};
+  };
+  plot("balance", {.title = "Reaching for the floor",
+                   .xLabel = "step",
+                   .yLabel = "centre of mass in front of the middle of the feet [m]",
+                   .legend = Legend::kTopLeft,
+                   .series = curves([&](const Simulator& S, int) { return middle - S.kinematicsCOM().y(); }),
+                   .horizontalLines = {{.at = 0.15, .label = "toes"}, {.at = -0.15, .label = "heels"}}});
+  plot("limits", {.title = "Reaching for the floor",
+                  .xLabel = "step",
+                  .yLabel = "cost of joint limits, margin 0.2 rad",
+                  .legend = Legend::kTopLeft,
+                  .series = curves([](const Simulator& S, int) { return jointLimits(S, 0.2).y[0]; })});
+
+  PictureOptions look{.traces = {"handR"}, .points = {target}, .view = {1.5, -1.2, 0.5}};
+  const auto picture = [&](const std::string& name, const std::string& caption, const Postures& motion) {
+    Simulator S = start;
+    for (const Eigen::VectorXd& q : motion) S.setJointAngles(q);
+    PictureOptions options = look;
+    options.caption = caption;
+    options.paths = {plumbLine(S)};
+    writePicture(S, name + ".png", options);
+  };
+  picture("reach_alone", "The hand alone: he falls", alone);
+  picture("reach_balanced", "With all three maps", all);
+  look.caption = "Centre of mass, joint limits, and a hand on the hip";
+  Film film = filmOf(start, all, look);
+  Simulator S = start;
+  for (std::size_t t = 0; t < film.size(); ++t) {
+    S.setJointAngles(all[t]);
+    film[t].picture.polylines.push_back({.points = plumbLine(S), .color = {0.35f, 0.40f, 0.46f}});
+  }
+  writeFilmVideo(film, {.camera = cameraFor(film, look)}, "balance", kFilmRate);
 }

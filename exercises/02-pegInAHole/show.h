@@ -26,3 +26,8 @@ void showInsertion(const rex::Simulator& start, const Postures& motion, const re
 /// priority.png: the right hand circles around `center`, and a less important task pulls it away. Under
 /// strict priority it stays on its circle, and the curve of your step lies on the library's dashed line.
 void showPriority(const Eigen::Vector3d& center);
+
+/// man.ors on its own feet reaches for `target`, metres, with the right hand. reach_alone.png: where it ends
+/// with nothing but tasks for hand and feet; reach_balanced.png, balance.mp4: with your three maps as tasks,
+/// too. balance.png and limits.png: the centre of mass and the cost of joint limits over time.
+void showBalance(const Eigen::Vector3d& target);

@@ -176,6 +176,65 @@ Eigen::VectorXd priorityStep(const Eigen::MatrixXd& J1, const Eigen::VectorXd& d
   // </solution>
 }
 
+TaskMapValue jointLimits(const Simulator& S, double margin) {
+  const Eigen::VectorXd q = S.getJointAngles(), low = S.getLowerLimits(), high = S.getUpperLimits();
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(1);
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(1, q.size());
+  // <solution jointLimits>
+  for (Eigen::Index i = 0; i < q.size(); ++i) {
+    const double below = margin - q[i] + low[i], above = margin + q[i] - high[i];
+    if (below > 0) {
+      y[0] += below / margin;
+      J(0, i) -= 1 / margin;
+    }
+    if (above > 0) {
+      y[0] += above / margin;
+      J(0, i) += 1 / margin;
+    }
+  }
+  // <todo>
+  //| // TODO: slide 2:59. Which joints add to y, and how does y change when one of them turns?
+  // </solution>
+  return {y, J};
+}
+
+TaskMapValue massCenter(const Simulator& S, const std::vector<BodyMass>& masses) {
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(3);
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(3, S.getJointDimension());
+  // <solution massCenter>
+  double total = 0;
+  for (const BodyMass& one : masses) {
+    y += one.mass * S.kinematicsPos(one.body, one.center);
+    J += one.mass * S.jacobianPos(one.body, one.center);
+    total += one.mass;
+  }
+  y /= total;
+  J /= total;
+  // <todo>
+  //| // TODO: slide 2:61. Check the unit of what it prints: is it one of a position?
+  // </solution>
+  return {y, J};
+}
+
+TaskMapValue relativePosition(const Simulator& S, const std::string& body, const Eigen::Vector3d& inBody,
+                              const std::string& frame, const Eigen::Vector3d& inFrame) {
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(3);
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(3, S.getJointDimension());
+  // <solution relativePosition>
+  // R^T d consists of the scalar products of d with the axes of the frame. Both factors move.
+  const Eigen::Vector3d d = S.kinematicsPos(body, inBody) - S.kinematicsPos(frame, inFrame);
+  const Eigen::MatrixXd moves = S.jacobianPos(body, inBody) - S.jacobianPos(frame, inFrame);
+  for (const int k : {0, 1, 2}) {
+    const Eigen::Vector3d axis = S.kinematicsVec(frame, Eigen::Vector3d::Unit(k));
+    y[k] = axis.dot(d);
+    J.row(k) = axis.transpose() * moves + d.transpose() * S.jacobianVec(frame, Eigen::Vector3d::Unit(k));
+  }
+  // <todo>
+  //| // TODO: slide 2:55. S.kinematicsVec gives the axes of the frame. Which of the factors change with q?
+  // </solution>
+  return {y, J};
+}
+
 // What follows is given: the parts of the exercise one after another. show.cpp draws the pictures.
 int main() {
   // Part 1: the task of the right hand, which takes three of the 27 joint angles.
@@ -212,4 +271,7 @@ int main() {
 
   // Part 4: a second wish pulls the right hand away from its circle.
   showPriority(center);
+
+  // Part 5: the man on his own feet picks something up from the floor, with his balance in mind and without.
+  showBalance({-0.15, -0.55, 0.1});
 }

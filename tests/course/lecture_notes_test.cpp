@@ -464,6 +464,42 @@ TEST(LectureNotes, TheNaturalGradient) {
   EXPECT_NEAR(integral(-reach, reach, difference), shift * shift / (2 * variance), 1e-9);
 }
 
+TEST(LectureNotes, LimitsAndFrames) {
+  // Two joints within the margin, as one number and as one for each joint.
+  const double m = .2;
+  const VectorXd brackets = Eigen::Vector2d(.5, .1);
+  const MatrixXd each = -MatrixXd::Identity(2, 2) / m, sum = each.colwise().sum();
+  const VectorXd pooled = leastSquares(sum, VectorXd::Constant(1, -brackets.sum())),
+                 single = leastSquares(each, -brackets);
+  EXPECT_NEAR((brackets + each * pooled).cwiseMax(0).sum(), .2, 1e-12);
+  EXPECT_LT((brackets + each * single).norm(), 1e-12);
+  expectStated("02-pegInAHole", fmt::format("changes both angles by ${:.2f}$", pooled[1]));
+  expectStated("02-pegInAHole",
+               fmt::format("the second one becomes ${:.1f}$", (brackets + each * pooled)[1]));
+  expectStated("02-pegInAHole", fmt::format("by ${:.1f}$ and ${:.2f}$", single[0], single[1]));
+  // The Jacobian by the point of the frame that lies where the body's point is.
+  Rng rng(13);
+  Simulator S("man.ors");
+  S.setJointAngles(rng.uniformVector(27, -1, 1));
+  const Eigen::Vector3d v = rng.normalVector(3), w = rng.normalVector(3);
+  const auto axes = [](const Simulator& at) {
+    Eigen::Matrix3d R;
+    for (int k = 0; k < 3; ++k) R.col(k) = at.kinematicsVec("waist", Eigen::Vector3d::Unit(k));
+    return R;
+  };
+  S.anchorKinematicChainIn("rfoot");  // so that the waist moves
+  const auto y = [&](const VectorXd& q) -> VectorXd {
+    Simulator at = S;
+    at.setJointAngles(q);
+    return axes(at).transpose() * (at.kinematicsPos("handL", v) - at.kinematicsPos("waist", w));
+  };
+  const VectorXd q = S.getJointAngles();
+  const Eigen::Vector3d inFrame = y(q) + w;
+  const JacobianCheck checked = checkJacobian(
+      y, axes(S).transpose() * (S.jacobianPos("handL", v) - S.jacobianPos("waist", inFrame)), q);
+  EXPECT_TRUE(checked.ok) << checked.message;
+}
+
 TEST(LectureNotes, FallsAndSlips) {
   // A flood from the start of the cliff walk, 4 rows of 12 cells whose lowest is cliff but for its ends.
   MatrixXd steps = MatrixXd::Constant(4, 12, -1);

@@ -1,4 +1,4 @@
-// caught by: circle-tracks
+// caught by: circle-home
 // mistake: With the precision of the circle, home holds the hand back.
 
 // <solution circleWithTasks>

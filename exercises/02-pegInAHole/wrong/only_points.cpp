@@ -1,4 +1,4 @@
-// caught by: circle-home, circle-tracks, circle-points, circle-other-hand
+// caught by: circle-home, circle-points, circle-other-hand
 // mistake: One hand points upwards; the other is not moved round its circle.
 
 // <solution circleWithTasks>

@@ -1,4 +1,4 @@
-// caught by: circle-tracks, circle-home, circle-points
+// caught by: circle-home, circle-points
 // mistake: the precisions of pointing and home are exchanged.
 
 // <solution circleWithTasks>
