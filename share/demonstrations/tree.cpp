@@ -55,7 +55,8 @@ int main() {
       Polyline path{.width = 6};
       for (const auto& q : found.path.colwise()) path.points.push_back({q[0], q[1], 0.05});
       if (path.points.size() > 1) picture.polylines.push_back(path);
-      says = std::to_string(found.samples) + " targets" + (found.path.size() > 0 ? ": a path" : ": no path yet");
+      const char* end = found.path.size() > 0 ? ": a path" : ": no path yet";
+      says = std::to_string(found.samples) + " targets" + end;
       view.plot("nodes of the tree", t / 30., static_cast<double>(tree.segments.size()));
     }
     picture.captions.push_back({.text = says, .scale = 1.5});
