@@ -91,6 +91,13 @@ Stillness stillness(const Model& model) {
   return all;
 }
 
+// N s on the first body. Without load there is none, and the directions may never have been set.
+Eigen::Vector3d frictionOf(const btManifoldPoint& point) {
+  if (point.getAppliedImpulse() == 0) return Eigen::Vector3d::Zero();
+  return fromBullet(point.m_appliedImpulseLateral1 * point.m_lateralFrictionDir1 +
+                    point.m_appliedImpulseLateral2 * point.m_lateralFrictionDir2);
+}
+
 bool isIdentity(const Pose& X) { return X.R.isIdentity(0) && X.p.isZero(0); }
 
 }  // namespace
@@ -306,11 +313,13 @@ std::vector<PhysicsContact> BulletWorld::contacts() const {
                            .p_WB = fromBullet(point.getPositionWorldOnB()),
                            .normal_W = fromBullet(point.m_normalWorldOnB),
                            .distance = point.getDistance(),
-                           .impulse = point.getAppliedImpulse()};
+                           .impulse = point.getAppliedImpulse(),
+                           .friction_W = frictionOf(point)};
     if (contact.shapeA > contact.shapeB) {
       std::swap(contact.shapeA, contact.shapeB);
       std::swap(contact.p_WA, contact.p_WB);
       contact.normal_W = -contact.normal_W;
+      contact.friction_W = -contact.friction_W;
     }
     all.push_back(contact);
   });

@@ -91,6 +91,38 @@ TEST(PhysicsContacts, SlidesDownASlopeIfItIsSteeperThanItsFriction) {
   EXPECT_LT(wayIn(0.55, 10), 1e-3);
 }
 
+// What rests is held by its contacts alone: together they push against the weight. So for a single body, and
+// for one with a part on a hinge, which Bullet treats differently, on slopes along x and y.
+TEST(PhysicsContacts, CarryTheWeightOfWhatRests) {
+  for (const bool hasPart : {false, true}) {
+    for (const Eigen::Vector3d& axis : {Eigen::Vector3d(0.6, 0.8, 0), Eigen::Vector3d(0, -1, 0)}) {
+      SceneSpec spec;
+      const Pose X_WG = rotation(0.3, axis);
+      addLoose(spec, "thing", 2, boxShape(0.4, 0.4, 0.2), X_WG * translation(0, 0, 0.1));
+      addGround(spec, X_WG);
+      double mass = 2;
+      if (hasPart) {
+        JointSpec& hinge = addHinged(spec, "part", 1, 0.01);
+        hinge.parent = "thing";
+        hinge.lower = hinge.upper = Eigen::VectorXd::Zero(1);
+        mass = 3;
+      }
+      PhysicsWorld world(compile(spec), {.friction = 0.5});
+      run(world, 2);
+      Eigen::Vector3d impulse = Eigen::Vector3d::Zero(), friction = Eigen::Vector3d::Zero();
+      for (const PhysicsContact& contact : world.contacts()) {
+        EXPECT_NEAR(contact.friction_W.dot(contact.normal_W), 0, 1e-12);
+        const double side = contact.normal_W.z() > 0 ? 1 : -1;  // whether the ground is B
+        impulse += side * (contact.impulse * contact.normal_W + contact.friction_W);
+        friction += side * contact.friction_W;
+      }
+      const double weight = mass * kGravity * kStep;
+      EXPECT_LT((impulse - Eigen::Vector3d(0, 0, weight)).norm(), 1e-3 * weight) << impulse.transpose();
+      EXPECT_NEAR(friction.norm(), weight * std::sin(0.3), 1e-3 * weight);
+    }
+  }
+}
+
 // With e of the speed it rises to e^2 of the height.
 TEST(PhysicsContacts, BouncesByTheRestitution) {
   const Model model = looseOnGround(ballShape(0.1), translation(0, 0, 1.1));
