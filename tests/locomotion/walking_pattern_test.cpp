@@ -3,35 +3,15 @@
 #include <cmath>
 
 #include "kinematics/center_of_mass.h"
+#include "locomotion/humanoid.h"
 #include "locomotion/zero_moment_point.h"
-#include "scene/scene_file.h"
 #include "scene/state.h"
 #include "support/expect_error.h"
-#include "support/paths.h"
 
 namespace rex::walking_pattern_test {
 
 using Eigen::Vector3d;
 using Eigen::VectorXd;
-
-struct Humanoid {
-  Model model = compile(readScene(sourcePath("data/robots/humanoid/humanoid.urdf"), {.freeBase = true}).spec);
-  Legs legs{.leftFoot = model.body("left_foot"),
-            .rightFoot = model.body("right_foot"),
-            .trunk = model.body("pelvis"),
-            .p_FS = {.03, 0, -.075}};
-  VectorXd start = model.initialPositions();
-
-  // With bent knees.
-  Humanoid() {
-    for (const Joint& joint : model.joints()) {
-      if (joint.name.ends_with("_hip_pitch") || joint.name.ends_with("_ankle_pitch"))
-        start[joint.qIndex] = -.35;
-      if (joint.name.ends_with("_knee")) start[joint.qIndex] = .7;
-      if (joint.type == JointType::kFree) start.segment<3>(joint.qIndex) = Vector3d(0, 0, .84);
-    }
-  }
-};
 
 TEST(WalkingPattern, KeepsFeetAndCenterOfMassInTheirPlaces) {
   const Humanoid robot;
