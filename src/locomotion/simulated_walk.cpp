@@ -19,6 +19,7 @@ using Eigen::VectorXd;
 constexpr double kMillisecond = 1e-3;
 constexpr double kBeyond = 1;       // metres of floor beyond the footsteps
 constexpr double kThickness = 0.1;  // of tiles, metres
+constexpr double kSunk = 0.3;  // of the trunk's height at the start: lower, it falls, also beyond the floor
 constexpr double kMostTiles = 1e5;
 
 void requireSimulation(const SimulatedWalkOptions& options) {
@@ -57,6 +58,7 @@ class Walking {
         motors_(static_cast<std::size_t>(model.nv())),
         effort_(model.nv()),
         base_(model[model[legs.trunk].joint].vIndex),
+        height_(model[model[legs.trunk].joint].qIndex + 2),
         steps_(std::lround(duration(plan) / options.step)) {
     for (const Joint& joint : model.joints())
       effort_.segment(joint.vIndex, joint.nv).setConstant(joint.maxEffort);
@@ -65,9 +67,10 @@ class Walking {
     const BodyPoses poses = forwardKinematics(model, state.q);
     const double sole =
         std::min((poses[legs.leftFoot] * legs.p_FS).z(), (poses[legs.rightFoot] * legs.p_FS).z());
-    state.q[model[model[legs.trunk].joint].qIndex + 2] += options.startAbove - sole;
+    state.q[height_] += options.startAbove - sole;
     world_.setState(state);
     walk_.state = state;
+    lowest_ = kSunk * state.q[height_];
   }
 
   SimulatedWalk run() {
@@ -101,6 +104,7 @@ class Walking {
     walk_.largestCaptureError = std::max(walk_.largestCaptureError, sample.control.captureError.norm());
     forces = {};
     measure(sample);
+    if (walk_.state.q[height_] < lowest_) fall("the trunk has sunk too low");
     walk_.samples.push_back(std::move(sample));
   }
 
@@ -153,7 +157,8 @@ class Walking {
   PhysicsWorld world_;
   std::vector<Motor> motors_;
   VectorXd effort_;
-  int base_;
+  int base_, height_;
+  double lowest_ = 0;
   long steps_;
   FootLoads loads_{};
   SimulatedWalk walk_{};

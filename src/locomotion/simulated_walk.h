@@ -47,7 +47,7 @@ struct WalkMeasurement {
 
 /// A walk in the simulated world.
 struct SimulatedWalk {
-  bool falls = false;              ///< a body other than a foot touched the ground, or the controller gave up
+  bool falls = false;              ///< touched the ground not only with its feet, sank, or found no torques
   double time = 0;                 ///< when it ended, seconds
   std::string message{};           ///< why it fell
   State state{};                   ///< at the end

@@ -146,11 +146,13 @@ TEST(SimulatedWalk, StepsAsideWhenPushed) {
 
 TEST(SimulatedWalk, FallsWhenPushedTooHard) {
   SimulatedWalkOptions options;
-  options.pushes = {{.time = .3, .impulse_W = {0, 150, 0}}};
+  options.pushes = {{.time = .3, .impulse_W = {0, 60, 0}}};
   const SimulatedWalk walk = walked(standingOnly(), 0, options);
   EXPECT_TRUE(walk.falls);
   EXPECT_LT(walk.time, 2);
   EXPECT_THAT(walk.message, testing::MatchesRegex("falls at .* s: '.*' touches the ground"));
+  options.pushes.front().impulse_W.y() = 400;  // beyond the edge of the floor
+  EXPECT_THAT(walked(standingOnly(), 0, options).message, testing::HasSubstr("the trunk has sunk too low"));
 }
 
 // Nothing but its motors holds it up.
