@@ -47,6 +47,8 @@ std::span<const TableEntry> commandTable() {
       {"slam", "Optimize a pose graph, so that the map fits its measurements", kMethods},
       {"map", "Map a building by grid SLAM: how true the map is, and a film", kMethods},
       {"localize", "Find a robot in a known map by its scans: errors and a film", kMethods},
+      {"walk", "Let the humanoid walk on an uneven floor and push it: zero moment point and a film",
+       kMethods},
       {"filter", "Let a filter track the car: errors, consistency and a film", kMethods},
       {"cma", "Count the evaluations that CMA-ES needs for a test function", kMethods},
       {"search", "Compare searches without derivatives on test functions", kMethods},

@@ -62,30 +62,6 @@ void addSlope(Picture& picture, const CompassWalk& walk) {
                             "slope"});
 }
 
-struct Humanoid {
-  Model model;
-  Legs legs;
-  Eigen::VectorXd start;  // with bent knees
-};
-
-Humanoid courseHumanoid() {
-  Model model = compile(readScene(homeFolder() / "data/robots/humanoid/humanoid.urdf",
-                                  {.allowMissingMeshes = true, .freeBase = true})
-                            .spec);
-  Eigen::VectorXd start = model.initialPositions();
-  for (const Joint& joint : model.joints()) {
-    if (joint.name.ends_with("_hip_pitch") || joint.name.ends_with("_ankle_pitch"))
-      start[joint.qIndex] = -0.35;
-    if (joint.name.ends_with("_knee")) start[joint.qIndex] = 0.7;
-    if (joint.type == JointType::kFree) start.segment<3>(joint.qIndex) = Eigen::Vector3d(0, 0, 0.84);
-  }
-  const Legs legs{.leftFoot = model.body("left_foot"),
-                  .rightFoot = model.body("right_foot"),
-                  .trunk = model.body("pelvis"),
-                  .p_FS = {0.03, 0, -0.075}};
-  return {std::move(model), legs, std::move(start)};
-}
-
 void addFootprints(Picture& picture, const WalkPlan& plan) {
   for (const Footstep& foot : plan.footsteps)
     picture.solids.push_back(
@@ -118,6 +94,26 @@ void requireWays(const HumanoidWalk& walk, Eigen::Index steps) {
 }
 
 }  // namespace
+
+CourseHumanoid courseHumanoid(const std::vector<ShapeSpec>& floor) {
+  SceneSpec scene = readScene(homeFolder() / "data/robots/humanoid/humanoid.urdf",
+                              {.allowMissingMeshes = true, .freeBase = true})
+                        .spec;
+  scene.worldShapes.insert(scene.worldShapes.end(), floor.begin(), floor.end());
+  Model model = compile(scene);
+  Eigen::VectorXd start = model.initialPositions();
+  for (const Joint& joint : model.joints()) {
+    if (joint.name.ends_with("_hip_pitch") || joint.name.ends_with("_ankle_pitch"))
+      start[joint.qIndex] = -0.35;
+    if (joint.name.ends_with("_knee")) start[joint.qIndex] = 0.7;
+    if (joint.type == JointType::kFree) start.segment<3>(joint.qIndex) = Eigen::Vector3d(0, 0, 0.84);
+  }
+  const Legs legs{.leftFoot = model.body("left_foot"),
+                  .rightFoot = model.body("right_foot"),
+                  .trunk = model.body("pelvis"),
+                  .p_FS = {0.03, 0, -0.075}};
+  return {std::move(model), legs, std::move(start)};
+}
 
 Figure footprintFigure(const WalkPlan& plan) {
   static_cast<void>(duration(plan));  // throws if the plan is not valid
@@ -167,23 +163,28 @@ void writeFilm(const CompassWalk& walk, const std::string& name, const PlantFilm
 }
 
 void writeFilm(const HumanoidWalk& walk, const std::string& name, const PlantFilmOptions& options) {
-  const Humanoid humanoid = courseHumanoid();
+  const CourseHumanoid humanoid = courseHumanoid();
   const WalkingPattern pattern =
       walkingPattern(humanoid.model, humanoid.legs, walk.plan, humanoid.start, {.preview = walk.preview});
   if (pattern.status != WalkingPattern::Status::kWalks)
     throw Error({.what = "film of a humanoid",
                  .found = pattern.message,
                  .wanted = "a walk that the robot can perform"});
-  requireWays(walk, pattern.Q.cols());
+  PlantFilmOptions timed = options;
+  timed.step = walk.preview.step;
+  writeFilm(humanoid, pattern.Q, walk, name, timed);
+}
+
+void writeFilm(const CourseHumanoid& humanoid, const Eigen::MatrixXd& Q, const HumanoidWalk& walk,
+               const std::string& name, const PlantFilmOptions& options) {
+  requireWays(walk, Q.cols());
   const auto at = [&](int step) {
-    Picture picture = pictureOf(humanoid.model, forwardKinematics(humanoid.model, pattern.Q.col(step)));
+    Picture picture = pictureOf(humanoid.model, forwardKinematics(humanoid.model, Q.col(step)));
     addFootprints(picture, walk.plan);
     addWays(picture, walk, static_cast<std::size_t>(step));
     return picture;
   };
-  PlantFilmOptions timed = options;
-  timed.step = walk.preview.step;
-  internal::writePlantFilm(static_cast<int>(pattern.Q.cols()), at, name, timed);
+  internal::writePlantFilm(static_cast<int>(Q.cols()), at, name, options);
 }
 
 }  // namespace rex

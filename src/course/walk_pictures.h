@@ -7,6 +7,7 @@
 #include "locomotion/compass_gait.h"
 #include "locomotion/footsteps.h"
 #include "locomotion/preview_control.h"
+#include "locomotion/walking_pattern.h"
 #include "render/figure.h"
 #include "render/picture.h"
 
@@ -37,6 +38,15 @@ struct CompassWalk {
 /// NAME_sheet.png. Throws as pictureOf() and as writeFilm() for racers (course/racer_pictures.h).
 void writeFilm(const CompassWalk& walk, const std::string& name, const PlantFilmOptions& options = {});
 
+/// The course's humanoid, alone or on a floor: shapes of the world. Its feet are to start from `start`, with
+/// bent knees.
+struct CourseHumanoid {
+  Model model;
+  Legs legs{};
+  Eigen::VectorXd start{};
+};
+[[nodiscard]] CourseHumanoid courseHumanoid(const std::vector<ShapeSpec>& floor = {});
+
 /// The course's humanoid on the footsteps of a plan, and two paths on the ground, sampled at the steps of
 /// the preview.
 struct HumanoidWalk {
@@ -50,5 +60,10 @@ struct HumanoidWalk {
 /// Error if there is no such pattern, if the paths do not have its length, and for numbers that are not
 /// finite.
 void writeFilm(const HumanoidWalk& walk, const std::string& name, const PlantFilmOptions& options = {});
+
+/// Postures of a humanoid that were measured, not planned: one column of Q (nq x N) per view, options.step
+/// apart; paths have N points. Throws Error if they do not, and for numbers that are not finite.
+void writeFilm(const CourseHumanoid& humanoid, const Eigen::MatrixXd& Q, const HumanoidWalk& walk,
+               const std::string& name, const PlantFilmOptions& options);
 
 }  // namespace rex

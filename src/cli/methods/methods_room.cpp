@@ -15,7 +15,8 @@ Room methodsRoom() {
                        {"localize", addLocalize},
                        {"map", addMap},
                        {"search", addSearch},
-                       {"slam", addSlam}}};
+                       {"slam", addSlam},
+                       {"walk", addWalk}}};
 }
 
 }  // namespace rex::cli

@@ -15,5 +15,6 @@ void addLocalize(CLI::App* command, Action& action);
 void addMap(CLI::App* command, Action& action);
 void addSearch(CLI::App* command, Action& action);
 void addSlam(CLI::App* command, Action& action);
+void addWalk(CLI::App* command, Action& action);
 
 }  // namespace rex::cli
