@@ -1,8 +1,11 @@
 // The same as lecture_notes_test.cpp for what the notes say about dynamics, control, walking, grasps and
 // graphs.
+#include <algorithm>
 #include <cmath>
 #include <complex>
+#include <functional>
 #include <numbers>
+#include <set>
 
 #include <Eigen/Dense>
 #include <fmt/format.h>
@@ -12,7 +15,9 @@
 #include "base/rng.h"
 #include "control/cart_pole_dynamics.h"
 #include "control/controllability.h"
+#include "control/predictive_controller.h"
 #include "control/racer_dynamics.h"
+#include "control/regulators.h"
 #include "control/riccati.h"
 #include "control/stability.h"
 #include "course/linear_algebra.h"
@@ -264,6 +269,143 @@ TEST(LectureNotesOnControl, SensorsAloneCannotBringTheRacerToRest) {
     best = std::max(best, -roots.real().maxCoeff());
   }
   EXPECT_LT(best, 1e-6);
+}
+
+// A step of 0.1 s of the trolley of 16-mpc, from 5 m; how far it overshoots.
+struct Trolley {
+  LinearSystem plant{.A = (MatrixXd(2, 2) << 1, .1, 0, 1).finished(),
+                     .B = (MatrixXd(2, 1) << .005, .1).finished(),
+                     .step = .1};
+  MatrixXd Q = Vector2d(1, 0).asDiagonal(), R = MatrixXd::Constant(1, 1, .1);
+
+  double overshoot(const std::function<double(const VectorXd& x)>& law) const {
+    VectorXd x = Vector2d(5, 0);
+    double least = 5;
+    for (int t = 0; t < 150; ++t) {
+      x = (plant.A * x + plant.B * std::clamp(law(x), -1., 1.)).eval();
+      least = std::min(least, x[0]);
+    }
+    return -least;
+  }
+  double planned(int horizon) const {
+    const VectorXd one = VectorXd::Ones(1);
+    const PredictiveController controller(plant,
+                                          {.Q = Q, .R = R, .horizon = horizon, .uMin = -one, .uMax = one});
+    return overshoot([&](const VectorXd& x) { return controller.plan(x).U(0, 0); });
+  }
+};
+
+TEST(LectureNotesOnControl, StepsToStopInTime) {
+  const Trolley trolley;
+  const RiccatiResult regulator = lqr(trolley.plant, trolley.Q, trolley.R);
+  const double cutOff = trolley.overshoot([&](const VectorXd& x) { return -(regulator.K * x)(0); });
+  expectWritten(
+      "16-mpc",
+      fmt::format("overshoots by {:.2f} m; plans of 10 steps by {:.2f} m, of 20 by {:.2f} m, of 25 and more "
+                  "by {:.2f} m",
+                  cutOff, trolley.planned(10), trolley.planned(20), trolley.planned(25)));
+  EXPECT_NEAR(trolley.planned(25), trolley.planned(40), 1e-3);
+  EXPECT_GT(std::abs(trolley.planned(20) - trolley.planned(40)), 5e-3);
+  // One step with the cost to go, without bounds.
+  const VectorXd x = Vector2d(-.3, .7);
+  const PredictiveController single(trolley.plant, {.Q = trolley.Q, .R = trolley.R, .horizon = 1});
+  EXPECT_LT((single.plan(x).U + regulator.K * x).norm(), 1e-9);
+}
+
+TEST(LectureNotesOnControl, WhatABoundIsWorth) {
+  Matrix2d H;
+  H << 2, 1.7, 1.7, 2;
+  const Vector2d g(-3.6, -1.9), lower(-1, -1), free = -H.inverse() * g;
+  const QuadraticProgram program(H, Matrix2d::Identity());
+  const QuadraticSolution best = program.minimize(g, lower, Vector2d(1, 1)),
+                          more = program.minimize(g, lower, Vector2d(1.01, 1));
+  expectWritten("16-mpc",
+                fmt::format("is ({:.2f}, {:.2f}), cut off (1, -1), but the best position is ({:g}, {:.1f})",
+                            free[0], free[1], best.x[0], best.x[1]));
+  const double slope = (H * best.x + g)[0];
+  expectWritten(
+      "16-mpc",
+      fmt::format("The slope there is {:.2f}, so a bound of 1.01 instead of 1 is worth about {:.4f}", slope,
+                  -.01 * slope));
+  EXPECT_NEAR(best.value - more.value, -.01 * slope, 1e-4);
+}
+
+TEST(LectureNotesOnControl, RoundInCircles) {
+  Eigen::Matrix3d H;
+  H << 4, 5, -5, 5, 9, -5, -5, -5, 7;
+  const Eigen::Vector3d g(2, 1, -3);
+  EXPECT_GT(Eigen::SelfAdjointEigenSolver<MatrixXd>(MatrixXd(H)).eigenvalues().minCoeff(), 0);
+  // Holds all numbers above zero, and lets go of all whose slope leads inside.
+  const auto next = [&](const std::set<int>& held) {
+    Eigen::Matrix3d rows = H;
+    VectorXd right = -g;
+    for (const int i : held) rows.row(i).setZero(), rows(i, i) = 1, right[i] = 0;
+    const VectorXd z = inverse(rows) * right, slope = H * z + g;
+    std::set<int> wanted;
+    for (int i = 0; i < 3; ++i)
+      if (held.contains(i) ? slope[i] <= 0 : z[i] > 0) wanted.insert(i);
+    return wanted;
+  };
+  const std::set<int> second{1}, all{0, 1, 2}, third{2};
+  EXPECT_EQ(next({}), second);
+  EXPECT_EQ(next(second), all);
+  EXPECT_EQ(next(all), third);
+  EXPECT_EQ(next(third), second);
+}
+
+TEST(LectureNotesOnControl, Penalties) {
+  const auto minimum = [](double square, double linear) {
+    double best = 0, least = 1e9;
+    for (double z = 0; z < 2; z += 1e-5) {
+      const double s = std::max(0., z - 1), cost = .5 * (z - 2) * (z - 2) + square * s * s + linear * s;
+      if (cost < least) least = cost, best = z;
+    }
+    return best;
+  };
+  expectWritten("16-mpc", fmt::format("with $w = 10$ the minimum is at {:.3f}", minimum(10, 0)));
+  EXPECT_NEAR(minimum(1000, 0) - 1, 1. / 2000, 2e-5);
+  EXPECT_NEAR(minimum(0, 2), 1, 2e-5);
+  EXPECT_GT(minimum(0, .5), 1.1);
+}
+
+TEST(LectureNotesOnControl, LongHorizons) {
+  const LinearizedPlant upright = CartPoleDynamics{}.linearized(Vector4d::Zero(), 0);
+  const LinearSystem plant = discretized({.A = upright.A, .B = upright.B}, .05);
+  const MatrixXd Q = Vector4d(1, 0, 1, 0).asDiagonal(), R = MatrixXd::Constant(1, 1, .01);
+  const RiccatiResult regulator = lqr(plant, Q, R);
+  const MatrixXd &F = regulator.X, &K = regulator.K;
+  // The cost of u = -gain x + v from rest for each v, by its values; and its condition.
+  const auto hessian = [&](int steps, const MatrixXd& gain) {
+    const auto cost = [&](const VectorXd& v) {
+      VectorXd x = Vector4d::Zero();
+      double sum = 0;
+      for (int t = 0; t < steps; ++t) {
+        const VectorXd u = v.segment(t, 1) - gain * x;
+        sum += x.dot(Q * x) + u.dot(R * u);
+        x = (plant.A * x + plant.B * u).eval();
+      }
+      return sum + x.dot(F * x);
+    };
+    const MatrixXd unit = MatrixXd::Identity(steps, steps);
+    MatrixXd H(steps, steps);
+    for (int i = 0; i < steps; ++i)
+      for (int k = 0; k < steps; ++k)
+        H(i, k) = (cost(unit.col(i) + unit.col(k)) - cost(unit.col(i) - unit.col(k))) / 2;
+    return H;
+  };
+  const auto condition = [&](int steps) {
+    const VectorXd sizes =
+        Eigen::SelfAdjointEigenSolver<MatrixXd>(hessian(steps, MatrixXd::Zero(1, 4))).eigenvalues();
+    return sizes.maxCoeff() / sizes.minCoeff();
+  };
+  expectWritten("16-mpc",
+                fmt::format("it is $5 \\cdot 10^{:.0f}$ for 20 steps and $5 \\cdot 10^{:.0f}$ for 40",
+                            std::log10(condition(20) / 5), std::log10(condition(40) / 5)));
+  const double growth = std::sqrt(upright.A(3, 2));
+  EXPECT_NEAR(std::exp(2 * growth), 950, 30);
+  const MatrixXd afterwards = plant.B.transpose() * F * plant.B;
+  const double single = 2 * (R(0, 0) + afterwards(0, 0));
+  EXPECT_LT((hessian(20, K) - single * MatrixXd::Identity(20, 20)).norm(), 1e-6 * single);
 }
 
 TEST(LectureNotesOnControl, StandingAndTipping) {

@@ -1,0 +1,91 @@
+#pragma once
+
+#include "course/course.h"
+
+// The functions you complete in main.cpp. n is the number of states, m that of controls, N that of steps
+// that are planned. A plan U consists of u_0, ..., u_{N-1}, one below the other: N m numbers. Slides are
+// named as chapter:number.
+
+/// A linear system in discrete time: x_{t+1} = A x_t + B u_t.
+struct Plant {
+  Eigen::MatrixXd A;  ///< n x n
+  Eigen::MatrixXd B;  ///< n x m
+};
+
+// Part 1, prediction (8:15).
+
+/// x_1, ..., x_N, one below the other, are Sx x_0 + Su U.
+struct Prediction {
+  Eigen::MatrixXd Sx;  ///< N n x n
+  Eigen::MatrixXd Su;  ///< N n x N m
+};
+Prediction predicted(const Plant& plant, int N);
+
+// Part 2, the cost of a plan (8:11 to 8:13).
+
+/// A plan costs x_t^T Q x_t + u_t^T R u_t, summed over t = 0, ..., N - 1, plus x_N^T F x_N. All three are
+/// symmetric; Q and F have no negative eigenvalue, those of R are positive.
+struct Costs {
+  Eigen::MatrixXd Q;  ///< n x n
+  Eigen::MatrixXd R;  ///< m x m
+  Eigen::MatrixXd F;  ///< n x n
+};
+
+/// 1/2 z^T H z + g^T z, with a symmetric, positive definite H.
+struct Quadratic {
+  Eigen::MatrixXd H;
+  Eigen::VectorXd g;
+};
+
+/// What each plan U costs from x_0 = x on, except for a constant.
+Quadratic planCost(const Plant& plant, const Costs& costs, int N, const Eigen::VectorXd& x);
+
+/// The F for which x^T F x is what the cheapest way from x costs for all times to come. Exact to 1e-6 of
+/// its largest entry. All eigenvalues of the best closed loop are at most 0.97 in size.
+Eigen::MatrixXd costToGo(const Plant& plant, const Eigen::MatrixXd& Q, const Eigen::MatrixXd& R);
+
+// Part 3, bounds.
+
+/// By how much each z_i would have to move to get to its best position between its bounds, if all others
+/// stayed: one signed number for each. lower <= z <= upper; bounds may be equal, or infinite.
+Eigen::VectorXd bestMoves(const Quadratic& cost, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
+                          const Eigen::VectorXd& z);
+
+/// The z with lower <= z <= upper of least cost; its bestMoves() are at most 1e-8 in size. There are up to 60
+/// numbers, and the largest eigenvalue of H is at most 10000 times the smallest.
+Eigen::VectorXd boxed(const Quadratic& cost, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper);
+
+// Part 4, model-predictive control.
+
+/// What is planned in each step: N steps, with uMin <= u_t <= uMax. The H of its plans is as in boxed().
+struct Task {
+  Plant plant{};
+  Costs costs{};
+  int N = 20;
+  Eigen::VectorXd uMin{}, uMax{};  ///< m each
+};
+
+/// The cheapest plan from x within the bounds: column t is u_t (m x N).
+Eigen::MatrixXd planned(const Task& task, const Eigen::VectorXd& x);
+
+struct Drive {
+  Eigen::MatrixXd X;  ///< n x (T + 1): x_0, ..., x_T
+  Eigen::MatrixXd U;  ///< m x T: u_0, ..., u_{T-1}
+};
+
+/// A drive of T steps from x_0 = `start`. In each step a plan is made from where the plant is, only its first
+/// control is used, and then something pushes: x_{t+1} = A x_t + B u_t + column t of `pushes` (n x T).
+/// Plans know nothing about pushes.
+Drive driven(const Task& task, const Eigen::VectorXd& start, const Eigen::MatrixXd& pushes);
+
+// Part 5, a bonus: soft limits of states.
+
+/// A state beyond xMin or xMax by s costs `weight` s^2 for each step and each number, from x_1 to x_N.
+struct Corridor {
+  Eigen::VectorXd xMin, xMax;  ///< n each; infinite: no limit
+  double weight = 1;           ///< positive
+};
+
+/// The cheapest plan (m x N) from x within the bounds of its controls if leaving the corridor costs, too;
+/// correct to 1e-3. N n is at most 30, and the weight at most 10.
+Eigen::MatrixXd plannedWithin(const Task& task, const Corridor& corridor, const Eigen::VectorXd& x);

@@ -1,0 +1,71 @@
+#include <algorithm>
+#include <vector>
+
+#include "exercise.h"
+#include "show.h"
+
+using namespace rex;
+
+Prediction predicted(const Plant& plant, int N) {
+  const Eigen::Index n = plant.A.rows(), m = plant.B.cols();
+  Prediction p{Eigen::MatrixXd::Zero(N * n, n), Eigen::MatrixXd::Zero(N * n, N * m)};
+  // TODO: fill Sx and Su, n rows for each step.
+  return p;
+}
+
+Quadratic planCost(const Plant& plant, const Costs& costs, int N, const Eigen::VectorXd& x) {
+  // TODO: insert the prediction, and collect what is quadratic and what is linear in U.
+  const Eigen::Index size = N * plant.B.cols();
+  return {Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size)};
+}
+
+Eigen::MatrixXd costToGo(const Plant& plant, const Eigen::MatrixXd& Q, const Eigen::MatrixXd& R) {
+  // TODO: if x^T F x is what comes after one more step, what does the cheapest way cost before it?
+  return Q;
+}
+
+Eigen::VectorXd bestMoves(const Quadratic& cost, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
+                          const Eigen::VectorXd& z) {
+  // TODO: the minimum of a parabola in z_i, and the bounds.
+  return Eigen::VectorXd::Zero(z.size());
+}
+
+Eigen::VectorXd boxed(const Quadratic& cost, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
+  // TODO: a start within the bounds, and steps that make it cheaper until no move is left.
+  return Eigen::VectorXd::Zero(lower.size()).cwiseMax(lower).cwiseMin(upper);
+}
+
+Eigen::MatrixXd planned(const Task& task, const Eigen::VectorXd& x) {
+  // TODO: parts 2 and 3, with the bounds of each step.
+  return Eigen::MatrixXd::Zero(task.uMin.size(), task.N);
+}
+
+Drive driven(const Task& task, const Eigen::VectorXd& start, const Eigen::MatrixXd& pushes) {
+  const Eigen::Index T = pushes.cols();
+  Drive drive{Eigen::MatrixXd::Zero(start.size(), T + 1), Eigen::MatrixXd::Zero(task.uMin.size(), T)};
+  drive.X.col(0) = start;
+  // TODO: plan, take the first control, move, and again.
+  return drive;
+}
+
+Eigen::MatrixXd plannedWithin(const Task& task, const Corridor& corridor, const Eigen::VectorXd& x) {
+  // TODO: the cost beyond the corridor is a parabola only outside. Where is it one with bounds?
+  return planned(task, x);
+}
+
+// What follows is given, and never graded: change it as you like. show.h says what each line draws.
+
+int main() {
+  const Task trolley = trolleyTask();
+  // Part 1: what the prediction says, and what happens.
+  showPrediction(trolley.plant);
+  // Part 2: how much the horizon matters, and how little if F is right.
+  showHorizons(trolley);
+  // Part 3: why the best plan within bounds is not the best plan, cut off.
+  showBox();
+  // Part 4: a trolley that must brake in time, and a pole that a weak motor keeps upright.
+  showTrolley(trolley);
+  showPole();
+  // Part 5: a wall.
+  showWall(trolley);
+}
