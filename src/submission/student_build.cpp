@@ -60,8 +60,9 @@ Error unexplained(const std::string& what, std::string found) {
 std::string whyItGaveUp(const ProcessResult& run, const BuildTools& tools,
                         const StudentBuildOptions& limits) {
   if (run.timedOut)
-    return fmt::format("compiling did not end within {:g} s: does it include a pipe or a device?",
-                       clockSeconds(limits.seconds, limits.sandbox.level));
+    return fmt::format(
+        "compiling did not end within {:g} s: does it include a pipe or a device, or is this machine busy?",
+        clockSeconds(limits.seconds, limits.sandbox.level));
   if (const std::string limit = tools.limitReached(run); !limit.empty()) return "compiling " + limit;
   constexpr std::size_t kMostText = 8u << 20;  // all that BuildTools keeps
   const bool namesErrors = run.error.find("\"kind\": \"error\"") != run.error.npos;
