@@ -22,7 +22,7 @@ constexpr double kThickness = 0.1;  // of tiles, metres
 constexpr double kSunk = 0.3;  // of the trunk's height at the start: lower, it falls, also beyond the floor
 constexpr double kMostTiles = 1e5;
 
-void requireSimulation(const SimulatedWalkOptions& options) {
+void requireSimulation(const WalkPlan& plan, const SimulatedWalkOptions& options) {
   const double count = std::round(options.step / kMillisecond);
   if (!(count >= 1 && std::abs(count * kMillisecond - options.step) < 1e-9))
     throw Error({.what = "simulated walk: step",
@@ -30,9 +30,13 @@ void requireSimulation(const SimulatedWalkOptions& options) {
                  .wanted = "a whole number of milliseconds"});
   requireNotNegative("simulated walk: height above the ground at the start", options.startAbove);
   for (const TrunkPush& push : options.pushes) {
-    requireFinite("simulated walk: time of a push", push.time);
     requirePositive("simulated walk: duration of a push", push.duration);
     requireFinite("simulated walk: impulse of a push", push.impulse_W);
+    const double last = duration(plan) - push.duration;
+    if (!(push.time >= 0 && push.time <= last))
+      throw Error({.what = "simulated walk: time of a push",
+                   .found = fmt::format("{:g} s", push.time),
+                   .wanted = fmt::format("0 to {:g} s, so that all of it happens", last)});
   }
 }
 
@@ -214,7 +218,7 @@ std::vector<ContactForce> groundForces(const Model& model, std::span<const Physi
 
 SimulatedWalk simulateWalk(const Model& model, const Legs& legs, const WalkPlan& plan, const VectorArg& home,
                            const SimulatedWalkOptions& options) {
-  requireSimulation(options);
+  requireSimulation(plan, options);
   return Walking(model, legs, plan, home, options).run();
 }
 
@@ -224,12 +228,16 @@ double largestPush(const Model& model, const Legs& legs, const WalkPlan& plan, c
   requirePositive("largest push: direction", direction_W.norm());
   requirePositive("largest push: most", most);
   requirePositive("largest push: resolution", resolution);
+  const auto fallsAfter = [&](double impulse) {
+    SimulatedWalkOptions pushed = options;
+    pushed.pushes.push_back({.time = time, .impulse_W = impulse * direction_W.normalized()});
+    return simulateWalk(model, legs, plan, home, pushed).falls;
+  };
+  if (!fallsAfter(most)) return most;
   double survived = 0, fatal = most;
   while (fatal - survived > resolution) {
     const double impulse = (survived + fatal) / 2;
-    SimulatedWalkOptions pushed = options;
-    pushed.pushes.push_back({.time = time, .impulse_W = impulse * direction_W.normalized()});
-    (simulateWalk(model, legs, plan, home, pushed).falls ? fatal : survived) = impulse;
+    (fallsAfter(impulse) ? fatal : survived) = impulse;
   }
   return survived;
 }

@@ -61,13 +61,15 @@ struct SimulatedWalk {
 /// A robot walks by WalkController in a PhysicsWorld. It starts at rest with `home` (nq), its soles on z =
 /// startAbove. Only joint forces within the limits of effort, gravity, contacts and the pushes act on it. The
 /// walk ends with the plan or when the robot falls. Throws Error like WalkController and PhysicsWorld, for a
-/// step that is not a whole number of milliseconds, and pushes that do not last or are not finite.
+/// step that is not a whole number of milliseconds, and pushes that do not last, are not finite, or do not
+/// happen whole within the walk.
 [[nodiscard]] SimulatedWalk simulateWalk(const Model& model, const Legs& legs, const WalkPlan& plan,
                                          const VectorArg& home, const SimulatedWalkOptions& options = {});
 
 /// The largest impulse (N s) of a push in direction `direction_W` at `time` (seconds) after which the robot
-/// still walks on, by bisection up to `resolution`; it is assumed that it falls after all larger ones up to
-/// `most`. Throws Error like simulateWalk(), and for numbers that are not positive.
+/// still walks on, by bisection up to `resolution`; it is assumed that it falls after all larger ones. `most`
+/// if it survives that, 0 if it falls anyway. Throws Error like simulateWalk(), and for numbers that are not
+/// positive.
 [[nodiscard]] double largestPush(const Model& model, const Legs& legs, const WalkPlan& plan,
                                  const VectorArg& home, const Eigen::Vector3d& direction_W, double time,
                                  double most, double resolution, const SimulatedWalkOptions& options = {});

@@ -156,6 +156,21 @@ TEST(SimulatedWalk, FallsWhenPushedTooHard) {
 }
 
 // Nothing but its motors holds it up.
+// Bisected, and both ends of what is searched.
+TEST(SimulatedWalk, FindsTheLargestPush) {
+  WalkPlan plan = standingOnly();
+  plan.rest = .5;
+  const Humanoid robot = onFloor(plan, 0, 0);
+  const auto largest = [&](double most, const SimulatedWalkOptions& options = {}) {
+    return largestPush(robot.model, robot.legs, plan, robot.home(plan), {0, 2, 0}, .2, most, 20, options);
+  };
+  const double impulse = largest(160);
+  EXPECT_GT(impulse, 10);
+  EXPECT_LT(impulse, 150);
+  EXPECT_EQ(largest(5), 5);
+  EXPECT_EQ(largest(160, {.pushes = {{.time = .1, .impulse_W = {300, 0, 0}}}}), 0);
+}
+
 TEST(SimulatedWalk, FallsWithoutStrength) {
   SceneSpec scene = Humanoid::scene();
   for (JointSpec& joint : scene.joints) joint.maxEffort *= .05;
@@ -211,7 +226,9 @@ TEST(SimulatedWalk, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(with({.step = 0}), "simulated walk: step: found 0 s");
   EXPECT_REX_ERROR(with({.startAbove = -1}),
                    "simulated walk: height above the ground at the start: found -1");
-  EXPECT_REX_ERROR(with({.pushes = {{.time = NAN}}}), "simulated walk: time of a push: found nan");
+  EXPECT_REX_ERROR(with({.pushes = {{.time = NAN}}}), "simulated walk: time of a push: found nan s");
+  EXPECT_REX_ERROR(with({.pushes = {{.time = -.01}}}), "time of a push: found -0.01 s, wanted 0 to 1.9 s");
+  EXPECT_REX_ERROR(with({.pushes = {{.time = 1.95}}}), "time of a push: found 1.95 s, wanted 0 to 1.9 s");
   EXPECT_REX_ERROR(with({.pushes = {{.duration = 0}}}), "simulated walk: duration of a push: found 0");
   EXPECT_REX_ERROR(with({.pushes = {{.impulse_W = {0, NAN, 0}}}}),
                    "simulated walk: impulse of a push: number 1: found nan");

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,16 +29,18 @@ namespace {
 
 constexpr double kFeetApart = 0.19;  // metres, as wide as the hips
 constexpr double kTile = 0.1;        // metres
+constexpr double kPushAt = 4;        // seconds
+constexpr double kMostPush = 128;    // N s, searched by --largest-push
 constexpr int kEvery = 5;            // samples per view of the film and row of the table
 constexpr Color kPlanColor{0.45f, 0.45f, 0.45f}, kZmpColor{0.84f, 0.37f, 0.0f},
     kCenterColor{0.0f, 0.45f, 0.7f};
 
 struct WalkCommandOptions {
   int steps = 20;
-  double length = 0.2;         // metres
-  double unevenness = 0.005;   // metres
-  std::vector<double> push{};  // x and y, N s
-  double pushAt = 4;           // seconds
+  double length = 0.2;             // metres
+  double unevenness = 0.005;       // metres
+  std::vector<double> push{};      // x and y, N s
+  std::optional<double> pushAt{};  // seconds
   bool largestPushes = false;
   std::uint64_t seed = 0;
   int seeds = 1;
@@ -54,8 +57,12 @@ struct HumanoidRun {
   SimulatedWalk done{};
 };
 
+WalkPlan planOf(const WalkCommandOptions& options) {
+  return {.footsteps = straightFootsteps(options.steps, options.length, kFeetApart)};
+}
+
 HumanoidRun preparedHumanoid(const WalkCommandOptions& options, std::uint64_t seed) {
-  WalkPlan plan{.footsteps = straightFootsteps(options.steps, options.length, kFeetApart)};
+  WalkPlan plan = planOf(options);
   SceneSpec floor;
   Rng rng(seed);
   addUnevenFloor(floor, plan, options.unevenness, kTile, rng);
@@ -65,7 +72,8 @@ HumanoidRun preparedHumanoid(const WalkCommandOptions& options, std::uint64_t se
   const WalkingPattern pattern = walkingPattern(humanoid.model, humanoid.legs, start, humanoid.start);
   SimulatedWalkOptions simulation{.startAbove = options.unevenness};
   if (!options.push.empty())
-    simulation.pushes = {{.time = options.pushAt, .impulse_W = {options.push[0], options.push[1], 0}}};
+    simulation.pushes = {
+        {.time = options.pushAt.value_or(kPushAt), .impulse_W = {options.push[0], options.push[1], 0}}};
   return {std::move(plan), std::move(humanoid), pattern.Q.col(0), simulation};
 }
 
@@ -157,8 +165,9 @@ Json largestPushes(const WalkCommandOptions& options) {
   const HumanoidRun walk = preparedHumanoid(options, options.seed);
   for (const auto& [name, direction] : pushDirections()) {
     throwIfInterrupted();
-    const double impulse = largestPush(walk.humanoid.model, walk.humanoid.legs, walk.plan, walk.home,
-                                       direction, options.pushAt, 128, 1, walk.simulation);
+    const double impulse =
+        largestPush(walk.humanoid.model, walk.humanoid.legs, walk.plan, walk.home, direction,
+                    options.pushAt.value_or(kPushAt), kMostPush, 1, walk.simulation);
     all[name] = impulse;
     if (!options.json) {
       std::string words = name;
@@ -173,13 +182,17 @@ void requireWalkable(const WalkCommandOptions& options) {
   requireBetween("--steps", options.steps, 1, 100);
   requireBetween("--length", options.length, -0.3, 0.4);
   requireBetween("--unevenness", options.unevenness, 0, 0.05);
-  requireBetween("--push-at", options.pushAt, 0, 200);
   for (const double number : options.push) requireBetween("--push", number, -1000, 1000);
   requireBetween("--seeds", options.seeds, 1, 1000);
   if (options.noFilm && options.out.empty())
     throw UsageError({.what = "--no-film", .found = "no effect on its own", .wanted = "-o with it"});
   if (options.largestPushes && !options.push.empty())
     throw UsageError({.what = "--largest-push", .found = "--push beside it", .wanted = "one of them"});
+  if (options.largestPushes || !options.push.empty())
+    requireBetween("--push-at", options.pushAt.value_or(kPushAt), 0,
+                   duration(planOf(options)) - TrunkPush{}.duration);
+  else if (options.pushAt)
+    throw UsageError({.what = "--push-at", .found = "no push", .wanted = "--push or --largest-push with it"});
 }
 
 // Lets the humanoid walk. Prints how well it did. kBelow if it falls.
@@ -246,7 +259,8 @@ void addWalk(CLI::App* command, Action& action) {
       ->expected(2);
   command->add_option("--push-at", options->pushAt, "when (default: 4)")->type_name("SECONDS");
   command->add_flag("--largest-push", options->largestPushes,
-                    "find the largest pushes that it survives, in N s, to 1 N s; takes minutes");
+                    "find the largest pushes that it survives on the first floor, up to 128 N s, to 1 N s; "
+                    "takes minutes");
   addSeed(command, options->seed, "seed of the floor (default: 0)");
   command->add_option("--seeds", options->seeds, "number of floors, each with its own seed")->type_name("N");
   command->add_option("-o,--out", options->out, "folder for the results of the first run")->type_name("DIR");

@@ -64,7 +64,10 @@ TEST_F(WalkCommand, SaysWhatIsWrong) {
   expectRefusal({"--length", "1"}, "--length: found 1, wanted -0.3 to 0.4");
   expectRefusal({"--unevenness", "-1"}, "--unevenness: found -1, wanted 0 to 0.05");
   expectRefusal({"--push", "0,2000"}, "--push: found 2000, wanted -1000 to 1000");
-  expectRefusal({"--push-at", "-1"}, "--push-at: found -1, wanted 0 to 200");
+  expectRefusal({"--push", "1,0", "--push-at", "-1"}, "--push-at: found -1, wanted 0 to ");
+  expectRefusal({"--steps", "1", "--push", "1,0", "--push-at", "150"},
+                "--push-at: found 150, wanted 0 to 4.2");
+  expectRefusal({"--push-at", "2"}, "--push-at: found no push, wanted --push or --largest-push with it");
   expectRefusal({"--seeds", "0"}, "--seeds: found 0, wanted 1 to 1000");
   expectRefusal({"--no-film"}, "--no-film: found no effect on its own, wanted -o with it");
   expectRefusal({"--push", "1,0", "--largest-push"},
