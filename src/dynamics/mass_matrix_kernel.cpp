@@ -106,10 +106,10 @@ inline void weigh(const Link& link, const Vec3<double>& p_OL, Part& part) {
   };
   const Quad x = column(0, Quad::Numbers{trace, 0, 0, 0}), y = column(1, Quad::Numbers{0, trace, 0, 0}),
              z = column(2, Quad::Numbers{0, 0, trace, 0});
-  const auto xy = __builtin_shuffle(x.numbers, y.numbers, Quad::Mask{0, 4, 5, 5});
-  store(Quad(__builtin_shuffle(xy, z.numbers, Quad::Mask{0, 1, 4, 2})), &part.inertia.xx);
+  const auto xy = __builtin_shufflevector(x.numbers, y.numbers, 0, 4, 5, 5);
+  store(Quad(__builtin_shufflevector(xy, z.numbers, 0, 1, 4, 2)), &part.inertia.xx);
   // The stores spill numbers, which the next ones overwrite.
-  store(Quad(__builtin_shuffle(z.numbers, Quad::Mask{1, 2, 2, 2})), &part.inertia.yz);
+  store(Quad(__builtin_shufflevector(z.numbers, z.numbers, 1, 2, 2, 2)), &part.inertia.yz);
   store(h + mass * p, &part.moment.x);
   part.mass = link.mass;
 }

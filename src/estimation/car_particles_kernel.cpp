@@ -33,23 +33,24 @@ using Quad = Pack<4>;
 
 // Entry i of the result is entry i of the pack that comes first, second or third from place i on, cyclically.
 inline Quad blended(const Quad& first, const Quad& second, const Quad& third) {
-  const Quad both = __builtin_shuffle(first.numbers, second.numbers, Quad::Mask{0, 5, 2, 3});
-  return __builtin_shuffle(both.numbers, third.numbers, Quad::Mask{0, 1, 6, 3});
+  const Quad both = __builtin_shufflevector(first.numbers, second.numbers, 0, 5, 2, 3);
+  return __builtin_shufflevector(both.numbers, third.numbers, 0, 1, 6, 3);
 }
 
 // Four particles without gaps are the packs (x y h x), (y h x y) and (h x y h): blending and turning these
 // takes less time than twelve loads or stores.
 inline Cars<Quad> carsTogether(const double* states) {
   const Quad a = load<Quad>(states), b = load<Quad>(states + 4), c = load<Quad>(states + 8);
-  return {__builtin_shuffle(blended(a, c, b).numbers, Quad::Mask{0, 3, 2, 1}),
-          __builtin_shuffle(blended(b, a, c).numbers, Quad::Mask{1, 0, 3, 2}),
-          __builtin_shuffle(blended(c, b, a).numbers, Quad::Mask{2, 1, 0, 3})};
+  const Quad::Numbers x = blended(a, c, b).numbers, y = blended(b, a, c).numbers,
+                      h = blended(c, b, a).numbers;
+  return {__builtin_shufflevector(x, x, 0, 3, 2, 1), __builtin_shufflevector(y, y, 1, 0, 3, 2),
+          __builtin_shufflevector(h, h, 2, 1, 0, 3)};
 }
 
 inline void storeTogether(const Cars<Quad>& cars, double* states) {
-  const Quad x = __builtin_shuffle(cars.x.numbers, Quad::Mask{0, 3, 2, 1});
-  const Quad y = __builtin_shuffle(cars.y.numbers, Quad::Mask{1, 0, 3, 2});
-  const Quad heading = __builtin_shuffle(cars.heading.numbers, Quad::Mask{2, 1, 0, 3});
+  const Quad x = __builtin_shufflevector(cars.x.numbers, cars.x.numbers, 0, 3, 2, 1);
+  const Quad y = __builtin_shufflevector(cars.y.numbers, cars.y.numbers, 1, 0, 3, 2);
+  const Quad heading = __builtin_shufflevector(cars.heading.numbers, cars.heading.numbers, 2, 1, 0, 3);
   store(blended(x, y, heading), states);
   store(blended(y, heading, x), states + 4);
   store(blended(heading, x, y), states + 8);

@@ -20,13 +20,13 @@ struct PoseColumns {
 inline PoseColumns loadColumns(const double* X) {
   const Quad end = load<Quad>(X + 8);
   return {load<Quad>(X), load<Quad>(X + 3), load<Quad>(X + 6),
-          __builtin_shuffle(end.numbers, Quad::Mask{1, 2, 3, 3})};
+          __builtin_shufflevector(end.numbers, end.numbers, 1, 2, 3, 3)};
 }
 
-/// Stores two columns one behind the other, six numbers; the second store overwrites the fourth lane of a.
+/// Stores two columns one after the other, six numbers; the second store overwrites the fourth lane of a.
 inline void storePair(const Quad& a, const Quad& b, double* to) {
   store(a, to);
-  store(Quad(__builtin_shuffle(a.numbers, b.numbers, Quad::Mask{2, 4, 5, 6})), to + 2);
+  store(Quad(__builtin_shufflevector(a.numbers, b.numbers, 2, 4, 5, 6)), to + 2);
 }
 inline void storeColumns(const PoseColumns& X, double* to) {
   storePair(X.x, X.y, to);
@@ -53,9 +53,9 @@ inline void sinesOf(const double* angles, int count, double* sines, double* cosi
 }
 
 inline Quad crossColumns(const Quad& a, const Quad& b) {
-  const Quad::Mask yzx{1, 2, 0, 3}, zxy{2, 0, 1, 3};
-  return __builtin_shuffle(a.numbers, yzx) * __builtin_shuffle(b.numbers, zxy) -
-         __builtin_shuffle(a.numbers, zxy) * __builtin_shuffle(b.numbers, yzx);
+  const auto yzx = [](const Quad& v) { return __builtin_shufflevector(v.numbers, v.numbers, 1, 2, 0, 3); };
+  const auto zxy = [](const Quad& v) { return __builtin_shufflevector(v.numbers, v.numbers, 2, 0, 1, 3); };
+  return yzx(a) * zxy(b) - zxy(a) * yzx(b);
 }
 
 }  // namespace

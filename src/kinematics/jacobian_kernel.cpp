@@ -56,7 +56,8 @@ void addTwistInLanes(const double* X_WF, const double* angular, const double* li
   const Quad axis = turned(X, angular);
   Quad velocity = crossColumns(axis, Quad(Quad::Numbers{p_WQ[0], p_WQ[1], p_WQ[2], 0}) - X.p);
   if (!isZero(linear)) velocity = velocity + turned(X, linear);
-  const Quad turn = __builtin_shuffle(load<Quad>(column + 2).numbers, Quad::Mask{1, 2, 3, 3});
+  const Quad::Numbers at = load<Quad>(column + 2).numbers;
+  const Quad turn = __builtin_shufflevector(at, at, 1, 2, 3, 3);
   storePair(load<Quad>(column) + velocity, turn + axis, column);
 }
 #endif
