@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -83,21 +84,29 @@ class Certificate {
       if (i == 0) S_.diagonal(i)(0, 0) = scale;
       if (i >= poses()) S_.diagonal(i).template bottomRightCorner<D, D>().diagonal().setConstant(scale);
     }
-    double raised = 0;
-    for (double share = 1e-13; share < 1e-2; share *= 10) {
-      for (int i = 0; i < poses(); ++i)
-        S_.diagonal(i).template bottomRightCorner<D, D>().diagonal().array() += share * scale - raised;
-      raised = share * scale;
-      if (S_.factorize(0)) return std::max(atPositions, 0.) + raised * D * static_cast<double>(R_.size());
-    }
-    return std::numeric_limits<double>::infinity();
+    // The smallest power of ten that will do, by bisection: at a minimum of this very cost the first one
+    // tried.
+    int refused = kLeastShare - 1, enough = kMostShare + 1;
+    for (int share = kLeastShare; refused + 1 < enough; share = (refused + enough) / 2)
+      (isDefinite(std::pow(10, share) * scale) ? enough : refused) = share;
+    if (enough > kMostShare) return std::numeric_limits<double>::infinity();
+    return std::max(atPositions, 0.) + std::pow(10, enough) * scale * D * static_cast<double>(R_.size());
   }
 
  private:
   static constexpr int kSize = 1 + D;
   using Block = Eigen::Matrix<double, kSize, kSize>;
 
+  static constexpr int kLeastShare = -13, kMostShare = -3;  // powers of ten of the largest entry
+
   int poses() const { return static_cast<int>(R_.size()); }
+  // S + eps on the rotations.
+  bool isDefinite(double eps) {
+    for (int i = 0; i < poses(); ++i)
+      S_.diagonal(i).template bottomRightCorner<D, D>().diagonal().array() += eps - raised_;
+    raised_ = eps;
+    return S_.factorize(0);
+  }
   void addDifference(int i, int j, const Position& t, double weight) {
     Block A = Block::Zero(), B = Block::Zero();
     A(0, 0) = -1;
@@ -117,6 +126,7 @@ class Certificate {
   std::vector<Rotation> R_;
   BlockCholesky<kSize> S_;
   Eigen::MatrixXd Y_;  // transposed
+  double raised_ = 0;  // what isDefinite() has added
 };
 
 }  // namespace

@@ -10,8 +10,9 @@ namespace rex::internal {
 namespace {
 
 // 1 / tr(I^-1); zero if some direction was not measured at all.
-double inverseTrace(const Eigen::MatrixXd& information) {
-  const Eigen::FullPivLU<Eigen::MatrixXd> factor(information);
+template <int kSize>
+double inverseTrace(const Eigen::Matrix<double, kSize, kSize>& information) {
+  const Eigen::FullPivLU<Eigen::Matrix<double, kSize, kSize>> factor(information);
   return factor.isInvertible() ? 1 / factor.inverse().trace() : 0;
 }
 
@@ -23,14 +24,14 @@ Eigen::Matrix2d planarRotation(double angle) {
 }
 
 IsotropicWeights isotropic(const PlanarEdge& edge) {
-  return {2 * inverseTrace(edge.information.topLeftCorner<2, 2>()), edge.information(2, 2)};
+  return {2 * inverseTrace<2>(edge.information.topLeftCorner<2, 2>()), edge.information(2, 2)};
 }
 
-IsotropicWeights isotropic(const LandmarkEdge& edge) { return {2 * inverseTrace(edge.information), 0}; }
+IsotropicWeights isotropic(const LandmarkEdge& edge) { return {2 * inverseTrace<2>(edge.information), 0}; }
 
 IsotropicWeights isotropic(const SpatialEdge& edge) {
-  return {3 * inverseTrace(edge.information.topLeftCorner<3, 3>()),
-          1.5 * inverseTrace(Eigen::Matrix3d(edge.information.bottomRightCorner<3, 3>()))};
+  return {3 * inverseTrace<3>(edge.information.topLeftCorner<3, 3>()),
+          1.5 * inverseTrace<3>(edge.information.bottomRightCorner<3, 3>())};
 }
 
 std::pair<int, int> PlanarGraphTraits::ends(const Graph& graph, std::size_t k) {
