@@ -59,7 +59,8 @@ void setLimits(const Limits& limits) {
   if (kLimitMemory && !limits.sanitized) setLimit(RLIMIT_AS, limits.memory, limits.memory);
 }
 
-// What the new process needs, prepared before the fork: after it only async-signal-safe calls are allowed.
+// What the new process needs, prepared before it starts: until execve it uses our memory, and only
+// async-signal-safe calls are allowed.
 struct Prepared {
   const LaunchOrder& order;
   std::vector<char*> arguments{};
@@ -68,6 +69,30 @@ struct Prepared {
   pid_t parent = ::getpid();
 };
 
+// Blocks all signals while it lives.
+class SignalsBlocked {
+ public:
+  SignalsBlocked() {
+    sigset_t all;
+    ::sigfillset(&all);
+    ::pthread_sigmask(SIG_SETMASK, &all, &before_);
+  }
+  ~SignalsBlocked() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsBlocked(const SignalsBlocked&) = delete;
+  SignalsBlocked& operator=(const SignalsBlocked&) = delete;
+
+ private:
+  sigset_t before_;
+};
+
+// Our handlers must not run in the new process, which would change our memory.
+void forgetHandlers() {
+  for (int signal = 1; signal < NSIG; ++signal) {
+    struct sigaction action;
+    if (::sigaction(signal, nullptr, &action) == 0 && action.sa_handler != SIG_IGN) ::signal(signal, SIG_DFL);
+  }
+}
+
 [[noreturn]] void becomeWorker(const Prepared& prepared) {
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -75,10 +100,11 @@ struct Prepared {
   const int count = static_cast<int>(prepared.fds.size());
   for (int k = 0; k < count; ++k) ::dup2(prepared.fds[static_cast<std::size_t>(k)], k);
   ::close_range(static_cast<unsigned>(count), ~0u, CLOSE_RANGE_CLOEXEC);
+  forgetHandlers();
+  ::signal(SIGPIPE, SIG_DFL);
   sigset_t none;
   ::sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
-  ::signal(SIGPIPE, SIG_DFL);
   const LaunchOrder& order = prepared.order;
   if (::chdir(order.folder.c_str()) == 0) {
     if (!sandbox::isConfined(order.level)) {
@@ -116,8 +142,13 @@ Launched launchWorker(const LaunchOrder& order) {
                     .fds = {nothingHigh, output.writeEnd(), error.writeEnd(), in.readEnd(), out.writeEnd()},
                     .status = status.writeEnd()};
   if (sandbox::isConfined(order.level)) prepared.fds.push_back(report.emplace().writeEnd());
-  const pid_t child = ::fork();
-  if (child == 0) becomeWorker(prepared);
+  pid_t child = -1;
+  {
+    // A grader holds much memory, and a copy of its page tables would cost more than all else here.
+    const SignalsBlocked guard;
+    child = ::vfork();
+    if (child == 0) becomeWorker(prepared);
+  }
   ::close(nothingHigh);
   if (child < 0) throw Error({.what = "cannot start the worker", .found = std::strerror(errno)});
   ::setpgid(child, child);
