@@ -2,7 +2,6 @@
 // rex_bench panda --problems DIR [--urdf FILE] [--srdf FILE] [--seed N] [--json]: solves motion planning
 // problems.
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -13,6 +12,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <malloc.h>
 #include <stdlib.h>
 
 #include "base/error.h"
@@ -26,65 +26,67 @@ namespace {
 
 constexpr int kUsageError = 64, kInternalError = 70;
 
+using MakeRows = std::vector<Row> (*)();
+
 struct Group {
-  std::string name;
-  std::vector<Row> rows;
+  const char* name;
+  std::vector<MakeRows> makers;
 };
 
-constexpr auto kGroups =
-    std::to_array<std::pair<const char*, std::vector<Row> (*)()>>({{"collision", collisionRows},
-                                                                   {"control", controlRows},
-                                                                   {"dynamics", dynamicsRows},
-                                                                   {"dynamics", steppingRows},
-                                                                   {"estimation", estimationRows},
-                                                                   {"grading", gradingRows},
-                                                                   {"growth", growthRows},
-                                                                   {"ik", ikRows},
-                                                                   {"kinematics", kinematicsRows},
-                                                                   {"learning", cmaRows},
-                                                                   {"learning", policySearchRows},
-                                                                   {"physics", physicsRows},
-                                                                   {"planning", planningRows},
-                                                                   {"planning", rrtStarRows},
-                                                                   {"render", renderRows},
-                                                                   {"scene", sceneRows},
-                                                                   {"trajectory", trajectoryRows}});
+const std::vector<Group>& groups() {
+  static const std::vector<Group> kGroups = {{"collision", {collisionRows}},
+                                             {"control", {controlRows}},
+                                             {"dynamics", {dynamicsRows, steppingRows}},
+                                             {"estimation", {estimationRows}},
+                                             {"grading", {gradingRows}},
+                                             {"growth", {growthRows}},
+                                             {"ik", {ikRows}},
+                                             {"kinematics", {kinematicsRows}},
+                                             {"learning", {cmaRows, policySearchRows}},
+                                             {"physics", {physicsRows}},
+                                             {"planning", {planningRows, rrtStarRows}},
+                                             {"render", {renderRows}},
+                                             {"scene", {sceneRows}},
+                                             {"trajectory", {trajectoryRows}}};
+  return kGroups;
+}
 
-// All groups, or of each what the names select: the whole group or single rows. Making rows takes a while, so
-// that names of groups make no others.
-std::vector<Group> select(const std::vector<std::string>& names) {
-  const auto isNamed = [&](const std::string& name) {
-    return std::count(names.begin(), names.end(), name) > 0;
-  };
-  const bool areGroups = std::all_of(names.begin(), names.end(), [](const std::string& name) {
-    return std::any_of(kGroups.begin(), kGroups.end(),
-                       [&](const auto& group) { return group.first == name; });
+std::vector<Row> rowsOf(const Group& group) {
+  std::vector<Row> rows;
+  for (const MakeRows make : group.makers)
+    for (Row& row : make()) rows.push_back(std::move(row));
+  return rows;
+}
+
+bool isNamed(const std::string& name, const std::vector<std::string>& names) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool areGroups(const std::vector<std::string>& names) {
+  return std::all_of(names.begin(), names.end(), [](const std::string& name) {
+    return std::any_of(groups().begin(), groups().end(),
+                       [&](const Group& group) { return group.name == name; });
   });
-  std::vector<Group> groups;
-  for (const auto& [name, rows] : kGroups)
-    if (names.empty() || !areGroups || isNamed(name)) groups.push_back({name, rows()});
-  if (areGroups) return groups;
+}
+
+// Names of rows are known only when the rows are made, which takes some seconds.
+void requireKnown(const std::vector<std::string>& names) {
   std::vector<std::string> known;
-  for (const Group& group : groups) {
-    known.push_back(group.name);
-    for (const Row& row : group.rows) known.push_back(row.name);
+  for (const Group& group : groups()) {
+    known.emplace_back(group.name);
+    for (const Row& row : rowsOf(group)) known.push_back(row.name);
   }
   for (const std::string& name : names) {
-    if (std::find(known.begin(), known.end(), name) == known.end()) {
-      throw UsageError({.what = fmt::format("no benchmark '{}'", name),
-                        .wanted = "the name of a group or a row of the table, or none for all",
-                        .nearest = nearestNames(name, known)});
-    }
+    if (isNamed(name, known)) continue;
+    throw UsageError({.what = fmt::format("no benchmark '{}'", name),
+                      .wanted = "the name of a group or a row of the table, or none for all",
+                      .nearest = nearestNames(name, known)});
   }
-  for (Group& group : groups) {
-    if (isNamed(group.name)) continue;
-    std::erase_if(group.rows, [&](const Row& row) { return !isNamed(row.name); });
-  }
-  return groups;
 }
 
 // The most memory that this process has held since the last call; nothing where the kernel does not say.
 std::optional<double> peakBytes() {
+  ::malloc_trim(0);
   std::ifstream status("/proc/self/status");
   std::optional<double> peak;
   for (std::string line; std::getline(status, line);)
@@ -104,19 +106,23 @@ Line memoryLine(const std::string& group) {
 enum class Form { kTable, kJson, kPage };
 
 void run(const std::vector<std::string>& names, Form form, const std::filesystem::path& page) {
-  const std::vector<Group> groups = select(names);
+  const bool selectsRows = !areGroups(names);
+  if (selectsRows) requireKnown(names);
   const bool isTold = form != Form::kJson;
   if (isTold) fmt::print("{}", tableHead());
   std::vector<Line> lines;
-  for (const Group& group : groups) {
-    if (group.rows.empty()) continue;
+  const auto add = [&](const Line& line) {
+    lines.push_back(line);
+    if (isTold) fmt::print("{}", tableLine(line));
+    std::fflush(stdout);
+  };
+  // A group's rows go before the next one's are made, so that each is measured in a process of the same size.
+  for (const Group& group : groups()) {
+    const bool isWhole = names.empty() || isNamed(group.name, names);
+    if (!isWhole && !selectsRows) continue;
     static_cast<void>(peakBytes());
-    const auto add = [&](const Line& line) {
-      lines.push_back(line);
-      if (isTold) fmt::print("{}", tableLine(line));
-      std::fflush(stdout);
-    };
-    for (const Row& row : group.rows) add({group.name, row, measure(row)});
+    for (const Row& row : rowsOf(group))
+      if (isWhole || isNamed(row.name, names)) add({group.name, row, measure(row)});
     if (names.empty()) add(memoryLine(group.name));
   }
   if (form == Form::kJson) fmt::print("{}", json(lines));
