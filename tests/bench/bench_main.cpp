@@ -62,19 +62,23 @@ bool isNamed(const std::string& name, const std::vector<std::string>& names) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-bool areGroups(const std::vector<std::string>& names) {
-  return std::all_of(names.begin(), names.end(), [](const std::string& name) {
-    return std::any_of(groups().begin(), groups().end(),
-                       [&](const Group& group) { return group.name == name; });
-  });
-}
-
-// Names of rows are known only when the rows are made, which takes some seconds.
-void requireKnown(const std::vector<std::string>& names) {
+// All groups, or those that a name selects, whole or a row of it. Names of rows are known only when the rows
+// are made, which takes some seconds.
+std::vector<Group> select(const std::vector<std::string>& names) {
   std::vector<std::string> known;
+  for (const Group& group : groups()) known.emplace_back(group.name);
+  const bool areGroups =
+      std::all_of(names.begin(), names.end(), [&](const std::string& name) { return isNamed(name, known); });
+  std::vector<Group> selected;
   for (const Group& group : groups()) {
-    known.emplace_back(group.name);
-    for (const Row& row : rowsOf(group)) known.push_back(row.name);
+    bool isSelected = names.empty() || isNamed(group.name, names);
+    if (!areGroups) {
+      for (const Row& row : rowsOf(group)) {
+        known.push_back(row.name);
+        isSelected = isSelected || isNamed(row.name, names);
+      }
+    }
+    if (isSelected) selected.push_back(group);
   }
   for (const std::string& name : names) {
     if (isNamed(name, known)) continue;
@@ -82,6 +86,7 @@ void requireKnown(const std::vector<std::string>& names) {
                       .wanted = "the name of a group or a row of the table, or none for all",
                       .nearest = nearestNames(name, known)});
   }
+  return selected;
 }
 
 // The most memory that this process has held since the last call; nothing where the kernel does not say.
@@ -106,8 +111,7 @@ Line memoryLine(const std::string& group) {
 enum class Form { kTable, kJson, kPage };
 
 void run(const std::vector<std::string>& names, Form form, const std::filesystem::path& page) {
-  const bool selectsRows = !areGroups(names);
-  if (selectsRows) requireKnown(names);
+  const std::vector<Group> selected = select(names);
   const bool isTold = form != Form::kJson;
   if (isTold) fmt::print("{}", tableHead());
   std::vector<Line> lines;
@@ -117,9 +121,8 @@ void run(const std::vector<std::string>& names, Form form, const std::filesystem
     std::fflush(stdout);
   };
   // A group's rows go before the next one's are made, so that each is measured in a process of the same size.
-  for (const Group& group : groups()) {
+  for (const Group& group : selected) {
     const bool isWhole = names.empty() || isNamed(group.name, names);
-    if (!isWhole && !selectsRows) continue;
     static_cast<void>(peakBytes());
     for (const Row& row : rowsOf(group))
       if (isWhole || isNamed(row.name, names)) add({group.name, row, measure(row)});
