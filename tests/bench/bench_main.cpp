@@ -126,7 +126,7 @@ void run(const std::vector<std::string>& names, Form form, const std::filesystem
     static_cast<void>(peakBytes());
     for (const Row& row : rowsOf(group))
       if (isWhole || isNamed(row.name, names)) add({group.name, row, measure(row)});
-    if (names.empty()) add(memoryLine(group.name));
+    if (isWhole) add(memoryLine(group.name));
   }
   if (form == Form::kJson) fmt::print("{}", json(lines));
   if (form == Form::kPage) writeTextFile(page, reportPage(lines));
