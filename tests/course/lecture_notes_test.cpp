@@ -1,5 +1,6 @@
 // What the lecturer's notes (notes/) say in numbers and formulas is computed here in another way. Numbers are
 // formatted as they stand there, so that neither can change alone.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -462,6 +463,23 @@ TEST(LectureNotes, TheNaturalGradient) {
            (std::pow(a - shift, 2) - a * a) / (2 * variance);
   };
   EXPECT_NEAR(integral(-reach, reach, difference), shift * shift / (2 * variance), 1e-9);
+}
+
+TEST(LectureNotes, CertainCellsAndRays) {
+  const auto scansToTurn = [](int passed, double bound) {
+    double odds = 0;
+    for (int k = 0; k < passed; ++k) odds = std::max(odds - .6, -bound);
+    int count = 0;
+    for (; odds <= 1e-9; ++count) odds += 1.5;
+    return count;
+  };
+  ASSERT_EQ(scansToTurn(1000, 6), 5);
+  expectStated("18-gridSLAM", "five that end in it make it a wall");
+  expectStated("18-gridSLAM", fmt::format("a hundred that passed would need {}", scansToTurn(100, 1e9)));
+  const auto density = [](double off) { return std::pow(std::exp(-off * off / (2 * .15 * .15)), 45); };
+  const double ratio = density(.10) / density(.12);
+  expectStated("18-gridSLAM", fmt::format("{:.0f} times as likely; divided by 6 it is {:.1f} times", ratio,
+                                          std::pow(ratio, 1. / 6)));
 }
 
 TEST(LectureNotes, LimitsAndFrames) {

@@ -1,0 +1,110 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "grid_checks.h"
+
+// Part 4: whole tours.
+
+// A tour on which odometry alone is off by a metre at least.
+inline Tour misleadingTour(int steps, rex::Rng& rng) {
+  const rex::Building building = randomBuilding(rng);
+  for (;;) {
+    const Tour tour = tourOf(building, steps, rng);
+    if (steps > 0 || pathError(reckoned(tour.log), tour.truth) > 1) return tour;
+  }
+}
+
+/// Requires that scans along the path draw the map.
+inline void isDrawn(Check& check, const Mapped& got, const Log& log, const CellEvidence& evidence) {
+  check.near("length of the path of mapped", static_cast<double>(got.path.size()),
+             static_cast<double>(log.scans.size()), 0);
+  check.shape("values of the map of mapped", got.map.values, 60, 60);
+  check.near("first pose of mapped", got.path.front(), log.start, 1e-9);
+  for (const Eigen::Vector3d& pose : got.path)
+    check.atMost("distance of a pose of mapped from the start", (pose - log.start).head<2>().norm(), 30, "m");
+  Grid drawn = emptyGrid(), later = drawn;
+  for (std::size_t t = 0; t < got.path.size(); ++t) {
+    drawn = mapAfter(drawn, got.path[t], log.scans[t], evidence);
+    if (t > 0) later = mapAfter(later, got.path[t], log.scans[t], evidence);
+  }
+  // Cells that a ray hardly passes may differ by one scan or two.
+  const auto shareOff = [&](const Grid& map) {
+    return ((map.values - got.map.values).array().abs() > .5).cast<double>().mean();
+  };
+  const auto first = check.ask("Is the first scan missing in the map?", shareOff(later) < .05);
+  const auto mixed = check.ask("Is it the map of another particle than the path?");
+  check.atMost("share of the cells in which the map is not what scans along the path say", shareOff(drawn),
+               .08);
+}
+
+inline void maps(Check& check, Student& student) {
+  const Tour tour = misleadingTour(0, check.rng());
+  constexpr int kParticles = 12;
+  check.input("a tour of " + std::to_string(tour.log.motions.size()) +
+              " steps with 45 rays, and 12 particles");
+  const Settings settings;
+  const Mapped got = student.mapped(tour.log, emptyGrid(), settings, kParticles, check.rng());
+  const Grid truth = gridOf(tour.building);
+  check.near("number of effective sizes of mapped", static_cast<double>(got.effectiveSizes.size()),
+             static_cast<double>(tour.log.motions.size()), 0);
+  for (const double size : got.effectiveSizes) {
+    check.atLeast("effective size", size, 1 - 1e-6);
+    check.atMost("effective size", size, kParticles + 1e-6);
+  }
+  const auto shown = check.show([&] {
+    Evidence evidence = gridsOf(truth, got.map.values.cwiseMax(-5).cwiseMin(5), truth.values, "log odds");
+    for (rex::Figure& figure : evidence.figures)
+      figure.series = {rex::grading::through(tour.truth, rex::grading::wantedCurve("true path")),
+                       rex::grading::through(got.path, rex::grading::wrongCurve("got"))};
+    return evidence;
+  });
+  isDrawn(check, got, tour.log, settings.evidence);
+  check.atMost("root mean square error of the positions of mapped", pathError(got.path, tour.truth), .6, "m");
+  check.atLeast("overlap of the walls of mapped with the true ones", overlapOf(got.map, truth), .8);
+}
+
+/// With a threshold of 0 nothing is resampled, with one above 1 always.
+inline void keepsRule(Check& check, Student& student) {
+  const Tour tour = misleadingTour(40, check.rng());
+  Settings settings;
+  settings.matches = false;
+  settings.temper = 10;
+  const auto sizesFor = [&](double threshold) {
+    settings.threshold = threshold;
+    check.input("a tour of 40 steps and 10 particles, without matches", {{"threshold", threshold}});
+    const Mapped got = student.mapped(tour.log, emptyGrid(), settings, 10, check.rng());
+    check.near("number of effective sizes of mapped", static_cast<double>(got.effectiveSizes.size()), 40, 0);
+    isDrawn(check, got, tour.log, settings.evidence);
+    return got.effectiveSizes;
+  };
+  const auto meanOfLast = [](const std::vector<double>& sizes) {
+    double sum = 0;
+    for (std::size_t t = 25; t < 40; ++t) sum += sizes[t] / 15;
+    return sum;
+  };
+  const std::vector<double> never = sizesFor(0), always = sizesFor(1.1);
+  const auto shown = check.show([&] {
+    const auto curve = [](const std::vector<double>& sizes, rex::Series series) {
+      for (std::size_t t = 0; t < sizes.size(); ++t) {
+        series.x.push_back(static_cast<double>(t));
+        series.y.push_back(sizes[t]);
+      }
+      return series;
+    };
+    return Evidence{.figures = {{.title = "effective sizes of 10 particles",
+                                 .xLabel = "step",
+                                 .yLabel = "effective size",
+                                 .series = {curve(never, rex::grading::gotCurve("threshold 0")),
+                                            curve(always, rex::grading::wrongCurve("threshold 1.1"))}}}};
+  });
+  {
+    const auto resampledAll =
+        check.ask("Are particles resampled even if the effective size is not below the threshold?");
+    check.atMost("mean effective size of the last steps if the threshold is 0", meanOfLast(never), 3);
+  }
+  const auto neverDone = check.ask("Are particles never resampled, or do they keep their weights?");
+  check.atLeast("mean effective size of the last steps if the threshold is above 1", meanOfLast(always), 4.5);
+}

@@ -1,0 +1,11 @@
+// caught by: motion
+// mistake: the same random number three times.
+
+// <solution moved>
+const double cosine = std::cos(pose[2]), sine = std::sin(pose[2]);
+for (int k = 0; k < count; ++k) {
+  Eigen::Vector3d way = motion;
+  way += deviations * rng.normal();
+  poses.col(k) += Eigen::Vector3d(cosine * way[0] - sine * way[1], sine * way[0] + cosine * way[1], way[2]);
+}
+// </solution>

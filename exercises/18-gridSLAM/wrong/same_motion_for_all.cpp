@@ -1,0 +1,15 @@
+// caught by: step
+// mistake: noise is drawn once for all particles.
+
+// <solution slamStep>
+const Rng same = rng;
+for (Particle& particle : after) {
+  rng = same;
+  Eigen::Vector3d pose = moved(particle.path.back(), motion, settings.odometry, 1, rng).col(0);
+  const Grid distances = wallDistances(particle.map, settings.reach);
+  if (settings.matches) pose = matched(distances, scan, settings.deviation, pose, settings.window);
+  particle.logWeight += fit(distances, pose, scan, settings.deviation) / settings.temper;
+  particle.path.push_back(pose);
+  particle.map = observed(particle.map, pose, scan, settings.evidence);
+}
+// </solution>

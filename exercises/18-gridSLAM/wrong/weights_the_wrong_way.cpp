@@ -1,0 +1,13 @@
+// caught by: fits, more-fits
+// mistake: a far centre counts more than a near one.
+
+// <solution valueAt>
+const Eigen::Vector2d share = ((p - grid.origin) / grid.cell).array() - .5;
+const double x = std::clamp(share[0], 0., static_cast<double>(grid.values.rows() - 1)),
+             y = std::clamp(share[1], 0., static_cast<double>(grid.values.cols() - 1));
+const Eigen::Index i = std::min(static_cast<Eigen::Index>(x), grid.values.rows() - 2),
+                   j = std::min(static_cast<Eigen::Index>(y), grid.values.cols() - 2);
+const double a = 1 - (x - static_cast<double>(i)), b = 1 - (y - static_cast<double>(j));
+return (1 - b) * ((1 - a) * grid.values(i, j) + a * grid.values(i + 1, j)) +
+       b * ((1 - a) * grid.values(i, j + 1) + a * grid.values(i + 1, j + 1));
+// </solution>
