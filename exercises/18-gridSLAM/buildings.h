@@ -74,7 +74,7 @@ inline Tour tourOf(const rex::Building& building, int steps, rex::Rng& rng) {
   const double a = 2.4, b = 9.6;
   Eigen::Matrix3Xd poses = rex::posesAlong({{a, a}, {b, a}, {b, b}, {a, b}, {a, a}, {b, a}}, .4, .4);
   if (steps > 0) poses = poses.leftCols(steps + 1).eval();
-  const rex::RangeScanner scanner = scannerOf(45, 5);
+  const rex::RangeScanner scanner = scannerOf(45, 6.5);
   const rex::ScanWalk walk =
       rex::measured(building, poses, scanner, {.odometry = Settings{}.odometry, .range = .02}, rng);
   Tour tour{.building = building};

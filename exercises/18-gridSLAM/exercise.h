@@ -20,7 +20,7 @@ struct Grid {
 struct Scan {
   Eigen::VectorXd angles{};  ///< of the rays, from the heading of the robot
   Eigen::VectorXd ranges{};
-  double maxRange = 5;
+  double maxRange = 6.5;
 };
 
 // Part 1, a grid map of known poses (7:33).
@@ -41,7 +41,8 @@ struct CellEvidence {
 
 /// The map after a scan from a known pose. Where at least one ray ends, `hit` is added to the cell, once; to
 /// all others that at least one ray passes, `miss`, once. A ray that hit nothing passes all cells up to
-/// maxRange. Then log odds are limited to [-bound, bound]. Rays may leave the grid.
+/// maxRange. Log odds are limited to [-bound, bound] after that, as they were before. Rays may leave the
+/// grid.
 Grid observed(const Grid& map, const Eigen::Vector3d& pose, const Scan& scan, const CellEvidence& evidence);
 
 // Part 2, how well a scan fits.
@@ -91,9 +92,9 @@ double effectiveSize(const Eigen::VectorXd& weights);
 std::vector<Particle> resampled(const std::vector<Particle>& particles, rex::Rng& rng);
 
 struct Settings {
-  Eigen::Vector3d odometry{0.05, 0.05, 0.04};  ///< standard deviations of each motion, for moved()
+  Eigen::Vector3d odometry{0.04, 0.04, 0.03};  ///< standard deviations of each motion, for moved()
   bool matches = true;                         ///< whether poses are matched
-  Eigen::Vector2d window{0.2, 0.12};           ///< for matched()
+  Eigen::Vector2d window{0.25, 0.15};          ///< for matched()
   double reach = 0.6;                          ///< for wallDistances()
   double deviation = 0.15;                     ///< for fit()
   double temper = 6;       ///< rays are not independent: what fit() says is divided by it in weights

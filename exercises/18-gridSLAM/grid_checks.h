@@ -146,7 +146,8 @@ inline void followsSegment(Check& check, Student& student, const Grid& grid, con
 }
 
 inline void updates(Check& check, Student& student, int rays, const CellEvidence& evidence) {
-  const Grid map = randomGrid(12, 10, check.rng());
+  Grid map = randomGrid(12, 10, check.rng());
+  map.values = map.values.cwiseMax(-evidence.bound).cwiseMin(evidence.bound);
   const Eigen::Vector2d p = pointIn(map, check.rng());
   const Eigen::Vector3d pose(p[0], p[1], rounded(check.rng().uniform(-3, 3)));
   const Scan scan = randomScan(map, pose, rays, check.rng());

@@ -19,7 +19,7 @@ inline Sight randomSight(rex::Rng& rng) {
   const rex::Building building = randomBuilding(rng);
   Sight sight{.truth = gridOf(building)};
   sight.distances = distancesTo(sight.truth, Settings{}.reach);
-  const rex::RangeScanner scanner = scannerOf(45, 5);
+  const rex::RangeScanner scanner = scannerOf(45, 6.5);
   // On the way of a tour, and a little aside.
   const double along = rng.uniform(2.2, 9.8), aside = (rng.index(2) == 0 ? 2.4 : 9.6) + rng.uniform(-.3, .3);
   sight.pose << along, aside, rng.uniform(-3, 3);

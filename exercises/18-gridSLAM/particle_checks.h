@@ -215,7 +215,7 @@ inline void steps(Check& check, const Particle& before, const Particle& after,
     const Eigen::Vector3d best = bestIn(distances, sight.scan, settings.deviation, expected, {.25, .15});
     const auto unmatched = check.ask("Is the drawn pose kept? With `matches`, the match takes its place.");
     check.atLeast("fit of a pose of slamStep with matches", rate(pose),
-                  rate(best) - 3 - .15 * (rate(best) - rate(expected + Eigen::Vector3d(.1, .1, .05))));
+                  rate(best) - 1.5 - .1 * (rate(best) - rate(expected + Eigen::Vector3d(.1, .1, .05))));
   } else {
     check.atMost("how many deviations a pose of slamStep is from the measured motion",
                  apart.cwiseQuotient(settings.odometry).cwiseAbs().maxCoeff(), 6);
@@ -255,7 +255,7 @@ inline void stepsParticles(Check& check, Student& student) {
                                  sight.pose[1] - s * motion[0] - c * motion[1], heading);
     Settings settings;
     settings.matches = i % 2 == 0;
-    settings.odometry << .06, .05, .04;
+    settings.odometry << .07, .06, .04;
     const std::vector<Particle> particles = threeParticles(sight, before, check.rng());
     check.input(settings.matches ? "three particles in a building; poses are matched"
                                  : "three particles in a building; poses are not matched",
