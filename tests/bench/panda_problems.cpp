@@ -160,6 +160,8 @@ std::filesystem::path urdfOf(const PandaOptions& options) {
 }  // namespace
 
 void runPandaProblems(const PandaOptions& options) {
+  // Before the robot, which is sought beside them.
+  static_cast<void>(sphereProblemFiles(options.problems));
   const SceneSpec spec = readSphereRobot(urdfOf(options), options.srdf);
   const SphereRobot robot(compile(spec));
   Summary all{.set = "all"};

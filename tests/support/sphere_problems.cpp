@@ -146,7 +146,7 @@ std::vector<ShapePair> pairsOf(const SceneSpec& robot, const Model& model) {
 
 }  // namespace
 
-std::vector<SphereProblem> readSphereProblems(const std::filesystem::path& folder, int coordinates) {
+std::vector<std::filesystem::path> sphereProblemFiles(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
   if (std::filesystem::is_directory(folder))
     for (const auto& entry : std::filesystem::directory_iterator(folder))
@@ -157,8 +157,12 @@ std::vector<SphereProblem> readSphereProblems(const std::filesystem::path& folde
                  .found = std::filesystem::exists(folder) ? "no .json file" : "no such folder",
                  .wanted = "a folder of problem files"});
   std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::vector<SphereProblem> readSphereProblems(const std::filesystem::path& folder, int coordinates) {
   std::vector<SphereProblem> problems;
-  for (const std::filesystem::path& file : files) readFile(file, coordinates, problems);
+  for (const std::filesystem::path& file : sphereProblemFiles(folder)) readFile(file, coordinates, problems);
   return problems;
 }
 

@@ -16,6 +16,9 @@ struct SphereProblem {
   std::vector<ShapeSpec> obstacles;
 };
 
+/// The .json files of a folder, in the order of their names. Throws Error for a folder without any.
+[[nodiscard]] std::vector<std::filesystem::path> sphereProblemFiles(const std::filesystem::path& folder);
+
 /// The problems of all .json files of a folder, in the order of their names, for a robot of so many
 /// coordinates. A file is {"set", "problems": [{"name", "start", "goal", "objects": [{"id", "type",
 /// "position", "quat_wxyz"}]}]}; boxes have a "size", spheres a "radius", cylinders and capsules a "radius"
