@@ -25,17 +25,6 @@ Eigen::VectorXd referenceOf(const Task& task, const char* what, const Eigen::Vec
   return given;
 }
 
-// The acceleration that a task asks of its value, beyond J' v.
-Eigen::VectorXd wishedAcceleration(const OperationalTask& one, const TaskValue& value, const State& state) {
-  const Eigen::Index d = value.y.size();
-  requireFinite("task '" + one.task.name + "': gain Kp", one.gains.Kp);
-  requireFinite("task '" + one.task.name + "': gain Kd", one.gains.Kd);
-  const Eigen::VectorXd target = referenceOf(one.task, "target", one.task.target, d);
-  const Eigen::VectorXd velocity = referenceOf(one.task, "reference velocity", one.velocity, d);
-  const Eigen::VectorXd acceleration = referenceOf(one.task, "reference acceleration", one.acceleration, d);
-  return acceleration + one.gains.Kp * (target - value.y) + one.gains.Kd * (velocity - value.J * state.v);
-}
-
 // What each task requires of the forces: T u = y''* - J' v + T F, where -T F = J a is its acceleration
 // without them.
 std::vector<TaskLevel> wishesOf(const Model& model, const State& state,
@@ -58,13 +47,23 @@ std::vector<TaskLevel> wishesOf(const Model& model, const State& state,
   std::vector<TaskLevel> wishes;
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     const Eigen::MatrixXd T = factors.solve(values[i].J.transpose()).transpose();
-    wishes.push_back({T, wishedAcceleration(tasks[i], values[i], state) -
+    wishes.push_back({T, wantedAcceleration(tasks[i], values[i], state) -
                              velocityAcceleration(model, state, tasks[i].task.map) - values[i].J * fall});
   }
   return wishes;
 }
 
 }  // namespace
+
+Eigen::VectorXd wantedAcceleration(const OperationalTask& one, const TaskValue& value, const State& state) {
+  const Eigen::Index d = value.y.size();
+  requireFinite("task '" + one.task.name + "': gain Kp", one.gains.Kp);
+  requireFinite("task '" + one.task.name + "': gain Kd", one.gains.Kd);
+  const Eigen::VectorXd target = referenceOf(one.task, "target", one.task.target, d);
+  const Eigen::VectorXd velocity = referenceOf(one.task, "reference velocity", one.velocity, d);
+  const Eigen::VectorXd acceleration = referenceOf(one.task, "reference acceleration", one.acceleration, d);
+  return acceleration + one.gains.Kp * (target - value.y) + one.gains.Kd * (velocity - value.J * state.v);
+}
 
 Eigen::VectorXd operationalSpaceForces(const Model& model, const State& state,
                                        std::span<const OperationalTask> tasks,

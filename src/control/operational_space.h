@@ -21,6 +21,11 @@ struct OperationalTask {
   Eigen::VectorXd acceleration{};  ///< y''_ref, d; empty: zero
 };
 
+/// y''* of a task whose value and Jacobian are given, d. Throws Error for a target or a reference of the
+/// wrong size, and for numbers that are not finite.
+[[nodiscard]] Eigen::VectorXd wantedAcceleration(const OperationalTask& task, const TaskValue& value,
+                                                 const State& state);
+
 struct OperationalSpaceOptions {
   Eigen::MatrixXd H{};   ///< nv x nv, symmetric and positive definite: the metric of forces; empty: Id
   Eigen::VectorXd u0{};  ///< nv: preferred forces, used where the tasks leave freedom; empty: zero

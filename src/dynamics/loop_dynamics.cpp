@@ -15,11 +15,13 @@ namespace {
 
 // What forces along the rows of J do to a mechanism.
 struct LoopInertia {
-  Eigen::MatrixXd response;  // nv x rows: M^-1 J^T
+  Eigen::LLT<Eigen::MatrixXd> factors;  // of M
+  Eigen::MatrixXd response;             // nv x rows: M^-1 J^T
   Eigen::JacobiSVD<Eigen::MatrixXd> svd;
 
   LoopInertia(const Model& model, const Eigen::VectorXd& q, const Eigen::MatrixXd& J)
-      : response(Eigen::LLT<Eigen::MatrixXd>(massMatrix(model, q)).solve(Eigen::MatrixXd(J.transpose()))),
+      : factors(massMatrix(model, q)),
+        response(factors.solve(Eigen::MatrixXd(J.transpose()))),
         svd(Eigen::MatrixXd(J * response), Eigen::ComputeThinU | Eigen::ComputeThinV) {
     svd.setThreshold(1e-11);  // of squares
   }
@@ -45,6 +47,19 @@ LoopMotion loopDynamics(const Model& model, const State& state, std::span<const 
   motion.forces = inertia.svd.solve(wanted);
   motion.a += inertia.response * motion.forces;
   return motion;
+}
+
+LoopResponse loopResponse(const Model& model, const VectorArg& q, std::span<const TaskMap> loops) {
+  const TaskValue at = stackLoops(model, loops, q);
+  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(model.nv(), model.nv());
+  if (at.y.size() == 0)
+    return {Eigen::LLT<Eigen::MatrixXd>(massMatrix(model, q)).solve(identity),
+            Eigen::MatrixXd(0, model.nv())};
+  const LoopInertia inertia(model, q, at.J);
+  LoopResponse response{.a_u = inertia.factors.solve(identity),
+                        .forces_u = -inertia.svd.solve(Eigen::MatrixXd(inertia.response.transpose()))};
+  response.a_u += inertia.response * response.forces_u;
+  return response;
 }
 
 State closedState(const Model& model, const State& state, std::span<const TaskMap> loops) {

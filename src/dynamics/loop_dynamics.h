@@ -28,6 +28,18 @@ struct LoopMotion {
 [[nodiscard]] LoopMotion loopDynamics(const Model& model, const State& state, std::span<const TaskMap> loops,
                                       const VectorArg& u, const LoopDynamicsOptions& options = {});
 
+/// What joint forces change: loopDynamics() is affine in them, a(u) = a(0) + a_u u and forces(u) = forces(0)
+/// + forces_u u.
+struct LoopResponse {
+  Eigen::MatrixXd a_u{};       ///< nv x nv: what the loops leave of M^-1
+  Eigen::MatrixXd forces_u{};  ///< rows x nv
+};
+
+/// For a mass matrix that is positive definite: loopDynamics() throws for others. Throws Error for a q of the
+/// wrong size.
+[[nodiscard]] LoopResponse loopResponse(const Model& model, const VectorArg& q,
+                                        std::span<const TaskMap> loops);
+
 /// The closed state near one that a step of integration has left: q by assemble(), v with the least change
 /// of kinetic energy. Throws Error if the loops cannot be closed.
 [[nodiscard]] State closedState(const Model& model, const State& state, std::span<const TaskMap> loops);

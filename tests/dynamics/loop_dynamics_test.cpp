@@ -116,6 +116,21 @@ TEST_F(LoopDynamics, ClosesWithTheLeastChangeOfEnergy) {
   EXPECT_NEAR(kinetic(state.v), kinetic(closed.v) + kinetic(off), 1e-10);
 }
 
+// By calling it once for each unit of force; without loops it is forward dynamics, too.
+TEST_F(LoopDynamics, RespondsToForcesAsItSays) {
+  const State state = stateAt(1, 2);
+  for (const std::span<const TaskMap> loops : {std::span<const TaskMap>(loops_), {}}) {
+    const LoopResponse response = loopResponse(model_, state.q, loops);
+    const LoopMotion idle = loopDynamics(model_, state, loops, Vector3d::Zero());
+    ASSERT_EQ(response.forces_u.rows(), idle.forces.size());
+    for (int i = 0; i < 3; ++i) {
+      const LoopMotion pushed = loopDynamics(model_, state, loops, Vector3d::Unit(i));
+      EXPECT_LT((pushed.a - idle.a - response.a_u.col(i)).norm(), 1e-9 * response.a_u.norm()) << i;
+      EXPECT_LT((pushed.forces - idle.forces - response.forces_u.col(i)).norm(), 1e-9) << i;
+    }
+  }
+}
+
 TEST_F(LoopDynamics, WithoutLoopsIsForwardDynamics) {
   const State state{Vector3d(.1, .2, .3), Vector3d(1, 2, 3)};
   const LoopMotion motion = loopDynamics(model_, state, {}, Vector3d(1, 0, 0));
