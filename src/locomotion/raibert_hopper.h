@@ -9,8 +9,8 @@
 
 namespace rex {
 
-/// A body that hops in the plane on one springy leg without mass, whose hip is its centre of mass: slides
-/// 11:3 and 11:4; Raibert, Dynamically stable legged locomotion, 1985. Angles are counterclockwise.
+/// A body that hops in the plane on one springy leg without mass, whose hip is its centre of mass: slide
+/// 11:4; Raibert, Dynamically stable legged locomotion, 1985. Angles are counterclockwise.
 struct RaibertHopper {
   double mass = 10;         ///< kg
   double inertia = 2;       ///< kg m^2, about the centre of mass

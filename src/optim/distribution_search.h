@@ -19,7 +19,7 @@ struct DistributionSearchOptions {
 
 /// Minimises f by estimation of distribution: the next generation is sampled from the normal distribution
 /// that is most likely for the best samples of this one (EMNA and, with independent coordinates, UMDA:
-/// Larranaga and Lozano 2001). Slide 9:26's scheme with nothing else; it shrinks too soon on slopes, which is
+/// Larranaga and Lozano 2001). Slide 9:27's scheme with nothing else; it shrinks too soon on slopes, which is
 /// what CMA-ES mends. Throws Error for a start or deviation that is not finite, and options out of range.
 [[nodiscard]] SearchResult minimizeByDistribution(const BatchObjective& f, const VectorArg& start,
                                                   double deviation, Rng& rng,
