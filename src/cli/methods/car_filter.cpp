@@ -171,17 +171,17 @@ CarFilterKind carFilterOf(const std::string& name) {
                                 {"ekf-slam", CarFilterKind::kEkfSlam},
                                 {"fast-slam", CarFilterKind::kFastSlam},
                                 {"fast-slam-2", CarFilterKind::kFastSlam2},
+                                {"fast-slam-unnamed", CarFilterKind::kUnnamedFastSlam},
                                 {"dead-reckoning", CarFilterKind::kDeadReckoning}});
 }
 
 bool makesMap(CarFilterKind kind) {
-  return kind == CarFilterKind::kEkfSlam || kind == CarFilterKind::kFastSlam ||
-         kind == CarFilterKind::kFastSlam2;
+  return kind == CarFilterKind::kEkfSlam || (hasParticles(kind) && kind != CarFilterKind::kParticles);
 }
 
 bool hasParticles(CarFilterKind kind) {
   return kind == CarFilterKind::kParticles || kind == CarFilterKind::kFastSlam ||
-         kind == CarFilterKind::kFastSlam2;
+         kind == CarFilterKind::kFastSlam2 || kind == CarFilterKind::kUnnamedFastSlam;
 }
 
 NonlinearModel motionModel(const CarSimulator& car, const Eigen::Vector2d& u) {
@@ -235,6 +235,8 @@ std::unique_ptr<CarFilter> makeCarFilter(CarFilterKind kind, const CarSimulator&
     case CarFilterKind::kFastSlam:
     case CarFilterKind::kFastSlam2:
       return makeFastSlam(car.options(), start().mean, particles, kind == CarFilterKind::kFastSlam2, rng);
+    case CarFilterKind::kUnnamedFastSlam:
+      return makeUnnamedFastSlam(car.options(), start().mean, particles, rng);
     case CarFilterKind::kDeadReckoning:
       break;
   }

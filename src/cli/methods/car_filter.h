@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@ enum class CarFilterKind {
   kEkfSlam,
   kFastSlam,
   kFastSlam2,
+  kUnnamedFastSlam,  ///< decides itself which landmark it sees
   kDeadReckoning
 };
 
@@ -48,7 +50,7 @@ struct CarUpdate {
 
 /// A landmark estimated by a filter.
 struct FoundLandmark {
-  int landmark = 0;
+  std::optional<int> landmark{};  ///< empty: the filter does not know which of the true ones it is
   Gaussian belief{};
 };
 

@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <cmath>
 
 #include "cli/methods/car_slam_internal.h"
 #include "estimation/ekf_slam.h"
 #include "estimation/fast_slam.h"
+#include "estimation/unnamed_fast_slam.h"
 #include "geometry/rotation.h"
 
 namespace rex::cli {
@@ -65,6 +67,15 @@ class EkfSlamCar final : public CarFilter {
   SeenLandmarks seen_;
 };
 
+// Mean and covariance of the poses of particles.
+template <typename Slam>
+Gaussian poseOf(const Slam& slam) {
+  const Eigen::Vector3d mean = slam.meanPose();
+  Eigen::Matrix3Xd errors = slam.poses().colwise() - mean;
+  for (double& heading : errors.row(2)) heading = wrapAngle(heading);
+  return {mean, errors * slam.weights().asDiagonal() * errors.transpose()};
+}
+
 class FastSlamCar final : public CarFilter {
  public:
   FastSlamCar(const CarOptions& options, const Eigen::Vector3d& start, const FastSlamOptions& how,
@@ -79,12 +90,7 @@ class FastSlamCar final : public CarFilter {
     const FastSlamStep step = slam_.step(transitionOf(car_, u), sightings, rng_);
     return {.effectiveParticles = step.lost ? 0 : step.effectiveSize};
   }
-  Gaussian pose() const override {
-    const Eigen::Vector3d mean = slam_.meanPose();
-    Eigen::Matrix3Xd errors = slam_.poses().colwise() - mean;
-    for (double& heading : errors.row(2)) heading = wrapAngle(heading);
-    return {mean, errors * slam_.weights().asDiagonal() * errors.transpose()};
-  }
+  Gaussian pose() const override { return poseOf(slam_); }
   std::vector<FoundLandmark> map() const override {
     std::vector<FoundLandmark> found;
     for (int i = 0; i < slam_.landmarks(); ++i)
@@ -101,6 +107,46 @@ class FastSlamCar final : public CarFilter {
   Rng rng_;
   FastSlam slam_;
   SeenLandmarks seen_;
+};
+
+bool isVisible(const CarOptions& options, const Eigen::Vector3d& x, const Eigen::Vector2d& landmark) {
+  const Eigen::Vector2d d = landmark - x.head<2>();
+  const double bearing = d.isZero(0) ? 0 : wrapAngle(std::atan2(d[1], d[0]) - x[2]);
+  return d.norm() <= options.maxRange && 2 * std::abs(bearing) <= options.fieldOfView;
+}
+
+// It is not told which landmark is which.
+class UnnamedFastSlamCar final : public CarFilter {
+ public:
+  UnnamedFastSlamCar(const CarOptions& options, const Eigen::Vector3d& start, int particles, const Rng& rng)
+      : car_(CarSimulator::withoutPlaces(0, options)),
+        rng_(rng),
+        slam_(start, sensorOf(options),
+              {.particles = particles,
+               .isInView = [options](const Eigen::Vector3d& x, const Eigen::Vector2d& landmark) {
+                 return isVisible(options, x, landmark);
+               }}) {}
+
+  CarUpdate step(const Eigen::Vector2d& u, const CarSightings& seen) override {
+    std::vector<Eigen::Vector2d> ys;
+    for (Eigen::Index i = 0; i < seen.y.size(); i += 2) ys.emplace_back(seen.y.segment<2>(i));
+    return {.effectiveParticles = slam_.step(transitionOf(car_, u), ys, rng_).effectiveSize};
+  }
+  Gaussian pose() const override { return poseOf(slam_); }
+  std::vector<FoundLandmark> map() const override {
+    std::vector<FoundLandmark> found;
+    for (const MappedLandmark& one : slam_.map()) found.push_back({.belief = one.position});
+    return found;
+  }
+  void addTo(CarView& view) const override {
+    view.particles = slam_.poses();
+    view.weights = slam_.weights();
+  }
+
+ private:
+  CarSimulator car_;
+  Rng rng_;
+  UnnamedFastSlam slam_;
 };
 
 }  // namespace
@@ -121,6 +167,11 @@ std::unique_ptr<CarFilter> makeFastSlam(const CarOptions& options, const Eigen::
                                         int particles, bool observedProposal, const Rng& rng) {
   return std::make_unique<FastSlamCar>(
       options, start, FastSlamOptions{.particles = particles, .observedProposal = observedProposal}, rng);
+}
+
+std::unique_ptr<CarFilter> makeUnnamedFastSlam(const CarOptions& options, const Eigen::Vector3d& start,
+                                               int particles, const Rng& rng) {
+  return std::make_unique<UnnamedFastSlamCar>(options, start, particles, rng);
 }
 
 }  // namespace rex::cli

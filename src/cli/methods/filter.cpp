@@ -50,7 +50,7 @@ CarScenario scenarioOf(const FilterOptions& options) {
   requireBetween("--assume-observation", options.assumeObservation, 1e-3, 1e3);
   requireBetween("--seeds", options.seeds, 1, 10'000);
   requireUse(options.particles.has_value(), "--particles", hasParticles(scenario.filter),
-             "--filter particles, fast-slam or fast-slam-2 with it");
+             "--filter particles or one of fast-slam with it");
   requireUse(options.noFilm, "--no-film", !options.out.empty(), "-o with it");
   scenario.landmarks = options.landmarks;
   scenario.steps = options.steps;
@@ -101,6 +101,7 @@ std::string jsonTextOf(const FilterOptions& options, const FilterStatistics& all
       {"heading", all.heading},
       {"dead_reckoning", all.deadReckoning},
       {"map", all.foundLandmarks > 0 ? Json(all.map) : Json()},
+      {"found_landmarks", all.foundLandmarks},
       {"nees", {{"mean", jsonOf(all.nees)}, {"band", jsonOf(all.stepBand)}, {"inside", all.insideBand}}},
       {"nis", Json()},
       {"singular", all.singular},
@@ -150,7 +151,8 @@ void addFilter(CLI::App* command, Action& action) {
       "  scripts/rex filter --filter particles --range-bearing --max-range 15 -o lost --no-film\n"
       "  scripts/rex filter --filter ekf --assume-observation 0.3 --seeds 50 --json\n\n"
       "The car drives with u = (0.1, 0.2) from a known start. Filters: ekf, ukf, information, root,\n"
-      "rts (ekf, then smoothed), particles; without a map ekf-slam, fast-slam, fast-slam-2; dead-reckoning.\n"
+      "rts (ekf, then smoothed), particles; without a map ekf-slam, fast-slam, fast-slam-2 and\n"
+      "fast-slam-unnamed, which is not told which landmark it sees; dead-reckoning.\n"
       "DIR gets filter.csv, figures of errors, NEES and map, and the film filter.mp4 of the first run.");
   const auto number = [&](const char* name, auto& value, const char* help, const char* unit) {
     command->add_option(name, value, help)->type_name(unit);

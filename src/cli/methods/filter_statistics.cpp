@@ -30,8 +30,11 @@ void FilterStatisticsBuilder::add(const FilterRun& run) {
   }
   nees_ += nees;
   sums_.singular += run.steps() - regular;
-  for (const FoundLandmark& one : run.map)
-    sums_.map += (one.belief.mean - run.landmarks.col(one.landmark)).squaredNorm();
+  for (const FoundLandmark& one : run.map) {
+    const Eigen::Vector2d found = one.belief.mean;
+    sums_.map += one.landmark ? (found - run.landmarks.col(*one.landmark)).squaredNorm()
+                              : (run.landmarks.colwise() - found).colwise().squaredNorm().minCoeff();
+  }
   sums_.foundLandmarks += static_cast<int>(run.map.size());
   const double n = run.steps();
   sums_.runs.push_back({run.seed, std::sqrt(position / n), std::sqrt(heading / n), {}});

@@ -22,8 +22,8 @@ struct RunErrors {
 struct FilterStatistics {
   std::vector<RunErrors> runs{};
   double position = 0, heading = 0, deadReckoning = 0;  ///< root mean squares over runs and steps
-  double map = 0;                  ///< the same for the landmarks found at the end, metres
-  std::optional<double> nees{};    ///< mean over runs and steps with regular covariance
+  double map = 0;                ///< the same for the landmarks found at the end, or from the nearest, metres
+  std::optional<double> nees{};  ///< mean over runs and steps with regular covariance
   std::vector<double> stepNees{};  ///< for each step, the mean over runs
   ConsistencyBand stepBand{};      ///< for these means
   double insideBand = 0;           ///< fraction of the steps

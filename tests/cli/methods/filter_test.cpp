@@ -64,10 +64,21 @@ TEST_F(FilterCommand, AnswersPrograms) {
 
 TEST_F(FilterCommand, EveryFilterRuns) {
   for (const char* name : {"ekf", "ukf", "information", "root", "rts", "particles", "ekf-slam", "fast-slam",
-                           "fast-slam-2", "dead-reckoning"}) {
+                           "fast-slam-2", "fast-slam-unnamed", "dead-reckoning"}) {
     const auto json = answerOf({"--filter", name, "--steps", "40"});
     EXPECT_LE(json.at("position").get<double>(), 1.5 * json.at("dead_reckoning").get<double>()) << name;
   }
+}
+
+// Where landmarks are far apart, names add nothing: the map has each of them once, and as precisely.
+TEST_F(FilterCommand, FindsLandmarksWithoutNames) {
+  const auto run = [&](const char* name) {
+    return answerOf({"--filter", name, "--steps", "100", "--landmarks", "8", "--seed", "1", "--seeds", "2"});
+  };
+  const auto named = run("fast-slam"), unnamed = run("fast-slam-unnamed");
+  EXPECT_EQ(unnamed.at("found_landmarks"), 16);
+  EXPECT_LT(unnamed.at("map").get<double>(), 1.5 * named.at("map").get<double>());
+  EXPECT_GT(unnamed.at("map"), 0);
 }
 
 TEST_F(FilterCommand, WritesTableFiguresAndFilm) {
