@@ -174,11 +174,9 @@ inline rex::grading::Evidence seenUnder(const Eigen::MatrixXd& K, const Eigen::M
   return evidence;
 }
 
-/// Checks that each state follows from the one before it and that the outing ends when it must. Returns the
-/// states.
-inline Eigen::MatrixXd outingFits(rex::grading::Check& check, Student& student, const PoleCart& cart,
-                                  const Eigen::MatrixXd& K, const Eigen::Vector4d& start,
-                                  const Outing& outing) {
+/// Checks that each state follows from the one before it and that the outing ends when it must.
+inline void outingFits(rex::grading::Check& check, Student& student, const PoleCart& cart,
+                       const Eigen::MatrixXd& K, const Eigen::Vector4d& start, const Outing& outing) {
   const rex::Rng given = check.rng().split(7);
   check.rng().next();
   const Eigen::MatrixXd states = student.balanced(cart, K, start, outing, given);
@@ -221,27 +219,4 @@ inline Eigen::MatrixXd outingFits(rex::grading::Check& check, Student& student, 
     check.atLeast("|theta| in the last state of balanced, which came early",
                   std::abs(states(2, states.cols() - 1)), std::numbers::pi / 2, "rad");
   }
-  return states;
-}
-
-/// Balances for 50 s with the student's own A, B, P and K. With the gains of the sheet's costs and noise
-/// 0.1, none of 40000 outings from 0.4 rad fell, and none of 40000 from 0.6 rad.
-inline void survivesFrom(rex::grading::Check& check, Student& student, double angle, double noise) {
-  const PoleCart cart;
-  const Costs costs = costsOfTheSheet();
-  check.input(
-      fmt::format("the cart pole of the sheet from theta = {:g}, noise {:g}, 3000 steps", angle, noise));
-  const Plant plant = student.linearised(cart);
-  check.shape("A of linearised", plant.A, 4, 4);
-  check.shape("B of linearised", plant.B, 4, 1);
-  const Eigen::MatrixXd P = student.viaHamiltonian(plant, costs);
-  check.shape("P of viaHamiltonian", P, 4, 4);
-  const Eigen::MatrixXd K = student.gainOf(plant, costs, P);
-  check.shape("K of gainOf", K, 1, 4);
-  const Eigen::MatrixXd states =
-      outingFits(check, student, cart, K, Eigen::Vector4d(0, 0, angle, 0), {.noise = noise});
-  check.near("number of states", static_cast<double>(states.cols()), 3001, 0);
-  check.atMost("|theta| at the end", std::abs(states(2, 3000)), std::numbers::pi / 2, "rad");
-  if (noise > 0) return;
-  check.near("last state", states.col(3000), Eigen::Vector4d::Zero(), 1e-3);
 }

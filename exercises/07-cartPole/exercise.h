@@ -126,3 +126,30 @@ double levelInside(const Eigen::MatrixXd& P, const Eigen::VectorXd& high);
 /// negative eigenvalue.
 std::vector<Eigen::MatrixXd> gainsOverTime(const Plant& plant, const Costs& costs, const Eigen::MatrixXd& F,
                                            int steps);
+
+// Part 9, what a sensor sees (8:3, 8:44). p is the number of measurements, y = C x with C (p x n).
+
+/// An orthonormal basis (n x k) of the states that y never shows: from there y stays zero if u does. k may
+/// be 0. Singular values below 1e-9 of the largest count as zero, as in part 4. C is not zero.
+Eigen::MatrixXd unseen(const Eigen::MatrixXd& A, const Eigen::MatrixXd& C);
+
+/// Intensities of white noise, both symmetric.
+struct Noise {
+  Eigen::MatrixXd W;  ///< n x n, of w in x' = A x + B u + w; no eigenvalue is negative
+  Eigen::MatrixXd V;  ///< p x p, of v in y = C x + v; all eigenvalues are positive
+};
+
+/// The L (n x p) with which the observer x^' = A x^ + B u + L (y - C x^) has the smallest error x - x^ in the
+/// long run: its covariance S is minimal. Relative accuracy 1e-7. Such an L exists even if y does not show
+/// all of x, because what it does not show decays by itself. A - L C has no pole near the imaginary axis.
+Eigen::MatrixXd observerGain(const Eigen::MatrixXd& A, const Eigen::MatrixXd& C, const Noise& noise);
+
+/// The matrix (2 n x 2 n) that moves (x, x^), first x, if u = K x^. The plant is `real`, y = C x has no
+/// noise, and the observer knows y and u, and takes the plant to be `model`.
+Eigen::MatrixXd observedLoop(const Plant& real, const Plant& model, const Eigen::MatrixXd& C,
+                             const Eigen::MatrixXd& K, const Eigen::MatrixXd& L);
+
+/// The frequency response G(i w) = C (i w - A)^-1 B from one control to one measurement, at N frequencies w
+/// [rad/s]: real parts in the first row, imaginary parts in the second (2 x N). No i w is near an eigenvalue
+/// of A. Relative accuracy 1e-6.
+Eigen::MatrixXd responseAt(const Plant& plant, const Eigen::MatrixXd& C, const Eigen::VectorXd& frequencies);

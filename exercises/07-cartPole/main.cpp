@@ -89,6 +89,27 @@ std::vector<Eigen::MatrixXd> gainsOverTime(const Plant& plant, const Costs& cost
   return std::vector<Eigen::MatrixXd>(static_cast<std::size_t>(steps), zero);
 }
 
+Eigen::MatrixXd unseen(const Eigen::MatrixXd& A, const Eigen::MatrixXd& C) {
+  // TODO: which plant reaches what y shows? The rest is orthogonal to it.
+  return Eigen::MatrixXd::Zero(A.rows(), 0);
+}
+
+Eigen::MatrixXd observerGain(const Eigen::MatrixXd& A, const Eigen::MatrixXd& C, const Noise& noise) {
+  // TODO: the problem of part 2 for another plant. Mind the sign.
+  return Eigen::MatrixXd::Zero(A.rows(), C.rows());
+}
+
+Eigen::MatrixXd observedLoop(const Plant& real, const Plant& model, const Eigen::MatrixXd& C,
+                             const Eigen::MatrixXd& K, const Eigen::MatrixXd& L) {
+  // TODO: four blocks. What moves x, and what moves x^?
+  return Eigen::MatrixXd::Zero(2 * real.A.rows(), 2 * real.A.rows());
+}
+
+Eigen::MatrixXd responseAt(const Plant& plant, const Eigen::MatrixXd& C, const Eigen::VectorXd& frequencies) {
+  // TODO: a linear system for each frequency. Its solution is complex.
+  return Eigen::MatrixXd::Zero(2, frequencies.size());
+}
+
 // What follows is given: the parts of the exercise one after another. show.cpp draws the pictures.
 int main() {
   // Part 1: A and B by hand, by differences of your rateOf(), and by the library, which is used from there
@@ -138,4 +159,19 @@ int main() {
 
   // Part 8: the last eight seconds, in steps of 1/60 s.
   showHorizon(real, costs, optimal);
+
+  // Part 9: which sensors suffice; then little noise, and sensors with errors of 2 mm and 2 mrad.
+  const Eigen::MatrixXd position = Eigen::RowVector4d(1, 0, 0, 0), angle = Eigen::RowVector4d(0, 0, 1, 0);
+  Eigen::MatrixXd both(2, 4);
+  both << position, angle;
+  print("what p alone does not show, which should be nothing", unseen(real.A, position));
+  print("what theta alone does not show, which should be p and p'", unseen(real.A, angle));
+  const Sensor ofP{"only p is seen", position, observerGain(real.A, position, noiseOfSteps(.005, .002, 1))};
+  const Sensor ofBoth{"p and theta are seen", both, observerGain(real.A, both, noiseOfSteps(.005, .002, 2))};
+  print("L, if only p is seen", ofP.L.transpose());
+  print("L of the library",
+        observerGainOfTheLibrary(real.A, position, noiseOfSteps(.005, .002, 1)).transpose());
+  showSeen(K, ofP);
+  showLoops(real, K, {ofBoth, ofP});
+  showMargins(real, K, {ofBoth, ofP});
 }

@@ -7,8 +7,10 @@
 
 #include "control/gain_search.h"
 #include "control/regulators.h"
+#include "control/responses.h"
 #include "course/cart_pole.h"
 #include "course/cart_pole_pictures.h"
+#include "render/response_figures.h"
 
 using namespace rex;
 
@@ -82,6 +84,30 @@ CovarianceEllipse sectionOf(const Eigen::MatrixXd& P, double level) {
   CovarianceEllipse section{.label = "proved", .sigmas = std::sqrt(level), .color = Color{.1, .4, .7}};
   section.covariance << c / D, -b / D, -b / D, a / D;
   return section;
+}
+
+const Color kLoopColors[] = {{.1, .4, .7}, {.15, .55, .3}, {.85, .4, .1}};
+
+// The loop cut open at u, from u to -u: its critical point is -1.
+struct OpenLoop {
+  std::string label;
+  Plant plant;
+  Eigen::MatrixXd minusK;
+};
+
+std::vector<OpenLoop> openLoops(const Plant& real, const Eigen::MatrixXd& K,
+                                const std::vector<Sensor>& sensors) {
+  std::vector<OpenLoop> loops{{"x is known", real, -K}};
+  for (const Sensor& sensor : sensors) {
+    // The plant does not hear the controller, but the test signal.
+    OpenLoop loop{sensor.label, {}, Eigen::MatrixXd::Zero(1, 8)};
+    loop.plant = {observedLoop({real.A, 0 * real.B}, real, sensor.C, K, sensor.L),
+                  Eigen::MatrixXd::Zero(8, 1)};
+    loop.plant.B.topRows(4) = real.B;
+    loop.minusK.rightCols(4) = -K;
+    loops.push_back(loop);
+  }
+  return loops;
 }
 
 }  // namespace
@@ -268,4 +294,116 @@ void showHorizon(const Plant& real, const Costs& costs, const Eigen::MatrixXd& o
         {.x = {0, 8}, .y = {optimal(0, i), optimal(0, i)}, .dashed = true, .color = colors[i]});
   }
   plot("horizon", figure);
+}
+
+Noise noiseOfSteps(double ofRates, double ofSensors, int sensors) {
+  // In a step, white noise of intensity W adds noise of covariance W tau to x, and the mean of v has
+  // covariance V / tau.
+  const double w = ofRates * ofRates / kTau;
+  return {Eigen::Vector4d(0, w, 0, w).asDiagonal(),
+          ofSensors * ofSensors * kTau * Eigen::MatrixXd::Identity(sensors, sensors)};
+}
+
+Eigen::MatrixXd observerGainOfTheLibrary(const Eigen::MatrixXd& A, const Eigen::MatrixXd& C,
+                                         const Noise& noise) {
+  return steadyKalman({.A = A, .B = Eigen::MatrixXd::Zero(A.rows(), 1), .C = C}, noise.W, noise.V).L;
+}
+
+void showSeen(const Eigen::MatrixXd& K, const Sensor& sensor) {
+  const Plant real = plantOfTheLibrary();
+  const Eigen::MatrixXd loop = observedLoop(real, real, sensor.C, K, sensor.L);
+  print("slowest pole of x and x^, which should be -0.506 [1/s]", eigenvalues(loop).real().maxCoeff());
+  const Eigen::MatrixXd observer = loop.bottomRightCorner(4, 4);
+  constexpr int kSteps = 1200;
+  Eigen::MatrixXd states = Eigen::MatrixXd::Zero(4, kSteps), estimates = states;
+  states(2, 0) = .1;
+  Rng rng(3);
+  int t = 0;
+  for (; t + 1 < kSteps && std::abs(states(2, t)) < std::numbers::pi / 2; ++t) {
+    const Eigen::Vector4d x = states.col(t), believed = estimates.col(t), moves = observer * believed;
+    const double y = sensor.C.row(0).dot(x) + .002 * rng.normal();
+    states.col(t + 1) = stepped(kCart, x, forceOf(K, believed), kTau, .005, rng);
+    estimates.col(t + 1) = believed + kTau * (moves + y * sensor.L.col(0));
+  }
+  Figure figure{.title = "The cart pole and its observer: " + sensor.label,
+                .xLabel = "time [s]",
+                .yLabel = "p [m], theta [rad]",
+                .legend = Legend::kOutside};
+  for (const int row : {0, 2}) {
+    const std::string name = row == 0 ? "p" : "theta";
+    Series truth = overTime(name, states.leftCols(t), row),
+           estimate = overTime(name + ", estimated", estimates.leftCols(t), row);
+    truth.color = kLoopColors[row];
+    estimate.color = Color{.1, .1, .1};
+    estimate.dashed = true;
+    figure.series.push_back(truth);
+    figure.series.push_back(estimate);
+  }
+  plot("seen", figure);
+}
+
+void showLoops(const Plant& real, const Eigen::MatrixXd& K, const std::vector<Sensor>& sensors) {
+  const std::vector<double> frequencies = frequenciesBetween(.1, 100, 600);
+  Figure bode, nyquist;
+  for (const OpenLoop& loop : openLoops(real, K, sensors)) {
+    const Eigen::MatrixXd G =
+        responseAt(loop.plant, loop.minusK, Eigen::Map<const Eigen::VectorXd>(frequencies.data(), 600));
+    std::vector<std::complex<double>> values;
+    std::vector<double> decibels;
+    for (const auto& column : G.colwise()) {
+      values.emplace_back(column[0], column[1]);
+      decibels.push_back(20 * std::log10(std::max(1e-6, std::abs(values.back()))));
+    }
+    Figure magnitudes = bodeMagnitudeFigure(frequencies, decibels), curves = nyquistFigure(values);
+    const Color color = kLoopColors[bode.series.size()];
+    for (Series* series : {&magnitudes.series[0], &curves.series[0], &curves.series[1]})
+      series->color = color;
+    magnitudes.series[0].label = curves.series[0].label = loop.label;
+    curves.series[1].label = "";
+    if (bode.series.empty()) {
+      bode = magnitudes, nyquist = curves;
+    } else {
+      bode.series.push_back(magnitudes.series[0]);
+      nyquist.series.insert(nyquist.series.end() - 1, {curves.series[0], curves.series[1]});
+    }
+  }
+  bode.title = nyquist.title = "The loop, cut open at u";
+  bode.legend = Legend::kOutside;
+  nyquist.title += " (dashed: w < 0)";
+  Series circle{.label = "distance 1 from -1", .dashed = true, .color = Color{.6, .6, .6}};
+  for (int i = 0; i <= 90; ++i) {
+    const double angle = 2 * std::numbers::pi * i / 90;
+    circle.x.push_back(-1 + std::cos(angle));
+    circle.y.push_back(std::sin(angle));
+  }
+  nyquist.series.push_back(circle);
+  plot("bode", bode);
+  plot("nyquist", nyquist);
+}
+
+void showMargins(const Plant& real, const Eigen::MatrixXd& K, const std::vector<Sensor>& sensors) {
+  Figure figure{.title = "The slowest pole if the force is too weak or too strong",
+                .xLabel = "factor of the force",
+                .yLabel = "real part [1/s]",
+                .logX = true,
+                .xRange = AxisRange{.3, 5},
+                .yRange = AxisRange{-1, 2},
+                .legend = Legend::kOutside};
+  figure.horizontalLines = {{.at = 0}};
+  figure.verticalLines = {{.at = 1}};
+  Series known{.label = "x is known", .color = kLoopColors[0]};
+  for (const double factor : frequenciesBetween(.3, 5, 300)) {
+    known.x.push_back(factor);
+    known.y.push_back(slowestPole({real.A, factor * real.B}, K));
+  }
+  figure.series = {known};
+  for (const Sensor& sensor : sensors) {
+    Series series{.label = sensor.label, .x = known.x, .color = kLoopColors[figure.series.size()]};
+    for (const double factor : known.x)
+      series.y.push_back(eigenvalues(observedLoop({real.A, factor * real.B}, real, sensor.C, K, sensor.L))
+                             .real()
+                             .maxCoeff());
+    figure.series.push_back(series);
+  }
+  plot("margins", figure);
 }

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "exercise.h"
 
 /// The library's results: A and B of the cart pole; the optimal gains, for u = K x; and the slowest pole
@@ -38,3 +41,25 @@ void showRegion(const Plant& real);
 /// horizon.png: long before the end the gains are constant, and nearly the optimal ones for an infinite
 /// horizon.
 void showHorizon(const Plant& real, const Costs& costs, const Eigen::MatrixXd& optimal);
+
+/// The noise of x' and y, if in each step of 1/60 s random numbers of that size are added to p' and theta',
+/// and others to each of the measurements.
+Noise noiseOfSteps(double ofRates, double ofSensors, int sensors);
+Eigen::MatrixXd observerGainOfTheLibrary(const Eigen::MatrixXd& A, const Eigen::MatrixXd& C,
+                                         const Noise& noise);
+
+/// What is measured, y = C x, and the gain of its observer.
+struct Sensor {
+  std::string label;
+  Eigen::MatrixXd C, L;
+};
+
+/// seen.png: the cart pole under u = K x^ with noise of 0.005, and what the observer believes, whose one
+/// measurement is wrong by 0.002. Prints the slowest pole of both together.
+void showSeen(const Eigen::MatrixXd& K, const Sensor& sensor);
+
+/// bode.png, nyquist.png: the loop, cut open at u, if x is known and with each sensor.
+void showLoops(const Plant& real, const Eigen::MatrixXd& K, const std::vector<Sensor>& sensors);
+
+/// margins.png: the slowest pole of each if the force is a multiple of what the controller wants.
+void showMargins(const Plant& real, const Eigen::MatrixXd& K, const std::vector<Sensor>& sensors);

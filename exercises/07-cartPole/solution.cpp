@@ -265,6 +265,62 @@ std::vector<Eigen::MatrixXd> gainsOverTime(const Plant& plant, const Costs& cost
   // </solution>
 }
 
+Eigen::MatrixXd unseen(const Eigen::MatrixXd& A, const Eigen::MatrixXd& C) {
+  // <solution unseen>
+  const Plant dual{A.transpose(), C.transpose()};
+  const Eigen::MatrixXd U = svd(reachMatrix(dual)).U;
+  return U.rightCols(A.rows() - reachable(dual));
+  // <todo>
+  //| // TODO: which plant reaches what y shows? The rest is orthogonal to it.
+  //| return Eigen::MatrixXd::Zero(A.rows(), 0);
+  // </solution>
+}
+
+Eigen::MatrixXd observerGain(const Eigen::MatrixXd& A, const Eigen::MatrixXd& C, const Noise& noise) {
+  // <solution observerGain>
+  const Plant dual{A.transpose(), C.transpose()};
+  const Costs costs{noise.W, noise.V};
+  return -gainOf(dual, costs, viaHamiltonian(dual, costs)).transpose();
+  // <todo>
+  //| // TODO: the problem of part 2 for another plant. Mind the sign.
+  //| return Eigen::MatrixXd::Zero(A.rows(), C.rows());
+  // </solution>
+}
+
+Eigen::MatrixXd observedLoop(const Plant& real, const Plant& model, const Eigen::MatrixXd& C,
+                             const Eigen::MatrixXd& K, const Eigen::MatrixXd& L) {
+  // <solution observedLoop>
+  const Eigen::MatrixXd LC = L * C, modelBK = model.B * K, realBK = real.B * K;
+  Eigen::MatrixXd loop(2 * LC.rows(), 2 * LC.rows());
+  loop << real.A, realBK, LC, model.A + modelBK - LC;
+  return loop;
+  // <todo>
+  //| // TODO: four blocks. What moves x, and what moves x^?
+  //| return Eigen::MatrixXd::Zero(2 * real.A.rows(), 2 * real.A.rows());
+  // </solution>
+}
+
+Eigen::MatrixXd responseAt(const Plant& plant, const Eigen::MatrixXd& C, const Eigen::VectorXd& frequencies) {
+  // <solution responseAt>
+  const Eigen::Index n = plant.A.rows();
+  // (i w - A) (a + i b) = B, real and imaginary parts as unknowns of a system twice as large.
+  Eigen::MatrixXd M(2 * n, 2 * n), right = Eigen::MatrixXd::Zero(2 * n, 1);
+  M << -plant.A, Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, n), -plant.A;
+  right.topRows(n) = plant.B;
+  Eigen::MatrixXd G(2, frequencies.size());
+  for (Eigen::Index k = 0; k < G.cols(); ++k) {
+    for (Eigen::Index i = 0; i < n; ++i) M(i, n + i) = -frequencies[k], M(n + i, i) = frequencies[k];
+    const Eigen::MatrixXd x = solveMatrix(M, right);
+    G(0, k) = C.row(0).dot(x.col(0).head(n));
+    G(1, k) = C.row(0).dot(x.col(0).tail(n));
+  }
+  return G;
+  // <todo>
+  //| // TODO: a linear system for each frequency. Its solution is complex.
+  //| return Eigen::MatrixXd::Zero(2, frequencies.size());
+  // </solution>
+}
+
 // What follows is given: the parts of the exercise one after another. show.cpp draws the pictures.
 int main() {
   // Part 1: A and B by hand, by differences of your rateOf(), and by the library, which is used from there
@@ -314,4 +370,19 @@ int main() {
 
   // Part 8: the last eight seconds, in steps of 1/60 s.
   showHorizon(real, costs, optimal);
+
+  // Part 9: which sensors suffice; then little noise, and sensors with errors of 2 mm and 2 mrad.
+  const Eigen::MatrixXd position = Eigen::RowVector4d(1, 0, 0, 0), angle = Eigen::RowVector4d(0, 0, 1, 0);
+  Eigen::MatrixXd both(2, 4);
+  both << position, angle;
+  print("what p alone does not show, which should be nothing", unseen(real.A, position));
+  print("what theta alone does not show, which should be p and p'", unseen(real.A, angle));
+  const Sensor ofP{"only p is seen", position, observerGain(real.A, position, noiseOfSteps(.005, .002, 1))};
+  const Sensor ofBoth{"p and theta are seen", both, observerGain(real.A, both, noiseOfSteps(.005, .002, 2))};
+  print("L, if only p is seen", ofP.L.transpose());
+  print("L of the library",
+        observerGainOfTheLibrary(real.A, position, noiseOfSteps(.005, .002, 1)).transpose());
+  showSeen(K, ofP);
+  showLoops(real, K, {ofBoth, ofP});
+  showMargins(real, K, {ofBoth, ofP});
 }

@@ -1,4 +1,4 @@
-// caught by: other-carts
+// caught by: linear
 // mistake: the numbers of the sheet, whatever the cart.
 
 // <solution linearised>

@@ -1,4 +1,4 @@
-// caught by: hamiltonian, other-regulators
+// caught by: hamiltonian
 // mistake: the Hamiltonian matrix of R = 1.
 
 // <solution viaHamiltonian>

@@ -1,4 +1,4 @@
-// caught by: gains, other-regulators, survives
+// caught by: gains
 // shown by: gains
 // mistake: the K of slide 8:18, for u = -K x.
 

@@ -1,4 +1,4 @@
-// caught by: hamiltonian, other-regulators
+// caught by: hamiltonian
 // mistake: small steps along the bracket, as in iterated(): far too few of them for a stiff plant.
 
 // <solution viaHamiltonian>

@@ -1,4 +1,4 @@
-// caught by: iterates, other-regulators
+// caught by: iterates
 // mistake: The loop ends before P_most is looked at.
 
 // <solution iterated>

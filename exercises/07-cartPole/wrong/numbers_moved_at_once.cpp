@@ -1,4 +1,4 @@
-// caught by: reach, reaches-others
+// caught by: reach
 // mistake: takes what B moves for what u reaches.
 
 // <solution reachable>

@@ -1,4 +1,4 @@
-// caught by: reach, reaches-others
+// caught by: reach
 // mistake: B A^T for A B.
 
 // <solution reachMatrix>

@@ -1,4 +1,4 @@
-// caught by: linear, other-carts
+// caught by: linear
 // mistake: the A that the sheet prints.
 
 // <solution linearised>

@@ -1,4 +1,4 @@
-// caught by: reaches-others
+// caught by: reach
 // mistake: counts singular values that are zero up to rounding.
 
 // <solution reachable>

@@ -1,4 +1,4 @@
-// caught by: linear, other-carts
+// caught by: linear
 // mistake: the accelerations in the order of the sheet's template.
 
 // <solution linearised>

@@ -1,4 +1,4 @@
-// caught by: hamiltonian, other-regulators
+// caught by: hamiltonian
 // mistake: the eigenvectors of the growing motions.
 
 // <solution viaHamiltonian>

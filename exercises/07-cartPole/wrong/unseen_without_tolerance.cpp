@@ -1,0 +1,7 @@
+// caught by: unseen, other-sensors
+// mistake: singular values that are zero up to rounding count.
+
+// <solution unseen>
+const SingularValues all = svd(reachMatrix({A.transpose(), C.transpose()}));
+return all.U.rightCols(A.rows() - (all.s.array() > 0).count());
+// </solution>
