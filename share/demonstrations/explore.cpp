@@ -72,7 +72,7 @@ int main() {
                                 translation(one.s + 0.21, 1.6 * k - 0.5, 0.15),
                                 kScanColor,
                                 "swimmer"});
-      picture.labels.push_back({.text = one.name, .p_WQ = {-2.2, 1.6 * k, 0.2}, .scale = 1.3});
+      picture.labels.push_back({.text = one.name, .p_WQ = {n + 0.3, 1.6 * k, 0.2}, .scale = 1.3});
       view.plot(std::string("reward of ") + one.name, steps, one.paid, "step");
     }
     picture.captions.push_back({.text = "steps: " + std::to_string(steps), .scale = 1.5});
