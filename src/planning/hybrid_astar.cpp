@@ -286,8 +286,9 @@ class HybridSearch {
     if (last_ >= 0) {
       found.status = PathStatus::kFound;
       addPath(path);
-      found.message = fmt::format("found a path of {:.3g} m with {} changes of direction: {} states expanded",
-                                  path.length, path.switches, expanded_);
+      found.message =
+          fmt::format("found a path of {:.3g} m with {} {} of direction: {} states expanded", path.length,
+                      path.switches, path.switches == 1 ? "change" : "changes", expanded_);
     } else if (open_.empty()) {
       path.isExhausted = true;
       found.message = fmt::format(
