@@ -50,7 +50,7 @@ CarScenario scenarioOf(const FilterOptions& options) {
   requireBetween("--assume-observation", options.assumeObservation, 1e-3, 1e3);
   requireBetween("--seeds", options.seeds, 1, 10'000);
   requireUse(options.particles.has_value(), "--particles", hasParticles(scenario.filter),
-             "--filter particles or one of fast-slam with it");
+             "--filter particles, fast-slam, fast-slam-2 or fast-slam-unnamed with it");
   requireUse(options.noFilm, "--no-film", !options.out.empty(), "-o with it");
   scenario.landmarks = options.landmarks;
   scenario.steps = options.steps;
