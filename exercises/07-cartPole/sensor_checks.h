@@ -33,14 +33,15 @@ inline void unseenFits(rex::grading::Check& check, Student& student, const Eigen
   const char* isSeen = "Are these the states that y shows? Wanted are the others.";
   {
     const double smallest = rex::svd(rex::observabilityMatrix({.A = A, .B = C.transpose(), .C = C})).s[n - 1];
-    const auto zeros = check.ask("Which singular values count as zero? Those below 1e-9 of the largest.",
-                                 columns > 0 && smallest > 0 && N.cols() == 0);
+    const bool isRounding = columns > 0 && smallest > 0 && N.cols() == 0;
+    const auto zeros =
+        check.ask("Which singular values count as zero? Those below 1e-9 of the largest.", isRounding);
     const auto seen = check.suspect(isSeen, numberAsMatrix(size - columns));
     const auto once =
         check.suspect("Is it what y does not show at once? Its derivatives C A x, C A^2 x ... show more.",
                       numberAsMatrix(size - rankOf(C)));
-    const auto transposed =
-        check.suspect(isTransposed, numberAsMatrix(static_cast<double>(ofTransposed.cols())));
+    const auto transposed = check.suspect(
+        isTransposed, numberAsMatrix(isRounding ? -1. : static_cast<double>(ofTransposed.cols())));
     check.near("number of columns of unseen", static_cast<double>(N.cols()), columns, 0);
   }
   check.shape("unseen", N, n, wanted.cols());
