@@ -143,6 +143,113 @@ TEST(LectureNotesOnControl, TheIterationForTheRiccatiEquation) {
   expectWritten("07-cartPole", fmt::format("the bound is {:.3f} s", step));
 }
 
+// The linear cart pole under u = K x^, if the force is `factor` times what the controller wants; and whether
+// it is stable.
+struct ObservedPole : BalancedPole {
+  MatrixXd C, L;
+  explicit ObservedPole(const MatrixXd& sensor) : C(sensor) {
+    const double rates = .005 * .005 * 60, errors = .002 * .002 / 60;
+    const MatrixXd W = Vector4d(0, rates, 0, rates).asDiagonal(),
+                   V = errors * MatrixXd::Identity(C.rows(), C.rows());
+    L = steadyKalman({.A = plant.A, .B = plant.B, .C = C}, W, V).L;
+  }
+  bool stable(double factor) const {
+    MatrixXd loop(8, 8);
+    loop << plant.A, factor * plant.B * K, L * C, closed - L * C;
+    return stabilityOf(loop).rate < 0;
+  }
+};
+
+// Where `stable` begins or ceases to hold between a factor for which it does and one for which it does not.
+double limitBetween(double in, double out, const std::function<bool(double)>& stable) {
+  while (std::abs(in - out) > 1e-9) (stable((in + out) / 2) ? in : out) = (in + out) / 2;
+  return in;
+}
+
+TEST(LectureNotesOnControl, WhatASensorMustSee) {
+  const BalancedPole balanced;
+  const LinearSystem ofTheta{.A = balanced.plant.A, .B = balanced.plant.B, .C = RowVector4d(0, 0, 1, 0)},
+      ofP{.A = balanced.plant.A, .B = balanced.plant.B, .C = RowVector4d(1, 0, 0, 0)};
+  EXPECT_EQ(observability(ofTheta).rank, 2);
+  EXPECT_LT(observability(ofTheta).unreachable.bottomRows(2).norm(), 1e-12);
+  EXPECT_EQ(steadyKalman(ofTheta, MatrixXd::Identity(4, 4), MatrixXd::Identity(1, 1)).status,
+            RiccatiStatus::kNotStabilizable);
+  const MatrixXd rows = observabilityMatrix(ofP);
+  EXPECT_LT((rows - MatrixXd(Vector4d(1, 1, -5.88, -5.88).asDiagonal())).norm(), 1e-12);
+  EXPECT_NEAR(balanced.plant.A(3, 2), 11.76, 1e-12);
+  EXPECT_NEAR(balanced.plant.B(3, 0), -.6, 1e-12);
+}
+
+TEST(LectureNotesOnControl, MarginsOfTheObservedPole) {
+  const ObservedPole ofP(RowVector4d(1, 0, 0, 0)),
+      ofBoth((MatrixXd(2, 4) << 1, 0, 0, 0, 0, 0, 1, 0).finished());
+  const auto stable = [](const ObservedPole& pole) { return [&](double m) { return pole.stable(m); }; };
+  expectWritten("07-cartPole",
+                fmt::format("from {:.3f} and {:.3f} to {:.3f}\nand {:.3f}", limitBetween(1, .5, stable(ofP)),
+                            limitBetween(1, 2, stable(ofP)), limitBetween(1, .5, stable(ofBoth)),
+                            limitBetween(1, 9, stable(ofBoth))));
+  const double least = limitBetween(1, .1, [&](double m) {
+    const Matrix4d loop = ofP.plant.A + m * ofP.plant.B * ofP.K;
+    return stabilityOf(loop).rate < 0;
+  });
+  expectWritten("07-cartPole", fmt::format("at $-{:.2f}$, hence $m > {:.3f}$", 1 / least, least));
+  // Zeros from u to p: where the pencil (A - z I, B; C, 0) is singular.
+  MatrixXd pencil = MatrixXd::Zero(5, 5);
+  pencil.topLeftCorner(4, 4) = ofP.plant.A - 2.7110883 * MatrixXd::Identity(4, 4);
+  pencil.topRightCorner(4, 1) = ofP.plant.B;
+  pencil.bottomLeftCorner(1, 4) = ofP.C;
+  EXPECT_NEAR(pencil.determinant(), 0, 1e-5);
+  expectWritten("07-cartPole", "the cart pole has one, at 2.711.");
+  // Kalman's identity.
+  for (const double w : {.3, 2., 11.}) {
+    const Eigen::MatrixXcd M = Complex(0, w) * MatrixXd::Identity(4, 4) - ofP.plant.A;
+    const Eigen::Vector4cd h = M.fullPivLu().solve(Eigen::MatrixXcd(ofP.plant.B.cast<Complex>()));
+    const Complex G = -(ofP.K.cast<Complex>() * h)(0), cost = h.dot(ofP.Q.cast<Complex>() * h);
+    EXPECT_NEAR(std::norm(1. + G), 1 + cost.real(), 1e-9);
+  }
+}
+
+TEST(LectureNotesOnControl, DoylesExample) {
+  const double q = 60, s = 30, f = 2 + std::sqrt(4 + q), d = 2 + std::sqrt(4 + s);
+  Matrix2d A;
+  A << 1, 1, 0, 1;
+  const Vector2d B(0, 1);
+  const Eigen::RowVector2d C(1, 0);
+  const MatrixXd one = MatrixXd::Ones(1, 1), all = MatrixXd::Ones(2, 2);
+  const Lqg lqg = rex::lqg({.A = A, .B = B, .C = C}, q * all, one, s * all, one);
+  EXPECT_LT((lqg.regulator.K - f * Eigen::RowVector2d(1, 1)).norm(), 1e-9);
+  EXPECT_LT((lqg.filter.L - d * Vector2d(1, 1)).norm(), 1e-9);
+  const auto loop = [&](double m, double gain) {
+    MatrixXd both(4, 4);
+    both << A, -m * B * f * Eigen::RowVector2d(1, 1), gain * Vector2d(1, 1) * C,
+        A - B * f * Eigen::RowVector2d(1, 1) - gain * Vector2d(1, 1) * C;
+    return both;
+  };
+  for (const double m : {.7, 1., 1.3}) {
+    // The last coefficients of the characteristic polynomial: value and slope at zero.
+    const auto at = [&](double z) { return (z * MatrixXd::Identity(4, 4) - loop(m, d)).determinant(); };
+    EXPECT_NEAR(at(0), 1 + (1 - m) * d * f, 1e-6);
+    EXPECT_NEAR((at(1e-4) - at(-1e-4)) / 2e-4, d + f - 4 + 2 * (m - 1) * d * f, 1e-4);
+  }
+  const auto stable = [&](double m) { return stabilityOf(loop(m, 10)).rate < 0; };
+  expectWritten("07-cartPole", fmt::format("stable for ${:.3f} < m < {:.3f}$", limitBetween(1, .5, stable),
+                                           limitBetween(1, 2, stable)));
+  EXPECT_NEAR(1 - (10 + 10 - 4) / 200., .92, 1e-12);
+}
+
+TEST(LectureNotesOnControl, Separation) {
+  Rng rng(9);
+  const MatrixXd A = rng.normalVector(9).reshaped(3, 3), dA = rng.normalVector(9).reshaped(3, 3),
+                 B = rng.normalVector(3), dB = rng.normalVector(3), K = rng.normalVector(3).transpose(),
+                 L = rng.normalVector(3), C = rng.normalVector(3).transpose();
+  MatrixXd loop(6, 6), errors(6, 6), change = MatrixXd::Identity(6, 6);
+  loop << A + dA, (B + dB) * K, L * C, A + B * K - L * C;
+  change.bottomRightCorner(3, 3) *= -1;
+  change.bottomLeftCorner(3, 3).setIdentity();  // to (x, x - x^) and back
+  errors << A + dA + (B + dB) * K, -(B + dB) * K, dA + dB * K, A - L * C - dB * K;
+  EXPECT_LT((change * loop * change - errors).norm(), 1e-12);
+}
+
 TEST(LectureNotesOnControl, HamiltonianMatrices) {
   const BalancedPole balanced;
   const MatrixXd& B = balanced.plant.B;
