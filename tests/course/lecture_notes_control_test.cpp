@@ -173,7 +173,7 @@ TEST(LectureNotesOnControl, WhatASensorMustSee) {
   EXPECT_EQ(observability(ofTheta).rank, 2);
   EXPECT_LT(observability(ofTheta).unreachable.bottomRows(2).norm(), 1e-12);
   EXPECT_EQ(steadyKalman(ofTheta, MatrixXd::Identity(4, 4), MatrixXd::Identity(1, 1)).status,
-            RiccatiStatus::kNotStabilizable);
+            RiccatiStatus::kNotDetectable);
   const MatrixXd rows = observabilityMatrix(ofP);
   EXPECT_LT((rows - MatrixXd(Vector4d(1, 1, -5.88, -5.88).asDiagonal())).norm(), 1e-12);
   EXPECT_NEAR(balanced.plant.A(3, 2), 11.76, 1e-12);
@@ -185,7 +185,7 @@ TEST(LectureNotesOnControl, MarginsOfTheObservedPole) {
       ofBoth((MatrixXd(2, 4) << 1, 0, 0, 0, 0, 0, 1, 0).finished());
   const auto stable = [](const ObservedPole& pole) { return [&](double m) { return pole.stable(m); }; };
   expectWritten("07-cartPole",
-                fmt::format("from {:.3f} and {:.3f} to {:.3f}\nand {:.3f}", limitBetween(1, .5, stable(ofP)),
+                fmt::format("from {:.3f} and {:.3f} to {:.3f} and {:.3f}", limitBetween(1, .5, stable(ofP)),
                             limitBetween(1, 2, stable(ofP)), limitBetween(1, .5, stable(ofBoth)),
                             limitBetween(1, 9, stable(ofBoth))));
   const double least = limitBetween(1, .1, [&](double m) {
