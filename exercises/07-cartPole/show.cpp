@@ -386,13 +386,12 @@ void showMargins(const Plant& real, const Eigen::MatrixXd& K, const std::vector<
                 .xLabel = "factor of the force",
                 .yLabel = "real part [1/s]",
                 .logX = true,
-                .xRange = AxisRange{.3, 5},
                 .yRange = AxisRange{-1, 2},
                 .legend = Legend::kOutside};
   figure.horizontalLines = {{.at = 0}};
   figure.verticalLines = {{.at = 1}};
   Series known{.label = "x is known", .color = kLoopColors[0]};
-  for (const double factor : frequenciesBetween(.3, 5, 300)) {
+  for (const double factor : frequenciesBetween(.1, 10, 400)) {
     known.x.push_back(factor);
     known.y.push_back(slowestPole({real.A, factor * real.B}, K));
   }
