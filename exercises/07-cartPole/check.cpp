@@ -12,40 +12,29 @@ using rex::grading::Group;
 
 namespace {
 
-void rates(Check& check, Student& student) {
-  for (int i = 0; i < 20; ++i) ratesFit(check, student, i < 5 ? PoleCart{} : randomCart(check.rng()));
-}
-
 void linear(Check& check, Student& student) {
+  for (int i = 0; i < 20; ++i) ratesFit(check, student, i < 5 ? PoleCart{} : randomCart(check.rng()));
   linearisationFits(check, student, {});
-  for (int i = 0; i < 10; ++i) linearisationFits(check, student, randomCart(check.rng()));
 }
 
 void iterates(Check& check, Student& student) {
   iterationFits(check, student, regulationOf(plantOf({}), costsOfTheSheet()), 1e-3, 1e-5);
-  for (int i = 0; i < 4; ++i)
-    iterationFits(check, student, randomRegulation(check.rng(), i % 2 == 1), 5e-3, 1e-4);
+  iterationFits(check, student, randomRegulation(check.rng(), false), 5e-3, 1e-4);
   iterationEnds(check, student);
 }
 
 void halves(Check& check, Student& student) {
   hamiltonianFits(check, student, regulationOf(plantOf({}), costsOfTheSheet()));
-  for (int i = 0; i < 12; ++i) hamiltonianFits(check, student, randomRegulation(check.rng(), i % 2 == 1));
-  for (int i = 0; i < 2; ++i) hamiltonianFits(check, student, stiffRegulation(check.rng()));
-}
-
-void gains(Check& check, Student& student) {
+  for (int i = 0; i < 5; ++i) hamiltonianFits(check, student, randomRegulation(check.rng(), i == 4));
+  hamiltonianFits(check, student, stiffRegulation(check.rng()));
   gainsOfTheSheetFit(check, student);
-  for (int i = 0; i < 10; ++i) gainsFit(check, student, randomRegulation(check.rng(), i % 2 == 1));
-}
-
-void steps(Check& check, Student& student) {
-  for (int i = 0; i < 20; ++i) stepFits(check, student, randomCart(check.rng()), i < 10 ? 0 : .1 * i);
+  for (int i = 0; i < 5; ++i) gainsFit(check, student, randomRegulation(check.rng(), false));
 }
 
 void outings(Check& check, Student& student) {
   const PoleCart cart;
   const Eigen::MatrixXd K = -regulationOf(plantOf(cart), costsOfTheSheet()).optimal.K;
+  stepsFit(check, student, cart, K);
   check.input("optimal gains, theta = 0.2");
   outingFits(check, student, cart, K, {0, 0, .2, 0}, {.steps = 500});
   check.input("optimal gains, theta = 0.2, no noise and long steps");
@@ -62,10 +51,6 @@ void reach(Check& check, Student& student) {
   reachFits(check, student, {drift(), Eigen::Vector2d(1, 0)}, 1);
   reachFits(check, student, plantOf({}), 4);
   reachFits(check, student, partlyReached(check.rng(), 4, 3, 2), 3);
-  for (int i = 0; i < 6; ++i) {
-    const int n = 2 + check.rng().index(4), m = 1 + check.rng().index(2), rank = 1 + check.rng().index(n);
-    reachFits(check, student, partlyReached(check.rng(), n, rank, std::min(m, rank)), rank);
-  }
   // The rank does not depend on the unit of u.
   for (const double unit : {1e-11, 1e7}) {
     Plant plant = partlyReached(check.rng(), 3, 2, 1);
@@ -119,7 +104,11 @@ void horizon(Check& check, Student& student) {
     horizonFits(check, student, mass, costs, 5 * Eigen::Matrix2d::Identity(), count);
 }
 
-void hiddenStates(Check& check, Student& student) {
+void observer(Check& check, Student& student) {
+  // Of position, velocity, acceleration and jerk only the acceleration is seen.
+  Eigen::Matrix4d chain = Eigen::Matrix4d::Zero();
+  chain.diagonal(1).setOnes();
+  unseenFits(check, student, chain, Eigen::RowVector4d(0, 0, 1, 0));
   const Eigen::MatrixXd A = plantOf({}).A;
   unseenFits(check, student, drift(), Eigen::RowVector2d(0, 1));
   unseenFits(check, student, A, Eigen::RowVector4d(1, 0, 0, 0));
@@ -128,15 +117,12 @@ void hiddenStates(Check& check, Student& student) {
     const Plant dual = partlySeen(check.rng(), 4, rank, 1);
     unseenFits(check, student, dual.A.transpose(), dual.B.transpose());
   }
+  for (int i = 0; i < 5; ++i) observerFits(check, student, randomRegulation(check.rng(), i == 4));
 }
 
-void observer(Check& check, Student& student) {
-  for (int i = 0; i < 5; ++i) observerFits(check, student, randomRegulation(check.rng(), i == 4));
+void loops(Check& check, Student& student) {
   observedLoopFits(check, student, doyle());
   for (int i = 0; i < 5; ++i) observedLoopFits(check, student, randomObserved(check.rng()));
-}
-
-void responses(Check& check, Student& student) {
   const Plant lag{Eigen::MatrixXd::Constant(1, 1, -2), Eigen::MatrixXd::Constant(1, 1, 3)};
   responseFits(check, student, lag, Eigen::MatrixXd::Identity(1, 1), Eigen::Vector3d(.5, 2, 20));
   const Regulation cart = regulationOf(plantOf({}), costsOfTheSheet());
@@ -145,6 +131,37 @@ void responses(Check& check, Student& student) {
 }
 
 // <hidden>
+void otherCarts(Check& check, Student& student) {
+  check.forEachCase(10, [&](int) { linearisationFits(check, student, randomCart(check.rng())); });
+}
+
+void otherRegulators(Check& check, Student& student) {
+  check.forEachCase(11, [&](int i) {
+    if (i == 10) return hamiltonianFits(check, student, stiffRegulation(check.rng()));
+    const Regulation task = randomRegulation(check.rng(), i % 2 == 1);
+    hamiltonianFits(check, student, task);
+    gainsFit(check, student, task);
+    iterationFits(check, student, task, 5e-3, 1e-4);
+  });
+}
+
+void survives(Check& check, Student& student) {
+  check.forEachCase(6, [&](int i) {
+    if (i < 2)
+      survivesFrom(check, student, i == 0 ? .5 : -1, 0);
+    else
+      survivesFrom(check, student, check.rng().uniform(-.4, .4), i == 2 ? .01 : .1);
+  });
+}
+
+void reachesOthers(Check& check, Student& student) {
+  check.forEachCase(12, [&](int i) {
+    rex::Rng& rng = check.rng();
+    const int n = 2 + rng.index(4), m = 1 + rng.index(2), rank = i % 3 == 0 ? n : 1 + rng.index(n - 1);
+    reachFits(check, student, partlyReached(rng, n, rank, std::min(m, rank)), rank);
+  });
+}
+
 void otherFates(Check& check, Student& student) {
   const std::vector<std::size_t> order = shuffled(check.rng(), knownFates(check.rng()).size());
   check.forEachCase(static_cast<int>(order.size()), [&](int i) {
@@ -180,7 +197,6 @@ void otherHorizons(Check& check, Student& student) {
                 1 + rng.index(12));
   });
 }
-
 void otherSensors(Check& check, Student& student) {
   check.forEachCase(8, [&](int i) {
     rex::Rng& rng = check.rng();
@@ -198,23 +214,25 @@ void otherSensors(Check& check, Student& student) {
 
 rex::grading::Checks<Student> checks() {
   return {
-      {"rates", "linear", "The rates of the cart pole", 1, Group::kVisible, rates},
-      {"linear", "linear", "A and B of the cart of the sheet, and of others", 1, Group::kVisible, linear},
+      {"linear", "linear", "The rates of the cart pole, A and B of that of the sheet", 1, Group::kVisible,
+       linear},
       {"iterates", "riccati", "The iteration of the sheet", 1, Group::kVisible, iterates},
-      {"hamiltonian", "riccati", "The Hamiltonian's stable half", 1, Group::kVisible, halves},
-      {"gains", "riccati", "Gains and their sign", 1, Group::kVisible, gains},
-      {"steps", "simulate", "One step with noise", 1, Group::kVisible, steps},
-      {"outings", "simulate", "From the start to the end, or until the pole falls", 1, Group::kVisible,
+      {"hamiltonian", "riccati", "The Hamiltonian's stable half, gains and their sign", 1, Group::kVisible,
+       halves},
+      {"outings", "simulate", "One step with noise, and all until the end or the fall", 1, Group::kVisible,
        outings},
       {"reach", "reach", "The controllability matrix and its rank", 1, Group::kVisible, reach},
       {"poles", "poles", "Poles and what they mean", 1, Group::kVisible, poles},
       {"quick", "quick", "A search for quick gains", 1, Group::kVisible, quick},
       {"lyapunov", "lyapunov", "Lyapunov candidates, right and wrong", 1, Group::kVisible, lyapunov},
       {"horizon", "horizon", "Gains for a point mass", 1, Group::kVisible, horizon},
-      {"unseen", "sensor", "What a sensor never shows", 1, Group::kVisible, hiddenStates},
-      {"observer", "sensor", "An observer and its loop", 1, Group::kVisible, observer},
-      {"responses", "sensor", "Responses to sines", 1, Group::kVisible, responses},
+      {"observer", "sensor", "What a sensor never shows, and an observer", 1, Group::kVisible, observer},
+      {"loops", "sensor", "The loop with an observer, and responses to sines", 1, Group::kVisible, loops},
       // <hidden>
+      {"other-carts", "linear", "Other carts and poles", 1, Group::kHidden, otherCarts},
+      {"other-regulators", "riccati", "Other plants and costs", 1, Group::kHidden, otherRegulators},
+      {"survives", "simulate", "Your own controller stays up", 1, Group::kHidden, survives},
+      {"reaches-others", "reach", "Other plants, reached in part", 1, Group::kHidden, reachesOthers},
       {"other-fates", "poles", "The same in other coordinates", 1, Group::kHidden, otherFates},
       {"quick-others", "quick", "Quick gains for other carts", 1, Group::kHidden, quickOnOthers},
       {"judges-others", "lyapunov", "Other candidates", 1, Group::kHidden, judgesOthers},

@@ -1,4 +1,4 @@
-// caught by: linear
+// caught by: other-carts
 // mistake: the numbers of the sheet, whatever the cart.
 
 // <solution linearised>

@@ -1,5 +1,5 @@
-// caught by: responses, other-sensors
-// shown by: responses
+// caught by: loops, other-sensors
+// shown by: loops
 // mistake: the sign of i w is that of -i w.
 
 // <solution responseAt>

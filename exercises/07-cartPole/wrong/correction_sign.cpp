@@ -1,4 +1,4 @@
-// caught by: observer, other-sensors
+// caught by: loops, other-sensors
 // mistake: the observer subtracts L (y - C x^).
 
 // <solution observedLoop>

@@ -1,4 +1,4 @@
-// caught by: hamiltonian
+// caught by: hamiltonian, other-regulators
 // mistake: the Hamiltonian matrix of R = 1.
 
 // <solution viaHamiltonian>

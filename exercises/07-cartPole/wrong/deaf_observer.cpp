@@ -1,4 +1,4 @@
-// caught by: observer, other-sensors
+// caught by: loops, other-sensors
 // mistake: the observer does not know u.
 
 // <solution observedLoop>

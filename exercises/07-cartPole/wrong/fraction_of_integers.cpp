@@ -1,4 +1,4 @@
-// caught by: rates
+// caught by: linear
 // mistake: 4 / 3 is computed with integers.
 
 // <solution rateOf>

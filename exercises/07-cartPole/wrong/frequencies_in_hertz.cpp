@@ -1,5 +1,5 @@
-// caught by: responses, other-sensors
-// shown by: responses
+// caught by: loops, other-sensors
+// shown by: loops
 // mistake: takes w as a frequency in Hz.
 
 // <solution responseAt>

@@ -1,5 +1,5 @@
-// caught by: gains
-// shown by: gains
+// caught by: hamiltonian, other-regulators, survives
+// shown by: hamiltonian
 // mistake: the K of slide 8:18, for u = -K x.
 
 // <solution gainOf>

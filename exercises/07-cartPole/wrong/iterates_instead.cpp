@@ -1,4 +1,4 @@
-// caught by: hamiltonian
+// caught by: hamiltonian, other-regulators
 // mistake: small steps along the bracket, as in iterated(): far too few of them for a stiff plant.
 
 // <solution viaHamiltonian>

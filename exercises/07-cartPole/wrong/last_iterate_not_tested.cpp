@@ -1,4 +1,4 @@
-// caught by: iterates
+// caught by: iterates, other-regulators
 // mistake: The loop ends before P_most is looked at.
 
 // <solution iterated>

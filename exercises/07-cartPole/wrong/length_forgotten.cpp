@@ -1,4 +1,4 @@
-// caught by: rates
+// caught by: linear
 // mistake: c2 without the length, which is 1 on the sheet.
 
 // <solution rateOf>

@@ -1,4 +1,4 @@
-// caught by: observer, other-sensors
+// caught by: loops, other-sensors
 // mistake: the matrix of (x, x - x^), as in the proof of the separation principle.
 
 // <solution observedLoop>

@@ -1,4 +1,4 @@
-// caught by: steps, outings
+// caught by: outings
 // shown by: outings
 // mistake: moves the positions with the new velocities.
 

@@ -1,4 +1,4 @@
-// caught by: steps, outings
+// caught by: outings
 // mistake: takes the noise as noise per second.
 
 // <solution stepped>

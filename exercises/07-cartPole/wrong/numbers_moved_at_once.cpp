@@ -1,4 +1,4 @@
-// caught by: reach
+// caught by: reach, reaches-others
 // mistake: takes what B moves for what u reaches.
 
 // <solution reachable>

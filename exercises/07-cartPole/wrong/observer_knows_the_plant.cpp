@@ -1,4 +1,4 @@
-// caught by: observer, other-sensors
+// caught by: loops, other-sensors
 // mistake: the observer moves as the plant does, not as its model.
 
 // <solution observedLoop>

@@ -1,4 +1,4 @@
-// caught by: reach
+// caught by: reach, reaches-others
 // mistake: B A^T for A B.
 
 // <solution reachMatrix>

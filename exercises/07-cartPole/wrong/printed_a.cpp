@@ -1,4 +1,4 @@
-// caught by: linear
+// caught by: linear, other-carts
 // mistake: the A that the sheet prints.
 
 // <solution linearised>

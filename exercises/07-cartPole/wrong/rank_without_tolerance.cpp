@@ -1,4 +1,4 @@
-// caught by: reach
+// caught by: reaches-others
 // mistake: counts singular values that are zero up to rounding.
 
 // <solution reachable>

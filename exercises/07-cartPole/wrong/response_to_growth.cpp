@@ -1,4 +1,4 @@
-// caught by: responses, other-sensors
+// caught by: loops, other-sensors
 // mistake: w in the place of i w.
 
 // <solution responseAt>

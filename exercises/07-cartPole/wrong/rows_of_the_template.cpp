@@ -1,4 +1,4 @@
-// caught by: linear
+// caught by: linear, other-carts
 // mistake: the accelerations in the order of the sheet's template.
 
 // <solution linearised>

@@ -1,4 +1,4 @@
-// caught by: unseen, other-sensors
+// caught by: observer, other-sensors
 // mistake: returns the directions that y shows.
 
 // <solution unseen>

@@ -1,4 +1,4 @@
-// caught by: steps, outings
+// caught by: outings
 // mistake: the noise is uniform, with the right standard deviation.
 
 // <solution stepped>

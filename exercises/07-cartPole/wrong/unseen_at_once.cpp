@@ -1,4 +1,4 @@
-// caught by: unseen, other-sensors
+// caught by: observer, other-sensors
 // mistake: what C alone does not show, without the derivatives of y.
 
 // <solution unseen>

@@ -1,4 +1,4 @@
-// caught by: unseen, other-sensors
+// caught by: observer, other-sensors
 // mistake: the powers of A in the place of those of its transpose.
 
 // <solution unseen>

@@ -1,4 +1,4 @@
-// caught by: unseen, other-sensors
+// caught by: observer, other-sensors
 // mistake: singular values that are zero up to rounding count.
 
 // <solution unseen>

@@ -1,4 +1,4 @@
-// caught by: hamiltonian
+// caught by: hamiltonian, other-regulators
 // mistake: the eigenvectors of the growing motions.
 
 // <solution viaHamiltonian>
