@@ -1,5 +1,6 @@
 #include "submission/integer_division.h"
 
+#include <cctype>
 #include <charconv>
 #include <regex>
 
@@ -37,6 +38,13 @@ std::string_view codeOf(std::string_view line, bool& inComment) {
   return line.substr(0, rest);
 }
 
+// Whether the digits at `at` are those behind the sign of 1e-3.
+bool isExponent(std::string_view code, std::size_t at) {
+  if (at < 3 || (code[at - 1] != '-' && code[at - 1] != '+')) return false;
+  const bool hasMark = code[at - 2] == 'e' || code[at - 2] == 'E';
+  return hasMark && (std::isdigit(static_cast<unsigned char>(code[at - 3])) || code[at - 3] == '.');
+}
+
 }  // namespace
 
 std::vector<CompileDiagnostic> integerDivisions(std::string_view source, const std::string& name) {
@@ -51,8 +59,9 @@ std::vector<CompileDiagnostic> integerDivisions(std::string_view source, const s
     Match match;
     for (auto at = code.begin(); std::regex_search(at, code.end(), match, pattern); at = match[0].second) {
       const long a = valueOf(match[2].str()), b = valueOf(match[3].str());
-      if (b == 0 || a % b == 0) continue;
-      const auto column = static_cast<int>(match[2].first - code.begin() + (code.begin() - line.begin())) + 1;
+      const auto start = static_cast<std::size_t>(match[2].first - code.begin());
+      if (b == 0 || a % b == 0 || isExponent(code, start)) continue;
+      const auto column = static_cast<int>(start) + static_cast<int>(code.begin() - line.begin()) + 1;
       found.push_back(
           {name, number, column, "warning", "integer-division",
            fmt::format("{0} / {1} is {2}, as both are whole numbers: write {0}. / {1}", a, b, a / b)});

@@ -15,12 +15,13 @@ TEST(IntegerDivision, IsNamedWithItsResult) {
 }
 
 TEST(IntegerDivision, IsNotSeenInOtherText) {
-  for (const char* line :
-       {"x = 1. / 2;", "x = 1 / 2.;", "x = 4 / 2;", "x = n / 2;", "x = a1 / 2;", "// 1 / 2",
-        "x = 3;  // slide 1/2", "/* 1 / 2 */", "print(\"1 / 2\");", "x = 1 / 2e3;", "x = 1 / 0;",
-        "x = 2.5 / 4;", "#include <a 1/2>", "x = 1 / 2_m;", "x = 1 / 2.5;", "/* a\n1 / 2\n*/"})
+  for (const char* line : {"x = 1. / 2;", "x = 1 / 2.;", "x = 4 / 2;", "x = n / 2;", "x = a1 / 2;",
+                           "// 1 / 2", "x = 3;  // slide 1/2", "/* 1 / 2 */", "print(\"1 / 2\");",
+                           "x = 1 / 2e3;", "x = 1 / 0;", "x = 2.5 / 4;", "#include <a 1/2>", "x = 1 / 2_m;",
+                           "x = 1 / 2.5;", "/* a\n1 / 2\n*/", "x = y / 1e-3 / 33;", "x = 2.E+3 / 7;"})
     EXPECT_TRUE(integerDivisions(line, "main.cpp").empty()) << line;
   EXPECT_EQ(integerDivisions("/* a\n */ x = 1 / 2;", "main.cpp").size(), 1u);
+  EXPECT_EQ(integerDivisions("x = e-3 / 2;", "main.cpp").size(), 1u) << "e is a name";
 }
 
 }  // namespace rex::grading::integer_division_test
