@@ -10,15 +10,6 @@
 
 using namespace rex;
 
-// Rows of a map.
-TaskMap rows(const TaskMap& whole, int first, int count) {
-  return [=](const Posture& at, TaskValue& value) {
-    TaskValue all;
-    whole(at, all);
-    value = {all.y.segment(first, count), all.J.middleRows(first, count)};
-  };
-}
-
 int main() {
   const Eigen::Vector3d centre(0, -1.6, 1);  // of the table's top
   Simulator scene("arm7");
@@ -27,7 +18,7 @@ int main() {
   const Model& model = scene.model();
   const BodyId last = model.body("arm7");
   const TaskMap tip = positionTask(last, {0, 0, 0.2});  // the centre of a ball of 10 cm
-  const TaskMap place = rows(tip, 0, 2), height = rows(tip, 2, 1);
+  const TaskMap place = rowsOf(tip, 0, 2), height = rowsOf(tip, 2, 1);
   State now = initialState(model);
   now.q << -0.3, 0.6, 0.9, 0.5, 0.7, 0.3, 0.2;
   const Eigen::VectorXd posture = now.q;

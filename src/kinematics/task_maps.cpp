@@ -2,7 +2,9 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <fmt/format.h>
 
+#include "base/error.h"
 #include "base/require.h"
 #include "kinematics/center_of_mass.h"
 #include "kinematics/jacobians.h"
@@ -174,6 +176,21 @@ TaskMap homingTask(const VectorArg& home) {
     forEachQuaternion(at.model, [&](int, int iv) {
       out.J.block<3, 3>(iv, iv) = rightJacobianSO3(out.y.segment<3>(iv)).inverse();
     });
+  };
+}
+
+TaskMap rowsOf(const TaskMap& map, int first, int count) {
+  requireCount("first row of a map", first, 0);
+  requireCount("rows of a map", count, 0);
+  return [map, first, count](const Posture& at, TaskValue& out) {
+    TaskValue all;
+    map(at, all);
+    if (all.y.size() < first + count)
+      throw Error({.what = "rows of a map",
+                   .found = fmt::format("a value of {} numbers", all.y.size()),
+                   .wanted = fmt::format("at least {}", first + count)});
+    out.y = all.y.segment(first, count);
+    out.J = all.J.middleRows(first, count);
   };
 }
 

@@ -55,4 +55,8 @@ namespace rex {
 /// from home, in the moved frame. Evaluating it throws Error unless `home` has nq numbers.
 [[nodiscard]] TaskMap homingTask(const VectorArg& home);
 
+/// Some rows of a map, from row `first` on: its height is rowsOf(positionTask(body), 2, 1). Throws Error for
+/// numbers below zero, and evaluating it for a map that has fewer rows.
+[[nodiscard]] TaskMap rowsOf(const TaskMap& map, int first, int count);
+
 }  // namespace rex

@@ -207,6 +207,19 @@ TEST(CenterOfMassTask, IsTheCentreOfMass) {
   EXPECT_EQ(valueAt(centerOfMassTask(), model, model.initialPositions()).y, centerOfMass(model, poses));
 }
 
+TEST(RowsOf, AreThoseOfTheMap) {
+  const Model model = limitedModel();
+  const TaskMap whole = homingTask(model.initialPositions());
+  const Eigen::VectorXd q = integrate(model, model.initialPositions(), Eigen::VectorXd::LinSpaced(7, .1, .7));
+  const TaskValue all = valueAt(whole, model, q), some = valueAt(rowsOf(whole, 2, 3), model, q);
+  EXPECT_EQ(some.y, all.y.segment(2, 3));
+  EXPECT_EQ(some.J, all.J.middleRows(2, 3));
+  EXPECT_REX_ERROR(valueAt(rowsOf(whole, 5, 3), model, q),
+                   "rows of a map: found a value of 7 numbers, wanted at least 8");
+  EXPECT_REX_ERROR(rowsOf(whole, -1, 3), "first row of a map: found -1");
+  EXPECT_REX_ERROR(rowsOf(whole, 0, -3), "rows of a map: found -3");
+}
+
 TEST(TaskMaps, RefuseBadArguments) {
   const BodyId body{1};
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
