@@ -36,6 +36,13 @@ LandmarkSensor sensorOf(const CarOptions& options) {
 
 }  // namespace
 
+bool isInView(const CarOptions& options, const Eigen::Vector3d& x, const Eigen::Vector2d& landmark) {
+  const Eigen::Vector2d d = landmark - x.head<2>();
+  // At the car itself any direction will do, as there is no bearing.
+  const double bearing = d.isZero(0) ? 0 : wrapAngle(std::atan2(d[1], d[0]) - x[2]);
+  return d.norm() <= options.maxRange && 2 * std::abs(bearing) <= options.fieldOfView;
+}
+
 CarSimulator::CarSimulator(std::uint64_t seed, int landmarks, const CarOptions& options)
     : options_(options), state_(Eigen::Vector3d::Zero()), rng_(Rng(seed).split(kNoiseStream)) {
   requireOptions(options);
@@ -130,12 +137,8 @@ Eigen::VectorXd CarSimulator::getRealNoisyObservation() {
 std::vector<int> CarSimulator::getVisibleLandmarks() const {
   requireTruth("getVisibleLandmarks");
   std::vector<int> visible;
-  for (int i = 0; i < countLandmarks(); ++i) {
-    const Eigen::Vector2d d = landmarks_.col(i) - state_->head<2>();
-    // At the car itself any direction will do, as there is no bearing.
-    const double bearing = d.isZero(0) ? 0 : wrapAngle(std::atan2(d[1], d[0]) - (*state_)[2]);
-    if (d.norm() <= options_.maxRange && 2 * std::abs(bearing) <= options_.fieldOfView) visible.push_back(i);
-  }
+  for (int i = 0; i < countLandmarks(); ++i)
+    if (isInView(options_, *state_, landmarks_.col(i))) visible.push_back(i);
   return visible;
 }
 

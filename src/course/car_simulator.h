@@ -23,6 +23,10 @@ struct CarOptions {
   double fieldOfView = 6.283185307179586;  ///< centred on the heading; no landmark outside it is seen
 };
 
+/// Whether the car at x = (x, y, heading) would see a landmark: in range and in its field of view.
+[[nodiscard]] bool isInView(const CarOptions& options, const Eigen::Vector3d& x,
+                            const Eigen::Vector2d& landmark);
+
 /// The car of exercises 12.9 and 12.13, with the names of the script: state (x, y, heading), control u = (v,
 /// phi), and landmarks that it observes in its own frame. Methods throw Error for vectors of the wrong size
 /// and for numbers that are not finite.

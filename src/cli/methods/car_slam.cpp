@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 
 #include "cli/methods/car_slam_internal.h"
 #include "estimation/ekf_slam.h"
@@ -67,20 +66,33 @@ class EkfSlamCar final : public CarFilter {
   SeenLandmarks seen_;
 };
 
-// Mean and covariance of the poses of particles.
+// Filters whose particles carry maps.
 template <typename Slam>
-Gaussian poseOf(const Slam& slam) {
-  const Eigen::Vector3d mean = slam.meanPose();
-  Eigen::Matrix3Xd errors = slam.poses().colwise() - mean;
-  for (double& heading : errors.row(2)) heading = wrapAngle(heading);
-  return {mean, errors * slam.weights().asDiagonal() * errors.transpose()};
-}
-
-class FastSlamCar final : public CarFilter {
+class ParticleSlamCar : public CarFilter {
  public:
-  FastSlamCar(const CarOptions& options, const Eigen::Vector3d& start, const FastSlamOptions& how,
-              const Rng& rng)
-      : car_(CarSimulator::withoutPlaces(0, options)), rng_(rng), slam_(start, sensorOf(options), how) {}
+  ParticleSlamCar(const CarOptions& options, const Slam& slam, const Rng& rng)
+      : car_(CarSimulator::withoutPlaces(0, options)), rng_(rng), slam_(slam) {}
+
+  Gaussian pose() const override {
+    const Eigen::Vector3d mean = slam_.meanPose();
+    Eigen::Matrix3Xd errors = slam_.poses().colwise() - mean;
+    for (double& heading : errors.row(2)) heading = wrapAngle(heading);
+    return {mean, errors * slam_.weights().asDiagonal() * errors.transpose()};
+  }
+  void addTo(CarView& view) const override {
+    view.particles = slam_.poses();
+    view.weights = slam_.weights();
+  }
+
+ protected:
+  CarSimulator car_;
+  Rng rng_;
+  Slam slam_;
+};
+
+class FastSlamCar final : public ParticleSlamCar<FastSlam> {
+ public:
+  using ParticleSlamCar::ParticleSlamCar;
 
   CarUpdate step(const Eigen::Vector2d& u, const CarSightings& seen) override {
     std::vector<LandmarkSighting> sightings;
@@ -90,63 +102,32 @@ class FastSlamCar final : public CarFilter {
     const FastSlamStep step = slam_.step(transitionOf(car_, u), sightings, rng_);
     return {.effectiveParticles = step.lost ? 0 : step.effectiveSize};
   }
-  Gaussian pose() const override { return poseOf(slam_); }
   std::vector<FoundLandmark> map() const override {
     std::vector<FoundLandmark> found;
     for (int i = 0; i < slam_.landmarks(); ++i)
       found.push_back({seen_.names()[static_cast<std::size_t>(i)], slam_.landmark(i)});
     return found;
   }
-  void addTo(CarView& view) const override {
-    view.particles = slam_.poses();
-    view.weights = slam_.weights();
-  }
 
  private:
-  CarSimulator car_;
-  Rng rng_;
-  FastSlam slam_;
   SeenLandmarks seen_;
 };
 
-bool isVisible(const CarOptions& options, const Eigen::Vector3d& x, const Eigen::Vector2d& landmark) {
-  const Eigen::Vector2d d = landmark - x.head<2>();
-  const double bearing = d.isZero(0) ? 0 : wrapAngle(std::atan2(d[1], d[0]) - x[2]);
-  return d.norm() <= options.maxRange && 2 * std::abs(bearing) <= options.fieldOfView;
-}
-
 // It is not told which landmark is which.
-class UnnamedFastSlamCar final : public CarFilter {
+class UnnamedFastSlamCar final : public ParticleSlamCar<UnnamedFastSlam> {
  public:
-  UnnamedFastSlamCar(const CarOptions& options, const Eigen::Vector3d& start, int particles, const Rng& rng)
-      : car_(CarSimulator::withoutPlaces(0, options)),
-        rng_(rng),
-        slam_(start, sensorOf(options),
-              {.particles = particles,
-               .isInView = [options](const Eigen::Vector3d& x, const Eigen::Vector2d& landmark) {
-                 return isVisible(options, x, landmark);
-               }}) {}
+  using ParticleSlamCar::ParticleSlamCar;
 
   CarUpdate step(const Eigen::Vector2d& u, const CarSightings& seen) override {
     std::vector<Eigen::Vector2d> ys;
     for (Eigen::Index i = 0; i < seen.y.size(); i += 2) ys.emplace_back(seen.y.segment<2>(i));
     return {.effectiveParticles = slam_.step(transitionOf(car_, u), ys, rng_).effectiveSize};
   }
-  Gaussian pose() const override { return poseOf(slam_); }
   std::vector<FoundLandmark> map() const override {
     std::vector<FoundLandmark> found;
     for (const MappedLandmark& one : slam_.map()) found.push_back({.belief = one.position});
     return found;
   }
-  void addTo(CarView& view) const override {
-    view.particles = slam_.poses();
-    view.weights = slam_.weights();
-  }
-
- private:
-  CarSimulator car_;
-  Rng rng_;
-  UnnamedFastSlam slam_;
 };
 
 }  // namespace
@@ -165,13 +146,18 @@ std::unique_ptr<CarFilter> makeEkfSlam(const CarOptions& options, const Gaussian
 
 std::unique_ptr<CarFilter> makeFastSlam(const CarOptions& options, const Eigen::Vector3d& start,
                                         int particles, bool observedProposal, const Rng& rng) {
-  return std::make_unique<FastSlamCar>(
-      options, start, FastSlamOptions{.particles = particles, .observedProposal = observedProposal}, rng);
+  const FastSlamOptions how{.particles = particles, .observedProposal = observedProposal};
+  return std::make_unique<FastSlamCar>(options, FastSlam(start, sensorOf(options), how), rng);
 }
 
 std::unique_ptr<CarFilter> makeUnnamedFastSlam(const CarOptions& options, const Eigen::Vector3d& start,
                                                int particles, const Rng& rng) {
-  return std::make_unique<UnnamedFastSlamCar>(options, start, particles, rng);
+  const auto isInView = [options](const Eigen::Vector3d& x, const Eigen::Vector2d& landmark) {
+    return rex::isInView(options, x, landmark);
+  };
+  return std::make_unique<UnnamedFastSlamCar>(
+      options, UnnamedFastSlam(start, sensorOf(options), {.particles = particles, .isInView = isInView}),
+      rng);
 }
 
 }  // namespace rex::cli
