@@ -1,6 +1,5 @@
 // Who touches whom in random postures of our own robots, by FCL, which knows nothing of our pairs.
 #include <cmath>
-#include <cstdlib>
 #include <map>
 #include <memory>
 #include <set>
@@ -12,6 +11,7 @@
 #include "collision/collision_pairs.h"
 #include "collision/contacts.h"
 #include "kinematics/forward_kinematics.h"
+#include "scene/ors_reader.h"
 #include "scene/urdf_reader.h"
 #include "support/paths.h"
 
@@ -58,6 +58,8 @@ class Robot {
 
  private:
   static SceneSpec spec(const std::string& name) {
+    if (name == "two_arms")
+      return readOrs(sourcePath("tests/collision/two_arms.ors"), {.assetRoot = sourcePath(".")}).spec;
     SceneSpec spec = readUrdf(sourcePath("data/robots") / name / (name + ".urdf")).spec;
     spec.collisionChoices.clear();
     return spec;
@@ -104,10 +106,7 @@ std::map<Pair, double> distances(const ContactModel& contacts, const BodyPoses& 
   return least;
 }
 
-int postures() {
-  const char* const many = std::getenv("REX_SELF_COLLISION_POSTURES");
-  return many != nullptr ? std::atoi(many) : 300;
-}
+constexpr int kPostures = 10000;
 
 class SelfCollision : public testing::TestWithParam<std::string> {};
 
@@ -123,7 +122,7 @@ TEST_P(SelfCollision, IsReportedWhereverFclSeesOne) {
     if (verdict.mayCollide) allowed.emplace(verdict.a, verdict.b);
   Rng rng(5);
   long seen = 0;
-  for (int k = 0; k < postures(); ++k) {
+  for (int k = 0; k < kPostures; ++k) {
     const Eigen::VectorXd q = randomPosture(model, rng);
     const std::set<Pair> touching = robot.touching(q);
     const std::map<Pair, double> near = distances(contacts, forwardKinematics(model, q));
@@ -141,7 +140,7 @@ TEST_P(SelfCollision, IsReportedWhereverFclSeesOne) {
       EXPECT_TRUE(distance >= -kSurely || touching.contains(pair)) << k;
     }
   }
-  EXPECT_GT(seen, postures() / 20) << "postures with collisions";
+  EXPECT_GT(seen, kPostures / 20) << "postures with collisions";
 }
 
 // What the model holds for immovable does not move, and all else does.
@@ -162,7 +161,8 @@ TEST_P(SelfCollision, LeavesOutWhatCannotMove) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(OwnRobots, SelfCollision, testing::Values("humanoid", "quadruped", "hand"),
+INSTANTIATE_TEST_SUITE_P(OwnRobots, SelfCollision,
+                         testing::Values("humanoid", "quadruped", "two_arms", "hand"),
                          [](const auto& i) { return i.param; });
 
 }  // namespace rex::self_collision_test
