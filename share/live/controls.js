@@ -100,13 +100,16 @@ const rexControls = (function () {
   }
 
   // Curves over the last `span` of what `label` names. `colors`: one per curve.
+  // Shows the last `span` of what comes, or, if that is infinite, all of it.
   function plot(canvas, colors, span, label) {
-    const samples = [];
+    const samples = [], most = 2000;
     function add(time, values) {
       if (samples.length > 0 && time < samples[samples.length - 1].time) samples.length = 0;
       if (samples.length > 0 && time === samples[samples.length - 1].time) return;
       samples.push({ time, values });
       while (samples[0].time < time - span) samples.shift();
+      if (span === Infinity && samples.length > most)
+        samples.splice(0, samples.length, ...samples.filter((_, i) => i % 2 === 0));
     }
     function draw() {
       const ratio = Math.min(window.devicePixelRatio || 1, 2), width = canvas.clientWidth, height = canvas.clientHeight;
@@ -119,8 +122,10 @@ const rexControls = (function () {
       let low = Math.min(...all), high = Math.max(...all);
       if (high - low < 1e-9) high = low + 1;
       const margin = 60, axis = 16;
-      const last = Math.max(samples.length ? samples[samples.length - 1].time : 0, span);
-      const x = t => margin + (width - margin - 4) * (1 - (last - t) / span);
+      const end = samples.length ? samples[samples.length - 1].time : 0, begin = samples.length ? samples[0].time : 0;
+      const wide = span === Infinity ? Math.max(end - begin, 1) : span;
+      const last = span === Infinity ? begin + wide : Math.max(end, span);
+      const x = t => margin + (width - margin - 4) * (1 - (last - t) / wide);
       const y = v => 6 + (height - 12 - axis) * (high - v) / (high - low);
       pen.strokeStyle = '#dde3e9', pen.fillStyle = '#5c6875', pen.textAlign = 'right', pen.textBaseline = 'middle';
       for (const value of [low, 0, high]) {
@@ -131,7 +136,7 @@ const rexControls = (function () {
       pen.textBaseline = 'bottom';
       pen.fillText(short(last), width - 4, height);
       pen.textAlign = 'left';
-      pen.fillText(short(last - span), margin, height);
+      pen.fillText(short(last - wide), margin, height);
       pen.textAlign = 'center';
       pen.fillText(label, (margin + width) / 2, height);
       pen.lineWidth = 1.8, pen.lineJoin = 'round';

@@ -20,7 +20,8 @@ const rexProgram = (function () {
       button.addEventListener('click', () => send({ do: 'button', name }));
       return { box: button, show: () => {} };
     }
-    const box = element('div'), canvas = element('canvas', 'own'), curve = plot(canvas, ['#1f5fa8'], 10, xLabel);
+    const box = element('div'), canvas = element('canvas', 'own'),
+      curve = plot(canvas, ['#1f5fa8'], xLabel === 'time [s]' ? 10 : Infinity, xLabel);
     box.append(element('p', 'legend', name), canvas);
     let last = null;
     return {

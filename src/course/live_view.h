@@ -43,7 +43,7 @@ class LiveView {
                          const Eigen::Vector3d& normal = Eigen::Vector3d::Zero());
   /// Whether this button was pressed since the last call.
   bool button(const std::string& name);
-  /// Adds a point to the curve of this name, on the page and in the replay.
+  /// Adds a point to the curve of this name, on the page (over time the last ten seconds) and in the replay.
   void plot(const std::string& name, double x, double y, const std::string& xLabel = "time [s]");
   /// Waits until somebody presses "Go on" on the page, as long as one is open.
   void pause();
