@@ -125,7 +125,8 @@ class Judge {
     if (coupled_.cancels(a, b)) return PairReason::kCannotMove;
     if (choices_.find(a, b) != nullptr) return PairReason::kChosen;
     if (rule_ == CollisionRule::kFourGenerations) {
-      if (hasJointTo(model_, a, b) || hasJointTo(model_, b, a)) return PairReason::kNeighbours;
+      if (hasJointTo(model_, a, b) || hasJointTo(model_, b, a) || parts_.arePinned(a, b))
+        return PairReason::kNeighbours;
       return Kin(model_, a).meets(Kin(model_, b)) ? PairReason::kFourGenerations : PairReason::kNone;
     }
     return parts_.areNeighbours(a, b) ? PairReason::kNeighbours : PairReason::kNone;

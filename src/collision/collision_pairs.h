@@ -14,7 +14,7 @@ enum class PairReason {
   kSamePart,         ///< fixed to each other, or both in the world
   kCannotMove,       ///< coupled joints provably cancel, so their relative pose never changes
   kChosen,           ///< chosen by the scene: an SRDF, or `collisions` in .ors
-  kNeighbours,       ///< a joint links them
+  kNeighbours,       ///< a joint or a pin links them
   kFourGenerations,  ///< both are within four generations below a common ancestor, which may be one of them
   kOverlapAtHome,    ///< they overlap deeper than kHomeTolerance in the initial posture
   kNone              ///< nothing rules out a collision
@@ -37,11 +37,11 @@ struct PairVerdict {
 [[nodiscard]] std::string toString(const PairVerdict& verdict, const Model& model);
 
 /// The verdict on each pair of bodies with shapes in contact. With kAllButNeighbours, neighbours are the
-/// two bodies of a joint and everything fixed to them, where joints chained by massless links without
-/// shapes count as one; of everything fixed to the world, only the body that carries the joint counts. A
-/// free joint makes no neighbours, and overlaps at home with its descendants do not count, because they
-/// will be moved elsewhere. With kFourGenerations, neighbours are the two bodies of a joint, and overlaps
-/// at home do not count.
+/// two bodies of a joint or a pin and everything fixed to them, where joints chained by massless links
+/// without shapes count as one; of everything fixed to the world, only the body that carries the joint
+/// counts. A free joint makes no neighbours, and overlaps at home with its descendants do not count, because
+/// they will be moved elsewhere. With kFourGenerations, neighbours are the two bodies of a joint or a pin,
+/// and overlaps at home do not count.
 [[nodiscard]] std::vector<PairVerdict> pairVerdicts(const Model& model);
 
 /// The pairs of shapes in contact on bodies that may collide, sorted: those of ContactModel(model). The time

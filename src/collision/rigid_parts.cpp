@@ -77,6 +77,7 @@ RigidParts::RigidParts(const Model& model)
     freeJoints_[i] = isFree ? body.joint : freeJoint(body.parent);
   }
   findAbove(model);
+  for (const Pin& pin : model.pins()) pinned_.emplace(std::minmax(node(pin.a), node(pin.b)));
 }
 
 void RigidParts::findAbove(const Model& model) {
@@ -85,12 +86,15 @@ void RigidParts::findAbove(const Model& model) {
     if (placeOf(parts_[i]) == i) above_[i] = neighbourhood.above(parts_[i]);
 }
 
+bool RigidParts::arePinned(BodyId a, BodyId b) const {
+  return pinned_.contains(std::minmax(node(a), node(b)));
+}
+
 bool RigidParts::areNeighbours(BodyId a, BodyId b) const {
-  const auto node = [&](BodyId body) { return part(body) == kWorld ? body : part(body); };
   const auto hangsOn = [&](BodyId child, BodyId parent) {
     return part(child) != kWorld && above_[placeOf(part(child))] == node(parent);
   };
-  return hangsOn(a, b) || hangsOn(b, a);
+  return hangsOn(a, b) || hangsOn(b, a) || arePinned(a, b);
 }
 
 }  // namespace rex::internal

@@ -52,6 +52,12 @@ TaskMap rodTask(BodyId a, const Eigen::Vector3d& p_AP, BodyId b, const Eigen::Ve
   };
 }
 
+std::vector<TaskMap> pinTasks(const Model& model) {
+  std::vector<TaskMap> maps;
+  for (const Pin& pin : model.pins()) maps.push_back(pinTask(pin.a, pin.p_AP, pin.b, pin.p_BQ));
+  return maps;
+}
+
 TaskValue stackLoops(const Model& model, std::span<const TaskMap> loops, const VectorArg& q) {
   const Eigen::VectorXd posture = q;
   const BodyPoses poses = forwardKinematics(model, posture);

@@ -2,6 +2,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "kinematics/task_map.h"
 
@@ -19,6 +20,9 @@ namespace rex {
 /// either end, connects them. Throws Error for a length that is not positive and finite.
 [[nodiscard]] TaskMap rodTask(BodyId a, const Eigen::Vector3d& p_AP, BodyId b, const Eigen::Vector3d& p_BQ,
                               double length);
+
+/// A pinTask() for each of Model::pins(), in their order.
+[[nodiscard]] std::vector<TaskMap> pinTasks(const Model& model);
 
 /// The value of all maps and their Jacobian, one below the other.
 [[nodiscard]] TaskValue stackLoops(const Model& model, std::span<const TaskMap> loops, const VectorArg& q);

@@ -13,7 +13,7 @@ struct BodyPoses {
 };
 
 /// The poses of all bodies at posture q (nq). Throws Error naming both sizes if that of q is wrong, and for
-/// quaternions that are zero or not finite. Slide 2:16.
+/// quaternions that are zero or not finite. Slide 2:18.
 [[nodiscard]] BodyPoses forwardKinematics(const Model& model, const VectorArg& q);
 /// The same into storage of the caller; allocates nothing once `out` has been used with this model.
 void forwardKinematics(const Model& model, const VectorArg& q, BodyPoses& out);

@@ -34,6 +34,7 @@ Articulation::Articulation(const Model& model, std::span<const BodyId> bodies, c
     baseVIndex_ = first.vIndex;
     baseDamping_ = options.jointFriction ? first.damping : 0;
     grown[static_cast<std::size_t>(first.child)] = {-1, link.X_BL};
+    links_.emplace(first.child, -1);
     body_.emplace(linkCount(model, bodies.subspan(1)), link.mass, link.inertia, false, false);
   } else {
     body_.emplace(linkCount(model, bodies), 0, btVector3(0, 0, 0), true, false);
@@ -44,6 +45,7 @@ Articulation::Articulation(const Model& model, std::span<const BodyId> bodies, c
     const Grown& parent = grown[static_cast<std::size_t>(model[joint].parent)];
     Grown& child = grown[static_cast<std::size_t>(bodies[i])];
     child = grow(model, joint, bulletLink(model[bodies[i]]), parent);
+    links_.emplace(bodies[i], child.link);
     if (shapes[i] != nullptr) addCollider(child.link, bodies[i], shapes[i]);
   }
   body_->finalizeMultiDof();

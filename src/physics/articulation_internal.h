@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -43,6 +44,13 @@ class Articulation : public Mover {
           .at = at, .leader = {}, .ratio = one.ratio, .offset = one.offset, .joint = one.joint};
       visit(one.qIndex, at, one.follows ? &follower : nullptr);
     }
+  }
+
+  [[nodiscard]] btMultiBody& body() { return *body_; }
+  /// The link that is a body, -1 for the base; empty if the body is not of this tree.
+  [[nodiscard]] std::optional<int> linkOf(BodyId body) const {
+    const auto found = links_.find(body);
+    return found == links_.end() ? std::nullopt : std::optional(found->second);
   }
 
   /// Calls visit(object, body) for what collides of each body.
@@ -90,6 +98,7 @@ class Articulation : public Mover {
   double baseDamping_ = 0;
   int next_ = 0;  // link to be built
   std::optional<btMultiBody> body_;
+  std::map<BodyId, int> links_;
   std::vector<Coordinate> coordinates_;
   std::vector<Collider> colliders_;
   // Six for a base that is damped, linear before angular; then one per coordinate, three per ball.

@@ -145,7 +145,7 @@ BulletWorld::BulletWorld(const Model& model, const PhysicsOptions& options)
     trees.push_back(addMover(model, tree, all.X_WB[static_cast<std::size_t>(model[body].parent)], options));
   }
   std::erase(trees, nullptr);
-  addCouplings(model, trees);
+  addCouplings(model, trees, pinsOf(model, trees, all.X_WB));
   addAll();
 }
 
@@ -171,7 +171,8 @@ void BulletWorld::setUpSolver(const Model& model, const PhysicsOptions& options)
 }
 
 // Leaders may come after their followers.
-void BulletWorld::addCouplings(const Model& model, const std::vector<Articulation*>& trees) {
+void BulletWorld::addCouplings(const Model& model, const std::vector<Articulation*>& trees,
+                               const Couplings::Pins& pins) {
   std::vector<CoordinatePlace> leaders(static_cast<std::size_t>(model.nq()));
   std::vector<Follower> followers;
   std::vector<int> followed;
@@ -185,14 +186,32 @@ void BulletWorld::addCouplings(const Model& model, const std::vector<Articulatio
       }
     });
   }
-  if (followers.empty()) return;
+  if (followers.empty() && pins.empty()) return;
   for (std::size_t i = 0; i < followers.size(); ++i)
     followers[i].leader = leaders[static_cast<std::size_t>(followed[i])];
-  couplings_.emplace(followers);
+  couplings_.emplace(followers, pins);
   world_.use(&*couplings_);
   for (Articulation* const tree : trees) tree->place(initialState(model));
   if (const JointId joint = couplings_->massless(model); joint != kNoJoint)
     failForNoMass(model, model[joint]);
+}
+
+// `still` are the poses in W of bodies that stand still. Pins between two of these hold nothing.
+Couplings::Pins BulletWorld::pinsOf(const Model& model, const std::vector<Articulation*>& trees,
+                                    const std::vector<Pose>& still) {
+  const auto endOf = [&](BodyId body, const Eigen::Vector3d& p_BP) {
+    for (Articulation* const tree : trees)
+      if (const std::optional<int> link = tree->linkOf(body))
+        return PinEnd{&tree->body(), *link, toBullet(bulletLink(model[body]).X_BL.inverse() * p_BP)};
+    return PinEnd{.point = toBullet(still[static_cast<std::size_t>(body)] * p_BP)};
+  };
+  Couplings::Pins pins;
+  for (const Pin& pin : model.pins()) {
+    PinEnd A = endOf(pin.a, pin.p_AP), B = endOf(pin.b, pin.p_BQ);
+    if (A.body == nullptr) std::swap(A, B);
+    if (A.body != nullptr) pins.emplace_back(A, B);
+  }
+  return pins;
 }
 
 void BulletWorld::step(double h, bool isApart) {
@@ -242,7 +261,9 @@ Articulation* BulletWorld::addMover(const Model& model, std::span<const BodyId> 
   std::vector<btCollisionShape*> shapes;
   for (const BodyId body : bodies) shapes.push_back(addShape(model, body, bulletLink(model[body]).X_BL));
   const bool isDamped = options.jointFriction && joint.damping > 0;
-  if (bodies.size() == 1 && joint.type == JointType::kFree && !isDamped) {
+  const bool isPinned = std::ranges::any_of(
+      model.pins(), [&](const Pin& pin) { return pin.a == bodies.front() || pin.b == bodies.front(); });
+  if (bodies.size() == 1 && joint.type == JointType::kFree && !isDamped && !isPinned) {
     if (shapes.front() == nullptr) shapes.front() = &nothing_;
     auto body = std::make_unique<FreeBody>(joint, bulletLink(model[joint.child]), X_WP, shapes.front());
     setUp(body->object(), joint.child, options);

@@ -62,7 +62,9 @@ class BulletWorld {
   Articulation* addMover(const Model& model, std::span<const BodyId> bodies, const Pose& X_WP,
                          const PhysicsOptions& options);
   void setUp(btCollisionObject& object, BodyId body, const PhysicsOptions& options);
-  void addCouplings(const Model& model, const std::vector<Articulation*>& trees);
+  void addCouplings(const Model& model, const std::vector<Articulation*>& trees, const Couplings::Pins& pins);
+  static Couplings::Pins pinsOf(const Model& model, const std::vector<Articulation*>& trees,
+                                const std::vector<Pose>& still);
   void addAll();
   void removeAll();
   template <class Visit>

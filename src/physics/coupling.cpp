@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <array>
+#include <numeric>
 
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 #include <Eigen/Cholesky>
@@ -13,113 +13,109 @@ namespace {
 // positions are linear in them. Removing a share per step would amplify them by the inverse square of short
 // steps.
 constexpr double kErrorRate = 20;
-
-// The coefficient of a row for one velocity of a body.
-struct Coefficient {
-  const btMultiBody* body;
-  int index;
-  double value;
-};
-
-std::array<Coefficient, 2> coefficientsOf(const Follower& one) {
-  return {Coefficient{one.at.body, one.at.velocityIndex(), 1},
-          Coefficient{one.leader.body, one.leader.velocityIndex(), -one.ratio}};
-}
-
-int velocityCount(const btMultiBody& body) { return 6 + body.getNumDofs(); }
+// Of the largest mobility along a row, what each gets in addition so that none is zero.
+constexpr double kLeastShare = 1e-12;
 
 }  // namespace
 
 CouplingRow::CouplingRow(const Follower& follower)
-    : btMultiBodyConstraint(follower.at.body, follower.leader.body, follower.at.link, follower.leader.link, 1,
-                            false, MULTIBODY_CONSTRAINT_GEAR),
+    : HeldRows(follower.at.body, follower.leader.body, follower.at.link, follower.leader.link, 1, false,
+               MULTIBODY_CONSTRAINT_GEAR),
       follower_(follower) {
   CouplingRow::finalizeMultiDof();
 }
 
-// If both are in one body, the Jacobian of A holds everything: Bullet adds the terms of A and B on their
-// own, but not the coupling between them.
 void CouplingRow::finalizeMultiDof() {
   allocateJacobiansMultiDof();
   jacobianA(0)[follower_.at.velocityIndex()] = 1;
   (isInOneBody() ? jacobianA(0) : jacobianB(0))[follower_.leader.velocityIndex()] = -follower_.ratio;
 }
 
-int CouplingRow::getIslandIdA() const { return m_bodyA->getBaseCollider()->getIslandTag(); }
-int CouplingRow::getIslandIdB() const { return m_bodyB->getBaseCollider()->getIslandTag(); }
-
-void CouplingRow::createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
-                                       const btContactSolverInfo& info) {
-  const btVector3 none(0, 0, 0);
-  btMultiBodySolverConstraint& row = rows.expandNonInitializing();
-  row.m_orgConstraint = this;
-  row.m_orgDofIndex = 0;
-  fillMultiBodyConstraint(row, data, jacobianA(0), jacobianB(0), none, none, none, none, 0, info,
-                          -BT_LARGE_FLOAT, BT_LARGE_FLOAT);
-  row.m_cfm = 0;
-  row.m_contactNormal1 = row.m_contactNormal2 = none;
-  row.m_relpos1CrossNormal = row.m_relpos2CrossNormal = none;
+double CouplingRow::wanted(int) const {
+  const Follower& one = follower_;
+  return -kErrorRate * (one.at.body->getJointPos(one.at.link) -
+                        one.ratio * one.leader.body->getJointPos(one.leader.link) - one.offset);
 }
 
-Couplings::Couplings(const std::vector<Follower>& followers) {
-  for (const Follower& follower : followers) {
-    CouplingRow* const row = rows_.emplace_back(std::make_unique<CouplingRow>(follower)).get();
-    Group joined{{row}, {follower.at.body}};
-    if (!row->isInOneBody()) joined.bodies.push_back(follower.leader.body);
-    std::erase_if(groups_, [&](const Group& group) {
-      if (std::ranges::find_first_of(group.bodies, joined.bodies) == group.bodies.end()) return false;
-      joined.rows.insert(joined.rows.end(), group.rows.begin(), group.rows.end());
-      for (btMultiBody* const body : group.bodies)
-        if (std::ranges::find(joined.bodies, body) == joined.bodies.end()) joined.bodies.push_back(body);
-      return true;
-    });
-    groups_.push_back(std::move(joined));
-  }
+// Without the error, which settle() lets fade.
+void CouplingRow::createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
+                                       const btContactSolverInfo& info) {
+  addRow(0, 0, rows, data, info);
+}
+
+Couplings::Couplings(const std::vector<Follower>& followers, const Pins& pins) {
+  for (const Follower& follower : followers)
+    join(followers_.emplace_back(std::make_unique<CouplingRow>(follower)).get());
+  for (const auto& [A, B] : pins) join(pins_.emplace_back(std::make_unique<PinRows>(A, B)).get());
+}
+
+void Couplings::join(HeldRows* rows) {
+  Group joined{{rows}, {rows->getMultiBodyA()}};
+  if (!rows->isInOneBody()) joined.bodies.push_back(rows->getMultiBodyB());
+  std::erase_if(groups_, [&](const Group& group) {
+    if (std::ranges::find_first_of(group.bodies, joined.bodies) == group.bodies.end()) return false;
+    joined.held.insert(joined.held.end(), group.held.begin(), group.held.end());
+    for (btMultiBody* const body : group.bodies)
+      if (std::ranges::find(joined.bodies, body) == joined.bodies.end()) joined.bodies.push_back(body);
+    return true;
+  });
+  groups_.push_back(std::move(joined));
 }
 
 void Couplings::addTo(btMultiBodyDynamicsWorld& world) {
-  for (const auto& row : rows_) world.addMultiBodyConstraint(row.get());
+  for (const auto& row : followers_) world.addMultiBodyConstraint(row.get());
+  for (const auto& pin : pins_) world.addMultiBodyConstraint(pin.get());
 }
 
 void Couplings::removeFrom(btMultiBodyDynamicsWorld& world) {
-  for (const auto& row : rows_) world.removeMultiBodyConstraint(row.get());
+  for (const auto& row : followers_) world.removeMultiBodyConstraint(row.get());
+  for (const auto& pin : pins_) world.removeMultiBodyConstraint(pin.get());
 }
 
 void Couplings::forget() {
-  for (const auto& row : rows_) row->forget();
+  for (const auto& row : followers_) row->forget();
+  for (const auto& pin : pins_) pin->forget();
 }
 
 void Couplings::settle() {
   for (Group& group : groups_) settle(group);
 }
 
-// v += M^-1 G^T (G M^-1 G^T)^-1 (wanted - G v), where G has a row per coupling.
+// v += M^-1 G^T (G M^-1 G^T)^-1 (wanted - G v), where G holds all rows.
 void Couplings::settle(Group& group) {
-  const auto count = static_cast<Eigen::Index>(group.rows.size());
+  struct Row {
+    HeldRows* held;
+    int row;
+  };
+  std::vector<Row> rows;
+  for (HeldRows* const held : group.held)
+    for (int i = 0; i < held->getNumRows(); ++i) rows.push_back({held, i});
+  const auto count = static_cast<Eigen::Index>(rows.size());
   const std::size_t bodies = group.bodies.size();
-  answers_.resize(group.rows.size() * bodies);
+  answers_.resize(rows.size() * bodies);
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(count, count);
   Eigen::VectorXd missing(count);
   for (Eigen::Index i = 0; i < count; ++i) {
-    const Follower& one = group.rows[static_cast<std::size_t>(i)]->follower();
-    const double error = one.at.body->getJointPos(one.at.link) -
-                         one.ratio * one.leader.body->getJointPos(one.leader.link) - one.offset;
-    missing[i] = -kErrorRate * error;
-    for (const Coefficient& part : coefficientsOf(one))
-      missing[i] -= part.value * part.body->getVelocityVector()[part.index];
+    const auto [held, row] = rows[static_cast<std::size_t>(i)];
+    missing[i] = held->wanted(row);
     for (std::size_t k = 0; k < bodies; ++k) {
       const btMultiBody& body = *group.bodies[k];
+      const int velocities = velocityCount(body);
       std::vector<btScalar>& answer = answers_[static_cast<std::size_t>(i) * bodies + k];
-      answer.assign(static_cast<std::size_t>(velocityCount(body)), 0);
-      force_.assign(answer.size(), 0);
-      for (const Coefficient& part : coefficientsOf(one))
-        if (part.body == &body) force_[static_cast<std::size_t>(part.index)] += part.value;
-      body.calcAccelerationDeltasMultiDof(force_.data(), answer.data(), scratchR_, scratchV_);
-      for (Eigen::Index j = 0; j < count; ++j)
-        for (const Coefficient& part : coefficientsOf(group.rows[static_cast<std::size_t>(j)]->follower()))
-          if (part.body == &body) A(j, i) += part.value * answer[static_cast<std::size_t>(part.index)];
+      answer.assign(static_cast<std::size_t>(velocities), 0);
+      const double* const own = held->coefficients(row, body);
+      if (own == nullptr) continue;
+      missing[i] -= std::inner_product(own, own + velocities, body.getVelocityVector(), 0.0);
+      body.calcAccelerationDeltasMultiDof(const_cast<double*>(own), answer.data(), scratchR_, scratchV_);
+      for (Eigen::Index j = 0; j < count; ++j) {
+        const auto& other = rows[static_cast<std::size_t>(j)];
+        if (const double* const its = other.held->coefficients(other.row, body))
+          A(j, i) += std::inner_product(its, its + velocities, answer.data(), 0.0);
+      }
     }
   }
+  // Rows of pins may depend on each other: what they agree on remains right.
+  if (!pins_.empty()) A.diagonal().array() += kLeastShare * A.diagonal().maxCoeff();
   const Eigen::VectorXd impulses = A.llt().solve(missing);
   for (Eigen::Index i = 0; i < count; ++i)
     for (std::size_t k = 0; k < bodies; ++k)
@@ -142,7 +138,9 @@ JointId Couplings::massless(const Model& model) {
     for (btMultiBody* const body : group.bodies)
       body->computeAccelerationsArticulatedBodyAlgorithmMultiDof(1, scratchR_, scratchV_, scratchM, false,
                                                                  false, false);
-    for (const CouplingRow* const row : group.rows) {
+    for (const HeldRows* const held : group.held) {
+      const auto* const row = dynamic_cast<const CouplingRow*>(held);
+      if (row == nullptr) continue;
       const Follower& one = row->follower();
       if (isStuck(one.at)) return one.joint;
       if (!isStuck(one.leader)) continue;

@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include <BulletDynamics/Featherstone/btMultiBodyConstraint.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 #include <Eigen/Core>
 
+#include "physics/pin_rows_internal.h"
 #include "scene/model.h"
 
 namespace rex::internal {
@@ -29,33 +29,30 @@ struct Follower {
   JointId joint = kNoJoint;
 };
 
-/// Keeps a follower to its leader, solved along with the contacts.
-class CouplingRow : public btMultiBodyConstraint {
+/// Keeps a follower to its leader.
+class CouplingRow : public HeldRows {
  public:
   explicit CouplingRow(const Follower& follower);
 
   [[nodiscard]] const Follower& follower() const { return follower_; }
-  [[nodiscard]] bool isInOneBody() const { return m_bodyA == m_bodyB; }
-  void forget() { internalSetAppliedImpulse(0, 0); }
-
+  [[nodiscard]] double wanted(int row) const override;
   void finalizeMultiDof() override;
-  int getIslandIdA() const override;
-  int getIslandIdB() const override;
   void createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
                             const btContactSolverInfo& info) override;
-  void debugDraw(btIDebugDraw*) override {}
 
  private:
   Follower follower_;
 };
 
-/// All that follows in a world. Bullet gives each follower a coordinate of its own; the rows of its solver
-/// couple them to contacts and motors, and settle() makes them exact afterwards, by the impulses that all
-/// couplings of some trees need together. So motion without contact is that of the model with its fewer
-/// coordinates, and errors do not add up.
+/// All that follows in a world, and all pins. Bullet gives each follower a coordinate of its own; the rows of
+/// its solver couple them to contacts and motors, and settle() makes them exact afterwards, by the impulses
+/// that all couplings and pins of some trees need together. So motion without contact is that of the model
+/// with its fewer coordinates and its closed loops, and errors do not add up.
 class Couplings {
  public:
-  explicit Couplings(const std::vector<Follower>& followers);
+  using Pins = std::vector<std::pair<PinEnd, PinEnd>>;
+  /// The body of the first end of each pin moves.
+  Couplings(const std::vector<Follower>& followers, const Pins& pins);
 
   void addTo(btMultiBodyDynamicsWorld& world);
   void removeFrom(btMultiBodyDynamicsWorld& world);
@@ -70,13 +67,15 @@ class Couplings {
  private:
   // What is coupled, directly or not, and how its bodies answer to a unit impulse of each row.
   struct Group {
-    std::vector<CouplingRow*> rows;
+    std::vector<HeldRows*> held;
     std::vector<btMultiBody*> bodies;
   };
+  void join(HeldRows* rows);
   void settle(Group& group);
   [[nodiscard]] bool isStuck(const CoordinatePlace& place);
 
-  std::vector<std::unique_ptr<CouplingRow>> rows_;
+  std::vector<std::unique_ptr<CouplingRow>> followers_;
+  std::vector<std::unique_ptr<PinRows>> pins_;
   std::vector<Group> groups_;
   std::vector<std::vector<btScalar>> answers_;  // of a group: row by row, body by body
   std::vector<btScalar> force_;

@@ -21,7 +21,7 @@ bool isHinge(const Joint& joint) {
 UntouchedMotion::UntouchedMotion(const Model& model, const PhysicsOptions& options)
     : model_(&model),
       gravity_W_(options.gravity_W),
-      isAble_(std::ranges::all_of(model.joints(), isHinge)),
+      isAble_(model.pins().empty() && std::ranges::all_of(model.joints(), isHinge)),
       motors_(static_cast<std::size_t>(model.nv())),
       impulses_(isAble_ ? model.nv() : 0),
       u_(Eigen::VectorXd::Zero(model.nv())),

@@ -369,24 +369,43 @@ void shareCoordinates(std::vector<Joint>& joints, const std::vector<const JointS
   }
 }
 
-// Throws Error if no body has the name, and if both bodies of a pair are the same.
-PairChoice resolved(const CollisionChoice& choice,
-                    const std::unordered_map<std::string, BodyId>& bodyByName) {
-  const auto bodyOf = [&](const std::string& name) {
-    if (name == kWorldName) return kWorld;
-    if (const auto found = bodyByName.find(name); found != bodyByName.end()) return found->second;
-    std::vector<std::string> known;
-    for (const auto& [other, body] : bodyByName) known.push_back(other);
-    std::sort(known.begin(), known.end());
-    fail(choice.where, "collision settings: unknown body", fmt::format("'{}'", name), "the name of a body",
-         nearestNames(name, known));
-  };
-  PairChoice pair{.a = bodyOf(choice.a), .mayCollide = choice.mayCollide, .reason = choice.reason};
+using BodyNames = std::unordered_map<std::string, BodyId>;
+
+// Throws Error if no body has the name.
+BodyId bodyNamed(const std::string& name, const BodyNames& bodyByName, const SourceLocation& where,
+                 const char* owner) {
+  if (name == kWorldName) return kWorld;
+  if (const auto found = bodyByName.find(name); found != bodyByName.end()) return found->second;
+  std::vector<std::string> known;
+  for (const auto& [other, body] : bodyByName) known.push_back(other);
+  std::sort(known.begin(), known.end());
+  fail(where, fmt::format("{}: unknown body", owner), fmt::format("'{}'", name), "the name of a body",
+       nearestNames(name, known));
+}
+
+// Throws Error for unknown names, and if both bodies of a pair are the same.
+PairChoice resolved(const CollisionChoice& choice, const BodyNames& bodyByName) {
+  constexpr const char* kOwner = "collision settings";
+  PairChoice pair{.a = bodyNamed(choice.a, bodyByName, choice.where, kOwner),
+                  .mayCollide = choice.mayCollide,
+                  .reason = choice.reason};
   if (choice.b.empty()) return pair;
-  pair.b = bodyOf(choice.b);
+  pair.b = bodyNamed(choice.b, bodyByName, choice.where, kOwner);
   if (*pair.b == pair.a)
     fail(choice.where, "collision settings: a pair", fmt::format("'{}' twice", choice.a), "two bodies");
   return pair;
+}
+
+// The same.
+Pin resolved(const PinSpec& pin, const BodyNames& bodyByName) {
+  const Pin found{.a = bodyNamed(pin.a, bodyByName, pin.where, "pin"),
+                  .b = bodyNamed(pin.b, bodyByName, pin.where, "pin"),
+                  .p_AP = pin.p_AP,
+                  .p_BQ = pin.p_BQ};
+  if (found.a == found.b) fail(pin.where, "pin", fmt::format("'{}' twice", pin.a), "two bodies");
+  if (!pin.p_AP.allFinite() || !pin.p_BQ.allFinite())
+    fail(pin.where, "pin: point", "a number that is not finite", "finite numbers");
+  return found;
 }
 
 }  // namespace
@@ -452,6 +471,7 @@ Model compile(const SceneSpec& spec) {
   model.collisionRule_ = spec.collisionRule;
   for (const CollisionChoice& choice : spec.collisionChoices)
     model.collisionChoices_.push_back(resolved(choice, model.bodyByName_));
+  for (const PinSpec& pin : spec.pins) model.pins_.push_back(resolved(pin, model.bodyByName_));
   return model;
 }
 

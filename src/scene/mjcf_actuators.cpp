@@ -125,10 +125,9 @@ bool resolve(const std::string& joint, Follower& follower, const std::map<std::s
 }
 
 const Known& knownOfEqualities() {
-  static const Known kKnown = {
-      {},
-      {"include", "joint"},
-      {"connect", "weld", "tendon", "flex", "flexvert", "flexstrain", "distance", "plugin"}};
+  static const Known kKnown = {{},
+                               {"include", "joint", "connect"},
+                               {"weld", "tendon", "flex", "flexvert", "flexstrain", "distance", "plugin"}};
   return kKnown;
 }
 
@@ -137,14 +136,14 @@ const Known& knownOfContacts() {
   return kKnown;
 }
 
+}  // namespace
+
 const std::string& bodyIn(const Tag& tag, const char* attribute, const BodyTree& tree) {
   const std::string& name = tag.nameIn(attribute);
   if (name != kWorldName && !tree.bodyOfName.contains(name))
     failAtUnknown(tag, attribute, "body", tree.bodyOfName);
   return name;
 }
-
-}  // namespace
 
 const Known& knownOfActuator() {
   static const Known kKnown = [] {
@@ -195,10 +194,12 @@ const Known& knownOfEquality() {
 }
 
 void readEqualities(const std::vector<Tag>& sections, Files& files, const Defaults& defaults,
-                    BodyTree& tree) {
+                    const Compiler& compiler, BodyTree& tree) {
   std::map<std::string, Follower> followers;
+  std::vector<Tag> pins;
   for (const Tag& section : sections) {
     for (const Tag& tag : files.children(section.of("<equality>"), knownOfEqualities())) {
+      if (tag.name() == "connect") pins.push_back(tag);
       if (tag.name() != "joint") continue;
       tag.expect(knownOfEquality());
       const Styled styled(tag, defaults.named(tag, "class", defaults.main()), Kind::kEquality);
@@ -219,6 +220,7 @@ void readEqualities(const std::vector<Tag>& sections, Files& files, const Defaul
     joint.mimicRatio = follower.ratio;
     joint.mimicOffset = follower.offset;
   }
+  readPins(pins, defaults, compiler, tree);
 }
 
 void readContacts(const std::vector<Tag>& sections, Files& files, BodyTree& tree) {

@@ -132,12 +132,19 @@ struct BodyTree {
 /// Gives all bodies their masses.
 void setMasses(BodyTree& tree, const Compiler& compiler, Reading& reading);
 
-/// <actuator>: how strong joints are. <equality>: which follow others. <contact>: who may not collide.
+/// <actuator>: how strong joints are. <equality>: which follow others, and what is pinned to what.
+/// <contact>: who may not collide.
 [[nodiscard]] const Known& knownOfActuator();
 void readActuators(const std::vector<Tag>& sections, Files& files, const Defaults& defaults,
                    const Compiler& compiler, BodyTree& tree);
 [[nodiscard]] const Known& knownOfEquality();
-void readEqualities(const std::vector<Tag>& sections, Files& files, const Defaults& defaults, BodyTree& tree);
+void readEqualities(const std::vector<Tag>& sections, Files& files, const Defaults& defaults,
+                    const Compiler& compiler, BodyTree& tree);
+/// The tags <connect>.
+void readPins(const std::vector<Tag>& tags, const Defaults& defaults, const Compiler& compiler,
+              BodyTree& tree);
+/// The name of a body of the tree, or "world".
+[[nodiscard]] const std::string& bodyIn(const Tag& tag, const char* attribute, const BodyTree& tree);
 void readContacts(const std::vector<Tag>& sections, Files& files, BodyTree& tree);
 
 /// Forbids pairs of bodies none of whose geoms share a bit of contype and conaffinity.

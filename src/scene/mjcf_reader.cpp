@@ -78,7 +78,7 @@ BodyTree readModel(Files& files, const std::string& name, Compiler& compiler) {
   BodyTree tree = readTree(named(sections, "worldbody"), files, defaults, compiler, assets);
   tree.spec.name = name;
   readActuators(named(sections, "actuator"), files, defaults, compiler, tree);
-  readEqualities(named(sections, "equality"), files, defaults, tree);
+  readEqualities(named(sections, "equality"), files, defaults, compiler, tree);
   readContacts(named(sections, "contact"), files, tree);
   noteMixed(tree, files.main().notes);
   chooseByBits(tree);

@@ -91,6 +91,13 @@ struct PairChoice {
   std::string reason{};
 };
 
+/// A ball joint that closes a loop: point P of body a stays at point Q of body b; see PinSpec. The tree of
+/// joints does not know of it: PhysicsWorld keeps it, and pinTasks() of kinematics/closed_loops.h.
+struct Pin {
+  BodyId a = kWorld, b = kWorld;
+  Eigen::Vector3d p_AP, p_BQ;  ///< metres
+};
+
 /// An immutable robot world; only compile() makes one. Bodies and joints are sorted breadth-first from the
 /// roots (roots in file order, then each body's joints in file order), which is also the order of q. The
 /// world is body 0.
@@ -114,6 +121,9 @@ class Model {
   /// Which bodies may collide: the rule, and choices by name. Applied in collision/collision_pairs.h.
   CollisionRule collisionRule() const { return collisionRule_; }
   std::span<const PairChoice> collisionChoices() const { return collisionChoices_; }
+
+  /// What closes loops, in the order of the scene file.
+  std::span<const Pin> pins() const { return pins_; }
 
   /// All bodies but the world, in the order of the scene file.
   std::span<const BodyId> bodiesInFileOrder() const { return fileOrder_; }
@@ -144,6 +154,7 @@ class Model {
   std::vector<BodyId> fileOrder_;
   CollisionRule collisionRule_ = CollisionRule::kAllButNeighbours;
   std::vector<PairChoice> collisionChoices_;
+  std::vector<Pin> pins_;
   std::unordered_map<std::string, BodyId> bodyByName_;
   Eigen::VectorXd q0_, lower_, upper_;
   int nv_ = 0;
@@ -152,10 +163,10 @@ class Model {
 
 /// Checks a scene and freezes it. Throws Error, with the position in the file if known, for a joint to an
 /// unknown body, two joints with one name, two joints that move one body, a loop, a mimic of an unknown
-/// joint or one of another type, mimic limits that leave no allowed position, a collision choice that does
-/// not name two bodies, and masses, sizes, poses or limits that are not finite or have the wrong sign or
-/// count. An inertia with a negative principal moment is refused, one that violates the triangle inequality
-/// is not.
+/// joint or one of another type, mimic limits that leave no allowed position, a collision choice or a pin
+/// that does not name two bodies, and masses, sizes, poses or limits that are not finite or have the wrong
+/// sign or count. An inertia with a negative principal moment is refused, one that violates the triangle
+/// inequality is not.
 [[nodiscard]] Model compile(const SceneSpec& spec);
 
 }  // namespace rex

@@ -92,15 +92,17 @@ class Reader {
         readShape(node);
       } else if (role == "joint") {
         readJoint(node);
+      } else if (role == "pin") {
+        readPin(node);
       } else if (role == "collisions") {
         readCollisions(node);
       } else if (role == "urdf") {
         readRobot(node);
       } else {
         fail(node.where, "unknown statement", fmt::format("'{}'", role),
-             "'body', 'shape', 'joint', 'urdf' or 'collisions'",
-             nearestNames(role, {"body", "shape", "joint", "urdf", "collisions", "Include", "ChDir", "Delete",
-                                 "Edit"}));
+             "'body', 'shape', 'joint', 'pin', 'urdf' or 'collisions'",
+             nearestNames(role, {"body", "shape", "joint", "pin", "urdf", "collisions", "Include", "ChDir",
+                                 "Delete", "Edit"}));
       }
     }
     if (robots_ > 0 && !hasRule_) file_.spec.collisionRule = CollisionRule::kAllButNeighbours;
@@ -239,6 +241,24 @@ class Reader {
     } else {
       readAttributes(waiting);
     }
+  }
+
+  void readPin(const Node& node) {
+    if (node.parents.size() != 2)
+      fail(node.where, "pin", fmt::format("{} bodies", node.parents.size()), "two: pin (A B) {...}");
+    const Attributes attributes(node, fmt::format("pin ({} {})", node.parents[0].text, node.parents[1].text));
+    attributes.noteUnknown({"A", "B"}, file_.notes);
+    attributes.noteWords({}, file_.notes);
+    Pose unused;
+    PinSpec pin{.a = connect(node.parents[0], attributes.owner(), "body", unused),
+                .b = connect(node.parents[1], attributes.owner(), "body", unused),
+                .where = node.where};
+    if (pin.a == pin.b) fail(node.parents[1].where, attributes.owner(), "one body", "two different bodies");
+    if (const auto A = attributes.row("A", {3})) pin.p_AP = *A;
+    if (const auto B = attributes.row("B", {3})) pin.p_BQ = *B;
+    if (file_.spec.pins.size() == ors::kMostJoints)
+      fail(node.where, "too many pins", "", fmt::format("at most {}", ors::kMostJoints));
+    file_.spec.pins.push_back(std::move(pin));
   }
 
   void readCollisions(const Node& node) {

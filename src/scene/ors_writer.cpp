@@ -216,9 +216,9 @@ class Writer {
     for (const ShapeSpec& shape : spec.worldShapes) shapes.push_back({shapeHead(shape), shapeParts(shape)});
     for (const BodySpec& body : spec.bodies) addBody(body, bodies);
     for (const JointSpec& joint : spec.joints) joints.push_back({jointHead(joint), jointParts(joint)});
-    const std::vector<Line> collisions = collisionLines(spec);
+    const std::vector<Line> pins = pinLines(spec), collisions = collisionLines(spec);
     std::string text;
-    for (const std::vector<Line>& group : {shapes, bodies, joints, collisions}) {
+    for (const std::vector<Line>& group : {shapes, bodies, joints, pins, collisions}) {
       if (!text.empty() && !group.empty()) text += "\n";
       text += linesText(group);
     }
@@ -226,6 +226,14 @@ class Writer {
   }
 
  private:
+  static std::vector<Line> pinLines(const SceneSpec& spec) {
+    std::vector<Line> lines;
+    for (const PinSpec& pin : spec.pins)
+      lines.push_back({fmt::format("pin ({} {})", pin.a, pin.b),
+                       {"A=" + arrayText(pin.p_AP), "B=" + arrayText(pin.p_BQ)}});
+    return lines;
+  }
+
   // Scenes of the format have the rule of the course unless they say otherwise.
   static std::vector<Line> collisionLines(const SceneSpec& spec) {
     std::vector<Line> lines;

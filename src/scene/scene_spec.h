@@ -93,6 +93,14 @@ struct CollisionChoice {
   SourceLocation where{};
 };
 
+/// A ball joint that closes a loop of joints: point P of one body stays at point Q of another. Each name
+/// stands for the first body of that name, or for "world". See kinematics/closed_loops.h.
+struct PinSpec {
+  std::string a, b;
+  Eigen::Vector3d p_AP = Eigen::Vector3d::Zero(), p_BQ = Eigen::Vector3d::Zero();  ///< metres
+  SourceLocation where{};
+};
+
 /// A scene as it is read and edited. Bodies keep file order; compile() turns it into a Model.
 struct SceneSpec {
   std::string name;  ///< for messages: the file name
@@ -101,6 +109,7 @@ struct SceneSpec {
   std::vector<ShapeSpec> worldShapes;
   CollisionRule collisionRule = CollisionRule::kAllButNeighbours;
   std::vector<CollisionChoice> collisionChoices{};
+  std::vector<PinSpec> pins{};
 };
 
 }  // namespace rex

@@ -78,6 +78,8 @@ class Writer {
     for (const BodySpec& body : spec.bodies)
       if (body.kind != BodyKind::kDynamic) losses_.add("kinds of bodies are left out", body.name, body.where);
     for (const JointSpec& joint : spec.joints) noteLosses(joint);
+    for (const PinSpec& pin : spec.pins)
+      losses_.add("pins are left out: the loops that they close are open", pin.a, pin.where);
     noteCollisions(spec);
   }
 

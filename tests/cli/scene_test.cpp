@@ -90,6 +90,21 @@ TEST_F(SceneCommand, InfoShowsTheTreeToPeople) {
   EXPECT_EQ(scene({"arm.ors"}).output, result.output) << "what it does without a command";
 }
 
+TEST_F(SceneCommand, InfoShowsPinsAndSaysWhoKeepsThem) {
+  std::ofstream(in("loop.ors"))
+      << "body a {}\nbody b {}\njoint (world a) {}\njoint (world b) { A=<T t(0 0 .5)> }\n"
+         "pin (a b) { A=[0 0 .4] }\n";
+  const ProcessResult result = scene({"loop.ors"});
+  EXPECT_THAT(result.output, HasSubstr("pin  at       to  at     gap at the start, m\n"
+                                       "a    0 0 0.4  b   0 0 0  0.1\n"));
+  EXPECT_THAT(result.error, HasSubstr("'rex simulate --engine bullet' keeps them closed"));
+  const json pins = jsonOf({"loop.ors", "info"})["pins"];
+  ASSERT_EQ(pins.size(), 1u);
+  EXPECT_EQ(pins[0]["b"], "b");
+  EXPECT_EQ(pins[0]["p_AP"], json({0.0, 0.0, 0.4}));
+  EXPECT_NEAR(pins[0]["gap"].get<double>(), 0.1, 1e-15);
+}
+
 TEST_F(SceneCommand, FkAndJacobianAreThoseOfTheLibrary) {
   const Model model = compile(readScene(in("arm.ors")).spec);
   const Eigen::Vector3d q(0.1, -0.7, 1e-8);

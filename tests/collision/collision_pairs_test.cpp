@@ -71,6 +71,19 @@ TEST(CollisionPairs, TakesWhatIsFixedToEachOtherForOnePart) {
       "AB neighbours, AC neighbours, AD may collide, BC fixed to each other, BD neighbours, CD neighbours");
 }
 
+TEST(CollisionPairs, TakesPinnedBodiesForNeighbours) {
+  std::string scene;
+  for (const auto& [body, x] : {std::pair("A", 0), std::pair("B", 1), std::pair("C", 2)})
+    scene += fmt::format(
+        "body {0} {{ contact type=ST_sphere size=[0 0 0 .1] }} joint (world {0}) {{ A=<T t({1} 0 0)> }}\n",
+        body, x);
+  for (const char* rule : {"four_generations", "all_but_neighbours"})
+    EXPECT_EQ(
+        reasons(compile(
+            parseOrs(scene + fmt::format("collisions {{ rule={} }} pin (A B) {{}}", rule), "s.ors").spec)),
+        "AB neighbours, AC may collide, BC may collide");
+}
+
 TEST(CollisionPairs, SeesThroughFramesThatAreFixed) {
   EXPECT_EQ(reasons(urdf({"base", "A", "flange", "B", "C"},
                          joint("revolute", "base", "A") + joint("revolute", "A", "flange") +

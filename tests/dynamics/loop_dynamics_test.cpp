@@ -25,7 +25,7 @@ class LoopDynamics : public ::testing::Test {
 
   FourBar bar_;
   Model model_ = compile(bar_.scene());
-  std::array<TaskMap, 1> loops_{bar_.pin(model_)};
+  std::vector<TaskMap> loops_ = pinTasks(model_);
 };
 
 // By Lagrange's equation in the angle of the crank alone, with the closed form of all others.

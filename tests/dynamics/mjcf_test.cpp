@@ -252,6 +252,24 @@ TEST(MjcfPeers, AgreeOnMasses) {
   }
 }
 
+// MuJoCo keeps both points of a <connect>, each in its body.
+TEST(MjcfPeers, AgreeOnPins) {
+  std::string xml = kEverything;
+  xml.insert(xml.rfind("</mujoco>"),
+             "<equality><connect body1='c' body2='d' anchor='.1 .2 .3'/><connect body1='b' anchor='1 0 0'/>"
+             "<connect body1='swing' body2='a' anchor='0 .5 0'/></equality>");
+  const Model model = compile(parseMjcf(xml, "m.xml").spec);
+  const auto theirs = bench::loadMujoco(xml);
+  ASSERT_EQ(theirs->neq, 3);
+  ASSERT_EQ(model.pins().size(), 3u);
+  for (int k = 0; k < 3; ++k) {
+    const Pin& pin = model.pins()[static_cast<std::size_t>(k)];
+    const double* const points = theirs->eq_data + static_cast<std::ptrdiff_t>(mjNEQDATA) * k;
+    EXPECT_LT((pin.p_AP - Eigen::Map<const Eigen::Vector3d>(points)).norm(), 1e-9) << k;
+    EXPECT_LT((pin.p_BQ - Eigen::Map<const Eigen::Vector3d>(points + 3)).norm(), 1e-9) << k;
+  }
+}
+
 // Joints that follow have no coordinates here, and their own there.
 TEST(MjcfPeers, AgreeOnFollowers) {
   const std::string xml =

@@ -76,6 +76,8 @@ void requireSound(const SceneFile& scene, std::string (*write)(const SceneSpec&)
   for (const Body& body : model->bodies())
     require(isApprox(poses[model->body(body.name)], places[again.body(body.name)], 1e-6),
             "a scene that was written and read again stands as before");
+  require(model->pins().size() == again.pins().size(),
+          "a scene that was written and read again keeps its pins");
 }
 
 void requirePlace(const Error& error, std::string_view text) {

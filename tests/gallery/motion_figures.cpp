@@ -117,7 +117,7 @@ Figure gait() {
 Figure couplerCurves() {
   const FourBar bar;
   const Model model = compile(bar.scene());
-  const std::array loops{bar.pin(model)};
+  const std::vector<TaskMap> loops = pinTasks(model);
   constexpr std::array<int, 1> kCrank{0};
   const Vector2d points[] = {{0.45, 0.35}, {0.9, 0.5}, {0.45, -0.35}};
   Figure figure{.title = "What points of a coupler draw: a four-bar closes its loop",

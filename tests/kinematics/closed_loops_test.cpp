@@ -21,7 +21,7 @@ constexpr std::array<int, 1> kCrank{0};
 TEST(ClosedLoops, OfAFourBarCloseWhereCirclesMeet) {
   const FourBar bar;
   const Model model = compile(bar.scene());
-  const std::array loops{bar.pin(model)};
+  const std::vector<TaskMap> loops = pinTasks(model);
   VectorXd q = bar.closedForm(0) + Vector3d(0, -.2, .2);
   for (int k = 0; k <= 36; ++k) {
     q[0] = k * M_PI / 18;
@@ -128,7 +128,7 @@ TEST(ClosedLoops, HaveTheRightJacobians) {
 TEST(ClosedLoops, SayThatTheyCannotClose) {
   const FourBar bar{.ground = 3};
   const Model model = compile(bar.scene());
-  const std::array loops{bar.pin(model)};
+  const std::vector<TaskMap> loops = pinTasks(model);
   const ClosedPosture open = assemble(model, loops, Vector3d(.2, 2.5, .1));
   EXPECT_EQ(open.status, ClosedPosture::Status::kStuck);
   EXPECT_NEAR(open.error, 3 - .3 - .9 - .7, .01) << "nearly stretched as far as it goes";
@@ -138,7 +138,7 @@ TEST(ClosedLoops, SayThatTheyCannotClose) {
 TEST(ClosedLoops, NameWhatIsWrong) {
   const FourBar bar;
   const Model model = compile(bar.scene());
-  const std::array loops{bar.pin(model)};
+  const std::vector<TaskMap> loops = pinTasks(model);
   constexpr std::array<int, 1> kNone{3};
   EXPECT_REX_ERROR(assemble(model, loops, Vector3d::Zero(), kNone),
                    "driven joints: found entry 3 of v, wanted entries from 0 to 2");

@@ -25,6 +25,11 @@ std::string jointed(const std::string& inside) {
       inside);
 }
 std::string equal(const std::string& inside) { return jointed("<equality>" + inside + "</equality>"); }
+std::string connects(int times) {
+  std::string text;
+  for (int i = 0; i < times; ++i) text += "<connect body1='a' anchor='0 0 0'/>";
+  return text;
+}
 std::string nested(const std::string& tag, const std::string& attribute, int times) {
   std::string text;
   for (int i = 0; i < times; ++i)
@@ -298,6 +303,16 @@ TEST(MjcfMessages, OfEqualities) {
        "<equality>: <joint>: a joint that follows itself: wanted another joint"},
       {equal("<joint joint1='j' active='@no'/>"),
        "<equality>: <joint>: attribute 'active': found 'no', wanted false or true"},
+      {equal("<connect body1='@A' anchor='0 0 0'/>"),
+       "<equality>: <connect>: unknown body: found 'A', wanted the name of a body (did you mean 'a', "
+       "'b' or 'c'?)"},
+      {equal("<connect body1='@a' body2='a' anchor='0 0 0'/>"),
+       "<equality>: <connect>: one body: found 'a', wanted two bodies"},
+      {equal("<connect body1='a' anchor='@0 0'/>"),
+       "<equality>: <connect>: attribute 'anchor': found '0 0', wanted 3 numbers"},
+      {equal("@<connect body1='a'/>"), "<equality>: <connect>: attribute 'anchor' is missing"},
+      {equal(connects(1000) + "@<connect body1='a' anchor='0 0 0'/>"),
+       "<equality>: <connect>: too many <connect>: wanted at most 1000"},
   });
   checkNotes({
       {equal("@<joint joint1='j'/>"), "note: a <joint> in <equality> that holds a joint in place is ignored"},
@@ -309,8 +324,8 @@ TEST(MjcfMessages, OfEqualities) {
        "warning: <equality>: <joint>: joints that follow each other in a loop; this is ignored\nf:4:1: "
        "warning: "
        "<equality>: <joint>: joints that follow each other in a loop; this is ignored"},
-      {equal("@<connect body1='a'/><weld/><weld/>"),
-       "note: <connect> is ignored\nf:3:31: note: <weld> is ignored (2 times)"},
+      {equal("@<weld/><weld/><connect site1='a' site2='b'/>"),
+       "note: <weld> is ignored (2 times)\nf:3:25: note: a <connect> of sites is ignored"},
   });
 }
 

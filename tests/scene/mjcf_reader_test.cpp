@@ -382,6 +382,36 @@ TEST(MjcfReader, LetsJointsFollow) {
   EXPECT_EQ(following("<joint joint1='b' joint2='a' active='false'/>").joints[1].mimic, "");
 }
 
+// The points meet where the joints start, whatever their `ref` and the frames are.
+TEST(MjcfReader, ClosesLoops) {
+  const auto pinned = [](const std::string& equalities, const std::string& before = "") {
+    return parse(before +
+                 "<worldbody><body name='a' pos='1 2 3' euler='10 20 30'><freejoint/><geom size='1'/>"
+                 "<body name='b' pos='1 0 0'><joint name='j' axis='1 1 0' ref='40'/><joint type='slide' "
+                 "ref='.2'/>"
+                 "<geom size='1'/></body></body></worldbody><equality>" +
+                 equalities + "</equality>")
+        .spec;
+  };
+  const SceneSpec spec = pinned(
+      "<connect body1='b' body2='a' anchor='.1 .2 .3'/><connect body1='b' anchor='0 0 1'/>"
+      "<connect body1='b' anchor='0 0 1' active='false'/><connect body1='a' class='off' anchor='0 0 1'/>",
+      "<default><default class='off'><equality active='false'/></default></default>");
+  ASSERT_EQ(spec.pins.size(), 2u);
+  EXPECT_EQ(spec.pins[0].p_AP, Eigen::Vector3d(.1, .2, .3));
+  EXPECT_EQ(spec.pins[1].b, "world");
+  const Model model = compile(spec);
+  const BodyPoses poses = forwardKinematics(model, model.initialPositions());
+  for (const Pin& pin : model.pins())
+    EXPECT_LT((poses[pin.a] * pin.p_AP - poses[pin.b] * pin.p_BQ).norm(), 1e-14);
+  const SceneSpec global = parse(
+                               "<compiler coordinate='global'/><worldbody><body name='a' pos='1 2 3'>"
+                               "<geom size='1' pos='1 2 3'/></body></worldbody>"
+                               "<equality><connect body1='a' anchor='1 2 4'/></equality>")
+                               .spec;
+  EXPECT_EQ(global.pins.at(0).p_AP, Eigen::Vector3d(0, 0, 1));
+}
+
 std::string pairsOf(const SceneSpec& spec) {
   std::string text;
   for (const CollisionChoice& one : spec.collisionChoices)

@@ -28,11 +28,8 @@ struct FourBar {
     add("crank", "world", 0, crank);
     add("rocker", "world", ground, rocker);
     add("coupler", "crank", crank, coupler);
+    spec.pins.push_back({.a = "coupler", .b = "rocker", .p_AP = {coupler, 0, 0}, .p_BQ = {rocker, 0, 0}});
     return spec;
-  }
-
-  [[nodiscard]] TaskMap pin(const Model& model) const {
-    return pinTask(model.body("coupler"), {coupler, 0, 0}, model.body("rocker"), {rocker, 0, 0});
   }
 
   /// (angles of crank, rocker, coupler against the crank) where two circles meet, the coupler's end above.

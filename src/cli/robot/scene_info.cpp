@@ -9,6 +9,7 @@
 #include "cli/json_internal.h"
 #include "cli/robot/scene_verbs.h"
 #include "cli/terminal.h"
+#include "kinematics/forward_kinematics.h"
 
 namespace rex::cli {
 namespace {
@@ -128,6 +129,30 @@ void sayShapes(const Model& model) {
   table.print();
 }
 
+// How far the points of each pin are apart at the start, metres.
+std::vector<double> gapsOf(const Model& model) {
+  const BodyPoses poses = forwardKinematics(model, model.initialPositions());
+  std::vector<double> gaps;
+  for (const Pin& pin : model.pins())
+    gaps.push_back((poses[pin.a] * pin.p_AP - poses[pin.b] * pin.p_BQ).norm());
+  return gaps;
+}
+
+void sayPins(const Model& model) {
+  const std::vector<double> gaps = gapsOf(model);
+  Table table;
+  table.add({"pin", "at", "to", "at", "gap at the start, m"});
+  const auto point = [](const Eigen::Vector3d& p) {
+    return fmt::format("{:.4g} {:.4g} {:.4g}", p.x(), p.y(), p.z());
+  };
+  for (std::size_t i = 0; i < gaps.size(); ++i) {
+    const Pin& pin = model.pins()[i];
+    table.add({harmless(model[pin.a].name), point(pin.p_AP), harmless(model[pin.b].name), point(pin.p_BQ),
+               fmt::format("{:.2g}", gaps[i])});
+  }
+  table.print();
+}
+
 // For a joint that mimics another: which one, and how.
 Json mimicOf(const Model& model, const Joint& joint) {
   if (!joint.mimics) return {};
@@ -161,9 +186,19 @@ Json infoOf(const Model& model) {
                       {"type", toString(shape.shape.type)},
                       {"contact", shape.contact},
                       {"visible", shape.visible}});
-  return {{"ndof", model.nv()}, {"nq", model.nq()},    {"q", jsonOf(model.initialPositions())},
-          {"joints", joints},   {"bodies", bodies},    {"body_masses", masses},
-          {"shapes", shapes},   {"mass", model.mass()}};
+  Json pins = Json::array();
+  const std::vector<double> gaps = gapsOf(model);
+  for (std::size_t i = 0; i < gaps.size(); ++i) {
+    const Pin& pin = model.pins()[i];
+    pins.push_back({{"a", model[pin.a].name},
+                    {"p_AP", jsonOf(pin.p_AP)},
+                    {"b", model[pin.b].name},
+                    {"p_BQ", jsonOf(pin.p_BQ)},
+                    {"gap", gaps[i]}});
+  }
+  return {{"ndof", model.nv()}, {"nq", model.nq()}, {"q", jsonOf(model.initialPositions())},
+          {"joints", joints},   {"bodies", bodies}, {"body_masses", masses},
+          {"shapes", shapes},   {"pins", pins},     {"mass", model.mass()}};
 }
 
 }  // namespace
@@ -187,6 +222,10 @@ ExitCode sceneInfo(const Project& project, const SceneOptions& options) {
   if (model.nq() > 0) {
     say();
     sayCoordinates(model);
+  }
+  if (!model.pins().empty()) {
+    say();
+    sayPins(model);
   }
   if (!model.shapes().empty()) {
     say();

@@ -81,6 +81,11 @@ SceneSpec loadSpec(const Project& project, const SceneOption& scene) {
   requireMeaning(file, scene.reading);
   SceneFile loaded = read(file, scene.reading);
   for (const Diagnostic& one : loaded.notes) note(wrap(harmless(toString(one)), 2, 0));
+  if (!loaded.spec.pins.empty())
+    note(
+        wrap("pins close loops of joints here; 'rex simulate --engine bullet' keeps them closed, everything "
+             "else treats the joints as a tree",
+             2, 0));
   loaded.spec.name = scene.file.filename().string();
   chooseShapes(loaded.spec, scene.shapes);
   return std::move(loaded.spec);
