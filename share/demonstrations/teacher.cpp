@@ -13,7 +13,7 @@
 
 using namespace rex;
 
-// A floor at x: what its rooms are worth, but for a constant and a factor, and the likeliest action in each
+// A floor at x: what its rooms are worth, up to scale and offset, and the likeliest action in each
 // state.
 void draw(const GridWorld& world, const Eigen::VectorXd& worth, const Eigen::MatrixXd& policy, double x,
           Picture& picture) {
@@ -46,14 +46,14 @@ int main() {
   const Eigen::VectorXd start = Eigen::VectorXd::Constant(36, 1. / 36);
   Eigen::VectorXd worth, seen;
   Eigen::Vector2d last(0, 0);
-  int rounds = 1;
+  int rounds = 1, plotted = 0;
   for (int t = 0; t < 300 || view.isWatched(); ++t) {
     const double slip = view.slider("slipping", 0, 0.6, 0.3);
     const int walks = static_cast<int>(view.slider("walks of the teacher", 1, 2000, 500));
     const bool another = view.button("another teacher") || worth.size() == 0;
     if (another) worth = rng.uniformVector(9, -1, 1);
     if (another || last != Eigen::Vector2d(slip, walks)) {
-      last = {slip, walks}, rounds = 1;
+      last = {slip, walks}, rounds = 1, plotted = 0;
       world = gridWorld("......\n......\n......\n......\n......\n......", {.slip = slip});
       world.mdp.rewards.colwise() = features.transpose() * worth;
       teacher = policyOf(world.mdp, policyIteration(world.mdp).actions);
@@ -72,15 +72,15 @@ int main() {
     draw(world, features.transpose() * found.w, isRunning ? found.policies.back() : found.policies[most], 7.5,
          picture);
     picture.labels.push_back({.text = "worth to the teacher", .p_WQ = {0, 6.6, 0.8}, .scale = 1.4});
-    picture.labels.push_back({.text = "worth, says the pupil", .p_WQ = {8, 6.6, 0.8}, .scale = 1.4});
+    picture.labels.push_back(
+        {.text = "worth, as inferred by the pupil", .p_WQ = {8, 6.6, 0.8}, .scale = 1.4});
     const double best = worth.dot(featureExpectations(world.mdp, teacher, features, start));
     picture.captions.push_back({.text = "policies of the pupil: " + std::to_string(found.policies.size()) +
-                                        (isRunning ? "" : ", and it needs no other"),
+                                        (isRunning ? "" : ", and it needs no more"),
                                 .scale = 1.5});
-    if (isRunning) {
-      view.plot("worth of the teacher's policy", rounds, best, "round");
-      view.plot("worth of the pupil's mixture", rounds, worth.dot(found.expectations), "round");
-    }
+    if (isRunning && rounds != plotted)
+      view.plot("what the pupil's policies are worse by", plotted = rounds,
+                best - worth.dot(found.expectations), "round");
     view.show(picture);
   }
 }

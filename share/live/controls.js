@@ -99,8 +99,7 @@ const rexControls = (function () {
     };
   }
 
-  // Curves over the last `span` of what `label` names. `colors`: one per curve.
-  // Shows the last `span` of what comes, or, if that is infinite, all of it.
+  // Curves over the last `span` (Infinity: all) of what `label` names. `colors`: one per curve.
   function plot(canvas, colors, span, label) {
     const samples = [], most = 2000;
     function add(time, values) {

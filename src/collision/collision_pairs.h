@@ -40,8 +40,8 @@ struct PairVerdict {
 /// two bodies of a joint or a pin and everything fixed to them, where joints chained by massless links
 /// without shapes count as one; of everything fixed to the world, only the body that carries the joint
 /// counts. A free joint makes no neighbours, and overlaps at home with its descendants do not count, because
-/// they will be moved elsewhere. With kFourGenerations, neighbours are the two bodies of a joint or a pin,
-/// and overlaps at home do not count.
+/// they will be moved elsewhere. With kFourGenerations, neighbours are the two bodies of a joint, and those
+/// of a pin with everything fixed to them; overlaps at home do not count.
 [[nodiscard]] std::vector<PairVerdict> pairVerdicts(const Model& model);
 
 /// The pairs of shapes in contact on bodies that may collide, sorted: those of ContactModel(model). The time

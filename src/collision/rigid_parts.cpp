@@ -38,7 +38,6 @@ class Neighbourhood {
     }
   }
 
- private:
   // Bodies fixed in the world may be far apart: only the body that carries the joint counts, or the next
   // one towards the world that has a shape in contact.
   BodyId fixedNeighbour(BodyId body) const {
@@ -47,6 +46,7 @@ class Neighbourhood {
     return body;
   }
 
+ private:
   bool areInOnePlace(const Joint& upper, const Joint& lower) const {
     const Eigen::Vector3d p_WM = poses_[upper.child] * upper.X_MC.inverse().p;
     const Eigen::Vector3d p_WF = poses_[lower.parent] * lower.X_PF.p;
@@ -76,14 +76,17 @@ RigidParts::RigidParts(const Model& model)
     const bool isFree = hasJoint && model[body.joint].type == JointType::kFree;
     freeJoints_[i] = isFree ? body.joint : freeJoint(body.parent);
   }
-  findAbove(model);
-  for (const Pin& pin : model.pins()) pinned_.emplace(std::minmax(node(pin.a), node(pin.b)));
+  findNeighbours(model);
 }
 
-void RigidParts::findAbove(const Model& model) {
+void RigidParts::findNeighbours(const Model& model) {
   const Neighbourhood neighbourhood(model, *this);
   for (std::size_t i = 1; i < parts_.size(); ++i)
     if (placeOf(parts_[i]) == i) above_[i] = neighbourhood.above(parts_[i]);
+  const auto end = [&](BodyId body) {
+    return part(body) == kWorld ? neighbourhood.fixedNeighbour(body) : part(body);
+  };
+  for (const Pin& pin : model.pins()) pinned_.emplace(std::minmax(end(pin.a), end(pin.b)));
 }
 
 bool RigidParts::arePinned(BodyId a, BodyId b) const {

@@ -26,8 +26,9 @@ class RigidParts {
  private:
   /// The part of a body, or the body itself if it is fixed in the world.
   [[nodiscard]] BodyId node(BodyId body) const { return part(body) == kWorld ? body : part(body); }
-  /// The neighbour of a part towards the world: another part, or a body that is fixed in the world.
-  void findAbove(const Model& model);
+  /// The neighbour of a part towards the world, which is another part or a body that is fixed in the world,
+  /// and who is pinned to whom.
+  void findNeighbours(const Model& model);
 
   std::vector<BodyId> parts_;
   std::vector<JointId> freeJoints_;

@@ -167,6 +167,10 @@ Simulator::Simulator(const std::string& sceneFile, const SimulatorOptions& optio
                                          .srdf = srdfOf(path, scene.spec)};
   start(description, std::move(scene.spec));
   for (const Diagnostic& one : collisionWarnings(parts_->model)) std::cerr << toString(one) << "\n";
+  if (!parts_->model.pins().empty())
+    std::cerr << parts_->model.name()
+              << ": pins close loops here: stepPhysics() keeps them closed, everything else "
+              << "sees the tree of joints only\n";
 }
 
 Simulator::Simulator(const SimulatorDescription& description) { start(description, parsed(description)); }

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
@@ -13,8 +15,8 @@ namespace {
 // positions are linear in them. Removing a share per step would amplify them by the inverse square of short
 // steps.
 constexpr double kErrorRate = 20;
-// Of the largest mobility along a row, what each gets in addition so that none is zero.
-constexpr double kLeastShare = 1e-12;
+// 1/kg or 1/(kg m^2): the mobility along a row that counts as none. The second is relative to it.
+constexpr double kLeastMobility = std::numeric_limits<double>::epsilon(), kLeastShare = 1e-12;
 
 }  // namespace
 
@@ -47,6 +49,9 @@ Couplings::Couplings(const std::vector<Follower>& followers, const Pins& pins) {
   for (const Follower& follower : followers)
     join(followers_.emplace_back(std::make_unique<CouplingRow>(follower)).get());
   for (const auto& [A, B] : pins) join(pins_.emplace_back(std::make_unique<PinRows>(A, B)).get());
+  for (Group& group : groups_)
+    group.hasPins = std::ranges::any_of(
+        group.held, [](const HeldRows* held) { return dynamic_cast<const PinRows*>(held) != nullptr; });
 }
 
 void Couplings::join(HeldRows* rows) {
@@ -114,9 +119,15 @@ void Couplings::settle(Group& group) {
       }
     }
   }
+  // Rows are scaled alike, and those that can move nothing are left out, as Bullet does.
+  const Eigen::VectorXd scale = A.diagonal().unaryExpr(
+      [](double mobility) { return mobility > kLeastMobility ? 1 / std::sqrt(mobility) : 0; });
+  A = scale.asDiagonal() * A * scale.asDiagonal();
+  for (Eigen::Index i = 0; i < count; ++i)
+    if (scale[i] == 0) A(i, i) = 1;
   // Rows of pins may depend on each other: what they agree on remains right.
-  if (!pins_.empty()) A.diagonal().array() += kLeastShare * A.diagonal().maxCoeff();
-  const Eigen::VectorXd impulses = A.llt().solve(missing);
+  if (group.hasPins) A.diagonal().array() += kLeastShare;
+  const Eigen::VectorXd impulses = scale.cwiseProduct(A.llt().solve(scale.cwiseProduct(missing)));
   for (Eigen::Index i = 0; i < count; ++i)
     for (std::size_t k = 0; k < bodies; ++k)
       group.bodies[k]->applyDeltaVeeMultiDof(answers_[static_cast<std::size_t>(i) * bodies + k].data(),

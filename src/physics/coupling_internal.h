@@ -69,6 +69,7 @@ class Couplings {
   struct Group {
     std::vector<HeldRows*> held;
     std::vector<btMultiBody*> bodies;
+    bool hasPins = false;
   };
   void join(HeldRows* rows);
   void settle(Group& group);

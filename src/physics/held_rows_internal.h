@@ -20,7 +20,7 @@ class HeldRows : public btMultiBodyConstraint {
     if (&body == m_bodyA) return jacobianA(row);
     return &body == m_bodyB ? jacobianB(row) : nullptr;
   }
-  /// The velocity along a row that lets its error fade, where the bodies are since the rows were created.
+  /// The velocity along a row that reduces its error, in the posture in which the rows were last created.
   [[nodiscard]] virtual double wanted(int row) const = 0;
 
   /// Forgets the impulses of the last step.

@@ -59,8 +59,9 @@ struct RayHit {
 /// forces act, by Stepper's kBeeman, which keeps their energy; else by Bullet's rule, with motors, friction,
 /// damping and limits of joints solved exactly. ContactModel says what may collide; meshes collide as their
 /// convex hulls. A stack of 20 boxes stays up. Shapes that start in overlap separate at 1 m/s at most. Mimic
-/// joints follow to rounding, and a motor moves all joints that share its coordinate. The points of pins come
-/// apart by the square of a step, and gaps at the start close at 200 /s. Only this module knows Bullet.
+/// joints follow to rounding, and a motor moves all joints that share its coordinate. Points of pins
+/// stay together to first order in the step h: a relative acceleration c leaves a gap of c h / (400 /s). Gaps
+/// at the start close at 1 m/s at most; a loop that cannot be closed whirls. Only this module knows Bullet.
 class PhysicsWorld {
  public:
   /// Throws Error for what cannot be simulated, naming it: ball and free joints that mimic others, moving

@@ -7,7 +7,9 @@ namespace {
 
 constexpr int kAxes = 3;
 // Gaps, which each step of finite length opens, close at this rate, 1/s: a fifth of them in a millisecond.
-constexpr double kClosingRate = 200;
+// Those at the start are as slow as what parts from an overlap, m/s: what the pin moves keeps its speed
+// afterwards.
+constexpr double kClosingRate = 200, kClosingSpeed = 1;
 
 }  // namespace
 
@@ -19,7 +21,9 @@ PinRows::PinRows(const PinEnd& A, const PinEnd& B)
   PinRows::finalizeMultiDof();
 }
 
-double PinRows::wanted(int row) const { return -kClosingRate * gap_[row]; }
+double PinRows::wanted(int row) const {
+  return -kClosingRate * gap_[row] / std::max(1.0, kClosingRate / kClosingSpeed * gap_.length());
+}
 
 void PinRows::measure(const PinEnd& end, const btVector3& axis, double sign, double* coefficients,
                       btMultiBodyJacobianData& data) {

@@ -244,11 +244,13 @@ class Reader {
   }
 
   void readPin(const Node& node) {
+    if (node.keys.size() > 1)
+      fail(node.keys[1].where, "pin", fmt::format("'{}'", node.keys[1].text),
+           "'pin (A B) { ... }': it has no name");
     if (node.parents.size() != 2)
       fail(node.where, "pin", fmt::format("{} bodies", node.parents.size()), "two: pin (A B) {...}");
     const Attributes attributes(node, fmt::format("pin ({} {})", node.parents[0].text, node.parents[1].text));
     attributes.noteUnknown({"A", "B"}, file_.notes);
-    attributes.noteWords({}, file_.notes);
     Pose unused;
     PinSpec pin{.a = connect(node.parents[0], attributes.owner(), "body", unused),
                 .b = connect(node.parents[1], attributes.owner(), "body", unused),

@@ -97,7 +97,12 @@ TEST_F(SceneCommand, InfoShowsPinsAndSaysWhoKeepsThem) {
   const ProcessResult result = scene({"loop.ors"});
   EXPECT_THAT(result.output, HasSubstr("pin  at       to  at     gap at the start, m\n"
                                        "a    0 0 0.4  b   0 0 0  0.1\n"));
-  EXPECT_THAT(result.error, HasSubstr("'rex simulate --engine bullet' keeps them closed"));
+  EXPECT_THAT(result.error, HasSubstr("pins close loops here: Bullet keeps them closed"));
+  const ProcessResult run =
+      rex({"simulate", "loop.ors", "--engine", "bullet", "--seconds", "0.01", "-o", "o"});
+  EXPECT_THAT(
+      run.error,
+      HasSubstr("pins are open at the start, pulled together at 1 m/s at most: 'a' and 'b' by 0.1 m"));
   const json pins = jsonOf({"loop.ors", "info"})["pins"];
   ASSERT_EQ(pins.size(), 1u);
   EXPECT_EQ(pins[0]["b"], "b");

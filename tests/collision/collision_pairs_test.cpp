@@ -72,16 +72,24 @@ TEST(CollisionPairs, TakesWhatIsFixedToEachOtherForOnePart) {
 }
 
 TEST(CollisionPairs, TakesPinnedBodiesForNeighbours) {
+  // A, B and C stand apart, T is fixed to A; F is a frame without shapes on the post P, which stands still.
   std::string scene;
-  for (const auto& [body, x] : {std::pair("A", 0), std::pair("B", 1), std::pair("C", 2)})
+  for (const auto& [body, x] : {std::pair("A", 0), std::pair("B", 1), std::pair("C", 2), std::pair("P", 3)})
     scene += fmt::format(
-        "body {0} {{ contact type=ST_sphere size=[0 0 0 .1] }} joint (world {0}) {{ A=<T t({1} 0 0)> }}\n",
-        body, x);
-  for (const char* rule : {"four_generations", "all_but_neighbours"})
-    EXPECT_EQ(
-        reasons(compile(
-            parseOrs(scene + fmt::format("collisions {{ rule={} }} pin (A B) {{}}", rule), "s.ors").spec)),
-        "AB neighbours, AC may collide, BC may collide");
+        "body {0} {{ contact type=ST_sphere size=[0 0 0 .1] }} joint (world {0}) {{ type={2} A=<T t({1} 0 "
+        "0)> }}\n",
+        body, x, body[0] == 'P' ? "rigid" : "hingeX");
+  scene +=
+      "body T { contact type=ST_sphere size=[0 0 0 .1] } joint (A T) { type=rigid A=<T t(0 0 1)> }\n"
+      "body F {} joint (P F) { type=rigid }\npin (A B) {}\npin (C F) {}\n";
+  const std::string all =
+      "AB neighbours, AC may collide, AP may collide, AT fixed to each other, BC may collide, "
+      "BP may collide, BT neighbours, CP neighbours, CT may collide, PT may collide";
+  for (const char* rule : {"four_generations", "all_but_neighbours"}) {
+    std::string found =
+        reasons(compile(parseOrs(scene + fmt::format("collisions {{ rule={} }}", rule), "s.ors").spec));
+    EXPECT_EQ(found, all) << rule;
+  }
 }
 
 TEST(CollisionPairs, SeesThroughFramesThatAreFixed) {

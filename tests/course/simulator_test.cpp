@@ -118,6 +118,15 @@ TEST_F(SimulatorTest, DescribesScenesOfSeveralFiles) {
   EXPECT_EQ(copy.getJointAngles(), S.getJointAngles());
 }
 
+TEST_F(SimulatorTest, SaysWhatKeepsPins) {
+  std::ofstream(in("scene.ors"))
+      << "body a {}\nbody b {}\njoint (world a) {}\njoint (world b) {}\npin (a b) {}";
+  testing::internal::CaptureStderr();
+  const Simulator S(in("scene.ors"));
+  EXPECT_THAT(testing::internal::GetCapturedStderr(),
+              testing::HasSubstr("pins close loops here: stepPhysics() keeps them closed"));
+}
+
 TEST_F(SimulatorTest, PrintsWarningsOfTheReader) {
   std::ofstream(in("scene.ors")) << "body arm { mas=2 }";
   testing::internal::CaptureStderr();

@@ -122,7 +122,8 @@ constexpr Row kErrors[] = {
      "{attributes}"},
     // statements
     {"@bodi@ a {}", "body",
-     "unknown statement: found 'bodi', wanted 'body', 'shape', 'joint', 'urdf' or 'collisions' (did you mean "
+     "unknown statement: found 'bodi', wanted 'body', 'shape', 'joint', 'pin', 'urdf' or 'collisions' (did "
+     "you mean "
      "'body'?)"},
     {"body a@ @^body b {}", "\n",
      "body 'b': another statement among its words: found 'body', wanted {...} or the end of the line before "

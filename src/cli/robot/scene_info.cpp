@@ -9,7 +9,7 @@
 #include "cli/json_internal.h"
 #include "cli/robot/scene_verbs.h"
 #include "cli/terminal.h"
-#include "kinematics/forward_kinematics.h"
+#include "kinematics/closed_loops.h"
 
 namespace rex::cli {
 namespace {
@@ -129,24 +129,15 @@ void sayShapes(const Model& model) {
   table.print();
 }
 
-// How far the points of each pin are apart at the start, metres.
-std::vector<double> gapsOf(const Model& model) {
-  const BodyPoses poses = forwardKinematics(model, model.initialPositions());
-  std::vector<double> gaps;
-  for (const Pin& pin : model.pins())
-    gaps.push_back((poses[pin.a] * pin.p_AP - poses[pin.b] * pin.p_BQ).norm());
-  return gaps;
-}
-
 void sayPins(const Model& model) {
-  const std::vector<double> gaps = gapsOf(model);
+  const Eigen::VectorXd gaps = pinGaps(model, model.initialPositions());
   Table table;
   table.add({"pin", "at", "to", "at", "gap at the start, m"});
   const auto point = [](const Eigen::Vector3d& p) {
     return fmt::format("{:.4g} {:.4g} {:.4g}", p.x(), p.y(), p.z());
   };
-  for (std::size_t i = 0; i < gaps.size(); ++i) {
-    const Pin& pin = model.pins()[i];
+  for (Eigen::Index i = 0; i < gaps.size(); ++i) {
+    const Pin& pin = model.pins()[static_cast<std::size_t>(i)];
     table.add({harmless(model[pin.a].name), point(pin.p_AP), harmless(model[pin.b].name), point(pin.p_BQ),
                fmt::format("{:.2g}", gaps[i])});
   }
@@ -187,9 +178,9 @@ Json infoOf(const Model& model) {
                       {"contact", shape.contact},
                       {"visible", shape.visible}});
   Json pins = Json::array();
-  const std::vector<double> gaps = gapsOf(model);
-  for (std::size_t i = 0; i < gaps.size(); ++i) {
-    const Pin& pin = model.pins()[i];
+  const Eigen::VectorXd gaps = pinGaps(model, model.initialPositions());
+  for (Eigen::Index i = 0; i < gaps.size(); ++i) {
+    const Pin& pin = model.pins()[static_cast<std::size_t>(i)];
     pins.push_back({{"a", model[pin.a].name},
                     {"p_AP", jsonOf(pin.p_AP)},
                     {"b", model[pin.b].name},

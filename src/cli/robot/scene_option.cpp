@@ -83,8 +83,9 @@ SceneSpec loadSpec(const Project& project, const SceneOption& scene) {
   for (const Diagnostic& one : loaded.notes) note(wrap(harmless(toString(one)), 2, 0));
   if (!loaded.spec.pins.empty())
     note(
-        wrap("pins close loops of joints here; 'rex simulate --engine bullet' keeps them closed, everything "
-             "else treats the joints as a tree",
+        wrap("pins close loops here: Bullet keeps them closed (rex simulate --engine bullet, Simulate in rex "
+             "view); "
+             "kinematics, plans and the other engines see the tree of joints only",
              2, 0));
   loaded.spec.name = scene.file.filename().string();
   chooseShapes(loaded.spec, scene.shapes);

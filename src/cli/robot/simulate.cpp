@@ -25,6 +25,7 @@
 #include "cli/robot/start_overlaps.h"
 #include "cli/shared_options_internal.h"
 #include "cli/wrong_use_internal.h"
+#include "kinematics/closed_loops.h"
 #include "live/live_simulation.h"
 #include "render/figure.h"
 
@@ -285,6 +286,22 @@ Model modelOf(const Project& project, const SimulateOptions& options) {
   return asWrongUse([&] { return compile(spec); });
 }
 
+// Notes which loops are open at the start.
+void noteGaps(const Model& model, const SimulationPlan& plan) {
+  constexpr double kVisible = 1e-3;
+  if (!plan.physics) return;
+  const Eigen::VectorXd gaps = pinGaps(model, plan.start.q);
+  std::string text;
+  for (Eigen::Index i = 0; i < gaps.size(); ++i) {
+    const Pin& pin = model.pins()[static_cast<std::size_t>(i)];
+    if (gaps[i] > kVisible)
+      text += fmt::format("{}'{}' and '{}' by {:.3g} m", text.empty() ? "" : ", ",
+                          harmless(model[pin.a].name), harmless(model[pin.b].name), gaps[i]);
+  }
+  if (!text.empty())
+    note(wrap("pins are open at the start, pulled together at 1 m/s at most: " + text, 2, 0));
+}
+
 // Notes which bodies overlap at the start, or refuses it.
 std::vector<BodyOverlap> overlapsOf(const Model& model, const SimulationPlan& plan,
                                     const SimulateOptions& options) {
@@ -326,6 +343,7 @@ ExitCode simulateScene(const Project& project, const SimulateOptions& options) {
   if (!options.noFilm) requireFilmable(model);
   const SimulationPlan plan = planOf(model, options);
   if (plan.physics) noteCollisionWarnings(model);
+  noteGaps(model, plan);
   const std::vector<BodyOverlap> overlaps = overlapsOf(model, plan, options);
   noteUnheld(model, plan);
   const double speed = options.noFilm ? 1 : filmSpeed(options.speed, plan.steps * options.tau);
