@@ -58,16 +58,6 @@ std::vector<TaskMap> pinTasks(const Model& model) {
   return maps;
 }
 
-Eigen::VectorXd pinGaps(const Model& model, const VectorArg& q) {
-  const BodyPoses poses = forwardKinematics(model, q);
-  Eigen::VectorXd gaps(static_cast<Eigen::Index>(model.pins().size()));
-  for (Eigen::Index i = 0; i < gaps.size(); ++i) {
-    const Pin& pin = model.pins()[static_cast<std::size_t>(i)];
-    gaps[i] = (poses[pin.a] * pin.p_AP - poses[pin.b] * pin.p_BQ).norm();
-  }
-  return gaps;
-}
-
 TaskValue stackLoops(const Model& model, std::span<const TaskMap> loops, const VectorArg& q) {
   const Eigen::VectorXd posture = q;
   const BodyPoses poses = forwardKinematics(model, posture);

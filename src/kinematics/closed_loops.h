@@ -24,9 +24,6 @@ namespace rex {
 /// A pinTask() for each of Model::pins(), in their order.
 [[nodiscard]] std::vector<TaskMap> pinTasks(const Model& model);
 
-/// How far the two points of each pin are apart, metres. Throws Error for a q of the wrong size.
-[[nodiscard]] Eigen::VectorXd pinGaps(const Model& model, const VectorArg& q);
-
 /// The value of all maps and their Jacobian, one below the other.
 [[nodiscard]] TaskValue stackLoops(const Model& model, std::span<const TaskMap> loops, const VectorArg& q);
 

@@ -99,10 +99,8 @@ TEST_F(SceneCommand, InfoShowsPinsAndSaysWhoKeepsThem) {
                                        "a    0 0 0.4  b   0 0 0  0.1\n"));
   EXPECT_THAT(result.error, HasSubstr("pins close loops here: Bullet keeps them closed"));
   const ProcessResult run =
-      rex({"simulate", "loop.ors", "--engine", "bullet", "--seconds", "0.01", "-o", "o"});
-  EXPECT_THAT(
-      run.error,
-      HasSubstr("pins are open at the start, pulled together at 1 m/s at most: 'a' and 'b' by 0.1 m"));
+      rex({"simulate", "loop.ors", "--engine", "bullet", "--seconds", "0.01", "--no-film", "-o", "o"});
+  EXPECT_THAT(run.error, HasSubstr("pins are open at the start, pulled together at 1 m/s at most:"));
   const json pins = jsonOf({"loop.ors", "info"})["pins"];
   ASSERT_EQ(pins.size(), 1u);
   EXPECT_EQ(pins[0]["b"], "b");

@@ -125,14 +125,6 @@ TEST(ClosedLoops, HaveTheRightJacobians) {
   EXPECT_EQ(loopMotions(model, {}, VectorXd::Zero(3)), Eigen::Matrix3d::Identity());
 }
 
-TEST(ClosedLoops, TellHowFarPinsAreApart) {
-  const FourBar bar;
-  const Model model = compile(bar.scene());
-  EXPECT_LT(pinGaps(model, bar.closedForm(1))[0], 1e-14);
-  EXPECT_NEAR(pinGaps(model, Vector3d::Zero())[0], .7 + 1 - .9 - .3, 1e-14) << "all along x";
-  EXPECT_REX_ERROR(pinGaps(model, VectorXd::Zero(2)), "size 2");
-}
-
 TEST(ClosedLoops, SayThatTheyCannotClose) {
   const FourBar bar{.ground = 3};
   const Model model = compile(bar.scene());

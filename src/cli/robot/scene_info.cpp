@@ -7,9 +7,9 @@
 #include <fmt/ranges.h>
 
 #include "cli/json_internal.h"
+#include "cli/robot/pin_gaps.h"
 #include "cli/robot/scene_verbs.h"
 #include "cli/terminal.h"
-#include "kinematics/closed_loops.h"
 
 namespace rex::cli {
 namespace {
