@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -74,7 +75,7 @@ inline rex::Simulator limitedMan(rex::Rng& rng) {
 /// The masses of the scene.
 inline std::vector<BodyMass> massesOf(const rex::Simulator& S) {
   std::vector<BodyMass> masses;
-  for (const rex::Body& one : S.model().bodies().subspan(1))
+  for (const rex::Body& one : std::span(S.model().bodies()).subspan(1))
     masses.push_back({one.name, one.mass, one.p_BBcm});
   return masses;
 }

@@ -24,7 +24,7 @@ class ConvexCore {
   enum class Kind { kBox, kCylinder, kCone, kPoints };
   Kind kind_ = Kind::kBox;
   double radius_ = 0;
-  Eigen::Vector3d half_ = Eigen::Vector3d::Zero();  // of the box around it, but for points
+  Eigen::Vector3d half_{0, 0, 0};  // of the box around it, but for points
   std::span<const Eigen::Vector3f> points_{};
 };
 

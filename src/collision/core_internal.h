@@ -11,7 +11,7 @@ enum class CoreType { kSegment, kBox, kOther };
 /// A shape as a core swept by a ball of `radius`: a segment, half.z long to each side along z, or a box.
 struct Core {
   CoreType type = CoreType::kOther;
-  Eigen::Vector3d half = Eigen::Vector3d::Zero();
+  Eigen::Vector3d half{0, 0, 0};
   double radius = 0;
 };
 

@@ -33,7 +33,7 @@ class MinkowskiDifference {
   bool isCurved() const { return a_.isCurved() || b_.isCurved(); }
   /// Directions near n along which the gap has sharp ridges, since the sides of cylinders are straight.
   std::array<Eigen::Vector3d, 3> ridges(const Eigen::Vector3d& n) const {
-    const Eigen::Vector3d axisA = Eigen::Vector3d::UnitZ(), axisB = X_AB_.R.col(2);
+    const Eigen::Vector3d axisA{0, 0, 1}, axisB = X_AB_.R.col(2);
     const Eigen::Vector3d both = axisA.cross(axisB);
     return {n - n.dot(axisA) * axisA, n - n.dot(axisB) * axisB,
             n.dot(both) < 0 ? Eigen::Vector3d(-both) : both};

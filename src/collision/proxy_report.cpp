@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -17,7 +18,7 @@ std::string pointText(const Eigen::Vector3d& p) {
 }  // namespace
 
 std::string shapeLabel(const Model& model, int shape) {
-  const auto until = model.shapes().first(static_cast<std::size_t>(shape) + 1);
+  const auto until = std::span(model.shapes()).first(static_cast<std::size_t>(shape) + 1);
   const ModelShape& chosen = until.back();
   const bool isNamed = !chosen.name.empty();
   // Shapes that are only visual are not counted among shapes in contact, although they may have the same

@@ -55,7 +55,7 @@ class Ranges {
 std::vector<ShapePair> shapePairs(const Model& model,
                                   const std::map<std::pair<BodyId, BodyId>, std::size_t>& asked) {
   std::vector<ShapePair> pairs;
-  const auto shapes = model.shapes();
+  const std::vector<ModelShape>& shapes = model.shapes();
   const auto takesPart = [&](std::size_t i) {
     return shapes[i].contact && shapes[i].shape.type != ShapeType::kMarker;
   };

@@ -8,7 +8,7 @@ namespace rex {
 /// u0, x' = f(x0, u0) + A (x - x0) + B (u - u0).
 struct LinearizedPlant {
   Eigen::Matrix4d A = Eigen::Matrix4d::Zero();
-  Eigen::Vector4d B = Eigen::Vector4d::Zero();
+  Eigen::Vector4d B{0, 0, 0, 0};
 };
 
 }  // namespace rex

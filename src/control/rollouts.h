@@ -9,7 +9,7 @@ namespace rex {
 /// The initial state of a plant with four states, and the seed of its noise. Comparing policies on the same
 /// trials takes luck out of the comparison.
 struct Trial {
-  Eigen::Vector4d start = Eigen::Vector4d::Zero();
+  Eigen::Vector4d start{0, 0, 0, 0};
   std::uint64_t seed = 0;
 };
 

@@ -18,11 +18,11 @@ struct PlanarControlProblem {
 };
 
 struct ValueGridOptions {
-  Eigen::Vector2d lower{}, upper{};                   ///< corners of the region
-  Eigen::Vector2i nodes{101, 101};                    ///< along each state
-  Eigen::Vector2i isAngle = Eigen::Vector2i::Zero();  ///< 1: upper is where lower is, as for -pi and pi
-  int controls = 21;                                  ///< candidates from uMin to uMax
-  double step = 0.05;                                 ///< seconds for which a control is held
+  Eigen::Vector2d lower{}, upper{};  ///< corners of the region
+  Eigen::Vector2i nodes{101, 101};   ///< along each state
+  Eigen::Vector2i isAngle{0, 0};     ///< 1: upper is where lower is, as for -pi and pi
+  int controls = 21;                 ///< candidates from uMin to uMax
+  double step = 0.05;                ///< seconds for which a control is held
   double tolerance = 1e-6;  ///< converged: no value changes by more than this fraction of the largest
   int maxSweeps = 5000;
 };

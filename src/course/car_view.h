@@ -20,7 +20,7 @@ inline constexpr Color kScanColor{0.80f, 0.47f, 0.65f};
 
 /// A normal distribution of a point in the plane, drawn as an ellipse with a dot at its centre.
 struct PlanarGaussian {
-  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  Eigen::Vector2d mean{0, 0};
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();
 };
 

@@ -10,9 +10,9 @@ namespace rex {
 
 /// The content of a picture of a cart pole.
 struct CartPoleView {
-  Eigen::Vector4d x = Eigen::Vector4d::Zero();  ///< state, as in CartPole
-  double u = 0;                                 ///< the force, an arrow of 5 cm per newton
-  std::string caption{};                        ///< in the top left corner
+  Eigen::Vector4d x{0, 0, 0, 0};  ///< state, as in CartPole
+  double u = 0;                   ///< the force, an arrow of 5 cm per newton
+  std::string caption{};          ///< in the top left corner
 };
 
 /// The cart on its rail, 1 m above the ground; the rail is as long as it has to be. Throws Error for

@@ -28,7 +28,7 @@ class ContactWorld {
   std::vector<PhysicsContact> contacts_{};
   double innerStep_ = 0;
   std::unique_ptr<PhysicsWorld> world_{};
-  Eigen::Vector3d gravity_W_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d gravity_W_{0, 0, 0};
   std::vector<Motor> motors_{};
 };
 

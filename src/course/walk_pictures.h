@@ -19,9 +19,9 @@ namespace rex {
 
 /// A compass walker at one moment.
 struct CompassView {
-  Eigen::Vector4d x = Eigen::Vector4d::Zero();  ///< state, as in CompassGait
-  double foot = 0;                              ///< position of the stance foot, metres down the slope
-  bool leftStands = true;  ///< whether the stance leg is the left, blue one; the other is orange
+  Eigen::Vector4d x{0, 0, 0, 0};  ///< state, as in CompassGait
+  double foot = 0;                ///< position of the stance foot, metres down the slope
+  bool leftStands = true;         ///< whether the stance leg is the left, blue one; the other is orange
 };
 
 /// Its walk down the slope.

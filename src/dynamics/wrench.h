@@ -9,9 +9,9 @@ namespace rex {
 /// An external wrench at the point Q of body B, in W: force (N) and torque (N m).
 struct Wrench {
   BodyId body = kWorld;
-  Eigen::Vector3d p_BQ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d force_W = Eigen::Vector3d::Zero();
-  Eigen::Vector3d torque_W = Eigen::Vector3d::Zero();
+  Eigen::Vector3d p_BQ{0, 0, 0};
+  Eigen::Vector3d force_W{0, 0, 0};
+  Eigen::Vector3d torque_W{0, 0, 0};
 };
 
 /// The joint forces (nv) caused by wrenches, to be added to u: the sum of J_Q^T force + J_w^T torque.

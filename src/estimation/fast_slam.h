@@ -16,7 +16,7 @@ class Rng;
 /// An observation of a landmark, with its number.
 struct LandmarkSighting {
   int landmark = 0;
-  Eigen::Vector2d y = Eigen::Vector2d::Zero();
+  Eigen::Vector2d y{0, 0};
 };
 
 struct FastSlamOptions {

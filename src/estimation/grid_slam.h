@@ -55,7 +55,7 @@ class GridSlam {
  private:
   /// The end points of rays in one cell, and points between neighbouring ones.
   struct Hits {
-    Eigen::Vector2f sum = Eigen::Vector2f::Zero();  ///< from the origin of the map
+    Eigen::Vector2f sum{0, 0};  ///< from the origin of the map
     float count = 0;
     Eigen::Vector2f normal =
         Eigen::Vector2f::Zero();  ///< of the wall through neighbours; zero unless straight

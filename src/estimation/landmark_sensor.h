@@ -16,7 +16,7 @@ struct LandmarkSensor {
 
 /// What a particle knows about the position of a landmark.
 struct LandmarkBelief {
-  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  Eigen::Vector2d mean{0, 0};
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
 };
 

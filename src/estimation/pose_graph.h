@@ -13,14 +13,14 @@ namespace rex {
 /// the error R_ij^T (R_i^T (t_j - t_i) - t_ij), followed by the rotation error.
 struct PlanarEdge {
   int from = 0, to = 0;
-  Eigen::Vector3d motion = Eigen::Vector3d::Zero();  ///< x, y, heading
+  Eigen::Vector3d motion{0, 0, 0};  ///< x, y, heading
   Eigen::Matrix3d information = Eigen::Matrix3d::Identity();
 };
 /// The position of a landmark as seen from a pose, in its frame. The information is that of the error R_i^T
 /// (l - t_i) - position.
 struct LandmarkEdge {
   int pose = 0, landmark = 0;
-  Eigen::Vector2d position = Eigen::Vector2d::Zero();
+  Eigen::Vector2d position{0, 0};
   Eigen::Matrix2d information = Eigen::Matrix2d::Identity();
 };
 /// Poses of a planar robot and the motions measured between them (slide 7:45), with landmarks and their

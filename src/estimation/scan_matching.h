@@ -39,7 +39,7 @@ struct ScanMatch {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   /// kUnobservable: the unit vector (x, y, heading) along which the motion is least observable, with a
   /// positive largest entry. Otherwise zero.
-  Eigen::Vector3d unseen = Eigen::Vector3d::Zero();
+  Eigen::Vector3d unseen{0, 0, 0};
   double residual = 0;  ///< root mean square distance of the matched points from their walls, metres
   double overlap = 0;   ///< fraction of the moving points that match, among those that could
   int iterations = 0;

@@ -17,7 +17,7 @@ namespace internal {
 /// An observation and the landmark of a particle that it belongs to.
 struct LandmarkSeen {
   const LandmarkBelief* landmark = nullptr;
-  Eigen::Vector2d y = Eigen::Vector2d::Zero();
+  Eigen::Vector2d y{0, 0};
 };
 
 /// log N(error | 0, S) without the constant -size/2 log(2 pi); not a number unless S is definite.
@@ -56,7 +56,7 @@ struct PoseNoise {
 };
 /// A draw and the log weight that it adds.
 struct PoseDraw {
-  Eigen::Vector3d pose = Eigen::Vector3d::Zero();
+  Eigen::Vector3d pose{0, 0, 0};
   double logWeight = 0;
 };
 /// Draws from the motion, or if anything is seen, from the motion corrected by one sighting after the other

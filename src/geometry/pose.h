@@ -8,7 +8,7 @@ namespace rex {
 /// Names follow share/doc/notation.md: X_AB * X_BC = X_AC, and X_AB * p_BQ = p_AQ.
 struct Pose {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d p = Eigen::Vector3d::Zero();
+  Eigen::Vector3d p{0, 0, 0};
 
   // Not inline: whatever includes this, a student's file above all, would instantiate these products to
   // compile.

@@ -35,7 +35,7 @@ enum class ShapeType {
 /// described by `mesh`; a sphere-swept convex mesh extends `radius` beyond it.
 struct Shape {
   ShapeType type = ShapeType::kBox;
-  Eigen::Vector3d extent = Eigen::Vector3d::Ones();
+  Eigen::Vector3d extent{1, 1, 1};
   double radius = 0;
   TriangleMesh mesh{};
   TriangleMesh hull{};  ///< convex hull of `mesh`, for shapes in contact; see loadMeshes()

@@ -8,15 +8,15 @@ namespace rex {
 /// the object. The finger exerts any force f whose tangential part is at most friction times f.normal_O:
 /// the friction cone of slide 10:6. Without friction it only pushes along the normal, as on slide 10:5.
 struct Contact {
-  Eigen::Vector3d p_OC = Eigen::Vector3d::Zero();
-  Eigen::Vector3d normal_O = Eigen::Vector3d::UnitX();
+  Eigen::Vector3d p_OC{0, 0, 0};
+  Eigen::Vector3d normal_O{1, 0, 0};
   double friction = 0;
 };
 
 /// The same in the plane.
 struct PlanarContact {
-  Eigen::Vector2d p_OC = Eigen::Vector2d::Zero();
-  Eigen::Vector2d normal_O = Eigen::Vector2d::UnitX();
+  Eigen::Vector2d p_OC{0, 0};
+  Eigen::Vector2d normal_O{1, 0};
   double friction = 0;
 };
 

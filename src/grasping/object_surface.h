@@ -54,7 +54,7 @@ class ObjectSurface {
   [[nodiscard]] std::vector<LineHit> triangleHits(const Eigen::Vector3d& p, const Eigen::Vector3d& d) const;
 
   ShapeType type_;
-  Eigen::Vector3d half_ = Eigen::Vector3d::Zero();  // half edges; of round shapes z is half the straight part
+  Eigen::Vector3d half_{0, 0, 0};  // half edges; of round shapes z is half the straight part
   double radius_ = 0;
   std::vector<Triangle> triangles_;  // of meshes and boxes
   std::vector<double> areas_;        // of triangles or of the parts of round shapes, summed up

@@ -13,7 +13,7 @@ namespace rex {
 /// does not depend on either, quality does: `length` is often the largest distance of the surface from the
 /// centre of mass, so that no torque of a unit force exceeds one.
 struct WrenchReference {
-  Eigen::Vector3d p_OR = Eigen::Vector3d::Zero();
+  Eigen::Vector3d p_OR{0, 0, 0};
   double length = 1;
 };
 

@@ -11,7 +11,7 @@ namespace rex {
 /// turned.
 struct DragGoal {
   BodyId body{};
-  Eigen::Vector3d p_BQ = Eigen::Vector3d::Zero(), p_WQ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d p_BQ{0, 0, 0}, p_WQ{0, 0, 0};
   std::optional<Eigen::Matrix3d> R_WB{};
 };
 

@@ -21,8 +21,8 @@ struct LiveSimulationOptions {
 /// A push at a point of a body, p_BQ in its frame.
 struct Push {
   BodyId body{};
-  Eigen::Vector3d p_BQ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d force_W = Eigen::Vector3d::Zero();  ///< newtons
+  Eigen::Vector3d p_BQ{0, 0, 0};
+  Eigen::Vector3d force_W{0, 0, 0};  ///< newtons
 };
 
 /// A scene that moves with contacts while somebody holds and pushes it.

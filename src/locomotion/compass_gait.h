@@ -18,10 +18,10 @@ enum class StepStatus {
 /// One step of a walker, and how it ended. States are (stance angle, swing angle, their rates).
 struct WalkerStep {
   StepStatus status = StepStatus::kTimeLimit;
-  double time = 0;                                   ///< seconds from its start to the impact or fall
-  Eigen::Vector4d before = Eigen::Vector4d::Zero();  ///< just before the impact, or at the end
-  Eigen::Vector4d after = Eigen::Vector4d::Zero();   ///< just after the impact, if kStepped
-  std::string message{};                             ///< for example "fell forward after 0.62 s"
+  double time = 0;                     ///< seconds from its start to the impact or fall
+  Eigen::Vector4d before{0, 0, 0, 0};  ///< just before the impact, or at the end
+  Eigen::Vector4d after{0, 0, 0, 0};   ///< just after the impact, if kStepped
+  std::string message{};               ///< for example "fell forward after 0.62 s"
 };
 
 /// The same with the derivative of `after` with respect to the start (4 x 4, from the variational equation,

@@ -12,8 +12,8 @@ enum class Side { kLeft, kRight };
 /// A foot flat on the ground: the centre of its sole in W, and its heading.
 struct Footstep {
   Side side = Side::kLeft;
-  Eigen::Vector2d p = Eigen::Vector2d::Zero();  ///< metres
-  double yaw = 0;                               ///< radians about z, 0 along x; modulo a full turn
+  Eigen::Vector2d p{0, 0};  ///< metres
+  double yaw = 0;           ///< radians about z, 0 along x; modulo a full turn
 };
 
 /// A rectangular sole, metres.
@@ -43,7 +43,7 @@ struct WalkPhase {
   double share = 0;                 ///< the fraction of the phase that has passed, 0 to 1
   /// Where the zero moment point should be, metres: the centre of the stance foot. On both feet it moves
   /// uniformly from one centre to the other; at the ends of the walk it starts and ends between the feet.
-  Eigen::Vector2d zmp = Eigen::Vector2d::Zero();
+  Eigen::Vector2d zmp{0, 0};
 };
 
 /// How long the walk takes, seconds. Throws Error for fewer than two footsteps, sides that do not

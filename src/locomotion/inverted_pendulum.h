@@ -6,7 +6,7 @@ namespace rex {
 
 /// Position and velocity of a centre of mass seen from above: x and y in W, metres and m/s.
 struct CenterMotion {
-  Eigen::Vector2d c = Eigen::Vector2d::Zero(), v = Eigen::Vector2d::Zero();
+  Eigen::Vector2d c{0, 0}, v{0, 0};
 };
 
 /// The linear inverted pendulum: a centre of mass at constant height above level ground, without angular

@@ -21,8 +21,8 @@ struct LimitCycle {
              ///< 1e-9 rad
   };
   Status status = Status::kIterationLimit;
-  Eigen::Vector4d x = Eigen::Vector4d::Zero();  ///< just after an impact; if not found, the closest attempt
-  double period = 0;                            ///< seconds of one step
+  Eigen::Vector4d x{0, 0, 0, 0};  ///< just after an impact; if not found, the closest attempt
+  double period = 0;              ///< seconds of one step
   /// The eigenvalues of the step map's derivative at x, by decreasing modulus: how much a small change of
   /// the state grows per step. One of the four is zero, because both feet are on the slope at an impact.
   Eigen::Vector4cd multipliers = Eigen::Vector4cd::Zero();

@@ -67,7 +67,7 @@ struct HopperHop {
 /// The hopper at one time of a hop, in the world: metres, radians.
 struct HopperSample {
   double time = 0;  ///< seconds since the apex
-  Eigen::Vector2d hip = Eigen::Vector2d::Zero(), foot = Eigen::Vector2d::Zero();
+  Eigen::Vector2d hip{0, 0}, foot{0, 0};
   double pitch = 0;
 };
 

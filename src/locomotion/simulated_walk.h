@@ -22,8 +22,8 @@ void addUnevenFloor(SceneSpec& scene, const WalkPlan& plan, double unevenness, d
 
 /// A push at the origin of the trunk, with constant force.
 struct TrunkPush {
-  double time = 0, duration = 0.1;                      ///< seconds
-  Eigen::Vector3d impulse_W = Eigen::Vector3d::Zero();  ///< N s
+  double time = 0, duration = 0.1;     ///< seconds
+  Eigen::Vector3d impulse_W{0, 0, 0};  ///< N s
 };
 
 struct SimulatedWalkOptions {

@@ -26,9 +26,9 @@ struct Hop {
   RunnerApex apex{};      ///< the next one, if kHopped
   double time = 0;        ///< seconds from apex to apex, or until the end
   double stanceTime = 0;  ///< the part of it on the ground, seconds
-  Eigen::Vector4d touchdown = Eigen::Vector4d::Zero();
-  Eigen::Vector4d takeoff = Eigen::Vector4d::Zero();  ///< or the end of stance otherwise
-  std::string message{};                              ///< for example "fell after 0.4 s"
+  Eigen::Vector4d touchdown{0, 0, 0, 0};
+  Eigen::Vector4d takeoff{0, 0, 0, 0};  ///< or the end of stance otherwise
+  std::string message{};                ///< for example "fell after 0.4 s"
 };
 
 /// A point mass on a massless, springy leg: slide 11:23; Blickhan 1989, The spring-mass model for running

@@ -28,13 +28,13 @@ enum class WalkStatus {
 /// One step, and how it ended. States are (x, y, their rates), x forward from the foot that is left.
 struct WalkStep {
   WalkStatus status = WalkStatus::kTimeLimit;
-  MidStance next{};       ///< above the front foot, if kStepped
-  double time = 0;        ///< seconds from mid-stance to mid-stance, or until the end
-  double doubleTime = 0;  ///< the part of it with both feet on the ground, seconds
-  double length = 0;      ///< from foot to foot, metres
-  Eigen::Vector4d touchdown = Eigen::Vector4d::Zero();  ///< of the front leg
-  Eigen::Vector4d takeoff = Eigen::Vector4d::Zero();    ///< of the hind leg
-  std::string message{};                                ///< for example "fell after 0.4 s"
+  MidStance next{};                       ///< above the front foot, if kStepped
+  double time = 0;                        ///< seconds from mid-stance to mid-stance, or until the end
+  double doubleTime = 0;                  ///< the part of it with both feet on the ground, seconds
+  double length = 0;                      ///< from foot to foot, metres
+  Eigen::Vector4d touchdown{0, 0, 0, 0};  ///< of the front leg
+  Eigen::Vector4d takeoff{0, 0, 0, 0};    ///< of the hind leg
+  std::string message{};                  ///< for example "fell after 0.4 s"
 };
 
 inline constexpr double kLongestPhase = 5;  ///< seconds
@@ -51,10 +51,10 @@ inline constexpr double kLongestPhase = 5;  ///< seconds
 
 /// The walker at one time of a step, and how its legs push.
 struct WalkSample {
-  double time = 0;                                  ///< seconds since mid-stance
-  Eigen::Vector4d x = Eigen::Vector4d::Zero();      ///< as in WalkStep
-  Eigen::Vector2d hind = Eigen::Vector2d::Zero();   ///< N, force on the mass of the leg that is left
-  Eigen::Vector2d front = Eigen::Vector2d::Zero();  ///< of the other
+  double time = 0;                ///< seconds since mid-stance
+  Eigen::Vector4d x{0, 0, 0, 0};  ///< as in WalkStep
+  Eigen::Vector2d hind{0, 0};     ///< N, force on the mass of the leg that is left
+  Eigen::Vector2d front{0, 0};    ///< of the other
 };
 
 /// A step in samples, `count` for each of its phases (one foot, both feet, the other foot), as far as it

@@ -32,8 +32,8 @@ struct SupportMargin {
   /// Metres to the boundary, negative outside. For a line or a point: 0 on it, negative off it. Minus
   /// infinity without contacts.
   double margin = 0;
-  Eigen::Vector2d nearest = Eigen::Vector2d::Zero();  ///< on the boundary, x and y in W
-  std::string message{};                              ///< "inside by 0.02 m", or why not
+  Eigen::Vector2d nearest{0, 0};  ///< on the boundary, x and y in W
+  std::string message{};          ///< "inside by 0.02 m", or why not
 };
 
 /// The margin of `point` (x and y in W, metres) in `support`. For the centre of mass it shows static

@@ -25,11 +25,11 @@ struct FootLoads {
 struct WalkControl {
   WholeBodyForces forces{};
   Eigen::Vector2d plannedZmp =
-      Eigen::Vector2d::Zero();                    ///< that of the plan, displaced with its steps; metres
-  Eigen::Vector2d zmp = Eigen::Vector2d::Zero();  ///< demanded, within the soles that stand
-  Eigen::Vector2d captureError = Eigen::Vector2d::Zero();  ///< capture point minus that of the plan
-  Eigen::Vector2d displacement = Eigen::Vector2d::Zero();  ///< of all steps to come, from adjusted steps
-  std::optional<Footstep> landing{};                       ///< where the foot in the air is to land
+      Eigen::Vector2d::Zero();         ///< that of the plan, displaced with its steps; metres
+  Eigen::Vector2d zmp{0, 0};           ///< demanded, within the soles that stand
+  Eigen::Vector2d captureError{0, 0};  ///< capture point minus that of the plan
+  Eigen::Vector2d displacement{0, 0};  ///< of all steps to come, from adjusted steps
+  std::optional<Footstep> landing{};   ///< where the foot in the air is to land
 };
 
 /// Lets a robot walk as planned where the ground is not as planned and the robot is pushed. The plan's motion
@@ -53,7 +53,7 @@ class WalkController {
   struct Foot {
     Side side = Side::kLeft;
     bool swings = false, stands = true;
-    Eigen::Vector3d lifted = Eigen::Vector3d::Zero();  // where it really left the ground minus where planned
+    Eigen::Vector3d lifted{0, 0, 0};  // where it really left the ground minus where planned
     Pose X_WS{};
     Vector6d velocity = Vector6d::Zero();
   };
@@ -78,7 +78,7 @@ class WalkController {
   std::vector<bool> isLeg_{};  // of each coordinate in v
   std::array<Foot, 2> feet_{};
   BodyPoses poses_{};
-  Eigen::Vector2d displacement_ = Eigen::Vector2d::Zero(), adjustment_ = Eigen::Vector2d::Zero();
+  Eigen::Vector2d displacement_{0, 0}, adjustment_{0, 0};
   std::vector<int> active_{};
 };
 

@@ -9,8 +9,8 @@ namespace rex {
 /// The bodies of a robot that walk. At R_WB = Id a foot points along x with its sole level.
 struct Legs {
   BodyId leftFoot{}, rightFoot{};
-  BodyId trunk{};                                  ///< kept upright
-  Eigen::Vector3d p_FS = Eigen::Vector3d::Zero();  ///< centre of the sole in the frame of each foot, metres
+  BodyId trunk{};                 ///< kept upright
+  Eigen::Vector3d p_FS{0, 0, 0};  ///< centre of the sole in the frame of each foot, metres
 };
 
 struct WalkOptions {

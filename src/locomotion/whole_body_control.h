@@ -21,10 +21,10 @@ struct FootGoal {
 /// The accelerations that a robot on two feet should have.
 struct WholeBodyGoal {
   FootGoal left{}, right{};
-  Eigen::Vector3d center_W = Eigen::Vector3d::Zero();           ///< of the centre of mass, m/s^2
-  Eigen::Vector3d angularMomentum_W = Eigen::Vector3d::Zero();  ///< its rate, about the centre of mass, N m
-  Eigen::Vector3d trunk_W = Eigen::Vector3d::Zero();            ///< angular, rad/s^2
-  Eigen::VectorXd joints{};  ///< nv; those of the trunk's free joint are not used
+  Eigen::Vector3d center_W{0, 0, 0};           ///< of the centre of mass, m/s^2
+  Eigen::Vector3d angularMomentum_W{0, 0, 0};  ///< its rate, about the centre of mass, N m
+  Eigen::Vector3d trunk_W{0, 0, 0};            ///< angular, rad/s^2
+  Eigen::VectorXd joints{};                    ///< nv; those of the trunk's free joint are not used
 };
 
 /// Weights of the squared errors of a WholeBodyGoal, and of the forces.

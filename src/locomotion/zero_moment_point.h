@@ -13,10 +13,10 @@ namespace rex {
 /// locomotion.
 struct ZeroMomentPoint {
   bool exists = false;  ///< false if the ground does not push: nothing touches it, or it would have to pull
-  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();      ///< metres, on the ground; if it exists
-  Eigen::Vector3d force_W = Eigen::Vector3d::Zero();  ///< force of the ground on the robot, N
-  double moment = 0;      ///< moment of the ground about the vertical through p_W, N m
-  std::string message{};  ///< why it does not exist
+  Eigen::Vector3d p_W{0, 0, 0};      ///< metres, on the ground; if it exists
+  Eigen::Vector3d force_W{0, 0, 0};  ///< force of the ground on the robot, N
+  double moment = 0;                 ///< moment of the ground about the vertical through p_W, N m
+  std::string message{};             ///< why it does not exist
 };
 
 /// The zero moment point for a robot at q (nq) that moves with v and a (nv each) and touches only level
@@ -28,8 +28,8 @@ struct ZeroMomentPoint {
 
 /// A force of the ground on the robot (N) at a point (metres), in W.
 struct ContactForce {
-  Eigen::Vector3d p_WC = Eigen::Vector3d::Zero();
-  Eigen::Vector3d force_W = Eigen::Vector3d::Zero();
+  Eigen::Vector3d p_WC{0, 0, 0};
+  Eigen::Vector3d force_W{0, 0, 0};
 };
 
 /// The same from measured contact forces; on level ground it is the centre of pressure. Contacts may lie

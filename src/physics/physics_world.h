@@ -31,11 +31,11 @@ struct Motor {
 /// Two shapes, as indices of Model::shapes(), that touch in an inner step, at their poses at its start.
 struct PhysicsContact {
   int shapeA = 0, shapeB = 0;
-  Eigen::Vector3d p_WA, p_WB;                            ///< the nearest points of A and B, in W
-  Eigen::Vector3d normal_W;                              ///< unit, from B to A
-  double distance = 0;                                   ///< metres, negative in overlap
-  double impulse = 0;                                    ///< N s along the normal, during the inner step
-  Eigen::Vector3d friction_W = Eigen::Vector3d::Zero();  ///< N s on A, across the normal, during that step
+  Eigen::Vector3d p_WA, p_WB;           ///< the nearest points of A and B, in W
+  Eigen::Vector3d normal_W;             ///< unit, from B to A
+  double distance = 0;                  ///< metres, negative in overlap
+  double impulse = 0;                   ///< N s along the normal, during the inner step
+  Eigen::Vector3d friction_W{0, 0, 0};  ///< N s on A, across the normal, during that step
 };
 
 /// Two shapes that begin or cease to touch, as indices of Model::shapes(), the smaller one first.

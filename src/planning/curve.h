@@ -38,7 +38,7 @@ class Curve {
   [[nodiscard]] std::string word() const;
 
  private:
-  Eigen::Vector3d start_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d start_{0, 0, 0};
   double radius_ = 1;
   std::array<CurveSegment, kMostSegments> segments_{};
   int count_ = 0;

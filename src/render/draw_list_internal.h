@@ -16,8 +16,8 @@ struct DrawItem {
   MeshKind mesh = MeshKind::kBox;
   std::size_t detail = 0;  ///< which of kSegments
   Pose X_WS{};
-  Eigen::Vector3d halfSize = Eigen::Vector3d::Ones();
-  Eigen::Vector3d stretch = Eigen::Vector3d::Zero();
+  Eigen::Vector3d halfSize{1, 1, 1};
+  Eigen::Vector3d stretch{0, 0, 0};
   Color color{};
   int solid = -1;  ///< its index in the picture; -1 for what is not a solid
   TriangleMesh imported{};

@@ -34,8 +34,8 @@ std::string drawFigure(const Figure& figure, const std::string& terminal, const 
 
 }  // namespace
 
-void writeFigure(const Figure& figure, const std::filesystem::path& path) {
-  internal::writeWhole(path, drawFigure(figure, terminalFor(path), path.string()));
+void writeFigure(const Figure& figure, const std::string& path) {
+  internal::writeWhole(path, drawFigure(figure, terminalFor(path), path));
 }
 
 std::string encodeSvg(const Figure& figure) { return drawFigure(figure, "svg", figure.title); }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -51,7 +50,7 @@ struct Figure {
 /// number is not finite, or not positive on a logarithmic axis, a layer does not fit its axes, or the
 /// ranges show none of the data; naming the path if it cannot be written or has another extension; naming
 /// the Debian package if gnuplot is missing.
-void writeFigure(const Figure& figure, const std::filesystem::path& path);
+void writeFigure(const Figure& figure, const std::string& path);
 
 /// The text of the .svg file of writeFigure(). Throws Error as that does.
 [[nodiscard]] std::string encodeSvg(const Figure& figure);

@@ -57,7 +57,7 @@ struct Histogram {
 /// be symmetric and positive definite.
 struct CovarianceEllipse {
   std::string label{};
-  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  Eigen::Vector2d mean{0, 0};
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();
   double sigmas = 2;
   std::optional<Color> color{};  ///< default: the second of the set

@@ -13,7 +13,7 @@ struct GlbState {
   int mesh = -1;
   GlbExtras extras{};
   Pose pose{};
-  Eigen::Vector3d scale = Eigen::Vector3d::Ones();
+  Eigen::Vector3d scale{1, 1, 1};
 };
 
 /// A thing through all moments of a film; none where it is not there.

@@ -43,7 +43,7 @@ struct GlbNode {
   int parent = -1;     ///< -1: the node stands at the top
   int mesh = -1;
   Pose pose{};
-  Eigen::Vector3d scale = Eigen::Vector3d::Ones();
+  Eigen::Vector3d scale{1, 1, 1};
   GlbExtras extras{};
 };
 

@@ -65,8 +65,8 @@ struct Axes {
 /// An arrow between two points in W (metres), shaded as a solid. Its head is three times as thick as its
 /// shaft. An arrow shorter than 12 radii is scaled down as a whole.
 struct Arrow {
-  Eigen::Vector3d from = Eigen::Vector3d::Zero();
-  Eigen::Vector3d to = Eigen::Vector3d::UnitZ();
+  Eigen::Vector3d from{0, 0, 0};
+  Eigen::Vector3d to{0, 0, 1};
   Color color{0.84f, 0.37f, 0.0f};
   double radius = 0.01;  ///< of the shaft, metres
 };
@@ -75,7 +75,7 @@ struct Arrow {
 /// visible.
 struct Ellipsoid {
   Pose X_WE{};
-  Eigen::Vector3d radii = Eigen::Vector3d::Ones();
+  Eigen::Vector3d radii{1, 1, 1};
   Color color{0.0f, 0.45f, 0.7f, 0.35f};
 };
 
@@ -83,7 +83,7 @@ struct Ellipsoid {
 /// Labels and names of axes avoid each other and captions while there is room; the nearest are placed first.
 struct Label {
   std::string text{};
-  Eigen::Vector3d p_WQ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d p_WQ{0, 0, 0};
   Color color{0.1f, 0.1f, 0.12f};
   double scale = 1;  ///< 1: capitals are 9 pixels high; at most 100
 };

@@ -53,10 +53,10 @@ struct JointMovement {
   using Kind = MotionStep::Kind;
 
   Kind kind = Kind::kFixed;
-  int coordinate = 0;                              ///< index of its first one among those of the joint
-  Eigen::Vector3d axis = Eigen::Vector3d::Zero();  ///< hinge: unit vector; slider: displacement per unit
-  bool isRise = false;                             ///< whether it is the slider of a screw
-  std::string_view part{};                         ///< appended to the joint's name for this movement alone
+  int coordinate = 0;             ///< index of its first one among those of the joint
+  Eigen::Vector3d axis{0, 0, 0};  ///< hinge: unit vector; slider: displacement per unit
+  bool isRise = false;            ///< whether it is the slider of a screw
+  std::string_view part{};        ///< appended to the joint's name for this movement alone
 };
 
 /// The movements of a joint, from frame F before the first to M after the last. A rigid joint has one that

@@ -53,7 +53,7 @@ void readCompiler(const Tag& tag, Compiler& compiler);
 /// The meshes and colours that geoms name.
 struct MeshAsset {
   std::string file;
-  Eigen::Vector3d scale = Eigen::Vector3d::Ones();
+  Eigen::Vector3d scale{1, 1, 1};
   SourceLocation where{};
 };
 struct MjcfAssets {
@@ -71,7 +71,7 @@ void readAssets(const Tag& tag, Files& files, const Defaults& defaults, const Co
 struct Solid {
   enum class Kind { kSphere, kCapsule, kCylinder, kBox, kEllipsoid, kMesh };
   Kind kind = Kind::kSphere;
-  Eigen::Vector3d size = Eigen::Vector3d::Zero();
+  Eigen::Vector3d size{0, 0, 0};
   Pose X_BS{};
   std::optional<double> mass{};       ///< kg
   double density = 1000;              ///< kg / m^3
@@ -80,7 +80,7 @@ struct Solid {
 };
 struct MassProperties {
   double mass = 0;
-  Eigen::Vector3d p_BBcm = Eigen::Vector3d::Zero();
+  Eigen::Vector3d p_BBcm{0, 0, 0};
   Eigen::Matrix3d I_BBcm_B = Eigen::Matrix3d::Zero();
 };
 /// Volume, centre and inertia per density of a mesh, by its signed tetrahedra (Eberly 2002).

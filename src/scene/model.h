@@ -3,7 +3,6 @@
 #include <array>
 #include <limits>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -30,10 +29,10 @@ inline constexpr JointId kNoJoint{-1};
 struct Body {
   std::string name;
   BodyId parent = kWorld;
-  JointId joint = kNoJoint;                          ///< the joint that moves it
-  Pose X_PB{};                                       ///< pose in the parent; only for bodies without a joint
-  double mass = 0;                                   ///< kg
-  Eigen::Vector3d p_BBcm = Eigen::Vector3d::Zero();  ///< centre of mass, in B
+  JointId joint = kNoJoint;         ///< the joint that moves it
+  Pose X_PB{};                      ///< pose in the parent; only for bodies without a joint
+  double mass = 0;                  ///< kg
+  Eigen::Vector3d p_BBcm{0, 0, 0};  ///< centre of mass, in B
   Eigen::Matrix3d I_BBcm_B = Eigen::Matrix3d::Zero();  ///< inertia about the centre of mass, in B, kg m^2
   double subtreeMass = 0;                              ///< kg, with all its descendants
   BodyKind kind = BodyKind::kDynamic;
@@ -43,8 +42,8 @@ struct Body {
 /// the origin, per unit of v. It is constant in its frame: that of the parent or of the child body.
 struct DegreeOfFreedom {
   enum class Frame { kParent, kChild };
-  Eigen::Vector3d angular = Eigen::Vector3d::Zero();
-  Eigen::Vector3d linear = Eigen::Vector3d::Zero();
+  Eigen::Vector3d angular{0, 0, 0};
+  Eigen::Vector3d linear{0, 0, 0};
   Frame frame = Frame::kParent;
 };
 
@@ -55,8 +54,8 @@ struct Joint {
   JointType type = JointType::kRigid;
   BodyId parent{}, child{};
   Pose X_PF, X_MC;
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< unit vector, if its type has one
-  double pitch = 0;                                 ///< pitch of a screw, metres per turn
+  Eigen::Vector3d axis{1, 0, 0};  ///< unit vector, if its type has one
+  double pitch = 0;               ///< pitch of a screw, metres per turn
   int qIndex = 0, vIndex = 0;
   int nq = 0, nv = 0;
   bool mimics = false;  ///< never a rigid joint
@@ -78,7 +77,7 @@ struct ModelShape {
   BodyId body = kWorld;
   Pose X_BS;
   Shape shape;
-  Eigen::Vector4d color = Eigen::Vector4d::Ones();
+  Eigen::Vector4d color{1, 1, 1, 1};
   bool contact = false;
   bool visible = true;
 };
@@ -106,27 +105,27 @@ class Model {
   int nq() const { return static_cast<int>(q0_.size()); }
   int nv() const { return nv_; }
   const std::string& name() const { return name_; }
-  std::span<const Body> bodies() const { return bodies_; }
-  std::span<const Joint> joints() const { return joints_; }
-  std::span<const ModelShape> shapes() const { return shapes_; }
+  const std::vector<Body>& bodies() const { return bodies_; }
+  const std::vector<Joint>& joints() const { return joints_; }
+  const std::vector<ModelShape>& shapes() const { return shapes_; }
   const Body& operator[](BodyId id) const { return bodies_[static_cast<std::size_t>(id)]; }
   const Joint& operator[](JointId id) const { return joints_[static_cast<std::size_t>(id)]; }
 
   /// The steps that place all bodies but the world, in order: joints and fixed bodies, for kernels.
-  std::span<const MotionStep> motionSteps() const { return motionSteps_; }
+  const std::vector<MotionStep>& motionSteps() const { return motionSteps_; }
 
   /// The moving parts, for kernels of dynamics; what is fixed to the world belongs to none.
-  std::span<const Link> links() const { return links_; }
+  const std::vector<Link>& links() const { return links_; }
 
   /// Which bodies may collide: the rule, and choices by name. Applied in collision/collision_pairs.h.
   CollisionRule collisionRule() const { return collisionRule_; }
-  std::span<const PairChoice> collisionChoices() const { return collisionChoices_; }
+  const std::vector<PairChoice>& collisionChoices() const { return collisionChoices_; }
 
   /// What closes loops, in the order of the scene file.
-  std::span<const Pin> pins() const { return pins_; }
+  const std::vector<Pin>& pins() const { return pins_; }
 
   /// All bodies but the world, in the order of the scene file.
-  std::span<const BodyId> bodiesInFileOrder() const { return fileOrder_; }
+  const std::vector<BodyId>& bodiesInFileOrder() const { return fileOrder_; }
 
   /// The first body of that name (in file order), or the body of the first shape of that name, as the
   /// course's exercises expect. Throws Error naming the scene and the closest names.

@@ -33,7 +33,7 @@ struct ShapeSpec {
   bool contact = false;                     ///< takes part in collision detection
   bool visible = true;                      ///< is drawn
   std::string meshFile{};                   ///< what `shape.mesh` is read from, see loadMeshes()
-  Eigen::Vector3d meshScale = Eigen::Vector3d::Ones();
+  Eigen::Vector3d meshScale{1, 1, 1};
   std::filesystem::path meshPath{};  ///< the file that loadMeshes() found; empty before
   bool meshMissing = false;          ///< `shape` only stands in for the mesh; compile() gives it no contact
   SourceLocation where{};
@@ -43,8 +43,8 @@ struct ShapeSpec {
 struct BodySpec {
   std::string name;
   Pose X_WB;
-  double mass = 0;                                   ///< kg; 0: massless
-  Eigen::Vector3d p_BBcm = Eigen::Vector3d::Zero();  ///< centre of mass in B, metres
+  double mass = 0;                           ///< kg; 0: massless
+  Eigen::Vector3d p_BBcm{0, 0, 0};           ///< centre of mass in B, metres
   std::optional<Eigen::Matrix3d> inertia{};  ///< about the centre of mass, in B, kg m^2; unset: 0.2 m Id
   BodyKind kind = BodyKind::kDynamic;
   std::vector<ShapeSpec> shapes{};
@@ -59,10 +59,10 @@ struct JointSpec {
   std::string parent, child;
   JointType type = JointType::kHinge;
   Pose X_PF, X_MC;
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< in F, any length but zero; if its type has one
-  double pitch = 0;                                 ///< pitch of a screw, metres per turn
-  Eigen::VectorXd q0{};                             ///< initial coordinates; empty: the zero position
-  Eigen::VectorXd lower{}, upper{};                 ///< its own limits of each coordinate; empty: none
+  Eigen::Vector3d axis{1, 0, 0};     ///< in F, any length but zero; if its type has one
+  double pitch = 0;                  ///< pitch of a screw, metres per turn
+  Eigen::VectorXd q0{};              ///< initial coordinates; empty: the zero position
+  Eigen::VectorXd lower{}, upper{};  ///< its own limits of each coordinate; empty: none
   std::string mimic{};  ///< a joint that this one follows: q = ratio * q of that joint + offset; empty: none
   double mimicRatio = 1, mimicOffset = 0;  ///< other than 1 and 0 only for joints of one coordinate
   double maxVelocity = kUnlimited;         ///< rad/s or m/s
@@ -97,7 +97,7 @@ struct CollisionChoice {
 /// stands for the first body of that name, or for "world". See kinematics/closed_loops.h.
 struct PinSpec {
   std::string a, b;
-  Eigen::Vector3d p_AP = Eigen::Vector3d::Zero(), p_BQ = Eigen::Vector3d::Zero();  ///< metres
+  Eigen::Vector3d p_AP{0, 0, 0}, p_BQ{0, 0, 0};  ///< metres
   SourceLocation where{};
 };
 

@@ -1,4 +1,5 @@
 #include <memory>
+#include <span>
 
 #include <kdl/chainfksolverpos_recursive.hpp>
 #include <kdl/treejnttojacsolver.hpp>
@@ -27,7 +28,7 @@ class Solvers {
     isChain_ = tree.getNrOfSegments() == chain_.chain.getNrOfSegments();
     const KDL::Tree renumbered(tree);  // as the solver's own copy
     columns_.resize(tree.getNrOfJoints());
-    for (const Body& body : robot.model.bodies().subspan(1)) {
+    for (const Body& body : std::span(robot.model.bodies()).subspan(1)) {
       const bool moves = body.joint != kNoJoint && robot.model[body.joint].nv > 0;
       const int qIndex = body.joint == kNoJoint ? -1 : robot.model[body.joint].qIndex;
       links_.push_back(

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <set>
+#include <span>
 
 #include <kdl/chainfksolverpos_recursive.hpp>
 #include <kdl/chainjnttojacsolver.hpp>
@@ -96,7 +97,7 @@ void expectSameRobot(const std::string& text) {
   Rng rng(61);
   for (int i = 0; i < 10; ++i) {
     const Eigen::VectorXd q = 3 * rng.normalVector(model.nq());
-    for (const Body& body : model.bodies().subspan(1)) expectSame(robot, model, q, body.name);
+    for (const Body& body : std::span(model.bodies()).subspan(1)) expectSame(robot, model, q, body.name);
   }
 }
 

@@ -1,6 +1,7 @@
 // Robots of URDF as parts of .ors scenes.
 #include <fstream>
 #include <numbers>
+#include <span>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -72,7 +73,7 @@ TEST_F(OrsRobot, StandsTwice) {
           if (joint.nq > 0 && other.name == prefix + joint.name)
             q.segment(other.qIndex, other.nq) = own->segment(joint.qIndex, joint.nq);
     const BodyPoses poses = forwardKinematics(two, q);
-    for (const Body& body : one.bodies().subspan(1)) {
+    for (const Body& body : std::span(one.bodies()).subspan(1)) {
       const BodyId id = one.body(body.name);
       EXPECT_TRUE(
           isApprox(poses[two.body("left_" + body.name)], X_WL * forwardKinematics(one, qLeft)[id], 1e-12));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <span>
 
 #include <gtest/gtest.h>
 
@@ -61,7 +62,7 @@ void expectSame(const SceneSpec& first, const SceneSpec& second) {
       EXPECT_TRUE(isApprox(posesA[a.body(body.name)], posesB[b.body(body.name)], kTolerance)) << body.name;
   }
   EXPECT_NEAR(a.mass(), b.mass(), kTolerance);
-  for (const Body& body : a.bodies().subspan(1)) {
+  for (const Body& body : std::span(a.bodies()).subspan(1)) {
     const Body& other = b[b.body(body.name)];
     EXPECT_EQ(body.mass, other.mass);
     if (body.mass == 0) continue;

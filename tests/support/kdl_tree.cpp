@@ -1,6 +1,7 @@
 #include "support/kdl_tree.h"
 
 #include <cassert>
+#include <span>
 
 namespace rex {
 namespace {
@@ -38,7 +39,7 @@ Pose poseFrom(const KDL::Frame& frame) {
 
 KDL::Tree kdlTree(const Model& model) {
   KDL::Tree tree(model[kWorld].name);
-  for (const Body& body : model.bodies().subspan(1)) {
+  for (const Body& body : std::span(model.bodies()).subspan(1)) {
     const bool isRoot = body.joint == kNoJoint;
     const KDL::Joint joint = isRoot ? KDL::Joint(KDL::Joint::Fixed) : kdlJoint(model[body.joint]);
     const Pose X_PB = isRoot ? body.X_PB : model[body.joint].X_PF * model[body.joint].X_MC;

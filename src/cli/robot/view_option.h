@@ -38,7 +38,7 @@ class View {
   std::string label_;
   bool hasEye_ = false;
   Eigen::Vector3d direction_ = kDefaultView;
-  Eigen::Vector3d eye_ = Eigen::Vector3d::Zero(), target_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d eye_{0, 0, 0}, target_{0, 0, 0};
 };
 
 }  // namespace rex::cli
