@@ -100,13 +100,7 @@ double misplacement(const Model& model, const PhysicsWorld& world) {
 // The largest difference of accelerations, as a share of the largest acceleration.
 double accelerationError(const Model& model, const State& state, const Eigen::VectorXd& u) {
   constexpr double kStep = 1e-7;
-  PhysicsWorld world(model, kBare);
-  world.setState(state);
-  std::vector<Motor> motors;
-  for (const double force : u) motors.push_back({.target = force});
-  world.setMotors(motors);
-  world.step(kStep);
-  const Eigen::VectorXd bullet = (world.state().v - state.v) / kStep;
+  const Eigen::VectorXd bullet = (stepped(model, state, u, kStep).v - state.v) / kStep;
   const Eigen::VectorXd ours = forwardDynamicsByMassMatrix(model, state.q, state.v, u);
   return (bullet - ours).lpNorm<Eigen::Infinity>() / ours.lpNorm<Eigen::Infinity>();
 }

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "physics/physics_world.h"
 #include "scene/scene_spec.h"
 
 namespace rex {
@@ -66,6 +68,17 @@ inline Shape ballShape(double radius) {
   shape.type = ShapeType::kSphere;
   shape.radius = radius;
   return shape;
+}
+
+/// The state after one step of h seconds under joint forces u, without limits and friction of joints.
+inline State stepped(const Model& model, const State& state, const Eigen::VectorXd& u, double h) {
+  PhysicsWorld world(model, {.jointLimits = false, .jointFriction = false});
+  world.setState(state);
+  std::vector<Motor> motors;
+  for (const double force : u) motors.push_back({.target = force});
+  world.setMotors(motors);
+  world.step(h);
+  return world.state();
 }
 
 }  // namespace rex
