@@ -118,6 +118,10 @@ class Reader {
     return name.empty() ? role : fmt::format("{} '{}'", role, name);
   }
 
+  static std::string bodiesOf(const Node& node) {
+    return fmt::format("{} {}", node.parents.size(), node.parents.size() == 1 ? "body" : "bodies");
+  }
+
   // The index of the body that is meant; empty: the world.
   std::optional<std::size_t> bodyOf(const ors::Word& parent, const std::string& owner,
                                     const char* role) const {
@@ -130,7 +134,7 @@ class Reader {
     const auto found = firstOfName_.find(parent.text);
     if (found != firstOfName_.end()) return found->second;
     if (parent.text == kWorldName) return std::nullopt;
-    std::vector<std::string> names;
+    std::vector<std::string> names = {kWorldName};
     for (const BodySpec& body : file_.spec.bodies) names.push_back(body.name);
     fail(parent.where, fmt::format("{}: unknown {}", owner, role), fmt::format("'{}'", parent.text),
          "the name of an earlier body", ors::nearestOfMany(parent.text, std::move(names)));
@@ -210,10 +214,8 @@ class Reader {
 
   void readJoint(const Node& node) {
     std::string name = nameOf(node);
-    if (node.parents.size() != 2) {
-      fail(node.where, called("joint", name), fmt::format("{} bodies", node.parents.size()),
-           "two: joint NAME (FROM TO) {...}");
-    }
+    if (node.parents.size() != 2)
+      fail(node.where, called("joint", name), bodiesOf(node), "two: joint NAME (FROM TO) {...}");
     if (file_.spec.joints.size() == ors::kMostJoints)
       fail(node.where, "too many joints", "", fmt::format("at most {}", ors::kMostJoints));
     if (name.empty()) name = nameOf(node.parents[0]) + ">" + nameOf(node.parents[1]);
@@ -247,8 +249,7 @@ class Reader {
     if (node.keys.size() > 1)
       fail(node.keys[1].where, "pin", fmt::format("'{}'", node.keys[1].text),
            "'pin (A B) { ... }': it has no name");
-    if (node.parents.size() != 2)
-      fail(node.where, "pin", fmt::format("{} bodies", node.parents.size()), "two: pin (A B) {...}");
+    if (node.parents.size() != 2) fail(node.where, "pin", bodiesOf(node), "two: pin (A B) {...}");
     const Attributes attributes(node, fmt::format("pin ({} {})", node.parents[0].text, node.parents[1].text));
     attributes.noteUnknown({"A", "B"}, file_.notes);
     Pose unused;
@@ -272,8 +273,7 @@ class Reader {
     for (std::size_t i = 1; i < node.parents.size(); ++i) names += " " + node.parents[i].text;
     const Attributes attributes(node, fmt::format("collisions ({})", names));
     if (node.parents.size() > 2)
-      fail(node.parents[2].where, attributes.owner(), fmt::format("{} bodies", node.parents.size()),
-           "two, or one for all its pairs");
+      fail(node.parents[2].where, attributes.owner(), bodiesOf(node), "two, or one for all its pairs");
     attributes.noteUnknown({"on", "off", "reason"}, file_.notes);
     Pose unused;
     CollisionChoice choice{.a = connect(node.parents[0], attributes.owner(), "body", unused), .b = {}};

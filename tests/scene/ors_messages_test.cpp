@@ -186,6 +186,8 @@ constexpr Row kErrors[] = {
      "body 'a': attribute 'meshscale': found an array of 2, wanted a number or an array of 3 numbers"},
     {"body arm {}\nshape (@amr@) { type=0 }", "arm",
      "shape: unknown parent: found 'amr', wanted the name of an earlier body (did you mean 'arm'?)"},
+    {"body a {}\nshape (@wrld@) { type=0 }", "world",
+     "shape: unknown parent: found 'wrld', wanted the name of an earlier body (did you mean 'world'?)"},
     {"body a {}\nbody b {}\n^shape s (a) { size=[1 1 1]@@ }", " type=0",
      "shape 's': attribute 'type' is missing: wanted type=0 .. type=10"},
     {"body a {}\nbody b {}\nshape s (a @b@) { type=0 }", "",
@@ -199,7 +201,7 @@ constexpr Row kErrors[] = {
      "joint 'arm>hnad': unknown child: found 'hnad', wanted the name of an earlier body (did you mean "
      "'hand'?)"},
     {"body a {}\nbody b {}\n^joint j (a@@) {}", " b",
-     "joint 'j': found 1 bodies, wanted two: joint NAME (FROM TO) {...}"},
+     "joint 'j': found 1 body, wanted two: joint NAME (FROM TO) {...}"},
     {"body a {}\nbody b {}\njoint j (a @a@) {}", "b",
      "joint 'j': found 'a' attached to itself, wanted two different bodies"},
     {"body a {}\nbody b {}\njoint j (a @world@) {}", "b",

@@ -41,7 +41,7 @@ TEST(OrsPins, AreALossInUrdf) {
 }
 
 TEST(OrsPins, RefuseWithThePlace) {
-  EXPECT_REX_ERROR(read("pin (a) {}"), "s.ors:2:1: pin: found 1 bodies, wanted two: pin (A B) {...}");
+  EXPECT_REX_ERROR(read("pin (a) {}"), "s.ors:2:1: pin: found 1 body, wanted two: pin (A B) {...}");
   EXPECT_REX_ERROR(read("pin top (a b) {}"),
                    "s.ors:2:5: pin: found 'top', wanted 'pin (A B) { ... }': it has no name");
   EXPECT_REX_ERROR(read("pin (a a) {}"), "s.ors:2:8: pin (a a): found one body, wanted two different bodies");
