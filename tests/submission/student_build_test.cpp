@@ -155,6 +155,11 @@ TEST_F(StudentBuildTest, CompilesTheGradedPartAlone) {
                            .part = part});
   };
   const std::string head = "#include \"exercise.h\"\n#include <cstdio>\n";
+  const std::filesystem::path partAlone = temporary_.path() / "work" / "graded";
+  EXPECT_TRUE(build(head + "int twice(int a) { return 2 * a; }\nint main() {}\n", true).ok);
+  EXPECT_FALSE(std::filesystem::exists(partAlone)) << "so little is not worth a second compiler";
+  std::string talk;
+  for (int k = 0; k < 20; ++k) talk += "  std::puts(\"what only main() needs\");\n";
   for (const std::string& body :
        {std::string(
             "int half(int a) { return a; }\nint twice(int a) { return half(a) + half(a); }\nint main() {}\n"),
@@ -171,9 +176,10 @@ TEST_F(StudentBuildTest, CompilesTheGradedPartAlone) {
         std::string(
             "void asks() { rex::answer(1); }\nint twice(int a) { return 2 * a; }\nint main() { asks(); }\n"),
         std::string("#include \"answer_internal.h\"\nint twice(int a) { return 2 * a; }\nint main() {}\n")}) {
-    const StudentObject one = build(head + body, false);
+    const std::string source = head + body + "void talk() {\n" + talk + "}\n";
+    const StudentObject one = build(source, false);
     const std::string worker = one.ok ? runProcess({linkWorker(toolchain(), one).program}).output : "";
-    const StudentObject two = build(head + body, true);
+    const StudentObject two = build(source, true);
     EXPECT_EQ(two.ok, one.ok) << body << two.log;
     EXPECT_EQ(two.exitCode, one.exitCode) << body;
     EXPECT_EQ(two.log, one.log) << body;
@@ -181,6 +187,7 @@ TEST_F(StudentBuildTest, CompilesTheGradedPartAlone) {
     if (!one.ok) continue;
     EXPECT_EQ(runProcess({linkWorker(toolchain(), two).program}).output, worker) << body;
   }
+  EXPECT_TRUE(std::filesystem::exists(partAlone));
 }
 
 TEST_F(StudentBuildTest, DebugInformationNamesTheStudentsOwnFile) {
