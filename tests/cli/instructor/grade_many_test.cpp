@@ -38,11 +38,16 @@ class GradeManyTest : public TemplateProject {
     const timespec times[2] = {{seconds, 0}, {seconds, 0}};
     ::utimensat(AT_FDCWD, (in() / student / exercise / "main.cpp").c_str(), times, 0);
   }
-  Ended grade(std::vector<std::string> more = {}, const std::string& out = "results") const {
+  Ended gradeAnew(std::vector<std::string> more = {}, const std::string& out = "results") const {
     std::vector<std::string> arguments = {
         "grade", in().string(), "--out", (root() / out).string(), "--level", "0", "--i-accept-level", "0"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return rex(arguments);
+  }
+  // With the programs that other tests have compiled, for most tests are not about compiling.
+  Ended grade(std::vector<std::string> more = {}, const std::string& out = "results") const {
+    more.insert(more.end(), {"--workers", REX_BINARY_DIR "/tests/template/workers"});
+    return gradeAnew(std::move(more), out);
   }
   std::string table(const std::string& out = "results") const {
     return fileText(root() / out / "grades.csv");
@@ -86,8 +91,8 @@ TEST_F(GradeManyTest, GradesAClassAndTellsWhatItCouldNotTake) {
 TEST_F(GradeManyTest, WritesTheSameBytesWhateverRunsAtOnce) {
   for (const char* student : {"zoe", "adam", "=1+2", "o'hara \"x\"", "Müller, Änne"})
     handIn(student, std::string(student) == "zoe" ? kGood : kBroken);
-  EXPECT_EQ(grade({"-j1"}, "one").code, 0);
-  EXPECT_EQ(grade({"-j4"}, "four").code, 0);
+  EXPECT_EQ(gradeAnew({"-j1"}, "one").code, 0);
+  EXPECT_EQ(gradeAnew({"-j4"}, "four").code, 0);
   EXPECT_EQ(table("one"), table("four"));
   EXPECT_THAT(table("one"), HasSubstr("\n'=1+2,98-template,"));
   EXPECT_EQ(fileText(root() / "one/tasks.tsv"), fileText(root() / "four/tasks.tsv"));
@@ -96,7 +101,7 @@ TEST_F(GradeManyTest, WritesTheSameBytesWhateverRunsAtOnce) {
     one.erase("volatile"), four.erase("volatile");
     EXPECT_EQ(one, four);
   }
-  EXPECT_EQ(grade({"--csv"}, "one").output, table("four"));
+  EXPECT_EQ(gradeAnew({"--csv"}, "one").output, table("four"));
 }
 
 TEST_F(GradeManyTest, TakesWhatSubmitWrites) {
@@ -156,9 +161,9 @@ TEST_F(GradeManyTest, KeepsCompiledProgramsForOtherSeeds) {
   handIn("good", kGood), handIn("wrong", kWrong), handIn("broken", kBroken);
   const std::vector<std::string> seven = {"--seed", "7"},
                                  kept = {"--seed", "7", "--workers", (root() / "workers").string()};
-  EXPECT_EQ(grade(seven, "plain").code, 0);
+  EXPECT_EQ(gradeAnew(seven, "plain").code, 0);
   for (const char* out : {"first", "second"}) {
-    EXPECT_EQ(grade(kept, out).code, 0);
+    EXPECT_EQ(gradeAnew(kept, out).code, 0);
     EXPECT_EQ(table(out), table("plain"));
     for (const char* student : {"good", "wrong", "broken"}) {
       Json with = result(student, out), without = result(student, "plain");
@@ -176,10 +181,10 @@ TEST_F(GradeManyTest, KeepsCompiledProgramsForOtherSeeds) {
   fs::rename(folders[0], root() / "exchanged");
   fs::rename(folders[1], folders[0]);
   fs::rename(root() / "exchanged", folders[1]);
-  EXPECT_EQ(grade({"--seed", "8", "--workers", (root() / "workers").string()}, "third").code, 0);
+  EXPECT_EQ(gradeAnew({"--seed", "8", "--workers", (root() / "workers").string()}, "third").code, 0);
   EXPECT_EQ(result("wrong", "third").at("score"), result("good", "plain").at("score"));
   EXPECT_EQ(result("good", "third").at("score"), result("wrong", "plain").at("score"));
-  EXPECT_EQ(grade({"--seed", "8"}, "fourth").code, 0);
+  EXPECT_EQ(gradeAnew({"--seed", "8"}, "fourth").code, 0);
   EXPECT_EQ(result("good", "fourth").at("outcome"), "pass");
 }
 
@@ -189,7 +194,7 @@ TEST_F(GradeManyTest, CompilesAnewWhereAKeptProgramIsDamaged) {
   const fs::path workers = root() / "workers";
   int seed = 10;
   const auto gradedAgain = [&] {
-    EXPECT_EQ(grade({"--workers", workers.string(), "--seed", std::to_string(++seed)}).code, 0);
+    EXPECT_EQ(gradeAnew({"--workers", workers.string(), "--seed", std::to_string(++seed)}).code, 0);
     return row("good");
   };
   const std::string whole = gradedAgain();
@@ -221,19 +226,19 @@ TEST_F(GradeManyTest, CompilesAnewWhereAKeptProgramIsDamaged) {
 TEST_F(GradeManyTest, CompilesAnewWhenAskedToRegrade) {
   handIn("good", kGood);
   const std::string workers = (root() / "workers").string();
-  EXPECT_EQ(grade({"--workers", workers}).code, 0);
+  EXPECT_EQ(gradeAnew({"--workers", workers}).code, 0);
   const fs::path kept = fs::directory_iterator(workers)->path();
   const auto before = fs::last_write_time(kept / "worker");
-  EXPECT_EQ(grade({"--workers", workers, "--seed", "5"}).code, 0);
+  EXPECT_EQ(gradeAnew({"--workers", workers, "--seed", "5"}).code, 0);
   EXPECT_EQ(fs::last_write_time(kept / "worker"), before);
-  EXPECT_EQ(grade({"--workers", workers, "--regrade"}).code, 0);
+  EXPECT_EQ(gradeAnew({"--workers", workers, "--regrade"}).code, 0);
   EXPECT_NE(fs::last_write_time(kept / "worker"), before);
 }
 
 TEST_F(GradeManyTest, SaysWhereProgramsCannotBeKept) {
   handIn("good", kGood);
   write(root() / "workers", "no folder");
-  const Ended ended = grade({"--workers", (root() / "workers").string()});
+  const Ended ended = gradeAnew({"--workers", (root() / "workers").string()});
   EXPECT_EQ(ended.code, 3);
   EXPECT_THAT(flat(ended.error), HasSubstr("cannot keep programs in"));
 }
@@ -531,7 +536,7 @@ TEST_F(GradeManyTest, RefusesFoldersInsideEachOther) {
     EXPECT_THAT(flat(ended.error), HasSubstr("wanted a folder apart from"));
   }
   for (const fs::path& workers : {in() / "workers", results() / "workers", results()}) {
-    const Ended ended = grade({"--workers", workers.string()});
+    const Ended ended = gradeAnew({"--workers", workers.string()});
     EXPECT_EQ(ended.code, 64);
     EXPECT_THAT(flat(ended.error),
                 HasSubstr("--workers: found " + workers.string() + ", wanted a folder apart from"));
