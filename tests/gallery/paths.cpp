@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "cli/robot/parking.h"
 #include "cli/robot/path_pictures.h"
 #include "cli/robot/posture_option.h"
 #include "cli/robot/trajectory_search.h"
@@ -96,6 +97,17 @@ Image legs() {
                       {.columns = 2});
 }
 
+Image parking() {
+  const Model model = compile(readScene(sourcePath("data/scenes/street.ors")).spec);
+  const ContactModel contacts(model);
+  const PathTask task = cli::parkingTask(model, contacts, model.initialPositions(),
+                                         Eigen::VectorXd(Vector3d(-1.3, 1.1, 0)), 0.05, 0.05);
+  const cli::Parking found = cli::parked(task, {.wheelbase = 2.6, .maxSteering = 0.6}, {});
+  const Picture picture = cli::parkingPicture(task, found);
+  return Renderer({.width = 560, .height = 320})
+      .draw(picture, framing(bounds(picture), {0, -0.5, 1}, 560. / 320));
+}
+
 }  // namespace
 
 std::vector<Drawing> pathPictures() {
@@ -116,7 +128,11 @@ std::vector<Drawing> pathPictures() {
       {"legs", "A leg goes around the other",
        "`rex plan humanoid` from one side of the standing leg to the other: legs of one robot may collide, "
        "too.",
-       legs}};
+       legs},
+      {"parking", "A car parks",
+       "`rex park street --goal -1.3,1.1,0`: hybrid A* searches from the gap, where there is the least room, "
+       "until a curve of Reeds and Shepp leads to the start. Lines are the arcs that it tried.",
+       parking}};
 }
 
 }  // namespace rex::gallery
