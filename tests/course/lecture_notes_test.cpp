@@ -2,6 +2,7 @@
 // formatted as they stand there, so that neither can change alone.
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 #include <set>
 #include <utility>
@@ -35,6 +36,13 @@ void expectStated(const std::string& exercise, const std::string& words) {
       << "notes/" << exercise << ".md does not say: " << words;
 }
 
+// Eigen compiles each kind of product by itself, which takes seconds in all; this is compiled once.
+MatrixXd product(std::initializer_list<MatrixXd> factors) {
+  MatrixXd all = *factors.begin();
+  for (const MatrixXd* factor = factors.begin() + 1; factor != factors.end(); ++factor) all = all * *factor;
+  return all;
+}
+
 MatrixXd randomMatrix(int rows, int columns, Rng& rng) {
   return rng.normalVector(rows * columns).reshaped(rows, columns);
 }
@@ -56,21 +64,25 @@ TEST(LectureNotes, MatrixEquations) {
   Rng rng(1);
   const MatrixXd A = randomMatrix(4, 4, rng), B = randomMatrix(4, 4, rng), C = randomMatrix(4, 4, rng);
   const MatrixXd I = MatrixXd::Identity(4, 4);
-  const MatrixXd a = (I - A.transpose()) * inverse(A);
+  const MatrixXd a = product({I - A.transpose(), inverse(A)});
   EXPECT_LT((a * A + A.transpose() - I).norm(), 1e-9);
-  const MatrixXd b = inverse(C.transpose() - 2 * A) * 2 * A * B;
-  EXPECT_LT((b.transpose() * C - (2 * A * (b + B)).transpose()).norm(), 1e-9);
+  const MatrixXd b = product({inverse(C.transpose() - 2 * A), 2 * A, B});
+  EXPECT_LT((product({b.transpose(), C}) - product({2 * A, b + B}).transpose()).norm(), 1e-9);
   const MatrixXd tall = randomMatrix(7, 4, rng), metric = randomMetric(4, rng);
   const VectorXd y = rng.normalVector(7);
-  const VectorXd d = inverse(tall.transpose() * tall + metric) * tall.transpose() * y;
-  EXPECT_LT(((tall * d - y).transpose() * tall + d.transpose() * metric).norm(), 1e-9);
+  const VectorXd d = product({inverse(tall.transpose() * tall + metric), tall.transpose(), y}),
+                 residual = tall * d - y;
+  EXPECT_LT((product({residual.transpose(), tall}) + product({d.transpose(), metric})).norm(), 1e-9);
   // 12.1.2 e: the minimum, and that nothing near it is smaller.
   const MatrixXd weight = randomMetric(7, rng);
   const auto cost = [&](const VectorXd& x) -> double {
-    return (tall * x - y).dot(weight * (tall * x - y)) + x.dot(metric * x);
+    const VectorXd e = tall * x - y;
+    return e.dot(weight * e) + x.dot(metric * x);
   };
-  const VectorXd best = inverse(tall.transpose() * weight * tall + metric) * tall.transpose() * weight * y;
-  EXPECT_NEAR(cost(best), y.dot(weight * y) - y.dot(weight * tall * best), 1e-9);
+  const VectorXd best = product(
+                     {inverse(tall.transpose() * weight * tall + metric), tall.transpose(), weight, y}),
+                 fitted = tall * best;
+  EXPECT_NEAR(cost(best), y.dot(weight * y) - y.dot(weight * fitted), 1e-9);
   for (int k = 0; k < 20; ++k) EXPECT_GT(cost(best + 1e-3 * rng.normalVector(4)), cost(best));
 }
 
@@ -131,16 +143,17 @@ TEST(LectureNotes, ProofsAboutGaussians) {
   const double logF = std::log(std::abs(F.determinant()));
   EXPECT_NEAR(logDensity({a, A}, x), logDensity({x, A}, a), 1e-9);
   EXPECT_NEAR(logDensity({a, A}, x), logF + logDensity({F * a, F * A * F.transpose()}, F * x), 1e-8);
+  const MatrixXd back = inverse(F);
   EXPECT_NEAR(logDensity({a, A}, F * x + f),
-              -logF + logDensity({inverse(F) * (a - f), inverse(F) * A * inverse(F).transpose()}, x), 1e-8);
+              -logF + logDensity({product({back, a - f}), back * A * back.transpose()}, x), 1e-8);
   const MatrixXd C = inverse(inverse(A) + inverse(B));
-  const VectorXd c = C * (inverse(A) * a + inverse(B) * b);
+  const VectorXd c = product({C, product({inverse(A), a}) + product({inverse(B), b})});
   EXPECT_NEAR(logDensity({a, A}, x) + logDensity({b, B}, x),
               logDensity({c, C}, x) + logDensity({b, A + B}, a), 1e-8);
   EXPECT_GT(Eigen::SelfAdjointEigenSolver<MatrixXd>(MatrixXd(A - C)).eigenvalues().minCoeff(), 0);
   // The precision that is left in x after integrating over y.
-  const MatrixXd W = inverse(A),
-                 left = W - W * F * inverse(inverse(B) + F.transpose() * W * F) * F.transpose() * W;
+  const MatrixXd W = inverse(A), both = inverse(inverse(B) + F.transpose() * W * F),
+                 left = W - product({W, F, both, F.transpose(), W});
   EXPECT_LT((left - inverse(A + F * B * F.transpose())).norm(), 1e-8);
 }
 
@@ -149,25 +162,26 @@ TEST(LectureNotes, StepsOfInverseKinematics) {
   const MatrixXd J = randomMatrix(3, 7, rng), W = randomMetric(7, rng), C0 = randomMetric(3, rng);
   const VectorXd dy = rng.normalVector(3), a = rng.normalVector(7);
   // 12.4.1 a: the gradient vanishes.
-  const VectorXd step = -inverse(J.transpose() * J + W) * J.transpose() * dy;
-  EXPECT_LT((W * step + J.transpose() * (dy + J * step)).norm(), 1e-9);
+  const VectorXd step = -product({inverse(J.transpose() * J + W), J.transpose(), dy});
+  EXPECT_LT((product({W, step}) + product({J.transpose(), dy + J * step})).norm(), 1e-9);
   const MatrixXd S = J * inverse(W) * J.transpose(), I3 = MatrixXd::Identity(3, 3),
                  I7 = MatrixXd::Identity(7, 7);
   double last = 0;
   for (const double rho : {1., 1e2, 1e4, 1e6}) {
-    const MatrixXd C = rho * C0, sharp = inverse(J.transpose() * C * J + W) * J.transpose() * C;
+    const MatrixXd C = rho * C0, sharp = product({inverse(J.transpose() * C * J + W), J.transpose(), C});
     const MatrixXd loss = inverse(I3 + S * C);
     EXPECT_LT((I3 - J * sharp - loss).norm(), 1e-7 * loss.norm() + 1e-7);
-    EXPECT_LT((J * (I7 - sharp * J) * a - loss * J * a).norm(), 1e-7);
+    EXPECT_LT((product({J, I7 - sharp * J, a}) - product({loss, J, a})).norm(), 1e-7);
     last = (I3 - J * sharp).norm();
   }
   EXPECT_LT(last, 1e-4) << "12.4.1 b and c: the limit";
   // Without full row rank: b still holds, c does not.
   MatrixXd deficient = J;
   deficient.row(2) = deficient.row(0);
-  const MatrixXd sharp = inverse(1e6 * deficient.transpose() * deficient + W) * deficient.transpose() * 1e6;
-  EXPECT_LT((deficient * (I7 - sharp * deficient) * a).norm(), 1e-3);
-  EXPECT_GT(((I3 - deficient * sharp) * Eigen::Vector3d(1, 0, -1)).norm(), 1);
+  const MatrixXd scaled = 1e6 * deficient.transpose(),
+                 sharp = product({inverse(scaled * deficient + W), scaled});
+  EXPECT_LT(product({deficient, I7 - sharp * deficient, a}).norm(), 1e-3);
+  EXPECT_GT(product({I3 - deficient * sharp, Eigen::Vector3d(1, 0, -1)}).norm(), 1);
   // The share of a singular direction that a step leaves.
   expectStated("01-kinematics", fmt::format("one part in {:.0f} for $s = 0.5$", .5 * .5 / (.01 * .01)));
   MatrixXd one(1, 1);
@@ -182,8 +196,10 @@ TEST(LectureNotes, WeightedPriorities) {
   const MatrixXd J1 = randomMatrix(2, 4, rng), J2 = randomMatrix(3, 4, rng);
   const VectorXd y1 = rng.normalVector(2), y2 = rng.normalVector(3);
   const auto deviation = [&](double ratio) {
-    const MatrixXd H = ratio * J1.transpose() * J1 + J2.transpose() * J2 + 1e-9 * MatrixXd::Identity(4, 4);
-    const VectorXd q = H.ldlt().solve(ratio * J1.transpose() * y1 + J2.transpose() * y2);
+    const MatrixXd H = ratio * product({J1.transpose(), J1}) + product({J2.transpose(), J2}) +
+                       1e-9 * MatrixXd::Identity(4, 4);
+    const VectorXd g = ratio * product({J1.transpose(), y1}) + product({J2.transpose(), y2}),
+                   q = H.ldlt().solve(g);
     return (J1 * q - y1).norm();
   };
   EXPECT_NEAR(deviation(1e3) / deviation(1e4), 10, .2);
@@ -243,7 +259,7 @@ double leastEffort(const Eigen::Vector2d& d, double T, int n = 2000) {
   MatrixXd effect(2, n);
   const double tau = T / n;
   for (int k = 0; k < n; ++k) effect.col(k) << tau * (T - (k + .5) * tau), tau;
-  const VectorXd u = effect.transpose() * inverse(effect * effect.transpose()) * d;
+  const VectorXd u = product({effect.transpose(), inverse(effect * effect.transpose()), d});
   return tau * u.squaredNorm();
 }
 
@@ -448,12 +464,13 @@ TEST(LectureNotes, TheNaturalGradient) {
     return naturalGradient(at, trials, discount).fisher;
   };
   const VectorXd g = gradient(policy, episodes), w = solve(fisher(policy, episodes), g);
-  EXPECT_LT((M.transpose() * gradient(same, changed) - M.transpose() * M * g).norm(), 1e-9);
-  EXPECT_LT((M.transpose() * solve(fisher(same, changed), gradient(same, changed)) - w).norm(), 1e-9);
+  EXPECT_LT(product({M.transpose(), gradient(same, changed) - M * g}).norm(), 1e-9);
+  EXPECT_LT((product({M.transpose(), solve(fisher(same, changed), gradient(same, changed))}) - w).norm(),
+            1e-9);
   expectStated("08-mdp", fmt::format("$(180/\\pi)^2 = {:.0f}$", std::pow(180 / kPi, 2)));
   // The fit of Q, by least squares; its errors do not change the gradient.
   EXPECT_LT((leastSquares(scores.transpose(), Q) - w).norm(), 1e-9);
-  EXPECT_LT((scores * (scores.transpose() * w) / 20 - g).norm(), 1e-9);
+  EXPECT_LT((product({scores, scores.transpose(), w}) / 20 - g).norm(), 1e-9);
   // The divergence of two normal densities, by its integral.
   const VectorXd phi = rng.normalVector(2), delta = rng.normalVector(2);
   const double variance = phi.dot(policy.Sigma * phi), shift = phi.dot(delta),
@@ -541,8 +558,8 @@ TEST(LectureNotes, FewStepsFromRestToRest) {
     MatrixXd conditions(2, T);
     const double tau = 1. / T;
     for (int k = 1; k <= T; ++k) conditions.col(k - 1) << tau, tau * tau * (T - k + 1);
-    const VectorXd a =
-        conditions.transpose() * inverse(conditions * conditions.transpose()) * Eigen::Vector2d(0, 1);
+    const VectorXd a = product(
+        {conditions.transpose(), inverse(conditions * conditions.transpose()), Eigen::Vector2d(0, 1)});
     return tau * a.squaredNorm();
   };
   EXPECT_NEAR(cost(7), 12 / (1 - 1. / 49), 1e-9);
