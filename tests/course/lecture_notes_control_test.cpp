@@ -24,6 +24,7 @@
 #include "locomotion/compass_gait.h"
 #include "locomotion/limit_cycle.h"
 #include "support/lecture_note.h"
+#include "support/matrix_product.h"
 
 namespace rex::lecture_notes_control_test {
 
@@ -76,11 +77,11 @@ TEST(LectureNotesOnControl, AWrongModel) {
   const MatrixXd root = rng.normalVector(9).reshaped(3, 3),
                  M = root * root.transpose() + MatrixXd::Identity(3, 3);
   const VectorXd F = rng.normalVector(3), wanted = rng.normalVector(3);
-  const VectorXd u = (1 + delta) * (M * wanted + F);
-  EXPECT_LT((inverse(M) * (u - F) - (1 + delta) * wanted - delta * inverse(M) * F).norm(), 1e-9);
+  const VectorXd u = (1 + delta) * (product({M, wanted}) + F), unloaded = product({inverse(M), F});
+  EXPECT_LT((product({inverse(M), u - F}) - (1 + delta) * wanted - delta * unloaded).norm(), 1e-9);
   // At rest: q'' = -e / lambda^2 is what it wants, and nothing moves.
-  const VectorXd e = delta / (1 + delta) * lambda * lambda * inverse(M) * F;
-  EXPECT_LT(((1 + delta) * (M * (-e / (lambda * lambda)) + F) - F).norm(), 1e-9);
+  const VectorXd e = delta / (1 + delta) * lambda * lambda * unloaded;
+  EXPECT_LT(((1 + delta) * (product({M, -e / (lambda * lambda)}) + F) - F).norm(), 1e-9);
   const double Kp = 1.2 / (lambda * lambda), Kd = 1.2 * 2 * xi / lambda;
   expectWritten(
       "03-dynamics",
@@ -132,8 +133,12 @@ TEST(LectureNotesOnControl, TheIterationForTheRiccatiEquation) {
     const MatrixXd root = rng.normalVector(16).reshaped(4, 4);
     MatrixXd E = root + root.transpose();
     const double before = E.norm();
-    for (int k = 0; k < 20000 && E.norm() < 1e6 * before; ++k)
-      E += epsilon * (balanced.closed.transpose() * E + E * balanced.closed);
+    const MatrixXd closed = balanced.closed;
+    for (int k = 0; k < 20000 && E.norm() < 1e6 * before; ++k) {
+      MatrixXd change = closed.transpose() * E;
+      change += E * closed;
+      E += epsilon * change;
+    }
     return E.norm() > before;
   };
   EXPECT_FALSE(grows(.98 * bound));
@@ -155,7 +160,8 @@ struct ObservedPole : BalancedPole {
   }
   bool stable(double factor) const {
     MatrixXd loop(8, 8);
-    loop << plant.A, factor * plant.B * K, L * C, closed - L * C;
+    const MatrixXd BK = plant.B * K, LC = L * C, inner = closed - LC;
+    loop << plant.A, factor * BK, LC, inner;
     return stabilityOf(loop).rate < 0;
   }
 };
@@ -202,10 +208,17 @@ TEST(LectureNotesOnControl, MarginsOfTheObservedPole) {
   expectWritten("07-cartPole", "the cart pole has one, at 2.711.");
   // Kalman's identity.
   for (const double w : {.3, 2., 11.}) {
-    const Eigen::MatrixXcd M = Complex(0, w) * MatrixXd::Identity(4, 4) - ofP.plant.A;
-    const Eigen::Vector4cd h = M.fullPivLu().solve(Eigen::MatrixXcd(ofP.plant.B.cast<Complex>()));
-    const Complex G = -(ofP.K.cast<Complex>() * h)(0), cost = h.dot(ofP.Q.cast<Complex>() * h);
-    EXPECT_NEAR(std::norm(1. + G), 1 + cost.real(), 1e-9);
+    // h = (i w I - A)^-1 B in real numbers, its real part above its imaginary part.
+    MatrixXd M = MatrixXd::Zero(8, 8), B = MatrixXd::Zero(8, 1);
+    M.topLeftCorner(4, 4) = M.bottomRightCorner(4, 4) = -ofP.plant.A;
+    M.topRightCorner(4, 4).diagonal().setConstant(-w);
+    M.bottomLeftCorner(4, 4).diagonal().setConstant(w);
+    B.topRows(4) = ofP.plant.B;
+    const MatrixXd h = product({inverse(M), B}), real = h.topRows(4), imaginary = h.bottomRows(4);
+    const Complex G(-product({ofP.K, real})(0), -product({ofP.K, imaginary})(0));
+    const MatrixXd cost =
+        product({real.transpose(), ofP.Q, real}) + product({imaginary.transpose(), ofP.Q, imaginary});
+    EXPECT_NEAR(std::norm(1. + G), 1 + cost(0, 0), 1e-9);
   }
 }
 
@@ -221,8 +234,8 @@ TEST(LectureNotesOnControl, DoylesExample) {
   EXPECT_LT((lqg.filter.L - d * Vector2d(1, 1)).norm(), 1e-9);
   const auto loop = [&](double m, double gain) {
     MatrixXd both(4, 4);
-    both << A, -m * B * f * Eigen::RowVector2d(1, 1), gain * Vector2d(1, 1) * C,
-        A - B * f * Eigen::RowVector2d(1, 1) - gain * Vector2d(1, 1) * C;
+    const Matrix2d BK = f * product({B, Eigen::RowVector2d(1, 1)}), LC = gain * product({Vector2d(1, 1), C});
+    both << A, -m * BK, LC, A - BK - LC;
     return both;
   };
   for (const double m : {.7, 1., 1.3}) {
@@ -243,22 +256,24 @@ TEST(LectureNotesOnControl, Separation) {
                  B = rng.normalVector(3), dB = rng.normalVector(3), K = rng.normalVector(3).transpose(),
                  L = rng.normalVector(3), C = rng.normalVector(3).transpose();
   MatrixXd loop(6, 6), errors(6, 6), change = MatrixXd::Identity(6, 6);
-  loop << A + dA, (B + dB) * K, L * C, A + B * K - L * C;
+  const MatrixXd BK = B * K, dBK = dB * K, LC = L * C;
+  loop << A + dA, BK + dBK, LC, A + BK - LC;
   change.bottomRightCorner(3, 3) *= -1;
   change.bottomLeftCorner(3, 3).setIdentity();  // to (x, x - x^) and back
-  errors << A + dA + (B + dB) * K, -(B + dB) * K, dA + dB * K, A - L * C - dB * K;
-  EXPECT_LT((change * loop * change - errors).norm(), 1e-12);
+  errors << A + dA + BK + dBK, -BK - dBK, dA + dBK, A - LC - dBK;
+  EXPECT_LT((product({change, loop, change}) - errors).norm(), 1e-12);
 }
 
 TEST(LectureNotesOnControl, HamiltonianMatrices) {
   const BalancedPole balanced;
-  const MatrixXd& B = balanced.plant.B;
-  Eigen::Matrix<double, 8, 8> H, turn = Eigen::Matrix<double, 8, 8>::Zero();
-  H << balanced.plant.A, -B * B.transpose(), -balanced.Q, -balanced.plant.A.transpose();
+  const MatrixXd &A = balanced.plant.A, &B = balanced.plant.B;
+  MatrixXd H(8, 8), turn = MatrixXd::Zero(8, 8);
+  H << A, -product({B, B.transpose()}), -balanced.Q, -A.transpose();
   turn.topRightCorner(4, 4).setIdentity();
   turn.bottomLeftCorner(4, 4) = -MatrixXd::Identity(4, 4);
-  EXPECT_LT((turn * H - (turn * H).transpose()).norm(), 1e-12);
-  EXPECT_LT((turn * H * inverse(turn) + H.transpose()).norm(), 1e-9);
+  const MatrixXd turned = turn * H;
+  EXPECT_LT((turned - turned.transpose()).norm(), 1e-12);
+  EXPECT_LT((product({turned, inverse(turn)}) + H.transpose()).norm(), 1e-9);
   // No solution: A = 0, B = (1, 0), Q = I.
   const RiccatiResult none =
       solveCare(MatrixXd::Zero(2, 2), Vector2d(1, 0), MatrixXd::Identity(2, 2), MatrixXd::Identity(1, 1));
@@ -348,7 +363,7 @@ TEST(LectureNotesOnControl, TheRacer) {
   // The wrong F does no work, and changes the momentum.
   const Vector2d wrong(-ml * std::sin(q[1]) * v[1] * v[1], ml * std::sin(q[1]) * v[0] * v[1]);
   EXPECT_NEAR(v.dot(wrong), 0, 1e-12);
-  const Vector2d acceleration = inverse(M) * (-F - wrong);
+  const Vector2d acceleration = product({inverse(M), -F - wrong});
   const double momentumRate = M.row(0).dot(acceleration) - ml * std::sin(q[1]) * v[1] * v[1];
   EXPECT_NEAR(momentumRate, ml * std::sin(q[1]) * v[1] * v[1], 1e-12);
 }
@@ -438,16 +453,16 @@ TEST(LectureNotesOnControl, WhatABoundIsWorth) {
 }
 
 TEST(LectureNotesOnControl, RoundInCircles) {
-  Eigen::Matrix3d H;
+  MatrixXd H(3, 3);
   H << 4, 5, -5, 5, 9, -5, -5, -5, 7;
   const Eigen::Vector3d g(2, 1, -3);
-  EXPECT_GT(Eigen::SelfAdjointEigenSolver<MatrixXd>(MatrixXd(H)).eigenvalues().minCoeff(), 0);
+  EXPECT_GT(Eigen::SelfAdjointEigenSolver<MatrixXd>(H).eigenvalues().minCoeff(), 0);
   // Holds all numbers above zero, and lets go of all whose slope leads inside.
   const auto next = [&](const std::set<int>& held) {
-    Eigen::Matrix3d rows = H;
+    MatrixXd rows = H;
     VectorXd right = -g;
     for (const int i : held) rows.row(i).setZero(), rows(i, i) = 1, right[i] = 0;
-    const VectorXd z = inverse(rows) * right, slope = H * z + g;
+    const VectorXd z = product({inverse(rows), right}), slope = product({H, z}) + g;
     std::set<int> wanted;
     for (int i = 0; i < 3; ++i)
       if (held.contains(i) ? slope[i] <= 0 : z[i] > 0) wanted.insert(i);
@@ -542,7 +557,8 @@ TEST(LectureNotesOnControl, TheCompassWalker) {
   const Vector2d rest =
       m * l * b * std::sin(turn) * Vector2d(-x[3] * x[3], x[2] * x[2]) +
       walker.g * Vector2d(-(mH * l + m * a + m * l) * std::sin(x[0]), m * b * std::sin(x[1]));
-  EXPECT_LT((walker.derivative(x).tail<2>() + inverse(M) * rest).norm(), 1e-9);
+  const Vector2d accelerations = walker.derivative(x).tail<2>();
+  EXPECT_LT((product({M, accelerations}) + rest).norm(), 1e-9);
   // After an impact both feet are on the slope, and one multiplier is zero.
   const Vector4d guess(.218668803, -.323388558, -1.091826677, -.377181558);
   const LimitCycle gait = findLimitCycle(walker, guess);
@@ -578,10 +594,10 @@ TEST(LectureNotesOnControl, GraspsInOtherUnits) {
   const auto epsilon = [](const MatrixXd& W) {
     double least = 1e9;  // over the faces, each without one of the four
     for (int out = 0; out < 4; ++out) {
-      Eigen::Matrix3d face;
+      MatrixXd face(3, 3);
       for (int k = 0, i = 0; k < 4; ++k)
-        if (k != out) face.col(i++) = W.col(k);
-      const Eigen::Vector3d normal = face.transpose().fullPivLu().solve(Eigen::Vector3d::Ones());
+        if (k != out) face.row(i++) = W.col(k).transpose();
+      const VectorXd normal = product({inverse(face), VectorXd::Ones(3)});
       least = std::min(least, 1 / normal.norm());
     }
     return least;

@@ -2,7 +2,6 @@
 // formatted as they stand there, so that neither can change alone.
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <numbers>
 #include <set>
 #include <utility>
@@ -23,6 +22,7 @@
 #include "learning/power.h"
 #include "planning/dubins.h"
 #include "support/lecture_note.h"
+#include "support/matrix_product.h"
 
 namespace rex::lecture_notes_test {
 
@@ -34,13 +34,6 @@ constexpr double kPi = std::numbers::pi;
 void expectStated(const std::string& exercise, const std::string& words) {
   EXPECT_NE(lectureNote(exercise).find(words), std::string::npos)
       << "notes/" << exercise << ".md does not say: " << words;
-}
-
-// Eigen compiles each kind of product by itself, which takes seconds in all; this is compiled once.
-MatrixXd product(std::initializer_list<MatrixXd> factors) {
-  MatrixXd all = *factors.begin();
-  for (const MatrixXd* factor = factors.begin() + 1; factor != factors.end(); ++factor) all = all * *factor;
-  return all;
 }
 
 MatrixXd randomMatrix(int rows, int columns, Rng& rng) {
