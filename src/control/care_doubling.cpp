@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -15,9 +16,9 @@ extern "C" void dtrsyl_(const char* transposeA, const char* transposeB, const in
 namespace rex::internal {
 namespace {
 
-// Matrices of up to kMost rows live on the stack: for small systems, allocation would take half the time.
-template <class Scalar, int kMost>
-using Square = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, 0, kMost, kMost>;
+// Small matrices live on the stack while they are doubled: allocation would take half the time.
+constexpr int kSmall = 8;
+using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kSmall, kSmall>;
 
 constexpr int kMostDoublings = 14;  // a closed loop that needs more is stiff
 
@@ -43,7 +44,7 @@ M productTransposed(const M& A, const M& B) {  // A B^T
 
 // The limit of H_k: each round squares the closed loop's Cayley transform, whose first is about A.
 template <class M>
-std::optional<M> doubled(const M& A0, const M& G0, const M& Q) {
+std::optional<Eigen::MatrixXd> doubled(const M& A0, const M& G0, const M& Q) {
   const Eigen::Index n = A0.rows();
   // Any shift converges; one of the magnitude of the modes converges fast.
   const double shift =
@@ -73,14 +74,13 @@ std::optional<M> doubled(const M& A0, const M& G0, const M& Q) {
     A = product(A, solvedA);
     const double change = solvedG.norm(), size = H.norm();
     if (!std::isfinite(change)) return {};
-    if (change <= 1e-15 * size) return M(0.5 * (H + H.transpose()));
+    if (change <= 1e-15 * size) return Eigen::MatrixXd(0.5 * (H + H.transpose()));
   }
   return {};
 }
 
 // The eigenvalues of a quasi-triangular matrix, as RealSchur leaves it.
-template <class M>
-Eigen::VectorXcd eigenvaluesOf(const M& T) {
+Eigen::VectorXcd eigenvaluesOf(const Eigen::MatrixXd& T) {
   Eigen::VectorXcd values(T.rows());
   for (Eigen::Index i = 0; i < T.rows(); ++i) {
     if (i + 1 == T.rows() || T(i + 1, i) == 0) {
@@ -111,57 +111,49 @@ std::pair<Eigen::MatrixXd, double> valueAt(const Eigen::MatrixXd& X, const Matri
 }
 
 // The Y of C^T Y + Y C + value = 0 for C = U T U^T.
-template <class M>
-M lyapunovStep(const Eigen::RealSchur<M>& schur, const M& value) {
-  const M &T = schur.matrixT(), &U = schur.matrixU();
-  M Y = -transposedProduct(U, product(value, U));
+Eigen::MatrixXd lyapunovStep(const Eigen::RealSchur<Eigen::MatrixXd>& schur, const Eigen::MatrixXd& value) {
+  const Eigen::MatrixXd &T = schur.matrixT(), &U = schur.matrixU();
+  Eigen::MatrixXd Y = -transposedProduct(U, product(value, U));
   const int n = static_cast<int>(T.rows()), sign = 1;
   double scale = 1;
   int info = 0;
   dtrsyl_("T", "N", &sign, &n, &n, T.data(), &n, T.data(), &n, Y.data(), &n, &scale, &info);
-  const M step = productTransposed(product(U, Y), U);
+  const Eigen::MatrixXd step = productTransposed(product(U, Y), U);
   return (0.5 / scale) * (step + step.transpose());
 }
 
-template <int kMost>
-std::optional<RiccatiResult> solve(const MatrixArg& givenA, const MatrixArg& B, const MatrixArg& givenQ,
-                                   const MatrixArg& R) {
-  using M = Square<double, kMost>;
-  const M A = givenA, Q = givenQ;
+}  // namespace
+
+std::optional<RiccatiResult> careByDoubling(const MatrixArg& givenA, const MatrixArg& B,
+                                            const MatrixArg& givenQ, const MatrixArg& givenR) {
+  const Eigen::MatrixXd A = givenA, Q = givenQ, R = givenR, Bt = B.transpose();
   const Eigen::LLT<Eigen::MatrixXd> weight(R);
-  const Eigen::MatrixXd Bt = B.transpose();
   const auto gainOf = [&](const Eigen::MatrixXd& X) -> Eigen::MatrixXd {
     return weight.solve(product(Bt, X));
   };
-  const M G = transposedProduct(Bt, Eigen::MatrixXd(weight.solve(Bt)));
-  std::optional<M> X = doubled<M>(A, G, Q);
+  const Eigen::MatrixXd G = transposedProduct(Bt, Eigen::MatrixXd(weight.solve(Bt)));
+  std::optional<Eigen::MatrixXd> X =
+      A.rows() <= kSmall ? doubled<Small>(A, G, Q) : doubled<Eigen::MatrixXd>(A, G, Q);
   if (!X) return {};
   RiccatiResult result;
-  const M closed = A - transposedProduct(Bt, gainOf(*X));
-  const Eigen::RealSchur<M> schur(closed);
+  const Eigen::MatrixXd closed = A - transposedProduct(Bt, gainOf(*X));
+  const Eigen::RealSchur<Eigen::MatrixXd> schur(closed);
   if (schur.info() != Eigen::Success) return {};
   result.closedLoop = eigenvaluesOf(schur.matrixT());
   if (!(result.closedLoop.real().maxCoeff() < -1e-4 * A.norm())) return {};
   // What a step changes is what was wrong: nothing else shows how many digits of X are right.
   for (double change = 1, round = 0; change > 1e-12; ++round) {
-    const M step = lyapunovStep<M>(schur, valueAt(*X, givenA, B, givenQ, R).first);
+    const Eigen::MatrixXd step = lyapunovStep(schur, valueAt(*X, A, B, Q, R).first);
     change = step.norm() / X->norm();
     if (!(change < 1e-7) || round == 3) return {};
     *X += step;
   }
-  const auto [value, largest] = valueAt(*X, givenA, B, givenQ, R);
+  const auto [value, largest] = valueAt(*X, A, B, Q, R);
   result.residual = value.norm() / largest;
   result.status = RiccatiStatus::kSolved;
   result.K = gainOf(*X);
-  result.X = *X;
+  result.X = std::move(*X);
   return result;
-}
-
-}  // namespace
-
-std::optional<RiccatiResult> careByDoubling(const MatrixArg& A, const MatrixArg& B, const MatrixArg& Q,
-                                            const MatrixArg& R) {
-  return A.rows() <= 8 ? solve<8>(A, B, Q, R) : solve<Eigen::Dynamic>(A, B, Q, R);
 }
 
 }  // namespace rex::internal

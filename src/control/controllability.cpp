@@ -6,10 +6,10 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 #include <fmt/format.h>
-#include <unsupported/Eigen/MatrixFunctions>
 
 #include "base/error.h"
 #include "control/eigenvalue_text_internal.h"
+#include "control/exponential_internal.h"
 #include "control/require_internal.h"
 #include "control/riccati.h"
 #include "control/stability.h"
@@ -31,7 +31,7 @@ LinearSystem dual(const LinearSystem& given) {
 std::vector<HiddenMode> hiddenModes(const Eigen::MatrixXd& A, const Eigen::MatrixXd& unreachable) {
   std::vector<HiddenMode> modes;
   if (unreachable.cols() == 0) return modes;
-  const Eigen::MatrixXd block = unreachable.transpose() * A.transpose() * unreachable;
+  const Eigen::MatrixXd moved = A * unreachable, block = moved.transpose() * unreachable;
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(block);
   for (Eigen::Index i = 0; i < block.rows(); ++i)
     modes.push_back({solver.eigenvalues()[i], (unreachable * solver.eigenvectors().col(i)).normalized()});
@@ -52,14 +52,17 @@ ReachableStates staircase(const LinearSystem& system, double tolerance, const ch
   for (Eigen::Index i = 0; i < next.cols(); ++i)
     if (!next.col(i).isZero(0)) next.col(i) /= next.col(i).cwiseAbs().maxCoeff(), next.col(i).normalize();
   for (double scale = 1; next.cols() > 0 && basis.cols() < n; scale = scaleA) {
-    for (int twice = 0; twice < 2; ++twice) next -= basis * (basis.transpose() * next);
+    for (int twice = 0; twice < 2; ++twice) {
+      const Eigen::MatrixXd known = basis.transpose() * next;
+      next -= basis * known;
+    }
     const Eigen::JacobiSVD<Eigen::MatrixXd> svd(next, Eigen::ComputeThinU);
     const Eigen::Index fresh =
         std::min<Eigen::Index>((svd.singularValues().array() > tolerance * scale).count(), n - basis.cols());
-    Eigen::MatrixXd larger(n, basis.cols() + fresh);
-    larger << basis, svd.matrixU().leftCols(fresh);
-    basis = larger;
-    next = system.A * basis.rightCols(fresh);
+    const Eigen::MatrixXd newest = svd.matrixU().leftCols(fresh);
+    basis.conservativeResize(n, basis.cols() + fresh);
+    basis.rightCols(fresh) = newest;
+    next = system.A * newest;
   }
   result.rank = static_cast<int>(basis.cols());
   result.reachable = basis;
@@ -77,6 +80,9 @@ ReachableStates staircase(const LinearSystem& system, double tolerance, const ch
   return result;
 }
 
+// M W M^T.
+Eigen::MatrixXd carried(const Eigen::MatrixXd& M, const Eigen::MatrixXd& W) { return M * W * M.transpose(); }
+
 // The sum over the first `count` steps, by doubling: W_{2k} = W_k + A^k W_k A^kT.
 Eigen::MatrixXd summed(const LinearSystem& system, long count) {
   Eigen::MatrixXd W = Eigen::MatrixXd::Zero(system.A.rows(), system.A.rows()), power = system.A,
@@ -84,11 +90,11 @@ Eigen::MatrixXd summed(const LinearSystem& system, long count) {
                   shift = Eigen::MatrixXd::Identity(W.rows(), W.rows());
   for (; count > 0; count /= 2) {
     if (count % 2 == 1) {
-      W += shift * part * shift.transpose();
+      W += carried(shift, part);
       if (count == 1) break;
       shift = (shift * power).eval();
     }
-    part += (power * part * power.transpose()).eval();
+    part += carried(power, part);
     power = (power * power).eval();
   }
   return W;
@@ -101,12 +107,14 @@ Eigen::MatrixXd integrated(const LinearSystem& system, double T) {
       std::max(0, static_cast<int>(std::ceil(std::log2(std::max(1e-300, T * system.A.norm())))));
   const double h = std::ldexp(T, -doublings);
   Eigen::MatrixXd generator = Eigen::MatrixXd::Zero(2 * n, 2 * n);
-  generator << -h * system.A, system.B * system.B.transpose(), Eigen::MatrixXd::Zero(n, n),
-      h * system.A.transpose();
-  const Eigen::MatrixXd flow = generator.exp();
-  Eigen::MatrixXd power = flow.bottomRightCorner(n, n).transpose(), W = h * power * flow.topRightCorner(n, n);
+  generator.topLeftCorner(n, n) = -h * system.A;
+  generator.topRightCorner(n, n) = system.B * system.B.transpose();
+  generator.bottomRightCorner(n, n) = h * system.A.transpose();
+  const Eigen::MatrixXd flow = internal::exponential(generator);
+  Eigen::MatrixXd power = flow.bottomRightCorner(n, n).transpose(), W = flow.topRightCorner(n, n);
+  W = h * (power * W).eval();
   for (int i = 0; i < doublings; ++i) {
-    W += (power * W * power.transpose()).eval();
+    W += carried(power, W);
     power = (power * power).eval();
   }
   return 0.5 * (W + W.transpose());

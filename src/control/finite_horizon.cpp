@@ -8,9 +8,9 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <fmt/format.h>
-#include <unsupported/Eigen/MatrixFunctions>
 
 #include "base/error.h"
+#include "control/exponential_internal.h"
 #include "control/require_internal.h"
 #include "control/require_matrix_internal.h"
 
@@ -70,14 +70,17 @@ class HamiltonianFlow {
     constexpr std::size_t kMostHalvings = 50;
     if (halvings > kMostHalvings) return {};
     while (flows_.size() <= halvings)
-      flows_.push_back((-std::ldexp(part_, -static_cast<int>(flows_.size())) * hamiltonian_).exp());
+      flows_.push_back(
+          internal::exponential(-std::ldexp(part_, -static_cast<int>(flows_.size())) * hamiltonian_));
     const Eigen::MatrixXd& flow = flows_[halvings];
     const Eigen::Index n = P.rows();
-    const Eigen::MatrixXd Y = flow.topLeftCorner(n, n) + flow.topRightCorner(n, n) * P;
-    if ((Y - Eigen::MatrixXd::Identity(n, n)).norm() < 0.5) {
-      const Eigen::MatrixXd Z = flow.bottomLeftCorner(n, n) + flow.bottomRightCorner(n, n) * P;
-      return internal::symmetricPart(
-          Eigen::PartialPivLU<Eigen::MatrixXd>(Y.transpose()).solve(Z.transpose()));
+    const Eigen::MatrixXd right = flow.rightCols(n);
+    Eigen::MatrixXd YZ = flow.leftCols(n);  // Y above Z
+    YZ.noalias() += right * P;
+    const Eigen::MatrixXd Yt = YZ.topRows(n).transpose(), Zt = YZ.bottomRows(n).transpose();
+    if ((Yt - Eigen::MatrixXd::Identity(n, n)).norm() < 0.5) {
+      const Eigen::MatrixXd next = Eigen::PartialPivLU<Eigen::MatrixXd>(Yt).solve(Zt);
+      return internal::symmetricPart(next);
     }
     const std::optional<Eigen::MatrixXd> middle = moved(P, halvings + 1);
     return middle ? moved(*middle, halvings + 1) : std::nullopt;
@@ -91,6 +94,19 @@ class HamiltonianFlow {
 
 constexpr double kMostParts = 1e8;
 
+// B R^-1 B^T, for the Cholesky factors of R.
+Eigen::MatrixXd controlTerm(const Eigen::MatrixXd& B, const Eigen::LLT<Eigen::MatrixXd>& R) {
+  const Eigen::MatrixXd Bt = B.transpose(), solution = R.solve(Bt);
+  return B * solution;
+}
+
+// K = R^-1 B^T P.
+Eigen::MatrixXd gainOf(const Eigen::MatrixXd& B, const Eigen::LLT<Eigen::MatrixXd>& R,
+                       const Eigen::MatrixXd& P) {
+  const Eigen::MatrixXd BtP = B.transpose() * P;
+  return R.solve(BtP);
+}
+
 // The unit of P that makes both off-diagonal blocks of the Hamiltonian equally large.
 double unitOfCost(const Eigen::MatrixXd& G, const Eigen::MatrixXd& Q) {
   const double sizeG = G.norm(), sizeQ = Q.norm();
@@ -99,23 +115,25 @@ double unitOfCost(const Eigen::MatrixXd& G, const Eigen::MatrixXd& Q) {
 
 }  // namespace
 
-RiccatiHorizon discreteHorizon(const LinearSystem& given, const MatrixArg& Q, const MatrixArg& R,
+RiccatiHorizon discreteHorizon(const LinearSystem& given, const MatrixArg& Q, const MatrixArg& givenR,
                                const MatrixArg& F, int steps) {
   const LinearSystem system = completed(given);
-  requireSound(system, Q, R, true);
+  requireSound(system, Q, givenR, true);
   internal::requireSymmetric("F", F, system.A.rows());
   requireSteps(steps);
+  const Eigen::MatrixXd R = givenR;
   std::vector<Eigen::MatrixXd> P{F}, K;
   for (int t = steps - 1; t >= 0; --t) {
     const Eigen::MatrixXd PB = P.back() * system.B;
     const Eigen::LLT<Eigen::MatrixXd> weight(internal::symmetricPart(R + system.B.transpose() * PB));
     if (weight.info() != Eigen::Success)
       return failed(fmt::format("step {}: R + B^T P B is not positive definite: no control is optimal", t));
-    K.push_back(weight.solve(PB.transpose() * system.A));
+    const Eigen::MatrixXd mixed = PB.transpose() * system.A, gain = weight.solve(mixed);
     // In this form (Joseph's) rounding leaves P positive semidefinite.
-    const Eigen::MatrixXd closed = system.A - system.B * K.back();
-    P.push_back(internal::symmetricPart(Q + K.back().transpose() * R * K.back() +
-                                        closed.transpose() * P.back() * closed));
+    const Eigen::MatrixXd closed = system.A - system.B * gain, ofControl = gain.transpose() * R * gain,
+                          ofRest = closed.transpose() * P.back() * closed;
+    K.push_back(gain);
+    P.push_back(internal::symmetricPart(Q + ofControl + ofRest));
     if (!P.back().allFinite()) return failed(fmt::format("step {}: P is not finite", t));
   }
   return solved(std::move(P), std::move(K));
@@ -129,8 +147,8 @@ RiccatiHorizon continuousHorizon(const LinearSystem& given, const MatrixArg& Q, 
   requirePositive("time T of a horizon", T);
   requireSteps(steps);
   const Eigen::Index n = system.A.rows();
-  const Eigen::LLT<Eigen::MatrixXd> weight(R);
-  const Eigen::MatrixXd G = system.B * weight.solve(system.B.transpose());
+  const Eigen::LLT<Eigen::MatrixXd> weight{Eigen::MatrixXd(R)};
+  const Eigen::MatrixXd G = controlTerm(system.B, weight);
   const double unit = unitOfCost(G, Q);
   Eigen::MatrixXd hamiltonian(2 * n, 2 * n);
   hamiltonian << system.A, -unit * G, -Q / unit, -system.A.transpose();
@@ -140,15 +158,12 @@ RiccatiHorizon continuousHorizon(const LinearSystem& given, const MatrixArg& Q, 
         fmt::format("time T is too long for the fastest motion: it takes {:.2g} parts, at most {:.2g}", parts,
                     kMostParts));
   HamiltonianFlow flow(hamiltonian, h);
-  const auto gainAt = [&](const Eigen::MatrixXd& P) -> Eigen::MatrixXd {
-    return weight.solve(system.B.transpose() * P);
-  };
-  std::vector<Eigen::MatrixXd> P{F}, K{gainAt(F)};
+  std::vector<Eigen::MatrixXd> P{F}, K{gainOf(system.B, weight, F)};
   for (int i = steps - 1; i >= 0; --i) {
     const std::optional<Eigen::MatrixXd> now = flow.moved(P.back() / unit);
     if (!now) return failed(fmt::format("P grows without bound before time {:.4g}", (i + 1) * h));
     P.push_back(unit * *now);
-    K.push_back(gainAt(P.back()));
+    K.push_back(gainOf(system.B, weight, P.back()));
   }
   return solved(std::move(P), std::move(K));
 }
@@ -161,8 +176,8 @@ RiccatiIteration iterateCare(const LinearSystem& given, const MatrixArg& Q, cons
   requirePositive("tolerance of the iteration", options.tolerance);
   requireCount("iterations", options.maxIterations, 1);
   const Eigen::Index n = system.A.rows();
-  const Eigen::LLT<Eigen::MatrixXd> weight(R);
-  const Eigen::MatrixXd G = system.B * weight.solve(system.B.transpose());
+  const Eigen::LLT<Eigen::MatrixXd> weight{Eigen::MatrixXd(R)};
+  const Eigen::MatrixXd G = controlTerm(system.B, weight);
   RiccatiIteration result{.P = Q};
   Eigen::MatrixXd change(n, n), PG(n, n);
   for (; result.iterations < options.maxIterations; ++result.iterations) {
@@ -179,7 +194,7 @@ RiccatiIteration iterateCare(const LinearSystem& given, const MatrixArg& Q, cons
     }
     result.P += options.epsilon * change;
   }
-  result.K = weight.solve(system.B.transpose() * result.P);
+  result.K = gainOf(system.B, weight, result.P);
   result.message = fmt::format("{} after {} iterations: residual {:.2g}",
                                result.isConverged ? "converged"
                                : result.residual < 1e150

@@ -1,10 +1,10 @@
 #include "control/linear_system.h"
 
 #include <fmt/format.h>
-#include <unsupported/Eigen/MatrixFunctions>
 
 #include "base/derivative_check.h"
 #include "base/error.h"
+#include "control/exponential_internal.h"
 #include "control/require_internal.h"
 #include "control/require_matrix_internal.h"
 
@@ -40,7 +40,7 @@ LinearSystem discretized(const LinearSystem& system, double step) {
   Eigen::MatrixXd generator = Eigen::MatrixXd::Zero(n + m, n + m);
   generator.topLeftCorner(n, n) = step * system.A;
   generator.topRightCorner(n, m) = system.B / unit;
-  const Eigen::MatrixXd motion = generator.exp();
+  const Eigen::MatrixXd motion = internal::exponential(generator);
   result.A = motion.topLeftCorner(n, n);
   result.B = unit * (step * motion.topRightCorner(n, m));
   if (!result.A.allFinite() || !result.B.allFinite())

@@ -60,8 +60,9 @@ LqPolicy solveLq(const std::vector<LqStage>& stages, const Eigen::MatrixXd& F, c
     const Eigen::MatrixXd weight = internal::symmetricPart(stage.R + stage.B.transpose() * PB),
                           mixed = stage.S + stage.B.transpose() * PA;
     const Eigen::VectorXd slope = stage.r + stage.B.transpose() * ahead;
-    const Eigen::LLT<Eigen::MatrixXd> damped(
-        weight + damping * Eigen::MatrixXd::Identity(weight.rows(), weight.rows()));
+    Eigen::MatrixXd dampedWeight = weight;
+    dampedWeight.diagonal().array() += damping;
+    const Eigen::LLT<Eigen::MatrixXd> damped(dampedWeight);
     if (damped.info() != Eigen::Success)
       return {.stage = static_cast<int>(t),
               .message = fmt::format("stage {}: the cost of the control has no minimum", t)};
@@ -69,10 +70,10 @@ LqPolicy solveLq(const std::vector<LqStage>& stages, const Eigen::MatrixXd& F, c
     const Eigen::VectorXd& k = policy.k[t] = -damped.solve(slope);
     // With damping, K and k are not optimal: this form holds for any.
     const Eigen::MatrixXd P = stage.Q + stage.A.transpose() * PA + K.transpose() * weight * K -
-                              K.transpose() * mixed - mixed.transpose() * K;
+                              K.transpose() * mixed - mixed.transpose() * K,
+                          error = mixed - weight * K;
     policy.P[t] = internal::symmetricPart(P);
-    policy.p[t] =
-        stage.q + stage.A.transpose() * ahead - K.transpose() * slope + (mixed - weight * K).transpose() * k;
+    policy.p[t] = stage.q + stage.A.transpose() * ahead - K.transpose() * slope + error.transpose() * k;
   }
   policy.isSolved = true;
   policy.message = "solved";
@@ -85,8 +86,9 @@ std::vector<LqStage> trackingStages(const Eigen::MatrixXd& A, const Eigen::Matri
   requireSize("rows of the path", path.rows(), A.rows());
   requireSize("columns of Q", Q.cols(), A.rows());
   std::vector<LqStage> stages;
+  const Eigen::MatrixXd slopes = -(Q * path);
   for (Eigen::Index t = 0; t + 1 < path.cols(); ++t)
-    stages.push_back({.A = A, .B = B, .Q = Q, .R = R, .q = -Q * path.col(t)});
+    stages.push_back({.A = A, .B = B, .Q = Q, .R = R, .q = slopes.col(t)});
   return stages;
 }
 

@@ -39,8 +39,23 @@ Eigen::VectorXcd solveShifted(const Eigen::MatrixXcd& T, Complex s, Complex t, E
   return b;
 }
 
+// The complex Schur form of a real matrix: the blocks of the real one are made triangular.
+Eigen::ComplexSchur<Eigen::MatrixXcd> schurOf(const Eigen::MatrixXd& A) {
+  const Eigen::RealSchur<Eigen::MatrixXd> real(A);
+  Eigen::ComplexSchur<Eigen::MatrixXcd> schur(A.rows());
+  schur.computeFromHessenberg(real.matrixT().cast<Complex>(), real.matrixU().cast<Complex>(), true);
+  return schur;
+}
+
+// Coefficient by coefficient: the blocked product of complex matrices would take seconds to compile.
+Eigen::MatrixXcd product(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& B) { return A.lazyProduct(B); }
+
+Eigen::MatrixXcd inBasis(const Eigen::MatrixXcd& U, const Eigen::MatrixXd& Q) {
+  return product(U.adjoint(), product(Q.cast<Complex>(), U));
+}
+
 Eigen::MatrixXd backFrom(const Eigen::MatrixXcd& U, const Eigen::MatrixXcd& Y) {
-  const Eigen::MatrixXd X = (U * Y * U.adjoint()).real();
+  const Eigen::MatrixXd X = product(product(U, Y), U.adjoint()).real();
   return 0.5 * (X + X.transpose());
 }
 
@@ -48,9 +63,8 @@ Eigen::MatrixXd backFrom(const Eigen::MatrixXcd& U, const Eigen::MatrixXcd& Y) {
 
 Eigen::MatrixXd solveLyapunov(const MatrixArg& A, const MatrixArg& Q) {
   requireInput(A, Q);
-  const Eigen::ComplexSchur<Eigen::MatrixXcd> schur(A.cast<Complex>());
-  const Eigen::MatrixXcd &T = schur.matrixT(), &U = schur.matrixU();
-  const Eigen::MatrixXcd C = U.adjoint() * Q.cast<Complex>() * U;
+  const Eigen::ComplexSchur<Eigen::MatrixXcd> schur = schurOf(A);
+  const Eigen::MatrixXcd &T = schur.matrixT(), &U = schur.matrixU(), C = inBasis(U, Q);
   Eigen::MatrixXcd Y = Eigen::MatrixXcd::Zero(A.rows(), A.rows());
   for (Eigen::Index j = 0; j < A.rows(); ++j)
     Y.col(j) = solveShifted(T, 1, T(j, j), -C.col(j) - Y.leftCols(j) * T.col(j).head(j), "a sum of zero");
@@ -59,9 +73,8 @@ Eigen::MatrixXd solveLyapunov(const MatrixArg& A, const MatrixArg& Q) {
 
 Eigen::MatrixXd solveDiscreteLyapunov(const MatrixArg& A, const MatrixArg& Q) {
   requireInput(A, Q);
-  const Eigen::ComplexSchur<Eigen::MatrixXcd> schur(A.cast<Complex>());
-  const Eigen::MatrixXcd &T = schur.matrixT(), &U = schur.matrixU();
-  const Eigen::MatrixXcd C = U.adjoint() * Q.cast<Complex>() * U;
+  const Eigen::ComplexSchur<Eigen::MatrixXcd> schur = schurOf(A);
+  const Eigen::MatrixXcd &T = schur.matrixT(), &U = schur.matrixU(), C = inBasis(U, Q);
   Eigen::MatrixXcd Y = Eigen::MatrixXcd::Zero(A.rows(), A.rows());
   for (Eigen::Index j = 0; j < A.rows(); ++j)
     Y.col(j) = solveShifted(T, T(j, j), -1, -C.col(j) - T.adjoint() * (Y.leftCols(j) * T.col(j).head(j)),

@@ -8,7 +8,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "base/derivative_check.h"
 #include "base/error.h"
@@ -22,7 +21,9 @@ namespace {
 constexpr double kZero = 1e-9;
 
 std::string shown(const Eigen::VectorXd& x) {
-  return fmt::format("({:.4g})", fmt::join(x.data(), x.data() + x.size(), ", "));
+  std::string text;
+  for (const double value : x) text += fmt::format("{}{:.4g}", text.empty() ? "(" : ", ", value);
+  return text + ")";
 }
 
 void requireSound(const LyapunovCandidate& candidate, const LyapunovRegion& region, int samples) {
@@ -92,6 +93,12 @@ double rateAt(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& f,
   return speed * numericJacobian(along, Eigen::VectorXd::Zero(1), 1e-2 * reach)(0, 0);
 }
 
+// P A + A^T P: x^T times it times x is the rate of V = x^T P x.
+Eigen::MatrixXd rateOf(const Eigen::MatrixXd& A, const Eigen::MatrixXd& P) {
+  const Eigen::MatrixXd PA = P * A;
+  return PA + PA.transpose();
+}
+
 LyapunovResult concluded(LyapunovResult result, bool isPositive, bool falls, bool rises) {
   result.status = !isPositive ? LyapunovStatus::kNotPositive
                   : rises     ? LyapunovStatus::kRises
@@ -152,10 +159,17 @@ LyapunovCertificate certifyQuadratic(const MatrixArg& A, const MatrixArg& P) {
         fmt::format("P has the eigenvalue {:.4g} in the direction {}", result.leastOfP, shown(result.worst));
     return result;
   }
-  const Eigen::MatrixXd PA = P * A;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> ofRate(PA + PA.transpose(), P);
+  // With P = L L^T, the rate relative to V has the matrix L^-1 (P A + A^T P) L^-T in terms of L^T x.
+  const Eigen::LLT<Eigen::MatrixXd> cholesky{Eigen::MatrixXd(P)};
+  Eigen::MatrixXd relative = rateOf(A, P);
+  cholesky.matrixL().solveInPlace(relative);
+  cholesky.matrixU().solveInPlace<Eigen::OnTheRight>(relative);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ofRate(relative);
   result.rate = ofRate.eigenvalues()[n - 1];
-  result.worst = ofRate.eigenvectors().col(n - 1).normalized();
+  Eigen::MatrixXd directions = ofRate.eigenvectors();
+  cholesky.matrixU().solveInPlace(directions);
+  result.worst = directions.col(n - 1);
+  result.worst.normalize();
   const double rounding = 1e-12 * ofRate.eigenvalues().cwiseAbs().maxCoeff();
   result.status = result.rate > rounding    ? LyapunovStatus::kRises
                   : result.rate < -rounding ? LyapunovStatus::kHolds
@@ -173,12 +187,11 @@ double certifiedLevel(const MatrixArg& A, const MatrixArg& P, double curvature) 
   if (certifyQuadratic(A, P).status != LyapunovStatus::kHolds) return 0;
   // V' <= -fall |x|^2 + 2 |P| curvature |x|^3, so V falls for |x| below a radius; the level is the largest
   // ellipsoid in that ball.
-  const Eigen::MatrixXd PA = P * A;
   const auto eigenvaluesOf = [](const Eigen::MatrixXd& M) -> Eigen::VectorXd {
     return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(M, Eigen::EigenvaluesOnly).eigenvalues();
   };
   const Eigen::VectorXd ofP = eigenvaluesOf(P);
-  const double fall = std::max(0., -eigenvaluesOf(PA + PA.transpose()).maxCoeff());
+  const double fall = std::max(0., -eigenvaluesOf(rateOf(A, P)).maxCoeff());
   const double radius = fall / (2 * ofP.maxCoeff() * curvature);
   return ofP.minCoeff() * radius * radius;
 }

@@ -65,12 +65,14 @@ PredictiveController::PredictiveController(const LinearSystem& system, const Pre
   Eigen::MatrixXd effect = system_.B;  // of u_k on x_{k+age+1}
   for (int age = 0; age < N_; ++age, effect = (system_.A * effect).eval())
     for (int k = 0; k + age < N_; ++k) response_.block((k + age) * n_, k * m_, n_, m_) = effect;
-  for (int t = 0; t < N_; ++t)
-    weighted_.middleRows(t * n_, n_) =
-        (t + 1 < N_ ? options_.Q : options_.F) * response_.middleRows(t * n_, n_);
+  for (int t = 0; t < N_; ++t) {
+    const Eigen::MatrixXd part = response_.middleRows(t * n_, n_);
+    weighted_.middleRows(t * n_, n_) = (t + 1 < N_ ? options_.Q : options_.F) * part;
+  }
   const int slacks = options_.slackWeight > 0 ? N_ : 0, controls = N_ * m_;
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(controls + slacks, controls + slacks);
-  H.topLeftCorner(controls, controls) = 2 * response_.transpose() * weighted_;
+  const Eigen::MatrixXd curvature = response_.transpose() * weighted_;
+  H.topLeftCorner(controls, controls) = 2 * curvature;
   for (int t = 0; t < N_; ++t) H.block(t * m_, t * m_, m_, m_) += 2 * options_.R;
   H.diagonal().tail(slacks).setConstant(2 * options_.slackWeight);
   program_.emplace(H, limitRows());
@@ -127,10 +129,11 @@ PredictedMotion PredictiveController::plan(const VectorArg& x, const RestPoint& 
   free.col(0) = x;
   for (int t = 0; t < N_; ++t) free.col(t + 1) = system_.A * free.col(t) + system_.B * target.u;
   const Eigen::MatrixXd error = free.rightCols(N_).colwise() - target.x;
+  const Eigen::VectorXd slope = weighted_.transpose() * Eigen::VectorXd(error.reshaped());
   const int perStep = static_cast<int>(limits_.size()), controls = N_ * m_;
   Eigen::VectorXd g =
       Eigen::VectorXd::Constant(controls + (options_.slackWeight > 0 ? N_ : 0), options_.slackWeight);
-  g.head(controls) = 2 * weighted_.transpose() * error.reshaped();
+  g.head(controls) = 2 * slope;
   Eigen::VectorXd lower(N_ * perStep), upper(N_ * perStep);
   for (int row = 0; row < N_ * perStep; ++row) {
     const int t = row / perStep;

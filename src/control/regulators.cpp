@@ -75,8 +75,8 @@ Lqg lqg(const LinearSystem& given, const MatrixArg& Q, const MatrixArg& R, const
   result.message =
       isRegulated ? "filter: " + result.filter.message : "regulator: " + result.regulator.message;
   if (result.status != RiccatiStatus::kSolved) return result;
-  const Eigen::MatrixXd &K = result.regulator.K, &L = result.filter.L;
-  result.controller = {.A = system.A - system.B * K - L * (system.C - system.D * K),
+  const Eigen::MatrixXd &K = result.regulator.K, &L = result.filter.L, measured = system.C - system.D * K;
+  result.controller = {.A = system.A - system.B * K - L * measured,
                        .B = L,
                        .C = -K,
                        .D = Eigen::MatrixXd::Zero(K.rows(), L.cols()),

@@ -14,7 +14,8 @@ namespace {
 bool isPositiveDefinite(const MatrixArg& M) {
   if (!(M.diagonal().minCoeff() > 0)) return false;
   const Eigen::VectorXd scale = M.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::LLT<Eigen::MatrixXd> factors(scale.asDiagonal() * M * scale.asDiagonal());
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * M * scale.asDiagonal();
+  const Eigen::LLT<Eigen::MatrixXd> factors(scaled);
   const double rounding = 100 * static_cast<double>(M.rows()) * std::numeric_limits<double>::epsilon();
   return factors.info() == Eigen::Success && factors.matrixLLT().diagonal().cwiseAbs2().minCoeff() > rounding;
 }

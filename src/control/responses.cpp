@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "control/require_internal.h"
+#include "control/stability_internal.h"
 
 namespace rex {
 namespace {
@@ -80,14 +81,18 @@ FrequencyResponse frequencyResponse(const LinearSystem& given, int input, int ou
     const Eigen::MatrixXcd pencil = s * Eigen::MatrixXcd::Identity(n, n) - system.A.cast<Complex>();
     const Eigen::VectorXd rows = inverseSizes(pencil.transpose()),
                           columns = inverseSizes(rows.asDiagonal() * pencil);
-    const Eigen::PartialPivLU<Eigen::MatrixXcd> lu(rows.asDiagonal() * pencil * columns.asDiagonal());
+    // In real form, because the decomposition of complex matrices would take seconds to compile.
+    const Eigen::PartialPivLU<Eigen::MatrixXd> lu(
+        internal::realForm(rows.asDiagonal() * pencil * columns.asDiagonal()));
     if (!(lu.rcond() > 1e-15))
       throw Error({.what = "frequency response",
                    .found = fmt::format("a pole at the frequency {:g} rad/s", w),
                    .wanted = "frequencies next to it"});
-    const Eigen::VectorXcd source = rows.cwiseProduct(system.B.col(input)).cast<Complex>(),
-                           x = columns.asDiagonal() * lu.solve(source);
-    const Complex value = system.C.row(output).cast<Complex>().dot(x) + system.D(output, input);
+    Eigen::VectorXd source = Eigen::VectorXd::Zero(2 * n);
+    source.head(n) = rows.cwiseProduct(system.B.col(input));
+    const Eigen::VectorXd x = lu.solve(source),
+                          measured = columns.cwiseProduct(system.C.row(output).transpose());
+    const Complex value(measured.dot(x.head(n)) + system.D(output, input), measured.dot(x.tail(n)));
     response.values.push_back(value);
     response.magnitudes.push_back(20 * std::log10(std::max(std::abs(value), 1e-300)));
     const double phase = std::arg(value) * 180 / std::numbers::pi;

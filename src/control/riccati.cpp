@@ -172,7 +172,8 @@ void balance(Pencil& pencil, Eigen::Index n) {
        ++round) {  // Osborne 1960, as in LAPACK's dgebal
     changed = false;
     for (Eigen::Index i = 0; i < size; ++i) {
-      const double column = M.col(i).stableNorm(), row = M.row(i).stableNorm();
+      const Eigen::VectorXd ofColumn = M.col(i), ofRow = M.row(i);
+      const double column = ofColumn.stableNorm(), row = ofRow.stableNorm();
       if (column == 0 || row == 0) continue;
       const double factor = std::exp2(std::round(0.5 * (std::log2(row) - std::log2(column))));
       if (!(factor * column + row / factor < kWorthBalancing * (column + row))) continue;
@@ -242,13 +243,14 @@ std::optional<Eigen::MatrixXd> bySchurForm(const Problem& problem,
   if (!pencil.H.allFinite() || !pencil.J.allFinite()) return {};
   // The controls are eliminated by what is orthogonal to their columns.
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(pencil.H.rightCols(m));
-  const Eigen::MatrixXd rest = Eigen::MatrixXd(qr.householderQ()).rightCols(2 * n).transpose();
-  const Eigen::MatrixXd U =
-      stableSubspace(problem.kind, rest * pencil.H.leftCols(2 * n), rest * pencil.J.leftCols(2 * n), border);
+  const Eigen::MatrixXd rest = Eigen::MatrixXd(qr.householderQ()).rightCols(2 * n).transpose(),
+                        H = pencil.H.leftCols(2 * n), J = pencil.J.leftCols(2 * n);
+  const Eigen::MatrixXd U = stableSubspace(problem.kind, rest * H, rest * J, border);
   if (U.size() == 0) return {};
-  const Eigen::PartialPivLU<Eigen::MatrixXd> upper(U.topRows(n).transpose());
+  const Eigen::MatrixXd upperT = U.topRows(n).transpose(), lowerT = U.bottomRows(n).transpose();
+  const Eigen::PartialPivLU<Eigen::MatrixXd> upper(upperT);
   if (!(upper.rcond() > kTiny)) return {};
-  const Eigen::MatrixXd X = upper.solve(U.bottomRows(n).transpose());
+  const Eigen::MatrixXd X = upper.solve(lowerT);
   const Eigen::MatrixXd scaled = pencil.scale.asDiagonal() * X * pencil.scale.asDiagonal();
   if (!scaled.allFinite()) return {};
   return Eigen::MatrixXd(0.5 * (scaled + scaled.transpose()));

@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "control/eigenvalue_text_internal.h"
+#include "control/require_matrix_internal.h"
 #include "control/stability_internal.h"
 
 namespace rex {
@@ -31,7 +32,11 @@ struct Mode {
 std::vector<Mode> modesOf(const Eigen::MatrixXd& A, bool isDiscrete) {
   const Eigen::EigenSolver<Eigen::MatrixXd> solver(A);
   const Eigen::MatrixXcd V = solver.eigenvectors();
-  const Eigen::MatrixXcd left = Eigen::FullPivLU<Eigen::MatrixXcd>(V).inverse();
+  // V^-1 by columns: for a matrix at once, the complex solver would take seconds to compile.
+  const Eigen::FullPivLU<Eigen::MatrixXcd> lu(V);
+  Eigen::MatrixXcd left(V.cols(), V.rows());
+  for (Eigen::Index i = 0; i < V.rows(); ++i)
+    left.col(i) = lu.solve(Eigen::VectorXcd(Eigen::VectorXcd::Unit(V.rows(), i)));
   const double norm = A.stableNorm(), rounding = internal::roundingOf(A.rows(), norm);
   // If eigenvectors are parallel to the last digit: an n-th root at worst.
   const double most = norm * std::pow(internal::roundingOf(A.rows(), 1), 1 / static_cast<double>(A.rows()));
@@ -59,7 +64,7 @@ int geometricMultiplicity(const Eigen::MatrixXd& A, Complex value) {
 StabilityResult decided(const MatrixArg& given, bool isDiscrete) {
   requireSize("columns of A", given.cols(), given.rows());
   if (given.rows() == 0) throw Error({.what = "matrix A", .found = "no rows"});
-  if (!given.allFinite()) throw Error({.what = "matrix A", .found = "entries that are not finite"});
+  internal::requireFiniteMatrix("A", given);
   const Eigen::MatrixXd A = given;
   const char* edge = isDiscrete ? "unit circle" : "imaginary axis";
   const auto excess = [&](const Mode& mode) { return internal::instability(mode.value, isDiscrete); };
@@ -126,10 +131,14 @@ double distanceToEdge(const Eigen::MatrixXd& A, Complex near, bool isDiscrete) {
   return singularValues(shifted)[n - 1];
 }
 
-Eigen::VectorXd singularValues(const Eigen::MatrixXcd& M) {
+Eigen::MatrixXd realForm(const Eigen::MatrixXcd& M) {
   Eigen::MatrixXd real(2 * M.rows(), 2 * M.cols());
   real << M.real(), -M.imag(), M.imag(), M.real();
-  const Eigen::VectorXd twice = Eigen::JacobiSVD<Eigen::MatrixXd>(real).singularValues();
+  return real;
+}
+
+Eigen::VectorXd singularValues(const Eigen::MatrixXcd& M) {
+  const Eigen::VectorXd twice = Eigen::JacobiSVD<Eigen::MatrixXd>(realForm(M)).singularValues();
   Eigen::VectorXd values(std::min(M.rows(), M.cols()));
   for (Eigen::Index i = 0; i < values.size(); ++i) values[i] = twice[2 * i];
   return values;

@@ -13,8 +13,10 @@ double instability(std::complex<double> eigenvalue, bool isDiscrete);
 /// closest to it.
 double distanceToEdge(const Eigen::MatrixXd& A, std::complex<double> near, bool isDiscrete);
 
-/// The singular values of a complex matrix, falling; by the real matrix that acts alike on real and imaginary
-/// parts, which has each of them twice.
+/// (Re M, -Im M; Im M, Re M), which acts on real parts above imaginary parts as M does.
+Eigen::MatrixXd realForm(const Eigen::MatrixXcd& M);
+
+/// The singular values of a complex matrix, falling; its real form has each of them twice.
 Eigen::VectorXd singularValues(const Eigen::MatrixXcd& M);
 
 /// How much rounding has changed a computed A of n rows and this norm, at most.
