@@ -57,7 +57,9 @@ UncertainMotion inverse(const UncertainMotion& a) {
 }
 
 double squaredMahalanobis(const UncertainMotion& cycle) {
-  return cycle.motion.dot(cycle.covariance.ldlt().solve(cycle.motion));
+  const Eigen::MatrixXd P = cycle.covariance;
+  const Eigen::VectorXd x = cycle.motion, weighted = P.ldlt().solve(x);
+  return x.dot(weighted);
 }
 
 // The motions between all pairs of poses along the chain, from the earlier to the later.
@@ -97,7 +99,8 @@ void requireChain(const PlanarPoseGraph& odometry, std::size_t scans) {
       throw Error({.what = fmt::format("closing loops: edge {}", k),
                    .found = fmt::format("one from {} to {}", edge.from, edge.to),
                    .wanted = fmt::format("one from {} to {}", k, k + 1)});
-    if (!(edge.information.llt().info() == Eigen::Success))
+    const Eigen::MatrixXd information = edge.information;
+    if (information.llt().info() != Eigen::Success)
       throw Error({.what = fmt::format("closing loops: edge {}", k),
                    .found = "information that is not positive definite",
                    .wanted = "odometry that determines x, y and heading"});
@@ -132,10 +135,11 @@ UncertainMotion linkWithScans(PlanarPoseGraph& graph, const PlanarEdge& edge, co
   const Eigen::Vector3d apart = composed(inverted(edge.motion), match.motion);
   const Eigen::Matrix3d sum = edge.information + match.information;
   const Eigen::Matrix3d covariance = sum.inverse();
-  const double squared = apart.dot(edge.information * covariance * match.information * apart);
+  const Eigen::Vector3d step = covariance * (match.information * apart);
+  const double squared = apart.dot(edge.information * step);
   if (squared > options.bound) return odometry;
   graph.edges.push_back({edge.from, edge.to, match.motion, match.information});
-  return {composed(edge.motion, covariance * match.information * apart), covariance};
+  return {composed(edge.motion, step), covariance};
 }
 
 // Earlier poses that may be near pose j, nearest first, and no two of them next to each other.

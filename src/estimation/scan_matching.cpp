@@ -33,14 +33,21 @@ constexpr int kNeighbours = 4;  // to each side
 Wall fitWall(const Eigen::Matrix2Xd& points, int first, int last, double deviation) {
   Wall wall{first, last};
   const int count = last - first + 1;
-  const auto piece = points.middleCols(first, count);
-  wall.center = piece.rowwise().mean();
-  const Eigen::Matrix2Xd offset = piece.colwise() - wall.center;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(offset * offset.transpose());
-  wall.n = axes.eigenvectors().col(0);
-  wall.spread = axes.eigenvalues()[1];
+  for (int i = first; i <= last; ++i) wall.center += points.col(i);
+  wall.center /= count;
+  double xx = 0, xy = 0, yy = 0;
+  for (int i = first; i <= last; ++i) {
+    const Eigen::Vector2d offset = points.col(i) - wall.center;
+    xx += offset.x() * offset.x();
+    xy += offset.x() * offset.y();
+    yy += offset.y() * offset.y();
+  }
+  // The eigenvectors of [xx xy; xy yy] point along and across the wall.
+  const double angle = 0.5 * std::atan2(2 * xy, xx - yy), half = std::hypot(0.5 * (xx - yy), xy);
+  wall.n = {-std::sin(angle), std::cos(angle)};
+  wall.spread = 0.5 * (xx + yy) + half;
   // Corners are not straight, and points in a clump have no direction.
-  const double off = std::sqrt(std::max(0., axes.eigenvalues()[0]) / count);
+  const double off = std::sqrt(std::max(0., 0.5 * (xx + yy) - half) / count);
   const bool isStraight = off < 2 * deviation && std::sqrt(wall.spread / count) > 3 * std::max(off, 1e-6);
   if (!isStraight) wall.last = first - 1;
   return wall;
@@ -163,16 +170,22 @@ class Alignment {
     equations.radius = std::max(std::sqrt(squares / sum), 1e-6);
     for (const Partner& partner : partners_) {
       const Eigen::Vector3d slope = equations.slope(wallOf(partner), partner.x);
-      equations.H += partner.weight * slope * slope.transpose();
+      const Eigen::Vector3d weighted = partner.weight * slope;
+      equations.H += weighted * slope.transpose();
       equations.g += partner.weight * partner.distance * slope;
     }
     return equations;
   }
 
+  static Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axesOf(const Equations& equations) {
+    const Eigen::MatrixXd H = equations.H;
+    return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(H);
+  }
+
   // Eigenvectors of H that are seen, one per column. Products of whole matrices of dynamic size are compiled
   // already.
   Eigen::MatrixXd seen(const Equations& equations) const {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(equations.H);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> axes = axesOf(equations);
     int unseen = 0;
     while (unseen < 2 && axes.eigenvalues()[unseen] < options_.leastShare * axes.eigenvalues()[2]) ++unseen;
     return axes.eigenvectors().rightCols(3 - unseen);
@@ -180,9 +193,9 @@ class Alignment {
 
   Eigen::Vector3d step(const Equations& equations) const {
     const Eigen::MatrixXd V = seen(equations), whole = equations.H, HV = whole * V, H = V.transpose() * HV;
-    const Eigen::VectorXd g = V.transpose() * equations.g;
-    const Eigen::VectorXd along = H.partialPivLu().solve(g);
-    return -(V * along);
+    const Eigen::MatrixXd slope = equations.g, g = V.transpose() * slope, along = H.ldlt().solve(g);
+    const Eigen::MatrixXd u = V * along;
+    return -u;
   }
 
   static void move(Eigen::Vector3d& motion, const Equations& equations, const Eigen::Vector3d& u) {
@@ -202,7 +215,8 @@ class Alignment {
       const Wall& wall = wallOf(partner);
       const Eigen::Vector3d a = partner.weight * equations.slope(wall, partner.x);
       const double cosine = wall.n.dot(R * moving_.col(partner.point).normalized());
-      M += (cosine * cosine * a) * a.transpose();
+      const Eigen::Vector3d change = cosine * cosine * a;
+      M += change * a.transpose();
       const double way = wall.along().dot(partner.x - wall.center);
       for (int j = wall.first; j <= wall.last; ++j) {
         const double share = 1. / (wall.last - wall.first + 1) +
@@ -223,15 +237,16 @@ class Alignment {
     const Eigen::Matrix3d S = equations.toMotion(match.motion);
     Eigen::Matrix3d E = Eigen::Matrix3d::Identity();  // from the error of an edge to the change of the motion
     E.topLeftCorner<2, 2>() = internal::planarRotation(match.motion[2]);
-    const Eigen::Matrix3d T = S.inverse() * E;
     // As a square, so that rounding leaves no negative eigenvalue if a direction is not seen.
     const Eigen::LLT<Eigen::MatrixXd> root(noise);
-    const Eigen::MatrixXd change = T, HVt = H * V.transpose(), weighted = HVt * change;
+    const Eigen::MatrixXd fromMotion = S.inverse(), turned = E, change = fromMotion * turned;
+    const Eigen::MatrixXd HVt = H * V.transpose(), weighted = HVt * change;
     const Eigen::MatrixXd F = root.matrixL().solve(weighted), information = F.transpose() * F;
     match.information = information;
     if (V.cols() == 3) return;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(equations.H);
-    match.unseen = (S * axes.eigenvectors().col(0)).normalized();
+    const Eigen::Vector3d axis = axesOf(equations).eigenvectors().col(0);
+    match.unseen = S * axis;
+    match.unseen.normalize();
     Eigen::Index largest = 0;
     match.unseen.cwiseAbs().maxCoeff(&largest);
     if (match.unseen[largest] < 0) match.unseen = -match.unseen;
