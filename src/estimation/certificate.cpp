@@ -72,10 +72,11 @@ class Certificate {
     double atPositions = 0, scale = 0;
     for (int i = 0; i < S_.pattern().nodes(); ++i) {
       Block& S = S_.diagonal(i);
-      atPositions += Y_.row(kSize * i).dot(MY.row(kSize * i));
+      const Position t = Y_.row(kSize * i).transpose(), gradient = MY.row(kSize * i).transpose();
+      atPositions += t.dot(gradient);
       if (i < poses()) {
-        const Rotation multiplier =
-            Y_.template middleRows<D>(kSize * i + 1) * MY.template middleRows<D>(kSize * i + 1).transpose();
+        const Rotation R_T = Y_.template middleRows<D>(kSize * i + 1),
+                       G_T = MY.template middleRows<D>(kSize * i + 1), multiplier = R_T * G_T.transpose();
         S.template bottomRightCorner<D, D>() -= 0.5 * (multiplier + multiplier.transpose());
       }
       scale = std::max(scale, S.diagonal().cwiseAbs().maxCoeff());
@@ -118,9 +119,10 @@ class Certificate {
     addSquare(i, A, j, B, weight);
   }
   void addSquare(int i, const Block& A, int j, const Block& B, double weight) {
-    S_.diagonal(i) += weight * A * A.transpose();
-    S_.diagonal(j) += weight * B * B.transpose();
-    S_.add(i, j, weight * A * B.transpose());
+    const Block wA = weight * A, wB = weight * B;
+    S_.diagonal(i) += wA * A.transpose();
+    S_.diagonal(j) += wB * B.transpose();
+    S_.add(i, j, wA * B.transpose());
   }
 
   std::vector<Rotation> R_;

@@ -34,11 +34,12 @@ class LinearGraph {
       heaviest = std::max(heaviest, w);
     }
     if (j > 0) H_.diagonal(j - 1) += w * Matrix::Identity();
-    if (i > 0) H_.diagonal(i - 1) += w * M.transpose() * M;
+    const Matrix wM_T = w * M.transpose();
+    if (i > 0) H_.diagonal(i - 1) += wM_T * M;
     if (i > 0 && j > 0) H_.add(j - 1, i - 1, -w * M);
     const Value known = (i == 0 ? Value(M * first_) : Value::Zero()) - (j == 0 ? first_ : Value::Zero()) + b;
     if (j > 0) rhs_.middleRows(Size * (j - 1), Size) += w * known;
-    if (i > 0) rhs_.middleRows(Size * (i - 1), Size) -= w * M.transpose() * known;
+    if (i > 0) rhs_.middleRows(Size * (i - 1), Size) -= wM_T * known;
   }
 
   // Ties pose i to its present value, so weakly that it only matters for poses whose edges weigh nothing.
@@ -111,11 +112,14 @@ void setChordalPoses(SpatialPoseGraph& graph, const std::shared_ptr<const BlockP
   for (int i = 1; i < poses; ++i) rotations.anchor(i, at(i).R.transpose());
   const Eigen::MatrixXd free = rotations.solve();
   if (free.size() == 0) return;
+  Eigen::JacobiSVD<Eigen::MatrixXd> svd(3, 3, Eigen::ComputeFullU | Eigen::ComputeFullV);
   for (int i = 1; i < poses; ++i) {
-    const Eigen::Matrix3d M = free.middleRows<3>(3 * (i - 1)).transpose();
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(M, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    const double sign = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
-    at(i).R = svd.matrixU() * Eigen::Vector3d(1, 1, sign).asDiagonal() * svd.matrixV().transpose();
+    const Eigen::MatrixXd M = free.middleRows<3>(3 * (i - 1)).transpose();
+    svd.compute(M);
+    Eigen::Matrix3d U = svd.matrixU();
+    const Eigen::Matrix3d V = svd.matrixV();
+    if (U.determinant() * V.determinant() < 0) U.col(2) = -U.col(2);
+    at(i).R = U * V.transpose();
   }
   LinearGraph<1, 3> positions(pattern, at(0).p.transpose());
   for (const SpatialEdge& edge : graph.edges)
