@@ -45,7 +45,9 @@ double logDensity(const Gaussian& gaussian, const VectorArg& x) {
 double squaredMahalanobis(const Gaussian& gaussian, const VectorArg& x) {
   requireGaussian(gaussian, Definiteness::kPositive);
   requireSize("point", x.size(), gaussian.mean.size());
-  return definiteFactor("covariance", gaussian.covariance).matrixL().solve(x - gaussian.mean).squaredNorm();
+  const Eigen::VectorXd error = x - gaussian.mean;
+  const Eigen::VectorXd weighted = definiteFactor("covariance", gaussian.covariance).solve(error);
+  return error.dot(weighted);
 }
 
 Eigen::VectorXd sample(const Gaussian& gaussian, Rng& rng) {
@@ -81,7 +83,8 @@ Gaussian propagated(const Gaussian& y, const MatrixArg& F, const VectorArg& f, c
   requireSize("columns of F", F.cols(), y.mean.size());
   requireSize("offset f", f.size(), F.rows());
   requireCovariance("noise Q", Q, F.rows());
-  return {f + F * y.mean, symmetrized(F * y.covariance * F.transpose() + Q)};
+  const Eigen::MatrixXd A = F, moved = A * y.covariance * A.transpose();
+  return {f + F * y.mean, symmetrized(moved + Q)};
 }
 
 GaussianProduct pulledBack(const Gaussian& y, const MatrixArg& F, const VectorArg& f) {
@@ -115,9 +118,9 @@ Gaussian conditional(const Gaussian& joint, const VectorArg& firstNumbers) {
   const Eigen::Index n = firstNumbers.size(), m = joint.mean.size() - n;
   if (m < 0) requireSize("given numbers", n, joint.mean.size());
   const auto factor = definiteFactor("covariance of the given numbers", joint.covariance.topLeftCorner(n, n));
-  const Eigen::MatrixXd gain = factor.solve(joint.covariance.topRightCorner(n, m)).transpose();
-  const Eigen::MatrixXd reduced =
-      joint.covariance.bottomRightCorner(m, m) - gain * joint.covariance.topRightCorner(n, m);
+  const Eigen::MatrixXd cross = joint.covariance.topRightCorner(n, m);
+  const Eigen::MatrixXd gain = factor.solve(cross).transpose(), lost = gain * cross;
+  const Eigen::MatrixXd reduced = joint.covariance.bottomRightCorner(m, m) - lost;
   return {joint.mean.tail(m) + gain * (firstNumbers - joint.mean.head(n)), symmetrized(reduced)};
 }
 
