@@ -3,7 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <Eigen/SVD>
 #include <fmt/format.h>
 
 #include "base/error.h"
@@ -99,9 +100,16 @@ double absoluteTrajectoryError(const MatrixArg& estimate, const MatrixArg& truth
   if (truth.cols() == 0)
     throw Error({.what = "trajectory", .found = "no positions", .wanted = "one or more"});
   const Eigen::Index d = truth.rows();
-  const Eigen::MatrixXd X = Eigen::umeyama(estimate, truth, false);
-  const Eigen::MatrixXd moved = (X.topLeftCorner(d, d) * estimate).colwise() + X.topRightCorner(d, 1).col(0);
-  return std::sqrt((moved - truth).squaredNorm() / static_cast<double>(truth.cols()));
+  // The best shift lets the middles coincide, the best rotation follows from the correlation (Umeyama 1991).
+  const Eigen::VectorXd middle = estimate.rowwise().mean(), wanted = truth.rowwise().mean();
+  const Eigen::MatrixXd from = estimate.colwise() - middle, to = truth.colwise() - wanted;
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(to * from.transpose(),
+                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::MatrixXd U = svd.matrixU();
+  const Eigen::MatrixXd& V = svd.matrixV();
+  if (U.determinant() * V.determinant() < 0) U.col(d - 1) *= -1;
+  const Eigen::MatrixXd R = U * V.transpose(), error = to - R * from;
+  return std::sqrt(error.squaredNorm() / static_cast<double>(truth.cols()));
 }
 
 RelativeError relativePoseError(std::span<const Pose> estimate, std::span<const Pose> truth, int steps) {
