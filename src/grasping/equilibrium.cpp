@@ -52,9 +52,10 @@ class EdgeProgram {
     }
     for (Index i = 0; i < size(); ++i) {
       const WrenchCone& cone = cones_[static_cast<std::size_t>(i)];
-      const VectorXd tangential = wrenches.col(i) - forces(0, i) * cone.normal;
-      if (cone.friction > 0)
-        forces.col(i).tail(rows - 1) = cone.tangents.colPivHouseholderQr().solve(tangential);
+      if (cone.friction == 0) continue;
+      const VectorXd tangential = wrenches.col(i) - forces(0, i) * cone.normal,
+                     shares = cone.tangents.colPivHouseholderQr().solve(tangential);
+      forces.col(i).tail(rows - 1) = shares;
     }
     return forces;
   }
@@ -121,8 +122,8 @@ void requireLoad(std::span<const WrenchCone> cones, const VectorXd& load, std::o
 VectorXd totalOf(std::span<const WrenchCone> cones, const MatrixXd& forces_C) {
   VectorXd total = VectorXd::Zero(cones[0].normal.size());
   for (std::size_t i = 0; i < cones.size(); ++i) {
-    const VectorXd f = forces_C.col(static_cast<Index>(i));
-    total += cones[i].normal * f[0] + cones[i].tangents * f.tail(f.size() - 1);
+    const VectorXd f = forces_C.col(static_cast<Index>(i)), tangential = f.tail(f.size() - 1);
+    total += cones[i].normal * f[0] + cones[i].tangents * tangential;
   }
   return total;
 }

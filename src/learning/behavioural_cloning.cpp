@@ -49,8 +49,8 @@ class SoftmaxLoss {
   }
 
   Eigen::MatrixXd gradient(const Eigen::MatrixXd& weights) const {
-    const Eigen::MatrixXd P = softmaxOfRows(features_ * weights);
-    return features_.transpose() * (P - taken_) / samples() + ridge_ * weights;
+    const Eigen::MatrixXd excess = softmaxOfRows(features_ * weights) - taken_;
+    return features_.transpose() * excess / samples() + ridge_ * weights;
   }
 
   // Blocks for pairs of actions, each k x k, as the columns of the weights lie one after the other.
@@ -62,7 +62,9 @@ class SoftmaxLoss {
       for (Eigen::Index b = 0; b < count; ++b) {
         Eigen::VectorXd curvature = -P.col(a).cwiseProduct(P.col(b));
         if (a == b) curvature += P.col(a);
-        H.block(a * k, b * k, k, k) = features_.transpose() * curvature.asDiagonal() * features_ / samples();
+        const Eigen::MatrixXd weighted = curvature.asDiagonal() * features_,
+                              block = features_.transpose() * weighted;
+        H.block(a * k, b * k, k, k) = block / samples();
       }
     H.diagonal().array() += ridge_;
     return H;
@@ -71,7 +73,7 @@ class SoftmaxLoss {
  private:
   double samples() const { return static_cast<double>(features_.rows()); }
 
-  MatrixArg features_;
+  Eigen::MatrixXd features_;
   const std::vector<int>& actions_;
   double ridge_;
   Eigen::MatrixXd taken_{};  // n x actions: one where it was taken
@@ -80,8 +82,8 @@ class SoftmaxLoss {
 // Lowers the loss by moving the weights by Newton's step, halved until it does so; false if it never does.
 bool newtonStep(const SoftmaxLoss& loss, const Eigen::MatrixXd& gradient, Eigen::MatrixXd& weights,
                 double& value) {
-  const Eigen::VectorXd step = loss.hessian(weights).ldlt().solve(gradient.reshaped());
-  const double slope = step.dot(gradient.reshaped());
+  const Eigen::VectorXd rise = gradient.reshaped(), step = loss.hessian(weights).ldlt().solve(rise);
+  const double slope = step.dot(rise);
   for (double length = 1; length > 1e-10; length /= 2) {
     const Eigen::MatrixXd next = weights - length * step.reshaped(weights.rows(), weights.cols());
     const double lower = loss.value(next);

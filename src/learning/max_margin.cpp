@@ -24,8 +24,8 @@ Eigen::VectorXd nearestOfPlane(const Eigen::MatrixXd& points, const std::vector<
   Eigen::MatrixXd edges(points.rows(), count - 1);
   for (Eigen::Index i = 1; i < count; ++i)
     edges.col(i - 1) = points.col(corners[static_cast<std::size_t>(i)]) - first;
-  shares.tail(count - 1) = edges.colPivHouseholderQr().solve(-first);
-  shares[0] = 1 - shares.tail(count - 1).sum();
+  const Eigen::VectorXd towardsOrigin = -first, others = edges.colPivHouseholderQr().solve(towardsOrigin);
+  shares << 1 - others.sum(), others;
   return shares;
 }
 
