@@ -59,34 +59,24 @@ TEST_F(CourseFolder, GetsWhatStudentsNeedAndNothingElse) {
   EXPECT_TRUE(fs::exists(course() / kCourseFile));
 }
 
-TEST_F(CourseFolder, TellsEditorsHowFilesAreCompiled) {
-  build_ = kRealBuild;
-  init();
-  const std::string commands = fileText(course() / "compile_commands.json");
-  EXPECT_THAT(commands, HasSubstr(mine("main.cpp").string()));
-  EXPECT_THAT(commands, HasSubstr("-std=c++20"));
-}
-
 TEST_F(CourseFolder, IsWhereStudentsWork) {
   build_ = kRealBuild;
   init();
+  const std::string commands = fileText(course() / "compile_commands.json");
+  EXPECT_THAT(commands, HasSubstr(mine("main.cpp").string())) << "for editors";
+  EXPECT_THAT(commands, HasSubstr("-std=c++20"));
   write(mine("main.cpp"), kGood);
   const Ended ended = installed({"test", "98"});
   EXPECT_EQ(ended.code, 0) << ended.output << ended.error;
   EXPECT_TRUE(fs::exists(course() / "out" / "98-template" / "results.json"));
   EXPECT_THAT(installed({}).output, HasSubstr("1 of 1 exercises solved"));
-  EXPECT_EQ(installed({"reset", "98"}).code, 0);
-  EXPECT_EQ(fileText(mine("main.cpp")), fileText(exercise() / "main.cpp"));
-}
-
-TEST_F(CourseFolder, CannotChangeWhatAnExerciseDemands) {
-  build_ = kRealBuild;
-  init();
+  // What an exercise demands cannot be changed here.
   write(mine("exercise.toml"), "title = \"easy\"\n");
   write(mine("exercise.h"), "#error\n");
-  write(mine("main.cpp"), kGood);
   EXPECT_EQ(installed({"test", "98"}).code, 0);
   EXPECT_THAT(installed({"list"}).output, ::testing::Not(HasSubstr("easy")));
+  EXPECT_EQ(installed({"reset", "98"}).code, 0);
+  EXPECT_EQ(fileText(mine("main.cpp")), fileText(exercise() / "main.cpp"));
 }
 
 TEST_F(CourseFolder, IsMadeOnlyWhereNothingIs) {
