@@ -13,6 +13,7 @@
 #include "authoring/seen_messages.h"
 #include "authoring/wrong_variants.h"
 #include "base/error.h"
+#include "base/join.h"
 #include "base/lines.h"
 #include "base/process.h"
 #include "base/text_file.h"
@@ -33,7 +34,7 @@ GateResult failed(std::string message) { return {.passed = false, .message = std
 
 // Passed if there is nothing to complain about.
 GateResult judge(const std::vector<std::string>& complaints) {
-  return {.passed = complaints.empty(), .message = fmt::format("{}", fmt::join(complaints, "\n"))};
+  return {.passed = complaints.empty(), .message = join(complaints, "\n")};
 }
 
 SubmissionOptions optionsFor(const GateContext& context, const path& file) {
@@ -155,11 +156,10 @@ GateResult mainScoresFloor(const GateContext& context) {
   std::vector<std::string> complaints;
   for (const ExercisePart& part : context.exercise.parts)
     if (scored[part.id] != part.floor)
-      complaints.push_back(fmt::format(
-          "part '{}': the untouched main.cpp gets {} point{} ({}), exercise.toml says floor = {}", part.id,
-          scored[part.id], scored[part.id] == 1 ? "" : "s",
-          checks[part.id].empty() ? "no check passes" : fmt::format("{}", fmt::join(checks[part.id], ", ")),
-          part.floor));
+      complaints.push_back(
+          fmt::format("part '{}': the untouched main.cpp gets {} point{} ({}), exercise.toml says floor = {}",
+                      part.id, scored[part.id], scored[part.id] == 1 ? "" : "s",
+                      checks[part.id].empty() ? "no check passes" : join(checks[part.id], ", "), part.floor));
   return judge(complaints);
 }
 
@@ -270,7 +270,7 @@ GateResult mistakesAreShown(const GateContext& context) {
 GateResult variantsAreCaught(const GateContext& context) {
   const CaughtTogether all = whyNotCaughtTogether(context);
   GateResult result = judge(all.complaints);
-  if (!all.alone.empty()) result.note = fmt::format("compiled alone: {}", fmt::join(all.alone, ", "));
+  if (!all.alone.empty()) result.note = fmt::format("compiled alone: {}", join(all.alone, ", "));
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include <toml++/toml.h>
 
 #include "base/instant.h"
+#include "base/join.h"
 
 namespace rex {
 
@@ -58,7 +59,7 @@ void TomlTable::refuseKeysBut(const std::vector<std::string>& known) const {
     if (std::find(known.begin(), known.end(), found) != known.end()) continue;
     throw Error({.what = fmt::format("unknown key '{}' in {}", found, name_),
                  .where = node_->at(key.source()),
-                 .wanted = fmt::format("one of {}", fmt::join(known, ", ")),
+                 .wanted = fmt::format("one of {}", join(known, ", ")),
                  .nearest = nearestNames(found, known)});
   }
 }
@@ -139,7 +140,7 @@ std::string TomlTable::day(std::string_view key) const {
 }
 
 std::size_t TomlTable::indexOf(std::string_view key, const std::vector<std::string>& names) const {
-  const std::string wanted = fmt::format("one of {}", fmt::join(names, ", "));
+  const std::string wanted = fmt::format("one of {}", join(names, ", "));
   const auto text = node_->require(key, name_, wanted).value_exact<std::string>();
   const auto found = text ? std::find(names.begin(), names.end(), *text) : names.end();
   if (found == names.end()) node_->complain(key, name_, wanted);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/join.h"
 #include "base/printable.h"
 #include "base/text_file.h"
 #include "classroom/composed_text.h"
@@ -96,8 +97,8 @@ void readStudentRows(const fs::path& file, RosterReader& roster) {
   if (!has("id"))
     throw Error({.what = "not a table of students",
                  .where = {file.string(), 1, 0},
-                 .found = fmt::format("the columns {}", fmt::join(headings.fields, ", ")),
-                 .wanted = fmt::format("id, and any of {}", fmt::join(kRosterKeys, ", "))});
+                 .found = fmt::format("the columns {}", join(headings.fields, ", ")),
+                 .wanted = fmt::format("id, and any of {}", join(kRosterKeys, ", "))});
   for (std::size_t k = 1; k < rows.size(); ++k) {
     const SourceLocation where{file.string(), rows[k].line, 0};
     if (rows[k].fields.size() != headings.fields.size())

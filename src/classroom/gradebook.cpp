@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/instant.h"
+#include "base/join.h"
 #include "base/lines.h"
 #include "base/text_file.h"
 #include "classroom/grade_task.h"
@@ -98,7 +99,7 @@ class BookMaker {
       names.push_back(
           fmt::format("'{}' ({})", source_.tasks[k].student, instantText(source_.tasks[k].submitted)));
     return fmt::format("{} was handed in {} times by one student or group: {}; the last one counts",
-                       source_.tasks[tasks.front()].exercise, tasks.size(), fmt::join(names, ", "));
+                       source_.tasks[tasks.front()].exercise, tasks.size(), join(names, ", "));
   }
 
   void assignNotTaken() {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
+#include "base/join.h"
 #include "base/sha256.h"
 #include "base/text_file.h"
 #include "submission/submission.h"
@@ -48,10 +48,9 @@ const std::string& hashOfRunningProgram() {
 
 std::string graderFingerprint(const Toolchain& toolchain, const ExerciseInfo& exercise,
                               const fs::path& launcher) {
-  std::string text =
-      fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n", REX_VERSION, exerciseVersion(exercise.definition),
-                  toolchain.compiler, fmt::join(toolchain.flags, "\n"), fmt::join(toolchain.linkFlags, "\n"),
-                  sha256(headersOf(toolchain.flags)));
+  std::string text = fmt::format(
+      "{}\n{}\n{}\n{}\n{}\n{}\n", REX_VERSION, exerciseVersion(exercise.definition), toolchain.compiler,
+      join(toolchain.flags, "\n"), join(toolchain.linkFlags, "\n"), sha256(headersOf(toolchain.flags)));
   std::vector<fs::path> files = toolchain.libraries;
   files.insert(files.end(), {toolchain.grader, toolchain.workerObject});
   for (const fs::path& file : files) text += sha256(readTextFile(file)) + "\n";

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/join.h"
 #include "base/lower_case.h"
 #include "base/opened_folder.h"
 #include "base/printable.h"
@@ -83,7 +84,7 @@ class HandInReader {
   bool isOneSpelling(const std::vector<std::string>& names, const fs::path& where, const std::string& of) {
     if (names.size() == 1) return true;
     complain(fmt::format("the same name of {}, spelt differently", of), where,
-             fmt::format("'{}'", fmt::join(names, "' and '")), "one of them");
+             fmt::format("'{}'", join(names, "' and '")), "one of them");
     return false;
   }
 
@@ -152,8 +153,7 @@ class HandInReader {
       std::vector<std::string> names;
       for (const fs::path& root : known)
         names.push_back(root.empty() ? "its top" : fmt::format("'{}'", root.string()));
-      complain("exercises in more than one folder", archive, fmt::format("{}", fmt::join(names, " and ")),
-               "one of them");
+      complain("exercises in more than one folder", archive, join(names, " and "), "one of them");
       return {};
     }
     const fs::path root = known.empty() ? fs::path() : *known.begin();

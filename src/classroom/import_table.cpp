@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/instant.h"
+#include "base/join.h"
 #include "base/printable.h"
 #include "base/text_file.h"
 #include "classroom/hand_in.h"
@@ -90,8 +91,7 @@ class ImportTableReader {
     for (const auto& [key, text] : kExerciseKeys) read.*text = textIn(json, key, place);
     const std::string status = textIn(json, "status", place);
     const auto found = std::find(kStatus.begin(), kStatus.end(), status);
-    if (found == kStatus.end())
-      throw refusal(place + ".status", "'" + status + "'", fmt::format("{}", fmt::join(kStatus, ", ")));
+    if (found == kStatus.end()) throw refusal(place + ".status", "'" + status + "'", join(kStatus, ", "));
     read.status = static_cast<HandInStatus>(found - kStatus.begin());
     const std::string submitted = textIn(json, "submitted", place);
     read.submitted = parseInstant(submitted);

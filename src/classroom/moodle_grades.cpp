@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/join.h"
 #include "base/lower_case.h"
 #include "base/printable.h"
 #include "base/text_file.h"
@@ -92,7 +93,7 @@ class WorksheetWriter {
     if (identifier_ == kNoColumn || grade_ == kNoColumn)
       throw Error({.what = "not a grading worksheet of Moodle",
                    .where = {file_, 1, 0},
-                   .found = fmt::format("the columns {}", fmt::join(headings.fields, ", ")),
+                   .found = fmt::format("the columns {}", join(headings.fields, ", ")),
                    .wanted = "Identifier and Grade"});
   }
 

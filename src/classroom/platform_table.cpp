@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/join.h"
 #include "base/printable.h"
 #include "base/text_file.h"
 #include "classroom/composed_text.h"
@@ -51,8 +52,8 @@ void PlatformTable::require(const std::vector<std::string>& headings) const {
   if (has(headings)) return;
   throw UsageError({.what = "not " + what_,
                     .where = {file_, 1, 0},
-                    .found = printable(fmt::format("the columns {}", fmt::join(headings_, ", ")), 400),
-                    .wanted = fmt::format("a column '{}'", fmt::join(headings, "' or '"))});
+                    .found = printable(fmt::format("the columns {}", join(headings_, ", ")), 400),
+                    .wanted = fmt::format("a column '{}'", join(headings, "' or '"))});
 }
 
 std::string PlatformTable::text(std::size_t row, const std::vector<std::string>& headings) const {

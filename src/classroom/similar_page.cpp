@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/escape.h"
+#include "base/join.h"
 #include "base/lines.h"
 #include "classroom/similar.h"
 
@@ -67,7 +68,7 @@ std::string similarPage(const std::string& exercise, const std::vector<ComparedT
                       texts.size() == 1 ? "" : "s", groups.size(), groups.size() == 1 ? "" : "s",
                       pairs.size(), pairs.size() == 1 ? "" : "s");
   for (const std::vector<std::string>& group : groups)
-    html += fmt::format("<li>{}</li>\n", htmlText(fmt::format("{}", fmt::join(group, ", "))));
+    html += fmt::format("<li>{}</li>\n", htmlText(join(group, ", ")));
   html += "</ul>\n";
   for (const SimilarPair& pair : pairs) {
     html += fmt::format(

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/instant.h"
+#include "base/join.h"
 #include "base/text_file.h"
 #include "classroom/csv.h"
 
@@ -34,7 +35,7 @@ SubmissionTimes::SubmissionTimes(const std::filesystem::path& file,
   const std::size_t student = columnOf(headings, "student"), submitted = columnOf(headings, "submitted"),
                     exercise = columnOf(headings, "exercise");
   if (student == kAbsent || submitted == kAbsent)
-    throw fail(1, "no submission times", fmt::format("the columns {}", fmt::join(headings.fields, ", ")),
+    throw fail(1, "no submission times", fmt::format("the columns {}", join(headings.fields, ", ")),
                "student and submitted, and exercise if they differ");
   for (std::size_t k = 1; k < rows.size(); ++k) {
     const auto& [line, fields] = rows[k];

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "base/error.h"
+#include "base/join.h"
 #include "cli/terminal.h"
 
 namespace rex::cli {
@@ -23,7 +23,7 @@ Value choose(const char* option, const std::string& name,
   }
   throw UsageError({.what = option,
                     .found = "'" + harmless(name) + "'",
-                    .wanted = fmt::format("{}", fmt::join(names, ", ")),
+                    .wanted = join(names, ", "),
                     .nearest = nearestNames(name, names)});
 }
 

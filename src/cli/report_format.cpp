@@ -3,9 +3,9 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "base/error.h"
+#include "base/join.h"
 #include "cli/terminal.h"
 
 namespace rex::cli {
@@ -18,7 +18,7 @@ const grading::ReportFormat& reportFormat(const std::string& name, const std::st
   }
   throw UsageError({.what = option,
                     .found = harmless(name),
-                    .wanted = fmt::format("one of {}", fmt::join(known, ", ")),
+                    .wanted = fmt::format("one of {}", join(known, ", ")),
                     .nearest = nearestNames(name, known)});
 }
 

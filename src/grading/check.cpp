@@ -7,8 +7,8 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
+#include "base/join.h"
 #include "base/printable.h"
 #include "grading/usual_mistakes.h"
 #include "remote/bytes.h"
@@ -60,7 +60,7 @@ std::string valueText(const MatrixArg& value, Eigen::Index row, Eigen::Index col
   constexpr Eigen::Index kShort = 6;
   if (value.cols() != 1 || value.rows() > kShort)
     return fmt::format("{} at ({}, {})", number(value(row, col)), row, col);
-  return value.rows() == 1 ? number(value(0, 0)) : fmt::format("({})", fmt::join(numbers(value), ", "));
+  return value.rows() == 1 ? number(value(0, 0)) : fmt::format("({})", join(numbers(value), ", "));
 }
 
 // The rows of a matrix as "[1, 2; 3, 4]"; its size if that would be long.
@@ -68,11 +68,11 @@ std::string inputText(const Eigen::MatrixXd& value) {
   constexpr Eigen::Index kMostNumbers = 40;
   if (value.size() > kMostNumbers) return shapeText(value.rows(), value.cols()) + " numbers";
   if (value.size() == 1) return number(value(0, 0));
-  if (value.cols() == 1) return "(" + fmt::format("{}", fmt::join(numbers(value), ", ")) + ")";
+  if (value.cols() == 1) return "(" + join(numbers(value), ", ") + ")";
   std::vector<std::string> rows;
   for (Eigen::Index i = 0; i < value.rows(); ++i)
-    rows.push_back(fmt::format("{}", fmt::join(numbers(value.row(i).transpose()), ", ")));
-  return fmt::format("[{}]", fmt::join(rows, "; "));
+    rows.push_back(join(numbers(value.row(i).transpose()), ", "));
+  return fmt::format("[{}]", join(rows, "; "));
 }
 
 // Relative to the limit. A limit of 0 has no scale: then the excess is plus or minus infinity.

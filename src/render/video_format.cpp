@@ -2,9 +2,9 @@
 #include <sstream>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "base/error.h"
+#include "base/join.h"
 #include "base/lower_case.h"
 #include "render/video_format_internal.h"
 
@@ -48,7 +48,7 @@ const VideoFormat& videoFormat(const std::filesystem::path& file, const char* ot
   throw Error({.what = "unknown kind of film",
                .where = {file.string()},
                .found = "'" + file.extension().string() + "'",
-               .wanted = fmt::format("{}{}", fmt::join(known, ", "), others),
+               .wanted = fmt::format("{}{}", join(known, ", "), others),
                .nearest = nearestNames(ending, known)});
 }
 

@@ -3,9 +3,9 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "base/escape.h"
+#include "base/join.h"
 #include "reports/report.h"
 #include "reports/report_text_internal.h"
 
@@ -75,10 +75,10 @@ std::string githubReport(const GradeResult& result, const Judgement* judgement) 
   const std::size_t shown = std::min(errors.size(), kMostAnnotations - 1), more = errors.size() - shown;
   errors.resize(shown);
   std::string points = pointsOf(result);
-  if (judgement != nullptr) points += fmt::format("; {}", fmt::join(sentencesOf(*judgement), " "));
+  if (judgement != nullptr) points += fmt::format("; {}", join(sentencesOf(*judgement), " "));
   errors.push_back(command("notice", exercise, {},
                            points + (more == 0 ? "" : fmt::format("; {} more in the summary", more))));
-  return fmt::format("{}", fmt::join(errors, ""));
+  return join(errors, "");
 }
 
 }  // namespace rex::grading

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
+#include "base/join.h"
 #include "scene/files_internal.h"
 
 namespace rex {
@@ -94,7 +94,7 @@ fs::path Assets::find(const std::string& name, const SourceLocation& where, cons
   throw Error({.what = what,
                .where = where,
                .found = fmt::format("no file '{}'", name),
-               .wanted = fmt::format("{}{}", paths.size() > 1 ? "one of " : "", fmt::join(paths, ", ")),
+               .wanted = fmt::format("{}{}", paths.size() > 1 ? "one of " : "", join(paths, ", ")),
                .nearest = nearestNames(fs::path(name).filename().string(), namesBesideAll(tried))});
 }
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "base/error.h"
+#include "base/join.h"
 #include "base/lower_case.h"
 #include "scene/files_internal.h"
 
@@ -60,7 +60,7 @@ fs::path findScene(const fs::path& scene, const fs::path& library) {
   if (!isBare && !scene.empty()) failAtPath(scene);
   throw Error(
       {.what = fmt::format("there is no scene '{}'", scene.string()),
-       .wanted = fmt::format("an .ors, .urdf or .xml file, or one of the course: {}", fmt::join(names, ", ")),
+       .wanted = fmt::format("an .ors, .urdf or .xml file, or one of the course: {}", join(names, ", ")),
        .nearest = nearestNames(scene.filename().string(), asTyped)});
 }
 

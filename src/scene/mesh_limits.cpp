@@ -3,10 +3,10 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/join.h"
 #include "base/lower_case.h"
 #include "scene/mesh_limits_internal.h"
 #include "scene/mesh_text_internal.h"
@@ -134,7 +134,7 @@ std::size_t largestFile(const std::string& name) {
     known.emplace_back(kind.ending);
   }
   fail(name, "not a mesh file that rex can read", ending.empty() ? "no ending" : fmt::format("'{}'", ending),
-       fmt::format("{}", fmt::join(known, ", ")), nearestNames(ending, known));
+       join(known, ", "), nearestNames(ending, known));
 }
 
 void requireSize(std::size_t bytes, const std::string& name) {

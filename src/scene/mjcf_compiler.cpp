@@ -1,11 +1,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
+#include "base/join.h"
 #include "geometry/rotation.h"
 #include "scene/mjcf_parts_internal.h"
 
@@ -181,7 +182,7 @@ std::size_t choice(const Tag& tag, const char* attribute, const std::vector<std:
   const auto found = std::find(words.begin(), words.end(), word);
   if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
   const std::string wanted =
-      fmt::format("{} or {}", fmt::join(words.begin(), words.end() - 1, ", "), words.back());
+      fmt::format("{} or {}", join(std::span(words).first(words.size() - 1), ", "), words.back());
   tag.fail(tag.where(attribute), fmt::format("attribute '{}'", attribute), xml::quoted(word), wanted,
            nearestNames(word, words));
 }

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
+#include "base/join.h"
 #include "scene/ors_limits_internal.h"
 #include "scene/ors_text_internal.h"
 #include "scene/readable_text_internal.h"
@@ -202,7 +202,7 @@ std::string linesText(const std::vector<Line>& lines) {
     if (line.head.size() <= kWidestColumn) width = std::max(width, line.head.size());
   std::string text;
   for (const Line& line : lines)
-    text += fmt::format("{:{}} {{ {}{}}}\n", line.head, width, fmt::join(line.parts, " "),
+    text += fmt::format("{:{}} {{ {}{}}}\n", line.head, width, join(line.parts, " "),
                         line.parts.empty() ? "" : " ");
   return text;
 }

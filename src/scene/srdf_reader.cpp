@@ -6,8 +6,8 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
+#include "base/join.h"
 #include "scene/files_internal.h"
 #include "scene/urdf_parts_internal.h"
 
@@ -78,9 +78,8 @@ class SrdfReader {
     std::vector<std::string> kinds;
     for (const auto& [name, count] : counts)
       kinds.push_back(count > 1 ? fmt::format("<{}> ({} times)", name, count) : fmt::format("<{}>", name));
-    notes.push_back(
-        {reading_.document.where(first->at),
-         fmt::format("only the collisions of an SRDF are read: {} skipped", fmt::join(kinds, ", "))});
+    notes.push_back({reading_.document.where(first->at),
+                     fmt::format("only the collisions of an SRDF are read: {} skipped", join(kinds, ", "))});
   }
 
  private:

@@ -1,8 +1,8 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
+#include "base/join.h"
 #include "geometry/inertia.h"
 #include "scene/assets.h"
 #include "scene/urdf_parts_internal.h"
@@ -140,7 +140,7 @@ Eigen::Matrix3d readMoments(const Tag& tag) {
   if (missing.size() == 1)
     tag.warn(tag.where(), fmt::format("attribute {} is missing and counts as 0", missing[0]));
   if (missing.size() > 1)
-    tag.warn(tag.where(), fmt::format("attributes {} are missing and count as 0", fmt::join(missing, ", ")));
+    tag.warn(tag.where(), fmt::format("attributes {} are missing and count as 0", join(missing, ", ")));
   return (Eigen::Matrix3d() << xx, xy, xz, xy, yy, yz, xz, yz, zz).finished();
 }
 
@@ -158,7 +158,7 @@ Eigen::Matrix3d withoutNegativeMoments(const Tag& tag, const Eigen::Matrix3d& I,
     if (moment < -kOwnRounding * sum) negative.push_back(fmt::format("{:.6g}", moment));
   const bool isOne = negative.size() == 1;
   const std::string instead =
-      fmt::format("{} kg m^2 {} and {} as 0", fmt::join(negative, " and "),
+      fmt::format("{} kg m^2 {} and {} as 0", join(negative, " and "),
                   isRounding ? (isOne ? "is within rounding error" : "are within rounding error")
                              : (isOne ? "is physically impossible" : "are physically impossible"),
                   isOne ? "counts" : "count");

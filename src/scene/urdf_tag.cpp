@@ -5,8 +5,8 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
+#include "base/join.h"
 #include "geometry/rotation.h"
 #include "scene/urdf_tag_internal.h"
 
@@ -112,8 +112,8 @@ Diagnostics Notes::take() {
     std::vector<std::string> attributes;
     for (const auto& [name, count] : leftOut.counts)
       attributes.push_back(count > 1 ? fmt::format("{} ({} times)", name, count) : name);
-    found_.push_back({leftOut.first,
-                      fmt::format("{}: attributes that are not read: {}", tag, fmt::join(attributes, ", "))});
+    found_.push_back(
+        {leftOut.first, fmt::format("{}: attributes that are not read: {}", tag, join(attributes, ", "))});
   }
   return std::move(found_);
 }

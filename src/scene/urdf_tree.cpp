@@ -1,8 +1,9 @@
 #include <algorithm>
+#include <span>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
+#include "base/join.h"
 #include "scene/urdf_parts_internal.h"
 
 namespace rex::urdf {
@@ -51,8 +52,8 @@ class Index {
 // Names for a message, the first few of many.
 std::string listed(const std::vector<std::string>& names, const char* between) {
   constexpr std::size_t kShown = 8;
-  const auto end = names.begin() + static_cast<std::ptrdiff_t>(std::min(kShown, names.size()));
-  const std::string shown = fmt::format("'{}'", fmt::join(names.begin(), end, fmt::format("'{}'", between)));
+  const auto first = std::span(names).first(std::min(kShown, names.size()));
+  const std::string shown = fmt::format("'{}'", join(first, fmt::format("'{}'", between)));
   return names.size() > kShown ? fmt::format("{}{}{} more", shown, between, names.size() - kShown) : shown;
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/join.h"
 #include "base/toml_table.h"
 
 namespace rex::grading {
@@ -126,7 +127,7 @@ const ExerciseInfo& findExercise(const std::vector<ExerciseInfo>& exercises, std
   if (matches.size() == 1) return *matches.front();
   if (matches.empty())
     throw UsageError({.what = fmt::format("no exercise is called '{}'", name),
-                      .wanted = names.empty() ? "" : fmt::format("one of {}", fmt::join(names, ", ")),
+                      .wanted = names.empty() ? "" : fmt::format("one of {}", join(names, ", ")),
                       .nearest = nearestNames(name, spellings)});
   std::vector<std::string> candidates;
   for (const ExerciseInfo* match : matches) candidates.push_back(match->name);

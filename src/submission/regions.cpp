@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/join.h"
 #include "base/lines.h"
 
 namespace rex::grading {
@@ -86,7 +87,7 @@ class MarkerReader {
   void handle(const Tag& tag) {
     if (std::find(words_.begin(), words_.end(), tag.word) == words_.end())
       fail(fmt::format("unknown marker '{}'", tag.word), number_,
-           fmt::format("one of {}", fmt::join(words_, ", ")), nearestNames(tag.word, words_));
+           fmt::format("one of {}", join(words_, ", ")), nearestNames(tag.word, words_));
     if (tag.word == "todo")
       openTodo(tag);
     else if (tag.closing)

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/join.h"
 #include "base/lines.h"
 #include "base/process.h"
 #include "base/text_file.h"
@@ -101,11 +102,11 @@ void requireNothingForbidden(const fs::path& object, const std::string& part, co
   if (!there.empty())
     throw Error({.what = "forbids functions that an allowed one needs",
                  .where = {fileOf(exercise)},
-                 .found = fmt::format("{} in the worker", fmt::join(there, ", "))});
+                 .found = fmt::format("{} in the worker", join(there, ", "))});
 }
 
 void writeLines(const fs::path& file, const Names& lines) {
-  writeTextFile(file, fmt::format("{}\n", fmt::join(lines, "\n")));
+  writeTextFile(file, fmt::format("{}\n", join(lines, "\n")));
 }
 
 // Undefined names that something refers to, or those that nothing refers to any more.

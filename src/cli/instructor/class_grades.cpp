@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/is_below.h"
+#include "base/join.h"
 #include "base/text_file.h"
 #include "cli/instructor/collect.h"
 #include "cli/json_internal.h"
@@ -55,7 +56,7 @@ void writeBook(const grading::Gradebook& book, const fs::path& out, bool print) 
   for (const grading::GradeRow& row : book.rows) ++counts[toString(row.status)];
   std::vector<std::string> parts;
   for (const auto& [status, count] : counts) parts.push_back(fmt::format("{} {}", count, status));
-  note(fmt::format("{} students: {}", book.totals.size(), fmt::join(parts, ", ")));
+  note(fmt::format("{} students: {}", book.totals.size(), join(parts, ", ")));
 }
 
 ExitCode explainResults(const Project& project, const ExplainOptions& options) {

@@ -7,6 +7,7 @@
 #include "authoring/release.h"
 #include "base/error.h"
 #include "base/instant.h"
+#include "base/join.h"
 #include "cli/instructor/collect.h"
 #include "cli/instructor/dev_verbs.h"
 #include "cli/instructor/release_proof.h"
@@ -47,7 +48,7 @@ void saySecrets(const std::vector<grading::Secret>& secrets) {
                          ? "the secret of the course"
                          : "no secret of the course (--secret-file)");
   constexpr std::size_t kColumn = 14;
-  say("  looked for  " + wrap(fmt::format("{}", fmt::join(parts, ", ")), kColumn, kColumn));
+  say("  looked for  " + wrap(join(parts, ", "), kColumn, kColumn));
 }
 
 // `out`: the release; empty after a mere scan, or if something leaks.

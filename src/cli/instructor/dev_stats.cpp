@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/instant.h"
+#include "base/join.h"
 #include "classroom/class_statistics.h"
 #include "classroom/csv.h"
 #include "cli/instructor/class_figure.h"
@@ -31,7 +32,7 @@ std::string groupOf(const CheckStatistics& check) {
 std::string classesOf(const CheckStatistics& check) {
   std::vector<std::string> parts;
   for (const auto& [name, count] : check.classes) parts.push_back(fmt::format("{} {}", count, name));
-  return fmt::format("{}", fmt::join(parts, ", "));
+  return join(parts, ", ");
 }
 
 // How the parts went, so that one sees which is too hard.

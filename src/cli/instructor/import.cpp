@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/instant.h"
+#include "base/join.h"
 #include "base/text_file.h"
 #include "classroom/arrivals.h"
 #include "classroom/importing.h"
@@ -66,7 +67,7 @@ std::string timesOf(const grading::ImportReport& report) {
       add(report.timesOfGit, "from commits (the student's clock)");
   add(report.timesOfFiles, "from files, which is when they were packed or copied"),
       add(report.withoutTime, "unknown");
-  return fmt::format("{}", fmt::join(parts, ", "));
+  return join(parts, ", ");
 }
 
 void tell(const grading::ImportReport& report, const ImportOptions& options) {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/join.h"
 #include "base/private_folder.h"
 #include "base/process.h"
 #include "cli/out_folder.h"
@@ -53,7 +54,7 @@ class Proof {
   void run(const std::vector<std::string>& command, int wanted) {
     constexpr double kLongest = 3 * 3600;
     constexpr std::size_t kShown = 1500;
-    const std::string text = fmt::format("{}", fmt::join(command, " "));
+    const std::string text = join(command, " ");
     {
       const std::lock_guard lock(mutex_);
       step_ = text;

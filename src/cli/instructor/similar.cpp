@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "base/join.h"
 #include "base/private_folder.h"
 #include "base/text_file.h"
 #include "classroom/grade_task.h"
@@ -47,8 +48,7 @@ void writeSimilar(const Project& project, const std::vector<grading::Task>& task
     const auto groups = grading::groupsOf(pairs);
     say(fmt::format("{}: {} group{} of similar submissions, to be looked at: {}", name, groups.size(),
                     groups.size() == 1 ? "" : "s", shown(page)));
-    for (const std::vector<std::string>& group : groups)
-      say("  " + wrap(harmless(fmt::format("{}", fmt::join(group, ", "))), 4, 2));
+    for (const std::vector<std::string>& group : groups) say("  " + wrap(harmless(join(group, ", ")), 4, 2));
   }
 }
 

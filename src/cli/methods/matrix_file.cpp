@@ -1,12 +1,13 @@
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
+#include <span>
 #include <sstream>
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
+#include "base/join.h"
 #include "base/text_file.h"
 #include "cli/methods/matrix_file_internal.h"
 #include "cli/terminal.h"
@@ -16,7 +17,7 @@ namespace {
 
 // "A, B and C".
 std::string listed(const std::vector<std::string>& names) {
-  return fmt::format("{} and {}", fmt::join(names.begin(), names.end() - 1, ", "), names.back());
+  return fmt::format("{} and {}", join(std::span(names).first(names.size() - 1), ", "), names.back());
 }
 
 Json parsedObject(const std::string& text, const std::string& file, const std::string& wanted) {
@@ -52,7 +53,7 @@ MatrixFile::MatrixFile(const std::filesystem::path& path, const std::filesystem:
   for (const auto& field : object_.items())
     if (std::find(known.begin(), known.end(), field.key()) == known.end())
       unused.push_back(harmless(field.key()));
-  if (!unused.empty()) note(wrap(fmt::format("rex: {}: not used: {}", file_, fmt::join(unused, ", ")), 2, 0));
+  if (!unused.empty()) note(wrap(fmt::format("rex: {}: not used: {}", file_, join(unused, ", ")), 2, 0));
 }
 
 Error MatrixFile::wrong(const std::string& what, const std::string& found, const std::string& wanted) const {

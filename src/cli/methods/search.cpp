@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "base/exit_code.h"
+#include "base/join.h"
 #include "base/rng.h"
 #include "cli/json_internal.h"
 #include "cli/methods/methods_room_internal.h"
@@ -127,7 +128,7 @@ std::vector<const One*> chosen(const char* option, const std::vector<std::string
     if (std::find(known.begin(), known.end(), name) == known.end())
       throw UsageError({.what = option,
                         .found = "'" + harmless(name) + "'",
-                        .wanted = fmt::format("{}", fmt::join(known, ", ")),
+                        .wanted = join(known, ", "),
                         .nearest = nearestNames(name, known)});
   std::vector<const One*> found;
   for (const One* one = first; one != last; ++one)

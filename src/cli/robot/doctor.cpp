@@ -16,10 +16,10 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/join.h"
 #include "base/private_folder.h"
 #include "base/process.h"
 #include "cli/file_watcher.h"
@@ -264,9 +264,9 @@ std::string toDo(const std::vector<Finding>& findings) {
     if (finding.status == Status::kFails) broken.push_back(finding.name);
   }
   std::vector<std::string> steps;
-  if (!packages.empty()) steps.push_back(fmt::format("apt-get install {}", fmt::join(packages, " ")));
-  if (!broken.empty()) steps.push_back(fmt::format("repair what fails: {}", fmt::join(broken, ", ")));
-  return steps.empty() ? "Nothing else is needed." : fmt::format("To do: {}", fmt::join(steps, "; then "));
+  if (!packages.empty()) steps.push_back(fmt::format("apt-get install {}", join(packages, " ")));
+  if (!broken.empty()) steps.push_back(fmt::format("repair what fails: {}", join(broken, ", ")));
+  return steps.empty() ? "Nothing else is needed." : fmt::format("To do: {}", join(steps, "; then "));
 }
 
 const char* nameOf(Status status) {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
+#include "base/join.h"
 #include "cli/terminal.h"
 
 namespace rex::cli {
@@ -18,7 +18,7 @@ std::string listOf(const std::vector<std::string>& names) {
   for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i)
     shown.push_back("'" + harmless(names[i]) + "'");
   const std::string rest = names.size() > kMost ? fmt::format(" and {} more", names.size() - kMost) : "";
-  return fmt::format("{}{}", fmt::join(shown, ", "), rest);
+  return fmt::format("{}{}", join(shown, ", "), rest);
 }
 
 }  // namespace

@@ -5,14 +5,15 @@
 #include <cmath>
 #include <fstream>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "base/error.h"
+#include "base/join.h"
 #include "cli/number_words.h"
 #include "scene/coordinates.h"
 #include "scene/state.h"
@@ -57,7 +58,7 @@ void requireQuaternions(const Model& model, const Eigen::VectorXd& q, const Refu
 std::string listed(const std::vector<std::string>& names) {
   constexpr std::size_t kMost = 12;
   const std::size_t count = std::min(names.size(), kMost);
-  std::string list = fmt::format("{}", fmt::join(names.begin(), names.begin() + count, ", "));
+  std::string list = join(std::span(names).first(count), ", ");
   if (names.size() > count) list += fmt::format(" and {} more", names.size() - count);
   return list;
 }

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "base/error.h"
+#include "base/join.h"
 #include "cli/option_value_internal.h"
 #include "render/draw_film.h"
 
@@ -123,7 +123,7 @@ std::string viewsOf(const RenderPlan& plan) {
   for (const auto& [name, view] : plan.views)
     if (name != "default") names.push_back(name);
   if (names.empty()) return {};
-  return fmt::format("{}: {}", names.size() == 1 ? "view" : "views", fmt::join(names, "; "));
+  return fmt::format("{}: {}", names.size() == 1 ? "view" : "views", join(names, "; "));
 }
 
 GlBackend backendOf(const std::string& name) {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
+#include "base/join.h"
 #include "cli/json_internal.h"
 #include "cli/robot/pin_gaps.h"
 #include "cli/robot/scene_verbs.h"
@@ -37,7 +37,7 @@ std::string typesOf(const std::vector<const ModelShape*>& shapes, bool ModelShap
   std::vector<std::string> texts;
   for (const auto& [type, count] : counts)
     texts.push_back(count == 1 ? type : fmt::format("{} {}", count, type));
-  return fmt::format("{}", fmt::join(texts, ", "));
+  return join(texts, ", ");
 }
 
 std::vector<std::vector<BodyId>> childrenOf(const Model& model) {

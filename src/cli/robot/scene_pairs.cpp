@@ -2,9 +2,9 @@
 #include <filesystem>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "base/error.h"
+#include "base/join.h"
 #include "cli/json_internal.h"
 #include "cli/option_value_internal.h"
 #include "cli/robot/contact_limit.h"
@@ -74,7 +74,7 @@ ExitCode sceneNeverTouching(const Project& project, const PairsOptions& options)
   const TouchSample sample = asWrongUse([&] { return sampleTouches(model, options.samples, rng); });
   if (!sample.held.empty())
     note(harmless(fmt::format("joints without limits to draw random positions from, kept at their start: {}",
-                              fmt::join(sample.held, ", "))));
+                              join(sample.held, ", "))));
   if (options.scene.json) {
     say(dump(jsonOfSample(model, sample, options.seed)));
     return ExitCode::kFull;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/join.h"
 #include "cli/student/exercise_option_internal.h"
 #include "cli/student/progress_file.h"
 #include "cli/student/student_room_internal.h"
@@ -25,7 +26,7 @@ const ExercisePart& partCalled(const ExerciseInfo& exercise, const std::string& 
     ids.push_back(part.id);
   }
   throw UsageError({.what = fmt::format("{} has no part '{}'", exercise.name, harmless(id)),
-                    .wanted = fmt::format("one of {}", fmt::join(ids, ", ")),
+                    .wanted = fmt::format("one of {}", join(ids, ", ")),
                     .nearest = nearestNames(id, ids)});
 }
 

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
+#include "base/join.h"
 #include "cli/result_list.h"
 #include "cli/student/student_file.h"
 #include "cli/terminal.h"
@@ -123,8 +123,8 @@ void sayChanges(const grading::GradeResult& before, const grading::GradeResult& 
   if (before.checks.empty() || now.checks.empty()) return;
   const std::vector<std::string> better = turned(before, now, true), worse = turned(before, now, false);
   std::string text;
-  if (!better.empty()) text += fmt::format(" now passed: {};", fmt::join(better, ", "));
-  if (!worse.empty()) text += fmt::format(" passed before: {};", fmt::join(worse, ", "));
+  if (!better.empty()) text += fmt::format(" now passed: {};", join(better, ", "));
+  if (!worse.empty()) text += fmt::format(" passed before: {};", join(worse, ", "));
   if (before.score != now.score) text += fmt::format(" {} points before;", before.score);
   if (text.empty()) text = " no verdict has changed;";
   text.back() = '.';
