@@ -27,5 +27,40 @@ namespace Eigen::internal {
     subTo(same, a, b);                                                                               \
   }
 REX_MATRIX_PRODUCTS(REX_DEFINE)
+#undef REX_DEFINE
+
+#define REX_DEFINE(Left)                                                                         \
+  template <>                                                                                    \
+  template <>                                                                                    \
+  void generic_product_impl<Left, VectorXd, DenseShape, DenseShape, GemvProduct>::scaleAndAddTo( \
+      VectorXd& out, const Left& a, const VectorXd& b, const double& factor) {                   \
+    Map<VectorXd> same(out.data(), out.size());                                                  \
+    scaleAndAddTo(same, a, b, factor);                                                           \
+  }
+REX_VECTOR_PRODUCTS(REX_DEFINE)
 
 }  // namespace Eigen::internal
+
+namespace Eigen {
+
+template <>
+template <>
+void HouseholderSequence<MatrixXd, VectorXd, OnTheLeft>::evalTo(MatrixXd& out) const {
+  out.resize(rows(), rows());
+  Map<MatrixXd> same(out.data(), out.rows(), out.cols());
+  evalTo(same);
+}
+template <>
+template <>
+void PartialPivLU<MatrixXd>::_solve_impl(const MatrixXd& b, MatrixXd& x) const {
+  Map<MatrixXd> same(x.data(), x.rows(), x.cols());
+  _solve_impl(b, same);
+}
+template <>
+template <>
+void PartialPivLU<MatrixXd>::_solve_impl(const VectorXd& b, VectorXd& x) const {
+  Map<VectorXd> same(x.data(), x.size());
+  _solve_impl(b, same);
+}
+
+}  // namespace Eigen

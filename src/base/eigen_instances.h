@@ -49,7 +49,32 @@ using ThreeFactors = Product<TwoFactors, Transposed>;
 REX_MATRIX_PRODUCTS(REX_DECLARE)
 #undef REX_DECLARE
 
+// Products with vectors.
+#define REX_VECTOR_PRODUCTS(PRODUCT) \
+  PRODUCT(MatrixXd)                  \
+  PRODUCT(Transposed)                \
+  PRODUCT(TransposedValue)
+#define REX_DECLARE(Left)                                                                        \
+  template <>                                                                                    \
+  template <>                                                                                    \
+  void generic_product_impl<Left, VectorXd, DenseShape, DenseShape, GemvProduct>::scaleAndAddTo( \
+      VectorXd&, const Left&, const VectorXd&, const double&);
+REX_VECTOR_PRODUCTS(REX_DECLARE)
+#undef REX_DECLARE
+
 }  // namespace internal
+
+// Members that are defined within their class would be compiled wherever they are called: specialised
+// instead.
+template <>
+template <>
+void HouseholderSequence<MatrixXd, VectorXd, OnTheLeft>::evalTo(MatrixXd&) const;
+template <>
+template <>
+void PartialPivLU<MatrixXd>::_solve_impl(const MatrixXd&, MatrixXd&) const;
+template <>
+template <>
+void PartialPivLU<MatrixXd>::_solve_impl(const VectorXd&, VectorXd&) const;
 
 REX_INSTANCE class LLT<MatrixXd>;
 REX_INSTANCE LLT<MatrixXd>& LLT<MatrixXd>::compute(const EigenBase<MatrixXd>&);
@@ -75,9 +100,12 @@ REX_INSTANCE void LLT<MatrixXd>::_solve_impl(const VectorXd&, VectorXd&) const;
 REX_INSTANCE void LDLT<MatrixXd>::_solve_impl(const MatrixXd&, MatrixXd&) const;
 REX_INSTANCE void LDLT<MatrixXd>::_solve_impl(const VectorXd&, VectorXd&) const;
 REX_INSTANCE void ColPivHouseholderQR<MatrixXd>::_solve_impl(const VectorXd&, VectorXd&) const;
-REX_INSTANCE void HouseholderSequence<MatrixXd, VectorXd, OnTheLeft>::evalTo(MatrixXd&, VectorXd&) const;
+REX_INSTANCE void CompleteOrthogonalDecomposition<MatrixXd>::_solve_impl(const MatrixXd&, MatrixXd&) const;
+REX_INSTANCE void CompleteOrthogonalDecomposition<MatrixXd>::_solve_impl(const VectorXd&, VectorXd&) const;
 
 namespace internal {
+
+REX_INSTANCE double rcond_estimate_helper(double, const PartialPivLU<MatrixXd>&);
 
 using Mapper = blas_data_mapper<double, Index, ColMajor>;
 using Columns = const_blas_data_mapper<double, Index, ColMajor>;
