@@ -54,7 +54,7 @@ endfunction()
 # longer than in proportion.
 function(rex_merge_sources target matrices)
   if(REX_MERGE_SOURCES)
-    set(at_most 12)
+    set(at_most 24)
     if(matrices)
       set(at_most 4)
     endif()

@@ -83,11 +83,11 @@ pid_t childOf(pid_t process) {
 
 sandbox::Confinement confinementOf(const GradingJob& job, const fs::path& program) {
   if (!sandbox::isConfined(job.sandbox.level)) return {};
-  constexpr std::size_t kFileBytes = 64u << 20;
+  constexpr std::size_t kLargestFile = 64u << 20;
   sandbox::Confinement confinement{.readable = {{fs::absolute(program), sandbox::kInsideProgram}},
                                    .cpuSeconds = job.limits.cpuBudget(),
                                    .addressSpace = job.limits.memory,
-                                   .fileSize = kFileBytes,
+                                   .fileSize = kLargestFile,
                                    .reports = true};
   for (const fs::path& library : job.libraries) confinement.readable.push_back({library, library});
   return confinement;

@@ -16,10 +16,10 @@ using internal::squareRoot;
 
 // A first arc to the left, a middle part and a last arc: three words, and three more in the mirror. Lengths
 // are in turning radii.
-enum class Word { kLSL, kLSR, kLRL };
+enum class DubinsWord { kLSL, kLSR, kLRL };
 
-struct Way {
-  Word word = Word::kLSL;
+struct DubinsWay {
+  DubinsWord word = DubinsWord::kLSL;
   bool mirrored = false;
   double middle = 0;
   double length = std::numeric_limits<double>::infinity();
@@ -33,26 +33,26 @@ struct Circles {
 Circles leftToLeft(const CarGoal& goal) { return {goal.x - goal.sine, goal.y - 1 + goal.cosine}; }
 Circles leftToRight(const CarGoal& goal) { return {goal.x + goal.sine, goal.y - 1 - goal.cosine}; }
 
-double firstArc(Word word, const CarGoal& goal, double middle) {
+double firstArc(DubinsWord word, const CarGoal& goal, double middle) {
   const Circles same = leftToLeft(goal), other = leftToRight(goal);
   switch (word) {
-    case Word::kLSL:
+    case DubinsWord::kLSL:
       return fullTurn(std::atan2(same.y, same.x));
-    case Word::kLSR:
+    case DubinsWord::kLSR:
       return fullTurn(std::atan2(other.y * middle + 2 * other.x, other.x * middle - 2 * other.y));
-    case Word::kLRL:
+    case DubinsWord::kLRL:
       return fullTurn(std::atan2(same.y, same.x) + middle / 2);
   }
   return 0;
 }
 
-double lastArc(Word word, const CarGoal& goal, double first, double middle) {
+double lastArc(DubinsWord word, const CarGoal& goal, double first, double middle) {
   switch (word) {
-    case Word::kLSL:
+    case DubinsWord::kLSL:
       return fullTurn(goal.heading - first);
-    case Word::kLSR:
+    case DubinsWord::kLSR:
       return fullTurn(first - goal.heading);
-    case Word::kLRL:
+    case DubinsWord::kLRL:
       return fullTurn(goal.heading - first + middle);
   }
   return 0;
@@ -70,18 +70,18 @@ bool isOnTurn(const Circles& direction, double length, const CarGoal& goal, doub
 
 // Tries all words, but computes the lengths of the arcs only if what is already known does not rule the word
 // out.
-class Search {
+class DubinsSearch {
  public:
-  explicit Search(const CarGoal& goal) {
+  explicit DubinsSearch(const CarGoal& goal) {
     const CarGoal mirror = goal.mirrored();
     tryLSL(goal, false), tryLSL(mirror, true);
     tryLSR(goal, false), tryLSR(mirror, true);
     tryLRL(goal, false), tryLRL(mirror, true);
   }
-  const Way& best() const { return best_; }
+  const DubinsWay& best() const { return best_; }
 
  private:
-  void keepIfShorter(const Way& way) {
+  void keepIfShorter(const DubinsWay& way) {
     if (way.length < best_.length) best_ = way;
   }
 
@@ -91,7 +91,7 @@ class Search {
     const Circles circles = leftToLeft(goal);
     const double straight = std::sqrt(circles.distance2()), turn = fullTurn(goal.heading);
     const double arcs = isOnTurn(circles, straight, goal, turn) ? turn : turn + 2 * kPi;
-    keepIfShorter({Word::kLSL, mirrored, straight, straight + arcs});
+    keepIfShorter({DubinsWord::kLSL, mirrored, straight, straight + arcs});
   }
 
   // It crosses from a left circle to a right one, which must not overlap; the arcs differ by the car's turn.
@@ -99,9 +99,9 @@ class Search {
     double straight = 0;
     if (!squareRoot(leftToRight(goal).distance2() - 4, straight)) return;
     if (straight + std::abs(halfTurn(goal.heading)) >= best_.length) return;
-    const double first = firstArc(Word::kLSR, goal, straight);
-    const double last = lastArc(Word::kLSR, goal, first, straight);
-    keepIfShorter({Word::kLSR, mirrored, straight, first + straight + last});
+    const double first = firstArc(DubinsWord::kLSR, goal, straight);
+    const double last = lastArc(DubinsWord::kLSR, goal, first, straight);
+    keepIfShorter({DubinsWord::kLSR, mirrored, straight, first + straight + last});
   }
 
   // A right circle touches two left ones. Only the longer of its arcs, above pi, is on a shortest way.
@@ -110,32 +110,33 @@ class Search {
     if (distance2 > 16 || best_.length <= kPi) return;
     const double middle = 2 * (kPi - std::asin(std::sqrt(distance2) / 4));
     if (middle + fullTurn(goal.heading + middle) >= best_.length) return;
-    const double first = firstArc(Word::kLRL, goal, middle);
-    const double last = lastArc(Word::kLRL, goal, first, middle);
-    keepIfShorter({Word::kLRL, mirrored, middle, first + middle + last});
+    const double first = firstArc(DubinsWord::kLRL, goal, middle);
+    const double last = lastArc(DubinsWord::kLRL, goal, first, middle);
+    keepIfShorter({DubinsWord::kLRL, mirrored, middle, first + middle + last});
   }
 
-  Way best_;
+  DubinsWay best_;
 };
 
 }  // namespace
 
 Curve dubinsCurve(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius) {
   const CarGoal goal = CarGoal::between(from, to, radius);
-  const Way way = Search(goal).best();
+  const DubinsWay way = DubinsSearch(goal).best();
   const CarGoal seen = way.mirrored ? goal.mirrored() : goal;
   const double first = firstArc(way.word, seen, way.middle);
   const double last = lastArc(way.word, seen, first, way.middle);
   const Steering near = way.mirrored ? Steering::kRight : Steering::kLeft;
   const Steering far = way.mirrored ? Steering::kLeft : Steering::kRight;
-  const CurveSegment segments[] = {{near, radius * first},
-                                   {way.word == Word::kLRL ? far : Steering::kStraight, radius * way.middle},
-                                   {way.word == Word::kLSR ? far : near, radius * last}};
+  const CurveSegment segments[] = {
+      {near, radius * first},
+      {way.word == DubinsWord::kLRL ? far : Steering::kStraight, radius * way.middle},
+      {way.word == DubinsWord::kLSR ? far : near, radius * last}};
   return Curve(from, radius, segments);
 }
 
 double dubinsLength(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius) {
-  return radius * Search(CarGoal::between(from, to, radius)).best().length;
+  return radius * DubinsSearch(CarGoal::between(from, to, radius)).best().length;
 }
 
 }  // namespace rex

@@ -12,8 +12,6 @@
 namespace rex {
 namespace {
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
-
 std::string described(const Eigen::Vector2d& p) { return fmt::format("({:g}, {:g})", p.x(), p.y()); }
 
 }  // namespace
@@ -48,7 +46,7 @@ PotentialField::Obstacle PotentialField::nearestObstacle(const Eigen::Vector2d& 
 
 double PotentialField::potential(const Eigen::Vector2d& p) const {
   const double distance = nearestObstacle(p).distance;
-  if (!(distance > 0)) return kInfinite;
+  if (!(distance > 0)) return std::numeric_limits<double>::infinity();
   const double nearness = 1 / distance - 1 / options_.reach;
   return .5 * options_.attraction * (p - goal_).squaredNorm() + .5 * options_.repulsion * nearness * nearness;
 }
