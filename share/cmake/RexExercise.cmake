@@ -9,6 +9,9 @@ set(REX_STUDENT_FLAGS -std=c++20 -O1 -ffp-contract=off -fno-math-errno -Wall -We
                       -ftrivial-auto-var-init=pattern -DEIGEN_INITIALIZE_MATRICES_BY_NAN -D_GLIBCXX_ASSERTIONS
                       -ffunction-sections -fno-gnu-unique --param=ggc-min-expand=400 --param=ggc-min-heapsize=1000000)
 set(REX_STUDENT_LINK_FLAGS "")
+if(REX_HAS_GOLD)
+  set(REX_STUDENT_LINK_FLAGS -fuse-ld=gold)
+endif()
 if(REX_SANITIZE)
   list(APPEND REX_STUDENT_FLAGS -g1 -fsanitize=address,undefined -fno-sanitize-recover=undefined
                                 -fno-omit-frame-pointer)

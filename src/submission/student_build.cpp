@@ -258,7 +258,12 @@ StudentProgram link(const Toolchain& toolchain, const BuildTools& tools, const p
   command.emplace_back("-Wl,--as-needed");
   command.insert(command.end(), libraries.begin(), libraries.end());
   command.insert(command.end(), toolchain.linkFlags.begin(), toolchain.linkFlags.end());
-  const ProcessResult run = tools.run(command);
+  ProcessResult run = tools.run(command);
+  if (!run.ok()) {
+    // The standard linker has the last word: its complaints are the ones that we can explain.
+    command.emplace_back("-fuse-ld=bfd");
+    run = tools.run(command);
+  }
   StudentProgram result{
       .program = program, .messages = {}, .log = printable(run.error, kLogSize), .ok = run.ok()};
   if (!run.ok()) result.messages = explainLinking(run, tools, objects.back(), mainFile);
