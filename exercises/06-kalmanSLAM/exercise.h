@@ -90,7 +90,7 @@ Belief jointCorrected(const CarSetup& car, const Belief& joint, int i, const Eig
 /// covariance, also with everything else, follows from that.
 Belief withLandmark(const CarSetup& car, const Belief& joint, const Eigen::Vector2d& y);
 
-// Part 5, the hard part: landmarks without names (7:38), and FastSLAM (7:39, 7:40).
+// Part 5, the hard part: landmarks without names (7:38, 7:41), and FastSLAM (7:39 to 7:41).
 
 inline constexpr int kNewLandmark = -1, kUnclear = -2;
 

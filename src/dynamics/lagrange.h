@@ -17,7 +17,7 @@ using Lagrangian = std::function<double(const Eigen::VectorXd& q, const Eigen::V
 [[nodiscard]] Eigen::VectorXd eulerLagrangeForce(const Lagrangian& L, const VectorArg& q, const VectorArg& v,
                                                  const VectorArg& a);
 
-/// M and F of M(q) a + F(q, v) = u, including gravity if L does. Throws as eulerLagrangeForce. Slide 3:24.
+/// M and F of M(q) a + F(q, v) = u, including gravity if L does. Throws as eulerLagrangeForce. Slide 3:22.
 [[nodiscard]] EquationOfMotion equationOfMotion(const Lagrangian& L, const VectorArg& q, const VectorArg& v);
 
 }  // namespace rex

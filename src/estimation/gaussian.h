@@ -26,7 +26,7 @@ struct CanonicalGaussian {
 [[nodiscard]] CanonicalGaussian toCanonical(const Gaussian& x);
 [[nodiscard]] Gaussian toNormal(const CanonicalGaussian& x);
 
-/// log N(x | mean, covariance), with the determinant (errata 24).
+/// log N(x | mean, covariance), with the determinant (slides 6:26 and 6:33, corrected).
 [[nodiscard]] double logDensity(const Gaussian& gaussian, const VectorArg& x);
 /// (x - mean)^T covariance^-1 (x - mean).
 [[nodiscard]] double squaredMahalanobis(const Gaussian& gaussian, const VectorArg& x);
