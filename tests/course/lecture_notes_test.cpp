@@ -109,6 +109,38 @@ TEST(LectureNotes, GradientDescentInAValley) {
                                         std::ceil(std::log(.1) / std::log(factor))));
 }
 
+TEST(LectureNotes, MethodsOfBothOrders) {
+  // The heavy ball, x <- x - a g + b (x - last), with Polyak's constants, on each curvature of the valley.
+  const double kappa = 100, root = std::sqrt(kappa), a = 4 / std::pow(1 + root, 2),
+               b = std::pow((root - 1) / (root + 1), 2);
+  double factor = 0;
+  MatrixXd step(2, 2);
+  for (double curvature = 1; curvature <= kappa; ++curvature) {
+    step << 1 + b - a * curvature, -b, 1, 0;
+    factor = std::max(factor, eigenvalues(step).cwiseAbs().maxCoeff());
+  }
+  EXPECT_NEAR(factor, (root - 1) / (root + 1), 1e-6);
+  expectStated("00-basics", fmt::format("{:.3f} for $\\kappa = 100$, which is {:.0f} steps", factor,
+                                        std::log(10) / (-2 * std::log(factor))));
+  // Conjugate gradients in five dimensions.
+  Rng rng(14);
+  const MatrixXd A = randomMetric(5, rng);
+  VectorXd g = rng.normalVector(5), d = -g;
+  for (int k = 0; k < 5; ++k) {
+    const double before = g.squaredNorm();
+    EXPECT_GT(before, 1e-12) << k;
+    const VectorXd y = product({A, d});
+    g += before / d.dot(y) * y;
+    d = g.squaredNorm() / before * d - g;
+  }
+  EXPECT_LT(g.norm(), 1e-8);
+  // Newton's step, from differences of f.
+  const auto f = [](double x) { return std::sqrt(1 + x * x); };
+  const double x = 1.3, h = 1e-4;
+  const double newton = -h / 2 * (f(x + h) - f(x - h)) / (f(x + h) - 2 * f(x) + f(x - h));
+  EXPECT_NEAR(x + newton, -x * x * x, 1e-4);
+}
+
 TEST(LectureNotes, BoxesAndHosts) {
   // By counting equally likely cases: 12 of the script, and a box of 6.
   const double apple = .5 * 8 / 12 + .5 * 5 / 6, pooled = 13. / 18;
