@@ -2,9 +2,11 @@
 // formatted as they stand there, so that neither can change alone.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include <Eigen/Dense>
 #include <fmt/format.h>
@@ -17,6 +19,7 @@
 #include "course/simulator.h"
 #include "estimation/gaussian.h"
 #include "estimation/resampling.h"
+#include "geometry/rotation.h"
 #include "kinematics/inverse_kinematics.h"
 #include "learning/policy_gradient.h"
 #include "learning/power.h"
@@ -250,6 +253,96 @@ TEST(LectureNotes, TheLagOnTheLine) {
   expectStated("01-kinematics",
                fmt::format("With $T = 100$ the hand lags by at most {:.3f} mm, with $T = 200$ by {:.4f} mm",
                            1e3 * fast, 1e3 * slow));
+}
+
+// 12.3.1 b: w are the rotation vectors of two hands. At w = 0 their palms are opposite, their fingers alike.
+TEST(LectureNotes, ParallelHands) {
+  const auto map = [](int which) {
+    return [which](const VectorXd& w) -> VectorXd {
+      const Eigen::Matrix3d left = expSO3(w.head<3>()), right = expSO3(w.tail<3>());
+      const Eigen::Vector3d a = left.col(0), b = -right.col(0);
+      if (which == 0) return a + b;
+      if (which == 1) return skew(a) * b;
+      if (which == 2) return VectorXd::Constant(1, 1 + a.dot(b));
+      VectorXd stacked(6);
+      stacked << a + b, left.col(2) - right.col(2);
+      return stacked;
+    };
+  };
+  const VectorXd parallel = VectorXd::Zero(6), same = kPi * VectorXd::Unit(6, 2);
+  EXPECT_LT(map(1)(same).norm(), 1e-15);
+  EXPECT_NEAR(map(0)(same).norm(), 2, 1e-15);
+  for (const auto& [which, rank] : {std::pair(0, 2), {1, 2}, {2, 0}, {3, 3}}) {
+    EXPECT_LT(map(which)(parallel).norm(), 1e-15);
+    EXPECT_EQ((svd(numericJacobian(map(which), parallel)).s.array() > 1e-6).count(), rank) << which;
+  }
+  // The Gauss-Newton step of the scalar product, for one hand that turns about the third axis.
+  const VectorFunction scalar = [&](const VectorXd& x) { return map(2)(x[0] * VectorXd::Unit(6, 2)); };
+  const VectorXd angle = VectorXd::Constant(1, .1);
+  EXPECT_NEAR(scalar(angle)[0] / numericJacobian(scalar, angle)(0, 0), .05, 1e-4);
+}
+
+// 12.6.2 a: four seconds as in part 4 of 03. The largest angle, and the largest speed in the last second.
+std::pair<double, double> held(Simulator S, const VectorXd& Kp, const VectorXd& Kd) {
+  std::pair<double, double> largest(0, 0);
+  for (int k = 0; k < 400; ++k) {
+    if (k == 100) S.setJointAnglesAndVels(S.getJointAngles(), (S.getJointVels().array() + 1).matrix());
+    const VectorXd q = S.getJointAngles(), v = S.getJointVels();
+    largest.first = std::max(largest.first, q.cwiseAbs().maxCoeff());
+    if (k >= 300) largest.second = std::max(largest.second, v.cwiseAbs().maxCoeff());
+    S.stepDynamics(VectorXd(-Kp.cwiseProduct(q) - Kd.cwiseProduct(v)), .01);
+  }
+  return largest;
+}
+
+TEST(LectureNotes, ALongerArm) {
+  Simulator arms[] = {Simulator("pegArm.ors"), Simulator("pegArm2.ors")};
+  std::vector<double> bound, heaviest, gravity, ratio;
+  MatrixXd M;
+  for (Simulator& S : arms) {
+    VectorXd F;
+    S.getDynamics(M, F);
+    const Eigen::Index n = F.size();
+    const VectorXd s = svd(M).s, ones = VectorXd::Ones(n);
+    bound.push_back(2 / .01 * s.minCoeff());
+    heaviest.push_back(s.maxCoeff());
+    gravity.push_back(std::abs(F[0]));
+    EXPECT_LT(held(S, 50 * ones, .95 * bound.back() * ones).second, 1);
+    EXPECT_GT(held(S, 50 * ones, 1.1 * bound.back() * ones).second, 50);
+    MatrixXd loop = MatrixXd::Zero(2 * n, 2 * n);
+    loop.topRightCorner(n, n).setIdentity();
+    loop.bottomLeftCorner(n, n) = -50 * inverse(M);
+    loop.bottomRightCorner(n, n) = -bound.back() * inverse(M);
+    const Eigen::VectorXcd poles = eigenvalues(loop);
+    Eigen::Index last = 0;  // of the slowest swing
+    poles.real().maxCoeff(&last);
+    ratio.push_back(-poles[last].real() / std::abs(poles[last]));
+  }
+  expectStated("03-dynamics",
+               fmt::format("{:.2f} N m s for `pegArm` and {:.2f} for `pegArm2`", bound[0], bound[1]));
+  expectStated("03-dynamics", fmt::format("{:.2f} and {:.2f} kg m^2, and gravity takes {:.1f} and {:.1f} N m",
+                                          heaviest[0], heaviest[1], gravity[0], gravity[1]));
+  expectStated("03-dynamics",
+               fmt::format("a ratio of {:.2f} for the one arm, and of only {:.2f}", ratio[0], ratio[1]));
+  VectorXd Kp(7), Kd(7);
+  Kp << 160, 100, 80, 60, 40, 20, 4;
+  Kd << 2, 2, 1, .6, .5, .9, 1;
+  const double fastest = eigenvalues(product({inverse(M), MatrixXd(Kd.asDiagonal())})).cwiseAbs().maxCoeff();
+  std::vector<int> within;
+  for (const double noise : {1., 2., 4.}) {
+    arms[1].setDynamicSimulationNoise(noise);
+    within.push_back(0);
+    for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+      arms[1].setSeed(seed);
+      within.back() += held(arms[1], Kp, Kd).first <= .6;
+    }
+  }
+  expectStated(
+      "03-dynamics",
+      fmt::format("is {:.0f} of the 200 per second that $\\tau$ allows, and the arm stays within 0.6 "
+                  "rad in {} of 50 runs with the noise and the push of part 4. With noise of strength 2, "
+                  "it does so in {}, with strength 4, in {} runs",
+                  fastest, within[0], within[1], within[2]));
 }
 
 TEST(LectureNotes, DirectionsAndDensities) {
