@@ -146,6 +146,17 @@ TEST(LectureNotesOnControl, TheIterationForTheRiccatiEquation) {
   double step = 1e9;
   for (const Complex& pole : balanced.poles) step = std::min(step, -2 * pole.real() / std::norm(pole));
   expectWritten("07-cartPole", fmt::format("the bound is {:.3f} s", step));
+  // 12.11.1 b and c: the same gains as by solveCare.
+  MatrixXd P = balanced.Q, K;
+  const MatrixXd A = balanced.plant.A, B = balanced.plant.B;
+  for (int k = 0; k < 30000; ++k) {
+    K = -product({B.transpose(), P});
+    const MatrixXd half = product({P, A});
+    P += 1e-3 * (half + half.transpose() - product({K.transpose(), K}) + balanced.Q);
+  }
+  EXPECT_LT((K - balanced.K).norm(), 1e-7);
+  expectWritten("07-cartPole",
+                fmt::format("$K = ({:.4f}, {:.4f}, {:.4f}, {:.4f})$", K(0, 0), K(0, 1), K(0, 2), K(0, 3)));
 }
 
 // The linear cart pole under u = K x^, if the force is `factor` times what the controller wants; and whether
