@@ -93,7 +93,7 @@ Eigen::MatrixXd learnedBy(const Eigen::MatrixXd& Q, const std::vector<Experience
   return after;
 }
 
-// Episodes that end, episodes that do not, and no steps at all.
+// Episodes that end, and episodes that do not.
 void learns(Check& check, Student& student, bool isSarsa, int states, int actions, int length, bool ends) {
   rex::Rng& rng = check.rng();
   const Eigen::MatrixXd Q = roundedTable(states, actions, rng);
@@ -206,6 +206,7 @@ void plansSmall(Check& check, Student& student) {
   plans(check, student, 5, .95);
 }
 
+// maxReward is at least 2, for no reward of randomSteps() exceeds that.
 void hopes(Check& check, Student& student, int states, double maxReward, double discount) {
   const LearnedWorld model = modelOf(randomSteps(states, 2, 6 * states, check.rng()), states, 2);
   // As many as some pair was tried, and others less often.
@@ -318,7 +319,7 @@ void plansMore(Check& check, Student& student) {
 }
 
 void hopesMore(Check& check, Student& student) {
-  check.forEachCase(6, [&](int i) { hopes(check, student, 2 + 2 * i, 1 + i, .15 * (i + 1)); });
+  check.forEachCase(6, [&](int i) { hopes(check, student, 2 + 2 * i, 2 + i, .15 * (i + 1)); });
 }
 // </hidden>
 

@@ -62,7 +62,8 @@ Eigen::MatrixXd plannedValues(const LearnedWorld& model, double discount);
 // Part 4, R-max.
 
 /// The same if whatever is not known is believed to pay `maxReward` in every step for ever. A pair is known
-/// if it was tried at least `known` times, and then the model holds for it.
+/// if it was tried at least `known` times, and then the model holds for it. No reward exceeds `maxReward`,
+/// which is at least 0.
 Eigen::MatrixXd optimisticValues(const LearnedWorld& model, int known, double maxReward, double discount);
 
 // Part 5, a bonus: bandits (6:22).
