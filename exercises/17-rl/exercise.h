@@ -55,8 +55,8 @@ struct LearnedWorld {
 /// one.
 LearnedWorld estimated(const std::vector<Experience>& steps, int states, int actions);
 
-/// Q of the best policy in the model, to 1e-6. Nothing follows an end. The discount is at least 0 and
-/// below 1.
+/// Q of the best policy in the model, to 1e-6. Nothing follows an end, nor a pair that was never tried,
+/// which is worth 0. The discount is at least 0 and below 1.
 Eigen::MatrixXd plannedValues(const LearnedWorld& model, double discount);
 
 // Part 4, R-max.
@@ -70,6 +70,6 @@ Eigen::MatrixXd optimisticValues(const LearnedWorld& model, int known, double ma
 
 /// What each arm of a bandit pays on average at best, its upper confidence bound (m): the mean of what it
 /// paid, and a margin b. Payments are between 0 and 1; arm k was pulled N_k = `pulls`[k] times, at least
-/// once, and paid `paid`[k] together. After n pulls of all arms, b is such that Hoeffding's inequality,
-/// P(true mean > mean + b) <= exp(-2 N_k b^2), allows n^-4.
+/// once, and paid `paid`[k] in total. After n pulls, of all arms together, b is such that Hoeffding's
+/// inequality, P(true mean > mean + b) <= exp(-2 N_k b^2), allows n^-4. The bound may exceed 1.
 Eigen::VectorXd upperBounds(const Eigen::VectorXi& pulls, const Eigen::VectorXd& paid);
