@@ -30,7 +30,8 @@ struct ValueGridOptions {
 /// The cost of the best motion from each state of a region, for controls that are held for `step` seconds:
 /// the Hamilton-Jacobi-Bellman equation in semi-Lagrangian form (Falcone and Ferretti 2014, chapter 5).
 /// Values between nodes are bilinear, so their error is of second order in the distance of the nodes where
-/// the value is smooth, and larger around kinks. A motion that leaves the region goes on at its border.
+/// the value is smooth, and larger around kinks and jumps: a motor too weak to stop a pendulum just in time
+/// has to swing it up once more. A motion that leaves the region goes on at its border.
 class ValueGrid {
  public:
   /// Throws Error for a problem without functions, options out of range, and rates or costs that are not
