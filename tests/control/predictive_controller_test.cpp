@@ -9,6 +9,7 @@
 #include "base/rng.h"
 #include "control/finite_horizon.h"
 #include "support/expect_error.h"
+#include "support/quadratic_peer.h"
 
 namespace rex::predictive_controller_test {
 
@@ -92,6 +93,104 @@ TEST(PredictiveController, NoOtherControlsWithinTheLimitsCostLess) {
     EXPECT_GT(cost + state.dot(F * state), best.cost);
   }
   EXPECT_GT(tried, 50);
+}
+
+// The same problem without eliminating the states: each step has the variables (u_t, x_{t+1}, s_t) and, as
+// rows, the equation of the system and the limits. The value lacks `constant`.
+struct ProgramOfStates {
+  MatrixXd H, A;
+  VectorXd g, lower, upper;
+  double constant = 0;
+};
+
+ProgramOfStates programOfStates(const LinearSystem& system, const PredictiveOptions& options,
+                                const RestPoint& target, const VectorXd& x) {
+  const Eigen::Index n = x.size(), m = target.u.size(), N = options.horizon, width = m + n + 1,
+                     height = 3 * n + m + 1;
+  const double infinite = std::numeric_limits<double>::infinity();
+  const bool isSoft = options.slackWeight > 0;
+  const MatrixXd I = MatrixXd::Identity(n, n);
+  ProgramOfStates p{.H = MatrixXd::Zero(N * width, N * width),
+                    .A = MatrixXd::Zero(N * height, N * width),
+                    .g = VectorXd::Zero(N * width),
+                    .lower = VectorXd(N * height),
+                    .upper = VectorXd(N * height)};
+  p.constant = (x - target.x).dot(options.Q * (x - target.x));
+  for (Eigen::Index t = 0; t < N; ++t) {
+    const Eigen::Index u = t * width, next = u + m, s = next + n, row = t * height;
+    const MatrixXd& Q = t + 1 < N ? options.Q : options.F;
+    p.H.block(u, u, m, m) = 2 * options.R;
+    p.H.block(next, next, n, n) = 2 * Q;
+    p.H(s, s) = isSoft ? 2 * options.slackWeight : 1;
+    p.g.segment(u, width) << -2 * options.R * target.u, -2 * Q * target.x, options.slackWeight;
+    p.constant += target.u.dot(options.R * target.u) + target.x.dot(Q * target.x);
+    p.A.block(row, u, n, m) = -system.B;
+    p.A.block(row, next, n, n) = I;
+    if (t > 0) p.A.block(row, next - width, n, n) = -system.A;
+    p.A.block(row + n, u, m, m).setIdentity();
+    p.A.block(row + n + m, next, n, n) = I;
+    p.A.block(row + n + m, s, n, 1).setConstant(-1);
+    p.A.block(row + 2 * n + m, next, n, n) = I;
+    p.A.block(row + 2 * n + m, s, n, 1).setOnes();
+    p.A(row + height - 1, s) = 1;
+    const VectorXd before = t > 0 ? VectorXd::Zero(n) : VectorXd(system.A * x);
+    p.lower.segment(row, height) << before, options.uMin, VectorXd::Constant(n, -infinite), options.xMin, 0;
+    p.upper.segment(row, height) << before, options.uMax, options.xMax, VectorXd::Constant(n, infinite),
+        isSoft ? infinite : 0;
+  }
+  return p;
+}
+
+TEST(PredictiveController, AgreesWithAPackagedSolver) {
+  REX_NEEDS_CVXOPT();
+  Rng rng(4);
+  const auto positive = [&](int size) -> MatrixXd {
+    const MatrixXd root = rng.normalVector(size * size).reshaped(size, size);
+    return root * root.transpose() + 0.1 * MatrixXd::Identity(size, size);
+  };
+  QuadraticPeer peer;
+  std::vector<PredictedMotion> motions;
+  std::vector<double> constants;
+  double outside = 0;
+  for (int trial = 0; trial < 10; ++trial) {
+    const int n = 2 + trial % 3, m = 1 + trial % 2;
+    const LinearSystem system{.A = rng.normalVector(n * n).reshaped(n, n) / std::sqrt(n),
+                              .B = rng.normalVector(n * m).reshaped(n, m),
+                              .C = MatrixXd::Identity(m, n),
+                              .step = 0.1};
+    PredictiveOptions options{.Q = positive(n), .R = positive(m), .F = positive(n), .horizon = 5 + trial};
+    options.uMin = VectorXd::Constant(m, -0.5), options.uMax = VectorXd::Constant(m, 0.4);
+    const VectorXd start = 2 * rng.normalVector(n);
+    const RestPoint target = restAt(completed(system), rng.normalVector(m));
+    ASSERT_TRUE(target.isExact);
+    // Hard limits are those of a motion that is possible, so that there is one within them.
+    VectorXd x = start;
+    options.xMin.setConstant(n, HUGE_VAL), options.xMax.setConstant(n, -HUGE_VAL);
+    for (int t = 0; t < options.horizon; ++t) {
+      x = system.A * x + system.B * VectorXd::NullaryExpr(m, [&] { return rng.uniform(-0.5, 0.4); });
+      options.xMin = options.xMin.cwiseMin(x), options.xMax = options.xMax.cwiseMax(x);
+    }
+    if (trial >= 5) options.slackWeight = 10, options.xMin *= 0.5, options.xMax *= 0.5;
+    motions.push_back(PredictiveController(system, options).plan(start, target));
+    ASSERT_EQ(motions.back().status, QuadraticStatus::kOptimal);
+    EXPECT_FALSE(motions.back().active.empty());
+    outside = std::max(outside, motions.back().violation);
+    const ProgramOfStates p = programOfStates(system, options, target, start);
+    peer.add(p.H, p.g, p.A, p.lower, p.upper);
+    constants.push_back(p.constant);
+  }
+  EXPECT_GT(outside, 0.1);
+  const std::vector<QuadraticPeer::Minimum> theirs = peer.minima();
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    const MatrixXd &X = motions[i].X, &U = motions[i].U;
+    const double cost = theirs[i].value + constants[i];
+    EXPECT_NEAR(motions[i].cost, cost, 1e-9 * cost);
+    for (Eigen::Index t = 0; t < U.cols(); ++t) {
+      const VectorXd step = theirs[i].x.segment(t * (U.rows() + X.rows() + 1), U.rows() + X.rows());
+      EXPECT_LT((U.col(t) - step.head(U.rows())).norm(), 1e-7);
+      EXPECT_LT((X.col(t + 1) - step.tail(X.rows())).norm(), 1e-7);
+    }
+  }
 }
 
 TEST(PredictiveController, BringsTheMassHomeWithAndWithoutTheLastPlan) {

@@ -3,17 +3,13 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <sstream>
-#include <string>
 
 #include <Eigen/LU>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
-#include "base/process.h"
 #include "base/rng.h"
 #include "support/expect_error.h"
+#include "support/quadratic_peer.h"
 
 namespace rex::quadratic_program_test {
 
@@ -191,31 +187,19 @@ TEST(QuadraticProgram, HoldsForRowsAndVariablesOfAllSizes) {
 }
 
 TEST(QuadraticProgram, AgreesWithAPackagedSolver) {
-  constexpr const char* kPython = "/usr/bin/python3";  // where Debian's packages are known
-  if (!runProcess({kPython, "-c", "import cvxopt"}).ok()) GTEST_SKIP() << "python3-cvxopt is not installed";
+  REX_NEEDS_CVXOPT();
   Rng rng(9);
-  std::string request;
+  QuadraticPeer peer;
   std::vector<Program> programs;
   for (int i = 0; i < 20; ++i) {
     const Program& p = programs.emplace_back(largeProgram(rng));
-    request +=
-        fmt::format("{} {} {} {} {} {} {}\n", p.g.size(), p.lower.size(), fmt::join(p.H.reshaped(), " "),
-                    fmt::join(p.g, " "), fmt::join(MatrixXd(p.A.transpose()).reshaped(), " "),
-                    fmt::join(p.lower, " "), fmt::join(p.upper, " "));
+    peer.add(p.H, p.g, p.A, p.lower, p.upper);
   }
-  const ProcessResult theirs = runProcess({kPython, REX_SOURCE_DIR "/tests/optim/quadratic_peer.py"},
-                                          {.input = request, .timeout = 100});
-  ASSERT_TRUE(theirs.ok()) << theirs.error;
-  std::istringstream text(theirs.output);
-  for (const Program& p : programs) {
-    const QuadraticSolution ours = p.minimized();
-    double value = 0;
-    VectorXd x(60);
-    text >> value;
-    for (double& number : x) text >> number;
-    ASSERT_TRUE(text);
-    EXPECT_NEAR(ours.value, value, 1e-7 * (1 + std::abs(value)));
-    EXPECT_LT((ours.x - x).norm(), 1e-3);  // theirs stops short of the corners
+  const std::vector<QuadraticPeer::Minimum> theirs = peer.minima();
+  for (std::size_t i = 0; i < programs.size(); ++i) {
+    const QuadraticSolution ours = programs[i].minimized();
+    EXPECT_NEAR(ours.value, theirs[i].value, 1e-7 * (1 + std::abs(theirs[i].value)));
+    EXPECT_LT((ours.x - theirs[i].x).norm(), 1e-3);  // theirs stops short of the corners
   }
 }
 

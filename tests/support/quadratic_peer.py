@@ -1,5 +1,5 @@
-"""Quadratic programs by the package cvxopt, for quadratic_program_test.cpp: reads numbers from standard input, for
-each program n, m, then H, g, A, lower, upper row by row, and prints a line with the minimum and x for each.
+"""Quadratic programs by the package cvxopt, for quadratic_peer.h: reads numbers from standard input, for each
+program n, m, then H, g, A, lower, upper row by row, and prints a line with the minimum and x for each.
 """
 import math
 import os
@@ -20,9 +20,10 @@ def read(rows, columns=1):
 for n in numbers:
     n, m = int(n), int(next(numbers))
     H, g, A, lower, upper = read(n, n), read(n), read(m, n), read(m), read(m)
-    above = [i for i in range(m) if upper[i] < math.inf]
-    below = [i for i in range(m) if lower[i] > -math.inf]
+    equal = [i for i in range(m) if lower[i] == upper[i]]
+    above = [i for i in range(m) if lower[i] != upper[i] < math.inf]
+    below = [i for i in range(m) if upper[i] != lower[i] > -math.inf]
     G = matrix([A[above, :], -A[below, :]])
     h = matrix([upper[above], -lower[below]])
-    solution = solvers.qp(H, g, G, h)
+    solution = solvers.qp(H, g, G, h, A[equal, :], upper[equal])
     print(solution["primal objective"], *solution["x"])
