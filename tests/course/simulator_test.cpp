@@ -8,6 +8,9 @@
 
 #include "base/process.h"
 #include "course/course.h"
+#include "kinematics/forward_kinematics.h"
+#include "kinematics/inverse_kinematics.h"
+#include "locomotion/support_polygon.h"
 #include "render/png.h"
 #include "render/video_sink.h"
 #include "scene/model.h"
@@ -291,6 +294,86 @@ TEST_F(SimulatorTest, AnchorsTheChainInABody) {
   EXPECT_REX_ERROR(S.anchorKinematicChainIn("rfot"), "has no body 'rfot' (did you mean 'rfoot'");
   S.anchorKinematicChainIn("lfoot");
   EXPECT_LT((S.kinematicsPos("handR") - copy.kinematicsPos("handR")).norm(), 1e-12);
+}
+
+// The humanoid walks by inverse kinematics: it shifts its weight over one foot, and puts the other one
+// forward.
+class StaticWalk {
+ public:
+  StaticWalk() { S_.anchorKinematicChainIn(stand_); }
+
+  // One step of 0.2 m, with the mass above a point that divides the way between the soles as 1 + lean : 1 -
+  // lean. Returns by how much, while only one foot is on the floor, the mass is inside that foot's sole;
+  // negative: it would fall.
+  double step(double lean) {
+    double least = 1;
+    const Eigen::Vector3d place = S_.kinematicsPos(stand_, kSole), from = S_.kinematicsPos(swing_, kSole),
+                          to(place.x() + 0.2, from.y(), from.z());
+    const Eigen::Vector2d before = S_.kinematicsCOM(),
+                          aim = (1 + lean) / 2 * place.head(2) + (1 - lean) / 2 * from.head(2);
+    for (int i = 1; i <= 20; ++i) move(from, before + i / 20. * (aim - before));
+    for (int i = 1; i <= 20; ++i) {
+      const double s = i / 20.;
+      move(from + s * (to - from) + Eigen::Vector3d(0, 0, 0.24 * s * (1 - s)), aim);
+      least = std::min(least, margin());
+    }
+    EXPECT_LT((S_.kinematicsPos(swing_, kSole) - to).norm(), 2e-3);
+    S_.anchorKinematicChainIn(swing_);
+    std::swap(stand_, swing_);
+    return least;
+  }
+
+ private:
+  inline static const Eigen::Vector3d kSole{0.03, 0, -0.075}, kHalf{0.12, 0.055, 0};  // its centre and size
+
+  void move(const Eigen::Vector3d& sole, const Eigen::Vector2d& under) {
+    const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), z = Eigen::Vector3d::UnitZ();
+    for (int i = 0; i < 3; ++i) {
+      Eigen::VectorXd error(18);
+      error << under - S_.kinematicsCOM(), sole - S_.kinematicsPos(swing_, kSole),
+          x - S_.kinematicsVec(swing_, x), z - S_.kinematicsVec(swing_, z), x - S_.kinematicsVec("pelvis", x),
+          z - S_.kinematicsVec("pelvis", z), height_ - S_.kinematicsPos("pelvis").z();
+      Eigen::MatrixXd J(18, S_.getJointDimension());
+      J << S_.jacobianCOM(), S_.jacobianPos(swing_, kSole), S_.jacobianVec(swing_, x),
+          S_.jacobianVec(swing_, z), S_.jacobianVec("pelvis", x), S_.jacobianVec("pelvis", z),
+          S_.jacobianPos("pelvis").bottomRows(1);
+      S_.setJointAngles(S_.getJointAngles() + inverseKinematicsStep(J, error, 0.01));
+    }
+  }
+
+  // By the support polygon; and in the frame of the foot, where its sole is a box, with the mass of each
+  // body.
+  double margin() const {
+    Eigen::Matrix2Xd corners(2, 4);
+    for (int k = 0; k < 4; ++k)
+      corners.col(k) = S_.kinematicsPos(stand_, kSole + Eigen::Vector3d(k % 2 ? kHalf.x() : -kHalf.x(),
+                                                                        k / 2 ? kHalf.y() : -kHalf.y(), 0))
+                           .head(2);
+    const double inside = supportMargin(supportPolygon(corners), S_.kinematicsCOM()).margin;
+    const Model& model = S_.model();
+    const BodyPoses poses = forwardKinematics(model, S_.getJointAngles());
+    Eigen::Vector3d mass = Eigen::Vector3d::Zero();
+    for (int i = 1; i < static_cast<int>(model.bodies().size()); ++i)
+      mass += model[BodyId{i}].mass / model.mass() * (poses[BodyId{i}] * model[BodyId{i}].p_BBcm);
+    const Eigen::Vector3d off = poses[model.body(stand_)].inverse() * mass - kSole;
+    if (inside >= 0) {
+      EXPECT_NEAR(inside, (kHalf - off.cwiseAbs()).head(2).minCoeff(), 1e-6);  // it tilts by 1e-7
+    }
+    EXPECT_EQ(inside >= 0, std::abs(off.x()) <= kHalf.x() && std::abs(off.y()) <= kHalf.y());
+    return inside;
+  }
+
+  Simulator S_{"humanoid"};
+  std::string stand_ = "left_foot", swing_ = "right_foot";
+  double height_ = S_.kinematicsPos("pelvis").z() - 0.06;
+};
+
+TEST(StaticWalk, StandsOnOneFootIfItLeansFarEnough) {
+  StaticWalk walk, hasty;
+  for (const char* foot : {"left", "right"}) {
+    EXPECT_NEAR(walk.step(0.9), 0.0455, 1e-4) << foot;    // half the width of a sole, less 0.1 * 0.19 m / 2
+    EXPECT_NEAR(hasty.step(0.3), -0.0115, 1e-4) << foot;  // less 0.7 * 0.19 m / 2
+  }
 }
 
 // Its description is .ors, whatever the file was.
