@@ -9,7 +9,12 @@
 #include "base/rng.h"
 #include "control/cart_pole_dynamics.h"
 #include "control/finite_horizon.h"
+#include "dynamics/forward_dynamics.h"
+#include "dynamics/stepper.h"
+#include "kinematics/forward_kinematics.h"
+#include "scene/ors_reader.h"
 #include "support/expect_error.h"
+#include "support/paths.h"
 
 namespace rex::ilqr_test {
 
@@ -189,6 +194,99 @@ TEST(Ilqr, PlannedAnewInEachStepSwingsThePoleUpUnderNoise) {
   problem.start = Eigen::Vector2d(0, 0);
   EXPECT_REX_ERROR((void)followedPlan(problem, plan),
                    "start of a control problem: found a vector of size 2, wanted size 4");
+}
+
+// Nonlinear model-predictive control of an arm whose motors are too weak to hold it stretched out.
+class WeakArm {
+ public:
+  // Controls are squashed to torques within the strength of the motors.
+  Eigen::Vector3d torques(const VectorXd& u) const {
+    return strength_.array() * (u.array() / strength_.array()).tanh();
+  }
+  Eigen::Vector3d off(const VectorXd& x) const {  // of the hand from its target
+    return forwardKinematics(model_, x.head(3))[hand_] * Eigen::Vector3d(0, 0, 0.15) -
+           Eigen::Vector3d(0, -0.4, 1.4);
+  }
+  ControlProblem problem() const {
+    return {.next = [this](const VectorXd& x, const VectorXd& u) -> VectorXd {
+              VectorXd y = x;
+              for (int i = 0; i < 2; ++i) {
+                y.tail(3) += 0.025 * forwardDynamics(model_, y.head(3), y.tail(3), torques(u));
+                y.head(3) += 0.025 * y.tail(3);
+              }
+              return y;
+            },
+            .stage = [this](const VectorXd& x, const VectorXd& u, int) -> VectorXd {
+              VectorXd e(9);
+              e << 2 * off(x), 0.1 * x.tail(3), 0.02 * u;
+              return e;
+            },
+            .final = [this](const VectorXd& x) -> VectorXd {
+              VectorXd e(6);
+              e << 20 * off(x), 2 * x.tail(3);
+              return e;
+            },
+            .start = (VectorXd(6) << 2.6, 0.3, 0.3, 0, 0, 0).finished()};
+  }
+  // Plans `horizon` steps anew in each of 40 steps, and returns the controls that were used. `move` moves the
+  // arm.
+  MatrixXd driven(int horizon, const ControlledMotion& move) const {
+    ControlProblem ahead = problem();
+    IlqrResult plan = ilqr(ahead, MatrixXd::Constant(3, horizon, 0.1));
+    MatrixXd U(3, 40);
+    for (int t = 0; t < 40; ++t) {
+      U.col(t) = plan.U.col(0);
+      ahead.start = move(ahead.start, U.col(t));
+      plan = ilqr(ahead, followedPlan(ahead, plan), {.maxIterations = 3});
+    }
+    return U;
+  }
+  const Model& model() const { return model_; }
+
+ private:
+  const Model model_ = compile(readOrs(sourcePath("data/robots/arm3.ors")).spec);
+  const BodyId hand_ = model_.body("eff");
+  const Eigen::Array3d strength_{9, 4.5, 1.5};
+};
+
+// Against the best motion of all 40 steps, found from where model-predictive control ended.
+TEST(Ilqr, PlannedAnewInEachStepCostsAnArmLittleMore) {
+  const WeakArm arm;
+  const ControlProblem problem = arm.problem();
+  const MatrixXd U = arm.driven(20, problem.next);
+  const IlqrResult best = ilqr(problem, U);
+  ASSERT_EQ(best.status, IlqrStatus::kConverged) << best.message;
+  const double cost = costOf(problem, U), shortsighted = costOf(problem, arm.driven(10, problem.next));
+  EXPECT_LT(cost, 1.01 * best.cost);
+  EXPECT_GT(shortsighted, 1.05 * best.cost);
+}
+
+// Moved by Runge-Kutta steps of 5 ms instead of the Euler steps of 25 ms that it plans with, and shaken.
+TEST(Ilqr, PlannedAnewInEachStepReachesWithAWeakArmUnderNoise) {
+  const WeakArm arm;
+  Stepper stepper(arm.model());
+  for (const std::uint64_t seed : {1, 2}) {
+    SCOPED_TRACE(seed);
+    Rng rng(seed);
+    int t = 0;
+    double largest = 0;
+    const auto move = [&](const VectorXd& x, const VectorXd& u) -> VectorXd {
+      State state{.q = x.head(3), .v = x.tail(3)};
+      const Eigen::Vector3d torques = arm.torques(u);
+      largest = std::max(largest, std::abs(torques[0]));
+      for (int i = 0; i < 10; ++i) stepper.step(state, torques, 0.005);
+      VectorXd after(6);
+      after << state.q, state.v;
+      after += 0.01 * rng.normalVector(6);
+      if (++t > 30) {
+        EXPECT_LT(arm.off(after).norm(), 0.06) << t;
+      }
+      return after;
+    };
+    (void)arm.driven(20, move);
+    EXPECT_GT(largest, 8.5);  // of 9 N m; stretched out, it takes 13.2
+    EXPECT_LE(largest, 9);
+  }
 }
 
 }  // namespace rex::ilqr_test
