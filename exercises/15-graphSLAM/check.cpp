@@ -15,6 +15,7 @@
 #include "map_evidence.h"
 #include "scan_checks.h"
 #include "scan_mistakes.h"
+#include "wrong_loops.h"
 
 using namespace rex;
 using grading::Check;
@@ -39,6 +40,7 @@ void seesPoses(Check& check, Student& student) {
 
 // Every other measurement is exact; the others are off by some decimetres, and half a radian.
 void errsByWhatIsMeasured(Check& check, Student& student) {
+  seesPoses(check, student);
   check.forEachCase(20, [&](int number) {
     Rng& rng = check.rng();
     const Eigen::Vector3d i = randomPose(rng, 5), z = randomPose(rng, 5);
@@ -207,6 +209,7 @@ void adjusts(Check& check, Student& student, const PoseMap& map, const PoseMap& 
 }
 
 void adjustsStreets(Check& check, Student& student) {
+  meetsInTheMiddle(check, student);
   check.forEachCase(3, [&](int) {
     check.input("a walk of 80 poses along streets, by odometry, with loops where it comes by again");
     const StreetWalk walk = streetWalk(check.rng(), 80, 0.05);
@@ -274,6 +277,7 @@ void findsPartners(Check& check, Student& student) {
 
 // With exact points there is no error; with noisy and mirrored ones, no other motion has a smaller one.
 void findsBestMotions(Check& check, Student& student) {
+  findsPartners(check, student);
   check.forEachCase(12, [&](int number) {
     Rng& rng = check.rng();
     const Eigen::Vector3d motion = randomPose(rng, 3);
@@ -303,11 +307,6 @@ void findsBestMotions(Check& check, Student& student) {
                    squaresOf(from, to, other) + 1e-9, "m^2");
     }
   });
-}
-
-// A motion's error: metres, radians.
-std::pair<double, double> missOf(const Eigen::Vector3d& got, const Eigen::Vector3d& wanted) {
-  return {std::hypot(got[0] - wanted[0], got[1] - wanted[1]), std::abs(byTurns(got[2] - wanted[2]))};
 }
 
 // How well the scans fit, by the motion that was returned. Points near the bound may or may not count after
@@ -446,87 +445,6 @@ void tellsMoreRoomsApart(Check& check, Student& student) { tellsPlacesApart(chec
 
 // Part 6.
 
-// Wrong loops join poses that are metres apart, as if they were one place. Neither measurements nor indices
-// of poses give them away: they have the same rotations and noise as right ones, and span the same numbers
-// of steps, because a walk comes by again after 20, 30, 40, ... of them.
-void addWrongLoops(Rng& rng, StreetWalk& walk, double share) {
-  std::vector<MeasuredEdge> right;
-  for (const MeasuredEdge& edge : walk.map.edges)
-    if (edge.isLoop) right.push_back(edge);
-  const auto loops = static_cast<int>(right.size()), poses = static_cast<int>(walk.truth.size());
-  const auto truth = [&](int k) { return walk.truth[static_cast<std::size_t>(k)]; };
-  const int count = std::max(1, static_cast<int>(share / (1 - share) * loops));
-  for (int k = 0; k < count;) {
-    const int i = rng.index(poses), j = rng.index(poses);
-    if (std::abs(i - j) < 20 || (i - j) % 10 != 0 || missOf(truth(i), truth(j)).first < 3) continue;
-    const MeasuredEdge& like = right[static_cast<std::size_t>(rng.index(loops))];
-    const Eigen::Vector3d turn(0, 0, truth(like.to)[2] - truth(like.from)[2]),
-        deviations = like.information.diagonal().cwiseInverse().cwiseSqrt();
-    walk.map.edges.push_back(
-        {i, j, onward(turn, deviations.cwiseProduct(rng.normalVector(3))), like.information, true});
-    ++k;
-  }
-  // The position of an edge in the list does not show whether it is right.
-  std::vector<MeasuredEdge> edges, mixed;
-  for (const MeasuredEdge& edge : walk.map.edges) (edge.isLoop ? mixed : edges).push_back(edge);
-  for (std::size_t k = mixed.size(); k > 1; --k)
-    std::swap(mixed[k - 1], mixed[static_cast<std::size_t>(rng.index(static_cast<int>(k)))]);
-  edges.insert(edges.end(), mixed.begin(), mixed.end());
-  walk.map.edges = std::move(edges);
-}
-
-// Whether odometry drifts so far that no bound on the distance between the ends of a loop keeps the right
-// loops and drops the wrong ones.
-bool isBeyondOdometry(const StreetWalk& walk, const Poses& best) {
-  return std::ranges::none_of(std::array{2., 3., 4.5}, [&](double bound) {
-    PoseMap near = walk.map;
-    std::erase_if(near.edges, [&](const MeasuredEdge& edge) {
-      const auto pose = [&](int k) { return walk.map.poses[static_cast<std::size_t>(k)]; };
-      return edge.isLoop && missOf(pose(edge.from), pose(edge.to)).first > bound;
-    });
-    return apart(bestPoses(near), best) < 0.1;
-  });
-}
-
-/// A walk with wrong loops, and its poses without them.
-struct Misled {
-  StreetWalk walk;
-  Poses best;
-};
-
-Misled misledWalk(Rng& rng, double noise, double share) {
-  for (;;) {
-    StreetWalk walk = streetWalk(rng, 120, noise);
-    const Poses best = bestPoses(walk.map);
-    addWrongLoops(rng, walk, share);
-    if (isBeyondOdometry(walk, best)) return {walk, best};
-  }
-}
-
-// What could have led to wrong poses, if anything.
-std::string questionAboutLoops(const JudgedWalk& judged) {
-  const PoseMap& map = judged.walk.map;
-  if (apart(judged.got, map.poses) < 1e-6) return "Do the poses stay as odometry has them?";
-  // A few steps from there change nothing.
-  const auto isBestOf = [&](const PoseMap& edges) {
-    PlanarPoseGraph graph = graphOf({judged.got, edges.edges});
-    optimize(graph, {.chordalStart = false, .maxIterations = 3});
-    return (graph.poses - graphOf({judged.got, {}}).poses).topRows(2).lpNorm<Eigen::Infinity>() < 0.01;
-  };
-  if (isBestOf(map)) return "Are all loops trusted? A wrong one should count for little.";
-  for (const double bound : {1., 1.5, 2., 3., 4., 5., 6.}) {
-    PoseMap near = map;
-    std::erase_if(near.edges, [&](const MeasuredEdge& edge) {
-      const auto pose = [&](int k) { return map.poses[static_cast<std::size_t>(k)]; };
-      return edge.isLoop && missOf(pose(edge.from), pose(edge.to)).first > bound;
-    });
-    if (isBestOf(near))
-      return "Are loops dropped if their ends are far apart by odometry? It drifts so far that right ones "
-             "are lost.";
-  }
-  return "";
-}
-
 // Some wrong loops cannot be distinguished from right ones: of 200 maps each, the reference repairs 90 % of
 // those with a few wrong loops and 86 % of those with many; bounds of 1.5 to 6 m on the distance by
 // odometry repair at most 15 %. A small scale from the first step on repairs 71 and 82 % of 120: that will
@@ -563,8 +481,7 @@ void standsMany(Check& check, Student& student) { standsOnManyMaps(check, studen
 
 rex::grading::Checks<Student> checks() {
   return {
-      {"error-frames", "error", "Angles and frames", 1, Group::kVisible, seesPoses},
-      {"error-edges", "error", "The error of an edge", 1, Group::kVisible, errsByWhatIsMeasured},
+      {"error-edges", "error", "Frames, and the error of an edge", 1, Group::kVisible, errsByWhatIsMeasured},
       {"error-derivatives", "error", "Its derivatives", 1, Group::kVisible, differentiatesEdges},
       // <hidden>
       {"error-turns", "error", "Whole turns and half turns", 1, Group::kHidden, wrapsEverywhere},
@@ -575,14 +492,14 @@ rex::grading::Checks<Student> checks() {
       // <hidden>
       {"equations-any", "equations", "Larger maps, weights", 1, Group::kHidden, formsAnyEquations},
       // </hidden>
-      {"adjust-mean", "adjust", "Measured twice", 1, Group::kVisible, meetsInTheMiddle},
-      {"adjust-streets", "adjust", "A walk along streets", 1, Group::kVisible, adjustsStreets},
+      {"adjust-streets", "adjust", "Measured twice, and a walk along streets", 1, Group::kVisible,
+       adjustsStreets},
       // <hidden>
       {"adjust-turns", "adjust", "Headings beyond half a turn", 1, Group::kHidden, adjustsThroughTurns},
       {"adjust-far", "adjust", "Starts far away", 1, Group::kHidden, adjustsFromFarAway},
       // </hidden>
-      {"scan-partners", "scan", "The nearest points", 1, Group::kVisible, findsPartners},
-      {"scan-motion", "scan", "The best motion for given partners", 1, Group::kVisible, findsBestMotions},
+      {"scan-motion", "scan", "The nearest points, and the best motion for given partners", 1,
+       Group::kVisible, findsBestMotions},
       {"scan-align", "scan", "Aligning scans", 1, Group::kVisible, alignsScans},
       // <hidden>
       {"scan-any", "scan", "Rooms that you have not seen", 1, Group::kHidden, alignsMoreScans},

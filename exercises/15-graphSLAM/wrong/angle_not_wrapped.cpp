@@ -1,4 +1,4 @@
-// caught by: error-frames, error-turns, adjust-turns
+// caught by: error-edges, error-turns, adjust-turns
 // mistake: takes the difference of two headings without wrapping it.
 
 // <solution wrapped>

@@ -1,4 +1,4 @@
-// caught by: equations-cost, equations-normal, adjust-mean
+// caught by: equations-cost, equations-normal, adjust-streets
 // mistake: weighs all entries of an error equally.
 
 // <solution mapCost>

@@ -1,5 +1,5 @@
-// caught by: scan-partners
-// shown by: scan-partners
+// caught by: scan-motion
+// shown by: scan-motion
 // mistake: shifts the points, but does not rotate them.
 
 // <solution partners>
