@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/derivative_check.h"
+#include "camera_checks.h"
 #include "far_starts.h"
 #include "graph_checks.h"
 #include "graph_mistakes.h"
@@ -477,6 +478,39 @@ void standsAFew(Check& check, Student& student) {
 void standsMany(Check& check, Student& student) { standsOnManyMaps(check, student, 0.08, 0.28); }
 // </hidden>
 
+// Part 7.
+
+void findsCameras(Check& check, Student& student) {
+  check.forEachCase(6, [&](int number) {
+    projectsExactly(check, student, simulatedView(check.rng(), 6 + number, 0));
+    projectsNearly(check, student, simulatedView(check.rng(), 40, 1));
+    standsThere(check, student, simulatedView(check.rng(), 6, 0));
+  });
+}
+
+// The lens of the simulator is so long that the least sum lies in a flat valley: others are kinder to steps
+// in numbers of one's own, such as angles and focal lengths.
+void refinesCameras(Check& check, Student& student) {
+  check.forEachCase(6, [&](int) {
+    errsInPixels(check, student, simulatedView(check.rng(), 6, 1));
+    refines(check, student, anyView(check.rng(), 40, 1, 3));
+  });
+}
+
+// <hidden>
+// Other cameras, some from far away, and P of either sign.
+void findsAnyCamera(Check& check, Student& student) {
+  check.forEachCase(8, [&](int number) {
+    Rng& rng = check.rng();
+    projectsExactly(check, student, anyView(rng, 6 + number / 2, 0, number % 2 == 0 ? 300 : 3));
+    projectsNearly(check, student, anyView(rng, 20 + 5 * number, 1, 3));
+    standsThere(check, student, anyView(rng, 6, 0, 3));
+    errsInPixels(check, student, anyView(rng, 6 + number, 1, 3));
+    refines(check, student, anyView(rng, 20 + 5 * number, 1, 3));
+  });
+}
+// </hidden>
+
 }  // namespace
 
 rex::grading::Checks<Student> checks() {
@@ -511,6 +545,11 @@ rex::grading::Checks<Student> checks() {
       {"robust-few", "robust", "A few wrong loops", 1, Group::kVisible, standsAFew},
       // <hidden>
       {"robust-many", "robust", "Many wrong loops", 1, Group::kHidden, standsMany},
+      // </hidden>
+      {"camera-linear", "camera", "A camera from what it sees", 1, Group::kVisible, findsCameras},
+      {"camera-refined", "camera", "The smallest reprojection errors", 1, Group::kVisible, refinesCameras},
+      // <hidden>
+      {"camera-any", "camera", "Cameras of any kind", 1, Group::kHidden, findsAnyCamera},
       // </hidden>
   };
 }

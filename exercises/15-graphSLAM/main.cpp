@@ -84,6 +84,29 @@ std::vector<Eigen::Vector3d> robustlyAdjusted(const PoseMap& map) {
   return now.poses;
 }
 
+Projection projectionFromPoints(const Eigen::Matrix3Xd& points, const Eigen::Matrix2Xd& pixels) {
+  // TODO: two linear equations for each point. Which P of length 1 fits them best?
+  return Projection::Zero();
+}
+
+Eigen::Matrix2Xd reprojectionErrors(const Projection& P, const Eigen::Matrix3Xd& points,
+                                    const Eigen::Matrix2Xd& pixels) {
+  Eigen::Matrix2Xd errors = Eigen::Matrix2Xd::Zero(2, points.cols());
+  // TODO: the third number of P (X, 1) is the depth.
+  return errors;
+}
+
+Projection refined(const Projection& P, const Eigen::Matrix3Xd& points, const Eigen::Matrix2Xd& pixels) {
+  Projection best = P;
+  // TODO: Gauss-Newton steps in the twelve numbers of P. Which change of P changes no pixel?
+  return best;
+}
+
+Eigen::Vector3d cameraPosition(const Projection& P) {
+  // TODO: P (p, 1) = 0.
+  return Eigen::Vector3d::Zero();
+}
+
 // What follows is given, and never graded: change it as you like. show.h says what each line draws.
 
 int main() {
@@ -104,4 +127,7 @@ int main() {
 
   // Part 6: some loops join poses metres apart, as if a room looked like another.
   showWrongLoops(walk, map);
+
+  // Part 7: a camera takes pictures of 40 points that were measured with a tape.
+  showCalibration(40);
 }

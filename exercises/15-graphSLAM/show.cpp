@@ -7,6 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "camera_pictures.h"
+#include "course/vision_simulator.h"
 #include "estimation/pose_graph.h"
 #include "map_pictures.h"
 
@@ -131,6 +133,42 @@ void plotCosts(const std::vector<double>& costs, double least) {
                  .series = {series, library}});
 }
 
+double rmsOf(const Eigen::Matrix2Xd& errors) {
+  return errors.norm() / std::sqrt(static_cast<double>(errors.cols()));
+}
+
+Series positions(const std::string& label, Marker marker, const Color& color) {
+  return {.label = label, .style = SeriesStyle::kPoints, .marker = marker, .color = color};
+}
+
+void addPosition(Series& series, const Eigen::Vector3d& p) {
+  series.x.push_back(p.x());
+  series.y.push_back(p.y());
+}
+
+// Where pictures of the same points, each with noise of its own, put the camera.
+void plotCameras(VisionSimulator& simulator, const Eigen::Matrix4Xd& points) {
+  const Eigen::Matrix3Xd known = points.topRows(3);
+  const Eigen::Vector3d truth = simulator.getCameraPose().p;
+  Series found = positions("refined", Marker::kDot, kBlue), there = positions("camera", Marker::kCross, kRed),
+         seen = positions("points", Marker::kDot, kGrey);
+  for (int k = 0; k < 100; ++k) {
+    const Eigen::Matrix2Xd pixels = simulator.projectWorldPoints(points).topRows(2);
+    addPosition(found, cameraPosition(refined(projectionFromPoints(known, pixels), known, pixels)));
+  }
+  addPosition(there, truth);
+  for (const auto point : known.colwise()) addPosition(seen, point);
+  found.size = seen.size = .5;
+  there.size = 2;
+  Figure figure = planOf("A hundred pictures of the same points: where they put the camera, from above");
+  figure.series = {
+      {.label = "line of sight", .x = {0, 1.3 * truth.x()}, .y = {0, 1.3 * truth.y()}, .color = kGrey},
+      seen,
+      found,
+      there};
+  plot("cameras", figure);
+}
+
 }  // namespace
 
 void showEdge(const Eigen::Vector3d& i, const Eigen::Vector3d& motion, const Eigen::Vector3d& z) {
@@ -223,4 +261,20 @@ void showWrongLoops(const Walk& walk, PoseMap map) {
                    wayOf("robust", robust, kBlue)};
   figure.series[0].size = 4;
   plot("wrongLoops", figure);
+}
+
+void showCalibration(int points) {
+  VisionSimulator simulator(4);
+  const Eigen::Matrix4Xd world = simulator.getRandomWorldPoints(points);
+  const Eigen::Matrix3Xd known = world.topRows(3);
+  const Eigen::Matrix2Xd pixels = simulator.projectWorldPoints(world).topRows(2);
+  const Projection linear = projectionFromPoints(known, pixels);
+  if (linear.isZero() || reprojectionErrors(linear, known, pixels).isZero()) return nothingYet("the camera");
+  const Eigen::Matrix2Xd errors = reprojectionErrors(refined(linear, known, pixels), known, pixels);
+  std::printf("root mean square error: %.5f pixels by projectionFromPoints(), %.5f refined\n",
+              rmsOf(reprojectionErrors(linear, known, pixels)), rmsOf(errors));
+  char title[80];
+  std::snprintf(title, sizeof title, "Reprojection: root mean square error %.2f pixels", rmsOf(errors));
+  plot("reprojection", reprojection(title, pixels, errors, 20));
+  plotCameras(simulator, world);
 }

@@ -24,3 +24,7 @@ void showMap(const Walk& walk, const PoseMap& map);
 /// wrongLoops.png: with three wrong loops the map folds up if all are trusted; your robust map stays as it
 /// was.
 void showWrongLoops(const Walk& walk, PoseMap map);
+
+/// reprojection.png, cameras.png: pixels of the points in one picture of a VisionSimulator, where your P puts
+/// them, and where 100 pictures put the camera. Prints the errors.
+void showCalibration(int points);

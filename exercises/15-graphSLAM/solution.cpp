@@ -279,6 +279,102 @@ std::vector<Eigen::Vector3d> robustlyAdjusted(const PoseMap& map) {
   return now.poses;
 }
 
+// <solution conditioning>
+// The points with a 1 below each, n columns.
+Eigen::MatrixXd homogeneous(const Eigen::MatrixXd& points) {
+  Eigen::MatrixXd all = Eigen::MatrixXd::Ones(points.rows() + 1, points.cols());
+  all.topRows(points.rows()) = points;
+  return all;
+}
+
+// Moves the mean of the points to zero and scales their mean distance from there to sqrt(dimension).
+Eigen::MatrixXd conditioning(const Eigen::MatrixXd& points) {
+  const Eigen::Index d = points.rows();
+  const Eigen::VectorXd mean = points.rowwise().mean();
+  const double distance = (points.colwise() - mean).colwise().norm().mean();
+  Eigen::MatrixXd T = Eigen::MatrixXd::Identity(d + 1, d + 1);
+  T.topLeftCorner(d, d) *= std::sqrt(static_cast<double>(d)) / distance;
+  T.topRightCorner(d, 1) = -T(0, 0) * mean;
+  return T;
+}
+
+// The twelve numbers of P, row by row.
+Projection fromNumbers(const Eigen::VectorXd& p) {
+  Projection P;
+  for (int row = 0; row < 3; ++row) P.row(row) = p.segment<4>(4 * row).transpose();
+  return P;
+}
+// <todo>
+// </solution>
+
+Projection projectionFromPoints(const Eigen::Matrix3Xd& points, const Eigen::Matrix2Xd& pixels) {
+  // <solution projectionFromPoints>
+  const Eigen::MatrixXd T = conditioning(points), U = conditioning(pixels);
+  const Eigen::MatrixXd X = T * homogeneous(points), x = U * homogeneous(pixels);
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * X.cols(), 12);
+  for (Eigen::Index i = 0; i < X.cols(); ++i)
+    for (int row = 0; row < 2; ++row) {
+      A.block<1, 4>(2 * i + row, 4 * row) = X.col(i).transpose();
+      A.block<1, 4>(2 * i + row, 8) = -x(row, i) * X.col(i).transpose();
+    }
+  const Eigen::MatrixXd P = fromNumbers(svd(A).V.col(11));
+  return inverse(U) * P * T;
+  // <todo>
+  //| // TODO: two linear equations for each point. Which P of length 1 fits them best?
+  //| return Projection::Zero();
+  // </solution>
+}
+
+Eigen::Matrix2Xd reprojectionErrors(const Projection& P, const Eigen::Matrix3Xd& points,
+                                    const Eigen::Matrix2Xd& pixels) {
+  Eigen::Matrix2Xd errors = Eigen::Matrix2Xd::Zero(2, points.cols());
+  // <solution reprojectionErrors>
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    const Eigen::Vector3d seen = P.leftCols<3>() * points.col(i) + P.col(3);
+    errors.col(i) = seen.head<2>() / seen[2] - pixels.col(i);
+  }
+  // <todo>
+  //| // TODO: the third number of P (X, 1) is the depth.
+  // </solution>
+  return errors;
+}
+
+Projection refined(const Projection& P, const Eigen::Matrix3Xd& points, const Eigen::Matrix2Xd& pixels) {
+  Projection best = P;
+  // <solution refined>
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(2 * points.cols(), 12);
+  for (int k = 0; k < 50; ++k) {
+    best /= best.norm();
+    for (Eigen::Index i = 0; i < points.cols(); ++i) {
+      Eigen::Vector4d X;
+      X << points.col(i), 1;
+      const Eigen::Vector3d seen = best * X;
+      for (int row = 0; row < 2; ++row) {
+        J.block<1, 4>(2 * i + row, 4 * row) = X.transpose() / seen[2];
+        J.block<1, 4>(2 * i + row, 8) = -seen[row] / (seen[2] * seen[2]) * X.transpose();
+      }
+    }
+    // J has no effect along P itself. Of all solutions the shortest is the one without a part along it.
+    const Eigen::VectorXd e = reprojectionErrors(best, points, pixels).reshaped();
+    const Eigen::VectorXd step = leastSquares(J, -e);
+    best += fromNumbers(step);
+    if (step.norm() < 1e-12) break;
+  }
+  // <todo>
+  //| // TODO: Gauss-Newton steps in the twelve numbers of P. Which change of P changes no pixel?
+  // </solution>
+  return best;
+}
+
+Eigen::Vector3d cameraPosition(const Projection& P) {
+  // <solution cameraPosition>
+  return -solve(P.leftCols<3>(), P.col(3));
+  // <todo>
+  //| // TODO: P (p, 1) = 0.
+  //| return Eigen::Vector3d::Zero();
+  // </solution>
+}
+
 // What follows is given, and never graded: change it as you like. show.h says what each line draws.
 
 int main() {
@@ -299,4 +395,7 @@ int main() {
 
   // Part 6: some loops join poses metres apart, as if a room looked like another.
   showWrongLoops(walk, map);
+
+  // Part 7: a camera takes pictures of 40 points that were measured with a tape.
+  showCalibration(40);
 }

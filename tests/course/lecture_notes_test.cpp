@@ -17,6 +17,7 @@
 #include "base/rng.h"
 #include "course/linear_algebra.h"
 #include "course/simulator.h"
+#include "course/vision_simulator.h"
 #include "estimation/gaussian.h"
 #include "estimation/resampling.h"
 #include "geometry/rotation.h"
@@ -615,6 +616,64 @@ TEST(LectureNotes, CertainCellsAndRays) {
   const double ratio = density(.10) / density(.12);
   expectStated("18-gridSLAM", fmt::format("{:.0f} times as likely; divided by 6 it is {:.1f} times", ratio,
                                           std::pow(ratio, 1. / 6)));
+}
+
+// The two equations of the direct linear transform for each point, in the numbers of P row by row.
+MatrixXd linearEquations(const Eigen::Matrix4Xd& points, const Eigen::Matrix3Xd& pixels) {
+  MatrixXd A = MatrixXd::Zero(2 * points.cols(), 12);
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    for (int k = 0; k < 2; ++k) {
+      A.block<1, 4>(2 * i + k, 4 * k) = points.col(i).transpose();
+      A.block<1, 4>(2 * i + k, 8) = -pixels(k, i) * points.col(i).transpose();
+    }
+  return A;
+}
+
+TEST(LectureNotes, WhatACameraSees) {
+  VisionSimulator simulator(3);
+  const Eigen::Matrix<double, 3, 4> P = simulator.getProjection();
+  const Eigen::Matrix4Xd points = simulator.getRandomWorldPoints(30);
+  const Eigen::Matrix3Xd pixels = simulator.projectWorldPoints(points, 1), seen = P * points;
+  // Errors of the linear equations are those in pixels times the depth.
+  const VectorXd p = P.reshaped<Eigen::RowMajor>(), algebraic = linearEquations(points, pixels) * p;
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    const Eigen::Vector2d e = seen.col(i).hnormalized() - pixels.col(i).head<2>();
+    EXPECT_LT((algebraic.segment<2>(2 * i) - seen(2, i) * e).norm(), 1e-9);
+  }
+  // The corners of the cube, from there and from 1 % farther away with a longer lens.
+  const Pose& X_WC = simulator.getCameraPose();
+  const double distance = X_WC.p.norm();
+  double depth = 0, shift = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Eigen::Vector3d X(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1),
+        p_C = X_WC.R.transpose() * (X - X_WC.p), back = p_C - .01 * distance * Eigen::Vector3d::UnitZ();
+    depth = std::max(depth, std::abs(-p_C.z() / distance - 1));
+    const double focal = 200 / std::tan(6 * kPi / 180);
+    shift = std::max(shift, focal * (p_C.head<2>() / p_C.z() - 1.01 * back.head<2>() / back.z()).norm());
+  }
+  expectStated("15-graphSLAM", fmt::format("is {:.1f} m away", distance));
+  expectStated("15-graphSLAM", fmt::format("at most {:.1f} %, the weights by {:.0f} %", 100 * depth,
+                                           100 * (std::pow(1 + depth, 2) - 1)));
+  expectStated("15-graphSLAM", fmt::format("is {:.0f} cm farther away", distance));
+  expectStated("15-graphSLAM", fmt::format("moves by more than {:.2f} pixels", shift));
+  // A plane leaves three numbers free besides the scale.
+  Eigen::Matrix4Xd flat = points;
+  const Eigen::RowVector4d n(.3, -.2, 1, .1);
+  flat.row(2) = -(n[0] * flat.row(0) + n[1] * flat.row(1)).array() - n[3];
+  const VectorXd values = svd(linearEquations(flat, simulator.projectWorldPoints(flat, 0))).s;
+  EXPECT_LT(values[8], 1e-9 * values[0]);
+  EXPECT_GT(values[7], 1e-6 * values[0]);
+  // A chessboard, and the lens from P.
+  Eigen::Matrix3d K;
+  K << 900, 8, 310, 0, 950, 240, 0, 0, 1;
+  const Eigen::Matrix3d R = rotation(1, Eigen::Vector3d(1, 2, 3)).R, W = (K * K.transpose()).inverse(),
+                        H = 3 * K *
+                            (Eigen::Matrix3d() << R.leftCols<2>(), Eigen::Vector3d(1, 2, 9)).finished();
+  EXPECT_NEAR(H.col(0).dot(W * H.col(1)), 0, 1e-9);
+  EXPECT_NEAR(H.col(0).dot(W * H.col(0)), H.col(1).dot(W * H.col(1)), 1e-9);
+  const Eigen::Matrix3d M = K * R.transpose(), turned = (M * M.transpose()).reverse(),
+                        L = Eigen::LLT<Eigen::Matrix3d>(turned).matrixL();
+  EXPECT_LT((Eigen::Matrix3d(L.reverse()) - K).norm(), 1e-9);
 }
 
 TEST(LectureNotes, LimitsAndFrames) {

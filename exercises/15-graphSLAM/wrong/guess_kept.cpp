@@ -1,0 +1,5 @@
+// caught by: camera-refined, camera-any
+// mistake: returns the P that was given.
+
+// <solution refined>
+// </solution>
