@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <string>
 
+#include <gtest/gtest.h>
+
 #include "support/file_text.h"
 
 namespace rex {
@@ -16,6 +18,12 @@ inline std::string lectureNote(const std::string& exercise) {
     if (letter != ' ' || (!line.empty() && line.back() != ' ')) line += letter;
   }
   return line;
+}
+
+/// Fails unless the notes on an exercise hold these words.
+inline void expectStated(const std::string& exercise, const std::string& words) {
+  EXPECT_NE(lectureNote(exercise).find(words), std::string::npos)
+      << "notes/" << exercise << ".md does not say: " << words;
 }
 
 }  // namespace rex
