@@ -216,7 +216,7 @@ TEST_F(WorkflowTest, PrintsADebuggerCommand) {
 
 TEST_F(WorkflowTest, SaysHowToGetTheDebugger) {
   fs::create_directory(root() / "bin");
-  for (const char* tool : {"as", "ld", "nm"})
+  for (const char* tool : {"as", "ld", "ld.gold", "nm"})
     fs::create_symlink(fs::path("/usr/bin") / tool, root() / "bin" / tool);
   const std::string path = std::getenv("PATH");
   ::setenv("PATH", (root() / "bin").c_str(), 1);
