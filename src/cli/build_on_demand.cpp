@@ -70,7 +70,9 @@ std::vector<std::string> ninja(const Project& project, const std::vector<std::st
 
 bool isUpToDate(const Project& project, const std::vector<std::string>& targets) {
   std::vector<std::string> command = ninja(project, targets);
-  command.emplace_back("-n");  // only says what would be done
+  // Only says what would be done. It would also take away what a compiler under way has just written about
+  // the headers that it read: the other build would never look at them again.
+  command.insert(command.end(), {"-n", "-d", "keepdepfile"});
   const ProcessResult told = runProcess(command, {.timeout = kNoTimeout});
   return told.ok() && told.output.find("no work to do") != std::string::npos;
 }

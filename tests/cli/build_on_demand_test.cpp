@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "base/interruption.h"
+#include "base/process.h"
 #include "support/file_text.h"
 #include "support/temporary_folder.h"
 
@@ -95,6 +96,30 @@ TEST_F(BuildOnDemand, KeepsTheEndOfALongMessage) {
   const std::string text = failureOf("tool");
   EXPECT_THAT(text, HasSubstr("the end"));
   EXPECT_LT(text.size(), 7000u);
+}
+
+TEST_F(BuildOnDemand, LeavesADepfileToTheBuildThatIsUnderWay) {
+  std::ofstream(in("header")) << "one";
+  std::ofstream(in("build.ninja")) << "rule compile\n  command = cp header $out; echo '$out: header' > "
+                                      "$out.d; while [ ! -e asked ]; do sleep "
+                                      ".01; done\n  depfile = $out.d\n  deps = gcc\nbuild tool: compile\n";
+  // The second one asks what would be done, and then waits for the lock of the first.
+  std::thread first([&] {
+    static_cast<void>(runProcess({"flock", in(".lock").string(), "ninja", "-C", folder().string(), "tool"},
+                                 {.timeout = 60}));
+  });
+  while (!fs::exists(in("tool.d"))) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  std::thread later([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    std::ofstream(in("asked")) << "yes";
+  });
+  build({"tool"});
+  first.join();
+  later.join();
+  std::ofstream(in("header")) << "two";
+  fs::last_write_time(in("header"), fs::file_time_type::clock::now() + std::chrono::hours(1));
+  EXPECT_NE(build({"tool"}), "");
+  EXPECT_EQ(fileText(in("tool")), "two");
 }
 
 TEST_F(BuildOnDemand, WaitsForABuildThatIsUnderWay) {
