@@ -329,9 +329,9 @@ Eigen::Matrix2Xd reprojectionErrors(const Projection& P, const Eigen::Matrix3Xd&
                                     const Eigen::Matrix2Xd& pixels) {
   Eigen::Matrix2Xd errors = Eigen::Matrix2Xd::Zero(2, points.cols());
   // <solution reprojectionErrors>
-  for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    const Eigen::Vector3d seen = P.leftCols<3>() * points.col(i) + P.col(3);
-    errors.col(i) = seen.head<2>() / seen[2] - pixels.col(i);
+  for (int point = 0; point < points.cols(); ++point) {
+    const Eigen::Vector3d seen = P.leftCols<3>() * points.col(point) + P.col(3);
+    errors.col(point) = seen.head<2>() / seen[2] - pixels.col(point);
   }
   // <todo>
   //| // TODO: the third number of P (X, 1) is the depth.
@@ -345,13 +345,13 @@ Projection refined(const Projection& P, const Eigen::Matrix3Xd& points, const Ei
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(2 * points.cols(), 12);
   for (int k = 0; k < 50; ++k) {
     best /= best.norm();
-    for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    for (int point = 0; point < points.cols(); ++point) {
       Eigen::Vector4d X;
-      X << points.col(i), 1;
+      X << points.col(point), 1;
       const Eigen::Vector3d seen = best * X;
       for (int row = 0; row < 2; ++row) {
-        J.block<1, 4>(2 * i + row, 4 * row) = X.transpose() / seen[2];
-        J.block<1, 4>(2 * i + row, 8) = -seen[row] / (seen[2] * seen[2]) * X.transpose();
+        J.block<1, 4>(2 * point + row, 4 * row) = X.transpose() / seen[2];
+        J.block<1, 4>(2 * point + row, 8) = -seen[row] / (seen[2] * seen[2]) * X.transpose();
       }
     }
     // J has no effect along P itself. Of all solutions the shortest is the one without a part along it.

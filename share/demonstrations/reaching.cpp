@@ -28,7 +28,7 @@ int main() {
   ControlProblem problem{
       .next = [&](const Eigen::VectorXd& x, const Eigen::VectorXd& u) -> Eigen::VectorXd {
         Eigen::VectorXd y = x;
-        for (int i = 0; i < 2; ++i) {
+        for (int half = 0; half < 2; ++half) {
           y.tail(3) += kStep / 2 * forwardDynamics(model, y.head(3), y.tail(3), torques(u));
           y.head(3) += kStep / 2 * y.tail(3);
         }
