@@ -25,7 +25,9 @@ class ObjectReader {
     readRelocations();
     ObjectFile object;
     for (std::size_t k = 1; k < headers_.size(); ++k)
-      object.sections.push_back({text(names_, headers_[k].sh_name), headers_[k].sh_type});
+      object.sections.push_back({.name = text(names_, headers_[k].sh_name),
+                                 .type = headers_[k].sh_type,
+                                 .ofEachThread = (headers_[k].sh_flags & SHF_TLS) ? headers_[k].sh_size : 0});
     for (ObjectSymbol& symbol : symbols_)
       if (!symbol.name.empty()) object.symbols.push_back(std::move(symbol));
     return object;

@@ -20,7 +20,8 @@ struct ObjectSymbol {
 /// A section that the linker will read.
 struct ObjectSection {
   std::string name;
-  unsigned type = 0;  ///< SHT_... of elf.h
+  unsigned type = 0;             ///< SHT_... of elf.h
+  std::size_t ofEachThread = 0;  ///< bytes of variables that each thread has for itself
 };
 
 /// The contents of an object file for this machine, without section 0.

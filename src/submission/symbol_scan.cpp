@@ -174,6 +174,10 @@ std::vector<CompileDiagnostic> strangeParts(const ObjectFile& object, const std:
       complain("names a section '{}', wanted letters, digits, points and underscores", section.name);
     if (isOfLinker(section.name) || !isForCompilers(section.type) || isPosingAsRelocations(section))
       complain("makes a section '{}', which only the linker may make", section.name);
+    // Some linkers would make a program of it that no machine can start.
+    constexpr std::size_t kMostOfEachThread = 64u << 20;
+    if (section.ofEachThread > kMostOfEachThread)
+      complain("keeps more than 64 MiB for each thread in section '{}'", section.name);
   }
   return messages;
 }

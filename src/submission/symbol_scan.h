@@ -27,8 +27,8 @@ namespace rex::grading {
                                                        const std::vector<std::string>& offers);
 
 /// Finds what no compiler writes into the object file of a C++ source: unprintable names, sections that
-/// only the linker makes, and sections with code for the linker to compile. Each is an error with the rule
-/// "forbidden-call". Call it before a linker reads the file.
+/// only the linker makes, sections with code for the linker to compile, and more than 64 MiB of variables of
+/// each thread. Each is an error with the rule "forbidden-call". Call it before a linker reads the file.
 [[nodiscard]] std::vector<CompileDiagnostic> strangeParts(const ObjectFile& object,
                                                           const std::string& mainFile);
 

@@ -292,6 +292,15 @@ TEST_F(ScanSymbolsTest, RefusesNamesThatNoCompilerGives) {
   EXPECT_EQ(renamed("--redefine-sym=_Z1fv=_Z1gv"), "");
 }
 
+TEST_F(ScanSymbolsTest, RefusesLargeVariablesOfEachThread) {
+  EXPECT_TRUE(scan("thread_local char some[64 << 20];\nchar f() { return some[5]; }\n").empty());
+  const auto messages = scan("thread_local char big[(64 << 20) + 1];\nchar f() { return big[5]; }\n");
+  ASSERT_EQ(messages.size(), 1u);
+  EXPECT_EQ(
+      toString(messages[0]),
+      "main.cpp: error: keeps more than 64 MiB for each thread in section '.tbss.big' [forbidden-call]");
+}
+
 // The linker would compile the first, and take the others for its own tables.
 TEST_F(ScanSymbolsTest, RefusesSectionsOfTheLinker) {
   for (const char* section : {".gnu.lto_.symtab", ".dynsym", ".dynamic", ".rela.dyn", ".got.plt", ".gnu.hash",
