@@ -15,7 +15,9 @@ function(rex_module_headers)
   target_compile_options(rex_cold_module_headers PRIVATE "${REX_COLD}")
 endfunction()
 
-set(REX_MODULE_OPTIONS ${REX_WARNINGS} -fno-semantic-interposition -ffunction-sections -fdata-sections)
+# Loops begin where processors fetch a line of code: otherwise the speed of Eigen's inner loops depends on what stands
+# before them in the library, by a third at times.
+set(REX_MODULE_OPTIONS ${REX_WARNINGS} -fno-semantic-interposition -ffunction-sections -fdata-sections -falign-loops=32)
 
 # rex_module(NAME [COLD] [MATRICES] SOURCES a.cpp ... [USES module ...] [PRIVATE library ...])
 #
