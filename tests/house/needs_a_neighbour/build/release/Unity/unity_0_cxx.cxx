@@ -1,0 +1,2 @@
+#include "../../src/base/first.cpp"
+#include "../../src/base/second.cpp"

@@ -1,0 +1,3 @@
+#include "base/text.h"
+
+const int kFirst = 1;

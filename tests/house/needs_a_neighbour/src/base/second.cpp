@@ -1,0 +1,1 @@
+const int kSecond = kFirst + 1;
