@@ -42,7 +42,7 @@ function(rex_precompiled_course variable)
   add_custom_command(OUTPUT ${prefix}.gch
     COMMAND ${CMAKE_CXX_COMPILER} ${REX_STUDENT_FLAGS} -isystem ${PROJECT_SOURCE_DIR}/src -isystem ${eigen}
             -MD -MF ${prefix}.d -MQ ${prefix}.gch -x c++-header ${prefix} -o ${prefix}.new
-    COMMAND ${CMAKE_COMMAND} -E rename ${prefix}.new ${prefix}.gch  # nobody meets half of it
+    COMMAND ${CMAKE_COMMAND} -E rename ${prefix}.new ${prefix}.gch  # no compiler reads half of it
     DEPENDS ${prefix} DEPFILE ${prefix}.d COMMENT "Precompiling course/course.h" VERBATIM)
   add_custom_target(rex_student_prefix DEPENDS ${prefix}.gch)
 endfunction()
@@ -180,7 +180,7 @@ function(rex_worker_part name folder output)
             --functions ${ARG_FUNCTIONS} --libraries ${files} --compiler ${CMAKE_CXX_COMPILER}
             --objcopy ${CMAKE_OBJCOPY} --nm ${CMAKE_NM} --folder ${output}
     DEPENDS rex_worker_part rex_submission ${REX_WORKER_OBJECT} ${objects} ${list} ${groups} ${folder}/exercise.toml
-    COMMENT "Leaving of the library what ${name} allows" VERBATIM)
+    COMMENT "Extracting what ${name} allows of the library" VERBATIM)
   add_custom_target(${name}_worker_part DEPENDS ${part} ${output}/worker.offers)
 endfunction()
 

@@ -1,5 +1,6 @@
 # Compiler settings shared by every target.
 option(REX_SANITIZE "Build with the address, undefined-behaviour and leak sanitizers" OFF)
+option(REX_QUICK_SANITIZERS "Leave out what they ask at each use of a pointer" OFF)
 option(REX_FUZZ "Build the programs of tests/fuzz with libFuzzer; needs clang" OFF)
 
 # A source that changes then brings its neighbours along: for machines that build everything once.
@@ -30,7 +31,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   add_compile_options(--param=ggc-min-expand=400 --param=ggc-min-heapsize=1000000)
 endif()
 
-# Variables of which there is one in a whole process could not be hidden: workers have their own.
+# Symbols that are unique in a process cannot be made local, as those of the worker's part must be.
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   add_compile_options(-fno-gnu-unique)
 endif()
@@ -52,9 +53,8 @@ if(REX_SANITIZE)
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
     add_compile_options(-Wno-maybe-uninitialized)  # g++ 12, of std::regex with the sanitizers
   endif()
-  if(REX_MERGE_SOURCES)
-    # What each use of a pointer is asked takes a third of the time; a null pointer ends in a report anyway. Long runs,
-    # which do not merge, ask it.
+  if(REX_QUICK_SANITIZERS)
+    # These take a third of the time; a null pointer ends in a report anyway. Long runs have them.
     add_compile_options(-fno-sanitize=null,alignment,object-size,vptr)
   endif()
 endif()
