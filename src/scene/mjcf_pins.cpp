@@ -1,5 +1,7 @@
 #include "scene/mjcf_parts_internal.h"
 
+#include <fmt/format.h>
+
 namespace rex::mjcf {
 namespace {
 

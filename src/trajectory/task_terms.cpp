@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "base/require.h"
 #include "trajectory/motion_terms.h"
 #include "trajectory/robot_window_internal.h"
