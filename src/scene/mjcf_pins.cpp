@@ -1,6 +1,6 @@
-#include "scene/mjcf_parts_internal.h"
-
 #include <fmt/format.h>
+
+#include "scene/mjcf_parts_internal.h"
 
 namespace rex::mjcf {
 namespace {
