@@ -110,6 +110,7 @@ const rexStage = (function () {
     controls.screenSpacePanning = true;
     controls.addEventListener('change', draw);
     let isFirstView = true;  // until the user turns it
+    let fitted = null;  // size and direction of the scene that this view was made for
     controls.addEventListener('start', () => { isFirstView = false; });
     renderer.shadowMap.enabled = !isPlain;
     renderer.shadowMap.type = THREE.PCFSoftShadowMap;
@@ -260,7 +261,8 @@ const rexStage = (function () {
       scene.add(sun, sun.target);
       clear();
       current = { scene, world, parser, nodes, texts, sized, corners, target, home, radius, sun, reach };
-      resize();
+      setSize();
+      keepView();
       return current;
     }
 
@@ -277,16 +279,30 @@ const rexStage = (function () {
     // The film's camera fits a picture of 4 : 3; a narrower one needs more distance.
     function resetView() {
       isFirstView = true;
-      const { target, home, corners } = current, arm = home.clone().sub(target);
+      fitted = { arm: current.home.clone().sub(current.target), radius: current.radius };
+      stepBack(current.target, fitted.arm);
+    }
+
+    function stepBack(target, arm) {
       const isSeen = corner => Math.max(...corner.clone().project(view).toArray().slice(0, 2).map(Math.abs)) < 0.99;
       controls.target.copy(target);
       for (let distance = 1; distance < 20; distance *= 1.03) {
         view.position.copy(target).addScaledVector(arm, distance);
         controls.update();
         view.updateMatrixWorld();
-        if (corners.every(isSeen)) break;
+        if (current.corners.every(isSeen)) break;
       }
       draw();
+    }
+
+    // A scene much like the last one, as of a robot that moves on, only lets the view step back until all is seen: it would
+    // sway otherwise, and handles could not be grasped.
+    function keepView() {
+      const { home, target, radius } = current;
+      const isLike = fitted && fitted.arm.angleTo(home.clone().sub(target)) < 1e-3 && Math.abs(Math.log2(radius / fitted.radius)) < 1;
+      if (isFirstView && !isLike) resetView();
+      else if (isFirstView) stepBack(controls.target.clone(), view.position.clone().sub(controls.target));
+      else draw();
     }
 
     // Looks at the scene from this direction, of three.js, as far away as now.
@@ -329,8 +345,7 @@ const rexStage = (function () {
       placeTexts();
     }
 
-    function resize() {
-      if (!current) return;
+    function setSize() {
       const ratio = quality * Math.min(window.devicePixelRatio || 1, 2), size = new THREE.Vector2();
       renderer.setPixelRatio(ratio);
       renderer.setSize(stage.clientWidth, stage.clientHeight, false);
@@ -340,6 +355,10 @@ const rexStage = (function () {
       for (const { uniform, size: pixels } of current.sized) uniform.value = pixels * ratio;
       view.aspect = stage.clientWidth / stage.clientHeight;
       view.updateProjectionMatrix();
+    }
+    function resize() {
+      if (!current) return;
+      setSize();
       if (isFirstView) resetView();
       else draw();
     }
@@ -352,7 +371,8 @@ const rexStage = (function () {
       if (sun.shadow.map) sun.shadow.map.dispose();
       sun.shadow.map = null;
       shared.shadowTexel.value = 2 * reach / (2048 * quality);
-      resize();
+      setSize();
+      draw();
     }
 
     // Turns the view as a drag does.
