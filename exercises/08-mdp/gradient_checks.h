@@ -41,7 +41,9 @@ inline Practice randomPractice(rex::Rng& rng, int k, int count) {
     const int T = k + 1 + i % 3;
     Rollout trial{someNumbers(rng, k, T), .5 * someNumbers(rng, k, T), Eigen::VectorXd(T)};
     for (int t = 0; t < T; ++t) {
-      trial.features(t % k, t) += 2;  // so that they are well apart
+      auto phi = trial.features.col(t);
+      phi[t % k] += 2;  // so that they are well apart
+      while (phi.norm() < .1) phi = someNumbers(rng, k);
       trial.rewards[t] = twoDigits(rng.uniform(.1, 2));
     }
     made.trials.push_back(trial);
