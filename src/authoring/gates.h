@@ -18,6 +18,8 @@ struct GateContext {
   std::filesystem::path workFolder;  ///< empty and writable
   int seeds = 3;                     ///< number of seeds to grade the solution with: 1, 2, ...
   std::filesystem::path sheet{};     ///< where gate wrong puts the pictures of failed checks; empty: nowhere
+  int hostileAnswers = 3000;         ///< that gate hostile gives instead of the student's
+  bool storesMessages = false;       ///< whether gate wrong writes wrong/seen.txt anew
 };
 
 /// Whether an exercise passed a gate, and what to do if not.

@@ -27,8 +27,8 @@ struct CaughtTogether {
 
 /// The same for all variants at a fraction of the cost: JointBuild compiles only functions that differ, and
 /// only the checks that a variant names are run. Only whyNotCaught() proves that the whole file compiles,
-/// and runs the other checks. Also complains if students read other messages than wrong/seen.txt says; with
-/// REX_UPDATE_GOLDEN in the environment, writes them there. Writes the context's sheet if it has one.
+/// and runs the other checks. Also complains if students read other messages than wrong/seen.txt says, or
+/// stores them there if the context asks for it. Writes the context's sheet if it has one.
 [[nodiscard]] CaughtTogether whyNotCaughtTogether(const GateContext& context);
 
 }  // namespace rex::grading

@@ -37,7 +37,7 @@ class WrongVariantsTest : public ::testing::Test {
     write("wrong/" + name + ".cpp", "// " + header + "\n// mistake: " + name +
                                         ".\n\n// <solution rotated>\n" + body + "// </solution>\n");
   }
-  GateResult pass(const std::string& gate) const {
+  GateResult pass(const std::string& gate, bool storesMessages = false) const {
     const fs::path work = temporary_.path() / "work";
     fs::remove_all(work);
     fs::create_directory(work);
@@ -45,7 +45,8 @@ class WrongVariantsTest : public ::testing::Test {
         {.root = temporary_.path(),
          .exercise = readExerciseInfo(exercise()),
          .toolchain = readToolchain(REX_BINARY_DIR "/tests/template/exercises/98-template/build.json"),
-         .workFolder = work},
+         .workFolder = work,
+         .storesMessages = storesMessages},
         gate);
   }
 
@@ -54,12 +55,13 @@ class WrongVariantsTest : public ::testing::Test {
   TemporaryFolder temporary_;
 };
 
-TEST_F(WrongVariantsTest, AreCaughtTogether) {
+TEST_F(WrongVariantsTest, AreCaughtTogetherAndTheirMessagesStoredIfAsked) {
   writeVariant("doubled", "caught by: quarter-turn, keeps-length\n// shown by: quarter-turn",
                "return 2 * std::cos(angle) * p;\n");
-  const GateResult result = pass("wrong");
+  const GateResult result = pass("wrong", /*storesMessages=*/true);
   EXPECT_TRUE(result.passed) << result.message;
   EXPECT_EQ(result.note, "");
+  EXPECT_THAT(fileText(exercise() / "wrong" / "seen.txt"), HasSubstr("doubled\n    quarter-turn: point"));
 }
 
 TEST_F(WrongVariantsTest, AreReadAsTheFileSays) {

@@ -1,3 +1,5 @@
+#include <cstdlib>
+
 #include <fmt/format.h>
 
 #include "authoring/gates.h"
@@ -59,6 +61,8 @@ class GateReport {
   int open_ = 0, blockedCount_ = 0;
 };
 
+bool isSet(const char* variable) { return std::getenv(variable) != nullptr; }
+
 grading::GateResult resultOf(const Project& project, const ExerciseInfo& exercise,
                              const grading::Toolchain& toolchain, const std::string& gate,
                              const CheckOptions& options) {
@@ -68,7 +72,9 @@ grading::GateResult resultOf(const Project& project, const ExerciseInfo& exercis
                            .toolchain = toolchain,
                            .workFolder = work.path(),
                            .seeds = options.seeds,
-                           .sheet = options.sheet},
+                           .sheet = options.sheet,
+                           .hostileAnswers = isSet("REX_LONG_RUN") ? 10000 : 3000,
+                           .storesMessages = isSet("REX_UPDATE_GOLDEN")},
                           gate);
 }
 
