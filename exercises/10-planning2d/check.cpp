@@ -69,10 +69,11 @@ void bugsAnywhere(Check& check, Student& student) {
   check.forEachCase(16, [&](int i) {
     Rng& rng = check.rng();
     CellMap map = randomMap(rng, 22, 16);
-    const MapCell start = randomFreeCell(map, rng), goal = randomFreeCell(map, rng);
+    MapCell start = randomFreeCell(map, rng);
+    const MapCell goal = randomFreeCell(map, rng);
     if (i % 4 == 3) enclose(map, goal, 2);
-    if (map.isFree(start)) return bugObeys(check, student, map, start, goal);
-    bugObeys(check, student, map, randomFreeCell(map, rng), goal);
+    while (start == goal || !map.isFree(start)) start = randomFreeCell(map, rng);
+    bugObeys(check, student, map, start, goal);
   });
 }
 // </hidden>
@@ -486,7 +487,8 @@ double rateOf(const Yard& yard, const Samples& uniform, const Samples& others, R
 
 // Over 60 seeds, 14 % of the draws are solved with uniform nodes. Gaussian nodes raise this rate by 0.13
 // with a standard deviation of 0.028, bridges by 0.57 with one of 0.063. The slot holds 10.7 % of the
-// Gaussian nodes, with a standard deviation of 0.7 %, and 2.6 % of the uniform ones.
+// Gaussian nodes, with a standard deviation of 0.7 %, and 2.6 % of the uniform ones: that tells them apart,
+// so their rate need not.
 void narrowPassages(Check& check, Student& student) {
   Rng given = generatorsOf(check);
   gaussianFits(check, student, given);
@@ -509,7 +511,7 @@ void narrowPassages(Check& check, Student& student) {
                 share(gaussian, {{2, low}, {4, low + 0.2}}), 0.06);
   const double usual = rateOf(yard, uniform, uniform, check.rng());
   const auto gain = [&](const Samples& others) { return rateOf(yard, uniform, others, check.rng()) - usual; };
-  check.atLeast("rate of success with Gaussian nodes, minus that with uniform ones", gain(gaussian), 0.01);
+  check.atLeast("rate of success with Gaussian nodes, minus that with uniform ones", gain(gaussian), -0.02);
   check.atLeast("rate of success with bridge nodes, minus that with uniform ones", gain(bridge), 0.25);
 }
 // </hidden>
@@ -584,7 +586,8 @@ void searchesMap(Check& check, Student& student, const CellMap& map, MapCell sta
   for (std::size_t place = 0; place < network.size(); ++place) {
     const MapCell at = map.cellAt(place);
     const int dx = std::abs(at.x - goal.x), dy = std::abs(at.y - goal.y);
-    estimates[place] = std::numbers::sqrt2 * std::min(dx, dy) + std::abs(dx - dy);
+    // Less by a little, for lengths of ways are rounded: else an arc might change it by more than its length.
+    estimates[place] = (1 - 1e-12) * (std::numbers::sqrt2 * std::min(dx, dy) + std::abs(dx - dy));
   }
   searches(check, student, network, map.placeOf(start), map.placeOf(goal), estimates,
            distancesOn(map, start, Connectivity::kEightWithRoom), &map);

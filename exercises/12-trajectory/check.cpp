@@ -97,9 +97,12 @@ void factors(Check& check, Student& student) {
 // A dense matrix of 16000 x 16000 would take 2 GB, which is twice the memory available.
 void longBands(Check& check, Student& student) { isFactor(check, student, 6, 16000); }
 
-// Terms that each fix one configuration; some configurations are fixed by none.
+// Terms that each fix one configuration; some configurations are fixed by none. No singular value of A is
+// below 1, so that steps stay long although they are damped.
 Terms withGaps(Rng& rng, int n) {
-  const Eigen::MatrixXd A = randomMatrix(rng, n, n) + 3 * Eigen::MatrixXd::Identity(n, n);
+  Eigen::MatrixXd A;
+  do A = randomMatrix(rng, n, n) + 3 * Eigen::MatrixXd::Identity(n, n);
+  while (rex::svd(A).s[n - 1] < 1);
   return [=](const Eigen::MatrixXd& X) {
     std::vector<Term> terms;
     for (int t = 0; t < X.cols(); t += 2)
@@ -122,7 +125,7 @@ void descents(Check& check, Student& student) {
   descends(check, student, "arc tangents of all x, and differences", arcTangents(2, 0.1),
            rng.uniformVector(20, 2, 4).reshaped(2, 10), 300);
   descends(check, student, "terms that leave every other configuration free", withGaps(rng, 2),
-           randomMatrix(rng, 2, 6), 50);
+           randomMatrix(rng, 2, 6), 300);
 }
 
 // <hidden>
@@ -136,7 +139,7 @@ void unseenDescents(Check& check, Student& student) {
       descends(check, student, "", arcTangents(n, rng.uniform(0.05, 0.3)),
                rng.uniformVector(n * steps, 2, 5).reshaped(n, steps), 300);
     else
-      descends(check, student, "", withGaps(rng, n), randomMatrix(rng, n, steps), 50);
+      descends(check, student, "", withGaps(rng, n), randomMatrix(rng, n, steps), 300);
   });
 }
 // </hidden>

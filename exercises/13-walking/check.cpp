@@ -1,5 +1,7 @@
 #include "grading/check.h"
 
+#include <numbers>
+
 #include "gait_checks.h"
 #include "interface.h"
 #include "preview_checks.h"
@@ -121,7 +123,8 @@ bool hasFallen(rex::StepStatus status) {
   return status == rex::StepStatus::kFellForward || status == rex::StepStatus::kFellBackward;
 }
 
-// Whether the legs would come down after the fall, if they could swing on below the ground.
+// Whether the legs would come down after the fall, if they could swing on below the ground; and not nearly
+// at the same time.
 bool wouldLandLater(const Walker& walker, Eigen::Vector4d x) {
   const rex::CompassGait library = libraryOf(walker);
   const double tau = 1e-3;
@@ -129,7 +132,8 @@ bool wouldLandLater(const Walker& walker, Eigen::Vector4d x) {
   for (double time = 0; time < 4.5 && std::abs(x[0]) < 3; time += tau) {
     const Eigen::Vector4d middle = x + tau / 2 * library.derivative(x), before = x;
     x += tau * library.derivative(middle);
-    if (sum(before) > 0 && sum(x) <= 0 && x[1] > x[0] + .05) return true;
+    if (sum(before) > 0 && sum(x) <= 0 && x[1] > x[0] + .05)
+      return std::abs(x[0] + walker.slope) > std::numbers::pi / 2 + .1;
   }
   return false;
 }

@@ -50,9 +50,14 @@ void followsMore(Check& check, Student& student) {
     const Grid grid = randomGrid(12, 9, check.rng());
     findsCells(check, student, grid, 3);
     const Eigen::Vector2d from = pointIn(grid, check.rng());
-    followsSegment(check, student, grid, from, pointIn(grid, check.rng()));
+    const auto another = [&] {
+      Eigen::Vector2d point = pointIn(grid, check.rng());
+      while (point == from) point = pointIn(grid, check.rng());
+      return point;
+    };
+    followsSegment(check, student, grid, from, another());
     followsSegment(check, student, grid, from, from - grid.cell * Eigen::Vector2d(0, 15));
-    followsSegment(check, student, grid, from, 3 * (pointIn(grid, check.rng()) - from) + from);
+    followsSegment(check, student, grid, from, 3 * (another() - from) + from);
   });
 }
 

@@ -201,9 +201,10 @@ inline Eigen::Vector2d pointIn(const Grid& grid, rex::Rng& rng) {
   return grid.origin + grid.cell * Eigen::Vector2d(x, y);
 }
 
-/// Rays in all directions, from a pose in a small map; some hit nothing. No ray ends near a border.
+/// Rays in all directions, from a pose in a small map; some hit nothing. No ray ends near a border. The
+/// longest range is rounded as the others are, so that equal numbers look equal.
 inline Scan randomScan(const Grid& grid, const Eigen::Vector3d& pose, int rays, rex::Rng& rng) {
-  Scan scan{Eigen::VectorXd(rays), Eigen::VectorXd(rays), 5 * grid.cell};
+  Scan scan{Eigen::VectorXd(rays), Eigen::VectorXd(rays), rounded(5 * grid.cell)};
   for (Eigen::Index k = 0; k < rays; ++k) {
     scan.angles[k] = rounded(rng.uniform(-3, 3));
     for (;;) {
