@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,16 +33,16 @@ inline int stepsUntil(const Plant& plant, const Costs& costs, double epsilon, do
   return -1;
 }
 
-/// The bracket of P_steps and that of the one before: the mean of their largest entries, which rounding
-/// cannot reach.
+/// The bracket of P_steps and the least of those before: the mean of their largest entries, which rounding
+/// cannot reach. Brackets need not fall with each step.
 inline double betweenSteps(const Plant& plant, const Costs& costs, double epsilon, int steps) {
   Eigen::MatrixXd now = costs.Q;
-  double before = 0;
+  double before = std::numeric_limits<double>::infinity();
   for (int count = 0;; ++count) {
     const Eigen::MatrixXd rate = imbalance(plant, costs, now);
     const double size = rate.lpNorm<Eigen::Infinity>();
     if (count == steps) return (before + size) / 2;
-    before = size;
+    before = std::min(before, size);
     now += epsilon * rate;
   }
 }

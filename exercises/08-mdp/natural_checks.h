@@ -41,7 +41,7 @@ inline NaturalPractice naturalPractice(rex::Rng& rng, int k, int count) {
     made.F = rex::naturalGradient(policy, trials, made.given.discount).fisher;
     made.g = rex::reinforceGradient(policy, trials, made.given.discount, rex::Baseline::kNone).gradient;
     const Eigen::VectorXd sizes = rex::svd(made.F).s;
-    if (sizes[k - 1] < sizes[0] / 100) continue;
+    if (!(sizes[k - 1] > sizes[0] / 100)) continue;  // not if all are zero either
     made.w = rex::solveMatrix(made.F, made.g);
     return made;
   }
