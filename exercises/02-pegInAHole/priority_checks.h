@@ -75,7 +75,9 @@ inline void isTheShortest(rex::grading::Check& check, const TwoTasks& tasks, con
   Eigen::MatrixXd both(tasks.J1.rows() + tasks.J2.rows(), dq.size());
   both << tasks.J1, tasks.J2;
   check.atMost("part of dq of priorityStep that neither task asks for, relative to the wanted dq",
-               (nullspace(both).transpose() * dq).norm() / wantedStep(tasks).norm(), kRegularised);
+               (nullspace(both).transpose() * dq).norm() /
+                   (wantedStep(tasks).norm() + tasks.dy2.norm() / tasks.J2.norm()),
+               kRegularised);
 }
 
 inline void describe(rex::grading::Check& check, const std::string& name, const TwoTasks& tasks) {

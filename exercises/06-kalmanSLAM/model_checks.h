@@ -163,10 +163,14 @@ inline void seesRightly(rex::grading::Check& check, Student& student, const CarS
                         const Eigen::Vector3d& x, const Eigen::Vector2d& l) {
   check.input(described(car), {{"x", x}, {"l", l}});
   const auto byState = [&](const CarSetup& setup, const Eigen::Vector3d& at) {
-    return derivative([&](const Eigen::VectorXd& z) { return seenFrom(setup, z, l); }, at);
+    const Eigen::VectorXd there = seenFrom(setup, at, l);
+    return derivative([&](const Eigen::VectorXd& z) { return gapsOf(setup, seenFrom(setup, z, l), there); },
+                      at);
   };
   const auto byLandmark = [&](const CarSetup& setup, const Eigen::Vector3d& at) {
-    return derivative([&](const Eigen::VectorXd& z) { return seenFrom(setup, at, z); }, l);
+    const Eigen::VectorXd there = seenFrom(setup, at, l);
+    return derivative([&](const Eigen::VectorXd& z) { return gapsOf(setup, seenFrom(setup, at, z), there); },
+                      l);
   };
   const Eigen::Vector2d y = seenFrom(car, x, l), got = student.view(car, x, l);
   const double distance = (l - x.head(2)).norm();

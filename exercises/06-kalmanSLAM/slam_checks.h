@@ -118,7 +118,8 @@ inline void correctsJointly(rex::grading::Check& check, Student& student, const 
                {"l", joint.mean.segment(at, 2)},
                {"their covariance", joint.covariance(five, five)},
                {"y", y}});
-  const Observation seen{gap, derivative(g, joint.mean), noiseOf(car, 1)};
+  const auto change = [&](const Eigen::VectorXd& z) { return gapsOf(car, g(z), expected); };
+  const Observation seen{gap, derivative(change, joint.mean), noiseOf(car, 1)};
   const Belief wanted = informed(joint, seen);
   const BeliefFunction function{"jointCorrected", jointParts("car and landmark", five, 3 + 2 * landmarks)};
   sameBelief(check, function, student.jointCorrected(car, joint, i, y), wanted, 1e-6,
@@ -195,8 +196,10 @@ inline void startsLandmark(rex::grading::Check& check, Student& student, const C
                {"y", y}});
   Belief wanted{Eigen::VectorXd(n + 2), Eigen::MatrixXd::Zero(n + 2, n + 2)};
   wanted.mean << joint.mean, l;
-  const auto g = [&](const Eigen::VectorXd& z) { return seenFrom(car, z.head(3), z.tail(2)); };
-  const Eigen::MatrixXd C = derivative(g, wanted.mean), W = noiseOf(car, 1);
+  const auto change = [&](const Eigen::VectorXd& z) {
+    return gapsOf(car, seenFrom(car, z.head(3), z.tail(2)), y);
+  };
+  const Eigen::MatrixXd C = derivative(change, wanted.mean), W = noiseOf(car, 1);
   wanted.covariance.topLeftCorner(n, n) = rex::inverse(joint.covariance);
   wanted.covariance = sum(wanted.covariance, carried(transposed(C), rex::inverse(W)));
   wanted.covariance = rex::inverse(wanted.covariance);
