@@ -31,7 +31,8 @@ inline PlaneProblem turned(const PlaneProblem& problem, bool mirror, bool swap) 
   return other;
 }
 
-/// Two walls, thinner than a step, with gaps at opposite ends, and two discs.
+/// Two walls, thinner than a step, with gaps at opposite ends, and two discs. The straight line from start to
+/// goal meets a wall at least 0.1 away from its gap.
 inline PlaneProblem twoWalls(rex::Rng& rng) {
   const double first = rng.uniform(0.25, 0.38), second = rng.uniform(0.6, 0.73), gap = rng.uniform(0.2, 0.3);
   PlaneProblem problem{
@@ -40,11 +41,15 @@ inline PlaneProblem twoWalls(rex::Rng& rng) {
        .boxes = {{{first, 0}, {first + 0.015, 1 - gap}}, {{second, gap}, {second + 0.015, 1}}}},
       {},
       {}};
-  const EdgeTest hasRoom = freeIn(problem.world, -0.01);
+  PlaneWorld wider{.discs = {}, .boxes = problem.world.boxes};
+  wider.boxes[0].upper.y() -= 0.1;
+  wider.boxes[1].lower.y() += 0.1;
+  const EdgeTest hasRoom = freeIn(problem.world, -0.01), isNearlyFree = freeIn(wider);
   do {
     problem.start = Eigen::Vector2d(rng.uniform(0.05, 0.15), rng.uniform(0.05, 0.95));
     problem.goal = Eigen::Vector2d(rng.uniform(0.8, 0.95), rng.uniform(0.05, 0.95));
-  } while (!hasRoom(problem.goal, problem.goal) || !hasRoom(problem.start, problem.start));
+  } while (!hasRoom(problem.goal, problem.goal) || !hasRoom(problem.start, problem.start) ||
+           isNearlyFree(problem.start, problem.goal));
   const int way = rng.index(4);
   return turned(problem, way % 2 == 1, way > 1);
 }
