@@ -487,8 +487,7 @@ double rateOf(const Yard& yard, const Samples& uniform, const Samples& others, R
 
 // Over 60 seeds, 14 % of the draws are solved with uniform nodes. Gaussian nodes raise this rate by 0.13
 // with a standard deviation of 0.028, bridges by 0.57 with one of 0.063. The slot holds 10.7 % of the
-// Gaussian nodes, with a standard deviation of 0.7 %, and 2.6 % of the uniform ones: that tells them apart,
-// so their rate need not.
+// Gaussian nodes, with a standard deviation of 0.7 %, and 2.6 % of the uniform ones.
 void narrowPassages(Check& check, Student& student) {
   Rng given = generatorsOf(check);
   gaussianFits(check, student, given);
@@ -511,7 +510,7 @@ void narrowPassages(Check& check, Student& student) {
                 share(gaussian, {{2, low}, {4, low + 0.2}}), 0.06);
   const double usual = rateOf(yard, uniform, uniform, check.rng());
   const auto gain = [&](const Samples& others) { return rateOf(yard, uniform, others, check.rng()) - usual; };
-  check.atLeast("rate of success with Gaussian nodes, minus that with uniform ones", gain(gaussian), -0.02);
+  check.atLeast("rate of success with Gaussian nodes, minus that with uniform ones", gain(gaussian), 0.01);
   check.atLeast("rate of success with bridge nodes, minus that with uniform ones", gain(bridge), 0.25);
 }
 // </hidden>
