@@ -15,7 +15,11 @@ namespace rex::grading {
 struct ToolLimits {
   double seconds = 30;                        ///< of CPU time; for wall time see clockSeconds()
   std::size_t memory = std::size_t{2} << 30;  ///< bytes
-  std::size_t fileSize = std::size_t{64} << 20;
+#ifdef __SANITIZE_ADDRESS__
+  std::size_t fileSize = std::size_t{1} << 30;  ///< bytes; workers contain the sanitizers and their tables
+#else
+  std::size_t fileSize = std::size_t{64} << 20;  ///< bytes
+#endif
 };
 
 /// The wall time for a tool with this limit on CPU time. Confined tools have no pipe or terminal to wait
