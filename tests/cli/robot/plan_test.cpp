@@ -140,7 +140,8 @@ TEST_F(PlanCommand, BringsThePegIntoTheHole) {
   const ProcessResult result = plan({"pegInAHole", "--start", "0", "--goal", kPegInTheHole, "--margin",
                                      "0.02", "--seeds", "3", "--no-film", "--json", "-o", "out"});
   ASSERT_EQ(result.exitCode, 0) << result.error;
-  for (const auto& run : nlohmann::json::parse(result.output).at("runs")) {
+  const auto report = nlohmann::json::parse(result.output);
+  for (const auto& run : report.at("runs")) {
     EXPECT_TRUE(run.at("found"));
     EXPECT_GT(run.at("clearance"), 0.015);
   }
