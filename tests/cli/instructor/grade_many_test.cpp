@@ -220,7 +220,7 @@ TEST_F(GradeManyTest, CompilesAnewWhereAKeptProgramIsDamaged) {
   }
   fs::remove(kept / "worker");
   EXPECT_EQ(gradedAgain(), whole);
-#ifndef __SANITIZE_ADDRESS__  // sanitizers write the temporary folder's name into it
+#ifndef __SANITIZE_ADDRESS__  // the lines for their reports name the temporary folder
   EXPECT_TRUE(fileText(kept / "worker") == worker);
 #endif
 }
