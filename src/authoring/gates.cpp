@@ -186,9 +186,8 @@ ProcessResult askGrader(const GateContext& context, const std::vector<std::strin
   if (built.worker.empty())
     throw Error({.what = "solution.cpp cannot be built", .found = built.start.message});
   Limits limits = context.exercise.limits;
-#ifdef __SANITIZE_ADDRESS__  // the whole worker has them, and is not optimized
-  constexpr double kSlowness = 20;
-  limits.cpuSeconds *= kSlowness;
+#ifdef __SANITIZE_ADDRESS__  // the whole worker has them
+  limits.cpuSeconds *= kSanitizedSlowness;
 #endif
   std::vector<std::string> command =
       toArguments({.worker = built.worker, .limits = limits, .temporaryFolder = context.workFolder});

@@ -7,6 +7,9 @@ namespace rex::grading {
 
 inline constexpr std::size_t kMegabyte = std::size_t{1} << 20;
 
+/// By how much more processor time a program with the sanitizers may use.
+inline constexpr double kSanitizedSlowness = 20;
+
 /// What a student's functions may use in one check. Sizes are in bytes.
 struct Limits {
   double cpuSeconds = 10;  ///< of all threads; rounded up to whole seconds by the kernel

@@ -30,8 +30,7 @@ using std::filesystem::path;
 
 constexpr double kLongestGrading = 3600;
 constexpr std::size_t kLongestLine = 1000;
-// A program with the sanitizers is slow, and it keeps records of its memory and some of what it has freed.
-constexpr double kSanitizedSlowness = 20;
+// A program with the sanitizers keeps records of its memory and some of what it has freed.
 constexpr std::size_t kSanitizedFactor = 2, kKeptBack = 256 * kMegabyte;
 
 // "c++ (Debian 12.2.0-14) 12.2.0", or only its name if the compiler does not run.

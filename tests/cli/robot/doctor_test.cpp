@@ -90,8 +90,10 @@ TEST_F(Doctor, FindsThatAllWorks) {
   EXPECT_TRUE(table.output.ends_with("\nNothing else is needed.\n")) << table.output;
 }
 
-#ifndef __SANITIZE_ADDRESS__  // an example asks for a sandbox, in which sanitizers find too few addresses
 TEST_F(Doctor, DoesWhatItsExamplesSay) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "an example asks for a sandbox, which allows sanitizers too few addresses";
+#endif
   REX_NEEDS_EGL();
   REX_NEEDS_GNUPLOT();
   REX_NEEDS_FFMPEG();
@@ -99,7 +101,6 @@ TEST_F(Doctor, DoesWhatItsExamplesSay) {
   EXPECT_GE(examples.size(), 2u);
   for (const auto& example : examples) EXPECT_EQ(rex(example).exitCode, 0) << example.back();
 }
-#endif
 
 TEST_F(Doctor, NamesThePackagesOfMissingPrograms) {
   REX_NEEDS_OSMESA();
