@@ -37,8 +37,13 @@ std::set<std::string> listed(const std::string& exercise) {
 TEST(Gates, AreAllTestsOfTheSuite) {
   const auto exercises = grading::listExercises(REX_SOURCE_DIR "/exercises");
   ASSERT_FALSE(exercises.empty());
-  for (const grading::ExerciseInfo& exercise : exercises)
+  for (const grading::ExerciseInfo& exercise : exercises) {
+#ifdef __SANITIZE_ADDRESS__
+    EXPECT_EQ(registered(exercise.name), std::set<std::string>{"hostile"}) << "see RexGates.cmake";
+#else
     EXPECT_EQ(registered(exercise.name), listed(exercise.name));
+#endif
+  }
 }
 
 }  // namespace rex::cli::gates_test

@@ -88,7 +88,8 @@ TEST_P(EachPlanner, FindsTheSameWithTheSameSeed) {
   const FoundPath once = searchPath(task, search, 3), twice = searchPath(task, search, 3);
   EXPECT_EQ(once.path, twice.path);
   EXPECT_EQ(once.checks, twice.checks);
-  EXPECT_NE(searchPath(task, search, 4).path, once.path);
+  const Eigen::MatrixXd other = searchPath(task, search, 4).path;
+  EXPECT_FALSE(other.cols() == once.path.cols() && other == once.path);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, EachPlanner,
