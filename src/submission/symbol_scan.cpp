@@ -113,10 +113,8 @@ bool isPlainName(const std::string& name) {
 
 // "rex::plot" for "rex::plot(std::string const&, rex::Figure const&)", as a person would call it.
 std::string nameIn(const std::string& symbol) {
-  int status = 0;
-  const std::unique_ptr<char, void (*)(void*)> text(
-      abi::__cxa_demangle(symbol.c_str(), nullptr, nullptr, &status), &std::free);
-  std::string_view name = text ? std::string_view(text.get()) : std::string_view(symbol);
+  const std::string text = demangled(symbol);
+  std::string_view name = text;
   name.remove_prefix(std::min(name.find("rex::"), name.size()));
   return std::string(name.substr(0, name.find_first_of("(<[ ")));
 }
@@ -126,6 +124,13 @@ CompileDiagnostic forbiddenCall(const std::string& mainFile, std::pair<int, int>
 }
 
 }  // namespace
+
+std::string demangled(const std::string& symbol) {
+  int status = 0;
+  const std::unique_ptr<char, void (*)(void*)> text(
+      abi::__cxa_demangle(symbol.c_str(), nullptr, nullptr, &status), &std::free);
+  return text ? text.get() : symbol;
+}
 
 bool isSymbolOf(std::string_view symbol, std::string_view function) {
   symbol = withoutVersion(symbol);

@@ -16,6 +16,9 @@ namespace rex::grading {
 /// object file.
 [[nodiscard]] bool isSymbolOf(std::string_view symbol, std::string_view function);
 
+/// "rex::f(int)" for the symbol of that function; the symbol itself if it is not mangled.
+[[nodiscard]] std::string demangled(const std::string& symbol);
+
 /// The forbidden functions that anything in an object file refers to, from any section. Functions and
 /// tables for finding others at run time, such as dlsym(), are always forbidden.
 [[nodiscard]] std::vector<ForbiddenFunction> forbiddenCalls(const ObjectFile& object,

@@ -84,17 +84,21 @@ Names offered(const Definitions& definitions, const std::vector<std::string>& al
   return found;
 }
 
+// The description of a lambda's type is no code; compilers keep it where functions share what copies lambdas.
+// Destructors answer nothing; compilers keep them where they do not inline them.
+bool solvesNothing(const std::string& symbol) {
+  return symbol.starts_with("_ZTI") || symbol.starts_with("_ZTS") ||
+         demangled(symbol).find("::~") != symbol.npos;
+}
+
 // Checks the worker of that part; if `part` is empty, the worker of all other parts.
 void requireNothingForbidden(const fs::path& object, const std::string& part, const ExerciseInfo& exercise) {
   const ObjectFile file = readObjectFile(readTextFile(object), object.string());
   std::vector<std::string> there;
   for (const ForbiddenFunction& one : exercise.forbidden) {
     const bool isBanned = one.part.empty() || one.part == part;
-    // The description of a lambda's type is no code; compilers keep it where functions share what copies
-    // lambdas.
     const auto isIt = [&](const ObjectSymbol& symbol) {
-      const bool isDescription = symbol.name.starts_with("_ZTI") || symbol.name.starts_with("_ZTS");
-      return symbol.isDefined && !isDescription && isSymbolOf(symbol.name, one.function);
+      return symbol.isDefined && isSymbolOf(symbol.name, one.function) && !solvesNothing(symbol.name);
     };
     if (isBanned && std::any_of(file.symbols.begin(), file.symbols.end(), isIt))
       there.push_back(one.function);
@@ -146,7 +150,7 @@ void link(const WorkerPartOrder& order, const fs::path& object, const Names& off
   writeTextFile(list, arguments);
   run({order.compiler, "-r", "-nostdlib", "-fno-lto", "@" + list.string(), "-o", object.string()});
   writeLines(list, roots);
-  run({order.objcopy, "--keep-global-symbols=" + list.string(), object.string()});
+  run({order.objcopy, "--strip-debug", "--keep-global-symbols=" + list.string(), object.string()});
   dropUnusedNames(object, list, order);
 }
 

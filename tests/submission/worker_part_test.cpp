@@ -106,6 +106,24 @@ TEST_F(WorkerPart, IsNotMadeWithSomethingForbidden) {
   EXPECT_REX_ERROR(link("allowed = [\"coarse\"]"), "did you mean 'course'");
 }
 
+// A class that is destroyed by an allowed function need not be inlined there, but its other members do work.
+TEST_F(WorkerPart, MayDestroyWhatIsForbidden) {
+  const std::string forbidden = "\n[[forbidden]]\nfunction = \"rex::Hard\"\nreason = \"it is part 1\"\n";
+  const auto libraryWhereEasy = [&](const std::string& work) {
+    const std::string classHard =
+        "struct Hard { ~Hard(); int solve(); }; Hard::~Hard() {} int Hard::solve() { return 7; }\n";
+    compile("library", "namespace rex { " + classHard + "int easy(Hard* hard) { int x = 1; " + work +
+                           " delete hard; return x; } }\nextern \"C\" void rexNotAllowedHere() {}\n"
+                           "extern \"C\" void rexOfAnotherPart() {}\n");
+  };
+  compile("loop", "int main() {}");
+  libraryWhereEasy("");
+  link("allowed = [\"rex::easy\"]", forbidden);
+  EXPECT_THAT(functionsIn("worker_part.o"), ::testing::Contains("_ZN3rex4HardD1Ev hidden"));
+  libraryWhereEasy("x = hard->solve();");
+  EXPECT_REX_ERROR(link("allowed = [\"rex::easy\"]", forbidden), "found rex::Hard in the worker");
+}
+
 // The loop needs hard() for the second function: the worker of a part without it has another.
 TEST_F(WorkerPart, IsMadeForOnePartAlone) {
   const std::string ofPart = "functions = [\"first\"]\nallowed = [\"rex::easy\"]\n";
