@@ -2,6 +2,7 @@
 // it. Set REX_UPDATE_GOLDEN=1 to store what is printed now; read it.
 #include <algorithm>
 #include <cstdlib>
+#include <set>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -47,15 +48,21 @@ TEST_P(BrokenSubmission, IsExplained) {
   const std::string said =
       plain(ended.output + "--- standard error, exit code " + std::to_string(ended.code) + "\n" + ended.error,
             root());
-  const fs::path golden = kCorpus / (GetParam() + ".txt");
-  if (std::getenv("REX_UPDATE_GOLDEN") != nullptr) write(golden, said);
-  EXPECT_EQ(said, fileText(golden));
   // Whatever a file does, its result is whole, and no check stays ungraded if it compiles.
   const auto result = nlohmann::json::parse(fileText(out() / "results.json"));
   EXPECT_NE(result.at("outcome"), "grader_error");
-  if (ended.code == 2) return;
-  EXPECT_EQ(result.at("checks").size(), 3u);
-  for (const auto& check : result.at("checks")) EXPECT_NE(check.at("status"), "not_run");
+  if (ended.code != 2) {
+    EXPECT_EQ(result.at("checks").size(), 3u);
+    for (const auto& check : result.at("checks")) EXPECT_NE(check.at("status"), "not_run");
+  }
+#ifdef __SANITIZE_ADDRESS__
+  static const std::set<std::string> kTheirs{"crash", "dangling_view", "division", "recursion",
+                                             "ten_gigabytes"};
+  if (kTheirs.contains(GetParam())) GTEST_SKIP() << "the sanitizers of this tree end it, in other words";
+#endif
+  const fs::path golden = kCorpus / (GetParam() + ".txt");
+  if (std::getenv("REX_UPDATE_GOLDEN") != nullptr) write(golden, said);
+  EXPECT_EQ(said, fileText(golden));
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BrokenSubmission, ::testing::ValuesIn(submissions()),
