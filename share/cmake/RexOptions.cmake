@@ -3,6 +3,15 @@ option(REX_SANITIZE "Build with the address, undefined-behaviour and leak saniti
 option(REX_QUICK_SANITIZERS "Leave out what they ask at each use of a pointer" OFF)
 option(REX_FUZZ "Build the programs of tests/fuzz with libFuzzer; needs clang" OFF)
 
+# Where ccache is installed, nothing is compiled twice on a machine: it knows a source in another clone, too, by paths
+# relative to the clone. The settings are part of each command, because rex itself starts builds. CCACHE_DISABLE=1 in the
+# environment turns it off.
+find_program(REX_CCACHE ccache)
+if(REX_CCACHE AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER AND NOT DEFINED ENV{CMAKE_CXX_COMPILER_LAUNCHER})
+  set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1
+      CCACHE_SLOPPINESS=pch_defines,time_macros ${REX_CCACHE})
+endif()
+
 # A source that changes then brings its neighbours along: for machines that build everything once.
 if(CMAKE_BUILD_TYPE STREQUAL Release)
   set(merge_by_default ON)

@@ -4,7 +4,7 @@
 namespace rex::internal {
 namespace {
 
-using Kind = MotionStep::Kind;
+using StepKind = MotionStep::Kind;
 using Matrix34 = Eigen::Matrix<double, 3, 4>;
 
 // The movement between two fixed frames: X = X_before * movement * X_after.
@@ -15,18 +15,18 @@ void setMotion(const JointMovement& movement, const Pose& X_before, const Pose& 
   const Eigen::Vector3d& a = movement.axis;
   const Pose X = X_before * X_after;
   switch (movement.kind) {
-    case Kind::kFixed:
+    case StepKind::kFixed:
       set(step.constant, X.R, X.p);
       return;
-    case Kind::kSlider:
+    case StepKind::kSlider:
       set(step.constant, X.R, X.p);
       set(step.first, Eigen::Matrix3d::Zero(), X_before.R * a);
       return;
-    case Kind::kQuaternion:
+    case StepKind::kQuaternion:
       set(step.constant, X_before.R, X_before.p);
       set(step.first, X_after.R, X_after.p);
       return;
-    case Kind::kHinge:
+    case StepKind::kHinge:
       // Rodrigues' formula turns by a a^T + cos x (1 - a a^T) + sin x [a]x.
       const Eigen::Matrix3d along = X_before.R * a * a.transpose();
       const Eigen::Matrix3d across = X_before.R - along, around = X_before.R * skew(a);
@@ -63,7 +63,7 @@ std::vector<MotionStep> motionSteps(const Model& model) {
       continue;
     }
     steps.push_back({.from = static_cast<int>(body.parent), .to = i});
-    setMotion({Kind::kFixed}, body.X_PB, Pose{}, steps.back());
+    setMotion({StepKind::kFixed}, body.X_PB, Pose{}, steps.back());
   }
   return steps;
 }

@@ -1,0 +1,3 @@
+// Cholesky and LU decompositions.
+#define REX_LU_INSTANCE template
+#include "base/eigen_instances.h"
