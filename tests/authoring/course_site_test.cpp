@@ -9,6 +9,7 @@
 #include "base/text_file.h"
 #include "support/expect_error.h"
 #include "support/file_text.h"
+#include "support/paths.h"
 #include "support/temporary_folder.h"
 
 namespace rex::grading::course_site_test {
@@ -47,7 +48,7 @@ int expectLiveLinks(const fs::path& site, int fewest) {
 
 // The project itself.
 TEST_F(CourseSiteTest, HasNoDeadLinks) {
-  const CourseSite site = writeCourseSite(REX_SOURCE_DIR, out());
+  const CourseSite site = writeCourseSite(homeFolder(), out());
   ASSERT_TRUE(site.scan.leaks.empty()) << toString(site.scan.leaks.front());
   EXPECT_EQ(expectLiveLinks(out(), 200), site.pages);
   EXPECT_GT(site.pages, 25);
@@ -62,7 +63,7 @@ TEST_F(CourseSiteTest, HasNoDeadLinks) {
 }
 
 TEST_F(CourseSiteTest, HasNotesForLecturers) {
-  const CourseSite site = writeCourseSite(REX_SOURCE_DIR, out(), {}, SiteReaders::kLecturers);
+  const CourseSite site = writeCourseSite(homeFolder(), out(), {}, SiteReaders::kLecturers);
   ASSERT_TRUE(site.scan.leaks.empty()) << toString(site.scan.leaks.front());
   EXPECT_EQ(expectLiveLinks(out(), 200), site.pages);
   EXPECT_THAT(fileText(out() / "index.html"), HasSubstr("<a href=\"notes/05-car.html\">Notes on 05 "));
@@ -75,7 +76,7 @@ TEST_F(CourseSiteTest, HasNotesForLecturers) {
     EXPECT_THAT(html, Not(HasSubstr("$"))) << entry.path() << ": a formula that was not recognised";
     EXPECT_THAT(html, Not(HasSubstr("\\frac"))) << entry.path();
   }
-  const auto count = std::distance(fs::directory_iterator(REX_SOURCE_DIR "/notes"), fs::directory_iterator());
+  const auto count = std::distance(fs::directory_iterator(sourcePath("notes")), fs::directory_iterator());
   EXPECT_EQ(notes, count);
 }
 
@@ -112,10 +113,10 @@ TEST_F(CourseSiteTest, WritesNothingThatLeaks) {
 
 TEST_F(CourseSiteTest, OverwritesNothing) {
   writeTextFile(out() / "notes.txt", "mine");
-  EXPECT_REX_ERROR(static_cast<void>(writeCourseSite(REX_SOURCE_DIR, out())),
+  EXPECT_REX_ERROR(static_cast<void>(writeCourseSite(homeFolder(), out())),
                    "will not overwrite: wanted an empty or new folder");
-  EXPECT_REX_ERROR(static_cast<void>(writeCourseSite(REX_SOURCE_DIR, "/proc/site")), "cannot write");
-  EXPECT_REX_ERROR(static_cast<void>(writeCourseSite(REX_SOURCE_DIR, out() / std::string(300, 'x'))),
+  EXPECT_REX_ERROR(static_cast<void>(writeCourseSite(homeFolder(), "/proc/site")), "cannot write");
+  EXPECT_REX_ERROR(static_cast<void>(writeCourseSite(homeFolder(), out() / std::string(300, 'x'))),
                    "cannot write the pages of the course: found File name too long");
   EXPECT_EQ(fileText(out() / "notes.txt"), "mine");
 }

@@ -11,6 +11,7 @@
 
 #include "base/lines.h"
 #include "base/text_file.h"
+#include "support/paths.h"
 
 namespace rex::grading::lecture_notes_test {
 
@@ -53,7 +54,7 @@ std::vector<Answer> answersIn(std::string_view notes) {
 }
 
 TEST(LectureNotes, AnswerEveryQuestion) {
-  const fs::path root = REX_SOURCE_DIR;
+  const fs::path root = homeFolder();
   std::size_t count = 0;
   for (const auto& entry : fs::directory_iterator(root / "exercises")) {
     if (!fs::exists(entry.path() / "exercise.toml")) continue;
@@ -78,7 +79,7 @@ TEST(LectureNotes, AnswerEveryQuestion) {
 }
 
 TEST(LectureNotes, AnswerThePaperExercisesOfTheScript) {
-  const fs::path notes = fs::path(REX_SOURCE_DIR) / "notes";
+  const fs::path notes = homeFolder() / "notes";
   const auto expectAnswered = [&](const char* name, std::vector<const char*> headings) {
     const std::string text = readTextFile(notes / (std::string(name) + ".md"));
     for (const char* heading : headings) EXPECT_THAT(text, ::testing::HasSubstr(heading)) << name;

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/lines.h"
 #include "support/file_text.h"
+#include "support/paths.h"
 #include "support/temporary_folder.h"
 
 namespace rex::grading::wrong_variants_test {
@@ -22,7 +23,7 @@ class WrongVariantsTest : public ::testing::Test {
  protected:
   void SetUp() override {
     fs::create_directories(exercise().parent_path());
-    fs::copy(REX_BINARY_DIR "/tests/template/source", exercise(), fs::copy_options::recursive);
+    fs::copy(buildPath("tests/template/source"), exercise(), fs::copy_options::recursive);
     fs::remove(exercise() / "wrong" / "library.cpp");
     fs::remove(exercise() / "wrong" / "seen.txt");
     write("solution.cpp", "#include \"geometry/rotation.h\"\n" + fileText(exercise() / "solution.cpp"));
@@ -41,13 +42,12 @@ class WrongVariantsTest : public ::testing::Test {
     const fs::path work = temporary_.path() / "work";
     fs::remove_all(work);
     fs::create_directory(work);
-    return runGate(
-        {.root = temporary_.path(),
-         .exercise = readExerciseInfo(exercise()),
-         .toolchain = readToolchain(REX_BINARY_DIR "/tests/template/exercises/98-template/build.json"),
-         .workFolder = work,
-         .storesMessages = storesMessages},
-        gate);
+    return runGate({.root = temporary_.path(),
+                    .exercise = readExerciseInfo(exercise()),
+                    .toolchain = readToolchain(buildPath("tests/template/exercises/98-template/build.json")),
+                    .workFolder = work,
+                    .storesMessages = storesMessages},
+                   gate);
   }
 
   static constexpr const char* kByLibrary =

@@ -9,6 +9,7 @@
 #include "base/process.h"
 #include "base/text_file.h"
 #include "submission/regions.h"
+#include "support/paths.h"
 
 namespace rex::bench {
 namespace {
@@ -16,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kFiles = 16;
-const fs::path kExercise = REX_SOURCE_DIR "/exercises/01-kinematics";
+const fs::path kExercise = sourcePath("exercises/01-kinematics");
 
 // A mistake of wrong/, the k-th in the order of their names.
 std::string mistaken(const std::string& solution, int k) {
@@ -31,8 +32,8 @@ std::string mistaken(const std::string& solution, int k) {
 }  // namespace
 
 GradedClass::GradedClass() {
-  fs::create_directory_symlink(REX_SOURCE_DIR "/exercises", folder_.path() / "exercises");
-  fs::create_directory_symlink(REX_BINARY_DIR, folder_.path() / "build");
+  fs::create_directory_symlink(sourcePath("exercises"), folder_.path() / "exercises");
+  fs::create_directory_symlink(ownFolder(), folder_.path() / "build");
   const std::string solution = rex::readTextFile(kExercise / "solution.cpp");
   for (int k = 0; k < kFiles; ++k) {
     const std::string number = std::to_string(k);

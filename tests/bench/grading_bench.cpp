@@ -14,6 +14,7 @@
 #include "grading/worker_process.h"
 #include "interface.h"
 #include "sandbox/probes.h"
+#include "support/paths.h"
 #include "support/temporary_folder.h"
 
 namespace rex::bench {
@@ -28,7 +29,7 @@ double roundTrip() {
   using Clock = std::chrono::steady_clock;
   std::vector<double> rows;
   const grading::WorkerRun run = grading::runWithWorker(
-      {.worker = REX_BINARY_DIR "/tests/sample/good"}, "", Student::signature(), [&](remote::Caller& caller) {
+      {.worker = buildPath("tests/sample/good")}, "", Student::signature(), [&](remote::Caller& caller) {
         const Student student(caller);
         const Eigen::VectorXd q = Eigen::VectorXd::LinSpaced(7, -1, 1);
         const Eigen::Vector3d target(0.1, 0.2, 0.3);
@@ -56,7 +57,7 @@ Measurement sandboxStart() {
   return [=] {
     if (job->worker.empty()) {
       const TemporaryFolder folder;
-      const fs::path binary = REX_BINARY_DIR;
+      const fs::path binary = ownFolder();
       sandbox::Sandbox best{.launcher = binary / "rex-sandbox"};
       best.level = sandbox::bestLevel(best.launcher, binary / "rex-sandbox-probe", folder.path()).level;
       *job = {.worker = binary / "tests/sample/good", .sandbox = best};

@@ -11,6 +11,7 @@
 #include "render/png.h"
 #include "render/renderer.h"
 #include "render/video_sink.h"
+#include "support/paths.h"
 
 namespace rex::bench {
 namespace {
@@ -64,7 +65,7 @@ constexpr int kFilmFrames = 100;
 double film() {
   const double before = cpuSeconds(RUSAGE_SELF) + cpuSeconds(RUSAGE_CHILDREN);
   Frames frames({}, AntiAliasing::kMsaa4);  // the peer's, not the cheaper one of our films
-  VideoSink video(REX_BINARY_DIR "/film.mp4");
+  VideoSink video(buildPath("film.mp4"));
   for (int i = 0; i < kFilmFrames; ++i) video.add(frames.draw());
   video.finish();
   return cpuSeconds(RUSAGE_SELF) + cpuSeconds(RUSAGE_CHILDREN) - before;
@@ -72,7 +73,7 @@ double film() {
 
 double firstFrame() {
   const double before = cpuSeconds(RUSAGE_CHILDREN);
-  outputOf({REX_FIRST_FRAME, REX_BINARY_DIR "/first_frame.png"});
+  outputOf({REX_FIRST_FRAME, buildPath("first_frame.png")});
   return cpuSeconds(RUSAGE_CHILDREN) - before;
 }
 

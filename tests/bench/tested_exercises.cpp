@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "base/process.h"
+#include "support/paths.h"
 
 namespace rex::bench {
 
@@ -13,15 +14,15 @@ namespace fs = std::filesystem;
 
 std::vector<std::string> TestedExercises::names() {
   std::vector<std::string> names;
-  for (const fs::directory_entry& entry : fs::directory_iterator(REX_SOURCE_DIR "/exercises"))
+  for (const fs::directory_entry& entry : fs::directory_iterator(sourcePath("exercises")))
     if (fs::exists(entry.path() / "solution.cpp")) names.push_back(entry.path().filename());
   std::sort(names.begin(), names.end());
   return names;
 }
 
 TestedExercises::TestedExercises() {
-  fs::create_directory_symlink(REX_SOURCE_DIR "/exercises", folder_.path() / "exercises");
-  fs::create_directory_symlink(REX_BINARY_DIR, folder_.path() / "build");
+  fs::create_directory_symlink(sourcePath("exercises"), folder_.path() / "exercises");
+  fs::create_directory_symlink(ownFolder(), folder_.path() / "build");
 }
 
 double TestedExercises::seconds(const std::string& name, File file) {
@@ -29,7 +30,7 @@ double TestedExercises::seconds(const std::string& name, File file) {
   if (file == File::kSolution)
     command.emplace_back("--solution");
   else
-    command.insert(command.end(), {"--main", fs::path(REX_SOURCE_DIR "/exercises") / name / "main.cpp"});
+    command.insert(command.end(), {"--main", sourcePath("exercises") / name / "main.cpp"});
   const auto start = std::chrono::steady_clock::now();
   const ProcessResult tested = runProcess(command, {.timeout = 300});
   const double taken = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -6,6 +6,7 @@
 
 #include "base/text_file.h"
 #include "submission/regions.h"
+#include "support/paths.h"
 
 namespace rex::bench {
 namespace {
@@ -38,9 +39,9 @@ std::string nearlyRight(const fs::path& exercise) {
 WatchedExercise::WatchedExercise()
     : main_(folder_.path() / "exercises" / kName / "main.cpp"),
       results_(folder_.path() / "out" / kName / "results.json"),
-      source_(nearlyRight(fs::path(REX_SOURCE_DIR "/exercises") / kName)) {
-  copyExercise(fs::path(REX_SOURCE_DIR "/exercises") / kName, main_.parent_path());
-  fs::create_directory_symlink(REX_BINARY_DIR, folder_.path() / "build");
+      source_(nearlyRight(sourcePath("exercises") / kName)) {
+  copyExercise(sourcePath("exercises") / kName, main_.parent_path());
+  fs::create_directory_symlink(ownFolder(), folder_.path() / "build");
   save();
   rex_.emplace(std::vector<std::string>{REX_OF_TREE, folder_.path().string(), "watch", kName});
   waitForNewResult();

@@ -15,6 +15,7 @@
 #include "base/text_file.h"
 #include "support/archive_samples.h"
 #include "support/expect_error.h"
+#include "support/paths.h"
 #include "support/temporary_folder.h"
 
 namespace rex::grading::hand_in_test {
@@ -241,7 +242,7 @@ TEST_F(HandInTest, RefusesNamesThatCannotBeFolders) {
 
 // Whatever rex or a script of share/ci writes beside the folders of students.
 TEST_F(HandInTest, ReservesTheNameOfEveryFileBesideTheStudents) {
-  const fs::path root = REX_SOURCE_DIR;
+  const fs::path root = homeFolder();
   std::set<std::string> names;
   const auto collect = [&](const fs::path& file, const std::regex& pattern) {
     const std::string text = readTextFile(file);

@@ -5,6 +5,7 @@
 
 #include "base/text_file.h"
 #include "support/expect_error.h"
+#include "support/paths.h"
 #include "support/report_checker.h"
 #include "support/temporary_folder.h"
 
@@ -64,7 +65,7 @@ TEST_F(ImportTableTest, ConformsToItsSchema) {
   const std::string check =
       "import json, jsonschema, sys\n"
       "jsonschema.validate(json.load(open(sys.argv[2])), json.load(open(sys.argv[1])))\n";
-  const std::string schema = REX_SOURCE_DIR "/share/grading/import.schema.json";
+  const std::string schema = sourcePath("share/grading/import.schema.json");
   writeTextFile(file(), importTableText(sample()));
   EXPECT_TRUE(runProcess({kPython, "-c", check, schema, file().string()}).ok());
   std::string wrong = importTableText(sample());

@@ -12,6 +12,7 @@
 #include "control/riccati.h"
 #include "dynamics/lagrange.h"
 #include "support/expect_error.h"
+#include "support/paths.h"
 
 namespace rex::cart_pole_dynamics_test {
 
@@ -23,7 +24,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 const CartPoleDynamics kOdd{.poleMass = 0.7, .cartMass = 1.9, .l = 0.6, .g = 9.81};
 
 nlohmann::json goldenCartPole() {
-  std::ifstream stream(REX_SOURCE_DIR "/tests/golden/exercises.json");
+  std::ifstream stream(sourcePath("tests/golden/exercises.json"));
   return nlohmann::json::parse(stream)["cartpole"];
 }
 VectorXd vectorOf(const nlohmann::json& json) {

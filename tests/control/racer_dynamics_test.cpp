@@ -11,6 +11,7 @@
 #include "control/riccati.h"
 #include "dynamics/lagrange.h"
 #include "support/expect_error.h"
+#include "support/paths.h"
 #include "support/runge_kutta.h"
 
 namespace rex::racer_dynamics_test {
@@ -30,7 +31,7 @@ Vector4d stateOf(const Vector2d& q, const Vector2d& v) { return (Vector4d() << q
 
 TEST(RacerDynamics, AgreesWithTheGoldenNumbers) {
   const RacerDynamics plant;
-  std::ifstream stream(REX_SOURCE_DIR "/tests/golden/exercises.json");
+  std::ifstream stream(sourcePath("tests/golden/exercises.json"));
   const nlohmann::json golden = nlohmann::json::parse(stream)["racer"];
   EXPECT_EQ(plant.controlDirection(), vectorOf(golden["B"]));
   ASSERT_FALSE(golden["cases"].empty());

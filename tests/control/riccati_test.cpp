@@ -13,6 +13,7 @@
 #include "base/rng.h"
 #include "control/care_doubling_internal.h"
 #include "support/expect_error.h"
+#include "support/paths.h"
 
 namespace rex::riccati_test {
 
@@ -41,7 +42,7 @@ Eigen::MatrixXd randomMatrix(Eigen::Index rows, Eigen::Index cols, Rng& rng) {
 
 // References of 80 digits. Each within ten times the error of a well-known solver, at least 1e-13.
 TEST(Riccati, AgreesWithTheGoldenNumbers) {
-  std::ifstream stream(REX_SOURCE_DIR "/tests/golden/riccati.json");
+  std::ifstream stream(sourcePath("tests/golden/riccati.json"));
   const json golden = json::parse(stream);
   int count = 0;
   for (const char* kind : {"care", "dare"}) {

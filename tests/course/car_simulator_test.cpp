@@ -8,6 +8,7 @@
 
 #include "base/derivative_check.h"
 #include "support/expect_error.h"
+#include "support/paths.h"
 
 namespace rex::car_simulator_test {
 
@@ -17,7 +18,7 @@ Eigen::VectorXd vectorOf(const nlohmann::json& json) {
 }
 
 TEST(CarSimulator, AgreesWithTheGoldenNumbers) {
-  std::ifstream stream(REX_SOURCE_DIR "/tests/golden/exercises.json");
+  std::ifstream stream(sourcePath("tests/golden/exercises.json"));
   const nlohmann::json car = nlohmann::json::parse(stream)["car"];
   Eigen::Matrix2Xd landmarks(2, 2);
   for (int i = 0; i < 2; ++i) landmarks.col(i) = vectorOf(car["landmarks"][static_cast<std::size_t>(i)]);

@@ -9,11 +9,12 @@
 #include <nlohmann/json.hpp>
 
 #include "support/expect_error.h"
+#include "support/paths.h"
 
 namespace rex::vision_simulator_test {
 
 nlohmann::json golden() {
-  std::ifstream stream(REX_SOURCE_DIR "/tests/golden/exercises.json");
+  std::ifstream stream(sourcePath("tests/golden/exercises.json"));
   return nlohmann::json::parse(stream)["vision"];
 }
 

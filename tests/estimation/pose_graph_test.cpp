@@ -21,6 +21,7 @@
 #include "random_gaussian.h"
 #include "street_graph.h"
 #include "support/expect_error.h"
+#include "support/paths.h"
 
 namespace rex::pose_graph_test {
 
@@ -372,8 +373,7 @@ TEST(PoseGraph, KernelsResistWrongClosures) {
 TEST(PoseGraph, ExampleIsAsItIsMade) {
   Rng rng(7);
   const PlanarPoseGraph made = streets(400, .06, rng);
-  const auto file = std::get<PlanarPoseGraph>(
-      readG2o(std::filesystem::path(REX_SOURCE_DIR) / "data/graphs/streets.g2o").graph);
+  const auto file = std::get<PlanarPoseGraph>(readG2o(homeFolder() / "data/graphs/streets.g2o").graph);
   EXPECT_LT((made.poses - file.poses).cwiseAbs().maxCoeff(), 1e-9);
   ASSERT_EQ(made.edges.size(), file.edges.size());
   for (std::size_t k = 0; k < made.edges.size(); ++k) {
@@ -388,7 +388,7 @@ TEST(PoseGraph, ExampleIsAsItIsMade) {
 class ClassicMap : public testing::TestWithParam<const char*> {};
 
 TEST_P(ClassicMap, ReachesTheCertifiedOptimum) {
-  const std::filesystem::path folder = std::filesystem::path(REX_SOURCE_DIR) / "../shared/data/g2o";
+  const std::filesystem::path folder = homeFolder() / "../shared/data/g2o";
   const std::string name = GetParam();
   if (!std::filesystem::exists(folder / (name + ".g2o")))
     GTEST_SKIP() << "needs the pose graph " << name << ".g2o";
@@ -419,8 +419,7 @@ INSTANTIATE_TEST_SUITE_P(G2o, ClassicMap, testing::Values("intel", "CSAIL"));
 
 // A building whose chi2 takes long from all starts, and the certified optimum of its other objective.
 TEST(PoseGraph, ConvergesInTheParkingGarage) {
-  const std::filesystem::path file =
-      std::filesystem::path(REX_SOURCE_DIR) / "../shared/data/g2o/parking-garage.g2o";
+  const std::filesystem::path file = homeFolder() / "../shared/data/g2o/parking-garage.g2o";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "needs the pose graph parking-garage.g2o";
   const auto graph = std::get<SpatialPoseGraph>(readG2o(file).graph);
   SpatialPoseGraph odometry = graph;

@@ -12,12 +12,13 @@
 #include "support/image_difference.h"
 #include "support/needs_gnuplot.h"
 #include "support/needs_osmesa.h"
+#include "support/paths.h"
 
 namespace rex::gallery::gallery_test {
 
 namespace fs = std::filesystem;
 
-const fs::path kDocuments = fs::path(REX_SOURCE_DIR) / "share" / "doc";
+const fs::path kDocuments = homeFolder() / "share" / "doc";
 
 TEST(Gallery, HasThePageThatTheCodeWrites) {
   EXPECT_EQ(fileText(kDocuments / "gallery.md"), page()) << "run scripts/gallery";

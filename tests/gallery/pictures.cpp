@@ -15,6 +15,7 @@
 #include "render/renderer.h"
 #include "render/scene_picture.h"
 #include "scene/ors_reader.h"
+#include "support/paths.h"
 
 namespace rex::gallery {
 namespace {
@@ -32,7 +33,7 @@ Image drawn(const Picture& picture, const Vector3d& direction = kDefaultView, in
 }
 
 Model robot(const std::string& name) {
-  return compile(readOrs(std::string(REX_SOURCE_DIR "/data/robots/") + name + ".ors").spec);
+  return compile(readOrs(sourcePath("data/robots/").string() + name + ".ors").spec);
 }
 
 // The postures of a robot whose body goes once around a circle in front of it.

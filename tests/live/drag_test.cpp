@@ -9,11 +9,12 @@
 #include "collision/contacts.h"
 #include "geometry/rotation.h"
 #include "scene/scene_file.h"
+#include "support/paths.h"
 
 namespace rex::drag_test {
 
 Model sceneOf(const std::string& name) {
-  return compile(readScene(std::string(REX_SOURCE_DIR) + "/data/robots/" + name).spec);
+  return compile(readScene(homeFolder().string() + "/data/robots/" + name).spec);
 }
 
 TEST(Drag, ReachesPointsOfOtherPosturesWithinTheLimits) {

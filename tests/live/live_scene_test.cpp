@@ -7,6 +7,7 @@
 #include "live/live_pieces.h"
 #include "render/glb.h"
 #include "scene/scene_file.h"
+#include "support/paths.h"
 
 namespace rex::live_scene_test {
 
@@ -28,7 +29,7 @@ TEST(LiveScene, NamesNodesByShapes) {
 }
 
 TEST(LiveScene, SaysUnitsAndLimits) {
-  const Model model = compile(readScene(std::string(REX_SOURCE_DIR) + "/data/robots/pegInAHole.ors").spec);
+  const Model model = compile(readScene(homeFolder().string() + "/data/robots/pegInAHole.ors").spec);
   const Json about = Json::parse(liveDescription(model));
   ASSERT_EQ(about["coordinates"].size(), static_cast<std::size_t>(model.nq()));
   EXPECT_EQ(about["coordinates"][0]["unit"], "rad");

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/rng.h"
 #include "scene/scene_file.h"
+#include "support/paths.h"
 
 namespace rex::live_session_test {
 
@@ -13,7 +14,7 @@ using Json = nlohmann::ordered_json;
 using testing::HasSubstr;
 
 SceneSpec specOf(const std::string& name) {
-  return readScene(std::string(REX_SOURCE_DIR) + "/data/robots/" + name).spec;
+  return readScene(homeFolder().string() + "/data/robots/" + name).spec;
 }
 
 LiveSession sessionOf(const std::string& name) {
@@ -44,7 +45,7 @@ TEST(LiveSession, MovesToPosturesWithinTheLimits) {
 }
 
 TEST(LiveSession, PutsAFreeBaseBack) {
-  const std::string file = std::string(REX_SOURCE_DIR) + "/data/robots/humanoid/humanoid.urdf";
+  const std::string file = homeFolder().string() + "/data/robots/humanoid/humanoid.urdf";
   const SceneSpec spec = readScene(file, {.freeBase = true}).spec;
   const Eigen::VectorXd home = compile(spec).initialPositions();
   LiveSession session(spec, home);

@@ -11,6 +11,7 @@
 #include "base/process.h"
 #include "optim/cma_search.h"
 #include "optim/test_functions.h"
+#include "support/paths.h"
 
 namespace rex::cma_peer_test {
 
@@ -24,7 +25,7 @@ class CmaPeer : public ::testing::Test {
 
   static std::vector<double> ask(const std::string& request) {
     const ProcessResult result =
-        runProcess({kPython, REX_SOURCE_DIR "/tests/optim/cma_peer.py"}, {.input = request, .timeout = 280});
+        runProcess({kPython, sourcePath("tests/optim/cma_peer.py")}, {.input = request, .timeout = 280});
     EXPECT_TRUE(result.ok()) << result.error;
     std::istringstream text(result.output);
     std::vector<double> numbers;

@@ -11,6 +11,7 @@
 #include "support/file_text.h"
 #include "support/image_difference.h"
 #include "support/needs_gnuplot.h"
+#include "support/paths.h"
 
 namespace rex::figure_gallery_test {
 
@@ -18,7 +19,7 @@ namespace fs = std::filesystem;
 
 TEST(FigureGallery, DrawsEveryFigureAsSvg) {
   REX_NEEDS_GNUPLOT();
-  const fs::path folder = fs::path(REX_BINARY_DIR) / "tests-out" / "figures";
+  const fs::path folder = ownFolder() / "tests-out" / "figures";
   fs::create_directories(folder);
   for (const auto& [name, figure] : galleryFigures()) {
     writeFigure(figure, folder / (name + ".svg"));
@@ -33,8 +34,8 @@ TEST(FigureGallery, DrawsEveryFigureAsSvg) {
 // reads back.
 void expectGolden(const std::string& name, Figure figure) {
   figure.width = 240, figure.height = 180;
-  const fs::path golden = fs::path(REX_SOURCE_DIR) / "tests/golden/render" / (name + ".png");
-  const fs::path drawn = fs::path(REX_BINARY_DIR) / "tests-out" / "figures" / (name + "-actual.png");
+  const fs::path golden = homeFolder() / "tests/golden/render" / (name + ".png");
+  const fs::path drawn = ownFolder() / "tests-out" / "figures" / (name + "-actual.png");
   fs::create_directories(drawn.parent_path());
   writeFigure(figure, drawn);
   if (std::getenv("REX_UPDATE_GOLDEN") != nullptr) writeFigure(figure, golden);

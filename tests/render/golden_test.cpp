@@ -12,6 +12,7 @@
 #include "support/image_difference.h"
 #include "support/mesh_samples.h"
 #include "support/needs_osmesa.h"
+#include "support/paths.h"
 
 namespace rex::golden_test {
 
@@ -23,11 +24,11 @@ constexpr Color kBlue{0.22f, 0.45f, 0.70f}, kOrange{0.85f, 0.45f, 0.2f}, kWood{0
 void expectGolden(const std::string& name, const Picture& picture) {
   Renderer renderer({.width = 160, .height = 120});
   const Image actual = renderer.draw(picture, framing(bounds(picture), kDefaultView, 4. / 3));
-  const fs::path golden = fs::path(REX_SOURCE_DIR) / "tests/golden/render" / (name + ".png");
+  const fs::path golden = homeFolder() / "tests/golden/render" / (name + ".png");
   if (std::getenv("REX_UPDATE_GOLDEN") != nullptr) writePng(actual, golden);
   const ImageDifference apart = imageDifference(readPng(golden), actual, 8);
   if (apart.largeShare <= 0.005 && apart.mean <= 0.5) return;
-  const fs::path folder = fs::path(REX_BINARY_DIR) / "tests-out" / "golden";
+  const fs::path folder = ownFolder() / "tests-out" / "golden";
   fs::create_directories(folder);
   writePng(actual, folder / (name + "-actual.png"));
   writePng(apart.picture, folder / (name + "-difference.png"));

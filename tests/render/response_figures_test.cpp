@@ -7,6 +7,7 @@
 #include "control/responses.h"
 #include "support/expect_error.h"
 #include "support/needs_gnuplot.h"
+#include "support/paths.h"
 
 namespace rex::response_figures_test {
 
@@ -48,7 +49,7 @@ TEST(ResponseFigures, AreDrawn) {
   REX_NEEDS_GNUPLOT();
   const FrequencyResponse response = frequencyResponse(oscillator(), 0, 0, frequenciesBetween(0.05, 20, 300));
   const TimeResponse steps = stepResponse(oscillator(), 0, 25);
-  const std::filesystem::path folder = std::filesystem::path(REX_BINARY_DIR) / "tests-out" / "figures";
+  const std::filesystem::path folder = ownFolder() / "tests-out" / "figures";
   std::filesystem::create_directories(folder);
   const auto draw = [&](const char* name, const Figure& figure) {
     writeFigure(figure, folder / name);

@@ -8,6 +8,7 @@
 #include "grading/results.h"
 #include "reports/report.h"
 #include "support/file_text.h"
+#include "support/paths.h"
 
 namespace rex::grading::hostile_text_test {
 
@@ -61,7 +62,7 @@ TEST(HostileText, IsShownInResultsThatAreReadAgain) {
 
 // Every test that share/doc/sandbox.md names for a promise is there.
 TEST(Promises, NameTestsThatThereAre) {
-  const std::filesystem::path root = REX_SOURCE_DIR;
+  const std::filesystem::path root = homeFolder();
   const std::string page = fileText(root / "share/doc/sandbox.md");
   std::string tests;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(root / "tests"))

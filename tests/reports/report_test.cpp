@@ -13,6 +13,7 @@
 #include "base/rng.h"
 #include "grading/result_file.h"
 #include "support/file_text.h"
+#include "support/paths.h"
 #include "support/report_checker.h"
 #include "support/temporary_folder.h"
 
@@ -22,7 +23,7 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const fs::path kGolden = REX_SOURCE_DIR "/tests/golden/reports";
+const fs::path kGolden = sourcePath("tests/golden/reports");
 
 GradeResult golden(const std::string& name) { return loadResult(kGolden / (name + ".results")); }
 

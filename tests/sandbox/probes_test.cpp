@@ -7,14 +7,14 @@
 #include <gtest/gtest.h>
 
 #include "sandbox/landlock.h"
+#include "support/paths.h"
 #include "support/temporary_folder.h"
 
 namespace rex::sandbox::probes_test {
 
 namespace fs = std::filesystem;
 
-const fs::path kLauncher = fs::path(REX_BINARY_DIR) / "rex-sandbox",
-               kProbe = fs::path(REX_BINARY_DIR) / "rex-sandbox-probe";
+const fs::path kLauncher = ownFolder() / "rex-sandbox", kProbe = ownFolder() / "rex-sandbox-probe";
 
 class Probes : public ::testing::TestWithParam<int> {
  protected:

@@ -6,11 +6,12 @@
 #include "scene/isolated_mesh_internal.h"
 #include "support/expect_error.h"
 #include "support/file_text.h"
+#include "support/paths.h"
 
 namespace rex::mesh::isolated_mesh_test {
 
 // What fuzzing found; its first byte says the kind.
-std::string crashing() { return fileText(REX_SOURCE_DIR "/tests/fuzz/corpus/mesh/dae_crash").substr(1); }
+std::string crashing() { return fileText(sourcePath("tests/fuzz/corpus/mesh/dae_crash")).substr(1); }
 
 // assimp compares each material with all others.
 std::string slow() {

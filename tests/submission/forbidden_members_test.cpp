@@ -25,7 +25,7 @@ constexpr const char* kCompares =
 // Compiled with what all students have; each list of forbidden functions is looked for in the same file.
 TEST(ForbiddenMembers, OfTheSimulatorInExercisesThatAskForThem) {
   const TemporaryFolder folder;
-  const Toolchain toolchain = readProgramToolchain(REX_BINARY_DIR "/student/program.json").toolchain;
+  const Toolchain toolchain = readProgramToolchain(buildPath("student/program.json")).toolchain;
   std::vector<ForbiddenFunction> forbidden;
   for (const char* exercise : {"00-basics", "01-kinematics", "02-pegInAHole"}) {
     const ExerciseInfo info = readExerciseInfo(sourcePath(std::string("exercises/") + exercise));

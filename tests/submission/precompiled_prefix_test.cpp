@@ -158,7 +158,7 @@ TEST_F(PrefixTest, ChangesNoMessageAndNoSymbol) {
 #ifndef __SANITIZE_ADDRESS__
 // The header of the course itself, by the flags of an exercise: g++ names what it takes behind a "!".
 TEST(Prefix, OfTheCourseIsTakenForAnExercise) {
-  const Toolchain toolchain = readToolchain(path(REX_BINARY_DIR) / "exercises/04-rrt/build.json");
+  const Toolchain toolchain = readToolchain(ownFolder() / "exercises/04-rrt/build.json");
   if (toolchain.prefix.empty()) GTEST_SKIP() << "this build, not by g++, has no precompiled header";
   const std::vector<std::string> prefix = prefixFlags(toolchain.prefix, kSource, toolchain.flags);
   ASSERT_FALSE(prefix.empty());
@@ -176,7 +176,7 @@ TEST(Prefix, OfTheCourseIsTakenForAnExercise) {
 
 TEST(Prefix, IsForWhatStudentsStartFrom) {
   int exercises = 0;
-  for (const auto& folder : std::filesystem::directory_iterator(path(REX_BINARY_DIR) / "exercises")) {
+  for (const auto& folder : std::filesystem::directory_iterator(ownFolder() / "exercises")) {
     if (!std::filesystem::exists(folder.path() / "build.json")) continue;
     const Toolchain toolchain = readToolchain(folder.path() / "build.json");
     const path main = sourcePath("exercises") / folder.path().filename() / "main.cpp";

@@ -5,6 +5,7 @@
 
 #include "base/text_file.h"
 #include "support/expect_error.h"
+#include "support/paths.h"
 #include "support/temporary_folder.h"
 
 namespace rex::grading::program_build_test {
@@ -63,7 +64,7 @@ TEST(ProgramBuild, TakesTheLibrariesOfUndefinedSymbols) {
 }
 
 TEST(ProgramBuild, ReadsWhatTheBuildWrote) {
-  const ProgramToolchain real = readProgramToolchain(REX_BINARY_DIR "/student/program.json");
+  const ProgramToolchain real = readProgramToolchain(buildPath("student/program.json"));
   std::vector<std::string> targets;
   for (const LibraryPart& one : librariesFor(real, {real.sourceFolder / "planning/rrt.h"}, ""))
     targets.push_back(one.target);

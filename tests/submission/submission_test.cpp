@@ -5,6 +5,7 @@
 
 #include "grading/result_file.h"
 #include "support/expect_error.h"
+#include "support/paths.h"
 #include "support/temporary_folder.h"
 
 namespace rex::grading::submission_test {
@@ -38,7 +39,7 @@ TEST_F(SubmissionTest, BlamesMissingTools) {
   Toolchain toolchain;
   toolchain.compiler = "no-such-compiler";
   toolchain.grader = "/bin/true";
-  const Submission submission = submit(toolchain, REX_SOURCE_DIR "/share/template/solution.cpp");
+  const Submission submission = submit(toolchain, sourcePath("share/template/solution.cpp"));
   EXPECT_EQ(submission.result.outcome, Outcome::kGraderError);
   EXPECT_THAT(submission.result.message, HasSubstr("cannot run no-such-compiler"));
 }

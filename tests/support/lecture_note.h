@@ -7,13 +7,14 @@
 #include <gtest/gtest.h>
 
 #include "support/file_text.h"
+#include "support/paths.h"
 
 namespace rex {
 
 /// The lecturer's notes on an exercise, in one line: text is found wherever it was broken.
 inline std::string lectureNote(const std::string& exercise) {
   std::string line;
-  for (const char c : fileText(std::filesystem::path(REX_SOURCE_DIR) / "notes" / (exercise + ".md"))) {
+  for (const char c : fileText(homeFolder() / "notes" / (exercise + ".md"))) {
     const char letter = std::isspace(static_cast<unsigned char>(c)) ? ' ' : c;
     if (letter != ' ' || (!line.empty() && line.back() != ' ')) line += letter;
   }

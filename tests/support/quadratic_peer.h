@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "base/process.h"
+#include "support/paths.h"
 
 namespace rex {
 
@@ -39,7 +40,7 @@ class QuadraticPeer {
 
   /// Of all programs added, in their order.
   std::vector<Minimum> minima() const {
-    const ProcessResult result = runProcess({kPeerPython, REX_SOURCE_DIR "/tests/support/quadratic_peer.py"},
+    const ProcessResult result = runProcess({kPeerPython, sourcePath("tests/support/quadratic_peer.py")},
                                             {.input = request_, .timeout = 100});
     EXPECT_TRUE(result.ok()) << result.error;
     std::istringstream text(result.output);

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "base/process.h"
+#include "support/paths.h"
 #include "support/temporary_folder.h"
 
 namespace rex {
@@ -16,7 +17,7 @@ namespace rex {
 /// test is part of.
 inline std::string registeredTests(const std::vector<std::string>& selection = {}) {
   const TemporaryFolder folder;
-  std::ofstream(folder.path() / "CTestTestfile.cmake") << "subdirs(\"" REX_BINARY_DIR "\")\n";
+  std::ofstream(folder.path() / "CTestTestfile.cmake") << "subdirs(\"" << ownFolder().string() << "\")\n";
   std::vector<std::string> command{"ctest", "--test-dir", folder.path().string(), "-N"};
   command.insert(command.end(), selection.begin(), selection.end());
   const ProcessResult result = runProcess(command);

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "base/process.h"
+#include "support/paths.h"
 
 namespace rex {
 
@@ -14,7 +15,7 @@ inline constexpr const char* kPython = "/usr/bin/python3";  // where Debian's pa
 
 /// What tests/grading/check_reports.py says; empty: all is well.
 inline std::string reportChecker(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), {kPython, REX_SOURCE_DIR "/tests/grading/check_reports.py"});
+  arguments.insert(arguments.begin(), {kPython, sourcePath("tests/grading/check_reports.py")});
   const ProcessResult run = runProcess(arguments, {.timeout = 280});
   EXPECT_EQ(run.ok(), run.output.empty()) << run.error;
   EXPECT_EQ(run.error, "");
