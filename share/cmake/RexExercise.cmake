@@ -171,15 +171,25 @@ function(rex_worker_part name folder output)
       list(APPEND files ${library})
     endif()
   endforeach()
-  set(list ${output}/library.objects)
-  file(GENERATE OUTPUT ${list} CONTENT "$<JOIN:${objects},\n>\n")
   set(groups ${PROJECT_SOURCE_DIR}/share/cmake/exercise/function_groups.toml)
   set(part ${output}/worker_part.o)
+  rex_json_strings(functions ${ARG_FUNCTIONS})  # as in TOML
+  set(order ${output}/worker_part.toml)
+  file(GENERATE OUTPUT ${order} CONTENT "\
+exercise = \"${folder}\"
+groups = \"${groups}\"
+worker = \"${REX_WORKER_OBJECT}\"
+objects = [\"$<JOIN:${objects},\",\n\">\"]
+functions = [${functions}]
+libraries = [\"$<JOIN:${files},\", \">\"]
+compiler = \"${CMAKE_CXX_COMPILER}\"
+objcopy = \"${CMAKE_OBJCOPY}\"
+nm = \"${CMAKE_NM}\"
+folder = \"${output}\"
+")
   add_custom_command(OUTPUT ${part} ${output}/worker_part.options ${output}/worker.offers
-    COMMAND rex_worker_part --exercise ${folder} --groups ${groups} --worker ${REX_WORKER_OBJECT} --objects ${list}
-            --functions ${ARG_FUNCTIONS} --libraries ${files} --compiler ${CMAKE_CXX_COMPILER}
-            --objcopy ${CMAKE_OBJCOPY} --nm ${CMAKE_NM} --folder ${output}
-    DEPENDS rex_worker_part rex_submission ${REX_WORKER_OBJECT} ${objects} ${list} ${groups} ${folder}/exercise.toml
+    COMMAND rex_worker_part ${order}
+    DEPENDS rex_worker_part rex_submission ${REX_WORKER_OBJECT} ${objects} ${order} ${groups} ${folder}/exercise.toml
     COMMENT "Extracting what ${name} allows of the library" VERBATIM)
   add_custom_target(${name}_worker_part DEPENDS ${part} ${output}/worker.offers)
 endfunction()
@@ -245,15 +255,17 @@ function(rex_exercise name)
   rex_all_modules(modules)
 
   rex_grader_headers()
-  add_executable(${name}_grader ${ARG_OUTPUT}/grader.cpp ${ARG_FOLDER}/check.cpp)
+  if(REX_MERGE_SOURCES)  # see rex_merge_sources
+    file(CONFIGURE OUTPUT ${ARG_OUTPUT}/merged.cpp CONTENT "#include \"grader.cpp\"\n#include \"check.cpp\"\n")
+    add_executable(${name}_grader ${ARG_OUTPUT}/merged.cpp)
+  else()
+    add_executable(${name}_grader ${ARG_OUTPUT}/grader.cpp ${ARG_FOLDER}/check.cpp)
+  endif()
   set_target_properties(${name}_grader PROPERTIES OUTPUT_NAME grader RUNTIME_OUTPUT_DIRECTORY ${ARG_OUTPUT})
   target_link_libraries(${name}_grader PRIVATE rex_grading ${modules} fmt::fmt)
   target_compile_options(${name}_grader PRIVATE ${REX_GRADER_OPTIONS} "SHELL:-iquote \"${ARG_FOLDER}\""
                                                 "SHELL:-iquote \"${ARG_OUTPUT}\"")
   target_precompile_headers(${name}_grader REUSE_FROM rex_grader_headers)
-  if(REX_MERGE_SOURCES)
-    set_target_properties(${name}_grader PROPERTIES UNITY_BUILD ON)
-  endif()
   rex_worker_part(${name} ${ARG_FOLDER} ${ARG_OUTPUT} ${modules})
   add_custom_target(${name}_ready DEPENDS ${name}_grader ${name}_worker ${name}_worker_part ${modules})
   set_target_properties(${name}_ready PROPERTIES REX_WORKER_PART ${ARG_OUTPUT}/worker_part)

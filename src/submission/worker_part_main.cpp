@@ -1,33 +1,39 @@
-// rex-worker-part: called by the build, once for each exercise; see worker_part.h.
+// rex-worker-part ORDER.toml: called by the build, once for each exercise; see worker_part.h. The keys are
+// the fields of WorkerPartOrder, written by rex_worker_part() in RexExercise.cmake.
 #include <cstdio>
 
-#include <CLI/CLI.hpp>
-
-#include "base/error.h"
-#include "base/lines.h"
-#include "base/text_file.h"
+#include "base/toml_table.h"
 #include "submission/worker_part.h"
 
+namespace {
+
+rex::grading::WorkerPartOrder readOrder(const char* file) {
+  const auto order = rex::TomlTable::read(file, "order", "what the build has written");
+  const auto paths = [&](const char* key) {
+    const std::vector<std::string> texts = order.texts(key);
+    return std::vector<std::filesystem::path>(texts.begin(), texts.end());
+  };
+  return {.exercise = order.text("exercise"),
+          .groups = order.text("groups"),
+          .worker = order.text("worker"),
+          .objects = paths("objects"),
+          .functions = order.texts("functions"),
+          .libraries = paths("libraries"),
+          .compiler = order.text("compiler"),
+          .objcopy = order.text("objcopy"),
+          .nm = order.text("nm"),
+          .folder = order.text("folder")};
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
-  rex::grading::WorkerPartOrder order;
-  std::string objects;
-  CLI::App app("Links the part of the library that the worker of an exercise contains");
-  app.add_option("--exercise", order.exercise, "folder of the exercise")->required();
-  app.add_option("--groups", order.groups, "file with groups of functions")->required();
-  app.add_option("--worker", order.worker, "object file of the worker's loop")->required();
-  app.add_option("--objects", objects, "file with the library's object files, one per line")->required();
-  app.add_option("--compiler", order.compiler, "compiler that links")->required();
-  app.add_option("--objcopy", order.objcopy, "objcopy, which hides names")->required();
-  app.add_option("--nm", order.nm, "nm, which lists names")->required();
-  app.add_option("--libraries", order.libraries, "external libraries that the library needs");
-  app.add_option("--functions", order.functions, "the student's functions that the loop calls")->required();
-  app.add_option("--folder", order.folder, "folder to write to")->required();
-  CLI11_PARSE(app, argc, argv);
+  if (argc != 2) {
+    std::fputs("usage: rex-worker-part ORDER.toml\n", stderr);
+    return 64;
+  }
   try {
-    const std::string list = rex::readTextFile(objects);
-    for (const std::string_view line : rex::splitLines(list))
-      if (!line.empty()) order.objects.emplace_back(line);
-    rex::grading::linkWorkerParts(order);
+    rex::grading::linkWorkerParts(readOrder(argv[1]));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;
