@@ -1,7 +1,8 @@
 # rex_exercise_gates(NAME)
 #
 # Registers one test per gate of exercises/NAME, label `exercise`. `rex dev check NAME --gate GATE` runs one by hand. All
-# wrong variants are one gate, which compiles them together; it takes longest, so it starts first.
+# wrong variants are one gate, which compiles them together; it takes longest, so it starts first. The entry `sample`,
+# label `sample-NAME`, asks for a part of some gates: scripts/test.
 function(rex_exercise_gates name)
   set(variants)
   if(REX_SANITIZE)
@@ -12,6 +13,8 @@ function(rex_exercise_gates name)
   endif()
   if(variants)
     list(APPEND gates wrong)
+    add_test(NAME exercise/${name}/sample COMMAND rex_gates ${name})
+    set_tests_properties(exercise/${name}/sample PROPERTIES LABELS sample-${name} TIMEOUT 1200)
   endif()
   foreach(gate IN LISTS gates)
     add_test(NAME exercise/${name}/${gate} COMMAND rex-instructor dev check ${name} --gate ${gate})

@@ -15,25 +15,28 @@ function(rex_test_headers)
     <base/eigen_instances.h> <Eigen/Dense> <gmock/gmock.h> <gtest/gtest.h>)
 endfunction()
 
-# rex_tests(FOLDER [MATRICES] SOURCES a_test.cpp ... [USES module ...] [PRIVATE library ...] [APART a_test.cpp ...])
+# rex_tests(FOLDER [MATRICES] SOURCES a_test.cpp ... [USES module ...] [PRIVATE library ...] [APART a_test.cpp ...]
+#           [ALONE a_test.cpp ...])
 #
 # Builds the program FOLDER_tests from sources in tests/FOLDER and registers each file as FOLDER/a. The cases of a file
-# share a process; those of the files APART, which take long or change their process, have one each: FOLDER/b.Suite.Case.
+# share a process; those of the files APART, which take long or change their process, have one each: FOLDER/b.Suite.Case. ALONE as in rex_module.
 function(rex_tests folder)
-  cmake_parse_arguments(ARG "MATRICES" "" "SOURCES;USES;PRIVATE;APART" ${ARGN})
+  cmake_parse_arguments(ARG "MATRICES" "" "SOURCES;USES;PRIVATE;APART;ALONE" ${ARGN})
   set(target ${folder}_tests)
   add_executable(${target} ${ARG_SOURCES})
   target_compile_options(${target} PRIVATE ${REX_WARNINGS} "${REX_COLD}")
   target_precompile_headers(${target} REUSE_FROM rex_test_headers)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
-  target_compile_definitions(${target} PRIVATE
-    REX_SOURCE_DIR="${PROJECT_SOURCE_DIR}" REX_BINARY_DIR="${PROJECT_BINARY_DIR}")
   list(TRANSFORM ARG_USES PREPEND rex_)
-  target_link_libraries(${target} PRIVATE GTest::gmock_main ${ARG_USES} ${ARG_PRIVATE})
+  target_link_libraries(${target} PRIVATE GTest::gmock_main rex_base ${ARG_USES} ${ARG_PRIVATE})
   if(TARGET rex_${folder})
     target_link_libraries(${target} PRIVATE rex_${folder})
   endif()
-  rex_merge_sources(${target} ${ARG_MATRICES})
+  set_property(GLOBAL APPEND PROPERTY REX_TEST_PROGRAMS ${target})
+  rex_batch_size(at_most ${ARG_MATRICES})
+  set(together ${ARG_SOURCES})
+  list(REMOVE_ITEM together ${ARG_ALONE} "")
+  rex_merge_sources(${target} merged ${at_most} ${together})
   if(folder IN_LIST REX_SANITIZED_MODULES)
     set_property(GLOBAL APPEND PROPERTY REX_SANITIZED_TESTS ${target})
   endif()

@@ -19,7 +19,8 @@ struct GateContext {
   int seeds = 3;                     ///< number of seeds to grade the solution with: 1, 2, ...
   std::filesystem::path sheet{};     ///< where gate wrong puts the pictures of failed checks; empty: nowhere
   int hostileAnswers = 3000;         ///< that gate hostile gives instead of the student's
-  bool storesMessages = false;       ///< whether gate wrong writes wrong/seen.txt anew
+  std::vector<std::string> variants{};  ///< those that gate wrong tests, as "wrong/NAME"; empty: all
+  bool storesMessages = false;          ///< whether gate wrong writes wrong/seen.txt anew
 };
 
 /// Whether an exercise passed a gate, and what to do if not.

@@ -118,12 +118,23 @@ void writeSheet(const std::vector<KeyFrame>& pictures, const path& file) {
       file);
 }
 
+std::vector<std::string> wantedVariants(const GateContext& context) {
+  return context.variants.empty() ? variantNames(context.exercise) : context.variants;
+}
+
 // Complains if students read something else than the exercise's file says, or writes it there. The gate
-// `evidence` wants the file.
+// `evidence` wants the file. Messages of variants that were not tested stay as they are.
 Complaints whyNotSeen(const GateContext& context, const SeenMessages& seen) {
   const path file = seenMessagesFile(context.exercise.folder);
-  if (context.storesMessages) writeSeenMessages(seen, file);
-  return std::filesystem::exists(file) ? changedMessages(seen, readSeenMessages(file)) : Complaints{};
+  SeenMessages stored = std::filesystem::exists(file) ? readSeenMessages(file) : SeenMessages{};
+  if (!context.variants.empty())
+    std::erase_if(stored, [&](const auto& one) { return !seen.contains(one.first); });
+  if (!context.storesMessages)
+    return std::filesystem::exists(file) ? changedMessages(seen, stored) : Complaints{};
+  SeenMessages all = seen;
+  if (!context.variants.empty() && std::filesystem::exists(file)) all.merge(readSeenMessages(file));
+  writeSeenMessages(all, file);
+  return {};
 }
 
 // Adds the complaints of `find`, each with the name of the variant.
@@ -163,7 +174,7 @@ CaughtTogether whyNotCaughtTogether(const GateContext& context) {
   for (const CheckResult& check : listChecks(context.toolchain)) known.push_back(check.id);
   CaughtTogether all;
   std::vector<WrongVariant> variants;
-  for (const std::string& name : variantNames(context.exercise))
+  for (const std::string& name : wantedVariants(context))
     addComplaints(all.complaints, name, [&]() -> Complaints {
       const WrongVariant variant = variantOf(context.exercise, name);
       requireChecks(variant, known, fileOf(context.exercise, name));

@@ -19,16 +19,17 @@ namespace rex::grading {
 /// by all checks; empty if it is. Throws Error like variantOf(), and for checks that do not exist.
 [[nodiscard]] std::vector<std::string> whyNotCaught(const GateContext& context, const std::string& name);
 
-/// The results for all variants of an exercise.
+/// The results for several variants of an exercise.
 struct CaughtTogether {
   std::vector<std::string> complaints;  ///< lines that begin with the name of a variant
   std::vector<std::string> alone;       ///< names of those that were tested with whyNotCaught() instead
 };
 
-/// The same for all variants at a fraction of the cost: JointBuild compiles only functions that differ, and
-/// only the checks that a variant names are run. Only whyNotCaught() proves that the whole file compiles,
-/// and runs the other checks. Also complains if students read other messages than wrong/seen.txt says, or
-/// stores them there if the context asks for it. Writes the context's sheet if it has one.
+/// The same for all variants, or those of the context, at a fraction of the cost: JointBuild compiles only
+/// functions that differ, and only the checks that a variant names are run. Only whyNotCaught() proves that
+/// the whole file compiles, and runs the other checks. Also complains if students read other messages than
+/// wrong/seen.txt says, or stores them there if the context asks for it. Writes the context's sheet if it has
+/// one.
 [[nodiscard]] CaughtTogether whyNotCaughtTogether(const GateContext& context);
 
 }  // namespace rex::grading

@@ -28,6 +28,7 @@
 #include "submission/submission.h"
 #include "submission/zip_file.h"
 #include "support/archive_samples.h"
+#include "support/paths.h"
 #include "support/rounds.h"
 #include "support/temporary_folder.h"
 
@@ -37,8 +38,8 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const fs::path kBinary = REX_BINARY_DIR, kOutput = kBinary / "tests" / "battery";
-const fs::path kFolder = fs::path(REX_SOURCE_DIR) / "tests" / "grading";
+const fs::path kBinary = ownFolder(), kOutput = kBinary / "tests" / "battery";
+const fs::path kFolder = homeFolder() / "tests" / "grading";
 constexpr const char* kSecret = "the-secret-of-the-course-0123456789";
 
 const sandbox::Sandbox sandboxOf(int level) {
@@ -361,7 +362,7 @@ std::set<std::string> filesOfAttacks() {
 // What share/doc/sandbox.md says of the battery is what is tried here: rows of attacks.tsv, and names of
 // tests for the attacks that are no single program.
 TEST(Documentation, TellsOfEveryAttackAsItIsTried) {
-  const std::string page = readTextFile(fs::path(REX_SOURCE_DIR) / "share" / "doc" / "sandbox.md");
+  const std::string page = readTextFile(homeFolder() / "share" / "doc" / "sandbox.md");
   std::set<std::string> files = filesOfAttacks();
   for (const Attack& attack : knownAttacks()) {
     EXPECT_THAT(page, HasSubstr(attack.row + "\n"));
@@ -376,7 +377,7 @@ TEST(Documentation, TellsOfEveryAttackAsItIsTried) {
 }
 
 TEST(Documentation, NamesTestsThatThereAre) {
-  const std::string page = readTextFile(fs::path(REX_SOURCE_DIR) / "share" / "doc" / "sandbox.md");
+  const std::string page = readTextFile(homeFolder() / "share" / "doc" / "sandbox.md");
   std::set<std::string> known;
   const ::testing::UnitTest& all = *::testing::UnitTest::GetInstance();
   for (int suite = 0; suite < all.total_test_suite_count(); ++suite)

@@ -11,6 +11,7 @@
 #include "render/png.h"
 #include "submission/exercise_info.h"
 #include "support/file_text.h"
+#include "support/paths.h"
 #include "support/registered_tests.h"
 #include "support/temporary_folder.h"
 
@@ -18,7 +19,7 @@ namespace rex::release_bars_test {
 
 namespace fs = std::filesystem;
 
-const fs::path kRelease = REX_BINARY_DIR "/student release", kProof = REX_BINARY_DIR "/proof of the release";
+const fs::path kRelease = buildPath("student release"), kProof = buildPath("proof of the release");
 
 bool isUniform(const Image& image) {
   for (int y = 0; y < image.height; ++y)
@@ -39,7 +40,7 @@ class AcceptanceBars : public ::testing::Test {
   void SetUp() override {
     if (!fs::exists(kProof / "out/passed")) GTEST_SKIP() << "needs the test exercise/student-release";
   }
-  std::vector<grading::ExerciseInfo> exercises_ = grading::listExercises(REX_SOURCE_DIR "/exercises");
+  std::vector<grading::ExerciseInfo> exercises_ = grading::listExercises(sourcePath("exercises"));
 };
 
 TEST_F(AcceptanceBars, Bar02EveryExerciseDrawsPicturesWithoutADisplay) {
@@ -55,7 +56,7 @@ TEST_F(AcceptanceBars, Bar02APictureOfNothingFailsTheRun) {
   const TemporaryFolder folder;
   const std::string picture = (folder.path() / "nothing.png").string();
   const auto draw = [&](const std::string& camera) {
-    return runProcess({"env", "-u", "DISPLAY", "-u", "WAYLAND_DISPLAY", REX_BINARY_DIR "/rex-robot", "render",
+    return runProcess({"env", "-u", "DISPLAY", "-u", "WAYLAND_DISPLAY", buildPath("rex-robot"), "render",
                        "man", "--camera", camera, "-o", picture});
   };
   const ProcessResult away = draw("0,0,50@0,0,100");

@@ -20,13 +20,14 @@
 #include "interface.h"
 #include "support/expect_error.h"
 #include "support/fresh_folder.h"
+#include "support/paths.h"
 #include "support/rounds.h"
 
 namespace rex::grading::grade_test {
 
 using ::testing::HasSubstr;
 
-const std::filesystem::path kGood = std::filesystem::path(REX_BINARY_DIR) / "tests" / "sample" / "good";
+const std::filesystem::path kGood = ownFolder() / "tests" / "sample" / "good";
 
 RunnableCheck check(const std::string& id, Group group, std::function<void(Check&, Student&)> run) {
   return {.info = {.id = id, .points = 1, .group = group},

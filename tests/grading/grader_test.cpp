@@ -13,6 +13,7 @@
 #include "base/process.h"
 #include "grading/grader_main.h"
 #include "grading/result_file.h"
+#include "support/paths.h"
 
 namespace rex::grading::grader_test {
 
@@ -25,7 +26,7 @@ constexpr bool kSanitized = true;
 constexpr bool kSanitized = false;
 #endif
 
-const fs::path kSample = fs::path(REX_BINARY_DIR) / "tests" / "sample";
+const fs::path kSample = ownFolder() / "tests" / "sample";
 
 /// Grades workers with small limits, in a folder of its own.
 class Grader : public ::testing::Test {
@@ -249,7 +250,7 @@ TEST_F(Grader, HasExitCodes) {
 TEST_F(Grader, IsDescribedWellEnoughToBuildAWorker) {
   std::ifstream file(kSample / "build.json");
   const auto build = nlohmann::json::parse(file);
-  const fs::path source = fs::path(REX_SOURCE_DIR) / "tests" / "grading" / "sample";
+  const fs::path source = homeFolder() / "tests" / "grading" / "sample";
   const fs::path worker = results().parent_path() / "worker";
   std::vector<std::string> command = {build.at("compiler").get<std::string>()};
   for (const std::string flag : build.at("compile_flags")) command.push_back(flag);

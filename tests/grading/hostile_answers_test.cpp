@@ -10,12 +10,13 @@
 #include "interface.h"
 #include "remote/wire.h"
 #include "support/expect_error.h"
+#include "support/paths.h"
 
 namespace rex::grading::hostile_answers_test {
 
 using ::testing::HasSubstr;
 
-const GradingJob kJob = {.worker = std::filesystem::path(REX_BINARY_DIR) / "tests" / "sample" / "good"};
+const GradingJob kJob = {.worker = ownFolder() / "tests" / "sample" / "good"};
 
 RunnableCheck check(const std::string& id, std::function<void(Check&, Student&)> run) {
   return {.info = {.id = id, .part = "part", .points = 1, .group = Group::kVisible},

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "grading/results.h"
+#include "support/paths.h"
 
 namespace rex::grading::result_schema_test {
 
@@ -48,7 +49,7 @@ std::string violation(const Json& value, const Json& schema, const std::string& 
 }
 
 Json schema() {
-  std::ifstream file(REX_SOURCE_DIR "/share/grading/result.schema.json");
+  std::ifstream file(sourcePath("share/grading/result.schema.json"));
   return Json::parse(file);
 }
 

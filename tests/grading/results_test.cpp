@@ -8,6 +8,7 @@
 
 #include "grading/result_file.h"
 #include "support/expect_error.h"
+#include "support/paths.h"
 #include "support/temporary_folder.h"
 
 namespace rex::grading::results_test {
@@ -135,8 +136,7 @@ TEST(Results, KnowEveryOutcomeByName) {
 }
 
 TEST(ResultFile, IsReplacedAndReadBack) {
-  const std::filesystem::path folder =
-      std::filesystem::path(REX_BINARY_DIR) / ("result-file-" + std::to_string(::getpid()));
+  const std::filesystem::path folder = ownFolder() / ("result-file-" + std::to_string(::getpid()));
   std::filesystem::create_directory(folder);
   const std::filesystem::path file = folder / "r.json";
   std::ofstream(file) << "old";

@@ -24,12 +24,17 @@ void addDevCheck(CLI::App* dev, Action& action) {
       addVerb(dev, "check", "Check that exercises are complete, graded well and give nothing away",
               "Examples:\n  scripts/rex dev check 01\n  scripts/rex dev check 01 --gate solution --seeds 20\n"
               "  scripts/rex dev check 01 --gate points --gate names --json\n"
-              "  scripts/rex dev check 01 --gate wrong --sheet pictures.png");
+              "  scripts/rex dev check 01 --gate wrong --sheet pictures.png\n"
+              "  scripts/rex dev check 01 --variant looks_away_too");
   CLI::Option* exercise =
       command->add_option("EXERCISE", options->exercise, "only this one (default: all)")->type_name("");
   command->add_option("--gate", options->gates, "only this gate; may be repeated")
       ->allow_extra_args(false)
       ->type_name("NAME");
+  command->add_option("--variant", options->variants, "gate wrong, of only this variant; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("NAME")
+      ->needs(exercise);
   command->add_flag("--list-gates", options->listGates, "print the names of the gates");
   command->add_flag("--json", options->json, "print JSON");
   command->add_option("--seeds", options->seeds, "seeds to try the solution with (default: 3)")

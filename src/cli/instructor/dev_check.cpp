@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <cstdlib>
 
 #include <fmt/format.h>
 
 #include "authoring/gates.h"
+#include "authoring/wrong_variants.h"
 #include "base/error.h"
 #include "base/private_folder.h"
 #include "cli/build_on_demand.h"
@@ -74,12 +76,32 @@ grading::GateResult resultOf(const Project& project, const ExerciseInfo& exercis
                            .seeds = options.seeds,
                            .sheet = options.sheet,
                            .hostileAnswers = isSet("REX_LONG_RUN") ? 10000 : 3000,
+                           .variants = options.variants,
                            .storesMessages = isSet("REX_UPDATE_GOLDEN")},
                           gate);
 }
 
-void checkOne(const Project& project, const std::string& name, const CheckOptions& options,
-              GateReport& report) {
+// The variants that --variant names, without and with the folder in front. Throws UsageError.
+std::vector<std::string> variantsNamed(const ExerciseInfo& exercise, const std::vector<std::string>& names) {
+  const std::vector<std::string> known = grading::variantNames(exercise);
+  std::vector<std::string> found;
+  for (const std::string& name : names) {
+    const std::string full = name.starts_with("wrong/") ? name : "wrong/" + name;
+    if (std::find(known.begin(), known.end(), full) == known.end())
+      throw UsageError({.what = fmt::format("{} has no wrong variant '{}'", exercise.name, name),
+                        .nearest = nearestNames(full, known)});
+    found.push_back(full);
+  }
+  return found;
+}
+
+// All gates, unless some are named; a variant names the gate that tests it.
+std::vector<std::string> wantedGates(const ExerciseInfo& exercise, const CheckOptions& options) {
+  if (!options.gates.empty()) return options.gates;
+  return options.variants.empty() ? grading::gateNames(exercise) : std::vector<std::string>{"wrong"};
+}
+
+void checkOne(const Project& project, const std::string& name, CheckOptions options, GateReport& report) {
   ExerciseInfo exercise;
   try {
     exercise = project.exercise(name);
@@ -87,8 +109,9 @@ void checkOne(const Project& project, const std::string& name, const CheckOption
     report.add(name, "exercise.toml", {.passed = false, .message = error.what()});
     return;
   }
+  options.variants = variantsNamed(exercise, options.variants);
   const grading::Toolchain toolchain = prepare(project, exercise);
-  for (const std::string& gate : options.gates.empty() ? grading::gateNames(exercise) : options.gates)
+  for (const std::string& gate : wantedGates(exercise, options))
     report.add(name, gate, resultOf(project, exercise, toolchain, gate, options));
 }
 

@@ -15,8 +15,9 @@ namespace rex::cli {
 ExitCode devNew(const Project& project, const std::string& name);
 
 struct CheckOptions {
-  std::string exercise{};            ///< empty: all
-  std::vector<std::string> gates{};  ///< empty: all
+  std::string exercise{};               ///< empty: all
+  std::vector<std::string> gates{};     ///< empty: all
+  std::vector<std::string> variants{};  ///< the only ones that gate wrong tests; empty: all
   bool listGates = false;
   bool json = false;
   std::filesystem::path sheet{};  ///< a .png for the pictures of wrong variants; empty: none
