@@ -194,6 +194,15 @@ folder = \"${output}\"
   add_custom_target(${name}_worker_part DEPENDS ${part} ${output}/worker.offers)
 endfunction()
 
+# The built files that an exercise cannot be graded or shown without. Uses REX_PREFIX and REX_SHOW.
+function(rex_exercise_products variable name output)
+  set(products ${output}/worker_part.o ${output}/worker_part.options ${output}/worker.offers ${output}/build.json)
+  if(REX_PREFIX)
+    list(APPEND products ${output}/worker.o)
+  endif()
+  set(${variable} $<TARGET_FILE:${name}_grader> ${products} ${REX_SHOW} PARENT_SCOPE)
+endfunction()
+
 # Adds to a list of modules those that they are linked with: a program has to find, and a sandbox to show, all of them.
 function(rex_all_modules variable)
   set(found ${${variable}})
@@ -268,7 +277,8 @@ function(rex_exercise name)
   target_precompile_headers(${name}_grader REUSE_FROM rex_grader_headers)
   rex_worker_part(${name} ${ARG_FOLDER} ${ARG_OUTPUT} ${modules})
   add_custom_target(${name}_ready DEPENDS ${name}_grader ${name}_worker ${name}_worker_part ${modules})
-  set_target_properties(${name}_ready PROPERTIES REX_WORKER_PART ${ARG_OUTPUT}/worker_part)
+  rex_exercise_products(products ${name} ${ARG_OUTPUT})
+  set_target_properties(${name}_ready PROPERTIES REX_WORKER_PART ${ARG_OUTPUT}/worker_part REX_PRODUCTS "${products}")
   if(REX_PREFIX)
     add_dependencies(${name}_ready rex_student_prefix)
   endif()

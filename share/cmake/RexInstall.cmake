@@ -15,13 +15,39 @@ endif()
 set(REX_PUBLIC_LAYERS base geometry optim remote scene estimation learning kinematics dynamics collision render physics
                       planning trajectory control grasping locomotion course legacy)
 
+# Never installed: folders and files of running programs, which remain if a program is killed (src/base/private_folder.h,
+# src/base/leftovers.h), backups by `rex reset`, lists of dependencies, and the cache of Python.
+set(REX_TRANSIENT PATTERN "rex-work-*" EXCLUDE PATTERN "*.new" EXCLUDE PATTERN "main.backup-*" EXCLUDE
+                  PATTERN "*.d" EXCLUDE PATTERN "__pycache__" EXCLUDE)
+
 # Here, too, `home` leads to the files, so that a program need not know where it runs.
 file(CREATE_LINK ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/home SYMBOLIC)
+
+# Exercises are built on demand, and a tree with some that never were would install without an error: most of their files
+# are copied by patterns. So before anything is copied, this names all missing files of exercises and of the given targets.
+function(rex_install_only_if_built)
+  set(files)
+  foreach(target IN LISTS ARGN)
+    list(APPEND files "rex|$<TARGET_FILE:${target}>")
+  endforeach()
+  get_property(exercises GLOBAL PROPERTY REX_EXERCISES)
+  foreach(name IN LISTS exercises)
+    get_target_property(products ${name}_ready REX_PRODUCTS)
+    list(TRANSFORM products PREPEND "${name}|")
+    list(APPEND files ${products})
+  endforeach()
+  install(CODE "
+    set(files \"${files}\")
+    set(build \"${PROJECT_BINARY_DIR}\")
+    include(\"${PROJECT_SOURCE_DIR}/share/cmake/install/only_if_built.cmake\")" COMPONENT runtime)
+endfunction()
+
+set(REX_INSTALLED_PROGRAMS rex rex-robot rex-methods rex-instructor rex_sandbox_launcher rex_sandbox_probe)
 
 function(rex_install_programs)
   get_property(modules GLOBAL PROPERTY REX_MODULE_TARGETS)
   install(TARGETS ${modules} LIBRARY DESTINATION ${REX_INSTALLED}/lib COMPONENT runtime)
-  install(TARGETS rex rex-robot rex-methods rex-instructor rex_sandbox_launcher rex_sandbox_probe
+  install(TARGETS ${REX_INSTALLED_PROGRAMS}
           RUNTIME DESTINATION ${REX_INSTALLED} COMPONENT runtime)
   foreach(layer IN LISTS REX_PUBLIC_LAYERS)
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/${layer} DESTINATION include/rex COMPONENT runtime
@@ -56,20 +82,21 @@ function(rex_install_exercises)
     set(destination ${REX_INSTALLED}/exercises/${name})
     install(TARGETS ${name}_grader RUNTIME DESTINATION ${destination} COMPONENT runtime)
     install(DIRECTORY ${built}/ DESTINATION ${destination} COMPONENT runtime
-            FILES_MATCHING PATTERN "worker*.o" PATTERN "worker*.options" PATTERN "worker.offers" PATTERN "show.a")
+            FILES_MATCHING PATTERN "worker*.o" PATTERN "worker*.options" PATTERN "worker.offers" PATTERN "show.a"
+            ${REX_TRANSIENT})
     rex_install_description(${built}/build.json ${destination}/build.json)
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/exercises/${name} DESTINATION share/rex/exercises COMPONENT runtime
-            PATTERN "main.backup-*" EXCLUDE PATTERN solution.cpp EXCLUDE PATTERN wrong EXCLUDE)
+            PATTERN solution.cpp EXCLUDE PATTERN wrong EXCLUDE ${REX_TRANSIENT})
   endforeach()
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/data DESTINATION share/rex COMPONENT runtime)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/data DESTINATION share/rex COMPONENT runtime ${REX_TRANSIENT})
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/share/ci DESTINATION share/rex COMPONENT runtime USE_SOURCE_PERMISSIONS
-          PATTERN "grade-*" EXCLUDE)
+          PATTERN "grade-*" EXCLUDE ${REX_TRANSIENT})
   install(FILES ${PROJECT_SOURCE_DIR}/share/completion/rex.bash
           DESTINATION share/bash-completion/completions RENAME rex COMPONENT runtime)
   install(FILES ${PROJECT_SOURCE_DIR}/share/completion/_rex DESTINATION share/zsh/vendor-completions COMPONENT runtime)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/share/course ${PROJECT_SOURCE_DIR}/share/demonstrations ${PROJECT_SOURCE_DIR}/share/examples ${PROJECT_SOURCE_DIR}/share/gdb
                     ${PROJECT_SOURCE_DIR}/share/template
-          DESTINATION share/rex/share COMPONENT runtime)
+          DESTINATION share/rex/share COMPONENT runtime ${REX_TRANSIENT})
 endfunction()
 
 function(rex_install_development)
@@ -113,7 +140,8 @@ function(rex_install_documentation)
     file(MAKE_DIRECTORY \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/share/man/man1\")
     execute_process(COMMAND ${PROJECT_BINARY_DIR}/rex --man OUTPUT_FILE \${page} COMMAND_ERROR_IS_FATAL ANY)
     execute_process(COMMAND gzip -9nf \${page} COMMAND_ERROR_IS_FATAL ANY)" COMPONENT documentation)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/share/doc/ DESTINATION share/doc/rex COMPONENT documentation)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/share/doc/ DESTINATION share/doc/rex COMPONENT documentation
+          ${REX_TRANSIENT})
   install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md DESTINATION share/doc/rex
           COMPONENT documentation OPTIONAL)
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION share/doc/rex RENAME copyright COMPONENT documentation)
@@ -125,7 +153,11 @@ function(rex_install_documentation)
   rex_install_changelog(librex-dev development)
 endfunction()
 
-rex_install_programs()
-rex_install_exercises()
-rex_install_development()
-rex_install_documentation()
+function(rex_install)
+  get_property(modules GLOBAL PROPERTY REX_MODULE_TARGETS)
+  rex_install_only_if_built(${REX_INSTALLED_PROGRAMS} ${modules})
+  rex_install_programs()
+  rex_install_exercises()
+  rex_install_development()
+  rex_install_documentation()
+endfunction()
