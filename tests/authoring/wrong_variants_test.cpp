@@ -38,7 +38,8 @@ class WrongVariantsTest : public ::testing::Test {
     write("wrong/" + name + ".cpp", "// " + header + "\n// mistake: " + name +
                                         ".\n\n// <solution rotated>\n" + body + "// </solution>\n");
   }
-  GateResult pass(const std::string& gate, bool storesMessages = false) const {
+  GateResult pass(const std::string& gate, bool storesMessages = false,
+                  const std::vector<std::string>& variants = {}) const {
     const fs::path work = temporary_.path() / "work";
     fs::remove_all(work);
     fs::create_directory(work);
@@ -46,6 +47,7 @@ class WrongVariantsTest : public ::testing::Test {
                     .exercise = readExerciseInfo(exercise()),
                     .toolchain = readToolchain(buildPath("tests/template/exercises/98-template/build.json")),
                     .workFolder = work,
+                    .variants = variants,
                     .storesMessages = storesMessages},
                    gate);
   }
@@ -70,6 +72,20 @@ TEST_F(WrongVariantsTest, AreReadAsTheFileSays) {
                                            HasSubstr("library: wrong/seen.txt does not say")));
   fs::remove(exercise() / "wrong" / "seen.txt");
   EXPECT_THAT(pass("evidence").message, HasSubstr("wrong/seen.txt is missing"));
+}
+
+// The others are neither compiled nor compared with what the file says of them.
+TEST_F(WrongVariantsTest, AreTestedOneByOneIfAsked) {
+  writeVariant("a_typo", "caught by: quarter-turn", "return angel * p;\n");
+  EXPECT_TRUE(pass("wrong", /*storesMessages=*/true, {"wrong/clockwise"}).passed);
+  EXPECT_THAT(fileText(exercise() / "wrong" / "seen.txt"), StartsWith("clockwise\n    quarter-turn: point"));
+  EXPECT_TRUE(pass("wrong", /*storesMessages=*/true, {"wrong/library"}).passed);
+  EXPECT_THAT(fileText(exercise() / "wrong" / "seen.txt"),
+              AllOf(StartsWith("clockwise\n"), HasSubstr("\nlibrary\n")))
+      << "others are kept";
+  EXPECT_TRUE(pass("wrong", /*storesMessages=*/false, {"wrong/clockwise"}).passed);
+  EXPECT_THAT(pass("wrong", /*storesMessages=*/false, {"wrong/a_typo"}).message,
+              StartsWith("wrong/a_typo: it was not graded"));
 }
 
 TEST_F(WrongVariantsTest, AreToldApartByWhatIsWrong) {
