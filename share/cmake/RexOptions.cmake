@@ -5,9 +5,9 @@ option(REX_FUZZ "Build the programs of tests/fuzz with libFuzzer; needs clang" O
 
 # Where ccache is installed, nothing is compiled twice on a machine: it knows a source in another clone, too, by paths
 # relative to the clone. The settings are part of each command, because rex itself starts builds. CCACHE_DISABLE=1 in the
-# environment turns it off.
+# environment turns it off. Not for clang, which refuses a precompiled header whose files have another time.
 find_program(REX_CCACHE ccache)
-if(REX_CCACHE AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER AND NOT DEFINED ENV{CMAKE_CXX_COMPILER_LAUNCHER})
+if(REX_CCACHE AND CMAKE_CXX_COMPILER_ID STREQUAL GNU AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER AND NOT DEFINED ENV{CMAKE_CXX_COMPILER_LAUNCHER})
   set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1
       CCACHE_SLOPPINESS=pch_defines,time_macros ${REX_CCACHE})
 endif()
