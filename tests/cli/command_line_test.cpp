@@ -1,58 +1,49 @@
+// What all commands have in common: help, completion in shells, and answers to wrong use.
+#include "cli/command_line.h"
+
+#include <set>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/process.h"
+#include "cli/rex_command.h"
+#include "cli/template_project.h"
 
 namespace rex::cli::command_line_test {
 
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 
-// The program itself, as a user meets it.
-ProcessResult rex(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), REX_BINARY_DIR "/rex");
-  return runProcess(arguments);
-}
+class CommandLine : public RexCommand {
+ protected:
+  void expectUsageError(const std::vector<std::string>& arguments, const std::string& message) const {
+    const ProcessResult result = rex(arguments);
+    EXPECT_EQ(result.exitCode, 64) << message;
+    EXPECT_EQ(result.output, "") << message;
+    EXPECT_THAT(result.error, HasSubstr(message));
+  }
+  // Of students: the one for instructors is asked in tests/commands.
+  static std::vector<std::string> commands() {
+    std::vector<std::string> names;
+    for (const TableEntry& entry : commandTable())
+      if (entry.program != Program::kInstructor) names.emplace_back(entry.name);
+    return names;
+  }
+};
 
-void expectUsageError(const std::vector<std::string>& arguments, const std::string& message) {
-  const ProcessResult result = rex(arguments);
-  EXPECT_EQ(result.exitCode, 64) << message;
-  EXPECT_EQ(result.output, "") << message;
-  EXPECT_THAT(result.error, HasSubstr(message));
-}
-
-TEST(Program, WelcomesAndHelps) {
+TEST_F(CommandLine, WelcomesAndHelps) {
   const ProcessResult welcome = rex({});
   EXPECT_EQ(welcome.exitCode, 0);
   EXPECT_THAT(welcome.output, HasSubstr("All commands: scripts/rex --help"));
-  for (const std::vector<std::string>& arguments :
-       std::vector<std::vector<std::string>>{{"--help"},
-                                             {"list", "--help"},
-                                             {"run", "--help"},
-                                             {"test", "--help"},
-                                             {"bench", "--help"},
-                                             {"debug", "--help"},
-                                             {"render", "--help"},
-                                             {"simulate", "--help"},
-                                             {"view", "--help"},
-                                             {"doctor", "--help"},
-                                             {"watch", "--help"},
-                                             {"hint", "--help"},
-                                             {"show", "--help"},
-                                             {"reset", "--help"},
-                                             {"solution", "--help"},
-                                             {"submit", "--help"},
-                                             {"dev"},
-                                             {"dev", "new", "--help"},
-                                             {"dev", "check", "--help"},
-                                             {"dev", "strip", "--help"}}) {
-    const ProcessResult help = rex(arguments);
-    EXPECT_EQ(help.exitCode, 0) << arguments[0];
+  for (const std::string& command : commands()) {
+    const ProcessResult help = rex({command, "--help"});
+    EXPECT_EQ(help.exitCode, 0) << command;
     EXPECT_THAT(help.output, HasSubstr("Usage: rex"));
-    EXPECT_THAT(help.output, ::testing::ContainsRegex("Example|Exit codes"));
+    EXPECT_THAT(help.output, ContainsRegex("Example|Exit codes")) << command;
   }
 }
 
-TEST(Program, NamesTheValuesOfOptionsAndTheEnvironmentOnce) {
+TEST_F(CommandLine, NamesTheValuesOfOptionsAndTheEnvironmentOnce) {
   for (const char* command : {"render", "doctor"}) {
     const std::string help = rex({command, "--help"}).output;
     EXPECT_THAT(help, HasSubstr("--gl NAME (Env:REX_GL)"));
@@ -64,9 +55,8 @@ TEST(Program, NamesTheValuesOfOptionsAndTheEnvironmentOnce) {
     EXPECT_THAT(help, HasSubstr(option));
 }
 
-TEST(Program, KeepsHelpWithin90ColumnsAndFreeOfColour) {
-  for (const char* command : {"list", "run", "test", "watch", "hint", "show", "reset", "solution", "submit",
-                              "bench", "debug", "demo", "render", "simulate", "doctor", "dev", "view"}) {
+TEST_F(CommandLine, KeepsHelpWithin90ColumnsAndFreeOfColour) {
+  for (const std::string& command : commands()) {
     const std::string help = rex({command, "--help"}).output;
     EXPECT_EQ(help.find('\033'), std::string::npos);
     for (std::size_t start = 0; start < help.size();) {
@@ -77,29 +67,10 @@ TEST(Program, KeepsHelpWithin90ColumnsAndFreeOfColour) {
   }
 }
 
-// In a pseudo terminal, as `script` makes one.
-TEST(Program, ColoursTextOnlyOnATerminalThatWantsIt) {
-  const std::string rexList = REX_BINARY_DIR "/rex list";
-  const auto onATerminal = [&](const std::string& settings) {
-    const ProcessResult result =
-        runProcess({"script", "-qec", "env " + settings + " " + rexList, "/dev/null"});
-    EXPECT_EQ(result.exitCode, 0) << result.error;
-    return result.output;
-  };
-  const std::string plain = "-u NO_COLOR TERM=xterm";
-  EXPECT_THAT(onATerminal(plain), HasSubstr("\033[1m"));
-  EXPECT_THAT(onATerminal(plain + " NO_COLOR="), HasSubstr("\033[1m"));
-  EXPECT_EQ(onATerminal(plain + " NO_COLOR=1").find('\033'), std::string::npos);
-  EXPECT_EQ(onATerminal("-u NO_COLOR TERM=dumb").find('\033'), std::string::npos);
-  EXPECT_EQ(rex({"list"}).output.find('\033'), std::string::npos);
-}
-
-TEST(Program, AnswersUnknownWordsWithTheNearest) {
+TEST_F(CommandLine, AnswersUnknownWordsWithTheNearest) {
   expectUsageError({"lst"}, "rex: unknown command 'lst' (did you mean 'list'?)");
-  expectUsageError({"dev", "chek"}, "rex dev: unknown command 'chek' (did you mean 'check'?)");
   expectUsageError({"test", "01", "--sed", "3"}, "rex test: unknown option '--sed' (did you mean '--seed'?)");
   expectUsageError({"list", "extra"}, "rex list: unknown argument 'extra'");
-  expectUsageError({"--json", "scene", "man"}, "rex: option '--json' must come after `rex scene FILE`");
   expectUsageError({"--seed=3", "test", "01"}, "rex: option '--seed=3' must come after `rex test`");
   // Before what else is missing: it may be that.
   expectUsageError({"trajectory", "board", "--ot", "a"},
@@ -107,30 +78,60 @@ TEST(Program, AnswersUnknownWordsWithTheNearest) {
   expectUsageError({"\033[31mred"}, "unknown command '");
 }
 
-TEST(Program, AnswersAlikeWhicheverOfItsProgramsIsAsked) {
-  for (const char* program : {"/rex-robot", "/rex-methods", "/rex-instructor"}) {
-    const std::string file = std::string(REX_BINARY_DIR) + program;
-    EXPECT_EQ(runProcess({file}).output, rex({}).output) << program;
-    EXPECT_EQ(runProcess({file, "list"}).output, rex({"list"}).output) << program;
-    EXPECT_EQ(runProcess({file, "rendr"}).error, rex({"rendr"}).error) << program;
-  }
-}
-
-TEST(Program, ExplainsWrongUse) {
+TEST_F(CommandLine, ExplainsWrongUse) {
   expectUsageError({"test"}, "rex test: either EXERCISE or --all is required");
-  expectUsageError({"test", "01", "--seed", "x"},
-                   "rex test: --seed: found x, wanted a whole number of at most 18 digits");
-  for (const char* command : {"cma", "filter", "grade", "plan", "simulate"})
+  for (const char* seed : {"-1", "x", "1.5", "99999999999999999999"})
+    expectUsageError({"test", "01", "--seed", seed}, std::string("rex test: --seed: found ") + seed +
+                                                         ", wanted a whole number of at most 18 digits");
+  for (const char* command : {"cma", "filter", "plan", "simulate"})
     expectUsageError({command, "--seed", "-1"}, "--seed: found -1, wanted a whole number");
   expectUsageError({"test", "01", "--main", "a.cpp", "--solution"}, "--main excludes --solution");
   expectUsageError({"test", "01", "--debug", "--level", "1"}, "--debug excludes --level");
-  expectUsageError({"dev", "check", "--seeds", "0"}, "rex dev check: --seeds");
-  expectUsageError({"dev", "strip"}, "EXERCISE is required");
-  expectUsageError({"dev", "strip", "--release"},
-                   "to make the student release, use: scripts/rex dev release DIR");
-  expectUsageError({"dev", "release"}, "DIR is required");
-  expectUsageError({"dev", "stats"}, "DIR is required");
   expectUsageError({"test", "no-such-exercise"}, "no exercise is called 'no-such-exercise'");
+}
+
+TEST(CommandTable, NamesEachCommandOnceAndSaysWhatItIsFor) {
+  std::set<std::string_view> names;
+  for (const TableEntry& entry : commandTable()) {
+    EXPECT_TRUE(names.insert(entry.name).second) << entry.name;
+    EXPECT_FALSE(entry.purpose.empty()) << entry.name;
+    EXPECT_FALSE(entry.purpose.ends_with('.')) << entry.name;
+  }
+}
+
+class Completion : public TemplateProject {
+ protected:
+  std::string after(std::vector<std::string> words) const {
+    words.insert(words.begin(), "--complete");
+    return rex(std::move(words)).output;
+  }
+};
+
+TEST_F(Completion, KnowsTheCommandsOfAllPrograms) {
+  EXPECT_EQ(after({"s"}), "scene\nsearch\nshow\nsimulate\nslam\nsolution\nsubmit\n");
+}
+
+TEST_F(Completion, KnowsTheExercises) {
+  EXPECT_EQ(after({"test", ""}), "98-template\n");
+  EXPECT_EQ(after({"test", "98-template", "9"}), "98-template\n");
+  EXPECT_EQ(after({"test", "01"}), "");
+}
+
+TEST_F(Completion, KnowsTheVerbsAndOptionsOfEachCommand) {
+  EXPECT_EQ(after({"scene", "man", "c"}), "check\nconvert\n");
+  EXPECT_EQ(after({"submit", "01", "--o"}), "--out\n");
+}
+
+TEST_F(Completion, LeavesFilesToTheShell) { EXPECT_EQ(after({"render", "ma"}), ""); }
+
+TEST(ManualPage, ListsAllCommands) {
+  ::testing::internal::CaptureStdout();
+  const char* const words[] = {"rex", "--man"};
+  EXPECT_EQ(runCommandLine(2, words, {"/", "/"}, studentRoom()), 0);
+  const std::string page = ::testing::internal::GetCapturedStdout();
+  for (const TableEntry& entry : commandTable())  // hyphens are written in another way
+    EXPECT_THAT(page, HasSubstr("\n.B " + std::string(entry.name.substr(0, entry.name.find('-')))));
+  EXPECT_THAT(page, HasSubstr(".SH EXIT STATUS"));
 }
 
 }  // namespace rex::cli::command_line_test

@@ -8,18 +8,34 @@
 #include <gtest/gtest.h>
 
 #include "base/process.h"
-#include "cli/all_rooms.h"
+#include "cli/rooms_of_students.h"
+#include "cli/run_program.h"
 #include "support/temporary_folder.h"
 
 namespace rex::cli {
 
-/// Commands as a user meets them, in a folder of their own; without the way through `rex`, which builds.
+/// Commands as a user meets them, in a folder of their own; run by this process, as by the program that knows
+/// them.
 class RexCommand : public ::testing::Test {
  protected:
-  ProcessResult rex(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), REX_BINARY_DIR "/" + programName(programOf(arguments.at(0))));
-    return runProcess(arguments, {.directory = folder_.path(), .timeout = 300});
+  virtual ProcessResult rex(const std::vector<std::string>& arguments) const {
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::current_path(folder());
+    std::vector<const char*> argv = {"rex"};
+    for (const std::string& argument : arguments) argv.push_back(argument.c_str());
+    const Room room = roomOfStudents(programOf(arguments.empty() ? "" : arguments[0]));
+    ::testing::internal::CaptureStdout();
+    ::testing::internal::CaptureStderr();
+    ProcessResult result;
+    result.started = true;
+    result.exitCode = runProgram(static_cast<int>(argv.size()), argv.data(),
+                                 {.root = REX_SOURCE_DIR, .build = REX_BINARY_DIR}, room);
+    result.output = ::testing::internal::GetCapturedStdout();
+    result.error = ::testing::internal::GetCapturedStderr();
+    std::filesystem::current_path(before);
+    return result;
   }
+  const std::filesystem::path& folder() const { return folder_.path(); }
   std::filesystem::path in(const std::string& name) const { return folder_.path() / name; }
 
   /// The text without the line breaks of the terminal.

@@ -10,7 +10,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cli/all_rooms.h"
+#include "cli/command_line.h"
+#include "cli/rooms_of_students.h"
 #include "support/file_text.h"
 #include "support/temporary_folder.h"
 
@@ -39,7 +40,7 @@ inline std::string flat(const std::string& text) {
   return joined;
 }
 
-// A project of one exercise, made from the template in a folder of its own; its grader was built beforehand.
+// A project of one exercise, made from the template in a folder of its own; nothing of it is built.
 class TemplateProject : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -47,37 +48,37 @@ class TemplateProject : public ::testing::Test {
     fs::copy(REX_BINARY_DIR "/tests/template/source", exercise(), fs::copy_options::recursive);
     fs::copy(REX_SOURCE_DIR "/src/geometry", root() / "src" / "geometry");
     fs::copy(REX_SOURCE_DIR "/share/template", root() / "share" / "template", fs::copy_options::recursive);
-    EXPECT_EQ(rex({"dev", "strip", "98"}).code, 0);
+    EXPECT_EQ(rex({"reset", "98"}).code, 0);
   }
 
   fs::path root() const { return temporary_.path(); }
   fs::path exercise() const { return root() / "exercises" / "98-template"; }
   fs::path out() const { return root() / "out" / "98-template"; }
+  fs::path build() const { return root() / "build"; }
+  virtual Room roomOf(Program program) const { return roomOfStudents(program); }
 
-  Ended rexIn(const fs::path& build, std::vector<std::string> arguments) const {
+  Ended rexWith(const Project& project, const std::vector<std::string>& arguments) const {
     std::vector<const char*> argv = {"rex"};
     for (const std::string& argument : arguments) argv.push_back(argument.c_str());
+    // What is to be completed has another command in front.
+    const std::size_t command = arguments.size() > 1 && arguments[0] == "--complete" ? 1 : 0;
+    const Room room = roomOf(programOf(arguments.empty() ? "" : arguments[command]));
     ::testing::internal::CaptureStdout();
     ::testing::internal::CaptureStderr();
-    const int code = runRex(static_cast<int>(argv.size()), argv.data(), {root(), build});
+    const int code = runCommandLine(static_cast<int>(argv.size()), argv.data(), project, room);
     std::string output = ::testing::internal::GetCapturedStdout();
     return {code, std::move(output), ::testing::internal::GetCapturedStderr()};
   }
-  Ended rex(std::vector<std::string> arguments) const {
-    return rexIn(REX_BINARY_DIR "/tests/template", std::move(arguments));
+  Ended rexIn(const fs::path& folder, const std::vector<std::string>& arguments) const {
+    return rexWith({root(), folder}, arguments);
   }
+  Ended rex(const std::vector<std::string>& arguments) const { return rexIn(build(), arguments); }
 
   static void write(const fs::path& file, const std::string& text) { std::ofstream(file) << text; }
   static void replace(const fs::path& file, const std::string& from, const std::string& to) {
     std::string text = fileText(file);
     ASSERT_NE(text.find(from), std::string::npos) << from;
     write(file, text.replace(text.find(from), from.size(), to));
-  }
-  void expectOpenGate(const std::string& gate, const std::string& message) const {
-    const Ended ended = rex({"dev", "check", "98", "--gate", gate});
-    EXPECT_EQ(ended.code, 1) << gate;
-    EXPECT_THAT(ended.output, ::testing::HasSubstr("FAIL  98-template  " + gate));
-    EXPECT_THAT(flat(ended.output), ::testing::HasSubstr(message));
   }
 
   TemporaryFolder temporary_;

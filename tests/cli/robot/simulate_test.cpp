@@ -389,35 +389,6 @@ TEST_F(SimulateCommand, ReportsABlowUpAndWritesNothing) {
   expectRefusal(words, " s");
 }
 
-// What a log has written is not kept: ten times the steps take no more memory.
-TEST_F(SimulateCommand, KeepsNoStepsOfALog) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "sanitizers keep for a while what is freed";
-#endif
-  REX_NEEDS_GNUPLOT();
-  std::string scene = "body world { }\n";
-  for (int i = 0; i < 300; ++i)
-    scene += fmt::format(
-        "body b{0} {{ type=0 size=[.1 .1 .1 0] mass=1 }}\njoint (world b{0}) {{ type=free A=<T t({1} {2} 5)> "
-        "}}\n",
-        i, .3 * (i % 20), .3 * (i / 20));
-  std::ofstream(in("boxes.ors")) << scene;
-  const auto megabytes = [&](const char* seconds) {
-    const ProcessResult run =
-        runProcess({"python3", "-c",
-                    "import resource, subprocess, sys\nsubprocess.run(sys.argv[1:], check=True, stdout=2)\n"
-                    "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024)",
-                    REX_BINARY_DIR "/rex-robot", "simulate", in("boxes.ors").string(), "--engine", "bullet",
-                    "--seconds", seconds, "--no-film", "-o", in(seconds).string()},
-                   {.timeout = 300});
-    EXPECT_TRUE(run.ok()) << run.error;
-    return std::stod("0" + run.output);
-  };
-  const double shortRun = megabytes("0.1"), longRun = megabytes("1");
-  EXPECT_GT(shortRun, 5);
-  EXPECT_LT(longRun, shortRun + 10);
-}
-
 TEST_F(SimulateCommand, NamesTheBodyWithoutMass) {
   std::ofstream(in("light.ors")) << "body a { mass=1 }\nbody b { }\njoint turn (a b) { }\n";
   const ProcessResult result = simulate({"light.ors", "--no-film", "-o", "out"});

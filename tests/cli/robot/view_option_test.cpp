@@ -1,8 +1,10 @@
+// Options that give points and views.
 #include "cli/robot/view_option.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "cli/point_option.h"
 #include "support/expect_error.h"
 
 namespace rex::cli::view_option_test {
@@ -94,6 +96,12 @@ TEST(ViewOption, ExplainsWhatItCannotRead) {
   for (const char* text :
        {"", "1,2", "1,2,3,4", "0,0,0", "1,2,x", "1,2,inf", "1,2,3@", "1,2,3@1,2,3", "@1,2,3"})
     EXPECT_REX_ERROR(View(text), "--camera: found '" + std::string(text) + "'");
+}
+
+TEST(ParsePoint, TakesThreeNumbers) {
+  EXPECT_EQ(parsePoint("1,-2, 0.5", "--point"), Eigen::Vector3d(1, -2, 0.5));
+  EXPECT_REX_ERROR(parsePoint("1,2", "--point"), "--point: found 2 numbers, wanted three: x,y,z");
+  EXPECT_REX_ERROR(parsePoint("1,2,z", "--point"), "--point: found 'z', wanted a number");
 }
 
 }  // namespace rex::cli::view_option_test

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <stdexcept>
+#include <string_view>
+
+#include "cli/command_table.h"
+#include "cli/methods/methods_room.h"
+#include "cli/robot/robot_room.h"
+#include "cli/room.h"
+#include "cli/student/student_room.h"
+
+namespace rex::cli {
+
+/// The program that knows a command; for other words the one that users see.
+inline Program programOf(std::string_view command) {
+  for (const TableEntry& entry : commandTable())
+    if (entry.name == command) return entry.program;
+  return Program::kStudent;
+}
+
+/// The programs that students get. The one for instructors needs modules that these tests do without: see
+/// tests/commands.
+inline Room roomOfStudents(Program program) {
+  switch (program) {
+    case Program::kStudent:
+      return studentRoom();
+    case Program::kRobot:
+      return robotRoom();
+    case Program::kMethods:
+      return methodsRoom();
+    case Program::kInstructor:
+      break;
+  }
+  throw std::logic_error("tests of commands for instructors are in tests/commands");
+}
+
+}  // namespace rex::cli

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "cli/template_project.h"
+#include "commands/all_rooms.h"
+
+namespace rex::cli {
+
+// The same with a build folder of its own. All exercises in it share the grader that was built beforehand,
+// and equal files are compiled once for all tests, by REX_KEPT_COMPILER.
+class BuiltProject : public TemplateProject {
+ protected:
+  void SetUp() override {
+    TemplateProject::SetUp();
+    link("98-template");
+  }
+  Room roomOf(Program program) const override { return anyRoomOf(program); }
+
+  // Another exercise, in everything but its name the one that is there.
+  void addExercise(const std::string& name) const {
+    fs::copy(exercise(), folderOf(name), fs::copy_options::recursive);
+    link(name);
+  }
+
+  // What programs that are no exercises are built by.
+  void addProgramDescription() const {
+    fs::create_directories(build() / "student");
+    describe(REX_BINARY_DIR "/student/program.json", build() / "student" / "program.json");
+  }
+
+  fs::path folderOf(const std::string& name) const { return root() / "exercises" / name; }
+  fs::path outOf(const std::string& name) const { return root() / "out" / name; }
+
+  // What interrupted gradings left in the folders where they work.
+  int workFolders() const {
+    int count = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(build() / "exercises"))
+      count += entry.path().filename().string().starts_with("rex-work-");
+    return count;
+  }
+
+ private:
+  void link(const std::string& name) const {
+    const fs::path built = REX_BINARY_DIR "/tests/template/exercises/98-template";
+    fs::create_directories(build() / "exercises" / name);
+    describe(built / "build.json", build() / "exercises" / name / "build.json");
+    fs::create_symlink(built / "grader", build() / "exercises" / name / "grader");
+  }
+  static void describe(const fs::path& real, const fs::path& copy) {
+    nlohmann::json description = nlohmann::json::parse(fileText(real));
+    description["compiler"] = REX_KEPT_COMPILER;
+    write(copy, description.dump());
+  }
+};
+
+}  // namespace rex::cli

@@ -1,0 +1,100 @@
+// What students see after the first time, of one part, and of programs that do not end.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/process.h"
+#include "commands/built_project.h"
+
+namespace rex::cli::feedback_test {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class FeedbackTest : public BuiltProject {
+ protected:
+  void writeMain(const std::string& body) const {
+    write(exercise() / "main.cpp",
+          "#include \"exercise.h\"\n#include <cmath>\n#include <iostream>\n"
+          "Eigen::Vector2d rotated(const Eigen::Vector2d& p, double a) {\n" +
+              body + "}\nint main() {\n  while (rotated({1, 0}, 1).x() < 9) continue;\n}\n");
+  }
+  static constexpr const char* kRight =
+      "  return {std::cos(a) * p.x() - std::sin(a) * p.y(), std::sin(a) * p.x() + std::cos(a) * p.y()};\n";
+};
+
+TEST_F(FeedbackTest, ShowsTheFirstMessageAndWhatChanged) {
+  writeMain("  return 2 * p;\n");
+  const std::string first = flat(rex({"test", "98"}).output);
+  EXPECT_THAT(first,
+              AllOf(HasSubstr("point after a quarter turn: got"), HasSubstr("distance from the origin: got"),
+                    Not(HasSubstr("Since the last test"))));
+  const std::string second = flat(rex({"test", "98"}).output);
+  EXPECT_THAT(second, AllOf(HasSubstr("point after a quarter turn: got"),
+                            Not(HasSubstr("distance from the origin: got")),
+                            HasSubstr("Since the last test: no verdict has changed."),
+                            HasSubstr("All messages: scripts/rex test 98-template --all")));
+  EXPECT_THAT(flat(rex({"test", "98", "--all"}).output), HasSubstr("distance from the origin: got"));
+  writeMain("  return p;\n");
+  EXPECT_THAT(flat(rex({"test", "98"}).output),
+              HasSubstr("Since the last test: now passed: keeps-length, angles-add; 0 points before."));
+  writeMain("  return p.x() == 1 && p.y() == 0 ? Eigen::Vector2d(0, 1) : Eigen::Vector2d(2 * p);\n");
+  EXPECT_THAT(
+      flat(rex({"test", "98"}).output),
+      HasSubstr("Since the last test: now passed: quarter-turn; passed before: keeps-length, angles-add; "
+                "2 points before."));
+}
+
+TEST_F(FeedbackTest, TestsOnePartAndShowsWhatItsFunctionsPrint) {
+  writeMain("  std::cout << \"a is \" << a << \"\\n\";\n" + std::string(kRight));
+  const Ended part = rex({"test", "98", "--check", "rotate"});
+  EXPECT_EQ(part.code, 0);
+  EXPECT_THAT(part.output, AllOf(HasSubstr("[quarter-turn]"), HasSubstr("[angles-add, hidden]"),
+                                 HasSubstr("Your functions printed:\n  a is 1.5708\n")));
+  EXPECT_THAT(rex({"test", "98"}).output, Not(HasSubstr("a is")));
+  EXPECT_THAT(
+      flat(rex({"test", "98", "--check", "sideways"}).error),
+      HasSubstr("no check is called 'sideways': wanted one of quarter-turn, keeps-length, angles-add"));
+}
+
+TEST_F(FeedbackTest, ListsNoPictureThatIsOlderThanTheProgram) {
+  writeMain(kRight);
+  fs::create_directories(out());
+  write(out() / "old.png", "");
+  fs::last_write_time(out() / "old.png",
+                      fs::last_write_time(exercise() / "main.cpp") - std::chrono::seconds(1));
+  EXPECT_THAT(rex({"test", "98"}).output, Not(HasSubstr("old.png")));
+  write(out() / "new.png", "");
+  EXPECT_THAT(rex({"test", "98"}).output, HasSubstr("Picture: " + (out() / "new.png").string()));
+}
+
+TEST_F(FeedbackTest, StopsAProgramThatDoesNotEndAndNamesTheLine) {
+  writeMain(kRight);
+  const Ended ended = rex({"run", "98", "--seconds", "1"});
+  EXPECT_EQ(ended.code, 1);
+  EXPECT_THAT(ended.error,
+              HasSubstr("The program was stopped after 1 s of CPU time; --seconds N allows more."));
+  EXPECT_THAT(ended.error,
+              ::testing::ContainsRegex("After 1 s it is in line [4-8] of main.cpp, in (rotated|main)"));
+}
+
+TEST_F(FeedbackTest, ShowsMatricesInTheDebugger) {
+  const fs::path folder = root() / "debugger";
+  fs::create_directory(folder);
+  write(folder / "main.cpp", R"(#include <Eigen/Core>
+int look(const Eigen::MatrixXd& A, const Eigen::Vector3d& v) { return A.rows() + v.size(); }
+int main() { return look((Eigen::MatrixXd(2, 2) << 1, 2, 3, 4.5).finished(), {0, -1, 0.5}); }
+)");
+  const std::string program = (folder / "program").string();
+  ASSERT_TRUE(
+      runProcess({"c++", "-g", "-O0", "-I/usr/include/eigen3", (folder / "main.cpp").string(), "-o", program})
+          .ok());
+  const ProcessResult run =
+      runProcess({"gdb", "-q", "-batch", "-ex", "source " REX_SOURCE_DIR "/share/gdb/eigen.py", "-ex",
+                  "break look", "-ex", "run", "-ex", "print A", "-ex", "print v", program});
+  EXPECT_THAT(run.output,
+              AllOf(HasSubstr("Eigen 2 x 2: \n  1 2\n  3 4.5"), HasSubstr("Eigen 3 x 1: 0 -1 0.5")))
+      << run.error;
+}
+
+}  // namespace rex::cli::feedback_test

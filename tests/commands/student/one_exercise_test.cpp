@@ -1,0 +1,220 @@
+// `rex test`, `run` and `debug` of one exercise: from the student's file to the verdict.
+#include <cstdlib>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include "commands/built_project.h"
+
+namespace rex::cli::one_exercise_test {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class OneExercise : public BuiltProject {};
+
+TEST_F(OneExercise, GradesTheUntouchedFileAtItsFloor) {
+  const Ended ended = rex({"test", "98"});
+  EXPECT_EQ(ended.code, 1) << ended.error;
+  EXPECT_THAT(ended.output, HasSubstr(" FAIL  0/1   A quarter turn [quarter-turn]"));
+  EXPECT_THAT(ended.output, HasSubstr("0 of 3 points"));
+  EXPECT_THAT(fileText(out() / "results.json"), HasSubstr("\"outcome\": \"fail\""));
+}
+
+TEST_F(OneExercise, GradesTheSolutionInFull) {
+  const Ended ended = rex({"test", "98", "--solution", "-o", root() / "elsewhere"});
+  EXPECT_EQ(ended.code, 0) << ended.error;
+  EXPECT_THAT(ended.output, HasSubstr("  ok   1/1   A quarter turn [quarter-turn]"));
+  EXPECT_THAT(ended.output, HasSubstr("3 of 3 points"));
+  EXPECT_TRUE(fs::exists(root() / "elsewhere" / "results.json"));
+  EXPECT_FALSE(fs::exists(out() / "results.json"));
+}
+
+TEST_F(OneExercise, KeepsResultsOfTheSolutionApart) {
+  EXPECT_EQ(rex({"test", "98", "--solution"}).code, 0);
+  EXPECT_EQ(rex({"run", "98", "--solution"}).code, 0);
+  EXPECT_FALSE(fs::exists(out()));
+  EXPECT_TRUE(fs::exists(root() / "out" / "98-template-solution" / "results.json"));
+}
+
+TEST_F(OneExercise, RunsOneCheckAndPrintsJson) {
+  write(root() / "mine.cpp", kGood);
+  EXPECT_EQ(rex({"test", "98", "--main", root() / "mine.cpp"}).code, 0);
+  const std::string whole = fileText(out() / "results.json");
+  const Ended ended =
+      rex({"test", "98", "--main", root() / "mine.cpp", "--check", "keeps-length", "--seed", "7", "--json"});
+  EXPECT_EQ(ended.code, 0) << ended.error;
+  EXPECT_EQ(ended.output, fileText(out() / "results-partial.json"));
+  EXPECT_EQ(fileText(out() / "results.json"), whole);
+  EXPECT_THAT(ended.output, HasSubstr("\"seed_id\": \"public:7\""));
+  EXPECT_THAT(ended.output, ::testing::ContainsRegex("\"compiler\": \".* [0-9]+[.][0-9]+"));
+  EXPECT_THAT(ended.output, HasSubstr("\"name\": \"mine.cpp\""));
+  EXPECT_THAT(ended.output, Not(HasSubstr("quarter-turn")));
+  const Ended unknown = rex({"test", "98", "--check", "keeps-lenght"});
+  EXPECT_EQ(unknown.code, 64);
+  EXPECT_EQ(fileText(out() / "results-partial.json"), ended.output) << "the last result is lost";
+  EXPECT_THAT(unknown.error, HasSubstr("no check is called 'keeps-lenght' (did you mean 'keeps-length'?)"));
+}
+
+TEST_F(OneExercise, CountsOnlyWholeTestsOfTheStudentsFile) {
+  write(root() / "mine.cpp", kGood);
+  rex({"test", "98", "--main", root() / "mine.cpp"});
+  rex({"test", "98", "--solution"});
+  rex({"test", "98", "--check", "keeps-length"});
+  EXPECT_THAT(rex({}).output, HasSubstr("  - of  3"));
+}
+
+TEST_F(OneExercise, ExplainsAFileThatDoesNotCompile) {
+  replace(exercise() / "main.cpp", "return Eigen::Vector2d::Zero();", "return nothing;");
+  const Ended ended = rex({"test", "98"});
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_THAT(ended.error, HasSubstr("error: 'nothing' was not declared in this scope"));
+  EXPECT_THAT(ended.error, HasSubstr("\n    return nothing;\n           ^\n"));
+  EXPECT_THAT(ended.output, HasSubstr("Not graded"));
+  EXPECT_THAT(fileText(out() / "build.log"), HasSubstr("main.cpp:9:10: error: "));
+  EXPECT_THAT(fileText(out() / "results.json"), HasSubstr("\"outcome\": \"compile_error\""));
+  EXPECT_EQ(rex({"run", "98"}).code, 2);
+}
+
+TEST_F(OneExercise, ExplainsAMissingFileAMissingFunctionAndAForbiddenCall) {
+  const Ended missing = rex({"test", "98", "--main", root() / "none.cpp"});
+  EXPECT_EQ(missing.code, 2);
+  EXPECT_THAT(missing.error, HasSubstr("none.cpp: error: cannot be graded: found no file"));
+  EXPECT_THAT(missing.output, Not(HasSubstr("rex reset")));
+  fs::remove(exercise() / "main.cpp");
+  const Ended gone = rex({"test", "98"});
+  EXPECT_EQ(gone.code, 2);
+  EXPECT_THAT(gone.output, HasSubstr("as it was handed out: scripts/rex reset 98-template\n"));
+  write(exercise() / "main.cpp", "int main() {}\n");
+  const Ended lacking = rex({"test", "98"});
+  EXPECT_EQ(lacking.code, 2);
+  EXPECT_THAT(lacking.error, HasSubstr("'rotated' is declared but not defined here"));
+  write(exercise() / "main.cpp",
+        "#include \"exercise.h\"\n#include \"geometry/rotation.h\"\nEigen::Vector2d rotated(const "
+        "Eigen::Vector2d& p, double a) {\n"
+        "  return (rex::rotationAboutAxis(a, Eigen::Vector3d::UnitZ()) * Eigen::Vector3d(p.x(), p.y(), "
+        "0)).head<2>();\n}\nint main() {}\n");
+  const Ended forbidden = rex({"test", "98"});
+  EXPECT_EQ(forbidden.code, 2);
+  EXPECT_THAT(forbidden.error,
+              HasSubstr("main.cpp:4:16: error: calls rex::rotationAboutAxis, which only main() may"));
+}
+
+// The program of the second grading keeps what it finds of the first, as another grading would meet it.
+TEST_F(OneExercise, LeavesTheLastResultWholeWhileItGrades) {
+  rex({"test", "98"});
+  const fs::path results = out() / "results.json", log = out() / "build.log";
+  const std::string last = fileText(results);
+  write(log, "the last log");
+  std::string curious = kGood;
+  curious.replace(curious.find("  return"), 2,
+                  "  std::ofstream(\"" + (root() / "seen").string() + "\") << std::ifstream(\"" +
+                      results.string() + "\").rdbuf() << std::ifstream(\"" + log.string() +
+                      "\").rdbuf();\n  ");
+  write(exercise() / "main.cpp", "#include <fstream>\n" + curious);
+  EXPECT_EQ(rex({"test", "98"}).code, 0);
+  EXPECT_EQ(fileText(root() / "seen"), last + "the last log");
+  EXPECT_THAT(fileText(results), HasSubstr("\"outcome\": \"pass\""));
+  EXPECT_EQ(fileText(log), "");
+}
+
+TEST_F(OneExercise, SaysWhenTheGraderIsAtFault) {
+  const Ended missing = rexIn(root() / "no-build", {"test", "98"});
+  EXPECT_EQ(missing.code, 3);
+  EXPECT_THAT(flat(missing.error), HasSubstr("build.json: the exercise is not built"));
+  fs::create_directory(root() / "build");
+  write(root() / "build" / "build.ninja",
+        "rule compile\n  command = echo 'check.cpp:7:1: error: nonsense'; exit 1\n"
+        "build 98-template_ready: compile\n");
+  const Ended broken = rexIn(root() / "build", {"test", "98"});
+  EXPECT_EQ(broken.code, 3);
+  EXPECT_THAT(broken.error, HasSubstr("the grader of 98-template does not build"));
+  EXPECT_THAT(broken.error, HasSubstr("check.cpp:7:1: error: nonsense"));
+}
+
+TEST_F(OneExercise, SaysWhenTheProjectOrTheMachineIsAtFault) {
+  write(root() / "out", "a file where a folder should be");
+  for (const char* command : {"test", "run", "debug"}) {
+    const Ended blocked = rex({command, "98"});
+    EXPECT_EQ(blocked.code, 3) << command;
+    EXPECT_THAT(flat(blocked.error),
+                HasSubstr("out/98-template: cannot make the folder for results: found Not a directory"));
+  }
+  fs::remove(root() / "out");
+  const Ended readOnly = rex({"test", "98", "-o", "/proc"});
+  EXPECT_EQ(readOnly.code, 3);
+  EXPECT_THAT(flat(readOnly.error), HasSubstr("/proc/results.json: cannot write the result file"));
+  replace(exercise() / "exercise.toml", "points = 3", "points = ");
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"list"}, {"test", "98"}})
+    EXPECT_EQ(rex(arguments).code, 3) << arguments[0];
+}
+
+TEST_F(OneExercise, LimitsMemoryAlsoWithTheSanitizers) {
+  replace(exercise() / "exercise.toml", "memory_mb = 512", "memory_mb = 64");
+  write(exercise() / "main.cpp",
+        "#include \"exercise.h\"\n#include <cstring>\n#include <unistd.h>\n"
+        "Eigen::Vector2d rotated(const Eigen::Vector2d&, double) {\n"
+        "  for (int k = 0; k < 100; ++k, usleep(20000)) memset(new char[10 << 20], 1, 10 << 20);\n"
+        "  return {0, 0};\n}\nint main() {}\n");
+  const Ended ended = rex({"test", "98", "--debug", "--check", "quarter-turn"});
+  EXPECT_EQ(ended.code, 1) << ended.error;
+  EXPECT_THAT(flat(ended.output), HasSubstr("used more than 384 MB of memory in rotated"));
+}
+
+TEST_F(OneExercise, NeedsTheSolutionWhereItIsAskedFor) {
+  fs::remove(exercise() / "solution.cpp");
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"test", "98", "--solution"}, {"run", "98", "--solution"}}) {
+    const Ended ended = rex(arguments);
+    EXPECT_EQ(ended.code, 64);
+    EXPECT_THAT(flat(ended.error), HasSubstr("98-template has no solution here"));
+  }
+  EXPECT_THAT(flat(rex({"dev", "strip", "98"}).error), HasSubstr("there is no solution to strip"));
+}
+
+TEST_F(OneExercise, RunsTheProgramInItsFolderAndListsWhatItWrote) {
+  addProgramDescription();
+  write(exercise() / "main.cpp",
+        std::string(kGood).replace(std::string(kGood).find("int main() {}"), 13,
+                                   "#include <fstream>\n#include \"course/live_view.h\"\n"
+                                   "int main() {\n  for (int k = 0; k < 9; ++k)\n"
+                                   "    std::ofstream(\"frame\" + std::to_string(k) + \".png\") << k;\n"
+                                   "  return rex::LiveView(\"page\").isWatched();\n}"));
+  const Ended ended = rex({"run", "98"});
+  EXPECT_EQ(ended.code, 0) << ended.error;
+  EXPECT_THAT(ended.output, HasSubstr("frame0.png ... frame8.png (9 files)"));
+  EXPECT_EQ(fileText(out() / "frame3.png"), "3");
+  EXPECT_EQ(rex({"run", "98", "--solution", "-o", root() / "other"}).code, 0);
+}
+
+TEST_F(OneExercise, SaysHowAProgramEnded) {
+  write(exercise() / "main.cpp", "#include <csignal>\nint main() { std::raise(SIGKILL); }\n");
+  const Ended crashed = rex({"run", "98"});
+  EXPECT_EQ(crashed.code, 1);
+  EXPECT_THAT(crashed.error, HasSubstr("signal 9 (Killed)"));
+  EXPECT_THAT(crashed.error, HasSubstr("rex debug 98-template"));
+  write(exercise() / "main.cpp", "int main() { return 5; }\n");
+  EXPECT_THAT(rex({"run", "98"}).error, HasSubstr("exit code 5"));
+}
+
+TEST_F(OneExercise, PrintsADebuggerCommand) {
+  const Ended ended = rex({"debug", "98", "--solution", "--print"});
+  EXPECT_EQ(ended.code, 0) << ended.error;
+  EXPECT_THAT(ended.output, ::testing::StartsWith("gdb -q -ex 'set cwd " + out().string() + "-solution' "));
+}
+
+TEST_F(OneExercise, SaysHowToGetTheDebugger) {
+  fs::create_directory(root() / "bin");
+  for (const char* tool : {"as", "ld", "ld.gold", "nm"})
+    fs::create_symlink(fs::path("/usr/bin") / tool, root() / "bin" / tool);
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", (root() / "bin").c_str(), 1);
+  const Ended ended = rex({"debug", "98"});
+  ::setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(ended.code, 3);
+  EXPECT_THAT(ended.error, HasSubstr("the debugger is not installed: wanted apt-get install gdb"));
+}
+
+}  // namespace rex::cli::one_exercise_test
