@@ -56,7 +56,8 @@ TEST_F(CommandLine, NamesTheValuesOfOptionsAndTheEnvironmentOnce) {
 }
 
 TEST_F(CommandLine, KeepsHelpWithin90ColumnsAndFreeOfColour) {
-  for (const std::string& command : commands()) {
+  for (const char* command : {"list", "run", "test", "watch", "hint", "show", "reset", "solution", "submit",
+                              "debug", "demo", "render", "simulate", "doctor", "view"}) {
     const std::string help = rex({command, "--help"}).output;
     EXPECT_EQ(help.find('\033'), std::string::npos);
     for (std::size_t start = 0; start < help.size();) {

@@ -40,8 +40,8 @@ class CiFiles : public BuiltProject {
     writeProgram("bin/rex", "[ \"$1\" != init ] || exec mkdir \"$2\"\n" + program);
     writeProgram("bin/apt-get", "echo \"$@\" >>'" + (root() / "installed").string() + "'\n");
     handOut("int main() {}  // as it was handed out\n");
-    for (const char* program : {"rex-sandbox", "rex-sandbox-probe"})
-      fs::copy_file(fs::path(REX_BINARY_DIR) / program, build() / program);
+    for (const char* tool : {"rex-sandbox", "rex-sandbox-probe"})
+      fs::copy_file(fs::path(REX_BINARY_DIR) / tool, build() / tool);
     ::setenv("PATH", ((root() / "bin").string() + ":" + path_).c_str(), 1);
   }
   void TearDown() override { ::setenv("PATH", path_.c_str(), 1); }
