@@ -44,10 +44,10 @@ class Doctor : public RexProgram {
     return diagnosis;
   }
 
-  // The doctor where a program behaves like that script.
-  Diagnosis diagnoseWith(const std::string& program, const std::string& script) const {
+  // The doctor where programs behave like these scripts.
+  Diagnosis diagnoseWith(const std::map<std::string, std::string>& programs) const {
     const TemporaryFolder fakes;
-    writeProgram(fakes.path() / program, script);
+    for (const auto& [program, script] : programs) writeProgram(fakes.path() / program, script);
     const ChangedPath changed(fakes.path());
     return diagnose({"--gl", "osmesa"});
   }
@@ -150,36 +150,33 @@ TEST_F(Doctor, NeedsTheOpenGlThatIsAskedFor) {
   EXPECT_THAT(none.text.at("replays"), HasSubstr("wanted Debian package libosmesa6, or libegl1"));
 }
 
+// What one of them does changes nothing for the others, so each diagnosis looks at several.
 TEST_F(Doctor, TellsHowProgramsFail) {
-  const auto figures = [&](const std::string& script) { return diagnoseWith("gnuplot", script); };
-  const Diagnosis exits = figures("echo no licence >&2; exit 7");
-  EXPECT_EQ(exits.exitCode, 3);
-  EXPECT_EQ(exits.status.at("figures"), "fails");
-  EXPECT_EQ(exits.text.at("figures"), "gnuplot does not work: found exit code 7: no licence");
-  EXPECT_EQ(figures("kill -SEGV $$").text.at("figures"),
-            "gnuplot does not work: found termination by signal 11");
-  EXPECT_EQ(figures("[ $1 = --version ] || kill -SEGV $$").text.at("figures"),
-            "cannot draw figure 'test': found signal 11 that ended gnuplot");
-  EXPECT_THAT(figures("cat > /dev/null").text.at("figures"), HasSubstr("no complete picture from gnuplot"));
-
-  const auto videos = [&](const std::string& script) { return diagnoseWith("ffmpeg", script); };
-  EXPECT_EQ(videos("exit 3").text.at("videos"), "ffmpeg does not work: found exit code 3");
-  EXPECT_EQ(videos("exit 3").status.at("videos"), "fails");
-  const Diagnosis poor = videos("exit 0");
-  EXPECT_EQ(poor.status.at("videos"), "missing");
-  EXPECT_THAT(poor.text.at("videos"), HasSubstr("this ffmpeg has no encoder libx264"));
-  EXPECT_EQ(videos("[ $# -gt 9 ] && { cat > /dev/null; exit 9; }; echo fine").text.at("videos"),
-            "cannot make the video: found ffmpeg ended with exit code 9");
-}
-
-TEST_F(Doctor, TellsWhenTheCompilerDoesNotWork) {
-  const Diagnosis assembler = diagnoseWith("as", "exit 1");
-  EXPECT_EQ(assembler.exitCode, 3);
-  EXPECT_EQ(assembler.status.at("compiler"), "fails");
-  EXPECT_THAT(assembler.text.at("compiler"), HasSubstr("it cannot compile a small program"));
-  const Diagnosis linker = diagnoseWith(
-      "ld", "while [ \"$1\" != -o ]; do shift; done; printf '#!/bin/sh\\n' > \"$2\"; chmod +x \"$2\"");
-  EXPECT_EQ(linker.text.at("compiler"), "a program that it compiled does not work");
+  const auto expect = [](const Diagnosis& diagnosis, const std::string& name, const std::string& status,
+                         const std::string& text) {
+    EXPECT_EQ(diagnosis.exitCode, 3);
+    EXPECT_EQ(diagnosis.status.at(name), status);
+    EXPECT_THAT(diagnosis.text.at(name), HasSubstr(text));
+  };
+  const Diagnosis exits =
+      diagnoseWith({{"gnuplot", "echo no licence >&2; exit 7"}, {"ffmpeg", "exit 3"}, {"as", "exit 1"}});
+  expect(exits, "figures", "fails", "gnuplot does not work: found exit code 7: no licence");
+  expect(exits, "videos", "fails", "ffmpeg does not work: found exit code 3");
+  expect(exits, "compiler", "fails", "it cannot compile a small program");
+  const Diagnosis lies = diagnoseWith(
+      {{"gnuplot", "kill -SEGV $$"},
+       {"ffmpeg", "exit 0"},
+       {"ld", "while [ \"$1\" != -o ]; do shift; done; printf '#!/bin/sh\\n' > \"$2\"; chmod +x \"$2\""}});
+  expect(lies, "figures", "fails", "gnuplot does not work: found termination by signal 11");
+  expect(lies, "videos", "missing", "this ffmpeg has no encoder libx264");
+  expect(lies, "compiler", "fails", "a program that it compiled does not work");
+  const Diagnosis later =
+      diagnoseWith({{"gnuplot", "[ $1 = --version ] || kill -SEGV $$"},
+                    {"ffmpeg", "[ $# -gt 9 ] && { cat > /dev/null; exit 9; }; echo fine"}});
+  expect(later, "figures", "fails", "cannot draw figure 'test': found signal 11 that ended gnuplot");
+  expect(later, "videos", "fails", "cannot make the video: found ffmpeg ended with exit code 9");
+  expect(diagnoseWith({{"gnuplot", "cat > /dev/null"}}), "figures", "fails",
+         "no complete picture from gnuplot");
 }
 
 TEST_F(Doctor, SaysWhatToRepair) {

@@ -204,6 +204,7 @@ TEST_F(WatchKeys, EndWithTheTerminal) {
 }
 
 TEST_F(WatchKeys, ShowColoursUnlessRefused) {
+  useRealCompiler();  // what is quick has no line of progress
   for (const char* noColour : {"", "1"}) {
     all_.clear();
     start({"watch", "98"}, noColour);
