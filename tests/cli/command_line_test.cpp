@@ -119,7 +119,7 @@ TEST_F(Completion, KnowsTheExercises) {
 }
 
 TEST_F(Completion, KnowsTheVerbsAndOptionsOfEachCommand) {
-  EXPECT_EQ(after({"scene", "man", "c"}), "check\nconvert\n");
+  EXPECT_EQ(after({"scene", "man", "c"}), "check\ncontacts\nconvert\n");
   EXPECT_EQ(after({"submit", "01", "--o"}), "--out\n");
 }
 
