@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include "base/process.h"
 #include "commands/built_project.h"
 
 namespace rex::cli::one_exercise_test {
@@ -13,6 +14,30 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 class OneExercise : public BuiltProject {};
+
+// The fixtures rely on it: equal files are compiled once, others never share a result.
+TEST(KeptCompiler, GivesEqualFilesTheSameAndOthersTheirOwn) {
+  const TemporaryFolder folder;
+  const auto exitCodeOf = [&](const std::string& project, const std::string& text,
+                              const std::string& header) {
+    const fs::path place = folder.path() / project;
+    fs::create_directories(place);
+    std::ofstream(place / "main.cpp") << text;
+    std::ofstream(place / "seven.h") << header;
+    const ProcessResult compiled =
+        runProcess({REX_KEPT_COMPILER, "-include", "seven.h", "main.cpp", "-o", place / "program"},
+                   {.directory = place});
+    if (!compiled.ok()) return compiled.error.find("main.cpp:1:") == std::string::npos ? -2 : -1;
+    return runProcess({place / "program"}).exitCode;
+  };
+  const std::string header = "constexpr int seven = 7;\n";
+  for (const char* project : {"one", "two"}) {
+    EXPECT_EQ(exitCodeOf(project, "int main() { return seven; }\n", header), 7);
+    EXPECT_EQ(exitCodeOf(project, "int main() { return seven + 1; }\n", header), 8);
+    EXPECT_EQ(exitCodeOf(project, "int main() { return seven; }\n", "constexpr int seven = 9;\n"), 9);
+    EXPECT_EQ(exitCodeOf(project, "int main() { return nothing; }\n", header), -1);
+  }
+}
 
 TEST_F(OneExercise, GradesTheUntouchedFileAtItsFloor) {
   const Ended ended = rex({"test", "98"});
