@@ -10,6 +10,7 @@
 #include "base/process.h"
 #include "cli/rooms_of_students.h"
 #include "cli/run_program.h"
+#include "support/paths.h"
 #include "support/temporary_folder.h"
 
 namespace rex::cli {
@@ -29,7 +30,7 @@ class RexCommand : public ::testing::Test {
     ProcessResult result;
     result.started = true;
     result.exitCode = runProgram(static_cast<int>(argv.size()), argv.data(),
-                                 {.root = REX_SOURCE_DIR, .build = REX_BINARY_DIR}, room);
+                                 {.root = homeFolder(), .build = ownFolder()}, room);
     result.output = ::testing::internal::GetCapturedStdout();
     result.error = ::testing::internal::GetCapturedStderr();
     std::filesystem::current_path(before);

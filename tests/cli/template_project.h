@@ -13,6 +13,7 @@
 #include "cli/command_line.h"
 #include "cli/rooms_of_students.h"
 #include "support/file_text.h"
+#include "support/paths.h"
 #include "support/temporary_folder.h"
 
 namespace rex::cli {
@@ -45,9 +46,9 @@ class TemplateProject : public ::testing::Test {
  protected:
   void SetUp() override {
     for (const char* folder : {"exercises", "share", "src"}) fs::create_directories(root() / folder);
-    fs::copy(REX_BINARY_DIR "/tests/template/source", exercise(), fs::copy_options::recursive);
-    fs::copy(REX_SOURCE_DIR "/src/geometry", root() / "src" / "geometry");
-    fs::copy(REX_SOURCE_DIR "/share/template", root() / "share" / "template", fs::copy_options::recursive);
+    fs::copy(buildPath("tests/template/source"), exercise(), fs::copy_options::recursive);
+    fs::copy(sourcePath("src/geometry"), root() / "src" / "geometry");
+    fs::copy(sourcePath("share/template"), root() / "share" / "template", fs::copy_options::recursive);
     EXPECT_EQ(rex({"reset", "98"}).code, 0);
   }
 

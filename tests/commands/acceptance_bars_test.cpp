@@ -13,6 +13,7 @@
 #include "commands/built_project.h"
 #include "reports/report.h"
 #include "support/needs_osmesa.h"
+#include "support/paths.h"
 #include "support/report_checker.h"
 
 namespace rex::cli::acceptance_bars_test {
@@ -121,7 +122,7 @@ TEST_F(AcceptanceBars, Bar06EachSaveLeadsToOneVerdict) {
     return outcome() == wanted;
   };
   auto watching = std::async(std::launch::async, [&] {
-    return runProcess({REX_OF_TREE, root().string(), "watch", "98"}, {.timeout = 280});
+    return runProcess({kRexOfTree, root().string(), "watch", "98"}, {.timeout = 280});
   });
   EXPECT_TRUE(hasOutcome("fail"));
   write(main(), "int main() { broken }\n");
@@ -142,7 +143,7 @@ TEST_F(AcceptanceBars, Bar06EachSaveLeadsToOneVerdict) {
 TEST_F(AcceptanceBars, Bar07ThePageNeedsNoNetworkAndHoldsAMotion) {
   REX_NEEDS_OSMESA();
   const auto pageOf = [&](const std::vector<std::string>& postures) {
-    std::vector<std::string> command = {REX_BINARY_DIR "/rex-robot", "render", "man.ors", "-o",
+    std::vector<std::string> command = {buildPath("rex-robot"), "render", "man.ors", "-o",
                                         root() / "page.html"};
     for (const std::string& q : postures) command.insert(command.end(), {"--q", q});
     const ProcessResult ended = runProcess(command, {.timeout = 250});

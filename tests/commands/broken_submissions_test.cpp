@@ -12,10 +12,11 @@
 
 #include "base/process_pool.h"
 #include "commands/built_project.h"
+#include "support/paths.h"
 
 namespace rex::cli::broken_submissions_test {
 
-const fs::path kCorpus = REX_SOURCE_DIR "/tests/commands/broken";
+const fs::path kCorpus = sourcePath("tests/commands/broken");
 
 std::vector<std::string> submissions() {
   std::vector<std::string> names;
@@ -40,7 +41,7 @@ class BrokenSubmissions : public BuiltProject {
     fs::copy(exercise(), folder, fs::copy_options::recursive);
     // Soon enough for a loop; a slow machine prints for longer until the limit of what may be printed.
     if (name == "infinite_loop") replace(folder / "exercise.toml", "cpu_seconds = 5", "cpu_seconds = 1");
-    const Ended ended = rexWith({projectOf(name), REX_BINARY_DIR "/tests/template"},
+    const Ended ended = rexWith({projectOf(name), buildPath("tests/template")},
                                 {"test", "98", "--main", kCorpus / (name + ".cpp")});
     std::string said =
         ended.output + "--- standard error, exit code " + std::to_string(ended.code) + "\n" + ended.error;

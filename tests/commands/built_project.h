@@ -4,11 +4,17 @@
 
 #include "cli/template_project.h"
 #include "commands/all_rooms.h"
+#include "support/paths.h"
 
 namespace rex::cli {
 
+// scripts/rex of a small tree, without building: FOLDER WORDS...
+inline const std::string kRexOfTree = buildPath("tests/commands/rex_of_tree");
+// A compiler that compiles equal files once.
+inline const std::string kKeptCompiler = buildPath("tests/template/kept_compiler");
+
 // The same with a build folder of its own. All exercises in it share the grader that was built beforehand,
-// and equal files are compiled once for all tests, by REX_KEPT_COMPILER.
+// and equal files are compiled once for all tests, by kKeptCompiler.
 class BuiltProject : public TemplateProject {
  protected:
   void SetUp() override {
@@ -32,7 +38,7 @@ class BuiltProject : public TemplateProject {
   // What programs that are no exercises are built by.
   void addProgramDescription() const {
     fs::create_directories(build() / "student");
-    describe(REX_BINARY_DIR "/student/program.json", build() / "student" / "program.json");
+    describe(buildPath("student/program.json"), build() / "student" / "program.json");
   }
 
   fs::path folderOf(const std::string& name) const { return root() / "exercises" / name; }
@@ -47,7 +53,7 @@ class BuiltProject : public TemplateProject {
   }
 
  private:
-  static fs::path built() { return REX_BINARY_DIR "/tests/template/exercises/98-template"; }
+  static fs::path built() { return buildPath("tests/template/exercises/98-template"); }
   void link(const std::string& name) const {
     fs::create_directories(build() / "exercises" / name);
     describe(built() / "build.json", build() / "exercises" / name / "build.json");
@@ -55,7 +61,7 @@ class BuiltProject : public TemplateProject {
   }
   static void describe(const fs::path& real, const fs::path& copy) {
     nlohmann::json description = nlohmann::json::parse(fileText(real));
-    description["compiler"] = REX_KEPT_COMPILER;
+    description["compiler"] = kKeptCompiler;
     write(copy, description.dump());
   }
 };

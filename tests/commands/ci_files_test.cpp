@@ -8,6 +8,7 @@
 
 #include "base/sha256.h"
 #include "commands/built_project.h"
+#include "support/paths.h"
 #include "support/report_checker.h"
 
 namespace rex::cli::ci_files_test {
@@ -32,16 +33,16 @@ class CiFiles : public BuiltProject {
  protected:
   void SetUp() override {
     BuiltProject::SetUp();
-    fs::copy(REX_SOURCE_DIR "/share/ci", root() / "share" / "ci", fs::copy_options::recursive);
+    fs::copy(sourcePath("share/ci"), root() / "share" / "ci", fs::copy_options::recursive);
     for (const char* folder : {"bin", "scripts", ".rex"}) fs::create_directory(root() / folder);
-    const std::string program = "exec '" REX_OF_TREE "' '" + root().string() + "' \"$@\"\n";
+    const std::string program = "exec '" + kRexOfTree + "' '" + root().string() + "' \"$@\"\n";
     writeProgram("scripts/rex", program);
     // A source tree makes no course folders, and apt-get installs nothing here.
     writeProgram("bin/rex", "[ \"$1\" != init ] || exec mkdir \"$2\"\n" + program);
     writeProgram("bin/apt-get", "echo \"$@\" >>'" + (root() / "installed").string() + "'\n");
     handOut("int main() {}  // as it was handed out\n");
     for (const char* tool : {"rex-sandbox", "rex-sandbox-probe"})
-      fs::copy_file(fs::path(REX_BINARY_DIR) / tool, build() / tool);
+      fs::copy_file(ownFolder() / tool, build() / tool);
     ::setenv("PATH", ((root() / "bin").string() + ":" + path_).c_str(), 1);
   }
   void TearDown() override { ::setenv("PATH", path_.c_str(), 1); }
@@ -63,8 +64,8 @@ class CiFiles : public BuiltProject {
   }
   // The commands of each step in share/ci/FILE, by name.
   static std::map<std::string, std::string> stepsOf(const std::string& kind, const std::string& file) {
-    const ProcessResult read = runProcess(
-        {kPython, REX_SOURCE_DIR "/tests/commands/ci_steps.py", kind, REX_SOURCE_DIR "/share/ci/" + file});
+    const ProcessResult read =
+        runProcess({kPython, sourcePath("tests/commands/ci_steps.py"), kind, sourcePath("share/ci/" + file)});
     EXPECT_TRUE(read.ok()) << read.error;
     std::map<std::string, std::string> steps;
     std::istringstream lines(read.output);
@@ -109,7 +110,7 @@ std::string commandsIn(const std::string& log) {
 TEST_F(CiFiles, HaveAStepForEachExerciseOfTheCourse) {
   REX_NEEDS_YAML();
   std::set<std::string> exercises;
-  for (const auto& entry : fs::directory_iterator(REX_SOURCE_DIR "/exercises"))
+  for (const auto& entry : fs::directory_iterator(sourcePath("exercises")))
     if (entry.is_directory()) exercises.insert(entry.path().filename());
   for (const auto& [kind, file] : {std::pair<const char*, const char*>{"github", "github-actions.yml"},
                                    {"github", "github-classroom.yml"},
@@ -170,7 +171,7 @@ TEST_F(CiFiles, GitLabGetsItsReport) {
 // Anything that may change the machine, or tell secrets to the work of strangers.
 TEST_F(CiFiles, TheCheckerRefusesWorkflowsThatTrustTooMuch) {
   REX_NEEDS_YAML();
-  const std::string sound = fileText(REX_SOURCE_DIR "/share/ci/github-actions.yml");
+  const std::string sound = fileText(sourcePath("share/ci/github-actions.yml"));
   const std::pair<const char*, const char*> changes[] = {
       {"on: push", "on: pull_request_target"},
       {"contents: read", "contents: write"},
@@ -180,9 +181,9 @@ TEST_F(CiFiles, TheCheckerRefusesWorkflowsThatTrustTooMuch) {
   for (const auto& [from, to] : changes) {
     std::string text = sound;
     write(root() / "w.yml", text.replace(text.find(from), std::string(from).size(), to));
-    EXPECT_FALSE(runProcess({kPython, REX_SOURCE_DIR "/tests/commands/ci_steps.py", "github",
-                             (root() / "w.yml").string()})
-                     .ok())
+    EXPECT_FALSE(
+        runProcess({kPython, sourcePath("tests/commands/ci_steps.py"), "github", (root() / "w.yml").string()})
+            .ok())
         << to;
   }
 }

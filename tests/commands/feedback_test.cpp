@@ -4,6 +4,7 @@
 
 #include "base/process.h"
 #include "commands/built_project.h"
+#include "support/paths.h"
 
 namespace rex::cli::feedback_test {
 
@@ -90,7 +91,7 @@ int main() { return look((Eigen::MatrixXd(2, 2) << 1, 2, 3, 4.5).finished(), {0,
       runProcess({"c++", "-g", "-O0", "-I/usr/include/eigen3", (folder / "main.cpp").string(), "-o", program})
           .ok());
   const ProcessResult run =
-      runProcess({"gdb", "-q", "-batch", "-ex", "source " REX_SOURCE_DIR "/share/gdb/eigen.py", "-ex",
+      runProcess({"gdb", "-q", "-batch", "-ex", "source " + sourcePath("share/gdb/eigen.py").string(), "-ex",
                   "break look", "-ex", "run", "-ex", "print A", "-ex", "print v", program});
   EXPECT_THAT(run.output,
               AllOf(HasSubstr("Eigen 2 x 2: \n  1 2\n  3 4.5"), HasSubstr("Eigen 3 x 1: 0 -1 0.5")))

@@ -37,14 +37,12 @@ class InterruptionTest : public ::testing::Test {
   void SetUp() override {
     for (const char* file : {"exercise.h", "exercise.toml"}) {
       fs::create_directories(root() / "exercises" / "98-template");
-      fs::copy(fs::path(REX_BINARY_DIR "/tests/template/source") / file,
-               root() / "exercises" / "98-template");
+      fs::copy(buildPath("tests/template/source") / file, root() / "exercises" / "98-template");
     }
     fs::create_directories(build());
     fs::create_directories(temporary());
     for (const char* file : {"build.json", "grader"})
-      fs::create_symlink(fs::path(REX_BINARY_DIR "/tests/template/exercises/98-template") / file,
-                         build() / file);
+      fs::create_symlink(buildPath("tests/template/exercises/98-template") / file, build() / file);
   }
 
   fs::path root() const { return temporary_.path(); }
@@ -107,6 +105,7 @@ TEST_F(InterruptionTest, EndsAStudentsProgramThatHangsAndWhatItStarted) {
 #include <functional>
 #include <unistd.h>
 #include "exercise.h"
+#include "support/paths.h"
 Eigen::Vector2d rotated(const Eigen::Vector2d&, double) {{
   if (fork() == 0) {{
     setsid();

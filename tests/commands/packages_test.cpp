@@ -11,6 +11,7 @@
 
 #include "base/process.h"
 #include "support/file_text.h"
+#include "support/paths.h"
 
 namespace rex::cli::packages_test {
 
@@ -33,12 +34,12 @@ std::vector<std::string> split(const std::string& text, char separator) {
 Names filesOfTheBuild() {
   Names files;
   bool isOurs = false;
-  for (const std::string& line : split(outputOf({"ninja", "-C", REX_BINARY_DIR, "-t", "deps"}), '\n')) {
+  for (const std::string& line : split(outputOf({"ninja", "-C", ownFolder(), "-t", "deps"}), '\n')) {
     if (!line.starts_with(' ')) isOurs = line.starts_with("src/") || line.starts_with("exercises/");
     if (isOurs && line.starts_with("    /usr/")) files.insert(line.substr(4));
   }
   for (const std::string& line :
-       split(outputOf({"ninja", "-C", REX_BINARY_DIR, "-t", "inputs", "program"}), '\n'))
+       split(outputOf({"ninja", "-C", ownFolder(), "-t", "inputs", "program"}), '\n'))
     if (line.starts_with("/usr/")) files.insert(line);
   return files;
 }
@@ -141,7 +142,7 @@ class Installed {
 
 Names documentedPackages() {
   Names packages;
-  for (const std::string& line : split(fileText(REX_SOURCE_DIR "/share/packages.txt"), '\n')) {
+  for (const std::string& line : split(fileText(sourcePath("share/packages.txt")), '\n')) {
     std::istringstream words(line);
     std::string package, purpose;
     if (words >> package >> purpose && purpose == "build" && package != "#") packages.insert(package);

@@ -4,6 +4,7 @@
 
 #include "base/process.h"
 #include "commands/all_rooms.h"
+#include "support/paths.h"
 
 namespace rex::cli::programs_test {
 
@@ -11,7 +12,7 @@ using ::testing::HasSubstr;
 
 // The program itself, as a user meets it.
 ProcessResult rex(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), REX_BINARY_DIR "/rex");
+  arguments.insert(arguments.begin(), buildPath("rex"));
   return runProcess(arguments);
 }
 
@@ -64,7 +65,7 @@ TEST(Programs, WelcomeAndHelp) {
 
 // In a pseudo terminal, as `script` makes one.
 TEST(Programs, ColourTextOnlyOnATerminalThatWantsIt) {
-  const std::string rexList = REX_BINARY_DIR "/rex list";
+  const std::string rexList = buildPath("rex list");
   const auto onATerminal = [&](const std::string& settings) {
     const ProcessResult result =
         runProcess({"script", "-qec", "env " + settings + " " + rexList, "/dev/null"});
@@ -81,7 +82,7 @@ TEST(Programs, ColourTextOnlyOnATerminalThatWantsIt) {
 
 TEST(Programs, AnswerAlikeWhicheverIsAsked) {
   for (const char* program : {"/rex-robot", "/rex-methods", "/rex-instructor"}) {
-    const std::string file = std::string(REX_BINARY_DIR) + program;
+    const std::string file = ownFolder().string() + program;
     EXPECT_EQ(runProcess({file}).output, rex({}).output) << program;
     EXPECT_EQ(runProcess({file, "list"}).output, rex({"list"}).output) << program;
     EXPECT_EQ(runProcess({file, "rendr"}).error, rex({"rendr"}).error) << program;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "cli/rex_command.h"
+#include "support/paths.h"
 
 namespace rex::cli {
 
@@ -9,7 +10,7 @@ namespace rex::cli {
 class RexProgram : public RexCommand {
  protected:
   ProcessResult rex(const std::vector<std::string>& arguments) const override {
-    std::vector<std::string> command = {REX_BINARY_DIR "/" + programName(programOf(arguments.at(0)))};
+    std::vector<std::string> command = {buildPath(programName(programOf(arguments.at(0))))};
     command.insert(command.end(), arguments.begin(), arguments.end());
     return runProcess(command, {.directory = folder(), .timeout = 300});
   }

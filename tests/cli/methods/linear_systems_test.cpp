@@ -10,6 +10,7 @@
 
 #include "cli/rex_command.h"
 #include "support/needs_gnuplot.h"
+#include "support/paths.h"
 
 namespace rex::cli::linear_systems_test {
 
@@ -35,7 +36,7 @@ Eigen::MatrixXd matrixOf(const json& rows) {
 
 // Each real problem as closely as the bar of the file, the complex ones refused.
 TEST_F(RiccatiCommand, AgreesWithTheGoldenNumbers) {
-  std::ifstream stream(REX_SOURCE_DIR "/tests/golden/riccati.json");
+  std::ifstream stream(sourcePath("tests/golden/riccati.json"));
   const json golden = json::parse(stream);
   int real = 0, complex = 0;
   for (const char* kind : {"care", "dare"}) {

@@ -9,6 +9,7 @@
 
 #include "cli/rex_command.h"
 #include "estimation/g2o_file.h"
+#include "support/paths.h"
 
 namespace rex::cli::slam_test {
 
@@ -16,9 +17,7 @@ using ::testing::HasSubstr;
 
 class SlamCommand : public RexCommand {
  protected:
-  std::string example() const {
-    return (std::filesystem::path(REX_SOURCE_DIR) / "data/graphs/streets.g2o").string();
-  }
+  std::string example() const { return (homeFolder() / "data/graphs/streets.g2o").string(); }
   std::string write(const std::string& text) const {
     const std::string file = in("map.g2o").string();
     std::ofstream(file) << text;

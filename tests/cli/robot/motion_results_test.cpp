@@ -7,6 +7,7 @@
 #include "kinematics/forward_kinematics.h"
 #include "scene/ors_reader.h"
 #include "support/expect_error.h"
+#include "support/paths.h"
 
 namespace rex::cli::motion_results_test {
 
@@ -15,7 +16,7 @@ using ::testing::HasSubstr;
 
 class Pictures : public ::testing::Test {
  protected:
-  const Model arm = compile(readOrs(REX_SOURCE_DIR "/data/robots/pegArm.ors").spec);
+  const Model arm = compile(readOrs(sourcePath("data/robots/pegArm.ors")).spec);
   // The whole arm turns, then hangs below the ground.
   const Motion motion = moveThrough(arm, {Vector3d(0, 0, 0), Vector3d(2, 0, 0)}, 0.2, 30);
 };

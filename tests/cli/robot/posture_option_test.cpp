@@ -9,15 +9,14 @@
 #include "scene/ors_reader.h"
 #include "scene/state.h"
 #include "support/expect_error.h"
+#include "support/paths.h"
 #include "support/temporary_folder.h"
 
 namespace rex::cli::posture_option_test {
 
 using Eigen::Vector3d;
 
-Model robot(const char* name) {
-  return compile(readOrs(std::string(REX_SOURCE_DIR "/data/robots/") + name).spec);
-}
+Model robot(const char* name) { return compile(readOrs(sourcePath("data/robots/").string() + name).spec); }
 
 class MotionFile : public ::testing::Test {
  protected:

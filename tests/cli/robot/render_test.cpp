@@ -14,6 +14,7 @@
 #include "support/changed_path.h"
 #include "support/file_text.h"
 #include "support/needs_osmesa.h"
+#include "support/paths.h"
 
 namespace rex::cli::render_test {
 
@@ -324,11 +325,12 @@ TEST_F(RenderCommand, CallsScenesAsTheUserDoes) {
   EXPECT_THAT(textOf("a.html"), HasSubstr("<title>man</title>"));
   ASSERT_EQ(rex({"render", "man", "--caption", "A man", "--size", "48x36", "-o", "a.html"}).exitCode, 0);
   EXPECT_THAT(textOf("a.html"), HasSubstr("<title>A man</title>"));
-  for (const std::string scene : {"man", "man.ors", REX_SOURCE_DIR "/data/robots/man.ors"}) {
+  for (const std::string& scene :
+       std::vector<std::string>{"man", "man.ors", sourcePath("data/robots/man.ors")}) {
     const ProcessResult result = rex({"render", scene, "--q", "x=1", "-o", "a.png"});
     EXPECT_THAT(flat(result.error),
                 HasSubstr("--q: " + fs::path(scene).filename().string() + " has no joint"));
-    EXPECT_THAT(result.error, Not(HasSubstr(REX_SOURCE_DIR)));
+    EXPECT_THAT(result.error, Not(HasSubstr(homeFolder().string())));
   }
 }
 

@@ -10,6 +10,7 @@
 #include "live/live_recording.h"
 #include "scene/ors_reader.h"
 #include "support/needs_osmesa.h"
+#include "support/paths.h"
 
 namespace rex::cli::view_test {
 
@@ -37,7 +38,7 @@ class ViewFilmTest : public ::testing::Test {
     ASSERT_EQ(film.draw(), "A film is being drawn.");
   }
   const TemporaryFolder folder;
-  const Model arm = compile(readOrs(REX_SOURCE_DIR "/data/robots/pegArm.ors").spec);
+  const Model arm = compile(readOrs(sourcePath("data/robots/pegArm.ors")).spec);
   const HeldSignals held;
 };
 

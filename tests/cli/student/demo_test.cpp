@@ -9,6 +9,7 @@
 #include "cli/command_schema.h"
 #include "cli/demonstrations.h"
 #include "cli/template_project.h"
+#include "support/paths.h"
 
 namespace rex::cli::demo_test {
 
@@ -25,7 +26,7 @@ class Demo : public TemplateProject {
 TEST(Demonstrations, CoverChapters2To11) {
   std::set<int> chapters;
   Project project;
-  project.root = REX_SOURCE_DIR;
+  project.root = homeFolder();
   for (const Demonstration& one : demonstrations(project)) {
     chapters.insert(one.chapter);
     EXPECT_FALSE(one.title.empty() || one.about.empty()) << one.name;

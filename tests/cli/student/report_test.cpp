@@ -3,6 +3,7 @@
 
 #include "cli/rex_command.h"
 #include "support/file_text.h"
+#include "support/paths.h"
 
 namespace rex::cli::report_test {
 
@@ -10,9 +11,7 @@ using ::testing::HasSubstr;
 
 class ReportCommand : public RexCommand {
  protected:
-  static std::string golden(const std::string& name) {
-    return REX_SOURCE_DIR "/tests/golden/reports/" + name;
-  }
+  static std::string golden(const std::string& name) { return sourcePath("tests/golden/reports/" + name); }
 };
 
 TEST_F(ReportCommand, PrintsOrWritesAFile) {

@@ -6,6 +6,7 @@
 #include "cli/command_schema.h"
 #include "commands/built_project.h"
 #include "support/class_results.h"
+#include "support/paths.h"
 #include "support/report_checker.h"
 
 namespace rex::cli::course_test {
@@ -85,8 +86,7 @@ author = "A. Tutor"
     return rex(arguments);
   }
   Json readBack(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(),
-                     {kPython, REX_SOURCE_DIR "/tests/commands/instructor/read_exports.py"});
+    arguments.insert(arguments.begin(), {kPython, sourcePath("tests/commands/instructor/read_exports.py")});
     const ProcessResult run = runProcess(arguments);
     EXPECT_TRUE(run.ok()) << run.error;
     return Json::parse(run.output, nullptr, false);
@@ -292,9 +292,8 @@ TEST_F(CourseTest, WritesTablesForOtherPlatforms) {
 TEST_F(CourseTest, WritesAllGradesForPrograms) {
   REX_NEEDS_REPORT_CHECKER();
   EXPECT_EQ(exported("json").code, 0);
-  EXPECT_EQ(
-      readBack({"json", (root() / "json").string(), REX_SOURCE_DIR "/share/grading/grades.schema.json"}),
-      "valid");
+  EXPECT_EQ(readBack({"json", (root() / "json").string(), sourcePath("share/grading/grades.schema.json")}),
+            "valid");
   const Ended printed = rex({"export", "json", results().string(), "--course", course()});
   EXPECT_EQ(printed.output, fileText(root() / "json"));
 }

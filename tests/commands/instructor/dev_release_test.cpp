@@ -1,6 +1,7 @@
 // `rex dev release`: the tree, what is said of it, and its proof on a tree whose build is a script.
 #include "cli/command_schema.h"
 #include "commands/built_project.h"
+#include "support/paths.h"
 
 namespace rex::cli::dev_release_test {
 
@@ -146,7 +147,7 @@ TEST_F(DevReleaseTest, ProvesThatTheTreeWorksAlone) {
 }
 
 TEST_F(DevReleaseTest, WritesPagesOfTheCourse) {
-  fs::copy(REX_SOURCE_DIR "/share/site", root() / "share" / "site");
+  fs::copy(sourcePath("share/site"), root() / "share" / "site");
   const std::string site = (root() / "site").string();
   const Ended ended = rex({"dev", "site", site, "--json"});
   EXPECT_EQ(ended.code, 0) << ended.error;

@@ -5,6 +5,7 @@
 #include "base/text_file.h"
 #include "cli/command_schema.h"
 #include "commands/instructor/graded_class.h"
+#include "support/paths.h"
 
 namespace rex::cli::grade_many_test {
 
@@ -231,7 +232,7 @@ TEST_F(GradeManyTest, RefusesFoldersInsideEachOther) {
 
 TEST_F(GradeManyTest, LetsTheExerciseWaitWhoseGraderDoesNotBuild) {
   fs::copy(exercise(), root() / "exercises" / "97-other", fs::copy_options::recursive);
-  fs::create_symlink(REX_BINARY_DIR "/rex-sandbox", build() / "rex-sandbox");
+  fs::create_symlink(buildPath("rex-sandbox"), build() / "rex-sandbox");
   write(build() / "build.ninja",
         "rule compile\n  command = echo 'check.cpp:7:1: error: nonsense'; exit 1\n"
         "build 97-other_ready: compile\nbuild 98-template_ready: phony\n");

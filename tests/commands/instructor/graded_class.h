@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 
 #include "commands/built_project.h"
+#include "support/paths.h"
 
 namespace rex::cli {
 
@@ -42,7 +43,7 @@ class GradedClass : public BuiltProject {
   }
   // With the programs that other tests have compiled, for most tests are not about compiling.
   Ended grade(std::vector<std::string> more = {}, const std::string& out = "results") const {
-    more.insert(more.end(), {"--workers", REX_BINARY_DIR "/tests/template/workers"});
+    more.insert(more.end(), {"--workers", buildPath("tests/template/workers")});
     return gradeAnew(std::move(more), out);
   }
   std::string table(const std::string& out = "results") const {

@@ -18,6 +18,7 @@
 #include "commands/rex_program.h"
 #include "support/needs_gnuplot.h"
 #include "support/needs_osmesa.h"
+#include "support/paths.h"
 #include "support/temporary_folder.h"
 
 namespace rex::cli::processes_test {
@@ -30,7 +31,8 @@ class RenderInterruption : public ::testing::Test {
  protected:
   // Starts `rex render pegArm` with these arguments in our folder; what it notes goes into the file "notes".
   pid_t start(std::vector<const char*> arguments) const {
-    arguments.insert(arguments.begin(), {REX_BINARY_DIR "/rex-robot", "render", "pegArm"});
+    const std::string program = buildPath("rex-robot");
+    arguments.insert(arguments.begin(), {program.c_str(), "render", "pegArm"});
     arguments.push_back(nullptr);
     const pid_t child = ::fork();
     if (child < 0) throw std::runtime_error("cannot fork");
@@ -112,9 +114,8 @@ class ViewProcess : public RexProgram {
     std::vector<std::string> words = {"env",     "-u", "SSH_CONNECTION", "-u",
                                       "DISPLAY", "-u", "WAYLAND_DISPLAY"};
     words.insert(words.end(), variables.begin(), variables.end());
-    for (const char* word :
-         {"timeout", "--preserve-status", "--signal=INT", "1", REX_BINARY_DIR "/rex-robot", "view", "arm3"})
-      words.emplace_back(word);
+    words.insert(words.end(), {"timeout", "--preserve-status", "--signal=INT", "1", buildPath("rex-robot"),
+                               "view", "arm3"});
     words.insert(words.end(), options.begin(), options.end());
     return runProcess(words, {.timeout = 60});
   }
@@ -156,7 +157,7 @@ TEST_F(SimulateProcess, KeepsNoStepsOfALog) {
         runProcess({"python3", "-c",
                     "import resource, subprocess, sys\nsubprocess.run(sys.argv[1:], check=True, stdout=2)\n"
                     "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024)",
-                    REX_BINARY_DIR "/rex-robot", "simulate", in("boxes.ors").string(), "--engine", "bullet",
+                    buildPath("rex-robot"), "simulate", in("boxes.ors").string(), "--engine", "bullet",
                     "--seconds", seconds, "--no-film", "-o", in(seconds).string()},
                    {.timeout = 300});
     EXPECT_TRUE(run.ok()) << run.error;

@@ -24,9 +24,8 @@ TEST(KeptCompiler, GivesEqualFilesTheSameAndOthersTheirOwn) {
     fs::create_directories(place);
     std::ofstream(place / "main.cpp") << text;
     std::ofstream(place / "seven.h") << header;
-    const ProcessResult compiled =
-        runProcess({REX_KEPT_COMPILER, "-include", "seven.h", "main.cpp", "-o", place / "program"},
-                   {.directory = place});
+    const ProcessResult compiled = runProcess(
+        {kKeptCompiler, "-include", "seven.h", "main.cpp", "-o", place / "program"}, {.directory = place});
     if (!compiled.ok()) return compiled.error.find("main.cpp:1:") == std::string::npos ? -2 : -1;
     return runProcess({place / "program"}).exitCode;
   };

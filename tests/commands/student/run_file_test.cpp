@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/built_project.h"
+#include "support/paths.h"
 
 namespace rex::cli::run_file_test {
 
@@ -84,7 +85,7 @@ TEST_F(RunFile, UsesTheLibraryAndHeadersBesideIt) {
   EXPECT_EQ(ended.code, 0) << ended.error << fileText(outOf("prog") / "build.log");
   EXPECT_EQ(fileText(outOf("prog") / "sum.txt"), "11");
   EXPECT_THAT(asked(), IsSupersetOf({"rex_course", "rex_render", "rex_estimation"}));
-  if (fs::exists(REX_BINARY_DIR "/student/prefix.h")) {  // not with the sanitizers
+  if (fs::exists(buildPath("student/prefix.h"))) {  // not with the sanitizers
     EXPECT_THAT(asked(), Contains("rex_student_prefix"));
   }
   for (const char* other : {"rex_planning", "rex_locomotion", "rex_inverse_kinematics", "98-template_ready"})

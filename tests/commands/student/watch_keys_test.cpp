@@ -42,10 +42,10 @@ class WatchKeys : public BuiltProject {
     ::setenv("NO_COLOR", noColour, 1);
     ::setenv("TERM", "xterm", 1);
     const std::string folder = root().string();
-    std::vector<const char*> argv = {REX_OF_TREE, folder.c_str()};
+    std::vector<const char*> argv = {kRexOfTree.c_str(), folder.c_str()};
     for (const std::string& word : words) argv.push_back(word.c_str());
     argv.push_back(nullptr);
-    ::execv(REX_OF_TREE, const_cast<char* const*>(argv.data()));
+    ::execv(kRexOfTree.c_str(), const_cast<char* const*>(argv.data()));
     ::_exit(127);
   }
 
