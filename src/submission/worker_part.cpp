@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using Names = std::set<std::string, std::less<>>;
 
-constexpr const char *kInstances = "eigen_instances", *kRefusal = "rexNotAllowedHere";
+constexpr const char *kInstances = "eigen_", *kRefusal = "rexNotAllowedHere";
 
 bool isOneOf(std::string_view symbol, const std::vector<std::string>& functions) {
   return std::any_of(functions.begin(), functions.end(),

@@ -1,2 +1,0 @@
-#include "../../src/base/first.cpp"
-#include "../../src/base/second.cpp"

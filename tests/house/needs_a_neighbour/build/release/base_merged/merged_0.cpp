@@ -1,0 +1,2 @@
+#include "base/first.cpp"
+#include "base/second.cpp"
