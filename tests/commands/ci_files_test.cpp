@@ -92,9 +92,14 @@ class CiFiles : public BuiltProject {
   std::string path_ = std::getenv("PATH");
 };
 
+bool hasYaml() {
+  static const bool has = runProcess({kPython, "-c", "import yaml"}).ok();
+  return has;
+}
+
 #define REX_NEEDS_YAML()      \
   REX_NEEDS_REPORT_CHECKER(); \
-  if (!runProcess({kPython, "-c", "import yaml"}).ok()) GTEST_SKIP() << "python3-yaml is not installed"
+  if (!hasYaml()) GTEST_SKIP() << "python3-yaml is not installed"
 
 // Lines that GitHub takes for commands.
 std::string commandsIn(const std::string& log) {

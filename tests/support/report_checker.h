@@ -34,9 +34,15 @@ inline std::string reportDifferences(const std::filesystem::path& folder) {
   return reportChecker({"equal", folder.string()});
 }
 
+/// Whether the programs that it needs are installed; asked once.
+inline bool hasReportChecker() {
+  static const bool has = runProcess({kPython, "-c", "import jsonschema, markdown_it"}).ok() &&
+                          runProcess({"xmllint", "--version"}).ok();
+  return has;
+}
+
 }  // namespace rex
 
-#define REX_NEEDS_REPORT_CHECKER()                                                         \
-  if (!::rex::runProcess({::rex::kPython, "-c", "import jsonschema, markdown_it"}).ok() || \
-      !::rex::runProcess({"xmllint", "--version"}).ok())                                   \
+#define REX_NEEDS_REPORT_CHECKER() \
+  if (!::rex::hasReportChecker())  \
   GTEST_SKIP() << "python3-jsonschema, python3-markdown-it or libxml2-utils is not installed"
