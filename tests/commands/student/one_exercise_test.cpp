@@ -81,12 +81,23 @@ TEST_F(OneExercise, RunsOneCheckAndPrintsJson) {
   EXPECT_THAT(unknown.error, HasSubstr("no check is called 'keeps-lenght' (did you mean 'keeps-length'?)"));
 }
 
-TEST_F(OneExercise, CountsOnlyWholeTestsOfTheStudentsFile) {
+// What the other commands of the loop find: tests/cli records the same.
+TEST_F(OneExercise, RemembersWholeTestsOfTheStudentsFileOnly) {
   write(root() / "mine.cpp", kGood);
   rex({"test", "98", "--main", root() / "mine.cpp"});
   rex({"test", "98", "--solution"});
   rex({"test", "98", "--check", "keeps-length"});
   EXPECT_THAT(rex({}).output, HasSubstr("  - of  3"));
+  rex({"test", "98"});
+  EXPECT_THAT(rex({}).output, HasSubstr("  0 of  3\n"));
+  EXPECT_THAT(rex({"hint", "98"}).output, HasSubstr("[rotate]"));
+  write(exercise() / "main.cpp", kGood);
+  EXPECT_THAT(rex({}).output, HasSubstr("  0 of  3   edited since this test\n"));
+  rex({"test", "98"});
+  EXPECT_THAT(rex({}).output, HasSubstr("  3 of  3\n"));
+  EXPECT_EQ(rex({"submit", "98", "-o", root() / "handin.zip"}).error, "") << "it was tested";
+  replace(exercise() / "exercise.toml", "[limits]", "solution = \"after-pass\"\n\n[limits]");
+  EXPECT_EQ(rex({"solution", "98"}).code, 0);
 }
 
 TEST_F(OneExercise, ExplainsAFileThatDoesNotCompile) {
