@@ -6,7 +6,7 @@ import shutil
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 BUILD = ROOT / "build" / "release"
 ATTACKED = "97-battery"
-REX = BUILD / "tests" / "cli" / "rex_of_tree"  # REX FOLDER ARGUMENTS...: rex in that project
+REX = BUILD / "tests" / "commands" / "rex_of_tree"  # REX FOLDER ARGUMENTS...: rex in that project
 
 
 class AttackedProject:

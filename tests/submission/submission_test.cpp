@@ -12,7 +12,7 @@ namespace rex::grading::submission_test {
 
 using ::testing::HasSubstr;
 
-// What no grader does wrong is tested with the whole program, in tests/cli; here the tools break.
+// What no grader does wrong is tested with the whole program, in tests/commands; here the tools break.
 class SubmissionTest : public ::testing::Test {
  protected:
   Submission submit(const Toolchain& toolchain, const std::string& main) const {
