@@ -27,6 +27,67 @@
 #endif
 
 namespace Eigen {
+namespace internal {
+
+// Products of whole matrices are specialised at the point where Eigen looks at their sizes and chooses a
+// blocked product, one with a vector, or one coefficient by coefficient. Each would take half a second to
+// compile, and students wait for that: without these, solutions compile a fifth longer.
+using Transposed = Transpose<const MatrixXd>;
+using TransposedValue = Transpose<MatrixXd>;
+using RowMatrix = Matrix<double, Dynamic, Dynamic, RowMajor>;
+using TwoFactors = Product<MatrixXd, MatrixXd>;
+using FirstTransposed = Product<Transposed, MatrixXd>;
+using ThreeFactors = Product<TwoFactors, Transposed>;
+#define REX_MATRIX_PRODUCTS(PRODUCT)           \
+  PRODUCT(MatrixXd, MatrixXd, MatrixXd)        \
+  PRODUCT(MatrixXd, Transposed, MatrixXd)      \
+  PRODUCT(MatrixXd, TransposedValue, MatrixXd) \
+  PRODUCT(MatrixXd, MatrixXd, Transposed)      \
+  PRODUCT(MatrixXd, TwoFactors, MatrixXd)      \
+  PRODUCT(MatrixXd, TwoFactors, Transposed)    \
+  PRODUCT(RowMatrix, TwoFactors, Transposed)   \
+  PRODUCT(MatrixXd, FirstTransposed, MatrixXd) \
+  PRODUCT(MatrixXd, ThreeFactors, MatrixXd)
+#define REX_DECLARE(Result, Left, Right)                                                                     \
+  template <>                                                                                                \
+  template <>                                                                                                \
+  void generic_product_impl<Left, Right, DenseShape, DenseShape>::evalTo(Result&, const Left&,               \
+                                                                         const Right&);                      \
+  template <>                                                                                                \
+  template <>                                                                                                \
+  void generic_product_impl<Left, Right, DenseShape, DenseShape>::addTo(Result&, const Left&, const Right&); \
+  template <>                                                                                                \
+  template <>                                                                                                \
+  void generic_product_impl<Left, Right, DenseShape, DenseShape>::subTo(Result&, const Left&, const Right&);
+REX_MATRIX_PRODUCTS(REX_DECLARE)
+#undef REX_DECLARE
+
+// Products with vectors.
+#define REX_VECTOR_PRODUCTS(PRODUCT) \
+  PRODUCT(MatrixXd)                  \
+  PRODUCT(Transposed)                \
+  PRODUCT(TransposedValue)
+#define REX_DECLARE(Left)                                                                        \
+  template <>                                                                                    \
+  template <>                                                                                    \
+  void generic_product_impl<Left, VectorXd, DenseShape, DenseShape, GemvProduct>::scaleAndAddTo( \
+      VectorXd&, const Left&, const VectorXd&, const double&);
+REX_VECTOR_PRODUCTS(REX_DECLARE)
+#undef REX_DECLARE
+
+}  // namespace internal
+
+// Members that are defined within their class would be compiled wherever they are called: specialised
+// instead.
+template <>
+template <>
+void HouseholderSequence<MatrixXd, VectorXd, OnTheLeft>::evalTo(MatrixXd&) const;
+template <>
+template <>
+void PartialPivLU<MatrixXd>::_solve_impl(const MatrixXd&, MatrixXd&) const;
+template <>
+template <>
+void PartialPivLU<MatrixXd>::_solve_impl(const VectorXd&, VectorXd&) const;
 
 REX_LU_INSTANCE class LLT<MatrixXd>;
 REX_LU_INSTANCE LLT<MatrixXd>& LLT<MatrixXd>::compute(const EigenBase<MatrixXd>&);

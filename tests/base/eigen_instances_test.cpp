@@ -43,4 +43,42 @@ TEST(EigenInstances, MultiplyAndDecomposeAsOtherScalarsDo) {
   }
 }
 
+// Products that are specialised give the bits that Eigen's own give, which a Map still takes.
+TEST(EigenInstances, MultiplyAsEigenDoes) {
+  Rng rng(2);
+  for (const Index n : {0, 1, 2, 5, 6, 9, 40})
+    for (const Index inner : {1, 3, 8, 33})
+      for (const Index columns : {1, 4, 7, 50}) {
+        MatrixXd A = randomMatrix(rng, n, inner), At = A.transpose(), D = randomMatrix(rng, columns, inner);
+        const MatrixXd B = randomMatrix(rng, inner, columns), S = randomMatrix(rng, inner, inner),
+                       C = randomMatrix(rng, n, columns);
+        const auto check = [&](const auto& product, const MatrixXd& plainly) {
+          MatrixXd got = product, more = C, less = C, wanted(n, columns), added = C, taken = C;
+          more.noalias() += product;
+          less.noalias() -= product;
+          const auto same = [](MatrixXd& M) { return Eigen::Map<MatrixXd>(M.data(), M.rows(), M.cols()); };
+          same(wanted).noalias() = product;
+          same(added).noalias() += product;
+          same(taken).noalias() -= product;
+          EXPECT_EQ(got, wanted) << n << " " << inner << " " << columns;
+          EXPECT_EQ(more, added) << n << " " << inner << " " << columns;
+          EXPECT_EQ(less, taken) << n << " " << inner << " " << columns;
+          EXPECT_LE((got - plainly).norm(),
+                    1e-13 * (1 + plainly.norm()) * static_cast<double>(inner * inner));
+        };
+        const MatrixXd AB = A.lazyProduct(B), AS = A.lazyProduct(S), ASB = AS.lazyProduct(B);
+        const MatrixXd& fixedAt = At;
+        const MatrixXd& fixedD = D;
+        check(A * B, AB);
+        check(At.transpose() * B, AB);
+        check(fixedAt.transpose() * B, AB);
+        check(A * fixedD.transpose(), A.lazyProduct(D.transpose()));
+        check(A * S * B, ASB);
+        check(A * S * fixedD.transpose(), AS.lazyProduct(D.transpose()));
+        check(fixedAt.transpose() * S * B, ASB);
+        const MatrixXd SSt = S.lazyProduct(S.transpose());
+        check(A * S * S.transpose() * B, MatrixXd(A.lazyProduct(SSt)).lazyProduct(B));
+      }
+}
+
 }  // namespace rex::eigen_instances_test
