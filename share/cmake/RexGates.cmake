@@ -2,7 +2,7 @@
 #
 # Registers one test per gate of exercises/NAME, label `exercise`. `rex dev check NAME --gate GATE` runs one by hand. All
 # wrong variants are one gate, which compiles them together; it takes longest, so it starts first. The entry `sample`,
-# label `sample-NAME`, asks for a part of some gates: scripts/test.
+# label `sample-NAME`, tests a part of three gates; scripts/test runs it.
 function(rex_exercise_gates name)
   set(variants)
   if(REX_SANITIZE)

@@ -65,7 +65,8 @@ function(rex_merge_sources target name at_most)
   set(files)
   if(REX_MERGE_SOURCES AND count GREATER 1)
     set_source_files_properties(${sources} PROPERTIES HEADER_FILE_ONLY ON)
-    string(REGEX REPLACE "^${PROJECT_SOURCE_DIR}/(src|tests)/" "" place ${CMAKE_CURRENT_SOURCE_DIR})
+    cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE place)
+    string(REGEX REPLACE "^(src|tests)/" "" place "${place}")
     set(number 0)
     while(sources)
       list(SUBLIST sources 0 ${at_most} batch)
@@ -82,8 +83,8 @@ function(rex_merge_sources target name at_most)
   set(${name} ${files} PARENT_SCOPE)
 endfunction()
 
-# The number of sources to merge. Fewer if they are full of Eigen's expressions, of which each source has its own kinds:
-# more of them at once take longer than in proportion.
+# The number of sources to merge. Fewer if they are full of Eigen's expressions: each source has its own kinds of them,
+# and the time grows faster than their number.
 function(rex_batch_size variable matrices)
   if(matrices)
     set(${variable} 4 PARENT_SCOPE)

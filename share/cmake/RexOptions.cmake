@@ -3,13 +3,17 @@ option(REX_SANITIZE "Build with the address, undefined-behaviour and leak saniti
 option(REX_QUICK_SANITIZERS "Leave out what they ask at each use of a pointer" OFF)
 option(REX_FUZZ "Build the programs of tests/fuzz with libFuzzer; needs clang" OFF)
 
-# Where ccache is installed, nothing is compiled twice on a machine: it knows a source in another clone, too, by paths
+# Where ccache is installed, nothing is compiled twice on a machine: it also recognises a source in another clone, by paths
 # relative to the clone. The settings are part of each command, because rex itself starts builds. CCACHE_DISABLE=1 in the
-# environment turns it off. Not for clang, which refuses a precompiled header whose files have another time.
+# environment turns it off. Not for clang, which rejects a precompiled header if one of its files has a new modification
+# time. Debuggers look for sources in the folder that an object names, so builds for them share nothing with other clones.
 find_program(REX_CCACHE ccache)
 if(REX_CCACHE AND CMAKE_CXX_COMPILER_ID STREQUAL GNU AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER AND NOT DEFINED ENV{CMAKE_CXX_COMPILER_LAUNCHER})
-  set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_NOHASHDIR=1
-      CCACHE_SLOPPINESS=pch_defines,time_macros ${REX_CCACHE})
+  set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_SLOPPINESS=pch_defines,time_macros)
+  if(CMAKE_BUILD_TYPE STREQUAL Release OR REX_SANITIZE)
+    list(APPEND CMAKE_CXX_COMPILER_LAUNCHER CCACHE_NOHASHDIR=1)
+  endif()
+  list(APPEND CMAKE_CXX_COMPILER_LAUNCHER ${REX_CCACHE})
 endif()
 
 # A source that changes then brings its neighbours along: for machines that build everything once.
@@ -26,9 +30,10 @@ math(EXPR jobs "(${memory} + 1499) / 1500")
 set_property(GLOBAL PROPERTY JOB_POOLS compile=${jobs})
 set(CMAKE_JOB_POOL_COMPILE compile)
 
-# By the compiler of Debian 12 there is no warning, and with the same options as those of scripts/test, which asks for
-# it, nothing that scripts/demo has built is built again. Other compilers may know other warnings.
-if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13 AND
+# g++ 12 of Debian 12 gives no warnings, so they can be errors here, too. Then scripts/demo and scripts/test compile with
+# the same options, and scripts/test builds nothing again. Other compilers may have other warnings.
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 12 AND
+   CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13 AND
    NOT DEFINED CMAKE_COMPILE_WARNING_AS_ERROR)
   set(CMAKE_COMPILE_WARNING_AS_ERROR ON)
 endif()

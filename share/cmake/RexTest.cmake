@@ -1,7 +1,7 @@
 # Tests: one program per folder of tests/, one entry of ctest per file.
 
-# What the sanitizers look at in a short run: modules that read files of users or talk to processes, but not the
-# grader, which links with nearly all of the library. scripts/test --long looks at all.
+# The modules that `scripts/test --all` tests under the sanitizers: those that read files of users or talk to processes,
+# but not the grader, which links with nearly all of the library. `scripts/test --long` tests all.
 set(REX_SANITIZED_MODULES base geometry remote scene web)
 
 # What nearly all tests include takes longer to compile than the rest of them.

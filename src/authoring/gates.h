@@ -20,7 +20,7 @@ struct GateContext {
   std::filesystem::path sheet{};     ///< where gate wrong puts the pictures of failed checks; empty: nowhere
   int hostileAnswers = 3000;         ///< that gate hostile gives instead of the student's
   std::vector<std::string> variants{};  ///< those that gate wrong tests, as "wrong/NAME"; empty: all
-  bool storesMessages = false;          ///< whether gate wrong writes wrong/seen.txt anew
+  bool storesMessages = false;          ///< whether gate wrong rewrites wrong/seen.txt
 };
 
 /// Whether an exercise passed a gate, and what to do if not.

@@ -1,5 +1,5 @@
 // What the course asks of the student's loop, by number. 1 is shown in full by scripts/fresh-machine, 2 and 3
-// are in exercises/release_bars, the corpus of 4 in cli/broken_submissions.
+// are in exercises/release_bars, the corpus of 4 in commands/broken_submissions.
 #include <future>
 #include <regex>
 #include <thread>

@@ -35,7 +35,7 @@ class BuiltProject : public TemplateProject {
                   fs::copy_options::overwrite_existing);
   }
 
-  // What programs that are no exercises are built by.
+  // The description by which programs that are not exercises are built.
   void addProgramDescription() const {
     fs::create_directories(build() / "student");
     describe(buildPath("student/program.json"), build() / "student" / "program.json");

@@ -31,7 +31,7 @@ void addDevCheck(CLI::App* dev, Action& action) {
   command->add_option("--gate", options->gates, "only this gate; may be repeated")
       ->allow_extra_args(false)
       ->type_name("NAME");
-  command->add_option("--variant", options->variants, "gate wrong, of only this variant; may be repeated")
+  command->add_option("--variant", options->variants, "only this wrong variant; may be repeated")
       ->allow_extra_args(false)
       ->type_name("NAME")
       ->needs(exercise);

@@ -95,9 +95,14 @@ std::vector<std::string> variantsNamed(const ExerciseInfo& exercise, const std::
   return found;
 }
 
-// All gates, unless some are named; a variant names the gate that tests it.
+// All gates, unless some are named; a variant names the gate that tests it. Throws UsageError for a variant
+// that no gate would test.
 std::vector<std::string> wantedGates(const ExerciseInfo& exercise, const CheckOptions& options) {
-  if (!options.gates.empty()) return options.gates;
+  const auto& gates = options.gates;
+  if (!options.variants.empty() && !gates.empty() &&
+      std::find(gates.begin(), gates.end(), "wrong") == gates.end())
+    throw UsageError({.what = "--variant has no effect without --gate wrong"});
+  if (!gates.empty()) return gates;
   return options.variants.empty() ? grading::gateNames(exercise) : std::vector<std::string>{"wrong"};
 }
 

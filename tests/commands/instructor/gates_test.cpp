@@ -36,6 +36,19 @@ TEST_F(ExerciseGates, PassesTheTemplateThroughAllGates) {
             "floor\nsolution\nsanitizers\nhostile\nliars\nwrong\n");
 }
 
+TEST_F(ExerciseGates, TestsOneVariant) {
+  const Ended ended = rex({"dev", "check", "98", "--variant", "clockwise"});
+  EXPECT_EQ(ended.code, 0) << ended.output << ended.error;
+  EXPECT_EQ(ended.output, "  ok   98-template  wrong\n");
+  const Ended unknown = rex({"dev", "check", "98", "--variant", "clockwize"});
+  EXPECT_EQ(unknown.code, 64);
+  EXPECT_THAT(flat(unknown.error), HasSubstr("98-template has no wrong variant 'clockwize' (did you mean "
+                                             "'wrong/clockwise'?)"));
+  const Ended idle = rex({"dev", "check", "98", "--variant", "clockwise", "--gate", "points"});
+  EXPECT_EQ(idle.code, 64);
+  EXPECT_THAT(flat(idle.error), HasSubstr("--variant has no effect without --gate wrong"));
+}
+
 TEST_F(ExerciseGates, FindsWhatIsWrongWithTheTexts) {
   replace(exercise() / "main.cpp", "TODO", "todo");
   expectOpenGate("main-current", "run: scripts/rex dev strip 98-template");
