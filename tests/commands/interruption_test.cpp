@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "commands/all_rooms.h"
+#include "support/paths.h"
 #include "support/temporary_folder.h"
 
 namespace rex::cli::interruption_test {
@@ -105,7 +106,6 @@ TEST_F(InterruptionTest, EndsAStudentsProgramThatHangsAndWhatItStarted) {
 #include <functional>
 #include <unistd.h>
 #include "exercise.h"
-#include "support/paths.h"
 Eigen::Vector2d rotated(const Eigen::Vector2d&, double) {{
   if (fork() == 0) {{
     setsid();
