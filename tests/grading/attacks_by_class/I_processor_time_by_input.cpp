@@ -6,7 +6,7 @@
 namespace {
 void spend(double amount) {
   volatile double sink = 1;
-  const long steps = static_cast<long>(std::fmin(std::fabs(amount), 20.0) * 3e7);
+  const long steps = static_cast<long>(std::fmin(std::fabs(amount), 20.0) * 3e8);
   for (long i = 0; i < steps; ++i) sink = sink * 1.0000001;
 }
 }  // namespace
