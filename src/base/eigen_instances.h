@@ -6,8 +6,8 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
-// The code behind Eigen's products and decompositions of matrices of dynamic size is compiled once, in the
-// files eigen_*.cpp, each of which makes one of these groups. A source file that sees these declarations
+// The code behind Eigen's products and decompositions of matrices of dynamic size is compiled once. Each of the
+// files eigen_*.cpp instantiates one of these groups. A source file that sees these declarations
 // calls it; any other compiles its own, which takes seconds. Members of classes that are themselves templates
 // must be listed one by one.
 #ifndef REX_LU_INSTANCE
