@@ -6,10 +6,10 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
-// The code behind Eigen's products and decompositions of matrices of dynamic size is compiled once. Each of the
-// files eigen_*.cpp instantiates one of these groups. A source file that sees these declarations
-// calls it; any other compiles its own, which takes seconds. Members of classes that are themselves templates
-// must be listed one by one.
+// The code behind Eigen's products and decompositions of matrices of dynamic size is compiled once. Each of
+// the files eigen_*.cpp instantiates one of these groups. A source file that sees these declarations calls
+// it; any other compiles its own, which takes seconds. Members of classes that are themselves templates must
+// be listed one by one.
 #ifndef REX_LU_INSTANCE
 #define REX_LU_INSTANCE extern template
 #endif
