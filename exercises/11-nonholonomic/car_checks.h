@@ -12,7 +12,7 @@
 #include "lots.h"
 #include "mistakes.h"
 #include "overlaps.h"
-#include "planning/car.h"
+#include "systems/car.h"
 
 // Part 1, and what all checks of drives require.
 

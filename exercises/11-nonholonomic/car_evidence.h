@@ -10,8 +10,8 @@
 #include "course/film.h"
 #include "grading/evidence_parts.h"
 #include "overlaps.h"
-#include "planning/car.h"
 #include "planning/dubins.h"
+#include "systems/car.h"
 
 // What the checks show if cars are not where they should be.
 

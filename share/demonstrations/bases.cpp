@@ -52,8 +52,8 @@ int main() {
         {motionOf(OmnidirectionalBase{kRadius, kHalf}, noise),
          Eigen::Vector3d(wheelAt(60), wheelAt(180), wheelAt(300))},
         {motionOf(SlippingUnicycle{slip, slip}, noise), Eigen::Vector2d(ahead, turn)},
-        {motionOf(CarBase{1}, noise), Eigen::Vector2d(ahead, steering)},
-        {motionOf(TrailerBase{1, 1}, noise), Eigen::Vector2d(ahead, steering)}};
+        {motionOf(Car{1}, noise), Eigen::Vector2d(ahead, steering)},
+        {motionOf(CarWithTrailer{{1}, 1}, noise), Eigen::Vector2d(ahead, steering)}};
     Picture picture{.ground = {.cell = 1}};
     for (int k = 0; k < 5; ++k) {
       Base& base = bases[k];

@@ -4,10 +4,10 @@
 #include "course/car_pictures.h"
 #include "course/course.h"
 #include "course/live_view.h"
-#include "planning/car.h"
 #include "planning/hybrid_astar.h"
 #include "planning/reeds_shepp.h"
 #include "render/picture.h"
+#include "systems/car.h"
 
 using namespace rex;
 

@@ -8,6 +8,7 @@
 #include "base/require.h"
 #include "estimation/landmark_sensor.h"
 #include "geometry/rotation.h"
+#include "systems/car.h"
 
 namespace rex {
 namespace {
@@ -104,9 +105,7 @@ Eigen::VectorXd CarSimulator::getMeanStateAfterStep(const Eigen::VectorXd& x,
                                                     const Eigen::VectorXd& u) const {
   requireNumbers("state", x, 3);
   requireNumbers("control", u, 2);
-  return Eigen::Vector3d(x[0] + options_.tau * u[0] * std::cos(x[2]),
-                         x[1] + options_.tau * u[0] * std::sin(x[2]),
-                         x[2] + options_.tau * u[0] / options_.wheelbase * std::tan(u[1]));
+  return stepCar({.wheelbase = options_.wheelbase}, x, u, options_.tau);
 }
 
 Eigen::MatrixXd CarSimulator::getStateJacobian(const Eigen::VectorXd& x, const Eigen::VectorXd& u) const {

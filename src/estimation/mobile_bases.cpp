@@ -1,8 +1,6 @@
 #include "estimation/mobile_bases.h"
 
-#include <algorithm>
 #include <cmath>
-#include <complex>
 #include <numbers>
 
 #include <Eigen/Geometry>
@@ -60,9 +58,9 @@ void requireNoise(const BaseNoise& noise) {
   requireNotNegative("drift of a base", noise.drift);
 }
 
-BaseTwist twistOf(const CarBase& base) {
-  requirePositive("wheelbase of a car", base.wheelbase, kMetres);
-  const double L = base.wheelbase;
+BaseTwist twistOf(const Car& car) {
+  requirePositive("wheelbase of a car", car.wheelbase, kMetres);
+  const double L = car.wheelbase;
   return {2, [L](const VectorArg& u) { return Eigen::Vector3d(u[0], 0, u[0] / L * std::tan(u[1])); },
           [L](const VectorArg& u) -> Eigen::MatrixXd {
             const double tangent = std::tan(u[1]);
@@ -71,55 +69,6 @@ BaseTwist twistOf(const CarBase& base) {
             return J;
           }};
 }
-
-// The angle a between car and trailer after `way` metres on an arc of curvature k: a' = k - sin(a) / d. Its
-// w = exp(i a) satisfies a Riccati equation, w' = i k w + (1 - w^2) / (2 d), so that w = p / q with (p, q)' =
-// N (p, q) of constant N, whose square is a multiple of the identity.
-struct Hitch {
-  double hitchLength;
-
-  double angle(double a, double curvature, double way) const {
-    // In parts in which it turns by less than a radian, so that turns are counted.
-    const int parts =
-        1 + static_cast<int>(std::min(1e6, std::abs(way) * (std::abs(curvature) + 1 / hitchLength)));
-    for (int i = 0; i < parts; ++i) {
-      const Fractions at = fractions(a, curvature, way / parts);
-      a += std::remainder(std::arg(at.p / at.q) - a, 2 * std::numbers::pi);
-    }
-    return a;
-  }
-
-  // The derivatives of the angle at the end by a, curvature and way.
-  Eigen::Vector3d slopes(double a, double curvature, double way) const {
-    const Fractions at = fractions(a, curvature, way);
-    const Complex w = at.p / at.q, byCurvature = (at.dp - w * at.dq) / at.q, start = std::polar(1., a);
-    return {(start / (w * at.q * at.q)).real(), (byCurvature / (Complex(0, 1) * w)).real(),
-            curvature - std::sin(std::arg(w)) / hitchLength};
-  }
-
- private:
-  using Complex = std::complex<double>;
-  struct Fractions {
-    Complex p, q, dp, dq;  // and their derivatives by the curvature
-  };
-
-  Fractions fractions(double a, double curvature, double way) const {
-    const Complex w = std::polar(1., a), alpha(0, curvature / 2);
-    const double beta = 1 / (2 * hitchLength);
-    // exp(way N) = C + S N, for mu = way^2 N^2.
-    const double mu = way * way * (beta * beta - curvature * curvature / 4);
-    const double root = std::sqrt(std::abs(mu));
-    const double C = mu > 0 ? std::cosh(root) : std::cos(root);
-    const double S = std::abs(mu) < 1e-4 ? 1 + mu / 6 * (1 + mu / 20)
-                     : mu > 0            ? std::sinh(root) / root
-                                         : std::sin(root) / root;
-    const double slope = std::abs(mu) < 1e-4 ? 1. / 6 + mu / 60 * (1 + mu / 28) : (C - S) / (2 * mu);
-    const double dmu = -way * way * curvature / 2;
-    const Complex Np = alpha * w + beta, Nq = beta * w - alpha, half(0, .5);
-    return {C * w + S * way * Np, C + S * way * Nq, dmu * (S / 2 * w + slope * way * Np) + S * way * half * w,
-            dmu * (S / 2 + slope * way * Nq) - S * way * half};
-  }
-};
 
 }  // namespace
 
@@ -189,15 +138,13 @@ MotionModel motionOf(const SlippingUnicycle& base, const BaseNoise& noise) {
       noise);
 }
 
-MotionModel motionOf(const CarBase& base, const BaseNoise& noise) {
-  return planarMotion(twistOf(base), noise);
-}
+MotionModel motionOf(const Car& car, const BaseNoise& noise) { return planarMotion(twistOf(car), noise); }
 
-MotionModel motionOf(const TrailerBase& base, const BaseNoise& noise) {
-  requirePositive("hitch of a trailer", base.hitchLength, kMetres);
-  const MotionModel car = motionOf(CarBase{base.wheelbase}, noise);
-  const Hitch hitch{base.hitchLength};
-  const double L = base.wheelbase;
+MotionModel motionOf(const CarWithTrailer& rig, const BaseNoise& noise) {
+  requirePositive("hitch of a trailer", rig.hitchLength, kMetres);
+  const MotionModel car = motionOf(rig.car, noise);
+  const Hitch hitch{rig.hitchLength};
+  const double L = rig.car.wheelbase;
   MotionModel model{.states = 4, .controls = 2};
   model.f = [=](const VectorArg& x, const VectorArg& u, double dt) -> Eigen::VectorXd {
     Eigen::VectorXd next(4);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "estimation/motion_model.h"
+#include "systems/car.h"
 
 namespace rex {
 
@@ -42,23 +43,13 @@ struct SlippingUnicycle {
   double drift = 0.1;  ///< seconds; sideways speed per centripetal acceleration
 };
 
-/// A car with its reference point between the rear wheels. u = (speed, steering angle). Slide 4:48.
-struct CarBase {
-  double wheelbase = 2;  ///< metres
-};
-/// A car that pulls a trailer, hitched between its rear wheels; x = (x, y, heading, heading of the trailer).
-/// Slide 4:57.
-struct TrailerBase {
-  double wheelbase = 2, hitchLength = 2;  ///< metres; the latter from the hitch to the trailer's axle
-};
-
 /// Their motions, exact for controls that are constant. Throw Error for lengths that are not positive, a slip
-/// out of range, and as planarMotion.
+/// out of range, and as planarMotion. Cars steer as far as u says.
 [[nodiscard]] MotionModel motionOf(const DifferentialDrive& base, const BaseNoise& noise = {});
 [[nodiscard]] MotionModel motionOf(const OmnidirectionalBase& base, const BaseNoise& noise = {});
 [[nodiscard]] MotionModel motionOf(const SlippingUnicycle& base, const BaseNoise& noise = {});
-[[nodiscard]] MotionModel motionOf(const CarBase& base, const BaseNoise& noise = {});
+[[nodiscard]] MotionModel motionOf(const Car& car, const BaseNoise& noise = {});
 /// Its trailer drifts as its car does.
-[[nodiscard]] MotionModel motionOf(const TrailerBase& base, const BaseNoise& noise = {});
+[[nodiscard]] MotionModel motionOf(const CarWithTrailer& rig, const BaseNoise& noise = {});
 
 }  // namespace rex

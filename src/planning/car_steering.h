@@ -1,8 +1,8 @@
 #pragma once
 
-#include "planning/car.h"
 #include "planning/control_tree.h"
 #include "planning/curve.h"
+#include "systems/car.h"
 
 namespace rex {
 

@@ -2,8 +2,8 @@
 
 #include <limits>
 
-#include "planning/car.h"
 #include "planning/control_tree.h"
+#include "systems/car.h"
 
 namespace rex {
 

@@ -30,8 +30,8 @@ std::vector<Robot> robots() {
   return {{"differential drive", motionOf(DifferentialDrive{}), 20},
           {"omnidirectional", motionOf(OmnidirectionalBase{}), 20},
           {"slipping unicycle", motionOf(SlippingUnicycle{}), 2},
-          {"car", motionOf(CarBase{}), .8},
-          {"trailer", motionOf(TrailerBase{}), .8},
+          {"car", motionOf(Car{2}), .8},
+          {"trailer", motionOf(CarWithTrailer{{2}, 2}), .8},
           {"quadrotor", motionOf(PlanarQuadrotor{}), 4}};
 }
 
@@ -138,8 +138,8 @@ TEST(DifferentialDrive, DrivesArcsAroundItsCentre) {
 }
 
 // Driven around for long, backward too, where the trailer folds and may turn over.
-TEST(TrailerBase, FollowsItsCarForLong) {
-  const MotionModel model = motionOf(TrailerBase{});
+TEST(CarWithTrailer, FollowsItsCarForLong) {
+  const MotionModel model = motionOf(CarWithTrailer{{2}, 2});
   Rng rng(4);
   for (int i = 0; i < 6; ++i) {
     const VectorXd x = rng.uniformVector(4, -2, 2);
@@ -257,8 +257,8 @@ TEST(MotionModel, SaysWhatIsWrong) {
   EXPECT_REX_ERROR(motionOf(SlippingUnicycle{.slip = 1}),
                    "slip of a base: found 1, wanted a number from 0 to");
   EXPECT_REX_ERROR(motionOf(SlippingUnicycle{.drift = -1}), "drift of a slipping base: found -1 s");
-  EXPECT_REX_ERROR(motionOf(CarBase{.wheelbase = 0}), "wheelbase of a car: found 0 m");
-  EXPECT_REX_ERROR(motionOf(TrailerBase{.hitchLength = 0}), "hitch of a trailer: found 0 m");
+  EXPECT_REX_ERROR(motionOf(Car{.wheelbase = 0}), "wheelbase of a car: found 0 m");
+  EXPECT_REX_ERROR(motionOf(CarWithTrailer{.hitchLength = 0}), "hitch of a trailer: found 0 m");
   EXPECT_REX_ERROR(motionOf(DifferentialDrive{}, {.travel = -1}), "noise of travel: found -1");
   EXPECT_REX_ERROR(motionOf(DifferentialDrive{}, {.drift = {0, -1, 0}}),
                    "drift of a base: number 1: found -1");

@@ -7,10 +7,10 @@
 #include "base/rng.h"
 #include "estimation/mobile_bases.h"
 #include "estimation/planar_quadrotor.h"
-#include "planning/car.h"
 #include "planning/phase_space.h"
 #include "planning/reeds_shepp.h"
 #include "support/expect_error.h"
+#include "systems/car.h"
 
 namespace rex::control_tree_test {
 
@@ -157,7 +157,7 @@ TEST(ControlTree, MovesAsAnyModelSays) {
       EXPECT_LT((meanAfter(model, from, path.edges[k].u, path.edges[k].seconds) - to).norm(), 1e-12);
     }
   };
-  expectEdges(motionOf(TrailerBase{}), Space({side, side, angle, angle}), Eigen::Vector2d(-1, -.6),
+  expectEdges(motionOf(CarWithTrailer{{2}, 2}), Space({side, side, angle, angle}), Eigen::Vector2d(-1, -.6),
               Eigen::Vector2d(1, .6));
   expectEdges(motionOf(PlanarQuadrotor{}), Space({side, side, angle, speed, speed, speed}),
               Eigen::Vector2d(0, 0), Eigen::Vector2d(5, 5));

@@ -10,9 +10,9 @@
 #include <fmt/format.h>
 
 #include "collision/contact_model.h"
-#include "planning/car.h"
 #include "planning/robot_problem.h"
 #include "scene/ors_reader.h"
+#include "systems/car.h"
 
 namespace rex::parking {
 

@@ -11,11 +11,11 @@
 #include <gtest/gtest.h>
 
 #include "base/rng.h"
-#include "planning/car.h"
 #include "planning/control_tree.h"
 #include "planning/roadmap.h"
 #include "planning/rrt.h"
 #include "planning/smooth_path.h"
+#include "systems/car.h"
 
 namespace rex::planner_laws_test {
 

@@ -9,13 +9,13 @@
 
 #include "cli/rex_command.h"
 #include "collision/motion_clearance.h"
-#include "planning/car.h"
 #include "scene/scene_file.h"
 #include "support/file_text.h"
 #include "support/film_length.h"
 #include "support/needs_gnuplot.h"
 #include "support/needs_osmesa.h"
 #include "support/paths.h"
+#include "systems/car.h"
 
 namespace rex::cli::park_test {
 

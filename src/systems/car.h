@@ -17,6 +17,10 @@ struct Car {
 /// and a steering angle beyond maxSteering.
 [[nodiscard]] Eigen::Vector3d carVelocity(const Car& car, const Eigen::Vector3d& q, const Eigen::Vector2d& u);
 
+/// One Euler step of tau seconds with the heading at its start, and any steering angle: q + tau q'.
+[[nodiscard]] Eigen::Vector3d stepCar(const Car& car, const Eigen::Vector3d& q, const Eigen::Vector2d& u,
+                                      double tau);
+
 /// The pose after `seconds` with constant u: exact, on an arc or a line. Throws like carVelocity.
 [[nodiscard]] Eigen::Vector3d driveCar(const Car& car, const Eigen::Vector3d& q, const Eigen::Vector2d& u,
                                        double seconds);
@@ -36,9 +40,18 @@ struct CarWithTrailer {
 [[nodiscard]] Eigen::Vector4d trailerVelocity(const CarWithTrailer& rig, const Eigen::Vector4d& q,
                                               const Eigen::Vector2d& u);
 
-/// The state of both after `seconds` with constant u: exact for the car, and accurate to about 1e-9 for the
-/// trailer (Runge-Kutta steps). Throws like carVelocity.
+/// The state of both after `seconds` with constant u: exact. Throws like carVelocity.
 [[nodiscard]] Eigen::Vector4d driveTrailer(const CarWithTrailer& rig, const Eigen::Vector4d& q,
                                            const Eigen::Vector2d& u, double seconds);
+
+/// The angle a = heading - heading of the trailer of a car on an arc: a' = k - sin(a) / d per metre.
+struct Hitch {
+  double hitchLength = 1;  ///< d, metres
+
+  /// After `way` metres on an arc of this curvature k (1/m); exact, full turns are counted.
+  [[nodiscard]] double angle(double a, double curvature, double way) const;
+  /// The derivatives of that angle by a, curvature and way.
+  [[nodiscard]] Eigen::Vector3d slopes(double a, double curvature, double way) const;
+};
 
 }  // namespace rex

@@ -1,4 +1,4 @@
-#include "planning/car.h"
+#include "systems/car.h"
 
 #include <cmath>
 
