@@ -15,27 +15,9 @@
 
 // What the checks require of values and beliefs, and what they ask if a usual mistake explains a wrong one.
 
-/// A wrong value, by a mistake that students make, and the question about it.
-struct Mistake {
-  const char* question = "";
-  Eigen::MatrixXd value{};
-};
-
 inline bool isNear(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double tolerance) {
   return a.rows() == b.rows() && a.cols() == b.cols() && (a.size() == 0 || (a - b).lpNorm<1>() < 1e100) &&
          (a.size() == 0 || (a - b).cwiseAbs().maxCoeff() <= tolerance);
-}
-
-/// Like near(); asks about the first of the mistakes that gives this value, unless it hardly differs from the
-/// wanted one.
-inline void nearOrAsk(rex::grading::Check& check, const std::string& property, const Eigen::MatrixXd& got,
-                      const Eigen::MatrixXd& wanted, double tolerance, const std::vector<Mistake>& mistakes) {
-  const auto made = std::find_if(mistakes.begin(), mistakes.end(), [&](const Mistake& mistake) {
-    return isNear(got, mistake.value, tolerance) && !isNear(wanted, mistake.value, 10 * tolerance);
-  });
-  const auto suspicion = made == mistakes.end() ? check.suspect("", Eigen::MatrixXd())
-                                                : check.suspect(made->question, made->value);
-  check.near(property, got, wanted, tolerance);
 }
 
 /// The numbers from `first` on, as indices.
@@ -155,11 +137,11 @@ inline void sameBelief(rex::grading::Check& check, const BeliefFunction& functio
   const std::vector<int> all = numbersFrom(0, n);
   const std::vector<BeliefPart> whole{{"covariance", all, all}, {"mean", all, {}}};
   for (const BeliefPart& part : function.parts.empty() ? whole : function.parts) {
-    std::vector<Mistake> ofPart;
+    std::vector<rex::grading::Mistake> ofPart;
     for (const auto& [question, belief] : mistakes)
       ofPart.push_back({question, partOf(turned(belief), part)});
-    nearOrAsk(check, part.name + (function.parts.empty() ? " of " : " by ") + function.name,
-              partOf(got, part), partOf(wanted, part), tolerance, ofPart);
+    check.near(part.name + (function.parts.empty() ? " of " : " by ") + function.name, partOf(got, part),
+               partOf(wanted, part), tolerance, ofPart);
     // A mistake that would have shown in this part was not made.
     std::erase_if(mistakes, [&](const WrongBelief& wrong) {
       return !isNear(partOf(turned(wrong.belief), part), partOf(wanted, part), 10 * tolerance);

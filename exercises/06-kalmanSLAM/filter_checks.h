@@ -121,8 +121,8 @@ inline void staysACovariance(rex::grading::Check& check, Student& student) {
     check.shape("mean of corrected", got.mean, 6, 1);
     check.shape("covariance of corrected", got.covariance, 6, 6);
     const auto shown = check.show([&] { return beliefSeen(got, wanted, false); });
-    nearOrAsk(
-        check, "covariance of corrected", got.covariance, wanted.covariance,
+    check.near(
+        "covariance of corrected", got.covariance, wanted.covariance,
         1e-4 * wanted.covariance.cwiseAbs().maxCoeff(),
         {{"Is nothing corrected once the covariance is small? A good observation makes it smaller still.",
           belief.covariance}});

@@ -10,9 +10,9 @@
 
 // Part 1: models, against those of the library. Derivatives by finite differences are accurate to 1e-8 here.
 
-inline std::vector<Mistake> wrongSteps(const CarSetup& car, const Eigen::Vector3d& x,
-                                       const Eigen::Vector2d& u, const Eigen::Vector3d& after,
-                                       const Eigen::MatrixXd& byControl) {
+inline std::vector<rex::grading::Mistake> wrongSteps(const CarSetup& car, const Eigen::Vector3d& x,
+                                                     const Eigen::Vector2d& u, const Eigen::Vector3d& after,
+                                                     const Eigen::MatrixXd& byControl) {
   const Eigen::Vector3d way = after - x, late(x[0], x[1], after[2]);
   const Eigen::Vector3d turned =
       rex::CarSimulator::withoutPlaces(0, optionsOf(car)).getMeanStateAfterStep(late, u) - late;
@@ -32,7 +32,7 @@ inline std::vector<Mistake> wrongSteps(const CarSetup& car, const Eigen::Vector3
           {"Is the step one second long, whatever tau is?", sum(x, way, 1 / car.tau)}};
 }
 
-inline std::vector<Mistake> wrongByState(const CarSetup& car, const Eigen::MatrixXd& A) {
+inline std::vector<rex::grading::Mistake> wrongByState(const CarSetup& car, const Eigen::MatrixXd& A) {
   const auto withHeading = [&](double dx, double dy) {
     Eigen::MatrixXd wrong = A;
     wrong(0, 2) = dx;
@@ -51,8 +51,8 @@ inline std::vector<Mistake> wrongByState(const CarSetup& car, const Eigen::Matri
           {"Is the step one second long, whatever tau is?", sum(I, sum(A, I, -1), 1 / car.tau)}};
 }
 
-inline std::vector<Mistake> wrongByControl(const CarSetup& car, const Eigen::Vector2d& u,
-                                           const Eigen::MatrixXd& B) {
+inline std::vector<rex::grading::Mistake> wrongByControl(const CarSetup& car, const Eigen::Vector2d& u,
+                                                         const Eigen::MatrixXd& B) {
   const auto withSteering = [&](double factor) {
     Eigen::MatrixXd wrong = B;
     wrong(2, 1) *= factor;
@@ -81,16 +81,15 @@ inline void stepsRightly(rex::grading::Check& check, Student& student, const Car
   const Eigen::MatrixXd B =
       derivative([&](const Eigen::VectorXd& z) { return model.getMeanStateAfterStep(x, z); }, u);
   const Eigen::VectorXd moved = student.stepped(car, x, u);
-  nearOrAsk(check, "state after a step of stepped", sum(after, gapOf(moved, after)), after, 1e-9,
-            wrongSteps(car, x, u, after, B));
-  nearOrAsk(check, "A of stepByState", student.stepByState(car, x, u), A, 1e-6, wrongByState(car, A));
-  nearOrAsk(check, "B of stepByControl", student.stepByControl(car, x, u), B, 1e-6,
-            wrongByControl(car, u, B));
+  check.near("state after a step of stepped", sum(after, gapOf(moved, after)), after, 1e-9,
+             wrongSteps(car, x, u, after, B));
+  check.near("A of stepByState", student.stepByState(car, x, u), A, 1e-6, wrongByState(car, A));
+  check.near("B of stepByControl", student.stepByControl(car, x, u), B, 1e-6, wrongByControl(car, u, B));
   const double sigma = car.dynamicsNoise;
   const Eigen::MatrixXd I = unitMatrix(3);
-  nearOrAsk(check, "Q of stepNoise", student.stepNoise(car), sigma * sigma * I, 1e-12,
-            {{"Is sigma itself on the diagonal? It is a standard deviation.", sigma * I},
-             {"Is the noise multiplied by tau? It is that of a whole step.", sigma * sigma * car.tau * I}});
+  check.near("Q of stepNoise", student.stepNoise(car), sigma * sigma * I, 1e-12,
+             {{"Is sigma itself on the diagonal? It is a standard deviation.", sigma * I},
+              {"Is the noise multiplied by tau? It is that of a whole step.", sigma * sigma * car.tau * I}});
 }
 
 /// (distance, angle) of a point (ahead, left).
@@ -103,15 +102,15 @@ inline CarSetup cartesian(const CarSetup& car) {
 /// Turned by a heading of the opposite sign.
 inline Eigen::Vector3d mirrored(const Eigen::Vector3d& x) { return {x[0], x[1], -x[2]}; }
 
-inline std::vector<Mistake> wrongViews(const CarSetup& car, const Eigen::Vector3d& x,
-                                       const Eigen::Vector2d& l, const Eigen::Vector2d& wanted,
-                                       const Eigen::Vector2d& got) {
+inline std::vector<rex::grading::Mistake> wrongViews(const CarSetup& car, const Eigen::Vector3d& x,
+                                                     const Eigen::Vector2d& l, const Eigen::Vector2d& wanted,
+                                                     const Eigen::Vector2d& got) {
   const Eigen::Vector2d offset = l - x.head(2), right = seenFrom(cartesian(car), x, l),
                         other = seenFrom(cartesian(car), mirrored(x), l),
                         origin = seenFrom(cartesian(car), x, Eigen::Vector2d::Zero()),
                         turns(0, 2 * kPi * std::round((got[1] - wanted[1]) / (2 * kPi)));
   const auto seen = [&](const Eigen::Vector2d& p) { return car.rangeBearing ? polar(p) : p; };
-  std::vector<Mistake> mistakes{
+  std::vector<rex::grading::Mistake> mistakes{
       {"Is the heading left out? The landmark is seen in the frame of the car.", seen(offset)},
       {"Is it rotated the wrong way, from the frame of the car to that of the world?", seen(other)},
       {"Is left counted as negative?", seen({right[0], -right[1]})},
@@ -128,10 +127,10 @@ inline std::vector<Mistake> wrongViews(const CarSetup& car, const Eigen::Vector3
 
 /// Of a derivative of the view, by the state or by the landmark, with that of the other sensor and the one
 /// for the opposite heading.
-inline std::vector<Mistake> wrongDerivatives(const CarSetup& car, const Eigen::MatrixXd& J,
-                                             const Eigen::MatrixXd& metres, const Eigen::MatrixXd& opposite,
-                                             double distance) {
-  std::vector<Mistake> mistakes{
+inline std::vector<rex::grading::Mistake> wrongDerivatives(const CarSetup& car, const Eigen::MatrixXd& J,
+                                                           const Eigen::MatrixXd& metres,
+                                                           const Eigen::MatrixXd& opposite, double distance) {
+  std::vector<rex::grading::Mistake> mistakes{
       {"Is it rotated the wrong way, from the frame of the car to that of the world?", opposite}};
   if (J.cols() == 3) {
     Eigen::MatrixXd wrong = J;
@@ -175,16 +174,16 @@ inline void seesRightly(rex::grading::Check& check, Student& student, const CarS
   const Eigen::Vector2d y = seenFrom(car, x, l), got = student.view(car, x, l);
   const double distance = (l - x.head(2)).norm();
   const Eigen::MatrixXd C = byState(car, x), D = byLandmark(car, x), W = noiseOf(car, 1);
-  nearOrAsk(check, "what view sees", got, y, 1e-9, wrongViews(car, x, l, y, got));
-  nearOrAsk(check, "C of viewByState", student.viewByState(car, x, l), C, 1e-6,
-            wrongDerivatives(car, C, byState(cartesian(car), x), byState(car, mirrored(x)), distance));
-  nearOrAsk(check, "D of viewByLandmark", student.viewByLandmark(car, x, l), D, 1e-6,
-            wrongDerivatives(car, D, byLandmark(cartesian(car), x), byLandmark(car, mirrored(x)), distance));
-  nearOrAsk(check, "W of viewNoise", student.viewNoise(car), W, 1e-12,
-            {{"Is sigma itself on the diagonal? It is a standard deviation.", W.cwiseSqrt()},
-             {"Is it the noise of the other sensor? With rangeBearing, the bearing has its own.",
-              noiseOf(cartesian(car), 1)},
-             {"Are the entries exchanged? The distance comes first.", noiseOf(car, 1).reverse()}});
+  check.near("what view sees", got, y, 1e-9, wrongViews(car, x, l, y, got));
+  check.near("C of viewByState", student.viewByState(car, x, l), C, 1e-6,
+             wrongDerivatives(car, C, byState(cartesian(car), x), byState(car, mirrored(x)), distance));
+  check.near("D of viewByLandmark", student.viewByLandmark(car, x, l), D, 1e-6,
+             wrongDerivatives(car, D, byLandmark(cartesian(car), x), byLandmark(car, mirrored(x)), distance));
+  check.near("W of viewNoise", student.viewNoise(car), W, 1e-12,
+             {{"Is sigma itself on the diagonal? It is a standard deviation.", W.cwiseSqrt()},
+              {"Is it the noise of the other sensor? With rangeBearing, the bearing has its own.",
+               noiseOf(cartesian(car), 1)},
+              {"Are the entries exchanged? The distance comes first.", noiseOf(car, 1).reverse()}});
 }
 
 /// Of two sightings by metres, which may be many metres apart.
@@ -196,7 +195,7 @@ inline void subtractsMetres(rex::grading::Check& check, Student& student) {
   Eigen::Vector2d wrapped = gap, both(rex::wrapAngle(gap[0]), rex::wrapAngle(gap[1]));
   wrapped[1] = both[1];
   const char* question = "Are metres wrapped like angles?";
-  nearOrAsk(check, "difference of viewGap", got, gap, 1e-12, {{question, wrapped}, {question, both}});
+  check.near("difference of viewGap", got, gap, 1e-12, {{question, wrapped}, {question, both}});
 }
 
 /// Of two sightings by distance and bearing, `turn` to the left of each other.
@@ -208,8 +207,8 @@ inline void subtractsBearings(rex::grading::Check& check, Student& student, cons
     const Eigen::Vector2d y = sign > 0 ? to : from, expected = sign > 0 ? from : to;
     check.input("two sightings, distance and bearing", {{"y", y}, {"expected", expected}});
     const Eigen::Vector2d gap(y[0] - expected[0], sign * turn), got = student.viewGap(car, y, expected);
-    nearOrAsk(
-        check, "difference of viewGap", got, gap, 1e-9,
+    check.near(
+        "difference of viewGap", got, gap, 1e-9,
         {{"Is the difference of the bearings not wrapped? A sighting on either side of straight behind the "
           "car differs by little.",
           y - expected},

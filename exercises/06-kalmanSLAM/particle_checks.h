@@ -105,8 +105,8 @@ inline void weightsFit(rex::grading::Check& check, const std::vector<LogWeight>&
   check.input("12 particles, of which three landmarks are seen, one for the first time",
               {{"weights before", before}});
   const auto sum = check.ask("Do the weights sum to one?", std::abs(got.sum() - 1) > 1e-5);
-  nearOrAsk(
-      check, "weights of weighed", got, wanted, 1e-5,
+  check.near(
+      "weights of weighed", got, wanted, 1e-5,
       {{"Do all particles weigh the same, whatever they expect to see?", same},
        {"Do the sightings leave the weights as they are?", before / before.sum()},
        {"Are the weights before the sightings left out?", normalized(logs, likelihood)},

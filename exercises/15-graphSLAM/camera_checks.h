@@ -122,8 +122,8 @@ inline void projectsExactly(rex::grading::Check& check, Student& student, const 
   check.shape("P of projectionFromPoints", P, 3, 4);
   const auto shown = check.show([&] { return reprojectionSeen(view, P); });
   const Projection swapped = Eigen::Vector3d(1, 1, -1).asDiagonal() * view.P;
-  nearOrAsk(
-      check, "pixels of the points by P of projectionFromPoints", pixelsBy(P, view.points), view.pixels, 1e-3,
+  check.near(
+      "pixels of the points by P of projectionFromPoints", pixelsBy(P, view.points), view.pixels, 1e-3,
       {{"Are points and pixels normalised, but P not brought back?", pixelsBy(forCentred(view), view.points)},
        {"Are the twelve numbers written column by column? The equations have them row by row.",
         pixelsBy(byColumns(view.P), view.points)},
@@ -146,8 +146,8 @@ inline void standsThere(rex::grading::Check& check, Student& student, const Came
   check.input("the P of a camera", {{"P", view.P}});
   const Eigen::Matrix3d M = view.P.leftCols<3>();
   const Eigen::Vector3d last = view.P.col(3), got = student.cameraPosition(view.P);
-  nearOrAsk(
-      check, "position of cameraPosition", got, view.position, 1e-6 * view.position.norm(),
+  check.near(
+      "position of cameraPosition", got, view.position, 1e-6 * view.position.norm(),
       {{"Is the left part of P taken for a rotation? The lens is in it: its inverse is not its transpose.",
         -M.transpose() * last},
        {"Is it the last column of P, as if P began with the identity?", last},
@@ -162,11 +162,11 @@ inline void errsInPixels(rex::grading::Check& check, Student& student, const Cam
   const Eigen::Matrix2Xd flat = (view.P * view.points.colwise().homogeneous()).topRows(2);
   Projection still = view.P;
   still.col(3).setZero();
-  nearOrAsk(check, "errors of reprojectionErrors", got, wanted, 1e-6,
-            {{"Is P (X, 1) not divided by its third number?", flat - view.pixels},
-             {"Are these the pixels by P? Those given have to be subtracted.", by},
-             {"Is the last column of P left out?", pixelsBy(still, view.points) - view.pixels}},
-            "pixels");
+  check.near("errors of reprojectionErrors", got, wanted, 1e-6,
+             {{"Is P (X, 1) not divided by its third number?", flat - view.pixels},
+              {"Are these the pixels by P? Those given have to be subtracted.", by},
+              {"Is the last column of P left out?", pixelsBy(still, view.points) - view.pixels}},
+             "pixels");
 }
 
 /// The camera turned, moved and with another lens: errors of tens of pixels.

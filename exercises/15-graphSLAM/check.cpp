@@ -325,14 +325,13 @@ void fitsAsItSays(Check& check, const ScanPair& pair, const Aligned& got) {
               {{"motion of aligned", got.motion}});
   const auto far = check.ask("Do partners farther than 0.3 m count for the fit?", isFar);
   const auto count = static_cast<double>(pair.moving.size());
-  nearOrAsk(check, "overlap of aligned", one(got.overlap), one(wanted.overlap), kOverlap,
-            {{"Is it the number of points? The overlap is their share.", one(count * wanted.overlap)},
-             {"Is the overlap never set?", one(0)}});
-  nearOrAsk(
-      check, "residual of aligned", one(got.residual), one(wanted.residual), kResidual,
-      {{"Is it the mean of the squares? The residual is its root.", one(wanted.residual * wanted.residual)},
-       {"Is it the root of the sum, without the mean?",
-        one(wanted.residual * std::sqrt(wanted.overlap * count))}},
+  check.near("overlap of aligned", got.overlap, wanted.overlap, kOverlap,
+             {{"Is it the number of points? The overlap is their share.", count * wanted.overlap},
+              {"Is the overlap never set?", 0}});
+  check.near(
+      "residual of aligned", got.residual, wanted.residual, kResidual,
+      {{"Is it the mean of the squares? The residual is its root.", wanted.residual * wanted.residual},
+       {"Is it the root of the sum, without the mean?", wanted.residual * std::sqrt(wanted.overlap * count)}},
       "m");
 }
 

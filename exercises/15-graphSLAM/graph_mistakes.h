@@ -10,32 +10,6 @@
 
 // What the checks of graphs ask about if a usual mistake explains a wrong value.
 
-/// A wrong value, by a mistake that students make, and the question about it.
-struct Mistake {
-  const char* question = "";
-  Eigen::MatrixXd value{};
-};
-
-inline bool isNear(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double tolerance) {
-  if (a.rows() != b.rows() || a.cols() != b.cols()) return false;
-  return a.size() == 0 || (a - b).cwiseAbs().maxCoeff() <= tolerance;
-}
-
-/// Like near(); asks about the first of the mistakes that gives this value, unless it hardly differs from the
-/// wanted one.
-inline void nearOrAsk(rex::grading::Check& check, const std::string& property, const Eigen::MatrixXd& got,
-                      const Eigen::MatrixXd& wanted, double tolerance, const std::vector<Mistake>& mistakes,
-                      const std::string& unit = "") {
-  const auto made = std::find_if(mistakes.begin(), mistakes.end(), [&](const Mistake& mistake) {
-    return isNear(got, mistake.value, tolerance) && !isNear(wanted, mistake.value, 10 * tolerance);
-  });
-  const auto suspicion = made == mistakes.end() ? check.suspect("", Eigen::MatrixXd())
-                                                : check.suspect(made->question, made->value);
-  check.near(property, got, wanted, tolerance, unit);
-}
-
-inline Eigen::MatrixXd one(double number) { return Eigen::MatrixXd::Constant(1, 1, number); }
-
 /// The difference of two poses, number by number.
 inline Eigen::Vector3d plainDifference(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return {a[0] - b[0], a[1] - b[1], byTurns(a[2] - b[2])};
@@ -50,14 +24,14 @@ inline Eigen::Vector3d turnedWrongly(const Eigen::Vector3d& a, const Eigen::Vect
 inline void wrapsAngle(rex::grading::Check& check, double got, double angle) {
   const double wanted = byTurns(angle), turn = 2 * std::numbers::pi;
   check.input("an angle", {{"angle", angle}});
-  nearOrAsk(check, "angle of wrapped", one(got), one(wanted), 1e-9,
-            {{"Is the angle returned as it is?", one(angle)},
-             {"Is one turn at most taken off, or added? The angle may be off by several.",
-              one(angle > 0 ? angle - turn : angle + turn)},
-             {"Is the angle between 0 and a whole turn? Wanted is one between -pi and pi.",
-              one(wanted < 0 ? wanted + turn : wanted)},
-             {"Is the angle wrapped to half turns?", one(std::remainder(angle, turn / 2))}},
-            "rad");
+  check.near("angle of wrapped", got, wanted, 1e-9,
+             {{"Is the angle returned as it is?", angle},
+              {"Is one turn at most taken off, or added? The angle may be off by several.",
+               angle > 0 ? angle - turn : angle + turn},
+              {"Is the angle between 0 and a whole turn? Wanted is one between -pi and pi.",
+               wanted < 0 ? wanted + turn : wanted},
+              {"Is the angle wrapped to half turns?", std::remainder(angle, turn / 2)}},
+             "rad");
 }
 
 inline void seesFrom(rex::grading::Check& check, const Eigen::Vector3d& got, const Eigen::Vector3d& a,
@@ -65,13 +39,13 @@ inline void seesFrom(rex::grading::Check& check, const Eigen::Vector3d& got, con
   check.input("two poses", {{"a", a}, {"b", b}});
   const Eigen::Vector3d wanted = relative(a, b);
   const double turns = 2 * std::numbers::pi * std::round((got[2] - wanted[2]) / (2 * std::numbers::pi));
-  nearOrAsk(check, "pose of seenFrom", got, wanted, 1e-9,
-            {{"Is the heading not wrapped?", wanted + Eigen::Vector3d(0, 0, turns)},
-             {"Is the way from a to b rotated the wrong way?", turnedWrongly(a, b, -1)},
-             {"Is the way from a to b left in the axes of the world?", turnedWrongly(a, b, 0)},
-             {"Is it a as seen from b?", relative(b, a)},
-             {"Is it the pose that, seen from a, is b?", onward(a, b)}},
-            "m, rad");
+  check.near("pose of seenFrom", got, wanted, 1e-9,
+             {{"Is the heading not wrapped?", wanted + Eigen::Vector3d(0, 0, turns)},
+              {"Is the way from a to b rotated the wrong way?", turnedWrongly(a, b, -1)},
+              {"Is the way from a to b left in the axes of the world?", turnedWrongly(a, b, 0)},
+              {"Is it a as seen from b?", relative(b, a)},
+              {"Is it the pose that, seen from a, is b?", onward(a, b)}},
+             "m, rad");
 }
 
 inline void errs(rex::grading::Check& check, const Eigen::Vector3d& got, const Eigen::Vector3d& i,
@@ -79,14 +53,14 @@ inline void errs(rex::grading::Check& check, const Eigen::Vector3d& got, const E
   check.input("an edge", {{"i", i}, {"j", j}, {"z", z}});
   const Eigen::Vector3d seen = relative(i, j);
   const double turns = 2 * std::numbers::pi * std::round((got[2] - wanted[2]) / (2 * std::numbers::pi));
-  nearOrAsk(check, "error of edgeError", got, wanted, 1e-9,
-            {{"Is the heading not wrapped?", wanted + Eigen::Vector3d(0, 0, turns)},
-             {"Is z subtracted number by number? The error is j as seen from where z puts it.",
-              plainDifference(seen, z)},
-             {"Is it z as seen from j, in place of j as seen from z?", relative(seen, z)},
-             {"Is z forgotten?", seen},
-             {"Is i seen from j? z is that of j as seen from i.", relative(z, relative(j, i))}},
-            "m, rad");
+  check.near("error of edgeError", got, wanted, 1e-9,
+             {{"Is the heading not wrapped?", wanted + Eigen::Vector3d(0, 0, turns)},
+              {"Is z subtracted number by number? The error is j as seen from where z puts it.",
+               plainDifference(seen, z)},
+              {"Is it z as seen from j, in place of j as seen from z?", relative(seen, z)},
+              {"Is z forgotten?", seen},
+              {"Is i seen from j? z is that of j as seen from i.", relative(z, relative(j, i))}},
+             "m, rad");
 }
 
 inline void derivativesFit(rex::grading::Check& check, const EdgeJacobians& got, const Eigen::MatrixXd& byI,
@@ -104,17 +78,17 @@ inline void derivativesFit(rex::grading::Check& check, const EdgeJacobians& got,
                 std::max(got.byI.row(2).cwiseAbs().maxCoeff(), got.byJ.row(2).cwiseAbs().maxCoeff()) > 100);
   const char* ofJ = "Has it the sign of the derivative by pose i? Where j moves, the error moves along.";
   const char* ofZ = "Is z left out of the rotation? The error is in the axes of where z puts j.";
-  nearOrAsk(check, "byI of edgeJacobians", got.byI, byI, 1e-5,
-            {{"Does the heading of pose i move nothing but the heading? Pose j goes around it.", still},
-             {"Has the derivative by the heading of pose i the wrong sign?", opposite},
-             {"Are byI and byJ exchanged?", byJ},
-             {ofZ, turnedBack(byI, z[2])},
-             {"Is the heading of pose i left out of the rotation?", turnedBack(byI, i[2])}});
-  nearOrAsk(check, "byJ of edgeJacobians", got.byJ, byJ, 1e-5,
-            {{ofJ, -byJ},
-             {"Are byI and byJ exchanged?", byI},
-             {ofZ, turnedBack(byJ, z[2])},
-             {"Is the heading of pose i left out of the rotation?", turnedBack(byJ, i[2])}});
+  check.near("byI of edgeJacobians", got.byI, byI, 1e-5,
+             {{"Does the heading of pose i move nothing but the heading? Pose j goes around it.", still},
+              {"Has the derivative by the heading of pose i the wrong sign?", opposite},
+              {"Are byI and byJ exchanged?", byJ},
+              {ofZ, turnedBack(byI, z[2])},
+              {"Is the heading of pose i left out of the rotation?", turnedBack(byI, i[2])}});
+  check.near("byJ of edgeJacobians", got.byJ, byJ, 1e-5,
+             {{ofJ, -byJ},
+              {"Are byI and byJ exchanged?", byI},
+              {ofZ, turnedBack(byJ, z[2])},
+              {"Is the heading of pose i left out of the rotation?", turnedBack(byJ, i[2])}});
 }
 
 /// The same map with edges that all have the unit matrix as information, or only its diagonal.
@@ -151,11 +125,11 @@ inline void costFits(rex::grading::Check& check, double got, const PoseMap& map)
   const double wanted = trueCost(map);
   double roots = 0;
   for (const MeasuredEdge& edge : map.edges) roots += std::sqrt(trueCost({map.poses, {edge}}));
-  nearOrAsk(check, "cost of mapCost", one(got), one(wanted), 1e-9 * wanted,
-            {{"Is the information of the edges left out?", one(trueCost(withInformation(map, false)))},
-             {"Is only the diagonal of the information used?", one(trueCost(withInformation(map, true)))},
-             {"Is it the root of the cost?", one(std::sqrt(wanted))},
-             {"Are roots of e^T Omega e added up?", one(roots)}});
+  check.near("cost of mapCost", got, wanted, 1e-9 * wanted,
+             {{"Is the information of the edges left out?", trueCost(withInformation(map, false))},
+              {"Is only the diagonal of the information used?", trueCost(withInformation(map, true))},
+              {"Is it the root of the cost?", std::sqrt(wanted)},
+              {"Are roots of e^T Omega e added up?", roots}});
 }
 
 /// H and b of a map, by finite differences.
@@ -190,18 +164,18 @@ inline void equationsFit(rex::grading::Check& check, const Eigen::MatrixXd& H, c
   });
   const char *ofWeights = "Are the weights of the edges left out?",
              *ofInformation = "Is the information of the edges left out?";
-  nearOrAsk(check, "H of normalEquations", H, wanted.H, 1e-5 * wanted.H.norm(),
-            {{ofInformation, plain.H},
-             {ofWeights, alike.H},
-             {"Does H lack the blocks between the two poses of an edge?", apart},
-             {"Have the blocks between the two poses of an edge the wrong sign?", mirrored},
-             {"Does H lack the half below its diagonal?", upper},
-             {"Does H lack the half above its diagonal?", lower},
-             {"Is pose 0 already taken out? H is that of all poses.", held}});
+  check.near("H of normalEquations", H, wanted.H, 1e-5 * wanted.H.norm(),
+             {{ofInformation, plain.H},
+              {ofWeights, alike.H},
+              {"Does H lack the blocks between the two poses of an edge?", apart},
+              {"Have the blocks between the two poses of an edge the wrong sign?", mirrored},
+              {"Does H lack the half below its diagonal?", upper},
+              {"Does H lack the half above its diagonal?", lower},
+              {"Is pose 0 already taken out? H is that of all poses.", held}});
   const auto right = check.show(
       [&]() -> rex::grading::Evidence { return {.figures = {rex::grading::comparison("b", b, wanted.b)}}; });
-  nearOrAsk(check, "b of normalEquations", b, wanted.b, 1e-5 * wanted.b.norm(),
-            {{ofInformation, plain.b}, {ofWeights, alike.b}});
+  check.near("b of normalEquations", b, wanted.b, 1e-5 * wanted.b.norm(),
+             {{ofInformation, plain.b}, {ofWeights, alike.b}});
 }
 
 /// The step by a dense solver, with pose 0 held.
@@ -223,13 +197,13 @@ inline void stepFits(rex::grading::Check& check, const Eigen::VectorXd& got, con
   const Eigen::VectorXd wanted = denseStep(equations, damping);
   const auto others = [&](const Eigen::VectorXd& step) -> Eigen::MatrixXd { return step.tail(n); };
   check.near("step of pose 0 by gaussNewtonStep", got.head(3), Eigen::Vector3d::Zero(), 1e-9);
-  nearOrAsk(check, "step of the other poses by gaussNewtonStep", others(got), others(wanted),
-            1e-5 * (1 + wanted.norm()),
-            {{"Are the weights left out of the step?", others(denseStep(alike, damping))},
-             {"Is the damping left out?", others(denseStep(equations, 0))},
-             {"Is the diagonal of H multiplied? The damping is added to it.",
-              others(denseStep(equations, damping, true))},
-             {"Is the damping added twice?", others(denseStep(equations, 2 * damping))}});
+  check.near("step of the other poses by gaussNewtonStep", others(got), others(wanted),
+             1e-5 * (1 + wanted.norm()),
+             {{"Are the weights left out of the step?", others(denseStep(alike, damping))},
+              {"Is the damping left out?", others(denseStep(equations, 0))},
+              {"Is the diagonal of H multiplied? The damping is added to it.",
+               others(denseStep(equations, damping, true))},
+              {"Is the damping added twice?", others(denseStep(equations, 2 * damping))}});
 }
 
 /// What could have led to poses that cost too much, if anything.

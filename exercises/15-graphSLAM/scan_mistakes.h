@@ -86,8 +86,8 @@ inline void motionFits(rex::grading::Check& check, const Points& from, const Poi
     return motion;
   };
   const double heading = wanted[2];
-  nearOrAsk(
-      check, "motion of bestMotion", near(got), wanted, 1e-5,
+  check.near(
+      "motion of bestMotion", near(got), wanted, 1e-5,
       {{"Is the rotation that of the opposite direction?", near(betweenMeans(from, to, -heading, -heading))},
        {"Is it the motion from `to` to `from`?", near(relative(wanted, {0, 0, 0}))},
        {"Is the rotation left out of the position? The mean of `from` is rotated, too.",

@@ -86,6 +86,12 @@ void requireSound(bool sound, const CheckInfo& info, const std::string& fault) {
   if (!sound) throw std::logic_error("check '" + info.id + "' " + fault);
 }
 
+// False for other shapes, empty ones, and numbers that are not finite.
+bool isWithin(double tolerance, const MatrixArg& a, const MatrixArg& b) {
+  return a.rows() == b.rows() && a.cols() == b.cols() && a.size() > 0 &&
+         (a - b).cwiseAbs().maxCoeff() <= tolerance;
+}
+
 }  // namespace
 
 void failAssertion(const char* condition) {
@@ -114,14 +120,10 @@ void Check::measure(std::string_view property, double excess, std::string value,
 std::string Check::questionAbout(const MatrixArg& got, const MatrixArg& wanted, double tolerance,
                                  std::string_view unit) const {
   if (info_.group == Group::kHidden) return "";
-  const auto isGot = [&](const Eigen::MatrixXd& value) {
-    return value.rows() == got.rows() && value.cols() == got.cols() && got.size() > 0 &&
-           (got - value).cwiseAbs().maxCoeff() <= tolerance;
-  };
   for (const auto& [question, value] : suspects_)
-    if (isGot(value)) return question;
+    if (isWithin(tolerance, got, value)) return question;
   for (const InputValue& one : inputs_)
-    if (one.value.size() > 1 && isGot(one.value))
+    if (one.value.size() > 1 && isWithin(tolerance, got, one.value))
       return fmt::format("Your value is the input {}, unchanged.", one.name);
   const std::string strange = strangeNumber(got);
   return strange.empty() ? usualMistake(got, wanted, tolerance, unit) : strange;
@@ -162,6 +164,22 @@ void Check::fail(Shortfall shortfall, const std::optional<Plot>& plot) {
     shortfall.question = questionAbout(comparison_->got, comparison_->wanted, comparison_->tolerance, "");
   if (keep(std::move(shortfall)) && info_.group == Group::kVisible) keepEvidence(plot);
   throw RequirementFailed{};
+}
+
+void Check::near(std::string_view property, double got, double wanted, double tolerance,
+                 const std::vector<Mistake>& mistakes, std::string_view unit) {
+  near(property, Eigen::Matrix<double, 1, 1>(got), Eigen::Matrix<double, 1, 1>(wanted), tolerance, mistakes,
+       unit);
+}
+
+void Check::near(std::string_view property, const MatrixArg& got, const MatrixArg& wanted, double tolerance,
+                 const std::vector<Mistake>& mistakes, std::string_view unit) {
+  for (const Mistake& mistake : mistakes) {
+    if (!isWithin(tolerance, got, mistake.value) || isWithin(10 * tolerance, wanted, mistake.value)) continue;
+    const auto suspicion = suspect(mistake.question, mistake.value);
+    return near(property, got, wanted, tolerance, unit);
+  }
+  near(property, got, wanted, tolerance, unit);
 }
 
 void Check::near(std::string_view property, double got, double wanted, double tolerance,

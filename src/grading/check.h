@@ -45,6 +45,20 @@ struct InputValue {
   Eigen::MatrixXd value;
 };
 
+/// What a mistake that students make gives in place of the wanted value, and the question about it: {"Is the
+/// sign wrong?", -wanted}.
+struct Mistake {
+  Mistake(std::string itsQuestion, const MatrixArg& itsValue)
+      : question(std::move(itsQuestion)), value(itsValue) {}
+  template <class Number>
+  requires std::is_arithmetic_v<Number> Mistake(std::string itsQuestion, Number number)
+      : question(std::move(itsQuestion)),
+        value(Eigen::MatrixXd::Constant(1, 1, static_cast<double>(number))) {}
+
+  std::string question;
+  Eigen::MatrixXd value;
+};
+
 /// Passed to a check function, which states its requirements through it. The first requirement that does
 /// not hold ends the function (or the case, inside forEachCase()). A check passes only if it stated at
 /// least one requirement and all of them held. Each names its property in words a student understands:
@@ -126,6 +140,12 @@ class Check {
   /// The same for every entry, after comparing the shapes.
   void near(std::string_view property, const MatrixArg& got, const MatrixArg& wanted, double tolerance,
             std::string_view unit = "");
+  /// The same; a visible check that fails asks about the first mistake whose value is within the tolerance of
+  /// `got`. Mistakes that hardly differ from the wanted value, by at most ten tolerances, explain nothing.
+  void near(std::string_view property, double got, double wanted, double tolerance,
+            const std::vector<Mistake>& mistakes, std::string_view unit = "");
+  void near(std::string_view property, const MatrixArg& got, const MatrixArg& wanted, double tolerance,
+            const std::vector<Mistake>& mistakes, std::string_view unit = "");
   void atMost(std::string_view property, double got, double limit, std::string_view unit = "");
   void atLeast(std::string_view property, double got, double limit, std::string_view unit = "");
   /// Requires the shape rows x cols and finite entries. State this before the grader computes with a
