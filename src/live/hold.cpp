@@ -6,13 +6,12 @@
 #include <Eigen/Cholesky>
 
 #include "control/computed_torque.h"
+#include "dynamics/forward_dynamics.h"
 #include "dynamics/mass_matrix.h"
 #include "scene/coordinates.h"
 
 namespace rex {
 namespace {
-
-constexpr double kStiffness = 0.1;  // seconds: wave length of the held joints, which are critically damped
 
 // For each joint, whether it is a free joint that carries driven joints.
 std::vector<bool> carriers(const Model& model) {
@@ -26,6 +25,10 @@ std::vector<bool> carriers(const Model& model) {
     }
   }
   return carries;
+}
+
+double effortLimit(const Joint& joint) {
+  return joint.maxEffort > 0 ? joint.maxEffort : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
@@ -52,9 +55,14 @@ bool hasFloatingBase(const Model& model) {
   return false;
 }
 
-Holder::Holder(const Model& model, Hold hold, const Eigen::VectorXd& q, const Eigen::Vector3d& gravity_W)
-    : model_(model), hold_(hold), gravity_W_(gravity_W), target_(standAt(model, q)) {
-  if (hold == Hold::kPd || hold == Hold::kGravity) inertia_ = massMatrix(model, q).diagonal();
+Holder::Holder(const Model& model, Hold hold, const Eigen::VectorXd& q, const Eigen::Vector3d& gravity_W,
+               double tau)
+    : model_(model),
+      hold_(hold),
+      gravity_W_(gravity_W),
+      tau_(tau),
+      target_(standAt(model, q)),
+      efforts_(Eigen::VectorXd::Constant(model.nv(), std::numeric_limits<double>::infinity())) {
   const std::vector<bool> carries = carriers(model);
   for (std::size_t j = 0; j < carries.size(); ++j) {
     const Joint& joint = model.joints()[j];
@@ -64,23 +72,44 @@ Holder::Holder(const Model& model, Hold hold, const Eigen::VectorXd& q, const Ei
       if (carries[j]) carrying_.push_back(i);
     }
   }
+  for (const Joint& joint : model.joints())
+    if (!joint.mimics) efforts_.segment(joint.vIndex, joint.nv).setConstant(effortLimit(joint));
+  if (hold != Hold::kPd && hold != Hold::kGravity) return;
+  const PdGains gains = pdGains(1, kHoldWave, 1);
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(model.nv());
+  static_cast<void>(forwardDynamics(model, q, none, none));  // names a joint that moves no mass
+  const Eigen::VectorXd masses = massMatrix(model, q).diagonal();
+  Kp_ = gains.Kp * masses, Kd_ = gains.Kd * masses;
+  for (const int i : undriven_) Kp_[i] = Kd_[i] = 0;
 }
 
 Eigen::VectorXd Holder::forces(const State& state) const {
   Eigen::VectorXd u = Eigen::VectorXd::Zero(model_.nv());
   if (hold_ == Hold::kExact) u = exactForces(state);
-  if (hold_ == Hold::kGravity || hold_ == Hold::kPd) {
-    const PdGains gains = pdGains(1, kStiffness, 1);
-    u = inertia_.cwiseProduct(followReference(model_, state, target_, gains));
-    if (hold_ == Hold::kGravity) u += gravityForces(model_, state.q, gravity_W_);
-  }
+  if (hold_ == Hold::kGravity || hold_ == Hold::kPd) u = springForces(state);
   for (const int i : undriven_) u[i] = 0;
   return u;
 }
 
+// With the velocity w at the end of the step, u = G + Kp (q* - q - tau w) - Kd w and M (w - v) = tau (u - F).
+Eigen::VectorXd Holder::springForces(const State& state) const {
+  auto [M, F] = equationOfMotion(model_, state.q, state.v, gravity_W_);
+  Eigen::VectorXd u = Kp_.cwiseProduct(difference(model_, state.q, target_.q));
+  if (hold_ == Hold::kGravity) {
+    Eigen::VectorXd weight = gravityForces(model_, state.q, gravity_W_);
+    for (const int i : undriven_) weight[i] = 0;
+    u += weight;
+  }
+  const Eigen::VectorXd momentum = M * state.v + tau_ * (u - F);
+  const Eigen::VectorXd damping = Kd_ + tau_ * Kp_;
+  M.diagonal() += tau_ * damping;
+  u -= damping.cwiseProduct(M.llt().solve(momentum));
+  return u.cwiseMax(-efforts_).cwiseMin(efforts_);
+}
+
 // Free bases fall: they accelerate so that no force on them is needed.
 Eigen::VectorXd Holder::exactForces(const State& state) const {
-  const PdGains gains = pdGains(1, kStiffness, 1);
+  const PdGains gains = pdGains(1, kHoldWave, 1);
   if (carrying_.empty()) return computedTorque(model_, state, target_, gains, gravity_W_);
   Eigen::VectorXd a = followReference(model_, state, target_, gains);
   for (const int i : undriven_) a[i] = 0;
@@ -99,10 +128,9 @@ std::vector<Motor> Holder::motors(const Eigen::VectorXd& u) const {
   if (hold_ != Hold::kMotor) return motors;
   for (const Joint& joint : model_.joints()) {
     if (joint.mimics || joint.nq != joint.nv) continue;
-    const double most = joint.maxEffort > 0 ? joint.maxEffort : std::numeric_limits<double>::infinity();
     for (int i = 0; i < joint.nv; ++i)
       motors[static_cast<std::size_t>(joint.vIndex + i)] = {Motor::Kind::kPosition,
-                                                            target_.q[joint.qIndex + i], most};
+                                                            target_.q[joint.qIndex + i], effortLimit(joint)};
   }
   return motors;
 }

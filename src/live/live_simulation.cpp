@@ -5,6 +5,8 @@
 namespace rex {
 namespace {
 
+constexpr double kTau = 1e-3;  // seconds per step
+
 Model withFloor(SceneSpec spec, const std::optional<double>& height) {
   if (height) spec.worldShapes.push_back(floorAt(*height));
   return compile(spec);
@@ -27,12 +29,12 @@ LiveSimulation::LiveSimulation(const SceneSpec& spec, const LiveSimulationOption
       options_(options),
       gravity_W_(options.gravity ? earthGravity() : Eigen::Vector3d::Zero()),
       world_(model_, {.gravity_W = gravity_W_, .friction = options.friction}),
-      holder_(model_, options.hold, start.q, gravity_W_) {
+      holder_(model_, options.hold, start.q, gravity_W_, kTau) {
   world_.setState(start);
 }
 
 void LiveSimulation::holdAt(const Eigen::VectorXd& q) {
-  holder_ = Holder(model_, options_.hold, q, gravity_W_);
+  holder_ = Holder(model_, options_.hold, q, gravity_W_, kTau);
 }
 
 void LiveSimulation::advance(int milliseconds, const std::optional<Push>& push) {
@@ -44,7 +46,7 @@ void LiveSimulation::advance(int milliseconds, const std::optional<Push>& push) 
       u += positionJacobian(model_, poses, push->body, push->p_BQ).transpose() * push->force_W;
     }
     world_.setMotors(holder_.motors(u));
-    world_.step(1e-3);
+    world_.step(kTau);
   }
 }
 

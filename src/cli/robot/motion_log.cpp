@@ -26,12 +26,12 @@ std::string csvHead(const Model& model) {
   return fmt::to_string(head);
 }
 
-// The header is padded to a multiple of 64 bytes.
-std::string npyHead(const Model& model, long rows) {
-  constexpr std::size_t kBefore = 10, kUnit = 64;
-  std::string words = fmt::format("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}, {}), }}", rows,
-                                  model.nq() + model.nv() + 4);
-  words.append(kUnit - (kBefore + words.size() + 1) % kUnit, ' ');
+// The header has a fixed size, a multiple of 64 bytes, and gets the number of rows at the end.
+std::string npyHead(long columns, long rows) {
+  constexpr std::size_t kBefore = 10, kSize = 128;
+  std::string words =
+      fmt::format("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}, {}), }}", rows, columns);
+  words.resize(kSize - kBefore - 1, ' ');
   words += '\n';
   std::string head("\x93NUMPY\x01\x00", 8);
   head += static_cast<char>(words.size() & 0xff);
@@ -64,15 +64,18 @@ fs::path firstNew(fs::path folder) {
 
 }  // namespace
 
-MotionLog::MotionLog(const fs::path& file, LogFormat format, const Model& model, long rows)
-    : file_(file), part_(fs::path(file).concat(".part")), format_(format) {
+MotionLog::MotionLog(const fs::path& file, LogFormat format, const Model& model)
+    : file_(file),
+      part_(fs::path(file).concat(".part")),
+      format_(format),
+      columns_(model.nq() + model.nv() + 4) {
   firstNew_ = firstNew(file.parent_path());
   std::error_code problem;
   if (!file.parent_path().empty()) fs::create_directories(file.parent_path(), problem);
   if (problem) failToWrite(file, problem.message());
   out_.open(part_, std::ios::binary | std::ios::trunc);
   if (!out_) failToWrite(file, std::strerror(errno));
-  write(format == LogFormat::kCsv ? csvHead(model) : npyHead(model, rows));
+  write(format == LogFormat::kCsv ? csvHead(model) : npyHead(columns_, 0));
 }
 
 MotionLog::~MotionLog() {
@@ -99,6 +102,7 @@ void MotionLog::add(const Moment& moment) {
     });
   }
   write(row);
+  ++rows_;
 }
 
 void MotionLog::write(const std::string& bytes) {
@@ -107,6 +111,10 @@ void MotionLog::write(const std::string& bytes) {
 }
 
 void MotionLog::finish() {
+  if (format_ == LogFormat::kNpy) {
+    out_.seekp(0);
+    write(npyHead(columns_, rows_));
+  }
   out_.close();
   if (!out_) failToWrite(file_, std::strerror(errno));
   std::error_code problem;

@@ -18,9 +18,8 @@ enum class LogFormat {
 /// finish().
 class MotionLog {
  public:
-  /// Exactly `rows` rows must be added, because kNpy files begin with their number. Throws Error naming the
-  /// file.
-  MotionLog(const std::filesystem::path& file, LogFormat format, const Model& model, long rows);
+  /// Throws Error naming the file.
+  MotionLog(const std::filesystem::path& file, LogFormat format, const Model& model);
   ~MotionLog();
   MotionLog(const MotionLog&) = delete;
   MotionLog& operator=(const MotionLog&) = delete;
@@ -36,6 +35,7 @@ class MotionLog {
   std::filesystem::path file_, part_, firstNew_;
   LogFormat format_;
   std::ofstream out_;
+  long columns_, rows_ = 0;
   bool isFinished_ = false;
 };
 

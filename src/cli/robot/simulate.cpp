@@ -165,6 +165,7 @@ class Record {
   /// The largest difference of the total energy from its initial value.
   [[nodiscard]] double largestChange() const { return change_; }
   [[nodiscard]] const Motion& motion() const { return film_.motion(); }
+  [[nodiscard]] int steps() const { return step_ - 1; }
 
   [[nodiscard]] Figure energyFigure(const std::string& title) const {
     return {.title = title,
@@ -251,29 +252,40 @@ Json jsonOfOverlaps(const std::vector<BodyOverlap>& overlaps) {
 
 void report(const Model& model, const SimulationPlan& plan, const Record& record,
             const std::vector<BodyOverlap>& overlaps, const SimulateOptions& options,
-            const std::vector<std::string>& files) {
+            const std::vector<std::string>& files, const std::optional<EnergyGain>& gain) {
   const Moment &first = record.first(), &last = record.last();
   if (options.json) {
-    say(dump(Json{{"scene", model.name()},
-                  {"engine", options.engine},
-                  {"held", plan.hold != Hold::kNone},
-                  {"tau", options.tau},
-                  {"steps", plan.steps},
-                  {"overlaps", jsonOfOverlaps(overlaps)},
-                  {"energy",
-                   {{"start", first.energy.total()},
-                    {"end", last.energy.total()},
-                    {"largest_change", record.largestChange()}}},
-                  {"q", jsonOf(last.state.q)},
-                  {"v", jsonOf(last.state.v)},
-                  {"files", files}}));
+    say(dump(
+        Json{{"scene", model.name()},
+             {"engine", options.engine},
+             {"held", plan.hold != Hold::kNone},
+             {"tau", options.tau},
+             {"steps", record.steps()},
+             {"stopped", gain ? Json{{"time", gain->time}, {"gained", gain->gained}, {"given", gain->given}}
+                              : Json(nullptr)},
+             {"overlaps", jsonOfOverlaps(overlaps)},
+             {"energy",
+              {{"start", first.energy.total()},
+               {"end", last.energy.total()},
+               {"largest_change", record.largestChange()}}},
+             {"q", jsonOf(last.state.q)},
+             {"v", jsonOf(last.state.v)},
+             {"files", files}}));
     return;
   }
-  say(fmt::format("{}: {} steps, {:g} s", titleOf(model, plan, options), plan.steps, last.state.time));
+  say(fmt::format("{}: {} steps, {:g} s", titleOf(model, plan, options), record.steps(), last.state.time));
   say(fmt::format("energy: {:.6g} J at the start, {:.6g} J at the end, largest change {:.2g} J",
                   first.energy.total(), last.energy.total(), record.largestChange()));
   sayPostures(model, first.state.q, last.state.q);
   for (const std::string& file : files) say(file);
+}
+
+std::string stopped(const EnergyGain& gain) {
+  return fmt::format(
+      "stopped at {:.6g} s: the energy has grown by {:.3g} J, but the start, gravity, torques and motors "
+      "gave {:.3g} J at "
+      "most; shorter steps (--tau) may help, or another --engine or --hold-by",
+      gain.time, gain.gained, gain.given);
 }
 
 Model modelOf(const Project& project, const SimulateOptions& options) {
@@ -319,7 +331,8 @@ std::vector<BodyOverlap> overlapsOf(const Model& model, const SimulationPlan& pl
 
 void noteUnheld(const Model& model, const SimulationPlan& plan) {
   if (plan.hold != Hold::kMotor) return;
-  for (const std::string& joint : Holder(model, plan.hold, plan.start.q, plan.stepper.gravity_W).unheld())
+  for (const std::string& joint :
+       Holder(model, plan.hold, plan.start.q, plan.stepper.gravity_W, plan.tau).unheld())
     note(fmt::format("joint '{}' is not held: motors cannot drive joints with quaternions", harmless(joint)));
 }
 
@@ -353,9 +366,9 @@ ExitCode simulateScene(const Project& project, const SimulateOptions& options) {
   Record record(plan, options, kFilmRate / speed, stride);
   std::optional<MotionLog> log;
   const fs::path logFile = options.out / ("log." + options.logFormat);
-  if (!isPage(options)) log.emplace(logFile, format, model, plan.steps / stride + 1);
-  asWrongUse([&] {
-    simulate(model, plan, [&](const Moment& moment) { record.add(moment, log ? &*log : nullptr); });
+  if (!isPage(options)) log.emplace(logFile, format, model);
+  const std::optional<EnergyGain> gain = asWrongUse([&] {
+    return simulate(model, plan, [&](const Moment& moment) { record.add(moment, log ? &*log : nullptr); });
   });
 
   std::vector<std::string> files;
@@ -375,8 +388,10 @@ ExitCode simulateScene(const Project& project, const SimulateOptions& options) {
       files.push_back(shown(writeFilm(motionPicturesOf(model, record.motion(), options, title), film,
                                       options.out / "simulate.mp4")));
   }
-  report(model, plan, record, overlaps, options, files);
-  return ExitCode::kFull;
+  report(model, plan, record, overlaps, options, files, gain);
+  if (!gain) return ExitCode::kFull;
+  note(wrap(stopped(*gain), 2, 0));
+  return ExitCode::kBelow;
 }
 
 }  // namespace

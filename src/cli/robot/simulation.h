@@ -32,10 +32,19 @@ struct Moment {
   Energy energy;
 };
 
-/// Calls visit(moment) at the start and after each step. Throws Error like Stepper or PhysicsWorld, what
+/// Energy that nothing has given: the solver made it.
+struct EnergyGain {
+  double time = 0;    ///< seconds
+  double gained = 0;  ///< joules, since the total energy was lowest
+  double given =
+      0;  ///< joules: the most that the start, gravity, torques and whatever holds joints can have given
+};
+
+/// Calls visit(moment) at the start and after each step. Stops as soon as the energy has grown by more than
+/// twice what it can have been given, and returns that gain. Throws Error like Stepper or PhysicsWorld, what
 /// `visit` throws, and Interrupted.
-void simulate(const Model& model, const SimulationPlan& plan,
-              const std::function<void(const Moment&)>& visit);
+std::optional<EnergyGain> simulate(const Model& model, const SimulationPlan& plan,
+                                   const std::function<void(const Moment&)>& visit);
 
 /// Selects the postures of a film during a simulation: `rate` per second, each the one nearest in time.
 class FilmPostures {

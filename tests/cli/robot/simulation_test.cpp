@@ -52,6 +52,41 @@ TEST(Simulation, HoldsThePosture) {
   for (const Moment& moment : momentsOf(kArm, plan)) EXPECT_LT((moment.state.q - plan.start.q).norm(), 1e-9);
 }
 
+// The energy of a solver with too long steps, against the motions above and below, which have none of it.
+TEST(Simulation, StopsWhenTheSolverMakesEnergy) {
+  SimulationPlan plan = fall();
+  plan.stepper.integrator = Integrator::kEuler, plan.tau = 0.05, plan.steps = 10000;
+  std::vector<Moment> moments;
+  const std::optional<EnergyGain> gain =
+      simulate(kArm, plan, [&](const Moment& moment) { moments.push_back(moment); });
+  ASSERT_TRUE(gain);
+  EXPECT_LT(moments.size(), 10000u);
+  const Moment& grown = moments[moments.size() - 2];
+  EXPECT_EQ(gain->time, grown.state.time);
+  double lowest = INFINITY, deepest = 0;
+  for (const Moment& moment : moments) {
+    if (&moment <= &grown) lowest = std::min(lowest, moment.energy.total());
+    deepest = std::max(deepest, moments[0].energy.potential - moment.energy.potential);
+  }
+  EXPECT_NEAR(gain->gained, grown.energy.total() - lowest, 1e-9);
+  EXPECT_NEAR(gain->given, moments[0].energy.kinetic + deepest, 1e-9);
+  EXPECT_GT(gain->gained, 2 * gain->given);
+}
+
+TEST(Simulation, KnowsWhatTorquesAndNoiseGive) {
+  SimulationPlan plan = fall();
+  plan.start.v.setZero();
+  plan.stepper.noise = 3;
+  EXPECT_FALSE(simulate(kArm, plan, [](const Moment&) {})) << "noise";
+  plan.stepper.noise = 0;
+  plan.torques = TorqueTable{.nv = 3, .columns = {0}, .times = {0}, .rows = {{20}}};
+  double most = 0;
+  const std::optional<EnergyGain> gain =
+      simulate(kArm, plan, [&](const Moment& moment) { most = std::max(most, moment.energy.kinetic); });
+  EXPECT_GT(most, 20);
+  EXPECT_FALSE(gain) << "torques";
+}
+
 TEST(Simulation, TakesItsNoiseFromTheSeed) {
   SimulationPlan plan = fall();
   plan.stepper.noise = 0.5;
@@ -94,12 +129,12 @@ TEST(Simulation, HoldsJointsButNeverAFreeBase) {
   EXPECT_LT((after.center - before.center - stone).norm(), 1e-6);
   EXPECT_LT((last.q - first.q).tail(dog.nq() - 7).norm(), 1e-2);
   for (const Hold hold : {Hold::kExact, Hold::kGravity, Hold::kPd}) {
-    const Eigen::VectorXd u = Holder(dog, hold, first.q, earthGravity()).forces(last);
+    const Eigen::VectorXd u = Holder(dog, hold, first.q, earthGravity(), 1e-3).forces(last);
     EXPECT_EQ(u.head(6).norm(), 0);
     EXPECT_GT(u.tail(12).norm(), 0);
   }
   // By the equation of motion: with these forces, joints accelerate as springs of mass one would.
-  const Eigen::VectorXd u = Holder(dog, Hold::kExact, first.q, earthGravity()).forces(last);
+  const Eigen::VectorXd u = Holder(dog, Hold::kExact, first.q, earthGravity(), 1e-3).forces(last);
   const Eigen::VectorXd a = forwardDynamics(dog, last.q, last.v, u),
                         wanted = followReference(dog, last, standAt(dog, first.q), pdGains(1, 0.1, 1));
   EXPECT_LT((a - wanted).tail(12).norm(), 1e-6 * (1 + wanted.norm()));
@@ -133,7 +168,7 @@ TEST(Simulation, MotorsHoldWhatHasAMotor) {
   spec.bodies.push_back({.name = "tail", .X_WB = {}, .mass = 0.1});
   spec.joints.push_back(ball);
   const Model model = compile(spec);
-  const Holder holder(model, Hold::kMotor, model.initialPositions(), earthGravity());
+  const Holder holder(model, Hold::kMotor, model.initialPositions(), earthGravity(), 1e-3);
   EXPECT_EQ(holder.unheld(), std::vector<std::string>{"tail"});
   EXPECT_EQ(holder.forces(initialState(model)).norm(), 0);
   const std::vector<Motor> motors = holder.motors(Eigen::VectorXd::Zero(model.nv()));
