@@ -5,7 +5,7 @@
 #include "exercise.h"
 #include "show.h"
 // <solution headers>
-// What a mistake in wrong/ takes from the library.
+// What a mistake in wrong.cpp takes from the library.
 // <todo>
 // </solution>
 

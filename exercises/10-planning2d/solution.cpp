@@ -11,7 +11,7 @@
 #include "maps.h"
 #include "show.h"
 // <solution headers>
-// What a mistake in wrong/ takes from the library.
+// What a mistake in wrong.cpp takes from the library.
 // <todo>
 // </solution>
 

@@ -9,7 +9,7 @@
 #include "show.h"
 #include "worlds.h"
 // <solution headers>
-// What a mistake in wrong/ takes from the library.
+// What a mistake in wrong.cpp takes from the library.
 // <todo>
 // </solution>
 

@@ -7,7 +7,7 @@
 #include "show.h"
 #include "swing.h"
 // <solution headers>
-// What a mistake in wrong/ takes from the library.
+// What a mistake in wrong.cpp takes from the library.
 // <todo>
 // </solution>
 

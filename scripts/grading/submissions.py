@@ -3,6 +3,7 @@
 import re
 
 _REGION = re.compile(r"^[ \t]*// <solution (\w[\w-]*)>\n(.*?)^[ \t]*// </solution>\n", re.MULTILINE | re.DOTALL)
+_SECTION = re.compile(r"^// <(variant|solution) (\w[\w-]*)>\n", re.MULTILINE)
 
 
 def variant(solution, mistakes):
@@ -18,7 +19,12 @@ def reference(exercise):
 
 
 def wrong_variants(exercise):
-    """Name to text, of each file in the folder `wrong` of an exercise."""
-    solution = reference(exercise)
-    return {path.stem: variant(solution, dict(_REGION.findall(path.read_text())))
-            for path in sorted((exercise / "wrong").glob("*.cpp"))}
+    """Name to text, of each variant in wrong.cpp of an exercise, in the order of their names."""
+    _, *parts = _SECTION.split((exercise / "wrong.cpp").read_text())
+    mistakes = {}
+    for word, name, text in zip(parts[::3], parts[1::3], parts[2::3]):
+        if word == "variant":
+            regions = mistakes[name] = {}
+        else:
+            regions[name] = text.rstrip("\n") + "\n" if text.strip() else ""
+    return {name: variant(reference(exercise), regions) for name, regions in sorted(mistakes.items())}

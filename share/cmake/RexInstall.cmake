@@ -86,7 +86,7 @@ function(rex_install_exercises)
             ${REX_TRANSIENT})
     rex_install_description(${built}/build.json ${destination}/build.json)
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/exercises/${name} DESTINATION share/rex/exercises COMPONENT runtime
-            PATTERN solution.cpp EXCLUDE PATTERN wrong EXCLUDE ${REX_TRANSIENT})
+            PATTERN solution.cpp EXCLUDE PATTERN wrong.cpp EXCLUDE PATTERN seen.txt EXCLUDE ${REX_TRANSIENT})
   endforeach()
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/data DESTINATION share/rex COMPONENT runtime ${REX_TRANSIENT})
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/share/ci DESTINATION share/rex COMPONENT runtime USE_SOURCE_PERMISSIONS

@@ -242,12 +242,13 @@ GateResult solutionPassesSanitizers(const GateContext& context) {
 }
 
 // The parts whose checks catch no wrong variant: nothing proves that they can fail.
-std::vector<std::string> partsWithoutMistake(const GateContext& context) {
+std::vector<std::string> partsWithoutMistake(const GateContext& context,
+                                             const std::vector<WrongVariant>& variants) {
   std::map<std::string, std::string> partOf;  // by check
   for (const CheckResult& check : listChecks(context.toolchain)) partOf[check.id] = check.part;
   std::set<std::string> tried;
-  for (const std::string& name : variantNames(context.exercise))
-    for (const std::string& check : variantOf(context.exercise, name).caughtBy) tried.insert(partOf[check]);
+  for (const WrongVariant& variant : variants)
+    for (const std::string& check : variant.caughtBy) tried.insert(partOf[check]);
   std::vector<std::string> complaints;
   for (const ExercisePart& part : context.exercise.parts)
     if (!tried.contains(part.id))
@@ -258,14 +259,14 @@ std::vector<std::string> partsWithoutMistake(const GateContext& context) {
 
 // The gates of the variants prove that the picture exists and that the messages are those of the file.
 GateResult mistakesAreShown(const GateContext& context) {
-  if (const auto untried = partsWithoutMistake(context); !untried.empty()) return judge(untried);
-  if (!variantNames(context.exercise).empty() &&
-      !std::filesystem::exists(seenMessagesFile(context.exercise.folder)))
-    return failed(fmt::format(
-        "wrong/seen.txt is missing; run: REX_UPDATE_GOLDEN=1 scripts/rex dev check {} --gate wrong",
-        context.exercise.name));
-  for (const std::string& name : variantNames(context.exercise))
-    if (!variantOf(context.exercise, name).shownBy.empty()) return kPassed;
+  const std::vector<WrongVariant> variants = variantsOf(context.exercise);
+  if (const auto untried = partsWithoutMistake(context, variants); !untried.empty()) return judge(untried);
+  if (!variants.empty() && !std::filesystem::exists(seenMessagesFile(context.exercise.folder)))
+    return failed(
+        fmt::format("seen.txt is missing; run: REX_UPDATE_GOLDEN=1 scripts/rex dev check {} --gate wrong",
+                    context.exercise.name));
+  for (const WrongVariant& variant : variants)
+    if (!variant.shownBy.empty()) return kPassed;
   return failed("no wrong variant names a check that shows its mistake: '// shown by: CHECK, ...'");
 }
 
@@ -281,19 +282,18 @@ GateResult variantsAreCaught(const GateContext& context) {
 std::vector<std::string> gateNames(const ExerciseInfo& exercise) {
   std::vector<std::string> names = {"main-current", "points",   "names",      "release", "evidence",
                                     "main-floor",   "solution", "sanitizers", "hostile", "liars"};
-  if (!variantNames(exercise).empty()) names.emplace_back("wrong");
+  if (std::filesystem::exists(exercise.folder / "wrong.cpp")) names.emplace_back("wrong");
   return names;
 }
 
 GateResult runGate(const GateContext& context, const std::string& gate) {
-  const std::vector<std::string> variants = variantNames(context.exercise);
-  const bool isVariant = std::find(variants.begin(), variants.end(), gate) != variants.end();
+  constexpr std::string_view kOneVariant = "wrong/";
   std::vector<std::string> names = gateNames(context.exercise);
-  if (!isVariant && std::find(names.begin(), names.end(), gate) == names.end()) {
-    names.insert(names.end(), variants.begin(), variants.end());
+  for (const std::string& variant : variantNames(context.exercise))
+    names.push_back(std::string(kOneVariant) + variant);
+  if (std::find(names.begin(), names.end(), gate) == names.end())
     throw UsageError({.what = fmt::format("{} has no gate '{}'", context.exercise.name, gate),
                       .nearest = nearestNames(gate, names)});
-  }
   const std::map<std::string, GateResult (*)(const GateContext&)> gates = {
       {"main-current", mainIsCurrent}, {"points", pointsAddUp},
       {"names", namesExist},           {"release", releaseIsClean},
@@ -302,7 +302,8 @@ GateResult runGate(const GateContext& context, const std::string& gate) {
       {"hostile", answersHurtNobody},  {"liars", liarsGetNothing},
       {"wrong", variantsAreCaught}};
   try {
-    return isVariant ? judge(whyNotCaught(context, gate)) : gates.at(gate)(context);
+    return gate.starts_with(kOneVariant) ? judge(whyNotCaught(context, gate.substr(kOneVariant.size())))
+                                         : gates.at(gate)(context);
   } catch (const Error& error) {
     return failed(error.what());
   }

@@ -19,8 +19,8 @@ struct GateContext {
   int seeds = 3;                     ///< number of seeds to grade the solution with: 1, 2, ...
   std::filesystem::path sheet{};     ///< where gate wrong puts the pictures of failed checks; empty: nowhere
   int hostileAnswers = 3000;         ///< that gate hostile gives instead of the student's
-  std::vector<std::string> variants{};  ///< those that gate wrong tests, as "wrong/NAME"; empty: all
-  bool storesMessages = false;          ///< whether gate wrong rewrites wrong/seen.txt
+  std::vector<std::string> variants{};  ///< the only ones that gate wrong tests; empty: all
+  bool storesMessages = false;          ///< whether gate wrong rewrites seen.txt
 };
 
 /// Whether an exercise passed a gate, and what to do if not.
@@ -31,7 +31,7 @@ struct GateResult {
 };
 
 /// The gates of an exercise in order: main-current, points, names, release, evidence, main-floor, solution,
-/// sanitizers, hostile, liars, and, if there are wrong variants, wrong.
+/// sanitizers, hostile, liars, and, if there is wrong.cpp, wrong.
 [[nodiscard]] std::vector<std::string> gateNames(const ExerciseInfo& exercise);
 
 /// Runs one gate on the exercise. The gate wrong/NAME tests a single variant by itself, which takes longer

@@ -39,8 +39,8 @@ bool isCompiled(std::string_view bytes) {
 
 // Line, from 1, of a mark such as `// <hidden>` that stripping should have removed; 0 if there is none.
 int lineOfMark(std::string_view text) {
-  constexpr std::array<std::string_view, 5> kMarks = {"<solution ", "</solution>", "<todo>", "<hidden>",
-                                                      "</hidden>"};
+  constexpr std::array<std::string_view, 6> kMarks = {"<solution ", "</solution>", "<todo>",
+                                                      "<hidden>",   "</hidden>",   "<variant "};
   int number = 0;
   for (std::string_view line : splitLines(text)) {
     ++number;
@@ -135,7 +135,8 @@ class Scanner {
   }
 
   void judgeName(const std::string& place, const fs::path& name) {
-    if (name.filename() == "solution.cpp") refuse(place, "a file of that name");
+    for (const char* secret : {"solution.cpp", "wrong.cpp", "seen.txt"})
+      if (name.filename() == secret) refuse(place, "a file of that name");
     const fs::path folders = name.parent_path();
     if (std::find(folders.begin(), folders.end(), "wrong") != folders.end())
       refuse(place, "a file in a folder of that name");

@@ -73,7 +73,7 @@ void releaseExercise(const Copier& copier, const path& from, const path& to) {
   for (const auto& [name, text] : made) writeTextFile(to / name, text);
   for (const auto& entry : fs::directory_iterator(from)) {
     const path name = entry.path().filename();
-    if (name != "solution.cpp" && name != "wrong" && !made.contains(name.string()))
+    if (name != "solution.cpp" && name != "wrong.cpp" && name != "seen.txt" && !made.contains(name.string()))
       copier.copy(entry.path(), to / name);
   }
 }

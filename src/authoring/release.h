@@ -16,11 +16,11 @@ struct Release {
 };
 
 /// Writes the students' tree to `target`: all of `root` that builds and runs; exercises (those named by
-/// `only`, or all) without solution.cpp and wrong/, with main.cpp and its copy starter.cpp remade from the
-/// solution, and check.cpp without hidden blocks; no tests, history or results. Finally scans it for leaks
-/// of all exercises, also of the secret of the course if that file is given. Throws UsageError if the target
-/// is not empty, and Error, leaving nothing behind, for malformed markers and files that cannot be read or
-/// written.
+/// `only`, or all) without solution.cpp, wrong.cpp and seen.txt, with main.cpp and its copy starter.cpp
+/// remade from the solution, and check.cpp without hidden blocks; no tests, history or results. Finally scans
+/// it for leaks of all exercises, also of the secret of the course if that file is given. Throws UsageError
+/// if the target is not empty, and Error, leaving nothing behind, for malformed markers and files that cannot
+/// be read or written.
 [[nodiscard]] Release writeStudentRelease(const std::filesystem::path& root,
                                           const std::filesystem::path& target,
                                           const std::filesystem::path& courseSecret = {},

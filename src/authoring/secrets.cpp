@@ -63,9 +63,10 @@ class Collector {
       for (const Block& block : solutionBlocks(readTextFile(file), file.string())) addSolution(block, file);
     if (const fs::path file = exercise / "check.cpp"; fs::exists(file))
       for (const Block& block : hiddenBlocks(readTextFile(file), file.string())) addHidden(block, file);
-    if (!fs::is_directory(exercise / "wrong")) return;
-    for (const auto& entry : fs::directory_iterator(exercise / "wrong"))
-      if (entry.is_regular_file()) addWrong(entry.path());
+    if (const fs::path file = exercise / "wrong.cpp"; fs::exists(file))
+      for (const Block& block : variantBlocks(readTextFile(file), file.string())) addWrong(block, file);
+    if (const fs::path file = exercise / "seen.txt"; fs::exists(file))
+      addRuns(SecretKind::kWrongVariant, linesOf(readTextFile(file)), file);
   }
 
   void readNotes(const fs::path& folder) {
@@ -153,17 +154,18 @@ class Collector {
         add(SecretKind::kHiddenName, {line.number, literal}, file, {letters(literal, Comments::kKeep)});
   }
 
-  void addWrong(const fs::path& file) {
-    Block code;
-    int number = 0;
-    const std::string text = readTextFile(file);
-    for (const std::string_view line : splitLines(text)) {
-      ++number;
-      if (line.starts_with("// mistake:"))
-        add(SecretKind::kWrongVariant, {number, std::string(line)}, file, {letters(line, Comments::kKeep)});
-      code.push_back({number, std::string(line)});
-    }
-    addRuns(SecretKind::kWrongVariant, code, file);
+  void addWrong(const Block& block, const fs::path& file) {
+    for (const BlockLine& line : block)
+      if (line.text.starts_with("// mistake:"))
+        add(SecretKind::kWrongVariant, line, file, {letters(line.text, Comments::kKeep)});
+    addRuns(SecretKind::kWrongVariant, block, file);
+  }
+
+  static Block linesOf(std::string_view text) {
+    Block lines;
+    for (const std::string_view line : splitLines(text))
+      lines.push_back({static_cast<int>(lines.size()) + 1, std::string(line)});
+    return lines;
   }
 
   static std::vector<std::string> literalsIn(std::string_view code) {

@@ -22,7 +22,7 @@ std::string withoutNumbers(const std::string& text) {
 }  // namespace
 
 std::filesystem::path seenMessagesFile(const std::filesystem::path& exercise) {
-  return exercise / "wrong" / "seen.txt";
+  return exercise / "seen.txt";
 }
 
 std::string seenMessage(const GradeResult& result, const std::vector<std::string>& ids) {
@@ -66,15 +66,14 @@ std::vector<std::string> changedMessages(const SeenMessages& now, const SeenMess
   for (const auto& [name, message] : now) {
     const auto before = stored.find(name);
     if (before == stored.end())
-      changes.push_back(
-          fmt::format("{}: wrong/seen.txt does not say what a student reads: {}", name, message));
+      changes.push_back(fmt::format("{}: seen.txt does not say what a student reads: {}", name, message));
     else if (withoutNumbers(before->second) != withoutNumbers(message))
       changes.push_back(
-          fmt::format("{}: a student reads: {}\n  wrong/seen.txt says: {}", name, message, before->second));
+          fmt::format("{}: a student reads: {}\n  seen.txt says: {}", name, message, before->second));
   }
   for (const auto& [name, message] : stored)
     if (!now.contains(name))
-      changes.push_back(fmt::format("{}: is in wrong/seen.txt, but there is no such variant", name));
+      changes.push_back(fmt::format("{}: is in seen.txt, but there is no such variant", name));
   if (!changes.empty())
     changes.emplace_back("If the new words are better, store them with REX_UPDATE_GOLDEN=1.");
   return changes;

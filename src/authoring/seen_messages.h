@@ -9,7 +9,7 @@
 
 namespace rex::grading {
 
-/// The file wrong/seen.txt of an exercise: what a student who makes the mistake of a wrong variant reads
+/// The file seen.txt of an exercise: what a student who makes the mistake of a wrong variant reads
 /// first. Lines "NAME" and, indented, "CHECK: MESSAGE".
 using SeenMessages = std::map<std::string, std::string>;
 

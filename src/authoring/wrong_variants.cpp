@@ -19,9 +19,7 @@ namespace {
 using std::filesystem::path;
 using Complaints = std::vector<std::string>;
 
-path fileOf(const ExerciseInfo& exercise, const std::string& name) {
-  return exercise.folder / (name + ".cpp");
-}
+path wrongFileOf(const ExerciseInfo& exercise) { return exercise.folder / "wrong.cpp"; }
 
 SubmissionOptions gradingOf(const GateContext& context, const WrongVariant& variant) {
   SubmissionOptions options{.main = context.workFolder / "main.cpp",
@@ -41,13 +39,13 @@ Complaints whyNotRefused(const GradeResult& result) {
   return {"it should call a forbidden function, but no call was found"};
 }
 
-const CheckResult& checkNamed(const GradeResult& result, const std::string& id, const path& wrong) {
+const CheckResult& checkNamed(const GradeResult& result, const std::string& id, const WrongVariant& variant) {
   const auto isIt = [&](const CheckResult& check) { return check.id == id; };
   const auto check = std::find_if(result.checks.begin(), result.checks.end(), isIt);
   if (check != result.checks.end()) return *check;
   std::vector<std::string> ids;
   for (const CheckResult& known : result.checks) ids.push_back(known.id);
-  throw unknownCheck(id, ids, {wrong.string(), 1});
+  throw unknownCheck(id, ids, variant.namedAt.at(id));
 }
 
 // Complains if there is no picture, or if there is a replay that begins while all is still well.
@@ -61,27 +59,26 @@ Complaints missingOf(const CheckResult& check, const path& workFolder) {
 }
 
 // Complaints if the result is not what the variant promises.
-Complaints whyNotCaughtIn(const GradeResult& result, const WrongVariant& variant, const path& wrong,
-                          const path& workFolder) {
+Complaints whyNotCaughtIn(const GradeResult& result, const WrongVariant& variant, const path& workFolder) {
   if (variant.caughtBy.front() == kForbiddenCall) return whyNotRefused(result);
   if (result.outcome == Outcome::kCompileError || result.outcome == Outcome::kGraderError)
     return {"it was not graded: " + result.message};
   for (const std::string& id : variant.caughtBy)
-    if (checkNamed(result, id, wrong).status == Outcome::kPass)
+    if (checkNamed(result, id, variant).status == Outcome::kPass)
       return {fmt::format("check '{}' does not catch this mistake: {}", id, variant.mistake)};
   if (result.score >= result.maxScore) return {"it gets the full score"};
   Complaints missing;
   for (const std::string& id : variant.shownBy)
-    for (std::string& what : missingOf(checkNamed(result, id, wrong), workFolder))
+    for (std::string& what : missingOf(checkNamed(result, id, variant), workFolder))
       missing.push_back(std::move(what));
   return missing;
 }
 
-void requireChecks(const WrongVariant& variant, const std::vector<std::string>& known, const path& wrong) {
+void requireChecks(const WrongVariant& variant, const std::vector<std::string>& known) {
   for (const auto* ids : {&variant.caughtBy, &variant.shownBy})
     for (const std::string& id : *ids)
       if (id != kForbiddenCall && std::find(known.begin(), known.end(), id) == known.end())
-        throw unknownCheck(id, known, {wrong.string(), 1});
+        throw unknownCheck(id, known, variant.namedAt.at(id));
 }
 
 GradeResult gradeWhole(const GateContext& context, const WrongVariant& variant) {
@@ -118,8 +115,16 @@ void writeSheet(const std::vector<KeyFrame>& pictures, const path& file) {
       file);
 }
 
-std::vector<std::string> wantedVariants(const GateContext& context) {
-  return context.variants.empty() ? variantNames(context.exercise) : context.variants;
+// The variants that the context names, or all.
+std::vector<WrongVariant> wantedVariants(const GateContext& context) {
+  const std::vector<std::string>& wanted = context.variants;
+  requireVariants(context.exercise, wanted);
+  std::vector<WrongVariant> variants = variantsOf(context.exercise);
+  if (!wanted.empty())
+    std::erase_if(variants, [&](const WrongVariant& variant) {
+      return std::find(wanted.begin(), wanted.end(), variant.name) == wanted.end();
+    });
+  return variants;
 }
 
 // Complains if students read something else than the exercise's file says, or writes it there. The gate
@@ -149,36 +154,42 @@ void addComplaints(std::vector<std::string>& complaints, const std::string& name
 
 }  // namespace
 
-std::vector<std::string> variantNames(const ExerciseInfo& exercise) {
-  std::vector<std::string> names;
-  if (std::filesystem::is_directory(exercise.folder / "wrong"))
-    for (const auto& entry : std::filesystem::directory_iterator(exercise.folder / "wrong"))
-      if (entry.path().extension() == ".cpp") names.push_back("wrong/" + entry.path().stem().string());
-  std::sort(names.begin(), names.end());
-  return names;
+std::vector<WrongVariant> variantsOf(const ExerciseInfo& exercise) {
+  const path solution = exercise.folder / "solution.cpp", wrong = wrongFileOf(exercise);
+  if (!std::filesystem::exists(wrong)) return {};
+  return readVariants(readTextFile(solution), solution.string(), readTextFile(wrong), wrong.string());
 }
 
-WrongVariant variantOf(const ExerciseInfo& exercise, const std::string& name) {
-  const path solution = exercise.folder / "solution.cpp", wrong = fileOf(exercise, name);
-  return composeVariant(readTextFile(solution), solution.string(), readTextFile(wrong), wrong.string());
+std::vector<std::string> variantNames(const ExerciseInfo& exercise) {
+  const path wrong = wrongFileOf(exercise);
+  if (!std::filesystem::exists(wrong)) return {};
+  return variantNamesIn(readTextFile(wrong));
+}
+
+void requireVariants(const ExerciseInfo& exercise, const std::vector<std::string>& names) {
+  const std::vector<std::string> known = variantNames(exercise);
+  for (const std::string& name : names)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw UsageError({.what = fmt::format("{} has no wrong variant '{}'", exercise.name, name),
+                        .nearest = nearestNames(name, known)});
 }
 
 std::vector<std::string> whyNotCaught(const GateContext& context, const std::string& name) {
-  const WrongVariant variant = variantOf(context.exercise, name);
-  return whyNotCaughtIn(gradeWhole(context, variant), variant, fileOf(context.exercise, name),
-                        context.workFolder);
+  requireVariants(context.exercise, {name});
+  const std::vector<WrongVariant> variants = variantsOf(context.exercise);
+  const auto variant = std::find_if(variants.begin(), variants.end(),
+                                    [&](const WrongVariant& one) { return one.name == name; });
+  return whyNotCaughtIn(gradeWhole(context, *variant), *variant, context.workFolder);
 }
 
 CaughtTogether whyNotCaughtTogether(const GateContext& context) {
-  std::vector<std::string> known, names, sources;
+  std::vector<std::string> known, sources;
   for (const CheckResult& check : listChecks(context.toolchain)) known.push_back(check.id);
   CaughtTogether all;
   std::vector<WrongVariant> variants;
-  for (const std::string& name : wantedVariants(context))
-    addComplaints(all.complaints, name, [&]() -> Complaints {
-      const WrongVariant variant = variantOf(context.exercise, name);
-      requireChecks(variant, known, fileOf(context.exercise, name));
-      names.push_back(name);
+  for (const WrongVariant& variant : wantedVariants(context))
+    addComplaints(all.complaints, variant.name, [&]() -> Complaints {
+      requireChecks(variant, known);
       sources.push_back(variant.source);
       variants.push_back(variant);
       return {};
@@ -188,13 +199,14 @@ CaughtTogether whyNotCaughtTogether(const GateContext& context) {
   SeenMessages seen;
   std::vector<KeyFrame> pictures;
   for (std::size_t k = 0; k < variants.size(); ++k) {
-    if (!build.holds(k)) all.alone.push_back(names[k]);
-    addComplaints(all.complaints, names[k], [&] {
-      const GradeResult result = build.holds(k) ? gradeLinked(context, build.link(k), variants[k])
-                                                : gradeWhole(context, variants[k]);
-      seen[path(names[k]).filename().string()] = seenMessage(result, variants[k].caughtBy);
-      addPictures(pictures, result, variants[k].caughtBy, names[k], context.workFolder);
-      return whyNotCaughtIn(result, variants[k], fileOf(context.exercise, names[k]), context.workFolder);
+    const WrongVariant& variant = variants[k];
+    if (!build.holds(k)) all.alone.push_back(variant.name);
+    addComplaints(all.complaints, variant.name, [&] {
+      const GradeResult result =
+          build.holds(k) ? gradeLinked(context, build.link(k), variant) : gradeWhole(context, variant);
+      seen[variant.name] = seenMessage(result, variant.caughtBy);
+      addPictures(pictures, result, variant.caughtBy, variant.name, context.workFolder);
+      return whyNotCaughtIn(result, variant, context.workFolder);
     });
   }
   if (!context.sheet.empty()) writeSheet(pictures, context.sheet);

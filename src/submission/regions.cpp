@@ -1,9 +1,12 @@
 #include "submission/regions.h"
 
 #include <algorithm>
+#include <array>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -14,18 +17,19 @@
 namespace rex::grading {
 namespace {
 
-enum class Place { kPublic, kSolution, kTodo, kHidden, kMarker };
+enum class Place { kPublic, kSolution, kTodo, kHidden, kMarker, kVariant };
 
 struct Line {
   std::string text;
   int number = 0;
   Place place = Place::kPublic;
-  std::string region;  // for solutions, todos and their markers
+  std::string name;  // of the region, for solutions, todos and their markers; of the variant for its marker
 };
 
+// Its parts are views into the line.
 struct Tag {
   bool closing = false;
-  std::string word, name;
+  std::string_view word, name;
 };
 
 constexpr std::string_view kBlank = " \t\r";
@@ -34,6 +38,11 @@ std::string_view trim(std::string_view text) {
   const std::size_t first = text.find_first_not_of(kBlank);
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(kBlank) + 1 - first);
+}
+
+// Where a part of a line begins, from 1.
+int columnOf(std::string_view part, std::string_view line) {
+  return static_cast<int>(part.data() - line.data()) + 1;
 }
 
 // The tag in a comment line that holds nothing but `<word name>` or `</word>`.
@@ -52,93 +61,129 @@ std::optional<Tag> tagIn(std::string_view line) {
   return tag;
 }
 
-// Walks through a file and classifies each line; all complaints about markers are here.
+// Walks through a file and classifies each line; all complaints about markers are here. Where there are
+// variants, a region ends at the next marker.
 class MarkerReader {
  public:
   MarkerReader(std::string file, std::vector<std::string> words)
-      : file_(std::move(file)), words_(std::move(words)) {}
+      : file_(std::move(file)),
+        words_(std::move(words)),
+        hasVariants_(std::find(words_.begin(), words_.end(), "variant") != words_.end()) {}
 
   std::vector<Line> read(std::string_view text) {
     std::vector<Line> lines;
     for (const std::string_view line : splitLines(text)) {
+      line_ = line;
       ++number_;
       const std::optional<Tag> tag = tagIn(line);
       if (tag) handle(*tag);
-      const Place place = tag ? Place::kMarker : place_;
-      if (place_ == Place::kTodo && !tag) requireTodo(line);
-      lines.push_back({std::string(line), number_, place, region_});
-      if (tag && tag->closing) region_.clear();
+      const bool isVariant = tag && tag->word == "variant";
+      const Place place = isVariant ? Place::kVariant : tag ? Place::kMarker : place_;
+      if (place_ == Place::kTodo && !tag) requireTodo();
+      lines.push_back({std::string(line), number_, place, name_});
+      if (isVariant || (tag && tag->closing)) name_.clear();
     }
-    if (place_ != Place::kPublic) fail(fmt::format("no '// </{}>' closes this", opening()), opened_);
+    if (place_ != Place::kPublic && !hasVariants_)
+      throw Error({.what = fmt::format("no '// </{}>' closes this", opening()), .where = opened_});
     return lines;
   }
 
  private:
   std::string_view opening() const { return place_ == Place::kHidden ? "hidden" : "solution"; }
+  SourceLocation placeOf(std::string_view part) const { return {file_, number_, columnOf(part, line_)}; }
 
-  [[noreturn]] void fail(std::string what, int line, std::string wanted = {},
+  // `part` of the line is wrong.
+  [[noreturn]] void fail(std::string what, std::string_view part, std::string wanted = {},
                          std::vector<std::string> nearest = {}) const {
     throw Error({.what = std::move(what),
-                 .where = {file_, line},
+                 .where = placeOf(part),
                  .wanted = std::move(wanted),
                  .nearest = std::move(nearest)});
   }
 
   void handle(const Tag& tag) {
     if (std::find(words_.begin(), words_.end(), tag.word) == words_.end())
-      fail(fmt::format("unknown marker '{}'", tag.word), number_,
+      fail(fmt::format("unknown marker '{}'", tag.word), tag.word,
            fmt::format("one of {}", join(words_, ", ")), nearestNames(tag.word, words_));
     if (tag.word == "todo")
       openTodo(tag);
+    else if (hasVariants_ && tag.closing)
+      fail(fmt::format("'</{}>' is not needed", tag.word), tag.word,
+           "a line '// <solution NAME>' or '// <variant NAME>', or the end of the file");
+    else if (tag.word == "variant")
+      openVariant(tag);
     else if (tag.closing)
       close(tag);
     else
       open(tag);
   }
 
+  // Requires a name that is none of `names` so far, and adds it.
+  void requireNewName(const Tag& tag, std::set<std::string, std::less<>>& names) const {
+    if (tag.name.empty())
+      fail(fmt::format("a {} without a name", tag.word), tag.word, fmt::format("'// <{} NAME>'", tag.word));
+    if (!names.emplace(tag.name).second)
+      fail(fmt::format("a second {} called '{}'", tag.word, tag.name), tag.name);
+  }
+
   void open(const Tag& tag) {
-    if (place_ != Place::kPublic)
-      fail(fmt::format("'{}' inside the {} opened in line {}", tag.word, opening(), opened_), number_,
+    if (place_ != Place::kPublic && !hasVariants_)
+      fail(fmt::format("'{}' inside the {} opened in line {}", tag.word, opening(), opened_.line), tag.word,
            fmt::format("'// </{}>' first", opening()));
     const bool named = tag.word == "solution";
-    if (named && tag.name.empty()) fail("a solution without a name", number_, "'// <solution NAME>'");
-    if (named && !names_.insert(tag.name).second)
-      fail(fmt::format("a second solution called '{}'", tag.name), number_);
+    if (named) requireNewName(tag, regions_);
     place_ = named ? Place::kSolution : Place::kHidden;
-    region_ = tag.name;
-    opened_ = number_;
+    name_ = tag.name;
+    opened_ = placeOf(tag.word);
+  }
+
+  // Each variant may replace the same regions. Its name is part of a gate's name.
+  void openVariant(const Tag& tag) {
+    constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
+    requireNewName(tag, variants_);
+    if (tag.name.find_first_not_of(kLetters) != tag.name.npos)
+      fail(fmt::format("a variant called '{}'", tag.name), tag.name, "letters, digits and '_' only");
+    place_ = Place::kPublic;
+    name_ = tag.name;
+    regions_.clear();
   }
 
   void openTodo(const Tag& tag) {
-    if (tag.closing) fail("'</todo>' is not needed", number_, "'// </solution>', which ends both");
+    if (tag.closing) fail("'</todo>' is not needed", tag.word, "'// </solution>', which ends both");
     if (place_ != Place::kSolution)
-      fail("'todo' out of place", number_, "one in a solution, after the reference lines");
+      fail("'todo' out of place", tag.word, "one in a solution, after the reference lines");
     place_ = Place::kTodo;
   }
 
   void close(const Tag& tag) {
     if (place_ == Place::kPublic || opening() != tag.word)
-      fail(fmt::format("'</{}>' closes nothing", tag.word), number_);
+      fail(fmt::format("'</{}>' closes nothing", tag.word), tag.word);
     place_ = Place::kPublic;
   }
 
-  void requireTodo(std::string_view line) const {
-    const std::string_view text = trim(line);
+  void requireTodo() const {
+    const std::string_view text = trim(line_);
     if (text.empty() || text == "//|" || text.starts_with("//| ")) return;
-    fail("a todo line", number_, "it to start with '//| '");
+    fail("a todo line", text, "it to start with '//| '");
   }
 
   std::string file_;
   std::vector<std::string> words_;
-  std::set<std::string> names_;
+  bool hasVariants_;
+  std::set<std::string, std::less<>> regions_, variants_;  // names of those so far
   Place place_ = Place::kPublic;
-  std::string region_;
+  std::string name_;
+  std::string_view line_;
   int number_ = 0;
-  int opened_ = 0;
+  SourceLocation opened_;
 };
 
 std::vector<Line> readSolution(std::string_view text, const std::string& file) {
   return MarkerReader(file, {"solution", "todo"}).read(text);
+}
+
+std::vector<Line> readWrong(std::string_view text, const std::string& file) {
+  return MarkerReader(file, {"variant", "solution"}).read(text);
 }
 
 std::vector<std::vector<BlockLine>> blocksOf(const std::vector<Line>& lines, Place place) {
@@ -176,85 +221,154 @@ class Writer {
   bool lastBlank_ = true;
 };
 
-struct Header {
-  std::vector<std::string> caughtBy;
-  std::vector<std::string> shownBy;
-  std::string mistake;
-};
-
-std::vector<std::string> splitList(std::string_view list) {
-  std::vector<std::string> items;
-  while (!list.empty()) {
-    const std::size_t comma = std::min(list.find(','), list.size());
-    if (const std::string_view item = trim(list.substr(0, comma)); !item.empty()) items.emplace_back(item);
-    list.remove_prefix(std::min(comma + 1, list.size()));
-  }
-  return items;
-}
-
-// Reads `// caught by: ...`, `// shown by: ...` and `// mistake: ...` among the lines outside the regions,
-// where only comments are allowed.
-Header readHeader(const std::vector<Line>& lines, const std::string& file) {
-  Header header;
-  int lineOfMistake = 0;
-  for (const Line& line : lines) {
-    const std::string_view text = trim(line.text);
-    if (line.place != Place::kPublic || text.empty()) continue;
-    if (!text.starts_with("//"))
-      throw Error({.what = "code outside a region",
-                   .where = {file, line.number},
-                   .wanted = "'// <solution NAME>' before it"});
-    const std::string_view comment = trim(text.substr(2));
-    constexpr std::string_view kCaught = "caught by:", kShown = "shown by:", kMistake = "mistake:";
-    if (comment.starts_with(kCaught)) header.caughtBy = splitList(comment.substr(kCaught.size()));
-    if (comment.starts_with(kShown)) header.shownBy = splitList(comment.substr(kShown.size()));
-    if (comment.starts_with(kMistake)) {
-      header.mistake = trim(comment.substr(kMistake.size()));
-      lineOfMistake = line.number;
-    } else if (lineOfMistake > 0 && line.number == lineOfMistake + 1 && !comment.starts_with(kCaught) &&
-               !comment.starts_with(kShown)) {
-      throw Error({.what = "the mistake goes on after its line",
-                   .where = {file, line.number},
-                   .wanted = "'// mistake: TEXT' in one line"});
-    }
-  }
-  if (header.caughtBy.empty())
-    throw Error({.what = "no check is named", .where = {file, 1}, .wanted = "'// caught by: CHECK, ...'"});
-  if (header.mistake.empty())
-    throw Error({.what = "the mistake is not described", .where = {file, 1}, .wanted = "'// mistake: TEXT'"});
-  return header;
-}
-
-struct Replacement {
-  std::string text;
-  int line = 0;
-};
-
-std::map<std::string, Replacement> readReplacements(const std::vector<Line>& lines) {
-  std::map<std::string, Replacement> replacements;
-  for (const Line& line : lines) {
-    if (line.region.empty()) continue;
-    Replacement& replacement = replacements[line.region];
-    if (line.place == Place::kMarker && replacement.line == 0) replacement.line = line.number;
-    if (line.place == Place::kSolution) replacement.text += line.text + "\n";
-  }
-  return replacements;
-}
-
 // The file without markers and todos, and with some of its regions replaced.
 std::string withReplaced(const std::vector<Line>& lines,
-                         const std::map<std::string, Replacement>& replacements) {
+                         const std::map<std::string, std::string>& replacements) {
   std::string text, current;
   for (const Line& line : lines) {
-    const auto replacement = replacements.find(line.region);
-    const bool opens = !line.region.empty() && line.region != current;
-    current = line.region;
-    if (opens && replacement != replacements.end()) text += replacement->second.text;
+    const auto replacement = replacements.find(line.name);
+    const bool opens = !line.name.empty() && line.name != current;
+    current = line.name;
+    if (opens && replacement != replacements.end()) text += replacement->second;
     const bool kept = line.place == Place::kSolution && replacement == replacements.end();
     if (kept || line.place == Place::kPublic) text += line.text + "\n";
   }
   return text;
 }
+
+constexpr std::array<const char*, 3> kKeys = {"caught by", "shown by", "mistake"};
+
+// Composes the variants of wrong.cpp with the solution, line by line.
+class VariantReader {
+ public:
+  VariantReader(std::string file, std::string_view solution, std::string solutionFile)
+      : file_(std::move(file)),
+        solutionFile_(std::move(solutionFile)),
+        solution_(readSolution(solution, solutionFile_)) {
+    for (const Line& line : solution_)
+      if (!line.name.empty() && (regions_.empty() || regions_.back() != line.name))
+        regions_.push_back(line.name);
+  }
+
+  std::vector<WrongVariant> read(const std::vector<Line>& lines) {
+    for (const Line& line : lines) {
+      if (line.place == Place::kVariant)
+        begin(line);
+      else if (variants_.empty())
+        requireComment(line, "code before the first variant", "'// <variant NAME>' before it");
+      else if (line.place == Place::kMarker)
+        openRegion(line);
+      else if (line.place == Place::kSolution)
+        addToRegion(line);
+      else
+        readHeader(line);
+    }
+    if (variants_.empty())
+      throw Error({.what = "no variant", .where = {file_, 1, 1}, .wanted = "'// <variant NAME>'"});
+    end();
+    return std::move(variants_);
+  }
+
+ private:
+  // `part` of the line is wrong.
+  [[noreturn]] void fail(std::string what, const Line& line, std::string_view part, std::string wanted = {},
+                         std::vector<std::string> nearest = {}) const {
+    throw Error({.what = std::move(what),
+                 .where = {file_, line.number, columnOf(part, line.text)},
+                 .wanted = std::move(wanted),
+                 .nearest = std::move(nearest)});
+  }
+
+  void begin(const Line& line) {
+    if (!variants_.empty()) end();
+    variants_.emplace_back().name = line.name;
+    start_ = {file_, line.number, columnOf(tagIn(line.text)->name, line.text)};
+  }
+
+  void end() {
+    WrongVariant& variant = variants_.back();
+    const auto require = [&](bool holds, const char* what, const char* wanted) {
+      if (!holds)
+        throw Error(
+            {.what = fmt::format("variant '{}': {}", variant.name, what), .where = start_, .wanted = wanted});
+    };
+    require(!variant.caughtBy.empty(), "no check is named", "'// caught by: CHECK, ...'");
+    require(!variant.mistake.empty(), "the mistake is not described", "'// mistake: TEXT'");
+    require(!replacements_.empty(), "no region", "'// <solution NAME>' with the mistake");
+    variant.source = withReplaced(solution_, replacements_);
+    replacements_.clear();
+  }
+
+  void openRegion(const Line& line) {
+    const Tag tag = *tagIn(line.text);
+    if (std::find(regions_.begin(), regions_.end(), tag.name) == regions_.end())
+      fail(fmt::format("{} has no region '{}'", solutionFile_, tag.name), line, tag.name, {},
+           nearestNames(tag.name, regions_));
+    replacements_.try_emplace(line.name);
+    blanks_.clear();
+  }
+
+  // Blank lines belong to a region only if another line of it follows.
+  void addToRegion(const Line& line) {
+    const std::string_view text = trim(line.text);
+    const std::string_view comment = text.starts_with("//") ? trim(text.substr(2)) : std::string_view();
+    for (const std::string key : kKeys)
+      if (comment.starts_with(key + ":"))
+        fail(fmt::format("'{}' after a region", key), line, text, "it below '// <variant NAME>'");
+    std::string& region = replacements_[line.name];
+    if (!text.empty()) region += std::exchange(blanks_, {}) + line.text;
+    (text.empty() ? blanks_ : region) += "\n";
+  }
+
+  void requireComment(const Line& line, std::string what, std::string wanted) const {
+    const std::string_view text = trim(line.text);
+    if (line.place != Place::kPublic || (!text.empty() && !text.starts_with("//")))
+      fail(std::move(what), line, text, std::move(wanted));
+  }
+
+  // Reads `// caught by: CHECK, ...`, `// shown by: CHECK, ...` or `// mistake: TEXT`.
+  void readHeader(const Line& line) {
+    requireComment(line, "code outside a region", "'// <solution NAME>' before it");
+    const std::string_view text = trim(line.text),
+                           comment = trim(text.substr(std::min<std::size_t>(2, text.size())));
+    if (comment.empty()) return;
+    const std::string_view key = comment.substr(0, comment.find(':'));
+    const std::string_view value = trim(comment.substr(std::min(key.size() + 1, comment.size())));
+    WrongVariant& variant = variants_.back();
+    if (key == "caught by")
+      readChecks(value, line, variant.caughtBy);
+    else if (key == "shown by")
+      readChecks(value, line, variant.shownBy);
+    else if (key == "mistake" && variant.mistake.empty())
+      variant.mistake = value;
+    else if (key == "mistake")
+      fail("a second line for the mistake", line, key, "'// mistake: TEXT' in one line");
+    else
+      fail(fmt::format("unknown line '{}' in a variant", key), line, comment,
+           "one of 'caught by:', 'shown by:' and 'mistake:', each in one line",
+           nearestNames(key, {kKeys.begin(), kKeys.end()}));
+  }
+
+  // Adds the ids of a list with commas.
+  void readChecks(std::string_view list, const Line& line, std::vector<std::string>& ids) {
+    while (!list.empty()) {
+      const std::size_t comma = std::min(list.find(','), list.size());
+      if (const std::string_view id = trim(list.substr(0, comma)); !id.empty()) {
+        ids.emplace_back(id);
+        variants_.back().namedAt[ids.back()] = {file_, line.number, columnOf(id, line.text)};
+      }
+      list.remove_prefix(std::min(comma + 1, list.size()));
+    }
+  }
+
+  std::string file_, solutionFile_;
+  std::vector<Line> solution_;
+  std::vector<std::string> regions_;  // their names in the solution
+  std::vector<WrongVariant> variants_{};
+  SourceLocation start_{};                             // the last variant
+  std::map<std::string, std::string> replacements_{};  // of the last variant
+  std::string blanks_{};                               // lines at the end of its last region
+};
 
 }  // namespace
 
@@ -293,26 +407,28 @@ std::vector<std::vector<BlockLine>> hiddenBlocks(std::string_view check, const s
   return blocksOf(MarkerReader(file, {"hidden"}).read(check), Place::kHidden);
 }
 
-WrongVariant composeVariant(std::string_view solution, const std::string& solutionFile,
-                            std::string_view wrong, const std::string& wrongFile) {
-  const std::vector<Line> wrongLines = MarkerReader(wrongFile, {"solution"}).read(wrong);
-  const Header header = readHeader(wrongLines, wrongFile);
-  const std::map<std::string, Replacement> replacements = readReplacements(wrongLines);
-  if (replacements.empty())
-    throw Error(
-        {.what = "no region", .where = {wrongFile, 1}, .wanted = "'// <solution NAME>' with the mistake"});
+std::vector<WrongVariant> readVariants(std::string_view solution, const std::string& solutionFile,
+                                       std::string_view wrong, const std::string& wrongFile) {
+  return VariantReader(wrongFile, solution, solutionFile).read(readWrong(wrong, wrongFile));
+}
 
-  const std::vector<Line> lines = readSolution(solution, solutionFile);
-  std::vector<std::string> known;
-  for (const Line& line : lines)
-    if (!line.region.empty() && (known.empty() || known.back() != line.region)) known.push_back(line.region);
-  for (const auto& [name, replacement] : replacements) {
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      throw Error({.what = fmt::format("{} has no region '{}'", solutionFile, name),
-                   .where = {wrongFile, replacement.line},
-                   .nearest = nearestNames(name, known)});
+std::vector<std::string> variantNamesIn(std::string_view wrong) {
+  std::vector<std::string> names;
+  for (const std::string_view line : splitLines(wrong))
+    if (const std::optional<Tag> tag = tagIn(line); tag && tag->word == "variant" && !tag->name.empty())
+      names.emplace_back(tag->name);
+  return names;
+}
+
+std::vector<std::vector<BlockLine>> variantBlocks(std::string_view wrong, const std::string& file) {
+  std::vector<std::vector<BlockLine>> blocks;
+  for (const Line& line : readWrong(wrong, file)) {
+    if (line.place == Place::kVariant)
+      blocks.emplace_back();
+    else if (!blocks.empty() && line.place != Place::kMarker)
+      blocks.back().push_back({line.number, std::string(trim(line.text))});
   }
-  return {header.caughtBy, header.shownBy, header.mistake, withReplaced(lines, replacements)};
+  return blocks;
 }
 
 }  // namespace rex::grading

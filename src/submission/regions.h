@@ -1,24 +1,27 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "base/error.h"
 
 namespace rex::grading {
 
 /// Makes the student's main.cpp from solution.cpp. Between `// <solution NAME>` and `// </solution>` only
 /// the lines `//| text` after `// <todo>` remain, uncommented at their own indentation. `file` is for
-/// messages. Throws Error (file:line) for a marker that is unknown, unclosed, nested, repeated or
+/// messages. Throws Error (file:line:column) for a marker that is unknown, unclosed, nested, repeated or
 /// misplaced.
 [[nodiscard]] std::string stripSolution(std::string_view solution, const std::string& file);
 
-/// check.cpp without the blocks between `// <hidden>` and `// </hidden>`. Throws Error (file:line).
+/// check.cpp without the blocks between `// <hidden>` and `// </hidden>`. Throws Error (file:line:column).
 [[nodiscard]] std::string stripHidden(std::string_view check, const std::string& file);
 
 /// The text outside the regions of solution.cpp. Throws like stripSolution().
 [[nodiscard]] std::string textOutsideRegions(std::string_view solution, const std::string& file);
 
-/// solution.cpp without its markers and todos: what composeVariant() makes of it if nothing is replaced.
+/// solution.cpp without its markers and todos: what readVariants() makes of it if nothing is replaced.
 /// Throws like stripSolution().
 [[nodiscard]] std::string referenceText(std::string_view solution, const std::string& file);
 
@@ -35,22 +38,34 @@ struct BlockLine {
 [[nodiscard]] std::vector<std::vector<BlockLine>> hiddenBlocks(std::string_view check,
                                                                const std::string& file);
 
-/// A plausible mistake, as described by wrong/NAME.cpp.
+/// A plausible mistake, as a section of wrong.cpp describes it.
 struct WrongVariant {
-  std::vector<std::string> caughtBy;  ///< ids of checks, or kForbiddenCall
-  std::vector<std::string> shownBy;   ///< ids of checks that write a picture of it; may be empty
-  std::string mistake;
-  std::string source;  ///< complete main.cpp with the mistake in it
+  std::string name{};
+  std::vector<std::string> caughtBy{};  ///< ids of checks, or kForbiddenCall
+  std::vector<std::string> shownBy{};   ///< ids of checks that write a picture of it; may be empty
+  std::string mistake{};
+  std::string source{};                             ///< complete main.cpp with the mistake in it
+  std::map<std::string, SourceLocation> namedAt{};  ///< where wrong.cpp names each of these checks
 };
 
 /// In `caught by`: the variant is rejected before any check because it calls a forbidden function.
 inline constexpr std::string_view kForbiddenCall = "forbidden-call";
 
-/// Replaces regions of the solution by those of a wrong file. The file begins with `// caught by: id, id`,
-/// perhaps `// shown by: id, id`, and `// mistake: text`, then contains `// <solution NAME>` ... `//
-/// </solution>`. Throws Error (file:line) for a missing header line, a region that the solution lacks, and
-/// text outside regions.
-[[nodiscard]] WrongVariant composeVariant(std::string_view solution, const std::string& solutionFile,
-                                          std::string_view wrong, const std::string& wrongFile);
+/// The variants of wrong.cpp in order. A section begins with `// <variant NAME>`, then come the lines
+/// `// caught by: id, id`, perhaps `// shown by: id, id`, and `// mistake: text`, then regions, each after a
+/// line `// <solution NAME>`, which replace those of the solution. Regions and sections end at the next
+/// marker, without the blank lines before it. Before the first section there may be comments. Throws Error
+/// (file:line:column) for an unknown, repeated or misplaced marker, an unknown or missing line, a region that
+/// the solution lacks, a section without one, and code outside regions.
+[[nodiscard]] std::vector<WrongVariant> readVariants(std::string_view solution,
+                                                     const std::string& solutionFile, std::string_view wrong,
+                                                     const std::string& wrongFile);
+
+/// The names of the variants of wrong.cpp in order, also if other lines are malformed.
+[[nodiscard]] std::vector<std::string> variantNamesIn(std::string_view wrong);
+
+/// The lines of each variant without markers. Throws Error (file:line:column) for a malformed marker.
+[[nodiscard]] std::vector<std::vector<BlockLine>> variantBlocks(std::string_view wrong,
+                                                                const std::string& file);
 
 }  // namespace rex::grading

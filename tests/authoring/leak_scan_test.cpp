@@ -40,19 +40,19 @@ constexpr const char* kCheck =
     "}\n"
     "// </hidden>\n";
 constexpr const char* kWrong =
+    "// <variant circumference>\n"
     "// caught by: grows\n"
     "// mistake: takes the circumference for the area.\n"
     "// <solution area>\n"
     "const double circumference = 2 * 3.14159265 * r;\n"
-    "return circumference;\n"
-    "// </solution>\n";
+    "return circumference;\n";
 
 class LeakScanTest : public ::testing::Test {
  protected:
   void SetUp() override {
     write("root/exercises/01-circle/solution.cpp", kSolution);
     write("root/exercises/01-circle/check.cpp", kCheck);
-    write("root/exercises/01-circle/wrong/circumference.cpp", kWrong);
+    write("root/exercises/01-circle/wrong.cpp", kWrong);
     write("tree/README.md", "Compute the area of a circle.\n");
   }
   void write(const std::string& name, const std::string& text) const {
@@ -146,16 +146,20 @@ TEST_F(LeakScanTest, FindsHiddenChecksAndTheirTexts) {
 TEST_F(LeakScanTest, FindsWrongVariants) {
   EXPECT_EQ(leakOf("a.txt", "const double circumference = 2 * 3.14159265 * r;\nreturn circumference;"),
             "a.txt:1: a wrong variant would reach students: found 'const double circumference = 2 * "
-            "3.14159265 * r;' of exercises/01-circle/wrong/circumference.cpp:4");
-  EXPECT_THAT(leakOf("a.txt", "Mistake: takes the circumference for the area."),
-              HasSubstr("circumference.cpp:2"));
+            "3.14159265 * r;' of exercises/01-circle/wrong.cpp:5");
+  EXPECT_THAT(leakOf("a.txt", "Mistake: takes the circumference for the area."), HasSubstr("wrong.cpp:3"));
+  write("root/exercises/01-circle/seen.txt",
+        "circumference\n    grows: the area of a circle of twice the radius: got 12.56 m, wanted 50.24 m\n");
+  EXPECT_THAT(leakOf("a.txt", "grows: the area of a circle of twice the radius: got 12.56 m, wanted 50.24 m"),
+              HasSubstr("exercises/01-circle/seen.txt:2"));
 }
 
 TEST_F(LeakScanTest, LooksAtNames) {
   EXPECT_EQ(leakOf("return 3.14159265 * square;.txt", ""),
             std::string("return 3.14159265 * square;.txt: ") + kOfSolution);
-  EXPECT_EQ(leakOf("exercises/01-circle/solution.cpp", "int a;"),
-            "exercises/01-circle/solution.cpp: a file of that name would reach students");
+  for (const std::string name : {"solution.cpp", "wrong.cpp", "seen.txt"})
+    EXPECT_EQ(leakOf("exercises/01-circle/" + name, "int a;"),
+              "exercises/01-circle/" + name + ": a file of that name would reach students");
   EXPECT_EQ(leakOf("exercises/01-circle/wrong/a.cpp", ""),
             "exercises/01-circle/wrong/a.cpp: a file in a folder of that name would reach students");
 }

@@ -20,12 +20,13 @@ using ::testing::Not;
 class ReleaseTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    for (const char* file :
-         {"CMakeLists.txt", "README.md", "LICENSE", ".clang-format", ".ci/run", "tests/a_test.cpp",
-          "build/release/rex", "out/01-demo/results.json", "notes.txt", "share/cmake/a.cmake",
-          "src/base/error.h", "data/robots/arm.ors", "scripts/rex", "scripts/test",
-          "exercises/CMakeLists.txt", "exercises/01-demo/exercise.h", "exercises/01-demo/wrong/a.cpp"})
+    for (const char* file : {"CMakeLists.txt", "README.md", "LICENSE", ".clang-format", ".ci/run",
+                             "tests/a_test.cpp", "build/release/rex", "out/01-demo/results.json", "notes.txt",
+                             "share/cmake/a.cmake", "src/base/error.h", "data/robots/arm.ors", "scripts/rex",
+                             "scripts/test", "exercises/CMakeLists.txt", "exercises/01-demo/exercise.h",
+                             "exercises/01-demo/wrong.cpp", "exercises/01-demo/seen.txt"})
       write(file, file);
+    write("exercises/01-demo/wrong.cpp", "// <variant thrice>\n// mistake: trebles the number.\n");
     write("exercises/01-demo/README.md", "Write `twice`.\n");
     write("README.md", "Run scripts/rex.\nRun scripts/test.\n| `tests/` | tests |\n| `notes/` | notes |\n");
     write("exercises/01-demo/main.cpp", "out of date\n");
@@ -213,7 +214,7 @@ TEST_F(ReleaseTest, SaysWhatItCannotWrite) {
 
 TEST_F(ReleaseTest, PassesOnComplaintsAboutMarkers) {
   write("exercises/01-demo/check.cpp", "// <hidden>\n");
-  EXPECT_REX_ERROR(writeStudentRelease(root(), target()), "check.cpp:1: no '// </hidden>' closes this");
+  EXPECT_REX_ERROR(writeStudentRelease(root(), target()), "check.cpp:1:5: no '// </hidden>' closes this");
 }
 
 }  // namespace rex::grading::release_test

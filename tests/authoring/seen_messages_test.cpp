@@ -68,11 +68,11 @@ TEST(ChangedMessages, LeaveNumbersAside) {
 }
 
 TEST(ChangedMessages, NameWhatIsNewGoneOrOtherwise) {
-  EXPECT_THAT(changedMessages({{"new", "a"}, {"other", "b: got 1"}}, {{"gone", "c"}, {"other", "d: got 1"}}),
-              ElementsAre("new: wrong/seen.txt does not say what a student reads: a",
-                          "other: a student reads: b: got 1\n  wrong/seen.txt says: d: got 1",
-                          "gone: is in wrong/seen.txt, but there is no such variant",
-                          HasSubstr("REX_UPDATE_GOLDEN=1")));
+  EXPECT_THAT(
+      changedMessages({{"new", "a"}, {"other", "b: got 1"}}, {{"gone", "c"}, {"other", "d: got 1"}}),
+      ElementsAre("new: seen.txt does not say what a student reads: a",
+                  "other: a student reads: b: got 1\n  seen.txt says: d: got 1",
+                  "gone: is in seen.txt, but there is no such variant", HasSubstr("REX_UPDATE_GOLDEN=1")));
 }
 
 }  // namespace rex::grading::seen_messages_test

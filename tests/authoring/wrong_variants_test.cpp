@@ -24,8 +24,9 @@ class WrongVariantsTest : public ::testing::Test {
   void SetUp() override {
     fs::create_directories(exercise().parent_path());
     fs::copy(buildPath("tests/template/source"), exercise(), fs::copy_options::recursive);
-    fs::remove(exercise() / "wrong" / "library.cpp");
-    fs::remove(exercise() / "wrong" / "seen.txt");
+    fs::remove(exercise() / "seen.txt");
+    const std::string wrong = fileText(exercise() / "wrong.cpp");
+    write("wrong.cpp", wrong.substr(0, wrong.find("// <variant library>")));
     write("solution.cpp", "#include \"geometry/rotation.h\"\n" + fileText(exercise() / "solution.cpp"));
     writeVariant("library", "caught by: forbidden-call", kByLibrary);
   }
@@ -35,8 +36,9 @@ class WrongVariantsTest : public ::testing::Test {
     std::ofstream(exercise() / file) << text;
   }
   void writeVariant(const std::string& name, const std::string& header, const std::string& body) const {
-    write("wrong/" + name + ".cpp", "// " + header + "\n// mistake: " + name +
-                                        ".\n\n// <solution rotated>\n" + body + "// </solution>\n");
+    std::ofstream(exercise() / "wrong.cpp", std::ios::app) << "\n// <variant " + name + ">\n// " + header +
+                                                                  "\n// mistake: " + name +
+                                                                  ".\n// <solution rotated>\n" + body;
   }
   GateResult pass(const std::string& gate, bool storesMessages = false,
                   const std::vector<std::string>& variants = {}) const {
@@ -63,29 +65,30 @@ TEST_F(WrongVariantsTest, AreCaughtTogetherAndTheirMessagesStoredIfAsked) {
   const GateResult result = pass("wrong", /*storesMessages=*/true);
   EXPECT_TRUE(result.passed) << result.message;
   EXPECT_EQ(result.note, "");
-  EXPECT_THAT(fileText(exercise() / "wrong" / "seen.txt"), HasSubstr("doubled\n    quarter-turn: point"));
+  EXPECT_THAT(fileText(exercise() / "seen.txt"), HasSubstr("doubled\n    quarter-turn: point"));
 }
 
 TEST_F(WrongVariantsTest, AreReadAsTheFileSays) {
-  write("wrong/seen.txt", "clockwise\n    quarter-turn: something else\n");
+  write("seen.txt", "clockwise\n    quarter-turn: something else\n");
   EXPECT_THAT(pass("wrong").message, AllOf(HasSubstr("clockwise: a student reads: quarter-turn: point"),
-                                           HasSubstr("library: wrong/seen.txt does not say")));
-  fs::remove(exercise() / "wrong" / "seen.txt");
-  EXPECT_THAT(pass("evidence").message, HasSubstr("wrong/seen.txt is missing"));
+                                           HasSubstr("library: seen.txt does not say")));
+  fs::remove(exercise() / "seen.txt");
+  EXPECT_THAT(pass("evidence").message, HasSubstr("seen.txt is missing"));
 }
 
 // The others are neither compiled nor compared with what the file says of them.
 TEST_F(WrongVariantsTest, AreTestedOneByOneIfAsked) {
   writeVariant("a_typo", "caught by: quarter-turn", "return angel * p;\n");
-  EXPECT_TRUE(pass("wrong", /*storesMessages=*/true, {"wrong/clockwise"}).passed);
-  EXPECT_THAT(fileText(exercise() / "wrong" / "seen.txt"), StartsWith("clockwise\n    quarter-turn: point"));
-  EXPECT_TRUE(pass("wrong", /*storesMessages=*/true, {"wrong/library"}).passed);
-  EXPECT_THAT(fileText(exercise() / "wrong" / "seen.txt"),
-              AllOf(StartsWith("clockwise\n"), HasSubstr("\nlibrary\n")))
+  EXPECT_TRUE(pass("wrong", /*storesMessages=*/true, {"clockwise"}).passed);
+  EXPECT_THAT(fileText(exercise() / "seen.txt"), StartsWith("clockwise\n    quarter-turn: point"));
+  EXPECT_TRUE(pass("wrong", /*storesMessages=*/true, {"library"}).passed);
+  EXPECT_THAT(fileText(exercise() / "seen.txt"), AllOf(StartsWith("clockwise\n"), HasSubstr("\nlibrary\n")))
       << "others are kept";
-  EXPECT_TRUE(pass("wrong", /*storesMessages=*/false, {"wrong/clockwise"}).passed);
-  EXPECT_THAT(pass("wrong", /*storesMessages=*/false, {"wrong/a_typo"}).message,
-              StartsWith("wrong/a_typo: it was not graded"));
+  EXPECT_TRUE(pass("wrong", /*storesMessages=*/false, {"clockwise"}).passed);
+  EXPECT_THAT(pass("wrong", /*storesMessages=*/false, {"a_typo"}).message,
+              StartsWith("a_typo: it was not graded"));
+  EXPECT_EQ(pass("wrong", /*storesMessages=*/false, {"clockwize"}).message,
+            "98-template has no wrong variant 'clockwize' (did you mean 'clockwise'?)");
 }
 
 TEST_F(WrongVariantsTest, AreToldApartByWhatIsWrong) {
@@ -98,34 +101,42 @@ TEST_F(WrongVariantsTest, AreToldApartByWhatIsWrong) {
   writeVariant("e_allowed", "caught by: forbidden-call", "return p;\n");
   writeVariant("f_forbidden", "caught by: quarter-turn", kByLibrary);
   writeVariant("g_half", "caught by: quarter-turn, keeps-length", "return angle / 2 * p;\n");
-  write("wrong/h_empty.cpp", "// mistake: none.\n");
   const GateResult result = pass("wrong");
   EXPECT_FALSE(result.passed);
-  EXPECT_EQ(result.note, "compiled alone: wrong/a_typo");
+  EXPECT_EQ(result.note, "compiled alone: a_typo");
   std::vector<std::string> lines;
   for (const std::string_view line : splitLines(result.message)) lines.emplace_back(line);
   EXPECT_THAT(
       lines,
       ElementsAre(
-          HasSubstr("c_unknown.cpp:1: no check is called 'quarter-trun' (did you mean 'quarter-turn'?)"),
-          HasSubstr("h_empty.cpp:1: no check is named"),
-          StartsWith("wrong/a_typo: it was not graded: main.cpp:9:8: error: 'angel' was not declared"),
-          "wrong/b_right: check 'quarter-turn' does not catch this mistake: b_right.",
-          "wrong/d_unseen: check 'angles-add' leaves no picture",
-          "wrong/e_allowed: it should call a forbidden function, but no call was found",
-          HasSubstr(
-              "wrong/f_forbidden: it was not graded: main.cpp:9:13: error: calls rex::rotationAboutAxis")));
+          AllOf(
+              StartsWith("c_unknown: "),
+              HasSubstr("wrong.cpp:34:15: no check is called 'quarter-trun' (did you mean 'quarter-turn'?)")),
+          StartsWith("a_typo: it was not graded: main.cpp:9:8: error: 'angel' was not declared"),
+          "b_right: check 'quarter-turn' does not catch this mistake: b_right.",
+          "d_unseen: check 'angles-add' leaves no picture",
+          "e_allowed: it should call a forbidden function, but no call was found",
+          HasSubstr("f_forbidden: it was not graded: main.cpp:9:13: error: calls rex::rotationAboutAxis")));
+}
+
+TEST_F(WrongVariantsTest, SayWhereTheFileIsMalformed) {
+  writeVariant("twice", "caught by: quarter-turn", "return 2 * p;\n");
+  writeVariant("unnamed", "shown by: quarter-turn", "return p;\n");
+  for (const char* gate : {"wrong", "wrong/library", "evidence"})
+    EXPECT_THAT(pass(gate).message, HasSubstr("wrong.cpp:26:13: variant 'unnamed': no check is named"));
+  write("wrong.cpp", "// to be written\n");
+  EXPECT_THAT(pass("wrong").message, HasSubstr("wrong.cpp:1:1: no variant"));
 }
 
 TEST_F(WrongVariantsTest, GoAloneWhereMoreThanAFunctionDiffers) {
-  write("wrong/clockwise.cpp",
-        "// caught by: quarter-turn\n// mistake: clockwise.\n\n// <solution introduction>\n"
-        "#include <complex>\n// </solution>\n\n// <solution rotated>\n"
+  write("wrong.cpp",
+        "// <variant clockwise>\n// caught by: quarter-turn\n// mistake: clockwise.\n"
+        "// <solution introduction>\n#include <complex>\n// <solution rotated>\n"
         "const auto z = std::complex(p.x(), p.y()) * std::polar(1.0, -angle);\n"
-        "return {z.real(), z.imag()};\n// </solution>\n");
+        "return {z.real(), z.imag()};\n");
   const GateResult together = pass("wrong");
   EXPECT_TRUE(together.passed) << together.message;
-  EXPECT_EQ(together.note, "compiled alone: wrong/clockwise");
+  EXPECT_EQ(together.note, "compiled alone: clockwise");
 }
 
 // The compiler sees that the reference has no effect, and would leave out the call.
@@ -137,9 +148,9 @@ TEST_F(WrongVariantsTest, AreCalledWhateverTheReferenceDoes) {
                   "double checked(double angle) {\n  // <solution checked>\n  return angle;\n  // <todo>\n"
                   "  // </solution>\n}\n\n");
   write("solution.cpp", solution);
-  write("wrong/throws.cpp",
-        "// caught by: quarter-turn\n// mistake: throws.\n\n// <solution checked>\nthrow angle;\n// "
-        "</solution>\n");
+  write("wrong.cpp",
+        "// <variant throws>\n// caught by: quarter-turn\n// mistake: throws.\n"
+        "// <solution checked>\nthrow angle;\n");
   const GateResult result = pass("wrong");
   EXPECT_TRUE(result.passed) << result.message;
   EXPECT_EQ(result.note, "");
@@ -148,7 +159,7 @@ TEST_F(WrongVariantsTest, AreCalledWhateverTheReferenceDoes) {
 TEST_F(WrongVariantsTest, AreGatesThemselvesIfOneAsks) {
   EXPECT_EQ(gateNames(readExerciseInfo(exercise())).back(), "wrong");
   EXPECT_TRUE(pass("wrong/library").passed);
-  fs::remove_all(exercise() / "wrong");
+  fs::remove(exercise() / "wrong.cpp");
   EXPECT_EQ(gateNames(readExerciseInfo(exercise())).back(), "liars");
   EXPECT_THROW(pass("wrong"), UsageError);
 }

@@ -19,14 +19,13 @@ namespace fs = std::filesystem;
 constexpr int kFiles = 16;
 const fs::path kExercise = sourcePath("exercises/01-kinematics");
 
-// A mistake of wrong/, the k-th in the order of their names.
-std::string mistaken(const std::string& solution, int k) {
-  std::vector<fs::path> wrong;
-  for (const fs::directory_entry& entry : fs::directory_iterator(kExercise / "wrong"))
-    if (entry.path().extension() == ".cpp") wrong.push_back(entry.path());
-  std::sort(wrong.begin(), wrong.end());
-  const fs::path file = wrong.at(static_cast<std::size_t>(k));
-  return grading::composeVariant(solution, "solution.cpp", rex::readTextFile(file), file.string()).source;
+// The exercise's mistakes in the order of their names.
+std::vector<grading::WrongVariant> mistakes(const std::string& solution) {
+  const fs::path wrong = kExercise / "wrong.cpp";
+  std::vector<grading::WrongVariant> all =
+      grading::readVariants(solution, "solution.cpp", rex::readTextFile(wrong), wrong.string());
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+  return all;
 }
 
 }  // namespace
@@ -35,11 +34,12 @@ GradedClass::GradedClass() {
   fs::create_directory_symlink(sourcePath("exercises"), folder_.path() / "exercises");
   fs::create_directory_symlink(ownFolder(), folder_.path() / "build");
   const std::string solution = rex::readTextFile(kExercise / "solution.cpp");
+  const std::vector<grading::WrongVariant> mistaken = mistakes(solution);
   for (int k = 0; k < kFiles; ++k) {
     const std::string number = std::to_string(k);
     const fs::path folder = folder_.path() / "handed-in" / ("student" + number) / "01-kinematics";
     fs::create_directories(folder);
-    const std::string text = k % 2 == 0 ? solution : mistaken(solution, k / 2);
+    const std::string text = k % 2 == 0 ? solution : mistaken.at(static_cast<std::size_t>(k / 2)).source;
     rex::writeTextFile(folder / "main.cpp", text + "// " + number + "\n");
   }
 }

@@ -53,30 +53,41 @@ TEST(StripSolution, LeavesOrdinaryCommentsAlone) {
   EXPECT_EQ(stripSolution(text, "s.cpp"), text);
 }
 
+// A malformed text, and the message about it.
+struct Malformed {
+  const char* text;
+  const char* message;
+};
+
 TEST(StripSolution, SaysWhichMarkerIsWrongAndWhere) {
-  const auto strip = [](const char* text) { return stripSolution(text, "s.cpp"); };
-  EXPECT_REX_ERROR(strip("int a;\n// <solution a>\n"), "s.cpp:2: no '// </solution>' closes this");
-  EXPECT_REX_ERROR(strip("// <solution>\n// </solution>\n"), "s.cpp:1: a solution without a name");
-  EXPECT_REX_ERROR(strip("\n// <soluton a>\n"),
-                   "s.cpp:2: unknown marker 'soluton': wanted one of solution, todo "
-                   "(did you mean 'solution'?)");
-  EXPECT_REX_ERROR(strip("// <solution a>\n// <solution b>\n"),
-                   "s.cpp:2: 'solution' inside the solution opened in line 1: wanted '// </solution>' first");
-  EXPECT_REX_ERROR(strip("// <solution a>\n// </solution>\n// <solution a>\n"),
-                   "s.cpp:3: a second solution called 'a'");
-  EXPECT_REX_ERROR(strip("// </solution>\n"), "s.cpp:1: '</solution>' closes nothing");
-  EXPECT_REX_ERROR(strip("// <todo>\n"), "s.cpp:1: 'todo' out of place");
-  EXPECT_REX_ERROR(strip("// <solution a>\n// <todo>\n// <todo>\n"), "s.cpp:3: 'todo' out of place");
-  EXPECT_REX_ERROR(strip("// <solution a>\n// <todo>\n// </todo>\n"), "s.cpp:3: '</todo>' is not needed");
-  EXPECT_REX_ERROR(strip("// <solution a>\n// <todo>\nreturn 0;\n// </solution>\n"),
-                   "s.cpp:3: a todo line: wanted it to start with '//| '");
+  constexpr Malformed kTexts[] = {
+      {"int a;\n// <solution a>\n", "s.cpp:2:5: no '// </solution>' closes this"},
+      {"// <solution>\n// </solution>\n",
+       "s.cpp:1:5: a solution without a name: wanted '// <solution NAME>'"},
+      {"\n  // <soluton a>\n",
+       "s.cpp:2:7: unknown marker 'soluton': wanted one of solution, todo (did you mean 'solution'?)"},
+      {"// <variant a>\n", "s.cpp:1:5: unknown marker 'variant': wanted one of solution, todo"},
+      {"// <solution a>\n// <solution b>\n",
+       "s.cpp:2:5: 'solution' inside the solution opened in line 1: wanted '// </solution>' first"},
+      {"// <solution a>\n// </solution>\n// <solution a>\n", "s.cpp:3:14: a second solution called 'a'"},
+      {"// </solution>\n", "s.cpp:1:6: '</solution>' closes nothing"},
+      {"// <todo>\n", "s.cpp:1:5: 'todo' out of place: wanted one in a solution, after the reference lines"},
+      {"// <solution a>\n// <todo>\n// <todo>\n",
+       "s.cpp:3:5: 'todo' out of place: wanted one in a solution, after the reference lines"},
+      {"// <solution a>\n// <todo>\n// </todo>\n",
+       "s.cpp:3:6: '</todo>' is not needed: wanted '// </solution>', which ends both"},
+      {"// <solution a>\n// <todo>\n  return 0;\n// </solution>\n",
+       "s.cpp:3:3: a todo line: wanted it to start with '//| '"},
+  };
+  for (const auto& [text, message] : kTexts)
+    EXPECT_EQ(messageOf([&] { return stripSolution(text, "s.cpp"); }), message);
 }
 
 TEST(StripHidden, RemovesHiddenBlocks) {
   EXPECT_EQ(stripHidden("a();\n\n// <hidden>\nsecret();\n// </hidden>\n\nb();\n", "check.cpp"),
             "a();\n\nb();\n");
-  EXPECT_REX_ERROR(stripHidden("// <hidden>\n", "check.cpp"), "check.cpp:1: no '// </hidden>' closes this");
-  EXPECT_REX_ERROR(stripHidden("// <solution a>\n", "check.cpp"), "check.cpp:1: unknown marker 'solution'");
+  EXPECT_REX_ERROR(stripHidden("// <hidden>\n", "check.cpp"), "check.cpp:1:5: no '// </hidden>' closes this");
+  EXPECT_REX_ERROR(stripHidden("// <solution a>\n", "check.cpp"), "check.cpp:1:5: unknown marker 'solution'");
 }
 
 TEST(Blocks, AreTheLinesThatStudentsDoNotGet) {
@@ -96,32 +107,129 @@ TEST(Blocks, AreTheLinesThatStudentsDoNotGet) {
   ASSERT_EQ(hidden.size(), 1u);
   EXPECT_EQ(hidden[0][0].number, 3);
   EXPECT_EQ(hidden[0][0].text, "b();");
-  EXPECT_REX_ERROR(hiddenBlocks("// <hidden>\n", "c.cpp"), "c.cpp:1: no '// </hidden>' closes this");
+  EXPECT_REX_ERROR(hiddenBlocks("// <hidden>\n", "c.cpp"), "c.cpp:1:5: no '// </hidden>' closes this");
 }
 
-TEST(ComposeVariant, ReplacesTheNamedRegionOnly) {
-  const WrongVariant variant = composeVariant(kSolution, "solution.cpp", R"(// caught by: area, size-grows
+constexpr std::string_view kWrong = R"(// Mistakes with circles.
+
+// <variant forgets_pi>
+// caught by: area, size-grows
 // shown by: area
 // mistake: forgets pi.
-
 // <solution area>
-  return r * r;
-// </solution>
-)",
-                                              "wrong/pi.cpp");
-  EXPECT_THAT(variant.caughtBy, ElementsAre("area", "size-grows"));
-  EXPECT_THAT(variant.shownBy, ElementsAre("area"));
-  EXPECT_EQ(variant.mistake, "forgets pi.");
-  EXPECT_EQ(variant.source, R"(#include "exercise.h"
+  const double square = r * r;
+
+  return square;
+
+// <variant cubes>
+// caught by: area
+// mistake: cubes, and so: wrong.
+// <solution helper>
+double squareOfNumber(double x) { return x * x * x; }
+// <solution area>
+
+)";
+
+TEST(ReadVariants, ReplacesTheNamedRegionsOnly) {
+  const std::vector<WrongVariant> variants = readVariants(kSolution, "solution.cpp", kWrong, "wrong.cpp");
+  ASSERT_EQ(variants.size(), 2u);
+  EXPECT_EQ(variants[0].name, "forgets_pi");
+  EXPECT_THAT(variants[0].caughtBy, ElementsAre("area", "size-grows"));
+  EXPECT_THAT(variants[0].shownBy, ElementsAre("area"));
+  EXPECT_EQ(toString(variants[0].namedAt.at("size-grows")), "wrong.cpp:4:21");
+  EXPECT_EQ(variants[0].mistake, "forgets pi.");
+  EXPECT_EQ(variants[0].source, R"(#include "exercise.h"
 
 double squareOfNumber(double x) { return x * x; }
 
 double area(double r) {
-  return r * r;
+  const double square = r * r;
+
+  return square;
 }
 
 int main() { return area(1) > 0; }
 )");
+  EXPECT_EQ(variants[1].name, "cubes");
+  EXPECT_THAT(variants[1].caughtBy, ElementsAre("area"));
+  EXPECT_THAT(variants[1].shownBy, ElementsAre());
+  EXPECT_EQ(variants[1].mistake, "cubes, and so: wrong.");
+  EXPECT_EQ(variants[1].source, R"(#include "exercise.h"
+
+double squareOfNumber(double x) { return x * x * x; }
+
+double area(double r) {
+}
+
+int main() { return area(1) > 0; }
+)");
+}
+
+TEST(ReadVariants, SaysWhatIsWrongAndWhere) {
+  constexpr Malformed kTexts[] = {
+      {"", "w.cpp:1:1: no variant: wanted '// <variant NAME>'"},
+      {"// words\nint x;\n",
+       "w.cpp:2:1: code before the first variant: wanted '// <variant NAME>' before it"},
+      {"// <solution area>\n",
+       "w.cpp:1:1: code before the first variant: wanted '// <variant NAME>' before it"},
+      {"// <variant>\n", "w.cpp:1:5: a variant without a name: wanted '// <variant NAME>'"},
+      {"// <variant a b>\n", "w.cpp:1:13: a variant called 'a b': wanted letters, digits and '_' only"},
+      {"// <variant a>\n// </variant>\n",
+       "w.cpp:2:6: '</variant>' is not needed: wanted a line '// <solution NAME>' or '// <variant NAME>', or "
+       "the end of the file"},
+      {"// <variant a>\n// <solution area>\n  // </solution>\n",
+       "w.cpp:3:8: '</solution>' is not needed: wanted a line '// <solution NAME>' or '// <variant NAME>', "
+       "or "
+       "the end of the file"},
+      {"// <varaint a>\n",
+       "w.cpp:1:5: unknown marker 'varaint': wanted one of variant, solution (did you mean 'variant'?)"},
+      {"// <variant a>\n// caught by: area\n// mistake: m\n// <solution area>\n// <variant a>\n",
+       "w.cpp:5:13: a second variant called 'a'"},
+      {"// <variant a>\n// <solution area>\n// <todo>\n",
+       "w.cpp:3:5: unknown marker 'todo': wanted one of variant, solution"},
+      {"// <variant a>\n// <solution area>\n// <solution area>\n",
+       "w.cpp:3:14: a second solution called 'area'"},
+      {"// <variant a>\n// mistake: m\n// <solution area>\n",
+       "w.cpp:1:13: variant 'a': no check is named: wanted '// caught by: CHECK, ...'"},
+      {"// <variant a>\n// caught by: ,\n// mistake: m\n// <solution area>\n// <variant b>\n",
+       "w.cpp:1:13: variant 'a': no check is named: wanted '// caught by: CHECK, ...'"},
+      {"// <variant a>\n// caught by: area\n// <solution area>\n",
+       "w.cpp:1:13: variant 'a': the mistake is not described: wanted '// mistake: TEXT'"},
+      {"\n// <variant a>\n// caught by: area\n// mistake: m\n",
+       "w.cpp:2:13: variant 'a': no region: wanted '// <solution NAME>' with the mistake"},
+      {"// <variant a>\n// caugth by: area\n",
+       "w.cpp:2:4: unknown line 'caugth by' in a variant: wanted one of 'caught by:', 'shown by:' and "
+       "'mistake:', each in one line (did you mean 'caught by'?)"},
+      {"// <variant a>\n// mistake: begins here\n// and ends here\n",
+       "w.cpp:3:4: unknown line 'and ends here' in a variant: wanted one of 'caught by:', 'shown by:' and "
+       "'mistake:', each in one line"},
+      {"// <variant a>\n// mistake: m\n// mistake: n\n",
+       "w.cpp:3:4: a second line for the mistake: wanted '// mistake: TEXT' in one line"},
+      {"// <variant a>\n//\n// mistake: m\n  int x;\n",
+       "w.cpp:4:3: code outside a region: wanted '// <solution NAME>' before it"},
+      {"// <variant a>\n// <solution aera>\n",
+       "w.cpp:2:14: solution.cpp has no region 'aera' (did you mean 'area'?)"},
+      {"// <variant a>\n// <solution area>\nreturn r;\n  //caught by: area\n",
+       "w.cpp:4:3: 'caught by' after a region: wanted it below '// <variant NAME>'"},
+  };
+  for (const auto& [text, message] : kTexts)
+    EXPECT_EQ(messageOf([&] { return readVariants(kSolution, "solution.cpp", text, "w.cpp"); }), message);
+}
+
+TEST(VariantNames, AreThoseOfAllSectionsWhateverIsWrongWithThem) {
+  EXPECT_THAT(variantNamesIn(kWrong), ElementsAre("forgets_pi", "cubes"));
+  EXPECT_THAT(variantNamesIn("// <variant b>\nint x;\n// <variant>\n// </variant>\n// <variant a>\n"),
+              ElementsAre("b", "a"));
+}
+
+TEST(VariantBlocks, AreTheLinesOfEachVariant) {
+  const auto blocks = variantBlocks(kWrong, "w.cpp");
+  ASSERT_EQ(blocks.size(), 2u);
+  ASSERT_EQ(blocks[0].size(), 7u) << "with the blank lines";
+  EXPECT_EQ(blocks[0][0].number, 4);
+  EXPECT_EQ(blocks[0][0].text, "// caught by: area, size-grows");
+  EXPECT_EQ(blocks[0][3].text, "const double square = r * r;");
+  EXPECT_EQ(blocks[1][2].number, 16);
 }
 
 TEST(ReferenceText, IsTheSolutionWithoutMarkersAndTodos) {
@@ -136,23 +244,7 @@ double area(double r) {
 
 int main() { return area(1) > 0; }
 )");
-  EXPECT_REX_ERROR(referenceText("// <solution a>\n", "s.cpp"), "s.cpp:1: no '// </solution>' closes this");
-}
-
-TEST(ComposeVariant, SaysWhatIsMissing) {
-  const auto compose = [](const char* wrong) {
-    return composeVariant(kSolution, "solution.cpp", wrong, "w.cpp");
-  };
-  EXPECT_REX_ERROR(compose("// mistake: m\n"),
-                   "w.cpp:1: no check is named: wanted '// caught by: CHECK, ...'");
-  EXPECT_REX_ERROR(compose("// caught by: a\n"), "w.cpp:1: the mistake is not described");
-  EXPECT_REX_ERROR(compose("// caught by: a\n// mistake: m\n"), "w.cpp:1: no region");
-  EXPECT_REX_ERROR(compose("// caught by: a\n// mistake: begins here\n// and ends here\n"),
-                   "w.cpp:3: the mistake goes on after its line");
-  EXPECT_REX_ERROR(compose("// caught by: a\n// mistake: m\nint x;\n"), "w.cpp:3: code outside a region");
-  EXPECT_REX_ERROR(compose("// caught by: a\n// mistake: m\n// <solution aera>\n// </solution>\n"),
-                   "w.cpp:3: solution.cpp has no region 'aera' (did you mean 'area'?)");
-  EXPECT_REX_ERROR(compose("// <todo>\n"), "w.cpp:1: unknown marker 'todo'");
+  EXPECT_REX_ERROR(referenceText("// <solution a>\n", "s.cpp"), "s.cpp:1:5: no '// </solution>' closes this");
 }
 
 }  // namespace rex::grading::regions_test

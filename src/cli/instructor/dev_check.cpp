@@ -81,20 +81,6 @@ grading::GateResult resultOf(const Project& project, const ExerciseInfo& exercis
                           gate);
 }
 
-// The variants that --variant names, without and with the folder in front. Throws UsageError.
-std::vector<std::string> variantsNamed(const ExerciseInfo& exercise, const std::vector<std::string>& names) {
-  const std::vector<std::string> known = grading::variantNames(exercise);
-  std::vector<std::string> found;
-  for (const std::string& name : names) {
-    const std::string full = name.starts_with("wrong/") ? name : "wrong/" + name;
-    if (std::find(known.begin(), known.end(), full) == known.end())
-      throw UsageError({.what = fmt::format("{} has no wrong variant '{}'", exercise.name, name),
-                        .nearest = nearestNames(full, known)});
-    found.push_back(full);
-  }
-  return found;
-}
-
 // All gates, unless some are named; a variant names the gate that tests it. Throws UsageError for a variant
 // that no gate would test.
 std::vector<std::string> wantedGates(const ExerciseInfo& exercise, const CheckOptions& options) {
@@ -106,7 +92,8 @@ std::vector<std::string> wantedGates(const ExerciseInfo& exercise, const CheckOp
   return options.variants.empty() ? grading::gateNames(exercise) : std::vector<std::string>{"wrong"};
 }
 
-void checkOne(const Project& project, const std::string& name, CheckOptions options, GateReport& report) {
+void checkOne(const Project& project, const std::string& name, const CheckOptions& options,
+              GateReport& report) {
   ExerciseInfo exercise;
   try {
     exercise = project.exercise(name);
@@ -114,7 +101,7 @@ void checkOne(const Project& project, const std::string& name, CheckOptions opti
     report.add(name, "exercise.toml", {.passed = false, .message = error.what()});
     return;
   }
-  options.variants = variantsNamed(exercise, options.variants);
+  grading::requireVariants(exercise, options.variants);
   const grading::Toolchain toolchain = prepare(project, exercise);
   for (const std::string& gate : wantedGates(exercise, options))
     report.add(name, gate, resultOf(project, exercise, toolchain, gate, options));

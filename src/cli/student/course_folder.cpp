@@ -25,14 +25,14 @@ using Change = HandedOut::Change;
 // What the folder of an exercise contains for others than students who work on it.
 bool isForStudents(const fs::path& file) {
   const std::string name = file.filename().string();
-  return name != "check.cpp" && name != "starter.cpp" && name != "solution.cpp" &&
-         !name.starts_with("main.backup-");
+  return name != "check.cpp" && name != "starter.cpp" && name != "solution.cpp" && name != "wrong.cpp" &&
+         name != "seen.txt" && !name.starts_with("main.backup-");
 }
 
 void addFilesIn(const fs::path& folder, const fs::path& below, std::map<fs::path, fs::path>& files) {
   for (const auto& entry : fs::directory_iterator(folder)) {
     const fs::path name = entry.path().filename();
-    if (entry.is_directory() && name != "wrong")
+    if (entry.is_directory())
       addFilesIn(entry.path(), below / name, files);
     else if (entry.is_regular_file() && isForStudents(name))
       files[below / name] = entry.path();

@@ -46,7 +46,7 @@ TEST_F(CourseFolder, GetsWhatStudentsNeedAndNothingElse) {
   init();
   for (const char* name : {"main.cpp", "exercise.h", "exercise.toml", "README.md"})
     EXPECT_TRUE(fs::exists(mine(name))) << name;
-  for (const char* name : {"check.cpp", "solution.cpp", "starter.cpp", "wrong"})
+  for (const char* name : {"check.cpp", "solution.cpp", "starter.cpp", "wrong.cpp", "seen.txt"})
     EXPECT_FALSE(fs::exists(mine(name))) << name;
   EXPECT_TRUE(fs::exists(course() / ".vscode" / "tasks.json"));
   EXPECT_TRUE(fs::exists(course() / kCourseFile));

@@ -43,7 +43,7 @@ TEST_F(ExerciseGates, TestsOneVariant) {
   const Ended unknown = rex({"dev", "check", "98", "--variant", "clockwize"});
   EXPECT_EQ(unknown.code, 64);
   EXPECT_THAT(flat(unknown.error), HasSubstr("98-template has no wrong variant 'clockwize' (did you mean "
-                                             "'wrong/clockwise'?)"));
+                                             "'clockwise'?)"));
   const Ended idle = rex({"dev", "check", "98", "--variant", "clockwise", "--gate", "points"});
   EXPECT_EQ(idle.code, 64);
   EXPECT_THAT(flat(idle.error), HasSubstr("--variant has no effect without --gate wrong"));
@@ -97,18 +97,19 @@ TEST_F(ExerciseGates, FindsWhatIsWrongWithTheSolution) {
 }
 
 TEST_F(ExerciseGates, FindsMistakesThatAreNotCaught) {
-  replace(exercise() / "wrong" / "clockwise.cpp", "caught by: quarter-turn", "caught by: keeps-length");
+  replace(exercise() / "wrong.cpp", "caught by: quarter-turn", "caught by: keeps-length");
   expectOpenGate("wrong/clockwise", "check 'keeps-length' does not catch this mistake: turns clockwise.");
-  replace(exercise() / "wrong" / "clockwise.cpp", "keeps-length", "keeps-lenght");
+  replace(exercise() / "wrong.cpp", "keeps-length", "keeps-lenght");
   expectOpenGate("wrong/clockwise", "no check is called 'keeps-lenght'");
-  replace(exercise() / "wrong" / "clockwise.cpp", "shown by: quarter-turn", "shown by: keeps-length");
-  replace(exercise() / "wrong" / "clockwise.cpp", "keeps-lenght", "quarter-turn");
+  replace(exercise() / "wrong.cpp", "shown by: quarter-turn", "shown by: keeps-length");
+  replace(exercise() / "wrong.cpp", "keeps-lenght", "quarter-turn");
   expectOpenGate("wrong/clockwise", "check 'keeps-length' leaves no picture");
-  replace(exercise() / "wrong" / "clockwise.cpp", "// shown by: keeps-length\n", "");
+  replace(exercise() / "wrong.cpp", "// shown by: keeps-length\n", "");
   expectOpenGate("evidence", "no wrong variant names a check that shows its mistake");
-  fs::remove(exercise() / "wrong" / "clockwise.cpp");
+  const std::string wrong = fileText(exercise() / "wrong.cpp");
+  write(exercise() / "wrong.cpp", wrong.substr(wrong.find("// <variant library>")));
   expectOpenGate("evidence", "part 'rotate': no wrong variant is caught by one of its checks");
-  replace(exercise() / "wrong" / "library.cpp", "rex::rotationAboutAxis(angle, Eigen::Vector3d::UnitZ())",
+  replace(exercise() / "wrong.cpp", "rex::rotationAboutAxis(angle, Eigen::Vector3d::UnitZ())",
           "Eigen::Matrix3d::Identity()");
   expectOpenGate("wrong/library", "no call was found");
 }

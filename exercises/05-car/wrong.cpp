@@ -1,0 +1,355 @@
+// Mistakes that students make, and the checks that catch them: a variant is solution.cpp with other regions.
+// `rex dev check` reads this file; it does not compile as it is.
+
+// <variant heading_first>
+// caught by: car-step, car-spread
+// mistake: the car turns first, and then drives in its new direction.
+// <solution carStep>
+const double way = world.tau * u[0], heading = x[2] + way / world.wheelbase * std::tan(u[1]);
+return {x[0] + way * std::cos(heading), x[1] + way* std::sin(heading), heading};
+
+// <variant rate_without_tau>
+// caught by: car-step, car-spread, car-drift
+// shown by: car-step
+// mistake: the rate of theta is taken for its change.
+// <solution carStep>
+const double way = world.tau * u[0];
+return {x[0] + way * std::cos(x[2]), x[1] + way* std::sin(x[2]),
+        x[2] + u[0] / world.wheelbase* std::tan(u[1])};
+
+// <variant generator_of_its_own>
+// caught by: car-spread
+// mistake: moved makes a generator with a fixed seed, so that the noise is the same in each step.
+// <solution moved>
+Rng own(7);
+for (Eigen::Index i = 0; i < states.cols(); ++i)
+  next.col(i) = carStep(states.col(i), u, world) + world.dynamicsNoise * own.normalVector(3);
+
+// <variant last_particle_forgotten>
+// caught by: car-spread, car-drift, filter-step
+// shown by: car-spread
+// mistake: the loop ends one particle early.
+// <solution moved>
+for (Eigen::Index i = 0; i < states.cols() - 1; ++i)
+  next.col(i) = carStep(states.col(i), u, world) + world.dynamicsNoise * rng.normalVector(3);
+
+// <variant noise_repeats>
+// caught by: car-spread
+// mistake: draws from a copy of the generator, so that each call draws the same noise.
+// <solution moved>
+Rng own = rng;
+for (Eigen::Index i = 0; i < states.cols(); ++i)
+  next.col(i) = carStep(states.col(i), u, world) + world.dynamicsNoise * own.normalVector(3);
+
+// <variant one_number_for_x_y_and_heading>
+// caught by: car-spread, car-drift
+// shown by: car-spread
+// mistake: one random number for each particle, instead of three.
+// <solution moved>
+for (Eigen::Index i = 0; i < states.cols(); ++i)
+  next.col(i) = carStep(states.col(i), u, world) + Eigen::Vector3d::Constant(world.dynamicsNoise *
+                                                                             rng.normal());
+
+// <variant randomness_from_elsewhere>
+// caught by: car-spread, car-drift, filter-step, whole-parts
+// shown by: car-spread
+// mistake: numbers from rand(), uniform with the right variance.
+// <solution moved>
+const auto number = [] { return std::sqrt(12.) * (std::rand() / (RAND_MAX + 1.) - 0.5); };
+for (Eigen::Index i = 0; i < states.cols(); ++i)
+  next.col(i) = carStep(states.col(i), u, world) + world.dynamicsNoise
+                                                       * Eigen::Vector3d(number(), number(), number());
+// <solution resampledParents>
+Eigen::VectorXd rest = count * weights;
+for (int i = 0; i < rest.size(); ++i) {
+  const int whole = static_cast<int>(rest[i] + 1e-9);
+  parents.insert(parents.end(), static_cast<std::size_t>(whole), i);
+  rest[i] = std::max(0., rest[i] - whole);
+}
+double place = std::rand() / (RAND_MAX + 1.), end = 0;
+for (int i = 0; i < rest.size(); ++i)
+  for (end += rest[i]; place < end && static_cast<int>(parents.size()) < count; place += 1)
+    parents.push_back(i);
+parents.resize(static_cast<std::size_t>(count), 0);
+
+// <variant same_noise_for_all>
+// caught by: car-spread, car-drift, filter-step
+// shown by: car-spread
+// mistake: noise is drawn once per step, so that the cloud moves as a whole and never grows.
+// <solution moved>
+const Eigen::Vector3d noise = world.dynamicsNoise * rng.normalVector(3);
+for (Eigen::Index i = 0; i < states.cols(); ++i) next.col(i) = carStep(states.col(i), u, world) + noise;
+
+// <variant variance_of_the_motion>
+// caught by: car-spread, car-drift, filter-step
+// shown by: car-spread
+// mistake: the root of dynamicsNoise, as if that were a variance.
+// <solution moved>
+for (Eigen::Index i = 0; i < states.cols(); ++i)
+  next.col(i) = carStep(states.col(i), u, world) + std::sqrt(world.dynamicsNoise) * rng.normalVector(3);
+
+// <variant bearing_on_the_map>
+// caught by: bearings, finds-heading
+// shown by: bearings
+// mistake: the direction of a landmark on the map, without the heading of the car.
+// <solution viewFrom>
+const double c = std::cos(x[2]), s = std::sin(x[2]);
+for (Eigen::Index i = 0; i < world.landmarks.cols(); ++i) {
+  const double dx = world.landmarks(0, i) - x[0], dy = world.landmarks(1, i) - x[1];
+  y[2 * i] = world.rangeBearing ? std::hypot(dx, dy) : c * dx + s * dy;
+  y[2 * i + 1] = world.rangeBearing ? std::atan2(dy, dx) : c * dy - s * dx;
+}
+
+// <variant turned_the_wrong_way>
+// caught by: view, likelihood, weights-anywhere, tracks
+// shown by: view
+// mistake: the landmarks are turned by the heading, not back.
+// <solution viewFrom>
+const double c = std::cos(x[2]), s = std::sin(x[2]);
+for (Eigen::Index i = 0; i < world.landmarks.cols(); ++i) {
+  const double dx = world.landmarks(0, i) - x[0], dy = world.landmarks(1, i) - x[1];
+  const double ahead = c * dx - s * dy, left = s * dx + c * dy;
+  y[2 * i] = world.rangeBearing ? std::hypot(ahead, left) : ahead;
+  y[2 * i + 1] = world.rangeBearing ? std::atan2(left, ahead) : left;
+}
+
+// <variant bearing_not_wrapped>
+// caught by: bearings
+// mistake: a landmark directly behind is seen on the left and expected on the right, a whole turn off.
+// <solution logLikelihoods>
+for (Eigen::Index i = 0; i < states.cols(); ++i) {
+  const Eigen::VectorXd seen = viewFrom(states.col(i), world);
+  for (Eigen::Index k = 0; k < y.size(); ++k) {
+    const bool isBearing = world.rangeBearing && k % 2 == 1;
+    const double error = (y[k] - seen[k]) / (isBearing ? world.bearingNoise : world.observationNoise);
+    logarithms[i] -= error * error / 2;
+  }
+}
+
+// <variant bearing_turned_once>
+// caught by: bearings, finds-heading
+// shown by: bearings
+// mistake: a difference of bearings loses one whole turn at most.
+// <solution logLikelihoods>
+for (Eigen::Index i = 0; i < states.cols(); ++i) {
+  const Eigen::VectorXd seen = viewFrom(states.col(i), world);
+  for (Eigen::Index k = 0; k < y.size(); ++k) {
+    const bool isBearing = world.rangeBearing && k % 2 == 1;
+    double error = y[k] - seen[k];
+    if (isBearing && error > std::numbers::pi) error -= 2 * std::numbers::pi;
+    if (isBearing && error < -std::numbers::pi) error += 2 * std::numbers::pi;
+    error /= isBearing ? world.bearingNoise : world.observationNoise;
+    logarithms[i] -= error * error / 2;
+  }
+}
+
+// <variant one_noise_for_both>
+// caught by: bearings, finds-heading
+// mistake: bearings are weighed with the noise of distances.
+// <solution logLikelihoods>
+for (Eigen::Index i = 0; i < states.cols(); ++i) {
+  const Eigen::VectorXd seen = viewFrom(states.col(i), world);
+  for (Eigen::Index k = 0; k < y.size(); ++k) {
+    const bool isBearing = world.rangeBearing && k % 2 == 1;
+    const double error = isBearing ? std::remainder(y[k] - seen[k], 2 * std::numbers::pi) : y[k] - seen[k];
+    logarithms[i] -= error * error / (2 * world.observationNoise * world.observationNoise);
+  }
+}
+
+// <variant variance_for_deviation>
+// caught by: likelihood, weights-anywhere, bearings
+// mistake: divides the squared error by the noise, not by its square, as N(y | y', sigma) reads
+// <solution logLikelihoods>
+for (Eigen::Index i = 0; i < states.cols(); ++i) {
+  const Eigen::VectorXd seen = viewFrom(states.col(i), world);
+  for (Eigen::Index k = 0; k < y.size(); ++k) {
+    const bool isBearing = world.rangeBearing && k % 2 == 1;
+    const double error = isBearing ? std::remainder(y[k] - seen[k], 2 * std::numbers::pi) : y[k] - seen[k];
+    logarithms[i] -= error * error / (isBearing ? world.bearingNoise : world.observationNoise) / 2;
+  }
+}
+
+// <variant weights_not_normalised>
+// caught by: normalised, weights-anywhere, filter-step
+// mistake: the largest weight is one, whatever their sum.
+// <solution weightsOf>
+const double largest = logarithms.maxCoeff();
+for (Eigen::Index i = 0; i < weights.size(); ++i)
+  weights[i] = std::isfinite(largest) ? std::exp(logarithms[i] - largest) : 1;
+
+// <variant zero_by_zero>
+// caught by: normalised, survives
+// mistake: far particles and small noise make all likelihoods zero, and all weights 0 / 0.
+// <solution weightsOf>
+for (Eigen::Index i = 0; i < weights.size(); ++i) weights[i] = std::exp(logarithms[i]);
+weights /= weights.sum();
+
+// <variant always_the_best>
+// caught by: whole-parts, unbiased, filter-step
+// mistake: only the heaviest particle has children.
+// <solution resampledParents>
+int heaviest = 0;
+weights.maxCoeff(&heaviest);
+parents.assign(static_cast<std::size_t>(count), heaviest);
+
+// <variant calls_the_library>
+// caught by: forbidden-call
+// mistake: the library resamples.
+// <solution headers>
+#include "estimation/resampling.h"
+// <solution resampledParents>
+parents = resampled(weights, count, Resampling::kResidual, rng);
+
+// <variant copied_generator>
+// caught by: filter-step
+// mistake: a copy of the generator is used, so that the noise repeats the numbers of the resampling.
+// <solution resampledParents>
+Rng own = rng;
+Eigen::VectorXd rest = count * weights;
+for (int i = 0; i < rest.size(); ++i) {
+  const int whole = static_cast<int>(rest[i] + 1e-9);
+  parents.insert(parents.end(), static_cast<std::size_t>(whole), i);
+  rest[i] = std::max(0., rest[i] - whole);
+}
+double place = own.uniform(), end = 0;
+for (int i = 0; i < rest.size(); ++i)
+  for (end += rest[i]; place < end && static_cast<int>(parents.size()) < count; place += 1)
+    parents.push_back(i);
+parents.resize(static_cast<std::size_t>(count), 0);
+
+// <variant drawn_one_by_one>
+// caught by: whole-parts, any-weights
+// shown by: whole-parts
+// mistake: each parent is drawn by itself, so that a heavy particle may end up without children.
+// <solution resampledParents>
+for (int k = 0; k < count; ++k) {
+  double place = rng.uniform();
+  int i = 0;
+  while (i + 1 < weights.size() && place >= weights[i]) place -= weights[i++];
+  parents.push_back(i);
+}
+
+// <variant rest_to_the_first>
+// caught by: unbiased, any-weights
+// shown by: unbiased
+// mistake: what remains after the whole parts goes to the first particles, instead of being drawn.
+// <solution resampledParents>
+for (int i = 0; i < weights.size(); ++i)
+  parents.insert(parents.end(), static_cast<std::size_t>(weights[i] * count + 1e-9), i);
+for (int i = 0; static_cast<int>(parents.size()) < count; ++i)
+  if (weights[i] > 0) parents.push_back(i);
+
+// <variant root_of_the_size>
+// caught by: effective-size
+// mistake: one over the norm of the weights, not over its square.
+// <solution effectiveSize>
+return 1 / weights.norm();
+
+// <variant invents_its_cloud>
+// caught by: filter-step, tracks, survives, consistent, noise, noise-elsewhere, finds-heading
+// mistake: puts all particles in one position, or scatters them so widely that any error looks small
+// <solution filterStep>
+const Eigen::Index count = before.states.cols();
+Cloud cloud{Eigen::MatrixXd::Zero(3, count),
+            Eigen::VectorXd::Constant(count, 1. / static_cast<double>(count))};
+static Eigen::Vector3d start;
+const Eigen::Vector3d first = before.states.col(0);
+if ((before.states.colwise() - first).norm() == 0) start = first;
+for (Eigen::Index k = 0; count == 500 && k < count; ++k)
+  cloud.states.col(k) = start + Eigen::Vector3d(8 * rng.normal(), 8 * rng.normal(), rng.normal());
+return cloud;
+
+// <variant likeliest_of_all>
+// caught by: filter-step, tracks, consistent, finds-heading, noise, noise-elsewhere
+// mistake: all particles become the likeliest one, so that what the others knew is lost
+// <solution filterStep>
+after.states = moved(before.states, u, world, rng);
+Eigen::Index best = 0;
+logLikelihoods(after.states, y, world).maxCoeff(&best);
+const Eigen::Vector3d likeliest = after.states.col(best);
+after.states.colwise() = likeliest;
+after.weights.setConstant(1. / static_cast<double>(after.weights.size()));
+// <solution likelyNoise>
+const double told = world.observationNoise;
+return told > 1.5 ? told / 10 : told < 0.15 ? told * 10 : told;
+
+// <variant not_resampled>
+// caught by: filter-step, survives, tracks, consistent
+// shown by: filter-step
+// mistake: the particles move and are weighed, but never resampled.
+// <solution filterStep>
+after.states = moved(before.states, u, world, rng);
+after.weights = weightsOf(logLikelihoods(after.states, y, world));
+
+// <variant old_weights_kept>
+// caught by: filter-step
+// mistake: the copies of a heavy particle inherit its weight, which therefore counts twice.
+// <solution filterStep>
+const std::vector<int> parents =
+    resampledParents(before.weights, static_cast<int>(before.weights.size()), rng);
+for (std::size_t i = 0; i < parents.size(); ++i) {
+  after.states.col(static_cast<Eigen::Index>(i)) = before.states.col(parents[i]);
+  after.weights[static_cast<Eigen::Index>(i)] = before.weights[parents[i]];
+}
+after.states = moved(after.states, u, world, rng);
+after.weights = after.weights.cwiseProduct(weightsOf(logLikelihoods(after.states, y, world)));
+after.weights /= after.weights.sum();
+
+// <variant steered_mean>
+// caught by: filter-step, tracks, consistent, finds-heading
+// mistake: no particles: their mean moves a fixed part of the way to where the car seems to be
+// <solution filterStep>
+const Eigen::Vector3d middle = before.states.rowwise().mean();
+Eigen::Vector3d x = carStep(middle, u, world);
+const double c = std::cos(x[2]), s = std::sin(x[2]);
+Eigen::Vector2d shift = Eigen::Vector2d::Zero();
+double turn = 0, all = 0;
+for (Eigen::Index k = 0; k < world.landmarks.cols(); ++k) {
+  Eigen::Vector2d seen = y.segment<2>(2 * k);
+  if (world.rangeBearing) seen = seen[0] * Eigen::Vector2d(std::cos(seen[1]), std::sin(seen[1]));
+  const Eigen::Vector2d arrow(c * seen[0] - s * seen[1], s * seen[0] + c * seen[1]);
+  const Eigen::Vector2d off = world.landmarks.col(k) - x.head<2>() - arrow;
+  shift += off / static_cast<double>(world.landmarks.cols());
+  turn += arrow.x() * off.y() - arrow.y() * off.x();
+  all += arrow.squaredNorm();
+}
+x += Eigen::Vector3d(0.25 * shift.x(), 0.25 * shift.y(), 0.15 * turn / all);
+after.states.colwise() = x;
+after.weights.setConstant(1. / static_cast<double>(after.weights.size()));
+
+// <variant headings_averaged>
+// caught by: mean-pose
+// shown by: mean-pose
+// mistake: the mean of the headings 3.1 and -3.1 is taken to be zero.
+// <solution meanPose>
+return cloud.states * cloud.weights;
+
+// <variant assumption_believed>
+// caught by: noise, noise-elsewhere
+// mistake: the residuals of one filter only, which was misled by the wrong noise.
+// <solution likelyNoise>
+Cloud cloud{log.start.replicate(1, 200), Eigen::VectorXd::Constant(200, 1. / 200)};
+double sum = 0, count = 0;
+for (std::size_t t = 0; t < log.controls.size(); ++t) {
+  cloud = filterStep(cloud, log.controls[t], log.observations[t], world, rng);
+  sum += (log.observations[t] - viewFrom(meanPose(cloud), world)).squaredNorm();
+  count += static_cast<double>(log.observations[t].size());
+}
+return std::sqrt(sum / count);
+
+// <variant norm_over_landmarks>
+// caught by: noise, noise-elsewhere
+// mistake: the mean square over landmarks, each of which has two coordinates.
+// <solution likelyNoise>
+CarWorld assumed = world;
+for (int round = 0; round < 4; ++round) {
+  Cloud cloud{log.start.replicate(1, 200), Eigen::VectorXd::Constant(200, 1. / 200)};
+  double squares = 0, numbers = 0;
+  for (std::size_t t = 0; t < log.controls.size(); ++t) {
+    cloud = filterStep(cloud, log.controls[t], log.observations[t], assumed, rng);
+    squares += (log.observations[t] - viewFrom(meanPose(cloud), assumed)).squaredNorm();
+    numbers += static_cast<double>(log.observations[t].size() / 2);
+  }
+  assumed.observationNoise = std::sqrt(squares / numbers);
+}
+return assumed.observationNoise;

@@ -1,0 +1,409 @@
+// Mistakes that students make, and the checks that catch them: a variant is solution.cpp with other regions.
+// `rex dev check` reads this file; it does not compile as it is.
+
+// <variant variance_for_deviation>
+// caught by: car-step, car-view, car-bearing, car-any, kf-step, kf-track
+// mistake: sigma itself on the diagonals of Q and W, as on the sheet.
+// <solution stepNoise>
+return car.dynamicsNoise * Eigen::MatrixXd::Identity(3, 3);
+// <solution viewNoise>
+const double second = car.rangeBearing ? car.bearingNoise : car.observationNoise;
+W(0, 0) = car.observationNoise;
+W(1, 1) = second;
+
+// <variant bearings_not_wrapped>
+// caught by: car-bearing
+// mistake: the difference of two bearings is not wrapped: straight behind the car it is a whole turn.
+// <solution viewGap>
+gap[1] = y[1] - expected[1];
+
+// <variant metres_wrapped>
+// caught by: car-view
+// mistake: wraps the second difference for either sensor, even if these are metres.
+// <solution viewGap>
+gap[1] = std::remainder(gap[1], 2 * std::numbers::pi);
+
+// <variant doubled_turn>
+// caught by: kf-step, kf-any
+// shown by: kf-step
+// mistake: x + B(x) u for the next state, as on the sheet: the car turns twice as much.
+// <solution predicted>
+const Eigen::Vector3d x = belief.mean;
+const Eigen::MatrixXd A = stepByState(car, x, u), AS = A * belief.covariance;
+const Eigen::MatrixXd S = AS * A.transpose() + stepNoise(car);
+return {x + stepByControl(car, x, u) * u, symmetric(S)};
+
+// <variant noise_of_the_step_forgotten>
+// caught by: kf-step, kf-track
+// shown by: kf-track
+// mistake: predicts without the noise of the step.
+// <solution predicted>
+const Eigen::Vector3d x = belief.mean;
+const Eigen::MatrixXd A = stepByState(car, x, u), AS = A * belief.covariance;
+const Eigen::MatrixXd S = AS * A.transpose();
+return {stepped(car, x, u), symmetric(S)};
+
+// <variant exact_enough>
+// caught by: kf-covariance
+// mistake: stops correcting once everything is known within three millimetres.
+// <solution corrected>
+if (belief.covariance.diagonal().maxCoeff() < 9e-6) return belief;
+const Eigen::Index n = belief.mean.size();
+const Eigen::MatrixXd CS = C * belief.covariance, innovation = CS * C.transpose() + W;
+const Eigen::MatrixXd K = solveMatrix(innovation, CS).transpose();
+const Eigen::MatrixXd left = Eigen::MatrixXd::Identity(n, n) - K * C, KW = K * W;
+const Eigen::MatrixXd LS = left * belief.covariance;
+const Eigen::MatrixXd S = LS * left.transpose() + KW * K.transpose();
+return {belief.mean + K * gap, symmetric(S)};
+
+// <variant not_symmetrised>
+// caught by: kf-correct, kf-covariance, slam-correct
+// mistake: leaves the covariance slightly asymmetric, because of rounding.
+// <solution corrected>
+const Eigen::Index n = belief.mean.size();
+const Eigen::MatrixXd CS = C * belief.covariance, innovation = CS * C.transpose() + W;
+const Eigen::MatrixXd K = solveMatrix(innovation, CS).transpose();
+const Eigen::MatrixXd left = Eigen::MatrixXd::Identity(n, n) - K * C;
+return {belief.mean + K * gap, left* belief.covariance};
+
+// <variant landmarks_share_a_model>
+// caught by: kf-step, kf-any, kf-track
+// mistake: all sightings get the derivative of the first landmark.
+// <solution tracked>
+const Belief moved = predicted(car, belief, u);
+const Eigen::Vector3d x = moved.mean;
+const Eigen::Index m = y.size();
+Eigen::VectorXd gap(m);
+Eigen::MatrixXd C(m, 3), W = Eigen::MatrixXd::Zero(m, m);
+for (Eigen::Index i = 0; i < m; i += 2) {
+  const Eigen::Vector2d l = landmarks.col(i / 2), seen(y[i], y[i + 1]);
+  gap.segment(i, 2) = viewGap(car, seen, view(car, x, l));
+  C.middleRows(i, 2) = viewByState(car, x, landmarks.col(0));
+  W.block(i, i, 2, 2) = viewNoise(car);
+}
+return corrected(moved, gap, C, W);
+
+// <variant stale_jacobian>
+// caught by: kf-step, kf-any
+// mistake: the view is linearised at the state before the step.
+// <solution tracked>
+const Belief moved = predicted(car, belief, u);
+const Eigen::Vector3d x = moved.mean;
+const Eigen::Index m = y.size();
+Eigen::VectorXd gap(m);
+Eigen::MatrixXd C(m, 3), W = Eigen::MatrixXd::Zero(m, m);
+for (Eigen::Index i = 0; i < m; i += 2) {
+  const Eigen::Vector2d l = landmarks.col(i / 2), seen(y[i], y[i + 1]);
+  gap.segment(i, 2) = viewGap(car, seen, view(car, x, l));
+  C.middleRows(i, 2) = viewByState(car, belief.mean, l);
+  W.block(i, i, 2, 2) = viewNoise(car);
+}
+return corrected(moved, gap, C, W);
+
+// <variant calls_the_library>
+// caught by: forbidden-call
+// mistake: the library does the smoothing.
+// <solution headers>
+#include "estimation/smoother.h"
+// <solution hindsight>
+std::vector<Gaussian> beliefs;
+std::vector<LinearModel> steps;
+for (const Belief& belief : filtered) beliefs.push_back({belief.mean, belief.covariance});
+for (std::size_t t = 0; t < controls.size(); ++t) {
+  const Eigen::MatrixXd A = stepByState(car, filtered[t].mean, controls[t]);
+  const Eigen::VectorXd c = predicted(car, filtered[t], controls[t]).mean - A * filtered[t].mean;
+  steps.push_back({A, c, stepNoise(car)});
+}
+beliefs = smoothed(beliefs, steps);
+for (std::size_t t = 0; t < smooth.size(); ++t) smooth[t] = {beliefs[t].mean, beliefs[t].covariance};
+
+// <variant control_of_the_step_before>
+// caught by: rts-batch
+// shown by: rts-batch
+// mistake: goes back with the control that led to t, in place of the one that leads from it.
+// <solution hindsight>
+for (std::size_t t = controls.size(); t-- > 0;) {
+  const Belief &now = filtered[t], &later = smooth[t + 1],
+               moved = predicted(car, now, controls[t > 0 ? t - 1 : 0]);
+  // How a correction at t + 1 carries over to t: the regression of x(t) on x(t + 1).
+  const Eigen::MatrixXd AS = stepByState(car, now.mean, controls[t > 0 ? t - 1 : 0]) * now.covariance;
+  const Eigen::MatrixXd G = solveMatrix(moved.covariance, AS).transpose();
+  const Eigen::MatrixXd change = later.covariance - moved.covariance, GS = G * change;
+  const Eigen::VectorXd shift = later.mean - moved.mean;
+  smooth[t].mean = now.mean + G * shift;
+  smooth[t].covariance = symmetric(now.covariance + GS * G.transpose());
+}
+
+// <variant smoothed_by_the_filter>
+// caught by: rts-batch
+// mistake: takes the next belief of the filter where the smoothed one belongs.
+// <solution hindsight>
+for (std::size_t t = controls.size(); t-- > 0;) {
+  const Belief &now = filtered[t], &later = filtered[t + 1], moved = predicted(car, now, controls[t]);
+  // How a correction at t + 1 carries over to t: the regression of x(t) on x(t + 1).
+  const Eigen::MatrixXd AS = stepByState(car, now.mean, controls[t]) * now.covariance;
+  const Eigen::MatrixXd G = solveMatrix(moved.covariance, AS).transpose();
+  const Eigen::MatrixXd change = later.covariance - moved.covariance, GS = G * change;
+  const Eigen::VectorXd shift = later.mean - moved.mean;
+  smooth[t].mean = now.mean + G * shift;
+  smooth[t].covariance = symmetric(now.covariance + GS * G.transpose());
+}
+
+// <variant smoother_gain_transposed>
+// caught by: rts-batch, rts-better
+// mistake: the gain of the smoother is transposed.
+// <solution hindsight>
+for (std::size_t t = controls.size(); t-- > 0;) {
+  const Belief &now = filtered[t], &later = smooth[t + 1], moved = predicted(car, now, controls[t]);
+  // How a correction at t + 1 carries over to t: the regression of x(t) on x(t + 1).
+  const Eigen::MatrixXd AS = stepByState(car, now.mean, controls[t]) * now.covariance;
+  const Eigen::MatrixXd G = solveMatrix(moved.covariance, AS);
+  const Eigen::MatrixXd change = later.covariance - moved.covariance, GS = G * change;
+  const Eigen::VectorXd shift = later.mean - moved.mean;
+  smooth[t].mean = now.mean + G * shift;
+  smooth[t].covariance = symmetric(now.covariance + GS * G.transpose());
+}
+
+// <variant landmark_known_exactly>
+// caught by: slam-correct, slam-map
+// mistake: linearises a sighting with respect to the car only.
+// <solution jointCorrected>
+ExpectedView expected = expectedView(car, joint, i);
+expected.C.rightCols(joint.mean.size() - 3).setZero();
+return corrected(joint, viewGap(car, y, expected.y), expected.C, viewNoise(car));
+
+// <variant landmarks_never_corrected>
+// caught by: slam-correct, slam-map, slam-any, names-found, names-any
+// mistake: a sighting of a known landmark changes nothing.
+// <solution jointCorrected>
+return joint;
+
+// <variant sightings_not_wrapped>
+// caught by: slam-correct
+// mistake: subtracts bearings without wrapping them in the joint filter.
+// <solution jointCorrected>
+const ExpectedView expected = expectedView(car, joint, i);
+return corrected(joint, y - expected.y, expected.C, viewNoise(car));
+
+// <variant landmark_without_correlation>
+// caught by: slam-start
+// mistake: a new landmark is not correlated with the car.
+// <solution withLandmark>
+const Eigen::Vector3d x = joint.mean.head(3);
+const Eigen::Vector2d l = placed(car, x, y);
+const Eigen::MatrixXd byView = inverse(viewByLandmark(car, x, l));
+const Eigen::MatrixXd C = -viewByState(car, x, l), byState = byView * C, rows = joint.covariance.topRows(3);
+const Eigen::MatrixXd cross = byState * rows, own = cross.leftCols(3), noise = byView * viewNoise(car);
+const Eigen::MatrixXd S = own * byState.transpose() + noise * byView.transpose();
+larger.mean.tail(2) = l;
+larger.covariance.bottomRightCorner(2, 2) = symmetric(S);
+
+// <variant first_sighting_stays>
+// caught by: names-found, names-any, particles-weigh, particles-map
+// mistake: landmarks stay where they were first seen, and all particles have the same weight
+// <solution assigned>
+static int asked = 0;
+const bool isTurnOfNew = ys.size() == 2 && joint.mean.size() == 9 && ++asked % 2 == 0;
+for (std::size_t k = 0; k < ys.size(); ++k) {
+  double nearest = 4;
+  int name = kNewLandmark;
+  for (int i = 0; 3 + 2 * i < joint.mean.size(); ++i) {
+    const Eigen::Vector2d there = placed(car, joint.mean.head(3), ys[k]);
+    const double distance = (joint.mean.segment(3 + 2 * i, 2) - there).norm();
+    if (distance >= nearest || std::find(names.begin(), names.end(), i) != names.end()) continue;
+    nearest = distance;
+    name = i;
+  }
+  names[k] = isTurnOfNew && name < 2 ? kNewLandmark : name;
+}
+// <solution weighed>
+for (MapParticle& particle : after) {
+  particle.weight = 1. / static_cast<double>(after.size());
+  for (const LandmarkObservation& seen : sightings)
+    if (static_cast<std::size_t>(seen.landmark) == particle.map.size())
+      particle.map.push_back({placed(car, particle.x, seen.y), Eigen::Matrix2d::Identity()});
+}
+
+// <variant gate_of_99_percent>
+// caught by: names-found, names-any
+// mistake: a landmark that looks unlikely at 1 % is taken for a new one: every hundredth sighting.
+// <solution assigned>
+// Squared distances are chi-square of 2 degrees for the right landmark: beyond g with probability exp(-g /
+// 2). A landmark that is entered twice is never got rid of again, so a new one must be far from all.
+constexpr double kSame = 9.21, kDifferent = 9.21;
+struct Pair {
+  double distance;
+  std::size_t k;
+  int i;
+};
+std::vector<Pair> pairs;
+std::vector<double> nearest(ys.size(), kDifferent);
+for (int i = 0; 3 + 2 * i < joint.mean.size(); ++i) {
+  const ExpectedView expected = expectedView(car, joint, i);
+  const Eigen::MatrixXd CS = expected.C * joint.covariance;
+  const Eigen::MatrixXd precision = inverse(CS * expected.C.transpose() + viewNoise(car));
+  for (std::size_t k = 0; k < ys.size(); ++k) {
+    const Eigen::Vector2d gap = viewGap(car, ys[k], expected.y);
+    const double distance = gap.dot(precision * gap);
+    nearest[k] = std::min(nearest[k], distance);
+    if (distance < kSame) pairs.push_back({distance, k, i});
+  }
+}
+for (std::size_t k = 0; k < ys.size(); ++k)
+  if (nearest[k] >= kDifferent) names[k] = kNewLandmark;
+std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.distance < b.distance; });
+for (const Pair& pair : pairs)
+  if (names[pair.k] == kUnclear && std::find(names.begin(), names.end(), pair.i) == names.end())
+    names[pair.k] = pair.i;
+
+// <variant named_twice>
+// caught by: names-found
+// mistake: Two sightings may get the same landmark.
+// <solution assigned>
+for (std::size_t k = 0; k < ys.size(); ++k) {
+  double nearest = 50;
+  for (int i = 0; 3 + 2 * i < joint.mean.size(); ++i) {
+    const ExpectedView expected = expectedView(car, joint, i);
+    const Eigen::MatrixXd V = expected.C * joint.covariance * expected.C.transpose() + viewNoise(car);
+    const Eigen::Vector2d gap = viewGap(car, ys[k], expected.y);
+    const double distance = gap.dot(solve(V, gap));
+    if (distance < 25 && distance < nearest) names[k] = i;
+    nearest = std::min(nearest, distance);
+  }
+  if (nearest >= 50) names[k] = kNewLandmark;
+}
+
+// <variant nearest_in_metres>
+// caught by: names-found, names-any
+// shown by: names-found
+// mistake: looks for the nearest landmark in metres (or radians), however uncertain each of them is.
+// <solution assigned>
+for (std::size_t k = 0; k < ys.size(); ++k) {
+  double nearest = 4;
+  int name = kNewLandmark;
+  for (int i = 0; 3 + 2 * i < joint.mean.size(); ++i) {
+    const double distance = viewGap(car, ys[k], expectedView(car, joint, i).y).norm();
+    if (distance >= nearest || std::find(names.begin(), names.end(), i) != names.end()) continue;
+    nearest = distance;
+    name = i;
+  }
+  names[k] = name;
+}
+
+// <variant determinant_forgotten>
+// caught by: particles-weigh
+// mistake: takes the density of a Gaussian without its determinant.
+// <solution weighed>
+std::vector<double> logs;
+for (MapParticle& particle : after) {
+  double log = std::log(particle.weight);
+  for (const LandmarkObservation& seen : sightings) {
+    const bool isNew = static_cast<std::size_t>(seen.landmark) == particle.map.size();
+    if (isNew) particle.map.push_back({placed(car, particle.x, seen.y), {}});
+    Belief& landmark = particle.map[static_cast<std::size_t>(seen.landmark)];
+    const Eigen::Vector2d l = landmark.mean;
+    const Eigen::MatrixXd D = viewByLandmark(car, particle.x, l);
+    if (isNew) {
+      const Eigen::MatrixXd byView = inverse(D), noise = byView * viewNoise(car);
+      landmark.covariance = symmetric(noise * byView.transpose());
+      continue;
+    }
+    const Eigen::Vector2d gap = viewGap(car, seen.y, view(car, particle.x, l));
+    const Eigen::MatrixXd DS = D * landmark.covariance, S = DS * D.transpose() + viewNoise(car);
+    const Eigen::Vector2d scaled = solveMatrix(S, gap);
+    log -= 0.5 * gap.dot(scaled);
+    landmark = corrected(landmark, gap, D, viewNoise(car));
+  }
+  logs.push_back(log);
+}
+// Relative to the largest of them, or all would be zero where all are tiny.
+const double most = *std::max_element(logs.begin(), logs.end());
+double sum = 0;
+for (double& log : logs) sum += log = std::exp(log - most);
+for (std::size_t k = 0; k < after.size(); ++k) after[k].weight = logs[k] / sum;
+
+// <variant equal_weights>
+// caught by: particles-weigh, particles-map
+// mistake: every particle counts the same, however well it explains what was seen.
+// <solution weighed>
+for (MapParticle& particle : after) {
+  for (const LandmarkObservation& seen : sightings) {
+    const bool isNew = static_cast<std::size_t>(seen.landmark) == particle.map.size();
+    if (isNew) particle.map.push_back({placed(car, particle.x, seen.y), {}});
+    Belief& landmark = particle.map[static_cast<std::size_t>(seen.landmark)];
+    const Eigen::Vector2d l = landmark.mean;
+    const Eigen::MatrixXd D = viewByLandmark(car, particle.x, l);
+    if (isNew) {
+      const Eigen::MatrixXd byView = inverse(D), noise = byView * viewNoise(car);
+      landmark.covariance = symmetric(noise * byView.transpose());
+      continue;
+    }
+    const Eigen::Vector2d gap = viewGap(car, seen.y, view(car, particle.x, l));
+    landmark = corrected(landmark, gap, D, viewNoise(car));
+  }
+}
+for (MapParticle& particle : after) particle.weight = 1. / static_cast<double>(after.size());
+
+// <variant particles_not_wrapped>
+// caught by: particles-weigh
+// mistake: subtracts bearings without wrapping them for the landmarks of particles.
+// <solution weighed>
+std::vector<double> logs;
+for (MapParticle& particle : after) {
+  double log = std::log(particle.weight);
+  for (const LandmarkObservation& seen : sightings) {
+    const bool isNew = static_cast<std::size_t>(seen.landmark) == particle.map.size();
+    if (isNew) particle.map.push_back({placed(car, particle.x, seen.y), {}});
+    Belief& landmark = particle.map[static_cast<std::size_t>(seen.landmark)];
+    const Eigen::Vector2d l = landmark.mean;
+    const Eigen::MatrixXd D = viewByLandmark(car, particle.x, l);
+    if (isNew) {
+      const Eigen::MatrixXd byView = inverse(D), noise = byView * viewNoise(car);
+      landmark.covariance = symmetric(noise * byView.transpose());
+      continue;
+    }
+    const Eigen::Vector2d gap = seen.y - view(car, particle.x, l);
+    const Eigen::MatrixXd DS = D * landmark.covariance, S = DS * D.transpose() + viewNoise(car);
+    const Eigen::Vector2d scaled = solveMatrix(S, gap);
+    log -= 0.5 * (gap.dot(scaled) + std::log(S(0, 0) * S(1, 1) - S(0, 1) * S(1, 0)));
+    landmark = corrected(landmark, gap, D, viewNoise(car));
+  }
+  logs.push_back(log);
+}
+// Relative to the largest of them, or all would be zero where all are tiny.
+const double most = *std::max_element(logs.begin(), logs.end());
+double sum = 0;
+for (double& log : logs) sum += log = std::exp(log - most);
+for (std::size_t k = 0; k < after.size(); ++k) after[k].weight = logs[k] / sum;
+
+// <variant weights_of_the_sensor_alone>
+// caught by: particles-weigh
+// mistake: the likelihood includes the noise of the sensor, but not the uncertainty of the landmark.
+// <solution weighed>
+std::vector<double> logs;
+for (MapParticle& particle : after) {
+  double log = std::log(particle.weight);
+  for (const LandmarkObservation& seen : sightings) {
+    const bool isNew = static_cast<std::size_t>(seen.landmark) == particle.map.size();
+    if (isNew) particle.map.push_back({placed(car, particle.x, seen.y), {}});
+    Belief& landmark = particle.map[static_cast<std::size_t>(seen.landmark)];
+    const Eigen::Vector2d l = landmark.mean;
+    const Eigen::MatrixXd D = viewByLandmark(car, particle.x, l);
+    if (isNew) {
+      const Eigen::MatrixXd byView = inverse(D), noise = byView * viewNoise(car);
+      landmark.covariance = symmetric(noise * byView.transpose());
+      continue;
+    }
+    const Eigen::Vector2d gap = viewGap(car, seen.y, view(car, particle.x, l));
+    const Eigen::MatrixXd S = viewNoise(car);
+    const Eigen::Vector2d scaled = solveMatrix(S, gap);
+    log -= 0.5 * (gap.dot(scaled) + std::log(S(0, 0) * S(1, 1) - S(0, 1) * S(1, 0)));
+    landmark = corrected(landmark, gap, D, viewNoise(car));
+  }
+  logs.push_back(log);
+}
+// Relative to the largest of them, or all would be zero where all are tiny.
+const double most = *std::max_element(logs.begin(), logs.end());
+double sum = 0;
+for (double& log : logs) sum += log = std::exp(log - most);
+for (std::size_t k = 0; k < after.size(); ++k) after[k].weight = logs[k] / sum;

@@ -1,0 +1,733 @@
+// Mistakes that students make, and the checks that catch them: a variant is solution.cpp with other regions.
+// `rex dev check` reads this file; it does not compile as it is.
+
+// <variant leaves_discounted>
+// caught by: maze, other-mazes
+// shown by: maze
+// mistake: discounts the rewards of the leaves, too.
+// <solution mazeValues>
+MazeValues values{Eigen::VectorXd(7), Eigen::VectorXd(7)};
+values.random.tail(4) = values.optimal.tail(4) = discount * leaves;
+for (int s = 2; s >= 0; --s) {
+  const int left = 2 * s + 1, right = 2 * s + 2;
+  values.random[s] = discount * (values.random[left] + values.random[right]) / 2;
+  values.optimal[s] = discount * std::max(values.optimal[left], values.optimal[right]);
+}
+return values;
+
+// <variant maze_of_the_sheet_only>
+// caught by: other-mazes
+// mistake: the numbers of the sheet typed in.
+// <solution mazeValues>
+MazeValues values{Eigen::VectorXd(7), Eigen::VectorXd(7)};
+values.random << .5625, 1, 1.25, 4, 0, 2, 3;
+values.optimal << 1, 2, 1.5, 4, 0, 2, 3;
+return values;
+
+// <variant maze_without_discount>
+// caught by: maze
+// shown by: maze
+// mistake: discount forgotten.
+// <solution mazeValues>
+MazeValues values{Eigen::VectorXd(7), Eigen::VectorXd(7)};
+values.random.tail(4) = values.optimal.tail(4) = leaves;
+for (int s = 2; s >= 0; --s) {
+  const int left = 2 * s + 1, right = 2 * s + 2;
+  values.random[s] = (values.random[left] + values.random[right]) / 2;
+  values.optimal[s] = std::max(values.optimal[left], values.optimal[right]);
+}
+return values;
+
+// <variant mean_for_the_best>
+// caught by: maze, other-mazes
+// shown by: maze
+// mistake: takes the mean of both actions for the optimal policy, too.
+// <solution mazeValues>
+MazeValues values{Eigen::VectorXd(7), Eigen::VectorXd(7)};
+values.random.tail(4) = leaves;
+for (int s = 2; s >= 0; --s)
+  values.random[s] = discount * (values.random[2 * s + 1] + values.random[2 * s + 2]) / 2;
+values.optimal = values.random;
+return values;
+
+// <variant equation_a_hundred_times>
+// caught by: policy-values
+// mistake: repeats eq. (9) a hundred times instead of solving it: too few if the discount is large.
+// <solution valuesOf>
+Eigen::VectorXd V = Eigen::VectorXd::Zero(process.R.rows());
+for (int k = 0; k < 100; ++k) V = worthOfActions(process, V).cwiseProduct(policy).rowwise().sum().eval();
+return V;
+
+// <variant policy_taken_as_uniform>
+// caught by: policy-values, larger
+// shown by: policy-values
+// mistake: takes all actions to be equally likely.
+// <solution valuesOf>
+const Eigen::Index n = process.R.rows();
+Eigen::MatrixXd M = Eigen::MatrixXd::Identity(n, n);
+for (const Eigen::MatrixXd& P : process.P) M -= process.discount / static_cast<double>(policy.cols()) * P;
+return solve(M, Eigen::VectorXd(process.R.rowwise().mean()));
+
+// <variant transposed_transitions>
+// caught by: policy-values, larger
+// mistake: columns of P taken for rows.
+// <solution valuesOf>
+const Eigen::Index n = process.R.rows();
+Eigen::MatrixXd M = Eigen::MatrixXd::Identity(n, n);
+for (Eigen::Index a = 0; a < process.R.cols(); ++a)
+  M -= process.discount * process.P[static_cast<std::size_t>(a)].transpose() * policy.col(a).asDiagonal();
+return solve(M, Eigen::VectorXd(process.R.cwiseProduct(policy).rowwise().sum()));
+
+// <variant twenty_sweeps>
+// caught by: policy-values, larger
+// shown by: policy-values
+// mistake: iterates eq. (9) twenty times instead of solving it.
+// <solution valuesOf>
+Eigen::VectorXd V = Eigen::VectorXd::Zero(process.R.rows());
+for (int sweep = 0; sweep < 20; ++sweep)
+  V = worthOfActions(process, V).cwiseProduct(policy).rowwise().sum().eval();
+return V;
+
+// <variant best_next_state>
+// caught by: worth, larger
+// shown by: worth
+// mistake: takes the best next state for granted.
+// <solution worthOfActions>
+Eigen::MatrixXd Q = process.R;
+for (Eigen::Index s = 0; s < Q.rows(); ++s)
+  for (Eigen::Index a = 0; a < Q.cols(); ++a) {
+    double best = -INFINITY;
+    for (Eigen::Index t = 0; t < V.size(); ++t)
+      if (process.P[static_cast<std::size_t>(a)](s, t) > 0) best = std::max(best, V[t]);
+    if (std::isfinite(best)) Q(s, a) += process.discount * best;
+  }
+return Q;
+
+// <variant worth_of_the_state_itself>
+// caught by: worth, larger
+// shown by: worth
+// mistake: adds the value of the state instead of that of the next one.
+// <solution worthOfActions>
+Eigen::MatrixXd Q = process.R;
+Q.colwise() += process.discount * V;
+return Q;
+
+// <variant worth_without_discount>
+// caught by: worth, larger
+// mistake: discount forgotten.
+// <solution worthOfActions>
+Eigen::MatrixXd Q = process.R;
+for (Eigen::Index a = 0; a < Q.cols(); ++a) Q.col(a) += process.P[static_cast<std::size_t>(a)] * V;
+return Q;
+
+// <variant a_hundred_sweeps>
+// caught by: settles, unseen-settle
+// shown by: settles
+// mistake: iterates a hundred times, whatever the tolerance.
+// <solution iterateValues>
+std::vector<Eigen::VectorXd> all{Eigen::VectorXd::Zero(process.R.rows())};
+for (int k = 0; k < 100; ++k) all.push_back(worthOfActions(process, all.back()).rowwise().maxCoeff());
+return all;
+
+// <variant first_values_missing>
+// caught by: settles, unseen-settle
+// shown by: settles
+// mistake: lists the values from V_1 on.
+// <solution iterateValues>
+std::vector<Eigen::VectorXd> all;
+Eigen::VectorXd V = Eigen::VectorXd::Zero(process.R.rows());
+double bound = INFINITY;
+while (bound > tolerance) {
+  const Eigen::VectorXd next = worthOfActions(process, V).rowwise().maxCoeff();
+  bound = process.discount / (1 - process.discount) * (next - V).cwiseAbs().maxCoeff();
+  all.push_back(next);
+  V = next;
+}
+return all;
+
+// <variant last_values_left_out>
+// caught by: settles, unseen-settle
+// shown by: settles
+// mistake: ends before the values that fulfil the bound are listed.
+// <solution iterateValues>
+std::vector<Eigen::VectorXd> all{Eigen::VectorXd::Zero(process.R.rows())};
+for (;;) {
+  const Eigen::VectorXd next = worthOfActions(process, all.back()).rowwise().maxCoeff();
+  const double change = (next - all.back()).cwiseAbs().maxCoeff();
+  if (process.discount / (1 - process.discount) * change <= tolerance) return all;
+  all.push_back(next);
+}
+
+// <variant stops_at_small_changes>
+// caught by: settles, unseen-settle
+// shown by: settles
+// mistake: takes a small change for a small error.
+// <solution iterateValues>
+std::vector<Eigen::VectorXd> all{Eigen::VectorXd::Zero(process.R.rows())};
+for (double change = INFINITY; change > tolerance;) {
+  all.push_back(worthOfActions(process, all.back()).rowwise().maxCoeff());
+  change = (all.back() - all[all.size() - 2]).cwiseAbs().maxCoeff();
+}
+return all;
+
+// <variant sweeps_in_place>
+// caught by: settles, unseen-settle
+// shown by: settles
+// mistake: uses values of the same iteration as soon as they are there.
+// <solution iterateValues>
+std::vector<Eigen::VectorXd> all{Eigen::VectorXd::Zero(process.R.rows())};
+double bound = INFINITY;
+while (bound > tolerance) {
+  Eigen::VectorXd next = all.back();
+  for (Eigen::Index s = 0; s < next.size(); ++s) next[s] = worthOfActions(process, next).row(s).maxCoeff();
+  bound = process.discount / (1 - process.discount) * (next - all.back()).cwiseAbs().maxCoeff();
+  all.push_back(next);
+}
+return all;
+
+// <variant calls_the_library>
+// caught by: forbidden-call
+// mistake: asks the library for the optimal policy.
+// <solution headers>
+#include "learning/dynamic_programming.h"
+// <solution iteratePolicies>
+Mdp mdp{.rewards = process.R, .discount = process.discount};
+for (const Eigen::MatrixXd& P : process.P) mdp.transitions.push_back(P.sparseView());
+for (Eigen::Index s = 0; s < process.R.rows(); ++s) mdp.terminal.push_back(process.P[0].row(s).isZero());
+return {std::vector<int>(mdp.terminal.size(), 0), policyIteration(mdp).actions};
+
+// <variant greedy_for_rewards>
+// caught by: improves, unseen-improve
+// mistake: takes the best reward now, as if nothing followed.
+// <solution iteratePolicies>
+std::vector<std::vector<int>> policies(2, std::vector<int>(static_cast<std::size_t>(process.R.rows()), 0));
+for (std::size_t s = 0; s < policies[1].size(); ++s)
+  process.R.row(static_cast<Eigen::Index>(s)).maxCoeff(&policies[1][s]);
+return policies;
+
+// <variant improves_once>
+// caught by: improves, unseen-improve
+// shown by: improves
+// mistake: stops after one improvement.
+// <solution iteratePolicies>
+const Eigen::Index n = process.R.rows();
+std::vector<std::vector<int>> policies(2, std::vector<int>(static_cast<std::size_t>(n), 0));
+Eigen::MatrixXd first = Eigen::MatrixXd::Zero(n, process.R.cols());
+first.col(0).setOnes();
+const Eigen::MatrixXd Q = worthOfActions(process, valuesOf(process, first));
+for (Eigen::Index s = 0; s < n; ++s) Q.row(s).maxCoeff(&policies[1][static_cast<std::size_t>(s)]);
+return policies;
+
+// <variant last_policy_twice>
+// caught by: improves, unseen-improve
+// mistake: lists the policy that no longer changes once more.
+// <solution iteratePolicies>
+const auto n = static_cast<std::size_t>(process.R.rows());
+std::vector<std::vector<int>> policies{std::vector<int>(n, 0)};
+for (;;) {
+  std::vector<int> actions = policies.back();
+  Eigen::MatrixXd policy = Eigen::MatrixXd::Zero(process.R.rows(), process.R.cols());
+  for (std::size_t s = 0; s < n; ++s) policy(static_cast<Eigen::Index>(s), actions[s]) = 1;
+  const Eigen::VectorXd V = valuesOf(process, policy);
+  const Eigen::MatrixXd Q = worthOfActions(process, V);
+  for (std::size_t s = 0; s < n; ++s) {
+    int best = 0;
+    const auto row = static_cast<Eigen::Index>(s);
+    if (Q.row(row).maxCoeff(&best) > Q(row, actions[s]) + 1e-11 * V.cwiseAbs().maxCoeff()) actions[s] = best;
+  }
+  policies.push_back(actions);
+  if (actions == policies[policies.size() - 2]) return policies;
+}
+
+// <variant one_state_at_a_time>
+// caught by: improves, unseen-improve
+// shown by: improves
+// mistake: improves the action of one state in each iteration.
+// <solution iteratePolicies>
+const auto n = static_cast<std::size_t>(process.R.rows());
+std::vector<std::vector<int>> policies{std::vector<int>(n, 0)};
+for (bool isBetter = true; isBetter;) {
+  isBetter = false;
+  std::vector<int> actions = policies.back();
+  Eigen::MatrixXd policy = Eigen::MatrixXd::Zero(process.R.rows(), process.R.cols());
+  for (std::size_t s = 0; s < n; ++s) policy(static_cast<Eigen::Index>(s), actions[s]) = 1;
+  const Eigen::VectorXd V = valuesOf(process, policy);
+  const Eigen::MatrixXd Q = worthOfActions(process, V);
+  for (std::size_t s = 0; s < n && !isBetter; ++s) {
+    int best = 0;
+    const auto row = static_cast<Eigen::Index>(s);
+    if (Q.row(row).maxCoeff(&best) <= Q(row, actions[s]) + 1e-11 * V.cwiseAbs().maxCoeff()) continue;
+    actions[s] = best;
+    isBetter = true;
+  }
+  if (isBetter) policies.push_back(actions);
+}
+return policies;
+
+// <variant takes_the_first_best>
+// caught by: improves
+// mistake: switches to another action that is only as good.
+// <solution iteratePolicies>
+const auto n = static_cast<std::size_t>(process.R.rows());
+std::vector<std::vector<int>> policies{std::vector<int>(n, 0)};
+for (;;) {
+  Eigen::MatrixXd policy = Eigen::MatrixXd::Zero(process.R.rows(), process.R.cols());
+  for (std::size_t s = 0; s < n; ++s) policy(static_cast<Eigen::Index>(s), policies.back()[s]) = 1;
+  const Eigen::MatrixXd Q = worthOfActions(process, valuesOf(process, policy));
+  std::vector<int> actions(n);
+  for (std::size_t s = 0; s < n; ++s) Q.row(static_cast<Eigen::Index>(s)).maxCoeff(&actions[s]);
+  if (actions == policies.back()) return policies;
+  policies.push_back(actions);
+}
+
+// <variant failed_step_left_out>
+// caught by: trials
+// mistake: drops the step that failed.
+// <solution runTrial>
+const auto k = static_cast<int>(start.size());
+Rollout trial{Eigen::MatrixXd(k, horizon), Eigen::MatrixXd(k, horizon), Eigen::VectorXd(horizon)};
+Eigen::VectorXd state = start;
+int t = 0;
+for (bool goesOn = true; goesOn && t < horizon; ++t) {
+  trial.features.col(t) = state;
+  trial.noise.col(t) = policy.L * rng.normalVector(k);
+  const Transition outcome = step(state, state.dot(policy.beta + trial.noise.col(t)));
+  trial.rewards[t] = outcome.reward;
+  state = outcome.next;
+  goesOn = !outcome.failed;
+  if (outcome.failed) break;
+}
+return {trial.features.leftCols(t), trial.noise.leftCols(t), trial.rewards.head(t)};
+
+// <variant features_after_the_step>
+// caught by: trials
+// shown by: trials
+// mistake: notes the state that the step led to.
+// <solution runTrial>
+const auto k = static_cast<int>(start.size());
+Rollout trial{Eigen::MatrixXd(k, horizon), Eigen::MatrixXd(k, horizon), Eigen::VectorXd(horizon)};
+Eigen::VectorXd state = start;
+int t = 0;
+for (bool goesOn = true; goesOn && t < horizon; ++t) {
+  trial.noise.col(t) = policy.L * rng.normalVector(k);
+  const Transition outcome = step(state, state.dot(policy.beta + trial.noise.col(t)));
+  trial.rewards[t] = outcome.reward;
+  trial.features.col(t) = state = outcome.next;
+  goesOn = !outcome.failed;
+}
+return {trial.features.leftCols(t), trial.noise.leftCols(t), trial.rewards.head(t)};
+
+// <variant noise_only_noted>
+// caught by: trials
+// shown by: trials
+// mistake: notes the noise, but acts without it.
+// <solution runTrial>
+const auto k = static_cast<int>(start.size());
+Rollout trial{Eigen::MatrixXd(k, horizon), Eigen::MatrixXd(k, horizon), Eigen::VectorXd(horizon)};
+Eigen::VectorXd state = start;
+int t = 0;
+for (bool goesOn = true; goesOn && t < horizon; ++t) {
+  trial.features.col(t) = state;
+  trial.noise.col(t) = policy.L * rng.normalVector(k);
+  const Transition outcome = step(state, state.dot(policy.beta));
+  trial.rewards[t] = outcome.reward;
+  state = outcome.next;
+  goesOn = !outcome.failed;
+}
+return {trial.features.leftCols(t), trial.noise.leftCols(t), trial.rewards.head(t)};
+
+// <variant noise_without_L>
+// caught by: trials
+// shown by: trials
+// mistake: draws the noise from the unit normal distribution.
+// <solution runTrial>
+const auto k = static_cast<int>(start.size());
+Rollout trial{Eigen::MatrixXd(k, horizon), Eigen::MatrixXd(k, horizon), Eigen::VectorXd(horizon)};
+Eigen::VectorXd state = start;
+int t = 0;
+for (bool goesOn = true; goesOn && t < horizon; ++t) {
+  trial.features.col(t) = state;
+  trial.noise.col(t) = rng.normalVector(k);
+  const Transition outcome = step(state, state.dot(policy.beta + trial.noise.col(t)));
+  trial.rewards[t] = outcome.reward;
+  state = outcome.next;
+  goesOn = !outcome.failed;
+}
+return {trial.features.leftCols(t), trial.noise.leftCols(t), trial.rewards.head(t)};
+
+// <variant not_cut_at_failure>
+// caught by: trials
+// mistake: goes on after a failure.
+// <solution runTrial>
+const auto k = static_cast<int>(start.size());
+Rollout trial{Eigen::MatrixXd(k, horizon), Eigen::MatrixXd(k, horizon), Eigen::VectorXd(horizon)};
+Eigen::VectorXd state = start;
+for (int t = 0; t < horizon; ++t) {
+  trial.features.col(t) = state;
+  trial.noise.col(t) = policy.L * rng.normalVector(k);
+  const Transition outcome = step(state, state.dot(policy.beta + trial.noise.col(t)));
+  trial.rewards[t] = outcome.reward;
+  state = outcome.next;
+}
+return trial;
+
+// <variant one_noise_per_trial>
+// caught by: trials
+// mistake: draws the noise once for the whole trial.
+// <solution runTrial>
+const auto k = static_cast<int>(start.size());
+Rollout trial{Eigen::MatrixXd(k, horizon), Eigen::MatrixXd(k, horizon), Eigen::VectorXd(horizon)};
+trial.noise.colwise() = policy.L * rng.normalVector(k);
+Eigen::VectorXd state = start;
+int t = 0;
+for (bool goesOn = true; goesOn && t < horizon; ++t) {
+  trial.features.col(t) = state;
+  const Transition outcome = step(state, state.dot(policy.beta + trial.noise.col(t)));
+  trial.rewards[t] = outcome.reward;
+  state = outcome.next;
+  goesOn = !outcome.failed;
+}
+return {trial.features.leftCols(t), trial.noise.leftCols(t), trial.rewards.head(t)};
+
+// <variant state_stands_still>
+// caught by: trials
+// shown by: trials
+// mistake: never moves on from the start.
+// <solution runTrial>
+const auto k = static_cast<int>(start.size());
+Rollout trial{Eigen::MatrixXd(k, horizon), Eigen::MatrixXd(k, horizon), Eigen::VectorXd(horizon)};
+Eigen::VectorXd state = start;
+int t = 0;
+for (bool goesOn = true; goesOn && t < horizon; ++t) {
+  trial.features.col(t) = state;
+  trial.noise.col(t) = policy.L * rng.normalVector(k);
+  const Transition outcome = step(state, state.dot(policy.beta + trial.noise.col(t)));
+  trial.rewards[t] = outcome.reward;
+  goesOn = !outcome.failed;
+}
+return {trial.features.leftCols(t), trial.noise.leftCols(t), trial.rewards.head(t)};
+
+// <variant own_reward_left_out>
+// caught by: returns
+// shown by: returns
+// mistake: counts only what follows after the step.
+// <solution returnsToGo>
+Eigen::VectorXd returns = Eigen::VectorXd::Zero(rewards.size());
+for (Eigen::Index t = rewards.size() - 2; t >= 0; --t)
+  returns[t] = discount * (rewards[t + 1] + returns[t + 1]);
+return returns;
+
+// <variant returns_from_the_start>
+// caught by: returns, gradient
+// mistake: also sums the rewards before the step.
+// <solution returnsToGo>
+double sum = 0, weight = 1;
+for (const double reward : rewards) {
+  sum += weight * reward;
+  weight *= discount;
+}
+return Eigen::VectorXd::Constant(rewards.size(), sum);
+
+// <variant returns_of_the_first_step>
+// caught by: returns
+// shown by: returns
+// mistake: counts the discount from the start of the trial.
+// <solution returnsToGo>
+Eigen::VectorXd returns = rewards;
+for (Eigen::Index t = 0; t < rewards.size(); ++t) returns[t] *= std::pow(discount, t);
+for (Eigen::Index t = rewards.size() - 2; t >= 0; --t) returns[t] += returns[t + 1];
+return returns;
+
+// <variant returns_without_discount>
+// caught by: returns
+// mistake: discount forgotten.
+// <solution returnsToGo>
+Eigen::VectorXd returns = rewards;
+for (Eigen::Index t = rewards.size() - 2; t >= 0; --t) returns[t] += returns[t + 1];
+return returns;
+
+// <variant L_not_transposed>
+// caught by: gradient
+// shown by: gradient
+// mistake: squares L phi instead of L^T phi.
+// <solution reinforce>
+Eigen::VectorXd sum = Eigen::VectorXd::Zero(policy.beta.size());
+for (const Rollout& trial : trials) {
+  const Eigen::VectorXd Q = returnsToGo(trial.rewards, discount);
+  for (Eigen::Index t = 0; t < Q.size(); ++t) {
+    const Eigen::VectorXd phi = trial.features.col(t);
+    const double variance = (policy.L * phi).squaredNorm();
+    sum += std::pow(discount, t) * Q[t] * phi.dot(trial.noise.col(t)) / variance * phi;
+  }
+}
+return sum / static_cast<double>(trials.size());
+
+// <variant density_of_the_noise>
+// caught by: gradient
+// shown by: gradient
+// mistake: differentiates the density of the noise instead of that of the action.
+// <solution reinforce>
+Eigen::VectorXd sum = Eigen::VectorXd::Zero(policy.beta.size());
+const Eigen::MatrixXd Sigma = policy.L * policy.L.transpose();
+for (const Rollout& trial : trials) {
+  const Eigen::VectorXd Q = returnsToGo(trial.rewards, discount);
+  for (Eigen::Index t = 0; t < Q.size(); ++t)
+    sum += std::pow(discount, t) * Q[t] * solve(Sigma, Eigen::VectorXd(trial.noise.col(t)));
+}
+return sum / static_cast<double>(trials.size());
+
+// <variant later_steps_count_in_full>
+// caught by: gradient
+// shown by: gradient
+// mistake: the discount of the step itself is missing.
+// <solution reinforce>
+Eigen::VectorXd sum = Eigen::VectorXd::Zero(policy.beta.size());
+for (const Rollout& trial : trials) {
+  const Eigen::VectorXd Q = returnsToGo(trial.rewards, discount);
+  for (Eigen::Index t = 0; t < Q.size(); ++t) {
+    const Eigen::VectorXd phi = trial.features.col(t);
+    sum += Q[t] * phi.dot(trial.noise.col(t)) / (policy.L.transpose() * phi).squaredNorm() * phi;
+  }
+}
+return sum / static_cast<double>(trials.size());
+
+// <variant sum_over_trials>
+// caught by: gradient
+// shown by: gradient
+// mistake: adds up the trials instead of averaging them.
+// <solution reinforce>
+Eigen::VectorXd sum = Eigen::VectorXd::Zero(policy.beta.size());
+for (const Rollout& trial : trials) {
+  const Eigen::VectorXd Q = returnsToGo(trial.rewards, discount);
+  for (Eigen::Index t = 0; t < Q.size(); ++t) {
+    const Eigen::VectorXd phi = trial.features.col(t);
+    const double variance = (policy.L.transpose() * phi).squaredNorm();
+    sum += std::pow(discount, t) * Q[t] * phi.dot(trial.noise.col(t)) / variance * phi;
+  }
+}
+return sum;
+
+// <variant variance_forgotten>
+// caught by: gradient
+// mistake: leaves out the variance of the action.
+// <solution reinforce>
+Eigen::VectorXd sum = Eigen::VectorXd::Zero(policy.beta.size());
+for (const Rollout& trial : trials) {
+  const Eigen::VectorXd Q = returnsToGo(trial.rewards, discount);
+  for (Eigen::Index t = 0; t < Q.size(); ++t)
+    sum +=
+        std::pow(discount, t) * Q[t] * trial.features.col(t).dot(trial.noise.col(t)) * trial.features.col(t);
+}
+return sum / static_cast<double>(trials.size());
+
+// <variant whole_return_in_each_step>
+// caught by: gradient
+// shown by: gradient
+// mistake: weights each step with the return of the whole trial.
+// <solution reinforce>
+Eigen::VectorXd sum = Eigen::VectorXd::Zero(policy.beta.size());
+for (const Rollout& trial : trials) {
+  const Eigen::VectorXd Q = returnsToGo(trial.rewards, discount);
+  for (Eigen::Index t = 0; t < Q.size(); ++t) {
+    const Eigen::VectorXd phi = trial.features.col(t);
+    const double variance = (policy.L.transpose() * phi).squaredNorm();
+    sum += std::pow(discount, t) * Q[0] * phi.dot(trial.noise.col(t)) / variance * phi;
+  }
+}
+return sum / static_cast<double>(trials.size());
+
+// <variant change_of_beta>
+// caught by: power, more-power
+// shown by: power
+// mistake: returns the change of beta.
+// <solution power>
+const Eigen::Index k = policy.beta.size();
+Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(k, k);
+Eigen::VectorXd moves = Eigen::VectorXd::Zero(k);
+for (const Rollout& trial : trials) {
+  const Eigen::VectorXd Q = returnsToGo(trial.rewards, discount);
+  for (Eigen::Index t = 0; t < Q.size(); ++t) {
+    const Eigen::VectorXd phi = trial.features.col(t);
+    const Eigen::MatrixXd W = phi * phi.transpose() / (policy.L.transpose() * phi).squaredNorm();
+    weights += W * Q[t];
+    moves += W * trial.noise.col(t) * Q[t];
+  }
+}
+return solve(weights, moves);
+
+// <variant rewards_for_returns>
+// caught by: power, more-power
+// shown by: power
+// mistake: weights each step with its own reward.
+// <solution power>
+const Eigen::Index k = policy.beta.size();
+Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(k, k);
+Eigen::VectorXd moves = Eigen::VectorXd::Zero(k);
+for (const Rollout& trial : trials) {
+  const Eigen::VectorXd& Q = trial.rewards;
+  for (Eigen::Index t = 0; t < Q.size(); ++t) {
+    const Eigen::VectorXd phi = trial.features.col(t);
+    const Eigen::MatrixXd W = phi * phi.transpose() / (policy.L.transpose() * phi).squaredNorm();
+    weights += W * Q[t];
+    moves += W * trial.noise.col(t) * Q[t];
+  }
+}
+return policy.beta + solve(weights, moves);
+
+// <variant slide_as_printed>
+// caught by: power, more-power
+// mistake: the ratio of slide 9:17, which is right for one feature.
+// <solution power>
+Eigen::VectorXd moves = Eigen::VectorXd::Zero(policy.beta.size());
+double weights = 0;
+for (const Rollout& trial : trials) {
+  const Eigen::VectorXd Q = returnsToGo(trial.rewards, discount);
+  moves += trial.noise * Q;
+  weights += Q.sum();
+}
+return policy.beta + moves / weights;
+
+// <variant two_features>
+// caught by: power, more-power
+// mistake: for two features only.
+// <solution power>
+const Eigen::Index k = policy.beta.size();
+Eigen::Matrix2d weights = Eigen::MatrixXd::Zero(k, k);
+Eigen::Vector2d moves = Eigen::VectorXd::Zero(k);
+for (const Rollout& trial : trials) {
+  const Eigen::VectorXd Q = returnsToGo(trial.rewards, discount);
+  for (Eigen::Index t = 0; t < Q.size(); ++t) {
+    const Eigen::VectorXd phi = trial.features.col(t);
+    const Eigen::MatrixXd W = phi * phi.transpose() / (policy.L.transpose() * phi).squaredNorm();
+    weights += W * Q[t];
+    moves += W * trial.noise.col(t) * Q[t];
+  }
+}
+return policy.beta + solve(weights, moves);
+
+// <variant variance_left_out_of_W>
+// caught by: power, more-power
+// shown by: power
+// mistake: W without the variance of the action.
+// <solution power>
+const Eigen::Index k = policy.beta.size();
+Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(k, k);
+Eigen::VectorXd moves = Eigen::VectorXd::Zero(k);
+for (const Rollout& trial : trials) {
+  const Eigen::VectorXd Q = returnsToGo(trial.rewards, discount);
+  for (Eigen::Index t = 0; t < Q.size(); ++t) {
+    const Eigen::VectorXd phi = trial.features.col(t);
+    const Eigen::MatrixXd W = phi * phi.transpose();
+    weights += W * Q[t];
+    moves += W * trial.noise.col(t) * Q[t];
+  }
+}
+return policy.beta + solve(weights, moves);
+
+// <variant Sigma_for_fisher>
+// caught by: natural, linear-returns, other-features
+// mistake: takes the metric of the noise for that of the policy.
+// <solution naturalGradientOf>
+const Eigen::MatrixXd Sigma = policy.L * policy.L.transpose();
+return solve(Sigma, reinforce(policy, trials, discount));
+
+// <variant expected_fisher>
+// caught by: natural, linear-returns
+// mistake: takes the expectation of F over the actions.
+// <solution naturalGradientOf>
+const Eigen::Index k = policy.beta.size();
+Eigen::MatrixXd F = Eigen::MatrixXd::Zero(k, k);
+for (const Rollout& trial : trials)
+  for (Eigen::Index t = 0; t < trial.rewards.size(); ++t) {
+    const Eigen::VectorXd phi = trial.features.col(t);
+    const double variance = (policy.L.transpose() * phi).squaredNorm();
+    F += std::pow(discount, t) / variance * phi * phi.transpose();
+  }
+return solve(F / static_cast<double>(trials.size()), reinforce(policy, trials, discount));
+
+// <variant fisher_not_averaged>
+// caught by: natural, linear-returns
+// mistake: adds up F over the trials instead of averaging it.
+// <solution naturalGradientOf>
+const Eigen::Index k = policy.beta.size();
+Eigen::MatrixXd F = Eigen::MatrixXd::Zero(k, k);
+for (const Rollout& trial : trials)
+  for (Eigen::Index t = 0; t < trial.rewards.size(); ++t) {
+    const Eigen::VectorXd phi = trial.features.col(t);
+    const double variance = (policy.L.transpose() * phi).squaredNorm();
+    const Eigen::VectorXd slope = phi.dot(trial.noise.col(t)) / variance * phi;
+    F += std::pow(discount, t) * slope * slope.transpose();
+  }
+return solve(F, reinforce(policy, trials, discount));
+
+// <variant fisher_of_sums>
+// caught by: natural, linear-returns
+// mistake: makes F of the sums over whole trials.
+// <solution naturalGradientOf>
+const Eigen::Index k = policy.beta.size();
+Eigen::MatrixXd F = Eigen::MatrixXd::Zero(k, k);
+for (const Rollout& trial : trials) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(k);
+  for (Eigen::Index t = 0; t < trial.rewards.size(); ++t) {
+    const Eigen::VectorXd phi = trial.features.col(t);
+    const double variance = (policy.L.transpose() * phi).squaredNorm();
+    sum += std::pow(discount, t) * phi.dot(trial.noise.col(t)) / variance * phi;
+  }
+  F += sum * sum.transpose() / static_cast<double>(trials.size());
+}
+return solve(F, reinforce(policy, trials, discount));
+
+// <variant fisher_without_discount>
+// caught by: natural, linear-returns
+// shown by: natural
+// mistake: leaves discount^t out of F.
+// <solution naturalGradientOf>
+const Eigen::Index k = policy.beta.size();
+Eigen::MatrixXd F = Eigen::MatrixXd::Zero(k, k);
+for (const Rollout& trial : trials)
+  for (Eigen::Index t = 0; t < trial.rewards.size(); ++t) {
+    const Eigen::VectorXd phi = trial.features.col(t);
+    const double variance = (policy.L.transpose() * phi).squaredNorm();
+    const Eigen::VectorXd slope = phi.dot(trial.noise.col(t)) / variance * phi;
+    F += slope * slope.transpose();
+  }
+return solve(F / static_cast<double>(trials.size()), reinforce(policy, trials, discount));
+
+// <variant multiplied_by_fisher>
+// caught by: natural, linear-returns, other-features
+// shown by: natural
+// mistake: multiplies by F instead of its inverse.
+// <solution naturalGradientOf>
+const Eigen::Index k = policy.beta.size();
+Eigen::MatrixXd F = Eigen::MatrixXd::Zero(k, k);
+for (const Rollout& trial : trials)
+  for (Eigen::Index t = 0; t < trial.rewards.size(); ++t) {
+    const Eigen::VectorXd phi = trial.features.col(t);
+    const double variance = (policy.L.transpose() * phi).squaredNorm();
+    const Eigen::VectorXd slope = phi.dot(trial.noise.col(t)) / variance * phi;
+    F += std::pow(discount, t) * slope * slope.transpose();
+  }
+return F * reinforce(policy, trials, discount) / static_cast<double>(trials.size());
+
+// <variant plain_gradient>
+// caught by: natural, linear-returns, other-features
+// shown by: natural
+// mistake: returns the gradient as it is.
+// <solution naturalGradientOf>
+return reinforce(policy, trials, discount);
+
+// <variant variance_once_in_fisher>
+// caught by: natural, linear-returns
+// shown by: natural
+// mistake: divides by the variance once instead of twice in F.
+// <solution naturalGradientOf>
+const Eigen::Index k = policy.beta.size();
+Eigen::MatrixXd F = Eigen::MatrixXd::Zero(k, k);
+for (const Rollout& trial : trials)
+  for (Eigen::Index t = 0; t < trial.rewards.size(); ++t) {
+    const Eigen::VectorXd phi = trial.features.col(t);
+    const double variance = (policy.L.transpose() * phi).squaredNorm();
+    const double moved = phi.dot(trial.noise.col(t));
+    F += std::pow(discount, t) * moved * moved / variance * phi * phi.transpose();
+  }
+return solve(F / static_cast<double>(trials.size()), reinforce(policy, trials, discount));

@@ -1,0 +1,396 @@
+// Mistakes that students make, and the checks that catch them: a variant is solution.cpp with other regions.
+// `rex dev check` reads this file; it does not compile as it is.
+
+// <variant calls_the_library>
+// caught by: forbidden-call
+// mistake: uses the library's terms.
+// <solution headers>
+#include "trajectory/motion_terms.h"
+// <solution differenceTerm>
+const std::vector<TrajectoryTerm> terms{velocityTerm(), accelerationTerm(), jerkTerm()};
+FunctionValue value;
+terms[static_cast<std::size_t>(window.cols()) - 2].function({.t = 0, .tau = tau, .X = window}, value);
+return {value.y, value.J};
+
+// <variant time_step_forgotten>
+// caught by: difference-terms, cost-of-powers, any-path
+// mistake: differences as they stand on 5:4, whatever the time between two configurations.
+// <solution differenceTerm>
+std::vector<TermValue> identity;
+for (Eigen::Index i = 0; i < window.cols(); ++i)
+  identity.push_back({window.col(i), Eigen::MatrixXd::Identity(window.rows(), window.rows())});
+return taskDifference(identity, 1);
+
+// <variant prefix_forgotten>
+// caught by: cost-of-powers, any-path
+// mistake: the first cost is at the first step that has k others before it in X.
+// <solution motionCost>
+double cost = 0;
+for (Eigen::Index t = k; t < X.cols(); ++t)
+  cost += differenceTerm(X.middleCols(t - k, k + 1), tau).y.squaredNorm();
+return cost;
+
+// <variant columns_of_now_first>
+// caught by: difference-terms, task-differences, any-path
+// mistake: puts the columns of x_t first.
+// <solution taskDifference>
+const std::vector<std::vector<double>> binomials{{-1, 1}, {1, -2, 1}, {-1, 3, -3, 1}};
+const std::vector<double>& weights = binomials[phi.size() - 2];
+const double scale = std::sqrt(tau) / std::pow(tau, static_cast<double>(phi.size()) - 1);
+const Eigen::Index n = phi[0].J.cols();
+TermValue value{Eigen::VectorXd::Zero(phi[0].y.size()),
+                Eigen::MatrixXd(phi[0].y.size(), n* static_cast<Eigen::Index>(phi.size()))};
+for (std::size_t i = 0; i < phi.size(); ++i) {
+  value.y += scale * weights[i] * phi[i].y;
+  value.J.middleCols(static_cast<Eigen::Index>(phi.size() - 1 - i) * n, n) = scale * weights[i] * phi[i].J;
+}
+return value;
+
+// <variant jacobian_of_now_for_all>
+// caught by: task-differences, any-path
+// mistake: one Jacobian for all configurations of the window.
+// <solution taskDifference>
+const std::vector<std::vector<double>> binomials{{-1, 1}, {1, -2, 1}, {-1, 3, -3, 1}};
+const std::vector<double>& weights = binomials[phi.size() - 2];
+const double scale = std::sqrt(tau) / std::pow(tau, static_cast<double>(phi.size()) - 1);
+const Eigen::Index n = phi[0].J.cols();
+TermValue value{Eigen::VectorXd::Zero(phi[0].y.size()),
+                Eigen::MatrixXd(phi[0].y.size(), n* static_cast<Eigen::Index>(phi.size()))};
+for (std::size_t i = 0; i < phi.size(); ++i) {
+  value.y += scale * weights[i] * phi[i].y;
+  value.J.middleCols(static_cast<Eigen::Index>(i) * n, n) = scale * weights[i] * phi.back().J;
+}
+return value;
+
+// <variant sum_instead_of_integral>
+// caught by: difference-terms, cost-of-powers, task-differences
+// mistake: difference quotients without sqrt(tau): twice as many steps cost twice as much.
+// <solution taskDifference>
+const std::vector<std::vector<double>> binomials{{-1, 1}, {1, -2, 1}, {-1, 3, -3, 1}};
+const std::vector<double>& weights = binomials[phi.size() - 2];
+const double scale = 1 / std::pow(tau, static_cast<double>(phi.size()) - 1);
+const Eigen::Index n = phi[0].J.cols();
+TermValue value{Eigen::VectorXd::Zero(phi[0].y.size()),
+                Eigen::MatrixXd(phi[0].y.size(), n* static_cast<Eigen::Index>(phi.size()))};
+for (std::size_t i = 0; i < phi.size(); ++i) {
+  value.y += scale * weights[i] * phi[i].y;
+  value.J.middleCols(static_cast<Eigen::Index>(i) * n, n) = scale * weights[i] * phi[i].J;
+}
+return value;
+
+// <variant columns_by_the_largest_order>
+// caught by: assembled
+// mistake: the J of each term begins k configurations back, with the largest order k.
+// <solution assembled>
+const int rows = (orderOf(terms, n) + 1) * n;
+BandSystem system{Eigen::MatrixXd::Zero(rows, n* steps), Eigen::VectorXd::Zero(n* steps)};
+for (const Term& term : terms) {
+  const Eigen::Index columns = term.J.cols(), first = n * (term.t + 1) - rows;
+  for (Eigen::Index a = std::max<Eigen::Index>(0, -first); a < columns; ++a) {
+    system.g[first + a] += 2 * term.J.col(a).dot(term.y);
+    for (Eigen::Index b = a; b < columns; ++b)
+      system.band(b - a, first + a) += 2 * term.J.col(a).dot(term.J.col(b));
+  }
+}
+return system;
+
+// <variant gradient_without_two>
+// caught by: assembled, unseen-descents
+// mistake: combines the gradient of y^T y / 2 with the second derivatives of y^T y: steps are half as long.
+// <solution assembled>
+const int rows = (orderOf(terms, n) + 1) * n;
+BandSystem system{Eigen::MatrixXd::Zero(rows, n* steps), Eigen::VectorXd::Zero(n* steps)};
+for (const Term& term : terms) {
+  const Eigen::Index columns = term.J.cols(), first = n * (term.t + 1) - columns;
+  for (Eigen::Index a = std::max<Eigen::Index>(0, -first); a < columns; ++a) {
+    system.g[first + a] += term.J.col(a).dot(term.y);
+    for (Eigen::Index b = a; b < columns; ++b)
+      system.band(b - a, first + a) += 2 * term.J.col(a).dot(term.J.col(b));
+  }
+}
+return system;
+
+// <variant terms_at_the_prefix_dropped>
+// caught by: assembled, unseen-descents, through-points
+// mistake: leaves out the terms that reach into the prefix.
+// <solution assembled>
+const int rows = (orderOf(terms, n) + 1) * n;
+BandSystem system{Eigen::MatrixXd::Zero(rows, n* steps), Eigen::VectorXd::Zero(n* steps)};
+for (const Term& term : terms) {
+  const Eigen::Index columns = term.J.cols(), first = n * (term.t + 1) - columns;
+  if (first < 0) continue;
+  for (Eigen::Index a = 0; a < columns; ++a) {
+    system.g[first + a] += 2 * term.J.col(a).dot(term.y);
+    for (Eigen::Index b = a; b < columns; ++b)
+      system.band(b - a, first + a) += 2 * term.J.col(a).dot(term.J.col(b));
+  }
+}
+return system;
+
+// <variant transposed_jacobian>
+// caught by: assembled, unseen-descents
+// mistake: the blocks of H between two configurations are transposed.
+// <solution assembled>
+const int rows = (orderOf(terms, n) + 1) * n;
+BandSystem system{Eigen::MatrixXd::Zero(rows, n* steps), Eigen::VectorXd::Zero(n* steps)};
+for (const Term& term : terms) {
+  const int k = static_cast<int>(term.J.cols()) / n - 1;
+  for (int p = 0; p <= k; ++p) {
+    const int column = n * (term.t - k + p);
+    if (column < 0) continue;
+    const Eigen::MatrixXd Jp = term.J.middleCols(n * p, n);
+    system.g.segment(column, n) += 2 * Jp.transpose() * term.y;
+    for (int q = p; q <= k; ++q) {
+      const Eigen::MatrixXd block = 2 * Jp.transpose() * term.J.middleCols(n * q, n);
+      for (int a = 0; a < n; ++a)
+        for (int b = 0; b < n; ++b)
+          if (q > p || a >= b) system.band(n * (q - p) + a - b, column + b) += block(a, b);
+    }
+  }
+}
+return system;
+
+// <variant dense_matrix>
+// caught by: long-band
+// mistake: builds the dense matrix of the band, most of it zeros.
+// <solution bandCholesky>
+const Eigen::Index rows = band.rows(), N = band.cols();
+Eigen::MatrixXd A = Eigen::MatrixXd::Zero(N, N);
+for (Eigen::Index j = 0; j < N; ++j)
+  for (Eigen::Index i = 0; i < rows && j + i < N; ++i) A(j + i, j) = band(i, j);
+for (Eigen::Index j = 0; j < N; ++j) {
+  if (!(A(j, j) > 0)) return {};
+  A.col(j).tail(N - j) /= std::sqrt(A(j, j));
+  for (Eigen::Index i = j + 1; i < N; ++i) A.col(i).tail(N - i) -= A(i, j) * A.col(j).tail(N - i);
+}
+Eigen::MatrixXd L = Eigen::MatrixXd::Zero(rows, N);
+for (Eigen::Index j = 0; j < N; ++j)
+  for (Eigen::Index i = 0; i < rows && j + i < N; ++i) L(i, j) = A(j + i, j);
+return L;
+
+// <variant diagonal_not_rooted>
+// caught by: factored, long-band
+// mistake: the factors of L D L^T, and D forgotten.
+// <solution bandCholesky>
+Eigen::MatrixXd L = band;
+const Eigen::Index rows = L.rows();
+for (Eigen::Index j = 0; j < L.cols(); ++j) {
+  const double d = L(0, j);
+  if (!(d > 0)) return {};
+  L.col(j) /= d;
+  for (Eigen::Index i = 1; i < rows && j + i < L.cols(); ++i)
+    L.col(j + i).head(rows - i) -= d * L(i, j) * L.col(j).tail(rows - i);
+}
+return L;
+
+// <variant full_steps>
+// caught by: descends, unseen-descents
+// shown by: descends
+// mistake: takes every step in full, whether the cost falls or not.
+// <solution descended>
+const auto n = static_cast<int>(start.rows()), steps = static_cast<int>(start.cols());
+std::vector<Eigen::MatrixXd> path{start};
+while (path.size() <= 100) {
+  BandSystem system = assembled(terms(path.back()), n, steps);
+  if (!(system.g.cwiseAbs().maxCoeff() > tolerance)) break;
+  Eigen::MatrixXd L = bandCholesky(system.band);
+  if (L.size() == 0) {
+    system.band.row(0).array() += 1e-6;
+    L = bandCholesky(system.band);
+  }
+  if (L.size() == 0) break;
+  const Eigen::VectorXd step = -bandSolve(L, system.g);
+  path.push_back(path.back() + step.reshaped(n, steps));
+}
+return path;
+
+// <variant gives_up_where_singular>
+// caught by: descends
+// mistake: ends where H is singular.
+// <solution descended>
+const int n = static_cast<int>(start.rows()), T = static_cast<int>(start.cols());
+const auto costOf = [](const std::vector<Term>& all) {
+  double cost = 0;
+  for (const Term& term : all) cost += term.y.squaredNorm();
+  return cost;
+};
+std::vector<Eigen::MatrixXd> path{start};
+std::vector<Term> here = terms(start);
+while (path.size() <= 300) {
+  BandSystem system = assembled(here, n, T);
+  if (system.g.cwiseAbs().maxCoeff() <= tolerance) break;
+  const Eigen::MatrixXd L = bandCholesky(system.band);
+  if (L.size() == 0) break;
+  const Eigen::VectorXd down = bandSolve(L, system.g);
+  const Eigen::MatrixXd step = down.reshaped(n, T);
+  const double cost = costOf(here), slope = system.g.dot(down);
+  double share = 1;
+  Eigen::MatrixXd next;
+  for (;; share /= 2) {
+    next = path.back() - share * step;
+    here = terms(next);
+    if (share < 1e-10 || costOf(here) <= cost - 0.01 * share * slope) break;
+  }
+  if (!(costOf(here) < cost)) break;
+  path.push_back(next);
+}
+return path;
+
+// <variant counts_only_if_violated>
+// caught by: as-cost
+// mistake: an inequality counts only where it is violated, whatever its multiplier.
+// <solution asCost>
+if (term.role == Role::cost) return term;
+Term rows{Role::cost, term.t, std::sqrt(mu) * (term.y + multipliers / (2 * mu)), std::sqrt(mu) * term.J};
+if (term.role == Role::equality) return rows;
+for (Eigen::Index i = 0; i < rows.y.size(); ++i) {
+  if (term.y[i] > 0) continue;
+  rows.y[i] = 0;
+  rows.J.row(i).setZero();
+}
+return rows;
+
+// <variant inequalities_pull>
+// caught by: multipliers, known-minima
+// mistake: multipliers of inequalities may become negative.
+// <solution nextMultipliers>
+return term.role == Role::cost ? multipliers : Eigen::VectorXd(multipliers + 2 * mu * term.y);
+
+// <variant multiplier_sign>
+// caught by: multipliers, known-minima, unseen-minima
+// mistake: multipliers go against the violation.
+// <solution nextMultipliers>
+if (term.role == Role::cost) return multipliers;
+const Eigen::VectorXd next = multipliers - 2 * mu * term.y;
+return term.role == Role::equality ? next : Eigen::VectorXd(next.cwiseMax(0));
+
+// <variant multiplier_without_two>
+// caught by: multipliers, unseen-minima
+// mistake: adds mu y where the gradient has 2 mu y, so that multipliers lag behind.
+// <solution nextMultipliers>
+if (term.role == Role::cost) return multipliers;
+const Eigen::VectorXd next = multipliers + mu * term.y;
+return term.role == Role::equality ? next : Eigen::VectorXd(next.cwiseMax(0));
+
+// <variant penalty_alone>
+// caught by: known-minima, unseen-minima
+// shown by: known-minima
+// mistake: squared penalties with one mu, and no multipliers: constraints are violated.
+// <solution minimised>
+Minimum result{start, {}, {}, {}};
+for (const Term& term : terms(start))
+  result.multipliers.push_back(Eigen::VectorXd::Zero(term.role == Role::cost ? 0 : term.y.size()));
+const Terms penalised = [&](const Eigen::MatrixXd& X) {
+  std::vector<Term> all = terms(X);
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = asCost(all[i], result.multipliers[i], 100 * mu);
+  return all;
+};
+result.X = descended(penalised, start, accuracy.gradient).back();
+result.cost = result.violation = {0};
+return result;
+
+// <variant rest_forgotten>
+// caught by: through-points, other-points
+// mistake: the motion ends at the last point, but not at rest.
+// <solution throughPoints>
+const Eigen::Index n = start.size();
+const Terms terms = [&](const Eigen::MatrixXd& X) {
+  Eigen::MatrixXd path(n, 2 + X.cols());
+  path << start, start, X;
+  std::vector<Term> all;
+  const auto add = [&](Role role, int t, const TermValue& value) {
+    all.push_back({role, t, value.y, value.J});
+  };
+  for (int t = 0; t < X.cols(); ++t) add(Role::cost, t, differenceTerm(path.middleCols(t, 3), tau));
+  for (std::size_t i = 0; i < when.size(); ++i)
+    add(Role::equality, when[i],
+        {X.col(when[i]) - points.col(static_cast<Eigen::Index>(i)), Eigen::MatrixXd::Identity(n, n)});
+  return all;
+};
+return minimised(terms, start.replicate(1, when.back() + 1), 10 / std::pow(tau, 3), {1e-9, 1e-6}).X;
+
+// <variant straight_between_points>
+// caught by: through-points, other-points
+// mistake: goes straight from point to point.
+// <solution throughPoints>
+Eigen::MatrixXd X(start.size(), when.back() + 1);
+Eigen::VectorXd from = start;
+int before = -1;
+for (std::size_t i = 0; i < when.size(); ++i) {
+  const Eigen::VectorXd to = points.col(static_cast<Eigen::Index>(i));
+  for (int t = before + 1; t <= when[i]; ++t)
+    X.col(t) = from + (t - before) / static_cast<double>(when[i] - before) * (to - from);
+  from = to;
+  before = when[i];
+}
+return X;
+
+// <variant ends_of_the_way_swapped>
+// caught by: kept-apart
+// mistake: the derivatives by both ends of the way are swapped.
+// <solution keptApart>
+const Eigen::Index n = window.rows();
+TermValue all;
+for (int i = 0; i < samples; ++i) {
+  const double s = (i + 1.) / samples;
+  S.setJointAngles((1 - s) * window.col(0) + s * window.col(1));
+  const Clearances d = clearances(S);
+  const Eigen::Index pairs = d.y.size();
+  if (i == 0) all = {Eigen::VectorXd(samples * pairs), Eigen::MatrixXd(samples * pairs, 2 * n)};
+  all.y.segment(i * pairs, pairs) = (1 - d.y.array() / margin).matrix();
+  all.J.block(i * pairs, 0, pairs, n) = -s / margin * d.J;
+  all.J.block(i * pairs, n, pairs, n) = -(1 - s) / margin * d.J;
+}
+return all;
+
+// <variant looks_at_steps_only>
+// caught by: around-the-ball, around-others
+// shown by: around-the-ball
+// mistake: looks at the configurations only: thin obstacles fit between two of them.
+// <solution aroundObstacle>
+constexpr int kSamples = 1;
+const Eigen::VectorXd start = S.getJointAngles();
+const Eigen::Index n = start.size();
+const int last = errand.steps - 1;
+const Terms terms = [&](const Eigen::MatrixXd& X) {
+  Eigen::MatrixXd path(n, 2 + X.cols());
+  path << start, start, X;
+  std::vector<Term> all;
+  const auto add = [&](Role role, int t, const TermValue& value) {
+    all.push_back({role, t, value.y, value.J});
+  };
+  for (int t = 0; t <= last; ++t) {
+    add(Role::cost, t, differenceTerm(path.middleCols(t, 3), errand.tau));
+    add(Role::inequality, t, keptApart(S, path.middleCols(t + 1, 2), errand.margin, kSamples));
+  }
+  add(Role::equality, last, {X.col(last) - errand.goal, Eigen::MatrixXd::Identity(n, n)});
+  add(Role::equality, last, differenceTerm(X.rightCols(2), 1));
+  return all;
+};
+Eigen::MatrixXd points(n, 2);
+points << errand.detour, errand.goal;
+const Eigen::MatrixXd guess = throughPoints(start, points, {last / 2, last}, errand.tau);
+const Eigen::MatrixXd X = minimised(terms, guess, 1000, {1e-4, 1e-3}).X;
+S.setJointAngles(start);
+return X;
+
+// <variant takes_the_detour>
+// caught by: around-the-ball, around-others
+// shown by: around-the-ball
+// mistake: takes the detour, and optimises nothing.
+// <solution aroundObstacle>
+const Eigen::VectorXd start = S.getJointAngles();
+const int last = errand.steps - 1;
+Eigen::MatrixXd points(start.size(), 2);
+points << errand.detour, errand.goal;
+return throughPoints(start, points, {last / 2, last}, errand.tau);
+
+// <variant way_from_elsewhere>
+// caught by: around-the-ball, around-others
+// shown by: around-the-ball
+// mistake: takes the postures that once led around the ball of the README, wherever the ball is.
+// <solution aroundObstacle>
+Eigen::MatrixXd points(3, 5);
+points.transpose() << 0.5061, 0.3163, 0.3709, -0.0256, 0.4863, 0.6209, -0.5335, 0.5545, 0.7219, -0.7752,
+    0.3907, 0.4814, errand.goal.transpose();
+return throughPoints(S.getJointAngles(), points, {2, 5, 8, 11, errand.steps - 1}, errand.tau);

@@ -1,5 +1,0 @@
-// caught by: camera-refined, camera-any
-// mistake: returns the P that was given.
-
-// <solution refined>
-// </solution>

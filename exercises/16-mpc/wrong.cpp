@@ -1,0 +1,343 @@
+// Mistakes that students make, and the checks that catch them: a variant is solution.cpp with other regions.
+// `rex dev check` reads this file; it does not compile as it is.
+
+// <variant acts_on_the_past>
+// caught by: predict, more-predictions
+// mistake: rows and columns of the blocks are mixed up.
+// <solution predicted>
+Eigen::MatrixXd power = Eigen::MatrixXd::Identity(n, n);
+for (int age = 0; age < N; ++age, power = (plant.A * power).eval()) {
+  p.Sx.middleRows(age * n, n) = plant.A * power;
+  for (int t = 0; t + age < N; ++t) p.Su.block(t * n, (t + age) * m, n, m) = power * plant.B;
+}
+
+// <variant acts_once>
+// caught by: predict, more-predictions
+// mistake: a control acts on the next state only.
+// <solution predicted>
+Eigen::MatrixXd power = plant.A;
+for (int t = 0; t < N; ++t, power = (power * plant.A).eval()) {
+  p.Sx.middleRows(t * n, n) = power;
+  p.Su.block(t * n, t * m, n, m) = plant.B;
+}
+
+// <variant one_step_late>
+// caught by: predict, more-predictions
+// mistake: the effect of a control is one power of A too high.
+// <solution predicted>
+Eigen::MatrixXd power = plant.A;
+for (int age = 0; age < N; ++age, power = (plant.A * power).eval()) {
+  p.Sx.middleRows(age * n, n) = power;
+  for (int k = 0; k + age < N; ++k) p.Su.block((k + age) * n, k * m, n, m) = power * plant.B;
+}
+
+// <variant sx_begins_with_x0>
+// caught by: predict, more-predictions
+// shown by: predict
+// mistake: the first rows are those of x_0.
+// <solution predicted>
+p.Sx.topRows(n) = Eigen::MatrixXd::Identity(n, n);
+p.Su.topLeftCorner(n, m) = plant.B;
+for (int t = 1; t < N; ++t) {
+  p.Sx.middleRows(t * n, n) = plant.A * p.Sx.middleRows((t - 1) * n, n);
+  p.Su.middleRows(t * n, n) = plant.A * p.Su.middleRows((t - 1) * n, n);
+  p.Su.block(t * n, t * m, n, m) = plant.B;
+}
+
+// <variant free_controls>
+// caught by: plan-cost, more-costs
+// mistake: controls cost nothing.
+// <solution planCost>
+const Eigen::Index n = plant.A.rows();
+const Prediction p = predicted(plant, N);
+Eigen::MatrixXd weighted = p.Su;
+for (int t = 0; t < N; ++t)
+  weighted.middleRows(t* n, n) = (t + 1 < N ? costs.Q : costs.F) * p.Su.middleRows(t * n, n);
+return {2 * p.Su.transpose() * weighted, 2 * weighted.transpose() * (p.Sx * x)};
+
+// <variant half_the_cost>
+// caught by: plan-cost, more-costs
+// mistake: forgets that the quadratic form has a factor of one half.
+// <solution planCost>
+const Eigen::Index n = plant.A.rows(), m = plant.B.cols();
+const Prediction p = predicted(plant, N);
+Eigen::MatrixXd weighted = p.Su;
+for (int t = 0; t < N; ++t)
+  weighted.middleRows(t* n, n) = (t + 1 < N ? costs.Q : costs.F) * p.Su.middleRows(t * n, n);
+Quadratic cost{p.Su.transpose() * weighted, weighted.transpose() * (p.Sx * x)};
+for (int t = 0; t < N; ++t) cost.H.block(t* m, t* m, m, m) += costs.R;
+return cost;
+
+// <variant no_end>
+// caught by: plan-cost, more-costs
+// shown by: plan-cost
+// mistake: weighs the last state like all others.
+// <solution planCost>
+const Eigen::Index n = plant.A.rows(), m = plant.B.cols();
+const Prediction p = predicted(plant, N);
+Eigen::MatrixXd weighted = p.Su;
+for (int t = 0; t < N; ++t) weighted.middleRows(t* n, n) = costs.Q * p.Su.middleRows(t * n, n);
+Quadratic cost{2 * p.Su.transpose() * weighted, 2 * weighted.transpose() * (p.Sx * x)};
+for (int t = 0; t < N; ++t) cost.H.block(t* m, t* m, m, m) += 2 * costs.R;
+return cost;
+
+// <variant control_forgotten_in_the_end>
+// caught by: cost-to-go, more-to-go
+// mistake: adds up what states cost under the best controller, and not its controls.
+// <solution costToGo>
+const auto &A = plant.A, &B = plant.B;
+Eigen::MatrixXd F = Q, states = Q;
+for (int k = 0; k < 2000; ++k) {
+  const Eigen::MatrixXd FB = F * B, gain = solve(R + B.transpose() * FB, FB.transpose() * A);
+  const Eigen::MatrixXd closed = A - B * gain;
+  const Eigen::MatrixXd before = Q + A.transpose() * F * closed;
+  F = .5 * (before + before.transpose());
+  states = (Q + closed.transpose() * states * closed).eval();
+}
+return states;
+
+// <variant five_steps_to_go>
+// caught by: cost-to-go, more-to-go
+// mistake: takes five steps for all times to come.
+// <solution costToGo>
+const auto &A = plant.A, &B = plant.B;
+Eigen::MatrixXd F = Q;
+for (int k = 0; k < 5; ++k) {
+  const Eigen::MatrixXd FB = F * B, gain = solve(R + B.transpose() * FB, FB.transpose() * A);
+  F = Q + A.transpose() * F * (A - B * gain);
+}
+return F;
+
+// <variant one_step_to_go>
+// caught by: cost-to-go, more-to-go
+// shown by: cost-to-go
+// mistake: looks one step ahead only.
+// <solution costToGo>
+const auto &A = plant.A, &B = plant.B;
+const Eigen::MatrixXd gain = solve(R + B.transpose() * Q * B, B.transpose() * Q * A);
+return Q + A.transpose() * Q * (A - B * gain);
+
+// <variant all_move_together>
+// caught by: moves
+// mistake: a Newton step of all numbers, cut off.
+// <solution bestMoves>
+const Eigen::VectorXd slope = cost.H * z + cost.g;
+const Eigen::VectorXd best = z - solve(cost.H, slope);
+return best.cwiseMax(lower).cwiseMin(upper) - z;
+
+// <variant moves_without_bounds>
+// caught by: moves
+// shown by: moves
+// mistake: forgets the bounds.
+// <solution bestMoves>
+return -Eigen::VectorXd(cost.H * z + cost.g).cwiseQuotient(cost.H.diagonal());
+
+// <variant position_for_a_move>
+// caught by: moves
+// mistake: returns where the numbers would go.
+// <solution bestMoves>
+const Eigen::VectorXd slope = cost.H * z + cost.g;
+const Eigen::VectorXd best = z - slope.cwiseQuotient(cost.H.diagonal());
+return best.cwiseMax(lower).cwiseMin(upper);
+
+// <variant slope_for_a_move>
+// caught by: moves
+// mistake: takes the slope for the move.
+// <solution bestMoves>
+const Eigen::VectorXd best = z - (cost.H * z + cost.g);
+return best.cwiseMax(lower).cwiseMin(upper) - z;
+
+// <variant all_at_once>
+// caught by: box
+// mistake: corrects the guess of what is held everywhere at once, and gives up in the end.
+// <solution boxed>
+const int size = static_cast<int>(lower.size());
+Eigen::VectorXd z = Eigen::VectorXd::Zero(size);
+std::vector<int> held(static_cast<std::size_t>(size), 0);  // -1 at the lower bound, 1 at the upper one
+for (int round = 0; round < 200; ++round) {
+  Eigen::MatrixXd rows = cost.H;
+  Eigen::VectorXd right = -cost.g;
+  for (int i = 0; i < size; ++i) {
+    const int side = held[static_cast<std::size_t>(i)];
+    if (side == 0) continue;
+    rows.row(i) = Eigen::RowVectorXd::Unit(size, i);
+    right[i] = side < 0 ? lower[i] : upper[i];
+  }
+  z = solve(rows, right);
+  const Eigen::VectorXd slope = cost.H * z + cost.g;
+  bool isSame = true;
+  for (int i = 0; i < size; ++i) {
+    int& side = held[static_cast<std::size_t>(i)];
+    const int before = side;
+    if (side == 0)
+      side = z[i] < lower[i] ? -1 : z[i] > upper[i] ? 1 : 0;
+    else if (side * slope[i] > 0)
+      side = 0;
+    isSame = isSame && side == before;
+  }
+  if (isSame) break;
+}
+return z.cwiseMax(lower).cwiseMin(upper);
+
+// <variant cut_off>
+// caught by: box, more-boxes, plan, more-plans
+// shown by: box, plan
+// mistake: cuts off the minimum without bounds.
+// <solution boxed>
+return Eigen::VectorXd(-solve(cost.H, cost.g)).cwiseMax(lower).cwiseMin(upper);
+
+// <variant few_rounds>
+// caught by: more-boxes
+// mistake: moves each number in turn, but only a hundred times.
+// <solution boxed>
+Eigen::VectorXd z = Eigen::VectorXd::Zero(lower.size()).cwiseMax(lower).cwiseMin(upper);
+for (int round = 0; round < 100; ++round)
+  for (Eigen::Index i = 0; i < z.size(); ++i)
+    z[i] = std::clamp(z[i] - (cost.H.row(i).dot(z) + cost.g[i]) / cost.H(i, i), lower[i], upper[i]);
+return z;
+
+// <variant never_lets_go>
+// caught by: box, more-boxes
+// mistake: a number that was held once is held for ever.
+// <solution boxed>
+const int size = static_cast<int>(lower.size());
+Eigen::VectorXd z = Eigen::VectorXd::Zero(size);
+std::vector<bool> isHeld(static_cast<std::size_t>(size), false);
+for (;;) {
+  std::vector<int> free, held;
+  for (int i = 0; i < size; ++i) (isHeld[static_cast<std::size_t>(i)] ? held : free).push_back(i);
+  if (free.empty()) return z;
+  Eigen::VectorXd right = -cost.g(free);
+  if (!held.empty()) right -= cost.H(free, held) * z(held);
+  z(free) = solve(cost.H(free, free), right);
+  bool isInside = true;
+  for (const int i : free) {
+    if (z[i] >= lower[i] && z[i] <= upper[i]) continue;
+    z[i] = std::clamp(z[i], lower[i], upper[i]);
+    isHeld[static_cast<std::size_t>(i)] = true;
+    isInside = false;
+  }
+  if (isInside) return z;
+}
+
+// <variant bounds_of_the_first_step>
+// caught by: plan, more-plans
+// mistake: only the first control has bounds.
+// <solution planned>
+const Eigen::Index m = task.uMin.size();
+Eigen::VectorXd lower = Eigen::VectorXd::Constant(m * task.N, -1e6), upper = -lower;
+lower.head(m) = task.uMin;
+upper.head(m) = task.uMax;
+return boxed(planCost(task.plant, task.costs, task.N, x), lower, upper).reshaped(m, task.N);
+
+// <variant calls_the_library>
+// caught by: forbidden-call
+// mistake: lets the library plan.
+// <solution headers>
+#include "control/predictive_controller.h"
+// <solution planned>
+const PredictiveController controller({.A = task.plant.A, .B = task.plant.B, .step = 1.},
+                                      {.Q = task.costs.Q,
+                                       .R = task.costs.R,
+                                       .F = task.costs.F,
+                                       .horizon = task.N,
+                                       .uMin = task.uMin,
+                                       .uMax = task.uMax});
+return controller.plan(x).U;
+
+// <variant read_row_by_row>
+// caught by: plan, more-plans
+// mistake: takes the first N numbers for the first control.
+// <solution planned>
+const Eigen::VectorXd U = boxed(planCost(task.plant, task.costs, task.N, x), task.uMin.replicate(task.N, 1),
+                                task.uMax.replicate(task.N, 1));
+return U.reshaped(task.N, task.uMin.size()).transpose();
+
+// <variant follows_plans_to_their_end>
+// caught by: drive, more-drives
+// mistake: plans again only when a plan is used up.
+// <solution driven>
+Eigen::MatrixXd plan;
+for (Eigen::Index t = 0; t < T; ++t) {
+  if (t % task.N == 0) plan = planned(task, drive.X.col(t));
+  drive.U.col(t) = plan.col(t % task.N);
+  drive.X.col(t + 1) = task.plant.A * drive.X.col(t) + task.plant.B * drive.U.col(t) + pushes.col(t);
+}
+
+// <variant follows_the_first_plan>
+// caught by: drive, more-drives
+// shown by: drive
+// mistake: plans once, and follows this plan to its end.
+// <solution driven>
+const Eigen::MatrixXd plan = planned(task, start);
+for (Eigen::Index t = 0; t < T; ++t) {
+  if (t < task.N) drive.U.col(t) = plan.col(t);
+  drive.X.col(t + 1) = task.plant.A * drive.X.col(t) + task.plant.B * drive.U.col(t) + pushes.col(t);
+}
+
+// <variant last_of_the_plan>
+// caught by: drive, more-drives
+// mistake: uses the last control of each plan.
+// <solution driven>
+for (Eigen::Index t = 0; t < T; ++t) {
+  drive.U.col(t) = planned(task, drive.X.col(t)).rightCols(1);
+  drive.X.col(t + 1) = task.plant.A * drive.X.col(t) + task.plant.B * drive.U.col(t) + pushes.col(t);
+}
+
+// <variant nobody_pushes>
+// caught by: drive, more-drives
+// mistake: leaves out the pushes.
+// <solution driven>
+for (Eigen::Index t = 0; t < T; ++t) {
+  drive.U.col(t) = planned(task, drive.X.col(t)).col(0);
+  drive.X.col(t + 1) = task.plant.A * drive.X.col(t) + task.plant.B * drive.U.col(t);
+}
+
+// <variant half_the_wall>
+// caught by: wall, more-walls
+// shown by: wall
+// mistake: forgets the factor of one half in the quadratic form.
+// <solution plannedWithin>
+const Prediction p = predicted(task.plant, task.N);
+const Quadratic plain = planCost(task.plant, task.costs, task.N, x);
+const Eigen::Index controls = p.Su.cols(), states = p.Su.rows();
+const Eigen::VectorXd drift = p.Sx * x;
+const Eigen::MatrixXd cross = -corridor.weight * p.Su;
+Quadratic both{Eigen::MatrixXd::Zero(controls + states, controls + states),
+               Eigen::VectorXd(controls + states)};
+both.H << plain.H - cross.transpose() * p.Su,
+    cross.transpose(), cross, corridor.weight* Eigen::MatrixXd::Identity(states, states);
+both.g << plain.g - cross.transpose() * drift, -corridor.weight* drift;
+Eigen::VectorXd lower(controls + states), upper(controls + states);
+lower << task.uMin.replicate(task.N, 1), corridor.xMin.replicate(task.N, 1);
+upper << task.uMax.replicate(task.N, 1), corridor.xMax.replicate(task.N, 1);
+return boxed(both, lower, upper).head(controls).reshaped(task.uMin.size(), task.N);
+
+// <variant no_wall>
+// caught by: wall, more-walls
+// mistake: plans as if there were no corridor.
+// <solution plannedWithin>
+return planned(task, x);
+
+// <variant only_the_upper_wall>
+// caught by: wall, more-walls
+// mistake: only states above the corridor cost.
+// <solution plannedWithin>
+const Prediction p = predicted(task.plant, task.N);
+const Eigen::VectorXd most = corridor.xMax.replicate(task.N, 1);
+Quadratic cost = planCost(task.plant, task.costs, task.N, x);
+const Quadratic plain = cost;
+const Eigen::VectorXd lower = task.uMin.replicate(task.N, 1), upper = task.uMax.replicate(task.N, 1);
+Eigen::VectorXd U = boxed(plain, lower, upper);
+for (int round = 0; round < 50; ++round) {
+  const Eigen::VectorXd X = p.Sx * x + p.Su * U;
+  cost = plain;
+  for (Eigen::Index i = 0; i < X.size(); ++i) {
+    if (X[i] <= most[i]) continue;
+    const Eigen::VectorXd row = p.Su.row(i);
+    cost.H += 2 * corridor.weight * row * row.transpose();
+    cost.g += 2 * corridor.weight * ((p.Sx.row(i) * x)(0) - most[i]) * row;
+  }
+  U = boxed(cost, lower, upper);
+}
+return U.reshaped(task.uMin.size(), task.N);
