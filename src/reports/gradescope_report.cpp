@@ -52,6 +52,14 @@ std::string outputOf(const GradeResult& result) {
   return pointsOf(result) + (printed.empty() ? "" : "\n\nThe program printed:\n" + printed);
 }
 
+// A line for each sentence of the judgement, before `text`; only the text without one.
+std::string judgedText(const Judgement* judgement, const std::string& text) {
+  if (judgement == nullptr) return text;
+  std::string judged = shownText(judgement->student) + "\n";
+  for (const std::string& sentence : sentencesOf(*judgement)) judged += shownText(sentence) + "\n";
+  return judged + "\n" + text;
+}
+
 }  // namespace
 
 std::string gradescopeReport(const GradeResult& result, const Judgement* judgement) {

@@ -3,12 +3,10 @@
 namespace rex::grading {
 
 std::span<const ReportFormat> reportFormats() {
-  static constexpr ReportFormat kFormats[] = {{"exercism", "exercism.json", exercismReport},
-                                              {"github", "github.txt", githubReport},
+  static constexpr ReportFormat kFormats[] = {{"github", "github.txt", githubReport},
                                               {"gradescope", "gradescope.json", gradescopeReport},
                                               {"junit", "junit.xml", junitReport},
-                                              {"markdown", "summary.md", markdownReport},
-                                              {"prairielearn", "prairielearn.json", prairielearnReport}};
+                                              {"markdown", "summary.md", markdownReport}};
   return kFormats;
 }
 

@@ -15,8 +15,6 @@ namespace rex::grading {
 /// is never written as a grade. A judgement is shown as such, and its final points are the points of the
 /// whole; the checks keep theirs. Formats and fields: share/doc/report-formats.md.
 [[nodiscard]] std::string gradescopeReport(const GradeResult& result, const Judgement* judgement = nullptr);
-[[nodiscard]] std::string prairielearnReport(const GradeResult& result, const Judgement* judgement = nullptr);
-[[nodiscard]] std::string exercismReport(const GradeResult& result, const Judgement* judgement = nullptr);
 [[nodiscard]] std::string junitReport(const GradeResult& result, const Judgement* judgement = nullptr);
 [[nodiscard]] std::string markdownReport(const GradeResult& result, const Judgement* judgement = nullptr);
 [[nodiscard]] std::string githubReport(const GradeResult& result, const Judgement* judgement = nullptr);

@@ -47,13 +47,6 @@ std::string pathOf(const GradeResult& result) {
   return fmt::format("exercises/{}/{}", shownText(result.exerciseId), fileOf(result));
 }
 
-std::string judgedText(const Judgement* judgement, const std::string& text) {
-  if (judgement == nullptr) return text;
-  std::string judged = shownText(judgement->student) + "\n";
-  for (const std::string& sentence : sentencesOf(*judgement)) judged += shownText(sentence) + "\n";
-  return judged + "\n" + text;
-}
-
 std::string pointsOf(const GradeResult& result) {
   return fmt::format("{} of {} points", result.score, result.maxScore);
 }

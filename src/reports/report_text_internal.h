@@ -5,7 +5,6 @@
 #include <string_view>
 
 #include "grading/results.h"
-#include "reports/judgement.h"
 
 namespace rex::grading::internal {
 
@@ -36,9 +35,6 @@ inline constexpr const char* kGraderFailed =
 
 /// The same in the student's tree: "exercises/01-kinematics/main.cpp".
 [[nodiscard]] std::string pathOf(const GradeResult& result);
-
-/// A line for each sentence of the judgement, before `text`; only the text without one.
-[[nodiscard]] std::string judgedText(const Judgement* judgement, const std::string& text);
 
 /// "3 of 9 points".
 [[nodiscard]] std::string pointsOf(const GradeResult& result);

@@ -116,37 +116,6 @@ class Comparison:
                 wanted = "" if check["status"] == "pass" else message_of(check, self.result)
                 self.expect("output", test["output"], wanted)
 
-    def prairielearn(self, text):
-        report = json.loads(text)
-        self.expect("gradable", report["gradable"], not (self.is_fault or self.is_broken))
-        if not report["gradable"]:
-            return
-        tests = report["tests"]
-        self.expect("sum", sum(test["points"] for test in tests), self.result["score"])
-        self.expect("maximum", sum(test["max_points"] for test in tests), self.result["max_score"])
-        self.expect("score", round(report["score"] * self.result["max_score"], 6), self.result["score"])
-        self.expect("names", [test["name"] for test in tests], [shown(check["title"]) for check in self.checks])
-        for test, check in zip(tests, self.checks):
-            silent = check["status"] == "pass" or check["group"] == "hidden"
-            self.expect("message", test["message"], "" if silent else message_of(check, self.result))
-
-    def exercism(self, text):
-        report = json.loads(text)
-        if self.is_fault or self.is_broken:
-            self.expect("status", report["status"], "error")
-            return
-        self.expect("status", report["status"], "pass" if self.result["outcome"] == "pass" else "fail")
-        statuses = {"pass": "pass", "fail": "fail", "not_run": "fail"}
-        wanted = [(shown(check["title"]), statuses.get(check["status"], "error"),
-                   None if check["status"] == "pass" else message_of(check, self.result))
-                  for check in self.visible]
-        if self.hidden:
-            passed = sum(check["status"] == "pass" for check in self.hidden)
-            full = passed == len(self.hidden)
-            wanted.append(("Hidden checks", "pass" if full else "fail",
-                           None if full else f"{passed} of {len(self.hidden)} pass"))
-        self.expect("tests", [(t["name"], t["status"], t["message"]) for t in report["tests"]], wanted)
-
     def junit(self, text):
         def allowed(value):
             return re.sub("[\ufffe\uffff]", "\ufffd", value)
@@ -250,7 +219,7 @@ class Comparison:
             self.expect("printed", html.unescape(block), f"<pre>\n{printed}\n</pre>\n")
 
 
-FORMATS = ("exercism", "github", "gradescope", "junit", "markdown", "prairielearn")
+FORMATS = ("github", "gradescope", "junit", "markdown")
 
 
 def differences(folder):

@@ -40,7 +40,7 @@ void addReport(CLI::App* command, Action& action) {
   command->footer(
       "Examples:\n  scripts/rex report out/01-kinematics/results.json --format markdown\n"
       "  scripts/rex report results.json --format gradescope -o results/results.json\n\n"
-      "Formats: exercism, github (annotations), gradescope, junit, markdown, prairielearn.\n"
+      "Formats: github (annotations), gradescope, junit, markdown.\n"
       "Exit code 0: written, whatever the grade; 3: written, but the grader had failed.");
   command->add_option("RESULTS", options->results, "a result file that rex test left")
       ->type_name("")

@@ -172,7 +172,7 @@ TEST_F(GradeAgainTest, WritesReportsBesideResultsWithoutGradingAgain) {
   EXPECT_FALSE(fs::exists(junit));
   const Ended unknown = grade({"--reports=markdwn"});
   EXPECT_EQ(unknown.code, 64);
-  EXPECT_THAT(flat(unknown.error), HasSubstr("--reports: found markdwn, wanted one of exercism, github"));
+  EXPECT_THAT(flat(unknown.error), HasSubstr("--reports: found markdwn, wanted one of github"));
   EXPECT_THAT(flat(unknown.error), HasSubstr("did you mean 'markdown'?"));
 }
 
