@@ -168,7 +168,7 @@ def folders(folder, students, exercise):
             os.utime(file, (student.time, student.time))
 
 
-def classroom(folder, students):
+def git_clones(folder, students):
     """Clones with a whole course inside, roster and record."""
     handed_out = (ROOT / "exercises" / BASICS / "main.cpp").read_text()
     record = [["assignment_name", "github_username", "roster_identifier", "student_repository_name",

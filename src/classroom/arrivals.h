@@ -57,14 +57,14 @@ struct MoodleOptions {
 [[nodiscard]] Arrivals readGradescope(const std::filesystem::path& source,
                                       const std::vector<ExerciseInfo>& exercises);
 
-struct ClassroomOptions {
-  std::filesystem::path roster{};  ///< CSV file of the classroom; empty: none
-  std::filesystem::path record{};  ///< CSV file of the platform: when which repository was handed in
+struct CloneOptions {
+  std::filesystem::path roster{};  ///< CSV file that says who is who; empty: none
+  std::filesystem::path record{};  ///< CSV file: when which repository was handed in; empty: none
   std::string assignment{};        ///< what the names of clones begin with; empty: what they have in common
   std::optional<std::int64_t> deadline{};  ///< take the last commit until then
 };
 /// Reads a folder of clones. Throws like readMoodle().
-[[nodiscard]] Arrivals readClassroom(const std::filesystem::path& source, const ClassroomOptions& options,
+[[nodiscard]] Arrivals readClones(const std::filesystem::path& source, const CloneOptions& options,
                                      const std::vector<ExerciseInfo>& exercises);
 
 /// Reads NAME/main.cpp, NAME.cpp and NAME.zip. Throws like readMoodle().

@@ -24,15 +24,6 @@ namespace rex::grading {
 int writeFeedbackFolders(const Gradebook& book, const std::filesystem::path& results,
                          const std::filesystem::path& out);
 
-/// A mail to a student about all rows: the text of a file .eml (RFC 5322). `date` in seconds since 1970.
-/// Throws Error for addresses that cannot stand in a header.
-[[nodiscard]] std::string gradeMail(const Gradebook& book, const CourseStudent& student,
-                                    const std::filesystem::path& results, const std::string& course,
-                                    const std::string& from, std::int64_t date);
-
-/// Why this cannot be an e-mail address in a header; empty if it can.
-[[nodiscard]] std::string whyNoAddress(const std::string& address);
-
 /// The whole book for programs: schema rex-grades/1, share/grading/grades.schema.json.
 [[nodiscard]] std::string gradesJson(const Gradebook& book, const Course& course);
 

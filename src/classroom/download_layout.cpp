@@ -31,7 +31,7 @@ std::string wantedBy(Platform platform) {
     case Platform::kMoodle:
       return "the zip of \"Download all submissions\", with folders such as 'Zoe "
              "Miller_501_assignsubmission_file_'";
-    case Platform::kClassroom:
+    case Platform::kGit:
       return "a folder of clones, such as 'kinematics-zoe/.git'";
     case Platform::kGradescope:
       return fmt::format("the zip of \"Export Submissions\", with '{}'", kGradescopeMetadata);
@@ -81,7 +81,7 @@ UsageError refusal(const fs::path& path, Platform wanted, const Layout& found) {
 }  // namespace
 
 std::string_view toString(Platform platform) {
-  constexpr std::string_view kNames[] = {"moodle", "classroom", "gradescope", "folders"};
+  constexpr std::string_view kNames[] = {"moodle", "git", "gradescope", "folders"};
   return kNames[static_cast<int>(platform)];
 }
 
@@ -103,7 +103,7 @@ Layout layoutOf(const std::vector<std::string>& names, const std::vector<Exercis
     if (std::any_of(parts.begin(), parts.end(), [](const auto& part) { return parseMoodleName(part); }))
       layout.platform = Platform::kMoodle;
     else if (parts.size() > 2 && has(".git"))
-      layout.platform = Platform::kClassroom;
+      layout.platform = Platform::kGit;
     const bool isInExercise = parts.size() > 1 && isExerciseName(exercises, parts[parts.size() - 2]);
     isClass = isClass || (parts.size() == 3 && parts[2] == "main.cpp" && isInExercise);
     isFlat = isFlat || ((isSourceName(name) || isArchiveName(name)) && (parts.size() > 3 || !isInExercise));

@@ -12,7 +12,7 @@
 namespace rex::grading {
 
 /// The platforms whose layouts are known.
-enum class Platform { kMoodle, kClassroom, kGradescope, kFolders };
+enum class Platform { kMoodle, kGit, kGradescope, kFolders };
 [[nodiscard]] std::string_view toString(Platform platform);
 
 /// What lies in a folder or an archive, by its names.

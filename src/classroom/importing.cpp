@@ -193,7 +193,7 @@ class Importer {
   // If the platform keeps no attempts, each import that brought another text is one of at least so many.
   void countAttempts(const PickedFile& file, const std::string& member, ImportedExercise& entry) {
     entry.attempts = file.attempts;
-    entry.attemptsFrom = arrivals_.platform == Platform::kClassroom ? "git" : "platform";
+    entry.attemptsFrom = arrivals_.platform == Platform::kGit ? "git" : "platform";
     if (file.attempts > 0) return;
     const auto before = entryOf(member).exercises.find(file.exercise);
     const bool isKnown = before != entryOf(member).exercises.end() && !before->second.sha256.empty();

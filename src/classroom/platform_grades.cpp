@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "base/instant.h"
 #include "classroom/csv.h"
-#include "classroom/submission_owners.h"
 
 namespace rex::grading {
 namespace {
@@ -66,30 +64,6 @@ PlatformGrades canvasGrades(const Gradebook& book) {
     for (const std::string& exercise : book.exercises)
       cells.push_back(finalText(book.row(sum.student.id, exercise)));
     grades.csv += csvLine(cells);
-  }
-  tellEmpty(book, grades);
-  return grades;
-}
-
-PlatformGrades classroomGrades(const Gradebook& book, const std::string& exercise,
-                               const ImportTable& imported) {
-  PlatformGrades grades{
-      .csv = csvLine({"assignment_name", "assignment_url", "starter_code_url", "github_username",
-                      "roster_identifier", "student_repository_name", "student_repository_url",
-                      "submission_timestamp", "points_awarded", "points_available"})};
-  std::map<std::string, std::string> users;
-  const Course everyone = book.everyone();
-  for (const ImportedStudent& person : imported.students)
-    if (const std::string id = studentOf(person, everyone); !id.empty() && !person.githubUsername.empty())
-      users[id] = person.githubUsername;
-  for (const GradeRow& row : book.rows) {
-    if (row.exercise != exercise) continue;
-    const std::string& user = users[row.student.id];
-    if (user.empty() && row.final)
-      grades.notes.push_back(fmt::format("{}: no user name at GitHub is known", row.student.id));
-    grades.csv +=
-        csvLine({exercise, "", "", user, sisOf(row.student), "", "",
-                 row.task ? instantText(row.submitted) : "", finalText(&row), hundredthsText(row.possible)});
   }
   tellEmpty(book, grades);
   return grades;

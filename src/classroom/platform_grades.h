@@ -20,10 +20,6 @@ struct PlatformGrades {
 /// For the import of Canvas: a column per exercise, with the row of possible points.
 [[nodiscard]] PlatformGrades canvasGrades(const Gradebook& book);
 
-/// The columns in which GitHub Classroom gives its grades, for one exercise.
-[[nodiscard]] PlatformGrades classroomGrades(const Gradebook& book, const std::string& exercise,
-                                             const ImportTable& imported);
-
 /// A student of Moodle's grading worksheet.
 struct WorksheetRow {
   std::string student{};  ///< id in the book; empty: nobody

@@ -59,7 +59,7 @@ std::span<const TableEntry> commandTable() {
       {"grade", "Grade the submissions of many students", kInstructor},
       {"grade-one", "Grade one line of a list of tasks, unless it is done", kInstructor},
       {"collect", "Make the table of grades, list missing tasks", kInstructor},
-      {"export", "Write grades and feedback for Moodle, Canvas, mail and others", kInstructor},
+      {"export", "Write grades and feedback for Moodle, Canvas and others", kInstructor},
       {"doctor", "Test what pictures need on this machine, or attack its sandbox", kRobot},
       {"bench", "Measure speed against other libraries", kInstructor},
       {"dev", "For those who write exercises and teach: new, check, release, stats", kInstructor},

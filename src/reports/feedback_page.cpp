@@ -180,25 +180,4 @@ std::string feedbackPage(const Feedback& feedback, const std::vector<FeedbackFil
   return page + listingHtml(feedback) + "</body>\n</html>\n";
 }
 
-std::string feedbackText(const Feedback& feedback) {
-  const GradeResult& result = feedback.result;
-  std::string text = fmt::format("{}: {}\n", shownText(result.exerciseId), gradeOf(feedback));
-  int hidden = 0;
-  if (result.outcome == Outcome::kCompileError)
-    text += "  Cannot be graded:\n" + compileText(result) + "\n";
-  else if (result.outcome != Outcome::kGraderError)
-    for (const CheckResult& check : result.checks) {
-      text += fmt::format("  {}/{}  {}: {}\n", check.points, check.maxPoints, nameOfCheck(check, hidden),
-                          statusOf(check));
-      if (const std::string found = foundBy(check, result); !found.empty()) text += "        " + found + "\n";
-    }
-  if (feedback.judgement)
-    for (const std::string& sentence : sentencesOf(*feedback.judgement))
-      text += "  " + shownText(sentence) + "\n";
-  for (const LineComment& comment : feedback.comments)
-    text += fmt::format("  {}{}{}\n", comment.line > 0 ? fmt::format("main.cpp:{}: ", comment.line) : "",
-                        shownText(comment.text), shownText(author(comment)));
-  return text;
-}
-
 }  // namespace rex::grading

@@ -42,7 +42,4 @@ struct FeedbackFile {
 [[nodiscard]] std::string checksHtml(const GradeResult& result, const std::string& path = "");
 [[nodiscard]] std::string listingHtml(const Feedback& feedback, const std::string& path = "");
 
-/// The same as plain text without pictures, for mails.
-[[nodiscard]] std::string feedbackText(const Feedback& feedback);
-
 }  // namespace rex::grading

@@ -60,9 +60,6 @@ TEST_F(ClassFeedbackTest, ShowsEachStudentNothingOfOthersNorOfHiddenChecks) {
     for (const char* own :
          {"-name", "-message &#60;b&#62;", "-line &#60;/td&#62;", "-comment (Tutor)", "-turn.html"})
       EXPECT_THAT(all, HasSubstr(mark + own));
-    const std::string mail =
-        gradeMail(book(), *source_.course.student(student), source_.out, "Robotics", "tutor@uni.example", 0);
-    EXPECT_THAT(mail, Not(HasSubstr(other)));
   }
   const std::string page = fileText(out / "adam" / kEx / "feedback.html");
   EXPECT_THAT(page, HasSubstr("<h1>01-kinematics: 4 of 10 points</h1>"));
@@ -97,29 +94,7 @@ TEST_F(ClassFeedbackTest, SaysWhatDoesNotCompileAndGivesNothingForNothing) {
   const auto feedback = feedbackOf(*book().row("adam", kEx), source_.out).value();
   EXPECT_THAT(feedbackPage(feedback, {}),
               HasSubstr("<pre>main.cpp:2: error: expected &#39;}&#39; &#60;x&#62;"));
-  EXPECT_THAT(feedbackText(feedback), HasSubstr("  Cannot be graded:\nmain.cpp:2: error: expected"));
   EXPECT_FALSE(feedbackOf(*book().row("zoe", kEx), source_.out).has_value());
-}
-
-TEST_F(ClassFeedbackTest, LetsNoNameForgeAHeaderOfAMail) {
-  CourseStudent student = source_.course.students[0];
-  student.name = "Zoë\r\nBcc: all@uni.example\r\n\r\n<b> " + std::string(60, 'x');
-  const std::string mail = gradeMail(book(), student, source_.out, "Robotics\nX: y", "tutor@uni.example", 0);
-  const std::string head = mail.substr(0, mail.find("\r\n\r\n"));
-  EXPECT_THAT(head, Not(HasSubstr("Bcc")));
-  EXPECT_THAT(
-      head,
-      HasSubstr("Date: Thu, 01 Jan 1970 00:00:00 +0000\r\nFrom: <tutor@uni.example>\r\nTo: =?UTF-8?B?"));
-  student.email = "a@b>\r\nBcc: c@d";
-  EXPECT_REX_ERROR((void)gradeMail(book(), student, source_.out, "", "tutor@uni.example", 0),
-                   "the e-mail address of 'adam': found 'a@b>");
-  student.email = "a@b";
-  EXPECT_REX_ERROR((void)gradeMail(book(), student, source_.out, "", "", 0),
-                   "the e-mail address of the sender: found none, wanted");
-  EXPECT_THAT(whyNoAddress("a.b"), HasSubstr("which is not NAME@HOST"));
-  EXPECT_THAT(whyNoAddress("a@b@c"), HasSubstr("which is not NAME@HOST"));
-  EXPECT_THAT(whyNoAddress(std::string(300, 'a') + "@b"), HasSubstr("more than 250 characters"));
-  EXPECT_EQ(whyNoAddress("zoe.m+x@uni-b.example"), "");
 }
 
 TEST_F(ClassFeedbackTest, RefusesStudentsWhoseNameIsNoFolder) {

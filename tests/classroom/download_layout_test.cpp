@@ -26,8 +26,8 @@ TEST(DownloadLayout, IsKnownByTheNamesThatPlatformsGive) {
       {"Zoe Miller_501_assignsubmission_file_/main.cpp", Platform::kMoodle},
       {"Robotics-501/Zoe_501_assignsubmission_file_/course.zip", Platform::kMoodle},
       {"Zoe_501_assignsubmission_file_main.cpp", Platform::kMoodle},
-      {"kinematics-zoe/.git/HEAD", Platform::kClassroom},
-      {"zoe/kinematics/.git/HEAD", Platform::kClassroom},
+      {"kinematics-zoe/.git/HEAD", Platform::kGit},
+      {"zoe/kinematics/.git/HEAD", Platform::kGit},
       {"assignment_7_export/submission_metadata.yml", Platform::kGradescope},
       {"zoe/main.cpp", Platform::kFolders},
       {"zoe.cpp", Platform::kFolders},
@@ -58,9 +58,9 @@ TEST(DownloadLayout, OfAFolderLooksIntoNoRepository) {
   const TemporaryFolder folder;
   writeTextFile(folder.path() / "hw-zoe/.git/objects/Zoe_1_assignsubmission_file_", "x");
   writeTextFile(folder.path() / "hw-zoe/01/main.cpp", "x");
-  EXPECT_EQ(layoutOfFolder(folder.path(), twoExercises()).platform, Platform::kClassroom);
+  EXPECT_EQ(layoutOfFolder(folder.path(), twoExercises()).platform, Platform::kGit);
   EXPECT_EQ(layoutOfFolder(folder.path(), twoExercises()).found, "2 files such as 'hw-zoe/.git/HEAD'");
-  requireLayout(Platform::kClassroom, folder.path(), twoExercises());
+  requireLayout(Platform::kGit, folder.path(), twoExercises());
   EXPECT_REX_ERROR(
       requireLayout(Platform::kMoodle, folder.path(), twoExercises()),
       "nothing that `rex import moodle` knows: found 2 files such as 'hw-zoe/.git/HEAD', wanted the "
@@ -95,7 +95,7 @@ TEST(MoodleNames, ComeApart) {
 
 TEST(Platforms, HaveTheNamesOfTheirCommands) {
   EXPECT_EQ(toString(Platform::kMoodle), "moodle");
-  EXPECT_EQ(toString(Platform::kClassroom), "classroom");
+  EXPECT_EQ(toString(Platform::kGit), "classroom");
   EXPECT_EQ(toString(Platform::kGradescope), "gradescope");
   EXPECT_EQ(toString(Platform::kFolders), "folders");
 }

@@ -436,8 +436,8 @@ TEST_F(ImportingTest, SaysWhichImporterFits) {
   EXPECT_REX_ERROR(readMoodle(gradescopes, {}, exercises_), "`rex import gradescope` takes what is there");
   EXPECT_REX_ERROR(readFolders(moodles, exercises_), "`rex import moodle` takes what is there");
   EXPECT_REX_ERROR(readGradescope(mails, exercises_), "`rex import folders` takes what is there");
-  EXPECT_REX_ERROR(readFolders(in("c"), exercises_), "`rex import classroom` takes what is there");
-  EXPECT_REX_ERROR(readClassroom(ready, {}, exercises_), "`rex grade` takes what is there as it is");
+  EXPECT_REX_ERROR(readFolders(in("c"), exercises_), "`rex import git` takes what is there");
+  EXPECT_REX_ERROR(readClones(ready, {}, exercises_), "`rex grade` takes what is there as it is");
   EXPECT_REX_ERROR(readMoodle(other, {}, exercises_),
                    "o: nothing that `rex import moodle` knows: found 1 file such as 'a");
   EXPECT_REX_ERROR(readMoodle(in("none"), {}, exercises_), "no such file or folder");
@@ -445,7 +445,7 @@ TEST_F(ImportingTest, SaysWhichImporterFits) {
                    "a.txt: not a download: found a file, wanted a .zip");
   EXPECT_REX_ERROR(readMoodle(write("broken.zip", "a"), {}, exercises_),
                    "broken.zip: this archive is not accepted");
-  EXPECT_REX_ERROR(readClassroom(in("m.zip"), {}, exercises_), "no such folder");
+  EXPECT_REX_ERROR(readClones(in("m.zip"), {}, exercises_), "no such folder");
 }
 
 TEST_F(ImportingTest, LeavesOutWhatIsHostileAndTakesTheRest) {

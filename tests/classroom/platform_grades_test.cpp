@@ -52,15 +52,6 @@ TEST_F(PlatformGradesTest, WritesTheColumnsOfGradescopeAndCanvas) {
               ElementsAre("adam 01-kinematics: no grade yet (the result is for other inputs)"));
 }
 
-TEST_F(PlatformGradesTest, WritesTheColumnsOfClassroom) {
-  EXPECT_THAT(classroomGrades(book(), kEx, {}).notes, ElementsAre("adam: no user name at GitHub is known"));
-  const ImportTable imported{{{.student = "adam", .githubUsername = "octo"}}};
-  const PlatformGrades grades = classroomGrades(book(), kEx, imported);
-  EXPECT_THAT(grades.csv, HasSubstr("points_awarded,points_available\n01-kinematics,,,octo,4711,,,"
-                                    "2023-11-14T22:13:20Z,7,10\n01-kinematics,,,,bob,,,,,10\n"));
-  EXPECT_THAT(grades.notes, IsEmpty());
-}
-
 // What Moodle compares when it reads the worksheet must come back as it was.
 TEST_F(PlatformGradesTest, CompletesTheWorksheetOfMoodleAndKeepsItsOtherCells) {
   const std::string head =

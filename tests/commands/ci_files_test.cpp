@@ -118,11 +118,9 @@ TEST_F(CiFiles, HaveAStepForEachExerciseOfTheCourse) {
   for (const auto& entry : fs::directory_iterator(sourcePath("exercises")))
     if (entry.is_directory()) exercises.insert(entry.path().filename());
   for (const auto& [kind, file] : {std::pair<const char*, const char*>{"github", "github-actions.yml"},
-                                   {"github", "github-classroom.yml"},
                                    {"gitlab", "gitlab-ci.yml"}}) {
     std::set<std::string> named;
     for (const auto& [name, commands] : stepsOf(kind, file)) {
-      if (name == "points") continue;
       named.insert(name);
       EXPECT_THAT(commands, HasSubstr(name)) << file;
     }
@@ -145,22 +143,6 @@ TEST_F(CiFiles, GitHubGetsAnnotationsAndASummaryAndNoForgedOnes) {
   EXPECT_EQ(schemaFaults("github", {root() / "log.github"}), "");
   EXPECT_EQ(schemaFaults("markdown", {root() / "summary.markdown"}), "");
   EXPECT_EQ(schemaFaults("junit", {graded() / "junit.xml"}), "");
-}
-
-TEST_F(CiFiles, ClassroomGetsThePointsOfAllExercises) {
-  REX_NEEDS_YAML();
-  fs::copy(exercise(), root() / "exercises" / "99-other", fs::copy_options::recursive);
-  write(main(), kGood);
-  const auto steps = stepsOf("github", "github-classroom.yml");
-  const std::string points = here(steps.at("points"));
-  EXPECT_EQ(shell(points).output,
-            "::notice title=Autograding complete::Points 0/6\n"
-            "::notice title=Autograding report::{\"totalPoints\":0,\"maxPoints\":6}\n");
-  EXPECT_EQ(shell(here(steps.at("01-kinematics"))).exitCode, 0);
-  EXPECT_THAT(shell(points).output, HasSubstr("{\"totalPoints\":3,\"maxPoints\":6}"));
-  write(main(), kForger);
-  EXPECT_EQ(shell(here(steps.at("01-kinematics"))).exitCode, 1);
-  EXPECT_THAT(shell(points).output, Not(HasSubstr("\"totalPoints\":3")));
 }
 
 TEST_F(CiFiles, GitLabGetsItsReport) {

@@ -186,7 +186,7 @@ std::vector<SampleMember> folderMembers(const std::vector<SyntheticStudent>& all
   return members;
 }
 
-std::string classroomRoster(const std::vector<SyntheticStudent>& all) {
+std::string rosterOfClones(const std::vector<SyntheticStudent>& all) {
   std::string text = "\"identifier\",\"github_username\",\"github_id\",\"name\"\n";
   for (const SyntheticStudent& student : all)
     text += fmt::format("\"{}\",\"{}\",\"{}\",\"{}\"\n", student.email, student.user, student.number,
@@ -194,7 +194,7 @@ std::string classroomRoster(const std::vector<SyntheticStudent>& all) {
   return text;
 }
 
-std::string classroomRecord(const std::vector<SyntheticStudent>& all,
+std::string recordOfClones(const std::vector<SyntheticStudent>& all,
                             const std::vector<std::string>& commits) {
   std::string text =
       "assignment_name,github_username,roster_identifier,student_repository_name,submission_timestamp,"

@@ -49,10 +49,10 @@ struct SyntheticTexts {
 /// NAME/main.cpp, NAME.cpp and NAME.zip in turn. Names are those of addresses, which nobody shares.
 [[nodiscard]] std::vector<SampleMember> folderMembers(const std::vector<SyntheticStudent>& all);
 
-/// The CSV files of GitHub Classroom: its roster and its grades, with the commit of each repository, or
-/// without where `commits` is empty.
-[[nodiscard]] std::string classroomRoster(const std::vector<SyntheticStudent>& all);
-[[nodiscard]] std::string classroomRecord(const std::vector<SyntheticStudent>& all,
+/// The roster and the record that go with a folder of clones, with the commit of each repository, or without
+/// where `commits` is empty.
+[[nodiscard]] std::string rosterOfClones(const std::vector<SyntheticStudent>& all);
+[[nodiscard]] std::string recordOfClones(const std::vector<SyntheticStudent>& all,
                                           const std::vector<std::string>& commits);
 
 /// "2026-11-20T22:58:00Z" and so on.

@@ -1,4 +1,3 @@
-#include <chrono>
 #include <cstdio>
 #include <memory>
 
@@ -36,7 +35,6 @@ struct ExportOptions {
   std::string exercise{};  ///< empty: all
   fs::path worksheet{};    ///< of Moodle; empty: none
   bool scale = false;
-  std::string from{};  ///< the sender of mails
 };
 
 /// What all exports are made of.
@@ -92,16 +90,6 @@ ExitCode exportCanvas(const Project& project, const ExportOptions& options) {
   return write(canvasGrades(read(project, options).book), options, "grades.csv");
 }
 
-ExitCode exportClassroom(const Project& project, const ExportOptions& options) {
-  const Export all = read(project, options);
-  ExitCode code = ExitCode::kFull;
-  for (const std::string& exercise : all.book.exercises)
-    if (write(classroomGrades(all.book, exercise, all.imported), options, exercise + ".csv") !=
-        ExitCode::kFull)
-      code = ExitCode::kNotGradable;
-  return code;
-}
-
 ExitCode exportJson(const Project& project, const ExportOptions& options) {
   const Export all = read(project, options);
   const std::string text = grading::gradesJson(all.book, all.course);
@@ -120,36 +108,6 @@ ExitCode exportHtml(const Project& project, const ExportOptions& options) {
   const int written = grading::writeFeedbackFolders(all.book, options.results, options.out);
   say(fmt::format("Feedback: {} pages in {}", written, shown(options.out)));
   return ExitCode::kFull;
-}
-
-// Mails are dated by the grading, so that the same results give the same bytes.
-std::int64_t timeOf(const fs::path& file) {
-  const auto time = std::chrono::file_clock::to_sys(fs::last_write_time(file));
-  return std::chrono::duration_cast<std::chrono::seconds>(time.time_since_epoch()).count();
-}
-
-ExitCode exportMail(const Project& project, const ExportOptions& options) {
-  if (const std::string why = grading::whyNoAddress(options.from); !why.empty())
-    throw UsageError({.what = "--from", .found = why, .wanted = "the address of the sender"});
-  const Export all = read(project, options);
-  const std::int64_t date = timeOf(options.results / "tasks.tsv");
-  makePlace(options);
-  std::vector<std::string> notes;
-  int written = 0;
-  for (const grading::StudentTotal& sum : all.book.totals) {
-    if (const std::string why = grading::whyNoAddress(sum.student.email); !why.empty()) {
-      fs::remove(options.out / (sum.student.id + ".eml"));  // of an earlier export
-      notes.push_back(fmt::format("no mail to '{}': the e-mail address is {}", sum.student.id, why));
-      continue;
-    }
-    replaceTextFile(
-        options.out / (sum.student.id + ".eml"),
-        grading::gradeMail(all.book, sum.student, options.results, all.course.title, options.from, date),
-        "a mail");
-    ++written;
-  }
-  say(fmt::format("Mails: {} in {}", written, shown(options.out)));
-  return told(notes);
 }
 
 void addFeedback(const Export& all, const ExportOptions& options, const std::string& exercise,
@@ -231,7 +189,7 @@ void addExport(CLI::App* all, Action& action) {
     if (all->get_subcommands().empty()) action = print(all->help("rex"));
   });
   const auto options = [] { return std::make_shared<ExportOptions>(); };
-  const auto moodle = options(), mail = options();
+  const auto moodle = options();
   CLI::App* command =
       addTarget(all, action, "moodle", "The grading worksheet filled in, and a zip of feedback",
                 "moodle results --exercise 01 --worksheet grades.csv -o moodle", exportMoodle, moodle);
@@ -242,12 +200,6 @@ void addExport(CLI::App* all, Action& action) {
             "gradescope results --course course.toml -o grades", exportGradescope, options());
   addTarget(all, action, "canvas", "Grades for the grade book of Canvas",
             "canvas results --course course.toml -o grades", exportCanvas, options());
-  addTarget(all, action, "classroom", "Grades in the columns of GitHub Classroom, a file per exercise",
-            "classroom results --course course.toml -o grades", exportClassroom, options());
-  command =
-      addTarget(all, action, "mail", "A mail per student, as a file .eml",
-                "mail results --course course.toml --from tutor@uni.example -o mails", exportMail, mail);
-  command->add_option("--from", mail->from, "address of the sender")->type_name("ADDRESS")->required();
   addTarget(all, action, "json", "All grades for programs",
             "json results --course course.toml -o grades.json", exportJson, options());
   addTarget(all, action, "html", "A page of feedback per student and exercise",

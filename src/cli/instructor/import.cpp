@@ -87,7 +87,7 @@ ExitCode import(const Project& project, const ImportOptions& options, const Read
   grading::PickOptions pick{.exercises = exercises};
   if (!options.exercise.empty()) pick.exercise = project.exercise(options.exercise).name;
   const grading::Arrivals arrivals = read(options.source, exercises);
-  if (arrivals.platform == grading::Platform::kClassroom) pick.handedOut = handedOutTexts(exercises);
+  if (arrivals.platform == grading::Platform::kGit) pick.handedOut = handedOutTexts(exercises);
   const grading::ImportReport report = grading::importArrivals(arrivals, pick, options.handedIn);
   tell(report, options);
   return report.complaints.empty() ? ExitCode::kFull : ExitCode::kNotGradable;
@@ -135,15 +135,15 @@ void addMoodle(CLI::App* all, Action& action) {
   });
 }
 
-void addClassroom(CLI::App* all, Action& action) {
+void addGit(CLI::App* all, Action& action) {
   struct Words {
-    grading::ClassroomOptions options{};
+    grading::CloneOptions options{};
     std::string deadline{};
   };
   CLI::App* command = addVerb(
-      all, "classroom", "From a folder with the students' clones, of GitHub Classroom or GitLab",
-      "Example:\n  scripts/rex import classroom kinematics-submissions -o handed-in \\\n"
-      "    --roster classroom_roster.csv --record grades.csv\n\n"
+      all, "git", "From a folder with clones of the students' repositories",
+      "Example:\n  scripts/rex import git kinematics-submissions -o handed-in \\\n"
+      "    --roster roster.csv --record record.csv\n\n"
       "The record says when a repository was handed in, and perhaps which commit. Without it, the dates of\n"
       "commits count, which students can set.\n" +
           std::string(kImportCodes));
@@ -151,11 +151,11 @@ void addClassroom(CLI::App* all, Action& action) {
   const auto words = std::make_shared<Words>();
   command
       ->add_option("--roster", words->options.roster,
-                   "roster of the classroom: identifier, github_username, name")
+                   "who is who: identifier, username, name")
       ->type_name("FILE.csv");
   command
       ->add_option("--record", words->options.record,
-                   "grades of the assignment: student_repository_name, submission_timestamp, perhaps commit")
+                   "when what was handed in: repository, username, submitted, perhaps commit")
       ->type_name("FILE.csv");
   command->add_option("--assignment", words->options.assignment, "what the names of all clones begin with")
       ->type_name("NAME");
@@ -171,7 +171,7 @@ void addClassroom(CLI::App* all, Action& action) {
                           .found = words->deadline,
                           .wanted = "a time with its zone, such as 2026-11-20T23:59:00+01:00"});
     }
-    return grading::readClassroom(source, words->options, exercises);
+    return grading::readClones(source, words->options, exercises);
   });
 }
 
@@ -197,14 +197,14 @@ void addFolders(CLI::App* all, Action& action) {
 void addImport(CLI::App* all, Action& action) {
   all->footer(
       "Examples:\n  scripts/rex import moodle download.zip -o handed-in --exercise 01\n"
-      "  scripts/rex import classroom kinematics-submissions -o handed-in\n"
+      "  scripts/rex import git kinematics-submissions -o handed-in\n"
       "  scripts/rex grade handed-in --out results\n\n"
       "A later import into the same folder updates it and says what has changed.");
   all->require_subcommand(0, 1);
   all->callback([&action, all] {
     if (all->get_subcommands().empty()) action = print(all->help("rex"));
   });
-  addMoodle(all, action), addClassroom(all, action);
+  addMoodle(all, action), addGit(all, action);
   addGradescope(all, action), addFolders(all, action);
 }
 

@@ -107,11 +107,11 @@ TEST_F(ImportTest, LeavesOutWhatIsAsItWasHandedOut) {
     command.insert(command.end(), step.begin(), step.end());
     ASSERT_TRUE(runProcess(command, {.directory = clone}).ok());
   }
-  const Ended ended = import("classroom", {in("clones"), "--assignment", "hw", "--exercise", "98"});
+  const Ended ended = import("git", {in("clones"), "--assignment", "hw", "--exercise", "98"});
   EXPECT_EQ(ended.code, 0) << ended.error;
   EXPECT_THAT(flat(ended.error), HasSubstr("hw-zoe/98-template/main.cpp: as it was handed out, not taken"));
   EXPECT_THAT(flat(ended.output), HasSubstr("0 handed in, 1 nothing, 0 not taken."));
-  const Ended wrong = import("classroom", {in("clones"), "--deadline", "tomorrow"});
+  const Ended wrong = import("git", {in("clones"), "--deadline", "tomorrow"});
   EXPECT_EQ(wrong.code, 64);
   EXPECT_THAT(flat(wrong.error), HasSubstr("--deadline: found tomorrow, wanted a time with its zone"));
 }
@@ -143,7 +143,7 @@ TEST_F(ImportTest, IsAdvisedByGradeForDownloads) {
 }
 
 TEST_F(ImportTest, HasHelpForEachPlatform) {
-  for (const char* platform : {"moodle", "classroom", "gradescope", "folders"}) {
+  for (const char* platform : {"moodle", "git", "gradescope", "folders"}) {
     const Ended help = rex({"import", platform, "--help"});
     EXPECT_EQ(help.code, 0);
     EXPECT_THAT(help.output, HasSubstr(std::string("scripts/rex import ") + platform));

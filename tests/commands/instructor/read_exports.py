@@ -1,10 +1,8 @@
 """Reads back what `rex export` wrote, by readers that share no code with it; prints what they found as JSON.
 
-read_exports.py moodle FOLDER | mail FOLDER | html FOLDER | csv FILE | json FILE SCHEMA
+read_exports.py moodle FOLDER | html FOLDER | csv FILE | json FILE SCHEMA
 """
 import csv
-import email
-import email.policy
 import html.parser
 import json
 import pathlib
@@ -54,21 +52,6 @@ def read_moodle(folder):
         return sorted(moodle_file(name) for name in packed.namelist())
 
 
-def read_mail(folder):
-    mails = {}
-    for file in sorted(folder.glob("*.eml")):
-        raw = file.read_bytes()
-        assert all(len(line) <= 998 and line.isascii() for line in raw.split(b"\r\n")), file
-        assert b"\n" not in raw.replace(b"\r\n", b""), file
-        mail = email.message_from_bytes(raw, policy=email.policy.default)
-        assert not mail.defects, (file, mail.defects)
-        mails[file.stem] = {"headers": sorted(mail.keys()), "to": [str(a.addr_spec) for a in mail["To"].addresses],
-                            "name": mail["To"].addresses[0].display_name, "from": str(mail["From"]),
-                            "subject": str(mail["Subject"]), "date": mail["Date"].datetime.isoformat(),
-                            "text": mail.get_content()}
-    return mails
-
-
 def read_html(folder):
     pages = {}
     for file in sorted(folder.rglob("feedback.html")):
@@ -94,5 +77,5 @@ if kind == "csv":
     with open(paths[0], newline="", encoding="utf-8-sig") as lines:
         found = list(csv.reader(lines, strict=True))
 else:
-    found = {"moodle": read_moodle, "mail": read_mail, "html": read_html, "json": read_json}[kind](*paths)
+    found = {"moodle": read_moodle, "html": read_html, "json": read_json}[kind](*paths)
 print(json.dumps(found))

@@ -15,7 +15,7 @@
 #include "support/synthetic_class.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::classroom_clones_test {
+namespace rex::grading::git_clones_test {
 
 namespace fs = std::filesystem;
 using ::testing::Contains;
@@ -27,7 +27,7 @@ using ::testing::Not;
 constexpr const char* kExercise = "01-kinematics";
 constexpr std::int64_t kNoon = 1'795'176'000;
 
-class ClassroomClonesTest : public ::testing::Test {
+class GitClonesTest : public ::testing::Test {
  protected:
   void SetUp() override {
     if (!runProcess({"git", "--version"}).ok()) GTEST_SKIP() << "git is not installed";
@@ -60,8 +60,8 @@ class ClassroomClonesTest : public ::testing::Test {
     git(clone, {"commit", "-q", "-m", "work"}, time);
     return git(clone, {"rev-parse", "HEAD"});
   }
-  Arrivals read(const ClassroomOptions& options = {}) const {
-    return readClassroom(source(), options, exercises_);
+  Arrivals read(const CloneOptions& options = {}) const {
+    return readClones(source(), options, exercises_);
   }
   ImportReport import(const Arrivals& arrivals) const {
     return importArrivals(arrivals, {.exercises = exercises_, .handedOut = {{"02-control", "starter"}}},
@@ -76,7 +76,7 @@ class ClassroomClonesTest : public ::testing::Test {
   std::vector<ExerciseInfo> exercises_;
 };
 
-TEST_F(ClassroomClonesTest, TakesAClassWithItsRosterAndRecord) {
+TEST_F(GitClonesTest, TakesAClassWithItsRosterAndRecord) {
   const auto all = syntheticClass(rounds(12, 200), {"int honest;\n", "int wrong;\n", "int {\n"});
   std::vector<std::string> commits;
   for (const SyntheticStudent& student : all) {
@@ -90,8 +90,8 @@ TEST_F(ClassroomClonesTest, TakesAClassWithItsRosterAndRecord) {
     // Dated back by the student, long after the deadline.
     if (hasOwn) commit(clone, "too late", student.time - 100);
   }
-  const ImportReport report = import(read({.roster = write("roster.csv", classroomRoster(all)),
-                                           .record = write("grades.csv", classroomRecord(all, commits))}));
+  const ImportReport report = import(read({.roster = write("roster.csv", rosterOfClones(all)),
+                                           .record = write("grades.csv", recordOfClones(all, commits))}));
   EXPECT_THAT(report.complaints, IsEmpty());
   EXPECT_EQ(report.timesOfPlatform, report.handedIn);
   const ImportTable table = readImportTable(handedIn() / kImportTable);
@@ -111,7 +111,7 @@ TEST_F(ClassroomClonesTest, TakesAClassWithItsRosterAndRecord) {
   }
 }
 
-TEST_F(ClassroomClonesTest, CountsTheCommitsThatChangedAFile) {
+TEST_F(GitClonesTest, CountsTheCommitsThatChangedAFile) {
   commit("hw-adam", "// 1", kNoon), commit("hw-adam", "// other", kNoon, "exercises/02-control/main.cpp");
   commit("hw-adam", "// 2", kNoon + 60), commit("hw-adam", "// 3", kNoon + 7200);
   commit("hw-anna", "// a", kNoon);
@@ -122,7 +122,7 @@ TEST_F(ClassroomClonesTest, CountsTheCommitsThatChangedAFile) {
   EXPECT_EQ(table.find("adam", "02-control")->attempts, 1);
 }
 
-TEST_F(ClassroomClonesTest, SaysThatDatesOfCommitsAreTheStudents) {
+TEST_F(GitClonesTest, SaysThatDatesOfCommitsAreTheStudents) {
   commit("hw-adam", "// early", kNoon), commit("hw-adam", "// late", kNoon + 7200),
       commit("hw-anna", "// a", kNoon);
   const Arrivals newest = read();
@@ -141,7 +141,7 @@ TEST_F(ClassroomClonesTest, SaysThatDatesOfCommitsAreTheStudents) {
   EXPECT_THAT(import(none).complaints, Contains("hw-adam: not taken: no commit until 2026-11-20T11:59:59Z"));
 }
 
-TEST_F(ClassroomClonesTest, TakesTheLastCommitUntilTheTimeOfTheRecord) {
+TEST_F(GitClonesTest, TakesTheLastCommitUntilTheTimeOfTheRecord) {
   commit("hw-adam", "// early", kNoon), commit("hw-adam", "// late", kNoon + 7200),
       commit("hw-anna", "// a", kNoon);
   const fs::path record =
@@ -165,10 +165,10 @@ TEST_F(ClassroomClonesTest, TakesTheLastCommitUntilTheTimeOfTheRecord) {
   EXPECT_REX_ERROR(read({.record = record}),
                    "not a record of the platform: found the columns a, b, wanted a column");
   EXPECT_REX_ERROR(read({.roster = record}),
-                   "not a classroom roster: found the columns a, b, wanted a column 'identifier'");
+                   "not a roster: found the columns a, b, wanted a column 'identifier'");
 }
 
-TEST_F(ClassroomClonesTest, FindsTheStudentInTheNameOfTheClone) {
+TEST_F(GitClonesTest, FindsTheStudentInTheNameOfTheClone) {
   commit("week-1-anna-lena", "a", kNoon), commit("week-1-andrea", "b", kNoon);
   commit("group/project", "c", kNoon);
   fs::create_directories(source() / "empty");
@@ -185,7 +185,7 @@ TEST_F(ClassroomClonesTest, FindsTheStudentInTheNameOfTheClone) {
   EXPECT_THAT(listed.notes, Contains(HasSubstr("week-1-andrea: '")));
 }
 
-TEST_F(ClassroomClonesTest, ObeysNothingInAClone) {
+TEST_F(GitClonesTest, ObeysNothingInAClone) {
   const std::string first = commit("hw-eve", "// eve", kNoon);
   const fs::path mark = folder_.path() / "mark", clone = source() / "hw-eve";
   const std::string touch = "touch " + mark.string();
@@ -208,7 +208,7 @@ TEST_F(ClassroomClonesTest, ObeysNothingInAClone) {
   EXPECT_FALSE(fs::exists(mark));
 }
 
-TEST_F(ClassroomClonesTest, RefusesClonesThatLeadElsewhere) {
+TEST_F(GitClonesTest, RefusesClonesThatLeadElsewhere) {
   commit("hw-adam", "// adam", kNoon);
   const auto expectRefusal = [&](const std::string& clone, const std::string& why) {
     const Arrivals found = read();
@@ -238,7 +238,7 @@ TEST_F(ClassroomClonesTest, RefusesClonesThatLeadElsewhere) {
   EXPECT_EQ(of(read(), "hw-head").whyNone, "no commit");
 }
 
-TEST_F(ClassroomClonesTest, TakesNoLinksAndReadsPackedBranches) {
+TEST_F(GitClonesTest, TakesNoLinksAndReadsPackedBranches) {
   const fs::path clone = source() / "hw-adam/exercises/02-control";
   commit("hw-adam", "// adam", kNoon);
   fs::create_directories(clone);
@@ -258,7 +258,7 @@ TEST_F(ClassroomClonesTest, TakesNoLinksAndReadsPackedBranches) {
   EXPECT_THAT(of(read(), "hw-bob").whyNone, HasSubstr("no main.cpp in its commit "));
 }
 
-TEST_F(ClassroomClonesTest, ReadsShallowClones) {
+TEST_F(GitClonesTest, ReadsShallowClones) {
   commit("hw-adam", "// old", kNoon), commit("hw-adam", "// new", kNoon + 1);
   const fs::path shallow = source() / "hw-bob";
   fs::create_directories(shallow.parent_path());
@@ -267,4 +267,4 @@ TEST_F(ClassroomClonesTest, ReadsShallowClones) {
   EXPECT_EQ(of(read(), "hw-bob").files.front().text, "// new");
 }
 
-}  // namespace rex::grading::classroom_clones_test
+}  // namespace rex::grading::git_clones_test

@@ -20,10 +20,10 @@ namespace {
 namespace fs = std::filesystem;
 using Columns = std::vector<std::string>;
 
-const Columns kUser = {"github_username", "username"}, kRosterId = {"identifier"}, kRosterName = {"name"},
-              kRecordId = {"roster_identifier", "identifier"},
-              kRepositoryName = {"student_repository_name", "repository"},
-              kHandedInAt = {"submission_timestamp", "submitted"}, kCommit = {"commit", "commit_sha", "sha"},
+const Columns kUser = {"username", "github_username"}, kRosterId = {"identifier"}, kRosterName = {"name"},
+              kRecordId = {"identifier", "roster_identifier"},
+              kRepositoryName = {"repository", "student_repository_name"},
+              kHandedInAt = {"submitted", "submission_timestamp"}, kCommit = {"commit", "commit_sha", "sha"},
               kGroupName = {"group_name"};
 
 /// What the platform recorded about one repository.
@@ -44,7 +44,7 @@ Person personOfRoster(std::string id, std::string name, std::string user) {
 std::vector<Person> readRoster(const fs::path& file) {
   std::vector<Person> people;
   if (file.empty()) return people;
-  const PlatformTable table(file, "a classroom roster");
+  const PlatformTable table(file, "a roster");
   table.require(kRosterId);
   for (std::size_t k = 0; k < table.size(); ++k)
     people.push_back(
@@ -55,11 +55,11 @@ std::vector<Person> readRoster(const fs::path& file) {
 /// Finds out whose clones there are, and which commit counts.
 class CloneReader {
  public:
-  CloneReader(const ClassroomOptions& options)
+  CloneReader(const CloneOptions& options)
       : options_(options), roster_(readRoster(options.roster)), record_(readRecord(options.record)) {}
 
   Arrivals read(const fs::path& source) {
-    found_.platform = Platform::kClassroom;
+    found_.platform = Platform::kGit;
     const OpenedFolder folder(source);
     std::vector<std::string> names;
     for (const OpenedFolder::Entry& entry : folder.entries()) {
@@ -254,7 +254,7 @@ class CloneReader {
                       chosenByTime_, chosenByTime_ == 1 ? "" : "s"));
   }
 
-  ClassroomOptions options_;
+  CloneOptions options_;
   std::vector<Person> roster_;
   std::map<std::string, Recorded> record_;  // by name of the repository
   std::set<std::string> seen_{};            // clones, as in the record
@@ -265,11 +265,11 @@ class CloneReader {
 
 }  // namespace
 
-Arrivals readClassroom(const fs::path& source, const ClassroomOptions& options,
+Arrivals readClones(const fs::path& source, const CloneOptions& options,
                        const std::vector<ExerciseInfo>& exercises) {
   if (!fs::is_directory(source))
     throw UsageError({.what = "no such folder", .where = {source.string()}, .wanted = "a folder of clones"});
-  requireLayout(Platform::kClassroom, source, exercises);
+  requireLayout(Platform::kGit, source, exercises);
   return CloneReader(options).read(source);
 }
 
