@@ -1,72 +1,64 @@
 #include "submission/zip_file.h"
 
-#include <cerrno>
-#include <cstring>
-#include <system_error>
+#include <memory>
 
-#include <fcntl.h>
-#include <fmt/format.h>
-#include <minizip/zip.h>
-#include <unistd.h>
+#include <archive.h>
+#include <archive_entry.h>
+#include <locale.h>
 
 #include "base/error.h"
+#include "base/text_file.h"
 
 namespace rex::grading {
 namespace {
 
-// The earliest time that a zip file can store, and permissions to write for the owner and to read for all.
-zip_fileinfo plainFile() {
-  zip_fileinfo info{};
-  info.tmz_date.tm_year = 1980;
-  info.tmz_date.tm_mday = 1;
-  info.external_fa = 0100644u << 16;
-  return info;
+/// Names are marked as UTF-8 in a thread whose locale has that encoding.
+class Utf8Locale {
+ public:
+  Utf8Locale() : locale_(::newlocale(LC_CTYPE_MASK, "C.UTF-8", nullptr)), before_(::uselocale(locale_)) {}
+  ~Utf8Locale() { ::uselocale(before_), ::freelocale(locale_); }
+  Utf8Locale(const Utf8Locale&) = delete;
+  Utf8Locale& operator=(const Utf8Locale&) = delete;
+
+ private:
+  locale_t locale_, before_;
+};
+
+la_ssize_t append(archive* /*zip*/, void* bytes, const void* more, std::size_t count) {
+  static_cast<std::string*>(bytes)->append(static_cast<const char*>(more), count);
+  return static_cast<la_ssize_t>(count);
 }
 
-bool add(zipFile zip, const ZipEntry& entry) {
-  const zip_fileinfo info = plainFile();
-  // From Unix, so that the permissions count.
-  constexpr uLong kMadeByUnix = 3 << 8;
-  if (zipOpenNewFileInZip4(zip, entry.name.c_str(), &info, nullptr, 0, nullptr, 0, nullptr, Z_DEFLATED,
-                           Z_DEFAULT_COMPRESSION, 0, -MAX_WBITS, DEF_MEM_LEVEL, Z_DEFAULT_STRATEGY, nullptr,
-                           0, kMadeByUnix, 0) != ZIP_OK)
-    return false;
-  const bool written =
-      zipWriteInFileInZip(zip, entry.text.data(), static_cast<unsigned>(entry.text.size())) == ZIP_OK;
-  return zipCloseFileInZip(zip) == ZIP_OK && written;
-}
-
-bool writeAll(const std::filesystem::path& file, const std::vector<ZipEntry>& entries) {
-  const zipFile zip = zipOpen64(file.c_str(), APPEND_STATUS_CREATE);
-  if (zip == nullptr) return false;
-  bool written = true;
-  for (const ZipEntry& entry : entries) written = written && add(zip, entry);
-  return zipClose(zip, nullptr) == ZIP_OK && written;
-}
-
-// Called before the file gets its name, so that a power cut leaves no broken file under that name.
-bool reachesDisk(const std::filesystem::path& file) {
-  const int fd = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  if (fd < 0) return false;
-  const bool synced = ::fsync(fd) == 0;
-  ::close(fd);
-  return synced;
+// Without times, which makes the zip's the earliest one.
+bool add(archive* zip, const ZipEntry& file) {
+  const std::unique_ptr<archive_entry, void (*)(archive_entry*)> entry(::archive_entry_new(),
+                                                                       ::archive_entry_free);
+  ::archive_entry_set_pathname(entry.get(), file.name.c_str());
+  ::archive_entry_set_filetype(entry.get(), AE_IFREG);
+  ::archive_entry_set_perm(entry.get(), 0644);
+  const auto size = static_cast<la_ssize_t>(file.text.size());
+  ::archive_entry_set_size(entry.get(), size);
+  return ::archive_write_header(zip, entry.get()) == ARCHIVE_OK &&
+         ::archive_write_data(zip, file.text.data(), file.text.size()) == size;
 }
 
 }  // namespace
 
 void writeZip(const std::filesystem::path& file, const std::vector<ZipEntry>& entries) {
-  std::filesystem::path temporary = file;
-  temporary += fmt::format(".{}.new", ::getpid());
-  errno = 0;
-  const bool written = writeAll(temporary, entries) && reachesDisk(temporary);
-  if (written && ::rename(temporary.c_str(), file.c_str()) == 0) return;
-  const int cause = errno;
-  std::error_code ignored;
-  std::filesystem::remove(temporary, ignored);
-  throw Error({.what = "cannot write the zip file",
-               .where = {.file = file.string()},
-               .found = cause == 0 ? "" : std::strerror(cause)});
+  const Utf8Locale locale;
+  std::string bytes;
+  const std::unique_ptr<archive, int (*)(archive*)> zip(::archive_write_new(), ::archive_write_free);
+  bool isSound = ::archive_write_set_format_zip(zip.get()) == ARCHIVE_OK &&
+                 ::archive_write_set_bytes_in_last_block(zip.get(), 1) == ARCHIVE_OK &&
+                 ::archive_write_open(zip.get(), &bytes, nullptr, append, nullptr) == ARCHIVE_OK;
+  for (const ZipEntry& entry : entries) isSound = isSound && add(zip.get(), entry);
+  if (!isSound || ::archive_write_close(zip.get()) != ARCHIVE_OK) {
+    const char* why = ::archive_error_string(zip.get());
+    throw Error({.what = "cannot write the zip file",
+                 .where = {.file = file.string()},
+                 .found = why == nullptr ? "" : why});
+  }
+  replaceTextFile(file, bytes, "the zip file");
 }
 
 }  // namespace rex::grading

@@ -1,9 +1,11 @@
 #include "classroom/archive.h"
 
+#include <ctime>
 #include <map>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <stdlib.h>
 
 #include "base/process.h"
 #include "base/rng.h"
@@ -52,6 +54,32 @@ TEST_F(ArchiveTest, ReadsWhatSubmitWrites) {
   writeZip(folder_.path() / "a.zip", {{"01/main.cpp", "int a;\n"}, {"receipt.json", ""}});
   EXPECT_EQ(asMap(readArchive(folder_.path() / "a.zip").files),
             (std::map<std::string, std::string>{{"01/main.cpp", "int a;\n"}, {"receipt.json", ""}}));
+}
+
+// Names in UTF-8 are marked so, and neither the time nor the zone changes a byte.
+TEST_F(ArchiveTest, WritesWhatOthersRead) {
+  const std::filesystem::path zip = folder_.path() / "a.zip";
+  std::string first;
+  for (const char* zone : {"UTC", "Asia/Tokyo", "America/New_York"}) {
+    ::setenv("TZ", zone, 1);
+    ::tzset();
+    writeZip(zip, {{"Zoë/a.txt", "one"}, {"b", ""}});
+    if (first.empty()) first = readTextFile(zip);
+    EXPECT_EQ(readTextFile(zip), first) << zone;
+  }
+  ::unsetenv("TZ");
+  const ProcessResult python = runProcess(
+      {"python3", "-c",
+       "import sys, zipfile\n"
+       "packed = zipfile.ZipFile(sys.argv[1])\n"
+       "assert packed.testzip() is None\n"
+       "for file in packed.infolist():\n"
+       "    print(ascii(file.filename), packed.read(file), file.date_time, oct(file.external_attr >> 16))",
+       zip.string()});
+  if (!python.started) GTEST_SKIP() << "python3 is not installed";
+  EXPECT_EQ(python.output,
+            "'Zo\\xeb/a.txt' b'one' (1980, 1, 1, 0, 0, 0) 0o100644\n"
+            "'b' b'' (1980, 1, 1, 0, 0, 0) 0o100644\n");
 }
 
 // tar itself packs them; bytes of all kinds must come back.
