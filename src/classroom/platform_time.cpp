@@ -3,16 +3,13 @@
 #include <array>
 #include <charconv>
 #include <chrono>
-#include <cstdlib>
-#include <ctime>
-#include <filesystem>
 #include <regex>
+#include <stdexcept>
 #include <vector>
 
-#include <fmt/format.h>
+#include <date/tz.h>
 
 #include "base/error.h"
-#include "base/isolated_call.h"
 #include "classroom/composed_text.h"
 
 namespace rex::grading {
@@ -20,7 +17,6 @@ namespace {
 
 using namespace std::chrono;
 
-constexpr const char* kZoneFiles = "/usr/share/zoneinfo";
 constexpr const char* kTimeExamples =
     "a time such as '2026-11-20T23:58:00+01:00', 'Friday, 20 November 2026, 11:58 PM' or 'Freitag, 20. "
     "November "
@@ -146,10 +142,11 @@ class WordedTime {
   bool hasClock_ = false, isUnderstood_ = true;
 };
 
+// Files of zones list changes until 2037.
 bool exists(const PlatformTime& time) {
   const year_month_day day{year(time.year), month(static_cast<unsigned>(time.month)),
                            std::chrono::day(static_cast<unsigned>(time.day))};
-  return day.ok() && time.year >= 1970 && time.year < 2200 && time.hour < 24 && time.minute < 60 &&
+  return day.ok() && time.year >= 1970 && time.year < 2038 && time.hour < 24 && time.minute < 60 &&
          time.second < 60;
 }
 
@@ -159,28 +156,21 @@ std::int64_t asIfUtc(const PlatformTime& time) {
          time.second;
 }
 
-// Asks the C library, which knows zones by a variable of the environment: in a process of its own. Nothing if
-// the hour does not exist there.
+// Nothing if the machine does not know a zone of that name.
+const date::time_zone* zoneNamed(const std::string& name) {
+  try {
+    return date::locate_zone(name);
+  } catch (const std::runtime_error&) {
+    return nullptr;
+  }
+}
+
+// Nothing if the hour does not exist there.
 std::optional<std::int64_t> instantIn(const std::string& zone, const PlatformTime& time) {
-  const auto ask = [&]() -> std::string {
-    ::setenv("TZ", (":" + zone).c_str(), 1);
-    ::tzset();
-    std::optional<std::int64_t> first;
-    for (const int summer : {1, 0}) {
-      std::tm local{};
-      local.tm_year = time.year - 1900, local.tm_mon = time.month - 1, local.tm_mday = time.day;
-      local.tm_hour = time.hour, local.tm_min = time.minute, local.tm_sec = time.second;
-      local.tm_isdst = summer;
-      const std::time_t instant = std::mktime(&local);
-      const bool isSame =
-          local.tm_hour == time.hour && local.tm_min == time.minute && local.tm_mday == time.day;
-      if (isSame && (!first || instant < *first)) first = instant;
-    }
-    return first ? fmt::format("{}", *first) : "";
-  };
-  const std::string answer = callIsolated(ask).bytes;
-  if (answer.empty()) return {};
-  return std::stoll(answer);
+  const std::int64_t local = asIfUtc(time);
+  const date::local_info info = date::locate_zone(zone)->get_info(date::local_seconds(seconds(local)));
+  if (info.result == date::local_info::nonexistent) return {};
+  return local - info.first.offset.count();
 }
 
 }  // namespace
@@ -200,9 +190,7 @@ std::optional<PlatformTime> parsePlatformTime(std::string_view text) {
 PlatformZone::PlatformZone(std::string name) : name_(std::move(name)) {
   if (name_.empty()) return;
   fixedSeconds_ = zoneOf(caseless(name_));
-  const bool isPlain = name_.find("..") == name_.npos && name_.front() != '/' && name_.front() != '.';
-  if (!fixedSeconds_ &&
-      (!isPlain || !std::filesystem::is_regular_file(std::filesystem::path(kZoneFiles) / name_)))
+  if (!fixedSeconds_ && zoneNamed(name_) == nullptr)
     throw UsageError({.what = "not a time zone",
                       .found = "'" + name_ + "'",
                       .wanted = "a name such as Europe/Berlin, or a difference such as +01:00"});

@@ -1,9 +1,13 @@
 #include "classroom/platform_time.h"
 
+#include <ctime>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <stdlib.h>
 
 #include "base/instant.h"
+#include "base/rng.h"
 #include "classroom/composed_text.h"
 #include "support/expect_error.h"
 
@@ -49,6 +53,28 @@ TEST(PlatformZone, KnowsSummerAndWinter) {
   EXPECT_EQ(instant("25.10.2026 02:30", "Europe/Berlin"), "2026-10-25T00:30:00Z");
   EXPECT_REX_ERROR(instant("29.03.2026 02:30", "Europe/Berlin"),
                    "grades.csv:3: an hour that does not exist in Europe/Berlin: found '29.03.2026 02:30'");
+}
+
+// The C library reads the same files by code of its own.
+TEST(PlatformZone, AgreesWithTheCLibrary) {
+  Rng rng(1);
+  for (const char* zone : {"Europe/Berlin", "America/New_York", "Australia/Lord_Howe", "Asia/Kathmandu"}) {
+    ::setenv("TZ", zone, 1);
+    ::tzset();
+    int same = 0;
+    for (int k = 0; k < 500; ++k) {
+      const std::time_t time = 1'500'000'000 + 60 * rng.index(10'000'000);
+      std::tm local{};
+      ::localtime_r(&time, &local);
+      char text[32];
+      std::strftime(text, sizeof text, "%d.%m.%Y %H:%M", &local);
+      const std::int64_t found = PlatformZone(zone).instantOf(text, "x");
+      EXPECT_TRUE(found == time || (found < time && time - found <= 3600)) << zone << " " << text;
+      same += found == time ? 1 : 0;
+    }
+    EXPECT_GT(same, 490) << "an hour a year exists twice";
+  }
+  ::unsetenv("TZ");
 }
 
 TEST(PlatformZone, SaysWhatItWants) {
