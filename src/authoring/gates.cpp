@@ -15,6 +15,7 @@
 #include "base/join.h"
 #include "base/lines.h"
 #include "base/process.h"
+#include "base/text.h"
 #include "base/text_file.h"
 #include "submission/compiler_messages.h"
 #include "submission/regions.h"
@@ -54,16 +55,6 @@ std::string shortfalls(const GradeResult& result) {
   return lines;
 }
 
-std::vector<std::string_view> splitAt(std::string_view line, char separator) {
-  std::vector<std::string_view> fields;
-  for (;;) {
-    const std::size_t end = line.find(separator);
-    fields.push_back(line.substr(0, end));
-    if (end == line.npos) return fields;
-    line.remove_prefix(end + 1);
-  }
-}
-
 // The student must be able to see the task: code that draws for main() belongs in show.cpp.
 GateResult mainIsCurrent(const GateContext& context) {
   constexpr std::size_t kMostLines = 200;
@@ -89,9 +80,11 @@ std::vector<std::string> wrongHeadings(const ExerciseInfo& exercise) {
     const std::string heading(one);
     std::smatch promised, number;
     if (!std::regex_search(heading, promised, kHeading)) continue;
-    const std::size_t part = std::regex_search(heading, number, kNumber) ? std::stoul(number[1]) - 1 : next;
+    const std::size_t part = std::regex_search(heading, number, kNumber)
+                                 ? parseNumber<std::size_t>(number.str(1)).value_or(0) - 1
+                                 : next;
     next = part + 1;
-    const int points = std::stoi(promised[1]);
+    const int points = parseNumber<int>(promised.str(1)).value_or(0);
     const std::string where = fmt::format("README.md:{}: the heading promises {} points", line, points);
     if (part >= exercise.parts.size())
       complaints.push_back(fmt::format("{}, but exercise.toml has only {} part{}", where,
@@ -217,7 +210,7 @@ GateResult liarsGetNothing(const GateContext& context) {
   for (const std::string_view line : splitLines(run.output)) {
     const std::vector<std::string_view> fields = splitAt(line, '\t');
     if (fields.size() != 4) continue;
-    scored[std::string(fields[2])][std::string(fields[0])] += std::stoi(std::string(fields[3]));
+    scored[std::string(fields[2])][std::string(fields[0])] += parseNumber<int>(fields[3]).value_or(0);
     checks[std::string(fields[0])] += fmt::format(" {}", fields[1]);
   }
   std::vector<std::string> complaints;

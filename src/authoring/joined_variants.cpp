@@ -1,11 +1,11 @@
 #include "authoring/joined_variants.h"
 
 #include <algorithm>
-#include <charconv>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "base/text.h"
 #include "submission/file_pieces.h"
 
 namespace rex::grading {
@@ -83,13 +83,11 @@ std::vector<StandIn> standIns(const std::vector<std::string>& symbols, std::size
   std::vector<StandIn> found;
   for (const std::string& symbol : symbols) {
     // "_Z16variant_2_turnedRKd": the length of the name, the name, the parameters.
-    std::size_t length = 0;
-    const char* const end = symbol.data() + symbol.size();
     if (!symbol.starts_with(kMangled)) continue;
-    const char* const name = std::from_chars(symbol.data() + kMangled.size(), end, length).ptr;
-    const std::string_view rest(name, static_cast<std::size_t>(end - name));
-    if (!rest.starts_with(mark) || length <= mark.size()) continue;
-    std::string replaced = fmt::format("{}{}{}", kMangled, length - mark.size(), rest.substr(mark.size()));
+    std::string_view name = std::string_view(symbol).substr(kMangled.size());
+    const std::size_t length = takeNumber<std::size_t>(name).value_or(0);
+    if (!name.starts_with(mark) || length <= mark.size()) continue;
+    std::string replaced = fmt::format("{}{}{}", kMangled, length - mark.size(), name.substr(mark.size()));
     if (std::find(symbols.begin(), symbols.end(), replaced) != symbols.end())
       found.push_back({symbol, std::move(replaced)});
   }

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cstdint>
 
 #include <fmt/format.h>
 
 #include "base/printable.h"
+#include "base/text.h"
 
 namespace rex {
 namespace {
@@ -30,12 +30,6 @@ std::string withPercents(std::string_view text, std::string_view special) {
   for (const char c : printable(text))
     safe += isOneOf(special, c) ? fmt::format("%{:02X}", static_cast<unsigned char>(c)) : std::string(1, c);
   return safe;
-}
-
-bool isPlainNumber(std::string_view text) {
-  double value = 0;
-  const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return failure == std::errc() && end == text.data() + text.size();
 }
 
 // = + - @ and the variants that spreadsheets treat alike: full-width and small forms, the minus sign.
@@ -110,7 +104,7 @@ std::string markdownBlock(std::string_view text) {
 
 std::string csvField(std::string_view text) {
   const std::string shown = printable(text);
-  const std::string safe = isPlainNumber(shown) ? shown : withoutFormulas(shown);
+  const std::string safe = isNumeral(shown) ? shown : withoutFormulas(shown);
   if (safe.find_first_of(",;\t\"\r\n") == std::string::npos) return safe;
   std::string quoted = "\"";
   for (const char c : safe) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);

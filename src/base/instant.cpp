@@ -1,9 +1,10 @@
 #include "base/instant.h"
 
-#include <charconv>
 #include <chrono>
 
 #include <fmt/format.h>
+
+#include "base/text.h"
 
 namespace rex {
 namespace {
@@ -16,11 +17,11 @@ struct Scanner {
   bool ok = true;
 
   int number(std::size_t digits) {
-    int value = 0;
-    const std::string_view part = text.substr(0, digits);
-    const auto [end, failure] = std::from_chars(part.data(), part.data() + part.size(), value);
-    ok = ok && part.size() == digits && failure == std::errc() && end == part.data() + digits && value >= 0;
+    std::string_view part = text.substr(0, digits);
+    ok = ok && part.size() == digits;
     text.remove_prefix(part.size());
+    const int value = takeNumber<int>(part).value_or(-1);
+    ok = ok && part.empty() && value >= 0;
     return value;
   }
   char sign(std::string_view choices) {

@@ -22,6 +22,7 @@
 #include "base/interruption.h"
 #include "base/pipe.h"
 #include "base/stop_requests_internal.h"
+#include "base/text.h"
 
 // GCC first: libraries define a __has_feature for it that knows of nothing.
 #if defined(__SANITIZE_ADDRESS__)
@@ -75,8 +76,8 @@ ErrorParts unpacked(std::string_view bytes) {
   ErrorParts parts;
   for (std::string* text : {&parts.what, &parts.where.file, &parts.found, &parts.wanted})
     *text = takeText(bytes);
-  parts.where.line = std::atoi(takeText(bytes).c_str());
-  parts.where.column = std::atoi(takeText(bytes).c_str());
+  parts.where.line = parseNumber<int>(takeText(bytes)).value_or(0);
+  parts.where.column = parseNumber<int>(takeText(bytes)).value_or(0);
   while (!bytes.empty()) parts.nearest.push_back(takeText(bytes));
   return parts;
 }
@@ -95,7 +96,8 @@ rlim_t presentSize() {
   const int fd = ::open("/proc/self/statm", O_RDONLY | O_CLOEXEC);
   const ssize_t n = ::read(fd, text, sizeof text - 1);
   ::close(fd);
-  return n > 0 ? std::strtoull(text, nullptr, 10) * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) : 0;
+  std::string_view pages(text, static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
+  return takeNumber<rlim_t>(pages).value_or(0) * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
 }
 
 // The sanitizers reserve the whole address space at once.

@@ -1,13 +1,14 @@
 #include "base/leftovers.h"
 
 #include <cerrno>
-#include <charconv>
 #include <string>
 #include <system_error>
 #include <vector>
 
 #include <signal.h>
 #include <sys/types.h>
+
+#include "base/text.h"
 
 namespace rex {
 namespace {
@@ -21,10 +22,7 @@ pid_t writerOf(const std::string& name) {
   const std::string whole = name.substr(0, name.size() - kEnding.size());
   const std::size_t dot = whole.rfind('.');
   if (dot == whole.npos || dot == 0) return 0;
-  pid_t writer = 0;
-  const char* const last = whole.data() + whole.size();
-  const auto [end, failure] = std::from_chars(whole.data() + dot + 1, last, writer);
-  return failure == std::errc() && end == last && writer > 0 ? writer : 0;
+  return std::max(0, parseNumber<pid_t>(whole.substr(dot + 1)).value_or(0));
 }
 
 bool hasEnded(pid_t process) { return ::kill(process, 0) != 0 && errno == ESRCH; }

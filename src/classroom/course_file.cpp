@@ -6,9 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/join.h"
 #include "base/printable.h"
-#include "base/text_file.h"
 #include "classroom/composed_text.h"
 #include "classroom/csv.h"
 #include "classroom/hand_in.h"
@@ -89,28 +87,13 @@ void readStudentTables(const TomlTable& top, RosterReader& roster) {
 }
 
 void readStudentRows(const fs::path& file, RosterReader& roster) {
-  const std::vector<CsvRow> rows = parseCsv(readTextFile(file), file.string());
-  const CsvRow headings = rows.empty() ? CsvRow{.line = 1} : rows.front();
-  const auto has = [&](const std::string& key) {
-    return std::find(headings.fields.begin(), headings.fields.end(), key) != headings.fields.end();
-  };
-  if (!has("id"))
-    throw Error({.what = "not a table of students",
-                 .where = {file.string(), 1, 0},
-                 .found = fmt::format("the columns {}", join(headings.fields, ", ")),
-                 .wanted = fmt::format("id, and any of {}", join(kRosterKeys, ", "))});
-  for (std::size_t k = 1; k < rows.size(); ++k) {
-    const SourceLocation where{file.string(), rows[k].line, 0};
-    if (rows[k].fields.size() != headings.fields.size())
-      throw Error({.what = "not a table of students",
-                   .where = where,
-                   .found = fmt::format("{} fields", rows[k].fields.size()),
-                   .wanted = fmt::format("{}", headings.fields.size())});
+  const CsvTable table(file, "a table of students");
+  table.require({"id"});
+  table.requireWholeRows();
+  for (std::size_t k = 0; k < table.size(); ++k) {
     CourseStudent student;
-    for (std::size_t column = 0; column < headings.fields.size(); ++column)
-      if (std::find(kRosterKeys.begin(), kRosterKeys.end(), headings.fields[column]) != kRosterKeys.end())
-        fieldOf(student, headings.fields[column]) = rows[k].fields[column];
-    roster.add(std::move(student), where);
+    for (const std::string& key : kRosterKeys) fieldOf(student, key) = table.text(k, {key});
+    roster.add(std::move(student), {table.place(k)});
   }
 }
 

@@ -1,9 +1,27 @@
 #include "classroom/csv.h"
 
+#include <fmt/format.h>
+
 #include "base/error.h"
 #include "base/escape.h"
+#include "base/join.h"
+#include "base/printable.h"
+#include "base/text.h"
+#include "base/text_file.h"
+#include "classroom/composed_text.h"
 
 namespace rex::grading {
+namespace {
+
+// Quoted where needed, else as it was: Moodle compares what it reads back.
+std::string unchangedField(const std::string& text) {
+  if (text.find_first_of(",\"\r\n ;\t") == text.npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
+}  // namespace
 
 std::string csvLine(const std::vector<std::string>& fields) {
   std::string line;
@@ -12,7 +30,7 @@ std::string csvLine(const std::vector<std::string>& fields) {
 }
 
 std::vector<CsvRow> parseCsv(std::string_view text, const std::string& file, char separator) {
-  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+  text = withoutByteOrderMark(text);
   std::vector<CsvRow> rows;
   CsvRow row{.line = 1, .fields = {""}};
   bool isQuoted = false;
@@ -39,6 +57,74 @@ std::vector<CsvRow> parseCsv(std::string_view text, const std::string& file, cha
     throw Error({.what = "a quote does not end", .where = {file, row.line, 0}, .wanted = "a CSV file"});
   endRow();
   return rows;
+}
+
+CsvTable::CsvTable(const std::filesystem::path& file, const std::string& what)
+    : file_(file.string()), what_(what) {
+  const std::string text = readTextFile(file);
+  const auto refuse = [&](const char* found) {
+    throw UsageError(
+        {.what = "not " + what_, .where = {file_}, .found = found, .wanted = "a CSV file in UTF-8"});
+  };
+  if (!isUtf8(text) || text.find('\0') != text.npos) refuse("text in another encoding than UTF-8");
+  hasMark_ = withoutByteOrderMark(text).size() < text.size();
+  if (text.find("\r\n") != text.npos) lineEnd_ = "\r\n";
+  const std::string first = text.substr(0, text.find('\n'));
+  if (first.find(',') == first.npos && first.find(';') != first.npos) separator_ = ';';
+  rows_ = parseCsv(text, file_, separator_);
+  if (rows_.empty()) refuse("an empty file");
+  headings_ = rows_.front();
+  rows_.erase(rows_.begin());
+}
+
+std::size_t CsvTable::indexOf(const Headings& column) const {
+  for (const std::string& heading : column)
+    for (std::size_t k = 0; k < headings_.fields.size(); ++k)
+      if (caseless(trimmed(headings_.fields[k])) == caseless(heading)) return k;
+  return headings_.fields.size();
+}
+
+bool CsvTable::has(const Headings& column) const { return indexOf(column) < headings_.fields.size(); }
+
+void CsvTable::require(const Headings& column) const {
+  if (has(column)) return;
+  throw UsageError({.what = "not " + what_,
+                    .where = {file_, headings_.line, 0},
+                    .found = printable(fmt::format("the columns {}", join(headings_.fields, ", ")), 400),
+                    .wanted = fmt::format("a column '{}'", join(column, "' or '"))});
+}
+
+void CsvTable::requireWholeRows() const {
+  for (const CsvRow& row : rows_)
+    if (row.fields.size() != headings_.fields.size())
+      throw UsageError({.what = "not " + what_,
+                        .where = {file_, row.line, 0},
+                        .found = fmt::format("{} fields", row.fields.size()),
+                        .wanted = fmt::format("{}", headings_.fields.size())});
+}
+
+std::string CsvTable::text(std::size_t row, const Headings& column) const {
+  const std::size_t index = indexOf(column);
+  const std::vector<std::string>& fields = rows_.at(row).fields;
+  return index < fields.size() ? std::string(trimmed(composed(fields[index]))) : "";
+}
+
+std::string CsvTable::place(std::size_t row) const { return fmt::format("{}:{}", file_, rows_.at(row).line); }
+
+void CsvTable::set(std::size_t row, const Headings& column, const std::string& text) {
+  rows_.at(row).fields.at(indexOf(column)) = text;
+}
+
+std::string CsvTable::csv() const {
+  std::string all = hasMark_ ? "\xef\xbb\xbf" : "";
+  const auto add = [&](const CsvRow& row) {
+    for (std::size_t k = 0; k < row.fields.size(); ++k)
+      all += (k == 0 ? "" : std::string(1, separator_)) + unchangedField(row.fields[k]);
+    all += lineEnd_;
+  };
+  add(headings_);
+  for (const CsvRow& row : rows_) add(row);
+  return all;
 }
 
 }  // namespace rex::grading

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,5 +20,45 @@ struct CsvRow {
 };
 [[nodiscard]] std::vector<CsvRow> parseCsv(std::string_view text, const std::string& file,
                                            char separator = ',');
+
+/// A CSV file with headings in its first row, with commas or semicolons. A column is named by the headings
+/// that it may have, ignoring case, such as those in the languages of a platform; the first that is there
+/// counts.
+class CsvTable {
+ public:
+  using Headings = std::vector<std::string>;
+
+  /// Throws UsageError, which calls the table `what`, if it is not UTF-8 or has no headings; Error if it
+  /// cannot be read.
+  CsvTable(const std::filesystem::path& file, const std::string& what);
+
+  [[nodiscard]] bool has(const Headings& column) const;
+  /// Throws UsageError with the headings that are there.
+  void require(const Headings& column) const;
+  /// Throws UsageError for a row with more or fewer fields than there are headings.
+  void requireWholeRows() const;
+
+  [[nodiscard]] std::size_t size() const { return rows_.size(); }
+  /// In NFC and without blanks around it; empty without the column.
+  [[nodiscard]] std::string text(std::size_t row, const Headings& column) const;
+  /// "FILE:LINE".
+  [[nodiscard]] std::string place(std::size_t row) const;
+
+  /// Replaces a field of a column that is there.
+  void set(std::size_t row, const Headings& column, const std::string& text);
+  /// The file as it was read but for such fields: with its byte order mark, separators and line ends, and
+  /// quotes where they are needed.
+  [[nodiscard]] std::string csv() const;
+
+ private:
+  [[nodiscard]] std::size_t indexOf(const Headings& column) const;  ///< the number of columns: none
+
+  std::string file_, what_;
+  bool hasMark_ = false;
+  char separator_ = ',';
+  std::string lineEnd_ = "\n";
+  CsvRow headings_{};
+  std::vector<CsvRow> rows_{};
+};
 
 }  // namespace rex::grading

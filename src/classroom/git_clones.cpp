@@ -10,7 +10,7 @@
 #include "base/printable.h"
 #include "classroom/arrivals.h"
 #include "classroom/composed_text.h"
-#include "classroom/platform_table.h"
+#include "classroom/csv.h"
 #include "classroom/platform_time.h"
 #include "classroom/repository.h"
 
@@ -18,13 +18,12 @@ namespace rex::grading {
 namespace {
 
 namespace fs = std::filesystem;
-using Columns = std::vector<std::string>;
 
-const Columns kUser = {"username", "github_username"}, kRosterId = {"identifier"}, kRosterName = {"name"},
-              kRecordId = {"identifier", "roster_identifier"},
-              kRepositoryName = {"repository", "student_repository_name"},
-              kHandedInAt = {"submitted", "submission_timestamp"}, kCommit = {"commit", "commit_sha", "sha"},
-              kGroupName = {"group_name"};
+const CsvTable::Headings kUser = {"username", "github_username"}, kRosterId = {"identifier"},
+                         kRosterName = {"name"}, kRecordId = {"identifier", "roster_identifier"},
+                         kRepositoryName = {"repository", "student_repository_name"},
+                         kHandedInAt = {"submitted", "submission_timestamp"},
+                         kCommit = {"commit", "commit_sha", "sha"}, kGroupName = {"group_name"};
 
 /// What the platform recorded about one repository.
 struct Recorded {
@@ -44,7 +43,7 @@ Person personOfRoster(std::string id, std::string name, std::string user) {
 std::vector<Person> readRoster(const fs::path& file) {
   std::vector<Person> people;
   if (file.empty()) return people;
-  const PlatformTable table(file, "a roster");
+  const CsvTable table(file, "a roster");
   table.require(kRosterId);
   for (std::size_t k = 0; k < table.size(); ++k)
     people.push_back(
@@ -80,7 +79,7 @@ class CloneReader {
   static std::map<std::string, Recorded> readRecord(const fs::path& file) {
     std::map<std::string, Recorded> record;
     if (file.empty()) return record;
-    const PlatformTable table(file, "a record of the platform");
+    const CsvTable table(file, "a record of the platform");
     table.require(kRepositoryName);
     const PlatformZone zone("");
     for (std::size_t k = 0; k < table.size(); ++k) {
@@ -266,7 +265,7 @@ class CloneReader {
 }  // namespace
 
 Arrivals readClones(const fs::path& source, const CloneOptions& options,
-                       const std::vector<ExerciseInfo>& exercises) {
+                    const std::vector<ExerciseInfo>& exercises) {
   if (!fs::is_directory(source))
     throw UsageError({.what = "no such folder", .where = {source.string()}, .wanted = "a folder of clones"});
   requireLayout(Platform::kGit, source, exercises);

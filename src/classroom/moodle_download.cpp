@@ -8,15 +8,15 @@
 #include "base/printable.h"
 #include "classroom/arrivals.h"
 #include "classroom/composed_text.h"
+#include "classroom/csv.h"
 #include "classroom/moodle_worksheet_internal.h"
-#include "classroom/platform_table.h"
 #include "classroom/platform_time.h"
 
 namespace rex::grading {
 namespace {
 
-const MoodleHeadings kMoodleStatus = {"Status"},
-                     kMoodleSubmitted = {"Last modified (submission)", "Zuletzt geändert (Abgabe)"};
+const CsvTable::Headings kMoodleStatus = {"Status"},
+                         kMoodleSubmitted = {"Last modified (submission)", "Zuletzt geändert (Abgabe)"};
 
 /// What Moodle's grading worksheet says about one participant.
 struct MoodleRow {
@@ -29,7 +29,7 @@ struct MoodleRow {
 std::map<std::string, MoodleRow> readWorksheet(const MoodleOptions& options) {
   std::map<std::string, MoodleRow> rows;
   if (options.worksheet.empty()) return rows;
-  const PlatformTable table(options.worksheet, "Moodle's grading worksheet");
+  const CsvTable table(options.worksheet, "Moodle's grading worksheet");
   table.require(kMoodleIdentifier);
   const PlatformZone zone(options.timeZone);
   for (std::size_t k = 0; k < table.size(); ++k) {

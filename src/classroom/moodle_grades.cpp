@@ -1,15 +1,11 @@
 #include <algorithm>
-#include <charconv>
 #include <map>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/join.h"
-#include "base/lower_case.h"
 #include "base/printable.h"
-#include "base/text_file.h"
-#include "classroom/composed_text.h"
+#include "base/text.h"
 #include "classroom/csv.h"
 #include "classroom/moodle_worksheet_internal.h"
 #include "classroom/platform_grades.h"
@@ -18,38 +14,13 @@
 namespace rex::grading {
 namespace {
 
-constexpr std::size_t kNoColumn = static_cast<std::size_t>(-1);
-
-std::size_t columnOfAny(const CsvRow& headings, const MoodleHeadings& names) {
-  for (const std::string& name : names)
-    for (std::size_t k = 0; k < headings.fields.size(); ++k)
-      if (caseless(headings.fields[k]) == caseless(name)) return k;
-  return kNoColumn;
-}
-
-// Quoted where needed, else as it was: Moodle compares what it reads back.
-std::string plainLine(const std::vector<std::string>& fields, const std::string& end) {
-  std::string line;
-  for (std::size_t k = 0; k < fields.size(); ++k) {
-    if (k > 0) line += ',';
-    if (fields[k].find_first_of(",\"\r\n ;\t") == std::string::npos) {
-      line += fields[k];
-      continue;
-    }
-    line += '"';
-    for (const char c : fields[k]) line += c == '"' ? std::string("\"\"") : std::string(1, c);
-    line += '"';
-  }
-  return line + end;
-}
-
 /// Completes one worksheet.
 class WorksheetWriter {
  public:
   WorksheetWriter(const std::filesystem::path& file, const Gradebook& book, const std::string& exercise,
                   const ImportTable& imported, bool scale)
       : file_(file.string()),
-        text_(readTextFile(file)),
+        table_(file, "a grading worksheet of Moodle"),
         book_(book),
         exercise_(exercise),
         everyone_(book.everyone()),
@@ -62,87 +33,58 @@ class WorksheetWriter {
   }
 
   Worksheet write() {
-    const std::vector<CsvRow> rows = parseCsv(text_, file_);
-    const CsvRow headings = rows.empty() ? CsvRow{} : rows.front();
-    findColumns(headings);
-    const std::string end = text_.find("\r\n") == std::string::npos ? "\n" : "\r\n";
-    const std::string mark = "\xef\xbb\xbf";
-    sheet_.csv = (text_.starts_with(mark) ? mark : "") + plainLine(headings.fields, end);
-    for (std::size_t k = 1; k < rows.size(); ++k) {
-      CsvRow row = rows[k];
-      if (row.fields.size() != headings.fields.size())
-        throw Error({.what = "not a grading worksheet",
-                     .where = {file_, row.line, 0},
-                     .found = fmt::format("{} fields", row.fields.size()),
-                     .wanted = fmt::format("{}", headings.fields.size())});
-      complete(row);
-      sheet_.csv += plainLine(row.fields, end);
-    }
+    table_.require(kMoodleIdentifier), table_.require(kMoodleGrade);
+    table_.requireWholeRows();
+    for (std::size_t row = 0; row < table_.size(); ++row) complete(row);
     tellAbsent();
+    sheet_.csv = table_.csv();
     return std::move(sheet_);
   }
 
  private:
-  void findColumns(const CsvRow& headings) {
-    identifier_ = columnOfAny(headings, kMoodleIdentifier);
-    grade_ = columnOfAny(headings, {"Grade", "Bewertung"});
-    name_ = columnOfAny(headings, kMoodleName);
-    email_ = columnOfAny(headings, kMoodleEmail);
-    number_ = columnOfAny(headings, kMoodleIdNumber);
-    maximum_ = columnOfAny(headings, kMoodleMaximum);
-    if (identifier_ == kNoColumn || grade_ == kNoColumn)
-      throw Error({.what = "not a grading worksheet of Moodle",
-                   .where = {file_, 1, 0},
-                   .found = fmt::format("the columns {}", join(headings.fields, ", ")),
-                   .wanted = "Identifier and Grade"});
-  }
-
-  static std::string cell(const CsvRow& row, std::size_t column) {
-    return column == kNoColumn ? "" : row.fields[column];
-  }
-
-  std::string studentIn(const CsvRow& row) const {
-    if (const auto found = known_.find(cell(row, identifier_)); found != known_.end()) return found->second;
-    return studentOf({.id = cell(row, number_), .name = cell(row, name_), .email = cell(row, email_)},
+  std::string studentIn(std::size_t row) const {
+    if (const auto found = known_.find(table_.text(row, kMoodleIdentifier)); found != known_.end())
+      return found->second;
+    return studentOf({.id = table_.text(row, kMoodleIdNumber),
+                      .name = table_.text(row, kMoodleName),
+                      .email = table_.text(row, kMoodleEmail)},
                      everyone_);
   }
 
-  void complete(CsvRow& row) {
-    const std::string id = studentIn(row), who = printable(cell(row, name_));
-    sheet_.rows.push_back({id, cell(row, name_), participantNumber(cell(row, identifier_))});
+  void complete(std::size_t row) {
+    const std::string id = studentIn(row), name = table_.text(row, kMoodleName);
+    sheet_.rows.push_back({id, name, participantNumber(table_.text(row, kMoodleIdentifier))});
     if (id.empty()) {
-      sheet_.notes.push_back(
-          fmt::format("{}:{}: '{}' is nobody here; the grade stays as it is", file_, row.line, who));
+      sheet_.notes.push_back(fmt::format("{}: '{}' is nobody here; the grade stays as it is",
+                                         table_.place(row), printable(name)));
       return;
     }
-    if (!seen_.emplace(id, row.line).second)
+    if (const auto [first, isNew] = seen_.emplace(id, table_.place(row)); !isNew)
       throw Error({.what = fmt::format("a second row for '{}'", id),
-                   .where = {file_, row.line, 0},
-                   .wanted = fmt::format("one; the first is in line {}", seen_[id])});
+                   .where = {table_.place(row)},
+                   .wanted = fmt::format("one; the first is at {}", first->second)});
     const GradeRow* graded = book_.row(id, exercise_);
     if (graded == nullptr || !graded->final) return;
-    row.fields[grade_] = hundredthsText(scaled(*graded, row));
+    table_.set(row, kMoodleGrade, hundredthsText(scaled(*graded, row)));
   }
 
-  std::int64_t scaled(const GradeRow& graded, const CsvRow& row) const {
-    std::string text = cell(row, maximum_);
+  std::int64_t scaled(const GradeRow& graded, std::size_t row) const {
+    const std::string shown = table_.text(row, kMoodleMaximum);
+    std::string text = shown;
     std::replace(text.begin(), text.end(), ',', '.');
-    double maximum = 0;
-    const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), maximum);
-    const std::int64_t most = static_cast<std::int64_t>(100 * maximum + 0.5);
-    const bool isNumber = failure == std::errc() && end == text.data() + text.size();
-    if (!isNumber && scale_)
+    const std::optional<double> maximum = parseNumber<double>(text);
+    const auto refuse = [&](const std::string& found, const std::string& wanted) {
       throw Error({.what = fmt::format("the maximum grade of {} in Moodle", exercise_),
-                   .where = {file_, row.line, 0},
-                   .found = text.empty() ? "none" : text,
-                   .wanted = "a number, to scale the points to it"});
-    if (!isNumber || most == graded.possible) return *graded.final;
+                   .where = {table_.place(row)},
+                   .found = found,
+                   .wanted = wanted});
+    };
+    if (!maximum && scale_) refuse(text.empty() ? "none" : shown, "a number, to scale the points to it");
+    const auto most = static_cast<std::int64_t>(100 * maximum.value_or(0) + 0.5);
+    if (!maximum || most == graded.possible) return *graded.final;
     if (!scale_ || graded.possible == 0)
-      throw Error({.what = fmt::format("the maximum grade of {} in Moodle", exercise_),
-                   .where = {file_, row.line, 0},
-                   .found = cell(row, maximum_),
-                   .wanted = fmt::format("{}, the points of the exercise, or --scale",
-                                         hundredthsText(graded.possible))});
+      refuse(shown,
+             fmt::format("{}, the points of the exercise, or --scale", hundredthsText(graded.possible)));
     return (*graded.final * most + graded.possible / 2) / graded.possible;
   }
 
@@ -152,15 +94,14 @@ class WorksheetWriter {
         sheet_.notes.push_back(fmt::format("'{}' has a grade and no row in {}", row.student.id, file_));
   }
 
-  std::string file_, text_;
+  std::string file_;
+  CsvTable table_;
   const Gradebook& book_;
   std::string exercise_;
   Course everyone_;
   bool scale_;
   std::map<std::string, std::string> known_{};  // by identifier: id
-  std::map<std::string, int> seen_{};           // by id: line
-  std::size_t identifier_ = kNoColumn, grade_ = kNoColumn, name_ = kNoColumn, email_ = kNoColumn,
-              number_ = kNoColumn, maximum_ = kNoColumn;
+  std::map<std::string, std::string> seen_{};   // by id: place
   Worksheet sheet_{};
 };
 

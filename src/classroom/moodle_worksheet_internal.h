@@ -1,17 +1,18 @@
 #pragma once
 
 #include <string>
-#include <vector>
+
+#include "classroom/csv.h"
 
 namespace rex::grading {
 
 /// Headings of Moodle's grading worksheet in English and German; case does not count.
-using MoodleHeadings = std::vector<std::string>;
-inline const MoodleHeadings kMoodleIdentifier = {"Identifier", "ID"},
-                            kMoodleName = {"Full name", "Vollständiger Name"},
-                            kMoodleIdNumber = {"ID number", "ID-Nummer", "Matrikelnummer", "Student ID"},
-                            kMoodleEmail = {"Email address", "E-Mail-Adresse", "E-Mail"},
-                            kMoodleMaximum = {"Maximum Grade", "Bestwertung"};
+inline const CsvTable::Headings kMoodleIdentifier = {"Identifier", "ID"},
+                                kMoodleName = {"Full name", "Vollständiger Name"},
+                                kMoodleIdNumber = {"ID number", "ID-Nummer", "Matrikelnummer", "Student ID"},
+                                kMoodleEmail = {"Email address", "E-Mail-Adresse", "E-Mail"},
+                                kMoodleGrade = {"Grade", "Bewertung"},
+                                kMoodleMaximum = {"Maximum Grade", "Bestwertung"};
 
 /// "501" of the identifier "Participant 501"; empty if it has no number at its end.
 inline std::string participantNumber(const std::string& identifier) {

@@ -1,9 +1,9 @@
-#include <sstream>
-
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/lines.h"
 #include "base/printable.h"
+#include "base/text.h"
 #include "base/text_file.h"
 #include "classroom/gradebook.h"
 
@@ -31,18 +31,15 @@ std::string notTakenText(const std::vector<NotTaken>& all) {
 std::vector<NotTaken> readNotTaken(const std::filesystem::path& file) {
   std::vector<NotTaken> all;
   if (!std::filesystem::exists(file)) return all;
-  std::istringstream lines(readTextFile(file));
-  std::string line;
-  for (int number = 1; std::getline(lines, line); ++number) {
-    const std::size_t first = line.find('\t'), second = line.find('\t', first + 1);
-    if (first == std::string::npos || second == std::string::npos ||
-        (number == 1 && line != kNotTakenHeadings))
+  const std::string text = readTextFile(file);
+  int number = 0;
+  for (const std::string_view line : splitLines(text)) {
+    const std::vector<std::string_view> cells = splitAt(line, '\t');
+    if (++number == 1 ? line != kNotTakenHeadings : cells.size() != 3)
       throw Error({.what = "not a list of what was not taken",
                    .where = {file.string(), number, 0},
                    .wanted = "student, exercise and reason, as `rex grade` writes them"});
-    if (number > 1)
-      all.push_back(
-          {line.substr(0, first), line.substr(first + 1, second - first - 1), line.substr(second + 1)});
+    if (number > 1) all.push_back({std::string(cells[0]), std::string(cells[1]), std::string(cells[2])});
   }
   return all;
 }

@@ -1,7 +1,6 @@
 #include "classroom/platform_time.h"
 
 #include <array>
-#include <charconv>
 #include <chrono>
 #include <regex>
 #include <stdexcept>
@@ -10,6 +9,7 @@
 #include <date/tz.h>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "classroom/composed_text.h"
 
 namespace rex::grading {
@@ -22,11 +22,7 @@ constexpr const char* kTimeExamples =
     "November "
     "2026, 23:58'";
 
-int numberIn(std::string_view digits) {
-  int value = 0;
-  std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  return value;
-}
+int valueOf(const std::ssub_match& digits) { return parseNumber<int>(digits.str()).value_or(0); }
 
 // Of a word with at least three letters; 0: none. English and German, whole or cut.
 int monthOf(const std::string& word) {
@@ -72,7 +68,7 @@ std::optional<int> zoneOf(const std::string& text) {
   if (text == "z" || text == "utc" || text == "gmt") return 0;
   std::smatch match;
   if (!std::regex_match(text, match, kZone)) return {};
-  const int hours = numberIn(match[2].str()), minutes = numberIn(match[3].str());
+  const int hours = valueOf(match[2]), minutes = valueOf(match[3]);
   if (hours > 23 || minutes > 59) return {};
   return (match[1] == "-" ? -60 : 60) * (60 * hours + minutes);
 }
@@ -83,7 +79,7 @@ std::optional<PlatformTime> parseIso(const std::string& text) {
   static const std::regex kDotted(
       "([0-9]{1,2})[.]([0-9]{1,2})[.]([0-9]{4}),? +([0-9]{1,2}):([0-9]{2})(:([0-9]{2}))?( uhr)?");
   std::smatch match;
-  const auto number = [&](std::size_t k) { return numberIn(match[k].str()); };
+  const auto number = [&](std::size_t k) { return valueOf(match[k]); };
   if (std::regex_match(text, match, kDotted))
     return PlatformTime{number(3), number(2), number(1), number(4), number(5), number(7)};
   if (!std::regex_match(text, match, kIso)) return {};
@@ -120,10 +116,10 @@ class WordedTime {
     if (match[1].matched) {
       isUnderstood_ = isUnderstood_ && !hasClock_;
       hasClock_ = true;
-      clock_.hour = numberIn(match[1].str()), clock_.minute = numberIn(match[2].str());
-      clock_.second = numberIn(match[4].str());
+      clock_.hour = valueOf(match[1]), clock_.minute = valueOf(match[2]);
+      clock_.second = valueOf(match[4]);
     } else if (word.find_first_not_of("0123456789") == word.npos) {
-      numbers_.push_back(numberIn(word));
+      numbers_.push_back(valueOf(match[0]));
     } else if (word == "am" || word == "pm") {
       half_ = word.front();
     } else if (const int month = monthOf(word); month != 0 && month_ == 0) {
@@ -168,7 +164,8 @@ const date::time_zone* zoneNamed(const std::string& name) {
 // Nothing if the hour does not exist there.
 std::optional<std::int64_t> instantIn(const std::string& zone, const PlatformTime& time) {
   const std::int64_t local = asIfUtc(time);
-  const date::local_info info = date::locate_zone(zone)->get_info(date::local_seconds(seconds(local)));
+  const date::local_info info =
+      date::locate_zone(zone)->get_info(date::local_seconds(std::chrono::seconds(local)));
   if (info.result == date::local_info::nonexistent) return {};
   return local - info.first.offset.count();
 }
@@ -179,11 +176,10 @@ std::optional<PlatformTime> parsePlatformTime(std::string_view text) {
   std::string plain = caseless(text);
   for (const std::string blank : {"\u00A0", "\u202F"})  // some write them before AM and PM
     for (std::size_t at; (at = plain.find(blank)) != plain.npos;) plain.replace(at, blank.size(), " ");
-  const std::size_t first = plain.find_first_not_of(' '), last = plain.find_last_not_of(' ');
-  if (first == plain.npos || plain.size() > 100) return {};
-  const std::string trimmed = plain.substr(first, last - first + 1);
-  std::optional<PlatformTime> time = parseIso(trimmed);
-  if (!time) time = WordedTime(trimmed).time();
+  if (plain.size() > 100) return {};
+  const std::string words(trimmed(plain));
+  std::optional<PlatformTime> time = parseIso(words);
+  if (!time) time = WordedTime(words).time();
   return time && exists(*time) ? time : std::nullopt;
 }
 

@@ -1,12 +1,11 @@
 #include "classroom/task_list.h"
 
-#include <charconv>
-#include <sstream>
-
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/lines.h"
 #include "base/sha256.h"
+#include "base/text.h"
 #include "base/text_file.h"
 #include "classroom/hand_in.h"
 
@@ -30,34 +29,22 @@ std::string line(const Task& task, std::size_t number) {
                      task.secretId, task.submitted, task.timeFrom, task.inputsSha256(), task.file.string());
 }
 
-std::vector<std::string> cut(const std::string& line) {
-  std::vector<std::string> fields;
-  for (std::size_t from = 0;;) {
-    const std::size_t tab = line.find('\t', from);
-    fields.push_back(line.substr(from, tab - from));
-    if (tab == std::string::npos) return fields;
-    from = tab + 1;
-  }
-}
-
 /// The fields of one line, with its position in the file.
 class Line {
  public:
-  Line(const std::string& text, std::string file, int number)
-      : fields_(cut(text)), where_{std::move(file), number, 0} {
+  Line(std::string_view text, std::string file, int number)
+      : fields_(splitAt(text, '\t')), where_{std::move(file), number, 0} {
     if (fields_.size() != kColumns)
       refuse(fmt::format("{} columns", fields_.size()), fmt::format("{}", kColumns));
   }
 
   template <class Number>
   Number number(std::size_t column, const std::string& wanted) const {
-    Number value{};
-    const std::string& text = fields_[column];
-    const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (failure != std::errc() || end != text.data() + text.size()) refuse("'" + text + "'", wanted);
-    return value;
+    const std::optional<Number> value = parseNumber<Number>(fields_[column]);
+    if (!value) refuse(fmt::format("'{}'", fields_[column]), wanted);
+    return *value;
   }
-  const std::string& text(std::size_t column) const { return fields_[column]; }
+  std::string text(std::size_t column) const { return std::string(fields_[column]); }
 
   [[noreturn]] void refuse(std::string found, std::string wanted) const {
     throw Error({.what = "not a list of tasks",
@@ -67,7 +54,7 @@ class Line {
   }
 
  private:
-  std::vector<std::string> fields_;
+  std::vector<std::string_view> fields_;
   SourceLocation where_;
 };
 
@@ -106,16 +93,15 @@ std::string toManifest(const std::vector<Task>& tasks) {
 }
 
 std::vector<Task> readManifest(const std::filesystem::path& file) {
-  std::istringstream lines(readTextFile(file));
-  std::string text;
-  if (!std::getline(lines, text) || text != kHeadings)
+  const std::string text = readTextFile(file);
+  const std::vector<std::string_view> lines = splitLines(text);
+  if (lines.empty() || lines[0] != kHeadings)
     throw Error({.what = "not a list of tasks",
                  .where = {file.string(), 1, 0},
                  .wanted = "the headings that `rex grade --manifest` writes"});
   std::vector<Task> tasks;
-  while (std::getline(lines, text))
-    tasks.push_back(
-        readTask(Line(text, file.string(), static_cast<int>(tasks.size()) + 2), tasks.size() + 1));
+  for (std::size_t k = 1; k < lines.size(); ++k)
+    tasks.push_back(readTask(Line(lines[k], file.string(), static_cast<int>(k) + 1), k));
   return tasks;
 }
 

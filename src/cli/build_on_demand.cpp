@@ -1,7 +1,6 @@
 #include "cli/build_on_demand.h"
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -11,6 +10,7 @@
 
 #include "base/private_folder.h"
 #include "base/process.h"
+#include "base/text.h"
 #include "base/text_file.h"
 #include "cli/out_folder.h"
 #include "cli/progress_line.h"
@@ -30,14 +30,14 @@ struct Steps {
 
 // "[12/40] Building ..." as NINJA_STATUS asks for.
 std::optional<Steps> stepsIn(std::string_view line) {
-  Steps steps;
   if (!line.starts_with('[')) return {};
-  const char* const end = line.data() + line.size();
-  const auto [slash, isNumber] = std::from_chars(line.data() + 1, end, steps.done);
-  if (isNumber != std::errc() || slash == end || *slash != '/') return {};
-  const auto [bracket, isAnother] = std::from_chars(slash + 1, end, steps.all);
-  if (isAnother != std::errc() || bracket == end || *bracket != ']' || steps.all < 1) return {};
-  return steps;
+  line.remove_prefix(1);
+  const std::optional<int> done = takeNumber<int>(line);
+  if (!done || !line.starts_with('/')) return {};
+  line.remove_prefix(1);
+  const std::optional<int> all = takeNumber<int>(line);
+  if (!all || !line.starts_with(']') || *all < 1) return {};
+  return Steps{*done, *all};
 }
 
 std::optional<Steps> lastSteps(std::string_view log) {

@@ -1,11 +1,11 @@
 #include "cli/demonstrations.h"
 
 #include <algorithm>
-#include <charconv>
 #include <sstream>
 #include <tuple>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "base/text_file.h"
 
 namespace rex::cli {
@@ -28,9 +28,8 @@ Demonstration readDemonstration(const fs::path& file) {
   const std::string comment = firstComment(readTextFile(file));
   const std::size_t colon = comment.find(": "), stop = comment.find(". ");
   if (comment.starts_with(kStart) && colon != comment.npos && stop != comment.npos && colon < stop) {
-    const char *first = comment.data() + kStart.size(), *end = comment.data() + colon;
-    const auto [last, error] = std::from_chars(first, end, found.chapter);
-    if (error == std::errc{} && last == end) {
+    if (const auto chapter = parseNumber<int>(comment.substr(kStart.size(), colon - kStart.size()))) {
+      found.chapter = *chapter;
       found.title = comment.substr(colon + 2, stop - colon - 2);
       found.about = comment.substr(stop + 2);
       return found;

@@ -1,7 +1,6 @@
 #include "estimation/g2o_file.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -12,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "estimation/covariance.h"
 #include "estimation/pose_edge_internal.h"
 #include "geometry/rotation.h"
@@ -36,23 +36,13 @@ struct Line {
 Line wordsOf(std::string_view text, const std::string& file, int number) {
   Line line{{file, number, 0}, {}};
   if (const auto comment = text.find('#'); comment != std::string_view::npos) text = text.substr(0, comment);
-  constexpr std::string_view kBlank = " \t\r\v\f";
-  for (std::size_t at = text.find_first_not_of(kBlank); at != std::string_view::npos;) {
-    const std::size_t end = std::min(text.find_first_of(kBlank, at), text.size());
-    line.words.emplace_back(text.substr(at, end - at), static_cast<int>(at) + 1);
-    at = text.find_first_not_of(kBlank, end);
-  }
+  for (const std::string_view word : splitWords(text)) line.words.emplace_back(word, columnIn(text, word));
   return line;
 }
 
 template <class Number>
 Number number(const Line& line, std::size_t word, const char* wanted) {
-  std::string_view text = line.words[word].first;
-  if (text.size() > 1 && text[0] == '+') text.remove_prefix(1);
-  Number value{};
-  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool isWhole = problem == std::errc() && end == text.data() + text.size();
-  if (isWhole && std::isfinite(static_cast<double>(value))) return value;
+  if (const std::optional<Number> value = parseNumber<Number>(line.words[word].first)) return *value;
   throw Error({.what = std::string(line.words[0].first),
                .where = line.at(word),
                .found = fmt::format("'{}'", line.words[word].first),

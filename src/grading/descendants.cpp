@@ -1,7 +1,6 @@
 #include "grading/descendants.h"
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -14,6 +13,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/text.h"
+
 namespace rex::grading {
 namespace {
 
@@ -24,9 +25,8 @@ pid_t parentOf(const std::filesystem::path& process) {
   std::getline(file, stat, '\0');  // if the process ends meanwhile, reads nothing; iterators would throw
   const std::size_t nameEnd = stat.rfind(')');
   if (nameEnd == std::string::npos || nameEnd + 4 > stat.size()) return 0;
-  pid_t parent = 0;
-  std::from_chars(stat.data() + nameEnd + 4, stat.data() + stat.size(), parent);
-  return parent;
+  std::string_view parent = std::string_view(stat).substr(nameEnd + 4);
+  return takeNumber<pid_t>(parent).value_or(0);
 }
 
 // Process ids of the children of this process, running or ended, as the kernel lists them in /proc.
@@ -34,11 +34,8 @@ std::vector<int> listChildren() {
   std::vector<int> children;
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator("/proc", ignored)) {
-    const std::string name = entry.path().filename().string();
-    pid_t id = 0;
-    const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), id);
-    if (error != std::errc() || end != name.data() + name.size()) continue;
-    if (parentOf(entry.path()) == ::getpid()) children.push_back(id);
+    const std::optional<pid_t> id = parseNumber<pid_t>(entry.path().filename().string());
+    if (id && parentOf(entry.path()) == ::getpid()) children.push_back(*id);
   }
   return children;
 }

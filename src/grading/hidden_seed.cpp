@@ -6,19 +6,13 @@
 
 #include "base/error.h"
 #include "base/sha256.h"
+#include "base/text.h"
 #include "base/text_file.h"
 
 namespace rex::grading {
 namespace {
 
 constexpr std::size_t kBlock = 64;  // bytes that SHA-256 processes at once
-
-std::string bytesOf(const std::string& digits) {
-  std::string bytes;
-  for (std::size_t k = 0; k + 1 < digits.size(); k += 2)
-    bytes += static_cast<char>(std::stoi(digits.substr(k, 2), nullptr, 16));
-  return bytes;
-}
 
 std::string mixed(std::string block, char with) {
   for (char& byte : block) byte = static_cast<char>(byte ^ with);
@@ -28,16 +22,16 @@ std::string mixed(std::string block, char with) {
 }  // namespace
 
 std::string hmacSha256(std::string_view key, std::string_view message) {
-  std::string block = key.size() > kBlock ? bytesOf(sha256(key)) : std::string(key);
+  std::string block = key.size() > kBlock ? bytesOfHex(sha256(key)) : std::string(key);
   block.resize(kBlock, '\0');
-  const std::string inner = bytesOf(sha256(mixed(block, 0x36) + std::string(message)));
+  const std::string inner = bytesOfHex(sha256(mixed(block, 0x36) + std::string(message)));
   return sha256(mixed(block, 0x5c) + inner);
 }
 
 std::uint64_t hiddenSeed(std::string_view secret, std::string_view submissionSha256,
                          std::string_view exercise, std::string_view group) {
   const std::string message = fmt::format("{}\n{}\n{}\n", submissionSha256, exercise, group);
-  return std::stoull(hmacSha256(secret, message).substr(0, 16), nullptr, 16);
+  return parseNumber<std::uint64_t>(hmacSha256(secret, message).substr(0, 16), 16).value();
 }
 
 std::string readCourseSecret(const std::filesystem::path& file) {

@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "base/isolated_call.h"
+#include "base/text.h"
 #include "grading/worker_process.h"
 
 namespace rex::grading {
@@ -124,7 +125,7 @@ int pointsFor(Liar liar, const RunnableCheck& check, const Reference& reference)
 int pointsApart(const Liar& liar, const RunnableCheck& check, const Reference& reference) {
   const IsolatedResult result =
       callIsolated([&] { return std::to_string(pointsFor(liar, check, reference)); }, kOneRun);
-  return result.end == IsolatedEnd::kReturned ? std::stoi(result.bytes) : 0;
+  return result.end == IsolatedEnd::kReturned ? parseNumber<int>(result.bytes).value_or(0) : 0;
 }
 
 double processorSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }

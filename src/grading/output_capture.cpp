@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <sstream>
 #include <string_view>
 
 #include <fmt/format.h>
 #include <unistd.h>
+
+#include "base/lines.h"
+#include "base/text.h"
 
 namespace rex::grading {
 namespace {
@@ -50,12 +52,6 @@ std::string shorten(const std::string& line) {
   return useful;
 }
 
-std::string trimmed(const std::string& line) {
-  const std::size_t first = line.find_first_not_of(" \t\r");
-  if (first == std::string::npos) return "";
-  return line.substr(first, line.find_last_not_of(" \t\r") - first + 1);
-}
-
 }  // namespace
 
 OutputCapture::~OutputCapture() {
@@ -85,9 +81,8 @@ std::string tellingLine(const std::string& errorOutput) {
   constexpr std::array<std::string_view, 4> kTelling = {"Assertion `", "Assertion '",
                                                         "ERROR: AddressSanitizer", "runtime error:"};
   std::string last;
-  std::istringstream lines(errorOutput);
-  for (std::string line; std::getline(lines, line);) {
-    line = trimmed(line);
+  for (const std::string_view whole : splitLines(errorOutput)) {
+    const std::string line(trimmed(whole));
     if (line.empty()) continue;
     // The second line that the runtime prints about an uncaught exception.
     last = line.starts_with("what():") ? last + ", " + line : line;

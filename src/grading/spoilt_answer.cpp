@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -10,6 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/text.h"
 
 namespace rex::grading {
 namespace {
@@ -69,11 +69,9 @@ class Parser {
   }
 
   int number() {
-    int value = 0;
-    const auto [end, error] = std::from_chars(layout_.data(), layout_.data() + layout_.size(), value);
-    if (error != std::errc()) refuse();
-    layout_.remove_prefix(static_cast<std::size_t>(end - layout_.data()));
-    return value;
+    const std::optional<int> value = takeNumber<int>(layout_);
+    if (!value) refuse();
+    return *value;
   }
 
   char next() {

@@ -1,10 +1,10 @@
 #include "legacy/parameters.h"
 
-#include <charconv>
 #include <optional>
 #include <vector>
 
 #include "base/error.h"
+#include "base/text.h"
 
 namespace MT {
 namespace {
@@ -25,13 +25,8 @@ template <class Number>
 Number numberOf(const char* name, const Number& usual, const char* wanted) {
   const std::optional<std::string> text = textOf(name);
   if (!text) return usual;
-  Number number{};
-  const char* const end = text->data() + text->size();
-  const auto [stop, error] = std::from_chars(text->data(), end, number);
-  if (error != std::errc() || stop != end)
-    throw rex::Error(
-        {.what = std::string("parameter -") + name, .found = "'" + *text + "'", .wanted = wanted});
-  return number;
+  if (const std::optional<Number> number = rex::parseNumber<Number>(*text)) return *number;
+  throw rex::Error({.what = std::string("parameter -") + name, .found = "'" + *text + "'", .wanted = wanted});
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include "live/live_session.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -9,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/printable.h"
+#include "base/text.h"
 #include "collision/contacts.h"
 #include "geometry/rotation.h"
 #include "kinematics/center_of_mass.h"
@@ -170,9 +170,8 @@ void LiveSession::move(const Event& event) {
   if (!event.has("q") || !event.json["q"].is_object()) refuse("q", "no list or object", "one");
   VectorXd q = simulation_ ? target_ : state_.q;
   for (const auto& [key, value] : event.json["q"].items()) {
-    int index = -1;
-    const auto [end, fault] = std::from_chars(key.data(), key.data() + key.size(), index);
-    if (fault != std::errc() || end != key.data() + key.size() || index < 0 || index >= model_.nq())
+    const int index = parseNumber<int>(key).value_or(-1);
+    if (index < 0 || index >= model_.nq())
       refuse("q", "'" + printable(key) + "'", fmt::format("0 to {}", model_.nq() - 1));
     if (!value.is_number() || !std::isfinite(value.get<double>()))
       refuse("q", "something else", "finite numbers");

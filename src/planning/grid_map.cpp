@@ -8,7 +8,9 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/lines.h"
 #include "base/require.h"
+#include "base/text.h"
 #include "render/png.h"
 
 namespace rex {
@@ -118,14 +120,9 @@ void GridMap::requireFree(std::string_view what, GridCell cell) const {
 }
 
 GridMap parseGridMap(std::string_view text, const std::string& name, double cellSize) {
-  std::vector<std::string_view> rows;
-  while (!text.empty()) {
-    const std::size_t end = text.find('\n');
-    std::string_view row = text.substr(0, end);
+  std::vector<std::string_view> rows = splitLines(withoutByteOrderMark(text));
+  for (std::string_view& row : rows)
     if (row.ends_with('\r')) row.remove_suffix(1);
-    rows.push_back(row);
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-  }
   while (!rows.empty() && rows.back().empty()) rows.pop_back();
   const auto refuse = [&](std::size_t row, std::size_t column, const std::string& found,
                           const std::string& wanted) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <charconv>
 #include <map>
 #include <vector>
 
@@ -10,6 +9,7 @@
 
 #include "base/base64.h"
 #include "base/escape.h"
+#include "base/text.h"
 #include "render/draw_film.h"
 #include "render/glb.h"
 #include "render/gzip_internal.h"
@@ -23,16 +23,6 @@ namespace {
 
 // Escapes text for use between tags and in attributes with double quotes.
 std::string escaped(std::string_view text) { return htmlText(internal::singleLines(text)); }
-
-std::string bytesOfHex(std::string_view digits) {
-  std::string bytes;
-  for (std::size_t i = 0; i + 1 < digits.size(); i += 2) {
-    unsigned value = 0;
-    std::from_chars(digits.data() + i, digits.data() + i + 2, value, 16);
-    bytes += static_cast<char>(value);
-  }
-  return bytes;
-}
 
 // The headline already gives the title.
 Film withoutCaption(Film film, const std::string& title) {

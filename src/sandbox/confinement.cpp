@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/text.h"
 
 namespace rex::sandbox {
 namespace {
@@ -21,16 +22,10 @@ class Reader {
   }
   double number() {
     const std::string value = text();
-    std::size_t used = 0;
-    double number = 0;
-    try {
-      number = std::stod(value, &used);
-    } catch (const std::exception&) {
-      used = 0;
-    }
-    if (used == 0 || used != value.size() || !(number >= 0))
+    const std::optional<double> number = parseNumber<double>(value);
+    if (!number || *number < 0)
       throw Error({.what = "an option of the sandbox", .found = value, .wanted = "a number"});
-    return number;
+    return *number;
   }
   template <class T>
   T whole() {

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/text.h"
 #include "scene/mesh_limits_internal.h"
 #include "scene/mesh_text_internal.h"
 
@@ -77,12 +78,6 @@ void checkPlyText(std::string_view body, const std::vector<PlyElement>& elements
                "as many as its header says");
       }
   }
-}
-
-bool isNumber(std::string_view word) {
-  double value = 0;
-  const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
-  return problem == std::errc() && end == word.data() + word.size();
 }
 
 // A face of an OFF file: how many corners, and which. If a vertex does not exist, assimp takes another one.
@@ -174,7 +169,7 @@ void checkOff(std::string_view bytes, const std::string& name) {
     std::string_view rest = line;
     for (std::string_view word = nextWord(rest); !word.empty(); word = nextWord(rest)) {
       isRow = isCounted;
-      if (!isNumber(word)) {
+      if (!isNumeral(word)) {
         if (known > 0) fail(name, "OFF file", "a word that is not a number", "numbers");
       } else if (known < 3) {
         requireCount(counts[known++] = numberAt(word), name);

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/text.h"
 #include "scene/ors_files_internal.h"
 #include "scene/ors_graph_internal.h"
 #include "scene/ors_limits_internal.h"
@@ -26,7 +27,7 @@ std::string shortest(const std::filesystem::path& folder) {
 std::string_view requireOrs(std::string_view text, const std::string& file) {
   if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
     throw Error({.what = "text in UTF-16", .where = {file, 1, 1}, .wanted = "UTF-8"});
-  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+  text = withoutByteOrderMark(text);
   const std::size_t start = std::min(text.find_first_not_of(" \t\r\n"), text.size());
   const std::string_view first = text.substr(start);
   if (first.starts_with("<?xml") || first.starts_with("<robot") || first.starts_with("<!--")) {

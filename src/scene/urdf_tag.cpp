@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -7,13 +6,12 @@
 #include <fmt/format.h>
 
 #include "base/join.h"
+#include "base/text.h"
 #include "geometry/rotation.h"
 #include "scene/urdf_tag_internal.h"
 
 namespace rex::urdf {
 namespace {
-
-constexpr std::string_view kBlank = " \t\r\n";
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -38,23 +36,16 @@ struct Numbers {
 
 Numbers parseNumbers(std::string_view text, std::size_t most) {
   Numbers numbers;
-  for (std::size_t at = text.find_first_not_of(kBlank); at != std::string_view::npos;
-       at = text.find_first_not_of(kBlank, at)) {
-    const std::size_t end = std::min(text.find_first_of(kBlank, at), text.size());
-    const std::string_view word = text.substr(at, end - at);
-    const std::string_view digits = word.substr(word.size() > 1 && word[0] == '+' && word[1] != '-' ? 1 : 0);
-    double value = 0;
-    const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    const bool isWhole = result.ptr == digits.data() + digits.size();
-    if (!isWhole || result.ec != std::errc() || !std::isfinite(value)) {
-      numbers.faultAt = at;
+  for (const std::string_view word : splitWords(text)) {
+    const std::optional<double> value = parseNumber<double>(word);
+    if (!value) {
+      numbers.faultAt = static_cast<std::size_t>(word.data() - text.data());
       numbers.fault = word;
-      numbers.isNumber = isWhole && result.ec != std::errc::invalid_argument;
+      numbers.isNumber = isNumeral(word);
       return numbers;
     }
-    numbers.values.push_back(value);
+    numbers.values.push_back(*value);
     if (numbers.values.size() > most) return numbers;
-    at = end;
   }
   return numbers;
 }

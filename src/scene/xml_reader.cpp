@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/lower_case.h"
+#include "base/text.h"
 #include "scene/xml_element_internal.h"
 
 namespace rex::xml {
@@ -250,7 +251,7 @@ Document parse(std::string_view text, const std::string& fileName, bool skipBlan
     fail({fileName}, "scene file too large", fmt::format("{} bytes", text.size()),
          fmt::format("at most {} MiB", kLargestFile >> 20));
   }
-  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+  text = withoutByteOrderMark(text);
   return Builder(text, fileName, skipBlanks ? bytesBeforeDeclaration(text) : 0, root).build();
 }
 

@@ -1,7 +1,6 @@
 #include "submission/compiler_messages.h"
 
 #include <algorithm>
-#include <charconv>
 #include <set>
 #include <utility>
 
@@ -11,6 +10,7 @@
 #include "base/error.h"
 #include "base/lines.h"
 #include "base/printable.h"
+#include "base/text.h"
 
 namespace rex::grading {
 namespace {
@@ -55,12 +55,11 @@ std::pair<int, int> originIn(std::string_view line, const std::string& mainFile)
   if (included != line.npos) place = included + 5;
   if (inlined != line.npos && line.find("inlined from") != line.npos) place = inlined + 4;
   if (place == line.npos) return {0, 0};
-  const char* at = line.data() + place + mainFile.size() + 1;
-  const char* end = line.data() + line.size();
-  int row = 0, column = 0;
-  const auto parsed = std::from_chars(at, end, row);
-  if (parsed.ptr != end && *parsed.ptr == ':') std::from_chars(parsed.ptr + 1, end, column);
-  return {row, column};
+  std::string_view rest = line.substr(place + mainFile.size() + 1);
+  const int row = takeNumber<int>(rest).value_or(0);
+  if (!rest.starts_with(':')) return {row, 0};
+  rest.remove_prefix(1);
+  return {row, takeNumber<int>(rest).value_or(0)};
 }
 
 // GCC spells a part of a matrix as an expression that fills the screen.
@@ -118,8 +117,8 @@ std::vector<CompileDiagnostic> parseCompilerText(std::string_view standardError)
     const std::size_t row = column == line.npos || column == 0 ? line.npos : line.rfind(':', column - 1);
     if (row == line.npos) continue;
     CompileDiagnostic message{.file = std::string(line.substr(0, row)), .severity = "error"};
-    std::from_chars(line.data() + row + 1, line.data() + column, message.line);
-    std::from_chars(line.data() + column + 1, line.data() + label, message.column);
+    message.line = parseNumber<int>(line.substr(row + 1, column - row - 1)).value_or(0);
+    message.column = parseNumber<int>(line.substr(column + 1, label - column - 1)).value_or(0);
     message.message = tidy(std::string(line.substr(line.find("error: ", label) + 7)));
     messages.push_back(std::move(message));
   }
@@ -134,7 +133,7 @@ std::vector<CompileDiagnostic> parseAssemblerText(std::string_view standardError
     const std::size_t row = label == line.npos || label == 0 ? line.npos : line.rfind(':', label - 1);
     if (row == line.npos) continue;
     CompileDiagnostic message{.file = std::string(line.substr(0, row)), .severity = "error"};
-    std::from_chars(line.data() + row + 1, line.data() + label, message.line);
+    message.line = parseNumber<int>(line.substr(row + 1, label - row - 1)).value_or(0);
     message.message = tidy(std::string(line.substr(line.find("rror: ", label) + 6)));
     if (message.line == 0) continue;
     if (message.file.ends_with(".s")) message.file.clear(), message.line = 0;

@@ -1,7 +1,6 @@
 #include "submission/second_look.h"
 
 #include <algorithm>
-#include <charconv>
 #include <set>
 #include <utility>
 #include <vector>
@@ -9,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/lines.h"
+#include "base/text.h"
 #include "base/text_file.h"
 #include "grading/limits.h"
 
@@ -122,8 +122,9 @@ CrashSite findingIn(std::string_view line, const std::string& mainFile) {
   CrashSite site{.finding = std::string(line.substr(at + kUndefined.size()))};
   const std::string name = mainFile + ":";
   const std::size_t own = line.substr(0, at).rfind(name);
-  if (own != line.npos && (own == 0 || line[own - 1] == '/'))
-    std::from_chars(line.data() + own + name.size(), line.data() + at, site.line);
+  if (own == line.npos || (own != 0 && line[own - 1] != '/')) return site;
+  std::string_view number = line.substr(own + name.size());
+  site.line = takeNumber<int>(number).value_or(0);
   return site;
 }
 
@@ -136,9 +137,8 @@ struct Frame {
 std::optional<Frame> frameIn(std::string_view line, const std::string& mainFile) {
   const std::size_t name = line.find(" in "), file = line.rfind("/" + mainFile + ":");
   if (line.find(" #") == line.npos || name == line.npos || file == line.npos) return {};
-  const char* number = line.data() + file + mainFile.size() + 2;
-  int row = 0;
-  std::from_chars(number, line.data() + line.size(), row);
+  std::string_view number = line.substr(file + mainFile.size() + 2);
+  const int row = takeNumber<int>(number).value_or(0);
   if (row == 0) return {};
   const std::string_view function = line.substr(name + 4);
   return Frame{std::string(function.substr(0, function.find_first_of("( "))), row};

@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/text.h"
 #include "web/connections_internal.h"
 
 namespace rex {
@@ -34,9 +35,9 @@ int Connections::accepted(int port) {
   if (all == nullptr) return -1;
   int copy = -1;
   while (const dirent* const entry = ::readdir(all)) {
-    const int descriptor = std::atoi(entry->d_name);
+    const int descriptor = parseNumber<int>(entry->d_name).value_or(-1);
     struct stat status {};
-    if (entry->d_name[0] == '.' || ::fstat(descriptor, &status) != 0 || !S_ISSOCK(status.st_mode)) continue;
+    if (::fstat(descriptor, &status) != 0 || !S_ISSOCK(status.st_mode)) continue;
     if (known_.contains(status.st_ino) || !isConnectionTo(port, descriptor)) continue;
     ::fcntl(descriptor, F_SETFD, FD_CLOEXEC);
     copy = ::fcntl(descriptor, F_DUPFD_CLOEXEC, 0);

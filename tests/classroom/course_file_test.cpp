@@ -136,7 +136,7 @@ TEST_F(CourseFileTest, NamesTheLineOfABrokenTable) {
   writeTextFile(table, "name,group\nZoe,A\n");
   EXPECT_THAT(
       messageFor(course),
-      HasSubstr(table + ":1: not a table of students: found the columns name, group, wanted id, and any of"));
+      HasSubstr(table + ":1: not a table of students: found the columns name, group, wanted a column 'id'"));
   writeTextFile(table, "id,group\nzoe\n");
   EXPECT_THAT(messageFor(course), HasSubstr(table + ":2: not a table of students: found 1 fields, wanted 2"));
   writeTextFile(table, "id,group\n,A\n");

@@ -95,6 +95,9 @@ TEST_F(PlatformGradesTest, ScalesOnlyOnRequest) {
                    "worksheet.csv:2: the maximum grade of 01-kinematics in Moodle: found 100,00, "
                    "wanted 10, the points of the exercise, or --scale");
   EXPECT_THAT(worksheet(text, true).csv, HasSubstr("adam@uni.example,70,"));
+  EXPECT_EQ(worksheet("ID;E-Mail;Bewertung\n1;adam@uni.example;\n").csv,
+            "ID;E-Mail;Bewertung\n1;adam@uni.example;7\n")
+      << "with its separators";
   EXPECT_REX_ERROR(
       (void)worksheet("ID,E-Mail,Grade\n1,adam@uni.example,\n", true),
       "worksheet.csv:2: the maximum grade of 01-kinematics in Moodle: found none, wanted a number, to "
@@ -104,12 +107,12 @@ TEST_F(PlatformGradesTest, ScalesOnlyOnRequest) {
 TEST_F(PlatformGradesTest, RefusesWhatIsNoWorksheet) {
   EXPECT_REX_ERROR((void)worksheet("a,b\n"),
                    "worksheet.csv:1: not a grading worksheet of Moodle: found the columns a, b, "
-                   "wanted Identifier and Grade");
+                   "wanted a column 'Identifier' or 'ID'");
   EXPECT_REX_ERROR((void)worksheet("Identifier,Grade\nx\n"),
-                   ":2: not a grading worksheet: found 1 fields, wanted 2");
+                   ":2: not a grading worksheet of Moodle: found 1 fields, wanted 2");
   EXPECT_REX_ERROR(
       (void)worksheet("Identifier,Grade,Email address\nA 1,,adam@uni.example\nA 2,,adam@uni.example\n"),
-      ":3: a second row for 'adam': wanted one; the first is in line 2");
+      ":3: a second row for 'adam': wanted one; the first is at " + file() + ":2");
 }
 
 TEST(MoodleFolder, LeavesNoNameThatMoodleTakesApart) {

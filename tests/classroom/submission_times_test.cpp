@@ -40,9 +40,8 @@ TEST_F(SubmissionTimesTest, TellsThoseOfOneExerciseBeforeThoseOfAll) {
 
 TEST_F(SubmissionTimesTest, RefusesOtherTables) {
   expectError("who,when\n",
-              ":1: no submission times: found the columns who, when, wanted student and "
-              "submitted, and exercise if they differ");
-  expectError("student,submitted\nalice\n", ":2: a broken row of submission times: found 1 fields, wanted 2");
+              ":1: not a table of submission times: found the columns who, when, wanted a column 'student'");
+  expectError("student,submitted\nalice\n", ":2: not a table of submission times: found 1 fields, wanted 2");
   expectError("student,submitted\nalice,2026-11-20 10:00\n",
               ":2: not a time: found '2026-11-20 10:00', wanted a time with its zone, such as "
               "2026-11-20T23:59:00+01:00");

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/text.h"
 
 namespace rex::cli {
 namespace {
@@ -23,13 +24,13 @@ double percentOf(const grading::GradeResult& result) {
 
 // The position of each exercise on the axis: its number, or the next after the largest.
 std::map<std::string, int> placesOf(const std::set<std::string>& exercises) {
-  const auto hasNumber = [](const std::string& name) { return name[0] >= '0' && name[0] <= '9'; };
+  const auto numberOf = [](std::string_view name) { return takeNumber<int>(name); };
   std::map<std::string, int> places;
   int last = 0;
   for (const std::string& one : exercises)
-    if (hasNumber(one)) last = std::max(last, places[one] = std::atoi(one.c_str()));
+    if (const auto number = numberOf(one)) last = std::max(last, places[one] = *number);
   for (const std::string& one : exercises)
-    if (!hasNumber(one)) places[one] = ++last;
+    if (!numberOf(one)) places[one] = ++last;
   return places;
 }
 

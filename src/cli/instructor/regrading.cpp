@@ -1,10 +1,10 @@
 #include "cli/instructor/regrading.h"
 
-#include <sstream>
-
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/lines.h"
+#include "base/text.h"
 #include "base/text_file.h"
 #include "classroom/csv.h"
 #include "classroom/grade_task.h"
@@ -45,17 +45,17 @@ Regrading::Regrading(const std::vector<Task>& tasks, const std::filesystem::path
 void Regrading::readNotes() {
   const std::filesystem::path file = out_ / kNotesOfRegrading;
   if (!std::filesystem::exists(file)) return;
-  std::istringstream lines(readTextFile(file));
-  std::string line;
-  for (int number = 1; std::getline(lines, line); ++number) {
-    const std::size_t tab = line.rfind('\t');
-    std::istringstream digits(tab == line.npos ? "" : line.substr(tab + 1));
-    int points = 0;
-    if (!(digits >> points) || !digits.eof())
+  const std::string text = readTextFile(file);
+  int number = 0;
+  for (const std::string_view line : splitLines(text)) {
+    ++number;
+    const std::size_t tab = std::min(line.rfind('\t'), line.size());
+    const std::optional<int> points = parseNumber<int>(line.substr(std::min(tab + 1, line.size())));
+    if (!points)
       throw Error({.what = "not the notes of a regrading",
                    .where = {file.string(), number, 0},
                    .wanted = "those of an interrupted `rex grade`; without this file, it begins anew"});
-    noted_[line.substr(0, tab)] = points;
+    noted_[std::string(line.substr(0, tab))] = *points;
   }
 }
 

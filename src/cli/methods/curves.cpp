@@ -8,7 +8,7 @@
 
 #include "cli/json_internal.h"
 #include "cli/methods/methods_room_internal.h"
-#include "cli/point_option.h"
+#include "cli/numbers.h"
 #include "cli/wrong_use_internal.h"
 #include "planning/dubins.h"
 #include "planning/reeds_shepp.h"

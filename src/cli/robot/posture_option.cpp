@@ -1,20 +1,16 @@
 #include "cli/robot/posture_option.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <fstream>
-#include <optional>
 #include <span>
 #include <string_view>
-#include <system_error>
-#include <utility>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
 #include "base/join.h"
-#include "cli/number_words.h"
+#include "base/text.h"
+#include "cli/numbers.h"
 #include "scene/coordinates.h"
 #include "scene/state.h"
 
@@ -35,9 +31,10 @@ const Coordinates kPositions{"--q", "q", &Joint::qIndex, &Joint::nq};
 const Coordinates kVelocities{"--v", "v", &Joint::vIndex, &Joint::nv};
 const Coordinates kForces{"--u", "u", &Joint::vIndex, &Joint::nv};
 
-double requireNumber(const Coordinates& kind, const std::string& word) {
-  if (const auto number = numberIn(word)) return *number;
-  throw UsageError({.what = kind.option, .found = "'" + word + "'", .wanted = "a number, or joint=number"});
+double requireNumber(const Coordinates& kind, std::string_view word) {
+  if (const auto number = parseNumber<double>(word)) return *number;
+  throw UsageError(
+      {.what = kind.option, .found = fmt::format("'{}'", word), .wanted = "a number, or joint=number"});
 }
 
 Eigen::VectorXd zeroPositions(const Model& model) {
@@ -95,14 +92,15 @@ std::string pairWanted(const Model& model, Eigen::Index all) {
 // All numbers, or those of some joints; the others keep their values.
 Eigen::VectorXd parseCoordinates(const Model& model, const Coordinates& kind, const std::string& text,
                                  Eigen::VectorXd x) {
-  const std::vector<std::string> all = numberWords(text, refusalOf(kind.option));
+  const std::vector<std::string_view> all = numberWords(text, refusalOf(kind.option));
   if (text.find('=') != std::string::npos) {
-    for (const std::string& word : all) {
+    for (const std::string_view word : all) {
       const std::size_t sign = word.find('=');
       if (sign == std::string::npos)
         throw UsageError(
-            {.what = kind.option, .found = "'" + word + "'", .wanted = pairWanted(model, x.size())});
-      x[placeOf(model, kind, word.substr(0, sign), x.size())] = requireNumber(kind, word.substr(sign + 1));
+            {.what = kind.option, .found = fmt::format("'{}'", word), .wanted = pairWanted(model, x.size())});
+      const std::string name(word.substr(0, sign));
+      x[placeOf(model, kind, name, x.size())] = requireNumber(kind, word.substr(sign + 1));
     }
     return x;
   }
@@ -128,83 +126,32 @@ void requireLength(double seconds, const std::string& what, const SourceLocation
                       .wanted = fmt::format("at most {:g} s", kLongestMotion)});
 }
 
-// Reads a motion line by line.
-class MotionReader {
- public:
-  MotionReader(const Model& model, std::string file, double rate)
-      : nq_(static_cast<std::size_t>(model.nq())),
-        model_(model),
-        where_({.file = std::move(file)}),
-        rate_(rate) {}
-
-  void readLine(std::string_view line) {
-    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-    if (++where_.line == 1 && line.starts_with(kByteOrderMark)) line.remove_prefix(kByteOrderMark.size());
-    const std::size_t start = line.find_first_not_of(" \t\r");
-    if (start == std::string_view::npos || line[start] == '#') return;
-    if (motion_.postures.empty() && isHead(line.substr(start))) return;
-    add(numbersIn(line));
+// The postures as the file has them.
+Motion motionIn(const NumberTable& numbers, const Model& model, double rate) {
+  const auto nq = static_cast<std::size_t>(model.nq());
+  SourceLocation where{numbers.file};
+  const auto refuse = [&](const std::string& found, const std::string& wanted) {
+    throw UsageError({.what = "motion", .where = where, .found = found, .wanted = wanted});
+  };
+  if (numbers.rows.empty()) refuse("no posture", "at least one");
+  Motion motion;
+  for (const NumberTable::Row& row : numbers.rows) {
+    where.line = row.line, where.column = row.column;
+    const std::size_t count = row.values.size();
+    if (count != nq && count != nq + 1)
+      refuse(fmt::format("{} number{}", count, count == 1 ? "" : "s"),
+             fmt::format("{} for a posture of {}, or a time before these", nq, model.name()));
+    const double time = count > nq ? row.values[0] : static_cast<double>(motion.times.size()) / rate;
+    if (!motion.times.empty() && time <= motion.times.back())
+      refuse(fmt::format("time {:g} after {:g}", time, motion.times.back()), "times that increase");
+    motion.times.push_back(time);
+    motion.postures.emplace_back(
+        Eigen::Map<const Eigen::VectorXd>(row.values.data() + (count - nq), model.nq()));
+    requireQuaternions(model, motion.postures.back(), refuse);
   }
-
-  Motion finish() {
-    where_.line = 0;
-    if (motion_.postures.empty()) refuse("no posture", "at least one");
-    requireLength(motion_.times.back() - motion_.times.front(), "motion", where_);
-    return std::move(motion_);
-  }
-
- private:
-  [[noreturn]] void refuse(const std::string& found, const std::string& wanted) const {
-    throw UsageError({.what = "motion", .where = where_, .found = found, .wanted = wanted});
-  }
-
-  // A line of column names. "nan" and the like begin with a letter, too, but are not names.
-  static bool isHead(std::string_view line) {
-    double ignored = 0;
-    const bool isName =
-        line[0] == '"' || line[0] == '\'' || std::isalpha(static_cast<unsigned char>(line[0]));
-    return isName && !isNumeral(line.substr(0, line.find_first_of(", \t\r;")), ignored);
-  }
-
-  std::vector<double> numbersIn(std::string_view line) {
-    std::vector<double> row;
-    for (const std::string& word :
-         numberWords(line, [&](const auto&found, const auto&wanted) { refuse(found, wanted); })) {
-      const auto value = numberIn(word);
-      if (!value) refuse("'" + word + "'", "a number");
-      row.push_back(*value);
-    }
-    const std::string found = fmt::format("{} number{}", row.size(), row.size() == 1 ? "" : "s");
-    if (firstLine_ == 0) {
-      if (row.size() != nq_ && row.size() != nq_ + 1)
-        refuse(found, fmt::format("{} for a posture of {}, or a time before these", nq_, model_.name()));
-      columns_ = row.size();
-      firstLine_ = where_.line;
-    }
-    if (row.size() != columns_) refuse(found, fmt::format("{} as in line {}", columns_, firstLine_));
-    return row;
-  }
-
-  void add(const std::vector<double>& row) {
-    const bool hasTime = row.size() == nq_ + 1;
-    const double time = hasTime ? row[0] : static_cast<double>(motion_.times.size()) / rate_;
-    if (!motion_.times.empty() && time <= motion_.times.back())
-      refuse(fmt::format("time {:g} after {:g}", time, motion_.times.back()), "times that increase");
-    motion_.times.push_back(time);
-    motion_.postures.emplace_back(
-        Eigen::Map<const Eigen::VectorXd>(row.data() + (hasTime ? 1 : 0), static_cast<Eigen::Index>(nq_)));
-    requireQuaternions(model_, motion_.postures.back(),
-                       [&](const auto& found, const auto& wanted) { refuse(found, wanted); });
-  }
-
-  std::size_t nq_;
-  const Model& model_;
-  SourceLocation where_;
-  double rate_;
-  std::size_t columns_ = 0;
-  int firstLine_ = 0;
-  Motion motion_;
-};
+  requireLength(motion.times.back() - motion.times.front(), "motion", {.file = numbers.file});
+  return motion;
+}
 
 // Resamples at an even rate: at each moment the last posture reached.
 Motion evenly(const Motion& motion, double rate) {
@@ -246,13 +193,7 @@ Eigen::VectorXd parseForces(const Model& model, const std::string& text) {
 }
 
 Motion readMotion(const Model& model, const std::filesystem::path& file, double rate) {
-  std::ifstream input(file);
-  std::error_code ignored;
-  if (!input || std::filesystem::is_directory(file, ignored))
-    throw UsageError({.what = "cannot read the motion", .where = {file.string()}});
-  MotionReader reader(model, file.string(), rate);
-  for (std::string line; std::getline(input, line);) reader.readLine(line);
-  return evenly(reader.finish(), rate);
+  return evenly(motionIn(readNumberTable(file, "motion"), model, rate), rate);
 }
 
 Motion moveThrough(const Model& model, const std::vector<Eigen::VectorXd>& keys, double seconds,

@@ -31,11 +31,10 @@ struct Motion {
   std::vector<Eigen::VectorXd> postures;
 };
 
-/// Reads a motion: one posture per line, numbers separated by commas or blanks. Either all lines begin with
-/// a time in seconds, or there are `rate` lines per second. Lines that begin with '#' and column names
-/// before the first posture are skipped. Returns `rate` postures per second, the latest at each time.
-/// Throws UsageError with file:line for a missing file, a wrong count, numbers that are not finite, a zero
-/// quaternion, times that do not increase, no postures, or more than two minutes.
+/// Reads a motion, a table of numbers (cli/numbers.h): one posture per line. Either all lines begin with a
+/// time in seconds, or there are `rate` lines per second. Column names are skipped. Returns `rate` postures
+/// per second, the latest at each time. Throws UsageError with file:line:column like readNumberTable(), for a
+/// wrong count, a zero quaternion, times that do not increase, no postures, or more than two minutes.
 [[nodiscard]] Motion readMotion(const Model& model, const std::filesystem::path& file, double rate);
 
 /// A smooth motion through all `keys` (at least one), each `seconds` after the one before, at `rate` frames

@@ -1,7 +1,6 @@
 #include "cli/robot/render_plan.h"
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <utility>
 
@@ -9,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/join.h"
+#include "base/text.h"
 #include "cli/option_value_internal.h"
 #include "render/draw_film.h"
 
@@ -32,15 +32,10 @@ Product productOf(const std::filesystem::path& out) {
 // Width and height, pixels.
 std::pair<int, int> sizeOf(const std::string& text) {
   constexpr int kLargest = 8192;  // as Renderer
-  int width = 0, height = 0;
-  const char* const end = text.data() + text.size();
-  const auto [x, first] = std::from_chars(text.data(), end, width);
-  if (first == std::errc() && x != end && *x == 'x') {
-    const auto [last, second] = std::from_chars(x + 1, end, height);
-    const bool isWhole = second == std::errc() && last == end;
-    if (isWhole && std::min(width, height) >= 1 && std::max(width, height) <= kLargest)
-      return {width, height};
-  }
+  const std::size_t x = std::min(text.find('x'), text.size());
+  const int width = parseNumber<int>(text.substr(0, x)).value_or(0),
+            height = parseNumber<int>(text.substr(std::min(x + 1, text.size()))).value_or(0);
+  if (std::min(width, height) >= 1 && std::max(width, height) <= kLargest) return {width, height};
   throw UsageError({.what = "--size",
                     .found = "'" + text + "'",
                     .wanted = fmt::format("WIDTHxHEIGHT, 1 to {} pixels each, such as 640x480", kLargest)});

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "cli/json_internal.h"
-#include "cli/point_option.h"
+#include "cli/numbers.h"
 #include "cli/robot/coordinate_names.h"
 #include "cli/robot/overflow_internal.h"
 #include "cli/robot/posture_option.h"

@@ -1,16 +1,14 @@
 #include "cli/robot/torque_file.h"
 
 #include <algorithm>
-#include <fstream>
+#include <span>
 #include <string>
-#include <string_view>
-#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "cli/number_words.h"
+#include "cli/numbers.h"
 #include "cli/robot/coordinate_names.h"
 #include "cli/terminal.h"
 #include "scene/coordinates.h"
@@ -18,92 +16,57 @@
 namespace rex::cli {
 namespace {
 
-struct Field {
-  std::string text;
-  int column = 1;  // of its first character in the line
-};
-
-std::vector<Field> fieldsOf(std::string_view line, int column) {
-  constexpr std::string_view kBlanks = " \t\r";
-  std::vector<Field> fields;
-  while (true) {
-    const std::size_t end = std::min(line.find(','), line.size());
-    const std::size_t start = std::min(line.find_first_not_of(kBlanks), end);
-    std::string_view text = line.substr(start, end - start);
-    text = text.substr(0, text.find_last_not_of(kBlanks) + 1);
-    if (text.size() > 1 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);
-    fields.push_back({std::string(text), column + static_cast<int>(start)});
-    if (end == line.size()) return fields;
-    column += static_cast<int>(end) + 1;
-    line.remove_prefix(end + 1);
-  }
-}
+constexpr const char* kHeadWanted = "'time', then names of joints, separated by commas";
 
 class TorqueReader {
  public:
-  TorqueReader(const Model& model, std::string file)
-      : model_(model), names_(printableVelocityNames(model)), where_({.file = std::move(file)}) {
-    table_.nv = model.nv();
-  }
+  TorqueReader(const Model& model, const NumberTable& numbers)
+      : model_(model), names_(printableVelocityNames(model)), numbers_(numbers) {}
 
-  void readLine(std::string_view line) {
-    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-    ++where_.line;
-    int column = 1;
-    if (where_.line == 1 && line.starts_with(kByteOrderMark)) {
-      line.remove_prefix(kByteOrderMark.size());
-      column += static_cast<int>(kByteOrderMark.size());
-    }
-    const std::size_t start = line.find_first_not_of(" \t\r");
-    if (start == std::string_view::npos || line[start] == '#') return;
-    const std::vector<Field> fields = fieldsOf(line, column);
-    if (headLine_ == 0)
-      readHead(fields);
-    else
-      readRow(fields);
-  }
-
-  TorqueTable finish() {
-    where_ = {.file = where_.file};
-    if (headLine_ == 0) refuse("torques", "no line of column names", kHeadWanted);
-    if (table_.rows.empty()) refuse("torques", "no row of numbers", "a time and torques");
+  TorqueTable read() {
+    table_.nv = model_.nv();
+    if (numbers_.namesLine == 0) refuse({}, "torques", "no line of column names", kHeadWanted);
+    readNames();
+    if (numbers_.rows.empty()) refuse({}, "torques", "no row of numbers", "a time and torques");
+    for (const NumberTable::Row& row : numbers_.rows) addRow(row);
     return std::move(table_);
   }
 
  private:
-  static constexpr const char* kHeadWanted = "'time', then names of joints, separated by commas";
-
-  [[noreturn]] void refuse(const std::string& what, const std::string& found, const std::string& wanted,
+  [[noreturn]] void refuse(std::pair<int, int> lineAndColumn, const std::string& what,
+                           const std::string& found, const std::string& wanted,
                            std::vector<std::string> nearest = {}) const {
-    throw UsageError(
-        {.what = what, .where = where_, .found = found, .wanted = wanted, .nearest = std::move(nearest)});
+    throw UsageError({.what = what,
+                      .where = {numbers_.file, lineAndColumn.first, lineAndColumn.second},
+                      .found = found,
+                      .wanted = wanted,
+                      .nearest = std::move(nearest)});
   }
 
-  void readHead(const std::vector<Field>& fields) {
-    headLine_ = where_.line;
-    where_.column = fields.front().column;
-    if (fields.front().text != "time")
-      refuse("torques: first column", "'" + harmless(fields.front().text) + "'", kHeadWanted);
-    if (fields.size() == 1) refuse("torques", "no joint after 'time'", kHeadWanted);
-    for (std::size_t i = 1; i < fields.size(); ++i) {
-      where_.column = fields[i].column;
-      const int place = placeOf(fields[i].text);
+  void readNames() {
+    const NumberTable::Name& first = numbers_.names.front();
+    const auto at = [&](const NumberTable::Name& name) { return std::pair(numbers_.namesLine, name.column); };
+    if (first.text != "time")
+      refuse(at(first), "torques: first column", "'" + harmless(first.text) + "'", kHeadWanted);
+    if (numbers_.names.size() == 1) refuse(at(first), "torques", "no joint after 'time'", kHeadWanted);
+    for (const NumberTable::Name& name : std::span(numbers_.names).subspan(1)) {
+      const int place = placeOf(name.text, at(name));
       if (std::ranges::find(table_.columns, place) != table_.columns.end())
-        refuse("torques", "'" + harmless(fields[i].text) + "' twice", "a column per joint");
+        refuse(at(name), "torques", "'" + harmless(name.text) + "' twice", "a column per joint");
       table_.columns.push_back(place);
     }
   }
 
-  int placeOf(const std::string& name) const {
+  int placeOf(const std::string& name, std::pair<int, int> at) const {
     for (const Joint& joint : model_.joints()) {
       if (joint.name != name) continue;
       const std::string what = "torques: joint '" + harmless(name) + "'";
       if (joint.mimics)
-        refuse(what, "a joint that mimics another",
+        refuse(at, what, "a joint that mimics another",
                "'" + harmless(jointOfVelocity(model_, joint.vIndex).name) + "', whose torque moves both");
-      if (joint.type == JointType::kFree) refuse(what, "a free joint", "joints with a motor");
+      if (joint.type == JointType::kFree) refuse(at, what, "a free joint", "joints with a motor");
       if (joint.nv > 1)
-        refuse(what, fmt::format("{} coordinates", joint.nv),
+        refuse(at, what, fmt::format("{} coordinates", joint.nv),
                fmt::format("'{} [0]' or another", harmless(name)));
     }
     const auto found = std::ranges::find(names_, name);
@@ -111,8 +74,8 @@ class TorqueReader {
       const int place = static_cast<int>(found - names_.begin());
       if (jointOfVelocity(model_, place).type != JointType::kFree) return place;
     }
-    refuse("torques", "'" + harmless(name) + "'", "a joint of " + harmless(model_.name()) + " with a motor",
-           nearestNames(name, driven()));
+    refuse(at, "torques", "'" + harmless(name) + "'",
+           "a joint of " + harmless(model_.name()) + " with a motor", nearestNames(name, driven()));
   }
 
   std::vector<std::string> driven() const {
@@ -123,32 +86,24 @@ class TorqueReader {
     return names;
   }
 
-  void readRow(const std::vector<Field>& fields) {
-    where_.column = fields.back().column;
-    if (fields.size() != table_.columns.size() + 1)
-      refuse("torques", fmt::format("{} field{}", fields.size(), fields.size() == 1 ? "" : "s"),
-             fmt::format("{} as in line {}", table_.columns.size() + 1, headLine_));
-    std::vector<double> row;
-    for (const Field& field : fields) {
-      where_.column = field.column;
-      const auto value = numberIn(field.text);
-      if (!value) refuse("torques", "'" + harmless(field.text) + "'", "a number");
-      row.push_back(*value);
-    }
-    where_.column = fields.front().column;
-    if (row[0] < 0) refuse("torques: time", fields.front().text, "0 or later");
-    if (!table_.times.empty() && row[0] <= table_.times.back())
-      refuse("torques: time", fmt::format("{:g} after {:g}", row[0], table_.times.back()),
+  void addRow(const NumberTable::Row& row) {
+    const std::pair at(row.line, row.column);
+    if (row.values.size() != numbers_.names.size())
+      refuse(at, "torques", fmt::format("{} number{}", row.values.size(), row.values.size() == 1 ? "" : "s"),
+             fmt::format("{} as in line {}", numbers_.names.size(), numbers_.namesLine));
+    const double time = row.values[0];
+    if (time < 0) refuse(at, "torques: time", fmt::format("{:g}", time), "0 or later");
+    if (!table_.times.empty() && time <= table_.times.back())
+      refuse(at, "torques: time", fmt::format("{:g} after {:g}", time, table_.times.back()),
              "times that increase");
-    table_.times.push_back(row[0]);
-    table_.rows.emplace_back(row.begin() + 1, row.end());
+    table_.times.push_back(time);
+    table_.rows.emplace_back(row.values.begin() + 1, row.values.end());
   }
 
   const Model& model_;
   std::vector<std::string> names_;
-  SourceLocation where_;
-  int headLine_ = 0;
-  TorqueTable table_;
+  const NumberTable& numbers_;
+  TorqueTable table_{};
 };
 
 }  // namespace
@@ -164,13 +119,8 @@ Eigen::VectorXd TorqueTable::at(double time) const {
 }
 
 TorqueTable readTorques(const Model& model, const std::filesystem::path& file) {
-  std::ifstream input(file);
-  std::error_code ignored;
-  if (!input || std::filesystem::is_directory(file, ignored))
-    throw UsageError({.what = "cannot read the torques", .where = {file.string()}});
-  TorqueReader reader(model, file.string());
-  for (std::string line; std::getline(input, line);) reader.readLine(line);
-  return reader.finish();
+  const NumberTable numbers = readNumberTable(file, "torques");
+  return TorqueReader(model, numbers).read();
 }
 
 }  // namespace rex::cli

@@ -18,10 +18,10 @@ struct TorqueTable {
   [[nodiscard]] Eigen::VectorXd at(double time) const;
 };
 
-/// Reads a comma-separated table: a header "time,shoulder,elbow" with names from velocityNames(), then one
-/// line per time. Lines that begin with '#' are skipped. Throws UsageError with file:line:column for a
-/// missing file, a joint that is unknown (with the nearest names), a mimic, free or repeated, a wrong
-/// count, numbers that are not finite, and times that are negative or do not increase.
+/// Reads a table of numbers (cli/numbers.h): a heading "time,shoulder,elbow" with names from velocityNames(),
+/// then one row per time. Throws UsageError with file:line:column like readNumberTable(), for a joint that is
+/// unknown (with the nearest names), a mimic, free or repeated, a wrong count, and times that are negative or
+/// do not increase.
 [[nodiscard]] TorqueTable readTorques(const Model& model, const std::filesystem::path& file);
 
 }  // namespace rex::cli

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -11,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/lower_case.h"
+#include "base/text.h"
 
 namespace rex::cli {
 namespace {
@@ -42,16 +42,14 @@ std::string axisOf(const Vector3d& direction) {
 }
 
 std::optional<Vector3d> pointIn(std::string_view text) {
+  const std::vector<std::string_view> fields = splitAt(text, ',');
+  if (fields.size() != 3) return {};
   Vector3d point;
-  const char* at = text.data();
-  const char* const end = at + text.size();
   for (int i = 0; i < 3; ++i) {
-    const auto [next, problem] = std::from_chars(at, end, point[i]);
-    if (problem != std::errc()) return {};
-    at = next;
-    if (i < 2 && (at == end || *at++ != ',')) return {};
+    const std::optional<double> number = parseNumber<double>(fields[static_cast<std::size_t>(i)]);
+    if (!number) return {};
+    point[i] = *number;
   }
-  if (at != end || !point.allFinite()) return {};
   return point;
 }
 

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <charconv>
 #include <memory>
 #include <optional>
 
@@ -8,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/private_folder.h"
+#include "base/text.h"
 #include "cli/demonstrations.h"
 #include "cli/json_internal.h"
 #include "cli/out_folder.h"
@@ -49,16 +49,9 @@ void sayTable(const std::vector<Demonstration>& all) {
   }
 }
 
-std::optional<int> chapterIn(const std::string& text) {
-  int chapter = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), chapter);
-  if (error != std::errc{} || end != text.data() + text.size()) return {};
-  return chapter;
-}
-
 // The one of that name, or the first of that chapter, whose others it names.
 const Demonstration& choose(const std::vector<Demonstration>& all, const std::string& which) {
-  const std::optional<int> chapter = chapterIn(which);
+  const std::optional<int> chapter = parseNumber<int>(which);
   const auto found = std::ranges::find_if(
       all, [&](const Demonstration& one) { return chapter ? one.chapter == *chapter : one.name == which; });
   if (found == all.end()) {

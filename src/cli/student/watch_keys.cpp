@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "base/text.h"
 #include "cli/student/hint.h"
 #include "cli/student/progress.h"
 #include "cli/student/reset.h"
@@ -75,7 +76,7 @@ bool WatchKeys::chooseCheck() {
   const std::optional<std::string> typed = readDigits();
   if (!typed) return true;
   if (typed->empty()) return false;
-  const std::size_t number = std::stoul(*typed);
+  const std::size_t number = parseNumber<std::size_t>(*typed).value_or(0);
   if (number < 1 || number > checks.size()) {
     say(fmt::format("There is no check {}.", number));
     return false;

@@ -124,15 +124,15 @@ TEST_F(MotionFile, IsRefusedWithItsLine) {
   EXPECT_REX_ERROR(readMotion(arm, path(), 30), path().string() + ": cannot read the motion");
   EXPECT_REX_ERROR(readMotion(arm, path().parent_path(), 30), "cannot read the motion");
   EXPECT_REX_ERROR(readMotion(arm, file("0,0,0\n1,2\n"), 30),
-                   "motion.csv:2: motion: found 2 numbers, wanted 3 as in line 1");
+                   "motion.csv:2:1: motion: found 2 numbers, wanted 3 as in line 1");
   EXPECT_REX_ERROR(readMotion(arm, file("1\n"), 30),
-                   "motion.csv:1: motion: found 1 number, wanted 3 for a posture of");
+                   "motion.csv:1:1: motion: found 1 number, wanted 3 for a posture of");
   EXPECT_REX_ERROR(readMotion(arm, file("# time\n0,0,0,0\n1,1,1\n"), 30),
-                   "motion.csv:3: motion: found 3 numbers, wanted 4 as in line 2");
-  EXPECT_REX_ERROR(readMotion(arm, file("1,2,3,4,5\n"), 30), "motion.csv:1: motion: found 5 numbers");
-  EXPECT_REX_ERROR(readMotion(arm, file("0,0,0.1.2\n"), 30), "motion.csv:1: motion: found '0.1.2'");
+                   "motion.csv:3:1: motion: found 3 numbers, wanted 4 as in line 2");
+  EXPECT_REX_ERROR(readMotion(arm, file("1,2,3,4,5\n"), 30), "motion.csv:1:1: motion: found 5 numbers");
+  EXPECT_REX_ERROR(readMotion(arm, file("0,0,0.1.2\n"), 30), "motion.csv:1:5: motion: found '0.1.2'");
   EXPECT_REX_ERROR(readMotion(arm, file("1,0,0,0\n1,0,0,0\n"), 30),
-                   "motion.csv:2: motion: found time 1 after 1, wanted times that increase");
+                   "motion.csv:2:1: motion: found time 1 after 1, wanted times that increase");
   EXPECT_REX_ERROR(readMotion(arm, file("0,0,0,0\n500,0,0,0\n"), 30),
                    "motion.csv: motion: found 500 s, wanted at most 120 s");
   EXPECT_REX_ERROR(readMotion(arm, file("# nothing\n"), 30), "motion: found no posture, wanted at least one");
@@ -143,7 +143,7 @@ TEST_F(MotionFile, IsRefusedWithAQuaternionThatIsZero) {
       compile(parseOrs("body a {}\nbody b {}\njoint ball (a b) { type=quatBall }", "f.ors").spec);
   EXPECT_REX_ERROR(
       readMotion(ball, file("1,0,0,0\n0,0,0,0\n"), 30),
-      "motion.csv:2: motion: found (0, 0, 0, 0) for joint 'ball', wanted a quaternion w, x, y, z");
+      "motion.csv:2:1: motion: found (0, 0, 0, 0) for joint 'ball', wanted a quaternion w, x, y, z");
 }
 
 TEST_F(MotionFile, MayComeFromASpreadsheet) {
@@ -159,17 +159,17 @@ TEST_F(MotionFile, MayComeFromASpreadsheet) {
 TEST_F(MotionFile, SkipsNoLineThatShouldBeAPosture) {
   for (const std::string word : {"nan", "NaN", "inf", "Infinity", "-nan", "-inf"}) {
     const std::string found = ": motion: found '" + word + "', wanted a number";
-    EXPECT_REX_ERROR(readMotion(arm, file(word + ",0,0\n0,0,0\n"), 30), "motion.csv:1" + found);
-    EXPECT_REX_ERROR(readMotion(arm, file("0,0,0\n" + word + ",0,0\n"), 30), "motion.csv:2" + found);
-    EXPECT_REX_ERROR(readMotion(arm, file("head\n0,0," + word + "\n"), 30), "motion.csv:2" + found);
+    EXPECT_REX_ERROR(readMotion(arm, file(word + ",0,0\n0,0,0\n"), 30), "motion.csv:1:1" + found);
+    EXPECT_REX_ERROR(readMotion(arm, file("0,0,0\n" + word + ",0,0\n"), 30), "motion.csv:2:1" + found);
+    EXPECT_REX_ERROR(readMotion(arm, file("head\n0,0," + word + "\n"), 30), "motion.csv:2:5" + found);
   }
-  EXPECT_REX_ERROR(readMotion(arm, file("0,0,0\nend,0,0\n"), 30), "motion.csv:2: motion: found 'end'");
-  EXPECT_REX_ERROR(readMotion(arm, file("0,0,0\n'0',0,0\n"), 30), "motion.csv:2: motion: found ''0''");
+  EXPECT_REX_ERROR(readMotion(arm, file("0,0,0\nend,0,0\n"), 30), "motion.csv:2:1: motion: found 'end'");
+  EXPECT_REX_ERROR(readMotion(arm, file("0,0,0\n'0',0,0\n"), 30), "motion.csv:2:1: motion: found ''0''");
   for (const std::string line : {"1,,1", ",1,1", "1, ,1,1", "1,1,1,,"})
     EXPECT_REX_ERROR(readMotion(arm, file(line), 30),
-                     "motion.csv:1: motion: found an empty field, wanted a number between commas");
+                     "motion.csv:1:1: motion: found an empty field, wanted a number between commas");
   EXPECT_REX_ERROR(readMotion(arm, file("a;b;c\n0;0;0\n"), 30),
-                   "motion.csv:2: motion: found ';', wanted commas or blanks between numbers");
+                   "motion.csv:2:1: motion: found ';', wanted commas or blanks between numbers");
 }
 
 TEST(MoveThrough, LastsTwoMinutesAtMost) {

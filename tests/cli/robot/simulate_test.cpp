@@ -341,8 +341,8 @@ TEST_F(SimulateCommand, NamesThePlaceInAFileOfTorques) {
   expect("time,look\n",
          "u.csv:1:6: torques: joint 'look': found 2 coordinates, wanted 'look [0]' or another");
   expect("time,finger,finger\n", "u.csv:1:13: torques: found 'finger' twice, wanted a column per joint");
-  expect("time,finger\n0,1,2\n", "u.csv:2:5: torques: found 3 fields, wanted 2 as in line 1");
-  expect("time,finger\n0\n", "u.csv:2:1: torques: found 1 field, wanted 2 as in line 1");
+  expect("time,finger\n0,1,2\n", "u.csv:2:1: torques: found 3 numbers, wanted 2 as in line 1");
+  expect("time,finger\n0\n", "u.csv:2:1: torques: found 1 number, wanted 2 as in line 1");
   expect("time,\"finger\",look [1]\n0,1, 1x\n", "u.csv:2:6: torques: found '1x', wanted a number");
   expect("time,finger\n0,nan\n", "u.csv:2:3: torques: found 'nan', wanted a number");
   expect("time,finger\n-1,0\n", "u.csv:2:1: torques: time: found -1, wanted 0 or later");

@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "cli/point_option.h"
+#include "cli/numbers.h"
 #include "support/expect_error.h"
 
 namespace rex::cli::view_option_test {

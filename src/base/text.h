@@ -1,0 +1,73 @@
+#pragma once
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <type_traits>
+#include <vector>
+
+namespace rex {
+
+/// Text taken apart. All parts are views into the text, so that `columnIn()` finds where they begin.
+
+inline constexpr std::string_view kBlanks = " \t\r\n\v\f";
+
+/// The text without blanks at both ends.
+[[nodiscard]] std::string_view trimmed(std::string_view text);
+
+/// The text without the byte order mark with which some programs begin UTF-8.
+[[nodiscard]] std::string_view withoutByteOrderMark(std::string_view text);
+
+/// The parts between separators: one more than there are separators.
+[[nodiscard]] std::vector<std::string_view> splitAt(std::string_view text, char separator);
+
+/// The words between blanks.
+[[nodiscard]] std::vector<std::string_view> splitWords(std::string_view text);
+
+/// The words between commas or blanks. Between two commas there is at least one, perhaps empty; after the
+/// last comma there may be none.
+[[nodiscard]] std::vector<std::string_view> splitList(std::string_view text);
+
+/// The column of a part in the text, from 1.
+[[nodiscard]] inline int columnIn(std::string_view text, std::string_view part) {
+  return static_cast<int>(part.data() - text.data()) + 1;
+}
+
+/// Removes a number from the front of `text` and returns it. Nothing, and no change, if the text does not
+/// begin with one, or if it does not fit its type. Like std::from_chars: no blanks and no '+' before it.
+template <class Number>
+std::optional<Number> takeNumber(std::string_view& text, int base = 10) {
+  Number number{};
+  const char* const last = text.data() + text.size();
+  std::from_chars_result result{};
+  if constexpr (std::is_floating_point_v<Number>)
+    result = std::from_chars(text.data(), last, number);
+  else
+    result = std::from_chars(text.data(), last, number, base);
+  if (result.ec != std::errc()) return {};
+  text.remove_prefix(static_cast<std::size_t>(result.ptr - text.data()));
+  return number;
+}
+
+/// The number that is the whole text, which may begin with '+'. Nothing for any other text, for a number that
+/// does not fit its type, and for "inf" and "nan".
+template <class Number>
+[[nodiscard]] std::optional<Number> parseNumber(std::string_view text, int base = 10) {
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+  const std::optional<Number> number = takeNumber<Number>(text, base);
+  if (!text.empty()) return {};
+  if constexpr (std::is_floating_point_v<Number>)
+    if (number && !std::isfinite(*number)) return {};
+  return number;
+}
+
+/// Whether a text is written as a number, without '+', be it infinite, not a number or too large.
+[[nodiscard]] bool isNumeral(std::string_view text);
+
+/// The bytes that pairs of hexadecimal digits stand for.
+[[nodiscard]] std::string bytesOfHex(std::string_view digits);
+
+}  // namespace rex
