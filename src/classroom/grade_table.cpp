@@ -8,7 +8,7 @@
 #include "classroom/csv.h"
 #include "classroom/grade_task.h"
 #include "grading/result_file.h"
-#include "reports/judgement.h"
+#include "reports/report.h"
 
 namespace rex::grading {
 namespace {

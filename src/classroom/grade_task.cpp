@@ -1,12 +1,15 @@
 #include "classroom/grade_task.h"
 
+#include <algorithm>
+#include <system_error>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/join.h"
 #include "base/sha256.h"
 #include "base/text_file.h"
-#include "classroom/grader_fingerprint.h"
 #include "classroom/kept_workers.h"
 #include "grading/hidden_seed.h"
 #include "grading/result_file.h"
@@ -23,6 +26,33 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kResults = "results.json";
 constexpr const char* kEvidence = "checks";
 constexpr const char* kRegraded = "regraded";
+
+// All files below the folder, in the same order on every machine.
+std::vector<fs::path> filesBelow(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code missing;  // missing folders are skipped, as the compiler does
+  for (const auto& entry : fs::recursive_directory_iterator(folder, missing))
+    if (entry.is_regular_file()) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+// Functions in headers are compiled into the student's program, so no library reveals their changes. The
+// folder of the exercise itself holds what students and instructors write; its version covers that.
+std::string headersOf(const std::vector<std::string>& flags) {
+  std::string text;
+  for (std::size_t i = 0; i + 1 < flags.size(); ++i)
+    if (flags[i] == "-isystem")
+      for (const fs::path& file : filesBelow(flags[i + 1]))
+        if (file.extension() == ".h") text += fmt::format("{}\n{}\n", file.string(), readTextFile(file));
+  return text;
+}
+
+// The program cannot change while it runs, even if a new one takes its name.
+const std::string& hashOfRunningProgram() {
+  static const std::string hash = sha256(readTextFile("/proc/self/exe"));
+  return hash;
+}
 
 void require(const std::string& what, const std::string& found, const std::string& wanted) {
   if (found == wanted) return;
@@ -69,6 +99,19 @@ std::string withInputs(const fs::path& results, const Task& task, bool evidence)
 }
 
 }  // namespace
+
+std::string graderFingerprint(const Toolchain& toolchain, const ExerciseInfo& exercise,
+                              const fs::path& launcher) {
+  std::string text = fmt::format(
+      "{}\n{}\n{}\n{}\n{}\n{}\n", REX_VERSION, exerciseVersion(exercise.definition), toolchain.compiler,
+      join(toolchain.flags, "\n"), join(toolchain.linkFlags, "\n"), sha256(headersOf(toolchain.flags)));
+  std::vector<fs::path> files = toolchain.libraries;
+  files.insert(files.end(), {toolchain.grader, toolchain.workerObject});
+  for (const fs::path& file : files) text += sha256(readTextFile(file)) + "\n";
+  text += hashOfRunningProgram() + "\n";
+  if (fs::exists(launcher)) text += sha256(readTextFile(launcher)) + "\n";
+  return sha256(text);
+}
 
 std::string secretIdOf(const fs::path& secret) {
   return secret.empty() ? "" : courseSecretId(readCourseSecret(secret));

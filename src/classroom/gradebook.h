@@ -13,7 +13,7 @@
 #include "classroom/import_table.h"
 #include "classroom/task_list.h"
 #include "grading/results.h"
-#include "reports/judgement.h"
+#include "reports/report.h"
 
 namespace rex::grading {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "grading/results.h"
-#include "reports/judgement.h"
+#include "reports/report.h"
 
 namespace rex::grading {
 

@@ -8,7 +8,6 @@
 #include <md4c-html.h>
 
 #include "base/error.h"
-#include "reports/tex_math.h"
 
 namespace rex::grading {
 namespace {

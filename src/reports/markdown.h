@@ -30,4 +30,10 @@ struct MarkdownPage {
 /// What GitHub makes of a heading in links: small letters and digits, blanks as dashes, nothing else.
 [[nodiscard]] std::string anchorOf(std::string_view heading);
 
+/// Converts a formula to a <math> element of MathML Core, which browsers draw without a script or a font of
+/// ours. Knows the part of TeX that formulas of a lecture need: scripts, \frac, \sqrt, \left and \right,
+/// accents, \text, alphabets such as \mathbb, names of functions, Greek letters, usual signs, and the
+/// environments matrix, pmatrix, bmatrix, cases and aligned. Throws Error for anything else.
+[[nodiscard]] std::string mathMlOf(std::string_view tex, bool isDisplayed);
+
 }  // namespace rex::grading

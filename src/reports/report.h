@@ -1,13 +1,31 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "grading/results.h"
-#include "reports/judgement.h"
 
 namespace rex::grading {
+
+/// What a course makes of a result: whose it is, what people changed, what lateness costs. Points in
+/// hundredths. No part of it is in results.json.
+struct Judgement {
+  std::string student{};               ///< the name, for people
+  std::vector<std::string> changes{};  ///< a sentence for each adjustment by a person
+  std::string lateness{};              ///< a sentence; empty: in time
+  std::int64_t penalty = 0;            ///< for lateness
+  std::int64_t final = 0;
+  std::int64_t possible = 0;
+};
+
+/// "7.5": a number of hundredths, as short as possible.
+[[nodiscard]] std::string hundredthsText(std::int64_t value);
+
+/// The sentences of a judgement, the last of which gives the final points.
+[[nodiscard]] std::vector<std::string> sentencesOf(const Judgement& judgement);
 
 /// A result in the format of another program. The same result gives the same bytes, whatever bytes its
 /// texts contain. For hidden checks students see the points and the kind of outcome, never a message. Their

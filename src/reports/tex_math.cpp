@@ -1,5 +1,3 @@
-#include "reports/tex_math.h"
-
 #include <algorithm>
 #include <cctype>
 #include <map>
@@ -9,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/escape.h"
+#include "reports/markdown.h"
 
 namespace rex::grading {
 namespace {

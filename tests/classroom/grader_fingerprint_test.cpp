@@ -1,5 +1,3 @@
-#include "classroom/grader_fingerprint.h"
-
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -9,6 +7,7 @@
 
 #include "base/process.h"
 #include "base/text_file.h"
+#include "classroom/grade_task.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 

@@ -1,8 +1,7 @@
-#include "reports/tex_math.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "reports/markdown.h"
 #include "support/expect_error.h"
 
 namespace rex::grading::tex_math_test {

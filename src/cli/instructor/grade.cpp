@@ -22,7 +22,6 @@
 #include "base/text_file.h"
 #include "classroom/download_layout.h"
 #include "classroom/grade_task.h"
-#include "classroom/grader_fingerprint.h"
 #include "classroom/hand_in.h"
 #include "classroom/import_table.h"
 #include "classroom/submission_times.h"
