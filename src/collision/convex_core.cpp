@@ -38,6 +38,10 @@ ConvexCore::ConvexCore(const Shape& shape) {
       kind_ = shape.type == ShapeType::kCone ? Kind::kCone : Kind::kCylinder;
       half_ = {shape.radius, shape.radius, shape.extent.z() / 2};
       break;
+    case ShapeType::kEllipsoid:
+      kind_ = Kind::kEllipsoid;
+      half_ = shape.extent / 2;
+      break;
     case ShapeType::kMesh:
     case ShapeType::kPointCloud:
     case ShapeType::kSphereSweptConvex:
@@ -61,6 +65,11 @@ Vector3d ConvexCore::support(const Vector3d& direction) const {
       return supportOf(points_, direction);
     case Kind::kBox:
       return corner(std::copysign(half_.x(), direction.x()), std::copysign(half_.y(), direction.y()));
+    case Kind::kEllipsoid: {
+      const Vector3d scaled = half_.cwiseProduct(direction);
+      const double length = scaled.norm();
+      return length > 0 ? Vector3d(half_.cwiseProduct(scaled) / length) : Vector3d(half_.x(), 0, 0);
+    }
     case Kind::kCylinder:
     case Kind::kCone:
       break;

@@ -17,6 +17,7 @@ Core coreOf(const Shape& shape) {
       return {CoreType::kBox, (shape.extent / 2).array() - shape.radius, shape.radius};
     case ShapeType::kCylinder:
     case ShapeType::kCone:
+    case ShapeType::kEllipsoid:
     case ShapeType::kMesh:
     case ShapeType::kSphereSweptConvex:
     case ShapeType::kPointCloud:

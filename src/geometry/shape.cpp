@@ -24,6 +24,8 @@ std::string_view toString(ShapeType type) {
       return "sphere-swept convex mesh";
     case ShapeType::kRoundedBox:
       return "rounded box";
+    case ShapeType::kEllipsoid:
+      return "ellipsoid";
   }
   return "?";
 }
@@ -36,6 +38,7 @@ Eigen::Vector3d halfBounds(const Shape& shape) {
   switch (shape.type) {
     case ShapeType::kBox:
     case ShapeType::kRoundedBox:
+    case ShapeType::kEllipsoid:
       return shape.extent / 2;
     case ShapeType::kSphere:
       return Eigen::Vector3d::Constant(shape.radius);

@@ -18,7 +18,8 @@ enum class ShapeType {
   kMarker,
   kPointCloud,
   kSphereSweptConvex,
-  kRoundedBox
+  kRoundedBox,
+  kEllipsoid
 };
 
 /// "box", "sphere", ...: the name used in messages.
@@ -31,8 +32,9 @@ enum class ShapeType {
 /// box, rounded box: full outer edge lengths x, y, z; the rounded box has corners of `radius`.
 /// capsule, cylinder: extent.z is the straight length along z, `radius` the radius; a capsule's caps are
 /// added to that length. cone: extent.z is its height, `radius` that of its base at z = -extent.z / 2; the
-/// tip points up. sphere: `radius`. marker: a drawing aid of size extent.x without volume. The others are
-/// described by `mesh`; a sphere-swept convex mesh extends `radius` beyond it.
+/// tip points up. sphere: `radius`. ellipsoid: full lengths of its axes x, y, z. marker: a drawing aid of
+/// size extent.x without volume. The others are described by `mesh`; a sphere-swept convex mesh extends
+/// `radius` beyond it.
 struct Shape {
   ShapeType type = ShapeType::kBox;
   Eigen::Vector3d extent{1, 1, 1};

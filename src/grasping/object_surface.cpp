@@ -65,6 +65,7 @@ ObjectSurface::ObjectSurface(const Shape& shape) : type_(shape.type) {
       addMesh(shape.mesh);
       break;
     case ShapeType::kRoundedBox:
+    case ShapeType::kEllipsoid:
     case ShapeType::kSphereSweptConvex:
     case ShapeType::kPointCloud:
     case ShapeType::kMarker:

@@ -25,6 +25,31 @@ std::unique_ptr<btConvexHullShape> hullOf(std::span<const Eigen::Vector3f> point
   return hull;
 }
 
+// Bullet has no ellipsoids but knows how to handle any convex solid that finds its support points. The margin
+// is a ball around a smaller ellipsoid: exact at the ends of the axes, and within the margin elsewhere.
+class BulletEllipsoid : public btConvexInternalShape {
+ public:
+  explicit BulletEllipsoid(const Eigen::Vector3d& half) {
+    m_shapeType = CUSTOM_CONVEX_SHAPE_TYPE;
+    const double margin = std::min(kMargin, half.minCoeff() / 10);
+    m_implicitShapeDimensions = toBullet(half.array() - margin);
+    m_collisionMargin = margin;
+  }
+  btVector3 localGetSupportingVertexWithoutMargin(const btVector3& direction) const override {
+    const btVector3 scaled = m_implicitShapeDimensions * direction;
+    const btScalar length = scaled.length();
+    if (length == 0) return {m_implicitShapeDimensions.x(), 0, 0};
+    return m_implicitShapeDimensions * scaled / length;
+  }
+  void batchedUnitVectorGetSupportingVertexWithoutMargin(const btVector3* directions, btVector3* points,
+                                                         int count) const override {
+    for (int i = 0; i < count; ++i) points[i] = localGetSupportingVertexWithoutMargin(directions[i]);
+  }
+  // Never asked: bodies have the inertias of the model.
+  void calculateLocalInertia(btScalar, btVector3& inertia) const override { inertia.setZero(); }
+  const char* getName() const override { return "ellipsoid"; }
+};
+
 // Exactly the box: a core of eight corners, and the ball around each.
 std::unique_ptr<btCollisionShape> roundedBox(const Eigen::Vector3d& half, double radius) {
   auto hull = std::make_unique<btConvexHullShape>();
@@ -56,6 +81,8 @@ std::unique_ptr<btCollisionShape> bulletShape(const Shape& shape) {
       cone->setMargin(0);  // Bullet's cones grow by it
       return cone;
     }
+    case ShapeType::kEllipsoid:
+      return std::make_unique<BulletEllipsoid>(shape.extent / 2);
     case ShapeType::kRoundedBox:
       return roundedBox(shape.extent / 2, shape.radius);
     case ShapeType::kMesh:

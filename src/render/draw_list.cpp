@@ -34,6 +34,8 @@ class Builder {
         return addRoundedBox(solid);
       case ShapeType::kSphere:
         return add({.mesh = MeshKind::kCapsule, .halfSize = {r, r, r}}, solid);
+      case ShapeType::kEllipsoid:
+        return add({.mesh = MeshKind::kCapsule, .halfSize = shape.extent / 2}, solid);
       case ShapeType::kCapsule:
         return add(
             {.mesh = MeshKind::kCapsule, .halfSize = {r, r, r}, .stretch = {0, 0, shape.extent.z() / 2}},

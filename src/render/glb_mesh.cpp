@@ -42,6 +42,8 @@ int GlbMeshes::ofShape(const Shape& shape, const Color& color) {
       const SolidMesh mesh = makeCapsuleMesh(kAround);
       return r > 0 ? add(surfaceOf(mesh, Vector3d::Constant(r), {0, 0, stretch}), color) : -1;
     }
+    case ShapeType::kEllipsoid:
+      return hasBox ? add(surfaceOf(makeCapsuleMesh(kAround), shape.extent / 2), color) : -1;
     case ShapeType::kCylinder:
     case ShapeType::kCone: {
       const Vector3d halfSize(r, r, shape.extent.z() / 2);

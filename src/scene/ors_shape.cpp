@@ -10,12 +10,12 @@ constexpr int kRetiredBox = 6;
 constexpr Choice kShapeWords[] = {{0, "ST_box"},     {1, "ST_sphere"},     {2, "ST_capsule"},
                                   {3, "ST_mesh"},    {4, "ST_cylinder"},   {5, "ST_marker"},
                                   {kRetiredBox, ""}, {7, "ST_pointCloud"}, {8, "ST_ssCvx"},
-                                  {9, "ST_ssBox"},   {10, "ST_cone"}};
+                                  {9, "ST_ssBox"},   {10, "ST_cone"},      {11, "ST_ellipsoid"}};
 constexpr ShapeType kShapeTypes[] = {
     ShapeType::kBox,        ShapeType::kSphere,     ShapeType::kCapsule,
     ShapeType::kMesh,       ShapeType::kCylinder,   ShapeType::kMarker,
     ShapeType::kRoundedBox, ShapeType::kPointCloud, ShapeType::kSphereSweptConvex,
-    ShapeType::kRoundedBox, ShapeType::kCone};
+    ShapeType::kRoundedBox, ShapeType::kCone,       ShapeType::kEllipsoid};
 
 ShapeType readType(const Attributes& attributes, const Place& where, Diagnostics& notes) {
   const auto type = attributes.choice("type", kShapeWords);

@@ -76,6 +76,8 @@ std::string typeName(ShapeType type) {
       return "ST_ssCvx";
     case ShapeType::kRoundedBox:
       return "ST_ssBox";
+    case ShapeType::kEllipsoid:
+      return "ST_ellipsoid";
   }
   return "";
 }

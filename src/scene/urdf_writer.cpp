@@ -203,6 +203,8 @@ class Writer {
         return {{{}, "cylinder", {{"radius", radius}, {"length", length}}},
                 {top, "sphere", {{"radius", radius}}},
                 {bottom, "sphere", {{"radius", radius}}}};
+      case ShapeType::kEllipsoid:
+        return leaveOut("ellipsoids are left out");
       case ShapeType::kPointCloud:
         return leaveOut("point clouds are left out");
       case ShapeType::kSphereSweptConvex:
@@ -219,7 +221,8 @@ class Writer {
   }
 
   static bool hasSize(const Shape& s) {
-    if (s.type == ShapeType::kBox || s.type == ShapeType::kRoundedBox) return s.extent.minCoeff() > 0;
+    if (s.type == ShapeType::kBox || s.type == ShapeType::kRoundedBox || s.type == ShapeType::kEllipsoid)
+      return s.extent.minCoeff() > 0;
     if (s.type == ShapeType::kCylinder) return s.radius > 0 && s.extent.z() > 0;
     if (s.type == ShapeType::kSphere || s.type == ShapeType::kCapsule) return s.radius > 0;
     return true;

@@ -89,7 +89,10 @@ bool expectProven(const ConvexSolid& a, const ConvexSolid& b, Rng& rng) {
   EXPECT_LE(certified.slack, gap > 0 ? 1e-9 : 1e-6);
   expectSound(a, b, found, gap > 0 ? 1e-9 : 1e-6);
   if (gap > 0) return false;
-  if (a.disc > 0 || b.disc > 0) {
+  const auto isCurved = [](const ConvexSolid& one) {
+    return one.disc > 0 || one.shape.type == ShapeType::kEllipsoid;
+  };
+  if (isCurved(a) || isCurved(b)) {
     EXPECT_LE(widestBySearch(a, b, found.normal_W, rng), gap + 1e-6);
   } else {
     EXPECT_NEAR(gap, widestByHull(a, b), 1e-9);
@@ -188,7 +191,7 @@ TEST_P(ConvexPair, StaysSoundWhereShapesDegenerate) {
 constexpr ShapeType kBox = ShapeType::kBox, kSphere = ShapeType::kSphere, kCapsule = ShapeType::kCapsule,
                     kRounded = ShapeType::kRoundedBox, kCylinder = ShapeType::kCylinder,
                     kCone = ShapeType::kCone, kMesh = ShapeType::kMesh, kCloud = ShapeType::kPointCloud,
-                    kSwept = ShapeType::kSphereSweptConvex;
+                    kSwept = ShapeType::kSphereSweptConvex, kEllipsoid = ShapeType::kEllipsoid;
 
 INSTANTIATE_TEST_SUITE_P(
     All, ConvexPair,
@@ -203,7 +206,10 @@ INSTANTIATE_TEST_SUITE_P(
                     TypePair{kSwept, kCloud}, TypePair{kSwept, kSwept}, TypePair{kCone, kBox},
                     TypePair{kCone, kSphere}, TypePair{kCapsule, kCone}, TypePair{kCone, kRounded},
                     TypePair{kCone, kCylinder}, TypePair{kCone, kCone}, TypePair{kCone, kMesh},
-                    TypePair{kCloud, kCone}, TypePair{kSwept, kCone}),
+                    TypePair{kCloud, kCone}, TypePair{kSwept, kCone}, TypePair{kEllipsoid, kBox},
+                    TypePair{kEllipsoid, kSphere}, TypePair{kCapsule, kEllipsoid},
+                    TypePair{kEllipsoid, kCylinder}, TypePair{kEllipsoid, kEllipsoid},
+                    TypePair{kMesh, kEllipsoid}),
     nameOf);
 
 // Pairs that proximity() measures by formulas.

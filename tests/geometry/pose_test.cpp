@@ -36,6 +36,7 @@ TEST(HalfBounds, HoldTheSolid) {
   EXPECT_EQ(halfBounds({ShapeType::kCapsule, {9, 9, 2}, 0.5}), Eigen::Vector3d(0.5, 0.5, 1.5));
   EXPECT_EQ(halfBounds({ShapeType::kCylinder, {9, 9, 2}, 0.5}), Eigen::Vector3d(0.5, 0.5, 1));
   EXPECT_EQ(halfBounds({ShapeType::kCone, {9, 9, 2}, 0.5}), Eigen::Vector3d(0.5, 0.5, 1));
+  EXPECT_EQ(halfBounds({ShapeType::kEllipsoid, {2, 4, 6}}), Eigen::Vector3d(1, 2, 3));
 }
 
 }  // namespace rex::pose_test

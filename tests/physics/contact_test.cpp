@@ -50,8 +50,14 @@ TEST(PhysicsContacts, LiesWhereItsShapeTouches) {
   cylinder.radius = 0.1;
   Shape cone = cylinder;
   cone.type = ShapeType::kCone;
-  const std::pair<Shape, double> cases[] = {
-      {boxShape(0.2, 0.3, 0.4), 0.2}, {ballShape(0.1), 0.1}, {rounded, 0.05}, {cylinder, 0.05}, {cone, 0.05}};
+  Shape ellipsoid = boxShape(0.4, 0.3, 0.1);
+  ellipsoid.type = ShapeType::kEllipsoid;
+  const std::pair<Shape, double> cases[] = {{boxShape(0.2, 0.3, 0.4), 0.2},
+                                            {ballShape(0.1), 0.1},
+                                            {rounded, 0.05},
+                                            {cylinder, 0.05},
+                                            {cone, 0.05},
+                                            {ellipsoid, 0.05}};
   double x = 0;
   for (const auto& [shape, height] : cases)
     addLoose(spec, "thing" + std::to_string(spec.bodies.size()), 1, shape, translation(x += 1, 0, height));

@@ -277,6 +277,7 @@ TEST(Glb, HasASurfaceForEachShape) {
       {{ShapeType::kCapsule, {0, 0, 0.5}, 0.2}, std::numbers::pi * (0.04 * 0.5 + 4. / 3 * 0.008)},
       {{ShapeType::kCylinder, {0, 0, 0.5}, 0.2}, std::numbers::pi * 0.04 * 0.5},
       {{ShapeType::kCone, {0, 0, 0.5}, 0.2}, std::numbers::pi * 0.04 * 0.5 / 3},
+      {{ShapeType::kEllipsoid, {0.6, 0.4, 0.2}}, std::numbers::pi / 6 * 0.048},
       {{ShapeType::kRoundedBox, {0.4, 0.3, 0.2}, 0.05}, 0.02224}};  // core, faces, edges, corners
   Picture picture;
   for (const auto& [shape, unused] : shapes)

@@ -66,6 +66,8 @@ double distanceTo(const Shape& shape, const Vector3d& p) {
     const double side = (2 * half.z() * rho + shape.radius * (p.z() - half.z())) / slant;
     return std::max(side, -half.z() - p.z());
   }
+  if (shape.type == ShapeType::kEllipsoid)  // near the surface: the level set over its gradient
+    return (p.cwiseQuotient(half).squaredNorm() - 1) / (2 * p.cwiseQuotient(half.cwiseAbs2()).norm());
   return boxDistance(Vector3d(p.cwiseAbs() - half + Vector3d::Constant(shape.radius))) - shape.radius;
 }
 
@@ -127,7 +129,8 @@ INSTANTIATE_TEST_SUITE_P(Shapes, SolidOutline,
                                          Shape{.type = ShapeType::kSphere, .radius = 0.4},
                                          Shape{ShapeType::kCapsule, {0, 0, 0.8}, 0.25},
                                          Shape{ShapeType::kCylinder, {0, 0, 0.7}, 0.35},
-                                         Shape{ShapeType::kCone, {0, 0, 0.8}, 0.4}),
+                                         Shape{ShapeType::kCone, {0, 0, 0.8}, 0.4},
+                                         Shape{ShapeType::kEllipsoid, {0.5, 0.9, 0.7}}),
                          [](const auto& shape) {
                            return shape.param.type == ShapeType::kRoundedBox
                                       ? "roundedBox"

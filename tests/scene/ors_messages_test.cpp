@@ -169,9 +169,9 @@ constexpr Row kErrors[] = {
      "'dynamic'"},
     // shapes
     {"body a { type=@77@ }", "7",
-     "body 'a': unknown type: found the number 77, wanted a number from 0 to 10 or a name such as 'ST_box'"},
+     "body 'a': unknown type: found the number 77, wanted a number from 0 to 11 or a name such as 'ST_box'"},
     {"body a { type=@ST_capsul@ }", "ST_capsule",
-     "body 'a': unknown type: found 'ST_capsul', wanted a number from 0 to 10 or a name such as 'ST_box' "
+     "body 'a': unknown type: found 'ST_capsul', wanted a number from 0 to 11 or a name such as 'ST_box' "
      "(did "
      "you mean 'ST_capsule'?)"},
     {"body a { type=0 size=@[1 2]@ }", "[1 2 3]",
@@ -189,7 +189,7 @@ constexpr Row kErrors[] = {
     {"body a {}\nshape (@wrld@) { type=0 }", "world",
      "shape: unknown parent: found 'wrld', wanted the name of an earlier body (did you mean 'world'?)"},
     {"body a {}\nbody b {}\n^shape s (a) { size=[1 1 1]@@ }", " type=0",
-     "shape 's': attribute 'type' is missing: wanted type=0 .. type=10"},
+     "shape 's': attribute 'type' is missing: wanted type=0 .. type=11"},
     {"body a {}\nbody b {}\nshape s (a @b@) { type=0 }", "",
      "shape 's': found 2 parents, wanted one body, or none"},
     {"body a {}\nshape (@-2@) { type=0 }", "-1",

@@ -29,6 +29,7 @@ std::vector<Vector3d> cornersOf(const Shape& shape, const Pose& X_W) {
   if (shape.type == ShapeType::kCone)
     return {X_W * Vector3d(0, 0, shape.extent.z() / 2), X_W * Vector3d(0, 0, -shape.extent.z() / 2)};
   corners.push_back(X_W.p);
+  if (shape.type == ShapeType::kEllipsoid) return corners;
   const Vector3d half = coreHalf(shape);
   for (int k = 0; k < 3; ++k) {
     if (half[k] == 0) continue;
@@ -47,6 +48,8 @@ double ConvexSolid::least(const Vector3d& n) const {
   const double rim = disc * n.cross(X_W.R.col(2)).norm();
   if (shape.type == ShapeType::kCone) return std::min(n.dot(corners_W[0]), n.dot(corners_W[1]) - rim);
   for (const Vector3d& p : corners_W) value = std::min(value, n.dot(p));
+  if (shape.type == ShapeType::kEllipsoid)
+    return value - (X_W.R.transpose() * n).cwiseProduct(shape.extent / 2).norm();
   return value - rim;
 }
 
@@ -58,6 +61,7 @@ double ConvexSolid::outside(const Vector3d& p_W) const {
     const double side = across.dot(Eigen::Vector2d(p.head<2>().norm(), p.z() - shape.extent.z() / 2));
     return std::max(side, -shape.extent.z() / 2 - p.z());
   }
+  if (shape.type == ShapeType::kEllipsoid) return (p.cwiseQuotient(half).norm() - 1) * half.minCoeff();
   if (disc > 0) return std::max(p.head<2>().norm() - disc, std::abs(p.z()) - half.z());
   return (p.cwiseAbs() - half).maxCoeff();
 }

@@ -10,7 +10,8 @@ namespace rex {
 
 /// A shape in its place as tests describe it: a core swept by a ball of `sweep`. The core is the hull of
 /// corners or, if `disc` is positive, a cylinder: discs of that radius around two corners. Of a cone the
-/// corners are its tip and the middle of its base, which is the disc.
+/// corners are its tip and the middle of its base, which is the disc. Of an ellipsoid the corner is its
+/// centre.
 struct ConvexSolid {
   Shape shape{};
   Pose X_W{};
