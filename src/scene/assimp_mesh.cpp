@@ -78,6 +78,16 @@ Matrix4d fromYUp() {
   return turn;
 }
 
+// Of a Collada file, from its axes to z up. assimp turns to y up at the root, whose matrix holds nothing else
+// but the unit.
+Eigen::Matrix3d turnOf(const std::string& name, const aiScene& scene) {
+  if (endingOf(name) != ".dae" || scene.mRootNode == nullptr) return Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d M = (fromYUp() * matrixOf(scene.mRootNode->mTransformation)).topLeftCorner<3, 3>();
+  const Eigen::Matrix3d turn = (M / M.cwiseAbs().maxCoeff()).array().round();
+  const bool isTurn = (turn * turn.transpose()).isIdentity() && turn.determinant() > 0;
+  return isTurn ? turn : Eigen::Matrix3d::Identity();
+}
+
 // The textures of a file, each read once.
 class Textures {
  public:
@@ -265,10 +275,11 @@ TexturedMesh readByAssimp(std::string_view bytes, const std::string& name,
     scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
   }
   if (scene == nullptr) fail(name, "cannot read the mesh file", importer.GetErrorString(), "a mesh");
-  if (!textures) return {Collector(name, *scene, nullptr).mesh(), {}};
+  const Eigen::Matrix3d turn = turnOf(name, *scene);
+  if (!textures) return {Collector(name, *scene, nullptr).mesh(), {}, turn};
   Textures painted(*scene, *files);
   TriangleMesh mesh = Collector(name, *scene, &painted).mesh();
-  return {std::move(mesh), painted.takeMissing()};
+  return {std::move(mesh), painted.takeMissing(), turn};
 }
 
 }  // namespace rex::mesh

@@ -39,6 +39,7 @@ std::string toBytes(const TexturedMesh& read) {
   }
   addCount(bytes, read.missing.size());
   for (const std::string& one : read.missing) addList<char>(bytes, one);
+  addList(bytes, std::span<const double>(read.turn.data(), 9));
   return bytes;
 }
 
@@ -80,9 +81,11 @@ TexturedMesh fromBytes(std::string_view bytes) {
     const std::vector<char> text = takeList<char>(bytes);
     missing.emplace_back(text.begin(), text.end());
   }
+  const std::vector<double> turn = takeList<double>(bytes);
   return {
       {std::move(positions), std::move(normals), std::move(triangles), std::move(parts), std::move(paint)},
-      std::move(missing)};
+      std::move(missing),
+      turn.size() == 9 ? Eigen::Matrix3d(turn.data()) : Eigen::Matrix3d::Identity()};
 }
 
 const char* complaint(IsolatedEnd end) {

@@ -15,4 +15,7 @@ namespace rex::mesh {
                                         const std::filesystem::path& folder,
                                         const IsolationLimits& limits = {}, bool textures = false);
 
+/// As readMesh() or, with `textures`, readTexturedMesh(), with the turn of the mesh.
+[[nodiscard]] TexturedMesh readFile(const std::filesystem::path& file, bool textures);
+
 }  // namespace rex::mesh

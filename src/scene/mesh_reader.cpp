@@ -60,6 +60,8 @@ TexturedMesh meshOf(const fs::path& file, bool textures) {
 
 }  // namespace
 
+TexturedMesh mesh::readFile(const fs::path& file, bool textures) { return meshOf(file, textures); }
+
 TriangleMesh readMesh(const fs::path& file) { return meshOf(file, false).mesh; }
 
 TexturedMesh readTexturedMesh(const fs::path& file) { return meshOf(file, true); }

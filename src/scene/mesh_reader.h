@@ -27,6 +27,9 @@ namespace rex {
 struct TexturedMesh {
   TriangleMesh mesh;
   std::vector<std::string> missing;
+  /// The turn to z up from the axes of a Collada file, which is done; identity if it has z up, and for
+  /// other files.
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
 };
 
 /// The same with the textures of base or diffuse colours, PNG or JPEG, inside the file or in its folder or

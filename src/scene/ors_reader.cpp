@@ -343,7 +343,8 @@ class Reader {
     if (isNew) {
       SceneFile robot = readUrdf(path, {.assetRoot = assets_->root(),
                                         .allowMissingMeshes = options_.allowMissingMeshes,
-                                        .strict = options_.strict});
+                                        .strict = options_.strict,
+                                        .upAxis = options_.upAxis});
       for (Diagnostic& one : robot.notes)
         if (file_.notes.size() < ors::kMostNotes) file_.notes.push_back(std::move(one));
       known->second = std::move(robot.spec);

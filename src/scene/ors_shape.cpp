@@ -48,6 +48,26 @@ void readSize(const Attributes& attributes, Shape& shape, Diagnostics& notes) {
     attributes.note("size", "has three numbers: the radius, its fourth, is 0", Severity::kWarning, notes);
 }
 
+// Whole numbers from 0 to `most`.
+Eigen::VectorXd wholeNumbers(const Attributes& attributes, const char* name,
+                             std::initializer_list<int> counts, double most) {
+  const Eigen::VectorXd all = attributes.row(name, counts).value_or(Eigen::VectorXd());
+  for (const double number : all)
+    if (!(number >= 0 && number <= most && number == std::floor(number)))
+      attributes.fail(name, fmt::format("{}", number), fmt::format("whole numbers from 0 to {:.0f}", most));
+  return all;
+}
+
+ContactMask readMask(const Attributes& attributes) {
+  ContactMask mask;
+  const Eigen::VectorXd bits = wholeNumbers(attributes, "contact_bits", {2}, 4294967295.);
+  if (bits.size() == 2)
+    mask.type = static_cast<std::uint32_t>(bits[0]), mask.affinity = static_cast<std::uint32_t>(bits[1]);
+  for (const double pair : wholeNumbers(attributes, "contact_pairs", {}, 1e6))
+    mask.pairs.push_back(static_cast<int>(pair));
+  return mask;
+}
+
 void noteNoMesh(const Attributes& attributes, ShapeType type, Diagnostics& notes) {
   for (const char* name : {"mesh", "meshscale"})
     if (!usesMesh(type) && attributes.has(name))

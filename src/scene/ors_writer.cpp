@@ -11,6 +11,7 @@
 #include "base/join.h"
 #include "scene/ors_limits_internal.h"
 #include "scene/ors_text_internal.h"
+#include "scene/placed_mesh_internal.h"
 #include "scene/readable_text_internal.h"
 
 namespace rex {
@@ -291,7 +292,8 @@ class Writer {
       size << shape.shape.extent, shape.shape.radius;
       parts.push_back("size=" + arrayText(size.head(shape.shape.radius == 0 ? 3 : 4)));
     }
-    if (!isIdentity(shape.X_BS)) parts.push_back("rel=" + poseText(shape.X_BS));
+    const Pose X_BS = shape.X_BS * Pose{placedMesh(shape, false).R_SM, Eigen::Vector3d::Zero()};
+    if (!isIdentity(X_BS)) parts.push_back("rel=" + poseText(X_BS));
     if (shape.color != ShapeSpec().color)
       parts.push_back("color=" + arrayText(shape.color.head(shape.color[3] == 1 ? 3 : 4)));
     if (shape.contact) parts.emplace_back("contact");
@@ -300,11 +302,19 @@ class Writer {
     return parts;
   }
 
+  static void addMask(const ContactMask& mask, Parts& parts) {
+    const Eigen::Vector2d bits(mask.type, mask.affinity);
+    if (bits != Eigen::Vector2d::Ones()) parts.push_back("contact_bits=" + arrayText(bits));
+    if (mask.pairs.empty()) return;
+    const Eigen::VectorXi pairs = Eigen::VectorXi::Map(mask.pairs.data(), std::ssize(mask.pairs));
+    parts.push_back("contact_pairs=" + arrayText(pairs.cast<double>()));
+  }
+
   void addMesh(const ShapeSpec& shape, Parts& parts) const {
     if (!usesMesh(shape.shape.type) && shape.meshFile.empty()) return;
     const std::string what = fmt::format("shape '{}'", shape.name);
     parts.push_back("mesh=" + quotedFile(what, meshFile(shape), shape.where));
-    const Eigen::Vector3d& scale = shape.meshScale;
+    const Eigen::Vector3d scale = placedMesh(shape, false).scale;
     if (scale == Eigen::Vector3d::Ones()) return;
     const bool isUniform = scale == Eigen::Vector3d::Constant(scale[0]);
     parts.push_back("meshscale=" + (isUniform ? numberText(scale[0]) : arrayText(scale)));

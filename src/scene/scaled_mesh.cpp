@@ -42,4 +42,17 @@ TriangleMesh scaledMesh(const TriangleMesh& mesh, const Vector3d& scale, const s
           mesh.paint()};
 }
 
+TriangleMesh turnedMesh(const TriangleMesh& mesh, const Eigen::Matrix3d& R) {
+  if (R.isIdentity(0)) return mesh;
+  std::vector<Vector3f> positions(mesh.positions().begin(), mesh.positions().end());
+  std::vector<Vector3f> normals(mesh.normals().begin(), mesh.normals().end());
+  for (std::vector<Vector3f>* const all : {&positions, &normals})
+    for (Vector3f& p : *all) p = (R * p.cast<double>()).cast<float>();
+  return {std::move(positions),
+          std::move(normals),
+          {mesh.triangles().begin(), mesh.triangles().end()},
+          {mesh.parts().begin(), mesh.parts().end()},
+          mesh.paint()};
+}
+
 }  // namespace rex

@@ -12,4 +12,7 @@ namespace rex {
 [[nodiscard]] TriangleMesh scaledMesh(const TriangleMesh& mesh, const Eigen::Vector3d& scale,
                                       const std::string& name);
 
+/// The mesh turned by R about its origin.
+[[nodiscard]] TriangleMesh turnedMesh(const TriangleMesh& mesh, const Eigen::Matrix3d& R);
+
 }  // namespace rex

@@ -18,6 +18,10 @@ struct SceneFile {
   std::string text{};
 };
 
+/// What becomes of the up axis that Collada files give for their meshes. `kAsUsual`: of a URDF robot it is
+/// ignored, as ROS does, so that meshes have the axes of their files; otherwise meshes are turned to z up.
+enum class UpAxis { kAsUsual, kRespected, kIgnored };
+
 struct ReadOptions {
   /// The folder that holds all files that the scene names, see Assets; empty: its default.
   std::filesystem::path assetRoot{};
@@ -28,6 +32,7 @@ struct ReadOptions {
   Diagnostics* notesOfFailure = nullptr;  ///< receives the notes made before an Error
   /// An SRDF that says which links of a URDF robot may collide; empty: NAME.srdf beside NAME.urdf, if any.
   std::filesystem::path srdf{};
+  UpAxis upAxis = UpAxis::kAsUsual;
 };
 
 /// Reads a scene with its meshes. The file extension, in upper or lower case, says how: .ors, .urdf, or

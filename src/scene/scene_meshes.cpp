@@ -6,13 +6,14 @@
 #include <map>
 #include <set>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "geometry/convex_hull.h"
-#include "scene/mesh_reader.h"
+#include "scene/isolated_mesh_internal.h"
 #include "scene/opaque_mesh_internal.h"
 #include "scene/scaled_mesh.h"
 
@@ -71,6 +72,36 @@ class Missing {
   std::vector<Group> groups_;
 };
 
+// Collada files that have an up axis other than z, so that the two readings differ.
+class Turned {
+ public:
+  void add(const ShapeSpec& shape) {
+    if (files_.empty()) first_ = &shape;
+    files_.insert(shape.meshPath.string());
+  }
+
+  void addNote(bool ignored, Diagnostics& notes) const {
+    if (files_.empty()) return;
+    const std::size_t more = files_.size() - 1;
+    const std::string others = more == 0 ? "" : fmt::format(" and of {} more", more);
+    // The axis that the turn takes to z.
+    int axis = 0;
+    first_->meshTurn.row(2).cwiseAbs().maxCoeff(&axis);
+    notes.push_back(
+        {first_->where,
+         fmt::format("the up axis of the Collada file '{}' is {}; that{} is {}; --up-axis={} is the "
+                     "other reading",
+                     first_->meshFile, "xyz"[axis], others,
+                     ignored ? "ignored, as in ROS" : "respected: the mesh is turned to z up",
+                     ignored ? "respected" : "ignored"),
+         Severity::kNote});
+  }
+
+ private:
+  const ShapeSpec* first_ = nullptr;
+  std::set<std::string> files_;
+};
+
 class Loader {
  public:
   Loader(const Assets& assets, const ReadOptions& options, Diagnostics& notes)
@@ -78,16 +109,22 @@ class Loader {
         allowMissing_(options.allowMissingMeshes),
         strict_(options.strict),
         textures_(options.textures),
+        upAxis_(options.upAxis),
         notes_(notes) {}
 
   void load(ShapeSpec& shape) {
     if (!usesMesh(shape.shape.type)) return;
+    if (upAxis_ != UpAxis::kAsUsual && shape.shape.mesh.isEmpty())
+      shape.ignoresUpAxis = upAxis_ == UpAxis::kIgnored;
     if (shape.shape.mesh.isEmpty()) readMeshOf(shape);
     const bool needsHull = shape.contact && !shape.meshMissing && shape.shape.hull.isEmpty();
     if (needsHull) shape.shape.hull = hullOf(shape);
   }
 
-  void noteMissing() const { missing_.addNotes(notes_); }
+  void addNotes() const {
+    missing_.addNotes(notes_);
+    for (const bool ignored : {true, false}) turned_[ignored].addNote(ignored, notes_);
+  }
 
  private:
   void readMeshOf(ShapeSpec& shape) {
@@ -145,23 +182,31 @@ class Loader {
     }
   }
 
-  // Shapes with the same file share its mesh, those with the same scale share the scaled one.
-  const TriangleMesh& read(const ShapeSpec& shape) {
+  // Shapes with the same file share its mesh, those that are also turned and scaled alike the result.
+  const TriangleMesh& read(ShapeSpec& shape) {
     const Eigen::Vector3d& scale = shape.meshScale;
     const std::string name = shape.meshPath.string();
-    const auto [known, isNew] = scaled_.try_emplace({name, {scale.x(), scale.y(), scale.z()}});
+    const auto [file, isFirst] = files_.try_emplace(name);
+    if (isFirst) {
+      file->second = fromFile(shape);
+      file->second.mesh = seen(file->second.mesh, shape);
+      count(file->second.mesh);
+    }
+    const TriangleMesh& whole = file->second.mesh;
+    shape.meshTurn = file->second.turn;
+    const bool isTurned = !shape.meshTurn.isIdentity(0);
+    if (isTurned) turned_[shape.ignoresUpAxis].add(shape);
+    const bool turnsBack = isTurned && shape.ignoresUpAxis;
+    const auto [known, isNew] = placed_.try_emplace({name, turnsBack, {scale.x(), scale.y(), scale.z()}});
     if (!isNew) return known->second;
-    const auto [whole, isFirst] = read_.try_emplace(name);
-    if (isFirst) whole->second = seen(fromFile(shape), shape);
-    known->second = scaledMesh(whole->second, scale, name);
-    if (isFirst) count(whole->second);
-    if (known->second != whole->second) count(known->second);
+    known->second =
+        scaledMesh(turnsBack ? turnedMesh(whole, shape.meshTurn.transpose()) : whole, scale, name);
+    if (known->second != whole) count(known->second);
     return known->second;
   }
 
-  TriangleMesh fromFile(const ShapeSpec& shape) {
-    if (!textures_) return readMesh(shape.meshPath);
-    const TexturedMesh read = readTexturedMesh(shape.meshPath);
+  TexturedMesh fromFile(const ShapeSpec& shape) {
+    TexturedMesh read = mesh::readFile(shape.meshPath, textures_);
     if (!read.missing.empty()) {
       const std::size_t more = read.missing.size() - 1;
       notes_.push_back({shape.where,
@@ -171,7 +216,7 @@ class Loader {
                         Severity::kWarning});
     }
     for (const Texture& texture : read.mesh.paint().textures) countPixels(texture.rgb.size() / 3);
-    return read.mesh;
+    return read;
   }
 
   void countPixels(std::size_t pixels) {
@@ -206,15 +251,17 @@ class Loader {
            .wanted = fmt::format("at most {} in all files and scales of a scene", kMostVerticesTogether)});
   }
 
-  using Key = std::pair<std::string, std::array<double, 3>>;
+  using Key = std::tuple<std::string, bool, std::array<double, 3>>;  // file, turned back, scale
   const Assets& assets_;
   bool allowMissing_, strict_, textures_;
+  UpAxis upAxis_;
   Diagnostics& notes_;
   Missing missing_;
+  std::array<Turned, 2> turned_;  // by whether the up axis is ignored
   std::size_t vertices_ = 0, pixels_ = 0;
   std::map<std::string, std::filesystem::path> paths_;  // where files were found; empty for missing ones
-  std::map<std::string, TriangleMesh> read_;
-  std::map<Key, TriangleMesh> scaled_;
+  std::map<std::string, TexturedMesh> files_;
+  std::map<Key, TriangleMesh> placed_;
   std::deque<std::pair<TriangleMesh, TriangleMesh>> hulls_;
 };
 
@@ -225,7 +272,7 @@ void loadMeshes(SceneFile& scene, const Assets& assets, const ReadOptions& optio
   for (ShapeSpec& shape : scene.spec.worldShapes) loader.load(shape);
   for (BodySpec& body : scene.spec.bodies)
     for (ShapeSpec& shape : body.shapes) loader.load(shape);
-  loader.noteMissing();
+  loader.addNotes();
 }
 
 }  // namespace rex

@@ -37,6 +37,11 @@ struct ShapeSpec {
   std::filesystem::path meshPath{};  ///< the file that loadMeshes() found; empty before
   bool meshMissing = false;          ///< `shape` only stands in for the mesh; compile() gives it no contact
   SourceLocation where{};
+  ContactMask mask{};   ///< which others it may touch
+  bool ground = false;  ///< the ground of pictures lies where the highest point of such shapes is
+  /// Whether the mesh has the axes of its Collada file, as in ROS, or those after its `meshTurn` to z up.
+  bool ignoresUpAxis = false;
+  Eigen::Matrix3d meshTurn = Eigen::Matrix3d::Identity();  ///< set by loadMeshes(); identity: it has z up
 };
 
 /// A rigid body. X_WB is used for roots only; the pose of a body moved by a joint follows from the joint.

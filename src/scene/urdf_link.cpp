@@ -70,6 +70,7 @@ void readMesh(const Tag& tag, ShapeSpec& spec) {
   static const Known kKnown = {{"filename", "scale"}, {}};
   tag.expect(kKnown);
   spec.shape.type = ShapeType::kMesh;
+  spec.ignoresUpAxis = true;
   spec.meshFile = tag.text("filename");
   spec.where = tag.where("filename");
   if (spec.meshFile.empty()) tag.failAt("filename", "nothing", "a file");

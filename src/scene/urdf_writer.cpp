@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "scene/model.h"
+#include "scene/placed_mesh_internal.h"
 #include "scene/readable_text_internal.h"
 #include "scene/urdf_expansion_internal.h"
 #include "scene/urdf_markup_internal.h"
@@ -229,7 +230,10 @@ class Writer {
   }
 
   std::vector<Solid> meshOf(const ShapeSpec& shape) const {
-    return {{{}, "mesh", {{"filename", fileOf(shape)}, {"scale", numeral(shape.meshScale)}}}};
+    const PlacedMesh placed = placedMesh(shape, true);
+    return {{{placed.R_SM, Eigen::Vector3d::Zero()},
+             "mesh",
+             {{"filename", fileOf(shape)}, {"scale", numeral(placed.scale)}}}};
   }
 
   std::string fileOf(const ShapeSpec& shape) const {

@@ -1,3 +1,4 @@
+#include "cli/option_value_internal.h"
 #include "cli/robot/robot_options_internal.h"
 
 namespace rex::cli {
@@ -20,6 +21,15 @@ void addReading(CLI::App* command, ReadOptions& reading) {
       ->add_option("--srdf", reading.srdf,
                    "which links of a .urdf may collide (default: the .srdf beside it)")
       ->type_name("FILE");
+  command
+      ->add_option_function<std::string>(
+          "--up-axis",
+          [&reading](const std::string& which) {
+            reading.upAxis = choose<UpAxis>(
+                "--up-axis", which, {{"respected", UpAxis::kRespected}, {"ignored", UpAxis::kIgnored}});
+          },
+          "of Collada meshes: respected or ignored (default: ignored in .urdf, as in ROS)")
+      ->type_name("WHICH");
   command->add_flag("--free-base", reading.freeBase, "let the root of a .urdf move freely");
 }
 

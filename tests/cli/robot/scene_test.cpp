@@ -505,6 +505,8 @@ TEST_F(SceneCommand, SaysWhatIsUsedWrongly) {
       expectRefusal({file, verb, "--free-base"}, "--free-base: found an .ors file, wanted a .urdf file");
   std::ofstream(in("m.xml")) << "<mujoco><worldbody><body name='a'/></worldbody></mujoco>";
   EXPECT_EQ(scene({"m.xml", "check"}).exitCode, 0);
+  expectRefusal({"m.xml", "fk", "--up-axis", "respect"},
+                "--up-axis: found 'respect', wanted respected, ignored (did you mean 'respected'?)");
   expectRefusal({"m.xml", "fk", "--free-base"},
                 "--free-base: found an .xml file, wanted a .urdf file; in MJCF, use <freejoint/>");
   expectRefusal({"m.xml", "fk", "--srdf", "m.srdf"},
