@@ -75,14 +75,48 @@ class Choices {
   std::map<BodyId, const PairChoice*> ofAll_;
 };
 
+// The masks of the shapes of bodies, each once. Most scenes have only the usual ones.
+class Masks {
+ public:
+  explicit Masks(const Model& model) : ofBody_(model.bodies().size()) {
+    for (const ModelShape& shape : model.shapes()) {
+      if (!internal::takesPart(shape)) continue;
+      areUsual_ &= shape.mask == ContactMask{};
+      havePairs_ |= !shape.mask.pairs.empty();
+      std::vector<ContactMask>& known = ofBody_[static_cast<std::size_t>(shape.body)];
+      if (std::ranges::find(known, shape.mask) == known.end()) known.push_back(shape.mask);
+    }
+  }
+  bool mayTouch(BodyId a, BodyId b) const { return areUsual_ || any(a, b, rex::mayTouch); }
+  bool arePaired(BodyId a, BodyId b) const { return havePairs_ && any(a, b, rex::arePaired); }
+
+ private:
+  bool any(BodyId a, BodyId b, bool (*isSo)(const ContactMask&, const ContactMask&)) const {
+    for (const ContactMask& one : ofBody_[static_cast<std::size_t>(a)])
+      for (const ContactMask& other : ofBody_[static_cast<std::size_t>(b)])
+        if (isSo(one, other)) return true;
+    return false;
+  }
+
+  std::vector<std::vector<ContactMask>> ofBody_;
+  bool areUsual_ = true, havePairs_ = false;
+};
+
 // Decides which pairs of bodies may collide.
 class Judge {
  public:
   explicit Judge(const Model& model)
-      : model_(model), parts_(model), coupled_(model), choices_(model), rule_(model.collisionRule()) {
+      : model_(model),
+        parts_(model),
+        coupled_(model),
+        masks_(model),
+        choices_(model),
+        rule_(model.collisionRule()) {
     if (rule_ == CollisionRule::kFourGenerations) return;
-    const auto isAsked = [&](BodyId a, BodyId b) {
-      return parts_.freeJoint(a) == parts_.freeJoint(b) && reasonByTree(a, b) == PairReason::kNone;
+    const auto isAsked = [&](const ModelShape& a, const ModelShape& b) {
+      return mayTouch(a.mask, b.mask) && !arePaired(a.mask, b.mask) &&
+             parts_.freeJoint(a.body) == parts_.freeJoint(b.body) &&
+             reasonByTree(a.body, b.body) == PairReason::kNone;
     };
     for (const HomeOverlap& overlap : internal::homeOverlaps(model, kHomeTolerance, isAsked)) {
       HomeOverlap& deepest = overlaps_[inOrder(bodyOf(overlap.pair.a), bodyOf(overlap.pair.b))];
@@ -98,8 +132,13 @@ class Judge {
       verdict.mayCollide = choice->mayCollide;
       verdict.said = choice->reason;
     }
+    if (!verdict.mayCollide && arePairedThere(a, b)) {
+      verdict.mayCollide = true;
+      verdict.reason = PairReason::kChosen;
+      verdict.said = "pairs of shapes";
+    }
     const auto overlap = overlaps_.find(inOrder(a, b));
-    if (overlap == overlaps_.end()) return verdict;
+    if (overlap == overlaps_.end() || arePairedThere(a, b)) return verdict;
     verdict.reason = PairReason::kOverlapAtHome;
     verdict.mayCollide = false;
     verdict.deepest = overlap->second.pair;
@@ -107,7 +146,12 @@ class Judge {
     return verdict;
   }
 
-  // The same decision without its explanation.
+  // Whether shapes of theirs are pairs in their masks, and can touch.
+  bool arePairedThere(BodyId a, BodyId b) const {
+    return masks_.arePaired(a, b) && parts_.part(a) != parts_.part(b) && !coupled_.cancels(a, b);
+  }
+
+  // The same decision as verdict() for shapes that are no pair, without its explanation.
   bool mayCollide(BodyId a, BodyId b) const {
     const PairReason reason = reasonByTree(a, b);
     if (reason == PairReason::kChosen) return choices_.find(a, b)->mayCollide;
@@ -123,6 +167,7 @@ class Judge {
   PairReason reasonByTree(BodyId a, BodyId b) const {
     if (parts_.part(a) == parts_.part(b)) return PairReason::kSamePart;
     if (coupled_.cancels(a, b)) return PairReason::kCannotMove;
+    if (!masks_.mayTouch(a, b)) return PairReason::kMasks;
     if (choices_.find(a, b) != nullptr) return PairReason::kChosen;
     if (rule_ == CollisionRule::kFourGenerations) {
       if (hasJointTo(model_, a, b) || hasJointTo(model_, b, a) || parts_.arePinned(a, b))
@@ -135,6 +180,7 @@ class Judge {
   const Model& model_;
   RigidParts parts_;
   CoupledMotion coupled_;
+  Masks masks_;
   Choices choices_;
   CollisionRule rule_;
   std::map<BodyPair, HomeOverlap> overlaps_;
@@ -177,6 +223,8 @@ std::string toString(const PairVerdict& verdict, const Model& model) {
       return "fixed to each other";
     case PairReason::kCannotMove:
       return "coupled joints keep them in place";
+    case PairReason::kMasks:
+      return "no common bit of contype and conaffinity";
     case PairReason::kChosen:
       return fmt::format("{}{}{}", verdict.mayCollide ? "enabled" : "disabled",
                          verdict.said.empty() ? "" : ": ", verdict.said);
@@ -207,14 +255,27 @@ std::vector<ShapePair> collidingPairs(const Model& model) {
   const std::vector<std::vector<int>> groups = shapesInContact(model);
   const Judge judge(model);
   std::vector<ShapePair> pairs;
-  std::vector<int> partners;
+  struct Partner {
+    int shape;
+    bool mayCollide;  // otherwise only as a pair
+  };
+  std::vector<Partner> partners;
+  const auto maskOf = [&](int shape) -> const ContactMask& {
+    return model.shapes()[static_cast<std::size_t>(shape)].mask;
+  };
   for (auto a = groups.begin(); a != groups.end(); ++a) {
     partners.clear();
-    for (auto b = a + 1; b != groups.end(); ++b)
-      if (judge.mayCollide(bodyOf(model, *a), bodyOf(model, *b)))
-        partners.insert(partners.end(), b->begin(), b->end());
+    for (auto b = a + 1; b != groups.end(); ++b) {
+      const BodyId first = bodyOf(model, *a), second = bodyOf(model, *b);
+      const bool mayCollide = judge.mayCollide(first, second);
+      if (!mayCollide && !judge.arePairedThere(first, second)) continue;
+      for (const int shape : *b) partners.push_back({shape, mayCollide});
+    }
     for (const int shape : *a)
-      for (const int partner : partners) pairs.push_back({shape, partner});
+      for (const auto& [partner, mayCollide] : partners) {
+        const auto isAllowed = mayCollide ? mayTouch : arePaired;
+        if (isAllowed(maskOf(shape), maskOf(partner))) pairs.push_back({shape, partner});
+      }
   }
   return pairs;
 }

@@ -13,6 +13,7 @@ namespace rex {
 enum class PairReason {
   kSamePart,         ///< fixed to each other, or both in the world
   kCannotMove,       ///< coupled joints provably cancel, so their relative pose never changes
+  kMasks,            ///< no two of their shapes may touch, see ContactMask
   kChosen,           ///< chosen by the scene: an SRDF, or `collisions` in .ors
   kNeighbours,       ///< a joint or a pin links them
   kFourGenerations,  ///< both are within four generations below a common ancestor, which may be one of them
@@ -41,11 +42,13 @@ struct PairVerdict {
 /// without shapes count as one; of everything fixed to the world, only the body that carries the joint
 /// counts. A free joint makes no neighbours, and overlaps at home with its descendants do not count, because
 /// they will be moved elsewhere. With kFourGenerations, neighbours are the two bodies of a joint, and those
-/// of a pin with everything fixed to them; overlaps at home do not count.
+/// of a pin with everything fixed to them; overlaps at home do not count. Bodies with shapes that are a pair
+/// in their masks may collide; shapes of other pairs of theirs touch only if the bodies may without it.
 [[nodiscard]] std::vector<PairVerdict> pairVerdicts(const Model& model);
 
-/// The pairs of shapes in contact on bodies that may collide, sorted: those of ContactModel(model). The time
-/// is proportional to their number, and proximity() runs only where axis-aligned boxes overlap at home.
+/// The pairs of shapes in contact that may touch (ContactMask) on bodies that may collide, and those of pairs
+/// in masks on all bodies that can move relative to each other; sorted: those of ContactModel(model). The
+/// time is proportional to their number, and proximity() runs only where axis-aligned boxes overlap at home.
 [[nodiscard]] std::vector<ShapePair> collidingPairs(const Model& model);
 
 /// A warning for each pair of bodies that is left out because it overlaps at home, and for each choice

@@ -46,8 +46,12 @@ int widestAxis(const std::vector<Standing>& all) {
 
 }  // namespace
 
-std::vector<HomeOverlap> homeOverlaps(const Model& model, double tolerance,
-                                      const std::function<bool(BodyId, BodyId)>& isAsked) {
+std::vector<HomeOverlap> homeOverlaps(
+    const Model& model, double tolerance,
+    const std::function<bool(const ModelShape&, const ModelShape&)>& isAsked) {
+  const auto shapeOf = [&](const Standing& one) -> const ModelShape& {
+    return model.shapes()[static_cast<std::size_t>(one.shape)];
+  };
   std::vector<Standing> all = standing(model);
   const int axis = widestAxis(all);
   std::ranges::sort(all, {}, [&](const Standing& one) { return std::pair(one.low[axis], one.shape); });
@@ -56,13 +60,11 @@ std::vector<HomeOverlap> homeOverlaps(const Model& model, double tolerance,
     for (auto b = a + 1; b != all.end() && b->low[axis] < a->high[axis]; ++b) {
       const bool isNear =
           (a->low.array() < b->high.array()).all() && (b->low.array() < a->high.array()).all();
-      if (!isNear || a->body == b->body || !isAsked(a->body, b->body)) continue;
+      if (!isNear || a->body == b->body || !isAsked(shapeOf(*a), shapeOf(*b))) continue;
       const Standing& first = a->shape < b->shape ? *a : *b;
       const Standing& second = a->shape < b->shape ? *b : *a;
-      const auto solid = [&](const Standing& one) -> const Shape& {
-        return model.shapes()[static_cast<std::size_t>(one.shape)].shape;
-      };
-      const double depth = -proximity(solid(first), first.X_WS, solid(second), second.X_WS).distance;
+      const double depth =
+          -proximity(shapeOf(first).shape, first.X_WS, shapeOf(second).shape, second.X_WS).distance;
       if (depth > tolerance) found.push_back({{first.shape, second.shape}, depth});
     }
   }

@@ -13,10 +13,11 @@ struct HomeOverlap {
   double depth = 0;
 };
 
-/// All that are deeper than `tolerance`, of bodies that `isAsked` for, sorted by their shapes. A mesh that is
+/// All that are deeper than `tolerance`, of shapes that `isAsked` for, sorted by their shapes. A mesh that is
 /// not loaded overlaps nothing.
-[[nodiscard]] std::vector<HomeOverlap> homeOverlaps(const Model& model, double tolerance,
-                                                    const std::function<bool(BodyId, BodyId)>& isAsked);
+[[nodiscard]] std::vector<HomeOverlap> homeOverlaps(
+    const Model& model, double tolerance,
+    const std::function<bool(const ModelShape&, const ModelShape&)>& isAsked);
 
 /// Whether a shape takes part in collisions.
 [[nodiscard]] inline bool takesPart(const ModelShape& shape) {

@@ -61,7 +61,8 @@ std::vector<ShapePair> shapePairs(const Model& model,
   };
   for (std::size_t a = 0; a < shapes.size(); ++a)
     for (std::size_t b = a + 1; takesPart(a) && b < shapes.size(); ++b)
-      if (takesPart(b) && asked.contains(std::minmax(shapes[a].body, shapes[b].body)))
+      if (takesPart(b) && mayTouch(shapes[a].mask, shapes[b].mask) &&
+          asked.contains(std::minmax(shapes[a].body, shapes[b].body)))
         pairs.push_back({static_cast<int>(a), static_cast<int>(b)});
   return pairs;
 }

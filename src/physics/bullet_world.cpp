@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <tuple>
 
+#include <BulletCollision/CollisionDispatch/btCompoundCompoundCollisionAlgorithm.h>
 #include <BulletCollision/NarrowPhaseCollision/btRaycastCallback.h>
 #include <fmt/format.h>
 
@@ -98,6 +100,8 @@ Eigen::Vector3d frictionOf(const btManifoldPoint& point) {
                     point.m_appliedImpulseLateral2 * point.m_lateralFrictionDir2);
 }
 
+bool isSolid(const ModelShape& shape) { return shape.contact && shape.shape.type != ShapeType::kMarker; }
+
 bool isIdentity(const Pose& X) { return X.R.isIdentity(0) && X.p.isZero(0); }
 
 }  // namespace
@@ -110,6 +114,39 @@ BodyPairs::BodyPairs(const Model& model, const std::vector<bool>& isStill)
                b = static_cast<std::size_t>(contacts.body(pair.b));
     collide_[a * bodies_ + b] = collide_[b * bodies_ + a] = !isStill[a] || !isStill[b];
   }
+  std::vector<std::size_t> shapes(bodies_);
+  for (const ModelShape& shape : model.shapes())
+    if (isSolid(shape)) ++shapes[static_cast<std::size_t>(shape.body)];
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> counts;
+  for (const ShapePair& pair : contacts.pairs())
+    ++counts[std::minmax(static_cast<std::size_t>(contacts.body(pair.a)),
+                         static_cast<std::size_t>(contacts.body(pair.b)))];
+  const bool areWhole = std::ranges::all_of(counts, [&](const auto& count) {
+    return count.second == shapes[count.first.first] * shapes[count.first.second];
+  });
+  if (areWhole) return;
+  pairs_.assign(contacts.pairs().begin(), contacts.pairs().end());
+  // Bullet asks for the parts of compounds by functions of the whole program.
+  static const bool isSet = [] {
+    gCompoundChildShapePairCallback = &BodyPairs::mayTouch;
+    gCompoundCompoundChildShapePairCallback = &BodyPairs::mayTouch;
+    return true;
+  }();
+  static_cast<void>(isSet);
+}
+
+void BodyPairs::watch(btCollisionShape& shape, int place) const {
+  if (pairs_.empty()) return;
+  shape.setUserPointer(const_cast<BodyPairs*>(this));
+  shape.setUserIndex(place);
+}
+
+bool BodyPairs::mayTouch(const btCollisionShape* a, const btCollisionShape* b) {
+  const auto* const all = static_cast<const BodyPairs*>(a->getUserPointer());
+  if (all == nullptr || b->getUserPointer() == nullptr) return true;
+  const auto [first, second] = std::minmax({a->getUserIndex(), b->getUserIndex()});
+  return std::ranges::binary_search(all->pairs_, std::pair(first, second), {},
+                                    [](const ShapePair& pair) { return std::pair(pair.a, pair.b); });
 }
 
 bool BodyPairs::needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const {
@@ -128,8 +165,7 @@ BulletWorld::BulletWorld(const Model& model, const PhysicsOptions& options)
   pairs_ = std::make_unique<BodyPairs>(model, all.isStill);
   for (std::size_t i = 0; i < model.shapes().size(); ++i) {
     const ModelShape& shape = model.shapes()[i];
-    if (shape.contact && shape.shape.type != ShapeType::kMarker)
-      shapesOf_[static_cast<std::size_t>(shape.body)].push_back(static_cast<int>(i));
+    if (isSolid(shape)) shapesOf_[static_cast<std::size_t>(shape.body)].push_back(static_cast<int>(i));
   }
   world_.setGravity(toBullet(options.gravity_W));
   world_.getPairCache()->setOverlapFilterCallback(pairs_.get());
@@ -227,6 +263,7 @@ btCollisionShape* BulletWorld::addShape(const Model& model, BodyId body, const P
     const ModelShape& shape = model.shapes()[static_cast<std::size_t>(place)];
     std::unique_ptr<btCollisionShape> solid = bulletShape(shape.shape);
     if (solid == nullptr) return true;
+    pairs_->watch(*solid, place);
     compound->addChildShape(toBullet(X_BL.inverse() * shape.X_BS), solid.get());
     shapes_.push_back(std::move(solid));
     return false;

@@ -9,22 +9,29 @@
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 #include <btBulletCollisionCommon.h>
 
+#include "collision/contact_model.h"
 #include "physics/coupling_internal.h"
 #include "physics/mover_internal.h"
 #include "physics/stepping_world_internal.h"
 
 namespace rex::internal {
 
-/// Lets the bodies collide that ContactModel lets collide, unless both stand still. Objects know their body
-/// by their user index.
+/// Lets the shapes collide that ContactModel lets collide, unless the bodies of both stand still. Objects
+/// know their body by their user index.
 class BodyPairs : public btOverlapFilterCallback {
  public:
   BodyPairs(const Model& model, const std::vector<bool>& isStill);
   bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override;
+  /// Makes shape `place` of the model part of this, which must outlive it, if shapes of bodies that collide
+  /// do not all do so.
+  void watch(btCollisionShape& shape, int place) const;
 
  private:
+  static bool mayTouch(const btCollisionShape* a, const btCollisionShape* b);
+
   std::size_t bodies_;
   std::vector<bool> collide_;
+  std::vector<ShapePair> pairs_;  // sorted; empty if all shapes of bodies that collide do so
 };
 
 class Articulation;
@@ -71,6 +78,7 @@ class BulletWorld {
   void forEachContact(const Visit& visit) const;
   [[nodiscard]] int shapeOf(const btCollisionObject& object, int child) const;
 
+  std::unique_ptr<BodyPairs> pairs_;
   btEmptyShape nothing_;
   std::vector<std::vector<int>> shapesOf_;  // of each body: places in Model::shapes()
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;
@@ -82,7 +90,6 @@ class BulletWorld {
   btMultiBodyConstraintSolver solver_;
   std::optional<Couplings> couplings_;
   SteppingWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
-  std::unique_ptr<BodyPairs> pairs_;
   double softness_ = 0;  // of contacts, 1/kg
 };
 

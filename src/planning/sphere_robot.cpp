@@ -89,6 +89,15 @@ class SphereRobotBuilder {
                    fmt::format("shape '{}'", shapeLabel(model_, static_cast<int>(i))),
                    fmt::format("a {}", toString(model_.shapes()[i].shape.type)),
                    "spheres as shapes in contact");
+    // Pairs are decided between groups of spheres, one for each body.
+    std::map<BodyId, ContactMask> masks;
+    for (const ModelShape& shape : model_.shapes()) {
+      if (!shape.contact) continue;
+      const ContactMask& first = masks.emplace(shape.body, shape.mask).first->second;
+      requireRobot(shape.mask == first && shape.mask.pairs.empty(),
+                   fmt::format("body '{}'", model_[shape.body].name),
+                   "spheres that may touch different things", "one contype and conaffinity, and no <pair>");
+    }
     data_.lower = model_.lowerLimits();
     data_.upper = model_.upperLimits();
   }

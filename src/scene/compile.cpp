@@ -426,7 +426,9 @@ Model compile(const SceneSpec& spec) {
                              .shape = shape.shape,
                              .color = shape.color,
                              .contact = shape.contact && !shape.meshMissing,
-                             .visible = shape.visible});
+                             .visible = shape.visible,
+                             .mask = shape.mask,
+                             .ground = shape.ground});
   };
   for (const ShapeSpec& shape : spec.worldShapes) addShape(shape, kWorld);
 

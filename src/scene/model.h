@@ -80,6 +80,8 @@ struct ModelShape {
   Eigen::Vector4d color{1, 1, 1, 1};
   bool contact = false;
   bool visible = true;
+  ContactMask mask{};
+  bool ground = false;  ///< see ShapeSpec
 };
 
 /// Whether a pair of bodies may collide, or, without a `b`, all pairs of `a`; see CollisionChoice.

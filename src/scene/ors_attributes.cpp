@@ -22,6 +22,7 @@ bool isNumber(std::string_view word) {
 
 // "a number or an array of 3 or 4 numbers".
 std::string rowOf(std::initializer_list<int> counts) {
+  if (counts.size() == 0) return "one row of numbers";
   std::string number, arrays;
   for (const int count : counts) {
     if (count == 1) {
@@ -149,7 +150,7 @@ std::optional<Eigen::VectorXd> Attributes::row(std::string_view name, std::initi
   const Node* attribute = find(name);
   if (!attribute) return std::nullopt;
   const auto isCount = [&](Eigen::Index n) {
-    return std::find(counts.begin(), counts.end(), n) != counts.end();
+    return counts.size() == 0 || std::find(counts.begin(), counts.end(), n) != counts.end();
   };
   if (const double* value = std::get_if<double>(&attribute->value); value && isCount(1))
     return Eigen::VectorXd::Constant(1, *value);

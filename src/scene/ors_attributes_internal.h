@@ -51,7 +51,8 @@ class Attributes {
   std::optional<Pose> pose(std::string_view name) const;
   std::optional<std::string> text(std::string_view name, const char* wanted) const;
   std::optional<FileName> file(std::string_view name) const;
-  /// One row of numbers, whose count must be one of `counts`; a single number is a row of one.
+  /// One row of numbers, whose count must be one of `counts`, any if that is empty; a single number is a row
+  /// of one.
   std::optional<Eigen::VectorXd> row(std::string_view name, std::initializer_list<int> counts,
                                      bool mayBeInfinite = false) const;
   /// The index of what was chosen.

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "scene/ors_shape_internal.h"
@@ -22,7 +24,7 @@ ShapeType readType(const Attributes& attributes, const Place& where, Diagnostics
   if (!type) {
     throw Error({.what = attributes.owner() + ": attribute 'type' is missing",
                  .where = where,
-                 .wanted = "type=0 .. type=10"});
+                 .wanted = "type=0 .. type=11"});
   }
   if (kShapeWords[*type].number == kRetiredBox)
     attributes.note("type", "6 is retired: read as ST_ssBox, a rounded box", Severity::kNote, notes);
@@ -82,6 +84,8 @@ const std::vector<std::string>& shapeAttributes() {
                                                   "rel",
                                                   "color",
                                                   "contact",
+                                                  "contact_bits",
+                                                  "contact_pairs",
                                                   "mesh",
                                                   "meshscale",
                                                   "hidden",
@@ -106,6 +110,7 @@ ShapeSpec readShape(const Attributes& attributes, std::string name, const Place&
     spec.color.head(color->size()) = *color;
   }
   spec.contact = attributes.flag("contact");
+  spec.mask = readMask(attributes);
   spec.visible = !attributes.flag("hidden");
   if (const auto mesh = attributes.file("mesh")) spec.meshFile = mesh->path;
   if (const auto scale = attributes.row("meshscale", {1, 3}))

@@ -297,6 +297,7 @@ class Writer {
     if (shape.color != ShapeSpec().color)
       parts.push_back("color=" + arrayText(shape.color.head(shape.color[3] == 1 ? 3 : 4)));
     if (shape.contact) parts.emplace_back("contact");
+    addMask(shape.mask, parts);
     if (!shape.visible) parts.emplace_back("hidden");
     addMesh(shape, parts);
     return parts;

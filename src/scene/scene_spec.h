@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "geometry/pose.h"
 #include "geometry/shape.h"
+#include "scene/contact_mask.h"
 #include "scene/joint_type.h"
 
 namespace rex {

@@ -98,6 +98,13 @@ class Writer {
   void noteCollisions(const SceneSpec& spec) {
     for (const CollisionChoice& choice : spec.collisionChoices)
       losses_.add("collision settings are left out: they belong in an SRDF", choice.a, choice.where);
+    const auto noteMasks = [&](const std::vector<ShapeSpec>& shapes, const std::string& owner) {
+      for (const ShapeSpec& shape : shapes)
+        if (shape.contact && shape.mask != ContactMask{})
+          losses_.add("contype, conaffinity and pairs of shapes are left out", owner, shape.where);
+    };
+    noteMasks(spec.worldShapes, kWorldName);
+    for (const BodySpec& body : spec.bodies) noteMasks(body.shapes, body.name);
     const auto touches = [](const ShapeSpec& shape) { return shape.contact; };
     if (spec.collisionRule != CollisionRule::kFourGenerations) return;
     for (const BodySpec& body : spec.bodies)

@@ -81,6 +81,9 @@ ExitCode sceneNeverTouching(const Project& project, const PairsOptions& options)
   }
   // Keeps the choices that the scene already makes, as this file may replace its SRDF.
   std::vector<CollisionChoice> choices = std::move(spec.collisionChoices);
+  for (const PairVerdict& verdict : pairVerdicts(model))
+    if (verdict.reason == PairReason::kMasks)
+      choices.push_back({model[verdict.a].name, model[verdict.b].name, false, toString(verdict, model), {}});
   const std::vector<CollisionChoice> suggested = suggestedChoices(model, sample);
   choices.insert(choices.end(), suggested.begin(), suggested.end());
   const std::string about = fmt::format(
