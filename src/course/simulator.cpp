@@ -62,6 +62,12 @@ ReadOptions readingOf(const std::filesystem::path& file, const SimulatorOptions&
           .strict = options.strict};
 }
 
+// As text, without meshes that are in no file: readers of a text draw none.
+std::string textOf(SceneSpec spec) {
+  removeMeshesWithoutFile(spec);
+  return writeOrs(spec);
+}
+
 std::string orsNameOf(const std::string& name) {
   return std::filesystem::path(name).replace_extension(".ors").string();
 }
@@ -395,7 +401,7 @@ void Simulator::anchorKinematicChainIn(const std::string& body) {
   // The name decides how the text is read, and the text is .ors now.
   spec.name = orsNameOf(parts_->sceneName);
   const SimulatorDescription description{.sceneName = spec.name,
-                                         .sceneText = writeOrs(spec),
+                                         .sceneText = textOf(spec),
                                          .q = {},
                                          .contactMargin = parts_->contactMargin,
                                          .dynamicNoise = parts_->dynamicNoise,
@@ -435,7 +441,7 @@ SimulatorDescription Simulator::description() const {
                                    parts_->gravity,       parts_->seed,      parts_->srdf};
   if (!description.sceneText.empty()) return description;
   description.sceneName = orsNameOf(parts_->sceneName);
-  description.sceneText = writeOrs(*parts_->spec);
+  description.sceneText = textOf(*parts_->spec);
   description.srdf.clear();
   return description;
 }

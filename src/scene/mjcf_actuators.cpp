@@ -131,11 +131,6 @@ const Known& knownOfEqualities() {
   return kKnown;
 }
 
-const Known& knownOfContacts() {
-  static const Known kKnown = {{}, {"include", "exclude"}, {"pair"}};
-  return kKnown;
-}
-
 }  // namespace
 
 const std::string& bodyIn(const Tag& tag, const char* attribute, const BodyTree& tree) {
@@ -221,19 +216,6 @@ void readEqualities(const std::vector<Tag>& sections, Files& files, const Defaul
     joint.mimicOffset = follower.offset;
   }
   readPins(pins, defaults, compiler, tree);
-}
-
-void readContacts(const std::vector<Tag>& sections, Files& files, BodyTree& tree) {
-  static const Known kKnown = {{"name", "class", "body1", "body2"}, {}};
-  for (const Tag& section : sections) {
-    for (const Tag& tag : files.children(section.of("<contact>"), knownOfContacts())) {
-      if (tag.name() != "exclude") continue;
-      tag.expect(kKnown);
-      const std::string &a = bodyIn(tag, "body1", tree), &b = bodyIn(tag, "body2", tree);
-      if (a == b) tag.fail(tag.where("body2"), "one body", xml::quoted(b), "two bodies");
-      tree.spec.collisionChoices.push_back({a, b, false, "exclude", tag.where()});
-    }
-  }
 }
 
 }  // namespace rex::mjcf

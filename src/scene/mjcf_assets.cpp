@@ -10,8 +10,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t kMostHeightFields = 16;
+
 const Known& knownOfAsset() {
-  static const Known kKnown = {{}, {"include", "mesh", "material"}, {"texture", "hfield", "skin", "model"}};
+  static const Known kKnown = {{}, {"include", "mesh", "material", "hfield"}, {"texture", "skin", "model"}};
   return kKnown;
 }
 
@@ -80,6 +82,14 @@ Eigen::Vector4d colorIn(const Tag& tag) {
 void readAssets(const Tag& section, Files& files, const Defaults& defaults, const Compiler& compiler,
                 MjcfAssets& assets) {
   for (const Tag& tag : files.children(section, knownOfAsset())) {
+    if (tag.name() == "hfield") {
+      if (assets.heightFields.size() == kMostHeightFields)
+        tag.fail(tag.where(), "too many", "", fmt::format("at most {}", kMostHeightFields));
+      HeightField field = readHeightField(tag, files, compiler);
+      const bool isNamed = tag.has("name") || !tag.has("file");
+      const std::string name = isNamed ? tag.nameIn("name") : fs::path(tag.text("file")).stem().string();
+      add(tag, name, isNamed ? "name" : "file", std::move(field), assets.heightFields);
+    }
     const bool isMesh = tag.name() == "mesh";
     if (!isMesh && tag.name() != "material") continue;
     tag.expect(isMesh ? knownOfMesh() : knownOfMaterial());

@@ -114,13 +114,13 @@ void readGroups(const Tag& tag, Compiler& compiler) {
 }
 
 const Known& knownOfCompiler() {
-  static const Known kKnown = {
-      {"angle", "autolimits", "coordinate", "eulerseq", "meshdir", "assetdir", "inertiafromgeom",
-       "inertiagrouprange", "strippath", "boundmass", "boundinertia", "settotalmass", "balanceinertia"},
-      {},
-      {"lengthrange"},
-      {"fusestatic", "discardvisual", "usethread", "texturedir", "convexhull", "exactmeshinertia", "fitaabb",
-       "alignfree", "saveinertial", "conflict"}};
+  static const Known kKnown = {{"angle", "autolimits", "coordinate", "eulerseq", "meshdir", "assetdir",
+                                "inertiafromgeom", "inertiagrouprange", "strippath", "boundmass",
+                                "boundinertia", "settotalmass", "balanceinertia", "fitaabb"},
+                               {},
+                               {"lengthrange"},
+                               {"fusestatic", "discardvisual", "usethread", "texturedir", "convexhull",
+                                "exactmeshinertia", "alignfree", "saveinertial", "conflict"}};
   return kKnown;
 }
 
@@ -140,6 +140,7 @@ void readCompiler(const Tag& given, Compiler& compiler) {
   readFlag("autolimits", compiler.autolimits);
   readFlag("strippath", compiler.stripsPaths);
   readFlag("balanceinertia", compiler.balancesMoments);
+  readFlag("fitaabb", compiler.fitsBounds);
   readEulerOrder(tag, compiler);
   for (const char* name : {"assetdir", "meshdir"})
     if (tag.has(name)) compiler.meshFolder = tag.text(name);

@@ -86,6 +86,10 @@ Files::File& Files::open(const Tag& include) {
   return file;
 }
 
+std::filesystem::path Files::find(const std::string& name, const Tag& tag) const {
+  return assets_->find(name, tag.where("file"), fmt::format("<{}> '{}'", tag.name(), name));
+}
+
 Diagnostics Files::takeNotes() {
   for (auto file = files_.begin() + 1; file != files_.end(); ++file)
     main().notes.add(std::move(file->reading.notes));

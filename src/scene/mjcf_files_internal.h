@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <filesystem>
 #include <map>
 #include <set>
 #include <string>
@@ -31,6 +32,8 @@ class Files {
 
   /// Whether files may be read.
   bool areRead() const { return assets_ != nullptr; }
+  /// Where a file lies that a tag names, see Assets::find(). Only if files may be read.
+  [[nodiscard]] std::filesystem::path find(const std::string& name, const Tag& tag) const;
   /// Where to note what concerns the whole model.
   Reading& main() { return files_.front().reading; }
   /// The notes of all files.

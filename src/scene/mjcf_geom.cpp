@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -83,6 +84,7 @@ Shape shapeOf(GeomType type, const Eigen::Vector3d& size) {
     return {.type = ShapeType::kSphere, .extent = Eigen::Vector3d::Zero(), .radius = size[0]};
   if (type == kCapsule)
     return {.type = ShapeType::kCapsule, .extent = {0, 0, 2 * size[1]}, .radius = size[0]};
+  if (type == kEllipsoid) return {.type = ShapeType::kEllipsoid, .extent = 2 * size};
   if (type == kCylinder)
     return {.type = ShapeType::kCylinder, .extent = {0, 0, 2 * size[1]}, .radius = size[0]};
   return {.type = ShapeType::kBox, .extent = 2 * size};
@@ -101,31 +103,51 @@ void readPlane(const Styled& styled, bool isOnWorld, ShapeSpec& shape) {
     if (edge == 0) edge = kEndless;
   shape.shape = {.type = ShapeType::kBox, .extent = {2 * half[0], 2 * half[1], kThickness}};
   shape.X_BS = shape.X_BS * translation(0, 0, -kThickness / 2);
-  const bool isGround = isOnWorld && shape.X_BS.R(2, 2) > 1 - 1e-9;
-  if (isGround) shape.visible = false;
+  shape.ground = isOnWorld && shape.X_BS.R(2, 2) > 1 - 1e-9;
+  if (shape.ground) shape.visible = false;
   styled.own().remark(fmt::format(
       "a plane becomes a box {:g} m thick, as wide as its size says or {:g} m; the ground is not drawn",
       kThickness, 2 * kEndless));
 }
 
+// The asset that an attribute names.
+template <class Asset>
+const Asset& assetIn(const Styled& styled, const char* attribute,
+                     const std::unordered_map<std::string, Asset>& assets) {
+  const Tag& giver = styled.giver(attribute);
+  const std::string& name = giver.text(attribute);
+  if (const auto found = assets.find(name); found != assets.end()) return found->second;
+  std::vector<std::string> known;
+  for (const auto& [other, unused] : assets) known.push_back(other);
+  std::sort(known.begin(), known.end());
+  giver.fail(giver.where(attribute), fmt::format("unknown {}", attribute), xml::quoted(name),
+             fmt::format("a <{}> of the <asset>", attribute), nearestNames(name, known));
+}
+
 // The shape of a mesh; false if the file does not hold one that rex reads.
 bool readMesh(const Styled& styled, const MjcfAssets& assets, ShapeSpec& shape) {
-  const Tag& giver = styled.giver("mesh");
-  const std::string& name = giver.text("mesh");
-  const auto found = assets.meshes.find(name);
-  if (found == assets.meshes.end()) {
-    std::vector<std::string> known;
-    for (const auto& [other, unused] : assets.meshes) known.push_back(other);
-    std::sort(known.begin(), known.end());
-    giver.fail(giver.where("mesh"), "unknown mesh", xml::quoted(name), "a <mesh> of the <asset>",
-               nearestNames(name, known));
-  }
-  if (found->second.file.empty()) return false;
+  const MeshAsset& mesh = assetIn(styled, "mesh", assets.meshes);
+  if (mesh.file.empty()) return false;
   shape.shape.type = ShapeType::kMesh;
-  shape.meshFile = found->second.file;
-  shape.meshScale = found->second.scale;
-  shape.where = found->second.where;
+  shape.meshFile = mesh.file;
+  shape.meshScale = mesh.scale;
+  shape.where = mesh.where;
   return true;
+}
+
+// A shape that is drawn, and those that are touched.
+void addHeightField(const HeightField& field, const ShapeSpec& geom, const Tag& tag,
+                    std::vector<ShapeSpec>& shapes) {
+  if (field.pieces.empty())
+    return tag.remark("a <geom> of type 'hfield' is ignored: a scene that is given as text has no files");
+  shapes.push_back(geom);
+  shapes.front().contact = false;
+  shapes.front().shape = {.type = ShapeType::kMesh, .mesh = field.drawn};
+  for (const TriangleMesh& piece : field.pieces) {
+    shapes.push_back(geom);
+    shapes.back().visible = false;
+    shapes.back().shape = {.type = ShapeType::kMesh, .mesh = piece, .hull = piece};
+  }
 }
 
 // The pose and size of the geom.
@@ -146,14 +168,15 @@ Extent extentOf(const Styled& styled, GeomType type, const Compiler& compiler) {
           isRound ? Eigen::Vector3d(radius, span.half, 0) : Eigen::Vector3d(radius, radius, span.half)};
 }
 
+constexpr Solid::Kind kSolidKinds[] = {Solid::Kind::kSphere, Solid::Kind::kCapsule,   Solid::Kind::kCylinder,
+                                       Solid::Kind::kBox,    Solid::Kind::kEllipsoid, Solid::Kind::kMesh};
+
 std::optional<Solid> solidOf(const Styled& styled, GeomType type, const Extent& extent,
                              const Compiler& compiler) {
-  constexpr Solid::Kind kKinds[] = {Solid::Kind::kSphere, Solid::Kind::kCapsule,   Solid::Kind::kCylinder,
-                                    Solid::Kind::kBox,    Solid::Kind::kEllipsoid, Solid::Kind::kMesh};
   const double group = styled.number("group", 0);
   if (type > kMesh || group < compiler.leastGroup || group > compiler.mostGroup) return {};
   Solid solid;
-  solid.kind = kKinds[type];
+  solid.kind = kSolidKinds[type];
   solid.size = extent.size;
   solid.X_BS = extent.X_BS;
   solid.where = styled.own().where();
@@ -168,38 +191,32 @@ std::optional<Solid> solidOf(const Styled& styled, GeomType type, const Extent& 
 const Known& knownOfGeom() {
   static const Known kKnown = {
       withPose({"name", "class", "type", "size", "fromto", "mass", "density", "group", "contype",
-                "conaffinity", "rgba", "material", "mesh"}),
+                "conaffinity", "rgba", "material", "mesh", "hfield", "fitscale"}),
       {},
       {"plugin"},
-      {"condim", "priority", "friction", "solmix", "solref", "solimp", "margin", "gap", "fitscale", "hfield",
-       "fluidshape", "fluidcoef", "user", "shellinertia"}};
+      {"condim", "priority", "friction", "solmix", "solref", "solimp", "margin", "gap", "fluidshape",
+       "fluidcoef", "user", "shellinertia"}};
   return kKnown;
 }
 
 Geom readGeom(const Styled& styled, bool isOnWorld, const Compiler& compiler, const MjcfAssets& assets) {
   const Tag& tag = styled.own();
   const Tag& typed = styled.giver("type");
-  const auto type = typed.has("type") ? static_cast<GeomType>(choice(typed, "type", kGeomTypes)) : kSphere;
-  Geom geom{.contype = bits(styled, "contype"), .conaffinity = bits(styled, "conaffinity")};
-  if (type != kMesh && type < kPlane && styled.has("mesh")) {
-    tag.remark(fmt::format("a <geom> of type '{}' that is to fit a mesh is ignored, with its mass",
-                           kGeomTypes[type]));
+  const auto given = typed.has("type") ? static_cast<GeomType>(choice(typed, "type", kGeomTypes)) : kSphere;
+  Geom geom;
+  if (given > kHeightField) {
+    tag.ignore(fmt::format("a <geom> of type '{}'", kGeomTypes[given]));
     return geom;
   }
-  if (type > kPlane) {
-    tag.ignore(fmt::format("a <geom> of type '{}'", kGeomTypes[type]));
-    return geom;
-  }
+  const bool isFitted = given < kMesh && styled.has("mesh");
+  const GeomType type = isFitted ? kMesh : given;
   const Extent extent = extentOf(styled, type, compiler);
   geom.solid = solidOf(styled, type, extent, compiler);
-  if (type == kEllipsoid) {
-    tag.remark("a <geom> of type 'ellipsoid' is neither drawn nor touched; its mass counts");
-    return geom;
-  }
   ShapeSpec shape{.name = tag.has("name") ? tag.nameIn("name") : "", .X_BS = extent.X_BS, .shape = {}};
   shape.where = tag.where();
   shape.color = geomColor(styled, assets);
-  shape.contact = geom.contype != 0 || geom.conaffinity != 0;
+  shape.mask = {.type = bits(styled, "contype"), .affinity = bits(styled, "conaffinity")};
+  shape.contact = shape.mask.type != 0 || shape.mask.affinity != 0;
   constexpr double kFirstHiddenGroup = 3;  // as in MuJoCo's viewer
   shape.visible = styled.number("group", 0) < kFirstHiddenGroup && shape.color[3] > 0;
   if (type == kMesh && !readMesh(styled, assets, shape)) {
@@ -207,9 +224,18 @@ Geom readGeom(const Styled& styled, bool isOnWorld, const Compiler& compiler, co
     geom.solid.reset();
     return geom;
   }
+  if (type == kHeightField) {
+    addHeightField(assetIn(styled, "hfield", assets.heightFields), shape, tag, geom.shapes);
+    return geom;
+  }
+  if (isFitted) {
+    const Tag& scaled = styled.giver("fitscale");
+    geom.fit = GeomFit{kSolidKinds[given], scaled.has("fitscale") ? scaled.positive("fitscale") : 1,
+                       std::exchange(shape.contact, false)};
+  }
   if (type != kMesh) shape.shape = shapeOf(type, extent.size);
   if (type == kPlane) readPlane(styled, isOnWorld, shape);
-  geom.shape = std::move(shape);
+  geom.shapes.push_back(std::move(shape));
   return geom;
 }
 

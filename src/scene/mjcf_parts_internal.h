@@ -29,6 +29,7 @@ struct Compiler {
   double leastMass = 0, leastMoment = 0;  ///< of each body, kg and kg m^2; moments are principal ones
   std::optional<double> totalMass{};      ///< to which all masses are scaled
   bool balancesMoments = false;           ///< makes impossible inertias spherical
+  bool fitsBounds = false;                ///< geoms are fitted to the bounds of meshes, not to their inertias
 
   double angle(double given) const;
 };
@@ -56,8 +57,15 @@ struct MeshAsset {
   Eigen::Vector3d scale{1, 1, 1};
   SourceLocation where{};
 };
+/// A height field: what is drawn, and the convex pieces that are touched. Empty in a scene given as text, if
+/// its heights are in a file.
+struct HeightField {
+  TriangleMesh drawn{};
+  std::vector<TriangleMesh> pieces{};
+};
 struct MjcfAssets {
   std::unordered_map<std::string, MeshAsset> meshes;
+  std::unordered_map<std::string, HeightField> heightFields;
   std::unordered_map<std::string, Eigen::Vector4d> colors;
 };
 [[nodiscard]] const Known& knownOfMesh();
@@ -66,6 +74,8 @@ struct MjcfAssets {
 [[nodiscard]] Eigen::Vector4d colorIn(const Tag& tag);
 void readAssets(const Tag& tag, Files& files, const Defaults& defaults, const Compiler& compiler,
                 MjcfAssets& assets);
+/// A <hfield> of the assets, with its heights from the tag or a file. Warns if its pieces are coarse.
+[[nodiscard]] HeightField readHeightField(const Tag& tag, const Files& files, const Compiler& compiler);
 
 /// What a geom adds to its body: a solid of mass or density, the half sizes as MuJoCo has them.
 struct Solid {
@@ -89,12 +99,19 @@ struct MassProperties {
 [[nodiscard]] MassProperties propertiesOf(const std::vector<Solid>& solids,
                                           const std::vector<ShapeSpec>& shapes, Reading& reading);
 
-/// A <geom>: a shape unless rex has none like it, a solid if it weighs something, and whom it may touch. A
-/// shape without a name has none yet.
+/// A geom that becomes a solid as large as its mesh. Until fitGeoms() its shape is the mesh, not in contact.
+struct GeomFit {
+  Solid::Kind kind = Solid::Kind::kSphere;
+  double scale = 1;
+  bool contact = true;  ///< of the shape that it becomes
+};
+/// A <geom>: shapes unless rex has none like it, and a solid if it weighs something. A shape without a name
+/// has none yet.
 struct Geom {
-  std::optional<ShapeSpec> shape{};
+  std::vector<ShapeSpec> shapes{};
   std::optional<Solid> solid{};
-  std::uint32_t contype = 1, conaffinity = 1;
+  std::optional<GeomFit> fit{};
+  std::string name{};  ///< empty: none
 };
 [[nodiscard]] const Known& knownOfGeom();
 [[nodiscard]] Geom readGeom(const Styled& tag, bool isOnWorld, const Compiler& compiler,
@@ -112,11 +129,18 @@ struct BodyInFile {
   std::size_t joints = 0;
   std::optional<MassProperties> given{};
   std::vector<Solid> solids{};  ///< as far as they count
+  bool hasGeoms = false;        ///< also such as make no shapes
 };
-/// Whom the geoms of a body may touch: those whose contype and conaffinity share a bit.
-struct Touch {
-  std::uint32_t contype = 0, conaffinity = 0;
-  bool isMixed = false;  ///< they differ
+/// The shapes of a geom, of a body by its place in the spec, or of the world.
+struct GeomInTree {
+  std::optional<std::size_t> body{};
+  std::size_t first = 0, count = 0;
+};
+/// A fit of a shape of a body, or of the world, whose solid, if it has one, is `solid` of BodyInFile::solids.
+struct FitInTree {
+  GeomInTree at{};
+  std::optional<std::size_t> solid{};
+  GeomFit fit{};
 };
 /// All bodies. Where one has several joints, bodies without mass stand between these.
 struct BodyTree {
@@ -124,10 +148,20 @@ struct BodyTree {
   std::vector<urdf::ReadJoint> joints{};
   std::vector<BodyInFile> bodies{};
   std::unordered_map<std::string, std::size_t> jointOfName{}, bodyOfName{};
-  std::unordered_map<std::string, Touch> touches{};  ///< of bodies, the world included
+  std::unordered_map<std::string, GeomInTree> geomOfName{};
+  std::vector<FitInTree> fits{};
+
+  /// The shapes of a body, or of the world.
+  std::vector<ShapeSpec>& shapesOf(const std::optional<std::size_t>& body) {
+    return body ? spec.bodies[*body].shapes : spec.worldShapes;
+  }
 };
 [[nodiscard]] BodyTree readTree(const std::vector<Tag>& worldbodies, Files& files, const Defaults& defaults,
                                 const Compiler& compiler, const MjcfAssets& assets);
+
+/// Makes fitted geoms the solids that they are to be, as MuJoCo does by default: of the inertia of their
+/// mesh, or with `fitaabb` around it.
+void fitGeoms(BodyTree& tree, const Compiler& compiler, Reading& reading);
 
 /// Gives all bodies their masses.
 void setMasses(BodyTree& tree, const Compiler& compiler, Reading& reading);
@@ -145,10 +179,11 @@ void readPins(const std::vector<Tag>& tags, const Defaults& defaults, const Comp
               BodyTree& tree);
 /// The name of a body of the tree, or "world".
 [[nodiscard]] const std::string& bodyIn(const Tag& tag, const char* attribute, const BodyTree& tree);
+/// Also lets the geoms of each <pair> touch.
 void readContacts(const std::vector<Tag>& sections, Files& files, BodyTree& tree);
 
-/// Forbids pairs of bodies none of whose geoms share a bit of contype and conaffinity.
-void chooseByBits(BodyTree& tree);
+/// Warns of bodies with geoms that nothing can touch, or nothing that is added to the scene.
+void noteUntouchable(BodyTree& tree, Notes& notes);
 /// Forbids those between which there are several joints: bodies between joints hide that they are neighbours.
 void chooseNeighbours(BodyTree& tree);
 

@@ -54,17 +54,6 @@ void noteStarts(const std::vector<urdf::ReadJoint>& joints, Notes& notes) {
                                        first->lower[0], first->upper[0], others));
 }
 
-void noteMixed(const BodyTree& tree, Notes& notes) {
-  for (const BodyInFile& one : tree.bodies) {
-    const BodySpec& body = tree.spec.bodies[one.body];
-    const auto touch = tree.touches.find(body.name);
-    if (touch == tree.touches.end() || !touch->second.isMixed) continue;
-    notes.remark(
-        body.where,
-        "a body whose geoms differ in contype or conaffinity touches whatever any of them may touch");
-  }
-}
-
 // A model as text; its bodies have no masses yet.
 BodyTree readModel(Files& files, const std::string& name, Compiler& compiler) {
   const std::vector<Tag> sections = files.children(files.root(), knownOfModel());
@@ -80,8 +69,7 @@ BodyTree readModel(Files& files, const std::string& name, Compiler& compiler) {
   readActuators(named(sections, "actuator"), files, defaults, compiler, tree);
   readEqualities(named(sections, "equality"), files, defaults, compiler, tree);
   readContacts(named(sections, "contact"), files, tree);
-  noteMixed(tree, files.main().notes);
-  chooseByBits(tree);
+  noteUntouchable(tree, files.main().notes);
   chooseNeighbours(tree);
   urdf::keepTargetsMovable(tree.joints, files.main());
   noteStarts(tree.joints, files.main().notes);
@@ -112,6 +100,7 @@ SceneFile readModelFile(std::string_view text, const std::string& name, const As
     scene.spec = std::move(tree.spec);
     if (assets) loadMeshes(scene, *assets, options);
     tree.spec = std::move(scene.spec);
+    fitGeoms(tree, compiler, files.main());
     setMasses(tree, compiler, files.main());
     scene.spec = std::move(tree.spec);
   } catch (const Error&) {

@@ -7,7 +7,7 @@
 namespace rex::mjcf {
 namespace {
 
-constexpr std::size_t kMostJoints = 1000, kDeepestBody = 100;
+constexpr std::size_t kMostJoints = 1000, kDeepestBody = 100, kMostPieces = 32'768;
 
 const Known& knownOfBody() {
   static const Known kKnown = {
@@ -140,7 +140,12 @@ class NodeReader {
     tag.expect(knownOfGeom());
     const Styled styled(tag, defaults_.named(tag, "class", style), Kind::kGeom);
     Geom geom = readGeom(styled, isWorld(body), compiler_, assets_);
-    if (geom.shape) geom.shape->X_BS = X_BF * geom.shape->X_BS;
+    // Those with more than one are height fields.
+    if (geom.shapes.size() > 1) pieces_ += geom.shapes.size();
+    if (pieces_ > kMostPieces)
+      tag.fail(tag.where(), "too many pieces of height fields", "", fmt::format("at most {}", kMostPieces));
+    if (tag.has("name")) geom.name = tag.text("name");
+    for (ShapeSpec& shape : geom.shapes) shape.X_BS = X_BF * shape.X_BS;
     if (geom.solid) geom.solid->X_BS = X_BF * geom.solid->X_BS;
     body.geoms.push_back(std::move(geom));
   }
@@ -187,6 +192,7 @@ class NodeReader {
   const Compiler& compiler_;
   const MjcfAssets& assets_;
   std::unordered_map<std::string, SourceLocation> bodies_, joints_;  // that have names
+  std::size_t pieces_ = 0;                                           // of height fields
 };
 
 // Names for things without a name.
@@ -218,7 +224,7 @@ class TreeMaker {
   explicit TreeMaker(const NodeReader& names) : bodyNames_(names.bodies()), jointNames_(names.joints()) {}
 
   BodyTree make(BodyNode world) {
-    takeGeoms(world, kWorldName, tree_.spec.worldShapes, nullptr);
+    takeGeoms(world, kWorldName, {}, nullptr);
     for (BodyNode& body : world.children) add(body, kWorldName);
     return std::move(tree_);
   }
@@ -227,10 +233,12 @@ class TreeMaker {
   void add(BodyNode& node, const std::string& parent) {
     if (node.name.empty()) node.name = bodyNames_.take("body");
     hang(node, parent);
-    BodyInFile inFile{tree_.spec.bodies.size() - 1, parent, node.joints.size(), node.given, {}};
-    std::vector<ShapeSpec> shapes;
-    takeGeoms(node, node.name, shapes, &inFile.solids);
-    tree_.spec.bodies.back().shapes = std::move(shapes);
+    BodyInFile inFile{.body = tree_.spec.bodies.size() - 1,
+                      .parent = parent,
+                      .joints = node.joints.size(),
+                      .given = node.given,
+                      .hasGeoms = !node.geoms.empty()};
+    takeGeoms(node, node.name, inFile.body, &inFile.solids);
     tree_.bodies.push_back(std::move(inFile));
     for (BodyNode& child : node.children) add(child, node.name);
   }
@@ -294,25 +302,26 @@ class TreeMaker {
     tree_.joints.push_back({std::move(joint), {}, {}, {}});
   }
 
-  void takeGeoms(BodyNode& node, const std::string& body, std::vector<ShapeSpec>& shapes,
+  void takeGeoms(BodyNode& node, const std::string& name, const std::optional<std::size_t>& body,
                  std::vector<Solid>* solids) {
+    std::vector<ShapeSpec>& shapes = tree_.shapesOf(body);
     for (Geom& geom : node.geoms) {
+      const GeomInTree at{body, shapes.size(), geom.shapes.size()};
+      FitInTree fit{.at = at};
       if (geom.solid && geom.solid->kind == Solid::Kind::kMesh) geom.solid->mesh = shapes.size();
-      if (geom.solid && solids) solids->push_back(*std::move(geom.solid));
-      if (!geom.shape) continue;
-      if (geom.shape->name.empty()) geom.shape->name = body;
-      if (geom.shape->contact) addTouch(body, geom);
-      shapes.push_back(*std::move(geom.shape));
+      if (geom.solid && solids) {
+        fit.solid = solids->size();
+        solids->push_back(*std::move(geom.solid));
+      }
+      for (ShapeSpec& shape : geom.shapes) {
+        if (shape.name.empty()) shape.name = name;
+        shapes.push_back(std::move(shape));
+      }
+      if (!geom.name.empty()) tree_.geomOfName.emplace(geom.name, at);
+      if (!geom.fit || at.count == 0) continue;
+      fit.fit = *geom.fit;
+      tree_.fits.push_back(fit);
     }
-  }
-
-  void addTouch(const std::string& body, const Geom& geom) {
-    const auto [touch, isNew] = tree_.touches.try_emplace(body, Touch{geom.contype, geom.conaffinity});
-    if (isNew) return;
-    Touch& known = touch->second;
-    known.isMixed |= known.contype != geom.contype || known.conaffinity != geom.conaffinity;
-    known.contype |= geom.contype;
-    known.conaffinity |= geom.conaffinity;
   }
 
   BodyTree tree_;

@@ -143,6 +143,15 @@ SceneSpec atPositions(SceneSpec spec, const VectorArg& q) {
   return spec;
 }
 
+std::size_t removeMeshesWithoutFile(SceneSpec& spec) {
+  const auto isWithoutFile = [](const ShapeSpec& shape) {
+    return usesMesh(shape.shape.type) && shape.meshFile.empty() && shape.meshPath.empty();
+  };
+  std::size_t count = std::erase_if(spec.worldShapes, isWithoutFile);
+  for (BodySpec& body : spec.bodies) count += std::erase_if(body.shapes, isWithoutFile);
+  return count;
+}
+
 Pose initialPose(const SceneSpec& spec, const std::string& body) {
   if (body == kWorldName) return {};
   const std::vector<const JointSpec*> path = jointsAbove(spec, body);

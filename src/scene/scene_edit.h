@@ -14,6 +14,10 @@ namespace rex {
 /// the wrong size, and as compile().
 [[nodiscard]] SceneSpec atPositions(SceneSpec spec, const VectorArg& q);
 
+/// Removes the shapes whose mesh is in no file, such as height fields of MJCF, which no text of a scene can
+/// name. Returns how many.
+std::size_t removeMeshesWithoutFile(SceneSpec& spec);
+
 /// X_WB of a body in the initial posture.
 [[nodiscard]] Pose initialPose(const SceneSpec& spec, const std::string& body);
 

@@ -218,6 +218,20 @@ TEST_F(SimulatorFacade, KeepsObstaclesInMind) {
   EXPECT_EQ(S.recording().count(), 4u);
 }
 
+// Balls of MuJoCo that may not touch each other, nor anything in their file, touch what is added.
+TEST_F(SimulatorFacade, AddsObstaclesToModelsOfMujoco) {
+  write("balls.xml",
+        "<mujoco><default><geom contype='1' conaffinity='0' size='.1'/></default><worldbody>"
+        "<body><joint type='slide'/><geom/></body><body pos='1 0 0'><joint type='slide'/><geom/></body>"
+        "</worldbody></mujoco>");
+  Simulator S(in("balls.xml"));
+  EXPECT_EQ(S.kinematicsContacts()[0], 0);
+  S.addObstacle(kSlab, kBelowFloor, "floor");
+  S.setJointAngles(Eigen::Vector2d(-0.05, 0.05));
+  EXPECT_NEAR(clearances(S).y.minCoeff(), -0.15, 1e-9);
+  EXPECT_GT(S.kinematicsContacts()[0], 1);
+}
+
 // Rules that spare neighbours and what overlaps at home are not for obstacles.
 TEST_F(SimulatorFacade, FeelsObstaclesThatItStandsIn) {
   Simulator S("arm7dof");

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <set>
 
 #include <mujoco/mujoco.h>
 
@@ -305,6 +306,62 @@ TEST(MjcfPeers, AgreeOnMeshes) {
       "<geom size='.1'/></body></worldbody></mujoco>";
   std::ofstream(folder.path() / "m.xml") << xml;
   expectSame(xml, readMjcf(folder.path() / "m.xml").spec, 1e-6);
+}
+
+// A wedge whose principal axes are not those of its file, fitted in all ways. MuJoCo 2.2 has no fitscale.
+TEST(MjcfPeers, AgreeOnFittedGeoms) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "wedge.obj")
+      << "v 0 0 0\nv 2 0 0\nv 0 3 0\nv .5 0 5\nv 2.5 0 5\nv .5 3 5\n"
+         "f 1 3 2\nf 4 5 6\nf 1 2 5\nf 1 5 4\nf 2 3 6\nf 2 6 5\nf 3 1 4\nf 3 4 6\n";
+  for (const char* type : {"sphere", "capsule", "cylinder", "box", "ellipsoid"}) {
+    const std::string xml = "<mujoco><compiler meshdir='" + folder.path().string() +
+                            "'/><asset><mesh file='wedge.obj' scale='.1 .2 .1'/></asset><worldbody>"
+                            "<body name='a'><freejoint/><geom type='" +
+                            type + "' mesh='wedge' pos='1 0 0' euler='30 0 10'/></body></worldbody></mujoco>";
+    std::ofstream(folder.path() / "m.xml") << xml;
+    SCOPED_TRACE(type);
+    const SceneSpec spec = readMjcf(folder.path() / "m.xml").spec;
+    expectSame(xml, spec, 1e-5);
+    const bench::MujocoModel peer = bench::loadMujoco(xml);
+    const ShapeSpec& shape = spec.bodies.at(0).shapes.at(0);
+    const Eigen::Vector3d size = Eigen::Map<const Eigen::Vector3d>(peer->geom_size),
+                          &extent = shape.shape.extent;
+    const std::string name = type;
+    if (name == "box" || name == "ellipsoid")
+      EXPECT_LT((extent / 2 - size).norm(), 1e-5);
+    else
+      EXPECT_NEAR(shape.shape.radius, size[0], 1e-5);
+    if (name == "capsule" || name == "cylinder") EXPECT_NEAR(extent.z() / 2, size[1], 1e-5);
+    EXPECT_LT((shape.X_BS.p - Eigen::Map<const Eigen::Vector3d>(peer->geom_pos)).norm(), 1e-5);
+  }
+}
+
+// MuJoCo's own matrix of who touches whom, for geoms that are balls in one place.
+TEST(MjcfPeers, AgreeOnContypeAndConaffinity) {
+  Rng rng(91);
+  for (int round = 0; round < 20; ++round) {
+    std::string bodies;
+    for (int i = 0; i < 5; ++i) {
+      const auto bits = [&] { return std::to_string(rng.index(8)); };
+      bodies += "<body name='b" + std::to_string(i) + "'><freejoint/><geom name='g" + std::to_string(i) +
+                "' size='.1' contype='" + bits() + "' conaffinity='" + bits() + "'/></body>";
+    }
+    const std::string xml = "<mujoco><worldbody>" + bodies + "</worldbody></mujoco>";
+    const bench::MujocoModel peer = bench::loadMujoco(xml);
+    const std::unique_ptr<mjData, DataDeleter> data(mj_makeData(peer.get()));
+    mj_forward(peer.get(), data.get());
+    std::set<std::pair<int, int>> wanted, found;
+    for (int i = 0; i < data->ncon; ++i)
+      wanted.insert(std::minmax({data->contact[i].geom1, data->contact[i].geom2}));
+    const std::vector<BodySpec> ours = parseMjcf(xml, "m.xml").spec.bodies;
+    for (int i = 0; i < 5; ++i)
+      for (int k = i + 1; k < 5; ++k)
+        if (mayTouch(ours[static_cast<std::size_t>(i)].shapes[0].mask,
+                     ours[static_cast<std::size_t>(k)].shapes[0].mask))
+          found.emplace(i, k);
+    EXPECT_EQ(found, wanted) << xml;
+  }
 }
 
 }  // namespace rex::mjcf_test

@@ -206,6 +206,13 @@ TEST(MjcfMessages, OfGeoms) {
       {body("<geom type='mesh' mesh='@hnd'/>").insert(9, "<asset><mesh file='hand.stl'/></asset>"),
        "body 'a': <geom>: unknown mesh: found 'hnd', wanted a <mesh> of the <asset> (did you mean 'hand'?)"},
       {body("@<geom type='mesh'/>"), "body 'a': <geom>: attribute 'mesh' is missing"},
+      {body("<geom type='box' mesh='@m'/>"),
+       "body 'a': <geom>: unknown mesh: found 'm', wanted a <mesh> of the <asset>"},
+      {body("<geom mesh='m' fitscale='@0'/>").insert(9, "<asset><mesh file='m.stl'/></asset>"),
+       "body 'a': <geom>: attribute 'fitscale': found 0, wanted a number > 0"},
+      {body("<geom type='hfield' hfield='@h'/>"),
+       "body 'a': <geom>: unknown hfield: found 'h', wanted a <hfield> of the <asset>"},
+      {body("@<geom type='hfield'/>"), "body 'a': <geom>: attribute 'hfield' is missing"},
   });
   const std::string bright = body("<geom size='1' rgba='@2 0 0 1'/>");
   check({{bright, "body 'a': <geom>: attribute 'rgba': found '2 0 0 1', wanted 4 numbers from 0 to 1"}},
@@ -216,23 +223,30 @@ TEST(MjcfMessages, OfGeoms) {
        "nearest such numbers are used"},
       {body("@<geom size='1' material='x'/><geom size='1' material='x'/>"),
        "note: unknown material 'x': the geom keeps its own colour (2 times)"},
-      {body("@<geom type='ellipsoid' size='1 2 3'/>"),
-       "note: a <geom> of type 'ellipsoid' is neither drawn nor touched; its mass counts"},
-      {body("@<geom type='hfield' hfield='h'/>"),
-       "note: a <geom> of type 'hfield' is ignored\nf:3:21: note: <geom>: attributes that are not read: "
-       "hfield"},
-      {body("@<geom mesh='m'/>"),
-       "note: a <geom> of type 'sphere' that is to fit a mesh is ignored, with its mass"},
-      {body("@<geom type='mesh' mesh='m'/>").insert(9, "<asset><mesh name='m'/></asset>"),
-       "note: a <geom> whose mesh has no file is ignored, with its mass"},
+      {world("@<geom type='mesh' mesh='m'/><geom mesh='m'/>").insert(9, "<asset><mesh name='m'/></asset>"),
+       "note: a <geom> whose mesh has no file is ignored, with its mass (2 times)"},
+      {world("@<geom type='sdf'/>"), "note: a <geom> of type 'sdf' is ignored"},
   });
 }
 
 TEST(MjcfMessages, OfAssets) {
+  const auto field = [](const std::string& attributes) {
+    return model("<asset><hfield name='h' " + attributes + "/></asset>");
+  };
+  std::string fields;
+  for (int i = 0; i < 16; ++i)
+    fields += "<hfield name='" + std::to_string(i) + "' size='1 1 1 1' nrow='2' ncol='2'/>";
   check({
       {model("<asset><mesh file='a.stl'/><mesh file='@b/a.obj'/></asset>"),
        "<asset>: <mesh>: a second mesh of this name: found 'a', wanted a name of its own"},
       {model("<asset>@<mesh/></asset>"), "<asset>: <mesh>: attribute 'name' is missing"},
+      {field("size='@1 1 0 1' nrow='2' ncol='2'"),
+       "<asset>: <hfield>: attribute 'size': found '1 1 0 1', wanted 4 lengths > 0"},
+      {model("<asset>@<hfield name='h' size='1 1 1 1' nrow='1' ncol='2'/></asset>"),
+       "<asset>: <hfield>: size of the grid: found 1 x 2, wanted at least 2 x 2 and at most 262144 heights"},
+      {field("size='1 1 1 1' nrow='2' ncol='2' elevation='@1 2 3'"),
+       "<asset>: <hfield>: attribute 'elevation': found '1 2 3', wanted 4 numbers"},
+      {model("<asset>" + fields + "@<hfield/></asset>"), "<asset>: <hfield>: too many: wanted at most 16"},
       {model("<asset><mesh file='a.stl' scale='@1 0 1'/></asset>"),
        "<asset>: <mesh>: attribute 'scale': found '1 0 1', wanted 3 numbers that are not 0"},
       {model("<asset><material name='m'/><material name='@m'/></asset>"),
@@ -336,11 +350,15 @@ TEST(MjcfMessages, OfContacts) {
        "<contact>: <exclude>: unknown body: found 'hand', wanted the name of a body"},
       {contact("<exclude body1='a' body2='@a'/>"),
        "<contact>: <exclude>: one body: found 'a', wanted two bodies"},
+      {contact("<pair geom1='@x' geom2='y'/>"),
+       "<contact>: <pair>: unknown geom: found 'x', wanted the name of a <geom>"},
+      {contact("@<pair geom2='x'/>"), "<contact>: <pair>: attribute 'geom1' is missing"},
   });
   checkNotes({
-      {contact("@<pair geom1='x' geom2='y'/>"), "note: <pair> is ignored"},
-      {world("@<body name='a'><geom size='1'/><geom size='1' contype='2' conaffinity='2'/></body><body/>"),
-       "note: a body whose geoms differ in contype or conaffinity touches whatever any of them may touch"},
+      {world(
+           "<body name='a'><geom size='1' contype='2'/><geom size='1' contype='0' conaffinity='0'/></body>\n"
+           "@<body name='b'><geom size='1' contype='0' conaffinity='0'/></body>"),
+       "warning: nothing can touch 'b': no geom of theirs has a bit of contype or conaffinity to share"},
   });
 }
 

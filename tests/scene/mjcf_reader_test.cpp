@@ -427,9 +427,10 @@ TEST(MjcfReader, KnowsWhoMayCollide) {
                   .spec),
       "a-b: exclude\nworld-b: exclude\n");
   const std::string bits = "<default><geom size='1' conaffinity='0'/></default>";
-  const std::string bodies = "<body name='a'><geom/></body><body name='b'><joint/><geom/></body>";
-  EXPECT_EQ(pairsOf(world(bodies, bits).spec), "a-: contype and conaffinity\nb-: contype and conaffinity\n");
-  EXPECT_EQ(pairsOf(world(bodies + "<geom conaffinity='1'/>", bits).spec), "a-b: contype and conaffinity\n");
+  const SceneSpec spec = world("<body name='a'><geom/><geom contype='4294967295'/></body>", bits).spec;
+  EXPECT_EQ(pairsOf(spec), "") << "bits belong to shapes";
+  EXPECT_EQ(spec.bodies[0].shapes[0].mask, (ContactMask{.type = 1, .affinity = 0}));
+  EXPECT_EQ(spec.bodies[0].shapes[1].mask, (ContactMask{.type = 4294967295, .affinity = 0}));
 }
 
 TEST(MjcfReader, KnowsNeighboursAcrossSeveralJoints) {

@@ -10,6 +10,7 @@
 #include "cli/robot/scene_verbs.h"
 #include "cli/wrong_use_internal.h"
 #include "scene/ors_writer.h"
+#include "scene/scene_edit.h"
 #include "scene/urdf_writer.h"
 
 namespace rex::cli {
@@ -59,10 +60,12 @@ void warnOfMeshesOutside(const SceneSpec& spec, const fs::path& out) {
 ExitCode sceneConvert(const Project& project, const ConvertOptions& options) {
   requireEnding(options.out);
   requireAnother(fileOf(project, options.scene), options.out);
-  const SceneSpec spec = loadSpec(project, options.scene);
+  SceneSpec spec = loadSpec(project, options.scene);
   const fs::path folder = folderOf(options.out);
   std::string text;
   if (endingOf(options.out) == ".ors") {
+    if (const std::size_t count = removeMeshesWithoutFile(spec); count > 0)
+      note(fmt::format("meshes without a file are left out: {}", count));
     text = asWrongUse([&] { return writeOrs(spec, folder); });
   } else {
     UrdfText urdf = asWrongUse([&] { return writeUrdf(spec, folder); });

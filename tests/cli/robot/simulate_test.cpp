@@ -176,6 +176,21 @@ TEST_F(SimulateCommand, LaysAFloor) {
   EXPECT_NEAR(fallOfASecond({}), -9.81 / 2, 0.01);
 }
 
+// Balls of MuJoCo that may not touch each other, but the floor. They fell through it, both at -3.9 m.
+TEST_F(SimulateCommand, LaysAFloorForModelsOfMujoco) {
+  REX_NEEDS_GNUPLOT();
+  std::ofstream(in("balls.xml"))
+      << "<mujoco><default><geom contype='1' conaffinity='0' size='.1'/></default><worldbody>"
+         "<body pos='0 0 1'><freejoint/><geom/></body><body pos='1 0 1'><freejoint/><geom/></body>"
+         "</worldbody></mujoco>";
+  const ProcessResult result = simulate({"balls.xml", "--engine", "bullet", "--seconds", "1", "--no-film",
+                                         "--floor", "0", "--json", "-o", "out"});
+  ASSERT_EQ(result.exitCode, 0) << result.error;
+  const nlohmann::json q = nlohmann::json::parse(result.output).at("q");
+  EXPECT_NEAR(q.at(2).get<double>(), 0.1, 1e-4);
+  EXPECT_NEAR(q.at(9).get<double>(), 0.1, 1e-4);
+}
+
 // A dog on a free base, dropped on a floor: it falls, and then its motors hold it up.
 TEST_F(SimulateCommand, HoldsAFallenDogUpright) {
   REX_NEEDS_GNUPLOT();
