@@ -47,7 +47,7 @@
     const overlay = new THREE.Group();
     current.world.add(overlay);
     const ground = current.nodes.find(one => one.name === 'ground');
-    scene = { current, bodies, shapes, overlay, handles: new Map(), ground: ground ? ground.position.z : 0, hidden: new Set() };
+    scene = { current, bodies, shapes, overlay, handles: new Map(), ground: ground ? ground.position.z : 0, groundNode: ground, hidden: new Set() };
     addMarks();
     buildPanels();
     isStale = true;
@@ -263,6 +263,7 @@
       get('run').textContent = frame.runs ? 'Pause' : frame.simulates ? 'Go on' : 'Simulate';
       get('stop').disabled = !frame.simulates;
       get('clock').textContent = frame.simulates ? frame.time.toFixed(2) + ' s' : '';
+      if (scene.groundNode) scene.groundNode.position.z = settings.floor ? settings.height : scene.ground;
       showNear();
       showRecording();
     }

@@ -15,6 +15,8 @@ std::string replayOf(const Model& model, const LiveRecording& recording) {
     report.film.push_back({.time = recording.times[k],
                            .picture = pictureOf(model, forwardKinematics(model, recording.postures[k]))});
   settleGround(report.film);
+  if (recording.floor)
+    for (Frame& frame : report.film) frame.picture.ground.height = *recording.floor;
   return reportPage(report);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@ namespace rex {
 struct LiveRecording {
   std::vector<double> times{};
   std::vector<Eigen::VectorXd> postures{};
+  std::optional<double> floor{};  ///< the height of the last one simulated on, metres
 };
 
 /// The recording as a page for browsers, as `rex simulate -o NAME.html` makes it. Throws Error as

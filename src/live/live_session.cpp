@@ -244,6 +244,7 @@ void LiveSession::record(const Event& event) {
 void LiveSession::addToRecording() {
   recording_->times.push_back(recordedFor_);
   recording_->postures.push_back(state_.q);
+  if (simulation_ && settings_.floor) recording_->floor = settings_.floor;
   sinceRecorded_ = 0;
 }
 

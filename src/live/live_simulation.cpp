@@ -20,7 +20,8 @@ ShapeSpec floorAt(double height) {
           .X_BS = translation(0, 0, height - kThickness / 2),
           .shape = {.type = ShapeType::kBox, .extent = {kWidth, kWidth, kThickness}},
           .contact = true,
-          .visible = false};
+          .visible = false,
+          .ground = true};
 }
 
 LiveSimulation::LiveSimulation(const SceneSpec& spec, const LiveSimulationOptions& options,

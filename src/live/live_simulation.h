@@ -49,7 +49,7 @@ class LiveSimulation {
   Holder holder_;
 };
 
-/// A slab under the scene, which is not drawn: pictures have their own ground.
+/// A slab under the scene, which is not drawn: the ground of pictures lies there.
 [[nodiscard]] ShapeSpec floorAt(double height);
 
 }  // namespace rex

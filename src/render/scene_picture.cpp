@@ -20,8 +20,23 @@ std::vector<Solid> solidsOf(const Model& model, const BodyPoses& poses) {
   return solids;
 }
 
+std::optional<double> groundHeight(const Model& model, const BodyPoses& poses) {
+  std::optional<double> height;
+  for (const ModelShape& shape : model.shapes()) {
+    if (!shape.ground) continue;
+    const Pose X_WS = poses[shape.body] * shape.X_BS;
+    const double top = X_WS.p.z() + X_WS.R.row(2).cwiseAbs().dot(halfBounds(shape.shape));
+    height = std::max(height.value_or(top), top);
+  }
+  return height;
+}
+
 Picture pictureOf(const Model& model, const BodyPoses& poses) {
   Picture picture{.solids = solidsOf(model, poses)};
+  if (const std::optional<double> height = groundHeight(model, poses)) {
+    picture.ground.height = *height;
+    return picture;
+  }
   const Bounds all = bounds(picture);
   if (!all.isEmpty()) picture.ground.height = std::min(0., all.low.z());
   return picture;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "kinematics/forward_kinematics.h"
@@ -11,7 +12,12 @@ namespace rex {
 /// whose mesh was not loaded are left out.
 [[nodiscard]] std::vector<Solid> solidsOf(const Model& model, const BodyPoses& poses);
 
-/// The same on a ground that is never above a shape, for which it checks every vertex of every mesh.
+/// Where the ground of a scene is, if it has one: the highest point of its shapes that are called so (W,
+/// metres).
+[[nodiscard]] std::optional<double> groundHeight(const Model& model, const BodyPoses& poses);
+
+/// The same on the ground of the scene, or else on one that is never above a shape, for which it checks every
+/// vertex of every mesh.
 [[nodiscard]] Picture pictureOf(const Model& model, const BodyPoses& poses);
 
 }  // namespace rex

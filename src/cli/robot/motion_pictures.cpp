@@ -35,14 +35,16 @@ MotionPictures::MotionPictures(const Model& model, const Motion& motion,
       for (std::size_t k = 0; k < traced.size(); ++k) ways_[k].push_back(poses[traced[k]].p);
     }
   }
+  double lowest = 0;
   for (std::size_t i = 0; i < shown_.size(); ++i) {
     throwIfInterrupted();
     const Bounds box = rex::bounds(solidsAt(i));
     if (box.isEmpty()) continue;
-    ground_ = std::min(ground_, box.low.z());
+    lowest = std::min(ground_, box.low.z());
     bounds_.include(box.low);
     bounds_.include(box.high);
   }
+  ground_ = groundHeight(model_, forwardKinematics(model_, model_.initialPositions())).value_or(lowest);
   for (const auto& way : ways_)
     for (const Eigen::Vector3d& point : way) bounds_.include(point);
 }

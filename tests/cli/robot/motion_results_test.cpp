@@ -50,6 +50,16 @@ TEST_F(Pictures, AgreeWithTheirFilm) {
   EXPECT_LT((box.low - pictures.bounds().low).norm() + (box.high - pictures.bounds().high).norm(), 1e-12);
 }
 
+// The way down shows how far the arm sinks below a floor of the scene.
+TEST_F(Pictures, HaveTheGroundOfTheScene) {
+  EXPECT_LT(MotionPictures(arm, motion, {0, 6}, {}, "").picture(0).ground.height, -0.3);
+  SceneSpec spec = readOrs(sourcePath("data/robots/pegArm.ors")).spec;
+  spec.worldShapes.push_back({.name = "floor", .X_BS = translation(0, 0, -0.6), .shape = {}, .ground = true});
+  const MotionPictures pictures(compile(spec), motion, {0, 6}, {}, "");
+  EXPECT_NEAR(pictures.picture(0).ground.height, -0.1, 1e-12);
+  EXPECT_NEAR(pictures.picture(1).ground.height, -0.1, 1e-12);
+}
+
 TEST_F(Pictures, TellUnknownBodies) {
   EXPECT_REX_ERROR(MotionPictures(arm, motion, {0}, {"pge"}, ""), "--trace: scene");
   EXPECT_REX_ERROR(MotionPictures(arm, motion, {0}, {"pge"}, ""), "has no body 'pge' (did you mean 'peg'?)");
