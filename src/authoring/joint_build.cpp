@@ -61,8 +61,8 @@ std::vector<std::size_t> JointBuild::compile(const std::string& reference) {
 // "0000000000000000 g     F .text._Z4stepv\t0000000000000045 _Z4stepv".
 std::vector<std::string> JointBuild::symbols() const {
   const Toolchain& toolchain = context_.toolchain;
-  const ProcessResult listed =
-      BuildTools(toolchain, folder_, {}).run({toolchain.objdump, "-t", object_.object.string()}, 256u << 20);
+  const ProcessResult listed = BuildTools(toolchain, folder_, {})
+                                   .run({toolchain.objdump, "-t", object_.object.string()}, {}, 256u << 20);
   if (!listed.ok()) throw Error({.what = "cannot list the functions of the variants", .found = listed.error});
   std::vector<std::string> names;
   constexpr std::size_t kScope = 17, kKind = kScope + 6;

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "base/text_file.h"
-#include "submission/regions.h"
+#include "submission/cpp_text.h"
 
 namespace rex::grading {
 namespace {
@@ -16,26 +16,22 @@ namespace fs = std::filesystem;
 
 using Words = std::set<std::string>;
 
-bool isLetter(char c) { return std::isalpha(static_cast<unsigned char>(c)) || c == '_'; }
-bool isWordCharacter(char c) { return isLetter(c) || std::isdigit(static_cast<unsigned char>(c)); }
-
 // The identifiers in a text.
 std::vector<std::string> wordsOf(std::string_view text) {
+  const CppText tokens(text);
   std::vector<std::string> words;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (!isWordCharacter(text[i])) continue;
-    const std::size_t start = i;
-    while (i < text.size() && isWordCharacter(text[i])) ++i;
-    if (isLetter(text[start])) words.emplace_back(text.substr(start, i - start));
-  }
+  for (std::size_t i = 0; i < tokens.size(); ++i)
+    if (tokens.isName(i)) words.emplace_back(tokens.at(i));
   return words;
 }
 
-// A comment that mentions a name does not make it exist.
+// A comment that mentions a name does not make it exist; a literal does, as the name of a file that is made.
 void addCodeWords(const std::string& source, Words& words) {
-  std::istringstream lines(source);
-  for (std::string line; std::getline(lines, line);) {
-    for (std::string& word : wordsOf(std::string_view(line).substr(0, line.find("//"))))
+  const CppText code(source);
+  for (std::size_t i = 0; i < code.size(); ++i) {
+    if (code.isName(i)) words.emplace(code.at(i));
+    if (!code.isKind(i, TokenKind::kText)) continue;
+    for (std::string& word : wordsOf(code.at(i).substr(1, code.at(i).size() - 2)))
       words.insert(std::move(word));
   }
 }
@@ -75,9 +71,9 @@ bool fileExists(const std::string& name, const fs::path& root, const fs::path& e
 bool looksLikeName(const std::string& text) {
   const std::string name = text.substr(0, text.find('('));
   if (name.size() < 2 || name.starts_with("std::") || name.starts_with("Eigen::")) return false;
-  const bool plain = std::all_of(name.begin(), name.end(),
-                                 [](char c) { return isWordCharacter(c) || c == ':' || c == '.'; });
-  return plain && isLetter(name[0]);
+  const bool plain =
+      std::all_of(name.begin(), name.end(), [](char c) { return isWord(c) || c == ':' || c == '.'; });
+  return plain && std::isdigit(static_cast<unsigned char>(name[0])) == 0 && isWord(name[0]);
 }
 
 class Checker {

@@ -1,5 +1,6 @@
 #include "base/process_pool.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -9,6 +10,7 @@
 #include <thread>
 
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -20,11 +22,16 @@ namespace {
 
 constexpr auto kPause = std::chrono::milliseconds(2);
 
-[[noreturn]] void work(const std::function<int(int)>& job, int k, pid_t parent) {
+[[noreturn]] void work(const std::function<int(int)>& job, int k, pid_t parent, int cpuSeconds) {
   constexpr int kBroken = 3;
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(kBroken);
   ::setpgid(0, 0);  // Ctrl-C reaches us, and we pass it on
+  rlimit time{};
+  if (cpuSeconds > 0 && ::getrlimit(RLIMIT_CPU, &time) == 0) {
+    time.rlim_cur = std::min(time.rlim_max, static_cast<rlim_t>(cpuSeconds));
+    ::setrlimit(RLIMIT_CPU, &time);
+  }
   int code = kBroken;
   try {
     code = job(k);
@@ -45,11 +52,11 @@ class Copies {
 
   int count() const { return static_cast<int>(running_.size()); }
 
-  void start(const std::function<int(int)>& job, int k) {
+  void start(const std::function<int(int)>& job, int k, int cpuSeconds) {
     std::fflush(nullptr);  // or the copy would inherit our unwritten output
     const pid_t parent = ::getpid(), copy = ::fork();
     if (copy < 0) throw Error({.what = "cannot start a process", .found = std::strerror(errno)});
-    if (copy == 0) work(job, k, parent);
+    if (copy == 0) work(job, k, parent, cpuSeconds);
     ::setpgid(copy, copy);
     running_[copy] = k;
   }
@@ -95,13 +102,13 @@ class Copies {
 }  // namespace
 
 void runInCopies(int count, int parallel, const std::function<int(int)>& job,
-                 const std::function<void(int, int)>& ended) {
+                 const std::function<void(int, int)>& ended, int cpuSeconds) {
   Copies copies;
   try {
     for (int next = 0; next < count || copies.count() > 0;) {
       throwIfInterrupted();
       if (next < count && copies.count() < parallel) {
-        copies.start(job, next++);
+        copies.start(job, next++, cpuSeconds);
         continue;
       }
       std::this_thread::sleep_for(kPause);

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <csignal>
 #include <map>
-#include <regex>
 #include <set>
 #include <string_view>
 
@@ -40,46 +40,76 @@ std::set<std::string_view> linesOf(std::string_view text) {
 // Names that sim can neither take for options nor print otherwise than we wrote them.
 std::string fileName(std::size_t k) { return fmt::format("{:06}.cpp", k); }
 
-std::string runSim(std::vector<std::string> arguments, const std::string& input, const fs::path& folder) {
+ProcessResult runSim(std::vector<std::string> arguments, const std::string& input, const fs::path& folder,
+                     double cpuSeconds) {
   arguments.insert(arguments.begin(), kProgram);
-  constexpr double kLongest = 3600;
-  constexpr std::size_t kMostPrinted = 256u << 20;
-  const ProcessResult run = runProcess(
-      arguments, {.input = input, .directory = folder, .timeout = kLongest, .outputLimit = kMostPrinted});
+  constexpr std::size_t kMostPrinted = 256u << 20, kMostMemory = std::size_t{4} << 30;
+  ProcessResult run = runProcess(arguments, {.input = input,
+                                             .directory = folder,
+                                             .timeout = 60 + 6 * cpuSeconds,
+                                             .outputLimit = kMostPrinted,
+                                             .cpuSeconds = cpuSeconds,
+                                             .addressSpace = kMostMemory});
   if (!run.started)
     throw Error({.what = "submissions cannot be compared",
                  .found = fmt::format("no program {}", kProgram),
                  .wanted = "apt-get install similarity-tester"});
+  return run;
+}
+
+bool tookTooLong(const ProcessResult& run, double cpuSeconds) {
+  return run.timedOut || run.signal == SIGXCPU || run.cpuSeconds >= cpuSeconds;
+}
+
+std::string compare(std::vector<std::string> arguments, const std::string& input, const fs::path& folder) {
+  constexpr double kMostSeconds = 600;
+  const ProcessResult run = runSim(std::move(arguments), input, folder, kMostSeconds);
+  if (tookTooLong(run, kMostSeconds))
+    throw Error(
+        {.what = "submissions cannot be compared",
+         .found = fmt::format("more than {:g} s of processor time used by {}", kMostSeconds, kProgram)});
   if (!run.ok())
     throw Error(
         {.what = fmt::format("{} failed", kProgram), .found = run.error.substr(0, run.error.find('\n'))});
   return run.output;
 }
 
-int numberIn(const std::string& text) {
-  int number = 0;
-  std::from_chars(text.data(), text.data() + text.size(), number);
-  return number;
+// The whole numbers in a line of the program's output, as there are no others in our names of files.
+std::vector<int> numbersIn(std::string_view line) {
+  std::vector<int> numbers;
+  const char* const end = line.data() + line.size();
+  for (const char* at = line.data(); at != end;) {
+    int number = 0;
+    const auto read = std::from_chars(at, end, number);
+    if (read.ptr == at || *at == '-') {
+      ++at;
+      continue;
+    }
+    numbers.push_back(number);
+    at = read.ptr;
+  }
+  return numbers;
 }
 
 // From lines such as "000000.cpp consists for 49 % of 000001.cpp material": how much of the first file is in
 // the second one.
-std::map<std::pair<int, int>, int> percentagesIn(const std::string& output) {
-  static const std::regex kLine(R"((\d+)\.cpp consists for (\d+) % of (\d+)\.cpp material)");
+std::map<std::pair<int, int>, int> percentagesIn(std::string_view output) {
   std::map<std::pair<int, int>, int> percentages;
-  for (std::sregex_iterator found(output.begin(), output.end(), kLine), end; found != end; ++found)
-    percentages[{numberIn((*found)[1]), numberIn((*found)[3])}] = numberIn((*found)[2]);
+  for (const std::string_view line : splitLines(output))
+    if (const auto numbers = numbersIn(line);
+        numbers.size() == 3 && line.find(".cpp consists for ") != line.npos)
+      percentages[{numbers[0], numbers[2]}] = numbers[1];
   return percentages;
 }
 
 // From lines such as "000000.cpp: line 12-215  |000001.cpp: line 12-215  [1910]".
-std::vector<SimilarRun> runsIn(const std::string& output, int first) {
-  static const std::regex kLine(R"((\d+)\.cpp: line (\d+)-(\d+)\s*\|(\d+)\.cpp: line (\d+)-(\d+))");
+std::vector<SimilarRun> runsIn(std::string_view output, int first) {
   std::vector<SimilarRun> runs;
-  for (std::sregex_iterator found(output.begin(), output.end(), kLine), end; found != end; ++found) {
-    std::pair left{numberIn((*found)[2]), numberIn((*found)[3])};
-    std::pair right{numberIn((*found)[5]), numberIn((*found)[6])};
-    if (numberIn((*found)[1]) != first) std::swap(left, right);
+  for (const std::string_view line : splitLines(output)) {
+    const std::vector<int> numbers = numbersIn(line);
+    if (numbers.size() < 6 || line.find(".cpp: line ") == line.npos || line.find('|') == line.npos) continue;
+    std::pair left{numbers[1], numbers[2]}, right{numbers[4], numbers[5]};
+    if (numbers[0] != first) std::swap(left, right);
     runs.push_back({.first = left, .second = right});
   }
   std::sort(runs.begin(), runs.end(),
@@ -101,6 +131,20 @@ std::string withoutHandedOut(std::string_view text, std::string_view handedOut) 
   return rest;
 }
 
+std::vector<std::string> tooRepetitive(const std::vector<ComparedText>& texts, std::string_view handedOut,
+                                       const fs::path& folder) {
+  constexpr double kSecondsOfOne = 2;
+  std::vector<std::string> found;
+  for (const ComparedText& one : texts) {
+    for (const std::size_t k : {std::size_t{0}, std::size_t{1}})
+      writeTextFile(folder / fileName(k), withoutHandedOut(one.text, handedOut));
+    const ProcessResult run =
+        runSim({"-p", "-a", "-e", "-s", "-T", "-i"}, fileName(0) + "\n" + fileName(1), folder, kSecondsOfOne);
+    if (tookTooLong(run, kSecondsOfOne)) found.push_back(one.student);
+  }
+  return found;
+}
+
 std::vector<SimilarPair> similarPairs(const std::vector<ComparedText>& texts, std::string_view handedOut,
                                       int leastPercent, const fs::path& folder) {
   if (texts.size() < 2) return {};
@@ -111,13 +155,13 @@ std::vector<SimilarPair> similarPairs(const std::vector<ComparedText>& texts, st
   }
   // Each file with each other (-a), alone (-e), and not with itself (-s).
   const auto percentages = percentagesIn(
-      runSim({"-p", "-a", "-e", "-s", "-T", "-t", fmt::format("{}", leastPercent), "-i"}, names, folder));
+      compare({"-p", "-a", "-e", "-s", "-T", "-t", fmt::format("{}", leastPercent), "-i"}, names, folder));
   std::vector<SimilarPair> pairs;
   for (const auto& [files, percent] : percentages) {
     const auto [first, second] = files;
     const auto back = percentages.find({second, first});
     if (first > second || back == percentages.end()) continue;
-    const std::string output = runSim(
+    const std::string output = compare(
         {"-n", "-e", "-s", "-T", "-w", "200", fileName(std::size_t(first)), fileName(std::size_t(second))},
         "", folder);
     pairs.push_back({.first = texts[std::size_t(first)].student,

@@ -29,7 +29,20 @@ constexpr std::string_view kLimits =
     "was rewritten, taken from elsewhere or generated is not found at all. So this page decides "
     "nothing: look at the lines, and ask.</p>\n";
 
-bool isIn(int line, const std::pair<int, int>& range) { return range.first <= line && line <= range.second; }
+// Which of so many lines are in a run, by their numbers.
+std::vector<bool> alikeLines(std::size_t count, const SimilarPair& pair,
+                             std::pair<int, int> SimilarRun::*side) {
+  std::vector<int> more(count + 2);  // runs that begin with a line, less those that ended before it
+  for (const SimilarRun& run : pair.runs) {
+    const auto [first, last] = run.*side;
+    if (first < 1 || last < first || std::size_t(last) > count) continue;
+    ++more[std::size_t(first)], --more[std::size_t(last) + 1];
+  }
+  std::vector<bool> alike(count + 1);
+  int open = 0;
+  for (std::size_t line = 1; line <= count; ++line) alike[line] = (open += more[line]) > 0;
+  return alike;
+}
 
 // The lines of one side; `side` selects the lines of a run.
 std::string column(const std::string& text, std::string_view handedOut, const SimilarPair& pair,
@@ -37,13 +50,12 @@ std::string column(const std::string& text, std::string_view handedOut, const Si
   std::string html = "<pre>";
   const std::string own = withoutHandedOut(text, handedOut);
   const std::vector<std::string_view> ownLines = splitLines(own);
-  int line = 0;
+  const std::vector<bool> alike = alikeLines(ownLines.size(), pair, side);
+  std::size_t line = 0;
   for (const std::string_view one : splitLines(text)) {
-    const bool given = ownLines[std::size_t(line)].empty();
+    const bool given = ownLines[line].empty();
     ++line;
-    bool alike = false;
-    for (const SimilarRun& run : pair.runs) alike = alike || isIn(line, run.*side);
-    const char* kind = given ? " class=\"given\"" : alike ? " class=\"alike\"" : "";
+    const char* kind = given ? " class=\"given\"" : alike[line] ? " class=\"alike\"" : "";
     html += fmt::format("<span{}>{:4}  {}</span>", kind, line, htmlText(one));
   }
   return html + "</pre>\n";

@@ -3,16 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstring>
+#include <fstream>
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 
 #include "base/error.h"
 #include "base/exit_code.h"
-#include "base/once_more.h"
+#include "base/is_below.h"
 #include "base/own_folder.h"
 #include "base/text_file.h"
 #include "sandbox/report.h"
@@ -90,6 +93,35 @@ sandbox::Confinement confinement(const Toolchain& toolchain, const fs::path& wor
           .openFiles = 256};
 }
 
+// No student's file has that name: see plainName().
+constexpr const char *kControl = "_control.cpp", *kControlProgram = "_control";
+
+std::vector<std::string> controlCommand(const Toolchain& toolchain) {
+  std::vector<std::string> command = {toolchain.compiler};
+  command.insert(command.end(), toolchain.flags.begin(), toolchain.flags.end());
+  command.insert(command.end(), {kControl, "-o", kControlProgram});
+  command.insert(command.end(), toolchain.linkFlags.begin(), toolchain.linkFlags.end());
+  return command;
+}
+
+// How many processes the kernel has killed because memory was short, in all groups.
+long oomKills() {
+  std::ifstream counters("/proc/vmstat");
+  std::string name;
+  for (long count = 0; counters >> name >> count;)
+    if (name == "oom_kill") return count;
+  return 0;
+}
+
+// A file of ours among a tool's arguments that is not there; empty if all are.
+std::string missingFile(const std::vector<std::string>& command, const fs::path& workFolder) {
+  for (const std::string& word : command) {
+    const fs::path file = word.starts_with('@') ? word.substr(1) : word;
+    if (file.is_absolute() && !isBelow(workFolder, file) && !fs::exists(file)) return file.string();
+  }
+  return {};
+}
+
 }  // namespace
 
 double clockSeconds(double seconds, sandbox::Level level) {
@@ -99,6 +131,7 @@ double clockSeconds(double seconds, sandbox::Level level) {
 BuildTools::BuildTools(const Toolchain& toolchain, const fs::path& workFolder,
                        const sandbox::Sandbox& sandbox, const ToolLimits& limits)
     : workFolder_(workFolder),
+      control_(controlCommand(toolchain)),
       limits_(limits),
       level_(sandbox.level),
       cell_(sandbox, confinement(toolchain, workFolder, sandbox, limits)) {}
@@ -131,37 +164,71 @@ ProcessResult BuildTools::runOnce(const std::vector<std::string>& command, std::
                          .fileSize = limits_.fileSize};
   ProcessResult result = isConfined(level_) ? runConfined(command, options) : runProcess(command, options);
   if (!result.started) throw Error({.what = "cannot run " + command.front(), .found = result.error});
-  // A compiler that was idle for so long is waiting for something that the source made it read. If it worked,
-  // the machine was busy: otherwise the limit on processor time would have stopped it well before the clock.
-  constexpr double kWorked = 0.2;  // as a share of the processor time that it may use
-  if (result.timedOut && result.cpuSeconds > kWorked * limits_.seconds)
-    throw Error({.what = fmt::format("{} did not end within {:g} s: the machine was too busy",
-                                     command.front(), clockSeconds(limits_.seconds, level_))});
   return result;
 }
 
-// The kernel kills what exceeds its time by a second and, at level 3, what uses up its memory.
-bool BuildTools::killedFromOutside(const ProcessResult& run) const {
-  return wasKilled(run) && run.cpuSeconds < limits_.seconds && !cell_.ranOutOfMemory();
+// A tool that did not end is not tried again: a file could hold up the grading in this way.
+ProcessResult BuildTools::run(const std::vector<std::string>& command, const Explains& explains,
+                              std::size_t outputLimit) const {
+  const long killedBefore = oomKills();
+  const auto isExplained = [&](const ProcessResult& run) {
+    return run.ok() || (!run.timedOut && !limitReached(run).empty()) || (explains && explains(run));
+  };
+  ProcessResult last = runOnce(command, outputLimit);
+  if (!isExplained(last) && !last.timedOut) last = runOnce(command, outputLimit);
+  if (isExplained(last)) return last;
+  const std::string fault = faultOfMachine(command, last, killedBefore);
+  if (fault.empty()) return last;
+  throw Error({.what = fmt::format("{} {} through no fault of the file", command.front(),
+                                   last.timedOut ? fmt::format("did not end within {:g} s",
+                                                               clockSeconds(limits_.seconds, level_))
+                                                 : "failed twice"),
+               .found = fmt::format("{}; {}", fault, lastWordsOf(last)),
+               .wanted = "a machine with free memory and disk space, and working tools"});
 }
 
-ProcessResult BuildTools::run(const std::vector<std::string>& command, std::size_t outputLimit) const {
-  ProcessResult last = onceMoreIfKilled([&] { return runOnce(command, outputLimit); },
-                                        [&](const ProcessResult& first) { return killedFromOutside(first); });
-  if (killedFromOutside(last))
-    throw Error(
-        {.what = command.front() + " was killed twice, through no fault of the file",
-         .found = fmt::format("{} after {:.1f} s of processor time", lastWordsOf(last), last.cpuSeconds),
-         .wanted = "a machine with more free memory"});
-  return last;
+// What the system says, and whether the same tools build an empty program now. No words of a tool count,
+// since a file can make it say anything. If they do build it, the file is to blame.
+std::string BuildTools::faultOfMachine(const std::vector<std::string>& command, const ProcessResult& failure,
+                                       long oomKillsBefore) const {
+  if (oomKills() > oomKillsBefore) return "the kernel killed a process because memory was short";
+  if (const std::string free = shortOfDisk(); !free.empty()) return free;
+  if (const std::string missing = missingFile(command, workFolder_); !missing.empty())
+    return "no file " + missing;
+  writeSource(workFolder_ / kControl, "int main() {}\n");
+  const auto start = std::chrono::steady_clock::now();
+  const ProcessResult control = runOnce(control_);
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  for (const char* file : {kControl, kControlProgram}) fs::remove(workFolder_ / file);
+  if (!control.ok()) return "an empty program cannot be built either";
+  // At the speed of the empty program, the tool would have taken so long for the work that it did. If that is
+  // much less than it had, it did not work but wait, for something that the file made it read.
+  const double expected = failure.cpuSeconds * took.count() / std::max(control.cpuSeconds, 0.01);
+  return failure.timedOut && expected > clockSeconds(limits_.seconds, level_) / 2 ? "the machine was too busy"
+                                                                                  : "";
 }
 
+// Confined tools write temporary files to memory, or into the work folder.
+std::string BuildTools::shortOfDisk() const {
+  std::vector<fs::path> folders = {workFolder_};
+  if (!isConfined(level_)) folders.push_back(fs::temp_directory_path());
+  for (const fs::path& folder : folders) {
+    struct statvfs disk {};
+    if (::statvfs(folder.c_str(), &disk) != 0)
+      return fmt::format("{}: {}", folder.string(), std::strerror(errno));
+    const auto free = static_cast<std::size_t>(disk.f_bavail) * disk.f_frsize;
+    if (free < limits_.fileSize) return fmt::format("{} KiB free in {}", free >> 10, folder.string());
+  }
+  return {};
+}
+
+// Some of these words may be the file's: it can only blame itself by them.
 std::string BuildTools::limitReached(const ProcessResult& run) const {
   const auto says = [&](const char* text) { return run.error.find(text) != std::string::npos; };
   if (cell_.ranOutOfMemory() || says("out of memory") || says("memory exhausted") || says("bad_alloc"))
     return fmt::format("needed more than {} MiB of memory and was stopped", limits_.memory >> 20);
   // If the last words are lost among too many others, the time decides.
-  if (wasKilled(run) || says("CPU time limit") || run.signal == SIGXCPU || run.cpuSeconds >= limits_.seconds)
+  if (says("CPU time limit") || run.signal == SIGXCPU || run.cpuSeconds >= limits_.seconds)
     return fmt::format("took more than {:g} s of processor time and was stopped", limits_.seconds);
   if (says("File size limit") || says("File too large"))
     return fmt::format("would write a file of more than {} MiB", limits_.fileSize >> 20);

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -35,24 +36,33 @@ class BuildTools {
   BuildTools(const Toolchain& toolchain, const std::filesystem::path& workFolder,
              const sandbox::Sandbox& sandbox, const ToolLimits& limits = {});
 
-  /// Runs a tool, and once more if it is killed although it reached no limit. Throws Error if it is killed
-  /// again, if the tool or the sandbox does not start, and if the machine was too busy.
-  [[nodiscard]] ProcessResult run(const std::vector<std::string>& command,
+  /// Whether what a tool said gives a reason why it failed that lies in the file.
+  using Explains = std::function<bool(const ProcessResult&)>;
+
+  /// Runs a tool, and once more if it fails without a reason: it reached no limit, and `explains`, if given,
+  /// finds none. Throws Error if the tool or the sandbox does not start, and if the machine is to blame for
+  /// both failures, or for a tool that does not end: see faultOfMachine().
+  [[nodiscard]] ProcessResult run(const std::vector<std::string>& command, const Explains& explains = {},
                                   std::size_t outputLimit = 8u << 20) const;
 
-  /// The same without a second try, for tools whose failure does not matter.
+  /// The same without a second try and without blaming the machine, for tools whose failure does not matter.
   [[nodiscard]] ProcessResult runOnce(const std::vector<std::string>& command,
                                       std::size_t outputLimit = 8u << 20) const;
+
+  /// "12 KiB free in FOLDER" if that is less than one file of a tool may take; else empty.
+  [[nodiscard]] std::string shortOfDisk() const;
 
   /// The limit on memory, processor time or the size of files that ended the tool: "took more than ...";
   /// empty if no limit was reached.
   [[nodiscard]] std::string limitReached(const ProcessResult& run) const;
 
  private:
-  bool killedFromOutside(const ProcessResult& run) const;
+  std::string faultOfMachine(const std::vector<std::string>& command, const ProcessResult& failure,
+                             long oomKillsBefore) const;
   ProcessResult runConfined(const std::vector<std::string>& command, const ProcessOptions& options) const;
 
   std::filesystem::path workFolder_;
+  std::vector<std::string> control_;  ///< the command that compiles and links an empty program
   ToolLimits limits_;
   sandbox::Level level_;
   sandbox::Cell cell_;

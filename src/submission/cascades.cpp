@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -12,34 +14,39 @@
 namespace rex::grading {
 namespace {
 
-// The word before the first parenthesis: for a definition its name, be it static, inline or a template.
-std::string nameOf(std::string_view definition) {
-  const std::size_t end = std::min(definition.find('('), definition.size());
-  std::size_t start = end;
-  while (start > 0 && isWord(definition[start - 1])) --start;
-  return std::string(definition.substr(start, end - start));
-}
+// What the functions of each name mention in their bodies.
+using Uses = std::map<std::string, Names, std::less<>>;
 
-// What each function of the file names, itself and through the functions that it names.
-std::map<std::string, Names> usesIn(std::string_view source) {
-  std::map<std::string, Names> uses;
-  const std::string code = codeOf(source);
-  for (const FilePiece& piece : filePieces(source)) {
-    const std::string_view text = std::string_view(code).substr(piece.start, piece.end - piece.start);
-    if (const std::size_t body = text.find('{'); body != text.npos)
-      uses[nameOf(text.substr(0, body))].merge(namesIn(text.substr(body)));
-  }
-  for (bool isNew = true; isNew;) {
-    isNew = false;
-    for (auto& [function, names] : uses) {
-      const Names own = names;
-      for (const std::string& name : own)
-        if (const auto used = uses.find(name); used != uses.end() && name != function)
-          names.insert(used->second.begin(), used->second.end());
-      isNew = isNew || names.size() > own.size();
-    }
+// The word before the first parenthesis of a piece: for a definition its name, be it static, inline or a
+// template.
+Uses usesIn(std::string_view source) {
+  const CppText text(source);
+  Uses uses;
+  for (const FilePiece& piece : filePieces(text)) {
+    std::size_t name = piece.last, body = piece.first;
+    for (; body < piece.last && !text.isSign(body, '{'); ++body)
+      if (name == piece.last && text.isSign(body, '(') && body > piece.first) name = body - 1;
+    if (body < piece.last && name < body && text.isName(name))
+      uses[std::string(text.at(name))].merge(namesIn(text, body, piece.last));
   }
   return uses;
+}
+
+// All that a function mentions, itself and through the functions that it mentions.
+Names reachedFrom(const std::string& function, const Uses& uses) {
+  Names reached;
+  std::vector<std::string> open = {function};
+  std::set<std::string> visited = {function};
+  while (!open.empty()) {
+    const auto next = uses.find(open.back());
+    open.pop_back();
+    if (next == uses.end()) continue;
+    for (const std::string& name : next->second) {
+      reached.insert(name);
+      if (visited.insert(name).second) open.push_back(name);
+    }
+  }
+  return reached;
 }
 
 bool hasFailed(const CheckResult& check) {
@@ -50,13 +57,15 @@ bool hasFailed(const CheckResult& check) {
 }  // namespace
 
 void explainCascades(std::vector<CheckResult>& checks, std::string_view source) {
-  const std::map<std::string, Names> uses = usesIn(source);
+  const Uses uses = usesIn(source);
+  std::map<std::string, Names> reached;
   std::map<std::string, std::string> failed;  // functions, with the check
   for (CheckResult& check : checks) {
     if (!hasFailed(check)) continue;
-    const auto used = uses.find(check.function);
+    const auto [used, isNew] = reached.try_emplace(check.function);
+    if (isNew) used->second = reachedFrom(check.function, uses);
     const auto cause = std::find_if(failed.begin(), failed.end(), [&](const auto& one) {
-      return used != uses.end() && one.first != check.function && used->second.contains(one.first);
+      return one.first != check.function && used->second.contains(one.first);
     });
     if (cause != failed.end())
       check.message +=

@@ -1,6 +1,7 @@
 #include "submission/compiler_messages.h"
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <utility>
 
@@ -17,17 +18,46 @@ namespace {
 
 using Json = nlohmann::json;
 
-void replaceAll(std::string& text, std::string_view from, std::string_view to) {
-  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-    text.replace(at, from.size(), to);
+// One line, plain quotes.
+std::string tidy(std::string_view text) {
+  constexpr std::string_view kOpening = "\u2018", kClosing = "\u2019";
+  std::string plain;
+  while (!text.empty()) {
+    const bool isQuote = text.starts_with(kOpening) || text.starts_with(kClosing);
+    plain += isQuote ? '\'' : text.front() == '\n' ? ' ' : text.front();
+    text.remove_prefix(isQuote ? kOpening.size() : 1);
+  }
+  return plain;
 }
 
-// One line, plain quotes.
-std::string tidy(std::string text) {
-  replaceAll(text, "\u2018", "'");
-  replaceAll(text, "\u2019", "'");
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
+// The end of the JSON array that begins a text, after its bracket; npos if it is not closed.
+std::size_t arrayEnd(std::string_view text) {
+  int depth = 0;
+  bool isQuoted = false;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const char c = text[at];
+    if (c == '"') isQuoted = !isQuoted;
+    if (isQuoted) {
+      at += c == '\\' ? 1 : 0;
+      continue;
+    }
+    depth += (c == '[' || c == '{') - (c == ']' || c == '}');
+    if (depth == 0) return at + 1;
+  }
+  return text.npos;
+}
+
+// The arrays in a text, which begin with their lines and end before the line with which the next one begins.
+std::vector<std::string_view> arraysIn(std::string_view text) {
+  std::vector<std::string_view> arrays;
+  for (std::size_t at = text.starts_with('[') ? 0 : text.find("\n["); at != text.npos;) {
+    if (text[at] == '\n') ++at;
+    const std::size_t next = text.find("\n[", at);
+    const std::string_view array = text.substr(at, next - at);
+    if (const std::size_t end = arrayEnd(array); end != array.npos) arrays.push_back(array.substr(0, end));
+    at = next;
+  }
+  return arrays;
 }
 
 CompileDiagnostic readMessage(const Json& json) {
@@ -85,18 +115,18 @@ std::string headerName(const std::string& file) {
 
 }  // namespace
 
+bool namesErrors(std::string_view standardError) {
+  constexpr auto kSigns = std::to_array<std::string_view>(
+      {"\"kind\": \"error\"", "\"kind\": \"fatal error\"", ": Error: ", ": Fatal error: "});
+  return std::any_of(kSigns.begin(), kSigns.end(),
+                     [&](std::string_view sign) { return standardError.find(sign) != standardError.npos; });
+}
+
+// An array is on one line or, from g++ 14 on, on several; the driver adds lines of plain text.
 std::vector<CompileDiagnostic> parseCompilerJson(std::string_view standardError) {
   std::vector<CompileDiagnostic> messages;
-  const std::vector<std::string_view> lines = splitLines(standardError);
-  // An array is on one line or, from g++ 14 on, on several; the driver adds lines of plain text.
-  for (std::size_t k = 0; k < lines.size(); ++k) {
-    if (!lines[k].starts_with('[')) continue;
-    Json array = Json::parse(lines[k], nullptr, false);
-    for (std::size_t end = k + 1; array.is_discarded() && end < lines.size(); ++end) {
-      if (lines[end].starts_with('[')) break;
-      if (!lines[end].ends_with("}]")) continue;
-      array = Json::parse(lines[k].begin(), lines[end].end(), nullptr, false);
-    }
+  for (const std::string_view text : arraysIn(standardError)) {
+    const Json array = Json::parse(text, nullptr, false);
     if (!array.is_array()) continue;
     try {
       for (const Json& entry : array)
@@ -119,7 +149,7 @@ std::vector<CompileDiagnostic> parseCompilerText(std::string_view standardError)
     CompileDiagnostic message{.file = std::string(line.substr(0, row)), .severity = "error"};
     message.line = parseNumber<int>(line.substr(row + 1, column - row - 1)).value_or(0);
     message.column = parseNumber<int>(line.substr(column + 1, label - column - 1)).value_or(0);
-    message.message = tidy(std::string(line.substr(line.find("error: ", label) + 7)));
+    message.message = tidy(line.substr(line.find("error: ", label) + 7));
     messages.push_back(std::move(message));
   }
   return messages;
@@ -134,7 +164,7 @@ std::vector<CompileDiagnostic> parseAssemblerText(std::string_view standardError
     if (row == line.npos) continue;
     CompileDiagnostic message{.file = std::string(line.substr(0, row)), .severity = "error"};
     message.line = parseNumber<int>(line.substr(row + 1, label - row - 1)).value_or(0);
-    message.message = tidy(std::string(line.substr(line.find("rror: ", label) + 6)));
+    message.message = tidy(line.substr(line.find("rror: ", label) + 6));
     if (message.line == 0) continue;
     if (message.file.ends_with(".s")) message.file.clear(), message.line = 0;
     messages.push_back(std::move(message));
@@ -161,7 +191,7 @@ void blameMainFile(std::vector<CompileDiagnostic>& messages, const std::string& 
 }
 
 bool admitMessages(std::vector<CompileDiagnostic>& messages) {
-  constexpr std::size_t kMostMessages = 50, kLongest = 2000;
+  constexpr std::size_t kLongest = 2000;
   const bool tooMany = messages.size() > kMostMessages;
   if (tooMany) messages.resize(kMostMessages);
   for (CompileDiagnostic& message : messages)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -7,6 +8,10 @@
 #include "grading/results.h"
 
 namespace rex::grading {
+
+/// Whether the output of a compiler, as JSON, or of an assembler seems to name an error: a quick look, for
+/// texts of which only the file that was compiled is to blame if they mislead.
+[[nodiscard]] bool namesErrors(std::string_view standardError);
 
 /// Errors and warnings in the output of g++ with -fdiagnostics-format=json; none if the text is not such an
 /// array. Files are named as by the compiler.
@@ -24,8 +29,11 @@ namespace rex::grading {
 void blameMainFile(std::vector<CompileDiagnostic>& messages, const std::string& mainFile,
                    std::string_view plainText);
 
+/// How many messages a result may have.
+inline constexpr std::size_t kMostMessages = 50;
+
 /// Makes messages suitable for results and logs: each is printable(), on one line and at most 2000 bytes
-/// long. Keeps at most 50, and returns whether some were left out.
+/// long. Keeps at most kMostMessages, and returns whether some were left out.
 bool admitMessages(std::vector<CompileDiagnostic>& messages);
 
 /// One error for each function that the linker cannot find or finds twice.

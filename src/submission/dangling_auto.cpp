@@ -1,21 +1,19 @@
 #include "submission/dangling_auto.h"
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <optional>
-#include <regex>
 
 #include <fmt/format.h>
-
-#include "base/lines.h"
 
 namespace rex::grading {
 namespace {
 
 struct Declaration {
-  std::string name;
-  std::size_t end = 0;     // after the semicolon
-  bool isView = false;     // begins as a view of what a function returned
-  std::size_t column = 0;  // of `auto`, from 1
+  std::string_view name;
+  std::size_t start = 0, end = 0;  // of its characters, with the semicolon
+  bool isView = false;             // begins as a view of what a function returned
 };
 
 bool hasBalancedBrackets(std::string_view text) {
@@ -28,86 +26,103 @@ bool hasBalancedBrackets(std::string_view text) {
   return depth == 0;
 }
 
-// The bracket that the one at `close` closes.
-std::size_t openingOf(std::string_view text, std::size_t close) {
-  int depth = 0;
-  for (std::size_t i = close + 1; i-- > 0;) {
-    if (text[i] == ')') ++depth;
-    if (text[i] == '(' && --depth == 0) return i;
-  }
-  return 0;
+bool isViewOfEigen(std::string_view function) {
+  constexpr auto kViews = std::to_array<std::string_view>({"array",
+                                                           "block",
+                                                           "bottomLeftCorner",
+                                                           "bottomRightCorner",
+                                                           "bottomRows",
+                                                           "col",
+                                                           "diagonal",
+                                                           "head",
+                                                           "leftCols",
+                                                           "matrix",
+                                                           "middleCols",
+                                                           "middleRows",
+                                                           "reshaped",
+                                                           "rightCols",
+                                                           "row",
+                                                           "segment",
+                                                           "tail",
+                                                           "topLeftCorner",
+                                                           "topRightCorner",
+                                                           "topRows",
+                                                           "transpose"});
+  return std::ranges::binary_search(kViews, function);
 }
 
 // Whether it looks at a part of what a function returned, as in p.position(i).head(2). Eigen's own functions
 // that return views do no harm.
-bool isViewOfAnswer(const std::string& value) {
-  static const std::string views =
-      "(head|tail|segment|row|col|block|(top|bottom|middle)Rows|(left|right|middle)Cols|"
-      "(top|bottom)(Left|Right)Corner|transpose|diagonal|array|matrix|reshaped)";
-  static const std::regex view(R"(\)\s*\.\s*)" + views + R"(\b)"), ofEigen(R"((^|\W))" + views + R"(\s*$)"),
-      call(R"(\w\s*$)");
-  for (std::sregex_iterator found(value.begin(), value.end(), view), end; found != end; ++found) {
-    const auto open = openingOf(value, static_cast<std::size_t>(found->position()));
-    const std::string before = value.substr(0, open);
-    if (std::regex_search(before, call) && !std::regex_search(before, ofEigen)) return true;
+bool isViewOfAnswer(const CppText& text, std::size_t first, std::size_t end) {
+  for (std::size_t i = first; i + 2 < end; ++i) {
+    if (!text.isSign(i, ')') || !text.isSign(i + 1, '.') || !isViewOfEigen(text.at(i + 2))) continue;
+    const std::size_t open = text.partner(i);
+    if (open > first && open < i && text.isName(open - 1) && !isViewOfEigen(text.at(open - 1))) return true;
   }
   return false;
 }
 
-// A statement that begins the line, ends on it and declares one variable.
-std::optional<Declaration> declarationIn(std::string_view line) {
-  static const std::regex pattern(R"(^(\s*)(const\s+)?auto\s+([A-Za-z_]\w*)\s*=([^;']*);\s*(//.*)?$)");
-  std::match_results<std::string_view::const_iterator> found;
-  if (!std::regex_match(line.begin(), line.end(), found, pattern)) return {};
-  const std::string value = found[4].str();
-  if (!hasBalancedBrackets(value)) return {};
-  return Declaration{.name = found[3].str(),
-                     .end = static_cast<std::size_t>(found[4].second - line.begin()) + 1,
-                     .isView = isViewOfAnswer(value),
-                     .column = static_cast<std::size_t>(found[1].length()) + 1};
+// A statement that begins the line of token `i`, ends on it and declares one variable. Nothing but a comment
+// follows it.
+std::optional<Declaration> declarationAt(const CppText& text, std::size_t i, std::size_t nextLine) {
+  const std::size_t name = i + (text.at(i) == "const" ? 2 : 1), last = nextLine - 1;
+  if (name + 2 > last || text.at(name - 1) != "auto" || !text.isName(name) || !text.isSign(name + 1, '=') ||
+      !text.isSign(last, ';'))
+    return {};
+  const std::size_t start = text[name + 1].end;
+  const std::string_view value = text.source().substr(start, text[last].start - start);
+  if (value.find_first_of(";'\n") != value.npos || !hasBalancedBrackets(value)) return {};
+  return Declaration{.name = text.at(name),
+                     .start = text[i].start,
+                     .end = text[last].end,
+                     .isView = isViewOfAnswer(text, name + 2, last)};
+}
+
+std::vector<Declaration> declarationsIn(const CppText& text) {
+  std::vector<Declaration> found;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t next = text.nextLine(i);
+    if (const auto declared = declarationAt(text, i, next)) found.push_back(*declared);
+    i = next;
+  }
+  return found;
 }
 
 constexpr std::string_view kQuestion = "rex::guard::auto";
 
 }  // namespace
 
-std::string withAutoQuestions(std::string_view source) {
-  std::string text;
-  bool asks = false;
-  for (const std::string_view line : splitLines(source)) {
-    if (const auto declared = declarationIn(line)) {
-      text.append(line.substr(0, declared->end))
-          .append(fmt::format(" static_assert(sizeof(::{}{}({})) == 1);", kQuestion,
-                              declared->isView ? "Views" : "Holds", declared->name))
-          .append(line.substr(declared->end));
-      asks = true;
-    } else {
-      text.append(line);
-    }
-    text += '\n';
+std::string withAutoQuestions(const CppText& text) {
+  std::string asking;
+  std::size_t done = 0;
+  for (const Declaration& declared : declarationsIn(text)) {
+    asking.append(text.source().substr(done, declared.end - done))
+        .append(fmt::format(" static_assert(sizeof(::{}{}({})) == 1);", kQuestion,
+                            declared.isView ? "Views" : "Holds", declared.name));
+    done = declared.end;
   }
-  return asks ? text : "";
+  return done == 0 ? "" : asking.append(text.source().substr(done));
 }
 
-void explainAutoAnswers(std::vector<CompileDiagnostic>& messages, std::string_view source) {
-  const std::vector<std::string_view> lines = splitLines(source);
+void explainAutoAnswers(std::vector<CompileDiagnostic>& messages, const CppText& text) {
   const auto isAbout = [](const CompileDiagnostic& message) {
     return message.message.find(kQuestion) != std::string::npos;
   };
   std::erase_if(messages, [&](const CompileDiagnostic& message) {
     return isAbout(message) && message.severity == "note";
   });
+  const TextPlaces places(text.source());
+  std::map<int, Declaration> byLine;
+  for (const Declaration& declared : declarationsIn(text)) byLine[places.line(declared.start)] = declared;
   for (CompileDiagnostic& message : messages) {
-    if (!isAbout(message) || message.line < 1 || static_cast<std::size_t>(message.line) > lines.size())
-      continue;
-    const auto declared = declarationIn(lines[static_cast<std::size_t>(message.line) - 1]);
-    if (!declared) continue;
-    message.column = static_cast<int>(declared->column);
+    const auto declared = byLine.find(message.line);
+    if (!isAbout(message) || declared == byLine.end()) continue;
+    message.column = places.place(declared->second.start).second;
     message.rule = "eigen-auto";
     message.message = fmt::format(
         "'auto' makes '{0}' an expression that refers to other values, which may be gone when it is used: "
         "write its type instead, such as Eigen::VectorXd {0}, or end it with .eval()",
-        declared->name);
+        declared->second.name);
   }
 }
 

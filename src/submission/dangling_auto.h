@@ -1,10 +1,10 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "grading/results.h"
+#include "submission/cpp_text.h"
 
 namespace rex::grading {
 
@@ -14,9 +14,9 @@ inline constexpr const char* kAutoQuestions = "course/auto_guard.h";
 /// The source with a question to the compiler after each declaration `auto name = ...;` of one line, on that
 /// line: does the variable hold an expression of Eigen, which refers to other matrices, some of which may be
 /// gone? Returns an empty text if there is no such declaration.
-[[nodiscard]] std::string withAutoQuestions(std::string_view source);
+[[nodiscard]] std::string withAutoQuestions(const CppText& text);
 
-/// Puts our words and the place in `source` into the answers among the compiler's messages.
-void explainAutoAnswers(std::vector<CompileDiagnostic>& messages, std::string_view source);
+/// Puts our words and the place in the source into the answers among the compiler's messages.
+void explainAutoAnswers(std::vector<CompileDiagnostic>& messages, const CppText& text);
 
 }  // namespace rex::grading

@@ -3,12 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include "submission/mentions.h"
-
 namespace rex::grading {
 namespace {
-
-constexpr std::string_view kNoCode = " \t\r\n";
 
 // Words before the body of anything but a function, of a function whose body its callers may inspect, and of
 // one that has other parentheses before its parameters.
@@ -17,98 +13,86 @@ constexpr auto kOtherWords = std::to_array<std::string_view>(
      "enum",          "explicit", "extern", "inline",  "namespace", "operator",  "requires",  "static",
      "struct",        "template", "try",    "typedef", "union",     "using"});
 
-// The position after a preprocessor directive, which a backslash continues on the next line.
-std::size_t behindDirective(const std::string& code, std::size_t at) {
-  std::size_t end = code.find('\n', at);
-  while (end != code.npos && code[end - 1] == '\\') end = code.find('\n', end + 1);
-  return std::min(end, code.size());
+// By how much a token changes the number of open brackets.
+int opening(const CppText& text, std::size_t i) {
+  const auto isOneOf = [&](std::string_view signs) {
+    return text.isKind(i, TokenKind::kSign) && signs.find(text.at(i).front()) != signs.npos;
+  };
+  return isOneOf("([{") ? 1 : isOneOf(")]}") ? -1 : 0;
 }
 
-// The position after the ';' or '}' that ends the piece that starts at `at`.
-std::size_t behindPiece(const std::string& code, std::size_t at) {
+// The token after the ';' or '}' that ends the piece that starts at `i`.
+std::size_t behindPiece(const CppText& text, std::size_t i) {
   int depth = 0;
-  for (; at < code.size(); ++at) {
-    const char c = code[at];
-    depth += (c == '(' || c == '[' || c == '{') - (c == ')' || c == ']' || c == '}');
+  for (; i < text.size(); ++i) {
+    depth += opening(text, i);
     if (depth > 0) continue;
-    if (c == ';') return at + 1;
-    const std::size_t next = c == '}' ? code.find_first_not_of(kNoCode, at + 1) : 0;
+    if (text.isSign(i, ';')) return i + 1;
     // Classes and initialisers continue after their braces.
-    if (c == '}' && (next == code.npos || std::string_view(";,.{").find(code[next]) == code.npos))
-      return at + 1;
+    const std::string_view next = text.at(i + 1);
+    if (text.isSign(i, '}') && (next.empty() || std::string_view(";,.{").find(next) == next.npos))
+      return i + 1;
   }
-  return code.size();
+  return text.size();
 }
 
-// The first such bracket outside all other brackets, or npos.
-std::size_t outerBracket(std::string_view code, char bracket) {
+// The first such bracket outside all other brackets among these tokens, or `end`.
+std::size_t outerBracket(const CppText& text, std::size_t first, std::size_t end, char bracket) {
   int depth = 0;
-  for (std::size_t at = 0; at < code.size(); ++at) {
-    const char c = code[at];
-    if (c == bracket && depth == 0) return at;
-    depth += (c == '(' || c == '[' || c == '{') - (c == ')' || c == ']' || c == '}');
+  for (std::size_t i = first; i < end; ++i) {
+    if (depth == 0 && text.isSign(i, bracket)) return i;
+    depth += opening(text, i);
   }
-  return code.npos;
+  return end;
 }
 
-bool hasOtherWord(std::string_view head) {
-  for (std::size_t at = 0; at < head.size(); ++at) {
-    const std::size_t start = at;
-    while (at < head.size() && isWord(head[at])) ++at;
-    if (std::ranges::binary_search(kOtherWords, head.substr(start, at - start))) return true;
-  }
+bool hasOtherWord(const CppText& text, std::size_t first, std::size_t end) {
+  for (std::size_t i = first; i < end; ++i)
+    if (text.isName(i) && std::ranges::binary_search(kOtherWords, text.at(i))) return true;
   return false;
 }
 
-// The name in "type name(parameters) {", a part of `head`; empty if `head` is something else.
-std::string_view functionName(std::string_view head) {
-  const std::size_t open = outerBracket(head, '(');
-  if (open == head.npos || hasOtherWord(head)) return {};
-  head = head.substr(0, open);
-  const std::size_t last = head.find_last_not_of(kNoCode);
-  if (last == head.npos) return {};
-  std::size_t first = last + 1;
-  while (first > 0 && isWord(head[first - 1])) --first;
-  const std::size_t before = head.substr(0, first).find_last_not_of(kNoCode);
-  if (before == head.npos || head[before] == ':' || head[before] == '~') return {};
-  return head.substr(first, last + 1 - first);
+// The token with the name in "type name(parameters) {", of which the brace is at `end`; `end` if it is
+// something else.
+std::size_t functionName(const CppText& text, std::size_t first, std::size_t end) {
+  const std::size_t open = outerBracket(text, first, end, '(');
+  if (open == end || open < first + 2 || hasOtherWord(text, first, end)) return end;
+  const bool isMember = text.isSign(open - 2, ':') || text.isSign(open - 2, '~');
+  return text.isName(open - 1) && !isMember ? open - 1 : end;
 }
 
-// The position after the brace that opens an unnamed namespace at `at`, or npos.
-std::size_t behindNamelessNamespace(std::string_view code, std::size_t at) {
-  constexpr std::string_view kWord = "namespace";
-  if (code.substr(at, kWord.size()) != kWord) return code.npos;
-  const std::size_t brace = code.find_first_not_of(kNoCode, at + kWord.size());
-  return brace != code.npos && code[brace] == '{' ? brace + 1 : code.npos;
+bool opensNamelessNamespace(const CppText& text, std::size_t i) {
+  return text.isName(i) && text.at(i) == "namespace" && text.isSign(i + 1, '{');
 }
 
-std::size_t behindAnyPiece(const std::string& code, std::size_t at) {
-  if (code[at] == '#') return behindDirective(code, at);
-  const std::size_t opened = behindNamelessNamespace(code, at);
-  return opened != code.npos ? opened : behindPiece(code, at);
+FilePiece pieceAt(const CppText& text, std::size_t i) {
+  FilePiece piece{.start = text[i].start, .first = i};
+  piece.isDirective = text.isSign(i, '#');
+  piece.last = piece.isDirective                 ? text.nextLine(i)
+               : opensNamelessNamespace(text, i) ? i + 2
+                                                 : behindPiece(text, i);
+  piece.end = text[piece.last - 1].end;
+  const std::size_t body = outerBracket(text, i, piece.last, '{');
+  if (piece.isDirective || !text.isSign(piece.last - 1, '}') || body == piece.last) return piece;
+  const std::size_t name = functionName(text, i, body);
+  if (name == body) return piece;
+  piece.function = text.at(name);
+  piece.nameStart = text[name].start;
+  piece.bodyStart = text[body].start;
+  return piece;
 }
 
 }  // namespace
 
-std::vector<FilePiece> filePieces(std::string_view source) {
-  const std::string code = codeOf(source);
+std::vector<FilePiece> filePieces(const CppText& text) {
   std::vector<FilePiece> pieces;
   int open = 0;  // unnamed namespaces
-  for (std::size_t at = code.find_first_not_of(kNoCode); at != code.npos;
-       at = code.find_first_not_of(kNoCode, pieces.back().end)) {
-    FilePiece piece{.start = at, .end = behindAnyPiece(code, at), .isInternal = open > 0};
-    const std::string_view text = std::string_view(code).substr(at, piece.end - at);
-    const std::size_t body = outerBracket(text, '{');
-    if (text.front() != '#' && text.back() == '}' && body != text.npos) {
-      const std::string_view name = functionName(text.substr(0, body));
-      piece.function = name;
-      if (!name.empty()) {
-        piece.nameStart = at + static_cast<std::size_t>(name.data() - text.data());
-        piece.bodyStart = at + body;
-      }
-    }
-    if (behindNamelessNamespace(code, at) != code.npos) ++open;
-    if (text == "}" && open > 0) piece.isInternal = --open > 0;
+  for (std::size_t i = 0; i < text.size(); i = pieces.back().last) {
+    FilePiece piece = pieceAt(text, i);
+    const bool closes = piece.last == i + 1 && text.isSign(i, '}') && open > 0;
+    if (closes) --open;
+    piece.isInternal = open > 0;
+    if (opensNamelessNamespace(text, i)) ++open;
     pieces.push_back(std::move(piece));
   }
   return pieces;

@@ -15,32 +15,40 @@ struct NamedPiece {
   Names names;  // mentioned in it
   bool isFunction() const { return !piece.function.empty(); }
   bool isMain() const { return piece.function == "main"; }
-  bool isDirective = false;  // for the preprocessor
 };
 
 std::vector<NamedPiece> namedPieces(std::string_view source) {
-  const std::string code = codeOf(source);
+  const CppText text(source);
   std::vector<NamedPiece> named;
-  for (FilePiece& piece : filePieces(source)) {
-    const std::string_view text = std::string_view(code).substr(piece.start, piece.end - piece.start);
-    const bool isDirective = text.front() == '#';
-    named.push_back({std::move(piece), namesIn(text), isDirective});
+  for (FilePiece& piece : filePieces(text)) {
+    Names names = namesIn(text, piece.first, piece.last);
+    named.push_back({std::move(piece), std::move(names)});
   }
   return named;
 }
 
 // The functions of these names, and all that they mention in turn.
-std::set<std::size_t> reached(const std::vector<NamedPiece>& pieces, Names names) {
+std::set<std::size_t> reached(const std::vector<NamedPiece>& pieces, const Names& names) {
+  std::multimap<std::string_view, std::size_t> functions;
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    if (pieces[i].isFunction() && !pieces[i].isMain()) functions.emplace(pieces[i].piece.function, i);
   std::set<std::size_t> found;
-  for (bool isNew = true; isNew;) {
-    isNew = false;
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-      const bool isNamed =
-          pieces[i].isFunction() && !pieces[i].isMain() && names.contains(pieces[i].piece.function);
-      if (!isNamed || !found.insert(i).second) continue;
-      names.insert(pieces[i].names.begin(), pieces[i].names.end());
-      isNew = true;
+  std::vector<std::size_t> open;  // found, but what they mention is not
+  const auto visit = [&](const Names& mentioned) {
+    for (const std::string& name : mentioned) {
+      const auto [first, end] = functions.equal_range(name);
+      for (auto one = first; one != end; ++one) {
+        found.insert(one->second);
+        open.push_back(one->second);
+      }
+      functions.erase(first, end);
     }
+  };
+  visit(names);
+  while (!open.empty()) {
+    const std::size_t next = open.back();
+    open.pop_back();
+    visit(pieces[next].names);
   }
   return found;
 }
@@ -78,13 +86,13 @@ std::string gradedPart(std::string_view source, const std::vector<std::string>& 
     isThere = isThere || std::find(functions.begin(), functions.end(), one.piece.function) != functions.end();
   }
   if (!isThere) return {};
-  std::set<std::size_t> kept = reached(pieces, std::move(roots));
+  std::set<std::size_t> kept = reached(pieces, roots);
   kept.merge(unused(pieces));
   std::string text(source);
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const bool isLeftOut = pieces[i].isFunction() && !kept.contains(i);
     // A watched name in a directive or in a function that is left out could escape the scan.
-    const bool couldAsk = pieces[i].isDirective || (isLeftOut && !pieces[i].isMain());
+    const bool couldAsk = pieces[i].piece.isDirective || (isLeftOut && !pieces[i].isMain());
     const auto isNamed = [&](const std::string& name) { return pieces[i].names.contains(name); };
     if (couldAsk && std::any_of(watched.begin(), watched.end(), isNamed)) return {};
     if (isLeftOut) leaveOut(text, pieces[i]);

@@ -155,6 +155,7 @@ std::vector<CompileDiagnostic> forbiddenIncludes(const std::vector<fs::path>& de
   const Allowed allowed(mainFile, folder, toolchain);
   std::vector<CompileDiagnostic> messages;
   for (const fs::path& file : dependencies) {
+    if (messages.size() > kMostMessages) break;
     if (allowed.holds(file)) continue;
     const std::string name = file.filename().string();
     messages.push_back(refusal(

@@ -1,16 +1,16 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "grading/results.h"
+#include "submission/cpp_text.h"
 
 namespace rex::grading {
 
 /// A warning for each quotient of two whole numbers that is written out and leaves a remainder: 1 / 2 is 0
-/// in C++. Comments and lines with text in quotes are skipped.
-[[nodiscard]] std::vector<CompileDiagnostic> integerDivisions(std::string_view source,
-                                                              const std::string& name);
+/// in C++. Preprocessor directives are skipped, and a quotient that is itself divided or divides: in
+/// x / 3 / 2 no 3 is divided.
+[[nodiscard]] std::vector<CompileDiagnostic> integerDivisions(const CppText& text, const std::string& name);
 
 }  // namespace rex::grading

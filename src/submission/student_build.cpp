@@ -24,6 +24,7 @@
 #include "submission/line_markers.h"
 #include "submission/mentions.h"
 #include "submission/precompiled_prefix.h"
+#include "submission/reading_apart_internal.h"
 #include "submission/symbol_scan.h"
 #include "submission/tool_failure.h"
 #include "submission/two_compilers.h"
@@ -49,14 +50,7 @@ std::string plainName(const path& file) {
   return usable ? name : "main.cpp";
 }
 
-Error unexplained(const std::string& what, std::string found) {
-  return Error({.what = what + " through no fault of the file",
-                .found = std::move(found),
-                .wanted = "a machine with free disk space and working tools"});
-}
-
-// Why a compiler that reported no error still failed. A crash that the source causes is repeatable; a failure
-// that nobody can explain is not the student's fault.
+// Why a compiler that reported no error still failed, although the machine is not to blame.
 std::string whyItGaveUp(const ProcessResult& run, const BuildTools& tools,
                         const StudentBuildOptions& limits) {
   if (run.timedOut)
@@ -65,20 +59,13 @@ std::string whyItGaveUp(const ProcessResult& run, const BuildTools& tools,
         clockSeconds(limits.seconds, limits.sandbox.level));
   if (const std::string limit = tools.limitReached(run); !limit.empty()) return "compiling " + limit;
   constexpr std::size_t kMostText = 8u << 20;  // all that BuildTools keeps
-  const bool namesErrors = run.error.find("\"kind\": \"error\"") != run.error.npos;
-  if (namesErrors || run.error.size() >= kMostText) return "the compiler prints more than can be read";
-  const std::string words = lastWordsOf(run);
-  if (words.find("internal compiler error") == words.npos) throw unexplained("the compiler failed", words);
-  return "the compiler gave up: " + words;
-}
-
-// From level 2 on, temporary files of the compiler lie in memory that it shares with nobody.
-bool isInSandboxsMemory(const std::string& text, sandbox::Level level) {
-  return hasNamespaces(level) && text.find(fmt::format(" {}/cc", sandbox::kInsideFolder)) != text.npos;
+  if (namesErrors(run.error) || run.error.size() >= kMostText)
+    return "the compiler prints more than can be read";
+  return "the compiler gave up: " + lastWordsOf(run);
 }
 
 std::vector<std::string> compileCommand(const Toolchain& toolchain, const StudentBuildOptions& options,
-                                        const std::string& source) {
+                                        const std::vector<std::string>& prefix) {
   std::vector<std::string> command = {toolchain.compiler};
   command.insert(command.end(), toolchain.flags.begin(), toolchain.flags.end());
   // Separate sections let the linker find what only main() needs.
@@ -90,21 +77,20 @@ std::vector<std::string> compileCommand(const Toolchain& toolchain, const Studen
         {"-g", "-O0", fmt::format("-fdebug-prefix-map={}={}", options.workFolder.string(), folder.string())});
     return command;
   }
-  const std::vector<std::string> prefix = prefixFlags(toolchain.prefix, source, toolchain.flags);
   command.insert(command.end(), prefix.begin(), prefix.end());
   return command;
 }
 
 // The compiler's report as plain text. Only this form says which line of the student's file caused an error
 // in a header. It quotes no source lines, as they could come from any file.
-std::string plainReport(std::vector<std::string> command, const std::string& name, const BuildTools& tools,
-                        bool ofOptimiser) {
+ProcessResult plainReport(std::vector<std::string> command, const std::string& name, const BuildTools& tools,
+                          bool ofOptimiser) {
   command.insert(command.end(), {"-fmax-errors=20", "-fno-diagnostics-show-caret", name});
   if (ofOptimiser)
     command.insert(command.end(), {"-c", "-o", "plain.o"});
   else
     command.emplace_back("-fsyntax-only");
-  return tools.runOnce(command).error;
+  return tools.runOnce(command);
 }
 
 std::string writeLog(const std::vector<CompileDiagnostic>& messages) {
@@ -113,24 +99,35 @@ std::string writeLog(const std::vector<CompileDiagnostic>& messages) {
   return log;
 }
 
-// Finds what the file did wrong. Throws Error if nothing explains it.
+bool isError(const CompileDiagnostic& message) { return message.severity == "error"; }
+
+// Finds what the file did wrong. Throws Error if the disk is full and the syntax is right: a compiler that
+// cannot write reports that as an error, in words that a file could use, too.
 void explain(const ProcessResult& run, const std::vector<std::string>& command, const std::string& name,
              const BuildTools& tools, const StudentBuildOptions& options, StudentObject& result) {
-  if (const auto full = fullDiskIn(result.messages)) {
-    if (!isInSandboxsMemory(*full, options.sandbox.level)) throw unexplained("the compiler failed", *full);
-    result.messages = {
-        {name, 0, 0, "error", "", "compiling filled the sandbox's folder for temporary files"}};
-  }
-  const auto isError = [](const CompileDiagnostic& m) { return m.severity == "error"; };
   const auto explained = [&] { return std::any_of(result.messages.begin(), result.messages.end(), isError); };
+  const auto isOfOptimiser = [](const auto& m) { return m.rule.find("uninitialized") != std::string::npos; };
   // g++ 12 writes no JSON when -fmax-errors stops it, so only the plain text has that limit. It takes over
   // when there are too many errors for complete JSON.
-  const bool ofOptimiser = std::any_of(result.messages.begin(), result.messages.end(), [](const auto& m) {
-    return m.rule.find("uninitialized") != std::string::npos;
-  });
-  result.log = printable(plainReport(command, name, tools, ofOptimiser), kLogSize);
-  if (!explained()) result.messages = parseCompilerText(result.log);
-  if (!explained()) result.messages = parseAssemblerText(run.error);
+  if (!run.timedOut) {
+    const std::string full = tools.shortOfDisk();
+    const bool ofOptimiser =
+        full.empty() && std::any_of(result.messages.begin(), result.messages.end(), isOfOptimiser);
+    const ProcessResult plain = plainReport(command, name, tools, ofOptimiser);
+    if (!full.empty() && plain.ok())
+      throw Error(
+          {.what = "the compiler failed through no fault of the file",
+           .found = fmt::format(
+               "{}; {}", full,
+               explained() ? std::find_if(result.messages.begin(), result.messages.end(), isError)->message
+                           : lastWordsOf(run)),
+           .wanted = "a machine with free disk space"});
+    result.log = printable(plain.error, kLogSize);
+  }
+  if (!explained())
+    result.messages = messagesApart("the compiler's text", [&] { return parseCompilerText(result.log); });
+  if (!explained())
+    result.messages = messagesApart("the assembler's text", [&] { return parseAssemblerText(run.error); });
   if (!explained()) result.messages.push_back({name, 0, 0, "error", "", whyItGaveUp(run, tools, options)});
 }
 
@@ -142,19 +139,41 @@ std::vector<std::string> lastNames(const std::vector<ForbiddenFunction>& forbidd
   return names;
 }
 
+// What is read in a student's file before a compiler starts.
+struct FirstReading {
+  std::vector<CompileDiagnostic> lineMarkers{};
+  std::vector<std::string> prefix{};  // prefixFlags()
+  std::string part{};                 // gradedPart()
+  std::string asking{};               // withAutoQuestions(), if there is a part
+};
+
+FirstReading readFirst(const std::string& source, const std::string& name, const Toolchain& toolchain,
+                       const std::vector<ForbiddenFunction>& forbidden, const StudentBuildOptions& options) {
+  const auto read = [&]() -> nlohmann::json {
+    const auto markers =
+        options.publicHeadersOnly ? lineMarkers(source, name) : std::vector<CompileDiagnostic>{};
+    if (!markers.empty()) return {markers, std::vector<std::string>{}, "", ""};
+    const std::string part =
+        options.part ? gradedPart(source, toolchain.functions, lastNames(forbidden)) : "";
+    return {markers, prefixFlags(toolchain.prefix, source, toolchain.flags), part,
+            part.empty() ? "" : withAutoQuestions(CppText(source))};
+  };
+  const nlohmann::json found = readApart("the file", kBeforeCompiling, read);
+  return {found.at(0), found.at(1), found.at(2), found.at(3)};
+}
+
 // Like compilePart(), with questions in the text that is only checked. Empty if there are none, or errors:
 // those are better reported without.
-std::optional<ProcessResult> askAboutAuto(const std::string& part, std::vector<std::string> command,
+std::optional<ProcessResult> askAboutAuto(const FirstReading& reading, std::vector<std::string> command,
                                           const std::string& name, const StudentObject& result,
                                           const std::function<BuildTools(const path&)>& toolsFor) {
-  const std::string asking = withAutoQuestions(result.source);
-  if (asking.empty()) return {};
+  if (reading.asking.empty()) return {};
   const path file = result.object.parent_path() / name;
-  writeSource(file, asking);
+  writeSource(file, reading.asking);
   command.insert(command.end(), {"-include", kAutoQuestions});
-  std::optional<ProcessResult> run = compilePart(part, command, name, result.object, toolsFor);
+  std::optional<ProcessResult> run = compilePart(reading.part, command, name, result.object, toolsFor);
   writeSource(file, result.source);
-  return run && run->ok() ? run : std::nullopt;
+  return run && (run->ok() || run->timedOut) ? run : std::nullopt;
 }
 
 // A second compiler reads the same headers again, which saves time only if the part leaves out enough.
@@ -167,55 +186,62 @@ bool leavesOutMuch(const std::string& part, const std::string& source) {
 
 // Compiles the graded part alone if that is wanted and the file allows it. It does not if the scan for
 // forbidden functions, which sees only what is compiled, would miss something.
-ProcessResult compileAll(const Toolchain& toolchain, const std::vector<ForbiddenFunction>& forbidden,
-                         const std::vector<std::string>& command, const std::string& name,
-                         const BuildTools& tools, const StudentBuildOptions& options,
-                         const StudentObject& result) {
+ProcessResult compileAll(const Toolchain& toolchain, const std::vector<std::string>& command,
+                         const std::string& name, const BuildTools& tools, const StudentBuildOptions& options,
+                         const FirstReading& reading, const StudentObject& result) {
   std::vector<std::string> withJson = command;
   withJson.insert(withJson.end(), {"-fdiagnostics-format=json", "-MD", "-MF", kDependencies,
                                    std::string("-Wa,--MD,") + kOfAssembler});
-  const std::string part =
-      options.part ? gradedPart(result.source, toolchain.functions, lastNames(forbidden)) : "";
-  if (!part.empty()) {
+  if (!reading.part.empty()) {
     const auto toolsFor = [&](const path& folder) {
       return BuildTools(toolchain, folder, options.sandbox,
                         {.seconds = options.seconds, .memory = options.memory});
     };
-    if (const auto run = askAboutAuto(part, withJson, name, result, toolsFor)) return *run;
-    if (leavesOutMuch(part, result.source))
-      if (const auto run = compilePart(part, withJson, name, result.object, toolsFor)) return *run;
+    if (const auto run = askAboutAuto(reading, withJson, name, result, toolsFor)) return *run;
+    if (leavesOutMuch(reading.part, result.source))
+      if (const auto run = compilePart(reading.part, withJson, name, result.object, toolsFor)) return *run;
   }
   withJson.insert(withJson.end(), {"-c", name, "-o", result.object.filename().string()});
-  return tools.run(withJson);
+  return tools.run(withJson, [](const ProcessResult& failed) { return namesErrors(failed.error); });
 }
 
-void compile(const Toolchain& toolchain, const std::vector<ForbiddenFunction>& forbidden,
-             const std::vector<std::string>& command, const std::string& name, const BuildTools& tools,
-             const StudentBuildOptions& options, StudentObject& result) {
-  const ProcessResult run = compileAll(toolchain, forbidden, command, name, tools, options, result);
+// Adds warnings of our own, and puts each message at a line of the file.
+std::vector<CompileDiagnostic> finished(std::vector<CompileDiagnostic> messages,
+                                        const StudentObject& result) {
+  const CppText text(result.source);
+  explainAutoAnswers(messages, text);
+  if (messages.size() > kMostMessages + 1) messages.resize(kMostMessages + 1);
+  const std::vector<CompileDiagnostic> divisions = integerDivisions(text, result.name);
+  messages.insert(messages.end(), divisions.begin(), divisions.end());
+  blameMainFile(messages, result.name, result.log);
+  return messages;
+}
+
+void compile(const Toolchain& toolchain, const std::vector<std::string>& command, const std::string& name,
+             const BuildTools& tools, const StudentBuildOptions& options, const FirstReading& reading,
+             StudentObject& result) {
+  const ProcessResult run = compileAll(toolchain, command, name, tools, options, reading, result);
   result.exitCode = run.exitCode;
   result.ok = run.ok();
-  result.messages = parseCompilerJson(run.error);
+  result.messages = messagesApart("the compiler's messages", [&] { return parseCompilerJson(run.error); });
   if (!run.ok()) explain(run, command, name, tools, options, result);
-  explainAutoAnswers(result.messages, result.source);
-  const std::vector<CompileDiagnostic> divisions = integerDivisions(result.source, name);
-  result.messages.insert(result.messages.end(), divisions.begin(), divisions.end());
-  blameMainFile(result.messages, name, result.log);
+  result.messages = messagesApart("the file with the compiler's messages",
+                                  [&] { return finished(result.messages, result); });
   result.truncated = admitMessages(result.messages);
   if (result.log.empty()) result.log = writeLog(result.messages);
 }
 
-// What the linker found wrong with the last of the objects, which is the student's. Throws Error if nothing
-// explains the failure.
+// What the linker found wrong with the last of the objects, which is the student's.
 std::vector<CompileDiagnostic> explainLinking(const ProcessResult& run, const BuildTools& tools,
                                               const std::string& object, const std::string& mainFile) {
-  std::vector<CompileDiagnostic> messages = parseLinkerText(run.error, mainFile);
+  std::vector<CompileDiagnostic> messages =
+      messagesApart("the linker's text", [&] { return parseLinkerText(run.error, mainFile); });
   if (!messages.empty()) return messages;
   const std::string limit = tools.limitReached(run);
   if (!limit.empty()) return {{mainFile, 0, 0, "error", "", "linking " + limit}};
   const std::string complaint = complaintAbout(object, run.error);
-  if (complaint.empty()) throw unexplained("the linker failed", lastWordsOf(run));
-  return {{mainFile, 0, 0, "error", "", "cannot be linked: " + complaint}};
+  return {{mainFile, 0, 0, "error", "",
+           "cannot be linked: " + (complaint.empty() ? lastWordsOf(run) : complaint)}};
 }
 
 // The forbidden ones among all files that the compiler and the assembler opened. If only a part was compiled,
@@ -237,15 +263,25 @@ std::vector<CompileDiagnostic> forbiddenFilesIn(const StudentObject& object, con
 std::vector<CompileDiagnostic> forbiddenCallsIn(StudentObject& result, const Toolchain& toolchain,
                                                 const std::vector<ForbiddenFunction>& forbidden,
                                                 const BuildTools& tools) {
-  const ObjectFile whole = readObjectFile(readTextFile(result.object), result.object.string());
-  std::vector<CompileDiagnostic> messages = strangeParts(whole, result.name);
+  const std::string bytes = readTextFile(result.object);
+  const std::vector<CompileDiagnostic> messages = messagesApart("the object file", [&] {
+    try {
+      return strangeParts(readObjectFile(bytes, kPart), result.name);
+    } catch (const Error& error) {
+      return std::vector<CompileDiagnostic>{
+          {result.name, 0, 0, "error", "forbidden-call",
+           "makes an object file that cannot be read: " + error.parts().found}};
+    }
+  });
   if (!messages.empty()) return messages;
   const path graded = result.object.parent_path() / "graded.o";
   const std::optional<ProcessResult> run = withoutMain(result.object, graded, toolchain, tools);
   if (!run) return {};
   if (!run->ok()) return explainLinking(*run, tools, result.object.string(), result.name);
   result.graded = graded;
-  return scanSymbols(result.graded, result.source, result.name, forbidden, toolchain.offers);
+  return messagesApart("what the object file calls", [&] {
+    return scanSymbols(result.graded, result.source, result.name, forbidden, toolchain.offers);
+  });
 }
 
 std::vector<std::string> texts(const std::vector<path>& paths) { return {paths.begin(), paths.end()}; }
@@ -258,15 +294,20 @@ StudentProgram link(const Toolchain& toolchain, const BuildTools& tools, const p
   command.emplace_back("-Wl,--as-needed");
   command.insert(command.end(), libraries.begin(), libraries.end());
   command.insert(command.end(), toolchain.linkFlags.begin(), toolchain.linkFlags.end());
-  ProcessResult run = tools.run(command);
+  ProcessResult run = tools.runOnce(command);
   if (!run.ok()) {
     // The standard linker has the last word: its complaints are the ones that we can explain.
     command.emplace_back("-fuse-ld=bfd");
-    run = tools.run(command);
+    run = tools.run(command,
+                    [&](const ProcessResult& failed) { return blamesObject(failed.error, objects.back()); });
   }
   StudentProgram result{
       .program = program, .messages = {}, .log = printable(run.error, kLogSize), .ok = run.ok()};
-  if (!run.ok()) result.messages = explainLinking(run, tools, objects.back(), mainFile);
+  try {
+    if (!run.ok()) result.messages = explainLinking(run, tools, objects.back(), mainFile);
+  } catch (const UnreadableFile& error) {
+    result.messages = {{mainFile, 0, 0, "error", "", std::string("cannot be linked: ") + error.what()}};
+  }
   admitMessages(result.messages);
   return result;
 }
@@ -323,59 +364,88 @@ StudentFile readStudentFile(const OpenedFolder& folder, const std::string& name)
   }
 }
 
-StudentObject compileStudent(const Toolchain& toolchain, const std::vector<ForbiddenFunction>& forbidden,
-                             const StudentBuildOptions& options) {
-  const std::string name = plainName(options.main);
-  const path folder = std::filesystem::absolute(options.workFolder);
-  StudentObject result;
-  result.name = name;
-  try {
-    result.source = readStudentFile(options.main);
-  } catch (const Error& error) {
-    result.messages.push_back(
-        {name, 0, 0, "error", "",
-         "cannot be graded: found " + error.parts().found + ", wanted " + error.parts().wanted});
-    result.log = writeLog(result.messages);
-    result.exitCode = 1;
-    return result;
+namespace {
+
+// A file of which nothing is compiled, or nothing that was compiled may be used.
+void reject(StudentObject& result, std::vector<CompileDiagnostic> messages) {
+  result.messages = std::move(messages);
+  result.truncated = admitMessages(result.messages);
+  result.log = writeLog(result.messages);
+  result.exitCode = 1;
+  result.ok = false;
+}
+
+void reject(StudentObject& result, const Error& error) {
+  const std::string found = error.parts().found.empty() ? "" : "found " + error.parts().found + ", wanted ";
+  reject(result,
+         {{result.name, 0, 0, "error", "",
+           "cannot be graded: " + (found.empty() ? error.parts().what : found + error.parts().wanted)}});
+}
+
+// What the scans after compiling find: errors, and a warning.
+std::vector<CompileDiagnostic> findingsIn(const StudentObject& object, const Toolchain& toolchain,
+                                          const StudentBuildOptions& options) {
+  std::vector<CompileDiagnostic> found;
+  if (options.publicHeadersOnly) {
+    found = forbiddenFilesIn(object, options.workFolder, toolchain);
+    const std::vector<CompileDiagnostic> macros = forbiddenMacros(object.source, object.name);
+    found.insert(found.end(), macros.begin(), macros.end());
   }
+  if (const auto [line, column] = standardInputUse(CppText(object.source)); line > 0)
+    found.push_back({object.name, line, column, "warning", "stdin",
+                     "reads standard input, which is empty here: every read finds its end"});
+  return found;
+}
+
+void compileText(const Toolchain& toolchain, const std::vector<ForbiddenFunction>& forbidden,
+                 const StudentBuildOptions& options, StudentObject& result) {
   // Before anything is compiled: the compiler would attribute its messages to lines that the file chooses.
-  if (options.publicHeadersOnly) result.messages = lineMarkers(result.source, name);
-  if (!result.messages.empty()) {
-    result.truncated = admitMessages(result.messages);
-    result.log = writeLog(result.messages);
-    result.exitCode = 1;
-    return result;
-  }
+  const FirstReading reading = readFirst(result.source, result.name, toolchain, forbidden, options);
+  if (!reading.lineMarkers.empty()) return reject(result, reading.lineMarkers);
   // A copy, so that exactly what was read is graded and no file beside the student's is included.
+  const path& folder = options.workFolder;
   std::filesystem::create_directories(folder);
-  writeSource(folder / name, result.source);
+  writeSource(folder / result.name, result.source);
   result.object = folder / "student.o";
   // They may belong to another user, after grading at another level.
   for (const path& old :
        {folder / kDependencies, folder / kOfAssembler, folder / kPart / kOfAssembler, result.object})
     std::filesystem::remove(old);
-  StudentBuildOptions absolute = options;
-  absolute.workFolder = folder;
   const BuildTools tools(toolchain, folder, options.sandbox,
                          {.seconds = options.seconds, .memory = options.memory});
-  compile(toolchain, forbidden, compileCommand(toolchain, absolute, result.source), name, tools, absolute,
+  compile(toolchain, compileCommand(toolchain, options, reading.prefix), result.name, tools, options, reading,
           result);
-  if (!result.ok) return result;
-
-  std::vector<CompileDiagnostic> calls;
-  if (options.graded) calls = forbiddenCallsIn(result, toolchain, forbidden, tools);
-  if (options.publicHeadersOnly) {
-    for (const CompileDiagnostic& file : forbiddenFilesIn(result, folder, toolchain)) calls.push_back(file);
-    for (const CompileDiagnostic& macro : forbiddenMacros(result.source, name)) calls.push_back(macro);
-  }
-  result.ok = calls.empty();
-  result.messages.insert(result.messages.end(), calls.begin(), calls.end());
-  if (const auto [line, column] = standardInputUse(result.source); line > 0)
-    result.messages.push_back({name, line, column, "warning", "stdin",
-                               "reads standard input, which is empty here: every read finds its end"});
+  if (!result.ok) return;
+  std::vector<CompileDiagnostic> found;
+  if (options.graded) found = forbiddenCallsIn(result, toolchain, forbidden, tools);
+  const std::vector<CompileDiagnostic> more =
+      messagesApart("the file and what it includes", [&] { return findingsIn(result, toolchain, options); });
+  found.insert(found.end(), more.begin(), more.end());
+  result.ok = std::none_of(found.begin(), found.end(), isError);
+  result.messages.insert(result.messages.end(), found.begin(), found.end());
   result.truncated = admitMessages(result.messages) || result.truncated;
   result.log = writeLog(result.messages);
+}
+
+}  // namespace
+
+StudentObject compileStudent(const Toolchain& toolchain, const std::vector<ForbiddenFunction>& forbidden,
+                             const StudentBuildOptions& options) {
+  StudentBuildOptions absolute = options;
+  absolute.workFolder = std::filesystem::absolute(options.workFolder);
+  StudentObject result;
+  result.name = plainName(options.main);
+  try {
+    result.source = readStudentFile(options.main);
+  } catch (const Error& error) {
+    reject(result, error);
+    return result;
+  }
+  try {
+    compileText(toolchain, forbidden, absolute, result);
+  } catch (const UnreadableFile& error) {
+    reject(result, error);
+  }
   return result;
 }
 
@@ -388,7 +458,13 @@ StudentProgram linkWorker(const Toolchain& toolchain, const StudentObject& objec
   const BuildTools tools(toolchain, folder, sandbox);
   const ProcessResult run =
       tools.run({toolchain.objcopy, "--redefine-sym", "main=studentMain", graded.string(), renamed.string()});
-  if (!run.ok()) throw Error({.what = "cannot rename main in the compiled file", .found = run.error});
+  if (!run.ok()) {
+    if (!tools.runOnce({toolchain.objcopy, "--version"}).ok())
+      throw Error({.what = "cannot rename main in the compiled file", .found = run.error});
+    return {.program = {},
+            .messages = {{object.name, 0, 0, "error", "", "cannot be linked: " + lastWordsOf(run)}},
+            .log = printable(run.error, kLogSize)};
+  }
   const path worker = folder / "worker";
   if (isWhole || toolchain.workerPart.empty())
     return link(toolchain, tools, worker, {toolchain.workerObject.string(), renamed.string()},

@@ -20,6 +20,7 @@
 #include "submission/cascades.h"
 #include "submission/compiler_messages.h"
 #include "submission/mentions.h"
+#include "submission/reading_apart_internal.h"
 #include "submission/second_look.h"
 #include "submission/student_build.h"
 
@@ -293,6 +294,37 @@ void lookAgain(const Toolchain& toolchain, const ExerciseInfo& exercise, const S
   }
 }
 
+// What a report may say beyond the verdict, from the text of the file. Without it if the text defies reading.
+nlohmann::json hintsFrom(const std::function<nlohmann::json()>& read) {
+  try {
+    return readApart("the file for hints", kAfterCompiling, read);
+  } catch (const UnreadableFile&) {
+    return {};
+  }
+}
+
+void findLines(const std::string& source, std::vector<CheckResult>& checks) {
+  const nlohmann::json lines = hintsFrom([&] {
+    const CppText text(source);
+    nlohmann::json found;
+    for (const CheckResult& check : checks)
+      found.push_back(check.function.empty() ? 0 : definitionLineOf(check.function, text));
+    return found;
+  });
+  for (std::size_t k = 0; k < lines.size(); ++k) checks[k].line = lines[k];
+}
+
+void explain(const std::string& source, std::vector<CheckResult>& checks) {
+  const nlohmann::json messages = hintsFrom([&] {
+    std::vector<CheckResult> explained = checks;
+    explainCascades(explained, source);
+    nlohmann::json found;
+    for (const CheckResult& check : explained) found.push_back(check.message);
+    return found;
+  });
+  for (std::size_t k = 0; k < messages.size(); ++k) checks[k].message = messages[k];
+}
+
 }  // namespace
 
 BuiltSubmission buildSubmission(const Toolchain& toolchain, const ExerciseInfo& exercise,
@@ -306,9 +338,9 @@ GradeResult gradeBuilt(const BuiltSubmission& built, const Toolchain& toolchain,
   saveResult(built.start, job.results);
   GradeResult result = callGrader(graderCommand(toolchain, job), job.results);
   if (built.worker.empty()) return result;
-  for (CheckResult& check : result.checks) check.line = definitionLineOf(check.function, built.source);
+  findLines(built.source, result.checks);
   if (options.lookAgain || options.sanitize) lookAgain(toolchain, exercise, options, built, result);
-  explainCascades(result.checks, built.source);
+  explain(built.source, result.checks);
   saveResult(result, job.results);
   return result;
 }

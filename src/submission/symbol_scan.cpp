@@ -201,15 +201,17 @@ std::vector<CompileDiagnostic> scanSymbols(const std::filesystem::path& object, 
                                            const std::vector<ForbiddenFunction>& forbidden,
                                            const std::filesystem::path& offers) {
   const ObjectFile file = readObjectFile(readTextFile(object), object.string());
+  const CppText text(source);
   std::vector<CompileDiagnostic> messages;
   const auto complain = [&](const std::string& function, std::string message) {
-    messages.push_back(forbiddenCall(mainFile, onlyMentionOf(function, source), std::move(message)));
+    if (messages.size() <= kMostMessages)
+      messages.push_back(forbiddenCall(mainFile, onlyMentionOf(function, text), std::move(message)));
   };
   for (const ForbiddenFunction& call : forbiddenCalls(file, forbidden)) {
-    const char* text = isLookup(call.function) ? "calls {}, which nobody may call in this exercise: {}"
+    const char* form = isLookup(call.function) ? "calls {}, which nobody may call in this exercise: {}"
                                                : "calls {}, which only main() may call in this exercise: {}. "
                                                  "Write it yourself instead";
-    complain(call.function, fmt::format(fmt::runtime(text), call.function, call.reason));
+    complain(call.function, fmt::format(fmt::runtime(form), call.function, call.reason));
   }
   if (offers.empty()) return messages;
   for (const std::string& function : callsNotOffered(file, offeredSymbols(offers))) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <csignal>
 
 #include <fmt/format.h>
 
@@ -28,43 +27,11 @@ bool tellsNothing(std::string_view line) {
 
 }  // namespace
 
-// The driver and collect2 have the last word. Only the assembler can be made to end with any words, by a
-// source with an error, but then it first announces that there are messages.
-bool wasKilled(const ProcessResult& run) {
-  if (run.timedOut) return false;
-  if (run.signal == SIGKILL || run.exitCode == 128 + SIGKILL) return true;
-  const std::vector<std::string_view> lines = splitLines(run.error);
-  if (lines.size() < 2 || lines.back() != kDriversEnd || contains(run.error, "Assembler messages:"))
-    return false;
-  const std::string_view said = lines[lines.size() - 2];
-  return contains(said, ": fatal error: Killed signal terminated program ") ||
-         (said.starts_with("collect2: fatal error: ") &&
-          said.ends_with(" terminated with signal 9 [Killed]"));
-}
-
-std::optional<std::string> fullDiskIn(const std::vector<CompileDiagnostic>& messages) {
-  constexpr auto kOwnWords = std::to_array<const char*>(
-      {"error writing to ", "error closing ", "cannot open ", "when writing output to ",
-       "opening dependency file ", "closing dependency file "});
-  std::optional<std::string> found;
-  for (const CompileDiagnostic& message : messages) {
-    const std::string& text = message.message;
-    const auto starts = [&](const char* words) { return text.starts_with(words); };
-    const auto ends = [&](const char* full) { return text.ends_with(full); };
-    const bool isFull = std::any_of(kOwnWords.begin(), kOwnWords.end(), starts) &&
-                        std::any_of(kFull.begin(), kFull.end(), ends);
-    if (isFull) found = text;
-    if (!isFull && message.severity == "error") return {};
-  }
-  return found;
-}
-
 // "student.o: in function `f':" introduces a line that explains it. Some lines start with the linker's name.
 std::string complaintAbout(std::string_view object, std::string_view linkerText) {
   const std::string start = fmt::format("{}:", object), named = "ld: " + start;
   bool leads = false;
   for (const std::string_view line : splitLines(linkerText)) {
-    if (tellsOfFullDisk(line)) return {};
     if (contains(line, ": warning: ")) continue;
     if (leads) return std::string(line);
     const bool isAbout = line.starts_with(start) || contains(line, named);
@@ -75,6 +42,11 @@ std::string complaintAbout(std::string_view object, std::string_view linkerText)
   for (const char* words : {"relocation truncated to fit", "failed to convert GOTPCREL relocation"})
     if (contains(linkerText, words)) return "its global variables take more than 2 GB";
   return {};
+}
+
+bool blamesObject(std::string_view linkerText, std::string_view object) {
+  return contains(linkerText, "undefined reference to `") ||
+         contains(linkerText, "multiple definition of `") || !complaintAbout(object, linkerText).empty();
 }
 
 std::string lastWordsOf(const ProcessResult& run) {

@@ -6,6 +6,8 @@
 
 #include "base/text_file.h"
 #include "submission/object_file.h"
+#include "submission/reading_apart_internal.h"
+#include "submission/tool_failure.h"
 
 namespace rex::grading {
 namespace {
@@ -36,8 +38,10 @@ std::set<std::string> rootsOf(const ObjectFile& object, const std::set<std::stri
 
 std::optional<ProcessResult> withoutMain(const fs::path& object, const fs::path& part,
                                          const Toolchain& toolchain, const BuildTools& tools) {
-  const std::set<std::string> roots =
-      rootsOf(readObjectFile(readTextFile(object), object.string()), wantedByWorker(toolchain.workerObject));
+  const std::set<std::string> wanted = wantedByWorker(toolchain.workerObject);
+  const auto roots = readApart("what the object file defines", kAfterCompiling, [&] {
+                       return rootsOf(readObjectFile(readTextFile(object), object.string()), wanted);
+                     }).get<std::set<std::string>>();
   if (roots.empty()) return {};
   const fs::path options = fs::path(part).replace_extension(".args");
   for (const fs::path& old : {part, options}) fs::remove(old);  // perhaps of another user
@@ -46,7 +50,8 @@ std::optional<ProcessResult> withoutMain(const fs::path& object, const fs::path&
   for (const std::string& root : roots) list += fmt::format("-Wl,--undefined={}\n", root);
   writeTextFile(options, list);
   return tools.run({toolchain.compiler, "-r", "-nostdlib", "-fno-lto", "@" + options.string(),
-                    object.string(), "-o", part.string()});
+                    object.string(), "-o", part.string()},
+                   [&](const ProcessResult& failed) { return blamesObject(failed.error, object.string()); });
 }
 
 }  // namespace rex::grading

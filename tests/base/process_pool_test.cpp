@@ -46,6 +46,18 @@ TEST_F(ProcessPoolTest, CallsEachOnceAndTellsItsCode) {
   }
 }
 
+TEST_F(ProcessPoolTest, EndsCopiesThatWorkTooLong) {
+  std::map<int, int> codes;
+  const auto work = [](int k) {
+    [[maybe_unused]] volatile int steps = 0;
+    for (int i = 0; k == 0; i ^= 1) steps = i;
+    return k;
+  };
+  runInCopies(
+      2, 2, work, [&](int k, int code) { codes[k] = code; }, 1);
+  EXPECT_EQ(codes, (std::map<int, int>{{0, -SIGXCPU}, {1, 1}}));
+}
+
 TEST_F(ProcessPoolTest, RunsAsManyAtOnceAsAsked) {
   // Each waits until three have begun: with fewer at once it would give up.
   std::map<int, int> codes;

@@ -3,9 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/isolated_call.h"
 #include "base/process.h"
 #include "support/changed_path.h"
 #include "support/expect_error.h"
+#include "support/slow_sources.h"
 #include "support/temporary_folder.h"
 
 namespace rex::grading::similar_test {
@@ -53,6 +55,28 @@ const std::string kOwn =
     R"(  return std::accumulate(values.begin(), values.end(), 0.0, [](double a, double b) { return a + b; }) *
          std::pow(double(values.size()), -1);
 )";
+
+TEST(TooRepetitive, NamesWhoWouldHoldUpTheOthers) {
+  REX_NEEDS_SIM();
+  const TemporaryFolder folder;
+  std::string numbers = "int a[] = {";
+  for (int k = 0; k < 100'000; ++k) numbers += "1, ";
+  const std::vector<ComparedText> texts = {{"anna", with(kLoop)}, {"mallory", numbers + "};\n"}, {"zoe", ""}};
+  EXPECT_THAT(tooRepetitive(texts, kHandedOut, folder.path()), ElementsAre("mallory"));
+}
+
+// Shapes that hold up a reader of lines.
+TEST(SimilarTexts, AreReadInTime) {
+  SimilarPair pair{.first = "a", .second = "b"};
+  for (int k = 1; k < 20'000; ++k) pair.runs.push_back({{k, k + 9}, {k, k + 9}});
+  for (const auto& [shape, text] : slowSources()) {
+    const auto read = [&] {
+      const std::string page = similarPage("01", {{"a", text}, {"b", "int a;\n"}}, "", {pair});
+      return std::to_string(page.size() + withoutHandedOut(text, kHandedOut).size());
+    };
+    EXPECT_EQ(callIsolated(read, {.cpuSeconds = 3}).end, IsolatedEnd::kReturned) << shape;
+  }
+}
 
 std::vector<SimilarPair> pairsOf(const std::vector<ComparedText>& texts, int percent = 70) {
   const TemporaryFolder folder;

@@ -43,6 +43,15 @@ TEST(ParseCompilerJson, SurvivesAnythingElse) {
     EXPECT_TRUE(parseCompilerJson(text).empty()) << text;
 }
 
+TEST(NamesErrors, IsAQuickLook) {
+  EXPECT_TRUE(namesErrors(kJson));
+  EXPECT_TRUE(namesErrors(R"([{"kind": "fatal error", "message": "x.h: No such file or directory"}])"));
+  EXPECT_TRUE(namesErrors("[]\nmain.cpp: Assembler messages:\nmain.cpp:2: Error: no such instruction\n"));
+  for (const char* text : {"", "[]", R"([{"kind": "warning", "message": "error"}])",
+                           "g++: fatal error: Killed signal terminated program cc1plus"})
+    EXPECT_FALSE(namesErrors(text)) << text;
+}
+
 TEST(ParseCompilerText, KeepsErrors) {
   const auto messages = parseCompilerText(
       "main.cpp: In function 'f':\nmain.cpp:4:27:   required from here\nmain.cpp:5:9: error: bad: very\n"

@@ -8,7 +8,7 @@ namespace rex::grading::dangling_auto_test {
 using ::testing::HasSubstr;
 
 std::string asking(const std::string& line) {
-  const std::string text = withAutoQuestions(line + "\n");
+  const std::string source = line + "\n", text = withAutoQuestions(CppText(source));
   return text.empty() ? "" : text.substr(0, text.size() - 1);
 }
 
@@ -22,11 +22,11 @@ TEST(AutoQuestions, FollowDeclarationsOnTheirLine) {
 
 TEST(AutoQuestions, LeaveOtherTextAlone) {
   for (const char* line :
-       {"int b = 3;", "for (auto b = 0; b < 3; ++b) {", "auto& b = A;", "auto [a, b] = f();",
-        "  auto b =", "auto b = [&](double t) {", "if (auto b = f()) return;", "auto f(int) -> double;",
-        "// auto b = A;", "auto b = 'c';"})
+       {"int b = 3;", "for (auto b = 0; b < 3; ++b) {", "auto& b = A;", "auto [a, b] = f();", "  auto b =",
+        "auto b = [&](double t) {", "if (auto b = f()) return;", "auto f(int) -> double;", "// auto b = A;",
+        "auto b = 'c';", "/*\nauto b = A;\n*/", "R\"(\nauto b = A;\n)\"", "auto b = A; int c;"})
     EXPECT_EQ(asking(line), "") << line;
-  EXPECT_EQ(withAutoQuestions(""), "");
+  EXPECT_EQ(withAutoQuestions(CppText("")), "");
 }
 
 TEST(AutoQuestions, TellViewsOfAnswersFromThoseOfVariables) {
@@ -43,7 +43,7 @@ TEST(AutoAnswers, AreOurWordsAtTheDeclaration) {
        "'char rex::guard::autoHolds(const T&) [with T = ...]' is deprecated"},
       {"src/course/auto_guard.h", 30, 21, "note", "", "declared here: rex::guard::autoHolds"},
       {"main.cpp", 1, 5, "warning", "-Wunused-variable", "unused variable 'a'"}};
-  explainAutoAnswers(messages, source);
+  explainAutoAnswers(messages, CppText(source));
   ASSERT_EQ(messages.size(), 2u);
   EXPECT_EQ(
       toString(messages[0]),

@@ -7,12 +7,7 @@ namespace rex::grading::mentions_test {
 using Place = std::pair<int, int>;
 constexpr Place kNowhere{0, 0};
 
-Place place(std::string_view source) { return onlyMentionOf("rex::solveIk", source); }
-
-TEST(CodeOf, KeepsAllThatIsNoTextInItsPlace) {
-  EXPECT_EQ(codeOf("int a = 12;  // b\nchar c[] = \"}\"; /* d\n*/ e"),
-            "int a =   ;      \nchar c[] =    ;     \n   e");
-}
+Place place(std::string_view source) { return onlyMentionOf("rex::solveIk", CppText(source)); }
 
 TEST(OnlyMentionOf, IsTheOneLineOutsideMain) {
   EXPECT_EQ(place("int f() {\n  return rex::solveIk(1);\n}\n"), Place(2, 15));
@@ -63,23 +58,24 @@ Vec solveIk(const Vec& q,
 }
 Vec mySolveIk(int) { return {}; }
 )";
-  EXPECT_EQ(definitionLineOf("solveIk", source), 9);
-  EXPECT_EQ(definitionLineOf("helper", source), 4);
-  EXPECT_EQ(definitionLineOf("step", source), 0);
-  EXPECT_EQ(definitionLineOf("", source), 0);
-  EXPECT_EQ(definitionLineOf("f", "int f("), 0);
+  const CppText text(source);
+  EXPECT_EQ(definitionLineOf("solveIk", text), 9);
+  EXPECT_EQ(definitionLineOf("helper", text), 4);
+  EXPECT_EQ(definitionLineOf("step", text), 0);
+  EXPECT_EQ(definitionLineOf("", text), 0);
+  EXPECT_EQ(definitionLineOf("f", CppText("int f(")), 0);
 }
 
 TEST(StandardInputUse, IsTheFirstInCode) {
-  EXPECT_EQ(standardInputUse("int a;\n  std::cin >> a;\ngetchar();\n"), std::pair(2, 8));
-  EXPECT_EQ(standardInputUse("fgets(line, 9, stdin);"), std::pair(1, 16));
-  EXPECT_EQ(standardInputUse("// std::cin\n\"scanf\"; int cinema; mystdin();"), std::pair(0, 0));
+  EXPECT_EQ(standardInputUse(CppText("int a;\n  std::cin >> a;\ngetchar();\n")), std::pair(2, 8));
+  EXPECT_EQ(standardInputUse(CppText("fgets(line, 9, stdin);")), std::pair(1, 16));
+  EXPECT_EQ(standardInputUse(CppText("// std::cin\n\"scanf\"; int cinema; mystdin();")), std::pair(0, 0));
 }
 
 TEST(MacroDefinition, IsFoundHoweverItIsWritten) {
-  for (const char* source :
-       {"#define rex mine", "int a;\n  #  define\trex", "#define rex(x) x", "%:define rex mine",
-        "#/* a */define/* b */rex mine", "#def\\\nine re\\  \nx mine", "#define \\\n rex mine\n"})
+  for (const char* source : {"#define rex mine", "int a;\n  #  define\trex", "#define rex(x) x",
+                             "%:define rex mine", "#/* a */define/* b */rex mine", "#/*\n*/define rex",
+                             "#def\\\nine re\\  \nx mine", "#define \\\n rex mine\n"})
     EXPECT_GT(macroDefinitionLineOf("rex", source), 0) << source;
   EXPECT_EQ(macroDefinitionLineOf("rex", "int a;\n\n#def\\\nine rex mine\n"), 3);
   for (const char* source : {"", "define rex", "#define rexx", "#define a rex", "// #define rex",

@@ -13,6 +13,7 @@
 #include "base/process.h"
 #include "base/text_file.h"
 #include "support/expect_error.h"
+#include "support/slow_sources.h"
 #include "support/temporary_folder.h"
 #include "support/tiny_disk.h"
 
@@ -471,7 +472,7 @@ TEST_F(StudentBuildTest, BlamesTheMachineForALinkerThatExplainsNothing) {
   Toolchain broken = toolchain();
   broken.libraries = {"/no/such/library.so"};
   EXPECT_REX_ERROR(linkProgram(broken, compile(kGood)),
-                   "the linker failed through no fault of the file: found");
+                   "g++ failed twice through no fault of the file: found no file /no/such/library.so; ");
 }
 
 TEST_F(StudentBuildTest, BlamesTheMachineForACompilerThatExplainsNothing) {
@@ -481,9 +482,10 @@ TEST_F(StudentBuildTest, BlamesTheMachineForACompilerThatExplainsNothing) {
                                     .workFolder = temporary_.path() / "work"};
   broken.compiler = script("mute", "exit 1\n");
   EXPECT_REX_ERROR(compileStudent(broken, {}, options),
-                   "the compiler failed through no fault of the file: found exit code 1");
+                   "mute failed twice through no fault of the file: found an empty program cannot be built "
+                   "either; exit code 1");
   broken.compiler = script("empty", "echo '[]' >&2\nkill -ABRT $$\n");
-  EXPECT_REX_ERROR(compileStudent(broken, {}, options), "found signal 6");
+  EXPECT_REX_ERROR(compileStudent(broken, {}, options), "either; signal 6");
 }
 
 // Whatever is full first, the copy of the file, the compiler's own file, the object or the program, the file
@@ -521,8 +523,8 @@ TEST_F(StudentBuildTest, BlamesTheMachineForAFullDisk) {
   if (set == nullptr) ::unsetenv("TMPDIR");
   EXPECT_THAT(reasons, ::testing::IsSupersetOf({"built", "cannot write this file",
                                                 "the compiler failed through no fault of the file",
-                                                "cannot rename main in the compiled file",
-                                                "the linker failed through no fault of the file"}));
+                                                "objcopy failed twice through no fault of the file",
+                                                "g++ failed twice through no fault of the file"}));
 }
 
 // Of a machine short of memory: the driver, or a tool of its own.
@@ -556,20 +558,83 @@ TEST_F(StudentBuildTest, BlamesTheMachineForToolsThatAreKilledTwice) {
   const StudentBuildOptions options{.main = temporary_.path() / "main.cpp",
                                     .workFolder = temporary_.path() / "work"};
   for (const char* tool : {"cc1plus", "as", "ld"}) script(path(tool) / tool, "kill -KILL $$\n");
+  script("ld/ld.bfd", "kill -KILL $$\n");
   for (const char* tool : {"cc1plus", "as"}) {
     Toolchain killed = toolchain();
     killed.flags.push_back("-B" + (temporary_.path() / tool).string());
     EXPECT_REX_ERROR(
         compileStudent(killed, {}, options),
-        std::string("g++ was killed twice, through no fault of the file: found g++: fatal error: "
-                    "Killed signal terminated program ") +
+        std::string("g++ failed twice through no fault of the file: found an empty program cannot be built "
+                    "either; g++: fatal error: Killed signal terminated program ") +
             tool);
   }
   const StudentObject object = compileFile(temporary_.path() / "main.cpp");
   Toolchain killed = toolchain();
   killed.linkFlags.push_back("-B" + (temporary_.path() / "ld").string());
   EXPECT_REX_ERROR(linkWorker(killed, object),
-                   "g++ was killed twice, through no fault of the file: found collect2: fatal error: ld");
+                   "g++ failed twice through no fault of the file: found an empty program cannot be built "
+                   "either; collect2: fatal error: ld");
+}
+
+// What a file lets a tool say about the machine counts for nothing, as the machine can build an empty
+// program.
+TEST_F(StudentBuildTest, BelievesNothingThatAFileSaysAboutTheMachine) {
+  const std::string killed = "g++: fatal error: Killed signal terminated program cc1plus",
+                    full = "error writing to /tmp/ccM6QBox.s: No space left on device";
+  for (const std::string& source :
+       {"#include \"" + killed + "\"\n", "#include \"x\\\n" + killed + "\"\n", "#error " + killed + "\n",
+        "#pragma GCC error \"" + full + "\"\n",
+        std::string("#pragma GCC error \"cannot open x: Disk quota exceeded\"\n"),
+        "asm(\".error \\\"" + full + "\\\"\");\n",
+        "asm(\".print \\\"" + killed + "\\ncompilation terminated.\\\"\\n.error \\\"x\\\"\");\n"}) {
+    const StudentObject object = compile(kGood + source);
+    EXPECT_FALSE(object.ok) << source;
+    EXPECT_FALSE(object.messages.empty()) << source;
+  }
+}
+
+// A compiler that fails on this file alone, twice and without a reason.
+TEST_F(StudentBuildTest, BlamesTheFileForToolsThatFailOnItAlone) {
+  write(temporary_.path() / "main.cpp", kGood);
+  const StudentBuildOptions options{.main = temporary_.path() / "main.cpp",
+                                    .workFolder = temporary_.path() / "work"};
+  const std::string once = "case \"$*\" in *_control*) exec g++ \"$@\";; esac\n";
+  Toolchain odd = toolchain();
+  odd.compiler = script("killed", once + "kill -KILL $$\n");
+  EXPECT_EQ(first(compileStudent(odd, {}, options).messages),
+            "main.cpp: error: the compiler gave up: signal 9");
+  odd.compiler = script("full", once + "echo 'error: No space left on device' >&2; exit 1\n");
+  EXPECT_EQ(first(compileStudent(odd, {}, options).messages),
+            "main.cpp: error: the compiler gave up: error: No space left on device");
+  const StudentObject object = compileFile(temporary_.path() / "main.cpp");
+  EXPECT_EQ(first(linkWorker(odd, object).messages),
+            "main.cpp: error: cannot be linked: error: No space left on device");
+  odd.compiler = script("slow", once + "i=0; while [ $i -lt 100000 ]; do i=$((i+1)); done; exec sleep 60\n");
+  StudentBuildOptions hurried = options;
+  hurried.seconds = 1;
+  EXPECT_THAT(first(compileStudent(odd, {}, hurried).messages),
+              HasSubstr("compiling did not end within 4 s"));
+}
+
+// The whole of what is read before a compiler starts has two seconds of processor time; the compiler here
+// only refuses everything.
+TEST_F(StudentBuildTest, ReadsAnyFileInTimeBeforeItIsCompiled) {
+  Toolchain refusing = toolchain();
+  refusing.functions = {"f0", "f9"};
+  refusing.compiler =
+      script("refusing",
+             "echo '[{\"kind\": \"error\", \"locations\": [], \"message\": \"refused\"}]' >&2\nexit 1\n");
+  for (const auto& [shape, source] : slowSources()) {
+    write(temporary_.path() / "main.cpp", source);
+    const StudentObject object = compileStudent(refusing, {{"rex::answer", "it is what you find out"}},
+                                                {.main = temporary_.path() / "main.cpp",
+                                                 .workFolder = temporary_.path() / "work",
+                                                 .publicHeadersOnly = true,
+                                                 .graded = true,
+                                                 .part = true});
+    EXPECT_FALSE(object.ok) << shape;
+    EXPECT_THAT(first(object.messages), ::testing::Not(HasSubstr("reading"))) << shape;
+  }
 }
 
 TEST_F(StudentBuildTest, RefusesWhatIsNoSourceFile) {
@@ -612,7 +677,8 @@ TEST_F(StudentBuildTest, BlamesTheMachineForACompilerThatDoesNotGetOn) {
       compileStudent(
           busy, {},
           {.main = temporary_.path() / "main.cpp", .workFolder = temporary_.path() / "work", .seconds = 0.1}),
-      "compiler did not end within 2.2 s: the machine was too busy");
+      "compiler did not end within 2.2 s through no fault of the file: found an empty program cannot be "
+      "built either; ");
 }
 
 TEST_F(StudentBuildTest, BlamesTheFileForACompilerThatWaits) {

@@ -237,6 +237,10 @@ void tellRefused(const std::vector<Task>& tasks, const fs::path& out) {
       note(wrap(harmless(grading::whyRefused(task, out)) + "; it is graded again", 2, 0));
 }
 
+// Processor time of a task's own process: compilers, workers and what reads the file have limits of their
+// own, so it does little itself.
+constexpr int kSecondsOfTask = 300;
+
 // Grades the tasks without a valid result; returns their number.
 int gradeOpen(const std::vector<Task>& tasks, const GradeManyOptions& options,
               const sandbox::Sandbox& sandbox, Graders& graders) {
@@ -265,11 +269,17 @@ int gradeOpen(const std::vector<Task>& tasks, const GradeManyOptions& options,
                            .accept = options.acceptFewer,
                            .anew = options.regrade});
       },
-      [&](int k, int) {
+      [&](int k, int code) {
         std::error_code ignored;
         fs::remove_all(work.path() / fmt::format("{}", k), ignored);
+        const Task& task = *open[static_cast<std::size_t>(k)];
+        if (code < 0)
+          note(wrap(harmless(fmt::format("{} {}: the grading was ended by signal {}: grade it again",
+                                         task.student, task.exercise, -code)),
+                    2, 0));
         ++ended;
-      });
+      },
+      kSecondsOfTask);
   return count;
 }
 

@@ -1,5 +1,6 @@
 #include "cli/instructor/similar.h"
 
+#include <algorithm>
 #include <map>
 
 #include <fmt/format.h>
@@ -32,10 +33,17 @@ void writeSimilar(const Project& project, const std::vector<grading::Task>& task
   std::map<std::string, std::vector<ComparedText>> byExercise;
   for (const grading::Task& task : tasks)
     byExercise[task.exercise].push_back({task.student, grading::gradedText(out / task.file)});
-  for (const auto& [name, texts] : byExercise) {
+  for (auto& [name, texts] : byExercise) {
     const std::string handedOut = readTextFile(project.exercise(name).definition / "main.cpp");
     writeForOthers(folder / name, texts, handedOut);
     const PrivateFolder work(fs::temp_directory_path());
+    const std::vector<std::string> leftOut = grading::tooRepetitive(texts, handedOut, work.path());
+    if (!leftOut.empty())
+      say(fmt::format("{}: left out, since the files repeat themselves too much to be compared: {}", name,
+                      harmless(join(leftOut, ", "))));
+    std::erase_if(texts, [&](const ComparedText& one) {
+      return std::find(leftOut.begin(), leftOut.end(), one.student) != leftOut.end();
+    });
     const auto pairs = grading::similarPairs(texts, handedOut, percent, work.path());
     const fs::path page = folder / (name + ".html");
     if (pairs.empty()) {
