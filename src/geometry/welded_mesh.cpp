@@ -1,9 +1,7 @@
 #include "geometry/welded_mesh.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -13,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "geometry/mesh_places_internal.h"
 
 namespace rex {
 namespace {
@@ -22,38 +21,6 @@ using Eigen::Vector3f;
 using Index = std::uint32_t;
 using Triangle = TriangleMesh::Triangle;
 
-// The distinct positions, and which of them each vertex has.
-struct Places {
-  std::vector<Vector3f> positions;
-  std::vector<Index> placeOf;
-};
-
-std::uint64_t hashOf(const Vector3f& p) {
-  std::uint64_t hash = 0;
-  for (const float x : p)
-    hash = (hash ^ std::bit_cast<std::uint32_t>(x + 0.f)) * 0x9e3779b97f4a7c15u;  // -0 is 0
-  return hash;
-}
-
-// Uses a hash table with linear probing, at least half of which stays free.
-Places findPlaces(const std::vector<Vector3f>& positions) {
-  constexpr Index kFree = std::numeric_limits<Index>::max();
-  const auto bits = std::bit_width(2 * positions.size() + 1);
-  std::vector<Index> table(std::size_t{1} << bits, kFree);
-  Places places;
-  places.placeOf.reserve(positions.size());
-  for (const Vector3f& p : positions) {
-    std::size_t slot = hashOf(p) >> (64 - bits);
-    while (table[slot] != kFree && places.positions[table[slot]] != p) slot = (slot + 1) % table.size();
-    if (table[slot] == kFree) {
-      table[slot] = static_cast<Index>(places.positions.size());
-      places.positions.push_back(p);
-    }
-    places.placeOf.push_back(table[slot]);
-  }
-  return places;
-}
-
 struct Face {
   Triangle corners;
   Triangle given;  // the corners before welding
@@ -62,7 +29,7 @@ struct Face {
 };
 
 // Empty for a triangle without area, or so thin that it has no normal.
-std::optional<Face> makeFace(const Places& welded, const Triangle& given) {
+std::optional<Face> makeFace(const MeshPlaces& welded, const Triangle& given) {
   constexpr double kFlatTriangle = 1e-9;
   Triangle corners = given;
   for (Index& corner : corners) corner = welded.placeOf[corner];
@@ -168,7 +135,7 @@ TriangleMesh weldedMesh(const std::vector<Vector3f>& positions, const std::vecto
                  .found = fmt::format("{} texture coordinates", given.size()),
                  .wanted = fmt::format("{}, one for each vertex, or none", positions.size())});
   const TriangleMesh::Part whole{.triangleCount = static_cast<Index>(triangles.size())};
-  const Places places = findPlaces(positions);
+  const MeshPlaces places = findPlaces(positions);
   std::vector<Face> faces;
   std::vector<TriangleMesh::Part> keptParts;
   for (TriangleMesh::Part part : parts.empty() ? std::vector{whole} : parts) {

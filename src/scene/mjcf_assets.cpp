@@ -11,6 +11,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostHeightFields = 16;
+constexpr const char* kMeshInertias[] = {"convex", "exact", "legacy", "shell"};
 
 const Known& knownOfAsset() {
   static const Known kKnown = {{}, {"include", "mesh", "material", "hfield"}, {"texture", "skin", "model"}};
@@ -39,6 +40,11 @@ void readMesh(const Styled& styled, const Compiler& compiler, MjcfAssets& assets
     if ((mesh.scale.array() == 0).any())
       giver.failAt("scale", xml::quoted(giver.text("scale")), "3 numbers that are not 0");
   }
+  const Tag& giver = styled.giver("inertia");
+  mesh.inertia = giver.has("inertia")
+                     ? static_cast<MeshInertia>(
+                           choice(giver, "inertia", {std::begin(kMeshInertias), std::end(kMeshInertias)}))
+                     : compiler.meshInertia;
   // Without a name it is named after its file.
   const bool isNamed = tag.has("name") || !tag.has("file");
   const std::string name = isNamed ? tag.nameIn("name") : fs::path(tag.text("file")).stem().string();
@@ -46,19 +52,20 @@ void readMesh(const Styled& styled, const Compiler& compiler, MjcfAssets& assets
 }
 
 void readMaterial(const Styled& styled, MjcfAssets& assets) {
-  const Tag& giver = styled.giver("rgba");
-  const Eigen::Vector4d color = giver.has("rgba") ? colorIn(giver) : Eigen::Vector4d::Ones();
+  const Eigen::Vector4d color = colorOf(styled).value_or(Eigen::Vector4d::Ones());
   add(styled.own(), styled.own().nameIn("name"), "name", color, assets.colors);
 }
 
 }  // namespace
 
+const char* wordOf(MeshInertia inertia) { return kMeshInertias[static_cast<std::size_t>(inertia)]; }
+
 const Known& knownOfMesh() {
-  static const Known kKnown = {{"name", "class", "file", "scale"},
+  static const Known kKnown = {{"name", "class", "file", "scale", "inertia"},
                                {},
                                {"plugin"},
                                {"content_type", "vertex", "normal", "texcoord", "face", "refpos", "refquat",
-                                "smoothnormal", "inertia", "maxhullvert", "builtin", "params", "material"}};
+                                "smoothnormal", "maxhullvert", "builtin", "params", "material"}};
   return kKnown;
 }
 
@@ -71,11 +78,13 @@ const Known& knownOfMaterial() {
   return kKnown;
 }
 
-Eigen::Vector4d colorIn(const Tag& tag) {
-  const Eigen::Vector4d color = tag.numbers("rgba", 4);
+std::optional<Eigen::Vector4d> colorOf(const Styled& styled) {
+  const Tag* const giver = styled.giverOfText("rgba");
+  if (!giver) return {};
+  const Eigen::Vector4d color = giver->numbers("rgba", 4);
   if (color.minCoeff() < 0 || color.maxCoeff() > 1)
-    tag.forgiveAt("rgba", xml::quoted(tag.text("rgba")), "4 numbers from 0 to 1",
-                  "the nearest such numbers are used");
+    giver->forgiveAt("rgba", xml::quoted(giver->text("rgba")), "4 numbers from 0 to 1",
+                     "the nearest such numbers are used");
   return color.cwiseMax(0).cwiseMin(1);
 }
 

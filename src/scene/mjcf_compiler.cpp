@@ -114,13 +114,14 @@ void readGroups(const Tag& tag, Compiler& compiler) {
 }
 
 const Known& knownOfCompiler() {
-  static const Known kKnown = {{"angle", "autolimits", "coordinate", "eulerseq", "meshdir", "assetdir",
-                                "inertiafromgeom", "inertiagrouprange", "strippath", "boundmass",
-                                "boundinertia", "settotalmass", "balanceinertia", "fitaabb"},
-                               {},
-                               {"lengthrange"},
-                               {"fusestatic", "discardvisual", "usethread", "texturedir", "convexhull",
-                                "exactmeshinertia", "alignfree", "saveinertial", "conflict"}};
+  static const Known kKnown = {
+      {"angle", "autolimits", "coordinate", "eulerseq", "meshdir", "assetdir", "inertiafromgeom",
+       "inertiagrouprange", "strippath", "boundmass", "boundinertia", "settotalmass", "balanceinertia",
+       "fitaabb", "exactmeshinertia"},
+      {},
+      {"lengthrange"},
+      {"fusestatic", "discardvisual", "usethread", "texturedir", "convexhull", "alignfree", "saveinertial",
+       "conflict"}};
   return kKnown;
 }
 
@@ -141,6 +142,8 @@ void readCompiler(const Tag& given, Compiler& compiler) {
   readFlag("strippath", compiler.stripsPaths);
   readFlag("balanceinertia", compiler.balancesMoments);
   readFlag("fitaabb", compiler.fitsBounds);
+  if (tag.has("exactmeshinertia"))
+    compiler.meshInertia = flag(tag, "exactmeshinertia") ? MeshInertia::kExact : MeshInertia::kLegacy;
   readEulerOrder(tag, compiler);
   for (const char* name : {"assetdir", "meshdir"})
     if (tag.has(name)) compiler.meshFolder = tag.text(name);

@@ -104,7 +104,7 @@ void fitGeoms(BodyTree& tree, const Compiler& compiler, Reading& reading) {
     shape.contact = one.fit.contact;
     if (shape.meshMissing || shape.shape.mesh.isEmpty()) continue;
     const TriangleMesh mesh = shape.shape.mesh;
-    const MassProperties properties = propertiesOfMesh(mesh);
+    const MassProperties properties = massOfMesh(shape, one.fit.inertia);
     if (!(properties.mass > 0)) {
       reading.notes.warn(shape.where, "<geom>: the mesh to fit encloses no volume, so nothing touches it");
       shape.contact = false;

@@ -13,8 +13,6 @@ const std::vector<std::string> kGeomTypes = {"sphere", "capsule", "cylinder", "b
                                              "mesh",   "plane",   "hfield",   "sdf"};
 enum GeomType { kSphere, kCapsule, kCylinder, kBox, kEllipsoid, kMesh, kPlane, kHeightField, kSdf };
 
-constexpr double kThickness = 1, kEndless = 50;  // of planes, which become boxes; metres
-
 struct Sizes {
   int count;
   const char* wanted;
@@ -69,8 +67,7 @@ std::uint32_t bits(const Styled& styled, const char* attribute) {
 // A colour of its own overrides that of its material, unless it is the default colour of geoms.
 Eigen::Vector4d geomColor(const Styled& styled, const MjcfAssets& assets) {
   const Eigen::Vector4d usual(.5, .5, .5, 1);
-  const Tag& giver = styled.giver("rgba");
-  const Eigen::Vector4d own = giver.has("rgba") ? colorIn(giver) : usual;
+  const Eigen::Vector4d own = colorOf(styled).value_or(usual);
   const Tag& named = styled.giver("material");
   if (own != usual || !named.has("material")) return own;
   const std::string& name = named.text("material");
@@ -100,14 +97,14 @@ void readPlane(const Styled& styled, bool isOnWorld, ShapeSpec& shape) {
     if (half.minCoeff() < 0) giver.failAt("size", xml::quoted(giver.text("size")), "half edges >= 0");
   }
   for (double& edge : half)
-    if (edge == 0) edge = kEndless;
-  shape.shape = {.type = ShapeType::kBox, .extent = {2 * half[0], 2 * half[1], kThickness}};
-  shape.X_BS = shape.X_BS * translation(0, 0, -kThickness / 2);
+    if (edge == 0) edge = urdf::kPlaneWidth / 2;
+  shape.shape = {.type = ShapeType::kBox, .extent = {2 * half[0], 2 * half[1], urdf::kPlaneThickness}};
+  shape.X_BS = shape.X_BS * translation(0, 0, -urdf::kPlaneThickness / 2);
   shape.ground = isOnWorld && shape.X_BS.R(2, 2) > 1 - 1e-9;
   if (shape.ground) shape.visible = false;
   styled.own().remark(fmt::format(
       "a plane becomes a box {:g} m thick, as wide as its size says or {:g} m; the ground is not drawn",
-      kThickness, 2 * kEndless));
+      urdf::kPlaneThickness, urdf::kPlaneWidth));
 }
 
 // The asset that an attribute names.
@@ -182,8 +179,20 @@ std::optional<Solid> solidOf(const Styled& styled, GeomType type, const Extent& 
   solid.where = styled.own().where();
   if (styled.has("mass")) solid.mass = styled.giver("mass").notNegative("mass");
   if (styled.has("density")) solid.density = styled.giver("density").notNegative("density");
+  if (const Tag& giver = styled.giver("shellinertia"); giver.has("shellinertia"))
+    solid.isShell = flag(giver, "shellinertia");
   const bool weighs = solid.mass ? *solid.mass > 0 : solid.density > 0;
   return weighs ? std::optional(solid) : std::nullopt;
+}
+
+// As MuJoCo since version 3.3: a mesh says itself whether it is a shell.
+void weighMesh(const Styled& styled, const MjcfAssets& assets, Solid& solid) {
+  solid.inertia = assets.meshes.at(styled.giver("mesh").text("mesh")).inertia;
+  if (solid.isShell)
+    styled.own().warn(
+        styled.own().where(),
+        "'shellinertia' has no effect on a mesh, as in MuJoCo since version 3.3: its <mesh> needs "
+        "inertia=\"shell\"");
 }
 
 }  // namespace
@@ -191,11 +200,11 @@ std::optional<Solid> solidOf(const Styled& styled, GeomType type, const Extent& 
 const Known& knownOfGeom() {
   static const Known kKnown = {
       withPose({"name", "class", "type", "size", "fromto", "mass", "density", "group", "contype",
-                "conaffinity", "rgba", "material", "mesh", "hfield", "fitscale"}),
+                "conaffinity", "rgba", "material", "mesh", "hfield", "fitscale", "shellinertia"}),
       {},
       {"plugin"},
       {"condim", "priority", "friction", "solmix", "solref", "solimp", "margin", "gap", "fluidshape",
-       "fluidcoef", "user", "shellinertia"}};
+       "fluidcoef", "user"}};
   return kKnown;
 }
 
@@ -230,9 +239,11 @@ Geom readGeom(const Styled& styled, bool isOnWorld, const Compiler& compiler, co
   }
   if (isFitted) {
     const Tag& scaled = styled.giver("fitscale");
-    geom.fit = GeomFit{kSolidKinds[given], scaled.has("fitscale") ? scaled.positive("fitscale") : 1,
+    geom.fit = GeomFit{kSolidKinds[given], assetIn(styled, "mesh", assets.meshes).inertia,
+                       scaled.has("fitscale") ? scaled.positive("fitscale") : 1,
                        std::exchange(shape.contact, false)};
   }
+  if (given == kMesh && geom.solid) weighMesh(styled, assets, *geom.solid);
   if (type != kMesh) shape.shape = shapeOf(type, extent.size);
   if (type == kPlane) readPlane(styled, isOnWorld, shape);
   geom.shapes.push_back(std::move(shape));

@@ -1,70 +1,20 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <optional>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "geometry/convex_hull.h"
+#include "geometry/mesh_mass.h"
 #include "scene/mjcf_parts_internal.h"
 
 namespace rex::mjcf {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 Eigen::Matrix3d steiner(const Eigen::Vector3d& p) {
   return p.squaredNorm() * Eigen::Matrix3d::Identity() - p * p.transpose();
-}
-
-// For density 1, about the centre and along the axes of the solid.
-MassProperties diagonal(double mass, const Eigen::Vector3d& moments) {
-  return {mass, Eigen::Vector3d::Zero(), moments.asDiagonal()};
-}
-
-MassProperties ellipsoid(const Eigen::Vector3d& halfAxes) {
-  const double mass = 4. / 3 * kPi * halfAxes.prod();
-  const Eigen::Vector3d squares = halfAxes.cwiseAbs2();
-  return diagonal(mass, mass / 5 * (Eigen::Vector3d::Constant(squares.sum()) - squares));
-}
-
-MassProperties box(const Eigen::Vector3d& halfEdges) {
-  const double mass = 8 * halfEdges.prod();
-  const Eigen::Vector3d squares = halfEdges.cwiseAbs2();
-  return diagonal(mass, mass / 3 * (Eigen::Vector3d::Constant(squares.sum()) - squares));
-}
-
-MassProperties cylinder(double radius, double half) {
-  const double mass = kPi * radius * radius * 2 * half;
-  const double across = mass * (radius * radius / 4 + half * half / 3);
-  return diagonal(mass, {across, across, mass * radius * radius / 2});
-}
-
-// A cylinder and two half balls, whose centres of mass are 3/8 of the radius beyond its ends.
-MassProperties capsule(double radius, double half) {
-  const MassProperties middle = cylinder(radius, half);
-  const double caps = 4. / 3 * kPi * radius * radius * radius, ball = .4 * caps * radius * radius;
-  const double across = ball + caps * half * (half + .75 * radius);
-  return diagonal(middle.mass + caps, middle.I_BBcm_B.diagonal() + Eigen::Vector3d(across, across, ball));
-}
-
-MassProperties ofDensityOne(const Solid& solid, const std::vector<ShapeSpec>& shapes) {
-  const double r = solid.size[0];
-  switch (solid.kind) {
-    case Solid::Kind::kSphere:
-      return ellipsoid(Eigen::Vector3d::Constant(r));
-    case Solid::Kind::kCapsule:
-      return capsule(r, solid.size[1]);
-    case Solid::Kind::kCylinder:
-      return cylinder(r, solid.size[1]);
-    case Solid::Kind::kBox:
-      return box(solid.size);
-    case Solid::Kind::kEllipsoid:
-      return ellipsoid(solid.size);
-    case Solid::Kind::kMesh:
-      return propertiesOfMesh(shapes[*solid.mesh].shape.mesh);
-  }
-  return {};
 }
 
 // A scene given as text has no meshes.
@@ -76,23 +26,98 @@ void requireMesh(const Solid& solid, const std::vector<ShapeSpec>& shapes) {
                .wanted = "an <inertial> of the body, or the model in a file"});
 }
 
-// The mass properties in the frame of the body; zero for a mesh that encloses no volume.
-MassProperties inBody(const Solid& solid, const std::vector<ShapeSpec>& shapes, Reading& reading) {
-  requireMesh(solid, shapes);
-  MassProperties all = ofDensityOne(solid, shapes);
-  if (!(all.mass > 0)) {
-    const char* const why = solid.mesh && shapes[*solid.mesh].meshMissing
-                                ? "<geom>: the mesh is missing, so it weighs nothing"
-                                : "<geom>: the mesh encloses no volume, so it weighs nothing";
-    reading.notes.warn(solid.where, why);
-    return {};
+TriangleMesh hullOf(const ShapeSpec& shape) {
+  if (!shape.shape.hull.isEmpty()) return shape.shape.hull;
+  try {
+    return convexHull(shape.shape.mesh);
+  } catch (const Error& error) {
+    ErrorParts parts = error.parts();
+    parts.what = fmt::format("mesh '{}': inertia=\"convex\": {}", shape.meshFile, parts.what);
+    parts.where = shape.where;
+    throw Error(parts);
   }
-  const double factor = solid.mass ? *solid.mass / all.mass : solid.density;
-  all.mass *= factor;
-  all.I_BBcm_B = factor * solid.X_BS.R * all.I_BBcm_B * solid.X_BS.R.transpose();
-  all.p_BBcm = solid.X_BS * all.p_BBcm;
-  return all;
 }
+
+// Weighs what geoms add to bodies, and each mesh once.
+class Weigher {
+ public:
+  explicit Weigher(Reading& reading) : reading_(reading) {}
+
+  MassProperties operator()(const std::vector<Solid>& solids, const std::vector<ShapeSpec>& shapes) {
+    std::vector<MassProperties> parts;
+    MassProperties all;
+    for (const Solid& solid : solids) {
+      const MassProperties& part = parts.emplace_back(inBody(solid, shapes));
+      all.mass += part.mass;
+      all.p_BBcm += part.mass * part.p_BBcm;
+    }
+    if (!(all.mass > 0)) return {};
+    all.p_BBcm /= all.mass;
+    for (const MassProperties& part : parts)
+      all.I_BBcm_B += part.I_BBcm_B + part.mass * steiner(part.p_BBcm - all.p_BBcm);
+    return all;
+  }
+
+ private:
+  struct Weighed {
+    TriangleMesh mesh;
+    MeshInertia inertia;
+    MassProperties all;
+  };
+
+  // Zero for a mesh that encloses no volume.
+  MassProperties inBody(const Solid& solid, const std::vector<ShapeSpec>& shapes) {
+    requireMesh(solid, shapes);
+    MassProperties all = solid.mesh ? ofMesh(solid, shapes[*solid.mesh]) : ofDensityOne(solid);
+    if (!(all.mass > 0)) {
+      const char* const why = solid.mesh && shapes[*solid.mesh].meshMissing
+                                  ? "<geom>: the mesh is missing, so it weighs nothing"
+                                  : "<geom>: the mesh encloses no volume, so it weighs nothing";
+      reading_.notes.warn(solid.where, why);
+      return {};
+    }
+    const double factor = solid.mass ? *solid.mass / all.mass : solid.density;
+    all.mass *= factor;
+    all.I_BBcm_B = factor * solid.X_BS.R * all.I_BBcm_B * solid.X_BS.R.transpose();
+    all.p_BBcm = solid.X_BS * all.p_BBcm;
+    return all;
+  }
+
+  MassProperties ofMesh(const Solid& solid, const ShapeSpec& shape) {
+    const TriangleMesh& mesh = shape.shape.mesh;
+    for (const Weighed& known : weighed_)
+      if (known.mesh == mesh && known.inertia == solid.inertia) return known.all;
+    const MassProperties all = massOfMesh(shape, solid.inertia);
+    weighed_.push_back({mesh, solid.inertia, all});
+    const bool hasVolume = solid.inertia != MeshInertia::kConvex && solid.inertia != MeshInertia::kShell;
+    if (hasVolume && all.mass > 0) judge(solid, shape, all.mass);
+    return all;
+  }
+
+  // Says how far the volume of an open mesh is in doubt, and if a closed one weighs more than it encloses.
+  // Holes count that change what is enclosed: a crack between edges that do not match has no area.
+  void judge(const Solid& solid, const ShapeSpec& shape, double volume) {
+    constexpr double kLeast = 1e-3;
+    const double enclosed = meshMass(shape.shape.mesh, MeshMassRule::kEnclosed).mass;
+    const std::optional<double> closed = volumeWithoutHoles(shape.shape.mesh);
+    if (closed && std::abs(*closed - enclosed) >= kLeast * std::max(std::abs(*closed), enclosed)) {
+      const double doubt = std::abs(volume - *closed) / volume;
+      reading_.notes.warn(
+          shape.where,
+          fmt::format(
+              "mesh '{}': the surface has holes, or triangles with the wrong side out, so its volume is "
+              "uncertain by {:.{}f} %: {:.4g} m^3 by inertia=\"{}\", {:.4g} m^3 with all holes closed",
+              shape.meshFile, 100 * doubt, doubt < .1 ? 1 : 0, volume, wordOf(solid.inertia), *closed));
+    } else if (!solid.mass && volume - enclosed >= kLeast * volume) {
+      reading_.notes.remark(shape.where,
+                            "a mesh that is not convex weighs more than it encloses, as in MuJoCo, where "
+                            "inertia=\"legacy\" is the default of <mesh>; \"exact\" counts what it encloses");
+    }
+  }
+
+  Reading& reading_;
+  std::vector<Weighed> weighed_;
+};
 
 // Raises moments to the least one, and makes them equal if no body can have them.
 Eigen::Matrix3d bounded(const Eigen::Matrix3d& I, const Compiler& compiler) {
@@ -121,55 +146,27 @@ void scaleTo(double total, BodyTree& tree) {
 
 }  // namespace
 
-MassProperties propertiesOfMesh(const TriangleMesh& mesh) {
-  double six = 0;  // times the volume
-  Eigen::Vector3d first = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
-  for (const TriangleMesh::Triangle& corners : mesh.triangles()) {
-    Eigen::Matrix3d T;
-    for (int i = 0; i < 3; ++i)
-      T.col(i) = mesh.positions()[corners[static_cast<std::size_t>(i)]].cast<double>();
-    const double weight = T.determinant();
-    const Eigen::Vector3d sum = T.rowwise().sum();
-    six += weight;
-    first += weight * sum;
-    second += weight * (T * T.transpose() + sum * sum.transpose());
-  }
-  MassProperties all;
-  all.mass = six / 6;
-  if (!(all.mass > 0)) return {};
-  all.p_BBcm = first / (4 * six);
-  const Eigen::Matrix3d covariance = second / 120;  // the integral of x x^T
-  const Eigen::Matrix3d I = covariance.trace() * Eigen::Matrix3d::Identity() - covariance;
-  all.I_BBcm_B = I - all.mass * steiner(all.p_BBcm);
-  return all;
-}
-
-MassProperties propertiesOf(const std::vector<Solid>& solids, const std::vector<ShapeSpec>& shapes,
-                            Reading& reading) {
-  std::vector<MassProperties> parts;
-  MassProperties all;
-  for (const Solid& solid : solids) {
-    const MassProperties& part = parts.emplace_back(inBody(solid, shapes, reading));
-    all.mass += part.mass;
-    all.p_BBcm += part.mass * part.p_BBcm;
-  }
-  if (!(all.mass > 0)) return {};
-  all.p_BBcm /= all.mass;
-  for (const MassProperties& part : parts)
-    all.I_BBcm_B += part.I_BBcm_B + part.mass * steiner(part.p_BBcm - all.p_BBcm);
-  return all;
+MassProperties massOfMesh(const ShapeSpec& shape, MeshInertia inertia) {
+  constexpr MeshMassRule kRules[] = {MeshMassRule::kEnclosed, MeshMassRule::kEnclosed,
+                                     MeshMassRule::kUnsigned, MeshMassRule::kShell};
+  return meshMass(inertia == MeshInertia::kConvex ? hullOf(shape) : shape.shape.mesh,
+                  kRules[static_cast<int>(inertia)]);
 }
 
 void setMasses(BodyTree& tree, const Compiler& compiler, Reading& reading) {
+  Weigher weigh(reading);
   for (const BodyInFile& one : tree.bodies) {
     BodySpec& body = tree.spec.bodies[one.body];
     MassProperties all = one.given.value_or(MassProperties{});
-    if (weighsByGeoms(one, compiler)) all = propertiesOf(one.solids, body.shapes, reading);
+    const bool isWeighed = weighsByGeoms(one, compiler);
+    if (isWeighed) all = weigh(one.solids, body.shapes);
     body.mass = std::max(all.mass, compiler.leastMass);
     if (body.mass == 0) continue;
     body.p_BBcm = all.p_BBcm;
-    const Eigen::Matrix3d I = bounded(all.I_BBcm_B, compiler);
+    Eigen::Matrix3d I = bounded(all.I_BBcm_B, compiler);
+    if (isWeighed)
+      I = urdf::judgedMoments(reading, body.where, fmt::format("body '{}': its geoms", body.name), I,
+                              body.mass);
     body.inertia = (I + I.transpose()) / 2;
   }
   if (compiler.totalMass) scaleTo(*compiler.totalMass, tree);

@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "geometry/mesh_mass.h"
 #include "scene/mjcf_files_internal.h"
 #include "scene/mjcf_style_internal.h"
 #include "scene/scene_file.h"
@@ -14,6 +15,11 @@
 
 // The steps of reading a MuJoCo model. All throw Error with the place.
 namespace rex::mjcf {
+
+/// How meshes weigh: by their convex hull, by what they enclose, by MuJoCo's old rule, which counts more than
+/// that unless they are convex, or as shells.
+enum class MeshInertia { kConvex, kExact, kLegacy, kShell };
+[[nodiscard]] const char* wordOf(MeshInertia inertia);
 
 /// What <compiler> says of the whole model.
 struct Compiler {
@@ -30,6 +36,7 @@ struct Compiler {
   std::optional<double> totalMass{};      ///< to which all masses are scaled
   bool balancesMoments = false;           ///< makes impossible inertias spherical
   bool fitsBounds = false;                ///< geoms are fitted to the bounds of meshes, not to their inertias
+  MeshInertia meshInertia = MeshInertia::kLegacy;  ///< of meshes that do not say it themselves
 
   double angle(double given) const;
 };
@@ -55,6 +62,7 @@ void readCompiler(const Tag& tag, Compiler& compiler);
 struct MeshAsset {
   std::string file;
   Eigen::Vector3d scale{1, 1, 1};
+  MeshInertia inertia = MeshInertia::kLegacy;
   SourceLocation where{};
 };
 /// A height field: what is drawn, and the convex pieces that are touched. Empty in a scene given as text, if
@@ -70,8 +78,8 @@ struct MjcfAssets {
 };
 [[nodiscard]] const Known& knownOfMesh();
 [[nodiscard]] const Known& knownOfMaterial();
-/// The numbers of `rgba`, each from 0 to 1.
-[[nodiscard]] Eigen::Vector4d colorIn(const Tag& tag);
+/// The numbers of `rgba`, each from 0 to 1; empty if it is not given.
+[[nodiscard]] std::optional<Eigen::Vector4d> colorOf(const Styled& styled);
 void readAssets(const Tag& tag, Files& files, const Defaults& defaults, const Compiler& compiler,
                 MjcfAssets& assets);
 /// A <hfield> of the assets, with its heights from the tag or a file. Warns if its pieces are coarse.
@@ -84,24 +92,21 @@ struct Solid {
   Eigen::Vector3d size{0, 0, 0};
   Pose X_BS{};
   std::optional<double> mass{};       ///< kg
-  double density = 1000;              ///< kg / m^3
+  double density = 1000;              ///< kg / m^3, or of a shell kg / m^2
+  bool isShell = false;               ///< but for meshes, whose inertia says it
   std::optional<std::size_t> mesh{};  ///< which shape of the body has it
+  MeshInertia inertia{};              ///< of a mesh
   SourceLocation where{};
 };
-struct MassProperties {
-  double mass = 0;
-  Eigen::Vector3d p_BBcm{0, 0, 0};
-  Eigen::Matrix3d I_BBcm_B = Eigen::Matrix3d::Zero();
-};
-/// Volume, centre and inertia per density of a mesh, by its signed tetrahedra (Eberly 2002).
-[[nodiscard]] MassProperties propertiesOfMesh(const TriangleMesh& mesh);
-/// That of all solids together. `mesh` is that of a solid's shape.
-[[nodiscard]] MassProperties propertiesOf(const std::vector<Solid>& solids,
-                                          const std::vector<ShapeSpec>& shapes, Reading& reading);
+/// The mass properties for density 1, in the frame of the solid, which is no mesh.
+[[nodiscard]] MassProperties ofDensityOne(const Solid& solid);
+/// The same of the mesh of a shape.
+[[nodiscard]] MassProperties massOfMesh(const ShapeSpec& shape, MeshInertia inertia);
 
 /// A geom that becomes a solid as large as its mesh. Until fitGeoms() its shape is the mesh, not in contact.
 struct GeomFit {
   Solid::Kind kind = Solid::Kind::kSphere;
+  MeshInertia inertia = MeshInertia::kLegacy;  ///< of the mesh
   double scale = 1;
   bool contact = true;  ///< of the shape that it becomes
 };

@@ -46,15 +46,30 @@ std::optional<KindOfTag> kindOf(const Tag& tag) {
 
 }  // namespace
 
-const Tag& Styled::giver(const char* attribute) const {
-  if (own_.has(attribute)) return own_;
+template <class Gives>
+const Tag* Styled::find(const Gives& gives) const {
+  if (gives(own_)) return &own_;
   for (const DefaultClass* at = style_; at != nullptr; at = at->parent) {
     const std::vector<Tag>& tags = at->tags[static_cast<std::size_t>(kind_)];
-    const auto last =
-        std::find_if(tags.rbegin(), tags.rend(), [&](const Tag& tag) { return tag.has(attribute); });
-    if (last != tags.rend()) return *last;
+    const auto last = std::find_if(tags.rbegin(), tags.rend(), gives);
+    if (last != tags.rend()) return &*last;
   }
-  return own_;
+  return nullptr;
+}
+
+const Tag& Styled::giver(const char* attribute) const {
+  const Tag* const found = find([&](const Tag& tag) { return tag.has(attribute); });
+  return found ? *found : own_;
+}
+
+const Tag* Styled::giverOfText(const char* attribute) const {
+  return find([&](const Tag& tag) {
+    if (!tag.has(attribute)) return false;
+    const std::string& text = tag.text(attribute);
+    if (text.find_first_not_of(" \t\r\n") != text.npos) return true;
+    tag.forgiveAt(attribute, "nothing", "numbers", "it counts as not given");
+    return false;
+  });
 }
 
 Defaults::Defaults() : main_(&classes_.emplace_back()) { byName_.emplace(kMainClass, main_); }

@@ -29,12 +29,18 @@ class Styled {
   const Tag& own() const { return own_; }
   /// The tag that gives an attribute: this one, or the nearest default; this one too if none does.
   const Tag& giver(const char* attribute) const;
+  /// The tag that gives an attribute which counts as not given where it is blank, as MuJoCo has it; each
+  /// blank one is a warning or, if the reading is strict, an Error. Null if none does.
+  const Tag* giverOfText(const char* attribute) const;
   bool has(const char* attribute) const { return giver(attribute).has(attribute); }
   double number(const char* attribute, double otherwise) const {
     return giver(attribute).number(attribute, otherwise);
   }
 
  private:
+  template <class Gives>
+  const Tag* find(const Gives& gives) const;
+
   Tag own_;
   const DefaultClass* style_ = nullptr;
   Kind kind_{};

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/join.h"
-#include "geometry/inertia.h"
+#include "geometry/rotation.h"
 #include "scene/assets.h"
 #include "scene/urdf_parts_internal.h"
 
@@ -66,6 +66,22 @@ Shape sphereShape(const Tag& tag) {
   return {.type = ShapeType::kSphere, .extent = Eigen::Vector3d::Zero(), .radius = tag.positive("radius")};
 }
 
+// A plane with that normal, which Bullet knows. It is touched, but not drawn: pictures have a ground.
+void readPlane(const Tag& tag, ShapeSpec& spec) {
+  static const Known kKnown = {{"normal"}, {}};
+  tag.expect(kKnown);
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
+  if (tag.has("normal")) normal = tag.numbers("normal", 3);
+  if (!(normal.stableNorm() > 1e-100 && normal.stableNorm() < 1e100))
+    tag.failAt("normal", xml::quoted(tag.text("normal")), "a direction");
+  spec.shape = {.type = ShapeType::kBox, .extent = {kPlaneWidth, kPlaneWidth, kPlaneThickness}};
+  spec.X_BS.R *= rotationBetween(Eigen::Vector3d::UnitZ(), normal);
+  spec.X_BS = spec.X_BS * translation(0, 0, -kPlaneThickness / 2);
+  spec.visible = false;
+  tag.remark(fmt::format("a plane becomes a box {:g} m thick and {:g} m wide, which is not drawn",
+                         kPlaneThickness, kPlaneWidth));
+}
+
 void readMesh(const Tag& tag, ShapeSpec& spec) {
   static const Known kKnown = {{"filename", "scale"}, {}};
   tag.expect(kKnown);
@@ -84,7 +100,7 @@ void readMesh(const Tag& tag, ShapeSpec& spec) {
 }
 
 void readGeometry(const Tag& geometry, ShapeSpec& spec) {
-  static const Known kKnown = {{}, {"box", "cylinder", "sphere", "capsule", "mesh"}};
+  static const Known kKnown = {{}, {"box", "cylinder", "sphere", "capsule", "mesh", "plane"}};
   geometry.expect(kKnown);
   const std::vector<Tag> others = geometry.children();
   std::optional<Tag> only;
@@ -99,13 +115,15 @@ void readGeometry(const Tag& geometry, ShapeSpec& spec) {
   if (!only) {
     const std::string found = others.empty() ? "" : std::string(others.front().name());
     geometry.fail(geometry.where(), "no shape", found.empty() ? "" : fmt::format("<{}>", found),
-                  "<box>, <cylinder>, <sphere>, <capsule> or <mesh>", nearestNames(found, kKnown.children));
+                  "<box>, <cylinder>, <sphere>, <capsule>, <mesh> or <plane>",
+                  nearestNames(found, kKnown.children));
   }
   if (only->name() == "box") spec.shape = boxShape(*only);
   if (only->name() == "cylinder") spec.shape = roundShape(*only, ShapeType::kCylinder);
   if (only->name() == "sphere") spec.shape = sphereShape(*only);
   if (only->name() == "capsule") spec.shape = roundShape(*only, ShapeType::kCapsule);
   if (only->name() == "mesh") readMesh(*only, spec);
+  if (only->name() == "plane") readPlane(*only, spec);
 }
 
 // <visual> or <collision>.
@@ -145,32 +163,6 @@ Eigen::Matrix3d readMoments(const Tag& tag) {
   return (Eigen::Matrix3d() << xx, xy, xz, xy, yy, yz, xz, yz, zz).finished();
 }
 
-// Negative moments of a link with that mass become 0. They count as rounding error up to a millionth of the
-// sum of moments, as files give some six digits, or up to mass times the square of a micrometre, as no file
-// means lengths below that.
-Eigen::Matrix3d withoutNegativeMoments(const Tag& tag, const Eigen::Matrix3d& I, double mass) {
-  constexpr double kRelative = 1e-6, kLength = 1e-6, kOwnRounding = 1e-14;
-  const Eigen::Vector3d moments = principalMoments(I);
-  const double sum = moments.cwiseAbs().sum();
-  if (moments[0] >= -kOwnRounding * sum) return I;
-  const bool isRounding = moments[0] >= -std::max(kRelative * sum, kLength * kLength * mass);
-  std::vector<std::string> negative;
-  for (const double moment : moments)
-    if (moment < -kOwnRounding * sum) negative.push_back(fmt::format("{:.6g}", moment));
-  const bool isOne = negative.size() == 1;
-  const std::string instead =
-      fmt::format("{} kg m^2 {} and {} as 0", join(negative, " and "),
-                  isRounding ? (isOne ? "is within rounding error" : "are within rounding error")
-                             : (isOne ? "is physically impossible" : "are physically impossible"),
-                  isOne ? "counts" : "count");
-  if (inertiaFault(I) == InertiaFault::kNegative) {
-    tag.forgive(tag.where(), "a negative principal moment", "", "principal moments >= 0", instead);
-  } else {
-    tag.warn(tag.where(), "a negative principal moment; " + instead);
-  }
-  return nearestWithoutNegativeMoments(I);
-}
-
 void readInertial(const Tag& tag, BodySpec& body) {
   static const Known kKnown = {{}, {"origin", "mass", "inertia"}};
   static const Known kKnownOfMass = {{"value"}, {}};
@@ -199,12 +191,6 @@ void readInertial(const Tag& tag, BodySpec& body) {
 std::string thingOf(const Tag& link) { return fmt::format("link '{}'", link.nameIn("name")); }
 
 }  // namespace
-
-Eigen::Matrix3d judgedMoments(const Tag& tag, const Eigen::Matrix3d& I, double mass) {
-  if (inertiaFault(I) == InertiaFault::kTriangle)
-    tag.warn(tag.where(), "no body has this inertia: one principal moment exceeds the sum of the others");
-  return withoutNegativeMoments(tag, I, mass);
-}
 
 bool Materials::add(const std::string& name, const Eigen::Vector4d& color) {
   const bool isNew = colors.emplace(name, color).second;

@@ -16,9 +16,18 @@ void refuseXacro(const xml::Document& document, const std::string& format);
 /// Warns of blanks before the declaration, which xml::parse() skipped.
 void noteSkippedBlanks(Reading& reading);
 
-/// What dynamics can work with of an inertia about the centre of mass, kg m^2, that a tag gives to a body of
-/// that mass: negative principal moments become 0, with a warning or, if strict, an Error.
-[[nodiscard]] Eigen::Matrix3d judgedMoments(const Tag& tag, const Eigen::Matrix3d& I, double mass);
+/// What dynamics can work with of an inertia about the centre of mass, kg m^2, of a body of that mass:
+/// negative principal moments become 0, with a warning or, if strict, an Error. `subject` begins the message.
+[[nodiscard]] Eigen::Matrix3d judgedMoments(Reading& reading, const SourceLocation& where,
+                                            const std::string& subject, const Eigen::Matrix3d& I,
+                                            double mass);
+/// The same for an inertia that a tag gives.
+[[nodiscard]] inline Eigen::Matrix3d judgedMoments(const Tag& tag, const Eigen::Matrix3d& I, double mass) {
+  return judgedMoments(tag.reading(), tag.where(), tag.subject(), I, mass);
+}
+
+/// A plane becomes a box under it of this thickness, metres, and where it is endless of this width.
+inline constexpr double kPlaneThickness = 1, kPlaneWidth = 100;
 
 /// The colours of materials by their name. A name belongs to the first material that gives it a colour, at
 /// the top of the robot before those in links.
@@ -40,10 +49,11 @@ struct ReadJoint {
 };
 [[nodiscard]] ReadJoint readJoint(const Tag& tag);
 
-/// Refuses whatever is not one tree: unknown or repeated names, loops, several roots; and mimics of nothing.
-/// Returns the index of the root.
-[[nodiscard]] std::size_t requireTree(const std::vector<BodySpec>& links,
-                                      const std::vector<ReadJoint>& joints, const SourceLocation& robot);
+/// Refuses whatever is not one tree: unknown or repeated names, loops, several roots; and mimics of joints
+/// that cannot be followed. A mimic of a joint that is not there is left out, with a warning or, if the
+/// reading is strict, an Error. Returns the index of the root.
+[[nodiscard]] std::size_t requireTree(const std::vector<BodySpec>& links, std::vector<ReadJoint>& joints,
+                                      const SourceLocation& robot, Reading& reading);
 
 /// Leaves out the limits of each joint that mimics if they let the joint that it follows be nowhere or only
 /// at one point; all mimics are known to be sound. Throws Error instead if the reading is strict.

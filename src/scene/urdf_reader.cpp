@@ -48,6 +48,15 @@ Tag robotTag(Reading& reading) {
   return robot;
 }
 
+// In a robot that has masses, a link that has none although there is something of it is doubtful; as a root
+// it is usual.
+void noteMassless(const std::vector<Tag>& links, const SceneSpec& spec, std::size_t root) {
+  if (std::ranges::none_of(spec.bodies, [](const BodySpec& link) { return link.mass > 0; })) return;
+  for (std::size_t i = 0; i < links.size(); ++i)
+    if (i != root && !links[i].child("inertial") && !spec.bodies[i].shapes.empty())
+      links[i].remark("a link with shapes but without <inertial> has no mass");
+}
+
 // A root called "world" is the world itself.
 void becomeWorld(SceneSpec& spec, std::size_t root, Notes& notes) {
   BodySpec& world = spec.bodies[root];
@@ -96,11 +105,12 @@ SceneSpec readRobot(Reading& reading, const std::string& name, bool freeBase) {
   SceneSpec spec;
   spec.name = name;
   std::vector<ReadJoint> joints;
-  for (const Tag& link : robot.children("link"))
-    spec.bodies.push_back(readLink(link.of("<link>"), materials));
+  const std::vector<Tag> links = robot.children("link");
+  for (const Tag& link : links) spec.bodies.push_back(readLink(link.of("<link>"), materials));
   for (const Tag& joint : robot.children("joint")) joints.push_back(readJoint(joint.of("<joint>")));
-  const std::size_t root = requireTree(spec.bodies, joints, robot.where());
+  const std::size_t root = requireTree(spec.bodies, joints, robot.where(), reading);
   keepTargetsMovable(joints, reading);
+  noteMassless(links, spec, root);
   for (ReadJoint& joint : joints) spec.joints.push_back(std::move(joint.spec));
   placeRoot(spec, root, freeBase, reading.notes);
   return spec;

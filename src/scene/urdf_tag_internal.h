@@ -73,6 +73,9 @@ class Tag {
   const xml::Element& element() const { return *element_; }
   /// What messages about its children begin with.
   const std::string& thing() const { return owner_; }
+  /// What messages about itself begin with.
+  const std::string& subject() const { return thing_; }
+  Reading& reading() const { return *reading_; }
   SourceLocation where() const { return reading_->document.where(element_->at); }
   SourceLocation where(const char* attribute) const;
 

@@ -36,11 +36,16 @@ class Index {
     }
   }
 
+  bool has(const std::string& name) const { return byName_.contains(name); }
   std::size_t find(const std::string& name, const SourceLocation& where, const std::string& what) const {
     if (const auto found = byName_.find(name); found != byName_.end()) return found->second;
+    throw Error(unknown(name, where, what));
+  }
+  ErrorParts unknown(const std::string& name, const SourceLocation& where, const std::string& what) const {
     std::vector<std::string> known;
     for (const Thing& thing : things_) known.push_back(nameOf(thing));
-    fail(where, what, xml::quoted(name), fmt::format("the name of a {}", kind_), nearestNames(name, known));
+    return {what, where, xml::quoted(name), fmt::format("the name of a {}", kind_),
+            nearestNames(name, known)};
   }
 
  private:
@@ -120,11 +125,18 @@ void refuseLoops(const std::vector<BodySpec>& links, const std::vector<ReadJoint
   }
 }
 
-void checkMimics(const std::vector<ReadJoint>& joints, const Index<ReadJoint>& index) {
-  for (const ReadJoint& joint : joints) {
+void checkMimics(std::vector<ReadJoint>& joints, const Index<ReadJoint>& index, Reading& reading) {
+  for (ReadJoint& joint : joints) {
     const std::string& name = joint.spec.mimic;
     if (name.empty()) continue;
     const std::string what = fmt::format("joint '{}': mimic", joint.spec.name);
+    if (!index.has(name)) {
+      reading.forgive(index.unknown(name, joint.mimicAt, what), "it is ignored: the joint moves by itself");
+      joint.spec.mimic.clear();
+      joint.spec.mimicRatio = 1;
+      joint.spec.mimicOffset = 0;
+      continue;
+    }
     const JointSpec& target = joints[index.find(name, joint.mimicAt, what)].spec;
     if (!target.mimic.empty())
       fail(joint.mimicAt, what, fmt::format("'{}', which mimics '{}'", name, target.mimic),
@@ -136,13 +148,13 @@ void checkMimics(const std::vector<ReadJoint>& joints, const Index<ReadJoint>& i
 
 }  // namespace
 
-std::size_t requireTree(const std::vector<BodySpec>& links, const std::vector<ReadJoint>& joints,
-                        const SourceLocation& robot) {
+std::size_t requireTree(const std::vector<BodySpec>& links, std::vector<ReadJoint>& joints,
+                        const SourceLocation& robot, Reading& reading) {
   if (links.empty()) fail(robot, "<robot>: no link", "", "at least one <link>");
   const Index jointIndex("joint", joints);
   const std::vector<Hold> holds = connect(links, joints);
   refuseLoops(links, joints, holds);
-  checkMimics(joints, jointIndex);
+  checkMimics(joints, jointIndex, reading);
   return requireOneRoot(links, holds);
 }
 

@@ -93,6 +93,8 @@ TEST(MjcfMessages, OfCompilers) {
        "<compiler>: attribute 'inertiafromgeom': found 'maybe', wanted false, true or auto"},
       {compiler("inertiagrouprange='@1'"),
        "<compiler>: attribute 'inertiagrouprange': found '1', wanted 2 numbers"},
+      {compiler("exactmeshinertia='@yes'"),
+       "<compiler>: attribute 'exactmeshinertia': found 'yes', wanted false or true"},
   });
 }
 
@@ -199,6 +201,8 @@ TEST(MjcfMessages, OfGeoms) {
        "body 'a': <geom>: attribute 'size': found '-1 1 1', wanted half edges >= 0"},
       {body("<geom size='1' contype='@1.5'/>"),
        "body 'a': <geom>: attribute 'contype': found '1.5', wanted a 32-bit integer"},
+      {body("<geom size='1' shellinertia='@1'/>"),
+       "body 'a': <geom>: attribute 'shellinertia': found '1', wanted false or true"},
       {body("<geom size='1' mass='@-1'/>"),
        "body 'a': <geom>: attribute 'mass': found -1, wanted a number >= 0"},
       {body("<geom size='@1 1 1 1'/>"),
@@ -214,6 +218,8 @@ TEST(MjcfMessages, OfGeoms) {
        "body 'a': <geom>: unknown hfield: found 'h', wanted a <hfield> of the <asset>"},
       {body("@<geom type='hfield'/>"), "body 'a': <geom>: attribute 'hfield' is missing"},
   });
+  const std::string blank = body("<geom size='1' rgba='@ '/>");
+  check({{blank, "body 'a': <geom>: attribute 'rgba': found nothing, wanted numbers"}}, {.strict = true});
   const std::string bright = body("<geom size='1' rgba='@2 0 0 1'/>");
   check({{bright, "body 'a': <geom>: attribute 'rgba': found '2 0 0 1', wanted 4 numbers from 0 to 1"}},
         {.strict = true});
@@ -221,6 +227,8 @@ TEST(MjcfMessages, OfGeoms) {
       {bright,
        "warning: body 'a': <geom>: attribute 'rgba': found '2 0 0 1', wanted 4 numbers from 0 to 1; the "
        "nearest such numbers are used"},
+      {blank,
+       "warning: body 'a': <geom>: attribute 'rgba': found nothing, wanted numbers; it counts as not given"},
       {body("@<geom size='1' material='x'/><geom size='1' material='x'/>"),
        "note: unknown material 'x': the geom keeps its own colour (2 times)"},
       {world("@<geom type='mesh' mesh='m'/><geom mesh='m'/>").insert(9, "<asset><mesh name='m'/></asset>"),
@@ -249,6 +257,10 @@ TEST(MjcfMessages, OfAssets) {
       {model("<asset>" + fields + "@<hfield/></asset>"), "<asset>: <hfield>: too many: wanted at most 16"},
       {model("<asset><mesh file='a.stl' scale='@1 0 1'/></asset>"),
        "<asset>: <mesh>: attribute 'scale': found '1 0 1', wanted 3 numbers that are not 0"},
+      {model("<asset><mesh file='a.stl' inertia='@exakt'/></asset>"),
+       "<asset>: <mesh>: attribute 'inertia': found 'exakt', wanted convex, exact, legacy or shell (did you "
+       "mean "
+       "'exact'?)"},
       {model("<asset><material name='m'/><material name='@m'/></asset>"),
        "<asset>: <material>: a second material of this name: found 'm', wanted a name of its own"},
   });

@@ -8,12 +8,11 @@
 #include <gtest/gtest.h>
 
 #include "base/rng.h"
-#include "geometry/convex_hull.h"
 #include "geometry/rotation.h"
 #include "kinematics/forward_kinematics.h"
-#include "scene/mjcf_parts_internal.h"
 #include "scene/model.h"
 #include "scene/ors_writer.h"
+#include "support/block_surface.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
@@ -475,6 +474,183 @@ TEST_F(MjcfFile, WeighsMeshes) {
   EXPECT_EQ(a.shapes[0].shape.hull.positions().size(), 8u);
 }
 
+// What MuJoCo 3.3.8 (mujoco-js 0.0.7) says of the samples, with density 1. Its principal axes are exact to
+// some 1e-7 rad.
+struct WeighedSample {
+  bool open;
+  const char* inertia;
+  double mass;
+  Eigen::Vector3d center;
+  Eigen::Matrix<double, 6, 1> moments;  // xx, yy, zz, xy, xz, yz
+};
+const WeighedSample kWeighed[] = {
+    {false,
+     "legacy",
+     4.161340544083906,
+     {0.7751966568338247, 1.2420108161258603, 0.5},
+     {3.4306587574634664, 1.486195380984847, 4.234053417373246, 0.767785673867065, 0, 0}},
+    {false,
+     "exact",
+     4,
+     {0.75, 1.25, 0.5},
+     {3.4166666666666865, 1.4166666666666798, 4.166666666666688, 0.75, 0, 0}},
+    {false,
+     "convex",
+     5,
+     {0.8666666666666666, 1.3333333333333337, 0.5},
+     {3.861111111111135, 1.8277777777777953, 4.855555555555588, 0.6111111111111265, 0, 0}},
+    {false,
+     "shell",
+     18,
+     {0.7777777777777778, 1.2777777777777775, 0.5},
+     {20.111111111111214, 9.944444444444532, 24.388888888889014, 3.8888888888889652, 0, 0}},
+    {true,
+     "legacy",
+     3.372619047619048,
+     {0.7803571428571429, 1.2375, 0.41071428571428575},
+     {2.9360383193198554, 1.2262102701329565, 3.7418727692693077, 0.6791830516743348, -0.0036956859895004865,
+      0.0010227965848628828}},
+    {true,
+     "exact",
+     3.2099567099567095,
+     {0.7475649350649349, 1.2475649350649352, 0.40746753246753253},
+     {2.919113521086601, 1.1561265931046942, 3.6729314252064116, 0.6610992791336162, -0.00021733951897764763,
+      -0.0002173394630880781}},
+    {true,
+     "convex",
+     5,
+     {0.8666666666666666, 1.3333333333333333, 0.5},
+     {3.861111111111135, 1.8277777777777953, 4.855555555555588, 0.6111111111111265, 0, 0}},
+    {true,
+     "shell",
+     14,
+     {0.7857142857142857, 1.285714285714286, 0.35714285714285715},
+     {15.738095414012598, 7.571428600326389, 20.21428550947077, 3.1428572152495193, -0.07143221574955923,
+      -0.07142981116348768}},
+};
+
+TEST_F(MjcfFile, WeighsMeshesAsMujocoDoes) {
+  for (const WeighedSample& sample : kWeighed) {
+    SCOPED_TRACE(std::string(sample.inertia) + (sample.open ? ", open" : ", closed"));
+    write("m.obj", objText(trianglesOf(profileSample(sample.open))));
+    for (const bool touches : {true, false}) {  // what is not touched has no hull of its own
+      const SceneFile scene = readMjcf(write(
+          "m.xml",
+          std::string("<mujoco><default><mesh inertia='") + sample.inertia +
+              "'/></default><asset><mesh file='m.obj'/></asset><worldbody><body><geom type='mesh' mesh='m' "
+              "density='1' contype='" +
+              (touches ? "1" : "0") + "' conaffinity='0'/></body></worldbody></mujoco>"));
+      const BodySpec& body = scene.spec.bodies.at(0);
+      EXPECT_NEAR(body.mass, sample.mass, 1e-9);
+      EXPECT_LT((body.p_BBcm - sample.center).norm(), 1e-9);
+      const Eigen::Matrix3d& I = *body.inertia;
+      const auto& m = sample.moments;
+      EXPECT_LT(
+          (I - (Eigen::Matrix3d() << m[0], m[3], m[4], m[3], m[1], m[5], m[4], m[5], m[2]).finished()).norm(),
+          2e-5);
+      EXPECT_NEAR(I.trace(), m.head<3>().sum(), 1e-9);
+    }
+  }
+}
+
+TEST_F(MjcfFile, TakesTheRuleOfMeshesFromTheCompiler) {
+  write("m.obj", objText(trianglesOf(profileSample(false))));
+  const auto massWith = [&](const std::string& compiler, const std::string& mesh) {
+    return readMjcf(write("m.xml", "<mujoco><compiler " + compiler + "/><asset><mesh file='m.obj' " + mesh +
+                                       "/></asset><worldbody><body><geom type='mesh' mesh='m' "
+                                       "density='1'/></body></worldbody></mujoco>"))
+        .spec.bodies.at(0)
+        .mass;
+  };
+  EXPECT_NEAR(massWith("", ""), 4.161340544083906, 1e-9);
+  EXPECT_NEAR(massWith("exactmeshinertia='false'", ""), 4.161340544083906, 1e-9);
+  EXPECT_NEAR(massWith("exactmeshinertia='true'", ""), 4, 1e-9);
+  EXPECT_NEAR(massWith("exactmeshinertia='true'", "inertia='convex'"), 5, 1e-9);
+}
+
+TEST_F(MjcfFile, SaysHowFarTheVolumeOfAMeshIsInDoubt) {
+  write("open.obj", objText(trianglesOf(profileSample(true))));
+  write("closed.obj", objText(trianglesOf(profileSample(false))));
+  const auto notesWith = [&](const std::string& file, const std::string& mesh, const std::string& geom = "") {
+    const std::string body = "<body><geom type='mesh' mesh='m' " + geom + "/></body>\n";
+    return notesOf(
+        readMjcf(write("m.xml", "<mujoco><asset>\n<mesh name='m' file='" + file + "' " + mesh +
+                                    "/></asset><worldbody>" + body + body + "</worldbody></mujoco>")));
+  };
+  const std::string holes =
+      "m.xml:2:22: warning: mesh 'open.obj': the surface has holes, or triangles with the wrong side out, so "
+      "its "
+      "volume is uncertain by ";
+  EXPECT_THAT(
+      notesWith("open.obj", ""),
+      ElementsAre(HasSubstr(holes + "19 %: 3.373 m^3 by inertia=\"legacy\", 4 m^3 with all holes closed")));
+  EXPECT_THAT(
+      notesWith("open.obj", "inertia='exact'", "mass='1'"),
+      ElementsAre(HasSubstr(holes + "25 %: 3.21 m^3 by inertia=\"exact\", 4 m^3 with all holes closed")));
+  EXPECT_THAT(
+      notesWith("closed.obj", ""),
+      ElementsAre(HasSubstr("m.xml:2:22: note: a mesh that is not convex weighs more than it encloses, as in "
+                            "MuJoCo, where inertia=\"legacy\" is the default of <mesh>; \"exact\" counts "
+                            "what it encloses")));
+  EXPECT_THAT(notesWith("closed.obj", "", "mass='1'"), IsEmpty());
+  EXPECT_THAT(notesWith("closed.obj", "inertia='exact'"), IsEmpty());
+  for (const char* file : {"open.obj", "closed.obj"})
+    for (const char* inertia : {"inertia='convex'", "inertia='shell'"})
+      EXPECT_THAT(notesWith(file, inertia), IsEmpty()) << file << inertia;
+  EXPECT_THAT(notesWith("open.obj", "", "density='0'"), IsEmpty()) << "what weighs nothing is in no doubt";
+  EXPECT_THAT(notesWith("closed.obj", "inertia='exact'", "mass='1' shellinertia='true'"),
+              testing::Contains(
+                  HasSubstr("<geom>: 'shellinertia' has no effect on a mesh, as in MuJoCo since version 3.3: "
+                            "its <mesh> needs inertia=\"shell\"")));
+}
+
+TEST_F(MjcfFile, WeighsNoHullsOfTooManyVertices) {
+  std::string text;
+  for (int i = 0; i <= 100'000; ++i) text += "v " + std::to_string(i) + " 0 " + std::to_string(i % 2) + "\n";
+  for (int i = 3; i <= 100'001; ++i)
+    text += "f " + std::to_string(i - 2) + " " + std::to_string(i - 1) + " " + std::to_string(i) + "\n";
+  write("fine.obj", text);
+  EXPECT_REX_ERROR(
+      readMjcf(
+          write("m.xml",
+                "<mujoco><asset><mesh file='fine.obj' inertia='convex'/></asset><worldbody><body>"
+                "<geom type='mesh' mesh='fine' contype='0' conaffinity='0'/></body></worldbody></mujoco>")),
+      "m.xml:1:28: mesh 'fine.obj': inertia=\"convex\": convex hull: found 100001 different points, wanted "
+      "at most "
+      "100000");
+}
+
+// A cube, and far from it a small one that is inside out.
+TEST_F(MjcfFile, RepairsMomentsOfMeshes) {
+  std::vector<BlockFace> faces = facesOf({{0, 0, 0}}, {{{-1, 1}, {-1, 1}, {-1, 1}}});
+  for (BlockFace face : facesOf({{0, 0, 0}}, {{{19.75, 20.25}, {-.25, .25}, {-.25, .25}}})) {
+    std::swap(face.u, face.v);
+    faces.push_back(face);
+  }
+  write("m.obj", objText(trianglesOf(faces)));
+  const auto file =
+      write("m.xml",
+            "<mujoco><asset><mesh file='m.obj' inertia='exact'/></asset><worldbody>\n"
+            "<body name='a'><geom type='mesh' mesh='m' density='1'/></body></worldbody></mujoco>");
+  const SceneFile scene = readMjcf(file);
+  const double small = .125, mass = 8 - small, x = -20 * small / mass;
+  const double xx = 8 * (1. / 3 + x * x) - small * (1. / 48 + (20 - x) * (20 - x));
+  const double yy = 8. / 3 - small / 48;
+  EXPECT_THAT(notesOf(scene),
+              ElementsAre(testing::MatchesRegex(
+                  ".*m.xml:2:1: warning: body 'a': its geoms: a negative principal moment: wanted "
+                  "principal moments >= 0; -4[0-9.]* and -4[0-9.]* kg m.2 are physically impossible "
+                  "and count as 0")));
+  const BodySpec& body = scene.spec.bodies.at(0);
+  EXPECT_NEAR(body.mass, mass, 1e-9);
+  EXPECT_LT(xx + yy, -40);
+  EXPECT_LT((*body.inertia - Eigen::Matrix3d(Eigen::Vector3d(2 * yy, 0, 0).asDiagonal())).norm(), 1e-9);
+  EXPECT_REX_ERROR(
+      readMjcf(file, {.strict = true}),
+      "m.xml:2:1: body 'a': its geoms: a negative principal moment: wanted principal moments >= 0");
+  static_cast<void>(compile(scene.spec));
+}
+
 TEST_F(MjcfFile, NamesMeshesByPathOnlyIfAsked) {
   write("brick.off", kBrick);
   const SceneFile scene = readMjcf(write("m.xml",
@@ -600,44 +776,6 @@ TEST(MjcfReader, IsWrittenAndReadAgain) {
                          forwardKinematics(again, q)[again.body(one.name)], 1e-12));
   EXPECT_NEAR(again.mass(), model.mass(), 1e-12);
   EXPECT_EQ(again.collisionChoices().size(), model.collisionChoices().size());
-}
-
-// The mesh of a hull of random points, against the sum over a lattice.
-TEST(MjcfReader, WeighsAnyMesh) {
-  Rng rng(8);
-  std::vector<Eigen::Vector3f> points;
-  for (int i = 0; i < 12; ++i) points.push_back(rng.normalVector(3).cast<float>() + Eigen::Vector3f(1, 2, 3));
-  const TriangleMesh hull = convexHull(points);
-  const mjcf::MassProperties all = mjcf::propertiesOfMesh(hull);
-  const auto isInside = [&](const Eigen::Vector3d& p) {
-    return std::all_of(hull.triangles().begin(), hull.triangles().end(),
-                       [&](const TriangleMesh::Triangle& t) {
-                         const Eigen::Vector3d a = hull.positions()[t[0]].cast<double>(),
-                                               b = hull.positions()[t[1]].cast<double>(),
-                                               c = hull.positions()[t[2]].cast<double>();
-                         return (b - a).cross(c - a).dot(p - a) <= 0;
-                       });
-  };
-  double mass = 0;
-  Eigen::Vector3d first = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
-  constexpr int kSteps = 80;
-  constexpr double kStep = 8. / kSteps;
-  for (int i = 0; i < kSteps * kSteps * kSteps; ++i) {
-    const Eigen::Vector3d p =
-        kStep * Eigen::Vector3d(i % kSteps + .5, i / kSteps % kSteps + .5, i / kSteps / kSteps + .5) +
-        Eigen::Vector3d(-3, -2, -1);
-    if (!isInside(p)) continue;
-    const double part = kStep * kStep * kStep;
-    mass += part;
-    first += part * p;
-    second += part * p * p.transpose();
-  }
-  const Eigen::Vector3d center = first / mass;
-  const Eigen::Matrix3d C = second - mass * center * center.transpose();
-  EXPECT_NEAR(all.mass, mass, .02 * mass);
-  EXPECT_LT((all.p_BBcm - center).norm(), .02);
-  EXPECT_LT((all.I_BBcm_B - (C.trace() * Eigen::Matrix3d::Identity() - C)).norm(), .03 * all.I_BBcm_B.norm());
 }
 
 }  // namespace rex::mjcf_reader_test

@@ -47,6 +47,18 @@ std::string followed(const std::string& lower, const std::string& upper, const s
       limit(ownLower, ownUpper) + "<mimic joint='j'/></joint>");
 }
 const std::string kMoments = "<inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/>";
+
+// Four links with shapes in a chain, of which the first and the last two have no mass.
+std::string weighed(const std::string& mark) {
+  const std::string shape = "<collision><geometry><sphere radius='1'/></geometry></collision></link>\n";
+  const auto joint = [](const std::string& parent, const std::string& child) {
+    return "<joint name='" + child + "' type='continuous'><parent link='" + parent + "'/><child link='" +
+           child + "'/></joint>";
+  };
+  return robot("<link name='a'>" + shape + "<link name='b'><inertial><mass value='1'/>" + kMoments +
+               "</inertial>" + shape + mark + "<link name='c'>" + shape + "<link name='d'>" + shape +
+               joint("a", "b") + joint("b", "c") + joint("c", "d"));
+}
 const std::string kTypes = "revolute, continuous, prismatic, fixed, floating or planar";
 
 SourceLocation takeMark(std::string& text) {
@@ -186,10 +198,13 @@ TEST(UrdfMessages, OfShapes) {
   const std::string color = "<geometry><sphere radius='1'/></geometry>\n<material name='m'>";
   check({
       {geometry("").insert(geometry("").find("<geometry>"), "@"),
-       "link 'a': <geometry>: no shape: wanted <box>, <cylinder>, <sphere>, <capsule> or <mesh>"},
+       "link 'a': <geometry>: no shape: wanted <box>, <cylinder>, <sphere>, <capsule>, <mesh> or "
+       "<plane>"},
       {geometry("<shpere radius='1'/>").insert(geometry("").find("<geometry>"), "@"),
-       "link 'a': <geometry>: no shape: found <shpere>, wanted <box>, <cylinder>, <sphere>, <capsule> or "
-       "<mesh> (did you mean 'sphere'?)"},
+       "link 'a': <geometry>: no shape: found <shpere>, wanted <box>, <cylinder>, <sphere>, <capsule>, "
+       "<mesh> or <plane> (did you mean 'sphere'?)"},
+      {geometry("<plane normal='@0 0 0'/>"),
+       "link 'a': <plane>: attribute 'normal': found '0 0 0', wanted a direction"},
       {geometry("<box size='@1 0 1'/>"),
        "link 'a': <box>: attribute 'size': found '1 0 1', wanted 3 numbers > 0"},
       {geometry("@<box/>"), "link 'a': <box>: attribute 'size' is missing"},
@@ -275,8 +290,6 @@ TEST(UrdfMessages, OfMimics) {
   const std::string wanted = ", wanted a revolute, continuous or prismatic joint";
   check({
       {mimic("continuous", "@<mimic/>"), "joint 'k': <mimic>: attribute 'joint' is missing"},
-      {mimic("continuous", "<mimic joint='@jj'/>"),
-       "joint 'k': mimic: found 'jj', wanted the name of a joint (did you mean 'j'?)"},
       {mimic("continuous", "<mimic joint='@k'/>"),
        "joint 'k': mimic: found 'k', which mimics 'k', wanted a joint that mimics no other"},
       {mimic("fixed", "<mimic joint='@j'/>"), "joint 'k': mimic: found 'j'" + wanted},
@@ -314,6 +327,8 @@ TEST(UrdfMessages, OfStrictReadings) {
            "upper"},
           {joint("fixed", "@<mimic joint='j'/>"),
            "joint 'j': <mimic>: found a joint of type 'fixed', wanted revolute, continuous or prismatic"},
+          {mimic("continuous", "<mimic joint='@jj'/>"),
+           "joint 'k': mimic: found 'jj', wanted the name of a joint (did you mean 'j'?)"},
           {followed("0", "1", "2", "3"),
            "joint 'k': limits: found joint 'j' has no position left: 2 > 1, wanted limits that both joints "
            "can satisfy"},
@@ -395,6 +410,8 @@ TEST(UrdfMessages, OfWarnings) {
        "note: <texture> is ignored"},
       {robot("@<link name='world'><inertial><mass value='1'/>" + kMoments + "</inertial></link>"),
        "note: the <inertial> of the link 'world' is ignored"},
+      {geometry("@<plane/>"), "note: a plane becomes a box 1 m thick and 100 m wide, which is not drawn"},
+      {weighed("@"), "note: a link with shapes but without <inertial> has no mass (2 times)"},
   };
   for (Row row : rows) {
     const std::string wanted = toString(takeMark(row.text)) + ": " + row.message;

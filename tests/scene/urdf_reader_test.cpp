@@ -84,6 +84,27 @@ TEST(UrdfReader, TellsCollisionShapesFromVisibleOnes) {
   EXPECT_TRUE(!shapes[1].contact && shapes[1].visible);
 }
 
+// The side of the box to which the normal points lies in the plane.
+TEST(UrdfReader, MakesBoxesOfPlanes) {
+  const auto shapeOf = [](const std::string& tag) {
+    return parse("<link name='a'><collision><origin xyz='1 2 3' rpy='0 0 1.5707963267948966'/><geometry>" +
+                 tag + "</geometry></collision></link>")
+        .spec.bodies.at(0)
+        .shapes.at(0);
+  };
+  for (const auto& [tag, normal] : {std::pair{"<plane/>", Eigen::Vector3d(0, 0, 1)},
+                                    {"<plane normal='0 0 2'/>", Eigen::Vector3d(0, 0, 1)},
+                                    {"<plane normal='3 4 0'/>", Eigen::Vector3d(-.8, .6, 0)},
+                                    {"<plane normal='0 0 -1'/>", Eigen::Vector3d(0, 0, -1)}}) {
+    const ShapeSpec shape = shapeOf(tag);
+    EXPECT_EQ(shape.shape.type, ShapeType::kBox);
+    EXPECT_EQ(shape.shape.extent, Eigen::Vector3d(100, 100, 1));
+    EXPECT_TRUE(shape.contact && !shape.visible);
+    EXPECT_LT((shape.X_BS * Eigen::Vector3d(0, 0, .5) - Eigen::Vector3d(1, 2, 3)).norm(), 1e-12) << tag;
+    EXPECT_LT((shape.X_BS.R.col(2) - normal).norm(), 1e-12) << tag;
+  }
+}
+
 TEST(UrdfReader, FindsColoursByNameBeforeAndAfter) {
   const auto shape = [](const std::string& material) {
     return "<visual><geometry><sphere radius='1'/></geometry><material " + material + "</material></visual>";

@@ -186,6 +186,24 @@ TEST_F(UrdfRepair, WarnsOfTwoFaultsTwice) {
   EXPECT_GE(files, 170);
 }
 
+// As in urdfdom, which does not look for the other joint.
+TEST_F(UrdfRepair, LeavesOutMimicsOfMissingJoints) {
+  std::string text = robotWith({{kFollower, follower("@", "-1", ".5"), ""}});
+  const SourceLocation joint = takeMark(text, 1, "f");
+  text.replace(text.find("mimic joint='turn'"), 18, "mimic joint='trun'");
+  const SceneFile scene = parseUrdf(text, "f");
+  ASSERT_EQ(scene.notes.size(), 1u);
+  EXPECT_EQ(scene.notes[0].where.line, joint.line);
+  EXPECT_EQ(scene.notes[0].message,
+            "joint 'follow': mimic: found 'trun', wanted the name of a joint (did you mean 'turn'?); it is "
+            "ignored: "
+            "the joint moves by itself");
+  const Model model = compile(scene.spec);
+  ASSERT_EQ(model.nq(), 2);
+  EXPECT_EQ(model.lowerLimits()[1], -1);
+  EXPECT_EQ(model.upperLimits()[1], .5);
+}
+
 SceneSpec parsed(const std::string& inside) {
   return parseUrdf("<robot name='r'>" + inside + "</robot>", "f").spec;
 }
