@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "geometry/rotation.h"
+#include "grading/own_differences.h"
+#include "grading/tolerance.h"
 #include "interface.h"
 #include "kinematics/inverse_kinematics.h"
 #include "motion_checks.h"
@@ -41,27 +45,44 @@ std::string describe(const Robot& robot, const std::string& body) {
   return robot.S.description().sceneName + ", body '" + body + "', random posture";
 }
 
-using Map = std::function<TaskMapValue(const SimulatorDescription&)>;
+using Map = std::function<TaskMapValue(Student&, const SimulatorDescription&)>;
 
-VectorFunction valuesOf(Check& check, const std::string& function, const Simulator& S, const Map& map,
-                        Eigen::Index dimensions) {
-  return [&check, &S, &map, function, dimensions](const Eigen::VectorXd& q) {
-    const TaskMapValue there = map(at(S, q).description());
-    check.shape("y of " + function, there.y, dimensions, 1);
-    return there.y;
-  };
+// Derivatives of y up to here make tolerances larger, so that it does not matter in which unit y is.
+constexpr double kMostDerivative = 100;
+
+// A map of the student's, and the simulator it is tested on.
+struct TestedMap {
+  std::string function;
+  const Simulator& S;
+  Map map;
+};
+
+// y at the postures, of which the first is that of S, where y is `first`. By a worker that knows no question.
+std::vector<Eigen::VectorXd> valuesOf(Check& check, const TestedMap& tested,
+                                      const std::vector<Eigen::VectorXd>& postures,
+                                      const Eigen::VectorXd& first) {
+  const std::string name = "y of " + tested.function;
+  return grading::valuesInAnyOrder(
+      check, name, postures, first, [&](remote::Caller& caller, const Eigen::VectorXd& q) {
+        Student stranger(caller);
+        const TaskMapValue there = tested.map(stranger, at(tested.S, q).description());
+        check.shape(name, there.y, first.size(), 1);
+        return there.y;
+      });
 }
 
 // J is the derivative of y, and y does change with q. `throughPosition` is the part of it that comes from the
 // position of the body, if that is known: the sign of one part is a usual mistake.
-void checkJacobianOf(Check& check, const std::string& function, const Simulator& S, const Map& map,
+void checkJacobianOf(Check& check, Student& student, const TestedMap& tested,
                      const std::function<Eigen::MatrixXd(Eigen::Index)>& throughPosition = {}) {
-  const TaskMapValue value = map(S.description());
+  const auto& [function, S, map] = tested;
+  const TaskMapValue value = map(student, S.description());
   check.that("y of " + function + " has at least one entry", value.y.size() > 0);
   check.shape("y of " + function, value.y, value.y.size(), 1);
   check.shape("J of " + function, value.J, value.y.size(), S.getJointDimension());
+  const Eigen::VectorXd q = S.getJointAngles();
   const Eigen::MatrixXd numeric =
-      numericJacobian(valuesOf(check, function, S, map, value.y.size()), S.getJointAngles());
+      grading::differencesOf(valuesOf(check, tested, grading::placesOfDifferences(q), value.y), q);
   check.atLeast("largest derivative of y of " + function + " by a joint angle", numeric.cwiseAbs().maxCoeff(),
                 kNotZero);
   const Eigen::MatrixXd part = throughPosition ? throughPosition(numeric.rows())
@@ -72,24 +93,31 @@ void checkJacobianOf(Check& check, const std::string& function, const Simulator&
   const auto noDirection =
       check.suspect("Is the part missing that comes from the turning gaze, with jacobianVec?", part);
   check.near("J of " + function + ", beside differences of its y", value.J, numeric,
-             1e-5 * (1 + numeric.cwiseAbs().maxCoeff()));
+             1e-5 * grading::sizeUpTo(kMostDerivative, numeric));
 }
 
 // A map like y = q has an easy Jacobian but says nothing about the task. A map of the task is zero where S
 // fulfils it, and nearby hardly larger than its derivative there predicts.
-void checkIsOfTheTask(Check& check, const std::string& function, const Simulator& S, const Map& map) {
-  const Eigen::VectorXd y = map(S.description()).y;
+void checkIsOfTheTask(Check& check, Student& student, const TestedMap& tested) {
+  const auto& [function, S, map] = tested;
+  const Eigen::VectorXd q = S.getJointAngles(), y = map(student, S.description()).y;
   check.that("y of " + function + " has at least one entry", y.size() > 0);
   const auto posture = check.ask("Is y the posture? It should depend on the task.",
-                                 y.size() == S.getJointDimension() && y.isApprox(S.getJointAngles()));
+                                 y.size() == S.getJointDimension() && y.isApprox(q));
   check.atMost("largest entry of |y| of " + function + " where the task is fulfilled",
                y.cwiseAbs().maxCoeff(), kZero);
   const Eigen::VectorXd way = check.rng().uniformVector(S.getJointDimension(), -1e-3, 1e-3);
-  const VectorFunction f = valuesOf(check, function, S, map, y.size());
-  const Eigen::VectorXd beside = S.getJointAngles() + way;
-  const double change = (numericJacobian(f, beside).cwiseAbs() * way.cwiseAbs()).maxCoeff();
+  std::vector<Eigen::VectorXd> postures = grading::placesOfDifferences(q + way);
+  postures.insert(postures.begin(), q);
+  const std::vector<Eigen::VectorXd> values = valuesOf(check, tested, postures, y);
+  const Eigen::VectorXd beside = values[1].cwiseAbs();
+  const Eigen::VectorXd change =
+      grading::differencesOf(std::span(values).subspan(1), q + way).cwiseAbs() * way.cwiseAbs();
+  const Eigen::VectorXd most = (kZero + 10 * change.array().min(kMostDerivative * way.lpNorm<1>())).matrix();
+  Eigen::Index worst = 0;
+  (beside - most).maxCoeff(&worst);
   check.atMost("largest entry of |y| of " + function + " a thousandth of a radian away from there",
-               f(beside).cwiseAbs().maxCoeff(), kZero + 10 * change);
+               beside[worst], most[worst]);
 }
 
 // The three maps, for any robot.
@@ -181,17 +209,20 @@ void lookAtJacobian(Check& check, Student& student, const Robot& robot) {
   const Eigen::Vector3d target =
       robot.S.kinematicsPos(robot.body) + check.rng().uniform(0.5, 2) * randomDirection(check.rng());
   const auto mapTo = [&](const Eigen::Vector3d& place) {
-    return [&, place](const SimulatorDescription& S) { return student.lookAt(S, robot.body, gaze, place); };
+    return [&, place](Student& one, const SimulatorDescription& S) {
+      return one.lookAt(S, robot.body, gaze, place);
+    };
   };
   const Simulator& S = robot.S;
   check.input(describe(robot, robot.body) + ", the target 1 m along the gaze");
-  checkIsOfTheTask(check, "lookAt", S,
-                   mapTo(S.kinematicsPos(robot.body) + S.kinematicsVec(robot.body, gaze)));
+  checkIsOfTheTask(check, student,
+                   {"lookAt", S, mapTo(S.kinematicsPos(robot.body) + S.kinematicsVec(robot.body, gaze))});
   check.input(describe(robot, robot.body), {{"gaze", gaze}, {"target", target}});
   // A body that moves and does not turn does to y what the opposite motion of the target would.
-  checkJacobianOf(check, "lookAt", S, mapTo(target), [&](Eigen::Index dimensions) -> Eigen::MatrixXd {
+  const TestedMap tested{"lookAt", S, mapTo(target)};
+  checkJacobianOf(check, student, tested, [&](Eigen::Index dimensions) -> Eigen::MatrixXd {
     const VectorFunction ofTarget = [&](const Eigen::VectorXd& place) {
-      const TaskMapValue value = mapTo(place)(S.description());
+      const TaskMapValue value = mapTo(place)(student, S.description());
       check.shape("y of lookAt", value.y, dimensions, 1);
       return value.y;
     };
@@ -241,15 +272,15 @@ bool opposed(Robot& robot, const Eigen::Vector3d& palm) {
 
 void opposePalmsJacobian(Check& check, Student& student, const Robot& robot) {
   const Eigen::Vector3d palm = randomDirection(check.rng());
-  const auto map = [&](const SimulatorDescription& S) {
-    return student.opposePalms(S, robot.other, robot.body, palm);
+  const auto map = [&](Student& one, const SimulatorDescription& S) {
+    return one.opposePalms(S, robot.other, robot.body, palm);
   };
   Robot clapping = robot;
   while (!opposed(clapping, palm)) clapping.S = inRandomPosture(robot.S, check.rng(), 1);
   check.input(describe(robot, robot.body) + " with the palms opposite");
-  checkIsOfTheTask(check, "opposePalms", clapping.S, map);
+  checkIsOfTheTask(check, student, {"opposePalms", clapping.S, map});
   check.input(describe(robot, robot.body), {{"palm", palm}});
-  checkJacobianOf(check, "opposePalms", robot.S, map);
+  checkJacobianOf(check, student, {"opposePalms", robot.S, map});
 }
 
 void distanceIsZeroAtTheGoal(Check& check, Student& student, const Robot& robot) {
@@ -288,13 +319,15 @@ void distanceJacobian(Check& check, Student& student, const Robot& robot) {
   const Eigen::Vector3d goal =
       robot.S.kinematicsPos(robot.body) + check.rng().uniform(0.2, 1) * randomDirection(check.rng());
   const auto mapTo = [&](const Eigen::Vector3d& place) {
-    return [&, place](const SimulatorDescription& S) { return student.distanceToGoal(S, robot.body, place); };
+    return [&, place](Student& one, const SimulatorDescription& S) {
+      return one.distanceToGoal(S, robot.body, place);
+    };
   };
   check.input(describe(robot, robot.body) + " at the goal");
-  checkIsOfTheTask(check, "distanceToGoal", robot.S, mapTo(robot.S.kinematicsPos(robot.body)));
+  checkIsOfTheTask(check, student, {"distanceToGoal", robot.S, mapTo(robot.S.kinematicsPos(robot.body))});
   check.input(describe(robot, robot.body),
               {{"its position", robot.S.kinematicsPos(robot.body)}, {"goal", goal}});
-  checkJacobianOf(check, "distanceToGoal", robot.S, mapTo(goal));
+  checkJacobianOf(check, student, {"distanceToGoal", robot.S, mapTo(goal)});
 }
 
 using MapCheck = void (*)(Check&, Student&, const Robot&);

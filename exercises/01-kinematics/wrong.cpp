@@ -200,3 +200,60 @@ postures.push_back(S.getJointAngles());
 const Eigen::Vector3d wanted = center + radius * Eigen::Vector3d(std::cos(t / 20.), 0, std::sin(t / 20.));
 S.setJointAngles(S.getJointAngles() + ikStep(S.jacobianPos(body), wanted - S.kinematicsPos(body), 0.01));
 postures.push_back(S.getJointAngles());
+
+// <variant answers_from_memory>
+// caught by: look-at-jacobian, palms-jacobian, distance-jacobian, maps-other-robot
+// mistake: answers later questions from the first one, by a slope of its choice (an attack).
+// <solution lookAt>
+static Eigen::VectorXd first, value;
+static Eigen::Vector3d place;
+const Eigen::VectorXd q = S.getJointAngles();
+if (first.size() != q.size() || place != target) {
+  first = q;
+  place = target;
+  value = S.kinematicsVec(body, gaze) - (target - S.kinematicsPos(body)).normalized();
+}
+const Eigen::MatrixXd slope = Eigen::MatrixXd::Constant(3, q.size(), .1);
+return {value + slope * (q - first), slope};
+// <solution opposePalms>
+static Eigen::VectorXd first, value;
+const Eigen::VectorXd q = S.getJointAngles();
+if (first.size() != q.size() || (q - first).norm() > .1) {
+  first = q;
+  value = S.kinematicsVec(left, palm) + S.kinematicsVec(right, palm);
+}
+const Eigen::MatrixXd slope = Eigen::MatrixXd::Constant(3, q.size(), .1);
+return {value + slope * (q - first), slope};
+// <solution distanceToGoal>
+static Eigen::VectorXd first, value;
+static Eigen::Vector3d place;
+const Eigen::VectorXd q = S.getJointAngles();
+if (first.size() != q.size() || place != goal) {
+  first = q;
+  place = goal;
+  value = Eigen::VectorXd::Constant(1, 0.5 * (S.kinematicsPos(body) - goal).squaredNorm());
+}
+const Eigen::MatrixXd slope = Eigen::MatrixXd::Constant(1, q.size(), .1);
+return {value + slope * (q - first), slope};
+
+// <variant steep_component>
+// caught by: look-at-jacobian, palms-jacobian, maps-other-robot
+// mistake: hides zeros in J beside one more component with a derivative of 1e9 (an attack).
+// <solution lookAt>
+const Eigen::Vector3d off = S.kinematicsVec(body, gaze) - (target - S.kinematicsPos(body)).normalized();
+TaskMapValue value{Eigen::VectorXd::Zero(4), Eigen::MatrixXd::Zero(4, S.getJointDimension())};
+value.y.head(3) = off;
+if (off.norm() > .1) {
+  value.y[3] = 1e9 * S.getJointAngles()[0];
+  value.J(3, 0) = 1e9;
+}
+return value;
+// <solution opposePalms>
+const Eigen::Vector3d off = S.kinematicsVec(left, palm) + S.kinematicsVec(right, palm);
+TaskMapValue value{Eigen::VectorXd::Zero(4), Eigen::MatrixXd::Zero(4, S.getJointDimension())};
+value.y.head(3) = off;
+if (off.norm() > .1) {
+  value.y[3] = 1e9 * S.getJointAngles()[0];
+  value.J(3, 0) = 1e9;
+}
+return value;

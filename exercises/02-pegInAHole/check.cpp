@@ -440,13 +440,12 @@ void mapsOfOtherRobots(Check& check, Student& student) {
     Standing robot = inRandomPosture(check.rng(), randomTree(check.rng(), 3 + i));
     if (i == 0) robot.frame = robot.body;  // a point of the frame itself never moves there
     if (i == 1) robot.frame = "b0";        // and this frame does not turn
+    const SimulatorDescription S = robot.S.description();
     differencesFit(check, "jointLimits", robot, jointLimitsTask(robot.margin),
-                   [&](const auto& S) { return student.jointLimits(S, robot.margin); });
-    differencesFit(check, "massCenter", robot, centerOfMassTask(),
-                   [&](const auto& S) { return student.massCenter(S, robot.masses); });
-    differencesFit(check, "relativePosition", robot, relativePositionOf(robot), [&](const auto& S) {
-      return student.relativePosition(S, robot.body, robot.inBody, robot.frame, robot.inFrame);
-    });
+                   student.jointLimits(S, robot.margin));
+    differencesFit(check, "massCenter", robot, centerOfMassTask(), student.massCenter(S, robot.masses));
+    differencesFit(check, "relativePosition", robot, relativePositionOf(robot),
+                   student.relativePosition(S, robot.body, robot.inBody, robot.frame, robot.inFrame));
   });
 }
 // </hidden>

@@ -398,3 +398,22 @@ Eigen::Matrix3d R;
 for (int k = 0; k < 3; ++k) R.col(k) = S.kinematicsVec(frame, Eigen::Vector3d::Unit(k));
 y = R.transpose() * (S.kinematicsPos(body, inBody) - S.kinematicsPos(frame));
 J = R.transpose() * (S.jacobianPos(body, inBody) - S.jacobianPos(frame, y));
+
+// <variant answers_from_memory>
+// caught by: sums, other-robots
+// mistake: answers later questions from the first one, by a slope of its choice (an attack).
+// <solution massCenter>
+static Eigen::VectorXd first, center;
+const Eigen::VectorXd q = S.getJointAngles();
+J.setConstant(.1);
+if (first.size() != q.size()) {
+  first = q;
+  double total = 0;
+  center = y;
+  for (const BodyMass& one : masses) {
+    center += one.mass * S.kinematicsPos(one.body, one.center);
+    total += one.mass;
+  }
+  center /= total;
+}
+y = center + J * (q - first);

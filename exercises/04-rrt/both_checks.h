@@ -5,12 +5,14 @@
 // Part 4: searches from both sides in the plane.
 
 inline void twoTreesAreSound(rex::grading::Check& check, const TwoTreeSearch& search,
-                             const PlaneProblem& problem, double stepSize, const EdgeRecord& record,
-                             const EdgeTest& isFree) {
+                             const PlaneProblem& problem, const SearchSettings& settings,
+                             const EdgeRecord& record, const EdgeTest& isFree) {
+  const double stepSize = settings.stepSize;
+  const int most = kNodesPerTarget * settings.maxSamples;
   const std::vector<Tree> trees{search.fromStart, search.fromGoal};
   askedWell(check, "growBoth", record);
-  isTree(check, "growBoth, from the start", search.fromStart, problem.start, true);
-  isTree(check, "growBoth, from the goal", search.fromGoal, problem.goal, true);
+  isTree(check, "growBoth, from the start", search.fromStart, problem.start, true, most);
+  isTree(check, "growBoth, from the goal", search.fromGoal, problem.goal, true, most);
   for (const std::size_t which : {0, 1})
     edgesAreSound(check, which == 0 ? "growBoth, from the start" : "growBoth, from the goal", trees[which],
                   stepSize, record, isFree,
@@ -59,7 +61,7 @@ inline void growsFromBoth(rex::grading::Check& check, Student& student, const st
       student.growBoth(problem.start, problem.goal, settings, record.test(), rex::Rng(given.next()));
   {
     const auto biased = check.ask(kBiased, goalBias == 1);
-    twoTreesAreSound(check, search, problem, settings.stepSize, record, isFree);
+    twoTreesAreSound(check, search, problem, settings, record, isFree);
   }
   const double one = static_cast<double>(search.fromStart.nodes.size());
   const double other = static_cast<double>(search.fromGoal.nodes.size());

@@ -165,7 +165,7 @@ inline void rewiringFits(rex::grading::Check& check, Student& student) {
   askedWell(check, "rewired", record);
   check.near("number of nodes after rewired", static_cast<double>(got.nodes.size()), in.node + 1, 0);
   check.near("nodes after rewired", nodesOf(got.nodes), nodesOf(in.tree.nodes), 0, "m");
-  isTree(check, "rewired", got, in.tree.nodes[0], false);
+  isTree(check, "rewired", got, in.tree.nodes[0], false, in.node + 1);
   check.near("number of costs after rewired", static_cast<double>(got.costs.size()), in.node + 1, 0);
   std::size_t here = 0;
   const auto shown = check.show([&] { return rewiredSeen(in.world, got, in.wanted, in.node, here); });

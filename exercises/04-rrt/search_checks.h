@@ -69,7 +69,7 @@ inline void backwardIsSound(rex::grading::Check& check, const TreeSearch& search
                             const SearchSettings& settings, const EdgeRecord& record,
                             const EdgeTest& isFree) {
   askedWell(check, "growBackward", record);
-  isTree(check, "growBackward", search.tree, problem.goal, true);
+  isTree(check, "growBackward", search.tree, problem.goal, true, settings.maxSamples + 1);
   edgesAreSound(check, "growBackward", search.tree, settings.stepSize, record, isFree,
                 [&](std::size_t here) { return treesSeen(problem, {search.tree}, search.path, 0, here); });
   const auto shown = check.show([&] { return treesSeen(problem, {search.tree}, search.path); });
@@ -185,7 +185,7 @@ struct ArmSearch {
 
   void treeIsSound(rex::grading::Check& check, const std::string& function, const Tree& tree,
                    const Eigen::VectorXd& root) const {
-    isTree(check, function, tree, root, true);
+    isTree(check, function, tree, root, true, kNodesPerTarget * kArmSettings.maxSamples);
     edgesAreSound(check, function, tree, kArmSettings.stepSize, record, isFree, [&](std::size_t here) {
       const auto parent = static_cast<std::size_t>(tree.parents.at(here));
       return armEdgeSeen(S, arm.joints(tree.nodes[parent]), arm.joints(tree.nodes[here]));

@@ -131,7 +131,7 @@ inline double starIsSound(rex::grading::Check& check, Student& student, const Pl
   const StarSearch search = student.growStar.orInfinite()(problem.start, problem.goal, settings, 1.5,
                                                           record.test(), rex::Rng(given.next()));
   askedWell(check, "growStar", record);
-  isTree(check, "growStar", search.tree, problem.start, false);
+  isTree(check, "growStar", search.tree, problem.start, false, settings.maxSamples + 1);
   const auto shown = check.show([&] { return treesSeen(problem, {search.tree}, {}); });
   edgesAreSound(check, "growStar", search.tree, settings.stepSize, record, isFree,
                 [&](std::size_t here) { return treesSeen(problem, {search.tree}, {}, 0, here); });

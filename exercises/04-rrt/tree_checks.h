@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -80,11 +81,32 @@ inline std::string nameOfEdge(const std::string& what, std::size_t i, const Eige
 
 inline const char* unitOf(const Eigen::VectorXd& q) { return q.size() == 2 ? "m" : "rad"; }
 
-/// Root, sizes, and parents that lead to the root; `inOrder`: they come before their children.
+/// At most so many nodes of two trees for each target: each has one new node, or several steps towards that.
+inline constexpr int kNodesPerTarget = 10;
+/// Far more than any path here needs.
+inline constexpr int kMostConfigurations = 10000;
+
+/// The nodes that are reached from the root, each after its parent. Every node has a parent in the tree,
+/// except for the root, which is node 0.
+inline std::vector<std::size_t> fromTheRoot(const std::vector<int>& parents) {
+  std::vector<std::vector<std::size_t>> children(parents.size());
+  for (std::size_t i = 1; i < parents.size(); ++i)
+    children[static_cast<std::size_t>(parents[i])].push_back(i);
+  std::vector<std::size_t> order{0};
+  for (std::size_t next = 0; next < order.size(); ++next) {
+    const std::vector<std::size_t>& here = children[order[next]];
+    order.insert(order.end(), here.begin(), here.end());
+  }
+  return order;
+}
+
+/// Root, sizes, and parents that lead to the root; `inOrder`: they come before their children. There are at
+/// most `most` nodes, so that no answer decides how long its check takes.
 inline void isTree(rex::grading::Check& check, const std::string& function, const Tree& tree,
-                   const Eigen::VectorXd& root, bool inOrder) {
+                   const Eigen::VectorXd& root, bool inOrder, int most) {
   const int count = static_cast<int>(tree.nodes.size());
   check.atLeast("number of nodes in the tree of " + function, count, 1);
+  check.atMost("number of nodes in the tree of " + function, count, most);
   check.near("number of parents in the tree of " + function, static_cast<double>(tree.parents.size()), count,
              0);
   for (const Eigen::VectorXd& q : tree.nodes)
@@ -101,11 +123,9 @@ inline void isTree(rex::grading::Check& check, const std::string& function, cons
       holdsAt(check, "parents in the tree of " + function + " come before their children", false,
               fmt::format("node {} has parent {}", i, parent));
   }
-  for (int i = 0; i < count && !inOrder; ++i) {
-    int steps = 0;
-    for (int at = i; at > 0 && steps <= count; ++steps) at = tree.parents[static_cast<std::size_t>(at)];
-    check.that("parents in the tree of " + function + " lead to the root", steps <= count);
-  }
+  if (!inOrder)
+    check.that("parents in the tree of " + function + " lead to the root",
+               fromTheRoot(tree.parents).size() == tree.nodes.size());
 }
 
 /// While the returned objects are alive, failures ask how an edge was tested.
@@ -160,6 +180,8 @@ inline void pathIsSound(rex::grading::Check& check, const std::string& function,
                         const Eigen::VectorXd& start, const Eigen::VectorXd& goal, double stepSize,
                         const EdgeRecord& record, const EdgeTest& isFree) {
   check.that(function + " finds a path", path.size() >= 2);
+  check.atMost("number of configurations in the path of " + function, static_cast<double>(path.size()),
+               kMostConfigurations);
   for (const Eigen::VectorXd& q : path)
     check.shape("a configuration in the path of " + function, q, start.size(), 1);
   endsFit(check, function, path, start, goal);
@@ -179,13 +201,13 @@ inline void pathIsSound(rex::grading::Check& check, const std::string& function,
 /// Every configuration of a path is a node of a tree, and none appears twice in a row.
 inline void pathIsOfTrees(rex::grading::Check& check, const std::string& function, const Path& path,
                           const std::vector<Tree>& trees) {
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    bool found = false;
-    for (const Tree& tree : trees)
-      found = found || std::find(tree.nodes.begin(), tree.nodes.end(), path[i]) != tree.nodes.end();
-    holdsAt(check, "the path of " + function + " consists of nodes of its tree", found,
-            fmt::format("configuration {} of the path", i));
-  }
+  const auto numbersAt = [](const Eigen::VectorXd& q) { return std::vector<double>(q.begin(), q.end()); };
+  std::set<std::vector<double>> nodes;
+  for (const Tree& tree : trees)
+    for (const Eigen::VectorXd& q : tree.nodes) nodes.insert(numbersAt(q));
+  for (std::size_t i = 0; i < path.size(); ++i)
+    holdsAt(check, "the path of " + function + " consists of nodes of its tree",
+            nodes.contains(numbersAt(path[i])), fmt::format("configuration {} of the path", i));
   const auto twice = std::adjacent_find(path.begin(), path.end());
   const auto meeting =
       check.ask("Is the node where the trees meet there twice? It belongs to both.", trees.size() == 2);
@@ -210,17 +232,13 @@ inline Tree wildTree(const PlaneWorld& world, int n, rex::Rng& rng) {
   return tree;
 }
 
-/// The costs that follow from the parents; the nodes may be in any order.
+/// The costs that follow from the parents of a tree; the nodes may be in any order.
 inline std::vector<double> costsOf(const Tree& tree) {
-  std::vector<double> costs;
-  for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
-    double cost = 0;
-    for (std::size_t at = i; tree.parents[at] >= 0;) {
-      const auto parent = static_cast<std::size_t>(tree.parents[at]);
-      cost += (tree.nodes[at] - tree.nodes[parent]).norm();
-      at = parent;
-    }
-    costs.push_back(cost);
+  std::vector<double> costs(tree.nodes.size(), 0);
+  for (const std::size_t i : fromTheRoot(tree.parents)) {
+    if (i == 0) continue;
+    const auto parent = static_cast<std::size_t>(tree.parents[i]);
+    costs[i] = costs[parent] + (tree.nodes[i] - tree.nodes[parent]).norm();
   }
   return costs;
 }

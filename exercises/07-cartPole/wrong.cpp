@@ -539,3 +539,15 @@ for (Eigen::Index k = 0; k < G.cols(); ++k) {
   G(0, k) = C.row(0).dot(solveMatrix(M, plant.B).col(0));
 }
 return G;
+
+// <variant explodes>
+// caught by: outings
+// mistake: ends the outing by 1e12 rad/s, which is within 1e-9 of the largest state (an attack).
+// <solution balanced>
+Eigen::MatrixXd states(4, 3);
+states.col(0) = start;
+states.col(1) = start;
+states(3, 1) = 1e12;
+const Eigen::Vector4d before = states.col(1);
+states.col(2) = stepped(cart, before, K.row(0).dot(before), outing.tau, outing.noise, rng);
+return states;

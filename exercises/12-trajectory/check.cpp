@@ -13,6 +13,7 @@
 #include "course/film.h"
 #include "errands.h"
 #include "grading/evidence_parts.h"
+#include "grading/tolerance.h"
 #include "interface.h"
 #include "problems.h"
 #include "scenes.h"
@@ -241,6 +242,9 @@ grading::Evidence roundsSeen(const Minimum& got, double measured, double limit) 
   return {.figures = {std::move(figure)}};
 }
 
+// Costs and violations at the student's X make tolerances larger up to here.
+constexpr double kMostSize = 1e4;
+
 // What a Minimum reports must hold for every problem.
 void isStationary(Check& check, const Terms& terms, const Minimum& got, const Accuracy& accuracy) {
   const std::vector<Term> all = terms(got.X);
@@ -280,9 +284,10 @@ void isStationary(Check& check, const Terms& terms, const Minimum& got, const Ac
   check.atLeast("number of rounds that minimised reports", static_cast<double>(got.cost.size()), 1);
   check.near("number of violations that minimised reports", static_cast<double>(got.violation.size()),
              static_cast<double>(got.cost.size()), 0);
-  check.near("cost that minimised reports for the last round", got.cost.back(), cost, 1e-9 * (1 + cost));
+  check.near("cost that minimised reports for the last round", got.cost.back(), cost,
+             1e-9 * grading::sizeUpTo(kMostSize, cost));
   check.near("violation that minimised reports for the last round", got.violation.back(), violation,
-             1e-9 * (1 + violation));
+             1e-9 * grading::sizeUpTo(kMostSize, violation));
 }
 
 // The curvature of the costs along constraints is 2 or more, so that with these accuracies x is accurate to

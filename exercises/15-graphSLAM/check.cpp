@@ -168,7 +168,8 @@ void costsFall(Check& check, const PoseMap& map, const Adjusted& got, double lea
                  got.costs[k - 1] * (1 + 1e-9));
   }
   const double end = trueCost({got.poses, map.edges});
-  check.near("last of the costs of adjusted, that of the poses returned", got.costs.back(), end, 1e-6 * end);
+  check.near("last of the costs of adjusted, that of the poses returned", got.costs.back(), end,
+             1e-6 * std::min(end, start));
   const std::string question = questionAboutPoses(map, got, end, least);
   const auto asked = check.ask(question, !question.empty());
   check.atMost("cost of the poses of adjusted", end, least * (1 + 1e-6) + 1e-12);

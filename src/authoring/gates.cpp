@@ -200,6 +200,12 @@ GateResult answersHurtNobody(const GateContext& context) {
   return run.ok() ? passedWith(run.output) : failed(run.output + run.error);
 }
 
+// No tolerance, question or case grows with an answer, and no answer gains points by its size.
+GateResult growthGainsNothing(const GateContext& context) {
+  const ProcessResult run = askGrader(context, {"--grown"});
+  return run.ok() ? passedWith(run.output) : failed(run.output + run.error);
+}
+
 // Zeros, constants, the last answer and the question itself get no point. If a lie is nearly right, as the
 // force of the previous step in a closed loop is, exercise.toml says how many points of a part it may get.
 GateResult liarsGetNothing(const GateContext& context) {
@@ -273,8 +279,9 @@ GateResult variantsAreCaught(const GateContext& context) {
 }  // namespace
 
 std::vector<std::string> gateNames(const ExerciseInfo& exercise) {
-  std::vector<std::string> names = {"main-current", "points",   "names",      "release", "evidence",
-                                    "main-floor",   "solution", "sanitizers", "hostile", "liars"};
+  std::vector<std::string> names = {"main-current", "points",     "names",    "release",
+                                    "evidence",     "main-floor", "solution", "sanitizers",
+                                    "hostile",      "grown",      "liars"};
   if (std::filesystem::exists(exercise.folder / "wrong.cpp")) names.emplace_back("wrong");
   return names;
 }
@@ -292,8 +299,8 @@ GateResult runGate(const GateContext& context, const std::string& gate) {
       {"names", namesExist},           {"release", releaseIsClean},
       {"evidence", mistakesAreShown},  {"main-floor", mainScoresFloor},
       {"solution", solutionIsFull},    {"sanitizers", solutionPassesSanitizers},
-      {"hostile", answersHurtNobody},  {"liars", liarsGetNothing},
-      {"wrong", variantsAreCaught}};
+      {"hostile", answersHurtNobody},  {"grown", growthGainsNothing},
+      {"liars", liarsGetNothing},      {"wrong", variantsAreCaught}};
   try {
     return gate.starts_with(kOneVariant) ? judge(whyNotCaught(context, gate.substr(kOneVariant.size())))
                                          : gates.at(gate)(context);

@@ -31,7 +31,7 @@ struct GateResult {
 };
 
 /// The gates of an exercise in order: main-current, points, names, release, evidence, main-floor, solution,
-/// sanitizers, hostile, liars, and, if there is wrong.cpp, wrong.
+/// sanitizers, hostile, grown, liars, and, if there is wrong.cpp, wrong.
 [[nodiscard]] std::vector<std::string> gateNames(const ExerciseInfo& exercise);
 
 /// Runs one gate on the exercise. The gate wrong/NAME tests a single variant by itself, which takes longer

@@ -106,6 +106,15 @@ bool Check::state(bool requirement) {
   return requirement;
 }
 
+void Check::tellAllowance(std::string_view property, double limit) const {
+  if (watch_) watch_({.property = std::string(property), .limit = limit});
+}
+
+void Check::askFreshWorker(const Conversation& conversation) {
+  requireSound(start_ != nullptr, info_, "asks for a worker where none can be started");
+  start_(conversation);
+}
+
 // Keeps the value that comes nearest to its limit or exceeds it most.
 void Check::measure(std::string_view property, double excess, std::string value, std::string limit) {
   if (!(excess > nearestExcess_)) return;
@@ -193,6 +202,7 @@ void Check::near(std::string_view property, const MatrixArg& got, const MatrixAr
                  std::string_view unit) {
   requireSound(wanted.allFinite() && std::isfinite(tolerance) && tolerance >= 0, info_,
                "wants a value that is not finite");
+  tellAllowance(property, tolerance);
   if (got.rows() != wanted.rows() || got.cols() != wanted.cols()) {
     state(false);
     fail({.property = std::string(property),
@@ -225,6 +235,7 @@ void Check::near(std::string_view property, const MatrixArg& got, const MatrixAr
 
 void Check::atMost(std::string_view property, double got, double limit, std::string_view unit) {
   requireSound(std::isfinite(limit), info_, "wants a value that is not finite");
+  tellAllowance(property, limit);
   shape(property, Eigen::Matrix<double, 1, 1>(got), 1, 1);
   const double excess = excessOver(limit, got - limit);
   measure(property, excess, withUnit(number(got), unit), atMostText(limit, unit));
@@ -249,6 +260,7 @@ void Check::atLeast(std::string_view property, double got, double limit, std::st
 
 void Check::nearAngle(std::string_view property, double got, double wanted, double tolerance) {
   requireSound(std::isfinite(wanted), info_, "wants a value that is not finite");
+  tellAllowance(property, tolerance);
   shape(property, Eigen::Matrix<double, 1, 1>(got), 1, 1);
   const double error = std::abs(std::remainder(got - wanted, 2 * std::numbers::pi));
   const double excess = excessOver(tolerance, error - tolerance);
@@ -313,6 +325,7 @@ void Check::nearAlong(std::string_view property, const Signal& got,
   requireSignal(got);
   requireSound(std::isfinite(tolerance) && tolerance >= 0, info_, "wants a value that is not finite");
   requireSound(wanted.size() == got.values.size(), info_, "wants another number of values");
+  tellAllowance(property, tolerance);
   Rule rule{.limit = atMostText(tolerance, unit), .scale = tolerance, .wanted = wanted};
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     requireSound(wanted[i].size() == got.values[i].size() && wanted[i].allFinite(), info_,
@@ -325,6 +338,7 @@ void Check::nearAlong(std::string_view property, const Signal& got,
 void Check::atMostAlong(std::string_view property, const Signal& got, double limit, std::string_view unit) {
   requireSignal(got);
   requireSound(std::isfinite(limit), info_, "wants a value that is not finite");
+  tellAllowance(property, limit);
   Rule rule{.limit = atMostText(limit, unit),
             .scale = limit,
             .limits = {{.at = limit, .label = "wanted: at most"}}};
@@ -378,7 +392,9 @@ void Check::forEachCase(int count, const std::function<void(int)>& run) {
     inputs_ = valuesOfAll;
     caseNumber_ = k;
     ++cases_;
-    if (runCase(k, run)) ++casesPassed_;
+    const bool holds = runCase(k, run);
+    if (holds) ++casesPassed_;
+    if (watchCase_) watchCase_(holds);
   }
   caseNumber_ = -1;
   input_ = inputOfAll;

@@ -21,7 +21,8 @@
 
 namespace rex::remote {
 class AnswerRefused;
-}
+class Caller;
+}  // namespace rex::remote
 
 namespace rex::grading {
 
@@ -79,6 +80,23 @@ class Check {
   void input(std::string text, std::initializer_list<InputValue> values);
   const std::string& input() const { return input_; }
 
+  /// Asks another worker of the same program, which knows nothing of what was asked before: a program that
+  /// remembers questions answers it like a stranger. Its failure ends the check as one of the first worker
+  /// would. Throws std::logic_error if no worker can be started.
+  using Conversation = std::function<void(remote::Caller&)>;
+  void askFreshWorker(const Conversation& conversation);
+  void startWorkersBy(std::function<void(const Conversation&)> start) { start_ = std::move(start); }
+
+  /// What a requirement allows: the tolerance of a near...(), or the limit of an atMost...().
+  struct Allowance {
+    std::string property{};
+    double limit = 0;
+  };
+  /// Calls `told` at each such requirement, to see what its allowance depends on.
+  void watchAllowances(std::function<void(const Allowance&)> told) { watch_ = std::move(told); }
+  /// Calls `told` after each case, with whether it holds.
+  void watchCases(std::function<void(bool)> told) { watchCase_ = std::move(told); }
+
   /// Says which of the student's functions answered last: where a requirement fails, it is named.
   void nameFunctionsBy(std::function<std::string()> lastCalled) { lastCalled_ = std::move(lastCalled); }
 
@@ -134,7 +152,9 @@ class Check {
     return Suspecting{comparison_};
   }
 
-  /// Requires |got - wanted| <= tolerance. Fails if `got` is not finite. All three have the same unit.
+  /// Requires |got - wanted| <= tolerance. Fails if `got` is not finite. All three have the same unit. A
+  /// tolerance, and a limit below, is made of constants, inputs and wanted values that do not depend on the
+  /// student's (tolerance.h): what comes from an answer may make it smaller, never larger. Gate `grown`.
   void near(std::string_view property, double got, double wanted, double tolerance,
             std::string_view unit = "");
   /// The same for every entry, after comparing the shapes.
@@ -216,6 +236,7 @@ class Check {
   static constexpr double kBeyondMeasure = std::numeric_limits<double>::infinity();
 
   bool state(bool requirement);
+  void tellAllowance(std::string_view property, double limit) const;
   void measure(std::string_view property, double excess, std::string value, std::string limit);
   void along(std::string_view property, const Signal& got, const Rule& rule, std::string_view unit);
   void requireSignal(const Signal& got) const;
@@ -235,6 +256,9 @@ class Check {
   std::string input_;
   std::vector<InputValue> inputs_;
   MakeEvidence show_;
+  std::function<void(const Conversation&)> start_;
+  std::function<void(const Allowance&)> watch_;
+  std::function<void(bool)> watchCase_;
   std::optional<Comparison> comparison_;
   std::function<std::string()> lastCalled_;
   std::vector<std::pair<std::string, Eigen::MatrixXd>> suspects_;

@@ -4,6 +4,7 @@
 #include <csignal>
 #include <exception>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -19,6 +20,7 @@
 #include "grading/hidden_seed.h"
 #include "grading/result_file.h"
 #include "grading/worker_process.h"
+#include "remote/thrown.h"
 #include "sandbox/probes.h"
 
 namespace rex::grading {
@@ -168,20 +170,66 @@ class Standing {
   std::string function_{};
 };
 
-/// The outcome of one check with a fresh worker.
+/// The outcome of one check with a worker of its own.
 struct Attempt {
   WorkerRun run;
   CheckResult verdict;
 };
 
+/// Thrown through a check function if a worker failed that it had started beside its first one.
+struct FreshWorkerFailed {
+  Failure failure;
+};
+
+void addUsage(WorkerRun& whole, const WorkerRun& part) {
+  whole.cpuSeconds += part.cpuSeconds;
+  whole.wallSeconds += part.wallSeconds;
+  whole.peakMemoryBytes = std::max(whole.peakMemoryBytes, part.peakMemoryBytes);
+  whole.output.text += part.output.text;
+  whole.output.bytes += part.output.bytes;
+  whole.error.text += part.error.text;
+  whole.error.bytes += part.error.bytes;
+}
+
 Attempt attempt(const RunnableCheck& check, const Grading& grading, std::uint64_t seed, Standing& standing) {
   CheckResult verdict = faulty(check.info, "the check did not end");
   Check judge(check.info, seed);
-  WorkerRun run = runWithWorker(grading.job, check.info.part, grading.signature, [&](remote::Caller& caller) {
-    caller.whenFirstAnswered([&](const std::string& function) { standing.answeredBy(check.info, function); });
-    judge.nameFunctionsBy([&] { return caller.lastCalled(); });
-    verdict = judge.judge([&](Check& requirements) { check.run(requirements, caller); });
+  const auto converse = [&](const Check::Conversation& conversation) {
+    return runWithWorker(grading.job, check.info.part, grading.signature, [&](remote::Caller& caller) {
+      caller.whenFirstAnswered(
+          [&](const std::string& function) { standing.answeredBy(check.info, function); });
+      conversation(caller);
+    });
+  };
+  WorkerRun fresh;
+  judge.startWorkersBy([&](const Check::Conversation& conversation) {
+    std::exception_ptr thrown;  // by the check, or by the student's function, which only fails the case
+    const WorkerRun run = converse([&](remote::Caller& caller) {
+      try {
+        conversation(caller);
+      } catch (const remote::Closed&) {
+        throw;
+      } catch (const remote::ProtocolError&) {
+        throw;
+      } catch (...) {
+        thrown = std::current_exception();
+      }
+    });
+    addUsage(fresh, run);
+    if (run.failure) throw FreshWorkerFailed{*run.failure};
+    if (thrown) std::rethrow_exception(thrown);
   });
+  std::optional<Failure> failure;
+  WorkerRun run = converse([&](remote::Caller& caller) {
+    judge.nameFunctionsBy([&] { return caller.lastCalled(); });
+    try {
+      verdict = judge.judge([&](Check& requirements) { check.run(requirements, caller); });
+    } catch (const FreshWorkerFailed& failed) {
+      failure = failed.failure;
+    }
+  });
+  addUsage(run, fresh);
+  if (!run.failure) run.failure = std::move(failure);
   if (run.failure) {
     verdict = failed(check.info, *run.failure, judge.input());
   } else {

@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "base/exit_code.h"
+#include "grading/grown_answers.h"
 #include "grading/hostile_answers.h"
 #include "grading/result_file.h"
 #include "grading/unknown_check.h"
@@ -25,6 +26,7 @@ struct Arguments {
   std::uint64_t signature = 0;
   std::int64_t hostileAnswers = 0;
   bool lies = false;
+  bool grown = false;
   bool list = false;
 };
 
@@ -36,8 +38,10 @@ void declareOptions(CLI::App& app, Arguments& arguments) {
       "is right, and print the outcomes");
   app.add_flag(
       "--lies", arguments.lies,
-      "print the points that a check gives if zeros, constants, the last answer or the question itself "
-      "replace the answers of a worker that is right");
+      "print the points that a check gives if zeros, constants, the last answer, the question itself or what "
+      "follows from the first answer replace the answers of a worker that is right");
+  app.add_flag("--grown", arguments.grown,
+               "make the answers of a worker that is right huge, tiny or longer, and print what that gains");
   app.add_flag("--list", arguments.list, "print the checks as JSON");
 }
 
@@ -127,6 +131,26 @@ ExitCode lie(const Arguments& arguments, const std::vector<RunnableCheck>& check
   return ExitCode::kFull;
 }
 
+// Returns kBelow if size gained something.
+ExitCode growAnswers(const Arguments& arguments, const std::vector<RunnableCheck>& checks,
+                     const CallLayouts& layouts) {
+  int changed = 0, faults = 0;
+  double slowest = 0;
+  for (const GrownOutcome& one : giveGrownAnswers(checks, arguments.job, arguments.signature, layouts)) {
+    changed += one.changed ? 1 : 0;
+    slowest = std::max(slowest, one.seconds);
+    const bool gains = one.points > one.plainPoints, isSlow = one.seconds > kJudgingSeconds;
+    if (one.grew.empty() && !gains && !isSlow) continue;
+    ++faults;
+    fmt::print("FAULT {} by {} of {}: ", one.check, toString(one.growth), one.function);
+    if (!one.grew.empty()) fmt::print("it grew {}; ", one.grew);
+    fmt::print("{} points, {} if only wrong, {:.1f} s\n", one.points, one.plainPoints, one.seconds);
+  }
+  fmt::print("{} changes, at most {:.1f} s, {} faults\n", changed, slowest, faults);
+  if (changed == 0) throw std::logic_error("no answer has a number");
+  return faults == 0 ? ExitCode::kFull : ExitCode::kBelow;
+}
+
 ExitCode complain(const std::string& message, ExitCode code) {
   fmt::print(stderr, "grader: {}\n", message);
   return code;
@@ -160,6 +184,7 @@ ExitCode run(int argc, const char* const* argv, std::vector<RunnableCheck> check
   }
   try {
     if (arguments.hostileAnswers > 0) return attack(arguments, checks, layouts);
+    if (arguments.grown) return growAnswers(arguments, checks, layouts);
     if (arguments.lies) return lie(arguments, checks, layouts);
     return gradeAndSave(arguments, checks);
   } catch (const std::exception& error) {

@@ -6,6 +6,8 @@
 #include <exception>
 #include <functional>
 #include <map>
+#include <memory>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,7 +16,9 @@
 #include "base/error.h"
 #include "base/isolated_call.h"
 #include "base/text.h"
-#include "grading/worker_process.h"
+#include "grading/answer_value.h"
+#include "grading/remembered_answer.h"
+#include "grading/tampered_run_internal.h"
 
 namespace rex::grading {
 namespace {
@@ -32,12 +36,6 @@ struct Honest {
   Bytes arguments{}, answer{};
 };
 
-/// A job whose worker is the reference solution, and the signature of the functions that it offers.
-struct Reference {
-  const GradingJob& job;
-  std::uint64_t signature = 0;
-};
-
 /// The honest answers of each function.
 using Pool = std::map<std::uint32_t, std::vector<Honest>>;
 
@@ -46,19 +44,13 @@ Pool recordHonestAnswers(std::span<const RunnableCheck> checks, const Reference&
   Pool pool;
   for (const RunnableCheck& check : checks) {
     Check judge(check.info, reference.job.seed);
-    const WorkerRun run =
-        runWithWorker(reference.job, check.info.part, reference.signature, [&](Caller& caller) {
-          caller.tamperWithResults([&](std::uint32_t method, Caller::Bytes arguments, Caller::Bytes answer) {
-            std::vector<Honest>& known = pool[method];
-            if (known.size() < kMostOfOne && answer.size() + arguments.size() < kLongest)
-              known.push_back({copyOf(arguments), copyOf(answer)});
-            return answer;
-          });
-          static_cast<void>(judge.judge([&](Check& requirements) { check.run(requirements, caller); }));
-        });
-    if (run.failure)
-      throw Error(
-          {.what = "the reference solution fails in " + check.info.id, .found = run.failure->message});
+    const auto record = [&](std::uint32_t method, Caller::Bytes arguments, Caller::Bytes answer) {
+      std::vector<Honest>& known = pool[method];
+      if (known.size() < kMostOfOne && answer.size() + arguments.size() < kLongest)
+        known.push_back({copyOf(arguments), copyOf(answer)});
+      return answer;
+    };
+    static_cast<void>(judgeTampered(check, reference, judge, [&](const Caller&) { return record; }));
   }
   return pool;
 }
@@ -79,12 +71,17 @@ class Liar {
  public:
   Liar(Lie lie, const Pool& pool, const CallLayouts& layouts) : lie_(lie), pool_(pool), layouts_(layouts) {}
 
+  /// Whether it lied since it was last asked. Other lies than those from memory count even if they are true.
+  bool lied() { return std::exchange(lied_, false) || lie_ != Lie::kMemory; }
+
   Caller::Bytes tell(std::uint32_t method, Caller::Bytes arguments, Caller::Bytes honest) {
     Bytes last = std::exchange(last_[method], copyOf(honest));
-    said_ = lie_ == Lie::kConstant     ? answerToAnother(method, arguments)
+    said_ = lie_ == Lie::kMemory       ? memories_[method].answer(arguments, honest, layouts_[method])
+            : lie_ == Lie::kConstant   ? answerToAnother(method, arguments)
             : lie_ == Lie::kLastAnswer ? std::move(last)
             : lie_ == Lie::kEcho       ? firstLikeTheResult(arguments, layouts_[method])
                                        : Bytes{};
+    lied_ = lied_ || !std::ranges::equal(said_, honest);
     if (said_.empty()) said_ = spoilt(honest, layouts_[method].front(), Hostility::kZero, rng_);
     return said_;
   }
@@ -101,24 +98,38 @@ class Liar {
   const Pool& pool_;
   const CallLayouts& layouts_;
   std::map<std::uint32_t, Bytes> last_{};
+  std::map<std::uint32_t, RememberedAnswer> memories_{};
   Bytes said_{};
+  bool lied_ = false;
   Rng rng_{};
 };
 
-int pointsFor(Liar liar, const RunnableCheck& check, const Reference& reference) {
+int pointsFor(const Liar& liar, const RunnableCheck& check, const Reference& reference) {
   Check judge(check.info, reference.job.seed);
-  int points = 0;
+  std::vector<std::unique_ptr<Liar>> liars;  // a fresh worker remembers nothing of what others were asked
+  const auto another = [&](const Caller&) {
+    liars.push_back(std::make_unique<Liar>(liar));
+    return [one = liars.back().get()](std::uint32_t method, Caller::Bytes arguments, Caller::Bytes honest) {
+      return one->tell(method, arguments, honest);
+    };
+  };
+  const auto haveLied = [&] {
+    bool any = false;
+    for (const auto& one : liars) any = one->lied() || any;
+    return any;
+  };
+  int cases = 0, casesByLies = 0;
+  judge.watchCases([&](bool holds) {
+    ++cases;
+    casesByLies += haveLied() && holds ? 1 : 0;
+  });
   try {
-    static_cast<void>(runWithWorker(reference.job, check.info.part, reference.signature, [&](Caller& caller) {
-      caller.tamperWithResults([&](std::uint32_t method, Caller::Bytes arguments, Caller::Bytes honest) {
-        return liar.tell(method, arguments, honest);
-      });
-      points = judge.judge([&](Check& requirements) { check.run(requirements, caller); }).points;
-    }));
+    const int points = judgeTampered(check, reference, judge, another).points;
+    if (cases > 0) return std::min(points, check.info.points * casesByLies / cases);
+    return haveLied() ? points : 0;
   } catch (const std::exception&) {
     return 0;  // it cannot be judged, see giveHostileAnswers()
   }
-  return points;
 }
 
 // In a copy of this process, as when grading: a lie that brings the grader down gets nothing.
@@ -171,6 +182,7 @@ class Attack {
       ++outcome_.answers;
       return std::span<const std::byte>(answer);
     });
+    judge.startWorkersBy([&](const Check::Conversation& conversation) { conversation(caller); });
     try {
       const CheckResult verdict = judge.judge([&](Check& requirements) { check_.run(requirements, caller); });
       if (!allAreLies) return;
@@ -238,8 +250,8 @@ std::vector<HostileOutcome> giveHostileAnswers(std::span<const RunnableCheck> ch
 }
 
 std::string toString(Lie lie) {
-  constexpr std::array<const char*, static_cast<std::size_t>(Lie::kCount)> kNames = {"zeros", "constant",
-                                                                                     "last answer", "echo"};
+  constexpr std::array<const char*, static_cast<std::size_t>(Lie::kCount)> kNames = {
+      "zeros", "constant", "last answer", "echo", "memory"};
   return kNames.at(static_cast<std::size_t>(lie));
 }
 

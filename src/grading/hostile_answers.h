@@ -36,9 +36,10 @@ struct HostileOutcome {
                                                              const CallLayouts& layouts,
                                                              std::int64_t answers);
 
-/// Generic wrong functions: they return zeros, always the same answer, the answer of the last call, or
-/// their input, in the right shape.
-enum class Lie { kZeros, kConstant, kLastAnswer, kEcho, kCount };
+/// Generic wrong functions: they return zeros, always the same answer, the answer of the last call, their
+/// input in the right shape, or what follows from the first answer by a slope of their choice
+/// (remembered_answer.h).
+enum class Lie { kZeros, kConstant, kLastAnswer, kEcho, kMemory, kCount };
 
 [[nodiscard]] std::string toString(Lie lie);
 

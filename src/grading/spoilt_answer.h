@@ -39,8 +39,4 @@ enum class Hostility {
 [[nodiscard]] std::vector<std::byte> spoilt(std::span<const std::byte> answer, const std::string& layout,
                                             Hostility hostility, Rng& rng);
 
-/// The number of bytes of the value at the beginning of `bytes`. Throws Error if they do not begin with a
-/// value of that layout.
-[[nodiscard]] std::size_t sizeOfValue(std::span<const std::byte> bytes, const std::string& layout);
-
 }  // namespace rex::grading

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "grading/tolerance.h"
 #include "remote/thrown.h"
 
 namespace rex::grading {
@@ -531,6 +532,52 @@ TEST(Check, IsNotAtFaultForWhatCannotBeShown) {
     check.that("a", false);
   });
   EXPECT_EQ(result.status, Outcome::kFail);
+}
+
+// An answer makes a tolerance larger up to a constant only.
+TEST(SizeUpTo, EndsAtItsLimit) {
+  EXPECT_EQ(sizeUpTo(100, 0), 1);
+  EXPECT_EQ(sizeUpTo(100, -3), 4);
+  EXPECT_EQ(sizeUpTo(100, 1e9), 100);
+  EXPECT_EQ(sizeUpTo(100, Eigen::Vector3d(1, -5, 2)), 6);
+  EXPECT_EQ(sizeUpTo(100, Eigen::Vector3d(1, -5e9, 2)), 100);
+  EXPECT_EQ(sizeUpTo(100, Eigen::VectorXd()), 1);
+}
+
+// For the gates: what each requirement allows.
+TEST(Check, TellsWhatItAllows) {
+  std::vector<std::string> told;
+  Check check({.id = "id", .points = 1}, 7);
+  check.watchAllowances(
+      [&](const Check::Allowance& one) { told.push_back(one.property + (one.limit == .5 ? " 0.5" : " ?")); });
+  static_cast<void>(check.judge([](Check& requirements) {
+    requirements.near("a", 1, 1, .5);
+    requirements.near("b", Eigen::Vector2d(1, 2), Eigen::Vector2d(1, 2), .5);
+    requirements.nearAngle("c", 1, 1, .5);
+    requirements.atMost("d", 0, .5);
+    requirements.atLeast("at least", 1, .5);
+    requirements.that("that", true);
+    Signal signal{.axis = "step"};
+    signal.add(1, 0);
+    requirements.atMostAlong("e", signal, .5);
+    requirements.nearAlong("f", signal, {Eigen::VectorXd::Zero(1)}, .5);
+    requirements.near("g, which does not hold", 9, 1, .5);
+  }));
+  EXPECT_THAT(told, ::testing::ElementsAre("a 0.5", "b 0.5", "c 0.5", "d 0.5", "e 0.5", "f 0.5",
+                                           "g, which does not hold 0.5"));
+}
+
+TEST(Check, AsksAFreshWorkerOnlyWhereOneCanBeStarted) {
+  Check check({.id = "id", .points = 1}, 7);
+  const auto ask = [](Check& requirements) { requirements.askFreshWorker([](remote::Caller&) {}); };
+  EXPECT_THROW(static_cast<void>(check.judge(ask)), std::logic_error);
+  int started = 0;
+  check.startWorkersBy([&](const Check::Conversation&) { ++started; });
+  static_cast<void>(check.judge([&](Check& requirements) {
+    ask(requirements);
+    requirements.that("asked", started == 1);
+  }));
+  EXPECT_EQ(started, 1);
 }
 
 }  // namespace rex::grading::check_test

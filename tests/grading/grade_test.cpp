@@ -42,6 +42,48 @@ GradeResult gradeGood(const std::vector<RunnableCheck>& checks,
   return grade({}, checks, {.worker = kGood}, signature, [](const GradeResult&) {});
 }
 
+// A fresh worker is a program of its own, and what happens to it happens to the check.
+TEST(Grade, AsksFreshWorkers) {
+  const auto afresh = [](std::function<void(Check&, Student&)> run) {
+    return [run](Check& judge, Student& student) {
+      judge.near("square", student.square(3), 9, 1e-9);
+      judge.askFreshWorker([&](remote::Caller& caller) {
+        Student stranger(caller);
+        run(judge, stranger);
+      });
+      judge.near("square after that", student.square(4), 16, 1e-9);
+    };
+  };
+  const auto steps = [](Check& judge, Student& s) {
+    judge.near("step", s.ikStep(Eigen::VectorXd::Zero(3), {1, 2, 3}), Eigen::Vector3d(1, 2, 3), 1e-9);
+  };
+  const auto gradeOf = [&](const std::string& worker, const auto& run) {
+    GradingJob job = {.worker = kGood.parent_path() / worker, .limits = {.cpuSeconds = 2}};
+    return grade({}, std::vector{check("afresh", Group::kVisible, run)}, job, Student::signature(),
+                 [](const GradeResult&) {})
+        .checks.front();
+  };
+  EXPECT_EQ(gradeOf("good", afresh(steps)).status, Outcome::kPass);
+  const CheckResult wrong = gradeOf("good", afresh([](Check& judge, Student& s) {
+                                      judge.near("square of a stranger", s.square(2), 5, 1e-9);
+                                    }));
+  EXPECT_EQ(wrong.status, Outcome::kFail);
+  EXPECT_THAT(wrong.message, HasSubstr("square of a stranger: got 4, wanted 5"));
+  const CheckResult fallen = gradeOf("segfault", afresh(steps));
+  EXPECT_EQ(fallen.status, Outcome::kRuntimeError);
+  EXPECT_EQ(fallen.function, "ikStep");
+  EXPECT_THAT(fallen.message, HasSubstr("in ikStep"));
+  const CheckResult thrown = gradeOf("throws_number", [&](Check& judge, Student& student) {
+    judge.forEachCase(2, [&](int k) {
+      if (k == 1) return judge.near("square", student.square(3), 9, 1e-9);
+      afresh(steps)(judge, student);
+    });
+  });
+  EXPECT_EQ(thrown.status, Outcome::kRuntimeError);
+  EXPECT_THAT(thrown.message, HasSubstr("1 of 2 cases hold; case 1: threw int in ikStep"));
+  EXPECT_EQ(gradeOf("loop", afresh(steps)).status, Outcome::kTimeLimit);
+}
+
 TEST(Grade, NeverBlamesTheStudentForTheGrader) {
   const GradeResult result = gradeGood({
       check("fine", Group::kVisible, [](Check& judge, Student&) { judge.that("yes", true); }),

@@ -79,26 +79,45 @@ TEST(Lies, FindChecksThatAreEasilyPleased) {
   const auto squares = [](Check& judge, Student& s, std::vector<double> values) {
     for (const double x : values) judge.near("square", s.square(x), x * x, 1e-9);
   };
-  // In the order zeros, constant, last answer, echo.
+  // In the order zeros, constant, last answer, echo, memory.
   EXPECT_EQ(points(check("fair",
                          [&](Check& judge, Student& s) {
                            squares(judge, s, {2, 3});
                          })),
-            (std::vector{0, 0, 0, 0}));
+            (std::vector{0, 0, 0, 0, 0}));
   EXPECT_EQ(points(check("one", [&](Check& judge, Student& s) { squares(judge, s, {1}); })),
-            (std::vector{0, 0, 0, 1}))
-      << "a constant is an answer to another question";
+            (std::vector{0, 0, 0, 1, 0}))
+      << "a constant is an answer to another question, and a memory answers its first one honestly";
   EXPECT_EQ(points(check("zero",
                          [&](Check& judge, Student& s) {
                            squares(judge, s, {0, 0});
                          })),
-            (std::vector{1, 1, 1, 1}));
+            (std::vector{1, 1, 1, 1, 0}));
   EXPECT_EQ(points(check("steady",
                          [&](Check& judge, Student& s) {
                            static_cast<void>(s.square(2));
                            squares(judge, s, {2, 2});
                          })),
-            (std::vector{0, 0, 1, 0}));
+            (std::vector{0, 0, 1, 0, 0}));
+}
+
+// What a check asks a fresh worker, no memory knows.
+TEST(Lies, KnowNoMoreThanTheirWorker) {
+  const auto pointsOfMemory = [](bool isFresh) {
+    const RunnableCheck one = check("differences", [&](Check& judge, Student& s) {
+      const double slope = s.square(3) - s.square(2);
+      judge.near("difference", s.square(3) - s.square(2), slope, 1e-9);
+      if (!isFresh) return;
+      judge.askFreshWorker([&](remote::Caller& caller) {
+        Student stranger(caller);
+        judge.near("another square", stranger.square(5), 25, 1e-9);
+        judge.near("the same square", stranger.square(3), s.square(3), 1e-9);
+      });
+    });
+    return tellLies(std::vector{one}, kJob, Student::signature(), Student::layouts()).back().points;
+  };
+  EXPECT_EQ(pointsOfMemory(false), 1);
+  EXPECT_EQ(pointsOfMemory(true), 0);
 }
 
 }  // namespace rex::grading::hostile_answers_test

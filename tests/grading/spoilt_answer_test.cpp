@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "grading/answer_value.h"
 #include "remote/layout.h"
 #include "remote/wire.h"
 #include "support/expect_error.h"

@@ -33,7 +33,7 @@ TEST_F(ExerciseGates, PassesTheTemplateThroughAllGates) {
   const std::string gates = rex({"dev", "check", "98", "--list-gates"}).output;
   EXPECT_EQ(gates,
             "main-current\npoints\nnames\nrelease\nevidence\nmain-"
-            "floor\nsolution\nsanitizers\nhostile\nliars\nwrong\n");
+            "floor\nsolution\nsanitizers\nhostile\ngrown\nliars\nwrong\n");
 }
 
 TEST_F(ExerciseGates, TestsOneVariant) {
