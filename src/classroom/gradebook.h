@@ -110,7 +110,7 @@ struct GradebookSource {
 /// submission counts instead.
 [[nodiscard]] const GradeRow* rowOfTask(const Gradebook& book, std::size_t task);
 
-/// What a grading could not take, kept beside its results for `rex collect`.
+/// What a grading could not take, kept beside its results for `rex grade --collect`.
 [[nodiscard]] std::string notTakenText(const std::vector<NotTaken>& all);
 /// Reads that file; empty if there is none. Throws Error with the line if it is malformed.
 [[nodiscard]] std::vector<NotTaken> readNotTaken(const std::filesystem::path& file);

@@ -14,6 +14,7 @@
 #include "cli/completion.h"
 #include "cli/hand_over.h"
 #include "cli/manual_page.h"
+#include "cli/old_commands.h"
 #include "cli/terminal.h"
 
 namespace rex::cli {
@@ -100,6 +101,7 @@ std::string reasonOf(const CLI::ParseError& error, const CLI::App* command) {
 void addCommands(CLI::App& program, const Room& room, Action& action) {
   for (const TableEntry& entry : commandTable()) {
     CLI::App* command = program.add_subcommand(std::string(entry.name), std::string(entry.purpose));
+    command->group(nameOf(entry.topic));
     if (entry.program == room.program) {
       room.commands.at(entry.name)(command, action);
       continue;
@@ -128,9 +130,27 @@ Action list(const std::vector<std::string>& lines) {
   };
 }
 
-Action parse(CLI::App& program, int argc, const char* const* argv, const Action& action) {
+// `rex help COMMAND` asks for what `rex COMMAND --help` does.
+std::vector<std::string> wordsOf(int argc, const char* const* argv) {
+  std::vector<std::string> words(argv + 1, argv + argc);
+  if (words.empty() || words.front() != "help") return words;
+  words.erase(words.begin());
+  words.emplace_back("--help");
+  return words;
+}
+
+// The line that a user now types instead of a command of an earlier version; empty for other words.
+std::string newNameOf(const std::string& command) {
+  for (const OldCommand& old : oldCommands())
+    if (command == old.name) return fmt::format("rex: `rex {}` is now: {}", old.name, old.now);
+  return "";
+}
+
+Action parse(CLI::App& program, const std::vector<std::string>& words, const Action& action) {
   try {
-    program.parse(argc, argv);
+    program.parse(std::vector(words.rbegin(), words.rend()));
+  } catch (const CLI::CallForVersion&) {
+    return print(program.version());
   } catch (const CLI::CallForHelp&) {
     const CLI::App* command = reached(&program);
     return print(command->help(command == &program ? "" : fullName(command->get_parent())));
@@ -146,13 +166,14 @@ Action parse(CLI::App& program, int argc, const char* const* argv, const Action&
 }
 
 Action actionOf(int argc, const char* const* argv, const Room& room, const Project& here) {
-  const std::vector<std::string> words(argv + 1, argv + argc);
+  const std::vector<std::string> words = wordsOf(argc, argv);
   const auto handOver = [words](Program other) {
     return [=](const Project& project) -> ExitCode { becomeProgram(project, other, words); };
   };
   Action action = room.withoutCommand ? room.withoutCommand : handOver(Program::kStudent);
   CLI::App program("Robotics exercises: see, solve and test them. Without a command: your progress", "rex");
-  program.footer(kExitCodesHelp);
+  program.footer("`rex help COMMAND` explains a command.\n\n" + std::string(kExitCodesHelp));
+  program.set_version_flag("--version", "rex " REX_VERSION, "print the version");
   program.require_subcommand(0, 1);
   program.get_formatter()->column_width(22);
   program.get_formatter()->label("REQUIRED", "");
@@ -164,7 +185,9 @@ Action actionOf(int argc, const char* const* argv, const Room& room, const Proje
     return list(completions(program, std::span(words).subspan(1), here));
   }
   if (!words.empty() && words.front() == "--man") return print(manualPage());
-  Action asked = parse(program, argc, argv, action);
+  if (!words.empty())
+    if (const std::string now = newNameOf(words.front()); !now.empty()) return complain(now);
+  Action asked = parse(program, words, action);
   const Program owner = ownerOf(program, room.program);
   return owner == room.program ? asked : handOver(owner);
 }

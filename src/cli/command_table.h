@@ -12,11 +12,17 @@ enum class Program { kStudent, kRobot, kMethods, kInstructor };
 /// Its name, which is that of its file in the build folder and of its build target.
 [[nodiscard]] std::string programName(Program program);
 
+/// The groups of `rex --help`.
+enum class Topic { kExercises, kRobots, kMethods, kCourses };
+
+[[nodiscard]] const char* nameOf(Topic topic);
+
 /// What every program knows about a command, including those that it hands over.
 struct TableEntry {
   std::string_view name{};
   std::string_view purpose{};  ///< one line of `rex --help`
-  Program program{};           ///< the program that runs it
+  Topic topic{};
+  Program program{};  ///< the program that runs it
 };
 
 /// All commands of `rex`, in the order of its help.

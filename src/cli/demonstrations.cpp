@@ -25,7 +25,9 @@ std::string firstComment(const std::string& text) {
 Demonstration readDemonstration(const fs::path& file) {
   constexpr std::string_view kStart = "Chapter ";
   Demonstration found{.name = file.stem().string(), .file = file};
-  const std::string comment = firstComment(readTextFile(file));
+  const std::string text = readTextFile(file), comment = firstComment(text);
+  found.takesSeed = text.find("argv[1]") != text.npos;
+  found.takesRuns = text.find("argv[2]") != text.npos;
   const std::size_t colon = comment.find(": "), stop = comment.find(". ");
   if (comment.starts_with(kStart) && colon != comment.npos && stop != comment.npos && colon < stop) {
     if (const auto chapter = parseNumber<int>(comment.substr(kStart.size(), colon - kStart.size()))) {

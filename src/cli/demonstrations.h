@@ -16,6 +16,9 @@ struct Demonstration {
   std::string title{};  ///< "PID control"
   std::string about{};  ///< "The rest may take several lines."
   std::filesystem::path file{};
+  /// Whether its random numbers have a seed, argv[1], and it counts runs with one seed after the other,
+  /// argv[2].
+  bool takesSeed = false, takesRuns = false;
 };
 
 /// All of them, by chapter and name. Throws Error with file:line for a first comment that is not of this

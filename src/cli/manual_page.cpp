@@ -37,8 +37,12 @@ std::string manualPage() {
                      ".B rex COMMAND \\-\\-help\n"
                      "explains the options of a command.\n"
                      ".SH COMMANDS\n";
-  for (const TableEntry& entry : commandTable())
+  const char* topic = "";
+  for (const TableEntry& entry : commandTable()) {
+    if (std::string_view(topic) != nameOf(entry.topic))
+      page += fmt::format(".SS {}\n", topic = nameOf(entry.topic));
     page += fmt::format(".TP\n.B {}\n{}.\n", plain(entry.name), plain(entry.purpose));
+  }
   page += fmt::format(".SH EXIT STATUS\n{}\n", plain(kExitCodesHelp));
   page +=
       ".SH FILES\n"

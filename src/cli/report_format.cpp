@@ -1,5 +1,6 @@
 #include "cli/report_format.h"
 
+#include <algorithm>
 #include <vector>
 
 #include <fmt/format.h>
@@ -10,16 +11,35 @@
 
 namespace rex::cli {
 
-const grading::ReportFormat& reportFormat(const std::string& name, const std::string& option) {
+namespace {
+
+const grading::ReportFormat& reportFormat(const std::string& name) {
   std::vector<std::string> known;
   for (const grading::ReportFormat& format : grading::reportFormats()) {
     if (format.name == name) return format;
     known.emplace_back(format.name);
   }
-  throw UsageError({.what = option,
+  throw UsageError({.what = "--report",
                     .found = harmless(name),
                     .wanted = fmt::format("one of {}", join(known, ", ")),
                     .nearest = nearestNames(name, known)});
+}
+
+}  // namespace
+
+std::vector<grading::ReportFormat> reportsOf(const std::string& names) {
+  std::vector<grading::ReportFormat> formats;
+  for (std::size_t at = 0; at < names.size();) {
+    const std::size_t end = std::min(names.find(',', at), names.size());
+    formats.push_back(reportFormat(names.substr(at, end - at)));
+    at = end + 1;
+  }
+  return formats;
+}
+
+bool contains(const std::vector<grading::ReportFormat>& formats, const grading::ReportFormat& format) {
+  return std::ranges::any_of(formats,
+                             [&](const grading::ReportFormat& one) { return one.name == format.name; });
 }
 
 }  // namespace rex::cli

@@ -1,12 +1,18 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "reports/report.h"
 
 namespace rex::cli {
 
-/// The format of that name. Throws UsageError, which names the option and the nearest names.
-[[nodiscard]] const grading::ReportFormat& reportFormat(const std::string& name, const std::string& option);
+/// The report formats with these comma-separated names, as `--report` takes them. Throws UsageError naming
+/// the nearest.
+[[nodiscard]] std::vector<grading::ReportFormat> reportsOf(const std::string& names);
+
+/// Whether a format is among them.
+[[nodiscard]] bool contains(const std::vector<grading::ReportFormat>& formats,
+                            const grading::ReportFormat& format);
 
 }  // namespace rex::cli

@@ -116,4 +116,13 @@ std::vector<Eigen::Vector2d> officeWalk() {
           {10.1, 13},  {10.1, 11}, {7, 11},   {7, 5},      {9.5, 4.8},  {13, 5}};
 }
 
+OccupancyMap emptyOffice(double cellSize) {
+  // Half a cell beyond a whole number of cells.
+  const double margin = cellSize * (std::floor(0.5 / cellSize) + 0.5);
+  const auto cells = [&](double metres) {
+    return static_cast<int>(std::ceil((metres + 2 * margin) / cellSize));
+  };
+  return {cells(24), cells(16), cellSize, {-margin, -margin}};
+}
+
 }  // namespace rex

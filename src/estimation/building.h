@@ -34,5 +34,8 @@ void rasterize(const Building& building, OccupancyMap& map);
 [[nodiscard]] Building officeBuilding();
 /// The corners of a walk in it that goes once around the block, visits two rooms, and comes back.
 [[nodiscard]] std::vector<Eigen::Vector2d> officeWalk();
+/// A map of its size in which nothing is known. Outer walls lie in the middle of cells if their size (metres)
+/// divides half a metre.
+[[nodiscard]] OccupancyMap emptyOffice(double cellSize);
 
 }  // namespace rex

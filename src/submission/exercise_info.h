@@ -29,7 +29,7 @@ struct ForbiddenFunction {
   std::string part{};  ///< the part whose own worker lacks it; empty: all workers do
 };
 
-/// When `rex solution` shows the reference solution, if solution.cpp was handed out.
+/// When `rex show --solution` prints the reference solution, if solution.cpp was handed out.
 enum class SolutionRule { kNever, kAfterPass, kAlways };
 
 /// The contents of exercise.toml.

@@ -1,5 +1,5 @@
-// rex_bench [NAME...] [--json] [--report FILE.html]: measures ours against its peers; `rex bench` runs it.
-// rex_bench panda --problems DIR [--urdf FILE] [--srdf FILE] [--seed N] [--json]: solves motion planning
+// rex_bench [NAME...] [--json] [--report FILE.html]: measures ours against its peers; `rex dev bench` runs
+// it. rex_bench panda --problems DIR [--urdf FILE] [--srdf FILE] [--seed N] [--json]: solves motion planning
 // problems.
 #include <algorithm>
 #include <cstdio>
@@ -150,7 +150,7 @@ bool wantsPanda(const std::vector<std::string>& names, const PandaOptions& panda
 int main(int argc, char** argv) {
   CLI::App app(
       "Measures rex against its peers: CPU time, the smallest of several runs of both sides in turn.",
-      "rex bench");
+      "rex dev bench");
   std::vector<std::string> names;
   bool asJson = false;
   app.add_option("NAME", names, "groups or rows of the table; none: all");

@@ -1,5 +1,5 @@
-// Rows of `rex bench` measured from the outside: peers alone, by their public interfaces, with no code of rex
-// and another clock. Prints JSON {"row": nanoseconds}; scripts/check-peers compares.
+// Rows of `rex dev bench` measured from the outside: peers alone, by their public interfaces, with no code of
+// rex and another clock. Prints JSON {"row": nanoseconds}; scripts/check-peers compares.
 #include <algorithm>
 #include <chrono>
 #include <cmath>

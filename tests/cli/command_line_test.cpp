@@ -3,9 +3,11 @@
 
 #include <set>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "cli/old_commands.h"
 #include "cli/rex_command.h"
 #include "cli/template_project.h"
 
@@ -50,14 +52,14 @@ TEST_F(CommandLine, NamesTheValuesOfOptionsAndTheEnvironmentOnce) {
     EXPECT_EQ(help.find("REX_GL"), help.rfind("REX_GL"));
   }
   const std::string help = rex({"render", "--help"}).output;
-  for (const char* option : {"--q POSTURE", "--motion FILE", "--seconds S", "--camera VIEW", "--trace BODY",
+  for (const char* option : {"--q POSTURE", "--motion FILE", "--duration S", "--camera VIEW", "--trace BODY",
                              "--caption TEXT", "--size WxH", "--show WHAT", "--aa KIND"})
     EXPECT_THAT(help, HasSubstr(option));
 }
 
 TEST_F(CommandLine, KeepsHelpWithin90ColumnsAndFreeOfColour) {
-  for (const char* command : {"list", "run", "test", "watch", "hint", "show", "reset", "solution", "submit",
-                              "debug", "demo", "render", "simulate", "doctor", "view"}) {
+  for (const char* command : {"list", "run", "test", "watch", "hint", "show", "reset", "submit", "debug",
+                              "demo", "plan", "slam", "linear", "render", "simulate", "doctor", "view"}) {
     const std::string help = rex({command, "--help"}).output;
     EXPECT_EQ(help.find('\033'), std::string::npos);
     for (std::size_t start = 0; start < help.size();) {
@@ -74,8 +76,7 @@ TEST_F(CommandLine, AnswersUnknownWordsWithTheNearest) {
   expectUsageError({"list", "extra"}, "rex list: unknown argument 'extra'");
   expectUsageError({"--seed=3", "test", "01"}, "rex: option '--seed=3' must come after `rex test`");
   // Before what else is missing: it may be that.
-  expectUsageError({"trajectory", "board", "--ot", "a"},
-                   "rex trajectory: unknown option '--ot' (did you mean '--out'?)");
+  expectUsageError({"plan", "board", "--ot", "a"}, "rex plan: unknown option '--ot' (did you mean '--out'?)");
   expectUsageError({"\033[31mred"}, "unknown command '");
 }
 
@@ -84,11 +85,36 @@ TEST_F(CommandLine, ExplainsWrongUse) {
   for (const char* seed : {"-1", "x", "1.5", "99999999999999999999"})
     expectUsageError({"test", "01", "--seed", seed}, std::string("rex test: --seed: found ") + seed +
                                                          ", wanted a whole number of at most 18 digits");
-  for (const char* command : {"cma", "filter", "plan", "simulate"})
+  for (const char* command : {"demo", "plan", "simulate"})
     expectUsageError({command, "--seed", "-1"}, "--seed: found -1, wanted a whole number");
   expectUsageError({"test", "01", "--main", "a.cpp", "--solution"}, "--main excludes --solution");
   expectUsageError({"test", "01", "--debug", "--level", "1"}, "--debug excludes --level");
   expectUsageError({"test", "no-such-exercise"}, "no exercise is called 'no-such-exercise'");
+}
+
+TEST_F(CommandLine, TellsTheNewNamesOfOldCommands) {
+  for (const OldCommand& old : oldCommands()) {
+    expectUsageError({std::string(old.name), "--seed", "3"},
+                     fmt::format("rex: `rex {}` is now: {}\n", old.name, old.now));
+    for (const TableEntry& entry : commandTable()) EXPECT_NE(entry.name, old.name);
+    // The new line begins with a command that there is.
+    const std::string first = std::string(old.now.substr(std::string_view("scripts/rex ").size()));
+    EXPECT_TRUE(std::ranges::any_of(commandTable(), [&](const TableEntry& entry) {
+      return first.starts_with(std::string(entry.name) + " ");
+    })) << old.now;
+  }
+}
+
+TEST_F(CommandLine, HelpsInGroupsAndTellsItsVersion) {
+  const std::string help = rex({"--help"}).output;
+  std::size_t at = 0;
+  for (const char* group : {"\nExercises:\n", "\nRobots:\n", "\nMethods:\n", "\nCourses:\n"}) {
+    at = help.find(group, at);
+    ASSERT_NE(at, help.npos) << group;
+  }
+  EXPECT_EQ(rex({"help"}).output, help);
+  EXPECT_EQ(rex({"help", "list"}).output, rex({"list", "--help"}).output);
+  EXPECT_EQ(rex({"--version"}).output, "rex " REX_VERSION "\n");
 }
 
 TEST(CommandTable, NamesEachCommandOnceAndSaysWhatItIsFor) {
@@ -109,7 +135,7 @@ class Completion : public TemplateProject {
 };
 
 TEST_F(Completion, KnowsTheCommandsOfAllPrograms) {
-  EXPECT_EQ(after({"s"}), "scene\nsearch\nshow\nsimulate\nslam\nsolution\nsubmit\n");
+  EXPECT_EQ(after({"s"}), "scene\nshow\nsimulate\nslam\nsubmit\n");
 }
 
 TEST_F(Completion, KnowsTheExercises) {

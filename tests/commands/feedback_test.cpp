@@ -71,10 +71,10 @@ TEST_F(FeedbackTest, ListsNoPictureThatIsOlderThanTheProgram) {
 
 TEST_F(FeedbackTest, StopsAProgramThatDoesNotEndAndNamesTheLine) {
   writeMain(kRight);
-  const Ended ended = rex({"run", "98", "--seconds", "1"});
+  const Ended ended = rex({"run", "98", "--time-limit", "1"});
   EXPECT_EQ(ended.code, 1);
   EXPECT_THAT(ended.error,
-              HasSubstr("The program was stopped after 1 s of CPU time; --seconds N allows more."));
+              HasSubstr("The program was stopped after 1 s of CPU time; --time-limit S allows more."));
   EXPECT_THAT(ended.error,
               ::testing::ContainsRegex("After 1 s it is in line [4-8] of main.cpp, in (rotated|main)"));
 }

@@ -64,7 +64,7 @@ TEST_F(HandOver, LeavesMistakesAndHelpToTheProgramThatKnows) {
 }
 
 TEST_F(HandOver, SaysWhatIsMissing) {
-  EXPECT_EQ(rex({"filter", "--seed", "-1"}), 3);
+  EXPECT_EQ(rex({"linear", "--input", "-1"}), 3);
   EXPECT_THAT(fileText(in("error")), HasSubstr("rex-methods: cannot start a part of rex"));
   EXPECT_THAT(fileText(in("error")), HasSubstr("found No such"));
 }
@@ -74,7 +74,7 @@ TEST_F(HandOver, BuildsTheProgramFirst) {
   std::ofstream(in("build.ninja")) << "rule copy\n  command = cp new $out\nbuild rex-methods: copy\n"
                                    << "rule fail\n  command = echo 'a.cpp:1:1: error: x'; exit 1\n"
                                    << "build rex-robot: fail\n";
-  EXPECT_EQ(rex({"cma"}), 7);
+  EXPECT_EQ(rex({"slam"}), 7);
   EXPECT_EQ(fileText(in("error")), "building rex-methods ...\n");
   EXPECT_EQ(rex({"scene", "man"}), 3);
   EXPECT_THAT(fileText(in("error")), HasSubstr("rex-robot does not build"));
@@ -83,7 +83,7 @@ TEST_F(HandOver, BuildsTheProgramFirst) {
 
 TEST_F(HandOver, AnswersMisspeltCommandsOfAllProgramsItself) {
   for (const auto& [typed, meant] :
-       {std::pair{"rendr", "render"}, {"filtr", "filter"}, {"colect", "collect"}}) {
+       {std::pair{"rendr", "render"}, {"linaer", "linear"}, {"exprt", "export"}}) {
     EXPECT_EQ(rex({typed}), 64);
     EXPECT_THAT(fileText(in("error")), HasSubstr(std::string("did you mean '") + meant + "'?"));
   }

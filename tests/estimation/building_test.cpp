@@ -39,6 +39,20 @@ TEST(Building, RasterAgreesWithItsWalls) {
   }
 }
 
+// The middle of the outer walls is the middle of cells, for cells that divide half a metre.
+TEST(Building, EmptyMapsHoldTheOffice) {
+  for (const double size : {.05, .1, .25, .5}) {
+    const OccupancyMap map = emptyOffice(size);
+    for (const Eigen::Vector2d& corner : {Eigen::Vector2d(0, 0), {24, 0}, {0, 16}, {24, 16}}) {
+      const Eigen::Vector2i cell = map.cellAt(corner);
+      EXPECT_TRUE(map.contains(cell.x(), cell.y())) << size;
+      EXPECT_EQ(map.logOdds(cell.x(), cell.y()), 0);
+      EXPECT_EQ(map.cellAt(corner + Eigen::Vector2d(.49, .49) * size), cell) << size;
+      EXPECT_EQ(map.cellAt(corner - Eigen::Vector2d(.49, .49) * size), cell) << size;
+    }
+  }
+}
+
 TEST(Building, WalksAreMeasured) {
   const Building office = officeBuilding();
   const Eigen::Matrix3Xd poses = posesAlong(officeWalk(), .5, .5);

@@ -121,7 +121,8 @@ std::vector<Drawing> pathPictures() {
        "`rex plan maze --planner rrt-star`: a tree that rewires itself, so that its branches become short.",
        cart},
       {"around", "An arm moves around the edge of a board",
-       "`rex trajectory board --goal eff:0,-0.3,0.5 --avoid`: of all motions that keep clear of the board "
+       "`rex plan board --goal eff:0,-0.3,0.5 --planner optimize --avoid`: of all motions that keep clear of "
+       "the board "
        "and end "
        "at rest at the goal, one with little acceleration.",
        around},
@@ -130,7 +131,8 @@ std::vector<Drawing> pathPictures() {
        "too.",
        legs},
       {"parking", "A car parks",
-       "`rex park street --goal -1.3,1.1,0`: hybrid A* searches from the gap, where there is the least room, "
+       "`rex plan street --goal -1.3,1.1,0 --planner hybrid-astar`: hybrid A* searches from the gap, where "
+       "there is the least room, "
        "until a curve of Reeds and Shepp leads to the start. Lines are the arcs that it tried.",
        parking}};
 }

@@ -142,7 +142,7 @@ TEST(SolveInverseKinematics, KeepsTheLimitsOfJointsThatMimic) {
   EXPECT_NEAR(result.residuals.at(0), 0.65, 1e-15);
 }
 
-// Random poses within reach, from the middle of all joints: the protocol of `rex bench ik`. Forward
+// Random poses within reach, from the middle of all joints: the protocol of `rex dev bench ik`. Forward
 // kinematics is the judge.
 void expectSolvesPoses(const Model& model, BodyId tip, int count, int leastSolved) {
   Rng rng(7);

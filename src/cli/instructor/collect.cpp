@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <memory>
 #include <string>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "base/text_file.h"
@@ -13,24 +11,12 @@
 #include "classroom/grade_task.h"
 #include "cli/instructor/class_grades.h"
 #include "cli/instructor/grading_json.h"
-#include "cli/instructor/grading_options_internal.h"
-#include "cli/instructor/instructor_room_internal.h"
 #include "cli/report_format.h"
 #include "cli/terminal.h"
 #include "grading/result_file.h"
 
 namespace rex::cli {
 namespace {
-
-struct CollectOptions {
-  std::filesystem::path out{};
-  std::filesystem::path manifest{};
-  ClassFiles files{};
-  std::vector<std::string> explain{};  ///< a student and an exercise
-  bool csv = false;
-  bool json = false;
-  std::string reports{};  ///< formats of `rex report`, separated by commas; empty: none
-};
 
 using grading::Task;
 
@@ -57,15 +43,9 @@ bool holds(const std::filesystem::path& file, const std::string& text) {
   return std::filesystem::exists(file) && readTextFile(file) == text;
 }
 
-// Makes grades.csv from all results and names the tasks to repeat. kGraderFault if there are any.
+}  // namespace
+
 ExitCode collectResults(const Project& project, const CollectOptions& options) {
-  if (!options.explain.empty())
-    return explainResults(project, {.out = options.out,
-                                    .manifest = options.manifest,
-                                    .files = options.files,
-                                    .student = options.explain[0],
-                                    .exercise = options.explain[1],
-                                    .json = options.json});
   const std::vector<Task> tasks = tasksIn(options.out, options.manifest);
   const grading::Gradebook book = gradebookOf(project, options.files, tasks, options.out);
   writeReports(tasks, options.out, reportsOf(options.reports), book);
@@ -78,24 +58,8 @@ ExitCode collectResults(const Project& project, const CollectOptions& options) {
   return held > 0 ? ExitCode::kBelow : ExitCode::kFull;
 }
 
-}  // namespace
-
-std::vector<grading::ReportFormat> reportsOf(const std::string& names) {
-  std::vector<grading::ReportFormat> formats;
-  for (std::size_t at = 0; at < names.size();) {
-    const std::size_t end = std::min(names.find(',', at), names.size());
-    formats.push_back(reportFormat(names.substr(at, end - at), "--reports"));
-    at = end + 1;
-  }
-  return formats;
-}
-
 void writeReports(const std::vector<Task>& tasks, const std::filesystem::path& out,
                   const std::vector<grading::ReportFormat>& reports, const grading::Gradebook& book) {
-  const auto isRequested = [&](const grading::ReportFormat& format) {
-    return std::any_of(reports.begin(), reports.end(),
-                       [&](const auto& one) { return one.name == format.name; });
-  };
   int written = 0, kept = 0;
   for (std::size_t k = 0; k < tasks.size(); ++k) {
     const Task& task = tasks[k];
@@ -109,13 +73,13 @@ void writeReports(const std::vector<Task>& tasks, const std::filesystem::path& o
     }
     for (const grading::ReportFormat& format : grading::reportFormats()) {
       const std::filesystem::path file = folder / format.file;
-      if (!isRequested(format) && !std::filesystem::exists(file)) continue;
+      if (!contains(reports, format) && !std::filesystem::exists(file)) continue;
       const std::string text =
           format.write(grading::loadResult(folder / "results.json"), judgement ? &*judgement : nullptr);
       const bool isThere = holds(file, text);
       if (!isThere) replaceTextFile(file, text, "the report");
       if (!isThere) ++written;
-      if (isThere && isRequested(format)) ++kept;
+      if (isThere && contains(reports, format)) ++kept;
     }
   }
   if (!reports.empty() || written > 0) note(fmt::format("Reports: {} written, {} kept", written, kept));
@@ -161,25 +125,6 @@ int tellHeldBack(const std::vector<Task>& tasks, const std::filesystem::path& ou
     if (grading::isHeldBack(tasks[k], out)) held.push_back(static_cast<int>(k) + 1);
   tell("fewer points than before wait for `rex grade --accept`", held, tasks);
   return static_cast<int>(held.size());
-}
-
-void addCollect(CLI::App* command, Action& action) {
-  const auto options = std::make_shared<CollectOptions>();
-  command->footer(
-      "Examples:\n  scripts/rex collect results --manifest tasks.tsv\n"
-      "  scripts/rex collect results --course course.toml --reports\n"
-      "  scripts/rex collect results --course course.toml --explain zoe 01\n\n" +
-      std::string(kGradingCodes));
-  command->add_option("DIR", options->out, "the folder of results")->type_name("")->required();
-  command->add_option("--manifest", options->manifest, "the list of tasks (default: DIR/tasks.tsv)")
-      ->type_name("FILE.tsv");
-  addClassFiles(command, options->files);
-  addExplain(command, options->explain);
-  CLI::Option* csv = command->add_flag("--csv", options->csv, "print the table of grades");
-  command->add_flag("--json", options->json, "print the state of each task as JSON")->excludes(csv);
-  addReports(command, options->reports);
-  command->callback(
-      [&action, options] { action = [options](const Project& p) { return collectResults(p, *options); }; });
 }
 
 }  // namespace rex::cli

@@ -6,6 +6,7 @@
 #include "classroom/gradebook.h"
 #include "classroom/late_policy.h"
 #include "classroom/task_list.h"
+#include "cli/instructor/class_grades.h"
 #include "cli/project.h"
 #include "reports/report.h"
 
@@ -14,8 +15,30 @@ namespace rex::cli {
 /// The deadlines in that file; none without a file. Throws like grading::readLatePolicy().
 [[nodiscard]] grading::LatePolicy readDeadlines(const Project& project, const std::filesystem::path& file);
 
-/// The report formats with these comma-separated names. Throws UsageError naming the nearest.
-[[nodiscard]] std::vector<grading::ReportFormat> reportsOf(const std::string& names);
+/// One line of a list of tasks.
+struct GradeOneOptions {
+  std::filesystem::path manifest{};
+  int task = 0;  ///< from 1
+  std::filesystem::path out{};
+  std::filesystem::path secret{};
+  bool evidence = false;
+  bool accept = false;              ///< take a result with fewer points, too
+  std::filesystem::path workers{};  ///< folder that keeps compiled programs; empty: none
+};
+/// Grades it, unless it has a valid result. kFull if it has one afterwards.
+[[nodiscard]] ExitCode gradeOne(const Project& project, const GradeOneOptions& options);
+
+/// What `rex grade --collect` makes of a folder of results.
+struct CollectOptions {
+  std::filesystem::path out{};
+  std::filesystem::path manifest{};  ///< empty: tasks.tsv in it
+  ClassFiles files{};
+  bool csv = false;
+  bool json = false;
+  std::string reports{};  ///< see reportsOf()
+};
+/// Makes grades.csv from all results and names the tasks to repeat. kGraderFault if there are any.
+[[nodiscard]] ExitCode collectResults(const Project& project, const CollectOptions& options);
 
 /// Writes missing reports next to the result of each task that has one, renews outdated ones in any format,
 /// and removes those that no longer have a result.

@@ -6,6 +6,7 @@
 #include "cli/command_line_internal.h"
 #include "cli/instructor/dev_verbs.h"
 #include "cli/instructor/instructor_room_internal.h"
+#include "cli/option_table_internal.h"
 
 namespace rex::cli {
 namespace {
@@ -22,27 +23,21 @@ void addDevCheck(CLI::App* dev, Action& action) {
   const auto options = std::make_shared<CheckOptions>();
   CLI::App* command =
       addVerb(dev, "check", "Check that exercises are complete, graded well and give nothing away",
-              "Examples:\n  scripts/rex dev check 01\n  scripts/rex dev check 01 --gate solution --seeds 20\n"
+              "Examples:\n  scripts/rex dev check 01\n  scripts/rex dev check 01 --gate solution --runs 20\n"
               "  scripts/rex dev check 01 --gate points --gate names --json\n"
               "  scripts/rex dev check 01 --gate wrong --sheet pictures.png\n"
               "  scripts/rex dev check 01 --variant looks_away_too");
   CLI::Option* exercise =
       command->add_option("EXERCISE", options->exercise, "only this one (default: all)")->type_name("");
-  command->add_option("--gate", options->gates, "only this gate; may be repeated")
-      ->allow_extra_args(false)
-      ->type_name("NAME");
-  command->add_option("--variant", options->variants, "only this wrong variant; may be repeated")
-      ->allow_extra_args(false)
-      ->type_name("NAME")
-      ->needs(exercise);
-  command->add_flag("--list-gates", options->listGates, "print the names of the gates");
-  command->add_flag("--json", options->json, "print JSON");
-  command->add_option("--seeds", options->seeds, "seeds to try the solution with (default: 3)")
-      ->type_name("N")
-      ->check(CLI::Range(1, 10000).description(""));
-  command->add_option("--sheet", options->sheet, "draw the pictures of checks that wrong variants fail")
-      ->type_name("FILE.png")
-      ->needs(exercise);
+  const auto added = addOptions(
+      command,
+      {{"--gate", options->gates, "NAME", "only this gate; may be repeated"},
+       {"--variant", options->variants, "NAME", "only this wrong variant; may be repeated"},
+       {"--sheet", options->sheet, "FILE.png", "draw the pictures of checks that wrong variants fail"},
+       {"--list-gates", options->listGates, "print the names of the gates"},
+       {"--json", options->json, "print JSON"},
+       {"--runs", options->runs, {1, 10'000}, "N", "runs of the solution, each with the next seed"}});
+  for (const std::size_t k : {1, 2}) added[k]->needs(exercise);
   command->callback(
       [&action, options] { action = [options](const Project& p) { return devCheck(p, *options); }; });
 }
@@ -73,46 +68,31 @@ void addDevRelease(CLI::App* dev, Action& action) {
   const auto options = std::make_shared<ReleaseOptions>();
   CLI::App* command =
       addVerb(dev, "release", "Write the tree that students get, and look for leaks in it",
-              "Examples:\n  scripts/rex dev release /tmp/students --prove\n"
+              "Examples:\n  scripts/rex dev release /tmp/students 01 02 --prove\n"
               "  scripts/rex dev release /tmp/students --until 2026-12-01 --deadlines deadlines.toml\n"
               "  scripts/rex dev release --scan handouts\n\n"
               "The tree has no solution, hidden check or wrong variant.\n"
               "Exit code 1: something leaks; nothing was written.");
   CLI::Option* out = command->add_option("DIR", options->out, "new folder for the release")->type_name("");
-  CLI::Option* prove = command->add_flag("--prove", options->prove,
-                                         "build a copy and try every exercise in it (takes minutes)");
-  CLI::Option* only = command->add_option("--only", options->only, "release this exercise; may be repeated")
-                          ->allow_extra_args(false)
-                          ->type_name("EXERCISE");
-  CLI::Option* until =
-      command->add_option("--until", options->until, "release the exercises that open by then: 2026-12-01")
-          ->type_name("DATE")
-          ->excludes(only);
-  command->add_option("--deadlines", options->deadlines, "file with the openings, as for rex grade")
-      ->type_name("FILE.toml")
-      ->needs(until);
-  until->needs("--deadlines");
-  CLI::Option* proveIn =
-      command
-          ->add_option("--prove-in", options->proveIn, "like --prove, but in this new folder, which is kept")
-          ->type_name("FOLDER");
-  CLI::Option* scan =
-      command->add_option("--scan", options->scan, "only look for leaks in this folder, write nothing")
-          ->type_name("FOLDER")
-          ->excludes(out)
-          ->excludes(only)
-          ->excludes(until)
-          ->excludes(prove)
-          ->excludes(proveIn);
-  command
-      ->add_flag("--installed", options->installed,
-                 "this folder is an installed tree, with programs and libraries")
-      ->needs(scan);
-  command->add_flag("--json", options->json, "print JSON");
-  command
-      ->add_option("--secret-file", options->secret,
-                   "secret of the course, which must not be in the tree either")
-      ->type_name("FILE");
+  CLI::Option* only =
+      command->add_option("EXERCISE", options->only, "release only these exercises (default: all)")
+          ->type_name("");
+  const auto added = addOptions(
+      command,
+      {{"--until", options->until, "DATE", "release the exercises that open by then: 2026-12-01"},
+       {"--deadlines", options->deadlines, "FILE.toml", "file with the openings, as for rex grade"},
+       {"--prove", options->prove, "build a copy and try every exercise in it (takes minutes)"},
+       {"--prove-in", options->proveIn, "DIR", "like --prove, but in this new folder, which is kept"},
+       {"--scan", options->scan, "DIR", "only look for leaks in this folder, write nothing"},
+       {"--installed", options->installed, "this folder is an installed tree, with programs and libraries"},
+       {"--json", options->json, "print JSON"},
+       {"--secret-file", options->secret, "FILE",
+        "secret of the course, which must not be in the tree either"}});
+  CLI::Option *until = added[0], *scan = added[4];
+  until->excludes(only)->needs(added[1]);
+  added[1]->needs(until);
+  scan->excludes(out)->excludes(only)->excludes(until)->excludes(added[2])->excludes(added[3]);
+  added[5]->needs(scan);
   command->callback([&action, options] {
     if (options->out.empty() && options->scan.empty()) throw CLI::RequiredError("DIR");
     action = [options](const Project& p) { return devRelease(p, *options); };
@@ -126,14 +106,33 @@ void addDevSite(CLI::App* dev, Action& action) {
                               "Exercises, documents, gallery and a search; no server or network is needed.\n"
                               "Exit code 1: something leaks; nothing was written.");
   command->add_option("DIR", options->out, "new folder for the pages")->type_name("")->required();
-  command
-      ->add_option("--secret-file", options->secret,
-                   "secret of the course, which must not be in the pages either")
-      ->type_name("FILE");
-  command->add_flag("--notes", options->notes, "also the lecturer's notes: pages that students must not get");
-  command->add_flag("--json", options->json, "print JSON");
+  addOptions(command,
+             {{"--secret-file", options->secret, "FILE",
+               "secret of the course, which must not be in the pages either"},
+              {"--notes", options->notes, "also the lecturer's notes: pages that students must not get"},
+              {"--json", options->json, "print JSON"}});
   command->callback(
       [&action, options] { action = [options](const Project& p) { return devSite(p, *options); }; });
+}
+
+void addDevBench(CLI::App* dev, Action& action) {
+  const auto options = std::make_shared<BenchOptions>();
+  CLI::App* command = addVerb(dev, "bench", "Measure speed against other libraries",
+                              "Examples:\n  scripts/rex dev bench --report out/bench.html\n"
+                              "  scripts/rex dev bench kinematics --json\n"
+                              "  scripts/rex dev bench panda --problems DIR");
+  command->add_option("NAME", options->names, "groups to measure (default: all)")->type_name("");
+  addOptions(command,
+             {{"--json", options->json, "print JSON instead of a table"},
+              {"--report", options->report, "FILE.html", "also write a page with figures"},
+              {"--problems", options->problems, "DIR", "panda: a folder of motion planning problems"},
+              {"--urdf", options->urdf, "FILE.urdf",
+               "panda: the robot (default: ../urdf/panda_spherized.urdf beside DIR)"},
+              {"--srdf", options->srdf, "FILE.srdf",
+               "panda: which links may collide (default: NAME.srdf beside the URDF)"},
+              {"--seed", options->seed, "S", "panda: the first point of the Halton sequence (default: 1)"}});
+  command->callback(
+      [&action, options] { action = [options](const Project& p) { return devBench(p, *options); }; });
 }
 
 void addDevStats(CLI::App* dev, Action& action) {
@@ -148,19 +147,17 @@ void addDevStats(CLI::App* dev, Action& action) {
   command->add_option("DIR", options->results, "the folder of results that `rex grade` wrote")
       ->type_name("")
       ->required();
-  CLI::Option* json = command->add_flag("--json", options->json, "print JSON");
-  CLI::Option* csv = command->add_flag("--csv", options->csv, "print a table of the checks")->excludes(json);
-  command
-      ->add_flag("--students", options->students,
-                 "print a table of the students: points, time and number of attempts")
-      ->excludes(json)
-      ->excludes(csv);
-  command
-      ->add_option("--deadlines", options->deadlines,
-                   "say how the first full score lies to opening and deadline (a course file will do)")
-      ->type_name("FILE.toml");
-  command->add_option("-o,--out", options->figure, "draw the points of each exercise")->type_name("FILE.png");
-  command->add_option("--parts", options->parts, "draw the mean points of each part")->type_name("FILE.png");
+  const auto added = addOptions(
+      command, {{"--json", options->json, "print JSON"},
+                {"--csv", options->csv, "print a table of the checks"},
+                {"--students", options->students,
+                 "print a table of the students: points, time and number of attempts"},
+                {"--deadlines", options->deadlines, "FILE.toml",
+                 "say how the first full score lies to opening and deadline (a course file will do)"},
+                {"-o,--out", options->figure, "FILE.png", "draw the points of each exercise"},
+                {"--parts", options->parts, "FILE.png", "draw the mean points of each part"}});
+  added[1]->excludes(added[0]);
+  added[2]->excludes(added[0])->excludes(added[1]);
   command->callback(
       [&action, options] { action = [options](const Project& p) { return devStats(p, *options); }; });
 }
@@ -176,6 +173,7 @@ void addDev(CLI::App* dev, Action& action) {
     if (dev->get_subcommands().empty()) action = print(dev->help("rex"));
   });
   addDevNew(dev, action), addDevCheck(dev, action);
+  addDevBench(dev, action);
   addDevStrip(dev, action);
   addDevRelease(dev, action);
   addDevSite(dev, action);

@@ -73,7 +73,7 @@ grading::GateResult resultOf(const Project& project, const ExerciseInfo& exercis
                            .exercise = exercise,
                            .toolchain = toolchain,
                            .workFolder = work.path(),
-                           .seeds = options.seeds,
+                           .seeds = options.runs,
                            .sheet = options.sheet,
                            .hostileAnswers = isSet("REX_LONG_RUN") ? 10000 : 3000,
                            .variants = options.variants,

@@ -21,7 +21,7 @@ struct CheckOptions {
   bool listGates = false;
   bool json = false;
   std::filesystem::path sheet{};  ///< a .png for the pictures of wrong variants; empty: none
-  int seeds = 3;
+  int runs = 3;                   ///< of the solution, each with the next seed
 };
 /// Runs the gates that exercises must pass; a bad exercise.toml counts as a gate that is not passed. Returns
 /// kBelow if one is not, kGraderFault if a grader does not build; the other exercises are still tested.
@@ -45,6 +45,15 @@ struct ReleaseOptions {
 /// Writes the students' tree, and prints what it contains. Returns kBelow, without writing anything, if
 /// anything leaks.
 ExitCode devRelease(const Project& project, const ReleaseOptions& options);
+
+struct BenchOptions {
+  std::vector<std::string> names{};  ///< groups; empty: all
+  bool json = false;
+  std::string report{};
+  std::string problems{}, urdf{}, srdf{}, seed{};  ///< of the group panda
+};
+/// Runs the benchmarks. Throws Error if they are not built or were ended by a signal.
+ExitCode devBench(const Project& project, const BenchOptions& options);
 
 struct SiteOptions {
   std::filesystem::path out{};     ///< new folder

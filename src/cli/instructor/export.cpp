@@ -167,9 +167,9 @@ CLI::App* addTarget(CLI::App* all, Action& action, const std::string& name, cons
   if (name != "json") out->required();
   addClassFiles(command, options->files);
   command
-      ->add_option("--exercise", options->exercise,
+      ->add_option("EXERCISE", options->exercise,
                    name == "moodle" ? "the exercise of this assignment" : "only this exercise (default: all)")
-      ->type_name("EXERCISE")
+      ->type_name("")
       ->required(name == "moodle");
   command->callback([&action, options, exporter] {
     action = [options, exporter](const Project& p) { return exporter(p, *options); };
@@ -182,7 +182,7 @@ CLI::App* addTarget(CLI::App* all, Action& action, const std::string& name, cons
 void addExport(CLI::App* all, Action& action) {
   all->footer(
       "Examples:\n  scripts/rex export html results --course course.toml -o feedback\n"
-      "  scripts/rex export moodle results --exercise 01 --worksheet grades.csv -o moodle\n\n"
+      "  scripts/rex export moodle results 01 --worksheet grades.csv -o moodle\n\n"
       "What students get shows nothing of other students, and of hidden checks only points.");
   all->require_subcommand(0, 1);
   all->callback([&action, all] {
@@ -192,7 +192,7 @@ void addExport(CLI::App* all, Action& action) {
   const auto moodle = options();
   CLI::App* command =
       addTarget(all, action, "moodle", "The grading worksheet filled in, and a zip of feedback",
-                "moodle results --exercise 01 --worksheet grades.csv -o moodle", exportMoodle, moodle);
+                "moodle results 01 --worksheet grades.csv -o moodle", exportMoodle, moodle);
   command->add_option("--worksheet", moodle->worksheet, "grading worksheet that was downloaded from Moodle")
       ->type_name("FILE.csv");
   command->add_flag("--scale", moodle->scale, "scale points to the maximum grade of the worksheet");

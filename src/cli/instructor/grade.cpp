@@ -34,9 +34,10 @@
 #include "cli/instructor/regrading.h"
 #include "cli/instructor/similar.h"
 #include "cli/json_internal.h"
+#include "cli/option_table_internal.h"
 #include "cli/progress_line.h"
+#include "cli/report_format.h"
 #include "cli/sandbox_choice.h"
-#include "cli/shared_options_internal.h"
 #include "cli/terminal.h"
 #include "sandbox/probes.h"
 
@@ -52,19 +53,22 @@ struct GradeManyOptions {
   std::optional<sandbox::Level> level{};   ///< empty: the best that holds here
   std::optional<sandbox::Level> accept{};  ///< the lowest level to accept, though too weak for strangers
   std::optional<std::uint64_t> seed{};
-  std::filesystem::path secret{};      ///< file; empty: the seed decides hidden checks, too
-  std::filesystem::path workers{};     ///< folder that keeps compiled programs; empty: none
-  std::string only{};                  ///< exercise; empty: all
-  ClassFiles files{};                  ///< roster, dates and adjustments
-  bool acceptFewer = false;            ///< take results of the same text with fewer points, too
-  std::filesystem::path submitted{};   ///< CSV file; empty: use the times of the files
-  std::filesystem::path manifest{};    ///< only write the list of tasks here; empty: grade
-  bool csv = false;                    ///< print grades.csv
-  bool json = false;                   ///< print what was done
+  std::filesystem::path secret{};     ///< file; empty: the seed decides hidden checks, too
+  std::filesystem::path workers{};    ///< folder that keeps compiled programs; empty: none
+  std::string only{};                 ///< exercise; empty: all
+  ClassFiles files{};                 ///< roster, dates and adjustments
+  bool acceptFewer = false;           ///< take results of the same text with fewer points, too
+  std::filesystem::path submitted{};  ///< CSV file; empty: use the times of the files
+  std::filesystem::path
+      manifest{};        ///< only write the list of tasks here; empty: grade. Or see task and collect
+  int task = 0;          ///< only grade this line of the manifest; 0: all
+  bool collect = false;  ///< only make the table
+  bool csv = false;      ///< print grades.csv
+  bool json = false;     ///< print what was done
   std::vector<std::string> explain{};  ///< a student and an exercise: only say how this grade came about
   bool regrade = false;                ///< also submissions that have a valid result
   bool evidence = false;               ///< keep pictures and replays of failed visible checks
-  std::string reports{};               ///< formats of `rex report` to write, separated by commas; empty: none
+  std::string reports{};               ///< see reportsOf(): written beside each result
   fs::path similar{};                  ///< folder for pages of similar submissions; empty: none
   int similarPercent = kSimilarPercent;
 };
@@ -305,12 +309,12 @@ void tellWhatTablesLeaveOut(const fs::path& manifest, const std::string& only) {
     if (line.find("\t" + only + "\t") == std::string::npos) ++others;
   if (others < 1) return;
   note(wrap(fmt::format("{} and grades.csv now list {} alone; the results of {} other submission{} stay, and "
-                        "are listed again by rex grade without --only",
+                        "are listed again by rex grade without an exercise",
                         shown(manifest), only, others, others == 1 ? "" : "s"),
             2, 0));
 }
 
-// `rex collect` has only the folder of results.
+// `rex grade --collect` has only the folder of results.
 void keepWhatCollectNeeds(const grading::HandIns& handedIn, const GradeManyOptions& options) {
   replaceTextFile(options.out / kNotTakenFile, grading::notTakenText(handedIn.notTaken),
                   "the list of what was not taken");
@@ -341,10 +345,26 @@ ExitCode gradeMany(const Project& project, GradeManyOptions options) {
         {.what = "--out", .found = "no folder", .wanted = "one for the results, here or in the course file"});
   if (!options.explain.empty())
     return explainResults(project, {.out = options.out,
+                                    .manifest = options.manifest,
                                     .files = options.files,
                                     .student = options.explain[0],
                                     .exercise = options.explain[1],
                                     .json = options.json});
+  if (options.task > 0)
+    return gradeOne(project, {.manifest = options.manifest,
+                              .task = options.task,
+                              .out = options.out,
+                              .secret = options.secret,
+                              .evidence = options.evidence,
+                              .accept = options.acceptFewer,
+                              .workers = options.workers});
+  if (options.collect)
+    return collectResults(project, {.out = options.out,
+                                    .manifest = options.manifest,
+                                    .files = options.files,
+                                    .csv = options.csv,
+                                    .json = options.json,
+                                    .reports = options.reports});
   requireFolders(options);
   const std::vector<grading::ReportFormat> reports = reportsOf(options.reports);
   const grading::LatePolicy policy = readDeadlines(project, options.files.deadlines);
@@ -404,57 +424,59 @@ ExitCode gradeMany(const Project& project, GradeManyOptions options) {
 void addGrade(CLI::App* command, Action& action) {
   const auto options = std::make_shared<GradeManyOptions>();
   command->footer(
-      "Examples:\n  scripts/rex grade handed-in --out results -j8\n"
-      "  scripts/rex grade handed-in --out results --deadlines deadlines.toml --csv\n"
-      "  scripts/rex grade handed-in --course course.toml --out results\n"
-      "  scripts/rex grade handed-in --out results --reports=markdown,junit --evidence\n"
-      "  scripts/rex grade handed-in --out results --similar similar\n"
-      "  scripts/rex grade --explain zoe 01 --course course.toml --out results\n\n"
+      "Examples:\n  scripts/rex grade handed-in -o results -j8\n"
+      "  scripts/rex grade handed-in 01 -o results --deadlines deadlines.toml --csv\n"
+      "  scripts/rex grade handed-in --course course.toml -o results\n"
+      "  scripts/rex grade handed-in -o results --report=markdown,junit --evidence\n"
+      "  scripts/rex grade handed-in -o results --similar similar\n"
+      "  scripts/rex grade handed-in -o results --manifest tasks.tsv\n"
+      "  scripts/rex grade --manifest tasks.tsv --task 7 -o results\n"
+      "  scripts/rex grade --collect -o results --course course.toml\n"
+      "  scripts/rex grade --explain zoe 01 --course course.toml -o results\n\n"
       "DIR holds STUDENT/EXERCISE/main.cpp. A second run grades only what has changed.\n" +
       std::string(kGradingCodes));
   command->add_option("DIR", options->folder, "folder of submissions")->type_name("");
-  addResults(command, options->out)->required(false);
-  command->add_option("-j,--jobs", options->jobs, "parallel gradings (default: one per processor)")
-      ->check(CLI::Range(1, 1024).description(""))
-      ->type_name("N");
-  command->add_option("--level", options->level, "sandbox level (default: the best that holds here)")
-      ->check(CLI::Range(0, 3).description(""))
-      ->type_name("N");
-  command->add_option("--i-accept-level", options->accept, "also grade at this weak level: 0 or 1")
-      ->check(CLI::Range(0, 1).description(""))
-      ->type_name("N");
-  addSeed(command, options->seed, "seed of the random cases");
+  command->add_option("EXERCISE", options->only, "only this exercise (default: all)")->type_name("");
+  addResults(command, options->out);
+  addOptions(command,
+             {{"-j,--jobs", options->jobs, {0, 1024}, "N", "parallel gradings, 0: one per processor"},
+              {"--level", options->level, {0, 3}, "N", "sandbox level (default: the best that holds here)"},
+              {"--i-accept-level", options->accept, {0, 1}, "N", "also grade at this weak level: 0 or 1"},
+              seedRow(options->seed, "seed of the random cases")});
   addSecret(command, options->secret);
-  addWorkers(command, options->workers);
-  command->add_option("--only", options->only, "only this exercise")->type_name("EXERCISE");
   addClassFiles(command, options->files);
-  command
-      ->add_option("--submitted", options->submitted,
-                   "times of submission: columns student, submitted, exercise (default: times of the files)")
-      ->type_name("FILE.csv");
-  command->add_option("--manifest", options->manifest, "only write the list of tasks, without grading")
-      ->type_name("FILE.tsv");
-  command->add_flag("--regrade", options->regrade, "also grade what has a valid result");
-  CLI::Option* csv = command->add_flag("--csv", options->csv, "print the table of grades");
-  CLI::Option* json =
-      command->add_flag("--json", options->json, "print what was done as JSON")->excludes(csv);
+  addOptions(command,
+             {{"--workers", options->workers, "DIR",
+               "keep compiled programs here, so that other seeds need no new compilation"},
+              {"--submitted", options->submitted, "FILE.csv",
+               "times of submission: columns student, submitted, exercise (default: times of the files)"},
+              {"--regrade", options->regrade, "also grade what has a valid result"},
+              {"--accept", options->acceptFewer,
+               "also take results in which the same file has fewer points than before"},
+              {"--evidence", options->evidence, "keep pictures and replays of failed visible checks"}});
+  addReport(command, options->reports);
+  const auto shown = addOptions(
+      command,
+      {{"--csv", options->csv, "print the table of grades"},
+       {"--json", options->json, "print what was done as JSON"},
+       {"--similar", options->similar, "DIR", "show submissions that are nearly the same in this folder"},
+       {"--similar-percent", options->similarPercent, {1, 100}, "N", "how much they must have in common"}});
+  shown[1]->excludes(shown[0])->excludes(shown[2]);
+  shown[3]->needs(shown[2]);
+  const auto parts = addOptions(
+      command,
+      {{"--manifest", options->manifest, "FILE.tsv", "only write the list of tasks, without grading"},
+       {"--task", options->task, {1, 1e9}, "K", "only grade line K of the --manifest, unless it is done"},
+       {"--collect", options->collect,
+        "only make the tables from the results (--manifest: of these tasks), and name what is missing"}},
+      "For clusters");
+  parts[1]->needs(parts[0])->excludes(parts[2]);
   addExplain(command, options->explain);
-  addAccept(command, options->acceptFewer);
-  addReports(command, options->reports);
-  addEvidence(command, options->evidence);
-  CLI::Option* similar = command
-                             ->add_option("--similar", options->similar,
-                                          "show submissions that are nearly the same in this folder")
-                             ->type_name("FOLDER")
-                             ->excludes(json);
-  command
-      ->add_option("--similar-percent", options->similarPercent,
-                   fmt::format("how much they must have in common (default: {})", kSimilarPercent))
-      ->check(CLI::Range(1, 100).description(""))
-      ->type_name("N")
-      ->needs(similar);
   command->callback([&action, options] {
-    if (options->folder.empty() && options->explain.empty()) throw CLI::RequiredError("DIR");
+    const bool needsNone = !options->explain.empty() || options->task > 0 || options->collect;
+    if (options->folder.empty() && !needsNone) throw CLI::RequiredError("DIR");
+    if (!options->folder.empty() && needsNone)
+      throw UsageError({.what = "DIR has no effect with --task, --collect and --explain"});
     action = [options](const Project& p) { return gradeMany(p, *options); };
   });
 }

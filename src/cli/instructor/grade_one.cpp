@@ -1,32 +1,16 @@
 #include <filesystem>
-#include <memory>
 #include <string>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "base/error.h"
 #include "base/private_folder.h"
 #include "classroom/grade_task.h"
-#include "cli/instructor/grading_options_internal.h"
-#include "cli/instructor/instructor_room_internal.h"
+#include "cli/instructor/collect.h"
 #include "cli/sandbox_choice.h"
 #include "cli/terminal.h"
 
 namespace rex::cli {
-namespace {
-
-struct GradeOneOptions {
-  std::filesystem::path manifest{};
-  int task = 0;  ///< from 1
-  std::filesystem::path out{};
-  std::filesystem::path secret{};
-  bool evidence = false;
-  bool accept = false;              ///< take a result with fewer points, too
-  std::filesystem::path workers{};  ///< folder that keeps compiled programs; empty: none
-};
-
-// Grades one line of a list of tasks, unless it has a valid result. kFull if it has one afterwards.
 ExitCode gradeOne(const Project& project, const GradeOneOptions& options) {
   const std::vector<grading::Task> tasks = grading::readManifest(options.manifest);
   if (options.task < 1 || options.task > static_cast<int>(tasks.size()))
@@ -56,25 +40,6 @@ ExitCode gradeOne(const Project& project, const GradeOneOptions& options) {
                                 result.maxScore, result.message)),
            2, 0));
   return result.outcome == grading::Outcome::kGraderError ? ExitCode::kGraderFault : ExitCode::kFull;
-}
-
-}  // namespace
-
-void addGradeOne(CLI::App* command, Action& action) {
-  const auto options = std::make_shared<GradeOneOptions>();
-  command->footer("Example: scripts/rex grade-one --manifest tasks.tsv --task 7 --out results\n\n" +
-                  std::string(kGradingCodes));
-  command->add_option("--manifest", options->manifest, "list of tasks that `rex grade --manifest` wrote")
-      ->type_name("FILE.tsv")
-      ->required();
-  command->add_option("--task", options->task, "number of the task, from 1")->type_name("K")->required();
-  addResults(command, options->out);
-  addSecret(command, options->secret);
-  addEvidence(command, options->evidence);
-  addWorkers(command, options->workers);
-  addAccept(command, options->accept);
-  command->callback(
-      [&action, options] { action = [options](const Project& p) { return gradeOne(p, *options); }; });
 }
 
 }  // namespace rex::cli

@@ -24,17 +24,12 @@ void addSecret(CLI::App* command, std::filesystem::path& file) {
       ->type_name("FILE");
 }
 
-// `--reports` alone, or `--reports=junit,markdown`.
-void addReports(CLI::App* command, std::string& reports) {
+// `--report` alone, or `--report=junit,markdown`.
+void addReport(CLI::App* command, std::string& reports) {
   command
-      ->add_flag("--reports{markdown}", reports,
-                 "write reports beside each result: --reports=markdown,junit (alone: markdown)")
+      ->add_flag("--report{markdown}", reports,
+                 "write reports beside each result: --report=markdown,junit (alone: markdown)")
       ->type_name("");
-}
-
-void addAccept(CLI::App* command, bool& accept) {
-  command->add_flag("--accept", accept,
-                    "also take results in which the same file has fewer points than before");
 }
 
 void addExplain(CLI::App* command, std::vector<std::string>& explain) {
@@ -43,21 +38,9 @@ void addExplain(CLI::App* command, std::vector<std::string>& explain) {
       ->type_name("STUDENT EXERCISE");
 }
 
-void addEvidence(CLI::App* command, bool& evidence) {
-  command->add_flag("--evidence", evidence, "keep pictures and replays of failed visible checks");
-}
-
-void addWorkers(CLI::App* command, std::filesystem::path& folder) {
-  command
-      ->add_option("--workers", folder,
-                   "keep compiled programs here, so that other seeds need no new compilation")
+void addResults(CLI::App* command, std::filesystem::path& out) {
+  command->add_option("-o,--out", out, "folder for STUDENT/EXERCISE/results.json and grades.csv")
       ->type_name("DIR");
-}
-
-CLI::Option* addResults(CLI::App* command, std::filesystem::path& out) {
-  return command->add_option("-o,--out", out, "folder for STUDENT/EXERCISE/results.json and grades.csv")
-      ->type_name("DIR")
-      ->required();
 }
 
 }  // namespace rex::cli

@@ -20,16 +20,11 @@ CLI::Option* addDeadlines(CLI::App* command, std::filesystem::path& file);
 void addSecret(CLI::App* command, std::filesystem::path& file);
 /// `--course`, `--deadlines` and `--adjustments`.
 void addClassFiles(CLI::App* command, ClassFiles& files);
-/// Formats of `rex report`, with commas between.
-void addReports(CLI::App* command, std::string& reports);
-void addEvidence(CLI::App* command, bool& evidence);
-/// `--workers`: the folder that keeps compiled programs.
-void addWorkers(CLI::App* command, std::filesystem::path& folder);
+/// `--report`; see reportsOf().
+void addReport(CLI::App* command, std::string& reports);
 /// `--out`: the folder of results.
-CLI::Option* addResults(CLI::App* command, std::filesystem::path& out);
+void addResults(CLI::App* command, std::filesystem::path& out);
 /// `--explain`: a student and an exercise.
 void addExplain(CLI::App* command, std::vector<std::string>& explain);
-/// `--accept`: take results of the same text with fewer points.
-void addAccept(CLI::App* command, bool& accept);
 
 }  // namespace rex::cli

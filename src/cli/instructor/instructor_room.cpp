@@ -6,13 +6,7 @@ namespace rex::cli {
 
 Room instructorRoom() {
   return {.program = Program::kInstructor,
-          .commands = {{"bench", addBench},
-                       {"collect", addCollect},
-                       {"dev", addDev},
-                       {"export", addExport},
-                       {"grade", addGrade},
-                       {"grade-one", addGradeOne},
-                       {"import", addImport}}};
+          .commands = {{"dev", addDev}, {"export", addExport}, {"grade", addGrade}, {"import", addImport}}};
 }
 
 }  // namespace rex::cli

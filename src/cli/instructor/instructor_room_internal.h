@@ -5,12 +5,9 @@
 namespace rex::cli {
 
 /// One file each; see Registration.
-void addBench(CLI::App* command, Action& action);
-void addCollect(CLI::App* command, Action& action);
 void addDev(CLI::App* command, Action& action);
 void addExport(CLI::App* command, Action& action);
 void addGrade(CLI::App* command, Action& action);
-void addGradeOne(CLI::App* command, Action& action);
 void addImport(CLI::App* command, Action& action);
 
 }  // namespace rex::cli

@@ -14,6 +14,7 @@
 
 #include "cli/methods/matrix_file_internal.h"
 #include "cli/methods/methods_room_internal.h"
+#include "cli/option_table_internal.h"
 #include "cli/out_folder.h"
 #include "cli/result_list.h"
 #include "cli/terminal.h"
@@ -160,6 +161,7 @@ void sayFindings(const Findings& f) {
   say(f.observable.isComplete ? "observable" : f.observable.message);
   if (f.regulator) {
     say("LQR: " + f.regulator->message);
+    if (f.regulator->X.size() > 0) say(matrixText("X", f.regulator->X));
     if (f.regulator->K.size() > 0) say(matrixText("K", f.regulator->K));
     sayComplex(f.regulator->closedLoop);
   }
@@ -169,6 +171,22 @@ void sayFindings(const Findings& f) {
     sayComplex(f.filter->closedLoop);
   }
   if (f.lqg && f.lqg->status != RiccatiStatus::kSolved) say("LQG: " + f.lqg->message);
+}
+
+const char* nameOf(RiccatiStatus status) {
+  switch (status) {
+    case RiccatiStatus::kSolved:
+      return "solved";
+    case RiccatiStatus::kNotStabilizable:
+      return "not stabilizable";
+    case RiccatiStatus::kNotDetectable:
+      return "not detectable";
+    case RiccatiStatus::kOnBoundary:
+      return "on boundary";
+    case RiccatiStatus::kFailed:
+      return "failed";
+  }
+  return "";
 }
 
 Json jsonOf(const Findings& f, const std::vector<fs::path>& files) {
@@ -183,10 +201,17 @@ Json jsonOf(const Findings& f, const std::vector<fs::path>& files) {
             {"regulator", nullptr},
             {"filter", nullptr},
             {"files", Json::array()}};
-  if (f.regulator)
-    json["regulator"] = {{"K", rows(f.regulator->K)},
-                         {"eigenvalues", jsonOfComplex(f.regulator->closedLoop)},
-                         {"message", f.regulator->message}};
+  if (f.regulator) {
+    const RiccatiResult& found = *f.regulator;
+    json["regulator"] = {
+        {"X", rows(found.X)},
+        {"K", rows(found.K)},
+        {"eigenvalues", jsonOfComplex(found.closedLoop)},
+        {"residual", found.X.size() > 0 ? Json(found.residual) : Json()},
+        {"status", nameOf(found.status)},
+        {"mode", found.mode ? Json::array({found.mode->real(), found.mode->imag()}) : Json()},
+        {"message", found.message}};
+  }
   if (f.filter)
     json["filter"] = {{"L", rows(f.filter->L)},
                       {"eigenvalues", jsonOfComplex(f.filter->closedLoop)},
@@ -202,9 +227,7 @@ ExitCode linear(const Project& project, const LinearOptions& options) {
   });
   const Findings findings = asWrongUse([&] { return file.blamed([&] { return findingsOf(file); }); });
   const auto requireOne = [](const char* option, int number, Eigen::Index count) {
-    if (number < 1 || number > count)
-      throw UsageError(
-          {.what = option, .found = std::to_string(number), .wanted = fmt::format("1 to {}", count)});
+    requireBetween(option, number, 1, static_cast<double>(count));
   };
   requireOne("--input", options.input, findings.system.B.cols());
   requireOne("--output", options.output, findings.system.C.rows());
@@ -227,19 +250,21 @@ void addLinear(CLI::App* command, Action& action) {
   const auto options = std::make_shared<LinearOptions>();
   command->footer(
       "Examples:\n  scripts/rex linear data/control/cart-pole-seen.json\n"
+      "  scripts/rex linear data/control/cart-steps.json\n"
       "  scripts/rex linear data/control/cart-pole-seen.json -o figures --json\n\n"
-      "x' = A x + B u, y = C x + D u, or x_{t+1} with a \"step\" in seconds: stability, controllability,\n"
-      "observability. With Q and R the regulator u = -K x, with W and V (intensities of the noise of\n"
-      "motion and measurement) the Kalman filter, with all four LQG. Exit code 1: one of them does not\n"
-      "exist; the message says why.");
+      "x' = A x + B u, y = C x + D u, or x_{t+1} with a \"step\" in seconds: stability,\n"
+      "controllability, observability. With Q and R the regulator u = -K x from the solution X of\n"
+      "the algebraic Riccati equation (slide 8:19), with W and V (intensities of the noise of\n"
+      "motion and measurement) the Kalman filter, with all four LQG. Exit code 1: one of them\n"
+      "does not exist; the message says why.");
   command->add_option("file", options->file, "{\"A\": [[...], ...], \"B\": ...}; also C, D, step, Q, R, W, V")
       ->type_name("FILE.json")
       ->required();
-  command->add_option("-o,--out", options->out, "draw Bode, Nyquist, poles and a step into this folder")
-      ->type_name("FOLDER");
-  command->add_option("--input", options->input, "the control that the figures show (default: 1)");
-  command->add_option("--output", options->output, "the measurement that they show (default: 1)");
-  command->add_flag("--json", options->json, "print JSON");
+  addOptions(command,
+             {{"-o,--out", options->out, "DIR", "draw Bode, Nyquist, poles and a step into this folder"},
+              {"--input", options->input, {1, 1e6}, "N", "the control that the figures show"},
+              {"--output", options->output, {1, 1e6}, "N", "the measurement that they show"},
+              {"--json", options->json, "print JSON"}});
   command->callback(
       [&action, options] { action = [options](const Project& p) { return linear(p, *options); }; });
 }

@@ -5,18 +5,7 @@
 namespace rex::cli {
 
 Room methodsRoom() {
-  return {.program = Program::kMethods,
-          .commands = {{"care", addCare},
-                       {"cma", addCma},
-                       {"curves", addCurves},
-                       {"dare", addDare},
-                       {"filter", addFilter},
-                       {"linear", addLinear},
-                       {"localize", addLocalize},
-                       {"map", addMap},
-                       {"search", addSearch},
-                       {"slam", addSlam},
-                       {"walk", addWalk}}};
+  return {.program = Program::kMethods, .commands = {{"linear", addLinear}, {"slam", addSlam}}};
 }
 
 }  // namespace rex::cli

@@ -10,7 +10,7 @@
 #include "base/text_file.h"
 #include "cli/json_internal.h"
 #include "cli/methods/methods_room_internal.h"
-#include "cli/option_value_internal.h"
+#include "cli/option_table_internal.h"
 #include "cli/project.h"
 #include "cli/terminal.h"
 #include "cli/wrong_use_internal.h"
@@ -21,36 +21,16 @@
 namespace rex::cli {
 namespace {
 
+enum class Start { kChordal, kFile, kOdometry };
+
 struct SlamOptions {
   std::filesystem::path file{};  ///< if it does not exist, looked up below the project's root
-  std::string objective = "chi2";
-  std::string start = "chordal";
-  std::string kernel = "none";
-  double kernelSize = 1;
-  int iterations = PoseGraphOptions{}.maxIterations;
+  Start start = Start::kChordal;
+  PoseGraphOptions how{};
   bool json = false;
   std::filesystem::path out{};   ///< a .g2o file; empty: none
   std::filesystem::path plot{};  ///< a .png or .svg file; empty: none
 };
-
-PoseGraphOptions optionsOf(const SlamOptions& options) {
-  PoseGraphOptions result;
-  result.objective = choose<PoseGraphObjective>(
-      "--objective", options.objective,
-      {{"chi2", PoseGraphObjective::kChi2}, {"sesync", PoseGraphObjective::kSESync}});
-  result.kernel = choose<RobustKernel>("--kernel", options.kernel,
-                                       {{"none", RobustKernel::kNone},
-                                        {"huber", RobustKernel::kHuber},
-                                        {"cauchy", RobustKernel::kCauchy},
-                                        {"geman-mcclure", RobustKernel::kGemanMcClure}});
-  requireBetween("--kernel-size", options.kernelSize, 1e-6, 1e6);
-  requireBetween("--iterations", options.iterations, 0, 100000);
-  result.kernelSize = options.kernelSize;
-  result.maxIterations = options.iterations;
-  result.chordalStart =
-      choose<bool>("--start", options.start, {{"chordal", true}, {"file", false}, {"odometry", false}});
-  return result;
-}
 
 // Positions seen from above, as a figure shows them.
 Eigen::Matrix2Xd positionsOf(const PlanarPoseGraph& graph) { return graph.poses.topRows<2>(); }
@@ -126,8 +106,9 @@ std::string sizeOf(const Graph& graph, std::size_t poses) {
 // Makes the map of a pose graph fit its measurements. kBelow if it does not converge.
 template <class Graph>
 ExitCode slam(const SlamOptions& options, G2oFile& file, Graph& graph) {
-  const PoseGraphOptions how = optionsOf(options);
-  if (options.start == "odometry") asWrongUse([&] { return setOdometryPoses(graph), 0; });
+  PoseGraphOptions how = options.how;
+  how.chordalStart = options.start == Start::kChordal;
+  if (options.start == Start::kOdometry) asWrongUse([&] { return setOdometryPoses(graph), 0; });
   const Eigen::Matrix2Xd before = positionsOf(graph);
   const std::clock_t begin = std::clock();
   const PoseGraphResult result = asWrongUse([&] { return optimize(graph, how); });
@@ -157,7 +138,6 @@ ExitCode slam(const SlamOptions& options, G2oFile& file, Graph& graph) {
 }  // namespace
 
 ExitCode slam(const Project& project, const SlamOptions& options) {
-  (void)optionsOf(options);  // reports wrong options before a large file is read
   if (!options.plot.empty() && options.plot.extension() != ".png" && options.plot.extension() != ".svg")
     throw UsageError({.what = "--plot",
                       .found = "'" + harmless(options.plot.string()) + "'",
@@ -180,22 +160,27 @@ void addSlam(CLI::App* command, Action& action) {
       "of rotation matrices instead.\n"
       "Exit code 1: the optimization did not converge.");
   command->add_option("file", options->file, "pose graph (.g2o)")->type_name("FILE")->required();
-  command->add_option("--objective", options->objective, "chi2 or sesync (default: chi2)")->type_name("NAME");
-  command->add_option("--start", options->start, "chordal, file or odometry (default: chordal)")
-      ->type_name("NAME");
-  command
-      ->add_option("--kernel", options->kernel,
-                   "robust kernel: none, huber, cauchy or geman-mcclure (default: none)")
-      ->type_name("NAME");
-  command
-      ->add_option("--kernel-size", options->kernelSize,
-                   "width of the kernel in standard deviations (default: 1)")
-      ->type_name("NUMBER");
-  command->add_option("--iterations", options->iterations, "limit of iterations (default: 1000)")
-      ->type_name("COUNT");
-  command->add_option("--plot", options->plot, "draw the poses before and after")->type_name("FILE.png");
-  command->add_option("-o,--out", options->out, "write the graph with its new poses")->type_name("FILE.g2o");
-  command->add_flag("--json", options->json, "print JSON");
+  using enum RobustKernel;
+  PoseGraphOptions& how = options->how;
+  addOptions(
+      command,
+      {{"--objective",
+        how.objective,
+        {{"chi2", PoseGraphObjective::kChi2}, {"sesync", PoseGraphObjective::kSESync}},
+        "what is minimised"},
+       {"--start",
+        options->start,
+        {{"chordal", Start::kChordal}, {"file", Start::kFile}, {"odometry", Start::kOdometry}},
+        "poses to start from"},
+       {"--kernel",
+        how.kernel,
+        {{"none", kNone}, {"huber", kHuber}, {"cauchy", kCauchy}, {"geman-mcclure", kGemanMcClure}},
+        "robust kernel"},
+       {"--kernel-size", how.kernelSize, {1e-6, 1e6}, "X", "width of the kernel in standard deviations"},
+       {"--iterations", how.maxIterations, {0, 100'000}, "N", "limit of iterations"},
+       {"--plot", options->plot, "FILE.png", "draw the poses before and after"},
+       {"-o,--out", options->out, "FILE.g2o", "write the graph with its new poses"},
+       {"--json", options->json, "print JSON"}});
   command->callback(
       [&action, options] { action = [options](const Project& p) { return slam(p, *options); }; });
 }

@@ -15,7 +15,7 @@ void requireCar(const Model& model);
 [[nodiscard]] PathTask parkingTask(Model model, const ContactModel& contacts, const VectorArg& start,
                                    const VectorArg& goal, double margin, double resolution);
 
-/// What `rex park` found.
+/// What `rex plan --planner hybrid-astar` found.
 struct Parking {
   Car car{};
   CarPath path{};

@@ -31,13 +31,13 @@ Report replayOf(const PathTask& task, const PlanOptions& options, const FoundPat
                           {"duration", fmt::format("{:.3f} s", result.motion.duration())},
                           {"from velocity limits alone", fmt::format("{:.3f} s", result.lowerBound)},
                           {"limits", limitsTextOf(timing, options)},
-                          {"margin", fmt::format("{:g} m", options.margin)},
+                          {"margin", fmt::format("{:g} m", *options.margin)},
                           {"nodes", fmt::format("{}", found.nodes)},
                           {"configurations checked", fmt::format("{}", found.checks)}}};
   if (result.motion.duration() > 0)
     report.figures.push_back({speedsFigure(result.motion, timing.limits.limits)});
   if (!task.contacts.pairs().empty()) {
-    report.figures.push_back({clearanceFigure(task.model, task.contacts, motion, options.margin)});
+    report.figures.push_back({clearanceFigure(task.model, task.contacts, motion, *options.margin)});
     report.facts.emplace_back("clearance", fmt::format("{:.4g} m", found.clearance.atLeast));
   }
   return report;
@@ -72,7 +72,7 @@ void writeExplored(Picture picture, RenderPlan plan, std::string caption, const 
 }
 
 std::string titleOf(const PathTask& task, const PlanOptions& options, const FoundPath& found) {
-  return fmt::format("{}, {}, seed {}", harmless(task.model.name()), options.planner, found.seed);
+  return fmt::format("{}, {}, seed {}", harmless(task.model.name()), nameOf(options.planner), found.seed);
 }
 
 std::vector<std::string> writePathFiles(const PathTask& task, const PlanOptions& options,

@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "base/error.h"
 #include "base/interruption.h"
 #include "base/rng.h"
-#include "cli/option_value_internal.h"
 #include "cli/terminal.h"
 #include "planning/path_clearance.h"
 #include "planning/path_spline.h"
@@ -80,15 +80,26 @@ PathCurve smoothed(const PathProblem& problem, const Eigen::MatrixXd& path, Rng&
 
 }  // namespace
 
-Planner plannerOf(const std::string& name) {
-  return choose<Planner>("--planner", name,
-                         {{"rrt", Planner::kRrt},
-                          {"rrt-connect", Planner::kRrtConnect},
-                          {"rrt-star", Planner::kRrtStar},
-                          {"prm", Planner::kPrm},
-                          {"prm-star", Planner::kPrmStar},
-                          {"lazy-prm", Planner::kLazyPrm}});
+const std::vector<std::pair<std::string, Planner>>& plannerNames() {
+  static const std::vector<std::pair<std::string, Planner>> names{
+      {"rrt", Planner::kRrt},
+      {"rrt-connect", Planner::kRrtConnect},
+      {"rrt-star", Planner::kRrtStar},
+      {"prm", Planner::kPrm},
+      {"prm-star", Planner::kPrmStar},
+      {"lazy-prm", Planner::kLazyPrm},
+      {"hybrid-astar", Planner::kHybridAStar},
+      {"optimize", Planner::kOptimize},
+      {"optimize-penalty", Planner::kOptimizePenalty},
+      {"optimize-barrier", Planner::kOptimizeBarrier}};
+  return names;
 }
+
+const std::string& nameOf(Planner planner) {
+  return std::ranges::find(plannerNames(), planner, &std::pair<std::string, Planner>::second)->first;
+}
+
+bool drawsSamples(Planner planner) { return planner < Planner::kHybridAStar; }
 
 bool growsTrees(Planner planner) {
   return planner == Planner::kRrt || planner == Planner::kRrtConnect || planner == Planner::kRrtStar;

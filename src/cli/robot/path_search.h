@@ -19,10 +19,24 @@ inline constexpr double kClearanceTolerance = 1e-4;
 /// How far the straight segments of a path may deviate from its curve, in each coordinate.
 inline constexpr double kChordTolerance = 5e-5;
 
-enum class Planner { kRrt, kRrtConnect, kRrtStar, kPrm, kPrmStar, kLazyPrm };
+enum class Planner {
+  kRrt,
+  kRrtConnect,
+  kRrtStar,
+  kPrm,
+  kPrmStar,
+  kLazyPrm,
+  kHybridAStar,      ///< of cars: plan_car.cpp
+  kOptimize,         ///< of whole motions, by augmented Lagrangians: plan_motion.cpp
+  kOptimizePenalty,  ///< the same with squared penalties, and with barriers
+  kOptimizeBarrier
+};
 
-/// What `--planner NAME` means. Throws UsageError naming the choices and the nearest.
-[[nodiscard]] Planner plannerOf(const std::string& name);
+/// What `--planner NAME` means.
+[[nodiscard]] const std::vector<std::pair<std::string, Planner>>& plannerNames();
+[[nodiscard]] const std::string& nameOf(Planner planner);
+/// Whether it draws samples: one of the first six.
+[[nodiscard]] bool drawsSamples(Planner planner);
 /// Whether the planner grows trees step by step; otherwise it makes a roadmap.
 [[nodiscard]] bool growsTrees(Planner planner);
 

@@ -39,7 +39,7 @@ std::string summaryOfOne(const PathTask& task, const PlanOptions& options, const
   const bool isProven = atMost - atLeast <= 2 * kClearanceTolerance;
   return text + fmt::format("clearance  {:.4f} m all along the path{}, margin {:g} m", atLeast,
                             isProven ? "" : fmt::format(" is proven, {:.4f} m measured", atMost),
-                            options.margin);
+                            *options.margin);
 }
 
 std::string row(const char* name, std::vector<double> values) {
@@ -59,7 +59,7 @@ std::string summaryOfAll(const PathTask& task, const PlanOptions& options, const
     return values;
   };
   std::string text = fmt::format("{}, {}, seeds {} to {}: {} of {} found a path\n",
-                                 harmless(task.model.name()), options.planner, found.all.front().seed,
+                                 harmless(task.model.name()), nameOf(options.planner), found.all.front().seed,
                                  found.all.back().seed, found.successes(), found.all.size());
   text += fmt::format("{:22} {:>10} {:>10} {:>10}", "", "min", "median", "max");
   text += row("nodes", valuesOf(false, [](const FoundPath& one) { return one.nodes; }));
@@ -118,9 +118,9 @@ std::string jsonSummaryOf(const PathTask& task, const PlanOptions& options, cons
   for (const FoundPath& one : found.all) runs.push_back(jsonOfPath(one));
   const bool isFound = found.successes() > 0;
   return dump(Json{{"scene", task.model.name()},
-                   {"planner", options.planner},
-                   {"margin", options.margin},
-                   {"resolution", options.resolution},
+                   {"planner", nameOf(options.planner)},
+                   {"margin", *options.margin},
+                   {"resolution", *options.resolution},
                    {"found", found.successes()},
                    {"runs", std::move(runs)},
                    {"shortest", isFound ? Json(found.shortest().seed) : Json()},

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "cli/option_value_internal.h"
+#include "cli/option_table_internal.h"
 #include "cli/robot/contact_limit.h"
 #include "cli/robot/film_file.h"
 #include "cli/robot/motion_files.h"
@@ -20,7 +20,6 @@
 #include "cli/robot/posture_within_limits.h"
 #include "cli/robot/robot_options_internal.h"
 #include "cli/robot/robot_room_internal.h"
-#include "cli/shared_options_internal.h"
 #include "cli/wrong_use_internal.h"
 #include "collision/contacts.h"
 #include "planning/robot_problem.h"
@@ -29,22 +28,11 @@ namespace rex::cli {
 namespace {
 
 PathSearch searchOf(const PlanOptions& options) {
-  PathSearch search{.planner = plannerOf(options.planner), .smooth = !options.noSmooth};
-  requireBetween("--margin", options.margin, 0, kQueryCutoff);
-  requireBetween("--resolution", options.resolution, 1e-4, 10);
-  requireBetween("--velocity", options.velocity, 1e-6, 1e6);
-  requireBetween("--ramp", options.ramp, 1e-6, 1e6);
-  requireBetween("--speed", options.speed, 1e-3, 1e3);
-  requireBetween("--seeds", options.seeds, 1, 10'000);
-  if (options.step && !growsTrees(search.planner))
-    throw UsageError(
-        {.what = "--step", .found = "--planner " + options.planner, .wanted = "a planner that grows trees"});
-  search.step = options.step.value_or(search.step);
-  requireBetween("--step", search.step, 1e-3, 1e3);
+  PathSearch search{.planner = options.planner, .step = options.step, .smooth = !options.noSmooth};
   if (search.planner == Planner::kRrtStar) search.samples = 10'000;  // RRT* uses all of them
   if (!growsTrees(search.planner)) search.samples = 2000;
   search.samples = options.samples.value_or(search.samples);
-  requireBetween("--samples", search.samples, 1, growsTrees(search.planner) ? 1e7 : 1e5);
+  if (!growsTrees(search.planner)) requireBetween("--samples", search.samples, 1, 1e5);
   return search;
 }
 
@@ -56,8 +44,8 @@ PathTask taskOf(Model model, const PlanOptions& options) {
       postureWithinLimits(model, "--start", options.start.empty() ? "file" : options.start);
   const Eigen::VectorXd goal = postureWithinLimits(model, "--goal", options.goal);
   PathProblem problem = asWrongUse(
-      [&] { return robotProblem(model, contacts, start, goal, options.margin, options.resolution); });
-  requireFreeEnds(problem, options.margin);
+      [&] { return robotProblem(model, contacts, start, goal, *options.margin, *options.resolution); });
+  requireFreeEnds(problem, *options.margin);
   return {std::move(model), contacts, std::move(problem)};
 }
 
@@ -88,19 +76,13 @@ bool isClear(const FoundPaths& found, double margin) {
 
 // Searches for a path of a robot past all obstacles, and the fastest motion along it. Writes the motion, what
 // was explored, a film and a replay. kBelow if no path was found, one is not clear, or it cannot be timed.
-ExitCode planPath(const Project& project, const PlanOptions& options) {
-  RenderOptions filmOptions = options.film;
-  filmOptions.out = options.out / "path.mp4";
-  const RenderPlan pictures = planOf(filmOptions, facingOf(fileOf(project, options.scene)));
+ExitCode planPath(const PlanOptions& options, const RenderPlan& pictures, Model model) {
   const PathSearch search = searchOf(options);
-  Model model = loadScene(project, options.scene);
-  if (model.nv() == 0) throw UsageError({.what = model.name(), .found = "no joint that moves"});
-  if (!options.noFilm) requireFilmable(model);
   const BodyId body = drawnBody(model, options.body);
   const PathTask task = taskOf(std::move(model), options);
   makeResultFolder(options.out, {"tree.png", "path.csv", "path.mp4", "path.html"}, "path");
 
-  const FoundPaths found = asWrongUse([&] { return searchPaths(task, search, options.seed, options.seeds); });
+  const FoundPaths found = asWrongUse([&] { return searchPaths(task, search, options.seed, options.runs); });
   const bool isFound = found.successes() > 0;
   const PathTiming timing = isFound ? timingOf(task, options, found.shortest()) : PathTiming{};
   if (const std::string assumed = assumptionsOf(timing, options); !assumed.empty()) note(assumed);
@@ -112,7 +94,30 @@ ExitCode planPath(const Project& project, const PlanOptions& options) {
     say(summaryOf(task, options, found, timing));
     for (const std::string& file : files) say(file);
   }
-  return isClear(found, options.margin) && timing.isFound() ? ExitCode::kFull : ExitCode::kBelow;
+  return isClear(found, *options.margin) && timing.isFound() ? ExitCode::kFull : ExitCode::kBelow;
+}
+
+ExitCode plan(const Project& project, PlanOptions options) {
+  const bool isCar = options.planner == Planner::kHybridAStar, isPath = drawsSamples(options.planner);
+  if (!options.margin) options.margin = isPath ? 0.01 : isCar ? 0.05 : 0.02;
+  if (!options.resolution) options.resolution = isPath ? 0.02 : 0.05;
+  RenderOptions film = options.film;
+  film.out = options.out / "path.mp4";
+  if (isCar && film.cameras.empty()) film.cameras = {"0,-0.5,1"};  // a street is seen from above
+  const RenderPlan pictures = planOf(film, facingOf(fileOf(project, options.scene)));
+  Model model = loadScene(project, options.scene);
+  if (model.nv() == 0) throw UsageError({.what = model.name(), .found = "no joint that moves"});
+  if (!options.noFilm) requireFilmable(model);
+  return (isCar ? planCar : isPath ? planPath : planMotion)(options, pictures, std::move(model));
+}
+
+// Options of other planners than the one that was chosen would have no effect.
+void requireOwn(const std::vector<CLI::Option*>& options, bool isTheirs, Planner planner,
+                const char* wanted) {
+  for (const CLI::Option* option : options)
+    if (option->count() > 0 && !isTheirs)
+      throw UsageError(
+          {.what = option->get_name(), .found = "--planner " + nameOf(planner), .wanted = wanted});
 }
 
 }  // namespace
@@ -122,64 +127,96 @@ void addPlan(CLI::App* command, Action& action) {
   command->footer(
       "Examples:\n  scripts/rex plan board --goal 1.5,-1.1,-1 -o around\n"
       "  scripts/rex plan maze --goal 3,0,0 --planner rrt-star --speed 0.5 -o rooms\n"
-      "  scripts/rex plan board --goal 'stem>arm1=1.5' --planner lazy-prm --seeds 20 -o compare\n\n"
-      "Lengths are Euclidean distances between joint vectors, in rad and m. Turning joints without limits\n"
-      "turn the shorter way round. The motion is the fastest within the limits of the scene.\n"
-      "DIR gets path.csv (time and joints; `rex render --motion` reads it), tree.png (what was explored),\n"
-      "path.mp4 and path.html (a replay).\n"
+      "  scripts/rex plan board --goal 'stem>arm1=1.5' --planner lazy-prm --runs 20 -o compare\n"
+      "  scripts/rex plan street --goal -1.3,1.1,0 --planner hybrid-astar -o park\n"
+      "  scripts/rex plan board --goal eff:0,-0.3,0.5 --planner optimize --avoid -o smooth\n\n"
+      "Lengths are Euclidean distances between joint vectors, in rad and m. Turning joints\n"
+      "without limits turn the shorter way round. The motion is the fastest within the limits of\n"
+      "the scene. hybrid-astar (Dolgov 2010) drives a car, the scene's one joint that moves\n"
+      "(transXYPhi: x and y of the middle of the rear axle, and the heading), past all shapes but\n"
+      "those of the body that carries it. optimize minimises the accelerations of all joints from\n"
+      "rest to rest (slides 5:3 to 5:5), by an augmented Lagrangian; optimize-penalty and\n"
+      "optimize-barrier by these.\n"
+      "DIR gets path.csv (time and joints; `rex render --motion` reads it), tree.png (what was\n"
+      "explored) or costs.png, path.mp4 and path.html (a replay).\n"
       "Exit codes: 0 found a path, 1 found none or one not proven clear, 64 wrong use.");
   addSceneFile(command, "SCENE", options->scene.file);
-  command->add_option("-o,--out", options->out, "folder for the results")->type_name("DIR")->required();
-  command->add_option("--start", options->start, "all numbers, joint=number,..., 0, or file (default: file)")
-      ->type_name("POSTURE");
-  command->add_option("--goal", options->goal, "posture to reach, as for --start")
-      ->type_name("POSTURE")
-      ->required();
-  command
-      ->add_option("--planner", options->planner,
-                   "rrt, rrt-connect, rrt-star; prm, prm-star, lazy-prm (default: rrt-connect)")
-      ->type_name("NAME");
-  command->add_option("--margin", options->margin, "clearance to keep between all shapes (default: 0.01)")
-      ->type_name("METRES");
-  command
-      ->add_option("--resolution", options->resolution,
-                   "distance between checks along the path (default: 0.02)")
-      ->type_name("LENGTH");
-  command->add_option("--step", options->step, "step size of growing trees (default: 0.3)")
-      ->type_name("LENGTH");
-  command
-      ->add_option("--samples", options->samples,
-                   "budget of samples (default: 100000; rrt-star 10000, roadmaps 2000)")
-      ->type_name("N");
-  addSeed(command, options->seed, "seed of the random numbers (default: 0)");
-  command->add_option("--seeds", options->seeds, "search with this many seeds and print a table")
-      ->type_name("N");
-  CLI::Option* smooth = command->add_flag("--smooth");
-  smooth->description("shortcuts, then a spline that cuts corners (default)");
-  command->add_flag("--no-smooth", options->noSmooth,
-                    "the path as the planner finds it, with a stop at each corner");
-  command
-      ->add_option("--velocity", options->velocity, "limit for joints without one, rad/s or m/s (default: 1)")
-      ->type_name("X");
-  command
-      ->add_option("--ramp", options->ramp,
-                   "time from rest to the velocity limits of the joints (default: 0.5)")
-      ->type_name("S");
-  command->add_flag("--effort", options->effort,
-                    "keep within the effort limits of the scene, too (no friction)");
+  addOptions(
+      command,
+      {OptionRow("-o,--out", options->out, "DIR", "folder for the results").required(),
+       {"--start", options->start, "POSTURE", "all numbers, joint=number,..., 0, or file (default: file)"},
+       OptionRow("--goal", options->goal, "GOAL",
+                 "posture to reach, as for --start; to optimize, BODY:x,y,z in metres")
+           .required(),
+       {"--planner", options->planner, plannerNames(), "how to search"},
+       {"--margin",
+        options->margin,
+        {0, kQueryCutoff},
+        "METRES",
+        "clearance to keep between all shapes (default: 0.01; hybrid-astar 0.05, optimize --avoid 0.02)"},
+       {"--no-film", options->noFilm, "do not make path.mp4 and path.html"}});
   addFilmSpeed(command, options->speed);
-  command
-      ->add_option("--body", options->body,
-                   "draw the paths of this body (default: the one moved by most joints)")
-      ->type_name("NAME");
-  command->add_flag("--no-film", options->noFilm, "do not make path.mp4 and path.html");
   addFilmOptions(command, options->film);
   addJson(command, options->json);
   addReading(command, options->scene.reading);
   addGl(command, options->film.gl);
-  command->callback([&action, options, smooth] {
-    if (options->noSmooth && smooth->count() > 0) throw CLI::ExcludesError("--smooth", "--no-smooth");
-    action = [options](const Project& p) { return planPath(p, *options); };
+  const auto drawn = addOptions(
+      command,
+      {{"--samples",
+        options->samples,
+        {1, 1e7},
+        "N",
+        "budget of samples (default: 100000; rrt-star 10000, roadmaps 2000)"},
+       seedRow(options->seed),
+       {"--runs", options->runs, {1, 10'000}, "N", "searches, each with the next seed, in a table"},
+       {"--no-smooth", options->noSmooth, "the path as the planner finds it, with a stop at each corner"},
+       {"--velocity", options->velocity, {1e-6, 1e6}, "X", "limit for joints without one, rad/s or m/s"},
+       {"--ramp", options->ramp, {1e-6, 1e6}, "S", "time from rest to the velocity limits of the joints"},
+       {"--effort", options->effort, "keep within the effort limits of the scene, too (no friction)"},
+       {"--body", options->body, "NAME",
+        "draw the paths of this body (default: the one moved by most joints)"}},
+      "Planners that draw samples");
+  const auto grown =
+      addOptions(command, {{"--step", options->step, {1e-3, 1e3}, "LENGTH", "step size of growing trees"}},
+                 "rrt, rrt-connect and rrt-star");
+  const auto checked =
+      addOptions(command,
+                 {{"--resolution",
+                   options->resolution,
+                   {1e-4, 10},
+                   "LENGTH",
+                   "distance between checks along the path (default: 0.02; hybrid-astar 0.05)"}},
+                 "All but optimize");
+  HybridAStarOptions& grid = options->grid;
+  const auto driven =
+      addOptions(command,
+                 {{"--wheelbase", options->wheelbase, {1e-2, 100}, "METRES", "distance of the axles"},
+                  {"--steering", options->steering, {1e-2, 1.5}, "RAD", "largest steering angle"},
+                  {"--cell", grid.cellSize, {1e-2, 10}, "METRES", "size of cells"},
+                  {"--reverse-cost", grid.reverseFactor, {1, 1000}, "X", "cost of a metre backward"},
+                  {"--switch-cost", grid.switchCost, {0, 1e6}, "METRES", "cost of changing direction"},
+                  {"--slack",
+                   grid.slack,
+                   {0, 10},
+                   "X",
+                   "by what share a path may cost more than the best one on the grid"},
+                  {"--states", grid.maxExpanded, {1, 1e8}, "N", "budget of expanded states"}},
+                 "hybrid-astar");
+  const auto optimized =
+      addOptions(command,
+                 {{"--avoid", options->avoid, "keep all shapes apart, also between steps"},
+                  {"--steps", options->steps, {3, 10'000}, "N", "number of steps of the motion"},
+                  {"--duration", options->duration, {1e-3, kLongestFilm}, "S", "time of the motion"}},
+                 "optimize");
+  command->callback([&action, options, drawn, grown, checked, driven, optimized] {
+    const Planner planner = options->planner;
+    const bool isCar = planner == Planner::kHybridAStar, isPath = drawsSamples(planner);
+    requireOwn(drawn, isPath, planner, "a planner that draws samples");
+    requireOwn(grown, growsTrees(planner), planner, "a planner that grows trees");
+    requireOwn(checked, isPath || isCar, planner, "another planner");
+    requireOwn(driven, isCar, planner, "--planner hybrid-astar");
+    requireOwn(optimized, !isPath && !isCar, planner, "--planner optimize");
+    action = [options](const Project& p) { return plan(p, *options); };
   });
 }
 

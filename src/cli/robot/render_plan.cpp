@@ -60,7 +60,7 @@ double secondsOf(const RenderOptions& options, double fallback) {
   if (!options.seconds) return fallback;
   const double seconds = *options.seconds;
   if (seconds >= kShortest && seconds <= kLongest) return seconds;
-  throw UsageError({.what = "--seconds",
+  throw UsageError({.what = "--duration",
                     .found = fmt::format("{:g}", seconds),
                     .wanted = fmt::format("{:g} to {:g} seconds", kShortest, kLongest)});
 }
@@ -72,7 +72,7 @@ void require(bool holds, const std::string& what, const std::string& wanted) {
 void requireMeaning(const RenderOptions& options, const RenderPlan& plan) {
   const std::string ending = options.out.extension().string();
   require(options.motion.empty() || options.postures.empty(), "--motion and --q", "only one of them");
-  require(!options.seconds || options.postures.size() > 1, "--seconds",
+  require(!options.seconds || options.postures.size() > 1, "--duration",
           "several --q, as it is the time from one to the next");
   require(options.traces.empty() || options.postures.size() > 1 || !options.motion.empty(), "--trace",
           "a motion: several --q, or --motion");

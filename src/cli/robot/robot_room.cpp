@@ -7,12 +7,10 @@ namespace rex::cli {
 Room robotRoom() {
   return {.program = Program::kRobot,
           .commands = {{"doctor", addDoctor},
-                       {"park", addPark},
                        {"plan", addPlan},
                        {"render", addRender},
                        {"scene", addScene},
                        {"simulate", addSimulate},
-                       {"trajectory", addTrajectory},
                        {"view", addView}}};
 }
 

@@ -5,12 +5,12 @@
 #include <fmt/format.h>
 
 #include "cli/command_line_internal.h"
+#include "cli/option_table_internal.h"
 #include "cli/robot/contact_limit.h"
 #include "cli/robot/render.h"
 #include "cli/robot/robot_options_internal.h"
 #include "cli/robot/robot_room_internal.h"
 #include "cli/robot/scene_verbs.h"
-#include "cli/shared_options_internal.h"
 
 namespace rex::cli {
 namespace {
@@ -78,20 +78,19 @@ void addContacts(CLI::App* scene, Action& action, const std::shared_ptr<SceneOpt
       "  scripts/rex scene robot.urdf contacts --never --samples 10000 > robot.srdf\n\n" +
           fmt::format("Refuses a scene with more than {} pairs of shapes that take part in contacts.",
                       kMostContactPairs));
-  CLI::Option* margin = verb->add_option("--margin", own->margin,
-                                         "distance below which pairs add to the contact cost (default: 0.1)")
-                            ->type_name("METRES");
+  const auto added = addOptions(
+      verb, {{"--margin",
+              own->margin,
+              {1e-9, 1e9},
+              "METRES",
+              "distance below which pairs add to the contact cost (default: 0.1)"},
+             {"--pairs", *listsPairs, "which bodies may collide, and why others may not"},
+             {"--never", *looksForNever, "write an SRDF that disables pairs that never or always touch"},
+             {"--samples", pairs->samples, {1, 1e6}, "N", "number of random postures for --never"},
+             seedRow(pairs->seed, "seed of the random postures")});
   addPosture(verb, options->posture);
-  CLI::Option* list =
-      verb->add_flag("--pairs", *listsPairs, "which bodies may collide, and why others may not");
-  CLI::Option* never = verb->add_flag("--never", *looksForNever,
-                                      "write an SRDF that disables pairs that never or always touch");
-  CLI::Option* samples =
-      verb->add_option("--samples", pairs->samples, "number of random postures for --never (default: 1000)")
-          ->type_name("N");
-  samples->needs(never);
-  addSeed(verb, pairs->seed, "seed of the random postures (default: 0)");
-  verb->get_option("--seed")->needs(never);
+  CLI::Option *margin = added[0], *list = added[1], *never = added[2];
+  for (const std::size_t k : {3, 4}) added[k]->needs(never);
   list->excludes(never)->excludes(margin);
   never->excludes(margin);
   addJson(verb, options->json);
@@ -112,10 +111,8 @@ void addDynamics(CLI::App* scene, Action& action, const std::shared_ptr<SceneOpt
                 "  scripts/rex scene arm3 dynamics --u 5,0,0 --json\n\n"
                 "Gravity is 9.81 m/s^2 along -z. Joints move freely: without friction, limits and contacts.");
   addPosture(verb, options->posture);
-  verb->add_option("--v", own->velocity, "all velocities, or joint=number,... (default: 0)")
-      ->type_name("VELOCITY");
-  verb->add_option("--u", own->force, "forces of all joints, or joint=number,... (default: 0)")
-      ->type_name("FORCE");
+  addOptions(verb, {{"--v", own->velocity, "VELOCITY", "all velocities, or joint=number,... (default: 0)"},
+                    {"--u", own->force, "FORCE", "forces of all joints, or joint=number,... (default: 0)"}});
   addJson(verb, options->json);
   verb->callback([&action, options, own] {
     own->scene = *options;

@@ -38,10 +38,6 @@ Json jsonOfPairs(const Model& model, const std::vector<Proxy>& near) {
 
 ExitCode sceneContacts(const Project& project, const ContactsOptions& options) {
   const double margin = options.margin.value_or(kContactMargin);
-  if (!(margin > 0) || !std::isfinite(margin)) {
-    throw UsageError(
-        {.what = "--margin", .found = fmt::format("{:g}", margin), .wanted = "a positive number of metres"});
-  }
   const Model model = loadScene(project, options.scene.scene);
   const Eigen::VectorXd q =
       options.scene.posture.empty() ? model.initialPositions() : parsePosture(model, options.scene.posture);

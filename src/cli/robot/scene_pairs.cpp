@@ -6,7 +6,6 @@
 #include "base/error.h"
 #include "base/join.h"
 #include "cli/json_internal.h"
-#include "cli/option_value_internal.h"
 #include "cli/robot/contact_limit.h"
 #include "cli/robot/scene_verbs.h"
 #include "cli/terminal.h"
@@ -16,8 +15,6 @@
 
 namespace rex::cli {
 namespace {
-
-constexpr int kMostRandomPostures = 1'000'000;
 
 std::string pairNames(const Model& model, const PairVerdict& verdict) {
   return fmt::format("{} - {}", model[verdict.a].name, model[verdict.b].name);
@@ -66,7 +63,6 @@ ExitCode scenePairs(const Project& project, const PairsOptions& options) {
 }
 
 ExitCode sceneNeverTouching(const Project& project, const PairsOptions& options) {
-  requireBetween("--samples", options.samples, 1, kMostRandomPostures);
   SceneSpec spec = loadSpec(project, options.scene.scene);
   const Model model = asWrongUse([&] { return compile(spec); });
   static_cast<void>(contactModelOf(model));

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/interruption.h"
 #include "base/process.h"
+#include "cli/option_table_internal.h"
 #include "cli/out_folder.h"
 #include "cli/student/exercise_option_internal.h"
 #include "cli/student/student_file.h"
@@ -72,8 +73,8 @@ void addDebug(CLI::App* command, Action& action) {
   const auto options = std::make_shared<DebugOptions>();
   command->footer("Examples:\n  scripts/rex debug 01\n  scripts/rex debug 01 --print");
   addExercise(command, options->exercise);
-  command->add_flag("--solution", options->solution, "debug the reference solution");
-  command->add_flag("--print", options->print, "build, then only print the debugger's command line");
+  addOptions(command, {{"--solution", options->solution, "debug the reference solution"},
+                       {"--print", options->print, "build, then only print the debugger's command line"}});
   command->callback(
       [&action, options] { action = [options](const Project& p) { return debug(p, *options); }; });
 }

@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "cli/demonstrations.h"
 #include "cli/json_internal.h"
+#include "cli/option_table_internal.h"
 #include "cli/out_folder.h"
 #include "cli/student/program_run.h"
 #include "cli/student/student_room_internal.h"
@@ -27,6 +28,8 @@ struct DemoOptions {
   std::string out;    ///< a folder, or an .html file; empty: live
   bool json = false;
   bool noBrowser = false;
+  std::optional<std::uint64_t> seed{};
+  std::optional<int> runs{};
 };
 
 void sayJson(const std::vector<Demonstration>& all) {
@@ -36,6 +39,8 @@ void sayJson(const std::vector<Demonstration>& all) {
                     {"chapter", one.chapter},
                     {"title", one.title},
                     {"about", one.about},
+                    {"seed", one.takesSeed},
+                    {"runs", one.takesRuns},
                     {"file", one.file.string()}});
   say(dump(Json{{"demonstrations", list}}));
 }
@@ -70,12 +75,29 @@ const Demonstration& choose(const std::vector<Demonstration>& all, const std::st
   return *found;
 }
 
-ExitCode writePage(const Project& project, const Demonstration& one, const fs::path& page) {
+// Of its program.
+std::vector<std::string> argumentsOf(const Demonstration& one, const DemoOptions& options) {
+  const auto refuse = [&](const char* option, const char* what) {
+    throw UsageError({.what = fmt::format("{} has no {}: {} has no effect", one.name, what, option)});
+  };
+  if (options.seed && !one.takesSeed) refuse("--seed", "random numbers");
+  if (options.runs && !one.takesRuns) refuse("--runs", "runs to compare");
+  if (!options.seed && !options.runs) return {};
+  std::vector<std::string> words{std::to_string(options.seed.value_or(0))};
+  if (options.runs) words.push_back(std::to_string(*options.runs));
+  return words;
+}
+
+ExitCode writePage(const Project& project, const Demonstration& one, std::vector<std::string> arguments,
+                   const fs::path& page) {
   makeOutPlace(page);
   const PrivateFolder work(project.workPlace("student"));
-  const ExitCode code = runOwnProgram(
-      project, one.file,
-      {.out = work.path(), .seconds = kLecture, .environment = {"REX_LIVE=0"}, .listsFiles = false});
+  const ExitCode code = runOwnProgram(project, one.file,
+                                      {.out = work.path(),
+                                       .arguments = std::move(arguments),
+                                       .seconds = kLecture,
+                                       .environment = {"REX_LIVE=0"},
+                                       .listsFiles = false});
   const fs::path replay = work.path() / (one.name + ".html");
   if (code != ExitCode::kFull || !fs::exists(replay)) return std::max(code, ExitCode::kBelow);
   fs::copy_file(replay, page, fs::copy_options::overwrite_existing);
@@ -99,9 +121,11 @@ ExitCode demo(const Project& project, const DemoOptions& options) {
     return ExitCode::kFull;
   }
   const Demonstration& one = choose(all, options.which);
+  const std::vector<std::string> arguments = argumentsOf(one, options);
   note(wrap(fmt::format("Chapter {}: {}. {}", one.chapter, one.title, one.about), 0, 0));
-  if (fs::path(options.out).extension() == ".html") return writePage(project, one, fs::absolute(options.out));
-  OwnRun how{.out = project.root / "out" / "demonstrations", .seconds = kLecture};
+  if (fs::path(options.out).extension() == ".html")
+    return writePage(project, one, arguments, fs::absolute(options.out));
+  OwnRun how{.out = project.root / "out" / "demonstrations", .arguments = arguments, .seconds = kLecture};
   if (options.noBrowser) how.environment = {"REX_LIVE=1"};
   if (!options.out.empty()) how.out = fs::absolute(options.out), how.environment = {"REX_LIVE=0"};
   return runOwnProgram(project, one.file, how);
@@ -113,21 +137,22 @@ void addDemo(CLI::App* command, Action& action) {
   const auto options = std::make_shared<DemoOptions>();
   command->footer(
       "Examples:\n  scripts/rex demo\n  scripts/rex demo pid\n  scripts/rex demo 4\n"
-      "  scripts/rex demo kidnapped -o kidnapped.html\n\n"
+      "  scripts/rex demo localize --seed 3 --runs 5 -o localize.html\n\n"
       "The first line on standard output is the address of a page with sliders and buttons,\n"
       "which waits half a minute for a browser; where there is a screen, one opens. Without a\n"
       "terminal, or with -o, the demonstration plays by itself and becomes a page to replay. Of\n"
-      "a chapter with several, the first is shown. Each is a short program in\n"
-      "share/demonstrations.");
+      "a chapter with several, the first is shown. Some print a table, of one run with each seed.\n"
+      "Each is a short program in share/demonstrations.");
   command
       ->add_option("DEMONSTRATION", options->which, "a name, or a chapter of the script; without: list all")
       ->type_name("");
-  command
-      ->add_option("-o,--out", options->out,
-                   "write the replay to this folder or .html file, and serve nothing")
-      ->type_name("PATH");
-  command->add_flag("--no-browser", options->noBrowser, "serve the page, and open no browser");
-  command->add_flag("--json", options->json, "list all as JSON");
+  addOptions(
+      command,
+      {{"-o,--out", options->out, "PATH", "write the replay to this folder or .html file, and serve nothing"},
+       seedRow(options->seed, "seed of the first run (default: 0)"),
+       {"--runs", options->runs, {1, 10'000}, "N", "runs in the table, each with the next seed"},
+       {"--no-browser", options->noBrowser, "serve the page, and open no browser"},
+       {"--json", options->json, "list all as JSON"}});
   command->callback(
       [&action, options] { action = [options](const Project& p) { return demo(p, *options); }; });
 }

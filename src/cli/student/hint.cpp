@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/join.h"
+#include "cli/option_table_internal.h"
 #include "cli/student/exercise_option_internal.h"
 #include "cli/student/progress_file.h"
 #include "cli/student/student_room_internal.h"
@@ -95,7 +96,7 @@ void addHint(CLI::App* command, Action& action) {
       "Without PART: a hint for the first part that lost points in your last test.");
   addExercise(command, options->exercise);
   command->add_option("PART", options->part, "id of a part in exercise.toml")->type_name("");
-  command->add_flag("--again", options->again, "show the hints that you have already seen");
+  addOptions(command, {{"--again", options->again, "show the hints that you have already seen"}});
   command->callback(
       [&action, options] { action = [options](const Project& p) { return hint(p, *options); }; });
 }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "cli/json_internal.h"
+#include "cli/option_table_internal.h"
 #include "cli/student/student_room_internal.h"
 #include "cli/terminal.h"
 
@@ -59,7 +60,7 @@ ExitCode list(const Project& project, bool json) {
 void addList(CLI::App* command, Action& action) {
   const auto json = std::make_shared<bool>(false);
   command->footer("Examples:\n  scripts/rex list\n  scripts/rex list --json");
-  command->add_flag("--json", *json, "print JSON");
+  addOptions(command, {{"--json", *json, "print JSON"}});
   command->callback([&action, json] { action = [json](const Project& p) { return list(p, *json); }; });
 }
 

@@ -48,7 +48,7 @@ Ended runIn(const std::vector<std::string>& command, const OwnRun& options) {
     return Ended::kBadly;
   }
   if (result.signal == SIGXCPU || (result.signal == SIGKILL && result.cpuSeconds >= options.seconds)) {
-    note(fmt::format("\nThe program was stopped after {} s of CPU time; --seconds N allows more.",
+    note(fmt::format("\nThe program was stopped after {} s of CPU time; --time-limit S allows more.",
                      options.seconds));
     return Ended::kTooLate;
   }

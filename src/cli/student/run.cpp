@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/private_folder.h"
 #include "base/process.h"
+#include "cli/option_table_internal.h"
 #include "cli/out_folder.h"
 #include "cli/result_list.h"
 #include "cli/student/exercise_option_internal.h"
@@ -101,12 +102,10 @@ void addRun(CLI::App* command, Action& action) {
   command->add_option("ARGUMENTS", options->arguments, "arguments of your own program, after --")
       ->type_name("");
   command->add_flag("--solution", options->solution, "run the reference solution instead of main.cpp");
-  command
-      ->add_option("--seconds", options->seconds,
-                   "CPU time after which the program is stopped (default: 120)")
-      ->check(CLI::Range(1, 1'000'000).description(""))
-      ->type_name("N");
-  command->add_option("-o,--out", options->out, kOutHelp)->type_name("DIR");
+  addOptions(
+      command,
+      {{"--time-limit", options->seconds, {1, 1'000'000}, "S", "CPU time after which the program is stopped"},
+       {"-o,--out", options->out, "DIR", kOutHelp}});
   command->callback(
       [&action, options] { action = [options](const Project& p) { return run(p, *options); }; });
 }

@@ -11,7 +11,8 @@ struct ShowOptions {
   std::string exercise;
   bool solution = false;
 };
-/// Prints where replays, films, pictures and the result are. Returns kBelow if there are none.
+/// Prints where replays, films, pictures and the result are, or the reference solution. Returns kBelow if
+/// there are none, or the course does not show the solution yet.
 ExitCode show(const Project& project, const ShowOptions& options);
 
 }  // namespace rex::cli

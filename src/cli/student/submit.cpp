@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/sha256.h"
 #include "cli/json_internal.h"
+#include "cli/option_table_internal.h"
 #include "cli/student/exercise_option_internal.h"
 #include "cli/student/progress_file.h"
 #include "cli/student/student_room_internal.h"
@@ -102,7 +103,7 @@ void addSubmit(CLI::App* command, Action& action) {
       "The zip holds EXERCISE/main.cpp of each, nothing else of yours, and receipt.json with\n"
       "the SHA-256 hash of every file.");
   command->add_option("EXERCISE", options->exercises, kExercisesHelp)->type_name("")->required();
-  command->add_option("-o,--out", options->out, "file to write (default: handin.zip)")->type_name("FILE.zip");
+  addOptions(command, {{"-o,--out", options->out, "FILE.zip", "file to write"}});
   command->callback(
       [&action, options] { action = [options](const Project& p) { return submit(p, *options); }; });
 }

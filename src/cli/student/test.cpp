@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "base/exit_code.h"
-#include "cli/shared_options_internal.h"
+#include "cli/option_table_internal.h"
 #include "cli/student/exercise_option_internal.h"
 #include "cli/student/student_room_internal.h"
 #include "cli/student/test_many.h"
@@ -46,11 +46,11 @@ ExitCode test(const Project& project, const TestCommand& words) {
 void addSeveral(CLI::App* command, TestCommand& words) {
   command->add_option("EXERCISE", words.exercises, kExercisesHelp)->type_name("");
   command->add_flag("--all", words.all, "all exercises; after one EXERCISE: all messages");
-  command
-      ->add_option("-j,--jobs", words.jobs,
-                   "parallel gradings of several exercises (default: one per processor)")
-      ->check(CLI::Range(1, 1024).description(""))
-      ->type_name("N");
+  addOptions(command, {{"-j,--jobs",
+                        words.jobs,
+                        {0, 1024},
+                        "N",
+                        "parallel gradings of several exercises, 0: one per processor"}});
 }
 
 }  // namespace
@@ -65,25 +65,25 @@ void addTest(CLI::App* command, Action& action) {
       "After the first time it shows the first message and what has changed; EXERCISE --all\n"
       "shows all messages.\n"
       "The result file is results.json, results-partial.json with --check, or\n"
-      "results-debug.json with --debug. For several exercises -o DIR means DIR/EXERCISE,\n"
+      "results-debug.json with --debug; share/doc/report-formats.md lists the reports.\n"
+      "For several exercises -o DIR means DIR/EXERCISE,\n"
       "--json is {\"schema\": \"rex-results/1\", \"results\": [...]}, and the exit code is\n"
       "the largest of theirs.\n" +
       std::string(kExitCodesHelp));
   addSeveral(command, *words);
-  command->add_flag("--solution", options->solution, "grade the reference solution");
-  command->add_option("--main", options->main, "grade this file instead of main.cpp")->type_name("FILE");
-  command->add_option("--check", options->job.checks, "only this check or part; may be given several times")
-      ->allow_extra_args(false)
-      ->type_name("NAME");
-  addSeed(command, options->job.seed, "repeat the random cases of this seed");
-  command->add_flag("--json", options->json, "print the result file and nothing else");
-  command->add_flag("--debug", options->debug, "use sanitizers: slow, but names the lines of crashes");
-  command->add_option("-o,--out", options->out, kOutHelp)->type_name("DIR");
+  addOptions(command,
+             {{"--solution", options->solution, "grade the reference solution"},
+              {"--main", options->main, "FILE", "grade this file instead of main.cpp"},
+              {"--check", options->job.checks, "NAME", "only this check or part; may be given several times"},
+              seedRow(options->job.seed, "repeat the random cases of this seed"),
+              {"--json", options->json, "print the result file and nothing else"},
+              {"--report", options->reports, "FORMATS",
+               "write reports beside it: junit, markdown, ..., or several with commas"},
+              {"--debug", options->debug, "use sanitizers: slow, but names the lines of crashes"},
+              {"-o,--out", options->out, "DIR", kOutHelp}});
   addLevel(command, options->level);
-  command
-      ->add_option("--secret-file", options->job.secret,
-                   "secret of the course, for the seeds of hidden checks")
-      ->type_name("FILE");
+  addOptions(command, {{"--secret-file", options->job.secret, "FILE",
+                        "secret of the course, for the seeds of hidden checks"}});
   command->callback([&action, words] {
     const TestOptions& each = words->each;
     if (words->exercises.empty() ? !words->all : words->all && words->exercises.size() > 1)

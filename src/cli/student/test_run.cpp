@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/text_file.h"
 #include "cli/out_folder.h"
+#include "cli/report_format.h"
 #include "cli/student/progress_file.h"
 #include "cli/student/student_file.h"
 #include "cli/student/test_report.h"
@@ -82,7 +83,8 @@ TestRun::TestRun(const Project& project, ExerciseInfo exercise, const TestOption
       results_(resultsOf(project, exercise_, options)),
       before_(options.main.empty() ? lastResult(results_) : std::nullopt),
       toolchain_(prepare(project, exercise_)),
-      work_(project.workPlace("exercises/" + exercise_.name)) {
+      work_(project.workPlace("exercises/" + exercise_.name)),
+      reports_(reportsOf(options.reports)) {
   options_.job.checks = withParts(options.job.checks, exercise_, toolchain_);
   if (!options.job.secret.empty()) static_cast<void>(grading::readCourseSecret(options.job.secret));
 }
@@ -117,6 +119,9 @@ void TestRun::publish(const Project& project, const GradeResult& result) const {
                  evidence = work_.path() / "checks";
   replaceTextFile(results_, readTextFile(ownResults()), "the result file");
   if (fs::exists(log)) replaceTextFile(out / "build.log", readTextFile(log), "the log");
+  for (const grading::ReportFormat& format : grading::reportFormats())
+    if (contains(reports_, format) || fs::exists(out / format.file))
+      replaceTextFile(out / format.file, format.write(result), "the report");
   fs::remove_all(out / "checks");
   if (fs::exists(evidence)) fs::copy(evidence, out / "checks", fs::copy_options::recursive);
   if (options_.main.empty() && !options_.solution && !options_.debug && options_.job.checks.empty())

@@ -3,10 +3,12 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/exit_code.h"
 #include "base/private_folder.h"
 #include "cli/project.h"
+#include "reports/report.h"
 #include "sandbox/level.h"
 #include "submission/submission.h"
 
@@ -22,6 +24,7 @@ struct TestOptions {
   bool debug = false;                     ///< with the sanitizers
   bool inFull = false;                    ///< every message, also of checks that failed the last time
   std::filesystem::path out;              ///< empty: as for run
+  std::string reports;                    ///< see reportsOf(): written beside the result
   std::optional<sandbox::Level> level{};  ///< empty: limits only
 };
 
@@ -42,8 +45,8 @@ class TestRun {
   [[nodiscard]] grading::Submission grade(const sandbox::Sandbox& sandbox, int processors = 1) const;
   /// What grade() is doing, from the growing result file.
   [[nodiscard]] std::string stage() const;
-  /// Copies the result, log and evidence to the student's results folder, and records the points. Throws
-  /// Error if that fails.
+  /// Copies the result, log and evidence to the student's results folder, writes its reports there, renewing
+  /// those that are there already, and records the points. Throws Error if that fails.
   void publish(const Project& project, const grading::GradeResult& result) const;
   /// Prints the table for people. Call it after publish().
   void print(const grading::Submission& graded) const;
@@ -55,6 +58,7 @@ class TestRun {
   std::optional<grading::GradeResult> before_;  // what the student's folder held
   grading::Toolchain toolchain_;
   PrivateFolder work_;
+  std::vector<grading::ReportFormat> reports_;
 };
 
 [[nodiscard]] ExitCode exitCodeOf(const grading::GradeResult& result);

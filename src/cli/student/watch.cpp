@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/private_folder.h"
 #include "cli/file_watcher.h"
+#include "cli/option_table_internal.h"
 #include "cli/out_folder.h"
 #include "cli/student/exercise_option_internal.h"
 #include "cli/student/keyboard.h"
@@ -147,8 +148,8 @@ void addWatch(CLI::App* command, Action& action) {
       "of failed ones, and what has changed since the last save; only this machine can read it.\n"
       "In a terminal single keys give hints and more; elsewhere it ends at the full score.");
   addExercise(command, options->exercise);
-  command->add_flag("--open", options->open, "also show the exercise as a page that renews itself");
-  command->add_flag("--poll", options->poll, "poll the file instead of using inotify");
+  addOptions(command, {{"--open", options->open, "also show the exercise as a page that renews itself"},
+                       {"--poll", options->poll, "poll the file instead of using inotify"}});
   command->callback(
       [&action, options] { action = [options](const Project& p) { return watch(p, *options); }; });
 }

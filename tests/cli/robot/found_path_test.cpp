@@ -255,7 +255,7 @@ class Summary : public ::testing::Test {
   const ContactModel contacts{model};
   const PathTask task{model, contacts,
                       robotProblem(model, contacts, Eigen::VectorXd::Zero(1), Eigen::VectorXd::Ones(1))};
-  PlanOptions options{};
+  PlanOptions options{.margin = .01, .resolution = .02};
 };
 
 TEST_F(Summary, TellsOfOneSearch) {

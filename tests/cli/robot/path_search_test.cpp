@@ -188,11 +188,12 @@ TEST(PathSearch, StopsWhenTheUserWants) {
   EXPECT_THROW(static_cast<void>(searchPath(boardTask(), searchBy(Planner::kRrtStar), 1)), Interrupted);
 }
 
-TEST(PathSearch, RefusesAnUnknownPlanner) {
-  EXPECT_EQ(plannerOf("prm-star"), Planner::kPrmStar);
-  EXPECT_REX_ERROR(plannerOf("rrt_connect"),
-                   "--planner: found 'rrt_connect', wanted rrt, rrt-connect, rrt-star, prm, prm-star, "
-                   "lazy-prm (did you mean 'rrt-connect'");
+TEST(PathSearch, NamesAllPlanners) {
+  EXPECT_EQ(nameOf(Planner::kPrmStar), "prm-star");
+  for (const auto& [name, planner] : plannerNames()) {
+    EXPECT_EQ(nameOf(planner), name);
+    EXPECT_EQ(drawsSamples(planner), name.find("rrt") != name.npos || name.find("prm") != name.npos) << name;
+  }
 }
 
 }  // namespace rex::cli::path_search_test

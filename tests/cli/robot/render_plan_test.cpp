@@ -73,7 +73,7 @@ TEST(RenderPlan, RefusesValuesThatItCannotRead) {
   for (const auto& [seconds, found] :
        {std::pair{std::nan(""), "nan"}, {0., "0"}, {601., "601"}, {-1., "-1"}, {HUGE_VAL, "inf"}})
     EXPECT_REX_ERROR(planOf({.postures = {"0", "1"}, .seconds = seconds, .out = "a.png"}),
-                     "--seconds: found " + std::string(found) + ", wanted 0.04 to 600 seconds");
+                     "--duration: found " + std::string(found) + ", wanted 0.04 to 600 seconds");
 }
 
 TEST(RenderPlan, RefusesWhatMeansNothing) {
@@ -81,13 +81,13 @@ TEST(RenderPlan, RefusesWhatMeansNothing) {
     EXPECT_REX_ERROR(planOf(options), message);
   };
   refuses({.postures = {"1"}, .motion = "x", .out = "a.png"}, "--motion and --q: wanted only one of them");
-  refuses({.postures = {"1"}, .seconds = 1, .out = "a.mp4"}, "--seconds: wanted several --q");
+  refuses({.postures = {"1"}, .seconds = 1, .out = "a.mp4"}, "--duration: wanted several --q");
   RenderOptions painted{.out = "a.glb"};
   painted.scene.reading.textures = true;
   refuses(painted, "--textures: wanted a picture or film; a .glb has none");
   painted.out = "a.png", painted.show = "depth";
   refuses(painted, "--textures: wanted --show color; depth has none");
-  refuses({.motion = "x", .seconds = 1, .out = "a.mp4"}, "--seconds: wanted several --q");
+  refuses({.motion = "x", .seconds = 1, .out = "a.mp4"}, "--duration: wanted several --q");
   refuses({.postures = {"1"}, .traces = {"a"}, .out = "a.png"},
           "--trace: wanted a motion: several --q, or --motion");
   refuses({.size = "4x3", .out = "a.glb"}, "--size: wanted a picture, film or page; a .glb has no pixels");

@@ -200,8 +200,8 @@ TEST_F(RenderCommand, MakesFilmsModelsAndPages) {
   REX_NEEDS_OSMESA();
   if (!runProcess({"ffmpeg", "-version"}).ok()) GTEST_SKIP() << "needs the package ffmpeg";
   for (const std::string name : {"a.mp4", "a.gif", "a.glb", "a.html", "frames"}) {
-    std::vector<std::string> arguments = {"render",    "pegArm.ors", "--q",     "0,0,0", "--q", "1,1,1",
-                                          "--seconds", "0.2",        "--trace", "peg",   "-o",  name};
+    std::vector<std::string> arguments = {"render",     "pegArm.ors", "--q",     "0,0,0", "--q", "1,1,1",
+                                          "--duration", "0.2",        "--trace", "peg",   "-o",  name};
     if (name != "a.glb") arguments.insert(arguments.end(), {"--size", "64x48"});
     const ProcessResult result = rex(arguments);
     EXPECT_EQ(result.exitCode, 0) << name << result.error;
@@ -222,7 +222,7 @@ TEST_F(RenderCommand, LeavesTheFramesWhereThereIsNoFfmpeg) {
   REX_NEEDS_OSMESA();
   const ChangedPath nowhere;
   const ProcessResult result = rex({"render", "pegArm.ors", "--size", "48x36", "--q", "0,0,0", "--q", "1,1,1",
-                                    "--seconds", "0.1", "-o", "a.mp4"});
+                                    "--duration", "0.1", "-o", "a.mp4"});
   EXPECT_EQ(result.exitCode, 0);
   EXPECT_THAT(result.error, HasSubstr("ffmpeg"));
   EXPECT_EQ(result.output, "a\n");
@@ -240,9 +240,9 @@ TEST_F(RenderCommand, RefusesWhatItCannotDraw) {
   expectRefusal({"-o", "a.png", "--motion", "nowhere.csv"}, 64, "nowhere.csv: cannot read the motion");
   expectRefusal({"-o", "a.png", "--q", "0 0 0", "--q", "1 1 1", "--trace", "pge"}, 64,
                 "--trace: scene 'pegArm.ors' has no body 'pge' (did you mean 'peg'?)");
-  expectRefusal({"-o", "a.png", "--seconds", "nan", "--q", "0 0 0", "--q", "1 1 1"}, 64,
-                "--seconds: found nan, wanted 0.04 to 600 seconds");
-  expectRefusal({"-o", "a.mp4", "--seconds", "600", "--q", "0 0 0", "--q", "1 1 1"}, 64,
+  expectRefusal({"-o", "a.png", "--duration", "nan", "--q", "0 0 0", "--q", "1 1 1"}, 64,
+                "--duration: found nan, wanted 0.04 to 600");
+  expectRefusal({"-o", "a.mp4", "--duration", "600", "--q", "0 0 0", "--q", "1 1 1"}, 64,
                 "motion through --q: found 600 s, wanted at most 120 s");
   expectRefusal({"-o", "a.glb", "--size", "64x48"}, 64, "--size: wanted a picture, film or page");
   for (const char* out : {"/proc/a.png", "/proc/a.glb", "/proc/a.html", "/proc/a.mp4", "/proc/frames"})

@@ -489,7 +489,7 @@ TEST_F(SceneCommand, SaysWhatIsUsedWrongly) {
                 "--point: found 1 numbers, wanted three");
   for (const std::string margin : {"0", "-1", "nan", "inf"})
     expectRefusal({"arm.ors", "contacts", "--margin", margin},
-                  "--margin: found " + margin + ", wanted a positive number of metres");
+                  "--margin: found " + margin + ", wanted 1e-09 to 1e+09");
   expectRefusal({"arm.ors", "dynamics", "--q", "1"}, "--q: found 1 number, wanted 3");
   expectRefusal({"arm.ors", "dynamics", "--v", "1,2"}, "--v: found 2 numbers, wanted 3");
   expectRefusal({"arm.ors", "dynamics", "--u", "1,2,nan"}, "--u: found 'nan', wanted a number");

@@ -55,6 +55,10 @@ TEST_F(Demo, SaysWhatThereIsInstead) {
   EXPECT_THAT(rex({"demo", "12"}).error, HasSubstr("no demonstration belongs to chapter 12"));
   EXPECT_THAT(flat(rex({"demo", "3", "--json"}).error),
               HasSubstr("--json lists all demonstrations: found 3, wanted nothing else"));
+  EXPECT_THAT(flat(rex({"demo", "swing", "--seed", "3"}).error),
+              HasSubstr("swing has no random numbers: --seed has no effect"));
+  EXPECT_THAT(flat(rex({"demo", "swing", "--runs", "3"}).error),
+              HasSubstr("swing has no runs to compare: --runs has no effect"));
   demonstration("broken", "int main() {}\n");
   EXPECT_THAT(rex({"demo"}).error, HasSubstr("broken.cpp:1: the first comment"));
 }

@@ -197,23 +197,23 @@ TEST_F(StudentLoop, ResetsByTheCopyThatStudentsGet) {
 }
 
 TEST_F(StudentLoop, ShowsTheSolutionWhereTheCourseAllowsIt) {
-  const Ended never = rex({"solution", "98"});
+  const Ended never = rex({"show", "98", "--solution"});
   EXPECT_EQ(never.code, 64);
   EXPECT_THAT(never.error, HasSubstr("the course does not show the solution of 98-template"));
   replace(exercise() / "exercise.toml", "[limits]", "solution = \"after-pass\"\n\n[limits]");
   const std::string solution = fileText(exercise() / "solution.cpp");
-  const Ended early = rex({"solution", "98"});
+  const Ended early = rex({"show", "98", "--solution"});
   EXPECT_EQ(early.code, 1);
   EXPECT_EQ(early.output, "");
   EXPECT_THAT(flat(early.error),
               HasSubstr("is shown once `scripts/rex test 98-template` has given you the full"));
   recordTest(3);
-  EXPECT_EQ(rex({"solution", "98"}).output, solution);
+  EXPECT_EQ(rex({"show", "98", "--solution"}).output, solution);
   // Once solved, solved.
   recordTest(0);
-  EXPECT_EQ(rex({"solution", "98"}).output, solution);
+  EXPECT_EQ(rex({"show", "98", "--solution"}).output, solution);
   fs::remove(exercise() / "solution.cpp");
-  EXPECT_THAT(flat(rex({"solution", "98"}).error), HasSubstr("98-template has no solution here"));
+  EXPECT_THAT(flat(rex({"show", "98", "--solution"}).error), HasSubstr("98-template has no solution here"));
 }
 
 // The archive is read by a program of others.
@@ -260,7 +260,7 @@ TEST_F(StudentLoop, RefusesWhatCannotBeHandedIn) {
 }
 
 TEST_F(StudentLoop, AnswersTyposInAllCommands) {
-  for (const char* command : {"test", "watch", "hint", "show", "reset", "solution", "submit"}) {
+  for (const char* command : {"test", "watch", "hint", "show", "reset", "submit"}) {
     const Ended typo = rex({command, "98-templat"});
     EXPECT_EQ(typo.code, 64) << command;
     EXPECT_THAT(flat(typo.error), HasSubstr("did you mean '98-template'")) << command;

@@ -75,7 +75,8 @@ author = "A. Tutor"
     write(results() / "tasks.tsv", grading::toManifest(tasks_));
   }
   Ended collect(std::vector<std::string> more = {}) const {
-    std::vector<std::string> arguments = {"collect", results().string(), "--course", course()};
+    std::vector<std::string> arguments = {"grade",    "--collect", "-o", results().string(),
+                                          "--course", course()};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return rex(arguments);
   }
@@ -111,7 +112,7 @@ TEST_F(CourseTest, CollectsARowForEveryoneAndListsOthersApart) {
   EXPECT_THAT(flat(ended.error),
               AllOf(HasSubstr("'dora' is not on the roster: 98-template is graded and listed in"),
                     HasSubstr("4 students: 1 graded, 2 late, 1 missing")));
-  EXPECT_EQ(rex({"collect", results().string()}).code, 0);
+  EXPECT_EQ(rex({"grade", "--collect", "-o", results().string()}).code, 0);
   EXPECT_FALSE(fs::exists(results() / "totals.csv")) << "of a grade book that is no more";
 }
 
@@ -141,7 +142,7 @@ TEST_F(CourseTest, ExplainsAGrade) {
 // Reports say what people and lateness make of a result; results.json stays as it is.
 TEST_F(CourseTest, ShowsAdjustmentsInEveryReport) {
   const std::string before = fileText(results() / "zoe/98-template/results.json");
-  EXPECT_EQ(collect({"--reports=markdown,gradescope,junit,github"}).code, 0);
+  EXPECT_EQ(collect({"--report=markdown,gradescope,junit,github"}).code, 0);
   const fs::path zoe = results() / "zoe/98-template";
   EXPECT_EQ(fileText(zoe / "results.json"), before);
   for (const char* file : {"summary.md", "gradescope.json", "junit.xml", "github.txt"})
@@ -180,8 +181,9 @@ TEST_F(CourseTest, PrintsTheStateOfEachTaskAsJson) {
 }
 
 TEST_F(CourseTest, SaysThatAFolderOfResultsIsMissing) {
-  for (const char* verb : {"collect", "export", "dev"}) {
+  for (const char* verb : {"grade", "export", "dev"}) {
     std::vector<std::string> words = {verb};
+    if (words[0] == "grade") words.insert(words.end(), {"--collect", "-o"});
     if (words[0] == "export") words.emplace_back("json");
     if (words[0] == "dev") words.emplace_back("stats");
     words.push_back((root() / "result").string());
@@ -192,11 +194,12 @@ TEST_F(CourseTest, SaysThatAFolderOfResultsIsMissing) {
                           "wrote (did you mean 'results'?)"))
         << verb;
   }
-  EXPECT_THAT(flat(rex({"collect", course()}).error),
+  EXPECT_THAT(flat(rex({"grade", "--collect", "-o", course()}).error),
               HasSubstr("course.toml: not a folder: wanted the folder of"));
-  EXPECT_THAT(flat(rex({"collect", root().string()}).error),
+  EXPECT_THAT(flat(rex({"grade", "--collect", "-o", root().string()}).error),
               HasSubstr("no folder of results: wanted the one"));
-  const Ended list = rex({"collect", results().string(), "--manifest", (root() / "none.tsv").string()});
+  const Ended list =
+      rex({"grade", "--collect", "-o", results().string(), "--manifest", (root() / "none.tsv").string()});
   EXPECT_EQ(list.code, 64);
   EXPECT_THAT(flat(list.error),
               HasSubstr("none.tsv: no such list of tasks: wanted one that rex grade --manifest"));
@@ -216,8 +219,7 @@ TEST_F(CourseTest, WritesFeedbackAndGradesForMoodle) {
   write(root() / "sheet.csv",
         "Identifier,\"Full name\",\"Email address\",Grade,\"Maximum Grade\",\"Last modified (grade)\"\n"
         "\"Participant 501\",Zoë_M,zoe@uni.example,,10.00,-\n\"Participant 502\",\"Yan, Y.\",,,10.00,-\n");
-  const Ended ended =
-      exported("moodle", {"--exercise", "98", "--worksheet", (root() / "sheet.csv").string()});
+  const Ended ended = exported("moodle", {"98", "--worksheet", (root() / "sheet.csv").string()});
   EXPECT_EQ(ended.code, 2) << ended.error;
   EXPECT_THAT(flat(ended.error), HasSubstr("'adam' has a grade and no row in"));
   EXPECT_EQ(
@@ -227,7 +229,7 @@ TEST_F(CourseTest, WritesFeedbackAndGradesForMoodle) {
   const Json rows = readBack({"csv", (root() / "moodle/grades.csv").string()});
   EXPECT_EQ(rows[1], Json::parse(R"(["Participant 501", "Zoë_M", "zoe@uni.example", "6.8", "10.00", "-"])"));
   EXPECT_EQ(rows[2][3], "6.3");
-  const Ended without = exported("moodle", {"--exercise", "98"});
+  const Ended without = exported("moodle", {"98"});
   EXPECT_EQ(without.code, 2);
   EXPECT_THAT(flat(without.error),
               AllOf(HasSubstr("no grades are written without --worksheet"),
@@ -285,8 +287,7 @@ TEST_F(CourseTest, TellsWrongUseOfExports) {
   write(results() / "tasks.tsv", grading::toManifest({}));
   EXPECT_THAT(flat(exported("html").error),
               HasSubstr("nothing to export: found no grades, wanted an exercise"));
-  EXPECT_THAT(flat(exported("html", {"--exercise", "98"}).error),
-              HasSubstr("found no grades for 98-template"));
+  EXPECT_THAT(flat(exported("html", {"98"}).error), HasSubstr("found no grades for 98-template"));
   EXPECT_EQ(rex({"export", "moodle", results().string(), "-o", "x"}).code, 64) << "without an exercise";
   EXPECT_THAT(rex({"export"}).output, HasSubstr("gradescope"));
 }

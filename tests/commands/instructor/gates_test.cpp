@@ -28,7 +28,7 @@ class ExerciseGates : public BuiltProject {
 };
 
 TEST_F(ExerciseGates, PassesTheTemplateThroughAllGates) {
-  const Ended ended = rex({"dev", "check", "98", "--seeds", "2"});
+  const Ended ended = rex({"dev", "check", "98", "--runs", "2"});
   EXPECT_EQ(ended.code, 0) << ended.output << ended.error;
   const std::string gates = rex({"dev", "check", "98", "--list-gates"}).output;
   EXPECT_EQ(gates,
@@ -168,9 +168,9 @@ TEST_F(ExerciseGates, SaysWhereTheReleaseOfEarlierVersionsWent) {
 }
 
 TEST_F(ExerciseGates, SaysHowToGetTheBenchmarks) {
-  const Ended ended = rex({"bench"});
+  const Ended ended = rex({"dev", "bench"});
   EXPECT_EQ(ended.code, 3);
-  EXPECT_THAT(ended.error, HasSubstr("the benchmarks are not built: wanted scripts/rex bench"));
+  EXPECT_THAT(ended.error, HasSubstr("the benchmarks are not built: wanted scripts/rex dev bench"));
 }
 
 std::set<std::string> linesOf(const std::string& output) {

@@ -137,7 +137,7 @@ TEST_F(GradeAgainTest, RepeatsWhatTheGraderFailedAt) {
   Json json = result("adam");
   json["outcome"] = "grader_error";
   write(results() / "adam/98-template/results.json", json.dump());
-  const Ended collected = rex({"collect", results().string()});
+  const Ended collected = rex({"grade", "--collect", "-o", results().string()});
   EXPECT_EQ(collected.code, 3);
   EXPECT_THAT(flat(collected.error), HasSubstr("the grader failed: tasks 1 adam 98-template To repeat: 1"));
   EXPECT_EQ(row("adam"), "adam,98-template,,,grader_error,,,") << "never a zero";
@@ -151,7 +151,7 @@ TEST_F(GradeAgainTest, WritesReportsBesideResultsWithoutGradingAgain) {
                  junit = results() / "bob/98-template/junit.xml";
   EXPECT_EQ(grade().code, 0);
   EXPECT_FALSE(fs::exists(summary));
-  const Ended first = grade({"--reports=markdown,junit"});
+  const Ended first = grade({"--report=markdown,junit"});
   EXPECT_EQ(first.code, 0) << first.error;
   EXPECT_THAT(flat(first.error),
               HasSubstr("Reports: 4 written, 0 kept 2 submissions at sandbox level 0: 0 graded"));
@@ -160,19 +160,19 @@ TEST_F(GradeAgainTest, WritesReportsBesideResultsWithoutGradingAgain) {
   EXPECT_THAT(fileText(junit), HasSubstr("<testsuite"));
   fs::remove(summary);
   write(junit, "half a rep");
-  EXPECT_THAT(flat(grade({"--reports=markdown,junit"}).error),
+  EXPECT_THAT(flat(grade({"--report=markdown,junit"}).error),
               HasSubstr("Reports: 2 written, 2 kept 2 submissions at sandbox level 0: 0 graded, 2 kept"));
   EXPECT_EQ(fileText(summary), expected);
   handIn("adam", kWrong);
-  EXPECT_THAT(flat(grade({"--reports"}).error), HasSubstr("Reports: 1 written, 1 kept")) << "alone: markdown";
+  EXPECT_THAT(flat(grade({"--report"}).error), HasSubstr("Reports: 1 written, 1 kept")) << "alone: markdown";
   EXPECT_NE(fileText(summary), expected);
   // What was made of a result goes with it.
   fs::remove(results() / "bob/98-template/results.json");
-  EXPECT_EQ(rex({"collect", results().string(), "--reports=junit"}).code, 3);
+  EXPECT_EQ(rex({"grade", "--collect", "-o", results().string(), "--report=junit"}).code, 3);
   EXPECT_FALSE(fs::exists(junit));
-  const Ended unknown = grade({"--reports=markdwn"});
+  const Ended unknown = grade({"--report=markdwn"});
   EXPECT_EQ(unknown.code, 64);
-  EXPECT_THAT(flat(unknown.error), HasSubstr("--reports: found markdwn, wanted one of github"));
+  EXPECT_THAT(flat(unknown.error), HasSubstr("--report: found markdwn, wanted one of github"));
   EXPECT_THAT(flat(unknown.error), HasSubstr("did you mean 'markdown'?"));
 }
 
@@ -180,7 +180,7 @@ TEST_F(GradeAgainTest, WritesReportsBesideResultsWithoutGradingAgain) {
 TEST_F(GradeAgainTest, KeepsNoReportLongerThanItsResult) {
   handIn("adam", kGood), handIn("bob", kGood);
   const fs::path adam = results() / "adam/98-template", bob = results() / "bob/98-template";
-  EXPECT_EQ(grade({"--reports=markdown,gradescope"}).code, 0);
+  EXPECT_EQ(grade({"--report=markdown,gradescope"}).code, 0);
   const std::string summary = fileText(bob / "summary.md");
   handIn("adam", kWrong);
   EXPECT_EQ(grade().code, 0);
@@ -188,24 +188,25 @@ TEST_F(GradeAgainTest, KeepsNoReportLongerThanItsResult) {
   EXPECT_FALSE(fs::exists(adam / "gradescope.json"));
   EXPECT_EQ(fileText(bob / "summary.md"), summary) << "its result is the same";
   write(bob / "summary.md", "8 of 8");
-  EXPECT_THAT(flat(rex({"collect", results().string()}).error), HasSubstr("Reports: 1 written, 0 kept"));
+  EXPECT_THAT(flat(rex({"grade", "--collect", "-o", results().string()}).error),
+              HasSubstr("Reports: 1 written, 0 kept"));
   EXPECT_EQ(fileText(bob / "summary.md"), summary) << "outdated, and renewed though nobody asked";
   fs::remove(bob / "results.json");
-  EXPECT_EQ(rex({"collect", results().string()}).code, 3);
+  EXPECT_EQ(rex({"grade", "--collect", "-o", results().string()}).code, 3);
   EXPECT_FALSE(fs::exists(bob / "summary.md"));
   EXPECT_FALSE(fs::exists(bob / "gradescope.json"));
 }
 
 TEST_F(GradeAgainTest, BelievesNoResultThatWasEdited) {
   handIn("adam", kWrong);
-  EXPECT_EQ(grade({"--reports"}).code, 0);
+  EXPECT_EQ(grade({"--report"}).code, 0);
   const fs::path file = results() / "adam/98-template/results.json";
   const std::string whole = fileText(file), before = row("adam");
   Json json = result("adam");
   const int possible = json.at("max_score");
   json["score"] = possible;
   write(file, json.dump());
-  const Ended collected = rex({"collect", results().string()});
+  const Ended collected = rex({"grade", "--collect", "-o", results().string()});
   EXPECT_EQ(collected.code, 3);
   EXPECT_THAT(flat(collected.error),
               HasSubstr("a result that was changed after the grading: tasks 1 adam 98-template"));
@@ -213,20 +214,16 @@ TEST_F(GradeAgainTest, BelievesNoResultThatWasEdited) {
                                                std::to_string(possible) + ", wanted "));
   EXPECT_EQ(row("adam"), "adam,98-template,,,refused,,,") << "never a grade";
   EXPECT_FALSE(fs::exists(file.parent_path() / "summary.md"));
-  EXPECT_EQ(rex({"report", file.string(), "--format", "markdown"}).code, 3);
   // It adds up, but is not what the grader wrote.
   json = Json::parse(whole);
   json["message"] = "well done";
   write(file, json.dump());
-  EXPECT_EQ(rex({"collect", results().string()}).code, 3);
-  const Ended report = rex({"report", file.string(), "--format", "markdown"});
-  EXPECT_EQ(report.code, 3);
-  EXPECT_THAT(flat(report.error), HasSubstr("results.json: a result that was changed after the grading"));
+  EXPECT_EQ(rex({"grade", "--collect", "-o", results().string()}).code, 3);
   json = Json::parse(whole);
   json["exercise"]["id"] = "97-other";
   json["inputs"]["result_sha256"] = grading::sealOf(json.dump(), "");
   write(file, json.dump());
-  EXPECT_THAT(flat(rex({"collect", results().string()}).error),
+  EXPECT_THAT(flat(rex({"grade", "--collect", "-o", results().string()}).error),
               HasSubstr("a result of another exercise: found '97-other', wanted '98-template'"));
   const Ended again = grade();
   EXPECT_EQ(again.code, 0);

@@ -1,4 +1,4 @@
-// `rex grade`, `grade-one` and `collect` on small classes of students.
+// `rex grade`, task by task and with `--collect`, on small classes of students.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -111,17 +111,18 @@ TEST_F(GradeManyTest, GradesTasksOneByOneToTheSameTable) {
   const std::string manifest = (root() / "tasks.tsv").string(), out = results().string();
   EXPECT_EQ(grade({"--manifest", manifest}).code, 0);
   EXPECT_FALSE(fs::exists(results() / "grades.csv"));
-  const Ended nothing = rex({"collect", out, "--manifest", manifest});
+  const Ended nothing = rex({"grade", "--collect", "-o", out, "--manifest", manifest});
   EXPECT_EQ(nothing.code, 3);
   EXPECT_THAT(flat(nothing.error), HasSubstr("no result: tasks 1-3"));
   const auto one = [&](const std::string& task) {
-    return rex({"grade-one", "--manifest", manifest, "--task", task, "--out", out});
+    return rex({"grade", "--manifest", manifest, "--task", task, "--out", out});
   };
   for (const char* task : {"3", "1"}) EXPECT_EQ(one(task).code, 0);
-  EXPECT_THAT(flat(rex({"collect", out, "--manifest", manifest}).error), HasSubstr("To repeat: 2"));
+  EXPECT_THAT(flat(rex({"grade", "--collect", "-o", out, "--manifest", manifest}).error),
+              HasSubstr("To repeat: 2"));
   EXPECT_THAT(one("2").output, HasSubstr("bob 98-template: compile_error, 0 of "));
   EXPECT_EQ(one("2").output, "bob 98-template: kept\n");
-  const Ended all = rex({"collect", out, "--manifest", manifest, "--csv"});
+  const Ended all = rex({"grade", "--collect", "-o", out, "--manifest", manifest, "--csv"});
   EXPECT_EQ(all.code, 0) << all.error;
   EXPECT_EQ(all.output, table("whole"));
   EXPECT_EQ(table(), table("whole"));
@@ -132,7 +133,7 @@ TEST_F(GradeManyTest, GradesNothingThatTheListOfTasksDoesNotMean) {
   const std::string manifest = (root() / "tasks.tsv").string();
   EXPECT_EQ(grade({"--manifest", manifest}).code, 0);
   const auto one = [&](const std::string& task) {
-    return rex({"grade-one", "--manifest", manifest, "--task", task, "--out", results().string()});
+    return rex({"grade", "--manifest", manifest, "--task", task, "--out", results().string()});
   };
   EXPECT_EQ(one("0").code, 64);
   EXPECT_THAT(one("2").error, HasSubstr("--task: found 2, wanted 1 to 1"));
@@ -152,7 +153,7 @@ TEST_F(GradeManyTest, AsksForTheSecretOfTheList) {
   const std::string manifest = (root() / "tasks.tsv").string();
   EXPECT_THAT(grade({"--secret-file", (root() / "short").string()}).error, HasSubstr("is too short"));
   EXPECT_EQ(grade({"--manifest", manifest, "--secret-file", (root() / "secret").string()}).code, 0);
-  const Ended ended = rex({"grade-one", "--manifest", manifest, "--task", "1", "--out", results().string()});
+  const Ended ended = rex({"grade", "--manifest", manifest, "--task", "1", "--out", results().string()});
   EXPECT_EQ(ended.code, 3);
   EXPECT_THAT(flat(ended.error), HasSubstr("the secret of the course: found none, wanted "));
 }
@@ -161,7 +162,7 @@ TEST_F(GradeManyTest, TellsWithOnlyWhatItCouldNotTake) {
   fs::create_directories(in() / "adam_501_assignsubmission_file_");
   write(in() / "adam_501_assignsubmission_file_/main.cpp", kGood);
   handIn("bob", kGood);
-  const Ended ended = grade({"--only", "98", "--manifest", (root() / "tasks.tsv").string()});
+  const Ended ended = grade({"98", "--manifest", (root() / "tasks.tsv").string()});
   EXPECT_EQ(ended.code, 2);
   EXPECT_THAT(flat(ended.error),
               HasSubstr("nothing to grade: found no exercise folder, wanted 98-template/main.cpp"));
@@ -172,10 +173,10 @@ TEST_F(GradeManyTest, TellsWithOnlyWhatItsTablesLeaveOut) {
   EXPECT_THAT(grade().error, Not(HasSubstr("alone")));
   const fs::path list = results() / "tasks.tsv";
   write(list, readTextFile(list) + "2\tadam\t97-other\n");
-  EXPECT_THAT(flat(grade({"--only", "98"}).error),
+  EXPECT_THAT(flat(grade({"98"}).error),
               HasSubstr("results/tasks.tsv and grades.csv now list 98-template alone; the results of 1 other "
-                        "submission stay, and are listed again by rex grade without --only"));
-  EXPECT_THAT(grade({"--only", "98"}).error, Not(HasSubstr("alone")));
+                        "submission stay, and are listed again by rex grade without an exercise"));
+  EXPECT_THAT(grade({"98"}).error, Not(HasSubstr("alone")));
 }
 
 TEST_F(GradeManyTest, PrintsJsonForPrograms) {

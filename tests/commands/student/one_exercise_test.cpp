@@ -97,7 +97,22 @@ TEST_F(OneExercise, RemembersWholeTestsOfTheStudentsFileOnly) {
   EXPECT_THAT(rex({}).output, HasSubstr("  3 of  3\n"));
   EXPECT_EQ(rex({"submit", "98", "-o", root() / "handin.zip"}).error, "") << "it was tested";
   replace(exercise() / "exercise.toml", "[limits]", "solution = \"after-pass\"\n\n[limits]");
-  EXPECT_EQ(rex({"solution", "98"}).code, 0);
+  EXPECT_EQ(rex({"show", "98", "--solution"}).code, 0);
+}
+
+TEST_F(OneExercise, WritesReportsBesideTheResultAndRenewsThem) {
+  EXPECT_EQ(rex({"test", "98", "--report", "junit,markdown"}).code, 1);
+  EXPECT_THAT(fileText(out() / "junit.xml"), HasSubstr("<testsuite"));
+  const std::string before = fileText(out() / "summary.md");
+  EXPECT_THAT(before, HasSubstr("0 of 3 points"));
+  write(exercise() / "main.cpp", kGood);
+  EXPECT_EQ(rex({"test", "98"}).code, 0);
+  EXPECT_THAT(fileText(out() / "summary.md"), HasSubstr("3 of 3 points")) << "not of an earlier result";
+  EXPECT_FALSE(fs::exists(out() / "gradescope.json"));
+  const Ended unknown = rex({"test", "98", "--report", "markdwn"});
+  EXPECT_EQ(unknown.code, 64);
+  EXPECT_THAT(flat(unknown.error), HasSubstr("--report: found markdwn, wanted one of "));
+  EXPECT_THAT(flat(unknown.error), HasSubstr("did you mean 'markdown'?"));
 }
 
 TEST_F(OneExercise, ExplainsAFileThatDoesNotCompile) {

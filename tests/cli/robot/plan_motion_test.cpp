@@ -1,4 +1,5 @@
-// `rex trajectory` as a user meets it.
+// `rex plan --planner optimize` as a user meets it.
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -17,16 +18,18 @@
 #include "support/needs_osmesa.h"
 #include "support/paths.h"
 
-namespace rex::cli::trajectory_test {
+namespace rex::cli::plan_motion_test {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-class TrajectoryCommand : public RexCommand {
+class MotionPlan : public RexCommand {
  protected:
   ProcessResult trajectory(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), "trajectory");
+    arguments.insert(arguments.begin(), "plan");
+    if (std::ranges::find(arguments, "--planner") == arguments.end())
+      arguments.insert(arguments.end(), {"--planner", "optimize"});
     arguments.insert(arguments.end(), {"-o", "out"});
     return rex(arguments);
   }
@@ -52,46 +55,45 @@ Eigen::MatrixXd pathOf(const nlohmann::json& answer) {
   return path;
 }
 
-TEST_F(TrajectoryCommand, WritesMotionCostsFilmAndReplay) {
+TEST_F(MotionPlan, WritesMotionCostsFilmAndReplay) {
   REX_NEEDS_OSMESA();
   REX_NEEDS_GNUPLOT();
   if (!runProcess({"ffmpeg", "-version"}).ok()) GTEST_SKIP() << "needs the package ffmpeg";
   const ProcessResult result = trajectory({"arm7", "--goal", "arm7:0.5,0.2,0.6", "--size", "64x48"});
   ASSERT_EQ(result.exitCode, 0) << result.error;
   EXPECT_THAT(result.output, StartsWith("arm7: arm7 to 0.5, 0.2, 0.6\nsolved (augmented Lagrangian) after "));
-  EXPECT_THAT(result.output, HasSubstr("\nclearance  nothing can collide\nout/costs.png\nout/trajectory.csv\n"
-                                       "out/trajectory.mp4\nout/trajectory.html\n"));
+  EXPECT_THAT(result.output, HasSubstr("\nclearance  nothing can collide\nout/costs.png\nout/path.csv\n"
+                                       "out/path.mp4\nout/path.html\n"));
   EXPECT_EQ(readPng(in("out/costs.png")).width, 800);
-  EXPECT_GT(fs::file_size(in("out/trajectory.mp4")), 500u);
-  EXPECT_THAT(fileText(in("out/trajectory.html")), HasSubstr("Newton steps"));
-  EXPECT_EQ(
-      rex({"render", "arm7", "--motion", "out/trajectory.csv", "--size", "64x48", "-o", "a.png"}).exitCode,
-      0);
+  EXPECT_GT(fs::file_size(in("out/path.mp4")), 500u);
+  EXPECT_THAT(fileText(in("out/path.html")), HasSubstr("Newton steps"));
+  EXPECT_EQ(rex({"render", "arm7", "--motion", "out/path.csv", "--size", "64x48", "-o", "a.png"}).exitCode,
+            0);
 }
 
-TEST_F(TrajectoryCommand, PlaysInRealTimeOrAsFastAsAskedFor) {
+TEST_F(MotionPlan, PlaysInRealTimeOrAsFastAsAskedFor) {
   REX_NEEDS_OSMESA();
   REX_NEEDS_GNUPLOT();
   if (!runProcess({"ffmpeg", "-version"}).ok()) GTEST_SKIP() << "needs the package ffmpeg";
-  const std::vector<std::string> task{"arm7",   "--goal", "arm7:0.5,0.2,0.6", "--seconds", "1",
+  const std::vector<std::string> task{"arm7",   "--goal", "arm7:0.5,0.2,0.6", "--duration", "1",
                                       "--size", "64x48"};
   ASSERT_EQ(trajectory(task).exitCode, 0);
-  EXPECT_EQ(framesOf(in("out/trajectory.mp4")), "31,30/1");
-  EXPECT_NEAR(replaySeconds(in("out/trajectory.html")), 1, 1e-5);
+  EXPECT_EQ(framesOf(in("out/path.mp4")), "31,30/1");
+  EXPECT_NEAR(replaySeconds(in("out/path.html")), 1, 1e-5);
   std::vector<std::string> slowly = task;
   slowly.insert(slowly.end(), {"--speed", "0.5"});
   ASSERT_EQ(trajectory(slowly).exitCode, 0);
-  EXPECT_EQ(framesOf(in("out/trajectory.mp4")), "61,30/1");
-  EXPECT_NEAR(replaySeconds(in("out/trajectory.html")), 2, 1e-5);
+  EXPECT_EQ(framesOf(in("out/path.mp4")), "61,30/1");
+  EXPECT_NEAR(replaySeconds(in("out/path.html")), 2, 1e-5);
 }
 
-TEST_F(TrajectoryCommand, BringsTheBodyToTheGoalAtRestWithEachMethod) {
+TEST_F(MotionPlan, BringsTheBodyToTheGoalAtRestWithEachMethod) {
   REX_NEEDS_GNUPLOT();
   const Model model = compile(readScene(sourcePath("data/robots/arm7.ors")).spec);
   std::vector<double> costs;
-  for (const char* method : {"augmented-lagrangian", "penalty", "barrier"}) {
+  for (const char* method : {"optimize", "optimize-penalty", "optimize-barrier"}) {
     const nlohmann::json found =
-        answer({"arm7", "--goal", "arm7:0.5,0.2,0.6", "--method", method, "--steps", "40"}, 0);
+        answer({"arm7", "--goal", "arm7:0.5,0.2,0.6", "--planner", method, "--steps", "40"}, 0);
     const Eigen::MatrixXd path = pathOf(found);
     ASSERT_EQ(path.cols(), 41);
     const BodyPoses poses = forwardKinematics(model, path.rightCols<1>());
@@ -105,7 +107,7 @@ TEST_F(TrajectoryCommand, BringsTheBodyToTheGoalAtRestWithEachMethod) {
 }
 
 // The same motion without --avoid goes through the wall. What is reported is proven once more here.
-TEST_F(TrajectoryCommand, GoesRoundWhatIsInTheWay) {
+TEST_F(MotionPlan, GoesRoundWhatIsInTheWay) {
   REX_NEEDS_GNUPLOT();
   const std::vector<std::string> task{"board", "--goal", "eff:0,-0.3,0.5"};
   EXPECT_LT(answer(task, 0)["clearance"], 0);
@@ -120,7 +122,7 @@ TEST_F(TrajectoryCommand, GoesRoundWhatIsInTheWay) {
     ASSERT_GT(motionClearance(model, contacts, path.col(k - 1), path.col(k), 1e-4), 0) << k;
 }
 
-TEST_F(TrajectoryCommand, SaysWhichConstraintCannotHold) {
+TEST_F(MotionPlan, SaysWhichConstraintCannotHold) {
   REX_NEEDS_GNUPLOT();
   const nlohmann::json found = answer({"arm7", "--goal", "arm7:5,0,0", "--steps", "20"}, 1);
   EXPECT_EQ(found["status"], "infeasible");
@@ -128,30 +130,31 @@ TEST_F(TrajectoryCommand, SaysWhichConstraintCannotHold) {
   EXPECT_GT(found["error"], 1);
 }
 
-TEST_F(TrajectoryCommand, GivesTheSameBytesAgain) {
+TEST_F(MotionPlan, GivesTheSameBytesAgain) {
   REX_NEEDS_GNUPLOT();
   ASSERT_EQ(trajectory({"board", "--goal", "eff:0,-0.45,0.6", "--avoid", "--no-film"}).exitCode, 0);
-  const std::string first = fileText(in("out/trajectory.csv"));
+  const std::string first = fileText(in("out/path.csv"));
   ASSERT_EQ(trajectory({"board", "--goal", "eff:0,-0.45,0.6", "--avoid", "--no-film"}).exitCode, 0);
-  EXPECT_EQ(fileText(in("out/trajectory.csv")), first);
+  EXPECT_EQ(fileText(in("out/path.csv")), first);
 }
 
-TEST_F(TrajectoryCommand, RefusesWrongUse) {
+TEST_F(MotionPlan, RefusesWrongUse) {
   expectRefusal({"board", "--goal", "eff"}, "--goal: found 'eff', wanted BODY:x,y,z");
   expectRefusal({"board", "--goal", "ef:0,0,0"}, "scene 'board' has no body 'ef' (did you mean 'eff'?)");
   expectRefusal({"board", "--goal", "eff:0,0"}, "--goal");
   expectRefusal({"board", "--goal", "eff:0,0,x"}, "--goal");
-  expectRefusal({"board", "--goal", "eff:0,0,0", "--method", "penalti"}, "(did you mean 'penalty'?)");
-  expectRefusal({"board", "--goal", "eff:0,0,0", "--steps", "2"}, "--steps: found 2, wanted 3 to 10000");
-  expectRefusal({"board", "--goal", "eff:0,0,0", "--seconds", "0"}, "--seconds");
+  expectRefusal({"board", "--goal", "eff:0,0,0", "--planner", "optimize-penalti"},
+                "(did you mean 'optimize-penalty'");
+  expectRefusal({"board", "--goal", "eff:0,0,0", "--wheelbase", "3"},
+                "--wheelbase: found --planner optimize, wanted --planner hybrid-astar");
   expectRefusal({"board", "--goal", "eff:0,0,0", "--margin", "0"}, "--margin");
-  expectRefusal({"board", "--goal", "eff:0,0,0", "--speed", "0"}, "--speed: found 0, wanted 0.001 to 1000");
   expectRefusal({"board", "--goal", "eff:0,0,0", "--start", "1,2"}, "--start");
-  expectRefusal({"board", "--goal", "eff:0,0,0", "--avoid", "--margin", "1"}, "wanted all shapes 1 m apart");
+  expectRefusal({"board", "--goal", "eff:0,0,0", "--avoid", "--margin", "0.5"},
+                "wanted all shapes 0.5 m apart");
   std::ofstream(in("ball.ors"))
       << "body base {}\nbody ball {}\nshape (ball) { type=ST_sphere size=[0 0 0 .1] }\n"
          "joint spin (base ball) { type=quatBall }\n";
   expectRefusal({"ball.ors", "--goal", "ball:0,0,1"}, "quaternion");
 }
 
-}  // namespace rex::cli::trajectory_test
+}  // namespace rex::cli::plan_motion_test

@@ -1,12 +1,11 @@
+// `rex plan --planner optimize`: motions with little acceleration.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "base/error.h"
@@ -19,9 +18,8 @@
 #include "cli/robot/motion_files.h"
 #include "cli/robot/path_motion.h"
 #include "cli/robot/path_pictures.h"
+#include "cli/robot/plan.h"
 #include "cli/robot/posture_within_limits.h"
-#include "cli/robot/robot_options_internal.h"
-#include "cli/robot/robot_room_internal.h"
 #include "cli/robot/trajectory_search.h"
 #include "cli/wrong_use_internal.h"
 #include "planning/robot_problem.h"
@@ -31,27 +29,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct TrajectoryOptions {
-  SceneOption scene{};
-  std::string start{};   ///< see parsePosture(); empty: that of the file
-  std::string goal{};    ///< BODY:x,y,z
-  bool avoid = false;    ///< keep shapes apart
-  double margin = 0.02;  ///< clearance between all pairs of shapes, metres
-  int steps = 100;
-  double seconds = 2;  ///< duration of the motion
-  double speed = 1;    ///< speed of the film; 1: real time
-  std::string method = "augmented-lagrangian";
-  RenderOptions film{};  ///< cameras, size and gl of the pictures
-  bool noFilm = false;
-  bool json = false;
-  std::filesystem::path out{};  ///< a folder
-};
-
-ConstraintMethod methodOf(const std::string& name) {
-  return choose<ConstraintMethod>("--method", name,
-                                  {{"augmented-lagrangian", ConstraintMethod::kAugmentedLagrangian},
-                                   {"penalty", ConstraintMethod::kSquaredPenalty},
-                                   {"barrier", ConstraintMethod::kLogBarrier}});
+ConstraintMethod methodOf(Planner planner) {
+  return planner == Planner::kOptimizePenalty   ? ConstraintMethod::kSquaredPenalty
+         : planner == Planner::kOptimizeBarrier ? ConstraintMethod::kLogBarrier
+                                                : ConstraintMethod::kAugmentedLagrangian;
 }
 
 std::pair<BodyId, Eigen::Vector3d> goalOf(const Model& model, const std::string& text) {
@@ -69,7 +50,7 @@ void requireStartIsClear(const TrajectoryTask& task) {
                     .wanted = fmt::format("all shapes {:g} m apart, the --margin", task.margin)});
 }
 
-TrajectoryTask taskOf(Model model, const TrajectoryOptions& options) {
+TrajectoryTask motionTaskOf(Model model, const PlanOptions& options) {
   const auto [body, p_WQ] = goalOf(model, options.goal);
   ContactModel contacts = contactModelOf(model);
   const Eigen::VectorXd start =
@@ -80,10 +61,10 @@ TrajectoryTask taskOf(Model model, const TrajectoryOptions& options) {
                       .p_WQ = p_WQ,
                       .start = start,
                       .avoids = options.avoid,
-                      .margin = options.margin,
+                      .margin = *options.margin,
                       .steps = options.steps,
-                      .seconds = options.seconds,
-                      .method = methodOf(options.method)};
+                      .seconds = options.duration,
+                      .method = methodOf(options.planner)};
   if (task.avoids && task.contacts.pairs().empty())
     note(harmless(task.model.name()) + ": no two shapes may collide: there is nothing to avoid");
   task.avoids = task.avoids && !task.contacts.pairs().empty();
@@ -152,16 +133,16 @@ Report replayOf(const TrajectoryTask& task, const FoundTrajectory& found, const 
   return report;
 }
 
-std::vector<std::string> writeFiles(const TrajectoryTask& task, const TrajectoryOptions& options,
+std::vector<std::string> writeFiles(const TrajectoryTask& task, const PlanOptions& options,
                                     const RenderPlan& pictures, const FoundTrajectory& found) {
-  std::vector<fs::path> files{options.out / "costs.png", options.out / "trajectory.csv"};
+  std::vector<fs::path> files{options.out / "costs.png", options.out / "path.csv"};
   writeFigure(costFigure(found), files.front());
   writeTextFile(files.back(), csvOf(task.model, motionOf(found)));
   if (!options.noFilm) {
     const double speed = filmSpeed(options.speed, task.seconds);
     const Motion film = filmOf(found, kFilmRate / speed);
     for (const fs::path& file : writeFilmAndReplay(task.model, film, task.body, replayOf(task, found, film),
-                                                   pictures, options.out / "trajectory", speed))
+                                                   pictures, options.out / "path", speed))
       files.push_back(file);
   }
   std::vector<std::string> names;
@@ -204,29 +185,16 @@ std::string jsonTextOf(const TrajectoryTask& task, const FoundTrajectory& found,
                    {"files", files}});
 }
 
-void requireSensible(const TrajectoryOptions& options) {
-  requireBetween("--margin", options.margin, 1e-4, 1);
-  requireBetween("--steps", options.steps, 3, 10'000);
-  requireBetween("--seconds", options.seconds, 1e-3, kLongestFilm);
-  requireBetween("--speed", options.speed, 1e-3, 1e3);
-}
+}  // namespace
 
-// Moves a body to a point with little acceleration. Writes the motion, its costs, a film and a replay.
-// kBelow if a constraint does not hold, or the motion is not proven free of collisions.
-ExitCode planTrajectory(const Project& project, const TrajectoryOptions& options) {
-  RenderOptions filmOptions = options.film;
-  filmOptions.out = options.out / "trajectory.mp4";
-  const RenderPlan pictures = planOf(filmOptions, facingOf(fileOf(project, options.scene)));
-  requireSensible(options);
-  Model model = loadScene(project, options.scene);
-  if (model.nv() == 0) throw UsageError({.what = model.name(), .found = "no joint that moves"});
+// Moves a body to a point with little acceleration.
+ExitCode planMotion(const PlanOptions& options, const RenderPlan& pictures, Model model) {
+  requireBetween("--margin", *options.margin, 1e-4, 1);
   if (model.nq() != model.nv())
     throw UsageError(
         {.what = model.name(), .found = "joints with quaternions", .wanted = "hinges and sliders"});
-  if (!options.noFilm) requireFilmable(model);
-  const TrajectoryTask task = taskOf(std::move(model), options);
-  makeResultFolder(options.out, {"costs.png", "trajectory.csv", "trajectory.mp4", "trajectory.html"},
-                   "trajectory");
+  const TrajectoryTask task = motionTaskOf(std::move(model), options);
+  makeResultFolder(options.out, {"costs.png", "path.csv", "path.mp4", "path.html"}, "path");
 
   const FoundTrajectory found = findTrajectory(task);
   const std::vector<std::string> files = writeFiles(task, options, pictures, found);
@@ -240,44 +208,6 @@ ExitCode planTrajectory(const Project& project, const TrajectoryOptions& options
     note("it is not proven that shapes stay apart between steps: use more --steps or a larger --margin");
   return found.isSolved() && !(task.avoids && found.clearance.distance <= 0) ? ExitCode::kFull
                                                                              : ExitCode::kBelow;
-}
-
-}  // namespace
-
-void addTrajectory(CLI::App* command, Action& action) {
-  const auto options = std::make_shared<TrajectoryOptions>();
-  command->footer(
-      "Examples:\n  scripts/rex trajectory arm7 --goal arm7:0.5,0.2,0.6 -o reach\n"
-      "  scripts/rex trajectory board --goal eff:0,-0.3,0.5 --avoid -o around\n\n"
-      "Minimises the accelerations of all joints from rest to rest (slides 5:3 to 5:5). DIR gets costs.png,\n"
-      "trajectory.csv (time and joints; `rex render --motion` reads it), trajectory.mp4 and\n"
-      "trajectory.html (a replay).\n"
-      "Exit codes: 0 found, 1 not found: it says which constraint does not hold; 64 wrong use.");
-  addSceneFile(command, "SCENE", options->scene.file);
-  command->add_option("-o,--out", options->out, "folder for the results")->type_name("DIR")->required();
-  command->add_option("--goal", options->goal, "where the origin of the body must come to rest, metres")
-      ->type_name("BODY:x,y,z")
-      ->required();
-  command->add_option("--start", options->start, "all numbers, joint=number,..., 0, or file (default: file)")
-      ->type_name("POSTURE");
-  command->add_flag("--avoid", options->avoid, "keep all shapes apart, also between steps");
-  command->add_option("--margin", options->margin, "clearance that --avoid keeps (default: 0.02)")
-      ->type_name("METRES");
-  command->add_option("--steps", options->steps, "number of steps of the motion (default: 100)")
-      ->type_name("N");
-  command->add_option("--seconds", options->seconds, "duration of the motion (default: 2)")->type_name("S");
-  command
-      ->add_option("--method", options->method,
-                   "augmented-lagrangian, penalty, barrier (default: augmented-lagrangian)")
-      ->type_name("NAME");
-  addFilmSpeed(command, options->speed);
-  command->add_flag("--no-film", options->noFilm, "do not make trajectory.mp4 and trajectory.html");
-  addFilmOptions(command, options->film);
-  addJson(command, options->json);
-  addReading(command, options->scene.reading);
-  addGl(command, options->film.gl);
-  command->callback(
-      [&action, options] { action = [options](const Project& p) { return planTrajectory(p, *options); }; });
 }
 
 }  // namespace rex::cli

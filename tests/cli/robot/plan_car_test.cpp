@@ -1,4 +1,4 @@
-// `rex park` as a user meets it.
+// `rex plan --planner hybrid-astar` as a user meets it.
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -17,7 +17,7 @@
 #include "support/paths.h"
 #include "systems/car.h"
 
-namespace rex::cli::park_test {
+namespace rex::cli::plan_car_test {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
@@ -26,11 +26,11 @@ using ::testing::StartsWith;
 
 constexpr const char* kGoal = "-1.3,1.1,0";
 
-class ParkCommand : public RexCommand {
+class CarPlan : public RexCommand {
  protected:
   ProcessResult park(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), "park");
-    arguments.insert(arguments.end(), {"--size", "64x48", "-o", "out"});
+    arguments.insert(arguments.begin(), "plan");
+    arguments.insert(arguments.end(), {"--planner", "hybrid-astar", "--size", "64x48", "-o", "out"});
     return rex(arguments);
   }
   void expectRefusal(const std::vector<std::string>& arguments, const std::string& message) const {
@@ -41,7 +41,7 @@ class ParkCommand : public RexCommand {
   }
 };
 
-TEST_F(ParkCommand, WritesPathTreeFilmAndReplay) {
+TEST_F(CarPlan, WritesPathTreeFilmAndReplay) {
   REX_NEEDS_OSMESA();
   REX_NEEDS_GNUPLOT();
   if (!runProcess({"ffmpeg", "-version"}).ok()) GTEST_SKIP() << "needs the package ffmpeg";
@@ -59,7 +59,7 @@ TEST_F(ParkCommand, WritesPathTreeFilmAndReplay) {
 }
 
 // The drives lead to the goal, and touch nothing, by the scene that a user sees.
-TEST_F(ParkCommand, AnswersProgramsWithDrivesThatPark) {
+TEST_F(CarPlan, AnswersProgramsWithDrivesThatPark) {
   REX_NEEDS_OSMESA();
   const ProcessResult result = park({"street", "--goal", kGoal, "--no-film", "--json"});
   ASSERT_EQ(result.exitCode, 0) << result.error;
@@ -88,7 +88,7 @@ TEST_F(ParkCommand, AnswersProgramsWithDrivesThatPark) {
   EXPECT_EQ(json.at("switches"), 2);
 }
 
-TEST_F(ParkCommand, SaysThatASpaceIsTooShort) {
+TEST_F(CarPlan, SaysThatASpaceIsTooShort) {
   REX_NEEDS_OSMESA();
   std::string scene = fileText(sourcePath("data/scenes/street.ors"));
   for (const auto& [from, to] : {std::pair{"t(5.1 ", "t(4.4 "}, {"t(-5.1 ", "t(-4.4 "}})
@@ -101,7 +101,7 @@ TEST_F(ParkCommand, SaysThatASpaceIsTooShort) {
   EXPECT_FALSE(fs::exists(in("out/path.csv")));
 }
 
-TEST_F(ParkCommand, TellsWhichShapesAreNoObstacles) {
+TEST_F(CarPlan, TellsWhichShapesAreNoObstacles) {
   REX_NEEDS_OSMESA();
   std::string scene = fileText(sourcePath("data/scenes/street.ors"));
   const std::string joint = "joint drive (road car) { A=<T t(0 -4 0.05)>";
@@ -114,17 +114,7 @@ TEST_F(ParkCommand, TellsWhichShapesAreNoObstacles) {
   EXPECT_THAT(park({"street", "--goal", kGoal, "--no-film"}).error, Not(HasSubstr("do not stop")));
 }
 
-TEST_F(ParkCommand, HasExamplesThatRun) {
-  REX_NEEDS_OSMESA();
-  const auto examples = examplesOf("park");
-  EXPECT_EQ(examples.size(), 2u);
-  for (std::vector<std::string> example : examples) {
-    example.insert(example.end(), {"--no-film", "--size", "64x48"});
-    EXPECT_EQ(rex(example).exitCode, 0);
-  }
-}
-
-TEST_F(ParkCommand, SaysWhatIsWrong) {
+TEST_F(CarPlan, SaysWhatIsWrong) {
   expectRefusal(
       {"board", "--goal", "0,0,0"},
       "board: found 3 coordinates, wanted one joint of type transXYPhi, that of the car, and no other");
@@ -133,11 +123,8 @@ TEST_F(ParkCommand, SaysWhatIsWrong) {
   expectRefusal({"street", "--goal", "5,1.1,0"}, "--goal: found '");
   expectRefusal({"street", "--goal", "5,9,0"}, "--goal");
   expectRefusal({"street", "--goal", kGoal, "--start", "5,1.1,0"}, "--start: found '");
-  for (const char* option :
-       {"--wheelbase", "--steering", "--resolution", "--cell", "--reverse-cost", "--states", "--speed"})
-    expectRefusal({"street", "--goal", kGoal, option, "0"}, std::string(option) + ": found 0, wanted");
-  for (const char* option : {"--margin", "--switch-cost", "--slack"})
-    expectRefusal({"street", "--goal", kGoal, option, "-1"}, std::string(option) + ": found -1, wanted");
+  expectRefusal({"street", "--goal", kGoal, "--seed", "1"},
+                "--seed: found --planner hybrid-astar, wanted a planner that draws samples");
 }
 
-}  // namespace rex::cli::park_test
+}  // namespace rex::cli::plan_car_test

@@ -1,0 +1,158 @@
+// `rex plan --planner hybrid-astar`: a car in a scene.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/text_file.h"
+#include "cli/json_internal.h"
+#include "cli/robot/contact_limit.h"
+#include "cli/robot/film_file.h"
+#include "cli/robot/motion_files.h"
+#include "cli/robot/parking.h"
+#include "cli/robot/path_files.h"
+#include "cli/robot/path_motion.h"
+#include "cli/robot/path_pictures.h"
+#include "cli/robot/plan.h"
+#include "cli/robot/posture_within_limits.h"
+#include "cli/terminal.h"
+#include "cli/wrong_use_internal.h"
+#include "collision/collision_pairs.h"
+#include "collision/contacts.h"
+
+namespace rex::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Otherwise the car would drive through obstacles there without a word.
+void tellWhatIsNoObstacle(const Model& model) {
+  for (const PairVerdict& pair : pairVerdicts(model))
+    if (pair.reason == PairReason::kNeighbours)
+      note(wrap(
+          fmt::format("shapes of '{}' and '{}' do not stop each other, because a joint links these bodies: "
+                      "put obstacles on a body of their own",
+                      harmless(model[pair.a].name), harmless(model[pair.b].name)),
+          2, 0));
+}
+
+PathTask carTaskOf(Model model, const PlanOptions& options) {
+  requireCar(model);
+  const ContactModel contacts = contactModelOf(model);
+  const Eigen::VectorXd start =
+      postureWithinLimits(model, "--start", options.start.empty() ? "file" : options.start);
+  const Eigen::VectorXd goal = postureWithinLimits(model, "--goal", options.goal);
+  PathTask task = asWrongUse([&] {
+    return parkingTask(std::move(model), contacts, start, goal, *options.margin, *options.resolution);
+  });
+  requireFreeEnds(task.problem, *options.margin);
+  tellWhatIsNoObstacle(task.model);
+  return task;
+}
+
+Report replayOf(const PathTask& task, const Parking& parking, const PlanOptions& options,
+                const std::string& title, const Motion& motion) {
+  Report report{.title = title,
+                .figures = {{jointsFigure(task.model, motion)}},
+                .facts = {{"length", fmt::format("{:.2f} m", parking.path.length)},
+                          {"changes of direction", fmt::format("{}", parking.path.switches)},
+                          {"margin", fmt::format("{:g} m", *options.margin)},
+                          {"states expanded", fmt::format("{}", parking.path.expanded)}}};
+  if (!task.contacts.pairs().empty()) {
+    report.figures.push_back({clearanceFigure(task.model, task.contacts, motion, *options.margin)});
+    report.facts.emplace_back("clearance", fmt::format("{:.4g} m", parking.clearance.atLeast));
+  }
+  return report;
+}
+
+std::vector<std::string> writeFiles(const PathTask& task, const Parking& parking, const PlanOptions& options,
+                                    const RenderPlan& pictures) {
+  const std::string title = harmless(task.model.name()) + ", hybrid A*";
+  std::vector<fs::path> files = {options.out / "tree.png"};
+  writeExplored(parkingPicture(task, parking), pictures,
+                fmt::format("{}: {} states expanded", title, parking.path.expanded), files.back());
+  if (parking.isFound()) {
+    files.push_back(options.out / "path.csv");
+    constexpr double kRate = 100;
+    writeTextFile(files.back(), csvOf(task.model, motionOf(parking, kRate)));
+  }
+  if (parking.isFound() && !options.noFilm) {
+    const double speed = filmSpeed(options.speed, parking.path.length);
+    const Motion motion = motionOf(parking, kFilmRate / speed);
+    for (const fs::path& file : writeFilmAndReplay(task.model, motion, farthestBody(task.model),
+                                                   replayOf(task, parking, options, title, motion), pictures,
+                                                   options.out / "path", speed))
+      files.push_back(file);
+  }
+  std::vector<std::string> names;
+  for (const fs::path& file : files) names.push_back(shown(file));
+  return names;
+}
+
+std::string summaryOf(const PathTask& task, const Parking& parking, const PlanOptions& options) {
+  std::string text =
+      fmt::format("{}, hybrid A*: {}", harmless(task.model.name()), parking.path.driven.found.message);
+  if (!parking.isFound()) return text;
+  text += fmt::format("\ncost       {:.3f}, no path on the grid costs less than {:.3f}\nclearance  ",
+                      parking.path.cost, parking.path.leastCost);
+  text += std::isfinite(parking.clearance.atLeast) ? fmt::format("{:.4f} m all along the path, margin {:g} m",
+                                                                 parking.clearance.atLeast, *options.margin)
+                                                   : "nothing can collide";
+  text += "\nmetres and steering angles (negative: backward)";
+  for (const auto& [u, seconds] : parking.path.driven.controls)
+    text += fmt::format("\n{:9.3f} {:8.3f}", u[0] * seconds, u[1]);
+  return text;
+}
+
+std::string jsonTextOf(const PathTask& task, const Parking& parking, const std::vector<std::string>& files) {
+  const CarPath& path = parking.path;
+  Json controls = Json::array();
+  for (const auto& [u, seconds] : path.driven.controls)
+    controls.push_back(Json::array({u[0] * seconds, u[1]}));
+  const auto orNull = [&](double number) {
+    return parking.isFound() && std::isfinite(number) ? Json(number) : Json();
+  };
+  return dump(Json{{"scene", task.model.name()},
+                   {"found", parking.isFound()},
+                   {"message", path.driven.found.message},
+                   {"expanded", path.expanded},
+                   {"checks", path.driven.found.asked},
+                   {"cost", orNull(path.cost)},
+                   {"least_cost", orNull(path.leastCost)},
+                   {"length", orNull(path.length)},
+                   {"switches", parking.isFound() ? Json(path.switches) : Json()},
+                   {"clearance", orNull(parking.clearance.atLeast)},
+                   {"drives", std::move(controls)},
+                   {"path", parking.isFound() ? jsonOfRows(path.driven.found.path.transpose()) : Json()},
+                   {"files", files}});
+}
+
+}  // namespace
+
+ExitCode planCar(const PlanOptions& options, const RenderPlan& pictures, Model model) {
+  const Car car{.wheelbase = options.wheelbase, .maxSteering = options.steering};
+  const PathTask task = carTaskOf(std::move(model), options);
+  makeResultFolder(options.out, {"tree.png", "path.csv", "path.mp4", "path.html"}, "path");
+
+  const Parking parking = asWrongUse([&] { return parked(task, car, options.grid); });
+  const std::vector<std::string> files = writeFiles(task, parking, options, pictures);
+  if (options.json) {
+    say(jsonTextOf(task, parking, files));
+  } else {
+    say(summaryOf(task, parking, options));
+    for (const std::string& file : files) say(file);
+  }
+  if (!parking.isFound()) return ExitCode::kBelow;
+  if (parking.clearance.atLeast > (*options.margin > 0 ? 0 : -kClearanceTolerance)) return ExitCode::kFull;
+  note(
+      "it is not proven that shapes stay apart between the poses that were checked: use a finer --resolution "
+      "or a larger --margin");
+  return ExitCode::kBelow;
+}
+
+}  // namespace rex::cli
