@@ -70,6 +70,8 @@ double widestBySearch(const ConvexSolid& a, const ConvexSolid& b, const Vector3d
   return std::max(climbed(a, b, widest, 0.1, rng), climbed(a, b, found, 1e-2, rng));
 }
 
+bool isCurved(const ConvexSolid& one) { return one.disc > 0 || one.shape.type == ShapeType::kEllipsoid; }
+
 // What every answer must be, however shapes degenerate.
 void expectSound(const ConvexSolid& a, const ConvexSolid& b, const Proximity& found, double tolerance) {
   const Vector3d n = found.normal_W;
@@ -89,9 +91,6 @@ bool expectProven(const ConvexSolid& a, const ConvexSolid& b, Rng& rng) {
   EXPECT_LE(certified.slack, gap > 0 ? 1e-9 : 1e-6);
   expectSound(a, b, found, gap > 0 ? 1e-9 : 1e-6);
   if (gap > 0) return false;
-  const auto isCurved = [](const ConvexSolid& one) {
-    return one.disc > 0 || one.shape.type == ShapeType::kEllipsoid;
-  };
   if (isCurved(a) || isCurved(b)) {
     EXPECT_LE(widestBySearch(a, b, found.normal_W, rng), gap + 1e-6);
   } else {
@@ -180,7 +179,7 @@ TEST_P(ConvexPair, StaysSoundWhereShapesDegenerate) {
     const double gap = found.distance + a.sweep + b.sweep;
     // Squares of distances tell directions apart to half of the digits.
     EXPECT_NEAR(gap, width(a, b, found.normal_W), gap > 0 ? 1e-8 : 1e-12);
-    if (a.disc > 0 || b.disc > 0) {
+    if (isCurved(a) || isCurved(b)) {
       EXPECT_LE(widestBySearch(a, b, found.normal_W, rng), gap + 1e-6);
     } else {
       EXPECT_LE(certified.slack, 1e-8);

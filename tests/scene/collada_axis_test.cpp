@@ -157,7 +157,7 @@ TEST_F(ColladaAxis, IsToldWhereTheReadingsDiffer) {
   useAxis("X_UP");
   EXPECT_THAT(
       notesOf("r.urdf", kUrdf),
-      ElementsAre(HasSubstr("r.urdf:1:79: note: the up axis of the Collada file 'm.dae' is x; that is "
+      ElementsAre(HasSubstr("r.urdf:1:87: note: the up axis of the Collada file 'm.dae' is x; that is "
                             "ignored, as in ROS; --up-axis=respected is the other reading")));
   EXPECT_THAT(
       notesOf("r.ors", kOrs),

@@ -40,7 +40,7 @@ MotionPictures::MotionPictures(const Model& model, const Motion& motion,
     throwIfInterrupted();
     const Bounds box = rex::bounds(solidsAt(i));
     if (box.isEmpty()) continue;
-    lowest = std::min(ground_, box.low.z());
+    lowest = std::min(lowest, box.low.z());
     bounds_.include(box.low);
     bounds_.include(box.high);
   }

@@ -52,12 +52,13 @@ TEST_F(Pictures, AgreeWithTheirFilm) {
 
 // The way down shows how far the arm sinks below a floor of the scene.
 TEST_F(Pictures, HaveTheGroundOfTheScene) {
-  EXPECT_LT(MotionPictures(arm, motion, {0, 6}, {}, "").picture(0).ground.height, -0.3);
+  EXPECT_LT(MotionPictures(arm, motion, {0, 6}, {}, "").picture(0).ground.height, 0);
   SceneSpec spec = readOrs(sourcePath("data/robots/pegArm.ors")).spec;
-  spec.worldShapes.push_back({.name = "floor", .X_BS = translation(0, 0, -0.6), .shape = {}, .ground = true});
+  spec.worldShapes.push_back(
+      {.name = "floor", .X_BS = translation(0, 0, -0.45), .shape = {}, .ground = true});
   const MotionPictures pictures(compile(spec), motion, {0, 6}, {}, "");
-  EXPECT_NEAR(pictures.picture(0).ground.height, -0.1, 1e-12);
-  EXPECT_NEAR(pictures.picture(1).ground.height, -0.1, 1e-12);
+  EXPECT_NEAR(pictures.picture(0).ground.height, 0.05, 1e-12);
+  EXPECT_NEAR(pictures.picture(1).ground.height, 0.05, 1e-12);
 }
 
 TEST_F(Pictures, TellUnknownBodies) {
