@@ -27,7 +27,7 @@ bool differsInBody(std::string_view reference, const FilePiece& piece, std::stri
 std::vector<std::pair<std::size_t, std::string>> differingBodies(std::string_view reference,
                                                                  const std::vector<FilePiece>& pieces,
                                                                  std::string_view variant) {
-  const std::vector<FilePiece> its = filePieces(variant);
+  const std::vector<FilePiece> its = filePieces(CppText(variant));
   if (its.size() != pieces.size()) return {};
   std::vector<std::pair<std::size_t, std::string>> differing;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
@@ -44,7 +44,7 @@ int linesIn(std::string_view text) { return static_cast<int>(std::count(text.beg
 }  // namespace
 
 JoinedVariants::JoinedVariants(std::string_view reference, const std::vector<std::string>& variants) {
-  const std::vector<FilePiece> pieces = filePieces(reference);
+  const std::vector<FilePiece> pieces = filePieces(CppText(reference));
   std::vector<std::vector<std::pair<std::size_t, std::string>>> versions(pieces.size());  // variant, text
   for (std::size_t k = 0; k < variants.size(); ++k) {
     const auto bodies = differingBodies(reference, pieces, variants[k]);

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <csignal>
 #include <map>
+#include <optional>
 #include <set>
 #include <string_view>
 
@@ -40,38 +41,34 @@ std::set<std::string_view> linesOf(std::string_view text) {
 // Names that sim can neither take for options nor print otherwise than we wrote them.
 std::string fileName(std::size_t k) { return fmt::format("{:06}.cpp", k); }
 
-ProcessResult runSim(std::vector<std::string> arguments, const std::string& input, const fs::path& folder,
-                     double cpuSeconds) {
+// What the program prints; nothing if it takes more processor time.
+std::optional<std::string> runSim(std::vector<std::string> arguments, const std::string& input,
+                                  const fs::path& folder, double cpuSeconds) {
   arguments.insert(arguments.begin(), kProgram);
   constexpr std::size_t kMostPrinted = 256u << 20, kMostMemory = std::size_t{4} << 30;
-  ProcessResult run = runProcess(arguments, {.input = input,
-                                             .directory = folder,
-                                             .timeout = 60 + 6 * cpuSeconds,
-                                             .outputLimit = kMostPrinted,
-                                             .cpuSeconds = cpuSeconds,
-                                             .addressSpace = kMostMemory});
+  const ProcessResult run = runProcess(arguments, {.input = input,
+                                                   .directory = folder,
+                                                   .timeout = 60 + 6 * cpuSeconds,
+                                                   .outputLimit = kMostPrinted,
+                                                   .cpuSeconds = cpuSeconds,
+                                                   .addressSpace = kMostMemory});
   if (!run.started)
     throw Error({.what = "submissions cannot be compared",
                  .found = fmt::format("no program {}", kProgram),
                  .wanted = "apt-get install similarity-tester"});
-  return run;
-}
-
-bool tookTooLong(const ProcessResult& run, double cpuSeconds) {
-  return run.timedOut || run.signal == SIGXCPU || run.cpuSeconds >= cpuSeconds;
-}
-
-std::string compare(std::vector<std::string> arguments, const std::string& input, const fs::path& folder) {
-  constexpr double kMostSeconds = 600;
-  const ProcessResult run = runSim(std::move(arguments), input, folder, kMostSeconds);
-  if (tookTooLong(run, kMostSeconds))
-    throw Error(
-        {.what = "submissions cannot be compared",
-         .found = fmt::format("more than {:g} s of processor time used by {}", kMostSeconds, kProgram)});
+  if (run.timedOut || run.signal == SIGXCPU || run.cpuSeconds >= cpuSeconds) return {};
   if (!run.ok())
     throw Error(
         {.what = fmt::format("{} failed", kProgram), .found = run.error.substr(0, run.error.find('\n'))});
   return run.output;
+}
+
+std::string compare(std::vector<std::string> arguments, const std::string& input, const fs::path& folder) {
+  constexpr double kMostSeconds = 600;
+  if (auto output = runSim(std::move(arguments), input, folder, kMostSeconds)) return *std::move(output);
+  throw Error(
+      {.what = "submissions cannot be compared",
+       .found = fmt::format("more than {:g} s of processor time used by {}", kMostSeconds, kProgram)});
 }
 
 // The whole numbers in a line of the program's output, as there are no others in our names of files.
@@ -134,13 +131,13 @@ std::string withoutHandedOut(std::string_view text, std::string_view handedOut) 
 std::vector<std::string> tooRepetitive(const std::vector<ComparedText>& texts, std::string_view handedOut,
                                        const fs::path& folder) {
   constexpr double kSecondsOfOne = 2;
+  const std::string names = fileName(0) + '\n' + fileName(1) + '\n';
   std::vector<std::string> found;
   for (const ComparedText& one : texts) {
     for (const std::size_t k : {std::size_t{0}, std::size_t{1}})
       writeTextFile(folder / fileName(k), withoutHandedOut(one.text, handedOut));
-    const ProcessResult run =
-        runSim({"-p", "-a", "-e", "-s", "-T", "-i"}, fileName(0) + "\n" + fileName(1), folder, kSecondsOfOne);
-    if (tookTooLong(run, kSecondsOfOne)) found.push_back(one.student);
+    if (!runSim({"-p", "-a", "-e", "-s", "-T", "-i"}, names, folder, kSecondsOfOne))
+      found.push_back(one.student);
   }
   return found;
 }

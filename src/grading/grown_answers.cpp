@@ -82,6 +82,14 @@ std::string growthOf(const Judged& got, const Judged& honest) {
   return "";
 }
 
+bool gains(const GrownOutcome& one) { return one.points > one.plainPoints; }
+
+// One place of several may be chance: an angle of 1e9 is some angle, too.
+void forgiveChance(std::span<GrownOutcome> ofPlaces) {
+  if (std::ranges::count_if(ofPlaces, gains) > 1) return;
+  for (GrownOutcome& one : ofPlaces) one.plainPoints = std::max(one.points, one.plainPoints);
+}
+
 /// Changes the answers to one check.
 class Grower {
  public:
@@ -100,10 +108,12 @@ class Grower {
     for (const auto& [method, function] : honest_.functions)
       for (int k = 0; k < static_cast<int>(Growth::kCount); ++k) {
         const auto growth = static_cast<Growth>(k);
-        for (int i = 0; i < (growth == Growth::kOneHuge ? kPlaces : 1); ++i) {
+        const int places = growth == Growth::kOneHuge ? kPlaces : 1;
+        for (int i = 0; i < places; ++i) {
           outcomes.push_back(apart({method, {.growth = growth, .place = (i + rng.uniform()) / kPlaces}}));
           outcomes.back().function = function;
         }
+        if (places > 1) forgiveChance(std::span(outcomes).last(static_cast<std::size_t>(places)));
       }
     return outcomes;
   }
@@ -151,8 +161,8 @@ class Grower {
             allowanceThatGrew(honest_, got, judgeGrown(check_, reference_, layouts_, more));
         if (!grew.empty()) json["grew"] = grew;
       }
-      json["points"] = got.verdict.points;
       if (!got.changed || got.verdict.points == 0) return json.dump();
+      json["points"] = got.verdict.points;
       change.change.isPlain = true;
       json["plain"] = judgeGrown(check_, reference_, layouts_, change).verdict.points;
     } catch (const std::exception&) {  // an answer that cannot be judged gets nothing

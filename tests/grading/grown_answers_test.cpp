@@ -1,6 +1,6 @@
 #include "grading/grown_answers.h"
 
-#include <map>
+#include <algorithm>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -75,12 +75,34 @@ TEST(GrownAnswers, FindWhatOnlySizeGains) {
                              judge.that("step", q.norm() > 1e6 || (q - kTarget).norm() < 1e-9);
                            })),
             "huge gains\none huge gains\none huge gains\none huge gains\none huge gains\nsteep gains\n");
+  // Nothing is changed in a zero.
+  EXPECT_EQ(
+      faultsOf(check("admires", [](Check& judge, const auto&,
+                                   Student& student) { judge.near("square", student.square(0), 0, 1e-9); })),
+      "");
   // Its size does not matter: a plain wrong answer passes, too.
   EXPECT_THAT(faultsOf(check("direction",
                              [](Check& judge, const auto& q, Student&) {
                                judge.near("direction", q.normalized()[2], kTarget.normalized()[2], 1);
                              })),
               IsEmpty());
+}
+
+// Four places are tried of three numbers, so at least one number is made huge twice.
+TEST(GrownAnswers, TakeWhatOneNumberGainsAtOnePlaceForChance) {
+  int most = 0;
+  for (const int i : {0, 1, 2}) {
+    const RunnableCheck lucky = check("lucky", [i](Check& judge, const auto& q, Student&) {
+      judge.that("step",
+                 q.size() == 3 && ((q - kTarget).norm() < 1e-9 || (q[i] > 1e6 && q.norm() < 1.01 * q[i])));
+    });
+    int gains = 0;
+    for (const GrownOutcome& one : outcomesOf(lucky))
+      gains += one.growth == Growth::kOneHuge && one.points > one.plainPoints ? 1 : 0;
+    EXPECT_NE(gains, 1);
+    most = std::max(most, gains);
+  }
+  EXPECT_GE(most, 2);
 }
 
 TEST(GrownAnswers, NeedAReferenceThatPasses) {

@@ -553,6 +553,40 @@ TEST_F(MjcfFile, WeighsMeshesAsMujocoDoes) {
   }
 }
 
+// What MuJoCo 3.3.8 says of surfaces with density 1.
+TEST(MjcfReader, WeighsShellsAsMujocoDoes) {
+  const struct {
+    const char* geom;
+    double mass;
+    Eigen::Vector3d moments;
+  } shells[] = {
+      {"size='.3'", 1.1309733552923256, Eigen::Vector3d::Constant(0.06785840131753952)},
+      {"type='capsule' size='.1 .4'",
+       0.6283185307179586,
+       {0.055292030703180374, 0.055292030703180374, 0.005864306286700949}},
+      {"type='cylinder' size='.2 .3'",
+       1.0053096491487339,
+       {0.06283185307179587, 0.06283185307179587, 0.03518583772020569}},
+      {"type='box' size='.1 .2 .4'", 1.12, {0.10026666666666671, 0.0848, 0.03146666666666668}},
+      {"type='ellipsoid' size='.1 .2 .4'",
+       0.6356634521946628,
+       {0.03414433178954823, 0.028877387881038885, 0.010715538637725786}},
+  };
+  for (const auto& [geom, mass, moments] : shells) {
+    SCOPED_TRACE(geom);
+    const std::string attributes = std::string("<geom density='1' shellinertia='true' ") + geom;
+    for (const double factor : {1., 3.}) {
+      const BodySpec shell =
+          body(attributes + (factor == 1 ? "/>" : " mass='" + std::to_string(3 * mass) + "'/>"));
+      EXPECT_NEAR(shell.mass, factor * mass, factor == 1 ? 1e-9 : 1e-5);
+      EXPECT_LT((shell.inertia->diagonal() / shell.mass - moments / mass).norm(), 1e-9);
+      EXPECT_TRUE(shell.inertia->isDiagonal());
+    }
+  }
+  EXPECT_EQ(body("<geom density='1' size='.3' shellinertia='false'/>").mass,
+            body("<geom density='1' size='.3'/>").mass);
+}
+
 TEST_F(MjcfFile, TakesTheRuleOfMeshesFromTheCompiler) {
   write("m.obj", objText(trianglesOf(profileSample(false))));
   const auto massWith = [&](const std::string& compiler, const std::string& mesh) {
