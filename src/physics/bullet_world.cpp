@@ -27,10 +27,9 @@ constexpr double kLeastInertia = 1e-15;
 // step from the forces of the last one, comes to rest: 20 boxes of 0.2 m sink 0.3 mm at steps of 1 ms and
 // then stay.
 constexpr double kSoftness = 0.05, kOverlapShare = 0.1;
-// Bodies that start in overlap separate at most this fast, m/s. They keep the speed afterwards, so a higher
-// one would throw them. Bodies that fall some metres do not overlap deeply enough in a step for this to
-// matter.
-constexpr double kPartingSpeed = 1;
+// Bodies in overlap are pushed apart at most this fast, m/s. They do not keep the speed, but the push lifts
+// them, and what holds them must have time to give way.
+constexpr double kPartingSpeed = 0.25;
 // An iteration that changes no velocity along a contact or joint by more than this, in m/s or rad/s, is the
 // last: what lies still is soon solved, as each step starts from the forces of the last one.
 constexpr double kSettled = 1e-8;
@@ -195,11 +194,8 @@ void BulletWorld::setUpSolver(const Model& model, const PhysicsOptions& options)
   info.m_warmstartingFactor = info.m_articulatedWarmstartingFactor = 1;
   info.m_erp2 = kOverlapShare;
   world_.setPartingSpeed(kPartingSpeed);
-  // Bodies that bounce must not gain energy from soft contacts or from being pushed apart: their positions
-  // are corrected instead.
-  if (options.restitution > 0) {
-    info.m_splitImpulsePenetrationThreshold = 0;
-  } else if (model.mass() > 0) {
+  // What bounces must not gain energy from soft contacts.
+  if (options.restitution == 0 && model.mass() > 0) {
     double bodies = 0;
     for (const Body& body : model.bodies()) bodies += body.mass > 0 ? 1 : 0;
     softness_ = kSoftness * bodies / model.mass();

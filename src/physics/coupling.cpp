@@ -82,12 +82,12 @@ void Couplings::forget() {
   for (const auto& pin : pins_) pin->forget();
 }
 
-void Couplings::settle() {
-  for (Group& group : groups_) settle(group);
+void Couplings::settle(Aim aim) {
+  for (Group& group : groups_) settle(group, aim);
 }
 
 // v += M^-1 G^T (G M^-1 G^T)^-1 (wanted - G v), where G holds all rows.
-void Couplings::settle(Group& group) {
+void Couplings::settle(Group& group, Aim aim) {
   struct Row {
     HeldRows* held;
     int row;
@@ -102,7 +102,7 @@ void Couplings::settle(Group& group) {
   Eigen::VectorXd missing(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const auto [held, row] = rows[static_cast<std::size_t>(i)];
-    missing[i] = held->wanted(row);
+    missing[i] = aim == Aim::kHold ? 0 : held->wanted(row);
     for (std::size_t k = 0; k < bodies; ++k) {
       const btMultiBody& body = *group.bodies[k];
       const int velocities = velocityCount(body);

@@ -58,8 +58,16 @@ class Couplings {
   void removeFrom(btMultiBodyDynamicsWorld& world);
   /// Forgets the impulses of the last step.
   void forget();
+  /// What the velocities along the rows are to become: zero, or what reduces errors of positions, too.
+  enum class Aim { kHold, kReduceErrors };
   /// Changes the velocities, before positions move on.
-  void settle();
+  void settle(Aim aim = Aim::kReduceErrors);
+  /// Calls visit(body) for all that is coupled; for some more than once.
+  template <class Visit>
+  void forEachBody(const Visit& visit) const {
+    for (const Group& group : groups_)
+      for (btMultiBody* const body : group.bodies) visit(*body);
+  }
   /// The joint of a follower or leader that Bullet cannot move, for there is no mass behind it, if any. Of
   /// bodies as they are placed; changes velocities.
   [[nodiscard]] JointId massless(const Model& model);
@@ -72,7 +80,7 @@ class Couplings {
     bool hasPins = false;
   };
   void join(HeldRows* rows);
-  void settle(Group& group);
+  void settle(Group& group, Aim aim);
   [[nodiscard]] bool isStuck(const CoordinatePlace& place);
 
   std::vector<std::unique_ptr<CouplingRow>> followers_;

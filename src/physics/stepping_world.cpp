@@ -17,22 +17,31 @@ void SteppingWorld::performDiscreteCollisionDetection() {
 void SteppingWorld::solveConstraints(btContactSolverInfo& info) {
   hideDepths(info);
   btMultiBodyDynamicsWorld::solveConstraints(info);
-  for (const Deep& one : hidden_) one.point->setDistance(one.distance);
+  for (const HiddenDepth& one : hidden_) one.point->setDistance(one.point->getDistance() - one.depth);
   if (couplings_ != nullptr) couplings_->settle();
+  push_.solve(*getDispatcher(), hidden_, info.m_timeStep, info.m_erp2, partingSpeed_, couplings_);
 }
 
-// The solver removes a share of the depth within the step, so it is shown no more depth than it may push
-// out. Bullet has no other bound on that speed.
+void SteppingWorld::integrateTransforms(btScalar h) {
+  push_.add();
+  btMultiBodyDynamicsWorld::integrateTransforms(h);
+  push_.remove();
+}
+
+// A contact keeps the speed at which the solver separates it, so the solver is shown no more depth than makes
+// up for the softness of contacts: a load that rests sinks by softness times impulse per second, and the
+// solver removes that again. What is deeper is pushed apart.
 void SteppingWorld::hideDepths(const btContactSolverInfo& info) {
   hidden_.clear();
-  const double deepest = partingSpeed_ * info.m_timeStep / info.m_erp2;
+  const double perImpulse = info.m_globalCfm / info.m_erp2;
   for (int i = 0; i < getDispatcher()->getNumManifolds(); ++i) {
     btPersistentManifold& manifold = *getDispatcher()->getManifoldByIndexInternal(i);
     for (int k = 0; k < manifold.getNumContacts(); ++k) {
       btManifoldPoint& point = manifold.getContactPoint(k);
-      if (point.getDistance() >= -deepest) continue;
-      hidden_.push_back({&point, point.getDistance()});
-      point.setDistance(-deepest);
+      const double shown = perImpulse * point.getAppliedImpulse();
+      if (point.getDistance() >= -shown) continue;
+      hidden_.push_back({&point, -shown - point.getDistance()});
+      point.setDistance(-shown);
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 
 #include "physics/coupling_internal.h"
+#include "physics/overlap_push_internal.h"
 
 namespace rex::internal {
 
@@ -15,7 +16,7 @@ class SteppingWorld : public btMultiBodyDynamicsWorld {
 
   /// What settles velocities; it must outlive the steps.
   void use(Couplings* couplings) { couplings_ = couplings; }
-  /// How fast contacts may push apart what is in overlap, m/s.
+  /// How fast what is in overlap is pushed apart at most, m/s.
   void setPartingSpeed(double speed) { partingSpeed_ = speed; }
 
   /// Whether nothing can touch in the next steps, so that no contacts need to be looked for. Those found
@@ -23,17 +24,15 @@ class SteppingWorld : public btMultiBodyDynamicsWorld {
   void setApart(bool isApart);
   void performDiscreteCollisionDetection() override;
   void solveConstraints(btContactSolverInfo& info) override;
+  void integrateTransforms(btScalar h) override;
 
  private:
-  struct Deep {
-    btManifoldPoint* point;
-    double distance;
-  };
   void hideDepths(const btContactSolverInfo& info);
 
   Couplings* couplings_ = nullptr;
   double partingSpeed_ = BT_LARGE_FLOAT;
-  std::vector<Deep> hidden_;
+  std::vector<HiddenDepth> hidden_;
+  OverlapPush push_;
   bool isApart_ = false;
 };
 

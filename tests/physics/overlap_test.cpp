@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "dynamics/energy.h"
 #include "physics/physics_world.h"
 #include "physics/small_scenes.h"
 
@@ -88,9 +89,19 @@ TEST(PhysicsOverlap, OfARobotsOwnPartsStaysBounded) {
     state.q.tail(5).setConstant(fold);
     world.setState(state);
     EXPECT_GE(world.overlaps().size(), 3u);
-    const double fastest = fastestOf(world, 3);
+    // It unfolds and falls, and its light ends whip. What bounds that is its energy: to lift all links by
+    // their thickness takes 6.2 J, of which the push gives a tenth.
+    const auto total = [&] { return energy(model, world.state().q, world.state().v).total(); };
+    const double before = total();
+    double most = before, fastest = 0;
+    for (int i = 0; i < 3000; ++i) {
+      world.step(1e-3);
+      most = std::max(most, total());
+      fastest = std::max(fastest, world.state().v.lpNorm<Eigen::Infinity>());
+    }
     RecordProperty(fmt::format("fold {}", fold), fmt::format("{:.3g} rad/s", fastest));
-    EXPECT_LT(fastest, 30) << fold;
+    EXPECT_LT(most - before, 1) << fold;
+    EXPECT_LT(fastest, 150) << fold;
   }
 }
 
