@@ -1,5 +1,6 @@
 #include "gallery/gallery.h"
 
+#include "gallery/contacts.h"
 #include "gallery/figures.h"
 #include "gallery/motion_figures.h"
 #include "gallery/paths.h"
@@ -17,6 +18,7 @@ What rex draws, without a screen.
 - [tests/gallery/pictures.cpp](../../tests/gallery/pictures.cpp) has the code of each picture,
 - [tests/gallery/robots.cpp](../../tests/gallery/robots.cpp) that of robots and scenes,
 - [tests/gallery/paths.cpp](../../tests/gallery/paths.cpp) that of paths,
+- [tests/gallery/contacts.cpp](../../tests/gallery/contacts.cpp) that of scenes of contacts,
 - [tests/gallery/figures.cpp](../../tests/gallery/figures.cpp) that of figures of each kind,
 - [tests/gallery/motion_figures.cpp](../../tests/gallery/motion_figures.cpp) that of figures of motions;
 - `scripts/gallery` draws them again, and a test in [tests/gallery](../../tests/gallery) compares.
@@ -37,7 +39,7 @@ std::string section(const std::string& title, const std::vector<Drawing>& drawin
 
 std::vector<std::string> drawAll(const std::filesystem::path& folder) {
   std::vector<std::string> names;
-  for (const auto& drawings : {pictures(), robotPictures(), pathPictures()}) {
+  for (const auto& drawings : {pictures(), robotPictures(), pathPictures(), contactPictures()}) {
     for (const Drawing& drawing : drawings) {
       writePng(drawing.draw(), folder / (drawing.name + ".png"));
       names.push_back(drawing.name);
@@ -55,7 +57,7 @@ std::vector<std::string> drawAll(const std::filesystem::path& folder) {
 std::string page() {
   std::string text = kIntroduction;
   text += section("Pictures", pictures()) + section("Robots and scenes", robotPictures()) +
-          section("Paths", pathPictures());
+          section("Paths", pathPictures()) + section("Contacts", contactPictures());
   text += "\n## Figures\n";
   for (const auto& figures : {galleryFigures(), motionFigures()})
     for (const auto& [name, figure] : figures)
