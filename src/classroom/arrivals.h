@@ -65,7 +65,7 @@ struct CloneOptions {
 };
 /// Reads a folder of clones. Throws like readMoodle().
 [[nodiscard]] Arrivals readClones(const std::filesystem::path& source, const CloneOptions& options,
-                                     const std::vector<ExerciseInfo>& exercises);
+                                  const std::vector<ExerciseInfo>& exercises);
 
 /// Reads NAME/main.cpp, NAME.cpp and NAME.zip. Throws like readMoodle().
 [[nodiscard]] Arrivals readFolders(const std::filesystem::path& source,

@@ -60,9 +60,7 @@ class GitClonesTest : public ::testing::Test {
     git(clone, {"commit", "-q", "-m", "work"}, time);
     return git(clone, {"rev-parse", "HEAD"});
   }
-  Arrivals read(const CloneOptions& options = {}) const {
-    return readClones(source(), options, exercises_);
-  }
+  Arrivals read(const CloneOptions& options = {}) const { return readClones(source(), options, exercises_); }
   ImportReport import(const Arrivals& arrivals) const {
     return importArrivals(arrivals, {.exercises = exercises_, .handedOut = {{"02-control", "starter"}}},
                           handedIn());

@@ -195,7 +195,7 @@ std::string rosterOfClones(const std::vector<SyntheticStudent>& all) {
 }
 
 std::string recordOfClones(const std::vector<SyntheticStudent>& all,
-                            const std::vector<std::string>& commits) {
+                           const std::vector<std::string>& commits) {
   std::string text =
       "assignment_name,github_username,roster_identifier,student_repository_name,submission_timestamp,"
       "points_awarded,points_available,group_name,commit\n";

@@ -53,7 +53,7 @@ struct SyntheticTexts {
 /// where `commits` is empty.
 [[nodiscard]] std::string rosterOfClones(const std::vector<SyntheticStudent>& all);
 [[nodiscard]] std::string recordOfClones(const std::vector<SyntheticStudent>& all,
-                                          const std::vector<std::string>& commits);
+                                         const std::vector<std::string>& commits);
 
 /// "2026-11-20T22:58:00Z" and so on.
 [[nodiscard]] std::string syntheticInstant(std::int64_t time);

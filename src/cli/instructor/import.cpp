@@ -149,9 +149,7 @@ void addGit(CLI::App* all, Action& action) {
           std::string(kImportCodes));
   const auto options = addCommon(command, "folder of clones: ASSIGNMENT-STUDENT with a course inside");
   const auto words = std::make_shared<Words>();
-  command
-      ->add_option("--roster", words->options.roster,
-                   "who is who: identifier, username, name")
+  command->add_option("--roster", words->options.roster, "who is who: identifier, username, name")
       ->type_name("FILE.csv");
   command
       ->add_option("--record", words->options.record,
