@@ -66,12 +66,28 @@ double lowestPoint(const Model& model) {
   return lowest;
 }
 
-// On its own base, which URDF leaves to whoever reads it, 0.3 m above a floor.
-Model aboveFloor(const fs::path& file) {
-  SceneSpec spec =
-      readScene(file, {.allowMissingMeshes = true, .freeBase = file.extension() == ".urdf"}).spec;
+// 0.3 m above a floor.
+Model aboveFloor(const fs::path& file, bool isFree) {
+  SceneSpec spec = readScene(file, {.allowMissingMeshes = true, .freeBase = isFree}).spec;
   addGround(spec, translation(0, 0, lowestPoint(compile(spec)) - 0.3));
   return compile(spec);
+}
+
+// URDF leaves to its reader whether a robot is free. Where the root has no mass, or is the world, it is not.
+std::optional<Model> placed(const fs::path& file) {
+  std::string why;
+  for (const bool isFree : {true, false}) {
+    if (isFree && file.extension() != ".urdf") continue;
+    try {
+      Model model = aboveFloor(file, isFree);
+      PhysicsWorld world(model);
+      return model;
+    } catch (const Error& error) {
+      why = error.what();
+    }
+  }
+  fmt::print("{}: cannot be simulated: {}\n", file.filename().string(), why);
+  return std::nullopt;
 }
 
 std::vector<Motor> holding(const Model& model) {
@@ -122,14 +138,8 @@ Fall fall(const Model& model, bool isHeld) {
 
 void expectPassive(const fs::path& file) {
   SCOPED_TRACE(file.filename().string());
-  std::optional<Model> model;
-  try {
-    model = aboveFloor(file);
-    PhysicsWorld world(*model);
-  } catch (const Error& error) {
-    fmt::print("{}: cannot be simulated: {}\n", file.filename().string(), error.what());
-    return;
-  }
+  const std::optional<Model> model = placed(file);
+  if (!model) return;
   const double size = model->mass() * 9.81 * 0.3;  // what a fall gives
   for (const bool isHeld : {false, true}) {
     const Fall result = fall(*model, isHeld);
