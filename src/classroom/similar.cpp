@@ -1,7 +1,6 @@
 #include "classroom/similar.h"
 
 #include <algorithm>
-#include <charconv>
 #include <csignal>
 #include <map>
 #include <optional>
@@ -13,6 +12,7 @@
 #include "base/error.h"
 #include "base/lines.h"
 #include "base/process.h"
+#include "base/text.h"
 #include "base/text_file.h"
 
 namespace rex::grading {
@@ -21,12 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kProgram = "sim_c++";
-
-std::string_view trimmed(std::string_view line) {
-  const std::size_t begin = line.find_first_not_of(" \t\r");
-  if (begin == line.npos) return {};
-  return line.substr(begin, line.find_last_not_of(" \t\r") - begin + 1);
-}
 
 bool isWordLetter(char c) {
   return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
@@ -74,16 +68,11 @@ std::string compare(std::vector<std::string> arguments, const std::string& input
 // The whole numbers in a line of the program's output, as there are no others in our names of files.
 std::vector<int> numbersIn(std::string_view line) {
   std::vector<int> numbers;
-  const char* const end = line.data() + line.size();
-  for (const char* at = line.data(); at != end;) {
-    int number = 0;
-    const auto read = std::from_chars(at, end, number);
-    if (read.ptr == at || *at == '-') {
-      ++at;
-      continue;
-    }
-    numbers.push_back(number);
-    at = read.ptr;
+  while (!line.empty()) {
+    if (const auto number = takeNumber<unsigned>(line))
+      numbers.push_back(static_cast<int>(*number));
+    else
+      line.remove_prefix(1);
   }
   return numbers;
 }

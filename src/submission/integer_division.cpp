@@ -1,9 +1,8 @@
 #include "submission/integer_division.h"
 
-#include <algorithm>
-#include <charconv>
-
 #include <fmt/format.h>
+
+#include "base/text.h"
 
 namespace rex::grading {
 namespace {
@@ -13,9 +12,7 @@ long wholeNumber(const CppText& text, std::size_t i) {
   constexpr std::size_t kMostDigits = 9;
   const std::string_view digits = text.at(i);
   if (!text.isKind(i, TokenKind::kNumber) || digits.size() > kMostDigits) return 0;
-  long value = 0;
-  const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  return read.ptr == digits.data() + digits.size() ? value : 0;
+  return parseNumber<long>(digits).value_or(0);
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ TEST(Programs, WelcomeAndHelp) {
     EXPECT_THAT(help.output, ::testing::ContainsRegex("Example|Exit codes"));
     EXPECT_EQ(help.output.find('\033'), std::string::npos);
     const bool isNarrow =
-        arguments.size() > 1 && arguments[1] == "bench" || arguments == std::vector<std::string>{"dev"};
+        (arguments.size() > 1 && arguments[1] == "bench") || arguments == std::vector<std::string>{"dev"};
     for (std::size_t start = 0; isNarrow && start < help.output.size();) {
       const std::size_t end = std::min(help.output.find('\n', start), help.output.size());
       EXPECT_LE(end - start, 90u) << help.output.substr(start, end - start);

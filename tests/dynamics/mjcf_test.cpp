@@ -345,11 +345,14 @@ TEST(MjcfPeers, AgreeOnFittedGeoms) {
     const Eigen::Vector3d size = Eigen::Map<const Eigen::Vector3d>(peer->geom_size),
                           &extent = shape.shape.extent;
     const std::string name = type;
-    if (name == "box" || name == "ellipsoid")
+    if (name == "box" || name == "ellipsoid") {
       EXPECT_LT((extent / 2 - size).norm(), 1e-5);
-    else
+    } else {
       EXPECT_NEAR(shape.shape.radius, size[0], 1e-5);
-    if (name == "capsule" || name == "cylinder") EXPECT_NEAR(extent.z() / 2, size[1], 1e-5);
+    }
+    if (name == "capsule" || name == "cylinder") {
+      EXPECT_NEAR(extent.z() / 2, size[1], 1e-5);
+    }
     EXPECT_LT((shape.X_BS.p - Eigen::Map<const Eigen::Vector3d>(peer->geom_pos)).norm(), 1e-5);
   }
 }

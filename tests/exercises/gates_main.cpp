@@ -37,7 +37,7 @@ int main(int argc, char** argv) {
         .gates = {"main-floor", "solution", "wrong"},
         .variants = fiveOf(rex::grading::variantNames(project.exercise(argv[1])),
                            number == nullptr ? 0 : std::strtoul(number, nullptr, 10)),
-        .seeds = 1};
+        .runs = 1};
     return static_cast<int>(rex::cli::devCheck(project, options));
   } catch (const rex::Error& error) {
     std::fprintf(stderr, "rex-gates: %s\n", error.what());
