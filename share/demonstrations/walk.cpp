@@ -11,6 +11,7 @@
 #include "kinematics/center_of_mass.h"
 #include "locomotion/simulated_walk.h"
 #include "render/scene_picture.h"
+#include "scene/scene_spec.h"
 
 using namespace rex;
 
@@ -42,7 +43,7 @@ struct Walk {
     std::fflush(stdout);
   }
 
-  // At a time; the points so far of the zero moment point and of the centre of mass as lines on the ground.
+  // At a time; the last seconds of the zero moment point and of the centre of mass as lines on the ground.
   Picture at(std::size_t i, Polyline& zmp, Polyline& center) const {
     const WalkMeasurement& now = done.samples[i];
     const BodyPoses X = forwardKinematics(humanoid.model, now.q);
@@ -56,8 +57,10 @@ struct Walk {
     const Eigen::Vector3d c = centerOfMass(humanoid.model, X);
     center.points.emplace_back(c.x(), c.y(), 0.01);
     if (now.measured.exists) zmp.points.emplace_back(now.measured.p_W.x(), now.measured.p_W.y(), 0.01);
-    for (const Polyline* line : {&zmp, &center})
+    for (Polyline* line : {&zmp, &center}) {
+      if (line->points.size() > 90) line->points.erase(line->points.begin());
       if (line->points.size() > 1) picture.polylines.push_back(*line);
+    }
     return picture;
   }
 };
