@@ -329,7 +329,7 @@ TEST(MjcfPeers, AgreeOnExactMeshes) {
 TEST(MjcfPeers, AgreeOnFittedGeoms) {
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "wedge.obj")
-      << "v 0 0 0\nv 2 0 0\nv 0 3 0\nv .5 0 5\nv 2.5 0 5\nv .5 3 5\n"
+      << "v 0 0 0\nv 2 0 0\nv 0 3 0\nv 0.5 0 5\nv 2.5 0 5\nv 0.5 3 5\n"
          "f 1 3 2\nf 4 5 6\nf 1 2 5\nf 1 5 4\nf 2 3 6\nf 2 6 5\nf 3 1 4\nf 3 4 6\n";
   for (const char* type : {"sphere", "capsule", "cylinder", "box", "ellipsoid"}) {
     const std::string xml = "<mujoco><compiler meshdir='" + folder.path().string() +
