@@ -22,6 +22,7 @@
 #include "control/controllability.h"
 #include "control/regulators.h"
 #include "control/responses.h"
+#include "control/riccati.h"
 #include "control/stability.h"
 #include "render/figure_builders.h"
 #include "render/response_figures.h"
@@ -79,7 +80,12 @@ Findings findingsOf(const MatrixFile& file) {
   f.controllable = controllability(f.system);
   f.observable = observability(f.system);
   const bool hasWeights = file.has("Q") || file.has("R"), hasNoise = file.has("W") || file.has("V");
-  if (hasWeights) f.regulator = lqr(f.system, file.matrix("Q"), file.matrix("R"));
+  // The equation may have a solution although Q has a negative eigenvalue, so not by lqr().
+  if (hasWeights) {
+    const Eigen::MatrixXd Q = file.matrix("Q"), R = file.matrix("R");
+    f.regulator =
+        f.system.step ? solveDare(f.system.A, f.system.B, Q, R) : solveCare(f.system.A, f.system.B, Q, R);
+  }
   if (hasNoise) f.filter = steadyKalman(f.system, file.matrix("W"), file.matrix("V"));
   if (hasWeights && hasNoise)
     f.lqg = lqg(f.system, file.matrix("Q"), file.matrix("R"), file.matrix("W"), file.matrix("V"));

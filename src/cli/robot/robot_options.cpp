@@ -17,6 +17,18 @@ void addReading(CLI::App* command, ReadOptions& reading) {
        {"--allow-missing-meshes", reading.allowMissingMeshes, "use boxes for meshes that cannot be found"},
        {"--strict", reading.strict, "refuse faults of a file instead of repairing them"},
        {"--srdf", reading.srdf, "FILE", "which links of a .urdf may collide (default: the .srdf beside it)"},
+       OptionRow([&reading](CLI::App* app) {
+         return app
+             ->add_option_function<std::string>(
+                 "--up-axis",
+                 [&reading](const std::string& which) {
+                   reading.upAxis =
+                       choose<UpAxis>("--up-axis", which,
+                                      {{"respected", UpAxis::kRespected}, {"ignored", UpAxis::kIgnored}});
+                 },
+                 "of Collada meshes: respected or ignored (default: ignored in .urdf, as in ROS)")
+             ->type_name("WHICH");
+       }),
        {"--free-base", reading.freeBase, "let the root of a .urdf move freely"}});
 }
 
