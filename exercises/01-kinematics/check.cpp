@@ -80,9 +80,9 @@ void checkJacobianOf(Check& check, Student& student, const TestedMap& tested,
   check.that("y of " + function + " has at least one entry", value.y.size() > 0);
   check.shape("y of " + function, value.y, value.y.size(), 1);
   check.shape("J of " + function, value.J, value.y.size(), S.getJointDimension());
-  const Eigen::VectorXd q = S.getJointAngles();
-  const Eigen::MatrixXd numeric =
-      grading::differencesOf(valuesOf(check, tested, grading::placesOfDifferences(q), value.y), q);
+  const Eigen::VectorXd posture = S.getJointAngles();
+  const Eigen::MatrixXd numeric = grading::differencesOf(
+      valuesOf(check, tested, grading::placesOfDifferences(posture), value.y), posture);
   check.atLeast("largest derivative of y of " + function + " by a joint angle", numeric.cwiseAbs().maxCoeff(),
                 kNotZero);
   const Eigen::MatrixXd part = throughPosition ? throughPosition(numeric.rows())
