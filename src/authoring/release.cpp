@@ -84,9 +84,10 @@ void leaveOutTheTests(const path& target) {
   constexpr auto kLeftOut = std::to_array<std::string_view>(
       {"scripts/test", "scripts/gallery", "scripts/fuzz", "scripts/check-replay", "scripts/check-site",
        "scripts/check-site.html", "scripts/slurm-selftest", "scripts/grading", "scripts/grading-campaign",
-       "`notes/`", "`tests/`", "tests/gallery"});
+       "scripts/contact-table", "`notes/`", "`tests/`", "tests/gallery", "tests/contact"});
   for (const std::string_view name : kLeftOut) fs::remove_all(target / name);
-  for (const char* document : {"README.md", "share/doc/architecture.md", "share/doc/gallery.md"}) {
+  for (const char* document : {"README.md", "share/doc/architecture.md", "share/doc/contacts.md",
+                               "share/doc/decisions.md", "share/doc/gallery.md"}) {
     if (!fs::exists(target / document)) continue;
     std::istringstream lines(readTextFile(target / document));
     std::string kept;

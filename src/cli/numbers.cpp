@@ -92,6 +92,7 @@ NumberTable readNumberTable(const std::filesystem::path& file, const std::string
       if (!number) refuse("'" + harmless(word) + "'", "a number");
       row.values.push_back(*number);
     }
+    where.column = row.column;
     if (!table.rows.empty() && row.values.size() != table.rows[0].values.size())
       refuse(fmt::format("{} number{}", row.values.size(), row.values.size() == 1 ? "" : "s"),
              fmt::format("{} as in line {}", table.rows[0].values.size(), table.rows[0].line));

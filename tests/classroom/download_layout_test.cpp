@@ -95,7 +95,7 @@ TEST(MoodleNames, ComeApart) {
 
 TEST(Platforms, HaveTheNamesOfTheirCommands) {
   EXPECT_EQ(toString(Platform::kMoodle), "moodle");
-  EXPECT_EQ(toString(Platform::kGit), "classroom");
+  EXPECT_EQ(toString(Platform::kGit), "git");
   EXPECT_EQ(toString(Platform::kGradescope), "gradescope");
   EXPECT_EQ(toString(Platform::kFolders), "folders");
 }

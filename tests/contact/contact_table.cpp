@@ -19,8 +19,8 @@ Scenes of which mechanics says in closed form what one measures, each in three e
   coefficient of restitution,
 - **Bullet** with its own settings, and its own constraints for mimics and pins.
 
-`scripts/contact-table` measures them again. The code of the scenes is in [tests/contact](../../tests/contact), and a
-test holds rex to the last column: its difference from the formula is no larger.
+A test holds rex to the last column: its difference from the formula is no larger.
+`scripts/contact-table` measures again; the code of the scenes is in [tests/contact](../../tests/contact).
 )";
 
 std::string number(double value) { return fmt::format("{:#.5g}", value); }
