@@ -57,7 +57,7 @@ struct TestedMap {
   Map map;
 };
 
-// y at the postures, of which the first is that of S, where y is `first`. By a worker that knows no question.
+// y at the postures, asked of a fresh worker. The first posture is that of S, where y is `first`.
 std::vector<Eigen::VectorXd> valuesOf(Check& check, const TestedMap& tested,
                                       const std::vector<Eigen::VectorXd>& postures,
                                       const Eigen::VectorXd& first) {

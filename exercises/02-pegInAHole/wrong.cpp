@@ -61,7 +61,7 @@ for (int t = 1; t <= T; ++t) {
 // <variant home_moves_along>
 // caught by: circle-home
 // shown by: circle-home
-// mistake: Home is read anew in each step, so it is always the current posture.
+// mistake: reads the home posture in each step, so it is always the current one.
 // <solution circleWithTasks>
 for (int t = 1; t <= T; ++t) {
   const Eigen::Vector3d wanted = center + radius * Eigen::Vector3d(std::cos(t / 20.), 0, std::sin(t / 20.));

@@ -339,7 +339,7 @@ return std::sqrt(sum / count);
 
 // <variant norm_over_landmarks>
 // caught by: noise, noise-elsewhere
-// mistake: the mean square over landmarks, each of which has two coordinates.
+// mistake: the mean square over landmarks, not over their coordinates.
 // <solution likelyNoise>
 CarWorld assumed = world;
 for (int round = 0; round < 4; ++round) {

@@ -153,6 +153,8 @@ Action parse(CLI::App& program, const std::vector<std::string>& words, const Act
     return print(program.version());
   } catch (const CLI::CallForHelp&) {
     const CLI::App* command = reached(&program);
+    if (const std::vector<std::string> unknown = program.remaining(); command == &program && !unknown.empty())
+      return explainExtras(command, unknown.front());
     return print(command->help(command == &program ? "" : fullName(command->get_parent())));
   } catch (const CLI::ParseError& error) {
     const CLI::App* command = reached(&program);

@@ -74,6 +74,7 @@ TEST_F(CommandLine, AnswersUnknownWordsWithTheNearest) {
   expectUsageError({"lst"}, "rex: unknown command 'lst' (did you mean 'list'?)");
   expectUsageError({"test", "01", "--sed", "3"}, "rex test: unknown option '--sed' (did you mean '--seed'?)");
   expectUsageError({"list", "extra"}, "rex list: unknown argument 'extra'");
+  expectUsageError({"help", "plann"}, "rex: unknown command 'plann' (did you mean 'plan'?)");
   expectUsageError({"--seed=3", "test", "01"}, "rex: option '--seed=3' must come after `rex test`");
   // Before what else is missing: it may be that.
   expectUsageError({"plan", "board", "--ot", "a"}, "rex plan: unknown option '--ot' (did you mean '--out'?)");

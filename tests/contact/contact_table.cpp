@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* kIntroduction = R"(# Contacts against closed answers
 
-Scenes of which mechanics says in closed form what one measures, each in three engines at steps of 1 ms:
+Scenes whose results are known in closed form, each in three engines at steps of 1 ms:
 
 - **rex**: `PhysicsWorld`, which is Bullet with our contacts, couplings and pins,
 - **MuJoCo** with its own settings of contacts: they are soft and creep, their friction is a pyramid, and there is no
