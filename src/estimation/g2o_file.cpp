@@ -49,7 +49,7 @@ Number number(const Line& line, std::size_t word, const char* wanted) {
                .wanted = wanted});
 }
 
-void requireCount(const Line& line, std::size_t wanted) {
+void requireWords(const Line& line, std::size_t wanted) {
   if (line.words.size() == wanted + 1) return;
   throw Error({.what = std::string(line.words[0].first),
                .where = line.at(std::min(wanted + 1, line.words.size() - 1)),
@@ -230,13 +230,13 @@ class Reader {
                      .wanted = "an id of its own"});
   }
   void readLandmark(const Line& line) {
-    requireCount(line, 3);
+    requireWords(line, 3);
     const long id = number<long>(line, 1, "a whole number");
     if (!landmarks_.try_emplace(id, Landmark{line.at(1), numbers(line, 2)}).second)
       throw Error({.what = kLandmark, .where = line.at(1), .found = fmt::format("a second landmark {}", id)});
   }
   void readSighting(const Line& line) {
-    requireCount(line, 7);
+    requireWords(line, 7);
     const long pose = number<long>(line, 1, "a whole number"), mark = number<long>(line, 2, "a whole number");
     const Eigen::VectorXd values = numbers(line, 3);
     LandmarkEdge edge;
@@ -276,7 +276,7 @@ class Reader {
                  .wanted = fmt::format("one or more {}", kSighting)});
   }
   void readVertex(const Line& line) {
-    requireCount(line, 1 + Kind::kPoseNumbers);
+    requireWords(line, 1 + Kind::kPoseNumbers);
     const long id = number<long>(line, 1, "a whole number");
     if (!vertices_.try_emplace(id, line.at(1), Kind::pose(line, 2, numbers(line, 2))).second)
       throw Error({.what = fmt::format("{}", line.words[0].first),
@@ -285,7 +285,7 @@ class Reader {
   }
   void readEdge(const Line& line) {
     constexpr std::size_t kUpper = Kind::kSize * (Kind::kSize + 1) / 2;
-    requireCount(line, 2 + Kind::kPoseNumbers + kUpper);
+    requireWords(line, 2 + Kind::kPoseNumbers + kUpper);
     const long from = number<long>(line, 1, "a whole number"), to = number<long>(line, 2, "a whole number");
     if (from == to)
       throw Error({.what = fmt::format("{}", line.words[0].first),
@@ -302,7 +302,7 @@ class Reader {
   void noteFixes(const PlaceOf& placeOf, G2oFile& result) const {
     std::optional<long> fixed;
     for (const Line& line : fixes_) {
-      if (line.words.size() < 2) requireCount(line, 1);
+      if (line.words.size() < 2) requireWords(line, 1);
       for (std::size_t word = 1; word < line.words.size(); ++word) {
         const long id = number<long>(line, word, "a whole number");
         const int place = placeOf(line, word, id);

@@ -24,15 +24,14 @@ struct Extent {
 };
 
 Extent extentOf(const Space& space) {
-  using Kind = SpacePart::Kind;
   Extent extent;
   for (const SpacePart& part : space.parts()) {
-    const bool isRotation = part.kind == Kind::kQuaternion;
+    const bool isRotation = part.kind == SpacePart::Kind::kQuaternion;
     const int dimension = isRotation ? 3 : 1;
     // For unit quaternions, half of the sphere: opposite ones are the same rotation.
-    const double size = isRotation                 ? std::numbers::pi * std::numbers::pi
-                        : part.kind == Kind::kLine ? part.upper - part.lower
-                                                   : 2 * std::numbers::pi;
+    const double size = isRotation                            ? std::numbers::pi * std::numbers::pi
+                        : part.kind == SpacePart::Kind::kLine ? part.upper - part.lower
+                                                              : 2 * std::numbers::pi;
     extent.dimension += dimension;
     extent.volume *= size * std::pow(part.weight, dimension);
   }

@@ -8,11 +8,11 @@
 namespace rex {
 namespace {
 
-using Rgb = std::array<std::uint8_t, 3>;
+using SegmentColor = std::array<std::uint8_t, 3>;
 
 // Hues that differ for any number of neighbours (steps of the golden ratio), in five kinds. Hues come close
 // to each other again after 5, 8, 13, 21 ... steps, of which 5 is the first between ids of one kind.
-Rgb colorOf(std::int32_t id) {
+SegmentColor colorOf(std::int32_t id) {
   if (id == SegmentationImage::kGround) return {176, 180, 186};
   if (id < 0) return {245, 246, 247};
   constexpr double kGolden = 0.6180339887498949;
@@ -20,7 +20,7 @@ Rgb colorOf(std::int32_t id) {
   constexpr std::array<double, 5> kSaturation = {0.75, 0.80, 0.42, 0.50, 0.70};
   const double hue = 6 * std::fmod(0.58 + kGolden * id, 1.0);
   const std::size_t kind = static_cast<std::size_t>(id) % kBrightness.size();
-  Rgb color;
+  SegmentColor color;
   for (std::size_t c = 0; c < 3; ++c) {
     // The distance on the circle of hues from red, green or blue.
     const double away = std::abs(std::remainder(hue - 2.0 * static_cast<double>(c), 6.0));

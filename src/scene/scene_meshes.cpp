@@ -62,10 +62,10 @@ class Missing {
 
   // The package or folder, and the path in it.
   static std::pair<std::string, std::string> split(const std::string& file) {
-    constexpr std::string_view kPackage = "package://";
-    const std::size_t slash = file.starts_with(kPackage) ? file.find('/', kPackage.size()) : file.rfind('/');
+    constexpr std::string_view kScheme = "package://";
+    const std::size_t slash = file.starts_with(kScheme) ? file.find('/', kScheme.size()) : file.rfind('/');
     if (slash == std::string::npos) return {"the folder of the scene", file};
-    return {file.starts_with(kPackage) ? file.substr(0, slash) : fmt::format("'{}'", file.substr(0, slash)),
+    return {file.starts_with(kScheme) ? file.substr(0, slash) : fmt::format("'{}'", file.substr(0, slash)),
             file.substr(slash + 1)};
   }
 
