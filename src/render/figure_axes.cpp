@@ -97,7 +97,7 @@ double shareOf(const Axis& axis, double value, bool logarithmic) {
                      : (value / 2 - axis.low / 2) / (axis.high / 2 - axis.low / 2);
 }
 
-Axes axesOf(const Figure& figure, const std::vector<Trace>& traces) {
+FigureAxes axesOf(const Figure& figure, const std::vector<Trace>& traces) {
   Span x, y, z;
   for (const Trace& trace : traces) {
     x.whole &= trace.wholeX;
@@ -121,9 +121,9 @@ Axes axesOf(const Figure& figure, const std::vector<Trace>& traces) {
   // Space for a tic with its label, in pixels.
   const int across = std::clamp(figure.width / 90, 3, 12), up = std::clamp(figure.height / 50, 3, 12);
   const int inDepth = std::max(2, across / 2);
-  Axes axes{.x = axisOf(x, figure.xRange, figure.logX, inSpace(figure) ? inDepth : across),
-            .y = axisOf(y, figure.yRange, figure.logY, inSpace(figure) ? inDepth : up),
-            .z = linearAxis(z, {}, std::max(2, up / 2))};
+  FigureAxes axes{.x = axisOf(x, figure.xRange, figure.logX, inSpace(figure) ? inDepth : across),
+                  .y = axisOf(y, figure.yRange, figure.logY, inSpace(figure) ? inDepth : up),
+                  .z = linearAxis(z, {}, std::max(2, up / 2))};
   if (hasColorBar(figure)) axes.color = axisOf(colorSpan(figure), figure.colorRange, figure.logColor, up);
   return axes;
 }

@@ -16,13 +16,13 @@ struct Axis {
 /// Where along the axis `value` lies: 0 at its low end, 1 at its high end.
 [[nodiscard]] double shareOf(const Axis& axis, double value, bool logarithmic);
 
-struct Axes {
+struct FigureAxes {
   Axis x{}, y{}, z{}, color{};
 };
 
 /// The axes of a drawable figure. What has no range spans the data, up to a tic where one is near, with a
 /// small margin otherwise, but no heat map or map is surrounded by white. There are as many tics as the size
 /// of the figure has room for.
-[[nodiscard]] Axes axesOf(const Figure& figure, const std::vector<Trace>& traces);
+[[nodiscard]] FigureAxes axesOf(const Figure& figure, const std::vector<Trace>& traces);
 
 }  // namespace rex::internal

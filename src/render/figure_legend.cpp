@@ -27,7 +27,7 @@ Vector2d sizeOf(const Figure& figure, const std::vector<Trace>& traces) {
 
 // Points of the trace as shares of the plot, spaced closely along its lines, too.
 template <typename Visit>
-void visitSamples(const Figure& figure, const Trace& trace, const Axes& axes, const Visit& visit) {
+void visitSamples(const Figure& figure, const Trace& trace, const FigureAxes& axes, const Visit& visit) {
   std::optional<Vector2d> last;
   for (const Eigen::Vector3d& point : trace.outline) {
     const Vector2d p(shareOf(axes.x, point.x(), figure.logX), shareOf(axes.y, point.y(), figure.logY));
@@ -40,7 +40,7 @@ void visitSamples(const Figure& figure, const Trace& trace, const Axes& axes, co
 
 }  // namespace
 
-Legend emptiestCorner(const Figure& figure, const std::vector<Trace>& traces, const Axes& axes) {
+Legend emptiestCorner(const Figure& figure, const std::vector<Trace>& traces, const FigureAxes& axes) {
   struct Place {
     Legend legend;
     Box box;

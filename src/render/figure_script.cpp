@@ -77,7 +77,7 @@ void addAxis(Script out, const char* name, const Axis& axis, bool logarithmic) {
   }
 }
 
-void addAxes(Script out, const Figure& figure, const Axes& axes) {
+void addAxes(Script out, const Figure& figure, const FigureAxes& axes) {
   addAxis(out, "x", axes.x, figure.logX);
   addAxis(out, "y", axes.y, figure.logY);
   if (inSpace(figure)) addAxis(out, "z", axes.z, false);
@@ -87,7 +87,7 @@ void addAxes(Script out, const Figure& figure, const Axes& axes) {
   fmt::format_to(out, "{}\n", inSpace(figure) ? "set view equal xyz" : "set size ratio -1");
 }
 
-void addNotes(Script out, const Figure& figure, const Axes& axes, Texts& texts) {
+void addNotes(Script out, const Figure& figure, const FigureAxes& axes, Texts& texts) {
   for (const Note& note : figure.notes) {
     const double across = shareOf(axes.x, note.x, figure.logX), up = shareOf(axes.y, note.y, figure.logY);
     if (across < 0 || across > 1 || up < 0 || up > 1) continue;
@@ -137,7 +137,7 @@ std::string terminalCommand(const Figure& figure, const std::string& terminal) {
 }
 
 // The data blocks come first and the one command that draws them last.
-std::string drawingOf(const Figure& figure, const std::vector<Trace>& traces, const Axes& axes,
+std::string drawingOf(const Figure& figure, const std::vector<Trace>& traces, const FigureAxes& axes,
                       Texts& texts) {
   std::string blocks, command;
   const Script out(command);
@@ -164,7 +164,7 @@ std::string figureScript(const Figure& figure, const std::string& terminal) {
   requireDrawable(figure);
   std::vector<Trace> traces = tracesOf(figure);
   requireDataInView(figure, traces);
-  const Axes axes = axesOf(figure, traces);
+  const FigureAxes axes = axesOf(figure, traces);
   std::vector<Trace> guides;
   for (const Guide& guide : figure.verticalLines) guides.push_back(traceOf(guide, axes.y, true));
   for (const Guide& guide : figure.horizontalLines) guides.push_back(traceOf(guide, axes.x, false));

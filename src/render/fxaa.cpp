@@ -4,7 +4,7 @@
 namespace rex::internal {
 namespace {
 
-const std::string kAround = R"(#version 330 core
+const std::string kNeighbours = R"(#version 330 core
 uniform sampler2D drawn;
 out vec4 color;
 
@@ -18,7 +18,7 @@ float most = max(m, max(max(w, e), max(s, n))), least = min(m, min(min(w, e), mi
 float contrast = most - least;
 )";
 
-const std::string kFind = kAround + R"(
+const std::string kFind = kNeighbours + R"(
 const float kFaint = 0.035, kFaintShare = 0.1;  // contrasts below are no edges
 void main() {
   if (contrast < max(kFaint, kFaintShare * most)) discard;
@@ -29,7 +29,7 @@ void main() {
 // The stairs of an edge are runs of pixels along it. The true share of the colour beyond the edge is one
 // half for a pixel where its run ends with a step to its own side, and decreases to zero in the middle of
 // the run.
-const std::string kBlend = kAround + R"(
+const std::string kBlend = kNeighbours + R"(
 const float kFar = 14.0;   // pixels that an edge is followed each way
 const float kGrain = 0.5;  // how far single pixels are smoothed
 

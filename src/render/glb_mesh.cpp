@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kAround = 28;  // around; a replay is looked at closely, and loaded over a network
+constexpr int kSides = 28;  // around it; a replay is looked at closely, and loaded over a network
 
 GlbSurface surfaceOf(const SolidMesh& mesh, const Vector3d& halfSize,
                      const Vector3d& stretch = Vector3d::Zero(), double lift = 0) {
@@ -39,16 +39,16 @@ int GlbMeshes::ofShape(const Shape& shape, const Color& color) {
     case ShapeType::kSphere:
     case ShapeType::kCapsule: {
       const double stretch = shape.type == ShapeType::kCapsule ? shape.extent.z() / 2 : 0;
-      const SolidMesh mesh = makeCapsuleMesh(kAround);
+      const SolidMesh mesh = makeCapsuleMesh(kSides);
       return r > 0 ? add(surfaceOf(mesh, Vector3d::Constant(r), {0, 0, stretch}), color) : -1;
     }
     case ShapeType::kEllipsoid:
-      return hasBox ? add(surfaceOf(makeCapsuleMesh(kAround), shape.extent / 2), color) : -1;
+      return hasBox ? add(surfaceOf(makeCapsuleMesh(kSides), shape.extent / 2), color) : -1;
     case ShapeType::kCylinder:
     case ShapeType::kCone: {
       const Vector3d halfSize(r, r, shape.extent.z() / 2);
       const auto make = shape.type == ShapeType::kCone ? makeConeMesh : makeCylinderMesh;
-      return halfSize.minCoeff() > 0 ? add(surfaceOf(make(kAround), halfSize), color) : -1;
+      return halfSize.minCoeff() > 0 ? add(surfaceOf(make(kSides), halfSize), color) : -1;
     }
     case ShapeType::kMarker:
       return ofAxes(-shape.extent.x() / 2, shape.extent.x() / 2);
@@ -61,15 +61,15 @@ int GlbMeshes::ofShape(const Shape& shape, const Color& color) {
 }
 
 int GlbMeshes::shaft(const Color& color) {
-  return add(surfaceOf(makeCylinderMesh(kAround), {1, 1, 0.5}, Vector3d::Zero(), 0.5), color);
+  return add(surfaceOf(makeCylinderMesh(kSides), {1, 1, 0.5}, Vector3d::Zero(), 0.5), color);
 }
 
 int GlbMeshes::head(const Color& color) {
-  return add(surfaceOf(makeConeMesh(kAround), {1, 1, 0.5}, Vector3d::Zero(), 0.5), color);
+  return add(surfaceOf(makeConeMesh(kSides), {1, 1, 0.5}, Vector3d::Zero(), 0.5), color);
 }
 
 int GlbMeshes::ball(const Color& color) {
-  return add(surfaceOf(makeCapsuleMesh(kAround), Vector3d::Ones()), color);
+  return add(surfaceOf(makeCapsuleMesh(kSides), Vector3d::Ones()), color);
 }
 
 int GlbMeshes::plane(double half, const Color& color) {
@@ -115,7 +115,7 @@ int GlbMeshes::ofRoundedBox(const Shape& shape, const Color& color) {
   const Vector3d half = shape.extent / 2;
   const double r = std::min(shape.radius, half.minCoeff());
   if (!(r > 0)) return add(surfaceOf(makeBoxMesh(), half), color);
-  return add(surfaceOf(makeRoundedBoxMesh(kAround), Vector3d::Constant(r), half.array() - r), color);
+  return add(surfaceOf(makeRoundedBoxMesh(kSides), Vector3d::Constant(r), half.array() - r), color);
 }
 
 int GlbMeshes::ofAxes(double from, double to) {

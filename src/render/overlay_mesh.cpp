@@ -31,9 +31,9 @@ struct Vertex2 {
   double depth;
 };
 
-class Builder {
+class OverlayBuilder {
  public:
-  Builder(const Camera& camera, int width, int height, std::vector<OverlayVertex>& mesh)
+  OverlayBuilder(const Camera& camera, int width, int height, std::vector<OverlayVertex>& mesh)
       : camera_(camera),
         X_CW_(camera.X_WC.inverse()),
         width_(width),
@@ -205,7 +205,7 @@ bool isOverlay(const Solid& solid) {
 void makeOverlayMesh(const Picture& picture, const Camera& camera, int width, int height,
                      std::vector<OverlayVertex>& mesh) {
   mesh.clear();
-  Builder builder(camera, width, height, mesh);
+  OverlayBuilder builder(camera, width, height, mesh);
   for (const LineSet& lines : picture.lineSets) {
     const Stroke stroke(lines.width / 2, lines.color);
     for (const auto& [from, to] : lines.segments) builder.addSegment(from, to, stroke);
