@@ -30,16 +30,18 @@ struct Word {
 
 // The words of Reeds and Shepp (their section 8) that begin with a left turn forward. All others are these
 // mirrored, driven the other way, or read from the end.
-constexpr Steering L = Steering::kLeft, S = Steering::kStraight, R = Steering::kRight;
-constexpr Piece kPiecesLSL[] = {{L, Piece::kT}, {S, Piece::kU}, {L, Piece::kV}};
-constexpr Piece kPiecesLSR[] = {{L, Piece::kT}, {S, Piece::kU}, {R, Piece::kV}};
-constexpr Piece kPiecesLRL[] = {{L, Piece::kT}, {R, Piece::kU}, {L, Piece::kV}};
-constexpr Piece kPiecesLRLRout[] = {{L, Piece::kT}, {R, Piece::kU}, {L, Piece::kMinusU}, {R, Piece::kV}};
-constexpr Piece kPiecesLRLRback[] = {{L, Piece::kT}, {R, Piece::kU}, {L, Piece::kU}, {R, Piece::kV}};
-constexpr Piece kPiecesLRSL[] = {{L, Piece::kT}, {R, Piece::kQuarterBack}, {S, Piece::kU}, {L, Piece::kV}};
-constexpr Piece kPiecesLRSR[] = {{L, Piece::kT}, {R, Piece::kQuarterBack}, {S, Piece::kU}, {R, Piece::kV}};
+constexpr Steering kL = Steering::kLeft, kS = Steering::kStraight, kR = Steering::kRight;
+constexpr Piece kPiecesLSL[] = {{kL, Piece::kT}, {kS, Piece::kU}, {kL, Piece::kV}};
+constexpr Piece kPiecesLSR[] = {{kL, Piece::kT}, {kS, Piece::kU}, {kR, Piece::kV}};
+constexpr Piece kPiecesLRL[] = {{kL, Piece::kT}, {kR, Piece::kU}, {kL, Piece::kV}};
+constexpr Piece kPiecesLRLRout[] = {{kL, Piece::kT}, {kR, Piece::kU}, {kL, Piece::kMinusU}, {kR, Piece::kV}};
+constexpr Piece kPiecesLRLRback[] = {{kL, Piece::kT}, {kR, Piece::kU}, {kL, Piece::kU}, {kR, Piece::kV}};
+constexpr Piece kPiecesLRSL[] = {
+    {kL, Piece::kT}, {kR, Piece::kQuarterBack}, {kS, Piece::kU}, {kL, Piece::kV}};
+constexpr Piece kPiecesLRSR[] = {
+    {kL, Piece::kT}, {kR, Piece::kQuarterBack}, {kS, Piece::kU}, {kR, Piece::kV}};
 constexpr Piece kPiecesLRSLR[] = {
-    {L, Piece::kT}, {R, Piece::kQuarterBack}, {S, Piece::kU}, {L, Piece::kQuarterBack}, {R, Piece::kV}};
+    {kL, Piece::kT}, {kR, Piece::kQuarterBack}, {kS, Piece::kU}, {kL, Piece::kQuarterBack}, {kR, Piece::kV}};
 constexpr Word kLSL{kPiecesLSL, 1, 0}, kLSR{kPiecesLSR, 1, 0}, kLRL{kPiecesLRL, 1, 0},
     kLRLRout{kPiecesLRLRout, 2, 0}, kLRLRback{kPiecesLRLRback, 2, 0}, kLRSL{kPiecesLRSL, 1, kPi / 2},
     kLRSR{kPiecesLRSR, 1, kPi / 2}, kLRSLR{kPiecesLRSLR, 1, kPi};
@@ -185,7 +187,7 @@ double lengthOf(const Piece& piece, const Way& way) {
   return 0;
 }
 
-Steering mirrored(Steering steering) { return steering == L ? R : steering == R ? L : S; }
+Steering mirrored(Steering steering) { return steering == kL ? kR : steering == kR ? kL : kS; }
 
 }  // namespace
 

@@ -15,7 +15,7 @@ using internal::SearchTree;
 using internal::stepTowards;
 using internal::TreeGrowth;
 
-constexpr double kEndless = std::numeric_limits<double>::infinity();
+constexpr double kNoCost = std::numeric_limits<double>::infinity();
 
 // The dimension of a space as a manifold, and its volume by its own metric.
 struct Extent {
@@ -86,7 +86,7 @@ class Reach {
   const RrtStarOptions& options_;
   Extent extent_;
   bool isFlat_;
-  double apart_, best_ = kEndless;
+  double apart_, best_ = kNoCost;
   std::vector<double> lengths_;  // of the nodes: no path through one is shorter
   std::ptrdiff_t inside_ = 0;    // nodes through which a path may be as short as the best
 };
@@ -173,7 +173,7 @@ PathResult growRrtStar(const PathProblem& problem, const RrtStarOptions& options
   Eigen::VectorXd q(problem.space.size());
   std::vector<Neighbor> near, open;
   while (!growth.isSpent()) {
-    const double best = goal >= 0 && options.isInformed ? tree.cost(goal) : kEndless;
+    const double best = goal >= 0 && options.isInformed ? tree.cost(goal) : kNoCost;
     const Eigen::VectorXd& target = growth.draw(goal < 0 ? options.growth.goalBias : 0, best);
     const int nearest = points.nearest(target);
     stepTowards(problem.space, points.point(nearest), target, options.growth.stepSize, q);
