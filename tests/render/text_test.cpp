@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include "render/glyphs_internal.h"
 #include "render/utf8_internal.h"
 
 namespace rex::text_test {
@@ -76,9 +75,16 @@ TEST(Text, CoversTheSameStrokesWithAndWithoutScale) {
   EXPECT_NEAR(countDark(large), 4.0 * countDark(small), 0.25 * countDark(large));
 }
 
-TEST(Text, ShowsUnknownCharactersAsQuestionMarks) {
-  EXPECT_STREQ(internal::glyphStrokes(U'\u00fc'), internal::glyphStrokes(U'?'));
-  EXPECT_EQ(textSize("\u00fc\u20ac").width, textSize("??").width);
+TEST(Text, ShowsUmlautsAndGreek) {
+  const auto drawn = [](const char* text) {
+    Image image = page(30, 30, 255);
+    drawText(image, text, 4, 4, kBlack, 1.5);
+    return image;
+  };
+  std::set<std::vector<std::uint8_t>> seen;
+  for (const char* text : {"u", "\u00fc", "\u03b8", "\u03b1", "\U0001F600"})
+    EXPECT_TRUE(seen.insert(drawn(text).rgb).second) << text;
+  EXPECT_EQ(drawn("\xff"), drawn("\uFFFD")) << "an invalid byte";
 }
 
 TEST(Utf8, KeepsValidTextAndMarksTheRest) {
