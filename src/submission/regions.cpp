@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
@@ -237,6 +238,7 @@ std::string withReplaced(const std::vector<Line>& lines,
 }
 
 constexpr std::array<const char*, 3> kKeys = {"caught by", "shown by", "mistake"};
+constexpr std::string_view kInPlaceOf = "in place of:";
 
 // Composes the variants of wrong.cpp with the solution, line by line.
 class VariantReader {
@@ -295,6 +297,7 @@ class VariantReader {
     require(!variant.caughtBy.empty(), "no check is named", "'// caught by: CHECK, ...'");
     require(!variant.mistake.empty(), "the mistake is not described", "'// mistake: TEXT'");
     require(!replacements_.empty(), "no region", "'// <solution NAME>' with the mistake");
+    closeRegion();
     variant.source = withReplaced(solution_, replacements_);
     replacements_.clear();
   }
@@ -304,7 +307,59 @@ class VariantReader {
     if (std::find(regions_.begin(), regions_.end(), tag.name) == regions_.end())
       fail(fmt::format("{} has no region '{}'", solutionFile_, tag.name), line, tag.name, {},
            nearestNames(tag.name, regions_));
+    closeRegion();
     replacements_.try_emplace(line.name);
+    region_ = line.name;
+  }
+
+  // The lines of the solution after the last passage that is replaced stay.
+  void closeRegion() {
+    if (isEdited_) copyUntil(SIZE_MAX);
+    isEdited_ = false;
+    copied_ = 0;
+    blanks_.clear();
+  }
+
+  std::vector<std::string_view> linesOfRegion() const {
+    std::vector<std::string_view> lines;
+    for (const Line& line : solution_)
+      if (line.place == Place::kSolution && line.name == region_) lines.push_back(line.text);
+    return lines;
+  }
+
+  // Copies the lines of the solution's region from the last copied one up to line `end`.
+  void copyUntil(std::size_t end) {
+    const std::vector<std::string_view> lines = linesOfRegion();
+    for (; copied_ < std::min(end, lines.size()); ++copied_)
+      replacements_[region_].append(lines[copied_]).append("\n");
+  }
+
+  // Copies the solution up to the passage that begins with one text and ends with the other, which lines that
+  // follow replace.
+  void replacePassage(std::string_view passage, const Line& line) {
+    const std::vector<std::string_view> lines = linesOfRegion();
+    const std::size_t dots = std::min(passage.find(" ... "), passage.size());
+    const std::string_view begin = trim(passage.substr(0, dots)),
+                           end = passage.substr(std::min(dots + 5, passage.size()));
+    const auto begins = [&](std::string_view text) {
+      return [text](std::string_view one) { return trim(one).starts_with(text); };
+    };
+    const std::string wanted = fmt::format("the beginning of one line of region '{}'", region_);
+    if (!isEdited_ && !replacements_[region_].empty())
+      fail("code before 'in place of'", line, trim(line.text), "'in place of' first, or nowhere in a region");
+    const auto count = begin.empty() ? 0 : std::count_if(lines.begin(), lines.end(), begins(begin));
+    if (count != 1)
+      fail(fmt::format("{} lines begin with '{}'", count == 0 ? "no" : std::to_string(count), begin), line,
+           begin.empty() ? trim(line.text) : begin, wanted);
+    const auto first = std::find_if(lines.begin(), lines.end(), begins(begin));
+    if (first < lines.begin() + static_cast<std::ptrdiff_t>(copied_))
+      fail(fmt::format("'{}' comes before what was replaced last", begin), line, begin,
+           "passages in the order of the solution");
+    const auto last = end.empty() ? first : std::find_if(first + 1, lines.end(), begins(end));
+    if (last == lines.end()) fail(fmt::format("no line after that begins with '{}'", end), line, end, wanted);
+    copyUntil(static_cast<std::size_t>(first - lines.begin()));
+    copied_ = static_cast<std::size_t>(last - lines.begin()) + 1;
+    isEdited_ = true;
     blanks_.clear();
   }
 
@@ -315,6 +370,7 @@ class VariantReader {
     for (const std::string key : kKeys)
       if (comment.starts_with(key + ":"))
         fail(fmt::format("'{}' after a region", key), line, text, "it below '// <variant NAME>'");
+    if (comment.starts_with(kInPlaceOf)) return replacePassage(trim(comment.substr(kInPlaceOf.size())), line);
     std::string& region = replacements_[line.name];
     if (!text.empty()) region += std::exchange(blanks_, {}) + line.text;
     (text.empty() ? blanks_ : region) += "\n";
@@ -368,6 +424,9 @@ class VariantReader {
   SourceLocation start_{};                             // the last variant
   std::map<std::string, std::string> replacements_{};  // of the last variant
   std::string blanks_{};                               // lines at the end of its last region
+  std::string region_{};                               // its last region
+  bool isEdited_ = false;                              // it says what it replaces in that
+  std::size_t copied_ = 0;                             // lines of that region are copied or replaced
 };
 
 }  // namespace

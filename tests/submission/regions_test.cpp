@@ -165,6 +165,45 @@ int main() { return area(1) > 0; }
 )");
 }
 
+// The region of the solution has the lines a to f, and a variant begins before `region`.
+std::string composedWith(const std::string& region) {
+  const std::string solution =
+      "// <solution x>\n  a1();\n  a2();\n  for (b)\n    c();\n  }\n\n  f();\n// </solution>\n";
+  const auto variants =
+      readVariants(solution, "s.cpp",
+                   "// <variant v>\n// caught by: c\n// mistake: m\n// <solution x>\n" + region, "w.cpp");
+  return variants.at(0).source;
+}
+
+TEST(ReadVariants, ReplacesPassagesOfARegion) {
+  EXPECT_EQ(composedWith("// in place of: a2();\nz();\n\n"),
+            "  a1();\nz();\n  for (b)\n    c();\n  }\n\n  f();\n");
+  EXPECT_EQ(composedWith("// in place of: a1\n\n  // in place of: for ... }\ny();\n\nz();\n"),
+            "  a2();\ny();\n\nz();\n\n  f();\n");
+  EXPECT_EQ(composedWith("// in place of: a1 ... f();\n"), "");
+}
+
+TEST(ReadVariants, SaysWhichPassageIsNotThere) {
+  const Malformed kTexts[] = {
+      {"z();\n// in place of: a1\n",
+       "w.cpp:6:1: code before 'in place of': wanted 'in place of' first, or nowhere in a region"},
+      {"// in place of:\n",
+       "w.cpp:5:1: no lines begin with '': wanted the beginning of one line of region 'x'"},
+      {"// in place of: a3\n",
+       "w.cpp:5:17: no lines begin with 'a3': wanted the beginning of one line of region 'x'"},
+      {"// in place of: a\n",
+       "w.cpp:5:17: 2 lines begin with 'a': wanted the beginning of one line of region 'x'"},
+      {"// in place of: c ... a1\n",
+       "w.cpp:5:23: no line after that begins with 'a1': wanted the beginning of one line of region 'x'"},
+      {"// in place of: c\n// in place of: a1\n",
+       "w.cpp:6:17: 'a1' comes before what was replaced last: wanted passages in the order of the solution"},
+      {"// in place of: a1 ... c\n// in place of: a2\n",
+       "w.cpp:6:17: 'a2' comes before what was replaced last: wanted passages in the order of the solution"},
+  };
+  for (const auto& [text, message] : kTexts)
+    EXPECT_EQ(messageOf([&] { return composedWith(text); }), message);
+}
+
 TEST(ReadVariants, SaysWhatIsWrongAndWhere) {
   constexpr Malformed kTexts[] = {
       {"", "w.cpp:1:1: no variant: wanted '// <variant NAME>'"},
