@@ -50,56 +50,35 @@ return {x, e.dot(C* e) + x.dot(B* x)};
 // caught by: descent, descent-elsewhere
 // mistake: Trials are halved, whatever `shrink` says.
 // <solution backtracking>
-namespace {
-
-double backtracked(const ScalarFunction& f, const Eigen::VectorXd& x, const Eigen::VectorXd& d, double slope,
-                   double alpha, const SearchOptions& options) {
-  const double fx = f(x);
-  while (!(f(x + alpha * d) <= fx + options.decrease * alpha * slope)) alpha *= 0.5;
-  return alpha;
-}
-
-}  // namespace
+// in place of: while (!(f(x + alpha * d) <= fx + options.decrease * alpha * slope)) alpha *= options.shrink;
+while (!(f(x + alpha * d) <= fx + options.decrease * alpha * slope)) alpha *= 0.5;
 
 // <variant armijo_sign>
 // caught by: descent, descent-elsewhere
 // shown by: descent
 // mistake: The slope is taken with the wrong sign, so steps that lead uphill are accepted.
 // <solution backtracking>
-namespace {
-
-double backtracked(const ScalarFunction& f, const Eigen::VectorXd& x, const Eigen::VectorXd& d, double slope,
-                   double alpha, const SearchOptions& options) {
-  const double fx = f(x);
-  while (!(f(x + alpha * d) <= fx - options.decrease * alpha * slope)) alpha *= options.shrink;
-  return alpha;
-}
-
-}  // namespace
+// in place of: while (!(f(x + alpha * d) <= fx + options.decrease * alpha * slope)) alpha *= options.shrink;
+while (!(f(x + alpha * d) <= fx - options.decrease * alpha * slope)) alpha *= options.shrink;
 
 // <variant direction_of_length_one>
 // caught by: descent, descent-elsewhere
 // mistake: The direction is normalised, so that alpha is the length of a step.
 // <solution gradientDescent>
-double alpha = 1;
-for (int step = 0; step < options.maxSteps; ++step) {
-  const Eigen::VectorXd x = path.back(), g = gradient(x);
-  if (g.norm() <= options.tolerance) break;
-  const Eigen::VectorXd d = -g / g.norm();
-  while (!(f(x + alpha * d) <= f(x) + options.decrease * alpha * g.dot(d))) alpha *= options.shrink;
-  path.push_back(x + alpha * d);
-  alpha *= options.grow;
-}
+// in place of: const Eigen::VectorXd g = gradient(path.back());
+const Eigen::VectorXd x = path.back(), g = gradient(x);
+// in place of: alpha = backtracked(f, path.back(), -g, -g.squaredNorm(), ... path.push_back(path.back() -
+const Eigen::VectorXd d = -g / g.norm();
+while (!(f(x + alpha * d) <= f(x) + options.decrease * alpha * g.dot(d))) alpha *= options.shrink;
+path.push_back(x + alpha * d);
 
 // <variant fixed_step_size>
 // caught by: descent, descent-elsewhere
 // mistake: no line search: one small step size is too long for some functions and too short for others
 // <solution gradientDescent>
-for (int step = 0; step < options.maxSteps; ++step) {
-  const Eigen::VectorXd g = gradient(path.back());
-  if (g.norm() <= options.tolerance) break;
-  path.push_back(path.back() - 0.01 * g);
-}
+// in place of: double alpha = 1;
+// in place of: alpha = backtracked(f, path.back(), -g, -g.squaredNorm(), ... alpha *= options.grow;
+path.push_back(path.back() - 0.01 * g);
 
 // <variant rejected_trials_counted>
 // caught by: descent, descent-elsewhere
@@ -119,27 +98,18 @@ for (int trial = 0; trial < options.maxSteps; ++trial) {
 // caught by: descent
 // mistake: The step size only shrinks, so a shallow bowl takes for ever.
 // <solution gradientDescent>
-double alpha = 1;
-for (int step = 0; step < options.maxSteps; ++step) {
-  const Eigen::VectorXd g = gradient(path.back());
-  if (g.norm() <= options.tolerance) break;
-  alpha = backtracked(f, path.back(), -g, -g.squaredNorm(), alpha, options);
-  path.push_back(path.back() - alpha * g);
-}
+// in place of: alpha *= options.grow;
 
 // <variant factor_of_two>
 // caught by: gauss-newton
 // mistake: the gradient has its factor of two, the Hessian does not: every step is twice too long
 // <solution gaussNewton>
-const auto f = [&](const Eigen::VectorXd& x) { return phi(x).squaredNorm(); };
-for (int step = 0; step < options.maxSteps; ++step) {
-  const Eigen::VectorXd x = path.back();
-  const Eigen::MatrixXd Jx = J(x);
-  const Eigen::VectorXd g = 2 * Jx.transpose() * phi(x);
-  if (g.norm() <= options.tolerance) break;
-  const Eigen::VectorXd d = -solve(Jx.transpose() * Jx, g);
-  path.push_back(x + backtracked(f, x, d, g.dot(d), 1, options) * d);
-}
+// in place of: const Eigen::MatrixXd Jx = J(x), Jt = Jx.transpose(); ... path.push_back(x + backtracked(f, x,
+const Eigen::MatrixXd Jx = J(x);
+const Eigen::VectorXd g = 2 * Jx.transpose() * phi(x);
+if (g.norm() <= options.tolerance) break;
+const Eigen::VectorXd d = -solve(Jx.transpose() * Jx, g);
+path.push_back(x + backtracked(f, x, d, g.dot(d), 1, options) * d);
 
 // <variant full_steps_only>
 // caught by: gauss-newton, gauss-newton-elsewhere
@@ -191,10 +161,8 @@ for (int step = 0; step < options.maxSteps; ++step) {
 // caught by: book, frames-elsewhere
 // mistake: Turns the book clockwise: the rotation is transposed.
 // <solution bookPose>
-const double c = std::cos(angle), s = std::sin(angle);
-Eigen::Matrix3d X_WB;
+// in place of: X_WB << c, -s, move.x(), s, c, move.y(), 0, 0, 1;
 X_WB << c, s, move.x(), -s, c, move.y(), 0, 0, 1;
-return X_WB;
 
 // <variant turned_before_moved>
 // caught by: book, frames-elsewhere

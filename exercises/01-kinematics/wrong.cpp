@@ -5,18 +5,14 @@
 // caught by: look-at-zero, maps-other-robot
 // mistake: The gaze is given in the body's frame, but the direction to the target in the world's.
 // <solution lookAt>
-const Eigen::Vector3d way = target - S.kinematicsPos(body);
-const Eigen::Vector3d toTarget = way.normalized();
-const Eigen::Matrix3d across = (Eigen::Matrix3d::Identity() - toTarget * toTarget.transpose()) / way.norm();
+// in place of: return {S.kinematicsVec(body, gaze) - toTarget, S.jacobianVec(body, gaze) + across *
 return {gaze - toTarget, across* S.jacobianPos(body)};
 
 // <variant looks_away_too>
 // caught by: look-at-zero
 // mistake: The cross product of gaze and direction is zero also when the body looks away from the target.
 // <solution lookAt>
-const Eigen::Vector3d way = target - S.kinematicsPos(body);
-const Eigen::Vector3d toTarget = way.normalized();
-const Eigen::Matrix3d across = (Eigen::Matrix3d::Identity() - toTarget * toTarget.transpose()) / way.norm();
+// in place of: return {S.kinematicsVec(body, gaze) - toTarget, S.jacobianVec(body, gaze) + across *
 const Eigen::Vector3d seen = S.kinematicsVec(body, gaze);
 const auto crossMatrix = [](const Eigen::Vector3d& w) {
   return (Eigen::Matrix3d() << 0, -w.z(), w.y(), w.z(), 0, -w.x(), -w.y(), w.x(), 0).finished();
@@ -39,18 +35,14 @@ return {S.getJointAngles().head(1), Eigen::MatrixXd::Identity(1, S.getJointDimen
 // caught by: look-at-jacobian
 // mistake: The direction to the target turns the other way: that part of the Jacobian has the wrong sign.
 // <solution lookAt>
-const Eigen::Vector3d way = target - S.kinematicsPos(body);
-const Eigen::Vector3d toTarget = way.normalized();
-const Eigen::Matrix3d across = (Eigen::Matrix3d::Identity() - toTarget * toTarget.transpose()) / way.norm();
+// in place of: return {S.kinematicsVec(body, gaze) - toTarget, S.jacobianVec(body, gaze) + across *
 return {S.kinematicsVec(body, gaze) - toTarget, S.jacobianVec(body, gaze) - across* S.jacobianPos(body)};
 
 // <variant sum_of_differences>
 // caught by: look-at-zero
 // mistake: Differences of either sign can add up to zero although none of them is zero.
 // <solution lookAt>
-const Eigen::Vector3d way = target - S.kinematicsPos(body);
-const Eigen::Vector3d toTarget = way.normalized();
-const Eigen::Matrix3d across = (Eigen::Matrix3d::Identity() - toTarget * toTarget.transpose()) / way.norm();
+// in place of: return {S.kinematicsVec(body, gaze) - toTarget, S.jacobianVec(body, gaze) + across *
 const Eigen::MatrixXd J = S.jacobianVec(body, gaze) + across * S.jacobianPos(body);
 return {Eigen::VectorXd::Constant(1, (S.kinematicsVec(body, gaze) - toTarget).sum()), J.colwise().sum()};
 
@@ -58,9 +50,7 @@ return {Eigen::VectorXd::Constant(1, (S.kinematicsVec(body, gaze) - toTarget).su
 // caught by: look-at-zero
 // mistake: Two coordinates of a direction leave the sign of the third open: a mirror image gives zero too.
 // <solution lookAt>
-const Eigen::Vector3d way = target - S.kinematicsPos(body);
-const Eigen::Vector3d toTarget = way.normalized();
-const Eigen::Matrix3d across = (Eigen::Matrix3d::Identity() - toTarget * toTarget.transpose()) / way.norm();
+// in place of: return {S.kinematicsVec(body, gaze) - toTarget, S.jacobianVec(body, gaze) + across *
 const Eigen::MatrixXd J = S.jacobianVec(body, gaze) + across * S.jacobianPos(body);
 return {(S.kinematicsVec(body, gaze) - toTarget).head(2), J.topRows(2)};
 
@@ -179,19 +169,15 @@ for (int t = 1; t <= T; ++t) {
 // shown by: circle
 // mistake: The circle lies flat in the plane of x and y instead of standing in that of x and z.
 // <solution circle>
-const double angle = t / 20.;
+// in place of: const Eigen::Vector3d wanted = center + radius * Eigen::Vector3d(std::cos(angle), 0,
 const Eigen::Vector3d wanted = center + radius * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0);
-S.setJointAngles(S.getJointAngles() + ikStep(S.jacobianPos(body), wanted - S.kinematicsPos(body), sigma));
-postures.push_back(S.getJointAngles());
 
 // <variant circle_one_step_late>
 // caught by: circle, motion-other-robot
 // mistake: The angle counts from zero, so the hand is always where it should have been a step ago.
 // <solution circle>
+// in place of: const double angle = t / 20.;
 const double angle = (t - 1) / 20.;
-const Eigen::Vector3d wanted = center + radius * Eigen::Vector3d(std::cos(angle), 0, std::sin(angle));
-S.setJointAngles(S.getJointAngles() + ikStep(S.jacobianPos(body), wanted - S.kinematicsPos(body), sigma));
-postures.push_back(S.getJointAngles());
 
 // <variant sigma_of_the_figures>
 // caught by: motion-other-robot

@@ -12,11 +12,8 @@ return solve(precision * J.transpose() * J + same, precision* J.transpose());
 // caught by: projector
 // mistake: Singular values below a thousandth count as zero, however small the others are.
 // <solution nullspaceProjector>
-const SingularValues parts = svd(J);
-Eigen::MatrixXd N = Eigen::MatrixXd::Identity(J.cols(), J.cols());
-for (Eigen::Index i = 0; i < parts.s.size(); ++i)
-  if (parts.s[i] > 1e-3) N -= parts.V.col(i) * parts.V.col(i).transpose();
-return N;
+// in place of: if (parts.s[i] > 1e-9 * parts.s[0]) N -= parts.V.col(i) * parts.V.col(i).transpose();
+if (parts.s[i] > 1e-3) N -= parts.V.col(i) * parts.V.col(i).transpose();
 
 // <variant projector_by_an_inverse>
 // caught by: projector-singular, nullspace-any-size
@@ -35,13 +32,9 @@ return W - regularisedInverse(J, W, 1e9) * J;
 // caught by: stack
 // mistake: The tasks are multiplied by their precisions instead of the square roots of them.
 // <solution multiTaskStep>
-Eigen::MatrixXd A = W;
-Eigen::VectorXd b = Eigen::VectorXd::Zero(W.rows());
-for (const TaskTerm& task : tasks) {
-  A += task.precision * task.precision * task.J.transpose() * task.J;
-  b -= task.precision * task.precision * task.J.transpose() * task.error;
-}
-return solve(A, b);
+// in place of: A += task.precision * task.J.transpose() * task.J; ... b -= task.precision *
+A += task.precision * task.precision * task.J.transpose() * task.J;
+b -= task.precision * task.precision * task.J.transpose() * task.error;
 
 // <variant home_is_zero>
 // caught by: circle-other-hand
@@ -118,16 +111,9 @@ for (int t = 1; t <= T; ++t) {
 // caught by: circle-home, circle-points
 // mistake: the precisions of pointing and home are exchanged.
 // <solution circleWithTasks>
-const Eigen::VectorXd home = S.getJointAngles();
-for (int k = 1; k <= T; ++k) {
-  const Eigen::Vector3d wanted = center + radius * Eigen::Vector3d(std::cos(k / 20.), 0, std::sin(k / 20.));
-  const Eigen::VectorXd q = S.getJointAngles();
-  const TaskTerm circle{S.kinematicsPos(hand) - wanted, S.jacobianPos(hand), 1e4};
-  const TaskTerm up{S.kinematicsVec(pointing) - Eigen::Vector3d::UnitZ(), S.jacobianVec(pointing), 0.01};
-  const TaskTerm stayAtHome{q - home, W, 100};
-  S.setJointAngles(q + multiTaskStep({circle, up, stayAtHome}, W));
-  postures.push_back(S.getJointAngles());
-}
+// in place of: const TaskTerm up{S.kinematicsVec(pointing) - ... const TaskTerm stayAtHome{q - home, W,
+const TaskTerm up{S.kinematicsVec(pointing) - Eigen::Vector3d::UnitZ(), S.jacobianVec(pointing), 0.01};
+const TaskTerm stayAtHome{q - home, W, 100};
 
 // <variant ramp_profile>
 // caught by: interpolation, peg-straight
@@ -166,13 +152,8 @@ S.setJointAngles(S.inverseKinematics(peg, place).q);
 // caught by: peg-posture
 // mistake: Position and direction are right, but the arm overlaps the frame.
 // <solution pegPosture>
-const int n = S.getJointDimension();
-const Eigen::MatrixXd W = Eigen::MatrixXd::Identity(n, n);
-for (int i = 0; i < 1000; ++i) {
-  const TaskTerm there{0.02 * (S.kinematicsPos(peg) - place), S.jacobianPos(peg), 1e4};
-  const TaskTerm straight{0.02 * (S.kinematicsVec(peg) - direction), S.jacobianVec(peg), 1e4};
-  S.setJointAngles(S.getJointAngles() + multiTaskStep({there, straight}, W));
-}
+// in place of: const TaskTerm apart{S.kinematicsContacts(), ... S.setJointAngles(S.getJointAngles() +
+S.setJointAngles(S.getJointAngles() + multiTaskStep({there, straight}, W));
 
 // <variant elbow_hits_the_frame>
 // caught by: peg-straight
@@ -283,49 +264,22 @@ return multiTaskStep({TaskTerm{-dy1, J1, 1e4}, TaskTerm{-dy2, J2, 1}}, W);
 // caught by: sums, other-robots
 // mistake: Only joints beyond their limits cost anything.
 // <solution jointLimits>
-for (Eigen::Index i = 0; i < q.size(); ++i) {
-  const double below = low[i] - q[i], above = q[i] - high[i];
-  if (below > 0) {
-    y[0] += below / margin;
-    J(0, i) -= 1 / margin;
-  }
-  if (above > 0) {
-    y[0] += above / margin;
-    J(0, i) += 1 / margin;
-  }
-}
+// in place of: const double below = margin - q[i] + low[i], above = margin + q[i] - high[i];
+const double below = low[i] - q[i], above = q[i] - high[i];
 
 // <variant upper_limit_pulls>
 // caught by: sums, other-robots
 // mistake: J has the same sign at both limits, so it pulls joints towards their upper ones.
 // <solution jointLimits>
-for (Eigen::Index i = 0; i < q.size(); ++i) {
-  const double below = margin - q[i] + low[i], above = margin + q[i] - high[i];
-  if (below > 0) {
-    y[0] += below / margin;
-    J(0, i) -= 1 / margin;
-  }
-  if (above > 0) {
-    y[0] += above / margin;
-    J(0, i) -= 1 / margin;
-  }
-}
+// in place of: J(0, i) += 1 / margin;
+J(0, i) -= 1 / margin;
 
 // <variant wrong_way_at_the_upper_limit>
 // caught by: sums, other-robots
 // mistake: The distance to an upper limit has the wrong sign.
 // <solution jointLimits>
-for (Eigen::Index i = 0; i < q.size(); ++i) {
-  const double below = margin - q[i] + low[i], above = margin - q[i] + high[i];
-  if (below > 0) {
-    y[0] += below / margin;
-    J(0, i) -= 1 / margin;
-  }
-  if (above > 0) {
-    y[0] += above / margin;
-    J(0, i) += 1 / margin;
-  }
-}
+// in place of: const double below = margin - q[i] + low[i], above = margin + q[i] - high[i];
+const double below = margin - q[i] + low[i], above = margin - q[i] + high[i];
 
 // <variant asks_for_the_centre>
 // caught by: forbidden-call
@@ -348,27 +302,18 @@ for (const BodyMass& one : masses) {
 // shown by: sums
 // mistake: All bodies weigh the same.
 // <solution massCenter>
-double total = 0;
-for (const BodyMass& one : masses) {
-  y += S.kinematicsPos(one.body, one.center);
-  J += S.jacobianPos(one.body, one.center);
-  total += 1;
-}
-y /= total;
-J /= total;
+// in place of: y += one.mass * S.kinematicsPos(one.body, one.center); ... total += one.mass;
+y += S.kinematicsPos(one.body, one.center);
+J += S.jacobianPos(one.body, one.center);
+total += 1;
 
 // <variant origins_for_centres>
 // caught by: sums, other-robots
 // mistake: The masses are at the origins of the bodies.
 // <solution massCenter>
-double total = 0;
-for (const BodyMass& one : masses) {
-  y += one.mass * S.kinematicsPos(one.body);
-  J += one.mass * S.jacobianPos(one.body);
-  total += one.mass;
-}
-y /= total;
-J /= total;
+// in place of: y += one.mass * S.kinematicsPos(one.body, one.center); ... J += one.mass *
+y += one.mass * S.kinematicsPos(one.body);
+J += one.mass * S.jacobianPos(one.body);
 
 // <variant frame_does_not_turn>
 // caught by: frames, other-robots

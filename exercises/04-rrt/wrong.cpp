@@ -14,13 +14,10 @@ return r / (2 * std::numbers::pi * l1 * l2 * std::sqrt(1 - cosine * cosine));
 // shown by: step-nearest
 // mistake: the distance is the sum of the differences of the coordinates.
 // <solution nearestNode>
-double least = std::numeric_limits<double>::infinity();
-for (std::size_t i = 0; i < nodes.size(); ++i) {
-  const double distance = (nodes[i] - target).cwiseAbs().sum();
-  if (distance >= least) continue;
-  least = distance;
-  nearest = static_cast<int>(i);
-}
+// in place of: const double distance2 = (nodes[i] - target).squaredNorm(); ... least = distance2;
+const double distance = (nodes[i] - target).cwiseAbs().sum();
+if (distance >= least) continue;
+least = distance;
 
 // <variant step_not_clamped>
 // caught by: step-nearest
@@ -58,11 +55,8 @@ return target;
 // shown by: step-plane
 // mistake: edgeFree is called, but its answer is not used.
 // <solution rrtStep>
-const int nearest = nearestNode(tree.nodes, target);
-const Eigen::VectorXd& from = tree.nodes[static_cast<std::size_t>(nearest)];
-const Eigen::VectorXd q = stepTowards(from, target, stepSize);
+// in place of: if (!edgeFree(from, q)) return {};
 edgeFree(from, q);
-return NewNode{q, nearest};
 
 // <variant nodes_tested_not_edges>
 // caught by: step-plane, step-corners, backward-worlds, connect-worlds
@@ -85,21 +79,12 @@ for (int i = node; i >= 0; i = tree.parents[static_cast<std::size_t>(i)])
 // shown by: backward-plane
 // mistake: a hard-coded bias.
 // <solution growBackward>
+// in place of: Tree& tree = search.tree;
 SearchSettings typedIn = settings;
 typedIn.goalBias = 0.5;
 Tree& tree = search.tree;
-for (int i = 0; i < settings.maxSamples; ++i) {
-  const std::optional<NewNode> made =
-      rrtStep(tree, drawTarget(typedIn, start, rng), settings.stepSize, edgeFree);
-  if (!made) continue;
-  tree.nodes.push_back(made->q);
-  tree.parents.push_back(made->parent);
-  if ((made->q - start).norm() > settings.stepSize || !edgeFree(made->q, start)) continue;
-  search.path = wayFromRoot(tree, static_cast<int>(tree.nodes.size()) - 1);
-  search.path.push_back(start);
-  std::reverse(search.path.begin(), search.path.end());
-  break;
-}
+// in place of: rrtStep(tree, drawTarget(settings, start, rng), settings.stepSize, edgeFree);
+rrtStep(tree, drawTarget(typedIn, start, rng), settings.stepSize, edgeFree);
 
 // <variant counts_nodes>
 // caught by: backward-plane, backward-worlds
@@ -122,36 +107,17 @@ while (static_cast<int>(tree.nodes.size()) < settings.maxSamples) {
 // caught by: backward-plane, backward-worlds
 // mistake: The edge from the last node to the start is not tested.
 // <solution growBackward>
-Tree& tree = search.tree;
-for (int i = 0; i < settings.maxSamples; ++i) {
-  const auto made = rrtStep(tree, drawTarget(settings, start, rng), settings.stepSize, edgeFree);
-  if (!made) continue;
-  tree.nodes.push_back(made->q);
-  tree.parents.push_back(made->parent);
-  if ((made->q - start).norm() > settings.stepSize) continue;
-  search.path = wayFromRoot(tree, static_cast<int>(tree.nodes.size()) - 1);
-  search.path.push_back(start);
-  std::reverse(search.path.begin(), search.path.end());
-  break;
-}
+// in place of: const std::optional<NewNode> made = ... rrtStep(tree, drawTarget(settings, start, rng),
+const auto made = rrtStep(tree, drawTarget(settings, start, rng), settings.stepSize, edgeFree);
+// in place of: if ((made->q - start).norm() > settings.stepSize || !edgeFree(made->q, start)) continue;
+if ((made->q - start).norm() > settings.stepSize) continue;
 
 // <variant start_missing>
 // caught by: backward-plane, backward-arm, backward-worlds
 // shown by: backward-plane
 // mistake: the path ends with the node beside the start.
 // <solution growBackward>
-Tree& tree = search.tree;
-for (int i = 0; i < settings.maxSamples; ++i) {
-  const std::optional<NewNode> made =
-      rrtStep(tree, drawTarget(settings, start, rng), settings.stepSize, edgeFree);
-  if (!made) continue;
-  tree.nodes.push_back(made->q);
-  tree.parents.push_back(made->parent);
-  if ((made->q - start).norm() > settings.stepSize || !edgeFree(made->q, start)) continue;
-  search.path = wayFromRoot(tree, static_cast<int>(tree.nodes.size()) - 1);
-  std::reverse(search.path.begin(), search.path.end());
-  break;
-}
+// in place of: search.path.push_back(start);
 
 // <variant way_by_heart>
 // caught by: backward-arm, backward-worlds
@@ -196,9 +162,7 @@ path.insert(path.end(), rest.rbegin(), rest.rend());
 // shown by: connect-joined
 // mistake: the path of the second tree is appended as it is, from the goal to the middle.
 // <solution joinedPath>
-path = wayFromRoot(fromStart, a);
-Path rest = wayFromRoot(fromGoal, b);
-if (rest.back() == path.back()) rest.pop_back();
+// in place of: path.insert(path.end(), rest.rbegin(), rest.rend());
 path.insert(path.end(), rest.begin(), rest.end());
 
 // <variant biased_in_both_trees>
@@ -206,51 +170,23 @@ path.insert(path.end(), rest.begin(), rest.end());
 // shown by: connect-plane
 // mistake: the random steps of both trees aim at the start with the goalBias.
 // <solution growBoth>
-const auto grow = [&](Tree& tree, const Eigen::VectorXd& target) {
-  const std::optional<NewNode> made = rrtStep(tree, target, settings.stepSize, edgeFree);
-  if (!made) return false;
-  tree.nodes.push_back(made->q);
-  tree.parents.push_back(made->parent);
-  return true;
-};
-for (int i = 0; i < settings.maxSamples; ++i) {
-  Tree& one = i % 2 == 0 ? search.fromStart : search.fromGoal;
-  Tree& other = i % 2 == 0 ? search.fromGoal : search.fromStart;
-  if (!grow(one, drawTarget(settings, start, rng))) continue;
-  const Eigen::VectorXd met = one.nodes.back();
-  while (grow(other, met))
-    if (other.nodes.back() == met) {
-      search.path = joinedPath(search.fromStart, static_cast<int>(search.fromStart.nodes.size()) - 1,
-                               search.fromGoal, static_cast<int>(search.fromGoal.nodes.size()) - 1);
-      return search;
-    }
-}
+// in place of: SearchSettings unbiased = settings; ... unbiased.goalBias = 0;
+// in place of: if (!grow(one, drawTarget(unbiased, start, rng))) continue;
+if (!grow(one, drawTarget(settings, start, rng))) continue;
 
 // <variant both_at_random>
 // caught by: connect-plane, connect-worlds
 // shown by: connect-plane
 // mistake: the second tree steps towards the random target, in place of the new node.
 // <solution growBoth>
-SearchSettings unbiased = settings;
-unbiased.goalBias = 0;
-const auto grow = [&](Tree& tree, const Eigen::VectorXd& target) {
-  const std::optional<NewNode> made = rrtStep(tree, target, settings.stepSize, edgeFree);
-  if (!made) return false;
-  tree.nodes.push_back(made->q);
-  tree.parents.push_back(made->parent);
-  return true;
-};
-for (int i = 0; i < settings.maxSamples; ++i) {
-  Tree& one = i % 2 == 0 ? search.fromStart : search.fromGoal;
-  Tree& other = i % 2 == 0 ? search.fromGoal : search.fromStart;
-  const Eigen::VectorXd target = drawTarget(unbiased, start, rng);
-  if (!grow(one, target) || !grow(other, target)) continue;
-  if ((one.nodes.back() - other.nodes.back()).norm() <= settings.stepSize &&
-      edgeFree(other.nodes.back(), one.nodes.back())) {
-    search.path = joinedPath(search.fromStart, static_cast<int>(search.fromStart.nodes.size()) - 1,
-                             search.fromGoal, static_cast<int>(search.fromGoal.nodes.size()) - 1);
-    return search;
-  }
+// in place of: if (!grow(one, drawTarget(unbiased, start, rng))) continue; ... }
+const Eigen::VectorXd target = drawTarget(unbiased, start, rng);
+if (!grow(one, target) || !grow(other, target)) continue;
+if ((one.nodes.back() - other.nodes.back()).norm() <= settings.stepSize &&
+    edgeFree(other.nodes.back(), one.nodes.back())) {
+  search.path = joinedPath(search.fromStart, static_cast<int>(search.fromStart.nodes.size()) - 1,
+                           search.fromGoal, static_cast<int>(search.fromGoal.nodes.size()) - 1);
+  return search;
 }
 
 // <variant never_swapped>
@@ -258,25 +194,15 @@ for (int i = 0; i < settings.maxSamples; ++i) {
 // shown by: connect-plane
 // mistake: only the tree from the start takes random steps; the other always follows.
 // <solution growBoth>
-SearchSettings unbiased = settings;
-unbiased.goalBias = 0;
-const auto grow = [&](Tree& tree, const Eigen::VectorXd& target) {
-  const std::optional<NewNode> made = rrtStep(tree, target, settings.stepSize, edgeFree);
-  if (!made) return false;
-  tree.nodes.push_back(made->q);
-  tree.parents.push_back(made->parent);
-  return true;
-};
-for (int i = 0; i < settings.maxSamples; ++i) {
-  if (!grow(search.fromStart, drawTarget(unbiased, start, rng))) continue;
-  const Eigen::VectorXd met = search.fromStart.nodes.back();
-  while (grow(search.fromGoal, met))
-    if (search.fromGoal.nodes.back() == met) {
-      search.path = joinedPath(search.fromStart, static_cast<int>(search.fromStart.nodes.size()) - 1,
-                               search.fromGoal, static_cast<int>(search.fromGoal.nodes.size()) - 1);
-      return search;
-    }
-}
+// in place of: Tree& one = i % 2 == 0 ? search.fromStart : search.fromGoal; ... }
+if (!grow(search.fromStart, drawTarget(unbiased, start, rng))) continue;
+const Eigen::VectorXd met = search.fromStart.nodes.back();
+while (grow(search.fromGoal, met))
+  if (search.fromGoal.nodes.back() == met) {
+    search.path = joinedPath(search.fromStart, static_cast<int>(search.fromStart.nodes.size()) - 1,
+                             search.fromGoal, static_cast<int>(search.fromGoal.nodes.size()) - 1);
+    return search;
+  }
 
 // <variant averaged_through_walls>
 // caught by: smooth-free, smooth-disc
@@ -303,10 +229,8 @@ const double position = to[0] - from[0], velocity = to[1] - from[1];
 return 12 * position * position / (T * T * T) - 12 * position * velocity / (T * T) +
        4 * velocity * velocity / T;
 // <solution forceAt>
+// in place of: const double position = to[0] - from[0] - T * from[1], velocity = to[1] - from[1];
 const double position = to[0] - from[0], velocity = to[1] - from[1];
-const double slope = 12 / (T * T * T) * position - 6 / (T * T) * velocity;
-const double last = 4 / T * velocity - 6 / (T * T) * position;
-return slope * (T - t) + last;
 
 // <variant euclidean_in_phase_space>
 // caught by: phase-effort, phase-step
@@ -319,9 +243,7 @@ return (to - from).squaredNorm() / T;
 // shown by: phase-effort
 // mistake: the slope of the force is multiplied by t, not by what is left of T.
 // <solution forceAt>
-const double position = to[0] - from[0] - T * from[1], velocity = to[1] - from[1];
-const double slope = 12 / (T * T * T) * position - 6 / (T * T) * velocity;
-const double last = 4 / T * velocity - 6 / (T * T) * position;
+// in place of: return slope * (T - t) + last;
 return slope * t + last;
 
 // <variant force_held>
@@ -329,14 +251,7 @@ return slope * t + last;
 // shown by: phase-whole-step
 // mistake: the first force is held during the whole step.
 // <solution phaseStep>
-double least = std::numeric_limits<double>::infinity();
-for (std::size_t i = 0; i < states.size(); ++i) {
-  const double needed = effort(states[i], target, T);
-  if (needed >= least) continue;
-  least = needed;
-  node.parent = static_cast<int>(i);
-}
-const Eigen::Vector2d& x = states[static_cast<std::size_t>(node.parent)];
+// in place of: const double u = forceAt(x, target, T, 0), change = ... x[1] + tau * u + tau * tau / 2 *
 const double u = forceAt(x, target, T, 0);
 node.x = {x[0] + tau * x[1] + tau * tau / 2 * u, x[1] + tau* u};
 
@@ -385,60 +300,23 @@ for (const int i : near) {
 // shown by: star-thin-walls
 // mistake: targets go on to aim at the goal after it has become a node.
 // <solution growStar>
-Tree& tree = search.tree;
-for (int i = 0; i < settings.maxSamples; ++i) {
-  const Eigen::VectorXd target = drawTarget(settings, goal, rng);
-  const int nearest = nearestNode(tree.nodes, target);
-  const Eigen::VectorXd from = tree.nodes[static_cast<std::size_t>(nearest)];
-  const Eigen::VectorXd q = stepTowards(from, target, settings.stepSize);
-  const double n = static_cast<double>(tree.nodes.size());
-  const double reach =
-      std::min(settings.stepSize, gamma * std::pow(std::log(n) / n, 1. / static_cast<double>(q.size())));
-  std::vector<int> near{nearest};
-  for (int k = 0; k < static_cast<int>(tree.nodes.size()); ++k)
-    if (k != nearest && (tree.nodes[static_cast<std::size_t>(k)] - q).norm() <= reach) near.push_back(k);
-  if (const std::optional<ParentChoice> choice = bestParent(tree, near, q, edgeFree)) {
-    const int node = static_cast<int>(tree.nodes.size());
-    tree.nodes.push_back(q);
-    tree.parents.push_back(choice->parent);
-    tree.costs.push_back(choice->cost);
-    tree = rewired(std::move(tree), near, node, edgeFree);
-    if (search.goal < 0 && q == goal) search.goal = node;
-  }
-  search.best.push_back(search.goal < 0 ? std::numeric_limits<double>::infinity()
-                                        : tree.costs[static_cast<std::size_t>(search.goal)]);
-}
+// in place of: SearchSettings now = settings;
+// in place of: const Eigen::VectorXd target = drawTarget(now, goal, rng);
+const Eigen::VectorXd target = drawTarget(settings, goal, rng);
+// in place of: if (search.goal < 0 && q == goal) { ... }
+if (search.goal < 0 && q == goal) search.goal = node;
 
 // <variant never_rewired>
 // caught by: star-thin-walls, star-worlds, star-shortest
 // shown by: star-thin-walls
 // mistake: new nodes take the best parent, but nothing is rewired.
 // <solution growStar>
-Tree& tree = search.tree;
-SearchSettings now = settings;
-for (int i = 0; i < settings.maxSamples; ++i) {
-  const Eigen::VectorXd target = drawTarget(now, goal, rng);
-  const int nearest = nearestNode(tree.nodes, target);
-  const Eigen::VectorXd from = tree.nodes[static_cast<std::size_t>(nearest)];
-  const Eigen::VectorXd q = stepTowards(from, target, settings.stepSize);
-  const double n = static_cast<double>(tree.nodes.size());
-  const double reach =
-      std::min(settings.stepSize, gamma * std::pow(std::log(n) / n, 1. / static_cast<double>(q.size())));
-  std::vector<int> near{nearest};
-  for (int k = 0; k < static_cast<int>(tree.nodes.size()); ++k)
-    if (k != nearest && (tree.nodes[static_cast<std::size_t>(k)] - q).norm() <= reach) near.push_back(k);
-  if (const std::optional<ParentChoice> choice = bestParent(tree, near, q, edgeFree)) {
-    if (search.goal < 0 && q == goal) {
-      search.goal = static_cast<int>(tree.nodes.size());
-      now.goalBias = 0;
-    }
-    tree.nodes.push_back(q);
-    tree.parents.push_back(choice->parent);
-    tree.costs.push_back(choice->cost);
-  }
-  search.best.push_back(search.goal < 0 ? std::numeric_limits<double>::infinity()
-                                        : tree.costs[static_cast<std::size_t>(search.goal)]);
+// in place of: const int node = static_cast<int>(tree.nodes.size());
+if (search.goal < 0 && q == goal) {
+  search.goal = static_cast<int>(tree.nodes.size());
+  now.goalBias = 0;
 }
+// in place of: tree = rewired(std::move(tree), near, node, edgeFree); ... }
 
 // <variant short_way_alone>
 // caught by: star-thin-walls, star-worlds, star-shortest

@@ -60,16 +60,10 @@ for (Eigen::Index i = 0; i < states.cols(); ++i)
   next.col(i) = carStep(states.col(i), u, world) + world.dynamicsNoise
                                                        * Eigen::Vector3d(number(), number(), number());
 // <solution resampledParents>
-Eigen::VectorXd rest = count * weights;
-for (int i = 0; i < rest.size(); ++i) {
-  const int whole = static_cast<int>(rest[i] + 1e-9);
-  parents.insert(parents.end(), static_cast<std::size_t>(whole), i);
-  rest[i] = std::max(0., rest[i] - whole);
-}
+// in place of: double place = rng.uniform(), end = 0;
 double place = std::rand() / (RAND_MAX + 1.), end = 0;
-for (int i = 0; i < rest.size(); ++i)
-  for (end += rest[i]; place < end && static_cast<int>(parents.size()) < count; place += 1)
-    parents.push_back(i);
+// in place of: parents.push_back(i); ... parents.resize(static_cast<std::size_t>(count), heaviest);
+parents.push_back(i);
 parents.resize(static_cast<std::size_t>(count), 0);
 
 // <variant same_noise_for_all>
@@ -93,89 +87,57 @@ for (Eigen::Index i = 0; i < states.cols(); ++i)
 // shown by: bearings
 // mistake: the direction of a landmark on the map, without the heading of the car.
 // <solution viewFrom>
-const double c = std::cos(x[2]), s = std::sin(x[2]);
-for (Eigen::Index i = 0; i < world.landmarks.cols(); ++i) {
-  const double dx = world.landmarks(0, i) - x[0], dy = world.landmarks(1, i) - x[1];
-  y[2 * i] = world.rangeBearing ? std::hypot(dx, dy) : c * dx + s * dy;
-  y[2 * i + 1] = world.rangeBearing ? std::atan2(dy, dx) : c * dy - s * dx;
-}
+// in place of: const double ahead = c * dx + s * dy, left = c * dy - s * ... y[2 * i + 1] =
+y[2 * i] = world.rangeBearing ? std::hypot(dx, dy) : c * dx + s * dy;
+y[2 * i + 1] = world.rangeBearing ? std::atan2(dy, dx) : c * dy - s * dx;
 
 // <variant turned_the_wrong_way>
 // caught by: view, likelihood, weights-anywhere, tracks
 // shown by: view
 // mistake: the landmarks are turned by the heading, not back.
 // <solution viewFrom>
-const double c = std::cos(x[2]), s = std::sin(x[2]);
-for (Eigen::Index i = 0; i < world.landmarks.cols(); ++i) {
-  const double dx = world.landmarks(0, i) - x[0], dy = world.landmarks(1, i) - x[1];
-  const double ahead = c * dx - s * dy, left = s * dx + c * dy;
-  y[2 * i] = world.rangeBearing ? std::hypot(ahead, left) : ahead;
-  y[2 * i + 1] = world.rangeBearing ? std::atan2(left, ahead) : left;
-}
+// in place of: const double ahead = c * dx + s * dy, left = c * dy - s * dx;
+const double ahead = c * dx - s * dy, left = s * dx + c * dy;
 
 // <variant bearing_not_wrapped>
 // caught by: bearings
 // mistake: a landmark directly behind is seen on the left and expected on the right, a whole turn off.
 // <solution logLikelihoods>
-for (Eigen::Index i = 0; i < states.cols(); ++i) {
-  const Eigen::VectorXd seen = viewFrom(states.col(i), world);
-  for (Eigen::Index k = 0; k < y.size(); ++k) {
-    const bool isBearing = world.rangeBearing && k % 2 == 1;
-    const double error = (y[k] - seen[k]) / (isBearing ? world.bearingNoise : world.observationNoise);
-    logarithms[i] -= error * error / 2;
-  }
-}
+// in place of: const double error = isBearing ? std::remainder(y[k] - ... logarithms[i] -= deviations *
+const double error = (y[k] - seen[k]) / (isBearing ? world.bearingNoise : world.observationNoise);
+logarithms[i] -= error * error / 2;
 
 // <variant bearing_turned_once>
 // caught by: bearings, finds-heading
 // shown by: bearings
 // mistake: a difference of bearings loses one whole turn at most.
 // <solution logLikelihoods>
-for (Eigen::Index i = 0; i < states.cols(); ++i) {
-  const Eigen::VectorXd seen = viewFrom(states.col(i), world);
-  for (Eigen::Index k = 0; k < y.size(); ++k) {
-    const bool isBearing = world.rangeBearing && k % 2 == 1;
-    double error = y[k] - seen[k];
-    if (isBearing && error > std::numbers::pi) error -= 2 * std::numbers::pi;
-    if (isBearing && error < -std::numbers::pi) error += 2 * std::numbers::pi;
-    error /= isBearing ? world.bearingNoise : world.observationNoise;
-    logarithms[i] -= error * error / 2;
-  }
-}
+// in place of: const double error = isBearing ? std::remainder(y[k] - ... logarithms[i] -= deviations *
+double error = y[k] - seen[k];
+if (isBearing && error > std::numbers::pi) error -= 2 * std::numbers::pi;
+if (isBearing && error < -std::numbers::pi) error += 2 * std::numbers::pi;
+error /= isBearing ? world.bearingNoise : world.observationNoise;
+logarithms[i] -= error * error / 2;
 
 // <variant one_noise_for_both>
 // caught by: bearings, finds-heading
 // mistake: bearings are weighed with the noise of distances.
 // <solution logLikelihoods>
-for (Eigen::Index i = 0; i < states.cols(); ++i) {
-  const Eigen::VectorXd seen = viewFrom(states.col(i), world);
-  for (Eigen::Index k = 0; k < y.size(); ++k) {
-    const bool isBearing = world.rangeBearing && k % 2 == 1;
-    const double error = isBearing ? std::remainder(y[k] - seen[k], 2 * std::numbers::pi) : y[k] - seen[k];
-    logarithms[i] -= error * error / (2 * world.observationNoise * world.observationNoise);
-  }
-}
+// in place of: const double deviations = error / (isBearing ? ... logarithms[i] -= deviations * deviations /
+logarithms[i] -= error * error / (2 * world.observationNoise * world.observationNoise);
 
 // <variant variance_for_deviation>
 // caught by: likelihood, weights-anywhere, bearings
 // mistake: divides the squared error by the noise, not by its square, as N(y | y', sigma) reads
 // <solution logLikelihoods>
-for (Eigen::Index i = 0; i < states.cols(); ++i) {
-  const Eigen::VectorXd seen = viewFrom(states.col(i), world);
-  for (Eigen::Index k = 0; k < y.size(); ++k) {
-    const bool isBearing = world.rangeBearing && k % 2 == 1;
-    const double error = isBearing ? std::remainder(y[k] - seen[k], 2 * std::numbers::pi) : y[k] - seen[k];
-    logarithms[i] -= error * error / (isBearing ? world.bearingNoise : world.observationNoise) / 2;
-  }
-}
+// in place of: const double deviations = error / (isBearing ? ... logarithms[i] -= deviations * deviations /
+logarithms[i] -= error * error / (isBearing ? world.bearingNoise : world.observationNoise) / 2;
 
 // <variant weights_not_normalised>
 // caught by: normalised, weights-anywhere, filter-step
 // mistake: the largest weight is one, whatever their sum.
 // <solution weightsOf>
-const double largest = logarithms.maxCoeff();
-for (Eigen::Index i = 0; i < weights.size(); ++i)
-  weights[i] = std::isfinite(largest) ? std::exp(logarithms[i] - largest) : 1;
+// in place of: weights /= weights.sum();
 
 // <variant zero_by_zero>
 // caught by: normalised, survives
@@ -341,15 +303,5 @@ return std::sqrt(sum / count);
 // caught by: noise, noise-elsewhere
 // mistake: the mean square over landmarks, not over their coordinates.
 // <solution likelyNoise>
-CarWorld assumed = world;
-for (int round = 0; round < 4; ++round) {
-  Cloud cloud{log.start.replicate(1, 200), Eigen::VectorXd::Constant(200, 1. / 200)};
-  double squares = 0, numbers = 0;
-  for (std::size_t t = 0; t < log.controls.size(); ++t) {
-    cloud = filterStep(cloud, log.controls[t], log.observations[t], assumed, rng);
-    squares += (log.observations[t] - viewFrom(meanPose(cloud), assumed)).squaredNorm();
-    numbers += static_cast<double>(log.observations[t].size() / 2);
-  }
-  assumed.observationNoise = std::sqrt(squares / numbers);
-}
-return assumed.observationNoise;
+// in place of: numbers += static_cast<double>(log.observations[t].size());
+numbers += static_cast<double>(log.observations[t].size() / 2);

@@ -14,10 +14,8 @@ return {x[1], c1* u + swing - c2* turn* c, x[3], turn};
 // caught by: linear
 // mistake: c2 without the length, which is 1 on the sheet.
 // <solution rateOf>
+// in place of: const double c1 = 1 / (cart.poleMass + cart.cartMass), c2 = cart.l * cart.poleMass * c1;
 const double c1 = 1 / (cart.poleMass + cart.cartMass), c2 = cart.poleMass * c1;
-const double s = std::sin(x[2]), c = std::cos(x[2]), swing = c2 * x[3] * x[3] * s;
-const double turn = (cart.g * s - c * (c1 * u + swing)) / (4 * cart.l / 3 - c2 * c * c);
-return {x[1], c1* u + swing - c2* turn* c, x[3], turn};
 
 // <variant cart_of_the_sheet_only>
 // caught by: other-carts
@@ -34,27 +32,17 @@ return plant;
 // caught by: linear, other-carts
 // mistake: the A that the sheet prints.
 // <solution linearised>
-const double c1 = 1 / (cart.poleMass + cart.cartMass), c2 = cart.l * cart.poleMass * c1;
-const double D = 4 * cart.l / 3 - c2;
-Plant plant{Eigen::MatrixXd::Zero(4, 4), Eigen::MatrixXd::Zero(4, 1)};
-plant.A(0, 1) = plant.A(2, 3) = 1;
+// in place of: plant.A(1, 2) = -c2 * cart.g / D;
 plant.A(1, 2) = -cart.g / D;
-plant.A(3, 2) = cart.g / D;
-plant.B << 0, c1 + c1 *c2 / D, 0, -c1 / D;
-return plant;
 
 // <variant rows_of_the_template>
 // caught by: linear, other-carts
 // mistake: the accelerations in the order of the sheet's template.
 // <solution linearised>
-const double c1 = 1 / (cart.poleMass + cart.cartMass), c2 = cart.l * cart.poleMass * c1;
-const double D = 4 * cart.l / 3 - c2;
-Plant plant{Eigen::MatrixXd::Zero(4, 4), Eigen::MatrixXd::Zero(4, 1)};
-plant.A(0, 1) = plant.A(2, 3) = 1;
+// in place of: plant.A(1, 2) = -c2 * cart.g / D; ... plant.B << 0, c1 + c1 * c2 / D, 0, -c1 / D;
 plant.A(1, 2) = cart.g / D;
 plant.A(3, 2) = -c2 * cart.g / D;
 plant.B << 0, -c1 / D, 0, c1 + c1* c2 / D;
-return plant;
 
 // <variant always_a_controller>
 // caught by: iterates
@@ -126,15 +114,12 @@ return iterated(plant, costs, 1e-3, 1e-9, 1000000).value_or(costs.Q);
 // caught by: hamiltonian, other-regulators
 // mistake: the eigenvectors of the growing motions.
 // <solution viaHamiltonian>
-const Eigen::Index n = plant.A.rows();
-const Eigen::MatrixXd S = plant.B * solve(costs.R, plant.B.transpose());
-Eigen::MatrixXd Z(2 * n, 2 * n);
+// in place of: Z << plant.A, -S, -costs.Q, -plant.A.transpose(); ... const Eigen::MatrixXd right =
 Z << plant.A, -S, -costs.Q, -plant.A.transpose();
 for (int k = 0; k < 60; ++k) Z = (.5 * (Z + inverse(Z))).eval();
 Z -= Eigen::MatrixXd::Identity(2 * n, 2 * n);
-Eigen::MatrixXd P(n, n);
+// in place of: for (Eigen::Index i = 0; i < n; ++i) P.col(i) = leastSquares(right, -Z.col(i));
 for (Eigen::Index i = 0; i < n; ++i) P.col(i) = leastSquares(Z.rightCols(n), -Z.col(i));
-return .5 * (P + P.transpose());
 
 // <variant gain_sign>
 // caught by: hamiltonian, other-regulators, survives
@@ -190,15 +175,9 @@ return states;
 // caught by: outings
 // mistake: each step gets a copy of the generator, and so the same noise.
 // <solution balanced>
-Eigen::MatrixXd states(4, outing.steps + 1);
-states.col(0) = start;
-int t = 0;
-while (t < outing.steps && std::abs(states(2, t)) <= std::numbers::pi / 2) {
-  const Eigen::Vector4d before = states.col(t);
-  Rng own = rng;
-  states.col(++t) = stepped(cart, before, K.row(0).dot(before), outing.tau, outing.noise, own);
-}
-return states.leftCols(t + 1);
+// in place of: states.col(++t) = stepped(cart, before, K.row(0).dot(before), outing.tau, outing.noise, rng);
+Rng own = rng;
+states.col(++t) = stepped(cart, before, K.row(0).dot(before), outing.tau, outing.noise, own);
 
 // <variant powers_from_the_right>
 // caught by: reach, reaches-others
@@ -258,17 +237,14 @@ return slowest > 1e-5 ? Fate::grows : slowest < -1e-5 ? Fate::dies : Fate::stays
 // caught by: poles, other-fates
 // mistake: every eigenvalue on the axis that occurs twice lets motions grow.
 // <solution fateOf>
-const Eigen::VectorXcd poles = eigenvalues(A);
+// in place of: const Eigen::MatrixXd AA = A * A;
 if (poles.real().maxCoeff() > 1e-5) return Fate::grows;
-Fate fate = Fate::dies;
-for (const std::complex<double>& pole : poles) {
-  if (pole.real() < -1e-5) continue;
-  if (fate == Fate::dies) fate = Fate::stays;
-  int times = 0;
-  for (const std::complex<double>& other : poles) times += std::abs(other - pole) < 1e-4;
-  if (times > 1) fate = Fate::grows;
-}
-return fate;
+// in place of: if (pole.real() > 1e-5) return Fate::grows;
+// in place of: if (fate == Fate::dies) fate = Fate::stays; ... if (vectors < times) fate = Fate::grows;
+if (fate == Fate::dies) fate = Fate::stays;
+int times = 0;
+for (const std::complex<double>& other : poles) times += std::abs(other - pole) < 1e-4;
+if (times > 1) fate = Fate::grows;
 
 // <variant any_gains_in_the_box>
 // caught by: quick-others
@@ -459,10 +435,8 @@ return -gainOf(dual, costs, viaHamiltonian(dual, costs)).transpose();
 // caught by: loops, other-sensors
 // mistake: the observer subtracts L (y - C x^).
 // <solution observedLoop>
-const Eigen::MatrixXd LC = L * C, modelBK = model.B * K, realBK = real.B * K;
-Eigen::MatrixXd loop(2 * LC.rows(), 2 * LC.rows());
+// in place of: loop << real.A, realBK, LC, model.A + modelBK - LC;
 loop << real.A, realBK, -LC, model.A + modelBK + LC;
-return loop;
 
 // <variant deaf_observer>
 // caught by: loops, other-sensors
@@ -496,37 +470,17 @@ return loop;
 // shown by: loops
 // mistake: the sign of i w is that of -i w.
 // <solution responseAt>
-const Eigen::Index n = plant.A.rows();
-Eigen::MatrixXd M(2 * n, 2 * n), right = Eigen::MatrixXd::Zero(2 * n, 1);
-M << -plant.A, Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, n), -plant.A;
-right.topRows(n) = plant.B;
-Eigen::MatrixXd G(2, frequencies.size());
-for (Eigen::Index k = 0; k < G.cols(); ++k) {
-  for (Eigen::Index i = 0; i < n; ++i) M(i, n + i) = frequencies[k], M(n + i, i) = -frequencies[k];
-  const Eigen::MatrixXd x = solveMatrix(M, right);
-  G(0, k) = C.row(0).dot(x.col(0).head(n));
-  G(1, k) = C.row(0).dot(x.col(0).tail(n));
-}
-return G;
+// in place of: for (Eigen::Index i = 0; i < n; ++i) M(i, n + i) = -frequencies[k], M(n + i, i) =
+for (Eigen::Index i = 0; i < n; ++i) M(i, n + i) = frequencies[k], M(n + i, i) = -frequencies[k];
 
 // <variant frequencies_in_hertz>
 // caught by: loops, other-sensors
 // shown by: loops
 // mistake: takes w as a frequency in Hz.
 // <solution responseAt>
-const Eigen::Index n = plant.A.rows();
-Eigen::MatrixXd M(2 * n, 2 * n), right = Eigen::MatrixXd::Zero(2 * n, 1);
-M << -plant.A, Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, n), -plant.A;
-right.topRows(n) = plant.B;
-Eigen::MatrixXd G(2, frequencies.size());
-for (Eigen::Index k = 0; k < G.cols(); ++k) {
-  const double w = 2 * std::numbers::pi * frequencies[k];
-  for (Eigen::Index i = 0; i < n; ++i) M(i, n + i) = -w, M(n + i, i) = w;
-  const Eigen::MatrixXd x = solveMatrix(M, right);
-  G(0, k) = C.row(0).dot(x.col(0).head(n));
-  G(1, k) = C.row(0).dot(x.col(0).tail(n));
-}
-return G;
+// in place of: for (Eigen::Index i = 0; i < n; ++i) M(i, n + i) = -frequencies[k], M(n + i, i) =
+const double w = 2 * std::numbers::pi * frequencies[k];
+for (Eigen::Index i = 0; i < n; ++i) M(i, n + i) = -w, M(n + i, i) = w;
 
 // <variant response_to_growth>
 // caught by: loops, other-sensors

@@ -6,14 +6,8 @@
 // shown by: maze
 // mistake: discounts the rewards of the leaves, too.
 // <solution mazeValues>
-MazeValues values{Eigen::VectorXd(7), Eigen::VectorXd(7)};
+// in place of: values.random.tail(4) = values.optimal.tail(4) = leaves;
 values.random.tail(4) = values.optimal.tail(4) = discount * leaves;
-for (int s = 2; s >= 0; --s) {
-  const int left = 2 * s + 1, right = 2 * s + 2;
-  values.random[s] = discount * (values.random[left] + values.random[right]) / 2;
-  values.optimal[s] = discount * std::max(values.optimal[left], values.optimal[right]);
-}
-return values;
 
 // <variant maze_of_the_sheet_only>
 // caught by: other-mazes
@@ -29,14 +23,9 @@ return values;
 // shown by: maze
 // mistake: discount forgotten.
 // <solution mazeValues>
-MazeValues values{Eigen::VectorXd(7), Eigen::VectorXd(7)};
-values.random.tail(4) = values.optimal.tail(4) = leaves;
-for (int s = 2; s >= 0; --s) {
-  const int left = 2 * s + 1, right = 2 * s + 2;
-  values.random[s] = (values.random[left] + values.random[right]) / 2;
-  values.optimal[s] = std::max(values.optimal[left], values.optimal[right]);
-}
-return values;
+// in place of: values.random[s] = discount * (values.random[left] + ... values.optimal[s] = discount *
+values.random[s] = (values.random[left] + values.random[right]) / 2;
+values.optimal[s] = std::max(values.optimal[left], values.optimal[right]);
 
 // <variant mean_for_the_best>
 // caught by: maze, other-mazes
@@ -72,10 +61,8 @@ return solve(M, Eigen::VectorXd(process.R.rowwise().mean()));
 // caught by: policy-values, larger
 // mistake: columns of P taken for rows.
 // <solution valuesOf>
-const Eigen::Index n = process.R.rows();
-Eigen::MatrixXd M = Eigen::MatrixXd::Identity(n, n);
-for (Eigen::Index a = 0; a < process.R.cols(); ++a)
-  M -= process.discount * process.P[static_cast<std::size_t>(a)].transpose() * policy.col(a).asDiagonal();
+// in place of: M -= process.discount * policy.col(a).asDiagonal() * ... return solve(M, expected);
+M -= process.discount * process.P[static_cast<std::size_t>(a)].transpose() * policy.col(a).asDiagonal();
 return solve(M, Eigen::VectorXd(process.R.cwiseProduct(policy).rowwise().sum()));
 
 // <variant twenty_sweeps>
@@ -134,16 +121,14 @@ return all;
 // shown by: settles
 // mistake: lists the values from V_1 on.
 // <solution iterateValues>
+// in place of: std::vector<Eigen::VectorXd> all{Eigen::VectorXd::Zero(process.R.rows())};
 std::vector<Eigen::VectorXd> all;
 Eigen::VectorXd V = Eigen::VectorXd::Zero(process.R.rows());
-double bound = INFINITY;
-while (bound > tolerance) {
-  const Eigen::VectorXd next = worthOfActions(process, V).rowwise().maxCoeff();
-  bound = process.discount / (1 - process.discount) * (next - V).cwiseAbs().maxCoeff();
-  all.push_back(next);
-  V = next;
-}
-return all;
+// in place of: const Eigen::VectorXd next = worthOfActions(process, ... all.push_back(next);
+const Eigen::VectorXd next = worthOfActions(process, V).rowwise().maxCoeff();
+bound = process.discount / (1 - process.discount) * (next - V).cwiseAbs().maxCoeff();
+all.push_back(next);
+V = next;
 
 // <variant last_values_left_out>
 // caught by: settles, unseen-settle
@@ -175,15 +160,10 @@ return all;
 // shown by: settles
 // mistake: uses values of the same iteration as soon as they are there.
 // <solution iterateValues>
-std::vector<Eigen::VectorXd> all{Eigen::VectorXd::Zero(process.R.rows())};
-double bound = INFINITY;
-while (bound > tolerance) {
-  Eigen::VectorXd next = all.back();
-  for (Eigen::Index s = 0; s < next.size(); ++s) next[s] = worthOfActions(process, next).row(s).maxCoeff();
-  bound = process.discount / (1 - process.discount) * (next - all.back()).cwiseAbs().maxCoeff();
-  all.push_back(next);
-}
-return all;
+// in place of: const Eigen::VectorXd next = worthOfActions(process, ... bound = process.discount / (1 -
+Eigen::VectorXd next = all.back();
+for (Eigen::Index s = 0; s < next.size(); ++s) next[s] = worthOfActions(process, next).row(s).maxCoeff();
+bound = process.discount / (1 - process.discount) * (next - all.back()).cwiseAbs().maxCoeff();
 
 // <variant calls_the_library>
 // caught by: forbidden-call
@@ -244,25 +224,14 @@ for (;;) {
 // shown by: improves
 // mistake: improves the action of one state in each iteration.
 // <solution iteratePolicies>
-const auto n = static_cast<std::size_t>(process.R.rows());
-std::vector<std::vector<int>> policies{std::vector<int>(n, 0)};
-for (bool isBetter = true; isBetter;) {
-  isBetter = false;
-  std::vector<int> actions = policies.back();
-  Eigen::MatrixXd policy = Eigen::MatrixXd::Zero(process.R.rows(), process.R.cols());
-  for (std::size_t s = 0; s < n; ++s) policy(static_cast<Eigen::Index>(s), actions[s]) = 1;
-  const Eigen::VectorXd V = valuesOf(process, policy);
-  const Eigen::MatrixXd Q = worthOfActions(process, V);
-  for (std::size_t s = 0; s < n && !isBetter; ++s) {
-    int best = 0;
-    const auto row = static_cast<Eigen::Index>(s);
-    if (Q.row(row).maxCoeff(&best) <= Q(row, actions[s]) + 1e-11 * V.cwiseAbs().maxCoeff()) continue;
-    actions[s] = best;
-    isBetter = true;
-  }
-  if (isBetter) policies.push_back(actions);
+// in place of: for (std::size_t s = 0; s < n; ++s) { ... }
+for (std::size_t s = 0; s < n && !isBetter; ++s) {
+  int best = 0;
+  const auto row = static_cast<Eigen::Index>(s);
+  if (Q.row(row).maxCoeff(&best) <= Q(row, actions[s]) + 1e-11 * V.cwiseAbs().maxCoeff()) continue;
+  actions[s] = best;
+  isBetter = true;
 }
-return policies;
 
 // <variant takes_the_first_best>
 // caught by: improves
@@ -284,76 +253,34 @@ for (;;) {
 // caught by: trials
 // mistake: drops the step that failed.
 // <solution runTrial>
-const auto k = static_cast<int>(start.size());
-Rollout trial{Eigen::MatrixXd(k, horizon), Eigen::MatrixXd(k, horizon), Eigen::VectorXd(horizon)};
-Eigen::VectorXd state = start;
-int t = 0;
-for (bool goesOn = true; goesOn && t < horizon; ++t) {
-  trial.features.col(t) = state;
-  trial.noise.col(t) = policy.L * rng.normalVector(k);
-  const Transition outcome = step(state, state.dot(policy.beta + trial.noise.col(t)));
-  trial.rewards[t] = outcome.reward;
-  state = outcome.next;
-  goesOn = !outcome.failed;
-  if (outcome.failed) break;
-}
-return {trial.features.leftCols(t), trial.noise.leftCols(t), trial.rewards.head(t)};
+// in place of: goesOn = !outcome.failed;
+goesOn = !outcome.failed;
+if (outcome.failed) break;
 
 // <variant features_after_the_step>
 // caught by: trials
 // shown by: trials
 // mistake: notes the state that the step led to.
 // <solution runTrial>
-const auto k = static_cast<int>(start.size());
-Rollout trial{Eigen::MatrixXd(k, horizon), Eigen::MatrixXd(k, horizon), Eigen::VectorXd(horizon)};
-Eigen::VectorXd state = start;
-int t = 0;
-for (bool goesOn = true; goesOn && t < horizon; ++t) {
-  trial.noise.col(t) = policy.L * rng.normalVector(k);
-  const Transition outcome = step(state, state.dot(policy.beta + trial.noise.col(t)));
-  trial.rewards[t] = outcome.reward;
-  trial.features.col(t) = state = outcome.next;
-  goesOn = !outcome.failed;
-}
-return {trial.features.leftCols(t), trial.noise.leftCols(t), trial.rewards.head(t)};
+// in place of: trial.features.col(t) = state;
+// in place of: state = outcome.next;
+trial.features.col(t) = state = outcome.next;
 
 // <variant noise_only_noted>
 // caught by: trials
 // shown by: trials
 // mistake: notes the noise, but acts without it.
 // <solution runTrial>
-const auto k = static_cast<int>(start.size());
-Rollout trial{Eigen::MatrixXd(k, horizon), Eigen::MatrixXd(k, horizon), Eigen::VectorXd(horizon)};
-Eigen::VectorXd state = start;
-int t = 0;
-for (bool goesOn = true; goesOn && t < horizon; ++t) {
-  trial.features.col(t) = state;
-  trial.noise.col(t) = policy.L * rng.normalVector(k);
-  const Transition outcome = step(state, state.dot(policy.beta));
-  trial.rewards[t] = outcome.reward;
-  state = outcome.next;
-  goesOn = !outcome.failed;
-}
-return {trial.features.leftCols(t), trial.noise.leftCols(t), trial.rewards.head(t)};
+// in place of: const Transition outcome = step(state, state.dot(policy.beta + trial.noise.col(t)));
+const Transition outcome = step(state, state.dot(policy.beta));
 
 // <variant noise_without_L>
 // caught by: trials
 // shown by: trials
 // mistake: draws the noise from the unit normal distribution.
 // <solution runTrial>
-const auto k = static_cast<int>(start.size());
-Rollout trial{Eigen::MatrixXd(k, horizon), Eigen::MatrixXd(k, horizon), Eigen::VectorXd(horizon)};
-Eigen::VectorXd state = start;
-int t = 0;
-for (bool goesOn = true; goesOn && t < horizon; ++t) {
-  trial.features.col(t) = state;
-  trial.noise.col(t) = rng.normalVector(k);
-  const Transition outcome = step(state, state.dot(policy.beta + trial.noise.col(t)));
-  trial.rewards[t] = outcome.reward;
-  state = outcome.next;
-  goesOn = !outcome.failed;
-}
-return {trial.features.leftCols(t), trial.noise.leftCols(t), trial.rewards.head(t)};
+// in place of: trial.noise.col(t) = policy.L * rng.normalVector(k);
+trial.noise.col(t) = rng.normalVector(k);
 
 // <variant not_cut_at_failure>
 // caught by: trials
@@ -375,37 +302,17 @@ return trial;
 // caught by: trials
 // mistake: draws the noise once for the whole trial.
 // <solution runTrial>
-const auto k = static_cast<int>(start.size());
-Rollout trial{Eigen::MatrixXd(k, horizon), Eigen::MatrixXd(k, horizon), Eigen::VectorXd(horizon)};
+// in place of: Eigen::VectorXd state = start;
 trial.noise.colwise() = policy.L * rng.normalVector(k);
 Eigen::VectorXd state = start;
-int t = 0;
-for (bool goesOn = true; goesOn && t < horizon; ++t) {
-  trial.features.col(t) = state;
-  const Transition outcome = step(state, state.dot(policy.beta + trial.noise.col(t)));
-  trial.rewards[t] = outcome.reward;
-  state = outcome.next;
-  goesOn = !outcome.failed;
-}
-return {trial.features.leftCols(t), trial.noise.leftCols(t), trial.rewards.head(t)};
+// in place of: trial.noise.col(t) = policy.L * rng.normalVector(k);
 
 // <variant state_stands_still>
 // caught by: trials
 // shown by: trials
 // mistake: never moves on from the start.
 // <solution runTrial>
-const auto k = static_cast<int>(start.size());
-Rollout trial{Eigen::MatrixXd(k, horizon), Eigen::MatrixXd(k, horizon), Eigen::VectorXd(horizon)};
-Eigen::VectorXd state = start;
-int t = 0;
-for (bool goesOn = true; goesOn && t < horizon; ++t) {
-  trial.features.col(t) = state;
-  trial.noise.col(t) = policy.L * rng.normalVector(k);
-  const Transition outcome = step(state, state.dot(policy.beta + trial.noise.col(t)));
-  trial.rewards[t] = outcome.reward;
-  goesOn = !outcome.failed;
-}
-return {trial.features.leftCols(t), trial.noise.leftCols(t), trial.rewards.head(t)};
+// in place of: state = outcome.next;
 
 // <variant own_reward_left_out>
 // caught by: returns
@@ -451,108 +358,59 @@ return returns;
 // shown by: gradient
 // mistake: squares L phi instead of L^T phi.
 // <solution reinforce>
-Eigen::VectorXd sum = Eigen::VectorXd::Zero(policy.beta.size());
-for (const Rollout& trial : trials) {
-  const Eigen::VectorXd Q = returnsToGo(trial.rewards, discount);
-  for (Eigen::Index t = 0; t < Q.size(); ++t) {
-    const Eigen::VectorXd phi = trial.features.col(t);
-    const double variance = (policy.L * phi).squaredNorm();
-    sum += std::pow(discount, t) * Q[t] * phi.dot(trial.noise.col(t)) / variance * phi;
-  }
-}
-return sum / static_cast<double>(trials.size());
+// in place of: const double variance = (policy.L.transpose() * phi).squaredNorm();
+const double variance = (policy.L * phi).squaredNorm();
 
 // <variant density_of_the_noise>
 // caught by: gradient
 // shown by: gradient
 // mistake: differentiates the density of the noise instead of that of the action.
 // <solution reinforce>
+// in place of: Eigen::VectorXd sum = Eigen::VectorXd::Zero(policy.beta.size());
 Eigen::VectorXd sum = Eigen::VectorXd::Zero(policy.beta.size());
 const Eigen::MatrixXd Sigma = policy.L * policy.L.transpose();
-for (const Rollout& trial : trials) {
-  const Eigen::VectorXd Q = returnsToGo(trial.rewards, discount);
-  for (Eigen::Index t = 0; t < Q.size(); ++t)
-    sum += std::pow(discount, t) * Q[t] * solve(Sigma, Eigen::VectorXd(trial.noise.col(t)));
-}
-return sum / static_cast<double>(trials.size());
+// in place of: for (Eigen::Index t = 0; t < Q.size(); ++t) { ... }
+for (Eigen::Index t = 0; t < Q.size(); ++t)
+  sum += std::pow(discount, t) * Q[t] * solve(Sigma, Eigen::VectorXd(trial.noise.col(t)));
 
 // <variant later_steps_count_in_full>
 // caught by: gradient
 // shown by: gradient
 // mistake: the discount of the step itself is missing.
 // <solution reinforce>
-Eigen::VectorXd sum = Eigen::VectorXd::Zero(policy.beta.size());
-for (const Rollout& trial : trials) {
-  const Eigen::VectorXd Q = returnsToGo(trial.rewards, discount);
-  for (Eigen::Index t = 0; t < Q.size(); ++t) {
-    const Eigen::VectorXd phi = trial.features.col(t);
-    sum += Q[t] * phi.dot(trial.noise.col(t)) / (policy.L.transpose() * phi).squaredNorm() * phi;
-  }
-}
-return sum / static_cast<double>(trials.size());
+// in place of: const double variance = (policy.L.transpose() * ... sum += std::pow(discount, t) * Q[t] *
+sum += Q[t] * phi.dot(trial.noise.col(t)) / (policy.L.transpose() * phi).squaredNorm() * phi;
 
 // <variant sum_over_trials>
 // caught by: gradient
 // shown by: gradient
 // mistake: adds up the trials instead of averaging them.
 // <solution reinforce>
-Eigen::VectorXd sum = Eigen::VectorXd::Zero(policy.beta.size());
-for (const Rollout& trial : trials) {
-  const Eigen::VectorXd Q = returnsToGo(trial.rewards, discount);
-  for (Eigen::Index t = 0; t < Q.size(); ++t) {
-    const Eigen::VectorXd phi = trial.features.col(t);
-    const double variance = (policy.L.transpose() * phi).squaredNorm();
-    sum += std::pow(discount, t) * Q[t] * phi.dot(trial.noise.col(t)) / variance * phi;
-  }
-}
+// in place of: return sum / static_cast<double>(trials.size());
 return sum;
 
 // <variant variance_forgotten>
 // caught by: gradient
 // mistake: leaves out the variance of the action.
 // <solution reinforce>
-Eigen::VectorXd sum = Eigen::VectorXd::Zero(policy.beta.size());
-for (const Rollout& trial : trials) {
-  const Eigen::VectorXd Q = returnsToGo(trial.rewards, discount);
-  for (Eigen::Index t = 0; t < Q.size(); ++t)
-    sum +=
-        std::pow(discount, t) * Q[t] * trial.features.col(t).dot(trial.noise.col(t)) * trial.features.col(t);
-}
-return sum / static_cast<double>(trials.size());
+// in place of: for (Eigen::Index t = 0; t < Q.size(); ++t) { ... }
+for (Eigen::Index t = 0; t < Q.size(); ++t)
+  sum += std::pow(discount, t) * Q[t] * trial.features.col(t).dot(trial.noise.col(t)) * trial.features.col(t);
 
 // <variant whole_return_in_each_step>
 // caught by: gradient
 // shown by: gradient
 // mistake: weights each step with the return of the whole trial.
 // <solution reinforce>
-Eigen::VectorXd sum = Eigen::VectorXd::Zero(policy.beta.size());
-for (const Rollout& trial : trials) {
-  const Eigen::VectorXd Q = returnsToGo(trial.rewards, discount);
-  for (Eigen::Index t = 0; t < Q.size(); ++t) {
-    const Eigen::VectorXd phi = trial.features.col(t);
-    const double variance = (policy.L.transpose() * phi).squaredNorm();
-    sum += std::pow(discount, t) * Q[0] * phi.dot(trial.noise.col(t)) / variance * phi;
-  }
-}
-return sum / static_cast<double>(trials.size());
+// in place of: sum += std::pow(discount, t) * Q[t] * phi.dot(trial.noise.col(t)) / variance * phi;
+sum += std::pow(discount, t) * Q[0] * phi.dot(trial.noise.col(t)) / variance * phi;
 
 // <variant change_of_beta>
 // caught by: power, more-power
 // shown by: power
 // mistake: returns the change of beta.
 // <solution power>
-const Eigen::Index k = policy.beta.size();
-Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(k, k);
-Eigen::VectorXd moves = Eigen::VectorXd::Zero(k);
-for (const Rollout& trial : trials) {
-  const Eigen::VectorXd Q = returnsToGo(trial.rewards, discount);
-  for (Eigen::Index t = 0; t < Q.size(); ++t) {
-    const Eigen::VectorXd phi = trial.features.col(t);
-    const Eigen::MatrixXd W = phi * phi.transpose() / (policy.L.transpose() * phi).squaredNorm();
-    weights += W * Q[t];
-    moves += W * trial.noise.col(t) * Q[t];
-  }
-}
+// in place of: return policy.beta + solve(weights, moves);
 return solve(weights, moves);
 
 // <variant rewards_for_returns>
@@ -560,19 +418,8 @@ return solve(weights, moves);
 // shown by: power
 // mistake: weights each step with its own reward.
 // <solution power>
-const Eigen::Index k = policy.beta.size();
-Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(k, k);
-Eigen::VectorXd moves = Eigen::VectorXd::Zero(k);
-for (const Rollout& trial : trials) {
-  const Eigen::VectorXd& Q = trial.rewards;
-  for (Eigen::Index t = 0; t < Q.size(); ++t) {
-    const Eigen::VectorXd phi = trial.features.col(t);
-    const Eigen::MatrixXd W = phi * phi.transpose() / (policy.L.transpose() * phi).squaredNorm();
-    weights += W * Q[t];
-    moves += W * trial.noise.col(t) * Q[t];
-  }
-}
-return policy.beta + solve(weights, moves);
+// in place of: const Eigen::VectorXd Q = returnsToGo(trial.rewards, discount);
+const Eigen::VectorXd& Q = trial.rewards;
 
 // <variant slide_as_printed>
 // caught by: power, more-power
@@ -591,38 +438,17 @@ return policy.beta + moves / weights;
 // caught by: power, more-power
 // mistake: for two features only.
 // <solution power>
-const Eigen::Index k = policy.beta.size();
+// in place of: Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(k, k); ... Eigen::VectorXd moves =
 Eigen::Matrix2d weights = Eigen::MatrixXd::Zero(k, k);
 Eigen::Vector2d moves = Eigen::VectorXd::Zero(k);
-for (const Rollout& trial : trials) {
-  const Eigen::VectorXd Q = returnsToGo(trial.rewards, discount);
-  for (Eigen::Index t = 0; t < Q.size(); ++t) {
-    const Eigen::VectorXd phi = trial.features.col(t);
-    const Eigen::MatrixXd W = phi * phi.transpose() / (policy.L.transpose() * phi).squaredNorm();
-    weights += W * Q[t];
-    moves += W * trial.noise.col(t) * Q[t];
-  }
-}
-return policy.beta + solve(weights, moves);
 
 // <variant variance_left_out_of_W>
 // caught by: power, more-power
 // shown by: power
 // mistake: W without the variance of the action.
 // <solution power>
-const Eigen::Index k = policy.beta.size();
-Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(k, k);
-Eigen::VectorXd moves = Eigen::VectorXd::Zero(k);
-for (const Rollout& trial : trials) {
-  const Eigen::VectorXd Q = returnsToGo(trial.rewards, discount);
-  for (Eigen::Index t = 0; t < Q.size(); ++t) {
-    const Eigen::VectorXd phi = trial.features.col(t);
-    const Eigen::MatrixXd W = phi * phi.transpose();
-    weights += W * Q[t];
-    moves += W * trial.noise.col(t) * Q[t];
-  }
-}
-return policy.beta + solve(weights, moves);
+// in place of: const Eigen::MatrixXd W = phi * phi.transpose() / (policy.L.transpose() * phi).squaredNorm();
+const Eigen::MatrixXd W = phi * phi.transpose();
 
 // <variant Sigma_for_fisher>
 // caught by: natural, linear-returns, other-features

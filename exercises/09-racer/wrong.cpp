@@ -13,10 +13,8 @@ return RacerDynamics{racer.r, racer.l, racer.mA, racer.mB, racer.IA, racer.IB, r
 // caught by: mass, lagrangian
 // mistake: the wheel moves along, but does not turn.
 // <solution massMatrix>
-const double mixed = racer.mB * racer.l * std::cos(q[1]);
-Eigen::Matrix2d M;
+// in place of: M << racer.mA + racer.mB + racer.IA / (racer.r * racer.r), ... racer.mB * racer.l * racer.l +
 M << racer.mA + racer.mB, mixed, mixed, racer.mB* racer.l* racer.l + racer.IB;
-return M;
 
 // <variant wheel_as_a_disc>
 // caught by: mass, lagrangian
@@ -100,25 +98,17 @@ return std::sqrt(tau) * noise * rng.normalVector(steps).transpose().replicate(2,
 // caught by: gain, unseen-lqr
 // mistake: forgets R, which is 1 on the sheet.
 // <solution lqrGain>
-Eigen::MatrixXd Z(8, 8);
+// in place of: Z << system.A, -system.B * system.B.transpose() / R, -Q, -system.A.transpose();
 Z << system.A, -system.B *system.B.transpose(), -Q, -system.A.transpose();
-for (int i = 0; i < 60; ++i) Z = (Z + inverse(Z)).eval() / 2;
-Z.diagonal().array() += 1;
-Eigen::Vector4d K;
+// in place of: for (int row = 0; row < 4; ++row) { ... }
 for (int i = 0; i < 4; ++i) K[i] = system.B.dot(leastSquares(Z.rightCols(4), -Z.col(i)));
-return K;
 
 // <variant gain_sign>
 // caught by: gain, unseen-lqr
 // mistake: the sign of the gain as on slide 8:43, where u = +K x.
 // <solution lqrGain>
-Eigen::MatrixXd Z(8, 8);
-Z << system.A, -system.B *system.B.transpose() / R, -Q, -system.A.transpose();
-for (int i = 0; i < 60; ++i) Z = (Z + inverse(Z)).eval() / 2;
-Z.diagonal().array() += 1;
-Eigen::Vector4d K;
+// in place of: for (int row = 0; row < 4; ++row) { ... }
 for (int i = 0; i < 4; ++i) K[i] = -system.B.dot(leastSquares(Z.rightCols(4), -Z.col(i))) / R;
-return K;
 
 // <variant averages_start_at_zero>
 // caught by: features, unseen-features
@@ -139,108 +129,46 @@ return now;
 // caught by: features, unseen-features
 // mistake: gives the factor of the average to the new reading.
 // <solution featuresAt>
-Eigen::VectorXd now = Eigen::VectorXd::Zero(kFeatures);
-now[0] = 1;
-now.segment<4>(1) = now.segment<4>(9) = now.segment<4>(17) = y;
+// in place of: const bool isFirst = before.size() == 0;
+// in place of: if (isFirst) return now;
 if (before.size() == 0) return now;
-now.segment<4>(5) = (y - before.segment<4>(1)) / tau;
+// in place of: now.segment<8>(9) = .5 * before.segment<8>(9) + .5 * ... now.segment<8>(17) = .9 *
 now.segment<8>(9) = .5 * (before.segment<8>(9) + now.segment<8>(1));
 now.segment<8>(17) = .1 * before.segment<8>(17) + .9 * now.segment<8>(1);
-now[25] = u;
-now[26] = before[25];
-return now;
 
 // <variant rates_per_step>
 // caught by: features, unseen-features
 // mistake: differences instead of rates.
 // <solution featuresAt>
-Eigen::VectorXd now = Eigen::VectorXd::Zero(kFeatures);
-now[0] = 1;
-now.segment<4>(1) = now.segment<4>(9) = now.segment<4>(17) = y;
+// in place of: const bool isFirst = before.size() == 0;
+// in place of: if (isFirst) return now; ... now.segment<4>(5) = (y - before.segment<4>(1)) / tau;
 if (before.size() == 0) return now;
 now.segment<4>(5) = y - before.segment<4>(1);
-now.segment<8>(9) = .5 * before.segment<8>(9) + .5 * now.segment<8>(1);
-now.segment<8>(17) = .9 * before.segment<8>(17) + .1 * now.segment<8>(1);
-now[25] = u;
-now[26] = before[25];
-return now;
 
 // <variant costs_of_the_state_before>
 // caught by: ride
 // mistake: counts the state before the step.
 // <solution rideOf>
-const Eigen::Index T = noise.cols();
-Ride ride{Eigen::MatrixXd(4, T + 1), Eigen::VectorXd(T), 0};
-ride.states.col(0) = start;
-Eigen::Vector4d x = start;
-Eigen::VectorXd features;
-double u = 0;
-Eigen::Index n = 0;
-for (bool stands = true; stands && n < T; ++n) {
-  features = featuresAt(sensors.measured(x, racer.r), features, u, kTau);
-  u = std::clamp(w.dot(features), -kLargestControl, kLargestControl);
-  const Eigen::Vector4d last = x;
-  x = stepped(x, u, kTau, racer);
-  x.tail<2>() += noise.col(n);
-  ride.controls[n] = u;
-  ride.states.col(n + 1) = x;
-  stands = std::abs(x[1]) <= kLargestAngle;
-  ride.cost +=
-      stands ? last[0] * last[0] + 10 * last[1] * last[1] : kCostOfMissing * static_cast<double>(T - n);
-}
-ride.states.conservativeResize(4, n + 1);
-ride.controls.conservativeResize(n);
-return ride;
+// in place of: x = stepped(x, u, kTau, racer);
+const Eigen::Vector4d last = x;
+x = stepped(x, u, kTau, racer);
+// in place of: ride.cost += stands ? x[0] * x[0] + 10 * x[1] * x[1] : kCostOfMissing * static_cast<double>(T
+ride.cost +=
+    stands ? last[0] * last[0] + 10 * last[1] * last[1] : kCostOfMissing * static_cast<double>(T - n);
 
 // <variant failing_is_cheap>
 // caught by: failed-ride
 // mistake: the ride is cut, but the missing steps cost nothing.
 // <solution rideOf>
-const Eigen::Index T = noise.cols();
-Ride ride{Eigen::MatrixXd(4, T + 1), Eigen::VectorXd(T), 0};
-ride.states.col(0) = start;
-Eigen::Vector4d x = start;
-Eigen::VectorXd features;
-double u = 0;
-Eigen::Index n = 0;
-for (bool stands = true; stands && n < T; ++n) {
-  features = featuresAt(sensors.measured(x, racer.r), features, u, kTau);
-  u = std::clamp(w.dot(features), -kLargestControl, kLargestControl);
-  x = stepped(x, u, kTau, racer);
-  x.tail<2>() += noise.col(n);
-  ride.controls[n] = u;
-  ride.states.col(n + 1) = x;
-  stands = std::abs(x[1]) <= kLargestAngle;
-  ride.cost += stands ? x[0] * x[0] + 10 * x[1] * x[1] : 0;
-}
-ride.states.conservativeResize(4, n + 1);
-ride.controls.conservativeResize(n);
-return ride;
+// in place of: ride.cost += stands ? x[0] * x[0] + 10 * x[1] * x[1] : kCostOfMissing * static_cast<double>(T
+ride.cost += stands ? x[0] * x[0] + 10 * x[1] * x[1] : 0;
 
 // <variant motor_without_limits>
 // caught by: failed-ride, unseen-rides
 // mistake: the motor gives whatever the policy asks for.
 // <solution rideOf>
-const Eigen::Index T = noise.cols();
-Ride ride{Eigen::MatrixXd(4, T + 1), Eigen::VectorXd(T), 0};
-ride.states.col(0) = start;
-Eigen::Vector4d x = start;
-Eigen::VectorXd features;
-double u = 0;
-Eigen::Index n = 0;
-for (bool stands = true; stands && n < T; ++n) {
-  features = featuresAt(sensors.measured(x, racer.r), features, u, kTau);
-  u = w.dot(features);
-  x = stepped(x, u, kTau, racer);
-  x.tail<2>() += noise.col(n);
-  ride.controls[n] = u;
-  ride.states.col(n + 1) = x;
-  stands = std::abs(x[1]) <= kLargestAngle;
-  ride.cost += stands ? x[0] * x[0] + 10 * x[1] * x[1] : kCostOfMissing * static_cast<double>(T - n);
-}
-ride.states.conservativeResize(4, n + 1);
-ride.controls.conservativeResize(n);
-return ride;
+// in place of: u = std::clamp(w.dot(features), -kLargestControl, kLargestControl);
+u = w.dot(features);
 
 // <variant not_cut_at_failure>
 // caught by: failed-ride
@@ -267,90 +195,22 @@ return ride;
 // caught by: search, unseen-search
 // mistake: counts generations instead of rides.
 // <solution searchedPolicy>
-constexpr int kSearches = 3, kSamples = 20, kRepeats = 4, kTests = 50, kSearched = 9;
-// Of 1, y and its rates: these tell how fast the wheel turns, and are a hundred times as large.
-Eigen::VectorXd deviations = Eigen::VectorXd::Constant(kSearched, .3);
-deviations.tail(4) *= kTau;
+// in place of: const int generations = (budget / kSearches - kTests) / (kSamples * kRepeats);
 const int generations = budget / kSearches / kSamples;
-Eigen::MatrixXd found = Eigen::MatrixXd::Zero(kFeatures, kSearches);
-for (int k = 0; k < kSearches; ++k) {
-  SearchCma cma(rng.next());
-  cma.init(Eigen::VectorXd::Zero(kSearched), -1, kSamples, deviations);
-  Eigen::MatrixXd samples, W = Eigen::MatrixXd::Zero(kFeatures, kSamples);
-  Eigen::VectorXd values;
-  for (int i = 0; i < generations; ++i) {
-    cma.step(samples, values);
-    W.topRows(kSearched) = samples.transpose();
-    const int steps = std::min(kLongestRide, static_cast<int>(50 * std::pow(30., 1. * i / generations)));
-    values.setZero();
-    for (int j = 0; j < kRepeats; ++j) values += rides(W, steps);
-  }
-  cma.step(samples, values);
-  found.col(k).head(kSearched) = cma.getMean();
-}
-Eigen::VectorXd costs = Eigen::VectorXd::Zero(kSearches);
-for (int j = 0; j < kTests; ++j) costs += rides(found, kLongestRide);
-int best = 0;
-costs.minCoeff(&best);
-return found.col(best);
 
 // <variant direct_sensors_only>
 // caught by: stays
 // mistake: searches on (1, y) only, which do not show how fast the wheel turns.
 // <solution searchedPolicy>
+// in place of: constexpr int kSearches = 3, kSamples = 20, kRepeats = 4, ... deviations.tail(4) *= kTau;
 constexpr int kSearches = 3, kSamples = 20, kRepeats = 4, kTests = 50, kSearched = 5;
 Eigen::VectorXd deviations = Eigen::VectorXd::Constant(kSearched, .3);
-const int generations = (budget / kSearches - kTests) / (kSamples * kRepeats);
-Eigen::MatrixXd found = Eigen::MatrixXd::Zero(kFeatures, kSearches);
-for (int k = 0; k < kSearches; ++k) {
-  SearchCma cma(rng.next());
-  cma.init(Eigen::VectorXd::Zero(kSearched), -1, kSamples, deviations);
-  Eigen::MatrixXd samples, W = Eigen::MatrixXd::Zero(kFeatures, kSamples);
-  Eigen::VectorXd values;
-  for (int i = 0; i < generations; ++i) {
-    cma.step(samples, values);
-    W.topRows(kSearched) = samples.transpose();
-    const int steps = std::min(kLongestRide, static_cast<int>(50 * std::pow(30., 1. * i / generations)));
-    values.setZero();
-    for (int j = 0; j < kRepeats; ++j) values += rides(W, steps);
-  }
-  cma.step(samples, values);
-  found.col(k).head(kSearched) = cma.getMean();
-}
-Eigen::VectorXd costs = Eigen::VectorXd::Zero(kSearches);
-for (int j = 0; j < kTests; ++j) costs += rides(found, kLongestRide);
-int best = 0;
-costs.minCoeff(&best);
-return found.col(best);
 
 // <variant one_deviation_for_all>
 // caught by: search, stays, unseen-search
 // mistake: searches the weights of rates as far away as those of readings.
 // <solution searchedPolicy>
-constexpr int kSearches = 3, kSamples = 20, kRepeats = 4, kTests = 50, kSearched = 9;
-Eigen::VectorXd deviations = Eigen::VectorXd::Constant(kSearched, .3);
-const int generations = (budget / kSearches - kTests) / (kSamples * kRepeats);
-Eigen::MatrixXd found = Eigen::MatrixXd::Zero(kFeatures, kSearches);
-for (int k = 0; k < kSearches; ++k) {
-  SearchCma cma(rng.next());
-  cma.init(Eigen::VectorXd::Zero(kSearched), -1, kSamples, deviations);
-  Eigen::MatrixXd samples, W = Eigen::MatrixXd::Zero(kFeatures, kSamples);
-  Eigen::VectorXd values;
-  for (int i = 0; i < generations; ++i) {
-    cma.step(samples, values);
-    W.topRows(kSearched) = samples.transpose();
-    const int steps = std::min(kLongestRide, static_cast<int>(50 * std::pow(30., 1. * i / generations)));
-    values.setZero();
-    for (int j = 0; j < kRepeats; ++j) values += rides(W, steps);
-  }
-  cma.step(samples, values);
-  found.col(k).head(kSearched) = cma.getMean();
-}
-Eigen::VectorXd costs = Eigen::VectorXd::Zero(kSearches);
-for (int j = 0; j < kTests; ++j) costs += rides(found, kLongestRide);
-int best = 0;
-costs.minCoeff(&best);
-return found.col(best);
+// in place of: deviations.tail(4) *= kTau;
 
 // <variant signs_tried_out>
 // caught by: search, stays, unseen-search

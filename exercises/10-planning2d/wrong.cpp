@@ -6,64 +6,16 @@
 // shown by: bug-known-maps
 // mistake: goes back to the m-line wherever it meets it, as on the first slides of Bug 2: it runs in circles.
 // <solution bugTwo>
-const auto leftmost = [&](MapCell cell, int heading) {
-  for (int turn = 0; turn < 4; ++turn, --heading)
-    if (isFree(ahead(cell, heading))) return heading;
-  return heading;
-};
-for (std::size_t at = 0; at + 1 < mLine.size();) {
-  if (isFree(mLine[at + 1])) {
-    trail.cells.push_back(mLine[++at]);
-    continue;
-  }
-  MapCell cell = mLine[at];
-  int heading = 0;
-  while (ahead(cell, heading) != mLine[at + 1]) ++heading;
-  heading = leftmost(cell, heading - 1);
-  const int first = heading;
-  if (!isFree(ahead(cell, heading))) return trail;
-  const std::size_t hit = at;
-  do {
-    cell = ahead(cell, heading);
-    trail.cells.push_back(cell);
-    heading = leftmost(cell, heading + 1);
-    const auto onLine = std::find(mLine.begin(), mLine.end(), cell);
-    if (onLine != mLine.end()) at = static_cast<std::size_t>(onLine - mLine.begin());
-    if (at == hit && cell == mLine[hit] && ((heading - first) & 3) == 0) return trail;
-  } while (at == hit);
-}
-trail.reached = true;
+// in place of: const auto onLine = std::find(mLine.begin() + static_cast<std::ptrdiff_t>(hit), mLine.end(),
+const auto onLine = std::find(mLine.begin(), mLine.end(), cell);
 
 // <variant round_too_early>
 // caught by: bug-known-maps
 // mistake: takes passing the cell where it met the obstacle for a full circuit.
 // <solution bugTwo>
-const auto leftmost = [&](MapCell cell, int heading) {
-  for (int turn = 0; turn < 4; ++turn, --heading)
-    if (isFree(ahead(cell, heading))) return heading;
-  return heading;
-};
-for (std::size_t at = 0; at + 1 < mLine.size();) {
-  if (isFree(mLine[at + 1])) {
-    trail.cells.push_back(mLine[++at]);
-    continue;
-  }
-  MapCell cell = mLine[at];
-  int heading = 0;
-  while (ahead(cell, heading) != mLine[at + 1]) ++heading;
-  heading = leftmost(cell, heading - 1);
-  if (!isFree(ahead(cell, heading))) return trail;
-  const std::size_t hit = at;
-  do {
-    cell = ahead(cell, heading);
-    trail.cells.push_back(cell);
-    heading = leftmost(cell, heading + 1);
-    const auto onLine = std::find(mLine.begin() + static_cast<std::ptrdiff_t>(hit), mLine.end(), cell);
-    if (onLine != mLine.end()) at = static_cast<std::size_t>(onLine - mLine.begin());
-    if (cell == mLine[hit]) return trail;
-  } while (at == hit);
-}
-trail.reached = true;
+// in place of: const int first = heading;
+// in place of: if (at == hit && cell == mLine[hit] && ((heading - first) & 3) == 0) return trail;
+if (cell == mLine[hit]) return trail;
 
 // <variant calls_the_library>
 // caught by: forbidden-call
@@ -122,47 +74,27 @@ for (std::size_t place = 0; place < network.size(); ++place) {
 // shown by: grid-way
 // mistake: goes to the lowest neighbour, as slide 4:25 says; if arcs differ in length, that is a detour.
 // <solution wayDown>
-if (distances[start] == kInfinite) return {};
-std::vector<std::size_t> way = {start};
-while (distances[way.back()] > 0) {
-  const std::vector<Arc>& arcs = network[way.back()];
-  const auto best = std::min_element(arcs.begin(), arcs.end(), [&](const Arc& a, const Arc& b) {
-    return distances[a.to] < distances[b.to];
-  });
-  way.push_back(best->to);
-}
-return way;
+// in place of: const auto total = [&](const Arc& arc) { return arc.length + ... [&](const Arc& a, const Arc&
+const auto best = std::min_element(
+    arcs.begin(), arcs.end(), [&](const Arc& a, const Arc& b) { return distances[a.to] < distances[b.to]; });
 
 // <variant pushes_without_end>
 // caught by: field-potential
 // mistake: blocks beyond their reach push, too: the square hides the sign.
 // <solution fieldPotential>
-U = gains.attraction * (p - goal).squaredNorm() / 2;
-for (const Block& block : yard.blocks) {
-  const double excess = 1 / (p - nearestPoint(block, p)).norm() - 1 / gains.reach;
-  U += gains.repulsion * excess * excess / 2;
-}
+// in place of: const double distance = (p - nearestPoint(block, p)).norm(); ... const double excess = 1 /
+const double excess = 1 / (p - nearestPoint(block, p)).norm() - 1 / gains.reach;
 // <solution fieldGradient>
-gradient = gains.attraction * (p - goal);
-for (const Block& block : yard.blocks) {
-  const Eigen::Vector2d away = p - nearestPoint(block, p);
-  const double distance = away.norm(), excess = 1 / distance - 1 / gains.reach;
-  gradient -= gains.repulsion * excess / (distance * distance * distance) * away;
-}
+// in place of: const double distance = away.norm(); ... const double excess = 1 / distance - 1 / gains.reach;
+const double distance = away.norm(), excess = 1 / distance - 1 / gains.reach;
 
 // <variant blocks_attract>
 // caught by: field-gradient, field-slide, field-any-yard
 // shown by: field-slide
 // mistake: the repulsion has the wrong sign.
 // <solution fieldGradient>
-gradient = gains.attraction * (p - goal);
-for (const Block& block : yard.blocks) {
-  const Eigen::Vector2d away = p - nearestPoint(block, p);
-  const double distance = away.norm();
-  if (distance >= gains.reach) continue;
-  const double excess = 1 / distance - 1 / gains.reach;
-  gradient += gains.repulsion * excess / (distance * distance * distance) * away;
-}
+// in place of: gradient -= gains.repulsion * excess / (distance * distance * distance) * away;
+gradient += gains.repulsion * excess / (distance * distance * distance) * away;
 // <solution slideDown>
 while ((trail.points.back() - goal).norm() > stepSize && trail.points.size() < 1000) {
   const Eigen::Vector2d p = trail.points.back(), gradient = fieldGradient(yard, goal, gains, p);
@@ -175,12 +107,9 @@ trail.ending = Ending::kAtGoal;
 // caught by: field-gradient
 // mistake: the distance to a block counts as 0.1 m at least, lest the push explode.
 // <solution fieldGradient>
-gradient = gains.attraction * (p - goal);
-for (const Block& block : yard.blocks) {
-  const Eigen::Vector2d away = p - nearestPoint(block, p);
-  const double d = std::max(.1, away.norm());
-  if (d < gains.reach) gradient -= gains.repulsion * (1 / d - 1 / gains.reach) / (d * d) * away / d;
-}
+// in place of: const double distance = away.norm(); ... gradient -= gains.repulsion * excess / (distance *
+const double d = std::max(.1, away.norm());
+if (d < gains.reach) gradient -= gains.repulsion * (1 / d - 1 / gains.reach) / (d * d) * away / d;
 
 // <variant stuck_is_success>
 // caught by: field-slide, field-any-yard
@@ -321,27 +250,5 @@ return std::abs(to.x - from.x) + std::abs(to.y - from.y);
 // caught by: astar-known-maps, astar-anything
 // mistake: uses the estimate of the start for every node: that is Dijkstra, which looks everywhere.
 // <solution aStar>
-std::vector<double> lengths(estimates.size(), kInfinite);
-std::vector<std::size_t> from(estimates.size(), start);
-std::vector<bool> isDone(estimates.size());
-using Entry = std::pair<double, std::size_t>;
-std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-lengths[start] = 0;
-queue.emplace(estimates[start], start);
-while (!queue.empty() && queue.top().second != goal) {
-  const std::size_t node = queue.top().second;
-  queue.pop();
-  if (isDone[node]) continue;
-  isDone[node] = true;
-  for (const Arc& arc : arcsOf(node)) {
-    const double length = lengths[node] + arc.length;
-    if (length >= lengths[arc.to]) continue;
-    lengths[arc.to] = length;
-    from[arc.to] = node;
-    queue.emplace(length + estimates[start], arc.to);
-  }
-}
-if (lengths[goal] == kInfinite) return {};
-for (std::size_t node = goal; node != start; node = from[node]) way.push_back(node);
-way.push_back(start);
-std::reverse(way.begin(), way.end());
+// in place of: queue.emplace(length + estimates[arc.to], arc.to);
+queue.emplace(length + estimates[start], arc.to);

@@ -80,19 +80,7 @@ return follows;
 // shown by: car-follows
 // mistake: does not test the limits of the steering angle.
 // <solution canFollow>
-for (std::size_t k = 1; k < path.size(); ++k) {
-  const Eigen::Vector3d &a = path[k - 1], &b = path[k];
-  const double turn = std::remainder(b[2] - a[2], 2 * std::numbers::pi), middle = a[2] + turn / 2;
-  const double dx = b[0] - a[0], dy = b[1] - a[1];
-  // The constraint of 4:49 holds for the chord of an arc with the heading in the middle of it.
-  if (std::abs(dx * std::sin(middle) - dy * std::cos(middle)) > 1e-4) return false;
-  const double chord = dx * std::cos(middle) + dy * std::sin(middle);
-  if (std::abs(chord) < 1e-4) {
-    if (std::abs(turn) > 1e-4) return false;
-    continue;
-  }
-}
-return true;
+// in place of: const double curvature = 2 * std::sin(turn / 2) / chord, ... if (steering < car.minSteering -
 
 // <variant poses_without_error>
 // caught by: car-follows
@@ -119,21 +107,8 @@ return true;
 // shown by: car-follows
 // mistake: takes the limits to be symmetric.
 // <solution canFollow>
-for (std::size_t k = 1; k < path.size(); ++k) {
-  const Eigen::Vector3d &a = path[k - 1], &b = path[k];
-  const double turn = std::remainder(b[2] - a[2], 2 * std::numbers::pi), middle = a[2] + turn / 2;
-  const double dx = b[0] - a[0], dy = b[1] - a[1];
-  // The constraint of 4:49 holds for the chord of an arc with the heading in the middle of it.
-  if (std::abs(dx * std::sin(middle) - dy * std::cos(middle)) > 1e-4) return false;
-  const double chord = dx * std::cos(middle) + dy * std::sin(middle);
-  if (std::abs(chord) < 1e-4) {
-    if (std::abs(turn) > 1e-4) return false;
-    continue;
-  }
-  const double curvature = 2 * std::sin(turn / 2) / chord, steering = std::atan(car.wheelbase * curvature);
-  if (std::abs(steering) > car.maxSteering + 0.01) return false;
-}
-return true;
+// in place of: if (steering < car.minSteering - 0.01 || steering > car.maxSteering + 0.01) return false;
+if (std::abs(steering) > car.maxSteering + 0.01) return false;
 
 // <variant heading_not_wrapped>
 // caught by: tree-metrics
@@ -148,23 +123,8 @@ return (a - b).norm();
 // shown by: tree-overlap
 // mistake: centres the body at the rear axle.
 // <solution isFree>
-// Two rectangles overlap unless one of their four sides' directions sees a gap between their shadows.
+// in place of: const double a = (car.front + car.back) / 2, b = car.width / 2, ahead = (car.front - car.back)
 const double a = (car.front + car.back) / 2, b = car.width / 2, ahead = 0.;
-const double cosine = std::cos(q[2]), sine = std::sin(q[2]);
-for (const Block& block : blocks) {
-  const double A = block.length / 2, B = block.width / 2;
-  const double dx = block.middle[0] - q[0] - ahead * cosine, dy = block.middle[1] - q[1] - ahead * sine;
-  const double reach = std::hypot(a, b) + std::hypot(A, B);
-  if (dx * dx + dy * dy > reach * reach) continue;
-  const double c = std::cos(block.middle[2]), s = std::sin(block.middle[2]);
-  const double along = std::abs(cosine * c + sine * s), across = std::abs(cosine * s - sine * c);
-  const bool gap = std::abs(dx * cosine + dy * sine) > a + A * along + B * across ||
-                   std::abs(dy * cosine - dx * sine) > b + A * across + B * along ||
-                   std::abs(dx * c + dy * s) > A + a * along + b * across ||
-                   std::abs(dy * c - dx * s) > B + a * across + b * along;
-  if (!gap) return false;
-}
-return true;
 
 // <variant car_is_a_point>
 // caught by: tree-overlap, tree-drive, park-kerb, park-any
@@ -208,61 +168,36 @@ bool isFreeOnTheWay(CarModel car, const Eigen::Vector3d& from, const Drive& driv
 // caught by: tree-drive
 // mistake: returns the first control whose way is free.
 // <solution driveTowards>
-std::vector<std::pair<double, Drive>> trials;
-while (trials.size() < 20) {
-  const double speed = rng.index(2) == 0 ? 1 : -1;
-  const Drive drive{speed, rng.uniform(car.minSteering, car.maxSteering), seconds};
-  trials.emplace_back(poseDistance(driven(car, from, drive), target), drive);
-}
-for (const auto& [distance, drive] : trials)
-  if (isFreeOnTheWay(car, from, drive, blocks)) return drive;
-return {};
+// in place of: std::ranges::sort(trials, {}, [](const auto& trial) { return trial.first; });
 
 // <variant copied_generator>
 // caught by: tree-drive
 // mistake: draws from a copy of the generator, so that each call draws the same controls.
 // <solution driveTowards>
+// in place of: std::vector<std::pair<double, Drive>> trials;
 Rng own = rng;
 std::vector<std::pair<double, Drive>> trials;
-while (trials.size() < 20) {
-  const double speed = own.index(2) == 0 ? 1 : -1;
-  const Drive drive{speed, own.uniform(car.minSteering, car.maxSteering), seconds};
-  trials.emplace_back(poseDistance(driven(car, from, drive), target), drive);
-}
-std::ranges::sort(trials, {}, [](const auto& trial) { return trial.first; });
-for (const auto& [distance, drive] : trials)
-  if (isFreeOnTheWay(car, from, drive, blocks)) return drive;
-return {};
+// in place of: const double speed = rng.index(2) == 0 ? 1 : -1; ... const Drive drive{speed,
+const double speed = own.index(2) == 0 ? 1 : -1;
+const Drive drive{speed, own.uniform(car.minSteering, car.maxSteering), seconds};
 
 // <variant nearest_by_position>
 // caught by: tree-drive
 // mistake: chooses the control by the position that it leads to, not by the heading.
 // <solution driveTowards>
-std::vector<std::pair<double, Drive>> trials;
-while (trials.size() < 20) {
-  const double speed = rng.index(2) == 0 ? 1 : -1;
-  const Drive drive{speed, rng.uniform(car.minSteering, car.maxSteering), seconds};
-  trials.emplace_back((driven(car, from, drive) - target).head<2>().norm(), drive);
-}
-std::ranges::sort(trials, {}, [](const auto& trial) { return trial.first; });
-for (const auto& [distance, drive] : trials)
-  if (isFreeOnTheWay(car, from, drive, blocks)) return drive;
-return {};
+// in place of: trials.emplace_back(poseDistance(driven(car, from, drive), target), drive);
+trials.emplace_back((driven(car, from, drive) - target).head<2>().norm(), drive);
 
 // <variant twelve_draws>
 // caught by: tree-drive
 // mistake: returns the best of twelve controls instead of twenty.
 // <solution driveTowards>
-std::vector<std::pair<double, Drive>> trials;
+// in place of: while (trials.size() < 20) { ... }
 for (int i = 0; i < 12; ++i) {
   const double speed = rng.index(2) == 0 ? 1 : -1;
   const Drive drive{speed, rng.uniform(car.minSteering, car.maxSteering), seconds};
   trials.emplace_back(poseDistance(driven(car, from, drive), target), drive);
 }
-std::ranges::sort(trials, {}, [](const auto& trial) { return trial.first; });
-for (const auto& [distance, drive] : trials)
-  if (isFreeOnTheWay(car, from, drive, blocks)) return drive;
-return {};
 
 // <variant slides_sideways>
 // caught by: tree-room, tree-any
@@ -337,79 +272,23 @@ return std::array{turn(first * (heading - from[2])), middle, turn(first*(to[2] -
 // shown by: dubins-words
 // mistake: takes arcs the shorter way round, some of them backward.
 // <solution dubinsLengths>
-const auto left = [&](char letter) { return letter == 'L' ? 1 : -1; };
-const char* letters = std::array{"LSL", "LSR", "RSL", "RSR", "LRL", "RLR"}[static_cast<std::size_t>(word)];
-const int first = left(letters[0]), last = left(letters[2]);
-// From the centre of the first circle to that of the last.
-const double dx = to[0] - last * radius * std::sin(to[2]) - from[0] + first * radius * std::sin(from[2]);
-const double dy = to[1] + last * radius * std::cos(to[2]) - from[1] - first * radius * std::cos(from[2]);
+// in place of: const double distance = std::hypot(dx, dy), direction = ... };
 const double distance = std::hypot(dx, dy), direction = std::atan2(dy, dx);
 const auto turn = [](double angle) { return std::remainder(angle, 2 * std::numbers::pi); };
-if (letters[1] == 'S') {
-  // Outside of both circles, or across from one to the other: then the way and two radii span a triangle.
-  const double across = first == last ? 0 : 2 * radius;
-  if (distance < across) return {};
-  const double straight = std::sqrt(distance * distance - across * across);
-  const double heading = direction + first * std::atan2(across, straight);
-  return std::array{radius * turn(first * (heading - from[2])), straight,
-                    radius * turn(last * (to[2] - heading))};
-}
-// A third circle touches both: its centre is 2 r away from both of theirs.
-if (distance > 4 * radius) return {};
-const double middle = 2 * (std::numbers::pi - std::asin(distance / (4 * radius)));
-const double heading = direction + first * middle / 2;  // at the end of the first arc
-return std::array{radius * turn(first * (heading - from[2])), radius* middle,
-                  radius* turn(first*(to[2] - heading) + middle)};
 
 // <variant other_circle_in_the_middle>
 // caught by: dubins-words, dubins-any
 // shown by: dubins-words
 // mistake: takes the circle whose arc is shorter than half a turn.
 // <solution dubinsLengths>
-const auto left = [&](char letter) { return letter == 'L' ? 1 : -1; };
-const char* letters = std::array{"LSL", "LSR", "RSL", "RSR", "LRL", "RLR"}[static_cast<std::size_t>(word)];
-const int first = left(letters[0]), last = left(letters[2]);
-// From the centre of the first circle to that of the last.
-const double dx = to[0] - last * radius * std::sin(to[2]) - from[0] + first * radius * std::sin(from[2]);
-const double dy = to[1] + last * radius * std::cos(to[2]) - from[1] - first * radius * std::cos(from[2]);
-const double distance = std::hypot(dx, dy), direction = std::atan2(dy, dx);
-// Between 0 and 2 pi; what rounding pushes below 0 is no whole turn.
-const auto turn = [](double angle) {
-  const double rest = angle - 2 * std::numbers::pi * std::floor(angle / (2 * std::numbers::pi));
-  return rest > 2 * std::numbers::pi - 1e-9 ? 0 : rest;
-};
-if (letters[1] == 'S') {
-  // Outside of both circles, or across from one to the other: then the way and two radii span a triangle.
-  const double across = first == last ? 0 : 2 * radius;
-  if (distance < across) return {};
-  const double straight = std::sqrt(distance * distance - across * across);
-  const double heading = direction + first * std::atan2(across, straight);
-  return std::array{radius * turn(first * (heading - from[2])), straight,
-                    radius * turn(last * (to[2] - heading))};
-}
-// A third circle touches both: its centre is 2 r away from both of theirs.
-if (distance > 4 * radius) return {};
+// in place of: const double middle = 2 * (std::numbers::pi - std::asin(distance / (4 * radius)));
 const double middle = 2 * std::asin(distance / (4 * radius));
-const double heading = direction + first * middle / 2;  // at the end of the first arc
-return std::array{radius * turn(first * (heading - from[2])), radius* middle,
-                  radius* turn(first*(to[2] - heading) + middle)};
 
 // <variant straight_words_only>
 // caught by: dubins-words, dubins-shortest, dubins-any
 // mistake: knows no word with three arcs.
 // <solution dubinsLengths>
-const auto left = [&](char letter) { return letter == 'L' ? 1 : -1; };
-const char* letters = std::array{"LSL", "LSR", "RSL", "RSR", "LRL", "RLR"}[static_cast<std::size_t>(word)];
-const int first = left(letters[0]), last = left(letters[2]);
-// From the centre of the first circle to that of the last.
-const double dx = to[0] - last * radius * std::sin(to[2]) - from[0] + first * radius * std::sin(from[2]);
-const double dy = to[1] + last * radius * std::cos(to[2]) - from[1] - first * radius * std::cos(from[2]);
-const double distance = std::hypot(dx, dy), direction = std::atan2(dy, dx);
-// Between 0 and 2 pi; what rounding pushes below 0 is no whole turn.
-const auto turn = [](double angle) {
-  const double rest = angle - 2 * std::numbers::pi * std::floor(angle / (2 * std::numbers::pi));
-  return rest > 2 * std::numbers::pi - 1e-9 ? 0 : rest;
-};
+// in place of: if (letters[1] == 'S') { ... radius * turn(first * (to[2] - heading) + middle)};
 if (letters[1] == 'S') {
   // Outside of both circles, or across from one to the other: then the way and two radii span a triangle.
   const double across = first == last ? 0 : 2 * radius;
@@ -484,18 +363,8 @@ return speed / rig.hitchLength;
 // shown by: trailer-reverses
 // mistake: steers against the angle at the hitch.
 // <solution reverseSteering>
-// From outside to inside, each orders the next: the offset a heading of the trailer, this an angle at the
-// hitch, and this a steering angle. Rates are per metre of way; each is faster than the one outside.
-const double trailer = std::remainder(q[3], 2 * std::numbers::pi);
-const double hitch = std::remainder(q[2] - q[3], 2 * std::numbers::pi);
-const double offset = q[1] - rig.hitchLength * std::sin(trailer);
-const double heading = std::clamp(0.15 * offset, -0.4, 0.4);
-// Beyond d tan(steering) / L nothing folds the rig back: stay well below.
-const double most = 0.6 * std::min(1., rig.hitchLength* std::tan(rig.car.maxSteering) / rig.car.wheelbase);
-const double angle = std::clamp(rig.hitchLength * 0.5 * (trailer - heading), -most, most);
+// in place of: const double curvature = std::sin(hitch) / rig.hitchLength + 1.5 * (hitch - angle);
 const double curvature = std::sin(hitch) / rig.hitchLength - 1.5 * (hitch - angle);
-const double steering = std::atan(rig.car.wheelbase * curvature);
-return std::clamp(steering, rig.car.minSteering, rig.car.maxSteering);
 
 // <variant steers_as_forward>
 // caught by: trailer-reverses, trailer-any
@@ -510,32 +379,13 @@ return std::clamp(-0.3 * offset - 1.2 * q[3], rig.car.minSteering, rig.car.maxSt
 // shown by: trailer-reverses
 // mistake: turns the trailer away from the axis.
 // <solution reverseSteering>
-// From outside to inside, each orders the next: the offset a heading of the trailer, this an angle at the
-// hitch, and this a steering angle. Rates are per metre of way; each is faster than the one outside.
-const double trailer = std::remainder(q[3], 2 * std::numbers::pi);
-const double hitch = std::remainder(q[2] - q[3], 2 * std::numbers::pi);
-const double offset = q[1] - rig.hitchLength * std::sin(trailer);
+// in place of: const double heading = std::clamp(0.15 * offset, -0.4, 0.4);
 const double heading = std::clamp(-0.15 * offset, -0.4, 0.4);
-// Beyond d tan(steering) / L nothing folds the rig back: stay well below.
-const double most = 0.6 * std::min(1., rig.hitchLength* std::tan(rig.car.maxSteering) / rig.car.wheelbase);
-const double angle = std::clamp(rig.hitchLength * 0.5 * (trailer - heading), -most, most);
-const double curvature = std::sin(hitch) / rig.hitchLength + 1.5 * (hitch - angle);
-const double steering = std::atan(rig.car.wheelbase * curvature);
-return std::clamp(steering, rig.car.minSteering, rig.car.maxSteering);
 
 // <variant turns_counted>
 // caught by: trailer-any
 // mistake: steers against whole turns of a heading.
 // <solution reverseSteering>
-// From outside to inside, each orders the next: the offset a heading of the trailer, this an angle at the
-// hitch, and this a steering angle. Rates are per metre of way; each is faster than the one outside.
+// in place of: const double trailer = std::remainder(q[3], 2 * ... const double hitch = std::remainder(q[2] -
 const double trailer = q[3];
 const double hitch = q[2] - q[3];
-const double offset = q[1] - rig.hitchLength * std::sin(trailer);
-const double heading = std::clamp(0.15 * offset, -0.4, 0.4);
-// Beyond d tan(steering) / L nothing folds the rig back: stay well below.
-const double most = 0.6 * std::min(1., rig.hitchLength* std::tan(rig.car.maxSteering) / rig.car.wheelbase);
-const double angle = std::clamp(rig.hitchLength * 0.5 * (trailer - heading), -most, most);
-const double curvature = std::sin(hitch) / rig.hitchLength + 1.5 * (hitch - angle);
-const double steering = std::atan(rig.car.wheelbase * curvature);
-return std::clamp(steering, rig.car.minSteering, rig.car.maxSteering);

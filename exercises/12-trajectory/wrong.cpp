@@ -16,9 +16,7 @@ return {value.y, value.J};
 // caught by: difference-terms, cost-of-powers, any-path
 // mistake: differences as they stand on 5:4, whatever the time between two configurations.
 // <solution differenceTerm>
-std::vector<TermValue> identity;
-for (Eigen::Index i = 0; i < window.cols(); ++i)
-  identity.push_back({window.col(i), Eigen::MatrixXd::Identity(window.rows(), window.rows())});
+// in place of: return taskDifference(identity, tau);
 return taskDifference(identity, 1);
 
 // <variant prefix_forgotten>
@@ -34,121 +32,67 @@ return cost;
 // caught by: difference-terms, task-differences, any-path
 // mistake: puts the columns of x_t first.
 // <solution taskDifference>
-const std::vector<std::vector<double>> binomials{{-1, 1}, {1, -2, 1}, {-1, 3, -3, 1}};
-const std::vector<double>& weights = binomials[phi.size() - 2];
-const double scale = std::sqrt(tau) / std::pow(tau, static_cast<double>(phi.size()) - 1);
-const Eigen::Index n = phi[0].J.cols();
-TermValue value{Eigen::VectorXd::Zero(phi[0].y.size()),
-                Eigen::MatrixXd(phi[0].y.size(), n* static_cast<Eigen::Index>(phi.size()))};
-for (std::size_t i = 0; i < phi.size(); ++i) {
-  value.y += scale * weights[i] * phi[i].y;
-  value.J.middleCols(static_cast<Eigen::Index>(phi.size() - 1 - i) * n, n) = scale * weights[i] * phi[i].J;
-}
-return value;
+// in place of: value.J.middleCols(static_cast<Eigen::Index>(i) * n, n) = scale * weights[i] * phi[i].J;
+value.J.middleCols(static_cast<Eigen::Index>(phi.size() - 1 - i) * n, n) = scale * weights[i] * phi[i].J;
 
 // <variant jacobian_of_now_for_all>
 // caught by: task-differences, any-path
 // mistake: one Jacobian for all configurations of the window.
 // <solution taskDifference>
-const std::vector<std::vector<double>> binomials{{-1, 1}, {1, -2, 1}, {-1, 3, -3, 1}};
-const std::vector<double>& weights = binomials[phi.size() - 2];
-const double scale = std::sqrt(tau) / std::pow(tau, static_cast<double>(phi.size()) - 1);
-const Eigen::Index n = phi[0].J.cols();
-TermValue value{Eigen::VectorXd::Zero(phi[0].y.size()),
-                Eigen::MatrixXd(phi[0].y.size(), n* static_cast<Eigen::Index>(phi.size()))};
-for (std::size_t i = 0; i < phi.size(); ++i) {
-  value.y += scale * weights[i] * phi[i].y;
-  value.J.middleCols(static_cast<Eigen::Index>(i) * n, n) = scale * weights[i] * phi.back().J;
-}
-return value;
+// in place of: value.J.middleCols(static_cast<Eigen::Index>(i) * n, n) = scale * weights[i] * phi[i].J;
+value.J.middleCols(static_cast<Eigen::Index>(i) * n, n) = scale * weights[i] * phi.back().J;
 
 // <variant sum_instead_of_integral>
 // caught by: difference-terms, cost-of-powers, task-differences
 // mistake: difference quotients without sqrt(tau): twice as many steps cost twice as much.
 // <solution taskDifference>
-const std::vector<std::vector<double>> binomials{{-1, 1}, {1, -2, 1}, {-1, 3, -3, 1}};
-const std::vector<double>& weights = binomials[phi.size() - 2];
+// in place of: const double scale = std::sqrt(tau) / std::pow(tau, static_cast<double>(phi.size()) - 1);
 const double scale = 1 / std::pow(tau, static_cast<double>(phi.size()) - 1);
-const Eigen::Index n = phi[0].J.cols();
-TermValue value{Eigen::VectorXd::Zero(phi[0].y.size()),
-                Eigen::MatrixXd(phi[0].y.size(), n* static_cast<Eigen::Index>(phi.size()))};
-for (std::size_t i = 0; i < phi.size(); ++i) {
-  value.y += scale * weights[i] * phi[i].y;
-  value.J.middleCols(static_cast<Eigen::Index>(i) * n, n) = scale * weights[i] * phi[i].J;
-}
-return value;
 
 // <variant columns_by_the_largest_order>
 // caught by: assembled
 // mistake: the J of each term begins k configurations back, with the largest order k.
 // <solution assembled>
-const int rows = (orderOf(terms, n) + 1) * n;
-BandSystem system{Eigen::MatrixXd::Zero(rows, n* steps), Eigen::VectorXd::Zero(n* steps)};
-for (const Term& term : terms) {
-  const Eigen::Index columns = term.J.cols(), first = n * (term.t + 1) - rows;
-  for (Eigen::Index a = std::max<Eigen::Index>(0, -first); a < columns; ++a) {
-    system.g[first + a] += 2 * term.J.col(a).dot(term.y);
-    for (Eigen::Index b = a; b < columns; ++b)
-      system.band(b - a, first + a) += 2 * term.J.col(a).dot(term.J.col(b));
-  }
-}
-return system;
+// in place of: const Eigen::Index columns = term.J.cols(), first = n * (term.t + 1) - columns;
+const Eigen::Index columns = term.J.cols(), first = n * (term.t + 1) - rows;
 
 // <variant gradient_without_two>
 // caught by: assembled, unseen-descents
 // mistake: combines the gradient of y^T y / 2 with the second derivatives of y^T y: steps are half as long.
 // <solution assembled>
-const int rows = (orderOf(terms, n) + 1) * n;
-BandSystem system{Eigen::MatrixXd::Zero(rows, n* steps), Eigen::VectorXd::Zero(n* steps)};
-for (const Term& term : terms) {
-  const Eigen::Index columns = term.J.cols(), first = n * (term.t + 1) - columns;
-  for (Eigen::Index a = std::max<Eigen::Index>(0, -first); a < columns; ++a) {
-    system.g[first + a] += term.J.col(a).dot(term.y);
-    for (Eigen::Index b = a; b < columns; ++b)
-      system.band(b - a, first + a) += 2 * term.J.col(a).dot(term.J.col(b));
-  }
-}
-return system;
+// in place of: system.g[first + a] += 2 * term.J.col(a).dot(term.y);
+system.g[first + a] += term.J.col(a).dot(term.y);
 
 // <variant terms_at_the_prefix_dropped>
 // caught by: assembled, unseen-descents, through-points
 // mistake: leaves out the terms that reach into the prefix.
 // <solution assembled>
-const int rows = (orderOf(terms, n) + 1) * n;
-BandSystem system{Eigen::MatrixXd::Zero(rows, n* steps), Eigen::VectorXd::Zero(n* steps)};
-for (const Term& term : terms) {
-  const Eigen::Index columns = term.J.cols(), first = n * (term.t + 1) - columns;
-  if (first < 0) continue;
-  for (Eigen::Index a = 0; a < columns; ++a) {
-    system.g[first + a] += 2 * term.J.col(a).dot(term.y);
-    for (Eigen::Index b = a; b < columns; ++b)
-      system.band(b - a, first + a) += 2 * term.J.col(a).dot(term.J.col(b));
-  }
+// in place of: for (Eigen::Index a = std::max<Eigen::Index>(0, -first); a < ... }
+if (first < 0) continue;
+for (Eigen::Index a = 0; a < columns; ++a) {
+  system.g[first + a] += 2 * term.J.col(a).dot(term.y);
+  for (Eigen::Index b = a; b < columns; ++b)
+    system.band(b - a, first + a) += 2 * term.J.col(a).dot(term.J.col(b));
 }
-return system;
 
 // <variant transposed_jacobian>
 // caught by: assembled, unseen-descents
 // mistake: the blocks of H between two configurations are transposed.
 // <solution assembled>
-const int rows = (orderOf(terms, n) + 1) * n;
-BandSystem system{Eigen::MatrixXd::Zero(rows, n* steps), Eigen::VectorXd::Zero(n* steps)};
-for (const Term& term : terms) {
-  const int k = static_cast<int>(term.J.cols()) / n - 1;
-  for (int p = 0; p <= k; ++p) {
-    const int column = n * (term.t - k + p);
-    if (column < 0) continue;
-    const Eigen::MatrixXd Jp = term.J.middleCols(n * p, n);
-    system.g.segment(column, n) += 2 * Jp.transpose() * term.y;
-    for (int q = p; q <= k; ++q) {
-      const Eigen::MatrixXd block = 2 * Jp.transpose() * term.J.middleCols(n * q, n);
-      for (int a = 0; a < n; ++a)
-        for (int b = 0; b < n; ++b)
-          if (q > p || a >= b) system.band(n * (q - p) + a - b, column + b) += block(a, b);
-    }
+// in place of: const Eigen::Index columns = term.J.cols(), first = n * ... }
+const int k = static_cast<int>(term.J.cols()) / n - 1;
+for (int p = 0; p <= k; ++p) {
+  const int column = n * (term.t - k + p);
+  if (column < 0) continue;
+  const Eigen::MatrixXd Jp = term.J.middleCols(n * p, n);
+  system.g.segment(column, n) += 2 * Jp.transpose() * term.y;
+  for (int q = p; q <= k; ++q) {
+    const Eigen::MatrixXd block = 2 * Jp.transpose() * term.J.middleCols(n * q, n);
+    for (int a = 0; a < n; ++a)
+      for (int b = 0; b < n; ++b)
+        if (q > p || a >= b) system.band(n * (q - p) + a - b, column + b) += block(a, b);
   }
 }
-return system;
 
 // <variant dense_matrix>
 // caught by: long-band
@@ -172,16 +116,12 @@ return L;
 // caught by: factored, long-band
 // mistake: the factors of L D L^T, and D forgotten.
 // <solution bandCholesky>
-Eigen::MatrixXd L = band;
-const Eigen::Index rows = L.rows();
-for (Eigen::Index j = 0; j < L.cols(); ++j) {
-  const double d = L(0, j);
-  if (!(d > 0)) return {};
-  L.col(j) /= d;
-  for (Eigen::Index i = 1; i < rows && j + i < L.cols(); ++i)
-    L.col(j + i).head(rows - i) -= d * L(i, j) * L.col(j).tail(rows - i);
-}
-return L;
+// in place of: if (!(L(0, j) > 0)) return {}; ... L.col(j) /= std::sqrt(L(0, j));
+const double d = L(0, j);
+if (!(d > 0)) return {};
+L.col(j) /= d;
+// in place of: L.col(j + i).head(rows - i) -= L(i, j) * L.col(j).tail(rows - i);
+L.col(j + i).head(rows - i) -= d * L(i, j) * L.col(j).tail(rows - i);
 
 // <variant full_steps>
 // caught by: descends, unseen-descents
@@ -208,47 +148,16 @@ return path;
 // caught by: descends
 // mistake: ends where H is singular.
 // <solution descended>
-const int n = static_cast<int>(start.rows()), T = static_cast<int>(start.cols());
-const auto costOf = [](const std::vector<Term>& all) {
-  double cost = 0;
-  for (const Term& term : all) cost += term.y.squaredNorm();
-  return cost;
-};
-std::vector<Eigen::MatrixXd> path{start};
-std::vector<Term> here = terms(start);
-while (path.size() <= 300) {
-  BandSystem system = assembled(here, n, T);
-  if (system.g.cwiseAbs().maxCoeff() <= tolerance) break;
-  const Eigen::MatrixXd L = bandCholesky(system.band);
-  if (L.size() == 0) break;
-  const Eigen::VectorXd down = bandSolve(L, system.g);
-  const Eigen::MatrixXd step = down.reshaped(n, T);
-  const double cost = costOf(here), slope = system.g.dot(down);
-  double share = 1;
-  Eigen::MatrixXd next;
-  for (;; share /= 2) {
-    next = path.back() - share * step;
-    here = terms(next);
-    if (share < 1e-10 || costOf(here) <= cost - 0.01 * share * slope) break;
-  }
-  if (!(costOf(here) < cost)) break;
-  path.push_back(next);
-}
-return path;
+// in place of: Eigen::MatrixXd L = bandCholesky(system.band); ... }
+const Eigen::MatrixXd L = bandCholesky(system.band);
+if (L.size() == 0) break;
 
 // <variant counts_only_if_violated>
 // caught by: as-cost
 // mistake: an inequality counts only where it is violated, whatever its multiplier.
 // <solution asCost>
-if (term.role == Role::cost) return term;
-Term rows{Role::cost, term.t, std::sqrt(mu) * (term.y + multipliers / (2 * mu)), std::sqrt(mu) * term.J};
-if (term.role == Role::equality) return rows;
-for (Eigen::Index i = 0; i < rows.y.size(); ++i) {
-  if (term.y[i] > 0) continue;
-  rows.y[i] = 0;
-  rows.J.row(i).setZero();
-}
-return rows;
+// in place of: if (rows.y[i] > 0) continue;
+if (term.y[i] > 0) continue;
 
 // <variant inequalities_pull>
 // caught by: multipliers, known-minima
@@ -293,21 +202,7 @@ return result;
 // caught by: through-points, other-points
 // mistake: the motion ends at the last point, but not at rest.
 // <solution throughPoints>
-const Eigen::Index n = start.size();
-const Terms terms = [&](const Eigen::MatrixXd& X) {
-  Eigen::MatrixXd path(n, 2 + X.cols());
-  path << start, start, X;
-  std::vector<Term> all;
-  const auto add = [&](Role role, int t, const TermValue& value) {
-    all.push_back({role, t, value.y, value.J});
-  };
-  for (int t = 0; t < X.cols(); ++t) add(Role::cost, t, differenceTerm(path.middleCols(t, 3), tau));
-  for (std::size_t i = 0; i < when.size(); ++i)
-    add(Role::equality, when[i],
-        {X.col(when[i]) - points.col(static_cast<Eigen::Index>(i)), Eigen::MatrixXd::Identity(n, n)});
-  return all;
-};
-return minimised(terms, start.replicate(1, when.back() + 1), 10 / std::pow(tau, 3), {1e-9, 1e-6}).X;
+// in place of: add(Role::equality, when.back(), differenceTerm(X.rightCols(2), 1));
 
 // <variant straight_between_points>
 // caught by: through-points, other-points
@@ -329,50 +224,18 @@ return X;
 // caught by: kept-apart
 // mistake: the derivatives by both ends of the way are swapped.
 // <solution keptApart>
-const Eigen::Index n = window.rows();
-TermValue all;
-for (int i = 0; i < samples; ++i) {
-  const double s = (i + 1.) / samples;
-  S.setJointAngles((1 - s) * window.col(0) + s * window.col(1));
-  const Clearances d = clearances(S);
-  const Eigen::Index pairs = d.y.size();
-  if (i == 0) all = {Eigen::VectorXd(samples * pairs), Eigen::MatrixXd(samples * pairs, 2 * n)};
-  all.y.segment(i * pairs, pairs) = (1 - d.y.array() / margin).matrix();
-  all.J.block(i * pairs, 0, pairs, n) = -s / margin * d.J;
-  all.J.block(i * pairs, n, pairs, n) = -(1 - s) / margin * d.J;
-}
-return all;
+// in place of: for (Eigen::Index k = 0; k < pairs; ++k) all.y[i * pairs + ... all.J.block(i * pairs, n,
+all.y.segment(i* pairs, pairs) = (1 - d.y.array() / margin).matrix();
+all.J.block(i* pairs, 0, pairs, n) = -s / margin * d.J;
+all.J.block(i* pairs, n, pairs, n) = -(1 - s) / margin * d.J;
 
 // <variant looks_at_steps_only>
 // caught by: around-the-ball, around-others
 // shown by: around-the-ball
 // mistake: looks at the configurations only: thin obstacles fit between two of them.
 // <solution aroundObstacle>
+// in place of: constexpr int kSamples = 8;
 constexpr int kSamples = 1;
-const Eigen::VectorXd start = S.getJointAngles();
-const Eigen::Index n = start.size();
-const int last = errand.steps - 1;
-const Terms terms = [&](const Eigen::MatrixXd& X) {
-  Eigen::MatrixXd path(n, 2 + X.cols());
-  path << start, start, X;
-  std::vector<Term> all;
-  const auto add = [&](Role role, int t, const TermValue& value) {
-    all.push_back({role, t, value.y, value.J});
-  };
-  for (int t = 0; t <= last; ++t) {
-    add(Role::cost, t, differenceTerm(path.middleCols(t, 3), errand.tau));
-    add(Role::inequality, t, keptApart(S, path.middleCols(t + 1, 2), errand.margin, kSamples));
-  }
-  add(Role::equality, last, {X.col(last) - errand.goal, Eigen::MatrixXd::Identity(n, n)});
-  add(Role::equality, last, differenceTerm(X.rightCols(2), 1));
-  return all;
-};
-Eigen::MatrixXd points(n, 2);
-points << errand.detour, errand.goal;
-const Eigen::MatrixXd guess = throughPoints(start, points, {last / 2, last}, errand.tau);
-const Eigen::MatrixXd X = minimised(terms, guess, 1000, {1e-4, 1e-3}).X;
-S.setJointAngles(start);
-return X;
 
 // <variant takes_the_detour>
 // caught by: around-the-ball, around-others

@@ -40,13 +40,8 @@ return question == 0 || question == 3 || question == 4;
 if (force.norm() == 0) return true;
 return std::acos(std::min(1., force.dot(finger.normal) / force.norm())) <= finger.friction + 1e-7;
 // <solution pyramidEdges>
-const Eigen::Vector3d& n = finger.normal;
-const Eigen::Vector3d least = std::abs(n.x()) < 0.6 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
-const Eigen::Vector3d a = n.cross(least).normalized(), b = n.cross(a);
-for (int k = 0; k < edges; ++k) {
-  const double angle = 2 * std::numbers::pi * k / edges;
-  forces.col(k) = n + std::tan(finger.friction) * (std::cos(angle) * a + std::sin(angle) * b);
-}
+// in place of: forces.col(k) = n + finger.friction * (std::cos(angle) * a + std::sin(angle) * b);
+forces.col(k) = n + std::tan(finger.friction) * (std::cos(angle) * a + std::sin(angle) * b);
 
 // <variant pulls_too>
 // caught by: cones, any-cones
@@ -67,40 +62,31 @@ return along <= finger.friction * normal + 1e-9;
 // caught by: any-cones
 // mistake: the first direction along the surface comes from the z axis, which may be the normal.
 // <solution pyramidEdges>
-const Eigen::Vector3d& n = finger.normal;
+// in place of: const Eigen::Vector3d least = std::abs(n.x()) < 0.6 ? ... const Eigen::Vector3d a =
 const Eigen::Vector3d a = n.cross(Eigen::Vector3d::UnitZ()).normalized(), b = n.cross(a);
-for (int k = 0; k < edges; ++k) {
-  const double angle = 2 * std::numbers::pi * k / edges;
-  forces.col(k) = n + finger.friction * (std::cos(angle) * a + std::sin(angle) * b);
-}
 
 // <variant pyramid_around_the_cone>
 // caught by: cones, any-cones, all-wrenches
 // shown by: cones
 // mistake: a pyramid whose sides touch the cone, so that its edges lie outside.
 // <solution pyramidEdges>
-const Eigen::Vector3d& n = finger.normal;
-const Eigen::Vector3d least = std::abs(n.x()) < 0.6 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
+// in place of: const Eigen::Vector3d a = n.cross(least).normalized(), b = n.cross(a);
 const Eigen::Vector3d a = n.cross(least).normalized(), b = n.cross(a);
 const double radius = finger.friction / std::cos(std::numbers::pi / edges);
-for (int k = 0; k < edges; ++k) {
-  const double angle = 2 * std::numbers::pi * k / edges;
-  forces.col(k) = n + radius * (std::cos(angle) * a + std::sin(angle) * b);
-}
+// in place of: forces.col(k) = n + finger.friction * (std::cos(angle) * a + std::sin(angle) * b);
+forces.col(k) = n + radius * (std::cos(angle) * a + std::sin(angle) * b);
 
 // <variant direction_turned_round>
 // caught by: verdicts, grasps
 // mistake: the direction of an open grasp has the wrong sign.
 // <solution judged>
-const Eigen::Index d = wrenches.rows(), n = wrenches.cols();
+// in place of: Eigen::MatrixXd padded = Eigen::MatrixXd::Zero(d, n + d);  // so that U is square, however few
 Eigen::MatrixXd padded = Eigen::MatrixXd::Zero(d, n + d);
-padded.leftCols(n) = wrenches;
-const SingularValues values = svd(padded);
+// in place of: if (values.s[d - 1] < 1e-9 * values.s[0]) return {false, ... const Eigen::VectorXd weights =
 if (values.s[d - 1] < 1e-9 * values.s[0]) return {false, values.U.col(d - 1)};
 const LinearSolution rest = minimizeLinear(wrenches, -wrenches.rowwise().sum(), Eigen::VectorXd::Ones(n));
 if (rest.status != LinearStatus::kOptimal) return {false, rest.y.normalized()};
 const Eigen::VectorXd weights = rest.x.array() + 1;
-return {true, weights / weights.sum()};
 
 // <variant span_forgotten>
 // caught by: verdicts, border
@@ -148,16 +134,14 @@ return (wrenches.transpose() * direction).maxCoeff();
 // shown by: reach
 // mistake: each weight at most one, instead of one for all together.
 // <solution reachAlong>
-const Eigen::Index d = wrenches.rows(), n = wrenches.cols();
+// in place of: Eigen::MatrixXd A = Eigen::MatrixXd::Zero(d + 1, n + 1);  // unknown: the weights, and then s
 Eigen::MatrixXd A = Eigen::MatrixXd::Zero(d + n, 2 * n + 1);
-A.topLeftCorner(d, n) = wrenches;
-A.topRightCorner(d, 1) = -direction;
+// in place of: A.bottomLeftCorner(1, n).setOnes(); ... cost[n] = -1;
 A.bottomLeftCorner(n, n).setIdentity();
 A.block(d, n, n, n).setIdentity();
 Eigen::VectorXd b = Eigen::VectorXd::Ones(d + n), cost = Eigen::VectorXd::Zero(2 * n + 1);
 b.head(d).setZero();
 cost[2 * n] = -1;
-return -minimizeLinear(A, b, cost).value;
 
 // <variant any_plane>
 // caught by: radius, any-radius
@@ -264,36 +248,17 @@ return judged(some).closed ? kept : std::vector<int>();
 // shown by: places
 // mistake: puts fingers onto corners, where there is no normal.
 // <solution search>
-namespace {
-
-PlanarFinger fingerAlong(const std::vector<Eigen::Vector2d>& corners, double place, double friction) {
-  const auto n = static_cast<double>(corners.size());
-  place -= n * std::floor(place / n);
-  const std::size_t i = std::min(static_cast<std::size_t>(place), corners.size() - 1);
-  const Eigen::Vector2d ahead = (corners[(i + 1) % corners.size()] - corners[i]).normalized();
-  return {corners[i], {-ahead.y(), ahead.x()}, friction};
-}
-
-}  // namespace
+// in place of: const Eigen::Vector2d side = corners[(i + 1) % ... return {corners[i] + along / size * side,
+const Eigen::Vector2d ahead = (corners[(i + 1) % corners.size()] - corners[i]).normalized();
+return {corners[i], {-ahead.y(), ahead.x()}, friction};
 
 // <variant normals_outward>
 // caught by: places, any-places
 // shown by: places
 // mistake: normals point out of the object.
 // <solution search>
-namespace {
-
-PlanarFinger fingerAlong(const std::vector<Eigen::Vector2d>& corners, double place, double friction) {
-  const auto n = static_cast<double>(corners.size());
-  place -= n * std::floor(place / n);
-  const std::size_t i = std::min(static_cast<std::size_t>(place), corners.size() - 1);
-  const Eigen::Vector2d side = corners[(i + 1) % corners.size()] - corners[i];
-  const double size = side.norm(), part = place - static_cast<double>(i);
-  const double along = std::clamp(part * size, 0.0021, size - 0.0021);
-  return {corners[i] + along / size * side, {side.y() / size, -side.x() / size}, friction};
-}
-
-}  // namespace
+// in place of: return {corners[i] + along / size * side, {-side.y() / size, side.x() / size}, friction};
+return {corners[i] + along / size * side, {side.y() / size, -side.x() / size}, friction};
 
 // <variant any_grasp_that_holds>
 // caught by: any-places

@@ -29,12 +29,7 @@ for (int k = 0; k < 3; ++k) {
 // caught by: error-derivatives, equations-normal, adjust-streets
 // mistake: the derivative by pose j has the sign of that by pose i.
 // <solution edgeJacobians>
-const double c = std::cos(i[2] + z[2]), s = std::sin(i[2] + z[2]);
-const double x = j[0] - i[0], y = j[1] - i[1];
-jacobians.byJ << c, s, 0, -s, c, 0, 0, 0, 1;
-jacobians.byI = -jacobians.byJ;
-// Where pose i turns, pose j goes around it the other way.
-jacobians.byI(0, 2) = c * y - s * x;
+// in place of: jacobians.byI(1, 2) = -c * x - s * y;
 jacobians.byI(1, 2) = -c * x - s * y;
 jacobians.byJ = -jacobians.byJ;
 
@@ -42,70 +37,34 @@ jacobians.byJ = -jacobians.byJ;
 // caught by: equations-cost, equations-normal, adjust-streets
 // mistake: weighs all entries of an error equally.
 // <solution mapCost>
-for (const MeasuredEdge& edge : map.edges) {
-  const Eigen::Vector3d e = edgeError(map.poses[static_cast<std::size_t>(edge.from)],
-                                      map.poses[static_cast<std::size_t>(edge.to)], edge.motion);
-  cost += e.dot(e);
-}
+// in place of: cost += e.dot(edge.information * e);
+cost += e.dot(e);
 // <solution normalEquations>
-for (std::size_t k = 0; k < map.edges.size(); ++k) {
-  const MeasuredEdge& edge = map.edges[k];
-  const Eigen::Vector3d &i = map.poses[static_cast<std::size_t>(edge.from)],
-                        &j = map.poses[static_cast<std::size_t>(edge.to)];
-  const EdgeJacobians J = edgeJacobians(i, j, edge.motion);
-  const Eigen::Matrix3d omega = weights[k] * Eigen::Matrix3d::Identity();
-  const Eigen::Matrix3d ofI = J.byI.transpose() * omega, ofJ = J.byJ.transpose() * omega;
-  const Eigen::Vector3d e = edgeError(i, j, edge.motion);
-  addBlock(equations.H, edge.from, edge.from, ofI * J.byI);
-  addBlock(equations.H, edge.from, edge.to, ofI * J.byJ);
-  addBlock(equations.H, edge.to, edge.from, ofJ * J.byI);
-  addBlock(equations.H, edge.to, edge.to, ofJ * J.byJ);
-  equations.b.segment<3>(3 * edge.from) += ofI * e;
-  equations.b.segment<3>(3 * edge.to) += ofJ * e;
-}
+// in place of: const Eigen::Matrix3d omega = weights[k] * edge.information;
+const Eigen::Matrix3d omega = weights[k] * Eigen::Matrix3d::Identity();
 
 // <variant blocks_of_their_own>
 // caught by: equations-normal
 // shown by: equations-normal
 // mistake: H has only the blocks on its diagonal.
 // <solution normalEquations>
-for (std::size_t k = 0; k < map.edges.size(); ++k) {
-  const MeasuredEdge& edge = map.edges[k];
-  const Eigen::Vector3d &i = map.poses[static_cast<std::size_t>(edge.from)],
-                        &j = map.poses[static_cast<std::size_t>(edge.to)];
-  const EdgeJacobians J = edgeJacobians(i, j, edge.motion);
-  const Eigen::Matrix3d omega = weights[k] * edge.information;
-  const Eigen::Matrix3d ofI = J.byI.transpose() * omega, ofJ = J.byJ.transpose() * omega;
-  const Eigen::Vector3d e = edgeError(i, j, edge.motion);
-  addBlock(equations.H, edge.from, edge.from, ofI * J.byI);
-  addBlock(equations.H, edge.to, edge.to, ofJ * J.byJ);
-  equations.b.segment<3>(3 * edge.from) += ofI * e;
-  equations.b.segment<3>(3 * edge.to) += ofJ * e;
-}
+// in place of: addBlock(equations.H, edge.from, edge.to, ofI * J.byJ); ... addBlock(equations.H, edge.to,
 
 // <variant gauge_free>
 // caught by: equations-step, adjust-streets
 // mistake: solves for all poses, although nothing says where the map lies.
 // <solution gaussNewtonStep>
-const NormalEquations equations = normalEquations(map, weights);
+// in place of: const int unknowns = static_cast<int>(step.size()) - 3; ... if (entry.row >= 3 && entry.column
 const int unknowns = static_cast<int>(step.size());
 std::vector<MatrixEntry> H;
 for (const MatrixEntry& entry : equations.H) H.push_back(entry);
-for (int k = 0; k < unknowns; ++k) H.push_back({k, k, damping});
-step.tail(unknowns) = solveSparse(H, -equations.b.tail(unknowns));
 
 // <variant weights_ignored>
 // caught by: equations-step, equations-any
 // mistake: the step solves the equations of a map whose edges all count alike.
 // <solution gaussNewtonStep>
+// in place of: const NormalEquations equations = normalEquations(map, weights);
 const NormalEquations equations = normalEquations(map, std::vector<double>(weights.size(), 1));
-const int unknowns = static_cast<int>(step.size()) - 3;
-// Without the rows and columns of pose 0.
-std::vector<MatrixEntry> H;
-for (const MatrixEntry& entry : equations.H)
-  if (entry.row >= 3 && entry.column >= 3) H.push_back({entry.row - 3, entry.column - 3, entry.value});
-for (int k = 0; k < unknowns; ++k) H.push_back({k, k, damping});
-step.tail(unknowns) = solveSparse(H, -equations.b.tail(unknowns));
 
 // <variant calls_the_library>
 // caught by: forbidden-call
@@ -155,35 +114,16 @@ for (int k = 0; k < 20; ++k) {
 // shown by: scan-motion
 // mistake: shifts the points, but does not rotate them.
 // <solution partners>
-for (std::size_t k = 0; k < moving.size(); ++k) {
-  const double x = motion[0] + moving[k].x();
-  const double y = motion[1] + moving[k].y();
-  double nearest = maxDistance * maxDistance;
-  for (std::size_t i = 0; i < reference.size(); ++i) {
-    const double dx = reference[i].x() - x, dy = reference[i].y() - y, squared = dx * dx + dy * dy;
-    if (squared > nearest) continue;
-    nearest = squared;
-    numbers[k] = static_cast<int>(i);
-  }
-}
+// in place of: const double c = std::cos(motion[2]), s = std::sin(motion[2]);
+// in place of: const double x = motion[0] + c * moving[k].x() - s * ... const double y = motion[1] + s *
+const double x = motion[0] + moving[k].x();
+const double y = motion[1] + moving[k].y();
 
 // <variant mean_not_turned>
 // caught by: scan-motion
 // mistake: leaves the mean of the first points where it is.
 // <solution bestMotion>
-Eigen::Vector2d a = Eigen::Vector2d::Zero(), b = a;  // the means
-for (std::size_t k = 0; k < from.size(); ++k) {
-  a += from[k];
-  b += to[k];
-}
-a /= static_cast<double>(from.size());
-b /= static_cast<double>(from.size());
-double along = 0, across = 0;
-for (std::size_t k = 0; k < from.size(); ++k) {
-  const Eigen::Vector2d p = from[k] - a, q = to[k] - b;
-  along += p.x() * q.x() + p.y() * q.y();
-  across += p.x() * q.y() - p.y() * q.x();
-}
+// in place of: const double turn = std::atan2(across, along), c = ... return {b.x() - c * a.x() + s * a.y(),
 const double turn = std::atan2(across, along);
 return {b.x() - a.x(), b.y() - a.y(), turn};
 
@@ -192,19 +132,7 @@ return {b.x() - a.x(), b.y() - a.y(), turn};
 // shown by: scan-motion
 // mistake: returns the rotation of the opposite direction.
 // <solution bestMotion>
-Eigen::Vector2d a = Eigen::Vector2d::Zero(), b = a;  // the means
-for (std::size_t k = 0; k < from.size(); ++k) {
-  a += from[k];
-  b += to[k];
-}
-a /= static_cast<double>(from.size());
-b /= static_cast<double>(from.size());
-double along = 0, across = 0;
-for (std::size_t k = 0; k < from.size(); ++k) {
-  const Eigen::Vector2d p = from[k] - a, q = to[k] - b;
-  along += p.x() * q.x() + p.y() * q.y();
-  across += p.x() * q.y() - p.y() * q.x();
-}
+// in place of: const double turn = std::atan2(across, along), c = ... return {b.x() - c * a.x() + s * a.y(),
 const double turn = std::atan2(-across, along), c = std::cos(turn), s = std::sin(turn);
 return {b.x() - c * a.x() + s * a.y(), b.y() - s* a.x() - c* a.y(), turn};
 
@@ -213,28 +141,10 @@ return {b.x() - c * a.x() + s * a.y(), b.y() - s* a.x() - c* a.y(), turn};
 // shown by: scan-align
 // mistake: reports the fit for partners up to twice as far away as asked.
 // <solution aligned>
-for (int iteration = 0; iteration < 60; ++iteration) {
-  // Partners far away help at first; later they only pull at what is hidden from the other scan.
-  const double reach = std::max(0.6, 0.9 * std::pow(0.9, iteration));
-  const std::vector<int> numbers = partners(reference, moving, result.motion, reach);
-  Points from, to;
-  for (std::size_t k = 0; k < moving.size(); ++k)
-    if (numbers[k] >= 0) {
-      from.push_back(moving[k]);
-      to.push_back(reference[static_cast<std::size_t>(numbers[k])]);
-    }
-  if (from.size() < 3) break;
-  const Eigen::Vector3d before = result.motion;
-  result.motion = bestMotion(from, to);
-  double squares = 0;
-  const double c = std::cos(result.motion[2]), s = std::sin(result.motion[2]);
-  for (std::size_t k = 0; k < from.size(); ++k)
-    squares += std::pow(result.motion[0] + c * from[k].x() - s * from[k].y() - to[k].x(), 2) +
-               std::pow(result.motion[1] + s * from[k].x() + c * from[k].y() - to[k].y(), 2);
-  result.residual = std::sqrt(squares / static_cast<double>(from.size()));
-  result.overlap = static_cast<double>(from.size()) / static_cast<double>(moving.size());
-  if (reach == 0.6 && (result.motion - before).norm() < 1e-6) break;
-}
+// in place of: const double reach = std::max(0.3, 0.6 * std::pow(0.9, iteration));
+const double reach = std::max(0.6, 0.9 * std::pow(0.9, iteration));
+// in place of: if (reach == 0.3 && (result.motion - before).norm() < 1e-6) break;
+if (reach == 0.6 && (result.motion - before).norm() < 1e-6) break;
 
 // <variant partners_kept>
 // caught by: scan-align
@@ -306,63 +216,49 @@ now.poses = adjusted(map).poses;
 // caught by: camera-linear, camera-any
 // mistake: takes the direction in which A p is longest.
 // <solution projectionFromPoints>
-const Eigen::MatrixXd T = conditioning(points), U = conditioning(pixels);
-const Eigen::MatrixXd X = T * homogeneous(points), x = U * homogeneous(pixels);
-Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * X.cols(), 12);
-for (Eigen::Index i = 0; i < X.cols(); ++i)
-  for (int k = 0; k < 2; ++k) {
-    A.block<1, 4>(2 * i + k, 4 * k) = X.col(i).transpose();
-    A.block<1, 4>(2 * i + k, 8) = -x(k, i) * X.col(i).transpose();
-  }
+// in place of: for (int row = 0; row < 2; ++row) { ... const Eigen::MatrixXd P =
+for (int k = 0; k < 2; ++k) {
+  A.block<1, 4>(2 * i + k, 4 * k) = X.col(i).transpose();
+  A.block<1, 4>(2 * i + k, 8) = -x(k, i) * X.col(i).transpose();
+}
 const Eigen::MatrixXd P = fromNumbers(svd(A).V.col(0));
-return inverse(U) * P * T;
 
 // <variant not_brought_back>
 // caught by: camera-linear, camera-any
 // shown by: camera-linear
 // mistake: returns the P of the scaled points and pixels.
 // <solution projectionFromPoints>
-const Eigen::MatrixXd T = conditioning(points), U = conditioning(pixels);
-const Eigen::MatrixXd X = T * homogeneous(points), x = U * homogeneous(pixels);
-Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * X.cols(), 12);
-for (Eigen::Index i = 0; i < X.cols(); ++i)
-  for (int k = 0; k < 2; ++k) {
-    A.block<1, 4>(2 * i + k, 4 * k) = X.col(i).transpose();
-    A.block<1, 4>(2 * i + k, 8) = -x(k, i) * X.col(i).transpose();
-  }
+// in place of: for (int row = 0; row < 2; ++row) { ... return inverse(U) * P * T;
+for (int k = 0; k < 2; ++k) {
+  A.block<1, 4>(2 * i + k, 4 * k) = X.col(i).transpose();
+  A.block<1, 4>(2 * i + k, 8) = -x(k, i) * X.col(i).transpose();
+}
 return fromNumbers(svd(A).V.col(11));
 
 // <variant numbers_by_columns>
 // caught by: camera-linear, camera-any
 // mistake: takes the twelve numbers column by column.
 // <solution projectionFromPoints>
-const Eigen::MatrixXd T = conditioning(points), U = conditioning(pixels);
-const Eigen::MatrixXd X = T * homogeneous(points), x = U * homogeneous(pixels);
-Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * X.cols(), 12);
-for (Eigen::Index i = 0; i < X.cols(); ++i)
-  for (int k = 0; k < 2; ++k) {
-    A.block<1, 4>(2 * i + k, 4 * k) = X.col(i).transpose();
-    A.block<1, 4>(2 * i + k, 8) = -x(k, i) * X.col(i).transpose();
-  }
+// in place of: for (int row = 0; row < 2; ++row) { ... const Eigen::MatrixXd P =
+for (int k = 0; k < 2; ++k) {
+  A.block<1, 4>(2 * i + k, 4 * k) = X.col(i).transpose();
+  A.block<1, 4>(2 * i + k, 8) = -x(k, i) * X.col(i).transpose();
+}
 const Eigen::VectorXd p = svd(A).V.col(11);
 Eigen::MatrixXd P(3, 4);
 for (int k = 0; k < 12; ++k) P(k % 3, k / 3) = p[k];
-return inverse(U) * P * T;
 
 // <variant six_points_only>
 // caught by: camera-linear, camera-any
 // mistake: uses the first six points only.
 // <solution projectionFromPoints>
-const Eigen::MatrixXd T = conditioning(points), U = conditioning(pixels);
-const Eigen::MatrixXd X = T * homogeneous(points), x = U * homogeneous(pixels);
+// in place of: Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * X.cols(), 12); ... }
 Eigen::MatrixXd A = Eigen::MatrixXd::Zero(12, 12);
 for (Eigen::Index i = 0; i < 6; ++i)
   for (int k = 0; k < 2; ++k) {
     A.block<1, 4>(2 * i + k, 4 * k) = X.col(i).transpose();
     A.block<1, 4>(2 * i + k, 8) = -x(k, i) * X.col(i).transpose();
   }
-const Eigen::MatrixXd P = fromNumbers(svd(A).V.col(11));
-return inverse(U) * P * T;
 
 // <variant squared_without_scaling>
 // caught by: camera-any

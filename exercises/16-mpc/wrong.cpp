@@ -36,13 +36,8 @@ for (int age = 0; age < N; ++age, power = (plant.A * power).eval()) {
 // shown by: predict
 // mistake: the first rows are those of x_0.
 // <solution predicted>
+// in place of: p.Sx.topRows(n) = plant.A;
 p.Sx.topRows(n) = Eigen::MatrixXd::Identity(n, n);
-p.Su.topLeftCorner(n, m) = plant.B;
-for (int t = 1; t < N; ++t) {
-  p.Sx.middleRows(t * n, n) = plant.A * p.Sx.middleRows((t - 1) * n, n);
-  p.Su.middleRows(t * n, n) = plant.A * p.Su.middleRows((t - 1) * n, n);
-  p.Su.block(t * n, t * m, n, m) = plant.B;
-}
 
 // <variant free_controls>
 // caught by: plan-cost, more-costs
@@ -59,14 +54,10 @@ return {2 * p.Su.transpose() * weighted, 2 * weighted.transpose() * (p.Sx * x)};
 // caught by: plan-cost, more-costs
 // mistake: forgets that the quadratic form has a factor of one half.
 // <solution planCost>
-const Eigen::Index n = plant.A.rows(), m = plant.B.cols();
-const Prediction p = predicted(plant, N);
-Eigen::MatrixXd weighted = p.Su;
-for (int t = 0; t < N; ++t)
-  weighted.middleRows(t* n, n) = (t + 1 < N ? costs.Q : costs.F) * p.Su.middleRows(t * n, n);
+// in place of: weighted.middleRows(t * n, n) = (t + 1 < N ? costs.Q : ... for (int t = 0; t < N; ++t)
+weighted.middleRows(t* n, n) = (t + 1 < N ? costs.Q : costs.F) * p.Su.middleRows(t * n, n);
 Quadratic cost{p.Su.transpose() * weighted, weighted.transpose() * (p.Sx * x)};
 for (int t = 0; t < N; ++t) cost.H.block(t* m, t* m, m, m) += costs.R;
-return cost;
 
 // <variant no_end>
 // caught by: plan-cost, more-costs
@@ -279,38 +270,30 @@ for (Eigen::Index t = 0; t < T; ++t) {
 // caught by: drive, more-drives
 // mistake: uses the last control of each plan.
 // <solution driven>
-for (Eigen::Index t = 0; t < T; ++t) {
-  drive.U.col(t) = planned(task, drive.X.col(t)).rightCols(1);
-  drive.X.col(t + 1) = task.plant.A * drive.X.col(t) + task.plant.B * drive.U.col(t) + pushes.col(t);
-}
+// in place of: drive.U.col(t) = planned(task, drive.X.col(t)).col(0);
+drive.U.col(t) = planned(task, drive.X.col(t)).rightCols(1);
 
 // <variant nobody_pushes>
 // caught by: drive, more-drives
 // mistake: leaves out the pushes.
 // <solution driven>
-for (Eigen::Index t = 0; t < T; ++t) {
-  drive.U.col(t) = planned(task, drive.X.col(t)).col(0);
-  drive.X.col(t + 1) = task.plant.A * drive.X.col(t) + task.plant.B * drive.U.col(t);
-}
+// in place of: drive.X.col(t + 1) = task.plant.A * drive.X.col(t) + task.plant.B * drive.U.col(t) +
+drive.X.col(t + 1) = task.plant.A * drive.X.col(t) + task.plant.B * drive.U.col(t);
 
 // <variant half_the_wall>
 // caught by: wall, more-walls
 // shown by: wall
 // mistake: forgets the factor of one half in the quadratic form.
 // <solution plannedWithin>
-const Prediction p = predicted(task.plant, task.N);
-const Quadratic plain = planCost(task.plant, task.costs, task.N, x);
-const Eigen::Index controls = p.Su.cols(), states = p.Su.rows();
-const Eigen::VectorXd drift = p.Sx * x;
+// in place of: const double w = 2 * corridor.weight;
+// in place of: Quadratic cost{Eigen::MatrixXd::Identity(controls + states, ... cost.g << plain.g + w *
 const Eigen::MatrixXd cross = -corridor.weight * p.Su;
 Quadratic both{Eigen::MatrixXd::Zero(controls + states, controls + states),
                Eigen::VectorXd(controls + states)};
 both.H << plain.H - cross.transpose() * p.Su,
     cross.transpose(), cross, corridor.weight* Eigen::MatrixXd::Identity(states, states);
 both.g << plain.g - cross.transpose() * drift, -corridor.weight* drift;
-Eigen::VectorXd lower(controls + states), upper(controls + states);
-lower << task.uMin.replicate(task.N, 1), corridor.xMin.replicate(task.N, 1);
-upper << task.uMax.replicate(task.N, 1), corridor.xMax.replicate(task.N, 1);
+// in place of: return boxed(cost, lower, upper).head(controls).reshaped(task.uMin.size(), task.N);
 return boxed(both, lower, upper).head(controls).reshaped(task.uMin.size(), task.N);
 
 // <variant no_wall>

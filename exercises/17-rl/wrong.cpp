@@ -27,25 +27,16 @@ return best;
 // shown by: choices
 // mistake: takes the best action with probability epsilon.
 // <solution chosenAction>
-const auto m = static_cast<int>(worth.size());
+// in place of: if (rng.uniform() < epsilon) return rng.index(m);
 if (rng.uniform() >= epsilon) return rng.index(m);
-std::vector<int> best;
-for (int a = 0; a < m; ++a)
-  if (worth[a] == worth.maxCoeff()) best.push_back(a);
-return best[static_cast<std::size_t>(rng.index(static_cast<int>(best.size())))];
 
 // <variant adds_the_whole_target>
 // caught by: q-steps, more-steps
 // shown by: q-steps
 // mistake: adds the target and not the difference from it.
 // <solution qLearned>
-Eigen::MatrixXd learned = Q;
-for (const Experience& step : steps) {
-  const double later = step.ended ? 0 : learned.row(step.next).maxCoeff();
-  double& q = learned(step.state, step.action);
-  q += stepSize * (step.reward + discount * later);
-}
-return learned;
+// in place of: q += stepSize * (step.reward + discount * later - q);
+q += stepSize * (step.reward + discount * later);
 
 // <variant calls_the_library>
 // caught by: forbidden-call
@@ -64,158 +55,77 @@ return learned;
 // shown by: q-steps
 // mistake: adds the values of the next state after the end.
 // <solution qLearned>
-Eigen::MatrixXd learned = Q;
-for (const Experience& step : steps) {
-  const double later = learned.row(step.next).maxCoeff();
-  double& q = learned(step.state, step.action);
-  q += stepSize * (step.reward + discount * later - q);
-}
-return learned;
+// in place of: const double later = step.ended ? 0 : learned.row(step.next).maxCoeff();
+const double later = learned.row(step.next).maxCoeff();
 
 // <variant from_the_first_table>
 // caught by: q-steps, more-steps
 // mistake: takes the best of the next state by the Q from before all steps.
 // <solution qLearned>
-Eigen::MatrixXd learned = Q;
-for (const Experience& step : steps) {
-  const double later = step.ended ? 0 : Q.row(step.next).maxCoeff();
-  double& q = learned(step.state, step.action);
-  q += stepSize * (step.reward + discount * later - q);
-}
-return learned;
+// in place of: const double later = step.ended ? 0 : learned.row(step.next).maxCoeff();
+const double later = step.ended ? 0 : Q.row(step.next).maxCoeff();
 
 // <variant q_without_discount>
 // caught by: q-steps, more-steps
 // shown by: q-steps
 // mistake: forgets the discount.
 // <solution qLearned>
-Eigen::MatrixXd learned = Q;
-for (const Experience& step : steps) {
-  const double later = step.ended ? 0 : learned.row(step.next).maxCoeff();
-  double& q = learned(step.state, step.action);
-  q += stepSize * (step.reward + later - q);
-}
-return learned;
+// in place of: q += stepSize * (step.reward + discount * later - q);
+q += stepSize * (step.reward + later - q);
 
 // <variant learns_from_the_last>
 // caught by: sarsa-steps, more-episodes
 // shown by: sarsa-steps
 // mistake: learns from the last step as if nothing followed.
 // <solution sarsaLearned>
-Eigen::MatrixXd learned = Q;
-for (std::size_t t = 0; t < episode.size(); ++t) {
-  const Experience& step = episode[t];
-  const bool isLast = t + 1 == episode.size();
-  const double later = isLast ? 0 : learned(step.next, episode[t + 1].action);
-  double& q = learned(step.state, step.action);
-  q += stepSize * (step.reward + discount * later - q);
-}
-return learned;
+// in place of: if (!step.ended && t + 1 == episode.size()) break; ... const double later = step.ended ? 0 :
+const bool isLast = t + 1 == episode.size();
+const double later = isLast ? 0 : learned(step.next, episode[t + 1].action);
 
 // <variant never_learns_from_the_end>
 // caught by: sarsa-steps, more-episodes
 // mistake: leaves out the last step even if it ended the episode.
 // <solution sarsaLearned>
-Eigen::MatrixXd learned = Q;
-for (std::size_t t = 0; t < episode.size(); ++t) {
-  const Experience& step = episode[t];
-  if (t + 1 == episode.size()) break;
-  const double later = step.ended ? 0 : learned(step.next, episode[t + 1].action);
-  double& q = learned(step.state, step.action);
-  q += stepSize * (step.reward + discount * later - q);
-}
-return learned;
+// in place of: if (!step.ended && t + 1 == episode.size()) break;
+if (t + 1 == episode.size()) break;
 
 // <variant own_action_again>
 // caught by: sarsa-steps, more-episodes
 // mistake: takes the action of the step itself in the next state.
 // <solution sarsaLearned>
-Eigen::MatrixXd learned = Q;
-for (std::size_t t = 0; t < episode.size(); ++t) {
-  const Experience& step = episode[t];
-  if (!step.ended && t + 1 == episode.size()) break;
-  const double later = step.ended ? 0 : learned(step.next, step.action);
-  double& q = learned(step.state, step.action);
-  q += stepSize * (step.reward + discount * later - q);
-}
-return learned;
+// in place of: const double later = step.ended ? 0 : learned(step.next, episode[t + 1].action);
+const double later = step.ended ? 0 : learned(step.next, step.action);
 
 // <variant sarsa_takes_the_best>
 // caught by: sarsa-steps, more-episodes
 // shown by: sarsa-steps
 // mistake: is Q-learning.
 // <solution sarsaLearned>
-Eigen::MatrixXd learned = Q;
-for (std::size_t t = 0; t < episode.size(); ++t) {
-  const Experience& step = episode[t];
-  if (!step.ended && t + 1 == episode.size()) break;
-  const double later = step.ended ? 0 : learned.row(step.next).maxCoeff();
-  double& q = learned(step.state, step.action);
-  q += stepSize * (step.reward + discount * later - q);
-}
-return learned;
+// in place of: const double later = step.ended ? 0 : learned(step.next, episode[t + 1].action);
+const double later = step.ended ? 0 : learned.row(step.next).maxCoeff();
 
 // <variant counts_for_frequencies>
 // caught by: estimate, unseen-map
 // shown by: estimate
 // mistake: does not divide the counts.
 // <solution estimated>
-LearnedWorld model;
-model.R = model.visits = Eigen::MatrixXd::Zero(states, actions);
-model.P.assign(static_cast<std::size_t>(actions), Eigen::MatrixXd::Zero(states, states));
-for (const Experience& step : steps) {
-  model.visits(step.state, step.action) += 1;
-  model.R(step.state, step.action) += step.reward;
-  if (!step.ended) model.P[static_cast<std::size_t>(step.action)](step.state, step.next) += 1;
-}
-for (int s = 0; s < states; ++s)
-  for (int a = 0; a < actions; ++a) {
-    const double tries = std::max(1., model.visits(s, a));
-    model.R(s, a) /= tries;
-  }
-return model;
+// in place of: model.P[static_cast<std::size_t>(a)].row(s) /= tries;
 
 // <variant ends_do_not_count>
 // caught by: estimate, unseen-map
 // shown by: estimate
 // mistake: divides by the steps that went on.
 // <solution estimated>
-LearnedWorld model;
-model.R = model.visits = Eigen::MatrixXd::Zero(states, actions);
-model.P.assign(static_cast<std::size_t>(actions), Eigen::MatrixXd::Zero(states, states));
-for (const Experience& step : steps) {
-  model.visits(step.state, step.action) += 1;
-  model.R(step.state, step.action) += step.reward;
-  if (!step.ended) model.P[static_cast<std::size_t>(step.action)](step.state, step.next) += 1;
-}
-for (int s = 0; s < states; ++s)
-  for (int a = 0; a < actions; ++a) {
-    const double tries = std::max(1., model.visits(s, a));
-    model.R(s, a) /= tries;
-    const double went = model.P[static_cast<std::size_t>(a)].row(s).sum();
-    if (went > 0) model.P[static_cast<std::size_t>(a)].row(s) /= went;
-  }
-return model;
+// in place of: model.P[static_cast<std::size_t>(a)].row(s) /= tries;
+const double went = model.P[static_cast<std::size_t>(a)].row(s).sum();
+if (went > 0) model.P[static_cast<std::size_t>(a)].row(s) /= went;
 
 // <variant sums_of_rewards>
 // caught by: estimate, unseen-map
 // shown by: estimate
 // mistake: does not divide the sums of rewards.
 // <solution estimated>
-LearnedWorld model;
-model.R = model.visits = Eigen::MatrixXd::Zero(states, actions);
-model.P.assign(static_cast<std::size_t>(actions), Eigen::MatrixXd::Zero(states, states));
-for (const Experience& step : steps) {
-  model.visits(step.state, step.action) += 1;
-  model.R(step.state, step.action) += step.reward;
-  if (!step.ended) model.P[static_cast<std::size_t>(step.action)](step.state, step.next) += 1;
-}
-for (int s = 0; s < states; ++s)
-  for (int a = 0; a < actions; ++a) {
-    const double tries = std::max(1., model.visits(s, a));
-    model.P[static_cast<std::size_t>(a)].row(s) /= tries;
-  }
-return model;
+// in place of: model.R(s, a) /= tries;
 
 // <variant rewards_only>
 // caught by: plan, more-plans, unseen-map
@@ -255,42 +165,24 @@ return Q;
 // shown by: hope
 // mistake: believes one try too late.
 // <solution optimisticValues>
-LearnedWorld hoped = model;
-for (Eigen::Index s = 0; s < model.R.rows(); ++s)
-  for (Eigen::Index a = 0; a < model.R.cols(); ++a) {
-    if (model.visits(s, a) > known) continue;
-    hoped.R(s, a) = maxReward / (1 - discount);
-    hoped.P[static_cast<std::size_t>(a)].row(s).setZero();
-  }
-return plannedValues(hoped, discount);
+// in place of: if (model.visits(s, a) >= known) continue;
+if (model.visits(s, a) > known) continue;
 
 // <variant known_when_tried>
 // caught by: hope, more-hope
 // shown by: hope
 // mistake: believes a single try.
 // <solution optimisticValues>
-LearnedWorld hoped = model;
-for (Eigen::Index s = 0; s < model.R.rows(); ++s)
-  for (Eigen::Index a = 0; a < model.R.cols(); ++a) {
-    if (known > 0 && model.visits(s, a) > 0) continue;
-    hoped.R(s, a) = maxReward / (1 - discount);
-    hoped.P[static_cast<std::size_t>(a)].row(s).setZero();
-  }
-return plannedValues(hoped, discount);
+// in place of: if (model.visits(s, a) >= known) continue;
+if (known > 0 && model.visits(s, a) > 0) continue;
 
 // <variant paid_once>
 // caught by: hope, more-hope
 // shown by: hope
 // mistake: what is not known pays only once.
 // <solution optimisticValues>
-LearnedWorld hoped = model;
-for (Eigen::Index s = 0; s < model.R.rows(); ++s)
-  for (Eigen::Index a = 0; a < model.R.cols(); ++a) {
-    if (model.visits(s, a) >= known) continue;
-    hoped.R(s, a) = maxReward;
-    hoped.P[static_cast<std::size_t>(a)].row(s).setZero();
-  }
-return plannedValues(hoped, discount);
+// in place of: hoped.R(s, a) = maxReward / (1 - discount);
+hoped.R(s, a) = maxReward;
 
 // <variant margin_of_sums>
 // caught by: bounds, other-bounds

@@ -26,9 +26,8 @@ return {static_cast<int>((p.x() - grid.origin.x()) / grid.cell),
 // shown by: rays
 // mistake: a line as it is drawn on screens: from cell to cell, also diagonally.
 // <solution cellsAlong>
-Eigen::Vector2i cell = cellAt(grid, from);
-const Eigen::Vector2i last = cellAt(grid, to);
-std::vector<Eigen::Vector2i> cells{cell};
+// in place of: const Eigen::Vector2d way = to - from; ... }
+// in place of: for (int left = (last - cell).cwiseAbs().sum(); left > 0; ... }
 const int dx = std::abs(last[0] - cell[0]), dy = -std::abs(last[1] - cell[1]);
 for (int error = dx + dy; cell != last;) {
   const int twice = 2 * error;
@@ -36,29 +35,12 @@ for (int error = dx + dy; cell != last;) {
   if (twice <= dx) error += dx, cell[1] += last[1] > cell[1] ? 1 : -1;
   cells.push_back(cell);
 }
-return cells;
 
 // <variant ends_before_the_end>
 // caught by: rays
 // mistake: the last cell is left out.
 // <solution cellsAlong>
-Eigen::Vector2i cell = cellAt(grid, from);
-const Eigen::Vector2i last = cellAt(grid, to);
-const Eigen::Vector2d way = to - from;
-// Where on the way the next border along x and the next one along y are, and from one to the next.
-Eigen::Vector2d next, gap;
-for (const int k : {0, 1}) {
-  const double border = grid.origin[k] + grid.cell * (cell[k] + (way[k] > 0 ? 1 : 0));
-  next[k] = way[k] == 0 ? 2 : (border - from[k]) / way[k];
-  gap[k] = way[k] == 0 ? 2 : grid.cell / std::abs(way[k]);
-}
-std::vector<Eigen::Vector2i> cells{cell};
-for (int left = (last - cell).cwiseAbs().sum(); left > 0; --left) {
-  const int axis = next[0] < next[1] ? 0 : 1;
-  cell[axis] += way[axis] > 0 ? 1 : -1;
-  next[axis] += gap[axis];
-  cells.push_back(cell);
-}
+// in place of: return cells;
 if (cells.size() > 1) cells.pop_back();
 return cells;
 
@@ -78,24 +60,11 @@ return cells;
 // caught by: more-updates
 // mistake: near the robot each ray adds its own.
 // <solution observed>
-const Eigen::Vector2d p(pose[0], pose[1]);
-Eigen::MatrixXd change = Eigen::MatrixXd::Zero(map.values.rows(), map.values.cols());
-for (Eigen::Index ray = 0; ray < scan.angles.size(); ++ray) {
-  const bool isHit = scan.ranges[ray] < scan.maxRange;
-  const double direction = pose[2] + scan.angles[ray];
-  const double range = std::min(scan.ranges[ray], scan.maxRange);
-  const auto cells =
-      cellsAlong(map, p, p + range * Eigen::Vector2d(std::cos(direction), std::sin(direction)));
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const int x = cells[i][0], y = cells[i][1];
-    if (x < 0 || y < 0 || x >= change.rows() || y >= change.cols()) continue;
-    if (isHit && i + 1 == cells.size())
-      change(x, y) += evidence.hit;
-    else
-      change(x, y) += evidence.miss;
-  }
-}
-after.values = (map.values + change).cwiseMax(-evidence.bound).cwiseMin(evidence.bound);
+// in place of: if (isHit && i + 1 == cells.size()) ... change(x, y) = evidence.miss;
+if (isHit && i + 1 == cells.size())
+  change(x, y) += evidence.hit;
+else
+  change(x, y) += evidence.miss;
 
 // <variant calls_the_library>
 // caught by: forbidden-call
@@ -115,118 +84,41 @@ for (int i = 0; i < cells.width(); ++i)
 // caught by: update, more-updates
 // mistake: angles of rays grow to the right.
 // <solution observed>
-const Eigen::Vector2d p(pose[0], pose[1]);
-Eigen::MatrixXd change = Eigen::MatrixXd::Zero(map.values.rows(), map.values.cols());
-for (Eigen::Index ray = 0; ray < scan.angles.size(); ++ray) {
-  const bool isHit = scan.ranges[ray] < scan.maxRange;
-  const double direction = pose[2] - scan.angles[ray];
-  const double range = std::min(scan.ranges[ray], scan.maxRange);
-  const auto cells =
-      cellsAlong(map, p, p + range * Eigen::Vector2d(std::cos(direction), std::sin(direction)));
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const int x = cells[i][0], y = cells[i][1];
-    if (x < 0 || y < 0 || x >= change.rows() || y >= change.cols()) continue;
-    if (isHit && i + 1 == cells.size())
-      change(x, y) = evidence.hit;
-    else if (change(x, y) != evidence.hit)
-      change(x, y) = evidence.miss;
-  }
-}
-after.values = (map.values + change).cwiseMax(-evidence.bound).cwiseMin(evidence.bound);
+// in place of: const double direction = pose[2] + scan.angles[ray];
+const double direction = pose[2] - scan.angles[ray];
 
 // <variant ignores_maximum>
 // caught by: update, more-updates
 // mistake: rays that hit nothing are left out.
 // <solution observed>
-const Eigen::Vector2d p(pose[0], pose[1]);
-Eigen::MatrixXd change = Eigen::MatrixXd::Zero(map.values.rows(), map.values.cols());
-for (Eigen::Index ray = 0; ray < scan.angles.size(); ++ray) {
-  const bool isHit = scan.ranges[ray] < scan.maxRange;
-  if (!isHit) continue;
-  const double direction = pose[2] + scan.angles[ray];
-  const double range = std::min(scan.ranges[ray], scan.maxRange);
-  const auto cells =
-      cellsAlong(map, p, p + range * Eigen::Vector2d(std::cos(direction), std::sin(direction)));
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const int x = cells[i][0], y = cells[i][1];
-    if (x < 0 || y < 0 || x >= change.rows() || y >= change.cols()) continue;
-    if (isHit && i + 1 == cells.size())
-      change(x, y) = evidence.hit;
-    else if (change(x, y) != evidence.hit)
-      change(x, y) = evidence.miss;
-  }
-}
-after.values = (map.values + change).cwiseMax(-evidence.bound).cwiseMin(evidence.bound);
+// in place of: const double direction = pose[2] + scan.angles[ray];
+if (!isHit) continue;
+const double direction = pose[2] + scan.angles[ray];
 
 // <variant never_limited>
 // caught by: update, more-updates
 // mistake: log odds grow without a limit.
 // <solution observed>
-const Eigen::Vector2d p(pose[0], pose[1]);
-Eigen::MatrixXd change = Eigen::MatrixXd::Zero(map.values.rows(), map.values.cols());
-for (Eigen::Index ray = 0; ray < scan.angles.size(); ++ray) {
-  const bool isHit = scan.ranges[ray] < scan.maxRange;
-  const double direction = pose[2] + scan.angles[ray];
-  const double range = std::min(scan.ranges[ray], scan.maxRange);
-  const auto cells =
-      cellsAlong(map, p, p + range * Eigen::Vector2d(std::cos(direction), std::sin(direction)));
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const int x = cells[i][0], y = cells[i][1];
-    if (x < 0 || y < 0 || x >= change.rows() || y >= change.cols()) continue;
-    if (isHit && i + 1 == cells.size())
-      change(x, y) = evidence.hit;
-    else if (change(x, y) != evidence.hit)
-      change(x, y) = evidence.miss;
-  }
-}
+// in place of: after.values = (map.values + change).cwiseMax(-evidence.bound).cwiseMin(evidence.bound);
 after.values = (map.values + change);
 
 // <variant the_last_ray_wins>
 // caught by: more-updates
 // mistake: a ray that passes clears a cell in which another one ended.
 // <solution observed>
-const Eigen::Vector2d p(pose[0], pose[1]);
-Eigen::MatrixXd change = Eigen::MatrixXd::Zero(map.values.rows(), map.values.cols());
-for (Eigen::Index ray = 0; ray < scan.angles.size(); ++ray) {
-  const bool isHit = scan.ranges[ray] < scan.maxRange;
-  const double direction = pose[2] + scan.angles[ray];
-  const double range = std::min(scan.ranges[ray], scan.maxRange);
-  const auto cells =
-      cellsAlong(map, p, p + range * Eigen::Vector2d(std::cos(direction), std::sin(direction)));
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const int x = cells[i][0], y = cells[i][1];
-    if (x < 0 || y < 0 || x >= change.rows() || y >= change.cols()) continue;
-    if (isHit && i + 1 == cells.size())
-      change(x, y) = evidence.hit;
-    else
-      change(x, y) = evidence.miss;
-  }
-}
-after.values = (map.values + change).cwiseMax(-evidence.bound).cwiseMin(evidence.bound);
+// in place of: if (isHit && i + 1 == cells.size()) ... change(x, y) = evidence.miss;
+if (isHit && i + 1 == cells.size())
+  change(x, y) = evidence.hit;
+else
+  change(x, y) = evidence.miss;
 
 // <variant walls_at_maximum>
 // caught by: update, more-updates
 // shown by: update
 // mistake: a ray that hits nothing ends at a wall.
 // <solution observed>
-const Eigen::Vector2d p(pose[0], pose[1]);
-Eigen::MatrixXd change = Eigen::MatrixXd::Zero(map.values.rows(), map.values.cols());
-for (Eigen::Index ray = 0; ray < scan.angles.size(); ++ray) {
-  const bool isHit = scan.ranges[ray] > 0;
-  const double direction = pose[2] + scan.angles[ray];
-  const double range = std::min(scan.ranges[ray], scan.maxRange);
-  const auto cells =
-      cellsAlong(map, p, p + range * Eigen::Vector2d(std::cos(direction), std::sin(direction)));
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const int x = cells[i][0], y = cells[i][1];
-    if (x < 0 || y < 0 || x >= change.rows() || y >= change.cols()) continue;
-    if (isHit && i + 1 == cells.size())
-      change(x, y) = evidence.hit;
-    else if (change(x, y) != evidence.hit)
-      change(x, y) = evidence.miss;
-  }
-}
-after.values = (map.values + change).cwiseMax(-evidence.bound).cwiseMin(evidence.bound);
+// in place of: const bool isHit = scan.ranges[ray] < scan.maxRange;
+const bool isHit = scan.ranges[ray] > 0;
 
 // <variant blocks>
 // caught by: distances, more-fits
@@ -263,17 +155,8 @@ for (Eigen::Index j = 0; j < height; ++j)
 // caught by: distances, more-fits
 // mistake: unknown cells are occupied.
 // <solution wallDistances>
-const Eigen::Index width = map.values.rows(), height = map.values.cols();
-const auto around = static_cast<Eigen::Index>(std::ceil(reach / map.cell));
-for (Eigen::Index j = 0; j < height; ++j)
-  for (Eigen::Index i = 0; i < width; ++i) {
-    if (map.values(i, j) < 0) continue;
-    for (Eigen::Index y = std::max<Eigen::Index>(j - around, 0); y <= std::min(j + around, height - 1); ++y)
-      for (Eigen::Index x = std::max<Eigen::Index>(i - around, 0); x <= std::min(i + around, width - 1); ++x)
-        distances.values(x, y) =
-            std::min(distances.values(x, y),
-                     map.cell * std::sqrt(static_cast<double>((x - i) * (x - i) + (y - j) * (y - j))));
-  }
+// in place of: if (map.values(i, j) <= 0) continue;
+if (map.values(i, j) < 0) continue;
 
 // <variant value_of_the_cell>
 // caught by: fits, more-fits
@@ -287,84 +170,35 @@ return grid.values(std::clamp<Eigen::Index>(cell[0], 0, grid.values.rows() - 1),
 // caught by: fits, more-fits
 // mistake: values belong to the lower left corners of cells.
 // <solution valueAt>
+// in place of: const Eigen::Vector2d share = ((p - grid.origin) / grid.cell).array() - .5;
 const Eigen::Vector2d share = ((p - grid.origin) / grid.cell).array() - 0.;
-const double x = std::clamp(share[0], 0., static_cast<double>(grid.values.rows() - 1)),
-             y = std::clamp(share[1], 0., static_cast<double>(grid.values.cols() - 1));
-const Eigen::Index i = std::min(static_cast<Eigen::Index>(x), grid.values.rows() - 2),
-                   j = std::min(static_cast<Eigen::Index>(y), grid.values.cols() - 2);
-const double a = x - static_cast<double>(i), b = y - static_cast<double>(j);
-return (1 - b) * ((1 - a) * grid.values(i, j) + a * grid.values(i + 1, j)) +
-       b * ((1 - a) * grid.values(i, j + 1) + a * grid.values(i + 1, j + 1));
 
 // <variant counts_maximum>
 // caught by: fits, more-fits
 // mistake: rays that hit nothing should end at walls as well.
 // <solution fit>
-double sum = 0;
-for (Eigen::Index ray = 0; ray < scan.angles.size(); ++ray) {
-  const double direction = pose[2] + scan.angles[ray];
-  const double d = valueAt(distances, {pose[0] + scan.ranges[ray] * std::cos(direction),
-                                       pose[1] + scan.ranges[ray] * std::sin(direction)});
-  sum += d * d;
-}
-return -sum / (2 * deviation * deviation);
+// in place of: if (scan.ranges[ray] >= scan.maxRange) continue;
 
 // <variant linear_cost>
 // caught by: fits
 // mistake: distances are not squared.
 // <solution fit>
-double sum = 0;
-for (Eigen::Index ray = 0; ray < scan.angles.size(); ++ray) {
-  if (scan.ranges[ray] >= scan.maxRange) continue;
-  const double direction = pose[2] + scan.angles[ray];
-  const double d = valueAt(distances, {pose[0] + scan.ranges[ray] * std::cos(direction),
-                                       pose[1] + scan.ranges[ray] * std::sin(direction)});
-  sum += d;
-}
-return -sum / (2 * deviation * deviation);
+// in place of: sum += d * d;
+sum += d;
 
 // <variant seen_by_the_robot>
 // caught by: fits
 // mistake: the heading is subtracted.
 // <solution fit>
-double sum = 0;
-for (Eigen::Index ray = 0; ray < scan.angles.size(); ++ray) {
-  if (scan.ranges[ray] >= scan.maxRange) continue;
-  const double direction = scan.angles[ray] - pose[2];
-  const double d = valueAt(distances, {pose[0] + scan.ranges[ray] * std::cos(direction),
-                                       pose[1] + scan.ranges[ray] * std::sin(direction)});
-  sum += d * d;
-}
-return -sum / (2 * deviation * deviation);
+// in place of: const double direction = pose[2] + scan.angles[ray];
+const double direction = scan.angles[ray] - pose[2];
 
 // <variant leaves_the_window>
 // caught by: more-matches
 // mistake: climbs on beyond the window.
 // <solution matched>
-const Eigen::Vector3d half(window[0], window[0], window[1]);
-Eigen::Vector3d best = guess;
-double score = fit(distances, best, scan, deviation);
-const auto take = [&](const Eigen::Vector3d& pose) {
-  if (((pose - guess).cwiseAbs() - 2 * half).maxCoeff() > 0) return false;
-  const double value = fit(distances, pose, scan, deviation);
-  if (value <= score) return false;
-  best = pose;
-  score = value;
-  return true;
-};
-// A coarse search, so that no small hill near the guess is taken for the summit; then uphill.
-for (int n = 0; n < 27; ++n)
-  take(guess + 2. / 3 * Eigen::Vector3d(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1).cwiseProduct(half));
-for (double part = 1. / 3; part > .01;) {
-  bool isBetter = false;
-  for (int n = 0; n < 6; ++n) {
-    Eigen::Vector3d pose = best;
-    pose[n / 2] += (n % 2 == 0 ? part : -part) * half[n / 2];
-    isBetter = take(pose) || isBetter;
-  }
-  if (!isBetter) part /= 2;
-}
-return best;
+// in place of: if (((pose - guess).cwiseAbs() - half).maxCoeff() > 0) return false;
+if (((pose - guess).cwiseAbs() - 2 * half).maxCoeff() > 0) return false;
 
 // <variant never_turns>
 // caught by: match, more-matches
@@ -429,23 +263,15 @@ return best;
 // caught by: motion
 // mistake: the motion is not rotated.
 // <solution moved>
-const double cosine = std::cos(pose[2]), sine = std::sin(pose[2]);
-for (int k = 0; k < count; ++k) {
-  Eigen::Vector3d way = motion;
-  for (int i = 0; i < 3; ++i) way[i] += deviations[i] * rng.normal();
-  poses.col(k) += way;
-}
+// in place of: poses.col(k) += Eigen::Vector3d(cosine * way[0] - sine * way[1], sine * way[0] + cosine *
+poses.col(k) += way;
 
 // <variant no_noise>
 // caught by: motion
 // mistake: odometry is right.
 // <solution moved>
-const double cosine = std::cos(pose[2]), sine = std::sin(pose[2]);
-for (int k = 0; k < count; ++k) {
-  Eigen::Vector3d way = motion;
-  for (int i = 0; i < 3; ++i) way[i] += 0 * deviations[i] * rng.normal();
-  poses.col(k) += Eigen::Vector3d(cosine * way[0] - sine * way[1], sine * way[0] + cosine * way[1], way[2]);
-}
+// in place of: for (int i = 0; i < 3; ++i) way[i] += deviations[i] * rng.normal();
+for (int i = 0; i < 3; ++i) way[i] += 0 * deviations[i] * rng.normal();
 
 // <variant noise_in_the_world>
 // caught by: motion
@@ -462,40 +288,28 @@ for (int k = 0; k < count; ++k) {
 // shown by: motion
 // mistake: rotated by the transpose.
 // <solution moved>
-const double cosine = std::cos(pose[2]), sine = std::sin(pose[2]);
-for (int k = 0; k < count; ++k) {
-  Eigen::Vector3d way = motion;
-  for (int i = 0; i < 3; ++i) way[i] += deviations[i] * rng.normal();
-  poses.col(k) += Eigen::Vector3d(cosine * way[0] + sine * way[1], cosine * way[1] - sine * way[0], way[2]);
-}
+// in place of: poses.col(k) += Eigen::Vector3d(cosine * way[0] - sine * way[1], sine * way[0] + cosine *
+poses.col(k) += Eigen::Vector3d(cosine * way[0] + sine * way[1], cosine* way[1] - sine * way[0], way[2]);
 
 // <variant variances>
 // caught by: motion
 // mistake: deviations are taken for variances, the wrong way round.
 // <solution moved>
-const double cosine = std::cos(pose[2]), sine = std::sin(pose[2]);
-for (int k = 0; k < count; ++k) {
-  Eigen::Vector3d way = motion;
-  for (int i = 0; i < 3; ++i) way[i] += deviations[i] * deviations[i] * rng.normal();
-  poses.col(k) += Eigen::Vector3d(cosine * way[0] - sine * way[1], sine * way[0] + cosine * way[1], way[2]);
-}
+// in place of: for (int i = 0; i < 3; ++i) way[i] += deviations[i] * rng.normal();
+for (int i = 0; i < 3; ++i) way[i] += deviations[i] * deviations[i] * rng.normal();
 
 // <variant not_normalised>
 // caught by: weights
 // mistake: the sum is not one.
 // <solution weightsOf>
-for (std::size_t i = 0; i < particles.size(); ++i)
-  weights[static_cast<Eigen::Index>(i)] = particles[i].logWeight;
-weights = (weights.array() - weights.maxCoeff()).exp().eval();
+// in place of: weights /= weights.sum();
 
 // <variant zero_by_zero>
 // caught by: weights
 // mistake: exp() of large negative numbers is zero for all.
 // <solution weightsOf>
-for (std::size_t i = 0; i < particles.size(); ++i)
-  weights[static_cast<Eigen::Index>(i)] = particles[i].logWeight;
+// in place of: weights = (weights.array() - weights.maxCoeff()).exp().eval();
 weights = weights.array().exp().eval();
-weights /= weights.sum();
 
 // <variant sum_of_squares>
 // caught by: weights
@@ -520,84 +334,48 @@ for (std::size_t n = 0; n < particles.size(); ++n) {
 // caught by: copies, more-copies
 // mistake: paths are copied, and maps stay where they are.
 // <solution resampled>
-const Eigen::VectorXd shares = weightsOf(particles);
-const auto count = static_cast<double>(particles.size());
-// Points one apart, along a line on which particle i is N weight_i long.
-double point = rng.uniform(), end = 0;
-for (std::size_t i = 0; i < particles.size(); ++i) {
-  end += count * shares[static_cast<Eigen::Index>(i)];
-  const bool isLast = i + 1 == particles.size();
-  for (; copies.size() < particles.size() && (isLast || point < end); point += 1)
-    copies.push_back({particles[i].path, particles[copies.size()].map, 0});
-}
+// in place of: copies.push_back({particles[i].path, particles[i].map, 0});
+copies.push_back({particles[i].path, particles[copies.size()].map, 0});
 
 // <variant weights_are_kept>
 // caught by: copies
 // mistake: copies keep the weight that they were chosen for.
 // <solution resampled>
-const Eigen::VectorXd shares = weightsOf(particles);
-const auto count = static_cast<double>(particles.size());
-// Points one apart, along a line on which particle i is N weight_i long.
-double point = rng.uniform(), end = 0;
-for (std::size_t i = 0; i < particles.size(); ++i) {
-  end += count * shares[static_cast<Eigen::Index>(i)];
-  const bool isLast = i + 1 == particles.size();
-  for (; copies.size() < particles.size() && (isLast || point < end); point += 1)
-    copies.push_back({particles[i].path, particles[i].map, particles[i].logWeight});
-}
+// in place of: copies.push_back({particles[i].path, particles[i].map, 0});
+copies.push_back({particles[i].path, particles[i].map, particles[i].logWeight});
 
 // <variant maps_of_the_drawn_pose>
 // caught by: step
 // shown by: step
 // mistake: the scan is drawn at the pose before the match.
 // <solution slamStep>
-for (Particle& particle : after) {
-  Eigen::Vector3d pose = moved(particle.path.back(), motion, settings.odometry, 1, rng).col(0);
-  const Grid distances = wallDistances(particle.map, settings.reach);
-  const Eigen::Vector3d drawn = pose;
-  if (settings.matches) pose = matched(distances, scan, settings.deviation, pose, settings.window);
-  particle.logWeight += fit(distances, pose, scan, settings.deviation) / settings.temper;
-  particle.path.push_back(pose);
-  particle.map = observed(particle.map, drawn, scan, settings.evidence);
-}
+// in place of: if (settings.matches) pose = matched(distances, scan, settings.deviation, pose,
+const Eigen::Vector3d drawn = pose;
+if (settings.matches) pose = matched(distances, scan, settings.deviation, pose, settings.window);
+// in place of: particle.map = observed(particle.map, pose, scan, settings.evidence);
+particle.map = observed(particle.map, drawn, scan, settings.evidence);
 
 // <variant never_matches>
 // caught by: step
 // mistake: poses are those of the motion.
 // <solution slamStep>
-for (Particle& particle : after) {
-  Eigen::Vector3d pose = moved(particle.path.back(), motion, settings.odometry, 1, rng).col(0);
-  const Grid distances = wallDistances(particle.map, settings.reach);
-  particle.logWeight += fit(distances, pose, scan, settings.deviation) / settings.temper;
-  particle.path.push_back(pose);
-  particle.map = observed(particle.map, pose, scan, settings.evidence);
-}
+// in place of: if (settings.matches) pose = matched(distances, scan, settings.deviation, pose,
 
 // <variant no_temper>
 // caught by: step
 // mistake: rays count as if they were independent.
 // <solution slamStep>
-for (Particle& particle : after) {
-  Eigen::Vector3d pose = moved(particle.path.back(), motion, settings.odometry, 1, rng).col(0);
-  const Grid distances = wallDistances(particle.map, settings.reach);
-  if (settings.matches) pose = matched(distances, scan, settings.deviation, pose, settings.window);
-  particle.logWeight += fit(distances, pose, scan, settings.deviation);
-  particle.path.push_back(pose);
-  particle.map = observed(particle.map, pose, scan, settings.evidence);
-}
+// in place of: particle.logWeight += fit(distances, pose, scan, settings.deviation) / settings.temper;
+particle.logWeight += fit(distances, pose, scan, settings.deviation);
 
 // <variant one_map_for_all>
 // caught by: step
 // mistake: all particles share the map of the first one.
 // <solution slamStep>
-for (Particle& particle : after) {
-  Eigen::Vector3d pose = moved(particle.path.back(), motion, settings.odometry, 1, rng).col(0);
-  const Grid distances = wallDistances(particles[0].map, settings.reach);
-  if (settings.matches) pose = matched(distances, scan, settings.deviation, pose, settings.window);
-  particle.logWeight += fit(distances, pose, scan, settings.deviation) / settings.temper;
-  particle.path.push_back(pose);
-  particle.map = observed(particles[0].map, pose, scan, settings.evidence);
-}
+// in place of: const Grid distances = wallDistances(particle.map, settings.reach);
+const Grid distances = wallDistances(particles[0].map, settings.reach);
+// in place of: particle.map = observed(particle.map, pose, scan, settings.evidence);
+particle.map = observed(particles[0].map, pose, scan, settings.evidence);
 
 // <variant same_motion_for_all>
 // caught by: step
@@ -618,76 +396,46 @@ for (Particle& particle : after) {
 // caught by: step
 // mistake: the scan is in the map already when it is asked how well it fits.
 // <solution slamStep>
-for (Particle& particle : after) {
-  Eigen::Vector3d pose = moved(particle.path.back(), motion, settings.odometry, 1, rng).col(0);
-  const Grid distances = wallDistances(particle.map, settings.reach);
-  if (settings.matches) pose = matched(distances, scan, settings.deviation, pose, settings.window);
-  particle.map = observed(particle.map, pose, scan, settings.evidence);
-  particle.logWeight +=
-      fit(wallDistances(particle.map, settings.reach), pose, scan, settings.deviation) / settings.temper;
-  particle.path.push_back(pose);
-}
+// in place of: particle.logWeight += fit(distances, pose, scan, settings.deviation) / settings.temper;
+particle.map = observed(particle.map, pose, scan, settings.evidence);
+particle.logWeight +=
+    fit(wallDistances(particle.map, settings.reach), pose, scan, settings.deviation) / settings.temper;
+// in place of: particle.map = observed(particle.map, pose, scan, settings.evidence);
 
 // <variant weight_of_the_last_scan>
 // caught by: step
 // mistake: only the last scan counts.
 // <solution slamStep>
-for (Particle& particle : after) {
-  Eigen::Vector3d pose = moved(particle.path.back(), motion, settings.odometry, 1, rng).col(0);
-  const Grid distances = wallDistances(particle.map, settings.reach);
-  if (settings.matches) pose = matched(distances, scan, settings.deviation, pose, settings.window);
-  particle.logWeight = fit(distances, pose, scan, settings.deviation) / settings.temper;
-  particle.path.push_back(pose);
-  particle.map = observed(particle.map, pose, scan, settings.evidence);
-}
+// in place of: particle.logWeight += fit(distances, pose, scan, settings.deviation) / settings.temper;
+particle.logWeight = fit(distances, pose, scan, settings.deviation) / settings.temper;
 
 // <variant first_scan_lost>
 // caught by: rule
 // mistake: the first scan is not in the maps.
 // <solution mapped>
-for (std::size_t t = 0; t < log.motions.size(); ++t) {
-  // Before the next step, so that the weights of the last one tell which particle is best.
-  if (!sizes.empty() && sizes.back() < settings.threshold * count) particles = resampled(particles, rng);
-  particles = slamStep(particles, log.motions[t], log.scans[t + 1], settings, rng);
-  sizes.push_back(effectiveSize(weightsOf(particles)));
-}
+// in place of: for (Particle& one : particles) one.map = observed(empty, log.start, log.scans[0],
 
 // <variant never_resamples>
 // caught by: rule
 // mistake: never resamples.
 // <solution mapped>
-for (Particle& one : particles) one.map = observed(empty, log.start, log.scans[0], settings.evidence);
-for (std::size_t t = 0; t < log.motions.size(); ++t) {
-  // Before the next step, so that the weights of the last one tell which particle is best.
-  particles = slamStep(particles, log.motions[t], log.scans[t + 1], settings, rng);
-  sizes.push_back(effectiveSize(weightsOf(particles)));
-}
+// in place of: if (!sizes.empty() && sizes.back() < settings.threshold * count) particles =
 
 // <variant one_scan_late>
 // caught by: tour, more-tours
 // shown by: tour
 // mistake: each motion goes with the scan before it.
 // <solution mapped>
-for (Particle& one : particles) one.map = observed(empty, log.start, log.scans[0], settings.evidence);
-for (std::size_t t = 0; t < log.motions.size(); ++t) {
-  // Before the next step, so that the weights of the last one tell which particle is best.
-  if (!sizes.empty() && sizes.back() < settings.threshold * count) particles = resampled(particles, rng);
-  particles = slamStep(particles, log.motions[t], log.scans[t], settings, rng);
-  sizes.push_back(effectiveSize(weightsOf(particles)));
-}
+// in place of: particles = slamStep(particles, log.motions[t], log.scans[t + 1], settings, rng);
+particles = slamStep(particles, log.motions[t], log.scans[t], settings, rng);
 
 // <variant resamples_always>
 // caught by: rule
 // shown by: rule
 // mistake: resamples after each step.
 // <solution mapped>
-for (Particle& one : particles) one.map = observed(empty, log.start, log.scans[0], settings.evidence);
-for (std::size_t t = 0; t < log.motions.size(); ++t) {
-  // Before the next step, so that the weights of the last one tell which particle is best.
-  if (!sizes.empty()) particles = resampled(particles, rng);
-  particles = slamStep(particles, log.motions[t], log.scans[t + 1], settings, rng);
-  sizes.push_back(effectiveSize(weightsOf(particles)));
-}
+// in place of: if (!sizes.empty() && sizes.back() < settings.threshold * count) particles =
+if (!sizes.empty()) particles = resampled(particles, rng);
 
 // <variant begins_in_the_middle>
 // caught by: wake-up, more-wake-ups
@@ -703,51 +451,17 @@ return matched(wallDistances(map, settings.reach), scan, settings.deviation, {mi
 // caught by: wake-up, more-wake-ups
 // mistake: the robot looks along x.
 // <solution located>
-// Wide enough that a pose half a cell beside the right one still fits better than most.
-const Grid wide = wallDistances(map, 2 * settings.reach), distances = wallDistances(map, settings.reach);
-std::vector<std::pair<double, Eigen::Vector3d>> candidates;
-for (Eigen::Index i = 0; i < map.values.rows(); i += 2)
-  for (Eigen::Index j = 0; j < map.values.cols(); j += 2)
-    for (int k = 0; k < 1 && map.values(i, j) < 0; ++k) {
-      const Eigen::Vector3d coarse(map.origin[0] + map.cell * (static_cast<double>(i) + .5),
-                                   map.origin[1] + map.cell * (static_cast<double>(j) + .5),
-                                   std::acos(-1) / 18 * k);
-      candidates.emplace_back(fit(wide, coarse, scan, 2 * settings.deviation), coarse);
-    }
-std::sort(candidates.begin(), candidates.end(),
-          [](const auto& one, const auto& other) { return one.first > other.first; });
-Eigen::Vector3d best = Eigen::Vector3d::Zero();
-double score = -1e300;
-for (std::size_t k = 0; k < std::min<std::size_t>(candidates.size(), 30); ++k) {
-  const Eigen::Vector3d match =
-      matched(distances, scan, settings.deviation, candidates[k].second, {1.5 * map.cell, .15});
-  const double value = fit(distances, match, scan, settings.deviation);
-  if (value > score) best = match, score = value;
+// in place of: for (int k = 0; k < 36 && map.values(i, j) < 0; ++k) { ... }
+for (int k = 0; k < 1 && map.values(i, j) < 0; ++k) {
+  const Eigen::Vector3d coarse(map.origin[0] + map.cell * (static_cast<double>(i) + .5),
+                               map.origin[1] + map.cell * (static_cast<double>(j) + .5),
+                               std::acos(-1) / 18 * k);
+  candidates.emplace_back(fit(wide, coarse, scan, 2 * settings.deviation), coarse);
 }
-return best;
 
 // <variant without_a_match>
 // caught by: more-wake-ups
 // mistake: the best pose of a coarse grid.
 // <solution located>
-// Wide enough that a pose half a cell beside the right one still fits better than most.
-const Grid wide = wallDistances(map, 2 * settings.reach), distances = wallDistances(map, settings.reach);
-std::vector<std::pair<double, Eigen::Vector3d>> candidates;
-for (Eigen::Index i = 0; i < map.values.rows(); i += 2)
-  for (Eigen::Index j = 0; j < map.values.cols(); j += 2)
-    for (int k = 0; k < 36 && map.values(i, j) < 0; ++k) {
-      const Eigen::Vector3d coarse(map.origin[0] + map.cell * (static_cast<double>(i) + .5),
-                                   map.origin[1] + map.cell * (static_cast<double>(j) + .5),
-                                   std::acos(-1) / 18 * k);
-      candidates.emplace_back(fit(wide, coarse, scan, 2 * settings.deviation), coarse);
-    }
-std::sort(candidates.begin(), candidates.end(),
-          [](const auto& one, const auto& other) { return one.first > other.first; });
-Eigen::Vector3d best = Eigen::Vector3d::Zero();
-double score = -1e300;
-for (std::size_t k = 0; k < std::min<std::size_t>(candidates.size(), 30); ++k) {
-  const Eigen::Vector3d match = candidates[k].second;
-  const double value = fit(distances, match, scan, settings.deviation);
-  if (value > score) best = match, score = value;
-}
-return best;
+// in place of: const Eigen::Vector3d match = ... matched(distances, scan, settings.deviation,
+const Eigen::Vector3d match = candidates[k].second;
