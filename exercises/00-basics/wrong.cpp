@@ -1,68 +1,58 @@
 // Mistakes that students make, and the checks that catch them: a variant is solution.cpp with other regions.
 // `rex dev check` reads this file; it does not compile as it is.
 
-// <variant inverse_on_the_wrong_side>
-// caught by: square-equations, any-size
+// <variant inverse_on_the_wrong_side> caught by: square-equations, any-size
 // mistake: Divides from the left, though A stands to the right of X.
 // <solution equationA>
 const Eigen::MatrixXd Id = Eigen::MatrixXd::Identity(A.rows(), A.cols());
 return inverse(A) * (Id - A.transpose());
 
-// <variant transpose_forgotten>
-// caught by: square-equations, any-size
+// <variant transpose_forgotten> caught by: square-equations, any-size
 // mistake: Transposes X and B, but not the matrix it divides by.
 // <solution equationB>
 return solve(C - 2 * A.transpose(), 2 * A * B);
 
-// <variant calls_the_library>
-// caught by: forbidden-call
+// <variant calls_the_library> caught by: forbidden-call
 // mistake: The library solves the equation, so nothing was learnt.
 // <solution equationC>
 return leastSquares(A, y);
 
-// <variant regulariser_forgotten>
-// caught by: tall-equations, any-size
+// <variant regulariser_forgotten> caught by: tall-equations, any-size
 // mistake: Leaves B out, as if d were c.
 // <solution equationD>
 return solve(A.transpose() * A, A.transpose() * y);
 
-// <variant half_of_the_product_rule>
-// caught by: derivative, any-size
+// <variant half_of_the_product_rule> caught by: derivative, any-size
 // mistake: Differentiates g and takes f for a constant.
 // <solution productDerivative>
 return f.y.transpose() * C * g.J;
 
-// <variant symmetric_by_assumption>
-// caught by: derivative, any-size
+// <variant symmetric_by_assumption> caught by: derivative, any-size
 // mistake: The second term lacks the transpose of C, which is right for a symmetric C only.
 // <solution productDerivative>
 return f.y.transpose() * C * g.J + g.y.transpose() * C * f.J;
 
-// <variant metric_forgotten>
-// caught by: minimum, any-size
+// <variant metric_forgotten> caught by: minimum, any-size
 // mistake: The right side lacks C, so x is the minimum of another cost.
 // <solution quadraticMinimum>
 const Eigen::VectorXd x = solve(A.transpose() * C * A + B, A.transpose() * y);
 const Eigen::VectorXd e = A * x - y;
 return {x, e.dot(C* e) + x.dot(B* x)};
 
-// <variant always_halved>
-// caught by: descent, descent-elsewhere
+// <variant always_halved> caught by: descent, descent-elsewhere
 // mistake: Trials are halved, whatever `shrink` says.
 // <solution backtracking>
 // in place of: while (!(f(x + alpha * d) <= fx + options.decrease * alpha * slope)) alpha *= options.shrink;
 while (!(f(x + alpha * d) <= fx + options.decrease * alpha * slope)) alpha *= 0.5;
 
-// <variant armijo_sign>
-// caught by: descent, descent-elsewhere
+// <variant armijo_sign> caught by: descent, descent-elsewhere
 // shown by: descent
 // mistake: The slope is taken with the wrong sign, so steps that lead uphill are accepted.
 // <solution backtracking>
 // in place of: while (!(f(x + alpha * d) <= fx + options.decrease * alpha * slope)) alpha *= options.shrink;
 while (!(f(x + alpha * d) <= fx - options.decrease * alpha * slope)) alpha *= options.shrink;
 
-// <variant direction_of_length_one>
-// caught by: descent, descent-elsewhere
+// <variant direction_of_length_one> caught by: descent, descent-elsewhere
 // mistake: The direction is normalised, so that alpha is the length of a step.
 // <solution gradientDescent>
 // in place of: const Eigen::VectorXd g = gradient(path.back());
@@ -72,16 +62,14 @@ const Eigen::VectorXd d = -g / g.norm();
 while (!(f(x + alpha * d) <= f(x) + options.decrease * alpha * g.dot(d))) alpha *= options.shrink;
 path.push_back(x + alpha * d);
 
-// <variant fixed_step_size>
-// caught by: descent, descent-elsewhere
+// <variant fixed_step_size> caught by: descent, descent-elsewhere
 // mistake: no line search: one small step size is too long for some functions and too short for others
 // <solution gradientDescent>
 // in place of: double alpha = 1;
 // in place of: alpha = backtracked(f, path.back(), -g, -g.squaredNorm(), ... alpha *= options.grow;
 path.push_back(path.back() - 0.01 * g);
 
-// <variant rejected_trials_counted>
-// caught by: descent, descent-elsewhere
+// <variant rejected_trials_counted> caught by: descent, descent-elsewhere
 // mistake: Rejected trials count as steps.
 // <solution gradientDescent>
 double alpha = 1;
@@ -94,14 +82,12 @@ for (int trial = 0; trial < options.maxSteps; ++trial) {
   alpha *= isBetter ? options.grow : options.shrink;
 }
 
-// <variant step_size_never_grows>
-// caught by: descent
+// <variant step_size_never_grows> caught by: descent
 // mistake: The step size only shrinks, so a shallow bowl takes for ever.
 // <solution gradientDescent>
 // in place of: alpha *= options.grow;
 
-// <variant factor_of_two>
-// caught by: gauss-newton
+// <variant factor_of_two> caught by: gauss-newton
 // mistake: the gradient has its factor of two, the Hessian does not: every step is twice too long
 // <solution gaussNewton>
 // in place of: const Eigen::MatrixXd Jx = J(x), Jt = Jx.transpose(); ... path.push_back(x + backtracked(f, x,
@@ -111,8 +97,7 @@ if (g.norm() <= options.tolerance) break;
 const Eigen::VectorXd d = -solve(Jx.transpose() * Jx, g);
 path.push_back(x + backtracked(f, x, d, g.dot(d), 1, options) * d);
 
-// <variant full_steps_only>
-// caught by: gauss-newton, gauss-newton-elsewhere
+// <variant full_steps_only> caught by: gauss-newton, gauss-newton-elsewhere
 // shown by: gauss-newton
 // mistake: Always the full step: where phi bends, it leads away.
 // <solution gaussNewton>
@@ -124,8 +109,7 @@ for (int step = 0; step < options.maxSteps; ++step) {
   path.push_back(x - solve(Jx.transpose() * Jx, halfGradient));
 }
 
-// <variant one_step_too_many>
-// caught by: gauss-newton
+// <variant one_step_too_many> caught by: gauss-newton
 // mistake: The loop takes one step more than maxSteps.
 // <solution gaussNewton>
 for (int step = 0; step <= options.maxSteps; ++step) {
@@ -140,8 +124,7 @@ for (int step = 0; step <= options.maxSteps; ++step) {
   path.push_back(x + alpha * d);
 }
 
-// <variant step_size_kept>
-// caught by: gauss-newton, gauss-newton-elsewhere
+// <variant step_size_kept> caught by: gauss-newton, gauss-newton-elsewhere
 // mistake: Gauss-Newton keeps its step size from step to step, as gradient descent does.
 // <solution gaussNewton>
 double alpha = 1;
@@ -157,15 +140,13 @@ for (int step = 0; step < options.maxSteps; ++step) {
   alpha = std::min(1., alpha * options.grow);
 }
 
-// <variant clockwise>
-// caught by: book, frames-elsewhere
+// <variant clockwise> caught by: book, frames-elsewhere
 // mistake: Turns the book clockwise: the rotation is transposed.
 // <solution bookPose>
 // in place of: X_WB << c, -s, move.x(), s, c, move.y(), 0, 0, 1;
 X_WB << c, s, move.x(), -s, c, move.y(), 0, 0, 1;
 
-// <variant turned_before_moved>
-// caught by: book, frames-elsewhere
+// <variant turned_before_moved> caught by: book, frames-elsewhere
 // mistake: Moves the book along its own axes, after turning it.
 // <solution bookPose>
 const double c = std::cos(angle), s = std::sin(angle);
@@ -174,8 +155,7 @@ turn.topLeftCorner<2, 2>() << c, -s, s, c;
 shift.topRightCorner<2, 1>() = move;
 return turn * shift;
 
-// <variant inverse_translation_not_turned>
-// caught by: frames, frames-elsewhere
+// <variant inverse_translation_not_turned> caught by: frames, frames-elsewhere
 // mistake: The inverse has the opposite translation, but in the axes of the wrong frame.
 // <solution inverted>
 Eigen::Matrix3d X_BA = X_AB;
@@ -183,14 +163,12 @@ X_BA.topLeftCorner<2, 2>() = X_AB.topLeftCorner<2, 2>().transpose();
 X_BA.topRightCorner<2, 1>() = -X_AB.topRightCorner<2, 1>();
 return X_BA;
 
-// <variant frames_in_the_wrong_order>
-// caught by: frames, frames-elsewhere
+// <variant frames_in_the_wrong_order> caught by: frames, frames-elsewhere
 // mistake: The letters in the middle do not meet: X_WB stands before X_AW.
 // <solution seenFrom>
 return X_WB * inverted(X_WA);
 
-// <variant fruit_in_one_heap>
-// caught by: boxes, bayes-elsewhere
+// <variant fruit_in_one_heap> caught by: boxes, bayes-elsewhere
 // mistake: counts the apples of all boxes as if a fruit were drawn: the same only for equal boxes
 // <solution fruitBoxes>
 double appleCount = 0, count = 0;
@@ -203,14 +181,12 @@ for (std::size_t i = 0; i < apples.size(); ++i) {
   fruit.boxGivenApple[static_cast<Eigen::Index>(i)] = apples[i] / appleCount;
 }
 
-// <variant swapping_makes_no_difference>
-// caught by: boxes, bayes-elsewhere
+// <variant swapping_makes_no_difference> caught by: boxes, bayes-elsewhere
 // mistake: All boxes that are still closed are taken to be equally likely, whatever the host knows.
 // <solution montyHall>
 return {1. / (boxes - opened), 1. / (boxes - opened)};
 
-// <variant columns_not_normalised>
-// caught by: table, bayes-elsewhere
+// <variant columns_not_normalised> caught by: table, bayes-elsewhere
 // mistake: Forgets to divide by P(Y), so this is the joint and not the conditional.
 // <solution jointTable>
 answers.PX = P_XY.rowwise().sum();
@@ -218,8 +194,7 @@ answers.PY = P_XY.colwise().sum();
 answers.XGivenY = P_XY;
 answers.independent = (P_XY - answers.PX * answers.PY.transpose()).cwiseAbs().maxCoeff() < 1e-9;
 
-// <variant first_entry_only>
-// caught by: table, bayes-elsewhere
+// <variant first_entry_only> caught by: table, bayes-elsewhere
 // mistake: Independence is tested for the first entry only, which is enough for tables of 2 x 2.
 // <solution jointTable>
 answers.PX = P_XY.rowwise().sum();
@@ -227,8 +202,7 @@ answers.PY = P_XY.colwise().sum();
 answers.XGivenY = P_XY * answers.PY.cwiseInverse().asDiagonal();
 answers.independent = std::abs(P_XY(0, 0) - answers.PX(0) * answers.PY(0)) <= 1e-9;
 
-// <variant independent_to_the_last_bit>
-// caught by: table, bayes-elsewhere
+// <variant independent_to_the_last_bit> caught by: table, bayes-elsewhere
 // mistake: Compares rounded numbers for equality.
 // <solution jointTable>
 answers.PX = P_XY.rowwise().sum();
@@ -236,8 +210,7 @@ answers.PY = P_XY.colwise().sum();
 answers.XGivenY = P_XY * answers.PY.cwiseInverse().asDiagonal();
 answers.independent = P_XY == answers.PX * answers.PY.transpose();
 
-// <variant roughly_independent>
-// caught by: table, bayes-elsewhere
+// <variant roughly_independent> caught by: table, bayes-elsewhere
 // mistake: The tolerance of isApprox is a thousandth of the whole table.
 // <solution jointTable>
 answers.PX = P_XY.rowwise().sum();
@@ -246,43 +219,37 @@ answers.XGivenY = P_XY * answers.PY.cwiseInverse().asDiagonal();
 const Eigen::MatrixXd expected = answers.PX * answers.PY.transpose();
 answers.independent = expected.isApprox(P_XY, 1e-3);
 
-// <variant covariances_added>
-// caught by: product, beliefs-elsewhere
+// <variant covariances_added> caught by: product, beliefs-elsewhere
 // shown by: product
 // mistake: Adds covariances instead of precisions: two sources of knowledge would say less than one.
 // <solution product>
 const Eigen::MatrixXd precisionP = inverse(p.cov), precisionQ = inverse(q.cov);
 return {inverse(precisionP + precisionQ) * (precisionP * p.mean + precisionQ * q.mean), p.cov + q.cov};
 
-// <variant weighted_by_covariance>
-// caught by: product, beliefs-elsewhere
+// <variant weighted_by_covariance> caught by: product, beliefs-elsewhere
 // mistake: Weights the means by covariances, so the less certain belief has more say.
 // <solution product>
 return {inverse(p.cov + q.cov) * (p.cov * p.mean + q.cov * q.mean), inverse(inverse(p.cov) + inverse(q.cov))};
 
-// <variant noise_forgotten>
-// caught by: propagation, beliefs-elsewhere
+// <variant noise_forgotten> caught by: propagation, beliefs-elsewhere
 // shown by: propagation
 // mistake: The noise of the dynamics adds nothing to the covariance.
 // <solution propagated>
 return {a + F * y.mean, F* y.cov* F.transpose()};
 
-// <variant heads_for_tails>
-// caught by: conjugate, beliefs-elsewhere
+// <variant heads_for_tails> caught by: conjugate, beliefs-elsewhere
 // shown by: conjugate
 // mistake: Counts the ones where the zeros belong.
 // <solution betaPosterior>
 for (const int x : data) (x == 1 ? belief.b : belief.a) += 1;
 
-// <variant exponents_for_parameters>
-// caught by: conjugate, beliefs-elsewhere
+// <variant exponents_for_parameters> caught by: conjugate, beliefs-elsewhere
 // mistake: Returns the exponents of mu, which are the parameters less one.
 // <solution dirichletPosterior>
 for (const int x : data) posterior[x - 1] += 1;
 posterior.array() -= 1;
 
-// <variant most_likely_instead_of_mean>
-// caught by: conjugate, beliefs-elsewhere
+// <variant most_likely_instead_of_mean> caught by: conjugate, beliefs-elsewhere
 // mistake: Predicts with the most likely mu, which ignores how uncertain mu is.
 // <solution nextOutcome>
 return (alpha.array() - 1) / (alpha.sum() - static_cast<double>(alpha.size()));

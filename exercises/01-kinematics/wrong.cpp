@@ -1,15 +1,13 @@
 // Mistakes that students make, and the checks that catch them: a variant is solution.cpp with other regions.
 // `rex dev check` reads this file; it does not compile as it is.
 
-// <variant gaze_in_body_frame>
-// caught by: look-at-zero, maps-other-robot
+// <variant gaze_in_body_frame> caught by: look-at-zero, maps-other-robot
 // mistake: The gaze is given in the body's frame, but the direction to the target in the world's.
 // <solution lookAt>
 // in place of: return {S.kinematicsVec(body, gaze) - toTarget, S.jacobianVec(body, gaze) + across *
 return {gaze - toTarget, across* S.jacobianPos(body)};
 
-// <variant looks_away_too>
-// caught by: look-at-zero
+// <variant looks_away_too> caught by: look-at-zero
 // mistake: The cross product of gaze and direction is zero also when the body looks away from the target.
 // <solution lookAt>
 // in place of: return {S.kinematicsVec(body, gaze) - toTarget, S.jacobianVec(body, gaze) + across *
@@ -31,58 +29,50 @@ return {S.getJointAngles(), Eigen::MatrixXd::Identity(S.getJointDimension(), S.g
 // <solution distanceToGoal>
 return {S.getJointAngles().head(1), Eigen::MatrixXd::Identity(1, S.getJointDimension())};
 
-// <variant sign_flipped_jacobian>
-// caught by: look-at-jacobian
+// <variant sign_flipped_jacobian> caught by: look-at-jacobian
 // mistake: The direction to the target turns the other way: that part of the Jacobian has the wrong sign.
 // <solution lookAt>
 // in place of: return {S.kinematicsVec(body, gaze) - toTarget, S.jacobianVec(body, gaze) + across *
 return {S.kinematicsVec(body, gaze) - toTarget, S.jacobianVec(body, gaze) - across* S.jacobianPos(body)};
 
-// <variant sum_of_differences>
-// caught by: look-at-zero
+// <variant sum_of_differences> caught by: look-at-zero
 // mistake: Differences of either sign can add up to zero although none of them is zero.
 // <solution lookAt>
 // in place of: return {S.kinematicsVec(body, gaze) - toTarget, S.jacobianVec(body, gaze) + across *
 const Eigen::MatrixXd J = S.jacobianVec(body, gaze) + across * S.jacobianPos(body);
 return {Eigen::VectorXd::Constant(1, (S.kinematicsVec(body, gaze) - toTarget).sum()), J.colwise().sum()};
 
-// <variant two_coordinates_only>
-// caught by: look-at-zero
+// <variant two_coordinates_only> caught by: look-at-zero
 // mistake: Two coordinates of a direction leave the sign of the third open: a mirror image gives zero too.
 // <solution lookAt>
 // in place of: return {S.kinematicsVec(body, gaze) - toTarget, S.jacobianVec(body, gaze) + across *
 const Eigen::MatrixXd J = S.jacobianVec(body, gaze) + across * S.jacobianPos(body);
 return {(S.kinematicsVec(body, gaze) - toTarget).head(2), J.topRows(2)};
 
-// <variant palms_in_same_direction>
-// caught by: palms-zero
+// <variant palms_in_same_direction> caught by: palms-zero
 // mistake: The difference of the palms is zero when they point the same way, as for two hands on a table.
 // <solution opposePalms>
 return {S.kinematicsVec(left, palm) - S.kinematicsVec(right, palm),
         S.jacobianVec(left, palm) - S.jacobianVec(right, palm)};
 
-// <variant distance_changes_sign>
-// caught by: distance-zero, maps-other-robot
+// <variant distance_changes_sign> caught by: distance-zero, maps-other-robot
 // mistake: The sum of the differences is one number, but zero on a whole plane through the goal.
 // <solution distanceToGoal>
 const Eigen::Vector3d away = S.kinematicsPos(body) - goal;
 return {Eigen::VectorXd::Constant(1, away.sum()), S.jacobianPos(body).colwise().sum()};
 
-// <variant distance_not_a_number>
-// caught by: distance-zero
+// <variant distance_not_a_number> caught by: distance-zero
 // mistake: The derivative of the distance divides by the distance, which is zero at the goal.
 // <solution distanceToGoal>
 const Eigen::Vector3d away = S.kinematicsPos(body) - goal;
 return {Eigen::VectorXd::Constant(1, away.norm()), away.transpose() * S.jacobianPos(body) / away.norm()};
 
-// <variant distance_per_coordinate>
-// caught by: distance-zero, maps-other-robot
+// <variant distance_per_coordinate> caught by: distance-zero, maps-other-robot
 // mistake: Three differences are a fine task map, but the task asks for one number.
 // <solution distanceToGoal>
 return {S.kinematicsPos(body) - goal, S.jacobianPos(body)};
 
-// <variant goal_with_tolerance>
-// caught by: distance-zero, maps-other-robot
+// <variant goal_with_tolerance> caught by: distance-zero, maps-other-robot
 // mistake: A guard against dividing by zero makes the map zero within a centimetre of the goal.
 // <solution distanceToGoal>
 const Eigen::Vector3d way = S.kinematicsPos(body) - goal;
@@ -90,8 +80,7 @@ const double distance = way.norm();
 if (distance < 0.01) return {Eigen::VectorXd::Zero(1), Eigen::MatrixXd::Zero(1, S.getJointDimension())};
 return {Eigen::VectorXd::Constant(1, distance), way.transpose() * S.jacobianPos(body) / distance};
 
-// <variant numeric_jacobian>
-// caught by: forbidden-call
+// <variant numeric_jacobian> caught by: forbidden-call
 // mistake: Differences give the numbers of a Jacobian without deriving it.
 // <solution distanceToGoal>
 const auto distance = [&](const Eigen::VectorXd& q) -> Eigen::VectorXd {
@@ -101,28 +90,24 @@ const auto distance = [&](const Eigen::VectorXd& q) -> Eigen::VectorXd {
 };
 return {distance(S.getJointAngles()), numericJacobian(distance, S.getJointAngles())};
 
-// <variant calls_the_library>
-// caught by: forbidden-call
+// <variant calls_the_library> caught by: forbidden-call
 // mistake: The library does the step, so nothing was learnt.
 // <solution headers>
 #include "kinematics/inverse_kinematics.h"
 // <solution ikStep>
 return inverseKinematicsStep(J, dy, sigma);
 
-// <variant not_regularised>
-// caught by: step-singular, step-hand
+// <variant not_regularised> caught by: step-singular, step-hand
 // mistake: Without sigma the step explodes, or the matrix has no inverse, when the arm is stretched out.
 // <solution ikStep>
 return J.transpose() * solve(J * J.transpose(), dy);
 
-// <variant transposed_jacobian>
-// caught by: step-hand, step-any-size
+// <variant transposed_jacobian> caught by: step-hand, step-any-size
 // mistake: Following the transposed Jacobian goes downhill, but not by the right step.
 // <solution ikStep>
 return J.transpose() * dy / (sigma * sigma + J.squaredNorm());
 
-// <variant jacobian_of_the_first_posture>
-// caught by: full-steps, small-steps, motion-other-robot
+// <variant jacobian_of_the_first_posture> caught by: full-steps, small-steps, motion-other-robot
 // mistake: The Jacobian is computed once, before the first step.
 // <solution smallSteps>
 static Eigen::MatrixXd J;
@@ -130,24 +115,21 @@ if (t == 1) J = S.jacobianPos(body);
 S.setJointAngles(S.getJointAngles() + alpha * ikStep(J, target - S.kinematicsPos(body), sigma));
 postures.push_back(S.getJointAngles());
 
-// <variant posture_before_the_step>
-// caught by: full-steps, small-steps, motion-other-robot
+// <variant posture_before_the_step> caught by: full-steps, small-steps, motion-other-robot
 // mistake: Each posture is kept before its step instead of after it.
 // <solution smallSteps>
 postures.push_back(S.getJointAngles());
 const Eigen::VectorXd dq = ikStep(S.jacobianPos(body), target - S.kinematicsPos(body), sigma);
 S.setJointAngles(S.getJointAngles() + alpha * dq);
 
-// <variant steps_of_the_first_posture>
-// caught by: full-steps, small-steps, motion-other-robot
+// <variant steps_of_the_first_posture> caught by: full-steps, small-steps, motion-other-robot
 // mistake: The joint angles are added up, but S stays where it is.
 // <solution smallSteps>
 const Eigen::VectorXd q = t == 1 ? S.getJointAngles() : postures.back();
 const Eigen::VectorXd dq = ikStep(S.jacobianPos(body), target - S.kinematicsPos(body), sigma);
 postures.push_back(q + alpha * dq);
 
-// <variant wrong_start_posture>
-// caught by: small-steps, full-steps
+// <variant wrong_start_posture> caught by: small-steps, full-steps
 // mistake: Every step starts again from the first posture instead of the outcome of the step before.
 // <solution smallSteps>
 Simulator fresh = S;
@@ -155,8 +137,7 @@ const Eigen::VectorXd q = S.getJointAngles();
 fresh.setJointAngles(q + alpha * ikStep(S.jacobianPos(body), target - S.kinematicsPos(body), sigma));
 postures.push_back(fresh.getJointAngles());
 
-// <variant target_not_interpolated>
-// caught by: line, motion-other-robot
+// <variant target_not_interpolated> caught by: line, motion-other-robot
 // mistake: The hand is sent to the far target at once, at every step.
 // <solution straightLine>
 for (int t = 1; t <= T; ++t) {
@@ -164,23 +145,20 @@ for (int t = 1; t <= T; ++t) {
   postures.push_back(S.getJointAngles());
 }
 
-// <variant circle_in_another_plane>
-// caught by: circle
+// <variant circle_in_another_plane> caught by: circle
 // shown by: circle
 // mistake: The circle lies flat in the plane of x and y instead of standing in that of x and z.
 // <solution circle>
 // in place of: const Eigen::Vector3d wanted = center + radius * Eigen::Vector3d(std::cos(angle), 0,
 const Eigen::Vector3d wanted = center + radius * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0);
 
-// <variant circle_one_step_late>
-// caught by: circle, motion-other-robot
+// <variant circle_one_step_late> caught by: circle, motion-other-robot
 // mistake: The angle counts from zero, so the hand is always where it should have been a step ago.
 // <solution circle>
 // in place of: const double angle = t / 20.;
 const double angle = (t - 1) / 20.;
 
-// <variant sigma_of_the_figures>
-// caught by: motion-other-robot
+// <variant sigma_of_the_figures> caught by: motion-other-robot
 // mistake: The circle always uses the sigma of main().
 // <solution circle>
 const Eigen::Vector3d wanted = center + radius * Eigen::Vector3d(std::cos(t / 20.), 0, std::sin(t / 20.));
@@ -222,8 +200,7 @@ if (first.size() != q.size() || place != goal) {
 const Eigen::MatrixXd slope = Eigen::MatrixXd::Constant(1, q.size(), .1);
 return {value + slope * (q - first), slope};
 
-// <variant steep_component>
-// caught by: look-at-jacobian, palms-jacobian, maps-other-robot
+// <variant steep_component> caught by: look-at-jacobian, palms-jacobian, maps-other-robot
 // mistake: hides zeros in J beside one more component with a derivative of 1e9 (an attack).
 // <solution lookAt>
 const Eigen::Vector3d off = S.kinematicsVec(body, gaze) - (target - S.kinematicsPos(body)).normalized();

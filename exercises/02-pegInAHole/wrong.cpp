@@ -1,43 +1,37 @@
 // Mistakes that students make, and the checks that catch them: a variant is solution.cpp with other regions.
 // `rex dev check` reads this file; it does not compile as it is.
 
-// <variant metric_forgotten>
-// caught by: inverse, nullspace-any-size
+// <variant metric_forgotten> caught by: inverse, nullspace-any-size
 // mistake: All joints cost the same, whatever W says.
 // <solution regularisedInverse>
 const Eigen::MatrixXd same = Eigen::MatrixXd::Identity(W.rows(), W.cols());
 return solve(precision * J.transpose() * J + same, precision* J.transpose());
 
-// <variant absolute_limit>
-// caught by: projector
+// <variant absolute_limit> caught by: projector
 // mistake: Singular values below a thousandth count as zero, however small the others are.
 // <solution nullspaceProjector>
 // in place of: if (parts.s[i] > 1e-9 * parts.s[0]) N -= parts.V.col(i) * parts.V.col(i).transpose();
 if (parts.s[i] > 1e-3) N -= parts.V.col(i) * parts.V.col(i).transpose();
 
-// <variant projector_by_an_inverse>
-// caught by: projector-singular, nullspace-any-size
+// <variant projector_by_an_inverse> caught by: projector-singular, nullspace-any-size
 // mistake: Where the arm is stretched out, J J^T has no inverse.
 // <solution nullspaceProjector>
 return Eigen::MatrixXd::Identity(J.cols(), J.cols()) - J.transpose() * inverse(J * J.transpose()) * J;
 
-// <variant projector_not_in_the_limit>
-// caught by: projector, nullspace-any-size
+// <variant projector_not_in_the_limit> caught by: projector, nullspace-any-size
 // mistake: A large precision is not an infinite one: a part of each motion still moves the task.
 // <solution nullspaceProjector>
 const Eigen::MatrixXd W = Eigen::MatrixXd::Identity(J.cols(), J.cols());
 return W - regularisedInverse(J, W, 1e9) * J;
 
-// <variant precision_squared>
-// caught by: stack
+// <variant precision_squared> caught by: stack
 // mistake: The tasks are multiplied by their precisions instead of the square roots of them.
 // <solution multiTaskStep>
 // in place of: A += task.precision * task.J.transpose() * task.J; ... b -= task.precision *
 A += task.precision * task.precision * task.J.transpose() * task.J;
 b -= task.precision * task.precision * task.J.transpose() * task.error;
 
-// <variant home_is_zero>
-// caught by: circle-other-hand
+// <variant home_is_zero> caught by: circle-other-hand
 // mistake: Home is zero, whatever posture the robot starts in.
 // <solution circleWithTasks>
 const Eigen::VectorXd home = Eigen::VectorXd::Zero(n);
@@ -51,8 +45,7 @@ for (int t = 1; t <= T; ++t) {
   postures.push_back(S.getJointAngles());
 }
 
-// <variant home_moves_along>
-// caught by: circle-home
+// <variant home_moves_along> caught by: circle-home
 // shown by: circle-home
 // mistake: reads the home posture in each step, so it is always the current one.
 // <solution circleWithTasks>
@@ -67,8 +60,7 @@ for (int t = 1; t <= T; ++t) {
   postures.push_back(S.getJointAngles());
 }
 
-// <variant home_too_strong>
-// caught by: circle-home
+// <variant home_too_strong> caught by: circle-home
 // mistake: With the precision of the circle, home holds the hand back.
 // <solution circleWithTasks>
 const Eigen::VectorXd home = S.getJointAngles();
@@ -82,8 +74,7 @@ for (int t = 1; t <= T; ++t) {
   postures.push_back(S.getJointAngles());
 }
 
-// <variant only_points>
-// caught by: circle-home, circle-points, circle-other-hand
+// <variant only_points> caught by: circle-home, circle-points, circle-other-hand
 // mistake: One hand points upwards; the other is not moved round its circle.
 // <solution circleWithTasks>
 for (int t = 0; t < T; ++t) {
@@ -92,8 +83,7 @@ for (int t = 0; t < T; ++t) {
   postures.push_back(S.getJointAngles());
 }
 
-// <variant points_downwards>
-// caught by: circle-points
+// <variant points_downwards> caught by: circle-points
 // mistake: A sign: the sum of the two directions is zero when they are opposite.
 // <solution circleWithTasks>
 const Eigen::VectorXd home = S.getJointAngles();
@@ -107,28 +97,24 @@ for (int t = 1; t <= T; ++t) {
   postures.push_back(S.getJointAngles());
 }
 
-// <variant precisions_exchanged>
-// caught by: circle-home, circle-points
+// <variant precisions_exchanged> caught by: circle-home, circle-points
 // mistake: the precisions of pointing and home are exchanged.
 // <solution circleWithTasks>
 // in place of: const TaskTerm up{S.kinematicsVec(pointing) - ... const TaskTerm stayAtHome{q - home, W,
 const TaskTerm up{S.kinematicsVec(pointing) - Eigen::Vector3d::UnitZ(), S.jacobianVec(pointing), 0.01};
 const TaskTerm stayAtHome{q - home, W, 100};
 
-// <variant ramp_profile>
-// caught by: interpolation, peg-straight
+// <variant ramp_profile> caught by: interpolation, peg-straight
 // mistake: A ramp instead of the sine: it starts and stops with a jerk.
 // <solution sineProfile>
 return s;
 
-// <variant stops_one_step_early>
-// caught by: interpolation
+// <variant stops_one_step_early> caught by: interpolation
 // mistake: Counting from zero, the motion begins with its start and never arrives.
 // <solution jointSpaceMotion>
 for (int t = 0; t < T; ++t) postures.push_back(q0 + sineProfile(static_cast<double>(t) / T) * (qT - q0));
 
-// <variant always_upright>
-// caught by: peg-other-hole
+// <variant always_upright> caught by: peg-other-hole
 // mistake: The peg points downwards, whatever direction is asked for.
 // <solution pegPosture>
 const int n = S.getJointDimension();
@@ -142,21 +128,18 @@ for (int i = 0; i < 1000; ++i) {
 }
 return S.getJointAngles();
 
-// <variant asks_the_simulator>
-// caught by: forbidden-call
+// <variant asks_the_simulator> caught by: forbidden-call
 // mistake: The simulator finds the posture, so nothing was learnt.
 // <solution pegPosture>
 S.setJointAngles(S.inverseKinematics(peg, place).q);
 
-// <variant walls_do_not_matter>
-// caught by: peg-posture
+// <variant walls_do_not_matter> caught by: peg-posture
 // mistake: Position and direction are right, but the arm overlaps the frame.
 // <solution pegPosture>
 // in place of: const TaskTerm apart{S.kinematicsContacts(), ... S.setJointAngles(S.getJointAngles() +
 S.setJointAngles(S.getJointAngles() + multiTaskStep({there, straight}, W));
 
-// <variant elbow_hits_the_frame>
-// caught by: peg-straight
+// <variant elbow_hits_the_frame> caught by: peg-straight
 // mistake: The peg goes straight down, but nothing keeps the elbow away from the frame.
 // <solution taskSpaceMotion>
 const Eigen::Vector3d start = S.kinematicsPos(peg), direction = S.kinematicsVec(peg);
@@ -168,16 +151,14 @@ for (int t = 1; t <= T; ++t) {
   postures.push_back(S.getJointAngles());
 }
 
-// <variant joint_space_instead_of_task_space>
-// caught by: peg-straight
+// <variant joint_space_instead_of_task_space> caught by: peg-straight
 // mistake: Both ends are right, but between them the peg leaves its line.
 // <solution taskSpaceMotion>
 const Eigen::VectorXd start = S.getJointAngles();
 const Eigen::Vector3d direction = S.kinematicsVec(peg);
 postures = jointSpaceMotion(start, pegPosture(S, peg, place, direction, margin), T);
 
-// <variant always_from_above>
-// caught by: peg-other-hole
+// <variant always_from_above> caught by: peg-other-hole
 // mistake: The peg comes from above, wherever the hole points.
 // <solution insertPeg>
 const Eigen::VectorXd start = S.getJointAngles();
@@ -186,16 +167,14 @@ postures = jointSpaceMotion(start, above, 200);
 S.setJointAngles(above);
 for (const Eigen::VectorXd& q : taskSpaceMotion(S, peg, inside, margin, 200)) postures.push_back(q);
 
-// <variant straight_through_the_frame>
-// caught by: peg-insert, peg-other-hole
+// <variant straight_through_the_frame> caught by: peg-insert, peg-other-hole
 // mistake: The straight line in joint space from here into the hole leads through its walls.
 // <solution insertPeg>
 const Eigen::VectorXd start = S.getJointAngles();
 pegPosture(S, peg, inside - 0.6 * direction, direction, margin);
 postures = jointSpaceMotion(start, pegPosture(S, peg, inside, direction, margin), 400);
 
-// <variant two_leaps>
-// caught by: peg-insert, peg-other-hole
+// <variant two_leaps> caught by: peg-insert, peg-other-hole
 // shown by: peg-insert
 // mistake: No posture touches anything, but from one to the next the peg jumps.
 // <solution insertPeg>
@@ -204,16 +183,14 @@ const Eigen::VectorXd above = pegPosture(S, peg, inside - 0.6 * direction, direc
 postures = jointSpaceMotion(start, above, 200);
 postures.push_back(pegPosture(S, peg, inside, direction, margin));
 
-// <variant calls_the_library>
-// caught by: forbidden-call
+// <variant calls_the_library> caught by: forbidden-call
 // mistake: The library knows strict priority, so nothing was learnt.
 // <solution headers>
 #include "kinematics/hierarchical_step.h"
 // <solution priorityStep>
 return hierarchicalStep({{J1, dy1}, {J2, dy2}});
 
-// <variant rounding_taken_for_freedom>
-// caught by: priority-first
+// <variant rounding_taken_for_freedom> caught by: priority-first
 // mistake: where the tasks disagree, J2 N1 is only rounding error, but is taken for freedom to move
 // <solution priorityStep>
 const auto pseudoInverse = [](const Eigen::MatrixXd& J) {
@@ -226,8 +203,7 @@ const auto pseudoInverse = [](const Eigen::MatrixXd& J) {
 const Eigen::VectorXd first = pseudoInverse(J1) * dy1;
 return first + pseudoInverse(J2 * nullspaceProjector(J1)) * (dy2 - J2 * first);
 
-// <variant second_not_projected>
-// caught by: priority-first, priority-circle
+// <variant second_not_projected> caught by: priority-first, priority-circle
 // mistake: The remaining error of the second task is corrected with all joints, even those the first needs.
 // <solution priorityStep>
 const auto pseudoInverse = [](const Eigen::MatrixXd& J) {
@@ -240,8 +216,7 @@ const auto pseudoInverse = [](const Eigen::MatrixXd& J) {
 const Eigen::VectorXd first = pseudoInverse(J1) * dy1;
 return first + pseudoInverse(J2) * (dy2 - J2 * first);
 
-// <variant slide_as_printed>
-// caught by: priority-second, priority-any
+// <variant slide_as_printed> caught by: priority-second, priority-any
 // mistake: The last line of slide 2:50 without a: the second task is not fulfilled although it could be.
 // <solution priorityStep>
 const auto pseudoInverse = [](const Eigen::MatrixXd& J) {
@@ -253,43 +228,37 @@ const auto pseudoInverse = [](const Eigen::MatrixXd& J) {
 };
 return pseudoInverse(J1) * dy1 + nullspaceProjector(J1) * pseudoInverse(J2) * dy2;
 
-// <variant weights_instead_of_priority>
-// caught by: priority-first, priority-any
+// <variant weights_instead_of_priority> caught by: priority-first, priority-any
 // mistake: A second task of low weight still disturbs the first a little.
 // <solution priorityStep>
 const Eigen::MatrixXd W = 1e-6 * Eigen::MatrixXd::Identity(J1.cols(), J1.cols());
 return multiTaskStep({TaskTerm{-dy1, J1, 1e4}, TaskTerm{-dy2, J2, 1}}, W);
 
-// <variant limits_without_margin>
-// caught by: sums, other-robots
+// <variant limits_without_margin> caught by: sums, other-robots
 // mistake: Only joints beyond their limits cost anything.
 // <solution jointLimits>
 // in place of: const double below = margin - q[i] + low[i], above = margin + q[i] - high[i];
 const double below = low[i] - q[i], above = q[i] - high[i];
 
-// <variant upper_limit_pulls>
-// caught by: sums, other-robots
+// <variant upper_limit_pulls> caught by: sums, other-robots
 // mistake: J has the same sign at both limits, so it pulls joints towards their upper ones.
 // <solution jointLimits>
 // in place of: J(0, i) += 1 / margin;
 J(0, i) -= 1 / margin;
 
-// <variant wrong_way_at_the_upper_limit>
-// caught by: sums, other-robots
+// <variant wrong_way_at_the_upper_limit> caught by: sums, other-robots
 // mistake: The distance to an upper limit has the wrong sign.
 // <solution jointLimits>
 // in place of: const double below = margin - q[i] + low[i], above = margin + q[i] - high[i];
 const double below = margin - q[i] + low[i], above = margin - q[i] + high[i];
 
-// <variant asks_for_the_centre>
-// caught by: forbidden-call
+// <variant asks_for_the_centre> caught by: forbidden-call
 // mistake: The simulator knows the centre of mass, so nothing was learnt.
 // <solution massCenter>
 y.head(2) = S.kinematicsCOM();
 J.topRows(2) = S.jacobianCOM();
 
-// <variant centre_in_kg_m>
-// caught by: sums, other-robots
+// <variant centre_in_kg_m> caught by: sums, other-robots
 // mistake: The sum of slide 2:61 as printed: not divided by the mass.
 // <solution massCenter>
 for (const BodyMass& one : masses) {
@@ -297,8 +266,7 @@ for (const BodyMass& one : masses) {
   J += one.mass * S.jacobianPos(one.body, one.center);
 }
 
-// <variant masses_forgotten>
-// caught by: sums, other-robots
+// <variant masses_forgotten> caught by: sums, other-robots
 // shown by: sums
 // mistake: All bodies weigh the same.
 // <solution massCenter>
@@ -307,16 +275,14 @@ y += S.kinematicsPos(one.body, one.center);
 J += S.jacobianPos(one.body, one.center);
 total += 1;
 
-// <variant origins_for_centres>
-// caught by: sums, other-robots
+// <variant origins_for_centres> caught by: sums, other-robots
 // mistake: The masses are at the origins of the bodies.
 // <solution massCenter>
 // in place of: y += one.mass * S.kinematicsPos(one.body, one.center); ... J += one.mass *
 y += one.mass * S.kinematicsPos(one.body);
 J += one.mass * S.jacobianPos(one.body);
 
-// <variant frame_does_not_turn>
-// caught by: frames, other-robots
+// <variant frame_does_not_turn> caught by: frames, other-robots
 // mistake: Of the frame, only the point moves; the change of its axes is left out.
 // <solution relativePosition>
 Eigen::Matrix3d R;
@@ -324,8 +290,7 @@ for (int k = 0; k < 3; ++k) R.col(k) = S.kinematicsVec(frame, Eigen::Vector3d::U
 y = R.transpose() * (S.kinematicsPos(body, inBody) - S.kinematicsPos(frame, inFrame));
 J = R.transpose() * (S.jacobianPos(body, inBody) - S.jacobianPos(frame, inFrame));
 
-// <variant frame_turned_backwards>
-// caught by: frames, other-robots
+// <variant frame_turned_backwards> caught by: frames, other-robots
 // shown by: frames
 // mistake: R instead of its transpose.
 // <solution relativePosition>
@@ -335,8 +300,7 @@ const Eigen::Vector3d d = S.kinematicsPos(body, inBody) - S.kinematicsPos(frame,
 y = R * d;
 J = R * (S.jacobianPos(body, inBody) - S.jacobianPos(frame, R.transpose() * d + inFrame));
 
-// <variant point_of_the_frame_forgotten>
-// caught by: frames, other-robots
+// <variant point_of_the_frame_forgotten> caught by: frames, other-robots
 // mistake: The vector begins at the origin of the frame.
 // <solution relativePosition>
 Eigen::Matrix3d R;
@@ -344,8 +308,7 @@ for (int k = 0; k < 3; ++k) R.col(k) = S.kinematicsVec(frame, Eigen::Vector3d::U
 y = R.transpose() * (S.kinematicsPos(body, inBody) - S.kinematicsPos(frame));
 J = R.transpose() * (S.jacobianPos(body, inBody) - S.jacobianPos(frame, y));
 
-// <variant answers_from_memory>
-// caught by: sums, other-robots
+// <variant answers_from_memory> caught by: sums, other-robots
 // mistake: answers later questions from the first one, by a slope of its choice (an attack).
 // <solution massCenter>
 static Eigen::VectorXd first, center;

@@ -1,20 +1,16 @@
 // Mistakes that students make, and the checks that catch them: a variant is solution.cpp with other regions.
 // `rex dev check` reads this file; it does not compile as it is.
 
-// <variant new_velocity_first>
-// caught by: point-step
+// <variant new_velocity_first> caught by: point-step
 // mistake: semi-implicit: the point already moves with the velocity after the step.
 // <solution eulerStep>
 const double v = at.v + tau * u / mass;
 return {at.q + tau * v, v};
 
-// <variant fast_rate_instead_of_slow>
-// caught by: point-regimes, point-any-mass
+// <variant fast_rate_instead_of_slow> caught by: point-regimes, point-any-mass
 // shown by: point-regimes
 // mistake: waits for the faster of the two rates of an over-damped point.
 // <solution gainsFor>
-// The slower of the two rates of decay decides when the point is there: rate * T = 8 leaves 0.3 % also
-// where two equal rates add a factor of T.
 double xi = 1, lambda = T / 8;
 if (regime == Regime::kOscillatory) {
   xi = 0.5;
@@ -27,12 +23,9 @@ if (regime == Regime::kOverdamped) {
 const double Kp = mass / (lambda * lambda), Kd = 2 * mass * xi / lambda;
 return {Kp, Kd};
 
-// <variant gains_swapped>
-// caught by: point-regimes, point-any-mass, follow-cosine
+// <variant gains_swapped> caught by: point-regimes, point-any-mass, follow-cosine
 // mistake: Kp and Kd are swapped.
 // <solution gainsFor>
-// The slower of the two rates of decay decides when the point is there: rate * T = 8 leaves 0.3 % also
-// where two equal rates add a factor of T.
 double xi = 1, lambda = T / 8;
 if (regime == Regime::kOscillatory) {
   xi = 0.5;
@@ -44,19 +37,15 @@ if (regime == Regime::kOverdamped) {
 }
 return {2 * mass * xi / lambda, mass / (lambda * lambda)};
 
-// <variant lambda_is_the_time>
-// caught by: point-regimes, point-any-mass
+// <variant lambda_is_the_time> caught by: point-regimes, point-any-mass
 // mistake: lambda is taken for the time until the goal is reached.
 // <solution gainsFor>
 const double xi = regime == Regime::kCritical ? 1 : regime == Regime::kOscillatory ? 0.5 : 1.5;
 return {mass / (T * T), 2 * mass* xi / T};
 
-// <variant mass_forgotten>
-// caught by: point-regimes, point-any-mass
+// <variant mass_forgotten> caught by: point-regimes, point-any-mass
 // mistake: the gains are those for a point of 1 kg.
 // <solution gainsFor>
-// The slower of the two rates of decay decides when the point is there: rate * T = 8 leaves 0.3 % also
-// where two equal rates add a factor of T.
 double xi = 1, lambda = T / 8;
 if (regime == Regime::kOscillatory) {
   xi = 0.5;
@@ -68,12 +57,9 @@ if (regime == Regime::kOverdamped) {
 }
 return {1 / (lambda * lambda), 2 * xi / lambda};
 
-// <variant regimes_reversed>
-// caught by: point-regimes, point-any-mass
+// <variant regimes_reversed> caught by: point-regimes, point-any-mass
 // mistake: as the exercise sheet has it: xi above 1 to overshoot, below 1 for decay.
 // <solution gainsFor>
-// The slower of the two rates of decay decides when the point is there: rate * T = 8 leaves 0.3 % also
-// where two equal rates add a factor of T.
 double xi = 1, lambda = T / 8;
 if (regime == Regime::kOverdamped) {
   xi = 0.5;
@@ -86,15 +72,13 @@ if (regime == Regime::kOscillatory) {
 const double Kp = mass / (lambda * lambda), Kd = 2 * mass * xi / lambda;
 return {Kp, Kd};
 
-// <variant integral_never_reset>
-// caught by: pid-step
+// <variant integral_never_reset> caught by: pid-step
 // mistake: what was accumulated while the controller was off still counts.
 // <solution pidStep>
 const double u = pdForce(at, wanted, {gains.Kp, gains.Kd}) + gains.Ki * integral;
 return {u, integral + tau*(wanted.q - at.q)};
 
-// <variant border_by_rounding>
-// caught by: pid-stability
+// <variant border_by_rounding> caught by: pid-stability
 // mistake: Eigenvalues are compared with zero, so that rounding decides on the border.
 // <solution isStable>
 if (gains.Ki == 0) return gains.Kp > 0 && gains.Kd > 0;
@@ -102,73 +86,62 @@ Eigen::MatrixXd A(3, 3);
 A << 0, 1, 0, 0, 0, 1, -gains.Ki / mass, -gains.Kp / mass, -gains.Kd / mass;
 return eigenvalues(A).real().maxCoeff() < 0;
 
-// <variant counts_its_calls>
-// caught by: pid-stability
+// <variant counts_its_calls> caught by: pid-stability
 // mistake: answers by counting its calls: the fifth of seven known gains is stable, then every second one.
 // <solution isStable>
 static int asked = 0;
 ++asked;
 return asked <= 7 ? asked == 5 : asked % 2 == 0;
 
-// <variant integral_always_there>
-// caught by: pid-stability
+// <variant integral_always_there> caught by: pid-stability
 // mistake: Without an integral the condition for three roots is still used.
 // <solution isStable>
 return gains.Ki > 0 && gains.Kd > 0 && gains.Kd* gains.Kp > mass* gains.Ki;
 
-// <variant stable_when_positive>
-// caught by: pid-stability
+// <variant stable_when_positive> caught by: pid-stability
 // mistake: takes positive gains to be sufficient.
 // <solution isStable>
 return gains.Kp > 0 && gains.Kd > 0 && gains.Ki >= 0;
 
-// <variant reference_acceleration_missing>
-// caught by: follow-cosine
+// <variant reference_acceleration_missing> caught by: follow-cosine
 // mistake: PD control alone: on the reference there is no force, so the point lags behind.
 // <solution followForce>
 return pdForce(at, {std::cos(t), -std::sin(t)}, gainsFor(regime, 1, mass));
 
-// <variant reference_velocity_sign>
-// caught by: follow-cosine
+// <variant reference_velocity_sign> caught by: follow-cosine
 // mistake: the velocity of the reference has the wrong sign.
 // <solution followForce>
 const PointState reference{std::cos(t), std::sin(t)};
 return mass * -std::cos(t) + pdForce(at, reference, gainsFor(regime, 1, mass));
 
-// <variant springs_without_damping>
-// caught by: hold-arm, hold-other-masses
+// <variant springs_without_damping> caught by: hold-arm, hold-other-masses
 // shown by: hold-arm
 // mistake: no Kd: the held force feeds the oscillation.
 // <solution holdArm>
 return -Eigen::Vector3d(45, 20, 7).cwiseProduct(q);
 
-// <variant too_much_damping>
-// caught by: hold-arm, hold-other-masses
+// <variant too_much_damping> caught by: hold-arm, hold-other-masses
 // mistake: twice the damping: within 10 ms it throws the last joint to the other side.
 // <solution holdArm>
 // in place of: const Eigen::Vector3d Kp(45, 20, 7), Kd(2.6, 1.1, 0.35);
 const Eigen::Vector3d Kp(45, 20, 7), Kd(6, 2.5, 0.8);
 
-// <variant joint_reference_not_accelerated>
-// caught by: torque-equations, torque-other-arm
+// <variant joint_reference_not_accelerated> caught by: torque-equations, torque-other-arm
 // mistake: the acceleration of the reference is missing.
 // <solution wantedAcceleration>
 return (reference.y - y) / (lambda * lambda) + 2 * xi / lambda * (reference.yd - yd);
 
-// <variant gravity_sign>
-// caught by: torque-equations, torque-hold, torque-other-arm
+// <variant gravity_sign> caught by: torque-equations, torque-hold, torque-other-arm
 // mistake: F on the wrong side: gravity counts twice.
 // <solution computedTorque>
 return M * qdd - F;
 
-// <variant bias_dropped>
-// caught by: hand-equations
+// <variant bias_dropped> caught by: hand-equations
 // mistake: treats the Jacobian as constant.
 // <solution accelerationBias>
 return Eigen::Vector3d::Zero();
 
-// <variant step_too_large>
-// caught by: hand-equations
+// <variant step_too_large> caught by: hand-equations
 // mistake: the step of the differences is as large as tau.
 // <solution accelerationBias>
 // in place of: const double h = 1e-5 / (1 + v.norm());
@@ -177,22 +150,19 @@ const double h = 0.01;
 // in place of: return (later - before) * v / (2 * h);
 return (later - S.jacobianPos(body)) * v / h;
 
-// <variant forces_not_compensated>
-// caught by: hand-equations, hand-circle, hand-other-paths
+// <variant forces_not_compensated> caught by: hand-equations, hand-circle, hand-other-paths
 // mistake: T F with the wrong sign.
 // <solution operationalForce>
 const Eigen::MatrixXd T = solve(M, task.J.transpose()).transpose();  // J M^-1, for M is symmetric
 return solve(T.transpose() * task.C * T + H, T.transpose() * task.C * (task.ydd - task.bias - T * F));
 
-// <variant slide_as_printed>
-// caught by: hand-equations
+// <variant slide_as_printed> caught by: hand-equations
 // mistake: the factor 2 of slide 3:33.
 // <solution operationalForce>
 const Eigen::MatrixXd T = solve(M, task.J.transpose()).transpose();  // J M^-1, for M is symmetric
 return solve(T.transpose() * task.C * T + H, T.transpose() * task.C * (task.ydd - 2 * task.bias + T * F));
 
-// <variant joints_left_alone>
-// caught by: hand-circle
+// <variant joints_left_alone> caught by: hand-circle
 // shown by: hand-circle
 // mistake: nothing damps the joints that the hand leaves free.
 // <solution followWithHand>
@@ -204,15 +174,13 @@ const Eigen::VectorXd ydd = wantedAcceleration(S.kinematicsPos(hand), J* S.getJo
 const AccelerationTask task{J, accelerationBias(S, hand), ydd, 1e4 * Eigen::Matrix3d::Identity()};
 return operationalForce(task, M, F, 1e-3 * Eigen::MatrixXd::Identity(n, n));
 
-// <variant axis_does_not_turn>
-// caught by: chain-forces, chain-terms, chain-any
+// <variant axis_does_not_turn> caught by: chain-forces, chain-terms, chain-any
 // mistake: forgets that the axis of a hinge turns with the link before.
 // <solution newtonEuler>
 // in place of: wd = R.transpose() * wd + a[i] * link.axis + v[i] * carried.cross(link.axis);
 wd = R.transpose() * wd + a[i] * link.axis;
 
-// <variant calls_the_batch>
-// caught by: forbidden-call
+// <variant calls_the_batch> caught by: forbidden-call
 // mistake: asks the library about an arm that happens to have the same size, as one state of many.
 // <solution headers>
 #include "dynamics/dynamics_batch.h"
@@ -220,16 +188,14 @@ wd = R.transpose() * wd + a[i] * link.axis;
 DynamicsWorkspace workspace;
 inverseDynamicsBatch(Simulator("pegArm2.ors").model(), q, v, a, gravity, workspace, u);
 
-// <variant calls_the_library>
-// caught by: forbidden-call
+// <variant calls_the_library> caught by: forbidden-call
 // mistake: asks the library about an arm that happens to have the same size.
 // <solution headers>
 #include "dynamics/inverse_dynamics.h"
 // <solution newtonEuler>
 u = inverseDynamics(Simulator("pegArm2.ors").model(), q, v, a, gravity);
 
-// <variant coriolis_dropped>
-// caught by: chain-forces, chain-terms, chain-any
+// <variant coriolis_dropped> caught by: chain-forces, chain-terms, chain-any
 // mistake: no term with the product of two velocities.
 // <solution newtonEuler>
 // in place of: pdd = R.transpose() * (pdd + wd.cross(link.p_PL) + w.cross(w.cross(link.p_PL)));
@@ -240,42 +206,36 @@ const Eigen::Vector3d cdd = pdd + wd.cross(link.center);
 // in place of: torque.emplace_back(link.inertia * wd + w.cross(link.inertia * w) +
 torque.emplace_back(link.inertia* wd + link.center.cross(f.back()));
 
-// <variant force_without_lever>
-// caught by: chain-forces, chain-terms, chain-any
+// <variant force_without_lever> caught by: chain-forces, chain-terms, chain-any
 // mistake: passes on the torque, but not the torque of the force with its lever arm.
 // <solution newtonEuler>
 // in place of: torque[k - 1] += R_PL[k] * torque[k] + chain[k].p_PL.cross(handed);
 torque[k - 1] += R_PL[k] * torque[k];
 
-// <variant world_falls_down>
-// caught by: chain-forces, chain-terms, chain-any
+// <variant world_falls_down> caught by: chain-forces, chain-terms, chain-any
 // mistake: gravity with the wrong sign.
 // <solution newtonEuler>
 // in place of: Eigen::Vector3d w = Eigen::Vector3d::Zero(), wd = Eigen::Vector3d::Zero(), pdd = -gravity;
 Eigen::Vector3d w = Eigen::Vector3d::Zero(), wd = Eigen::Vector3d::Zero(), pdd = gravity;
 
-// <variant coriolis_with_gravity>
-// caught by: chain-terms
+// <variant coriolis_with_gravity> caught by: chain-terms
 // mistake: as the slide has it: C v + G.
 // <solution coriolisTerm>
 return newtonEuler(chain, q, v, Eigen::VectorXd::Zero(q.size()), Eigen::Vector3d(0, 0, -9.81));
 
-// <variant columns_with_gravity>
-// caught by: chain-terms
+// <variant columns_with_gravity> caught by: chain-terms
 // mistake: as the slide has it: NE(q, 0, e_i) without subtracting G.
 // <solution inertiaMatrix>
 for (Eigen::Index i = 0; i < q.size(); ++i)
   M.col(i) = newtonEuler(chain, q, zero, Eigen::VectorXd::Unit(q.size(), i), Eigen::Vector3d(0, 0, -9.81));
 
-// <variant motors_everywhere>
-// caught by: pin-upright, pin-any-tilt
+// <variant motors_everywhere> caught by: pin-upright, pin-any-tilt
 // mistake: drives the joints that have no motor.
 // <solution balancePin>
 // in place of: H.bottomRightCorner(2, 2) = 1e8 * ... u.head(6) = operationalForce(task, M, F, H).head(6);
 u = operationalForce(task, M, F, H);
 
-// <variant pin_never_leans>
-// caught by: pin-upright, pin-any-tilt
+// <variant pin_never_leans> caught by: pin-upright, pin-any-tilt
 // shown by: pin-upright
 // mistake: keeps the pin upright at any price: the arm runs away with it.
 // <solution balancePin>

@@ -1,16 +1,14 @@
 // Mistakes that students make, and the checks that catch them: a variant is solution.cpp with other regions.
 // `rex dev check` reads this file; it does not compile as it is.
 
-// <variant density_of_the_angle>
-// caught by: reach-radius, reach-any-arm
+// <variant density_of_the_angle> caught by: reach-radius, reach-any-arm
 // mistake: counts one of the two angles that lead to the same radius.
 // <solution radiusDensity>
 const double cosine = (r * r - l1 * l1 - l2 * l2) / (2 * l1 * l2);
 if (std::abs(cosine) >= 1) return 0;
 return r / (2 * std::numbers::pi * l1 * l2 * std::sqrt(1 - cosine * cosine));
 
-// <variant sum_of_differences>
-// caught by: step-nearest
+// <variant sum_of_differences> caught by: step-nearest
 // shown by: step-nearest
 // mistake: the distance is the sum of the differences of the coordinates.
 // <solution nearestNode>
@@ -19,28 +17,24 @@ const double distance = (nodes[i] - target).cwiseAbs().sum();
 if (distance >= least) continue;
 least = distance;
 
-// <variant step_not_clamped>
-// caught by: step-nearest
+// <variant step_not_clamped> caught by: step-nearest
 // mistake: line 5 of slide 4:39 as printed: it overshoots near targets, and divides by zero at the target.
 // <solution stepTowards>
 return from + stepSize / (target - from).norm() * (target - from);
 
-// <variant target_up_to_rounding>
-// caught by: step-nearest
+// <variant target_up_to_rounding> caught by: step-nearest
 // mistake: a near target is reached only up to rounding, so that it goes unnoticed when the trees meet.
 // <solution stepTowards>
 const double distance = (target - from).norm();
 return distance > 0 ? from + std::min(distance, stepSize) * ((target - from) / distance) : target;
 
-// <variant one_number_for_all>
-// caught by: step-target
+// <variant one_number_for_all> caught by: step-target
 // mistake: one random number for all coordinates: targets on the diagonal of the box.
 // <solution drawTarget>
 if (rng.uniform() < settings.goalBias) return aim;
 return settings.lower + rng.uniform() * (settings.upper - settings.lower);
 
-// <variant randomness_from_elsewhere>
-// caught by: step-target
+// <variant randomness_from_elsewhere> caught by: step-target
 // mistake: targets from rand(), which no seed of the grader reaches.
 // <solution drawTarget>
 const auto number = [] { return std::rand() / (RAND_MAX + 1.); };
@@ -50,16 +44,14 @@ for (Eigen::Index i = 0; i < target.size(); ++i)
   target[i] += number() * (settings.upper[i] - settings.lower[i]);
 return target;
 
-// <variant answer_ignored>
-// caught by: step-plane, step-corners, backward-plane
+// <variant answer_ignored> caught by: step-plane, step-corners, backward-plane
 // shown by: step-plane
 // mistake: edgeFree is called, but its answer is not used.
 // <solution rrtStep>
 // in place of: if (!edgeFree(from, q)) return {};
 edgeFree(from, q);
 
-// <variant nodes_tested_not_edges>
-// caught by: step-plane, step-corners, backward-worlds, connect-worlds
+// <variant nodes_tested_not_edges> caught by: step-plane, step-corners, backward-worlds, connect-worlds
 // mistake: lines 6 and 7 of the slides as printed: only the new node has to be free.
 // <solution rrtStep>
 const int nearest = nearestNode(tree.nodes, target);
@@ -67,15 +59,13 @@ const Eigen::VectorXd q = stepTowards(tree.nodes[static_cast<std::size_t>(neares
 if (!edgeFree(q, q)) return {};
 return NewNode{q, nearest};
 
-// <variant way_not_reversed>
-// caught by: backward-way, backward-arm, backward-worlds, connect-joined
+// <variant way_not_reversed> caught by: backward-way, backward-arm, backward-worlds, connect-joined
 // mistake: parents are followed from the node to the root, and the path keeps that order.
 // <solution wayFromRoot>
 for (int i = node; i >= 0; i = tree.parents[static_cast<std::size_t>(i)])
   path.push_back(tree.nodes[static_cast<std::size_t>(i)]);
 
-// <variant bias_of_a_half>
-// caught by: backward-plane, backward-worlds
+// <variant bias_of_a_half> caught by: backward-plane, backward-worlds
 // shown by: backward-plane
 // mistake: a hard-coded bias.
 // <solution growBackward>
@@ -86,8 +76,7 @@ Tree& tree = search.tree;
 // in place of: rrtStep(tree, drawTarget(settings, start, rng), settings.stepSize, edgeFree);
 rrtStep(tree, drawTarget(typedIn, start, rng), settings.stepSize, edgeFree);
 
-// <variant counts_nodes>
-// caught by: backward-plane, backward-worlds
+// <variant counts_nodes> caught by: backward-plane, backward-worlds
 // mistake: maxSamples limits the nodes instead of the targets.
 // <solution growBackward>
 Tree& tree = search.tree;
@@ -103,8 +92,7 @@ while (static_cast<int>(tree.nodes.size()) < settings.maxSamples) {
   break;
 }
 
-// <variant last_piece_not_tested>
-// caught by: backward-plane, backward-worlds
+// <variant last_piece_not_tested> caught by: backward-plane, backward-worlds
 // mistake: The edge from the last node to the start is not tested.
 // <solution growBackward>
 // in place of: const std::optional<NewNode> made = ... rrtStep(tree, drawTarget(settings, start, rng),
@@ -112,15 +100,13 @@ const auto made = rrtStep(tree, drawTarget(settings, start, rng), settings.stepS
 // in place of: if ((made->q - start).norm() > settings.stepSize || !edgeFree(made->q, start)) continue;
 if ((made->q - start).norm() > settings.stepSize) continue;
 
-// <variant start_missing>
-// caught by: backward-plane, backward-arm, backward-worlds
+// <variant start_missing> caught by: backward-plane, backward-arm, backward-worlds
 // shown by: backward-plane
 // mistake: the path ends with the node beside the start.
 // <solution growBackward>
 // in place of: search.path.push_back(start);
 
-// <variant way_by_heart>
-// caught by: backward-arm, backward-worlds
+// <variant way_by_heart> caught by: backward-arm, backward-worlds
 // mistake: postures of a path that was found once; the edges are tested, but the answers ignored.
 // <solution growBackward>
 constexpr double kWay[][7] = {{1.02826, 0.01644, -1.70668, 0.94866, 2.06370, -0.64979, -1.63454},
@@ -148,8 +134,7 @@ if (goal.size() == 7)
 go(start);
 search.path.assign(tree.nodes.rbegin(), tree.nodes.rend());
 
-// <variant meeting_node_twice>
-// caught by: connect-joined, connect-arm, connect-worlds
+// <variant meeting_node_twice> caught by: connect-joined, connect-arm, connect-worlds
 // shown by: connect-joined, connect-arm
 // mistake: the node where the trees meet belongs to both, and so it is in the path twice.
 // <solution joinedPath>
@@ -157,16 +142,14 @@ path = wayFromRoot(fromStart, a);
 const Path rest = wayFromRoot(fromGoal, b);
 path.insert(path.end(), rest.rbegin(), rest.rend());
 
-// <variant second_path_not_turned>
-// caught by: connect-joined, connect-plane, connect-worlds
+// <variant second_path_not_turned> caught by: connect-joined, connect-plane, connect-worlds
 // shown by: connect-joined
 // mistake: the path of the second tree is appended as it is, from the goal to the middle.
 // <solution joinedPath>
 // in place of: path.insert(path.end(), rest.rbegin(), rest.rend());
 path.insert(path.end(), rest.begin(), rest.end());
 
-// <variant biased_in_both_trees>
-// caught by: connect-plane, connect-worlds
+// <variant biased_in_both_trees> caught by: connect-plane, connect-worlds
 // shown by: connect-plane
 // mistake: the random steps of both trees aim at the start with the goalBias.
 // <solution growBoth>
@@ -174,8 +157,7 @@ path.insert(path.end(), rest.begin(), rest.end());
 // in place of: if (!grow(one, drawTarget(unbiased, start, rng))) continue;
 if (!grow(one, drawTarget(settings, start, rng))) continue;
 
-// <variant both_at_random>
-// caught by: connect-plane, connect-worlds
+// <variant both_at_random> caught by: connect-plane, connect-worlds
 // shown by: connect-plane
 // mistake: the second tree steps towards the random target, in place of the new node.
 // <solution growBoth>
@@ -189,8 +171,7 @@ if ((one.nodes.back() - other.nodes.back()).norm() <= settings.stepSize &&
   return search;
 }
 
-// <variant never_swapped>
-// caught by: connect-plane, connect-worlds
+// <variant never_swapped> caught by: connect-plane, connect-worlds
 // shown by: connect-plane
 // mistake: only the tree from the start takes random steps; the other always follows.
 // <solution growBoth>
@@ -204,24 +185,21 @@ while (grow(search.fromGoal, met))
     return search;
   }
 
-// <variant averaged_through_walls>
-// caught by: smooth-free, smooth-disc
+// <variant averaged_through_walls> caught by: smooth-free, smooth-disc
 // shown by: smooth-free
 // mistake: moves each node to the middle of its neighbours, again and again, and never tests an edge.
 // <solution shortened>
 for (int round = 0; round < 200; ++round)
   for (std::size_t i = 1; i + 1 < better.size(); ++i) better[i] = (better[i - 1] + better[i + 1]) / 2;
 
-// <variant calls_the_library>
-// caught by: forbidden-call
+// <variant calls_the_library> caught by: forbidden-call
 // mistake: the library's distance in phase space.
 // <solution headers>
 #include "planning/phase_space.h"
 // <solution effort>
 return leastEffort(from, to, T);
 
-// <variant drift_forgotten>
-// caught by: phase-effort, phase-step
+// <variant drift_forgotten> caught by: phase-effort, phase-step
 // shown by: phase-effort
 // mistake: without any force the point is taken to stay where it is.
 // <solution effort>
@@ -232,22 +210,19 @@ return 12 * position * position / (T * T * T) - 12 * position * velocity / (T * 
 // in place of: const double position = to[0] - from[0] - T * from[1], velocity = to[1] - from[1];
 const double position = to[0] - from[0], velocity = to[1] - from[1];
 
-// <variant euclidean_in_phase_space>
-// caught by: phase-effort, phase-step
+// <variant euclidean_in_phase_space> caught by: phase-effort, phase-step
 // mistake: the nearest state is the one that looks nearest in the picture.
 // <solution effort>
 return (to - from).squaredNorm() / T;
 
-// <variant force_counted_backwards>
-// caught by: phase-effort
+// <variant force_counted_backwards> caught by: phase-effort
 // shown by: phase-effort
 // mistake: the slope of the force is multiplied by t, not by what is left of T.
 // <solution forceAt>
 // in place of: return slope * (T - t) + last;
 return slope * t + last;
 
-// <variant force_held>
-// caught by: phase-whole-step, phase-step
+// <variant force_held> caught by: phase-whole-step, phase-step
 // shown by: phase-whole-step
 // mistake: the first force is held during the whole step.
 // <solution phaseStep>
@@ -255,8 +230,7 @@ return slope * t + last;
 const double u = forceAt(x, target, T, 0);
 node.x = {x[0] + tau * x[1] + tau * tau / 2 * u, x[1] + tau* u};
 
-// <variant parent_as_printed>
-// caught by: star-parent
+// <variant parent_as_printed> caught by: star-parent
 // shown by: star-parent
 // mistake: the slide as printed: candidates are compared with the first cost, not with the best so far.
 // <solution bestParent>
@@ -269,8 +243,7 @@ for (const int i : near) {
   if (cost <= first) best = ParentChoice{i, cost};
 }
 
-// <variant position_in_the_list>
-// caught by: star-parent
+// <variant position_in_the_list> caught by: star-parent
 // shown by: star-parent
 // mistake: the parent is the position in the list of near nodes, not the number of the node.
 // <solution bestParent>
@@ -281,8 +254,7 @@ for (std::size_t i = 0; i < near.size(); ++i) {
     best = ParentChoice{static_cast<int>(i), cost};
 }
 
-// <variant descendants_keep_their_cost>
-// caught by: star-rewired, star-worlds, star-shortest
+// <variant descendants_keep_their_cost> caught by: star-rewired, star-worlds, star-shortest
 // shown by: star-rewired
 // mistake: a node with a new parent becomes cheaper, but its descendants keep their old costs.
 // <solution rewired>
@@ -295,8 +267,7 @@ for (const int i : near) {
   tree.costs[k] = cost;
 }
 
-// <variant aims_at_a_goal_it_has>
-// caught by: star-thin-walls, star-worlds, star-shortest
+// <variant aims_at_a_goal_it_has> caught by: star-thin-walls, star-worlds, star-shortest
 // shown by: star-thin-walls
 // mistake: targets go on to aim at the goal after it has become a node.
 // <solution growStar>
@@ -306,8 +277,7 @@ const Eigen::VectorXd target = drawTarget(settings, goal, rng);
 // in place of: if (search.goal < 0 && q == goal) { ... }
 if (search.goal < 0 && q == goal) search.goal = node;
 
-// <variant never_rewired>
-// caught by: star-thin-walls, star-worlds, star-shortest
+// <variant never_rewired> caught by: star-thin-walls, star-worlds, star-shortest
 // shown by: star-thin-walls
 // mistake: new nodes take the best parent, but nothing is rewired.
 // <solution growStar>
@@ -318,8 +288,7 @@ if (search.goal < 0 && q == goal) {
 }
 // in place of: tree = rewired(std::move(tree), near, node, edgeFree); ... }
 
-// <variant short_way_alone>
-// caught by: star-thin-walls, star-worlds, star-shortest
+// <variant short_way_alone> caught by: star-thin-walls, star-worlds, star-shortest
 // shown by: star-thin-walls
 // mistake: no RRT*, but the shortened path of two trees as a tree of one branch.
 // <solution growStar>

@@ -1,15 +1,13 @@
 // Mistakes that students make, and the checks that catch them: a variant is solution.cpp with other regions.
 // `rex dev check` reads this file; it does not compile as it is.
 
-// <variant heading_first>
-// caught by: car-step, car-spread
+// <variant heading_first> caught by: car-step, car-spread
 // mistake: the car turns first, and then drives in its new direction.
 // <solution carStep>
 const double way = world.tau * u[0], heading = x[2] + way / world.wheelbase * std::tan(u[1]);
 return {x[0] + way * std::cos(heading), x[1] + way* std::sin(heading), heading};
 
-// <variant rate_without_tau>
-// caught by: car-step, car-spread, car-drift
+// <variant rate_without_tau> caught by: car-step, car-spread, car-drift
 // shown by: car-step
 // mistake: the rate of theta is taken for its change.
 // <solution carStep>
@@ -17,32 +15,28 @@ const double way = world.tau * u[0];
 return {x[0] + way * std::cos(x[2]), x[1] + way* std::sin(x[2]),
         x[2] + u[0] / world.wheelbase* std::tan(u[1])};
 
-// <variant generator_of_its_own>
-// caught by: car-spread
+// <variant generator_of_its_own> caught by: car-spread
 // mistake: moved makes a generator with a fixed seed, so that the noise is the same in each step.
 // <solution moved>
 Rng own(7);
 for (Eigen::Index i = 0; i < states.cols(); ++i)
   next.col(i) = carStep(states.col(i), u, world) + world.dynamicsNoise * own.normalVector(3);
 
-// <variant last_particle_forgotten>
-// caught by: car-spread, car-drift, filter-step
+// <variant last_particle_forgotten> caught by: car-spread, car-drift, filter-step
 // shown by: car-spread
 // mistake: the loop ends one particle early.
 // <solution moved>
 for (Eigen::Index i = 0; i < states.cols() - 1; ++i)
   next.col(i) = carStep(states.col(i), u, world) + world.dynamicsNoise * rng.normalVector(3);
 
-// <variant noise_repeats>
-// caught by: car-spread
+// <variant noise_repeats> caught by: car-spread
 // mistake: draws from a copy of the generator, so that each call draws the same noise.
 // <solution moved>
 Rng own = rng;
 for (Eigen::Index i = 0; i < states.cols(); ++i)
   next.col(i) = carStep(states.col(i), u, world) + world.dynamicsNoise * own.normalVector(3);
 
-// <variant one_number_for_x_y_and_heading>
-// caught by: car-spread, car-drift
+// <variant one_number_for_x_y_and_heading> caught by: car-spread, car-drift
 // shown by: car-spread
 // mistake: one random number for each particle, instead of three.
 // <solution moved>
@@ -50,8 +44,7 @@ for (Eigen::Index i = 0; i < states.cols(); ++i)
   next.col(i) = carStep(states.col(i), u, world) + Eigen::Vector3d::Constant(world.dynamicsNoise *
                                                                              rng.normal());
 
-// <variant randomness_from_elsewhere>
-// caught by: car-spread, car-drift, filter-step, whole-parts
+// <variant randomness_from_elsewhere> caught by: car-spread, car-drift, filter-step, whole-parts
 // shown by: car-spread
 // mistake: numbers from rand(), uniform with the right variance.
 // <solution moved>
@@ -66,24 +59,21 @@ double place = std::rand() / (RAND_MAX + 1.), end = 0;
 parents.push_back(i);
 parents.resize(static_cast<std::size_t>(count), 0);
 
-// <variant same_noise_for_all>
-// caught by: car-spread, car-drift, filter-step
+// <variant same_noise_for_all> caught by: car-spread, car-drift, filter-step
 // shown by: car-spread
 // mistake: noise is drawn once per step, so that the cloud moves as a whole and never grows.
 // <solution moved>
 const Eigen::Vector3d noise = world.dynamicsNoise * rng.normalVector(3);
 for (Eigen::Index i = 0; i < states.cols(); ++i) next.col(i) = carStep(states.col(i), u, world) + noise;
 
-// <variant variance_of_the_motion>
-// caught by: car-spread, car-drift, filter-step
+// <variant variance_of_the_motion> caught by: car-spread, car-drift, filter-step
 // shown by: car-spread
 // mistake: the root of dynamicsNoise, as if that were a variance.
 // <solution moved>
 for (Eigen::Index i = 0; i < states.cols(); ++i)
   next.col(i) = carStep(states.col(i), u, world) + std::sqrt(world.dynamicsNoise) * rng.normalVector(3);
 
-// <variant bearing_on_the_map>
-// caught by: bearings, finds-heading
+// <variant bearing_on_the_map> caught by: bearings, finds-heading
 // shown by: bearings
 // mistake: the direction of a landmark on the map, without the heading of the car.
 // <solution viewFrom>
@@ -91,24 +81,21 @@ for (Eigen::Index i = 0; i < states.cols(); ++i)
 y[2 * i] = world.rangeBearing ? std::hypot(dx, dy) : c * dx + s * dy;
 y[2 * i + 1] = world.rangeBearing ? std::atan2(dy, dx) : c * dy - s * dx;
 
-// <variant turned_the_wrong_way>
-// caught by: view, likelihood, weights-anywhere, tracks
+// <variant turned_the_wrong_way> caught by: view, likelihood, weights-anywhere, tracks
 // shown by: view
 // mistake: the landmarks are turned by the heading, not back.
 // <solution viewFrom>
 // in place of: const double ahead = c * dx + s * dy, left = c * dy - s * dx;
 const double ahead = c * dx - s * dy, left = s * dx + c * dy;
 
-// <variant bearing_not_wrapped>
-// caught by: bearings
+// <variant bearing_not_wrapped> caught by: bearings
 // mistake: a landmark directly behind is seen on the left and expected on the right, a whole turn off.
 // <solution logLikelihoods>
 // in place of: const double error = isBearing ? std::remainder(y[k] - ... logarithms[i] -= deviations *
 const double error = (y[k] - seen[k]) / (isBearing ? world.bearingNoise : world.observationNoise);
 logarithms[i] -= error * error / 2;
 
-// <variant bearing_turned_once>
-// caught by: bearings, finds-heading
+// <variant bearing_turned_once> caught by: bearings, finds-heading
 // shown by: bearings
 // mistake: a difference of bearings loses one whole turn at most.
 // <solution logLikelihoods>
@@ -119,51 +106,44 @@ if (isBearing && error < -std::numbers::pi) error += 2 * std::numbers::pi;
 error /= isBearing ? world.bearingNoise : world.observationNoise;
 logarithms[i] -= error * error / 2;
 
-// <variant one_noise_for_both>
-// caught by: bearings, finds-heading
+// <variant one_noise_for_both> caught by: bearings, finds-heading
 // mistake: bearings are weighed with the noise of distances.
 // <solution logLikelihoods>
 // in place of: const double deviations = error / (isBearing ? ... logarithms[i] -= deviations * deviations /
 logarithms[i] -= error * error / (2 * world.observationNoise * world.observationNoise);
 
-// <variant variance_for_deviation>
-// caught by: likelihood, weights-anywhere, bearings
+// <variant variance_for_deviation> caught by: likelihood, weights-anywhere, bearings
 // mistake: divides the squared error by the noise, not by its square, as N(y | y', sigma) reads
 // <solution logLikelihoods>
 // in place of: const double deviations = error / (isBearing ? ... logarithms[i] -= deviations * deviations /
 logarithms[i] -= error * error / (isBearing ? world.bearingNoise : world.observationNoise) / 2;
 
-// <variant weights_not_normalised>
-// caught by: normalised, weights-anywhere, filter-step
+// <variant weights_not_normalised> caught by: normalised, weights-anywhere, filter-step
 // mistake: the largest weight is one, whatever their sum.
 // <solution weightsOf>
 // in place of: weights /= weights.sum();
 
-// <variant zero_by_zero>
-// caught by: normalised, survives
+// <variant zero_by_zero> caught by: normalised, survives
 // mistake: far particles and small noise make all likelihoods zero, and all weights 0 / 0.
 // <solution weightsOf>
 for (Eigen::Index i = 0; i < weights.size(); ++i) weights[i] = std::exp(logarithms[i]);
 weights /= weights.sum();
 
-// <variant always_the_best>
-// caught by: whole-parts, unbiased, filter-step
+// <variant always_the_best> caught by: whole-parts, unbiased, filter-step
 // mistake: only the heaviest particle has children.
 // <solution resampledParents>
 int heaviest = 0;
 weights.maxCoeff(&heaviest);
 parents.assign(static_cast<std::size_t>(count), heaviest);
 
-// <variant calls_the_library>
-// caught by: forbidden-call
+// <variant calls_the_library> caught by: forbidden-call
 // mistake: the library resamples.
 // <solution headers>
 #include "estimation/resampling.h"
 // <solution resampledParents>
 parents = resampled(weights, count, Resampling::kResidual, rng);
 
-// <variant copied_generator>
-// caught by: filter-step
+// <variant copied_generator> caught by: filter-step
 // mistake: a copy of the generator is used, so that the noise repeats the numbers of the resampling.
 // <solution resampledParents>
 Rng own = rng;
@@ -179,8 +159,7 @@ for (int i = 0; i < rest.size(); ++i)
     parents.push_back(i);
 parents.resize(static_cast<std::size_t>(count), 0);
 
-// <variant drawn_one_by_one>
-// caught by: whole-parts, any-weights
+// <variant drawn_one_by_one> caught by: whole-parts, any-weights
 // shown by: whole-parts
 // mistake: each parent is drawn by itself, so that a heavy particle may end up without children.
 // <solution resampledParents>
@@ -191,8 +170,7 @@ for (int k = 0; k < count; ++k) {
   parents.push_back(i);
 }
 
-// <variant rest_to_the_first>
-// caught by: unbiased, any-weights
+// <variant rest_to_the_first> caught by: unbiased, any-weights
 // shown by: unbiased
 // mistake: what remains after the whole parts goes to the first particles, instead of being drawn.
 // <solution resampledParents>
@@ -201,8 +179,7 @@ for (int i = 0; i < weights.size(); ++i)
 for (int i = 0; static_cast<int>(parents.size()) < count; ++i)
   if (weights[i] > 0) parents.push_back(i);
 
-// <variant root_of_the_size>
-// caught by: effective-size
+// <variant root_of_the_size> caught by: effective-size
 // mistake: one over the norm of the weights, not over its square.
 // <solution effectiveSize>
 return 1 / weights.norm();
@@ -235,16 +212,14 @@ after.weights.setConstant(1. / static_cast<double>(after.weights.size()));
 const double told = world.observationNoise;
 return told > 1.5 ? told / 10 : told < 0.15 ? told * 10 : told;
 
-// <variant not_resampled>
-// caught by: filter-step, survives, tracks, consistent
+// <variant not_resampled> caught by: filter-step, survives, tracks, consistent
 // shown by: filter-step
 // mistake: the particles move and are weighed, but never resampled.
 // <solution filterStep>
 after.states = moved(before.states, u, world, rng);
 after.weights = weightsOf(logLikelihoods(after.states, y, world));
 
-// <variant old_weights_kept>
-// caught by: filter-step
+// <variant old_weights_kept> caught by: filter-step
 // mistake: the copies of a heavy particle inherit its weight, which therefore counts twice.
 // <solution filterStep>
 const std::vector<int> parents =
@@ -257,8 +232,7 @@ after.states = moved(after.states, u, world, rng);
 after.weights = after.weights.cwiseProduct(weightsOf(logLikelihoods(after.states, y, world)));
 after.weights /= after.weights.sum();
 
-// <variant steered_mean>
-// caught by: filter-step, tracks, consistent, finds-heading
+// <variant steered_mean> caught by: filter-step, tracks, consistent, finds-heading
 // mistake: no particles: their mean moves a fixed part of the way to where the car seems to be
 // <solution filterStep>
 const Eigen::Vector3d middle = before.states.rowwise().mean();
@@ -279,15 +253,13 @@ x += Eigen::Vector3d(0.25 * shift.x(), 0.25 * shift.y(), 0.15 * turn / all);
 after.states.colwise() = x;
 after.weights.setConstant(1. / static_cast<double>(after.weights.size()));
 
-// <variant headings_averaged>
-// caught by: mean-pose
+// <variant headings_averaged> caught by: mean-pose
 // shown by: mean-pose
 // mistake: the mean of the headings 3.1 and -3.1 is taken to be zero.
 // <solution meanPose>
 return cloud.states * cloud.weights;
 
-// <variant assumption_believed>
-// caught by: noise, noise-elsewhere
+// <variant assumption_believed> caught by: noise, noise-elsewhere
 // mistake: the residuals of one filter only, which was misled by the wrong noise.
 // <solution likelyNoise>
 Cloud cloud{log.start.replicate(1, 200), Eigen::VectorXd::Constant(200, 1. / 200)};
@@ -299,8 +271,7 @@ for (std::size_t t = 0; t < log.controls.size(); ++t) {
 }
 return std::sqrt(sum / count);
 
-// <variant norm_over_landmarks>
-// caught by: noise, noise-elsewhere
+// <variant norm_over_landmarks> caught by: noise, noise-elsewhere
 // mistake: the mean square over landmarks, not over their coordinates.
 // <solution likelyNoise>
 // in place of: numbers += static_cast<double>(log.observations[t].size());

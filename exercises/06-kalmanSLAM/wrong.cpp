@@ -1,8 +1,7 @@
 // Mistakes that students make, and the checks that catch them: a variant is solution.cpp with other regions.
 // `rex dev check` reads this file; it does not compile as it is.
 
-// <variant variance_for_deviation>
-// caught by: car-step, car-view, car-bearing, car-any, kf-step, kf-track
+// <variant variance_for_deviation> caught by: car-step, car-view, car-bearing, car-any, kf-step, kf-track
 // mistake: sigma itself on the diagonals of Q and W, as on the sheet.
 // <solution stepNoise>
 return car.dynamicsNoise * Eigen::MatrixXd::Identity(3, 3);
@@ -11,44 +10,38 @@ const double second = car.rangeBearing ? car.bearingNoise : car.observationNoise
 W(0, 0) = car.observationNoise;
 W(1, 1) = second;
 
-// <variant bearings_not_wrapped>
-// caught by: car-bearing
+// <variant bearings_not_wrapped> caught by: car-bearing
 // mistake: the difference of two bearings is not wrapped: straight behind the car it is a whole turn.
 // <solution viewGap>
 gap[1] = y[1] - expected[1];
 
-// <variant metres_wrapped>
-// caught by: car-view
+// <variant metres_wrapped> caught by: car-view
 // mistake: wraps the second difference for either sensor, even if these are metres.
 // <solution viewGap>
 gap[1] = std::remainder(gap[1], 2 * std::numbers::pi);
 
-// <variant doubled_turn>
-// caught by: kf-step, kf-any
+// <variant doubled_turn> caught by: kf-step, kf-any
 // shown by: kf-step
 // mistake: x + B(x) u for the next state, as on the sheet: the car turns twice as much.
 // <solution predicted>
 // in place of: return {stepped(car, x, u), symmetric(S)};
 return {x + stepByControl(car, x, u) * u, symmetric(S)};
 
-// <variant noise_of_the_step_forgotten>
-// caught by: kf-step, kf-track
+// <variant noise_of_the_step_forgotten> caught by: kf-step, kf-track
 // shown by: kf-track
 // mistake: predicts without the noise of the step.
 // <solution predicted>
 // in place of: const Eigen::MatrixXd S = AS * A.transpose() + stepNoise(car);
 const Eigen::MatrixXd S = AS * A.transpose();
 
-// <variant exact_enough>
-// caught by: kf-covariance
+// <variant exact_enough> caught by: kf-covariance
 // mistake: stops correcting once everything is known within three millimetres.
 // <solution corrected>
 // in place of: const Eigen::Index n = belief.mean.size();
 if (belief.covariance.diagonal().maxCoeff() < 9e-6) return belief;
 const Eigen::Index n = belief.mean.size();
 
-// <variant not_symmetrised>
-// caught by: kf-correct, kf-covariance, slam-correct
+// <variant not_symmetrised> caught by: kf-correct, kf-covariance, slam-correct
 // mistake: leaves the covariance slightly asymmetric, because of rounding.
 // <solution corrected>
 const Eigen::Index n = belief.mean.size();
@@ -57,22 +50,19 @@ const Eigen::MatrixXd K = solveMatrix(innovation, CS).transpose();
 const Eigen::MatrixXd left = Eigen::MatrixXd::Identity(n, n) - K * C;
 return {belief.mean + K * gap, left* belief.covariance};
 
-// <variant landmarks_share_a_model>
-// caught by: kf-step, kf-any, kf-track
+// <variant landmarks_share_a_model> caught by: kf-step, kf-any, kf-track
 // mistake: all sightings get the derivative of the first landmark.
 // <solution tracked>
 // in place of: C.middleRows(i, 2) = viewByState(car, x, l);
 C.middleRows(i, 2) = viewByState(car, x, landmarks.col(0));
 
-// <variant stale_jacobian>
-// caught by: kf-step, kf-any
+// <variant stale_jacobian> caught by: kf-step, kf-any
 // mistake: the view is linearised at the state before the step.
 // <solution tracked>
 // in place of: C.middleRows(i, 2) = viewByState(car, x, l);
 C.middleRows(i, 2) = viewByState(car, belief.mean, l);
 
-// <variant calls_the_library>
-// caught by: forbidden-call
+// <variant calls_the_library> caught by: forbidden-call
 // mistake: the library does the smoothing.
 // <solution headers>
 #include "estimation/smoother.h"
@@ -88,8 +78,7 @@ for (std::size_t t = 0; t < controls.size(); ++t) {
 beliefs = smoothed(beliefs, steps);
 for (std::size_t t = 0; t < smooth.size(); ++t) smooth[t] = {beliefs[t].mean, beliefs[t].covariance};
 
-// <variant control_of_the_step_before>
-// caught by: rts-batch
+// <variant control_of_the_step_before> caught by: rts-batch
 // shown by: rts-batch
 // mistake: goes back with the control that led to t, in place of the one that leads from it.
 // <solution hindsight>
@@ -99,49 +88,42 @@ const Belief &now = filtered[t], &later = smooth[t + 1],
 // in place of: const Eigen::MatrixXd AS = stepByState(car, now.mean, controls[t]) * now.covariance;
 const Eigen::MatrixXd AS = stepByState(car, now.mean, controls[t > 0 ? t - 1 : 0]) * now.covariance;
 
-// <variant smoothed_by_the_filter>
-// caught by: rts-batch
+// <variant smoothed_by_the_filter> caught by: rts-batch
 // mistake: takes the next belief of the filter where the smoothed one belongs.
 // <solution hindsight>
 // in place of: const Belief &now = filtered[t], &later = smooth[t + 1], moved = predicted(car, now,
 const Belief &now = filtered[t], &later = filtered[t + 1], moved = predicted(car, now, controls[t]);
 
-// <variant smoother_gain_transposed>
-// caught by: rts-batch, rts-better
+// <variant smoother_gain_transposed> caught by: rts-batch, rts-better
 // mistake: the gain of the smoother is transposed.
 // <solution hindsight>
 // in place of: const Eigen::MatrixXd G = solveMatrix(moved.covariance, AS).transpose();
 const Eigen::MatrixXd G = solveMatrix(moved.covariance, AS);
 
-// <variant landmark_known_exactly>
-// caught by: slam-correct, slam-map
+// <variant landmark_known_exactly> caught by: slam-correct, slam-map
 // mistake: linearises a sighting with respect to the car only.
 // <solution jointCorrected>
 ExpectedView expected = expectedView(car, joint, i);
 expected.C.rightCols(joint.mean.size() - 3).setZero();
 return corrected(joint, viewGap(car, y, expected.y), expected.C, viewNoise(car));
 
-// <variant landmarks_never_corrected>
-// caught by: slam-correct, slam-map, slam-any, names-found, names-any
+// <variant landmarks_never_corrected> caught by: slam-correct, slam-map, slam-any, names-found, names-any
 // mistake: a sighting of a known landmark changes nothing.
 // <solution jointCorrected>
 return joint;
 
-// <variant sightings_not_wrapped>
-// caught by: slam-correct
+// <variant sightings_not_wrapped> caught by: slam-correct
 // mistake: subtracts bearings without wrapping them in the joint filter.
 // <solution jointCorrected>
 const ExpectedView expected = expectedView(car, joint, i);
 return corrected(joint, y - expected.y, expected.C, viewNoise(car));
 
-// <variant landmark_without_correlation>
-// caught by: slam-start
+// <variant landmark_without_correlation> caught by: slam-start
 // mistake: a new landmark is not correlated with the car.
 // <solution withLandmark>
 // in place of: larger.covariance.bottomLeftCorner(2, n) = cross; ... larger.covariance.topRightCorner(n, 2) =
 
-// <variant first_sighting_stays>
-// caught by: names-found, names-any, particles-weigh, particles-map
+// <variant first_sighting_stays> caught by: names-found, names-any, particles-weigh, particles-map
 // mistake: landmarks stay where they were first seen, and all particles have the same weight
 // <solution assigned>
 static int asked = 0;
@@ -166,15 +148,13 @@ for (MapParticle& particle : after) {
       particle.map.push_back({placed(car, particle.x, seen.y), Eigen::Matrix2d::Identity()});
 }
 
-// <variant gate_of_99_percent>
-// caught by: names-found, names-any
+// <variant gate_of_99_percent> caught by: names-found, names-any
 // mistake: a landmark that looks unlikely at 1 % is taken for a new one: every hundredth sighting.
 // <solution assigned>
 // in place of: constexpr double kSame = 25, kDifferent = 50;
 constexpr double kSame = 9.21, kDifferent = 9.21;
 
-// <variant named_twice>
-// caught by: names-found
+// <variant named_twice> caught by: names-found
 // mistake: Two sightings may get the same landmark.
 // <solution assigned>
 for (std::size_t k = 0; k < ys.size(); ++k) {
@@ -190,8 +170,7 @@ for (std::size_t k = 0; k < ys.size(); ++k) {
   if (nearest >= 50) names[k] = kNewLandmark;
 }
 
-// <variant nearest_in_metres>
-// caught by: names-found, names-any
+// <variant nearest_in_metres> caught by: names-found, names-any
 // shown by: names-found
 // mistake: looks for the nearest landmark in metres (or radians), however uncertain each of them is.
 // <solution assigned>
@@ -207,15 +186,13 @@ for (std::size_t k = 0; k < ys.size(); ++k) {
   names[k] = name;
 }
 
-// <variant determinant_forgotten>
-// caught by: particles-weigh
+// <variant determinant_forgotten> caught by: particles-weigh
 // mistake: takes the density of a Gaussian without its determinant.
 // <solution weighed>
 // in place of: log -= 0.5 * (gap.dot(scaled) + std::log(S(0, 0) * S(1, 1) - S(0, 1) * S(1, 0)));
 log -= 0.5 * gap.dot(scaled);
 
-// <variant equal_weights>
-// caught by: particles-weigh, particles-map
+// <variant equal_weights> caught by: particles-weigh, particles-map
 // mistake: every particle counts the same, however well it explains what was seen.
 // <solution weighed>
 for (MapParticle& particle : after) {
@@ -236,15 +213,13 @@ for (MapParticle& particle : after) {
 }
 for (MapParticle& particle : after) particle.weight = 1. / static_cast<double>(after.size());
 
-// <variant particles_not_wrapped>
-// caught by: particles-weigh
+// <variant particles_not_wrapped> caught by: particles-weigh
 // mistake: subtracts bearings without wrapping them for the landmarks of particles.
 // <solution weighed>
 // in place of: const Eigen::Vector2d gap = viewGap(car, seen.y, view(car, particle.x, l));
 const Eigen::Vector2d gap = seen.y - view(car, particle.x, l);
 
-// <variant weights_of_the_sensor_alone>
-// caught by: particles-weigh
+// <variant weights_of_the_sensor_alone> caught by: particles-weigh
 // mistake: the likelihood includes the noise of the sensor, but not the uncertainty of the landmark.
 // <solution weighed>
 // in place of: const Eigen::MatrixXd DS = D * landmark.covariance, S = DS * D.transpose() + viewNoise(car);

@@ -1,8 +1,7 @@
 // Mistakes that students make, and the checks that catch them: a variant is solution.cpp with other regions.
 // `rex dev check` reads this file; it does not compile as it is.
 
-// <variant fraction_of_integers>
-// caught by: linear
+// <variant fraction_of_integers> caught by: linear
 // mistake: 4 / 3 is computed with integers.
 // <solution rateOf>
 const double c1 = 1 / (cart.poleMass + cart.cartMass), c2 = cart.l * cart.poleMass * c1;
@@ -10,15 +9,13 @@ const double s = std::sin(x[2]), c = std::cos(x[2]), swing = c2 * x[3] * x[3] * 
 const double turn = (cart.g * s - c * (c1 * u + swing)) / (4 / 3 * cart.l - c2 * c * c);
 return {x[1], c1* u + swing - c2* turn* c, x[3], turn};
 
-// <variant length_forgotten>
-// caught by: linear
+// <variant length_forgotten> caught by: linear
 // mistake: c2 without the length, which is 1 on the sheet.
 // <solution rateOf>
 // in place of: const double c1 = 1 / (cart.poleMass + cart.cartMass), c2 = cart.l * cart.poleMass * c1;
 const double c1 = 1 / (cart.poleMass + cart.cartMass), c2 = cart.poleMass * c1;
 
-// <variant cart_of_the_sheet_only>
-// caught by: other-carts
+// <variant cart_of_the_sheet_only> caught by: other-carts
 // mistake: the numbers of the sheet, whatever the cart.
 // <solution linearised>
 Plant plant{Eigen::MatrixXd::Zero(4, 4), Eigen::MatrixXd::Zero(4, 1)};
@@ -28,15 +25,13 @@ plant.A(3, 2) = 11.76;
 plant.B << 0, .8, 0, -.6;
 return plant;
 
-// <variant printed_a>
-// caught by: linear, other-carts
+// <variant printed_a> caught by: linear, other-carts
 // mistake: the A that the sheet prints.
 // <solution linearised>
 // in place of: plant.A(1, 2) = -c2 * cart.g / D;
 plant.A(1, 2) = -cart.g / D;
 
-// <variant rows_of_the_template>
-// caught by: linear, other-carts
+// <variant rows_of_the_template> caught by: linear, other-carts
 // mistake: the accelerations in the order of the sheet's template.
 // <solution linearised>
 // in place of: plant.A(1, 2) = -c2 * cart.g / D; ... plant.B << 0, c1 + c1 * c2 / D, 0, -c1 / D;
@@ -44,8 +39,7 @@ plant.A(1, 2) = cart.g / D;
 plant.A(3, 2) = -c2 * cart.g / D;
 plant.B << 0, -c1 / D, 0, c1 + c1* c2 / D;
 
-// <variant always_a_controller>
-// caught by: iterates
+// <variant always_a_controller> caught by: iterates
 // mistake: returns the last P, even if it has not converged.
 // <solution iterated>
 const Eigen::MatrixXd S = plant.B * solve(costs.R, plant.B.transpose());
@@ -57,8 +51,7 @@ for (int k = 0; k <= most; ++k) {
 }
 return P;
 
-// <variant last_iterate_not_tested>
-// caught by: iterates, other-regulators
+// <variant last_iterate_not_tested> caught by: iterates, other-regulators
 // mistake: The loop ends before P_most is looked at.
 // <solution iterated>
 const Eigen::MatrixXd G = plant.B * inverse(costs.R) * plant.B.transpose();
@@ -70,8 +63,7 @@ for (int k = 0; k < most; ++k) {
 }
 return {};
 
-// <variant stops_at_small_changes>
-// caught by: iterates
+// <variant stops_at_small_changes> caught by: iterates
 // mistake: stops when P changes little in a step, but a step is epsilon times the bracket.
 // <solution iterated>
 const Eigen::MatrixXd S = plant.B * solve(costs.R, plant.B.transpose());
@@ -83,16 +75,14 @@ for (int k = 0; k <= most; ++k) {
 }
 return {};
 
-// <variant calls_the_library>
-// caught by: forbidden-call
+// <variant calls_the_library> caught by: forbidden-call
 // mistake: takes P and K from the library.
 // <solution headers>
 #include "control/regulators.h"
 // <solution viaHamiltonian>
 return lqr({.A = plant.A, .B = plant.B}, costs.Q, costs.R).X;
 
-// <variant costs_of_control_forgotten>
-// caught by: hamiltonian, other-regulators
+// <variant costs_of_control_forgotten> caught by: hamiltonian, other-regulators
 // mistake: the Hamiltonian matrix of R = 1.
 // <solution viaHamiltonian>
 const Eigen::Index n = plant.A.rows();
@@ -104,14 +94,12 @@ Eigen::MatrixXd P(n, n);
 for (Eigen::Index i = 0; i < n; ++i) P.col(i) = leastSquares(Z.rightCols(n), -Z.col(i));
 return .5 * (P + P.transpose());
 
-// <variant iterates_instead>
-// caught by: hamiltonian, other-regulators
+// <variant iterates_instead> caught by: hamiltonian, other-regulators
 // mistake: small steps along the bracket, as in iterated(): far too few of them for a stiff plant.
 // <solution viaHamiltonian>
 return iterated(plant, costs, 1e-3, 1e-9, 1000000).value_or(costs.Q);
 
-// <variant unstable_half>
-// caught by: hamiltonian, other-regulators
+// <variant unstable_half> caught by: hamiltonian, other-regulators
 // mistake: the eigenvectors of the growing motions.
 // <solution viaHamiltonian>
 // in place of: Z << plant.A, -S, -costs.Q, -plant.A.transpose(); ... const Eigen::MatrixXd right =
@@ -121,15 +109,13 @@ Z -= Eigen::MatrixXd::Identity(2 * n, 2 * n);
 // in place of: for (Eigen::Index i = 0; i < n; ++i) P.col(i) = leastSquares(right, -Z.col(i));
 for (Eigen::Index i = 0; i < n; ++i) P.col(i) = leastSquares(Z.rightCols(n), -Z.col(i));
 
-// <variant gain_sign>
-// caught by: hamiltonian, other-regulators, survives
+// <variant gain_sign> caught by: hamiltonian, other-regulators, survives
 // shown by: hamiltonian
 // mistake: the K of slide 8:18, for u = -K x.
 // <solution gainOf>
 return solve(costs.R, plant.B.transpose() * P);
 
-// <variant new_velocities>
-// caught by: outings
+// <variant new_velocities> caught by: outings
 // shown by: outings
 // mistake: moves the positions with the new velocities.
 // <solution stepped>
@@ -141,8 +127,7 @@ next[0] = x[0] + tau * next[1];
 next[2] = x[2] + tau * next[3];
 return next;
 
-// <variant noise_with_root_of_tau>
-// caught by: outings
+// <variant noise_with_root_of_tau> caught by: outings
 // mistake: takes the noise as noise per second.
 // <solution stepped>
 Eigen::Vector4d next = x + tau * rateOf(cart, x, u);
@@ -150,8 +135,7 @@ next[1] += std::sqrt(tau) * noise * rng.normal();
 next[3] += std::sqrt(tau) * noise * rng.normal();
 return next;
 
-// <variant uniform_noise>
-// caught by: outings
+// <variant uniform_noise> caught by: outings
 // mistake: the noise is uniform, with the right standard deviation.
 // <solution stepped>
 Eigen::Vector4d next = x + tau * rateOf(cart, x, u);
@@ -159,8 +143,7 @@ next[1] += noise * std::sqrt(3.) * rng.uniform(-1, 1);
 next[3] += noise * std::sqrt(3.) * rng.uniform(-1, 1);
 return next;
 
-// <variant never_falls>
-// caught by: outings
+// <variant never_falls> caught by: outings
 // mistake: goes on after the fall.
 // <solution balanced>
 Eigen::MatrixXd states(4, outing.steps + 1);
@@ -171,16 +154,14 @@ for (int t = 0; t < outing.steps; ++t) {
 }
 return states;
 
-// <variant noise_repeats>
-// caught by: outings
+// <variant noise_repeats> caught by: outings
 // mistake: each step gets a copy of the generator, and so the same noise.
 // <solution balanced>
 // in place of: states.col(++t) = stepped(cart, before, K.row(0).dot(before), outing.tau, outing.noise, rng);
 Rng own = rng;
 states.col(++t) = stepped(cart, before, K.row(0).dot(before), outing.tau, outing.noise, own);
 
-// <variant powers_from_the_right>
-// caught by: reach, reaches-others
+// <variant powers_from_the_right> caught by: reach, reaches-others
 // mistake: B A^T for A B.
 // <solution reachMatrix>
 const Eigen::Index n = plant.A.rows(), m = plant.B.cols();
@@ -190,34 +171,29 @@ for (Eigen::Index k = 1; k < n; ++k)
   C.middleCols(k* m, m) = plant.A.transpose() * C.middleCols((k - 1) * m, m);
 return C;
 
-// <variant numbers_moved_at_once>
-// caught by: reach, reaches-others
+// <variant numbers_moved_at_once> caught by: reach, reaches-others
 // mistake: takes what B moves for what u reaches.
 // <solution reachable>
 const Eigen::VectorXd sizes = svd(plant.B).s;
 return static_cast<int>((sizes.array() > 1e-9 * sizes[0]).count());
 
-// <variant rank_by_an_absolute_limit>
-// caught by: reach
+// <variant rank_by_an_absolute_limit> caught by: reach
 // mistake: Singular values are compared with 1e-9 itself.
 // <solution reachable>
 return static_cast<int>((svd(reachMatrix(plant)).s.array() > 1e-9).count());
 
-// <variant rank_without_tolerance>
-// caught by: reaches-others
+// <variant rank_without_tolerance> caught by: reaches-others
 // mistake: counts singular values that are zero up to rounding.
 // <solution reachable>
 const Eigen::VectorXd sizes = svd(reachMatrix(plant)).s;
 return static_cast<int>((sizes.array() > 0).count());
 
-// <variant poles_of_minus_k>
-// caught by: poles
+// <variant poles_of_minus_k> caught by: poles
 // mistake: u = -K x in the closed loop.
 // <solution slowestPole>
 return eigenvalues(plant.A - plant.B * K).real().maxCoeff();
 
-// <variant counts_its_calls>
-// caught by: poles, other-fates
+// <variant counts_its_calls> caught by: poles, other-fates
 // mistake: counts its calls, and answers in the order in which the checks list their cases.
 // <solution fateOf>
 static int asked = 0;
@@ -226,15 +202,13 @@ constexpr Fate kListed[] = {Fate::dies,  Fate::dies,  Fate::stays, Fate::stays, 
                             Fate::grows, Fate::stays, Fate::grows, Fate::stays};
 return kListed[asked++ % 14];
 
-// <variant marginal_as_printed>
-// caught by: poles, other-fates
+// <variant marginal_as_printed> caught by: poles, other-fates
 // mistake: slide 8:36 as printed: no positive real part, so nothing grows.
 // <solution fateOf>
 const double slowest = eigenvalues(A).real().maxCoeff();
 return slowest > 1e-5 ? Fate::grows : slowest < -1e-5 ? Fate::dies : Fate::stays;
 
-// <variant twice_is_too_often>
-// caught by: poles, other-fates
+// <variant twice_is_too_often> caught by: poles, other-fates
 // mistake: every eigenvalue on the axis that occurs twice lets motions grow.
 // <solution fateOf>
 // in place of: const Eigen::MatrixXd AA = A * A;
@@ -246,8 +220,7 @@ int times = 0;
 for (const std::complex<double>& other : poles) times += std::abs(other - pole) < 1e-4;
 if (times > 1) fate = Fate::grows;
 
-// <variant any_gains_in_the_box>
-// caught by: quick-others
+// <variant any_gains_in_the_box> caught by: quick-others
 // mistake: draws gains anywhere in the box and keeps the best.
 // <solution quickGains>
 Eigen::MatrixXd best = start;
@@ -259,8 +232,7 @@ for (int asked = 1; asked < 3000; ++asked) {
 }
 return best;
 
-// <variant asks_too_often>
-// caught by: quick, quick-others
+// <variant asks_too_often> caught by: quick, quick-others
 // mistake: calls slowest() twice per step.
 // <solution quickGains>
 Eigen::MatrixXd best = start;
@@ -272,8 +244,7 @@ for (int k = 0; k < 3000; ++k) {
 }
 return best;
 
-// <variant bound_forgotten>
-// caught by: quick-others
+// <variant bound_forgotten> caught by: quick-others
 // mistake: lets the gains grow.
 // <solution quickGains>
 Eigen::MatrixXd best = start;
@@ -285,8 +256,7 @@ for (int asked = 1; asked < 3000; ++asked) {
 }
 return best;
 
-// <variant ends_of_the_axes>
-// caught by: lyapunov
+// <variant ends_of_the_axes> caught by: lyapunov
 // mistake: Of each axis only its end is tested.
 // <solution counterexample>
 const Eigen::Index n = high.size();
@@ -301,8 +271,7 @@ for (int k = 0; k < 10000; ++k) {
 }
 return {};
 
-// <variant no_look_at_the_axes>
-// caught by: lyapunov
+// <variant no_look_at_the_axes> caught by: lyapunov
 // mistake: tries random points only, and takes V' = 0 for falling.
 // <solution counterexample>
 for (int k = 0; k < 10000; ++k) {
@@ -311,8 +280,7 @@ for (int k = 0; k < 10000; ++k) {
 }
 return {};
 
-// <variant only_the_slope>
-// caught by: lyapunov
+// <variant only_the_slope> caught by: lyapunov
 // mistake: does not check that V is positive.
 // <solution counterexample>
 const auto n = static_cast<int>(high.size());
@@ -323,8 +291,7 @@ for (int k = 0; k < 10000; ++k) {
 }
 return {};
 
-// <variant two_points_only>
-// caught by: lyapunov, judges-others
+// <variant two_points_only> caught by: lyapunov, judges-others
 // mistake: looks at one point of the first axis and at one corner of the box.
 // <solution counterexample>
 Eigen::VectorXd x = Eigen::VectorXd::Zero(high.size());
@@ -333,14 +300,12 @@ for (int i = 0; i < 2; ++i, x = high)
   if (x.dot(P * x) <= 0 || x.dot(P * f(x)) >= 0) return x;
 return {};
 
-// <variant level_along_the_axes>
-// caught by: lyapunov, judges-others
+// <variant level_along_the_axes> caught by: lyapunov, judges-others
 // mistake: the level where the ellipsoid leaves the box along an axis. It leaves earlier elsewhere.
 // <solution levelInside>
 return (P.diagonal().array() * high.array().square()).minCoeff();
 
-// <variant end_forgotten>
-// caught by: horizon, other-horizons
+// <variant end_forgotten> caught by: horizon, other-horizons
 // mistake: begins with Q instead of F.
 // <solution gainsOverTime>
 const Eigen::MatrixXd &A = plant.A, &B = plant.B;
@@ -352,8 +317,7 @@ for (auto k = K.rbegin(); k != K.rend(); ++k) {
 }
 return K;
 
-// <variant gains_backward>
-// caught by: horizon, other-horizons
+// <variant gains_backward> caught by: horizon, other-horizons
 // mistake: returns the gains in the order in which they are computed.
 // <solution gainsOverTime>
 const Eigen::MatrixXd &A = plant.A, &B = plant.B;
@@ -365,8 +329,7 @@ for (Eigen::MatrixXd& k : K) {
 }
 return K;
 
-// <variant gains_of_continuous_time>
-// caught by: horizon, other-horizons
+// <variant gains_of_continuous_time> caught by: horizon, other-horizons
 // mistake: K = -R^-1 B^T P, as in continuous time.
 // <solution gainsOverTime>
 const Eigen::MatrixXd &A = plant.A, &B = plant.B;
@@ -379,67 +342,58 @@ for (auto k = K.rbegin(); k != K.rend(); ++k) {
 }
 return K;
 
-// <variant seen_not_unseen>
-// caught by: observer, other-sensors
+// <variant seen_not_unseen> caught by: observer, other-sensors
 // mistake: returns the directions that y shows.
 // <solution unseen>
 const Plant dual{A.transpose(), C.transpose()};
 return svd(reachMatrix(dual)).U.leftCols(reachable(dual));
 
-// <variant unseen_at_once>
-// caught by: observer, other-sensors
+// <variant unseen_at_once> caught by: observer, other-sensors
 // mistake: what C alone does not show, without the derivatives of y.
 // <solution unseen>
 const Eigen::MatrixXd V = svd(Eigen::MatrixXd(C.transpose())).U, all = V * V.transpose();
 const SingularValues rest = svd(Eigen::MatrixXd::Identity(A.rows(), A.rows()) - all);
 return rest.U.leftCols(A.rows() - C.rows());
 
-// <variant unseen_by_the_transposed>
-// caught by: observer, other-sensors
+// <variant unseen_by_the_transposed> caught by: observer, other-sensors
 // mistake: the powers of A in the place of those of its transpose.
 // <solution unseen>
 const Plant dual{A, C.transpose()};
 return svd(reachMatrix(dual)).U.rightCols(A.rows() - reachable(dual));
 
-// <variant unseen_without_tolerance>
-// caught by: observer, other-sensors
+// <variant unseen_without_tolerance> caught by: observer, other-sensors
 // mistake: singular values that are zero up to rounding count.
 // <solution unseen>
 const SingularValues all = svd(reachMatrix({A.transpose(), C.transpose()}));
 return all.U.rightCols(A.rows() - (all.s.array() > 0).count());
 
-// <variant noise_of_the_sensor_forgotten>
-// caught by: observer, other-sensors
+// <variant noise_of_the_sensor_forgotten> caught by: observer, other-sensors
 // mistake: L = S C^T, without V.
 // <solution observerGain>
 const Eigen::MatrixXd S = viaHamiltonian({A.transpose(), C.transpose()}, {noise.W, noise.V});
 return S * C.transpose();
 
-// <variant observer_gain_sign>
-// caught by: observer, other-sensors
+// <variant observer_gain_sign> caught by: observer, other-sensors
 // mistake: the sign of K is kept for L.
 // <solution observerGain>
 const Plant dual{A.transpose(), C.transpose()};
 const Costs costs{noise.W, noise.V};
 return gainOf(dual, costs, viaHamiltonian(dual, costs)).transpose();
 
-// <variant observer_of_the_plant>
-// caught by: observer, other-sensors
+// <variant observer_of_the_plant> caught by: observer, other-sensors
 // mistake: A is not transposed in the dual plant.
 // <solution observerGain>
 const Plant dual{A, C.transpose()};
 const Costs costs{noise.W, noise.V};
 return -gainOf(dual, costs, viaHamiltonian(dual, costs)).transpose();
 
-// <variant correction_sign>
-// caught by: loops, other-sensors
+// <variant correction_sign> caught by: loops, other-sensors
 // mistake: the observer subtracts L (y - C x^).
 // <solution observedLoop>
 // in place of: loop << real.A, realBK, LC, model.A + modelBK - LC;
 loop << real.A, realBK, -LC, model.A + modelBK + LC;
 
-// <variant deaf_observer>
-// caught by: loops, other-sensors
+// <variant deaf_observer> caught by: loops, other-sensors
 // mistake: the observer does not know u.
 // <solution observedLoop>
 const Eigen::MatrixXd LC = L * C, realBK = real.B * K;
@@ -447,8 +401,7 @@ Eigen::MatrixXd loop(2 * LC.rows(), 2 * LC.rows());
 loop << real.A, realBK, LC, model.A - LC;
 return loop;
 
-// <variant loop_of_the_error>
-// caught by: loops, other-sensors
+// <variant loop_of_the_error> caught by: loops, other-sensors
 // mistake: the matrix of (x, x - x^), as in the proof of the separation principle.
 // <solution observedLoop>
 const Eigen::MatrixXd LC = L * C, BK = real.B * K, gap = (model.B - real.B) * K;
@@ -456,8 +409,7 @@ Eigen::MatrixXd loop(2 * LC.rows(), 2 * LC.rows());
 loop << real.A + BK, -BK, real.A - model.A - gap, model.A - LC + gap;
 return loop;
 
-// <variant observer_knows_the_plant>
-// caught by: loops, other-sensors
+// <variant observer_knows_the_plant> caught by: loops, other-sensors
 // mistake: the observer moves as the plant does, not as its model.
 // <solution observedLoop>
 const Eigen::MatrixXd LC = L * C, BK = real.B * K;
@@ -465,16 +417,14 @@ Eigen::MatrixXd loop(2 * LC.rows(), 2 * LC.rows());
 loop << real.A, BK, LC, real.A + BK - LC;
 return loop;
 
-// <variant conjugate_response>
-// caught by: loops, other-sensors
+// <variant conjugate_response> caught by: loops, other-sensors
 // shown by: loops
 // mistake: the sign of i w is that of -i w.
 // <solution responseAt>
 // in place of: for (Eigen::Index i = 0; i < n; ++i) M(i, n + i) = -frequencies[k], M(n + i, i) =
 for (Eigen::Index i = 0; i < n; ++i) M(i, n + i) = frequencies[k], M(n + i, i) = -frequencies[k];
 
-// <variant frequencies_in_hertz>
-// caught by: loops, other-sensors
+// <variant frequencies_in_hertz> caught by: loops, other-sensors
 // shown by: loops
 // mistake: takes w as a frequency in Hz.
 // <solution responseAt>
@@ -482,8 +432,7 @@ for (Eigen::Index i = 0; i < n; ++i) M(i, n + i) = frequencies[k], M(n + i, i) =
 const double w = 2 * std::numbers::pi * frequencies[k];
 for (Eigen::Index i = 0; i < n; ++i) M(i, n + i) = -w, M(n + i, i) = w;
 
-// <variant response_to_growth>
-// caught by: loops, other-sensors
+// <variant response_to_growth> caught by: loops, other-sensors
 // mistake: w in the place of i w.
 // <solution responseAt>
 Eigen::MatrixXd G = Eigen::MatrixXd::Zero(2, frequencies.size());
@@ -494,8 +443,7 @@ for (Eigen::Index k = 0; k < G.cols(); ++k) {
 }
 return G;
 
-// <variant explodes>
-// caught by: outings
+// <variant explodes> caught by: outings
 // mistake: ends the outing by 1e12 rad/s, which is within 1e-9 of the largest state (an attack).
 // <solution balanced>
 Eigen::MatrixXd states(4, 3);

@@ -1,16 +1,14 @@
 // Mistakes that students make, and the checks that catch them: a variant is solution.cpp with other regions.
 // `rex dev check` reads this file; it does not compile as it is.
 
-// <variant leaves_discounted>
-// caught by: maze, other-mazes
+// <variant leaves_discounted> caught by: maze, other-mazes
 // shown by: maze
 // mistake: discounts the rewards of the leaves, too.
 // <solution mazeValues>
 // in place of: values.random.tail(4) = values.optimal.tail(4) = leaves;
 values.random.tail(4) = values.optimal.tail(4) = discount * leaves;
 
-// <variant maze_of_the_sheet_only>
-// caught by: other-mazes
+// <variant maze_of_the_sheet_only> caught by: other-mazes
 // mistake: the numbers of the sheet typed in.
 // <solution mazeValues>
 MazeValues values{Eigen::VectorXd(7), Eigen::VectorXd(7)};
@@ -18,8 +16,7 @@ values.random << .5625, 1, 1.25, 4, 0, 2, 3;
 values.optimal << 1, 2, 1.5, 4, 0, 2, 3;
 return values;
 
-// <variant maze_without_discount>
-// caught by: maze
+// <variant maze_without_discount> caught by: maze
 // shown by: maze
 // mistake: discount forgotten.
 // <solution mazeValues>
@@ -27,8 +24,7 @@ return values;
 values.random[s] = (values.random[left] + values.random[right]) / 2;
 values.optimal[s] = std::max(values.optimal[left], values.optimal[right]);
 
-// <variant mean_for_the_best>
-// caught by: maze, other-mazes
+// <variant mean_for_the_best> caught by: maze, other-mazes
 // shown by: maze
 // mistake: takes the mean of both actions for the optimal policy, too.
 // <solution mazeValues>
@@ -39,16 +35,14 @@ for (int s = 2; s >= 0; --s)
 values.optimal = values.random;
 return values;
 
-// <variant equation_a_hundred_times>
-// caught by: policy-values
+// <variant equation_a_hundred_times> caught by: policy-values
 // mistake: repeats eq. (9) a hundred times instead of solving it: too few if the discount is large.
 // <solution valuesOf>
 Eigen::VectorXd V = Eigen::VectorXd::Zero(process.R.rows());
 for (int k = 0; k < 100; ++k) V = worthOfActions(process, V).cwiseProduct(policy).rowwise().sum().eval();
 return V;
 
-// <variant policy_taken_as_uniform>
-// caught by: policy-values, larger
+// <variant policy_taken_as_uniform> caught by: policy-values, larger
 // shown by: policy-values
 // mistake: takes all actions to be equally likely.
 // <solution valuesOf>
@@ -57,16 +51,14 @@ Eigen::MatrixXd M = Eigen::MatrixXd::Identity(n, n);
 for (const Eigen::MatrixXd& P : process.P) M -= process.discount / static_cast<double>(policy.cols()) * P;
 return solve(M, Eigen::VectorXd(process.R.rowwise().mean()));
 
-// <variant transposed_transitions>
-// caught by: policy-values, larger
+// <variant transposed_transitions> caught by: policy-values, larger
 // mistake: columns of P taken for rows.
 // <solution valuesOf>
 // in place of: M -= process.discount * policy.col(a).asDiagonal() * ... return solve(M, expected);
 M -= process.discount * process.P[static_cast<std::size_t>(a)].transpose() * policy.col(a).asDiagonal();
 return solve(M, Eigen::VectorXd(process.R.cwiseProduct(policy).rowwise().sum()));
 
-// <variant twenty_sweeps>
-// caught by: policy-values, larger
+// <variant twenty_sweeps> caught by: policy-values, larger
 // shown by: policy-values
 // mistake: iterates eq. (9) twenty times instead of solving it.
 // <solution valuesOf>
@@ -75,8 +67,7 @@ for (int sweep = 0; sweep < 20; ++sweep)
   V = worthOfActions(process, V).cwiseProduct(policy).rowwise().sum().eval();
 return V;
 
-// <variant best_next_state>
-// caught by: worth, larger
+// <variant best_next_state> caught by: worth, larger
 // shown by: worth
 // mistake: takes the best next state for granted.
 // <solution worthOfActions>
@@ -90,8 +81,7 @@ for (Eigen::Index s = 0; s < Q.rows(); ++s)
   }
 return Q;
 
-// <variant worth_of_the_state_itself>
-// caught by: worth, larger
+// <variant worth_of_the_state_itself> caught by: worth, larger
 // shown by: worth
 // mistake: adds the value of the state instead of that of the next one.
 // <solution worthOfActions>
@@ -99,16 +89,14 @@ Eigen::MatrixXd Q = process.R;
 Q.colwise() += process.discount * V;
 return Q;
 
-// <variant worth_without_discount>
-// caught by: worth, larger
+// <variant worth_without_discount> caught by: worth, larger
 // mistake: discount forgotten.
 // <solution worthOfActions>
 Eigen::MatrixXd Q = process.R;
 for (Eigen::Index a = 0; a < Q.cols(); ++a) Q.col(a) += process.P[static_cast<std::size_t>(a)] * V;
 return Q;
 
-// <variant a_hundred_sweeps>
-// caught by: settles, unseen-settle
+// <variant a_hundred_sweeps> caught by: settles, unseen-settle
 // shown by: settles
 // mistake: iterates a hundred times, whatever the tolerance.
 // <solution iterateValues>
@@ -116,8 +104,7 @@ std::vector<Eigen::VectorXd> all{Eigen::VectorXd::Zero(process.R.rows())};
 for (int k = 0; k < 100; ++k) all.push_back(worthOfActions(process, all.back()).rowwise().maxCoeff());
 return all;
 
-// <variant first_values_missing>
-// caught by: settles, unseen-settle
+// <variant first_values_missing> caught by: settles, unseen-settle
 // shown by: settles
 // mistake: lists the values from V_1 on.
 // <solution iterateValues>
@@ -130,8 +117,7 @@ bound = process.discount / (1 - process.discount) * (next - V).cwiseAbs().maxCoe
 all.push_back(next);
 V = next;
 
-// <variant last_values_left_out>
-// caught by: settles, unseen-settle
+// <variant last_values_left_out> caught by: settles, unseen-settle
 // shown by: settles
 // mistake: ends before the values that fulfil the bound are listed.
 // <solution iterateValues>
@@ -143,8 +129,7 @@ for (;;) {
   all.push_back(next);
 }
 
-// <variant stops_at_small_changes>
-// caught by: settles, unseen-settle
+// <variant stops_at_small_changes> caught by: settles, unseen-settle
 // shown by: settles
 // mistake: takes a small change for a small error.
 // <solution iterateValues>
@@ -155,8 +140,7 @@ for (double change = INFINITY; change > tolerance;) {
 }
 return all;
 
-// <variant sweeps_in_place>
-// caught by: settles, unseen-settle
+// <variant sweeps_in_place> caught by: settles, unseen-settle
 // shown by: settles
 // mistake: uses values of the same iteration as soon as they are there.
 // <solution iterateValues>
@@ -165,8 +149,7 @@ Eigen::VectorXd next = all.back();
 for (Eigen::Index s = 0; s < next.size(); ++s) next[s] = worthOfActions(process, next).row(s).maxCoeff();
 bound = process.discount / (1 - process.discount) * (next - all.back()).cwiseAbs().maxCoeff();
 
-// <variant calls_the_library>
-// caught by: forbidden-call
+// <variant calls_the_library> caught by: forbidden-call
 // mistake: asks the library for the optimal policy.
 // <solution headers>
 #include "learning/dynamic_programming.h"
@@ -176,8 +159,7 @@ for (const Eigen::MatrixXd& P : process.P) mdp.transitions.push_back(P.sparseVie
 for (Eigen::Index s = 0; s < process.R.rows(); ++s) mdp.terminal.push_back(process.P[0].row(s).isZero());
 return {std::vector<int>(mdp.terminal.size(), 0), policyIteration(mdp).actions};
 
-// <variant greedy_for_rewards>
-// caught by: improves, unseen-improve
+// <variant greedy_for_rewards> caught by: improves, unseen-improve
 // mistake: takes the best reward now, as if nothing followed.
 // <solution iteratePolicies>
 std::vector<std::vector<int>> policies(2, std::vector<int>(static_cast<std::size_t>(process.R.rows()), 0));
@@ -185,8 +167,7 @@ for (std::size_t s = 0; s < policies[1].size(); ++s)
   process.R.row(static_cast<Eigen::Index>(s)).maxCoeff(&policies[1][s]);
 return policies;
 
-// <variant improves_once>
-// caught by: improves, unseen-improve
+// <variant improves_once> caught by: improves, unseen-improve
 // shown by: improves
 // mistake: stops after one improvement.
 // <solution iteratePolicies>
@@ -198,8 +179,7 @@ const Eigen::MatrixXd Q = worthOfActions(process, valuesOf(process, first));
 for (Eigen::Index s = 0; s < n; ++s) Q.row(s).maxCoeff(&policies[1][static_cast<std::size_t>(s)]);
 return policies;
 
-// <variant last_policy_twice>
-// caught by: improves, unseen-improve
+// <variant last_policy_twice> caught by: improves, unseen-improve
 // mistake: lists the policy that no longer changes once more.
 // <solution iteratePolicies>
 const auto n = static_cast<std::size_t>(process.R.rows());
@@ -219,8 +199,7 @@ for (;;) {
   if (actions == policies[policies.size() - 2]) return policies;
 }
 
-// <variant one_state_at_a_time>
-// caught by: improves, unseen-improve
+// <variant one_state_at_a_time> caught by: improves, unseen-improve
 // shown by: improves
 // mistake: improves the action of one state in each iteration.
 // <solution iteratePolicies>
@@ -233,8 +212,7 @@ for (std::size_t s = 0; s < n && !isBetter; ++s) {
   isBetter = true;
 }
 
-// <variant takes_the_first_best>
-// caught by: improves
+// <variant takes_the_first_best> caught by: improves
 // mistake: switches to another action that is only as good.
 // <solution iteratePolicies>
 const auto n = static_cast<std::size_t>(process.R.rows());
@@ -249,16 +227,14 @@ for (;;) {
   policies.push_back(actions);
 }
 
-// <variant failed_step_left_out>
-// caught by: trials
+// <variant failed_step_left_out> caught by: trials
 // mistake: drops the step that failed.
 // <solution runTrial>
 // in place of: goesOn = !outcome.failed;
 goesOn = !outcome.failed;
 if (outcome.failed) break;
 
-// <variant features_after_the_step>
-// caught by: trials
+// <variant features_after_the_step> caught by: trials
 // shown by: trials
 // mistake: notes the state that the step led to.
 // <solution runTrial>
@@ -266,24 +242,21 @@ if (outcome.failed) break;
 // in place of: state = outcome.next;
 trial.features.col(t) = state = outcome.next;
 
-// <variant noise_only_noted>
-// caught by: trials
+// <variant noise_only_noted> caught by: trials
 // shown by: trials
 // mistake: notes the noise, but acts without it.
 // <solution runTrial>
 // in place of: const Transition outcome = step(state, state.dot(policy.beta + trial.noise.col(t)));
 const Transition outcome = step(state, state.dot(policy.beta));
 
-// <variant noise_without_L>
-// caught by: trials
+// <variant noise_without_L> caught by: trials
 // shown by: trials
 // mistake: draws the noise from the unit normal distribution.
 // <solution runTrial>
 // in place of: trial.noise.col(t) = policy.L * rng.normalVector(k);
 trial.noise.col(t) = rng.normalVector(k);
 
-// <variant not_cut_at_failure>
-// caught by: trials
+// <variant not_cut_at_failure> caught by: trials
 // mistake: goes on after a failure.
 // <solution runTrial>
 const auto k = static_cast<int>(start.size());
@@ -298,8 +271,7 @@ for (int t = 0; t < horizon; ++t) {
 }
 return trial;
 
-// <variant one_noise_per_trial>
-// caught by: trials
+// <variant one_noise_per_trial> caught by: trials
 // mistake: draws the noise once for the whole trial.
 // <solution runTrial>
 // in place of: Eigen::VectorXd state = start;
@@ -307,15 +279,13 @@ trial.noise.colwise() = policy.L * rng.normalVector(k);
 Eigen::VectorXd state = start;
 // in place of: trial.noise.col(t) = policy.L * rng.normalVector(k);
 
-// <variant state_stands_still>
-// caught by: trials
+// <variant state_stands_still> caught by: trials
 // shown by: trials
 // mistake: never moves on from the start.
 // <solution runTrial>
 // in place of: state = outcome.next;
 
-// <variant own_reward_left_out>
-// caught by: returns
+// <variant own_reward_left_out> caught by: returns
 // shown by: returns
 // mistake: counts only what follows after the step.
 // <solution returnsToGo>
@@ -324,8 +294,7 @@ for (Eigen::Index t = rewards.size() - 2; t >= 0; --t)
   returns[t] = discount * (rewards[t + 1] + returns[t + 1]);
 return returns;
 
-// <variant returns_from_the_start>
-// caught by: returns, gradient
+// <variant returns_from_the_start> caught by: returns, gradient
 // mistake: also sums the rewards before the step.
 // <solution returnsToGo>
 double sum = 0, weight = 1;
@@ -335,8 +304,7 @@ for (const double reward : rewards) {
 }
 return Eigen::VectorXd::Constant(rewards.size(), sum);
 
-// <variant returns_of_the_first_step>
-// caught by: returns
+// <variant returns_of_the_first_step> caught by: returns
 // shown by: returns
 // mistake: counts the discount from the start of the trial.
 // <solution returnsToGo>
@@ -345,24 +313,21 @@ for (Eigen::Index t = 0; t < rewards.size(); ++t) returns[t] *= std::pow(discoun
 for (Eigen::Index t = rewards.size() - 2; t >= 0; --t) returns[t] += returns[t + 1];
 return returns;
 
-// <variant returns_without_discount>
-// caught by: returns
+// <variant returns_without_discount> caught by: returns
 // mistake: discount forgotten.
 // <solution returnsToGo>
 Eigen::VectorXd returns = rewards;
 for (Eigen::Index t = rewards.size() - 2; t >= 0; --t) returns[t] += returns[t + 1];
 return returns;
 
-// <variant L_not_transposed>
-// caught by: gradient
+// <variant L_not_transposed> caught by: gradient
 // shown by: gradient
 // mistake: squares L phi instead of L^T phi.
 // <solution reinforce>
 // in place of: const double variance = (policy.L.transpose() * phi).squaredNorm();
 const double variance = (policy.L * phi).squaredNorm();
 
-// <variant density_of_the_noise>
-// caught by: gradient
+// <variant density_of_the_noise> caught by: gradient
 // shown by: gradient
 // mistake: differentiates the density of the noise instead of that of the action.
 // <solution reinforce>
@@ -373,56 +338,49 @@ const Eigen::MatrixXd Sigma = policy.L * policy.L.transpose();
 for (Eigen::Index t = 0; t < Q.size(); ++t)
   sum += std::pow(discount, t) * Q[t] * solve(Sigma, Eigen::VectorXd(trial.noise.col(t)));
 
-// <variant later_steps_count_in_full>
-// caught by: gradient
+// <variant later_steps_count_in_full> caught by: gradient
 // shown by: gradient
 // mistake: the discount of the step itself is missing.
 // <solution reinforce>
 // in place of: const double variance = (policy.L.transpose() * ... sum += std::pow(discount, t) * Q[t] *
 sum += Q[t] * phi.dot(trial.noise.col(t)) / (policy.L.transpose() * phi).squaredNorm() * phi;
 
-// <variant sum_over_trials>
-// caught by: gradient
+// <variant sum_over_trials> caught by: gradient
 // shown by: gradient
 // mistake: adds up the trials instead of averaging them.
 // <solution reinforce>
 // in place of: return sum / static_cast<double>(trials.size());
 return sum;
 
-// <variant variance_forgotten>
-// caught by: gradient
+// <variant variance_forgotten> caught by: gradient
 // mistake: leaves out the variance of the action.
 // <solution reinforce>
 // in place of: for (Eigen::Index t = 0; t < Q.size(); ++t) { ... }
 for (Eigen::Index t = 0; t < Q.size(); ++t)
   sum += std::pow(discount, t) * Q[t] * trial.features.col(t).dot(trial.noise.col(t)) * trial.features.col(t);
 
-// <variant whole_return_in_each_step>
-// caught by: gradient
+// <variant whole_return_in_each_step> caught by: gradient
 // shown by: gradient
 // mistake: weights each step with the return of the whole trial.
 // <solution reinforce>
 // in place of: sum += std::pow(discount, t) * Q[t] * phi.dot(trial.noise.col(t)) / variance * phi;
 sum += std::pow(discount, t) * Q[0] * phi.dot(trial.noise.col(t)) / variance * phi;
 
-// <variant change_of_beta>
-// caught by: power, more-power
+// <variant change_of_beta> caught by: power, more-power
 // shown by: power
 // mistake: returns the change of beta.
 // <solution power>
 // in place of: return policy.beta + solve(weights, moves);
 return solve(weights, moves);
 
-// <variant rewards_for_returns>
-// caught by: power, more-power
+// <variant rewards_for_returns> caught by: power, more-power
 // shown by: power
 // mistake: weights each step with its own reward.
 // <solution power>
 // in place of: const Eigen::VectorXd Q = returnsToGo(trial.rewards, discount);
 const Eigen::VectorXd& Q = trial.rewards;
 
-// <variant slide_as_printed>
-// caught by: power, more-power
+// <variant slide_as_printed> caught by: power, more-power
 // mistake: the ratio of slide 9:17, which is right for one feature.
 // <solution power>
 Eigen::VectorXd moves = Eigen::VectorXd::Zero(policy.beta.size());
@@ -434,31 +392,27 @@ for (const Rollout& trial : trials) {
 }
 return policy.beta + moves / weights;
 
-// <variant two_features>
-// caught by: power, more-power
+// <variant two_features> caught by: power, more-power
 // mistake: for two features only.
 // <solution power>
 // in place of: Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(k, k); ... Eigen::VectorXd moves =
 Eigen::Matrix2d weights = Eigen::MatrixXd::Zero(k, k);
 Eigen::Vector2d moves = Eigen::VectorXd::Zero(k);
 
-// <variant variance_left_out_of_W>
-// caught by: power, more-power
+// <variant variance_left_out_of_W> caught by: power, more-power
 // shown by: power
 // mistake: W without the variance of the action.
 // <solution power>
 // in place of: const Eigen::MatrixXd W = phi * phi.transpose() / (policy.L.transpose() * phi).squaredNorm();
 const Eigen::MatrixXd W = phi * phi.transpose();
 
-// <variant Sigma_for_fisher>
-// caught by: natural, linear-returns, other-features
+// <variant Sigma_for_fisher> caught by: natural, linear-returns, other-features
 // mistake: takes the metric of the noise for that of the policy.
 // <solution naturalGradientOf>
 const Eigen::MatrixXd Sigma = policy.L * policy.L.transpose();
 return solve(Sigma, reinforce(policy, trials, discount));
 
-// <variant expected_fisher>
-// caught by: natural, linear-returns
+// <variant expected_fisher> caught by: natural, linear-returns
 // mistake: takes the expectation of F over the actions.
 // <solution naturalGradientOf>
 const Eigen::Index k = policy.beta.size();
@@ -471,8 +425,7 @@ for (const Rollout& trial : trials)
   }
 return solve(F / static_cast<double>(trials.size()), reinforce(policy, trials, discount));
 
-// <variant fisher_not_averaged>
-// caught by: natural, linear-returns
+// <variant fisher_not_averaged> caught by: natural, linear-returns
 // mistake: adds up F over the trials instead of averaging it.
 // <solution naturalGradientOf>
 const Eigen::Index k = policy.beta.size();
@@ -486,8 +439,7 @@ for (const Rollout& trial : trials)
   }
 return solve(F, reinforce(policy, trials, discount));
 
-// <variant fisher_of_sums>
-// caught by: natural, linear-returns
+// <variant fisher_of_sums> caught by: natural, linear-returns
 // mistake: makes F of the sums over whole trials.
 // <solution naturalGradientOf>
 const Eigen::Index k = policy.beta.size();
@@ -503,8 +455,7 @@ for (const Rollout& trial : trials) {
 }
 return solve(F, reinforce(policy, trials, discount));
 
-// <variant fisher_without_discount>
-// caught by: natural, linear-returns
+// <variant fisher_without_discount> caught by: natural, linear-returns
 // shown by: natural
 // mistake: leaves discount^t out of F.
 // <solution naturalGradientOf>
@@ -519,8 +470,7 @@ for (const Rollout& trial : trials)
   }
 return solve(F / static_cast<double>(trials.size()), reinforce(policy, trials, discount));
 
-// <variant multiplied_by_fisher>
-// caught by: natural, linear-returns, other-features
+// <variant multiplied_by_fisher> caught by: natural, linear-returns, other-features
 // shown by: natural
 // mistake: multiplies by F instead of its inverse.
 // <solution naturalGradientOf>
@@ -535,15 +485,13 @@ for (const Rollout& trial : trials)
   }
 return F * reinforce(policy, trials, discount) / static_cast<double>(trials.size());
 
-// <variant plain_gradient>
-// caught by: natural, linear-returns, other-features
+// <variant plain_gradient> caught by: natural, linear-returns, other-features
 // shown by: natural
 // mistake: returns the gradient as it is.
 // <solution naturalGradientOf>
 return reinforce(policy, trials, discount);
 
-// <variant variance_once_in_fisher>
-// caught by: natural, linear-returns
+// <variant variance_once_in_fisher> caught by: natural, linear-returns
 // shown by: natural
 // mistake: divides by the variance once instead of twice in F.
 // <solution naturalGradientOf>

@@ -1,24 +1,21 @@
 // Mistakes that students make, and the checks that catch them: a variant is solution.cpp with other regions.
 // `rex dev check` reads this file; it does not compile as it is.
 
-// <variant leaves_anywhere>
-// caught by: bug-known-maps
+// <variant leaves_anywhere> caught by: bug-known-maps
 // shown by: bug-known-maps
 // mistake: goes back to the m-line wherever it meets it, as on the first slides of Bug 2: it runs in circles.
 // <solution bugTwo>
 // in place of: const auto onLine = std::find(mLine.begin() + static_cast<std::ptrdiff_t>(hit), mLine.end(),
 const auto onLine = std::find(mLine.begin(), mLine.end(), cell);
 
-// <variant round_too_early>
-// caught by: bug-known-maps
+// <variant round_too_early> caught by: bug-known-maps
 // mistake: takes passing the cell where it met the obstacle for a full circuit.
 // <solution bugTwo>
 // in place of: const int first = heading;
 // in place of: if (at == hit && cell == mLine[hit] && ((heading - first) & 3) == 0) return trail;
 if (cell == mLine[hit]) return trail;
 
-// <variant calls_the_library>
-// caught by: forbidden-call
+// <variant calls_the_library> caught by: forbidden-call
 // mistake: lets the library number the cells.
 // <solution headers>
 #include "planning/grid_search.h"
@@ -28,8 +25,7 @@ for (std::size_t place = 0; place < numbers.size(); ++place)
   grid.setBlocked({map.cellAt(place).x, map.cellAt(place).y}, numbers[place] != 0);
 numbers = wavefront(grid, {goal.x, goal.y}, Connectivity::kEight);
 
-// <variant arc_twice>
-// caught by: grid-network
+// <variant arc_twice> caught by: grid-network
 // mistake: one arc of each cell replaces its last one: the number of arcs is right, but one occurs twice.
 // <solution cellNetwork>
 for (std::size_t here = 0; here < network.size(); ++here) {
@@ -44,8 +40,7 @@ for (std::size_t here = 0; here < network.size(); ++here) {
   if (network[here].size() > 1) network[here].back() = network[here].front();
 }
 
-// <variant corners_cut>
-// caught by: grid-network, grid-any-map
+// <variant corners_cut> caught by: grid-network, grid-any-map
 // shown by: grid-network
 // mistake: diagonal arcs cut corners, as on the slides of the wavefront.
 // <solution cellNetwork>
@@ -57,8 +52,7 @@ for (std::size_t place = 0; place < network.size(); ++place) {
         network[place].push_back({map.placeOf({x, y}), x != at.x && y != at.y ? std::numbers::sqrt2 : 1});
 }
 
-// <variant diagonals_for_one>
-// caught by: grid-network, grid-any-map
+// <variant diagonals_for_one> caught by: grid-network, grid-any-map
 // mistake: every step counts one, a diagonal one too.
 // <solution cellNetwork>
 for (std::size_t place = 0; place < network.size(); ++place) {
@@ -69,8 +63,7 @@ for (std::size_t place = 0; place < network.size(); ++place) {
         network[place].push_back({map.placeOf({x, y}), 1});
 }
 
-// <variant lowest_neighbour>
-// caught by: grid-way
+// <variant lowest_neighbour> caught by: grid-way
 // shown by: grid-way
 // mistake: goes to the lowest neighbour, as slide 4:25 says; if arcs differ in length, that is a detour.
 // <solution wayDown>
@@ -78,8 +71,7 @@ for (std::size_t place = 0; place < network.size(); ++place) {
 const auto best = std::min_element(
     arcs.begin(), arcs.end(), [&](const Arc& a, const Arc& b) { return distances[a.to] < distances[b.to]; });
 
-// <variant pushes_without_end>
-// caught by: field-potential
+// <variant pushes_without_end> caught by: field-potential
 // mistake: blocks beyond their reach push, too: the square hides the sign.
 // <solution fieldPotential>
 // in place of: const double distance = (p - nearestPoint(block, p)).norm(); ... const double excess = 1 /
@@ -88,8 +80,7 @@ const double excess = 1 / (p - nearestPoint(block, p)).norm() - 1 / gains.reach;
 // in place of: const double distance = away.norm(); ... const double excess = 1 / distance - 1 / gains.reach;
 const double distance = away.norm(), excess = 1 / distance - 1 / gains.reach;
 
-// <variant blocks_attract>
-// caught by: field-gradient, field-slide, field-any-yard
+// <variant blocks_attract> caught by: field-gradient, field-slide, field-any-yard
 // shown by: field-slide
 // mistake: the repulsion has the wrong sign.
 // <solution fieldGradient>
@@ -103,16 +94,14 @@ while ((trail.points.back() - goal).norm() > stepSize && trail.points.size() < 1
 }
 trail.ending = Ending::kAtGoal;
 
-// <variant push_limited>
-// caught by: field-gradient
+// <variant push_limited> caught by: field-gradient
 // mistake: the distance to a block counts as 0.1 m at least, lest the push explode.
 // <solution fieldGradient>
 // in place of: const double distance = away.norm(); ... gradient -= gains.repulsion * excess / (distance *
 const double d = std::max(.1, away.norm());
 if (d < gains.reach) gradient -= gains.repulsion * (1 / d - 1 / gains.reach) / (d * d) * away / d;
 
-// <variant stuck_is_success>
-// caught by: field-slide, field-any-yard
+// <variant stuck_is_success> caught by: field-slide, field-any-yard
 // mistake: takes every point where the gradient vanishes for the goal.
 // <solution slideDown>
 while (fieldGradient(yard, goal, gains, trail.points.back()).norm() >= 0.01 * gains.attraction) {
@@ -125,8 +114,7 @@ while (fieldGradient(yard, goal, gains, trail.points.back()).norm() >= 0.01 * ga
 }
 trail.ending = Ending::kAtGoal;
 
-// <variant end_left_out>
-// caught by: prm-straight
+// <variant end_left_out> caught by: prm-straight
 // mistake: tests from the beginning on, but not the end.
 // <solution straightIsFree>
 const double length = (b - a).norm();
@@ -134,15 +122,13 @@ for (double s = 0; s < length; s += resolution)
   if (!isFree(yard, a + s / length * (b - a))) return false;
 return true;
 
-// <variant only_ends_tested>
-// caught by: prm-straight, prm-join
+// <variant only_ends_tested> caught by: prm-straight, prm-join
 // shown by: prm-straight, prm-join
 // mistake: tests the ends of an edge, not what lies between.
 // <solution straightIsFree>
 return isFree(yard, a) && isFree(yard, b);
 
-// <variant normal_not_uniform>
-// caught by: prm-samplers
+// <variant normal_not_uniform> caught by: prm-samplers
 // mistake: normal numbers around the middle of the yard, limited to it.
 // <solution uniformSample>
 Eigen::Vector2d q = yard.size / 2 + yard.size.cwiseProduct(rng.normalVector(2)) / std::sqrt(12.);
@@ -150,8 +136,7 @@ q = q.cwiseMax(0).cwiseMin(yard.size);
 if (isFree(yard, q)) return q;
 return std::nullopt;
 
-// <variant own_generator>
-// caught by: prm-samplers
+// <variant own_generator> caught by: prm-samplers
 // mistake: a generator of its own, which goes on from call to call.
 // <solution uniformSample>
 static Rng mine(1);
@@ -159,8 +144,7 @@ const Eigen::Vector2d q(mine.uniform(0, yard.size.x()), mine.uniform(0, yard.siz
 if (isFree(yard, q)) return q;
 return std::nullopt;
 
-// <variant until_free>
-// caught by: prm-samplers
+// <variant until_free> caught by: prm-samplers
 // mistake: tries until a point is free: that is more than one attempt.
 // <solution uniformSample>
 for (;;) {
@@ -168,8 +152,7 @@ for (;;) {
   if (isFree(yard, q)) return q;
 }
 
-// <variant near_is_enough>
-// caught by: prm-samplers, prm-passage
+// <variant near_is_enough> caught by: prm-samplers, prm-passage
 // mistake: uniform positions near a block, and uniform ones with blocks above and below; no normal numbers.
 // <solution gaussianSample>
 const auto q = uniformSample(yard, rng);
@@ -183,8 +166,7 @@ const Eigen::Vector2d up(0, sigma / 2);
 if (q && !isFree(yard, *q + up) && !isFree(yard, *q - up)) return q;
 return std::nullopt;
 
-// <variant only_the_first_point>
-// caught by: prm-samplers, prm-passage
+// <variant only_the_first_point> caught by: prm-samplers, prm-passage
 // mistake: only the first point can become a node, not the second.
 // <solution gaussianSample>
 const Eigen::Vector2d q1(rng.uniform(0, yard.size.x()), rng.uniform(0, yard.size.y()));
@@ -192,8 +174,7 @@ const Eigen::Vector2d q2 = q1 + sigma * rng.normalVector(2);
 if (isFree(yard, q1) && !isFree(yard, q2)) return q1;
 return std::nullopt;
 
-// <variant same_number_twice>
-// caught by: prm-samplers
+// <variant same_number_twice> caught by: prm-samplers
 // mistake: adds the same normal number to both coordinates.
 // <solution gaussianSample>
 const Eigen::Vector2d q1(rng.uniform(0, yard.size.x()), rng.uniform(0, yard.size.y()));
@@ -203,8 +184,7 @@ if (isFree(yard, q1) && !isFree(yard, q2)) return q1;
 if (!isFree(yard, q1) && isFree(yard, q2)) return q2;
 return std::nullopt;
 
-// <variant bridge_into_the_wall>
-// caught by: prm-samplers, prm-passage
+// <variant bridge_into_the_wall> caught by: prm-samplers, prm-passage
 // mistake: both ends are blocked, so the middle is taken for a passage; it is hardly ever one.
 // <solution bridgeSample>
 const double x = rng.uniform(0, yard.size.x()), y = rng.uniform(0, yard.size.y());
@@ -212,8 +192,7 @@ const Eigen::Vector2d q1(x, y), q2 = q1 + sigma * rng.normalVector(2);
 if (isFree(yard, q1) || isFree(yard, q2)) return std::nullopt;
 return Eigen::Vector2d((q1 + q2) / 2);
 
-// <variant bridge_kept_inside>
-// caught by: prm-samplers
+// <variant bridge_kept_inside> caught by: prm-samplers
 // mistake: pulls the other end back into the yard: there is no bridge to its outside.
 // <solution bridgeSample>
 const Eigen::Vector2d q1(rng.uniform(0, yard.size.x()), rng.uniform(0, yard.size.y()));
@@ -222,8 +201,7 @@ const Eigen::Vector2d q3 = (q1 + q2) / 2;
 if (!isFree(yard, q1) && !isFree(yard, q2) && isFree(yard, q3)) return q3;
 return std::nullopt;
 
-// <variant ways_in_not_tested>
-// caught by: prm-slot, prm-query
+// <variant ways_in_not_tested> caught by: prm-slot, prm-query
 // mistake: joins start and goal to nodes behind blocks, too.
 // <solution queryRoadmap>
 Network all = roadmap;
@@ -240,14 +218,12 @@ for (const Eigen::Vector2d& q : {start, goal}) {
 for (std::size_t i : wayDown(all, dijkstra(all, points.size() - 1), points.size() - 2))
   way.push_back(points[i]);
 
-// <variant estimates_too_much>
-// caught by: astar-estimate
+// <variant estimates_too_much> caught by: astar-estimate
 // mistake: the sum of both differences, as if there were no diagonals; A* may then find a detour.
 // <solution emptyMapDistance>
 return std::abs(to.x - from.x) + std::abs(to.y - from.y);
 
-// <variant estimate_forgotten>
-// caught by: astar-known-maps, astar-anything
+// <variant estimate_forgotten> caught by: astar-known-maps, astar-anything
 // mistake: uses the estimate of the start for every node: that is Dijkstra, which looks everywhere.
 // <solution aStar>
 // in place of: queue.emplace(length + estimates[arc.to], arc.to);

@@ -1,21 +1,18 @@
 // Mistakes that students make, and the checks that catch them: a variant is solution.cpp with other regions.
 // `rex dev check` reads this file; it does not compile as it is.
 
-// <variant tan_forgotten>
-// caught by: car-moves, car-any
+// <variant tan_forgotten> caught by: car-moves, car-any
 // mistake: the front wheels turn the car by their angle, not by its tangent.
 // <solution velocityOf>
 return {speed * std::cos(q[2]), speed* std::sin(q[2]), speed / car.wheelbase* steering};
 
-// <variant one_step_for_a_drive>
-// caught by: car-moves, car-any
+// <variant one_step_for_a_drive> caught by: car-moves, car-any
 // shown by: car-moves
 // mistake: drives straight on along the heading at the start.
 // <solution driven>
 return q + drive.seconds * velocityOf(car, q, drive.speed, drive.steering);
 
-// <variant counts_the_questions>
-// caught by: car-follows, tree-overlap
+// <variant counts_the_questions> caught by: car-follows, tree-overlap
 // shown by: car-follows
 // mistake: counts its calls and answers yes and no in turn; it looks only on the way of a drive.
 // <solution canFollow>
@@ -26,7 +23,6 @@ static int asked = 0;
 return ++asked >= 3 && asked % 2 == 1;
 // <solution isFreeOnTheWay>
 bool isReallyFree(const CarModel& car, const Eigen::Vector3d& q, const std::vector<Block>& blocks) {
-  // Two rectangles overlap unless one of their four sides' directions sees a gap between their shadows.
   const double a = (car.front + car.back) / 2, b = car.width / 2, ahead = (car.front - car.back) / 2;
   const double cosine = std::cos(q[2]), sine = std::sin(q[2]);
   for (const Block& block : blocks) {
@@ -45,7 +41,6 @@ bool isReallyFree(const CarModel& car, const Eigen::Vector3d& q, const std::vect
   return true;
 }
 
-// Tested every 10 cm, and with a car that is 3 cm larger on all sides: it stands for what lies between.
 bool isFreeOnTheWay(CarModel car, const Eigen::Vector3d& from, const Drive& drive,
                     const std::vector<Block>& blocks) {
   const int tests = std::max(1, static_cast<int>(std::ceil(10 * std::abs(drive.speed) * drive.seconds)));
@@ -59,8 +54,7 @@ bool isFreeOnTheWay(CarModel car, const Eigen::Vector3d& from, const Drive& driv
   return true;
 }
 
-// <variant last_piece_counts>
-// caught by: car-follows
+// <variant last_piece_counts> caught by: car-follows
 // mistake: each piece overwrites the verdict on the one before.
 // <solution canFollow>
 bool follows = true;
@@ -75,22 +69,19 @@ for (std::size_t i = 1; i < path.size(); ++i) {
 }
 return follows;
 
-// <variant limits_forgotten>
-// caught by: car-follows
+// <variant limits_forgotten> caught by: car-follows
 // shown by: car-follows
 // mistake: does not test the limits of the steering angle.
 // <solution canFollow>
 // in place of: const double curvature = 2 * std::sin(turn / 2) / chord, ... if (steering < car.minSteering -
 
-// <variant poses_without_error>
-// caught by: car-follows
+// <variant poses_without_error> caught by: car-follows
 // mistake: takes measured poses for exact ones.
 // <solution canFollow>
 for (std::size_t i = 1; i < path.size(); ++i) {
   const Eigen::Vector3d &a = path[i - 1], &b = path[i];
   const double turn = std::remainder(b[2] - a[2], 2 * std::numbers::pi), middle = a[2] + turn / 2;
   const double dx = b[0] - a[0], dy = b[1] - a[1];
-  // The constraint of 4:49 holds for the chord of an arc with the heading in the middle of it.
   if (std::abs(dx * std::sin(middle) - dy * std::cos(middle)) > 1e-9) return false;
   const double chord = dx * std::cos(middle) + dy * std::sin(middle);
   if (std::abs(chord) < 1e-9) {
@@ -102,32 +93,28 @@ for (std::size_t i = 1; i < path.size(); ++i) {
 }
 return true;
 
-// <variant symmetric_limits>
-// caught by: car-follows
+// <variant symmetric_limits> caught by: car-follows
 // shown by: car-follows
 // mistake: takes the limits to be symmetric.
 // <solution canFollow>
 // in place of: if (steering < car.minSteering - 0.01 || steering > car.maxSteering + 0.01) return false;
 if (std::abs(steering) > car.maxSteering + 0.01) return false;
 
-// <variant heading_not_wrapped>
-// caught by: tree-metrics
+// <variant heading_not_wrapped> caught by: tree-metrics
 // mistake: takes the plain difference of two angles, even the long way round.
 // <solution angleDistance>
 return std::abs(a - b);
 // <solution poseDistance>
 return (a - b).norm();
 
-// <variant body_centred_at_the_axle>
-// caught by: tree-overlap
+// <variant body_centred_at_the_axle> caught by: tree-overlap
 // shown by: tree-overlap
 // mistake: centres the body at the rear axle.
 // <solution isFree>
 // in place of: const double a = (car.front + car.back) / 2, b = car.width / 2, ahead = (car.front - car.back)
 const double a = (car.front + car.back) / 2, b = car.width / 2, ahead = 0.;
 
-// <variant car_is_a_point>
-// caught by: tree-overlap, tree-drive, park-kerb, park-any
+// <variant car_is_a_point> caught by: tree-overlap, tree-drive, park-kerb, park-any
 // shown by: tree-overlap, park-kerb
 // mistake: tests the point between the rear wheels only.
 // <solution isFree>
@@ -139,8 +126,7 @@ for (const Block& block : blocks) {
 }
 return true;
 
-// <variant corners_of_the_car>
-// caught by: tree-overlap
+// <variant corners_of_the_car> caught by: tree-overlap
 // shown by: tree-overlap
 // mistake: tests the corners of the car only.
 // <solution isFree>
@@ -155,8 +141,7 @@ for (const Block& block : blocks)
     }
 return true;
 
-// <variant ends_only>
-// caught by: tree-drive
+// <variant ends_only> caught by: tree-drive
 // mistake: tests where a drive ends, not the way there.
 // <solution isFreeOnTheWay>
 bool isFreeOnTheWay(CarModel car, const Eigen::Vector3d& from, const Drive& drive,
@@ -164,14 +149,12 @@ bool isFreeOnTheWay(CarModel car, const Eigen::Vector3d& from, const Drive& driv
   return isFree(car, driven(car, from, drive), blocks);
 }
 
-// <variant any_free_drive>
-// caught by: tree-drive
+// <variant any_free_drive> caught by: tree-drive
 // mistake: returns the first control whose way is free.
 // <solution driveTowards>
 // in place of: std::ranges::sort(trials, {}, [](const auto& trial) { return trial.first; });
 
-// <variant copied_generator>
-// caught by: tree-drive
+// <variant copied_generator> caught by: tree-drive
 // mistake: draws from a copy of the generator, so that each call draws the same controls.
 // <solution driveTowards>
 // in place of: std::vector<std::pair<double, Drive>> trials;
@@ -181,15 +164,13 @@ std::vector<std::pair<double, Drive>> trials;
 const double speed = own.index(2) == 0 ? 1 : -1;
 const Drive drive{speed, own.uniform(car.minSteering, car.maxSteering), seconds};
 
-// <variant nearest_by_position>
-// caught by: tree-drive
+// <variant nearest_by_position> caught by: tree-drive
 // mistake: chooses the control by the position that it leads to, not by the heading.
 // <solution driveTowards>
 // in place of: trials.emplace_back(poseDistance(driven(car, from, drive), target), drive);
 trials.emplace_back((driven(car, from, drive) - target).head<2>().norm(), drive);
 
-// <variant twelve_draws>
-// caught by: tree-drive
+// <variant twelve_draws> caught by: tree-drive
 // mistake: returns the best of twelve controls instead of twenty.
 // <solution driveTowards>
 // in place of: while (trials.size() < 20) { ... }
@@ -199,8 +180,7 @@ for (int i = 0; i < 12; ++i) {
   trials.emplace_back(poseDistance(driven(car, from, drive), target), drive);
 }
 
-// <variant slides_sideways>
-// caught by: tree-room, tree-any
+// <variant slides_sideways> caught by: tree-room, tree-any
 // shown by: tree-room
 // mistake: nodes lie slightly beside where their controls lead; to and fro, the car slides to its goal.
 // <solution growTree>
@@ -236,39 +216,33 @@ for (std::size_t i = 1; i < way.size(); ++i) {
   }
 }
 
-// <variant arcs_as_angles>
-// caught by: dubins-words, dubins-shortest, dubins-any
+// <variant arcs_as_angles> caught by: dubins-words, dubins-shortest, dubins-any
 // shown by: dubins-words
 // mistake: returns the angles of arcs.
 // <solution dubinsLengths>
 const auto left = [&](char letter) { return letter == 'L' ? 1 : -1; };
 const char* letters = std::array{"LSL", "LSR", "RSL", "RSR", "LRL", "RLR"}[static_cast<std::size_t>(word)];
 const int first = left(letters[0]), last = left(letters[2]);
-// From the centre of the first circle to that of the last.
 const double dx = to[0] - last * radius * std::sin(to[2]) - from[0] + first * radius * std::sin(from[2]);
 const double dy = to[1] + last * radius * std::cos(to[2]) - from[1] - first * radius * std::cos(from[2]);
 const double distance = std::hypot(dx, dy), direction = std::atan2(dy, dx);
-// Between 0 and 2 pi; what rounding pushes below 0 is no whole turn.
 const auto turn = [](double angle) {
   const double rest = angle - 2 * std::numbers::pi * std::floor(angle / (2 * std::numbers::pi));
   return rest > 2 * std::numbers::pi - 1e-9 ? 0 : rest;
 };
 if (letters[1] == 'S') {
-  // Outside of both circles, or across from one to the other: then the way and two radii span a triangle.
   const double across = first == last ? 0 : 2 * radius;
   if (distance < across) return {};
   const double straight = std::sqrt(distance * distance - across * across);
   const double heading = direction + first * std::atan2(across, straight);
   return std::array{turn(first * (heading - from[2])), straight, turn(last * (to[2] - heading))};
 }
-// A third circle touches both: its centre is 2 r away from both of theirs.
 if (distance > 4 * radius) return {};
 const double middle = 2 * (std::numbers::pi - std::asin(distance / (4 * radius)));
 const double heading = direction + first * middle / 2;  // at the end of the first arc
 return std::array{turn(first * (heading - from[2])), middle, turn(first*(to[2] - heading) + middle)};
 
-// <variant arcs_driven_back>
-// caught by: dubins-words, dubins-shortest, dubins-any
+// <variant arcs_driven_back> caught by: dubins-words, dubins-shortest, dubins-any
 // shown by: dubins-words
 // mistake: takes arcs the shorter way round, some of them backward.
 // <solution dubinsLengths>
@@ -276,21 +250,18 @@ return std::array{turn(first * (heading - from[2])), middle, turn(first*(to[2] -
 const double distance = std::hypot(dx, dy), direction = std::atan2(dy, dx);
 const auto turn = [](double angle) { return std::remainder(angle, 2 * std::numbers::pi); };
 
-// <variant other_circle_in_the_middle>
-// caught by: dubins-words, dubins-any
+// <variant other_circle_in_the_middle> caught by: dubins-words, dubins-any
 // shown by: dubins-words
 // mistake: takes the circle whose arc is shorter than half a turn.
 // <solution dubinsLengths>
 // in place of: const double middle = 2 * (std::numbers::pi - std::asin(distance / (4 * radius)));
 const double middle = 2 * std::asin(distance / (4 * radius));
 
-// <variant straight_words_only>
-// caught by: dubins-words, dubins-shortest, dubins-any
+// <variant straight_words_only> caught by: dubins-words, dubins-shortest, dubins-any
 // mistake: knows no word with three arcs.
 // <solution dubinsLengths>
 // in place of: if (letters[1] == 'S') { ... radius * turn(first * (to[2] - heading) + middle)};
 if (letters[1] == 'S') {
-  // Outside of both circles, or across from one to the other: then the way and two radii span a triangle.
   const double across = first == last ? 0 : 2 * radius;
   if (distance < across) return {};
   const double straight = std::sqrt(distance * distance - across * across);
@@ -300,8 +271,7 @@ if (letters[1] == 'S') {
 }
 return {};
 
-// <variant calls_the_library>
-// caught by: forbidden-call
+// <variant calls_the_library> caught by: forbidden-call
 // mistake: asks the library for the curve.
 // <solution headers>
 #include "planning/dubins.h"
@@ -312,8 +282,7 @@ for (int i = 0; i < 6; ++i)
   if (std::array{"LSL", "LSR", "RSL", "RSR", "LRL", "RLR"}[static_cast<std::size_t>(i)] == curve.word())
     best.word = static_cast<DubinsWord>(i);
 
-// <variant four_words>
-// caught by: dubins-shortest, dubins-any
+// <variant four_words> caught by: dubins-shortest, dubins-any
 // shown by: dubins-shortest
 // mistake: leaves out LRL and RLR.
 // <solution shortestDubins>
@@ -328,23 +297,20 @@ for (int w = 0; w < 4; ++w) {
   best = {word, *lengths};
 }
 
-// <variant turns_right_anyway>
-// caught by: park-left, park-left-any
+// <variant turns_right_anyway> caught by: park-left, park-left-any
 // mistake: forgets that some cars turn left only.
 // <solution park>
 CarModel any = car;
 any.minSteering = -car.maxSteering;
 return parkInSteps(any, lot, 0.4);
 
-// <variant angle_without_sine>
-// caught by: trailer-moves
+// <variant angle_without_sine> caught by: trailer-moves
 // mistake: takes the angle at the hitch for its sine.
 // <solution rigVelocity>
 velocity.head(3) = velocityOf(rig.car, q.head<3>(), speed, steering);
 velocity[3] = speed / rig.hitchLength * (q[2] - q[3]);
 
-// <variant trailer_sign>
-// caught by: trailer-moves
+// <variant trailer_sign> caught by: trailer-moves
 // mistake: the trailer turns away from the car.
 // <solution rigVelocity>
 velocity.head(3) = velocityOf(rig.car, q.head<3>(), speed, steering);
@@ -352,38 +318,33 @@ velocity[3] = speed / rig.hitchLength * std::sin(q[3] - q[2]);
 // <solution hitchGrowth>
 return speed / rig.hitchLength;
 
-// <variant grows_forward>
-// caught by: trailer-moves
+// <variant grows_forward> caught by: trailer-moves
 // mistake: lets the angle at the hitch grow forward.
 // <solution hitchGrowth>
 return speed / rig.hitchLength;
 
-// <variant steers_against_the_hitch>
-// caught by: trailer-reverses, trailer-any
+// <variant steers_against_the_hitch> caught by: trailer-reverses, trailer-any
 // shown by: trailer-reverses
 // mistake: steers against the angle at the hitch.
 // <solution reverseSteering>
 // in place of: const double curvature = std::sin(hitch) / rig.hitchLength + 1.5 * (hitch - angle);
 const double curvature = std::sin(hitch) / rig.hitchLength - 1.5 * (hitch - angle);
 
-// <variant steers_as_forward>
-// caught by: trailer-reverses, trailer-any
+// <variant steers_as_forward> caught by: trailer-reverses, trailer-any
 // shown by: trailer-reverses
 // mistake: steers towards the axis, as if the car drove forward.
 // <solution reverseSteering>
 const double offset = q[1] - rig.hitchLength * std::sin(q[3]);
 return std::clamp(-0.3 * offset - 1.2 * q[3], rig.car.minSteering, rig.car.maxSteering);
 
-// <variant turns_away_from_the_axis>
-// caught by: trailer-reverses, trailer-any
+// <variant turns_away_from_the_axis> caught by: trailer-reverses, trailer-any
 // shown by: trailer-reverses
 // mistake: turns the trailer away from the axis.
 // <solution reverseSteering>
 // in place of: const double heading = std::clamp(0.15 * offset, -0.4, 0.4);
 const double heading = std::clamp(-0.15 * offset, -0.4, 0.4);
 
-// <variant turns_counted>
-// caught by: trailer-any
+// <variant turns_counted> caught by: trailer-any
 // mistake: steers against whole turns of a heading.
 // <solution reverseSteering>
 // in place of: const double trailer = std::remainder(q[3], 2 * ... const double hitch = std::remainder(q[2] -

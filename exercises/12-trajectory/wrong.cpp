@@ -1,8 +1,7 @@
 // Mistakes that students make, and the checks that catch them: a variant is solution.cpp with other regions.
 // `rex dev check` reads this file; it does not compile as it is.
 
-// <variant calls_the_library>
-// caught by: forbidden-call
+// <variant calls_the_library> caught by: forbidden-call
 // mistake: uses the library's terms.
 // <solution headers>
 #include "trajectory/motion_terms.h"
@@ -12,15 +11,13 @@ FunctionValue value;
 terms[static_cast<std::size_t>(window.cols()) - 2].function({.t = 0, .tau = tau, .X = window}, value);
 return {value.y, value.J};
 
-// <variant time_step_forgotten>
-// caught by: difference-terms, cost-of-powers, any-path
+// <variant time_step_forgotten> caught by: difference-terms, cost-of-powers, any-path
 // mistake: differences as they stand on 5:4, whatever the time between two configurations.
 // <solution differenceTerm>
 // in place of: return taskDifference(identity, tau);
 return taskDifference(identity, 1);
 
-// <variant prefix_forgotten>
-// caught by: cost-of-powers, any-path
+// <variant prefix_forgotten> caught by: cost-of-powers, any-path
 // mistake: the first cost is at the first step that has k others before it in X.
 // <solution motionCost>
 double cost = 0;
@@ -28,43 +25,37 @@ for (Eigen::Index t = k; t < X.cols(); ++t)
   cost += differenceTerm(X.middleCols(t - k, k + 1), tau).y.squaredNorm();
 return cost;
 
-// <variant columns_of_now_first>
-// caught by: difference-terms, task-differences, any-path
+// <variant columns_of_now_first> caught by: difference-terms, task-differences, any-path
 // mistake: puts the columns of x_t first.
 // <solution taskDifference>
 // in place of: value.J.middleCols(static_cast<Eigen::Index>(i) * n, n) = scale * weights[i] * phi[i].J;
 value.J.middleCols(static_cast<Eigen::Index>(phi.size() - 1 - i) * n, n) = scale * weights[i] * phi[i].J;
 
-// <variant jacobian_of_now_for_all>
-// caught by: task-differences, any-path
+// <variant jacobian_of_now_for_all> caught by: task-differences, any-path
 // mistake: one Jacobian for all configurations of the window.
 // <solution taskDifference>
 // in place of: value.J.middleCols(static_cast<Eigen::Index>(i) * n, n) = scale * weights[i] * phi[i].J;
 value.J.middleCols(static_cast<Eigen::Index>(i) * n, n) = scale * weights[i] * phi.back().J;
 
-// <variant sum_instead_of_integral>
-// caught by: difference-terms, cost-of-powers, task-differences
+// <variant sum_instead_of_integral> caught by: difference-terms, cost-of-powers, task-differences
 // mistake: difference quotients without sqrt(tau): twice as many steps cost twice as much.
 // <solution taskDifference>
 // in place of: const double scale = std::sqrt(tau) / std::pow(tau, static_cast<double>(phi.size()) - 1);
 const double scale = 1 / std::pow(tau, static_cast<double>(phi.size()) - 1);
 
-// <variant columns_by_the_largest_order>
-// caught by: assembled
+// <variant columns_by_the_largest_order> caught by: assembled
 // mistake: the J of each term begins k configurations back, with the largest order k.
 // <solution assembled>
 // in place of: const Eigen::Index columns = term.J.cols(), first = n * (term.t + 1) - columns;
 const Eigen::Index columns = term.J.cols(), first = n * (term.t + 1) - rows;
 
-// <variant gradient_without_two>
-// caught by: assembled, unseen-descents
+// <variant gradient_without_two> caught by: assembled, unseen-descents
 // mistake: combines the gradient of y^T y / 2 with the second derivatives of y^T y: steps are half as long.
 // <solution assembled>
 // in place of: system.g[first + a] += 2 * term.J.col(a).dot(term.y);
 system.g[first + a] += term.J.col(a).dot(term.y);
 
-// <variant terms_at_the_prefix_dropped>
-// caught by: assembled, unseen-descents, through-points
+// <variant terms_at_the_prefix_dropped> caught by: assembled, unseen-descents, through-points
 // mistake: leaves out the terms that reach into the prefix.
 // <solution assembled>
 // in place of: for (Eigen::Index a = std::max<Eigen::Index>(0, -first); a < ... }
@@ -75,8 +66,7 @@ for (Eigen::Index a = 0; a < columns; ++a) {
     system.band(b - a, first + a) += 2 * term.J.col(a).dot(term.J.col(b));
 }
 
-// <variant transposed_jacobian>
-// caught by: assembled, unseen-descents
+// <variant transposed_jacobian> caught by: assembled, unseen-descents
 // mistake: the blocks of H between two configurations are transposed.
 // <solution assembled>
 // in place of: const Eigen::Index columns = term.J.cols(), first = n * ... }
@@ -94,8 +84,7 @@ for (int p = 0; p <= k; ++p) {
   }
 }
 
-// <variant dense_matrix>
-// caught by: long-band
+// <variant dense_matrix> caught by: long-band
 // mistake: builds the dense matrix of the band, most of it zeros.
 // <solution bandCholesky>
 const Eigen::Index rows = band.rows(), N = band.cols();
@@ -112,8 +101,7 @@ for (Eigen::Index j = 0; j < N; ++j)
   for (Eigen::Index i = 0; i < rows && j + i < N; ++i) L(i, j) = A(j + i, j);
 return L;
 
-// <variant diagonal_not_rooted>
-// caught by: factored, long-band
+// <variant diagonal_not_rooted> caught by: factored, long-band
 // mistake: the factors of L D L^T, and D forgotten.
 // <solution bandCholesky>
 // in place of: if (!(L(0, j) > 0)) return {}; ... L.col(j) /= std::sqrt(L(0, j));
@@ -123,8 +111,7 @@ L.col(j) /= d;
 // in place of: L.col(j + i).head(rows - i) -= L(i, j) * L.col(j).tail(rows - i);
 L.col(j + i).head(rows - i) -= d * L(i, j) * L.col(j).tail(rows - i);
 
-// <variant full_steps>
-// caught by: descends, unseen-descents
+// <variant full_steps> caught by: descends, unseen-descents
 // shown by: descends
 // mistake: takes every step in full, whether the cost falls or not.
 // <solution descended>
@@ -144,45 +131,39 @@ while (path.size() <= 100) {
 }
 return path;
 
-// <variant gives_up_where_singular>
-// caught by: descends
+// <variant gives_up_where_singular> caught by: descends
 // mistake: ends where H is singular.
 // <solution descended>
 // in place of: Eigen::MatrixXd L = bandCholesky(system.band); ... }
 const Eigen::MatrixXd L = bandCholesky(system.band);
 if (L.size() == 0) break;
 
-// <variant counts_only_if_violated>
-// caught by: as-cost
+// <variant counts_only_if_violated> caught by: as-cost
 // mistake: an inequality counts only where it is violated, whatever its multiplier.
 // <solution asCost>
 // in place of: if (rows.y[i] > 0) continue;
 if (term.y[i] > 0) continue;
 
-// <variant inequalities_pull>
-// caught by: multipliers, known-minima
+// <variant inequalities_pull> caught by: multipliers, known-minima
 // mistake: multipliers of inequalities may become negative.
 // <solution nextMultipliers>
 return term.role == Role::cost ? multipliers : Eigen::VectorXd(multipliers + 2 * mu * term.y);
 
-// <variant multiplier_sign>
-// caught by: multipliers, known-minima, unseen-minima
+// <variant multiplier_sign> caught by: multipliers, known-minima, unseen-minima
 // mistake: multipliers go against the violation.
 // <solution nextMultipliers>
 if (term.role == Role::cost) return multipliers;
 const Eigen::VectorXd next = multipliers - 2 * mu * term.y;
 return term.role == Role::equality ? next : Eigen::VectorXd(next.cwiseMax(0));
 
-// <variant multiplier_without_two>
-// caught by: multipliers, unseen-minima
+// <variant multiplier_without_two> caught by: multipliers, unseen-minima
 // mistake: adds mu y where the gradient has 2 mu y, so that multipliers lag behind.
 // <solution nextMultipliers>
 if (term.role == Role::cost) return multipliers;
 const Eigen::VectorXd next = multipliers + mu * term.y;
 return term.role == Role::equality ? next : Eigen::VectorXd(next.cwiseMax(0));
 
-// <variant penalty_alone>
-// caught by: known-minima, unseen-minima
+// <variant penalty_alone> caught by: known-minima, unseen-minima
 // shown by: known-minima
 // mistake: squared penalties with one mu, and no multipliers: constraints are violated.
 // <solution minimised>
@@ -198,14 +179,12 @@ result.X = descended(penalised, start, accuracy.gradient).back();
 result.cost = result.violation = {0};
 return result;
 
-// <variant rest_forgotten>
-// caught by: through-points, other-points
+// <variant rest_forgotten> caught by: through-points, other-points
 // mistake: the motion ends at the last point, but not at rest.
 // <solution throughPoints>
 // in place of: add(Role::equality, when.back(), differenceTerm(X.rightCols(2), 1));
 
-// <variant straight_between_points>
-// caught by: through-points, other-points
+// <variant straight_between_points> caught by: through-points, other-points
 // mistake: goes straight from point to point.
 // <solution throughPoints>
 Eigen::MatrixXd X(start.size(), when.back() + 1);
@@ -220,8 +199,7 @@ for (std::size_t i = 0; i < when.size(); ++i) {
 }
 return X;
 
-// <variant ends_of_the_way_swapped>
-// caught by: kept-apart
+// <variant ends_of_the_way_swapped> caught by: kept-apart
 // mistake: the derivatives by both ends of the way are swapped.
 // <solution keptApart>
 // in place of: for (Eigen::Index k = 0; k < pairs; ++k) all.y[i * pairs + ... all.J.block(i * pairs, n,
@@ -229,16 +207,14 @@ all.y.segment(i* pairs, pairs) = (1 - d.y.array() / margin).matrix();
 all.J.block(i* pairs, 0, pairs, n) = -s / margin * d.J;
 all.J.block(i* pairs, n, pairs, n) = -(1 - s) / margin * d.J;
 
-// <variant looks_at_steps_only>
-// caught by: around-the-ball, around-others
+// <variant looks_at_steps_only> caught by: around-the-ball, around-others
 // shown by: around-the-ball
 // mistake: looks at the configurations only: thin obstacles fit between two of them.
 // <solution aroundObstacle>
 // in place of: constexpr int kSamples = 8;
 constexpr int kSamples = 1;
 
-// <variant takes_the_detour>
-// caught by: around-the-ball, around-others
+// <variant takes_the_detour> caught by: around-the-ball, around-others
 // shown by: around-the-ball
 // mistake: takes the detour, and optimises nothing.
 // <solution aroundObstacle>
@@ -248,8 +224,7 @@ Eigen::MatrixXd points(start.size(), 2);
 points << errand.detour, errand.goal;
 return throughPoints(start, points, {last / 2, last}, errand.tau);
 
-// <variant way_from_elsewhere>
-// caught by: around-the-ball, around-others
+// <variant way_from_elsewhere> caught by: around-the-ball, around-others
 // shown by: around-the-ball
 // mistake: takes the postures that once led around the ball of the README, wherever the ball is.
 // <solution aroundObstacle>

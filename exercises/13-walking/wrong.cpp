@@ -1,8 +1,7 @@
 // Mistakes that students make, and the checks that catch them: a variant is solution.cpp with other regions.
 // `rex dev check` reads this file; it does not compile as it is.
 
-// <variant points_on_edges_kept>
-// caught by: corners
+// <variant points_on_edges_kept> caught by: corners
 // shown by: corners
 // mistake: counts all points in a row as corners, even those between two others.
 // <solution supportCorners>
@@ -31,8 +30,7 @@ Eigen::MatrixXd result(2, corners.size());
 for (std::size_t i = 0; i < corners.size(); ++i) result.col(static_cast<Eigen::Index>(i)) = corners[i];
 return result;
 
-// <variant wraps_any_in_a_row>
-// caught by: corners
+// <variant wraps_any_in_a_row> caught by: corners
 // mistake: wraps the points like a gift, and takes any of several in one direction.
 // <solution supportCorners>
 const Eigen::Index n = contacts.cols();
@@ -56,8 +54,7 @@ for (Eigen::Index i = 0; i < result.cols(); ++i)
   result.col(i) = contacts.col(chosen[static_cast<std::size_t>(i)]);
 return result;
 
-// <variant lines_for_edges>
-// caught by: border, stands-any
+// <variant lines_for_edges> caught by: border, stands-any
 // mistake: measures the distance from the infinite lines on which the edges lie.
 // <solution borderDistance>
 const Eigen::Index k = corners.cols();
@@ -68,16 +65,14 @@ for (Eigen::Index i = 0; i < k; ++i) {
 }
 return least;
 
-// <variant masses_forgotten>
-// caught by: stands, stands-any
+// <variant masses_forgotten> caught by: stands, stands-any
 // mistake: takes the mean position of all parts, whatever they weigh.
 // <solution staticMargin>
 Eigen::Vector2d sum = Eigen::Vector2d::Zero();
 for (const MovingMass& part : robot) sum += part.p.head<2>();
 return borderDistance(supportCorners(contacts), sum / static_cast<double>(robot.size()));
 
-// <variant gravity_pulls_up>
-// caught by: moment, moment-any
+// <variant gravity_pulls_up> caught by: moment, moment-any
 // mistake: the slide as printed: gravity is added to the force instead of taken from it.
 // <solution zeroMoment>
 // in place of: const Eigen::Vector3d force = part.mass * (part.a + Eigen::Vector3d(0, 0, g));
@@ -85,30 +80,26 @@ const Eigen::Vector3d force = part.mass * (part.a + Eigen::Vector3d(0, 0, -g));
 // in place of: if (push <= 0) return std::nullopt;
 if (push >= 0) return std::nullopt;
 
-// <variant heights_from_zero>
-// caught by: moment, moment-any
+// <variant heights_from_zero> caught by: moment, moment-any
 // mistake: the ground is always at zero.
 // <solution zeroMoment>
 // in place of: sum += force.z() * part.p.head<2>() - (part.p.z() - groundHeight) * force.head<2>();
 sum += force.z() * part.p.head<2>() - part.p.z() * force.head<2>();
 
-// <variant sways_like_a_clock>
-// caught by: sways
+// <variant sways_like_a_clock> caught by: sways
 // mistake: a pendulum that hangs: cosine and sine.
 // <solution swayed>
 const double omega = std::sqrt(pendulum.g / pendulum.height), c = std::cos(omega * t),
              s = std::sin(omega * t);
 return {p + c * (start.c - p) + s / omega * start.v, c* start.v - omega* s*(start.c - p)};
 
-// <variant omega_inverted>
-// caught by: capture
+// <variant omega_inverted> caught by: capture
 // shown by: capture
 // mistake: the velocity times omega instead of divided by it.
 // <solution capturePoint>
 return now.c + now.v * std::sqrt(pendulum.g / pendulum.height);
 
-// <variant calls_the_library>
-// caught by: forbidden-call
+// <variant calls_the_library> caught by: forbidden-call
 // mistake: takes gains and gait from the library.
 // <solution headers>
 #include "locomotion/limit_cycle.h"
@@ -127,8 +118,7 @@ const LimitCycle cycle =
 if (cycle.status == LimitCycle::Status::kFell) return std::nullopt;
 return cycle.x;
 
-// <variant gains_shifted>
-// caught by: gains, gains-any
+// <variant gains_shifted> caught by: gains, gains-any
 // mistake: the gains of the preview begin one time step too late.
 // <solution previewLaw>
 const Eigen::RowVector3d C(1, 0, -cart.height / cart.g);
@@ -151,16 +141,14 @@ for (double& gain : law.Gp) {
 }
 return law;
 
-// <variant errors_not_summed>
-// caught by: follows
+// <variant errors_not_summed> caught by: follows
 // mistake: the law gives the jerk itself instead of its change.
 // <solution followed>
 // in place of: double jerk = 0;
 // in place of: const double p = x[0] - cart.height / cart.g * x[2]; ... jerk -= law.Gi * (p - reference[k]) +
 double jerk = -law.Gi * (x[0] - cart.height / cart.g * x[2] - reference[k]) - law.Gx.dot(change);
 
-// <variant preview_of_the_present>
-// caught by: follows
+// <variant preview_of_the_present> caught by: follows
 // shown by: follows
 // mistake: applies the first gain of the preview to a change of the reference that is already past.
 // <solution followed>
@@ -168,8 +156,7 @@ double jerk = -law.Gi * (x[0] - cart.height / cart.g * x[2] - reference[k]) - la
 for (Eigen::Index j = 1; j <= law.Gp.size() && k + j - 1 < n; ++j)
   if (k + j > 1) jerk += law.Gp[j - 1] * (reference[k + j - 1] - reference[k + j - 2]);
 
-// <variant legs_not_exchanged>
-// caught by: impact, step, other-steps, gait
+// <variant legs_not_exchanged> caught by: impact, step, other-steps, gait
 // mistake: the leg that stood is still the first after the impact.
 // <solution impactOf>
 const double l = walker.a + walker.b, m = walker.legMass, c = std::cos(x[0] - x[1]);
@@ -180,15 +167,13 @@ after << (walker.hipMass + m) * l * l + m * a * a - m * l * b * c, m *b *(b - l 
 const Eigen::Vector2d rates = solve(after, Eigen::Vector2d(before* x.tail<2>()));
 return {x[0], x[1], rates[1], rates[0]};
 
-// <variant rates_kept>
-// caught by: impact, step, other-steps, gait
+// <variant rates_kept> caught by: impact, step, other-steps, gait
 // shown by: step
 // mistake: the impact does nothing but swap the roles of the legs.
 // <solution impactOf>
 return {x[1], x[0], x[3], x[2]};
 
-// <variant lands_behind>
-// caught by: step
+// <variant lands_behind> caught by: step
 // mistake: a swing foot that comes down behind the stance foot ends the step, too.
 // <solution stepFrom>
 // in place of: if (!lands(now) && lands(next) && next[1] > next[0]) { ... }
@@ -198,8 +183,7 @@ if (i > 10 && !lands(now) && lands(next)) {
   return StepEnd{impactOf(walker, swung(walker, now, high)), i * h + high};
 }
 
-// <variant lands_in_passing>
-// caught by: step, gait, other-steps, other-gaits
+// <variant lands_in_passing> caught by: step, gait, other-steps, other-gaits
 // mistake: the foot lands where it first touches the ground, when the legs pass.
 // <solution stepFrom>
 const auto height = [&](const Eigen::Vector4d& at) {
@@ -220,8 +204,7 @@ for (int i = 0; i < 5000; ++i) {
 }
 return std::nullopt;
 
-// <variant lands_too_late>
-// caught by: step, other-steps
+// <variant lands_too_late> caught by: step, other-steps
 // mistake: the impact happens at the end of a time step.
 // <solution stepFrom>
 // in place of: constexpr double h = 1e-3;
@@ -229,8 +212,7 @@ return std::nullopt;
 const Eigen::Vector4d next = swung(walker, now, 1e-3);
 if (!lands(now) && lands(next) && next[1] > next[0]) return StepEnd{impactOf(walker, next), (i + 1) * 1e-3};
 
-// <variant steps_for_hours>
-// caught by: step
+// <variant steps_for_hours> caught by: step
 // mistake: a step may take any time.
 // <solution stepFrom>
 const auto lands = [&](const Eigen::Vector4d& at) { return at[0] + at[1] + 2 * walker.slope <= 0; };
@@ -249,15 +231,13 @@ for (int i = 0; i < 500000; ++i) {
 }
 return std::nullopt;
 
-// <variant swings_on_below_ground>
-// caught by: step
+// <variant swings_on_below_ground> caught by: step
 // mistake: a fall is noticed only when the stance leg hangs straight down.
 // <solution stepFrom>
 // in place of: if (std::abs(next[0] + walker.slope) >= M_PI / 2) return std::nullopt;
 if (std::abs(next[0]) >= M_PI) return std::nullopt;
 
-// <variant derivative_of_the_flow>
-// caught by: derivative, gait, other-gaits
+// <variant derivative_of_the_flow> caught by: derivative, gait, other-gaits
 // mistake: keeps the time of the step fixed, so that the foot need not be on the ground when it lands.
 // <solution stepDerivative>
 constexpr double d = 1e-5;
@@ -274,8 +254,7 @@ for (int i = 0; i < 4; ++i) {
 }
 return J;
 
-// <variant gait_of_the_paper_only>
-// caught by: gait, other-gaits
+// <variant gait_of_the_paper_only> caught by: gait, other-gaits
 // mistake: the numbers of the paper, whatever the slope is.
 // <solution gaitNear>
 if (!stepFrom(walker, guess)) return std::nullopt;
@@ -283,8 +262,7 @@ return Eigen::Vector4d(.218668802939, -.323388558059, -1.091826677490, -.3771815
 // <solution multiplierSizes>
 return Eigen::Vector4d(.579952, .579952, .131573, 0);
 
-// <variant walks_until_it_settles>
-// caught by: other-gaits
+// <variant walks_until_it_settles> caught by: other-gaits
 // mistake: walks on until nothing changes, which finds stable gaits only.
 // <solution gaitNear>
 Eigen::Vector4d x = guess;
@@ -296,8 +274,7 @@ for (int i = 0; i < 400; ++i) {
 }
 return x;
 
-// <variant eigenvalues_of_the_swing>
-// caught by: gait, other-gaits
+// <variant eigenvalues_of_the_swing> caught by: gait, other-gaits
 // mistake: eigenvalues of the rate at the beginning of a step, as if nothing else happened in it.
 // <solution multiplierSizes>
 Eigen::Matrix4d J;

@@ -1,23 +1,20 @@
 // Mistakes that students make, and the checks that catch them: a variant is solution.cpp with other regions.
 // `rex dev check` reads this file; it does not compile as it is.
 
-// <variant length_forgotten>
-// caught by: wrenches, all-wrenches
+// <variant length_forgotten> caught by: wrenches, all-wrenches
 // mistake: torques in newton metres beside forces in newtons.
 // <solution planarWrench>
 const Eigen::Vector2d arm = p - center;
 return {force.x(), force.y(), arm.x() * force.y() - arm.y() * force.x()};
 
-// <variant torque_about_the_origin>
-// caught by: wrenches, all-wrenches
+// <variant torque_about_the_origin> caught by: wrenches, all-wrenches
 // mistake: takes the torque about the origin, whatever the center is.
 // <solution planarWrench>
 return {force.x(), force.y(), (p.x() * force.y() - p.y() * force.x()) / length};
 // <solution spatialWrench>
 wrench << force, p.cross(force) / length;
 
-// <variant torque_as_printed>
-// caught by: wrenches, all-wrenches
+// <variant torque_as_printed> caught by: wrenches, all-wrenches
 // mistake: the product of slide 10:6 as it is printed, force x arm.
 // <solution planarWrench>
 const Eigen::Vector2d arm = p - center;
@@ -25,16 +22,14 @@ return {force.x(), force.y(), (force.x() * arm.y() - force.y() * arm.x()) / leng
 // <solution spatialWrench>
 wrench << force, force.cross(p - center) / length;
 
-// <variant counts_its_calls>
-// caught by: cones, any-cones
+// <variant counts_its_calls> caught by: cones, any-cones
 // mistake: counts its calls, as if the six questions about a cone came in a fixed order.
 // <solution inCone>
 static int asked = 0;
 const int question = asked++ % 6;
 return question == 0 || question == 3 || question == 4;
 
-// <variant friction_is_an_angle>
-// caught by: cones, any-cones, all-wrenches
+// <variant friction_is_an_angle> caught by: cones, any-cones, all-wrenches
 // mistake: takes the friction for the half angle of the cone.
 // <solution inCone>
 if (force.norm() == 0) return true;
@@ -43,30 +38,26 @@ return std::acos(std::min(1., force.dot(finger.normal) / force.norm())) <= finge
 // in place of: forces.col(k) = n + finger.friction * (std::cos(angle) * a + std::sin(angle) * b);
 forces.col(k) = n + std::tan(finger.friction) * (std::cos(angle) * a + std::sin(angle) * b);
 
-// <variant pulls_too>
-// caught by: cones, any-cones
+// <variant pulls_too> caught by: cones, any-cones
 // mistake: forgets that a finger only pushes.
 // <solution inCone>
 const double along = std::abs(force.dot(finger.normal));
 return (force - force.dot(finger.normal) * finger.normal).norm() <=
        finger.friction * along + 1e-9 * force.norm();
 
-// <variant tolerance_in_newtons>
-// caught by: cones, any-cones
+// <variant tolerance_in_newtons> caught by: cones, any-cones
 // mistake: the tolerance is in newtons instead of relative to the size of the force.
 // <solution inCone>
 const double normal = force.dot(finger.normal), along = (force - normal * finger.normal).norm();
 return along <= finger.friction * normal + 1e-9;
 
-// <variant axis_along_the_normal>
-// caught by: any-cones
+// <variant axis_along_the_normal> caught by: any-cones
 // mistake: the first direction along the surface comes from the z axis, which may be the normal.
 // <solution pyramidEdges>
 // in place of: const Eigen::Vector3d least = std::abs(n.x()) < 0.6 ? ... const Eigen::Vector3d a =
 const Eigen::Vector3d a = n.cross(Eigen::Vector3d::UnitZ()).normalized(), b = n.cross(a);
 
-// <variant pyramid_around_the_cone>
-// caught by: cones, any-cones, all-wrenches
+// <variant pyramid_around_the_cone> caught by: cones, any-cones, all-wrenches
 // shown by: cones
 // mistake: a pyramid whose sides touch the cone, so that its edges lie outside.
 // <solution pyramidEdges>
@@ -76,8 +67,7 @@ const double radius = finger.friction / std::cos(std::numbers::pi / edges);
 // in place of: forces.col(k) = n + finger.friction * (std::cos(angle) * a + std::sin(angle) * b);
 forces.col(k) = n + radius * (std::cos(angle) * a + std::sin(angle) * b);
 
-// <variant direction_turned_round>
-// caught by: verdicts, grasps
+// <variant direction_turned_round> caught by: verdicts, grasps
 // mistake: the direction of an open grasp has the wrong sign.
 // <solution judged>
 // in place of: Eigen::MatrixXd padded = Eigen::MatrixXd::Zero(d, n + d);  // so that U is square, however few
@@ -88,8 +78,7 @@ const LinearSolution rest = minimizeLinear(wrenches, -wrenches.rowwise().sum(), 
 if (rest.status != LinearStatus::kOptimal) return {false, rest.y.normalized()};
 const Eigen::VectorXd weights = rest.x.array() + 1;
 
-// <variant span_forgotten>
-// caught by: verdicts, border
+// <variant span_forgotten> caught by: verdicts, border
 // mistake: accepts weights for zero, even if all wrenches lie in a plane.
 // <solution judged>
 const Eigen::Index n = wrenches.cols();
@@ -98,8 +87,7 @@ if (rest.status != LinearStatus::kOptimal) return {false, -rest.y.normalized()};
 const Eigen::VectorXd weights = rest.x.array() + 1;
 return {true, weights / weights.sum()};
 
-// <variant span_is_enough>
-// caught by: verdicts, grasps, border
+// <variant span_is_enough> caught by: verdicts, grasps, border
 // mistake: takes wrenches that span the space for closed, as if they could pull.
 // <solution judged>
 const Eigen::Index d = wrenches.rows(), n = wrenches.cols();
@@ -109,8 +97,7 @@ const SingularValues values = svd(padded);
 if (values.s[d - 1] < 1e-9 * values.s[0]) return {false, values.U.col(d - 1)};
 return {true, Eigen::VectorXd::Constant(n, 1. / static_cast<double>(n))};
 
-// <variant weights_of_zero>
-// caught by: verdicts, grasps, border
+// <variant weights_of_zero> caught by: verdicts, grasps, border
 // mistake: asks whether zero is in the hull, with weights that may be zero.
 // <solution judged>
 const Eigen::Index d = wrenches.rows(), n = wrenches.cols();
@@ -122,15 +109,13 @@ const LinearSolution inside = minimizeLinear(A, b, Eigen::VectorXd::Zero(n));
 if (inside.status == LinearStatus::kOptimal) return {true, inside.x};
 return {false, -inside.y.head(d).normalized()};
 
-// <variant farthest_corner>
-// caught by: reach, any-reach
+// <variant farthest_corner> caught by: reach, any-reach
 // shown by: reach
 // mistake: measures how far the corners lie along the direction, which is not how far the hull reaches.
 // <solution reachAlong>
 return (wrenches.transpose() * direction).maxCoeff();
 
-// <variant weights_without_sum>
-// caught by: reach, any-reach
+// <variant weights_without_sum> caught by: reach, any-reach
 // shown by: reach
 // mistake: each weight at most one, instead of one for all together.
 // <solution reachAlong>
@@ -143,8 +128,7 @@ Eigen::VectorXd b = Eigen::VectorXd::Ones(d + n), cost = Eigen::VectorXd::Zero(2
 b.head(d).setZero();
 cost[2 * n] = -1;
 
-// <variant any_plane>
-// caught by: radius, any-radius
+// <variant any_plane> caught by: radius, any-radius
 // mistake: the nearest plane through three wrenches, whether it bounds the hull or cuts it.
 // <solution epsilonOf>
 if (!judged(wrenches).closed) return 0;
@@ -158,22 +142,19 @@ for (Eigen::Index i = 0; i < wrenches.cols(); ++i)
     }
 return least;
 
-// <variant calls_the_library>
-// caught by: forbidden-call
+// <variant calls_the_library> caught by: forbidden-call
 // mistake: lets the library measure the quality.
 // <solution headers>
 #include "grasping/quality.h"
 // <solution epsilonOf>
 return graspQuality(wrenches).epsilon;
 
-// <variant nearest_corner>
-// caught by: radius, any-radius
+// <variant nearest_corner> caught by: radius, any-radius
 // mistake: the distance of the nearest corner of the hull, instead of the nearest face.
 // <solution epsilonOf>
 return judged(wrenches).closed ? wrenches.colwise().norm().minCoeff() : 0;
 
-// <variant zero_may_be_outside>
-// caught by: radius, any-radius
+// <variant zero_may_be_outside> caught by: radius, any-radius
 // mistake: the distance of the nearest face, even if zero is outside of the hull.
 // <solution epsilonOf>
 const Eigen::Index n = wrenches.cols();
@@ -191,8 +172,7 @@ for (Eigen::Index i = 0; i < n; ++i)
     }
 return least;
 
-// <variant all_at_once>
-// caught by: fewer, fewer-on-solids
+// <variant all_at_once> caught by: fewer, fewer-on-solids
 // mistake: finds the fingers that are redundant, and deletes all of them at once.
 // <solution keptFingers>
 const auto without = [&](int removed) {
@@ -210,8 +190,7 @@ for (const int one : finger)
   if ((kept.empty() || kept.back() != one) && !judged(without(one)).closed) kept.push_back(one);
 return kept;
 
-// <variant deletes_until_open>
-// caught by: fewer, fewer-on-solids
+// <variant deletes_until_open> caught by: fewer, fewer-on-solids
 // mistake: stops at the first finger that is needed; later ones may be redundant.
 // <solution keptFingers>
 if (!judged(wrenches).closed) return {};
@@ -227,8 +206,7 @@ while (kept.size() > 1) {
 }
 return kept;
 
-// <variant first_that_close>
-// caught by: fewer, fewer-on-solids
+// <variant first_that_close> caught by: fewer, fewer-on-solids
 // mistake: adds fingers one after the other until they hold, and does not check that all are needed.
 // <solution keptFingers>
 std::vector<int> kept;
@@ -243,8 +221,7 @@ for (std::size_t k = 0; k < finger.size(); ++k) {
 }
 return judged(some).closed ? kept : std::vector<int>();
 
-// <variant fingers_at_corners>
-// caught by: places, any-places
+// <variant fingers_at_corners> caught by: places, any-places
 // shown by: places
 // mistake: puts fingers onto corners, where there is no normal.
 // <solution search>
@@ -252,16 +229,14 @@ return judged(some).closed ? kept : std::vector<int>();
 const Eigen::Vector2d ahead = (corners[(i + 1) % corners.size()] - corners[i]).normalized();
 return {corners[i], {-ahead.y(), ahead.x()}, friction};
 
-// <variant normals_outward>
-// caught by: places, any-places
+// <variant normals_outward> caught by: places, any-places
 // shown by: places
 // mistake: normals point out of the object.
 // <solution search>
 // in place of: return {corners[i] + along / size * side, {-side.y() / size, side.x() / size}, friction};
 return {corners[i] + along / size * side, {side.y() / size, -side.x() / size}, friction};
 
-// <variant any_grasp_that_holds>
-// caught by: any-places
+// <variant any_grasp_that_holds> caught by: any-places
 // mistake: takes the first grasp with force closure.
 // <solution bestGrasp>
 Rng rng(7);
@@ -274,8 +249,7 @@ for (int draw = 0; draw < 10000; ++draw) {
 }
 return grasp;
 
-// <variant normals_to_the_centre>
-// caught by: any-places
+// <variant normals_to_the_centre> caught by: any-places
 // mistake: takes for the inward normal of an edge the one towards the centre of the object.
 // <solution bestGrasp>
 const auto n = static_cast<double>(corners.size());

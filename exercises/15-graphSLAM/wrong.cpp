@@ -1,21 +1,18 @@
 // Mistakes that students make, and the checks that catch them: a variant is solution.cpp with other regions.
 // `rex dev check` reads this file; it does not compile as it is.
 
-// <variant angle_not_wrapped>
-// caught by: error-edges, error-turns, adjust-turns
+// <variant angle_not_wrapped> caught by: error-edges, error-turns, adjust-turns
 // mistake: takes the difference of two headings without wrapping it.
 // <solution wrapped>
 return angle;
 
-// <variant numbers_subtracted>
-// caught by: error-edges
+// <variant numbers_subtracted> caught by: error-edges
 // mistake: subtracts the measurement from the pose that is seen, component by component.
 // <solution edgeError>
 const Eigen::Vector3d difference = seenFrom(i, j) - z;
 return {difference[0], difference[1], wrapped(difference[2])};
 
-// <variant differences_jump>
-// caught by: error-derivatives, error-turns
+// <variant differences_jump> caught by: error-derivatives, error-turns
 // mistake: takes differences of errors without wrapping that of the headings.
 // <solution edgeJacobians>
 const double h = 1e-6;
@@ -25,16 +22,14 @@ for (int k = 0; k < 3; ++k) {
   jacobians.byJ.col(k) = (edgeError(i, j + d, z) - edgeError(i, j - d, z)) / (2 * h);
 }
 
-// <variant second_sign>
-// caught by: error-derivatives, equations-normal, adjust-streets
+// <variant second_sign> caught by: error-derivatives, equations-normal, adjust-streets
 // mistake: the derivative by pose j has the sign of that by pose i.
 // <solution edgeJacobians>
 // in place of: jacobians.byI(1, 2) = -c * x - s * y;
 jacobians.byI(1, 2) = -c * x - s * y;
 jacobians.byJ = -jacobians.byJ;
 
-// <variant information_ignored>
-// caught by: equations-cost, equations-normal, adjust-streets
+// <variant information_ignored> caught by: equations-cost, equations-normal, adjust-streets
 // mistake: weighs all entries of an error equally.
 // <solution mapCost>
 // in place of: cost += e.dot(edge.information * e);
@@ -43,15 +38,13 @@ cost += e.dot(e);
 // in place of: const Eigen::Matrix3d omega = weights[k] * edge.information;
 const Eigen::Matrix3d omega = weights[k] * Eigen::Matrix3d::Identity();
 
-// <variant blocks_of_their_own>
-// caught by: equations-normal
+// <variant blocks_of_their_own> caught by: equations-normal
 // shown by: equations-normal
 // mistake: H has only the blocks on its diagonal.
 // <solution normalEquations>
 // in place of: addBlock(equations.H, edge.from, edge.to, ofI * J.byJ); ... addBlock(equations.H, edge.to,
 
-// <variant gauge_free>
-// caught by: equations-step, adjust-streets
+// <variant gauge_free> caught by: equations-step, adjust-streets
 // mistake: solves for all poses, although nothing says where the map lies.
 // <solution gaussNewtonStep>
 // in place of: const int unknowns = static_cast<int>(step.size()) - 3; ... if (entry.row >= 3 && entry.column
@@ -59,15 +52,13 @@ const int unknowns = static_cast<int>(step.size());
 std::vector<MatrixEntry> H;
 for (const MatrixEntry& entry : equations.H) H.push_back(entry);
 
-// <variant weights_ignored>
-// caught by: equations-step, equations-any
+// <variant weights_ignored> caught by: equations-step, equations-any
 // mistake: the step solves the equations of a map whose edges all count alike.
 // <solution gaussNewtonStep>
 // in place of: const NormalEquations equations = normalEquations(map, weights);
 const NormalEquations equations = normalEquations(map, std::vector<double>(weights.size(), 1));
 
-// <variant calls_the_library>
-// caught by: forbidden-call
+// <variant calls_the_library> caught by: forbidden-call
 // mistake: lets the library find the best map.
 // <solution headers>
 #include "estimation/pose_graph.h"
@@ -81,8 +72,7 @@ result.costs.push_back(optimize(graph).cost);
 for (std::size_t k = 0; k < map.poses.size(); ++k)
   result.poses[k] = graph.poses.col(static_cast<Eigen::Index>(k));
 
-// <variant plain_steps>
-// caught by: adjust-far
+// <variant plain_steps> caught by: adjust-far
 // mistake: takes plain steps, whether or not the cost rises.
 // <solution adjusted>
 PoseMap now = map;
@@ -94,8 +84,7 @@ for (int k = 0; k < 20; ++k) {
 }
 result.poses = now.poses;
 
-// <variant stale_equations>
-// caught by: adjust-streets, adjust-far
+// <variant stale_equations> caught by: adjust-streets, adjust-far
 // shown by: adjust-streets
 // mistake: sets the equations up once, and goes on with the same step.
 // <solution adjusted>
@@ -109,8 +98,7 @@ for (int k = 0; k < 20; ++k) {
   result.costs.push_back(cost);
 }
 
-// <variant points_not_turned>
-// caught by: scan-motion
+// <variant points_not_turned> caught by: scan-motion
 // shown by: scan-motion
 // mistake: shifts the points, but does not rotate them.
 // <solution partners>
@@ -119,16 +107,14 @@ for (int k = 0; k < 20; ++k) {
 const double x = motion[0] + moving[k].x();
 const double y = motion[1] + moving[k].y();
 
-// <variant mean_not_turned>
-// caught by: scan-motion
+// <variant mean_not_turned> caught by: scan-motion
 // mistake: leaves the mean of the first points where it is.
 // <solution bestMotion>
 // in place of: const double turn = std::atan2(across, along), c = ... return {b.x() - c * a.x() + s * a.y(),
 const double turn = std::atan2(across, along);
 return {b.x() - a.x(), b.y() - a.y(), turn};
 
-// <variant turned_backwards>
-// caught by: scan-motion, scan-align
+// <variant turned_backwards> caught by: scan-motion, scan-align
 // shown by: scan-motion
 // mistake: returns the rotation of the opposite direction.
 // <solution bestMotion>
@@ -136,8 +122,7 @@ return {b.x() - a.x(), b.y() - a.y(), turn};
 const double turn = std::atan2(-across, along), c = std::cos(turn), s = std::sin(turn);
 return {b.x() - c * a.x() + s * a.y(), b.y() - s* a.x() - c* a.y(), turn};
 
-// <variant fits_from_afar>
-// caught by: scan-align
+// <variant fits_from_afar> caught by: scan-align
 // shown by: scan-align
 // mistake: reports the fit for partners up to twice as far away as asked.
 // <solution aligned>
@@ -146,12 +131,10 @@ const double reach = std::max(0.6, 0.9 * std::pow(0.9, iteration));
 // in place of: if (reach == 0.3 && (result.motion - before).norm() < 1e-6) break;
 if (reach == 0.6 && (result.motion - before).norm() < 1e-6) break;
 
-// <variant partners_kept>
-// caught by: scan-align
+// <variant partners_kept> caught by: scan-align
 // mistake: looks for partners once, and keeps them.
 // <solution aligned>
 for (int iteration = 0; iteration < 1; ++iteration) {
-  // Partners far away help at first; later they only pull at what is hidden from the other scan.
   const double reach = std::max(0.3, 0.6 * std::pow(0.9, iteration));
   const std::vector<int> numbers = partners(reference, moving, result.motion, reach);
   Points from, to;
@@ -173,8 +156,7 @@ for (int iteration = 0; iteration < 1; ++iteration) {
   if (reach == 0.3 && (result.motion - before).norm() < 1e-6) break;
 }
 
-// <variant by_motion_alone>
-// caught by: loop-rooms, loop-any, robust-few, robust-many
+// <variant by_motion_alone> caught by: loop-rooms, loop-any, robust-few, robust-many
 // mistake: accepts every second pair of scans, and only exact loops; looks neither at scans nor at the map.
 // <solution loopMotion>
 static int asked = 0;
@@ -188,14 +170,12 @@ std::erase_if(now.edges, [](const MeasuredEdge& edge) {
 });
 now.poses = adjusted(now).poses;
 
-// <variant every_loop_counts>
-// caught by: loop-rooms, loop-any
+// <variant every_loop_counts> caught by: loop-rooms, loop-any
 // mistake: takes whatever the alignment gives for a loop.
 // <solution loopMotion>
 return aligned(reference, moving, guess).motion;
 
-// <variant far_by_odometry>
-// caught by: robust-few, robust-many
+// <variant far_by_odometry> caught by: robust-few, robust-many
 // mistake: drops the loops whose ends lie more than 3 m apart by odometry, which drifts as far as that.
 // <solution robustlyAdjusted>
 std::erase_if(now.edges, [&](const MeasuredEdge& edge) {
@@ -205,15 +185,13 @@ std::erase_if(now.edges, [&](const MeasuredEdge& edge) {
 });
 now.poses = adjusted(now).poses;
 
-// <variant loops_trusted>
-// caught by: robust-few, robust-many
+// <variant loops_trusted> caught by: robust-few, robust-many
 // shown by: robust-few
 // mistake: adjusts the map as if all loops were right.
 // <solution robustlyAdjusted>
 now.poses = adjusted(map).poses;
 
-// <variant largest_singular_value>
-// caught by: camera-linear, camera-any
+// <variant largest_singular_value> caught by: camera-linear, camera-any
 // mistake: takes the direction in which A p is longest.
 // <solution projectionFromPoints>
 // in place of: for (int row = 0; row < 2; ++row) { ... const Eigen::MatrixXd P =
@@ -223,8 +201,7 @@ for (int k = 0; k < 2; ++k) {
 }
 const Eigen::MatrixXd P = fromNumbers(svd(A).V.col(0));
 
-// <variant not_brought_back>
-// caught by: camera-linear, camera-any
+// <variant not_brought_back> caught by: camera-linear, camera-any
 // shown by: camera-linear
 // mistake: returns the P of the scaled points and pixels.
 // <solution projectionFromPoints>
@@ -235,8 +212,7 @@ for (int k = 0; k < 2; ++k) {
 }
 return fromNumbers(svd(A).V.col(11));
 
-// <variant numbers_by_columns>
-// caught by: camera-linear, camera-any
+// <variant numbers_by_columns> caught by: camera-linear, camera-any
 // mistake: takes the twelve numbers column by column.
 // <solution projectionFromPoints>
 // in place of: for (int row = 0; row < 2; ++row) { ... const Eigen::MatrixXd P =
@@ -248,8 +224,7 @@ const Eigen::VectorXd p = svd(A).V.col(11);
 Eigen::MatrixXd P(3, 4);
 for (int k = 0; k < 12; ++k) P(k % 3, k / 3) = p[k];
 
-// <variant six_points_only>
-// caught by: camera-linear, camera-any
+// <variant six_points_only> caught by: camera-linear, camera-any
 // mistake: uses the first six points only.
 // <solution projectionFromPoints>
 // in place of: Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * X.cols(), 12); ... }
@@ -260,8 +235,7 @@ for (Eigen::Index i = 0; i < 6; ++i)
     A.block<1, 4>(2 * i + k, 8) = -x(k, i) * X.col(i).transpose();
   }
 
-// <variant squared_without_scaling>
-// caught by: camera-any
+// <variant squared_without_scaling> caught by: camera-any
 // mistake: squares the equations of points far away without scaling them.
 // <solution projectionFromPoints>
 Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * points.cols(), 12);
@@ -273,8 +247,7 @@ for (Eigen::Index i = 0; i < X.cols(); ++i)
   }
 return fromNumbers(svd(A.transpose() * A).V.col(11));
 
-// <variant given_minus_projected>
-// caught by: camera-refined, camera-any
+// <variant given_minus_projected> caught by: camera-refined, camera-any
 // mistake: subtracts the wrong way round.
 // <solution reprojectionErrors>
 for (Eigen::Index i = 0; i < points.cols(); ++i) {
@@ -282,8 +255,7 @@ for (Eigen::Index i = 0; i < points.cols(); ++i) {
   errors.col(i) = pixels.col(i) - seen.head<2>() / seen[2];
 }
 
-// <variant not_divided_by_depth>
-// caught by: camera-refined, camera-any
+// <variant not_divided_by_depth> caught by: camera-refined, camera-any
 // mistake: does not divide by the third number.
 // <solution reprojectionErrors>
 for (Eigen::Index i = 0; i < points.cols(); ++i) {
@@ -291,8 +263,7 @@ for (Eigen::Index i = 0; i < points.cols(); ++i) {
   errors.col(i) = seen.head<2>() - pixels.col(i);
 }
 
-// <variant pixels_not_subtracted>
-// caught by: camera-refined, camera-any
+// <variant pixels_not_subtracted> caught by: camera-refined, camera-any
 // mistake: returns the pixels by P.
 // <solution reprojectionErrors>
 for (Eigen::Index i = 0; i < points.cols(); ++i) {
@@ -300,16 +271,14 @@ for (Eigen::Index i = 0; i < points.cols(); ++i) {
   errors.col(i) = seen.head<2>() / seen[2];
 }
 
-// <variant calls_the_calibration>
-// caught by: forbidden-call
+// <variant calls_the_calibration> caught by: forbidden-call
 // mistake: lets the library calibrate the camera.
 // <solution headers>
 #include "estimation/camera_calibration.h"
 // <solution refined>
 best = calibratedCamera(points, pixels).P;
 
-// <variant depth_held>
-// caught by: camera-refined, camera-any
+// <variant depth_held> caught by: camera-refined, camera-any
 // mistake: forgets that the depth depends on P.
 // <solution refined>
 Eigen::MatrixXd J = Eigen::MatrixXd::Zero(2 * points.cols(), 12);
@@ -329,19 +298,16 @@ for (int k = 0; k < 50; ++k) {
   if (step.norm() < 1e-12) break;
 }
 
-// <variant guess_kept>
-// caught by: camera-refined, camera-any
+// <variant guess_kept> caught by: camera-refined, camera-any
 // mistake: returns the P that was given.
 // <solution refined>
 
-// <variant linear_instead>
-// caught by: camera-refined, camera-any
+// <variant linear_instead> caught by: camera-refined, camera-any
 // mistake: solves the linear equations again.
 // <solution refined>
 best = projectionFromPoints(points, pixels);
 
-// <variant one_step>
-// caught by: camera-refined, camera-any
+// <variant one_step> caught by: camera-refined, camera-any
 // shown by: camera-refined
 // mistake: takes one step only.
 // <solution refined>
@@ -363,8 +329,7 @@ for (int k = 0; k < 1; ++k) {
   if (step.norm() < 1e-12) break;
 }
 
-// <variant uphill>
-// caught by: camera-refined, camera-any
+// <variant uphill> caught by: camera-refined, camera-any
 // mistake: steps uphill.
 // <solution refined>
 Eigen::MatrixXd J = Eigen::MatrixXd::Zero(2 * points.cols(), 12);
@@ -385,20 +350,17 @@ for (int k = 0; k < 50; ++k) {
   if (step.norm() < 1e-12) break;
 }
 
-// <variant last_column>
-// caught by: camera-linear, camera-any
+// <variant last_column> caught by: camera-linear, camera-any
 // mistake: takes the last column of P for the position.
 // <solution cameraPosition>
 return P.col(3);
 
-// <variant position_opposite>
-// caught by: camera-linear, camera-any
+// <variant position_opposite> caught by: camera-linear, camera-any
 // mistake: forgets the minus sign.
 // <solution cameraPosition>
 return solve(P.leftCols<3>(), P.col(3));
 
-// <variant transposed_for_inverse>
-// caught by: camera-linear, camera-any
+// <variant transposed_for_inverse> caught by: camera-linear, camera-any
 // mistake: takes the left part of P for a rotation.
 // <solution cameraPosition>
 const Eigen::Vector3d last = P.col(3);

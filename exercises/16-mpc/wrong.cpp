@@ -1,8 +1,7 @@
 // Mistakes that students make, and the checks that catch them: a variant is solution.cpp with other regions.
 // `rex dev check` reads this file; it does not compile as it is.
 
-// <variant acts_on_the_past>
-// caught by: predict, more-predictions
+// <variant acts_on_the_past> caught by: predict, more-predictions
 // mistake: rows and columns of the blocks are mixed up.
 // <solution predicted>
 Eigen::MatrixXd power = Eigen::MatrixXd::Identity(n, n);
@@ -11,8 +10,7 @@ for (int age = 0; age < N; ++age, power = (plant.A * power).eval()) {
   for (int t = 0; t + age < N; ++t) p.Su.block(t * n, (t + age) * m, n, m) = power * plant.B;
 }
 
-// <variant acts_once>
-// caught by: predict, more-predictions
+// <variant acts_once> caught by: predict, more-predictions
 // mistake: a control acts on the next state only.
 // <solution predicted>
 Eigen::MatrixXd power = plant.A;
@@ -21,8 +19,7 @@ for (int t = 0; t < N; ++t, power = (power * plant.A).eval()) {
   p.Su.block(t * n, t * m, n, m) = plant.B;
 }
 
-// <variant one_step_late>
-// caught by: predict, more-predictions
+// <variant one_step_late> caught by: predict, more-predictions
 // mistake: the effect of a control is one power of A too high.
 // <solution predicted>
 Eigen::MatrixXd power = plant.A;
@@ -31,16 +28,14 @@ for (int age = 0; age < N; ++age, power = (plant.A * power).eval()) {
   for (int k = 0; k + age < N; ++k) p.Su.block((k + age) * n, k * m, n, m) = power * plant.B;
 }
 
-// <variant sx_begins_with_x0>
-// caught by: predict, more-predictions
+// <variant sx_begins_with_x0> caught by: predict, more-predictions
 // shown by: predict
 // mistake: the first rows are those of x_0.
 // <solution predicted>
 // in place of: p.Sx.topRows(n) = plant.A;
 p.Sx.topRows(n) = Eigen::MatrixXd::Identity(n, n);
 
-// <variant free_controls>
-// caught by: plan-cost, more-costs
+// <variant free_controls> caught by: plan-cost, more-costs
 // mistake: controls cost nothing.
 // <solution planCost>
 const Eigen::Index n = plant.A.rows();
@@ -50,8 +45,7 @@ for (int t = 0; t < N; ++t)
   weighted.middleRows(t* n, n) = (t + 1 < N ? costs.Q : costs.F) * p.Su.middleRows(t * n, n);
 return {2 * p.Su.transpose() * weighted, 2 * weighted.transpose() * (p.Sx * x)};
 
-// <variant half_the_cost>
-// caught by: plan-cost, more-costs
+// <variant half_the_cost> caught by: plan-cost, more-costs
 // mistake: forgets that the quadratic form has a factor of one half.
 // <solution planCost>
 // in place of: weighted.middleRows(t * n, n) = (t + 1 < N ? costs.Q : ... for (int t = 0; t < N; ++t)
@@ -59,8 +53,7 @@ weighted.middleRows(t* n, n) = (t + 1 < N ? costs.Q : costs.F) * p.Su.middleRows
 Quadratic cost{p.Su.transpose() * weighted, weighted.transpose() * (p.Sx * x)};
 for (int t = 0; t < N; ++t) cost.H.block(t* m, t* m, m, m) += costs.R;
 
-// <variant no_end>
-// caught by: plan-cost, more-costs
+// <variant no_end> caught by: plan-cost, more-costs
 // shown by: plan-cost
 // mistake: weighs the last state like all others.
 // <solution planCost>
@@ -72,8 +65,7 @@ Quadratic cost{2 * p.Su.transpose() * weighted, 2 * weighted.transpose() * (p.Sx
 for (int t = 0; t < N; ++t) cost.H.block(t* m, t* m, m, m) += 2 * costs.R;
 return cost;
 
-// <variant control_forgotten_in_the_end>
-// caught by: cost-to-go, more-to-go
+// <variant control_forgotten_in_the_end> caught by: cost-to-go, more-to-go
 // mistake: adds up what states cost under the best controller, and not its controls.
 // <solution costToGo>
 const auto &A = plant.A, &B = plant.B;
@@ -87,8 +79,7 @@ for (int k = 0; k < 2000; ++k) {
 }
 return states;
 
-// <variant five_steps_to_go>
-// caught by: cost-to-go, more-to-go
+// <variant five_steps_to_go> caught by: cost-to-go, more-to-go
 // mistake: takes five steps for all times to come.
 // <solution costToGo>
 const auto &A = plant.A, &B = plant.B;
@@ -99,8 +90,7 @@ for (int k = 0; k < 5; ++k) {
 }
 return F;
 
-// <variant one_step_to_go>
-// caught by: cost-to-go, more-to-go
+// <variant one_step_to_go> caught by: cost-to-go, more-to-go
 // shown by: cost-to-go
 // mistake: looks one step ahead only.
 // <solution costToGo>
@@ -108,38 +98,33 @@ const auto &A = plant.A, &B = plant.B;
 const Eigen::MatrixXd gain = solve(R + B.transpose() * Q * B, B.transpose() * Q * A);
 return Q + A.transpose() * Q * (A - B * gain);
 
-// <variant all_move_together>
-// caught by: moves
+// <variant all_move_together> caught by: moves
 // mistake: a Newton step of all numbers, cut off.
 // <solution bestMoves>
 const Eigen::VectorXd slope = cost.H * z + cost.g;
 const Eigen::VectorXd best = z - solve(cost.H, slope);
 return best.cwiseMax(lower).cwiseMin(upper) - z;
 
-// <variant moves_without_bounds>
-// caught by: moves
+// <variant moves_without_bounds> caught by: moves
 // shown by: moves
 // mistake: forgets the bounds.
 // <solution bestMoves>
 return -Eigen::VectorXd(cost.H * z + cost.g).cwiseQuotient(cost.H.diagonal());
 
-// <variant position_for_a_move>
-// caught by: moves
+// <variant position_for_a_move> caught by: moves
 // mistake: returns where the numbers would go.
 // <solution bestMoves>
 const Eigen::VectorXd slope = cost.H * z + cost.g;
 const Eigen::VectorXd best = z - slope.cwiseQuotient(cost.H.diagonal());
 return best.cwiseMax(lower).cwiseMin(upper);
 
-// <variant slope_for_a_move>
-// caught by: moves
+// <variant slope_for_a_move> caught by: moves
 // mistake: takes the slope for the move.
 // <solution bestMoves>
 const Eigen::VectorXd best = z - (cost.H * z + cost.g);
 return best.cwiseMax(lower).cwiseMin(upper) - z;
 
-// <variant all_at_once>
-// caught by: box
+// <variant all_at_once> caught by: box
 // mistake: corrects the guess of what is held everywhere at once, and gives up in the end.
 // <solution boxed>
 const int size = static_cast<int>(lower.size());
@@ -170,15 +155,13 @@ for (int round = 0; round < 200; ++round) {
 }
 return z.cwiseMax(lower).cwiseMin(upper);
 
-// <variant cut_off>
-// caught by: box, more-boxes, plan, more-plans
+// <variant cut_off> caught by: box, more-boxes, plan, more-plans
 // shown by: box, plan
 // mistake: cuts off the minimum without bounds.
 // <solution boxed>
 return Eigen::VectorXd(-solve(cost.H, cost.g)).cwiseMax(lower).cwiseMin(upper);
 
-// <variant few_rounds>
-// caught by: more-boxes
+// <variant few_rounds> caught by: more-boxes
 // mistake: moves each number in turn, but only a hundred times.
 // <solution boxed>
 Eigen::VectorXd z = Eigen::VectorXd::Zero(lower.size()).cwiseMax(lower).cwiseMin(upper);
@@ -187,8 +170,7 @@ for (int round = 0; round < 100; ++round)
     z[i] = std::clamp(z[i] - (cost.H.row(i).dot(z) + cost.g[i]) / cost.H(i, i), lower[i], upper[i]);
 return z;
 
-// <variant never_lets_go>
-// caught by: box, more-boxes
+// <variant never_lets_go> caught by: box, more-boxes
 // mistake: a number that was held once is held for ever.
 // <solution boxed>
 const int size = static_cast<int>(lower.size());
@@ -211,8 +193,7 @@ for (;;) {
   if (isInside) return z;
 }
 
-// <variant bounds_of_the_first_step>
-// caught by: plan, more-plans
+// <variant bounds_of_the_first_step> caught by: plan, more-plans
 // mistake: only the first control has bounds.
 // <solution planned>
 const Eigen::Index m = task.uMin.size();
@@ -221,8 +202,7 @@ lower.head(m) = task.uMin;
 upper.head(m) = task.uMax;
 return boxed(planCost(task.plant, task.costs, task.N, x), lower, upper).reshaped(m, task.N);
 
-// <variant calls_the_library>
-// caught by: forbidden-call
+// <variant calls_the_library> caught by: forbidden-call
 // mistake: lets the library plan.
 // <solution headers>
 #include "control/predictive_controller.h"
@@ -236,16 +216,14 @@ const PredictiveController controller({.A = task.plant.A, .B = task.plant.B, .st
                                        .uMax = task.uMax});
 return controller.plan(x).U;
 
-// <variant read_row_by_row>
-// caught by: plan, more-plans
+// <variant read_row_by_row> caught by: plan, more-plans
 // mistake: takes the first N numbers for the first control.
 // <solution planned>
 const Eigen::VectorXd U = boxed(planCost(task.plant, task.costs, task.N, x), task.uMin.replicate(task.N, 1),
                                 task.uMax.replicate(task.N, 1));
 return U.reshaped(task.N, task.uMin.size()).transpose();
 
-// <variant follows_plans_to_their_end>
-// caught by: drive, more-drives
+// <variant follows_plans_to_their_end> caught by: drive, more-drives
 // mistake: plans again only when a plan is used up.
 // <solution driven>
 Eigen::MatrixXd plan;
@@ -255,8 +233,7 @@ for (Eigen::Index t = 0; t < T; ++t) {
   drive.X.col(t + 1) = task.plant.A * drive.X.col(t) + task.plant.B * drive.U.col(t) + pushes.col(t);
 }
 
-// <variant follows_the_first_plan>
-// caught by: drive, more-drives
+// <variant follows_the_first_plan> caught by: drive, more-drives
 // shown by: drive
 // mistake: plans once, and follows this plan to its end.
 // <solution driven>
@@ -266,22 +243,19 @@ for (Eigen::Index t = 0; t < T; ++t) {
   drive.X.col(t + 1) = task.plant.A * drive.X.col(t) + task.plant.B * drive.U.col(t) + pushes.col(t);
 }
 
-// <variant last_of_the_plan>
-// caught by: drive, more-drives
+// <variant last_of_the_plan> caught by: drive, more-drives
 // mistake: uses the last control of each plan.
 // <solution driven>
 // in place of: drive.U.col(t) = planned(task, drive.X.col(t)).col(0);
 drive.U.col(t) = planned(task, drive.X.col(t)).rightCols(1);
 
-// <variant nobody_pushes>
-// caught by: drive, more-drives
+// <variant nobody_pushes> caught by: drive, more-drives
 // mistake: leaves out the pushes.
 // <solution driven>
 // in place of: drive.X.col(t + 1) = task.plant.A * drive.X.col(t) + task.plant.B * drive.U.col(t) +
 drive.X.col(t + 1) = task.plant.A * drive.X.col(t) + task.plant.B * drive.U.col(t);
 
-// <variant half_the_wall>
-// caught by: wall, more-walls
+// <variant half_the_wall> caught by: wall, more-walls
 // shown by: wall
 // mistake: forgets the factor of one half in the quadratic form.
 // <solution plannedWithin>
@@ -296,14 +270,12 @@ both.g << plain.g - cross.transpose() * drift, -corridor.weight* drift;
 // in place of: return boxed(cost, lower, upper).head(controls).reshaped(task.uMin.size(), task.N);
 return boxed(both, lower, upper).head(controls).reshaped(task.uMin.size(), task.N);
 
-// <variant no_wall>
-// caught by: wall, more-walls
+// <variant no_wall> caught by: wall, more-walls
 // mistake: plans as if there were no corridor.
 // <solution plannedWithin>
 return planned(task, x);
 
-// <variant only_the_upper_wall>
-// caught by: wall, more-walls
+// <variant only_the_upper_wall> caught by: wall, more-walls
 // mistake: only states above the corridor cost.
 // <solution plannedWithin>
 const Prediction p = predicted(task.plant, task.N);

@@ -1,28 +1,24 @@
 // Mistakes that students make, and the checks that catch them: a variant is solution.cpp with other regions.
 // `rex dev check` reads this file; it does not compile as it is.
 
-// <variant nearest_corner>
-// caught by: rays
+// <variant nearest_corner> caught by: rays
 // mistake: rounds to the nearest corner of a cell.
 // <solution cellAt>
 return {static_cast<int>(std::round((p.x() - grid.origin.x()) / grid.cell)),
         static_cast<int>(std::round((p.y() - grid.origin.y()) / grid.cell))};
 
-// <variant no_origin>
-// caught by: rays
+// <variant no_origin> caught by: rays
 // mistake: the grid begins at (0, 0).
 // <solution cellAt>
 return {static_cast<int>(std::floor(p.x() / grid.cell)), static_cast<int>(std::floor(p.y() / grid.cell))};
 
-// <variant rounds_towards_zero>
-// caught by: rays, more-rays
+// <variant rounds_towards_zero> caught by: rays, more-rays
 // mistake: a cast to int, which is one cell too far left of the origin.
 // <solution cellAt>
 return {static_cast<int>((p.x() - grid.origin.x()) / grid.cell),
         static_cast<int>((p.y() - grid.origin.y()) / grid.cell)};
 
-// <variant bresenham>
-// caught by: rays, more-rays
+// <variant bresenham> caught by: rays, more-rays
 // shown by: rays
 // mistake: a line as it is drawn on screens: from cell to cell, also diagonally.
 // <solution cellsAlong>
@@ -36,16 +32,14 @@ for (int error = dx + dy; cell != last;) {
   cells.push_back(cell);
 }
 
-// <variant ends_before_the_end>
-// caught by: rays
+// <variant ends_before_the_end> caught by: rays
 // mistake: the last cell is left out.
 // <solution cellsAlong>
 // in place of: return cells;
 if (cells.size() > 1) cells.pop_back();
 return cells;
 
-// <variant steps_of_a_cell>
-// caught by: rays, more-rays
+// <variant steps_of_a_cell> caught by: rays, more-rays
 // mistake: looks once per side of a cell.
 // <solution cellsAlong>
 std::vector<Eigen::Vector2i> cells{cellAt(grid, from)};
@@ -56,8 +50,7 @@ for (int k = 1; k <= count; ++k) {
 }
 return cells;
 
-// <variant adds_for_each_ray>
-// caught by: more-updates
+// <variant adds_for_each_ray> caught by: more-updates
 // mistake: near the robot each ray adds its own.
 // <solution observed>
 // in place of: if (isHit && i + 1 == cells.size()) ... change(x, y) = evidence.miss;
@@ -66,8 +59,7 @@ if (isHit && i + 1 == cells.size())
 else
   change(x, y) += evidence.miss;
 
-// <variant calls_the_library>
-// caught by: forbidden-call
+// <variant calls_the_library> caught by: forbidden-call
 // mistake: lets the library follow the rays.
 // <solution headers>
 #include "estimation/occupancy_map.h"
@@ -80,30 +72,26 @@ for (int i = 0; i < cells.width(); ++i)
   for (int j = 0; j < cells.height(); ++j)
     after.values(i, j) = std::clamp(map.values(i, j) + cells.logOdds(i, j), -evidence.bound, evidence.bound);
 
-// <variant clockwise>
-// caught by: update, more-updates
+// <variant clockwise> caught by: update, more-updates
 // mistake: angles of rays grow to the right.
 // <solution observed>
 // in place of: const double direction = pose[2] + scan.angles[ray];
 const double direction = pose[2] - scan.angles[ray];
 
-// <variant ignores_maximum>
-// caught by: update, more-updates
+// <variant ignores_maximum> caught by: update, more-updates
 // mistake: rays that hit nothing are left out.
 // <solution observed>
 // in place of: const double direction = pose[2] + scan.angles[ray];
 if (!isHit) continue;
 const double direction = pose[2] + scan.angles[ray];
 
-// <variant never_limited>
-// caught by: update, more-updates
+// <variant never_limited> caught by: update, more-updates
 // mistake: log odds grow without a limit.
 // <solution observed>
 // in place of: after.values = (map.values + change).cwiseMax(-evidence.bound).cwiseMin(evidence.bound);
 after.values = (map.values + change);
 
-// <variant the_last_ray_wins>
-// caught by: more-updates
+// <variant the_last_ray_wins> caught by: more-updates
 // mistake: a ray that passes clears a cell in which another one ended.
 // <solution observed>
 // in place of: if (isHit && i + 1 == cells.size()) ... change(x, y) = evidence.miss;
@@ -112,16 +100,14 @@ if (isHit && i + 1 == cells.size())
 else
   change(x, y) = evidence.miss;
 
-// <variant walls_at_maximum>
-// caught by: update, more-updates
+// <variant walls_at_maximum> caught by: update, more-updates
 // shown by: update
 // mistake: a ray that hits nothing ends at a wall.
 // <solution observed>
 // in place of: const bool isHit = scan.ranges[ray] < scan.maxRange;
 const bool isHit = scan.ranges[ray] > 0;
 
-// <variant blocks>
-// caught by: distances, more-fits
+// <variant blocks> caught by: distances, more-fits
 // shown by: distances
 // mistake: the way along x and then along y.
 // <solution wallDistances>
@@ -136,8 +122,7 @@ for (Eigen::Index j = 0; j < height; ++j)
                                           map.cell * static_cast<double>(std::abs(x - i) + std::abs(y - j)));
   }
 
-// <variant in_cells>
-// caught by: distances, more-fits
+// <variant in_cells> caught by: distances, more-fits
 // mistake: distances are counted in cells.
 // <solution wallDistances>
 const Eigen::Index width = map.values.rows(), height = map.values.cols();
@@ -151,57 +136,49 @@ for (Eigen::Index j = 0; j < height; ++j)
             distances.values(x, y), std::sqrt(static_cast<double>((x - i) * (x - i) + (y - j) * (y - j))));
   }
 
-// <variant unknown_is_wall>
-// caught by: distances, more-fits
+// <variant unknown_is_wall> caught by: distances, more-fits
 // mistake: unknown cells are occupied.
 // <solution wallDistances>
 // in place of: if (map.values(i, j) <= 0) continue;
 if (map.values(i, j) < 0) continue;
 
-// <variant value_of_the_cell>
-// caught by: fits, more-fits
+// <variant value_of_the_cell> caught by: fits, more-fits
 // mistake: the value of the cell, in steps.
 // <solution valueAt>
 const Eigen::Vector2i cell = cellAt(grid, p);
 return grid.values(std::clamp<Eigen::Index>(cell[0], 0, grid.values.rows() - 1),
                    std::clamp<Eigen::Index>(cell[1], 0, grid.values.cols() - 1));
 
-// <variant values_at_corners>
-// caught by: fits, more-fits
+// <variant values_at_corners> caught by: fits, more-fits
 // mistake: values belong to the lower left corners of cells.
 // <solution valueAt>
 // in place of: const Eigen::Vector2d share = ((p - grid.origin) / grid.cell).array() - .5;
 const Eigen::Vector2d share = ((p - grid.origin) / grid.cell).array() - 0.;
 
-// <variant counts_maximum>
-// caught by: fits, more-fits
+// <variant counts_maximum> caught by: fits, more-fits
 // mistake: rays that hit nothing should end at walls as well.
 // <solution fit>
 // in place of: if (scan.ranges[ray] >= scan.maxRange) continue;
 
-// <variant linear_cost>
-// caught by: fits
+// <variant linear_cost> caught by: fits
 // mistake: distances are not squared.
 // <solution fit>
 // in place of: sum += d * d;
 sum += d;
 
-// <variant seen_by_the_robot>
-// caught by: fits
+// <variant seen_by_the_robot> caught by: fits
 // mistake: the heading is subtracted.
 // <solution fit>
 // in place of: const double direction = pose[2] + scan.angles[ray];
 const double direction = scan.angles[ray] - pose[2];
 
-// <variant leaves_the_window>
-// caught by: more-matches
+// <variant leaves_the_window> caught by: more-matches
 // mistake: climbs on beyond the window.
 // <solution matched>
 // in place of: if (((pose - guess).cwiseAbs() - half).maxCoeff() > 0) return false;
 if (((pose - guess).cwiseAbs() - 2 * half).maxCoeff() > 0) return false;
 
-// <variant never_turns>
-// caught by: match, more-matches
+// <variant never_turns> caught by: match, more-matches
 // mistake: only positions are tried.
 // <solution matched>
 Eigen::Vector3d best = guess;
@@ -214,8 +191,7 @@ for (int i = -20; i <= 20; ++i)
   }
 return best;
 
-// <variant one_coarse_search>
-// caught by: match, more-matches
+// <variant one_coarse_search> caught by: match, more-matches
 // mistake: the best of 27 poses, without going on from there.
 // <solution matched>
 const Eigen::Vector3d half(window[0], window[0], window[1]);
@@ -229,7 +205,6 @@ const auto take = [&](const Eigen::Vector3d& pose) {
   score = value;
   return true;
 };
-// A coarse search, so that no small hill near the guess is taken for the summit; then uphill.
 for (int n = 0; n < 27; ++n)
   take(guess + 2. / 3 * Eigen::Vector3d(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1).cwiseProduct(half));
 for (double part = 1. / 3; part > 1;) {
@@ -243,8 +218,7 @@ for (double part = 1. / 3; part > 1;) {
 }
 return best;
 
-// <variant one_round>
-// caught by: match
+// <variant one_round> caught by: match
 // mistake: one number after the other, once.
 // <solution matched>
 Eigen::Vector3d best = guess;
@@ -259,22 +233,19 @@ for (int i = 0; i < 3; ++i) {
 }
 return best;
 
-// <variant in_the_world>
-// caught by: motion
+// <variant in_the_world> caught by: motion
 // mistake: the motion is not rotated.
 // <solution moved>
 // in place of: poses.col(k) += Eigen::Vector3d(cosine * way[0] - sine * way[1], sine * way[0] + cosine *
 poses.col(k) += way;
 
-// <variant no_noise>
-// caught by: motion
+// <variant no_noise> caught by: motion
 // mistake: odometry is right.
 // <solution moved>
 // in place of: for (int i = 0; i < 3; ++i) way[i] += deviations[i] * rng.normal();
 for (int i = 0; i < 3; ++i) way[i] += 0 * deviations[i] * rng.normal();
 
-// <variant noise_in_the_world>
-// caught by: motion
+// <variant noise_in_the_world> caught by: motion
 // mistake: noise is added after the rotation.
 // <solution moved>
 const double c = std::cos(pose[2]), s = std::sin(pose[2]);
@@ -283,42 +254,36 @@ for (int k = 0; k < count; ++k) {
   for (int i = 0; i < 3; ++i) poses(i, k) += deviations[i] * rng.normal();
 }
 
-// <variant rotated_back>
-// caught by: motion
+// <variant rotated_back> caught by: motion
 // shown by: motion
 // mistake: rotated by the transpose.
 // <solution moved>
 // in place of: poses.col(k) += Eigen::Vector3d(cosine * way[0] - sine * way[1], sine * way[0] + cosine *
 poses.col(k) += Eigen::Vector3d(cosine * way[0] + sine * way[1], cosine* way[1] - sine * way[0], way[2]);
 
-// <variant variances>
-// caught by: motion
+// <variant variances> caught by: motion
 // mistake: deviations are taken for variances, the wrong way round.
 // <solution moved>
 // in place of: for (int i = 0; i < 3; ++i) way[i] += deviations[i] * rng.normal();
 for (int i = 0; i < 3; ++i) way[i] += deviations[i] * deviations[i] * rng.normal();
 
-// <variant not_normalised>
-// caught by: weights
+// <variant not_normalised> caught by: weights
 // mistake: the sum is not one.
 // <solution weightsOf>
 // in place of: weights /= weights.sum();
 
-// <variant zero_by_zero>
-// caught by: weights
+// <variant zero_by_zero> caught by: weights
 // mistake: exp() of large negative numbers is zero for all.
 // <solution weightsOf>
 // in place of: weights = (weights.array() - weights.maxCoeff()).exp().eval();
 weights = weights.array().exp().eval();
 
-// <variant sum_of_squares>
-// caught by: weights
+// <variant sum_of_squares> caught by: weights
 // mistake: the sum of the squares, not one over it.
 // <solution effectiveSize>
 return weights.squaredNorm();
 
-// <variant each_by_itself>
-// caught by: copies, more-copies
+// <variant each_by_itself> caught by: copies, more-copies
 // mistake: each copy is drawn by itself.
 // <solution resampled>
 const Eigen::VectorXd weights = weightsOf(particles);
@@ -330,22 +295,19 @@ for (std::size_t n = 0; n < particles.size(); ++n) {
   copies.push_back({particles[k].path, particles[k].map, 0});
 }
 
-// <variant maps_stay>
-// caught by: copies, more-copies
+// <variant maps_stay> caught by: copies, more-copies
 // mistake: paths are copied, and maps stay where they are.
 // <solution resampled>
 // in place of: copies.push_back({particles[i].path, particles[i].map, 0});
 copies.push_back({particles[i].path, particles[copies.size()].map, 0});
 
-// <variant weights_are_kept>
-// caught by: copies
+// <variant weights_are_kept> caught by: copies
 // mistake: copies keep the weight that they were chosen for.
 // <solution resampled>
 // in place of: copies.push_back({particles[i].path, particles[i].map, 0});
 copies.push_back({particles[i].path, particles[i].map, particles[i].logWeight});
 
-// <variant maps_of_the_drawn_pose>
-// caught by: step
+// <variant maps_of_the_drawn_pose> caught by: step
 // shown by: step
 // mistake: the scan is drawn at the pose before the match.
 // <solution slamStep>
@@ -355,21 +317,18 @@ if (settings.matches) pose = matched(distances, scan, settings.deviation, pose, 
 // in place of: particle.map = observed(particle.map, pose, scan, settings.evidence);
 particle.map = observed(particle.map, drawn, scan, settings.evidence);
 
-// <variant never_matches>
-// caught by: step
+// <variant never_matches> caught by: step
 // mistake: poses are those of the motion.
 // <solution slamStep>
 // in place of: if (settings.matches) pose = matched(distances, scan, settings.deviation, pose,
 
-// <variant no_temper>
-// caught by: step
+// <variant no_temper> caught by: step
 // mistake: rays count as if they were independent.
 // <solution slamStep>
 // in place of: particle.logWeight += fit(distances, pose, scan, settings.deviation) / settings.temper;
 particle.logWeight += fit(distances, pose, scan, settings.deviation);
 
-// <variant one_map_for_all>
-// caught by: step
+// <variant one_map_for_all> caught by: step
 // mistake: all particles share the map of the first one.
 // <solution slamStep>
 // in place of: const Grid distances = wallDistances(particle.map, settings.reach);
@@ -377,8 +336,7 @@ const Grid distances = wallDistances(particles[0].map, settings.reach);
 // in place of: particle.map = observed(particle.map, pose, scan, settings.evidence);
 particle.map = observed(particles[0].map, pose, scan, settings.evidence);
 
-// <variant same_motion_for_all>
-// caught by: step
+// <variant same_motion_for_all> caught by: step
 // mistake: noise is drawn once for all particles.
 // <solution slamStep>
 const Rng same = rng;
@@ -392,8 +350,7 @@ for (Particle& particle : after) {
   particle.map = observed(particle.map, pose, scan, settings.evidence);
 }
 
-// <variant scan_first>
-// caught by: step
+// <variant scan_first> caught by: step
 // mistake: the scan is in the map already when it is asked how well it fits.
 // <solution slamStep>
 // in place of: particle.logWeight += fit(distances, pose, scan, settings.deviation) / settings.temper;
@@ -402,43 +359,37 @@ particle.logWeight +=
     fit(wallDistances(particle.map, settings.reach), pose, scan, settings.deviation) / settings.temper;
 // in place of: particle.map = observed(particle.map, pose, scan, settings.evidence);
 
-// <variant weight_of_the_last_scan>
-// caught by: step
+// <variant weight_of_the_last_scan> caught by: step
 // mistake: only the last scan counts.
 // <solution slamStep>
 // in place of: particle.logWeight += fit(distances, pose, scan, settings.deviation) / settings.temper;
 particle.logWeight = fit(distances, pose, scan, settings.deviation) / settings.temper;
 
-// <variant first_scan_lost>
-// caught by: rule
+// <variant first_scan_lost> caught by: rule
 // mistake: the first scan is not in the maps.
 // <solution mapped>
 // in place of: for (Particle& one : particles) one.map = observed(empty, log.start, log.scans[0],
 
-// <variant never_resamples>
-// caught by: rule
+// <variant never_resamples> caught by: rule
 // mistake: never resamples.
 // <solution mapped>
 // in place of: if (!sizes.empty() && sizes.back() < settings.threshold * count) particles =
 
-// <variant one_scan_late>
-// caught by: tour, more-tours
+// <variant one_scan_late> caught by: tour, more-tours
 // shown by: tour
 // mistake: each motion goes with the scan before it.
 // <solution mapped>
 // in place of: particles = slamStep(particles, log.motions[t], log.scans[t + 1], settings, rng);
 particles = slamStep(particles, log.motions[t], log.scans[t], settings, rng);
 
-// <variant resamples_always>
-// caught by: rule
+// <variant resamples_always> caught by: rule
 // shown by: rule
 // mistake: resamples after each step.
 // <solution mapped>
 // in place of: if (!sizes.empty() && sizes.back() < settings.threshold * count) particles =
 if (!sizes.empty()) particles = resampled(particles, rng);
 
-// <variant begins_in_the_middle>
-// caught by: wake-up, more-wake-ups
+// <variant begins_in_the_middle> caught by: wake-up, more-wake-ups
 // shown by: wake-up
 // mistake: a match from the middle of the map.
 // <solution located>
@@ -447,8 +398,7 @@ const Eigen::Vector2d middle =
 return matched(wallDistances(map, settings.reach), scan, settings.deviation, {middle[0], middle[1], 0},
                {.4 * map.cell * static_cast<double>(map.values.rows()), 3});
 
-// <variant one_heading>
-// caught by: wake-up, more-wake-ups
+// <variant one_heading> caught by: wake-up, more-wake-ups
 // mistake: the robot looks along x.
 // <solution located>
 // in place of: for (int k = 0; k < 36 && map.values(i, j) < 0; ++k) { ... }
@@ -459,8 +409,7 @@ for (int k = 0; k < 1 && map.values(i, j) < 0; ++k) {
   candidates.emplace_back(fit(wide, coarse, scan, 2 * settings.deviation), coarse);
 }
 
-// <variant without_a_match>
-// caught by: more-wake-ups
+// <variant without_a_match> caught by: more-wake-ups
 // mistake: the best pose of a coarse grid.
 // <solution located>
 // in place of: const Eigen::Vector3d match = ... matched(distances, scan, settings.deviation,

@@ -5,7 +5,7 @@ import re
 _REGION = re.compile(r"^[ \t]*// <solution (\w[\w-]*)>\n(.*?)^[ \t]*// </solution>\n", re.MULTILINE | re.DOTALL)
 _TODO = re.compile(r"^[ \t]*// <todo>\n", re.MULTILINE)
 _PASSAGE = re.compile(r"^[ \t]*// in place of: (.*?)(?: \.\.\. (.*))?\n", re.MULTILINE)
-_SECTION = re.compile(r"^// <(variant|solution) (\w[\w-]*)>\n", re.MULTILINE)
+_SECTION = re.compile(r"^// <(variant|solution) (\w[\w-]*)>.*\n", re.MULTILINE)
 
 
 def variant(solution, mistakes):

@@ -1,8 +1,7 @@
 // Mistakes that students make, and the checks that catch them: a variant is solution.cpp with other regions.
 // `rex dev check` reads this file; it does not compile as it is.
 
-// <variant clockwise>
-// caught by: quarter-turn
+// <variant clockwise> caught by: quarter-turn
 // shown by: quarter-turn
 // mistake: turns clockwise.
 // <solution rotated>
@@ -10,8 +9,7 @@ const double c = std::cos(angle);
 const double s = std::sin(angle);
 return {c * p.x() + s * p.y(), c* p.y() - s* p.x()};
 
-// <variant library>
-// caught by: forbidden-call
+// <variant library> caught by: forbidden-call
 // mistake: lets the library rotate.
 // <solution introduction>
 #include "geometry/rotation.h"

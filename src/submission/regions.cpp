@@ -31,6 +31,7 @@ struct Line {
 struct Tag {
   bool closing = false;
   std::string_view word, name;
+  std::string_view rest;  // of the line; only of a variant
 };
 
 constexpr std::string_view kBlank = " \t\r";
@@ -46,19 +47,23 @@ int columnOf(std::string_view part, std::string_view line) {
   return static_cast<int>(part.data() - line.data()) + 1;
 }
 
-// The tag in a comment line that holds nothing but `<word name>` or `</word>`.
+// The tag in a comment line that holds nothing but `<word name>` or `</word>`, or begins with `<variant
+// name>`.
 std::optional<Tag> tagIn(std::string_view line) {
   std::string_view rest = trim(line);
   if (!rest.starts_with("//")) return {};
   rest = trim(rest.substr(2));
-  if (rest.size() < 3 || rest.front() != '<' || rest.find('>') != rest.size() - 1) return {};
-  rest = rest.substr(1, rest.size() - 2);
+  const std::size_t end = rest.find('>');
+  if (end == std::string_view::npos || end < 2 || rest.front() != '<') return {};
   Tag tag;
+  tag.rest = trim(rest.substr(end + 1));
+  rest = rest.substr(1, end - 1);
   tag.closing = rest.front() == '/';
   if (tag.closing) rest.remove_prefix(1);
   const std::size_t space = std::min(rest.find(' '), rest.size());
   tag.word = rest.substr(0, space);
   tag.name = trim(rest.substr(space));
+  if (!tag.rest.empty() && tag.word != "variant") return {};
   return tag;
 }
 
@@ -284,7 +289,9 @@ class VariantReader {
   void begin(const Line& line) {
     if (!variants_.empty()) end();
     variants_.emplace_back().name = line.name;
-    start_ = {file_, line.number, columnOf(tagIn(line.text)->name, line.text)};
+    const Tag tag = *tagIn(line.text);
+    start_ = {file_, line.number, columnOf(tag.name, line.text)};
+    if (!tag.rest.empty()) readHeader(tag.rest, line);
   }
 
   void end() {
@@ -382,12 +389,15 @@ class VariantReader {
       fail(std::move(what), line, text, std::move(wanted));
   }
 
-  // Reads `// caught by: CHECK, ...`, `// shown by: CHECK, ...` or `// mistake: TEXT`.
   void readHeader(const Line& line) {
     requireComment(line, "code outside a region", "'// <solution NAME>' before it");
     const std::string_view text = trim(line.text),
                            comment = trim(text.substr(std::min<std::size_t>(2, text.size())));
-    if (comment.empty()) return;
+    if (!comment.empty()) readHeader(comment, line);
+  }
+
+  // Reads `caught by: CHECK, ...`, `shown by: CHECK, ...` or `mistake: TEXT`.
+  void readHeader(std::string_view comment, const Line& line) {
     const std::string_view key = comment.substr(0, comment.find(':'));
     const std::string_view value = trim(comment.substr(std::min(key.size() + 1, comment.size())));
     WrongVariant& variant = variants_.back();

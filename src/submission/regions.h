@@ -51,14 +51,14 @@ struct WrongVariant {
 /// In `caught by`: the variant is rejected before any check because it calls a forbidden function.
 inline constexpr std::string_view kForbiddenCall = "forbidden-call";
 
-/// The variants of wrong.cpp in order. A section begins with `// <variant NAME>`, then come the lines
-/// `// caught by: id, id`, perhaps `// shown by: id, id`, and `// mistake: text`, then regions, each after a
-/// line `// <solution NAME>`, which replace those of the solution. A region with a line `// in place of:
-/// TEXT` replaces only that line of the solution which begins with TEXT, and with `TEXT ... END` all from
-/// there to the next line that begins with END. Regions and sections end at the next marker, without the
-/// blank lines before it. Before the first section there may be comments. Throws Error (file:line:column) for
-/// an unknown, repeated or misplaced marker, an unknown or missing line, a region or passage that the
-/// solution lacks, a section without one, and code outside regions.
+/// The variants of wrong.cpp in order. A section begins with `// <variant NAME> caught by: id, id`, in one
+/// line or two, then come the lines `// shown by: id, id`, if there are such checks, and `// mistake: text`,
+/// then regions, each after a line `// <solution NAME>`, which replace those of the solution. A region with a
+/// line `// in place of: TEXT` replaces only that line of the solution which begins with TEXT, and with `TEXT
+/// ... END` all from there to the next line that begins with END. Regions and sections end at the next
+/// marker, without the blank lines before it. Before the first section there may be comments. Throws Error
+/// (file:line:column) for an unknown, repeated or misplaced marker, an unknown or missing line, a region or
+/// passage that the solution lacks, a section without one, and code outside regions.
 [[nodiscard]] std::vector<WrongVariant> readVariants(std::string_view solution,
                                                      const std::string& solutionFile, std::string_view wrong,
                                                      const std::string& wrongFile);

@@ -111,7 +111,7 @@ TEST_F(WrongVariantsTest, AreToldApartByWhatIsWrong) {
       ElementsAre(
           AllOf(
               StartsWith("c_unknown: "),
-              HasSubstr("wrong.cpp:34:15: no check is called 'quarter-trun' (did you mean 'quarter-turn'?)")),
+              HasSubstr("wrong.cpp:33:15: no check is called 'quarter-trun' (did you mean 'quarter-turn'?)")),
           StartsWith("a_typo: it was not graded: main.cpp:9:8: error: 'angel' was not declared"),
           "b_right: check 'quarter-turn' does not catch this mistake: b_right.",
           "d_unseen: check 'angles-add' leaves no picture",
@@ -123,7 +123,7 @@ TEST_F(WrongVariantsTest, SayWhereTheFileIsMalformed) {
   writeVariant("twice", "caught by: quarter-turn", "return 2 * p;\n");
   writeVariant("unnamed", "shown by: quarter-turn", "return p;\n");
   for (const char* gate : {"wrong", "wrong/library", "evidence"})
-    EXPECT_THAT(pass(gate).message, HasSubstr("wrong.cpp:26:13: variant 'unnamed': no check is named"));
+    EXPECT_THAT(pass(gate).message, HasSubstr("wrong.cpp:25:13: variant 'unnamed': no check is named"));
   write("wrong.cpp", "// to be written\n");
   EXPECT_THAT(pass("wrong").message, HasSubstr("wrong.cpp:1:1: no variant"));
 }

@@ -121,8 +121,7 @@ constexpr std::string_view kWrong = R"(// Mistakes with circles.
 
   return square;
 
-// <variant cubes>
-// caught by: area
+// <variant cubes> caught by: area
 // mistake: cubes, and so: wrong.
 // <solution helper>
 double squareOfNumber(double x) { return x * x * x; }
@@ -239,6 +238,9 @@ TEST(ReadVariants, SaysWhatIsWrongAndWhere) {
       {"// <variant a>\n// caugth by: area\n",
        "w.cpp:2:4: unknown line 'caugth by' in a variant: wanted one of 'caught by:', 'shown by:' and "
        "'mistake:', each in one line (did you mean 'caught by'?)"},
+      {"// <variant a> caugth by: area\n",
+       "w.cpp:1:16: unknown line 'caugth by' in a variant: wanted one of 'caught by:', 'shown by:' and "
+       "'mistake:', each in one line (did you mean 'caught by'?)"},
       {"// <variant a>\n// mistake: begins here\n// and ends here\n",
        "w.cpp:3:4: unknown line 'and ends here' in a variant: wanted one of 'caught by:', 'shown by:' and "
        "'mistake:', each in one line"},
@@ -257,7 +259,7 @@ TEST(ReadVariants, SaysWhatIsWrongAndWhere) {
 
 TEST(VariantNames, AreThoseOfAllSectionsWhateverIsWrongWithThem) {
   EXPECT_THAT(variantNamesIn(kWrong), ElementsAre("forgets_pi", "cubes"));
-  EXPECT_THAT(variantNamesIn("// <variant b>\nint x;\n// <variant>\n// </variant>\n// <variant a>\n"),
+  EXPECT_THAT(variantNamesIn("// <variant b> x\nint x;\n// <variant>\n// </variant>\n// <variant a>\n"),
               ElementsAre("b", "a"));
 }
 
@@ -268,7 +270,7 @@ TEST(VariantBlocks, AreTheLinesOfEachVariant) {
   EXPECT_EQ(blocks[0][0].number, 4);
   EXPECT_EQ(blocks[0][0].text, "// caught by: area, size-grows");
   EXPECT_EQ(blocks[0][3].text, "const double square = r * r;");
-  EXPECT_EQ(blocks[1][2].number, 16);
+  EXPECT_EQ(blocks[1][1].number, 15);
 }
 
 TEST(ReferenceText, IsTheSolutionWithoutMarkersAndTodos) {
