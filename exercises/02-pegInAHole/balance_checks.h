@@ -44,25 +44,13 @@ inline void differencesFit(rex::grading::Check& check, const std::string& functi
              1e-5 * (1 + numeric.cwiseAbs().maxCoeff()));
 }
 
-/// What a mistake makes of y or J, and what to ask whoever gets that.
-struct Mistake {
-  const char* question;
-  Eigen::MatrixXd value;
-};
+using rex::grading::Mistake;
 
-/// near(), with the question about the first mistake that explains `got`.
-inline void nearUnless(rex::grading::Check& check, const std::string& property, const Eigen::MatrixXd& got,
-                       const Eigen::MatrixXd& wanted, const std::vector<Mistake>& mistakes,
-                       const char* unit = "") {
-  const double tolerance = 1e-6 * (1 + wanted.cwiseAbs().maxCoeff());
-  const auto explains = [&](const Mistake& one) {
-    return one.value.rows() == got.rows() && one.value.cols() == got.cols() &&
-           (got - one.value).cwiseAbs().maxCoeff() <= tolerance;
-  };
-  const auto mistake = std::find_if(mistakes.begin(), mistakes.end(), explains);
-  const auto asked = check.suspect(mistake == mistakes.end() ? "" : mistake->question,
-                                   mistake == mistakes.end() ? Eigen::MatrixXd() : got);
-  check.near(property, got, wanted, tolerance, unit);
+/// y or J, up to a millionth.
+inline void valueFits(rex::grading::Check& check, const std::string& property, const Eigen::MatrixXd& got,
+                      const Eigen::MatrixXd& wanted, const std::vector<Mistake>& mistakes,
+                      const char* unit = "") {
+  check.near(property, got, wanted, 1e-6 * (1 + wanted.cwiseAbs().maxCoeff()), mistakes, unit);
 }
 
 // Joint limits.
@@ -141,8 +129,8 @@ inline void limitsFit(rex::grading::Check& check, Student& student, const Standi
                                                                  {"upper limits", robot.S.getUpperLimits()}});
   const TaskMapValue got = student.jointLimits(robot.S.description(), robot.margin),
                      wanted = valueOf(robot.S, rex::jointLimitsTask(robot.margin));
-  nearUnless(check, "y of jointLimits", got.y, wanted.y, mistakenLimits(robot));
-  nearUnless(check, "J of jointLimits", got.J, wanted.J, mistakenLimitJacobians(robot));
+  valueFits(check, "y of jointLimits", got.y, wanted.y, mistakenLimits(robot));
+  valueFits(check, "J of jointLimits", got.J, wanted.J, mistakenLimitJacobians(robot));
 }
 
 // The centre of mass.
@@ -218,8 +206,8 @@ inline void centerFits(rex::grading::Check& check, Student& student, const Stand
     ofY.push_back({question, value.y});
     ofJ.push_back({question, value.J});
   }
-  nearUnless(check, "y of massCenter", got.y, wanted.y, ofY, "m");
-  nearUnless(check, "J of massCenter", got.J, wanted.J, ofJ);
+  valueFits(check, "y of massCenter", got.y, wanted.y, ofY, "m");
+  valueFits(check, "J of massCenter", got.J, wanted.J, ofJ);
 }
 
 // A position in the axes of another body.
@@ -290,6 +278,6 @@ inline void positionFits(rex::grading::Check& check, Student& student, const Sta
     const Eigen::Vector3d from = robot.S.kinematicsPos(robot.frame, robot.inFrame);
     return pointSeen(robot.S, from, from + found.R * got.y, from + found.d);
   });
-  nearUnless(check, "y of relativePosition", got.y, wanted.y, mistakenPositions(robot, found), "m");
-  nearUnless(check, "J of relativePosition", got.J, wanted.J, mistakenPositionJacobians(found));
+  valueFits(check, "y of relativePosition", got.y, wanted.y, mistakenPositions(robot, found), "m");
+  valueFits(check, "J of relativePosition", got.J, wanted.J, mistakenPositionJacobians(found));
 }

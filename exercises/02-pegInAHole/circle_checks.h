@@ -124,7 +124,7 @@ inline void tracks(rex::grading::Check& check, const rex::Simulator& S, const Ci
       check.suspect("Does the circle begin at t = 2? The first step is t = 1.", firstPosture(S, circle, 2));
   const auto usual = check.suspectUsualMistake(motion.front(), firstPosture(S, circle, 1), 1e-7);
   const std::string question = questionAboutPrecisions(S, circle, motion);
-  const auto exchanged = check.ask(question, !question.empty());
+  const auto exchanged = check.ask(question);
   check.atMostAlong("distance of " + circle.hand + " from its point on the circle, in circleWithTasks",
                     along(S, motion, 20, error), most, "m");
 }
@@ -152,7 +152,7 @@ inline void pointsUpwards(rex::grading::Check& check, const rex::Simulator& S, c
   const auto sign = check.ask("Is the error the sum of both directions? It is their difference.",
                               (got.values.front() + kUp).norm() < 0.05);
   const std::string question = questionAboutPrecisions(S, circle, motion);
-  const auto exchanged = check.ask(question, !question.empty());
+  const auto exchanged = check.ask(question);
   check.nearAlong("z axis of " + circle.pointing + ", in circleWithTasks", got,
                   Motion(got.values.size(), kUp), 0.05);
 }

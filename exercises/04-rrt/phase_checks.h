@@ -54,21 +54,19 @@ inline void effortFits(rex::grading::Check& check, Student& student, const Trans
   forceFits(check, student, x);
   const Eigen::Vector2d along = x.to - x.from, missing = along - Eigen::Vector2d(x.T * x.from[1], 0);
   const double wanted = rex::leastEffort(x.from, x.to, x.T), u = rex::leastEffortForce(x.from, x.to, x.T, 0);
-  const auto number = [&](const char* question, double value) {
-    return suspectNumber(check, question, value);
-  };
   const char* const euclid = "Is it the length of the difference? What looks near may need much effort.";
-  const auto length = number(euclid, along.norm()), square = number(euclid, along.squaredNorm()),
-             overTime = number(euclid, along.squaredNorm() / x.T);
-  const auto noDrift =
-      number("Is the drift T v left out? Without any force the point does not stay where it is.",
-             rex::leastEffort(x.from - Eigen::Vector2d(x.T * x.from[1], 0), x.to, x.T));
-  const auto root = number("Is it the root? The effort is the integral of u^2.", std::sqrt(wanted));
-  const auto other = number("Are `from` and `to` exchanged?", rex::leastEffort(x.to, x.from, x.T));
-  const auto half = number("Is it half of the integral?", wanted / 2);
-  const auto constant = number("Is it u^2 T for the first u? The force changes with time.", u * u * x.T);
-  const auto unweighted = number("Is G^-1 left out? The effort is d^T G^-1 d.", missing.squaredNorm());
-  check.near("effort", student.effort(x.from, x.to, x.T), wanted, 1e-8 * (1 + wanted + u * u * x.T), "N^2 s");
+  check.near("effort", student.effort(x.from, x.to, x.T), wanted, 1e-8 * (1 + wanted + u * u * x.T),
+             {{euclid, along.norm()},
+              {euclid, along.squaredNorm()},
+              {euclid, along.squaredNorm() / x.T},
+              {"Is the drift T v left out? Without any force the point does not stay where it is.",
+               rex::leastEffort(x.from - Eigen::Vector2d(x.T * x.from[1], 0), x.to, x.T)},
+              {"Is it the root? The effort is the integral of u^2.", std::sqrt(wanted)},
+              {"Are `from` and `to` exchanged?", rex::leastEffort(x.to, x.from, x.T)},
+              {"Is it half of the integral?", wanted / 2},
+              {"Is it u^2 T for the first u? The force changes with time.", u * u * x.T},
+              {"Is G^-1 left out? The effort is d^T G^-1 d.", missing.squaredNorm()}},
+             "N^2 s");
 }
 
 /// States, the motion that is wanted from one of them, and the step that was returned.
@@ -117,20 +115,17 @@ inline void phaseStepFits(rex::grading::Check& check, Student& student,
   const Eigen::Vector2d& from = states[best];
   const auto shown = check.show([&] { return phaseSeen(columns, x, tau, node, static_cast<int>(best)); });
   {
-    const auto metric =
-        suspectNumber(check, "Is it the nearest state in the picture? Wanted is that with the least effort.",
-                      static_cast<double>(nearest));
-    check.near("parent of phaseStep: the number of the state", node.parent, static_cast<double>(best), 0);
+    check.near("parent of phaseStep: the number of the state", node.parent, static_cast<double>(best), 0,
+               {{"Is it the nearest state in the picture? Wanted is that with the least effort.",
+                 static_cast<double>(nearest)}});
   }
   const double u = rex::leastEffortForce(from, x.to, x.T, 0);
-  const auto constant =
-      check.suspect("Is the force constant during the step? It changes linearly.",
-                    Eigen::Vector2d(from[0] + tau * from[1] + tau * tau / 2 * u, from[1] + tau * u));
-  const auto euler = check.suspect("Is it one step of Euler's method? The motion is known exactly.",
-                                   Eigen::Vector2d(from[0] + tau * from[1], from[1] + tau * u));
-  const auto drift =
-      check.suspect("Is the force left out?", Eigen::Vector2d(from[0] + tau * from[1], from[1]));
-  const auto whole = check.suspect("Is it the whole motion? Wanted is the state after tau seconds.", x.to);
   const Eigen::Vector2d wanted = rex::leastEffortState(from, x.to, x.T, tau);
-  check.near("state x of phaseStep", node.x, wanted, 1e-8 * (1 + x.T * x.T));
+  check.near("state x of phaseStep", node.x, wanted, 1e-8 * (1 + x.T * x.T),
+             {{"Is the force constant during the step? It changes linearly.",
+               Eigen::Vector2d(from[0] + tau * from[1] + tau * tau / 2 * u, from[1] + tau * u)},
+              {"Is it one step of Euler's method? The motion is known exactly.",
+               Eigen::Vector2d(from[0] + tau * from[1], from[1] + tau * u)},
+              {"Is the force left out?", Eigen::Vector2d(from[0] + tau * from[1], from[1])},
+              {"Is it the whole motion? Wanted is the state after tau seconds.", x.to}});
 }

@@ -40,19 +40,16 @@ inline void radiusFits(rex::grading::Check& check, Student& student, double l1, 
   const double slope = l1 * l2 * std::sqrt(1 - cosine * cosine) / r;  // |dr / dangle|
   const double got = student.radiusDensity(r, l1, l2);
   const auto shown = check.show([&] { return densitySeen(l1, l2, r, got, false); });
-  const auto half = suspectNumber(
-      check, "Is only one angle of the second joint counted? Its negative leads to the same r.", wanted / 2);
-  const auto angle =
-      suspectNumber(check, "Is it the density of the angle? That of r is divided by |dr / dangle|.", 1 / pi);
-  const auto oneAngle =
-      suspectNumber(check, "Is it the density of the angle? That of r is divided by |dr / dangle|.", .5 / pi);
-  const auto times =
-      suspectNumber(check, "Is it multiplied by |dr / dangle|? A density is divided by it.", slope / pi);
-  const auto noRadius = suspectNumber(check, "Is the factor r missing? d(r^2) is 2 r dr.", wanted / r);
-  const auto twice = suspectNumber(check, "Are angles from -pi to pi counted twice?", 2 * wanted);
-  const auto share = suspectNumber(check, "Is it the share of postures within r? Wanted is its derivative.",
-                                   shareWithin(r, l1, l2));
-  check.near("radiusDensity", got, wanted, 1e-5 * wanted, "1/m");
+  check.near(
+      "radiusDensity", got, wanted, 1e-5 * wanted,
+      {{"Is only one angle of the second joint counted? Its negative leads to the same r.", wanted / 2},
+       {"Is it the density of the angle? That of r is divided by |dr / dangle|.", 1 / pi},
+       {"Is it the density of the angle? That of r is divided by |dr / dangle|.", .5 / pi},
+       {"Is it multiplied by |dr / dangle|? A density is divided by it.", slope / pi},
+       {"Is the factor r missing? d(r^2) is 2 r dr.", wanted / r},
+       {"Are angles from -pi to pi counted twice?", 2 * wanted},
+       {"Is it the share of postures within r? Wanted is its derivative.", shareWithin(r, l1, l2)}},
+      "1/m");
 }
 
 inline void planeFits(rex::grading::Check& check, Student& student, double l1, double l2,
@@ -60,15 +57,13 @@ inline void planeFits(rex::grading::Check& check, Student& student, double l1, d
   const double pi = std::numbers::pi, r = p.norm(), wanted = ofRadius / (2 * pi * r);
   const double got = student.handDensity(p, l1, l2);
   const auto shown = check.show([&] { return densitySeen(l1, l2, r, got, true); });
-  const auto same = suspectNumber(
-      check, "Is it the density of r? In the plane it is spread over a circle of the length 2 pi r.",
-      ofRadius);
-  const auto noLength =
-      suspectNumber(check, "Is r left out? The circle has the length 2 pi r.", ofRadius / (2 * pi));
-  const auto area = suspectNumber(check, "Is it divided by the area of a disc? p(r) is spread over a circle.",
-                                  ofRadius / (pi * r * r));
-  const auto noPi = suspectNumber(check, "Is 2 pi left out? The circle has the length 2 pi r.", ofRadius / r);
-  check.near("handDensity", got, wanted, 1e-5 * wanted, "1/m^2");
+  check.near(
+      "handDensity", got, wanted, 1e-5 * wanted,
+      {{"Is it the density of r? In the plane it is spread over a circle of the length 2 pi r.", ofRadius},
+       {"Is r left out? The circle has the length 2 pi r.", ofRadius / (2 * pi)},
+       {"Is it divided by the area of a disc? p(r) is spread over a circle.", ofRadius / (pi * r * r)},
+       {"Is 2 pi left out? The circle has the length 2 pi r.", ofRadius / r}},
+      "1/m^2");
 }
 
 /// At random distances r, kept away from both ends so that differences of 1e-5 m are exact to 1e-6.

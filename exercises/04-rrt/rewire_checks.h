@@ -59,23 +59,21 @@ inline void parentFits(rex::grading::Check& check, const Tree& tree, const std::
                          near[static_cast<std::size_t>(got.parent)] == by.best;
     const auto index =
         check.ask("Is it the position in `near`? Wanted is the number of the node there.", isIndex);
-    const auto printed = suspectNumber(check,
-                                       "Is each candidate compared with the first cost, as printed on the "
-                                       "slide? The cost to beat falls with "
-                                       "each better parent.",
-                                       by.printed);
-    const auto nearest =
-        suspectNumber(check, "Is it the nearest? Wanted is the least cost from the root.", by.nearest);
-    const auto blocked = suspectNumber(check, "Is the answer of edgeFree ignored?", by.blocked);
-    const auto cheapest = suspectNumber(check, "Is the edge to q left out of the cost?", by.cheapest);
-    check.near("parent of bestParent", got.parent, by.best, 0);
+    check.near("parent of bestParent", got.parent, by.best, 0,
+               {{"Is each candidate compared with the first cost, as printed on the "
+                 "slide? The cost to beat falls with "
+                 "each better parent.",
+                 by.printed},
+                {"Is it the nearest? Wanted is the least cost from the root.", by.nearest},
+                {"Is the answer of edgeFree ignored?", by.blocked},
+                {"Is the edge to q left out of the cost?", by.cheapest}});
   }
   const auto k = static_cast<std::size_t>(by.best);
   const double length = (q - tree.nodes[k]).norm();
-  const auto ofParent =
-      suspectNumber(check, "Is it the cost of the parent, without the edge to q?", tree.costs[k]);
-  const auto ofEdge = suspectNumber(check, "Is it the length of the edge alone?", length);
-  check.near("cost of bestParent", got.cost, tree.costs[k] + length, 1e-9, "m");
+  check.near("cost of bestParent", got.cost, tree.costs[k] + length, 1e-9,
+             {{"Is it the cost of the parent, without the edge to q?", tree.costs[k]},
+              {"Is it the length of the edge alone?", length}},
+             "m");
 }
 
 inline void choosesParent(rex::grading::Check& check, Student& student, const PlaneWorld& world,
@@ -176,12 +174,11 @@ inline void rewiringFits(rex::grading::Check& check, Student& student) {
     check.input(fmt::format("node {} of a tree of 80 nodes, {}", here,
                             moves ? "which has a new parent" : "which keeps its parent"),
                 {{"its cost before", in.tree.costs[here]}});
-    const auto old = suspectNumber(check,
-                                   moves ? "Does the node keep its cost, although it has a new parent?"
-                                         : "Do descendants keep their costs? With their ancestor they become "
-                                           "cheaper, too.",
-                                   in.tree.costs[here]);
     check.near("cost of a node after rewired: the length of its path", got.costs[here], costs[here], 1e-9,
+               {{moves ? "Does the node keep its cost, although it has a new parent?"
+                       : "Do descendants keep their costs? With their ancestor they become "
+                         "cheaper, too.",
+                 in.tree.costs[here]}},
                "m");
   }
 }

@@ -31,7 +31,7 @@ inline void nearestFits(rex::grading::Check& check, Student& student,
   const auto last = check.ask("Is it the last node that is nearer than one before?",
                               got == static_cast<int>(nodes.size()) - 1);
   const auto by = [&](const char* question, const Distance& distance) {
-    return suspectNumber(check, question, leastBy(nodes, distance));
+    return check.suspect(question, leastBy(nodes, distance));
   };
   const auto farthest =
       by("Is it the farthest node?", [&](const Eigen::VectorXd& q) { return -(q - target).norm(); });
@@ -54,15 +54,14 @@ inline void stepTowardsFits(rex::grading::Check& check, Student& student, const 
   const auto at = [&](double share) -> Eigen::VectorXd { return from + share * along; };
   const double share = stepSize / along.norm();
   {
-    const auto whole = check.suspect("Is it the target, however far away?", target);
-    const auto none = check.suspect("Is there no step?", from);
-    const auto alone = check.suspect("Is it the step alone, without `from`?", at(share) - from);
-    const auto times = check.suspect(
-        "Is the difference multiplied by stepSize without being divided by its length?", at(stepSize));
-    const auto back = check.suspect("Is the step taken away from the target?", at(-share));
-    const auto other = check.suspect("Does the step start at the target?", at(1 - share));
-    check.near("stepTowards a target that is farther away than stepSize", step(from, stepSize), at(share),
-               1e-12);
+    check.near(
+        "stepTowards a target that is farther away than stepSize", step(from, stepSize), at(share), 1e-12,
+        {{"Is it the target, however far away?", target},
+         {"Is there no step?", from},
+         {"Is it the step alone, without `from`?", at(share) - from},
+         {"Is the difference multiplied by stepSize without being divided by its length?", at(stepSize)},
+         {"Is the step taken away from the target?", at(-share)},
+         {"Does the step start at the target?", at(1 - share)}});
   }
   const double large = 2 * along.norm();
   const Eigen::VectorXd near = step(from, large);
@@ -213,8 +212,8 @@ inline void stepsWell(rex::grading::Check& check, Student& student, const PlaneW
   }
   check.that("rrtStep gives a node, since the edge is free", got.has_value());
   check.near("parent of the new node of rrtStep", got->parent, step.parent, 0);
-  const auto whole = check.suspect("Is it the target, however far away?", step.target);
-  check.near("new node of rrtStep", got->q, step.q, 1e-12, "m");
+  check.near("new node of rrtStep", got->q, step.q, 1e-12,
+             {{"Is it the target, however far away?", step.target}}, "m");
   const auto really = askAboutEdge(check, record, step.from(), got->q);
   check.that("rrtStep calls edgeFree for the new edge", record.wasFree(step.from(), got->q));
 }

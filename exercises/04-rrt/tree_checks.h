@@ -308,8 +308,3 @@ inline Eigen::VectorXd numbersOf(const std::vector<int>& numbers) {
   for (std::size_t i = 0; i < numbers.size(); ++i) column[static_cast<Eigen::Index>(i)] = numbers[i];
   return column;
 }
-
-/// While the returned object is alive, that wrong number asks the question.
-[[nodiscard]] inline auto suspectNumber(rex::grading::Check& check, const char* question, double value) {
-  return check.suspect(question, Eigen::MatrixXd::Constant(1, 1, value));
-}

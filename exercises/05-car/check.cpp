@@ -177,15 +177,13 @@ void unbiased(Check& check, Student& student) {
 
 void sizeFits(Check& check, Student& student, const Eigen::VectorXd& weights, double wanted) {
   check.input("30 particles", {{"weights", weights}});
-  const auto root =
-      suspectNumber(check, "Is it one over the norm? The squared norm is wanted.", std::sqrt(wanted));
-  const auto squares = suspectNumber(check, "Is it the sum of squares? Wanted is one over that.", 1 / wanted);
-  const auto heaviest = suspectNumber(check, "Is it one over the largest weight?", 1 / weights.maxCoeff());
-  const auto weighted = suspectNumber(check, "Are those with any weight counted?",
-                                      static_cast<double>((weights.array() > 0).count()));
-  const auto all = suspectNumber(check, "Is it the number of all particles?", 30);
-  const auto sum = suspectNumber(check, "Are the squares left out?", 1);
-  check.near("result of effectiveSize", student.effectiveSize(weights), wanted, 1e-9 * wanted);
+  check.near("result of effectiveSize", student.effectiveSize(weights), wanted, 1e-9 * wanted,
+             {{"Is it one over the norm? The squared norm is wanted.", std::sqrt(wanted)},
+              {"Is it the sum of squares? Wanted is one over that.", 1 / wanted},
+              {"Is it one over the largest weight?", 1 / weights.maxCoeff()},
+              {"Are those with any weight counted?", static_cast<double>((weights.array() > 0).count())},
+              {"Is it the number of all particles?", 30},
+              {"Are the squares left out?", 1}});
 }
 
 void countsWorth(Check& check, Student& student) {
@@ -332,7 +330,7 @@ void findsNoise(Check& check, Student& student, const CarWorld& world, double fa
                                        {"dynamicsNoise", world.dynamicsNoise}});
   const double got = student.likelyNoise(driven.log, told, Rng(rng.next()));
   const std::string question = questionAbout(got, world.observationNoise, told.observationNoise);
-  const auto asked = check.ask(question, !question.empty());
+  const auto asked = check.ask(question);
   check.near("noise found by likelyNoise", got, world.observationNoise, .15 * world.observationNoise, "m");
 }
 

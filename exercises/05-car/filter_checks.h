@@ -41,14 +41,12 @@ inline void meanFits(rex::grading::Check& check, Student& student, const Cloud& 
   const auto best = check.suspect("Is it the heaviest particle? Wanted is the mean of all.",
                                   Eigen::Vector2d(cloud.states(0, largest), cloud.states(1, largest)));
   check.near("mean position of meanPose", got.head<2>(), plain.head<2>(), 1e-9, "m");
-  const auto averaged = suspectNumber(
-      check, "Are headings averaged as numbers? Which direction lies between 3.1 and -3.1?", plain[2]);
-  const auto wrapped = suspectNumber(
-      check, "Are headings averaged as numbers? Which direction lies between 3.1 and -3.1?", ofWrapped);
-  const auto weightless = suspectNumber(check, "Are the weights left out in the heading?", std::arg(all));
-  const auto exchanged =
-      suspectNumber(check, "Are the arguments of atan2 exchanged?", std::atan2(sum.real(), sum.imag()));
-  check.nearAngle("mean heading of meanPose", got[2], std::arg(sum), 1e-9);
+  check.nearAngle(
+      "mean heading of meanPose", got[2], std::arg(sum), 1e-9,
+      {{"Are headings averaged as numbers? Which direction lies between 3.1 and -3.1?", plain[2]},
+       {"Are headings averaged as numbers? Which direction lies between 3.1 and -3.1?", ofWrapped},
+       {"Are the weights left out in the heading?", std::arg(all)},
+       {"Are the arguments of atan2 exchanged?", std::atan2(sum.real(), sum.imag())}});
 }
 
 /// Four poses far from each other, so that the parent of every child is known, with 50 particles in each.
@@ -142,15 +140,14 @@ inline void weightsOfStepFit(rex::grading::Check& check, const Heaps& heaps, con
   }
   inherited /= inherited.sum();
   copied /= copied.sum();
-  const auto twice = check.suspect(
-      "Do copies inherit the weight of their parent? It counts in their number already.", inherited);
-  const auto kept = check.suspect("Are the weights those from before the step?", heaps.before.weights);
-  const auto old = check.suspect("Are the weights those of the parents?", copied);
-  const auto ofBefore = check.suspect(
-      "Are the weights equal, as after resampling? Wanted is the likelihood of what is seen.", equal);
   const auto shown =
       check.show([&] { return weightsSeen("Weights after filterStep", after.weights, wanted); });
-  check.near("weights of filterStep", after.weights, wanted, 1e-9);
+  check.near(
+      "weights of filterStep", after.weights, wanted, 1e-9,
+      {{"Do copies inherit the weight of their parent? It counts in their number already.", inherited},
+       {"Are the weights those from before the step?", heaps.before.weights},
+       {"Are the weights those of the parents?", copied},
+       {"Are the weights equal, as after resampling? Wanted is the likelihood of what is seen.", equal}});
 }
 
 inline void givenHeaps(rex::grading::Check& check, const Heaps& heaps, const std::string& text) {

@@ -15,51 +15,40 @@
 
 // Part 1: the motion of the car and of its particles, against the library's.
 
-/// While the returned object is alive, that wrong number asks the question.
-[[nodiscard]] inline auto suspectNumber(rex::grading::Check& check, const char* question, double value) {
-  return check.suspect(question, Eigen::MatrixXd::Constant(1, 1, value));
-}
-
 inline void positionFits(rex::grading::Check& check, const Eigen::Vector2d& got, const Eigen::Vector3d& x,
                          double speed, double tau, double turn, const Eigen::Vector2d& wanted) {
   const double way = tau * speed, c = std::cos(x[2]), s = std::sin(x[2]);
-  const auto wrongly = [&](const char* question, double alongX, double alongY) {
-    return check.suspect(question, Eigen::Vector2d(x[0] + alongX, x[1] + alongY));
+  const auto moved = [&](double alongX, double alongY) {
+    return Eigen::Vector2d(x[0] + alongX, x[1] + alongY);
   };
-  const auto still = wrongly("Does the car stay where it is?", 0, 0);
-  const auto turned = wrongly("Does the car turn first? All terms use the heading before the step.",
-                              way * std::cos(x[2] + turn), way * std::sin(x[2] + turn));
-  const auto middle =
-      wrongly("Is it the heading in the middle of the step? All terms use that before the step.",
-              way * std::cos(x[2] + turn / 2), way * std::sin(x[2] + turn / 2));
-  const auto exchanged = wrongly("Are sine and cosine exchanged?", way * s, way * c);
-  const auto noTau = wrongly("Is tau left out?", speed * c, speed * s);
-  const auto noState = wrongly("Is it the motion alone, without the position before the step?",
-                               way * c - x[0], way * s - x[1]);
-  const auto back = wrongly("Does the car drive backwards?", -way * c, -way * s);
-  check.near("position after a step of carStep", got, wanted, 1e-9, "m");
+  check.near("position after a step of carStep", got, wanted, 1e-9,
+             {{"Does the car stay where it is?", moved(0, 0)},
+              {"Does the car turn first? All terms use the heading before the step.",
+               moved(way * std::cos(x[2] + turn), way * std::sin(x[2] + turn))},
+              {"Is it the heading in the middle of the step? All terms use that before the step.",
+               moved(way * std::cos(x[2] + turn / 2), way * std::sin(x[2] + turn / 2))},
+              {"Are sine and cosine exchanged?", moved(way * s, way * c)},
+              {"Is tau left out?", moved(speed * c, speed * s)},
+              {"Is it the motion alone, without the position before the step?",
+               moved(way * c - x[0], way * s - x[1])},
+              {"Does the car drive backwards?", moved(-way * c, -way * s)}},
+             "m");
 }
 
 inline void headingFits(rex::grading::Check& check, double got, double heading, double way,
                         const Eigen::Vector2d& u, const CarWorld& world, double wanted) {
-  const auto number = [&](const char* question, double value) {
-    return suspectNumber(check, question, value);
-  };
   const double L = world.wheelbase, tangent = std::tan(u[1]);
-  const auto still = number("Does the heading not change?", heading);
-  const auto rate =
-      number("Is it the rate of theta? The heading changes by tau times that.", u[0] / L * tangent);
-  const auto change =
-      number("Is it the change alone, without the heading before the step?", way / L * tangent);
-  const auto noTau = number("Is tau left out?", heading + u[0] / L * tangent);
-  const auto noTangent = number("Is the tangent of the steering angle left out?", heading + way / L * u[1]);
-  const auto sine = number("Is it the sine of the steering angle? Wanted is the tangent.",
-                           heading + way / L * std::sin(u[1]));
-  const auto noBase = number("Is the wheelbase left out?", heading + way * tangent);
-  const auto times =
-      number("Is it multiplied by the wheelbase? Wanted is divided.", heading + way * L * tangent);
-  const auto other = number("Does the car turn to the wrong side?", heading - way / L * tangent);
-  check.nearAngle("heading after a step of carStep", got, wanted, 1e-9);
+  check.nearAngle(
+      "heading after a step of carStep", got, wanted, 1e-9,
+      {{"Does the heading not change?", heading},
+       {"Is it the rate of theta? The heading changes by tau times that.", u[0] / L * tangent},
+       {"Is it the change alone, without the heading before the step?", way / L * tangent},
+       {"Is tau left out?", heading + u[0] / L * tangent},
+       {"Is the tangent of the steering angle left out?", heading + way / L * u[1]},
+       {"Is it the sine of the steering angle? Wanted is the tangent.", heading + way / L * std::sin(u[1])},
+       {"Is the wheelbase left out?", heading + way * tangent},
+       {"Is it multiplied by the wheelbase? Wanted is divided.", heading + way * L * tangent},
+       {"Does the car turn to the wrong side?", heading - way / L * tangent}});
 }
 
 inline void stepFits(rex::grading::Check& check, Student& student, const CarWorld& world,

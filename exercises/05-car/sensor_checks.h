@@ -83,49 +83,46 @@ inline void cartesianFits(rex::grading::Check& check, const Eigen::VectorXd& got
   const double heading = x[2], c = std::cos(heading), s = std::sin(heading);
   const Eigen::Index count = world.landmarks.cols();
   // From the landmark (a, b), two numbers.
-  const auto wrongly = [&](const char* question, const std::function<Eigen::Vector2d(double, double)>& seen) {
+  const auto seenBy = [&](const std::function<Eigen::Vector2d(double, double)>& seen) {
     Eigen::VectorXd wrong(2 * count);
     for (Eigen::Index i = 0; i < count; ++i)
       wrong.segment<2>(2 * i) = seen(world.landmarks(0, i), world.landmarks(1, i));
-    return check.suspect(question, wrong);
+    return wrong;
   };
   using V = Eigen::Vector2d;
   const auto ahead = [&](double a, double b) { return c * (a - x[0]) + s * (b - x[1]); };
   const auto left = [&](double a, double b) { return c * (b - x[1]) - s * (a - x[0]); };
-  const auto noTurn = wrongly("Is the heading left out? Wanted is the frame of the car.",
-                              [&](double a, double b) { return V(a - x[0], b - x[1]); });
-  const auto other = wrongly(
-      "Are the landmarks turned by the heading? Wanted is the opposite: the frame of the car is turned by "
-      "it.",
-      [&](double a, double b) {
-        return V(c * (a - x[0]) - s * (b - x[1]), s * (a - x[0]) + c * (b - x[1]));
-      });
-  const auto noShift = wrongly("Is the position of the car left out?",
-                               [&](double a, double b) { return V(c * a + s * b, c * b - s * a); });
-  const auto swapped =
-      wrongly("Is left before ahead?", [&](double a, double b) { return V(left(a, b), ahead(a, b)); });
-  const auto toRight = wrongly("Are the landmarks measured to the right? Wanted is to the left.",
-                               [&](double a, double b) { return V(ahead(a, b), -left(a, b)); });
   Eigen::VectorXd inRows(2 * count);
   for (Eigen::Index i = 0; i < 2 * count; ++i) inRows[i % 2 * count + i / 2] = wanted[i];
-  const auto order = check.suspect(
-      "Are all the numbers ahead listed before those to the left? Wanted is one landmark after the other.",
-      inRows);
-  check.near("view of viewFrom: ahead and left of each landmark", got, wanted, 1e-9, "m");
+  check.near(
+      "view of viewFrom: ahead and left of each landmark", got, wanted, 1e-9,
+      {{"Is the heading left out? Wanted is the frame of the car.",
+        seenBy([&](double a, double b) { return V(a - x[0], b - x[1]); })},
+       {"Are the landmarks turned by the heading? Wanted is the opposite: the frame of the car is turned by "
+        "it.",
+        seenBy([&](double a, double b) {
+          return V(c * (a - x[0]) - s * (b - x[1]), s * (a - x[0]) + c * (b - x[1]));
+        })},
+       {"Is the position of the car left out?",
+        seenBy([&](double a, double b) { return V(c * a + s * b, c * b - s * a); })},
+       {"Is left before ahead?", seenBy([&](double a, double b) { return V(left(a, b), ahead(a, b)); })},
+       {"Are the landmarks measured to the right? Wanted is to the left.",
+        seenBy([&](double a, double b) { return V(ahead(a, b), -left(a, b)); })},
+       {"Are all the numbers ahead listed before those to the left? Wanted is one landmark after the other.",
+        inRows}},
+      "m");
 }
 
 inline void bearingFits(rex::grading::Check& check, double got, const Eigen::Vector2d& arrow, double heading,
                         double wanted) {
   const double c = std::cos(heading), s = std::sin(heading);
   const Eigen::Vector2d seen(c * arrow.x() + s * arrow.y(), c * arrow.y() - s * arrow.x());
-  const auto noHeading = suspectNumber(
-      check, "Is it the direction on the map? A bearing is the angle from the heading of the car.",
-      std::atan2(arrow.y(), arrow.x()));
-  const auto exchanged =
-      suspectNumber(check, "Are the arguments of atan2 exchanged?", std::atan2(seen.x(), seen.y()));
-  const auto half = suspectNumber(check, "Is it atan of the quotient? It does not tell ahead from behind.",
-                                  std::atan(seen.y() / seen.x()));
-  check.nearAngle("bearing of a landmark by viewFrom with rangeBearing", got, wanted, 1e-9);
+  check.nearAngle(
+      "bearing of a landmark by viewFrom with rangeBearing", got, wanted, 1e-9,
+      {{"Is it the direction on the map? A bearing is the angle from the heading of the car.",
+        std::atan2(arrow.y(), arrow.x())},
+       {"Are the arguments of atan2 exchanged?", std::atan2(seen.x(), seen.y())},
+       {"Is it atan of the quotient? It does not tell ahead from behind.", std::atan(seen.y() / seen.x())}});
   const auto turns = check.ask("Is a whole turn missing after the heading was subtracted?");
   check.atMost("size of a bearing of viewFrom", std::abs(got), 3.1415926536, "rad");
 }
@@ -140,8 +137,8 @@ inline void polarFits(rex::grading::Check& check, const Eigen::VectorXd& got, co
                 (got - positions).cwiseAbs().maxCoeff() < 1e-9);
   for (Eigen::Index i = 0; 2 * i < wanted.size(); ++i) {
     const Eigen::Vector2d arrow = world.landmarks.col(i) - x.head<2>();
-    const auto square = suspectNumber(check, "Is the root left out?", arrow.squaredNorm());
-    const auto order = suspectNumber(check, "Does the bearing come first?", wanted[2 * i + 1]);
+    const auto square = check.suspect("Is the root left out?", arrow.squaredNorm());
+    const auto order = check.suspect("Does the bearing come first?", wanted[2 * i + 1]);
     check.near("distance of a landmark by viewFrom with rangeBearing", got[2 * i], wanted[2 * i], 1e-9, "m");
     bearingFits(check, got[2 * i + 1], arrow, x[2], wanted[2 * i + 1]);
   }
@@ -210,9 +207,8 @@ inline void weightsFit(rex::grading::Check& check, const Eigen::VectorXd& got,
   const auto none =
       check.ask("Are all weights zero? If each exp is zero by itself, a common factor helps.", got.isZero(0));
   check.near("sum of the weights of weightsOf", sum, 1, 1e-9);
-  const auto equal = check.suspect(
-      "Is every exp zero by itself? Only differences of logarithms count: which factor may all "
-      "weights have?",
-      Eigen::VectorXd::Constant(got.size(), 1. / static_cast<double>(got.size())));
-  check.near("weights of weightsOf", got, wanted, 1e-9);
+  check.near("weights of weightsOf", got, wanted, 1e-9,
+             {{"Is every exp zero by itself? Only differences of logarithms count: which factor may all "
+               "weights have?",
+               Eigen::VectorXd::Constant(got.size(), 1. / static_cast<double>(got.size()))}});
 }

@@ -95,8 +95,7 @@ inline void returnsFit(rex::grading::Check& check, Student& student, int T) {
                         wanted = rex::returnsToGo(rewards, discount);
   const auto shown =
       check.show([&] { return barsSeen("Returns to go of returnsToGo", "step", got, wanted); });
-  const auto mistake = suspectAmong(check, got, 1e-9, mistakenReturns(rewards, discount));
-  check.near("returns to go of returnsToGo", got, wanted, 1e-9);
+  check.near("returns to go of returnsToGo", got, wanted, 1e-9, mistakenReturns(rewards, discount));
 }
 
 /// What counts in a step.
@@ -204,8 +203,7 @@ inline void gradientFits(rex::grading::Check& check, Student& student, int k, in
   const auto shown =
       check.show([&] { return arrowsSeen("Gradient of reinforce", Eigen::VectorXd::Zero(2), got, wanted); });
   const double tolerance = 1e-9 * (1 + wanted.norm());
-  const auto mistake = suspectAmong(check, got, tolerance, mistakenGradients(given, wanted));
-  check.near("gradient of reinforce", got, wanted, tolerance);
+  check.near("gradient of reinforce", got, wanted, tolerance, mistakenGradients(given, wanted));
 }
 
 /// beta plus the quotient of both sums of PoWER, whose terms have these weights. Without W, the identity is
@@ -255,6 +253,5 @@ inline void powerFits(rex::grading::Check& check, Student& student, int k, int c
   const auto shown = check.show([&] {
     return arrowsSeen("From the old beta to the new one of power", given.policy.beta, got, wanted);
   });
-  const auto mistake = suspectAmong(check, got, 1e-8, mistakenPowers(given, wanted));
-  check.near("new beta of power", got, wanted, 1e-8);
+  check.near("new beta of power", got, wanted, 1e-8, mistakenPowers(given, wanted));
 }

@@ -95,7 +95,7 @@ inline const char* whyEndedWith(std::size_t last, const Process& process, double
     if (last == rules[i].end) return rules[i].question;
   for (const std::size_t round : {10, 20, 50, 100, 200, 500, 1000, 10000})
     if (last == round || last + 1 == round) return "Is the number of iterations fixed?";
-  return nullptr;
+  return "";
 }
 
 inline void valuesSettle(rex::grading::Check& check, Student& student, const Process& process,
@@ -111,11 +111,10 @@ inline void valuesSettle(rex::grading::Check& check, Student& student, const Pro
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(process.R.rows());
   {
     const Eigen::VectorXd first = bestOf(rex::actionValues(mdp, zero));
-    const auto missing =
-        suspectAmong(check, V.front(), rounding,
-                     {{"Is V_0, which is zero, missing at the beginning of the list?", first}});
     const auto shown = check.show([&] { return barsSeen("V_0 of iterateValues", "state", V.front(), zero); });
-    check.near("V_0 of iterateValues", V.front(), zero, 0);
+    check.near("V_0 of iterateValues", V.front(), zero, 0,
+               {{"Is V_0, which is zero, missing at the beginning of the list?",
+                 distance(V.front(), first) <= rounding ? V.front() : zero}});
   }
   for (std::size_t k = 1; k < V.size(); ++k) {
     const Eigen::VectorXd &before = V[k - 1], wanted = bestOf(rex::actionValues(mdp, before));
@@ -127,12 +126,11 @@ inline void valuesSettle(rex::grading::Check& check, Student& student, const Pro
     check.shape(property, V[k], wanted.size(), 1);
     const auto shown = check.show([&] { return barsSeen(property, "state", V[k], wanted); });
     const bool isRight = distance(V[k], wanted) <= rounding;
-    const auto mistake =
-        suspectAmong(check, V[k], rounding, isRight ? std::vector<Mistake>() : mistakenStep(process, before));
-    check.near(property, V[k], wanted, rounding);
+    check.near(property, V[k], wanted, rounding,
+               isRight ? std::vector<Mistake>() : mistakenStep(process, before));
   }
   const std::size_t last = V.size() - 1;
-  const auto asked = askThat(check, whyEndedWith(last, process, tolerance));
+  const auto asked = check.ask(whyEndedWith(last, process, tolerance));
   const std::string bound = "discount / (1 - discount) * largest change from V_{} to V_{}";
   for (std::size_t k : {last, last - 1}) {
     if (k == 0) return;
@@ -189,7 +187,7 @@ inline const char* whyNotBest(const Process& process, const Eigen::MatrixXd& Q,
   if (distance(worth, -bestOf(-Q)) == 0) return "Is the worst action taken?";
   int changed = 0;
   for (std::size_t s = 0; s < policies[i].size(); ++s) changed += policies[i][s] != policies[i - 1][s];
-  return changed == 1 ? "Is only one state improved? All take their best action at once." : nullptr;
+  return changed == 1 ? "Is only one state improved? All take their best action at once." : "";
 }
 
 /// Policy i, by the values of the one before, in each state.
@@ -203,7 +201,7 @@ inline void policyIsBest(rex::grading::Check& check, const Process& process,
         fmt::format("What the actions of policy {} are worth by the values of policy {}", i, i - 1), "state",
         got, wanted);
   });
-  const auto asked = askThat(check, whyNotBest(process, Q, policies, i));
+  const auto asked = check.ask(whyNotBest(process, Q, policies, i));
   for (Eigen::Index s = 0; s < got.size(); ++s) {
     check.input(described(process), {{"P, action by action", stacked(process)},
                                      {"R", process.R},

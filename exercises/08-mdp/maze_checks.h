@@ -94,7 +94,7 @@ inline void mazeFits(rex::grading::Check& check, Student& student, const Eigen::
   for (const bool isRandom : {true, false}) {
     const Eigen::VectorXd &got = isRandom ? values.random : values.optimal,
                           &wanted = isRandom ? random : optimal;
-    const char* const question = questionAbout(got, 1e-9, mistakenMaze(leaves, discount, isRandom));
+    const std::string question = questionAbout(got, 1e-9, mistakenMaze(leaves, discount, isRandom));
     struct Row {
       const char* states;
       Eigen::Index begin, count;
@@ -110,7 +110,7 @@ inline void mazeFits(rex::grading::Check& check, Student& student, const Eigen::
                             mazeFigure(policy + "wanted", wanted, range, first, size)}};
       });
       const Eigen::VectorXd part = got.segment(begin, count);
-      const auto mistake = suspectThat(check, question, part);
+      const auto mistake = check.suspect(question, question.empty() ? Eigen::VectorXd() : part);
       check.near(property, part, wanted.segment(begin, count), 1e-9);
     }
   }

@@ -9,11 +9,7 @@
 
 // What the checks ask, and what they show.
 
-/// What a mistake makes of a value, and what to ask whoever gets that.
-struct Mistake {
-  const char* question;
-  Eigen::MatrixXd value;
-};
+using rex::grading::Mistake;
 
 /// The largest difference of two entries; infinite if the sizes differ.
 inline double distance(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
@@ -21,29 +17,12 @@ inline double distance(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return a.size() == 0 ? 0 : (a - b).cwiseAbs().maxCoeff();
 }
 
-/// The question about the first mistake that explains `got`, or nullptr.
-inline const char* questionAbout(const Eigen::MatrixXd& got, double tolerance,
+/// The question about the first mistake that explains `got`, or nothing.
+inline std::string questionAbout(const Eigen::MatrixXd& got, double tolerance,
                                  const std::vector<Mistake>& mistakes) {
-  for (const auto& [question, value] : mistakes)
-    if (distance(got, value) <= tolerance) return question;
-  return nullptr;
-}
-
-/// While the returned object is alive, near() asks that question about `got`; none if it is nullptr.
-[[nodiscard]] inline auto suspectThat(rex::grading::Check& check, const char* question,
-                                      const Eigen::MatrixXd& got) {
-  return check.suspect(question == nullptr ? "" : question, question == nullptr ? Eigen::MatrixXd() : got);
-}
-
-/// The same about the first mistake that explains `got`.
-[[nodiscard]] inline auto suspectAmong(rex::grading::Check& check, const Eigen::MatrixXd& got,
-                                       double tolerance, const std::vector<Mistake>& mistakes) {
-  return suspectThat(check, questionAbout(got, tolerance, mistakes), got);
-}
-
-/// While the returned object is alive, any requirement asks the question, unless it is nullptr.
-[[nodiscard]] inline auto askThat(rex::grading::Check& check, const char* question) {
-  return check.ask(question == nullptr ? "" : question, question != nullptr);
+  for (const Mistake& mistake : mistakes)
+    if (distance(got, mistake.value) <= tolerance) return mistake.question;
+  return "";
 }
 
 /// Values as bars, with the wanted ones as dots and a ring where they differ most. If no bar shows that

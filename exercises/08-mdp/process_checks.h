@@ -144,10 +144,9 @@ inline void policyIsWorth(rex::grading::Check& check, Student& student, const Pr
   const double tolerance = 1e-9 * scaleOf(process);
   check.shape("V of valuesOf", got, wanted.size(), 1);
   const auto shown = check.show([&] { return barsSeen("V of valuesOf", "state", got, wanted); });
-  const auto mistake = suspectAmong(check, got, tolerance, mistakenValues(process, policy));
   const auto early = check.ask("Does an iteration end too early? Eq. (9) is a linear system for V.",
                                distance(got, wanted) < 1e-4 * scaleOf(process));
-  check.near("V of valuesOf", got, wanted, tolerance);
+  check.near("V of valuesOf", got, wanted, tolerance, mistakenValues(process, policy));
 }
 
 /// R + discount times what follows if an action with transitions P is taken in s.
@@ -200,6 +199,6 @@ inline void actionsAreWorth(rex::grading::Check& check, Student& student, const 
     return barsSeen("Worth of actions by worthOfActions, action by action", "states of action 0, 1, ...", got,
                     wanted);
   });
-  const auto mistake = suspectAmong(check, got, 1e-9, mistakenWorths(process, V));
-  check.near("worth of actions by worthOfActions (states x actions)", got, wanted, 1e-9);
+  check.near("worth of actions by worthOfActions (states x actions)", got, wanted, 1e-9,
+             mistakenWorths(process, V));
 }

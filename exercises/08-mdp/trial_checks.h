@@ -116,19 +116,16 @@ inline Eigen::MatrixXd statesFit(rex::grading::Check& check, const Rollout& tria
     next.col(t + 1) = task.after(task.states[at], task.actions[at]);
   }
   {
-    const auto mistake = askThat(
-        check,
-        questionAbout(seen, 1e-9,
-                      {{"Is the state never moved on? The next one is what step() returned.", still}}));
+    const auto mistake = check.ask(questionAbout(
+        seen, 1e-9, {{"Is the state never moved on? The next one is what step() returned.", still}}));
     columnsAgree(check, "state that runTrial passes to step", seen, next.leftCols(T), [&](Eigen::Index t) {
       const Eigen::VectorXd wanted = next.col(t);
       check.input(stepped(t), {{t == 0 ? "start" : "state after the step before", wanted}});
     });
   }
-  const auto late =
-      askThat(check, questionAbout(trial.features, 1e-9,
-                                   {{"Are the features those after the step? Wanted are those before it.",
-                                     next.rightCols(T)}}));
+  const auto late = check.ask(questionAbout(
+      trial.features, 1e-9,
+      {{"Are the features those after the step? Wanted are those before it.", next.rightCols(T)}}));
   columnsAgree(check, "features of runTrial", trial.features, seen, [&](Eigen::Index t) {
     const Eigen::VectorXd state = seen.col(t);
     check.input(stepped(t), {{"state passed to step", state}});
@@ -150,7 +147,7 @@ inline void actionsFit(rex::grading::Check& check, const Policy& policy, const R
     opposite(t) = 2 * plain(t) - noisy(t);
   }
   {
-    const auto mistake = askThat(check, questionAbout(trial.noise, 1e-9, mistakenNoise(policy, white)));
+    const auto mistake = check.ask(questionAbout(trial.noise, 1e-9, mistakenNoise(policy, white)));
     columnsAgree(check, "noise of runTrial", trial.noise, policy.L * white, [&](Eigen::Index t) {
       const Eigen::VectorXd z = white.col(t);
       check.input(stepped(t), {{"z of rng.normalVector", z}, {"L", policy.L}});
@@ -158,10 +155,10 @@ inline void actionsFit(rex::grading::Check& check, const Policy& policy, const R
   }
   const Eigen::MatrixXd actions = rowOf(task.actions);
   const auto mistake =
-      askThat(check, questionAbout(actions, 1e-9,
-                                   {{"Is the noise left out of the action?", plain},
-                                    {"Is the noise subtracted? a = phi^T (beta + epsilon).", opposite},
-                                    {"Is beta left out of the action?", noisy - plain}}));
+      check.ask(questionAbout(actions, 1e-9,
+                              {{"Is the noise left out of the action?", plain},
+                               {"Is the noise subtracted? a = phi^T (beta + epsilon).", opposite},
+                               {"Is beta left out of the action?", noisy - plain}}));
   columnsAgree(check, "action that runTrial passes to step", actions, noisy, [&](Eigen::Index t) {
     const Eigen::VectorXd phi = seen.col(t), epsilon = trial.noise.col(t);
     check.input(stepped(t), {{"phi", phi}, {"beta", policy.beta}, {"epsilon", epsilon}});

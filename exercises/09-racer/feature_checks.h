@@ -66,17 +66,14 @@ inline void blockFits(rex::grading::Check& check, const Block& block, const Eige
     return all.segment(block.begin, block.count);
   };
   const bool hasPast = before.size() > 0;
-  const auto zeros =
-      check.suspect("Do the averages begin with zero? At the first reading they are the reading itself.",
-                    hasPast ? Eigen::VectorXd() : part(averagedOtherwise(wanted, before, false)));
-  const auto factors =
-      check.suspect("Is a the factor of the new reading? It is that of the average before.",
-                    hasPast ? part(averagedOtherwise(wanted, before, true)) : Eigen::VectorXd());
-  const auto steps =
-      check.suspect("Is the difference of the readings not divided by tau?",
-                    block.begin == 5 ? Eigen::VectorXd(tau * part(wanted)) : Eigen::VectorXd());
   const auto shown = check.show([&] { return featuresOf(block, got, wanted); });
-  check.near(block.name, part(got), part(wanted), 1e-10 * (1 + wanted.cwiseAbs().maxCoeff()));
+  check.near(block.name, part(got), part(wanted), 1e-10 * (1 + wanted.cwiseAbs().maxCoeff()),
+             {{"Do the averages begin with zero? At the first reading they are the reading itself.",
+               hasPast ? Eigen::VectorXd() : part(averagedOtherwise(wanted, before, false))},
+              {"Is a the factor of the new reading? It is that of the average before.",
+               hasPast ? part(averagedOtherwise(wanted, before, true)) : Eigen::VectorXd()},
+              {"Is the difference of the readings not divided by tau?",
+               block.begin == 5 ? Eigen::VectorXd(tau * part(wanted)) : Eigen::VectorXd()}});
 }
 
 inline void featuresFit(rex::grading::Check& check, Student& student, double tau, int readings) {

@@ -41,11 +41,6 @@ inline Eigen::Vector4d randomState(rex::Rng& rng) {
   return stateOf(2 * rng.normalVector(2), 3 * rng.normalVector(2));
 }
 
-/// While the returned object is alive, that wrong number asks the question.
-[[nodiscard]] inline auto suspectNumber(rex::grading::Check& check, const char* question, double value) {
-  return check.suspect(question, Eigen::MatrixXd::Constant(1, 1, value));
-}
-
 inline void massFits(rex::grading::Check& check, Student& student, const RacerModel& racer) {
   const rex::RacerDynamics plant = dynamicsOf(racer);
   for (int i = 0; i < 10; ++i) {
@@ -64,26 +59,23 @@ inline void massFits(rex::grading::Check& check, Student& student, const RacerMo
     check.near("M of massMatrix", student.massMatrix(x.head<2>(), racer), M, 1e-12);
     const double potential = plant.energy(stateOf(x.head<2>(), {0, 0})),
                  kinetic = plant.energy(x) - potential;
-    const auto minus = suspectNumber(check, "Is it T - U? The energy is T + U.", kinetic - potential);
-    const auto axle =
-        suspectNumber(check, "Is the potential energy zero on the axle? It is zero on the ground.",
-                      plant.energy(x) - racer.g * racer.r * (racer.mA + racer.mB));
-    const auto half =
-        suspectNumber(check, "Is the kinetic energy twice too large?", plant.energy(x) + kinetic);
-    check.near("energy of energyOf", student.energyOf(x, racer), plant.energy(x), 1e-11, "J");
+    check.near("energy of energyOf", student.energyOf(x, racer), plant.energy(x), 1e-11,
+               {{"Is it T - U? The energy is T + U.", kinetic - potential},
+                {"Is the potential energy zero on the axle? It is zero on the ground.",
+                 plant.energy(x) - racer.g * racer.r * (racer.mA + racer.mB)},
+                {"Is the kinetic energy twice too large?", plant.energy(x) + kinetic}},
+               "J");
   }
 }
 
 inline void directionFits(rex::grading::Check& check, Student& student, const RacerModel& racer) {
   check.input(described(racer));
-  const auto back = check.suspect("What turns the pendulum back? The motor acts between wheel and pendulum.",
-                                  Eigen::Vector2d(1 / racer.r, 0));
-  const auto sign = check.suspect("Does u turn the pendulum forwards? It turns the wheel forwards.",
-                                  Eigen::Vector2d(1 / racer.r, 1));
-  const auto force =
-      check.suspect("Is 1 / r missing? u is a torque, and x a length.", Eigen::Vector2d(1, -1));
-  check.near("B of controlDirection", student.controlDirection(racer), dynamicsOf(racer).controlDirection(),
-             1e-12);
+  check.near(
+      "B of controlDirection", student.controlDirection(racer), dynamicsOf(racer).controlDirection(), 1e-12,
+      {{"What turns the pendulum back? The motor acts between wheel and pendulum.",
+        Eigen::Vector2d(1 / racer.r, 0)},
+       {"Does u turn the pendulum forwards? It turns the wheel forwards.", Eigen::Vector2d(1 / racer.r, 1)},
+       {"Is 1 / r missing? u is a torque, and x a length.", Eigen::Vector2d(1, -1)}});
 }
 
 inline void forcesFit(rex::grading::Check& check, Student& student, const RacerModel& racer) {
@@ -93,17 +85,15 @@ inline void forcesFit(rex::grading::Check& check, Student& student, const RacerM
     check.input(described(racer), {{"q", x.head<2>()}, {"q'", x.tail<2>()}});
     const double s = racer.mB * racer.l * std::sin(x[1]), turning = s * x[3] * x[3], mixed = s * x[2] * x[3];
     const double fall = s * racer.g;
-    const auto hangs = check.suspect("Has gravity the sign of a hanging pendulum? theta is 0 upright.",
-                                     Eigen::Vector2d(-turning, fall));
-    const auto old = check.suspect(
-        "Is this the F of the course's original code, which conserves energy and is nevertheless wrong?",
-        Eigen::Vector2d(-2 * turning, mixed - fall));
-    const auto noSlope = check.suspect("Is dT/dq left out?", Eigen::Vector2d(-turning, -mixed - fall));
-    const auto noRate = check.suspect("Is dM/dt q' left out? d/dt dT/dq' is more than M q''.",
-                                      Eigen::Vector2d(0, mixed - fall));
-    const auto noGravity = check.suspect("Is gravity left out?", Eigen::Vector2d(-turning, 0));
-    check.near("F of forceTerm", student.forceTerm(x.head<2>(), x.tail<2>(), racer),
-               dynamicsOf(racer).forces(x.head<2>(), x.tail<2>()), 1e-8 * (1 + x.squaredNorm()));
+    check.near(
+        "F of forceTerm", student.forceTerm(x.head<2>(), x.tail<2>(), racer),
+        dynamicsOf(racer).forces(x.head<2>(), x.tail<2>()), 1e-8 * (1 + x.squaredNorm()),
+        {{"Has gravity the sign of a hanging pendulum? theta is 0 upright.", Eigen::Vector2d(-turning, fall)},
+         {"Is this the F of the course's original code, which conserves energy and is nevertheless wrong?",
+          Eigen::Vector2d(-2 * turning, mixed - fall)},
+         {"Is dT/dq left out?", Eigen::Vector2d(-turning, -mixed - fall)},
+         {"Is dM/dt q' left out? d/dt dT/dq' is more than M q''.", Eigen::Vector2d(0, mixed - fall)},
+         {"Is gravity left out?", Eigen::Vector2d(-turning, 0)}});
   }
 }
 
@@ -112,12 +102,12 @@ inline void rateFits(rex::grading::Check& check, Student& student, const RacerMo
   const rex::RacerDynamics plant = dynamicsOf(racer);
   const Eigen::Vector2d F = plant.forces(x.head<2>(), x.tail<2>()), push = plant.controlDirection() * u;
   const Eigen::Matrix2d inverse = plant.massMatrix(x.head<2>()).inverse();
-  const auto sign = check.suspect("Is F added to B u? In M q'' + F = B u it is on the other side.",
-                                  stateOf(x.tail<2>(), inverse * (push + F)));
-  const auto control = check.suspect("Is u left out?", stateOf(x.tail<2>(), inverse * -F));
-  const auto mass = check.suspect("Is the inverse of M left out?", stateOf(x.tail<2>(), push - F));
   const Eigen::Vector4d wanted = plant.derivative(x, u);
-  check.near("dx/dt of rateOf", student.rateOf(x, u, racer), wanted, 1e-7 * (1 + wanted.norm()));
+  check.near("dx/dt of rateOf", student.rateOf(x, u, racer), wanted, 1e-7 * (1 + wanted.norm()),
+             {{"Is F added to B u? In M q'' + F = B u it is on the other side.",
+               stateOf(x.tail<2>(), inverse * (push + F))},
+              {"Is u left out?", stateOf(x.tail<2>(), inverse * -F)},
+              {"Is the inverse of M left out?", stateOf(x.tail<2>(), push - F)}});
 }
 
 /// Exact up to what F by finite differences loses: the error of the method itself is a hundred times as
@@ -131,19 +121,18 @@ inline void stepFits(rex::grading::Check& check, Student& student, const RacerMo
     rateFits(check, student, racer, x, u);
     const Eigen::Vector4d rate = plant.derivative(x, u), euler = x + tau * rate;
     const Eigen::Vector2d moved = x.head<2>() + tau * euler.tail<2>();
-    const auto first = check.suspect(
-        "Is it one step of Euler's method? A Runge-Kutta step takes the weighted mean of four rates.", euler);
-    const auto mixed = check.suspect(
-        "Is it one step of Euler's method, in which x and theta move with the new velocities? A Runge-Kutta "
-        "step takes the weighted mean of four rates.",
-        stateOf(moved, euler.tail<2>()));
-    const auto middle =
-        check.suspect("Is it one step of the midpoint method, which takes only the second of the four rates?",
-                      x + tau * plant.derivative(x + tau / 2 * rate, u));
-    const auto fixed =
-        check.suspect("Is the step kTau long, whatever tau is?", plant.rungeKuttaStep(x, u, kTau));
-    check.near("state after a step of stepped", student.stepped(x, u, tau, racer),
-               plant.rungeKuttaStep(x, u, tau), 1e-9 * (1 + tau * rate.norm()));
+    check.near(
+        "state after a step of stepped", student.stepped(x, u, tau, racer), plant.rungeKuttaStep(x, u, tau),
+        1e-9 * (1 + tau * rate.norm()),
+        {{"Is it one step of Euler's method? A Runge-Kutta step takes the weighted mean of four rates.",
+          euler},
+         {"Is it one step of Euler's method, in which x and theta move with the new velocities? A "
+          "Runge-Kutta "
+          "step takes the weighted mean of four rates.",
+          stateOf(moved, euler.tail<2>())},
+         {"Is it one step of the midpoint method, which takes only the second of the four rates?",
+          x + tau * plant.derivative(x + tau / 2 * rate, u)},
+         {"Is the step kTau long, whatever tau is?", plant.rungeKuttaStep(x, u, kTau)}});
   }
 }
 
@@ -174,11 +163,11 @@ inline void gainFits(rex::grading::Check& check, Student& student, const RacerMo
   const Eigen::Matrix4d Q = Eigen::Vector4d(costs[0], costs[1], 0, 0).asDiagonal();
   check.input("a racer near rest and its costs", {{"A", plant.A}, {"B", plant.B}, {"Q", Q}, {"R", R}});
   const Eigen::Vector4d exact = bestGain(racer, Q, R);
-  const auto sign = check.suspect("Is it the K of u = K x? Here u = -K x.", -exact);
-  const auto one = check.suspect("Is R left out, as if it were 1?", bestGain(racer, Q, 1));
-  const auto last = check.suspect("Is B^T P not divided by R?", R * exact);
   check.near("K of lqrGain", student.lqrGain({plant.A, plant.B}, Q, R), exact,
-             2e-6 * exact.cwiseAbs().maxCoeff());
+             2e-6 * exact.cwiseAbs().maxCoeff(),
+             {{"Is it the K of u = K x? Here u = -K x.", -exact},
+              {"Is R left out, as if it were 1?", bestGain(racer, Q, 1)},
+              {"Is B^T P not divided by R?", R * exact}});
 }
 
 /// The racer stays up for 20 s with noise, under the student's linearisation and gain.

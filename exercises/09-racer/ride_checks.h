@@ -160,14 +160,12 @@ inline void controlFits(rex::grading::Check& check, double got, const Eigen::Vec
   first.head(5) = features.head(5);
   first.segment<4>(9) = first.segment<4>(17) = features.segment<4>(1);
   noControls.tail(2).setZero();
-  const auto limit = suspectNumber(check, "Is u not limited to what the motor gives?", w.dot(features));
-  const auto memory =
-      suspectNumber(check, "Do the features remember u before it is limited?", limited(w.dot(ofUnlimited)));
-  const auto forgotten = suspectNumber(
-      check, "Is featuresAt called as at the first reading, with `before` empty?", limited(w.dot(first)));
-  const auto controls =
-      suspectNumber(check, "Do the features lack the last controls?", limited(w.dot(noControls)));
-  check.near("control u of rideOf", got, limited(w.dot(features)), 1e-7, "N m");
+  check.near("control u of rideOf", got, limited(w.dot(features)), 1e-7,
+             {{"Is u not limited to what the motor gives?", w.dot(features)},
+              {"Do the features remember u before it is limited?", limited(w.dot(ofUnlimited))},
+              {"Is featuresAt called as at the first reading, with `before` empty?", limited(w.dot(first))},
+              {"Do the features lack the last controls?", limited(w.dot(noControls))}},
+             "N m");
 }
 
 inline void motionFits(rex::grading::Check& check, const Situation& in, const Eigen::Vector4d& got,
@@ -175,14 +173,12 @@ inline void motionFits(rex::grading::Check& check, const Situation& in, const Ei
   const Eigen::Vector4d still = kicked(in, x, u, {0, 0}), wanted = kicked(in, x, u, noise);
   Eigen::Vector4d early = x;
   early.tail<2>() += noise;
-  const auto none = check.suspect("Is the noise of the step left out?", still);
-  const auto before =
-      check.suspect("Is the noise added before the step? It comes after.", kicked(in, early, u, {0, 0}));
-  const auto poses =
-      check.suspect("Is the noise added to (x, theta)?", still + stateOf(noise, Eigen::Vector2d::Zero()));
-  const auto twice = check.suspect("Is the noise multiplied by sqrt(tau) once more?",
-                                   kicked(in, x, u, std::sqrt(kTau) * noise));
-  check.near("state of rideOf after the step", got, wanted, 1e-8 * (1 + wanted.norm()));
+  check.near(
+      "state of rideOf after the step", got, wanted, 1e-8 * (1 + wanted.norm()),
+      {{"Is the noise of the step left out?", still},
+       {"Is the noise added before the step? It comes after.", kicked(in, early, u, {0, 0})},
+       {"Is the noise added to (x, theta)?", still + stateOf(noise, Eigen::Vector2d::Zero())},
+       {"Is the noise multiplied by sqrt(tau) once more?", kicked(in, x, u, std::sqrt(kTau) * noise)}});
 }
 
 /// Control and state of each step, from the states before it. `place` is where it is.
@@ -262,22 +258,18 @@ inline void costFits(rex::grading::Check& check, const Ride& ride, Eigen::Index 
   ofSteps.head(stood) = ofStates.segment(1, stood);
   const auto shown = check.show([&] { return costsOf(ofSteps, ride.cost); });
   const double sum = ofSteps.head(stood).sum(), missing = ofSteps.tail(steps - stood).sum();
-  const auto before = suspectNumber(
-      check, "Are the states before the steps counted? The cost is that of the state after each step.",
-      ofStates.head(stood).sum() + missing);
-  const auto start =
-      suspectNumber(check, "Is the start counted, too?", ofStates.head(stood + 1).sum() + missing);
-  const auto rate = suspectNumber(check, "Is the cost multiplied by kTau?", kTau * wanted);
   // Without a failure these values mean nothing.
   const double since = failed ? sum : std::numeric_limits<double>::quiet_NaN();
-  const auto free = suspectNumber(check, "Do missing steps cost nothing?", since);
-  const auto once = suspectNumber(check, "Is kCostOfMissing counted once? Each missing step costs as much.",
-                                  since + kCostOfMissing);
-  const auto last = suspectNumber(check, "Does the step that failed cost nothing? It counts as missing.",
-                                  since + missing - kCostOfMissing);
-  const auto both = suspectNumber(check, "Is the state of the step that failed counted, too?",
-                                  since + ofStates[n] + missing);
-  check.near("cost of rideOf", ride.cost, wanted, 1e-6 * (1 + wanted));
+  check.near(
+      "cost of rideOf", ride.cost, wanted, 1e-6 * (1 + wanted),
+      {{"Are the states before the steps counted? The cost is that of the state after each step.",
+        ofStates.head(stood).sum() + missing},
+       {"Is the start counted, too?", ofStates.head(stood + 1).sum() + missing},
+       {"Is the cost multiplied by kTau?", kTau * wanted},
+       {"Do missing steps cost nothing?", since},
+       {"Is kCostOfMissing counted once? Each missing step costs as much.", since + kCostOfMissing},
+       {"Does the step that failed cost nothing? It counts as missing.", since + missing - kCostOfMissing},
+       {"Is the state of the step that failed counted, too?", since + ofStates[n] + missing}});
 }
 
 inline void rideFits(rex::grading::Check& check, Student& student, const Situation& in,

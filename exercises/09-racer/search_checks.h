@@ -136,7 +136,7 @@ inline rex::grading::Evidence seen(const Situation& in, const Eigen::VectorXd& w
 
 inline void searchSucceeds(rex::grading::Check& check, Student& student, const Situation& in) {
   const auto [w, question] = searched(check, student, in);
-  const auto asked = check.ask(question, !question.empty());
+  const auto asked = check.ask(question);
   for (const auto& [steps, wanted] : {std::pair{500, 95}, {2000, 80}}) {
     const std::vector<rex::Trial> trials = unseenTrials(100, check.rng());
     const rex::Rollouts rides = rex::racerRollouts(in.wiring.cwiseProduct(w), trials, optionsOf(in, steps));
@@ -157,7 +157,7 @@ inline void searchSucceeds(rex::grading::Check& check, Student& student, const S
 
 inline void searchedPolicyStays(rex::grading::Check& check, Student& student, const Situation& in) {
   const auto [w, question] = searched(check, student, in);
-  const auto asked = check.ask(question, !question.empty());
+  const auto asked = check.ask(question);
   const auto readings =
       check.ask("Is the policy one of the readings only? They do not tell how fast the wheel turns.",
                 w.tail(kFeatures - 5).isZero());

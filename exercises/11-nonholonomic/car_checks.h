@@ -10,7 +10,6 @@
 #include "car_evidence.h"
 #include "interface.h"
 #include "lots.h"
-#include "mistakes.h"
 #include "overlaps.h"
 #include "systems/car.h"
 
@@ -90,7 +89,8 @@ inline void isFreeAlong(rex::grading::Check& check, const CarModel& car, const E
   check.that("the body of the car touches nothing on the way of " + name, isFree);
 }
 
-inline std::vector<Mistake> mistakenEnds(const CarModel& car, const Eigen::Vector3d& q, const Drive& drive) {
+inline std::vector<rex::grading::Mistake> mistakenEnds(const CarModel& car, const Eigen::Vector3d& q,
+                                                       const Drive& drive) {
   const double way = drive.speed * drive.seconds, turn = way / car.wheelbase * std::tan(drive.steering);
   const Eigen::Vector3d end = exact(car, q, drive);
   const auto stepTo = [&](double heading) -> Eigen::MatrixXd {
@@ -127,14 +127,14 @@ inline void moves(rex::grading::Check& check, Student& student, const CarModel& 
     const auto with = [&](double rate) -> Eigen::MatrixXd {
       return Eigen::Vector3d(wanted[0], wanted[1], rate);
     };
-    const auto mistake = suspectAmong(
-        check, v, 1e-9,
+    check.near(
+        "velocity of velocityOf (x, y, heading)", v, wanted, 1e-9,
         {{"Is the tangent of the steering angle left out?", with(speed / L * steering)},
          {"Is it the sine of the steering angle? It is the tangent.", with(speed / L * std::sin(steering))},
          {"Is the rate not divided by the wheelbase?", with(speed * std::tan(steering))},
          {"Does the rate lack the speed? A car that stands does not turn.", with(std::tan(steering) / L)},
-         {"Does a positive steering angle turn to the right? It turns to the left.", with(-wanted[2])}});
-    check.near("velocity of velocityOf (x, y, heading)", v, wanted, 1e-9, "m/s, rad/s");
+         {"Does a positive steering angle turn to the right? It turns to the left.", with(-wanted[2])}},
+        "m/s, rad/s");
   }
   for (const double angle : {steering, 0., 1e-9}) {
     const Drive drive{speed, angle, rng.uniform(0.5, 8)};
@@ -146,7 +146,7 @@ inline void moves(rex::grading::Check& check, Student& student, const CarModel& 
     std::string question;
     for (const auto& [asked, value] : mistakenEnds(car, q, drive))
       if (question.empty() && (value - end).cwiseAbs().maxCoeff() <= 1e-6) question = asked;
-    const auto mistake = askThat(check, question);
+    const auto mistake = check.ask(question);
     check.near("position after a drive by driven", end.head<2>(), wanted.head<2>(), tolerance, "m");
     check.nearAngle("heading after a drive by driven", end[2], wanted[2], tolerance);
   }
@@ -246,7 +246,7 @@ inline void pathIsJudged(rex::grading::Check& check, Student& student) {
                  {"pose after", given[broken]}});
   }
   const std::string why = whyNot(student, car, given, path, broken, got);
-  const auto asked = askThat(check, why.empty() && !follows ? what.question : why);
+  const auto asked = check.ask(why.empty() && !follows ? what.question : why);
   const auto shown = check.show([&] {
     return pathSeen(follows ? "wanted: it can be followed" : "wanted: it cannot be followed", car, path,
                     broken);

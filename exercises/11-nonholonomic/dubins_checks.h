@@ -103,7 +103,7 @@ inline void checkPieces(rex::grading::Check& check, const std::string& function,
       }
     return evidence;
   });
-  const auto asked = askThat(check, whyAstray(word, lengths, from, to, radius));
+  const auto asked = check.ask(whyAstray(word, lengths, from, to, radius));
   for (std::size_t i = 0; i < 3; ++i) {
     const std::string piece = fmt::format("length of piece {} of {} by {}", i + 1, word, function);
     check.atLeast(piece, lengths[i], 0, "m");
@@ -197,6 +197,6 @@ inline void isShortest(rex::grading::Check& check, Student& student, const Eigen
   });
   const double got = way.lengths[0] + way.lengths[1] + way.lengths[2],
                wanted = rex::dubinsLength(from, to, radius);
-  const auto asked = askThat(check, got > wanted + 1e-6 ? whyLonger(student, got, from, to, radius) : "");
+  const auto asked = check.ask(got > wanted + 1e-6 ? whyLonger(student, got, from, to, radius) : "");
   check.near("length of the way of shortestDubins", got, wanted, 1e-6, "m");
 }

@@ -116,7 +116,7 @@ inline void overlapsFit(rex::grading::Check& check, Student& student) {
   }
   const bool isRight =
       std::ranges::all_of(places, [](const Place& p) { return p.isSaidFree != p.isTouched; });
-  const auto asked = askThat(check, isRight ? "" : whyMisjudged(places));
+  const auto asked = check.ask(isRight ? "" : whyMisjudged(places));
   for (const Place& place : places) {
     check.input("a car and blocks", {{"front", place.car.front},
                                      {"back", place.car.back},

@@ -29,35 +29,32 @@ inline void rigFits(rex::grading::Check& check, Student& student) {
   // The axle is d behind the hitch. It must not slide: its velocity has no part across the trailer.
   const double across = (-v[0] * std::sin(q[3]) + v[1] * std::cos(q[3])) / d, hitch = q[2] - q[3];
   {
-    const auto mistake =
-        suspectAmong(check, single(v[3]), 1e-9,
-                     {{"Does the trailer turn away from the car? Check the sign of the angle at the hitch.",
-                       single(-across)},
-                      {"Is the rate not divided by the length of the hitch?", single(across * d)},
-                      {"Is it divided by the wheelbase? The trailer's axle is hitchLength behind.",
-                       single(across * d / rig.car.wheelbase)},
-                      {"Is it the angle at the hitch, instead of its sine?", single(speed / d * hitch)},
-                      {"Is it the tangent of the angle at the hitch? It is the sine.",
-                       single(speed / d * std::tan(hitch))},
-                      {"Is it the cosine of the angle at the hitch?", single(speed / d * std::cos(hitch))},
-                      {"Is it the rate of the angle at the hitch? Wanted is that of the trailer's heading.",
-                       single(across - v[2])},
-                      {"Is it the rate of the angle at the hitch? Wanted is that of the trailer's heading.",
-                       single(v[2] - across)},
-                      {"Does the trailer turn with the car?", single(v[2])}});
-    check.near("rate of the trailer's heading by rigVelocity", v[3], across, 1e-9, "rad/s");
+    check.near(
+        "rate of the trailer's heading by rigVelocity", v[3], across, 1e-9,
+        {{"Does the trailer turn away from the car? Check the sign of the angle at the hitch.", -across},
+         {"Is the rate not divided by the length of the hitch?", across * d},
+         {"Is it divided by the wheelbase? The trailer's axle is hitchLength behind.",
+          across * d / rig.car.wheelbase},
+         {"Is it the angle at the hitch, instead of its sine?", speed / d * hitch},
+         {"Is it the tangent of the angle at the hitch? It is the sine.", speed / d * std::tan(hitch)},
+         {"Is it the cosine of the angle at the hitch?", speed / d * std::cos(hitch)},
+         {"Is it the rate of the angle at the hitch? Wanted is that of the trailer's heading.",
+          across - v[2]},
+         {"Is it the rate of the angle at the hitch? Wanted is that of the trailer's heading.",
+          v[2] - across},
+         {"Does the trailer turn with the car?", v[2]}},
+        "rad/s");
   }
   check.input("wheels straight", {{"d", d}, {"speed", speed}});
   const double rate = student.hitchGrowth(rig, speed);
   const Eigen::Vector4d later = rigMotion(rig, {0, 0, 0, -1e-5}, speed, 0, 1);
   const double growth = (later[2] - later[3]) / 1e-5, wanted = std::log(growth);
-  const auto mistake =
-      suspectAmong(check, single(rate), 1e-4,
-                   {{"Does the angle grow when the rig drives forward? It grows backward.", single(-wanted)},
-                    {"Is it the factor of growth in a second? Wanted is its rate.", single(growth)},
-                    {"Is the speed left out?", single(wanted / speed)},
-                    {"Is it not divided by the length of the hitch?", single(wanted * d)}});
-  check.near("hitchGrowth", rate, wanted, 1e-4, "1/s");
+  check.near("hitchGrowth", rate, wanted, 1e-4,
+             {{"Does the angle grow when the rig drives forward? It grows backward.", -wanted},
+              {"Is it the factor of growth in a second? Wanted is its rate.", growth},
+              {"Is the speed left out?", wanted / speed},
+              {"Is it not divided by the length of the hitch?", wanted * d}},
+             "1/s");
 }
 
 /// What to ask whoever's rig folds up, or does not reach the axis: how the steering angle answers to a small
@@ -109,7 +106,7 @@ inline void reverses(rex::grading::Check& check, Student& student, const Rig& ri
                                         Eigen::VectorXd::Zero(signal.values.front().size()));
   };
   const bool isRight = hitch.values.back()[0] <= kMostHitch && std::abs(axle.values.back()[0]) <= 0.05;
-  const auto asked = askThat(check, isRight ? "" : whyAstray(student, rig));
+  const auto asked = check.ask(isRight ? "" : whyAstray(student, rig));
   check.atMostAlong("|angle between car and trailer| under reverseSteering", hitch, kMostHitch, "rad");
   check.nearAlong("y of the trailer's axle under reverseSteering, after 40 m", axle, none(axle), 0.05, "m");
   check.nearAlong("headings of car and trailer under reverseSteering, after 40 m", headings, none(headings),

@@ -20,31 +20,28 @@ inline void distancesFit(rex::grading::Check& check, Student& student) {
   {
     const double got = student.poseDistance(a, b), wanted = std::hypot(dx, dy, chord);
     check.input("two poses", {{"a", a}, {"b", b}});
-    const auto mistake = suspectAmong(
-        check, single(got), 1e-9,
+    check.near(
+        "poseDistance", got, wanted, 1e-9,
         {{"Is the plain difference of the headings taken? 4:59 a) is the distance of e^(i heading).",
-          single(std::hypot(dx, dy, plain))},
-         {"Is it the angle between the headings? 4:59 a) is the chord.", single(std::hypot(dx, dy, angle))},
+          std::hypot(dx, dy, plain)},
+         {"Is it the angle between the headings? 4:59 a) is the chord.", std::hypot(dx, dy, angle)},
          {"Is it half of the chord? The chord of an angle is 2 sin(angle / 2).",
-          single(std::hypot(dx, dy, chord / 2))},
-         {"Are the headings left out?", single(std::hypot(dx, dy))},
-         {"Is the root left out?", single(wanted * wanted)},
-         {"Are the distances of position and heading added up?",
-          single(std::hypot(dx, dy) + std::abs(chord))}});
-    check.near("poseDistance", got, wanted, 1e-9);
+          std::hypot(dx, dy, chord / 2)},
+         {"Are the headings left out?", std::hypot(dx, dy)},
+         {"Is the root left out?", wanted * wanted},
+         {"Are the distances of position and heading added up?", std::hypot(dx, dy) + std::abs(chord)}});
   }
   const double got = student.angleDistance(a[2], b[2]);
   check.input("two angles", {{"a", a[2]}, {"b", b[2]}});
-  const auto mistake = suspectAmong(
-      check, single(got), 1e-9,
-      {{"Is it the plain difference, even if that is the long way round?", single(std::abs(plain))},
-       {"Is it the chord, of 4:59 a)?", single(std::abs(chord))},
-       {"Is only one whole turn taken away?", single(std::abs(std::abs(plain) - 2 * kPi))},
-       {"Is only one whole turn taken away?",
-        single(std::min(std::abs(plain), std::abs(2 * kPi - std::abs(plain))))},
-       {"Is the sign of the difference left in?", single(angle)},
-       {"Is the sign of the difference left in?", single(-angle)}});
-  check.near("angleDistance", got, std::abs(angle), 1e-9, "rad");
+  check.near(
+      "angleDistance", got, std::abs(angle), 1e-9,
+      {{"Is it the plain difference, even if that is the long way round?", std::abs(plain)},
+       {"Is it the chord, of 4:59 a)?", std::abs(chord)},
+       {"Is only one whole turn taken away?", std::abs(std::abs(plain) - 2 * kPi)},
+       {"Is only one whole turn taken away?", std::min(std::abs(plain), std::abs(2 * kPi - std::abs(plain)))},
+       {"Is the sign of the difference left in?", angle},
+       {"Is the sign of the difference left in?", -angle}},
+      "rad");
 }
 
 /// How near a pose is: by poseDistance(), by the positions only, and by the plain difference of headings.
@@ -95,7 +92,7 @@ inline void shareFits(rex::grading::Check& check, Nearness shares, int count, co
   else if (shares[0] < 0.2)
     question = fmt::format("Are fewer than 20 controls drawn? It looks like the best of {:.0f}.",
                            20 * 0.062 / shares[0]);
-  const auto asked = askThat(check, question);
+  const auto asked = check.ask(question);
   check.atMost("share of random controls that lead nearer than driveTowards, on average over " + targets,
                shares[0], kMost);
 }

@@ -92,6 +92,15 @@ bool isWithin(double tolerance, const MatrixArg& a, const MatrixArg& b) {
          (a - b).cwiseAbs().maxCoeff() <= tolerance;
 }
 
+// The first mistake that gives `got`; one without a value if there is none.
+Mistake mistakeBy(const MatrixArg& got, const MatrixArg& wanted, double tolerance,
+                  const std::vector<Mistake>& mistakes) {
+  for (const Mistake& mistake : mistakes)
+    if (isWithin(tolerance, got, mistake.value) && !isWithin(10 * tolerance, wanted, mistake.value))
+      return mistake;
+  return {"", Eigen::MatrixXd()};
+}
+
 }  // namespace
 
 void failAssertion(const char* condition) {
@@ -183,11 +192,8 @@ void Check::near(std::string_view property, double got, double wanted, double to
 
 void Check::near(std::string_view property, const MatrixArg& got, const MatrixArg& wanted, double tolerance,
                  const std::vector<Mistake>& mistakes, std::string_view unit) {
-  for (const Mistake& mistake : mistakes) {
-    if (!isWithin(tolerance, got, mistake.value) || isWithin(10 * tolerance, wanted, mistake.value)) continue;
-    const auto suspicion = suspect(mistake.question, mistake.value);
-    return near(property, got, wanted, tolerance, unit);
-  }
+  const Mistake mistake = mistakeBy(got, wanted, tolerance, mistakes);
+  const auto suspicion = suspect(mistake.question, mistake.value);
   near(property, got, wanted, tolerance, unit);
 }
 
@@ -258,10 +264,14 @@ void Check::atLeast(std::string_view property, double got, double limit, std::st
         .excess = excess});
 }
 
-void Check::nearAngle(std::string_view property, double got, double wanted, double tolerance) {
+void Check::nearAngle(std::string_view property, double got, double wanted, double tolerance,
+                      const std::vector<Mistake>& mistakes) {
   requireSound(std::isfinite(wanted), info_, "wants a value that is not finite");
   tellAllowance(property, tolerance);
   shape(property, Eigen::Matrix<double, 1, 1>(got), 1, 1);
+  const Eigen::Matrix<double, 1, 1> gotEntry(got), wantedEntry(wanted);
+  const Mistake mistake = mistakeBy(gotEntry, wantedEntry, tolerance, mistakes);
+  const auto suspicion = suspect(mistake.question, mistake.value);
   const double error = std::abs(std::remainder(got - wanted, 2 * std::numbers::pi));
   const double excess = excessOver(tolerance, error - tolerance);
   measure(property, excess, "off by " + withUnit(number(error), "rad"), atMostText(tolerance, "rad"));
@@ -271,8 +281,7 @@ void Check::nearAngle(std::string_view property, double got, double wanted, doub
         .wanted = withUnit(number(wanted), "rad"),
         .tolerance = withUnit(number(tolerance), "rad"),
         .deviation = "off by " + withUnit(number(error), "rad"),
-        .question = questionAbout(Eigen::Matrix<double, 1, 1>(got), Eigen::Matrix<double, 1, 1>(wanted),
-                                  tolerance, "rad"),
+        .question = questionAbout(gotEntry, wantedEntry, tolerance, "rad"),
         .excess = excess});
 }
 

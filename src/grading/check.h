@@ -127,9 +127,13 @@ class Check {
     suspects_.emplace_back(std::move(question), std::move(value));
     return Suspecting{suspects_, suspects_.size() - 1};
   }
+  [[nodiscard]] auto suspect(std::string question, double value) {
+    return suspect(std::move(question), Eigen::MatrixXd(Eigen::MatrixXd::Constant(1, 1, value)));
+  }
 
   /// While the returned object is alive, a requirement that does not hold asks the question, if it
-  /// `applies`: for mistakes that no single wrong value shows. Of several the first one alive counts.
+  /// `applies` and is not empty: for mistakes that no single wrong value shows. Of several the first one
+  /// alive counts.
   [[nodiscard]] auto ask(std::string question, bool applies = true) {
     struct Asking {
       std::vector<std::string>& questions;
@@ -137,7 +141,7 @@ class Check {
       ~Asking() { questions.resize(before); }
     };
     const std::size_t before = questions_.size();
-    if (applies) questions_.push_back(std::move(question));
+    if (applies && !question.empty()) questions_.push_back(std::move(question));
     return Asking{questions_, before};
   }
 
@@ -171,8 +175,9 @@ class Check {
   /// Requires the shape rows x cols and finite entries. State this before the grader computes with a
   /// student's value.
   void shape(std::string_view property, const MatrixArg& got, Eigen::Index rows, Eigen::Index cols);
-  /// The same for angles in radians, of which only the difference modulo a whole turn counts.
-  void nearAngle(std::string_view property, double got, double wanted, double tolerance);
+  /// The same as near() for angles in radians, of which only the difference modulo a whole turn counts.
+  void nearAngle(std::string_view property, double got, double wanted, double tolerance,
+                 const std::vector<Mistake>& mistakes = {});
 
   /// The same at every place of a motion. If a value breaks the rule, the message names the first such
   /// place and the worst. The picture of a visible check plots the whole signal, before the figures of

@@ -310,6 +310,36 @@ TEST(Check, AsksAboutUsualMistakesAndThoseThatTheAuthorSuspects) {
       << "the suspicion has ended";
 }
 
+TEST(Check, AsksAboutTheFirstMistakeThatExplainsAValue) {
+  const auto questionOf = [](double got, double tolerance = 1e-6) {
+    const std::vector<Mistake> mistakes{
+        {"Twice?", 2}, {"Nearly right?", 1 + 1e-5}, {"Two?", 2.}, {"Half?", .5}};
+    const auto endOf = [](const std::string& text) { return text.substr(text.find("(seed 7)") + 8); };
+    const std::string question =
+        endOf(messageOf([&](Check& check) { check.near("x", got, 1, tolerance, mistakes); }));
+    EXPECT_EQ(endOf(messageOf([&](Check& check) { check.nearAngle("x", got, 1, tolerance, mistakes); })),
+              question);
+    return question;
+  };
+  EXPECT_EQ(questionOf(2), ". Twice?");
+  EXPECT_EQ(questionOf(.5 + 1e-7), ". Half?");
+  EXPECT_EQ(questionOf(3.3), "");
+  EXPECT_EQ(questionOf(1 + 1e-5), "") << "it hardly differs from the wanted value";
+  EXPECT_EQ(questionOf(1 + 1e-5, 1e-8), ". Nearly right?");
+  EXPECT_THAT(messageOf([&](Check& check) {
+                const auto none = check.ask("");
+                const auto number = check.suspect("Five?", 5);
+                check.near("x", 5, 1, 1e-6);
+              }),
+              ::testing::EndsWith(". Five?"));
+  EXPECT_THAT(messageOf([&](Check& check) {
+                const auto none = check.ask("");
+                const auto why = check.ask("Why?");
+                check.that("it ends", false);
+              }),
+              ::testing::EndsWith(". Why?"));
+}
+
 // 0.09 of 0.1 is nearer to its limit than 0.5 of 1, and than 1.5 that should be at least 1.
 TEST(Check, TellsHowNearToItsLimitTheWorstValueCame) {
   const auto judged = [](Group group) {
