@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
-#include <cmath>
 #include <csignal>
 #include <cstdint>
 #include <cstdlib>
@@ -13,11 +12,10 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <sys/prctl.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/child.h"
 #include "base/error.h"
 #include "base/interruption.h"
 #include "base/pipe.h"
@@ -82,14 +80,6 @@ ErrorParts unpacked(std::string_view bytes) {
   return parts;
 }
 
-void lower(int resource, rlim_t soft, rlim_t hard) {
-  rlimit present{};
-  const auto which = static_cast<__rlimit_resource>(resource);
-  ::getrlimit(which, &present);
-  const rlimit wanted{std::min(soft, present.rlim_max), std::min(hard, present.rlim_max)};
-  ::setrlimit(which, &wanted);
-}
-
 // The size of this process's address space in bytes.
 rlim_t presentSize() {
   char text[64] = {};
@@ -108,12 +98,11 @@ constexpr bool kLimitsMemory = true;
 #endif
 
 void applyLimits(const IsolationLimits& limits) {
-  const auto seconds = static_cast<rlim_t>(std::ceil(limits.cpuSeconds));
-  lower(RLIMIT_CPU, seconds, seconds + 1);
-  lower(RLIMIT_CORE, 0, 0);
+  lowerCpuSeconds(limits.cpuSeconds);
+  lowerLimit(RLIMIT_CORE, 0, 0);
   if (!kLimitsMemory) return;
   const rlim_t memory = presentSize() + limits.memory;
-  lower(RLIMIT_AS, memory, memory);
+  lowerLimit(RLIMIT_AS, memory, memory);
 }
 
 void writeAll(int fd, const void* data, std::size_t size) {
@@ -130,12 +119,9 @@ void send(int fd, Head::Kind kind, std::string_view bytes) {
   writeAll(fd, bytes.data(), bytes.size());
 }
 
-// The parent's handlers would do its work twice. Stop requests that the parent holds back stay blocked.
+// Stop requests that the parent holds back stay blocked.
 void resetSignals(const sigset_t& held) {
-  for (int signal = 1; signal < NSIG; ++signal) {
-    struct sigaction action {};
-    if (::sigaction(signal, nullptr, &action) == 0 && action.sa_handler != SIG_IGN) ::signal(signal, SIG_DFL);
-  }
+  resetSignalHandlers();
   const sigset_t stop = stopSignals();
   sigset_t blocked;
   ::sigandset(&blocked, &stop, &held);
@@ -144,9 +130,7 @@ void resetSignals(const sigset_t& held) {
 
 // Runs in the child. An exception other than Error ends it, as none of the parent's code may run twice.
 [[noreturn]] void answer(const std::function<std::string()>& function, const IsolationLimits& limits,
-                         int result, pid_t parent, const sigset_t& held) noexcept {
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(1);
+                         int result, const sigset_t& held) noexcept {
   resetSignals(held);
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
   ::dup2(nowhere, STDOUT_FILENO);
@@ -165,15 +149,9 @@ void resetSignals(const sigset_t& held) {
 class Child {
  public:
   Child(const std::function<std::string()>& function, const IsolationLimits& limits, Pipe& pipe) {
-    sigset_t all, held;
-    ::sigfillset(&all);
-    ::pthread_sigmask(SIG_BLOCK, &all, &held);
-    const pid_t parent = ::getpid();
-    id_ = ::fork();
-    const int cause = errno;
-    if (id_ == 0) answer(function, limits, pipe.writeEnd(), parent, held);
-    ::pthread_sigmask(SIG_SETMASK, &held, nullptr);
-    if (id_ < 0) throw Error({.what = "cannot start a process", .found = std::strerror(cause)});
+    const SignalsBlocked guard;
+    id_ = forkChild("a process", [&] { answer(function, limits, pipe.writeEnd(), guard.before()); },
+                    {.ownGroup = false});
     pipe.closeWrite();
   }
   ~Child() {
@@ -182,26 +160,19 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  /// Kills it, unless it has ended, and returns its status.
-  int end() {
+  /// Kills it, unless it has ended.
+  ChildEnd end() {
     ::kill(id_, SIGKILL);
     return wait();
   }
-  int wait() {
-    int status = 0;
-    while (::wait4(id_, &status, 0, &usage_) < 0 && errno == EINTR) continue;
+  ChildEnd wait() {
     ended_ = true;
-    return status;
-  }
-  double cpuSeconds() const {
-    return static_cast<double>(usage_.ru_utime.tv_sec + usage_.ru_stime.tv_sec) +
-           1e-6 * static_cast<double>(usage_.ru_utime.tv_usec + usage_.ru_stime.tv_usec);
+    return *waitForChild(id_);
   }
 
  private:
   pid_t id_ = -1;
   bool ended_ = false;
-  rusage usage_{};
 };
 
 // Reads what the child sends while it works.
@@ -246,12 +217,10 @@ class Reader {
   StopRequests stop_;
 };
 
-IsolatedResult failureOf(int status, bool isLate, double cpuSeconds, const IsolationLimits& limits) {
-  IsolatedResult result;
-  if (WIFEXITED(status)) result.exitCode = WEXITSTATUS(status);
-  if (WIFSIGNALED(status)) result.signal = WTERMSIG(status);
+IsolatedResult failureOf(const ChildEnd& end, bool isLate, const IsolationLimits& limits) {
+  IsolatedResult result{.signal = end.signal(), .exitCode = end.exitCode(), .bytes = {}};
   const bool usedUp =
-      result.signal == SIGXCPU || (result.signal == SIGKILL && cpuSeconds > limits.cpuSeconds);
+      result.signal == SIGXCPU || (result.signal == SIGKILL && end.cpuSeconds > limits.cpuSeconds);
   if (isLate || usedUp) result.end = IsolatedEnd::kTookTooLong;
   if (result.exitCode == kOutOfMemoryCode) result.end = IsolatedEnd::kOutOfMemory;
   return result;
@@ -275,8 +244,8 @@ IsolatedResult callIsolated(const std::function<std::string()>& function, const 
   }
   char rest = 0;
   isWhole = isWhole && !reader.read(&rest, 1);
-  const int status = reader.isAtEnd() ? child.wait() : child.end();
-  if (!isWhole || status != 0) return failureOf(status, reader.isLate(), child.cpuSeconds(), limits);
+  const ChildEnd end = reader.isAtEnd() ? child.wait() : child.end();
+  if (!isWhole || end.status != 0) return failureOf(end, reader.isLate(), limits);
   if (head.kind == Head::kError) throw Error(unpacked(bytes));
   return {.end = IsolatedEnd::kReturned, .exitCode = 0, .bytes = std::move(bytes)};
 }

@@ -1,20 +1,16 @@
 #include "base/process_pool.h"
 
-#include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
-#include <cstring>
 #include <map>
 #include <thread>
 
-#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/error.h"
+#include "base/child.h"
 #include "base/interruption.h"
 
 namespace rex {
@@ -22,16 +18,9 @@ namespace {
 
 constexpr auto kPause = std::chrono::milliseconds(2);
 
-[[noreturn]] void work(const std::function<int(int)>& job, int k, pid_t parent, int cpuSeconds) {
+[[noreturn]] void work(const std::function<int(int)>& job, int k, int cpuSeconds) {
   constexpr int kBroken = 3;
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(kBroken);
-  ::setpgid(0, 0);  // Ctrl-C reaches us, and we pass it on
-  rlimit time{};
-  if (cpuSeconds > 0 && ::getrlimit(RLIMIT_CPU, &time) == 0) {
-    time.rlim_cur = std::min(time.rlim_max, static_cast<rlim_t>(cpuSeconds));
-    ::setrlimit(RLIMIT_CPU, &time);
-  }
+  if (cpuSeconds > 0) lowerLimit(RLIMIT_CPU, static_cast<rlim_t>(cpuSeconds), RLIM_INFINITY);
   int code = kBroken;
   try {
     code = job(k);
@@ -54,11 +43,8 @@ class Copies {
 
   void start(const std::function<int(int)>& job, int k, int cpuSeconds) {
     std::fflush(nullptr);  // or the copy would inherit our unwritten output
-    const pid_t parent = ::getpid(), copy = ::fork();
-    if (copy < 0) throw Error({.what = "cannot start a process", .found = std::strerror(errno)});
-    if (copy == 0) work(job, k, parent, cpuSeconds);
-    ::setpgid(copy, copy);
-    running_[copy] = k;
+    // In a group of its own: Ctrl-C reaches us, and we pass it on.
+    running_[forkChild("a process", [&] { work(job, k, cpuSeconds); })] = k;
   }
 
   // Removes the copies that have ended and calls `ended` for each.
@@ -73,10 +59,9 @@ class Copies {
       }
       // If a copy was killed, so is what it started. Its ID is not reused until we wait for it.
       if (end.si_code != CLD_EXITED) ::kill(-copy, SIGKILL);
-      int status = 0;
-      ::waitpid(copy, &status, 0);
+      const ChildEnd how = *waitForChild(copy);
       entry = running_.erase(entry);
-      ended(k, WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status));
+      ended(k, how.signal() != 0 ? -how.signal() : how.exitCode());
     }
   }
 
@@ -90,7 +75,7 @@ class Copies {
     }
     for (const auto& [copy, k] : running_) {
       ::kill(-copy, SIGKILL);
-      ::waitpid(copy, nullptr, 0);
+      waitForChild(copy);
     }
     running_.clear();
   }

@@ -9,10 +9,10 @@
 #include <thread>
 
 #include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/child.h"
 #include "base/text.h"
 
 namespace rex::grading {
@@ -53,12 +53,10 @@ NewDescendants::~NewDescendants() {
 }
 
 void NewDescendants::reap(int child) {
-  rusage usage{};
-  int status = 0;
-  if (::wait4(child, &status, WNOHANG, &usage) != child) return;
-  for (const timeval& time : {usage.ru_utime, usage.ru_stime})
-    cpuSeconds_ += static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-  peakKilobytes_ = std::max(peakKilobytes_, usage.ru_maxrss);
+  const std::optional<ChildEnd> end = waitForChild(child, WNOHANG);
+  if (!end) return;
+  cpuSeconds_ += end->cpuSeconds;
+  peakKilobytes_ = std::max(peakKilobytes_, end->peakKilobytes);
 }
 
 void NewDescendants::kill() {

@@ -6,25 +6,33 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <cstring>
 #include <fstream>
+#include <optional>
 #include <random>
 #include <stdexcept>
 #include <utility>
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <linux/close_range.h>
 #include <poll.h>
 #include <sched.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/child.h"
 #include "base/error.h"
 #include "base/pipe.h"
 #include "base/private_folder.h"
 #include "grading/descendants.h"
-#include "grading/launch_internal.h"
 #include "grading/output_capture.h"
 #include "remote/thrown.h"
+#include "remote/worker.h"
+#include "sandbox/confinement.h"
+#include "sandbox/leave_others.h"
 #include "sandbox/report.h"
 
 namespace rex::grading {
@@ -35,6 +43,119 @@ using Clock = std::chrono::steady_clock;
 
 double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+#ifdef __SANITIZE_ADDRESS__
+constexpr bool kLimitMemory = false;
+// Crashes keep their signals, findings abort, and memory that a killed worker leaves behind is not a leak.
+constexpr std::array<const char*, 3> kEnvironment = {
+    "ASAN_OPTIONS=handle_segv=0:handle_sigbus=0:handle_sigfpe=0:handle_sigill=0:abort_on_error=1:detect_"
+    "leaks=0",
+    "UBSAN_OPTIONS=abort_on_error=1", nullptr};
+#else
+constexpr bool kLimitMemory = true;
+constexpr std::array<const char*, 1> kEnvironment = {nullptr};
+#endif
+
+constexpr std::size_t kLargestFile = 64u << 20;
+constexpr rlim_t kOpenFiles = 64;
+
+int notBlocking(int fd) {
+  ::fcntl(fd, F_SETFL, O_NONBLOCK);
+  return fd;
+}
+
+/// A started process and our ends of its pipes, which do not block. The receiver owns the descriptors.
+struct Launched {
+  pid_t process = -1;
+  int processFd = -1;  ///< readable once the process has ended
+  int toWorker = -1;
+  int fromWorker = -1;
+  int output = -1;
+  int error = -1;
+  int report = -1;  ///< what the launcher says; -1 at level 0
+};
+
+/// A confinement's command, started by its launcher; without one, level 0, the program itself.
+struct LaunchOrder {
+  std::vector<std::string> command{};  ///< path and arguments; one path alone runs under the name "worker"
+  std::string name{};                  ///< of the program, in messages
+  std::filesystem::path folder{};      ///< to work in
+  Limits limits{};                     ///< set here at level 0, by the launcher above
+  sandbox::Level level = sandbox::Level::kLimitsOnly;
+};
+
+void setLimits(const Limits& limits) {
+  lowerCpuSeconds(limits.cpuBudget());
+  lowerLimit(RLIMIT_FSIZE, kLargestFile, kLargestFile);
+  lowerLimit(RLIMIT_NOFILE, kOpenFiles, kOpenFiles);
+  lowerLimit(RLIMIT_CORE, 0, 0);
+  if (kLimitMemory && !limits.sanitized) lowerLimit(RLIMIT_AS, limits.memory, limits.memory);
+}
+
+// In the new process, which uses our memory until execve: only async-signal-safe calls are allowed. `fds`
+// become descriptors 1, 2, ...
+void becomeWorker(const LaunchOrder& order, char* const* arguments, const std::vector<int>& fds, int status) {
+  ::close(STDIN_FILENO);
+  static_cast<void>(::open("/dev/null", O_RDONLY));  // gets the lowest number that is free
+  int next = STDIN_FILENO;
+  for (const int fd : fds) ::dup2(fd, ++next);
+  ::close_range(static_cast<unsigned>(next) + 1, ~0u, CLOSE_RANGE_CLOEXEC);
+  resetSignalHandlers();
+  ::signal(SIGPIPE, SIG_DFL);
+  sigset_t none;
+  ::sigemptyset(&none);
+  ::sigprocmask(SIG_SETMASK, &none, nullptr);
+  if (::chdir(order.folder.c_str()) == 0) {
+    if (!sandbox::isConfined(order.level)) {
+      setLimits(order.limits);
+      sandbox::leaveOthersAlone();
+    }
+    ::execve(order.command.front().c_str(), arguments, const_cast<char* const*>(kEnvironment.data()));
+  }
+  const int cause = errno;
+  static_cast<void>(!::write(status, &cause, sizeof cause));
+}
+
+std::vector<char*> argumentsOf(const LaunchOrder& order) {
+  static const std::string kName = "worker";
+  std::vector<char*> arguments;
+  for (const std::string& word : order.command) arguments.push_back(const_cast<char*>(word.c_str()));
+  if (arguments.size() == 1) arguments[0] = const_cast<char*>(kName.c_str());
+  arguments.push_back(nullptr);
+  return arguments;
+}
+
+// Starts it in its own process group with an empty environment, before its first instruction with its
+// limits, and with no descriptor but the standard ones, its two pipes and a launcher's report. It dies with
+// this process. Throws Error if it cannot be started.
+Launched launchWorker(const LaunchOrder& order) {
+  static_assert(remote::kWorkerIn == 3 && remote::kWorkerOut == 4 && sandbox::kReport == 5);
+  Pipe in, out, output, error, status;
+  std::optional<Pipe> report;
+  const std::vector<char*> arguments = argumentsOf(order);
+  std::vector<int> fds{output.writeEnd(), error.writeEnd(), in.readEnd(), out.writeEnd()};
+  if (sandbox::isConfined(order.level)) fds.push_back(report.emplace().writeEnd());
+  pid_t child = -1;
+  {
+    // A grader holds much memory, and a copy of its page tables would cost more than all else here.
+    const SignalsBlocked guard;
+    child = forkChild("the worker", [&] { becomeWorker(order, arguments.data(), fds, status.writeEnd()); },
+                      {.sharesMemory = true});
+  }
+  status.closeWrite();
+  int cause = 0;
+  if (::read(status.readEnd(), &cause, sizeof cause) == sizeof cause) {
+    waitForChild(child);
+    throw Error({.what = "cannot start the worker " + order.name, .found = std::strerror(cause)});
+  }
+  return {.process = child,
+          .processFd = static_cast<int>(::syscall(SYS_pidfd_open, child, 0)),
+          .toWorker = notBlocking(in.releaseWrite()),
+          .fromWorker = notBlocking(out.releaseRead()),
+          .output = notBlocking(output.releaseRead()),
+          .error = notBlocking(error.releaseRead()),
+          .report = report ? notBlocking(report->releaseRead()) : -1};
 }
 
 /// Thrown when we stop waiting for the worker for a known reason.
@@ -83,7 +204,6 @@ pid_t childOf(pid_t process) {
 
 sandbox::Confinement confinementOf(const GradingJob& job, const fs::path& program) {
   if (!sandbox::isConfined(job.sandbox.level)) return {};
-  constexpr std::size_t kLargestFile = 64u << 20;
   sandbox::Confinement confinement{.readable = {{fs::absolute(program), sandbox::kInsideProgram}},
                                    .cpuSeconds = job.limits.cpuBudget(),
                                    .addressSpace = job.limits.memory,
@@ -124,7 +244,6 @@ class Worker {
   double secondsLeft();
   void drain();
   bool waitForEnd(double seconds);
-  void reap(int flags);
   void readReport();
   bool saidItsEnd();
   int trueStatus();
@@ -145,10 +264,8 @@ class Worker {
   double waited_ = 0;
   double allowed_ = job_.limits.wallBudget();
   bool ready_ = false;
-  bool reaped_ = false;
   bool over_ = false;
-  int status_ = 0;
-  rusage usage_{};
+  std::optional<ChildEnd> end_{};  // once it has been reaped
   std::string report_{};
 };
 
@@ -226,27 +343,16 @@ void Worker::drain() {
                   .message = fmt::format("printed more than {} MB {}", limit / kMegabyte, place())});
 }
 
-void Worker::reap(int flags) {
-  if (!reaped_) reaped_ = ::wait4(launched_.process, &status_, flags, &usage_) == launched_.process;
-}
-
 bool Worker::waitForEnd(double seconds) {
   const auto start = Clock::now();
-  while (!reaped_ && secondsSince(start) < seconds) {
+  while (!end_ && secondsSince(start) < seconds) {
     pollfd polled{launched_.processFd, POLLIN, 0};
     ::poll(&polled, 1, 10);
     output_.drain();
     error_.drain();
-    reap(WNOHANG);
+    end_ = waitForChild(launched_.process, WNOHANG);
   }
-  return reaped_;
-}
-
-double cpuSecondsOf(const rusage& usage) {
-  const auto seconds = [](const timeval& time) {
-    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  return end_.has_value();
 }
 
 void Worker::readReport() {
@@ -267,13 +373,13 @@ bool Worker::saidItsEnd() {
 // the program starts, that is our fault; if it fails later, the program brought it down.
 int Worker::trueStatus() {
   const sandbox::Level level = job_.sandbox.level;
-  if (!sandbox::isConfined(level)) return status_;
+  if (!sandbox::isConfined(level)) return end_->status;
   readReport();
   const sandbox::Report report = sandbox::readReport(report_);
   if (!report.error.empty() || !report.ready)
     throw Error({.what = fmt::format("the sandbox of level {} cannot be set up", sandbox::numberOf(level)),
                  .found = report.error.empty() ? tellingLine(error_.tail()) : report.error});
-  return sandbox::hasNamespaces(level) ? report.status.value_or(SIGKILL) : status_;
+  return sandbox::hasNamespaces(level) ? report.status.value_or(SIGKILL) : end_->status;
 }
 
 Failure Worker::explain(const remote::Closed& reason) {
@@ -282,7 +388,7 @@ Failure Worker::explain(const remote::Closed& reason) {
   if (!waitForEnd(kPatience) && !(saidItsEnd() && waitForEnd(10 * kPatience)))
     return {.outcome = Outcome::kProtocolError, .message = "closed its connection to the grader " + place()};
   return explainEnd({.status = trueStatus(),
-                     .cpuSeconds = cpuSecondsOf(usage_),
+                     .cpuSeconds = end_->cpuSeconds,
                      .ready = ready_,
                      .function = caller_.running(),
                      .errorTail = error_.tail(),
@@ -298,10 +404,10 @@ Failure Worker::explain(const remote::ProtocolError& reason) const {
 void Worker::killAll() {
   if (std::exchange(over_, true)) return;
   // Its group first: until the leader is reaped, no other process can get its number.
-  if (!reaped_) {
+  if (!end_) {
     ::kill(-launched_.process, SIGKILL);
     ::kill(launched_.process, SIGKILL);
-    reap(0);
+    end_ = waitForChild(launched_.process);
   }
   cell_.kill();
   descendants_.kill();
@@ -311,8 +417,8 @@ WorkerRun Worker::end() {
   killAll();
   output_.drain();
   error_.drain();
-  const long peak = std::max(usage_.ru_maxrss, descendants_.peakKilobytes());
-  return {.cpuSeconds = cpuSecondsOf(usage_) + descendants_.cpuSeconds(),
+  const long peak = std::max(end_->peakKilobytes, descendants_.peakKilobytes());
+  return {.cpuSeconds = end_->cpuSeconds + descendants_.cpuSeconds(),
           .wallSeconds = waited_,
           .peakMemoryBytes = static_cast<std::int64_t>(peak) * 1024,
           .output = {output_.head(), output_.total()},

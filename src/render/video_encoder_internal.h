@@ -10,7 +10,7 @@
 #include <string>
 #include <thread>
 
-#include "base/child_process.h"
+#include "base/process.h"
 #include "render/image.h"
 #include "render/video_format_internal.h"
 #include "render/video_sink.h"

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "base/child_process.h"
+#include "base/process.h"
 #include "support/temporary_folder.h"
 
 namespace rex::bench {
