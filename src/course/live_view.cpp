@@ -23,11 +23,11 @@
 #include "live/live_page.h"
 #include "live/live_pieces.h"
 #include "live/live_scene.h"
+#include "live/live_server.h"
+#include "live/open_browser.h"
 #include "render/glb.h"
 #include "render/report.h"
 #include "render/scene_picture.h"
-#include "web/live_server.h"
-#include "web/open_browser.h"
 
 namespace rex {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "live/live_server.h"
 #include "support/web_connection.h"
-#include "web/live_server.h"
 
 namespace rex::live_page_test {
 

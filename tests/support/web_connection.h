@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cerrno>
+#include <cstdint>
 #include <string>
 
 #include <arpa/inet.h>
@@ -15,9 +16,12 @@ namespace rex {
 /// while, or says enough.
 class Connection {
  public:
-  explicit Connection(int port, int flags = 0)
+  /// `from`: the address of this end, such as "127.0.0.2".
+  explicit Connection(int port, int flags = 0, const char* from = "127.0.0.1")
       : fd_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC | flags, 0)) {
-    sockaddr_in to{};
+    sockaddr_in to{}, own{};
+    own.sin_family = AF_INET, own.sin_addr.s_addr = inet_addr(from);
+    static_cast<void>(::bind(fd_, reinterpret_cast<const sockaddr*>(&own), sizeof own));
     to.sin_family = AF_INET, to.sin_port = htons(static_cast<std::uint16_t>(port));
     to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     static_cast<void>(::connect(fd_, reinterpret_cast<const sockaddr*>(&to), sizeof to));

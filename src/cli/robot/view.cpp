@@ -20,9 +20,9 @@
 #include "cli/terminal.h"
 #include "cli/wrong_use_internal.h"
 #include "live/live_page.h"
+#include "live/live_server.h"
 #include "live/live_session.h"
-#include "web/live_server.h"
-#include "web/open_browser.h"
+#include "live/open_browser.h"
 
 namespace rex::cli {
 namespace {

@@ -19,8 +19,8 @@
 #include "cli/student/watch_keys.h"
 #include "cli/student/watch_page.h"
 #include "cli/terminal.h"
-#include "web/live_server.h"
-#include "web/open_browser.h"
+#include "live/live_server.h"
+#include "live/open_browser.h"
 
 namespace rex::cli {
 namespace {

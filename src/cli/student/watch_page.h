@@ -8,7 +8,7 @@
 
 #include "cli/project.h"
 #include "grading/results.h"
-#include "web/live_server.h"
+#include "live/live_server.h"
 
 namespace rex::cli {
 

@@ -1,4 +1,4 @@
-#include "web/open_browser.h"
+#include "live/open_browser.h"
 
 #include <csignal>
 #include <cstdlib>

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "base/private_folder.h"
-#include "web/live_server.h"
+#include "live/live_server.h"
 
 namespace rex {
 

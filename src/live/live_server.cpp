@@ -1,4 +1,4 @@
-#include "web/live_server.h"
+#include "live/live_server.h"
 
 #include <algorithm>
 #include <array>
@@ -23,7 +23,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
-#include "web/connections_internal.h"
+#include "live/connections_internal.h"
 
 namespace rex {
 namespace {
@@ -50,6 +50,7 @@ class BoundedQueue : public httplib::TaskQueue {
     ++running_;
     std::thread([this, connection, serve = std::move(serve)] {
       connections_.begin(connection);
+      connections_.awaitHeader();
       serve();
       connections_.end();
       const std::lock_guard held(mutex_);
@@ -239,7 +240,10 @@ struct LiveServer::Parts {
   void prepare() {
     http.new_task_queue = [this] { return new BoundedQueue(connections, port); };
     http.set_idle_interval(kLook);
-    http.set_logger([this](const httplib::Request&, const httplib::Response&) { connections.endAnswer(); });
+    // The last word on a request, before the next one on the same connection.
+    http.set_logger([this](const httplib::Request&, const httplib::Response& answer) {
+      if (answer.get_header_value("Connection") != "close") connections.awaitHeader();
+    });
     // The library's own choice would let another program serve on this port, too.
     http.set_socket_options([](int socket) {
       const int yes = 1;
