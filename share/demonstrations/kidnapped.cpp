@@ -5,8 +5,8 @@
 #include "course/car_simulator.h"
 #include "course/course.h"
 #include "course/live_view.h"
-#include "estimation/car_particles.h"
 #include "estimation/kalman_filter.h"
+#include "estimation/particle_filter.h"
 #include "render/picture.h"
 
 using namespace rex;
@@ -30,8 +30,17 @@ int main() {
     car.step(u);
     Eigen::VectorXd y = car.getMeanObservationAtState(car.getState());
     y += noise * rng.normalVector(static_cast<int>(y.size()));
+    // What both filters believe.
+    const NonlinearModel motion{
+        .g = [&](const Eigen::VectorXd& x) { return car.getMeanStateAfterStep(x, u); },
+        .jacobian = [&](const Eigen::VectorXd& x) { return car.getStateJacobian(x, u); },
+        .W = Eigen::Vector3d(drift, drift, drift / 2).cwiseAbs2().asDiagonal()};
+    const NonlinearModel sight{
+        .g = [&](const Eigen::VectorXd& x) { return car.getMeanObservationAtState(x); },
+        .jacobian = [&](const Eigen::VectorXd& x) { return car.getObservationJacobianAtState(x); },
+        .W = noise * noise * Eigen::MatrixXd::Identity(y.size(), y.size())};
     // The filter's motion, and now and then a particle anywhere.
-    const Propose drive = carProposal({.deviations = Eigen::Vector3d(drift, drift, drift / 2)}, u);
+    const Propose drive = motionProposal(motion);
     const Propose propose = [&](Eigen::Ref<Eigen::MatrixXd> X, Eigen::Ref<Eigen::VectorXd> logWeights,
                                 Rng& random) {
       drive(X, logWeights, random);
@@ -39,19 +48,8 @@ int main() {
         if (random.uniform() < lost)
           X.col(i) << random.uniform(-15, 15), random.uniform(-15, 15), random.uniform(-3.14, 3.14);
     };
-    const LandmarkSensor sensor{.W = noise * noise * Eigen::Matrix2d::Identity()};
-    (void)particles.step(propose, landmarkWeights(sensor, car.getLandmarks(), y), rng);
-    kalman = extendedPredict(
-        kalman, {.g = [&](const Eigen::VectorXd& x) { return car.getMeanStateAfterStep(x, u); },
-                 .jacobian = [&](const Eigen::VectorXd& x) { return car.getStateJacobian(x, u); },
-                 .W = drift * drift * Eigen::Matrix3d::Identity()});
-    kalman = extendedUpdate(
-                 kalman,
-                 {.g = [&](const Eigen::VectorXd& x) { return car.getMeanObservationAtState(x); },
-                  .jacobian = [&](const Eigen::VectorXd& x) { return car.getObservationJacobianAtState(x); },
-                  .W = noise * noise * Eigen::MatrixXd::Identity(y.size(), y.size())},
-                 y)
-                 .belief;
+    (void)particles.step(propose, observationWeights(sight, y), rng);
+    kalman = extendedUpdate(extendedPredict(kalman, motion), sight, y).belief;
     const Eigen::Vector3d truth = car.getState();
     Picture picture =
         pictureOf(CarView{.car = truth,

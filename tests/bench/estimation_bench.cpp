@@ -8,7 +8,6 @@
 #include "base/cpu_lanes.h"
 #include "base/rng.h"
 #include "bench/row.h"
-#include "estimation/car_particles.h"
 #include "estimation/ekf_slam.h"
 #include "estimation/pose_graph.h"
 #include "estimation/street_graph.h"
@@ -85,35 +84,10 @@ Row slamUpdateRow() {
   return row;
 }
 
-// A step of a filter of the car with two landmarks (exercise 12.9): resampled, moved, weighed.
-Row particleRow() {
-  constexpr int kParticles = 100000;
-  const auto rng = std::make_shared<Rng>(3);
-  Eigen::Matrix2Xd landmarks(2, 2);
-  landmarks << 10, -5, 3, 8;
-  LandmarkSensor sensor;
-  sensor.W *= 0.25;
-  const Gaussian start{Eigen::Vector3d::Zero(), 0.01 * Eigen::Matrix3d::Identity()};
-  const auto filter =
-      std::make_shared<ParticleFilter>(sampledParticles(start, kParticles, *rng),
-                                       ParticleFilterOptions{.resampling = Resampling::kSystematic});
-  // It stands still, so that it sees the same again and again.
-  const Propose propose = carProposal({}, Eigen::Vector2d(0, 0.2));
-  const Weigh weigh = landmarkWeights(sensor, landmarks, landmarks.reshaped());
-  const Measurement step = timed([=] {
-    if (filter->step(propose, weigh, *rng).lost) throw std::logic_error("the filter lost the car");
-  });
-  return {.name = "particle-and-step",
-          .ours = [=] { return step() / kParticles; },
-          .peerName = "limit",
-          .peer = [] { return 15e-9; },
-          .target = 1.};
-}
-
 }  // namespace
 
 std::vector<Row> estimationRows() {  // As large as the well-known maps of Manhattan and of a city.
-  return {poseGraphRow(3500, 0.5), poseGraphRow(10000, 0.45), slamUpdateRow(), particleRow()};
+  return {poseGraphRow(3500, 0.5), poseGraphRow(10000, 0.45), slamUpdateRow()};
 }
 
 }  // namespace rex::bench

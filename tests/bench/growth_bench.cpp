@@ -8,8 +8,8 @@
 #include "base/rng.h"
 #include "bench/robots.h"
 #include "bench/row.h"
-#include "estimation/car_particles.h"
 #include "estimation/ekf_slam.h"
+#include "estimation/particle_filter.h"
 #include "estimation/pose_graph.h"
 #include "estimation/street_graph.h"
 #include "kinematics/forward_kinematics.h"
@@ -82,9 +82,11 @@ Measurement particles(int n) {
   const Gaussian start{Eigen::Vector3d::Zero(), 0.01 * Eigen::Matrix3d::Identity()};
   const auto filter = std::make_shared<ParticleFilter>(
       sampledParticles(start, n, *rng), ParticleFilterOptions{.resampling = Resampling::kSystematic});
-  const Eigen::Vector2d landmark(10, 3);
-  const Propose propose = carProposal({}, Eigen::Vector2d(0, 0.2));
-  const Weigh weigh = landmarkWeights({}, landmark, landmark);
+  const Propose propose = motionProposal(
+      {.g = [](const Eigen::VectorXd& x) { return x; }, .W = 1e-3 * Eigen::Matrix3d::Identity()});
+  const Weigh weigh =
+      observationWeights({.g = [](const Eigen::VectorXd& x) { return x; }, .W = Eigen::Matrix3d::Identity()},
+                         Eigen::Vector3d::Zero());
   return timed([=] { static_cast<void>(filter->step(propose, weigh, *rng)); });
 }
 
