@@ -21,7 +21,7 @@ function(rex_exercise_gates name)
     set_tests_properties(exercise/${name}/sample PROPERTIES LABELS sample-${name} TIMEOUT 1200)
   endif()
   foreach(gate IN LISTS gates)
-    add_test(NAME exercise/${name}/${gate} COMMAND rex-instructor dev check ${name} --gate ${gate})
+    add_test(NAME exercise/${name}/${gate} COMMAND rex-teach dev check ${name} --gate ${gate})
     set_tests_properties(exercise/${name}/${gate} PROPERTIES LABELS "exercise;${name}" TIMEOUT 600)
   endforeach()
   # Built with the sanitizers, a solution takes a quarter of a minute to compile; the others ask it many times.
@@ -37,7 +37,7 @@ function(rex_exercise_gates name)
   # The same, each in a file of its own as a student's: see writing-an-exercise.md. No gates of the list, hence without
   # the exercise's label.
   foreach(variant IN LISTS variants)
-    add_test(NAME exercise/${name}/wrong/${variant} COMMAND rex-instructor dev check ${name} --gate wrong/${variant})
+    add_test(NAME exercise/${name}/wrong/${variant} COMMAND rex-teach dev check ${name} --gate wrong/${variant})
     set_tests_properties(exercise/${name}/wrong/${variant} PROPERTIES LABELS "exercise;long;variant" TIMEOUT 600)
   endforeach()
 endfunction()

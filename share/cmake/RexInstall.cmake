@@ -42,7 +42,7 @@ function(rex_install_only_if_built)
     include(\"${PROJECT_SOURCE_DIR}/share/cmake/install/only_if_built.cmake\")" COMPONENT runtime)
 endfunction()
 
-set(REX_INSTALLED_PROGRAMS rex rex-robot rex-methods rex-instructor rex_sandbox_launcher rex_sandbox_probe)
+set(REX_INSTALLED_PROGRAMS rex rex-robot rex-teach rex_sandbox_launcher rex_sandbox_probe)
 
 function(rex_install_programs)
   get_property(modules GLOBAL PROPERTY REX_MODULE_TARGETS)

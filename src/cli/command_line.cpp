@@ -1,6 +1,8 @@
 #include "cli/command_line.h"
 
 #include <algorithm>
+#include <csignal>
+#include <cstdio>
 #include <exception>
 #include <span>
 #include <string>
@@ -10,11 +12,11 @@
 
 #include "base/error.h"
 #include "base/exit_code.h"
+#include "base/interruption.h"
 #include "cli/command_line_internal.h"
 #include "cli/completion.h"
 #include "cli/hand_over.h"
 #include "cli/manual_page.h"
-#include "cli/old_commands.h"
 #include "cli/terminal.h"
 
 namespace rex::cli {
@@ -140,9 +142,10 @@ std::vector<std::string> wordsOf(int argc, const char* const* argv) {
 }
 
 // The line that a user now types instead of a command of an earlier version; empty for other words.
-std::string newNameOf(const std::string& command) {
+std::string newNameOf(const std::vector<std::string>& words) {
   for (const OldCommand& old : oldCommands())
-    if (command == old.name) return fmt::format("rex: `rex {}` is now: {}", old.name, old.now);
+    if (words[0] == old.name || (words.size() > 1 && words[0] + " " + words[1] == old.name))
+      return fmt::format("rex: `rex {}` is now: {}", old.name, old.now);
   return "";
 }
 
@@ -188,7 +191,7 @@ Action actionOf(int argc, const char* const* argv, const Room& room, const Proje
   }
   if (!words.empty() && words.front() == "--man") return print(manualPage());
   if (!words.empty())
-    if (const std::string now = newNameOf(words.front()); !now.empty()) return complain(now);
+    if (const std::string now = newNameOf(words); !now.empty()) return complain(now);
   Action asked = parse(program, words, action);
   const Program owner = ownerOf(program, room.program);
   return owner == room.program ? asked : handOver(owner);
@@ -209,6 +212,17 @@ int runCommandLine(int argc, const char* const* argv, const Project& project, co
     note(fmt::format("rex: {}", error.what()));
   }
   return static_cast<int>(code);
+}
+
+int runProgram(int argc, const char* const* argv, const Project& project, const Room& room) {
+  try {
+    const HeldSignals held;
+    return runCommandLine(argc, argv, project, room);
+  } catch (const Interrupted& stop) {
+    // All is cleaned up. Flush the output, then end by the signal, as its sender wants.
+    std::fflush(nullptr);
+    return std::raise(stop.signal);
+  }
 }
 
 }  // namespace rex::cli

@@ -4,7 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "cli/room.h"
+#include "cli/command_table.h"
 
 namespace rex::cli {
 

@@ -10,10 +10,8 @@ std::string programName(Program program) {
       return "rex";
     case Program::kRobot:
       return "rex-robot";
-    case Program::kMethods:
-      return "rex-methods";
     case Program::kInstructor:
-      return "rex-instructor";
+      return "rex-teach";
   }
   return "";
 }
@@ -55,9 +53,9 @@ std::span<const TableEntry> commandTable() {
       {"plan", "Plan the path of a robot or car around obstacles: path, film and replay", kRobots, kRobot},
       {"doctor", "Test what pictures need on this machine, or attack its sandbox", kRobots, kRobot},
       {"demo", "Show a method of a chapter in a browser, or as a page", kMethods, kStudent},
-      {"slam", "Optimize a pose graph, so that the map fits its measurements", kMethods, Program::kMethods},
+      {"slam", "Optimize a pose graph, so that the map fits its measurements", kMethods, kRobot},
       {"linear", "Judge a linear system: stability, regulator, filter, Bode and Nyquist plots", kMethods,
-       Program::kMethods},
+       kRobot},
       {"import", "Take submissions from Moodle, Gradescope, git clones or folders", kCourses, kInstructor},
       {"grade", "Grade the submissions of many students", kCourses, kInstructor},
       {"export", "Write grades and feedback for Moodle, Canvas and others", kCourses, kInstructor},

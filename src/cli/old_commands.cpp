@@ -1,6 +1,6 @@
-#include "cli/old_commands.h"
-
 #include <array>
+
+#include "cli/command_table.h"
 
 namespace rex::cli {
 
@@ -14,6 +14,7 @@ std::span<const OldCommand> oldCommands() {
       {"dare", "scripts/rex linear FILE.json, with \"step\": SECONDS in the file"},
       {"filter", "scripts/rex demo filter --seed S --runs N"},
       {"grade-one", "scripts/rex grade --manifest FILE.tsv --task K -o RESULTS"},
+      {"import classroom", "scripts/rex import git CLONES -o HANDED_IN"},
       {"localize", "scripts/rex demo localize --seed S --runs N"},
       {"map", "scripts/rex demo map --seed S --runs N"},
       {"park", "scripts/rex plan SCENE --planner hybrid-astar --goal x,y,heading -o DIR"},

@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "base/process.h"
+#include "cli/command_line.h"
 #include "cli/rooms_of_students.h"
-#include "cli/run_program.h"
 #include "support/paths.h"
 #include "support/temporary_folder.h"
 

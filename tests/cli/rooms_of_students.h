@@ -4,10 +4,6 @@
 #include <string_view>
 
 #include "cli/command_table.h"
-#include "cli/methods/methods_room.h"
-#include "cli/robot/robot_room.h"
-#include "cli/room.h"
-#include "cli/student/student_room.h"
 
 namespace rex::cli {
 
@@ -26,8 +22,6 @@ inline Room roomOfStudents(Program program) {
       return studentRoom();
     case Program::kRobot:
       return robotRoom();
-    case Program::kMethods:
-      return methodsRoom();
     case Program::kInstructor:
       break;
   }

@@ -3,7 +3,7 @@
 #include <string_view>
 
 #include "cli/command_line.h"
-#include "cli/instructor/instructor_room.h"
+#include "cli/command_table.h"
 #include "cli/rooms_of_students.h"
 
 namespace rex::cli {

@@ -56,7 +56,7 @@ TEST_F(HandOver, PassesAllWordsOnAndTheExitCodeBack) {
 }
 
 TEST_F(HandOver, LeavesMistakesAndHelpToTheProgramThatKnows) {
-  addProgram("rex-instructor");
+  addProgram("rex-teach");
   for (const std::vector<const char*>& words :
        std::vector<std::vector<const char*>>{{"grade", "--help"}, {"--json", "grade", "x"}, {"dev", "chek"}})
     EXPECT_EQ(rex(words), 7) << words[0];
@@ -64,18 +64,18 @@ TEST_F(HandOver, LeavesMistakesAndHelpToTheProgramThatKnows) {
 }
 
 TEST_F(HandOver, SaysWhatIsMissing) {
-  EXPECT_EQ(rex({"linear", "--input", "-1"}), 3);
-  EXPECT_THAT(fileText(in("error")), HasSubstr("rex-methods: cannot start a part of rex"));
+  EXPECT_EQ(rex({"grade", "--seed", "-1"}), 3);
+  EXPECT_THAT(fileText(in("error")), HasSubstr("rex-teach: cannot start a part of rex"));
   EXPECT_THAT(fileText(in("error")), HasSubstr("found No such"));
 }
 
 TEST_F(HandOver, BuildsTheProgramFirst) {
   addProgram("new");
-  std::ofstream(in("build.ninja")) << "rule copy\n  command = cp new $out\nbuild rex-methods: copy\n"
+  std::ofstream(in("build.ninja")) << "rule copy\n  command = cp new $out\nbuild rex-teach: copy\n"
                                    << "rule fail\n  command = echo 'a.cpp:1:1: error: x'; exit 1\n"
                                    << "build rex-robot: fail\n";
-  EXPECT_EQ(rex({"slam"}), 7);
-  EXPECT_EQ(fileText(in("error")), "building rex-methods ...\n");
+  EXPECT_EQ(rex({"grade"}), 7);
+  EXPECT_EQ(fileText(in("error")), "building rex-teach ...\n");
   EXPECT_EQ(rex({"scene", "man"}), 3);
   EXPECT_THAT(fileText(in("error")), HasSubstr("rex-robot does not build"));
   EXPECT_THAT(fileText(in("error")), HasSubstr("a.cpp:1:1: error: x"));
@@ -98,7 +98,7 @@ TEST_F(HandOver, HelpsAlikeInAllPrograms) {
     ASSERT_NE(at, help.npos) << entry.name << " in the order of the table";
     EXPECT_THAT(help.substr(at), HasSubstr(std::string(entry.purpose.substr(0, 20)))) << entry.name;
   }
-  for (const Program program : {Program::kRobot, Program::kMethods, Program::kInstructor}) {
+  for (const Program program : {Program::kRobot, Program::kInstructor}) {
     const char* const words[] = {"rex", "--help"};
     ::testing::internal::CaptureStdout();
     EXPECT_EQ(runCommandLine(2, words, {folder(), folder()}, anyRoomOf(program)), 0);

@@ -24,8 +24,7 @@ void expectUsageError(const std::vector<std::string>& arguments, const std::stri
 }
 
 TEST(Programs, HaveTheCommandsThatTheTableGivesThem) {
-  for (const Program program :
-       {Program::kStudent, Program::kRobot, Program::kMethods, Program::kInstructor}) {
+  for (const Program program : {Program::kStudent, Program::kRobot, Program::kInstructor}) {
     const Room room = anyRoomOf(program);
     EXPECT_EQ(room.program, program) << programName(program);
     std::vector<std::string_view> registered, given;
@@ -82,7 +81,7 @@ TEST(Programs, ColourTextOnlyOnATerminalThatWantsIt) {
 }
 
 TEST(Programs, AnswerAlikeWhicheverIsAsked) {
-  for (const char* program : {"/rex-robot", "/rex-methods", "/rex-instructor"}) {
+  for (const char* program : {"/rex-robot", "/rex-teach"}) {
     const std::string file = ownFolder().string() + program;
     EXPECT_EQ(runProcess({file}).output, rex({}).output) << program;
     EXPECT_EQ(runProcess({file, "list"}).output, rex({"list"}).output) << program;

@@ -1,5 +1,5 @@
 // The program rex of a tree whose build lies in it: rex_of_tree ROOT ARGUMENTS...
-#include "cli/run_program.h"
+#include "cli/command_line.h"
 #include "commands/all_rooms.h"
 
 int main(int argc, char** argv) {

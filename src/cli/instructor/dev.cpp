@@ -4,8 +4,8 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/command_line_internal.h"
+#include "cli/command_table.h"
 #include "cli/instructor/dev_verbs.h"
-#include "cli/instructor/instructor_room_internal.h"
 #include "cli/option_table_internal.h"
 
 namespace rex::cli {

@@ -14,8 +14,8 @@
 #include "classroom/arrivals.h"
 #include "classroom/importing.h"
 #include "cli/command_line_internal.h"
+#include "cli/command_table.h"
 #include "cli/instructor/class_grades.h"
-#include "cli/instructor/instructor_room_internal.h"
 #include "cli/terminal.h"
 
 namespace rex::cli {

@@ -1,12 +1,11 @@
-#include "cli/instructor/instructor_room.h"
-
-#include "cli/instructor/instructor_room_internal.h"
+#include "cli/command_table.h"
 
 namespace rex::cli {
 
 Room instructorRoom() {
   return {.program = Program::kInstructor,
-          .commands = {{"dev", addDev}, {"export", addExport}, {"grade", addGrade}, {"import", addImport}}};
+          .commands = {{"dev", addDev}, {"export", addExport}, {"grade", addGrade}, {"import", addImport}},
+          .project = findProjectOfInstructor};
 }
 
 }  // namespace rex::cli

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "cli/command_table.h"
 #include "cli/option_table_internal.h"
 #include "cli/robot/contact_limit.h"
 #include "cli/robot/film_file.h"
@@ -19,7 +20,6 @@
 #include "cli/robot/path_summary.h"
 #include "cli/robot/posture_within_limits.h"
 #include "cli/robot/robot_options_internal.h"
-#include "cli/robot/robot_room_internal.h"
 #include "cli/wrong_use_internal.h"
 #include "collision/contacts.h"
 #include "planning/robot_problem.h"

@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "base/interruption.h"
+#include "cli/command_table.h"
 #include "cli/json_internal.h"
 #include "cli/option_value_internal.h"
 #include "cli/robot/contact_limit.h"
@@ -21,7 +22,6 @@
 #include "cli/robot/motion_log.h"
 #include "cli/robot/pin_gaps.h"
 #include "cli/robot/robot_options_internal.h"
-#include "cli/robot/robot_room_internal.h"
 #include "cli/robot/simulation.h"
 #include "cli/robot/start_overlaps.h"
 #include "cli/shared_options_internal.h"

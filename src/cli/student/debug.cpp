@@ -11,11 +11,11 @@
 #include "base/error.h"
 #include "base/interruption.h"
 #include "base/process.h"
+#include "cli/command_table.h"
 #include "cli/option_table_internal.h"
 #include "cli/out_folder.h"
 #include "cli/student/exercise_option_internal.h"
 #include "cli/student/student_file.h"
-#include "cli/student/student_room_internal.h"
 #include "cli/terminal.h"
 
 namespace rex::cli {

@@ -8,12 +8,12 @@
 #include "base/error.h"
 #include "base/private_folder.h"
 #include "base/text.h"
+#include "cli/command_table.h"
 #include "cli/demonstrations.h"
 #include "cli/json_internal.h"
 #include "cli/option_table_internal.h"
 #include "cli/out_folder.h"
 #include "cli/student/program_run.h"
-#include "cli/student/student_room_internal.h"
 #include "cli/terminal.h"
 
 namespace rex::cli {

@@ -8,10 +8,10 @@
 
 #include "base/error.h"
 #include "base/join.h"
+#include "cli/command_table.h"
 #include "cli/option_table_internal.h"
 #include "cli/student/exercise_option_internal.h"
 #include "cli/student/progress_file.h"
-#include "cli/student/student_room_internal.h"
 #include "cli/terminal.h"
 #include "grading/result_file.h"
 

@@ -4,9 +4,9 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "cli/command_table.h"
 #include "cli/json_internal.h"
 #include "cli/option_table_internal.h"
-#include "cli/student/student_room_internal.h"
 #include "cli/terminal.h"
 
 namespace rex::cli {

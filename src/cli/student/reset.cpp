@@ -8,8 +8,8 @@
 
 #include "base/error.h"
 #include "base/text_file.h"
+#include "cli/command_table.h"
 #include "cli/student/exercise_option_internal.h"
-#include "cli/student/student_room_internal.h"
 #include "cli/terminal.h"
 #include "submission/regions.h"
 

@@ -11,12 +11,12 @@
 
 #include "base/error.h"
 #include "base/text_file.h"
+#include "cli/command_table.h"
 #include "cli/option_table_internal.h"
 #include "cli/result_list.h"
 #include "cli/student/exercise_option_internal.h"
 #include "cli/student/progress_file.h"
 #include "cli/student/student_file.h"
-#include "cli/student/student_room_internal.h"
 #include "cli/terminal.h"
 
 namespace rex::cli {

@@ -1,7 +1,5 @@
-#include "cli/student/student_room.h"
-
+#include "cli/command_table.h"
 #include "cli/student/progress.h"
-#include "cli/student/student_room_internal.h"
 
 namespace rex::cli {
 

@@ -9,11 +9,11 @@
 
 #include "base/error.h"
 #include "base/sha256.h"
+#include "cli/command_table.h"
 #include "cli/json_internal.h"
 #include "cli/option_table_internal.h"
 #include "cli/student/exercise_option_internal.h"
 #include "cli/student/progress_file.h"
-#include "cli/student/student_room_internal.h"
 #include "cli/terminal.h"
 #include "submission/student_build.h"
 #include "submission/submission.h"

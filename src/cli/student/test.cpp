@@ -6,9 +6,9 @@
 #include <CLI/CLI.hpp>
 
 #include "base/exit_code.h"
+#include "cli/command_table.h"
 #include "cli/option_table_internal.h"
 #include "cli/student/exercise_option_internal.h"
-#include "cli/student/student_room_internal.h"
 #include "cli/student/test_many.h"
 #include "cli/student/test_one.h"
 

@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "cli/command_table.h"
 #include "cli/student/course_folder.h"
-#include "cli/student/student_room_internal.h"
 #include "cli/terminal.h"
 
 namespace rex::cli {

@@ -9,12 +9,12 @@
 
 #include "base/error.h"
 #include "base/private_folder.h"
+#include "cli/command_table.h"
 #include "cli/file_watcher.h"
 #include "cli/option_table_internal.h"
 #include "cli/out_folder.h"
 #include "cli/student/exercise_option_internal.h"
 #include "cli/student/keyboard.h"
-#include "cli/student/student_room_internal.h"
 #include "cli/student/test_one.h"
 #include "cli/student/watch_keys.h"
 #include "cli/student/watch_page.h"

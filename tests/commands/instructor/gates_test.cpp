@@ -193,8 +193,7 @@ std::set<std::string> registered(const std::string& exercise, const std::string&
 }
 
 std::set<std::string> listed(const std::string& exercise) {
-  const ProcessResult result =
-      runProcess({buildPath("rex-instructor"), "dev", "check", exercise, "--list-gates"});
+  const ProcessResult result = runProcess({buildPath("rex-teach"), "dev", "check", exercise, "--list-gates"});
   EXPECT_TRUE(result.ok()) << result.error;
   return linesOf(result.output);
 }

@@ -12,11 +12,11 @@
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
-#include "cli/methods/matrix_file_internal.h"
-#include "cli/methods/methods_room_internal.h"
+#include "cli/command_table.h"
 #include "cli/option_table_internal.h"
 #include "cli/out_folder.h"
 #include "cli/result_list.h"
+#include "cli/robot/matrix_file_internal.h"
 #include "cli/terminal.h"
 #include "cli/wrong_use_internal.h"
 #include "control/controllability.h"
@@ -195,7 +195,7 @@ const char* nameOf(RiccatiStatus status) {
   return "";
 }
 
-Json jsonOf(const Findings& f, const std::vector<fs::path>& files) {
+Json jsonOfFindings(const Findings& f, const std::vector<fs::path>& files) {
   const auto rows = [](const Eigen::MatrixXd& M) { return M.size() > 0 ? jsonOfRows(M) : Json(); };
   const auto states = [](const ReachableStates& s) {
     return Json{{"rank", s.rank}, {"complete", s.isComplete}, {"message", s.message}};
@@ -240,7 +240,7 @@ ExitCode linear(const Project& project, const LinearOptions& options) {
   std::vector<fs::path> files;
   if (!options.out.empty()) files = drawn(findings, options);
   if (options.json) {
-    say(dump(jsonOf(findings, files)));
+    say(dump(jsonOfFindings(findings, files)));
   } else {
     sayFindings(findings);
     for (const fs::path& written : files) say(shown(written));

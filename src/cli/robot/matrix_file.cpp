@@ -9,14 +9,14 @@
 
 #include "base/join.h"
 #include "base/text_file.h"
-#include "cli/methods/matrix_file_internal.h"
+#include "cli/robot/matrix_file_internal.h"
 #include "cli/terminal.h"
 
 namespace rex::cli {
 namespace {
 
 // "A, B and C".
-std::string listed(const std::vector<std::string>& names) {
+std::string listedNames(const std::vector<std::string>& names) {
   return fmt::format("{} and {}", join(std::span(names).first(names.size() - 1), ", "), names.back());
 }
 
@@ -45,7 +45,7 @@ Json parsedObject(const std::string& text, const std::string& file, const std::s
 MatrixFile::MatrixFile(const std::filesystem::path& path, const std::filesystem::path& given,
                        const std::vector<std::string>& known)
     : file_(harmless(given.string())) {
-  const std::string wanted = "an object with the fields " + listed(known);
+  const std::string wanted = "an object with the fields " + listedNames(known);
   object_ = parsedObject(readTextFile(path), file_, wanted);
   if (!object_.is_object())
     throw wrong("matrices", fmt::format("a JSON value of type {}", object_.type_name()), wanted);

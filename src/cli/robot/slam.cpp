@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "base/text_file.h"
+#include "cli/command_table.h"
 #include "cli/json_internal.h"
-#include "cli/methods/methods_room_internal.h"
 #include "cli/option_table_internal.h"
 #include "cli/project.h"
 #include "cli/terminal.h"
