@@ -91,6 +91,8 @@ TEST(Programs, AnswerAlikeWhicheverIsAsked) {
 
 TEST(Programs, AnswerWrongUseOfEachOther) {
   expectUsageError({"dev", "chek"}, "rex dev: unknown command 'chek' (did you mean 'check'?)");
+  expectUsageError({"import", "classroom", "x"},
+                   "rex: `rex import classroom` is now: scripts/rex import git CLONES -o HANDED_IN\n");
   expectUsageError({"--json", "scene", "man"}, "rex: option '--json' must come after `rex scene FILE`");
   expectUsageError({"grade", "--seed", "-1"}, "--seed: found -1, wanted a whole number");
   expectUsageError({"dev", "check", "--runs", "0"}, "--runs: found 0, wanted 1 to 10000");

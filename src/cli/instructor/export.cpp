@@ -14,6 +14,7 @@
 #include "cli/command_table.h"
 #include "cli/instructor/class_grades.h"
 #include "cli/instructor/grading_options_internal.h"
+#include "cli/option_table_internal.h"
 #include "cli/out_folder.h"
 #include "cli/terminal.h"
 #include "submission/zip_file.h"
@@ -158,19 +159,18 @@ CLI::App* addTarget(CLI::App* all, Action& action, const std::string& name, cons
                     const std::string& example, Exporter exporter, std::shared_ptr<ExportOptions> options) {
   CLI::App* command =
       addVerb(all, name, purpose, "Example: scripts/rex export " + example + "\n\n" + kExportCodes);
-  command->add_option("RESULTS", options->results, "the folder of results that rex grade wrote")
-      ->type_name("")
-      ->required();
-  CLI::Option* out = command->add_option(
-      "-o,--out", options->out, name == "json" ? "file to write (default: print)" : "folder to write");
-  out->type_name(name == "json" ? "FILE" : "DIR");
-  if (name != "json") out->required();
+  const bool isJson = name == "json", isMoodle = name == "moodle";
+  const auto added = addOptions(
+      command,
+      {OptionRow("RESULTS", options->results, "", "the folder of results that rex grade wrote").required(),
+       {"-o,--out", options->out, isJson ? "FILE" : "DIR",
+        isJson ? "file to write (default: print)" : "folder to write"}});
+  added[1]->required(!isJson);
   addClassFiles(command, options->files);
-  command
-      ->add_option("EXERCISE", options->exercise,
-                   name == "moodle" ? "the exercise of this assignment" : "only this exercise (default: all)")
-      ->type_name("")
-      ->required(name == "moodle");
+  addOptions(command, {{"EXERCISE", options->exercise, "",
+                        isMoodle ? "the exercise of this assignment" : "only this exercise (default: all)"}})
+      .front()
+      ->required(isMoodle);
   command->callback([&action, options, exporter] {
     action = [options, exporter](const Project& p) { return exporter(p, *options); };
   });
@@ -193,9 +193,9 @@ void addExport(CLI::App* all, Action& action) {
   CLI::App* command =
       addTarget(all, action, "moodle", "The grading worksheet filled in, and a zip of feedback",
                 "moodle results 01 --worksheet grades.csv -o moodle", exportMoodle, moodle);
-  command->add_option("--worksheet", moodle->worksheet, "grading worksheet that was downloaded from Moodle")
-      ->type_name("FILE.csv");
-  command->add_flag("--scale", moodle->scale, "scale points to the maximum grade of the worksheet");
+  addOptions(command, {{"--worksheet", moodle->worksheet, "FILE.csv",
+                        "grading worksheet that was downloaded from Moodle"},
+                       {"--scale", moodle->scale, "scale points to the maximum grade of the worksheet"}});
   addTarget(all, action, "gradescope", "Grades by SID and e-mail",
             "gradescope results --course course.toml -o grades", exportGradescope, options());
   addTarget(all, action, "canvas", "Grades for the grade book of Canvas",

@@ -16,6 +16,7 @@
 #include "cli/command_line_internal.h"
 #include "cli/command_table.h"
 #include "cli/instructor/class_grades.h"
+#include "cli/option_table_internal.h"
 #include "cli/terminal.h"
 
 namespace rex::cli {
@@ -95,16 +96,12 @@ ExitCode import(const Project& project, const ImportOptions& options, const Read
 
 std::shared_ptr<ImportOptions> addCommon(CLI::App* command, const char* source) {
   const auto options = std::make_shared<ImportOptions>();
-  command->add_option("SOURCE", options->source, source)->type_name("")->required();
-  command
-      ->add_option("-o,--out", options->handedIn,
-                   "folder of submissions for `rex grade`; new, or of earlier imports")
-      ->type_name("HANDED_IN")
-      ->required();
-  command
-      ->add_option("--exercise", options->exercise,
-                   "take this one, also from files outside of exercise folders")
-      ->type_name("EXERCISE");
+  addOptions(command, {OptionRow("SOURCE", options->source, "", source).required(),
+                       OptionRow("-o,--out", options->handedIn, "HANDED_IN",
+                                 "folder of submissions for `rex grade`; new, or of earlier imports")
+                           .required(),
+                       {"--exercise", options->exercise, "EXERCISE",
+                        "take this one, also from files outside of exercise folders"}});
   return options;
 }
 
@@ -123,13 +120,10 @@ void addMoodle(CLI::App* all, Action& action) {
                   std::string(kImportCodes));
   const auto options = addCommon(command, "the zip, or the folder it was unpacked into");
   const auto moodle = std::make_shared<grading::MoodleOptions>();
-  command
-      ->add_option("--worksheet", moodle->worksheet, "\"Download grading worksheet\" of the same assignment")
-      ->type_name("FILE.csv");
-  command
-      ->add_option("--time-zone", moodle->timeZone,
-                   "zone of the times in the worksheet: Europe/Berlin, +01:00")
-      ->type_name("ZONE");
+  addOptions(command, {{"--worksheet", moodle->worksheet, "FILE.csv",
+                        "\"Download grading worksheet\" of the same assignment"},
+                       {"--time-zone", moodle->timeZone, "ZONE",
+                        "zone of the times in the worksheet: Europe/Berlin, +01:00"}});
   setAction(command, action, options, [moodle](const auto& source, const auto& exercises) {
     return grading::readMoodle(source, *moodle, exercises);
   });
@@ -149,18 +143,13 @@ void addGit(CLI::App* all, Action& action) {
           std::string(kImportCodes));
   const auto options = addCommon(command, "folder of clones: ASSIGNMENT-STUDENT with a course inside");
   const auto words = std::make_shared<Words>();
-  command->add_option("--roster", words->options.roster, "who is who: identifier, username, name")
-      ->type_name("FILE.csv");
-  command
-      ->add_option("--record", words->options.record,
-                   "when what was handed in: repository, username, submitted, perhaps commit")
-      ->type_name("FILE.csv");
-  command->add_option("--assignment", words->options.assignment, "what the names of all clones begin with")
-      ->type_name("NAME");
-  command
-      ->add_option("--deadline", words->deadline,
-                   "take the last commit until then: 2026-11-20T23:59:00+01:00")
-      ->type_name("TIME");
+  addOptions(command,
+             {{"--roster", words->options.roster, "FILE.csv", "who is who: identifier, username, name"},
+              {"--record", words->options.record, "FILE.csv",
+               "when what was handed in: repository, username, submitted, perhaps commit"},
+              {"--assignment", words->options.assignment, "NAME", "what the names of all clones begin with"},
+              {"--deadline", words->deadline, "TIME",
+               "take the last commit until then: 2026-11-20T23:59:00+01:00"}});
   setAction(command, action, options, [words](const auto& source, const auto& exercises) {
     if (!words->deadline.empty()) {
       words->options.deadline = parseInstant(words->deadline);

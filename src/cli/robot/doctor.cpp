@@ -24,11 +24,11 @@
 #include "base/process.h"
 #include "cli/command_table.h"
 #include "cli/file_watcher.h"
+#include "cli/option_table_internal.h"
 #include "cli/out_folder.h"
 #include "cli/robot/render_plan.h"
 #include "cli/robot/robot_options_internal.h"
 #include "cli/sandbox_choice.h"
-#include "cli/shared_options_internal.h"
 #include "cli/terminal.h"
 #include "render/figure.h"
 #include "render/png.h"
@@ -319,10 +319,11 @@ void addDoctor(CLI::App* command, Action& action) {
       "Examples:\n  scripts/rex doctor\n  scripts/rex doctor --gl egl --json\n"
       "  scripts/rex doctor --sandbox --level 2");
   addGl(command, options->gl);
-  command->add_flag("--json", options->json, "print JSON instead of a table");
-  CLI::Option* sandbox =
-      command->add_flag("--sandbox", options->sandbox, "attack the sandbox that graded programs run in");
-  addLevel(command, options->level)->needs(sandbox);
+  const auto added =
+      addOptions(command, {{"--json", options->json, "print JSON instead of a table"},
+                           {"--sandbox", options->sandbox, "attack the sandbox that graded programs run in"},
+                           OptionRow([options](CLI::App* app) { return addLevel(app, options->level); })});
+  added[2]->needs(added[1]);
   command->callback([&action, options] {
     action = [options](const Project& p) {
       return options->sandbox ? doctorOfSandbox(p, *options) : doctor(p, *options);

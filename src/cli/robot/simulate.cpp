@@ -15,7 +15,7 @@
 #include "base/interruption.h"
 #include "cli/command_table.h"
 #include "cli/json_internal.h"
-#include "cli/option_value_internal.h"
+#include "cli/option_table_internal.h"
 #include "cli/robot/contact_limit.h"
 #include "cli/robot/film_file.h"
 #include "cli/robot/motion_files.h"
@@ -24,7 +24,6 @@
 #include "cli/robot/robot_options_internal.h"
 #include "cli/robot/simulation.h"
 #include "cli/robot/start_overlaps.h"
-#include "cli/shared_options_internal.h"
 #include "cli/wrong_use_internal.h"
 #include "live/live_simulation.h"
 #include "render/figure.h"
@@ -34,15 +33,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
+enum class Engine { kRungeKutta4, kBeeman, kLeapfrog, kSemiImplicit, kEuler, kBullet };
+
+const std::vector<std::pair<std::string, Engine>>& engineNames() {
+  static const std::vector<std::pair<std::string, Engine>> kNames = {
+      {"rk4", Engine::kRungeKutta4},   {"beeman", Engine::kBeeman},
+      {"leapfrog", Engine::kLeapfrog}, {"semi-implicit", Engine::kSemiImplicit},
+      {"euler", Engine::kEuler},       {"bullet", Engine::kBullet}};
+  return kNames;
+}
+
 struct SimulateOptions {
   SceneOption scene{};
   std::string posture{};   ///< see parsePosture(); empty: that of the file
   std::string velocity{};  ///< see parseVelocities(); empty: at rest
-  std::string engine = "rk4";
+  Engine engine = Engine::kRungeKutta4;
   double seconds = 5;
   double tau = 1e-3;              ///< seconds per step
   bool hold = false;              ///< the posture of the start
-  std::string holdBy{};           ///< see Hold; empty: the best there is
+  Hold holdBy = Hold::kNone;      ///< none: the best there is, if joints hold
   fs::path torques{};             ///< see readTorques()
   bool refuseOverlap = false;     ///< at the start
   bool friction = false;          ///< of the joints, as in the scene
@@ -55,46 +64,55 @@ struct SimulateOptions {
   std::vector<std::string> traces{};  ///< bodies whose paths are drawn
   bool json = false;
   std::optional<int> logEvery{};  ///< steps; empty: chosen so that the log has at most kMostLogged numbers
-  std::string logFormat = "csv";
+  LogFormat logFormat = LogFormat::kCsv;
   fs::path out{};  ///< a folder, or a page
 };
 
 constexpr double kMostSteps = 2e5;
 constexpr double kMostLogged = 1e7;  // numbers, 200 megabytes of text
 
+const std::string& nameOf(Engine engine) {
+  return std::ranges::find(engineNames(), engine, &std::pair<std::string, Engine>::second)->first;
+}
+
 // Empty for Bullet, which has its own integrator.
-std::optional<Integrator> integratorOf(const std::string& engine) {
-  return choose<std::optional<Integrator>>("--engine", engine,
-                                           {{"rk4", Integrator::kRungeKutta4},
-                                            {"beeman", Integrator::kBeeman},
-                                            {"leapfrog", Integrator::kLeapfrog},
-                                            {"semi-implicit", Integrator::kSemiImplicitEuler},
-                                            {"euler", Integrator::kEuler},
-                                            {"bullet", std::nullopt}});
+std::optional<Integrator> integratorOf(Engine engine) {
+  switch (engine) {
+    case Engine::kRungeKutta4:
+      return Integrator::kRungeKutta4;
+    case Engine::kBeeman:
+      return Integrator::kBeeman;
+    case Engine::kLeapfrog:
+      return Integrator::kLeapfrog;
+    case Engine::kSemiImplicit:
+      return Integrator::kSemiImplicitEuler;
+    case Engine::kEuler:
+      return Integrator::kEuler;
+    case Engine::kBullet:
+      break;
+  }
+  return {};
 }
 
 bool isPage(const SimulateOptions& options) { return options.out.extension() == ".html"; }
 
 // For free bases on floors computed torque is not enough, as it ignores the forces on their feet.
 Hold holdOf(const Model& model, const SimulateOptions& options, bool isBullet) {
-  if (options.holdBy.empty()) {
+  if (options.holdBy == Hold::kNone) {
     if (!options.hold) return Hold::kNone;
     return isBullet && hasFloatingBase(model) ? Hold::kMotor : Hold::kExact;
   }
-  const Hold hold = choose<Hold>(
-      "--hold-by", options.holdBy,
-      {{"exact", Hold::kExact}, {"gravity", Hold::kGravity}, {"pd", Hold::kPd}, {"motor", Hold::kMotor}});
-  if (hold == Hold::kMotor && !isBullet)
+  if (options.holdBy == Hold::kMotor && !isBullet)
     throw UsageError({.what = "--hold-by motor",
-                      .found = "--engine " + harmless(options.engine),
+                      .found = "--engine " + nameOf(options.engine),
                       .wanted = "--engine bullet, which has motors"});
-  return hold;
+  return options.holdBy;
 }
 
 void requireContacts(const char* option, const SimulateOptions& options) {
   if (integratorOf(options.engine))
     throw UsageError({.what = option,
-                      .found = "--engine " + harmless(options.engine),
+                      .found = "--engine " + nameOf(options.engine),
                       .wanted = "--engine bullet, which handles contacts"});
 }
 
@@ -108,12 +126,7 @@ SimulationPlan planOf(const Model& model, const SimulateOptions& options) {
   if (plan.physics && options.noise != 0)
     throw UsageError({.what = "--noise", .found = "--engine bullet", .wanted = "another engine"});
   if (options.refuseOverlap) requireContacts("--refuse-overlap", options);
-  requireBetween("--tau", options.tau, 1e-6, 1);
-  requireBetween("--seconds", options.seconds, 1e-6, 120);
-  requireBetween("--noise", options.noise, 0, 1e6);
-  requireBetween("--speed", options.speed, 1e-3, 1e3);
   requireBetween("--seconds / --tau, steps", options.seconds / options.tau, 1, kMostSteps);
-  if (options.logEvery) requireBetween("--log-every", *options.logEvery, 1, kMostSteps);
   plan.steps = static_cast<int>(std::lround(options.seconds / options.tau));
   for (const std::string& body : options.traces) asWrongUse([&] { return model.body(body); }, "--trace: ");
   if (model.nv() == 0) throw UsageError({.what = model.name(), .found = "no joint that moves"});
@@ -198,7 +211,7 @@ class Record {
 
 std::string titleOf(const Model& model, const SimulationPlan& plan, const SimulateOptions& options) {
   return fmt::format("{}, {}{}, {}, steps of {:g} ms", model.name(), toString(plan.hold),
-                     plan.torques ? " with torques" : "", options.engine, 1000 * options.tau);
+                     plan.torques ? " with torques" : "", nameOf(options.engine), 1000 * options.tau);
 }
 
 // How a motion is shown: frames, traces and the title.
@@ -216,7 +229,7 @@ void writeMotionPage(const MotionPictures& pictures, const Record& record, const
                 .film = pictures.film(),
                 .view = plan.views.front().view.direction(),
                 .figures = {{.figure = record.energyFigure(title)}},
-                .facts = {{"engine", options.engine},
+                .facts = {{"engine", nameOf(options.engine)},
                           {"step", fmt::format("{:g} s", options.tau)},
                           {"largest energy change", fmt::format("{:.2g} J", record.largestChange())}},
                 .still = plan.renderer};
@@ -257,7 +270,7 @@ void report(const Model& model, const SimulationPlan& plan, const Record& record
   if (options.json) {
     say(dump(
         Json{{"scene", model.name()},
-             {"engine", options.engine},
+             {"engine", nameOf(options.engine)},
              {"held", plan.hold != Hold::kNone},
              {"tau", options.tau},
              {"steps", record.steps()},
@@ -291,7 +304,6 @@ std::string stopped(const EnergyGain& gain) {
 Model modelOf(const Project& project, const SimulateOptions& options) {
   SceneSpec spec = loadSpec(project, options.scene);
   if (options.floor) {
-    requireBetween("--floor", *options.floor, -1e3, 1e3);
     requireContacts("--floor", options);
     spec.worldShapes.push_back(floorAt(*options.floor));
   }
@@ -343,13 +355,11 @@ ExitCode simulateScene(const Project& project, const SimulateOptions& options) {
   RenderOptions filmOptions = options.film;
   filmOptions.out = isPage(options) ? options.out : options.out / "simulate.mp4";
   const RenderPlan film = planOf(filmOptions, facingOf(fileOf(project, options.scene)));
-  const LogFormat format = choose<LogFormat>("--log-format", options.logFormat,
-                                             {{"csv", LogFormat::kCsv}, {"npy", LogFormat::kNpy}});
   const Model model = modelOf(project, options);
   if (isPage(options) && options.noFilm)
     throw UsageError(
         {.what = "--no-film", .found = "a page, which is a film itself", .wanted = "a folder after -o"});
-  if (isPage(options) && (options.logEvery || format != LogFormat::kCsv))
+  if (isPage(options) && (options.logEvery || options.logFormat != LogFormat::kCsv))
     throw UsageError({.what = options.logEvery ? "--log-every" : "--log-format",
                       .found = "a page, which has no log",
                       .wanted = "a folder after -o"});
@@ -365,8 +375,8 @@ ExitCode simulateScene(const Project& project, const SimulateOptions& options) {
   const std::string title = titleOf(model, plan, options);
   Record record(plan, options, kFilmRate / speed, stride);
   std::optional<MotionLog> log;
-  const fs::path logFile = options.out / ("log." + options.logFormat);
-  if (!isPage(options)) log.emplace(logFile, format, model);
+  const fs::path logFile = options.out / (options.logFormat == LogFormat::kCsv ? "log.csv" : "log.npy");
+  if (!isPage(options)) log.emplace(logFile, options.logFormat, model);
   const std::optional<EnergyGain> gain = asWrongUse([&] {
     return simulate(model, plan, [&](const Moment& moment) { record.add(moment, log ? &*log : nullptr); });
   });
@@ -414,42 +424,41 @@ void addSimulate(CLI::App* command, Action& action) {
       "Each applies until the next. They add to the torques of --hold.\n\n"
       "log.npy is a matrix for numpy.load with the columns of log.csv.");
   addSceneFile(command, "SCENE", options->scene.file);
-  command->add_option("-o,--out", options->out, "folder for the results, or a page NAME.html")
-      ->type_name("DIR")
-      ->required();
-  command
-      ->add_option("--engine", options->engine,
-                   "rk4, beeman, leapfrog, semi-implicit, euler; bullet (default: rk4)")
-      ->type_name("NAME");
-  command->add_option("--seconds", options->seconds, "duration (default: 5)")->type_name("S");
-  command->add_option("--tau", options->tau, "seconds per step (default: 0.001)")->type_name("S");
+  addOptions(
+      command,
+      {OptionRow("-o,--out", options->out, "DIR", "folder for the results, or a page NAME.html").required(),
+       {"--engine", options->engine, engineNames(), "how to integrate, bullet also contacts"},
+       {"--seconds", options->seconds, {1e-6, 120}, "S", "duration"},
+       {"--tau", options->tau, {1e-6, 1}, "S", "seconds per step"}});
   addPosture(command, options->posture);
-  command->add_option("--v", options->velocity, "all velocities, or joint=number,... (default: 0)")
-      ->type_name("VELOCITY");
-  command->add_flag("--hold", options->hold, "make the joints hold the initial posture");
-  command
-      ->add_option("--hold-by", options->holdBy, "how to hold: exact, gravity, pd or motor; implies --hold")
-      ->type_name("NAME");
-  command->add_option("--torques", options->torques, "a table of joint torques over time")->type_name("FILE");
-  command->add_flag("--friction", options->friction, "use the friction and damping of the scene's joints");
-  command->add_option("--noise", options->noise, "each step adds sqrt(tau) * X * N(0, 1) to velocities")
-      ->type_name("X");
-  addSeed(command, options->seed, "seed of the noise (default: 0)");
-  command->add_option("--floor", options->floor, "add a floor at this height, metres (bullet; default: none)")
-      ->type_name("Z");
-  command->add_flag("--refuse-overlap", options->refuseOverlap,
-                    "refuse overlaps at the start instead of pushing apart (bullet)");
-  command
-      ->add_option("--log-every", options->logEvery,
-                   "log every Nth step (default: 1, or more to stay below 200 MB)")
-      ->type_name("N");
-  command->add_option("--log-format", options->logFormat, "csv or npy (default: csv)")->type_name("NAME");
+  addOptions(
+      command,
+      {{"--v", options->velocity, "VELOCITY", "all velocities, or joint=number,... (default: 0)"},
+       {"--hold", options->hold, "make the joints hold the initial posture"},
+       {"--hold-by",
+        options->holdBy,
+        {{"exact", Hold::kExact}, {"gravity", Hold::kGravity}, {"pd", Hold::kPd}, {"motor", Hold::kMotor}},
+        "how to hold, implies --hold"},
+       {"--torques", options->torques, "FILE", "a table of joint torques over time"},
+       {"--friction", options->friction, "use the friction and damping of the scene's joints"},
+       {"--noise", options->noise, {0, 1e6}, "X", "each step adds sqrt(tau) * X * N(0, 1) to velocities"},
+       seedRow(options->seed, "seed of the noise"),
+       {"--floor", options->floor, {-1e3, 1e3}, "Z", "add a floor at this height, metres (bullet)"},
+       {"--refuse-overlap", options->refuseOverlap,
+        "refuse overlaps at the start instead of pushing apart (bullet)"},
+       {"--log-every",
+        options->logEvery,
+        {1, kMostSteps},
+        "N",
+        "log every Nth step (default: 1, or more to stay below 200 MB)"},
+       {"--log-format",
+        options->logFormat,
+        {{"csv", LogFormat::kCsv}, {"npy", LogFormat::kNpy}},
+        "of the log"},
+       {"--no-film", options->noFilm, "do not make simulate.mp4"},
+       {"--trace", options->traces, "BODY", "draw the path of this body as a line"}});
   addFilmSpeed(command, options->speed);
-  command->add_flag("--no-film", options->noFilm, "do not make simulate.mp4");
   addFilmOptions(command, options->film);
-  command->add_option("--trace", options->traces, "draw the path of this body as a line")
-      ->allow_extra_args(false)
-      ->type_name("BODY");
   addJson(command, options->json);
   addReading(command, options->scene.reading);
   addGl(command, options->film.gl);

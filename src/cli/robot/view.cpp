@@ -11,7 +11,7 @@
 #include "base/interruption.h"
 #include "base/private_folder.h"
 #include "cli/command_table.h"
-#include "cli/option_value_internal.h"
+#include "cli/option_table_internal.h"
 #include "cli/out_folder.h"
 #include "cli/robot/posture_option.h"
 #include "cli/robot/robot_options_internal.h"
@@ -88,7 +88,6 @@ void offerRecording(LiveServer& server, LiveSession& session, ViewFilm& film) {
 }
 
 ExitCode view(const Project& project, const ViewOptions& options) {
-  requireBetween("--port", options.port, 0, 65535);
   const SceneSpec spec = loadSpec(project, options.scene);
   const Model model = asWrongUse([&] { return compile(spec); });
   const Eigen::VectorXd q =
@@ -127,11 +126,10 @@ void addView(CLI::App* command, Action& action) {
       "forward the port. Ctrl-C ends it.");
   addSceneFile(command, "SCENE", options->scene.file);
   addPosture(command, options->posture);
-  command->add_option("--port", options->port, "port of the page (default: one that is free)")
-      ->type_name("N");
-  command->add_option("--bind", options->bind, "address to serve (default: 127.0.0.1, this machine only)")
-      ->type_name("ADDRESS");
-  command->add_flag("--no-browser", options->noBrowser, "do not open a browser");
+  addOptions(command,
+             {{"--port", options->port, {0, 65535}, "N", "port of the page, 0: one that is free"},
+              {"--bind", options->bind, "ADDRESS", "address to serve, by default to this machine only"},
+              {"--no-browser", options->noBrowser, "do not open a browser"}});
   addReading(command, options->scene.reading);
   command->callback(
       [&action, options] { action = [options](const Project& p) { return view(p, *options); }; });

@@ -118,34 +118,22 @@ TEST_F(SimulateCommand, RefusesWhatItCannotSimulate) {
   EXPECT_THAT(flat(simulate({"pegArm", "-o", "a.mp4"}).error),
               HasSubstr("-o a.mp4: found the name of a file, wanted a folder, which gets simulate.mp4, or a "
                         "page NAME.html"));
-  expectRefusal({"--tau", "0"}, "--tau: found 0, wanted 1e-06 to 1");
-  expectRefusal({"--tau", "nan"}, "--tau: found nan");
-  expectRefusal({"--seconds", "-1"}, "--seconds: found -1, wanted 1e-06 to 120");
-  expectRefusal({"--seconds", "0.01", "--tau", "0.1"},
-                "--seconds / --tau, steps: found 0.1, wanted 1 to 200000");
-  expectRefusal({"--seconds", "100", "--tau", "1e-5"}, "--seconds / --tau, steps: found 10000000");
-  expectRefusal({"--speed", "1001"}, "--speed: found 1001, wanted 0.001 to 1000");
-  expectRefusal({"--noise", "-1"}, "--noise: found -1, wanted 0 to 1e+06");
-  expectRefusal({"--engine", "rk5"}, "--engine: found 'rk5', wanted rk4, beeman, leapfrog");
-  expectRefusal({"--engine", "bulet"}, "did you mean 'bullet'?");
-  expectRefusal({"--engine", "bullet", "--noise", "1"},
-                "--noise: found --engine bullet, wanted another engine");
-  expectRefusal({"--floor", "0"},
-                "--floor: found --engine rk4, wanted --engine bullet, which handles contacts");
-  expectRefusal({"--floor", "nan", "--engine", "bullet"}, "--floor: found nan, wanted -1000 to 1000");
-  expectRefusal({"--refuse-overlap"},
-                "--refuse-overlap: found --engine rk4, wanted --engine bullet, which handles contacts");
-  expectRefusal({"--hold-by", "motr", "--engine", "bullet"},
-                "--hold-by: found 'motr', wanted exact, gravity, pd, motor (did you mean 'motor'?)");
-  expectRefusal({"--hold-by", "motor"}, "--hold-by motor: found --engine rk4, wanted --engine bullet");
-  expectRefusal({"--log-every", "0"}, "--log-every: found 0, wanted 1 to 200000");
-  expectRefusal({"--log-format", "np"}, "--log-format: found 'np', wanted csv, npy (did you mean 'npy'?)");
-  expectRefusal({"--trace", "pge"}, "--trace: scene 'pegArm.ors' has no body 'pge' (did you mean 'peg'?)");
-  expectRefusal({"--q", "1,2"}, "--q: found 2 numbers, wanted 3");
-  expectRefusal({"--v", "1,2"}, "--v: found 2 numbers, wanted 3");
-  expectRefusal({"--v", "0,inf,0"}, "--v: found 'inf', wanted a number");
-  expectRefusal({"--size", "0x0"}, "--size: found '0x0'");
-  expectRefusal({"--camera", "frnt"}, "did you mean 'front'?");
+  const std::vector<std::pair<std::vector<std::string>, const char*>> messages = {
+      {{"--seconds", "0.01", "--tau", "0.1"}, "--seconds / --tau, steps: found 0.1, wanted 1 to 200000"},
+      {{"--seconds", "100", "--tau", "1e-5"}, "--seconds / --tau, steps: found 10000000"},
+      {{"--engine", "bullet", "--noise", "1"}, "--noise: found --engine bullet, wanted another engine"},
+      {{"--floor", "0"}, "--floor: found --engine rk4, wanted --engine bullet, which handles contacts"},
+      {{"--refuse-overlap"},
+       "--refuse-overlap: found --engine rk4, wanted --engine bullet, which handles contacts"},
+      {{"--hold-by", "motor"}, "--hold-by motor: found --engine rk4, wanted --engine bullet"},
+      {{"--trace", "pge"}, "--trace: scene 'pegArm.ors' has no body 'pge' (did you mean 'peg'?)"},
+      {{"--q", "1,2"}, "--q: found 2 numbers, wanted 3"},
+      {{"--v", "1,2"}, "--v: found 2 numbers, wanted 3"},
+      {{"--v", "0,inf,0"}, "--v: found 'inf', wanted a number"},
+      {{"--size", "0x0"}, "--size: found '0x0'"},
+      {{"--camera", "frnt"}, "did you mean 'front'?"},
+  };
+  for (const auto& [words, message] : messages) expectRefusal(words, message);
   std::ofstream(in("still.ors")) << "body a { type=ST_box size=[1 1 1 0] mass=1 }";
   EXPECT_THAT(flat(simulate({"still.ors", "-o", "out"}).error),
               HasSubstr("still.ors: found no joint that moves"));
