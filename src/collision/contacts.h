@@ -33,8 +33,8 @@ void proxies(const ContactModel& contacts, const BodyPoses& poses, double cutoff
 [[nodiscard]] Eigen::RowVectorXd distanceJacobian(const Model& model, const BodyPoses& poses,
                                                   const Proxy& proxy, const ContactModel& contacts);
 
-/// Cost of being nearer than the margin m > 0, metres: the sum over all pairs of [1 - d/m]^+ (slide 2:60 as
-/// corrected in the errata), with negative d in overlap. It is exactly 0 if all pairs are m apart. Throws
+/// Cost of being nearer than the margin m > 0, metres: the sum over all pairs of [1 - d/m]^+ (slide 2:60 with
+/// erratum 4), with negative d in overlap. It is exactly 0 if all pairs are m apart. Throws
 /// Error unless the margin is positive.
 [[nodiscard]] double contactCost(const ContactModel& contacts, const BodyPoses& poses,
                                  double margin = kContactMargin);

@@ -19,7 +19,7 @@ struct CartPoleDynamics {
 
   /// x' from equations (13) and (14) of exercise 12.11.
   [[nodiscard]] Eigen::Vector4d derivative(const Eigen::Vector4d& x, double u) const;
-  /// Its exact derivatives; at the upright rest position they are those of errata 11a.
+  /// Its exact derivatives; at the upright rest position they are those of erratum 32.
   [[nodiscard]] LinearizedPlant linearized(const Eigen::Vector4d& x, double u) const;
   /// Kinetic plus potential energy, joules; the potential energy is zero when the pole is horizontal.
   [[nodiscard]] double energy(const Eigen::Vector4d& x) const;

@@ -15,7 +15,7 @@ struct RacerDynamics {
   double IA = 3.125e-5, IB = 0.005;  ///< about the centres, kg m^2
   double g = 9.8;                    ///< m/s^2
 
-  /// M(q) q'' + F(q, q') = B u. F is corrected: errata, historical defect 6.
+  /// M(q) q'' + F(q, q') = B u. F is corrected: erratum 34.
   [[nodiscard]] Eigen::Matrix2d massMatrix(const Eigen::Vector2d& q) const;
   [[nodiscard]] Eigen::Vector2d forces(const Eigen::Vector2d& q, const Eigen::Vector2d& v) const;
   [[nodiscard]] Eigen::Vector2d controlDirection() const;

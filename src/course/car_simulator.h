@@ -11,7 +11,7 @@
 
 namespace rex {
 
-/// The constants of a CarSimulator. Noises are standard deviations (errata 9.1b), in metres and radians.
+/// The constants of a CarSimulator. Noises are standard deviations (erratum 30), in metres and radians.
 struct CarOptions {
   double tau = 1;                 ///< seconds per step
   double wheelbase = 2;           ///< L, metres
@@ -48,14 +48,14 @@ class CarSimulator {
   [[nodiscard]] const Eigen::Matrix2Xd& getLandmarks() const;
   void setLandmarks(const Eigen::Matrix2Xd& landmarks);
 
-  /// One Euler step with the heading at its start (slide 4:48, errata 9), then noise.
+  /// One Euler step with the heading at its start (slide 4:48, erratum 10), then noise.
   void step(const Eigen::VectorXd& u);
   /// The true state.
   [[nodiscard]] Eigen::Vector3d getState() const;
   void setState(const Eigen::VectorXd& x);
 
   /// The state after a step without noise, and its Jacobian with respect to the state before it: I + tau
-  /// [[0,0,-v sin], [0,0,v cos], [0,0,0]] (errata 9.2a).
+  /// [[0,0,-v sin], [0,0,v cos], [0,0,0]] (erratum 30).
   [[nodiscard]] Eigen::VectorXd getMeanStateAfterStep(const Eigen::VectorXd& x,
                                                       const Eigen::VectorXd& u) const;
   [[nodiscard]] Eigen::MatrixXd getStateJacobian(const Eigen::VectorXd& x, const Eigen::VectorXd& u) const;

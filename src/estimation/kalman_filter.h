@@ -19,7 +19,7 @@ struct KalmanUpdate {
 /// or of the wrong size, and an innovation whose covariance is singular, naming each.
 [[nodiscard]] Gaussian kalmanPredict(const Gaussian& belief, const LinearModel& transition);
 /// The belief given an observation: K = S C^T (W + C S C^T)^-1, s + K (y - C s - c), in Joseph's form, which
-/// stays symmetric and semidefinite. Slide 7:27 with errata 10.
+/// stays symmetric and semidefinite. Slide 7:27 with erratum 14.
 [[nodiscard]] KalmanUpdate kalmanUpdate(const Gaussian& predicted, const LinearModel& observation,
                                         const VectorArg& y);
 

@@ -29,7 +29,7 @@ using Quaternion = Eigen::Vector4d;
 [[nodiscard]] Eigen::Matrix3d rotationFromQuaternion(const Quaternion& q);
 /// The unit quaternion of R with w >= 0; stable for every R, unlike the slide's formula, which needs w != 0.
 [[nodiscard]] Quaternion quaternionFromRotation(const Eigen::Matrix3d& R);
-/// Product with R(a o b) = R(a) R(b); slide 2:10 as corrected in the errata.
+/// Product with R(a o b) = R(a) R(b); slide 2:10 with erratum 1.
 [[nodiscard]] Quaternion quaternionProduct(const Quaternion& a, const Quaternion& b);
 
 /// Rz(yaw) Ry(pitch) Rx(roll), angles in radians.

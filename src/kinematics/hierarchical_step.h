@@ -23,7 +23,7 @@ struct HierarchyOptions {
 /// The step under strict priorities: among the dq that best fulfil the first level, those that best fulfil
 /// the second, and so on; of these, the one nearest to `a` in the metric W. It is the limit of slide 2:50
 /// for precisions rho_1 >> rho_2 >> ..., computed by dq += (J2 N)# (dy2 - J2 dq) in the nullspace N of all
-/// levels above (the printed form is not that limit, see the errata). If a level is singular or in conflict
+/// levels above (the printed form is not that limit: erratum 3). If a level is singular or in conflict
 /// with those above, its share of dq stays bounded: |share|_W <= |dy - J dq| / damping for the dq of the
 /// levels above. Singular values are those of J U^-1 for W = U^T U, within N; below 1e-10 |J U^-1| they
 /// count as zero. Throws Error if sizes disagree, a number is not finite, W is not positive definite or

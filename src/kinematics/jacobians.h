@@ -11,7 +11,7 @@ using Matrix6Xd = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
 /// p_WQ, the world position of the point Q fixed in body B at p_BQ, metres. Slide 2:53.
 [[nodiscard]] Eigen::Vector3d position(const BodyPoses& poses, BodyId body, const Eigen::Vector3d& p_BQ);
-/// Jacobian of that point: 3 x nv, metres per unit of v. Slides 2:22 and 2:23, as columns (see the errata).
+/// Jacobian of that point: 3 x nv, metres per unit of v. Slides 2:22 and 2:23, as columns (erratum 2).
 [[nodiscard]] Eigen::Matrix3Xd positionJacobian(const Model& model, const BodyPoses& poses, BodyId body,
                                                 const Eigen::Vector3d& p_BQ);
 

@@ -8,8 +8,8 @@
 
 namespace rex {
 
-/// The point on the ground about which the ground reaction has no horizontal moment. Slide 11:10, with the
-/// errata: f_i = m_i (p_i'' - g). Popovic, Goswami, Herr 2005, Ground reference points in legged
+/// The point on the ground about which the ground reaction has no horizontal moment. Slide 11:10, with
+/// erratum 22: f_i = m_i (p_i'' - g). Popovic, Goswami, Herr 2005, Ground reference points in legged
 /// locomotion.
 struct ZeroMomentPoint {
   bool exists = false;  ///< false if the ground does not push: nothing touches it, or it would have to pull

@@ -13,7 +13,7 @@ struct RrtOptions {
 };
 
 /// Grows a tree from the start towards random targets and, now and then, the goal: slides 4:39 and 4:40,
-/// with steps that do not overshoot and edges that are checked along their whole length (errata). LaValle
+/// with steps that do not overshoot and edges that are checked along their whole length (erratum 8). LaValle
 /// 1998. A goal within a step of the start is connected before any target is drawn. Throws like
 /// requireSound, and for options out of range.
 [[nodiscard]] PathResult growRrt(const PathProblem& problem, const RrtOptions& options, Rng& rng);
@@ -34,7 +34,7 @@ struct RrtStarOptions {
 };
 
 /// A tree whose nodes choose the best parent nearby and are rewired as it grows, so that its path converges
-/// to the shortest. Slide 4:45 with the correction of the errata. It spends the whole budget. Throws like
+/// to the shortest. Slide 4:45 with erratum 9. It spends the whole budget. Throws like
 /// growRrt.
 [[nodiscard]] PathResult growRrtStar(const PathProblem& problem, const RrtStarOptions& options, Rng& rng);
 

@@ -5,7 +5,7 @@
 namespace rex {
 
 /// A car with its reference point between the rear wheels: q = (x, y, heading), u = (speed, steering angle).
-/// Slide 4:48 with the correction of the errata.
+/// Slide 4:48 with erratum 10.
 struct Car {
   double wheelbase = 1;      ///< L, metres between the axles
   double maxSteering = 0.7;  ///< largest |phi|, below pi / 2

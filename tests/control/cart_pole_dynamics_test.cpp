@@ -91,7 +91,7 @@ TEST(CartPoleDynamics, LinearizationIsItsDerivative) {
   }
 }
 
-// Errata 11a and 11c.
+// Erratum 32.
 TEST(CartPoleDynamics, GainsAreThoseOfTheErrata) {
   const LinearizedPlant linear = CartPoleDynamics{}.linearized(Vector4d::Zero(), 0);
   EXPECT_NEAR(linear.A(1, 2), -5.88, 1e-13);

@@ -136,7 +136,7 @@ TEST(Horizon, SaysWherePGrowsWithoutBound) {
               HasSubstr("P is not finite"));
 }
 
-// Exercise 11b: epsilon = 1/1000 from P = Q, with the cart pole of errata 11a: about 29 000 iterations.
+// Exercise 11b: epsilon = 1/1000 from P = Q, with the cart pole of erratum 32: about 29 000 iterations.
 TEST(IterateCare, FindsTheGainsOfTheCartPole) {
   LinearSystem system{.A = MatrixXd::Zero(4, 4), .B = MatrixXd::Zero(4, 1)};
   system.A(0, 1) = system.A(2, 3) = 1;

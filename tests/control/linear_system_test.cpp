@@ -101,7 +101,7 @@ TEST(Linearized, IsTheDerivative) {
   }
 }
 
-// Errata 11a: A[2,3] = -5.88, A[4,3] = 11.76, B = (0, .8, 0, -.6) at the upright pole.
+// Erratum 32: A[2,3] = -5.88, A[4,3] = 11.76, B = (0, .8, 0, -.6) at the upright pole.
 TEST(Linearized, GivesTheCartPoleOfTheErrata) {
   const VectorXd zero = VectorXd::Zero(4);
   const auto f = [](const VectorXd& x, const VectorXd& u) {

@@ -26,7 +26,7 @@ LyapunovRegion box(double size) {
 
 double energy(const VectorXd& x) { return 0.5 * kMass * x[1] * x[1] + 0.5 * kP * x[0] * x[0]; }
 
-// Errata 13 and 19: the kinetic energy is not positive definite; with the spring's it never rises, but does
+// Erratum 18: the kinetic energy is not positive definite; with the spring's it never rises, but does
 // not fall where the mass stands; a cross term makes it fall.
 TEST(CheckLyapunov, OfThePointMass) {
   Rng rng(41);

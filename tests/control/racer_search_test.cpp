@@ -83,7 +83,7 @@ TEST(RacerSearch, WithWheelSpeedSurvivesUnseenNoise) {
   }
 }
 
-// Errata 13: survives these times, but no weights make it stable near rest: it drifts, or shakes within the
+// Erratum 33: survives these times, but no weights make it stable near rest: it drifts, or shakes within the
 // limit of u.
 TEST(RacerSearch, WithoutWheelSpeedIsNotStable) {
   for (const std::uint64_t seed : {0, 1, 2}) {

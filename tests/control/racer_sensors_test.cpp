@@ -58,7 +58,7 @@ TEST(RacerSensors, JacobianIsTheDerivative) {
   }
 }
 
-// Errata 13: a policy on (1, y) is u = w' y near rest. Wheel velocity is not among y, so the coefficient of s
+// Erratum 33: u = w' y on (1, y) near rest. Wheel velocity is not among y, so the coefficient of s
 // in the characteristic polynomial stays zero, and some pole is never on the left.
 TEST(RacerSensors, AloneCannotBeStabilized) {
   const LinearizedPlant plant = RacerDynamics{}.linearized(Vector4d::Zero(), 0);

@@ -33,7 +33,7 @@ LinearSystem cartPole(double entry) {
   return system;
 }
 
-// Errata 11: the corrected a, b, c of slides 8:20 and 8:21, and the damping ratio.
+// Erratum 15: the corrected a, b, c of slides 8:20 and 8:21, and the damping ratio.
 TEST(Lqr, OfThePointMassHasAClosedForm) {
   for (const double m : {0.5, 1., 3.})
     for (const double rho : {1e-4, 0.1, 1.})
@@ -52,7 +52,7 @@ TEST(Lqr, OfThePointMassHasAClosedForm) {
       }
 }
 
-// Errata 11c: from the printed A the published gains, from the correct one the others; both hold the system.
+// Erratum 32: from the printed A the published gains, from the correct one the others; both hold the system.
 TEST(Lqr, OfTheCartPoleHasBothGainSets) {
   const MatrixXd Q = Eigen::Vector4d(1, 0, 1, 0).asDiagonal(), R = MatrixXd::Identity(1, 1);
   const RiccatiResult printed = lqr(cartPole(-11.76), Q, R), correct = lqr(cartPole(-5.88), Q, R);
@@ -99,7 +99,7 @@ TEST(Lqr, CostsWhatItSays) {
   }
 }
 
-// Errata 19: A = 0, B = (1, 0), Q = I: "will always return a controller" is false.
+// Erratum 17: A = 0, B = (1, 0), Q = I: "will always return a controller" is false.
 TEST(Lqr, SaysWhereThereIsNoController) {
   LinearSystem system{.A = MatrixXd::Zero(2, 2), .B = MatrixXd::Zero(2, 1)};
   system.B(0, 0) = 1;

@@ -45,7 +45,7 @@ TEST(Stability, OfThePointMass) {
   EXPECT_THAT(stabilityOf(two(0, 1, -1.5, 1)).message, HasSubstr("unstable: the mode of eigenvalue 0.5"));
 }
 
-// Errata 12: all real parts are zero, yet the double integrator runs away, in whatever coordinates.
+// Erratum 16: all real parts are zero, yet the double integrator runs away, in whatever coordinates.
 TEST(Stability, NeedsAsManyEigenvectorsAsEigenvalues) {
   Rng rng(5);
   MatrixXd swings = MatrixXd::Zero(4, 4);  // two equal oscillators, coupled or not

@@ -18,7 +18,7 @@ using Kind = SpacePart::Kind;
 Model scene(const std::string& text) { return compile(parseOrs(text, "scene.ors").spec); }
 Model pegInAHole() { return compile(readOrs(sourcePath("data/robots/pegInAHole.ors")).spec); }
 
-// Where the exercise of slide 4:42 sends the peg (errata 7.1b).
+// Where the exercise of slide 4:42 sends the peg (erratum 28).
 Eigen::VectorXd pegInTheHole() {
   Eigen::VectorXd q(7);
   q << 0.945499, 0.431195, -1.97155, 0.623969, 2.22355, -0.665206, -1.48356;

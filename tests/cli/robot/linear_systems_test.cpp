@@ -75,7 +75,7 @@ TEST_F(RiccatiCommand, TellsWhatItDoesNotUse) {
 TEST_F(RiccatiCommand, HasExamplesThatRun) {
   const json care = json::parse(rex({"linear", "data/control/cart-pole.json", "--json"}).output)["regulator"];
   EXPECT_EQ(care["status"], "solved");
-  // Errata of exercise 11c: the gains of the correct linearisation, with the sign of slide 8:18.
+  // Erratum 32: the gains of the correct linearisation, with the sign of slide 8:18.
   const double wanted[] = {-1.0000, -2.6088, -52.9484, -16.5952};
   for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(care["K"][0][i].get<double>(), wanted[i], 1e-4);
   const ProcessResult text = rex({"linear", "data/control/cart-steps.json"});
