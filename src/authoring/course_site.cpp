@@ -26,17 +26,21 @@ struct Document {
   const char* name;
   const char* title;
 };
-constexpr Document kDocuments[] = {{"student.md", "For students: the commands and what they say"},
+constexpr Document kDocuments[] = {{"student.md", "For students"},
+                                   {"programs.md", "Your own programs"},
+                                   {"commands.md", "Commands"},
+                                   {"setup.md", "Editors and other systems"},
+                                   {"exercises.md", "The exercises"},
                                    {"course-map.md", "From slides to code"},
+                                   {"errata.md", "Errata of the script"},
                                    {"gallery.md", "Gallery"},
                                    {"notation.md", "Notation"},
-                                   {"ors-format.md", "Scene files"},
-                                   {"urdf.md", "URDF and SRDF"},
-                                   {"mjcf.md", "MJCF"},
-                                   {"legacy.md", "Older course material"},
+                                   {"scenes.md", "Scene files"},
+                                   {"robot-files.md", "URDF, SRDF and MJCF"},
+                                   {"teaching.md", "Teaching with rex"},
+                                   {"grading.md", "Grading a class"},
+                                   {"platforms.md", "Reports, CI services and Gradescope"},
                                    {"writing-an-exercise.md", "Writing an exercise"},
-                                   {"grading-many.md", "Grading many submissions"},
-                                   {"report-formats.md", "Report formats"},
                                    {"sandbox.md", "The sandbox"},
                                    {"architecture.md", "Architecture"}};
 

@@ -15,7 +15,7 @@
 namespace rex {
 namespace {
 
-// The inertia if only a mass is given, that of a solid sphere of 0.7 m radius: see share/doc/ors-format.md.
+// The inertia if only a mass is given, that of a solid sphere of 0.7 m radius: see share/doc/scenes.md.
 constexpr double kInertiaPerMass = 0.2;
 
 [[noreturn]] void fail(const SourceLocation& where, std::string what, std::string found, std::string wanted,

@@ -3,7 +3,7 @@
 #include <cstddef>
 
 // What an .ors scene may hold, counted over all its files. No text within these limits takes long or much
-// memory; share/doc/ors-format.md lists them.
+// memory; share/doc/scenes.md lists them.
 namespace rex::ors {
 
 inline constexpr std::size_t kMostBytes = 32u << 20;

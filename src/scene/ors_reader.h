@@ -5,7 +5,7 @@
 namespace rex {
 
 /// Reads an .ors scene, the files it includes, its URDF robots, and its meshes, as described in
-/// share/doc/ors-format.md. Throws Error with file:line:column, what, found and wanted for a file that is
+/// share/doc/scenes.md. Throws Error with file:line:column, what, found and wanted for a file that is
 /// missing or outside the asset root, syntax errors, unknown names, values of the wrong kind, exceeded
 /// limits, and as readUrdf() and loadMeshes().
 [[nodiscard]] SceneFile readOrs(const std::filesystem::path& file, const ReadOptions& options = {});
