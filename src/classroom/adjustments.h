@@ -37,7 +37,7 @@ struct Adjustments {
   std::vector<Comment> comments{};
 };
 
-/// Reads a file of adjustments (share/doc/grading-many.md) for the students of a course. Throws Error with
+/// Reads a file of adjustments (share/doc/grading.md) for the students of a course. Throws Error with
 /// the position for malformed files, and for students, groups and exercises that do not exist.
 [[nodiscard]] Adjustments readAdjustments(const std::filesystem::path& file, const Course& course,
                                           const std::vector<ExerciseInfo>& exercises);

@@ -21,7 +21,7 @@ struct CourseStudent {
   std::string section{};  ///< of the course, for Canvas
 };
 
-/// The contents of a course file (share/doc/grading-many.md).
+/// The contents of a course file (share/doc/grading.md).
 struct Course {
   std::string title{};
   std::vector<CourseStudent> students{};          ///< by id; empty: there is no roster

@@ -43,7 +43,7 @@ struct Lateness {
 /// Rules by full exercise name; a missing exercise has no deadline.
 using LatePolicy = std::map<std::string, LateRule>;
 
-/// Reads a file of deadlines, or the deadlines of a course file (share/doc/grading-many.md). Throws Error
+/// Reads a file of deadlines, or the deadlines of a course file (share/doc/grading.md). Throws Error
 /// with the position for malformed files and for exercises that do not exist.
 [[nodiscard]] LatePolicy readLatePolicy(const std::filesystem::path& file,
                                         const std::vector<std::string>& exercises);

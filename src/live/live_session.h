@@ -32,7 +32,7 @@ class LiveSession {
   [[nodiscard]] const std::string& description() const { return description_; }
 
   /// Does what a page asks for: a list of events in JSON, such as [{"do": "move", "q": {"3": 0.5}}], see
-  /// share/doc/live.md. Throws Error for the first that is wrong; those before it are done.
+  /// share/doc/commands.md. Throws Error for the first that is wrong; those before it are done.
   void obey(std::string_view message);
   /// Lets this much time pass, of the clock on the wall, at most 0.1 s. What goes wrong is a notice of the
   /// next frames.

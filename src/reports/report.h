@@ -31,7 +31,7 @@ struct Judgement {
 /// texts contain. For hidden checks students see the points and the kind of outcome, never a message. Their
 /// titles and properties go only to Gradescope, to be shown after the grades are published. A grader error
 /// is never written as a grade. A judgement is shown as such, and its final points are the points of the
-/// whole; the checks keep theirs. Formats and fields: share/doc/report-formats.md.
+/// whole; the checks keep theirs. Formats and fields: share/doc/platforms.md.
 [[nodiscard]] std::string gradescopeReport(const GradeResult& result, const Judgement* judgement = nullptr);
 [[nodiscard]] std::string junitReport(const GradeResult& result, const Judgement* judgement = nullptr);
 [[nodiscard]] std::string markdownReport(const GradeResult& result, const Judgement* judgement = nullptr);

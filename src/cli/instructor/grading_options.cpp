@@ -4,13 +4,13 @@ namespace rex::cli {
 
 CLI::Option* addDeadlines(CLI::App* command, std::filesystem::path& file) {
   return command
-      ->add_option("--deadlines", file, "deadlines, grace and late penalties (share/doc/grading-many.md)")
+      ->add_option("--deadlines", file, "deadlines, grace and late penalties (share/doc/grading.md)")
       ->type_name("FILE.toml");
 }
 
 void addClassFiles(CLI::App* command, ClassFiles& files) {
   CLI::Option* course =
-      command->add_option("--course", files.course, "roster, dates and weights (share/doc/grading-many.md)")
+      command->add_option("--course", files.course, "roster, dates and weights (share/doc/grading.md)")
           ->type_name("FILE.toml");
   addDeadlines(command, files.deadlines)->excludes(course);
   command

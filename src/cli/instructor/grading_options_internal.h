@@ -15,7 +15,7 @@ inline constexpr const char* kGradingCodes =
     "2 something could not be taken; 3 a grading must be repeated; 4 the sandbox is\n"
     "weaker than required; 64 wrong use.";
 
-/// Options that several commands of the instructor's desk have in common: share/doc/grading-many.md.
+/// Options that several commands of the instructor's desk have in common: share/doc/grading.md.
 CLI::Option* addDeadlines(CLI::App* command, std::filesystem::path& file);
 void addSecret(CLI::App* command, std::filesystem::path& file);
 /// `--course`, `--deadlines` and `--adjustments`.

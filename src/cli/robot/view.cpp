@@ -121,7 +121,7 @@ void addView(CLI::App* command, Action& action) {
   command->footer(
       "Examples:\n  scripts/rex view man\n  scripts/rex view my_robot.urdf --q 0 --port 8080\n\n"
       "Sliders move the joints, the mouse drags and pushes bodies, a simulation shows how they\n"
-      "move; share/doc/live.md is a tour. The first line is the address of the page, with a\n"
+      "move; share/doc/commands.md explains the page. The first line is the address of the page, with a\n"
       "token that keeps others out; nobody else should see it. Over ssh, a line says how to\n"
       "forward the port. Ctrl-C ends it.");
   addSceneFile(command, "SCENE", options->scene.file);

@@ -65,7 +65,7 @@ void addTest(CLI::App* command, Action& action) {
       "After the first time it shows the first message and what has changed; EXERCISE --all\n"
       "shows all messages.\n"
       "The result file is results.json, results-partial.json with --check, or\n"
-      "results-debug.json with --debug; share/doc/report-formats.md lists the reports.\n"
+      "results-debug.json with --debug; share/doc/platforms.md lists the reports.\n"
       "For several exercises -o DIR means DIR/EXERCISE,\n"
       "--json is {\"schema\": \"rex-results/1\", \"results\": [...]}, and the exit code is\n"
       "the largest of theirs.\n" +
