@@ -9,11 +9,8 @@
 #include <type_traits>
 #include <vector>
 
+// Text taken apart. All parts are views into the text, so that `columnIn()` finds where they begin.
 namespace rex {
-
-/// Text taken apart. All parts are views into the text, so that `columnIn()` finds where they begin.
-
-inline constexpr std::string_view kBlanks = " \t\r\n\v\f";
 
 /// The text without blanks at both ends.
 [[nodiscard]] std::string_view trimmed(std::string_view text);
