@@ -6,10 +6,10 @@
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
-#include "control/cart_pole_dynamics.h"
 #include "control/riccati.h"
 #include "exercise.h"
 #include "grading/check.h"
+#include "systems/cart_pole.h"
 
 // The plants and costs of the checks.
 

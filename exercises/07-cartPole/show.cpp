@@ -8,9 +8,9 @@
 #include "control/gain_search.h"
 #include "control/regulators.h"
 #include "control/responses.h"
-#include "course/cart_pole.h"
 #include "course/cart_pole_pictures.h"
 #include "render/response_figures.h"
+#include "systems/cart_pole.h"
 
 using namespace rex;
 

@@ -3,8 +3,8 @@
 #include <functional>
 #include <utility>
 
-#include "control/racer_sensors.h"
 #include "course/course.h"
+#include "systems/racer_sensors.h"
 
 // The functions you complete in main.cpp. SI units, angles in radians. q = (x, theta): the position of the
 // wheel along the ground, and the angle of the pendulum from upright, towards x. A state is (x, theta, x',

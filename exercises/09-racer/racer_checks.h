@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "control/racer_dynamics.h"
 #include "control/regulators.h"
 #include "grading/check.h"
 #include "interface.h"
+#include "systems/racer.h"
 
 // Parts 1 to 3 without noise: the motion of a racer and its regulator, against the library's.
 

@@ -4,7 +4,7 @@
 // <variant calls_the_library> caught by: forbidden-call
 // mistake: takes the equation of motion from the library.
 // <solution headers>
-#include "control/racer_dynamics.h"
+#include "systems/racer.h"
 // <solution massMatrix>
 return RacerDynamics{racer.r, racer.l, racer.mA, racer.mB, racer.IA, racer.IB, racer.g}.massMatrix(q);
 

@@ -7,9 +7,9 @@
 #include <limits>
 #include <string>
 
-#include "control/cart_pole_dynamics.h"
 #include "control/regulators.h"
 #include "course/cart_pole_pictures.h"
+#include "systems/cart_pole.h"
 
 using namespace rex;
 

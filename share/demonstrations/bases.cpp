@@ -5,9 +5,9 @@
 #include "course/course.h"
 #include "course/live_view.h"
 #include "estimation/kalman_filter.h"
-#include "estimation/mobile_bases.h"
 #include "render/covariance_ellipsoid.h"
 #include "render/picture.h"
+#include "systems/mobile_bases.h"
 
 using namespace rex;
 

@@ -4,8 +4,8 @@
 #include "course/car_view.h"
 #include "course/course.h"
 #include "course/live_view.h"
-#include "locomotion/raibert_hopper.h"
 #include "render/picture.h"
+#include "systems/raibert_hopper.h"
 
 using namespace rex;
 

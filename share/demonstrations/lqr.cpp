@@ -5,10 +5,10 @@
 #include <sstream>
 
 #include "control/regulators.h"
-#include "course/cart_pole.h"
 #include "course/cart_pole_pictures.h"
 #include "course/course.h"
 #include "course/live_view.h"
+#include "systems/cart_pole.h"
 
 using namespace rex;
 

@@ -6,11 +6,11 @@
 
 #include "control/predictive_controller.h"
 #include "course/car_view.h"
-#include "course/cart_pole.h"
 #include "course/cart_pole_pictures.h"
 #include "course/course.h"
 #include "course/live_view.h"
 #include "render/picture.h"
+#include "systems/cart_pole.h"
 
 using namespace rex;
 

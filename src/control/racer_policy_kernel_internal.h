@@ -1,6 +1,6 @@
 #pragma once
 
-#include "control/racer_kernel_internal.h"
+#include "systems/racer_kernel.h"
 
 // Features of what the racer measured, for one or for many at once; see base/pack.h.
 namespace rex::internal {

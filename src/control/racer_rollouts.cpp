@@ -8,11 +8,9 @@
 #include "base/cpu_lanes.h"
 #include "base/error.h"
 #include "base/require.h"
-#include "control/racer_numbers_internal.h"
 #include "control/racer_policy_internal.h"
 #include "control/racer_rollouts_internal.h"
-#include "control/require_internal.h"
-#include "control/require_trials_internal.h"
+#include "systems/racer_kernel.h"
 
 namespace rex {
 namespace {
@@ -42,6 +40,13 @@ internal::RacerRolloutsRules rulesOf(const RacerRolloutOptions& options) {
           .largestAngle = options.largestAngle};
 }
 
+void requireTrials(const std::vector<Trial>& trials) {
+  for (std::size_t k = 0; k < trials.size(); ++k) {
+    if (!trials[k].start.allFinite())
+      requireFinite(fmt::format("racer: start of trial {}", k), trials[k].start);
+  }
+}
+
 void fillLane(const RacerFeatures& features, const VectorArg& w, const Trial& trial, int lane,
               RacerRolloutsTask& task) {
   internal::placeWeights(features, w, &task.weights[0][lane], RacerRolloutsTask::kBlock);
@@ -57,7 +62,7 @@ Rollouts internal::racerRollouts(const RacerRolloutsKernel& kernel, const Matrix
   const RacerRolloutsRules rules = rulesOf(options);
   requireSize("racer: weights of features, a column", W.rows(), options.features.count());
   for (const auto& w : W.colwise()) rex::requireFinite("racer: weights of features", w);
-  requireTrials("racer", trials);
+  requireTrials(trials);
 
   const Eigen::Index rows = static_cast<Eigen::Index>(trials.size()), count = rows * W.cols();
   Rollouts result{.cost = Eigen::MatrixXd(rows, W.cols()), .steps = Eigen::MatrixXi(rows, W.cols())};

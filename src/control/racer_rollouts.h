@@ -1,14 +1,27 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "base/vector_arg.h"
-#include "control/racer_dynamics.h"
 #include "control/racer_policy.h"
-#include "control/racer_sensors.h"
-#include "control/rollouts.h"
+#include "systems/racer.h"
+#include "systems/racer_sensors.h"
 
 namespace rex {
+
+/// The initial state of a plant with four states, and the seed of its noise. Comparing policies on the same
+/// trials takes luck out of the comparison.
+struct Trial {
+  Eigen::Vector4d start{0, 0, 0, 0};
+  std::uint64_t seed = 0;
+};
+
+/// The results of all policies, one per column, in all trials, one per row.
+struct Rollouts {
+  Eigen::MatrixXd cost{};   ///< summed over the steps, including the cost of failing
+  Eigen::MatrixXi steps{};  ///< number of steps survived
+};
 
 /// Weights of the squares in the cost of a step, evaluated in the state it leads to.
 struct RacerCost {

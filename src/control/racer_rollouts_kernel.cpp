@@ -1,6 +1,6 @@
-#include "control/normal_pair_internal.h"
 #include "control/racer_policy_kernel_internal.h"
 #include "control/racer_rollouts_kernel_internal.h"
+#include "systems/normal_pair.h"
 
 namespace rex::internal {
 namespace {

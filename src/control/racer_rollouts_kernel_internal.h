@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "control/racer_constants_internal.h"
+#include "systems/racer_kernel.h"
 
 namespace rex::internal {
 

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "control/racer_dynamics.h"
 #include "course/plant_film.h"
 #include "render/picture.h"
+#include "systems/racer.h"
 
 namespace rex {
 

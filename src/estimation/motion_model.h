@@ -1,39 +1,17 @@
 #pragma once
 
-#include <functional>
-
+#include "base/rng.h"
 #include "estimation/gaussian_model.h"
 #include "estimation/particle_filter.h"
+#include "systems/motion_model.h"
 
+// Models of motions for filters and simulators. Functions throw Error like meanAfter(), and for a noise that
+// is no covariance.
 namespace rex {
 
-/// How a robot moves: x' = f(x, u, dt) + w with w ~ N(0, Q), where u is constant for dt seconds. Slide 7:5.
-/// Filters take it as transitionOf() and motionProposal(), planners as controlSystemOf()
-/// (planning/control_tree.h), simulators as moved().
-struct MotionModel {
-  int states = 0, controls = 0;  ///< the sizes of x and u
-  std::function<Eigen::VectorXd(const VectorArg& x, const VectorArg& u, double dt)> f{};
-  /// The Jacobians df/dx and df/du. Empty: central differences with one extrapolation (numericJacobian).
-  std::function<Eigen::MatrixXd(const VectorArg&x, const VectorArg&u, double dt)> A{}, B{};
-  /// Q. Empty: no noise.
-  std::function<Eigen::MatrixXd(const VectorArg& x, const VectorArg& u, double dt)> noise{};
-};
-
-/// The state after dt seconds without noise. All functions here throw Error for a model without f, vectors of
-/// the wrong size, numbers that are not finite, and a time that is negative.
-[[nodiscard]] Eigen::VectorXd meanAfter(const MotionModel& model, const VectorArg& x, const VectorArg& u,
-                                        double dt);
-/// The same with noise.
+/// The state after dt seconds with noise.
 [[nodiscard]] Eigen::VectorXd moved(const MotionModel& model, const VectorArg& x, const VectorArg& u,
                                     double dt, Rng& rng);
-
-/// The model linearised at (x, u): x' - f(x, u) = A dx + B du.
-struct StepJacobians {
-  Eigen::MatrixXd A{};  ///< states x states
-  Eigen::MatrixXd B{};  ///< states x controls
-};
-[[nodiscard]] StepJacobians jacobiansOf(const MotionModel& model, const VectorArg& x, const VectorArg& u,
-                                        double dt);
 
 /// The transition for Kalman filters: extendedPredict(belief, transitionOf(model, belief.mean, u, dt)). Its
 /// noise is that at x.

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "course/car_simulator.h"
-#include "course/cart_pole.h"
-#include "course/racer.h"
 #include "legacy/array.h"
+#include "systems/cart_pole.h"
+#include "systems/racer.h"
 
 namespace rex::legacy {
 

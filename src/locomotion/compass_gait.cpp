@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "base/require.h"
-#include "locomotion/event_integration_internal.h"
+#include "systems/event_integration.h"
 
 namespace rex {
 namespace {

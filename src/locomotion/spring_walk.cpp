@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/require.h"
-#include "locomotion/event_integration_internal.h"
+#include "systems/event_integration.h"
 
 namespace rex {
 namespace {

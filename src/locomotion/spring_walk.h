@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "locomotion/spring_leg.h"
+#include "systems/spring_leg.h"
 
 namespace rex {
 

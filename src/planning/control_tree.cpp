@@ -12,8 +12,8 @@
 #include "base/error.h"
 #include "base/require.h"
 #include "base/rng.h"
-#include "estimation/motion_model.h"
 #include "planning/search_tree_internal.h"
+#include "systems/motion_model.h"
 
 namespace rex {
 namespace {

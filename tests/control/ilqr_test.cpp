@@ -7,7 +7,6 @@
 
 #include "base/derivative_check.h"
 #include "base/rng.h"
-#include "control/cart_pole_dynamics.h"
 #include "control/finite_horizon.h"
 #include "dynamics/forward_dynamics.h"
 #include "dynamics/stepper.h"
@@ -15,6 +14,7 @@
 #include "scene/ors_reader.h"
 #include "support/expect_error.h"
 #include "support/paths.h"
+#include "systems/cart_pole.h"
 
 namespace rex::ilqr_test {
 

@@ -13,10 +13,8 @@
 
 #include "base/derivative_check.h"
 #include "base/rng.h"
-#include "control/cart_pole_dynamics.h"
 #include "control/controllability.h"
 #include "control/predictive_controller.h"
-#include "control/racer_dynamics.h"
 #include "control/regulators.h"
 #include "control/riccati.h"
 #include "control/stability.h"
@@ -25,6 +23,8 @@
 #include "locomotion/limit_cycle.h"
 #include "support/lecture_note.h"
 #include "support/matrix_product.h"
+#include "systems/cart_pole.h"
+#include "systems/racer.h"
 
 namespace rex::lecture_notes_control_test {
 

@@ -5,16 +5,16 @@
 #include <gtest/gtest.h>
 
 #include "base/process.h"
-#include "course/cart_pole.h"
 #include "course/cart_pole_pictures.h"
 #include "course/plant_film_internal.h"
-#include "course/racer.h"
 #include "course/racer_pictures.h"
 #include "render/png.h"
 #include "support/expect_error.h"
 #include "support/file_text.h"
 #include "support/needs_osmesa.h"
 #include "support/temporary_folder.h"
+#include "systems/cart_pole.h"
+#include "systems/racer.h"
 
 namespace rex::plant_pictures_test {
 

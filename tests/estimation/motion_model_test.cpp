@@ -10,9 +10,9 @@
 #include "base/derivative_check.h"
 #include "base/rng.h"
 #include "estimation/kalman_filter.h"
-#include "estimation/mobile_bases.h"
-#include "estimation/planar_quadrotor.h"
 #include "support/expect_error.h"
+#include "systems/mobile_bases.h"
+#include "systems/planar_quadrotor.h"
 
 namespace rex::motion_model_test {
 

@@ -5,12 +5,12 @@
 #include <gtest/gtest.h>
 
 #include "base/rng.h"
-#include "estimation/mobile_bases.h"
-#include "estimation/planar_quadrotor.h"
 #include "planning/phase_space.h"
 #include "planning/reeds_shepp.h"
 #include "support/expect_error.h"
 #include "systems/car.h"
+#include "systems/mobile_bases.h"
+#include "systems/planar_quadrotor.h"
 
 namespace rex::control_tree_test {
 

@@ -1,4 +1,4 @@
-#include "locomotion/raibert_hopper.h"
+#include "systems/raibert_hopper.h"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "estimation/motion_model.h"
+#include "systems/motion_model.h"
 
 namespace rex {
 

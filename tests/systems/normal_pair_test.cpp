@@ -1,10 +1,11 @@
+#include "systems/normal_pair.h"
+
 #include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "base/rng.h"
-#include "control/normal_pair_internal.h"
 
 namespace rex::normal_pair_test {
 

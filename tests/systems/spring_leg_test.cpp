@@ -1,4 +1,4 @@
-#include "locomotion/spring_leg.h"
+#include "systems/spring_leg.h"
 
 #include <cmath>
 

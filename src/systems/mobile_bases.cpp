@@ -1,4 +1,4 @@
-#include "estimation/mobile_bases.h"
+#include "systems/mobile_bases.h"
 
 #include <cmath>
 #include <numbers>

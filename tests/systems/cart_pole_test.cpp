@@ -1,4 +1,4 @@
-#include "control/cart_pole_dynamics.h"
+#include "systems/cart_pole.h"
 
 #include <cmath>
 #include <fstream>
@@ -14,7 +14,7 @@
 #include "support/expect_error.h"
 #include "support/paths.h"
 
-namespace rex::cart_pole_dynamics_test {
+namespace rex::cart_pole_test {
 
 using Eigen::Vector2d;
 using Eigen::Vector4d;
@@ -154,4 +154,42 @@ TEST(CartPoleDynamics, RefusesWhatHasNoMeaning) {
   EXPECT_REX_ERROR((CartPoleDynamics{.g = 0}.derivative(x, 0)), "cart pole: gravity g: found 0");
 }
 
-}  // namespace rex::cart_pole_dynamics_test
+TEST(CartPole, StepsAsItsDynamics) {
+  CartPole still(0, {.noise = 0});
+  EXPECT_EQ(still.x, Vector4d(0, 0, 0.2, 0));
+  EXPECT_DOUBLE_EQ(still.options().tau, 1. / 60);
+  still.x = Vector4d(0.1, -0.3, 0.4, 0.7);
+  const double energy = CartPoleDynamics{}.energy(still.x);
+  EXPECT_EQ(still.getEnergy(), energy);
+  const Vector4d next = CartPoleDynamics{}.eulerStep(still.x, 2.5, 1. / 60);
+  still.step(2.5);
+  EXPECT_EQ(still.x, next);
+}
+
+// Exercise 12.11 d).
+TEST(CartPole, IsHeldByItsRegulator) {
+  const LinearizedPlant plant = CartPole().getLinearization();
+  const Eigen::Matrix4d Q = Vector4d(1, 0, 1, 0).asDiagonal();
+  const Vector4d gains = -solveCare(plant.A, plant.B, Q, Eigen::MatrixXd::Identity(1, 1)).K.transpose();
+  for (const std::uint64_t seed : {1, 2}) {
+    CartPole cart(seed);
+    for (int t = 0; t < 600; ++t) {
+      cart.step(gains.dot(cart.x));
+      ASSERT_LT(std::abs(cart.x[2]), 1);
+    }
+  }
+}
+
+TEST(CartPole, RefusesWhatHasNoMeaning) {
+  EXPECT_REX_ERROR(CartPole(0, {.tau = 0}),
+                   "cart pole: time step tau: found 0, wanted a positive, finite number");
+  EXPECT_REX_ERROR(CartPole(0, {.noise = -1}), "cart pole: noise: found -1");
+  EXPECT_REX_ERROR(CartPole(0, {.dynamics = {.l = -1}}), "cart pole: length l: found -1");
+  CartPole cart;
+  EXPECT_REX_ERROR(cart.step(kNan), "cart pole: control u: found nan");
+  cart.x[1] = kNan;
+  EXPECT_REX_ERROR(cart.step(0), "cart pole: state: number 1: found nan");
+  EXPECT_REX_ERROR(cart.getEnergy(), "cart pole: state: number 1: found nan");
+}
+
+}  // namespace rex::cart_pole_test

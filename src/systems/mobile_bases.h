@@ -1,7 +1,7 @@
 #pragma once
 
-#include "estimation/motion_model.h"
 #include "systems/car.h"
+#include "systems/motion_model.h"
 
 namespace rex {
 

@@ -1,7 +1,8 @@
-#include "control/cart_pole_dynamics.h"
+#include "systems/cart_pole.h"
 
-#include "control/cart_pole_step_internal.h"
-#include "control/require_internal.h"
+#include "base/require.h"
+#include "base/sin_cos.h"
+#include "systems/normal_pair.h"
 
 namespace rex {
 namespace {
@@ -23,7 +24,10 @@ void requireArguments(const CartPoleDynamics& plant, const Eigen::Vector4d& x, d
 
 Eigen::Vector4d CartPoleDynamics::derivative(const Eigen::Vector4d& x, double u) const {
   requireArguments(*this, x, u);
-  return internal::cartPoleDerivative(internal::cartPoleNumbers(*this), x, u);
+  const auto [s, c] = sinCos(x[2]);
+  const double swing = c2() * x[3] * x[3] * s;
+  const double turn = (g * s - c * (c1() * u + swing)) / (4 * l / 3 - c2() * c * c);
+  return {x[1], c1() * u + swing - c2() * turn * c, x[3], turn};
 }
 
 LinearizedPlant CartPoleDynamics::linearized(const Eigen::Vector4d& x, double u) const {
@@ -54,15 +58,25 @@ double CartPoleDynamics::energy(const Eigen::Vector4d& x) const {
 }
 
 Eigen::Vector4d CartPoleDynamics::eulerStep(const Eigen::Vector4d& x, double u, double tau) const {
-  requireArguments(*this, x, u);
+  const Eigen::Vector4d rate = derivative(x, u);
   requirePositive("cart pole: time step tau", tau);
-  return x + tau * internal::cartPoleDerivative(internal::cartPoleNumbers(*this), x, u);
+  return x + tau * rate;
 }
 
 Eigen::Vector4d CartPoleDynamics::noisyStep(const Eigen::Vector4d& x, double u, double tau, double noise,
                                             Rng& rng) const {
   requireNotNegative("cart pole: noise", noise);
-  return internal::withCartPoleNoise(eulerStep(x, u, tau), noise, rng);
+  Eigen::Vector4d next = eulerStep(x, u, tau);
+  const auto normals = internal::normalPair(rng);
+  next[1] += noise * normals.first;
+  next[3] += noise * normals.second;
+  return next;
+}
+
+CartPole::CartPole(std::uint64_t seed, const CartPoleOptions& options) : options_(options), rng_(seed) {
+  Rng draws = rng_;
+  // A step whose result is discarded throws if an option is out of range.
+  (void)options.dynamics.noisyStep(x, 0, options.tau, options.noise, draws);
 }
 
 }  // namespace rex

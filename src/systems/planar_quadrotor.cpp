@@ -1,4 +1,4 @@
-#include "estimation/planar_quadrotor.h"
+#include "systems/planar_quadrotor.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "control/racer_sensors.h"
+#include "systems/racer_sensors.h"
 
 #include <cmath>
 #include <limits>
@@ -8,8 +8,8 @@
 
 #include "base/derivative_check.h"
 #include "base/rng.h"
-#include "control/racer_dynamics.h"
 #include "support/expect_error.h"
+#include "systems/racer.h"
 
 namespace rex::racer_sensors_test {
 

@@ -1,4 +1,4 @@
-#include "locomotion/spring_leg.h"
+#include "systems/spring_leg.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "base/require.h"
-#include "locomotion/event_integration_internal.h"
+#include "systems/event_integration.h"
 
 namespace rex {
 namespace {

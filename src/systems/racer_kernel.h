@@ -1,10 +1,33 @@
 #pragma once
 
 #include "base/sin_cos.h"
-#include "control/racer_constants_internal.h"
 
 // The motion and the sensors of the racer in plain numbers, for one or for many at once; see base/pack.h.
+namespace rex {
+
+struct RacerDynamics;
+struct RacerSensors;
+
+}  // namespace rex
+
 namespace rex::internal {
+
+/// What the racer's equations of motion are made of: M = [[inertiaX, coupling cos], [., inertiaTheta]] and
+/// F = -coupling sin (theta'^2, g). The determinant of M is leastDeterminant + (coupling sin)^2, a sum of
+/// what is not negative, where the difference of two products might lose it.
+struct RacerNumbers {
+  double inertiaX, inertiaTheta, coupling, gravity, perRadius, leastDeterminant;
+};
+
+/// What its sensors are made of.
+struct RacerSensorNumbers {
+  double scaledCosPhi, scaledSinPhi, kappaCosPhi, kappaSinPhi, gyroBias, perRadius;
+};
+
+/// These numbers. Throw Error for constants that are not positive, or not finite.
+[[nodiscard]] RacerNumbers racerNumbers(const RacerDynamics& plant);
+[[nodiscard]] RacerSensorNumbers racerSensorNumbers(const RacerSensors& sensors, double r);
+
 namespace {
 
 template <class T>

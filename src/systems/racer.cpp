@@ -1,9 +1,8 @@
-#include "control/racer_dynamics.h"
+#include "systems/racer.h"
 
-#include "control/normal_pair_internal.h"
-#include "control/racer_kernel_internal.h"
-#include "control/racer_numbers_internal.h"
-#include "control/require_internal.h"
+#include "base/require.h"
+#include "systems/normal_pair.h"
+#include "systems/racer_kernel.h"
 
 namespace rex {
 namespace {
@@ -117,6 +116,74 @@ Eigen::Vector4d RacerDynamics::noisyStep(const Eigen::Vector4d& x, double u, dou
   next[2] += deviation * normals.first;
   next[3] += deviation * normals.second;
   return next;
+}
+
+internal::RacerSensorNumbers internal::racerSensorNumbers(const RacerSensors& sensors, double r) {
+  requirePositive("racer: radius r", r);
+  requireFinite("racer: sensor constant s", sensors.s);
+  requireFinite("racer: sensor constant phi", sensors.phi);
+  requireFinite("racer: sensor constant kappa", sensors.kappa);
+  requireFinite("racer: bias of the gyroscope", sensors.gyroBias);
+  const auto [sine, cosine] = sinCos(sensors.phi);
+  return {.scaledCosPhi = sensors.s * cosine,
+          .scaledSinPhi = sensors.s * sine,
+          .kappaCosPhi = sensors.kappa * cosine,
+          .kappaSinPhi = sensors.kappa * sine,
+          .gyroBias = sensors.gyroBias,
+          .perRadius = 1 / r};
+}
+
+Eigen::Vector4d RacerSensors::measured(const Eigen::Vector4d& x, double r) const {
+  requireFinite("racer: state", x);
+  double y[internal::kRacerSensors];
+  internal::racerMeasure(internal::racerSensorNumbers(*this, r),
+                         internal::RacerState<double>{x[0], x[1], x[2], x[3]}, y);
+  return Eigen::Map<const Eigen::Vector4d>(y);
+}
+
+Eigen::Matrix4d RacerSensors::jacobian(const Eigen::Vector4d& x, double r) const {
+  requireFinite("racer: state", x);
+  const internal::RacerSensorNumbers k = internal::racerSensorNumbers(*this, r);
+  const auto [sine, cosine] = sinCos(x[1]);
+  Eigen::Matrix4d J = Eigen::Matrix4d::Zero();
+  J.row(0) << 0, -k.scaledCosPhi * sine - k.scaledSinPhi * cosine, 0, -2 * k.kappaCosPhi * x[3];
+  J.row(1) << 0, k.scaledCosPhi * cosine - k.scaledSinPhi * sine, 0, -2 * k.kappaSinPhi * x[3];
+  J(2, 3) = 1;
+  J.row(3) << k.perRadius, -1, 0, 0;
+  return J;
+}
+
+Racer::Racer(std::uint64_t seed, const RacerOptions& options) : options_(options), rng_(seed) {
+  Rng draws = rng_;
+  // A step and a measurement whose results are discarded throw if an option is out of range.
+  (void)options.dynamics.noisyStep(getState(), 0, options.tau, options.noise, draws);
+  (void)getObservation();
+}
+
+void Racer::setState(const Eigen::Vector4d& x) {
+  requireFinite("racer: state", x);
+  q = x.head<2>();
+  v = x.tail<2>();
+}
+
+void Racer::stepDynamics(double u) {
+  const Eigen::Vector4d next = options_.dynamics.noisyStep(getState(), u, options_.tau, options_.noise, rng_);
+  q = next.head<2>();
+  v = next.tail<2>();
+}
+
+void Racer::getDynamics(Eigen::MatrixXd& M, Eigen::VectorXd& F, Eigen::VectorXd& B) const {
+  M = options_.dynamics.massMatrix(q);
+  F = options_.dynamics.forces(q, v);
+  B = options_.dynamics.controlDirection();
+}
+
+Eigen::Vector4d Racer::getObservation() const {
+  return options_.sensors.measured(getState(), options_.dynamics.r);
+}
+
+Eigen::Matrix4d Racer::getObservationJacobian() const {
+  return options_.sensors.jacobian(getState(), options_.dynamics.r);
 }
 
 }  // namespace rex

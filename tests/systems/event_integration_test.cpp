@@ -1,9 +1,9 @@
+#include "systems/event_integration.h"
+
 #include <numbers>
 
 #include <Eigen/Core>
 #include <gtest/gtest.h>
-
-#include "locomotion/event_integration_internal.h"
 
 namespace rex::internal::event_integration_test {
 
