@@ -13,7 +13,6 @@
 #include "base/text.h"
 #include "base/text_file.h"
 #include "cli/out_folder.h"
-#include "cli/progress_line.h"
 #include "cli/terminal.h"
 
 namespace rex::cli {

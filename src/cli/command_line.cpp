@@ -1,22 +1,27 @@
 #include "cli/command_line.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <span>
 #include <string>
 #include <vector>
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "base/error.h"
 #include "base/exit_code.h"
 #include "base/interruption.h"
+#include "cli/build_on_demand.h"
 #include "cli/command_line_internal.h"
-#include "cli/completion.h"
-#include "cli/hand_over.h"
-#include "cli/manual_page.h"
+#include "cli/command_table.h"
+#include "cli/demonstrations.h"
+#include "cli/project.h"
 #include "cli/terminal.h"
 
 namespace rex::cli {
@@ -36,6 +41,120 @@ Action print(const std::string& text) {
 }
 
 namespace {
+
+std::vector<const CLI::App*> verbsOf(const CLI::App& command) {
+  return command.get_subcommands([](const CLI::App*) { return true; });
+}
+
+// The innermost command that the words reach.
+const CLI::App& reachedBy(const CLI::App& program, std::span<const std::string> words) {
+  const CLI::App* command = &program;
+  for (const std::string& word : words)
+    for (const CLI::App* verb : verbsOf(*command))
+      if (verb->get_name() == word) {
+        command = verb;
+        break;
+      }
+  return *command;
+}
+
+bool takes(std::string_view what, const CLI::App& command) {
+  const auto isMeant = [&](const CLI::Option* option) {
+    return option->get_positional() && option->get_name(true).find(what) != std::string::npos;
+  };
+  return std::ranges::any_of(command.get_options(), isMeant);
+}
+
+// What may stand in place of the last of these words, which begins it: a command, an option or a verb of the
+// command that the others reach, an exercise where the command takes one. Sorted; empty if a file is meant.
+std::vector<std::string> completions(const CLI::App& program, std::span<const std::string> words,
+                                     const Project& project) {
+  const std::string begun = words.empty() ? "" : words.back();
+  const CLI::App& command = reachedBy(program, words.first(words.empty() ? 0 : words.size() - 1));
+  std::vector<std::string> found;
+  if (begun.starts_with('-')) {
+    for (const CLI::Option* option : command.get_options())
+      for (const std::string& name : option->get_lnames()) found.push_back("--" + name);
+  } else {
+    for (const CLI::App* verb : verbsOf(command)) found.push_back(verb->get_name());
+    if (takes("EXERCISE", command) || takes("PROGRAM", command))
+      for (const ExerciseInfo& one : project.exercises()) found.push_back(one.name);
+    if (takes("DEMONSTRATION", command))
+      for (const Demonstration& one : demonstrations(project)) found.push_back(one.name);
+  }
+  std::erase_if(found, [&](const std::string& one) { return !one.starts_with(begun); });
+  std::ranges::sort(found);
+  return found;
+}
+
+// A minus sign that may be copied, and no line that begins with a command of the language.
+std::string plain(std::string_view text) {
+  std::string written;
+  for (const char c : text) {
+    if (c == '\\' || c == '-') written += '\\';
+    if ((c == '.' || c == '\'') && (written.empty() || written.back() == '\n')) written += "\\&";
+    written += c;
+  }
+  return written;
+}
+
+// The manual page rex(1) in the language of man: the table of commands, exit codes, files and variables.
+std::string manualPage() {
+  std::string page = ".TH REX 1 \"\" \"rex " REX_VERSION
+                     "\" \"User Commands\"\n"
+                     ".SH NAME\n"
+                     "rex \\- robotics exercises: see, solve and test them\n"
+                     ".SH SYNOPSIS\n"
+                     ".B rex\n"
+                     ".RI [ COMMAND \" [\" ARGUMENTS ]]\n"
+                     ".SH DESCRIPTION\n"
+                     "Without a command, rex shows your points in all exercises and what to do next.\n"
+                     "It works in a course folder, which\n"
+                     ".B rex init\n"
+                     "makes, and in all folders below it; commands about robots and methods work anywhere.\n"
+                     ".B rex COMMAND \\-\\-help\n"
+                     "explains the options of a command.\n"
+                     ".SH COMMANDS\n";
+  const char* topic = "";
+  for (const TableEntry& entry : commandTable()) {
+    if (std::string_view(topic) != nameOf(entry.topic))
+      page += fmt::format(".SS {}\n", topic = nameOf(entry.topic));
+    page += fmt::format(".TP\n.B {}\n{}.\n", plain(entry.name), plain(entry.purpose));
+  }
+  page += fmt::format(".SH EXIT STATUS\n{}\n", plain(kExitCodesHelp));
+  page +=
+      ".SH FILES\n"
+      ".TP\n.I exercises/*/main.cpp\nWhat you complete and hand in.\n"
+      ".TP\n.I out/\nPictures, films, replays and results. It may be deleted at any time.\n"
+      ".TP\n.I .rex/course.json\nMarks a course folder and says what was handed out.\n"
+      ".TP\n.I .rex/progress.json\nYour points.\n"
+      ".SH ENVIRONMENT\n"
+      ".TP\n.B NO_COLOR\nIf set, there are no colours.\n"
+      ".TP\n.B TMPDIR\nThe folder for temporary files.\n"
+      ".SH SEE ALSO\n"
+      "The documents in\n.IR /usr/share/doc/rex ,\nabove all\n.IR student.md .\n";
+  return page;
+}
+
+// Builds that program of rex if it is out of date, and executes it in place of this one, with the same
+// arguments. Throws like bringUpToDate(), and Error if there is no such program.
+[[noreturn]] void becomeProgram(const Project& project, Program program, std::vector<std::string> words) {
+  const std::string name = programName(program);
+  bringUpToDate(project, {name}, name);
+  const std::string file = (project.build / name).string();
+  words.insert(words.begin(), file);
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  std::fflush(nullptr);
+  const sigset_t held = stopSignals();
+  ::sigprocmask(SIG_UNBLOCK, &held, nullptr);  // signals blocked here would stay blocked there
+  ::execv(file.c_str(), arguments.data());
+  throw Error({.what = "cannot start a part of rex",
+               .where = {file},
+               .found = std::strerror(errno),
+               .wanted = "the programs of rex side by side, as `scripts/rex` builds them"});
+}
 
 Action complain(const std::string& text) {
   return [text](const Project&) {

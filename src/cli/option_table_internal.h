@@ -13,10 +13,47 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "cli/option_value_internal.h"
-#include "cli/shared_options_internal.h"
+#include "base/error.h"
+#include "base/join.h"
+#include "cli/terminal.h"
+#include "sandbox/level.h"
 
 namespace rex::cli {
+
+/// What a name means. Throws UsageError for another one, with all choices and the nearest.
+template <typename Value>
+Value choose(const char* option, const std::string& name,
+             const std::vector<std::pair<std::string, Value>>& choices) {
+  std::vector<std::string> names;
+  for (const auto& [known, value] : choices) {
+    if (name == known) return value;
+    names.push_back(known);
+  }
+  throw UsageError({.what = option,
+                    .found = "'" + harmless(name) + "'",
+                    .wanted = join(names, ", "),
+                    .nearest = nearestNames(name, names)});
+}
+
+/// Throws UsageError for a number that is out of range, or none.
+inline void requireBetween(const char* option, double number, double least, double most) {
+  if (number >= least && number <= most) return;
+  throw UsageError({.what = option,
+                    .found = fmt::format("{:.9g}", number),
+                    .wanted = fmt::format("{:g} to {:g}", least, most)});
+}
+
+/// What is wrong with a seed; nothing for one that thousands of others can follow.
+std::string wrongSeed(const std::string& text);
+
+/// `--seed S`. Refuses what is not a seed; CLI11 alone takes -1 for the largest number there is.
+template <typename Seed>
+CLI::Option* addSeed(CLI::App* command, Seed& seed, const std::string& help) {
+  return command->add_option("--seed", seed, help)->check(wrongSeed)->type_name("S");
+}
+
+/// `--level N` of the sandbox.
+CLI::Option* addLevel(CLI::App* command, std::optional<sandbox::Level>& level);
 
 /// The numbers that an option accepts, both ends included.
 struct Range {
@@ -106,6 +143,15 @@ template <class Seed>
   std::string text = help;
   if constexpr (std::integral<Seed>) text += fmt::format(" (default: {})", seed);
   return OptionRow([&seed, text](CLI::App* command) { return addSeed(command, seed, text); });
+}
+
+inline constexpr const char* kExerciseHelp = "number, topic or whole name: 01, kinematics, 01-kinematics";
+inline constexpr const char* kExercisesHelp = "numbers, topics or whole names: 01, kinematics, 01-kinematics";
+inline constexpr const char* kOutHelp = "output folder (default: out/EXERCISE, or out/EXERCISE-solution)";
+
+/// The exercise that a command is about.
+inline void addExercise(CLI::App* command, std::string& exercise) {
+  command->add_option("EXERCISE", exercise, kExerciseHelp)->type_name("")->required();
 }
 
 }  // namespace rex::cli

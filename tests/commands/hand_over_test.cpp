@@ -1,6 +1,4 @@
 // What `rex` does with commands of its other programs.
-#include "cli/hand_over.h"
-
 #include <filesystem>
 #include <fstream>
 
@@ -9,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "cli/command_line.h"
 #include "commands/all_rooms.h"
 #include "support/file_text.h"
 #include "support/temporary_folder.h"

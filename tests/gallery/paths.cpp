@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "cli/robot/parking.h"
-#include "cli/robot/path_pictures.h"
+#include "cli/robot/plan.h"
+#include "cli/robot/path_results.h"
 #include "cli/robot/posture_option.h"
-#include "cli/robot/trajectory_search.h"
 #include "planning/robot_problem.h"
 #include "render/contact_sheet.h"
 #include "render/renderer.h"

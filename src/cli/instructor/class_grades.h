@@ -5,8 +5,11 @@
 #include <vector>
 
 #include "base/exit_code.h"
+#include "classroom/class_statistics.h"
 #include "classroom/gradebook.h"
+#include "classroom/task_list.h"
 #include "cli/project.h"
+#include "render/figure.h"
 
 namespace rex::cli {
 
@@ -58,5 +61,24 @@ void requireFolder(const std::filesystem::path& folder, const std::string& wante
 /// no such folder or list, and Error like readManifest().
 [[nodiscard]] std::vector<grading::Task> tasksIn(const std::filesystem::path& results,
                                                  const std::filesystem::path& manifest = {});
+
+/// The points of every student in each exercise, in percent of the maximum, over the exercise's number
+/// ("01-kinematics" is 1; one without a number gets the next after the largest). Equal points are drawn
+/// side by side, with a line at each median. Grader errors are left out. Throws Error if nothing is left.
+[[nodiscard]] Figure pointsFigure(const std::vector<grading::StudentResult>& results);
+
+/// A row of fields for each exercise, one for each part, with its name and the mean of its points in percent;
+/// the fewer points, the darker. Throws Error if there is nothing to draw.
+[[nodiscard]] Figure partsFigure(const std::vector<grading::ExerciseStatistics>& all);
+
+/// How much of each of two submissions the other must have, in percent, to be shown.
+inline constexpr int kSimilarPercent = 70;
+
+/// Compares what was handed in to each exercise. Writes folder/EXERCISE.html with the pairs that have at
+/// least that percentage in common, or removes the one of an earlier run if there are none, and
+/// folder/EXERCISE/{base,submissions/STUDENT}/main.cpp for other programs that compare. Prints the groups.
+/// Throws Error like grading::similarPairs().
+void writeSimilar(const Project& project, const std::vector<grading::Task>& tasks,
+                  const std::filesystem::path& out, const std::filesystem::path& folder, int percent);
 
 }  // namespace rex::cli

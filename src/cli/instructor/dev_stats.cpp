@@ -11,7 +11,6 @@
 #include "base/join.h"
 #include "classroom/class_statistics.h"
 #include "classroom/csv.h"
-#include "cli/instructor/class_figure.h"
 #include "cli/instructor/class_grades.h"
 #include "cli/instructor/collect.h"
 #include "cli/instructor/dev_verbs.h"

@@ -9,6 +9,7 @@
 
 /// The verbs of `rex dev`, one file each. They print for people. They throw UsageError for names that do
 /// not exist, and Error if the project or the machine is broken.
+
 namespace rex::cli {
 
 /// Makes a new exercise from the template.
@@ -76,5 +77,11 @@ struct StatsOptions {
 /// Prints the results of a class, per exercise and check. Returns kNotGradable if a result cannot be read or
 /// was changed after the grading.
 ExitCode devStats(const Project& project, const StatsOptions& options);
+
+/// Builds a copy of a student release from scratch in the new folder `in`, which is kept, or, if that is
+/// empty, in a temporary one with a blank in its name. Each untouched main.cpp must get less than the full
+/// score, run without a display, and write a picture. Takes minutes. Throws Error with the failed step and
+/// the end of its output.
+void proveRelease(const std::filesystem::path& release, const std::filesystem::path& in);
 
 }  // namespace rex::cli

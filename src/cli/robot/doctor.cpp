@@ -1,5 +1,3 @@
-#include "cli/robot/doctor.h"
-
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -9,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <string>
 #include <system_error>
 #include <thread>
 #include <tuple>
@@ -19,6 +18,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/exit_code.h"
 #include "base/join.h"
 #include "base/private_folder.h"
 #include "base/process.h"
@@ -26,6 +26,7 @@
 #include "cli/file_watcher.h"
 #include "cli/option_table_internal.h"
 #include "cli/out_folder.h"
+#include "cli/project.h"
 #include "cli/robot/render_plan.h"
 #include "cli/robot/robot_options_internal.h"
 #include "cli/sandbox_choice.h"
@@ -35,10 +36,70 @@
 #include "render/renderer.h"
 #include "render/report.h"
 #include "render/video_sink.h"
+#include "sandbox/level.h"
 #include "sandbox/probes.h"
 
 namespace rex::cli {
 namespace {
+
+struct DoctorOptions {
+  std::string gl;  ///< auto, osmesa or egl; empty: auto
+  bool json = false;
+  bool sandbox = false;                   ///< attack the sandbox instead
+  std::optional<sandbox::Level> level{};  ///< the sandbox level to test; empty: the best
+};
+
+using sandbox::Probe;
+
+struct Trial {
+  sandbox::Level level{};
+  std::vector<Probe> probes{};
+};
+
+// The highest level at which all attacks fail, or the last one tried.
+Trial tryLevels(const Project& project, sandbox::Level highest) {
+  const PrivateFolder folder(temporaryFolder());
+  Trial trial;
+  for (const sandbox::Level level : sandbox::kConfiningLevels) {
+    if (level > highest) continue;
+    trial.probes = sandbox::attack({level, launcherOf(project)}, probeOf(project), folder.path());
+    if (std::all_of(trial.probes.begin(), trial.probes.end(), [](const Probe& p) { return p.held; })) {
+      trial.level = level;
+      break;
+    }
+    const auto broken =
+        std::find_if(trial.probes.begin(), trial.probes.end(), [](const Probe& p) { return !p.held; });
+    note(wrap(fmt::format("level {} does not hold here: {}{}", numberOf(level),
+                          broken->ran ? broken->name + ": " : "", harmless(broken->text)),
+              2, 0));
+  }
+  return trial;
+}
+
+void sayTrial(const Trial& trial) {
+  for (const Probe& probe : trial.probes)
+    say(fmt::format("{:<10}  {}  {}", probe.name,
+                    probe.held ? paint(Colour::kGreen, "held ") : paint(Colour::kRed, "fails"),
+                    harmless(probe.text)));
+  say(paint(Colour::kBold, describe(trial.level)));
+  if (const std::string warning = sandbox::warningOf(trial.level); !warning.empty()) say(wrap(warning, 0, 0));
+}
+
+void sayTrialAsJson(const Trial& trial, bool ok) {
+  nlohmann::json rows = nlohmann::json::array();
+  for (const Probe& probe : trial.probes)
+    rows.push_back({{"name", probe.name}, {"held", probe.held}, {"text", probe.text}});
+  say(nlohmann::json{{"level", numberOf(trial.level)}, {"probes", rows}, {"ok", ok}}.dump(2));
+}
+
+// Attacks the sandbox from inside with our own program. Returns kWeakSandbox unless the requested level
+// holds.
+ExitCode doctorOfSandbox(const Project& project, const DoctorOptions& options) {
+  const Trial trial = tryLevels(project, options.level.value_or(sandbox::Level::kControlGroup));
+  const bool ok = trial.level >= options.level.value_or(sandbox::Level::kFiles);
+  options.json ? sayTrialAsJson(trial, ok) : sayTrial(trial);
+  return ok ? ExitCode::kFull : ExitCode::kWeakSandbox;
+}
 
 namespace fs = std::filesystem;
 

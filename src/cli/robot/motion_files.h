@@ -1,15 +1,94 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <fstream>
 #include <initializer_list>
 #include <string>
 #include <vector>
 
 #include "cli/robot/posture_option.h"
 #include "cli/robot/render_plan.h"
+#include "cli/robot/simulation.h"
+#include "render/film.h"
 #include "render/report.h"
+#include "render/video_sink.h"
+#include "scene/model.h"
 
 namespace rex::cli {
+
+enum class LogFormat {
+  kCsv,  ///< a line of names, then a line per moment, with digits that restore the same numbers
+  kNpy   ///< NumPy format 1.0: a matrix of little-endian doubles in row-major order, a row per moment
+};
+
+/// A log with the columns time, q, v, kinetic, potential and total energy, written incrementally. An
+/// unfinished log leaves nothing behind, neither a file nor folders made for it. An older log is kept until
+/// finish().
+class MotionLog {
+ public:
+  /// Throws Error naming the file.
+  MotionLog(const std::filesystem::path& file, LogFormat format, const Model& model);
+  ~MotionLog();
+  MotionLog(const MotionLog&) = delete;
+  MotionLog& operator=(const MotionLog&) = delete;
+
+  /// Throws Error naming the file, for example on a full disk.
+  void add(const Moment& moment);
+  /// Moves the finished file into place. Throws like add().
+  void finish();
+
+ private:
+  void write(const std::string& bytes);
+
+  std::filesystem::path file_, part_, firstNew_;
+  LogFormat format_;
+  std::ofstream out_;
+  long columns_, rows_ = 0;
+  bool isFinished_ = false;
+};
+
+/// The pictures of a motion above one level ground. Each is made on demand, because a film of a large scene
+/// would not fit into memory.
+class MotionPictures {
+ public:
+  /// Shows the postures with the indices `shown`, in this order. `traces` are bodies whose paths over the
+  /// whole motion are drawn, and every picture has the `caption`. Throws UsageError for an unknown body.
+  MotionPictures(const Model& model, const Motion& motion, const std::vector<std::size_t>& shown,
+                 const std::vector<std::string>& traces, std::string caption);
+
+  [[nodiscard]] std::size_t size() const { return shown_.size(); }
+  /// The time of picture i, seconds.
+  [[nodiscard]] double time(std::size_t i) const { return motion_.times[shown_[i]]; }
+  /// Picture i, with the traces up to its time.
+  [[nodiscard]] Picture picture(std::size_t i) const;
+  /// All pictures.
+  [[nodiscard]] Film film() const;
+  /// The bounding box of everything they show.
+  [[nodiscard]] const Bounds& bounds() const { return bounds_; }
+
+ private:
+  [[nodiscard]] Picture solidsAt(std::size_t i) const;
+
+  Model model_;
+  Motion motion_;
+  std::vector<std::size_t> shown_;
+  std::vector<std::vector<Eigen::Vector3d>> ways_;
+  std::string caption_;
+  Bounds bounds_;
+  double ground_ = 0;
+};
+
+inline constexpr double kFilmRate = VideoOptions().rate;  ///< frames per second
+
+/// Throws UsageError naming --no-film for a scene without a visible shape.
+void requireFilmable(const Model& model);
+
+/// Draws the pictures according to the plan into the film `out` or, without ffmpeg, into a folder of frames
+/// next to it, and returns its path. A single picture becomes a walk around the scene. Nothing is created
+/// until something is visible. Throws like Studio and makeFrameSink().
+std::filesystem::path writeFilm(const MotionPictures& pictures, const RenderPlan& plan,
+                                std::filesystem::path out);
 
 /// The longest duration of a film, seconds.
 inline constexpr double kLongestFilm = 120;

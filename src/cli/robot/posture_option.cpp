@@ -11,10 +11,35 @@
 #include "base/join.h"
 #include "base/text.h"
 #include "cli/numbers.h"
+#include "cli/terminal.h"
+#include "scene/coordinate_names.h"
 #include "scene/coordinates.h"
 #include "scene/state.h"
 
 namespace rex::cli {
+
+namespace {
+
+std::vector<std::string> allHarmless(std::vector<std::string> names) {
+  for (std::string& name : names) name = harmless(name);
+  return names;
+}
+
+}  // namespace
+
+std::vector<std::string> printablePositionNames(const Model& model) {
+  return allHarmless(positionNames(model));
+}
+
+std::vector<std::string> printableVelocityNames(const Model& model) {
+  return allHarmless(velocityNames(model));
+}
+
+std::size_t widestOf(const std::vector<std::string>& names, std::size_t least) {
+  for (const std::string& name : names) least = std::max(least, name.size());
+  return least;
+}
+
 namespace {
 
 constexpr double kLongestMotion = 120;  // seconds of a film
@@ -210,6 +235,29 @@ Motion moveThrough(const Model& model, const std::vector<Eigen::VectorXd>& keys,
     }
   }
   return motion;
+}
+
+namespace {
+
+void requireWithinLimits(const Model& model, const std::string& option, const VectorArg& q) {
+  for (Eigen::Index i = 0; i < q.size(); ++i) {
+    const double lower = model.lowerLimits()[i], upper = model.upperLimits()[i];
+    const double outside = std::max(lower - q[i], q[i] - upper);
+    if (outside <= 0) continue;
+    throw UsageError(
+        {.what = fmt::format("{}: joint '{}' (q{})", option, harmless(jointOfPosition(model, i).name), i),
+         .found = fmt::format("{:g}, out of bounds by {:.4g}", q[i], outside),
+         .wanted = fmt::format("{:g} to {:g}", lower, upper)});
+  }
+}
+
+}  // namespace
+
+Eigen::VectorXd postureWithinLimits(const Model& model, const std::string& option, const std::string& text) {
+  Eigen::VectorXd q = parsePostureOf(model, option, text);
+  forEachQuaternion(model, [&](int iq, int) { q.segment<4>(iq).normalize(); });
+  requireWithinLimits(model, option, q);
+  return q;
 }
 
 }  // namespace rex::cli

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -7,6 +8,13 @@
 #include "scene/model.h"
 
 namespace rex::cli {
+
+/// positionNames() and velocityNames() of scene/coordinate_names.h, safe to print.
+[[nodiscard]] std::vector<std::string> printablePositionNames(const Model& model);
+[[nodiscard]] std::vector<std::string> printableVelocityNames(const Model& model);
+
+/// The column width for names: the length of the longest, at least `least`.
+[[nodiscard]] std::size_t widestOf(const std::vector<std::string>& names, std::size_t least);
 
 /// The posture given by `--q TEXT`: all nq numbers, or "joint=number,..." for some joints with one
 /// coordinate, the others as in the file; separated by blanks or commas. "0" sets all joints to zero
@@ -41,5 +49,10 @@ struct Motion {
 /// per second; it rests at each of them. Throws UsageError for more than two minutes.
 [[nodiscard]] Motion moveThrough(const Model& model, const std::vector<Eigen::VectorXd>& keys, double seconds,
                                  double rate);
+
+/// parsePostureOf() with normalised quaternions. Also throws UsageError for a zero quaternion, and for a
+/// joint outside its limits, saying by how much.
+[[nodiscard]] Eigen::VectorXd postureWithinLimits(const Model& model, const std::string& option,
+                                                  const std::string& text);
 
 }  // namespace rex::cli

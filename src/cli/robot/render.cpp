@@ -1,5 +1,3 @@
-#include "cli/robot/render.h"
-
 #include <filesystem>
 #include <memory>
 #include <numeric>
@@ -10,13 +8,12 @@
 #include "base/error.h"
 #include "base/interruption.h"
 #include "cli/command_table.h"
+#include "cli/numbers.h"
 #include "cli/out_folder.h"
-#include "cli/robot/film_file.h"
-#include "cli/robot/motion_pictures.h"
+#include "cli/robot/motion_files.h"
 #include "cli/robot/posture_option.h"
+#include "cli/robot/render_plan.h"
 #include "cli/robot/robot_options_internal.h"
-#include "cli/robot/studio.h"
-#include "cli/wrong_use_internal.h"
 #include "render/contact_sheet.h"
 #include "render/glb.h"
 #include "render/png.h"

@@ -1,18 +1,170 @@
 #include "cli/robot/render_plan.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
+#include <optional>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/interruption.h"
 #include "base/join.h"
+#include "base/lower_case.h"
 #include "base/text.h"
-#include "cli/option_value_internal.h"
+#include "cli/option_table_internal.h"
+#include "geometry/rotation.h"
 #include "render/draw_film.h"
 
 namespace rex::cli {
+
+namespace {
+
+using Eigen::Vector3d;
+
+struct KnownView {
+  const char* name;
+  Vector3d direction;
+};
+
+// For a robot that faces -y. Slightly from above, as one looks at a robot.
+const std::array<KnownView, 5> kViews = {{{"front", {0, -1, 0.25}},
+                                          {"back", {0, 1, 0.25}},
+                                          {"left", {1, 0, 0.25}},
+                                          {"right", {-1, 0, 0.25}},
+                                          {"top", {0, 0, 1}}}};
+
+// A quarter turn takes a robot that faces -y to one that faces +x.
+Vector3d turned(const Vector3d& v, Facing facing) {
+  return facing == Facing::kMinusY ? v : Vector3d(-v.y(), v.x(), v.z());
+}
+
+// The axis nearest to a direction, such as "+x".
+std::string axisOf(const Vector3d& direction) {
+  Eigen::Index axis = 0;
+  direction.cwiseAbs().maxCoeff(&axis);
+  return fmt::format("{}{}", direction[axis] < 0 ? '-' : '+', "xyz"[axis]);
+}
+
+std::optional<Vector3d> pointIn(std::string_view text) {
+  const std::vector<std::string_view> fields = splitAt(text, ',');
+  if (fields.size() != 3) return {};
+  Vector3d point;
+  for (int i = 0; i < 3; ++i) {
+    const std::optional<double> number = parseNumber<double>(fields[static_cast<std::size_t>(i)]);
+    if (!number) return {};
+    point[i] = *number;
+  }
+  return point;
+}
+
+}  // namespace
+
+Facing facingOf(const std::filesystem::path& file) {
+  return endingOf(file) == ".ors" ? Facing::kMinusY : Facing::kPlusX;
+}
+
+View::View(const std::string& text, Facing facing) : label_(text) {
+  if (text == "default") return;
+  std::vector<std::string> names = {"default"};
+  for (const KnownView& view : kViews) {
+    names.emplace_back(view.name);
+    if (text == view.name) {
+      direction_ = turned(view.direction, facing);
+      label_ = fmt::format("{} (from {})", text, axisOf(direction_));
+      return;
+    }
+  }
+  const std::size_t at = text.find('@');
+  const auto first = pointIn(text.substr(0, at));
+  if (first && at == std::string::npos && first->norm() > 0) {
+    direction_ = *first;
+    return;
+  }
+  const auto second = at == std::string::npos ? std::nullopt : pointIn(text.substr(at + 1));
+  if (!first || !second || *first == *second)
+    throw UsageError({.what = "--camera",
+                      .found = "'" + text + "'",
+                      .wanted = "default, front, back, left, right, top, a direction x,y,z, or eye and "
+                                "target x,y,z@x,y,z",
+                      .nearest = nearestNames(text, names)});
+  hasEye_ = true;
+  eye_ = *first;
+  target_ = *second;
+  direction_ = eye_ - target_;
+}
+
+Camera View::camera(const Bounds& bounds, double aspect) const {
+  return hasEye_ ? lookAt(eye_, target_) : framing(bounds, direction_, aspect);
+}
+
+namespace {
+
+Camera turnedCamera(const Camera& camera, const Vector3d& p_WT, double angle) {
+  Camera result = camera;
+  const Eigen::Matrix3d R = rotationAboutAxis(angle, Vector3d::UnitZ());
+  result.X_WC = {R * camera.X_WC.R, p_WT + R * (camera.X_WC.p - p_WT)};
+  return result;
+}
+
+}  // namespace
+
+Studio::Studio(const RenderPlan& plan, const Bounds& scene)
+    : plan_(plan), scene_(scene), renderer_(plan.renderer) {}
+
+std::string Studio::describe() const {
+  const std::string views = viewsOf(plan_);
+  return renderer_.describe() + (views.empty() ? "" : "; " + views);
+}
+
+Image Studio::draw(const Picture& picture, double angle) {
+  const double aspect = static_cast<double>(plan_.renderer.width) / plan_.renderer.height;
+  std::vector<KeyFrame> seen;
+  for (const auto& [name, view] : plan_.views) {
+    const Camera camera = view.camera(scene_, aspect);
+    seen.push_back({drawFrom(picture, turnedCamera(camera, view.target(scene_), angle)), name});
+  }
+  return seen.size() == 1 ? seen.front().image : sheetOf(seen);
+}
+
+Image Studio::drawFrom(const Picture& picture, const Camera& camera) {
+  throwIfInterrupted();
+  if (plan_.show == Show::kColor) {
+    DrawnFrame drawn = renderer_.drawFrame(picture, camera);
+    sawSomething_ |= drawn.showsSomething;
+    return std::move(drawn.image);
+  }
+  sawSomething_ = true;  // an empty depth or segmentation image is a valid result
+  if (plan_.show == Show::kSegmentation)
+    return segmentationColors(renderer_.drawSegmentation(picture, camera));
+  const double distance = (scene_.center() - camera.X_WC.p).norm(), reach = scene_.radius();
+  return depthColors(renderer_.drawDepth(picture, camera), std::max(0., distance - reach),
+                     distance + 2 * reach);
+}
+
+void Studio::requireSomethingSeen() const {
+  if (!sawSomething_)
+    throw UsageError(
+        {.what = "--camera", .found = "nothing of the scene in view", .wanted = "a view of the scene"});
+}
+
+Image sheetOf(const std::vector<KeyFrame>& pictures) {
+  constexpr int kNarrowest = 16;  // the least that a sheet accepts; it never widens a picture
+  return contactSheet(pictures, {.pictureWidth = std::max(pictures.front().image.width, kNarrowest)});
+}
+
+Bounds turningBox(const Bounds& scene) {
+  Bounds box = scene;
+  const Vector3d middle = scene.center(), half = scene.high - middle;
+  const double reach = half.head<2>().norm();
+  box.include(middle - Vector3d(reach, reach, half.z()));
+  box.include(middle + Vector3d(reach, reach, half.z()));
+  return box;
+}
+
 namespace {
 
 // Without an ending, the result is a folder of pictures.

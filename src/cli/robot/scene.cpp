@@ -7,9 +7,9 @@
 #include "cli/command_line_internal.h"
 #include "cli/command_table.h"
 #include "cli/option_table_internal.h"
-#include "cli/robot/contact_limit.h"
-#include "cli/robot/render.h"
+#include "cli/robot/render_plan.h"
 #include "cli/robot/robot_options_internal.h"
+#include "cli/robot/scene_option.h"
 #include "cli/robot/scene_verbs.h"
 
 namespace rex::cli {

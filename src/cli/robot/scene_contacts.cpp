@@ -5,8 +5,8 @@
 
 #include "base/error.h"
 #include "cli/json_internal.h"
-#include "cli/robot/contact_limit.h"
 #include "cli/robot/posture_option.h"
+#include "cli/robot/scene_option.h"
 #include "cli/robot/scene_verbs.h"
 #include "cli/terminal.h"
 #include "collision/contacts.h"

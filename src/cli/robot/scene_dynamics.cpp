@@ -6,11 +6,9 @@
 #include <fmt/format.h>
 
 #include "cli/json_internal.h"
-#include "cli/robot/coordinate_names.h"
-#include "cli/robot/overflow_internal.h"
+#include "cli/numbers.h"
 #include "cli/robot/posture_option.h"
 #include "cli/robot/scene_verbs.h"
-#include "cli/wrong_use_internal.h"
 #include "dynamics/energy.h"
 #include "dynamics/forward_dynamics.h"
 #include "dynamics/mass_matrix.h"

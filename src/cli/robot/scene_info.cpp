@@ -7,8 +7,8 @@
 
 #include "base/join.h"
 #include "cli/json_internal.h"
-#include "cli/robot/pin_gaps.h"
 #include "cli/robot/scene_verbs.h"
+#include "cli/robot/simulation.h"
 #include "cli/terminal.h"
 
 namespace rex::cli {

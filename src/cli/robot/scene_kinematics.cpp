@@ -7,11 +7,8 @@
 
 #include "cli/json_internal.h"
 #include "cli/numbers.h"
-#include "cli/robot/coordinate_names.h"
-#include "cli/robot/overflow_internal.h"
 #include "cli/robot/posture_option.h"
 #include "cli/robot/scene_verbs.h"
-#include "cli/wrong_use_internal.h"
 #include "geometry/rotation.h"
 #include "kinematics/jacobians.h"
 

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 
 #include "cli/project.h"
+#include "collision/contact_model.h"
 #include "scene/model.h"
 #include "scene/scene_file.h"
 
@@ -28,5 +30,15 @@ void requireMeaning(const std::filesystem::path& file, const ReadOptions& readin
 
 /// The same, compiled. Also throws UsageError where compile() throws Error.
 [[nodiscard]] Model loadScene(const Project& project, const SceneOption& scene);
+
+/// The limit on pairs of shapes for a command: if all of them touch, their list takes seconds and 220 MB.
+inline constexpr std::size_t kMostContactPairs = 200'000;
+
+/// What may collide in a model; prints warnings about doubtful settings. Throws UsageError for more pairs
+/// of shapes on different bodies, before allocating them, and if ContactModel throws Error.
+[[nodiscard]] ContactModel contactModelOf(const Model& model);
+
+/// Prints collisionWarnings().
+void noteCollisionWarnings(const Model& model);
 
 }  // namespace rex::cli

@@ -6,10 +6,10 @@
 #include "base/error.h"
 #include "base/join.h"
 #include "cli/json_internal.h"
-#include "cli/robot/contact_limit.h"
+#include "cli/numbers.h"
+#include "cli/robot/scene_option.h"
 #include "cli/robot/scene_verbs.h"
 #include "cli/terminal.h"
-#include "cli/wrong_use_internal.h"
 #include "collision/touch_sample.h"
 #include "scene/srdf_writer.h"
 

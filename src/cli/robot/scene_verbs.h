@@ -7,6 +7,7 @@
 
 #include "base/exit_code.h"
 #include "cli/robot/scene_option.h"
+#include "cli/terminal.h"
 
 namespace rex::cli {
 
@@ -60,5 +61,10 @@ struct ConvertOptions {
 };
 /// Writes the scene in another format.
 ExitCode sceneConvert(const Project& project, const ConvertOptions& options);
+
+/// Says so where an answer has numbers that are too large for a double.
+inline void noteOverflow(bool isFinite) {
+  if (!isFinite) note("warning: some numbers are too large to compute with: inf and nan, in JSON null");
+}
 
 }  // namespace rex::cli

@@ -1,18 +1,38 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "base/vector_arg.h"
 #include "cli/robot/posture_option.h"
-#include "cli/robot/torque_file.h"
 #include "dynamics/energy.h"
 #include "dynamics/stepper.h"
 #include "live/hold.h"
 #include "physics/physics_world.h"
+#include "scene/model.h"
 
 namespace rex::cli {
+
+/// Joint forces over time.
+struct TorqueTable {
+  int nv = 0;
+  std::vector<int> columns{};               ///< the indices into v that have one
+  std::vector<double> times{};              ///< seconds, increasing
+  std::vector<std::vector<double>> rows{};  ///< N m or N, one entry per column
+
+  /// The forces (nv) at that time: those of the latest row, zero before the first.
+  [[nodiscard]] Eigen::VectorXd at(double time) const;
+};
+
+/// Reads a table of numbers (cli/numbers.h): a heading "time,shoulder,elbow" with names from velocityNames(),
+/// then one row per time. Throws UsageError with file:line:column like readNumberTable(), for a joint that is
+/// unknown (with the nearest names), a mimic, free or repeated, a wrong count, and times that are negative or
+/// do not increase.
+[[nodiscard]] TorqueTable readTorques(const Model& model, const std::filesystem::path& file);
 
 /// The settings of `rex simulate`.
 struct SimulationPlan {
@@ -65,5 +85,22 @@ class FilmPostures {
   long step_ = 0;
   Motion motion_{};
 };
+
+/// How far the two points of each pin are apart at q, metres.
+[[nodiscard]] Eigen::VectorXd pinGaps(const Model& model, const VectorArg& q);
+
+/// Two overlapping bodies, or shapes of the world.
+struct BodyOverlap {
+  std::string a, b;
+  double depth = 0;  ///< metres, at its deepest
+};
+
+/// The pairs that may collide and overlap by more than 0.1 mm in that state, deepest first. Throws Error
+/// like PhysicsWorld.
+[[nodiscard]] std::vector<BodyOverlap> startOverlaps(const Model& model, const PhysicsOptions& options,
+                                                     const State& start);
+
+/// "2 pairs: 'a' and 'b' by 0.012 m, ...", for at most the deepest dozen.
+[[nodiscard]] std::string toString(const std::vector<BodyOverlap>& overlaps);
 
 }  // namespace rex::cli

@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "base/interruption.h"
 #include "base/text_file.h"
-#include "cli/robot/film_file.h"
+#include "cli/robot/motion_files.h"
 #include "cli/robot/posture_option.h"
 
 namespace rex::cli {

@@ -7,7 +7,7 @@
 #include <string>
 #include <thread>
 
-#include "cli/robot/view_option.h"
+#include "cli/robot/render_plan.h"
 #include "scene/model.h"
 
 namespace rex::cli {

@@ -11,7 +11,6 @@
 #include "base/process.h"
 #include "base/sha256.h"
 #include "base/text_file.h"
-#include "cli/progress_line.h"
 #include "cli/terminal.h"
 #include "submission/precompiled_prefix.h"
 #include "submission/program_build.h"

@@ -14,7 +14,6 @@
 #include "cli/command_table.h"
 #include "cli/option_table_internal.h"
 #include "cli/out_folder.h"
-#include "cli/student/exercise_option_internal.h"
 #include "cli/student/student_file.h"
 #include "cli/terminal.h"
 

@@ -13,7 +13,7 @@
 #include "cli/json_internal.h"
 #include "cli/option_table_internal.h"
 #include "cli/out_folder.h"
-#include "cli/student/program_run.h"
+#include "cli/student/own_program.h"
 #include "cli/terminal.h"
 
 namespace rex::cli {

@@ -1,5 +1,3 @@
-#include "cli/student/hint.h"
-
 #include <algorithm>
 #include <memory>
 
@@ -10,8 +8,8 @@
 #include "base/join.h"
 #include "cli/command_table.h"
 #include "cli/option_table_internal.h"
-#include "cli/student/exercise_option_internal.h"
-#include "cli/student/progress_file.h"
+#include "cli/student/exercise_commands.h"
+#include "cli/student/progress.h"
 #include "cli/terminal.h"
 #include "grading/result_file.h"
 

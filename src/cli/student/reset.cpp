@@ -1,5 +1,3 @@
-#include "cli/student/reset.h"
-
 #include <memory>
 #include <string>
 
@@ -9,7 +7,8 @@
 #include "base/error.h"
 #include "base/text_file.h"
 #include "cli/command_table.h"
-#include "cli/student/exercise_option_internal.h"
+#include "cli/option_table_internal.h"
+#include "cli/student/exercise_commands.h"
 #include "cli/terminal.h"
 #include "submission/regions.h"
 

@@ -1,5 +1,3 @@
-#include "cli/student/show.h"
-
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
@@ -13,9 +11,9 @@
 #include "base/text_file.h"
 #include "cli/command_table.h"
 #include "cli/option_table_internal.h"
-#include "cli/result_list.h"
-#include "cli/student/exercise_option_internal.h"
-#include "cli/student/progress_file.h"
+#include "cli/out_folder.h"
+#include "cli/student/exercise_commands.h"
+#include "cli/student/progress.h"
 #include "cli/student/student_file.h"
 #include "cli/terminal.h"
 

@@ -8,9 +8,7 @@
 #include "base/exit_code.h"
 #include "cli/command_table.h"
 #include "cli/option_table_internal.h"
-#include "cli/student/exercise_option_internal.h"
-#include "cli/student/test_many.h"
-#include "cli/student/test_one.h"
+#include "cli/student/test_run.h"
 
 namespace rex::cli {
 namespace {

@@ -1,5 +1,3 @@
-#include "cli/student/test_many.h"
-
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
@@ -14,7 +12,6 @@
 #include "base/text_file.h"
 #include "cli/build_on_demand.h"
 #include "cli/json_internal.h"
-#include "cli/progress_line.h"
 #include "cli/sandbox_choice.h"
 #include "cli/student/test_run.h"
 #include "cli/terminal.h"

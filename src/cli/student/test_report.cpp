@@ -1,5 +1,3 @@
-#include "cli/student/test_report.h"
-
 #include <algorithm>
 #include <cstdio>
 #include <sstream>
@@ -8,8 +6,9 @@
 #include <fmt/format.h>
 
 #include "base/join.h"
-#include "cli/result_list.h"
+#include "cli/out_folder.h"
 #include "cli/student/student_file.h"
+#include "cli/student/test_run.h"
 #include "cli/terminal.h"
 #include "submission/compiler_messages.h"
 

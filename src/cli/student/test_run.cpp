@@ -1,6 +1,8 @@
 #include "cli/student/test_run.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <thread>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,9 +11,9 @@
 #include "base/text_file.h"
 #include "cli/out_folder.h"
 #include "cli/report_format.h"
-#include "cli/student/progress_file.h"
+#include "cli/sandbox_choice.h"
+#include "cli/student/progress.h"
 #include "cli/student/student_file.h"
-#include "cli/student/test_report.h"
 #include "cli/terminal.h"
 #include "grading/hidden_seed.h"
 #include "grading/result_file.h"
@@ -142,6 +144,26 @@ ExitCode exitCodeOf(const GradeResult& result) {
   if (result.outcome == Outcome::kGraderError) return ExitCode::kGraderFault;
   if (result.outcome == Outcome::kCompileError) return ExitCode::kNotGradable;
   return result.outcome == Outcome::kPass ? ExitCode::kFull : ExitCode::kBelow;
+}
+
+ExitCode testOne(const Project& project, const TestOptions& options) {
+  ExerciseInfo exercise = project.exercise(options.exercise);
+  const std::optional<sandbox::Sandbox> sandbox = chooseSandbox(project, options.level);
+  if (!sandbox) return ExitCode::kWeakSandbox;
+  const TestRun run(project, std::move(exercise), options);
+  // A sandbox has one work folder for all tools.
+  const int processors =
+      isConfined(sandbox->level) ? 1 : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  const grading::Submission graded = [&] {
+    const ProgressLine line([&] { return run.stage(); });
+    return run.grade(*sandbox, processors);
+  }();
+  run.publish(project, graded.result);
+  if (options.json)
+    std::fputs(readTextFile(run.ownResults()).c_str(), stdout);
+  else
+    run.print(graded);
+  return exitCodeOf(graded.result);
 }
 
 }  // namespace rex::cli

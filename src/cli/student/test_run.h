@@ -63,4 +63,28 @@ class TestRun {
 
 [[nodiscard]] ExitCode exitCodeOf(const grading::GradeResult& result);
 
+/// What a report is about besides its result.
+struct ReportView {
+  bool isWhole = true;                           ///< all existing checks were graded
+  bool inFull = true;                            ///< every failed check with its message, not only the first
+  std::optional<grading::GradeResult> before{};  ///< of the same checks, the last time
+};
+
+/// Prints the result for people: each check with its points and, if it failed, what was wanted and what came
+/// out; what changed since the last time; what the graded functions printed, if only some checks ran; files
+/// in the folder of `results` that are newer than `source`; and how to repeat one check.
+void printResult(const ExerciseInfo& exercise, const grading::Submission& graded,
+                 const std::filesystem::path& results, const std::filesystem::path& source,
+                 const ReportView& view);
+
+/// Grades several exercises, `jobs` at once (0: one per processor), and reports them in the given order. In
+/// `each`, `out` gets a folder for every exercise; main and checks belong to a single exercise and are
+/// refused. Returns the largest exit code: a grader error (also if it does not build), then not gradable,
+/// then below full score.
+ExitCode testMany(const Project& project, const std::vector<ExerciseInfo>& exercises, const TestOptions& each,
+                  int jobs);
+
+/// Grades one exercise and prints the result.
+ExitCode testOne(const Project& project, const TestOptions& options);
+
 }  // namespace rex::cli

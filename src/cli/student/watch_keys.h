@@ -1,13 +1,34 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "cli/file_watcher.h"
 #include "cli/project.h"
-#include "cli/student/keyboard.h"
+
+struct termios;  // of the system
 
 namespace rex::cli {
+
+/// While it lives, keys reach the program one by one, without Enter and without echo, if standard input and
+/// output are a terminal. Ctrl-C still stops the program.
+class Keyboard {
+ public:
+  Keyboard();
+  ~Keyboard();
+  Keyboard(const Keyboard&) = delete;
+  Keyboard& operator=(const Keyboard&) = delete;
+
+  [[nodiscard]] bool isThere() const { return before_ != nullptr; }
+  /// For poll(); -1 if there is no keyboard.
+  [[nodiscard]] int descriptor() const;
+  /// The key that was pressed; 'q' if the terminal is gone.
+  [[nodiscard]] char read() const;
+
+ private:
+  std::unique_ptr<termios> before_;  // previous state of the terminal; null: there is no keyboard
+};
 
 /// The keys of `rex watch` for one exercise, if there is a keyboard.
 class WatchKeys {

@@ -7,10 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cli/robot/path_motion.h"
-#include "cli/robot/path_pictures.h"
-#include "cli/robot/path_summary.h"
-#include "cli/robot/path_timing.h"
+#include "cli/robot/path_results.h"
+#include "cli/robot/path_search.h"
 #include "collision/contacts.h"
 #include "kinematics/forward_kinematics.h"
 #include "planning/robot_problem.h"

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "cli/robot/motion_files.h"
-#include "cli/robot/motion_pictures.h"
 #include "kinematics/forward_kinematics.h"
 #include "scene/ors_reader.h"
 #include "support/expect_error.h"

@@ -1,9 +1,8 @@
-#include "cli/robot/studio.h"
-
 #include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "cli/robot/render_plan.h"
 #include "support/needs_osmesa.h"
 
 namespace rex::cli::studio_test {

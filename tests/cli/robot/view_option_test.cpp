@@ -1,10 +1,9 @@
 // Options that give points and views.
-#include "cli/robot/view_option.h"
-
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "cli/numbers.h"
+#include "cli/robot/render_plan.h"
 #include "support/expect_error.h"
 
 namespace rex::cli::view_option_test {

@@ -1,5 +1,3 @@
-#include "cli/student/progress_file.h"
-
 #include <chrono>
 #include <csignal>
 #include <fstream>
@@ -11,6 +9,7 @@
 #include <unistd.h>
 
 #include "base/rng.h"
+#include "cli/student/progress.h"
 #include "support/file_text.h"
 #include "support/temporary_folder.h"
 

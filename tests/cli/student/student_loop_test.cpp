@@ -7,7 +7,7 @@
 #include "base/process.h"
 #include "base/sha256.h"
 #include "cli/command_schema.h"
-#include "cli/student/progress_file.h"
+#include "cli/student/progress.h"
 #include "cli/template_project.h"
 #include "grading/result_file.h"
 #include "support/tiny_disk.h"

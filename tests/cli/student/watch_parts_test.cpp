@@ -1,8 +1,7 @@
-#include "cli/student/watch_parts.h"
-
 #include <gmock/gmock.h>
 
 #include "base/text_file.h"
+#include "cli/student/watch_page.h"
 #include "support/temporary_folder.h"
 
 namespace rex::cli::watch_parts_test {

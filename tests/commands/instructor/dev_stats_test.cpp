@@ -9,7 +9,7 @@
 #include "classroom/import_table.h"
 #include "classroom/task_list.h"
 #include "cli/command_schema.h"
-#include "cli/instructor/class_figure.h"
+#include "cli/instructor/class_grades.h"
 #include "commands/built_project.h"
 #include "grading/results.h"
 #include "support/expect_error.h"

@@ -25,4 +25,15 @@ ShownHints openHint(const Project& project, const ExerciseInfo& exercise, const 
 
 ExitCode hint(const Project& project, const HintOptions& options);
 
+/// Restores main.cpp as it was handed out, and keeps a copy of the current one.
+ExitCode reset(const Project& project, const std::string& name);
+
+struct ShowOptions {
+  std::string exercise;
+  bool solution = false;
+};
+/// Prints where replays, films, pictures and the result are, or the reference solution. Returns kBelow if
+/// there are none, or the course does not show the solution yet.
+ExitCode show(const Project& project, const ShowOptions& options);
+
 }  // namespace rex::cli

@@ -1,0 +1,462 @@
+#include "cli/robot/path_results.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/join.h"
+#include "base/text_file.h"
+#include "cli/json_internal.h"
+#include "cli/robot/motion_files.h"
+#include "cli/robot/path_search.h"
+#include "cli/robot/posture_option.h"
+#include "cli/robot/render_plan.h"
+#include "cli/terminal.h"
+#include "collision/contact_batch.h"
+#include "kinematics/pose_batch.h"
+#include "render/png.h"
+#include "render/report.h"
+#include "render/scene_picture.h"
+
+namespace rex::cli {
+
+namespace {
+
+// The first few names, and how many more there are.
+std::string listOf(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 6;
+  std::vector<std::string> shown;
+  for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i)
+    shown.push_back("'" + harmless(names[i]) + "'");
+  const std::string rest = names.size() > kMost ? fmt::format(" and {} more", names.size() - kMost) : "";
+  return fmt::format("{}{}", join(shown, ", "), rest);
+}
+
+}  // namespace
+
+PathTiming timingOf(const PathTask& task, const PlanOptions& options, const FoundPath& found) {
+  PathTiming timing{
+      .limits = jointLimits(task.model,
+                            {.velocity = options.velocity, .ramp = options.ramp, .effort = options.effort})};
+  timing.result = parametrizeTime(found.curve, timing.limits.limits);
+  return timing;
+}
+
+std::string assumptionsOf(const PathTiming& timing, const PlanOptions& options) {
+  std::string text;
+  if (!timing.limits.assumedVelocity.empty())
+    text = fmt::format("no velocity limit for {}: assuming {:g} rad/s or m/s, see --velocity",
+                       listOf(timing.limits.assumedVelocity), options.velocity);
+  if (!timing.limits.anyEffort.empty())
+    text += fmt::format("{}no effort limit for {}: assuming any effort", text.empty() ? "" : "; ",
+                        listOf(timing.limits.anyEffort));
+  return text;
+}
+
+std::string limitsTextOf(const PathTiming& timing, const PlanOptions& options) {
+  const auto all = timing.limits.limits.velocity.size();
+  const auto assumed = static_cast<Eigen::Index>(timing.limits.assumedVelocity.size());
+  const std::string velocity =
+      assumed == 0     ? "velocities of the scene"
+      : assumed == all ? fmt::format("velocities {:g} rad/s or m/s", options.velocity)
+                       : fmt::format("velocities of the scene, for {} of {} coordinates {:g} rad/s or m/s",
+                                     assumed, all, options.velocity);
+  return fmt::format("{}; accelerations that reach them in {:g} s{}", velocity, options.ramp,
+                     options.effort ? "; efforts of the scene" : "");
+}
+
+namespace {
+
+// Quoted as a CSV field if necessary.
+std::string quoted(const std::string& name) {
+  if (name.find_first_of(",\"; ") == std::string::npos) return name;
+  std::string text = "\"";
+  for (const char c : name) text += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return text + "\"";
+}
+
+}  // namespace
+
+Motion motionOf(const TimedPath& timed, double rate) {
+  const double end = timed.duration();
+  const auto count = static_cast<std::size_t>(std::ceil(end * rate - 1e-9));
+  Motion motion;
+  for (std::size_t i = 0; i < count; ++i) {
+    motion.times.push_back(static_cast<double>(i) / rate);
+    motion.postures.push_back(timed.at(motion.times.back()).q);
+  }
+  motion.times.push_back(end);
+  motion.postures.push_back(timed.at(end).q);
+  return motion;
+}
+
+std::string csvOf(const Model& model, const Motion& motion) {
+  fmt::memory_buffer table;
+  const auto out = std::back_inserter(table);
+  fmt::format_to(out, "time");
+  for (const std::string& name : printablePositionNames(model)) fmt::format_to(out, ",{}", quoted(name));
+  for (std::size_t i = 0; i < motion.times.size(); ++i) {
+    fmt::format_to(out, "\n{}", motion.times[i]);
+    for (const double x : motion.postures[i]) fmt::format_to(out, ",{}", x);
+  }
+  return fmt::to_string(table) + "\n";
+}
+
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr Eigen::Index kBatch = 1024;  // postures at a time, so that their poses take little memory
+const Color kPathColor{0.84f, 0.37f, 0.0f};
+const std::array<Color, 2> kGraphColors = {Color{0.0f, 0.45f, 0.70f}, Color{0.0f, 0.62f, 0.45f}};
+
+// The position of a body's origin in each posture.
+std::vector<Vector3d> placesOf(const Model& model, BodyId body, const MatrixArg& postures) {
+  std::vector<Vector3d> places;
+  PoseBatch poses;
+  for (Eigen::Index first = 0; first < postures.cols(); first += kBatch) {
+    const Eigen::Index count = std::min(kBatch, postures.cols() - first);
+    forwardKinematicsBatch(model, postures.middleCols(first, count), poses);
+    for (int k = 0; k < static_cast<int>(count); ++k) places.push_back(poses.pose(body, k).p);
+  }
+  return places;
+}
+
+// Length of the straight pieces of drawn edges, in the metric of the space; longer for very many edges.
+double pieceLength(const Space& space, const std::vector<PathGraph>& graphs) {
+  constexpr double kFine = 0.15, kMostPieces = 60'000;
+  double whole = 0;
+  for (const PathGraph& graph : graphs)
+    for (const auto& [a, b] : graph.edges) whole += space.distance(graph.nodes.col(a), graph.nodes.col(b));
+  return std::max(kFine, whole / kMostPieces);
+}
+
+// Postures from a to b, both included, no further apart than `piece`.
+Eigen::MatrixXd pointsBetween(const Space& space, const VectorArg& a, const VectorArg& b, double piece) {
+  const int pieces = std::max(1, static_cast<int>(std::ceil(space.distance(a, b) / piece)));
+  Eigen::MatrixXd points(a.size(), pieces + 1);
+  for (int i = 0; i <= pieces; ++i) space.interpolate(a, b, static_cast<double>(i) / pieces, points.col(i));
+  return points;
+}
+
+// Very many lines are drawn so faint that what lies behind them shows through.
+float opacityOf(std::size_t edges) { return std::clamp(800 / static_cast<float>(edges), 0.08f, 0.5f); }
+
+LineSet linesOf(const Model& model, const Space& space, BodyId body, const PathGraph& graph, double piece) {
+  LineSet lines;
+  for (const auto& [a, b] : graph.edges) {
+    const std::vector<Vector3d> places =
+        placesOf(model, body, pointsBetween(space, graph.nodes.col(a), graph.nodes.col(b), piece));
+    for (std::size_t i = 1; i < places.size(); ++i) lines.segments.emplace_back(places[i - 1], places[i]);
+  }
+  return lines;
+}
+
+Polyline wayOf(const Model& model, const Space& space, BodyId body, const MatrixArg& path) {
+  constexpr double kFine = 0.03, kMostPieces = 60'000;
+  const double piece = std::max(kFine, pathLength(space, path) / kMostPieces);
+  Polyline way{.color = kPathColor, .width = 5};
+  for (Eigen::Index k = 1; k < path.cols(); ++k)
+    for (const Vector3d& place :
+         placesOf(model, body, pointsBetween(space, path.col(k - 1), path.col(k), piece)))
+      way.points.push_back(place);
+  return way;
+}
+
+// Adds the moving solids once more, faintly, in the posture of the other picture.
+void addFaintly(Picture& picture, const Picture& other) {
+  constexpr float kFaint = 0.45f;
+  const std::size_t count = picture.solids.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    Solid solid = other.solids[i];
+    const Pose &here = picture.solids[i].X_WS, &there = solid.X_WS;
+    if (here.p.isApprox(there.p, 1e-9) && here.R.isApprox(there.R, 1e-9)) continue;
+    solid.color.a *= kFaint;
+    picture.solids.push_back(std::move(solid));
+  }
+}
+
+}  // namespace
+
+BodyId farthestBody(const Model& model) {
+  std::vector<int> movers(model.bodies().size(), 0);
+  std::size_t farthest = 0;
+  for (std::size_t i = 1; i < movers.size(); ++i) {  // parents come first
+    const Body& body = model.bodies()[i];
+    const bool moves = body.joint != kNoJoint && model[body.joint].nv > 0;
+    movers[i] = movers[static_cast<std::size_t>(body.parent)] + (moves ? 1 : 0);
+    if (movers[i] > movers[farthest]) farthest = i;
+  }
+  return BodyId(static_cast<int>(farthest));
+}
+
+Picture exploredPicture(const PathTask& task, BodyId body, const FoundPath& found) {
+  const auto& [model, contacts, problem] = task;
+  Picture picture = pictureOf(model, forwardKinematics(model, problem.start));
+  addFaintly(picture, pictureOf(model, forwardKinematics(model, problem.goal)));
+  const double piece = pieceLength(problem.space, found.explored);
+  for (std::size_t i = 0; i < found.explored.size(); ++i) {
+    picture.lineSets.push_back(linesOf(model, problem.space, body, found.explored[i], piece));
+    picture.lineSets.back().color = kGraphColors[i % kGraphColors.size()];
+    picture.lineSets.back().color.a = opacityOf(found.explored[i].edges.size());
+  }
+  if (found.isFound()) picture.polylines.push_back(wayOf(model, problem.space, body, found.path));
+  Eigen::MatrixXd ends(problem.start.size(), 2);
+  ends << problem.start, problem.goal;
+  picture.pointSets.push_back({.points = placesOf(model, body, ends), .color = kPathColor, .size = 11});
+  return picture;
+}
+
+Figure jointsFigure(const Model& model, const Motion& motion) {
+  Figure figure{
+      .title = "joints", .xLabel = "time [s]", .yLabel = "position [rad, m]", .legend = Legend::kOutside};
+  const std::vector<std::string> names = printablePositionNames(model);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    Series series{.label = names[i], .x = motion.times};
+    for (const Eigen::VectorXd& q : motion.postures) series.y.push_back(q[static_cast<Eigen::Index>(i)]);
+    figure.series.push_back(std::move(series));
+  }
+  return figure;
+}
+
+Figure speedsFigure(const TimedPath& timed, const MotionLimits& limits) {
+  constexpr int kPoints = 600;  // about as many as a figure has columns
+  Figure figure{.title = "speeds",
+                .xLabel = "time [s]",
+                .yLabel = "speed / limit [1]",
+                .legend = Legend::kOutside,
+                .horizontalLines = {{.at = 1, .label = "limit"}}};
+  for (const std::string& name : limits.names) figure.series.push_back({.label = harmless(name)});
+  for (int i = 0; i <= kPoints; ++i) {
+    const double t = timed.duration() * i / kPoints;
+    const Eigen::VectorXd v = timed.at(t).v;
+    for (std::size_t k = 0; k < figure.series.size(); ++k) {
+      const auto joint = static_cast<Eigen::Index>(k);
+      figure.series[k].x.push_back(t);
+      figure.series[k].y.push_back(std::abs(v[joint]) / limits.velocity[joint]);
+    }
+  }
+  return figure;
+}
+
+Figure clearanceFigure(const Model& model, const ContactModel& contacts, const Motion& motion,
+                       double margin) {
+  Series nearest{.label = "nearest shapes", .x = motion.times};
+  PoseBatch poses;
+  Eigen::MatrixXd distances;
+  for (const Eigen::VectorXd& q : motion.postures) {
+    forwardKinematicsBatch(model, q, poses);
+    contactDistancesBatch(contacts, poses, distances);
+    nearest.y.push_back(distances.minCoeff());
+  }
+  return {.title = "clearance",
+          .xLabel = "time [s]",
+          .yLabel = "distance [m]",
+          .series = {nearest},
+          .horizontalLines = {{.at = margin, .label = "margin"}}};
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Contains no computing times: the same input gives the same bytes.
+Report replayOf(const PathTask& task, const PlanOptions& options, const FoundPath& found,
+                const PathTiming& timing, const Motion& motion) {
+  const TimingResult& result = timing.result;
+  Report report{.title = titleOf(task, options, found),
+                .figures = {{jointsFigure(task.model, motion)}},
+                .facts = {{"length", fmt::format("{:.4g}", found.length)},
+                          {"duration", fmt::format("{:.3f} s", result.motion.duration())},
+                          {"from velocity limits alone", fmt::format("{:.3f} s", result.lowerBound)},
+                          {"limits", limitsTextOf(timing, options)},
+                          {"margin", fmt::format("{:g} m", *options.margin)},
+                          {"nodes", fmt::format("{}", found.nodes)},
+                          {"configurations checked", fmt::format("{}", found.checks)}}};
+  if (result.motion.duration() > 0)
+    report.figures.push_back({speedsFigure(result.motion, timing.limits.limits)});
+  if (!task.contacts.pairs().empty()) {
+    report.figures.push_back({clearanceFigure(task.model, task.contacts, motion, *options.margin)});
+    report.facts.emplace_back("clearance", fmt::format("{:.4g} m", found.clearance.atLeast));
+  }
+  return report;
+}
+
+// A hundred rows per second, fewer for very long motions.
+std::string tableOf(const Model& model, const TimedPath& timed) {
+  constexpr double kRate = 100, kMostRows = 1e6;
+  const double rate = std::min(kRate, kMostRows / std::max(timed.duration(), 1.));
+  return csvOf(model, motionOf(timed, rate));
+}
+
+// Writes the film and the replay.
+std::vector<fs::path> writeMotion(const PathTask& task, const PlanOptions& options,
+                                  const RenderPlan& pictures, BodyId body, const FoundPath& found,
+                                  const PathTiming& timing) {
+  const double speed = filmSpeed(options.speed, timing.result.motion.duration());
+  const Motion motion = motionOf(timing.result.motion, kFilmRate / speed);
+  return writeFilmAndReplay(task.model, motion, body, replayOf(task, options, found, timing, motion),
+                            pictures, options.out / "path", speed);
+}
+
+}  // namespace
+
+void writeExplored(Picture picture, RenderPlan plan, std::string caption, const fs::path& out) {
+  picture.captions.push_back({.text = std::move(caption)});
+  plan.renderer.antiAliasing = AntiAliasing::kMsaa4;
+  Studio studio(plan, bounds(picture));
+  const Image image = studio.draw(picture);
+  studio.requireSomethingSeen();
+  writePng(image, out);
+}
+
+std::string titleOf(const PathTask& task, const PlanOptions& options, const FoundPath& found) {
+  return fmt::format("{}, {}, seed {}", harmless(task.model.name()), nameOf(options.planner), found.seed);
+}
+
+std::vector<std::string> writePathFiles(const PathTask& task, const PlanOptions& options,
+                                        const RenderPlan& pictures, BodyId body, const FoundPath& found,
+                                        const PathTiming& timing) {
+  std::vector<fs::path> files = {options.out / "tree.png"};
+  writeExplored(exploredPicture(task, body, found), pictures,
+                fmt::format("{}: {} nodes", titleOf(task, options, found), found.nodes), files.back());
+  const bool canMove = found.isFound() && timing.isFound();
+  if (canMove) {
+    files.push_back(options.out / "path.csv");
+    writeTextFile(files.back(), tableOf(task.model, timing.result.motion));
+  }
+  if (canMove && !options.noFilm)
+    for (const fs::path& file : writeMotion(task, options, pictures, body, found, timing))
+      files.push_back(file);
+  std::vector<std::string> names;
+  for (const fs::path& file : files) names.push_back(shown(file));
+  return names;
+}
+
+namespace {
+
+std::string timingTextOf(const PathTiming& timing, const PlanOptions& options) {
+  if (!timing.isFound()) return fmt::format("duration   none: {}\n", harmless(timing.result.message));
+  const TimingResult& result = timing.result;
+  const int stops = result.motion.curve().stops();
+  return fmt::format("duration   {:.3f} s, at least {:.3f} s from the velocity limits alone; {} on the way\n",
+                     result.motion.duration(), result.lowerBound,
+                     stops == 0 ? "no stop" : fmt::format("{} stop{}", stops, stops == 1 ? "" : "s")) +
+         fmt::format("limits     {}\n", limitsTextOf(timing, options));
+}
+
+std::string summaryOfOne(const PathTask& task, const PlanOptions& options, const FoundPath& found,
+                         const PathTiming& timing) {
+  std::string text = fmt::format("{}: {}\n", titleOf(task, options, found),
+                                 found.isFound() ? "found a path" : "no path within the budget of --samples");
+  text += fmt::format("explored   {} nodes of {} samples, {} configurations checked\n", found.nodes,
+                      found.samples, found.checks);
+  text += fmt::format("CPU time   {:.1f} ms for planning", 1e3 * found.planningTime);
+  if (!found.isFound()) return text;
+  text += fmt::format(", {:.1f} ms for smoothing\n", 1e3 * found.smoothingTime);
+  text += fmt::format("length     {:.3f}, before smoothing {:.3f}\n", found.length, found.plannedLength);
+  text += timingTextOf(timing, options);
+  const auto& [atLeast, atMost] = found.clearance;
+  if (!std::isfinite(atLeast)) return text + "clearance  nothing can collide";
+  const bool isProven = atMost - atLeast <= 2 * kClearanceTolerance;
+  return text + fmt::format("clearance  {:.4f} m all along the path{}, margin {:g} m", atLeast,
+                            isProven ? "" : fmt::format(" is proven, {:.4f} m measured", atMost),
+                            *options.margin);
+}
+
+std::string row(const char* name, std::vector<double> values) {
+  if (values.empty()) return {};
+  std::ranges::sort(values);
+  const std::size_t half = values.size() / 2;
+  const double median = values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
+  return fmt::format("\n{:22} {:>10.5g} {:>10.5g} {:>10.5g}", name, values.front(), median, values.back());
+}
+
+std::string summaryOfAll(const PathTask& task, const PlanOptions& options, const FoundPaths& found,
+                         const PathTiming& timing) {
+  const auto valuesOf = [&](bool ofPaths, const std::function<double(const FoundPath&)>& value) {
+    std::vector<double> values;
+    for (const FoundPath& one : found.all)
+      if (one.isFound() || !ofPaths) values.push_back(value(one));
+    return values;
+  };
+  std::string text = fmt::format("{}, {}, seeds {} to {}: {} of {} found a path\n",
+                                 harmless(task.model.name()), nameOf(options.planner), found.all.front().seed,
+                                 found.all.back().seed, found.successes(), found.all.size());
+  text += fmt::format("{:22} {:>10} {:>10} {:>10}", "", "min", "median", "max");
+  text += row("nodes", valuesOf(false, [](const FoundPath& one) { return one.nodes; }));
+  text += row("configurations checked",
+              valuesOf(false, [](const FoundPath& one) { return static_cast<double>(one.checks); }));
+  text +=
+      row("planning, CPU ms", valuesOf(false, [](const FoundPath& one) { return 1e3 * one.planningTime; }));
+  text +=
+      row("smoothing, CPU ms", valuesOf(true, [](const FoundPath& one) { return 1e3 * one.smoothingTime; }));
+  text += row("length", valuesOf(true, [](const FoundPath& one) { return one.length; }));
+  text += row("clearance, m", valuesOf(true, [](const FoundPath& one) { return one.clearance.atLeast; }));
+  if (found.successes() == 0) return text;
+  text += fmt::format("\nshortest: seed {}\n", found.shortest().seed) + timingTextOf(timing, options);
+  text.pop_back();
+  return text;
+}
+
+Json jsonOfTiming(const PathTiming& timing) {
+  const JointLimits& kept = timing.limits;
+  Json json{{"duration", timing.isFound() ? Json(timing.result.motion.duration()) : Json()},
+            {"least_duration", timing.isFound() ? Json(timing.result.lowerBound) : Json()},
+            {"stops", timing.isFound() ? Json(timing.result.motion.curve().stops()) : Json()},
+            {"message", timing.result.message},
+            {"velocity_limits", jsonOf(kept.limits.velocity)},
+            {"acceleration_limits", jsonOf(kept.limits.acceleration)},
+            {"assumed_velocities", kept.assumedVelocity}};
+  // Infinite limits are null.
+  json["effort_limits"] = kept.limits.effort.size() > 0 ? jsonOf(kept.limits.effort) : Json();
+  return json;
+}
+
+Json jsonOfPath(const FoundPath& found) {
+  Json json{{"seed", found.seed},   {"found", found.isFound()}, {"samples", found.samples},
+            {"nodes", found.nodes}, {"checks", found.checks},   {"planning_seconds", found.planningTime}};
+  if (!found.isFound()) return json;
+  json["smoothing_seconds"] = found.smoothingTime;
+  json["planned_length"] = found.plannedLength;
+  json["length"] = found.length;
+  const bool canCollide = std::isfinite(found.clearance.atLeast);
+  json["clearance"] = canCollide ? Json(found.clearance.atLeast) : Json();
+  json["clearance_measured"] = canCollide ? Json(found.clearance.atMost) : Json();
+  return json;
+}
+
+}  // namespace
+
+std::string summaryOf(const PathTask& task, const PlanOptions& options, const FoundPaths& found,
+                      const PathTiming& timing) {
+  return found.all.size() == 1 ? summaryOfOne(task, options, found.shortest(), timing)
+                               : summaryOfAll(task, options, found, timing);
+}
+
+std::string jsonSummaryOf(const PathTask& task, const PlanOptions& options, const FoundPaths& found,
+                          const PathTiming& timing, const std::vector<std::string>& files) {
+  Json runs = Json::array();
+  for (const FoundPath& one : found.all) runs.push_back(jsonOfPath(one));
+  const bool isFound = found.successes() > 0;
+  return dump(Json{{"scene", task.model.name()},
+                   {"planner", nameOf(options.planner)},
+                   {"margin", *options.margin},
+                   {"resolution", *options.resolution},
+                   {"found", found.successes()},
+                   {"runs", std::move(runs)},
+                   {"shortest", isFound ? Json(found.shortest().seed) : Json()},
+                   {"timing", isFound ? jsonOfTiming(timing) : Json()},
+                   {"path", isFound ? jsonOfRows(found.shortest().path.transpose()) : Json()},
+                   {"files", files}});
+}
+
+}  // namespace rex::cli
