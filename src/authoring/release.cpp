@@ -86,8 +86,9 @@ void leaveOutTheTests(const path& target) {
        "scripts/check-site.html", "scripts/slurm-selftest", "scripts/grading", "scripts/grading-campaign",
        "scripts/contact-table", "`notes/`", "`tests/`", "tests/gallery", "tests/contact"});
   for (const std::string_view name : kLeftOut) fs::remove_all(target / name);
-  for (const char* document : {"README.md", "share/doc/architecture.md", "share/doc/contacts.md",
-                               "share/doc/decisions.md", "share/doc/gallery.md"}) {
+  for (const char* document :
+       {"README.md", "share/doc/architecture.md", "share/doc/benchmarks.md", "share/doc/cluster.md",
+        "share/doc/contributing.md", "share/doc/decisions.md", "share/doc/gallery.md"}) {
     if (!fs::exists(target / document)) continue;
     std::istringstream lines(readTextFile(target / document));
     std::string kept;

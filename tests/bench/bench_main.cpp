@@ -138,7 +138,7 @@ bool wantsPanda(const std::vector<std::string>& names, const PandaOptions& panda
   if (isNamed && panda.problems.empty())
     throw UsageError({.what = "benchmark 'panda'",
                       .found = "no --problems",
-                      .wanted = "a folder of problem files, as in share/doc/planning-problems.md"});
+                      .wanted = "a folder of problem files, as in share/doc/benchmarks.md"});
   const bool isAlone = names.size() == 1 && isNamed;
   if (!panda.problems.empty() && !isAlone)
     throw UsageError({.what = "--problems",

@@ -25,7 +25,7 @@ svg { vertical-align: middle; }
 </style></head><body>
 <h1>rex measured</h1>
 <p>Each row compares rex with a peer that does the same work, or with a fixed limit. Both sides are measured in turn
-in one run. The times are processor times, except where a name or share/doc/performance.md says otherwise. The bar
+in one run. The times are processor times, except where a name or share/doc/benchmarks.md says otherwise. The bar
 shows ours divided by the peer's: shorter is better, the grey line is 1, the dark one the target.</p>
 )";
 

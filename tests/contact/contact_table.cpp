@@ -20,7 +20,7 @@ Scenes whose results are known in closed form, each in three engines at steps of
 - **Bullet** with its own settings, and its own constraints for mimics and pins.
 
 A test holds rex to the last column: its difference from the formula is no larger.
-`scripts/contact-table` measures again; the code of the scenes is in [tests/contact](../../tests/contact).
+`scripts/contact-table` measures again; the code of the scenes is beside this page.
 )";
 
 std::string number(double value) { return fmt::format("{:#.5g}", value); }
