@@ -65,7 +65,8 @@ Image contactScenesSheet() {
 
 std::vector<Drawing> contactPictures() {
   return {{"contact-scenes", "Contacts with closed answers",
-           "The scenes by which [contacts.md](contacts.md) measures the physics.", contactScenesSheet}};
+           "The scenes that measure the physics against [closed answers](benchmarks.md#contacts).",
+           contactScenesSheet}};
 }
 
 }  // namespace rex::gallery

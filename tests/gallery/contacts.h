@@ -4,7 +4,7 @@
 
 namespace rex::gallery {
 
-/// The scenes of share/doc/contacts.md.
+/// The scenes of tests/contact.
 [[nodiscard]] std::vector<Drawing> contactPictures();
 
 }  // namespace rex::gallery

@@ -13,18 +13,11 @@ namespace {
 
 constexpr const char* kIntroduction = R"(# Gallery
 
-What rex draws, without a screen.
+rex draws all of this without a screen.
+The code is in `tests/gallery`; `scripts/gallery` draws the pictures again, and a test compares them.
 
-- [tests/gallery/pictures.cpp](../../tests/gallery/pictures.cpp) has the code of each picture,
-- [tests/gallery/robots.cpp](../../tests/gallery/robots.cpp) that of robots and scenes,
-- [tests/gallery/paths.cpp](../../tests/gallery/paths.cpp) that of paths,
-- [tests/gallery/contacts.cpp](../../tests/gallery/contacts.cpp) that of scenes of contacts,
-- [tests/gallery/figures.cpp](../../tests/gallery/figures.cpp) that of figures of each kind,
-- [tests/gallery/motion_figures.cpp](../../tests/gallery/motion_figures.cpp) that of figures of motions;
-- `scripts/gallery` draws them again, and a test in [tests/gallery](../../tests/gallery) compares.
-
-Pictures move, too: `scripts/rex render man.ors -o man.mp4` walks around a robot, and `-o man.html` makes a page on which
-you turn it and motions play. `scripts/rex render --help` says more.
+`rex render man.ors -o man.mp4` makes a film around a robot, and `-o man.html` a page in which you can turn it.
+[programs.md](programs.md) shows how programs draw.
 )";
 
 std::string section(const std::string& title, const std::vector<Drawing>& drawings) {
@@ -61,7 +54,7 @@ std::string page() {
   text += "\n## Figures\n";
   for (const auto& figures : {galleryFigures(), motionFigures()})
     for (const auto& [name, figure] : figures)
-      text += "\n### " + figure.title + "\n\n![" + figure.title + "](gallery/" + name + ".png)\n";
+      text += "\n![" + figure.title + "](gallery/" + name + ".png)\n";
   return text;
 }
 

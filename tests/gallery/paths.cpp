@@ -112,27 +112,24 @@ Image parking() {
 std::vector<Drawing> pathPictures() {
   return {
       {"peg-path", "A peg finds its hole",
-       "`rex plan pegInAHole`: two trees grow, one from the posture that is drawn, one from the goal in the "
-       "hole, which is drawn faintly. Lines are the ways of the peg's middle, the thick one is the path, "
-       "shortened and rounded.",
+       "`rex plan pegInAHole`: two trees grow from the start and from the goal in the hole, which is drawn "
+       "faintly. Thin lines are paths of the peg, the thick one is the result, shortened and smoothed.",
        peg},
       {"maze-path", "A cart finds its way",
-       "`rex plan maze --planner rrt-star`: a tree that rewires itself, so that its branches become short.",
+       "`rex plan maze --planner rrt-star`: a tree that is rewired as it grows, so that its branches become "
+       "short.",
        cart},
       {"around", "An arm moves around the edge of a board",
-       "`rex plan board --goal eff:0,-0.3,0.5 --planner optimize --avoid`: of all motions that keep clear of "
-       "the board "
-       "and end "
-       "at rest at the goal, one with little acceleration.",
+       "`rex plan board --goal eff:0,-0.3,0.5 --planner optimize --avoid`: a motion with small accelerations "
+       "that avoids the board and ends at rest at the goal.",
        around},
       {"legs", "A leg goes around the other",
-       "`rex plan humanoid` from one side of the standing leg to the other: legs of one robot may collide, "
-       "too.",
+       "`rex plan humanoid` from one side of the stance leg to the other: the planner also avoids collisions "
+       "between the legs.",
        legs},
       {"parking", "A car parks",
-       "`rex plan street --goal -1.3,1.1,0 --planner hybrid-astar`: hybrid A* searches from the gap, where "
-       "there is the least room, "
-       "until a curve of Reeds and Shepp leads to the start. Lines are the arcs that it tried.",
+       "`rex plan street --goal -1.3,1.1,0 --planner hybrid-astar`: hybrid A* searches backward from the gap "
+       "until a Reeds-Shepp curve reaches the start. Lines are the arcs that it tried.",
        parking}};
 }
 

@@ -272,33 +272,32 @@ Image keyFramesOfASwing() {
 }  // namespace
 
 std::vector<Drawing> pictures() {
-  return {
-      {"motion", "A robot and the way of its hand",
-       "The man of the course after inverse kinematics has led his right hand around a circle: solids of a "
-       "scene with shadow and ground, a polyline, a point with its label, a caption.",
-       motion},
-      {"shapes", "All shapes",
-       "Boxes, rounded boxes, spheres, capsules, cylinders, meshes with a colour for each material, point "
-       "clouds, and anything translucent.",
-       shapes},
-      {"frames", "Frames and arrows",
-       "The frames of an arm, and the columns of the position Jacobian of its peg as arrows: how the peg "
-       "moves when one joint turns.",
-       frames},
-      {"particles", "Particles and covariances",
-       "What a filter believes: particles as points, normal distributions as ellipsoids that let the scene "
-       "through.",
-       particles},
-      {"tree", "A tree of eight thousand edges",
-       "Edges of a search tree as one set of lines. What the obstacle hides shows through faintly.", tree},
-      {"views", "Several cameras", "One picture from three sides.", views},
-      {"sensors", "Depth and segmentation",
-       "What a depth camera measures in metres, from near (yellow) to far (blue), and which solid each pixel "
-       "shows.",
-       sensors},
-      {"edges", "Smooth edges", "A small picture, four times enlarged, in the three kinds of anti-aliasing.",
-       edges},
-      {"key-frames", "Key frames of a motion", "A contact sheet: a motion on paper.", keyFramesOfASwing}};
+  return {{"motion", "A robot and the path of its hand",
+           "Inverse kinematics has moved the right hand around a circle. The picture has shadows, ground, a "
+           "polyline, a labelled point and a caption.",
+           motion},
+          {"shapes", "All shapes",
+           "Boxes, rounded boxes, spheres, capsules, cylinders, meshes with several materials, point clouds; "
+           "everything may be translucent.",
+           shapes},
+          {"frames", "Frames and arrows",
+           "The frames of an arm, and the columns of a position Jacobian as arrows: each is the velocity of "
+           "the peg when one joint rotates.",
+           frames},
+          {"particles", "Particles and covariances",
+           "The belief of a filter: particles as points, normal distributions as translucent ellipsoids.",
+           particles},
+          {"tree", "A tree of eight thousand edges",
+           "The edges of a search tree. Edges behind the obstacle remain faintly visible.", tree},
+          {"views", "Several cameras", "One picture from three sides.", views},
+          {"sensors", "Depth and segmentation",
+           "The image of a depth camera in metres, from near (yellow) to far (blue), and the solid that each "
+           "pixel shows.",
+           sensors},
+          {"edges", "Anti-aliasing",
+           "A small picture, enlarged four times, without anti-aliasing and with its two kinds.", edges},
+          {"key-frames", "Key frames of a motion", "A contact sheet shows a motion on paper.",
+           keyFramesOfASwing}};
 }
 
 }  // namespace rex::gallery

@@ -131,10 +131,9 @@ std::vector<Drawing> robotPictures() {
   };
   return {
       {"course-robots", "The arms of the course",
-       "As their files show them, `data/robots/*.ors`: links are capsules, joints are hinges.", courseRobots},
+       "`data/robots/*.ors`: links are capsules, joints are hinges.", courseRobots},
       portrait("arm7dof", "An arm with seven joints",
-               "`data/robots/arm7dof/arm7dof.urdf` rolls and bends by turns: a link turns about z, the next "
-               "about y.",
+               "`data/robots/arm7dof/arm7dof.urdf`: its joints rotate alternately about z and y.",
                {.file = "robots/arm7dof/arm7dof.urdf",
                 .posture = {{"shoulder_yaw", -0.6},
                             {"shoulder_pitch", 0.5},
@@ -145,31 +144,29 @@ std::vector<Drawing> robotPictures() {
                "`data/robots/balancer/balancer.urdf` falls without control.",
                {.file = "robots/balancer/balancer.urdf", .direction = {1.5, -1.2, 0.6}}),
       portrait(
-          "quadruped", "A quadruped",
-          "`data/robots/quadruped/quadruped.urdf`, a dog with three hinges in each leg.",
+          "quadruped", "A quadruped", "`data/robots/quadruped/quadruped.urdf` has three hinges in each leg.",
           {.file = "robots/quadruped/quadruped.urdf", .posture = standing(), .direction = {1.6, -1.6, 0.6}}),
       portrait("humanoid", "A humanoid",
-               "`data/robots/humanoid/humanoid.urdf` has 25 hinges and is built to walk: flat feet, and hips "
-               "and ankles whose axes cross.",
+               "`data/robots/humanoid/humanoid.urdf` has 25 hinges and is designed for walking: its feet are "
+               "flat, and the axes of its hips and ankles intersect.",
                {.file = "robots/humanoid/humanoid.urdf",
                 .posture = waving(),
                 .direction = {1.9, -1.2, 0.5},
                 .cell = 0.5}),
       portrait("hand", "A hand",
-               "`data/robots/hand/hand.urdf`: fifteen hinges move it; the last joint of each finger follows "
-               "the one before.",
+               "`data/robots/hand/hand.urdf`: it has fifteen driven hinges; the last joint of each finger "
+               "follows the previous one.",
                {.file = "robots/hand/hand.urdf",
                 .posture = halfClosed(),
                 .direction = {1.6, 1.2, 0.5},
                 .cell = 0.05}),
       {"grasp", "The hand holds a ball",
-       "Bullet has closed the hand of `data/robots/hand` on a ball of 100 g. Arrows are forces within the "
-       "friction "
-       "cones of its contacts that carry the ball.",
+       "Bullet has closed the hand on a ball of 100 g. The arrows are contact forces within the friction "
+       "cones that carry the ball.",
        grasp},
       portrait("table", "The man of the course at a table",
                "`data/scenes/table.ors` includes the man, moves his targets and adds the table. Inverse "
-               "kinematics has led his hands to the targets.",
+               "kinematics has moved his hands to the targets.",
                {.file = "scenes/table.ors",
                 .reaching = {{"handR", "rightTarget"}, {"handL", "leftTarget"}},
                 .direction = {1.6, -1.6, 0.8},
