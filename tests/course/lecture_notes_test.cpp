@@ -67,6 +67,41 @@ TEST(LectureNotes, MatrixEquations) {
   for (int k = 0; k < 20; ++k) EXPECT_GT(cost(best + 1e-3 * rng.normalVector(4)), cost(best));
 }
 
+// What the notes on frames say of exponentials, digits, interpolation and Jacobians of directions.
+TEST(LectureNotes, RotationsAndDirections) {
+  Rng rng(6);
+  const Eigen::Vector3d a = rng.normalVector(3).normalized(), u = rng.normalVector(3);
+  const Eigen::Matrix3d K = skew(a), A = expSO3(rng.normalVector(3)), I = Eigen::Matrix3d::Identity();
+  EXPECT_LT((K * K * K + K).norm(), 1e-12);
+  EXPECT_LT((expSO3(0.7 * a) - I - std::sin(0.7) * K - (1 - std::cos(0.7)) * K * K).norm(), 1e-12);
+  const Eigen::Vector3d turned = A * u;
+  EXPECT_LT((A * expSO3(0.4 * u) - expSO3(0.4 * turned) * A).norm(), 1e-12);
+  EXPECT_EQ(std::acos(1 - 0.9e-8 * 0.9e-8 / 2), 0);
+  expectStated("00b-frames", "an angle below $10^{-8}$ vanishes altogether");
+  // The rate of a unit quaternion at the angular velocity w, and that it is across the quaternion.
+  const Quaternion q = quaternionFromRotation(A);
+  const Eigen::Vector3d w = rng.normalVector(3);
+  const Quaternion rate = 0.5 * quaternionProduct({0, w[0], w[1], w[2]}, q);
+  const Quaternion later = quaternionFromRotation(expSO3(1e-6 * w) * A),
+                   earlier = quaternionFromRotation(expSO3(-1e-6 * w) * A);
+  EXPECT_LT(((later - earlier) / 2e-6 - rate).norm(), 1e-8);
+  EXPECT_NEAR(rate.dot(q), 0, 1e-12);
+  // Where the end of an arm points, by the axes of its joints: J_v = -[v]x J_w, of rank 2.
+  const Simulator S("arm7.ors");
+  const Eigen::Vector3d v = S.kinematicsVec("arm7");
+  const MatrixXd Jv = S.jacobianVec("arm7");
+  MatrixXd Jw(3, 7);
+  for (int k = 0; k < 7; ++k) {
+    Eigen::Matrix3d W;  // dR/dq_k, whose product with R^T is [a_k]x
+    for (int i = 0; i < 3; ++i) W.col(i) = S.jacobianVec("arm7", Eigen::Vector3d::Unit(i)).col(k);
+    const MatrixXd R = rotationFromQuaternion(S.kinematicsQuat("arm7"));
+    const Eigen::Matrix3d wx = W * R.transpose();
+    Jw.col(k) << wx(2, 1), wx(0, 2), wx(1, 0);
+  }
+  EXPECT_LT((Jv + skew(v) * Jw).norm(), 1e-12);
+  EXPECT_LT(svd(Jv).s[2], 1e-12);
+}
+
 TEST(LectureNotes, StepsThatGainLessAndLess) {
   double x = 2;
   for (int k = 1; k < 60; ++k) {
