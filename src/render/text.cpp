@@ -5,10 +5,9 @@
 #include <memory>
 #include <type_traits>
 
-#include <ft2build.h>
-#include FT_FREETYPE_H
-#include FT_GLYPH_H
-#include FT_STROKER_H
+#include <freetype/freetype.h>
+#include <freetype/ftglyph.h>
+#include <freetype/ftstroke.h>
 
 #include "base/error.h"
 #include "render/utf8_internal.h"
