@@ -313,7 +313,7 @@ TEST(Check, AsksAboutUsualMistakesAndThoseThatTheAuthorSuspects) {
 TEST(Check, AsksAboutTheFirstMistakeThatExplainsAValue) {
   const auto questionOf = [](double got, double tolerance = 1e-6) {
     const std::vector<Mistake> mistakes{
-        {"Twice?", 2}, {"Nearly right?", 1 + 1e-5}, {"Two?", 2.}, {"Half?", .5}};
+        {"Twice?", 2}, {"Nearly right?", 1 + 5e-6}, {"Two?", 2.}, {"Half?", .5}};
     const auto endOf = [](const std::string& text) { return text.substr(text.find("(seed 7)") + 8); };
     const std::string question =
         endOf(messageOf([&](Check& check) { check.near("x", got, 1, tolerance, mistakes); }));
@@ -324,8 +324,8 @@ TEST(Check, AsksAboutTheFirstMistakeThatExplainsAValue) {
   EXPECT_EQ(questionOf(2), ". Twice?");
   EXPECT_EQ(questionOf(.5 + 1e-7), ". Half?");
   EXPECT_EQ(questionOf(3.3), "");
-  EXPECT_EQ(questionOf(1 + 1e-5), "") << "it hardly differs from the wanted value";
-  EXPECT_EQ(questionOf(1 + 1e-5, 1e-8), ". Nearly right?");
+  EXPECT_EQ(questionOf(1 + 5e-6), "") << "it hardly differs from the wanted value";
+  EXPECT_EQ(questionOf(1 + 5e-6, 1e-8), ". Nearly right?");
   EXPECT_THAT(messageOf([&](Check& check) {
                 const auto none = check.ask("");
                 const auto number = check.suspect("Five?", 5);
