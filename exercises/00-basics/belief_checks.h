@@ -27,8 +27,7 @@ inline void addGaussian(rex::Figure& figure, const std::string& label, const Gau
   if (belief.mean.size() == 1) {
     const double sigma = std::sqrt(belief.cov(0, 0));
     for (int i = -60; i <= 60; ++i) {
-      curve.x.push_back(belief.mean[0] + sigma * i / 15);
-      curve.y.push_back(std::exp(-i * i / 450.) / (std::sqrt(2 * M_PI) * sigma));
+      curve.add(belief.mean[0] + sigma * i / 15, std::exp(-i * i / 450.) / (std::sqrt(2 * M_PI) * sigma));
     }
   } else {
     const Eigen::Matrix2d root = Eigen::Matrix2d(belief.cov.topLeftCorner<2, 2>()).llt().matrixL();
@@ -36,8 +35,7 @@ inline void addGaussian(rex::Figure& figure, const std::string& label, const Gau
       const double angle = 2 * M_PI * i / 100;
       const Eigen::Vector2d at =
           belief.mean.head<2>() + 2 * root * Eigen::Vector2d(std::cos(angle), std::sin(angle));
-      curve.x.push_back(at.x());
-      curve.y.push_back(at.y());
+      curve.add(at.x(), at.y());
     }
   }
   figure.series.push_back(curve);
@@ -115,8 +113,7 @@ inline rex::grading::Evidence betaSeen(const BetaBelief& prior, const BetaBelief
   const auto curve = [](rex::Series look, const auto& logDensityAt) {
     double sum = 0;
     for (double mu = .005; mu < 1; mu += .01) {
-      look.x.push_back(mu);
-      look.y.push_back(std::exp(logDensityAt(mu)));
+      look.add(mu, std::exp(logDensityAt(mu)));
       sum += .01 * look.y.back();
     }
     for (double& y : look.y) y /= sum;

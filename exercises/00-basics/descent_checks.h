@@ -131,10 +131,7 @@ inline rex::grading::Evidence descentSeen(const std::vector<double>& values,
   got.style = rex::SeriesStyle::kLinesPoints;
   got.marker = rex::Marker::kDot;
   got.y = values;
-  for (std::size_t t = 0; t < allowed.size(); ++t) {
-    wanted.x.push_back(static_cast<double>(t + 1));
-    wanted.y.push_back(allowed[t]);
-  }
+  for (std::size_t t = 0; t < allowed.size(); ++t) wanted.add(static_cast<double>(t + 1), allowed[t]);
   rex::Figure figure{.title = "The descent", .xLabel = "step", .yLabel = "f", .series = {got}};
   if (!allowed.empty()) figure.series.push_back(wanted);
   return {.figures = {figure}};

@@ -13,18 +13,14 @@ Series curve(const std::string& label, double first, double last, int count,
   Series series{.label = label};
   for (int i = 0; i < count; ++i) {
     const double x = first + (last - first) * i / (count - 1);
-    series.x.push_back(x);
-    series.y.push_back(f(x));
+    series.add(x, f(x));
   }
   return series;
 }
 
 Series way(const std::string& label, const std::vector<Eigen::VectorXd>& points, SeriesStyle style) {
   Series series{.label = label, .style = style};
-  for (const Eigen::VectorXd& p : points) {
-    series.x.push_back(p[0]);
-    series.y.push_back(p[1]);
-  }
+  for (const Eigen::VectorXd& p : points) series.add(p[0], p[1]);
   return series;
 }
 
@@ -85,8 +81,7 @@ void showFit() {
     const double x = -1 + i / 5.5;
     for (int k = 0; k < 10; ++k) A(i, k) = std::pow(x, k);
     y[i] = std::sin(3 * x) + 0.2 * rng.normal();
-    data.x.push_back(x);
-    data.y.push_back(y[i]);
+    data.add(x, y[i]);
   }
   Series library = polynomial("c: library", leastSquares(A, y));
   library.dashed = true;
@@ -118,10 +113,8 @@ void showDescents(const Eigen::Vector2d& start) {
                  .heatMap = map});
   const auto depths = [](const std::string& label, const std::vector<Eigen::VectorXd>& points) {
     Series series{.label = label};
-    for (const Eigen::VectorXd& x : points) {
-      series.x.push_back(static_cast<double>(series.x.size() + 1));
-      series.y.push_back(std::max(depth(x), 1e-16));
-    }
+    for (const Eigen::VectorXd& x : points)
+      series.add(static_cast<double>(series.x.size() + 1), std::max(depth(x), 1e-16));
     return series;
   };
   plot("convergence", {.title = "How fast f falls",
@@ -138,8 +131,7 @@ void showBook(const Eigen::Matrix3d& X_WB, const Eigen::Vector2d& dot_B, const E
   const double width = 1.3, height = 1.7;
   for (const auto& [x, y] : {std::pair(0., 0.), {width, 0.}, {width, height}, {0., height}, {0., 0.}}) {
     const Eigen::Vector2d corner_W = mapped(X_WB, {x, y});
-    before.x.push_back(x);
-    before.y.push_back(y);
+    before.add(x, y);
     after.x.push_back(corner_W.x());
     after.y.push_back(corner_W.y());
   }

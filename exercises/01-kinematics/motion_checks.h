@@ -110,10 +110,7 @@ inline rex::grading::Evidence errorSeen(const rex::Simulator& S, const Motion& m
       .title = "Distance of handR from the target", .xLabel = "step", .yLabel = "distance [m]"};
   figure.series = {rex::grading::gotCurve("got", got.at), rex::grading::wantedCurve("wanted")};
   for (const Eigen::VectorXd& value : got.values) figure.series[0].y.push_back(value[0]);
-  for (const auto& [step, error] : known) {
-    figure.series[1].x.push_back(step);
-    figure.series[1].y.push_back(error);
-  }
+  for (const auto& [step, error] : known) figure.series[1].add(step, error);
   rex::grading::Evidence evidence = seen(S, "handR", motion, [](int) { return kTarget; });
   evidence.moment = evidence.film[static_cast<std::size_t>(known.front().step) - 1].time;
   evidence.figures = {std::move(figure)};

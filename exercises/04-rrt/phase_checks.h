@@ -75,8 +75,7 @@ inline rex::grading::Evidence phaseSeen(const Eigen::Matrix2Xd& states, const Tr
   rex::Series motion = rex::grading::wantedCurve("wanted");
   for (int i = 0; i <= 50; ++i) {
     const Eigen::Vector2d at = rex::leastEffortState(states.col(wanted), x.to, x.T, tau * i / 50);
-    motion.x.push_back(at[0]);
-    motion.y.push_back(at[1]);
+    motion.add(at[0], at[1]);
   }
   const auto dots = [](const Eigen::Matrix2Xd& points, const char* label, rex::Marker marker,
                        rex::Color color) {

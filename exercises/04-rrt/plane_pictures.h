@@ -22,8 +22,7 @@ inline constexpr rex::Color kStone{0.35F, 0.37F, 0.42F}, kBlue{0.27F, 0.51F, 0.7
     kGreen{0.1F, 0.55F, 0.25F}, kOrange{0.9F, 0.45F, 0.05F}, kBlack{0, 0, 0};
 
 inline void add(rex::Series& series, const Eigen::VectorXd& q, double shift) {
-  series.x.push_back(q[0] + shift);
-  series.y.push_back(q[1]);
+  series.add(q[0] + shift, q[1]);
 }
 
 /// One line through all edges of a tree, which goes down to each node and back up.
@@ -55,10 +54,9 @@ inline void drawObstacles(rex::Figure& figure, const PlaneWorld& world, double s
   }
   for (const PlaneDisc& disc : world.discs) {
     rex::Region round{.color = kStone};
-    for (double angle = 0; angle < 2 * std::numbers::pi; angle += 0.05) {
-      round.x.push_back(disc.center.x() + shift + disc.radius * std::cos(angle));
-      round.y.push_back(disc.center.y() + disc.radius * std::sin(angle));
-    }
+    for (double angle = 0; angle < 2 * std::numbers::pi; angle += 0.05)
+      round.add(disc.center.x() + shift + disc.radius * std::cos(angle),
+                disc.center.y() + disc.radius * std::sin(angle));
     figure.regions.push_back(round);
   }
 }

@@ -24,8 +24,7 @@ inline rex::grading::Evidence densitySeen(double l1, double l2, double r, double
   for (double share = .01; share < .995; share += .01) {
     const double at = least + share * (most - least);
     const double density = (shareWithin(at + h, l1, l2) - shareWithin(at - h, l1, l2)) / (2 * h);
-    wanted.x.push_back(at);
-    wanted.y.push_back(isInThePlane ? density / (2 * std::numbers::pi * at) : density);
+    wanted.add(at, isInThePlane ? density / (2 * std::numbers::pi * at) : density);
   }
   return {.figures = {{.title = isInThePlane ? "Density of the hand in the plane"
                                              : "Density of the distance of the hand",

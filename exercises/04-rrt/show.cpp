@@ -222,16 +222,12 @@ void showStar() {
     Series series{.label = "yours, seed " + std::to_string(seed)};
     for (std::size_t i = 0; i < star.best.size(); ++i) {
       if (!std::isfinite(star.best[i])) continue;
-      series.x.push_back(static_cast<double>(i + 1));
-      series.y.push_back(star.best[i]);
+      series.add(static_cast<double>(i + 1), star.best[i]);
     }
     if (!series.x.empty()) costs.push_back(series);
   }
   Series library{.label = "library", .dashed = true, .color = kBlack};
-  for (int n = 200; n <= settings.maxSamples; n += 100) {
-    library.x.push_back(n);
-    library.y.push_back(lengthByLibrary(n));
-  }
+  for (int n = 200; n <= settings.maxSamples; n += 100) library.add(n, lengthByLibrary(n));
   costs.push_back(library);
   plot("costs", {.title = "Around a disc with RRT*",
                  .xLabel = "samples",

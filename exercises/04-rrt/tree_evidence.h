@@ -73,10 +73,7 @@ inline rex::grading::Evidence pathSeen(const Path& got, const Path& wanted) {
   figure.series.push_back(rex::grading::through(wanted, rex::grading::wantedCurve("wanted")));
   figure.series.push_back(begin(wanted, rex::grading::kWantedColor));
   const auto along = [](const Path& path, rex::Series curve) {
-    for (const Eigen::VectorXd& q : path) {
-      curve.x.push_back(static_cast<double>(curve.x.size()));
-      curve.y.push_back(q[0]);
-    }
+    for (const Eigen::VectorXd& q : path) curve.add(static_cast<double>(curve.x.size()), q[0]);
     return curve;
   };
   rex::Figure numbers{.title = "Along the path",
@@ -220,10 +217,7 @@ inline rex::grading::Evidence drawsSeen(const Eigen::MatrixXd& others) {
   std::vector<rex::Figure> figures;
   for (const int other : {1, 2}) {
     rex::Series dots = dotsOf("got", .6, rex::grading::kGotColor);
-    for (const auto& one : others.colwise()) {
-      dots.x.push_back(one[0]);
-      dots.y.push_back(one[other]);
-    }
+    for (const auto& one : others.colwise()) dots.add(one[0], one[other]);
     figures.push_back(
         {.title = "Targets in their box",
          .xLabel = "coordinate 0: 0 at lower, 1 at upper",
@@ -245,8 +239,8 @@ inline rex::grading::Evidence armEdgeSeen(const rex::Simulator& S, const Eigen::
   std::size_t wrong = kPieces / 2;
   for (int i = kPieces; i >= 0; --i) {
     postures.emplace_back(qa + static_cast<double>(i) / kPieces * (qb - qa));
-    distances.x.push_back(static_cast<double>(i) / kPieces);
-    distances.y.push_back(rex::motionClearance(S.model(), contacts, postures.back(), postures.back(), 1e-4));
+    distances.add(static_cast<double>(i) / kPieces,
+                  rex::motionClearance(S.model(), contacts, postures.back(), postures.back(), 1e-4));
     if (distances.y.back() < kApart) wrong = static_cast<std::size_t>(std::max(i, 1));
   }
   std::reverse(postures.begin(), postures.end());
@@ -287,8 +281,7 @@ inline rex::grading::Evidence armPathSeen(const rex::Simulator& S, const Path& p
   for (std::size_t i = path.size() - 1; i > 0; --i) {
     const double length = (path[i] - path[i - 1]).norm();
     if (length == 0 || length > stepSize + 1e-9 || !isFree(path[i - 1], path[i])) wrong = i;
-    lengths.x.push_back(static_cast<double>(i));
-    lengths.y.push_back(length);
+    lengths.add(static_cast<double>(i), length);
   }
   rex::Figure figure{.title = "The pieces of the path",
                      .xLabel = "number of the piece",

@@ -52,8 +52,7 @@ inline rex::grading::Evidence trackSeen(const CarWorld& world, const Driven& dri
                             .poseBeliefs = {{record.means[t].head<2>(), spread.topLeftCorner<2, 2>()}},
                             .caption = "solid: the car; pale: the estimate"};
     film.push_back({time, pictureOf(view)});
-    value.x.push_back(time);
-    value.y.push_back(course.values[t]);
+    value.add(time, course.values[t]);
   }
   auto lost =
       std::find_if(value.y.begin(), value.y.end(), [&](double far) { return far > 2 * course.limit; });
@@ -80,10 +79,7 @@ inline rex::Series dotsOf(const std::string& label, double size, const rex::Colo
 
 /// With the numbers in rows `x` and `y` of each column.
 inline rex::Series dotsAt(const Eigen::MatrixXd& columns, int x, int y, rex::Series dots) {
-  for (Eigen::Index k = 0; k < columns.cols(); ++k) {
-    dots.x.push_back(columns(x, k));
-    dots.y.push_back(columns(y, k));
-  }
+  for (Eigen::Index k = 0; k < columns.cols(); ++k) dots.add(columns(x, k), columns(y, k));
   return dots;
 }
 
@@ -133,10 +129,7 @@ inline rex::grading::Evidence movesSeen(const Eigen::MatrixXd& before, const Eig
 
 inline rex::grading::Evidence neighboursSeen(const Eigen::MatrixXd& d, double noise) {
   rex::Series pairs = dotsOf("got", .8, rex::grading::kGotColor);
-  for (Eigen::Index k = 1; k < d.cols(); ++k) {
-    pairs.x.push_back(d(0, k - 1));
-    pairs.y.push_back(d(0, k));
-  }
+  for (Eigen::Index k = 1; k < d.cols(); ++k) pairs.add(d(0, k - 1), d(0, k));
   return {.figures = {pairsSeen("Noise of neighbours", pairs, noise, "of a particle in x [m]",
                                 "of the next particle in x [m]")}};
 }
@@ -146,10 +139,8 @@ inline rex::grading::Evidence densitySeen(const Eigen::MatrixXd& d, double noise
   rex::Histogram bars = normalized(rex::histogramOf({d.data(), d.data() + d.size()}, 40));
   bars.label = "got";
   rex::Series density = rex::grading::wantedCurve("wanted");
-  for (double at = -4; at <= 4; at += .05) {
-    density.x.push_back(at * noise);
-    density.y.push_back(std::exp(-at * at / 2) / (std::sqrt(2 * M_PI) * noise));
-  }
+  for (double at = -4; at <= 4; at += .05)
+    density.add(at * noise, std::exp(-at * at / 2) / (std::sqrt(2 * M_PI) * noise));
   return {.figures = {{.title = "Noise of the particles",
                        .xLabel = "noise of x, y [m] and heading [rad]",
                        .yLabel = "density",
@@ -184,10 +175,8 @@ inline rex::grading::Evidence viewSeen(const Eigen::VectorXd& got, const Eigen::
                                        bool isPolar) {
   if (got.size() != wanted.size()) return {};
   const auto dots = [&](const Eigen::VectorXd& y, rex::Series look) {
-    for (Eigen::Index i = 0; i + 1 < y.size(); i += 2) {
-      look.x.push_back(isPolar ? y[i] * std::cos(y[i + 1]) : y[i]);
-      look.y.push_back(isPolar ? y[i] * std::sin(y[i + 1]) : y[i + 1]);
-    }
+    for (Eigen::Index i = 0; i + 1 < y.size(); i += 2)
+      look.add(isPolar ? y[i] * std::cos(y[i + 1]) : y[i], isPolar ? y[i] * std::sin(y[i + 1]) : y[i + 1]);
     return look;
   };
   rex::Figure figure{

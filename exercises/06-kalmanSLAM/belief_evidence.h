@@ -72,8 +72,7 @@ inline rex::grading::Evidence trackSeen(const TrackedRun& worst, rex::Figure fig
                                                  .poseBeliefs = {{belief.mean.head<2>(), spread}},
                                                  .caption = "the worst run; solid: the car; pale: the "
                                                             "estimate"})});
-    curve.x.push_back(static_cast<double>(t + 1));
-    curve.y.push_back(values[static_cast<Eigen::Index>(t)]);
+    curve.add(static_cast<double>(t + 1), values[static_cast<Eigen::Index>(t)]);
     const double error = (belief.mean - run.states[t + 1]).head(2).norm();
     if (error <= largest) continue;
     largest = error;

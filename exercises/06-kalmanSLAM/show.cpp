@@ -160,8 +160,7 @@ Figure deviationsOf(const Mapping& mapping) {
     for (std::size_t t = 0; t < mapping.joints.size(); ++t) {
       const Eigen::MatrixXd& S = mapping.joints[t].covariance;
       if (S.rows() <= i) continue;
-      series.x.push_back(static_cast<double>(t));
-      series.y.push_back(std::sqrt(0.5 * (S(i, i) + S(i + 1, i + 1))));
+      series.add(static_cast<double>(t), std::sqrt(0.5 * (S(i, i) + S(i + 1, i + 1))));
     }
     figure.series.push_back(series);
   }
@@ -259,10 +258,7 @@ Figure particleFigure(const RecordedDrive& drive, const std::vector<MapParticle>
   maps.color = kDeadReckoningColor;
   for (std::size_t k = 0; k < particles.size(); ++k) {
     view.particles.col(static_cast<Eigen::Index>(k)) = particles[k].x;
-    for (const Belief& landmark : particles[k].map) {
-      maps.x.push_back(landmark.mean[0]);
-      maps.y.push_back(landmark.mean[1]);
-    }
+    for (const Belief& landmark : particles[k].map) maps.add(landmark.mean[0], landmark.mean[1]);
   }
   Figure figure = figureOf(view);
   if (!maps.x.empty()) figure.series.push_back(maps);

@@ -22,10 +22,7 @@ constexpr double kTau = 1. / 60;
 // A coordinate of the state over time.
 Series overTime(const std::string& label, const Eigen::MatrixXd& states, int row) {
   Series series{.label = label};
-  for (Eigen::Index t = 0; t < states.cols(); ++t) {
-    series.x.push_back(kTau * static_cast<double>(t));
-    series.y.push_back(states(row, t));
-  }
+  for (Eigen::Index t = 0; t < states.cols(); ++t) series.add(kTau * static_cast<double>(t), states(row, t));
   return series;
 }
 
@@ -57,10 +54,7 @@ Series polesOf(const std::string& label, const Plant& plant, const Eigen::Matrix
   for (int i = 0; i < 4; ++i)
     for (int k = 0; k < 4; ++k) closed(i, k) += plant.B(i, 0) * K(0, k);
   Series series{.label = label, .style = SeriesStyle::kPoints, .marker = marker, .size = 1.6};
-  for (const std::complex<double>& pole : eigenvalues(closed)) {
-    series.x.push_back(pole.real());
-    series.y.push_back(pole.imag());
-  }
+  for (const std::complex<double>& pole : eigenvalues(closed)) series.add(pole.real(), pole.imag());
   return series;
 }
 
@@ -72,8 +66,7 @@ Series edgeOf(const std::string& label, const Color& color,
     const double angle = 2 * std::numbers::pi * i / 120, c = std::cos(angle), s = 3 * std::sin(angle);
     double r = .03;
     while (r < 5 && std::abs(r * c) < 1.56 && !ends(r * c, r * s)) r += .03;
-    series.x.push_back(r * c);
-    series.y.push_back(r * s);
+    series.add(r * c, r * s);
   }
   return series;
 }
@@ -165,10 +158,7 @@ void showSurvival(const Eigen::MatrixXd& K, const Eigen::MatrixXd& printed) {
       const std::string level = "noise " + std::to_string(noise).substr(0, 3);
       Series series{.label = level + (isPrinted ? ", K of the sheet" : ", your K"), .dashed = isPrinted};
       series.color = noise < .15 ? Color{.1, .4, .7} : noise < .25 ? Color{.85, .5, .1} : Color{.7, .15, .2};
-      for (double angle = 0; angle < 1.35; angle += .05) {
-        series.x.push_back(angle);
-        series.y.push_back(survivors(*gains, angle, noise));
-      }
+      for (double angle = 0; angle < 1.35; angle += .05) series.add(angle, survivors(*gains, angle, noise));
       figure.series.push_back(series);
     }
   plot("survival", figure);
@@ -285,10 +275,7 @@ void showHorizon(const Plant& real, const Costs& costs, const Eigen::MatrixXd& o
   const Color colors[] = {{.1, .4, .7}, {.85, .5, .1}, {.15, .55, .3}, {.7, .15, .2}};
   for (int i = 0; i < 4; ++i) {
     Series series{.label = std::string("of ") + names[i], .color = colors[i]};
-    for (int t = 0; t < kSteps; ++t) {
-      series.x.push_back(kTau * t);
-      series.y.push_back(K[static_cast<std::size_t>(t)](0, i));
-    }
+    for (int t = 0; t < kSteps; ++t) series.add(kTau * t, K[static_cast<std::size_t>(t)](0, i));
     figure.series.push_back(series);
     figure.series.push_back(
         {.x = {0, 8}, .y = {optimal(0, i), optimal(0, i)}, .dashed = true, .color = colors[i]});
@@ -373,8 +360,7 @@ void showLoops(const Plant& real, const Eigen::MatrixXd& K, const std::vector<Se
   Series circle{.label = "distance 1 from -1", .dashed = true, .color = Color{.6, .6, .6}};
   for (int i = 0; i <= 90; ++i) {
     const double angle = 2 * std::numbers::pi * i / 90;
-    circle.x.push_back(-1 + std::cos(angle));
-    circle.y.push_back(std::sin(angle));
+    circle.add(-1 + std::cos(angle), std::sin(angle));
   }
   nyquist.series.push_back(circle);
   plot("bode", bode);
@@ -391,10 +377,8 @@ void showMargins(const Plant& real, const Eigen::MatrixXd& K, const std::vector<
   figure.horizontalLines = {{.at = 0}};
   figure.verticalLines = {{.at = 1}};
   Series known{.label = "x is known", .color = kLoopColors[0]};
-  for (const double factor : frequenciesBetween(.1, 10, 400)) {
-    known.x.push_back(factor);
-    known.y.push_back(slowestPole({real.A, factor * real.B}, K));
-  }
+  for (const double factor : frequenciesBetween(.1, 10, 400))
+    known.add(factor, slowestPole({real.A, factor * real.B}, K));
   figure.series = {known};
   for (const Sensor& sensor : sensors) {
     Series series{.label = sensor.label, .x = known.x, .color = kLoopColors[figure.series.size()]};

@@ -26,10 +26,8 @@ inline rex::grading::Evidence settlingSeen(const Process& process, const std::ve
   bounds.style = rex::SeriesStyle::kLinesPoints;
   bounds.marker = rex::Marker::kDot;
   const double lowest = tolerance / 100;  // what is below, such as zero, has no logarithm
-  for (std::size_t k = 1; k < V.size(); ++k) {
-    bounds.x.push_back(static_cast<double>(k));
-    bounds.y.push_back(std::max(lowest, boundOf(process, V[k - 1], V[k])));
-  }
+  for (std::size_t k = 1; k < V.size(); ++k)
+    bounds.add(static_cast<double>(k), std::max(lowest, boundOf(process, V[k - 1], V[k])));
   const double most = *std::max_element(bounds.y.begin(), bounds.y.end());
   rex::Figure figure{.title = "Value iteration until it ends",
                      .xLabel = "k",

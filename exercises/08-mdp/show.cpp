@@ -141,10 +141,7 @@ void showRollouts(const Policy& policy) {
         runTrial(poleStep(rng), poleStart(rng), policy, kPoleHorizon, rng).features;
     if (states.cols() == 0) return nothingYet("trials");
     Series& angle = figure.series.emplace_back();
-    for (Eigen::Index t = 0; t < states.cols(); ++t) {
-      angle.x.push_back(.02 * static_cast<double>(t));
-      angle.y.push_back(states(0, t));
-    }
+    for (Eigen::Index t = 0; t < states.cols(); ++t) angle.add(.02 * static_cast<double>(t), states(0, t));
   }
   plotOf("rollouts", "The pole before learning: eight trials", figure);
 }

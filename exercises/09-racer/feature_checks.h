@@ -33,8 +33,7 @@ inline rex::grading::Evidence featuresOf(const Block& block, const Eigen::Vector
   rex::Series mine = rex::grading::gotCurve("got"), right = rex::grading::wantedCurve("wanted");
   for (int i = block.begin; i < block.begin + block.count; ++i)
     for (const auto& [series, from] : {std::pair{&mine, &got}, {&right, &wanted}}) {
-      series->x.push_back(i);
-      series->y.push_back((*from)[i]);
+      series->add(i, (*from)[i]);
     }
   for (const auto& [series, marker] : {std::pair{&mine, rex::Marker::kDot}, {&right, rex::Marker::kCircle}}) {
     series->style = rex::SeriesStyle::kPoints;

@@ -111,10 +111,8 @@ struct Pair {
 inline rex::Figure rowOf(const Pair& rides, Eigen::Index row, Eigen::Index moment) {
   constexpr std::array kNames{"x [m]", "theta [rad]", "x' [m/s]", "theta' [rad/s]", "u [N m]"};
   const auto curve = [&](const Eigen::MatrixXd& ride, rex::Series series) {
-    for (Eigen::Index k = 0; k < ride.cols() - (row == 4 ? 1 : 0); ++k) {
-      series.x.push_back(kTau * static_cast<double>(rides.first + k));
-      series.y.push_back(ride(row, k));
-    }
+    for (Eigen::Index k = 0; k < ride.cols() - (row == 4 ? 1 : 0); ++k)
+      series.add(kTau * static_cast<double>(rides.first + k), ride(row, k));
     return series;
   };
   const char* name = kNames[static_cast<std::size_t>(row)];
@@ -236,10 +234,8 @@ inline void rideFollows(rex::grading::Check& check, const Situation& in, const E
 /// The cost so far, up to the wanted one, and the one that was returned.
 inline rex::grading::Evidence costsOf(const Eigen::VectorXd& ofSteps, double got) {
   rex::Series sum = rex::grading::wantedCurve("wanted, so far", {0}, {0});
-  for (Eigen::Index t = 0; t < ofSteps.size(); ++t) {
-    sum.x.push_back(kTau * static_cast<double>(t + 1));
-    sum.y.push_back(sum.y.back() + ofSteps[t]);
-  }
+  for (Eigen::Index t = 0; t < ofSteps.size(); ++t)
+    sum.add(kTau * static_cast<double>(t + 1), sum.y.back() + ofSteps[t]);
   return {.figures = {{.title = "Cost of rideOf",
                        .xLabel = "time [s]",
                        .yLabel = "cost [1]",

@@ -25,10 +25,7 @@ void addMotion(Figure& figure, const std::string& whose, const Eigen::MatrixXd& 
   for (const int i : {0, 1}) {
     Series series{.label = (i == 0 ? "x" : "theta") + whose, .dashed = dashed};
     if (dashed) series.color = Color{.2f, .22f, .26f};
-    for (Eigen::Index k = 0; k < X.cols(); ++k) {
-      series.x.push_back(kTau * static_cast<double>(k));
-      series.y.push_back(X(i, k));
-    }
+    for (Eigen::Index k = 0; k < X.cols(); ++k) series.add(kTau * static_cast<double>(k), X(i, k));
     figure.series.push_back(series);
   }
 }
@@ -138,10 +135,8 @@ Series driftOf(const std::string& label, const Eigen::VectorXd& w) {
       squares[k] += std::pow(ride.states(0, 50 * k), 2) / kRides;
   }
   Series series{.label = label};
-  for (Eigen::Index k = 0; k < squares.size(); ++k) {
-    series.x.push_back(50 * kTau * static_cast<double>(k));
-    series.y.push_back(std::sqrt(squares[k]));
-  }
+  for (Eigen::Index k = 0; k < squares.size(); ++k)
+    series.add(50 * kTau * static_cast<double>(k), std::sqrt(squares[k]));
   return series;
 }
 
@@ -152,8 +147,7 @@ Series robustnessOf(const std::string& label, const Eigen::VectorXd& w) {
   Series series{.label = label, .style = SeriesStyle::kLinesPoints};
   for (double noise = 0; noise < 2.05; noise += .1) {
     const Rollouts rollouts = ridden(w, trials, noise, kLongestRide);
-    series.x.push_back(noise);
-    series.y.push_back((rollouts.steps.array() == kLongestRide).cast<double>().mean());
+    series.add(noise, (rollouts.steps.array() == kLongestRide).cast<double>().mean());
   }
   return series;
 }
@@ -245,10 +239,8 @@ void showFeatures() {
   Eigen::VectorXd latest;
   for (int t = 0; t < 50; ++t) {
     latest = featuresAt(Eigen::Vector4d(0, 0, t < 10 ? 0 : 1, 0), latest, 0, kTau);
-    for (std::size_t i = 0; i < shown.size(); ++i) {
-      figure.series[i].x.push_back(kTau * t);
-      figure.series[i].y.push_back(latest[shown[i].first] / (i == 3 ? 100 : 1));
-    }
+    for (std::size_t i = 0; i < shown.size(); ++i)
+      figure.series[i].add(kTau * t, latest[shown[i].first] / (i == 3 ? 100 : 1));
   }
   if (latest.isZero()) return nothingYet("features");
   plot("features", figure);

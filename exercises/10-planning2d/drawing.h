@@ -57,10 +57,7 @@ inline void addLine(rex::Figure& figure, const std::vector<Eigen::Vector2d>& poi
                     const rex::Series& look) {
   if (points.empty()) return;
   figure.series.push_back(look);
-  for (const Eigen::Vector2d& p : points) {
-    figure.series.back().x.push_back(p.x());
-    figure.series.back().y.push_back(p.y());
-  }
+  for (const Eigen::Vector2d& p : points) figure.series.back().add(p.x(), p.y());
 }
 
 inline std::vector<Eigen::Vector2d> centersOf(const std::vector<MapCell>& cells) {

@@ -118,10 +118,7 @@ inline rex::Figure distancesSeen(const std::vector<double>& distances) {
   rex::Histogram bars = normalized(rex::histogramOf(distances, 20));
   bars.label = "got";
   rex::Series density = rex::grading::wantedCurve("wanted");
-  for (double x = 0; x <= 3.5; x += .05) {
-    density.x.push_back(x);
-    density.y.push_back(std::sqrt(M_PI / 2) * std::erfc(x / std::sqrt(2)));
-  }
+  for (double x = 0; x <= 3.5; x += .05) density.add(x, std::sqrt(M_PI / 2) * std::erfc(x / std::sqrt(2)));
   return {.title = "How far Gaussian nodes are from the wall",
           .xLabel = "distance [sigma]",
           .yLabel = "density [1/sigma]",

@@ -189,8 +189,7 @@ void showRoadmaps(double width) {
         const auto way = queryRoadmap(slot, nodes, roadmap, kSlotStart, kSlotGoal, kNeighbors, kResolution);
         found += way.empty() ? 0 : 1;
       }
-      series.x.push_back(count);
-      series.y.push_back(found / 50);
+      series.add(count, found / 50);
     }
   }
   plot("passage", rates);

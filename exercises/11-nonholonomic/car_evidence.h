@@ -221,8 +221,7 @@ inline rex::grading::Evidence reversingSeen(const Rig& rig, const std::vector<Ei
     Eigen::VectorXd all(6);
     all << q.head<3>(), 0, 0, q[3] - q[2];
     postures.push_back(all);
-    axle.x.push_back(q[0] - rig.hitchLength * std::cos(q[3]));
-    axle.y.push_back(q[1] - rig.hitchLength * std::sin(q[3]));
+    axle.add(q[0] - rig.hitchLength * std::cos(q[3]), q[1] - rig.hitchLength * std::sin(q[3]));
   }
   rex::Film film = rex::filmOf(S, postures, {.paths = {{{-56, 0, .02}, {8, 0, .02}}}});
   for (std::size_t i = 0; i < film.size(); ++i) film[i].time = tau * static_cast<double>(stride * i);

@@ -20,8 +20,7 @@ inline rex::Series outline(const Eigen::Vector3d& p, double back, double front, 
   const double c = std::cos(p[2]), s = std::sin(p[2]);
   for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}}) {
     const double ahead = x < 0 ? -back : front, left = y * width / 2;
-    series.x.push_back(p[0] + c * ahead - s * left);
-    series.y.push_back(p[1] + s * ahead + c * left);
+    series.add(p[0] + c * ahead - s * left, p[1] + s * ahead + c * left);
   }
   return series;
 }
@@ -32,10 +31,7 @@ inline rex::Series outline(const CarModel& car, const Eigen::Vector3d& q, const 
 
 inline rex::Series line(const std::string& label, const Poses& poses, const rex::Color& color, double size) {
   rex::Series series{.label = label, .size = size, .color = color};
-  for (const Eigen::Vector3d& q : poses) {
-    series.x.push_back(q[0]);
-    series.y.push_back(q[1]);
-  }
+  for (const Eigen::Vector3d& q : poses) series.add(q[0], q[1]);
   return series;
 }
 

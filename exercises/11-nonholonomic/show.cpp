@@ -93,8 +93,7 @@ void showDrives(const CarModel& car, double seconds) {
     for (int i = 0; i < 1000 * seconds; ++i) {
       q += 0.001 * velocityOf(car, q, 1, steering);
       if (i % 1000 != 999) continue;
-      steps.x.push_back(q[0]);
-      steps.y.push_back(q[1]);
+      steps.add(q[0], q[1]);
     }
     figure.series.push_back(outline(car, driven(car, start, {1, steering, seconds}), kSoft));
   }
@@ -156,8 +155,7 @@ void showDubins(const CarModel& car, double radius) {
     for (std::size_t k = 0; k < 6; ++k) {
       const auto way = dubinsLengths(static_cast<DubinsWord>(k), start, to, radius);
       if (!way) continue;
-      words[k].x.push_back(to[2]);
-      words[k].y.push_back((*way)[0] + (*way)[1] + (*way)[2]);
+      words[k].add(to[2], (*way)[0] + (*way)[1] + (*way)[2]);
     }
     for (Series* series : {&library, &yours}) series->x.push_back(to[2]);
     yours.y.push_back(lengthOf(shortestDubins(start, to, radius)));
@@ -210,8 +208,7 @@ void showTrailer(const Rig& rig, const Eigen::Vector4d& start) {
   const Reversing straight = reverse(rig, start, false), steered = reverse(rig, start, true);
   Series law{.label = "exp(rate t)", .dashed = true, .color = Color{0, 0, 0}};
   for (const double t : straight.way) {
-    law.x.push_back(t);
-    law.y.push_back(0.01 * std::exp(hitchGrowth(rig, -1) * t));
+    law.add(t, 0.01 * std::exp(hitchGrowth(rig, -1) * t));
     if (law.y.back() > 1.5) break;
   }
   Figure angles{.title = "Backward with a trailer, at 1 m/s",

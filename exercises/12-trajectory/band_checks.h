@@ -97,10 +97,8 @@ inline rex::grading::Evidence slopesSeen(const Terms& terms, const std::vector<E
                                          double tolerance) {
   rex::Series slopes = rex::grading::gotCurve("got");
   slopes.style = rex::SeriesStyle::kLinesPoints;
-  for (const Eigen::MatrixXd& X : path) {
-    slopes.x.push_back(static_cast<double>(slopes.x.size()));
-    slopes.y.push_back(std::max(slopeOf(terms(X), X), 1e-15));
-  }
+  for (const Eigen::MatrixXd& X : path)
+    slopes.add(static_cast<double>(slopes.x.size()), std::max(slopeOf(terms(X), X), 1e-15));
   rex::Figure figure{.title = "Largest entry of the gradient after each step",
                      .xLabel = "step",
                      .yLabel = "value [1]",

@@ -227,10 +227,7 @@ grading::Evidence roundsSeen(const Minimum& got, double measured, double limit) 
   const auto onScale = [](double v) { return std::isfinite(v) ? std::max(v, 1e-12) : 1e12; };
   Series violation = grading::gotCurve("Minimum::violation");
   violation.style = SeriesStyle::kLinesPoints;
-  for (const double v : got.violation) {
-    violation.x.push_back(static_cast<double>(violation.x.size()));
-    violation.y.push_back(onScale(v));
-  }
+  for (const double v : got.violation) violation.add(static_cast<double>(violation.x.size()), onScale(v));
   Figure figure{.title = "Largest violation of a constraint after each round",
                 .xLabel = "round, from 0",
                 .yLabel = "violation [1]",

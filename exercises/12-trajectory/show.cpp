@@ -36,10 +36,7 @@ void add(Figure& figure, const std::string& label, const Eigen::MatrixXd& points
   if (pen == Pen::dots) series.style = SeriesStyle::kPoints;
   if (pen == Pen::beads) series.style = SeriesStyle::kLinesPoints;
   series.marker = Marker::kDot;
-  for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    series.x.push_back(points(0, i));
-    series.y.push_back(points(1, i));
-  }
+  for (Eigen::Index i = 0; i < points.cols(); ++i) series.add(points(0, i), points(1, i));
 }
 
 // A circle as `count` points, counter-clockwise; one more closes it.
@@ -55,10 +52,7 @@ Eigen::MatrixXd circle(const Ball& ball, double radius, int count) {
 void addDisc(Figure& figure, const Ball& ball) {
   Region& region = figure.regions.emplace_back();
   const Eigen::MatrixXd border = circle(ball, ball.radius, 72);
-  for (Eigen::Index i = 0; i < border.cols(); ++i) {
-    region.x.push_back(border(0, i));
-    region.y.push_back(border(1, i));
-  }
+  for (Eigen::Index i = 0; i < border.cols(); ++i) region.add(border(0, i), border(1, i));
 }
 
 // A point that comes from rest at one position to rest at another, and keeps out of a disc.

@@ -165,8 +165,8 @@ inline rex::grading::Evidence landingSeen(const Walker& walker, const Eigen::Vec
                                           double got) {
   rex::Series sum{.label = "theta_s + theta_ns"};
   for (int i = 0; i < 200; ++i) {
-    sum.x.push_back(wanted * i / 200);
-    sum.y.push_back((i == 0 ? x : libraryOf(walker).step(x, sum.x.back()).before).head<2>().sum());
+    const double time = wanted * i / 200;
+    sum.add(time, (i == 0 ? x : libraryOf(walker).step(x, time).before).head<2>().sum());
   }
   rex::Figure figure{.title = "Both feet are on the slope where the sum of the angles is -2 slope",
                      .xLabel = "time [s]",
@@ -201,10 +201,7 @@ inline rex::grading::Evidence stepSeen(const Walker& walker, Eigen::Vector4d x, 
   rex::Series legs[] = {{.label = "stance leg", .color = rex::grading::kGotColor},
                         {.label = "swing leg", .color = kSwingColor}};
   for (int i = 1; i <= 200; ++i) {
-    for (int leg = 0; leg < 2; ++leg) {
-      legs[leg].x.push_back(x[leg]);
-      legs[leg].y.push_back(x[leg + 2]);
-    }
+    for (int leg = 0; leg < 2; ++leg) legs[leg].add(x[leg], x[leg + 2]);
     const double time = wanted.time * i / 200;
     x = time < wanted.time ? libraryOf(walker).step(start, time).before : wanted.before;
   }

@@ -38,13 +38,8 @@ Series& curve(Figure& figure, const char* label, const Color& color, double size
   return series;
 }
 
-void add(Series& series, double x, double y) {
-  series.x.push_back(x);
-  series.y.push_back(y);
-}
-
 void addAll(Series& series, const Points& points) {
-  for (const Eigen::Vector2d& p : points) add(series, p.x(), p.y());
+  for (const Eigen::Vector2d& p : points) series.add(p.x(), p.y());
 }
 
 // Yours is wide and yellow, and the library's lies dashed on top.
@@ -140,8 +135,8 @@ void showSettling(const Way& way, const Eigen::Vector4d& gait, double largestMul
   curve(figure, "largest multiplier to the power of the step", kBlack).dashed = true;
   double power = (way.ends[0] - gait).norm();
   for (std::size_t i = 0; i < way.ends.size(); ++i, power *= largestMultiplier + 1e-9) {
-    add(figure.series[0], static_cast<double>(i), (way.ends[i] - gait).norm() + 1e-12);
-    add(figure.series[1], static_cast<double>(i), power + 1e-12);
+    figure.series[0].add(static_cast<double>(i), (way.ends[i] - gait).norm() + 1e-12);
+    figure.series[1].add(static_cast<double>(i), power + 1e-12);
   }
   plot("settling", figure);
 }
@@ -163,10 +158,10 @@ void showSupport(const Eigen::Vector2d& left, const Eigen::Vector2d& right) {
   figure.equalAxes = true;
   for (const int foot : {0, 4}) {
     Series& sole = curve(figure, foot == 0 ? "soles" : "", kBlack);
-    for (int i = 0; i < 5; ++i) add(sole, contacts(0, foot + i % 4), contacts(1, foot + i % 4));
+    for (int i = 0; i < 5; ++i) sole.add(contacts(0, foot + i % 4), contacts(1, foot + i % 4));
   }
   Series& border = curve(figure, "support polygon", kOrange, 2);
-  for (Eigen::Index i = 0; i <= count; ++i) add(border, corners(0, i % count), corners(1, i % count));
+  for (Eigen::Index i = 0; i <= count; ++i) border.add(corners(0, i % count), corners(1, i % count));
   const auto distance = [&](double x, double y) { return borderDistance(corners, {x, y}); };
   figure.heatMap = heatMapOf(distance, {-.3, .55}, {-.35, .35}, 170, 140);
   plot("support", figure);
@@ -184,7 +179,7 @@ void showTipping() {
   Series& series = curve(figure, "", kOrange, 2);
   for (double a = -3; a < 3.01; a += .25) {
     const std::vector<MovingMass> body = {{40, {0, 0, 1}, {a, 0, 0}}, {20, {0, 0, .4}, {a / 2, 0, 0}}};
-    if (const auto point = zeroMoment(body, 0, 9.81)) add(series, a, point->x());
+    if (const auto point = zeroMoment(body, 0, 9.81)) series.add(a, point->x());
   }
   if (series.x.empty()) return nothingYet("zero moment point");
   plot("tipping", figure);
@@ -201,7 +196,7 @@ void showCapture(const Pendulum& pendulum, const Sway& now) {
   for (int place = 0; place < 3; ++place) {
     Series& series = curve(figure, labels[place], colors[place]);
     const Eigen::Vector2d foot(capture.x() + .02 * (place - 1), capture.y());
-    for (int i = 0; i <= 110; ++i) add(series, .01 * i, swayed(pendulum, now, foot, .01 * i).c.x());
+    for (int i = 0; i <= 110; ++i) series.add(.01 * i, swayed(pendulum, now, foot, .01 * i).c.x());
   }
   plot("capture", figure);
 }
@@ -214,8 +209,8 @@ void showGains(const CartTable& cart, const PreviewLaw& law) {
   compare(figure);
   for (Eigen::Index j = 0; j < law.Gp.size(); ++j) {
     const double time = cart.step * static_cast<double>(j + 1);
-    add(figure.series[0], time, law.Gp[j]);
-    add(figure.series[1], time, library[j]);
+    figure.series[0].add(time, law.Gp[j]);
+    figure.series[1].add(time, library[j]);
   }
   plot("gains", figure);
 }
@@ -245,9 +240,9 @@ void showWalk(const CartTable& cart, const PreviewLaw& law) {
   curve(sideways, "library's zero moment point", kBlack).dashed = true;
   for (std::size_t k = 0; k < walk.zmp.size(); ++k) {
     const double time = cart.step * static_cast<double>(k);
-    add(sideways.series[0], time, walk.zmp[k].y());
-    add(sideways.series[1], time, walk.center[k].y());
-    add(sideways.series[2], time, library(1, static_cast<Eigen::Index>(k)));
+    sideways.series[0].add(time, walk.zmp[k].y());
+    sideways.series[1].add(time, walk.center[k].y());
+    sideways.series[2].add(time, library(1, static_cast<Eigen::Index>(k)));
   }
   plot("zmp_time", sideways);
 
@@ -270,7 +265,7 @@ void showHorizon(const CartTable& cart, const PreviewLaw& law) {
     if (n % 10 == 0) {
       const Walk walk = walkOf(cart, shorter, reference);
       if (walk.zmp.empty()) return;
-      add(series, cart.step * n, walk.largestError + 1e-9);
+      series.add(cart.step * n, walk.largestError + 1e-9);
     }
     shorter.Gp[n - 1] = 0;
   }
@@ -308,8 +303,8 @@ void showSlopes(const Eigen::Vector4d& guess) {
     walker.slope = .1 * i * M_PI / 180;
     x = gaitNear(walker, *x);
     if (!x || way < 0) continue;
-    add(figure.series[0], .1 * i, multiplierSizes(walker, *x)[0]);
-    add(figure.series[1], .1 * i, std::abs(findLimitCycle(libraryWalker(walker), *x).multipliers[0]));
+    figure.series[0].add(.1 * i, multiplierSizes(walker, *x)[0]);
+    figure.series[1].add(.1 * i, std::abs(findLimitCycle(libraryWalker(walker), *x).multipliers[0]));
   }
   if (figure.series[0].x.empty()) return nothingYet("slopes");
   plot("slopes", figure);

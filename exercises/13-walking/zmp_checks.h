@@ -106,10 +106,8 @@ inline rex::grading::Evidence captureSeen(const rex::InvertedPendulum& pendulum,
   rex::Series got = rex::grading::gotCurve("over your point"), wanted = rex::grading::wantedCurve("wanted");
   for (int i = 0; i <= 40; ++i) {
     const double t = .05 * i / pendulum.omega();
-    got.x.push_back(t);
-    got.y.push_back(pendulum.after(now, p, t).c[axis]);
-    wanted.x.push_back(t);
-    wanted.y.push_back(pendulum.after(now, right, t).c[axis]);
+    got.add(t, pendulum.after(now, p, t).c[axis]);
+    wanted.add(t, pendulum.after(now, right, t).c[axis]);
   }
   rex::Figure figure{.title = "The centre of mass, while the zero moment point stays at the capture point",
                      .xLabel = "time [s]",

@@ -41,8 +41,7 @@ inline void addFinger(rex::Figure& figure, const PlanarFinger& finger, double le
   for (const double side : {-1., 0., 1.}) {
     const Eigen::Vector2d ahead = finger.normal + side * finger.friction * aside;
     const Eigen::Vector2d p = finger.p + (side == 0 ? 0 : 0.3) * length * ahead;
-    cone.x.push_back(p.x());
-    cone.y.push_back(p.y());
+    cone.add(p.x(), p.y());
   }
   const Eigen::Vector2d from = finger.p - 0.25 * length * finger.normal;
   rex::Series body = rex::grading::gotCurve("", {from.x(), finger.p.x()}, {from.y(), finger.p.y()});
@@ -58,10 +57,7 @@ inline rex::Figure drawing(const Plate& plate, const std::vector<PlanarFinger>& 
                      .equalAxes = true,
                      .legend = rex::Legend::kOutside};
   rex::Region outline;
-  for (const Eigen::Vector2d& corner : plate.corners) {
-    outline.x.push_back(corner.x());
-    outline.y.push_back(corner.y());
-  }
+  for (const Eigen::Vector2d& corner : plate.corners) outline.add(corner.x(), corner.y());
   figure.regions = {outline};
   for (const PlanarFinger& one : fingers)
     if (one.p.allFinite() && one.normal.allFinite() && std::isfinite(one.friction))

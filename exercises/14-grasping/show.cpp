@@ -51,10 +51,7 @@ PlanarFinger fingerAt(const std::vector<Eigen::Vector2d>& corners, double way, d
 Region regionOf(const std::vector<Eigen::Vector2d>& corners, const Color& color) {
   Region region;
   region.color = color;
-  for (const Eigen::Vector2d& corner : corners) {
-    region.x.push_back(corner[0]);
-    region.y.push_back(corner[1]);
-  }
+  for (const Eigen::Vector2d& corner : corners) region.add(corner[0], corner[1]);
   return region;
 }
 
@@ -372,10 +369,8 @@ void showCone(double friction, int edges) {
               .style = SeriesStyle::kLinesPoints,
               .marker = Marker::kDot,
               .color = kRed};
-  for (Eigen::Index i = 0; i <= pyramid.cols(); ++i) {
-    edge.x.push_back(pyramid(0, i % pyramid.cols()));
-    edge.y.push_back(pyramid(1, i % pyramid.cols()));
-  }
+  for (Eigen::Index i = 0; i <= pyramid.cols(); ++i)
+    edge.add(pyramid(0, i % pyramid.cols()), pyramid(1, i % pyramid.cols()));
   figure.series.push_back(edge);
   plot("pyramid", figure);
 }

@@ -86,8 +86,7 @@ inline rex::grading::Evidence edgesSeen(const Finger& finger, const Eigen::Matri
   rex::Series circle = rex::grading::wantedCurve("rim of the cone"), edges = rex::grading::gotCurve("yours");
   for (int i = 0; i <= 96; ++i) {
     const double angle = 2 * std::numbers::pi * i / 96;
-    circle.x.push_back(finger.friction * std::cos(angle));
-    circle.y.push_back(finger.friction * std::sin(angle));
+    circle.add(finger.friction * std::cos(angle), finger.friction * std::sin(angle));
   }
   edges = rex::grading::through(Eigen::MatrixXd(R * forces).colwise(), edges);
   edges.style = rex::SeriesStyle::kPoints;
@@ -242,8 +241,7 @@ inline rex::grading::Evidence reachSeen(const Eigen::MatrixXd& W, const Eigen::V
   for (int i = 0; i < 720; ++i) {
     const double angle = std::numbers::pi * i / 360;
     const Eigen::Vector2d ray(std::cos(angle), std::sin(angle));
-    inside.x.push_back(reachOf(hull, ray) * ray.x());
-    inside.y.push_back(reachOf(hull, ray) * ray.y());
+    inside.add(reachOf(hull, ray) * ray.x(), reachOf(hull, ray) * ray.y());
   }
   const Eigen::Vector2d far = std::clamp(got, -5 * wanted, 5 * wanted) * direction,
                         right = wanted * direction;

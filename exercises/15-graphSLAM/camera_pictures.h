@@ -11,10 +11,7 @@ inline rex::Series pixelsOf(const std::string& label, const Eigen::Matrix2Xd& pi
                             const rex::Color& color) {
   rex::Series series{
       .label = label, .style = rex::SeriesStyle::kPoints, .marker = marker, .size = 1.3, .color = color};
-  for (const auto pixel : pixels.colwise()) {
-    series.x.push_back(pixel.x());
-    series.y.push_back(pixel.y());
-  }
+  for (const auto pixel : pixels.colwise()) series.add(pixel.x(), pixel.y());
   return series;
 }
 

@@ -22,10 +22,7 @@ inline rex::grading::Evidence mapSeen(const PoseMap& map, const Adjusted& got, d
   figure.series.push_back(rex::grading::through(got.poses, rex::grading::gotCurve("got")));
   figure.series.push_back(rex::grading::through(bestPoses(map), rex::grading::wantedCurve("wanted")));
   rex::Series costs = rex::grading::gotCurve("got");
-  for (const double cost : got.costs) {
-    costs.x.push_back(static_cast<double>(costs.x.size()));
-    costs.y.push_back(std::max(cost, 1e-12));
-  }
+  for (const double cost : got.costs) costs.add(static_cast<double>(costs.x.size()), std::max(cost, 1e-12));
   if (costs.y.empty()) return {.figures = {figure}};
   const double end = std::max(1., static_cast<double>(costs.x.size()) - 1);
   const double wanted = std::max(least, 1e-12);

@@ -31,8 +31,7 @@ inline rex::Series cloud(const std::string& label, const Poses& poses, const std
   for (std::size_t k = 0; k < poses.size(); ++k)
     for (const Eigen::Vector2d& p : scans[k]) {
       const Eigen::Vector2d at = pointFrom(poses[k], p);
-      series.x.push_back(at.x());
-      series.y.push_back(at.y());
+      series.add(at.x(), at.y());
     }
   return series;
 }
@@ -40,10 +39,7 @@ inline rex::Series cloud(const std::string& label, const Poses& poses, const std
 inline rex::Series wayOf(const std::string& label, const Poses& poses, const rex::Color& color,
                          bool dashed = false) {
   rex::Series series{.label = label, .size = 1.5, .dashed = dashed, .color = color};
-  for (const Eigen::Vector3d& pose : poses) {
-    series.x.push_back(pose[0]);
-    series.y.push_back(pose[1]);
-  }
+  for (const Eigen::Vector3d& pose : poses) series.add(pose[0], pose[1]);
   return series;
 }
 

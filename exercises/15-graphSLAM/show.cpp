@@ -117,10 +117,7 @@ Poses stepped(const PoseMap& map) {
 
 void plotCosts(const std::vector<double>& costs, double least) {
   Series series{.label = "yours", .style = SeriesStyle::kLinesPoints};
-  for (std::size_t k = 0; k < costs.size(); ++k) {
-    series.x.push_back(static_cast<double>(k));
-    series.y.push_back(std::max(costs[k], 1e-3));
-  }
+  for (std::size_t k = 0; k < costs.size(); ++k) series.add(static_cast<double>(k), std::max(costs[k], 1e-3));
   const Series library{.label = "least, by the library",
                        .x = {0, series.x.back()},
                        .y = {std::max(least, 1e-3), std::max(least, 1e-3)},
@@ -141,11 +138,6 @@ Series positions(const std::string& label, Marker marker, const Color& color) {
   return {.label = label, .style = SeriesStyle::kPoints, .marker = marker, .color = color};
 }
 
-void addPosition(Series& series, const Eigen::Vector3d& p) {
-  series.x.push_back(p.x());
-  series.y.push_back(p.y());
-}
-
 // Where pictures of the same points, each with noise of its own, put the camera.
 void plotCameras(VisionSimulator& simulator, const Eigen::Matrix4Xd& points) {
   const Eigen::Matrix3Xd known = points.topRows(3);
@@ -154,10 +146,11 @@ void plotCameras(VisionSimulator& simulator, const Eigen::Matrix4Xd& points) {
          seen = positions("points", Marker::kDot, kGrey);
   for (int k = 0; k < 100; ++k) {
     const Eigen::Matrix2Xd pixels = simulator.projectWorldPoints(points).topRows(2);
-    addPosition(found, cameraPosition(refined(projectionFromPoints(known, pixels), known, pixels)));
+    const Eigen::Vector3d at = cameraPosition(refined(projectionFromPoints(known, pixels), known, pixels));
+    found.add(at.x(), at.y());
   }
-  addPosition(there, truth);
-  for (const auto point : known.colwise()) addPosition(seen, point);
+  there.add(truth.x(), truth.y());
+  for (const auto point : known.colwise()) seen.add(point.x(), point.y());
   found.size = seen.size = .5;
   there.size = 2;
   Figure figure = planOf("A hundred pictures of the same points: where they put the camera, from above");

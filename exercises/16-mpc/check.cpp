@@ -22,10 +22,7 @@ Evidence alongRow(const std::string& title, const std::string& xLabel, const std
   Eigen::Index row = 0, worst = 0;
   const double apart = (got - wanted).cwiseAbs().maxCoeff(&row, &worst);
   const auto curve = [&](rex::Series series, const Eigen::MatrixXd& values) {
-    for (Eigen::Index t = 0; t < values.cols(); ++t) {
-      series.x.push_back(static_cast<double>(t));
-      series.y.push_back(values(row, t));
-    }
+    for (Eigen::Index t = 0; t < values.cols(); ++t) series.add(static_cast<double>(t), values(row, t));
     return series;
   };
   Evidence evidence{.figures = {{.title = title,

@@ -40,10 +40,7 @@ Drive followed(const Plant& plant, const Law& law, const Eigen::VectorXd& start,
 
 Series overTime(const std::string& label, const Eigen::MatrixXd& rows, int row, double tau) {
   Series series{.label = label};
-  for (Eigen::Index t = 0; t < rows.cols(); ++t) {
-    series.x.push_back(tau * static_cast<double>(t));
-    series.y.push_back(rows(row, t));
-  }
+  for (Eigen::Index t = 0; t < rows.cols(); ++t) series.add(tau * static_cast<double>(t), rows(row, t));
   return series;
 }
 
@@ -130,8 +127,7 @@ void showHorizons(const Task& task) {
     for (int N = 1; N <= 40; ++N) {
       const Quadratic cost = planCost(task.plant, costs, N, x);
       if (cost.H.isZero(0)) return nothingYet("planCost");
-      series.x.push_back(N);
-      series.y.push_back(-solve(cost.H, cost.g)[0]);
+      series.add(N, -solve(cost.H, cost.g)[0]);
     }
     figure.series.push_back(series);
   }
@@ -207,8 +203,7 @@ void showPole() {
   const Task shortest = poleTask(1);
   Series plans{.label = "plans", .style = SeriesStyle::kLinesPoints};
   for (const int N : {1, 3, 6, 10, 15, 20}) {
-    plans.x.push_back(N);
-    plans.y.push_back(farthest(planning(poleTask(N))));
+    plans.add(N, farthest(planning(poleTask(N))));
   }
   Figure figure{.title = "From how far a motor of 4 N brings a pole back",
                 .xLabel = "horizon [steps of 0.05 s]",

@@ -289,8 +289,7 @@ inline void rates(Check& check, Student& student, int rays) {
     rex::Series ends{.label = "ends of rays", .style = rex::SeriesStyle::kPoints};
     for (Eigen::Index k = 0; k < scan.ranges.size(); ++k) {
       if (scan.ranges[k] >= scan.maxRange) continue;
-      ends.x.push_back(endOf(pose, scan, k)[0]);
-      ends.y.push_back(endOf(pose, scan, k)[1]);
+      ends.add(endOf(pose, scan, k)[0], endOf(pose, scan, k)[1]);
     }
     figure.series = {ends, rex::grading::wrongPoint("robot", pose[0], pose[1])};
     return Evidence{.figures = {figure}};

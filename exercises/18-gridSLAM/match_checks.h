@@ -124,8 +124,7 @@ inline void locates(Check& check, Student& student) {
       series.style = rex::SeriesStyle::kPoints;
       for (Eigen::Index k = 0; k < sight.scan.ranges.size(); ++k) {
         const Eigen::Vector2d end = endOf(pose, sight.scan, k);
-        series.x.push_back(end[0]);
-        series.y.push_back(end[1]);
+        series.add(end[0], end[1]);
       }
       return series;
     };

@@ -35,10 +35,7 @@ inline void movesOnce(Check& check, Student& student) {
   const Eigen::Vector3d mean = meanOf(ways), spread = spreadOf(ways);
   const auto shown = check.show([&] {
     rex::Series cloud{.label = "moved", .style = rex::SeriesStyle::kPoints, .size = .5};
-    for (int k = 0; k < kCount; ++k) {
-      cloud.x.push_back(got(0, k));
-      cloud.y.push_back(got(1, k));
-    }
+    for (int k = 0; k < kCount; ++k) cloud.add(got(0, k), got(1, k));
     const double c = std::cos(pose[2]), s = std::sin(pose[2]);
     Eigen::Matrix2d R;
     R << c, -s, s, c;

@@ -48,10 +48,7 @@ Eigen::Matrix2Xd endsOf(const Eigen::Vector3d& pose, const Scan& scan) {
 Series dots(const std::string& label, const Eigen::Matrix2Xd& points, const Color& color, double size = .6) {
   Series series{
       .label = label, .style = SeriesStyle::kPoints, .marker = Marker::kDot, .size = size, .color = color};
-  for (const auto& point : points.colwise()) {
-    series.x.push_back(point.x());
-    series.y.push_back(point.y());
-  }
+  for (const auto& point : points.colwise()) series.add(point.x(), point.y());
   return series;
 }
 

@@ -88,10 +88,7 @@ inline void keepsRule(Check& check, Student& student) {
   const std::vector<double> never = sizesFor(0), always = sizesFor(1.1);
   const auto shown = check.show([&] {
     const auto curve = [](const std::vector<double>& sizes, rex::Series series) {
-      for (std::size_t t = 0; t < sizes.size(); ++t) {
-        series.x.push_back(static_cast<double>(t));
-        series.y.push_back(sizes[t]);
-      }
+      for (std::size_t t = 0; t < sizes.size(); ++t) series.add(static_cast<double>(t), sizes[t]);
       return series;
     };
     return Evidence{.figures = {{.title = "effective sizes of 10 particles",

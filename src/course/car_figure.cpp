@@ -14,10 +14,7 @@ namespace {
 Series seriesOf(const std::string& label, const Eigen::Matrix2Xd& points, const Color& color,
                 SeriesStyle style = SeriesStyle::kLine) {
   Series series{.label = label, .style = style, .color = color};
-  for (const auto& point : points.colwise()) {
-    series.x.push_back(point.x());
-    series.y.push_back(point.y());
-  }
+  for (const auto& point : points.colwise()) series.add(point.x(), point.y());
   return series;
 }
 
@@ -72,8 +69,7 @@ Region carAt(const Eigen::Vector3d& pose, double scale, const char* label, const
                                     {kFront - 0.8, kCarWidth / 2},
                                     {kBack, kCarWidth / 2}}) {
     const Eigen::Vector2d corner = internal::placeAt(pose, scale * ahead, scale * left);
-    car.x.push_back(corner.x());
-    car.y.push_back(corner.y());
+    car.add(corner.x(), corner.y());
   }
   return car;
 }

@@ -114,8 +114,7 @@ Figure learningFigure(const std::vector<LearningCurves>& curves) {
       for (const std::vector<double>& run : curve.runs) now.push_back(run[i]);
       double sum = 0;
       for (const double value : now) sum += value;
-      mean.x.push_back(static_cast<double>(i));
-      mean.y.push_back(sum / static_cast<double>(now.size()));
+      mean.add(static_cast<double>(i), sum / static_cast<double>(now.size()));
       band.low.push_back(percentile(now, .1));
       band.high.push_back(percentile(now, .9));
     }

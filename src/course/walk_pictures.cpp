@@ -128,8 +128,7 @@ Figure footprintFigure(const WalkPlan& plan) {
          {Eigen::Vector2d(-0.5, -0.5), {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}) {
       const Eigen::Vector2d p =
           foot.p + corner.x() * plan.sole.length * along + corner.y() * plan.sole.width * left;
-      sole.x.push_back(p.x());
-      sole.y.push_back(p.y());
+      sole.add(p.x(), p.y());
     }
     figure.regions.push_back(sole);
   }

@@ -28,8 +28,7 @@ Series curveOf(Series curve, const std::vector<double>& at, const std::vector<Ei
                Eigen::Index row) {
   for (std::size_t i = 0; i < at.size(); ++i) {
     if (!std::isfinite(values[i][row])) continue;
-    curve.x.push_back(at[i]);
-    curve.y.push_back(values[i][row]);
+    curve.add(at[i], values[i][row]);
   }
   return curve;
 }

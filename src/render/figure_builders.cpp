@@ -29,10 +29,7 @@ double centreOf(const AxisRange& range, int index, int count) {
 
 Series signsOf(const std::vector<std::complex<double>>& values, const char* label, Marker marker) {
   Series series{.label = label, .style = SeriesStyle::kPoints, .marker = marker, .size = 2};
-  for (const std::complex<double>& value : values) {
-    series.x.push_back(value.real());
-    series.y.push_back(value.imag());
-  }
+  for (const std::complex<double>& value : values) series.add(value.real(), value.imag());
   requireFinite(fmt::format("{}: real parts", label), numbersOf(series.x));
   requireFinite(fmt::format("{}: imaginary parts", label), numbersOf(series.y));
   return series;
@@ -41,10 +38,8 @@ Series signsOf(const std::vector<std::complex<double>>& values, const char* labe
 Region unitDisc() {
   constexpr int kCorners = 180;
   Region disc{.label = "stable"};
-  for (int i = 0; i < kCorners; ++i) {
-    disc.x.push_back(std::cos(2 * std::numbers::pi * i / kCorners));
-    disc.y.push_back(std::sin(2 * std::numbers::pi * i / kCorners));
-  }
+  for (int i = 0; i < kCorners; ++i)
+    disc.add(std::cos(2 * std::numbers::pi * i / kCorners), std::sin(2 * std::numbers::pi * i / kCorners));
   return disc;
 }
 

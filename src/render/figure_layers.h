@@ -32,6 +32,11 @@ struct Series {
   double size = 1;  ///< factor for the width of lines and the size of points; up to 20
   bool dashed = false;
   std::optional<Color> color{};  ///< default: the next of a set suitable for any colour vision
+
+  void add(double atX, double atY) {
+    x.push_back(atX);
+    y.push_back(atY);
+  }
 };
 
 /// The strip from low[i] to high[i] at x[i], such as an error around a mean, with x as for a series. By
@@ -69,6 +74,11 @@ struct Region {
   std::vector<double> x{};
   std::vector<double> y{};
   std::optional<Color> color{};  ///< otherwise grey
+
+  void add(double atX, double atY) {
+    x.push_back(atX);
+    y.push_back(atY);
+  }
 };
 
 /// Arrows from (x[i], y[i]) to (x[i] + dx[i], y[i] + dy[i]). arrowsOf() in render/figure_builders.h draws a

@@ -49,10 +49,7 @@ std::size_t sightingsOf(const SpatialPoseGraph&) { return 0; }
 
 Series lineThrough(const Eigen::Matrix2Xd& positions) {
   Series line;
-  for (const auto& position : positions.colwise()) {
-    line.x.push_back(position[0]);
-    line.y.push_back(position[1]);
-  }
+  for (const auto& position : positions.colwise()) line.add(position[0], position[1]);
   return line;
 }
 
