@@ -1,8 +1,5 @@
 #include "grading/check.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "both_checks.h"
 #include "interface.h"
 #include "peg_problem.h"

@@ -1,9 +1,7 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "tree_evidence.h"

@@ -5,8 +5,6 @@
 #include <limits>
 #include <string>
 
-#include <fmt/format.h>
-
 #include "cloud_evidence.h"
 #include "drives.h"
 #include "filter_checks.h"

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <complex>
 #include <string>
-#include <vector>
 
 #include "sensor_checks.h"
 

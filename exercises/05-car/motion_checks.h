@@ -1,11 +1,8 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "cloud_evidence.h"
 #include "drives.h"

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
-#include <tuple>
 
 #include "course/car_figure.h"
 #include "course/car_pictures.h"

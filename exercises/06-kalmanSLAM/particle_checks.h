@@ -1,8 +1,6 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
-#include <string>
 #include <vector>
 
 #include "filter_checks.h"

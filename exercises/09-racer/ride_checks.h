@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include "control/racer_rollouts.h"
 #include "course/racer_pictures.h"

@@ -1,6 +1,5 @@
 #include "grading/check.h"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 

@@ -6,8 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "grading/check.h"
 #include "grading/evidence_parts.h"
 #include "interface.h"

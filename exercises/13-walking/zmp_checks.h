@@ -1,10 +1,8 @@
 #pragma once
 
 #include <cmath>
-#include <string>
 #include <vector>
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "grading/check.h"

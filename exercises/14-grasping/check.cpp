@@ -1,7 +1,6 @@
 #include "grading/check.h"
 
 #include <cmath>
-#include <numeric>
 
 #include "interface.h"
 #include "plate_checks.h"
