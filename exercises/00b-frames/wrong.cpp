@@ -1,82 +1,69 @@
 // Mistakes that students make, and the checks that catch them: a variant is solution.cpp with other regions.
 // `rex dev check` reads this file; it does not compile as it is.
 
-// <variant half_of_the_angle>
-// caught by: rotation-matrix
+// <variant half_of_the_angle> caught by: rotation-matrix
 // shown by: rotation-matrix
 // mistake: Takes half of the angle, as in quaternions.
 // <solution rotationMatrix>
 const double c = std::cos(angle / 2), s = std::sin(angle / 2);
 return c * Eigen::Matrix3d::Identity() + s * skew(axis) + (1 - c) * axis * axis.transpose();
 
-// <variant other_sense>
-// caught by: rotation-matrix
+// <variant other_sense> caught by: rotation-matrix
 // mistake: Turns clockwise.
 // <solution rotationMatrix>
 const double c = std::cos(angle), s = std::sin(angle);
 return c * Eigen::Matrix3d::Identity() - s * skew(axis) + (1 - c) * axis * axis.transpose();
 
-// <variant axis_left_out>
-// caught by: rotation-matrix
+// <variant axis_left_out> caught by: rotation-matrix
 // mistake: Leaves out the part along the axis.
 // <solution rotationMatrix>
 const double c = std::cos(angle), s = std::sin(angle);
 return c * Eigen::Matrix3d::Identity() + s * skew(axis);
 
-// <variant two_forms_mixed>
-// caught by: rotation-matrix
+// <variant two_forms_mixed> caught by: rotation-matrix
 // mistake: Begins like one form of the formula and ends like the other.
 // <solution rotationMatrix>
 const double c = std::cos(angle), s = std::sin(angle);
 return c * Eigen::Matrix3d::Identity() + s * skew(axis) + (1 - c) * skew(axis) * skew(axis);
 
-// <variant calls_the_library>
-// caught by: forbidden-call
+// <variant calls_the_library> caught by: forbidden-call
 // mistake: Lets the library do it.
 // <solution rotationMatrix>
 return rotation(angle, axis).R;
 
-// <variant by_acos>
-// caught by: rotation-edges
+// <variant by_acos> caught by: rotation-edges
 // mistake: The textbook's formula, which divides by the sine of the angle.
 // <solution rotationVector>
 const Eigen::Vector3d twice(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1));
 const double angle = std::acos(std::clamp((R.trace() - 1) / 2, -1., 1.));
 return angle == 0 ? Eigen::Vector3d(0, 0, 0) : Eigen::Vector3d(angle / (2 * std::sin(angle)) * twice);
 
-// <variant by_asin>
-// caught by: rotation-vector, rotation-edges
+// <variant by_asin> caught by: rotation-vector, rotation-edges
 // mistake: Takes the angle from the sine alone, which ends at a quarter turn.
 // <solution rotationVector>
 const Eigen::Vector3d twice(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1));
 const double s = twice.norm() / 2;
 return s == 0 ? twice : Eigen::Vector3d(std::asin(std::min(s, 1.)) / s * twice / 2);
 
-// <variant not_halved>
-// caught by: rotation-vector
+// <variant not_halved> caught by: rotation-vector
 // mistake: Forgets that R - R^T holds twice the sine.
 // <solution rotationVector>
 const Eigen::Vector3d twice(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1));
 const double angle = std::acos(std::clamp((R.trace() - 1) / 2, -1., 1.));
 return angle / std::sin(angle) * twice;
 
-// <variant axis_alone>
-// caught by: rotation-vector
+// <variant axis_alone> caught by: rotation-vector
 // mistake: Returns the axis without the angle.
 // <solution rotationVector>
 return Eigen::Vector3d(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1)).normalized();
 
-// <variant as_printed>
-// caught by: quaternions
+// <variant as_printed> caught by: quaternions
 // mistake: Believes slide 2:10.
 // <solution composed>
-const Eigen::Vector3d u = a.tail<3>(), v = b.tail<3>();
-Eigen::Vector4d product;
+// in place of: product << a[0] * b[0] - u.dot(v), a[0] * v + b[0] * u + u.cross(v);
 product << a[0] * b[0] - u.dot(v), a[0] * v + b[0] * u + v.cross(u);
-return product;
 
-// <variant scalar_last>
-// caught by: quaternions
+// <variant scalar_last> caught by: quaternions
 // mistake: Takes the last number for the scalar.
 // <solution composed>
 const Eigen::Vector3d u = a.head<3>(), v = b.head<3>();
@@ -84,17 +71,13 @@ Eigen::Vector4d product;
 product << a[3] * v + b[3] * u + u.cross(v), a[3] * b[3] - u.dot(v);
 return product;
 
-// <variant own_scalars>
-// caught by: quaternions
+// <variant own_scalars> caught by: quaternions
 // mistake: Multiplies each vector part by its own scalar.
 // <solution composed>
-const Eigen::Vector3d u = a.tail<3>(), v = b.tail<3>();
-Eigen::Vector4d product;
+// in place of: product << a[0] * b[0] - u.dot(v), a[0] * v + b[0] * u + u.cross(v);
 product << a[0] * b[0] - u.dot(v), a[0] * u + b[0] * v + u.cross(v);
-return product;
 
-// <variant longer_way>
-// caught by: interpolation
+// <variant longer_way> caught by: interpolation
 // shown by: interpolation
 // mistake: Does not ask which of b and -b is nearer.
 // <solution between>
@@ -102,80 +85,62 @@ const double arc = std::acos(std::clamp(a.dot(b), -1., 1.));
 if (arc < 1e-9 || arc > 3.14159) return a;
 return (std::sin((1 - share) * arc) * a + std::sin(share * arc) * b) / std::sin(arc);
 
-// <variant straight_line>
-// caught by: interpolation
+// <variant straight_line> caught by: interpolation
 // shown by: interpolation
 // mistake: Interpolates linearly and normalises.
 // <solution between>
 const Eigen::Vector4d end = a.dot(b) < 0 ? Eigen::Vector4d(-b) : b;
 return ((1 - share) * a + share * end).normalized();
 
-// <variant divides_by_zero>
-// caught by: interpolation
+// <variant divides_by_zero> caught by: interpolation
 // mistake: Divides by the sine of the arc, even if it is 0.
 // <solution between>
 const Eigen::Vector4d end = a.dot(b) < 0 ? Eigen::Vector4d(-b) : b;
 const double arc = std::acos(std::min(a.dot(end), 1.));
 return (std::sin((1 - share) * arc) * a + std::sin(share * arc) * end) / std::sin(arc);
 
-// <variant about_fixed_axes>
-// caught by: euler-matrix
+// <variant about_fixed_axes> caught by: euler-matrix
 // shown by: euler-matrix
 // mistake: Multiplies in the reverse order: rotations about fixed axes.
 // <solution eulerMatrix>
-const auto about = [&](int axis, int angle) -> Eigen::Matrix3d {
-  return rotationMatrix(Eigen::Vector3d::Unit(axis), angles[angle]);
-};
+// in place of: if (convention == Convention::k313) return about(2, 0) * ... return about(2, 0) * about(1, 1)
 if (convention == Convention::k313) return about(2, 2) * about(0, 1) * about(2, 0);
 return about(0, 2) * about(1, 1) * about(2, 0);
 
-// <variant reverse_angles>
-// caught by: euler-matrix
+// <variant reverse_angles> caught by: euler-matrix
 // mistake: Takes the angles as roll, pitch, yaw.
 // <solution eulerMatrix>
-const auto about = [&](int axis, int angle) -> Eigen::Matrix3d {
-  return rotationMatrix(Eigen::Vector3d::Unit(axis), angles[angle]);
-};
+// in place of: if (convention == Convention::k313) return about(2, 0) * ... return about(2, 0) * about(1, 1)
 if (convention == Convention::k313) return about(2, 2) * about(0, 1) * about(2, 0);
 return about(2, 2) * about(1, 1) * about(0, 0);
 
-// <variant conventions_exchanged>
-// caught by: euler-matrix
+// <variant conventions_exchanged> caught by: euler-matrix
 // mistake: Takes one convention for the other.
 // <solution eulerMatrix>
-const auto about = [&](int axis, int angle) -> Eigen::Matrix3d {
-  return rotationMatrix(Eigen::Vector3d::Unit(axis), angles[angle]);
-};
+// in place of: if (convention == Convention::k313) return about(2, 0) * about(0, 1) * about(2, 2);
 if (convention != Convention::k313) return about(2, 0) * about(0, 1) * about(2, 2);
-return about(2, 0) * about(1, 1) * about(0, 2);
 
-// <variant second_about_y>
-// caught by: euler-matrix
+// <variant second_about_y> caught by: euler-matrix
 // mistake: Turns about z, y, z: 3-2-3.
 // <solution eulerMatrix>
-const auto about = [&](int axis, int angle) -> Eigen::Matrix3d {
-  return rotationMatrix(Eigen::Vector3d::Unit(axis), angles[angle]);
-};
+// in place of: if (convention == Convention::k313) return about(2, 0) * ... return about(2, 0) * about(1, 1)
 return about(2, 0) * about(1, 1) * (convention == Convention::k313 ? about(2, 2) : about(0, 2));
 
-// <variant quadrants_lost>
-// caught by: euler-angles, euler-locked
+// <variant quadrants_lost> caught by: euler-angles, euler-locked
 // mistake: Takes atan of a quotient.
 // <solution eulerAngles>
 if (convention == Convention::k313)
   return {std::atan(-R(0, 2) / R(1, 2)), std::acos(R(2, 2)), std::atan(R(2, 0) / R(2, 1))};
 return {std::atan(R(1, 0) / R(0, 0)), -std::asin(R(2, 0)), std::atan(R(2, 1) / R(2, 2))};
 
-// <variant sign_of_cosine>
-// caught by: euler-angles
+// <variant sign_of_cosine> caught by: euler-angles
 // mistake: Forgets the minus in the first angle of 3-1-3.
 // <solution eulerAngles>
 if (convention == Convention::k313)
   return {std::atan2(R(0, 2), R(1, 2)), std::acos(R(2, 2)), std::atan2(R(2, 0), R(2, 1))};
 return {std::atan2(R(1, 0), R(0, 0)), -std::asin(R(2, 0)), std::atan2(R(2, 1), R(2, 2))};
 
-// <variant lock_forgotten>
-// caught by: euler-locked
+// <variant lock_forgotten> caught by: euler-locked
 // mistake: Knows no gimbal lock: divides rounding errors.
 // <solution eulerAngles>
 const double s = std::hypot(R(0, 2), R(1, 2)), c = std::hypot(R(0, 0), R(1, 0));
@@ -183,28 +148,20 @@ if (convention == Convention::k313)
   return {std::atan2(R(0, 2), -R(1, 2)), std::atan2(s, R(2, 2)), std::atan2(R(2, 0), R(2, 1))};
 return {std::atan2(R(1, 0), R(0, 0)), std::atan2(-R(2, 0), c), std::atan2(R(2, 1), R(2, 2))};
 
-// <variant axes_unmoved>
-// caught by: euler-axes, euler-lost
+// <variant axes_unmoved> caught by: euler-axes, euler-lost
 // shown by: euler-axes
 // mistake: Leaves the axes where they are at zero.
 // <solution turningAxes>
-const bool is313 = convention == Convention::k313;
-Eigen::Matrix3d A;
+// in place of: A << Eigen::Vector3d::UnitZ(), eulerMatrix(convention, ... eulerMatrix(convention,
 A << Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Unit(is313 ? 0 : 1), Eigen::Vector3d::Unit(is313 ? 2 : 0);
-return A;
 
-// <variant axes_of_the_body>
-// caught by: euler-axes
+// <variant axes_of_the_body> caught by: euler-axes
 // mistake: Gives the axes in the turned frame.
 // <solution turningAxes>
-const bool is313 = convention == Convention::k313;
-Eigen::Matrix3d A;
-A << Eigen::Vector3d::UnitZ(), eulerMatrix(convention, {angles[0], 0, 0}).col(is313 ? 0 : 1),
-    eulerMatrix(convention, angles).col(is313 ? 2 : 0);
+// in place of: return A;
 return eulerMatrix(convention, angles).transpose() * A;
 
-// <variant axes_all_turned>
-// caught by: euler-axes, euler-lost
+// <variant axes_all_turned> caught by: euler-axes, euler-lost
 // mistake: Turns every axis by the whole rotation.
 // <solution turningAxes>
 const bool is313 = convention == Convention::k313;
@@ -212,74 +169,63 @@ Eigen::Matrix3d A;
 A << Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Unit(is313 ? 0 : 1), Eigen::Vector3d::Unit(is313 ? 2 : 0);
 return eulerMatrix(convention, angles) * A;
 
-// <variant axis_that_is_left>
-// caught by: euler-lost
+// <variant axis_that_is_left> caught by: euler-lost
 // shown by: euler-lost
 // mistake: Returns the axis that occurs twice.
 // <solution lostAxis>
 return turningAxes(convention, angles).col(2);
 
-// <variant axis_of_pitch>
-// caught by: euler-lost
+// <variant axis_of_pitch> caught by: euler-lost
 // mistake: Returns the axis of the second rotation.
 // <solution lostAxis>
 return turningAxes(convention, angles).col(1);
 
-// <variant rates_in_place_of_axis>
-// caught by: euler-lost
+// <variant rates_in_place_of_axis> caught by: euler-lost
 // mistake: Returns the rates that turn nothing.
 // <solution lostAxis>
 return svd(turningAxes(convention, angles)).V.col(2);
 
-// <variant position_negated>
-// caught by: transforms
+// <variant position_negated> caught by: transforms
 // mistake: Negates the position, but does not turn it.
 // <solution inverted>
 const Eigen::Matrix3d R_BA = X_AB.topLeftCorner(3, 3).transpose();
 return transform(R_BA, -X_AB.topRightCorner(3, 1));
 
-// <variant position_not_negated>
-// caught by: transforms
+// <variant position_not_negated> caught by: transforms
 // mistake: Turns the position, but does not negate it.
 // <solution inverted>
 const Eigen::Matrix3d R_BA = X_AB.topLeftCorner(3, 3).transpose();
 return transform(R_BA, R_BA* X_AB.topRightCorner(3, 1));
 
-// <variant transposed_transform>
-// caught by: transforms
+// <variant transposed_transform> caught by: transforms
 // mistake: Transposes the whole matrix.
 // <solution inverted>
 return X_AB.transpose();
 
-// <variant other_way_round>
-// caught by: transforms
+// <variant other_way_round> caught by: transforms
 // mistake: Gives A as seen from B.
 // <solution seenFrom>
 return inverted(X_WB) * X_WA;
 
-// <variant factors_exchanged>
-// caught by: transforms
+// <variant factors_exchanged> caught by: transforms
 // mistake: Multiplies in the wrong order.
 // <solution seenFrom>
 return X_WB * inverted(X_WA);
 
-// <variant always_about_x>
-// caught by: end
+// <variant always_about_x> caught by: end
 // mistake: Turns about x, as slide 2:16 does.
 // <solution jointMotion>
 if (joint.kind == JointKind::kPrismatic) return transform(Eigen::Matrix3d::Identity(), {q, 0, 0});
 return transform(rotationMatrix({1, 0, 0}, q), {0, 0, 0});
 
-// <variant joint_in_its_parent>
-// caught by: end
+// <variant joint_in_its_parent> caught by: end
 // mistake: Puts the joint into its parent, too.
 // <solution jointMotion>
 if (joint.kind == JointKind::kPrismatic)
   return joint.X_PJ * transform(Eigen::Matrix3d::Identity(), q* joint.axis);
 return joint.X_PJ * transform(rotationMatrix(joint.axis, q), {0, 0, 0});
 
-// <variant end_frame_forgotten>
-// caught by: end, end-robots
+// <variant end_frame_forgotten> caught by: end, end-robots
 // shown by: end
 // mistake: Stops at the last joint.
 // <solution endPose>
@@ -288,8 +234,7 @@ int i = 0;
 for (const ChainJoint& joint : chain.joints) X = X * joint.X_PJ * jointMotion(joint, q[i++]);
 return X;
 
-// <variant moves_too_early>
-// caught by: end, end-robots
+// <variant moves_too_early> caught by: end, end-robots
 // mistake: Moves each joint before it is where it belongs.
 // <solution endPose>
 Eigen::Matrix4d X = Eigen::Matrix4d::Identity();
@@ -297,8 +242,7 @@ int i = 0;
 for (const ChainJoint& joint : chain.joints) X = X * jointMotion(joint, q[i++]) * joint.X_PJ;
 return X * chain.X_ME;
 
-// <variant reverse_product>
-// caught by: end, end-robots
+// <variant reverse_product> caught by: end, end-robots
 // mistake: Multiplies from the left.
 // <solution endPose>
 Eigen::Matrix4d X = Eigen::Matrix4d::Identity();
@@ -306,8 +250,7 @@ int i = 0;
 for (const ChainJoint& joint : chain.joints) X = joint.X_PJ * jointMotion(joint, q[i++]) * X;
 return chain.X_ME * X;
 
-// <variant joint_at_the_origin>
-// caught by: point, jacobian-robots
+// <variant joint_at_the_origin> caught by: point, jacobian-robots
 // shown by: point
 // mistake: Forgets p_i.
 // <solution pointJacobian>
@@ -315,40 +258,35 @@ const Eigen::Vector3d p = (endPose(chain, q) * p_E.homogeneous()).head<3>();
 int i = 0;
 for (const auto& [a, at, turns] : jointLines(chain, q)) J.col(i++) = turns ? a.cross(p).eval() : a;
 
-// <variant cross_product_reversed>
-// caught by: point, jacobian-robots
+// <variant cross_product_reversed> caught by: point, jacobian-robots
 // mistake: Exchanges the factors of the cross product.
 // <solution pointJacobian>
 const Eigen::Vector3d p = (endPose(chain, q) * p_E.homogeneous()).head<3>();
 int i = 0;
 for (const auto& [a, at, turns] : jointLines(chain, q)) J.col(i++) = turns ? (p - at).cross(a).eval() : a;
 
-// <variant point_at_the_end>
-// caught by: point, jacobian-robots
+// <variant point_at_the_end> caught by: point, jacobian-robots
 // mistake: Takes the origin of the end for the point.
 // <solution pointJacobian>
 const Eigen::Vector3d p = endPose(chain, q).topRightCorner(3, 1) + 0 * p_E;
 int i = 0;
 for (const auto& [a, at, turns] : jointLines(chain, q)) J.col(i++) = turns ? a.cross(p - at).eval() : a;
 
-// <variant sliding_joint_turns>
-// caught by: point
+// <variant sliding_joint_turns> caught by: point
 // mistake: Treats sliding joints like turning ones.
 // <solution pointJacobian>
 const Eigen::Vector3d p = (endPose(chain, q) * p_E.homogeneous()).head<3>();
 int i = 0;
 for (const auto& [a, at, turns] : jointLines(chain, q)) J.col(i++) = a.cross(p - at);
 
-// <variant sliding_joint_stays>
-// caught by: point
+// <variant sliding_joint_stays> caught by: point
 // mistake: Lets sliding joints move nothing.
 // <solution pointJacobian>
 const Eigen::Vector3d p = (endPose(chain, q) * p_E.homogeneous()).head<3>();
 int i = 0;
 for (const auto& [a, at, turns] : jointLines(chain, q)) J.col(i++) = (turns ? 1 : 0) * a.cross(p - at);
 
-// <variant axis_in_its_own_frame>
-// caught by: point, jacobian-robots
+// <variant axis_in_its_own_frame> caught by: point, jacobian-robots
 // mistake: Does not turn the axis into the world.
 // <solution pointJacobian>
 const Eigen::Vector3d p = (endPose(chain, q) * p_E.homogeneous()).head<3>();
@@ -358,52 +296,40 @@ for (int i = 0; i < J.cols(); ++i) {
   J.col(i) = kind == JointKind::kRevolute ? a.cross(arm).eval() : a;
 }
 
-// <variant vector_not_turned>
-// caught by: vector, jacobian-robots
+// <variant vector_not_turned> caught by: vector, jacobian-robots
 // mistake: Takes v_E for a vector in the world.
 // <solution vectorJacobian>
 int i = 0;
 for (const auto& [a, at, turns] : jointLines(chain, q)) J.col(i++) = (turns ? 1 : 0) * a.cross(v_E);
 
-// <variant vector_like_a_point>
-// caught by: vector, jacobian-robots
+// <variant vector_like_a_point> caught by: vector, jacobian-robots
 // mistake: Treats the vector like a point.
 // <solution vectorJacobian>
 const Eigen::Vector3d v = (endPose(chain, q) * v_E.homogeneous()).head<3>();
 int i = 0;
 for (const auto& [a, at, turns] : jointLines(chain, q)) J.col(i++) = (turns ? 1 : 0) * a.cross(v - at);
 
-// <variant sliding_joint_turns_vector>
-// caught by: vector
+// <variant sliding_joint_turns_vector> caught by: vector
 // mistake: Lets sliding joints turn the vector.
 // <solution vectorJacobian>
 const Eigen::Vector3d v = endPose(chain, q).topLeftCorner(3, 3) * v_E;
 int i = 0;
 for (const auto& [a, at, turns] : jointLines(chain, q)) J.col(i++) = a.cross(v);
 
-// <variant one_sided>
-// caught by: differences
+// <variant one_sided> caught by: differences
 // shown by: differences
 // mistake: One-sided differences with a step that suits central ones.
 // <solution differences>
-const double h = 1e-5;
-for (int i = 0; i < x.size(); ++i) {
-  const Eigen::VectorXd step = h * Eigen::VectorXd::Unit(x.size(), i);
-  J.col(i) = (f(x + step) - f(x)) / h;
-}
+// in place of: J.col(i) = (f(x + step) - f(x - step)) / (2 * h);
+J.col(i) = (f(x + step) - f(x)) / h;
 
-// <variant divided_by_h>
-// caught by: differences
+// <variant divided_by_h> caught by: differences
 // mistake: Divides the central difference by h.
 // <solution differences>
-const double h = 1e-5;
-for (int i = 0; i < x.size(); ++i) {
-  const Eigen::VectorXd step = h * Eigen::VectorXd::Unit(x.size(), i);
-  J.col(i) = (f(x + step) - f(x - step)) / h;
-}
+// in place of: J.col(i) = (f(x + step) - f(x - step)) / (2 * h);
+J.col(i) = (f(x + step) - f(x - step)) / h;
 
-// <variant step_too_small>
-// caught by: differences
+// <variant step_too_small> caught by: differences
 // mistake: Chooses the step as small as can be.
 // <solution differences>
 const double h = 1e-12;
@@ -412,51 +338,44 @@ for (int i = 0; i < x.size(); ++i) {
   J.col(i) = (f(x + step) - f(x - step)) / (2 * h);
 }
 
-// <variant not_rooted>
-// caught by: ellipsoid
+// <variant not_rooted> caught by: ellipsoid
 // shown by: ellipsoid
 // mistake: Takes the eigenvalues of J J^T for the radii.
 // <solution manipulability>
 const SingularValues parts = svd(J * J.transpose());
 return {parts.U, parts.s, std::sqrt(parts.s.prod())};
 
-// <variant determinant_not_rooted>
-// caught by: ellipsoid
+// <variant determinant_not_rooted> caught by: ellipsoid
 // mistake: Forgets the root of the measure.
 // <solution manipulability>
 const SingularValues parts = svd(J);
 return {parts.U, parts.s, parts.s.prod() * parts.s.prod()};
 
-// <variant ascending>
-// caught by: ellipsoid
+// <variant ascending> caught by: ellipsoid
 // mistake: Begins with the shortest axis.
 // <solution manipulability>
 const SingularValues parts = svd(J);
 return {parts.U.rowwise().reverse(), parts.s.reverse(), parts.s.prod()};
 
-// <variant axes_as_rows>
-// caught by: ellipsoid
+// <variant axes_as_rows> caught by: ellipsoid
 // mistake: Returns the axes as rows.
 // <solution manipulability>
 const SingularValues parts = svd(J);
 return {parts.U.transpose(), parts.s, parts.s.prod()};
 
-// <variant velocity_not_turned>
-// caught by: screw, screw-chain
+// <variant velocity_not_turned> caught by: screw, screw-chain
 // mistake: Moves along v all the time, though v turns.
 // <solution screwMotion>
 return transform(screw.w.norm() > 0 ? rotationMatrix(screw.w, q) : Eigen::Matrix3d::Identity(), q* screw.v);
 
-// <variant about_the_position>
-// caught by: screw, screw-chain
+// <variant about_the_position> caught by: screw, screw-chain
 // mistake: Takes v for the position of the axis.
 // <solution screwMotion>
 if (screw.w.norm() < 1e-12) return transform(Eigen::Matrix3d::Identity(), q* screw.v);
 const Eigen::Matrix3d R = rotationMatrix(screw.w, q);
 return transform(R, screw.v - R * screw.v);
 
-// <variant velocity_of_the_axis>
-// caught by: screw-chain
+// <variant velocity_of_the_axis> caught by: screw-chain
 // shown by: screw-chain
 // mistake: Takes w x p for the velocity of the origin.
 // <solution screwsOf>
@@ -464,23 +383,20 @@ auto screw = screws.begin();
 for (const auto& [a, p, turns] : jointLines(chain, Eigen::VectorXd::Zero(9)))
   *screw++ = turns ? Screw{a, a.cross(p)} : Screw{0 * a, a};
 
-// <variant position_for_velocity>
-// caught by: screw-chain
+// <variant position_for_velocity> caught by: screw-chain
 // mistake: Takes the position of the joint for v.
 // <solution screwsOf>
 auto screw = screws.begin();
 for (const auto& [a, p, turns] : jointLines(chain, Eigen::VectorXd::Zero(9)))
   *screw++ = turns ? Screw{a, p} : Screw{0 * a, a};
 
-// <variant first_joint_first>
-// caught by: screw-chain
+// <variant first_joint_first> caught by: screw-chain
 // shown by: screw-chain
 // mistake: Moves the first joint first.
 // <solution endPoseByScrews>
 for (int i = 0; i < q.size(); ++i) X = screwMotion(screws[static_cast<std::size_t>(i)], q[i]) * X;
 
-// <variant start_in_the_middle>
-// caught by: screw-chain
+// <variant start_in_the_middle> caught by: screw-chain
 // mistake: Multiplies the screws to the right of X_WE0.
 // <solution endPoseByScrews>
 for (int i = 0; i < q.size(); ++i) X = X * screwMotion(screws[static_cast<std::size_t>(i)], q[i]);
