@@ -284,13 +284,23 @@ std::vector<ClassedAttack> classedAttacks() {
   return attacks;
 }
 
+// The text of an attack, with the tools in place of the line that includes them.
+std::string textOfAttack(const std::string& name) {
+  constexpr std::string_view kInclude = "#include \"attack_tools.h\"\n";
+  const fs::path folder = kFolder / "attacks_by_class";
+  std::string text = readTextFile(folder / (name + ".cpp"));
+  if (const std::size_t include = text.find(kInclude); include != text.npos)
+    text.replace(include, kInclude.size(), readTextFile(folder / "attack_tools.h"));
+  return text;
+}
+
 class Classes : public Battery, public ::testing::WithParamInterface<ClassedAttack> {
  protected:
   // What follows a line "// double N" is doubled N times, so that long files are short here; if it says "in
   // one line", all of it is on the line before.
   fs::path source() const {
     constexpr std::string_view kMark = "// double ";
-    std::string text = readTextFile(kFolder / "attacks_by_class" / (GetParam().file + ".cpp"));
+    std::string text = textOfAttack(GetParam().file);
     if (const std::size_t mark = text.find(kMark); mark != text.npos) {
       const std::size_t start = text.find('\n', mark) + 1;
       const int times = std::stoi(text.substr(mark + kMark.size()));
@@ -339,8 +349,9 @@ INSTANTIATE_TEST_SUITE_P(All, Classes, ::testing::ValuesIn(classedAttacks()),
 
 // The walls are what stops them: with the whole library in the worker an attack finds the forbidden function.
 TEST_F(Battery, FindsTheAnswerWhereItIsInMemory) {
-  const SubmissionOptions options =
-      optionsFor(kFolder / "attacks_by_class" / "A_header_below_return_address.cpp", 0, "attack");
+  const fs::path file = temporary_.path() / "source" / "main.cpp";
+  writeTextFile(file, textOfAttack("A_header_below_return_address"));
+  const SubmissionOptions options = optionsFor(file, 0, "attack");
   Toolchain whole = toolchain_;
   whole.workerPart.clear();
   whole.offers.clear();
