@@ -21,7 +21,7 @@ struct ArmPlan {
 /// no path.
 [[nodiscard]] Measurement ourConnect(const ArmPlan& plan);
 /// OMPL with FCL; empty: one of them is not installed.
-#if defined(REX_WITH_OMPL) && defined(REX_WITH_FCL)
+#ifdef REX_WITH_OMPL
 [[nodiscard]] Measurement omplConnect(const ContactScene& scene, const ArmPlan& plan);
 #else
 [[nodiscard]] inline Measurement omplConnect(const ContactScene&, const ArmPlan&) { return {}; }

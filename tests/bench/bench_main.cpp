@@ -34,20 +34,12 @@ struct Group {
 };
 
 const std::vector<Group>& groups() {
-  static const std::vector<Group> kGroups = {{"collision", {collisionRows}},
-                                             {"control", {controlRows}},
-                                             {"dynamics", {dynamicsRows, steppingRows}},
-                                             {"estimation", {estimationRows}},
-                                             {"grading", {gradingRows}},
-                                             {"growth", {growthRows}},
-                                             {"ik", {ikRows}},
-                                             {"kinematics", {kinematicsRows}},
-                                             {"learning", {cmaRows, policySearchRows}},
-                                             {"physics", {physicsRows}},
-                                             {"planning", {planningRows, rrtStarRows}},
-                                             {"render", {renderRows}},
-                                             {"scene", {sceneRows}},
-                                             {"trajectory", {trajectoryRows}}};
+  static const std::vector<Group> kGroups = {
+      {"collision", {collisionRows}},   {"control", {controlRows}}, {"dynamics", {dynamicsRows}},
+      {"estimation", {estimationRows}}, {"grading", {gradingRows}}, {"ik", {ikRows}},
+      {"kinematics", {kinematicsRows}}, {"optim", {cmaRows}},       {"physics", {physicsRows}},
+      {"planning", {planningRows}},     {"render", {renderRows}},   {"scene", {sceneRows}},
+      {"trajectory", {trajectoryRows}}};
   return kGroups;
 }
 

@@ -13,35 +13,6 @@
 namespace rex::bench {
 namespace {
 
-constexpr int kSeeds = 40;
-
-// Evaluations of the successful runs divided by their share.
-double evaluationsPerSuccess(const TestFunction& function, int n, int lambda) {
-  double spent = 0, successes = 0;
-  for (int seed = 0; seed < kSeeds; ++seed) {
-    Rng rng(static_cast<std::uint64_t>(seed));
-    const Eigen::VectorXd start = rng.uniformVector(n, function.low, function.high);
-    const SearchResult result =
-        minimizeByCma(batched(function.value), start, Eigen::VectorXd::Constant(n, function.deviation), rng,
-                      {.lambda = lambda}, {.target = function.target});
-    if (result.status != SearchStatus::kTargetReached) continue;
-    spent += static_cast<double>(result.evaluations);
-    ++successes;
-  }
-  return spent * kSeeds / (successes * successes);
-}
-
-// Against the table of slide 9:32; the target leaves room for luck.
-Row row(const char* name, int n, int lambda, double published) {
-  return {.name = "cma-" + std::string(name) + "-" + std::to_string(n),
-          .ours = [=] { return evaluationsPerSuccess(testFunction(name), n, lambda); },
-          .peerName = "published",
-          .peer = [=] { return published; },
-          .target = 1.15,
-          .unit = "k",
-          .repetitions = 1};
-}
-
 // A generation: samples, their values, and all that is learnt from them.
 Row generationRow() {
   constexpr int n = 20, kLambda = 20, kGenerations = 400;
@@ -74,11 +45,6 @@ Row generationRow() {
 
 }  // namespace
 
-std::vector<Row> cmaRows() {
-  return {
-      row("ackley", 20, 12, 2667),    row("ackley", 30, 13, 3701),       row("griewank", 20, 15, 3111),
-      row("griewank", 30, 13, 4455),  row("rastrigin", 20, 600, 68586),  row("rastrigin", 30, 1000, 147416),
-      row("schwefel", 5, 600, 43810), row("schwefel", 10, 1500, 240899), generationRow()};
-}
+std::vector<Row> cmaRows() { return {generationRow()}; }
 
 }  // namespace rex::bench

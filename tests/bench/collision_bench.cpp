@@ -2,7 +2,6 @@
 
 #include "bench/contact_scene.h"
 #include "bench/row.h"
-#include "collision/contacts.h"
 
 namespace rex::bench {
 namespace {
@@ -23,10 +22,7 @@ Measurement inTurn(const ContactPeer& peer) {
 
 std::vector<Row> collisionRows() {
   const auto scene = std::make_shared<ContactScene>();
-  const Measurement bullet = inTurn(bulletPeer(*scene)), fcl = inTurn(fclPeer(*scene));
-  const auto distances = [scene, out = Eigen::MatrixXd()]() mutable {
-    contactDistancesBatch(scene->contacts, scene->batch, out);
-  };
+  const Measurement fcl = inTurn(fclPeer(*scene));
   const auto free = [scene, out = Eigen::Array<bool, Eigen::Dynamic, 1>()]() mutable {
     contactFreeBatch(scene->contacts, scene->batch, 0, out);
   };
@@ -37,13 +33,8 @@ std::vector<Row> collisionRows() {
   const auto freeInTurn = [scene, ones] {
     for (const PoseBatch& one : *ones) static_cast<void>(allContactFree(scene->contacts, one, 0));
   };
-  const auto single = [scene] {
-    for (const BodyPoses& poses : scene->poses) static_cast<void>(proxies(scene->contacts, poses));
-  };
-  return {{"distances-batch-arm7", perPosture(distances), "Bullet", bullet, 0.2},
-          {"contact-free-batch-arm7", perPosture(free), "FCL", fcl, 0.15},
-          {"contact-free-arm7", perPosture(freeInTurn), "FCL", fcl},
-          {"proxies-arm7", perPosture(single), "Bullet", bullet}};
+  return {{"contact-free-batch-arm7", perPosture(free), "FCL", fcl, 0.15},
+          {"contact-free-arm7", perPosture(freeInTurn), "FCL", fcl}};
 }
 
 }  // namespace rex::bench

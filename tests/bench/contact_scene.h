@@ -27,10 +27,9 @@ struct ContactScene {
   }
 };
 
-/// Whether there is contact at posture k of the scene, as peers say; throw std::logic_error where they and we
-/// disagree by more than their own tolerance. Empty: not installed.
+/// Whether there is contact at posture k of the scene, as FCL says; throws std::logic_error where it and we
+/// disagree by more than its own tolerance. Empty: not installed.
 using ContactPeer = std::function<bool(int k)>;
-[[nodiscard]] ContactPeer bulletPeer(const ContactScene& scene);
 #ifdef REX_WITH_FCL
 [[nodiscard]] ContactPeer fclPeer(const ContactScene& scene);
 /// Whether there is contact where the bodies are there.

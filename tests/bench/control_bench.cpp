@@ -98,6 +98,6 @@ Row predictiveRow() {
 
 }  // namespace
 
-std::vector<Row> controlRows() { return {careRow(4), careRow(10), careRow(50), predictiveRow()}; }
+std::vector<Row> controlRows() { return {careRow(50), predictiveRow()}; }
 
 }  // namespace rex::bench

@@ -1,10 +1,9 @@
 #include <memory>
 
-#include "base/cpu_lanes.h"
 #include "base/rng.h"
 #include "bench/dynamics_peer.h"
 #include "bench/row.h"
-#include "dynamics/dynamics_batch_internal.h"
+#include "dynamics/dynamics_batch.h"
 #include "dynamics/forward_dynamics.h"
 #include "dynamics/mass_matrix.h"
 
@@ -28,13 +27,11 @@ struct Workspace {
                          result);
   }
   void massMatrix(int k) { rex::massMatrix(robot.model, robot.Q.col(k), memory, M); }
-  void inverseDynamicsBatch(int lanes) {
-    internal::inverseDynamicsBatch(kernelFor<internal::InverseDynamicsKernel>(lanes), robot.model, robot.Q,
-                                   robot.V, robot.A, gravity_W, memory, results);
+  void inverseDynamicsBatch() {
+    rex::inverseDynamicsBatch(robot.model, robot.Q, robot.V, robot.A, gravity_W, memory, results);
   }
-  void forwardDynamicsBatch(int lanes) {
-    internal::forwardDynamicsBatch(kernelFor<internal::ForwardDynamicsKernel>(lanes), robot.model, robot.Q,
-                                   robot.V, robot.U, gravity_W, memory, results);
+  void forwardDynamicsBatch() {
+    rex::forwardDynamicsBatch(robot.model, robot.Q, robot.V, robot.U, gravity_W, memory, results);
   }
 
   MovingRobot robot;
@@ -48,12 +45,11 @@ using Ours = std::shared_ptr<Workspace>;
 
 void addInverseDynamics(const Ours& ours, const DynamicsPeer& mujoco, std::vector<Row>& rows) {
   const auto theirs = timedInTurn(mujoco.inverseDynamics);
-  const auto batch = [&](int lanes) { return timedPerPosture([=] { ours->inverseDynamicsBatch(lanes); }); };
   const std::string on = "-" + ours->robot.name;
   rows.push_back(
       {"rnea" + on, timedInTurn([ours](int k) { ours->inverseDynamics(k); }), "MuJoCo", theirs, 0.3});
-  rows.push_back({"rnea-batch" + on, batch(cpuLanes()), "MuJoCo", theirs, 0.08});
-  rows.push_back({"rnea-batch-2-lanes" + on, batch(2), "MuJoCo", theirs, 0.2});
+  rows.push_back(
+      {"rnea-batch" + on, timedPerPosture([ours] { ours->inverseDynamicsBatch(); }), "MuJoCo", theirs, 0.08});
 }
 
 void addMassMatrix(const Ours& ours, const DynamicsPeer& mujoco, std::vector<Row>& rows) {
@@ -63,12 +59,11 @@ void addMassMatrix(const Ours& ours, const DynamicsPeer& mujoco, std::vector<Row
 
 void addForwardDynamics(const Ours& ours, const DynamicsPeer& mujoco, std::vector<Row>& rows) {
   const auto theirs = timedInTurn(mujoco.forwardDynamics);
-  const auto batch = [&](int lanes) { return timedPerPosture([=] { ours->forwardDynamicsBatch(lanes); }); };
   const std::string on = "-" + ours->robot.name;
   rows.push_back({"forward-dynamics" + on, timedInTurn([ours](int k) { ours->forwardDynamics(k); }), "MuJoCo",
                   theirs, 0.5});
-  rows.push_back({"forward-dynamics-batch" + on, batch(cpuLanes()), "MuJoCo", theirs, 0.14});
-  rows.push_back({"forward-dynamics-batch-2-lanes" + on, batch(2), "MuJoCo", theirs, 0.35});
+  rows.push_back({"forward-dynamics-batch" + on, timedPerPosture([ours] { ours->forwardDynamicsBatch(); }),
+                  "MuJoCo", theirs, 0.14});
 }
 
 }  // namespace

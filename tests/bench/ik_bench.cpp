@@ -1,17 +1,11 @@
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <memory>
-#include <stdexcept>
-
-#include <fmt/format.h>
 
 #include "base/rng.h"
-#include "bench/ik_boxes.h"
 #include "bench/ik_peer.h"
 #include "bench/row.h"
 #include "geometry/rotation.h"
-#include "kinematics/closed_form_arm.h"
 #include "kinematics/inverse_kinematics_solver.h"
 #include "kinematics/task_maps.h"
 #include "scene/urdf_reader.h"
@@ -40,7 +34,7 @@ std::shared_ptr<ReachableRobot> reachableRobot(const std::string& name, const st
   return robot;
 }
 
-IkPeer::Solve ours(const std::shared_ptr<ReachableRobot>& robot) {
+SolveIk ours(const std::shared_ptr<ReachableRobot>& robot) {
   return [robot](std::size_t k) {
     const Task task{.name = "tip", .map = poseTask(robot->tip, robot->targets[k]), .tolerance = kTolerance};
     Rng rng(k);
@@ -57,7 +51,7 @@ bool isSolved(const ReachableRobot& robot, const Eigen::VectorXd& q, std::size_t
 }
 
 // The share of all poses that a solver misses; measured like a time, in seconds that mean nothing.
-Measurement missedShare(const std::shared_ptr<ReachableRobot>& robot, const IkPeer::Solve& solve) {
+Measurement missedShare(const std::shared_ptr<ReachableRobot>& robot, const SolveIk& solve) {
   if (!solve) return {};
   return [=] {
     double missed = 0;
@@ -66,7 +60,7 @@ Measurement missedShare(const std::shared_ptr<ReachableRobot>& robot, const IkPe
   };
 }
 
-Measurement meanTime(const IkPeer::Solve& solve) {
+Measurement meanTime(const SolveIk& solve) {
   if (!solve) return {};
   const Measurement all = timed([=] {
     for (std::size_t k = 0; k < kTimedPoses; ++k) static_cast<void>(solve(k));
@@ -76,70 +70,13 @@ Measurement meanTime(const IkPeer::Solve& solve) {
 
 void addRows(const std::shared_ptr<ReachableRobot>& robot, std::vector<Row>& rows) {
   constexpr double kTimeLimit = 1e-4, kMissedLimit = 1e-3;
-  const IkPeer kdl = kdlIkPeer(*robot);
+  const SolveIk kdl = kdlMarquardt(*robot);
   const Measurement time = meanTime(ours(robot)), missed = missedShare(robot, ours(robot));
   const std::string on = robot->name;
   rows.push_back({"ik-" + on, time, "limit", [] { return kTimeLimit; }, 1, "us"});
-  rows.push_back({"ik-" + on + "-lma", time, "KDL", meanTime(kdl.levenbergMarquardt), {}, "us", 3});
-  rows.push_back({"ik-" + on + "-nr", time, "KDL", meanTime(kdl.newtonWithLimits), {}, "us", 3});
+  rows.push_back({"ik-" + on + "-lma", time, "KDL", meanTime(kdl), {}, "us", 3});
   rows.push_back({"ik-" + on + "-missed", missed, "limit", [] { return kMissedLimit; }, 1, "%", 1});
-  rows.push_back(
-      {"ik-" + on + "-missed-lma", missed, "KDL", missedShare(robot, kdl.levenbergMarquardt), {}, "%", 1});
-  rows.push_back(
-      {"ik-" + on + "-missed-nr", missed, "KDL", missedShare(robot, kdl.newtonWithLimits), {}, "%", 1});
-}
-
-// A chain of six hinges along or across each other, with a tip.
-std::string sixHinges(const std::array<const char*, 6>& origins, const std::array<const char*, 6>& axes) {
-  std::string urdf = "<robot name='arm'><link name='l0'/>";
-  for (std::size_t i = 0; i < 6; ++i)
-    urdf += fmt::format(
-        "<link name='l{1}'/><joint name='j{1}' type='revolute'><parent link='l{0}'/><child link='l{1}'/>"
-        "<origin xyz='{2}'/><axis xyz='{3}'/><limit lower='-3.1' upper='3.1' effort='1' "
-        "velocity='1'/></joint>",
-        i, i + 1, origins[i], axes[i]);
-  return urdf + "</robot>";
-}
-
-// All postures of an arm in closed form: the mean over poses.
-Row closedFormRow(const std::string& name, const std::string& urdf) {
-  const auto model = std::make_shared<const Model>(compile(parseUrdf(urdf, name + ".urdf").spec));
-  const auto arm =
-      std::make_shared<const ClosedFormArm>(ClosedFormArm::of(*model, model->body("l6")).value());
-  const auto targets = std::make_shared<std::vector<Pose>>();
-  Rng rng(1);
-  Eigen::VectorXd q(6);
-  for (std::size_t k = 0; k < kTimedPoses; ++k) {
-    for (double& angle : q) angle = rng.uniform(-3, 3);
-    targets->push_back(forwardKinematics(*model, q)[model->body("l6")]);
-    double nearest = 1;
-    for (const ClosedFormPosture& one : arm->postures(targets->back(), q))
-      nearest = std::min(nearest, (one.q - q).lpNorm<Eigen::Infinity>());
-    if (nearest > 1e-6) throw std::logic_error("a posture is missing");
-  }
-  const Measurement all = timed([=] {
-    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(6);
-    for (const Pose& X_WT : *targets) static_cast<void>(arm->postures(X_WT, zero));
-  });
-  return {name, [=] { return all() / kTimedPoses; }, "limit", [] { return 6e-6; }, 1, "us"};
-}
-
-// A posture free of contact for each pose. All answers are checked first, and each counts that is wrong or
-// missing.
-void addRowsAmongBoxes(std::vector<Row>& rows) {
-  const auto problem = std::make_shared<const IkAmongBoxes>(static_cast<int>(kTimedPoses));
-  double missed = 0;
-  for (std::size_t k = 0; k < kTimedPoses; ++k) {
-    const InverseKinematicsResult found = solve(*problem, k);
-    const bool isSolved = found.status == InverseKinematicsResult::Status::kSolved;
-    if (isSolved && !isRight(*problem, k, found.q)) throw std::logic_error("a posture that is none");
-    missed += isSolved ? 0 : 1. / kTimedPoses;
-  }
-  const Measurement all = timed([=] {
-    for (std::size_t k = 0; k < kTimedPoses; ++k) static_cast<void>(solve(*problem, k));
-  });
-  rows.push_back({.name = "ik-boxes", .ours = [=] { return all() / kTimedPoses; }, .unit = "us"});
-  rows.push_back({.name = "ik-boxes-missed", .ours = [=] { return missed; }, .unit = "%", .repetitions = 1});
+  rows.push_back({"ik-" + on + "-missed-lma", missed, "KDL", missedShare(robot, kdl), {}, "%", 1});
 }
 
 }  // namespace
@@ -155,14 +92,6 @@ std::vector<Row> ikRows() {
     rows.push_back({.name = "ik-panda", .peerName = "no " + panda.filename().string(), .unit = "us"});
   }
   addRows(reachableRobot("arm7dof", sourcePath("data/robots/arm7dof/arm7dof.urdf"), "flange"), rows);
-  addRowsAmongBoxes(rows);
-  const char *x = "1 0 0", *y = "0 1 0", *z = "0 0 1", *none = "0 0 0";
-  rows.push_back(closedFormRow(
-      "ik-6r-wrist",
-      sixHinges({none, ".35 0 .7", "0 0 1.1", ".5 0 -.04", ".7 0 0", none}, {z, y, y, x, y, x})));
-  rows.push_back(closedFormRow("ik-6r-parallel", sixHinges({"0 0 .0892", "0 .1358 0", "0 -.1197 .425",
-                                                            "0 0 .3922", "0 .093 0", "0 0 .0946"},
-                                                           {z, y, y, y, z, y})));
   return rows;
 }
 

@@ -16,18 +16,14 @@ struct ReachableRobot {
   std::vector<Pose> targets;
 };
 
-/// The postures (nq) that two solvers of a peer find for target k, as good as they are. Empty: it is not
-/// installed.
-struct IkPeer {
-  using Solve = std::function<Eigen::VectorXd(std::size_t k)>;
-  Solve levenbergMarquardt{};  ///< knows no joint limits
-  Solve newtonWithLimits{};
-};
+/// The posture (nq) that is found for target k, as good as it is.
+using SolveIk = std::function<Eigen::VectorXd(std::size_t k)>;
 
+/// KDL's solver by Levenberg and Marquardt, which knows no joint limits. Empty: it is not installed.
 #ifdef REX_WITH_KDL
-[[nodiscard]] IkPeer kdlIkPeer(const ReachableRobot& robot);
+[[nodiscard]] SolveIk kdlMarquardt(const ReachableRobot& robot);
 #else
-[[nodiscard]] inline IkPeer kdlIkPeer(const ReachableRobot&) { return {}; }
+[[nodiscard]] inline SolveIk kdlMarquardt(const ReachableRobot&) { return {}; }
 #endif
 
 }  // namespace rex::bench

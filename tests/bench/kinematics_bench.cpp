@@ -1,36 +1,26 @@
 #include <memory>
 #include <stdexcept>
 
-#include "base/cpu_lanes.h"
 #include "bench/kinematics_peer.h"
 #include "bench/row.h"
-#include "kinematics/center_of_mass.h"
 #include "kinematics/jacobian_batch.h"
 #include "kinematics/jacobians.h"
-#include "kinematics/pose_batch_internal.h"
 
 namespace rex::bench {
 namespace {
 
 // Ours, with the storage a hot loop keeps.
 struct Workspace {
-  explicit Workspace(Robot r) : robot(std::move(r)), J(6, robot.model.nv()), J_com(3, robot.model.nv()) {}
+  explicit Workspace(Robot r) : robot(std::move(r)), J(6, robot.model.nv()) {}
 
   void forwardKinematics(int k) { rex::forwardKinematics(robot.model, robot.Q.col(k), poses); }
   void jacobian(int k) {
     forwardKinematics(k);
     poseJacobian(robot.model, poses, robot.tip, Eigen::Vector3d::Zero(), J);
   }
-  void centerOfMassJacobian(int k) {
-    forwardKinematics(k);
-    rex::centerOfMassJacobian(robot.model, poses, moments, J_com);
-  }
-  void forwardKinematicsBatch(int lanes) {
-    const auto kernel = kernelFor<internal::ForwardKinematicsKernel>(lanes);
-    internal::forwardKinematicsBatch(kernel, robot.model, robot.Q, poseBatch);
-  }
+  void forwardKinematicsBatch() { rex::forwardKinematicsBatch(robot.model, robot.Q, poseBatch); }
   void jacobianBatch() {
-    forwardKinematicsBatch(cpuLanes());
+    forwardKinematicsBatch();
     positionJacobianBatch(robot.model, poseBatch, robot.tip, Eigen::Vector3d::Zero(), jacobians);
     angularJacobianBatch(robot.model, poseBatch, robot.tip, angularJacobians);
   }
@@ -40,7 +30,6 @@ struct Workspace {
   PoseBatch poseBatch;
   JacobianBatch jacobians, angularJacobians;
   Matrix6Xd J;
-  Eigen::Matrix3Xd J_com, moments;
 };
 
 }  // namespace
@@ -55,27 +44,19 @@ void requireAgreement(const std::string& what, const Eigen::MatrixXd& ours, cons
 std::vector<Row> kinematicsRows() {
   std::vector<Row> rows;
   for (Robot& robot : robots()) {
-    const KinematicsPeer kdl = kdlPeer(robot), mujoco = mujocoPeer(robot);
+    const KinematicsPeer kdl = kdlPeer(robot);
     const auto ours = std::make_shared<Workspace>(std::move(robot));
     const auto fk = timedInTurn([ours](int k) { ours->forwardKinematics(k); });
     const auto jacobian = timedInTurn([ours](int k) { ours->jacobian(k); });
-    const auto com = timedInTurn([ours](int k) { ours->centerOfMassJacobian(k); });
-    const auto fkBatch = [ours](int lanes) {
-      return timedPerPosture([=] { ours->forwardKinematicsBatch(lanes); });
-    };
+    const auto fkBatch = timedPerPosture([ours] { ours->forwardKinematicsBatch(); });
     const auto jacobianBatch = timedPerPosture([ours] { ours->jacobianBatch(); });
     const std::string on = "-" + ours->robot.name;
     rows.push_back({"fk" + on, fk, "KDL", timedInTurn(kdl.forwardKinematics), 0.35});
-    rows.push_back({"fk" + on + "-mujoco", fk, "MuJoCo", timedInTurn(mujoco.forwardKinematics)});
     // Of the man, KDL computes one chain, and we place all bodies: no target.
-    const std::optional<double> target =
-        on == "-man" ? std::nullopt : std::optional(on == "-arm7" ? 0.2 : 0.18);
+    const std::optional<double> target = on == "-man" ? std::nullopt : std::optional(0.2);
     rows.push_back({"jacobian" + on, jacobian, "KDL", timedInTurn(kdl.jacobian), target});
-    rows.push_back({"jacobian" + on + "-mujoco", jacobian, "MuJoCo", timedInTurn(mujoco.jacobian)});
-    rows.push_back({"fk-batch" + on, fkBatch(cpuLanes()), "KDL", timedInTurn(kdl.forwardKinematics), 0.1});
-    rows.push_back({"fk-batch-2-lanes" + on, fkBatch(2), "KDL", timedInTurn(kdl.forwardKinematics), 0.25});
+    rows.push_back({"fk-batch" + on, fkBatch, "KDL", timedInTurn(kdl.forwardKinematics), 0.1});
     rows.push_back({"jacobian-batch" + on, jacobianBatch, "KDL", timedInTurn(kdl.jacobian)});
-    rows.push_back({"com" + on, com, "MuJoCo", timedInTurn(mujoco.centerOfMassJacobian), 0.35});
   }
   return rows;
 }

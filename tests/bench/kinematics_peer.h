@@ -7,26 +7,19 @@
 namespace rex::bench {
 
 /// What a peer does with a robot at its posture k: all body poses; the six rows of the Jacobian at the tip's
-/// origin, and the centre of mass with its Jacobian, each with the forward kinematics it needs. Empty: it
-/// cannot.
+/// origin, with the forward kinematics it needs. Empty: it is not installed.
 struct KinematicsPeer {
-  std::function<void(int k)> forwardKinematics{}, jacobian{}, centerOfMassJacobian{};
+  std::function<void(int k)> forwardKinematics{}, jacobian{};
 };
 
 /// Throws std::logic_error unless both agree to 1e-10.
 void requireAgreement(const std::string& what, const Eigen::MatrixXd& ours, const Eigen::MatrixXd& theirs);
 
-/// The peers; throw std::logic_error where they compute anything else than rex. Without them all calls are
-/// empty.
+/// Throws std::logic_error where KDL computes anything else than rex.
 #ifdef REX_WITH_KDL
 [[nodiscard]] KinematicsPeer kdlPeer(const Robot& robot);
 #else
 [[nodiscard]] inline KinematicsPeer kdlPeer(const Robot&) { return {}; }
-#endif
-#ifdef REX_WITH_MUJOCO
-[[nodiscard]] KinematicsPeer mujocoPeer(const Robot& robot);
-#else
-[[nodiscard]] inline KinematicsPeer mujocoPeer(const Robot&) { return {}; }
 #endif
 
 }  // namespace rex::bench

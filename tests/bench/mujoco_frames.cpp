@@ -1,6 +1,6 @@
-// mujoco_frames COUNT SHAPES WIDTH HEIGHT SAMPLES SHADOW [FILE]: draws 60 or 30 shapes COUNT times with
-// MuJoCo and prints the CPU seconds of one frame; FILE gets the last one as PPM. A program of its own,
-// because two users of one OSMesa upset each other.
+// mujoco_frames COUNT WIDTH HEIGHT [FILE]: draws 60 shapes COUNT times with MuJoCo and prints the CPU seconds
+// of one frame; FILE gets the last one as PPM. A program of its own, because two users of one OSMesa upset
+// each other.
 #include <cstdio>
 #include <fstream>
 #include <stdexcept>
@@ -32,17 +32,17 @@ std::string geomXml(const Solid& solid) {
                      p.y(), p.z(), q[0], q[1], q[2], q[3], form, solid.color.r);
 }
 
-std::string sceneXml(const FrameKind& kind) {
+std::string sceneXml(const FrameSize& size) {
   std::string xml = fmt::format(
-      R"(<mujoco><visual><global offwidth="{}" offheight="{}" fovy="{}"/><quality offsamples="{}" shadowsize="1024"/></visual>
-<worldbody><light directional="true" pos="0 0 4" dir=".15 .85 -1.5" castshadow="{}"/><geom type="plane" size="10 10 1"/>)",
-      kind.width, kind.height, View().verticalFovDegrees, kind.samples > 1 ? kind.samples : 0, kind.shadow);
-  for (const Solid& solid : kind.shapes == 30 ? thirtyShapes() : sixtyShapes()) xml += geomXml(solid);
+      R"(<mujoco><visual><global offwidth="{}" offheight="{}" fovy="{}"/><quality offsamples="4" shadowsize="1024"/></visual>
+<worldbody><light directional="true" pos="0 0 4" dir=".15 .85 -1.5" castshadow="true"/><geom type="plane" size="10 10 1"/>)",
+      size.width, size.height, View().verticalFovDegrees);
+  for (const Solid& solid : sixtyShapes()) xml += geomXml(solid);
   return xml + "</worldbody></mujoco>";
 }
 
 // MuJoCo finds OpenGL through whichever OSMesa stands in the process, so this must come first.
-void makeOsMesaCurrent(const FrameKind& kind, std::vector<unsigned char>& buffer) {
+void makeOsMesaCurrent(const FrameSize& size, std::vector<unsigned char>& buffer) {
   void* library = dlopen("libOSMesa.so.8", RTLD_NOW | RTLD_GLOBAL);
   if (library == nullptr) throw std::runtime_error("libOSMesa.so.8 (libosmesa6) is not installed");
   using Create = void* (*)(unsigned format, int depth, int stencil, int accumulation, void* shared);
@@ -50,8 +50,8 @@ void makeOsMesaCurrent(const FrameKind& kind, std::vector<unsigned char>& buffer
   const auto create = reinterpret_cast<Create>(dlsym(library, "OSMesaCreateContextExt"));
   const auto makeCurrent = reinterpret_cast<MakeCurrent>(dlsym(library, "OSMesaMakeCurrent"));
   constexpr unsigned kRgba = 0x1908, kUnsignedByte = 0x1401;
-  buffer.resize(static_cast<std::size_t>(4 * kind.width * kind.height));
-  if (!makeCurrent(create(kRgba, 24, 8, 8, nullptr), buffer.data(), kUnsignedByte, kind.width, kind.height))
+  buffer.resize(static_cast<std::size_t>(4 * size.width * size.height));
+  if (!makeCurrent(create(kRgba, 24, 8, 8, nullptr), buffer.data(), kUnsignedByte, size.width, size.height))
     throw std::runtime_error("no OSMesa context");
 }
 
@@ -72,11 +72,11 @@ double cpuSeconds() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-double secondsPerFrame(int count, const FrameKind& kind, std::vector<unsigned char>& rgb) {
+double secondsPerFrame(int count, const FrameSize& size, std::vector<unsigned char>& rgb) {
   std::vector<unsigned char> buffer;
-  makeOsMesaCurrent(kind, buffer);
+  makeOsMesaCurrent(size, buffer);
   // The process ends after this, so nothing is freed.
-  mjModel* model = loadMujoco(sceneXml(kind)).release();
+  mjModel* model = loadMujoco(sceneXml(size)).release();
   mjData* data = mj_makeData(model);
   mj_forward(model, data);
   mjvCamera camera = cameraOf({});
@@ -89,9 +89,9 @@ double secondsPerFrame(int count, const FrameKind& kind, std::vector<unsigned ch
   mjr_defaultContext(&context);
   mjr_makeContext(model, &context, mjFONTSCALE_100);
   mjr_setBuffer(mjFB_OFFSCREEN, &context);
-  scene.flags[mjRND_SHADOW] = kind.shadow ? 1 : 0;
-  rgb.resize(static_cast<std::size_t>(3 * kind.width * kind.height));
-  const mjrRect viewport{0, 0, kind.width, kind.height};
+  scene.flags[mjRND_SHADOW] = 1;
+  rgb.resize(static_cast<std::size_t>(3 * size.width * size.height));
+  const mjrRect viewport{0, 0, size.width, size.height};
   const auto draw = [&] {
     camera.azimuth += 1;
     mjv_updateScene(model, data, &option, nullptr, &camera, mjCAT_ALL, &scene);
@@ -109,14 +109,14 @@ double secondsPerFrame(int count, const FrameKind& kind, std::vector<unsigned ch
 
 int main(int argc, char** argv) {
   try {
-    if (argc < 7) throw std::invalid_argument("wants COUNT SHAPES WIDTH HEIGHT SAMPLES SHADOW [FILE]");
+    if (argc < 4) throw std::invalid_argument("wants COUNT WIDTH HEIGHT [FILE]");
     const auto number = [&](int i) { return std::stoi(argv[i]); };
-    const rex::bench::FrameKind kind{number(2), number(3), number(4), number(5), number(6) != 0};
+    const rex::bench::FrameSize size{number(2), number(3)};
     std::vector<unsigned char> rgb;
-    fmt::print("{}\n", rex::bench::secondsPerFrame(number(1), kind, rgb));
-    if (argc > 7) {
-      std::ofstream file(argv[7], std::ios::binary);
-      file << "P6 " << kind.width << ' ' << kind.height << " 255\n";
+    fmt::print("{}\n", rex::bench::secondsPerFrame(number(1), size, rgb));
+    if (argc > 4) {
+      std::ofstream file(argv[4], std::ios::binary);
+      file << "P6 " << size.width << ' ' << size.height << " 255\n";
       file.write(reinterpret_cast<const char*>(rgb.data()), static_cast<std::streamsize>(rgb.size()));
     }
     return 0;

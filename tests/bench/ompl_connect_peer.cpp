@@ -3,16 +3,41 @@
 
 #include <ompl/base/PlannerTerminationCondition.h>
 #include <ompl/base/ProblemDefinition.h>
+#include <ompl/base/ScopedState.h>
+#include <ompl/base/SpaceInformation.h>
+#include <ompl/base/spaces/RealVectorStateSpace.h>
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
 #include <ompl/util/Console.h>
 #include <ompl/util/RandomNumbers.h>
 
 #include "bench/arm_plans.h"
 #include "bench/cpu_seconds.h"
-#include "bench/ompl_space.h"
+#include "planning/path_problem.h"
 
 namespace rex::bench {
 namespace {
+
+namespace ob = ompl::base;
+
+// The box of a problem as a space of OMPL, whose motions are checked as finely; without a validity checker.
+ob::SpaceInformationPtr omplSpace(const PathProblem& problem) {
+  const auto space = std::make_shared<ob::RealVectorStateSpace>();
+  for (const SpacePart& part : problem.space.parts()) space->addDimension(part.lower, part.upper);
+  const auto information = std::make_shared<ob::SpaceInformation>(space);
+  information->setStateValidityCheckingResolution(problem.resolution / space->getMaximumExtent());
+  return information;
+}
+
+ob::ScopedState<> omplState(const ob::SpaceInformationPtr& information, const Eigen::VectorXd& q) {
+  ob::ScopedState<> state(information);
+  for (Eigen::Index i = 0; i < q.size(); ++i) state[static_cast<unsigned>(i)] = q[i];
+  return state;
+}
+
+void copyNumbers(const ob::State& state, Eigen::VectorXd& q) {
+  const double* numbers = state.as<ob::RealVectorStateSpace::StateType>()->values;
+  for (Eigen::Index i = 0; i < q.size(); ++i) q[i] = numbers[i];
+}
 
 ob::SpaceInformationPtr informationOf(const ContactScene& scene, const ArmPlan& plan) {
   const ob::SpaceInformationPtr information = omplSpace(plan.problem);

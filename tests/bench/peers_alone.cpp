@@ -12,9 +12,6 @@
 #include <btBulletDynamicsCommon.h>
 #include <kdl/chainfksolverpos_recursive.hpp>
 #include <kdl/treejnttojacsolver.hpp>
-#include <ompl/base/ScopedState.h>
-#include <ompl/base/spaces/DubinsStateSpace.h>
-#include <ompl/base/spaces/ReedsSheppStateSpace.h>
 #include <time.h>
 
 namespace {
@@ -71,27 +68,6 @@ void measureArm() {
   print("jacobian-arm7", nanoseconds([&] { jacobian.JntToJac(Q[k = (k + 1) % 16], J, "link6"); }, 50000));
 }
 
-template <class Space>
-double wayLength() {
-  const auto space = std::make_shared<Space>(1.0);
-  std::mt19937 random(1);
-  std::uniform_real_distribution<double> place(-5, 5), heading(-M_PI, M_PI);
-  using State = ompl::base::ScopedState<ompl::base::SE2StateSpace>;
-  std::vector<State> states(1001, State(space));
-  for (State& state : states) {
-    state->setXY(place(random), place(random));
-    state->setYaw(heading(random));
-  }
-  double sum = 0;
-  const double all = nanoseconds(
-      [&] {
-        for (std::size_t i = 0; i < 1000; ++i) sum += space->distance(states[i].get(), states[i + 1].get());
-      },
-      20);
-  if (!(sum > 0)) std::abort();
-  return all / 1000;
-}
-
 // Twenty boxes of .2 m at rest on a plane, with Bullet's own ten iterations.
 void measureBoxes() {
   btDefaultCollisionConfiguration configuration;
@@ -123,8 +99,6 @@ void measureBoxes() {
 int main() {
   std::printf("{\n");
   measureArm();
-  print("dubins", wayLength<ompl::base::DubinsStateSpace>());
-  print("reeds-shepp", wayLength<ompl::base::ReedsSheppStateSpace>());
   measureBoxes();
   std::printf("}\n");
 }

@@ -62,18 +62,14 @@ struct Arm {
 }  // namespace
 
 Eigen::Vector3d Boxes::center(int row, int column) const {
-  const double x = distance * column;
-  return isWall ? Eigen::Vector3d(x, 0, (row + 0.5) * kBoxEdge)
-                : Eigen::Vector3d(x, distance * row, kBoxEdge / 2);
+  return {distance * column, distance * row, kBoxEdge / 2};
 }
 
 std::vector<Row> physicsRows() {
-  const Boxes apart, wall{.columns = 10, .rows = 10, .distance = 0.21, .isWall = true};
+  const Boxes boxes;
   const auto arm =
       std::make_shared<Arm>(compile(readScene(sourcePath("data/robots/arm7dof/arm7dof.urdf")).spec));
-  return {boxesRow("boxes-20-as-many-iterations", apart, PhysicsOptions().iterations, 1 / 0.9),
-          boxesRow("boxes-20", apart, 10, 2.),
-          boxesRow("wall-100-boxes", wall, 10, 1.2),
+  return {boxesRow("boxes-20", boxes, 10, 2.),
           {.name = "physics-arm7",
            .ours = timed([arm] { arm->step(); }),
            .peerName = "limit",

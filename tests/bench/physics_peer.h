@@ -6,12 +6,10 @@
 
 namespace rex::bench {
 
-/// Equal boxes on a plane: `columns` side by side, at `distance` from centre to centre, in rows one behind
-/// the other or, as a wall, one on top of the other.
+/// Equal boxes on a plane: `columns` side by side, at `distance` from centre to centre, in rows.
 struct Boxes {
   int columns = 5, rows = 4;
   double distance = 0.5;  ///< metres
-  bool isWall = false;
   [[nodiscard]] Eigen::Vector3d center(int row, int column) const;
 };
 inline constexpr double kBoxEdge = 0.2, kBoxMass = 1;

@@ -8,7 +8,6 @@
 #include "bench/row.h"
 #include "bench/shapes_scene.h"
 #include "render/draw_film.h"
-#include "render/png.h"
 #include "render/renderer.h"
 #include "render/video_sink.h"
 #include "support/paths.h"
@@ -36,12 +35,10 @@ std::string outputOf(const std::vector<std::string>& argv) {
 // Draws the shapes, the camera a degree further round each time.
 class Frames {
  public:
-  Frames(const FrameKind& kind, AntiAliasing antiAliasing)
-      : picture_{.solids = kind.shapes == 30 ? thirtyShapes() : sixtyShapes()},
-        renderer_({.width = kind.width,
-                   .height = kind.height,
-                   .antiAliasing = antiAliasing,
-                   .shadow = kind.shadow}) {}
+  explicit Frames(const FrameSize& size)
+      : picture_{.solids = sixtyShapes()},
+        // The peer's smoothing of edges, not the cheaper one of our films.
+        renderer_({.width = size.width, .height = size.height, .antiAliasing = AntiAliasing::kMsaa4}) {}
 
   Image draw() {
     const View view;
@@ -64,7 +61,7 @@ constexpr int kFilmFrames = 100;
 // A hundred frames, from the first line to the finished video: ours and the encoder's time.
 double film() {
   const double before = cpuSeconds(RUSAGE_SELF) + cpuSeconds(RUSAGE_CHILDREN);
-  Frames frames({}, AntiAliasing::kMsaa4);  // the peer's, not the cheaper one of our films
+  Frames frames({});
   VideoSink video(buildPath("film.mp4"));
   for (int i = 0; i < kFilmFrames; ++i) video.add(frames.draw());
   video.finish();
@@ -88,30 +85,28 @@ double oneFrame(Frames& frames) {
 }
 
 // So many times what MuJoCo takes to draw one frame, its mean over a few.
-Measurement mujocoFrames(const FrameKind& kind, int times, int measured) {
+Measurement mujocoFrames(const FrameSize& size, int times, int measured) {
 #ifdef REX_MUJOCO_FRAMES
   std::vector<std::string> command = {REX_MUJOCO_FRAMES};
-  for (const int number : {measured, kind.shapes, kind.width, kind.height, kind.samples, kind.shadow ? 1 : 0})
-    command.push_back(std::to_string(number));
+  for (const int number : {measured, size.width, size.height}) command.push_back(std::to_string(number));
   return [=] { return times * std::stod(outputOf(command)); };
 #else
-  static_cast<void>(kind.shapes + times + measured);
+  static_cast<void>(size.width + times + measured);
   return {};
 #endif
 }
 
-Row frameRow(const std::string& name, const FrameKind& kind, double target) {
-  const auto antiAliasing = kind.samples > 1 ? AntiAliasing::kMsaa4 : AntiAliasing::kNone;
+Row frameRow(const std::string& name, const FrameSize& size, double target) {
   // Made when first measured, for its context takes time and there are several rows.
   const auto frames = std::make_shared<std::unique_ptr<Frames>>();
   return {.name = name,
           .ours =
               [=] {
-                if (!*frames) *frames = std::make_unique<Frames>(kind, antiAliasing);
+                if (!*frames) *frames = std::make_unique<Frames>(size);
                 return oneFrame(**frames);
               },
           .peerName = "MuJoCo",
-          .peer = mujocoFrames(kind, 1, kMeasured),
+          .peer = mujocoFrames(size, 1, kMeasured),
           .target = target,
           .unit = "ms"};
 }
@@ -119,13 +114,9 @@ Row frameRow(const std::string& name, const FrameKind& kind, double target) {
 }  // namespace
 
 std::vector<Row> renderRows() {
-  constexpr double kFirstFrameLimit = 0.5, kPngLimit = 5e-3;
-  const auto picture = std::make_shared<Image>();
+  constexpr double kFirstFrameLimit = 0.5;
   return {frameRow("frame-60-shapes", {}, 0.35),
           frameRow("frame-60-shapes-1280x720", {.width = 1280, .height = 720}, 0.5),
-          frameRow("frame-60-shapes-1920x1080", {.width = 1920, .height = 1080}, 0.5),
-          frameRow("frame-30-shapes", {.shapes = 30}, 0.42),
-          frameRow("frame-60-shapes-plain", {.samples = 1, .shadow = false}, 0.7),
           {.name = "film-100-frames-mp4",
            .ours = film,
            .peerName = "MuJoCo",
@@ -133,15 +124,6 @@ std::vector<Row> renderRows() {
            .target = 0.5,
            .unit = "s",
            .repetitions = 3},
-          {.name = "png-640x480",
-           .ours = timed([picture] {
-             if (picture->rgb.empty()) *picture = Frames({}, AntiAliasing::kMsaa4).draw();
-             static_cast<void>(encodePng(*picture));
-           }),
-           .peerName = "limit",
-           .peer = [] { return kPngLimit; },
-           .target = 1,
-           .unit = "ms"},
           {.name = "first-frame",
            .ours = firstFrame,
            .peerName = "limit",

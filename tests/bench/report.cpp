@@ -1,12 +1,14 @@
 #include "bench/report.h"
 
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "base/cpu_lanes.h"
+#include "base/process.h"
 
 namespace rex::bench {
 namespace {
@@ -14,7 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kTableFormat =
-    "{:<11} {:<30} {:>10} {:>10} {:>10} {:>10} {:<4} {:<14} {:>6} {:>6}  {}\n";
+    "{:<11} {:<30} {:>10} {:>10} {:>10} {:>10} {:<4} {:<24} {:>6} {:>6}  {}\n";
 
 // The value of the first line of /proc/cpuinfo with that key.
 std::string cpuInfo(const std::string& key) {
@@ -57,7 +59,31 @@ std::string verdict(const Line& line) {
   return *measured <= *line.row.target ? "met" : "not met";
 }
 
+// Debian's version of a peer without epoch and revision, by the name of the row; none where there is no dpkg.
+std::string versionOf(const std::string& peer) {
+  static const std::map<std::string, std::string> kPackages{
+      {"Bullet", "libbullet-dev"},  {"Ceres", "libceres-dev"},   {"FCL", "libfcl-dev"},
+      {"KDL", "liborocos-kdl-dev"}, {"MuJoCo", "libmujoco-dev"}, {"OMPL", "libompl-dev"},
+      {"pagmo", "libpagmo-dev"},    {"SLICOT", "libslicot-dev"}};
+  const auto package = kPackages.find(peer);
+  if (package == kPackages.end()) return "";
+  std::string version = runProcess({"dpkg-query", "-W", "-f", "${Version}", package->second}).output;
+  version.erase(0, version.find(':') + 1);
+  return version.substr(0, version.find_first_of("-+"));
+}
+
 }  // namespace
+
+std::string peerWithVersion(const Row& row) {
+  static std::map<std::string, std::string> known;
+  std::string all;
+  std::istringstream names(row.peerName);
+  for (std::string name; std::getline(names, name, '+');) {
+    if (!known.contains(name)) known[name] = versionOf(name);
+    all += (all.empty() ? "" : " + ") + name + (known[name].empty() ? "" : " " + known[name]);
+  }
+  return all;
+}
 
 Machine thisMachine() {
   return {.cpu = cpuInfo("model name"),
@@ -76,8 +102,8 @@ std::string tableLine(const Line& line) {
   const auto& [group, row, result] = line;
   return fmt::format(kTableFormat, group, row.name, figure(result.ours, &Spread::smallest),
                      figure(result.ours, &Spread::median), figure(result.peer, &Spread::smallest),
-                     figure(result.peer, &Spread::median), row.unit, row.peerName, number(ratio(row, result)),
-                     number(row.target), verdict(line));
+                     figure(result.peer, &Spread::median), row.unit, peerWithVersion(row),
+                     number(ratio(row, result)), number(row.target), verdict(line));
 }
 
 std::string json(const std::vector<Line>& lines) {
@@ -89,7 +115,7 @@ std::string json(const std::vector<Line>& lines) {
                     {"ours_median", numbers(result.ours, &Spread::median)},
                     {"peer", numbers(result.peer, &Spread::smallest)},
                     {"peer_median", numbers(result.peer, &Spread::median)},
-                    {"peer_name", row.peerName.empty() ? Json() : Json(row.peerName)},
+                    {"peer_name", row.peerName.empty() ? Json() : Json(peerWithVersion(row))},
                     {"unit", row.unit},
                     {"ratio", orNull(ratio(row, result))},
                     {"ratio_of", row.isMedian ? "medians" : "smallest"},

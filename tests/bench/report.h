@@ -13,6 +13,9 @@ struct Line {
   Result result;
 };
 
+/// The name of the row's peer, with the versions of Debian's packages where they are installed.
+[[nodiscard]] std::string peerWithVersion(const Row& row);
+
 /// The table's head and one line of it, each ending in a newline.
 [[nodiscard]] std::string tableHead();
 [[nodiscard]] std::string tableLine(const Line& line);

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "base/escape.h"
-#include "base/process.h"
 
 namespace rex::bench {
 namespace {
@@ -61,20 +60,9 @@ std::string tableRow(const Line& line) {
       "<td class='peer'>{}</td><td>{}</td><td>{}</td></tr>\n",
       htmlText(row.name), figure(result.ours, &Spread::smallest), figure(result.ours, &Spread::median),
       figure(result.peer, &Spread::smallest), figure(result.peer, &Spread::median), row.unit,
-      htmlText(row.peerName), measured ? fmt::format("{:.2f}", *measured) : "",
+      htmlText(peerWithVersion(row)), measured ? fmt::format("{:.2f}", *measured) : "",
       measured ? bar(*measured, row.target) : "", row.target ? fmt::format("{:.2f}", *row.target) : "",
       verdict);
-}
-
-// Empty where there is no dpkg.
-std::string versionsOfPeers() {
-  const ProcessResult result =
-      runProcess({"dpkg-query", "-W", "-f", "${Package} ${Version}\n", "libbullet-dev", "libceres-dev",
-                  "libfcl-dev", "libmujoco-dev", "libnanoflann-dev", "libompl-dev", "liborocos-kdl-dev",
-                  "libpagmo-dev", "libslicot-dev"});
-  std::string lines = htmlText(result.output);
-  for (std::size_t at = 0; (at = lines.find('\n', at)) != std::string::npos;) lines.replace(at, 1, "<br>");
-  return lines;
 }
 
 }  // namespace
@@ -92,7 +80,6 @@ std::string reportPage(const std::vector<Line>& lines) {
   about("Lanes of our kernels", std::to_string(machine.lanes));
   about("Compiler", htmlText(machine.compiler));
   about("Kernels", htmlText(machine.kernels));
-  about("Peers", versionsOfPeers());
   page += "</table>\n";
   for (auto line = lines.begin(); line != lines.end();) {
     const std::string group = line->group;

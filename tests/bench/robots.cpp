@@ -47,18 +47,10 @@ Robot robot(const std::string& name, const SceneSpec& spec, const std::string& t
 
 }  // namespace
 
-SceneSpec randomChain(int links, Rng& rng) {
-  std::vector<Pose> frames;
-  for (int i = 0; i < links; ++i)
-    frames.push_back({expSO3(rng.normalVector(3)), rng.uniformVector(3, -0.2, 0.2)});
-  return chain("chain" + std::to_string(links), frames);
-}
-
 std::vector<Robot> robots() {
   Rng rng(1);
   std::vector<Robot> all;
   all.push_back(robot("arm7", arm(), "link6", rng));
-  all.push_back(robot("chain30", randomChain(30, rng), "link29", rng));
   all.push_back(robot("man", readOrs(sourcePath("data/robots/man.ors")).spec, "handR", rng));
   return all;
 }

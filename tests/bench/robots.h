@@ -3,10 +3,6 @@
 #include "bench/row.h"
 #include "scene/model.h"
 
-namespace rex {
-class Rng;
-}
-
 namespace rex::bench {
 
 /// A robot, the body at its end, and postures to take in turn, one per column: KDL remembers its last one.
@@ -18,12 +14,9 @@ struct Robot {
   Eigen::MatrixXd Q;
 };
 
-/// An arm of seven hinges with the frames of a common industrial robot, "arm7"; a chain of 30 links with
-/// random frames, "chain30"; and the humanoid of data/robots, "man", with its hand.
+/// An arm of seven hinges with the frames of a common industrial robot, "arm7"; and the humanoid of
+/// data/robots, "man", with its hand.
 [[nodiscard]] std::vector<Robot> robots();
-
-/// Links on a fixed base with random frames, each turned by a hinge.
-[[nodiscard]] SceneSpec randomChain(int links, Rng& rng);
 
 /// Measures the work at one posture after the other, and at all postures at once, per posture. Empty without
 /// work.

@@ -22,8 +22,8 @@ class Collector : public benchmark::BenchmarkReporter {
 };
 
 double perSecond(const std::string& unit) {
-  static const std::map<std::string, double> kPerSecond{{"ns", 1e9}, {"us", 1e6}, {"ms", 1e3},  {"s", 1},
-                                                        {"%", 100},  {"k", 1e-3}, {"MB", 1e-6}, {"", 1}};
+  static const std::map<std::string, double> kPerSecond{{"ns", 1e9}, {"us", 1e6}, {"ms", 1e3},
+                                                        {"s", 1},    {"%", 100},  {"MB", 1e-6}};
   return kPerSecond.at(unit);
 }
 

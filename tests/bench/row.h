@@ -18,11 +18,12 @@ using Measurement = std::function<double()>;
 /// One line of the table: ours against a peer that does the same, or against a fixed limit.
 struct Row {
   std::string name;
-  Measurement ours{};              ///< empty: what it needs is absent, as peerName says
-  std::string peerName{};          ///< empty: nothing to compare with; "limit": `peer` returns a fixed number
-  Measurement peer{};              ///< empty: the peer is not installed
+  Measurement ours{};      ///< empty: what it needs is absent, as peerName says
+  std::string peerName{};  ///< empty: nothing to compare with; "limit": `peer` returns a fixed number; a
+                           ///< library that Debian packages is shown with its version
+  Measurement peer{};      ///< empty: the peer is not installed
   std::optional<double> target{};  ///< what ours / peer should not exceed
-  std::string unit = "ns";         ///< ns, us, ms, s; MB; % of shares; k, thousands, of counts; none
+  std::string unit = "ns";         ///< ns, us, ms, s; MB; % of shares
   int repetitions = 15;            ///< measurements of each side
   bool isMedian = false;           ///< each measurement is of another case: compare medians, not the smallest
 };
@@ -47,16 +48,12 @@ struct Result {
 [[nodiscard]] std::vector<Row> dynamicsRows();
 [[nodiscard]] std::vector<Row> estimationRows();
 [[nodiscard]] std::vector<Row> gradingRows();
-[[nodiscard]] std::vector<Row> growthRows();
 [[nodiscard]] std::vector<Row> ikRows();
 [[nodiscard]] std::vector<Row> kinematicsRows();
 [[nodiscard]] std::vector<Row> physicsRows();
 [[nodiscard]] std::vector<Row> planningRows();
-[[nodiscard]] std::vector<Row> policySearchRows();
 [[nodiscard]] std::vector<Row> renderRows();
-[[nodiscard]] std::vector<Row> rrtStarRows();
 [[nodiscard]] std::vector<Row> sceneRows();
-[[nodiscard]] std::vector<Row> steppingRows();
 [[nodiscard]] std::vector<Row> trajectoryRows();
 
 }  // namespace rex::bench

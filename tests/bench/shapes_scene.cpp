@@ -22,11 +22,4 @@ std::vector<Solid> sixtyShapes() {
   return solids;
 }
 
-std::vector<Solid> thirtyShapes() {
-  const std::vector<Solid> all = sixtyShapes();
-  std::vector<Solid> half;
-  for (std::size_t i = 0; i < all.size(); i += 2) half.push_back(all[i]);
-  return half;
-}
-
 }  // namespace rex::bench
