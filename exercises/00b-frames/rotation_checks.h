@@ -49,14 +49,11 @@ inline void rotatesAbout(rex::grading::Check& check, Student& student, const Eig
              {{"Is the sense of rotation wrong? (0, 0, 1) turns x to y.", Eigen::Matrix3d(R.transpose())},
               {"Is the part along the axis left out, (1 - cos) w w^T?", c * I + s * W},
               {"Has w w^T no factor? It is 1 - cos.", c * I + s * W + square},
-              {"Is the factor of w w^T cos, in place of 1 - cos?", c * I + s * W + c * square},
               {"Are two forms of the formula mixed? With [w]x^2 the first term is the identity alone.",
                c * I + s * W + (1 - c) * W * W},
-              {"Are sine and cosine exchanged?", s * I + c * W + (1 - s) * square},
               {"Is it a rotation by half of the angle? Only quaternions have halves.", turn(axis, angle / 2)},
               {"Is the angle taken for one in degrees?", turn(axis, angle * kPi / 180)},
-              {"Is it the rotation of a small angle only?", I + angle * W},
-              {"Is sin(angle) [w]x left out?", c * I + (1 - c) * square}});
+              {"Is it the rotation of a small angle only?", I + angle * W}});
 }
 
 inline void findsAxis(rex::grading::Check& check, Student& student, const Eigen::Vector3d& axis, double angle,
@@ -76,9 +73,7 @@ inline void findsAxis(rex::grading::Check& check, Student& student, const Eigen:
               {"Is the axis multiplied by the sine of the angle? It has to be the angle.", plain},
               {"Is the axis not divided by the sine of the angle?", angle * plain},
               {"Is R - R^T not halved?", 2 * w},
-              {"Is it the vector part of the quaternion?", std::sin(angle / 2) * axis},
               {"Is it the axis times half of the angle?", angle / 2 * axis},
-              {"Is the angle beyond pi? The other way round is shorter.", (angle - 2 * kPi) * axis},
               {"Is asin used, which ends at a quarter turn?", std::asin(std::sin(angle)) * axis}});
 }
 
@@ -89,7 +84,7 @@ inline void composes(rex::grading::Check& check, Student& student, const Eigen::
                      const Eigen::Vector4d& b) {
   check.input("two quaternions", {{"a", a}, {"b", b}});
   const Eigen::Vector4d wanted = rex::quaternionProduct(a, b);
-  const Eigen::Vector3d u = a.tail<3>(), v = b.tail<3>();
+  const Eigen::Vector3d v = b.tail<3>(), u = a.tail<3>();
   Eigen::Vector4d plain = wanted, crossed = wanted, added = wanted;
   plain.tail<3>() -= u.cross(v);
   added[0] = a[0] * b[0] + u.dot(v);
@@ -102,11 +97,9 @@ inline void composes(rex::grading::Check& check, Student& student, const Eigen::
               {"Is the cross product left out?", plain},
               {"Has the scalar product of the vector parts the wrong sign?", added},
               {"Is each vector part multiplied by its own scalar? Each goes with the other one.", crossed},
-              {"Are the numbers multiplied one by one?", a.cwiseProduct(b)},
               {"Are the quaternions added?", a + b},
               {"Is b conjugated?", rex::quaternionProduct(a, conjugate(b))},
               {"Is a conjugated?", rex::quaternionProduct(conjugate(a), b)},
-              {"Is the result conjugated?", conjugate(wanted)},
               {"Is the scalar the last of the four numbers? Here it is the first.",
                Eigen::Vector4d(scalarLast[1], scalarLast[2], scalarLast[3], scalarLast[0])}});
 }
@@ -140,13 +133,7 @@ inline void turnsSmoothly(rex::grading::Check& check, Student& student, double a
          std::sin((1 - share) * 2 * arc) / std::sin(2 * arc) * a +
              std::sin(share * 2 * arc) / std::sin(2 * arc) * b},
         {"Is the division by the sine of the arc left out?",
-         std::sin((1 - share) * arc) * a + std::sin(share * arc) * b},
-        {"Are weights cos and sin of a quarter turn used? They need the arc.",
-         std::cos(share * kPi / 2) * a + std::sin(share * kPi / 2) * b},
-        {"Is the result always a?", a},
-        {"Is the result always b?", b},
-        {"Is the interpolation eased? The speed has to be constant.",
-         at(share * share * (3 - 2 * share) * arc)}};
+         std::sin((1 - share) * arc) * a + std::sin(share * arc) * b}};
     for (rex::grading::Mistake& mistake : mistakes)
       if (mistake.value.col(0).dot(wanted) < 0) mistake.value *= -1;
     check.near("quaternion of between, with the sign that fits", got, wanted, 1e-9, mistakes);
@@ -198,10 +185,7 @@ inline void turnsByEuler(rex::grading::Check& check, Student& student, Conventio
        {"Is the second rotation about another axis?", product(is313 ? "323" : "311", angles)},
        {"Is the second rotation about another axis?", product(is313 ? "333" : "331", angles)},
        {"Has the second rotation the wrong sense?", only(angles[0], -angles[1], angles[2])},
-       {"Have the first and the third rotation the wrong sense?", only(-angles[0], angles[1], -angles[2])},
-       {"Is the third rotation left out?", only(angles[0], angles[1], 0)},
-       {"Is the first rotation left out?", only(0, angles[1], angles[2])},
-       {"Are the angles taken for degrees?", trueEuler(convention, angles * kPi / 180)}});
+       {"Is the third rotation left out?", only(angles[0], angles[1], 0)}});
 }
 
 inline void findsEuler(rex::grading::Check& check, Student& student, Convention convention,
@@ -231,9 +215,6 @@ inline void findsEuler(rex::grading::Check& check, Student& student, Convention 
               {"Has the second argument of the third atan2 the wrong sign?",
                wrapped({angles[0], angles[1], kPi - angles[2]})},
               {"Has the second angle the wrong sign?", Eigen::Vector3d(angles[0], -angles[1], angles[2])},
-              {"Is the second angle off by a quarter turn: are sine and cosine exchanged?",
-               Eigen::Vector3d(angles[0], kPi / 2 - angles[1], angles[2])},
-              {"Are the first and the third angle left at 0?", Eigen::Vector3d(0, angles[1], 0)},
               {"Is the third angle left at 0 everywhere? It is 0 only where the convention locks.",
                Eigen::Vector3d(angles[0], angles[1], 0)}});
 }
@@ -269,24 +250,19 @@ inline void findsAxes(rex::grading::Check& check, Student& student, Convention c
   const bool is313 = convention == Convention::k313;
   const Eigen::Matrix3d A = trueAxes(convention, angles), R = trueEuler(convention, angles),
                         got = student.turningAxes(convention, angles);
-  Eigen::Matrix3d unmoved, turned, once, crossed = A;
+  Eigen::Matrix3d unmoved, turned, crossed = A;
   unmoved << Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Unit(is313 ? 0 : 1),
       Eigen::Vector3d::Unit(is313 ? 2 : 0);
   turned = R * unmoved;
-  once = turn(Eigen::Vector3d::UnitZ(), angles[0]) * unmoved;
   crossed.col(1) = turn(Eigen::Vector3d::UnitZ(), -angles[0]).col(is313 ? 0 : 1);
   const auto shown = check.show([&] { return arrowsOf(got, A); });
   check.near("axes of turningAxes", got, A, 1e-12,
              {{"Are the axes not turned by the rotations before them?", unmoved},
               {"Are the axes given in the turned frame? Wanted are world coordinates.", R.transpose() * A},
               {"Is every axis turned by all rotations? Only those before it turn it.", turned},
-              {"Is every axis turned by the first rotation alone?", once},
               {"Are the columns in the reverse order?", A.rowwise().reverse()},
               {"Are the axes rows? They are columns.", Eigen::Matrix3d(A.transpose())},
               {"Is the second axis turned the wrong way round?", crossed},
-              {"Is it the rotation itself?", R},
-              {"Is it the inverse, which takes angular velocities to rates?",
-               std::abs(A.determinant()) > 1e-6 ? Eigen::Matrix3d(A.inverse()) : A},
               {"Are these the axes of the other convention?",
                trueAxes(is313 ? Convention::kYawPitchRoll : Convention::k313, angles)}});
 }
@@ -310,9 +286,6 @@ inline void losesAxis(rex::grading::Check& check, Student& student, Convention c
               {"Is it the axis of the second rotation? The frame still turns about it.", sign * A.col(1)},
               {"Is the axis given in the turned frame? Wanted are world coordinates.",
                Eigen::Vector3d(sign * trueEuler(convention, angles).transpose() * lost)},
-              {"Is it the axis that is always x, y or z?", Eigen::Vector3d::UnitX()},
-              {"Is it the axis that is always x, y or z?", Eigen::Vector3d::UnitY()},
-              {"Is the cross product taken of the two axes that coincide?", Eigen::Vector3d(0, 0, 0)},
               {"Is it the direction of rates that turn nothing, in place of the axis?",
                Eigen::Vector3d(sign * Eigen::Vector3d(1, 0, 1).normalized())},
               {"Is it the direction of rates that turn nothing, in place of the axis?",

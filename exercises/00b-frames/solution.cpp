@@ -111,10 +111,10 @@ Eigen::Vector3d eulerAngles(Convention convention, const Eigen::Matrix3d& R) {
 Eigen::Matrix3d turningAxes(Convention convention, const Eigen::Vector3d& angles) {
   // <solution turningAxes>
   // A rotation leaves its own axis where it is: each axis is turned by the rotations before it.
-  const bool is313 = convention == Convention::k313;
+  const bool zxz = convention == Convention::k313;
   Eigen::Matrix3d A;
-  A << Eigen::Vector3d::UnitZ(), eulerMatrix(convention, {angles[0], 0, 0}).col(is313 ? 0 : 1),
-      eulerMatrix(convention, angles).col(is313 ? 2 : 0);
+  A << Eigen::Vector3d::UnitZ(), eulerMatrix(convention, {angles[0], 0, 0}).col(zxz ? 0 : 1),
+      eulerMatrix(convention, angles).col(zxz ? 2 : 0);
   return A;
   // <todo>
   //| // TODO: where in the world are the axes of the three rotations, after those before them?

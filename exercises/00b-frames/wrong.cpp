@@ -60,7 +60,7 @@ return Eigen::Vector3d(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1)).
 // <variant as_printed> caught by: quaternions
 // mistake: Believes slide 2:10.
 // <solution composed>
-// in place of: product << a[0] * b[0] - u.dot(v), a[0] * v + b[0] * u + u.cross(v);
+// in place of: product << a[0] * b[0] - u.dot(v), a[0] * v + b[0] * u + u.c
 product << a[0] * b[0] - u.dot(v), a[0] * v + b[0] * u + v.cross(u);
 
 // <variant scalar_last> caught by: quaternions
@@ -74,7 +74,7 @@ return product;
 // <variant own_scalars> caught by: quaternions
 // mistake: Multiplies each vector part by its own scalar.
 // <solution composed>
-// in place of: product << a[0] * b[0] - u.dot(v), a[0] * v + b[0] * u + u.cross(v);
+// in place of: product << a[0] * b[0] - u.dot(v), a[0] * v + b[0] * u + u.c
 product << a[0] * b[0] - u.dot(v), a[0] * u + b[0] * v + u.cross(v);
 
 // <variant longer_way> caught by: interpolation
@@ -103,27 +103,27 @@ return (std::sin((1 - share) * arc) * a + std::sin(share * arc) * end) / std::si
 // shown by: euler-matrix
 // mistake: Multiplies in the reverse order: rotations about fixed axes.
 // <solution eulerMatrix>
-// in place of: if (convention == Convention::k313) return about(2, 0) * ... return about(2, 0) * about(1, 1)
+// in place of: if (convention == Convention::k313) return a ... return about(2, 0) * about(1, 1) * about
 if (convention == Convention::k313) return about(2, 2) * about(0, 1) * about(2, 0);
 return about(0, 2) * about(1, 1) * about(2, 0);
 
 // <variant reverse_angles> caught by: euler-matrix
 // mistake: Takes the angles as roll, pitch, yaw.
 // <solution eulerMatrix>
-// in place of: if (convention == Convention::k313) return about(2, 0) * ... return about(2, 0) * about(1, 1)
+// in place of: if (convention == Convention::k313) return a ... return about(2, 0) * about(1, 1) * about
 if (convention == Convention::k313) return about(2, 2) * about(0, 1) * about(2, 0);
 return about(2, 2) * about(1, 1) * about(0, 0);
 
 // <variant conventions_exchanged> caught by: euler-matrix
 // mistake: Takes one convention for the other.
 // <solution eulerMatrix>
-// in place of: if (convention == Convention::k313) return about(2, 0) * about(0, 1) * about(2, 2);
+// in place of: if (convention == Convention::k313) return about(2, 0) * abo
 if (convention != Convention::k313) return about(2, 0) * about(0, 1) * about(2, 2);
 
 // <variant second_about_y> caught by: euler-matrix
 // mistake: Turns about z, y, z: 3-2-3.
 // <solution eulerMatrix>
-// in place of: if (convention == Convention::k313) return about(2, 0) * ... return about(2, 0) * about(1, 1)
+// in place of: if (convention == Convention::k313) return a ... return about(2, 0) * about(1, 1) * about
 return about(2, 0) * about(1, 1) * (convention == Convention::k313 ? about(2, 2) : about(0, 2));
 
 // <variant quadrants_lost> caught by: euler-angles, euler-locked
@@ -152,21 +152,26 @@ return {std::atan2(R(1, 0), R(0, 0)), std::atan2(-R(2, 0), c), std::atan2(R(2, 1
 // shown by: euler-axes
 // mistake: Leaves the axes where they are at zero.
 // <solution turningAxes>
-// in place of: A << Eigen::Vector3d::UnitZ(), eulerMatrix(convention, ... eulerMatrix(convention,
-A << Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Unit(is313 ? 0 : 1), Eigen::Vector3d::Unit(is313 ? 2 : 0);
+const bool zxz = convention == Convention::k313;
+Eigen::Matrix3d A;
+A << Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Unit(zxz ? 0 : 1), Eigen::Vector3d::Unit(zxz ? 2 : 0);
+return A;
 
 // <variant axes_of_the_body> caught by: euler-axes
 // mistake: Gives the axes in the turned frame.
 // <solution turningAxes>
-// in place of: return A;
+const bool zxz = convention == Convention::k313;
+Eigen::Matrix3d A;
+A << Eigen::Vector3d::UnitZ(), eulerMatrix(convention, {angles[0], 0, 0}).col(zxz ? 0 : 1),
+    eulerMatrix(convention, angles).col(zxz ? 2 : 0);
 return eulerMatrix(convention, angles).transpose() * A;
 
 // <variant axes_all_turned> caught by: euler-axes, euler-lost
 // mistake: Turns every axis by the whole rotation.
 // <solution turningAxes>
-const bool is313 = convention == Convention::k313;
+const bool zxz = convention == Convention::k313;
 Eigen::Matrix3d A;
-A << Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Unit(is313 ? 0 : 1), Eigen::Vector3d::Unit(is313 ? 2 : 0);
+A << Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Unit(zxz ? 0 : 1), Eigen::Vector3d::Unit(zxz ? 2 : 0);
 return eulerMatrix(convention, angles) * A;
 
 // <variant axis_that_is_left> caught by: euler-lost
@@ -254,36 +259,31 @@ return chain.X_ME * X;
 // shown by: point
 // mistake: Forgets p_i.
 // <solution pointJacobian>
-const Eigen::Vector3d p = (endPose(chain, q) * p_E.homogeneous()).head<3>();
-int i = 0;
+// in place of: for (const auto& [a, at, turns] : jointLines(chain, q)) J.co
 for (const auto& [a, at, turns] : jointLines(chain, q)) J.col(i++) = turns ? a.cross(p).eval() : a;
 
 // <variant cross_product_reversed> caught by: point, jacobian-robots
 // mistake: Exchanges the factors of the cross product.
 // <solution pointJacobian>
-const Eigen::Vector3d p = (endPose(chain, q) * p_E.homogeneous()).head<3>();
-int i = 0;
+// in place of: for (const auto& [a, at, turns] : jointLines(chain, q)) J.co
 for (const auto& [a, at, turns] : jointLines(chain, q)) J.col(i++) = turns ? (p - at).cross(a).eval() : a;
 
 // <variant point_at_the_end> caught by: point, jacobian-robots
 // mistake: Takes the origin of the end for the point.
 // <solution pointJacobian>
+// in place of: const Eigen::Vector3d p = (endPose(chain, q) * p_E.homogeneo
 const Eigen::Vector3d p = endPose(chain, q).topRightCorner(3, 1) + 0 * p_E;
-int i = 0;
-for (const auto& [a, at, turns] : jointLines(chain, q)) J.col(i++) = turns ? a.cross(p - at).eval() : a;
 
 // <variant sliding_joint_turns> caught by: point
 // mistake: Treats sliding joints like turning ones.
 // <solution pointJacobian>
-const Eigen::Vector3d p = (endPose(chain, q) * p_E.homogeneous()).head<3>();
-int i = 0;
+// in place of: for (const auto& [a, at, turns] : jointLines(chain, q)) J.co
 for (const auto& [a, at, turns] : jointLines(chain, q)) J.col(i++) = a.cross(p - at);
 
 // <variant sliding_joint_stays> caught by: point
 // mistake: Lets sliding joints move nothing.
 // <solution pointJacobian>
-const Eigen::Vector3d p = (endPose(chain, q) * p_E.homogeneous()).head<3>();
-int i = 0;
+// in place of: for (const auto& [a, at, turns] : jointLines(chain, q)) J.co
 for (const auto& [a, at, turns] : jointLines(chain, q)) J.col(i++) = (turns ? 1 : 0) * a.cross(p - at);
 
 // <variant axis_in_its_own_frame> caught by: point, jacobian-robots
@@ -312,31 +312,33 @@ for (const auto& [a, at, turns] : jointLines(chain, q)) J.col(i++) = (turns ? 1 
 // <variant sliding_joint_turns_vector> caught by: vector
 // mistake: Lets sliding joints turn the vector.
 // <solution vectorJacobian>
-const Eigen::Vector3d v = endPose(chain, q).topLeftCorner(3, 3) * v_E;
-int i = 0;
+// in place of: for (const auto& [a, at, turns] : jointLines(chain, q)) J.co
 for (const auto& [a, at, turns] : jointLines(chain, q)) J.col(i++) = a.cross(v);
 
 // <variant one_sided> caught by: differences
 // shown by: differences
 // mistake: One-sided differences with a step that suits central ones.
 // <solution differences>
-// in place of: J.col(i) = (f(x + step) - f(x - step)) / (2 * h);
-J.col(i) = (f(x + step) - f(x)) / h;
+const double h = 1e-5;
+for (int i = 0; i < x.size(); ++i) {
+  const Eigen::VectorXd step = h * Eigen::VectorXd::Unit(x.size(), i);
+  J.col(i) = (f(x + step) - f(x)) / h;
+}
 
 // <variant divided_by_h> caught by: differences
 // mistake: Divides the central difference by h.
 // <solution differences>
-// in place of: J.col(i) = (f(x + step) - f(x - step)) / (2 * h);
-J.col(i) = (f(x + step) - f(x - step)) / h;
+const double h = 1e-5;
+for (int i = 0; i < x.size(); ++i) {
+  const Eigen::VectorXd step = h * Eigen::VectorXd::Unit(x.size(), i);
+  J.col(i) = (f(x + step) - f(x - step)) / h;
+}
 
 // <variant step_too_small> caught by: differences
 // mistake: Chooses the step as small as can be.
 // <solution differences>
+// in place of: // Central differences: an error of h^2 from ... const double h = 1e-5;
 const double h = 1e-12;
-for (int i = 0; i < x.size(); ++i) {
-  const Eigen::VectorXd step = h * Eigen::VectorXd::Unit(x.size(), i);
-  J.col(i) = (f(x + step) - f(x - step)) / (2 * h);
-}
 
 // <variant not_rooted> caught by: ellipsoid
 // shown by: ellipsoid
