@@ -60,10 +60,10 @@ TEST(HostileText, IsShownInResultsThatAreReadAgain) {
   EXPECT_EQ(toJson(gradeResultFromJson(json, "results.json")), json);
 }
 
-// Every test that share/doc/sandbox.md names for a promise is there.
+// Every test that tests/sandbox/README.md names for a promise is there.
 TEST(Promises, NameTestsThatThereAre) {
   const std::filesystem::path root = homeFolder();
-  const std::string page = fileText(root / "share/doc/sandbox.md");
+  const std::string page = fileText(root / "tests/sandbox/README.md");
   std::string tests;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(root / "tests"))
     if (entry.path().filename().string().ends_with("_test.cpp")) tests += fileText(entry.path());
