@@ -238,10 +238,10 @@ inline void findsLocked(rex::grading::Check& check, Student& student, Convention
 
 inline Eigen::Matrix3d trueAxes(Convention convention, const Eigen::Vector3d& angles) {
   const bool is313 = convention == Convention::k313;
-  Eigen::Matrix3d A;
-  A << Eigen::Vector3d::UnitZ(), turn(Eigen::Vector3d::UnitZ(), angles[0]).col(is313 ? 0 : 1),
+  Eigen::Matrix3d three;
+  three << Eigen::Vector3d::UnitZ(), turn(Eigen::Vector3d::UnitZ(), angles[0]).col(is313 ? 0 : 1),
       trueEuler(convention, angles).col(is313 ? 2 : 0);
-  return A;
+  return three;
 }
 
 inline void findsAxes(rex::grading::Check& check, Student& student, Convention convention,
