@@ -9,7 +9,7 @@
 #include <Eigen/Cholesky>
 
 #include "grading/check.h"
-#include "grading/evidence_parts.h"
+#include "grading/evidence.h"
 #include "interface.h"
 #include "random_matrices.h"
 

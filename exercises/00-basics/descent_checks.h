@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "grading/check.h"
-#include "grading/evidence_parts.h"
+#include "grading/evidence.h"
 #include "interface.h"
 #include "random_matrices.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/derivative_check.h"
-#include "geometry/lie.h"
+#include "geometry/pose.h"
 #include "rotation_checks.h"
 
 // The checks of parts 3, 4 and 5. Wanted poses are products of the library's, wanted Jacobians differences of

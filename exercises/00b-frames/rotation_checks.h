@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "chains.h"
-#include "grading/evidence_parts.h"
+#include "grading/evidence.h"
 #include "interface.h"
 
 // The checks of parts 1 and 2. Wanted values are those of the library; each mistake beside them is one that

@@ -7,7 +7,6 @@
 
 #include "chains.h"
 #include "course/film.h"
-#include "course/film_files.h"
 
 using namespace rex;
 

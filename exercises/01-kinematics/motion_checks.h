@@ -9,7 +9,7 @@
 
 #include "course/film.h"
 #include "grading/check.h"
-#include "grading/evidence_parts.h"
+#include "grading/evidence.h"
 #include "interface.h"
 
 // Parts 2 and 3: the step of inverse kinematics, and the motions that are made of it.

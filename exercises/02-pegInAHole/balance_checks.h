@@ -11,7 +11,7 @@
 #include "circle_checks.h"
 #include "course/film.h"
 #include "grading/check.h"
-#include "grading/evidence_parts.h"
+#include "grading/evidence.h"
 #include "interface.h"
 #include "kinematics/jacobians.h"
 #include "kinematics/task_maps.h"

@@ -6,7 +6,7 @@
 
 #include "course/film.h"
 #include "grading/check.h"
-#include "grading/evidence_parts.h"
+#include "grading/evidence.h"
 #include "interface.h"
 #include "task_checks.h"
 

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "course/film.h"
-#include "course/film_files.h"
 #include "kinematics/hierarchical_step.h"
 #include "scene/model.h"
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "approach_checks.h"
+#include "dynamics/equations_of_motion.h"
 #include "dynamics/inverse_dynamics.h"
-#include "dynamics/mass_matrix.h"
 #include "grading/check.h"
 #include "interface.h"
 #include "random_chain.h"

@@ -10,7 +10,7 @@
 #include "arm_checks.h"
 #include "course/film.h"
 #include "grading/check.h"
-#include "grading/evidence_parts.h"
+#include "grading/evidence.h"
 #include "interface.h"
 
 // Part 6: a hand that follows a path.

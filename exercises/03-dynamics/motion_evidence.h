@@ -7,7 +7,7 @@
 
 #include "approach_checks.h"
 #include "course/film.h"
-#include "grading/evidence_parts.h"
+#include "grading/evidence.h"
 #include "grading/signal.h"
 
 // What the checks show when a motion is wrong.

@@ -2,9 +2,9 @@
 
 #include <numbers>
 
-#include "collision/contact_model.h"
+#include "collision/contacts.h"
 #include "exercise.h"
-#include "planning/edge_checker.h"
+#include "planning/path_problem.h"
 #include "planning/robot_problem.h"
 
 // The arm with the peg, on its way from q = 0 into the hole. Used by show.cpp and by the grader.

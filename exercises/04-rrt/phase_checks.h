@@ -5,7 +5,7 @@
 
 #include "exercise.h"
 #include "grading/check.h"
-#include "grading/evidence_parts.h"
+#include "grading/evidence.h"
 #include "interface.h"
 #include "planning/phase_space.h"
 #include "tree_checks.h"

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "grading/check.h"
-#include "grading/evidence_parts.h"
+#include "grading/evidence.h"
 #include "interface.h"
 #include "tree_checks.h"
 

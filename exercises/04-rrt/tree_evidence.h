@@ -7,7 +7,7 @@
 
 #include "collision/motion_clearance.h"
 #include "course/film.h"
-#include "grading/evidence_parts.h"
+#include "grading/evidence.h"
 #include "plane_pictures.h"
 #include "plane_problems.h"
 #include "tree_checks.h"

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "course/car_figure.h"
 #include "course/car_pictures.h"
+#include "course/car_view.h"
 #include "drives.h"
-#include "grading/evidence_parts.h"
+#include "grading/evidence.h"
 #include "render/figure_builders.h"
 
 // What the checks show when a cloud of particles is wrong, or when a filter has lost its car.

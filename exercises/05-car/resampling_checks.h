@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "grading/check.h"
-#include "grading/evidence_parts.h"
+#include "grading/evidence.h"
 #include "interface.h"
 
 // What the children of weighted particles must satisfy, however they are drawn.

@@ -5,9 +5,9 @@
 #include <functional>
 #include <numbers>
 
-#include "course/car_figure.h"
 #include "course/car_pictures.h"
 #include "course/car_simulator.h"
+#include "course/car_view.h"
 #include "estimation/particle_filter.h"
 
 using namespace rex;

@@ -10,7 +10,7 @@
 
 #include "car_runs.h"
 #include "grading/check.h"
-#include "grading/evidence_parts.h"
+#include "grading/evidence.h"
 
 // What the checks require of values and beliefs, and what they ask if a usual mistake explains a wrong one.
 

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "car_runs.h"
-#include "course/car_figure.h"
 #include "course/car_pictures.h"
-#include "grading/evidence_parts.h"
+#include "course/car_view.h"
+#include "grading/evidence.h"
 
 // What the checks show when a belief is wrong.
 

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <string>
 
-#include "course/car_figure.h"
 #include "course/car_pictures.h"
 #include "course/car_simulator.h"
+#include "course/car_view.h"
 #include "estimation/consistency.h"
 #include "estimation/ekf_slam.h"
-#include "estimation/smoother.h"
+#include "estimation/kalman_filter.h"
 
 using namespace rex;
 

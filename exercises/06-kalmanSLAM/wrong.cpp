@@ -65,7 +65,7 @@ C.middleRows(i, 2) = viewByState(car, belief.mean, l);
 // <variant calls_the_library> caught by: forbidden-call
 // mistake: the library does the smoothing.
 // <solution headers>
-#include "estimation/smoother.h"
+#include "estimation/kalman_filter.h"
 // <solution hindsight>
 std::vector<Gaussian> beliefs;
 std::vector<LinearModel> steps;

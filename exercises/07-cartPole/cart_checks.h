@@ -7,7 +7,7 @@
 
 #include "course/cart_pole_pictures.h"
 #include "grading/check.h"
-#include "grading/evidence_parts.h"
+#include "grading/evidence.h"
 #include "grading/tolerance.h"
 #include "interface.h"
 #include "plants.h"

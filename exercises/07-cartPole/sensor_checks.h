@@ -9,7 +9,7 @@
 #include "control/responses.h"
 #include "control/riccati.h"
 #include "grading/check.h"
-#include "grading/evidence_parts.h"
+#include "grading/evidence.h"
 #include "interface.h"
 #include "plants.h"
 #include "stability_checks.h"

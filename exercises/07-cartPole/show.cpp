@@ -9,7 +9,7 @@
 #include "control/regulators.h"
 #include "control/responses.h"
 #include "course/cart_pole_pictures.h"
-#include "render/response_figures.h"
+#include "render/figure_builders.h"
 #include "systems/cart_pole.h"
 
 using namespace rex;

@@ -7,8 +7,7 @@
 #include <fmt/format.h>
 
 #include "interface.h"
-#include "learning/policy_gradient.h"
-#include "learning/power.h"
+#include "learning/policy_search.h"
 #include "mistakes.h"
 #include "process_checks.h"
 

@@ -10,7 +10,6 @@
 #include "interface.h"
 #include "learning/dynamic_programming.h"
 #include "learning/mazes.h"
-#include "learning/policy_values.h"
 #include "mistakes.h"
 
 // Part 1: the T-maze, with any leaves and discount.

@@ -12,7 +12,6 @@
 #include "interface.h"
 #include "learning/dynamic_programming.h"
 #include "learning/mazes.h"
-#include "learning/policy_values.h"
 #include "mistakes.h"
 
 // Part 2, and the grader's decision processes: what their states and actions are worth.

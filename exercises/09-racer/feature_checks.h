@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "grading/check.h"
-#include "grading/evidence_parts.h"
+#include "grading/evidence.h"
 #include "interface.h"
 #include "learning/sensor_history.h"
 #include "racer_checks.h"

@@ -8,7 +8,7 @@
 #include "control/racer_rollouts.h"
 #include "course/racer_pictures.h"
 #include "feature_checks.h"
-#include "grading/evidence_parts.h"
+#include "grading/evidence.h"
 
 // Part 5: rides, against the library's.
 

@@ -7,7 +7,7 @@
 #include "drawing.h"
 #include "exercise.h"
 #include "grading/check.h"
-#include "grading/evidence_parts.h"
+#include "grading/evidence.h"
 #include "interface.h"
 #include "render/figure_builders.h"
 #include "yard_checks.h"

@@ -10,10 +10,10 @@
 #include "drawing.h"
 #include "exercise.h"
 #include "grading/check.h"
-#include "grading/evidence_parts.h"
+#include "grading/evidence.h"
 #include "interface.h"
 #include "maps.h"
-#include "planning/grid_search.h"
+#include "planning/grid_map.h"
 
 // The checks of parts 2 and 5: maps and networks, and what is known about ways on them.
 

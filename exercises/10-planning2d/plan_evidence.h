@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "drawing.h"
-#include "grading/evidence_parts.h"
+#include "grading/evidence.h"
 #include "grid_checks.h"
 #include "render/figure_builders.h"
 #include "roadmap_checks.h"

@@ -18,7 +18,7 @@ if (cell == mLine[hit]) return trail;
 // <variant calls_the_library> caught by: forbidden-call
 // mistake: lets the library number the cells.
 // <solution headers>
-#include "planning/grid_search.h"
+#include "planning/grid_map.h"
 // <solution waveNumbers>
 GridMap grid(map.width, map.height);
 for (std::size_t place = 0; place < numbers.size(); ++place)

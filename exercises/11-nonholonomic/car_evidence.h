@@ -8,9 +8,9 @@
 
 #include "car_pictures.h"
 #include "course/film.h"
-#include "grading/evidence_parts.h"
+#include "grading/evidence.h"
 #include "overlaps.h"
-#include "planning/dubins.h"
+#include "planning/car_curves.h"
 #include "systems/car.h"
 
 // What the checks show if cars are not where they should be.

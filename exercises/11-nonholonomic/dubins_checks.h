@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "car_checks.h"
-#include "planning/dubins.h"
+#include "planning/car_curves.h"
 
 // Part 3: words, and the shortest of them.
 

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "car_pictures.h"
-#include "planning/dubins.h"
+#include "planning/car_curves.h"
 
 using namespace rex;
 

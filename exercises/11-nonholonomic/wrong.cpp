@@ -274,7 +274,7 @@ return {};
 // <variant calls_the_library> caught by: forbidden-call
 // mistake: asks the library for the curve.
 // <solution headers>
-#include "planning/dubins.h"
+#include "planning/car_curves.h"
 // <solution shortestDubins>
 const Curve curve = dubinsCurve(from, to, radius);
 for (std::size_t i = 0; i < 3; ++i) best.lengths[i] = curve.segments()[i].length;

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "grading/check.h"
-#include "grading/evidence_parts.h"
+#include "grading/evidence.h"
 #include "interface.h"
 #include "problems.h"
 #include "term_checks.h"

@@ -12,7 +12,7 @@
 #include "course/clearances.h"
 #include "course/film.h"
 #include "errands.h"
-#include "grading/evidence_parts.h"
+#include "grading/evidence.h"
 #include "grading/tolerance.h"
 #include "interface.h"
 #include "problems.h"

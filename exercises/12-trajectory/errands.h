@@ -5,7 +5,6 @@
 
 #include "problems.h"
 #include "scenes.h"
-#include "trajectory/contact_terms.h"
 #include "trajectory/motion_terms.h"
 #include "trajectory/trajectory_optimizer.h"
 

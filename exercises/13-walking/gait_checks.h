@@ -12,7 +12,7 @@
 
 #include "course/linear_algebra.h"
 #include "grading/check.h"
-#include "grading/evidence_parts.h"
+#include "grading/evidence.h"
 #include "interface.h"
 #include "locomotion/limit_cycle.h"
 

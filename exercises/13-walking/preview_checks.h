@@ -8,10 +8,10 @@
 
 #include "course/walk_pictures.h"
 #include "grading/check.h"
-#include "grading/evidence_parts.h"
+#include "grading/evidence.h"
 #include "interface.h"
 #include "locomotion/footsteps.h"
-#include "locomotion/preview_control.h"
+#include "locomotion/walking_pattern.h"
 
 // Part 3: the cart, its gains, and walks over footsteps.
 

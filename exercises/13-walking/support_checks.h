@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "grading/check.h"
-#include "grading/evidence_parts.h"
+#include "grading/evidence.h"
 #include "interface.h"
-#include "locomotion/support_polygon.h"
+#include "locomotion/footsteps.h"
 
 // Part 1: the grader's contacts, and what must hold for polygons, margins and robots that stand on them.
 

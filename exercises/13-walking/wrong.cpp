@@ -103,7 +103,7 @@ return now.c + now.v * std::sqrt(pendulum.g / pendulum.height);
 // mistake: takes gains and gait from the library.
 // <solution headers>
 #include "locomotion/limit_cycle.h"
-#include "locomotion/preview_control.h"
+#include "locomotion/walking_pattern.h"
 // <solution previewLaw>
 const PreviewGains gains = previewGains({.height = cart.height,
                                          .g = cart.g,

@@ -7,7 +7,7 @@
 
 #include "grading/check.h"
 #include "interface.h"
-#include "locomotion/inverted_pendulum.h"
+#include "locomotion/zero_moment_point.h"
 #include "support_checks.h"
 
 // Part 2: the zero moment point by its definition, and the motions of the pendulum.

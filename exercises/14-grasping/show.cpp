@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "course/film_files.h"
+#include "course/film.h"
 #include "geometry/facet_hull.h"
 #include "grasping/quality.h"
 

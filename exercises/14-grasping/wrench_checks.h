@@ -8,7 +8,7 @@
 
 #include "geometry/facet_hull.h"
 #include "grading/check.h"
-#include "grading/evidence_parts.h"
+#include "grading/evidence.h"
 #include "grasping/closure.h"
 #include "grasping/quality.h"
 #include "interface.h"

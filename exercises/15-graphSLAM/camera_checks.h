@@ -11,7 +11,7 @@
 #include "course/vision_simulator.h"
 #include "estimation/camera_calibration.h"
 #include "grading/check.h"
-#include "grading/evidence_parts.h"
+#include "grading/evidence.h"
 #include "graph_mistakes.h"
 #include "interface.h"
 

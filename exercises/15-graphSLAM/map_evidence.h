@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "grading/evidence_parts.h"
+#include "grading/evidence.h"
 #include "graph_checks.h"
 #include "map_pictures.h"
 #include "scan_checks.h"

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "control/regulators.h"
-#include "grading/evidence_parts.h"
+#include "grading/evidence.h"
 #include "interface.h"
 #include "plans.h"
 

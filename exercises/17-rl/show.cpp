@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "course/mdp_figures.h"
-#include "learning/mdp_rollout.h"
+#include "learning/mdp.h"
 
 using namespace rex;
 

@@ -6,7 +6,7 @@
 #include "interface.h"
 #include "learning/dynamic_programming.h"
 #include "learning/mazes.h"
-#include "learning/mdp_rollout.h"
+#include "learning/mdp.h"
 #include "learning/q_learning.h"
 
 // The grader's experience, models and maps.

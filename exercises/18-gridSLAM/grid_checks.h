@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "grading/check.h"
-#include "grading/evidence_parts.h"
+#include "grading/evidence.h"
 #include "interface.h"
 #include "map_reference.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "buildings.h"
-#include "estimation/map_agreement.h"
+#include "estimation/occupancy_map.h"
 #include "interface.h"
 
 // What is right for a grid, by other ways than those that a student takes, and what usual mistakes make of

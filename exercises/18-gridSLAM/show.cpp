@@ -7,9 +7,9 @@
 #include <string>
 
 #include "buildings.h"
-#include "course/car_figure.h"
 #include "course/car_pictures.h"
-#include "estimation/map_agreement.h"
+#include "course/car_view.h"
+#include "estimation/occupancy_map.h"
 
 using namespace rex;
 

@@ -230,7 +230,7 @@ function(rex_grader_headers)
   target_link_libraries(rex_grader_headers PRIVATE rex_grading rex_course)
   target_precompile_headers(rex_grader_headers PRIVATE <grading/throwing_assertions.h> <course/course.h>
                             <course/remote_simulator.h> <grading/check.h> <remote/call.h> <remote/layout.h>
-                            <remote/signature.h>)
+                            <remote/layout.h>)
 endfunction()
 
 # Answers lead checks to places that are not there: the library's containers look, too.

@@ -1,7 +1,7 @@
 # What `cmake --install` copies, in components: runtime (the programs behind rex, libraries, headers, graders, data and
 # exercises), development (for other programs: find_package and pkg-config) and documentation. The tree may be moved:
 # its files find each other by relative paths. In PREFIX/lib/rex lies what lies in a build folder (ownFolder() in
-# src/base/own_folder.h), in PREFIX/share/rex what lies in the source tree (homeFolder()).
+# src/base/folders.h), in PREFIX/share/rex what lies in the source tree (homeFolder()).
 
 set(REX_INSTALLED lib/rex)
 
@@ -15,8 +15,8 @@ endif()
 set(REX_PUBLIC_LAYERS base geometry optim remote scene estimation learning kinematics dynamics collision render physics
                       planning trajectory control grasping locomotion course legacy)
 
-# Never installed: folders and files of running programs, which remain if a program is killed (src/base/private_folder.h,
-# src/base/leftovers.h), backups by `rex reset`, lists of dependencies, and the cache of Python.
+# Never installed: folders and files of running programs, which remain if a program is killed (src/base/folders.h,
+# src/base/folders.h), backups by `rex reset`, lists of dependencies, and the cache of Python.
 set(REX_TRANSIENT PATTERN "rex-work-*" EXCLUDE PATTERN "*.new" EXCLUDE PATTERN "main.backup-*" EXCLUDE
                   PATTERN "*.d" EXCLUDE PATTERN "__pycache__" EXCLUDE)
 

@@ -5,8 +5,8 @@
 #include "course/course.h"
 #include "course/live_view.h"
 #include "kinematics/inverse_kinematics.h"
-#include "locomotion/support_polygon.h"
-#include "render/scene_picture.h"
+#include "locomotion/footsteps.h"
+#include "render/picture.h"
 
 using namespace rex;
 

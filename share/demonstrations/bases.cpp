@@ -5,7 +5,6 @@
 #include "course/course.h"
 #include "course/live_view.h"
 #include "estimation/kalman_filter.h"
-#include "render/covariance_ellipsoid.h"
 #include "render/picture.h"
 #include "systems/mobile_bases.h"
 

@@ -10,7 +10,6 @@
 #include "optim/cma_es.h"
 #include "optim/cma_search.h"
 #include "optim/test_functions.h"
-#include "render/covariance_ellipsoid.h"
 #include "render/picture.h"
 
 using namespace rex;

@@ -6,8 +6,7 @@
 #include "course/car_pictures.h"
 #include "course/course.h"
 #include "course/live_view.h"
-#include "planning/dubins.h"
-#include "planning/reeds_shepp.h"
+#include "planning/car_curves.h"
 #include "render/picture.h"
 
 using namespace rex;

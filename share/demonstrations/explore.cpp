@@ -7,7 +7,7 @@
 #include "learning/dynamic_programming.h"
 #include "learning/learned_model.h"
 #include "learning/mazes.h"
-#include "learning/mdp_rollout.h"
+#include "learning/mdp.h"
 #include "learning/q_learning.h"
 #include "render/picture.h"
 

@@ -11,10 +11,10 @@
 #include "course/live_view.h"
 #include "estimation/consistency.h"
 #include "estimation/fast_slam.h"
+#include "estimation/fast_slam_unknown_association.h"
 #include "estimation/kalman_filter.h"
 #include "estimation/landmark_sensor.h"
 #include "estimation/particle_filter.h"
-#include "estimation/unnamed_fast_slam.h"
 #include "geometry/rotation.h"
 #include "render/picture.h"
 

@@ -6,7 +6,6 @@
 #include "course/live_view.h"
 #include "estimation/gaussian.h"
 #include "estimation/particle_filter.h"
-#include "render/covariance_ellipsoid.h"
 #include "render/picture.h"
 
 using namespace rex;

@@ -4,7 +4,7 @@
 #include "course/car_view.h"
 #include "course/course.h"
 #include "course/live_view.h"
-#include "learning/dataset_aggregation.h"
+#include "learning/behavioural_cloning.h"
 #include "learning/mixture_cloning.h"
 #include "render/picture.h"
 

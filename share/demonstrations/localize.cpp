@@ -9,7 +9,6 @@
 #include "course/course.h"
 #include "course/live_view.h"
 #include "estimation/building.h"
-#include "estimation/scan_lookup.h"
 #include "estimation/scan_matching.h"
 #include "estimation/scan_walk.h"
 #include "estimation/scan_weights.h"

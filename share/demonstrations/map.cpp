@@ -10,7 +10,7 @@
 #include "course/live_view.h"
 #include "estimation/building.h"
 #include "estimation/grid_slam.h"
-#include "estimation/map_agreement.h"
+#include "estimation/occupancy_map.h"
 #include "estimation/scan_matching.h"
 #include "estimation/scan_walk.h"
 #include "geometry/rotation.h"

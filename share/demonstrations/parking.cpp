@@ -4,8 +4,8 @@
 #include "course/car_pictures.h"
 #include "course/course.h"
 #include "course/live_view.h"
+#include "planning/car_curves.h"
 #include "planning/hybrid_astar.h"
-#include "planning/reeds_shepp.h"
 #include "render/picture.h"
 #include "systems/car.h"
 

@@ -6,7 +6,7 @@
 #include "course/live_view.h"
 #include "kinematics/task_maps.h"
 #include "physics/physics_world.h"
-#include "render/scene_picture.h"
+#include "render/picture.h"
 
 using namespace rex;
 

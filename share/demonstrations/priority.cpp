@@ -5,7 +5,7 @@
 #include "course/course.h"
 #include "course/live_view.h"
 #include "kinematics/hierarchical_step.h"
-#include "render/scene_picture.h"
+#include "render/picture.h"
 
 using namespace rex;
 

@@ -6,7 +6,7 @@
 #include "course/course.h"
 #include "course/live_view.h"
 #include "dynamics/forward_dynamics.h"
-#include "render/scene_picture.h"
+#include "render/picture.h"
 
 using namespace rex;
 

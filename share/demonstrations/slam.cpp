@@ -6,7 +6,6 @@
 #include "course/course.h"
 #include "course/live_view.h"
 #include "estimation/ekf_slam.h"
-#include "render/covariance_ellipsoid.h"
 #include "render/picture.h"
 
 using namespace rex;

@@ -8,7 +8,7 @@
 #include "learning/dynamic_programming.h"
 #include "learning/inverse_rl.h"
 #include "learning/mazes.h"
-#include "learning/mdp_rollout.h"
+#include "learning/mdp.h"
 #include "render/picture.h"
 
 using namespace rex;

@@ -4,7 +4,7 @@
 #include "control/computed_torque.h"
 #include "course/course.h"
 #include "course/live_view.h"
-#include "render/scene_picture.h"
+#include "render/picture.h"
 
 using namespace rex;
 

@@ -10,7 +10,7 @@
 #include "course/walk_pictures.h"
 #include "kinematics/center_of_mass.h"
 #include "locomotion/simulated_walk.h"
-#include "render/scene_picture.h"
+#include "render/picture.h"
 #include "scene/scene_spec.h"
 
 using namespace rex;

@@ -5,8 +5,7 @@
 #include "course/course.h"
 #include "course/live_view.h"
 #include "locomotion/footsteps.h"
-#include "locomotion/preview_control.h"
-#include "locomotion/support_polygon.h"
+#include "locomotion/walking_pattern.h"
 #include "render/picture.h"
 
 using namespace rex;

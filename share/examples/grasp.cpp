@@ -1,7 +1,7 @@
 // Where should four fingers hold a can? The best of random grasps by the largest wrench, in any direction,
 // that one newton of fingers can hold (Ferrari and Canny).
 #include "course/course.h"
-#include "grasping/antipodal.h"
+#include "grasping/object_surface.h"
 #include "grasping/quality.h"
 
 using namespace rex;

@@ -1,8 +1,8 @@
 // SLAM: a car drives in a circle among landmarks whose places it does not know, and maps them and itself by
 // an extended Kalman filter.
-#include "course/car_figure.h"
 #include "course/car_pictures.h"
 #include "course/car_simulator.h"
+#include "course/car_view.h"
 #include "course/course.h"
 #include "estimation/ekf_slam.h"
 

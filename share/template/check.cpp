@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "grading/evidence_parts.h"
+#include "grading/evidence.h"
 #include "interface.h"
 
 namespace {

@@ -2,20 +2,187 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <set>
 #include <string_view>
 #include <utility>
 
+#include <archive.h>
+#include <archive_entry.h>
 #include <fmt/format.h>
 
-#include "authoring/form_index_internal.h"
-#include "authoring/normal_text.h"
-#include "authoring/unpack.h"
-#include "base/is_below.h"
-#include "base/lines.h"
+#include "authoring/leak_scan_internal.h"
+#include "base/error.h"
+#include "base/folders.h"
+#include "base/text.h"
 #include "base/text_file.h"
 
 namespace rex::grading {
+namespace {
+
+// Both ways to write them: the second is that of htmlText().
+constexpr std::array<std::pair<std::string_view, char>, 10> kMeanings = {{{"&lt;", '<'},
+                                                                          {"&gt;", '>'},
+                                                                          {"&amp;", '&'},
+                                                                          {"&quot;", '"'},
+                                                                          {"&#60;", '<'},
+                                                                          {"&#62;", '>'},
+                                                                          {"&#38;", '&'},
+                                                                          {"&#34;", '"'},
+                                                                          {"&#39;", '\''},
+                                                                          {"\\\"", '"'}}};
+// Line breaks and tabs in literals, and lines that continue on the next.
+constexpr std::array<std::string_view, 5> kNothing = {"\\n", "\\t", "\\r", "\\\n", "\\\r\n"};
+constexpr std::array<std::string_view, 3> kCommentSigns = {"//", "/*", "*/"};
+
+// The comment at the start of `rest`, or nothing.
+std::string_view commentAt(std::string_view rest) {
+  if (rest.starts_with("//")) return rest.substr(0, std::min(rest.find('\n'), rest.size()));
+  if (!rest.starts_with("/*")) return {};
+  return rest.substr(0, std::min(rest.find("*/", 2), rest.size() - 2) + 2);
+}
+
+// Text at the start of `rest` that is ignored.
+std::string_view emptyAt(std::string_view rest, Comments comments) {
+  if (rest[0] == '/' && comments == Comments::kDrop) return commentAt(rest);
+  if (rest[0] == '/' || rest[0] == '*') {
+    for (const std::string_view sign : kCommentSigns)
+      if (rest.starts_with(sign)) return sign;
+  }
+  if (rest[0] == '\\') {
+    for (const std::string_view escape : kNothing)
+      if (rest.starts_with(escape)) return escape;
+  }
+  return {};
+}
+
+// The length of what represents a letter at the start of `rest`, and that letter (perhaps by itself).
+std::pair<std::size_t, char> letterAt(std::string_view rest) {
+  if (rest[0] == '&' || rest[0] == '\\')
+    for (const auto& [text, letter] : kMeanings)
+      if (rest.starts_with(text)) return {text.size(), letter};
+  return {1, rest[0]};
+}
+
+}  // namespace
+
+NormalText normalText(std::string_view text, Comments comments) {
+  NormalText normal;
+  int line = 1;
+  while (!text.empty()) {
+    const std::string_view empty = emptyAt(text, comments);
+    const auto [size, letter] = empty.empty() ? letterAt(text) : std::pair{empty.size(), '\0'};
+    // The zero bytes of text in UTF-16 vanish here, too.
+    if (static_cast<unsigned char>(letter) > ' ') {
+      normal.letters += letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+      normal.lines.push_back(line);
+    }
+    line += static_cast<int>(std::count(text.begin(), text.begin() + static_cast<long>(size), '\n'));
+    text.remove_prefix(size);
+  }
+  return normal;
+}
+
+namespace {
+
+using std::string_view_literals::operator""sv;
+
+constexpr std::size_t kMostBytes = std::size_t{256} << 20;
+
+// A signature and its offset in the file.
+struct FileSign {
+  std::size_t at;
+  std::string_view bytes;
+};
+constexpr std::array<FileSign, 11> kFileSigns = {{{0, "PK\x03\x04"sv},
+                                                  {0, "PK\x05\x06"sv},
+                                                  {257, "ustar"sv},
+                                                  {0, "\x1f\x8b"sv},
+                                                  {0, "BZh"sv},
+                                                  {0,
+                                                   "\xfd"
+                                                   "7zXZ\0"sv},
+                                                  {0, "LZIP"sv},
+                                                  {0, "\x28\xb5\x2f\xfd"sv},
+                                                  {0, "7z\xbc\xaf\x27\x1c"sv},
+                                                  {0, "070701"sv},
+                                                  {0, "Rar!\x1a"sv}}};
+
+struct FreeArchive {
+  void operator()(archive* opened) const { ::archive_read_free(opened); }
+};
+
+Error refusal(const std::string& file, std::string found) {
+  return Error({.what = "cannot look into this archive",
+                .where = {file},
+                .found = std::move(found),
+                .wanted = "one that can be unpacked here, or none"});
+}
+
+Error broken(const std::string& file, archive* reader) {
+  const char* said = ::archive_error_string(reader);
+  return refusal(file, said == nullptr ? "corrupt data" : said);
+}
+
+void readData(archive* reader, const std::string& file, std::size_t& total, std::string& bytes) {
+  std::array<char, 65536> buffer;
+  for (;;) {
+    const la_ssize_t count = ::archive_read_data(reader, buffer.data(), buffer.size());
+    if (count == 0) return;
+    if (count < 0) throw broken(file, reader);
+    total += static_cast<std::size_t>(count);
+    if (total > kMostBytes) throw refusal(file, "more than 256 MiB");
+    bytes.append(buffer.data(), static_cast<std::size_t>(count));
+  }
+}
+
+// Supports only those filters of libarchive that start no program.
+void supportKnown(archive* reader) {
+  ::archive_read_support_filter_gzip(reader);
+  ::archive_read_support_filter_bzip2(reader);
+  ::archive_read_support_filter_xz(reader);
+  ::archive_read_support_filter_lzip(reader);
+  ::archive_read_support_filter_zstd(reader);
+  ::archive_read_support_format_zip(reader);
+  ::archive_read_support_format_tar(reader);
+  ::archive_read_support_format_7zip(reader);
+  ::archive_read_support_format_cpio(reader);
+  ::archive_read_support_format_rar(reader);
+  ::archive_read_support_format_rar5(reader);
+  ::archive_read_support_format_raw(reader);
+}
+
+}  // namespace
+
+bool isPacked(std::string_view bytes) {
+  for (const FileSign& sign : kFileSigns)
+    if (bytes.size() > sign.at && bytes.substr(sign.at).starts_with(sign.bytes)) return true;
+  return false;
+}
+
+std::vector<PackedFile> unpack(std::string_view bytes, const std::string& file) {
+  const std::unique_ptr<archive, FreeArchive> reader(::archive_read_new());
+  supportKnown(reader.get());
+  if (::archive_read_open_memory(reader.get(), bytes.data(), bytes.size()) != ARCHIVE_OK)
+    throw broken(file, reader.get());
+  std::vector<PackedFile> files;
+  archive_entry* entry = nullptr;
+  std::size_t total = 0;
+  for (;;) {
+    const int end = ::archive_read_next_header(reader.get(), &entry);
+    if (end == ARCHIVE_EOF) return files;
+    if (end < ARCHIVE_WARN) throw broken(file, reader.get());
+    const bool isRaw = ::archive_format(reader.get()) == ARCHIVE_FORMAT_RAW;
+    // Nothing was unpacked then, and scanning would unpack the same bytes again and again.
+    if (isRaw && ::archive_filter_count(reader.get()) < 2) throw refusal(file, "an unknown kind");
+    if (::archive_entry_is_encrypted(entry) != 0) throw refusal(file, "an encrypted file");
+    const char* name = ::archive_entry_pathname(entry);
+    PackedFile& packed = files.emplace_back();
+    if (!isRaw && name != nullptr) packed.name = name;
+    readData(reader.get(), file, total, packed.bytes);
+  }
+}
+
 namespace {
 
 namespace fs = std::filesystem;

@@ -1,14 +1,43 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "authoring/secrets.h"
 #include "base/error.h"
 
 namespace rex::grading {
+
+/// Text normalised for comparison with what must not leak: in lower case, without blanks, line breaks,
+/// control characters and comment markers. `lines` has the line, from 1, of each letter.
+struct NormalText {
+  std::string letters{};
+  std::vector<int> lines{};
+};
+
+enum class Comments { kKeep, kDrop };
+
+/// Normalises a text, dropping C++ comments or only their markers. Escapes in string literals and the HTML
+/// entities for < > & " are decoded.
+[[nodiscard]] NormalText normalText(std::string_view text, Comments comments);
+
+/// A file that is packed in another file.
+struct PackedFile {
+  std::string name{};  ///< as stored there; empty for a file that is only compressed
+  std::string bytes{};
+};
+
+/// Whether these bytes begin as a zip, tar, 7z, cpio or rar archive, or as a gzip, bzip2, xz, lzip or zstd
+/// file.
+[[nodiscard]] bool isPacked(std::string_view bytes);
+
+/// The packed files, in memory: at most 256 MiB, and one level deep. Throws Error "cannot look into" with
+/// the reason for files that are broken, encrypted, larger, or of a kind that cannot be read.
+[[nodiscard]] std::vector<PackedFile> unpack(std::string_view bytes, const std::string& file);
 
 /// Something that students must not get but would.
 struct Leak {

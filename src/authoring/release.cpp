@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "authoring/known_files.h"
+#include "authoring/secrets.h"
 #include "base/error.h"
-#include "base/private_folder.h"
+#include "base/folders.h"
 #include "base/text_file.h"
 #include "submission/regions.h"
 

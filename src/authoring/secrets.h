@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -8,6 +10,12 @@
 #include "base/error.h"
 
 namespace rex::grading {
+
+/// The files below `root` that are in its git history or index, as "src/a.h"; empty if root has no .git of
+/// its own. Throws Error naming a file in `places` (names below root) that is neither known to git nor
+/// ignored by .gitignore, because nobody has decided what to do with it. Also throws Error if git fails.
+[[nodiscard]] std::optional<std::set<std::string>> knownFiles(const std::filesystem::path& root,
+                                                              const std::vector<std::string>& places);
 
 /// What students must not get before they solve an exercise, or ever.
 enum class SecretKind { kSolution, kHiddenCheck, kHiddenName, kWrongVariant, kLecturersNote, kCourseSecret };

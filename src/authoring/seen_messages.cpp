@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/lines.h"
+#include "base/text.h"
 #include "base/text_file.h"
 
 namespace rex::grading {

@@ -1,19 +1,203 @@
 #include "authoring/wrong_variants.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
-#include "authoring/joint_build.h"
 #include "authoring/seen_messages.h"
 #include "base/error.h"
+#include "base/process.h"
+#include "base/text.h"
 #include "base/text_file.h"
 #include "grading/unknown_check.h"
 #include "render/contact_sheet.h"
-#include "render/png.h"
+#include "render/image.h"
+#include "submission/build_tools.h"
+#include "submission/graded_part.h"
 #include "submission/submission.h"
+#include "submission/symbol_scan.h"
 
 namespace rex::grading {
+namespace {
+
+std::string ownName(std::size_t variant, std::string_view function) {
+  return fmt::format("variant_{}_{}", variant, function);
+}
+
+// Whether a piece is a function and `text` differs from it in the body only.
+bool differsInBody(std::string_view reference, const FilePiece& piece, std::string_view text) {
+  const std::string_view function = reference.substr(piece.start, piece.end - piece.start);
+  const std::size_t head = function.find('{', piece.nameStart - piece.start);
+  return !piece.function.empty() && !piece.isInternal &&
+         text.substr(0, head + 1) == function.substr(0, head + 1);
+}
+
+// The texts of the pieces, by index, that differ from the reference; none if some cannot be swapped.
+std::vector<std::pair<std::size_t, std::string>> differingBodies(std::string_view reference,
+                                                                 const std::vector<FilePiece>& pieces,
+                                                                 std::string_view variant) {
+  const std::vector<FilePiece> its = filePieces(CppText(variant));
+  if (its.size() != pieces.size()) return {};
+  std::vector<std::pair<std::size_t, std::string>> differing;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const std::string_view text = variant.substr(its[i].start, its[i].end - its[i].start);
+    if (text == reference.substr(pieces[i].start, pieces[i].end - pieces[i].start)) continue;
+    if (!differsInBody(reference, pieces[i], text) || pieces[i].function == "main") return {};
+    differing.emplace_back(i, text);
+  }
+  return differing;
+}
+
+int linesIn(std::string_view text) { return static_cast<int>(std::count(text.begin(), text.end(), '\n')); }
+
+}  // namespace
+
+JoinedVariants::JoinedVariants(std::string_view reference, const std::vector<std::string>& variants) {
+  const std::vector<FilePiece> pieces = filePieces(CppText(reference));
+  std::vector<std::vector<std::pair<std::size_t, std::string>>> versions(pieces.size());  // variant, text
+  for (std::size_t k = 0; k < variants.size(); ++k) {
+    const auto bodies = differingBodies(reference, pieces, variants[k]);
+    functions_.push_back(bodies.size());
+    for (const auto& [i, text] : bodies) versions[i].emplace_back(k, text);
+  }
+  std::size_t done = 0;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const FilePiece& piece = pieces[i];
+    source_ += reference.substr(done, piece.start - done);
+    done = piece.end;
+    // The compiler must not use anything that it knows about the body when it compiles the callers.
+    if (!versions[i].empty()) source_ += "[[gnu::noipa]] ";
+    // Nobody calls main(), and compiling what it shows would take a quarter of the time.
+    source_ += piece.function == "main" ? "int main() {}" : reference.substr(piece.start, done - piece.start);
+    for (auto& [k, text] : versions[i]) {
+      text.replace(piece.nameStart - piece.start, piece.function.size(), ownName(k, piece.function));
+      source_ += '\n';
+      const int first = linesIn(source_) + 1;
+      places_.push_back({first, first + linesIn(text), k});
+      source_ += text;
+    }
+  }
+  source_ += reference.substr(done);
+}
+
+std::size_t JoinedVariants::variantAt(int line) const {
+  const auto place = std::find_if(places_.begin(), places_.end(),
+                                  [&](const Place& p) { return p.first <= line && line <= p.last; });
+  return place == places_.end() ? functions_.size() : place->variant;
+}
+
+std::vector<StandIn> standIns(const std::vector<std::string>& symbols, std::size_t variant) {
+  constexpr std::string_view kMangled = "_Z";
+  const std::string mark = ownName(variant, "");
+  std::vector<StandIn> found;
+  for (const std::string& symbol : symbols) {
+    // "_Z16variant_2_turnedRKd": the length of the name, the name, the parameters.
+    if (!symbol.starts_with(kMangled)) continue;
+    std::string_view name = std::string_view(symbol).substr(kMangled.size());
+    const std::size_t length = takeNumber<std::size_t>(name).value_or(0);
+    if (!name.starts_with(mark) || length <= mark.size()) continue;
+    std::string replaced = fmt::format("{}{}{}", kMangled, length - mark.size(), name.substr(mark.size()));
+    if (std::find(symbols.begin(), symbols.end(), replaced) != symbols.end())
+      found.push_back({symbol, std::move(replaced)});
+  }
+  return found;
+}
+
+using std::filesystem::path;
+
+JointBuild::JointBuild(const GateContext& context, const std::string& reference,
+                       std::vector<std::string> variants)
+    : context_(context),
+      sources_(std::move(variants)),
+      folder_(std::filesystem::absolute(context.workFolder) / "joined") {
+  std::vector<std::size_t> culprits;
+  do {
+    culprits = compile(reference);
+    for (const std::size_t culprit : culprits) sources_[culprit] = reference;  // which leaves it out
+  } while (!culprits.empty());
+}
+
+// Returns the variants whose functions do not compile.
+std::vector<std::size_t> JointBuild::compile(const std::string& reference) {
+  const JoinedVariants joined(reference, sources_);
+  functions_.assign(sources_.size(), {});
+  Toolchain toolchain = context_.toolchain;
+  toolchain.flags.emplace_back("-w");  // functions that only main() used are unused now
+  const path file = context_.workFolder / "main.cpp";
+  writeTextFile(file, joined.source());
+  constexpr double kSeconds = 60, kSecondsEach = 5;
+  object_ = compileStudent(toolchain, {},
+                           {.main = file,
+                            .workFolder = folder_,
+                            .publicHeadersOnly = true,
+                            .seconds = kSeconds + kSecondsEach * static_cast<double>(sources_.size()),
+                            .memory = std::size_t{4} << 30});
+  std::vector<std::size_t> culprits;
+  if (object_.ok) {
+    const std::vector<std::string> all = symbols();
+    for (std::size_t k = 0; k < sources_.size(); ++k) {
+      functions_[k] = standIns(all, k);
+      if (functions_[k].size() != joined.functions(k)) functions_[k].clear();
+    }
+  } else {
+    for (const CompileDiagnostic& message : object_.messages)
+      if (const std::size_t k = joined.variantAt(message.line); k < sources_.size()) culprits.push_back(k);
+  }
+  return culprits;
+}
+
+// The functions that other files may call, from lines such as
+// "0000000000000000 g     F .text._Z4stepv\t0000000000000045 _Z4stepv".
+std::vector<std::string> JointBuild::symbols() const {
+  const Toolchain& toolchain = context_.toolchain;
+  const ProcessResult listed = BuildTools(toolchain, folder_, {})
+                                   .run({toolchain.objdump, "-t", object_.object.string()}, {}, 256u << 20);
+  if (!listed.ok()) throw Error({.what = "cannot list the functions of the variants", .found = listed.error});
+  std::vector<std::string> names;
+  constexpr std::size_t kScope = 17, kKind = kScope + 6;
+  for (const std::string_view line : splitLines(listed.output))
+    if (line.size() > kKind && line[kScope] == 'g' && line[kKind] == 'F')
+      names.emplace_back(line.substr(line.rfind(' ') + 1));
+  return names;
+}
+
+bool JointBuild::holds(std::size_t variant) const { return !functions_[variant].empty(); }
+
+// The scan of compileStudent() over everything that these functions reach. Whatever the rest of the file
+// calls, the solution calls, too.
+std::vector<CompileDiagnostic> JointBuild::forbiddenCallsOf(std::size_t variant) const {
+  const auto& forbidden = context_.exercise.forbidden;
+  if (forbidden.empty()) return {};
+  const path part = folder_ / "part.o";
+  std::vector<std::string> command = {context_.toolchain.compiler, "-r", "-nostdlib", "-Wl,--gc-sections"};
+  for (const StandIn& function : functions_[variant]) command.push_back("-Wl,--undefined=" + function.own);
+  command.insert(command.end(), {object_.object.string(), "-o", part.string()});
+  const BuildTools tools(context_.toolchain, folder_, {});
+  const ProcessResult run = tools.run(command);
+  if (!run.ok()) throw Error({.what = "cannot separate a variant from the others", .found = run.error});
+  return scanSymbols(part, sources_[variant], object_.name, forbidden);
+}
+
+BuiltSubmission JointBuild::link(std::size_t variant) const {
+  BuiltSubmission built{.start = {}, .source = sources_[variant], .worker = {}};
+  std::vector<CompileDiagnostic>& messages = built.start.compile.diagnostics;
+  messages = forbiddenCallsOf(variant);
+  if (messages.empty()) {
+    Toolchain toolchain = context_.toolchain;
+    for (const auto& [own, replaced] : functions_[variant])
+      toolchain.linkFlags.push_back(fmt::format("-Wl,--defsym={}={}", replaced, own));
+    const StudentProgram worker = linkWorker(toolchain, object_);
+    if (worker.ok) built.worker = worker.program;
+    messages = worker.messages;
+  }
+  if (built.worker.empty()) {
+    built.start.outcome = Outcome::kCompileError;
+    built.start.message = messages.empty() ? "it cannot be linked" : toString(messages.front());
+  }
+  return built;
+}
+
 namespace {
 
 using std::filesystem::path;

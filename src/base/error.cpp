@@ -5,9 +5,16 @@
 
 #include <fmt/format.h>
 
-#include "base/lower_case.h"
+#include "base/text.h"
 
 namespace rex {
+
+std::string toString(const Diagnostic& diagnostic) {
+  const std::string where = toString(diagnostic.where);
+  const char* severity = diagnostic.severity == Severity::kWarning ? "warning: " : "note: ";
+  return (where.empty() ? "" : where + ": ") + severity + diagnostic.message;
+}
+
 namespace {
 
 std::string format(const ErrorParts& parts) {

@@ -16,10 +16,9 @@
 #include <unistd.h>
 
 #include "base/child.h"
+#include "base/child_internal.h"
 #include "base/error.h"
 #include "base/interruption.h"
-#include "base/pipe.h"
-#include "base/stop_requests_internal.h"
 #include "base/text.h"
 
 // GCC first: libraries define a __has_feature for it that knows of nothing.

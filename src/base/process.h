@@ -10,6 +10,14 @@
 
 namespace rex {
 
+/// Repeats an attempt once if it was killed. A machine short of memory kills programs that did nothing
+/// wrong, while a program that gets itself killed does so again.
+template <typename Attempt, typename Killed>
+auto onceMoreIfKilled(const Attempt& attempt, const Killed& wasKilled) {
+  auto first = attempt();
+  return wasKilled(first) ? attempt() : first;
+}
+
 /// Options for running another program. Nothing ever passes through a shell.
 struct ProcessOptions {
   std::string input{};                     ///< fed to its standard input, which is empty otherwise

@@ -6,6 +6,10 @@
 
 namespace rex {
 
+/// Vectors and matrices as arguments: passed without a copy, including columns and blocks.
+using VectorArg = Eigen::Ref<const Eigen::VectorXd>;
+using MatrixArg = Eigen::Ref<const Eigen::MatrixXd>;
+
 /// A unit as messages write it: "-1 m", "a positive, finite number of metres".
 struct Unit {
   std::string_view symbol{}, name{};

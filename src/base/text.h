@@ -1,13 +1,49 @@
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
 #include <type_traits>
 #include <vector>
+
+namespace rex {
+
+/// The text with A to Z replaced by a to z.
+[[nodiscard]] std::string lowerCase(std::string_view text);
+
+/// The extension of a file in lower case: ".urdf"; empty if there is none.
+[[nodiscard]] std::string endingOf(const std::filesystem::path& file);
+
+/// The texts in a row, with `between` between neighbours: "a, b, c". (fmt's formatting of ranges takes
+/// seconds to compile.)
+template <class Texts>
+[[nodiscard]] std::string join(const Texts& texts, std::string_view between) {
+  std::string all;
+  for (auto text = std::begin(texts); text != std::end(texts); ++text) {
+    if (text != std::begin(texts)) all += between;
+    all += *text;
+  }
+  return all;
+}
+
+/// The lines of a text, without their line ends, as views into it.
+inline std::vector<std::string_view> splitLines(std::string_view text) {
+  std::vector<std::string_view> lines;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    lines.push_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return lines;
+}
+
+}  // namespace rex
 
 // Text taken apart. All parts are views into the text, so that `columnIn()` finds where they begin.
 namespace rex {

@@ -7,7 +7,7 @@
 #include <toml++/toml.h>
 
 #include "base/instant.h"
-#include "base/join.h"
+#include "base/text.h"
 
 namespace rex {
 

@@ -13,10 +13,10 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/escape.h"
 #include "base/isolated_call.h"
-#include "base/lower_case.h"
-#include "base/printable.h"
-#include "classroom/composed_text.h"
+#include "base/text.h"
+#include "classroom/gradebook_text.h"
 
 namespace rex::grading {
 namespace {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/opened_folder.h"
+#include "base/folders.h"
 
 namespace rex::grading {
 

@@ -12,7 +12,7 @@
 #include "base/error.h"
 #include "classroom/import_table.h"
 #include "classroom/task_list.h"
-#include "grading/result_file.h"
+#include "grading/results.h"
 
 namespace rex::grading {
 namespace {

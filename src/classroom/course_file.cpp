@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/printable.h"
-#include "classroom/composed_text.h"
+#include "base/escape.h"
 #include "classroom/csv.h"
-#include "classroom/hand_in.h"
+#include "classroom/gradebook_text.h"
+#include "classroom/submission_folder.h"
 
 namespace rex::grading {
 namespace {

@@ -4,11 +4,9 @@
 
 #include "base/error.h"
 #include "base/escape.h"
-#include "base/join.h"
-#include "base/printable.h"
 #include "base/text.h"
 #include "base/text_file.h"
-#include "classroom/composed_text.h"
+#include "classroom/gradebook_text.h"
 
 namespace rex::grading {
 namespace {

@@ -3,16 +3,253 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <map>
+#include <set>
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include "base/error.h"
-#include "base/lower_case.h"
-#include "base/opened_folder.h"
+#include "base/escape.h"
+#include "base/folders.h"
+#include "base/text.h"
+#include "base/text_file.h"
 #include "classroom/archive.h"
+#include "classroom/gradebook.h"
+#include "classroom/gradebook_text.h"
 
 namespace rex::grading {
+namespace {
+
+constexpr const char* kNotTakenHeadings = "student\texercise\twhy";
+
+std::string oneCell(const std::string& text) {
+  std::string cell = printable(text);
+  for (char& c : cell)
+    if (c == '\t' || c == '\n') c = ' ';
+  return cell;
+}
+
+}  // namespace
+
+std::string notTakenText(const std::vector<NotTaken>& all) {
+  std::string text = fmt::format("{}\n", kNotTakenHeadings);
+  for (const NotTaken& one : all)
+    text += fmt::format("{}\t{}\t{}\n", oneCell(one.student), one.exercise, oneCell(one.why));
+  return text;
+}
+
+std::vector<NotTaken> readNotTaken(const std::filesystem::path& file) {
+  std::vector<NotTaken> all;
+  if (!std::filesystem::exists(file)) return all;
+  const std::string text = readTextFile(file);
+  int number = 0;
+  for (const std::string_view line : splitLines(text)) {
+    const std::vector<std::string_view> cells = splitAt(line, '\t');
+    if (++number == 1 ? line != kNotTakenHeadings : cells.size() != 3)
+      throw Error({.what = "not a list of what was not taken",
+                   .where = {file.string(), number, 0},
+                   .wanted = "student, exercise and reason, as `rex grade` writes them"});
+    if (number > 1) all.push_back({std::string(cells[0]), std::string(cells[1]), std::string(cells[2])});
+  }
+  return all;
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kMoodleMark = "_assignsubmission_";
+
+bool isExerciseName(const std::vector<ExerciseInfo>& exercises, const std::string& name) {
+  try {
+    return !findExercise(exercises, name).name.empty();
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+std::string wantedBy(Platform platform) {
+  switch (platform) {
+    case Platform::kMoodle:
+      return "the zip of \"Download all submissions\", with folders such as 'Zoe "
+             "Miller_501_assignsubmission_file_'";
+    case Platform::kGit:
+      return "a folder of clones, such as 'kinematics-zoe/.git'";
+    case Platform::kGradescope:
+      return fmt::format("the zip of \"Export Submissions\", with '{}'", kGradescopeMetadata);
+    case Platform::kFolders:
+      return "'NAME/main.cpp', 'NAME.cpp' or 'NAME.zip' for each student";
+  }
+  return {};
+}
+
+// The names of a folder, four levels deep, without what repositories hold.
+void collectNames(const OpenedFolder& folder, const std::string& prefix, int depth,
+                  std::vector<std::string>& names) {
+  constexpr int kDeep = 4;
+  constexpr std::size_t kMost = 20'000;
+  for (const OpenedFolder::Entry& entry : folder.entries()) {
+    if (names.size() >= kMost) return;
+    if (entry.name == ".git")
+      names.push_back(prefix + ".git/HEAD");
+    else if (entry.type == fs::file_type::directory && depth < kDeep)
+      collectNames(folder.folder(entry.name), prefix + entry.name + "/", depth + 1, names);
+    else
+      names.push_back(prefix + entry.name);
+  }
+}
+
+std::string describe(const std::vector<std::string>& names) {
+  std::set<std::string> tops;
+  for (const std::string& name : names) tops.insert(name.substr(0, name.find('/')));
+  if (tops.empty()) return "nothing";
+  if (tops.size() == 1)
+    return fmt::format("{} file{} such as '{}'", names.size(), names.size() == 1 ? "" : "s",
+                       printable(names.front(), 120));
+  return fmt::format("{} entries such as '{}'", tops.size(), printable(*tops.begin(), 120));
+}
+
+UsageError refusal(const fs::path& path, Platform wanted, const Layout& found) {
+  std::string advice = wantedBy(wanted);
+  if (found.platform && *found.platform != wanted)
+    advice += fmt::format("; `rex import {}` takes what is there", toString(*found.platform));
+  if (found.isReady) advice += "; `rex grade` takes what is there as it is";
+  return UsageError({.what = fmt::format("nothing that `rex import {}` knows", toString(wanted)),
+                     .where = {path.string()},
+                     .found = found.found,
+                     .wanted = std::move(advice)});
+}
+
+}  // namespace
+
+std::string_view toString(Platform platform) {
+  constexpr std::string_view kNames[] = {"moodle", "git", "gradescope", "folders"};
+  return kNames[static_cast<int>(platform)];
+}
+
+Layout layoutOf(const std::vector<std::string>& names, const std::vector<ExerciseInfo>& exercises) {
+  Layout layout;
+  std::vector<std::string> real;
+  for (const std::string& name : names)
+    if (!isOfSystem(name)) real.push_back(name);
+  layout.found = describe(real);
+  bool isFlat = false, isClass = false;
+  for (const std::string& name : real) {
+    const fs::path path(name);
+    const std::vector<std::string> parts(path.begin(), path.end());
+    const auto has = [&](const std::string& part) {
+      return std::find(parts.begin(), parts.end(), part) != parts.end();
+    };
+    if (path.filename() == kGradescopeMetadata) layout.platform = Platform::kGradescope;
+    if (layout.platform) continue;
+    if (std::any_of(parts.begin(), parts.end(), [](const auto& part) { return parseMoodleName(part); }))
+      layout.platform = Platform::kMoodle;
+    else if (parts.size() > 2 && has(".git"))
+      layout.platform = Platform::kGit;
+    const bool isInExercise = parts.size() > 1 && isExerciseName(exercises, parts[parts.size() - 2]);
+    isClass = isClass || (parts.size() == 3 && parts[2] == "main.cpp" && isInExercise);
+    isFlat = isFlat || ((isSourceName(name) || isArchiveName(name)) && (parts.size() > 3 || !isInExercise));
+  }
+  layout.isReady = !layout.platform && isClass;
+  if (!layout.platform && isFlat && !isClass) layout.platform = Platform::kFolders;
+  return layout;
+}
+
+Layout layoutOfFolder(const fs::path& folder, const std::vector<ExerciseInfo>& exercises) {
+  std::vector<std::string> names;
+  collectNames(OpenedFolder(folder), "", 1, names);
+  return layoutOf(names, exercises);
+}
+
+void requireLayout(Platform platform, const fs::path& folder, const std::vector<ExerciseInfo>& exercises) {
+  if (const Layout layout = layoutOfFolder(folder, exercises); layout.platform != platform)
+    throw refusal(folder, platform, layout);
+}
+
+Download readDownloadOf(Platform platform, const fs::path& path, const std::vector<ExerciseInfo>& exercises) {
+  if (fs::is_directory(path)) {
+    requireLayout(platform, path, exercises);
+    return readDownload(path);
+  }
+  Download download = readDownload(path);
+  std::vector<std::string> names;
+  for (const DownloadedFile& file : download.files) names.push_back(file.name);
+  if (const Layout layout = layoutOf(names, exercises); layout.platform != platform)
+    throw refusal(path, platform, layout);
+  return download;
+}
+
+std::optional<MoodleName> parseMoodleName(const std::string& name) {
+  const std::size_t mark = name.find(kMoodleMark);
+  if (mark == name.npos || mark == 0) return {};
+  const std::size_t number = name.rfind('_', mark - 1);
+  if (number == name.npos || number + 1 == mark) return {};
+  const std::string digits = name.substr(number + 1, mark - number - 1);
+  if (digits.find_first_not_of("0123456789") != digits.npos) return {};
+  const std::string rest = name.substr(mark + std::string_view(kMoodleMark).size());
+  const std::size_t kind = rest.find('_');
+  if (kind == rest.npos) return {};
+  return MoodleName{.person = name.substr(0, number),
+                    .number = digits,
+                    .kind = rest.substr(0, kind),
+                    .file = rest.substr(kind + 1)};
+}
+
+namespace {
+
+// The folder around everything, which programs create when they pack one; empty if there is none.
+std::string folderAround(const Download& download) {
+  std::set<std::string> tops;
+  for (const DownloadedFile& file : download.files) {
+    if (isOfSystem(file.name)) continue;
+    const std::size_t slash = file.name.find('/');
+    if (slash == file.name.npos || file.name.substr(slash + 1) == "main.cpp") return {};
+    tops.insert(file.name.substr(0, slash + 1));
+  }
+  return tops.size() == 1 && !std::filesystem::is_directory(download.path) ? *tops.begin() : "";
+}
+
+// "Zoe.cpp" and "Zoe.zip" are Zoe's; empty for other files.
+std::string personOfFile(const std::string& name) {
+  if (isArchiveName(name)) return withoutArchiveEnding(name);
+  return isSourceName(name) ? std::filesystem::path(name).stem().string() : "";
+}
+
+}  // namespace
+
+Arrivals readFolders(const std::filesystem::path& source, const std::vector<ExerciseInfo>& exercises) {
+  Download download = readDownloadOf(Platform::kFolders, source, exercises);
+  const std::string around = folderAround(download);
+  Arrivals found{.platform = Platform::kFolders};
+  std::map<std::string, Arrival> arrivals;
+  for (DownloadedFile& file : download.files) {
+    if (isOfSystem(file.name)) continue;
+    file.name = file.name.substr(around.size());
+    const std::size_t slash = file.name.find('/');
+    const std::string person =
+        composed(slash == file.name.npos ? personOfFile(file.name) : file.name.substr(0, slash));
+    if (person.empty() || person == "main") {
+      found.complaints.push_back(
+          fmt::format("{}: whose? Wanted NAME/main.cpp, NAME.cpp or NAME.zip", file.place));
+      continue;
+    }
+    Arrival& arrival = arrivals[caseless(person)];
+    if (!arrival.people.empty() && arrival.people.front().name != person) {
+      found.complaints.push_back(fmt::format("{}: not taken: the same name as '{}', spelt differently",
+                                             file.place, arrival.people.front().name));
+      continue;
+    }
+    arrival.people = {{.name = person}};
+    if (arrival.place.empty())
+      arrival.place = file.place.substr(0, file.place.size() - file.name.size()) + person;
+    if (slash != file.name.npos) file.name = file.name.substr(slash + 1);
+    arrival.files.push_back(std::move(file));
+  }
+  for (auto& [person, arrival] : arrivals) found.all.push_back(std::move(arrival));
+  return found;
+}
+
 namespace {
 
 namespace fs = std::filesystem;

@@ -5,12 +5,12 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/escape.h"
+#include "base/folders.h"
 #include "base/instant.h"
-#include "base/opened_folder.h"
-#include "base/printable.h"
-#include "classroom/arrivals.h"
-#include "classroom/composed_text.h"
 #include "classroom/csv.h"
+#include "classroom/download.h"
+#include "classroom/gradebook_text.h"
 #include "classroom/platform_time.h"
 #include "classroom/repository.h"
 

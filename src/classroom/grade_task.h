@@ -5,12 +5,47 @@
 #include <string>
 #include <vector>
 
+#include "classroom/late_policy.h"
 #include "classroom/task_list.h"
 #include "grading/results.h"
+#include "submission/build_tools.h"
 #include "submission/exercise_info.h"
-#include "submission/toolchain.h"
+#include "submission/submission.h"
 
 namespace rex::grading {
+
+/// The compiler's output for a submission, next to its result.
+inline constexpr const char* kBuildLog = "build.log";
+
+/// Where programs are kept. The key must depend on everything that a build depends on. Only the grader's
+/// user may write to the folder, because programs in it are run. Several gradings may share it.
+struct KeptWorkers {
+  std::filesystem::path folder{};
+  std::string key{};
+  bool anew = false;  ///< build even if it is kept
+};
+
+/// The result of buildSubmission(), taken from the folder if an earlier call with the same key left it
+/// there, else built and stored. Files that do not compile are built each time, and so are programs with a
+/// wrong hash. Throws Error if the folder cannot be written.
+[[nodiscard]] BuiltSubmission buildOnce(const KeptWorkers& keeping, const Toolchain& toolchain,
+                                        const ExerciseInfo& exercise, const SubmissionOptions& options);
+
+/// The results found for a list of tasks, which are numbered from 1.
+struct Collected {
+  std::string csv{};           ///< one line per task, in their order
+  std::vector<int> missing{};  ///< without a result
+  std::vector<int> stale{};    ///< with a result for other inputs
+  std::vector<int> refused{};  ///< with a result that was changed after the grading
+  std::vector<int> failed{};   ///< the grader failed: to be repeated, never zero points
+};
+
+/// Reads all results below `out`. A task without a valid result has no points in its line.
+[[nodiscard]] Collected collect(const std::vector<Task>& tasks, const std::filesystem::path& out,
+                                const LatePolicy& policy);
+
+/// "1,4-6,9": how batch systems name tasks.
+[[nodiscard]] std::string rangesOf(std::vector<int> numbers);
 
 /// Hash of everything that grades an exercise here: its description and grader, the compiler and flags for
 /// students' files, the headers they may include, the library they are linked to, the running program

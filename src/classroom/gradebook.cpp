@@ -7,12 +7,11 @@
 
 #include "base/error.h"
 #include "base/instant.h"
-#include "base/join.h"
-#include "base/lines.h"
+#include "base/text.h"
 #include "base/text_file.h"
 #include "classroom/grade_task.h"
-#include "classroom/submission_owners.h"
-#include "grading/result_file.h"
+#include "classroom/submission_folder.h"
+#include "grading/results.h"
 
 namespace rex::grading {
 namespace {

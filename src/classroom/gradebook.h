@@ -9,8 +9,8 @@
 
 #include "classroom/adjustments.h"
 #include "classroom/course_file.h"
-#include "classroom/hand_in.h"
 #include "classroom/import_table.h"
+#include "classroom/submission_folder.h"
 #include "classroom/task_list.h"
 #include "grading/results.h"
 #include "reports/report.h"

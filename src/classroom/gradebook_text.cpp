@@ -1,10 +1,205 @@
-// Grade books as tables and sentences.
-#include <fmt/format.h>
+#include "classroom/gradebook_text.h"
 
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+#include <optional>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <utf8proc.h>
+
+#include "base/error.h"
+#include "base/escape.h"
 #include "base/instant.h"
+#include "base/text.h"
+#include "base/text_file.h"
 #include "classroom/csv.h"
 #include "classroom/gradebook.h"
+#include "classroom/submission_folder.h"
 
+namespace rex::grading {
+namespace {
+
+// Nothing if the text is not UTF-8.
+std::optional<std::string> mapped(std::string_view text, int options) {
+  utf8proc_uint8_t* result = nullptr;
+  const utf8proc_ssize_t size = ::utf8proc_map(reinterpret_cast<const utf8proc_uint8_t*>(text.data()),
+                                               static_cast<utf8proc_ssize_t>(text.size()), &result,
+                                               static_cast<utf8proc_option_t>(options));
+  const std::unique_ptr<utf8proc_uint8_t, void (*)(void*)> owner(result, std::free);
+  if (size < 0) return {};
+  return std::string(reinterpret_cast<const char*>(result), static_cast<std::size_t>(size));
+}
+
+constexpr int kComposed = UTF8PROC_STABLE | UTF8PROC_COMPOSE;
+
+}  // namespace
+
+std::string composed(std::string_view text) { return mapped(text, kComposed).value_or(std::string(text)); }
+
+std::string caseless(std::string_view text) {
+  // Most names, and quicker: tables compare each with each.
+  if (std::all_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; }))
+    return lowerCase(text);
+  return composed(mapped(text, kComposed | UTF8PROC_CASEFOLD).value_or(std::string(text)));
+}
+
+bool isUtf8(std::string_view text) { return mapped(text, kComposed).has_value(); }
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kFeedbackPage = "feedback.html";
+
+// Removes what an earlier export wrote, also an interrupted one. Other files are somebody's work.
+void clearFeedback(const fs::path& folder) {
+  if (!fs::exists(folder)) return;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name != "checks" && !name.starts_with(kFeedbackPage))
+      throw Error({.what = "not replaced by feedback",
+                   .where = {folder.string()},
+                   .found = fmt::format("'{}', which no export wrote", printable(name, 100)),
+                   .wanted = "another folder for feedback"});
+  }
+  fs::remove_all(folder);
+}
+
+}  // namespace
+
+std::optional<Feedback> feedbackOf(const GradeRow& row, const fs::path& out) {
+  if (!row.result) return {};
+  Feedback feedback{.student = shownName(row.student),
+                    .result = *row.result,
+                    .judgement = judgementOf(row),
+                    .source = readTextFile(out / row.handedInAs / row.exercise / "main.cpp")};
+  for (const Comment& comment : row.comments)
+    feedback.comments.push_back({comment.line, comment.text, comment.author});
+  return feedback;
+}
+
+std::vector<FeedbackFile> evidenceOf(const GradeRow& row, const fs::path& out) {
+  std::vector<FeedbackFile> files;
+  if (!row.result) return files;
+  const fs::path folder = out / row.handedInAs / row.exercise;
+  for (const CheckResult& check : row.result->checks) {
+    if (check.group == Group::kHidden) continue;
+    for (const std::string& name : {check.picture, check.replay}) {
+      const fs::path path(name);
+      const bool isBeside = !name.empty() && path.is_relative() && path.lexically_normal() == path &&
+                            *path.begin() != ".." && path.parent_path() == "checks";
+      if (isBeside && fs::is_regular_file(fs::symlink_status(folder / path)))
+        files.push_back({check.id, name, readTextFile(folder / path)});
+    }
+  }
+  return files;
+}
+
+int writeFeedbackFolders(const Gradebook& book, const fs::path& results, const fs::path& out) {
+  int written = 0;
+  for (const GradeRow& row : book.rows) {
+    if (const std::string why = whyNoStudentName(row.student.id); !why.empty())
+      throw Error({.what = fmt::format("no folder for '{}'", row.student.id),
+                   .found = why,
+                   .wanted = "a plain name"});
+    const fs::path folder = out / row.student.id / row.exercise;
+    clearFeedback(folder);
+    const auto feedback = feedbackOf(row, results);
+    if (!feedback) continue;
+    fs::create_directories(folder / "checks");
+    const std::vector<FeedbackFile> files = evidenceOf(row, results);
+    for (const FeedbackFile& file : files)
+      if (!file.name.ends_with(".png")) replaceTextFile(folder / file.name, file.bytes, "a replay");
+    if (fs::is_empty(folder / "checks")) fs::remove(folder / "checks");
+    replaceTextFile(folder / kFeedbackPage, feedbackPage(*feedback, files), "the feedback");
+    ++written;
+  }
+  return written;
+}
+
+namespace {
+
+using GradesJson = nlohmann::ordered_json;
+
+GradesJson pointsJson(std::int64_t hundredths) {
+  if (hundredths % 100 == 0) return hundredths / 100;
+  return static_cast<double>(hundredths) / 100;
+}
+
+GradesJson pointsJson(const std::optional<std::int64_t>& hundredths) {
+  return hundredths ? pointsJson(*hundredths) : GradesJson();
+}
+
+GradesJson whoJson(const CourseStudent& student) {
+  return {{"id", student.id},
+          {"name", student.name},
+          {"email", student.email},
+          {"group", student.group},
+          {"number", student.number}};
+}
+
+GradesJson rowJson(const GradeRow& row) {
+  GradesJson adjustments = GradesJson::array(), comments = GradesJson::array();
+  for (const AppliedAdjustment& one : row.applied)
+    adjustments.push_back({{"check", one.adjustment.check},
+                           {"before", pointsJson(one.before)},
+                           {"after", pointsJson(one.after)},
+                           {"reason", one.adjustment.reason},
+                           {"author", one.adjustment.author},
+                           {"date", one.adjustment.date}});
+  for (const Comment& comment : row.comments)
+    comments.push_back({{"line", comment.line}, {"text", comment.text}, {"author", comment.author}});
+  return {{"exercise", row.exercise},
+          {"status", toString(row.status)},
+          {"remark", row.remark},
+          {"points", row.result ? GradesJson(row.result->score) : GradesJson()},
+          {"possible", pointsJson(row.possible)},
+          {"outcome", row.result ? GradesJson(toString(row.result->outcome)) : GradesJson()},
+          {"adjustments", adjustments},
+          {"comments", comments},
+          {"late_days", row.late.days},
+          {"penalty", pointsJson(row.late.penalty)},
+          {"final", pointsJson(row.final)},
+          {"submitted", row.task ? GradesJson(instantText(row.submitted)) : GradesJson()},
+          {"time_from", row.timeFrom},
+          {"handed_in_as", row.handedInAs},
+          {"deadline", row.deadline ? GradesJson(instantText(*row.deadline)) : GradesJson()},
+          {"extended", row.isExtended}};
+}
+
+}  // namespace
+
+std::string gradesJson(const Gradebook& book, const Course& course) {
+  GradesJson exercises = GradesJson::array(), students = GradesJson::array(), strangers = GradesJson::array();
+  for (const std::string& name : book.exercises) {
+    const auto weight = course.weights.find(name);
+    exercises.push_back(
+        {{"exercise", name}, {"weight", pointsJson(weight == course.weights.end() ? 100 : weight->second)}});
+  }
+  for (const StudentTotal& sum : book.totals) {
+    GradesJson student = whoJson(sum.student), grades = GradesJson::array();
+    for (const GradeRow& row : book.rows)
+      if (row.student.id == sum.student.id) grades.push_back(rowJson(row));
+    student["total"] = pointsJson(sum.total);
+    student["possible"] = pointsJson(sum.possible);
+    student["grades"] = grades;
+    students.push_back(student);
+  }
+  for (const GradeRow& row : book.strangers) {
+    GradesJson student = whoJson(row.student);
+    student["grades"] = GradesJson::array({rowJson(row)});
+    strangers.push_back(student);
+  }
+  const GradesJson json = {{"schema", "rex-grades/1"}, {"title", course.title},      {"exercises", exercises},
+                           {"students", students},     {"not_on_roster", strangers}, {"notes", book.notes}};
+  return visibleJson(json.dump(2, ' ', false, GradesJson::error_handler_t::replace)) + "\n";
+}
+
+}  // namespace rex::grading
+
+// Grade books as tables and sentences.
 namespace rex::grading {
 namespace {
 

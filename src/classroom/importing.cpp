@@ -6,12 +6,12 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/folders.h"
 #include "base/instant.h"
-#include "base/leftovers.h"
 #include "base/sha256.h"
 #include "base/text_file.h"
-#include "classroom/hand_in.h"
-#include "classroom/import_names.h"
+#include "classroom/import_table.h"
+#include "classroom/submission_folder.h"
 #include "submission/student_build.h"
 
 namespace rex::grading {

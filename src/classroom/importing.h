@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "classroom/arrivals.h"
+#include "classroom/download.h"
 #include "classroom/import_table.h"
 #include "classroom/student_files.h"
 

@@ -1,8 +1,19 @@
 #include "classroom/platform_grades.h"
 
-#include <fmt/format.h>
+#include <algorithm>
+#include <map>
 
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <yaml-cpp/yaml.h>
+
+#include "base/error.h"
+#include "base/escape.h"
+#include "base/isolated_call.h"
 #include "classroom/csv.h"
+#include "classroom/download.h"
+#include "classroom/gradebook_text.h"
+#include "classroom/platform_time.h"
 
 namespace rex::grading {
 namespace {
@@ -67,6 +78,134 @@ PlatformGrades canvasGrades(const Gradebook& book) {
   }
   tellEmpty(book, grades);
   return grades;
+}
+
+namespace {
+
+/// What Gradescope says about one submission.
+struct GradescopeEntry {
+  std::string folder{};  ///< "submission_123"
+  std::string createdAt{};
+  int attempts = 1;  ///< with those of its history
+  std::vector<Person> people{};
+};
+
+// Gradescope writes keys as Ruby does: ":name". Empty for what is no scalar.
+std::string scalarIn(const YAML::Node& map, const std::string& key) {
+  if (!map.IsMap()) return {};
+  for (const std::string& name : {":" + key, key})
+    if (const YAML::Node value = map[name]; value && value.IsScalar()) return value.Scalar();
+  return {};
+}
+
+YAML::Node listIn(const YAML::Node& map, const std::string& key) {
+  if (map.IsMap())
+    for (const std::string& name : {":" + key, key})
+      if (const YAML::Node value = map[name]; value && value.IsSequence()) return value;
+  return YAML::Node(YAML::NodeType::Sequence);
+}
+
+// Entries as JSON: [[folder, created_at, [[name, sid, email], ...], attempts], ...].
+std::string entriesOf(const std::string& text, const std::string& place) {
+  nlohmann::json entries = nlohmann::json::array();
+  try {
+    const YAML::Node root = YAML::Load(text);
+    if (!root.IsMap())
+      throw Error(
+          {.what = "not Gradescope's metadata", .where = {place}, .found = "no table of submissions"});
+    for (const auto& item : root) {
+      if (!item.first.IsScalar()) continue;
+      nlohmann::json people = nlohmann::json::array();
+      for (const YAML::Node& person : listIn(item.second, "submitters"))
+        people.push_back({scalarIn(person, "name"), scalarIn(person, "sid"), scalarIn(person, "email")});
+      entries.push_back({item.first.Scalar(), scalarIn(item.second, "created_at"), people,
+                         1 + listIn(item.second, "history").size()});
+    }
+  } catch (const YAML::Exception& error) {
+    throw Error({.what = "not Gradescope's metadata",
+                 .where = {place, error.mark.line + 1, error.mark.column + 1},
+                 .found = error.msg,
+                 .wanted = "YAML"});
+  }
+  return entries.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+// In a process of its own: the text holds what students chose, and YAML may nest without end.
+std::vector<GradescopeEntry> readMetadata(const DownloadedFile& file, const std::string& place) {
+  const IsolatedResult read =
+      callIsolated([&] { return entriesOf(file.text.value_or(""), place); },
+                   {.cpuSeconds = 60, .wallSeconds = 120, .memory = std::size_t{2} << 30});
+  if (read.end != IsolatedEnd::kReturned)
+    throw Error({.what = "not Gradescope's metadata",
+                 .where = {place},
+                 .found = "a file that crashes its reader or takes too long",
+                 .wanted = "YAML"});
+  std::vector<GradescopeEntry> entries;
+  for (const nlohmann::json& json : nlohmann::json::parse(read.bytes)) {
+    GradescopeEntry& entry = entries.emplace_back(GradescopeEntry{.folder = json.at(0).get<std::string>(),
+                                                                  .createdAt = json.at(1).get<std::string>(),
+                                                                  .attempts = json.at(3).get<int>()});
+    for (const nlohmann::json& fields : json.at(2)) {
+      Person person{.id = composed(fields.at(1).get<std::string>()),
+                    .name = composed(fields.at(0).get<std::string>()),
+                    .email = composed(fields.at(2).get<std::string>())};
+      person.identifier = person.id.empty() ? person.email : person.id;
+      const std::size_t digits = entry.folder.find_last_not_of("0123456789");
+      person.number = entry.folder.substr(digits == entry.folder.npos ? 0 : digits + 1);
+      entry.people.push_back(std::move(person));
+    }
+  }
+  return entries;
+}
+
+}  // namespace
+
+Arrivals readGradescope(const std::filesystem::path& source, const std::vector<ExerciseInfo>& exercises) {
+  Download download = readDownloadOf(Platform::kGradescope, source, exercises);
+  const auto metadata = std::find_if(download.files.begin(), download.files.end(), [](const auto& file) {
+    return !isOfSystem(file.name) && std::filesystem::path(file.name).filename() == kGradescopeMetadata;
+  });
+  const std::string root = metadata->name.substr(
+                        0, metadata->name.size() - std::string(kGradescopeMetadata).size()),
+                    place = (source / metadata->place).string();
+  Arrivals found{.platform = Platform::kGradescope};
+  std::map<std::string, Arrival> arrivals;
+  std::map<std::string, int> attempts;
+  for (GradescopeEntry& entry : readMetadata(*metadata, place)) {
+    Arrival arrival{.people = std::move(entry.people), .place = root + entry.folder};
+    if (arrival.people.empty()) {
+      found.complaints.push_back(
+          fmt::format("{}: {}: nobody handed this in", place, printable(entry.folder, 100)));
+      continue;
+    }
+    if (!entry.createdAt.empty()) {
+      arrival.submitted = PlatformZone("").instantOf(entry.createdAt, place + ": " + entry.folder);
+      arrival.timeFrom = "platform";
+    }
+    attempts[entry.folder] = entry.attempts;
+    arrivals.emplace(entry.folder, std::move(arrival));
+  }
+  for (DownloadedFile& file : download.files) {
+    if (isOfSystem(file.name) || &file == &*metadata) continue;
+    const std::string inside = file.name.starts_with(root) ? file.name.substr(root.size()) : "";
+    const std::size_t slash = inside.find('/');
+    const auto arrival = arrivals.find(inside.substr(0, slash));
+    if (slash != inside.npos && arrival != arrivals.end()) {
+      file.name = inside.substr(slash + 1);
+      file.attempts = attempts.at(arrival->first);
+      arrival->second.files.push_back(std::move(file));
+    } else if (slash != inside.npos && inside.starts_with("submission_")) {
+      found.complaints.push_back(
+          fmt::format("{}: of a submission that {} does not name", file.place, kGradescopeMetadata));
+    } else {
+      found.notes.push_back(fmt::format("{}: ignored", file.place));
+    }
+  }
+  for (auto& [folder, arrival] : arrivals) {
+    if (arrival.files.empty()) arrival.whyNone = "no files in the export";
+    found.all.push_back(std::move(arrival));
+  }
+  return found;
 }
 
 }  // namespace rex::grading

@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
-#include "base/printable.h"
+#include "base/escape.h"
 #include "base/process.h"
 #include "base/text_file.h"
 

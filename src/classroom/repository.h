@@ -9,8 +9,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/opened_folder.h"
-#include "base/private_folder.h"
+#include "base/folders.h"
 
 namespace rex::grading {
 

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/printable.h"
+#include "base/escape.h"
 #include "classroom/archive.h"
 
 namespace rex::grading {

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/lines.h"
 #include "base/sha256.h"
 #include "base/text.h"
 #include "base/text_file.h"
-#include "classroom/hand_in.h"
+#include "classroom/submission_folder.h"
 
 namespace rex::grading {
 namespace {

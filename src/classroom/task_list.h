@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "sandbox/level.h"
+#include "sandbox/confinement.h"
 
 namespace rex::grading {
 

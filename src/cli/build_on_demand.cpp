@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "base/private_folder.h"
+#include "base/folders.h"
 #include "base/process.h"
 #include "base/text.h"
 #include "base/text_file.h"

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/lines.h"
 #include "base/text.h"
 #include "cli/terminal.h"
 

@@ -14,9 +14,9 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/join.h"
+#include "base/text.h"
 #include "cli/terminal.h"
-#include "sandbox/level.h"
+#include "sandbox/confinement.h"
 
 namespace rex::cli {
 

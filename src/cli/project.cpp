@@ -1,7 +1,7 @@
 #include "cli/project.h"
 
 #include "base/error.h"
-#include "base/own_folder.h"
+#include "base/folders.h"
 #include "cli/build_on_demand.h"
 #include "cli/out_folder.h"
 

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "submission/build_tools.h"
 #include "submission/exercise_info.h"
-#include "submission/toolchain.h"
 
 namespace rex::cli {
 

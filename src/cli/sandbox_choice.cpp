@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "base/private_folder.h"
+#include "base/folders.h"
 #include "cli/out_folder.h"
 #include "cli/terminal.h"
 #include "sandbox/probes.h"

@@ -11,8 +11,7 @@
 #include <unistd.h>
 
 #include "base/escape.h"
-#include "base/own_folder.h"
-#include "base/printable.h"
+#include "base/folders.h"
 
 namespace rex::cli {
 

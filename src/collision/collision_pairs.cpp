@@ -2,17 +2,175 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <map>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "collision/coupled_motion_internal.h"
-#include "collision/home_overlaps_internal.h"
-#include "collision/proxy_report.h"
+#include "base/cpu_lanes.h"
+#include "collision/contacts.h"
+#include "collision/contacts_internal.h"
 #include "collision/rigid_parts_internal.h"
 
 namespace rex {
+namespace {
+
+using internal::ContactKernel;
+using internal::CorePair;
+using internal::kContactLanes;
+using internal::kPoseNumbers;
+using internal::kSizeNumbers;
+
+// Pairs of one kind, one per lane, with solid a followed by solid b.
+class PairsInLanes {
+ public:
+  explicit PairsInLanes(const internal::PairKernel& kernel) : kernel_(kernel) {}
+
+  [[nodiscard]] bool isFull() const { return count_ == kContactLanes; }
+
+  void add(const CorePair& pair, const ContactSolid& a, const Pose& X_WA, const ContactSolid& b,
+           const Pose& X_WB) {
+    put(0, a, X_WA);
+    put(1, b, X_WB);
+    rows_[count_] = pair.row;
+    swapped_[count_++] = b.shape < a.shape;
+  }
+
+  // Runs the kernel and empties the lanes.
+  void measure(std::vector<Proximity>& found) {
+    if (count_ == 0) return;
+    internal::LaneProximities lanes;
+    kernel_.proximities({.a = 0, .b = 1, .row = 0, .reach = 0}, count_, {X_WS_, sizes_}, lanes);
+    for (int lane = 0; lane < count_; ++lane) {
+      const auto vector = [&](const double* v) {
+        return Eigen::Vector3d(v[lane], v[kContactLanes + lane], v[2 * kContactLanes + lane]);
+      };
+      Proximity& p = found[static_cast<std::size_t>(rows_[lane])];
+      p = {lanes.distance[lane], vector(lanes.p_WA), vector(lanes.p_WB), vector(lanes.normal_W)};
+      if (swapped_[lane]) {
+        std::swap(p.p_WA, p.p_WB);
+        p.normal_W = -p.normal_W;
+      }
+    }
+    count_ = 0;
+  }
+
+ private:
+  void put(int place, const ContactSolid& solid, const Pose& X_WS) {
+    double* X = X_WS_ + place * kPoseNumbers + count_;
+    for (int i = 0; i < 9; ++i) X[i * kContactLanes] = X_WS.R.data()[i];
+    for (int i = 0; i < 3; ++i) X[(9 + i) * kContactLanes] = X_WS.p[i];
+    double* size = sizes_ + place * kSizeNumbers + count_;
+    for (int i = 0; i < 3; ++i) size[i * kContactLanes] = solid.core.half[i];
+    size[3 * kContactLanes] = solid.core.radius;
+  }
+
+  const internal::PairKernel& kernel_;
+  int count_ = 0;
+  int rows_[kContactLanes] = {};
+  bool swapped_[kContactLanes] = {};
+  double X_WS_[2 * kPoseNumbers] = {}, sizes_[2 * kSizeNumbers] = {};
+};
+
+// Calls visit(pair, solid a, X_WA, solid b, X_WB) for the pairs whose bounding spheres are closer than the
+// cutoff, up to rounding. Here and below, NaN never counts as far.
+template <class Visit>
+void forEachNear(const ContactModel::Data& data, const std::vector<CorePair>& pairs,
+                 const std::vector<Pose>& X_WS, double cutoff, const Visit& visit) {
+  for (const CorePair& pair : pairs) {
+    const auto a = static_cast<std::size_t>(pair.a), b = static_cast<std::size_t>(pair.b);
+    if (!((X_WS[a].p - X_WS[b].p).norm() >= pair.reach + cutoff + internal::kCullSlack))
+      visit(pair, data.solids[a], X_WS[a], data.solids[b], X_WS[b]);
+  }
+}
+
+}  // namespace
+
+void proxies(const ContactModel& contacts, const BodyPoses& poses, double cutoff, ProxyStorage& storage) {
+  const ContactModel::Data& data = contacts.data();
+  auto& [near, X_WS, found] = storage;
+  X_WS.clear();
+  for (const ContactSolid& solid : data.solids) X_WS.push_back(poses[solid.body] * solid.X_BS);
+  found.resize(data.pairs.size());
+  for (Proximity& proximity : found) proximity.distance = std::numeric_limits<double>::infinity();
+
+  const auto kernel = kernelFor<ContactKernel>(cpuLanes());
+  for (std::size_t type = 0; type < data.cores.size(); ++type) {
+    PairsInLanes lanes(kernel.pairs[type]);
+    forEachNear(data, data.cores[type], X_WS, cutoff,
+                [&](const CorePair& pair, const ContactSolid& a, const Pose& X_WA, const ContactSolid& b,
+                    const Pose& X_WB) {
+                  lanes.add(pair, a, X_WA, b, X_WB);
+                  if (lanes.isFull()) lanes.measure(found);
+                });
+    lanes.measure(found);
+  }
+  forEachNear(data, data.others, X_WS, cutoff,
+              [&](const CorePair& pair, const ContactSolid& a, const Pose& X_WA, const ContactSolid& b,
+                  const Pose& X_WB) {
+                found[static_cast<std::size_t>(pair.row)] = proximity(a.form, X_WA, b.form, X_WB);
+              });
+
+  near.clear();
+  for (std::size_t row = 0; row < found.size(); ++row)
+    if (!(found[row].distance >= cutoff)) near.push_back({data.pairs[row], found[row]});
+}
+
+std::vector<Proxy> proxies(const ContactModel& contacts, const BodyPoses& poses, double cutoff) {
+  ProxyStorage storage;
+  proxies(contacts, poses, cutoff, storage);
+  return std::move(storage.near);
+}
+
+namespace {
+
+std::string pointText(const Eigen::Vector3d& p) {
+  // Numbers that round to zero lose their sign.
+  const auto rounded = [](double x) { return std::abs(x) < 5e-5 ? 0. : x; };
+  return fmt::format("{:9.4f} {:8.4f} {:8.4f}", rounded(p.x()), rounded(p.y()), rounded(p.z()));
+}
+
+}  // namespace
+
+std::string shapeLabel(const Model& model, int shape) {
+  const auto until = std::span(model.shapes()).first(static_cast<std::size_t>(shape) + 1);
+  const ModelShape& chosen = until.back();
+  const bool isNamed = !chosen.name.empty();
+  // Shapes that are only visual are not counted among shapes in contact, although they may have the same
+  // name.
+  const auto isAlike = [&](const ModelShape& one) {
+    return one.body == chosen.body && one.name == chosen.name && (!isNamed || one.contact == chosen.contact);
+  };
+  if (isNamed && std::ranges::count_if(model.shapes(), isAlike) == 1) return chosen.name;
+  return fmt::format("{}#{}", isNamed ? chosen.name : model[chosen.body].name,
+                     std::ranges::count_if(until, isAlike));
+}
+
+std::string proxyReport(const Model& model, std::span<const Proxy> proxies) {
+  std::vector<Proxy> sorted(proxies.begin(), proxies.end());
+  std::stable_sort(sorted.begin(), sorted.end(), [](const Proxy& one, const Proxy& other) {
+    const double d = one.proximity.distance, e = other.proximity.distance;
+    return d < e || (std::isnan(d) && !std::isnan(e));
+  });
+  std::vector<std::string> names = {"pair"};
+  for (const Proxy& one : sorted)
+    names.push_back(shapeLabel(model, one.pair.a) + " - " + shapeLabel(model, one.pair.b));
+  std::size_t width = 0;
+  for (const std::string& name : names) width = std::max(width, name.size());
+
+  std::string text = fmt::format("{:{}} {:>9} {:>27} {:>27}\n", names[0], width, "distance",
+                                 "point of the first", "point of the second");
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    const Proximity& near = sorted[i].proximity;
+    text += fmt::format("{:{}} {:>9.4f} {} {}\n", names[i + 1], width, near.distance, pointText(near.p_WA),
+                        pointText(near.p_WB));
+  }
+  return text;
+}
+
 namespace {
 
 using internal::CoupledMotion;

@@ -1,13 +1,23 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "base/diagnostic.h"
-#include "collision/contact_model.h"
+#include "base/error.h"
+#include "collision/contacts.h"
 
 namespace rex {
+
+/// The label of a shape of the model, given its index in Model::shapes(): its own name, or that of its
+/// body. A number counts a body's shapes without a name, "hole#2", and shapes that share a name, as the
+/// collision shapes of a URDF link do: "panda_link2#3" is the third of them.
+[[nodiscard]] std::string shapeLabel(const Model& model, int shape);
+
+/// A table of the pairs, nearest first, with a headline and a line for each: names, distance, and the
+/// nearest points of both shapes in W, metres. Distances that are not a number come first.
+[[nodiscard]] std::string proxyReport(const Model& model, std::span<const Proxy> proxies);
 
 /// The reason for the verdict on a pair of bodies. The first one that applies decides.
 enum class PairReason {

@@ -1,6 +1,5 @@
-#include "collision/box_box_kernel_internal.h"
 #include "collision/contact_kernel_internal.h"
-#include "collision/segment_kernel_internal.h"
+#include "collision/core_kernels_internal.h"
 
 namespace rex::internal {
 namespace {

@@ -9,10 +9,75 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "collision/contact_data_internal.h"
-#include "collision/joint_travel_internal.h"
+#include "collision/contacts_internal.h"
+#include "collision/motion_clearance_internal.h"
 #include "collision/proximity.h"
 #include "kinematics/forward_kinematics.h"
+
+namespace rex::internal {
+namespace {
+
+using Eigen::VectorXd;
+
+// A quaternion that moves along a line by d, and whose length is at least `least`, turns by at most 2 |d| /
+// least.
+double turn(const Joint& joint, const VectorXd& from, const VectorXd& to) {
+  const VectorXd d = to - from;
+  if (d.isZero(0)) return 0;
+  const double t = std::clamp(-from.dot(d) / d.squaredNorm(), 0., 1.);
+  const double least = (from + t * d).norm();
+  if (!(least > 1e-6 * std::max(from.norm(), to.norm())))
+    throw Error({.what = fmt::format("motion of joint '{}'", joint.name),
+                 .found = "a quaternion that becomes zero on the way",
+                 .wanted = "quaternions at both ends with a positive inner product"});
+  return 2 * d.norm() / least;
+}
+
+}  // namespace
+
+JointTravel jointTravel(const Joint& joint, const VectorArg& from, const VectorArg& to) {
+  const double ratio = joint.nq == 1 ? joint.ratio : 1, offset = joint.nq == 1 ? joint.offset : 0;
+  const VectorXd a = (ratio * from.segment(joint.qIndex, joint.nq)).array() + offset,
+                 b = (ratio * to.segment(joint.qIndex, joint.nq)).array() + offset;
+  JointTravel travel;
+  // From the last movement to the first: a rotation carries everything after it, which is farthest from the
+  // axis at one of the ends.
+  Eigen::Vector3d moved = Eigen::Vector3d::Zero(), after_a = moved, after_b = moved;
+  const JointMovements all = movements(joint);
+  for (std::size_t k = all.size(); k-- > 0;) {
+    const JointMovement& one = all[k];
+    const int i = one.coordinate;
+    switch (one.kind) {
+      case JointMovement::Kind::kFixed:
+        break;
+      case JointMovement::Kind::kSlider:
+        moved += (b[i] - a[i]) * one.axis;
+        after_a += a[i] * one.axis;
+        after_b += b[i] * one.axis;
+        break;
+      case JointMovement::Kind::kHinge: {
+        const double reach = std::max(one.axis.cross(after_a).norm(), one.axis.cross(after_b).norm());
+        travel.angle += std::abs(b[i] - a[i]);
+        travel.way += std::abs(b[i] - a[i]) * reach;
+        break;
+      }
+      case JointMovement::Kind::kQuaternion:
+        travel.angle += turn(joint, a.segment<4>(i), b.segment<4>(i));
+        break;
+    }
+  }
+  travel.way += moved.norm();
+  return travel;
+}
+
+BodyId carrierOfBoth(const Model& model, BodyId a, BodyId b) {
+  std::vector<BodyId> above{a};
+  while (above.back() != kWorld) above.push_back(model[above.back()].parent);
+  while (std::find(above.begin(), above.end(), b) == above.end()) b = model[b].parent;
+  return b;
+}
+
+}  // namespace rex::internal
 
 namespace rex {
 namespace {
@@ -182,6 +247,101 @@ ClearanceBounds clearanceBounds(const Model& model, const ContactModel& contacts
 double motionClearance(const Model& model, const ContactModel& contacts, const VectorArg& from,
                        const VectorArg& to, double tolerance) {
   return clearanceBounds(model, contacts, from, to, tolerance).atLeast;
+}
+
+namespace {
+
+constexpr double kCutoff = 0.5;  // metres: whoever is farther counts as this far
+constexpr int kPause = 8;        // calls after a failure without measuring
+
+// Adds what each hinge below `carrier` can do to the points of a ball of this radius about p_BS: no posture
+// stretches the chain farther than the sum of its links.
+void addLevers(const Model& model, BodyId body, BodyId carrier, double farthest,
+               Eigen::Ref<Eigen::VectorXd> levers) {
+  for (BodyId at = body; at != carrier; at = model[at].parent) {
+    const JointId id = model[at].joint;
+    if (id == kNoJoint) {
+      farthest += model[at].X_PB.p.norm();
+      continue;
+    }
+    const Joint& joint = model[id];
+    farthest += joint.X_MC.p.norm();
+    if (joint.type == JointType::kHinge) levers[joint.qIndex] += std::abs(joint.ratio) * farthest;
+    farthest += joint.X_PF.p.norm();
+  }
+}
+
+}  // namespace
+
+ClearanceWatch::ClearanceWatch(const Model& model) {
+  for (const Joint& joint : model.joints())
+    isAble_ = isAble_ && (joint.type == JointType::kHinge || joint.type == JointType::kRigid);
+  if (!isAble_) return;
+  contacts_.emplace(model);
+  const std::span<const ShapePair> all = contacts_->pairs();
+  std::vector<Eigen::VectorXd> levers;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Eigen::VectorXd one = leversOf(model, all[i]);
+    if (one.isZero(0)) continue;
+    pairs_.push_back(i);
+    levers.push_back(one);
+  }
+  levers_.resize(static_cast<Eigen::Index>(levers.size()), model.nq());
+  for (std::size_t i = 0; i < levers.size(); ++i)
+    levers_.row(static_cast<Eigen::Index>(i)) = levers[i].transpose();
+  distances_.resize(levers_.rows());
+}
+
+Eigen::VectorXd ClearanceWatch::leversOf(const Model& model, const ShapePair& pair) const {
+  const ContactModel::Data& data = contacts_->data();
+  const auto solid = [&](int shape) -> const ContactSolid& {
+    return data.solids[static_cast<std::size_t>(data.solidOf[static_cast<std::size_t>(shape)])];
+  };
+  const ContactSolid &a = solid(pair.a), &b = solid(pair.b);
+  const BodyId common = internal::carrierOfBoth(model, a.body, b.body);
+  Eigen::VectorXd levers = Eigen::VectorXd::Zero(model.nq());
+  addLevers(model, a.body, common, a.X_BS.p.norm() + a.reach, levers);
+  addLevers(model, b.body, common, b.X_BS.p.norm() + b.reach, levers);
+  return levers;
+}
+
+void ClearanceWatch::reset() {
+  isMeasured_ = false;
+  wait_ = 0;
+}
+
+void ClearanceWatch::measure(const Model& model, const Eigen::VectorXd& q) {
+  forwardKinematics(model, q, poses_);
+  proxies(*contacts_, poses_, kCutoff, storage_);
+  for (std::size_t i = 0; i < pairs_.size(); ++i)
+    distances_[static_cast<Eigen::Index>(i)] = std::min(kCutoff, storage_.pairs[pairs_[i]].distance);
+  at_ = q;
+  isMeasured_ = true;
+}
+
+bool ClearanceWatch::isProven(const Eigen::VectorXd& way, double distance) {
+  left_ = distances_;
+  left_.noalias() -= levers_ * way;
+  return (left_.array() > distance).all();
+}
+
+bool ClearanceWatch::isApart(const Model& model, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                             double reserve, double distance) {
+  if (!isAble_) return false;
+  if (pairs_.empty()) return true;
+  if (wait_ > 0) {
+    --wait_;
+    return false;
+  }
+  if (isMeasured_) {
+    way_ = (q - at_).cwiseAbs() + reserve * v.cwiseAbs();
+    if (isProven(way_, distance)) return true;
+  }
+  measure(model, q);
+  way_ = reserve * v.cwiseAbs();
+  if (isProven(way_, distance)) return true;
+  wait_ = kPause - 1;
+  return false;
 }
 
 }  // namespace rex

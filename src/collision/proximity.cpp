@@ -1,9 +1,8 @@
 #include "collision/proximity.h"
 
-#include "collision/box_box_kernel_internal.h"
+#include "collision/convex_core_internal.h"
 #include "collision/convex_distance_internal.h"
-#include "collision/core_internal.h"
-#include "collision/segment_kernel_internal.h"
+#include "collision/core_kernels_internal.h"
 
 namespace rex {
 namespace {

@@ -9,7 +9,7 @@
 #include "base/require.h"
 #include "collision/contacts.h"
 #include "kinematics/forward_kinematics.h"
-#include "scene/coordinates.h"
+#include "scene/state.h"
 
 namespace rex {
 namespace {

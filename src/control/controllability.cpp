@@ -8,8 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "control/eigenvalue_text_internal.h"
-#include "control/exponential_internal.h"
+#include "control/linear_system_internal.h"
 #include "control/require_internal.h"
 #include "control/riccati.h"
 #include "control/stability.h"

@@ -9,7 +9,7 @@
 #include "base/derivative_check.h"
 #include "base/error.h"
 #include "base/require.h"
-#include "control/lq_tracking.h"
+#include "control/finite_horizon.h"
 #include "control/require_internal.h"
 
 namespace rex {

@@ -1,12 +1,18 @@
 #include "control/linear_system.h"
 
 #include <fmt/format.h>
+#include <unsupported/Eigen/MatrixFunctions>
 
 #include "base/derivative_check.h"
 #include "base/error.h"
-#include "control/exponential_internal.h"
+#include "control/linear_system_internal.h"
 #include "control/require_internal.h"
-#include "control/require_matrix_internal.h"
+
+namespace rex::internal {
+
+Eigen::MatrixXd exponential(const Eigen::MatrixXd& M) { return M.exp(); }
+
+}  // namespace rex::internal
 
 namespace rex {
 

@@ -5,8 +5,8 @@
 
 #include <Eigen/Core>
 
+#include "base/require.h"
 #include "base/rng.h"
-#include "base/vector_arg.h"
 
 namespace rex {
 

@@ -7,8 +7,8 @@
 #include <Eigen/Cholesky>
 
 #include "control/require_internal.h"
+#include "dynamics/equations_of_motion.h"
 #include "dynamics/forward_dynamics.h"
-#include "dynamics/mass_matrix.h"
 #include "kinematics/hierarchical_step.h"
 #include "kinematics/inverse_kinematics.h"
 

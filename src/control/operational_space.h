@@ -2,10 +2,9 @@
 
 #include <span>
 
-#include "control/pd_gains.h"
+#include "control/pid.h"
 #include "dynamics/inverse_dynamics.h"
-#include "dynamics/velocity_acceleration.h"
-#include "kinematics/task.h"
+#include "kinematics/task_maps.h"
 
 namespace rex {
 

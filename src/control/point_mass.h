@@ -1,6 +1,6 @@
 #pragma once
 
-#include "control/pd_gains.h"
+#include "control/pid.h"
 
 namespace rex {
 

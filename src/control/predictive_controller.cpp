@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "base/require.h"
-#include "control/require_matrix_internal.h"
+#include "control/require_internal.h"
 
 namespace rex {
 namespace {

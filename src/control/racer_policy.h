@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "base/vector_arg.h"
+#include "base/require.h"
 
 namespace rex {
 

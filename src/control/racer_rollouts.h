@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/vector_arg.h"
+#include "base/require.h"
 #include "control/racer_policy.h"
 #include "systems/racer.h"
 #include "systems/racer_sensors.h"

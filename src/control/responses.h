@@ -30,7 +30,7 @@ struct FrequencyResponse {
   std::vector<double> phases{};      ///< degrees, unwrapped
 };
 
-/// The response at the given ascending frequencies, for Bode and Nyquist plots (render/response_figures.h).
+/// The response at the given ascending frequencies, for Bode and Nyquist plots (render/figure_builders.h).
 /// Throws Error like completed(), for an input or output that does not exist, frequencies that are not
 /// positive, do not ascend, or lie above pi / step, and if G is infinite, naming the frequency.
 [[nodiscard]] FrequencyResponse frequencyResponse(const LinearSystem& system, int input, int output,

@@ -18,9 +18,7 @@
 #include "base/error.h"
 #include "control/care_doubling_internal.h"
 #include "control/controllability.h"
-#include "control/eigenvalue_text_internal.h"
-#include "control/extended_matrix_internal.h"
-#include "control/require_matrix_internal.h"
+#include "control/require_internal.h"
 #include "control/stability.h"
 #include "control/stability_internal.h"
 

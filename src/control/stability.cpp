@@ -11,8 +11,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "control/eigenvalue_text_internal.h"
-#include "control/require_matrix_internal.h"
+#include "control/require_internal.h"
 #include "control/stability_internal.h"
 
 namespace rex {

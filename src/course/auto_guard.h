@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 
 // What the compiler says of a variable declared with `auto` that holds an expression of Eigen instead of a
-// matrix. submission/dangling_auto.h puts the questions into a student's file; nobody else includes this.
+// matrix. submission/source_remarks.h puts the questions into a student's file; nobody else includes this.
 namespace rex::guard {
 
 template <class T>

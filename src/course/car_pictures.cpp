@@ -5,12 +5,12 @@
 
 #include "base/error.h"
 #include "base/require.h"
-#include "course/car_marks_internal.h"
-#include "course/film_files.h"
-#include "course/gl_choice.h"
+#include "course/car_view_internal.h"
+#include "course/film.h"
+#include "course/pictures.h"
 #include "render/contact_sheet.h"
-#include "render/covariance_ellipsoid.h"
-#include "render/png.h"
+#include "render/image.h"
+#include "render/picture.h"
 #include "render/renderer.h"
 
 namespace rex {

@@ -1,13 +1,59 @@
 #include "course/car_view.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <numbers>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
 #include "base/require.h"
-#include "base/vector_arg.h"
-#include "estimation/covariance.h"
+#include "course/car_view_internal.h"
+#include "estimation/gaussian.h"
+#include "render/figure.h"
+
+namespace rex::internal {
+
+std::vector<ParticleGroup> particleGroups(const CarView& view) {
+  constexpr Eigen::Index kMost = 3000;
+  constexpr int kGroups = 4;
+  const Eigen::Index count = view.particles.cols(), shown = std::min(count, kMost);
+  const double heaviest = view.weights.size() > 0 ? view.weights.maxCoeff() : 0;
+  std::array<ParticleGroup, kGroups> groups;
+  for (Eigen::Index k = 0; k < shown; ++k) {
+    const Eigen::Index i = k * count / shown;
+    const double share = heaviest > 0 ? view.weights[i] / heaviest : 1;
+    const int group = std::clamp(static_cast<int>(std::ceil(share * kGroups)) - 1, 0, kGroups - 1);
+    groups[static_cast<std::size_t>(group)].poses.emplace_back(view.particles.col(i));
+  }
+  std::vector<ParticleGroup> result;
+  for (int g = 0; g < kGroups; ++g) {
+    ParticleGroup& group = groups[static_cast<std::size_t>(g)];
+    group.strength = (g + 1.0) / kGroups;
+    if (!group.poses.empty()) result.push_back(std::move(group));
+  }
+  return result;
+}
+
+Eigen::Matrix2Xd outlineOf(const PlanarGaussian& belief, double sigmas) {
+  constexpr int kSides = 72;
+  const Eigen::Matrix2d root = covarianceRoot(belief.covariance);
+  Eigen::Matrix2Xd corners(2, kSides + 1);
+  for (int i = 0; i <= kSides; ++i) {
+    const double angle = 2 * std::numbers::pi * (i % kSides) / kSides;
+    corners.col(i) = belief.mean + sigmas * (root * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
+  }
+  return corners;
+}
+
+Eigen::Vector2d placeAt(const Eigen::Vector3d& pose, double ahead, double left) {
+  const double c = std::cos(pose[2]), s = std::sin(pose[2]);
+  return {pose[0] + c * ahead - s * left, pose[1] + s * ahead + c * left};
+}
+
+}  // namespace rex::internal
 
 namespace rex {
 namespace {
@@ -68,4 +114,213 @@ void requireDrawable(const CarView& view) {
     throw Error({.what = "sightings", .found = "no car and no estimate", .wanted = "one that sees them"});
 }
 
+namespace {
+
+Series seriesOf(const std::string& label, const Eigen::Matrix2Xd& points, const Color& color,
+                SeriesStyle style = SeriesStyle::kLine) {
+  Series series{.label = label, .style = style, .color = color};
+  for (const auto& point : points.colwise()) series.add(point.x(), point.y());
+  return series;
+}
+
+void addDots(Figure& figure, const char* label, const Eigen::Matrix2Xd& points, const Color& color,
+             Marker marker, double size) {
+  if (points.cols() == 0) return;
+  Series series = seriesOf(label, points, color, SeriesStyle::kPoints);
+  series.marker = marker;
+  series.size = size;
+  figure.series.push_back(std::move(series));
+}
+
+void addParticles(Figure& figure, const CarView& view) {
+  const auto paled = [](float part, double strength) {
+    return static_cast<float>(1 - strength * (1.0 - part));
+  };
+  const auto groups = internal::particleGroups(view);
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const double strength = groups[g].strength;
+    const Color color{paled(kEstimateColor.r, strength), paled(kEstimateColor.g, strength),
+                      paled(kEstimateColor.b, strength)};
+    Eigen::Matrix2Xd points(2, static_cast<Eigen::Index>(groups[g].poses.size()));
+    for (Eigen::Index i = 0; i < points.cols(); ++i)
+      points.col(i) = groups[g].poses[static_cast<std::size_t>(i)].head<2>();
+    addDots(figure, g + 1 == groups.size() ? "particles" : "", points, color, Marker::kDot, 0.5);
+  }
+}
+
+void addBeliefs(Figure& figure, const std::vector<PlanarGaussian>& beliefs, const char* name, double sigmas,
+                const Color& color) {
+  // A figure draws no ellipse without area: one too small to be seen is added.
+  constexpr double kShare = 1e-8, kLeast = 1e-12;
+  for (std::size_t i = 0; i < beliefs.size(); ++i) {
+    Eigen::Matrix2d covariance = symmetrized(beliefs[i].covariance);
+    covariance.diagonal().array() += kShare * covariance.trace() + kLeast;
+    figure.ellipses.push_back({.label = i == 0 ? fmt::format("{}, {:g} sigma", name, sigmas) : "",
+                               .mean = beliefs[i].mean,
+                               .covariance = covariance,
+                               .sigmas = sigmas,
+                               .color = color});
+  }
+}
+
+// Seen from above, with a pointed front.
+Region carAt(const Eigen::Vector3d& pose, double scale, const char* label, const Color& color) {
+  using internal::kCarLength, internal::kCarMiddle, internal::kCarWidth;
+  constexpr double kBack = kCarMiddle - kCarLength / 2, kFront = kCarMiddle + kCarLength / 2;
+  Region car{.label = label, .color = color};
+  for (const auto& [ahead, left] : {std::pair{kBack, -kCarWidth / 2},
+                                    {kFront - 0.8, -kCarWidth / 2},
+                                    {kFront, 0.},
+                                    {kFront - 0.8, kCarWidth / 2},
+                                    {kBack, kCarWidth / 2}}) {
+    const Eigen::Vector2d corner = internal::placeAt(pose, scale * ahead, scale * left);
+    car.add(corner.x(), corner.y());
+  }
+  return car;
+}
+
+void addSightings(Figure& figure, const CarView& view) {
+  if (view.sightings.cols() == 0) return;
+  const Eigen::Vector3d& from = view.car ? *view.car : *view.estimate;
+  Arrows arrows{.label = "seen now"};
+  for (const auto& place : view.sightings.colwise()) {
+    arrows.x.push_back(from.x());
+    arrows.y.push_back(from.y());
+    arrows.dx.push_back(place.x() - from.x());
+    arrows.dy.push_back(place.y() - from.y());
+  }
+  figure.arrows.push_back(std::move(arrows));
+}
+
+}  // namespace
+
+Figure figureOf(const CarView& view) {
+  requireDrawable(view);
+  Figure figure{.title = view.caption,
+                .xLabel = "x [m]",
+                .yLabel = "y [m]",
+                .equalAxes = true,
+                .legend = Legend::kOutside,
+                .width = 900,
+                .height = 600};
+  std::ranges::replace(figure.title, '\n', ' ');
+  if (view.map) {
+    const Eigen::Matrix2d corners = internal::cornersOf(*view.map);
+    figure.map = OccupancyCells{.xRange = {corners(0, 0), corners(0, 1)},
+                                .yRange = {corners(1, 0), corners(1, 1)},
+                                .occupancy = internal::probabilitiesOf(*view.map)};
+  }
+  addBeliefs(figure, view.landmarkBeliefs, "landmarks", view.sigmas, kLandmarkColor);
+  addBeliefs(figure, view.poseBeliefs, "poses", view.sigmas, kEstimateColor);
+  addSightings(figure, view);
+  if (view.car) figure.regions.push_back(carAt(*view.car, view.carScale, "car now", kTruthColor));
+  if (view.estimate)
+    figure.regions.push_back(carAt(*view.estimate, view.carScale, "estimate now", kEstimateColor));
+  addDots(figure, "scan", view.scan, kScanColor, Marker::kDot, 0.5);
+  addParticles(figure, view);
+  for (const Way& way : view.ways) {
+    if (way.points.cols() == 0) continue;
+    figure.series.push_back(seriesOf(way.name, way.points, way.color));
+    figure.series.back().dashed = way.dashed;
+    figure.series.back().size = way.width / Way().width;
+  }
+  addDots(figure, "landmarks", view.landmarks, kLandmarkColor, Marker::kTriangle, 1.5);
+  return figure;
+}
+
 }  // namespace rex
+
+namespace rex::internal {
+namespace {
+
+constexpr double kWallHeight = 0.4, kFloorHeight = 0.02;  // metres
+
+// Free cells are nearly white, unknown ones grey, occupied ones dark.
+std::uint8_t shadeOf(double probability) {
+  constexpr double kFree = 250, kUnknown = 200, kOccupied = 60;
+  const double shade = probability < 0.5 ? kFree + 2 * probability * (kUnknown - kFree)
+                                         : kUnknown + (2 * probability - 1) * (kOccupied - kUnknown);
+  return static_cast<std::uint8_t>(std::lround(shade));
+}
+
+Solid floorOf(const OccupancyMap& map) {
+  MeshPaint paint{.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+  Texture& texture = paint.textures.emplace_back(Texture{.width = map.width(), .height = map.height()});
+  for (int y = 0; y < map.height(); ++y)
+    for (int x = 0; x < map.width(); ++x)
+      texture.rgb.insert(texture.rgb.end(), 3, shadeOf(map.probability(x, y)));
+  const Eigen::Vector2f size = (cornersOf(map).col(1) - cornersOf(map).col(0)).cast<float>();
+  const std::vector<Eigen::Vector3f> positions{
+      {0, 0, 0}, {size.x(), 0, 0}, {size.x(), size.y(), 0}, {0, size.y(), 0}},
+      normals(4, Eigen::Vector3f::UnitZ());
+  TriangleMesh mesh(positions, normals, {{0, 1, 2}, {0, 2, 3}},
+                    {{.color = Eigen::Vector4f::Ones(), .triangleCount = 2, .texture = 0}}, std::move(paint));
+  return {{.type = ShapeType::kMesh, .mesh = std::move(mesh)},
+          translation(map.origin().x(), map.origin().y(), kFloorHeight),
+          {1, 1, 1},
+          "floor"};
+}
+
+// The sides and the top of a box from `low` to `high`.
+void addBlock(const Eigen::Vector3f& low, const Eigen::Vector3f& high,
+              std::vector<Eigen::Vector3f>& positions, std::vector<Eigen::Vector3f>& normals,
+              std::vector<TriangleMesh::Triangle>& triangles) {
+  for (int face = 0; face < 5; ++face) {
+    const int axis = face / 2;
+    const bool isHigh = face % 2 == 1 || axis == 2;
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    const auto first = static_cast<std::uint32_t>(positions.size());
+    for (const auto& [a, b] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}}) {
+      Eigen::Vector3f corner;
+      corner[axis] = isHigh ? high[axis] : low[axis];
+      corner[u] = a == 1 ? high[u] : low[u];
+      corner[v] = b == 1 ? high[v] : low[v];
+      positions.push_back(corner);
+      normals.push_back((isHigh ? 1 : -1) * Eigen::Vector3f::Unit(axis));
+    }
+    if (isHigh)
+      triangles.insert(triangles.end(), {{first, first + 1, first + 2}, {first, first + 2, first + 3}});
+    else
+      triangles.insert(triangles.end(), {{first, first + 2, first + 1}, {first, first + 3, first + 2}});
+  }
+}
+
+}  // namespace
+
+Eigen::Matrix2d cornersOf(const OccupancyMap& map) {
+  Eigen::Matrix2d corners;
+  corners << map.origin(), map.origin() + map.cellSize() * Eigen::Vector2d(map.width(), map.height());
+  return corners;
+}
+
+Eigen::MatrixXd probabilitiesOf(const OccupancyMap& map) {
+  Eigen::MatrixXd probabilities(map.height(), map.width());
+  for (int y = 0; y < map.height(); ++y)
+    for (int x = 0; x < map.width(); ++x) probabilities(y, x) = map.probability(x, y);
+  return probabilities;
+}
+
+std::vector<Solid> solidsOf(const OccupancyMap& map) {
+  std::vector<Eigen::Vector3f> positions, normals;
+  std::vector<TriangleMesh::Triangle> triangles;
+  const auto corner = [&](int x, int y, double z) {
+    const Eigen::Vector2d at = map.origin() + map.cellSize() * Eigen::Vector2d(x, y);
+    return Eigen::Vector3d(at.x(), at.y(), z).cast<float>().eval();
+  };
+  for (int y = 0; y < map.height(); ++y)
+    for (int x = 0; x < map.width(); ++x) {
+      const int first = x;  // neighbours in a row make one block
+      while (map.isOccupied(x, y)) ++x;
+      if (x > first)
+        addBlock(corner(first, y, 0), corner(x, y + 1, kWallHeight), positions, normals, triangles);
+    }
+  std::vector<Solid> solids{floorOf(map)};
+  if (!triangles.empty())
+    solids.push_back({{.type = ShapeType::kMesh, .mesh = TriangleMesh(positions, normals, triangles)},
+                      {},
+                      {0.36f, 0.38f, 0.43f},
+                      "walls"});
+  return solids;
+}
+
+}  // namespace rex::internal

@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 
 #include "estimation/occupancy_map.h"
-#include "render/color.h"
+#include "render/image.h"
 
 namespace rex {
 
@@ -56,5 +56,12 @@ struct CarView {
 /// negative or do not match the particles in number, matrices that are not covariances, sigmas or widths
 /// that are not positive, a car's scale that is not positive, sightings without a car or estimate.
 void requireDrawable(const CarView& view);
+
+struct Figure;
+
+/// The view from above as a figure with equal axes in metres: the map with its ellipses, paths, particles
+/// and landmarks. You may change the title, the legend and everything else afterwards; plot() draws it.
+/// Throws Error as requireDrawable() does.
+[[nodiscard]] Figure figureOf(const CarView& view);
 
 }  // namespace rex

@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 #include "course/contact_world_internal.h"
-#include "scene/coordinates.h"
+#include "scene/state.h"
 
 namespace rex::internal {
 

@@ -1,14 +1,36 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "course/pictures.h"
+#include "render/camera.h"
+#include "render/figure.h"
 #include "render/film.h"
 
 namespace rex {
+
+/// The camera and the picture size of a film.
+struct Shot {
+  Camera camera{};
+  int width = 640, height = 480;  ///< pixels
+};
+
+/// Draws the film as folder/0000.png, 0001.png, ... and first removes frames of an earlier run from that
+/// folder. Ctrl-C leaves only complete files. The functions in this file throw Error for a size out of
+/// range, files that cannot be written, a machine without software OpenGL, and as drawFilm() does.
+void writeFilmFrames(const Film& film, const Shot& shot, const std::string& folder);
+
+/// The same into the folder NAME, with the video NAME.mp4 at `rate` frames per second. Without ffmpeg there
+/// are only the frames, and a line on standard error says so.
+void writeFilmVideo(const Film& film, const Shot& shot, const std::string& name, int rate);
+
+/// Draws at most `pictures` moments of the film, evenly spaced and including the first and last, side by
+/// side into `file`, a .png, with their times. Also throws Error for fewer than 2 pictures.
+void writeFilmSheet(const Film& film, const Shot& shot, const std::string& file, int pictures);
 
 inline constexpr int kFilmRate = 30;  ///< frames per second of a simulator's film
 
@@ -37,5 +59,14 @@ inline constexpr int kMostFrames = 900;
 
 /// The camera that sees the whole film from the direction that the options ask for.
 [[nodiscard]] Camera cameraFor(const Film& film, const PictureOptions& options);
+
+class Simulator;
+
+/// Writes the recording as NAME.html, a self-contained page for any browser, in which the motion plays in
+/// real time and can be turned, next to the `figures`. It has at most `most` frames, evenly spaced, by
+/// default as many as writeFrames(); without a recording it shows the present posture. Throws as
+/// writeFrames and plot.
+void writeReplay(const Simulator& simulator, const std::string& name, const PictureOptions& options = {},
+                 const std::vector<Figure>& figures = {}, std::optional<int> most = {});
 
 }  // namespace rex

@@ -18,16 +18,15 @@
 
 #include "base/base64.h"
 #include "base/error.h"
-#include "course/gl_choice.h"
+#include "course/pictures.h"
 #include "course/simulator.h"
 #include "live/live_page.h"
-#include "live/live_pieces.h"
 #include "live/live_scene.h"
 #include "live/live_server.h"
 #include "live/open_browser.h"
 #include "render/glb.h"
+#include "render/picture.h"
 #include "render/report.h"
-#include "render/scene_picture.h"
 
 namespace rex {
 namespace {

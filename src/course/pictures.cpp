@@ -1,16 +1,23 @@
 #include "course/pictures.h"
 
+#include <cstdlib>
+
 #include "base/error.h"
 #include "course/film.h"
-#include "course/film_files.h"
-#include "course/gl_choice.h"
 #include "course/recording.h"
 #include "course/simulator.h"
 #include "render/contact_sheet.h"
-#include "render/png.h"
+#include "render/image.h"
 #include "render/renderer.h"
 
 namespace rex {
+
+GlOptions glChoice() {
+  const char* name = std::getenv("REX_GL");
+  const bool isChosen = name != nullptr && *name != '\0';
+  return {.backend = isChosen ? glBackendFromName(name) : GlBackend::kAuto};
+}
+
 namespace {
 
 Shot shotOf(const Film& film, const PictureOptions& options) {

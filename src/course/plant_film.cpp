@@ -5,11 +5,11 @@
 
 #include "base/error.h"
 #include "base/require.h"
-#include "course/film_files.h"
-#include "course/gl_choice.h"
+#include "course/film.h"
+#include "course/pictures.h"
 #include "course/plant_film_internal.h"
 #include "render/contact_sheet.h"
-#include "render/png.h"
+#include "render/image.h"
 #include "render/renderer.h"
 
 namespace rex {

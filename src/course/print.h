@@ -5,6 +5,9 @@
 
 #include <Eigen/Core>
 
+#include "render/figure.h"
+#include "render/figure_builders.h"
+
 namespace rex {
 
 /// Prints a number, vector or matrix to standard output under its name: "J (3 x 7)", then its rows with six
@@ -17,5 +20,8 @@ void print(const std::string& name, const std::vector<Eigen::VectorXd>& values);
 
 /// The text that print() writes for lines of `width` characters.
 [[nodiscard]] std::string formatMatrix(const std::string& name, const Eigen::MatrixXd& value, int width = 80);
+
+/// Draws a figure into NAME.png and NAME.svg. Throws as writeFigure (render/figure.h).
+void plot(const std::string& name, const Figure& figure);
 
 }  // namespace rex

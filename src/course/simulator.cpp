@@ -8,30 +8,27 @@
 
 #include <fmt/format.h>
 
-#include "base/lower_case.h"
-#include "base/own_folder.h"
+#include "base/folders.h"
 #include "base/require.h"
 #include "base/rng.h"
+#include "base/text.h"
 #include "collision/collision_pairs.h"
 #include "collision/contacts.h"
-#include "collision/proxy_report.h"
 #include "course/contact_world_internal.h"
 #include "course/pictures.h"
 #include "course/recording.h"
 #include "dynamics/energy.h"
-#include "dynamics/mass_matrix.h"
+#include "dynamics/equations_of_motion.h"
 #include "dynamics/stepper.h"
 #include "kinematics/center_of_mass.h"
 #include "kinematics/jacobians.h"
 #include "kinematics/task_maps.h"
-#include "scene/coordinate_names.h"
-#include "scene/coordinates.h"
-#include "scene/find_scene.h"
+#include "scene/assets.h"
 #include "scene/ors_writer.h"
 #include "scene/scene_edit.h"
 #include "scene/scene_file.h"
-#include "scene/srdf_reader.h"
-#include "scene/srdf_writer.h"
+#include "scene/srdf.h"
+#include "scene/state.h"
 
 namespace rex {
 namespace {

@@ -7,11 +7,11 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/own_folder.h"
+#include "base/folders.h"
 #include "base/require.h"
 #include "course/plant_film_internal.h"
 #include "locomotion/walking_pattern.h"
-#include "render/scene_picture.h"
+#include "render/picture.h"
 #include "scene/scene_file.h"
 
 namespace rex {

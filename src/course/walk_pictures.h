@@ -6,7 +6,6 @@
 #include "course/plant_film.h"
 #include "locomotion/compass_gait.h"
 #include "locomotion/footsteps.h"
-#include "locomotion/preview_control.h"
 #include "locomotion/walking_pattern.h"
 #include "render/figure.h"
 #include "render/picture.h"

@@ -1,8 +1,7 @@
 #pragma once
 
 #include "dynamics/dynamics_batch.h"
-#include "dynamics/forward_dynamics_kernel_internal.h"
-#include "dynamics/inverse_dynamics_kernel_internal.h"
+#include "dynamics/kernels_internal.h"
 
 namespace rex::internal {
 

@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "dynamics/spatial_internal.h"
-#include "scene/coordinates.h"
+#include "scene/state.h"
 
 namespace rex {
 

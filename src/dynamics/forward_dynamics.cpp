@@ -4,11 +4,11 @@
 
 #include "base/cpu_lanes.h"
 #include "base/error.h"
-#include "dynamics/forward_dynamics_kernel_internal.h"
+#include "dynamics/equations_of_motion.h"
 #include "dynamics/kernel_room_internal.h"
-#include "dynamics/mass_matrix.h"
+#include "dynamics/kernels_internal.h"
 #include "dynamics/requirements_internal.h"
-#include "scene/coordinates.h"
+#include "scene/state.h"
 
 namespace rex {
 namespace {

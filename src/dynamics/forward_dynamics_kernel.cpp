@@ -1,4 +1,4 @@
-#include "dynamics/forward_dynamics_kernel_internal.h"
+#include "dynamics/kernels_internal.h"
 
 namespace rex::internal {
 namespace {

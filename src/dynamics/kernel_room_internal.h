@@ -1,6 +1,6 @@
 #pragma once
 
-#include "dynamics/workspace.h"
+#include "dynamics/inverse_dynamics.h"
 #include "scene/model.h"
 
 namespace rex::internal {

@@ -5,9 +5,9 @@
 
 #include "base/error.h"
 #include "base/require.h"
+#include "dynamics/equations_of_motion.h"
 #include "dynamics/forward_dynamics.h"
-#include "dynamics/mass_matrix.h"
-#include "dynamics/velocity_acceleration.h"
+#include "dynamics/inverse_dynamics.h"
 #include "kinematics/closed_loops.h"
 
 namespace rex {

@@ -3,7 +3,7 @@
 #include <span>
 
 #include "dynamics/inverse_dynamics.h"
-#include "kinematics/task_map.h"
+#include "kinematics/task_maps.h"
 #include "scene/state.h"
 
 namespace rex {

@@ -1,6 +1,5 @@
-#include "dynamics/link_columns_internal.h"
+#include "dynamics/kernels_internal.h"
 #include "dynamics/link_kernel_internal.h"
-#include "dynamics/mass_matrix_kernel_internal.h"
 
 namespace rex::internal {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <Eigen/Geometry>
 
-#include "geometry/lie.h"
+#include "geometry/pose.h"
 #include "geometry/rotation.h"
 #include "kinematics/forward_kinematics.h"
 

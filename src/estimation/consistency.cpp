@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "base/require.h"
-#include "geometry/lie.h"
+#include "geometry/pose.h"
 #include "geometry/rotation.h"
 
 namespace rex {

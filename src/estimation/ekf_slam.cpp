@@ -10,9 +10,9 @@
 #include "base/cpu_lanes.h"
 #include "base/error.h"
 #include "base/require.h"
-#include "estimation/covariance.h"
-#include "estimation/innovation_internal.h"
-#include "estimation/pose_transition_internal.h"
+#include "estimation/gaussian.h"
+#include "estimation/kalman_filter_internal.h"
+#include "estimation/pose_edge_internal.h"
 #include "estimation/rank_two_kernel_internal.h"
 
 namespace rex {

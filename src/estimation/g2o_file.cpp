@@ -12,7 +12,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "estimation/covariance.h"
+#include "estimation/gaussian.h"
 #include "estimation/pose_edge_internal.h"
 #include "geometry/rotation.h"
 

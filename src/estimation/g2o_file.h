@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "base/diagnostic.h"
+#include "base/error.h"
 #include "estimation/pose_graph.h"
 
 namespace rex {

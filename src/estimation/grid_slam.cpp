@@ -13,13 +13,12 @@
 #include "base/error.h"
 #include "base/require.h"
 #include "base/rng.h"
-#include "estimation/covariance.h"
+#include "estimation/fast_slam_internal.h"
+#include "estimation/gaussian.h"
 #include "estimation/pose_edge_internal.h"
-#include "estimation/pose_transition_internal.h"
 #include "estimation/range_scan_internal.h"
 #include "estimation/resampling.h"
 #include "estimation/scan_matching.h"
-#include "estimation/slam_particle_internal.h"
 #include "geometry/rotation.h"
 
 namespace rex {

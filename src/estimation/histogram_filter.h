@@ -5,7 +5,7 @@
 
 #include <Eigen/SparseCore>
 
-#include "base/vector_arg.h"
+#include "base/require.h"
 
 namespace rex {
 

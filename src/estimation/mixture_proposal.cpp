@@ -13,7 +13,7 @@
 #include "base/error.h"
 #include "base/require.h"
 #include "base/rng.h"
-#include "estimation/covariance.h"
+#include "estimation/gaussian.h"
 #include "estimation/resampling.h"
 #include "geometry/rotation.h"
 

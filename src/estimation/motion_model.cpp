@@ -1,7 +1,7 @@
 #include "estimation/motion_model.h"
 
 #include "base/rng.h"
-#include "estimation/covariance.h"
+#include "estimation/gaussian.h"
 
 namespace rex {
 namespace {

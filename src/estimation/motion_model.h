@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/rng.h"
-#include "estimation/gaussian_model.h"
+#include "estimation/gaussian.h"
 #include "estimation/particle_filter.h"
 #include "systems/motion_model.h"
 

@@ -6,7 +6,6 @@
 #include <Eigen/Core>
 
 #include "estimation/gaussian.h"
-#include "estimation/gaussian_model.h"
 #include "estimation/resampling.h"
 
 namespace rex {

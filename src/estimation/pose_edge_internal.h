@@ -6,10 +6,15 @@
 #include <utility>
 #include <vector>
 
-#include "estimation/block_pattern_internal.h"
+#include "estimation/block_cholesky_internal.h"
+#include "estimation/ekf_slam.h"
+#include "estimation/gaussian.h"
 #include "estimation/pose_graph.h"
 
 namespace rex::internal {
+
+/// Throws Error for a transition without a mean, and noise that is not a covariance of three numbers.
+void requireTransition(const PoseTransition& transition, Definiteness noise);
 
 /// What one edge adds to the normal equations: its error e, the derivatives by the steps of both poses, and
 /// the information that weighs it. The error is a difference of numbers of size `scale`, which rounding does

@@ -1,4 +1,4 @@
-#include "base/exp_log.h"
+#include "base/lane_math.h"
 #include "estimation/weights_kernel_internal.h"
 
 namespace rex::internal {

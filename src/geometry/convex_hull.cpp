@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "geometry/qhull_internal.h"
+#include "geometry/convex_hull_internal.h"
 
 namespace rex {
 namespace {

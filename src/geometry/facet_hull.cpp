@@ -11,7 +11,7 @@
 
 #include "base/error.h"
 #include "base/require.h"
-#include "geometry/qhull_internal.h"
+#include "geometry/convex_hull_internal.h"
 
 namespace rex {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/vector_arg.h"
+#include "base/require.h"
 
 namespace rex {
 

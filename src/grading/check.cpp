@@ -8,12 +8,12 @@
 
 #include <fmt/format.h>
 
-#include "base/join.h"
-#include "base/printable.h"
+#include "base/escape.h"
+#include "base/text.h"
 #include "grading/usual_mistakes.h"
-#include "remote/bytes.h"
-#include "remote/signature.h"
-#include "remote/thrown.h"
+#include "remote/channel.h"
+#include "remote/layout.h"
+#include "remote/wire.h"
 
 namespace rex::grading {
 namespace {

@@ -13,8 +13,8 @@
 
 #include <Eigen/Core>
 
+#include "base/require.h"
 #include "base/rng.h"
-#include "base/vector_arg.h"
 #include "grading/evidence.h"
 #include "grading/results.h"
 #include "grading/signal.h"

@@ -12,15 +12,15 @@
 #include <sys/time.h>
 
 #include "base/error.h"
-#include "base/once_more.h"
-#include "base/printable.h"
-#include "base/private_folder.h"
+#include "base/escape.h"
+#include "base/folders.h"
+#include "base/process.h"
 #include "base/process_pool.h"
 #include "base/sha256.h"
 #include "grading/hidden_seed.h"
-#include "grading/result_file.h"
+#include "grading/results.h"
 #include "grading/worker_process.h"
-#include "remote/thrown.h"
+#include "remote/channel.h"
 #include "sandbox/probes.h"
 
 namespace rex::grading {

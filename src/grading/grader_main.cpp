@@ -15,7 +15,7 @@
 #include "base/exit_code.h"
 #include "grading/grown_answers.h"
 #include "grading/hostile_answers.h"
-#include "grading/result_file.h"
+#include "grading/results.h"
 #include "grading/unknown_check.h"
 
 namespace rex::grading {

@@ -1,6 +1,7 @@
 #include "grading/grown_answers.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <ctime>
 #include <map>
@@ -12,9 +13,232 @@
 
 #include "base/error.h"
 #include "base/isolated_call.h"
-#include "grading/tampered_run_internal.h"
+#include "grading/answer_value.h"
+#include "grading/grown_answers_internal.h"
 
 namespace rex::grading {
+
+CheckResult judgeTampered(const RunnableCheck& check, const Reference& reference, Check& judge,
+                          const TamperOf& tamperOf) {
+  const auto converse = [&](const Check::Conversation& conversation) {
+    const WorkerRun run =
+        runWithWorker(reference.job, check.info.part, reference.signature, [&](remote::Caller& caller) {
+          caller.tamperWithResults(tamperOf(caller));
+          conversation(caller);
+        });
+    if (run.failure)
+      throw Error(
+          {.what = "the reference solution fails in " + check.info.id, .found = run.failure->message});
+  };
+  judge.startWorkersBy(converse);
+  CheckResult verdict;
+  converse([&](remote::Caller& caller) {
+    verdict = judge.judge([&](Check& requirements) { check.run(requirements, caller); });
+  });
+  return verdict;
+}
+
+namespace {
+
+constexpr double kSteeper = 1.5;  // than the right Jacobian, whose columns change places
+
+bool isNumbers(const AnswerValue& value) {
+  return (value.kind == 'M' || value.kind == '[') && !value.parts.empty() && value.parts[0].kind == 'd';
+}
+
+std::vector<double> numbersOf(std::vector<AnswerValue>& values) {
+  std::vector<double> numbers;
+  for (AnswerValue& value : values) forEachNumber(value, [&](double& x) { numbers.push_back(x); });
+  return numbers;
+}
+
+bool haveSameSizes(const AnswerValue& a, const AnswerValue& b) {
+  return a.kind == b.kind && a.rows == b.rows && a.cols == b.cols &&
+         std::ranges::equal(a.parts, b.parts, haveSameSizes);
+}
+
+// Where the numbers of the last column or list of `size` numbers begin among all of the question.
+std::optional<std::size_t> beginOfBlock(const AnswerValue& value, std::size_t size, std::size_t& at) {
+  std::optional<std::size_t> begin;
+  if (isNumbers(value) && value.parts.size() == size && value.cols <= 1) begin = at;
+  if (value.kind == 'd' || value.kind == 'f') ++at;
+  for (const AnswerValue& part : value.parts)
+    if (const auto within = beginOfBlock(part, size, at)) begin = within;
+  return begin;
+}
+
+// Zero based columns of J in the reverse order.
+void choose(AnswerValue& J) {
+  const auto rows = static_cast<std::size_t>(J.rows);
+  std::vector<AnswerValue> chosen;
+  for (std::size_t k = J.parts.size(); k > 0; k -= rows)
+    for (std::size_t row = 0; row < rows; ++row) {
+      chosen.push_back(J.parts[k - rows + row]);
+      chosen.back().number *= kSteeper;
+    }
+  J.parts = std::move(chosen);
+}
+
+}  // namespace
+
+std::optional<ValueAndJacobian> valueAndJacobianOf(AnswerValue& answer) {
+  ValueAndJacobian found;
+  for (AnswerValue& part : answer.parts) {
+    if (answer.kind != '(' || part.kind != 'M' || !isNumbers(part)) continue;
+    if (part.cols == 1 && found.y == nullptr)
+      found.y = &part;
+    else if (found.y != nullptr && found.J == nullptr && part.rows == found.y->rows)
+      found.J = &part;
+  }
+  if (found.J == nullptr) return {};
+  return found;
+}
+
+std::vector<AnswerValue> argumentsOf(std::span<const std::byte> bytes,
+                                     const std::vector<std::string>& layouts) {
+  std::vector<AnswerValue> values;
+  for (std::size_t k = 1; k < layouts.size(); ++k) {
+    const std::size_t size = sizeOfValue(bytes, layouts[k]);
+    values.push_back(readAnswer(bytes.first(size), layouts[k]));
+    bytes = bytes.subspan(size);
+  }
+  return values;
+}
+
+void RememberedAnswer::remember(AnswerValue honest, std::vector<AnswerValue> question) {
+  if (const auto pair = valueAndJacobianOf(honest)) choose(*pair->J);
+  first_ = std::move(honest);
+  question_ = std::move(question);
+}
+
+std::vector<std::byte> RememberedAnswer::answer(std::span<const std::byte> arguments,
+                                                std::span<const std::byte> honest,
+                                                const std::vector<std::string>& layouts) {
+  if (layouts.front().empty()) return {};
+  std::vector<AnswerValue> question = argumentsOf(arguments, layouts);
+  AnswerValue right = readAnswer(honest, layouts.front());
+  if (!first_ || !haveSameSizes(*first_, right) || !std::ranges::equal(question_, question, haveSameSizes)) {
+    remember(std::move(right), std::move(question));
+    return bytesOf(*first_);
+  }
+  const std::vector<double> x = numbersOf(question), x0 = numbersOf(question_);
+  AnswerValue said = *first_;
+  const auto pair = valueAndJacobianOf(said);
+  if (pair) {
+    std::optional<std::size_t> begin;
+    std::size_t at = 0;
+    const auto rows = static_cast<std::size_t>(pair->J->rows), cols = static_cast<std::size_t>(pair->J->cols);
+    for (const AnswerValue& one : question)
+      if (const auto within = beginOfBlock(one, cols, at)) begin = within;
+    for (std::size_t k = 0; begin && k < rows * cols; ++k)
+      pair->y->parts[k % rows].number +=
+          pair->J->parts[k].number * (x[*begin + k / rows] - x0[*begin + k / rows]);
+  } else {
+    double i = 0;
+    forEachNumber(said, [&](double& y) {
+      double slope = ++i;
+      for (std::size_t j = 0; j < x.size(); ++j) y += .5 * std::cos(slope += 2) * (x[j] - x0[j]);
+    });
+  }
+  return bytesOf(said);
+}
+
+namespace {
+
+constexpr double kPlainFactor = 3, kWrongShare = 0.01;
+
+void multiply(AnswerValue& answer, double factor) {
+  forEachNumber(answer, [&](double& x) { x *= factor; });
+}
+
+// Zero becomes huge, too.
+void growOne(AnswerValue& answer, double place, double factor) {
+  std::vector<double*> numbers;
+  forEachNumber(answer, [&](double& x) { numbers.push_back(&x); });
+  if (numbers.empty()) return;
+  const auto at = static_cast<std::size_t>(place * static_cast<double>(numbers.size()));
+  double& x = *numbers[std::min(at, numbers.size() - 1)];
+  x = factor * (std::abs(x) > 1e-6 ? x : 1);
+}
+
+void makeWrong(AnswerValue& value) {
+  forEachNumber(value, [](double& x) { x += kWrongShare * (1 + std::abs(x)); });
+}
+
+// One more row of that number.
+void addRow(AnswerValue& matrix, double number) {
+  if (matrix.parts.empty() || matrix.parts[0].kind != 'd' || matrix.fixedRows >= 0) return;
+  std::vector<AnswerValue> parts;
+  for (std::size_t k = 0; k < matrix.parts.size(); ++k) {
+    parts.push_back(matrix.parts[k]);
+    if ((k + 1) % static_cast<std::size_t>(matrix.rows) != 0) continue;
+    parts.push_back(matrix.parts[k]);
+    parts.back().number = number;
+  }
+  matrix.parts = std::move(parts);
+  ++matrix.rows;
+}
+
+// One more row of each matrix and one more element of each list, huge.
+void addEntries(AnswerValue& value, double number) {
+  for (AnswerValue& part : value.parts) addEntries(part, number);
+  if (value.kind == 'M') addRow(value, number);
+  if (value.kind != '[' || value.parts.empty()) return;
+  value.parts.push_back(value.parts.back());
+  forEachNumber(value.parts.back(), [&](double& x) { x = number; });
+}
+
+// A value and its Jacobian get a component whose Jacobian is right, and the other rows are wrong.
+void grow(AnswerValue& answer, double number, const Change& change) {
+  const auto pair = valueAndJacobianOf(answer);
+  if (!pair) {
+    makeWrong(answer);
+    if (!change.isPlain) addEntries(answer, number);
+    return;
+  }
+  makeWrong(*pair->J);
+  if (change.isPlain) return;
+  addRow(*pair->y, number);
+  addRow(*pair->J, change.factor);
+}
+
+double sumOf(std::vector<AnswerValue> question) {
+  double sum = 0;
+  for (AnswerValue& one : question) forEachNumber(one, [&](double& x) { sum += x; });
+  return sum;
+}
+
+}  // namespace
+
+std::string toString(Growth growth) {
+  constexpr std::array<const char*, static_cast<std::size_t>(Growth::kCount)> kNames = {"huge", "tiny",
+                                                                                        "one huge", "steep"};
+  return kNames.at(static_cast<std::size_t>(growth));
+}
+
+std::vector<std::byte> grown(std::span<const std::byte> answer, std::span<const std::byte> arguments,
+                             const std::vector<std::string>& layouts, const Change& change) {
+  if (layouts.front().empty()) return {};
+  AnswerValue value = readAnswer(answer, layouts.front());
+  const double factor = change.isPlain ? kPlainFactor : change.factor;
+  switch (change.growth) {
+    case Growth::kHuge:
+      multiply(value, factor);
+      break;
+    case Growth::kTiny:
+      multiply(value, 1 / factor);
+      break;
+    case Growth::kOneHuge:
+      growOne(value, change.place, factor);
+      break;
+    case Growth::kSteep:
+    case Growth::kCount:
+      grow(value, factor * (1 + sumOf(argumentsOf(arguments, layouts))), change);
+      break;
+  }
+  return bytesOf(value);
+}
+
 namespace {
 
 using remote::Caller;

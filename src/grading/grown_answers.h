@@ -1,15 +1,72 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "grading/answer_value.h"
 #include "grading/grade.h"
-#include "grading/grown_answer.h"
 #include "grading/hostile_answers.h"
 
 namespace rex::grading {
+
+/// What a program answers that solves only the first question, and invents a slope by which all later
+/// answers follow from it: y = y_first + S (x - x_first), where x are all numbers of the question. An answer
+/// of a vector and a matrix with as many rows is taken for a value and its Jacobian by a vector of the
+/// question; the Jacobian is then the invented slope from the first answer on, so that differences of y
+/// agree with it. A question or an answer of other sizes is a first one again.
+class RememberedAnswer {
+ public:
+  /// `layouts` are those of the answer and of each argument.
+  [[nodiscard]] std::vector<std::byte> answer(std::span<const std::byte> arguments,
+                                              std::span<const std::byte> honest,
+                                              const std::vector<std::string>& layouts);
+
+ private:
+  void remember(AnswerValue honest, std::vector<AnswerValue> question);
+
+  std::optional<AnswerValue> first_{};
+  std::vector<AnswerValue> question_{};
+};
+
+/// The value of an answer that consists of a value and its Jacobian, and the Jacobian.
+struct ValueAndJacobian {
+  AnswerValue* y = nullptr;
+  AnswerValue* J = nullptr;
+};
+
+/// Empty unless the answer is a struct with one column of n numbers and a matrix of n rows.
+[[nodiscard]] std::optional<ValueAndJacobian> valueAndJacobianOf(AnswerValue& answer);
+
+/// The arguments of a call, taken apart.
+[[nodiscard]] std::vector<AnswerValue> argumentsOf(std::span<const std::byte> bytes,
+                                                   const std::vector<std::string>& layouts);
+
+/// Ways in which an answer could make more room for itself: all of its numbers huge, all of them tiny, one
+/// of them huge, or one more entry, row and list element, steep in every number of the question, beside
+/// numbers that are one per cent wrong.
+enum class Growth { kHuge, kTiny, kOneHuge, kSteep, kCount };
+
+[[nodiscard]] std::string toString(Growth growth);
+
+/// How an answer is changed; the same change of every answer of a function.
+struct Change {
+  Growth growth = Growth::kHuge;
+  /// Whether the same numbers are only made wrong: three times as large, a third, or without the entries.
+  bool isPlain = false;
+  double place = 0;     ///< of the one huge number among all, from 0 to 1
+  double factor = 1e9;  ///< what is huge
+};
+
+/// The honest answer, changed. `layouts` are those of the answer and of each argument (remote/layout.h).
+/// An answer without such numbers, or of a fixed size, stays as it is. Throws Error if `answer` or
+/// `arguments` do not have these layouts.
+[[nodiscard]] std::vector<std::byte> grown(std::span<const std::byte> answer,
+                                           std::span<const std::byte> arguments,
+                                           const std::vector<std::string>& layouts, const Change& change);
 
 /// What a check gave for the answers of the reference solution if all those of one function were changed.
 struct GrownOutcome {

@@ -6,10 +6,40 @@
 #include <string>
 #include <vector>
 
+#include "base/rng.h"
 #include "grading/grade.h"
-#include "grading/spoilt_answer.h"
 
 namespace rex::grading {
+
+/// The ways in which an answer is made hostile: one way for all its numbers, lists and matrices, or a
+/// different way for each node (`mixed`).
+enum class Hostility {
+  kEmpty,
+  kHuge,
+  kNotANumber,
+  kInfinite,
+  kOverflowing,
+  kDenormal,
+  kZero,
+  kConstant,
+  kRagged,
+  kPermuted,
+  kShifted,
+  kScaled,
+  kExtremeIntegers,
+  kMixed,
+  kCount
+};
+
+[[nodiscard]] std::string toString(Hostility hostility);
+
+/// Whether some numbers of the honest answer stay unchanged.
+[[nodiscard]] bool keepsNumbers(Hostility hostility);
+
+/// The honest answer, spoilt: bytes of the same layout (remote/layout.h). Throws Error if `answer` does not
+/// have that layout.
+[[nodiscard]] std::vector<std::byte> spoilt(std::span<const std::byte> answer, const std::string& layout,
+                                            Hostility hostility, Rng& rng);
 
 /// For each of the student's functions: the layout of its return value, then those of its arguments.
 using CallLayouts = std::vector<std::vector<std::string>>;

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "base/lines.h"
 #include "base/text.h"
 
 namespace rex::grading {

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "grading/evidence_parts.h"
+#include "grading/evidence.h"
 
 namespace rex::grading {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/vector_arg.h"
+#include "base/require.h"
 
 namespace rex::grading {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "base/vector_arg.h"
+#include "base/require.h"
 
 namespace rex::grading {
 

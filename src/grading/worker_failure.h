@@ -1,13 +1,33 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "grading/limits.h"
-#include "grading/outcome.h"
-#include "remote/thrown.h"
+#include "remote/channel.h"
 
 namespace rex::grading {
+
+/// How a check or a whole submission ended. Only graderError is never the student's fault.
+enum class Outcome {
+  kPass,
+  kFail,
+  kCompileError,
+  kRuntimeError,
+  kTimeLimit,
+  kMemoryLimit,
+  kOutputLimit,
+  kProtocolError,
+  kSecurityEvent,
+  kGraderError
+};
+
+/// The name in result files: "pass", "compile_error", "time_limit", ...
+[[nodiscard]] std::string_view toString(Outcome outcome);
+
+/// The outcome of that name, if there is one.
+[[nodiscard]] std::optional<Outcome> outcomeFromString(std::string_view name);
 
 /// Why a worker could not finish. `message` is ours; `detail` quotes the student's program. Both may reveal
 /// its input, so reports of hidden checks give only the outcome and the function.

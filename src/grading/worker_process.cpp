@@ -25,15 +25,14 @@
 
 #include "base/child.h"
 #include "base/error.h"
-#include "base/pipe.h"
-#include "base/private_folder.h"
+#include "base/folders.h"
 #include "grading/descendants.h"
 #include "grading/output_capture.h"
-#include "remote/thrown.h"
+#include "remote/channel.h"
 #include "remote/worker.h"
 #include "sandbox/confinement.h"
 #include "sandbox/leave_others.h"
-#include "sandbox/report.h"
+#include "sandbox/probes.h"
 
 namespace rex::grading {
 namespace {

@@ -1,13 +1,90 @@
 #include "grasping/closure.h"
 
+#include <algorithm>
+#include <numeric>
+#include <span>
+
+#include <Eigen/Geometry>
 #include <Eigen/SVD>
 #include <fmt/format.h>
 
 #include "base/error.h"
 #include "base/require.h"
-#include "grasping/centred_view_internal.h"
-#include "grasping/cone_checks_internal.h"
+#include "geometry/rotation.h"
+#include "grasping/wrench_cone_internal.h"
 #include "optim/linear_program.h"
+
+namespace rex::internal {
+
+/// Wrenches as seen from the middle of their contacts, with torques divided by the contacts' spread: an
+/// invertible map, on which closure does not depend but rounding does.
+struct CentredView {
+  Eigen::MatrixXd map{};  ///< d x d, times a wrench
+  double rounding = 0;    ///< of unit wrenches seen so: it grows with the distance of the reference point
+};
+
+/// The view of cones that have passed requireCones(). Where they are not those of contacts in space or in the
+/// plane, wrenches stay as they are.
+[[nodiscard]] CentredView centredView(std::span<const WrenchCone> cones);
+
+/// forceClosure() of the wrenches (d x N) in this view, but for the direction, which is for the wrenches
+/// themselves.
+[[nodiscard]] Closure forceClosure(const Eigen::MatrixXd& wrenches, const CentredView& view);
+
+namespace {
+
+using Eigen::Index;
+using Eigen::Matrix3Xd;
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kRounding = 4e-15;       // of the point of a contact, if torques are taken far from it
+constexpr double kLeastRounding = 1e-12;  // contacts are known no better than this
+
+// The point p of a contact, from the reference point and in its units of length: the torques p x f of all
+// axes f of the contact give it.
+Vector3d pointOf(const WrenchCone& cone) {
+  MatrixXd axes(cone.normal.size(), 1 + cone.tangents.cols());
+  axes << cone.normal, cone.tangents;
+  Vector3d p = Vector3d::Zero();
+  for (const auto& w : axes.colwise())
+    if (w.size() == 6)
+      p += Vector3d(w.head<3>()).cross(Vector3d(w.tail<3>())) / 2;
+    else
+      p.head<2>() += w[2] * Vector2d(w[1], -w[0]);
+  return p;
+}
+
+// The map that moves the reference point to c and divides torques by the length.
+MatrixXd movedTo(const Vector3d& c, double length, Index size) {
+  MatrixXd map = MatrixXd::Identity(size, size);
+  if (size == 6) {
+    map.bottomLeftCorner<3, 3>() = -skew(c) / length;
+    map.bottomRightCorner<3, 3>() /= length;
+  } else {
+    map.row(2) << c.y() / length, -c.x() / length, 1 / length;
+  }
+  return map;
+}
+
+}  // namespace
+
+CentredView centredView(std::span<const WrenchCone> cones) {
+  const Index size = cones[0].normal.size(), tangents = cones[0].tangents.cols();
+  if (!(size == 6 && tangents == 2) && !(size == 3 && tangents == 1))
+    return {.map = MatrixXd::Identity(size, size), .rounding = kLeastRounding};
+  Matrix3Xd points(3, static_cast<Index>(cones.size()));
+  for (std::size_t i = 0; i < cones.size(); ++i) points.col(static_cast<Index>(i)) = pointOf(cones[i]);
+  const Vector3d middle = points.rowwise().mean();
+  const double far = middle.norm();
+  double spread = (points.colwise() - middle).colwise().norm().maxCoeff();
+  if (!(spread > kRounding * far)) spread = far > 0 ? far : 1;  // all at one point, up to rounding
+  return {.map = movedTo(middle, spread, size),
+          .rounding = std::max(kLeastRounding, kRounding * far / spread)};
+}
+
+}  // namespace rex::internal
 
 namespace rex {
 namespace {
@@ -152,5 +229,64 @@ Closure forceClosure(const MatrixXd& wrenches, const CentredView& view) {
 }
 
 }  // namespace internal
+
+namespace {
+
+using Eigen::Index;
+
+void requireOrder(std::span<const int> order, std::size_t contacts) {
+  std::vector<int> sorted(order.begin(), order.end()), all(contacts);
+  std::sort(sorted.begin(), sorted.end());
+  std::iota(all.begin(), all.end(), 0);
+  if (sorted != all)
+    throw Error({.what = "deletion synthesis: order",
+                 .found = fmt::format("{}", fmt::join(order, " ")),
+                 .wanted = fmt::format("each contact from 0 to {} once", static_cast<long>(contacts) - 1)});
+}
+
+// The edges of the contacts that are kept.
+Eigen::MatrixXd wrenchesOf(const WrenchSet& set, const std::vector<bool>& isKept) {
+  std::vector<Index> columns;
+  for (std::size_t j = 0; j < set.contact.size(); ++j)
+    if (isKept[static_cast<std::size_t>(set.contact[j])]) columns.push_back(static_cast<Index>(j));
+  return set.wrenches(Eigen::all, columns);
+}
+
+}  // namespace
+
+DeletionSynthesis deleteRedundant(std::span<const WrenchCone> cones, std::span<const int> order, int edges) {
+  requireOrder(order, cones.size());
+  DeletionSynthesis result;
+  const WrenchSet set = primitiveWrenches(cones, edges);
+  if (cones.empty()) {
+    result.status = ClosureStatus::kOpen;
+    result.message = "there are no contacts";
+    return result;
+  }
+  const internal::CentredView view = internal::centredView(cones);
+  result.closure = internal::forceClosure(set.wrenches, view);
+  result.status = result.closure.status;
+  result.message = result.closure.message;
+  if (result.status != ClosureStatus::kClosed) return result;
+  std::vector<bool> isKept(cones.size(), true);
+  for (const int contact : order) {
+    isKept[static_cast<std::size_t>(contact)] = false;
+    Closure rest = internal::forceClosure(wrenchesOf(set, isKept), view);
+    if (rest.status == ClosureStatus::kClosed)
+      result.closure = std::move(rest);
+    else
+      isKept[static_cast<std::size_t>(contact)] = true;
+  }
+  for (std::size_t i = 0; i < cones.size(); ++i)
+    if (isKept[i]) result.kept.push_back(static_cast<int>(i));
+  result.message = fmt::format("{} of {} contacts hold", result.kept.size(), cones.size());
+  return result;
+}
+
+DeletionSynthesis deleteRedundant(std::span<const WrenchCone> cones, int edges) {
+  std::vector<int> order(cones.size());
+  std::iota(order.begin(), order.end(), 0);
+  return deleteRedundant(cones, order, edges);
+}
 
 }  // namespace rex

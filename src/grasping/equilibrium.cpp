@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "base/require.h"
-#include "grasping/cone_checks_internal.h"
+#include "grasping/wrench_cone_internal.h"
 #include "optim/linear_program.h"
 
 namespace rex {

@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "base/require.h"
-#include "grasping/cone_checks_internal.h"
+#include "grasping/wrench_cone_internal.h"
 
 namespace rex {
 namespace {

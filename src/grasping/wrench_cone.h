@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "base/vector_arg.h"
-#include "grasping/contact.h"
+#include "base/require.h"
+#include "grasping/object_surface.h"
 
 namespace rex {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "kinematics/task_map.h"
+#include "kinematics/task_maps.h"
 
 namespace rex {
 

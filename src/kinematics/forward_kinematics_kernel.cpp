@@ -1,5 +1,4 @@
-#include "base/sin_cos.h"
-#include "geometry/kernel_columns.h"
+#include "base/lane_math.h"
 #include "geometry/kernel_math.h"
 #include "kinematics/forward_kinematics_kernel_internal.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene/motion_step.h"
+#include "scene/link.h"
 
 namespace rex::internal {
 

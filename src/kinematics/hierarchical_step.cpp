@@ -5,7 +5,7 @@
 #include <Eigen/SVD>
 
 #include "base/require.h"
-#include "kinematics/metric_internal.h"
+#include "kinematics/inverse_kinematics_internal.h"
 
 namespace rex {
 namespace {

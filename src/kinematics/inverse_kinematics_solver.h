@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "base/rng.h"
-#include "kinematics/task.h"
+#include "kinematics/task_maps.h"
 
 namespace rex {
 

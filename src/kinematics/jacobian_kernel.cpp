@@ -1,4 +1,3 @@
-#include "geometry/kernel_columns.h"
 #include "geometry/kernel_math.h"
 #include "kinematics/jacobian_kernel_internal.h"
 

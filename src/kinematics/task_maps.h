@@ -1,9 +1,32 @@
 #pragma once
 
+#include <functional>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
 #include "geometry/rotation.h"
-#include "kinematics/task_map.h"
+#include "kinematics/forward_kinematics.h"
 
 namespace rex {
+
+/// The argument of task maps: a robot, its posture q (nq), and the poses of its bodies there.
+struct Posture {
+  const Model& model;
+  const Eigen::VectorXd& q;
+  const BodyPoses& poses;
+};
+
+/// Value y (d) of a task map, and its Jacobian J (d x nv, per unit of v).
+struct TaskValue {
+  Eigen::VectorXd y;
+  Eigen::MatrixXd J;
+};
+
+/// A task map phi (slide 2:52): writes y and J of a posture into storage that is reused, so that resizing
+/// costs nothing after the first time. Any lambda with this signature is one.
+using TaskMap = std::function<void(const Posture&, TaskValue&)>;
 
 // The task maps of slides 2:52 to 2:64, except contacts (collision/contacts.h). A point Q or vector is
 // fixed in body B and given in B's axes; values are in W unless stated otherwise; J is d x nv and exact.
@@ -58,5 +81,30 @@ namespace rex {
 /// Some rows of a map, from row `first` on: its height is rowsOf(positionTask(body), 2, 1). Throws Error for
 /// numbers below zero, and evaluating it for a map that has fewer rows.
 [[nodiscard]] TaskMap rowsOf(const TaskMap& map, int first, int count);
+
+/// The tolerance of a task that is only weighed against others: no distance from its target is too large.
+inline constexpr double kNoTolerance = std::numeric_limits<double>::infinity();
+
+/// One of several things that a robot should do: bring the value of a task map to a target (slide 2:47).
+struct Task {
+  std::string name{};        ///< for messages
+  TaskMap map{};             ///< gives y (d)
+  Eigen::VectorXd target{};  ///< y* (d); empty: zero
+  double precision = 1;      ///< rho > 0: the task costs rho |y - y*|^2
+  double tolerance = 1e-6;   ///< the task is fulfilled if max |y - y*| is at most this; see kNoTolerance
+};
+
+/// The big task of slide 2:47: Phi, which stacks sqrt(rho_i) (y_i - y_i*) of all tasks, and its Jacobian.
+/// Its target is zero and its metric the identity. Throws Error naming the task if it has no map, a
+/// precision that is not positive or a negative tolerance, or if its value, Jacobian or target has the
+/// wrong size or a number that is not finite.
+[[nodiscard]] TaskValue stackTasks(std::span<const Task> tasks, const Posture& at);
+/// Overload for hot loops. `values` becomes the unweighted value of each task, `phi` the stack. If the maps
+/// do not allocate, neither does it, once both have been used with these tasks.
+void stackTasks(std::span<const Task> tasks, const Posture& at, std::vector<TaskValue>& values,
+                TaskValue& phi);
+
+/// max |y - y*| of a task's value, in the unit of y.
+[[nodiscard]] double taskError(const Task& task, const TaskValue& value);
 
 }  // namespace rex

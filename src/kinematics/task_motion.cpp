@@ -2,8 +2,8 @@
 
 #include "base/require.h"
 #include "kinematics/inverse_kinematics.h"
-#include "kinematics/joint_limits_internal.h"
-#include "kinematics/metric_internal.h"
+#include "kinematics/inverse_kinematics_internal.h"
+#include "kinematics/inverse_kinematics_solver_internal.h"
 #include "scene/state.h"
 
 namespace rex {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kinematics/motion_profile.h"
-#include "kinematics/task.h"
+#include "kinematics/task_maps.h"
 
 namespace rex {
 

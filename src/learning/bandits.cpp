@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/require.h"
 #include "base/rng.h"
-#include "learning/dirichlet_internal.h"
+#include "learning/learned_model_internal.h"
 
 namespace rex {
 namespace {

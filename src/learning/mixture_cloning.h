@@ -7,8 +7,8 @@
 
 #include <Eigen/Core>
 
+#include "base/require.h"
 #include "base/rng.h"
-#include "base/vector_arg.h"
 #include "learning/behavioural_cloning.h"
 
 namespace rex {

@@ -7,8 +7,8 @@
 
 #include "base/error.h"
 #include "base/require.h"
-#include "learning/mdp_rollout.h"
-#include "learning/policy_values.h"
+#include "learning/dynamic_programming.h"
+#include "learning/mdp.h"
 
 namespace rex {
 namespace {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "course/plot.h"
+#include "course/print.h"
 
 namespace rex::legacy {
 namespace {

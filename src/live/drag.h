@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "kinematics/task_map.h"
+#include "kinematics/task_maps.h"
 #include "scene/model.h"
 
 namespace rex {

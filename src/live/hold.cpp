@@ -6,9 +6,9 @@
 #include <Eigen/Cholesky>
 
 #include "control/computed_torque.h"
+#include "dynamics/equations_of_motion.h"
 #include "dynamics/forward_dynamics.h"
-#include "dynamics/mass_matrix.h"
-#include "scene/coordinates.h"
+#include "scene/state.h"
 
 namespace rex {
 namespace {

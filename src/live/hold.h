@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "control/reference.h"
+#include "control/computed_torque.h"
 #include "dynamics/inverse_dynamics.h"
 #include "physics/physics_world.h"
 

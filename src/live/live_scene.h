@@ -1,11 +1,29 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include "kinematics/forward_kinematics.h"
 #include "scene/model.h"
 
 namespace rex {
+
+/// A run of bytes in the binary part of a GLB, such as the corners of a mesh.
+struct LivePiece {
+  std::size_t at = 0;  ///< where it belongs
+  std::string name{};  ///< the same for the same bytes: "piece-1f3a..."
+  std::string bytes{};
+};
+
+/// A GLB as text and pieces, so that pages fetch what they have not seen yet, and put it together again.
+struct LivePieces {
+  std::string json{};
+  std::vector<LivePiece> pieces{};
+};
+
+/// Cuts a GLB of glbOf() at its buffer views.
+[[nodiscard]] LivePieces piecesOf(const std::string& glb);
 
 /// The shapes of a model as a GLB for the live page, at these poses of the bodies: shape i of
 /// Model::shapes() is the node "s<i>". Shapes whose mesh was not loaded are left out. Throws Error as

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "base/printable.h"
+#include "base/escape.h"
 #include "base/text.h"
 #include "collision/contacts.h"
 #include "geometry/rotation.h"

@@ -6,9 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "collision/contact_model.h"
+#include "collision/contacts.h"
 #include "live/drag.h"
-#include "live/live_recording.h"
 #include "live/live_simulation.h"
 
 namespace rex {

@@ -10,7 +10,6 @@
 #include <unistd.h>
 
 #include "base/escape.h"
-#include "base/printable.h"
 #include "base/text_file.h"
 
 namespace rex {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "base/private_folder.h"
+#include "base/folders.h"
 #include "live/live_server.h"
 
 namespace rex {

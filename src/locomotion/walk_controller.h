@@ -3,8 +3,8 @@
 #include <array>
 #include <optional>
 
-#include "locomotion/inverted_pendulum.h"
 #include "locomotion/whole_body_control.h"
+#include "locomotion/zero_moment_point.h"
 
 namespace rex {
 

@@ -8,8 +8,8 @@
 
 #include "base/error.h"
 #include "base/require.h"
-#include "dynamics/mass_matrix.h"
-#include "dynamics/velocity_acceleration.h"
+#include "dynamics/equations_of_motion.h"
+#include "dynamics/inverse_dynamics.h"
 #include "kinematics/center_of_mass.h"
 #include "kinematics/jacobians.h"
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "dynamics/inverse_dynamics.h"
-#include "geometry/lie.h"
+#include "geometry/pose.h"
 #include "locomotion/walking_pattern.h"
 #include "locomotion/zero_moment_point.h"
 #include "optim/quadratic_program.h"

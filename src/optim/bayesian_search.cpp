@@ -11,7 +11,7 @@
 #include "base/error.h"
 #include "base/require.h"
 #include "optim/box_descent_internal.h"
-#include "optim/search_checks_internal.h"
+#include "optim/search_result_internal.h"
 
 namespace rex {
 namespace {

@@ -7,7 +7,6 @@
 
 #include "base/rng.h"
 #include "optim/gaussian_process.h"
-#include "optim/objective.h"
 #include "optim/search_result.h"
 
 namespace rex {

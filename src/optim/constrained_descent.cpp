@@ -1,9 +1,151 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include <fmt/format.h>
+
+#include "base/error.h"
 #include "optim/constrained_descent_internal.h"
 
 namespace rex::internal {
+
+// An inequality costs mu [g + lambda / 2 mu]+^2, an equality mu (h + kappa / 2 mu)^2, each less what it costs
+// at 0 without a shift (Nocedal and Wright, Numerical Optimization, 17.4, with 2 mu for their mu).
+double ConstraintMerit::value(const ConstrainedValues& at) const {
+  double sum = costWeight * at.cost;
+  for (Eigen::Index i = 0; i < at.g.size(); ++i) {
+    if (hasBarrier) {
+      if (!(at.g[i] < 0)) return std::numeric_limits<double>::infinity();
+      sum -= barrier * std::log(-at.g[i]);
+    } else {
+      const double g = at.g[i] + margin, shifted = g + lambda[i] / (2 * penalty);
+      sum += shifted <= 0 ? -lambda[i] * lambda[i] / (4 * penalty)
+                          : g * (penalty * g + lambda[i]);  // NaN stays NaN
+    }
+  }
+  for (Eigen::Index i = 0; i < at.h.size(); ++i) sum += at.h[i] * (penalty * at.h[i] + kappa[i]);
+  return sum;
+}
+
+void ConstraintMerit::updateMultipliers(const ConstrainedValues& at, Eigen::VectorXd& ofG,
+                                        Eigen::VectorXd& ofH) const {
+  for (Eigen::Index i = 0; i < at.g.size(); ++i)
+    ofG[i] = hasBarrier ? -barrier / at.g[i] : std::max(0., 2 * penalty * (at.g[i] + margin) + lambda[i]);
+  for (Eigen::Index i = 0; i < at.h.size(); ++i) ofH[i] = 2 * penalty * at.h[i] + kappa[i];
+}
+
+void ConstraintMerit::weigh(const ConstrainedValues& at, ConstraintWeights& weights) const {
+  weights.cost = costWeight;
+  weights.g.resize(at.g.size());
+  weights.gg.resize(at.g.size());
+  weights.h.resize(at.h.size());
+  weights.hh.setConstant(at.h.size(), 2 * penalty);
+  updateMultipliers(at, weights.g, weights.h);
+  for (Eigen::Index i = 0; i < at.g.size(); ++i) {
+    if (hasBarrier)
+      weights.gg[i] = barrier / (at.g[i] * at.g[i]);
+    else
+      weights.gg[i] = weights.g[i] > 0 ? 2 * penalty : 0;
+  }
+}
+
+bool ConstraintMerit::weighAhead(const ConstrainedValues& at, const Eigen::VectorXd& change,
+                                 ConstraintWeights& weights) const {
+  bool isOther = false;
+  for (Eigen::Index i = 0; i < at.g.size(); ++i) {
+    const double here = 2 * penalty * (at.g[i] + margin) + lambda[i];
+    const bool counts = here + 2 * penalty * change[i] > 0;
+    isOther = isOther || counts != (weights.gg[i] > 0);
+    weights.g[i] = counts ? here : 0;
+    weights.gg[i] = counts ? 2 * penalty : 0;
+  }
+  return isOther;
+}
+
+FunctionValue DenseSystem::valueOf(const SmoothFunction& function, const char* name,
+                                   const VectorArg& x) const {
+  if (!function) return {Eigen::VectorXd(0), Eigen::MatrixXd(0, n_)};
+  FunctionValue value = function(x);
+  if (value.J.rows() == value.y.size() && value.J.cols() == n_) return value;
+  throw Error({.what = fmt::format("{}: Jacobian", name),
+               .found = fmt::format("{} x {}", value.J.rows(), value.J.cols()),
+               .wanted = fmt::format("{} x {}", value.y.size(), n_)});
+}
+
+void DenseSystem::evaluate(const Eigen::VectorXd& x, ConstrainedValues& values) {
+  x_ = x;
+  residuals_ = valueOf(problem_.residuals, "residuals", x);
+  cost_ = valueOf(problem_.cost, "cost", x);
+  if (problem_.cost) requireSize("cost", cost_.y.size(), 1);
+  g_ = valueOf(problem_.inequalities, "inequalities", x);
+  h_ = valueOf(problem_.equalities, "equalities", x);
+  values.cost = residuals_.y.squaredNorm() + cost_.y.sum();
+  values.g = g_.y;
+  values.h = h_.y;
+}
+
+void DenseSystem::gradientOf(const ConstraintWeights& weights, Eigen::VectorXd& gradient) const {
+  gradient = 2 * weights.cost * (residuals_.J.transpose() * residuals_.y);
+  if (problem_.cost) gradient += weights.cost * cost_.J.row(0).transpose();
+  gradient += g_.J.transpose() * weights.g + h_.J.transpose() * weights.h;
+}
+
+void DenseSystem::changeOfG(const Eigen::VectorXd& step, Eigen::VectorXd& change) const {
+  change = g_.J * step;
+}
+
+void DenseSystem::assemble(const ConstraintWeights& weights) {
+  A_ = 2 * weights.cost * (residuals_.J.transpose() * residuals_.J);
+  A_ += g_.J.transpose() * weights.gg.asDiagonal() * g_.J;
+  A_ += h_.J.transpose() * weights.hh.asDiagonal() * h_.J;
+  if (problem_.cost && weights.cost > 0) addCurvature(weights);
+}
+
+// Second derivatives of w cost + a^T g + b^T h, with a and b held; constraints that only a step will reach
+// have none yet.
+void DenseSystem::addCurvature(const ConstraintWeights& weights) {
+  const auto gradientAt = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+    return weights.cost * valueOf(problem_.cost, "cost", x).J.transpose() +
+           valueOf(problem_.inequalities, "inequalities", x).J.transpose() * weights.g.cwiseMax(0) +
+           valueOf(problem_.equalities, "equalities", x).J.transpose() * weights.h;
+  };
+  constexpr double kStep = 1e-4;
+  Eigen::MatrixXd H(n_, n_);
+  for (Eigen::Index i = 0; i < n_; ++i) {
+    const double size = kStep * std::max(1., std::abs(x_[i]));
+    const Eigen::VectorXd move = size * Eigen::VectorXd::Unit(n_, i);
+    H.col(i) = (gradientAt(x_ + move) - gradientAt(x_ - move)) / (2 * size);
+  }
+  // If the functions are not defined all around, damping has to suffice.
+  if (H.allFinite()) A_ += (H + H.transpose()) / 2;
+}
+
+bool DenseSystem::solve(double damping, const Eigen::VectorXd& gradient, Eigen::VectorXd& step) {
+  damped_ = A_;
+  damped_.diagonal().array() += damping * std::max(1., A_.diagonal().maxCoeff());
+  factors_.compute(damped_);
+  if (factors_.info() != Eigen::Success) return false;
+  step = -factors_.solve(gradient);
+  return step.allFinite();
+}
+
+namespace {
+
+std::string nameOfRow(const std::vector<std::string>& names, const char* kind, Eigen::Index row) {
+  const auto i = static_cast<std::size_t>(row);
+  return i < names.size() ? names[i] : fmt::format("{} {}", kind, row);
+}
+
+}  // namespace
+
+std::string DenseSystem::inequalityName(Eigen::Index row) const {
+  return nameOfRow(problem_.inequalityNames, "inequality", row);
+}
+
+std::string DenseSystem::equalityName(Eigen::Index row) const {
+  return nameOfRow(problem_.equalityNames, "equality", row);
+}
+
 namespace {
 
 constexpr double kSlopeShare = 0.1;      // of what the slope promises, a step must gain (Armijo)

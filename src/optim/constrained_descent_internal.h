@@ -1,9 +1,57 @@
 #pragma once
 
+#include <Eigen/Cholesky>
+
 #include "optim/constrained_solver.h"
-#include "optim/constraint_merit_internal.h"
 
 namespace rex::internal {
+
+/// The function without constraints that a method minimises in place of a problem with some, for one value of
+/// its parameters: of g, h and cost at a point, and with its derivatives as weights of theirs.
+struct ConstraintMerit {
+  bool hasBarrier = false;
+  double costWeight = 1;
+  double penalty = 1, barrier = 1;
+  double margin = 0;                  ///< g + margin <= 0 is wanted, where there is no barrier
+  Eigen::VectorXd lambda{}, kappa{};  ///< multipliers that shift the squared penalties
+
+  /// Infinite where a barrier does not hold.
+  [[nodiscard]] double value(const ConstrainedValues& at) const;
+  void weigh(const ConstrainedValues& at, ConstraintWeights& weights) const;
+  /// The same, but without a barrier, and with the inequalities that count for a step being those that would
+  /// where g has `change`d. Whether they are others than before.
+  [[nodiscard]] bool weighAhead(const ConstrainedValues& at, const Eigen::VectorXd& change,
+                                ConstraintWeights& weights) const;
+  /// Multipliers that make the gradient of the Lagrangian that of this function.
+  void updateMultipliers(const ConstrainedValues& at, Eigen::VectorXd& ofG, Eigen::VectorXd& ofH) const;
+};
+
+/// A dense problem as solvers see it. Keeps references to the problem.
+class DenseSystem final : public ConstrainedSystem {
+ public:
+  /// n: the size of points.
+  DenseSystem(const ConstrainedProblem& problem, Eigen::Index n) : problem_(problem), n_(n) {}
+
+  void evaluate(const Eigen::VectorXd& x, ConstrainedValues& values) override;
+  void gradientOf(const ConstraintWeights& weights, Eigen::VectorXd& gradient) const override;
+  void assemble(const ConstraintWeights& weights) override;
+  void changeOfG(const Eigen::VectorXd& step, Eigen::VectorXd& change) const override;
+  bool solve(double damping, const Eigen::VectorXd& gradient, Eigen::VectorXd& step) override;
+  [[nodiscard]] std::string inequalityName(Eigen::Index row) const override;
+  [[nodiscard]] std::string equalityName(Eigen::Index row) const override;
+
+ private:
+  [[nodiscard]] FunctionValue valueOf(const SmoothFunction& function, const char* name,
+                                      const VectorArg& x) const;
+  void addCurvature(const ConstraintWeights& weights);
+
+  const ConstrainedProblem& problem_;
+  Eigen::Index n_;
+  Eigen::VectorXd x_;
+  FunctionValue residuals_, cost_, g_, h_;
+  Eigen::MatrixXd A_, damped_;
+  Eigen::LLT<Eigen::MatrixXd> factors_;
+};
 
 /// Why a descent ended.
 enum class DescentEnd {

@@ -8,8 +8,7 @@
 #include "base/error.h"
 #include "base/require.h"
 #include "optim/constrained_descent_internal.h"
-#include "optim/dense_system_internal.h"
-#include "optim/search_checks_internal.h"
+#include "optim/search_result_internal.h"
 
 namespace rex {
 namespace {

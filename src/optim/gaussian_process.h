@@ -3,7 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 
-#include "base/vector_arg.h"
+#include "base/require.h"
 
 namespace rex {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/require.h"
-#include "optim/search_checks_internal.h"
+#include "optim/search_result_internal.h"
 
 namespace rex {
 namespace {

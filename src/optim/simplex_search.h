@@ -2,7 +2,6 @@
 
 #include <limits>
 
-#include "optim/objective.h"
 #include "optim/search_result.h"
 
 namespace rex {

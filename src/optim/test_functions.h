@@ -3,7 +3,7 @@
 #include <span>
 #include <string_view>
 
-#include "base/vector_arg.h"
+#include "base/require.h"
 
 namespace rex {
 

@@ -6,13 +6,42 @@
 #include <vector>
 
 #include <BulletCollision/CollisionShapes/btEmptyShape.h>
+#include <BulletDynamics/Featherstone/btMultiBodyConstraint.h>
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 
+#include "physics/contact_free_motion_internal.h"
 #include "physics/coupling_internal.h"
-#include "physics/free_motion_internal.h"
-#include "physics/joint_row_internal.h"
+#include "physics/simulated_tree_internal.h"
 
 namespace rex::internal {
+
+/// Constraints on one velocity of a joint or of a base that is free, all solved along with the contacts:
+/// motor, limits, friction, damping.
+class JointRow : public btMultiBodyConstraint {
+ public:
+  /// Of the freedom `place` of a link; both count from 0.
+  JointRow(btMultiBody& body, int link, int place);
+  /// Of a base; measureBase() says which velocity.
+  explicit JointRow(btMultiBody& body);
+
+  /// The velocity is angular * omega + linear * v, of the origin of the base; all in W.
+  void measureBase(const btVector3& angular, const btVector3& linear);
+
+  void setGoals(const JointGoals& goals) { goals_ = goals; }
+  /// Forgets the goals and the impulses of the last step, from which the solver starts otherwise.
+  void forget();
+
+  void finalizeMultiDof() override;
+  int getIslandIdA() const override;
+  int getIslandIdB() const override { return getIslandIdA(); }
+  void createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
+                            const btContactSolverInfo& info) override;
+  void debugDraw(btIDebugDraw*) override {}
+
+ private:
+  int place_ = 0;
+  JointGoals goals_;
+};
 
 /// A tree of bodies on joints as one of Bullet's multibodies. Joints of several coordinates become chains of
 /// links without mass, of one coordinate or one quaternion each. Links that follow others, which are of

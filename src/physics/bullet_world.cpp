@@ -8,14 +8,12 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "collision/contact_model.h"
+#include "collision/contacts.h"
 #include "dynamics/forward_dynamics.h"
 #include "physics/articulation_internal.h"
-#include "physics/bullet_math_internal.h"
 #include "physics/bullet_shape_internal.h"
 #include "physics/bullet_world_internal.h"
-#include "physics/free_body_internal.h"
-#include "physics/link_inertias_internal.h"
+#include "physics/simulated_tree_internal.h"
 
 namespace rex::internal {
 namespace {

@@ -9,10 +9,10 @@
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 #include <btBulletCollisionCommon.h>
 
-#include "collision/contact_model.h"
+#include "collision/contacts.h"
 #include "physics/coupling_internal.h"
-#include "physics/mover_internal.h"
-#include "physics/stepping_world_internal.h"
+#include "physics/overlap_push_internal.h"
+#include "physics/simulated_tree_internal.h"
 
 namespace rex::internal {
 

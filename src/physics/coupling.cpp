@@ -9,6 +9,70 @@
 #include "physics/coupling_internal.h"
 
 namespace rex::internal {
+
+int HeldRows::getIslandIdA() const { return m_bodyA->getBaseCollider()->getIslandTag(); }
+int HeldRows::getIslandIdB() const { return m_bodyB->getBaseCollider()->getIslandTag(); }
+
+btMultiBodySolverConstraint& HeldRows::addRow(int i, double velocity, btMultiBodyConstraintArray& rows,
+                                              btMultiBodyJacobianData& data,
+                                              const btContactSolverInfo& info) {
+  const btVector3 none(0, 0, 0);
+  btMultiBodySolverConstraint& row = rows.expandNonInitializing();
+  row.m_orgConstraint = this;
+  row.m_orgDofIndex = i;
+  fillMultiBodyConstraint(row, data, jacobianA(i), jacobianB(i), none, none, none, none, 0, info,
+                          -BT_LARGE_FLOAT, BT_LARGE_FLOAT, false, 1, false, velocity);
+  row.m_cfm = 0;
+  row.m_contactNormal1 = row.m_contactNormal2 = none;
+  row.m_relpos1CrossNormal = row.m_relpos2CrossNormal = none;
+  return row;
+}
+
+namespace {
+
+constexpr int kAxes = 3;
+// Gaps, which each step of finite length opens, close at this rate, 1/s: a fifth of them in a millisecond.
+// Those at the start are as slow as what parts from an overlap, m/s: what the pin moves keeps its speed
+// afterwards.
+constexpr double kClosingRate = 200, kClosingSpeed = 1;
+
+}  // namespace
+
+PinRows::PinRows(const PinEnd& A, const PinEnd& B)
+    : HeldRows(A.body, B.body ? B.body : A.body, A.link, B.body ? B.link : A.link, kAxes, false,
+               MULTIBODY_CONSTRAINT_POINT_TO_POINT),
+      A_(A),
+      B_(B) {
+  PinRows::finalizeMultiDof();
+}
+
+double PinRows::wanted(int row) const {
+  return -kClosingRate * gap_[row] / std::max(1.0, kClosingRate / kClosingSpeed * gap_.length());
+}
+
+void PinRows::measure(const PinEnd& end, const btVector3& axis, double sign, double* coefficients,
+                      btMultiBodyJacobianData& data) {
+  if (end.body == nullptr) return;
+  one_.resize(velocityCount(*end.body));
+  end.body->fillConstraintJacobianMultiDof(end.link, end.inWorld(), btVector3(0, 0, 0), axis, &one_[0],
+                                           data.scratch_r, data.scratch_v, data.scratch_m);
+  for (int i = 0; i < one_.size(); ++i) coefficients[i] += sign * one_[i];
+}
+
+void PinRows::createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
+                                   const btContactSolverInfo& info) {
+  gap_ = A_.inWorld() - B_.inWorld();
+  for (int i = 0; i < kAxes; ++i) {
+    btVector3 axis(0, 0, 0);
+    axis[i] = 1;
+    std::fill_n(jacobianA(i), velocityCount(*m_bodyA), 0.0);
+    if (!isInOneBody()) std::fill_n(jacobianB(i), velocityCount(*m_bodyB), 0.0);
+    measure(A_, axis, 1, jacobianA(i), data);
+    measure(B_, axis, -1, isInOneBody() ? jacobianA(i) : jacobianB(i), data);
+    addRow(i, wanted(i), rows, data, info);
+  }
+}
+
 namespace {
 
 // Position errors decay at this rate, 1/s. They are only rounding errors, because velocities are exact and

@@ -5,13 +5,77 @@
 #include <span>
 #include <vector>
 
+#include <BulletDynamics/Featherstone/btMultiBodyConstraint.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 #include <Eigen/Core>
 
-#include "physics/pin_rows_internal.h"
 #include "scene/model.h"
 
 namespace rex::internal {
+
+/// The coordinates of a body in Bullet, the six of the base included.
+inline int velocityCount(const btMultiBody& body) { return 6 + body.getNumDofs(); }
+
+/// Rows that hold two links to each other and are solved along with the contacts; Couplings then makes them
+/// exact. If both are in one body, the Jacobian of A holds everything: Bullet adds the terms of A and B on
+/// their own, but not the coupling between them.
+class HeldRows : public btMultiBodyConstraint {
+ public:
+  using btMultiBodyConstraint::btMultiBodyConstraint;
+
+  [[nodiscard]] bool isInOneBody() const { return m_bodyA == m_bodyB; }
+  /// The coefficients of a row for the velocities of a body; null if it has none.
+  [[nodiscard]] const double* coefficients(int row, const btMultiBody& body) {
+    if (&body == m_bodyA) return jacobianA(row);
+    return &body == m_bodyB ? jacobianB(row) : nullptr;
+  }
+  /// The velocity along a row that reduces its error, in the posture in which the rows were last created.
+  [[nodiscard]] virtual double wanted(int row) const = 0;
+
+  /// Forgets the impulses of the last step.
+  void forget() {
+    for (int i = 0; i < getNumRows(); ++i) internalSetAppliedImpulse(i, 0);
+  }
+
+  int getIslandIdA() const override;
+  int getIslandIdB() const override;
+  void debugDraw(btIDebugDraw*) override {}
+
+ protected:
+  /// Adds a row with the Jacobians as they are.
+  btMultiBodySolverConstraint& addRow(int i, double velocity, btMultiBodyConstraintArray& rows,
+                                      btMultiBodyJacobianData& data, const btContactSolverInfo& info);
+};
+
+/// A point of a pin in Bullet: fixed in a link (-1: the base) of a body, or, without one, in W.
+struct PinEnd {
+  btMultiBody* body = nullptr;
+  int link = -1;
+  btVector3 point{0, 0, 0};
+
+  [[nodiscard]] btVector3 inWorld() const { return body ? body->localPosToWorld(link, point) : point; }
+};
+
+/// Keeps two points together: a row for each axis of W.
+class PinRows : public HeldRows {
+ public:
+  /// The body of A moves.
+  PinRows(const PinEnd& A, const PinEnd& B);
+
+  [[nodiscard]] double wanted(int row) const override;
+  void finalizeMultiDof() override { allocateJacobiansMultiDof(); }
+  void createConstraintRows(btMultiBodyConstraintArray& rows, btMultiBodyJacobianData& data,
+                            const btContactSolverInfo& info) override;
+
+ private:
+  // Adds the velocity of an end along the axis, times `sign`, to the coefficients of its body.
+  void measure(const PinEnd& end, const btVector3& axis, double sign, double* coefficients,
+               btMultiBodyJacobianData& data);
+
+  PinEnd A_, B_;
+  btVector3 gap_{0, 0, 0};
+  btAlignedObjectArray<btScalar> one_;
+};
 
 /// A link of one coordinate: where a hinge or slider of the model is in Bullet.
 struct CoordinatePlace {

@@ -3,17 +3,64 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
 #include "base/require.h"
-#include "collision/clearance_watch.h"
-#include "physics/bullet_math_internal.h"
+#include "collision/motion_clearance.h"
+#include "physics/bullet_shape_internal.h"
 #include "physics/bullet_world_internal.h"
-#include "physics/contact_events_internal.h"
-#include "physics/untouched_motion_internal.h"
-#include "scene/coordinates.h"
+#include "physics/contact_free_motion_internal.h"
+#include "scene/state.h"
+
+namespace rex::internal {
+
+/// Follows which shapes touch, and notes what begins and ends.
+class ContactEvents {
+ public:
+  /// Forgets what touched.
+  void reset();
+  /// Forgets the events, before a step.
+  void clear() { events_.clear(); }
+  /// What touches in the next inner step, in any order and as often as it likes, is put into touching() by
+  /// the caller; update() then compares it with the last one.
+  std::vector<std::pair<int, int>>& touching() { return now_; }
+  void update(double time);
+  [[nodiscard]] const std::vector<ContactEvent>& events() const { return events_; }
+
+ private:
+  void add(ContactEvent::Kind kind, const std::vector<std::pair<int, int>>& from,
+           const std::vector<std::pair<int, int>>& except, double time);
+
+  std::vector<std::pair<int, int>> now_, before_;
+  std::vector<ContactEvent> events_;
+};
+
+void ContactEvents::reset() {
+  before_.clear();
+  events_.clear();
+}
+
+void ContactEvents::update(double time) {
+  std::sort(now_.begin(), now_.end());
+  now_.erase(std::unique(now_.begin(), now_.end()), now_.end());
+  add(ContactEvent::Kind::kEnd, before_, now_, time);
+  add(ContactEvent::Kind::kBegin, now_, before_, time);
+  std::swap(now_, before_);
+}
+
+void ContactEvents::add(ContactEvent::Kind kind, const std::vector<std::pair<int, int>>& from,
+                        const std::vector<std::pair<int, int>>& except, double time) {
+  for (const auto& pair : from) {
+    if (!std::binary_search(except.begin(), except.end(), pair))
+      events_.push_back({kind, pair.first, pair.second, time});
+  }
+}
+
+}  // namespace rex::internal
 
 namespace rex {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "planning/grid_search.h"
+#include "planning/grid_map.h"
 
 namespace rex {
 

@@ -14,8 +14,8 @@
 
 #include "base/error.h"
 #include "base/require.h"
-#include "planning/grid_search.h"
-#include "planning/reeds_shepp.h"
+#include "planning/car_curves.h"
+#include "planning/grid_map.h"
 
 namespace rex {
 namespace {

@@ -4,9 +4,19 @@
 #include <string>
 
 #include "planning/space.h"
-#include "planning/validity.h"
+#include "scene/model.h"
 
 namespace rex {
+
+/// Whether all configurations, one per column of Q, are valid, for example free of collision. It may stop
+/// at the first invalid one, and is called with any number of columns.
+using AllValid = std::function<bool(const MatrixArg& Q)>;
+
+/// Makes one from a function of a single configuration.
+[[nodiscard]] AllValid eachColumn(std::function<bool(const VectorArg& q)> isValid);
+
+/// Valid if a clearance is positive. If it is not a number, Error names the configuration.
+[[nodiscard]] AllValid whereClear(std::function<double(const VectorArg& q)> clearance);
 
 /// A planning problem: find a path through valid configurations.
 struct PathProblem {
@@ -47,5 +57,29 @@ struct PathResult {
 /// A lower bound on the length of paths from a to b through `via`.
 [[nodiscard]] double lengthThrough(const Space& space, const VectorArg& a, const VectorArg& via,
                                    const VectorArg& b);
+
+/// Checks straight edges between configurations at points no more than `resolution` apart. Points are
+/// checked in blocks of 8 (the block size of the kernels), each spread over the whole edge, so that
+/// obstacles are found early wherever they are (the idea of Thomason, Kingston and Kavraki, Motions in
+/// microseconds, 2024).
+class EdgeChecker {
+ public:
+  /// Throws Error for a resolution that is not positive and finite.
+  EdgeChecker(const Space& space, AllValid allValid, double resolution);
+
+  [[nodiscard]] bool isValid(const VectorArg& q);
+  /// Checks the edge from a valid configuration to another one, which is checked too. Throws Error for
+  /// wrong sizes and if it takes more than 1e8 points, naming resolution and distance.
+  [[nodiscard]] bool isValid(const VectorArg& from, const VectorArg& to);
+  /// How many configurations the validity function has been asked about so far.
+  long asked() const { return asked_; }
+
+ private:
+  Space space_;
+  AllValid allValid_;
+  double resolution_;
+  Eigen::MatrixXd block_;
+  long asked_ = 0;
+};
 
 }  // namespace rex

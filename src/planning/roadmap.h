@@ -3,7 +3,6 @@
 #include <utility>
 #include <vector>
 
-#include "planning/edge_checker.h"
 #include "planning/nearest_neighbors.h"
 #include "planning/path_problem.h"
 #include "planning/samplers.h"

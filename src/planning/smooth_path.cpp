@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "base/rng.h"
-#include "planning/edge_checker.h"
+#include "planning/path_problem.h"
 
 namespace rex {
 namespace {

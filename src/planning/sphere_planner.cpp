@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "base/require.h"
-#include "planning/halton.h"
+#include "planning/samplers.h"
 #include "planning/sphere_world_internal.h"
 
 namespace rex {

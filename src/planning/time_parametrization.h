@@ -2,7 +2,6 @@
 
 #include <string>
 
-#include "planning/motion_limits.h"
 #include "planning/timed_path.h"
 
 namespace rex {

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "remote/thrown.h"
+#include "remote/channel.h"
 #include "remote/wire.h"
 
 namespace rex::remote {

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "render/shrunk.h"
+#include "render/image.h"
 #include "render/text.h"
 
 namespace rex {

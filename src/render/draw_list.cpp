@@ -3,7 +3,7 @@
 
 #include "geometry/rotation.h"
 #include "render/draw_list_internal.h"
-#include "render/mark_style_internal.h"
+#include "render/picture_internal.h"
 
 namespace rex::internal {
 namespace {

@@ -2,17 +2,133 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "render/figure_layers.h"
+#include <Eigen/Core>
+
+#include "render/image.h"
 
 namespace rex {
+
+/// The lower and upper end of an axis or of a part of it.
+using AxisRange = std::pair<double, double>;
+
+enum class SeriesStyle { kLine, kPoints, kLinesPoints };
+
+/// The symbol at a point. kAuto uses a different one for each series.
+enum class Marker { kAuto, kDot, kCircle, kCross, kPlus, kSquare, kTriangle };
+
+/// One curve or cloud of points (x[i], y[i]). An empty x stands for 0, 1, 2, ... In a 3-D figure every
+/// series has a z. With `values`, one for each point, the colour bar gives the colours.
+struct Series {
+  std::string label{};  ///< in the legend; empty: not shown
+  std::vector<double> x{};
+  std::vector<double> y{};
+  std::vector<double> z{};
+  std::vector<double> values{};
+  SeriesStyle style = SeriesStyle::kLine;
+  Marker marker = Marker::kAuto;
+  double size = 1;  ///< factor for the width of lines and the size of points; up to 20
+  bool dashed = false;
+  std::optional<Color> color{};  ///< default: the next of a set suitable for any colour vision
+
+  void add(double atX, double atY) {
+    x.push_back(atX);
+    y.push_back(atY);
+  }
+};
+
+/// The strip from low[i] to high[i] at x[i], such as an error around a mean, with x as for a series. By
+/// default band k has the colour of series k.
+struct Band {
+  std::string label{};
+  std::vector<double> x{};
+  std::vector<double> low{};
+  std::vector<double> high{};
+  std::optional<Color> color{};
+};
+
+/// Bars from 0 to heights[i] between edges[i] and edges[i + 1], which ascend. Without edges the bars stand at
+/// 0, 1, 2, ... histogramOf() in render/figure_builders.h counts samples.
+struct Histogram {
+  std::string label{};
+  std::vector<double> edges{};
+  std::vector<double> heights{};
+  std::optional<Color> color{};
+};
+
+/// All points at `sigmas` standard deviations from the mean of a normal distribution. The covariance must
+/// be symmetric and positive definite.
+struct CovarianceEllipse {
+  std::string label{};
+  Eigen::Vector2d mean{0, 0};
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();
+  double sigmas = 2;
+  std::optional<Color> color{};  ///< default: the second of the set
+};
+
+/// The inside of the polygon (x[i], y[i]), shaded.
+struct Region {
+  std::string label{};
+  std::vector<double> x{};
+  std::vector<double> y{};
+  std::optional<Color> color{};  ///< otherwise grey
+
+  void add(double atX, double atY) {
+    x.push_back(atX);
+    y.push_back(atY);
+  }
+};
+
+/// Arrows from (x[i], y[i]) to (x[i] + dx[i], y[i] + dy[i]). arrowsOf() in render/figure_builders.h draws a
+/// vector field.
+struct Arrows {
+  std::string label{};
+  std::vector<double> x{};
+  std::vector<double> y{};
+  std::vector<double> dx{};
+  std::vector<double> dy{};
+  std::optional<Color> color{};  ///< otherwise grey
+};
+
+/// Values as colours: a rectangle of equal cells, row 0 at the low end of y, column 0 at the low end of x.
+/// heatMapOf() in render/figure_builders.h samples a function.
+struct HeatMap {
+  AxisRange xRange{0, 1};    ///< outer edges of the first and the last column
+  AxisRange yRange{0, 1};    ///< of the rows
+  Eigen::MatrixXd values{};  ///< rows x columns, at least 2 x 2
+  int contours = 0;          ///< number of contour lines, at equal steps of colour; up to 100
+};
+
+/// A grid map seen from above, in grey: 0 is free and white, 1 occupied and black, 0.5 unknown. Cells are
+/// as in a heat map, with sizes usually in metres.
+struct OccupancyCells {
+  AxisRange xRange{0, 1};
+  AxisRange yRange{0, 1};
+  Eigen::MatrixXd occupancy{};  ///< rows x columns, at least 2 x 2, each in [0, 1]
+};
+
+/// A straight line across the whole figure, vertical at x = at or horizontal at y = at.
+struct Guide {
+  double at = 0;
+  std::string label{};
+  std::optional<Color> color{};  ///< default: dark grey
+};
+
+/// Text beside the point (x, y), or (x, y, z) in a 3-D figure.
+struct Note {
+  std::string text{};
+  double x = 0;
+  double y = 0;
+  double z = 0;
+};
 
 /// The position of the legend: in a corner of the plot (kAuto: the emptiest, in 3-D the top right), or
 /// beside it, where it hides nothing.
 enum class Legend { kAuto, kTopRight, kTopLeft, kBottomRight, kBottomLeft, kOutside, kNone };
 
-/// A plot as plain data: any layers of render/figure_layers.h over the same two axes, or series in 3-D over
+/// A plot as plain data: any layers of render/figure.h over the same two axes, or series in 3-D over
 /// three. Texts appear exactly as given, on one line; nothing in them is a command. Axes must have labels,
 /// which should give the unit: "time [s]", "cost [1]".
 struct Figure {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "render/figure_trace_internal.h"
+#include "render/figure_script_internal.h"
 
 namespace rex::internal {
 
@@ -24,5 +24,13 @@ struct FigureAxes {
 /// small margin otherwise, but no heat map or map is surrounded by white. There are as many tics as the size
 /// of the figure has room for.
 [[nodiscard]] FigureAxes axesOf(const Figure& figure, const std::vector<Trace>& traces);
+
+/// The corner in which the legend hides least of the traces; the top right one where all are alike.
+[[nodiscard]] Legend emptiestCorner(const Figure& figure, const std::vector<Trace>& traces,
+                                    const FigureAxes& axes);
+
+/// Throws Error unless something of the traces lies within the ranges of the figure, lines between points and
+/// the inside of areas included. Expects finite data, positive on logarithmic axes.
+void requireDataInView(const Figure& figure, const std::vector<Trace>& traces);
 
 }  // namespace rex::internal

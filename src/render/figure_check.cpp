@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "render/figure_check_internal.h"
-#include "render/utf8_internal.h"
+#include "render/text_internal.h"
 
 namespace rex::internal {
 namespace {

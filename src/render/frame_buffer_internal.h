@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "render/gl_functions_internal.h"
+#include "render/gl_program_internal.h"
 #include "render/image.h"
 
 namespace rex::internal {
@@ -38,6 +38,20 @@ class FrameBuffer {
   int width_, height_;
   FrameFormat format_;
   GLuint drawn_ = 0, result_ = 0;
+};
+
+/// Smooths the steps of slanted edges by what a picture's colours tell about them (the idea of FXAA, T.
+/// Lottes 2009), and leaves alone what is not an edge.
+class Fxaa {
+ public:
+  explicit Fxaa(const GlFunctions& gl);
+  /// Ends the first stage of `frame`, which needs two, and smooths it in the second.
+  void smooth(const FrameBuffer& frame) const;
+
+ private:
+  const GlFunctions* gl_;
+  GlProgram find_, blend_;
+  GLuint noVertices_ = 0;
 };
 
 }  // namespace rex::internal

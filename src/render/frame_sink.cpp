@@ -1,11 +1,59 @@
 #include "render/frame_sink.h"
 
 #include <cassert>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "base/error.h"
+#include "render/frame_sink_internal.h"
+#include "render/image.h"
+
+namespace rex::internal {
+namespace {
+
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& cause) {
+  throw Error({.what = "cannot write '" + path.string() + "'", .found = cause});
+}
+
+}  // namespace
+
+StagedFile::StagedFile(const std::filesystem::path& path) : path_(path) {
+  std::error_code problem;
+  target_ = std::filesystem::absolute(path, problem);
+  if (problem) fail(path_, problem.message());
+  part_ = target_;
+  part_ += ".part-" + std::to_string(::getpid());
+  if (!std::ofstream(part_, std::ios::binary)) fail(path_, std::strerror(errno));
+}
+
+StagedFile::~StagedFile() {
+  std::error_code ignored;
+  std::filesystem::remove(part_, ignored);
+}
+
+void StagedFile::commit() {
+  std::error_code problem;
+  std::filesystem::rename(part_, target_, problem);
+  if (problem) fail(path_, problem.message());
+}
+
+void writeWhole(const std::filesystem::path& path, std::string_view bytes) {
+  StagedFile staged(path);
+  std::ofstream file(staged.part(), std::ios::binary);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  if (!file) fail(path, std::strerror(errno));
+  staged.commit();
+}
+
+}  // namespace rex::internal
 
 namespace rex {
 
@@ -32,6 +80,42 @@ void FrameSink::finish() {
   if (count_ == 0) throw Error({.what = "a film without frames", .where = {name_}});
   complete();
   finished_ = true;
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path frameFile(const fs::path& folder, int number) { return folder / fmt::format("{:04}.png", number); }
+
+void makeFolder(const fs::path& folder) {
+  std::error_code problem, ignored;
+  fs::create_directories(folder, problem);
+  if (!fs::is_directory(folder, ignored))
+    throw Error(
+        {.what = "cannot make the folder '" + folder.string() + "' for frames", .found = problem.message()});
+}
+
+// An earlier film ended at the first gap in the numbers.
+void removeFrames(const fs::path& folder) {
+  int next = 0;
+  while (::unlink(frameFile(folder, next).c_str()) == 0) ++next;
+  if (errno != ENOENT)
+    throw Error({.what = "cannot remove '" + frameFile(folder, next).string() + "' from an earlier film",
+                 .found = std::strerror(errno)});
+}
+
+}  // namespace
+
+PngSequence::PngSequence(const fs::path& folder) : FrameSink(folder.string()), folder_(folder) {}
+
+void PngSequence::take(const Image& frame) {
+  if (next_ == 0) {
+    makeFolder(folder_);
+    removeFrames(folder_);
+  }
+  writePng(frame, frameFile(folder_, next_));
+  ++next_;
 }
 
 }  // namespace rex

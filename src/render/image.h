@@ -2,9 +2,18 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
+#include <string>
 #include <vector>
 
 namespace rex {
+
+/// A colour as a screen shows it (sRGB), each part in [0, 1]; a = 0 is invisible, a = 1 opaque.
+struct Color {
+  float r = 0, g = 0, b = 0, a = 1;
+
+  bool operator==(const Color&) const = default;
+};
 
 /// A picture of width x height pixels, 8 bits each of red, green, blue (sRGB); rows from the top, no padding.
 struct Image {
@@ -23,5 +32,20 @@ struct Image {
 
   bool operator==(const Image&) const = default;
 };
+
+/// Writes an 8-bit RGB PNG. The file appears whole or not at all. Throws Error naming the path if that
+/// fails, and for an image without pixels.
+void writePng(const Image& image, const std::filesystem::path& path);
+
+/// The bytes that writePng() writes. Throws Error for an image without pixels.
+[[nodiscard]] std::string encodePng(const Image& image);
+
+/// Reads any PNG of up to 100 million pixels as 8-bit RGB; transparent parts become black. Throws Error
+/// naming the path and the cause.
+[[nodiscard]] Image readPng(const std::filesystem::path& path);
+
+/// The image scaled down to `width` pixels with its aspect ratio kept: each new pixel is the mean of the
+/// area it covers. An image that is not wider is returned unchanged. Throws Error for a width below 1.
+[[nodiscard]] Image shrunk(const Image& image, int width);
 
 }  // namespace rex

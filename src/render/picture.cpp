@@ -1,10 +1,14 @@
 #include "render/picture.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/require.h"
 #include "geometry/rotation.h"
 
 namespace rex {
@@ -164,6 +168,66 @@ void requireDrawable(const Picture& picture) {
           "a positive edge length");
   require(isUsable(picture.toLight) && picture.toLight.norm() > 0, "light", "no direction",
           "a finite vector to the light");
+}
+
+Ellipsoid covarianceEllipsoid(const Eigen::Vector3d& mean, const Eigen::Matrix3d& covariance, double sigmas,
+                              const Color& color) {
+  constexpr double kRounding = 1e-9;  // of the largest entry
+  const auto fail = [](std::string found, const char* wanted) {
+    return Error({.what = "covariance ellipsoid", .found = std::move(found), .wanted = wanted});
+  };
+  if (!mean.allFinite() || !covariance.allFinite())
+    throw fail("a mean or covariance that is not finite", "finite numbers");
+  requirePositive("covariance ellipsoid: sigmas", sigmas);
+  const double rounding = kRounding * covariance.cwiseAbs().maxCoeff();
+  if ((covariance - covariance.transpose()).cwiseAbs().maxCoeff() > rounding)
+    throw fail("a covariance that is not symmetric", "a symmetric one");
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance);
+  const Eigen::Vector3d variances = eigen.eigenvalues();
+  if (variances.minCoeff() < -rounding)
+    throw fail(fmt::format("a variance of {} along one axis", variances.minCoeff()), "variances >= 0");
+  Ellipsoid ellipsoid{.X_WE = {.R = eigen.eigenvectors(), .p = mean}, .color = color};
+  ellipsoid.X_WE.R.col(2) = ellipsoid.X_WE.R.col(0).cross(ellipsoid.X_WE.R.col(1));
+  ellipsoid.radii = sigmas * variances.cwiseMax(0).cwiseSqrt();
+  return ellipsoid;
+}
+
+std::vector<Solid> solidsOf(const Model& model, const BodyPoses& poses) {
+  const auto isVisible = [](const ModelShape& shape) { return shape.visible; };
+  const bool showsAll = std::none_of(model.shapes().begin(), model.shapes().end(), isVisible);
+  std::vector<Solid> solids;
+  for (const ModelShape& shape : model.shapes()) {
+    if (!shape.visible && !showsAll) continue;
+    if (usesMesh(shape.shape.type) && shape.shape.mesh.isEmpty()) continue;
+    const Eigen::Vector4f c = shape.color.cast<float>();
+    solids.push_back({.shape = shape.shape,
+                      .X_WS = poses[shape.body] * shape.X_BS,
+                      .color = {c[0], c[1], c[2], c[3]},
+                      .name = shape.name});
+  }
+  return solids;
+}
+
+std::optional<double> groundHeight(const Model& model, const BodyPoses& poses) {
+  std::optional<double> height;
+  for (const ModelShape& shape : model.shapes()) {
+    if (!shape.ground) continue;
+    const Pose X_WS = poses[shape.body] * shape.X_BS;
+    const double top = X_WS.p.z() + X_WS.R.row(2).cwiseAbs().dot(halfBounds(shape.shape));
+    height = std::max(height.value_or(top), top);
+  }
+  return height;
+}
+
+Picture pictureOf(const Model& model, const BodyPoses& poses) {
+  Picture picture{.solids = solidsOf(model, poses)};
+  if (const std::optional<double> height = groundHeight(model, poses)) {
+    picture.ground.height = *height;
+    return picture;
+  }
+  const Bounds all = bounds(picture);
+  if (!all.isEmpty()) picture.ground.height = std::min(0., all.low.z());
+  return picture;
 }
 
 }  // namespace rex

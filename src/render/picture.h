@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -8,8 +9,9 @@
 
 #include "geometry/pose.h"
 #include "geometry/shape.h"
-#include "render/bounds.h"
-#include "render/color.h"
+#include "kinematics/forward_kinematics.h"
+#include "render/camera.h"
+#include "render/image.h"
 
 namespace rex {
 
@@ -122,5 +124,24 @@ struct Picture {
 /// Throws Error naming the first solid, line, ... that has a number that is not finite or beyond 1e9, a
 /// negative size, a matrix that is not a rotation, or an empty mesh, and for a light without direction.
 void requireDrawable(const Picture& picture);
+
+/// The ellipsoid of all x with (x - mean)' covariance^-1 (x - mean) <= sigmas^2, for a Gaussian in W, in
+/// metres and square metres. With sigmas = 2 it contains 74 % of the samples. It is flat in directions of
+/// zero variance. Throws Error for numbers that are not finite, a matrix that is not symmetric or has a
+/// negative eigenvalue (both up to rounding), or sigmas that are not positive.
+[[nodiscard]] Ellipsoid covarianceEllipsoid(const Eigen::Vector3d& mean, const Eigen::Matrix3d& covariance,
+                                            double sigmas = 2, const Color& color = Ellipsoid{}.color);
+
+/// The visible shapes of a scene, or all if none is visible, at `poses`, each in its own colour. Shapes
+/// whose mesh was not loaded are left out.
+[[nodiscard]] std::vector<Solid> solidsOf(const Model& model, const BodyPoses& poses);
+
+/// Where the ground of a scene is, if it has one: the highest point of its shapes that are called so (W,
+/// metres).
+[[nodiscard]] std::optional<double> groundHeight(const Model& model, const BodyPoses& poses);
+
+/// The same on the ground of the scene, or else on one that is never above a shape, for which it checks every
+/// vertex of every mesh.
+[[nodiscard]] Picture pictureOf(const Model& model, const BodyPoses& poses);
 
 }  // namespace rex

@@ -1,6 +1,8 @@
 #include "render/renderer.h"
 
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -11,16 +13,56 @@
 #include "geometry/rotation.h"
 #include "render/draw_list_internal.h"
 #include "render/frame_buffer_internal.h"
-#include "render/fxaa_internal.h"
 #include "render/gl_program_internal.h"
-#include "render/ground_disc_internal.h"
 #include "render/mesh_store_internal.h"
 #include "render/overlay_store_internal.h"
 #include "render/picture_text_internal.h"
 #include "render/sensor_pass_internal.h"
 #include "render/shaders_internal.h"
 #include "render/shadow_map_internal.h"
-#include "render/visibility_internal.h"
+
+namespace rex::internal {
+
+/// Tells whether any of what is drawn under its eyes reaches the picture.
+class Visibility {
+ public:
+  explicit Visibility(const GlFunctions& gl);
+
+  /// Forgets the picture before.
+  void start() { used_ = 0; }
+  /// Calls `draw` and notes whether the depth test lets a sample of it pass. Not nested; at most three times
+  /// after start().
+  template <typename Draw>
+  void watch(const Draw& draw) {
+    assert(used_ < queries_.size());
+    gl_->BeginQuery(GL_ANY_SAMPLES_PASSED, queries_[used_++]);
+    draw();
+    gl_->EndQuery(GL_ANY_SAMPLES_PASSED);
+  }
+  /// Whether any sample passed since start().
+  [[nodiscard]] bool anySeen() const;
+
+ private:
+  const GlFunctions* gl_;
+  std::array<GLuint, 3> queries_{};
+  std::size_t used_ = 0;
+};
+
+Visibility::Visibility(const GlFunctions& gl) : gl_(&gl) {
+  gl.GenQueries(static_cast<GLsizei>(queries_.size()), queries_.data());
+}
+
+bool Visibility::anySeen() const {
+  bool seen = false;
+  for (std::size_t i = 0; i < used_; ++i) {
+    GLuint samples = 0;
+    gl_->GetQueryObjectuiv(queries_[i], GL_QUERY_RESULT, &samples);
+    seen |= samples > 0;
+  }
+  return seen;
+}
+
+}  // namespace rex::internal
 
 namespace rex {
 namespace {

@@ -8,7 +8,6 @@
 #include "render/gl_context.h"
 #include "render/image.h"
 #include "render/picture.h"
-#include "render/segmentation_image.h"
 
 namespace rex {
 

@@ -1,11 +1,24 @@
 #pragma once
 
+#include <optional>
+
+#include "render/camera.h"
 #include "render/depth_image.h"
 #include "render/frame_buffer_internal.h"
 #include "render/mesh_store_internal.h"
-#include "render/segmentation_image.h"
+#include "render/picture.h"
 
 namespace rex::internal {
+
+/// The part of the ground that is drawn: to its rim it has faded out. Metres, in W.
+struct GroundDisc {
+  Eigen::Vector3d center;
+  double radius;
+};
+
+/// None for a picture without ground or with one of its own, see checkerHeight(), and for a camera not above
+/// it.
+[[nodiscard]] std::optional<GroundDisc> visibleGround(const Picture& picture, const Camera& camera);
 
 /// The same pixels twice.
 struct SensorImages {

@@ -8,7 +8,7 @@
 
 #include "base/base64.h"
 #include "base/escape.h"
-#include "base/lines.h"
+#include "base/text.h"
 #include "reports/report_text_internal.h"
 
 namespace rex::grading {

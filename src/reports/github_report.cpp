@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/escape.h"
-#include "base/join.h"
+#include "base/text.h"
 #include "reports/report.h"
 #include "reports/report_text_internal.h"
 

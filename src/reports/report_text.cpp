@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "base/printable.h"
+#include "base/escape.h"
 #include "grading/results.h"
 #include "reports/report_text_internal.h"
 

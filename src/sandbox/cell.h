@@ -1,15 +1,55 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "sandbox/confinement.h"
-#include "sandbox/control_group.h"
-#include "sandbox/user_slot.h"
 
 namespace rex::sandbox {
+
+/// Limits the memory and the number of processes of one program and all its descendants, with control
+/// groups of version 2 or 1. The program joins by writing itself into each list of processes().
+class ControlGroup {
+ public:
+  /// Throws Error if this user cannot make one.
+  ControlGroup(std::size_t memoryBytes, int processes);
+  /// Kills all processes left in the group and removes it.
+  ~ControlGroup();
+  ControlGroup(const ControlGroup&) = delete;
+  ControlGroup& operator=(const ControlGroup&) = delete;
+
+  [[nodiscard]] std::vector<std::filesystem::path> processes() const;
+  /// Whether the kernel killed a process because the memory was used up.
+  [[nodiscard]] bool ranOutOfMemory() const;
+  /// Kills all processes in the group.
+  void kill() const;
+
+ private:
+  bool tryVersion2(std::size_t memoryBytes, int processes);
+  bool tryVersion1(std::size_t memoryBytes, int processes);
+  void remove();
+  std::vector<std::filesystem::path> folders_;
+};
+
+/// The id of a user who owns nothing on this machine, reserved for one program at a time, also across
+/// processes. Only root can reserve one.
+class UserSlot {
+ public:
+  /// Reserves the first free id; none unless called by root. Throws Error if all are taken.
+  UserSlot();
+  ~UserSlot();
+  UserSlot(const UserSlot&) = delete;
+  UserSlot& operator=(const UserSlot&) = delete;
+
+  [[nodiscard]] std::optional<unsigned> user() const { return user_; }
+
+ private:
+  std::optional<unsigned> user_{};
+  int lock_ = -1;
+};
 
 /// How programs are confined.
 struct Sandbox {

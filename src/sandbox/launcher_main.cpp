@@ -25,10 +25,8 @@
 #include "base/exit_code.h"
 #include "sandbox/bubblewrap.h"
 #include "sandbox/confinement.h"
-#include "sandbox/hidden_folders.h"
-#include "sandbox/hidden_words.h"
 #include "sandbox/landlock.h"
-#include "sandbox/report.h"
+#include "sandbox/probes.h"
 #include "sandbox/system_calls.h"
 #include "sandbox/system_files_internal.h"
 

@@ -1,12 +1,59 @@
 #include "scene/assets.h"
 
+#include <algorithm>
+#include <fstream>
+#include <string>
 #include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "base/join.h"
-#include "scene/files_internal.h"
+#include "base/error.h"
+#include "base/folders.h"
+#include "base/text.h"
+#include "scene/assets_internal.h"
+
+namespace rex::internal {
+
+namespace fs = std::filesystem;
+
+bool isRegularFile(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored);
+}
+
+std::string obstacleAt(const fs::path& path) {
+  constexpr const char* kForbidden = "no permission to read it";
+  std::error_code problem;
+  const fs::file_status status = fs::status(path, problem);
+  if (problem == std::errc::permission_denied) return kForbidden;
+  if (!fs::exists(status)) return kNoSuchFile;
+  if (fs::is_directory(status)) return "a folder";
+  if (!fs::is_regular_file(status)) return "a pipe or device";
+  return std::ifstream(path) ? "" : kForbidden;
+}
+
+fs::path realPath(const fs::path& path) {
+  std::error_code ignored;
+  const fs::path whole = fs::absolute(path, ignored);
+  const fs::path found = fs::weakly_canonical(whole, ignored);
+  return found.empty() ? whole.lexically_normal() : found;
+}
+
+bool isInside(const fs::path& path, const fs::path& root) { return isBelow(realPath(root), realPath(path)); }
+
+fs::path folderOf(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : "."; }
+
+std::vector<std::string> namesBeside(const fs::path& file) {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folderOf(file), ignored))
+    names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace rex::internal
 
 namespace rex {
 namespace {
@@ -96,6 +143,57 @@ fs::path Assets::find(const std::string& name, const SourceLocation& where, cons
                .found = fmt::format("no file '{}'", name),
                .wanted = fmt::format("{}{}", paths.size() > 1 ? "one of " : "", join(paths, ", ")),
                .nearest = nearestNames(fs::path(name).filename().string(), namesBesideAll(tried))});
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace internal;
+
+// A robot with meshes has a folder of its own.
+std::vector<fs::path> scenesIn(const fs::path& library) {
+  std::vector<fs::path> scenes;
+  std::error_code ignored;
+  for (const char* folder : {"robots", "scenes"}) {
+    for (const auto& entry : fs::directory_iterator(library / folder, ignored)) {
+      const fs::path path = entry.path(), inner = path / path.filename().concat(".urdf");
+      if (path.extension() == ".ors") scenes.push_back(path);
+      if (isRegularFile(inner)) scenes.push_back(inner);
+    }
+  }
+  std::sort(scenes.begin(), scenes.end());
+  return scenes;
+}
+
+// A path means the file that lies there, a bare name may also mean a scene of the course.
+[[noreturn]] void failAtPath(const fs::path& scene) {
+  throw Error({.what = fmt::format("there is no scene '{}'", scene.string()),
+               .wanted = "an .ors, .urdf or .xml file",
+               .nearest = nearestNames(scene.filename().string(), namesBeside(scene))});
+}
+
+}  // namespace
+
+fs::path findScene(const fs::path& scene, const fs::path& library) {
+  if (isRegularFile(scene)) return scene;
+  const bool isBare = !scene.empty() && !scene.has_parent_path();
+  const fs::path meant = scene.stem().string() + endingOf(scene);
+  std::vector<std::string> names, asTyped;
+  for (const fs::path& one : scenesIn(library)) {
+    if (isBare && (meant == one.filename() || meant == one.stem())) return one;
+    names.push_back(one.filename().string());
+    asTyped.push_back(scene.has_extension() ? one.filename().string() : one.stem().string());
+  }
+  const std::string obstacle = obstacleAt(scene);
+  if (!scene.empty() && obstacle != kNoSuchFile)
+    throw Error({.what = fmt::format("cannot read the scene '{}'", scene.string()),
+                 .found = obstacle,
+                 .wanted = "an .ors, .urdf or .xml file"});
+  if (!isBare && !scene.empty()) failAtPath(scene);
+  throw Error(
+      {.what = fmt::format("there is no scene '{}'", scene.string()),
+       .wanted = fmt::format("an .ors, .urdf or .xml file, or one of the course: {}", join(names, ", ")),
+       .nearest = nearestNames(scene.filename().string(), asTyped)});
 }
 
 }  // namespace rex

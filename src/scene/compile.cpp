@@ -7,10 +7,9 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "geometry/inertia.h"
+#include "geometry/mesh_mass.h"
 #include "scene/links_internal.h"
 #include "scene/model.h"
-#include "scene/motion_steps_internal.h"
 
 namespace rex {
 namespace {

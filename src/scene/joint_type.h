@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 
 #include "geometry/pose.h"
-#include "scene/motion_step.h"
+#include "scene/link.h"
 
 namespace rex {
 

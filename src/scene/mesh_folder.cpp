@@ -5,7 +5,7 @@
 
 #include <assimp/IOStream.hpp>
 
-#include "base/is_below.h"
+#include "base/folders.h"
 #include "scene/mesh_folder_internal.h"
 
 namespace rex::mesh {

@@ -9,7 +9,6 @@
 
 #include "geometry/mesh_mass.h"
 #include "scene/mjcf_files_internal.h"
-#include "scene/mjcf_style_internal.h"
 #include "scene/scene_file.h"
 #include "scene/urdf_parts_internal.h"
 

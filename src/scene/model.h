@@ -10,11 +10,10 @@
 
 #include <Eigen/Core>
 
-#include "base/vector_arg.h"
+#include "base/require.h"
 #include "geometry/pose.h"
 #include "geometry/shape.h"
 #include "scene/link.h"
-#include "scene/motion_step.h"
 #include "scene/scene_spec.h"
 
 namespace rex {

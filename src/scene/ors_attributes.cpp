@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "scene/ors_attributes_internal.h"
-#include "scene/ors_limits_internal.h"
 
 namespace rex::ors {
 namespace {

@@ -6,10 +6,8 @@
 #include <fmt/format.h>
 
 #include "base/text.h"
-#include "scene/ors_files_internal.h"
+#include "scene/ors_attributes_internal.h"
 #include "scene/ors_graph_internal.h"
-#include "scene/ors_limits_internal.h"
-#include "scene/ors_merger_internal.h"
 #include "scene/ors_node_list_internal.h"
 #include "scene/ors_values_internal.h"
 

@@ -9,7 +9,7 @@
 
 #include <Eigen/Core>
 
-#include "base/diagnostic.h"
+#include "base/error.h"
 #include "geometry/pose.h"
 #include "scene/assets.h"
 

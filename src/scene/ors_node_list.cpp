@@ -4,11 +4,140 @@
 
 #include <fmt/format.h>
 
-#include "scene/ors_merger_internal.h"
-#include "scene/ors_names_internal.h"
+#include "scene/assets_internal.h"
+#include "scene/ors_attributes_internal.h"
 #include "scene/ors_node_list_internal.h"
+#include "scene/scene_file.h"
 
 namespace rex::ors {
+
+namespace fs = std::filesystem;
+
+Files::Files(const Assets* assets, const std::string& file, std::size_t bytes)
+    : assets_(assets), bytes_(bytes) {
+  if (bytes > kMostBytes) {
+    throw Error({.what = "scene too large",
+                 .where = {file},
+                 .found = fmt::format("{} bytes", bytes),
+                 .wanted = fmt::format("at most {} MiB", kMostBytes >> 20)});
+  }
+  if (assets) open_.push_back(fs::weakly_canonical(file));
+}
+
+Files::Opened Files::open(const FileName& file, const Place& where) {
+  const std::string what = fmt::format("Include '{}'", file.path);
+  const auto fail = [&](std::string found, std::string wanted) {
+    throw Error({.what = what, .where = where, .found = std::move(found), .wanted = std::move(wanted)});
+  };
+  if (!assets_) fail("a scene that was given as text", "no Include: only scenes in files include others");
+  const fs::path path = assets_->find(file.path, where, what);
+  if (open_.size() > kDeepestIncludes)
+    fail(fmt::format("level {}", open_.size()), fmt::format("at most {}", kDeepestIncludes));
+  const fs::path real = fs::weakly_canonical(path);
+  if (std::find(open_.begin(), open_.end(), real) != open_.end())
+    fail("a file that includes itself", "another file");
+  const fs::path folder =
+      isAddress(file.path)
+          ? internal::folderOf(path).lexically_relative(internal::realPath(assets_->folder()))
+          : fs::path(file.path).parent_path();
+  Opened opened{path.string(), readSceneText(path), folder};
+  bytes_ += opened.text.size();
+  if (bytes_ > kMostBytes)
+    fail(fmt::format("{} bytes in all", bytes_), fmt::format("at most {} MiB", kMostBytes >> 20));
+  open_.push_back(real);
+  return opened;
+}
+
+bool Files::hasFolder(const std::string& folder) const {
+  std::error_code problem;
+  return !assets_ || isAddress(folder) || fs::is_directory(open_.front().parent_path() / folder, problem);
+}
+
+bool isAddress(const std::string& name) { return name.find("://") != std::string::npos; }
+
+std::string inFolder(const std::string& folder, const std::string& name) {
+  const bool isComplete = name.starts_with('/') || isAddress(name);
+  return folder.empty() || isComplete ? name : folder + (folder.ends_with('/') ? "" : "/") + name;
+}
+
+namespace {
+
+bool haveSameKeys(const Node& a, const Node& b) {
+  return std::equal(a.keys.begin(), a.keys.end(), b.keys.begin(), b.keys.end(),
+                    [](const Word& x, const Word& y) { return x.text == y.text; });
+}
+
+}  // namespace
+
+void Merger::merge(Node& node, Node edit) {
+  if (!edit.parents.empty()) node.parents = std::move(edit.parents);
+  Graph* old = std::get_if<Graph>(&node.value);
+  Graph* changes = std::get_if<Graph>(&edit.value);
+  if (old && changes) {
+    for (Node& change : *changes) mergeAttribute(*old, std::move(change));
+    return;
+  }
+  if (old) {
+    throw Error({.what = fmt::format("Edit of '{}'", joinedKeys(node)),
+                 .where = edit.where,
+                 .found = describe(edit.value),
+                 .wanted = "{attributes}"});
+  }
+  node.value = std::move(edit.value);
+  node.valueWhere = edit.valueWhere;
+}
+
+void Merger::mergeAttribute(Graph& attributes, Node edit) {
+  for (; indexed_ < attributes.size(); ++indexed_)
+    for (const Word& key : attributes[indexed_].keys) havingKey_[key.text].push_back(indexed_);
+  const auto same = findSame(attributes, edit);
+  takeKeys(attributes, edit, same);
+  if (same) {
+    std::unique_ptr<Merger>& inner = inner_[*same];
+    if (!inner) inner = std::make_unique<Merger>();
+    inner->merge(attributes[*same], std::move(edit));
+    return;
+  }
+  if (attributes.size() >= kMostAttributes) {
+    throw Error({.what = "too many attributes",
+                 .where = edit.where,
+                 .wanted = fmt::format("at most {} in one pair of braces", kMostAttributes)});
+  }
+  attributes.push_back(std::move(edit));
+}
+
+std::optional<std::size_t> Merger::findSame(const Graph& attributes, const Node& edit) {
+  if (edit.keys.empty()) return std::nullopt;
+  const std::vector<std::size_t>& having = havingKey_[edit.keys[0].text];
+  const auto same = std::find_if(having.begin(), having.end(),
+                                 [&](std::size_t i) { return haveSameKeys(attributes[i], edit); });
+  return same == having.end() ? std::nullopt : std::optional(*same);
+}
+
+// Attributes are found by any of their keys, so an edited one takes its keys away from all others.
+void Merger::takeKeys(Graph& attributes, const Node& edit, std::optional<std::size_t> same) {
+  for (const Word& key : edit.keys) {
+    std::vector<std::size_t>& having = havingKey_[key.text];
+    for (const std::size_t i : having) {
+      if (i != same) std::erase_if(attributes[i].keys, [&](const Word& k) { return k.text == key.text; });
+    }
+    having.clear();
+    if (same) having.push_back(*same);
+  }
+}
+
+void dropNameless(Node& node) {
+  Graph* attributes = std::get_if<Graph>(&node.value);
+  if (!attributes) return;
+  std::erase_if(*attributes, [](const Node& attribute) { return attribute.keys.empty(); });
+  for (Node& attribute : *attributes) dropNameless(attribute);
+}
+
+std::string joinedKeys(const Node& node) {
+  std::string text;
+  for (const Word& key : node.keys) text += (text.empty() ? "" : " ") + key.text;
+  return text;
+}
 
 bool isEdit(const Node& node) {
   return !node.keys.empty() && (node.keys[0].text == "Edit" || node.keys[0].text == "Merge");

@@ -6,13 +6,11 @@
 
 #include <fmt/format.h>
 
-#include "base/lower_case.h"
-#include "geometry/inertia.h"
-#include "scene/ors_joint_internal.h"
-#include "scene/ors_limits_internal.h"
-#include "scene/ors_names_internal.h"
-#include "scene/ors_robot_internal.h"
-#include "scene/ors_shape_internal.h"
+#include "base/text.h"
+#include "geometry/mesh_mass.h"
+#include "scene/ors_attributes_internal.h"
+#include "scene/ors_node_list_internal.h"
+#include "scene/ors_parts_internal.h"
 #include "scene/scene_meshes.h"
 #include "scene/urdf_reader.h"
 

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "base/lower_case.h"
-#include "scene/files_internal.h"
+#include "base/text.h"
+#include "scene/assets_internal.h"
 #include "scene/mjcf_reader.h"
 #include "scene/ors_reader.h"
 #include "scene/urdf_reader.h"

@@ -13,11 +13,39 @@
 #include <fmt/format.h>
 
 #include "geometry/convex_hull.h"
-#include "scene/isolated_mesh_internal.h"
-#include "scene/opaque_mesh_internal.h"
+#include "geometry/triangle_mesh.h"
+#include "scene/mesh_reader_internal.h"
 #include "scene/scaled_mesh.h"
 
 namespace rex {
+
+/// Whether a part has a colour with an alpha of 0, so that it would not be seen.
+[[nodiscard]] bool hasInvisiblePart(const TriangleMesh& mesh);
+
+/// The same mesh with an alpha of 1 where it is 0.
+[[nodiscard]] TriangleMesh withoutInvisibleParts(const TriangleMesh& mesh);
+
+namespace {
+
+bool isInvisible(const TriangleMesh::Part& part) { return part.color && (*part.color)[3] == 0; }
+
+}  // namespace
+
+bool hasInvisiblePart(const TriangleMesh& mesh) {
+  return std::any_of(mesh.parts().begin(), mesh.parts().end(), isInvisible);
+}
+
+TriangleMesh withoutInvisibleParts(const TriangleMesh& mesh) {
+  std::vector<TriangleMesh::Part> parts(mesh.parts().begin(), mesh.parts().end());
+  for (TriangleMesh::Part& part : parts)
+    if (isInvisible(part)) (*part.color)[3] = 1;
+  return {{mesh.positions().begin(), mesh.positions().end()},
+          {mesh.normals().begin(), mesh.normals().end()},
+          {mesh.triangles().begin(), mesh.triangles().end()},
+          std::move(parts),
+          mesh.paint()};
+}
+
 namespace {
 
 constexpr std::size_t kMostFiles = 4096;

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "base/join.h"
 #include "base/text.h"
 #include "geometry/rotation.h"
 #include "scene/urdf_tag_internal.h"

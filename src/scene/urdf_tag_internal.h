@@ -7,9 +7,9 @@
 #include <type_traits>
 #include <vector>
 
-#include "base/diagnostic.h"
+#include "base/error.h"
 #include "geometry/pose.h"
-#include "scene/xml_element_internal.h"
+#include "scene/xml_reader_internal.h"
 
 namespace rex::urdf {
 

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "base/join.h"
+#include "base/text.h"
 #include "scene/urdf_parts_internal.h"
 
 namespace rex::urdf {

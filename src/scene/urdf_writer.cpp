@@ -11,10 +11,8 @@
 #include <fmt/format.h>
 
 #include "scene/model.h"
-#include "scene/placed_mesh_internal.h"
-#include "scene/readable_text_internal.h"
+#include "scene/ors_writer_internal.h"
 #include "scene/urdf_expansion_internal.h"
-#include "scene/urdf_markup_internal.h"
 
 namespace rex {
 namespace {

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "base/diagnostic.h"
+#include "base/error.h"
 #include "scene/scene_spec.h"
 
 namespace rex {

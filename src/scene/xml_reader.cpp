@@ -7,9 +7,8 @@
 #include <expat.h>
 #include <fmt/format.h>
 
-#include "base/lower_case.h"
 #include "base/text.h"
-#include "scene/xml_element_internal.h"
+#include "scene/xml_reader_internal.h"
 
 namespace rex::xml {
 namespace {

@@ -10,19 +10,124 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <sys/stat.h>
 #include <sys/statvfs.h>
 
 #include "base/error.h"
 #include "base/exit_code.h"
-#include "base/is_below.h"
-#include "base/own_folder.h"
+#include "base/folders.h"
+#include "base/text.h"
 #include "base/text_file.h"
-#include "sandbox/report.h"
-#include "submission/tool_failure.h"
+#include "sandbox/probes.h"
 #include "submission/worker_part.h"
 
 namespace rex::grading {
+namespace {
+
+std::vector<std::filesystem::path> paths(const nlohmann::json& list) {
+  const auto texts = list.get<std::vector<std::string>>();
+  return {texts.begin(), texts.end()};
+}
+
+void replaceAll(std::string& text, std::string_view word, const std::string& by) {
+  for (std::size_t at = text.find(word); at != text.npos; at = text.find(word, at + by.size()))
+    text.replace(at, word.size(), by);
+}
+
+// A path as part of a text in JSON.
+std::string inJson(const std::filesystem::path& path) {
+  const std::string quoted = nlohmann::json(path.string()).dump();
+  return quoted.substr(1, quoted.size() - 2);
+}
+
+}  // namespace
+
+std::string installedText(std::string text) {
+  if (text.find("{rex}") == text.npos) return text;
+  replaceAll(text, "{include}", inJson(std::filesystem::weakly_canonical(ownFolder() / "include")));
+  replaceAll(text, "{home}", inJson(homeFolder()));
+  replaceAll(text, "{rex}", inJson(ownFolder()));
+  return text;
+}
+
+Toolchain readToolchain(const std::filesystem::path& buildJson) {
+  if (!std::filesystem::exists(buildJson))
+    throw Error({.what = "the exercise is not built",
+                 .where = {buildJson.string()},
+                 .wanted = "this file, which building the project writes"});
+  try {
+    const nlohmann::json json = nlohmann::json::parse(installedText(readTextFile(buildJson)));
+    return {.compiler = json.at("compiler").get<std::string>(),
+            .flags = json.at("compile_flags").get<std::vector<std::string>>(),
+            .linkFlags = json.at("link_flags").get<std::vector<std::string>>(),
+            .workerObject = json.at("worker_object").get<std::string>(),
+            .grader = json.at("grader").get<std::string>(),
+            .libraries = paths(json.at("libraries")),
+            .show = json.value("show", ""),
+            .functions = json.at("functions").get<std::vector<std::string>>(),
+            .prefix = json.value("prefix", ""),
+            .workerPart = json.value("worker_part", ""),
+            .offers = json.value("offers", ""),
+            .objcopy = json.value("objcopy", "objcopy"),
+            .objdump = json.value("objdump", "objdump")};
+  } catch (const nlohmann::json::exception& error) {
+    throw Error({.what = "not a build description", .where = {buildJson.string()}, .found = error.what()});
+  }
+}
+
+namespace {
+
+constexpr const char* kDriversEnd = "compilation terminated.";
+constexpr auto kFull = std::to_array<const char*>({"No space left on device", "Disk quota exceeded"});
+
+bool contains(std::string_view text, std::string_view part) { return text.find(part) != text.npos; }
+
+bool tellsOfFullDisk(std::string_view line) {
+  return std::any_of(kFull.begin(), kFull.end(), [&](const char* full) { return contains(line, full); });
+}
+
+// Whether a line is no help to a reader: an array of messages, perhaps empty, or one that introduces others.
+bool tellsNothing(std::string_view line) {
+  return line.empty() || line.starts_with('[') || line == kDriversEnd ||
+         line.ends_with("Assembler messages:");
+}
+
+}  // namespace
+
+// "student.o: in function `f':" introduces a line that explains it. Some lines start with the linker's name.
+std::string complaintAbout(std::string_view object, std::string_view linkerText) {
+  const std::string start = fmt::format("{}:", object), named = "ld: " + start;
+  bool leads = false;
+  for (const std::string_view line : splitLines(linkerText)) {
+    if (contains(line, ": warning: ")) continue;
+    if (leads) return std::string(line);
+    const bool isAbout = line.starts_with(start) || contains(line, named);
+    leads = isAbout && line.ends_with(':');
+    if (isAbout && !leads) return std::string(line);
+  }
+  // The linker may then complain about other files, from which addresses are too far away.
+  for (const char* words : {"relocation truncated to fit", "failed to convert GOTPCREL relocation"})
+    if (contains(linkerText, words)) return "its global variables take more than 2 GB";
+  return {};
+}
+
+bool blamesObject(std::string_view linkerText, std::string_view object) {
+  return contains(linkerText, "undefined reference to `") ||
+         contains(linkerText, "multiple definition of `") || !complaintAbout(object, linkerText).empty();
+}
+
+std::string lastWordsOf(const ProcessResult& run) {
+  std::string found;
+  for (const std::string_view line : splitLines(run.error)) {
+    if (tellsNothing(line)) continue;
+    if (tellsOfFullDisk(line)) return std::string(line);
+    if (found.empty()) found = line;
+  }
+  if (!found.empty()) return found;
+  return run.signal != 0 ? fmt::format("signal {}", run.signal) : fmt::format("exit code {}", run.exitCode);
+}
+
 namespace {
 
 namespace fs = std::filesystem;

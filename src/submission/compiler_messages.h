@@ -40,4 +40,8 @@ bool admitMessages(std::vector<CompileDiagnostic>& messages);
 [[nodiscard]] std::vector<CompileDiagnostic> parseLinkerText(std::string_view standardError,
                                                              const std::string& mainFile);
 
+/// Adds a sentence to each visible check that failed in a function which calls, itself or through others of
+/// the file, a function that failed in an earlier check: "circle uses ikStep, which fails above [step-hand]."
+void explainCascades(std::vector<CheckResult>& checks, std::string_view source);
+
 }  // namespace rex::grading

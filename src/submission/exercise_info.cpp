@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/join.h"
+#include "base/text.h"
 #include "base/toml_table.h"
 
 namespace rex::grading {

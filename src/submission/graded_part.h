@@ -1,10 +1,28 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "submission/cpp_text.h"
+
 namespace rex::grading {
+
+/// A declaration, a definition or a preprocessor line of a C++ file, at file scope or in an unnamed
+/// namespace. The first line and the last brace of such a namespace are pieces, too.
+struct FilePiece {
+  std::size_t start = 0, end = 0;   ///< its characters, without comments before it
+  std::size_t first = 0, last = 0;  ///< its first token, and the one after it
+  /// The name of a plain function; empty for anything else, and if that is uncertain, as for a template.
+  std::string function{};
+  std::size_t nameStart = 0, bodyStart = 0;  ///< for a function: where its name and its '{' are
+  bool isInternal = false;                   ///< in an unnamed namespace: invisible to the linker
+  bool isDirective = false;                  ///< for the preprocessor
+};
+
+/// All pieces of a file, in order. Text that is not C++ gives meaningless pieces.
+[[nodiscard]] std::vector<FilePiece> filePieces(const CppText& text);
 
 /// The graded part of a student's file: `functions` and everything they need. main() and what only main()
 /// needs, which takes as long to compile, is replaced by blanks and declarations, so that the rest keeps

@@ -1,7 +1,9 @@
 #include "submission/program_build.h"
 
 #include <algorithm>
+#include <array>
 #include <set>
+#include <system_error>
 
 #include <nlohmann/json.hpp>
 
@@ -9,6 +11,186 @@
 #include "base/text_file.h"
 
 namespace rex::grading {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kBlanks = " \t\r";
+
+// The name in `#include "name"` or `#include <name>`; empty for any other line.
+std::string_view includedName(std::string_view line) {
+  constexpr std::string_view kInclude = "#include";
+  if (!line.starts_with(kInclude)) return {};
+  line.remove_prefix(std::min(line.size(), line.find_first_not_of(kBlanks, kInclude.size())));
+  if (line.empty() || (line.front() != '"' && line.front() != '<')) return {};
+  const std::size_t end = line.find(line.front() == '"' ? '"' : '>', 1);
+  return end == line.npos ? std::string_view{} : line.substr(1, end - 1);
+}
+
+// What may come before course.h or after it: no standard header defines or needs macros of others.
+bool isStandard(std::string_view name) {
+  constexpr auto kNames = std::to_array<std::string_view>({"algorithm",
+                                                           "any",
+                                                           "array",
+                                                           "atomic",
+                                                           "barrier",
+                                                           "bit",
+                                                           "bitset",
+                                                           "cassert",
+                                                           "cctype",
+                                                           "cerrno",
+                                                           "cfenv",
+                                                           "cfloat",
+                                                           "charconv",
+                                                           "chrono",
+                                                           "cinttypes",
+                                                           "climits",
+                                                           "clocale",
+                                                           "cmath",
+                                                           "compare",
+                                                           "complex",
+                                                           "concepts",
+                                                           "condition_variable",
+                                                           "coroutine",
+                                                           "csetjmp",
+                                                           "csignal",
+                                                           "cstdarg",
+                                                           "cstddef",
+                                                           "cstdint",
+                                                           "cstdio",
+                                                           "cstdlib",
+                                                           "cstring",
+                                                           "ctime",
+                                                           "cuchar",
+                                                           "cwchar",
+                                                           "cwctype",
+                                                           "deque",
+                                                           "exception",
+                                                           "execution",
+                                                           "filesystem",
+                                                           "forward_list",
+                                                           "fstream",
+                                                           "functional",
+                                                           "future",
+                                                           "initializer_list",
+                                                           "iomanip",
+                                                           "ios",
+                                                           "iosfwd",
+                                                           "iostream",
+                                                           "istream",
+                                                           "iterator",
+                                                           "latch",
+                                                           "limits",
+                                                           "list",
+                                                           "locale",
+                                                           "map",
+                                                           "memory",
+                                                           "memory_resource",
+                                                           "mutex",
+                                                           "new",
+                                                           "numbers",
+                                                           "numeric",
+                                                           "optional",
+                                                           "ostream",
+                                                           "queue",
+                                                           "random",
+                                                           "ranges",
+                                                           "ratio",
+                                                           "regex",
+                                                           "scoped_allocator",
+                                                           "semaphore",
+                                                           "set",
+                                                           "shared_mutex",
+                                                           "source_location",
+                                                           "span",
+                                                           "sstream",
+                                                           "stack",
+                                                           "stdexcept",
+                                                           "stop_token",
+                                                           "streambuf",
+                                                           "string",
+                                                           "string_view",
+                                                           "syncstream",
+                                                           "system_error",
+                                                           "thread",
+                                                           "tuple",
+                                                           "type_traits",
+                                                           "typeindex",
+                                                           "typeinfo",
+                                                           "unordered_map",
+                                                           "unordered_set",
+                                                           "utility",
+                                                           "valarray",
+                                                           "variant",
+                                                           "vector",
+                                                           "version"});
+  return std::ranges::binary_search(kNames, name);
+}
+
+// Headers of the exercise, of the library and of Eigen: those in folders that the compiler flags name.
+bool isOwn(std::string_view name, const std::vector<std::string>& flags) {
+  const bool isHeader = name.ends_with(".h") || name.starts_with("Eigen/");
+  if (!isHeader || name.starts_with('/') || name.find("..") != name.npos) return false;
+  for (std::size_t i = 1; i < flags.size(); ++i) {
+    const bool isFolder = flags[i - 1] == "-iquote" || flags[i - 1] == "-isystem";
+    if (isFolder && fs::is_regular_file(fs::path(flags[i]) / name)) return true;
+  }
+  return false;
+}
+
+// The files after the colon of a make rule written by g++. A blank in a name is escaped by a backslash.
+std::vector<std::string> prerequisites(const std::string& rule) {
+  std::vector<std::string> files(1);
+  for (std::size_t i = rule.find(": "); i < rule.size(); ++i) {
+    const bool escaped = rule[i] == '\\' && i + 1 < rule.size();
+    if (escaped && rule[i + 1] != '\n')
+      files.back() += rule[++i];
+    else if (escaped || rule[i] == ' ' || rule[i] == '\n')
+      files.emplace_back();
+    else
+      files.back() += rule[i];
+  }
+  std::erase(files, "");
+  std::erase(files, ":");
+  return files;
+}
+
+bool isCurrent(const fs::path& precompiled, const fs::path& rule) {
+  std::error_code missing;
+  const auto made = fs::last_write_time(precompiled, missing);
+  if (missing || !fs::exists(rule)) return false;
+  const std::vector<std::string> files = prerequisites(readTextFile(rule));
+  return !files.empty() && std::all_of(files.begin(), files.end(), [&](const std::string& file) {
+    const auto changed = fs::last_write_time(file, missing);
+    return !missing && changed <= made;
+  });
+}
+
+}  // namespace
+
+bool opensWithCourseHeader(std::string_view source, const std::vector<std::string>& flags) {
+  while (!source.empty()) {
+    const std::size_t end = std::min(source.find('\n'), source.size());
+    std::string_view line = source.substr(0, end);
+    source.remove_prefix(std::min(end + 1, source.size()));
+    line.remove_prefix(std::min(line.size(), line.find_first_not_of(kBlanks)));
+    // A line that ends in a backslash continues on the next, and a comment may end anywhere.
+    if (line.find('\\') != line.npos || line.find("/*") != line.npos) return false;
+    if (line.empty() || line.starts_with("//")) continue;
+    const std::string_view name = includedName(line);
+    if (name == "exercise.h" || name == "course/course.h") return true;
+    if (!isStandard(name) && !isOwn(name, flags)) return false;
+  }
+  return false;
+}
+
+std::vector<std::string> prefixFlags(const fs::path& prefix, std::string_view source,
+                                     const std::vector<std::string>& flags) {
+  if (prefix.empty() || !opensWithCourseHeader(source, flags)) return {};
+  if (!isCurrent(prefix.string() + ".gch", prefix.string() + ".d")) return {};
+  return {"-include", prefix.string()};
+}
+
 namespace {
 
 namespace fs = std::filesystem;

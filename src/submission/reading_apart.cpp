@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "base/once_more.h"
+#include "base/process.h"
 #include "submission/reading_apart_internal.h"
 
 namespace rex::grading {

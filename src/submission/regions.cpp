@@ -12,8 +12,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/join.h"
-#include "base/lines.h"
+#include "base/text.h"
 
 namespace rex::grading {
 namespace {

@@ -13,22 +13,18 @@
 #include <unistd.h>
 
 #include "base/error.h"
-#include "base/printable.h"
+#include "base/escape.h"
 #include "base/process.h"
 #include "base/text_file.h"
 #include "submission/build_tools.h"
-#include "submission/dangling_auto.h"
 #include "submission/graded_part.h"
 #include "submission/included_files.h"
-#include "submission/integer_division.h"
-#include "submission/line_markers.h"
 #include "submission/mentions.h"
-#include "submission/precompiled_prefix.h"
+#include "submission/program_build.h"
 #include "submission/reading_apart_internal.h"
+#include "submission/source_remarks.h"
 #include "submission/symbol_scan.h"
-#include "submission/tool_failure.h"
 #include "submission/two_compilers.h"
-#include "submission/without_main.h"
 #include "submission/worker_part.h"
 
 namespace rex::grading {

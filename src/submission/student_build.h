@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "base/opened_folder.h"
+#include "base/folders.h"
 #include "sandbox/cell.h"
+#include "submission/build_tools.h"
 #include "submission/compiler_messages.h"
 #include "submission/exercise_info.h"
-#include "submission/toolchain.h"
 
 namespace rex::grading {
 

@@ -7,21 +7,20 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/escape.h"
 #include "base/exit_code.h"
-#include "base/printable.h"
 #include "base/process.h"
 #include "base/sha256.h"
 #include "base/text_file.h"
 #include "grading/descendants.h"
 #include "grading/grade.h"
-#include "grading/result_file.h"
+#include "grading/results.h"
 #include "grading/unknown_check.h"
 #include "grading/worker_failure.h"
-#include "submission/cascades.h"
 #include "submission/compiler_messages.h"
 #include "submission/mentions.h"
 #include "submission/reading_apart_internal.h"
-#include "submission/second_look.h"
+#include "submission/sanitizer_rerun.h"
 #include "submission/student_build.h"
 
 namespace rex::grading {

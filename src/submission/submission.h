@@ -6,8 +6,8 @@
 
 #include "grading/grading_job.h"
 #include "grading/results.h"
+#include "submission/build_tools.h"
 #include "submission/exercise_info.h"
-#include "submission/toolchain.h"
 
 namespace rex::grading {
 

@@ -1,7 +1,7 @@
 #include "systems/cart_pole.h"
 
+#include "base/lane_math.h"
 #include "base/require.h"
-#include "base/sin_cos.h"
 #include "systems/normal_pair.h"
 
 namespace rex {

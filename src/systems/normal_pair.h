@@ -1,7 +1,6 @@
 #pragma once
 
-#include "base/exp_log.h"
-#include "base/sin_cos.h"
+#include "base/lane_math.h"
 
 // Normal numbers for kernels; see base/pack.h. Each lane draws from a sequence of its own, so what it gets
 // does not depend on the others; and all operations are ours, so that it is the same on every CPU.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/sin_cos.h"
+#include "base/lane_math.h"
 
 // The motion and the sensors of the racer in plain numbers, for one or for many at once; see base/pack.h.
 namespace rex {

@@ -1,7 +1,7 @@
-#include "authoring/joined_variants.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "authoring/wrong_variants.h"
 
 namespace rex::grading::joined_variants_test {
 

@@ -9,7 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/lines.h"
+#include "base/text.h"
 #include "base/text_file.h"
 #include "support/paths.h"
 

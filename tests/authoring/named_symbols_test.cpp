@@ -1,10 +1,9 @@
-#include "authoring/named_symbols.h"
-
 #include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "authoring/gates.h"
 #include "support/temporary_folder.h"
 
 namespace rex::grading::named_symbols_test {

@@ -1,6 +1,6 @@
-#include "authoring/normal_text.h"
-
 #include <gtest/gtest.h>
+
+#include "authoring/leak_scan.h"
 
 namespace rex::grading::normal_text_test {
 

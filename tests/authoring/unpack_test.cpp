@@ -1,7 +1,6 @@
-#include "authoring/unpack.h"
-
 #include <gtest/gtest.h>
 
+#include "authoring/leak_scan.h"
 #include "base/process.h"
 #include "base/rng.h"
 #include "base/text_file.h"

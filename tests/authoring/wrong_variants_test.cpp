@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
-#include "base/lines.h"
+#include "base/text.h"
 #include "support/file_text.h"
 #include "support/paths.h"
 #include "support/temporary_folder.h"

@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/diagnostic.h"
-
 namespace rex::error_test {
 
 using ::testing::ElementsAre;

@@ -1,6 +1,6 @@
 #include "base/exp_log_kernel.h"
 
-#include "base/exp_log.h"
+#include "base/lane_math.h"
 
 namespace rex {
 namespace {

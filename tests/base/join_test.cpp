@@ -1,5 +1,3 @@
-#include "base/join.h"
-
 #include <array>
 #include <set>
 #include <span>
@@ -7,6 +5,8 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "base/text.h"
 
 namespace rex::join_test {
 

@@ -1,10 +1,9 @@
-#include "base/leftovers.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/folders.h"
 #include "base/text_file.h"
 #include "support/temporary_folder.h"
 

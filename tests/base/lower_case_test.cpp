@@ -1,6 +1,6 @@
-#include "base/lower_case.h"
-
 #include <gtest/gtest.h>
+
+#include "base/text.h"
 
 namespace rex::lower_case_test {
 

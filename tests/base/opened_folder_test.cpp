@@ -1,5 +1,3 @@
-#include "base/opened_folder.h"
-
 #include <array>
 
 #include <gmock/gmock.h>
@@ -7,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/folders.h"
 #include "base/text_file.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"

@@ -1,6 +1,6 @@
-#include "base/own_folder.h"
-
 #include <gtest/gtest.h>
+
+#include "base/folders.h"
 
 namespace rex {
 namespace {

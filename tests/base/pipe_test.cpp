@@ -1,5 +1,3 @@
-#include "base/pipe.h"
-
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
@@ -11,6 +9,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "base/child.h"
 #include "support/expect_error.h"
 
 namespace rex::pipe_test {

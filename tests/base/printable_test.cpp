@@ -1,11 +1,10 @@
-#include "base/printable.h"
-
 #include <cstdint>
 #include <sstream>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "base/escape.h"
 #include "base/process.h"
 #include "base/rng.h"
 

@@ -1,11 +1,10 @@
-#include "base/private_folder.h"
-
 #include <chrono>
 #include <fstream>
 #include <optional>
 
 #include <gtest/gtest.h>
 
+#include "base/folders.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 

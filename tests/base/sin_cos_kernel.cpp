@@ -1,6 +1,6 @@
 #include "base/sin_cos_kernel.h"
 
-#include "base/sin_cos.h"
+#include "base/lane_math.h"
 
 namespace rex {
 namespace {

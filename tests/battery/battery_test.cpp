@@ -22,8 +22,8 @@
 
 #include "base/process.h"
 #include "base/text_file.h"
-#include "classroom/hand_in.h"
-#include "grading/result_file.h"
+#include "classroom/submission_folder.h"
+#include "grading/results.h"
 #include "sandbox/probes.h"
 #include "submission/submission.h"
 #include "submission/zip_file.h"

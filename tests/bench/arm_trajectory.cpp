@@ -5,9 +5,7 @@
 #include "kinematics/jacobians.h"
 #include "scene/ors_reader.h"
 #include "support/paths.h"
-#include "trajectory/contact_terms.h"
 #include "trajectory/motion_terms.h"
-#include "trajectory/task_terms.h"
 
 namespace rex::bench {
 namespace {

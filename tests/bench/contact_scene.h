@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "collision/contact_batch.h"
+#include "collision/contacts.h"
 #include "kinematics/forward_kinematics.h"
 
 namespace rex::bench {

@@ -4,8 +4,8 @@
 #include "bench/dynamics_peer.h"
 #include "bench/row.h"
 #include "dynamics/dynamics_batch.h"
+#include "dynamics/equations_of_motion.h"
 #include "dynamics/forward_dynamics.h"
-#include "dynamics/mass_matrix.h"
 
 namespace rex::bench {
 namespace {

@@ -3,7 +3,6 @@
 
 #include "bench/kinematics_peer.h"
 #include "bench/row.h"
-#include "kinematics/jacobian_batch.h"
 #include "kinematics/jacobians.h"
 
 namespace rex::bench {

@@ -5,8 +5,8 @@
 
 #include "bench/dynamics_peer.h"
 #include "bench/mujoco_model.h"
+#include "dynamics/equations_of_motion.h"
 #include "dynamics/forward_dynamics.h"
-#include "dynamics/mass_matrix.h"
 
 namespace rex::bench {
 namespace {

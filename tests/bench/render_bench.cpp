@@ -7,7 +7,7 @@
 #include "base/process.h"
 #include "bench/row.h"
 #include "bench/shapes_scene.h"
-#include "render/draw_film.h"
+#include "render/film.h"
 #include "render/renderer.h"
 #include "render/video_sink.h"
 #include "support/paths.h"

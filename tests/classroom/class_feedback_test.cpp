@@ -1,10 +1,9 @@
-#include "classroom/class_feedback.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "base/text_file.h"
+#include "classroom/gradebook_text.h"
 #include "support/class_results.h"
 #include "support/expect_error.h"
 #include "support/file_text.h"

@@ -9,7 +9,7 @@
 
 #include "base/text_file.h"
 #include "classroom/import_table.h"
-#include "grading/result_file.h"
+#include "grading/results.h"
 #include "support/class_results.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"

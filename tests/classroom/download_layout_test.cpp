@@ -1,9 +1,8 @@
-#include "classroom/download_layout.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "base/text_file.h"
+#include "classroom/download.h"
 #include "support/archive_samples.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "classroom/submission_owners.h"
+#include "classroom/submission_folder.h"
 #include "support/class_results.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"

@@ -1,5 +1,3 @@
-#include "classroom/hand_in.h"
-
 #include <atomic>
 #include <cstdio>
 #include <fstream>
@@ -13,6 +11,7 @@
 #include <sys/stat.h>
 
 #include "base/text_file.h"
+#include "classroom/submission_folder.h"
 #include "support/archive_samples.h"
 #include "support/expect_error.h"
 #include "support/paths.h"

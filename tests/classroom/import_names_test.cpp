@@ -1,7 +1,7 @@
-#include "classroom/import_names.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "classroom/import_table.h"
 
 namespace rex::grading::import_names_test {
 

@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "base/text_file.h"
-#include "classroom/composed_text.h"
-#include "classroom/hand_in.h"
+#include "classroom/gradebook_text.h"
+#include "classroom/submission_folder.h"
 #include "support/expect_error.h"
 #include "support/file_text.h"
 #include "support/rounds.h"

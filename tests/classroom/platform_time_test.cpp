@@ -8,7 +8,7 @@
 
 #include "base/instant.h"
 #include "base/rng.h"
-#include "classroom/composed_text.h"
+#include "classroom/gradebook_text.h"
 #include "support/expect_error.h"
 
 namespace rex::grading::platform_time_test {

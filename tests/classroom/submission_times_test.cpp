@@ -1,10 +1,9 @@
-#include "classroom/submission_times.h"
-
 #include <fstream>
 
 #include <gtest/gtest.h>
 
 #include "base/instant.h"
+#include "classroom/platform_time.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "base/text_file.h"
-#include "classroom/grade_table.h"
+#include "classroom/grade_task.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 

@@ -1,8 +1,7 @@
-#include "collision/clearance_watch.h"
-
 #include <gtest/gtest.h>
 
 #include "base/rng.h"
+#include "collision/motion_clearance.h"
 #include "kinematics/forward_kinematics.h"
 #include "physics/small_scenes.h"
 #include "scene/scene_file.h"

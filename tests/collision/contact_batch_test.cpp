@@ -1,5 +1,3 @@
-#include "collision/contact_batch.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>

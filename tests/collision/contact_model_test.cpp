@@ -1,7 +1,6 @@
-#include "collision/contact_model.h"
-
 #include <gtest/gtest.h>
 
+#include "collision/contacts.h"
 #include "scene/ors_reader.h"
 #include "support/expect_error.h"
 #include "support/paths.h"

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "collision/joint_travel_internal.h"
+#include "collision/motion_clearance_internal.h"
 #include "geometry/rotation.h"
 #include "support/random_scene.h"
 

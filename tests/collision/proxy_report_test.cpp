@@ -1,11 +1,10 @@
-#include "collision/proxy_report.h"
-
 #include <cmath>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "collision/collision_pairs.h"
 #include "scene/scene_file.h"
 
 namespace rex::proxy_report_test {

@@ -9,8 +9,8 @@
 
 #include "contact/scene_world.h"
 #include "physics/articulation_internal.h"
-#include "physics/bullet_math_internal.h"
-#include "physics/free_body_internal.h"
+#include "physics/bullet_shape_internal.h"
+#include "physics/simulated_tree_internal.h"
 
 namespace rex::contact {
 namespace {

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "control/point_mass.h"
+#include "dynamics/equations_of_motion.h"
 #include "dynamics/forward_dynamics.h"
-#include "dynamics/mass_matrix.h"
 #include "dynamics/stepper.h"
 #include "scene/ors_reader.h"
 #include "support/expect_error.h"

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/rng.h"
-#include "control/extended_matrix_internal.h"
+#include "control/care_doubling_internal.h"
 
 namespace rex::internal::extended_matrix_test {
 

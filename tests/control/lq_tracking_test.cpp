@@ -1,5 +1,3 @@
-#include "control/lq_tracking.h"
-
 #include <cmath>
 
 #include <Eigen/Cholesky>

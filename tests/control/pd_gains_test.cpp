@@ -1,10 +1,9 @@
-#include "control/pd_gains.h"
-
 #include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "control/pid.h"
 #include "control/point_mass.h"
 #include "support/expect_error.h"
 

@@ -8,8 +8,8 @@
 
 #include "base/rng.h"
 #include "control/finite_horizon.h"
+#include "dynamics/equations_of_motion.h"
 #include "dynamics/forward_dynamics.h"
-#include "dynamics/mass_matrix.h"
 #include "dynamics/stepper.h"
 #include "scene/ors_reader.h"
 #include "support/expect_error.h"

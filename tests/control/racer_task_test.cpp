@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include "learning/policy_gradient.h"
 #include "learning/policy_search.h"
 #include "optim/cma_es.h"
 #include "support/expect_error.h"

@@ -1,9 +1,8 @@
-#include "control/reference.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "control/computed_torque.h"
 #include "kinematics/task_motion.h"
 #include "support/expect_error.h"
 #include "support/random_scene.h"

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "control/lq_tracking.h"
+#include "control/finite_horizon.h"
 #include "control/riccati.h"
 #include "support/expect_error.h"
 

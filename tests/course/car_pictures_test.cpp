@@ -8,10 +8,10 @@
 
 #include "base/process.h"
 #include "base/rng.h"
-#include "course/car_figure.h"
+#include "course/car_view.h"
 #include "render/figure.h"
+#include "render/image.h"
 #include "render/picture.h"
-#include "render/png.h"
 #include "support/expect_error.h"
 #include "support/file_text.h"
 #include "support/needs_gnuplot.h"

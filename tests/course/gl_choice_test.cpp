@@ -1,9 +1,8 @@
-#include "course/gl_choice.h"
-
 #include <cstdlib>
 
 #include <gtest/gtest.h>
 
+#include "course/pictures.h"
 #include "support/expect_error.h"
 
 namespace rex::gl_choice_test {

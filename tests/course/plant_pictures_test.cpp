@@ -8,7 +8,7 @@
 #include "course/cart_pole_pictures.h"
 #include "course/plant_film_internal.h"
 #include "course/racer_pictures.h"
-#include "render/png.h"
+#include "render/image.h"
 #include "support/expect_error.h"
 #include "support/file_text.h"
 #include "support/needs_osmesa.h"

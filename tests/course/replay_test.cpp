@@ -1,5 +1,3 @@
-#include "course/replay.h"
-
 #include <cmath>
 #include <filesystem>
 

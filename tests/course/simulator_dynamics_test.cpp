@@ -6,7 +6,7 @@
 #include "base/rng.h"
 #include "course/course.h"
 #include "dynamics/energy.h"
-#include "dynamics/mass_matrix.h"
+#include "dynamics/equations_of_motion.h"
 #include "dynamics/stepper.h"
 #include "support/expect_error.h"
 

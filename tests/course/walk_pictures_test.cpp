@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "base/process.h"
-#include "render/png.h"
+#include "render/image.h"
 #include "support/expect_error.h"
 #include "support/needs_osmesa.h"
 #include "support/temporary_folder.h"

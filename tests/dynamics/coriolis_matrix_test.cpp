@@ -1,8 +1,7 @@
-#include "dynamics/coriolis_matrix.h"
-
 #include <gtest/gtest.h>
 
 #include "base/derivative_check.h"
+#include "dynamics/equations_of_motion.h"
 #include "scene/state.h"
 #include "support/expect_error.h"
 #include "support/mass_matrix_by_jacobians.h"

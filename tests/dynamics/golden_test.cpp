@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "dynamics/energy.h"
-#include "dynamics/mass_matrix.h"
+#include "dynamics/equations_of_motion.h"
 #include "dynamics/stepper.h"
 #include "scene/ors_reader.h"
 #include "support/paths.h"

@@ -6,10 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "base/derivative_check.h"
-#include "dynamics/coriolis_matrix.h"
 #include "dynamics/energy.h"
+#include "dynamics/equations_of_motion.h"
 #include "dynamics/forward_dynamics.h"
-#include "dynamics/mass_matrix.h"
 #include "dynamics/stepper.h"
 #include "scene/state.h"
 #include "support/random_motion.h"

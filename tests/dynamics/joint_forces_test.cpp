@@ -1,5 +1,3 @@
-#include "dynamics/joint_forces.h"
-
 #include <cmath>
 #include <limits>
 

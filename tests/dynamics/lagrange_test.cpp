@@ -1,5 +1,3 @@
-#include "dynamics/lagrange.h"
-
 #include <cmath>
 #include <limits>
 
@@ -7,6 +5,7 @@
 
 #include "base/rng.h"
 #include "dynamics/energy.h"
+#include "dynamics/equations_of_motion.h"
 #include "scene/ors_reader.h"
 #include "support/expect_error.h"
 #include "support/paths.h"

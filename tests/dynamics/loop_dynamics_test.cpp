@@ -5,7 +5,7 @@
 
 #include "base/rng.h"
 #include "dynamics/energy.h"
-#include "dynamics/lagrange.h"
+#include "dynamics/equations_of_motion.h"
 #include "support/expect_error.h"
 #include "support/four_bar.h"
 

@@ -1,10 +1,9 @@
-#include "dynamics/mass_matrix.h"
-
 #include <gtest/gtest.h>
 
 #include "base/cpu_lanes.h"
+#include "dynamics/equations_of_motion.h"
 #include "dynamics/kernel_room_internal.h"
-#include "dynamics/mass_matrix_kernel_internal.h"
+#include "dynamics/kernels_internal.h"
 #include "scene/ors_reader.h"
 #include "support/allocations.h"
 #include "support/expect_error.h"

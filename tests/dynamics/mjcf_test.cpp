@@ -11,7 +11,7 @@
 
 #include "base/rng.h"
 #include "bench/mujoco_model.h"
-#include "dynamics/mass_matrix.h"
+#include "dynamics/equations_of_motion.h"
 #include "kinematics/forward_kinematics.h"
 #include "scene/mjcf_reader.h"
 #include "support/block_surface.h"

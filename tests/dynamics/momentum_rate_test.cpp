@@ -1,5 +1,3 @@
-#include "dynamics/momentum_rate.h"
-
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 

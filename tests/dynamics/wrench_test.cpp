@@ -1,5 +1,3 @@
-#include "dynamics/wrench.h"
-
 #include <gtest/gtest.h>
 
 #include "base/derivative_check.h"

@@ -7,7 +7,6 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
-#include "estimation/covariance.h"
 #include "random_gaussian.h"
 #include "support/expect_error.h"
 

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "base/rng.h"
-#include "estimation/map_agreement.h"
+#include "estimation/occupancy_map.h"
 #include "estimation/scan_walk.h"
 #include "geometry/rotation.h"
 #include "support/expect_error.h"

@@ -6,7 +6,6 @@
 
 #include "base/rng.h"
 #include "estimation/kalman_filter.h"
-#include "estimation/smoother.h"
 #include "support/expect_error.h"
 
 namespace rex::histogram_filter_test {

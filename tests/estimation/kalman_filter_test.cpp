@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include "estimation/consistency.h"
-#include "estimation/smoother.h"
 #include "random_gaussian.h"
 #include "support/expect_error.h"
 

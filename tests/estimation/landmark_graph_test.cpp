@@ -8,7 +8,7 @@
 
 #include "base/derivative_check.h"
 #include "base/rng.h"
-#include "estimation/covariance.h"
+#include "estimation/gaussian.h"
 #include "estimation/pose_edge_internal.h"
 #include "estimation/pose_graph.h"
 #include "random_gaussian.h"

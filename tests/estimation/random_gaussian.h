@@ -2,7 +2,6 @@
 
 #include "base/rng.h"
 #include "estimation/gaussian.h"
-#include "estimation/gaussian_model.h"
 
 namespace rex::test {
 

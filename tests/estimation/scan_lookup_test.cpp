@@ -1,5 +1,3 @@
-#include "estimation/scan_lookup.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +7,7 @@
 
 #include "base/rng.h"
 #include "estimation/building.h"
+#include "estimation/scan_weights.h"
 #include "support/expect_error.h"
 
 namespace rex::scan_lookup_test {

@@ -1,5 +1,3 @@
-#include "estimation/unnamed_fast_slam.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,7 +7,7 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
-#include "estimation/assignment.h"
+#include "estimation/fast_slam_unknown_association.h"
 #include "slam_world.h"
 #include "support/expect_error.h"
 

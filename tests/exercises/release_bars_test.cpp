@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "base/process.h"
-#include "render/png.h"
+#include "render/image.h"
 #include "submission/exercise_info.h"
 #include "support/file_text.h"
 #include "support/paths.h"

@@ -3,9 +3,9 @@
 #include "base/error.h"
 #include "fuzz/require.h"
 #include "geometry/convex_hull.h"
-#include "scene/assimp_mesh_internal.h"
 #include "scene/mesh_limits_internal.h"
 #include "scene/mesh_reader.h"
+#include "scene/mesh_reader_internal.h"
 
 namespace {
 

@@ -3,8 +3,7 @@
 #include "fuzz/require.h"
 #include "fuzz/sound_scene.h"
 #include "scene/model.h"
-#include "scene/srdf_reader.h"
-#include "scene/srdf_writer.h"
+#include "scene/srdf.h"
 #include "scene/urdf_reader.h"
 
 namespace {

@@ -4,8 +4,8 @@
 
 #include "contact/contact_scenes.h"
 #include "render/contact_sheet.h"
+#include "render/picture.h"
 #include "render/renderer.h"
-#include "render/scene_picture.h"
 
 namespace rex::gallery {
 namespace {

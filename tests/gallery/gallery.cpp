@@ -6,7 +6,7 @@
 #include "gallery/paths.h"
 #include "gallery/pictures.h"
 #include "gallery/robots.h"
-#include "render/png.h"
+#include "render/image.h"
 
 namespace rex::gallery {
 namespace {

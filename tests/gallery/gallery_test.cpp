@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "render/png.h"
+#include "render/image.h"
 #include "support/file_text.h"
 #include "support/fresh_folder.h"
 #include "support/image_difference.h"

@@ -7,11 +7,10 @@
 #include "kinematics/jacobians.h"
 #include "locomotion/footsteps.h"
 #include "locomotion/limit_cycle.h"
-#include "locomotion/preview_control.h"
 #include "locomotion/spring_walk.h"
+#include "locomotion/walking_pattern.h"
 #include "support/four_bar.h"
-#include "trajectory/b_spline.h"
-#include "trajectory/cubic_spline.h"
+#include "trajectory/splines.h"
 
 namespace rex {
 namespace {

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <utility>
 
-#include "cli/robot/plan.h"
 #include "cli/robot/path_results.h"
+#include "cli/robot/plan.h"
 #include "cli/robot/posture_option.h"
 #include "planning/robot_problem.h"
 #include "render/contact_sheet.h"
+#include "render/picture.h"
 #include "render/renderer.h"
-#include "render/scene_picture.h"
 #include "scene/scene_file.h"
 #include "support/paths.h"
 

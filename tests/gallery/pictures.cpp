@@ -11,9 +11,8 @@
 #include "kinematics/inverse_kinematics.h"
 #include "kinematics/jacobians.h"
 #include "render/contact_sheet.h"
-#include "render/covariance_ellipsoid.h"
+#include "render/picture.h"
 #include "render/renderer.h"
-#include "render/scene_picture.h"
 #include "scene/ors_reader.h"
 #include "support/paths.h"
 

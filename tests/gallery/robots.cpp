@@ -7,8 +7,8 @@
 #include "kinematics/inverse_kinematics.h"
 #include "kinematics/jacobians.h"
 #include "render/contact_sheet.h"
+#include "render/picture.h"
 #include "render/renderer.h"
-#include "render/scene_picture.h"
 #include "support/closing_hand.h"
 
 namespace rex::gallery {

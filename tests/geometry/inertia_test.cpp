@@ -1,8 +1,7 @@
-#include "geometry/inertia.h"
-
 #include <gtest/gtest.h>
 
 #include "base/rng.h"
+#include "geometry/mesh_mass.h"
 #include "geometry/rotation.h"
 #include "support/nearest_inertia.h"
 

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "base/rng.h"
-#include "geometry/lie.h"
+#include "geometry/pose.h"
 #include "support/expect_error.h"
 
 namespace rex::rotation_test {

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "grading/tolerance.h"
-#include "remote/thrown.h"
+#include "remote/channel.h"
 
 namespace rex::grading {
 [[noreturn]] void failAssertion(const char* condition);  // of throwing_assertions.h, for checks alone

@@ -1,6 +1,6 @@
-#include "grading/evidence_parts.h"
-
 #include <gtest/gtest.h>
+
+#include "grading/evidence.h"
 
 namespace rex::grading::evidence_parts_test {
 

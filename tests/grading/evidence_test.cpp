@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/pose.h"
-#include "render/png.h"
+#include "render/image.h"
 #include "render/text.h"
 #include "support/expect_error.h"
 #include "support/file_text.h"

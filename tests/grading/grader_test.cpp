@@ -12,7 +12,7 @@
 #include "base/exit_code.h"
 #include "base/process.h"
 #include "grading/grader_main.h"
-#include "grading/result_file.h"
+#include "grading/results.h"
 #include "support/paths.h"
 
 namespace rex::grading::grader_test {

@@ -1,8 +1,7 @@
-#include "grading/grown_answer.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "grading/grown_answers.h"
 #include "remote/layout.h"
 #include "remote/wire.h"
 

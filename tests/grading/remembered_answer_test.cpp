@@ -1,9 +1,8 @@
-#include "grading/remembered_answer.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "grading/grown_answers.h"
 #include "remote/layout.h"
 #include "remote/wire.h"
 

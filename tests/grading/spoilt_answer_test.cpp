@@ -1,5 +1,3 @@
-#include "grading/spoilt_answer.h"
-
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -8,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "grading/answer_value.h"
+#include "grading/hostile_answers.h"
 #include "remote/layout.h"
 #include "remote/wire.h"
 #include "support/expect_error.h"

@@ -1,11 +1,10 @@
-#include "grasping/antipodal.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "geometry/welded_mesh.h"
 #include "grasping/equilibrium.h"
+#include "grasping/object_surface.h"
 #include "scene/mesh_reader.h"
 #include "support/expect_error.h"
 #include "support/mesh_samples.h"

@@ -1,11 +1,10 @@
-#include "grasping/contact.h"
-
 #include <cmath>
 
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include "base/rng.h"
+#include "grasping/object_surface.h"
 #include "support/expect_error.h"
 
 namespace rex::contact_test {

@@ -1,5 +1,3 @@
-#include "grasping/deletion.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,7 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "base/rng.h"
-#include "grasping/antipodal.h"
+#include "grasping/closure.h"
+#include "grasping/object_surface.h"
 #include "support/expect_error.h"
 
 namespace rex::deletion_test {

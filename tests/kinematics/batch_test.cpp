@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "base/cpu_lanes.h"
-#include "kinematics/jacobian_batch_internal.h"
+#include "kinematics/forward_kinematics_internal.h"
 #include "kinematics/jacobians.h"
-#include "kinematics/pose_batch_internal.h"
+#include "kinematics/jacobians_internal.h"
 #include "support/allocations.h"
 #include "support/expect_error.h"
 #include "support/random_scene.h"

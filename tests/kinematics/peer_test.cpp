@@ -6,7 +6,6 @@
 #include <kdl/chainfksolverpos_recursive.hpp>
 #include <kdl/chainjnttojacsolver.hpp>
 
-#include "kinematics/jacobian_batch.h"
 #include "kinematics/jacobians.h"
 #include "support/kdl_tree.h"
 #include "support/random_scene.h"

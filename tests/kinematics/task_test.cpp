@@ -1,5 +1,3 @@
-#include "kinematics/task.h"
-
 #include <limits>
 
 #include <gtest/gtest.h>

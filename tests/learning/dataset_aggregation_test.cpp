@@ -1,10 +1,9 @@
-#include "learning/dataset_aggregation.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "base/rng.h"
+#include "learning/behavioural_cloning.h"
 #include "support/expect_error.h"
 
 namespace rex::dataset_aggregation_test {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "learning/dirichlet_internal.h"
+#include "learning/learned_model_internal.h"
 
 namespace rex::dirichlet_test {
 

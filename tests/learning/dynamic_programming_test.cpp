@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "learning/mazes.h"
-#include "learning/policy_values.h"
 #include "learning/random_mdp.h"
 #include "support/expect_error.h"
 

@@ -7,8 +7,7 @@
 
 #include "learning/dynamic_programming.h"
 #include "learning/mazes.h"
-#include "learning/mdp_rollout.h"
-#include "learning/policy_values.h"
+#include "learning/mdp.h"
 #include "learning/random_mdp.h"
 #include "support/expect_error.h"
 

@@ -1,11 +1,10 @@
-#include "learning/max_margin.h"
-
 #include <limits>
 
 #include <Eigen/QR>
 #include <gtest/gtest.h>
 
 #include "base/rng.h"
+#include "learning/inverse_rl.h"
 #include "support/expect_error.h"
 
 namespace rex::max_margin_test {

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "learning/dynamic_programming.h"
-#include "learning/policy_values.h"
 #include "support/expect_error.h"
 
 namespace rex::mazes_test {

@@ -1,5 +1,3 @@
-#include "learning/policy_gradient.h"
-
 #include <cmath>
 #include <limits>
 
@@ -9,6 +7,7 @@
 #include "base/derivative_check.h"
 #include "control/riccati.h"
 #include "learning/lq_task.h"
+#include "learning/policy_search.h"
 #include "support/expect_error.h"
 
 namespace rex::policy_gradient_test {

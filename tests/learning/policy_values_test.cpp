@@ -1,5 +1,3 @@
-#include "learning/policy_values.h"
-
 #include <limits>
 
 #include <gtest/gtest.h>

@@ -1,10 +1,9 @@
-#include "learning/power.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "learning/lq_task.h"
+#include "learning/policy_search.h"
 #include "support/expect_error.h"
 
 namespace rex::power_test {

@@ -6,7 +6,6 @@
 
 #include "learning/dynamic_programming.h"
 #include "learning/mazes.h"
-#include "learning/policy_values.h"
 #include "learning/random_mdp.h"
 #include "support/expect_error.h"
 

@@ -1,9 +1,8 @@
 // Where the ground of pictures is if the scene has one, or a floor was added.
 #include <gtest/gtest.h>
 
-#include "live/live_recording.h"
 #include "live/live_simulation.h"
-#include "render/scene_picture.h"
+#include "render/picture.h"
 #include "scene/mjcf_reader.h"
 #include "support/paths.h"
 

@@ -10,10 +10,10 @@
 
 #include "base/error.h"
 #include "dynamics/energy.h"
-#include "dynamics/mass_matrix.h"
+#include "dynamics/equations_of_motion.h"
 #include "dynamics/stepper.h"
-#include "scene/coordinates.h"
 #include "scene/scene_file.h"
+#include "scene/state.h"
 #include "scene/urdf_reader.h"
 #include "support/four_bar.h"
 #include "support/paths.h"

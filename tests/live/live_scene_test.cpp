@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "live/live_pieces.h"
 #include "render/glb.h"
 #include "scene/scene_file.h"
 #include "support/paths.h"

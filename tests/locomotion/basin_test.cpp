@@ -1,7 +1,6 @@
-#include "locomotion/basin.h"
-
 #include <set>
 
+#include "locomotion/limit_cycle.h"
 #include "support/expect_error.h"
 
 namespace rex::basin_test {

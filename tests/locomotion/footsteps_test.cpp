@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "locomotion/preview_control.h"
+#include "locomotion/walking_pattern.h"
 #include "support/expect_error.h"
 
 namespace rex::footsteps_test {

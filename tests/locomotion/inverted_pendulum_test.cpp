@@ -1,8 +1,7 @@
-#include "locomotion/inverted_pendulum.h"
-
 #include <cmath>
 
 #include "base/rng.h"
+#include "locomotion/zero_moment_point.h"
 #include "support/expect_error.h"
 #include "support/runge_kutta.h"
 

@@ -1,10 +1,9 @@
-#include "locomotion/preview_control.h"
-
 #include <cmath>
 
 #include <Eigen/QR>
 
 #include "base/rng.h"
+#include "locomotion/walking_pattern.h"
 #include "support/expect_error.h"
 
 namespace rex::preview_control_test {

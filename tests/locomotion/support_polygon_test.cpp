@@ -1,5 +1,3 @@
-#include "locomotion/support_polygon.h"
-
 #include <cmath>
 #include <limits>
 
@@ -7,6 +5,7 @@
 
 #include "base/rng.h"
 #include "geometry/convex_hull.h"
+#include "locomotion/footsteps.h"
 #include "support/expect_error.h"
 
 namespace rex::support_polygon_test {

@@ -4,7 +4,6 @@
 
 #include "base/rng.h"
 #include "dynamics/centroidal.h"
-#include "dynamics/momentum_rate.h"
 #include "kinematics/center_of_mass.h"
 #include "kinematics/jacobians.h"
 #include "locomotion/humanoid.h"

@@ -3,9 +3,8 @@
 #include <Eigen/Geometry>
 
 #include "dynamics/forward_dynamics.h"
-#include "dynamics/wrench.h"
+#include "dynamics/inverse_dynamics.h"
 #include "kinematics/center_of_mass.h"
-#include "locomotion/inverted_pendulum.h"
 #include "scene/scene_file.h"
 #include "support/expect_error.h"
 #include "support/paths.h"

@@ -1,9 +1,8 @@
-#include "optim/annealing.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "optim/stochastic_search.h"
 #include "optim/test_functions.h"
 #include "support/expect_error.h"
 

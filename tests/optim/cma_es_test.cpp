@@ -9,7 +9,7 @@
 #include <Eigen/QR>
 #include <gtest/gtest.h>
 
-#include "optim/objective.h"
+#include "optim/search_result.h"
 #include "optim/test_functions.h"
 #include "support/allocations.h"
 #include "support/expect_error.h"

@@ -1,5 +1,3 @@
-#include "optim/evolution_strategy.h"
-
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -7,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "optim/stochastic_search.h"
 #include "optim/test_functions.h"
 #include "support/expect_error.h"
 

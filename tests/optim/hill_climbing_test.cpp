@@ -1,10 +1,9 @@
-#include "optim/hill_climbing.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "base/derivative_check.h"
+#include "optim/stochastic_search.h"
 #include "optim/test_functions.h"
 #include "support/expect_error.h"
 

@@ -1,9 +1,8 @@
-#include "optim/one_plus_one_cma.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "optim/cma_search.h"
 #include "optim/test_functions.h"
 #include "support/expect_error.h"
 

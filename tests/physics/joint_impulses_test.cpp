@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/rng.h"
-#include "physics/joint_impulses_internal.h"
+#include "physics/contact_free_motion_internal.h"
 
 namespace rex::internal {
 namespace {

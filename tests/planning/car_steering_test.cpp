@@ -1,14 +1,12 @@
-#include "planning/car_steering.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "base/rng.h"
 #include "parking.h"
-#include "planning/dubins.h"
-#include "planning/path_clearance.h"
-#include "planning/reeds_shepp.h"
+#include "planning/car_curves.h"
+#include "planning/control_tree.h"
+#include "planning/robot_problem.h"
 #include "support/expect_error.h"
 
 namespace rex::car_steering_test {

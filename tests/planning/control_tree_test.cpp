@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "base/rng.h"
+#include "planning/car_curves.h"
 #include "planning/phase_space.h"
-#include "planning/reeds_shepp.h"
 #include "support/expect_error.h"
 #include "systems/car.h"
 #include "systems/mobile_bases.h"

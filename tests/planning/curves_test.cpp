@@ -8,8 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/rng.h"
-#include "planning/dubins.h"
-#include "planning/reeds_shepp.h"
+#include "planning/car_curves.h"
 #include "support/expect_error.h"
 #include "support/paths.h"
 

@@ -1,11 +1,10 @@
-#include "planning/edge_checker.h"
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "planning/path_problem.h"
 #include "support/expect_error.h"
 
 namespace rex::edge_checker_test {

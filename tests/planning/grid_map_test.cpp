@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "render/png.h"
+#include "render/image.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 

@@ -1,11 +1,10 @@
-#include "planning/grid_search.h"
-
 #include <cmath>
 #include <cstdlib>
 
 #include <gtest/gtest.h>
 
 #include "base/rng.h"
+#include "planning/grid_map.h"
 #include "support/expect_error.h"
 
 namespace rex::grid_search_test {

@@ -1,7 +1,6 @@
-#include "planning/halton.h"
-
 #include <gtest/gtest.h>
 
+#include "planning/samplers.h"
 #include "support/expect_error.h"
 
 namespace rex::halton_test {

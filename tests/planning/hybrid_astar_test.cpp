@@ -7,9 +7,9 @@
 
 #include "base/rng.h"
 #include "parking.h"
-#include "planning/car_steering.h"
-#include "planning/path_clearance.h"
-#include "planning/reeds_shepp.h"
+#include "planning/car_curves.h"
+#include "planning/control_tree.h"
+#include "planning/robot_problem.h"
 #include "support/expect_error.h"
 
 namespace rex::hybrid_astar_test {

@@ -1,5 +1,3 @@
-#include "planning/motion_limits.h"
-
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -7,6 +5,7 @@
 
 #include "base/rng.h"
 #include "dynamics/inverse_dynamics.h"
+#include "planning/timed_path.h"
 #include "scene/ors_reader.h"
 #include "scene/scene_file.h"
 #include "support/expect_error.h"

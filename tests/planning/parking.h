@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "collision/contact_model.h"
+#include "collision/contacts.h"
 #include "planning/robot_problem.h"
 #include "scene/ors_reader.h"
 #include "systems/car.h"

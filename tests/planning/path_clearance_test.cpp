@@ -1,5 +1,3 @@
-#include "planning/path_clearance.h"
-
 #include <cmath>
 #include <limits>
 

@@ -1,10 +1,9 @@
-#include "planning/path_curve.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "geometry/rotation.h"
+#include "planning/path_spline.h"
 #include "scene/ors_reader.h"
 #include "scene/state.h"
 #include "support/expect_error.h"

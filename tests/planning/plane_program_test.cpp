@@ -5,7 +5,7 @@
 
 #include "base/rng.h"
 #include "optim/linear_program.h"
-#include "planning/plane_program_internal.h"
+#include "planning/time_parametrization_internal.h"
 
 namespace rex::plane_program_test {
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/rng.h"
-#include "planning/edge_checker.h"
+#include "planning/path_problem.h"
 #include "planning/rrt.h"
 #include "planning/wall.h"
 #include "support/expect_error.h"

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/cpu_lanes.h"
-#include "collision/contact_batch.h"
+#include "collision/contacts.h"
 #include "collision/motion_clearance.h"
 #include "planning/sphere_arm.h"
 #include "planning/sphere_world_internal.h"

@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
-#include "remote/thrown.h"
+#include "remote/channel.h"
 #include "remote/worker.h"
 #include "support/expect_error.h"
 

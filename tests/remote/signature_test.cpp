@@ -1,5 +1,3 @@
-#include "remote/signature.h"
-
 #include <array>
 #include <set>
 #include <string>
@@ -7,6 +5,8 @@
 
 #include <Eigen/Core>
 #include <gtest/gtest.h>
+
+#include "remote/layout.h"
 
 namespace rex::remote::signature_test {
 

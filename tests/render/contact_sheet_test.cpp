@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "render/shrunk.h"
+#include "render/image.h"
 #include "support/expect_error.h"
 #include "support/test_frames.h"
 

@@ -1,5 +1,3 @@
-#include "render/covariance_ellipsoid.h"
-
 #include <limits>
 
 #include <Eigen/LU>
@@ -7,6 +5,7 @@
 
 #include "base/rng.h"
 #include "geometry/rotation.h"
+#include "render/picture.h"
 #include "support/expect_error.h"
 
 namespace rex::covariance_ellipsoid_test {

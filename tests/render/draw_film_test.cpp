@@ -1,13 +1,12 @@
 // Films: one frame that shows nothing ends no film, and the ground keeps still.
-#include "render/draw_film.h"
-
 #include <algorithm>
 #include <csignal>
 
 #include <gtest/gtest.h>
 
 #include "base/interruption.h"
-#include "render/memory_sink.h"
+#include "render/film.h"
+#include "render/frame_sink.h"
 #include "support/expect_error.h"
 #include "support/needs_osmesa.h"
 

@@ -14,7 +14,7 @@
 
 #include "base/rng.h"
 #include "render/figure_builders.h"
-#include "render/png.h"
+#include "render/image.h"
 #include "support/file_text.h"
 #include "support/fresh_folder.h"
 #include "support/needs_gnuplot.h"

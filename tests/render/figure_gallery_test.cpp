@@ -7,7 +7,7 @@
 
 #include "gallery/figures.h"
 #include "render/figure_builders.h"
-#include "render/png.h"
+#include "render/image.h"
 #include "support/file_text.h"
 #include "support/image_difference.h"
 #include "support/needs_gnuplot.h"

@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "base/process.h"
-#include "render/gnuplot_internal.h"
-#include "render/png.h"
+#include "render/figure_internal.h"
+#include "render/image.h"
 #include "support/expect_error.h"
 #include "support/file_text.h"
 #include "support/fresh_folder.h"

@@ -4,11 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "render/make_frame_sink.h"
-#include "render/memory_sink.h"
-#include "render/png.h"
-#include "render/png_sequence.h"
-#include "render/tee_sink.h"
+#include "render/image.h"
+#include "render/video_sink.h"
 #include "support/changed_path.h"
 #include "support/expect_error.h"
 #include "support/folder_content.h"

@@ -5,11 +5,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "render/egl_context_internal.h"
-#include "render/gl_backends_internal.h"
-#include "render/gl_functions_internal.h"
+#include "render/gl_context_internal.h"
 #include "render/gl_program_internal.h"
-#include "render/osmesa_context_internal.h"
 #include "render/renderer.h"
 #include "support/expect_error.h"
 #include "support/needs_egl.h"

@@ -15,7 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/rng.h"
-#include "render/glb_mesh_internal.h"
+#include "render/glb_writer_internal.h"
 #include "scene/mesh_reader.h"
 #include "support/expect_error.h"
 #include "support/file_text.h"

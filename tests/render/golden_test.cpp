@@ -7,7 +7,7 @@
 
 #include "geometry/rotation.h"
 #include "geometry/welded_mesh.h"
-#include "render/png.h"
+#include "render/image.h"
 #include "render/renderer.h"
 #include "support/image_difference.h"
 #include "support/mesh_samples.h"

@@ -8,7 +8,6 @@
 #include <zlib.h>
 
 #include "base/rng.h"
-#include "render/png.h"
 #include "support/expect_error.h"
 #include "support/file_text.h"
 #include "support/fresh_folder.h"

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "base/rng.h"
-#include "render/label_placement_internal.h"
+#include "render/picture_text_internal.h"
 
 namespace rex::internal::label_placement_test {
 

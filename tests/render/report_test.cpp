@@ -10,7 +10,7 @@
 #include "base/base64.h"
 #include "base/process.h"
 #include "render/glb.h"
-#include "render/png.h"
+#include "render/image.h"
 #include "support/expect_error.h"
 #include "support/file_text.h"
 #include "support/fresh_folder.h"

@@ -1,10 +1,9 @@
-#include "render/response_figures.h"
-
 #include <filesystem>
 
 #include <gtest/gtest.h>
 
 #include "control/responses.h"
+#include "render/figure_builders.h"
 #include "support/expect_error.h"
 #include "support/needs_gnuplot.h"
 #include "support/paths.h"

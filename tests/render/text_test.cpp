@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "render/utf8_internal.h"
+#include "render/text_internal.h"
 
 namespace rex::text_test {
 

@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/rng.h"
-#include "grading/result_file.h"
+#include "grading/results.h"
 #include "support/file_text.h"
 #include "support/paths.h"
 #include "support/report_checker.h"

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "sandbox/bubblewrap.h"
-#include "sandbox/report.h"
+#include "sandbox/probes.h"
 #include "support/expect_error.h"
 
 namespace rex::sandbox::confinement_test {

@@ -1,5 +1,3 @@
-#include "sandbox/control_group.h"
-
 #include <optional>
 
 #include <gtest/gtest.h>
@@ -7,6 +5,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "sandbox/cell.h"
 
 namespace rex::sandbox::control_group_test {
 

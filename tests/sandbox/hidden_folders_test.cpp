@@ -1,11 +1,10 @@
-#include "sandbox/hidden_folders.h"
-
 #include <algorithm>
 #include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "sandbox/bubblewrap.h"
 #include "support/temporary_folder.h"
 
 namespace rex::sandbox {

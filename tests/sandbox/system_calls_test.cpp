@@ -22,7 +22,7 @@
 
 #include "base/isolated_call.h"
 #include "base/process.h"
-#include "sandbox/hidden_words.h"
+#include "sandbox/bubblewrap.h"
 #include "support/temporary_folder.h"
 
 namespace rex::sandbox::system_calls_test {

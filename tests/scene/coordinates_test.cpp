@@ -1,5 +1,3 @@
-#include "scene/coordinates.h"
-
 #include <gtest/gtest.h>
 
 #include "kinematics/forward_kinematics.h"

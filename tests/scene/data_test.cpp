@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/inertia.h"
+#include "geometry/mesh_mass.h"
 #include "scene/model.h"
 #include "scene/scene_file.h"
 #include "support/paths.h"

@@ -1,10 +1,9 @@
-#include "scene/find_scene.h"
-
 #include <fstream>
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include "scene/assets.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/assimp_mesh_internal.h"
-#include "scene/isolated_mesh_internal.h"
+#include "scene/mesh_reader_internal.h"
 #include "support/expect_error.h"
 #include "support/file_text.h"
 #include "support/paths.h"

@@ -7,7 +7,7 @@
 #include "geometry/rotation.h"
 #include "kinematics/jacobians.h"
 #include "scene/ors_reader.h"
-#include "scene/ors_text_internal.h"
+#include "scene/ors_writer_internal.h"
 #include "support/expect_error.h"
 #include "support/paths.h"
 #include "support/random_scene.h"

@@ -1,12 +1,10 @@
-#include "scene/srdf_reader.h"
-
 #include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "scene/model.h"
-#include "scene/srdf_writer.h"
+#include "scene/srdf.h"
 #include "scene/urdf_reader.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"

@@ -1,7 +1,7 @@
-#include "submission/cascades.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "submission/compiler_messages.h"
 
 namespace rex::grading::cascades_test {
 

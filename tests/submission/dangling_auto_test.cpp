@@ -1,7 +1,7 @@
-#include "submission/dangling_auto.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "submission/source_remarks.h"
 
 namespace rex::grading::dangling_auto_test {
 

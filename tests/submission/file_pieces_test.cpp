@@ -1,7 +1,7 @@
-#include "submission/file_pieces.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "submission/graded_part.h"
 
 namespace rex::grading::file_pieces_test {
 

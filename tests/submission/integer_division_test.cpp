@@ -1,7 +1,7 @@
-#include "submission/integer_division.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "submission/source_remarks.h"
 
 namespace rex::grading::integer_division_test {
 

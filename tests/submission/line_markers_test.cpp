@@ -1,5 +1,3 @@
-#include "submission/line_markers.h"
-
 #include <sstream>
 
 #include <gmock/gmock.h>
@@ -8,6 +6,7 @@
 #include "base/process.h"
 #include "base/rng.h"
 #include "base/text_file.h"
+#include "submission/included_files.h"
 #include "support/temporary_folder.h"
 
 namespace rex::grading::line_markers_test {

@@ -1,5 +1,3 @@
-#include "submission/object_file.h"
-
 #include <algorithm>
 #include <cstring>
 #include <random>
@@ -11,6 +9,7 @@
 
 #include "base/process.h"
 #include "base/text_file.h"
+#include "submission/symbol_scan.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 

@@ -1,5 +1,3 @@
-#include "submission/precompiled_prefix.h"
-
 #include <chrono>
 #include <fstream>
 
@@ -7,6 +5,7 @@
 
 #include "base/process.h"
 #include "base/text_file.h"
+#include "submission/program_build.h"
 #include "submission/student_build.h"
 #include "support/paths.h"
 #include "support/temporary_folder.h"
@@ -25,7 +24,7 @@ const std::vector<std::string>& flags() {
 TEST(OpensWithCourseHeader, BehindOtherHeadersAndComments) {
   EXPECT_TRUE(opensWithCourseHeader("#include \"exercise.h\"", {}));
   EXPECT_TRUE(opensWithCourseHeader("#include <cmath>\n#include \"course/course.h\"\nint x;\n", {}));
-  EXPECT_FALSE(opensWithCourseHeader("#include \"course/plot.h\"\nint x;\n", flags()));
+  EXPECT_FALSE(opensWithCourseHeader("#include \"course/print.h\"\nint x;\n", flags()));
   EXPECT_TRUE(
       opensWithCourseHeader("// Mine.\r\n\n#include <cmath>\n  #include\t\"control/pid.h\"  // why\n"
                             "#include <exercise.h>\nint x;\n",

@@ -1,11 +1,10 @@
-#include "submission/second_look.h"
-
 #include <fstream>
 
 #include <gtest/gtest.h>
 
 #include "base/process.h"
 #include "grading/worker_failure.h"
+#include "submission/sanitizer_rerun.h"
 #include "support/file_text.h"
 #include "support/temporary_folder.h"
 

@@ -7,20 +7,16 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include "base/escape.h"
 #include "base/isolated_call.h"
-#include "base/printable.h"
-#include "submission/cascades.h"
+#include "submission/build_tools.h"
 #include "submission/compiler_messages.h"
-#include "submission/dangling_auto.h"
-#include "submission/file_pieces.h"
 #include "submission/graded_part.h"
 #include "submission/included_files.h"
-#include "submission/integer_division.h"
-#include "submission/line_markers.h"
 #include "submission/mentions.h"
-#include "submission/precompiled_prefix.h"
-#include "submission/second_look.h"
-#include "submission/tool_failure.h"
+#include "submission/program_build.h"
+#include "submission/sanitizer_rerun.h"
+#include "submission/source_remarks.h"
 #include "support/rounds.h"
 #include "support/slow_sources.h"
 

@@ -9,7 +9,7 @@
 
 #include "base/process.h"
 #include "base/text_file.h"
-#include "submission/without_main.h"
+#include "submission/worker_part.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 

@@ -1,9 +1,9 @@
 // What compilers and linkers of GNU say when they fail, word by word.
-#include "submission/tool_failure.h"
-
 #include <csignal>
 
 #include <gtest/gtest.h>
+
+#include "submission/build_tools.h"
 
 namespace rex::grading::tool_failure_test {
 

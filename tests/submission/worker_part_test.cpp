@@ -5,7 +5,7 @@
 
 #include "base/process.h"
 #include "base/text_file.h"
-#include "submission/object_file.h"
+#include "submission/symbol_scan.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 

@@ -8,7 +8,6 @@
 #include "base/text_file.h"
 #include "classroom/grade_task.h"
 #include "classroom/task_list.h"
-#include "grading/result_file.h"
 #include "grading/results.h"
 
 namespace rex::grading {

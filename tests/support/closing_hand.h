@@ -1,6 +1,6 @@
 #pragma once
 
-#include "grasping/contact.h"
+#include "grasping/object_surface.h"
 #include "kinematics/forward_kinematics.h"
 #include "physics/physics_world.h"
 #include "physics/small_scenes.h"

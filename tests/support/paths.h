@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "base/own_folder.h"
+#include "base/folders.h"
 
 namespace rex {
 

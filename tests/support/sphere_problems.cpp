@@ -9,7 +9,6 @@
 #include "base/error.h"
 #include "base/text_file.h"
 #include "geometry/rotation.h"
-#include "planning/path_clearance.h"
 #include "planning/robot_problem.h"
 
 namespace rex {

@@ -6,7 +6,7 @@
 
 #include "base/derivative_check.h"
 #include "base/rng.h"
-#include "planning/reeds_shepp.h"
+#include "planning/car_curves.h"
 #include "support/expect_error.h"
 
 namespace rex::car_test {

@@ -10,7 +10,7 @@
 #include "base/derivative_check.h"
 #include "control/racer_rollouts.h"
 #include "control/riccati.h"
-#include "dynamics/lagrange.h"
+#include "dynamics/equations_of_motion.h"
 #include "support/expect_error.h"
 #include "support/paths.h"
 #include "support/runge_kutta.h"

@@ -1,5 +1,3 @@
-#include "trajectory/b_spline.h"
-
 #include <cmath>
 #include <vector>
 
@@ -8,6 +6,7 @@
 #include "base/derivative_check.h"
 #include "base/rng.h"
 #include "support/expect_error.h"
+#include "trajectory/splines.h"
 
 namespace rex::b_spline_test {
 

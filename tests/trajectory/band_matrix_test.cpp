@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/rng.h"
-#include "trajectory/band_matrix_internal.h"
+#include "trajectory/banded_system_internal.h"
 
 namespace rex::internal::band_matrix_test {
 

@@ -1,5 +1,3 @@
-#include "trajectory/contact_terms.h"
-
 #include <cmath>
 #include <limits>
 

@@ -1,5 +1,3 @@
-#include "trajectory/cubic_spline.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -7,6 +5,7 @@
 #include "base/derivative_check.h"
 #include "base/rng.h"
 #include "support/expect_error.h"
+#include "trajectory/splines.h"
 
 namespace rex::cubic_spline_test {
 

@@ -1,5 +1,3 @@
-#include "trajectory/task_terms.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>

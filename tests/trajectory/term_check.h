@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/derivative_check.h"
-#include "trajectory/trajectory_problem.h"
+#include "trajectory/trajectory_optimizer.h"
 
 namespace rex {
 

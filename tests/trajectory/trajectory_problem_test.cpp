@@ -1,11 +1,10 @@
-#include "trajectory/trajectory_problem.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "support/expect_error.h"
 #include "trajectory/motion_terms.h"
+#include "trajectory/trajectory_optimizer.h"
 
 namespace rex::trajectory_problem_test {
 

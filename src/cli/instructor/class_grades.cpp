@@ -12,9 +12,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/is_below.h"
-#include "base/join.h"
-#include "base/private_folder.h"
+#include "base/folders.h"
 #include "base/text.h"
 #include "base/text_file.h"
 #include "classroom/grade_task.h"

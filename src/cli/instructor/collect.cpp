@@ -7,17 +7,15 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/lines.h"
 #include "base/text.h"
 #include "base/text_file.h"
 #include "classroom/csv.h"
-#include "classroom/grade_table.h"
 #include "classroom/grade_task.h"
 #include "cli/instructor/class_grades.h"
 #include "cli/json_internal.h"
 #include "cli/report_format.h"
 #include "cli/terminal.h"
-#include "grading/result_file.h"
+#include "grading/results.h"
 
 namespace rex::cli {
 

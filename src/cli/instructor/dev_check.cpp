@@ -6,7 +6,7 @@
 #include "authoring/gates.h"
 #include "authoring/wrong_variants.h"
 #include "base/error.h"
-#include "base/private_folder.h"
+#include "base/folders.h"
 #include "cli/build_on_demand.h"
 #include "cli/instructor/dev_verbs.h"
 #include "cli/json_internal.h"

@@ -9,10 +9,10 @@
 
 #include "authoring/release.h"
 #include "base/error.h"
+#include "base/folders.h"
 #include "base/instant.h"
-#include "base/join.h"
-#include "base/private_folder.h"
 #include "base/process.h"
+#include "base/text.h"
 #include "cli/instructor/collect.h"
 #include "cli/instructor/dev_verbs.h"
 #include "cli/json_internal.h"

@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "base/instant.h"
-#include "base/join.h"
+#include "base/text.h"
 #include "classroom/class_statistics.h"
 #include "classroom/csv.h"
 #include "cli/instructor/class_grades.h"

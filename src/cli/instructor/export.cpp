@@ -5,10 +5,9 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/is_below.h"
-#include "base/leftovers.h"
+#include "base/folders.h"
 #include "base/text_file.h"
-#include "classroom/class_feedback.h"
+#include "classroom/gradebook_text.h"
 #include "classroom/platform_grades.h"
 #include "cli/command_line_internal.h"
 #include "cli/command_table.h"

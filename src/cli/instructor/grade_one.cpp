@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/private_folder.h"
+#include "base/folders.h"
 #include "classroom/grade_task.h"
 #include "cli/instructor/collect.h"
 #include "cli/sandbox_choice.h"

@@ -9,9 +9,9 @@
 
 #include "base/error.h"
 #include "base/instant.h"
-#include "base/join.h"
+#include "base/text.h"
 #include "base/text_file.h"
-#include "classroom/arrivals.h"
+#include "classroom/download.h"
 #include "classroom/importing.h"
 #include "cli/command_line_internal.h"
 #include "cli/command_table.h"

@@ -19,9 +19,9 @@
 
 #include "base/error.h"
 #include "base/exit_code.h"
-#include "base/join.h"
-#include "base/private_folder.h"
+#include "base/folders.h"
 #include "base/process.h"
+#include "base/text.h"
 #include "cli/command_table.h"
 #include "cli/file_watcher.h"
 #include "cli/option_table_internal.h"
@@ -32,11 +32,11 @@
 #include "cli/sandbox_choice.h"
 #include "cli/terminal.h"
 #include "render/figure.h"
-#include "render/png.h"
+#include "render/image.h"
 #include "render/renderer.h"
 #include "render/report.h"
 #include "render/video_sink.h"
-#include "sandbox/level.h"
+#include "sandbox/confinement.h"
 #include "sandbox/probes.h"
 
 namespace rex::cli {

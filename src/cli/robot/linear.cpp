@@ -19,7 +19,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/join.h"
+#include "base/text.h"
 #include "base/text_file.h"
 #include "cli/command_table.h"
 #include "cli/json_internal.h"
@@ -34,7 +34,6 @@
 #include "control/riccati.h"
 #include "control/stability.h"
 #include "render/figure_builders.h"
-#include "render/response_figures.h"
 
 // `rex linear`: what chapter 8 says about a linear system, with Bode and Nyquist plots.
 

@@ -19,8 +19,8 @@
 #include "base/interruption.h"
 #include "cli/robot/render_plan.h"
 #include "cli/terminal.h"
-#include "render/make_frame_sink.h"
-#include "render/scene_picture.h"
+#include "render/picture.h"
+#include "render/video_sink.h"
 
 namespace rex::cli {
 

@@ -12,7 +12,7 @@
 
 #include <fmt/format.h>
 
-#include "base/join.h"
+#include "base/text.h"
 #include "base/text_file.h"
 #include "cli/json_internal.h"
 #include "cli/robot/motion_files.h"
@@ -20,11 +20,11 @@
 #include "cli/robot/posture_option.h"
 #include "cli/robot/render_plan.h"
 #include "cli/terminal.h"
-#include "collision/contact_batch.h"
-#include "kinematics/pose_batch.h"
-#include "render/png.h"
+#include "collision/contacts.h"
+#include "kinematics/forward_kinematics.h"
+#include "render/image.h"
+#include "render/picture.h"
 #include "render/report.h"
-#include "render/scene_picture.h"
 
 namespace rex::cli {
 

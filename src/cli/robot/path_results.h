@@ -8,7 +8,6 @@
 #include "cli/robot/plan.h"
 #include "cli/robot/posture_option.h"
 #include "cli/robot/render_plan.h"
-#include "planning/motion_limits.h"
 #include "planning/time_parametrization.h"
 #include "planning/timed_path.h"
 #include "render/figure.h"

@@ -10,9 +10,9 @@
 #include "base/interruption.h"
 #include "base/rng.h"
 #include "cli/terminal.h"
-#include "planning/path_clearance.h"
 #include "planning/path_spline.h"
 #include "planning/roadmap.h"
+#include "planning/robot_problem.h"
 #include "planning/rrt.h"
 #include "planning/smooth_path.h"
 

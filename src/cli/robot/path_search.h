@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "collision/motion_clearance.h"
-#include "planning/path_curve.h"
 #include "planning/path_problem.h"
+#include "planning/path_spline.h"
 #include "scene/model.h"
 
 namespace rex::cli {

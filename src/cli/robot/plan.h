@@ -9,11 +9,11 @@
 #include "cli/robot/path_search.h"
 #include "cli/robot/posture_option.h"
 #include "cli/robot/render_plan.h"
-#include "collision/contact_model.h"
+#include "collision/contacts.h"
 #include "planning/hybrid_astar.h"
 #include "render/picture.h"
 #include "scene/model.h"
-#include "trajectory/contact_terms.h"
+#include "trajectory/motion_terms.h"
 #include "trajectory/trajectory_optimizer.h"
 
 namespace rex::cli {

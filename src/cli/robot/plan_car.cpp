@@ -20,7 +20,6 @@
 #include "cli/terminal.h"
 #include "collision/collision_pairs.h"
 #include "collision/contacts.h"
-#include "planning/path_clearance.h"
 #include "planning/robot_problem.h"
 
 // `rex plan --planner hybrid-astar`: a car in a scene.

@@ -23,7 +23,6 @@
 #include "kinematics/task_maps.h"
 #include "planning/robot_problem.h"
 #include "trajectory/motion_terms.h"
-#include "trajectory/task_terms.h"
 
 // `rex plan --planner optimize`: motions with little acceleration.
 

@@ -8,12 +8,9 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/join.h"
 #include "base/text.h"
 #include "cli/numbers.h"
 #include "cli/terminal.h"
-#include "scene/coordinate_names.h"
-#include "scene/coordinates.h"
 #include "scene/state.h"
 
 namespace rex::cli {

@@ -9,7 +9,7 @@
 
 namespace rex::cli {
 
-/// positionNames() and velocityNames() of scene/coordinate_names.h, safe to print.
+/// positionNames() and velocityNames() of scene/state.h, safe to print.
 [[nodiscard]] std::vector<std::string> printablePositionNames(const Model& model);
 [[nodiscard]] std::vector<std::string> printableVelocityNames(const Model& model);
 

@@ -16,7 +16,7 @@
 #include "cli/robot/robot_options_internal.h"
 #include "render/contact_sheet.h"
 #include "render/glb.h"
-#include "render/png.h"
+#include "render/image.h"
 #include "render/report.h"
 
 namespace rex::cli {

@@ -12,12 +12,10 @@
 
 #include "base/error.h"
 #include "base/interruption.h"
-#include "base/join.h"
-#include "base/lower_case.h"
 #include "base/text.h"
 #include "cli/option_table_internal.h"
 #include "geometry/rotation.h"
-#include "render/draw_film.h"
+#include "render/film.h"
 
 namespace rex::cli {
 

@@ -7,7 +7,6 @@
 
 #include "base/exit_code.h"
 #include "cli/robot/scene_option.h"
-#include "render/bounds.h"
 #include "render/camera.h"
 #include "render/contact_sheet.h"
 #include "render/image.h"

@@ -9,8 +9,8 @@
 #include "cli/robot/scene_option.h"
 #include "cli/robot/scene_verbs.h"
 #include "cli/terminal.h"
+#include "collision/collision_pairs.h"
 #include "collision/contacts.h"
-#include "collision/proxy_report.h"
 
 namespace rex::cli {
 namespace {

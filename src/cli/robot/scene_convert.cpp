@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "base/is_below.h"
-#include "base/lower_case.h"
+#include "base/folders.h"
+#include "base/text.h"
 #include "base/text_file.h"
 #include "cli/numbers.h"
 #include "cli/out_folder.h"

@@ -10,8 +10,8 @@
 #include "cli/robot/posture_option.h"
 #include "cli/robot/scene_verbs.h"
 #include "dynamics/energy.h"
+#include "dynamics/equations_of_motion.h"
 #include "dynamics/forward_dynamics.h"
-#include "dynamics/mass_matrix.h"
 
 namespace rex::cli {
 namespace {

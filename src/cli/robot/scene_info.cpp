@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "base/join.h"
+#include "base/text.h"
 #include "cli/json_internal.h"
 #include "cli/robot/scene_verbs.h"
 #include "cli/robot/simulation.h"

@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "base/lower_case.h"
+#include "base/text.h"
 #include "cli/numbers.h"
 #include "collision/collision_pairs.h"
-#include "scene/find_scene.h"
+#include "scene/assets.h"
 
 namespace rex::cli {
 

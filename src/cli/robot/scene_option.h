@@ -5,7 +5,7 @@
 #include <string>
 
 #include "cli/project.h"
-#include "collision/contact_model.h"
+#include "collision/contacts.h"
 #include "scene/model.h"
 #include "scene/scene_file.h"
 

@@ -4,14 +4,14 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/join.h"
+#include "base/text.h"
 #include "cli/json_internal.h"
 #include "cli/numbers.h"
 #include "cli/robot/scene_option.h"
 #include "cli/robot/scene_verbs.h"
 #include "cli/terminal.h"
 #include "collision/touch_sample.h"
-#include "scene/srdf_writer.h"
+#include "scene/srdf.h"
 
 namespace rex::cli {
 namespace {

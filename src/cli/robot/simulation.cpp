@@ -16,10 +16,10 @@
 #include "cli/numbers.h"
 #include "cli/robot/posture_option.h"
 #include "cli/terminal.h"
-#include "collision/proxy_report.h"
-#include "dynamics/mass_matrix.h"
+#include "collision/collision_pairs.h"
+#include "dynamics/equations_of_motion.h"
 #include "kinematics/forward_kinematics.h"
-#include "scene/coordinates.h"
+#include "scene/state.h"
 
 namespace rex::cli {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/vector_arg.h"
+#include "base/require.h"
 #include "cli/robot/posture_option.h"
 #include "dynamics/energy.h"
 #include "dynamics/stepper.h"

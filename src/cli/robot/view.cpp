@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/folders.h"
 #include "base/interruption.h"
-#include "base/private_folder.h"
 #include "cli/command_table.h"
 #include "cli/numbers.h"
 #include "cli/option_table_internal.h"

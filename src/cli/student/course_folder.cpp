@@ -12,7 +12,6 @@
 #include "base/sha256.h"
 #include "base/text_file.h"
 #include "cli/terminal.h"
-#include "submission/precompiled_prefix.h"
 #include "submission/program_build.h"
 
 namespace rex::cli {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/private_folder.h"
+#include "base/folders.h"
 #include "base/text.h"
 #include "cli/command_table.h"
 #include "cli/demonstrations.h"

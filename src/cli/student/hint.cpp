@@ -5,13 +5,13 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/join.h"
+#include "base/text.h"
 #include "cli/command_table.h"
 #include "cli/option_table_internal.h"
 #include "cli/student/exercise_commands.h"
 #include "cli/student/progress.h"
 #include "cli/terminal.h"
-#include "grading/result_file.h"
+#include "grading/results.h"
 
 namespace rex::cli {
 namespace {

@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "base/error.h"
-#include "base/private_folder.h"
+#include "base/folders.h"
 #include "base/process.h"
 #include "base/text_file.h"
 #include "cli/build_on_demand.h"
@@ -18,7 +18,6 @@
 #include "cli/student/student_file.h"
 #include "cli/terminal.h"
 #include "submission/included_files.h"
-#include "submission/precompiled_prefix.h"
 #include "submission/program_build.h"
 
 namespace rex::cli {

@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "base/error.h"
-#include "base/private_folder.h"
+#include "base/folders.h"
 #include "base/process.h"
 #include "cli/command_table.h"
 #include "cli/option_table_internal.h"
@@ -20,7 +20,7 @@
 #include "cli/student/student_file.h"
 #include "cli/terminal.h"
 #include "grading/limits.h"
-#include "submission/second_look.h"
+#include "submission/sanitizer_rerun.h"
 #include "submission/student_build.h"
 
 namespace rex::cli {

@@ -15,7 +15,7 @@
 #include "cli/sandbox_choice.h"
 #include "cli/student/test_run.h"
 #include "cli/terminal.h"
-#include "grading/result_file.h"
+#include "grading/results.h"
 
 namespace rex::cli {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "base/join.h"
+#include "base/text.h"
 #include "cli/out_folder.h"
 #include "cli/student/student_file.h"
 #include "cli/student/test_run.h"

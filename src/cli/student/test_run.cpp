@@ -16,7 +16,7 @@
 #include "cli/student/student_file.h"
 #include "cli/terminal.h"
 #include "grading/hidden_seed.h"
-#include "grading/result_file.h"
+#include "grading/results.h"
 
 namespace rex::cli {
 

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "base/exit_code.h"
-#include "base/private_folder.h"
+#include "base/folders.h"
 #include "cli/project.h"
 #include "reports/report.h"
-#include "sandbox/level.h"
+#include "sandbox/confinement.h"
 #include "submission/submission.h"
 
 namespace rex::cli {

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/private_folder.h"
+#include "base/folders.h"
 #include "cli/command_table.h"
 #include "cli/file_watcher.h"
 #include "cli/option_table_internal.h"

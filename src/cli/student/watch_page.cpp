@@ -9,13 +9,12 @@
 
 #include "base/error.h"
 #include "base/escape.h"
-#include "base/printable.h"
 #include "base/text_file.h"
 #include "cli/json_internal.h"
 #include "cli/student/exercise_commands.h"
 #include "cli/student/progress.h"
 #include "cli/terminal.h"
-#include "grading/result_file.h"
+#include "grading/results.h"
 #include "reports/feedback_page.h"
 #include "reports/markdown.h"
 

@@ -11,7 +11,7 @@
 
 #include "cli/rex_command.h"
 #include "collision/motion_clearance.h"
-#include "render/png.h"
+#include "render/image.h"
 #include "scene/scene_file.h"
 #include "support/file_text.h"
 #include "support/film_length.h"

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 
 #include "cli/rex_command.h"
-#include "render/png.h"
+#include "render/image.h"
 #include "support/changed_path.h"
 #include "support/file_text.h"
 #include "support/needs_osmesa.h"

@@ -9,11 +9,11 @@
 
 #include "cli/rex_command.h"
 #include "dynamics/energy.h"
+#include "dynamics/equations_of_motion.h"
 #include "dynamics/forward_dynamics.h"
-#include "dynamics/mass_matrix.h"
 #include "geometry/rotation.h"
 #include "kinematics/jacobians.h"
-#include "render/png.h"
+#include "render/image.h"
 #include "scene/scene_file.h"
 #include "support/file_text.h"
 #include "support/needs_osmesa.h"

@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/rex_command.h"
-#include "render/png.h"
+#include "render/image.h"
 #include "support/file_text.h"
 #include "support/film_length.h"
 #include "support/needs_gnuplot.h"

@@ -6,8 +6,8 @@
 
 #include "control/computed_torque.h"
 #include "dynamics/centroidal.h"
+#include "dynamics/equations_of_motion.h"
 #include "dynamics/forward_dynamics.h"
-#include "dynamics/mass_matrix.h"
 #include "scene/ors_reader.h"
 #include "scene/scene_file.h"
 #include "support/paths.h"

@@ -9,7 +9,7 @@
 #include "cli/command_schema.h"
 #include "cli/student/progress.h"
 #include "cli/template_project.h"
-#include "grading/result_file.h"
+#include "grading/results.h"
 #include "support/tiny_disk.h"
 
 namespace rex::cli::student_loop_test {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "commands/instructor/graded_class.h"
-#include "grading/result_file.h"
+#include "grading/results.h"
 #include "support/rounds.h"
 
 namespace rex::cli::grade_again_test {

@@ -1,5 +1,5 @@
-// What several attacks begin with: the tables of loaded files (ELF), and a search of their symbols for the forbidden
-// function. The battery puts this text where an attack includes it, for a submission is one file.
+// What several attacks begin with: the tables of loaded files (ELF), and a search of their symbols for the
+// forbidden function. The battery puts this text where an attack includes it, for a submission is one file.
 #include <cstdio>
 
 #include "exercise.h"
