@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "approach_checks.h"
+#include "formats/ors_reader.h"
+#include "formats/ors_writer.h"
 #include "grading/check.h"
 #include "interface.h"
 #include "motion_evidence.h"
-#include "scene/ors_reader.h"
-#include "scene/ors_writer.h"
 
 // Arms that the grader simulates while the student's functions control them: parts 4 to 6 and 8.
 

@@ -22,7 +22,7 @@ endif()
 set(REX_REMOTE_HEADERS course/remote_simulator.h)
 
 # The modules that every student's program may use; an exercise names further ones. The grader is not among them.
-set(REX_STUDENT_MODULES base geometry remote scene kinematics collision dynamics physics render course)
+set(REX_STUDENT_MODULES base geometry remote scene formats kinematics collision dynamics physics render course)
 
 # course/course.h, precompiled with the flags of a student's program by the target rex_student_prefix: prefix.h.gch, and
 # in prefix.h.d the files it was made of. Leaves its place, without the endings, in `variable`; with the sanitizers and
@@ -229,8 +229,7 @@ function(rex_grader_headers)
   target_compile_options(rex_grader_headers PRIVATE ${REX_GRADER_OPTIONS})
   target_link_libraries(rex_grader_headers PRIVATE rex_grading rex_course)
   target_precompile_headers(rex_grader_headers PRIVATE <grading/throwing_assertions.h> <course/course.h>
-                            <course/remote_simulator.h> <grading/check.h> <remote/call.h> <remote/layout.h>
-                            <remote/layout.h>)
+                            <course/remote_simulator.h> <grading/check.h> <remote/call.h> <remote/layout.h>)
 endfunction()
 
 # Answers lead checks to places that are not there: the library's containers look, too.

@@ -12,11 +12,10 @@ if(DEFINED ENV{REX_MAINTAINER})
 endif()
 
 # The modules that other programs may link. Headers of the others are not installed.
-set(REX_PUBLIC_LAYERS base geometry optim remote scene estimation learning kinematics dynamics collision render physics
+set(REX_PUBLIC_LAYERS base geometry optim remote scene formats estimation learning kinematics dynamics collision render physics
                       planning trajectory control grasping locomotion course legacy)
 
-# Never installed: folders and files of running programs, which remain if a program is killed (src/base/folders.h,
-# src/base/folders.h), backups by `rex reset`, lists of dependencies, and the cache of Python.
+# Never installed: folders and files of running programs, which remain if a program is killed (src/base/folders.h), backups by `rex reset`, lists of dependencies, and the cache of Python.
 set(REX_TRANSIENT PATTERN "rex-work-*" EXCLUDE PATTERN "*.new" EXCLUDE PATTERN "main.backup-*" EXCLUDE
                   PATTERN "*.d" EXCLUDE PATTERN "__pycache__" EXCLUDE)
 

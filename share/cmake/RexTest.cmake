@@ -2,7 +2,7 @@
 
 # The modules that `scripts/test --all` tests under the sanitizers: those that read files of users or talk to processes,
 # but not the grader, which links with nearly all of the library. `scripts/test --long` tests all.
-set(REX_SANITIZED_MODULES base geometry remote scene live_server)
+set(REX_SANITIZED_MODULES base formats geometry remote scene live_server)
 
 # What nearly all tests include takes longer to compile than the rest of them.
 function(rex_test_headers)

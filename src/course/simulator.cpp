@@ -20,14 +20,14 @@
 #include "dynamics/energy.h"
 #include "dynamics/equations_of_motion.h"
 #include "dynamics/stepper.h"
+#include "formats/assets.h"
+#include "formats/ors_writer.h"
+#include "formats/scene_file.h"
+#include "formats/srdf.h"
 #include "kinematics/center_of_mass.h"
 #include "kinematics/jacobians.h"
 #include "kinematics/task_maps.h"
-#include "scene/assets.h"
-#include "scene/ors_writer.h"
 #include "scene/scene_edit.h"
-#include "scene/scene_file.h"
-#include "scene/srdf.h"
 #include "scene/state.h"
 
 namespace rex {

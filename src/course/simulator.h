@@ -213,7 +213,7 @@ class Simulator {
   void watch(const std::string& name = "watch") const;
 
   /// The scene as it is anchored now, with posture and settings: enough to make this simulator again.
-  /// Throws Error as writeOrs() (scene/ors_writer.h) for scenes of several files, a free base and
+  /// Throws Error as writeOrs() (formats/ors_writer.h) for scenes of several files, a free base and
   /// obstacles.
   SimulatorDescription description() const;
   /// The model that the core of rex works on; see scene/model.h.

@@ -10,9 +10,9 @@
 #include "base/folders.h"
 #include "base/require.h"
 #include "course/plant_film_internal.h"
+#include "formats/scene_file.h"
 #include "locomotion/walking_pattern.h"
 #include "render/picture.h"
-#include "scene/scene_file.h"
 
 namespace rex {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <stdexcept>
 
+#include "formats/ors_reader.h"
 #include "kinematics/jacobians.h"
-#include "scene/ors_reader.h"
 #include "support/paths.h"
 #include "trajectory/motion_terms.h"
 

@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "base/rng.h"
-#include "scene/ors_reader.h"
+#include "formats/ors_reader.h"
 #include "support/paths.h"
 
 namespace rex::bench {

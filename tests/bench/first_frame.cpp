@@ -1,7 +1,7 @@
 // first_frame FILE: loads the man scene and writes a picture of it, as a user's first program does.
+#include "formats/ors_reader.h"
 #include "render/image.h"
 #include "render/picture.h"
-#include "scene/ors_reader.h"
 #include "support/draw_once.h"
 #include "support/paths.h"
 

@@ -5,10 +5,10 @@
 #include "base/rng.h"
 #include "bench/ik_peer.h"
 #include "bench/row.h"
+#include "formats/urdf_reader.h"
 #include "geometry/rotation.h"
 #include "kinematics/inverse_kinematics_solver.h"
 #include "kinematics/task_maps.h"
-#include "scene/urdf_reader.h"
 #include "support/file_text.h"
 #include "support/paths.h"
 

@@ -7,9 +7,9 @@
 
 #include "bench/physics_peer.h"
 #include "bench/row.h"
+#include "formats/scene_file.h"
 #include "physics/physics_world.h"
 #include "physics/small_scenes.h"
-#include "scene/scene_file.h"
 #include "support/paths.h"
 
 namespace rex::bench {

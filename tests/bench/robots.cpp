@@ -3,8 +3,8 @@
 #include <numbers>
 
 #include "base/rng.h"
+#include "formats/ors_reader.h"
 #include "geometry/rotation.h"
-#include "scene/ors_reader.h"
 #include "support/paths.h"
 
 namespace rex::bench {

@@ -1,7 +1,7 @@
 #include "bench/row.h"
-#include "scene/mesh_reader.h"
+#include "formats/mesh_reader.h"
+#include "formats/ors_reader.h"
 #include "scene/model.h"
-#include "scene/ors_reader.h"
 #include "support/paths.h"
 
 namespace rex::bench {

@@ -2,9 +2,9 @@
 
 #include "base/rng.h"
 #include "collision/motion_clearance.h"
+#include "formats/scene_file.h"
 #include "kinematics/forward_kinematics.h"
 #include "physics/small_scenes.h"
-#include "scene/scene_file.h"
 #include "support/paths.h"
 
 namespace rex::clearance_watch_test {

@@ -7,9 +7,9 @@
 #include "base/rng.h"
 #include "collision/contacts.h"
 #include "collision/motion_clearance.h"
-#include "scene/ors_reader.h"
-#include "scene/urdf_reader.h"
-#include "scene/urdf_writer.h"
+#include "formats/ors_reader.h"
+#include "formats/urdf_reader.h"
+#include "formats/urdf_writer.h"
 #include "support/paths.h"
 #include "support/random_scene.h"
 

@@ -4,7 +4,7 @@
 
 #include "base/rng.h"
 #include "collision/contacts.h"
-#include "scene/ors_reader.h"
+#include "formats/ors_reader.h"
 #include "support/paths.h"
 
 namespace rex::contact_batch_test {

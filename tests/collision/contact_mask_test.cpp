@@ -9,9 +9,9 @@
 #include "base/rng.h"
 #include "collision/collision_pairs.h"
 #include "collision/contacts.h"
-#include "scene/mjcf_reader.h"
-#include "scene/ors_reader.h"
-#include "scene/ors_writer.h"
+#include "formats/mjcf_reader.h"
+#include "formats/ors_reader.h"
+#include "formats/ors_writer.h"
 
 namespace rex::contact_mask_test {
 

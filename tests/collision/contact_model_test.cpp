@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "collision/contacts.h"
-#include "scene/ors_reader.h"
+#include "formats/ors_reader.h"
 #include "support/expect_error.h"
 #include "support/paths.h"
 

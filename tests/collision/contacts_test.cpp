@@ -10,8 +10,8 @@
 
 #include "base/derivative_check.h"
 #include "base/rng.h"
+#include "formats/ors_reader.h"
 #include "geometry/rotation.h"
-#include "scene/ors_reader.h"
 #include "scene/state.h"
 #include "support/convex_solid.h"
 #include "support/expect_error.h"

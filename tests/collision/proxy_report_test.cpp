@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "collision/collision_pairs.h"
-#include "scene/scene_file.h"
+#include "formats/scene_file.h"
 
 namespace rex::proxy_report_test {
 

@@ -10,9 +10,9 @@
 #include "base/rng.h"
 #include "collision/collision_pairs.h"
 #include "collision/contacts.h"
+#include "formats/ors_reader.h"
+#include "formats/urdf_reader.h"
 #include "kinematics/forward_kinematics.h"
-#include "scene/ors_reader.h"
-#include "scene/urdf_reader.h"
 #include "support/paths.h"
 
 namespace rex::self_collision_test {

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "scene/ors_reader.h"
-#include "scene/urdf_reader.h"
+#include "formats/ors_reader.h"
+#include "formats/urdf_reader.h"
 #include "support/expect_error.h"
 
 namespace rex::touch_sample_test {

@@ -9,8 +9,8 @@
 #include "base/rng.h"
 #include "dynamics/forward_dynamics.h"
 #include "dynamics/loop_dynamics.h"
+#include "formats/scene_file.h"
 #include "kinematics/task_maps.h"
-#include "scene/scene_file.h"
 #include "support/expect_error.h"
 #include "support/paths.h"
 

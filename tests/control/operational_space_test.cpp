@@ -12,8 +12,8 @@
 #include "dynamics/equations_of_motion.h"
 #include "dynamics/forward_dynamics.h"
 #include "dynamics/stepper.h"
+#include "formats/scene_file.h"
 #include "kinematics/task_maps.h"
-#include "scene/scene_file.h"
 #include "support/expect_error.h"
 #include "support/paths.h"
 

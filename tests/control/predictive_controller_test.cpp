@@ -11,7 +11,7 @@
 #include "dynamics/equations_of_motion.h"
 #include "dynamics/forward_dynamics.h"
 #include "dynamics/stepper.h"
-#include "scene/ors_reader.h"
+#include "formats/ors_reader.h"
 #include "support/expect_error.h"
 #include "support/paths.h"
 #include "support/quadratic_peer.h"

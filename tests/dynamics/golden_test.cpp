@@ -8,7 +8,7 @@
 #include "dynamics/energy.h"
 #include "dynamics/equations_of_motion.h"
 #include "dynamics/stepper.h"
-#include "scene/ors_reader.h"
+#include "formats/ors_reader.h"
 #include "support/paths.h"
 
 namespace rex::golden_test {

@@ -6,7 +6,7 @@
 #include "base/rng.h"
 #include "dynamics/energy.h"
 #include "dynamics/equations_of_motion.h"
-#include "scene/ors_reader.h"
+#include "formats/ors_reader.h"
 #include "support/expect_error.h"
 #include "support/paths.h"
 

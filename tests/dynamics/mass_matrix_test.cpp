@@ -4,7 +4,7 @@
 #include "dynamics/equations_of_motion.h"
 #include "dynamics/kernel_room_internal.h"
 #include "dynamics/kernels_internal.h"
-#include "scene/ors_reader.h"
+#include "formats/ors_reader.h"
 #include "support/allocations.h"
 #include "support/expect_error.h"
 #include "support/mass_matrix_by_jacobians.h"

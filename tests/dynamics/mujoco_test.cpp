@@ -16,8 +16,8 @@
 #include "dynamics/energy.h"
 #include "dynamics/equations_of_motion.h"
 #include "dynamics/forward_dynamics.h"
+#include "formats/urdf_reader.h"
 #include "geometry/rotation.h"
-#include "scene/urdf_reader.h"
 #include "support/file_text.h"
 #include "support/paths.h"
 

@@ -7,7 +7,7 @@
 #include "base/rng.h"
 #include "dynamics/energy.h"
 #include "dynamics/stepper.h"
-#include "scene/ors_reader.h"
+#include "formats/ors_reader.h"
 #include "support/paths.h"
 #include "support/planar_chain.h"
 #include "support/runge_kutta.h"

@@ -1,11 +1,11 @@
 #include <iterator>
 
 #include "base/error.h"
+#include "formats/mesh_limits_internal.h"
+#include "formats/mesh_reader.h"
+#include "formats/mesh_reader_internal.h"
 #include "fuzz/require.h"
 #include "geometry/convex_hull.h"
-#include "scene/mesh_limits_internal.h"
-#include "scene/mesh_reader.h"
-#include "scene/mesh_reader_internal.h"
 
 namespace {
 

@@ -1,9 +1,9 @@
 #include <optional>
 
+#include "formats/ors_reader.h"
+#include "formats/ors_writer.h"
 #include "fuzz/require.h"
 #include "fuzz/sound_scene.h"
-#include "scene/ors_reader.h"
-#include "scene/ors_writer.h"
 
 namespace {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/error.h"
-#include "scene/scene_file.h"
+#include "formats/scene_file.h"
 
 namespace rex::fuzz {
 

@@ -1,10 +1,10 @@
 #include <optional>
 
+#include "formats/srdf.h"
+#include "formats/urdf_reader.h"
 #include "fuzz/require.h"
 #include "fuzz/sound_scene.h"
 #include "scene/model.h"
-#include "scene/srdf.h"
-#include "scene/urdf_reader.h"
 
 namespace {
 

@@ -1,9 +1,9 @@
 #include <string>
 
+#include "formats/ors_reader.h"
 #include "fuzz/require.h"
 #include "fuzz/sound_scene.h"
 #include "geometry/rotation.h"
-#include "scene/ors_reader.h"
 
 // The input is the text of a pose, <T ...>.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

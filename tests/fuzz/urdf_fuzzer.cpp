@@ -1,9 +1,9 @@
 #include <optional>
 
+#include "formats/urdf_reader.h"
+#include "formats/urdf_writer.h"
 #include "fuzz/require.h"
 #include "fuzz/sound_scene.h"
-#include "scene/urdf_reader.h"
-#include "scene/urdf_writer.h"
 
 namespace {
 

@@ -9,12 +9,12 @@
 
 #include "base/rng.h"
 #include "control/value_grid.h"
+#include "formats/ors_reader.h"
 #include "kinematics/forward_kinematics.h"
 #include "kinematics/inverse_kinematics.h"
 #include "kinematics/jacobians.h"
 #include "optim/bayesian_search.h"
 #include "render/figure_builders.h"
-#include "scene/ors_reader.h"
 #include "support/paths.h"
 
 namespace rex {

@@ -6,11 +6,11 @@
 #include "cli/robot/path_results.h"
 #include "cli/robot/plan.h"
 #include "cli/robot/posture_option.h"
+#include "formats/scene_file.h"
 #include "planning/robot_problem.h"
 #include "render/contact_sheet.h"
 #include "render/picture.h"
 #include "render/renderer.h"
-#include "scene/scene_file.h"
 #include "support/paths.h"
 
 namespace rex::gallery {

@@ -7,13 +7,13 @@
 #include <Eigen/Dense>
 
 #include "base/rng.h"
+#include "formats/ors_reader.h"
 #include "geometry/rotation.h"
 #include "kinematics/inverse_kinematics.h"
 #include "kinematics/jacobians.h"
 #include "render/contact_sheet.h"
 #include "render/picture.h"
 #include "render/renderer.h"
-#include "scene/ors_reader.h"
 #include "support/paths.h"
 
 namespace rex::gallery {

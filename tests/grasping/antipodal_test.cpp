@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "formats/mesh_reader.h"
 #include "geometry/welded_mesh.h"
 #include "grasping/equilibrium.h"
 #include "grasping/object_surface.h"
-#include "scene/mesh_reader.h"
 #include "support/expect_error.h"
 #include "support/mesh_samples.h"
 #include "support/paths.h"

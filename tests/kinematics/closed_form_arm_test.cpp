@@ -8,11 +8,11 @@
 #include <gtest/gtest.h>
 
 #include "base/rng.h"
+#include "formats/urdf_reader.h"
 #include "kinematics/closed_form_arm_internal.h"
 #include "kinematics/forward_kinematics.h"
 #include "kinematics/inverse_kinematics_solver.h"
 #include "kinematics/task_maps.h"
-#include "scene/urdf_reader.h"
 #include "support/expect_error.h"
 
 namespace rex::closed_form_arm_test {

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "base/rng.h"
+#include "formats/ors_reader.h"
 #include "kinematics/forward_kinematics.h"
-#include "scene/ors_reader.h"
 #include "support/paths.h"
 
 namespace rex::course_scenes_test {

@@ -5,10 +5,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "formats/ors_reader.h"
 #include "geometry/rotation.h"
 #include "kinematics/center_of_mass.h"
 #include "kinematics/jacobians.h"
-#include "scene/ors_reader.h"
 #include "support/paths.h"
 
 namespace rex::golden_test {

@@ -8,11 +8,11 @@
 #include <gtest/gtest.h>
 
 #include "base/derivative_check.h"
+#include "formats/ors_reader.h"
+#include "formats/scene_file.h"
+#include "formats/urdf_reader.h"
 #include "kinematics/task_maps.h"
-#include "scene/ors_reader.h"
-#include "scene/scene_file.h"
 #include "scene/state.h"
-#include "scene/urdf_reader.h"
 #include "support/allocations.h"
 #include "support/expect_error.h"
 #include "support/file_text.h"

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "formats/ors_reader.h"
 #include "kinematics/task_maps.h"
-#include "scene/ors_reader.h"
 #include "scene/state.h"
 #include "support/expect_error.h"
 #include "support/paths.h"

@@ -12,10 +12,10 @@
 #include <kdl/chainjnttojacsolver.hpp>
 
 #include "base/rng.h"
+#include "formats/ors_reader.h"
+#include "formats/urdf_reader.h"
+#include "formats/urdf_writer.h"
 #include "kinematics/jacobians.h"
-#include "scene/ors_reader.h"
-#include "scene/urdf_reader.h"
-#include "scene/urdf_writer.h"
 #include "support/file_text.h"
 #include "support/kdl_tree.h"
 #include "support/nearest_inertia.h"

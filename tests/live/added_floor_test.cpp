@@ -1,9 +1,9 @@
 // Where the ground of pictures is if the scene has one, or a floor was added.
 #include <gtest/gtest.h>
 
+#include "formats/mjcf_reader.h"
 #include "live/live_simulation.h"
 #include "render/picture.h"
-#include "scene/mjcf_reader.h"
 #include "support/paths.h"
 
 namespace rex::added_floor_test {

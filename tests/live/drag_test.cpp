@@ -7,8 +7,8 @@
 #include "base/error.h"
 #include "base/rng.h"
 #include "collision/contacts.h"
+#include "formats/scene_file.h"
 #include "geometry/rotation.h"
-#include "scene/scene_file.h"
 #include "support/paths.h"
 
 namespace rex::drag_test {

@@ -12,9 +12,9 @@
 #include "dynamics/energy.h"
 #include "dynamics/equations_of_motion.h"
 #include "dynamics/stepper.h"
-#include "scene/scene_file.h"
+#include "formats/scene_file.h"
+#include "formats/urdf_reader.h"
 #include "scene/state.h"
-#include "scene/urdf_reader.h"
 #include "support/four_bar.h"
 #include "support/paths.h"
 

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "formats/scene_file.h"
 #include "render/glb.h"
-#include "scene/scene_file.h"
 #include "support/paths.h"
 
 namespace rex::live_scene_test {

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "base/rng.h"
-#include "scene/scene_file.h"
+#include "formats/scene_file.h"
 #include "support/paths.h"
 
 namespace rex::live_session_test {

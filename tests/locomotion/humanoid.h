@@ -1,7 +1,7 @@
 #pragma once
 
+#include "formats/scene_file.h"
 #include "locomotion/walking_pattern.h"
-#include "scene/scene_file.h"
 #include "support/paths.h"
 
 namespace rex {

@@ -4,8 +4,8 @@
 
 #include "dynamics/forward_dynamics.h"
 #include "dynamics/inverse_dynamics.h"
+#include "formats/scene_file.h"
 #include "kinematics/center_of_mass.h"
-#include "scene/scene_file.h"
 #include "support/expect_error.h"
 #include "support/paths.h"
 #include "support/random_motion.h"

@@ -4,11 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include "formats/scene_file.h"
 #include "geometry/rotation.h"
 #include "kinematics/forward_kinematics.h"
 #include "physics/physics_world.h"
 #include "physics/small_scenes.h"
-#include "scene/scene_file.h"
 #include "support/paths.h"
 
 namespace rex::balancer_test {

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "formats/mjcf_reader.h"
 #include "physics/small_scenes.h"
-#include "scene/mjcf_reader.h"
 
 namespace rex::contact_masks_test {
 

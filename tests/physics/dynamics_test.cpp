@@ -6,11 +6,11 @@
 #include "dynamics/energy.h"
 #include "dynamics/forward_dynamics.h"
 #include "dynamics/stepper.h"
+#include "formats/scene_file.h"
 #include "geometry/rotation.h"
 #include "kinematics/forward_kinematics.h"
 #include "physics/physics_world.h"
 #include "physics/small_scenes.h"
-#include "scene/scene_file.h"
 #include "support/paths.h"
 #include "support/random_scene.h"
 

@@ -7,10 +7,10 @@
 
 #include "base/rng.h"
 #include "dynamics/energy.h"
+#include "formats/scene_file.h"
 #include "geometry/rotation.h"
 #include "physics/physics_world.h"
 #include "physics/small_scenes.h"
-#include "scene/scene_file.h"
 #include "support/paths.h"
 #include "support/rounds.h"
 

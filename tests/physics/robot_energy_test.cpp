@@ -11,10 +11,10 @@
 
 #include "base/error.h"
 #include "dynamics/energy.h"
+#include "formats/scene_file.h"
 #include "kinematics/forward_kinematics.h"
 #include "physics/physics_world.h"
 #include "physics/small_scenes.h"
-#include "scene/scene_file.h"
 #include "support/paths.h"
 #include "support/rounds.h"
 

@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "collision/contacts.h"
+#include "formats/ors_reader.h"
 #include "planning/robot_problem.h"
-#include "scene/ors_reader.h"
 #include "systems/car.h"
 
 namespace rex::parking {

@@ -5,10 +5,10 @@
 
 #include "base/rng.h"
 #include "collision/contacts.h"
+#include "formats/ors_reader.h"
 #include "planning/robot_problem.h"
 #include "planning/rrt.h"
 #include "planning/smooth_path.h"
-#include "scene/ors_reader.h"
 #include "support/expect_error.h"
 #include "support/paths.h"
 #include "support/rounds.h"

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "formats/ors_reader.h"
 #include "geometry/rotation.h"
 #include "planning/path_spline.h"
-#include "scene/ors_reader.h"
 #include "scene/state.h"
 #include "support/expect_error.h"
 

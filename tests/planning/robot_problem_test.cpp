@@ -6,8 +6,8 @@
 
 #include "base/rng.h"
 #include "collision/contacts.h"
+#include "formats/ors_reader.h"
 #include "planning/rrt.h"
-#include "scene/ors_reader.h"
 #include "support/expect_error.h"
 #include "support/paths.h"
 

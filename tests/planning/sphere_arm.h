@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "base/rng.h"
+#include "formats/urdf_reader.h"
 #include "geometry/rotation.h"
 #include "scene/scene_spec.h"
-#include "scene/urdf_reader.h"
 
 namespace rex {
 

@@ -11,9 +11,9 @@
 
 #include "base/rng.h"
 #include "dynamics/inverse_dynamics.h"
+#include "formats/ors_reader.h"
+#include "formats/scene_file.h"
 #include "planning/path_spline.h"
-#include "scene/ors_reader.h"
-#include "scene/scene_file.h"
 #include "support/expect_error.h"
 #include "support/paths.h"
 

@@ -15,8 +15,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/rng.h"
+#include "formats/mesh_reader.h"
 #include "render/glb_writer_internal.h"
-#include "scene/mesh_reader.h"
 #include "support/expect_error.h"
 #include "support/file_text.h"
 #include "support/fresh_folder.h"

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "base/rng.h"
+#include "formats/ors_reader.h"
 #include "scene/model.h"
-#include "scene/ors_reader.h"
 #include "support/expect_error.h"
 
 namespace rex::compile_test {

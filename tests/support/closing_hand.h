@@ -1,10 +1,10 @@
 #pragma once
 
+#include "formats/scene_file.h"
 #include "grasping/object_surface.h"
 #include "kinematics/forward_kinematics.h"
 #include "physics/physics_world.h"
 #include "physics/small_scenes.h"
-#include "scene/scene_file.h"
 #include "support/paths.h"
 
 /// The hand of the robots closes on an object, in a simulation that knows nothing of grasps.

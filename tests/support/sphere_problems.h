@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "collision/collision_pairs.h"
-#include "scene/scene_file.h"
+#include "formats/scene_file.h"
 
 namespace rex {
 

@@ -9,9 +9,9 @@
 #include "cli/numbers.h"
 #include "cli/out_folder.h"
 #include "cli/robot/scene_verbs.h"
-#include "scene/ors_writer.h"
+#include "formats/ors_writer.h"
+#include "formats/urdf_writer.h"
 #include "scene/scene_edit.h"
-#include "scene/urdf_writer.h"
 
 namespace rex::cli {
 namespace {

@@ -8,7 +8,7 @@
 #include "base/text.h"
 #include "cli/numbers.h"
 #include "collision/collision_pairs.h"
-#include "scene/assets.h"
+#include "formats/assets.h"
 
 namespace rex::cli {
 

@@ -6,8 +6,8 @@
 
 #include "cli/project.h"
 #include "collision/contacts.h"
+#include "formats/scene_file.h"
 #include "scene/model.h"
-#include "scene/scene_file.h"
 
 namespace rex::cli {
 

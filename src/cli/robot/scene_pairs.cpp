@@ -11,7 +11,7 @@
 #include "cli/robot/scene_verbs.h"
 #include "cli/terminal.h"
 #include "collision/touch_sample.h"
-#include "scene/srdf.h"
+#include "formats/srdf.h"
 
 namespace rex::cli {
 namespace {

@@ -10,11 +10,11 @@
 #include "cli/robot/path_results.h"
 #include "cli/robot/path_search.h"
 #include "collision/contacts.h"
+#include "formats/ors_reader.h"
+#include "formats/scene_file.h"
 #include "kinematics/forward_kinematics.h"
 #include "planning/robot_problem.h"
 #include "planning/time_parametrization.h"
-#include "scene/ors_reader.h"
-#include "scene/scene_file.h"
 #include "support/paths.h"
 #include "support/temporary_folder.h"
 

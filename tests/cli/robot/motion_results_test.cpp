@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "cli/robot/motion_files.h"
+#include "formats/ors_reader.h"
 #include "kinematics/forward_kinematics.h"
-#include "scene/ors_reader.h"
 #include "support/expect_error.h"
 #include "support/paths.h"
 

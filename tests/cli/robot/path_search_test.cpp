@@ -9,8 +9,8 @@
 
 #include "base/interruption.h"
 #include "collision/contacts.h"
+#include "formats/ors_reader.h"
 #include "planning/robot_problem.h"
-#include "scene/ors_reader.h"
 #include "support/expect_error.h"
 #include "support/paths.h"
 

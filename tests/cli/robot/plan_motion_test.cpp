@@ -9,9 +9,9 @@
 
 #include "cli/rex_command.h"
 #include "collision/motion_clearance.h"
+#include "formats/scene_file.h"
 #include "kinematics/jacobians.h"
 #include "render/image.h"
-#include "scene/scene_file.h"
 #include "support/file_text.h"
 #include "support/film_length.h"
 #include "support/needs_gnuplot.h"

@@ -11,10 +11,10 @@
 #include "dynamics/energy.h"
 #include "dynamics/equations_of_motion.h"
 #include "dynamics/forward_dynamics.h"
+#include "formats/scene_file.h"
 #include "geometry/rotation.h"
 #include "kinematics/jacobians.h"
 #include "render/image.h"
-#include "scene/scene_file.h"
 #include "support/file_text.h"
 #include "support/needs_osmesa.h"
 

@@ -8,8 +8,8 @@
 #include "dynamics/centroidal.h"
 #include "dynamics/equations_of_motion.h"
 #include "dynamics/forward_dynamics.h"
-#include "scene/ors_reader.h"
-#include "scene/scene_file.h"
+#include "formats/ors_reader.h"
+#include "formats/scene_file.h"
 #include "support/paths.h"
 
 namespace rex::cli::simulation_test {

@@ -7,8 +7,8 @@
 #include "base/interruption.h"
 #include "cli/rex_command.h"
 #include "cli/robot/view_film.h"
+#include "formats/ors_reader.h"
 #include "live/live_simulation.h"
-#include "scene/ors_reader.h"
 #include "support/needs_osmesa.h"
 #include "support/paths.h"
 

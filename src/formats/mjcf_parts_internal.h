@@ -1,0 +1,194 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "formats/mjcf_files_internal.h"
+#include "formats/scene_file.h"
+#include "formats/urdf_parts_internal.h"
+#include "geometry/mesh_mass.h"
+
+// The steps of reading a MuJoCo model. All throw Error with the place.
+namespace rex::mjcf {
+
+/// How meshes weigh: by their convex hull, by what they enclose, by MuJoCo's old rule, which counts more than
+/// that unless they are convex, or as shells.
+enum class MeshInertia { kConvex, kExact, kLegacy, kShell };
+[[nodiscard]] const char* wordOf(MeshInertia inertia);
+
+/// What <compiler> says of the whole model.
+struct Compiler {
+  enum class Inertia { kFromGeoms, kGiven, kEither };
+  bool degrees = true;     ///< angles in the file
+  bool global = false;     ///< places in bodies are those in the world; MuJoCo before 2.3.4 knew that
+  bool autolimits = true;  ///< a range that is given counts unless `limited` forbids it
+  Inertia inertia = Inertia::kEither;
+  int leastGroup = 0, mostGroup = 5;  ///< of the geoms that weigh something
+  std::string eulerOrder = "xyz";     ///< small letters: axes that turn along, capitals: fixed ones
+  std::string meshFolder{};
+  bool stripsPaths = false;               ///< of meshes, only the name counts
+  double leastMass = 0, leastMoment = 0;  ///< of each body, kg and kg m^2; moments are principal ones
+  std::optional<double> totalMass{};      ///< to which all masses are scaled
+  bool balancesMoments = false;           ///< makes impossible inertias spherical
+  bool fitsBounds = false;                ///< geoms are fitted to the bounds of meshes, not to their inertias
+  MeshInertia meshInertia = MeshInertia::kLegacy;  ///< of meshes that do not say it themselves
+
+  double angle(double given) const;
+};
+void readCompiler(const Tag& tag, Compiler& compiler);
+
+/// The pose by `pos` and one of `quat`, `axisangle`, `euler`, `xyaxes` and `zaxis`.
+[[nodiscard]] Pose poseOf(const Styled& tag, const Compiler& compiler);
+/// The smallest turn that takes z to a direction; of the opposite one, about x.
+[[nodiscard]] Eigen::Matrix3d rotationFromZ(const Eigen::Vector3d& direction);
+/// The attributes that poseOf() reads, and others of the tag.
+[[nodiscard]] std::vector<std::string> withPose(std::vector<std::string> others);
+
+/// The place of a word among those that an attribute may have.
+[[nodiscard]] std::size_t choice(const Tag& tag, const char* attribute,
+                                 const std::vector<std::string>& words);
+/// "true" or "false".
+[[nodiscard]] bool flag(const Tag& tag, const char* attribute);
+/// Whether a range counts: `limited` says so, or without a word its presence.
+[[nodiscard]] bool isLimited(const Styled& tag, const char* limited, const char* range,
+                             const Compiler& compiler);
+
+/// The meshes and colours that geoms name.
+struct MeshAsset {
+  std::string file;
+  Eigen::Vector3d scale{1, 1, 1};
+  MeshInertia inertia = MeshInertia::kLegacy;
+  SourceLocation where{};
+};
+/// A height field: what is drawn, and the convex pieces that are touched. Empty in a scene given as text, if
+/// its heights are in a file.
+struct HeightField {
+  TriangleMesh drawn{};
+  std::vector<TriangleMesh> pieces{};
+};
+struct MjcfAssets {
+  std::unordered_map<std::string, MeshAsset> meshes;
+  std::unordered_map<std::string, HeightField> heightFields;
+  std::unordered_map<std::string, Eigen::Vector4d> colors;
+};
+[[nodiscard]] const Known& knownOfMesh();
+[[nodiscard]] const Known& knownOfMaterial();
+/// The numbers of `rgba`, each from 0 to 1; empty if it is not given.
+[[nodiscard]] std::optional<Eigen::Vector4d> colorOf(const Styled& styled);
+void readAssets(const Tag& tag, Files& files, const Defaults& defaults, const Compiler& compiler,
+                MjcfAssets& assets);
+/// A <hfield> of the assets, with its heights from the tag or a file. Warns if its pieces are coarse.
+[[nodiscard]] HeightField readHeightField(const Tag& tag, const Files& files, const Compiler& compiler);
+
+/// What a geom adds to its body: a solid of mass or density, the half sizes as MuJoCo has them.
+struct Solid {
+  enum class Kind { kSphere, kCapsule, kCylinder, kBox, kEllipsoid, kMesh };
+  Kind kind = Kind::kSphere;
+  Eigen::Vector3d size{0, 0, 0};
+  Pose X_BS{};
+  std::optional<double> mass{};       ///< kg
+  double density = 1000;              ///< kg / m^3, or of a shell kg / m^2
+  bool isShell = false;               ///< but for meshes, whose inertia says it
+  std::optional<std::size_t> mesh{};  ///< which shape of the body has it
+  MeshInertia inertia{};              ///< of a mesh
+  SourceLocation where{};
+};
+/// The mass properties for density 1, in the frame of the solid, which is no mesh.
+[[nodiscard]] MassProperties ofDensityOne(const Solid& solid);
+/// The same of the mesh of a shape.
+[[nodiscard]] MassProperties massOfMesh(const ShapeSpec& shape, MeshInertia inertia);
+
+/// A geom that becomes a solid as large as its mesh. Until fitGeoms() its shape is the mesh, not in contact.
+struct GeomFit {
+  Solid::Kind kind = Solid::Kind::kSphere;
+  MeshInertia inertia = MeshInertia::kLegacy;  ///< of the mesh
+  double scale = 1;
+  bool contact = true;  ///< of the shape that it becomes
+};
+/// A <geom>: shapes unless rex has none like it, and a solid if it weighs something. A shape without a name
+/// has none yet.
+struct Geom {
+  std::vector<ShapeSpec> shapes{};
+  std::optional<Solid> solid{};
+  std::optional<GeomFit> fit{};
+  std::string name{};  ///< empty: none
+};
+[[nodiscard]] const Known& knownOfGeom();
+[[nodiscard]] Geom readGeom(const Styled& tag, bool isOnWorld, const Compiler& compiler,
+                            const MjcfAssets& assets);
+
+/// A <joint> of a body: X_PF and X_MC are as if the parent's frame were that of the body where the joint is
+/// at `ref`. A joint without a name has none yet.
+[[nodiscard]] const Known& knownOfJoint();
+[[nodiscard]] JointSpec readBodyJoint(const Styled& tag, const Compiler& compiler);
+
+/// A body of the file; its mass follows when all meshes are there.
+struct BodyInFile {
+  std::size_t body = 0;  ///< in the spec
+  std::string parent{};
+  std::size_t joints = 0;
+  std::optional<MassProperties> given{};
+  std::vector<Solid> solids{};  ///< as far as they count
+  bool hasGeoms = false;        ///< also such as make no shapes
+};
+/// The shapes of a geom, of a body by its place in the spec, or of the world.
+struct GeomInTree {
+  std::optional<std::size_t> body{};
+  std::size_t first = 0, count = 0;
+};
+/// A fit of a shape of a body, or of the world, whose solid, if it has one, is `solid` of BodyInFile::solids.
+struct FitInTree {
+  GeomInTree at{};
+  std::optional<std::size_t> solid{};
+  GeomFit fit{};
+};
+/// All bodies. Where one has several joints, bodies without mass stand between these.
+struct BodyTree {
+  SceneSpec spec{};
+  std::vector<urdf::ReadJoint> joints{};
+  std::vector<BodyInFile> bodies{};
+  std::unordered_map<std::string, std::size_t> jointOfName{}, bodyOfName{};
+  std::unordered_map<std::string, GeomInTree> geomOfName{};
+  std::vector<FitInTree> fits{};
+
+  /// The shapes of a body, or of the world.
+  std::vector<ShapeSpec>& shapesOf(const std::optional<std::size_t>& body) {
+    return body ? spec.bodies[*body].shapes : spec.worldShapes;
+  }
+};
+[[nodiscard]] BodyTree readTree(const std::vector<Tag>& worldbodies, Files& files, const Defaults& defaults,
+                                const Compiler& compiler, const MjcfAssets& assets);
+
+/// Makes fitted geoms the solids that they are to be, as MuJoCo does by default: of the inertia of their
+/// mesh, or with `fitaabb` around it.
+void fitGeoms(BodyTree& tree, const Compiler& compiler, Reading& reading);
+
+/// Gives all bodies their masses.
+void setMasses(BodyTree& tree, const Compiler& compiler, Reading& reading);
+
+/// <actuator>: how strong joints are. <equality>: which follow others, and what is pinned to what.
+/// <contact>: who may not collide.
+[[nodiscard]] const Known& knownOfActuator();
+void readActuators(const std::vector<Tag>& sections, Files& files, const Defaults& defaults,
+                   const Compiler& compiler, BodyTree& tree);
+[[nodiscard]] const Known& knownOfEquality();
+void readEqualities(const std::vector<Tag>& sections, Files& files, const Defaults& defaults,
+                    const Compiler& compiler, BodyTree& tree);
+/// The tags <connect>.
+void readPins(const std::vector<Tag>& tags, const Defaults& defaults, const Compiler& compiler,
+              BodyTree& tree);
+/// The name of a body of the tree, or "world".
+[[nodiscard]] const std::string& bodyIn(const Tag& tag, const char* attribute, const BodyTree& tree);
+/// Also lets the geoms of each <pair> touch.
+void readContacts(const std::vector<Tag>& sections, Files& files, BodyTree& tree);
+
+/// Warns of bodies with geoms that nothing can touch, or nothing that is added to the scene.
+void noteUntouchable(BodyTree& tree, Notes& notes);
+/// Forbids those between which there are several joints: bodies between joints hide that they are neighbours.
+void chooseNeighbours(BodyTree& tree);
+
+}  // namespace rex::mjcf

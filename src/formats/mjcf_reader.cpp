@@ -1,0 +1,333 @@
+#include "formats/mjcf_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "base/text.h"
+#include "formats/mjcf_parts_internal.h"
+#include "formats/scene_meshes.h"
+#include "geometry/rotation.h"
+
+namespace rex::mjcf {
+namespace {
+
+const std::vector<std::string> kOrientations = {"quat", "axisangle", "euler", "xyaxes", "zaxis"};
+
+[[noreturn]] void failAtDirection(const Tag& tag, const char* attribute, const char* wanted) {
+  tag.failAt(attribute, xml::quoted(tag.text(attribute)), wanted);
+}
+
+Eigen::Vector3d direction(const Tag& tag, const char* attribute, const Eigen::Vector3d& given,
+                          const char* wanted = "a direction") {
+  constexpr double kTiny = 1e-100;
+  const double length = given.stableNorm();
+  if (!(length > kTiny && length < 1 / kTiny)) failAtDirection(tag, attribute, wanted);
+  return given / length;
+}
+
+Eigen::Matrix3d fromEuler(const Eigen::Vector3d& angles, const Compiler& compiler) {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  for (int i = 0; i < 3; ++i) {
+    const char axis = compiler.eulerOrder[static_cast<std::size_t>(i)];
+    const bool turnsAlong = axis >= 'x';
+    const Eigen::Vector3d unit = Eigen::Vector3d::Unit(axis - (turnsAlong ? 'x' : 'X'));
+    const Eigen::Matrix3d turn = rotationAboutAxis(compiler.angle(angles[i]), unit);
+    R = turnsAlong ? Eigen::Matrix3d(R * turn) : Eigen::Matrix3d(turn * R);
+  }
+  return R;
+}
+
+Eigen::Matrix3d fromAxes(const Tag& tag) {
+  const char* wanted = "two directions that are not parallel";
+  const Eigen::VectorXd given = tag.numbers("xyaxes", 6);
+  const Eigen::Vector3d x = direction(tag, "xyaxes", given.head<3>(), wanted);
+  const Eigen::Vector3d along = direction(tag, "xyaxes", given.tail<3>(), wanted);
+  const Eigen::Vector3d rest = along - x * x.dot(along);
+  if (!(rest.norm() > 1e-12)) failAtDirection(tag, "xyaxes", wanted);
+  Eigen::Matrix3d R;
+  R.col(0) = x;
+  R.col(1) = rest.normalized();
+  R.col(2) = R.col(0).cross(R.col(1));
+  return R;
+}
+
+Eigen::Matrix3d orientationBy(const std::string& attribute, const Tag& tag, const Compiler& compiler) {
+  if (attribute == "euler") return fromEuler(tag.numbers("euler", 3), compiler);
+  if (attribute == "xyaxes") return fromAxes(tag);
+  if (attribute == "zaxis") return rotationFromZ(direction(tag, "zaxis", tag.numbers("zaxis", 3)));
+  const Eigen::Vector4d given = tag.numbers(attribute.c_str(), 4);
+  if (attribute == "axisangle")
+    return rotationAboutAxis(compiler.angle(given[3]),
+                             direction(tag, "axisangle", given.head<3>(), "a direction and an angle"));
+  const double length = given.stableNorm();
+  if (!(length > 1e-100 && length < 1e100)) failAtDirection(tag, "quat", "a quaternion w x y z");
+  return rotationFromQuaternion(given / length);
+}
+
+// The attributes of the tag itself override its defaults.
+Eigen::Matrix3d orientationOf(const Styled& styled, const Compiler& compiler) {
+  const std::string* only = nullptr;
+  for (const bool ofOwn : {true, false}) {
+    for (const std::string& name : kOrientations) {
+      const Tag& giver = ofOwn ? styled.own() : styled.giver(name.c_str());
+      if (!giver.has(name)) continue;
+      if (only)
+        giver.fail(giver.where(name.c_str()), "two orientations", fmt::format("'{}' and '{}'", *only, name),
+                   "one");
+      only = &name;
+    }
+    if (only) break;
+  }
+  if (!only) return Eigen::Matrix3d::Identity();
+  return orientationBy(*only, styled.giver(only->c_str()), compiler);
+}
+
+double notLessThanZero(const Tag& tag, const char* attribute, double otherwise) {
+  return std::max(0., tag.number(attribute, otherwise));
+}
+
+void readEulerOrder(const Tag& tag, Compiler& compiler) {
+  if (!tag.has("eulerseq")) return;
+  const std::string& order = tag.text("eulerseq");
+  if (order.size() != 3 || order.find_first_not_of("xyzXYZ") != std::string::npos)
+    tag.failAt("eulerseq", xml::quoted(order), "three letters from x, y, z, X, Y and Z");
+  compiler.eulerOrder = order;
+}
+
+void readCoordinates(const Tag& tag, Compiler& compiler) {
+  if (!tag.has("coordinate")) return;
+  compiler.global = choice(tag, "coordinate", {"local", "global"}) == 1;
+  if (compiler.global)
+    tag.warn(tag.where("coordinate"),
+             "global coordinates, which MuJoCo no longer supports: a body without 'pos' has the frame of the "
+             "world");
+}
+
+void readGroups(const Tag& tag, Compiler& compiler) {
+  if (!tag.has("inertiagrouprange")) return;
+  const Eigen::VectorXd groups = tag.numbers("inertiagrouprange", 2);
+  const Eigen::VectorXd bounded = groups.cwiseMax(-1e6).cwiseMin(1e6);
+  compiler.leastGroup = static_cast<int>(std::ceil(bounded[0]));
+  compiler.mostGroup = static_cast<int>(std::floor(bounded[1]));
+}
+
+const Known& knownOfCompiler() {
+  static const Known kKnown = {
+      {"angle", "autolimits", "coordinate", "eulerseq", "meshdir", "assetdir", "inertiafromgeom",
+       "inertiagrouprange", "strippath", "boundmass", "boundinertia", "settotalmass", "balanceinertia",
+       "fitaabb", "exactmeshinertia"},
+      {},
+      {"lengthrange"},
+      {"fusestatic", "discardvisual", "usethread", "texturedir", "convexhull", "alignfree", "saveinertial",
+       "conflict"}};
+  return kKnown;
+}
+
+}  // namespace
+
+double Compiler::angle(double given) const { return degrees ? given * std::numbers::pi / 180 : given; }
+
+void readCompiler(const Tag& given, Compiler& compiler) {
+  using Inertia = Compiler::Inertia;
+  const Tag tag = given.of("<compiler>");
+  tag.expect(knownOfCompiler());
+  readCoordinates(tag, compiler);
+  if (tag.has("angle")) compiler.degrees = choice(tag, "angle", {"radian", "degree"}) == 1;
+  const auto readFlag = [&](const char* name, bool& value) {
+    if (tag.has(name)) value = flag(tag, name);
+  };
+  readFlag("autolimits", compiler.autolimits);
+  readFlag("strippath", compiler.stripsPaths);
+  readFlag("balanceinertia", compiler.balancesMoments);
+  readFlag("fitaabb", compiler.fitsBounds);
+  if (tag.has("exactmeshinertia"))
+    compiler.meshInertia = flag(tag, "exactmeshinertia") ? MeshInertia::kExact : MeshInertia::kLegacy;
+  readEulerOrder(tag, compiler);
+  for (const char* name : {"assetdir", "meshdir"})
+    if (tag.has(name)) compiler.meshFolder = tag.text(name);
+  if (tag.has("inertiafromgeom")) {
+    constexpr Inertia kMeaning[] = {Inertia::kGiven, Inertia::kFromGeoms, Inertia::kEither};
+    compiler.inertia = kMeaning[choice(tag, "inertiafromgeom", {"false", "true", "auto"})];
+  }
+  readGroups(tag, compiler);
+  compiler.leastMass = notLessThanZero(tag, "boundmass", compiler.leastMass);
+  compiler.leastMoment = notLessThanZero(tag, "boundinertia", compiler.leastMoment);
+  if (tag.has("settotalmass")) {
+    const double total = tag.number("settotalmass");
+    compiler.totalMass = total > 0 ? std::optional(total) : std::nullopt;
+  }
+}
+
+Pose poseOf(const Styled& tag, const Compiler& compiler) {
+  Pose X;
+  const Tag& giver = tag.giver("pos");
+  if (giver.has("pos")) X.p = giver.numbers("pos", 3);
+  X.R = orientationOf(tag, compiler);
+  return X;
+}
+
+Eigen::Matrix3d rotationFromZ(const Eigen::Vector3d& direction) {
+  Eigen::Vector3d axis(-direction.y(), direction.x(), 0);
+  const double sine = axis.norm();
+  if (sine < 1e-10 * std::abs(direction.z())) axis = Eigen::Vector3d::UnitX();
+  return rotationAboutAxis(std::atan2(sine, direction.z()), axis);
+}
+
+std::vector<std::string> withPose(std::vector<std::string> others) {
+  others.emplace_back("pos");
+  others.insert(others.end(), kOrientations.begin(), kOrientations.end());
+  return others;
+}
+
+std::size_t choice(const Tag& tag, const char* attribute, const std::vector<std::string>& words) {
+  const std::string& word = tag.text(attribute);
+  const auto found = std::find(words.begin(), words.end(), word);
+  if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
+  const std::string wanted =
+      fmt::format("{} or {}", join(std::span(words).first(words.size() - 1), ", "), words.back());
+  tag.fail(tag.where(attribute), fmt::format("attribute '{}'", attribute), xml::quoted(word), wanted,
+           nearestNames(word, words));
+}
+
+bool flag(const Tag& tag, const char* attribute) { return choice(tag, attribute, {"false", "true"}) == 1; }
+
+bool isLimited(const Styled& tag, const char* limited, const char* range, const Compiler& compiler) {
+  const Tag& giver = tag.giver(limited);
+  const std::size_t said = giver.has(limited) ? choice(giver, limited, {"false", "true", "auto"}) : 2;
+  if (said < 2) return said == 1;
+  if (!tag.has(range)) return false;
+  if (!compiler.autolimits)
+    tag.own().remark(fmt::format("{} of <{}> has no effect: autolimits is off, and {} is not given", range,
+                                 tag.own().name(), limited));
+  return compiler.autolimits;
+}
+
+}  // namespace rex::mjcf
+
+namespace rex {
+namespace {
+
+using namespace mjcf;
+
+const Known& knownOfModel() {
+  static const Known kKnown = {
+      {"model"},
+      {"include", "compiler", "option", "default", "asset", "worldbody", "actuator", "equality", "contact"},
+      {"size", "visual", "statistic", "custom", "deformable", "tendon", "sensor", "keyframe", "extension"}};
+  return kKnown;
+}
+
+// The sections with that name in all files.
+std::vector<Tag> named(const std::vector<Tag>& sections, const char* name) {
+  std::vector<Tag> found;
+  for (const Tag& tag : sections)
+    if (tag.name() == name) found.push_back(tag);
+  return found;
+}
+
+void noteOption(const Tag& given) {
+  const Tag tag = given.of("<option>");
+  tag.ignore("<option>");
+  const Eigen::Vector3d usual(0, 0, -9.81);
+  if (tag.has("gravity") && !tag.numbers("gravity", 3).isApprox(usual, 1e-9))
+    tag.warn(tag.where("gravity"), "rex always computes with a gravity of 9.81 m/s^2 along -z");
+}
+
+// One warning for all joints that start outside their ranges.
+void noteStarts(const std::vector<urdf::ReadJoint>& joints, Notes& notes) {
+  const JointSpec* first = nullptr;
+  int count = 0;
+  for (const auto& [joint, parentAt, childAt, mimicAt] : joints) {
+    if (joint.lower.size() == 0) continue;
+    const double start = joint.q0.size() > 0 ? joint.q0[0] : 0;
+    if (start >= joint.lower[0] && start <= joint.upper[0]) continue;
+    if (count++ == 0) first = &joint;
+  }
+  if (count == 0) return;
+  const std::string others = count == 1   ? ""
+                             : count == 2 ? ", and so does another joint"
+                                          : fmt::format(", and so do {} other joints", count - 1);
+  notes.warn(first->where, fmt::format("joint '{}' starts outside its range, {:.4g} to {:.4g}{}", first->name,
+                                       first->lower[0], first->upper[0], others));
+}
+
+// A model as text; its bodies have no masses yet.
+BodyTree readModel(Files& files, const std::string& name, Compiler& compiler) {
+  const std::vector<Tag> sections = files.children(files.root(), knownOfModel());
+  for (const Tag& tag : named(sections, "compiler")) readCompiler(tag, compiler);
+  for (const Tag& tag : named(sections, "option")) noteOption(tag);
+  Defaults defaults;
+  for (const Tag& tag : named(sections, "default")) defaults.read(tag, files);
+  MjcfAssets assets;
+  for (const Tag& tag : named(sections, "asset"))
+    readAssets(tag.of("<asset>"), files, defaults, compiler, assets);
+  BodyTree tree = readTree(named(sections, "worldbody"), files, defaults, compiler, assets);
+  tree.spec.name = name;
+  readActuators(named(sections, "actuator"), files, defaults, compiler, tree);
+  readEqualities(named(sections, "equality"), files, defaults, compiler, tree);
+  readContacts(named(sections, "contact"), files, tree);
+  noteUntouchable(tree, files.main().notes);
+  chooseNeighbours(tree);
+  urdf::keepTargetsMovable(tree.joints, files.main());
+  noteStarts(tree.joints, files.main().notes);
+  for (const urdf::ReadJoint& joint : tree.joints) tree.spec.joints.push_back(joint.spec);
+  return tree;
+}
+
+void joinNotes(Diagnostics& notes, const Diagnostics& more) {
+  notes.insert(notes.end(), more.begin(), more.end());
+}
+
+void refuseFreeBase(const std::string& name, const ReadOptions& options) {
+  if (!options.freeBase) return;
+  throw Error({.what = "a free base",
+               .where = {name},
+               .found = "a model of MuJoCo",
+               .wanted = "a <freejoint/> in its first body instead"});
+}
+
+SceneFile readModelFile(std::string_view text, const std::string& name, const Assets* assets,
+                        const ReadOptions& options) {
+  refuseFreeBase(name, options);
+  Files files(text, name, assets, options.strict);
+  SceneFile scene;
+  try {
+    Compiler compiler;
+    BodyTree tree = readModel(files, name, compiler);
+    scene.spec = std::move(tree.spec);
+    if (assets) loadMeshes(scene, *assets, options);
+    tree.spec = std::move(scene.spec);
+    fitGeoms(tree, compiler, files.main());
+    setMasses(tree, compiler, files.main());
+    scene.spec = std::move(tree.spec);
+  } catch (const Error&) {
+    if (options.notesOfFailure) {
+      joinNotes(*options.notesOfFailure, files.takeNotes());
+      joinNotes(*options.notesOfFailure, scene.notes);
+    }
+    throw;
+  }
+  Diagnostics notes = files.takeNotes();
+  joinNotes(notes, scene.notes);
+  scene.notes = std::move(notes);
+  return scene;
+}
+
+}  // namespace
+
+SceneFile parseMjcf(std::string_view text, const std::string& name, const ReadOptions& options) {
+  return readModelFile(text, name, nullptr, options);
+}
+
+SceneFile readMjcf(const std::filesystem::path& file, const ReadOptions& options) {
+  constexpr std::size_t kLargest = 8u << 20;
+  const Assets assets(file, options.assetRoot);
+  return readModelFile(readSceneText(file, kLargest), file.string(), &assets, options);
+}
+
+}  // namespace rex
