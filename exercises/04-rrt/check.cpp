@@ -29,7 +29,7 @@ void radiusOfTwoArms(Check& check, Student& student) {
 void planeOfOneArm(Check& check, Student& student) { densitiesFit(check, student, 0.6, 0.4, true); }
 
 // <hidden>
-void anyArm(Check& check, Student& student) {
+void checkOtherArms(Check& check, Student& student) {
   for (int i = 0; i < 6; ++i) {
     const double l1 = check.rng().uniform(0.2, 2), l2 = i == 0 ? l1 : check.rng().uniform(0.2, 2);
     densitiesFit(check, student, l1, l2, true);
@@ -56,8 +56,8 @@ void nearestAndStep(Check& check, Student& student) {
 
 void targets(Check& check, Student& student) {
   Rng given = generatorsOf(check);
-  for (const double goalBias : {0., 0.1, 0.5, 1.}) drawsWell(check, student, goalBias, 1500, given);
-  drawsWell(check, student, check.rng().uniform(0.2, 0.9), 1500, given);
+  for (const double goalBias : {0., 0.1, 0.5, 1.}) checkSampler(check, student, goalBias, 1500, given);
+  checkSampler(check, student, check.rng().uniform(0.2, 0.9), 1500, given);
 }
 
 void stepsInThePlane(Check& check, Student& student) {
@@ -189,7 +189,7 @@ void bothSidesIntoTheHole(Check& check, Student& student) {
 
 // Part 5.
 
-void staysFree(Check& check, Student& student) {
+void checkClearance(Check& check, Student& student) {
   Rng given = generatorsOf(check);
   for (int i = 0; i < 6; ++i) {
     const PlaneProblem problem = twoWalls(check.rng());
@@ -328,7 +328,7 @@ rex::grading::Checks<Student> checks() {
       {"connect-plane", "connect", "From both sides between thin walls (no points)", 0, Group::kVisible,
        bothSidesInThePlane},
       {"connect-arm", "connect", "From both sides into the hole", 1, Group::kVisible, bothSidesIntoTheHole},
-      {"smooth-free", "smooth", "Shorter, with the same ends, and free", 1, Group::kVisible, staysFree},
+      {"smooth-free", "smooth", "Shorter, with the same ends, and free", 1, Group::kVisible, checkClearance},
       {"phase-effort", "phase", "The least effort and its force", 1, Group::kVisible, effortOfTransfers},
       {"phase-whole-step", "phase", "A step, of the whole motion or a part of it (no points)", 0,
        Group::kVisible, stepsToTheTarget},
@@ -337,7 +337,8 @@ rex::grading::Checks<Student> checks() {
       {"star-thin-walls", "star", "A whole tree between thin walls (no points)", 0, Group::kVisible,
        growsAroundThinWalls},
       // <hidden>
-      {"reach-any-arm", "reach", "Other arms, and the density in the plane", 1, Group::kHidden, anyArm},
+      {"reach-any-arm", "reach", "Other arms, and the density in the plane", 1, Group::kHidden,
+       checkOtherArms},
       {"step-corners", "step", "Steps past corners of other worlds", 1, Group::kHidden, stepsPastCorners},
       {"backward-worlds", "backward", "Other worlds, and the goal bias", 1, Group::kHidden, backwardAnywhere},
       {"connect-worlds", "connect", "From both sides in other worlds", 1, Group::kHidden, growsFromBothSides},

@@ -136,7 +136,8 @@ inline void drawsAreUniform(rex::grading::Check& check, const Eigen::MatrixXd& o
              Eigen::Vector3d::Zero(), sigmas / std::sqrt(count));
 }
 
-inline void drawsWell(rex::grading::Check& check, Student& student, double goalBias, int n, rex::Rng& given) {
+inline void checkSampler(rex::grading::Check& check, Student& student, double goalBias, int n,
+                         rex::Rng& given) {
   const Eigen::Vector3d lower(-1, 2, -0.5), upper(1, 2.5, 6), aim(7, 8, 9);
   const SearchSettings settings{lower, upper, 0.1, goalBias, 1000};
   check.input(fmt::format("{} draws", n),

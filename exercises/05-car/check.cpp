@@ -33,7 +33,7 @@ void stepsLikeTheCar(Check& check, Student& student) {
     const CarWorld world{
         .tau = rng.uniform(0.2, 2), .wheelbase = rng.uniform(1, 4), .landmarks = Eigen::MatrixXd::Zero(2, 1)};
     const Eigen::Vector3d x = randomPose(rng);
-    stepFits(check, student, world, x, {rng.uniform(-3, 3), rng.uniform(-1.2, 1.2)});
+    checkStep(check, student, world, x, {rng.uniform(-3, 3), rng.uniform(-1.2, 1.2)});
   }
 }
 

@@ -48,8 +48,8 @@ inline void headingFits(rex::grading::Check& check, double got, double heading, 
        {"Does the car turn to the wrong side?", heading - way / L * tangent}});
 }
 
-inline void stepFits(rex::grading::Check& check, Student& student, const CarWorld& world,
-                     const Eigen::Vector3d& x, const Eigen::Vector2d& u) {
+inline void checkStep(rex::grading::Check& check, Student& student, const CarWorld& world,
+                      const Eigen::Vector3d& x, const Eigen::Vector2d& u) {
   check.input("a car", {{"x", x}, {"u", u}, {"tau", world.tau}, {"wheelbase", world.wheelbase}});
   const Eigen::Vector3d got = student.carStep(x, u, world), wanted = mapOf(world).getMeanStateAfterStep(x, u);
   check.shape("state after a step of carStep", got, 3, 1);

@@ -65,7 +65,7 @@ inline std::vector<Eigen::Vector2d> uniformNumbers(rex::Rng rng) {
   return {std::sqrt(12) * middle, 2 * middle, middle, drawn};
 }
 
-inline void stepFits(rex::grading::Check& check, Student& student, const PoleCart& cart, double noise) {
+inline void checkStep(rex::grading::Check& check, Student& student, const PoleCart& cart, double noise) {
   rex::Rng& rng = check.rng();
   const Eigen::Vector4d x = rng.normalVector(4);
   const double u = 5 * rng.normal(), tau = rng.uniform(.005, .1);
@@ -241,7 +241,7 @@ inline void stepsFit(rex::grading::Check& check, Student& student, const PoleCar
     const bool isOuting = states.rows() == 4 && states.cols() > 1;
     return isOuting ? seenApart(states, wanted, calm.tau, 1e-6) : rex::grading::Evidence{};
   });
-  for (int i = 0; i < 20; ++i) stepFits(check, student, randomCart(check.rng()), i < 10 ? 0 : .1 * i);
+  for (int i = 0; i < 20; ++i) checkStep(check, student, randomCart(check.rng()), i < 10 ? 0 : .1 * i);
 }
 
 /// Balances for 50 s with the student's own A, B, P and K. With the gains of the sheet's costs and noise

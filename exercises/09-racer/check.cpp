@@ -26,8 +26,8 @@ void forces(Check& check, Student& student) {
 }
 
 void steps(Check& check, Student& student) {
-  stepFits(check, student, RacerModel{}, .01);
-  stepFits(check, student, randomRacer(check.rng()), .02);
+  checkStep(check, student, RacerModel{}, .01);
+  checkStep(check, student, randomRacer(check.rng()), .02);
 }
 
 void noises(Check& check, Student& student) {

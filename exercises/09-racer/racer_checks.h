@@ -112,7 +112,7 @@ inline void rateFits(rex::grading::Check& check, Student& student, const RacerMo
 
 /// Exact up to what F by finite differences loses: the error of the method itself is a hundred times as
 /// large.
-inline void stepFits(rex::grading::Check& check, Student& student, const RacerModel& racer, double tau) {
+inline void checkStep(rex::grading::Check& check, Student& student, const RacerModel& racer, double tau) {
   const rex::RacerDynamics plant = dynamicsOf(racer);
   for (int i = 0; i < 10; ++i) {
     const Eigen::Vector4d x = randomState(check.rng());

@@ -165,8 +165,8 @@ inline void controlFits(rex::grading::Check& check, double got, const Eigen::Vec
              "N m");
 }
 
-inline void motionFits(rex::grading::Check& check, const Situation& in, const Eigen::Vector4d& got,
-                       const Eigen::Vector4d& x, double u, const Eigen::Vector2d& noise) {
+inline void checkMotion(rex::grading::Check& check, const Situation& in, const Eigen::Vector4d& got,
+                        const Eigen::Vector4d& x, double u, const Eigen::Vector2d& noise) {
   const Eigen::Vector4d still = kicked(in, x, u, {0, 0}), wanted = kicked(in, x, u, noise);
   Eigen::Vector4d early = x;
   early.tail<2>() += noise;
@@ -195,7 +195,7 @@ inline void stepsFit(rex::grading::Check& check, const Situation& in, const Eige
     place.step = t + 1;
     (ride.states.col(t + 1) - next).cwiseAbs().maxCoeff(&place.row);
     check.input(step, {{"x", x}, {"u", ride.controls[t]}, {"noise", noise.col(t)}});
-    motionFits(check, in, ride.states.col(t + 1), x, ride.controls[t], noise.col(t));
+    checkMotion(check, in, ride.states.col(t + 1), x, ride.controls[t], noise.col(t));
   }
 }
 

@@ -155,8 +155,8 @@ void endsInTime(Check& check, Student& student, const KnownGait& gait) {
 
 void steps(Check& check, Student& student) {
   const KnownGait gait = gaitOf({});
-  for (int i = 0; i < 5; ++i) stepFits(check, student, gait);
-  stepFits(check, student, gait, .03);
+  for (int i = 0; i < 5; ++i) checkStep(check, student, gait);
+  checkStep(check, student, gait, .03);
   doesNotStep(check, student, gait.walker, {.22, -.22 - 2 * gait.walker.slope, -.3, -.3}, "the walker falls");
   endsInTime(check, student, gait);
 }
@@ -181,7 +181,7 @@ void otherSteps(Check& check, Student& student) {
     const Walker walker = randomWalker(check.rng());
     for (int k = 0; k < 3; ++k) impactFits(check, student, walker);
     const KnownGait known = gaitOf(walker);
-    if (i % 2 == 0) stepFits(check, student, known);
+    if (i % 2 == 0) checkStep(check, student, known);
     if (i % 2 == 1) derivativeFits(check, student, known);
   });
 }

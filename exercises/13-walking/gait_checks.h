@@ -227,7 +227,7 @@ inline rex::grading::Evidence stepSeen(const Walker& walker, Eigen::Vector4d x, 
 
 /// A step that begins with the swing foot lifted by that angle: then the sum of the angles falls through its
 /// value at once, while the foot is still behind.
-inline void stepFits(rex::grading::Check& check, Student& student, const KnownGait& gait, double lift = 0) {
+inline void checkStep(rex::grading::Check& check, Student& student, const KnownGait& gait, double lift = 0) {
   Eigen::Vector4d x;
   rex::WalkerStep wanted;
   do {

@@ -136,7 +136,7 @@ void takesSteps(Check& check, Student& student, double damping, bool areWeighted
               {{"damping", damping}});
   const Eigen::VectorXd step = student.gaussNewtonStep(map, weights, damping);
   check.shape("step of gaussNewtonStep", step, 3 * poses, 1);
-  stepFits(check, step, map, weights, damping);
+  checkStep(check, step, map, weights, damping);
 }
 
 void takesPlainSteps(Check& check, Student& student) {
@@ -300,7 +300,7 @@ void findsBestMotions(Check& check, Student& student) {
     const auto shown = check.show([&] { return motionSeen(from, to, got); });
     check.shape("motion of bestMotion", got, 3, 1);
     const Eigen::Vector3d best = number % 3 == 0 ? motion : bestOf(from, to);
-    motionFits(check, from, to, got, best);
+    checkMotion(check, from, to, got, best);
     const double least = squaresOf(from, to, got);
     for (int trial = 0; trial < 60; ++trial) {
       const double radius = trial < 20 ? 1e-3 : trial < 40 ? 0.1 : 3;

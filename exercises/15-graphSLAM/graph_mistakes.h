@@ -189,8 +189,8 @@ inline Eigen::VectorXd denseStep(const Equations& equations, double damping, boo
   return step;
 }
 
-inline void stepFits(rex::grading::Check& check, const Eigen::VectorXd& got, const PoseMap& map,
-                     const std::vector<double>& weights, double damping) {
+inline void checkStep(rex::grading::Check& check, const Eigen::VectorXd& got, const PoseMap& map,
+                      const std::vector<double>& weights, double damping) {
   const Equations equations = equationsOf(map, weights),
                   alike = equationsOf(map, std::vector<double>(weights.size(), 1));
   const Eigen::Index n = equations.b.size() - 3;

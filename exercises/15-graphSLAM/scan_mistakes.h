@@ -79,8 +79,8 @@ inline Eigen::Vector3d bestOf(const Points& from, const Points& to) {
   return betweenMeans(from, to, best, best);
 }
 
-inline void motionFits(rex::grading::Check& check, const Points& from, const Points& to,
-                       const Eigen::Vector3d& got, const Eigen::Vector3d& wanted) {
+inline void checkMotion(rex::grading::Check& check, const Points& from, const Points& to,
+                        const Eigen::Vector3d& got, const Eigen::Vector3d& wanted) {
   const auto near = [&](Eigen::Vector3d motion) {
     motion[2] = wanted[2] + byTurns(motion[2] - wanted[2]);
     return motion;

@@ -140,7 +140,7 @@ void learns(Check& check, Student& student, bool isSarsa, int states, int action
   check.near("Q after the steps", got, wanted, 1e-9);
 }
 
-void learnsBest(Check& check, Student& student) {
+void checkQSteps(Check& check, Student& student) {
   learns(check, student, false, 3, 2, 1, false);
   learns(check, student, false, 3, 2, 6, true);
 }
@@ -207,7 +207,7 @@ void plansSmall(Check& check, Student& student) {
 }
 
 // maxReward is at least 2, for no reward of randomSteps() exceeds that.
-void hopes(Check& check, Student& student, int states, double maxReward, double discount) {
+void checkOptimism(Check& check, Student& student, int states, double maxReward, double discount) {
   const LearnedWorld model = modelOf(randomSteps(states, 2, 6 * states, check.rng()), states, 2);
   // As many as some pair was tried, and others less often.
   std::vector<double> tries(model.visits.data(), model.visits.data() + model.visits.size());
@@ -238,7 +238,7 @@ void hopes(Check& check, Student& student, int states, double maxReward, double 
   check.near("Q of optimisticValues", got, wanted, 2e-6 * std::max(1., wanted.cwiseAbs().maxCoeff()));
 }
 
-void hopesSmall(Check& check, Student& student) { hopes(check, student, 4, 2, .8); }
+void checkSmallOptimism(Check& check, Student& student) { checkOptimism(check, student, 4, 2, .8); }
 
 void bounds(Check& check, Student& student, const Eigen::VectorXi& pulls, const Eigen::VectorXd& paid) {
   check.input("arms", {{"pulls", Eigen::VectorXd(pulls.cast<double>())}, {"paid", paid}});
@@ -319,7 +319,7 @@ void plansMore(Check& check, Student& student) {
 }
 
 void hopesMore(Check& check, Student& student) {
-  check.forEachCase(6, [&](int i) { hopes(check, student, 2 + 2 * i, 2 + i, .15 * (i + 1)); });
+  check.forEachCase(6, [&](int i) { checkOptimism(check, student, 2 + 2 * i, 2 + i, .15 * (i + 1)); });
 }
 // </hidden>
 
@@ -328,11 +328,11 @@ void hopesMore(Check& check, Student& student) {
 rex::grading::Checks<Student> checks() {
   return {
       {"choices", "q", "Epsilon-greedy actions", 1, Group::kVisible, choices},
-      {"q-steps", "q", "Q-learning from a few steps", 1, Group::kVisible, learnsBest},
+      {"q-steps", "q", "Q-learning from a few steps", 1, Group::kVisible, checkQSteps},
       {"sarsa-steps", "sarsa", "SARSA from a few steps", 1, Group::kVisible, learnsTaken},
       {"estimate", "model", "The model of a few steps", 1, Group::kVisible, estimatesFew},
       {"plan", "model", "A plan in a model", 1, Group::kVisible, plansSmall},
-      {"hope", "rmax", "A plan that hopes", 1, Group::kVisible, hopesSmall},
+      {"hope", "rmax", "A plan that hopes", 1, Group::kVisible, checkSmallOptimism},
       {"bounds", "bandits", "Upper confidence bounds of a few arms", 1, Group::kVisible, boundsOfThree},
       // <hidden>
       {"other-choices", "q", "Other numbers of actions", 1, Group::kHidden, otherChoices},

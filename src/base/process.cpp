@@ -32,8 +32,8 @@ bool applyLimits(const ProcessOptions& options) {
 }
 
 // Between fork and exec only async-signal-safe calls are allowed: everything is prepared before.
-[[noreturn]] void becomeProgram(char* const* argv, const char* directory, const ProcessOptions& options,
-                                const int (&standard)[3], int statusFd) {
+[[noreturn]] void execProgram(char* const* argv, const char* directory, const ProcessOptions& options,
+                              const int (&standard)[3], int statusFd) {
   sigset_t none;
   ::sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
@@ -187,7 +187,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& argv, const ProcessOp
     ::environ = environment.data();
     const int standard[3] = {running.in.readEnd(), kept ? running.out.writeEnd() : -1,
                              kept ? running.err.writeEnd() : -1};
-    becomeProgram(arguments.data(), directory.c_str(), options, standard, failure.writeEnd());
+    execProgram(arguments.data(), directory.c_str(), options, standard, failure.writeEnd());
   };
   running.child = forkChild(argv[0], become, {.ownGroup = kept});
   running.in.closeRead(), running.out.closeWrite(), running.err.closeWrite(), failure.closeWrite();

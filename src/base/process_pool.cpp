@@ -86,8 +86,8 @@ class Copies {
 
 }  // namespace
 
-void runInCopies(int count, int parallel, const std::function<int(int)>& job,
-                 const std::function<void(int, int)>& ended, int cpuSeconds) {
+void forkMap(int count, int parallel, const std::function<int(int)>& job,
+             const std::function<void(int, int)>& ended, int cpuSeconds) {
   Copies copies;
   try {
     for (int next = 0; next < count || copies.count() > 0;) {

@@ -9,7 +9,7 @@ namespace rex {
 /// the signal that killed its process. Copies end when this process dies. If `cpuSeconds` is not 0, the
 /// kernel ends a copy that itself has used more processor time (SIGXCPU); programs that it starts count for
 /// themselves. Throws Interrupted after all copies have cleaned up, and Error if no process can be made.
-void runInCopies(int count, int parallel, const std::function<int(int)>& job,
-                 const std::function<void(int, int)>& ended, int cpuSeconds = 0);
+void forkMap(int count, int parallel, const std::function<int(int)>& job,
+             const std::function<void(int, int)>& ended, int cpuSeconds = 0);
 
 }  // namespace rex

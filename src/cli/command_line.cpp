@@ -138,7 +138,7 @@ std::string manualPage() {
 
 // Builds that program of rex if it is out of date, and executes it in place of this one, with the same
 // arguments. Throws like bringUpToDate(), and Error if there is no such program.
-[[noreturn]] void becomeProgram(const Project& project, Program program, std::vector<std::string> words) {
+[[noreturn]] void execProgram(const Project& project, Program program, std::vector<std::string> words) {
   const std::string name = programName(program);
   bringUpToDate(project, {name}, name);
   const std::string file = (project.build / name).string();
@@ -188,14 +188,15 @@ Action explainExtras(const CLI::App* command, const std::string& word) {
       for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
     if (std::ranges::find(known, word.substr(0, word.find('='))) != known.end())
       return complain(
-          fmt::format("rex: option '{}' must come after `{}`", harmless(word), fullName(command)));
+          fmt::format("rex: option '{}' must come after `{}`", escapeForTerminal(word), fullName(command)));
   } else {
     for (const CLI::App* inner : command->get_subcommands([](const CLI::App*) { return true; }))
       known.push_back(inner->get_name());
   }
   const std::string kind = isOption ? "option" : known.empty() ? "argument" : "command";
-  const Error error({.what = fmt::format("{}: unknown {} '{}'", fullName(command), kind, harmless(word)),
-                     .nearest = nearestNames(word, known)});
+  const Error error(
+      {.what = fmt::format("{}: unknown {} '{}'", fullName(command), kind, escapeForTerminal(word)),
+       .nearest = nearestNames(word, known)});
   return complain(fmt::format("{}\n`{} --help` shows what is available.", error.what(), fullName(command)));
 }
 
@@ -213,7 +214,7 @@ std::string reasonOf(const CLI::ParseError& error, const CLI::App* command) {
   if (!text.starts_with(start) || at == std::string::npos) return text;
   const std::string option = text.substr(start.size(), at - start.size());
   return Error({.what = option,
-                .found = "'" + harmless(text.substr(at + sign.size())) + "'",
+                .found = "'" + escapeForTerminal(text.substr(at + sign.size())) + "'",
                 .wanted = isFlag(command, option) ? "no value" : "a number"})
       .what();
 }
@@ -292,7 +293,7 @@ Action parse(CLI::App& program, const std::vector<std::string>& words, const Act
 Action actionOf(int argc, const char* const* argv, const Room& room, const Project& here) {
   const std::vector<std::string> words = wordsOf(argc, argv);
   const auto handOver = [words](Program other) {
-    return [=](const Project& project) -> ExitCode { becomeProgram(project, other, words); };
+    return [=](const Project& project) -> ExitCode { execProgram(project, other, words); };
   };
   Action action = room.withoutCommand ? room.withoutCommand : handOver(Program::kStudent);
   CLI::App program("Robotics exercises: see, solve and test them. Without a command: your progress", "rex");

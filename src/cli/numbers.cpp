@@ -88,7 +88,7 @@ NumberTable readNumberTable(const std::filesystem::path& file, const std::string
     for (const std::string_view word : numberWords(content, refuse)) {
       where.column = columnIn(line, word);
       const std::optional<double> number = parseNumber<double>(word);
-      if (!number) refuse("'" + harmless(word) + "'", "a number");
+      if (!number) refuse("'" + escapeForTerminal(word) + "'", "a number");
       row.values.push_back(*number);
     }
     where.column = row.column;

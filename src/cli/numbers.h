@@ -22,7 +22,7 @@ auto asWrongUse(const Attempt& attempt, const std::string& option = "") {
     return attempt();
   } catch (const Error& error) {
     ErrorParts parts = error.parts();
-    parts.what = harmless(option + parts.what);
+    parts.what = escapeForTerminal(option + parts.what);
     throw UsageError(std::move(parts));
   }
 }

@@ -12,7 +12,7 @@ std::string wrongSeed(const std::string& text) {
   const bool isOne =
       !text.empty() && text.size() <= kMostDigits && text.find_first_not_of("0123456789") == text.npos;
   return isOne ? ""
-               : fmt::format("found {}, wanted a whole number of at most {} digits", harmless(text),
+               : fmt::format("found {}, wanted a whole number of at most {} digits", escapeForTerminal(text),
                              kMostDigits);
 }
 

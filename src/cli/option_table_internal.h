@@ -30,7 +30,7 @@ Value choose(const char* option, const std::string& name,
     names.push_back(known);
   }
   throw UsageError({.what = option,
-                    .found = "'" + harmless(name) + "'",
+                    .found = "'" + escapeForTerminal(name) + "'",
                     .wanted = join(names, ", "),
                     .nearest = nearestNames(name, names)});
 }

@@ -46,7 +46,7 @@ std::filesystem::path temporaryFolder() {
   if (!problem) return folder;
   const char* chosen = std::getenv("TMPDIR");
   throw Error({.what = "TMPDIR, where temporary files go",
-               .found = fmt::format("'{}'", harmless(chosen == nullptr ? "/tmp" : chosen)),
+               .found = fmt::format("'{}'", escapeForTerminal(chosen == nullptr ? "/tmp" : chosen)),
                .wanted = "a folder"});
 }
 

@@ -20,7 +20,7 @@ const grading::ReportFormat& reportFormat(const std::string& name) {
     known.emplace_back(format.name);
   }
   throw UsageError({.what = "--report",
-                    .found = harmless(name),
+                    .found = escapeForTerminal(name),
                     .wanted = fmt::format("one of {}", join(known, ", ")),
                     .nearest = nearestNames(name, known)});
 }

@@ -20,8 +20,9 @@ std::optional<sandbox::Sandbox> chooseSandbox(const Project& project, std::optio
   const PrivateFolder folder(temporaryFolder());
   const std::string reason = sandbox::whyNot(chosen, probeOf(project), folder.path());
   if (reason.empty()) return chosen;
-  note(wrap(fmt::format("sandbox level {} is not available here: {}", numberOf(*level), harmless(reason)), 0,
-            0));
+  note(wrap(
+      fmt::format("sandbox level {} is not available here: {}", numberOf(*level), escapeForTerminal(reason)),
+      0, 0));
   return {};
 }
 

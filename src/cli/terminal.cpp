@@ -91,7 +91,7 @@ std::string wrap(std::string_view text, std::size_t indent, std::size_t used) {
   return wrapped;
 }
 
-std::string harmless(std::string_view text) {
+std::string escapeForTerminal(std::string_view text) {
   constexpr std::size_t kLongest = 4096;
   return printable(text, kLongest);
 }

@@ -25,7 +25,7 @@ enum class Colour { kRed, kGreen, kYellow, kBold };
 [[nodiscard]] std::string wrap(std::string_view text, std::size_t indent, std::size_t used);
 
 /// The text as printable() shows it, truncated: for output of a student's program or text of a file.
-[[nodiscard]] std::string harmless(std::string_view text);
+[[nodiscard]] std::string escapeForTerminal(std::string_view text);
 
 /// Prints a line to standard output, through terminalText().
 void say(std::string_view line = "");

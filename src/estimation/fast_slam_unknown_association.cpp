@@ -87,8 +87,9 @@ constexpr int kNew = -1;
 
 }  // namespace
 
-UnnamedFastSlam::UnnamedFastSlam(const Eigen::Vector3d& pose, const LandmarkSensor& sensor,
-                                 const UnnamedFastSlamOptions& options)
+FastSlamUnknownAssociation::FastSlamUnknownAssociation(const Eigen::Vector3d& pose,
+                                                       const LandmarkSensor& sensor,
+                                                       const UnnamedFastSlamOptions& options)
     : sensor_(sensor), options_(options) {
   internal::requireFastSlam(pose, sensor, options.particles, options.threshold);
   requirePositive("association gate", options.gate);
@@ -98,16 +99,18 @@ UnnamedFastSlam::UnnamedFastSlam(const Eigen::Vector3d& pose, const LandmarkSens
   maps_.resize(static_cast<std::size_t>(options.particles));
 }
 
-Eigen::Vector3d UnnamedFastSlam::meanPose() const { return internal::meanPoseOf(poses_, weights_); }
+Eigen::Vector3d FastSlamUnknownAssociation::meanPose() const {
+  return internal::meanPoseOf(poses_, weights_);
+}
 
-std::vector<LandmarkBelief> UnnamedFastSlam::landmarks(int particle) const {
+std::vector<LandmarkBelief> FastSlamUnknownAssociation::landmarks(int particle) const {
   internal::requireParticle(particle, weights_.size());
   std::vector<LandmarkBelief> landmarks;
   for (const Landmark& one : maps_[static_cast<std::size_t>(particle)]) landmarks.push_back(one.belief);
   return landmarks;
 }
 
-std::vector<MappedLandmark> UnnamedFastSlam::map(double least) const {
+std::vector<MappedLandmark> FastSlamUnknownAssociation::map(double least) const {
   std::map<int, MappedLandmark> byOrigin;
   const auto forAll = [this](const auto& visit) {
     for (std::size_t k = 0; k < maps_.size(); ++k)
@@ -134,9 +137,9 @@ std::vector<MappedLandmark> UnnamedFastSlam::map(double least) const {
 
 // For each observation the number of its landmark, or kNew: the likeliest of all that give different
 // observations different landmarks.
-std::vector<int> UnnamedFastSlam::associate(const Map& map, const Eigen::Vector3d& pose,
-                                            const Eigen::Matrix3d& P,
-                                            std::span<const Eigen::Vector2d> ys) const {
+std::vector<int> FastSlamUnknownAssociation::associate(const Map& map, const Eigen::Vector3d& pose,
+                                                       const Eigen::Matrix3d& P,
+                                                       std::span<const Eigen::Vector2d> ys) const {
   const auto count = static_cast<Eigen::Index>(ys.size()), known = static_cast<Eigen::Index>(map.size());
   // The last columns are new landmarks.
   Eigen::MatrixXd cost = Eigen::MatrixXd::Constant(count, known + count, -newLandmark_);
@@ -157,9 +160,9 @@ std::vector<int> UnnamedFastSlam::associate(const Map& map, const Eigen::Vector3
   return partners;
 }
 
-void UnnamedFastSlam::move(Eigen::Index particle, const PoseTransition& transition,
-                           const Eigen::Matrix3d& root, std::span<const Eigen::Vector2d> ys,
-                           double& logWeight, Rng& rng) {
+void FastSlamUnknownAssociation::move(Eigen::Index particle, const PoseTransition& transition,
+                                      const Eigen::Matrix3d& root, std::span<const Eigen::Vector2d> ys,
+                                      double& logWeight, Rng& rng) {
   Map& map = maps_[static_cast<std::size_t>(particle)];
   const Eigen::Vector3d predicted = transition.mean(poses_.col(particle));
   requireFinite("next pose", predicted);
@@ -193,12 +196,12 @@ void UnnamedFastSlam::move(Eigen::Index particle, const PoseTransition& transiti
   std::erase_if(map, [](const Landmark& one) { return one.evidence < 0; });
 }
 
-FastSlamStep UnnamedFastSlam::step(const PoseTransition& transition, std::span<const Eigen::Vector2d> ys,
-                                   Rng& rng) {
+FastSlamStep FastSlamUnknownAssociation::step(const PoseTransition& transition,
+                                              std::span<const Eigen::Vector2d> ys, Rng& rng) {
   internal::requireTransition(
       transition, options_.observedProposal ? Definiteness::kPositive : Definiteness::kSemidefinite);
   for (const Eigen::Vector2d& y : ys) requireFinite("observation", y);
-  UnnamedFastSlam moved(*this);  // an exception changes nothing
+  FastSlamUnknownAssociation moved(*this);  // an exception changes nothing
   const Eigen::Matrix3d root = covarianceRoot(transition.noise);
   Eigen::VectorXd logWeights = weights_.array().log();
   for (Eigen::Index k = 0; k < weights_.size(); ++k) moved.move(k, transition, root, ys, logWeights[k], rng);

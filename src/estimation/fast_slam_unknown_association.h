@@ -41,11 +41,11 @@ struct MappedLandmark {
 /// expected likelihood, or that they are new. Slide 7:41; Montemerlo 2003; Thrun, Burgard and Fox,
 /// Probabilistic Robotics, table 13.1. The observations of a step belong to different landmarks: the
 /// likeliest such assignment is taken.
-class UnnamedFastSlam {
+class FastSlamUnknownAssociation {
  public:
   /// All particles start at the pose. Throws Error like FastSlam, and for a gate that is not positive.
-  UnnamedFastSlam(const Eigen::Vector3d& pose, const LandmarkSensor& sensor,
-                  const UnnamedFastSlamOptions& options = {});
+  FastSlamUnknownAssociation(const Eigen::Vector3d& pose, const LandmarkSensor& sensor,
+                             const UnnamedFastSlamOptions& options = {});
 
   /// Moves all particles, lets each associate the observations and weights them. No particle is ever lost:
   /// what no landmark explains is a new one. Throws Error like FastSlam; then nothing but rng has changed.

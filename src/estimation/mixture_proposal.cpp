@@ -162,8 +162,8 @@ StateDensity gridDensity(const StateGrid& grid, const VectorArg& weights) {
               }};
 }
 
-Propose mixtureProposal(NonlinearModel transition, const Particles& belief, StateDensity observed,
-                        MixtureProposalOptions options) {
+MotionSampler mixtureProposal(NonlinearModel transition, const Particles& belief, StateDensity observed,
+                              MixtureProposalOptions options) {
   if (!transition.g) throw Error({.what = "transition", .found = "no function g"});
   const Eigen::Index n = belief.states.rows();
   requireCovariance("transition: covariance of the noise", transition.W, n, Definiteness::kPositive);

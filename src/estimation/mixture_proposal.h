@@ -44,7 +44,7 @@ struct MixtureProposalOptions {
 /// posterior stays right. Weigh them as usual. Slide 7:25; Thrun, Fox, Burgard and Dellaert 2001, with the
 /// weights of Klaas, de Freitas and Doucet 2005. The time grows with the square of the number of particles.
 /// Throws Error for a noise that is not definite, options out of range, and missing functions.
-[[nodiscard]] Propose mixtureProposal(NonlinearModel transition, const Particles& belief,
-                                      StateDensity observed, MixtureProposalOptions options = {});
+[[nodiscard]] MotionSampler mixtureProposal(NonlinearModel transition, const Particles& belief,
+                                            StateDensity observed, MixtureProposalOptions options = {});
 
 }  // namespace rex

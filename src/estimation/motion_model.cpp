@@ -34,7 +34,7 @@ NonlinearModel transitionOf(const MotionModel& model, const VectorArg& x, const 
   return transition;
 }
 
-Propose motionProposal(const MotionModel& model, const VectorArg& u, double dt) {
+MotionSampler motionProposal(const MotionModel& model, const VectorArg& u, double dt) {
   return [model, u = Eigen::VectorXd(u), dt](Eigen::Ref<Eigen::MatrixXd> X, Eigen::Ref<Eigen::VectorXd>,
                                              Rng& rng) {
     for (auto x : X.colwise()) x = moved(model, x, u, dt, rng);

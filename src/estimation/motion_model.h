@@ -18,6 +18,6 @@ namespace rex {
 [[nodiscard]] NonlinearModel transitionOf(const MotionModel& model, const VectorArg& x, const VectorArg& u,
                                           double dt);
 /// The motion for particle filters, with the noise of each particle.
-[[nodiscard]] Propose motionProposal(const MotionModel& model, const VectorArg& u, double dt);
+[[nodiscard]] MotionSampler motionProposal(const MotionModel& model, const VectorArg& u, double dt);
 
 }  // namespace rex

@@ -129,7 +129,7 @@ void ParticleFilter::gather(const std::vector<int>& parents) {
 }
 
 // Keeps drawing until the number of occupied cells requires no more particles.
-void ParticleFilter::proposeAdaptively(const Propose& propose, Rng& rng) {
+void ParticleFilter::proposeAdaptively(const MotionSampler& propose, Rng& rng) {
   std::set<std::vector<double>> cells;
   chunk_.resize(particles_.states.rows(), options_.most);
   logWeights_.setZero(options_.most);
@@ -151,7 +151,7 @@ void ParticleFilter::proposeAdaptively(const Propose& propose, Rng& rng) {
   logWeights_.array() -= std::log(static_cast<double>(count));
 }
 
-ParticleStep ParticleFilter::step(const Propose& propose, const Weigh& weigh, Rng& rng) {
+ParticleStep ParticleFilter::step(const MotionSampler& propose, const LogLikelihood& weigh, Rng& rng) {
   ParticleStep report;
   const bool isAdaptive = options_.cellSize.size() > 0;
   report.resampled = isAdaptive || shouldResample();
@@ -196,7 +196,7 @@ void requireFunction(const char* what, const NonlinearModel& model) {
 
 }  // namespace
 
-Propose motionProposal(NonlinearModel transition) {
+MotionSampler motionProposal(NonlinearModel transition) {
   requireFunction("transition", transition);
   requireCovariance("transition: covariance of the noise", transition.W, transition.W.rows());
   const Eigen::MatrixXd root = covarianceRoot(transition.W);
@@ -211,7 +211,7 @@ Propose motionProposal(NonlinearModel transition) {
   };
 }
 
-Weigh observationWeights(NonlinearModel observation, const VectorArg& y) {
+LogLikelihood observationWeights(NonlinearModel observation, const VectorArg& y) {
   requireFunction("observation model", observation);
   requireFinite("observation", y);
   requireCovariance("observation model: covariance of the noise", observation.W, y.size(),
@@ -228,7 +228,7 @@ Weigh observationWeights(NonlinearModel observation, const VectorArg& y) {
   };
 }
 
-Propose observedProposal(NonlinearModel transition, NonlinearModel observation, const VectorArg& y) {
+MotionSampler observedProposal(NonlinearModel transition, NonlinearModel observation, const VectorArg& y) {
   requireFunction("transition", transition);
   requireFunction("observation model", observation);
   requireFinite("observation", y);

@@ -22,19 +22,19 @@ struct Particles {
 
 /// Replaces each column of X, a state, by a draw of the next state. For a proposal other than the motion,
 /// it adds log(p(next | state) / p_proposal(next)) to the log weights.
-using Propose =
+using MotionSampler =
     std::function<void(Eigen::Ref<Eigen::MatrixXd> X, Eigen::Ref<Eigen::VectorXd> logWeights, Rng& rng)>;
 /// Adds log p(y | x) for each column x of X, up to the same constant for all.
-using Weigh = std::function<void(const MatrixArg& X, Eigen::Ref<Eigen::VectorXd> logWeights)>;
+using LogLikelihood = std::function<void(const MatrixArg& X, Eigen::Ref<Eigen::VectorXd> logWeights)>;
 
 /// Draws from the motion.
-[[nodiscard]] Propose motionProposal(NonlinearModel transition);
-[[nodiscard]] Weigh observationWeights(NonlinearModel observation, const VectorArg& y);
+[[nodiscard]] MotionSampler motionProposal(NonlinearModel transition);
+[[nodiscard]] LogLikelihood observationWeights(NonlinearModel observation, const VectorArg& y);
 /// Draws from p(next | state, y), with the observation linearised at the mean of the motion: particles go
 /// where the observation is likely (slide 7:25; Doucet, Godsill and Andrieu 2000). Weigh them with
 /// observationWeights as usual. Both noise covariances must be definite.
-[[nodiscard]] Propose observedProposal(NonlinearModel transition, NonlinearModel observation,
-                                       const VectorArg& y);
+[[nodiscard]] MotionSampler observedProposal(NonlinearModel transition, NonlinearModel observation,
+                                             const VectorArg& y);
 
 struct ParticleFilterOptions {
   Resampling resampling = Resampling::kResidual;  ///< with cellSize multinomial, at every step
@@ -65,11 +65,11 @@ class ParticleFilter {
   const Particles& particles() const { return particles_; }
   /// Throws Error naming the particle for states or weights that are not a number; the particles are
   /// unchanged then.
-  [[nodiscard]] ParticleStep step(const Propose& propose, const Weigh& weigh, Rng& rng);
+  [[nodiscard]] ParticleStep step(const MotionSampler& propose, const LogLikelihood& weigh, Rng& rng);
 
  private:
   void gather(const std::vector<int>& parents);
-  void proposeAdaptively(const Propose& propose, Rng& rng);
+  void proposeAdaptively(const MotionSampler& propose, Rng& rng);
   [[nodiscard]] bool shouldResample() const;
 
   Particles particles_;

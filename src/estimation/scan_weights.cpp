@@ -82,8 +82,8 @@ void requireModel(const BeamModel& model) {
 
 }  // namespace
 
-Weigh scanWeights(const OccupancyMap& map, RangeScanner scanner, const VectorArg& ranges,
-                  const BeamModel& model) {
+LogLikelihood scanWeights(const OccupancyMap& map, RangeScanner scanner, const VectorArg& ranges,
+                          const BeamModel& model) {
   requireModel(model);
   internal::requireRanges(scanner, ranges);
   return [&map, scanner = std::move(scanner), read = Eigen::VectorXd(ranges), model](

@@ -49,7 +49,7 @@ struct BeamModel {
 /// The weights for Monte Carlo localisation in a map (states are x, y, heading), given a scan. Keeps a
 /// reference to the map. Throws Error for mixture weights out of range, a deviation that is not positive,
 /// and like OccupancyMap::observe for ranges.
-[[nodiscard]] Weigh scanWeights(const OccupancyMap& map, RangeScanner scanner, const VectorArg& ranges,
-                                const BeamModel& model = {});
+[[nodiscard]] LogLikelihood scanWeights(const OccupancyMap& map, RangeScanner scanner,
+                                        const VectorArg& ranges, const BeamModel& model = {});
 
 }  // namespace rex

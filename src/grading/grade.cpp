@@ -341,7 +341,7 @@ void runInTheirCopies(const GradeResult& start, std::span<const RunnableCheck> c
     write(runCheck(checks[static_cast<std::size_t>(k)], grading, part, standing));
     return 0;
   };
-  runInCopies(static_cast<int>(checks.size()), grading.job.jobs, run, [&](int k, int code) {
+  forkMap(static_cast<int>(checks.size()), grading.job.jobs, run, [&](int k, int code) {
     const auto place = static_cast<std::size_t>(k);
     GradeResult broken;
     broken.checks = {faulty(checks[place].info, "the check crashed its process")};

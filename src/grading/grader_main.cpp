@@ -120,7 +120,8 @@ ExitCode attack(const Arguments& arguments, const std::vector<RunnableCheck>& ch
 // Prints the lies for which a check gives points: part, check, lie and points, separated by tabs.
 ExitCode lie(const Arguments& arguments, const std::vector<RunnableCheck>& checks,
              const CallLayouts& layouts) {
-  const std::vector<LieOutcome> outcomes = tellLies(checks, arguments.job, arguments.signature, layouts);
+  const std::vector<LieOutcome> outcomes =
+      runAdversarially(checks, arguments.job, arguments.signature, layouts);
   if (outcomes.empty()) throw std::logic_error("there are no checks");
   int points = 0;
   for (const LieOutcome& one : outcomes) {

@@ -405,8 +405,8 @@ std::string toString(Lie lie) {
   return kNames.at(static_cast<std::size_t>(lie));
 }
 
-std::vector<LieOutcome> tellLies(std::span<const RunnableCheck> checks, const GradingJob& job,
-                                 std::uint64_t signature, const CallLayouts& layouts) {
+std::vector<LieOutcome> runAdversarially(std::span<const RunnableCheck> checks, const GradingJob& job,
+                                         std::uint64_t signature, const CallLayouts& layouts) {
   GradingJob others = job;
   others.seed += 1000;  // constants that were right for another seed
   const Pool pool = recordHonestAnswers(checks, {others, signature});

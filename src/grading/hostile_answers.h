@@ -81,7 +81,8 @@ struct LieOutcome {
 };
 
 /// Has the reference solution's worker tell each lie to each check.
-[[nodiscard]] std::vector<LieOutcome> tellLies(std::span<const RunnableCheck> checks, const GradingJob& job,
-                                               std::uint64_t signature, const CallLayouts& layouts);
+[[nodiscard]] std::vector<LieOutcome> runAdversarially(std::span<const RunnableCheck> checks,
+                                                       const GradingJob& job, std::uint64_t signature,
+                                                       const CallLayouts& layouts);
 
 }  // namespace rex::grading

@@ -94,7 +94,7 @@ void setLimits(const Limits& limits) {
 
 // In the new process, which uses our memory until execve: only async-signal-safe calls are allowed. `fds`
 // become descriptors 1, 2, ...
-void becomeWorker(const LaunchOrder& order, char* const* arguments, const std::vector<int>& fds, int status) {
+void execWorker(const LaunchOrder& order, char* const* arguments, const std::vector<int>& fds, int status) {
   ::close(STDIN_FILENO);
   static_cast<void>(::open("/dev/null", O_RDONLY));  // gets the lowest number that is free
   int next = STDIN_FILENO;
@@ -139,7 +139,7 @@ Launched launchWorker(const LaunchOrder& order) {
   {
     // A grader holds much memory, and a copy of its page tables would cost more than all else here.
     const SignalsBlocked guard;
-    child = forkChild("the worker", [&] { becomeWorker(order, arguments.data(), fds, status.writeEnd()); },
+    child = forkChild("the worker", [&] { execWorker(order, arguments.data(), fds, status.writeEnd()); },
                       {.sharesMemory = true});
   }
   status.closeWrite();

@@ -46,7 +46,7 @@ class JointRow : public btMultiBodyConstraint {
 /// A tree of bodies on joints as one of Bullet's multibodies. Joints of several coordinates become chains of
 /// links without mass, of one coordinate or one quaternion each. Links that follow others, which are of
 /// joints that mimic or are the rise of a screw, have coordinates of their own here; Couplings keep them.
-class Articulation : public Mover {
+class Articulation : public SimulatedTree {
  public:
   /// `bodies` hang on one joint of what stands still at X_WP, parents first. `shapes` are in the frames of
   /// the links and must outlive it; null: none.

@@ -45,7 +45,7 @@ class BulletWorld {
   BulletWorld(const BulletWorld&) = delete;
   BulletWorld& operator=(const BulletWorld&) = delete;
 
-  [[nodiscard]] const std::vector<std::unique_ptr<Mover>>& movers() const { return movers_; }
+  [[nodiscard]] const std::vector<std::unique_ptr<SimulatedTree>>& movers() const { return movers_; }
   /// Sets the state and forgets all contacts, so that the same steps follow as from a new world.
   void reset(const State& state);
   /// Advances by h; if the caller knows that nothing can touch, much faster.
@@ -83,7 +83,7 @@ class BulletWorld {
   std::vector<std::vector<int>> shapesOf_;  // of each body: places in Model::shapes()
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;
   std::vector<std::unique_ptr<btCollisionObject>> still_;
-  std::vector<std::unique_ptr<Mover>> movers_;
+  std::vector<std::unique_ptr<SimulatedTree>> movers_;
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_{&configuration_};
   btDbvtBroadphase broadphase_;

@@ -204,7 +204,7 @@ bool isHinge(const Joint& joint) {
 
 }  // namespace
 
-UntouchedMotion::UntouchedMotion(const Model& model, const PhysicsOptions& options)
+ContactFreeMotion::ContactFreeMotion(const Model& model, const PhysicsOptions& options)
     : model_(&model),
       gravity_W_(options.gravity_W),
       isAble_(model.pins().empty() && std::ranges::all_of(model.joints(), isHinge)),
@@ -225,7 +225,7 @@ UntouchedMotion::UntouchedMotion(const Model& model, const PhysicsOptions& optio
   }
 }
 
-void UntouchedMotion::setMotors(std::span<const Motor> motors) {
+void ContactFreeMotion::setMotors(std::span<const Motor> motors) {
   motors_.assign(motors.begin(), motors.end());
   hasForcesOnly_ = true;
   for (std::size_t i = 0; i < motors.size(); ++i) {
@@ -235,12 +235,12 @@ void UntouchedMotion::setMotors(std::span<const Motor> motors) {
   }
 }
 
-void UntouchedMotion::reset() {
+void ContactFreeMotion::reset() {
   if (stepper_) stepper_->reset();
   impulses_.reset();
 }
 
-bool UntouchedMotion::onlyForcesAct(const State& state, double h) const {
+bool ContactFreeMotion::onlyForcesAct(const State& state, double h) const {
   if (resists_ || !hasForcesOnly_) return false;
   for (Eigen::Index i = 0; i < state.q.size(); ++i) {
     const JointLaw& law = laws_[static_cast<std::size_t>(i)];
@@ -250,14 +250,14 @@ bool UntouchedMotion::onlyForcesAct(const State& state, double h) const {
   return true;
 }
 
-void UntouchedMotion::stepFreely(State& state, double h, int count) {
+void ContactFreeMotion::stepFreely(State& state, double h, int count) {
   if (count == 1) return stepper_->step(state, u_, h);
   next_ = state;
   for (int i = 0; i < count; ++i) fastStepper_->step(next_, u_, h / count);
   std::swap(state, next_);
 }
 
-bool UntouchedMotion::stepWithGoals(State& state, double h) {
+bool ContactFreeMotion::stepWithGoals(State& state, double h) {
   equationOfMotion(*model_, state.q, state.v, gravity_W_, workspace_, motion_);
   p_ = h * (u_ - motion_.F);
   p_.noalias() += motion_.M * state.v;
@@ -272,7 +272,7 @@ bool UntouchedMotion::stepWithGoals(State& state, double h) {
   return true;
 }
 
-bool UntouchedMotion::step(State& state, double h) {
+bool ContactFreeMotion::step(State& state, double h) {
   const double turn = state.v.lpNorm<Eigen::Infinity>() * h;
   if (!isAble_ || !(turn < kMostTurn)) return false;
   try {

@@ -88,9 +88,9 @@ class JointImpulses {
 /// Moves a model of hinges that nothing touches by the equation of motion alone: by Stepper, which keeps its
 /// energy, where only forces act; and with the new v, as Bullet, where motors, friction, damping or limits
 /// do.
-class UntouchedMotion {
+class ContactFreeMotion {
  public:
-  UntouchedMotion(const Model& model, const PhysicsOptions& options);
+  ContactFreeMotion(const Model& model, const PhysicsOptions& options);
 
   void setMotors(std::span<const Motor> motors);
   /// Advances all but the time by h. False, and the state is as it was, if it cannot: joints of other kinds,

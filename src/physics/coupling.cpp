@@ -10,12 +10,12 @@
 
 namespace rex::internal {
 
-int HeldRows::getIslandIdA() const { return m_bodyA->getBaseCollider()->getIslandTag(); }
-int HeldRows::getIslandIdB() const { return m_bodyB->getBaseCollider()->getIslandTag(); }
+int LockedRows::getIslandIdA() const { return m_bodyA->getBaseCollider()->getIslandTag(); }
+int LockedRows::getIslandIdB() const { return m_bodyB->getBaseCollider()->getIslandTag(); }
 
-btMultiBodySolverConstraint& HeldRows::addRow(int i, double velocity, btMultiBodyConstraintArray& rows,
-                                              btMultiBodyJacobianData& data,
-                                              const btContactSolverInfo& info) {
+btMultiBodySolverConstraint& LockedRows::addRow(int i, double velocity, btMultiBodyConstraintArray& rows,
+                                                btMultiBodyJacobianData& data,
+                                                const btContactSolverInfo& info) {
   const btVector3 none(0, 0, 0);
   btMultiBodySolverConstraint& row = rows.expandNonInitializing();
   row.m_orgConstraint = this;
@@ -39,8 +39,8 @@ constexpr double kClosingRate = 200, kClosingSpeed = 1;
 }  // namespace
 
 PinRows::PinRows(const PinEnd& A, const PinEnd& B)
-    : HeldRows(A.body, B.body ? B.body : A.body, A.link, B.body ? B.link : A.link, kAxes, false,
-               MULTIBODY_CONSTRAINT_POINT_TO_POINT),
+    : LockedRows(A.body, B.body ? B.body : A.body, A.link, B.body ? B.link : A.link, kAxes, false,
+                 MULTIBODY_CONSTRAINT_POINT_TO_POINT),
       A_(A),
       B_(B) {
   PinRows::finalizeMultiDof();
@@ -85,8 +85,8 @@ constexpr double kLeastMobility = std::numeric_limits<double>::epsilon(), kLeast
 }  // namespace
 
 CouplingRow::CouplingRow(const Follower& follower)
-    : HeldRows(follower.at.body, follower.leader.body, follower.at.link, follower.leader.link, 1, false,
-               MULTIBODY_CONSTRAINT_GEAR),
+    : LockedRows(follower.at.body, follower.leader.body, follower.at.link, follower.leader.link, 1, false,
+                 MULTIBODY_CONSTRAINT_GEAR),
       follower_(follower) {
   CouplingRow::finalizeMultiDof();
 }
@@ -115,10 +115,10 @@ Couplings::Couplings(const std::vector<Follower>& followers, const Pins& pins) {
   for (const auto& [A, B] : pins) join(pins_.emplace_back(std::make_unique<PinRows>(A, B)).get());
   for (Group& group : groups_)
     group.hasPins = std::ranges::any_of(
-        group.held, [](const HeldRows* held) { return dynamic_cast<const PinRows*>(held) != nullptr; });
+        group.held, [](const LockedRows* held) { return dynamic_cast<const PinRows*>(held) != nullptr; });
 }
 
-void Couplings::join(HeldRows* rows) {
+void Couplings::join(LockedRows* rows) {
   Group joined{{rows}, {rows->getMultiBodyA()}};
   if (!rows->isInOneBody()) joined.bodies.push_back(rows->getMultiBodyB());
   std::erase_if(groups_, [&](const Group& group) {
@@ -153,11 +153,11 @@ void Couplings::settle(Aim aim) {
 // v += M^-1 G^T (G M^-1 G^T)^-1 (wanted - G v), where G holds all rows.
 void Couplings::settle(Group& group, Aim aim) {
   struct Row {
-    HeldRows* held;
+    LockedRows* held;
     int row;
   };
   std::vector<Row> rows;
-  for (HeldRows* const held : group.held)
+  for (LockedRows* const held : group.held)
     for (int i = 0; i < held->getNumRows(); ++i) rows.push_back({held, i});
   const auto count = static_cast<Eigen::Index>(rows.size());
   const std::size_t bodies = group.bodies.size();
@@ -213,7 +213,7 @@ JointId Couplings::massless(const Model& model) {
     for (btMultiBody* const body : group.bodies)
       body->computeAccelerationsArticulatedBodyAlgorithmMultiDof(1, scratchR_, scratchV_, scratchM, false,
                                                                  false, false);
-    for (const HeldRows* const held : group.held) {
+    for (const LockedRows* const held : group.held) {
       const auto* const row = dynamic_cast<const CouplingRow*>(held);
       if (row == nullptr) continue;
       const Follower& one = row->follower();

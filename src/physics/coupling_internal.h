@@ -19,7 +19,7 @@ inline int velocityCount(const btMultiBody& body) { return 6 + body.getNumDofs()
 /// Rows that hold two links to each other and are solved along with the contacts; Couplings then makes them
 /// exact. If both are in one body, the Jacobian of A holds everything: Bullet adds the terms of A and B on
 /// their own, but not the coupling between them.
-class HeldRows : public btMultiBodyConstraint {
+class LockedRows : public btMultiBodyConstraint {
  public:
   using btMultiBodyConstraint::btMultiBodyConstraint;
 
@@ -57,7 +57,7 @@ struct PinEnd {
 };
 
 /// Keeps two points together: a row for each axis of W.
-class PinRows : public HeldRows {
+class PinRows : public LockedRows {
  public:
   /// The body of A moves.
   PinRows(const PinEnd& A, const PinEnd& B);
@@ -94,7 +94,7 @@ struct Follower {
 };
 
 /// Keeps a follower to its leader.
-class CouplingRow : public HeldRows {
+class CouplingRow : public LockedRows {
  public:
   explicit CouplingRow(const Follower& follower);
 
@@ -139,11 +139,11 @@ class Couplings {
  private:
   // What is coupled, directly or not, and how its bodies answer to a unit impulse of each row.
   struct Group {
-    std::vector<HeldRows*> held;
+    std::vector<LockedRows*> held;
     std::vector<btMultiBody*> bodies;
     bool hasPins = false;
   };
-  void join(HeldRows* rows);
+  void join(LockedRows* rows);
   void settle(Group& group, Aim aim);
   [[nodiscard]] bool isStuck(const CoordinatePlace& place);
 

@@ -116,7 +116,7 @@ struct PhysicsWorld::Parts {
   internal::BulletWorld world;
   internal::ContactEvents events{};
   ClearanceWatch watch;
-  internal::UntouchedMotion untouched;
+  internal::ContactFreeMotion untouched;
   // While nothing touches and only forces act, the state is here, and Bullet's is older.
   bool isUntouched = false;
   State now, start;

@@ -18,9 +18,9 @@ struct BulletLink {
 [[nodiscard]] BulletLink bulletLink(const Body& body);
 
 /// Part of the model that moves by itself: what hangs on one joint of the world.
-class Mover {
+class SimulatedTree {
  public:
-  virtual ~Mover() = default;
+  virtual ~SimulatedTree() = default;
   virtual void addTo(btMultiBodyDynamicsWorld& world) = 0;
   virtual void removeFrom(btMultiBodyDynamicsWorld& world) = 0;
 
@@ -70,7 +70,7 @@ class FreeMotion {
 };
 
 /// A single body on a free joint of the world, which does not damp it.
-class FreeBody : public Mover {
+class FreeBody : public SimulatedTree {
  public:
   /// The shape, in the frame of the link, must outlive it.
   FreeBody(const Joint& joint, const BulletLink& link, const Pose& X_WP, btCollisionShape* shape);

@@ -73,7 +73,7 @@ std::optional<ProcessResult> compilePart(const std::string& part, const std::vec
     return runCompiler(toolsFor(folder), mine, folder);
   };
   std::array<int, 2> ends = {kFailed, kFailed};
-  runInCopies(2, 2, compile, [&](int k, int end) { ends[static_cast<std::size_t>(k)] = end; });
+  forkMap(2, 2, compile, [&](int k, int end) { ends[static_cast<std::size_t>(k)] = end; });
   if (ends[0] == kFoundErrors) return ended(1, readTextFile(top / kMessages));
   if (ends[0] == kTimedOut || ends[1] == kTimedOut) {
     ProcessResult run = ended(1, "");

@@ -39,7 +39,7 @@ class ProcessPoolTest : public ::testing::Test {
 TEST_F(ProcessPoolTest, CallsEachOnceAndTellsItsCode) {
   for (const int parallel : {1, 3, 50}) {
     std::map<int, int> codes;
-    runInCopies(
+    forkMap(
         20, parallel, [](int k) { return k % 7; }, [&](int k, int code) { codes[k] += 1 + 10 * code; });
     EXPECT_EQ(codes.size(), 20u);
     for (const auto& [k, code] : codes) EXPECT_EQ(code, 1 + 10 * (k % 7)) << k;
@@ -53,7 +53,7 @@ TEST_F(ProcessPoolTest, EndsCopiesThatWorkTooLong) {
     for (int i = 0; k == 0; i ^= 1) steps = i;
     return k;
   };
-  runInCopies(
+  forkMap(
       2, 2, work, [&](int k, int code) { codes[k] = code; }, 1);
   EXPECT_EQ(codes, (std::map<int, int>{{0, -SIGXCPU}, {1, 1}}));
 }
@@ -61,7 +61,7 @@ TEST_F(ProcessPoolTest, EndsCopiesThatWorkTooLong) {
 TEST_F(ProcessPoolTest, RunsAsManyAtOnceAsAsked) {
   // Each waits until three have begun: with fewer at once it would give up.
   std::map<int, int> codes;
-  runInCopies(
+  forkMap(
       3, 3,
       [&](int k) {
         write(file("begun", k));
@@ -70,7 +70,7 @@ TEST_F(ProcessPoolTest, RunsAsManyAtOnceAsAsked) {
       [&](int k, int code) { codes[k] = code; });
   EXPECT_EQ(codes, (std::map<int, int>{{0, 0}, {1, 0}, {2, 0}}));
   int most = 0;
-  runInCopies(
+  forkMap(
       12, 2,
       [&](int k) {
         write(file("working", k));
@@ -85,7 +85,7 @@ TEST_F(ProcessPoolTest, RunsAsManyAtOnceAsAsked) {
 
 TEST_F(ProcessPoolTest, OutlivesWhatBreaksInOne) {
   std::map<int, int> codes;
-  runInCopies(
+  forkMap(
       5, 2,
       [](int k) {
         if (k == 1) ::raise(SIGKILL);
@@ -115,7 +115,7 @@ TEST_F(ProcessPoolTest, PassesARequestToStopOnAndWaits) {
     return 0;
   };
   try {
-    runInCopies(9, 2, job, [](int, int) {});
+    forkMap(9, 2, job, [](int, int) {});
     FAIL() << "was not interrupted";
   } catch (const Interrupted& stop) {
     EXPECT_EQ(stop.signal, SIGTERM);

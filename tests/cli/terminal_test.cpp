@@ -34,8 +34,8 @@ TEST(Bar, IsNeitherEmptyNorFullUnlessTheWholeIs) {
 TEST(Paint, LeavesTextPlainOffATerminal) { EXPECT_EQ(paint(Colour::kRed, "text"), "text"); }
 
 TEST(Harmless, LetsNoEscapeSequenceThrough) {
-  EXPECT_EQ(harmless("a\tb"), "a\tb");
-  EXPECT_EQ(harmless("\033[2J").find('\033'), std::string::npos);
+  EXPECT_EQ(escapeForTerminal("a\tb"), "a\tb");
+  EXPECT_EQ(escapeForTerminal("\033[2J").find('\033'), std::string::npos);
 }
 
 }  // namespace rex::cli::terminal_test

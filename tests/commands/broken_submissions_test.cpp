@@ -59,8 +59,8 @@ TEST_F(BrokenSubmissions, AreExplained) {
     grade(names[static_cast<std::size_t>(k)]);
     return 0;
   };
-  runInCopies(static_cast<int>(names.size()), processors, gradeOne,
-              [&](int k, int end) { EXPECT_EQ(end, 0) << names[static_cast<std::size_t>(k)]; });
+  forkMap(static_cast<int>(names.size()), processors, gradeOne,
+          [&](int k, int end) { EXPECT_EQ(end, 0) << names[static_cast<std::size_t>(k)]; });
   for (const std::string& name : names) {
     SCOPED_TRACE(name);
     // Whatever a file does, its result is whole, and no check stays ungraded if it compiles.

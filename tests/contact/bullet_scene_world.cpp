@@ -18,7 +18,7 @@ namespace {
 using internal::Articulation;
 using internal::bulletLink;
 using internal::FreeBody;
-using internal::Mover;
+using internal::SimulatedTree;
 using internal::toBullet;
 
 std::unique_ptr<btCollisionShape> plainShape(const Shape& shape) {
@@ -202,7 +202,7 @@ class BulletSceneWorld : public SceneWorld {
   btEmptyShape nothing_;
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;
   std::vector<std::unique_ptr<btCollisionObject>> still_;
-  std::vector<std::unique_ptr<Mover>> movers_;
+  std::vector<std::unique_ptr<SimulatedTree>> movers_;
   std::vector<Articulation*> trees_;
   std::vector<std::unique_ptr<btMultiBodyConstraint>> couplings_;
   std::vector<Motor> motors_;

@@ -29,7 +29,7 @@ struct Corridor {
     return {.g = [](const Eigen::VectorXd& x) { return Eigen::VectorXd::Constant(1, next(x[0])); },
             .W = Eigen::MatrixXd::Constant(1, 1, motion * motion)};
   }
-  Weigh weigh(double y) const {
+  LogLikelihood weigh(double y) const {
     return [*this, y](const MatrixArg& X, Eigen::Ref<Eigen::VectorXd> logWeights) {
       for (Eigen::Index i = 0; i < X.cols(); ++i)
         logWeights[i] -= .5 * std::pow((y - expected(X(0, i))) / sensor, 2);
@@ -46,7 +46,7 @@ struct Corridor {
     for (int i = 0; i < cells.cells(); ++i) result[i] = likelihood(cells.center(i)[0], y);
     return result;
   }
-  Propose propose(const Particles& belief, double y, double share) const {
+  MotionSampler propose(const Particles& belief, double y, double share) const {
     // Rough on purpose: cells of 10 cm, and a floor.
     const StateGrid cells = grid(120);
     const Eigen::VectorXd exact = likelihoods(cells, y);

@@ -55,7 +55,7 @@ Answer byParticles(const Walk& walk, int count, bool looksAhead, const ParticleF
   const NonlinearModel move = asFunction(walk.move), see = asFunction(walk.see);
   Answer answer;
   for (const Eigen::VectorXd& y : walk.y) {
-    const Propose propose = looksAhead ? observedProposal(move, see, y) : motionProposal(move);
+    const MotionSampler propose = looksAhead ? observedProposal(move, see, y) : motionProposal(move);
     answer.logEvidence += filter.step(propose, observationWeights(see, y), rng).logEvidence;
   }
   // Weights leave out the constant of the density.
@@ -99,7 +99,7 @@ TEST(ParticleFilter, LookingAheadKeepsMoreParticlesAlive) {
   walk.see.W *= 1e-4;  // a sharp sensor: few draws of the motion explain it
   const NonlinearModel move = asFunction(walk.move), see = asFunction(walk.see);
   ParticleFilter blind(sampledParticles(walk.prior, 500, rng)), seeing = blind;
-  const Weigh weigh = observationWeights(see, walk.y[0]);
+  const LogLikelihood weigh = observationWeights(see, walk.y[0]);
   const double few = blind.step(motionProposal(move), weigh, rng).effectiveSize;
   const double many = seeing.step(observedProposal(move, see, walk.y[0]), weigh, rng).effectiveSize;
   EXPECT_LT(few, 20);
@@ -151,12 +151,12 @@ TEST(ParticleFilter, SurvivesWhatNoParticleExplains) {
 TEST(ParticleFilter, SurvivesProposalsAndErrors) {
   Rng rng(38);
   const Walk walk(rng);
-  const Propose never = [](Eigen::Ref<Eigen::MatrixXd>, Eigen::Ref<Eigen::VectorXd> logWeights, Rng&) {
+  const MotionSampler never = [](Eigen::Ref<Eigen::MatrixXd>, Eigen::Ref<Eigen::VectorXd> logWeights, Rng&) {
     logWeights.setConstant(-std::numeric_limits<double>::infinity());
   };
-  const Propose stay = [](Eigen::Ref<Eigen::MatrixXd>, Eigen::Ref<Eigen::VectorXd>, Rng&) {};
-  const Weigh nothing = [](const MatrixArg&, Eigen::Ref<Eigen::VectorXd>) {};
-  const Weigh broken = [](const MatrixArg&, Eigen::Ref<Eigen::VectorXd> logWeights) {
+  const MotionSampler stay = [](Eigen::Ref<Eigen::MatrixXd>, Eigen::Ref<Eigen::VectorXd>, Rng&) {};
+  const LogLikelihood nothing = [](const MatrixArg&, Eigen::Ref<Eigen::VectorXd>) {};
+  const LogLikelihood broken = [](const MatrixArg&, Eigen::Ref<Eigen::VectorXd> logWeights) {
     logWeights[0] = std::nan("");
   };
   for (const bool isAdaptive : {false, true}) {
@@ -204,7 +204,7 @@ TEST(ParticleFilter, SaysWhatIsWrong) {
   bad.states(1, 3) = std::nan("");
   EXPECT_REX_ERROR(ParticleFilter{bad}, "state of particle 3: found numbers that are not finite");
   ParticleFilter filter(good);
-  const Propose stay = [](Eigen::Ref<Eigen::MatrixXd>, Eigen::Ref<Eigen::VectorXd>, Rng&) {};
+  const MotionSampler stay = [](Eigen::Ref<Eigen::MatrixXd>, Eigen::Ref<Eigen::VectorXd>, Rng&) {};
   EXPECT_REX_ERROR(
       filter.step(
           stay, [](const MatrixArg&, Eigen::Ref<Eigen::VectorXd> w) { w[4] = std::nan(""); }, rng),
@@ -223,10 +223,10 @@ TEST(ParticleFilter, NamesTheParticleThatIsNoNumber) {
   const Particles start =
       sampledParticles({Eigen::VectorXd::Zero(1), Eigen::MatrixXd::Identity(1, 1)}, 400, rng);
   int chunk = 0;
-  const Propose propose = [&](Eigen::Ref<Eigen::MatrixXd> X, Eigen::Ref<Eigen::VectorXd>, Rng&) {
+  const MotionSampler propose = [&](Eigen::Ref<Eigen::MatrixXd> X, Eigen::Ref<Eigen::VectorXd>, Rng&) {
     if (chunk++ == 2) X(0, 5) = std::numeric_limits<double>::quiet_NaN();
   };
-  const Weigh weigh = [](const MatrixArg&, Eigen::Ref<Eigen::VectorXd>) {};
+  const LogLikelihood weigh = [](const MatrixArg&, Eigen::Ref<Eigen::VectorXd>) {};
   ParticleFilter filter(start, {.cellSize = Eigen::VectorXd::Constant(1, 1e-3), .fewest = 200, .most = 300});
   EXPECT_REX_ERROR(filter.step(propose, weigh, rng),
                    "state of particle 133: found numbers that are not finite");
@@ -238,8 +238,8 @@ TEST(ParticleFilter, CountsCellsFarAway) {
   Rng rng(32);
   Particles start{Eigen::MatrixXd(1, 400), Eigen::VectorXd::Constant(400, 1. / 400)};
   for (double& x : start.states.reshaped()) x = rng.uniform(-1e20, 1e20);
-  const Propose propose = [](Eigen::Ref<Eigen::MatrixXd>, Eigen::Ref<Eigen::VectorXd>, Rng&) {};
-  const Weigh weigh = [](const MatrixArg&, Eigen::Ref<Eigen::VectorXd>) {};
+  const MotionSampler propose = [](Eigen::Ref<Eigen::MatrixXd>, Eigen::Ref<Eigen::VectorXd>, Rng&) {};
+  const LogLikelihood weigh = [](const MatrixArg&, Eigen::Ref<Eigen::VectorXd>) {};
   ParticleFilter filter(start, {.cellSize = Eigen::VectorXd::Constant(1, 1e-3), .most = 4000});
   (void)filter.step(propose, weigh, rng);
   EXPECT_GT(filter.particles().states.cols(), 2000);

@@ -30,7 +30,7 @@ test::SlamWorld pairs(Kind kind, double gap, Rng& rng) {
 
 struct Pair {
   FastSlam named;
-  UnnamedFastSlam unnamed;
+  FastSlamUnknownAssociation unnamed;
 };
 
 // Both see the same and draw the same random numbers.
@@ -62,7 +62,7 @@ double distanceTo(const std::vector<MappedLandmark>& map, const Eigen::Vector2d&
 }
 
 // Landmarks that nobody confuses: the same particles as with names.
-TEST(UnnamedFastSlam, IsFastSlamWhereNothingIsAmbiguous) {
+TEST(FastSlamUnknownAssociation, IsFastSlamWhereNothingIsAmbiguous) {
   for (const Kind kind : {Kind::kCartesian, Kind::kRangeBearing})
     for (const bool observed : {false, true}) {
       Rng rng(11);
@@ -83,7 +83,7 @@ TEST(UnnamedFastSlam, IsFastSlamWhereNothingIsAmbiguous) {
 }
 
 // Pairs 2 m apart seen with a noise of 0.5 m: observations overlap, and nearest neighbours are often wrong.
-TEST(UnnamedFastSlam, TellsAmbiguousLandmarksApart) {
+TEST(FastSlamUnknownAssociation, TellsAmbiguousLandmarksApart) {
   const int seeds = 10;
   for (const bool observed : {false, true}) {
     double named = 0, unnamed = 0, apart = 0;
@@ -110,7 +110,7 @@ TEST(UnnamedFastSlam, TellsAmbiguousLandmarksApart) {
   }
 }
 
-TEST(UnnamedFastSlam, ATightGateInventsLandmarks) {
+TEST(FastSlamUnknownAssociation, ATightGateInventsLandmarks) {
   Rng rng(4);
   test::SlamWorld world = pairs(Kind::kCartesian, 5, rng);
   EXPECT_GT(drive(world, true, 3, 10, rng).unnamed.landmarks(0).size(), 6u);
@@ -135,12 +135,12 @@ double integral(const LandmarkSensor& sensor, const Eigen::Vector3d& x, const Ei
 }
 
 // Particles that went different ways decide differently which landmark they see, or that it is new.
-TEST(UnnamedFastSlam, DecidesByTheExpectedLikelihood) {
+TEST(FastSlamUnknownAssociation, DecidesByTheExpectedLikelihood) {
   for (const Kind kind : {Kind::kCartesian, Kind::kRangeBearing}) {
     const bool isLinear = kind == Kind::kCartesian;
     const LandmarkSensor sensor{kind, Eigen::Vector2d(.04, isLinear ? .09 : .0004).asDiagonal()};
     const UnnamedFastSlamOptions options{.particles = 40, .threshold = 0, .gate = 9};
-    UnnamedFastSlam slam(Eigen::Vector3d(0, 0, .2), sensor, options);
+    FastSlamUnknownAssociation slam(Eigen::Vector3d(0, 0, .2), sensor, options);
     PoseTransition motion{.mean = [](const Eigen::Vector3d& x) { return x; }};
     Rng rng(5);
     const std::vector<Eigen::Vector2d> first = isLinear ? std::vector<Eigen::Vector2d>{{6, 0}, {6, 1.5}}
@@ -174,12 +174,12 @@ TEST(UnnamedFastSlam, DecidesByTheExpectedLikelihood) {
 }
 
 // The innovation's covariance in a joint Gaussian whose pose is known: that of Kalman SLAM.
-TEST(UnnamedFastSlam, UpdatesLandmarksLikeAJointGaussian) {
+TEST(FastSlamUnknownAssociation, UpdatesLandmarksLikeAJointGaussian) {
   for (const Kind kind : {Kind::kCartesian, Kind::kRangeBearing}) {
     Rng rng(6);
     test::SlamWorld world = pairs(kind, 4, rng);
     world.deviation = 0;
-    UnnamedFastSlam slam(world.x, world.sensor, {.particles = 2});
+    FastSlamUnknownAssociation slam(world.x, world.sensor, {.particles = 2});
     EkfSlam kalman({world.x, Eigen::Matrix3d::Zero()}, world.sensor);
     for (int t = 0; t < 5; ++t) {
       world.drive(rng);
@@ -201,7 +201,7 @@ TEST(UnnamedFastSlam, UpdatesLandmarksLikeAJointGaussian) {
   }
 }
 
-TEST(UnnamedFastSlam, RemovesWhatItMissesMoreOftenThanItSees) {
+TEST(FastSlamUnknownAssociation, RemovesWhatItMissesMoreOftenThanItSees) {
   const LandmarkSensor sensor{.W = .01 * Eigen::Matrix2d::Identity()};
   const PoseTransition rest{.mean = [](const Eigen::Vector3d& x) { return x; }};
   const Eigen::Vector2d real(3, 0), ghost(0, 3), hidden(-3, 0);
@@ -209,7 +209,7 @@ TEST(UnnamedFastSlam, RemovesWhatItMissesMoreOftenThanItSees) {
   UnnamedFastSlamOptions options{.particles = 3};
   for (const bool knowsItsView : {false, true}) {
     if (knowsItsView) options.isInView = [](const auto&, const Eigen::Vector2d& at) { return at.x() > -1; };
-    UnnamedFastSlam slam(Eigen::Vector3d::Zero(), sensor, options);
+    FastSlamUnknownAssociation slam(Eigen::Vector3d::Zero(), sensor, options);
     Rng rng(7);
     (void)slam.step(rest, all, rng);
     (void)slam.step(rest, one, rng);
@@ -221,12 +221,12 @@ TEST(UnnamedFastSlam, RemovesWhatItMissesMoreOftenThanItSees) {
   }
 }
 
-TEST(UnnamedFastSlam, TakesWhatNothingExplainsAsNew) {
+TEST(FastSlamUnknownAssociation, TakesWhatNothingExplainsAsNew) {
   Rng rng(8);
   test::SlamWorld world(Kind::kCartesian, 1, rng);
   for (const bool observed : {false, true}) {
-    UnnamedFastSlam slam(Eigen::Vector3d::Zero(), world.sensor,
-                         {.particles = 10, .observedProposal = observed});
+    FastSlamUnknownAssociation slam(Eigen::Vector3d::Zero(), world.sensor,
+                                    {.particles = 10, .observedProposal = observed});
     for (const double far : {1., 1e200, 1.}) {
       EXPECT_FALSE(slam.step(world.transition(), std::vector{Eigen::Vector2d(far, 1)}, rng).lost);
       EXPECT_TRUE(slam.poses().allFinite() && slam.weights().allFinite());
@@ -236,14 +236,16 @@ TEST(UnnamedFastSlam, TakesWhatNothingExplainsAsNew) {
   }
 }
 
-TEST(UnnamedFastSlam, SaysWhatIsWrong) {
+TEST(FastSlamUnknownAssociation, SaysWhatIsWrong) {
   Rng rng(9);
   const test::SlamWorld world(Kind::kCartesian, 1, rng);
   const Eigen::Vector3d start = Eigen::Vector3d::Zero();
-  EXPECT_REX_ERROR(UnnamedFastSlam(start, {}, {.particles = 0}), "particles: found 0, wanted at least 1");
-  EXPECT_REX_ERROR(UnnamedFastSlam(start, {}, {.threshold = -1}), "resampling threshold: found -1");
-  EXPECT_REX_ERROR(UnnamedFastSlam(start, {}, {.gate = 0}), "association gate: found 0");
-  UnnamedFastSlam slam(start, {.kind = Kind::kRangeBearing}, {.particles = 3});
+  EXPECT_REX_ERROR(FastSlamUnknownAssociation(start, {}, {.particles = 0}),
+                   "particles: found 0, wanted at least 1");
+  EXPECT_REX_ERROR(FastSlamUnknownAssociation(start, {}, {.threshold = -1}),
+                   "resampling threshold: found -1");
+  EXPECT_REX_ERROR(FastSlamUnknownAssociation(start, {}, {.gate = 0}), "association gate: found 0");
+  FastSlamUnknownAssociation slam(start, {.kind = Kind::kRangeBearing}, {.particles = 3});
   EXPECT_REX_ERROR(slam.step(world.transition(), std::vector{Eigen::Vector2d(1, INFINITY)}, rng),
                    "observation: number 1: found inf");
   EXPECT_REX_ERROR(slam.step({}, {}, rng), "transition: found no function for its mean");

@@ -72,7 +72,7 @@ TEST(Lies, FindChecksThatAreEasilyPleased) {
   const auto points = [](const RunnableCheck& one) {
     std::vector<int> all;
     for (const LieOutcome& outcome :
-         tellLies(std::vector{one}, kJob, Student::signature(), Student::layouts()))
+         runAdversarially(std::vector{one}, kJob, Student::signature(), Student::layouts()))
       all.push_back(outcome.points);
     return all;
   };
@@ -114,7 +114,7 @@ TEST(Lies, KnowNoMoreThanTheirWorker) {
         judge.near("the same square", stranger.square(3), s.square(3), 1e-9);
       });
     });
-    return tellLies(std::vector{one}, kJob, Student::signature(), Student::layouts()).back().points;
+    return runAdversarially(std::vector{one}, kJob, Student::signature(), Student::layouts()).back().points;
   };
   EXPECT_EQ(pointsOfMemory(false), 1);
   EXPECT_EQ(pointsOfMemory(true), 0);

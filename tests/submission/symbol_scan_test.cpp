@@ -260,12 +260,12 @@ TEST_F(ScanSymbolsTest, LooksIntoEverySectionThatStays) {
 // What main() alone leads to is not in the worker: nobody finds it there, by whatever arithmetic.
 TEST_F(ScanSymbolsTest, LeavesNothingOfMainInTheWorker) {
   const std::string declared = "namespace rex { int solveIk(int); }\nint f() { return 1; }\n";
-  for (const char* harmless :
+  for (const char* escapeForTerminal :
        {"static int compare(int a) { return rex::solveIk(a); }\nint main() { return compare(1); }\n",
         "int main() { static int (*volatile p)(int) = &rex::solveIk; return p(1); }\n",
         "inline int compare(int a) { return rex::solveIk(a); }\nint main() { return compare(1); }\n"}) {
-    EXPECT_TRUE(scan(declared + harmless).empty()) << harmless;
-    EXPECT_EQ(left(), "_Z1fv ") << harmless;
+    EXPECT_TRUE(scan(declared + escapeForTerminal).empty()) << escapeForTerminal;
+    EXPECT_EQ(left(), "_Z1fv ") << escapeForTerminal;
   }
 }
 

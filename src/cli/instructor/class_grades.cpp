@@ -54,10 +54,10 @@ void writeBook(const grading::Gradebook& book, const fs::path& out, bool print) 
   else
     replaceTextFile(out / kStrangers, grading::gradesCsv(book.strangers), "the table of strangers");
   if (print) std::fputs(text.c_str(), stdout);
-  for (const std::string& sentence : book.notes) note(wrap(harmless(sentence), 2, 0));
+  for (const std::string& sentence : book.notes) note(wrap(escapeForTerminal(sentence), 2, 0));
   for (const grading::GradeRow& row : book.strangers)
-    note(wrap(harmless(fmt::format("'{}' is not on the roster: {} is graded and listed in {}", row.student.id,
-                                   row.exercise, kStrangers)),
+    note(wrap(escapeForTerminal(fmt::format("'{}' is not on the roster: {} is graded and listed in {}",
+                                            row.student.id, row.exercise, kStrangers)),
               2, 0));
   std::map<std::string_view, int> counts;
   for (const grading::GradeRow& row : book.rows) ++counts[toString(row.status)];
@@ -79,7 +79,7 @@ ExitCode explainResults(const Project& project, const ExplainOptions& options) {
       if (options.json)
         say(dump(Json{{"student", options.student}, {"exercise", name}, {"lines", lines}}));
       else
-        for (const std::string& line : lines) say(wrap(harmless(line), 2, 0));
+        for (const std::string& line : lines) say(wrap(escapeForTerminal(line), 2, 0));
       return ExitCode::kFull;
     }
   throw UsageError({.what = fmt::format("no grade of '{}' for {}", options.student, name),
@@ -251,7 +251,7 @@ void writeSimilar(const Project& project, const std::vector<grading::Task>& task
     const std::vector<std::string> leftOut = grading::tooRepetitive(texts, handedOut, work.path());
     if (!leftOut.empty())
       say(fmt::format("{}: left out, since the files repeat themselves too much to be compared: {}", name,
-                      harmless(join(leftOut, ", "))));
+                      escapeForTerminal(join(leftOut, ", "))));
     std::erase_if(texts, [&](const ComparedText& one) {
       return std::find(leftOut.begin(), leftOut.end(), one.student) != leftOut.end();
     });
@@ -267,7 +267,8 @@ void writeSimilar(const Project& project, const std::vector<grading::Task>& task
     const auto groups = grading::groupsOf(pairs);
     say(fmt::format("{}: {} group{} of similar submissions, to be looked at: {}", name, groups.size(),
                     groups.size() == 1 ? "" : "s", shown(page)));
-    for (const std::vector<std::string>& group : groups) say("  " + wrap(harmless(join(group, ", ")), 4, 2));
+    for (const std::vector<std::string>& group : groups)
+      say("  " + wrap(escapeForTerminal(join(group, ", ")), 4, 2));
   }
 }
 

@@ -101,7 +101,8 @@ void tell(const std::string& what, const std::vector<int>& numbers, const std::v
 void tellRefused(const std::vector<int>& numbers, const std::vector<Task>& tasks,
                  const std::filesystem::path& out) {
   for (const int number : numbers)
-    note(wrap(harmless(grading::whyRefused(tasks[static_cast<std::size_t>(number) - 1], out)), 2, 0));
+    note(
+        wrap(escapeForTerminal(grading::whyRefused(tasks[static_cast<std::size_t>(number) - 1], out)), 2, 0));
 }
 
 // An incomplete file left by an earlier run does not count, as its text differs.
@@ -164,7 +165,7 @@ bool writeGrades(const std::vector<Task>& tasks, const std::filesystem::path& ou
   for (const Task& task : tasks) students.push_back(task.student);
   if (book != nullptr) writeBook(*book, out, print);
   for (const std::string& sentence : grading::unknownExtensions(policy, students))
-    note(wrap(harmless(sentence), 2, 0));
+    note(wrap(escapeForTerminal(sentence), 2, 0));
   const grading::Collected found = grading::collect(tasks, out, policy);
   if (book == nullptr) {
     replaceTextFile(out / "grades.csv", found.csv, "the table of grades");
@@ -259,10 +260,10 @@ void Regrading::tell() const {
     if (*before_[k] == *after) {
       ++same;
     } else if (++changed <= kMostTold) {
-      note(wrap(
-          harmless(fmt::format("{} {}: {} points, {} before{}", task.student, task.exercise, *after,
-                               *before_[k], isHeld ? "; the points from before count until --accept" : "")),
-          2, 0));
+      note(wrap(escapeForTerminal(fmt::format("{} {}: {} points, {} before{}", task.student, task.exercise,
+                                              *after, *before_[k],
+                                              isHeld ? "; the points from before count until --accept" : "")),
+                2, 0));
     }
   }
   if (isNew_ && changed + same > 0) {

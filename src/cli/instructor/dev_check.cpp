@@ -33,8 +33,8 @@ class GateReport {
     say(fmt::format(" {}  {}  {}",
                     result.passed ? paint(Colour::kGreen, " ok ") : paint(Colour::kRed, "FAIL"), exercise,
                     gate));
-    if (!result.passed) say("       " + wrap(harmless(result.message), 7, 7));
-    if (!result.note.empty()) say("       " + wrap(harmless(result.note), 7, 7));
+    if (!result.passed) say("       " + wrap(escapeForTerminal(result.message), 7, 7));
+    if (!result.note.empty()) say("       " + wrap(escapeForTerminal(result.note), 7, 7));
   }
 
   void addBlocked(const std::string& exercise, const std::string& why) {

@@ -63,7 +63,7 @@ class Proof {
     const ProcessResult run = runProcess(command, {.directory = tree_, .timeout = kLongest});
     if (run.exitCode == wanted) return;
     const std::string said = run.output + run.error;
-    note(harmless(said.substr(said.size() - std::min(said.size(), kShown))));
+    note(escapeForTerminal(said.substr(said.size() - std::min(said.size(), kShown))));
     throw Error({.what = "the release does not work on its own: " + text,
                  .found = run.started ? fmt::format("exit code {}", run.exitCode) : run.error,
                  .wanted = fmt::format("{}", wanted)});
@@ -96,7 +96,7 @@ namespace {
 void tellLeaks(const std::vector<grading::Leak>& leaks) {
   constexpr std::size_t kMostTold = 20;
   for (std::size_t k = 0; k < std::min(leaks.size(), kMostTold); ++k)
-    note(wrap(harmless(toString(leaks[k])), 2, 0));
+    note(wrap(escapeForTerminal(toString(leaks[k])), 2, 0));
   if (leaks.size() > kMostTold) note(fmt::format("and {} more", leaks.size() - kMostTold));
 }
 
@@ -176,7 +176,7 @@ std::vector<std::string> chosenExercises(const Project& project, const ReleaseOp
       options.until.find('T') == std::string::npos ? options.until + "T23:59:59Z" : options.until);
   if (!time)
     throw UsageError({.what = "--until",
-                      .found = harmless(options.until),
+                      .found = escapeForTerminal(options.until),
                       .wanted = "a day such as 2026-12-01, or a time such as 2026-12-01T08:00:00+01:00"});
   const grading::LatePolicy policy = readDeadlines(project, options.deadlines);
   for (const ExerciseInfo& exercise : project.exercises())

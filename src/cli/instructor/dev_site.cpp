@@ -19,7 +19,7 @@ ExitCode devSite(const Project& project, const SiteOptions& options) {
     say(dump(Json{
         {"written", leaks ? Json() : Json(shown(options.out))}, {"pages", site.pages}, {"leaks", list}}));
   } else if (leaks) {
-    for (const grading::Leak& leak : site.scan.leaks) note(wrap(harmless(toString(leak)), 2, 0));
+    for (const grading::Leak& leak : site.scan.leaks) note(wrap(escapeForTerminal(toString(leak)), 2, 0));
     note("Nothing was written.");
   } else {
     say(fmt::format("{} pages, {:.1f} MB, nothing leaks: open {}", site.pages,

@@ -40,9 +40,9 @@ void sayParts(const ExerciseStatistics& all) {
   for (const PartStatistics& part : all.parts) width = std::max(width, part.id.size());
   for (const PartStatistics& part : all.parts) {
     const double share = part.maxPoints > 0 ? part.meanPoints / part.maxPoints : 0;
-    say(fmt::format("  part {:{}}  {} {:3.0f} % of {} points, {} of {} have them all", harmless(part.id),
-                    width, bar(static_cast<int>(std::lround(share * 1000)), 1000), 100 * share,
-                    part.maxPoints, part.full, all.graded));
+    say(fmt::format("  part {:{}}  {} {:3.0f} % of {} points, {} of {} have them all",
+                    escapeForTerminal(part.id), width, bar(static_cast<int>(std::lround(share * 1000)), 1000),
+                    100 * share, part.maxPoints, part.full, all.graded));
   }
 }
 
@@ -71,9 +71,9 @@ void sayChecks(const ExerciseStatistics& all) {
     const std::string mark = check.group == grading::Group::kHidden ? ", hidden" : "";
     const std::string worth =
         check.discrimination ? fmt::format("; correlation with the rest {:.2f}", *check.discrimination) : "";
-    const std::string text =
-        fmt::format("{} of {} failed: {} [{}{}]: {}{}{}", check.failed, all.graded, harmless(check.title),
-                    harmless(check.id), mark, classesOf(check), harmless(commonQuestion(check)), worth);
+    const std::string text = fmt::format("{} of {} failed: {} [{}{}]: {}{}{}", check.failed, all.graded,
+                                         escapeForTerminal(check.title), escapeForTerminal(check.id), mark,
+                                         classesOf(check), escapeForTerminal(commonQuestion(check)), worth);
     say("  " + wrap(text, 6, 6));
   }
   if (passed > 0) say(fmt::format("  {} check{} passed by all", passed, passed == 1 ? "" : "s"));
@@ -104,13 +104,13 @@ void sayFirstFull(const ExerciseStatistics& all, const grading::LateRule& rule) 
     return;
   }
   const grading::FirstFull& first = *all.firstFull;
-  say("  " +
-      wrap(fmt::format("first full score: {}, handed in {}{}{} (time from {})", harmless(first.student),
-                       instantText(first.submitted), relationText(first.submitted, rule.opening, "opening"),
-                       relationText(first.submitted, rule.deadline, "deadline"),
-                       first.timeFrom == "file" ? "files, which may be when they were copied"
-                                                : harmless(first.timeFrom)),
-           6, 6));
+  say("  " + wrap(fmt::format("first full score: {}, handed in {}{}{} (time from {})",
+                              escapeForTerminal(first.student), instantText(first.submitted),
+                              relationText(first.submitted, rule.opening, "opening"),
+                              relationText(first.submitted, rule.deadline, "deadline"),
+                              first.timeFrom == "file" ? "files, which may be when they were copied"
+                                                       : escapeForTerminal(first.timeFrom)),
+                  6, 6));
 }
 
 void sayAttempts(const ExerciseStatistics& all) {
@@ -121,7 +121,7 @@ void sayAttempts(const ExerciseStatistics& all) {
   }
   std::string text =
       fmt::format("attempts median {:.4g}, most {} ({}); known of {} of {}", attempts.median, attempts.most,
-                  harmless(attempts.mostBy), attempts.known, all.graded + all.graderFailed);
+                  escapeForTerminal(attempts.mostBy), attempts.known, all.graded + all.graderFailed);
   if (attempts.atLeast > 0)
     text += fmt::format(", of {} as the number of imports that brought another file: at least so many",
                         attempts.atLeast);
@@ -129,7 +129,8 @@ void sayAttempts(const ExerciseStatistics& all) {
 }
 
 void sayExercise(const ExerciseStatistics& all, const grading::LateRule& rule) {
-  say(fmt::format("{}: {} graded, {} with full score", harmless(all.exercise), all.graded, all.full));
+  say(fmt::format("{}: {} graded, {} with full score", escapeForTerminal(all.exercise), all.graded,
+                  all.full));
   if (all.graderFailed > 0)
     say(fmt::format("  the grader failed on {} more: not counted, to be graded again", all.graderFailed));
   if (all.versions > 1)
@@ -143,7 +144,7 @@ void sayExercise(const ExerciseStatistics& all, const grading::LateRule& rule) {
     bins += fmt::format("{}{}: {}", k == 0 ? "" : "   ", grading::kDistribution[k], all.distribution[k]);
   say("  at least " + bins);
   say(fmt::format("  grading  median {:.1f} s, longest {:.1f} s ({})", all.medianSeconds, all.longestSeconds,
-                  harmless(all.slowest)));
+                  escapeForTerminal(all.slowest)));
   sayFirstFull(all, rule);
   sayAttempts(all);
   sayParts(all);
@@ -271,7 +272,7 @@ ExitCode devStats(const Project& project, const StatsOptions& options) {
   requireFolder(options.results, "the folder of results that rex grade wrote");
   const grading::LatePolicy policy = readDeadlines(project, options.deadlines);
   const grading::ClassResults read = grading::readClassResults(options.results);
-  for (const std::string& complaint : read.complaints) note(wrap(harmless(complaint), 2, 0));
+  for (const std::string& complaint : read.complaints) note(wrap(escapeForTerminal(complaint), 2, 0));
   if (read.results.empty())
     throw UsageError({.what = "nothing to evaluate",
                       .where = {options.results.string()},

@@ -56,7 +56,7 @@ Export read(const Project& project, const ExportOptions& options) {
                       .where = {options.results.string()},
                       .found = only.empty() ? "no grades" : "no grades for " + only,
                       .wanted = "an exercise that somebody has handed in"});
-  for (const std::string& sentence : all.book.notes) note(wrap(harmless(sentence), 2, 0));
+  for (const std::string& sentence : all.book.notes) note(wrap(escapeForTerminal(sentence), 2, 0));
   return all;
 }
 
@@ -70,7 +70,7 @@ void makePlace(const ExportOptions& options) {
 }
 
 ExitCode told(const std::vector<std::string>& notes) {
-  for (const std::string& sentence : notes) note(wrap(harmless(sentence), 2, 0));
+  for (const std::string& sentence : notes) note(wrap(escapeForTerminal(sentence), 2, 0));
   return notes.empty() ? ExitCode::kFull : ExitCode::kNotGradable;
 }
 

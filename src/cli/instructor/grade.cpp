@@ -105,7 +105,7 @@ std::optional<sandbox::Sandbox> chooseForStrangers(const Project& project,
     const auto best = sandbox::bestLevel(launcherOf(project), probeOf(project), folder.path());
     level = best.level;
     for (const std::string& reason : best.reasons)
-      if (!isForStrangers(best.level)) note(wrap(harmless(reason), 2, 0));
+      if (!isForStrangers(best.level)) note(wrap(escapeForTerminal(reason), 2, 0));
   }
   if (accepted ? *level < *accepted : !isForStrangers(*level)) {
     note(wrap(fmt::format("sandbox level {} is not for work of strangers: {}; to grade anyway, use "
@@ -159,10 +159,10 @@ void adviseImport(const fs::path& folder, const std::vector<ExerciseInfo>& exerc
 }
 
 void tell(const grading::HandIns& handedIn) {
-  for (const std::string& complaint : handedIn.complaints) note(wrap(harmless(complaint), 2, 0));
+  for (const std::string& complaint : handedIn.complaints) note(wrap(escapeForTerminal(complaint), 2, 0));
   constexpr std::size_t kMostNotes = 5;
   for (std::size_t k = 0; k < std::min(handedIn.notes.size(), kMostNotes); ++k)
-    note(wrap(harmless(handedIn.notes[k]), 2, 0));
+    note(wrap(escapeForTerminal(handedIn.notes[k]), 2, 0));
   if (handedIn.notes.size() > kMostNotes)
     note(fmt::format("and {} more files that are not graded", handedIn.notes.size() - kMostNotes));
 }
@@ -220,7 +220,7 @@ int gradeApart(const Task& task, const Graders::Grader& grader, const grading::T
     const grading::GradeResult result = grading::gradeTask(task, grader.toolchain, grader.exercise, options);
     return result.outcome == grading::Outcome::kGraderError ? 1 : 0;
   } catch (const std::exception& error) {
-    note(wrap(harmless(fmt::format("{} {}: {}", task.student, task.exercise, error.what())), 2, 0));
+    note(wrap(escapeForTerminal(fmt::format("{} {}: {}", task.student, task.exercise, error.what())), 2, 0));
     return 1;
   }
 }
@@ -233,7 +233,7 @@ bool isOpen(const Task& task, const GradeManyOptions& options) {
 void tellRefused(const std::vector<Task>& tasks, const fs::path& out) {
   for (const Task& task : tasks)
     if (grading::stateOf(task, out) == grading::TaskState::kRefused)
-      note(wrap(harmless(grading::whyRefused(task, out)) + "; it is graded again", 2, 0));
+      note(wrap(escapeForTerminal(grading::whyRefused(task, out)) + "; it is graded again", 2, 0));
 }
 
 // Processor time of a task's own process: compilers, workers and what reads the file have limits of their
@@ -254,7 +254,7 @@ int gradeOpen(const std::vector<Task>& tasks, const GradeManyOptions& options,
   const ProgressLine line([&] {
     return fmt::format("graded {} of {}, {} kept", ended.load(), count, tasks.size() - open.size());
   });
-  runInCopies(
+  forkMap(
       count, jobs,
       [&](int k) {
         const Task& task = *open[static_cast<std::size_t>(k)];
@@ -273,8 +273,8 @@ int gradeOpen(const std::vector<Task>& tasks, const GradeManyOptions& options,
         fs::remove_all(work.path() / fmt::format("{}", k), ignored);
         const Task& task = *open[static_cast<std::size_t>(k)];
         if (code < 0)
-          note(wrap(harmless(fmt::format("{} {}: the grading was ended by signal {}: grade it again",
-                                         task.student, task.exercise, -code)),
+          note(wrap(escapeForTerminal(fmt::format("{} {}: the grading was ended by signal {}: grade it again",
+                                                  task.student, task.exercise, -code)),
                     2, 0));
         ++ended;
       },

@@ -36,8 +36,8 @@ ExitCode gradeOne(const Project& project, const GradeOneOptions& options) {
                                                           .evidence = options.evidence,
                                                           .workers = options.workers,
                                                           .accept = options.accept});
-  say(wrap(harmless(fmt::format("{}: {}, {} of {} points {}", name, toString(result.outcome), result.score,
-                                result.maxScore, result.message)),
+  say(wrap(escapeForTerminal(fmt::format("{}: {}, {} of {} points {}", name, toString(result.outcome),
+                                         result.score, result.maxScore, result.message)),
            2, 0));
   return result.outcome == grading::Outcome::kGraderError ? ExitCode::kGraderFault : ExitCode::kFull;
 }

@@ -56,7 +56,7 @@ std::map<std::string, std::string> handedOutTexts(const std::vector<ExerciseInfo
 void list(const char* heading, const std::vector<std::string>& lines) {
   if (lines.empty()) return;
   note(fmt::format("{} ({}):", heading, lines.size()));
-  for (const std::string& line : lines) note("  " + wrap(harmless(line), 4, 4));
+  for (const std::string& line : lines) note("  " + wrap(escapeForTerminal(line), 4, 4));
 }
 
 std::string timesOf(const grading::ImportReport& report) {

@@ -70,7 +70,7 @@ Trial tryLevels(const Project& project, sandbox::Level highest) {
     const auto broken =
         std::find_if(trial.probes.begin(), trial.probes.end(), [](const Probe& p) { return !p.held; });
     note(wrap(fmt::format("level {} does not hold here: {}{}", numberOf(level),
-                          broken->ran ? broken->name + ": " : "", harmless(broken->text)),
+                          broken->ran ? broken->name + ": " : "", escapeForTerminal(broken->text)),
               2, 0));
   }
   return trial;
@@ -80,7 +80,7 @@ void sayTrial(const Trial& trial) {
   for (const Probe& probe : trial.probes)
     say(fmt::format("{:<10}  {}  {}", probe.name,
                     probe.held ? paint(Colour::kGreen, "held ") : paint(Colour::kRed, "fails"),
-                    harmless(probe.text)));
+                    escapeForTerminal(probe.text)));
   say(paint(Colour::kBold, describe(trial.level)));
   if (const std::string warning = sandbox::warningOf(trial.level); !warning.empty()) say(wrap(warning, 0, 0));
 }
@@ -125,15 +125,15 @@ Finding tryOut(const std::string& name, const std::string& packages,
   try {
     return {name, packages, Status::kWorks, attempt()};
   } catch (const Missing& missing) {
-    return {name, packages, Status::kMissing, harmless(missing.text)};
+    return {name, packages, Status::kMissing, escapeForTerminal(missing.text)};
   } catch (const Error& error) {
     ErrorParts parts = error.parts();
     parts.where = {};
     const bool isMissing = parts.wanted.find("Debian package") != std::string::npos;
     return {name, packages, isMissing ? Status::kMissing : Status::kFails,
-            harmless(Error(std::move(parts)).what())};
+            escapeForTerminal(Error(std::move(parts)).what())};
   } catch (const std::exception& error) {
-    return {name, packages, Status::kFails, harmless(error.what())};
+    return {name, packages, Status::kFails, escapeForTerminal(error.what())};
   }
 }
 
@@ -299,7 +299,7 @@ Finding trySandbox(const Project& project, const fs::path& folder) {
   const sandbox::Available best = sandbox::bestLevel(launcherOf(project), probeOf(project), folder);
   const std::string warning = sandbox::warningOf(best.level);
   std::string text = warning.empty() ? sandbox::describe(best.level) : warning;
-  for (const std::string& reason : best.reasons) text += "; " + harmless(reason);
+  for (const std::string& reason : best.reasons) text += "; " + escapeForTerminal(reason);
   return {.name = "sandbox", .text = text + "; all attacks: rex doctor --sandbox"};
 }
 

@@ -101,7 +101,7 @@ Json parsedObject(const std::string& text, const std::string& file, const std::s
 
 MatrixFile::MatrixFile(const std::filesystem::path& path, const std::filesystem::path& given,
                        const std::vector<std::string>& known)
-    : file_(harmless(given.string())) {
+    : file_(escapeForTerminal(given.string())) {
   const std::string wanted = "an object with the fields " + listedNames(known);
   object_ = parsedObject(readTextFile(path), file_, wanted);
   if (!object_.is_object())
@@ -109,7 +109,7 @@ MatrixFile::MatrixFile(const std::filesystem::path& path, const std::filesystem:
   std::vector<std::string> unused;
   for (const auto& field : object_.items())
     if (std::find(known.begin(), known.end(), field.key()) == known.end())
-      unused.push_back(harmless(field.key()));
+      unused.push_back(escapeForTerminal(field.key()));
   if (!unused.empty()) note(wrap(fmt::format("rex: {}: not used: {}", file_, join(unused, ", ")), 2, 0));
 }
 

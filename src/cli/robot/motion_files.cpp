@@ -247,7 +247,7 @@ void removeFrames(const fs::path& folder) {
 }
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& found, const std::string& wanted) {
-  throw UsageError({.what = "-o " + harmless(path.string()), .found = found, .wanted = wanted});
+  throw UsageError({.what = "-o " + escapeForTerminal(path.string()), .found = found, .wanted = wanted});
 }
 
 }  // namespace

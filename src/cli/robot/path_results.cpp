@@ -35,7 +35,7 @@ std::string listOf(const std::vector<std::string>& names) {
   constexpr std::size_t kMost = 6;
   std::vector<std::string> shown;
   for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i)
-    shown.push_back("'" + harmless(names[i]) + "'");
+    shown.push_back("'" + escapeForTerminal(names[i]) + "'");
   const std::string rest = names.size() > kMost ? fmt::format(" and {} more", names.size() - kMost) : "";
   return fmt::format("{}{}", join(shown, ", "), rest);
 }
@@ -234,7 +234,7 @@ Figure speedsFigure(const TimedPath& timed, const MotionLimits& limits) {
                 .yLabel = "speed / limit [1]",
                 .legend = Legend::kOutside,
                 .horizontalLines = {{.at = 1, .label = "limit"}}};
-  for (const std::string& name : limits.names) figure.series.push_back({.label = harmless(name)});
+  for (const std::string& name : limits.names) figure.series.push_back({.label = escapeForTerminal(name)});
   for (int i = 0; i <= kPoints; ++i) {
     const double t = timed.duration() * i / kPoints;
     const Eigen::VectorXd v = timed.at(t).v;
@@ -319,7 +319,8 @@ void writeExplored(Picture picture, RenderPlan plan, std::string caption, const 
 }
 
 std::string titleOf(const PathTask& task, const PlanOptions& options, const FoundPath& found) {
-  return fmt::format("{}, {}, seed {}", harmless(task.model.name()), nameOf(options.planner), found.seed);
+  return fmt::format("{}, {}, seed {}", escapeForTerminal(task.model.name()), nameOf(options.planner),
+                     found.seed);
 }
 
 std::vector<std::string> writePathFiles(const PathTask& task, const PlanOptions& options,
@@ -344,7 +345,8 @@ std::vector<std::string> writePathFiles(const PathTask& task, const PlanOptions&
 namespace {
 
 std::string timingTextOf(const PathTiming& timing, const PlanOptions& options) {
-  if (!timing.isFound()) return fmt::format("duration   none: {}\n", harmless(timing.result.message));
+  if (!timing.isFound())
+    return fmt::format("duration   none: {}\n", escapeForTerminal(timing.result.message));
   const TimingResult& result = timing.result;
   const int stops = result.motion.curve().stops();
   return fmt::format("duration   {:.3f} s, at least {:.3f} s from the velocity limits alone; {} on the way\n",
@@ -388,9 +390,10 @@ std::string summaryOfAll(const PathTask& task, const PlanOptions& options, const
       if (one.isFound() || !ofPaths) values.push_back(value(one));
     return values;
   };
-  std::string text = fmt::format("{}, {}, seeds {} to {}: {} of {} found a path\n",
-                                 harmless(task.model.name()), nameOf(options.planner), found.all.front().seed,
-                                 found.all.back().seed, found.successes(), found.all.size());
+  std::string text =
+      fmt::format("{}, {}, seeds {} to {}: {} of {} found a path\n", escapeForTerminal(task.model.name()),
+                  nameOf(options.planner), found.all.front().seed, found.all.back().seed, found.successes(),
+                  found.all.size());
   text += fmt::format("{:22} {:>10} {:>10} {:>10}", "", "min", "median", "max");
   text += row("nodes", valuesOf(false, [](const FoundPath& one) { return one.nodes; }));
   text += row("configurations checked",

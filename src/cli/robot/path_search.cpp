@@ -109,7 +109,7 @@ void requireFreeEnds(const PathProblem& problem, double margin) {
   const auto requireFree = [&](const char* option, const Eigen::VectorXd& q) {
     if (problem.allValid(q)) return;
     throw UsageError({.what = option,
-                      .found = harmless(problem.reason(q)),
+                      .found = escapeForTerminal(problem.reason(q)),
                       .wanted = fmt::format("all shapes {:g} m apart, the --margin", margin)});
   };
   requireFree("--start", problem.start);

@@ -36,7 +36,7 @@ PathSearch searchOf(const PlanOptions& options) {
 PathTask taskOf(Model model, const PlanOptions& options) {
   const ContactModel contacts = contactModelOf(model);
   if (contacts.pairs().empty())
-    note(harmless(model.name()) + ": no two shapes may collide: every path is free");
+    note(escapeForTerminal(model.name()) + ": no two shapes may collide: every path is free");
   const Eigen::VectorXd start =
       postureWithinLimits(model, "--start", options.start.empty() ? "file" : options.start);
   const Eigen::VectorXd goal = postureWithinLimits(model, "--goal", options.goal);
@@ -51,7 +51,7 @@ BodyId drawnBody(const Model& model, const std::string& name) {
   const BodyId body = asWrongUse([&] { return model.body(name); }, "--body: ");
   for (BodyId at = body; at != kWorld; at = model[at].parent)
     if (model[at].joint != kNoJoint && model[model[at].joint].nv > 0) return body;
-  throw UsageError({.what = "--body", .found = "'" + harmless(name) + "', which no joint moves"});
+  throw UsageError({.what = "--body", .found = "'" + escapeForTerminal(name) + "', which no joint moves"});
 }
 
 // Whether all paths are clear of collisions; if not, says why.

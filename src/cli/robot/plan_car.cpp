@@ -61,7 +61,7 @@ void requireCar(const Model& model) {
   const bool isCar =
       model.nq() == 3 && std::ranges::count(model.joints(), JointType::kPlanarXYPhi, &Joint::type) == 1;
   if (!isCar)
-    throw UsageError({.what = harmless(model.name()),
+    throw UsageError({.what = escapeForTerminal(model.name()),
                       .found = fmt::format("{} coordinates", model.nq()),
                       .wanted = "one joint of type transXYPhi, that of the car, and no other that moves"});
 }
@@ -119,7 +119,7 @@ void tellWhatIsNoObstacle(const Model& model) {
       note(wrap(
           fmt::format("shapes of '{}' and '{}' do not stop each other, because a joint links these bodies: "
                       "put obstacles on a body of their own",
-                      harmless(model[pair.a].name), harmless(model[pair.b].name)),
+                      escapeForTerminal(model[pair.a].name), escapeForTerminal(model[pair.b].name)),
           2, 0));
 }
 
@@ -154,7 +154,7 @@ Report replayOf(const PathTask& task, const Parking& parking, const PlanOptions&
 
 std::vector<std::string> writeFiles(const PathTask& task, const Parking& parking, const PlanOptions& options,
                                     const RenderPlan& pictures) {
-  const std::string title = harmless(task.model.name()) + ", hybrid A*";
+  const std::string title = escapeForTerminal(task.model.name()) + ", hybrid A*";
   std::vector<fs::path> files = {options.out / "tree.png"};
   writeExplored(parkingPicture(task, parking), pictures,
                 fmt::format("{}: {} states expanded", title, parking.path.expanded), files.back());
@@ -177,8 +177,8 @@ std::vector<std::string> writeFiles(const PathTask& task, const Parking& parking
 }
 
 std::string summaryOf(const PathTask& task, const Parking& parking, const PlanOptions& options) {
-  std::string text =
-      fmt::format("{}, hybrid A*: {}", harmless(task.model.name()), parking.path.driven.found.message);
+  std::string text = fmt::format("{}, hybrid A*: {}", escapeForTerminal(task.model.name()),
+                                 parking.path.driven.found.message);
   if (!parking.isFound()) return text;
   text += fmt::format("\ncost       {:.3f}, no path on the grid costs less than {:.3f}\nclearance  ",
                       parking.path.cost, parking.path.leastCost);

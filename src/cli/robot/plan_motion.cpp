@@ -95,7 +95,8 @@ ConstraintMethod methodOf(Planner planner) {
 std::pair<BodyId, Eigen::Vector3d> goalOf(const Model& model, const std::string& text) {
   const std::size_t colon = text.rfind(':');
   if (colon == std::string::npos)
-    throw UsageError({.what = "--goal", .found = "'" + harmless(text) + "'", .wanted = "BODY:x,y,z"});
+    throw UsageError(
+        {.what = "--goal", .found = "'" + escapeForTerminal(text) + "'", .wanted = "BODY:x,y,z"});
   const BodyId body = asWrongUse([&] { return model.body(text.substr(0, colon)); }, "--goal: ");
   return {body, parsePoint(text.substr(colon + 1), "--goal", "BODY:x,y,z")};
 }
@@ -103,7 +104,7 @@ std::pair<BodyId, Eigen::Vector3d> goalOf(const Model& model, const std::string&
 void requireStartIsClear(const TrajectoryTask& task) {
   if (contactFree(task.model, task.contacts, task.margin)(task.start)) return;
   throw UsageError({.what = "--start",
-                    .found = harmless(nearestContact(task.model, task.contacts, task.start)),
+                    .found = escapeForTerminal(nearestContact(task.model, task.contacts, task.start)),
                     .wanted = fmt::format("all shapes {:g} m apart, the --margin", task.margin)});
 }
 
@@ -123,7 +124,7 @@ TrajectoryTask motionTaskOf(Model model, const PlanOptions& options) {
                       .seconds = options.duration,
                       .method = methodOf(options.planner)};
   if (task.avoids && task.contacts.pairs().empty())
-    note(harmless(task.model.name()) + ": no two shapes may collide: there is nothing to avoid");
+    note(escapeForTerminal(task.model.name()) + ": no two shapes may collide: there is nothing to avoid");
   task.avoids = task.avoids && !task.contacts.pairs().empty();
   if (task.avoids) requireStartIsClear(task);
   return task;
@@ -171,8 +172,9 @@ Figure costFigure(const FoundTrajectory& found) {
 }
 
 std::string titleOf(const TrajectoryTask& task) {
-  return fmt::format("{}: {} to {:g}, {:g}, {:g}", harmless(task.model.name()),
-                     harmless(task.model[task.body].name), task.p_WQ.x(), task.p_WQ.y(), task.p_WQ.z());
+  return fmt::format("{}: {} to {:g}, {:g}, {:g}", escapeForTerminal(task.model.name()),
+                     escapeForTerminal(task.model[task.body].name), task.p_WQ.x(), task.p_WQ.y(),
+                     task.p_WQ.z());
 }
 
 // Contains no computing times: the same input gives the same bytes.

@@ -18,7 +18,7 @@ namespace rex::cli {
 namespace {
 
 std::vector<std::string> allHarmless(std::vector<std::string> names) {
-  for (std::string& name : names) name = harmless(name);
+  for (std::string& name : names) name = escapeForTerminal(name);
   return names;
 }
 
@@ -241,10 +241,10 @@ void requireWithinLimits(const Model& model, const std::string& option, const Ve
     const double lower = model.lowerLimits()[i], upper = model.upperLimits()[i];
     const double outside = std::max(lower - q[i], q[i] - upper);
     if (outside <= 0) continue;
-    throw UsageError(
-        {.what = fmt::format("{}: joint '{}' (q{})", option, harmless(jointOfPosition(model, i).name), i),
-         .found = fmt::format("{:g}, out of bounds by {:.4g}", q[i], outside),
-         .wanted = fmt::format("{:g} to {:g}", lower, upper)});
+    throw UsageError({.what = fmt::format("{}: joint '{}' (q{})", option,
+                                          escapeForTerminal(jointOfPosition(model, i).name), i),
+                      .found = fmt::format("{:g}, out of bounds by {:.4g}", q[i], outside),
+                      .wanted = fmt::format("{:g} to {:g}", lower, upper)});
   }
 }
 

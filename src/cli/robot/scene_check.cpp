@@ -54,16 +54,16 @@ void sayJson(const Verdict& verdict) {
 }
 
 void sayText(const Verdict& verdict) {
-  for (const Diagnostic& one : verdict.notes) say(wrap(harmless(toString(one)), 2, 0));
+  for (const Diagnostic& one : verdict.notes) say(wrap(escapeForTerminal(toString(one)), 2, 0));
   if (verdict.error) {
-    say(wrap(harmless(Error(*verdict.error).what()), 2, 0));
+    say(wrap(escapeForTerminal(Error(*verdict.error).what()), 2, 0));
     return;
   }
   const auto warnings = std::count_if(verdict.notes.begin(), verdict.notes.end(), [](const Diagnostic& one) {
     return one.severity == Severity::kWarning;
   });
   say(fmt::format(
-      "{}: loads{}", harmless(verdict.file),
+      "{}: loads{}", escapeForTerminal(verdict.file),
       warnings == 0 ? "" : fmt::format(", with {} warning{}", warnings, warnings == 1 ? "" : "s")));
 }
 

@@ -18,7 +18,7 @@ namespace {
 void sayLines(const std::string& text) {
   for (std::size_t start = 0; start < text.size();) {
     const std::size_t end = text.find('\n', start);
-    say(harmless(text.substr(start, end - start)));
+    say(escapeForTerminal(text.substr(start, end - start)));
     start = end + 1;
   }
 }

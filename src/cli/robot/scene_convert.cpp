@@ -23,16 +23,17 @@ fs::path folderOf(const fs::path& file) { return fs::absolute(file).lexically_no
 void requireEnding(const fs::path& out) {
   const std::string ending = out.extension().string();
   if (endingOf(out) == ".ors" || endingOf(out) == ".urdf") return;
-  throw UsageError({.what = fmt::format("cannot write '{}'", harmless(out.string())),
-                    .found = ending.empty() ? "no ending" : fmt::format("the ending '{}'", harmless(ending)),
-                    .wanted = ".ors or .urdf",
-                    .nearest = nearestNames(ending, {".ors", ".urdf"})});
+  throw UsageError(
+      {.what = fmt::format("cannot write '{}'", escapeForTerminal(out.string())),
+       .found = ending.empty() ? "no ending" : fmt::format("the ending '{}'", escapeForTerminal(ending)),
+       .wanted = ".ors or .urdf",
+       .nearest = nearestNames(ending, {".ors", ".urdf"})});
 }
 
 void requireAnother(const fs::path& in, const fs::path& out) {
   std::error_code ignored;
   if (fs::equivalent(in, out, ignored))
-    throw UsageError({.what = fmt::format("'{}' is the scene itself", harmless(out.string())),
+    throw UsageError({.what = fmt::format("'{}' is the scene itself", escapeForTerminal(out.string())),
                       .wanted = "another file to write"});
 }
 
@@ -51,7 +52,7 @@ void warnOfMeshesOutside(const SceneSpec& spec, const fs::path& out) {
   for (const BodySpec& body : spec.bodies) widen(body.shapes);
   if (root == above) return;
   note(wrap(fmt::format("the meshes stay where they are; read the new file with --assets {}",
-                        harmless(root.string())),
+                        escapeForTerminal(root.string())),
             2, 0));
 }
 
@@ -69,7 +70,7 @@ ExitCode sceneConvert(const Project& project, const ConvertOptions& options) {
     text = asWrongUse([&] { return writeOrs(spec, folder); });
   } else {
     UrdfText urdf = asWrongUse([&] { return writeUrdf(spec, folder); });
-    for (const Diagnostic& one : urdf.notes) note(wrap(harmless(toString(one)), 2, 0));
+    for (const Diagnostic& one : urdf.notes) note(wrap(escapeForTerminal(toString(one)), 2, 0));
     text = std::move(urdf.text);
   }
   asWrongUse([&] {

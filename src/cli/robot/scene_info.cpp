@@ -85,8 +85,9 @@ void sayTree(const Model& model) {
     waiting.pop_back();
     const Body& body = model[id];
     const bool hangs = body.joint != kNoJoint;
-    table.add({indented(harmless(body.name), depth), body.mass == 0 ? "-" : fmt::format("{:.4g}", body.mass),
-               hangs ? harmless(model[body.joint].name) : "-",
+    table.add({indented(escapeForTerminal(body.name), depth),
+               body.mass == 0 ? "-" : fmt::format("{:.4g}", body.mass),
+               hangs ? escapeForTerminal(model[body.joint].name) : "-",
                hangs ? coordinatesOf(model[body.joint]) : "-"});
     const auto& below = children[static_cast<std::size_t>(id)];
     for (auto child = below.rbegin(); child != below.rend(); ++child) waiting.emplace_back(*child, depth + 1);
@@ -104,7 +105,7 @@ void sayCoordinates(const Model& model) {
       const auto limit = [](double value) {
         return std::isfinite(value) ? fmt::format("{:.4g}", value) : std::string("-");
       };
-      table.add({std::to_string(at), i == 0 ? harmless(joint.name) : "",
+      table.add({std::to_string(at), i == 0 ? escapeForTerminal(joint.name) : "",
                  i == 0 ? std::string(toString(joint.type)) : "",
                  fmt::format("{:.4g}", model.initialPositions()[at]), limit(model.lowerLimits()[at]),
                  limit(model.upperLimits()[at])});
@@ -123,14 +124,14 @@ void sayShapes(const Model& model) {
     const std::string drawn = typesOf(shapes[b], &ModelShape::visible);
     const std::string contact = typesOf(shapes[b], &ModelShape::contact);
     if (drawn.empty() && contact.empty()) continue;
-    table.add(
-        {harmless(model.bodies()[b].name), drawn.empty() ? "-" : drawn, contact.empty() ? "-" : contact});
+    table.add({escapeForTerminal(model.bodies()[b].name), drawn.empty() ? "-" : drawn,
+               contact.empty() ? "-" : contact});
   }
   table.print();
 }
 
 void sayPins(const Model& model) {
-  const Eigen::VectorXd gaps = pinGaps(model, model.initialPositions());
+  const Eigen::VectorXd gaps = loopClosureErrors(model, model.initialPositions());
   Table table;
   table.add({"pin", "at", "to", "at", "gap at the start, m"});
   const auto point = [](const Eigen::Vector3d& p) {
@@ -138,8 +139,8 @@ void sayPins(const Model& model) {
   };
   for (Eigen::Index i = 0; i < gaps.size(); ++i) {
     const Pin& pin = model.pins()[static_cast<std::size_t>(i)];
-    table.add({harmless(model[pin.a].name), point(pin.p_AP), harmless(model[pin.b].name), point(pin.p_BQ),
-               fmt::format("{:.2g}", gaps[i])});
+    table.add({escapeForTerminal(model[pin.a].name), point(pin.p_AP), escapeForTerminal(model[pin.b].name),
+               point(pin.p_BQ), fmt::format("{:.2g}", gaps[i])});
   }
   table.print();
 }
@@ -178,7 +179,7 @@ Json infoOf(const Model& model) {
                       {"contact", shape.contact},
                       {"visible", shape.visible}});
   Json pins = Json::array();
-  const Eigen::VectorXd gaps = pinGaps(model, model.initialPositions());
+  const Eigen::VectorXd gaps = loopClosureErrors(model, model.initialPositions());
   for (Eigen::Index i = 0; i < gaps.size(); ++i) {
     const Pin& pin = model.pins()[static_cast<std::size_t>(i)];
     pins.push_back({{"a", model[pin.a].name},
@@ -203,7 +204,7 @@ ExitCode sceneInfo(const Project& project, const SceneOptions& options) {
   const auto count = [](std::size_t n, const char* one, const char* many) {
     return fmt::format("{} {}", n, n == 1 ? one : many);
   };
-  say(paint(Colour::kBold, harmless(model.name())) +
+  say(paint(Colour::kBold, escapeForTerminal(model.name())) +
       fmt::format(": {}, {}, {}, {}, {:.6g} kg", count(model.bodies().size() - 1, "body", "bodies"),
                   count(model.joints().size(), "joint", "joints"),
                   count(static_cast<std::size_t>(model.nv()), "degree of freedom", "degrees of freedom"),

@@ -48,7 +48,7 @@ ExitCode sceneKinematics(const Project& project, const SceneOptions& options) {
   }));
   Json bodies = Json::array();
   std::vector<std::string> names;
-  for (const Body& body : model.bodies()) names.push_back(harmless(body.name));
+  for (const Body& body : model.bodies()) names.push_back(escapeForTerminal(body.name));
   const std::size_t width = widestOf(names, 4);
   if (!options.json)
     say(fmt::format("{:{}}", "body", width) + heads({"x", "y", "z", "qw", "qx", "qy", "qz"}));
@@ -58,7 +58,7 @@ ExitCode sceneKinematics(const Project& project, const SceneOptions& options) {
       bodies.push_back(
           {{"name", model[id].name}, {"pos", jsonOf(poses[id].p)}, {"quat_wxyz", jsonOf(quaternion)}});
     else
-      say(fmt::format("{:{}}", harmless(model[id].name), width) + fiveDecimals(poses[id].p) +
+      say(fmt::format("{:{}}", escapeForTerminal(model[id].name), width) + fiveDecimals(poses[id].p) +
           fiveDecimals(quaternion));
   }
   if (options.json) say(dump(Json{{"q", jsonOf(q)}, {"bodies", bodies}}));

@@ -29,7 +29,7 @@ void chooseShapes(SceneSpec& spec, const std::string& shapes) {
   const std::vector<std::string> known = {"visible", "contact", "all"};
   if (!shapes.empty() && shapes != known[0] && shapes != known[1] && shapes != known[2])
     throw UsageError({.what = "--shapes",
-                      .found = "'" + harmless(shapes) + "'",
+                      .found = "'" + escapeForTerminal(shapes) + "'",
                       .wanted = "visible, contact or all",
                       .nearest = nearestNames(shapes, known)});
   bool anyContact = false;
@@ -84,7 +84,7 @@ SceneSpec loadSpec(const Project& project, const SceneOption& scene) {
   const fs::path file = fileOf(project, scene);
   requireMeaning(file, scene.reading);
   SceneFile loaded = read(file, scene.reading);
-  for (const Diagnostic& one : loaded.notes) note(wrap(harmless(toString(one)), 2, 0));
+  for (const Diagnostic& one : loaded.notes) note(wrap(escapeForTerminal(toString(one)), 2, 0));
   if (!loaded.spec.pins.empty())
     note(
         wrap("pins close loops here: Bullet keeps them closed (rex simulate --engine bullet, Simulate in rex "
@@ -115,7 +115,7 @@ std::size_t pairsOfBodies(const Model& model) {
 
 ContactModel contactModelOf(const Model& model) {
   if (const std::size_t pairs = pairsOfBodies(model); pairs > kMostContactPairs)
-    throw UsageError({.what = harmless(model.name()) + ": too many shapes take part in contacts",
+    throw UsageError({.what = escapeForTerminal(model.name()) + ": too many shapes take part in contacts",
                       .found = fmt::format("{} pairs of shapes", pairs),
                       .wanted = fmt::format("at most {}", kMostContactPairs)});
   return asWrongUse([&] {
@@ -125,7 +125,7 @@ ContactModel contactModelOf(const Model& model) {
 }
 
 void noteCollisionWarnings(const Model& model) {
-  for (const Diagnostic& one : collisionWarnings(model)) note(wrap(harmless(toString(one)), 2, 0));
+  for (const Diagnostic& one : collisionWarnings(model)) note(wrap(escapeForTerminal(toString(one)), 2, 0));
 }
 
 }  // namespace rex::cli

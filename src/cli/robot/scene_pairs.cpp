@@ -36,7 +36,8 @@ void sayPairs(const Model& model, const std::vector<PairVerdict>& verdicts) {
   for (const bool mayCollide : {false, true})
     for (const PairVerdict& verdict : verdicts)
       if (verdict.mayCollide == mayCollide)
-        say(harmless(fmt::format("{:{}}  {}", pairNames(model, verdict), width, toString(verdict, model))));
+        say(escapeForTerminal(
+            fmt::format("{:{}}  {}", pairNames(model, verdict), width, toString(verdict, model))));
 }
 
 Json jsonOfSample(const Model& model, const TouchSample& sample, std::uint64_t seed) {
@@ -69,8 +70,9 @@ ExitCode sceneNeverTouching(const Project& project, const PairsOptions& options)
   Rng rng(options.seed);
   const TouchSample sample = asWrongUse([&] { return sampleTouches(model, options.samples, rng); });
   if (!sample.held.empty())
-    note(harmless(fmt::format("joints without limits to draw random positions from, kept at their start: {}",
-                              join(sample.held, ", "))));
+    note(escapeForTerminal(
+        fmt::format("joints without limits to draw random positions from, kept at their start: {}",
+                    join(sample.held, ", "))));
   if (options.scene.json) {
     say(dump(jsonOfSample(model, sample, options.seed)));
     return ExitCode::kFull;

@@ -244,12 +244,12 @@ double rounded(double x) { return std::abs(x) < 5e-6 ? 0 : x; }
 // Prints the first and the last value of each coordinate.
 void sayPostures(const Model& model, const Eigen::VectorXd& first, const Eigen::VectorXd& last) {
   std::size_t width = 0;
-  for (const Joint& joint : model.joints()) width = std::max(width, harmless(joint.name).size());
+  for (const Joint& joint : model.joints()) width = std::max(width, escapeForTerminal(joint.name).size());
   for (const Joint& joint : model.joints()) {
     if (joint.mimics) continue;
     for (int i = joint.qIndex; i < joint.qIndex + joint.nq; ++i)
-      say(fmt::format("q{:<3} {:{}}  {:9.5f} -> {:9.5f}", i, harmless(joint.name), width, rounded(first[i]),
-                      rounded(last[i])));
+      say(fmt::format("q{:<3} {:{}}  {:9.5f} -> {:9.5f}", i, escapeForTerminal(joint.name), width,
+                      rounded(first[i]), rounded(last[i])));
   }
 }
 
@@ -310,13 +310,14 @@ Model modelOf(const Project& project, const SimulateOptions& options) {
 void noteGaps(const Model& model, const SimulationPlan& plan) {
   constexpr double kVisible = 1e-3;
   if (!plan.physics) return;
-  const Eigen::VectorXd gaps = pinGaps(model, plan.start.q);
+  const Eigen::VectorXd gaps = loopClosureErrors(model, plan.start.q);
   std::string text;
   for (Eigen::Index i = 0; i < gaps.size(); ++i) {
     const Pin& pin = model.pins()[static_cast<std::size_t>(i)];
     if (gaps[i] > kVisible)
-      text += fmt::format("{}'{}' and '{}' by {:.3g} m", text.empty() ? "" : ", ",
-                          harmless(model[pin.a].name), harmless(model[pin.b].name), gaps[i]);
+      text +=
+          fmt::format("{}'{}' and '{}' by {:.3g} m", text.empty() ? "" : ", ",
+                      escapeForTerminal(model[pin.a].name), escapeForTerminal(model[pin.b].name), gaps[i]);
   }
   if (!text.empty())
     note(wrap("pins are open at the start, pulled together at 1 m/s at most: " + text, 2, 0));
@@ -341,7 +342,8 @@ void noteUnheld(const Model& model, const SimulationPlan& plan) {
   if (plan.hold != Hold::kMotor) return;
   for (const std::string& joint :
        Holder(model, plan.hold, plan.start.q, plan.stepper.gravity_W, plan.tau).unheld())
-    note(fmt::format("joint '{}' is not held: motors cannot drive joints with quaternions", harmless(joint)));
+    note(fmt::format("joint '{}' is not held: motors cannot drive joints with quaternions",
+                     escapeForTerminal(joint)));
 }
 
 // Lets a scene move under gravity. Writes a log, an energy plot and a film, or a page.

@@ -165,7 +165,7 @@ void FilmPostures::add(const Eigen::VectorXd& q) {
   ++step_;
 }
 
-Eigen::VectorXd pinGaps(const Model& model, const VectorArg& q) {
+Eigen::VectorXd loopClosureErrors(const Model& model, const VectorArg& q) {
   const BodyPoses poses = forwardKinematics(model, q);
   Eigen::VectorXd gaps(static_cast<Eigen::Index>(model.pins().size()));
   for (Eigen::Index i = 0; i < gaps.size(); ++i) {
@@ -198,8 +198,8 @@ std::string toString(const std::vector<BodyOverlap>& overlaps) {
   constexpr std::size_t kMost = 12;
   std::string text = fmt::format("{} pair{}: ", overlaps.size(), overlaps.size() == 1 ? "" : "s");
   for (std::size_t i = 0; i < std::min(overlaps.size(), kMost); ++i)
-    text += fmt::format("{}'{}' and '{}' by {:.3g} m", i == 0 ? "" : ", ", harmless(overlaps[i].a),
-                        harmless(overlaps[i].b), overlaps[i].depth);
+    text += fmt::format("{}'{}' and '{}' by {:.3g} m", i == 0 ? "" : ", ", escapeForTerminal(overlaps[i].a),
+                        escapeForTerminal(overlaps[i].b), overlaps[i].depth);
   if (overlaps.size() > kMost) text += fmt::format(" and {} more", overlaps.size() - kMost);
   return text;
 }
@@ -237,12 +237,12 @@ class TorqueReader {
     const NumberTable::Name& first = numbers_.names.front();
     const auto at = [&](const NumberTable::Name& name) { return std::pair(numbers_.namesLine, name.column); };
     if (first.text != "time")
-      refuse(at(first), "torques: first column", "'" + harmless(first.text) + "'", kHeadWanted);
+      refuse(at(first), "torques: first column", "'" + escapeForTerminal(first.text) + "'", kHeadWanted);
     if (numbers_.names.size() == 1) refuse(at(first), "torques", "no joint after 'time'", kHeadWanted);
     for (const NumberTable::Name& name : std::span(numbers_.names).subspan(1)) {
       const int place = placeOf(name.text, at(name));
       if (std::ranges::find(table_.columns, place) != table_.columns.end())
-        refuse(at(name), "torques", "'" + harmless(name.text) + "' twice", "a column per joint");
+        refuse(at(name), "torques", "'" + escapeForTerminal(name.text) + "' twice", "a column per joint");
       table_.columns.push_back(place);
     }
   }
@@ -250,22 +250,23 @@ class TorqueReader {
   int placeOf(const std::string& name, std::pair<int, int> at) const {
     for (const Joint& joint : model_.joints()) {
       if (joint.name != name) continue;
-      const std::string what = "torques: joint '" + harmless(name) + "'";
+      const std::string what = "torques: joint '" + escapeForTerminal(name) + "'";
       if (joint.mimics)
         refuse(at, what, "a joint that mimics another",
-               "'" + harmless(jointOfVelocity(model_, joint.vIndex).name) + "', whose torque moves both");
+               "'" + escapeForTerminal(jointOfVelocity(model_, joint.vIndex).name) +
+                   "', whose torque moves both");
       if (joint.type == JointType::kFree) refuse(at, what, "a free joint", "joints with a motor");
       if (joint.nv > 1)
         refuse(at, what, fmt::format("{} coordinates", joint.nv),
-               fmt::format("'{} [0]' or another", harmless(name)));
+               fmt::format("'{} [0]' or another", escapeForTerminal(name)));
     }
     const auto found = std::ranges::find(names_, name);
     if (found != names_.end() && !name.empty()) {
       const int place = static_cast<int>(found - names_.begin());
       if (jointOfVelocity(model_, place).type != JointType::kFree) return place;
     }
-    refuse(at, "torques", "'" + harmless(name) + "'",
-           "a joint of " + harmless(model_.name()) + " with a motor", nearestNames(name, driven()));
+    refuse(at, "torques", "'" + escapeForTerminal(name) + "'",
+           "a joint of " + escapeForTerminal(model_.name()) + " with a motor", nearestNames(name, driven()));
   }
 
   std::vector<std::string> driven() const {

@@ -87,7 +87,7 @@ class FilmPostures {
 };
 
 /// How far the two points of each pin are apart at q, metres.
-[[nodiscard]] Eigen::VectorXd pinGaps(const Model& model, const VectorArg& q);
+[[nodiscard]] Eigen::VectorXd loopClosureErrors(const Model& model, const VectorArg& q);
 
 /// Two overlapping bodies, or shapes of the world.
 struct BodyOverlap {

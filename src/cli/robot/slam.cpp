@@ -137,13 +137,13 @@ ExitCode slam(const SlamOptions& options, G2oFile& file, Graph& graph) {
 ExitCode slam(const Project& project, const SlamOptions& options) {
   if (!options.plot.empty() && options.plot.extension() != ".png" && options.plot.extension() != ".svg")
     throw UsageError({.what = "--plot",
-                      .found = "'" + harmless(options.plot.string()) + "'",
+                      .found = "'" + escapeForTerminal(options.plot.string()) + "'",
                       .wanted = "a .png or .svg file"});
   const bool isExample =
       !std::filesystem::exists(options.file) && std::filesystem::exists(project.files() / options.file);
   G2oFile file =
       asWrongUse([&] { return readG2o(isExample ? project.files() / options.file : options.file); });
-  for (const Diagnostic& one : file.notes) note(harmless(toString(one)));
+  for (const Diagnostic& one : file.notes) note(escapeForTerminal(toString(one)));
   return std::visit([&](auto& graph) { return slam(options, file, graph); }, file.graph);
 }
 

@@ -62,8 +62,9 @@ const Demonstration& choose(const std::vector<Demonstration>& all, const std::st
   if (found == all.end()) {
     std::vector<std::string> names;
     for (const Demonstration& one : all) names.push_back(one.name);
-    throw UsageError({.what = chapter ? fmt::format("no demonstration belongs to chapter {}", *chapter)
-                                      : fmt::format("there is no demonstration '{}'", harmless(which)),
+    throw UsageError({.what = chapter
+                                  ? fmt::format("no demonstration belongs to chapter {}", *chapter)
+                                  : fmt::format("there is no demonstration '{}'", escapeForTerminal(which)),
                       .wanted = "a name or a chapter that `rex demo` lists",
                       .nearest = nearestNames(which, names)});
   }
@@ -110,7 +111,7 @@ ExitCode demo(const Project& project, const DemoOptions& options) {
   if (options.json) {
     if (!options.which.empty() || !options.out.empty())
       throw UsageError({.what = "--json lists all demonstrations",
-                        .found = harmless(options.which + options.out),
+                        .found = escapeForTerminal(options.which + options.out),
                         .wanted = "nothing else"});
     sayJson(all);
     return ExitCode::kFull;

@@ -24,7 +24,7 @@ const ExercisePart& partCalled(const ExerciseInfo& exercise, const std::string& 
     if (part.id == id) return part;
     ids.push_back(part.id);
   }
-  throw UsageError({.what = fmt::format("{} has no part '{}'", exercise.name, harmless(id)),
+  throw UsageError({.what = fmt::format("{} has no part '{}'", exercise.name, escapeForTerminal(id)),
                     .wanted = fmt::format("one of {}", join(ids, ", ")),
                     .nearest = nearestNames(id, ids)});
 }

@@ -50,7 +50,7 @@ void sayWhereItIs(const Project& project, const ExerciseInfo& exercise, const fs
   const auto site = grading::crashSiteIn(run.error, object.name);
   if (site && site->line > 0)
     note(fmt::format("After {:.0f} s it is in line {} of {}, in {}: an endless loop?", seconds, site->line,
-                     object.name, harmless(site->function)));
+                     object.name, escapeForTerminal(site->function)));
 }
 
 ExitCode runFile(const Project& project, const fs::path& file, const RunOptions& options) {
@@ -65,8 +65,9 @@ ExitCode run(const Project& project, const RunOptions& options) {
   const auto meant = programMeant(project, options.program);
   if (const fs::path* file = std::get_if<fs::path>(&meant)) return runFile(project, *file, options);
   if (!options.arguments.empty())
-    throw UsageError({.what = fmt::format("rex run: unknown argument '{}'", harmless(options.arguments[0])),
-                      .wanted = "none with an exercise"});
+    throw UsageError(
+        {.what = fmt::format("rex run: unknown argument '{}'", escapeForTerminal(options.arguments[0])),
+         .wanted = "none with an exercise"});
   const ExerciseInfo& exercise = std::get<ExerciseInfo>(meant);
   const fs::path file = chooseStudentFile(exercise, options.solution);
   const fs::path out =

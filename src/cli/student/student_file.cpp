@@ -78,10 +78,10 @@ void explain(const std::vector<CompileDiagnostic>& messages, const std::string& 
   const auto isError = [](const CompileDiagnostic& message) { return message.severity == "error"; };
   const auto first = std::find_if(messages.begin(), messages.end(), isError);
   if (first == messages.end()) return;
-  note(wrap(harmless(toString(*first)), 2, 0));
+  note(wrap(escapeForTerminal(toString(*first)), 2, 0));
   const std::string line = first->line > 0 ? lineOf(source, first->line) : "";
   if (!line.empty()) {
-    note("  " + harmless(expandTabs(line)));
+    note("  " + escapeForTerminal(expandTabs(line)));
     if (first->column > 0) note(fmt::format("{:>{}}", '^', 2 + first->column));
   }
   const auto others = std::count_if(messages.begin(), messages.end(), isError) - 1;
@@ -120,7 +120,8 @@ std::optional<std::filesystem::path> buildProgram(
     explain(object.messages, object.source, log);
     return {};
   }
-  for (const CompileDiagnostic& message : object.messages) note(wrap(harmless(toString(message)), 2, 0));
+  for (const CompileDiagnostic& message : object.messages)
+    note(wrap(escapeForTerminal(toString(message)), 2, 0));
   beforeLinking(object);
   const grading::StudentProgram program = linkProgram(toolchain, object);
   if (program.ok) return program.program;

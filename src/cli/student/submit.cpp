@@ -65,7 +65,7 @@ void warnUnlessTested(const HandedIn& file, const AllProgress& all) {
 ExitCode submit(const Project& project, const SubmitOptions& options) {
   if (options.out.extension() != ".zip")
     throw UsageError(
-        {.what = "-o", .found = harmless(options.out.string()), .wanted = "a name ending in .zip"});
+        {.what = "-o", .found = escapeForTerminal(options.out.string()), .wanted = "a name ending in .zip"});
   std::vector<HandedIn> files;
   for (const std::string& name : options.exercises) {
     const ExerciseInfo exercise = project.exercise(name);

@@ -39,7 +39,7 @@ int gradeApart(const TestRun& run, const sandbox::Sandbox& sandbox) {
     writeTextFile(sourceIn(run), run.grade(sandbox).source);
     return 0;
   } catch (const std::exception& error) {
-    note(wrap(harmless(fmt::format("rex: {}: {}", run.exercise().name, error.what())), 2, 0));
+    note(wrap(escapeForTerminal(fmt::format("rex: {}: {}", run.exercise().name, error.what())), 2, 0));
     return 1;
   }
 }
@@ -85,7 +85,7 @@ class TestMany {
 
   void grade(const sandbox::Sandbox& sandbox, int jobs) {
     ProgressLine line([this] { return stage(); });
-    runInCopies(
+    forkMap(
         static_cast<int>(runs_.size()), jobs,
         [&](int k) { return gradeApart(runs_[static_cast<std::size_t>(k)], sandbox); },
         [&](int k, int code) {

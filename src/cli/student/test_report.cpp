@@ -28,14 +28,14 @@ std::string verdict(const CheckResult& check) {
 }
 
 void sayIndented(const std::string& text) {
-  say(std::string(kIndent, ' ') + wrap(harmless(text), kIndent, kIndent));
+  say(std::string(kIndent, ' ') + wrap(escapeForTerminal(text), kIndent, kIndent));
 }
 
 // How close a passed check came to its limit: for those who look at one check.
 std::string marginOf(const CheckResult& check, bool isWhole) {
   const auto& worst = check.worst;
   if (isWhole || check.status != Outcome::kPass || worst.property.empty()) return "";
-  return fmt::format(": {} {}, {}", harmless(worst.property), worst.value, worst.limit);
+  return fmt::format(": {} {}, {}", escapeForTerminal(worst.property), worst.value, worst.limit);
 }
 
 // Code is cut, not wrapped, to keep its layout.
@@ -56,8 +56,8 @@ void sayPlace(const CheckResult& check, const grading::Submission& graded) {
   const std::size_t first = std::min(line.find_first_not_of(" \t"), line.size());
   const std::string start =
       fmt::format("{:{}}{}:{}   ", "", kIndent, graded.result.files.front().name, check.line);
-  say(start +
-      cut(harmless(line.substr(first)), std::max(kLeast, kColumns - std::min(kColumns, start.size()))));
+  say(start + cut(escapeForTerminal(line.substr(first)),
+                  std::max(kLeast, kColumns - std::min(kColumns, start.size()))));
 }
 
 void sayEvidence(const CheckResult& check, const std::filesystem::path& folder) {
@@ -69,7 +69,8 @@ bool hasFailed(const CheckResult& check) { return check.status && *check.status 
 
 std::string lineOf(const CheckResult& check, const std::string& remark) {
   const std::string hidden = check.group == Group::kHidden ? ", hidden" : "";
-  const std::string title = fmt::format("{} [{}{}]{}", harmless(check.title), check.id, hidden, remark);
+  const std::string title =
+      fmt::format("{} [{}{}]{}", escapeForTerminal(check.title), check.id, hidden, remark);
   return fmt::format(" {} {:2}/{:<2}  {}", verdict(check), check.points, check.maxPoints,
                      wrap(title, kIndent, kIndent));
 }
@@ -127,7 +128,7 @@ void sayChanges(const grading::GradeResult& before, const grading::GradeResult& 
   if (before.score != now.score) text += fmt::format(" {} points before;", before.score);
   if (text.empty()) text = " no verdict has changed;";
   text.back() = '.';
-  say(wrap("Since the last test:" + harmless(text), 2, 0));
+  say(wrap("Since the last test:" + escapeForTerminal(text), 2, 0));
 }
 
 // What the functions printed while they were graded. A loop can print much.
@@ -138,7 +139,7 @@ void sayPrinted(const grading::GradeResult& result) {
   for (int count = 0; std::getline(lines, line); ++count) {
     if (count == 0) say("Your functions printed:");
     if (count == kMostLines) return say("  ...");
-    say("  " + harmless(line));
+    say("  " + escapeForTerminal(line));
   }
 }
 
@@ -195,11 +196,13 @@ void printResult(const ExerciseInfo& exercise, const grading::Submission& graded
     return say("Result: " + shown(results));
   }
   const int shortened = printChecks(exercise, graded, results.parent_path(), view);
-  for (const auto& message : result.compile.diagnostics) say(wrap(harmless(toString(message)), 2, 0));
+  for (const auto& message : result.compile.diagnostics)
+    say(wrap(escapeForTerminal(toString(message)), 2, 0));
   if (!view.isWhole) sayPrinted(result);
   if (result.outcome == Outcome::kGraderError)
-    say(wrap("The grader itself failed: not your fault, and not your grade. " + harmless(result.message), 0,
-             0));
+    say(wrap(
+        "The grader itself failed: not your fault, and not your grade. " + escapeForTerminal(result.message),
+        0, 0));
   sayIfSomeEndedBadly(result.checks);
   if (view.before) sayChanges(*view.before, result);
   if (shortened > 0) say(fmt::format("All messages: scripts/rex test {} --all", exercise.name));

@@ -110,7 +110,7 @@ std::string TestRun::stage() const {
     const auto open = std::find_if(soFar.checks.begin(), soFar.checks.end(), isOpen);
     if (open == soFar.checks.end()) return name + "looking again";
     return fmt::format("{}check {} of {}, {}", name, open - soFar.checks.begin() + 1, soFar.checks.size(),
-                       harmless(open->title));
+                       escapeForTerminal(open->title));
   } catch (const std::exception&) {
     return name + "compiling";
   }

@@ -94,7 +94,7 @@ bool WatchKeys::chooseCheck() {
   const std::vector<grading::CheckResult> checks = grading::listChecks(prepare(project_, exercise_));
   for (std::size_t k = 0; k < checks.size(); ++k)
     say(fmt::format(" {:2}  {}", k + 1,
-                    wrap(fmt::format("{} [{}]", harmless(checks[k].title), checks[k].id), 5, 5)));
+                    wrap(fmt::format("{} [{}]", escapeForTerminal(checks[k].title), checks[k].id), 5, 5)));
   fmt::print("number and Enter, or Enter alone to go back: ");
   const std::optional<std::string> typed = readDigits();
   if (!typed) return true;
