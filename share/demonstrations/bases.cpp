@@ -5,6 +5,7 @@
 #include "course/course.h"
 #include "course/live_view.h"
 #include "estimation/kalman_filter.h"
+#include "estimation/motion_model.h"
 #include "render/picture.h"
 #include "systems/mobile_bases.h"
 
