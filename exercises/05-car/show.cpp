@@ -62,7 +62,8 @@ Eigen::MatrixXd meansOfTheLibrary(const DriveLog& log, const CarWorld& world) {
   ParticleFilter library({Eigen::MatrixXd::Zero(3, 100), Eigen::VectorXd::Constant(100, 0.01)});
   Eigen::MatrixXd means(3, kSteps);
   for (int t = 0; t < kSteps; ++t) {
-    const Weigh weigh = observationWeights(observation, log.observations[static_cast<std::size_t>(t)]);
+    const LogLikelihood weigh =
+        observationWeights(observation, log.observations[static_cast<std::size_t>(t)]);
     std::ignore = library.step(motionProposal(transition), weigh, rng);
     means.col(t) = momentsOf(library.particles()).mean;
   }

@@ -152,9 +152,9 @@ std::unique_ptr<Filter> makeFilter(const std::string& name, const CarSimulator& 
   if (name == "ekf-slam") return slam;
   const Eigen::Vector3d start = kStart.mean;
   if (name == "fast-slam-unnamed")
-    return std::make_unique<ParticleSlam<UnnamedFastSlam>>(
+    return std::make_unique<ParticleSlam<FastSlamUnknownAssociation>>(
         car, rng,
-        UnnamedFastSlam(
+        FastSlamUnknownAssociation(
             start, slam->sensor(),
             {.particles = kParticles, .isInView = [](const auto&, const auto&) { return true; }}));
   const FastSlamOptions options{.particles = kParticles, .observedProposal = name == "fast-slam-2"};

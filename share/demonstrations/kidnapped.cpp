@@ -40,9 +40,9 @@ int main() {
         .jacobian = [&](const Eigen::VectorXd& x) { return car.getObservationJacobianAtState(x); },
         .W = noise * noise * Eigen::MatrixXd::Identity(y.size(), y.size())};
     // The filter's motion, and now and then a particle anywhere.
-    const Propose drive = motionProposal(motion);
-    const Propose propose = [&](Eigen::Ref<Eigen::MatrixXd> X, Eigen::Ref<Eigen::VectorXd> logWeights,
-                                Rng& random) {
+    const MotionSampler drive = motionProposal(motion);
+    const MotionSampler propose = [&](Eigen::Ref<Eigen::MatrixXd> X, Eigen::Ref<Eigen::VectorXd> logWeights,
+                                      Rng& random) {
       drive(X, logWeights, random);
       for (int i = 0; i < X.cols(); ++i)
         if (random.uniform() < lost)
