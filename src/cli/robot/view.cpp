@@ -121,9 +121,9 @@ void addView(CLI::App* command, Action& action) {
   command->footer(
       "Examples:\n  scripts/rex view man\n  scripts/rex view my_robot.urdf --q 0 --port 8080\n\n"
       "Sliders move the joints, the mouse drags and pushes bodies, a simulation shows how they\n"
-      "move; share/doc/commands.md explains the page. The first line is the address of the page, with a\n"
-      "token that keeps others out; nobody else should see it. Over ssh, a line says how to\n"
-      "forward the port. Ctrl-C ends it.");
+      "move; share/doc/commands.md explains the page. The first line is its address, with a token\n"
+      "that keeps others out; nobody else should see it. Over ssh, a line says how to forward\n"
+      "the port. Ctrl-C ends it.");
   addSceneFile(command, "SCENE", options->scene.file);
   addPosture(command, options->posture);
   addOptions(command,
