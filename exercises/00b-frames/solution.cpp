@@ -226,8 +226,8 @@ Eigen::MatrixXd differences(const VectorFunction& f, const Eigen::VectorXd& x) {
   // Central differences: an error of h^2 from the third derivative, and of 1e-16 / h from rounding.
   const double h = 1e-5;
   for (int i = 0; i < x.size(); ++i) {
-    const Eigen::VectorXd step = h * Eigen::VectorXd::Unit(x.size(), i);
-    J.col(i) = (f(x + step) - f(x - step)) / (2 * h);
+    const Eigen::VectorXd move = h * Eigen::VectorXd::Unit(x.size(), i);
+    J.col(i) = (f(x + move) - f(x - move)) / (2 * h);
   }
   // <todo>
   //| // TODO: one column for each entry of x. How large is the error of your formula, and that of rounding?

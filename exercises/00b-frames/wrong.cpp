@@ -321,8 +321,8 @@ for (const auto& [a, at, turns] : jointLines(chain, q)) J.col(i++) = a.cross(v);
 // <solution differences>
 const double h = 1e-5;
 for (int i = 0; i < x.size(); ++i) {
-  const Eigen::VectorXd step = h * Eigen::VectorXd::Unit(x.size(), i);
-  J.col(i) = (f(x + step) - f(x)) / h;
+  const Eigen::VectorXd move = h * Eigen::VectorXd::Unit(x.size(), i);
+  J.col(i) = (f(x + move) - f(x)) / h;
 }
 
 // <variant divided_by_h> caught by: differences
@@ -330,8 +330,8 @@ for (int i = 0; i < x.size(); ++i) {
 // <solution differences>
 const double h = 1e-5;
 for (int i = 0; i < x.size(); ++i) {
-  const Eigen::VectorXd step = h * Eigen::VectorXd::Unit(x.size(), i);
-  J.col(i) = (f(x + step) - f(x - step)) / h;
+  const Eigen::VectorXd move = h * Eigen::VectorXd::Unit(x.size(), i);
+  J.col(i) = (f(x + move) - f(x - move)) / h;
 }
 
 // <variant step_too_small> caught by: differences
