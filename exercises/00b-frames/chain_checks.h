@@ -140,9 +140,8 @@ inline void reachesEnd(rex::grading::Check& check, const Chain& chain, const Eig
 
 // Part 4.
 
-/// The Jacobian of a point (scale 1) or of a direction (scale 0) by columns, each of which `column` makes of
-/// the axis, of the position of the joint, of the point or vector, all in the world, and of whether it
-/// slides.
+/// One column of the Jacobian of a point (scale 1) or of a direction (scale 0): from the axis and the
+/// position of the joint, the point or vector (all in the world), and whether the joint slides.
 using Column = std::function<Eigen::Vector3d(const Eigen::Vector3d& a, const Eigen::Vector3d& at,
                                              const Eigen::Vector3d& y, bool slides)>;
 inline Eigen::MatrixXd byColumns(const Chain& chain, const Eigen::VectorXd& q, const Eigen::Vector3d& y,

@@ -26,7 +26,7 @@ void findsVectors(Check& check, Student& student) {
   }
 }
 
-// Near 0 and pi, about axes of which some entries are zero or negative.
+// Near 0 and pi, about axes with entries that are zero or negative.
 void findsVectorsEverywhere(Check& check, Student& student) {
   for (const double angle : {0., 1e-12, 1e-9, 1e-5, kPi - 1e-4, kPi - 1e-6, kPi - 1e-9, kPi})
     for (int i = 0; i < 6; ++i) {
