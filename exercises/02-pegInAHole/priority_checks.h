@@ -84,7 +84,7 @@ inline void describe(rex::grading::Check& check, const std::string& name, const 
   check.input(name, {{"J1", tasks.J1}, {"dy1", tasks.dy1}, {"J2", tasks.J2}, {"dy2", tasks.dy2}});
 }
 
-/// Tasks of which the first can be fulfilled. In `exact` ones, nothing is rounded.
+/// Tasks whose first one can be fulfilled. In `exact` ones, nothing is rounded.
 inline void firstComesFirst(rex::grading::Check& check, Student& student, const TwoTasks& tasks,
                             bool isExact) {
   const Eigen::VectorXd dq = stepOf(check, student, tasks), got = tasks.J1 * dq;

@@ -59,7 +59,7 @@ TreeSearch growBackward(const Eigen::VectorXd& start, const Eigen::VectorXd& goa
 
 Path joinedPath(const Tree& fromStart, int a, const Tree& fromGoal, int b) {
   Path path;
-  // TODO: two ways from roots. Which of them is turned round, and when is a node there twice?
+  // TODO: two paths, each from a root. Which one is reversed, and when is a node there twice?
   return path;
 }
 
@@ -141,6 +141,6 @@ int main() {
   showDistances({0, 1}, 2);
   showPhaseTree({0, 1}, 2);
 
-  // Part 7: 2000 samples around a disc, where the shortest way is known.
+  // Part 7: 2000 samples around a disc, where the shortest path is known.
   showStar();
 }

@@ -58,7 +58,7 @@ inline void joinFits(rex::grading::Check& check, Student& student, int count, bo
   const auto twice = check.ask("Is the node where the trees meet there twice? It belongs to both.",
                                meets && isJoined(first, {second.rbegin(), second.rend()}));
   const auto notTurned =
-      check.ask("Is the path of the second tree not turned round? It leads to the goal.",
+      check.ask("Is the path of the second tree not reversed? It leads to the goal.",
                 isJoined(first, second) || isJoined(first, {second.begin() + 1, second.end()}) ||
                     isJoined(first, {second.begin(), second.end() - 1}));
   isPath(check, "joinedPath", got, whole);

@@ -135,7 +135,7 @@ Path joinedPath(const Tree& fromStart, int a, const Tree& fromGoal, int b) {
   if (rest.back() == path.back()) rest.pop_back();
   path.insert(path.end(), rest.rbegin(), rest.rend());
   // <todo>
-  //| // TODO: two ways from roots. Which of them is turned round, and when is a node there twice?
+  //| // TODO: two paths, each from a root. Which one is reversed, and when is a node there twice?
   // </solution>
   return path;
 }
@@ -354,6 +354,6 @@ int main() {
   showDistances({0, 1}, 2);
   showPhaseTree({0, 1}, 2);
 
-  // Part 7: 2000 samples around a disc, where the shortest way is known.
+  // Part 7: 2000 samples around a disc, where the shortest path is known.
   showStar();
 }

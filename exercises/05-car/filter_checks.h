@@ -179,7 +179,7 @@ inline void goesThroughAllLines(rex::grading::Check& check, Student& student, bo
       student.filterStep(heaps.before, heaps.u, heaps.y, heaps.world, rex::Rng(seed)).states == after.states);
 }
 
-/// Two particles, of which the first has one child or none. With every generator, its noise must not tell.
+/// Two particles; the first has one child or none. With every generator, its noise must not tell.
 inline void drawsAnew(rex::grading::Check& check, Student& student) {
   const int calls = 300;
   CarWorld world = worldWith(3, check.rng());

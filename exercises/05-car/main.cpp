@@ -77,7 +77,7 @@ int main() {
   const RecordedDrive drive = recordDrive(world, {0.1, 0.2});
   const Cloud start{Eigen::MatrixXd::Zero(3, 100), Eigen::VectorXd::Constant(100, 0.01)};
 
-  // Part 1: they move as the car is told to, and do not look.
+  // Part 1: they move as the car is commanded to, and do not look.
   Rng rng(5);
   std::vector<Cloud> blind;
   Cloud cloud = start;

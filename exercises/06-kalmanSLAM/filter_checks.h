@@ -167,7 +167,7 @@ inline std::vector<WrongBelief> wrongTracking(const CarSetup& car, const Surroun
 }
 
 // If several landmarks are seen, the gaps are a millionth of the usual size: processing landmarks one by one
-// and linearising anew for each is not wrong either, and leads to the same result. A single landmark with a
+// and linearising again for each is not wrong either, and leads to the same result. A single landmark with a
 // bearing is expected to the left of straight behind the car, and seen to the right of it.
 inline void tracksOneStep(rex::grading::Check& check, Student& student, const CarSetup& car, int landmarks) {
   rex::Rng& rng = check.rng();

@@ -100,8 +100,7 @@ inline void weightsFit(rex::grading::Check& check, const std::vector<LogWeight>&
   Eigen::VectorXd before(got.size());
   for (Eigen::Index k = 0; k < before.size(); ++k)
     before[k] = std::exp(logs[static_cast<std::size_t>(k)].before);
-  check.input("12 particles, of which three landmarks are seen, one for the first time",
-              {{"weights before", before}});
+  check.input("12 particles that see three landmarks, one for the first time", {{"weights before", before}});
   const auto sum = check.ask("Do the weights sum to one?", std::abs(got.sum() - 1) > 1e-5);
   check.near(
       "weights of weighed", got, wanted, 1e-5,

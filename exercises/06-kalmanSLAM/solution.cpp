@@ -377,7 +377,7 @@ int main() {
   // Part 3: what is known of it at its end.
   showSmoothing(drive, run, hindsight(car, run, drive.controls));
 
-  // Part 4: 90 s among eight landmarks, of which the car sees those within 9 m.
+  // Part 4: 90 s among eight landmarks; the car sees those within 9 m.
   showMap(recordDrive(11, car, landmarksAround(8), 90, {1, 0.2}, 9));
 
   // Part 5: a map whose landmarks have no names, and a hundred maps.

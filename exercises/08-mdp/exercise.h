@@ -52,7 +52,7 @@ std::vector<std::vector<int>> iteratePolicies(const Process& process);
 // Parts 5 to 8, policies with noise and rollouts (9:16, 9:17, 12.10.1 d).
 
 /// The action in a state s is a = phi(s)^T (beta + epsilon), with an epsilon ~ N(0, Sigma), Sigma = L L^T,
-/// drawn anew in each step. Here the features phi(s) are the state itself.
+/// drawn again in each step. Here the features phi(s) are the state itself.
 struct Policy {
   Eigen::VectorXd beta;  ///< k
   Eigen::MatrixXd L;     ///< k x k, invertible

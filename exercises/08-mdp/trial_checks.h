@@ -88,7 +88,7 @@ inline std::vector<Mistake> mistakenNoise(const Policy& policy, const Eigen::Mat
     shifted.col(t) += policy.beta;
     first.col(t) = right.col(0);
   }
-  return {{"Is the noise drawn once for the whole trial? It is drawn anew in each step.", first},
+  return {{"Is the noise drawn once for the whole trial? It is drawn again in each step.", first},
           {"Is L left out? With a normal z, epsilon = L z.", white},
           {"Is it L^T z? With a normal z, epsilon = L z.", wrong},
           {"Is it Sigma z? With a normal z, epsilon = L z.", policy.L * wrong},

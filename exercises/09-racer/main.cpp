@@ -8,7 +8,7 @@
 using namespace rex;
 
 Eigen::Matrix2d massMatrix(const Eigen::Vector2d& q, const RacerModel& racer) {
-  // TODO: kinetic energy is q'^T M q' / 2. What do the wheel and the pendulum have of it?
+  // TODO: kinetic energy is q'^T M q' / 2. How much do the wheel and the pendulum contribute?
   return Eigen::Matrix2d::Identity();
 }
 

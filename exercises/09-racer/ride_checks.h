@@ -66,7 +66,7 @@ inline Eigen::MatrixXd noiseOf(const Situation& in, std::uint64_t seed, int step
   return noise;
 }
 
-/// The states of a ride under u(x) until it fails, and the controls in row 4, of which the last is 0; step t
+/// The states of a ride under u(x) until it fails, and the controls in row 4, the last one 0; step t
 /// leads to after(x, u, t).
 template <class Control, class Step>
 Eigen::MatrixXd ridden(const Eigen::Vector4d& start, Eigen::Index steps, const Control& u,

@@ -19,7 +19,7 @@ Eigen::Matrix2d massMatrix(const Eigen::Vector2d& q, const RacerModel& racer) {
       racer.mB * racer.l * racer.l + racer.IB;
   return M;
   // <todo>
-  //| // TODO: kinetic energy is q'^T M q' / 2. What do the wheel and the pendulum have of it?
+  //| // TODO: kinetic energy is q'^T M q' / 2. How much do the wheel and the pendulum contribute?
   //| return Eigen::Matrix2d::Identity();
   // </solution>
 }

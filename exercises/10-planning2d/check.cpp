@@ -571,7 +571,7 @@ void searches(Check& check, Student& student, const Network& network, std::size_
     if (std::isfinite(through) && std::isfinite(distances[goal]))
       check.atMost("length of the way to a node asked for by aStar, plus its estimate", through,
                    distances[goal] + 1e-9, "m");
-    check.that("aStar asks for arcs only where the shortest way could lead", isNeeded);
+    check.that("aStar asks for arcs only where the shortest path could lead", isNeeded);
     return network[node];
   };
   way = student.aStar(arcsOf, start, goal, estimates);
@@ -656,7 +656,7 @@ grading::Checks<Student> checks() {
       {"prm-passage", "prm", "narrow passages", 1, Group::kHidden, narrowPassages},
       // </hidden>
       {"astar-estimate", "astar", "the estimate", 1, Group::kVisible, estimates},
-      {"astar-known-maps", "astar", "shortest ways with few questions", 1, Group::kVisible,
+      {"astar-known-maps", "astar", "shortest paths with few questions", 1, Group::kVisible,
        searchesKnownMaps},
       // <hidden>
       {"astar-anything", "astar", "unseen maps and networks", 1, Group::kHidden, searchesAnything},

@@ -42,7 +42,7 @@ using Network = std::vector<std::vector<Arc>>;
 
 // Part 1, a bug (4:7 to 4:11).
 
-/// The cells of a bug's way from its start, each beside the one before, and whether it reached its goal.
+/// The cells of a bug's path from its start, each beside the one before, and whether it reached its goal.
 struct BugTrail {
   bool reached = false;
   std::vector<MapCell> cells;
@@ -54,7 +54,7 @@ struct BugTrail {
 /// obstacle (corner to corner counts). It takes at most the steps of the m-line and, for each time that the
 /// m-line enters an obstacle, one circuit around it: four steps, plus one for each side of a cell that the
 /// obstacle shares with free cells. (The outside of the map is an obstacle, too.) It reaches the goal, or
-/// says that no way leads there. To do so, Bug 2 always turns to the same side, returns to the m-line only
+/// says that no path leads there. To do so, Bug 2 always turns to the same side, returns to the m-line only
 /// at cells that are nearer to the goal, and gives up when it is back where it met the obstacle and would
 /// make the same step again.
 BugTrail bugTwo(const std::vector<MapCell>& mLine, const std::function<bool(MapCell)>& isFree);
@@ -69,11 +69,11 @@ std::vector<int> waveNumbers(const CellMap& map, MapCell goal);
 /// diagonal arc exists only if both cells beside it are free, so that nothing scrapes along a corner.
 Network cellNetwork(const CellMap& map);
 
-/// The length of the shortest way from one node to every node, itself included; infinite where there is none
+/// The length of the shortest path from one node to every node, itself included; infinite where there is none
 /// (4:26). All arcs have a positive length.
 std::vector<double> dijkstra(const Network& network, std::size_t from);
 
-/// A shortest way from `start` to the node where `distances` (from dijkstra()) is zero, both included.
+/// A shortest path from `start` to the node where `distances` (from dijkstra()) is zero, both included.
 /// Empty if there is none.
 std::vector<std::size_t> wayDown(const Network& network, const std::vector<double>& distances,
                                  std::size_t start);
@@ -135,7 +135,7 @@ FieldTrail slideDown(const Yard& yard, const Eigen::Vector2d& goal, const FieldG
 
 // Part 4, probabilistic roadmaps (4:28 to 4:36).
 
-/// The local planner of slide 4:32: whether the points of the straight way from a to b, both included and no
+/// The local planner of slide 4:32: whether the points of the straight line from a to b, both included and no
 /// more than `resolution` metres apart, are free.
 bool straightIsFree(const Yard& yard, const Eigen::Vector2d& a, const Eigen::Vector2d& b, double resolution);
 
@@ -147,24 +147,24 @@ std::optional<Eigen::Vector2d> gaussianSample(const Yard& yard, double sigma, re
 std::optional<Eigen::Vector2d> bridgeSample(const Yard& yard, double sigma, rex::Rng& rng);
 
 /// Lines 6 to 11 of slide 4:31, for more than k nodes, all different: arcs there and back between each node
-/// q and those of the k other nodes nearest to it to which the straight way is free. No arc occurs twice.
+/// q and those of the k other nodes nearest to it to which the straight line is free. No arc occurs twice.
 Network joinNearest(const Yard& yard, const std::vector<Eigen::Vector2d>& nodes, int k, double resolution);
 
-/// The shortest way from start over the roadmap to goal, both included. Each of these two is joined to
-/// those of the k nodes nearest to it to which the straight way is free. Empty if there is no way.
+/// The shortest path from start over the roadmap to goal, both included. Each of these two is joined to
+/// those of the k nodes nearest to it to which the straight line is free. Empty if there is no path.
 std::vector<Eigen::Vector2d> queryRoadmap(const Yard& yard, const std::vector<Eigen::Vector2d>& nodes,
                                           const Network& roadmap, const Eigen::Vector2d& start,
                                           const Eigen::Vector2d& goal, int k, double resolution);
 
 // Part 5, A*: Dijkstra that knows where the goal is.
 
-/// The length of the shortest way in a cellNetwork() of an endless map without obstacles.
+/// The length of the shortest path in a cellNetwork() of an endless map without obstacles.
 double emptyMapDistance(MapCell from, MapCell to);
 
-/// A shortest way from start to goal, both included; empty if there is none. `estimates` has a number for
-/// each node, which is at most the length of the way from there to the goal and changes along an arc by at
+/// A shortest path from start to goal, both included; empty if there is none. `estimates` has a number for
+/// each node, which is at most the length of the path from there to the goal and changes along an arc by at
 /// most the arc's length. arcsOf(node) returns the arcs of a node. It is expensive: call it at most once
-/// for each node, and only if the length of the way from the start to the node plus its estimate is at most
-/// the length of the way you return.
+/// for each node, and only if the length of the path from the start to the node plus its estimate is at most
+/// the length of the path you return.
 std::vector<std::size_t> aStar(const std::function<std::vector<Arc>(std::size_t)>& arcsOf, std::size_t start,
                                std::size_t goal, const std::vector<double>& estimates);

@@ -50,7 +50,7 @@ std::vector<double> dijkstra(const Network& network, std::size_t from) {
 
 std::vector<std::size_t> wayDown(const Network& network, const std::vector<double>& distances,
                                  std::size_t start) {
-  // TODO: from node to node downwards. Is the lowest neighbour always on a shortest way?
+  // TODO: from node to node downwards. Is the lowest neighbour always on a shortest path?
   return {};
 }
 

@@ -71,7 +71,7 @@ inline rex::grading::Evidence networkSeen(rex::Figure figure, const Points& plac
   return {.figures = {figure}};
 }
 
-/// A shortest way by the distances from its end; without arcs in the sum, each step goes to the lowest node.
+/// A shortest path by the distances from its end; without arcs in the sum, each step goes to the lowest node.
 inline std::vector<std::size_t> steepestWay(const Network& network, const std::vector<double>& distances,
                                             std::size_t start, double weight = 1) {
   std::vector<std::size_t> way{start};
@@ -133,7 +133,7 @@ inline rex::grading::Evidence samplesSeen(const std::string& title, const Yard& 
   return {.figures = {figure}};
 }
 
-/// A way on a map with the cells whose arcs were asked for; `tooFar` are those that no shortest way needs.
+/// A path on a map with the cells whose arcs were asked for; `tooFar` are those that no shortest path needs.
 inline rex::grading::Evidence searchSeen(const CellMap& map, const std::vector<std::size_t>& got,
                                          const std::vector<std::size_t>& asked,
                                          const std::vector<std::size_t>& tooFar,

@@ -22,7 +22,7 @@ using Samples = std::vector<Eigen::Vector2d>;
 // not reveal what the grader draws.
 inline rex::Rng generatorsOf(rex::grading::Check& check) { return check.rng().split(7); }
 
-// The samplers, and what to ask whoever returns a node that is not free.
+// The samplers, and what to ask if a returned node is not free.
 struct Sampler {
   const char *name, *question;
 };

@@ -144,7 +144,7 @@ std::vector<std::size_t> wayDown(const Network& network, const std::vector<doubl
   }
   return way;
   // <todo>
-  //| // TODO: from node to node downwards. Is the lowest neighbour always on a shortest way?
+  //| // TODO: from node to node downwards. Is the lowest neighbour always on a shortest path?
   //| return {};
   // </solution>
 }

@@ -180,7 +180,7 @@ inline void breakPath(rex::Rng& rng, const CarModel& car, Poses& path, std::size
   driveOn(rng, car, path);
 }
 
-/// How it is broken, and what to ask whoever does not notice.
+/// How it is broken, and what to ask if that is not noticed.
 struct Break {
   const char *text, *question;
 };
@@ -199,7 +199,7 @@ inline Poses measured(rex::Rng& rng, Poses path) {
   return path;
 }
 
-/// What to ask whoever answers wrongly, from what is answered to other paths.
+/// What to ask after a wrong answer, judging by the answers to other paths.
 inline std::string whyNot(Student& student, const CarModel& car, const Poses& given, const Poses& path,
                           std::size_t broken, bool got) {
   if (student.canFollow(car, given) != got) return "Does canFollow answer the same question differently?";
@@ -238,7 +238,7 @@ inline void pathIsJudged(rex::grading::Check& check, Student& student) {
                                                              {"maxSteering", car.maxSteering},
                                                              {"poses", poses}});
   } else {
-    check.input(fmt::format("twelve pieces, of which only piece {} is wrong", broken),
+    check.input(fmt::format("twelve pieces, wrong only in piece {} is wrong", broken),
                 {{"L", car.wheelbase},
                  {"minSteering", car.minSteering},
                  {"maxSteering", car.maxSteering},

@@ -107,7 +107,7 @@ inline DrivenWay wayOf(const CarModel& car, const Eigen::Vector3d& start, const 
   return way;
 }
 
-/// The way of a car from above, with the pose at which something is wrong, and the wanted end.
+/// The path of a car from above, with the pose at which something is wrong, and the wanted end.
 inline rex::Figure wayFigure(const std::string& title, const CarModel& car, const World& world,
                              const DrivenWay& way) {
   rex::Figure figure = carFigure(title, world.blocks);
@@ -184,7 +184,7 @@ inline rex::grading::Evidence treeSeen(const CarModel& car, const World& world,
   return {.figures = {figure}};
 }
 
-/// Pieces of a word from a pose, with the shortest way there as the wanted one, and both ends as arrows.
+/// Pieces of a word from a pose, with the shortest path there as the wanted one, and both ends as arrows.
 inline rex::grading::Evidence dubinsSeen(const std::string& title, const Poses& got,
                                          const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                                          double radius, bool withShortest) {

@@ -166,7 +166,7 @@ inline void wordLeads(rex::grading::Check& check, Student& student, int k, bool 
   if (lengths) checkPieces(check, "dubinsLengths", name, *lengths, from, to, radius);
 }
 
-/// What to ask whoever returns a longer way than the shortest.
+/// What to ask if a returned path is longer than the shortest.
 inline std::string whyLonger(Student& student, double got, const Eigen::Vector3d& from,
                              const Eigen::Vector3d& to, double radius) {
   double least = INFINITY, straight = INFINITY, most = 0;

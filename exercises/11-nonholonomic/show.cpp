@@ -130,7 +130,7 @@ void showTree(const CarModel& car, const World& world) {
 void showDubins(const CarModel& car, double radius) {
   const Eigen::Vector3d start = Eigen::Vector3d::Zero();
   if (lengthOf(shortestDubins(start, {14, 3, 0}, radius)) == 0) return nothingYet("Dubins curves");
-  Figure fan = seenFromAbove("Shortest ways forward to twelve headings at two positions", {});
+  Figure fan = seenFromAbove("Shortest paths forward to twelve headings at two positions", {});
   fan.legend = Legend::kOutside;
   std::set<DubinsWord> named;
   for (const Eigen::Vector3d& place : {Eigen::Vector3d(14, 3, 0), Eigen::Vector3d(-4, -3, 0)}) {

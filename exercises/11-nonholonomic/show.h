@@ -11,7 +11,7 @@ void showDrives(const CarModel& car, double seconds);
 /// tree.png: your tree of controls fills the world, and its way ends at the goal.
 void showTree(const CarModel& car, const World& world);
 
-/// fan.png: the shortest ways to twelve headings at two positions. dubins.png: the length of each word over
+/// fan.png: the shortest paths to twelve headings at two positions. dubins.png: the length of each word over
 /// the heading at the goal; yours is the lowest of them, with the library's dashed on it.
 void showDubins(const CarModel& car, double radius);
 

@@ -56,7 +56,7 @@ inline void rigFits(rex::grading::Check& check, Student& student) {
              "1/s");
 }
 
-/// What to ask whoever's rig folds up, or does not reach the axis: how the steering angle answers to a small
+/// What to ask if a rig folds up, or does not reach the axis: how the steering angle answers to a small
 /// angle at the hitch, with the axle of the trailer on the axis, and to a small offset.
 inline std::string whyAstray(Student& student, const Rig& rig) {
   const double d = rig.hitchLength, small = 0.02;

@@ -97,7 +97,7 @@ inline void shareFits(rex::grading::Check& check, Nearness shares, int count, co
                shares[0], kMost);
 }
 
-/// The drives of two calls with one generator, of which each draws its own controls.
+/// The drives of two calls with one generator; each draws its own controls.
 inline void drivesDiffer(rex::grading::Check& check, Student& student) {
   const CarModel car;
   const Eigen::Vector3d from = randomPose(check.rng(), 5), target = moved(from, {6, 3, 1});
@@ -181,7 +181,7 @@ inline World randomRoom(rex::Rng& rng) {
   }
 }
 
-/// How far nodes are from where their controls lead, summed up on the way from the start to a node.
+/// How far nodes are from where their controls lead, summed up along the path from the start to a node.
 inline rex::grading::Evidence offsetsSeen(const std::vector<CarNode>& tree, const std::vector<double>& slid,
                                           std::size_t node) {
   rex::Series sum = rex::grading::gotCurve("got");

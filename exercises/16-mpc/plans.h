@@ -125,7 +125,7 @@ inline Eigen::VectorXd boundedMinimum(const Quadratic& cost, const Eigen::Vector
       .x;
 }
 
-/// What comes out if numbers beyond a bound are set to it, and stay there while the others are found anew.
+/// What comes out if numbers beyond a bound are set to it, and stay there while the others are solved for.
 inline Eigen::VectorXd neverReleased(const Quadratic& cost, const Eigen::VectorXd& lower,
                                      const Eigen::VectorXd& upper) {
   const Eigen::VectorXd none = Eigen::VectorXd::Constant(lower.size(), kNoLimit);
@@ -138,8 +138,8 @@ inline Eigen::VectorXd neverReleased(const Quadratic& cost, const Eigen::VectorX
   }
 }
 
-/// Numbers whose cost has that condition, and bounds of which some are infinite, some equal, and some do not
-/// contain zero. Many of them act.
+/// Numbers whose cost has that condition, and bounds, some infinite, some equal, and some that do not
+/// contain zero. Many of them are active.
 struct BoxedCase {
   Quadratic cost;
   Eigen::VectorXd lower, upper;

@@ -50,7 +50,7 @@ inline Scan scanOf(const rex::RangeScanner& scanner, const Eigen::VectorXd& rang
 /// A map of a building in which nothing is known.
 inline Grid emptyGrid() { return {{0, 0}, .2, Eigen::MatrixXd::Zero(60, 60)}; }
 
-/// The map of which a building consists: 5 in cells with a wall, -5 in all others, 0 outside of it.
+/// The true map of a building: 5 in cells with a wall, -5 in all others, 0 outside of it.
 inline Grid gridOf(const rex::Building& building) {
   Grid grid = emptyGrid();
   rex::OccupancyMap map(60, 60, grid.cell, grid.origin);

@@ -29,8 +29,8 @@ struct Scan {
 Eigen::Vector2i cellAt(const Grid& grid, const Eigen::Vector2d& p);
 
 /// All cells that the segment passes, also those outside of the grid, each once and in order: from the one of
-/// `from` to the one of `to`. A cell counts in which at least a hundredth of its side is passed; with less
-/// it may be left out, or not.
+/// `from` to the one of `to`. A segment need not count in cells where it is shorter than a hundredth of
+/// their side.
 std::vector<Eigen::Vector2i> cellsAlong(const Grid& grid, const Eigen::Vector2d& from,
                                         const Eigen::Vector2d& to);
 
@@ -70,7 +70,7 @@ Eigen::Vector3d matched(const Grid& distances, const Scan& scan, double deviatio
 // Part 4, Rao-Blackwellised particles (7:39).
 
 /// `count` poses after a motion that odometry measured in the frame of the pose before: (ahead, left, turn).
-/// To each of its three numbers noise of these standard deviations is added, anew for each pose. 3 x count.
+/// Independent noise with these standard deviations is added to its three numbers for each pose. 3 x count.
 Eigen::Matrix3Xd moved(const Eigen::Vector3d& pose, const Eigen::Vector3d& motion,
                        const Eigen::Vector3d& deviations, int count, rex::Rng& rng);
 
@@ -128,6 +128,6 @@ Mapped mapped(const Log& log, const Grid& empty, const Settings& settings, int c
 
 // Part 5, a bonus: anywhere.
 
-/// The pose of a robot of which nothing is known but a scan, in a finished map: somewhere in a cell with log
-/// odds below 0. Only one place fits well. Correct to 0.2 m and 0.1 rad.
+/// The pose of a robot in a finished map, when only a scan is known: somewhere in a cell with log odds below
+/// 0. Only one position fits well. Correct to 0.2 m and 0.1 rad.
 Eigen::Vector3d located(const Grid& map, const Scan& scan, const Settings& settings);

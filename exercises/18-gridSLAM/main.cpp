@@ -15,7 +15,7 @@ Eigen::Vector2i cellAt(const Grid& grid, const Eigen::Vector2d& p) {
 
 std::vector<Eigen::Vector2i> cellsAlong(const Grid& grid, const Eigen::Vector2d& from,
                                         const Eigen::Vector2d& to) {
-  // TODO: from border to border: is the next one that is met along x, or along y?
+  // TODO: step from grid line to grid line. Is the next crossing along x or along y?
   return {};
 }
 

@@ -44,7 +44,7 @@ std::vector<Eigen::Vector2i> cellsAlong(const Grid& grid, const Eigen::Vector2d&
   }
   return cells;
   // <todo>
-  //| // TODO: from border to border: is the next one that is met along x, or along y?
+  //| // TODO: step from grid line to grid line. Is the next crossing along x or along y?
   //| return {};
   // </solution>
 }

@@ -1,4 +1,4 @@
-// Chapter 11: Raibert's hopper. One leg, three controllers: thrust for the height, the place of the foot for
+// Chapter 11: Raibert's hopper. One leg, three controllers: thrust for the height, position of the foot for
 // the speed, the hip's torque for the attitude. Sliders ask for height and speed; switch a controller off by
 // setting its gain to zero.
 #include "course/car_view.h"
@@ -24,7 +24,7 @@ int main() {
     const HopperCommand command{.height = view.slider("height [m]", 1.1, 1.8, 1.3),
                                 .speed = view.slider("speed [m/s]", -2, 2, 1)};
     const RaibertGains gains{.height = view.slider("thrust for the height", 0, 0.2, 0.06),
-                             .placement = view.slider("place of the foot [s]", 0, 0.15, 0.06),
+                             .placement = view.slider("position of the foot [s]", 0, 0.15, 0.06),
                              .attitude = view.slider("hip [N m/rad]", 0, 60, 15),
                              .rate = view.slider("hip damping [N m s/rad]", 0, 30, 10)};
     if (view.button("push forward") || t == 225) push += 1;

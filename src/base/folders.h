@@ -85,7 +85,7 @@ class PrivateFolder {
 [[nodiscard]] const std::filesystem::path& ownFolder();
 
 /// The folder of what is not compiled (data/, exercises/, share/), to which `home` in ownFolder() leads: the
-/// root of the project, or PREFIX/share/rex. Whoever opens a file in it says if it is missing.
+/// root of the project, or PREFIX/share/rex. It may be missing; opening a file in it then fails.
 [[nodiscard]] const std::filesystem::path& homeFolder();
 
 /// Whether rex was installed: ownFolder() is no build folder.

@@ -25,7 +25,7 @@ struct CourseStudent {
 struct Course {
   std::string title{};
   std::vector<CourseStudent> students{};          ///< by id; empty: there is no roster
-  LatePolicy policy{};                            ///< extensions of groups stand there for each member
+  LatePolicy policy{};                            ///< extensions of groups are listed for each member
   std::map<std::string, std::int64_t> weights{};  ///< of the exercises of the course, in hundredths
   std::filesystem::path results{};                ///< where results go; empty: not said
   std::filesystem::path adjustments{};            ///< empty: none

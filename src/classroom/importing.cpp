@@ -77,9 +77,8 @@ class Importer {
         ++taken;
       }
     if (!begun.students.empty())
-      report_.notes.push_back(
-          fmt::format("goes on with an interrupted import, of which {} file{} had been written", taken,
-                      taken == 1 ? "" : "s"));
+      report_.notes.push_back(fmt::format("continues an interrupted import that had written {} file{}", taken,
+                                          taken == 1 ? "" : "s"));
   }
 
   // All is decided before the first file is touched. The new table comes first, under another name: if the

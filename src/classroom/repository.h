@@ -15,7 +15,7 @@ namespace rex::grading {
 
 struct Commit {
   std::string id{};
-  std::int64_t time = 0;  ///< by the clock of whoever committed, seconds since 1970 in UTC
+  std::int64_t time = 0;  ///< by the committer's clock, seconds since 1970 in UTC
 };
 
 struct CommittedFile {

@@ -18,7 +18,7 @@ struct SimilarRun {
   std::pair<int, int> first{}, second{};
 };
 
-/// Two submissions of which each has much of the other.
+/// Two submissions that share much of their text.
 struct SimilarPair {
   std::string first{}, second{};
   int firstPercent = 0;   ///< how much of the first is also in the second

@@ -7,7 +7,7 @@
 
 namespace rex {
 
-/// A place where the surroundings hold a robot, such as a fingertip on a table: the value of a map does not
+/// A contact where the surroundings hold a robot, such as a fingertip on a table: the value of a map does not
 /// accelerate, J a + J' v = 0.
 struct OperationalContact {
   std::string name{};  ///< for messages

@@ -38,7 +38,7 @@ class CarSimulator {
   explicit CarSimulator(std::uint64_t seed = 0, int landmarks = 2, const CarOptions& options = {});
   /// A car with a known map but no true state. Methods that need the truth throw Error.
   CarSimulator(const Eigen::Matrix2Xd& landmarks, const CarOptions& options);
-  /// A car of which only the number of landmarks is known, as for mapping. Methods that need the truth or
+  /// A car that knows only the number of landmarks, as for mapping. Methods that need the truth or
   /// the positions of the landmarks throw Error; methods that are given landmarks do not. Throws as the
   /// first constructor does.
   [[nodiscard]] static CarSimulator withoutPlaces(int landmarks, const CarOptions& options = {});

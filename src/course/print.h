@@ -11,7 +11,7 @@
 namespace rex {
 
 /// Prints a number, vector or matrix to standard output under its name: "J (3 x 7)", then its rows with six
-/// digits, as many columns at a time as the terminal has room for. Of several vectors each is a row.
+/// digits, as many columns at a time as the terminal has room for. Each of several vectors is a row.
 void print(const std::string& name, double value);
 void print(const std::string& name, const Eigen::MatrixXd& value);
 void print(const std::string& name, const std::vector<double>& values);

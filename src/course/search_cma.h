@@ -27,7 +27,7 @@ class SearchCma {
   void init(const Eigen::VectorXd& start, int mu, int lambda, const Eigen::VectorXd& deviations);
 
   /// The first call after init resizes both arguments, whatever they hold; samples has a point in each of
-  /// its lambda rows. Every later call learns from the values, of which lower ones are better, and draws
+  /// its lambda rows. Every later call learns from the values, where lower ones are better, and draws
   /// new samples. Throws Error before init, and if the sizes have changed.
   void step(Eigen::MatrixXd& samples, Eigen::VectorXd& values);
 

@@ -206,7 +206,7 @@ class Simulator {
   /// Fixes `body` where it is now and makes it the root of its chain, such as a foot on the ground. The
   /// world looks as before, but joints count from the new root, so that the order and the signs of the
   /// entries of q may change. Afterwards the robot is at rest and without motors; recording, noise and time
-  /// start anew. Throws Error as reconfigureRoot() (scene/scene_edit.h), and for a mesh that is in no file.
+  /// restart. Throws Error as reconfigureRoot() (scene/scene_edit.h), and for a mesh that is in no file.
   void anchorKinematicChainIn(const std::string& body);
 
   /// Draws the present posture into NAME.png. Never opens a window.

@@ -184,7 +184,7 @@ class NodeReader {
     const auto [first, isNew] = known.emplace(name, tag.where());
     if (!isNew)
       tag.fail(tag.where("name"), fmt::format("a second {} of this name", kind), "",
-               fmt::format("a name of its own: the first stands at {}", toString(first->second)));
+               fmt::format("a name of its own: the first is at {}", toString(first->second)));
   }
 
   Files& files_;

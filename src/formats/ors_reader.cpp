@@ -178,7 +178,7 @@ class Reader {
       if (attributes.has(name)) attributes.note(name, why, Severity::kWarning, file_.notes);
     };
     if (!isApprox(body.X_WB, Pose{}, 0))
-      ignore(attributes.has("pose") ? "pose" : "X", "is ignored: the world itself stands at the origin");
+      ignore(attributes.has("pose") ? "pose" : "X", "is ignored: the world itself is at the origin");
     for (const char* name : {"mass", "com", "inertia", "kinematic"})
       ignore(name, "is ignored: the world itself does not move");
     for (ShapeSpec& shape : body.shapes) file_.spec.worldShapes.push_back(std::move(shape));
@@ -354,7 +354,7 @@ class Reader {
   void add(SceneSpec robot, const Node& node, const std::string& owner) {
     const auto failAtSecond = [&](const char* kind, const std::string& name, const SourceLocation& first) {
       fail(node.where, fmt::format("{}: a second {} '{}'", owner, kind, name), "",
-           fmt::format("another prefix: the first stands at {}", toString(first)));
+           fmt::format("another prefix: the first is at {}", toString(first)));
     };
     SceneSpec& spec = file_.spec;
     for (BodySpec& body : robot.bodies) {

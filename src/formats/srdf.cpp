@@ -124,9 +124,8 @@ class SrdfReader {
                                       : "is both enabled and disabled: disabled counts";
       const std::string who = choice.b.empty() ? fmt::format("'{}'", choice.a)
                                                : fmt::format("the pair '{}' and '{}'", choice.a, choice.b);
-      tag.warn(tag.where(), [&] {
-        return fmt::format("{} {}; the first stands at {}", who, problem, toString(other.where));
-      });
+      tag.warn(tag.where(),
+               [&] { return fmt::format("{} {}; the first is at {}", who, problem, toString(other.where)); });
     }
     robot_.spec.collisionChoices.push_back(std::move(choice));
   }

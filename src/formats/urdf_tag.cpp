@@ -225,7 +225,7 @@ std::optional<Tag> Tag::child(const char* name) const {
     if (element.name != name) continue;
     if (only)
       fail(reading_->document.where(element.at), fmt::format("a second <{}>", name), "",
-           fmt::format("one: the first stands at {}", toString(reading_->document.where(only->at))));
+           fmt::format("one: the first is at {}", toString(reading_->document.where(only->at))));
     only = &element;
   }
   return only ? std::optional(Tag(*this, *only)) : std::nullopt;

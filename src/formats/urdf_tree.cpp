@@ -30,8 +30,7 @@ class Index {
       const auto [first, isNew] = byName_.emplace(nameOf(things[i]), i);
       if (!isNew) {
         fail(whereOf(things[i]), fmt::format("a second {} '{}'", kind, first->first), "",
-             fmt::format("a name of its own: the first stands at {}",
-                         toString(whereOf(things[first->second]))));
+             fmt::format("a name of its own: the first is at {}", toString(whereOf(things[first->second]))));
       }
     }
   }

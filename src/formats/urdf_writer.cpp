@@ -34,10 +34,10 @@ void requireNames(const SceneSpec& spec) {
     const auto [at, isNew] = first.emplace(joint.name, joint.where);
     if (isNew) continue;
     const std::string place = toString(at->second);
-    throw Error({.what = fmt::format("two joints '{}'", joint.name),
-                 .where = joint.where,
-                 .wanted = "a name of its own" +
-                           (place.empty() ? "" : fmt::format(": the first stands at {}", place))});
+    throw Error(
+        {.what = fmt::format("two joints '{}'", joint.name),
+         .where = joint.where,
+         .wanted = "a name of its own" + (place.empty() ? "" : fmt::format(": the first is at {}", place))});
   }
 }
 

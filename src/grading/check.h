@@ -132,8 +132,8 @@ class Check {
   }
 
   /// While the returned object is alive, a requirement that does not hold asks the question, if it
-  /// `applies` and is not empty: for mistakes that no single wrong value shows. Of several the first one
-  /// alive counts.
+  /// `applies` and is not empty: for mistakes that no single wrong value shows. The first one alive
+  /// counts.
   [[nodiscard]] auto ask(std::string question, bool applies = true) {
     struct Asking {
       std::vector<std::string>& questions;
@@ -175,7 +175,7 @@ class Check {
   /// Requires the shape rows x cols and finite entries. State this before the grader computes with a
   /// student's value.
   void shape(std::string_view property, const MatrixArg& got, Eigen::Index rows, Eigen::Index cols);
-  /// The same as near() for angles in radians, of which only the difference modulo a whole turn counts.
+  /// The same as near() for angles in radians: only the difference modulo a whole turn counts.
   void nearAngle(std::string_view property, double got, double wanted, double tolerance,
                  const std::vector<Mistake>& mistakes = {});
 

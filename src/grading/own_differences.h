@@ -11,8 +11,8 @@
 
 namespace rex::grading {
 
-// Differences of a student's function beside a Jacobian that it returned, for functions of which the grader
-// does not know the values. A program that knew which questions serve differences, or what it was asked
+// Differences of a student's function beside a Jacobian that it returned, for functions whose values the
+// grader does not know. A program that knew which questions serve differences, or what it was asked
 // first, could answer them by any slope. So a fresh worker is asked in random order, and some questions come
 // twice. If the values are known, compare them and take differences of the known ones.
 

@@ -41,7 +41,7 @@ class ClosedFormArm {
   const std::array<JointId, 6>& joints() const { return joints_; }
 
   /// All postures with the tip at X_WT, to 1e-10 in metres and radians relative to the arm's size: up to
-  /// eight, without lines of them, of which each has a representative with `chosen`. Joints that do not move
+  /// eight, where a line of them has one representative, with `chosen`. Joints that do not move
   /// the tip keep their positions in `reference` (nq). Two postures within 1e-6 rad of each other, as at the
   /// limits of reach, are one. Throws Error for a reference of another size, and a pose that is not finite or
   /// whose R is not a rotation.

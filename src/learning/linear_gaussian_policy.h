@@ -10,7 +10,7 @@
 
 namespace rex {
 
-/// An action a = phi(s)^T (beta + epsilon) with epsilon ~ N(0, Sigma), drawn anew in each step (slides 9:16
+/// An action a = phi(s)^T (beta + epsilon) with epsilon ~ N(0, Sigma), drawn again in each step (slides 9:16
 /// and 9:17). In other words a ~ N(phi^T beta, phi^T Sigma phi). If only a constant feature has noise, it
 /// is added to the action.
 struct LinearGaussianPolicy {

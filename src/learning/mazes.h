@@ -17,8 +17,8 @@ namespace rex {
 /// River-swim (Strehl and Littman 2008) with `states` from left to right, at least 3, and the actions left
 /// and right. Left always succeeds. Right goes with .35 to the right and with .05 to the left, against the
 /// current; from the first state with .6 to the right, from the last with .4 to the left. Left pays .005 in
-/// the first state, right 1 in the last. The discount is .95. Whoever does not explore stays where little is
-/// paid. Throws Error for fewer states.
+/// the first state, right 1 in the last. The discount is .95. An agent that does not explore stays where
+/// little is paid. Throws Error for fewer states.
 [[nodiscard]] Mdp riverSwim(int states = 6);
 
 /// The meaning of a letter on a map: acting there pays `reward`. With jumpTo the process continues from the

@@ -13,7 +13,7 @@
 
 namespace rex {
 
-/// One of several ways to act: where it is used, and what is done there. With x ~ N(meanState,
+/// One expert of a mixture: where it is used, and what it does there. With x ~ N(meanState,
 /// stateCovariance), actions are a ~ N(meanAction + gain (x - meanState), actionCovariance).
 struct MixtureExpert {
   double weight = 1;                   ///< the share of demonstrations that are its own
@@ -27,7 +27,7 @@ struct MixtureExpert {
   [[nodiscard]] Eigen::VectorXd action(const VectorArg& state) const;
 };
 
-/// A policy with several answers to one state, of which the mean may be none.
+/// A policy with several answers to one state; their mean need not be an answer.
 struct MixturePolicy {
   std::vector<MixtureExpert> experts{};
 
@@ -55,7 +55,7 @@ struct MixtureClone {
   std::string message{};
 };
 
-/// Imitates demonstrations of which several kinds go through the same states, such as left and right around
+/// Imitates demonstrations of several kinds that go through the same states, such as left and right around
 /// an obstacle (slides 9:9 to 9:11): a mixture of normal distributions over states and actions together, by
 /// expectation maximisation, then each conditioned on the state (Ghahramani and Jordan 1994). States are n x
 /// d, actions n x m, one demonstration per row. Throws Error for sizes that do not fit, numbers that are not

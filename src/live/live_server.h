@@ -25,8 +25,8 @@ struct LiveServerOptions {
 /// 32 hexadecimal digits that nobody can guess, from the operating system. Throws Error if that has none.
 [[nodiscard]] std::string randomToken();
 
-/// Serves one page to browsers from memory, never from the disk: files by name, a stream of frames of which a
-/// slow viewer misses some, and events that pages send. Only those who know the token are served, and only
+/// Serves one page to browsers from memory, never from the disk: files by name, a stream of frames (a slow
+/// viewer misses some), and events that pages send. Only those who know the token are served, and only
 /// under an address of this machine, so that no other page in the same browser can reach it. The number of
 /// connections, of those from one address (64), and of viewers, the sizes and times of requests, and of their
 /// headers (16 KiB) are bounded. All methods may be called from any thread.

@@ -67,7 +67,7 @@ LimitCycle found(LimitCycle cycle) {
   const double between = std::abs(cycle.x[0] - cycle.x[1]);
   if (between < kShortestStep)
     return ended(cycle, Status::kNoGait,
-                 fmt::format("no gait: a step of {:.3g} rad cannot be told from standing", between));
+                 fmt::format("no gait: a step of {:.3g} rad cannot be distinguished from standing", between));
   const double growth = std::abs(cycle.multipliers[0]);
   cycle.isStable = growth < 1;
   return ended(

@@ -45,7 +45,7 @@ class BayesianSearch {
   /// wrong size, or outside of the box.
   void add(const VectorArg& x, double value);
 
-  /// What is known of f; empty before the first samples. Its parameters are fitted anew from time to time.
+  /// What is known of f; empty before the first samples. Its parameters are fitted again from time to time.
   [[nodiscard]] const std::optional<GaussianProcess>& process() const { return process_; }
   /// What the search hopes for at x, the logarithm of the expected improvement if that is it. Throws Error
   /// before the first samples.

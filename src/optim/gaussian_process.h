@@ -27,7 +27,7 @@ struct GaussianPrediction {
   Eigen::VectorXd meanGradient{}, deviationGradient{};  ///< d
 };
 
-/// A function f of which we know noisy values at n points: regression with a Gaussian process (Rasmussen and
+/// A function f from noisy values at n points: regression with a Gaussian process (Rasmussen and
 /// Williams, 2006, chapters 2, 4 and 5). Where f is exact, 1e-5 deviations of noise make it computable.
 class GaussianProcess {
  public:

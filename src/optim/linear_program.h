@@ -18,7 +18,7 @@ struct LinearSolution {
 };
 
 /// Minimises c.x subject to A x = b and x >= 0, with A of m x n, by the simplex method in two phases
-/// (Dantzig, 1963). Meant for at most a hundred rows and any number of columns: the basis is factored anew
+/// (Dantzig, 1963). Meant for at most a hundred rows and any number of columns: the basis is factored again
 /// in each iteration, so errors do not accumulate. Entries smaller than 1e-10 of the others in their row
 /// and column count as zero. Throws Error for sizes that do not fit, no rows, and numbers that are not
 /// finite.

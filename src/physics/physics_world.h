@@ -88,7 +88,7 @@ class PhysicsWorld {
   /// without impulse, sorted by pair. Forgets all contacts, as setState() does.
   [[nodiscard]] std::vector<PhysicsContact> overlaps(double depth = 1e-4);
   /// The contacts that began or ended in the last step, also if they were over at once, sorted by time.
-  /// After setState() all contacts begin anew.
+  /// After setState() all contacts start again.
   [[nodiscard]] std::vector<ContactEvent> events() const;
   /// The first hit between two points, if any: exact on flat faces, to a millimetre on round ones. Throws
   /// Error for numbers that are not finite.

@@ -35,7 +35,7 @@ struct CarPath {
   bool isExhausted = false;  ///< there is no path on this grid: all states that can be reached were expanded
 };
 
-/// Hybrid A*: arcs lead from continuous states to others, of which one is kept in each cell of a grid over x,
+/// Hybrid A*: arcs lead between continuous states, and one state is kept in each cell of a grid over x,
 /// y, heading and direction. The heuristic is the larger of the Reeds-Shepp length, which ignores obstacles,
 /// and the length of a path on the grid over x and y, which ignores that the car must turn; Reeds-Shepp
 /// curves that hit nothing end the search. Dolgov, Thrun, Montemerlo and Diebel, Path planning for autonomous

@@ -47,7 +47,7 @@ class NearestNeighbors {
  private:
   // A leaf has up to kBucket points and the number ~k, another node up to kFan children and the number k.
   // Numbers lie in blocks of eight points or boxes, as the kernel wants them. Full leaves are split; a
-  // subtree that has grown threefold is built anew, with kFill points in a leaf and kBuiltFan children.
+  // subtree that has grown threefold is rebuilt, with kFill points in a leaf and kBuiltFan children.
   static constexpr int kBucket = 32, kFill = 28, kFan = 16, kBuiltFan = 8;
   struct Leaf {
     int count = 0;

@@ -13,7 +13,7 @@ struct SpherePlanOptions {
 
 /// Plans a motion by two trees (RRT-Connect, Kuffner and LaValle 2000) that grow towards points of a Halton
 /// sequence, the smaller one first. All segments of the path are proven free. A search that takes long is
-/// begun anew with other points and another range. The same options give the same path on every machine. The
+/// restarted with other points and another range. The same options give the same path on every machine. The
 /// result contains no trees. Throws Error for vectors of a wrong size, a start or goal that is outside the
 /// limits or not free, and options out of range.
 [[nodiscard]] PathResult planSpheres(const SphereWorld& world, const VectorArg& start, const VectorArg& goal,

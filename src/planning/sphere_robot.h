@@ -7,7 +7,7 @@
 
 namespace rex {
 
-/// A robot of which all shapes in contact are spheres, prepared for checking its motions in single precision.
+/// A robot whose shapes in contact are all spheres, prepared for checking its motions in single precision.
 /// Copies share their data.
 class SphereRobot {
  public:

@@ -97,7 +97,7 @@ class TreeBuilder {
       const auto [first, isNew] = seen.emplace(joint.name, &joint);
       if (!isNew) {
         fail(joint.where, fmt::format("duplicate joint '{}'", joint.name), "",
-             fmt::format("a name of its own: the first stands at {}", toString(first->second->where)));
+             fmt::format("a name of its own: the first is at {}", toString(first->second->where)));
       }
     }
   }

@@ -10,7 +10,7 @@
 namespace rex::grading {
 
 /// Whether the output of a compiler, as JSON, or of an assembler seems to name an error: a quick look, for
-/// texts of which only the file that was compiled is to blame if they mislead.
+/// texts that only the compiled file itself can make misleading.
 [[nodiscard]] bool namesErrors(std::string_view standardError);
 
 /// Errors and warnings in the output of g++ with -fdiagnostics-format=json; none if the text is not such an

@@ -5,7 +5,7 @@
 namespace rex {
 
 /// A quadrotor seen from the side, with two rotors: x = (x, z, pitch, vx, vz, pitch rate), z up and the pitch
-/// positive from x towards z; u = (left, right), the thrusts in newtons, of which the right one, on the side
+/// positive from x towards z; u = (left, right), the thrusts in newtons; the right one, on the side
 /// of x, raises the pitch. Sabatino 2015; Tedrake, Underactuated robotics, ch. 3.
 struct PlanarQuadrotor {
   double mass = 0.5, inertia = 0.005;  ///< kg, kg m^2 about the centre of mass

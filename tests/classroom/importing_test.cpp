@@ -219,7 +219,7 @@ TEST_F(ImportingTest, GoesOnAfterAnInterruption) {
   fs::remove(handedIn() / all_[1].email / kExercise / "main.cpp");          // lost
   writeTextFile(handedIn() / all_[0].email / kExercise / "main.cpp.999999999.new", "half");
   const ImportReport report = again();
-  EXPECT_THAT(report.notes, Contains(HasSubstr("goes on with an interrupted import, of which ")));
+  EXPECT_THAT(report.notes, Contains(HasSubstr("continues an interrupted import that had written ")));
   EXPECT_EQ(static_cast<int>(report.complaints.size()), attacks());
   EXPECT_EQ(fileText(table), whole);
   EXPECT_FALSE(fs::exists(begun));

@@ -565,7 +565,7 @@ TEST(LectureNotes, FallsAndSlips) {
           const bool isFree = r >= 0 && r < 4 && c >= 0 && c < 12 && (r > 0 || c == 0 || c == 11);
           if (steps(row, column) == reached && isFree && steps(r, c) < 0) steps(r, c) = reached + 1;
         }
-  expectStated("17-rl", fmt::format("the shortest way, of {:g} steps", steps(0, 11)));
+  expectStated("17-rl", fmt::format("the shortest path, of {:g} steps", steps(0, 11)));
   const double random = .1, down = 1. / 4;
   expectStated("17-rl", fmt::format("about one fall for {:g} steps", 1 / (random * down)));
   expectStated("17-rl", fmt::format("still {:.0f} %", 100 * std::pow(1 - .2, 10)));

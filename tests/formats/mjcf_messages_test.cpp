@@ -58,7 +58,7 @@ void check(const std::vector<Row>& rows, const ReadOptions& options = {}) {
   }
 }
 
-// All notes of a text, of which the first stands at '@'.
+// All notes of a text, of which the first is at '@'.
 void checkNotes(const std::vector<Row>& rows) {
   for (Row row : rows) {
     const std::string wanted = toString(takeMark(row.text)) + ": " + row.message;
@@ -133,7 +133,7 @@ TEST(MjcfMessages, OfPoses) {
 TEST(MjcfMessages, OfBodies) {
   check({
       {world("<body name='a'/>\n<body name='@a'/>"),
-       "body 'a': a second body of this name: wanted a name of its own: the first stands at f:2:12"},
+       "body 'a': a second body of this name: wanted a name of its own: the first is at f:2:12"},
       {world("<body name='@world'/>"),
        "body 'world': attribute 'name': found the name of the world itself, wanted another name"},
       {world(nested("frame", "name", 99)), "elements nested too deep: found level 101, wanted at most 100"},
@@ -271,7 +271,7 @@ TEST(MjcfMessages, OfJoints) {
   for (int i = 0; i < 1000; ++i) many += "<joint/>";
   check({
       {body("<joint name='j'/>\n<joint name='@j'/>"),
-       "joint 'j': a second joint of this name: wanted a name of its own: the first stands at f:3:1"},
+       "joint 'j': a second joint of this name: wanted a name of its own: the first is at f:3:1"},
       {body("<joint type='@revolute'/>"),
        "body 'a': <joint>: attribute 'type': found 'revolute', wanted hinge, slide, ball or free"},
       {body("<joint axis='@0 0 0'/>"),

@@ -151,12 +151,11 @@ TEST_F(OrsRobot, MayHaveTheWorldAsItsRoot) {
 
 TEST_F(OrsRobot, SaysWhatIsWrong) {
   const std::string arm = "urdf a { file='../robots/arm/arm.urdf' }";
-  EXPECT_REX_ERROR(
-      read(arm + "\n" + arm),
-      "main.ors:2:1: urdf 'a': a second body 'base': wanted another prefix: the first stands at ");
+  EXPECT_REX_ERROR(read(arm + "\n" + arm),
+                   "main.ors:2:1: urdf 'a': a second body 'base': wanted another prefix: the first is at ");
   EXPECT_REX_ERROR(
       read("body x {}\nbody y {}\njoint b_j (x y) {}\nurdf a { file='../robots/arm/arm.urdf' prefix=b_ }"),
-      "main.ors:4:1: urdf 'a': a second joint 'b_j': wanted another prefix: the first stands at ");
+      "main.ors:4:1: urdf 'a': a second joint 'b_j': wanted another prefix: the first is at ");
   EXPECT_REX_ERROR(read("urdf a { prefix=x }"),
                    "main.ors:1:1: urdf 'a': attribute 'file' is missing: wanted file='ROBOT.urdf'");
   EXPECT_REX_ERROR(read("urdf a { file='arm.ors' }"),

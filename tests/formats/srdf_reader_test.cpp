@@ -77,12 +77,12 @@ TEST(SrdfReader, WarnsOfPairsThatAreGivenTwice) {
       notesOf(
           "<disable_collisions link1='base' link2='hand'/>\n<disable_collisions link1='hand' link2='base'/>"),
       "arm.srdf:3:1: warning: <robot>: <disable_collisions>: the pair 'hand' and 'base' is given twice; the "
-      "first stands at arm.srdf:2:1");
+      "first is at arm.srdf:2:1");
   EXPECT_EQ(
       notesOf(
           "<disable_collisions link1='base' link2='hand'/>\n<enable_collisions link1='base' link2='hand'/>"),
       "arm.srdf:3:1: warning: <robot>: <enable_collisions>: the pair 'base' and 'hand' is both enabled and "
-      "disabled: disabled counts; the first stands at arm.srdf:2:1");
+      "disabled: disabled counts; the first is at arm.srdf:2:1");
   EXPECT_THAT(notesOf("<disable_default_collisions link='hand'/><disable_default_collisions link='hand'/>"),
               HasSubstr("'hand' is given twice"));
 }

@@ -173,11 +173,10 @@ TEST(UrdfMessages, OfLinks) {
       {robot("@<link nam='a'/>"), "<link>: attribute 'name' is missing: found 'nam'"},
       {robot("<link name='@'/>"), "<link>: attribute 'name': found nothing, wanted a name"},
       {robot("<link name='a'/>\n@<link name='a'/>"),
-       "a second link 'a': wanted a name of its own: the first stands at f:2:1"},
-      {link("<inertial/>\n@<inertial/>"),
-       "link 'a': a second <inertial>: wanted one: the first stands at f:3:1"},
+       "a second link 'a': wanted a name of its own: the first is at f:2:1"},
+      {link("<inertial/>\n@<inertial/>"), "link 'a': a second <inertial>: wanted one: the first is at f:3:1"},
       {visual("<origin/>@<origin/>"),
-       "link 'a': <visual>: a second <origin>: wanted one: the first stands at f:4:1"},
+       "link 'a': <visual>: a second <origin>: wanted one: the first is at f:4:1"},
       {visual("<origin xyz='@1 2'/>"), "link 'a': <origin>: attribute 'xyz': found '1 2', wanted 3 numbers"},
       {visual("<origin xyz='@1 2 3 4'/>"),
        "link 'a': <origin>: attribute 'xyz': found '1 2 3 4', wanted 3 numbers"},
@@ -268,7 +267,7 @@ TEST(UrdfMessages, OfJoints) {
        "joint 'j': <axis>: attribute 'xyz': found '0 0 0', wanted a direction"},
       {joint("continuous", "@<axis/>"), "joint 'j': <axis>: attribute 'xyz' is missing"},
       {joint("continuous", "<axis xyz='0 0 1'/>@<axis xyz='0 0 1'/>"),
-       "joint 'j': a second <axis>: wanted one: the first stands at f:5:41"},
+       "joint 'j': a second <axis>: wanted one: the first is at f:5:41"},
       {two("@<joint name='j' type='revolute'>" + kEnds + "</joint>"),
        "joint 'j': <limit> is missing: wanted <limit lower=.. upper=.. effort=.. velocity=..> or type "
        "'continuous'"},
@@ -354,7 +353,7 @@ TEST(UrdfMessages, OfTrees) {
        "joints form a loop: found 'b' > 'c' > 'b', wanted a tree"},
       {two("<joint name='j' type='fixed'>" + kEnds + "</joint>\n@<joint name='j' type='fixed'>" +
            "<parent link='arm'/><child link='hand'/></joint>"),
-       "a second joint 'j': wanted a name of its own: the first stands at f:4:1"},
+       "a second joint 'j': wanted a name of its own: the first is at f:4:1"},
       {robot("<link name='a'/><link name='world'/>\n<joint name='j' type='fixed'><parent link='a'/>"
              "<child link='@world'/></joint>"),
        "joint 'j': child: found 'world', wanted another link: the world itself does not move"},

@@ -389,7 +389,7 @@ TEST(UrdfWriter, SaysWhatItCannotWrite) {
   const auto ors = [](const std::string& text) { return parseOrs(text, "f").spec; };
   SceneSpec unplaced;
   EXPECT_REX_ERROR(writeUrdf(ors("body a {}\nbody b {}\nbody c {}\njoint j (a b) {}\njoint j (a c) {}")),
-                   "f:5:1: two joints 'j': wanted a name of its own: the first stands at f:4:1");
+                   "f:5:1: two joints 'j': wanted a name of its own: the first is at f:4:1");
   unplaced.bodies = {{.name = "", .X_WB = {}}};
   EXPECT_REX_ERROR(writeUrdf(unplaced), "a body without a name: wanted a name");
   unplaced.bodies = {{.name = "a\x01", .X_WB = {}}};

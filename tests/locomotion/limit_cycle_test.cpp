@@ -97,7 +97,7 @@ TEST(LimitCycle, NeedsASlopeThatReplacesWhatImpactsLose) {
   EXPECT_LT((1e3 * smaller.x - small.x).norm(), 1e-5 * small.x.norm());
   const LimitCycle tiny = findLimitCycle({.slope = 1e-12}, 1e-6 * small.x);
   EXPECT_EQ(tiny.status, Status::kNoGait) << tiny.message;
-  EXPECT_THAT(tiny.message, testing::HasSubstr("rad cannot be told from standing"));
+  EXPECT_THAT(tiny.message, testing::HasSubstr("rad cannot be distinguished from standing"));
 }
 
 TEST(LimitCycle, SaysWhyThereIsNone) {

@@ -133,7 +133,7 @@ TEST(Compile, RefusesWhatIsNoTree) {
                    "f:5:1: joint 'b>c': body 'c' is already attached to a joint: found joint 'a>c', wanted "
                    "one joint leading to each body");
   EXPECT_REX_ERROR(model("body a {}\nbody b {}\njoint j (a b) {}\njoint j (b a) {}"),
-                   "f:4:1: duplicate joint 'j': wanted a name of its own: the first stands at f:3:1");
+                   "f:4:1: duplicate joint 'j': wanted a name of its own: the first is at f:3:1");
   EXPECT_REX_ERROR(
       model(
           "body r {}\nbody a {}\nbody b {}\nbody tail {}\njoint (b tail) {}\njoint (a b) {}\njoint (b a) {}"),

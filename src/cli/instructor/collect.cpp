@@ -234,7 +234,7 @@ void Regrading::readNotes() {
     if (!points)
       throw Error({.what = "not the notes of a regrading",
                    .where = {file.string(), number, 0},
-                   .wanted = "those of an interrupted `rex grade`; without this file, it begins anew"});
+                   .wanted = "those of an interrupted `rex grade`; without this file, it starts again"});
     noted_[std::string(line.substr(0, tab))] = *points;
   }
 }

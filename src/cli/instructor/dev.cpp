@@ -147,15 +147,15 @@ void addDevStats(CLI::App* dev, Action& action) {
   command->add_option("DIR", options->results, "the folder of results that `rex grade` wrote")
       ->type_name("")
       ->required();
-  const auto added = addOptions(
-      command, {{"--json", options->json, "print JSON"},
-                {"--csv", options->csv, "print a table of the checks"},
-                {"--students", options->students,
-                 "print a table of the students: points, time and number of attempts"},
-                {"--deadlines", options->deadlines, "FILE.toml",
-                 "say how the first full score lies to opening and deadline (a course file will do)"},
-                {"-o,--out", options->figure, "FILE.png", "draw the points of each exercise"},
-                {"--parts", options->parts, "FILE.png", "draw the mean points of each part"}});
+  const auto added =
+      addOptions(command, {{"--json", options->json, "print JSON"},
+                           {"--csv", options->csv, "print a table of the checks"},
+                           {"--students", options->students,
+                            "print a table of the students: points, time and number of attempts"},
+                           {"--deadlines", options->deadlines, "FILE.toml",
+                            "say when the first full score came, by opening and deadline (or a course file)"},
+                           {"-o,--out", options->figure, "FILE.png", "draw the points of each exercise"},
+                           {"--parts", options->parts, "FILE.png", "draw the mean points of each part"}});
   added[1]->excludes(added[0]);
   added[2]->excludes(added[0])->excludes(added[1]);
   command->callback(

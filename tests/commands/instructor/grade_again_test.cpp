@@ -281,7 +281,7 @@ TEST_F(GradeAgainTest, GoesOnAfterAnInterruptedRegrading) {
   EXPECT_EQ(broken.code, 3);
   EXPECT_THAT(flat(broken.error),
               HasSubstr("regrading.tsv:1: not the notes of a regrading: wanted those of an "
-                        "interrupted `rex grade`; without this file, it begins anew"));
+                        "interrupted `rex grade`; without this file, it starts again"));
 }
 
 }  // namespace rex::cli::grade_again_test

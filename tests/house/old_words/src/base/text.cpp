@@ -1,0 +1,2 @@
+// Starts anew.
+const char* text() { return "x"; }

@@ -1,0 +1,3 @@
+#pragma once
+/// Starts anew.
+int anew = 0;
