@@ -73,7 +73,7 @@ std::string wantedBy(Platform platform) {
   switch (platform) {
     case Platform::kMoodle:
       return "the zip of \"Download all submissions\", with folders such as 'Zoe "
-             "Miller_501_assignsubmission_file_'";
+             "Miller_501_assignsubmission_file'";
     case Platform::kGit:
       return "a folder of clones, such as 'kinematics-zoe/.git'";
     case Platform::kGradescope:
@@ -188,12 +188,13 @@ std::optional<MoodleName> parseMoodleName(const std::string& name) {
   const std::string digits = name.substr(number + 1, mark - number - 1);
   if (digits.find_first_not_of("0123456789") != digits.npos) return {};
   const std::string rest = name.substr(mark + std::string_view(kMoodleMark).size());
-  const std::size_t kind = rest.find('_');
-  if (kind == rest.npos) return {};
+  const std::size_t end = std::min(rest.find('_'), rest.size());
+  const std::string kind = rest.substr(0, end);
+  if (kind.empty() || kind.find_first_not_of("abcdefghijklmnopqrstuvwxyz") != kind.npos) return {};
   return MoodleName{.person = name.substr(0, number),
                     .number = digits,
-                    .kind = rest.substr(0, kind),
-                    .file = rest.substr(kind + 1)};
+                    .kind = kind,
+                    .file = end < rest.size() ? rest.substr(end + 1) : ""};
 }
 
 namespace {

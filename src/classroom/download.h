@@ -66,10 +66,11 @@ void requireLayout(Platform platform, const std::filesystem::path& folder,
                                     const std::vector<ExerciseInfo>& exercises);
 
 /// The parts of "Zoe Miller_501_assignsubmission_file_main.cpp", as Moodle names files, or of
-/// "Zoe Miller_501_assignsubmission_file_", as it names folders.
+/// "Zoe Miller_501_assignsubmission_file", as it names folders from version 4.1 on; before, they ended in
+/// "_".
 struct MoodleName {
-  std::string person{};  ///< "Zoe Miller", with the group in front: "Group A-Zoe Miller"
-  std::string number{};  ///< "501"
+  std::string person{};  ///< "Zoe Miller", or "Group A-Zoe Miller", or "Group A" for a team from 4.1 on
+  std::string number{};  ///< "501": of the participant, or of the team
   std::string kind{};    ///< file or onlinetext
   std::string file{};    ///< empty for folders
 };
@@ -114,8 +115,8 @@ struct MoodleOptions {
   std::string timeZone{};             ///< in which it writes times; empty: unknown
 };
 /// Reads the zip of "Download all submissions", or the folder it was unpacked into, with a folder or a file
-/// for each student. Members of a group with the same files are one arrival. Throws UsageError for another
-/// layout and a worksheet that is none.
+/// for each student or each team; the column Group of the worksheet says who is in a team. Members of a group
+/// with the same files are one arrival. Throws UsageError for another layout and a worksheet that is none.
 [[nodiscard]] Arrivals readMoodle(const std::filesystem::path& source, const MoodleOptions& options,
                                   const std::vector<ExerciseInfo>& exercises);
 
@@ -126,6 +127,7 @@ struct MoodleOptions {
 struct CloneOptions {
   std::filesystem::path roster{};  ///< CSV file that says who is who; empty: none
   std::filesystem::path record{};  ///< CSV file: when which repository was handed in; empty: none
+  std::string timeZone{};          ///< of times in the record that have none; empty: unknown
   std::string assignment{};        ///< what the names of clones begin with; empty: what they have in common
   std::optional<std::int64_t> deadline{};  ///< take the last commit until then
 };

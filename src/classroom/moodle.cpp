@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <map>
+#include <set>
 #include <string>
 #include <tuple>
 
@@ -17,13 +18,15 @@
 
 namespace rex::grading {
 
-/// Headings of Moodle's grading worksheet in English and German; case does not count.
-inline const CsvTable::Headings kMoodleIdentifier = {"Identifier", "ID"},
-                                kMoodleName = {"Full name", "Vollständiger Name"},
-                                kMoodleIdNumber = {"ID number", "ID-Nummer", "Matrikelnummer", "Student ID"},
-                                kMoodleEmail = {"Email address", "E-Mail-Adresse", "E-Mail"},
-                                kMoodleGrade = {"Grade", "Bewertung"},
-                                kMoodleMaximum = {"Maximum Grade", "Bestwertung"};
+/// Headings of Moodle's grading worksheet in English, German and French; case does not count.
+inline const CsvTable::Headings kMoodleIdentifier = {"Identifier", "ID", "Identifiant"},
+                                kMoodleName = {"Full name", "Vollständiger Name", "Nom complet"},
+                                kMoodleIdNumber = {"ID number",      "ID-Nummer",  "Numéro d'identification",
+                                                   "Matrikelnummer", "Student ID", "Numéro d'étudiant"},
+                                kMoodleEmail = {"Email address", "E-Mail-Adresse", "Adresse de courriel",
+                                                "E-Mail"},
+                                kMoodleGrade = {"Grade", "Bewertung", "Note"},
+                                kMoodleMaximum = {"Maximum Grade", "Bestwertung", "Note maximale"};
 
 /// "501" of the identifier "Participant 501"; empty if it has no number at its end.
 inline std::string participantNumber(const std::string& identifier) {
@@ -32,15 +35,16 @@ inline std::string participantNumber(const std::string& identifier) {
 
 namespace {
 
-const CsvTable::Headings kMoodleStatus = {"Status"},
-                         kMoodleSubmitted = {"Last modified (submission)", "Zuletzt geändert (Abgabe)"};
+const CsvTable::Headings kMoodleStatus = {"Status", "Statut"}, kMoodleGroup = {"Group", "Gruppe", "Groupe"},
+                         kMoodleSubmitted = {"Last modified (submission)", "Zuletzt geändert (Abgabe)",
+                                             "Dernière modification (travail remis)"};
 
 /// What Moodle's grading worksheet says about one participant.
 struct MoodleRow {
   Person person{};
   std::string status{};
+  std::string group{};  ///< whose members hand in together; empty: unknown
   std::optional<std::int64_t> submitted{};
-  bool isHandedIn = false;
 };
 
 std::map<std::string, MoodleRow> readWorksheet(const MoodleOptions& options) {
@@ -56,7 +60,8 @@ std::map<std::string, MoodleRow> readWorksheet(const MoodleOptions& options) {
                              .identifier = table.text(k, kMoodleIdentifier),
                              .number = participantNumber(table.text(k, kMoodleIdentifier)),
                              .maximumGrade = table.text(k, kMoodleMaximum)},
-                  .status = table.text(k, kMoodleStatus)};
+                  .status = table.text(k, kMoodleStatus),
+                  .group = table.text(k, kMoodleGroup)};
     if (row.person.number.empty())
       throw UsageError({.what = "not Moodle's grading worksheet",
                         .where = {table.place(k)},
@@ -79,17 +84,29 @@ bool isBlindName(const std::string& name) {
   return lower == "participant" || lower.starts_with("teilnehmer");
 }
 
+// A name as Moodle writes it in the name of a folder.
+std::string inFolderName(const std::string& name) {
+  std::string written = composed(name);
+  std::erase_if(written,
+                [](char c) { return std::string_view("&<>\"`|':\\/").find(c) != std::string_view::npos; });
+  std::replace(written.begin(), written.end(), '_', ' ');
+  return written;
+}
+
 // "Group A" of "Group A-Zoe Miller"; empty if the folder has the name of the person alone.
 std::string groupIn(const std::string& folder, const std::string& person) {
-  const std::string whole = caseless(folder), end = "-" + caseless(person);
-  if (person.empty() || !whole.ends_with(end) || whole.size() == end.size()) return {};
-  return composed(folder).substr(0, composed(folder).size() - composed("-" + person).size());
+  const std::string whole = inFolderName(folder), end = "-" + inFolderName(person);
+  if (person.empty() || !caseless(whole).ends_with(caseless(end)) || whole.size() <= end.size()) return {};
+  return whole.substr(0, whole.size() - end.size());
 }
 
 /// Sorts the files of one download by participants.
 class MoodleReader {
  public:
-  explicit MoodleReader(std::map<std::string, MoodleRow> rows) : rows_(std::move(rows)) {}
+  explicit MoodleReader(std::map<std::string, MoodleRow> rows) : rows_(std::move(rows)) {
+    for (const auto& [number, row] : rows_)
+      if (!row.group.empty()) teams_[caseless(inFolderName(row.group))].push_back(number);
+  }
 
   Arrivals read(Download download, const MoodleOptions& options) {
     found_.platform = Platform::kMoodle;
@@ -97,12 +114,21 @@ class MoodleReader {
     requireRows(options);
     for (auto& [number, arrival] : arrivals_) add(number, std::move(arrival));
     for (auto& [number, row] : rows_)
-      if (!arrivals_.contains(number)) found_.all.push_back({.people = {row.person}});
+      if (!arrivals_.contains(number) && !inTeams_.contains(number))
+        found_.all.push_back({.people = {row.person}});
     joinGroups();
     return std::move(found_);
   }
 
  private:
+  // The name of a team that the worksheet knows, unless the participant of that number has this name.
+  bool isTeam(const MoodleName& name) const {
+    const std::string person = caseless(inFolderName(name.person));
+    const auto row = rows_.find(name.number);
+    return teams_.contains(person) &&
+           (row == rows_.end() || caseless(inFolderName(row->second.person.name)) != person);
+  }
+
   void sort(DownloadedFile file) {
     if (isOfSystem(file.name)) return;
     const std::filesystem::path path(file.name);
@@ -113,14 +139,19 @@ class MoodleReader {
         before += part->string() + "/";
         continue;
       }
-      Arrival& arrival = arrivals_[name->number];
+      const std::string person = isBlindName(name->person) ? "" : composed(name->person);
+      std::string key = isTeam(*name) ? "team " + name->number : name->number;
+      // A team may have the number of a participant, and without a worksheet they differ by their names only.
+      if (const auto other = arrivals_.find(key);
+          other != arrivals_.end() && other->second.people.front().name != person)
+        key += " " + person;
+      Arrival& arrival = arrivals_[key];
       if (arrival.people.empty()) {
-        const std::string person = isBlindName(name->person) ? "" : composed(name->person);
         arrival.people = {{.name = person, .number = name->number}};
         arrival.place = before + part->string();
       }
       if (name->kind != "file") {
-        online_[name->number] = file.place;
+        online_[key] = file.place;
         return;
       }
       std::filesystem::path rest = name->file;
@@ -134,13 +165,16 @@ class MoodleReader {
 
   void requireRows(const MoodleOptions& options) const {
     if (rows_.empty() || arrivals_.empty()) return;
-    if (std::any_of(arrivals_.begin(), arrivals_.end(),
-                    [&](const auto& one) { return rows_.contains(one.first); }))
+    if (std::any_of(arrivals_.begin(), arrivals_.end(), [&](const auto& one) {
+          return rows_.contains(one.first) ||
+                 teams_.contains(caseless(inFolderName(one.second.people.front().name)));
+        }))
       return;
     throw UsageError({.what = "a grading worksheet of another assignment",
                       .where = {options.worksheet.string()},
                       .found = fmt::format("no participant {}", arrivals_.begin()->first),
-                      .wanted = "the worksheet of the assignment that was downloaded"});
+                      .wanted = "the worksheet of the assignment that was downloaded, for teams with its "
+                                "column Group"});
   }
 
   void add(const std::string& number, Arrival arrival) {
@@ -149,6 +183,7 @@ class MoodleReader {
       found_.notes.push_back(fmt::format("{}: an online text, ignored", online->second));
     else if (online != online_.end())
       arrival.whyNone = "an online text, no uploaded file", arrival.place = online->second;
+    if (number.starts_with("team ")) return addTeam(std::move(arrival));
     const auto row = rows_.find(number);
     if (row == rows_.end()) {
       if (!rows_.empty())
@@ -160,13 +195,29 @@ class MoodleReader {
       return;
     }
     arrival.group = groupIn(arrival.people.front().name, row->second.person.name);
-    arrival.people = {row->second.person};
-    arrival.submitted = row->second.submitted;
-    if (arrival.submitted) arrival.timeFrom = "platform";
-    const std::string status = caseless(row->second.status);
-    if (status.starts_with("draft") || status.starts_with("entwurf"))
-      found_.notes.push_back(fmt::format("{}: a draft that was not submitted; taken", arrival.place));
+    arrival.people.clear();
+    addMember(row->second, arrival);
     found_.all.push_back(std::move(arrival));
+  }
+
+  void addTeam(Arrival arrival) {
+    const std::vector<std::string>& members = teams_.at(caseless(inFolderName(arrival.people.front().name)));
+    arrival.group = rows_.at(members.front()).group;
+    arrival.people.clear();
+    for (const std::string& member : members) addMember(rows_.at(member), arrival);
+    inTeams_.insert(members.begin(), members.end());
+    found_.all.push_back(std::move(arrival));
+  }
+
+  // The last time of a team counts, and one member's draft is told.
+  void addMember(const MoodleRow& row, Arrival& arrival) {
+    arrival.people.push_back(row.person);
+    arrival.submitted = std::max(arrival.submitted, row.submitted);
+    if (arrival.submitted) arrival.timeFrom = "platform";
+    const std::string status = caseless(row.status);
+    if (arrival.people.size() == 1 &&
+        (status.starts_with("draft") || status.starts_with("entwurf") || status.starts_with("brouillon")))
+      found_.notes.push_back(fmt::format("{}: a draft that was not submitted; taken", arrival.place));
   }
 
   // Each member of a group has the same files in a folder of their own.
@@ -195,9 +246,11 @@ class MoodleReader {
     found_.all = std::move(joined);
   }
 
-  std::map<std::string, MoodleRow> rows_;        // by number of the participant
-  std::map<std::string, Arrival> arrivals_{};    // the same
-  std::map<std::string, std::string> online_{};  // places of online texts
+  std::map<std::string, MoodleRow> rows_;                    // by number of the participant
+  std::map<std::string, std::vector<std::string>> teams_{};  // by name: numbers of the members
+  std::map<std::string, Arrival> arrivals_{};                // by number, or "team " and its number
+  std::map<std::string, std::string> online_{};              // the same: places of online texts
+  std::set<std::string> inTeams_{};  // numbers of participants for whom a team handed in
   Arrivals found_{};
 };
 

@@ -2,11 +2,13 @@
 
 #include <array>
 #include <chrono>
+#include <cstdlib>
 #include <regex>
 #include <stdexcept>
 #include <vector>
 
 #include <date/tz.h>
+#include <fmt/format.h>
 
 #include "base/error.h"
 #include "base/instant.h"
@@ -26,21 +28,21 @@ constexpr const char* kTimeExamples =
 
 int valueOf(const std::ssub_match& digits) { return parseNumber<int>(digits.str()).value_or(0); }
 
-// Of a word with at least three letters; 0: none. English and German, whole or cut.
+// Of a word with at least three letters; 0: none. English, German and French, whole or cut.
 int monthOf(const std::string& word) {
-  static constexpr std::array<std::array<std::string_view, 3>, 12> kMonths = {
-      {{"january", "januar", "jänner"},
-       {"february", "februar", ""},
-       {"march", "märz", "maerz"},
-       {"april", "", ""},
-       {"may", "mai", ""},
-       {"june", "juni", ""},
-       {"july", "juli", ""},
-       {"august", "", ""},
-       {"september", "sept", ""},
-       {"october", "oktober", ""},
-       {"november", "", ""},
-       {"december", "dezember", ""}}};
+  static constexpr std::array<std::array<std::string_view, 4>, 12> kMonths = {
+      {{"january", "januar", "jänner", "janvier"},
+       {"february", "februar", "février", "fevrier"},
+       {"march", "märz", "maerz", "mars"},
+       {"april", "avril", "", ""},
+       {"may", "mai", "", ""},
+       {"june", "juni", "juin", ""},
+       {"july", "juli", "juillet", ""},
+       {"august", "août", "aout", ""},
+       {"september", "sept", "septembre", ""},
+       {"october", "oktober", "octobre", ""},
+       {"november", "novembre", "", ""},
+       {"december", "dezember", "décembre", "decembre"}}};
   if (word.size() < 3) return 0;
   for (std::size_t k = 0; k < kMonths.size(); ++k)
     for (const std::string_view name : kMonths[k])
@@ -50,13 +52,14 @@ int monthOf(const std::string& word) {
 
 // 1 for Monday to 7 for Sunday; 0: no weekday.
 int weekdayOf(const std::string& word) {
-  static constexpr std::array<std::array<std::string_view, 3>, 7> kDays = {{{"monday", "montag", "mo"},
-                                                                            {"tuesday", "dienstag", "di"},
-                                                                            {"wednesday", "mittwoch", "mi"},
-                                                                            {"thursday", "donnerstag", "do"},
-                                                                            {"friday", "freitag", "fr"},
-                                                                            {"saturday", "samstag", "sa"},
-                                                                            {"sunday", "sonntag", "so"}}};
+  static constexpr std::array<std::array<std::string_view, 3>, 7> kDays = {
+      {{"monday", "montag", "lundi"},
+       {"tuesday", "dienstag", "mardi"},
+       {"wednesday", "mittwoch", "mercredi"},
+       {"thursday", "donnerstag", "jeudi"},
+       {"friday", "freitag", "vendredi"},
+       {"saturday", "samstag", "samedi"},
+       {"sunday", "sonntag", "dimanche"}}};
   if (word.size() < 2) return 0;
   for (std::size_t k = 0; k < kDays.size(); ++k)
     for (const std::string_view name : kDays[k])
@@ -91,7 +94,7 @@ std::optional<PlatformTime> parseIso(const std::string& text) {
   return time;
 }
 
-/// Reads words and numbers in the orders in which English and German write them.
+/// Reads words and numbers in the orders in which English, German and French write them.
 class WordedTime {
  public:
   explicit WordedTime(const std::string& text) {
@@ -210,6 +213,18 @@ std::int64_t PlatformZone::instantOf(const std::string& text, const std::string&
                .where = {place},
                .found = "'" + text + "'",
                .wanted = "another time, or another zone"});
+}
+
+std::string PlatformZone::textOf(std::int64_t instant) const {
+  if (name_.empty()) return instantText(instant);
+  const auto offset =
+      fixedSeconds_
+          ? std::int64_t{*fixedSeconds_}
+          : zoneNamed(name_)->get_info(date::sys_seconds(std::chrono::seconds(instant))).offset.count();
+  std::string text = instantText(instant + offset);
+  text.pop_back();
+  return text + fmt::format("{}{:02}:{:02}", offset < 0 ? '-' : '+', std::abs(offset) / 3600,
+                            std::abs(offset) / 60 % 60);
 }
 
 SubmissionTimes::SubmissionTimes(const std::filesystem::path& file,

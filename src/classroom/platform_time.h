@@ -37,6 +37,9 @@ class PlatformZone {
   /// not exist; `place` is for messages.
   [[nodiscard]] std::int64_t instantOf(const std::string& text, const std::string& place) const;
 
+  /// "2026-11-20T23:58:00+01:00"; in UTC, "2026-11-20T22:58:00Z", if the zone is unknown.
+  [[nodiscard]] std::string textOf(std::int64_t instant) const;
+
  private:
   std::string name_;
   std::optional<int> fixedSeconds_{};

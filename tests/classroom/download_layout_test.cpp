@@ -24,6 +24,7 @@ TEST(DownloadLayout, IsKnownByTheNamesThatPlatformsGive) {
   const std::pair<const char*, Platform> samples[] = {
       {"Zoe Miller_501_assignsubmission_file_/main.cpp", Platform::kMoodle},
       {"Robotics-501/Zoe_501_assignsubmission_file_/course.zip", Platform::kMoodle},
+      {"Zoe Miller_501_assignsubmission_file/main.cpp", Platform::kMoodle},
       {"Zoe_501_assignsubmission_file_main.cpp", Platform::kMoodle},
       {"kinematics-zoe/.git/HEAD", Platform::kGit},
       {"zoe/kinematics/.git/HEAD", Platform::kGit},
@@ -85,10 +86,14 @@ TEST(MoodleNames, ComeApart) {
   EXPECT_EQ(parts->number, "501");
   EXPECT_EQ(parts->kind, "file");
   EXPECT_EQ(parts->file, "main_1.cpp");
-  EXPECT_EQ(parseMoodleName("Zoe_7_assignsubmission_onlinetext_").value().kind, "onlinetext");
+  for (const char* folder : {"Zoe_7_assignsubmission_onlinetext_", "Zoe_7_assignsubmission_onlinetext"}) {
+    EXPECT_EQ(parseMoodleName(folder).value().kind, "onlinetext") << folder;
+    EXPECT_EQ(parseMoodleName(folder).value().file, "") << folder;
+  }
   for (const char* other :
        {"", "zoe", "_assignsubmission_file_", "Zoe_assignsubmission_file_", "501_assignsubmission_file_",
-        "Zoe__assignsubmission_file_", "Zoe_5x_assignsubmission_file_", "Zoe_501_assignsubmission_file"})
+        "Zoe__assignsubmission_file_", "Zoe_5x_assignsubmission_file_", "Zoe_501_assignsubmission_",
+        "Zoe_501_assignsubmission_file.cpp"})
     EXPECT_FALSE(parseMoodleName(other)) << other;
 }
 

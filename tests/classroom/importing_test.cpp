@@ -4,9 +4,11 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/instant.h"
 #include "base/text_file.h"
 #include "classroom/gradebook_text.h"
 #include "classroom/submission_folder.h"
@@ -141,6 +143,54 @@ TEST_F(ImportingTest, TakesWhatWasUnpackedWithAFolderAroundAndAGermanWorksheet) 
 TEST_F(ImportingTest, TakesMoodlesFlatFiles) {
   import(moodle(zip("all.zip", moodleMembers(all_, kExercise, true)), moodleWorksheet(all_)));
   expectAll(emailOf, "platform", true);
+}
+
+TEST_F(ImportingTest, TakesTheFolderNamesOfMoodleFrom4_1OnAlsoBesideOlderOnes) {
+  std::vector<SampleMember> members = moodleMembers(all_, kExercise);
+  for (std::size_t k = 0; k < members.size(); ++k)
+    if (const std::size_t end = members[k].name.find("_/"); k % 4 != 3) members[k].name.erase(end, 1);
+  import(moodle(zip("all.zip", members), moodleWorksheet(all_)));
+  expectAll(emailOf, "platform", true);
+}
+
+// Teams have one folder, with the name and the number of the group, which a participant may have, too.
+TEST_F(ImportingTest, TakesTheTeamsOfMoodleByTheColumnGroupOfTheWorksheet) {
+  const std::vector<SampleMember> members = {
+      {.name = "Pair one  best_12_assignsubmission_file/main.cpp", .text = "int pair;\n"},
+      {.name = "Zoe OHara_12_assignsubmission_file/main.cpp", .text = "int zoe;\n"}};
+  const std::pair<const char*, const char*> languages[] = {
+      {"Identifier,Full name,Email address,Status,Group,Grade,Maximum Grade,Last modified (submission)",
+       "\"Friday, 20 November 2026, 11:58 PM\""},
+      {"ID,Vollständiger Name,E-Mail-Adresse,Status,Gruppe,Bewertung,Bestwertung,Zuletzt geändert (Abgabe)",
+       "\"Freitag, 20. November 2026, 23:58\""},
+      {"Identifiant,Nom complet,Adresse de courriel,Statut,Groupe,Note,Note maximale,Dernière modification "
+       "(travail remis)",
+       "\"vendredi 20 novembre 2026, 23:58\""}};
+  for (const auto& [headings, time] : languages) {
+    fs::remove_all(handedIn());
+    std::string sheet = std::string(headings) + "\n";
+    sheet += fmt::format("Participant 11,Ann,ann@x,s,Pair_one & best,,20,{}\n", time);
+    sheet += fmt::format("Participant 12,Zoe O'Hara,zoe@x,s,,,20,{}\n", time);
+    sheet += fmt::format("Participant 13,Bob,bob@x,s,Pair_one & best,,20,{}\n", time);
+    sheet += "Participant 14,Cid,cid@x,s,,,20,-\n";
+    const ImportReport report = import(moodle(zip("teams.zip", members), sheet));
+    EXPECT_THAT(report.complaints, IsEmpty());
+    EXPECT_EQ(report.handedIn, 3) << headings;
+    EXPECT_EQ(report.missing, 1);
+    const ImportTable table = readImportTable(handedIn() / kImportTable);
+    for (const char* member : {"ann@x", "bob@x"}) {
+      ASSERT_NE(table.find(member, kExercise), nullptr) << member;
+      EXPECT_EQ(table.find(member, kExercise)->handedInBy, "ann@x");
+      EXPECT_EQ(table.find(member, kExercise)->group, "Pair_one & best");
+      EXPECT_EQ(table.find(member, kExercise)->submitted, parseInstant("2026-11-20T22:58:00Z"));
+    }
+    EXPECT_EQ(fileText(handedIn() / "ann@x" / kExercise / "main.cpp"), "int pair;\n");
+    EXPECT_EQ(fileText(handedIn() / "zoe@x" / kExercise / "main.cpp"), "int zoe;\n");
+  }
+  fs::remove_all(handedIn());
+  import(readMoodle(zip("teams.zip", members), {}, exercises_));
+  EXPECT_EQ(fileText(handedIn() / "Pair one  best" / kExercise / "main.cpp"), "int pair;\n")
+      << "the folder of a group, which counts for the members on the roster";
 }
 
 TEST_F(ImportingTest, TellsTwoOfOneNameApartByTheirNumbers) {

@@ -26,6 +26,9 @@ TEST(PlatformTime, ReadsWhatPlatformsWrite) {
         " Friday, 20 November 2026, 11:58\u202FPM "})
     EXPECT_EQ(parsePlatformTime(text), wanted) << text;
   EXPECT_EQ(parsePlatformTime("Montag, 1. Ma\u0308rz 2027, 00:05"), (PlatformTime{2027, 3, 1, 0, 5, 0, {}}));
+  EXPECT_EQ(parsePlatformTime("lundi 1 mars 2027, 00:05"), (PlatformTime{2027, 3, 1, 0, 5, 0, {}}));
+  EXPECT_EQ(parsePlatformTime("dimanche 15 ao\u00FBt 2027, 14:05"),
+            (PlatformTime{2027, 8, 15, 14, 5, 0, {}}));
   EXPECT_EQ(parsePlatformTime("Samstag, 2. Jänner 2027, 12:00"), (PlatformTime{2027, 1, 2, 12, 0, 0, {}}));
   EXPECT_EQ(parsePlatformTime("1 May 2026, 12:05 AM"), (PlatformTime{2026, 5, 1, 0, 5, 0, {}}));
   EXPECT_EQ(parsePlatformTime("1 May 2026, 12:05 PM"), (PlatformTime{2026, 5, 1, 12, 5, 0, {}}));
