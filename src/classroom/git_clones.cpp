@@ -55,7 +55,7 @@ std::vector<Person> readRoster(const fs::path& file) {
 class CloneReader {
  public:
   CloneReader(const CloneOptions& options)
-      : options_(options), roster_(readRoster(options.roster)), record_(readRecord(options.record)) {}
+      : options_(options), roster_(readRoster(options.roster)), record_(readRecord(options)) {}
 
   Arrivals read(const fs::path& source) {
     found_.platform = Platform::kGit;
@@ -76,15 +76,17 @@ class CloneReader {
   }
 
  private:
-  static std::map<std::string, Recorded> readRecord(const fs::path& file) {
+  static std::map<std::string, Recorded> readRecord(const CloneOptions& options) {
     std::map<std::string, Recorded> record;
-    if (file.empty()) return record;
-    const CsvTable table(file, "a record of the platform");
+    if (options.record.empty()) return record;
+    const CsvTable table(options.record, "a record of the platform");
     table.require(kRepositoryName);
-    const PlatformZone zone("");
+    const PlatformZone zone(options.timeZone);
     for (std::size_t k = 0; k < table.size(); ++k) {
       Recorded& one = record[caseless(table.text(k, kRepositoryName))];
-      one.people.push_back(personOfRoster(table.text(k, kRecordId), "", table.text(k, kUser)));
+      Person person = personOfRoster(table.text(k, kRecordId), "", table.text(k, kUser));
+      // Without either, the name of the clone tells who it is.
+      if (!person.id.empty() || !person.githubUsername.empty()) one.people.push_back(std::move(person));
       one.commit = table.text(k, kCommit);
       one.group = table.text(k, kGroupName);
       const std::string time = table.text(k, kHandedInAt);
@@ -148,7 +150,7 @@ class CloneReader {
     const Recorded& recorded = recordOf(name);
     Arrival arrival{.people = recorded.people, .group = recorded.group, .place = name};
     if (arrival.people.empty()) {
-      if (!record_.empty())
+      if (!record_.empty() && !record_.contains(caseless(name)))
         found_.complaints.push_back(fmt::format("{}: not in the record of the platform", name));
       const std::string user = userOf(name);
       arrival.people = {{.githubUsername = user, .identifier = user}};
@@ -226,9 +228,13 @@ class CloneReader {
   // Who is in the record or on the roster, without a clone.
   void addMissing() {
     for (const auto& [name, recorded] : record_)
-      if (!seen_.contains(name) && recorded.submitted)
-        found_.all.push_back(
-            {.people = recorded.people, .group = recorded.group, .place = name, .whyNone = "no clone of it"});
+      if (!seen_.contains(name) && recorded.submitted) {
+        Arrival arrival{
+            .people = recorded.people, .group = recorded.group, .place = name, .whyNone = "no clone of it"};
+        if (arrival.people.empty())
+          arrival.people = {{.githubUsername = userOf(name), .identifier = userOf(name)}};
+        found_.all.push_back(std::move(arrival));
+      }
     for (const Person& person : roster_) {
       const bool isThere = std::any_of(found_.all.begin(), found_.all.end(), [&](const Arrival& arrival) {
         return std::any_of(arrival.people.begin(), arrival.people.end(),

@@ -153,6 +153,14 @@ TEST_F(GitClonesTest, TakesTheLastCommitUntilTheTimeOfTheRecord) {
   EXPECT_THAT(found.notes, Contains(HasSubstr("1 clone: the record has a time but no commit")));
   EXPECT_THAT(found.complaints, Contains("hw-anna: not in the record of the platform"));
   EXPECT_EQ(of(found, "hw-gone").whyNone, "no clone of it");
+  // A record of pushes names no people, and its times may be local.
+  write("record.csv",
+        "repository,submitted,commit\nhw-adam,2026-11-20 14:00:00,\nhw-gone,2026-11-20 14:00:00,\n");
+  const Arrivals pushes = read({.record = record, .timeZone = "Europe/Berlin"});
+  EXPECT_EQ(of(pushes, "hw-adam").people.front().githubUsername, "adam");
+  EXPECT_EQ(of(pushes, "hw-adam").submitted, kNoon + 3600);
+  EXPECT_EQ(of(pushes, "hw-gone").people.front().githubUsername, "gone");
+  EXPECT_REX_ERROR(read({.record = record}), "--time-zone ZONE");
   write("record.csv", "repository,username,submitted,commit\nhw-adam,adam,,1234567890\n");
   EXPECT_EQ(of(read({.record = record}), "hw-adam").whyNone,
             "the clone lacks the commit 1234567890 of the record");

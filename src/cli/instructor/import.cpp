@@ -147,6 +147,8 @@ void addGit(CLI::App* all, Action& action) {
              {{"--roster", words->options.roster, "FILE.csv", "who is who: identifier, username, name"},
               {"--record", words->options.record, "FILE.csv",
                "when what was handed in: repository, username, submitted, perhaps commit"},
+              {"--time-zone", words->options.timeZone, "ZONE",
+               "zone of times in the record that have none: Europe/Berlin, +01:00"},
               {"--assignment", words->options.assignment, "NAME", "what the names of all clones begin with"},
               {"--deadline", words->deadline, "TIME",
                "take the last commit until then: 2026-11-20T23:59:00+01:00"}});
