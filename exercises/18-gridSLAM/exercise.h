@@ -25,12 +25,13 @@ struct Scan {
 
 // Part 1, a grid map of known poses (7:33).
 
-/// The cell (i, j) in which a point lies, also if it is outside of the grid. No point lies on a border.
+/// The cell (i, j) in which a point lies, also if it is outside of the grid. Points on a border are not
+/// tested.
 Eigen::Vector2i cellAt(const Grid& grid, const Eigen::Vector2d& p);
 
 /// All cells that the segment passes, also those outside of the grid, each once and in order: from the one of
-/// `from` to the one of `to`. A segment need not count in cells where it is shorter than a hundredth of
-/// their side.
+/// `from` to the one of `to`. Cells of which the segment passes less than a hundredth of a
+/// side are optional.
 std::vector<Eigen::Vector2i> cellsAlong(const Grid& grid, const Eigen::Vector2d& from,
                                         const Eigen::Vector2d& to);
 
@@ -41,8 +42,8 @@ struct CellEvidence {
 
 /// The map after a scan from a known pose. Where at least one ray ends, `hit` is added to the cell, once; to
 /// all others that at least one ray passes, `miss`, once. A ray that hit nothing passes all cells up to
-/// maxRange. Log odds are limited to [-bound, bound] after that, as they were before. Rays may leave the
-/// grid.
+/// maxRange, the one there included: all of them get `miss`. Then log odds are limited to [-bound, bound];
+/// those of the given map are within already. Rays may leave the grid.
 Grid observed(const Grid& map, const Eigen::Vector3d& pose, const Scan& scan, const CellEvidence& evidence);
 
 // Part 2, how well a scan fits.
@@ -51,8 +52,9 @@ Grid observed(const Grid& map, const Eigen::Vector3d& pose, const Scan& scan, co
 /// odds above 0), but at most `reach`.
 Grid wallDistances(const Grid& map, double reach);
 
-/// A value between the centres of cells: bilinear in the four around p. Outside of the outermost centres it
-/// is the value at the nearest point between them. The grid has at least 2 x 2 cells.
+/// A value between the centres of cells: bilinear in the four around p. Outside of the rectangle of the
+/// outermost centres it is the value at the nearest point of that rectangle. The grid has at least 2 x 2
+/// cells.
 double valueAt(const Grid& grid, const Eigen::Vector2d& p);
 
 /// The log likelihood of a scan at a pose, up to a constant: minus the sum of d^2 / (2 deviation^2) over all
@@ -62,8 +64,8 @@ double fit(const Grid& distances, const Eigen::Vector3d& pose, const Scan& scan,
 // Part 3, scan matching.
 
 /// The pose with the best fit, of those that differ from the guess by at most window[0] in x, by as much in
-/// y, and by window[1] in their heading. Its fit may be worse than the best one by 1, and by a twentieth of
-/// what the best one gains over the guess.
+/// y, and by window[1] in their heading. Accepted is a fit of at least
+/// best - 1 - 0.05 (best - fit(guess)).
 Eigen::Vector3d matched(const Grid& distances, const Scan& scan, double deviation,
                         const Eigen::Vector3d& guess, const Eigen::Vector2d& window);
 
@@ -81,14 +83,15 @@ struct Particle {
   double logWeight = 0;
 };
 
-/// The weights of all particles, with sum one, even if exp(logWeight) is zero or infinite for each of them.
+/// The weights of all particles, with sum one. logWeight is finite, but its exponential may be zero or
+/// infinite for each of them.
 Eigen::VectorXd weightsOf(const std::vector<Particle>& particles);
 
 /// One over the sum of the squared weights.
 double effectiveSize(const Eigen::VectorXd& weights);
 
-/// As many particles, copies of the given N, in any order. Particle i occurs N weight_i times on average, and
-/// never less often than the integer part of that. All log weights are 0 afterwards.
+/// N particles, each a copy of one of the N given ones, in any order. Particle i occurs N weight_i times on
+/// average, and never less often than the integer part of that. All log weights are 0 afterwards.
 std::vector<Particle> resampled(const std::vector<Particle>& particles, rex::Rng& rng);
 
 struct Settings {
