@@ -83,6 +83,12 @@ std::string TomlTable::text(std::string_view key) const {
   return *value;
 }
 
+bool TomlTable::boolean(std::string_view key) const {
+  const auto value = node_->require(key, name_, "true or false").value_exact<bool>();
+  if (!value) node_->complain(key, name_, "true or false");
+  return *value;
+}
+
 int TomlTable::integer(std::string_view key, int lowest, int highest) const {
   const std::string wanted = fmt::format("a whole number from {} to {}", lowest, highest);
   const auto value = node_->require(key, name_, wanted).value_exact<std::int64_t>();

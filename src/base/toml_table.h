@@ -28,6 +28,7 @@ class TomlTable {
   SourceLocation where(std::string_view key) const;
 
   std::string text(std::string_view key) const;  ///< not empty
+  bool boolean(std::string_view key) const;
   int integer(std::string_view key, int lowest, int highest) const;
   double number(std::string_view key, double above, double highest) const;
   std::vector<std::string> texts(std::string_view key) const;

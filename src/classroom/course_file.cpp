@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
 #include "base/escape.h"
+#include "base/text.h"
 #include "classroom/csv.h"
 #include "classroom/gradebook_text.h"
+#include "classroom/platform_time.h"
 #include "classroom/submission_folder.h"
 
 namespace rex::grading {
@@ -87,12 +90,21 @@ void readStudentTables(const TomlTable& top, RosterReader& roster) {
 }
 
 void readStudentRows(const fs::path& file, RosterReader& roster) {
+  // In the order of kRosterKeys, also as platforms export them in German and French.
+  static const CsvTable::Headings kColumns[] = {
+      {"id", "Kennung", "Identifiant"},
+      {"name", "Full name", "Vollständiger Name", "Nom complet", "Nom"},
+      {"email", "E-Mail", "Email address", "E-Mail-Adresse", "Adresse de courriel", "Courriel"},
+      {"group", "Gruppe", "Groupe"},
+      {"number", "Matrikelnummer", "Numéro d'étudiant"},
+      {"section", "Sektion"}};
   const CsvTable table(file, "a table of students");
-  table.require({"id"});
+  table.require(kColumns[0]);
   table.requireWholeRows();
   for (std::size_t k = 0; k < table.size(); ++k) {
     CourseStudent student;
-    for (const std::string& key : kRosterKeys) fieldOf(student, key) = table.text(k, {key});
+    for (std::size_t c = 0; c < kRosterKeys.size(); ++c)
+      fieldOf(student, kRosterKeys[c]) = table.text(k, kColumns[c]);
     roster.add(std::move(student), {table.place(k)});
   }
 }
@@ -110,6 +122,8 @@ class CourseReader {
     if (top_.has("title")) course_.title = top_.text("title");
     if (top_.has("results")) course_.results = folder_ / top_.text("results");
     if (top_.has("adjustments")) course_.adjustments = folder_ / top_.text("adjustments");
+    readSettings(course_.settings);
+    if (top_.has("time_zone")) course_.timeZone = zoneAt("time_zone");
     readStudents();
     course_.policy = latePolicyOf(top_, exercises_);
     const auto exercises = top_.table("exercise", "[exercise]", "a table");
@@ -127,6 +141,27 @@ class CourseReader {
   }
 
  private:
+  std::string zoneAt(const char* key) const {
+    try {
+      static_cast<void>(PlatformZone(top_.text(key)));
+    } catch (const UsageError& error) {
+      throw Error({.what = fmt::format("'{}'", key),
+                   .where = top_.where(key),
+                   .found = error.parts().found,
+                   .wanted = error.parts().wanted});
+    }
+    return top_.text(key);
+  }
+
+  void readSettings(GradingSettings& settings) const {
+    if (top_.has("secret_file")) settings.secret = folder_ / top_.text("secret_file");
+    if (top_.has("seed"))
+      settings.seed = static_cast<std::uint64_t>(top_.integer("seed", 0, std::numeric_limits<int>::max()));
+    if (top_.has("level")) settings.level = top_.integer("level", 0, 3);
+    if (top_.has("evidence")) settings.evidence = top_.boolean("evidence");
+    if (top_.has("reports")) settings.reports = join(top_.texts("reports"), ",");
+  }
+
   void readStudents() {
     RosterReader roster(course_);
     if (top_.has("students")) {

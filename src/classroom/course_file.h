@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,15 @@ struct CourseStudent {
   std::string section{};  ///< of the course, for Canvas
 };
 
+/// What a course is graded with, unless an option says otherwise.
+struct GradingSettings {
+  std::filesystem::path secret{};  ///< file; empty: none
+  std::optional<std::uint64_t> seed{};
+  std::optional<int> level{};  ///< of the sandbox
+  bool evidence = false;       ///< keep pictures and replays
+  std::string reports{};       ///< names of formats with commas; empty: none
+};
+
 /// The contents of a course file (share/doc/grading.md).
 struct Course {
   std::string title{};
@@ -29,6 +39,8 @@ struct Course {
   std::map<std::string, std::int64_t> weights{};  ///< of the exercises of the course, in hundredths
   std::filesystem::path results{};                ///< where results go; empty: not said
   std::filesystem::path adjustments{};            ///< empty: none
+  GradingSettings settings{};
+  std::string timeZone{};  ///< in which times are shown to people; empty: UTC
 
   [[nodiscard]] const CourseStudent* student(const std::string& id) const;
   [[nodiscard]] std::vector<std::string> ids() const;

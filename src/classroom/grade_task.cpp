@@ -239,22 +239,30 @@ std::string workerKey(const Task& task) {
                             numberOf(task.level)));
 }
 
+// An empty table if there is none.
+Json resultJson(const fs::path& file) {
+  if (!fs::exists(file)) return Json::object();
+  Json json = Json::parse(readTextFile(file), nullptr, false);
+  return json.is_object() ? json : Json::object();
+}
+
 // One of the hashes in a result; empty if it has none.
 std::string inputOf(const fs::path& file, const char* key) {
-  const Json json = Json::parse(readTextFile(file), nullptr, false);
-  const bool hasInputs = json.is_object() && json.contains("inputs") && json["inputs"].is_object();
+  const Json json = resultJson(file);
+  const bool hasInputs = json.contains("inputs") && json["inputs"].is_object();
   return hasInputs && json["inputs"].contains(key) && json["inputs"][key].is_string()
              ? json["inputs"][key].get<std::string>()
              : "";
 }
 
-std::string withInputs(const fs::path& results, const Task& task, bool evidence) {
+std::string withInputs(const fs::path& results, const Task& task, bool evidence, bool alone) {
   const std::string text = readTextFile(results);
   Json json = Json::parse(text);
-  json["inputs"] = {{"sha256", task.inputsSha256()},
-                    {"source_sha256", task.sourceSha256},
-                    {"grader_sha256", task.graderSha256},
-                    {"result_sha256", sealOf(text, results.string())}};
+  json["inputs"] = {{"sha256", task.inputsSha256()},      {"source_sha256", task.sourceSha256},
+                    {"grader_sha256", task.graderSha256}, {"result_sha256", sealOf(text, results.string())},
+                    {"level", numberOf(task.level)},      {"secret_id", task.secretId}};
+  if (task.seed) json["inputs"]["seed"] = *task.seed;
+  if (alone) json["inputs"]["alone"] = true;
   json["volatile"]["evidence"] = evidence;
   return json.dump(2) + "\n";
 }
@@ -353,6 +361,20 @@ std::optional<int> pointsNow(const Task& task, const fs::path& out) {
   return stateOf(task, out) == TaskState::kDone ? pointsBefore(task, out) : std::nullopt;
 }
 
+std::optional<GradedWith> gradedWith(const Task& task, const fs::path& out) {
+  const fs::path folder = resultFolder(out, task), waiting = folder / kRegraded / kResults;
+  try {
+    const Json inputs = resultJson(fs::exists(waiting) ? waiting : folder / kResults).at("inputs");
+    GradedWith with{.level = sandbox::levelOf(inputs.at("level").get<int>()),
+                    .secretId = inputs.at("secret_id").get<std::string>(),
+                    .alone = inputs.value("alone", false)};
+    if (inputs.contains("seed")) with.seed = inputs["seed"].get<std::uint64_t>();
+    return with;
+  } catch (const Json::exception&) {
+    return {};
+  }
+}
+
 bool hasEvidence(const Task& task, const fs::path& out) {
   const fs::path folder = resultFolder(out, task);
   try {
@@ -376,12 +398,14 @@ GradeResult gradeTask(const Task& task, const Toolchain& toolchain, const Exerci
   const fs::path results = options.workFolder / "out" / kResults,
                  evidence = options.workFolder / "out" / kEvidence;
   fs::create_directories(results.parent_path());
+  const bool keepsEvidence = options.evidence || resultJson(resultFolder(options.out, task) / kResults)
+                                                     .value(Json::json_pointer("/volatile/evidence"), false);
   const SubmissionOptions submission{.main = file,
                                      .workFolder = options.workFolder / "work",
                                      .job = {.results = results,
                                              .seed = task.seed.value_or(GradingJob{}.seed),
                                              .sandbox = {.level = task.level, .launcher = options.launcher},
-                                             .evidence = options.evidence ? evidence : fs::path(),
+                                             .evidence = keepsEvidence ? evidence : fs::path(),
                                              .secret = options.secret}};
   const BuiltSubmission built =
       options.workers.empty()
@@ -400,9 +424,10 @@ GradeResult gradeTask(const Task& task, const Toolchain& toolchain, const Exerci
   // names them.
   removeReports(folder);
   fs::remove_all(folder / kEvidence);
-  if (options.evidence && fs::exists(evidence))
+  if (keepsEvidence && fs::exists(evidence))
     fs::copy(evidence, folder / kEvidence, fs::copy_options::recursive);
-  replaceTextFile(folder / kResults, withInputs(results, task, options.evidence), "the result file");
+  replaceTextFile(folder / kResults, withInputs(results, task, keepsEvidence, options.alone),
+                  "the result file");
   return result;
 }
 

@@ -79,6 +79,16 @@ void acceptRegrading(const Task& task, const std::filesystem::path& out);
 /// The points of the result that waits, or else of the one that counts, if there is a valid one.
 [[nodiscard]] std::optional<int> pointsNow(const Task& task, const std::filesystem::path& out);
 
+/// What a result was made with, besides the text and the grader.
+struct GradedWith {
+  sandbox::Level level{};
+  std::optional<std::uint64_t> seed{};
+  std::string secretId{};
+  bool alone = false;  ///< by `rex grade --student`: the settings of the class do not count
+};
+/// That of the result of a task, or of the one that waits; empty: there is none, or it does not say.
+[[nodiscard]] std::optional<GradedWith> gradedWith(const Task& task, const std::filesystem::path& out);
+
 /// Whether the pictures and replays of a finished task were kept and still exist.
 [[nodiscard]] bool hasEvidence(const Task& task, const std::filesystem::path& out);
 
@@ -88,16 +98,17 @@ struct TaskOptions {
   std::filesystem::path launcher{};    ///< of the sandbox
   std::filesystem::path secret{};      ///< file with the secret of the course; empty: none
   bool evidence = false;               ///< keep pictures and replays of failed visible checks
+  bool alone = false;                  ///< see GradedWith
   std::filesystem::path workers{};     ///< where compiled programs are kept; empty: they are not
   bool accept = false;                 ///< take a result with fewer points for the same text, too
   bool anew = false;                   ///< recompile even what is kept there
 };
 
 /// Grades a task and writes OUT/STUDENT/EXERCISE/results.json, the hash of the inputs, build.log and, on
-/// request, the folder checks; each file is written completely or not at all. Reports of an earlier result
-/// are removed. If the same text had more points before, that result stays, and the new one waits in the
-/// folder `regraded` (isHeldBack()). Throws Error without writing a result if the file or the grader is not
-/// that of the task.
+/// request or if the result before had it, the folder checks; each file is written completely or not at all.
+/// Reports of an earlier result are removed. If the same text had more points before, that result stays, and
+/// the new one waits in the folder `regraded` (isHeldBack()). Throws Error without writing a result if the
+/// file or the grader is not that of the task.
 [[nodiscard]] GradeResult gradeTask(const Task& task, const Toolchain& toolchain,
                                     const ExerciseInfo& exercise, const TaskOptions& options);
 

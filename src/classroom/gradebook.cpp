@@ -110,8 +110,9 @@ class BookMaker {
     }
     for (const ImportedStudent& person : source_.imported.students)
       for (const auto& [exercise, entry] : person.exercises)
+        // A file that somebody has put there by hand since then counts.
         if (const std::string id = studentOf(person, course_);
-            entry.status == HandInStatus::kNotTaken && !id.empty())
+            entry.status == HandInStatus::kNotTaken && !id.empty() && !candidates_.contains({id, exercise}))
           notTaken_[{id, exercise}].push_back({person.student, exercise, entry.why});
   }
 
@@ -132,6 +133,7 @@ class BookMaker {
     if (const auto rule = course_.policy.find(exercise); rule != course_.policy.end()) {
       row.deadline = deadlineOf(rule->second, student.id);
       row.isExtended = row.deadline != rule->second.deadline;
+      row.graceSeconds = rule->second.graceSeconds;
     }
     const auto found = candidates_.find({student.id, exercise});
     if (found != candidates_.end()) take(found->second.back(), row);
@@ -147,6 +149,7 @@ class BookMaker {
   void take(std::size_t index, GradeRow& row) {
     const Task& task = source_.tasks[index];
     row.task = index;
+    row.timeZone = course_.timeZone;
     row.handedInAs = task.student;
     row.submitted = task.submitted;
     row.timeFrom = task.timeFrom;

@@ -50,6 +50,8 @@ struct GradeRow {
   Lateness late{};
   std::optional<std::int64_t> deadline{};  ///< with extension
   bool isExtended = false;
+  std::int64_t graceSeconds = 0;
+  std::string timeZone{};               ///< of the course, for people; empty: UTC
   std::optional<std::int64_t> final{};  ///< empty: no grade
   std::int64_t submitted = 0;
   std::string timeFrom{};

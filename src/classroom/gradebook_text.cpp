@@ -16,6 +16,7 @@
 #include "base/text_file.h"
 #include "classroom/csv.h"
 #include "classroom/gradebook.h"
+#include "classroom/platform_time.h"
 #include "classroom/submission_folder.h"
 
 namespace rex::grading {
@@ -213,6 +214,23 @@ std::string optionalText(const std::optional<std::int64_t>& hundredths) {
   return hundredths ? hundredthsText(*hundredths) : "";
 }
 
+// After the deadline, but not late.
+std::string graceText(const GradeRow& row) {
+  if (!row.task || !row.deadline || row.submitted <= *row.deadline ||
+      row.submitted > *row.deadline + row.graceSeconds)
+    return "";
+  return fmt::format("; {} minutes after it, within the grace of {}",
+                     (row.submitted - *row.deadline + 59) / 60, row.graceSeconds / 60);
+}
+
+// For the student: of what the days count, or that the grace was used.
+std::string timesText(const GradeRow& row) {
+  if (!row.task || !row.deadline || row.submitted <= *row.deadline) return "";
+  const PlatformZone zone(row.timeZone);
+  return fmt::format("Handed in at {}, deadline {}{}.", zone.textOf(row.submitted),
+                     zone.textOf(*row.deadline), graceText(row));
+}
+
 std::string lateText(const GradeRow& row) {
   if (row.late.days == 0) return "";
   return fmt::format("{} day{} late: {} of {} points are taken away.", row.late.days,
@@ -242,7 +260,8 @@ std::vector<std::string> cellsOf(const GradeRow& row) {
     cells.insert(cells.end(), {"", ""});
   cells.push_back(optionalText(row.final));
   if (row.task)
-    cells.insert(cells.end(), {instantText(row.submitted), row.timeFrom, row.handedInAs});
+    cells.insert(cells.end(),
+                 {PlatformZone(row.timeZone).textOf(row.submitted), row.timeFrom, row.handedInAs});
   else
     cells.insert(cells.end(), {"", "", ""});
   cells.push_back(row.remark);
@@ -257,11 +276,12 @@ void explainChecks(const GradeRow& row, std::vector<std::string>& lines) {
 }
 
 void explainTime(const GradeRow& row, std::vector<std::string>& lines) {
-  lines.push_back(fmt::format("Handed in at {} (time from {}) as '{}'", instantText(row.submitted),
+  const PlatformZone zone(row.timeZone);
+  lines.push_back(fmt::format("Handed in at {} (time from {}) as '{}'", zone.textOf(row.submitted),
                               row.timeFrom, row.handedInAs));
   if (row.deadline)
-    lines.push_back(fmt::format("Deadline {}{}", instantText(*row.deadline),
-                                row.isExtended ? ", an extension of this student" : ""));
+    lines.push_back(fmt::format("Deadline {}{}{}", zone.textOf(*row.deadline),
+                                row.isExtended ? ", an extension of this student" : "", graceText(row)));
   else
     lines.emplace_back("No deadline");
 }
@@ -297,7 +317,7 @@ std::string totalsCsv(const Gradebook& book) {
 std::optional<Judgement> judgementOf(const GradeRow& row) {
   if (!row.final) return {};
   Judgement judgement{.student = shownName(row.student),
-                      .lateness = lateText(row),
+                      .lateness = timesText(row) + (row.late.days > 0 ? " " : "") + lateText(row),
                       .penalty = row.late.penalty,
                       .final = *row.final,
                       .possible = row.possible};

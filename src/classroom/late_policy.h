@@ -52,8 +52,9 @@ using LatePolicy = std::map<std::string, LateRule>;
 [[nodiscard]] LatePolicy latePolicyOf(const TomlTable& file, const std::vector<std::string>& exercises);
 
 /// All keys at the top of a course file; those of a file of deadlines are the first two.
-inline const std::vector<std::string> kCourseKeys = {"all",     "exercise",    "title",  "students",
-                                                     "student", "adjustments", "results"};
+inline const std::vector<std::string> kCourseKeys = {
+    "all",         "exercise", "title", "students", "student", "adjustments", "results",
+    "secret_file", "seed",     "level", "evidence", "reports", "time_zone"};
 
 /// A sentence for each student with an extension who is not in `students`, as the name may be misspelt.
 [[nodiscard]] std::vector<std::string> unknownExtensions(const LatePolicy& policy,

@@ -75,12 +75,43 @@ section = "A"
       << "an extension of the group";
 }
 
+TEST_F(CourseFileTest, HoldsWhatACourseIsGradedWith) {
+  const GradingSettings all = read(
+                                  "secret_file = \"s\"\nseed = 7\nlevel = 2\nevidence = true\n"
+                                  "reports = [\"markdown\", \"junit\"]\n")
+                                  .settings;
+  EXPECT_EQ(all.secret, folder_.path() / "s");
+  EXPECT_EQ(all.seed, 7u);
+  EXPECT_EQ(all.level, 2);
+  EXPECT_TRUE(all.evidence);
+  EXPECT_EQ(all.reports, "markdown,junit");
+  const GradingSettings none = read("").settings;
+  EXPECT_FALSE(none.seed || none.level || none.evidence);
+  EXPECT_THAT(messageFor("evidence = 1\n"),
+              HasSubstr(":1:12: the course file: 'evidence': found 1, wanted true or false"));
+  EXPECT_EQ(read("time_zone = \"Europe/Berlin\"\n").timeZone, "Europe/Berlin");
+  EXPECT_THAT(messageFor("time_zone = \"Berlin\"\n"), HasSubstr("wanted a name such as Europe/Berlin"));
+  EXPECT_THAT(messageFor("seed = -1\n"), HasSubstr("wanted a whole number from 0 to"));
+}
+
 TEST_F(CourseFileTest, ReadsStudentsFromATable) {
   writeTextFile(folder_.path() / "students.csv", "group,id,name,remark\nA,zoe,\"Müller, Zoë\",x\n,adam,,\n");
   const Course course = read("students = \"students.csv\"\n[[student]]\nid = \"bob\"\n");
   EXPECT_THAT(course.ids(), ElementsAre("adam", "bob", "zoe"));
   EXPECT_EQ(course.student("zoe")->name, "Müller, Zoë");
   EXPECT_EQ(course.student("zoe")->group, "A");
+}
+
+TEST_F(CourseFileTest, ReadsTheHeadingsOfThreeLanguages) {
+  for (const char* headings :
+       {"ID,Full name,Email address,Group,number", "Kennung,Name,E-Mail,Gruppe,Matrikelnummer",
+        "Identifiant,Nom,Courriel,Groupe,Numéro d'étudiant"}) {
+    writeTextFile(folder_.path() / "students.csv", std::string(headings) + "\nzoe,Zoë,z@x,A,17\n");
+    const Course course = read("students = \"students.csv\"\n");
+    const CourseStudent* zoe = course.student("zoe");
+    ASSERT_NE(zoe, nullptr) << headings;
+    EXPECT_EQ(zoe->name + zoe->email + zoe->group + zoe->number, "Zoëz@xA17") << headings;
+  }
 }
 
 // A file of deadlines is a course file without students, and the other way round.

@@ -203,10 +203,13 @@ TEST_F(GradebookTest, AppliesAdjustmentsOfChecksBeforeAndOfTheTotalAfterLateness
   EXPECT_EQ(graded.final, 680);
   EXPECT_THAT(gradesCsv({graded}), HasSubstr("late,5,10,fail,2.5,1,0.7,6.8,"));
   const Judgement judgement = judgementOf(graded).value();
-  EXPECT_THAT(sentencesOf(judgement),
-              ElementsAre("Turns [turn]: 4 instead of 2 points: seen (Tutor, 2026-12-01)",
-                          "Final points: 6.8 instead of 6.3 points: seen (Tutor, 2026-12-01)",
-                          "1 day late: 0.7 of 7 points are taken away.", "Final grade: 6.8 of 10 points."));
+  EXPECT_THAT(
+      sentencesOf(judgement),
+      ElementsAre("Turns [turn]: 4 instead of 2 points: seen (Tutor, 2026-12-01)",
+                  "Final points: 6.8 instead of 6.3 points: seen (Tutor, 2026-12-01)",
+                  "Handed in at 2023-11-15T22:13:20Z, deadline 2023-11-14T22:13:20Z. 1 day late: 0.7 of 7 "
+                  "points are taken away.",
+                  "Final grade: 6.8 of 10 points."));
   EXPECT_THAT(
       explain(graded),
       ElementsAre("bob (bob), 01-kinematics: late",
@@ -287,6 +290,31 @@ TEST_F(GradebookTest, GivesCommentsToTheFileThatCounts) {
   source_.adjustments.comments[0].line = 2;
   EXPECT_REX_ERROR((void)row("adam"),
                    "a.toml:9:1: a comment on line 2 of adam: found a file of 1 lines, wanted one of them");
+}
+
+TEST_F(GradebookTest, ShowsTimesInTheZoneOfTheCourseAndTheGrace) {
+  handIn("bob", 5, kTime + 590);
+  source_.course.policy[kEx] = {.deadline = kTime, .graceSeconds = 900, .perDay = 1000};
+  source_.course.timeZone = "Europe/Berlin";
+  const GradeRow graded = row("bob");
+  EXPECT_EQ(graded.status, RowStatus::kGraded);
+  EXPECT_THAT(gradesCsv({graded}), HasSubstr(",2023-11-14T23:23:10+01:00,"));
+  EXPECT_THAT(explain(graded), Contains("Handed in at 2023-11-14T23:23:10+01:00 (time from table) as 'bob'"));
+  EXPECT_THAT(explain(graded),
+              Contains("Deadline 2023-11-14T23:13:20+01:00; 10 minutes after it, within the grace of 15"));
+  EXPECT_THAT(sentencesOf(judgementOf(graded).value()).front(),
+              HasSubstr("10 minutes after it, within the grace of 15."));
+}
+
+// Somebody unpacked it by hand and put the file where it belongs.
+TEST_F(GradebookTest, CountsWhatWasPutRightAfterAnImport) {
+  handIn("bob", 5);
+  source_.imported.students = {{.student = "bob"}, {.student = "carl"}};
+  for (ImportedStudent& one : source_.imported.students)
+    one.exercises[kEx] = {.status = HandInStatus::kNotTaken, .why = "an archive in an archive"};
+  EXPECT_EQ(row("bob").status, RowStatus::kGraded);
+  EXPECT_EQ(row("bob").remark, "");
+  EXPECT_EQ(row("carl").status, RowStatus::kNotTaken);
 }
 
 TEST_F(GradebookTest, TellsWhoHasAnExtension) {

@@ -75,8 +75,9 @@ TEST(ResultSchema, FitsWhatIsWritten) {
 
 TEST(ResultSchema, AllowsTheHashesOfItsInputs) {
   Json result = Json::parse(toJson(fullResult()));
-  result["inputs"] = {
-      {"sha256", "a"}, {"source_sha256", "b"}, {"grader_sha256", "c"}, {"result_sha256", "d"}};
+  result["inputs"] = {{"sha256", "a"},        {"source_sha256", "b"}, {"grader_sha256", "c"},
+                      {"result_sha256", "d"}, {"level", 2},           {"seed", 7},
+                      {"secret_id", ""},      {"alone", true}};
   EXPECT_EQ(violation(result, schema(), ""), "");
   result["inputs"].erase("sha256");
   EXPECT_EQ(violation(result, schema(), ""), "/inputs: lacks sha256");
