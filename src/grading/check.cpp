@@ -141,7 +141,7 @@ std::string Check::questionAbout(const MatrixArg& got, const MatrixArg& wanted, 
   for (const auto& [question, value] : suspects_)
     if (isWithin(tolerance, got, value)) return question;
   for (const InputValue& one : inputs_)
-    if (one.value.size() > 1 && isWithin(tolerance, got, one.value))
+    if (one.value.size() > 1 && !one.value.isZero(tolerance) && isWithin(tolerance, got, one.value))
       return fmt::format("Your value is the input {}, unchanged.", one.name);
   const std::string strange = strangeNumber(got);
   return strange.empty() ? usualMistake(got, wanted, tolerance, unit) : strange;

@@ -120,6 +120,11 @@ TEST(Check, SaysIfAnInputCameBackUnchanged) {
   };
   EXPECT_THAT(message({3, 4}), HasSubstr("(seed 7). Your value is the input p, unchanged."));
   EXPECT_THAT(message({3, 5}), Not(HasSubstr("unchanged")));
+  const std::string nothing = messageOf([&](Check& check) {
+    check.input("a plant", {{"A", Eigen::Matrix2d::Zero().eval()}});
+    check.near("the matrix", Eigen::Matrix2d::Zero().eval(), Eigen::Matrix2d::Identity().eval(), 1e-9);
+  });
+  EXPECT_THAT(nothing, Not(HasSubstr("unchanged"))) << "zero is what an untouched function returns";
 }
 
 TEST(Check, ComparesAnglesModuloAWholeTurn) {

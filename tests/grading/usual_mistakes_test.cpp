@@ -28,6 +28,9 @@ TEST(UsualMistake, NamesEachOfThem) {
   EXPECT_THAT(usualMistake(-v, v, kTight), HasSubstr("opposite sign"));
   EXPECT_THAT(usualMistake(A.transpose(), A, kTight), HasSubstr("transposed"));
   EXPECT_THAT(usualMistake(path.transpose(), path, kTight), HasSubstr("transposed"));
+  Eigen::MatrixXd nearly = A + A.transpose();
+  nearly(0, 1) += 2e-5;
+  EXPECT_EQ(usualMistake(nearly, nearly.transpose(), 1e-7), "") << "that is a test of symmetry";
   EXPECT_THAT(usualMistake(one(90), one(std::numbers::pi / 2), kTight, "rad"), HasSubstr("is in degrees"));
   EXPECT_THAT(usualMistake(one(std::numbers::pi / 2), one(90), kTight, "deg"), HasSubstr("is in radians"));
   EXPECT_THAT(usualMistake(v / 7, v, kTight),
