@@ -5,6 +5,9 @@
 
 set(REX_INSTALLED lib/rex)
 
+# scripts/package gives that of a commit.
+set(REX_PACKAGE_VERSION ${PROJECT_VERSION} CACHE STRING "version of the packages")
+
 # Who answers for a package is who makes it.
 set(REX_MAINTAINER "the rex maintainers <rex@localhost>")
 if(DEFINED ENV{REX_MAINTAINER})
@@ -147,7 +150,7 @@ function(rex_install_documentation)
   # The form that Debian wants; what changed stands in CHANGELOG.md. By CMake the time is SOURCE_DATE_EPOCH, if that is set.
   string(TIMESTAMP now "%a, %d %b %Y %H:%M:%S +0000" UTC)
   file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/changelog @ONLY
-       CONTENT "rex (@PROJECT_VERSION@) unstable; urgency=medium\n\n  * See CHANGELOG.md.\n\n -- @REX_MAINTAINER@  @now@\n")
+       CONTENT "rex (@REX_PACKAGE_VERSION@) unstable; urgency=medium\n\n  * See CHANGELOG.md.\n\n -- @REX_MAINTAINER@  @now@\n")
   rex_install_changelog(rex documentation)
   rex_install_changelog(librex-dev development)
 endfunction()

@@ -383,6 +383,16 @@ TEST_F(ManyByEngines, HandsAnArrayToSlurm) {
   EXPECT_EQ(fileText(root() / "results" / "grades.csv"), fileText(root() / "whole" / "grades.csv"));
 }
 
+TEST(PackageVersions, SortByTheTimeOfTheCommitAndBeforeTheNextRelease) {
+  const ProcessResult sorted = runProcess({"/bin/bash", "-ec",
+                                           "source scripts/bootstrap; a=$(package_version 0.2.0 1795900000 "
+                                           "fff); b=$(package_version 0.2.0 1795900001 "
+                                           "abc); for c in 0.2.0 $a $b 0.3.0; do test -z \"$p\" || dpkg "
+                                           "--compare-versions $p lt $c; p=$c; done; echo $a"},
+                                          {.directory = sourcePath("")});
+  EXPECT_EQ(sorted.output, "0.3.0~git20261128210640.fff\n") << sorted.error;
+}
+
 // Numbers beyond the largest of the cluster come in arrays of their own; only those that were asked for.
 TEST_F(ManyByEngines, CutsArraysThatAreTooLongForSlurm) {
   fs::create_directories(root() / "bin");
