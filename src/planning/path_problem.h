@@ -27,6 +27,10 @@ struct PathProblem {
       0.01;  ///< edges are checked at points no farther apart than this, in the metric of the space
   /// Explains why a configuration is not valid, and by how much; only for messages. May be empty.
   std::function<std::string(const VectorArg& q)> reason{};
+  /// Asked before each sample: true ends the search as if its budget were spent, with what was explored so
+  /// far. Empty: never. What a search with a limit of time finds depends on the machine only if the limit
+  /// ends it.
+  std::function<bool()> isTimeUp{};
 };
 
 /// Throws Error for a start or goal with a wrong size, out of bounds, or not valid, saying which and why.

@@ -38,14 +38,15 @@ Roadmap::Roadmap(const Space& space, AllValid allValid, double resolution, const
   requireSound(options);
   if (!options_.sampler) options_.sampler = uniformSampler(space);
   Eigen::VectorXd q(space.size());
-  for (int i = 0; i < options.maxSamples && nodes() < options.nodes; ++i) {
+  const auto isTimeUp = [&] { return options.isTimeUp && options.isTimeUp(); };
+  for (int i = 0; i < options.maxSamples && nodes() < options.nodes && !isTimeUp(); ++i) {
     if (!options_.sampler(rng, q)) continue;
     if (options.lazy)
       addNode(q, Known::kUnchecked);
     else if (checker_.isValid(q))
       addNode(q, Known::kFree);
   }
-  for (int node = 0; node < nodes(); ++node) join(node);
+  for (int node = 0; node < nodes() && !isTimeUp(); ++node) join(node);
 }
 
 int Roadmap::addNode(const VectorArg& q, Known known) {
@@ -146,7 +147,10 @@ PathResult Roadmap::query(const PathProblem& problem) {
   join(start);
   join(goal);
   std::vector<int> way = shortestWay(start, goal);
-  while (!way.empty() && !isFree(way)) way = shortestWay(start, goal);
+  while (!way.empty() && !isFree(way)) {
+    way.clear();
+    if (!problem.isTimeUp || !problem.isTimeUp()) way = shortestWay(start, goal);
+  }
   PathResult result;
   result.asked = checker_.asked() - before;
   if (way.empty()) {

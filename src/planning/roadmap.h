@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -15,7 +16,8 @@ struct RoadmapOptions {
                        ///< (1 + 1/d) log n (PRM*: Karaman and Frazzoli 2011)
   bool lazy = false;   ///< check nodes and edges only when a query uses them (Bohlin and Kavraki 2000)
   Sampler sampler{};   ///< empty: uniform
-  int maxSamples = 100000;  ///< the most proposals taken from the sampler
+  int maxSamples = 100000;           ///< the most proposals taken from the sampler
+  std::function<bool()> isTimeUp{};  ///< true ends sampling and joining early; empty: never
 };
 
 /// Configurations all over a space and the free edges between them, built once to answer many queries.

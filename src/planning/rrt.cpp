@@ -29,7 +29,9 @@ class TreeGrowth {
 
   const Space& space() const { return problem_.space; }
   EdgeChecker& edges() { return edges_; }
-  bool isSpent() const { return result_.samples >= options_.maxSamples; }
+  bool isSpent() const {
+    return result_.samples >= options_.maxSamples || (problem_.isTimeUp && problem_.isTimeUp());
+  }
 
   /// A random target, or the goal with that probability. Where only ways from start to goal shorter than
   /// `length` matter, targets off all of them are drawn anew, which counts as one sample.

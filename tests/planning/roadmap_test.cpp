@@ -120,6 +120,20 @@ TEST(Roadmap, SaysWhenThereIsNoWay) {
   EXPECT_LE(few.nodes(), 50);
 }
 
+TEST(Roadmap, EndsWithWhatItFoundWhenTheTimeIsUp) {
+  PathProblem problem = wallWithHole(2, .3);
+  for (const bool lazy : {false, true}) {
+    int asked = 0;
+    const auto isTimeUp = [&] { return ++asked > 100; };
+    Roadmap roadmap = roadmapOf(problem, {.nodes = 200, .lazy = lazy, .isTimeUp = isTimeUp});
+    EXPECT_LE(roadmap.nodes(), 100);
+    EXPECT_TRUE(roadmap.edges().empty()) << "the time is up for joining, too";
+  }
+  Roadmap lazy = roadmapOf(problem, {.nodes = 200, .lazy = true});
+  problem.isTimeUp = [] { return true; };
+  EXPECT_EQ(lazy.query(problem).status, PathStatus::kBudgetSpent);
+}
+
 TEST(Roadmap, RefusesWhatItCannotMake) {
   const PathProblem problem = wallWithHole(2, .1);
   EXPECT_REX_ERROR(roadmapOf(problem, {.nodes = 0}), "nodes of a roadmap: found 0, wanted at least 1");

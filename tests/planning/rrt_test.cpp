@@ -93,6 +93,19 @@ TEST(Rrt, SaysWhenTheBudgetIsSpent) {
   EXPECT_NE(result.message.find("no path after 300 samples"), std::string::npos) << result.message;
 }
 
+TEST(Rrt, EndsWithWhatItExploredWhenTheTimeIsUp) {
+  PathProblem problem = wallWithHole(2, 0);
+  for (const Planner& planner : {rrt(), connect(), star(300)}) {
+    int asked = 0;
+    problem.isTimeUp = [&] { return ++asked > 100; };
+    Rng rng(1);
+    const PathResult result = planner(problem, rng);
+    EXPECT_EQ(result.status, PathStatus::kBudgetSpent);
+    EXPECT_EQ(result.samples, 100);
+    EXPECT_GT(result.trees[0].nodes.cols(), 10);
+  }
+}
+
 TEST(Rrt, PlansWhereAnglesCloseUp) {
   // A bar at heading 0 bars the way; it leads through pi.
   const PathProblem problem{.space = Space::se2({0, 0}, {1, 1}),

@@ -357,11 +357,15 @@ std::string timingTextOf(const PathTiming& timing, const PlanOptions& options) {
 
 std::string summaryOfOne(const PathTask& task, const PlanOptions& options, const FoundPath& found,
                          const PathTiming& timing) {
-  std::string text = fmt::format("{}: {}\n", titleOf(task, options, found),
-                                 found.isFound() ? "found a path" : "no path within the budget of --samples");
+  std::string text =
+      fmt::format("{}: {}\n", titleOf(task, options, found),
+                  found.isFound()  ? "found a path"
+                  : found.isTimeUp ? fmt::format("no path within {:g} s, the --time-limit", options.timeLimit)
+                                   : "no path within the budget of --samples");
   text += fmt::format("explored   {} nodes of {} samples, {} configurations checked\n", found.nodes,
                       found.samples, found.checks);
-  text += fmt::format("CPU time   {:.1f} ms for planning", 1e3 * found.planningTime);
+  text += fmt::format("CPU time   {:.1f} ms for planning{}", 1e3 * found.planningTime,
+                      found.isFound() && found.isTimeUp ? ", ended by the --time-limit" : "");
   if (!found.isFound()) return text;
   text += fmt::format(", {:.1f} ms for smoothing\n", 1e3 * found.smoothingTime);
   text += fmt::format("length     {:.3f}, before smoothing {:.3f}\n", found.length, found.plannedLength);
@@ -425,8 +429,13 @@ Json jsonOfTiming(const PathTiming& timing) {
 }
 
 Json jsonOfPath(const FoundPath& found) {
-  Json json{{"seed", found.seed},   {"found", found.isFound()}, {"samples", found.samples},
-            {"nodes", found.nodes}, {"checks", found.checks},   {"planning_seconds", found.planningTime}};
+  Json json{{"seed", found.seed},
+            {"found", found.isFound()},
+            {"samples", found.samples},
+            {"time_is_up", found.isTimeUp},
+            {"nodes", found.nodes},
+            {"checks", found.checks},
+            {"planning_seconds", found.planningTime}};
   if (!found.isFound()) return json;
   json["smoothing_seconds"] = found.smoothingTime;
   json["planned_length"] = found.plannedLength;

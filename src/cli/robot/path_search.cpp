@@ -1,6 +1,7 @@
 #include "cli/robot/path_search.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <ctime>
 
@@ -25,10 +26,13 @@ constexpr int kNeighbors = 10;  // per node of a PRM
 double cpuTime() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 // Counts the configurations that a planner checks, and lets the user interrupt it.
-AllValid watched(AllValid allValid, long& checks) {
+AllValid watched(AllValid allValid, long& checks, std::atomic<long>& shown) {
   constexpr int kSeldom = 256;  // calls between looks at the signals, each of which costs a tenth of a call
-  return [allValid = std::move(allValid), &checks, calls = 0](const MatrixArg& Q) mutable {
-    if (++calls % kSeldom == 0) throwIfInterrupted();
+  return [allValid = std::move(allValid), &checks, &shown, calls = 0](const MatrixArg& Q) mutable {
+    if (++calls % kSeldom == 0) {
+      throwIfInterrupted();
+      shown = checks;
+    }
     checks += Q.cols();
     return allValid(Q);
   };
@@ -56,7 +60,8 @@ PathResult askRoadmap(const PathProblem& problem, const PathSearch& search, Rng&
                   {.nodes = search.samples,
                    .neighbors = search.planner == Planner::kPrmStar ? 0 : kNeighbors,
                    .lazy = search.planner == Planner::kLazyPrm,
-                   .maxSamples = search.samples},
+                   .maxSamples = search.samples,
+                   .isTimeUp = problem.isTimeUp},
                   rng);
   PathResult result = roadmap.query(problem);
   found.samples = search.samples;
@@ -120,9 +125,18 @@ FoundPath searchPath(const PathTask& task, const PathSearch& search, std::uint64
   const Space& space = task.problem.space;
   FoundPath found{.seed = seed};
   PathProblem problem = task.problem;
-  problem.allValid = watched(task.problem.allValid, found.checks);
-  Rng rng(seed);
+  std::atomic<long> checks = 0;
+  problem.allValid = watched(task.problem.allValid, found.checks, checks);
   const double begin = cpuTime();
+  problem.isTimeUp = [&] {
+    found.isTimeUp = found.isTimeUp || cpuTime() - begin > search.timeLimit;
+    return found.isTimeUp;
+  };
+  const ProgressLine progress([&] {
+    return fmt::format("searching: {} configurations checked, at most {:g} s", checks.load(),
+                       search.timeLimit);
+  });
+  Rng rng(seed);
   PathResult result = growsTrees(search.planner) ? growTrees(problem, search, rng, found)
                                                  : askRoadmap(problem, search, rng, found);
   const double planned = cpuTime();

@@ -56,6 +56,7 @@ struct PathSearch {
   double step = 0.3;      ///< of trees, in the metric of the space
   int samples = 100'000;  ///< maximum number of random configurations; for a roadmap, of candidate nodes
   bool smooth = true;     ///< shortcuts, then a spline that cuts corners
+  double timeLimit = 10;  ///< seconds of CPU time for one search, without smoothing
 };
 
 /// Configurations, one per column, and their connections.
@@ -76,6 +77,7 @@ struct FoundPath {
   ClearanceBounds clearance{};  ///< along the whole path
   int samples = 0;
   int nodes = 0;
+  bool isTimeUp = false;              ///< whether the time limit ended the search
   long checks = 0;                    ///< configurations that were checked, including those for smoothing
   double planningTime = 0;            ///< seconds of CPU time
   double smoothingTime = 0;           ///< the same, for smoothing
@@ -84,8 +86,9 @@ struct FoundPath {
   [[nodiscard]] bool isFound() const { return path.cols() > 0; }
 };
 
-/// Searches once. The same seed gives the same result, except for the times. Throws Error like the planner,
-/// and Interrupted.
+/// Searches once, and shows on a terminal how far it is. The same seed gives the same result, except for the
+/// times, and for what a search finds that its time limit ended. Throws Error like the planner, and
+/// Interrupted.
 [[nodiscard]] FoundPath searchPath(const PathTask& task, const PathSearch& search, std::uint64_t seed);
 
 /// The results of searches with several seeds. Only the best one keeps what it explored.

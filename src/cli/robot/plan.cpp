@@ -29,6 +29,7 @@ PathSearch searchOf(const PlanOptions& options) {
   if (search.planner == Planner::kRrtStar) search.samples = 10'000;  // RRT* uses all of them
   if (!growsTrees(search.planner)) search.samples = 2000;
   search.samples = options.samples.value_or(search.samples);
+  search.timeLimit = options.timeLimit;
   if (!growsTrees(search.planner)) requireBetween("--samples", search.samples, 1, 1e5);
   return search;
 }
@@ -164,6 +165,11 @@ void addPlan(CLI::App* command, Action& action) {
         {1, 1e7},
         "N",
         "budget of samples (default: 100000; rrt-star 10000, roadmaps 2000)"},
+       {"--time-limit",
+        options->timeLimit,
+        {1e-3, 1e5},
+        "S",
+        "processor time for a search, without smoothing"},
        seedRow(options->seed),
        {"--runs", options->runs, {1, 10'000}, "N", "searches, each with the next seed, in a table"},
        {"--no-smooth", options->noSmooth, "the path as the planner finds it, with a stop at each corner"},

@@ -35,6 +35,7 @@ struct PlanOptions {
   // Of planners that draw samples.
   double step = PathSearch{}.step;
   std::optional<int> samples{};
+  double timeLimit = PathSearch{}.timeLimit;
   std::uint64_t seed = 0;
   int runs = 1;  ///< searches, each with the next seed
   bool noSmooth = false;

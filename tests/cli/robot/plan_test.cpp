@@ -162,6 +162,14 @@ TEST_F(PlanCommand, ShowsWhatItExploredWhereThereIsNoPath) {
 }
 
 // A wall that is thinner than the steps of the checks.
+TEST_F(PlanCommand, EndsAfterItsTimeLimit) {
+  const ProcessResult result =
+      planBoard({"--planner", "rrt-star", "--samples", "10000000", "--time-limit", "0.05"});
+  EXPECT_THAT(result.output, AnyOf(HasSubstr("no path within 0.05 s, the --time-limit\nexplored "),
+                                   HasSubstr("ms for planning, ended by the --time-limit")));
+  EXPECT_TRUE(std::filesystem::exists(in("out/tree.png"))) << "what was explored";
+}
+
 TEST_F(PlanCommand, TellsOfAPathThatIsNotClear) {
   REX_NEEDS_OSMESA();
   const fs::path file = scene(
