@@ -41,22 +41,25 @@ TEST(LoopClosing, MapErrorFallsByALargeFactor) {
 }
 
 TEST(LoopClosing, SaysWhyNot) {
-  Rng rng(4);
-  const test::Walk walk = test::walkAround(test::hall(), 1.5, rng);
-  const LoopClosing closing = closeLoops(walk.odometry, walk.scans);
-  int accepted = 0;
   std::array<int, 5> counts{};
-  for (const LoopCandidate& loop : closing.candidates) {
-    ++counts[static_cast<std::size_t>(loop.verdict)];
-    EXPECT_LE(loop.from + LoopOptions{}.leastGap, loop.to);
-    EXPECT_EQ(loop.reason.empty(), loop.verdict == LoopVerdict::kAccepted);
-    if (loop.verdict == LoopVerdict::kAccepted) {
-      EXPECT_GE(loop.match.overlap, LoopOptions{}.leastOverlap);
-      EXPECT_LE(loop.mahalanobis, LoopOptions{}.bound);
-      ++accepted;
+  for (const int seed :
+       {2, 3, 4}) {  // the last digits of sines, which differ between machines, change a walk
+    Rng rng(seed);
+    const test::Walk walk = test::walkAround(test::hall(), 1.5, rng);
+    const LoopClosing closing = closeLoops(walk.odometry, walk.scans);
+    int accepted = 0;
+    for (const LoopCandidate& loop : closing.candidates) {
+      ++counts[static_cast<std::size_t>(loop.verdict)];
+      EXPECT_LE(loop.from + LoopOptions{}.leastGap, loop.to);
+      EXPECT_EQ(loop.reason.empty(), loop.verdict == LoopVerdict::kAccepted);
+      if (loop.verdict == LoopVerdict::kAccepted) {
+        EXPECT_GE(loop.match.overlap, LoopOptions{}.leastOverlap);
+        EXPECT_LE(loop.mahalanobis, LoopOptions{}.bound);
+        ++accepted;
+      }
     }
+    EXPECT_EQ(accepted, closing.accepted);
   }
-  EXPECT_EQ(accepted, closing.accepted);
   for (const int count : counts) EXPECT_GT(count, 0) << "each verdict occurs";
 }
 
