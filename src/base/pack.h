@@ -69,7 +69,11 @@ inline Pack<kLanes> select(typename Pack<kLanes>::Mask mask, Pack<kLanes> a, Pac
 
 /// The lanes in which the mask holds, one bit each.
 inline int lanesOf(LaneTypes<2>::Mask mask) {
+#ifdef __x86_64__
   return __builtin_ia32_movmskpd(reinterpret_cast<LaneTypes<2>::Numbers>(mask));
+#else
+  return static_cast<int>((mask[0] & 1) | (mask[1] & 2));
+#endif
 }
 #ifdef __AVX__
 inline int lanesOf(LaneTypes<4>::Mask mask) {
@@ -107,7 +111,14 @@ inline T fromBits(Bits bits) {
 }
 
 inline double squareRoot(double x) { return __builtin_sqrt(x); }
-inline Pack<2> squareRoot(Pack<2> x) { return __builtin_ia32_sqrtpd(x.numbers); }
+inline Pack<2> squareRoot(Pack<2> x) {
+#ifdef __x86_64__
+  return __builtin_ia32_sqrtpd(x.numbers);
+#else
+  return LaneTypes<2>::Numbers{__builtin_sqrt(x.numbers[0]),
+                               __builtin_sqrt(x.numbers[1])};  // one instruction of NEON
+#endif
+}
 #ifdef __AVX__
 inline Pack<4> squareRoot(Pack<4> x) { return __builtin_ia32_sqrtpd256(x.numbers); }
 #endif

@@ -33,7 +33,7 @@ std::size_t letterLength(std::string_view text) {
   return isOverlong || isNone ? 0 : length;
 }
 
-bool isControl(char c) { return (c >= 0 && c < 0x20) || c == 0x7f; }
+bool isControl(unsigned char c) { return c < 0x20 || c == 0x7f; }
 
 // `text` as a message shows it: one line of UTF-8.
 std::string shown(std::string_view text) {

@@ -30,10 +30,21 @@ inline auto isLess(Numbers a, Numbers b) {
   return a < b;
 }
 inline float rooted(float x) { return __builtin_sqrtf(x); }
-inline FloatTypes<4>::Numbers rooted(FloatTypes<4>::Numbers x) { return __builtin_ia32_sqrtps(x); }
+inline FloatTypes<4>::Numbers rooted(FloatTypes<4>::Numbers x) {
+#ifdef __x86_64__
+  return __builtin_ia32_sqrtps(x);
+#else
+  return FloatTypes<4>::Numbers{__builtin_sqrtf(x[0]), __builtin_sqrtf(x[1]), __builtin_sqrtf(x[2]),
+                                __builtin_sqrtf(x[3])};
+#endif
+}
 inline unsigned signsOf(int mask) { return static_cast<unsigned>(mask) & 1u; }
 inline unsigned signsOf(FloatTypes<4>::Mask mask) {
+#ifdef __x86_64__
   return static_cast<unsigned>(__builtin_ia32_movmskps(reinterpret_cast<FloatTypes<4>::Numbers>(mask)));
+#else
+  return static_cast<unsigned>((mask[0] & 1) | (mask[1] & 2) | (mask[2] & 4) | (mask[3] & 8));
+#endif
 }
 #ifdef __AVX__
 inline FloatTypes<8>::Numbers rooted(FloatTypes<8>::Numbers x) { return __builtin_ia32_sqrtps256(x); }
