@@ -192,6 +192,8 @@ void blameMainFile(std::vector<CompileDiagnostic>& messages, const std::string& 
     message.line = origin.first;
     message.column = origin.second;
   }
+  // GCC finds something inside of a library which no line of the student's can change.
+  std::erase_if(messages, [](const auto& one) { return one.severity == "warning" && one.line == 0; });
 }
 
 bool admitMessages(std::vector<CompileDiagnostic>& messages) {
@@ -269,6 +271,21 @@ bool hasFailed(const CheckResult& check) {
          !check.function.empty();
 }
 
+// A question would guess at what is known: that of a function which is wrong itself.
+std::string withoutQuestion(const std::string& message) {
+  if (!message.ends_with('?')) return message;
+  for (std::size_t at = message.rfind(". "); at != message.npos && at > 0; at = message.rfind(". ", at - 1))
+    if (at + 2 < message.size() && message[at + 2] >= 'A' && message[at + 2] <= 'Z')
+      return message.substr(0, at + 1);
+  return message;
+}
+
+std::string asSentence(const std::string& text) {
+  const bool isEnded =
+      text.ends_with('.') || text.ends_with('?') || text.ends_with(".)") || text.ends_with("?)");
+  return isEnded ? text : text + ".";
+}
+
 }  // namespace
 
 void explainCascades(std::vector<CheckResult>& checks, std::string_view source) {
@@ -283,9 +300,9 @@ void explainCascades(std::vector<CheckResult>& checks, std::string_view source) 
       return one.first != check.function && used->second.contains(one.first);
     });
     if (cause != failed.end())
-      check.message +=
-          fmt::format("{} {} uses {}, which fails above [{}].", check.message.ends_with(')') ? "." : "",
-                      check.function, cause->first, cause->second);
+      check.message =
+          asSentence(withoutQuestion(check.message)) +
+          fmt::format(" {} uses {}, which fails above [{}].", check.function, cause->first, cause->second);
     failed.try_emplace(check.function, check.id);
   }
 }

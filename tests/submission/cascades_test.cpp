@@ -32,6 +32,19 @@ TEST(Cascades, NameTheFunctionThatFailedBefore) {
                              "wrong. circle uses step, which fails above [a]."));
 }
 
+// The cause is known, so that no question guesses at it; the sentences end once.
+TEST(Cascades, JoinSentences) {
+  CheckResult number = check("b", "circle"), question = number, bracket = number, word = number;
+  number.message = "angle: got 0.2, wanted 3";
+  question.message = "angle: got 0.2, wanted 3. Is 2. a factor? Or one of pi?";
+  bracket.message = "stopped. (A check failed.)";
+  word.message = "used more than 1024 MB of memory in circle";
+  const std::string uses = " circle uses step, which fails above [a].";
+  EXPECT_THAT(messagesAfter({check("a", "step"), number, question, bracket, word}),
+              ::testing::ElementsAre("wrong.", number.message + "." + uses, number.message + "." + uses,
+                                     bracket.message + uses, word.message + "." + uses));
+}
+
 TEST(Cascades, NeedAFailureBeforeThatStudentsCanSee) {
   EXPECT_EQ(messagesAfter({check("a", "step", Outcome::kPass), check("b", "circle")}).back(), "wrong.");
   EXPECT_EQ(messagesAfter({check("b", "circle"), check("a", "step")}).back(), "wrong.");

@@ -84,6 +84,18 @@ TEST(BlameMainFile, FindsTheLineThatIncluded) {
   EXPECT_EQ(toString(messages[1]), "main.cpp: error: bad (in elsewhere.h:3)");
 }
 
+// The natural (K * x)(0) makes g++ 12 warn of a pointer in Eigen's memory; no line of the file changes that.
+TEST(BlameMainFile, LeavesOutWarningsThatNoLineCaused) {
+  std::vector<CompileDiagnostic> messages = {
+      {"eigen3/Memory.h", 203, 7, "warning", "-Wuse-after-free", "used"},
+      {"main.cpp", 4, 1, "warning", "-Wunused", "x"},
+      {"eigen3/Memory.h", 203, 7, "error", "", "bad"}};
+  blameMainFile(messages, "main.cpp", "eigen3/Memory.h:203:7: warning: used\n");
+  ASSERT_EQ(messages.size(), 2u);
+  EXPECT_EQ(toString(messages[0]), "main.cpp:4:1: warning: x [-Wunused]");
+  EXPECT_EQ(messages[1].severity, "error");
+}
+
 TEST(ParseLinkerText, NamesEachFunctionOnce) {
   const auto messages = parseLinkerText(
       "/usr/bin/ld: main.o: in function `main':\n"
