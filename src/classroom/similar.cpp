@@ -1,26 +1,20 @@
 #include "classroom/similar.h"
 
 #include <algorithm>
-#include <csignal>
+#include <cstdint>
 #include <map>
-#include <optional>
 #include <set>
 #include <string_view>
+#include <unordered_map>
 
 #include <fmt/format.h>
 
-#include "base/error.h"
 #include "base/escape.h"
-#include "base/process.h"
 #include "base/text.h"
-#include "base/text_file.h"
+#include "submission/cpp_text.h"
 
 namespace rex::grading {
 namespace {
-
-namespace fs = std::filesystem;
-
-constexpr const char* kProgram = "sim_c++";
 
 bool isWordLetter(char c) {
   return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
@@ -32,75 +26,96 @@ std::set<std::string_view> linesOf(std::string_view text) {
   return lines;
 }
 
-// Names that sim can neither take for options nor print otherwise than we wrote them.
-std::string fileName(std::size_t k) { return fmt::format("{:06}.cpp", k); }
+constexpr std::size_t kGram = 12, kWindow = 13;  // tokens, grams: so that runs from here on are found:
+constexpr std::size_t kShortest = kGram + kWindow - 1;
 
-// What the program prints; nothing if it takes more processor time.
-std::optional<std::string> runSim(std::vector<std::string> arguments, const std::string& input,
-                                  const fs::path& folder, double cpuSeconds) {
-  arguments.insert(arguments.begin(), kProgram);
-  constexpr std::size_t kMostPrinted = 256u << 20, kMostMemory = std::size_t{4} << 30;
-  const ProcessResult run = runProcess(arguments, {.input = input,
-                                                   .directory = folder,
-                                                   .timeout = 60 + 6 * cpuSeconds,
-                                                   .outputLimit = kMostPrinted,
-                                                   .cpuSeconds = cpuSeconds,
-                                                   .addressSpace = kMostMemory});
-  if (!run.started)
-    throw Error({.what = "submissions cannot be compared",
-                 .found = fmt::format("no program {}", kProgram),
-                 .wanted = "apt-get install similarity-tester"});
-  if (run.timedOut || run.signal == SIGXCPU || run.cpuSeconds >= cpuSeconds) return {};
-  if (!run.ok())
-    throw Error(
-        {.what = fmt::format("{} failed", kProgram), .found = run.error.substr(0, run.error.find('\n'))});
-  return run.output;
+/// The tokens of one file, as far as a comparison sees them.
+struct Fingerprints {
+  std::vector<std::uint64_t> symbols{};  ///< of each token: equal for all names that are no keywords
+  std::vector<int> lines{};              ///< of each token, from 1
+  std::vector<std::pair<std::size_t, std::uint64_t>> chosen{};  ///< where the chosen grams begin, and hashes
+  std::unordered_map<std::uint64_t, std::vector<std::size_t>> places{};  ///< of the chosen grams, by hash
+};
+
+std::uint64_t mixed(std::uint64_t h) {
+  h = (h ^ (h >> 31)) * 0x9e3779b97f4a7c15;
+  return h ^ (h >> 29);
 }
 
-std::string compare(std::vector<std::string> arguments, const std::string& input, const fs::path& folder) {
-  constexpr double kMostSeconds = 600;
-  if (auto output = runSim(std::move(arguments), input, folder, kMostSeconds)) return *std::move(output);
-  throw Error(
-      {.what = "submissions cannot be compared",
-       .found = fmt::format("more than {:g} s of processor time used by {}", kMostSeconds, kProgram)});
+std::uint64_t symbolOf(const CppText& text, std::size_t i) {
+  static const std::set<std::string_view> kKeywords = {
+      "auto",   "bool",  "break",     "case", "catch",    "class",    "const",  "constexpr", "continue",
+      "delete", "do",    "double",    "else", "enum",     "false",    "float",  "for",       "if",
+      "int",    "long",  "namespace", "new",  "return",   "static",   "struct", "switch",    "template",
+      "this",   "throw", "true",      "try",  "typename", "unsigned", "using",  "void",      "while"};
+  std::string_view symbol = text.at(i);
+  if (text.isKind(i, TokenKind::kNumber)) symbol = "0";
+  if (text.isKind(i, TokenKind::kText)) symbol = "\"";
+  if (text.isName(i) && !kKeywords.contains(symbol)) symbol = "a";
+  std::uint64_t hash = 14695981039346656037u;
+  for (const char c : symbol) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
+  return mixed(hash);
 }
 
-// The whole numbers in a line of the program's output, as there are no others in our names of files.
-std::vector<int> numbersIn(std::string_view line) {
-  std::vector<int> numbers;
-  while (!line.empty()) {
-    if (const auto number = takeNumber<unsigned>(line))
-      numbers.push_back(static_cast<int>(*number));
-    else
-      line.remove_prefix(1);
+// Of each window of grams, the last one with the smallest hash is chosen.
+Fingerprints fingerprintsOf(const std::string& source) {
+  Fingerprints prints;
+  const CppText text(source);
+  const TextPlaces places(source);
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    prints.symbols.push_back(symbolOf(text, i));
+    prints.lines.push_back(places.line(text[i].start));
   }
-  return numbers;
-}
-
-// From lines such as "000000.cpp consists for 49 % of 000001.cpp material": how much of the first file is in
-// the second one.
-std::map<std::pair<int, int>, int> percentagesIn(std::string_view output) {
-  std::map<std::pair<int, int>, int> percentages;
-  for (const std::string_view line : splitLines(output))
-    if (const auto numbers = numbersIn(line);
-        numbers.size() == 3 && line.find(".cpp consists for ") != line.npos)
-      percentages[{numbers[0], numbers[2]}] = numbers[1];
-  return percentages;
-}
-
-// From lines such as "000000.cpp: line 12-215  |000001.cpp: line 12-215  [1910]".
-std::vector<SimilarRun> runsIn(std::string_view output, int first) {
-  std::vector<SimilarRun> runs;
-  for (const std::string_view line : splitLines(output)) {
-    const std::vector<int> numbers = numbersIn(line);
-    if (numbers.size() < 6 || line.find(".cpp: line ") == line.npos || line.find('|') == line.npos) continue;
-    std::pair left{numbers[1], numbers[2]}, right{numbers[4], numbers[5]};
-    if (numbers[0] != first) std::swap(left, right);
-    runs.push_back({.first = left, .second = right});
+  std::vector<std::uint64_t> grams;
+  for (std::size_t i = 0; i + kGram <= text.size(); ++i) {
+    std::uint64_t hash = 0;
+    for (std::size_t k = 0; k < kGram; ++k) hash = mixed(hash + prints.symbols[i + k] * (k + 1));
+    grams.push_back(hash);
   }
-  std::sort(runs.begin(), runs.end(),
-            [](const SimilarRun& a, const SimilarRun& b) { return a.first < b.first; });
-  return runs;
+  for (std::size_t i = 0; i + kWindow <= grams.size(); ++i) {
+    std::size_t least = i;
+    for (std::size_t k = i + 1; k < i + kWindow; ++k)
+      if (grams[k] <= grams[least]) least = k;
+    if (!prints.chosen.empty() && prints.chosen.back().first == least) continue;
+    prints.chosen.emplace_back(least, grams[least]);
+    prints.places[grams[least]].push_back(least);
+  }
+  return prints;
+}
+
+/// How much of one file is in another one.
+struct Overlap {
+  std::size_t tokens = 0;
+  std::vector<SimilarRun> runs{};
+};
+
+Overlap overlapOf(const Fingerprints& a, const Fingerprints& b) {
+  constexpr std::size_t kMostPlaces = 16;  // a file that repeats itself has many equal ones
+  Overlap overlap;
+  std::size_t end = 0;  // of what is covered in a
+  for (const auto& [i, hash] : a.chosen) {
+    const auto found = b.places.find(hash);
+    if (i < end || found == b.places.end()) continue;
+    std::size_t from = 0, length = 0, there = 0;
+    for (std::size_t p = 0; p < std::min(kMostPlaces, found->second.size()); ++p) {
+      const std::size_t j = found->second[p];
+      std::size_t back = 0, on = 0;
+      while (i - back > end && back < j && a.symbols[i - back - 1] == b.symbols[j - back - 1]) ++back;
+      while (i + on < a.symbols.size() && j + on < b.symbols.size() && a.symbols[i + on] == b.symbols[j + on])
+        ++on;
+      if (back + on > length) from = i - back, length = back + on, there = j - back;
+    }
+    if (length < kShortest) continue;
+    end = from + length;
+    overlap.tokens += length;
+    overlap.runs.push_back({.first = {a.lines[from], a.lines[end - 1]},
+                            .second = {b.lines[there], b.lines[there + length - 1]}});
+  }
+  return overlap;
+}
+
+int percentOf(std::size_t part, std::size_t whole) {
+  return whole == 0 ? 0 : static_cast<int>(100 * part / whole);
 }
 
 }  // namespace
@@ -117,45 +132,26 @@ std::string withoutHandedOut(std::string_view text, std::string_view handedOut) 
   return rest;
 }
 
-std::vector<std::string> tooRepetitive(const std::vector<ComparedText>& texts, std::string_view handedOut,
-                                       const fs::path& folder) {
-  constexpr double kSecondsOfOne = 2;
-  const std::string names = fileName(0) + '\n' + fileName(1) + '\n';
-  std::vector<std::string> found;
-  for (const ComparedText& one : texts) {
-    for (const std::size_t k : {std::size_t{0}, std::size_t{1}})
-      writeTextFile(folder / fileName(k), withoutHandedOut(one.text, handedOut));
-    if (!runSim({"-p", "-a", "-e", "-s", "-T", "-i"}, names, folder, kSecondsOfOne))
-      found.push_back(one.student);
-  }
-  return found;
-}
-
 std::vector<SimilarPair> similarPairs(const std::vector<ComparedText>& texts, std::string_view handedOut,
-                                      int leastPercent, const fs::path& folder) {
-  if (texts.size() < 2) return {};
-  std::string names;
-  for (std::size_t k = 0; k < texts.size(); ++k) {
-    writeTextFile(folder / fileName(k), withoutHandedOut(texts[k].text, handedOut));
-    names += fileName(k) + '\n';
-  }
-  // Each file with each other (-a), alone (-e), and not with itself (-s).
-  const auto percentages = percentagesIn(
-      compare({"-p", "-a", "-e", "-s", "-T", "-t", fmt::format("{}", leastPercent), "-i"}, names, folder));
+                                      int leastPercent) {
+  std::vector<Fingerprints> prints;
+  for (const ComparedText& one : texts)
+    prints.push_back(fingerprintsOf(withoutHandedOut(one.text, handedOut)));
   std::vector<SimilarPair> pairs;
-  for (const auto& [files, percent] : percentages) {
-    const auto [first, second] = files;
-    const auto back = percentages.find({second, first});
-    if (first > second || back == percentages.end()) continue;
-    const std::string output = compare(
-        {"-n", "-e", "-s", "-T", "-w", "200", fileName(std::size_t(first)), fileName(std::size_t(second))},
-        "", folder);
-    pairs.push_back({.first = texts[std::size_t(first)].student,
-                     .second = texts[std::size_t(second)].student,
-                     .firstPercent = percent,
-                     .secondPercent = back->second,
-                     .runs = runsIn(output, first)});
-  }
+  for (std::size_t i = 0; i < texts.size(); ++i)
+    for (std::size_t k = i + 1; k < texts.size(); ++k) {
+      const Overlap there = overlapOf(prints[i], prints[k]), back = overlapOf(prints[k], prints[i]);
+      SimilarPair pair{.first = texts[i].student,
+                       .second = texts[k].student,
+                       .firstPercent = percentOf(there.tokens, prints[i].symbols.size()),
+                       .secondPercent = percentOf(back.tokens, prints[k].symbols.size()),
+                       .runs = there.runs};
+      if (std::min(pair.firstPercent, pair.secondPercent) < leastPercent || there.tokens == 0) continue;
+      for (const SimilarRun& run : back.runs) pair.runs.push_back({.first = run.second, .second = run.first});
+      std::sort(pair.runs.begin(), pair.runs.end(),
+                [](const SimilarRun& a, const SimilarRun& b) { return a.first < b.first; });
+      pairs.push_back(std::move(pair));
+    }
   std::stable_sort(pairs.begin(), pairs.end(), [](const SimilarPair& a, const SimilarPair& b) {
     return std::min(a.firstPercent, a.secondPercent) > std::min(b.firstPercent, b.secondPercent);
   });
@@ -252,11 +248,18 @@ std::string similarPage(const std::string& exercise, const std::vector<ComparedT
                       pairs.size(), pairs.size() == 1 ? "" : "s");
   for (const std::vector<std::string>& group : groups)
     html += fmt::format("<li>{}</li>\n", htmlText(join(group, ", ")));
-  html += "</ul>\n";
+  html += "</ul>\n<ol>\n";
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    html += fmt::format("<li><a href=\"#pair-{}\">{} and {}</a>: {} %, {} %</li>\n", k + 1,
+                        htmlText(pairs[k].first), htmlText(pairs[k].second), pairs[k].firstPercent,
+                        pairs[k].secondPercent);
+  html += "</ol>\n";
+  int number = 0;
   for (const SimilarPair& pair : pairs) {
     html += fmt::format(
-        "<h2>{0} and {1}</h2>\n<p>{2} % of {0} is also in {1}, {3} % of {1} is also in {0}.</p>\n",
-        htmlText(pair.first), htmlText(pair.second), pair.firstPercent, pair.secondPercent);
+        "<h2 id=\"pair-{4}\">{0} and {1}</h2>\n<p>{2} % of {0} is also in {1}, {3} % of {1} is also in "
+        "{0}.</p>\n",
+        htmlText(pair.first), htmlText(pair.second), pair.firstPercent, pair.secondPercent, ++number);
     html += "<div class=\"pair\">\n" +
             column(textOf(texts, pair.first), handedOut, pair, &SimilarRun::first) +
             column(textOf(texts, pair.second), handedOut, pair, &SimilarRun::second) + "</div>\n";

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -30,20 +30,14 @@ struct SimilarPair {
 /// there; line numbers are kept.
 [[nodiscard]] std::string withoutHandedOut(std::string_view text, std::string_view handedOut);
 
-/// The students whose files repeat themselves so much that comparing them with themselves takes more than two
-/// seconds of processor time: similarPairs() may take hours over them. Uses the folder as it does.
-[[nodiscard]] std::vector<std::string> tooRepetitive(const std::vector<ComparedText>& texts,
-                                                     std::string_view handedOut,
-                                                     const std::filesystem::path& folder);
-
 /// The pairs in which the less similar side has at least that percentage, most similar first. Compares
-/// tokens: names, numbers, comments and layout do not count, nor do runs of fewer than 24 tokens. Files that
-/// are empty without the handed-out text are like no other. Uses the program sim_c++ of the Debian package
-/// similarity-tester in the folder, which is empty and writable; throws Error if it is missing or fails, and
-/// if it needs more than ten minutes of processor time.
+/// tokens: names, numbers, comments and layout do not count, nor do runs of fewer than 24 tokens. Candidates
+/// are found by winnowing (Schleimer, Wilkerson and Aiken, "Winnowing: local algorithms for document
+/// fingerprinting", 2003), which misses no run of that length, and are then compared token by token. Files
+/// that are empty without the handed-out text are like no other. The time grows with the sum of the lengths
+/// of each pair, whatever is in them.
 [[nodiscard]] std::vector<SimilarPair> similarPairs(const std::vector<ComparedText>& texts,
-                                                    std::string_view handedOut, int leastPercent,
-                                                    const std::filesystem::path& folder);
+                                                    std::string_view handedOut, int leastPercent);
 
 /// The students that pairs connect, each group and all groups in order.
 [[nodiscard]] std::vector<std::vector<std::string>> groupsOf(const std::vector<SimilarPair>& pairs);

@@ -237,25 +237,25 @@ void writeForOthers(const fs::path& folder, const std::vector<ComparedText>& tex
     writeTextFile(folder / "submissions" / one.student / "main.cpp", one.text);
 }
 
+// Who hands in together may hand in the same.
+bool areOneGroup(const grading::SimilarPair& pair, const grading::Course& course) {
+  const grading::CourseStudent *first = course.student(pair.first), *second = course.student(pair.second);
+  return first != nullptr && second != nullptr && !first->group.empty() && first->group == second->group;
+}
+
 }  // namespace
 
-void writeSimilar(const Project& project, const std::vector<grading::Task>& tasks, const fs::path& out,
-                  const fs::path& folder, int percent) {
+void writeSimilar(const Project& project, const grading::Course& course,
+                  const std::vector<grading::Task>& tasks, const fs::path& out, const fs::path& folder,
+                  int percent) {
   std::map<std::string, std::vector<ComparedText>> byExercise;
   for (const grading::Task& task : tasks)
     byExercise[task.exercise].push_back({task.student, grading::gradedText(out / task.file)});
-  for (auto& [name, texts] : byExercise) {
+  for (const auto& [name, texts] : byExercise) {
     const std::string handedOut = readTextFile(project.exercise(name).definition / "main.cpp");
     writeForOthers(folder / name, texts, handedOut);
-    const PrivateFolder work(fs::temp_directory_path());
-    const std::vector<std::string> leftOut = grading::tooRepetitive(texts, handedOut, work.path());
-    if (!leftOut.empty())
-      say(fmt::format("{}: left out, since the files repeat themselves too much to be compared: {}", name,
-                      escapeForTerminal(join(leftOut, ", "))));
-    std::erase_if(texts, [&](const ComparedText& one) {
-      return std::find(leftOut.begin(), leftOut.end(), one.student) != leftOut.end();
-    });
-    const auto pairs = grading::similarPairs(texts, handedOut, percent, work.path());
+    auto pairs = grading::similarPairs(texts, handedOut, percent);
+    std::erase_if(pairs, [&](const grading::SimilarPair& pair) { return areOneGroup(pair, course); });
     const fs::path page = folder / (name + ".html");
     if (pairs.empty()) {
       fs::remove(page);

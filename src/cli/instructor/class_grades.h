@@ -75,10 +75,11 @@ void requireFolder(const std::filesystem::path& folder, const std::string& wante
 inline constexpr int kSimilarPercent = 70;
 
 /// Compares what was handed in to each exercise. Writes folder/EXERCISE.html with the pairs that have at
-/// least that percentage in common, or removes the one of an earlier run if there are none, and
-/// folder/EXERCISE/{base,submissions/STUDENT}/main.cpp for other programs that compare. Prints the groups.
-/// Throws Error like grading::similarPairs().
-void writeSimilar(const Project& project, const std::vector<grading::Task>& tasks,
-                  const std::filesystem::path& out, const std::filesystem::path& folder, int percent);
+/// least that percentage in common and no group of the roster, or removes the one of an earlier run if there
+/// are none, and folder/EXERCISE/{base,submissions/STUDENT}/main.cpp for other programs that compare. Prints
+/// the groups.
+void writeSimilar(const Project& project, const grading::Course& course,
+                  const std::vector<grading::Task>& tasks, const std::filesystem::path& out,
+                  const std::filesystem::path& folder, int percent);
 
 }  // namespace rex::cli

@@ -397,7 +397,7 @@ ExitCode gradeMany(const Project& project, GradeManyOptions options) {
   const bool complete =
       writeGrades(tasks, options.out, policy, options.files.hasBook() ? &book : nullptr, options.csv);
   if (!options.similar.empty())
-    writeSimilar(project, tasks, options.out, options.similar, options.similarPercent);
+    writeSimilar(project, course, tasks, options.out, options.similar, options.similarPercent);
   const int held = tellHeldBack(tasks, options.out);
   if (options.json)
     say(gradingJson(tasks, options.out,

@@ -247,7 +247,6 @@ TEST_F(GradeManyTest, LetsTheExerciseWaitWhoseGraderDoesNotBuild) {
 }
 
 TEST_F(GradeManyTest, ShowsSimilarSubmissionsApartFromTheResults) {
-  if (!runProcess({"sim_c++", "-v"}).started) GTEST_SKIP() << "similarity-tester is not installed";
   std::string renamed = kGood;
   for (std::size_t at = 0; (at = renamed.find("std::", at)) != std::string::npos; at += 7)
     renamed.insert(at, "  ");
@@ -258,7 +257,8 @@ TEST_F(GradeManyTest, ShowsSimilarSubmissionsApartFromTheResults) {
   EXPECT_THAT(flat(ended.output),
               HasSubstr("98-template: 1 group of similar submissions, to be looked at: "));
   EXPECT_THAT(ended.output, HasSubstr("\n  anna, bert\n"));
-  EXPECT_THAT(fileText(root() / "similar" / "98-template.html"), HasSubstr("<h2>anna and bert</h2>"));
+  EXPECT_THAT(fileText(root() / "similar" / "98-template.html"),
+              HasSubstr("<h2 id=\"pair-1\">anna and bert</h2>"));
   EXPECT_EQ(fileText(root() / "similar" / "98-template" / "submissions" / "carl" / "main.cpp"), kWrong);
   EXPECT_TRUE(fs::exists(root() / "similar" / "98-template" / "base" / "main.cpp"));
   write(root() / "similar" / "98-template" / "notes.txt", "mine");
