@@ -72,6 +72,10 @@ fs::path Project::buildFolder(const ExerciseInfo& exercise) const {
   return build / "exercises" / exercise.name;
 }
 
+bool Project::isBuilt(const std::string& exercise) const {
+  return installed.empty() || fs::exists(build / "exercises" / exercise / "build.json");
+}
+
 fs::path Project::workPlace(const std::string& name) const {
   if (!installed.empty()) return temporaryFolder();
   const fs::path folder = build / name;

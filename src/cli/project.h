@@ -33,6 +33,8 @@ struct Project {
   [[nodiscard]] ExerciseInfo exercise(std::string_view name) const;
   /// The build's folder of an exercise: grader, worker object, build.json.
   [[nodiscard]] std::filesystem::path buildFolder(const ExerciseInfo& exercise) const;
+  /// Whether it can be graded and run; in a source tree, which builds on demand, always.
+  [[nodiscard]] bool isBuilt(const std::string& exercise) const;
   /// Where private folders are made to work in: the build's folder of that name, or the one for temporary
   /// files if rex is installed. Throws Error if there is none.
   [[nodiscard]] std::filesystem::path workPlace(const std::string& name) const;

@@ -155,15 +155,30 @@ std::vector<std::string> prerequisites(const std::string& rule) {
   return files;
 }
 
-bool isCurrent(const fs::path& precompiled, const fs::path& rule) {
+// Whether the course's header that these flags find is among the files: another rex has another one.
+bool isOfThisRex(const std::vector<std::string>& files, const std::vector<std::string>& flags) {
+  constexpr const char* kHeader = "course/course.h";
+  for (std::size_t i = 1; i < flags.size(); ++i) {
+    const fs::path header = fs::path(flags[i]) / kHeader;
+    if (flags[i - 1] != "-isystem" || !fs::exists(header)) continue;
+    return std::any_of(files.begin(), files.end(), [&](const std::string& file) {
+      std::error_code missing;
+      return file.ends_with(kHeader) && fs::equivalent(file, header, missing);
+    });
+  }
+  return true;
+}
+
+bool isCurrent(const fs::path& precompiled, const fs::path& rule, const std::vector<std::string>& flags) {
   std::error_code missing;
   const auto made = fs::last_write_time(precompiled, missing);
   if (missing || !fs::exists(rule)) return false;
   const std::vector<std::string> files = prerequisites(readTextFile(rule));
-  return !files.empty() && std::all_of(files.begin(), files.end(), [&](const std::string& file) {
-    const auto changed = fs::last_write_time(file, missing);
-    return !missing && changed <= made;
-  });
+  return !files.empty() && isOfThisRex(files, flags) &&
+         std::all_of(files.begin(), files.end(), [&](const std::string& file) {
+           const auto changed = fs::last_write_time(file, missing);
+           return !missing && changed <= made;
+         });
 }
 
 }  // namespace
@@ -187,7 +202,7 @@ bool opensWithCourseHeader(std::string_view source, const std::vector<std::strin
 std::vector<std::string> prefixFlags(const fs::path& prefix, std::string_view source,
                                      const std::vector<std::string>& flags) {
   if (prefix.empty() || !opensWithCourseHeader(source, flags)) return {};
-  if (!isCurrent(prefix.string() + ".gch", prefix.string() + ".d")) return {};
+  if (!isCurrent(prefix.string() + ".gch", prefix.string() + ".d", flags)) return {};
   return {"-include", prefix.string()};
 }
 

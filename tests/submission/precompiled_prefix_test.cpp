@@ -99,6 +99,10 @@ TEST_F(PrefixTest, GivesFlagsWhileItIsCurrent) {
   EXPECT_EQ(prefixFlags(prefix(), kSource, {}), (std::vector<std::string>{"-include", prefix()}));
   EXPECT_TRUE(prefixFlags(prefix(), "int x;\n", {}).empty());
   EXPECT_TRUE(prefixFlags({}, kSource, {}).empty());
+  EXPECT_FALSE(prefixFlags(prefix(), kSource, {"-isystem", (folder() / "src").string()}).empty());
+  writeTextFile(folder() / "moved/course/course.h", readTextFile(folder() / "src/course/course.h"));
+  EXPECT_TRUE(prefixFlags(prefix(), kSource, {"-isystem", (folder() / "moved").string()}).empty())
+      << "made with the header of another rex";
   setAge(folder() / "src/course/course.h", -1h);
   EXPECT_TRUE(prefixFlags(prefix(), kSource, {}).empty());
 }

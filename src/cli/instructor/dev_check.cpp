@@ -121,6 +121,7 @@ void sayGates(const Project& project, const std::vector<std::string>& names, boo
 }  // namespace
 
 ExitCode devCheck(const Project& project, const CheckOptions& options) {
+  requireSourceTree(project, "check");
   const std::vector<std::string> names =
       options.exercise.empty() ? project.exerciseNames()
                                : std::vector<std::string>{project.exerciseName(options.exercise)};

@@ -156,17 +156,6 @@ ExitCode scanOnly(const Project& project, const ReleaseOptions& options) {
   return code;
 }
 
-// Whether it is given out by that time.
-bool isOpenAt(std::int64_t time, const std::string& name, const grading::LatePolicy& policy,
-              const fs::path& file) {
-  const std::optional<std::int64_t> opening = policy.at(name).opening;
-  if (!opening)
-    throw Error({.what = fmt::format("no opening for {}", name),
-                 .where = {shown(file)},
-                 .wanted = fmt::format("`opening` in the table [exercise.{}] or [all]", name)});
-  return *opening <= time;
-}
-
 // The exercises that are released; empty: all.
 std::vector<std::string> chosenExercises(const Project& project, const ReleaseOptions& options) {
   std::vector<std::string> chosen;
@@ -179,8 +168,16 @@ std::vector<std::string> chosenExercises(const Project& project, const ReleaseOp
                       .found = escapeForTerminal(options.until),
                       .wanted = "a day such as 2026-12-01, or a time such as 2026-12-01T08:00:00+01:00"});
   const grading::LatePolicy policy = readDeadlines(project, options.deadlines);
-  for (const ExerciseInfo& exercise : project.exercises())
-    if (isOpenAt(*time, exercise.name, policy, options.deadlines)) chosen.push_back(exercise.name);
+  std::vector<std::string> without;
+  for (const std::string& name : project.exerciseNames())
+    if (const std::optional<std::int64_t> opening = policy.at(name).opening; !opening)
+      without.push_back(name);
+    else if (*opening <= *time)
+      chosen.push_back(name);
+  if (!without.empty())
+    note(wrap(fmt::format("Left out, since {} says no `opening` for them: {}", shown(options.deadlines),
+                          join(without, ", ")),
+              2, 0));
   if (chosen.empty())
     throw UsageError(
         {.what = "--until", .found = fmt::format("no exercise that opens by {}", options.until)});
@@ -190,6 +187,7 @@ std::vector<std::string> chosenExercises(const Project& project, const ReleaseOp
 }  // namespace
 
 ExitCode devRelease(const Project& project, const ReleaseOptions& options) {
+  requireSourceTree(project, "release");
   if (!options.scan.empty()) return scanOnly(project, options);
   const grading::Release release = grading::writeStudentRelease(
       project.root, fs::absolute(options.out), options.secret, chosenExercises(project, options));

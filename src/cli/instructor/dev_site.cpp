@@ -9,6 +9,7 @@ namespace rex::cli {
 
 ExitCode devSite(const Project& project, const SiteOptions& options) {
   using grading::SiteReaders;
+  requireSourceTree(project, "site");
   const grading::CourseSite site =
       grading::writeCourseSite(project.root, std::filesystem::absolute(options.out), options.secret,
                                options.notes ? SiteReaders::kLecturers : SiteReaders::kEverybody);

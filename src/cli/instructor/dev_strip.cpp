@@ -9,6 +9,7 @@
 namespace rex::cli {
 
 ExitCode devStrip(const Project& project, const std::string& name) {
+  requireSourceTree(project, "strip");
   const ExerciseInfo exercise = project.exercise(name);
   const std::filesystem::path solution = exercise.folder / "solution.cpp",
                               main = exercise.folder / "main.cpp";

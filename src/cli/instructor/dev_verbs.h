@@ -12,6 +12,9 @@
 
 namespace rex::cli {
 
+/// Throws UsageError if this rex is installed: `command` works on the files that a course is made from.
+void requireSourceTree(const Project& project, const std::string& command);
+
 /// Makes a new exercise from the template.
 ExitCode devNew(const Project& project, const std::string& name);
 

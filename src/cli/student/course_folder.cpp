@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/process.h"
 #include "base/sha256.h"
+#include "base/text.h"
 #include "base/text_file.h"
 #include "cli/terminal.h"
 #include "submission/program_build.h"
@@ -30,11 +31,24 @@ bool isForStudents(const fs::path& file) {
 void addFilesIn(const fs::path& folder, const fs::path& below, std::map<fs::path, fs::path>& files) {
   for (const auto& entry : fs::directory_iterator(folder)) {
     const fs::path name = entry.path().filename();
+    if (name.string().starts_with("rex-work-")) continue;  // of a command that was running or killed
     if (entry.is_directory())
       addFilesIn(entry.path(), below / name, files);
     else if (entry.is_regular_file() && isForStudents(name))
       files[below / name] = entry.path();
   }
+}
+
+// Texts speak of the source tree, where the command is scripts/rex and check.cpp can be read.
+std::string textForCourse(const fs::path& name, std::string text) {
+  if (name.extension() != ".md") return text;
+  std::string kept;
+  for (const std::string_view line : splitLines(text))
+    if (!line.starts_with("| `check.cpp`")) (kept += line) += '\n';
+  constexpr std::string_view kScript = "scripts/rex ";
+  for (std::size_t at = kept.find(kScript); at != kept.npos; at = kept.find(kScript, at))
+    kept.replace(at, kScript.size(), "rex ");
+  return kept;
 }
 
 // The files of a course folder, and where each comes from.
@@ -95,7 +109,7 @@ class Update {
   Update(fs::path course, Record before) : course_(std::move(course)), before_(std::move(before)) {}
 
   void bring(const fs::path& name, const fs::path& source) {
-    const std::string text = readTextFile(source), hash = sha256(text);
+    const std::string text = textForCourse(name, readTextFile(source)), hash = sha256(text);
     const auto known = before_.hashes.find(name);
     const bool changed = known == before_.hashes.end() || known->second != hash;
     const fs::path file = course_ / name;
@@ -110,7 +124,10 @@ class Update {
     const bool isContract = name.extension() == ".h";
     if (known != before_.hashes.end() && known->second == sha256(old) && !isContract)
       return write(Change::kReplaced, name, text);
-    if (!changed) return;  // the student's own change of a file that is as before
+    if (!changed) {
+      done_.push_back({Change::kOwnChange, name});
+      return;
+    }
     const fs::path kept = unusedName(course_, name, before_.version);
     replaceTextFile(course_ / kept, old, "the file to keep");
     write(Change::kKeptBeside, name, text, kept);
@@ -139,6 +156,11 @@ class Update {
 void writeCompileCommands(const Project& project) {
   nlohmann::json commands = nlohmann::json::array();
   for (const ExerciseInfo& exercise : project.exercises()) {
+    if (!project.isBuilt(exercise.name)) {
+      note(wrap(fmt::format("{} is not built in this rex: it can be read, not run or graded", exercise.name),
+                2, 0));
+      continue;
+    }
     const grading::Toolchain toolchain = grading::readToolchain(project.buildFolder(exercise) / "build.json");
     const fs::path folder = project.root / "exercises" / exercise.name;
     for (const char* name : {"main.cpp", "show.cpp"}) {

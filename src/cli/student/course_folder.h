@@ -14,6 +14,7 @@ struct HandedOut {
     kNew,          ///< the folder did not have it
     kReplaced,     ///< it was as handed out before
     kKeptBeside,   ///< replaced; the old one, which was changed or is a contract, is kept as `kept`
+    kOwnChange,    ///< not a main.cpp, changed by the student and handed out as before; it stays
     kNotTouched,   ///< a main.cpp: what is handed out changed, the student's file did not
     kNoLongerPart  ///< no longer handed out; the file stays
   };

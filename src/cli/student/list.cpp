@@ -45,7 +45,9 @@ ExitCode list(const Project& project, bool json) {
     const std::string start =
         fmt::format("{:{}}  {:2} points  ", exercise.name, nameWidth, exercise.points());
     const std::size_t indent = start.size();
-    say(paint(Colour::kBold, start) + wrap(exercise.title, indent, indent));
+    say(paint(Colour::kBold, start) +
+        wrap(exercise.title + (project.isBuilt(exercise.name) ? "" : " (not built in this rex)"), indent,
+             indent));
     say(std::string(indent, ' ') + wrap("script: " + exercise.script, indent, indent));
   }
   say();

@@ -87,6 +87,9 @@ std::optional<fs::path> buildOwnProgram(const Project& project, const fs::path& 
   if (!toolchain.prefix.empty() && grading::opensWithCourseHeader(source, toolchain.flags))
     bringUpToDate(project, {"rex_student_prefix"}, "what programs start from");
   const bool hasPrefix = !grading::prefixFlags(toolchain.prefix, source, toolchain.flags).empty();
+  if (!hasPrefix && !project.installed.empty() && fs::exists(toolchain.prefix) &&
+      grading::opensWithCourseHeader(source, toolchain.flags))
+    note("This folder was prepared for another rex: `rex update` makes compiling fast again.");
   toolchain.flags.insert(toolchain.flags.end(), {"-I", file.parent_path().string()});
   const auto chooseLibraries = [&](const grading::StudentObject& object) {
     const ProcessResult table =

@@ -17,8 +17,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// main.cpp as handed out: a release keeps a copy, the course makes it from the solution.
-std::string starterOf(const fs::path& exercise) {
+// main.cpp as handed out: a release keeps a copy, the course makes it from the solution, and that of an
+// installed rex is the copy of a course folder.
+std::string starterOf(const ExerciseInfo& info) {
+  const fs::path& exercise = info.definition;
+  if (info.folder != exercise && !fs::exists(exercise / "starter.cpp"))
+    return readTextFile(exercise / "main.cpp");
   const fs::path copy = exercise / "starter.cpp", solution = exercise / "solution.cpp";
   if (fs::exists(copy)) return readTextFile(copy);
   if (fs::exists(solution)) return grading::stripSolution(readTextFile(solution), solution.string());
@@ -59,7 +63,7 @@ void replaceAndKeep(const fs::path& main, const std::string& starter) {
 ExitCode reset(const Project& project, const std::string& name) {
   const ExerciseInfo exercise = project.exercise(name);
   const fs::path main = exercise.folder / "main.cpp";
-  const std::string starter = starterOf(exercise.definition);
+  const std::string starter = starterOf(exercise);
   if (fs::exists(main)) {
     if (readTextFile(main) == starter) {
       say(fmt::format("{} is as it was handed out.", shown(main)));

@@ -21,6 +21,11 @@ std::string describe(const HandedOut& one) {
       return "changed    " + file;
     case kKeptBeside:
       return fmt::format("changed    {}; the one before is {}", file, one.kept.filename().string());
+    case kOwnChange:
+      return fmt::format(
+          "yours      {} is not as it was handed out; it stays, and without it this command "
+          "brings the original",
+          file);
     case kNotTouched:
       return fmt::format("not yours  {} is handed out differently now; yours stays as it is", file);
     case kNoLongerPart:

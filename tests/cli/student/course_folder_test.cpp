@@ -121,7 +121,8 @@ TEST_F(CourseFolder, KeepsContractsAndChangedFilesBesideNewOnes) {
   init();
   const std::string contract = fileText(mine("exercise.h"));
   write(mine("README.md"), "my notes\n");
-  EXPECT_THAT(installed({"update"}).output, HasSubstr("Everything is as rex"));
+  EXPECT_THAT(flat(installed({"update"}).output),
+              HasSubstr("yours exercises/98-template/README.md is not as it was handed out; it stays"));
   EXPECT_EQ(fileText(mine("README.md")), "my notes\n");
   write(exercise() / "exercise.h", contract + "// more\n");
   write(exercise() / "README.md", "new text\n");
@@ -131,6 +132,38 @@ TEST_F(CourseFolder, KeepsContractsAndChangedFilesBesideNewOnes) {
   EXPECT_EQ(fileText(mine("README-" REX_VERSION ".md")), "my notes\n");
   write(exercise() / "exercise.h", contract);
   EXPECT_THAT(installed({"update"}).output, HasSubstr("exercise-" REX_VERSION "-2.h"));
+}
+
+// An instructor's rex keeps no starter.cpp: its main.cpp is the copy.
+TEST_F(CourseFolder, ResetsFromTheMainOfTheInstalledRex) {
+  fs::remove(exercise() / "starter.cpp"), fs::remove(exercise() / "solution.cpp");
+  init();
+  const std::string handedOut = fileText(mine("main.cpp"));
+  write(mine("main.cpp"), kGood);
+  const Ended ended = installed({"reset", "98"});
+  EXPECT_EQ(ended.code, 0) << ended.error;
+  EXPECT_EQ(fileText(mine("main.cpp")), handedOut);
+  EXPECT_EQ(fileText(mine("main.backup-1.cpp")), kGood);
+}
+
+TEST_F(CourseFolder, NamesWhatIsNotBuiltAndTakesNoWorkFolders) {
+  fs::create_directories(root() / "exercises" / "97-new");
+  fs::copy(exercise() / "exercise.toml", root() / "exercises" / "97-new" / "exercise.toml");
+  fs::create_directories(exercise() / "rex-work-abc123");
+  write(exercise() / "rex-work-abc123" / "main.cpp", "int main() {}\n");
+  const Ended made = installed({"init", course().string()});
+  EXPECT_EQ(made.code, 0) << made.error;
+  EXPECT_THAT(flat(made.error),
+              HasSubstr("97-new is not built in this rex: it can be read, not run or graded"));
+  EXPECT_FALSE(fs::exists(mine("rex-work-abc123")));
+  EXPECT_THAT(flat(installed({"list"}).output), HasSubstr("(not built in this rex)"));
+}
+
+TEST_F(CourseFolder, HasTextsForAnInstalledRex) {
+  write(exercise() / "README.md",
+        "| file | |\n| `check.cpp` | look |\n| `main.cpp` | edit |\n\n    scripts/rex run 98\n");
+  init();
+  EXPECT_EQ(fileText(mine("README.md")), "| file | |\n| `main.cpp` | edit |\n\n    rex run 98\n");
 }
 
 TEST_F(CourseFolder, SaysWhatIsNoLongerPartOfTheCourse) {

@@ -1,6 +1,8 @@
 // `rex dev release`: the tree, what is said of it, and its proof on a tree whose build is a script.
 #include "cli/command_schema.h"
+#include "cli/instructor/dev_verbs.h"
 #include "commands/built_project.h"
+#include "support/expect_error.h"
 #include "support/paths.h"
 
 namespace rex::cli::dev_release_test {
@@ -67,9 +69,18 @@ TEST_F(DevReleaseTest, HoldsTheExercisesThatAreOpenByADay) {
   fs::remove_all(students());
   write(file, "[all]\ngrace_minutes = 5\n");
   EXPECT_THAT(flat(until("2026-12-01").error),
-              HasSubstr("deadlines.toml: no opening for 98-template: wanted `opening` in the table "
-                        "[exercise.98-template] or [all]"));
+              HasSubstr("deadlines.toml says no `opening` for them: 98-template"));
   EXPECT_EQ(rex({"dev", "release", "x", "--until", "2026-12-01"}).code, 64);
+}
+
+// They would write into the installation, or find nothing there to look for.
+TEST(DevVerbs, NeedTheSourceTree) {
+  const Project installed{.root = "course", .build = "lib", .installed = "share"};
+  EXPECT_REX_ERROR(devNew(installed, "96-mine"), "rex dev new needs the source tree of rex");
+  EXPECT_REX_ERROR(devStrip(installed, "98"), "rex dev strip needs the source tree of rex");
+  EXPECT_REX_ERROR(devCheck(installed, {}), "rex dev check needs the source tree of rex");
+  EXPECT_REX_ERROR(devRelease(installed, {.out = "out"}), "rex dev release needs the source tree of rex");
+  EXPECT_REX_ERROR(devSite(installed, {.out = "out"}), "rex dev site needs the source tree of rex");
 }
 
 // The template itself is public, so the exercise needs a secret of its own.
