@@ -18,28 +18,37 @@ namespace {
 
 using grading::ExercisePart;
 
-const ExercisePart& partCalled(const ExerciseInfo& exercise, const std::string& id) {
+// Of the last complete test; empty: there was none.
+std::vector<grading::CheckResult> lastChecks(const Project& project, const ExerciseInfo& exercise) {
+  try {
+    return grading::loadResult(project.outFolder(exercise, false) / "results.json").checks;
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+// By its name, or that of a check or of a function which `rex test` printed.
+const ExercisePart& partCalled(const ExerciseInfo& exercise, const std::vector<grading::CheckResult>& last,
+                               const std::string& id) {
   std::vector<std::string> ids;
   for (const ExercisePart& part : exercise.parts) {
     if (part.id == id) return part;
     ids.push_back(part.id);
   }
+  for (const grading::CheckResult& check : last)
+    for (const ExercisePart& part : exercise.parts)
+      if (part.id == check.part && (check.id == id || check.function == id)) return part;
   throw UsageError({.what = fmt::format("{} has no part '{}'", exercise.name, escapeForTerminal(id)),
                     .wanted = fmt::format("one of {}", join(ids, ", ")),
                     .nearest = nearestNames(id, ids)});
 }
 
-// The first part that lost points in the last test; the first part if there was no test.
-const ExercisePart& partInNeed(const Project& project, const ExerciseInfo& exercise) {
-  try {
-    const grading::GradeResult result =
-        grading::loadResult(project.outFolder(exercise, false) / "results.json");
-    for (const ExercisePart& part : exercise.parts)
-      for (const grading::CheckResult& check : result.checks)
-        if (check.part == part.id && check.points < check.maxPoints) return part;
-  } catch (const Error&) {
-  }
-  return exercise.parts.front();
+// The first part that lost points in the last test, nullptr if none did; the first part if there was no test.
+const ExercisePart* partInNeed(const ExerciseInfo& exercise, const std::vector<grading::CheckResult>& last) {
+  for (const ExercisePart& part : exercise.parts)
+    for (const grading::CheckResult& check : last)
+      if (check.part == part.id && check.points < check.maxPoints) return &part;
+  return last.empty() ? &exercise.parts.front() : nullptr;
 }
 
 void sayHint(const ExercisePart& part, int number) {
@@ -65,8 +74,15 @@ ShownHints openHint(const Project& project, const ExerciseInfo& exercise, const 
 
 ExitCode hint(const Project& project, const HintOptions& options) {
   const ExerciseInfo exercise = project.exercise(options.exercise);
-  const ExercisePart& part =
-      options.part.empty() ? partInNeed(project, exercise) : partCalled(exercise, options.part);
+  const std::vector<grading::CheckResult> last = lastChecks(project, exercise);
+  const ExercisePart* needed =
+      options.part.empty() ? partInNeed(exercise, last) : &partCalled(exercise, last, options.part);
+  if (needed == nullptr) {
+    say(fmt::format("Every part of {} got full points in your last test. Name a part for its hints.",
+                    exercise.name));
+    return ExitCode::kFull;
+  }
+  const ExercisePart& part = *needed;
   const int all = static_cast<int>(part.hints.size());
   if (all == 0) {
     say(fmt::format("There are no hints for part '{}' of {}.", part.id, exercise.name));
@@ -91,7 +107,8 @@ void addHint(CLI::App* command, Action& action) {
   const auto options = std::make_shared<HintOptions>();
   command->footer(
       "Examples:\n  scripts/rex hint 01\n  scripts/rex hint 01 step --again\n\n"
-      "Without PART: a hint for the first part that lost points in your last test.");
+      "Without PART: a hint for the first part that lost points in your last test. A check or a\n"
+      "function that the test named stands for its part.");
   addExercise(command, options->exercise);
   command->add_option("PART", options->part, "id of a part in exercise.toml")->type_name("");
   addOptions(command, {{"--again", options->again, "show the hints that you have already seen"}});

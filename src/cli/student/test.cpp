@@ -69,16 +69,16 @@ void addTest(CLI::App* command, Action& action) {
       "the largest of theirs.\n" +
       std::string(kExitCodesHelp));
   addSeveral(command, *words);
-  addOptions(command,
-             {{"--solution", options->solution, "grade the reference solution"},
-              {"--main", options->main, "FILE", "grade this file instead of main.cpp"},
-              {"--check", options->job.checks, "NAME", "only this check or part; may be given several times"},
-              seedRow(options->job.seed, "repeat the random cases of this seed"),
-              {"--json", options->json, "print the result file and nothing else"},
-              {"--report", options->reports, "FORMATS",
-               "write reports beside it: junit, markdown, ..., or several with commas"},
-              {"--debug", options->debug, "use sanitizers: slow, but names the lines of crashes"},
-              {"-o,--out", options->out, "DIR", kOutHelp}});
+  addOptions(command, {{"--solution", options->solution, "grade the reference solution"},
+                       {"--main", options->main, "FILE", "grade this file instead of main.cpp"},
+                       {"--check", options->job.checks, "NAME",
+                        "only this check, part or failed function; may be given several times"},
+                       seedRow(options->job.seed, "repeat the random cases of this seed"),
+                       {"--json", options->json, "print the result file and nothing else"},
+                       {"--report", options->reports, "FORMATS",
+                        "write reports beside it: junit, markdown, ..., or several with commas"},
+                       {"--debug", options->debug, "use sanitizers: slow, but names the lines of crashes"},
+                       {"-o,--out", options->out, "DIR", kOutHelp}});
   addLevel(command, options->level);
   addOptions(command, {{"--secret-file", options->job.secret, "FILE",
                         "secret of the course, for the seeds of hidden checks"}});

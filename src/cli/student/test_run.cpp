@@ -49,18 +49,25 @@ std::optional<GradeResult> lastResult(const fs::path& file) {
   }
 }
 
-// With the checks of a part instead of its name.
+// With the checks of a part instead of its name, and those that blamed a function in the last test.
 std::vector<std::string> withParts(const std::vector<std::string>& names, const ExerciseInfo& exercise,
-                                   const grading::Toolchain& toolchain) {
+                                   const grading::Toolchain& toolchain, const fs::path& lastTest) {
   std::vector<std::string> checks;
+  const auto takeAll = [&](const std::vector<grading::CheckResult>& all,
+                           std::string grading::CheckResult::*field, const std::string& name) {
+    const std::size_t before = checks.size();
+    for (const grading::CheckResult& check : all)
+      if (check.*field == name) checks.push_back(check.id);
+    return checks.size() > before;
+  };
   for (const std::string& name : names) {
     const auto isNamed = [&](const grading::ExercisePart& part) { return part.id == name; };
-    if (std::none_of(exercise.parts.begin(), exercise.parts.end(), isNamed)) {
-      checks.push_back(name);
+    if (std::any_of(exercise.parts.begin(), exercise.parts.end(), isNamed)) {
+      takeAll(grading::listChecks(toolchain), &grading::CheckResult::part, name);
       continue;
     }
-    for (const grading::CheckResult& check : grading::listChecks(toolchain))
-      if (check.part == name) checks.push_back(check.id);
+    const auto last = lastResult(lastTest);
+    if (!last || !takeAll(last->checks, &grading::CheckResult::function, name)) checks.push_back(name);
   }
   return checks;
 }
@@ -87,7 +94,8 @@ TestRun::TestRun(const Project& project, ExerciseInfo exercise, const TestOption
       toolchain_(prepare(project, exercise_)),
       work_(project.workPlace("exercises/" + exercise_.name)),
       reports_(reportsOf(options.reports)) {
-  options_.job.checks = withParts(options.job.checks, exercise_, toolchain_);
+  options_.job.checks = withParts(options.job.checks, exercise_, toolchain_,
+                                  project.outFolder(exercise_, false) / "results.json");
   if (!options.job.secret.empty()) static_cast<void>(grading::readCourseSecret(options.job.secret));
 }
 

@@ -33,8 +33,13 @@ class StudentLoop : public TemplateProject {
     });
     grading::GradeResult result{.exerciseId = "98-template", .outcome = outcome};
     result.score = points, result.maxScore = 3;
-    result.checks = {
-        {.id = "all", .part = "rotate", .title = "All", .status = outcome, .points = points, .maxPoints = 3}};
+    result.checks = {{.id = "all",
+                      .part = "rotate",
+                      .title = "All",
+                      .status = outcome,
+                      .points = points,
+                      .maxPoints = 3,
+                      .function = points == 3 ? "" : "rotated"}};
     fs::create_directories(out());
     saveResult(result, out() / "results.json");
   }
@@ -120,6 +125,11 @@ TEST_F(StudentLoop, HintsAtThePartThatLostPoints) {
   EXPECT_THAT(rex({"hint", "98"}).output, StartsWith("Another part [other]"));
   recordTest(0);
   EXPECT_THAT(rex({"hint", "98"}).output, StartsWith("Rotation in the plane [rotate]"));
+  for (const char* name : {"all", "rotated"})  // a check and the function that failed in it
+    EXPECT_THAT(rex({"hint", "98", name}).output, StartsWith("Rotation in the plane [rotate]")) << name;
+  recordTest(3);
+  EXPECT_THAT(rex({"hint", "98"}).output, StartsWith("Every part of 98-template got full points"));
+  EXPECT_THAT(rex({"hint", "98", "rotate"}).output, StartsWith("Rotation in the plane [rotate]"));
 }
 
 TEST_F(StudentLoop, SaysWhereReplayAndPicturesAre) {
