@@ -30,9 +30,9 @@ grading::Course courseOf(const Project& project, const ClassFiles& files) {
   return {.policy = readDeadlines(project, files.deadlines)};
 }
 
-grading::Gradebook gradebookOf(const Project& project, const ClassFiles& files,
-                               const std::vector<grading::Task>& tasks, const fs::path& out,
-                               const std::string& only) {
+grading::GradebookSource gradebookSourceOf(const Project& project, const ClassFiles& files,
+                                           const std::vector<grading::Task>& tasks, const fs::path& out,
+                                           const std::string& only) {
   grading::GradebookSource source{.tasks = tasks, .out = out, .only = only};
   source.course = courseOf(project, files);
   source.imported = grading::importTableIn(out);
@@ -42,7 +42,13 @@ grading::Gradebook gradebookOf(const Project& project, const ClassFiles& files,
   if (!adjustments.empty())
     source.adjustments = grading::readAdjustments(
         adjustments, grading::withStudents(source.course, tasks, source.imported), project.exercises());
-  return grading::makeGradebook(source);
+  return source;
+}
+
+grading::Gradebook gradebookOf(const Project& project, const ClassFiles& files,
+                               const std::vector<grading::Task>& tasks, const fs::path& out,
+                               const std::string& only) {
+  return grading::makeGradebook(gradebookSourceOf(project, files, tasks, out, only));
 }
 
 void writeBook(const grading::Gradebook& book, const fs::path& out, bool print) {

@@ -28,8 +28,12 @@ inline constexpr const char *kNotTakenFile = "not_taken.tsv", *kTotals = "totals
 /// The course, or one without a roster. Throws like grading::readCourse().
 [[nodiscard]] grading::Course courseOf(const Project& project, const ClassFiles& files);
 
-/// The grade book of a folder of results: the list of tasks, what was not taken and the table of imports lie
-/// in it. Throws like the readers of these files.
+/// What makes the grade book of a folder of results, and the book: the list of tasks, what was not taken and
+/// the table of imports lie in it. Throws like the readers of these files.
+[[nodiscard]] grading::GradebookSource gradebookSourceOf(const Project& project, const ClassFiles& files,
+                                                         const std::vector<grading::Task>& tasks,
+                                                         const std::filesystem::path& out,
+                                                         const std::string& only = {});
 [[nodiscard]] grading::Gradebook gradebookOf(const Project& project, const ClassFiles& files,
                                              const std::vector<grading::Task>& tasks,
                                              const std::filesystem::path& out, const std::string& only = {});

@@ -18,6 +18,7 @@
 #include "base/folders.h"
 #include "base/process_pool.h"
 #include "base/sha256.h"
+#include "base/text.h"
 #include "base/text_file.h"
 #include "classroom/download.h"
 #include "classroom/grade_task.h"
@@ -51,6 +52,7 @@ struct GradeManyOptions {
   std::filesystem::path secret{};     ///< file; empty: the seed decides hidden checks, too
   std::filesystem::path workers{};    ///< folder that keeps compiled programs; empty: none
   std::string only{};                 ///< exercise; empty: all
+  std::string student{};              ///< only grade this one; empty: all
   ClassFiles files{};                 ///< roster, dates and adjustments
   bool acceptFewer = false;           ///< take results of the same text with fewer points, too
   std::filesystem::path submitted{};  ///< CSV file; empty: use the times of the files
@@ -143,9 +145,15 @@ void makeFolder(const fs::path& out) {
 
 // What an import could not take is in no folder, and must not be forgotten.
 void addNotTaken(const fs::path& folder, const std::string& only, grading::HandIns& handedIn) {
+  const auto isThere = [&](const std::string& student, const std::string& exercise) {
+    return std::any_of(handedIn.files.begin(), handedIn.files.end(), [&](const grading::HandIn& file) {
+      return file.student == student && file.exercise == exercise;  // put there by hand since then
+    });
+  };
   for (const grading::ImportedStudent& student : grading::importTableIn(folder).students)
     for (const auto& [exercise, told] : student.exercises)
-      if (told.status == grading::HandInStatus::kNotTaken && (only.empty() || only == exercise))
+      if (told.status == grading::HandInStatus::kNotTaken && (only.empty() || only == exercise) &&
+          !isThere(student.student, exercise))
         handedIn.complaints.push_back(
             fmt::format("{} {}: not taken by the import: {}", student.student, exercise, told.why));
 }
@@ -209,9 +217,70 @@ std::vector<Task> tasksOf(const grading::HandIns& handedIn, const GradeManyOptio
       task.submitted = *imported->submitted;
       task.timeFrom = imported->timeFrom;
     }
+    // Others keep what they were graded with, and so does who was graded alone.
+    const auto before = grading::gradedWith(task, options.out);
+    const bool isChosen = options.student.empty() || options.student == task.student;
+    if (before && (!isChosen || (before->alone && options.student.empty() && !options.regrade)))
+      task.level = before->level, task.seed = before->seed, task.secretId = before->secretId;
     tasks.push_back(std::move(task));
   }
   return tasks;
+}
+
+void requireStudent(const std::vector<Task>& tasks, const std::string& student) {
+  std::vector<std::string> known;
+  for (const Task& task : tasks) known.push_back(task.student);
+  if (student.empty() || std::find(known.begin(), known.end(), student) != known.end()) return;
+  throw UsageError({.what = fmt::format("--student: '{}' handed in nothing", student),
+                    .wanted = "the name of a folder in the folder of submissions",
+                    .nearest = nearestNames(student, known)});
+}
+
+// Another seed or another secret gives other questions, so that points of last week could change.
+void requireSameSettings(const std::vector<Task>& tasks, const GradeManyOptions& options) {
+  if (options.regrade || !options.student.empty()) return;
+  std::map<std::string, int> changes;
+  int others = 0;
+  const auto compare = [&](const char* name, const std::string& before, const std::string& now) {
+    if (before == now) return false;
+    ++changes[fmt::format("{} {} instead of {}", name, now, before)];
+    return true;
+  };
+  const auto seedOf = [](const std::optional<std::uint64_t>& seed) {
+    return seed ? fmt::format("{}", *seed) : "none";
+  };
+  const auto secretOf = [](const std::string& id) { return id.empty() ? "none" : id; };
+  for (const Task& task : tasks)
+    if (const auto before = grading::gradedWith(task, options.out)) {
+      const bool level = compare("sandbox level", fmt::format("{}", numberOf(before->level)),
+                                 fmt::format("{}", numberOf(task.level))),
+                 seed = compare("seed", seedOf(before->seed), seedOf(task.seed)),
+                 secret = compare("secret", secretOf(before->secretId), secretOf(task.secretId));
+      if (level || seed || secret) ++others;
+    }
+  if (others == 0) return;
+  std::vector<std::string> parts;
+  for (const auto& [change, count] : changes) parts.push_back(change);
+  throw UsageError(
+      {.what = fmt::format("{} result{} made with other settings", others, others == 1 ? " was" : "s were"),
+       .where = {options.out.string()},
+       .found = join(parts, ", "),
+       .wanted = "the same, best in the course file, or --regrade"});
+}
+
+// A report that was asked for once is kept up to date.
+std::vector<grading::ReportFormat> formatsOf(const std::string& asked, const std::vector<Task>& tasks,
+                                             const fs::path& out) {
+  std::vector<grading::ReportFormat> formats = reportsOf(asked);
+  for (const grading::ReportFormat& format : grading::reportFormats()) {
+    const bool isAsked =
+        std::any_of(formats.begin(), formats.end(), [&](const auto& one) { return one.file == format.file; });
+    if (!isAsked && std::any_of(tasks.begin(), tasks.end(), [&](const Task& task) {
+          return fs::exists(grading::resultFolder(out, task) / format.file);
+        }))
+      formats.push_back(format);
+  }
+  return formats;
 }
 
 // Grades one task in its own process, so that a failure affects this task alone.
@@ -225,8 +294,19 @@ int gradeApart(const Task& task, const Graders::Grader& grader, const grading::T
   }
 }
 
+bool isDone(const Task& task, const fs::path& out) {
+  return grading::stateOf(task, out) == grading::TaskState::kDone;
+}
+
+// With settings of their own, which last until somebody asks to regrade the class.
+bool isAlone(const Task& task, const GradeManyOptions& options) {
+  const auto before = grading::gradedWith(task, options.out);
+  return !options.student.empty() || (!options.regrade && before && before->alone);
+}
+
 bool isOpen(const Task& task, const GradeManyOptions& options) {
-  if (options.regrade || grading::stateOf(task, options.out) != grading::TaskState::kDone) return true;
+  if (!options.student.empty() && options.student != task.student) return false;
+  if (options.regrade || !isDone(task, options.out)) return true;
   return options.evidence && !grading::hasEvidence(task, options.out);
 }
 
@@ -264,9 +344,10 @@ int gradeOpen(const std::vector<Task>& tasks, const GradeManyOptions& options,
                            .launcher = sandbox.launcher,
                            .secret = options.secret,
                            .evidence = options.evidence,
+                           .alone = isAlone(task, options),
                            .workers = options.workers,
                            .accept = options.acceptFewer,
-                           .anew = options.regrade});
+                           .anew = options.regrade && isDone(task, options.out)});
       },
       [&](int k, int code) {
         std::error_code ignored;
@@ -330,10 +411,19 @@ ExitCode sayTasks(const std::vector<Task>& tasks, const grading::HandIns& handed
   return taken;
 }
 
+void takeSettings(const grading::GradingSettings& settings, GradeManyOptions& options) {
+  if (options.secret.empty()) options.secret = settings.secret;
+  if (!options.seed) options.seed = settings.seed;
+  if (!options.level && settings.level) options.level = sandbox::levelOf(*settings.level);
+  if (options.reports.empty()) options.reports = settings.reports;
+  options.evidence = options.evidence || settings.evidence;
+}
+
 // Grades the submissions of many students. kFull whatever the grades are; kNotGradable if a submission could
 // not be taken, kGraderFault if something must be graded again.
 ExitCode gradeMany(const Project& project, GradeManyOptions options) {
   const grading::Course course = courseOf(project, options.files);
+  takeSettings(course.settings, options);
   if (options.out.empty()) options.out = course.results;
   if (options.out.empty())
     throw UsageError(
@@ -361,7 +451,7 @@ ExitCode gradeMany(const Project& project, GradeManyOptions options) {
                                     .json = options.json,
                                     .reports = options.reports});
   requireFolders(options);
-  const std::vector<grading::ReportFormat> reports = reportsOf(options.reports);
+  static_cast<void>(reportsOf(options.reports));
   const grading::LatePolicy policy = readDeadlines(project, options.files.deadlines);
   const auto sandbox = chooseForStrangers(project, options.level, options.accept);
   if (!sandbox) return ExitCode::kWeakSandbox;
@@ -375,6 +465,8 @@ ExitCode gradeMany(const Project& project, GradeManyOptions options) {
   Graders graders(project);
   const std::set<std::string> blocked = blockedOf(handedIn, graders);
   const std::vector<Task> tasks = tasksOf(handedIn, options, sandbox->level, exercises, blocked, graders);
+  requireStudent(tasks, options.student);
+  requireSameSettings(tasks, options);
   const fs::path manifest = options.manifest.empty() ? options.out / "tasks.tsv" : options.manifest;
   if (options.manifest.empty()) tellWhatTablesLeaveOut(manifest, only);
   replaceTextFile(manifest, grading::toManifest(tasks), "the list of tasks");
@@ -385,6 +477,9 @@ ExitCode gradeMany(const Project& project, GradeManyOptions options) {
   if (!options.manifest.empty()) {
     return sayTasks(tasks, handedIn, manifest, options, taken);
   }
+  // What could be wrong with roster, dates and adjustments is said before the first grading.
+  const grading::GradebookSource source = gradebookSourceOf(project, options.files, tasks, options.out, only);
+  const std::vector<grading::ReportFormat> reports = formatsOf(options.reports, tasks, options.out);
   removeLeftovers(options.out, 3);
   tellRefused(tasks, options.out);
   const Regrading regrading(
@@ -392,7 +487,7 @@ ExitCode gradeMany(const Project& project, GradeManyOptions options) {
   const int graded = gradeOpen(tasks, options, *sandbox, graders);
   regrading.tell();
   tellTimes(tasks, options);
-  const grading::Gradebook book = gradebookOf(project, options.files, tasks, options.out, only);
+  const grading::Gradebook book = grading::makeGradebook(source);
   writeReports(tasks, options.out, reports, book);
   const bool complete =
       writeGrades(tasks, options.out, policy, options.files.hasBook() ? &book : nullptr, options.csv);
@@ -445,7 +540,8 @@ void addGrade(CLI::App* command, Action& action) {
                "keep compiled programs here, so that other seeds need no new compilation"},
               {"--submitted", options->submitted, "FILE.csv",
                "times of submission: columns student, submitted, exercise (default: times of the files)"},
-              {"--regrade", options->regrade, "also grade what has a valid result"},
+              {"--student", options->student, "ID", "only grade this one, also with another --seed"},
+              {"--regrade", options->regrade, "also grade what has a valid result, or was graded otherwise"},
               {"--accept", options->acceptFewer,
                "also take results in which the same file has fewer points than before"},
               {"--evidence", options->evidence, "keep pictures and replays of failed visible checks"}});

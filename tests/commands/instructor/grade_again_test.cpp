@@ -25,11 +25,11 @@ TEST_F(GradeAgainTest, GradesAgainOnlyWhatHasChanged) {
   EXPECT_THAT(flat(grade().error), kept("0 graded, 3 kept"));
   handIn("bob", "int main() {\n");
   EXPECT_THAT(flat(grade().error), kept("1 graded, 2 kept"));
-  EXPECT_THAT(flat(grade({"--seed", "5"}).error), kept("3 graded, 0 kept"));
+  EXPECT_THAT(flat(grade({"--seed", "5", "--regrade"}).error), kept("3 graded, 0 kept"));
   EXPECT_EQ(result("adam").at("seed_id"), "public:5");
   write(root() / "secret", "the secret of the course\n");
   const std::string secret = (root() / "secret").string();
-  EXPECT_THAT(flat(grade({"--secret-file", secret}).error), kept("3 graded, 0 kept"));
+  EXPECT_THAT(flat(grade({"--secret-file", secret, "--regrade"}).error), kept("3 graded, 0 kept"));
   EXPECT_THAT(std::string(result("adam").at("seed_id")), HasSubstr(" hidden:"));
   EXPECT_THAT(flat(grade({"--secret-file", secret}).error), kept("0 graded, 3 kept"));
   EXPECT_THAT(flat(grade({"--secret-file", secret, "--regrade"}).error), kept("3 graded, 0 kept"));
@@ -80,7 +80,8 @@ TEST_F(GradeAgainTest, CompilesAnewWhereAKeptProgramIsDamaged) {
   const fs::path workers = root() / "workers";
   int seed = 10;
   const auto gradedAgain = [&] {
-    EXPECT_EQ(gradeAnew({"--workers", workers.string(), "--seed", std::to_string(++seed)}).code, 0);
+    EXPECT_EQ(gradeAnew({"--workers", workers.string(), "--seed", std::to_string(++seed), "--regrade"}).code,
+              0);
     return row("good");
   };
   const std::string whole = gradedAgain();
@@ -117,9 +118,9 @@ TEST_F(GradeAgainTest, CompilesAnewWhenAskedToRegrade) {
   EXPECT_EQ(gradeAnew({"--workers", workers}).code, 0);
   const fs::path kept = fs::directory_iterator(workers)->path();
   const auto before = fs::last_write_time(kept / "worker");
-  EXPECT_EQ(gradeAnew({"--workers", workers, "--seed", "5"}).code, 0);
-  EXPECT_EQ(fs::last_write_time(kept / "worker"), before);
-  EXPECT_EQ(gradeAnew({"--workers", workers, "--regrade"}).code, 0);
+  EXPECT_EQ(gradeAnew({"--workers", workers, "--seed", "5", "--regrade"}).code, 0);
+  EXPECT_EQ(fs::last_write_time(kept / "worker"), before) << "only the questions are others";
+  EXPECT_EQ(gradeAnew({"--workers", workers, "--seed", "5", "--regrade"}).code, 0);
   EXPECT_NE(fs::last_write_time(kept / "worker"), before);
 }
 
@@ -176,6 +177,56 @@ TEST_F(GradeAgainTest, WritesReportsBesideResultsWithoutGradingAgain) {
   EXPECT_THAT(flat(unknown.error), HasSubstr("did you mean 'markdown'?"));
 }
 
+TEST_F(GradeAgainTest, SaysWhatACallWouldChangeBeforeItGrades) {
+  handIn("adam", kWrong), handIn("bob", kGood);
+  write(root() / "secret", "the secret of the course\n");
+  const fs::path course = root() / "course.toml", checks = results() / "adam/98-template/checks";
+  write(course, "secret_file = \"secret\"\nseed = 7\nlevel = 0\nevidence = true\nreports = [\"markdown\"]\n");
+  EXPECT_EQ(grade({"--course", course.string()}).code, 0);
+  EXPECT_THAT(std::string(result("adam").at("seed_id")), HasSubstr("public:7 hidden:"));
+  EXPECT_TRUE(fs::exists(results() / "bob/98-template/summary.md"));
+  ASSERT_EQ(result("adam").at("volatile").at("evidence"), true);
+  const std::string whole = fileText(results() / "adam/98-template/results.json");
+  const Ended forgotten = grade();
+  EXPECT_EQ(forgotten.code, 64);
+  EXPECT_THAT(flat(forgotten.error),
+              HasSubstr("2 results were made with other settings: found secret none instead of"));
+  EXPECT_THAT(flat(forgotten.error), HasSubstr("seed none instead of 7"));
+  EXPECT_THAT(flat(forgotten.error), HasSubstr("the course file, or --regrade"));
+  EXPECT_EQ(fileText(results() / "adam/98-template/results.json"), whole);
+  EXPECT_THAT(flat(grade({"--course", course.string()}).error), HasSubstr("0 graded, 2 kept"));
+  EXPECT_THAT(flat(grade({"--regrade"}).error), HasSubstr("2 graded, 0 kept"));
+  EXPECT_EQ(result("adam").at("volatile").at("evidence"), true) << "pictures are made again, not lost";
+  EXPECT_TRUE(fs::exists(results() / "bob/98-template/summary.md"));
+}
+
+TEST_F(GradeAgainTest, GradesOneStudentWithAnotherSeed) {
+  handIn("adam", kWrong), handIn("bob", kGood);
+  EXPECT_EQ(grade({"--seed", "7"}).code, 0);
+  EXPECT_THAT(flat(grade({"--student", "adam", "--seed", "8"}).error), HasSubstr("1 graded, 1 kept"));
+  EXPECT_EQ(result("adam").at("seed_id"), "public:8");
+  EXPECT_THAT(row("bob"), HasSubstr(",pass,")) << "in the table as before";
+  EXPECT_THAT(flat(grade({"--seed", "7"}).error), HasSubstr("0 graded, 2 kept"));
+  handIn("adam", kGood);
+  EXPECT_THAT(flat(grade({"--seed", "7"}).error), HasSubstr("1 graded, 1 kept"));
+  EXPECT_EQ(result("adam").at("seed_id"), "public:8") << "until the class is regraded";
+  EXPECT_THAT(flat(grade({"--seed", "7"}).error), HasSubstr("0 graded, 2 kept"));
+  EXPECT_THAT(flat(grade({"--seed", "7", "--regrade"}).error), HasSubstr("2 graded, 0 kept"));
+  EXPECT_EQ(result("adam").at("seed_id"), "public:7");
+  const Ended nobody = grade({"--seed", "7", "--student", "adan"});
+  EXPECT_EQ(nobody.code, 64);
+  EXPECT_THAT(flat(nobody.error), HasSubstr("did you mean 'adam'?"));
+}
+
+TEST_F(GradeAgainTest, ReadsTheAdjustmentsBeforeTheFirstGrading) {
+  handIn("adam", kGood);
+  write(root() / "course.toml", "adjustments = \"none.toml\"\n");
+  const Ended ended = grade({"--course", (root() / "course.toml").string()});
+  EXPECT_EQ(ended.code, 3);
+  EXPECT_THAT(flat(ended.error), HasSubstr("none.toml"));
+  EXPECT_FALSE(fs::exists(results() / "adam/98-template/results.json"));
+}
+
 // A report of an earlier result would carry a wrong grade.
 TEST_F(GradeAgainTest, KeepsNoReportLongerThanItsResult) {
   handIn("adam", kGood), handIn("bob", kGood);
@@ -184,8 +235,8 @@ TEST_F(GradeAgainTest, KeepsNoReportLongerThanItsResult) {
   const std::string summary = fileText(bob / "summary.md");
   handIn("adam", kWrong);
   EXPECT_EQ(grade().code, 0);
-  EXPECT_FALSE(fs::exists(adam / "summary.md"));
-  EXPECT_FALSE(fs::exists(adam / "gradescope.json"));
+  EXPECT_THAT(fileText(adam / "summary.md"), Not(HasSubstr(" 8 of 8 points"))) << "renewed";
+  EXPECT_TRUE(fs::exists(adam / "gradescope.json"));
   EXPECT_EQ(fileText(bob / "summary.md"), summary) << "its result is the same";
   write(bob / "summary.md", "8 of 8");
   EXPECT_THAT(flat(rex({"grade", "--collect", "-o", results().string()}).error),
@@ -260,7 +311,7 @@ TEST_F(GradeAgainTest, GradesAgainForEvidenceThatIsMissing) {
 TEST_F(GradeAgainTest, GoesOnAfterAnInterruptedRegrading) {
   handIn("adam", kGood), handIn("bob", kGood);
   grade();
-  grade({"--seed", "5"});
+  grade({"--seed", "5", "--regrade"});
   const std::string whole = fileText(results() / "regraded.csv");
   EXPECT_THAT(whole, HasSubstr("adam,98-template,"));
   EXPECT_FALSE(fs::exists(results() / "regrading.tsv"));
