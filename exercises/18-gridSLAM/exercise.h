@@ -30,8 +30,8 @@ struct Scan {
 Eigen::Vector2i cellAt(const Grid& grid, const Eigen::Vector2d& p);
 
 /// All cells that the segment passes, also those outside of the grid, each once and in order: from the one of
-/// `from` to the one of `to`. Cells of which the segment passes less than a hundredth of a
-/// side are optional.
+/// `from` to the one of `to`. A cell is optional if the segment passes less than a hundredth
+/// of a side in it.
 std::vector<Eigen::Vector2i> cellsAlong(const Grid& grid, const Eigen::Vector2d& from,
                                         const Eigen::Vector2d& to);
 
