@@ -37,17 +37,17 @@ struct Quadratic {
   Eigen::VectorXd g;
 };
 
-/// What each plan U costs from x_0 = x on, except for a constant.
+/// The cost of each plan U from x_0 = x, except for a constant.
 Quadratic planCost(const Plant& plant, const Costs& costs, int N, const Eigen::VectorXd& x);
 
-/// The F for which x^T F x is what the cheapest way from x costs for all times to come. Exact to 1e-6 of
+/// The F for which x^T F x is the minimum cost from x over an infinite horizon. Exact to 1e-6 of
 /// its largest entry. All eigenvalues of the best closed loop are at most 0.97 in size.
 Eigen::MatrixXd costToGo(const Plant& plant, const Eigen::MatrixXd& Q, const Eigen::MatrixXd& R);
 
 // Part 3, bounds.
 
-/// By how much each z_i would have to move to get to its best position between its bounds, if all others
-/// stayed: one signed number for each. lower <= z <= upper; bounds may be equal, or infinite.
+/// By how much each z_i would have to move to reach its optimum between its bounds while all others are
+/// fixed: one signed number for each. lower <= z <= upper; bounds may be equal, or infinite.
 Eigen::VectorXd bestMoves(const Quadratic& cost, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
                           const Eigen::VectorXd& z);
 
@@ -73,9 +73,9 @@ struct Drive {
   Eigen::MatrixXd U;  ///< m x T: u_0, ..., u_{T-1}
 };
 
-/// A drive of T steps from x_0 = `start`. In each step a plan is made from where the plant is, only its first
-/// control is used, and then something pushes: x_{t+1} = A x_t + B u_t + column t of `pushes` (n x T).
-/// Plans know nothing about pushes.
+/// A drive of T steps from x_0 = `start`. In each step a plan is made from the current state, only its first
+/// control is used, and the state is pushed: x_{t+1} = A x_t + B u_t + column t of `pushes` (n x T).
+/// Plans do not anticipate pushes.
 Drive driven(const Task& task, const Eigen::VectorXd& start, const Eigen::MatrixXd& pushes);
 
 // Part 5, a bonus: soft limits of states.
@@ -86,6 +86,6 @@ struct Corridor {
   double weight = 1;           ///< positive
 };
 
-/// The cheapest plan (m x N) from x within the bounds of its controls if leaving the corridor costs, too;
-/// correct to 1e-3. N n is at most 30, and the weight at most 10.
+/// The cheapest plan (m x N) from x within the bounds of its controls, with that cost included; correct to
+/// 1e-3. N n is at most 30, and the weight at most 10.
 Eigen::MatrixXd plannedWithin(const Task& task, const Corridor& corridor, const Eigen::VectorXd& x);

@@ -20,7 +20,7 @@ Quadratic planCost(const Plant& plant, const Costs& costs, int N, const Eigen::V
 }
 
 Eigen::MatrixXd costToGo(const Plant& plant, const Eigen::MatrixXd& Q, const Eigen::MatrixXd& R) {
-  // TODO: if x^T F x is what comes after one more step, what does the cheapest way cost before it?
+  // TODO: if x^T F x is the cost after one more step, what is the minimum cost before it?
   return Q;
 }
 
@@ -31,7 +31,7 @@ Eigen::VectorXd bestMoves(const Quadratic& cost, const Eigen::VectorXd& lower, c
 }
 
 Eigen::VectorXd boxed(const Quadratic& cost, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
-  // TODO: a start within the bounds, and steps that make it cheaper until no move is left.
+  // TODO: start within the bounds, and take steps that decrease the cost until no move is left.
   return Eigen::VectorXd::Zero(lower.size()).cwiseMax(lower).cwiseMin(upper);
 }
 
@@ -44,7 +44,7 @@ Drive driven(const Task& task, const Eigen::VectorXd& start, const Eigen::Matrix
   const Eigen::Index T = pushes.cols();
   Drive drive{Eigen::MatrixXd::Zero(start.size(), T + 1), Eigen::MatrixXd::Zero(task.uMin.size(), T)};
   drive.X.col(0) = start;
-  // TODO: plan, take the first control, move, and again.
+  // TODO: plan, use the first control, step, repeat.
   return drive;
 }
 
@@ -61,7 +61,7 @@ int main() {
   showPrediction(trolley.plant);
   // Part 2: how much the horizon matters, and how little if F is right.
   showHorizons(trolley);
-  // Part 3: why the best plan within bounds is not the best plan, cut off.
+  // Part 3: why the constrained optimum is not the clipped one.
   showBox();
   // Part 4: a trolley that must brake in time, and a pole that a weak motor keeps upright.
   showTrolley(trolley);

@@ -58,7 +58,7 @@ Eigen::MatrixXd costToGo(const Plant& plant, const Eigen::MatrixXd& Q, const Eig
   }
   return F;
   // <todo>
-  //| // TODO: if x^T F x is what comes after one more step, what does the cheapest way cost before it?
+  //| // TODO: if x^T F x is the cost after one more step, what is the minimum cost before it?
   //| return Q;
   // </solution>
 }
@@ -114,7 +114,7 @@ Eigen::VectorXd boxed(const Quadratic& cost, const Eigen::VectorXd& lower, const
     isHeld[static_cast<std::size_t>(eager)] = false;
   }
   // <todo>
-  //| // TODO: a start within the bounds, and steps that make it cheaper until no move is left.
+  //| // TODO: start within the bounds, and take steps that decrease the cost until no move is left.
   //| return Eigen::VectorXd::Zero(lower.size()).cwiseMax(lower).cwiseMin(upper);
   // </solution>
 }
@@ -140,7 +140,7 @@ Drive driven(const Task& task, const Eigen::VectorXd& start, const Eigen::Matrix
     drive.X.col(t + 1) = task.plant.A * drive.X.col(t) + task.plant.B * drive.U.col(t) + pushes.col(t);
   }
   // <todo>
-  //| // TODO: plan, take the first control, move, and again.
+  //| // TODO: plan, use the first control, step, repeat.
   // </solution>
   return drive;
 }
@@ -177,7 +177,7 @@ int main() {
   showPrediction(trolley.plant);
   // Part 2: how much the horizon matters, and how little if F is right.
   showHorizons(trolley);
-  // Part 3: why the best plan within bounds is not the best plan, cut off.
+  // Part 3: why the constrained optimum is not the clipped one.
   showBox();
   // Part 4: a trolley that must brake in time, and a pole that a weak motor keeps upright.
   showTrolley(trolley);

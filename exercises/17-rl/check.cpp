@@ -332,7 +332,7 @@ rex::grading::Checks<Student> checks() {
       {"sarsa-steps", "sarsa", "SARSA from a few steps", 1, Group::kVisible, learnsTaken},
       {"estimate", "model", "The model of a few steps", 1, Group::kVisible, estimatesFew},
       {"plan", "model", "A plan in a model", 1, Group::kVisible, plansSmall},
-      {"hope", "rmax", "A plan that hopes", 1, Group::kVisible, checkSmallOptimism},
+      {"hope", "rmax", "An optimistic plan", 1, Group::kVisible, checkSmallOptimism},
       {"bounds", "bandits", "Upper confidence bounds of a few arms", 1, Group::kVisible, boundsOfThree},
       // <hidden>
       {"other-choices", "q", "Other numbers of actions", 1, Group::kHidden, otherChoices},
@@ -340,7 +340,7 @@ rex::grading::Checks<Student> checks() {
       {"more-episodes", "sarsa", "SARSA from other episodes", 1, Group::kHidden, moreEpisodes},
       {"unseen-map", "model", "A model and a plan on an unseen map", 1, Group::kHidden, unseenMap},
       {"more-plans", "model", "Plans in other models", 1, Group::kHidden, plansMore},
-      {"more-hope", "rmax", "Plans that hope in other models", 1, Group::kHidden, hopesMore},
+      {"more-hope", "rmax", "Optimistic plans in other models", 1, Group::kHidden, hopesMore},
       {"other-bounds", "bandits", "Upper confidence bounds of other arms", 1, Group::kHidden, otherBounds},
       // </hidden>
   };

@@ -29,22 +29,22 @@ inline std::vector<int> choicesOf(const Eigen::VectorXd& worth, double epsilon, 
   return choices;
 }
 
-/// Q after Q-learning from these steps, one after the other: each moves Q of its state and action by
-/// `stepSize` of the way towards the reward plus `discount` times the best of the next state by the Q so far.
+/// Q after Q-learning from these steps, one after the other: each moves Q of its state and action by the
+/// fraction `stepSize` towards the reward plus `discount` times the best current Q of the next state.
 Eigen::MatrixXd qLearned(const Eigen::MatrixXd& Q, const std::vector<Experience>& steps, double stepSize,
                          double discount);
 
 // Part 2, SARSA.
 
-/// Q after SARSA from the steps of one episode, one after the other, as Q-learning except that the action
-/// that was taken next counts, and not the best. After the last step, unless it ended the episode, the next
+/// Q after SARSA from the steps of one episode, one after the other, as Q-learning, but with the value of the
+/// action taken next instead of the best. After the last step, unless it ended the episode, the next
 /// action is not known yet: nothing is learned from that step.
 Eigen::MatrixXd sarsaLearned(const Eigen::MatrixXd& Q, const std::vector<Experience>& episode,
                              double stepSize, double discount);
 
 // Part 3, a model.
 
-/// What experience tells about a process. A pair that was never tried has zeros everywhere.
+/// A model estimated from experience. A pair that was never tried has zeros everywhere.
 struct LearnedWorld {
   std::vector<Eigen::MatrixXd> P;  ///< m matrices (n x n): how likely a in s leads to t and does not end
   Eigen::MatrixXd R;               ///< n x m: the mean reward
@@ -61,15 +61,15 @@ Eigen::MatrixXd plannedValues(const LearnedWorld& model, double discount);
 
 // Part 4, R-max.
 
-/// The same if whatever is not known is believed to pay `maxReward` in every step for ever. A pair is known
-/// if it was tried at least `known` times, and then the model holds for it. No reward exceeds `maxReward`,
+/// The same if each unknown pair is believed to pay `maxReward` in every step for ever. A pair is known if
+/// it was tried at least `known` times; for known pairs, the model is used. No reward exceeds `maxReward`,
 /// which is at least 0.
 Eigen::MatrixXd optimisticValues(const LearnedWorld& model, int known, double maxReward, double discount);
 
 // Part 5, a bonus: bandits (6:22).
 
-/// What each arm of a bandit pays on average at best, its upper confidence bound (m): the mean of what it
-/// paid, and a margin b. Payments are between 0 and 1; arm k was pulled N_k = `pulls`[k] times, at least
-/// once, and paid `paid`[k] in total. After n pulls, of all arms together, b is such that Hoeffding's
+/// An optimistic estimate of what each arm of a bandit pays on average, its upper confidence bound (m): the
+/// mean payment plus a margin b. Payments are between 0 and 1; arm k was pulled N_k = `pulls`[k] times, at
+/// least once, and paid `paid`[k] in total. After n pulls, of all arms together, b is such that Hoeffding's
 /// inequality, P(true mean > mean + b) <= exp(-2 N_k b^2), allows n^-4. The bound may exceed 1.
 Eigen::VectorXd upperBounds(const Eigen::VectorXi& pulls, const Eigen::VectorXd& paid);

@@ -35,7 +35,7 @@ Eigen::MatrixXd plannedValues(const LearnedWorld& model, double discount) {
 }
 
 Eigen::MatrixXd optimisticValues(const LearnedWorld& model, int known, double maxReward, double discount) {
-  // TODO: change the model where it is not known, and plan.
+  // TODO: make the model optimistic where it is not known, and plan.
   return Eigen::MatrixXd::Zero(model.R.rows(), model.R.cols());
 }
 

@@ -111,7 +111,7 @@ Eigen::MatrixXd optimisticValues(const LearnedWorld& model, int known, double ma
     }
   return plannedValues(hoped, discount);
   // <todo>
-  //| // TODO: change the model where it is not known, and plan.
+  //| // TODO: make the model optimistic where it is not known, and plan.
   //| return Eigen::MatrixXd::Zero(model.R.rows(), model.R.cols());
   // </solution>
 }

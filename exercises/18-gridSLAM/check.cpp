@@ -99,7 +99,7 @@ rex::grading::Checks<Student> checks() {
       {"update", "grid", "A scan in a map", 1, Group::kVisible, updatesMap},
       {"distances", "fit", "Distances from walls", 1, Group::kVisible, measuresWalls},
       {"fits", "fit", "How well scans fit", 1, Group::kVisible, ratesScans},
-      {"match", "match", "Scans near their places", 1, Group::kVisible, matchesScans},
+      {"match", "match", "Matches of scans", 1, Group::kVisible, matchesScans},
       {"motion", "particles", "Motions with noise", 1, Group::kVisible, movesOnce},
       {"weights", "particles", "Weights and their effective size", 1, Group::kVisible, weighsParticles},
       {"copies", "particles", "Resampling", 1, Group::kVisible, resamplesParticles},

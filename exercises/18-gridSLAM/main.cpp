@@ -104,7 +104,7 @@ int main() {
   showScan(office);
   // Part 2: how far walls are, and how well a scan fits around its true pose.
   showFit(office);
-  // Part 3: from where the match finds the way back.
+  // Part 3: from which guesses the match converges to the true pose.
   showMatches(office);
   // Part 4: maps by odometry, by particles, and the truth; a film of how one grows.
   showMaps(office);
