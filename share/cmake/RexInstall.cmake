@@ -147,6 +147,18 @@ function(rex_install_documentation)
   install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md DESTINATION share/doc/rex
           COMPONENT documentation OPTIONAL)
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION share/doc/rex RENAME copyright COMPONENT documentation)
+  # Links of the source tree lead to where their targets are installed.
+  install(CODE [[
+    file(GLOB pages "$ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}/share/doc/rex/*.md")
+    foreach(page ${pages})
+      file(READ ${page} text)
+      string(REPLACE "](share/doc/" "](" text "${text}")
+      string(REPLACE "](LICENSE)" "](copyright)" text "${text}")
+      string(REPLACE "](../../src/" "](../../../include/rex/" text "${text}")
+      string(REGEX REPLACE "\\]\\((\\.\\./|share/)(examples|demonstrations)" "](../../rex/share/\\2" text "${text}")
+      string(REPLACE "](exercises/" "](../../rex/exercises/" text "${text}")
+      file(WRITE ${page} "${text}")
+    endforeach()]] COMPONENT documentation)
   # The form that Debian wants; what changed stands in CHANGELOG.md. By CMake the time is SOURCE_DATE_EPOCH, if that is set.
   string(TIMESTAMP now "%a, %d %b %Y %H:%M:%S +0000" UTC)
   file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/changelog @ONLY
