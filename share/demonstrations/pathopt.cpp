@@ -1,4 +1,4 @@
-// Chapter 5: Path optimization. A path of 40 points with smooth accelerations bends round two discs that
+// Chapter 5: Path optimisation. A path of 40 points with smooth accelerations bends round two discs that
 // move; each picture shows a few Gauss-Newton steps more. Sliders weigh obstacles against smoothness and move
 // the discs.
 #include "course/car_view.h"
