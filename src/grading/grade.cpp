@@ -78,6 +78,7 @@ std::string messageWithoutDetails(const Failure& failure) {
 }
 
 CheckResult failed(const CheckInfo& info, const Failure& failure, const std::string& input) {
+  if (failure.outcome == Outcome::kGraderError) return faulty(info, failure.message);
   CheckResult check = blank(info);
   check.status = failure.outcome;
   check.function = failure.function;
@@ -240,11 +241,11 @@ Attempt attempt(const RunnableCheck& check, const Grading& grading, std::uint64_
 }
 
 // The second attempt asks the same questions, so a program gains nothing by killing itself.
-Attempt attemptAgainIfKilled(const RunnableCheck& check, const Grading& grading, std::uint64_t seed,
+Attempt attemptTwiceIfNeeded(const RunnableCheck& check, const Grading& grading, std::uint64_t seed,
                              Standing& standing) {
   return onceMoreIfKilled(
       [&] { return attempt(check, grading, seed, standing); },
-      [](const Attempt& first) { return first.run.failure && first.run.failure->killed; });
+      [](const Attempt& first) { return first.run.failure && first.run.failure->mayBeOfMachine; });
 }
 
 /// Runs one check and adds what the worker used and printed to the whole.
@@ -258,7 +259,7 @@ CheckResult runCheck(const RunnableCheck& check, const Grading& grading, GradeRe
   };
   try {
     const Attempt last =
-        attemptAgainIfKilled(check, grading, seedFor(check.info.group, whole, grading), standing);
+        attemptTwiceIfNeeded(check, grading, seedFor(check.info.group, whole, grading), standing);
     const WorkerRun& run = last.run;
     verdict = last.verdict;
     verdict.cpuSeconds = run.cpuSeconds;

@@ -76,7 +76,7 @@ Failure explainSignal(const WorkerEnd& end, const Limits& limits) {
     case SIGKILL:
       // A program that ignores the first warning is killed a second later.
       if (end.cpuSeconds >= limits.cpuBudget()) return tooSlow(end, limits);
-      return {.message = "was killed " + place, .killed = true};
+      return {.message = "was killed " + place, .mayBeOfMachine = true};
     case SIGSEGV:
     case SIGBUS:
       return badAccess(end, limits);

@@ -36,7 +36,8 @@ struct Failure {
   std::string message{};   ///< "aborted in ikStep"
   std::string detail{};    ///< "Assertion `index < size()' failed."
   std::string function{};  ///< the student's function that was running; empty if none
-  bool killed = false;     ///< by itself or from outside, which cannot be distinguished
+  bool mayBeOfMachine =
+      false;  ///< another attempt decides: killed from outside or by itself, or it hardly ran
 };
 
 /// A worker process that ended without being asked to.

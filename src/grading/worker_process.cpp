@@ -11,6 +11,7 @@
 #include <optional>
 #include <random>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include <fcntl.h>
@@ -201,6 +202,19 @@ pid_t childOf(pid_t process) {
   return file >> child ? child : process;
 }
 
+// Whether one of its threads waits for something other than a core or a disk.
+bool hasSleepingThread(pid_t process) {
+  std::error_code ended;
+  for (const auto& thread : fs::directory_iterator(fmt::format("/proc/{}/task", process), ended)) {
+    std::ifstream file(thread.path() / "stat");
+    std::string text;
+    std::getline(file, text, '\0');
+    const std::size_t name = text.rfind(") ");  // what follows is the state
+    if (name != std::string::npos && std::strchr("RD", text[name + 2]) == nullptr) return true;
+  }
+  return false;
+}
+
 sandbox::Confinement confinementOf(const GradingJob& job, const fs::path& program) {
   if (!sandbox::isConfined(job.sandbox.level)) return {};
   sandbox::Confinement confinement{.readable = {{fs::absolute(program), sandbox::kInsideProgram}},
@@ -240,7 +254,14 @@ class Worker {
 
  private:
   void waitFor(int fd, remote::Channel::Direction direction);
+  pid_t program() const;
+  double budget() const { return ready_ ? job_.limits.wallBudget() : job_.limits.startBudget(); }
+  double secondsWithoutCores() const {
+    return secondsWithoutCore(program()) + secondsWithoutCore(::getpid());
+  }
   double secondsLeft();
+  bool sleepsAtStart();
+  Failure tooLate();
   void drain();
   bool waitForEnd(double seconds);
   void readReport();
@@ -261,7 +282,7 @@ class Worker {
   remote::Caller caller_;
   double coreless_ = secondsWithoutCore(::getpid());
   double waited_ = 0;
-  double allowed_ = job_.limits.wallBudget();
+  double allowed_ = job_.limits.startBudget();
   bool ready_ = false;
   bool over_ = false;
   std::optional<ChildEnd> end_{};  // once it has been reaped
@@ -289,7 +310,11 @@ Worker::~Worker() {
 
 void Worker::converse(std::uint64_t signature, const std::function<void(remote::Caller&)>& conversation) {
   caller_.handshake(signature);
+  // Loading a program and its sandbox on a busy machine is not charged to the student.
   ready_ = true;
+  waited_ = 0;
+  allowed_ = budget();
+  coreless_ = secondsWithoutCores();
   conversation(caller_);
 }
 
@@ -298,12 +323,32 @@ void Worker::converse(std::uint64_t signature, const std::function<void(remote::
 double Worker::secondsLeft() {
   if (waited_ < allowed_) return allowed_ - waited_;
   constexpr double kMostPatience = 4;
-  const double budget = job_.limits.wallBudget();
-  const pid_t worker =
-      sandbox::hasNamespaces(job_.sandbox.level) ? childOf(childOf(launched_.process)) : launched_.process;
-  const double coreless = secondsWithoutCore(worker) + secondsWithoutCore(::getpid()) - coreless_;
-  allowed_ = std::min(budget + coreless, kMostPatience * budget);
+  allowed_ = std::min(budget() + secondsWithoutCores() - coreless_, kMostPatience * budget());
   return allowed_ - waited_;
+}
+
+pid_t Worker::program() const {
+  return sandbox::hasNamespaces(job_.sandbox.level) ? childOf(childOf(launched_.process)) : launched_.process;
+}
+
+// Constructors of global variables run before the worker is ready. While the machine loads a program, it is
+// ready to run or waits for a disk, but never sleeps.
+bool Worker::sleepsAtStart() {
+  if (sandbox::isConfined(job_.sandbox.level)) {
+    readReport();
+    if (!sandbox::readReport(report_).ready) return false;
+  }
+  return hasSleepingThread(program());
+}
+
+Failure Worker::tooLate() {
+  if (!ready_ && !sleepsAtStart())
+    return {.outcome = Outcome::kGraderError,
+            .message = fmt::format("a worker was not ready after {:.1f} s", budget()),
+            .mayBeOfMachine = true};
+  return {.outcome = Outcome::kTimeLimit,
+          .message = fmt::format("stopped after {:.1f} s {} (asleep, blocked, or in an infinite loop?)",
+                                 budget(), place())};
 }
 
 // Only the time that we wait counts: the grader's own work is not charged to the student.
@@ -315,11 +360,7 @@ void Worker::waitFor(int fd, remote::Channel::Direction direction) {
   for (;;) {
     waited_ = before + secondsSince(start);
     const double left = secondsLeft();
-    if (left <= 0)
-      throw GaveUp(
-          {.outcome = Outcome::kTimeLimit,
-           .message = fmt::format("stopped after {:.1f} s {} (asleep, blocked, or in an infinite loop?)",
-                                  job_.limits.wallBudget(), place())});
+    if (left <= 0) throw GaveUp(tooLate());
     std::array<pollfd, 4> polled{{{fd, events, 0},
                                   {launched_.processFd, POLLIN, 0},
                                   {output_.fd(), POLLIN, 0},
@@ -441,6 +482,10 @@ WorkerRun runWithWorker(const GradingJob& job, const std::string& part, std::uin
   }
   if (failure && failure->function.empty()) failure->function = worker.running();
   WorkerRun run = worker.end();
+  constexpr double kHardlyRan = .1;
+  if (failure && failure->outcome == Outcome::kTimeLimit &&
+      run.cpuSeconds < kHardlyRan * job.limits.cpuBudget())
+    failure->mayBeOfMachine = true;
   run.failure = std::move(failure);
   return run;
 }

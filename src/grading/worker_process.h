@@ -21,7 +21,7 @@ struct CapturedText {
 struct WorkerRun {
   std::optional<Failure> failure{};  ///< empty: the conversation reached its end
   double cpuSeconds = 0;
-  double wallSeconds = 0;  ///< time the grader waited for it
+  double wallSeconds = 0;  ///< time the grader waited for it once it was ready
   std::int64_t peakMemoryBytes = 0;
   CapturedText output{};
   CapturedText error{};

@@ -22,6 +22,7 @@
 #include "support/fresh_folder.h"
 #include "support/paths.h"
 #include "support/rounds.h"
+#include "support/temporary_folder.h"
 
 namespace rex::grading::grade_test {
 
@@ -233,10 +234,10 @@ class SharedCount {
       ::mmap(nullptr, sizeof(int), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0));
 };
 
-// Kills all processes that this one started.
-void killChildren() {
+// Sends it to all processes that this one started.
+void signalChildren(int signal) {
   std::ifstream children("/proc/self/task/" + std::to_string(::getpid()) + "/children");
-  for (pid_t child = 0; children >> child;) ::kill(child, SIGKILL);
+  for (pid_t child = 0; children >> child;) ::kill(child, signal);
 }
 
 TEST(Grade, AsksOnceMoreWhenSomebodyKilledTheWorker) {
@@ -246,7 +247,7 @@ TEST(Grade, AsksOnceMoreWhenSomebodyKilledTheWorker) {
     attempts = 0;
     return gradeGood({check("a", Group::kVisible, [&, times](Check& judge, Student& student) {
       judge.near("square before", student.square(2), 4, 1e-9);
-      if (attempts++ < times) killChildren();
+      if (attempts++ < times) signalChildren(SIGKILL);
       judge.near("square", student.square(3), 9, 1e-9);
     })});
   };
@@ -259,6 +260,73 @@ TEST(Grade, AsksOnceMoreWhenSomebodyKilledTheWorker) {
   EXPECT_EQ(twice.outcome, Outcome::kRuntimeError);
   EXPECT_EQ(twice.score, 0);
   EXPECT_THAT(twice.checks[0].message, HasSubstr("was killed"));
+}
+
+/// A launcher that first does what a shell is told to do.
+class SlowLauncher {
+ public:
+  explicit SlowLauncher(const std::string& before) {
+    std::ofstream(file_) << "#!/bin/sh\n"
+                         << "cd '" << folder_.path().string() << "'\necho >> starts\n"
+                         << before << "\nexec '" << (ownFolder() / "rex-sandbox").string() << "' \"$@\"\n";
+    std::filesystem::permissions(file_, std::filesystem::perms::owner_all);
+  }
+  CheckResult grade() const {
+    return grading::grade({}, std::vector{check("a", Group::kVisible, square)},
+                          {.worker = kGood,
+                           .limits = {.wallSeconds = 0.3},
+                           .sandbox = {.level = sandbox::Level::kFiles, .launcher = file_}},
+                          Student::signature(), [](const GradeResult&) {})
+        .checks.front();
+  }
+  std::uintmax_t starts() const { return std::filesystem::file_size(folder_.path() / "starts"); }
+
+ private:
+  static void square(Check& judge, Student& student) { judge.near("square", student.square(3), 9, 1e-9); }
+  TemporaryFolder folder_;
+  std::filesystem::path file_ = folder_.path() / "launcher";
+};
+
+#ifndef __SANITIZE_ADDRESS__  // needs more addresses than a sandbox gives
+TEST(Grade, DoesNotChargeTheStartOfTheSandbox) {
+  const SlowLauncher slow("sleep 1"), slowAtFirst("mkdir once 2>/dev/null && sleep 100");
+  EXPECT_EQ(slow.grade().status, Outcome::kPass) << slow.grade().message;
+  EXPECT_EQ(slowAtFirst.grade().status, Outcome::kPass);
+  EXPECT_EQ(slowAtFirst.starts(), 2);
+}
+#endif
+
+TEST(Grade, IsToBlameIfNoWorkerStarts) {
+  const SlowLauncher never("sleep 100");
+  const CheckResult result = never.grade();
+  EXPECT_EQ(result.status, Outcome::kGraderError);
+  EXPECT_EQ(result.message, "the grader failed, which is not your fault: a worker was not ready after 2.6 s");
+  EXPECT_EQ(never.starts(), 2) << "once more, and no third time";
+}
+
+// A program that sleeps in a constructor of a global variable is no fault of the machine.
+TEST(Grade, BlamesWhatSleepsAtTheStart) {
+  const GradeResult result =
+      grade({}, std::vector{check("a", Group::kVisible, [](Check&, Student& student) { student.square(3); })},
+            {.worker = kGood.parent_path() / "sleep_at_start", .limits = {.wallSeconds = 0.1}},
+            Student::signature(), [](const GradeResult&) {});
+  EXPECT_EQ(result.outcome, Outcome::kTimeLimit) << result.checks[0].message;
+  EXPECT_THAT(result.checks[0].message, HasSubstr("before the first call"));
+}
+
+// On a machine that is busy with other things, an honest worker may not get to run.
+TEST(Grade, AsksOnceMoreWhenTheWorkerHardlyRan) {
+  const SharedCount shared;
+  const GradeResult result = grade({},
+                                   std::vector{check("a", Group::kVisible,
+                                                     [&](Check& judge, Student& student) {
+                                                       if (shared.value()++ == 0) signalChildren(SIGSTOP);
+                                                       judge.near("square", student.square(3), 9, 1e-9);
+                                                     })},
+                                   {.worker = kGood, .limits = {.wallSeconds = 0.3}}, Student::signature(),
+                                   [](const GradeResult&) {});
+  EXPECT_EQ(result.outcome, Outcome::kPass) << result.checks[0].message;
+  EXPECT_EQ(shared.value(), 2);
 }
 
 TEST(Grade, RefusesAWorkerOfAnotherExercise) {

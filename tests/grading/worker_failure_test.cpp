@@ -54,8 +54,8 @@ TEST(ExplainEnd, TellsTheTimeLimitFromOtherKills) {
   EXPECT_EQ(bySignal(SIGKILL, 3).outcome, Outcome::kTimeLimit);
   EXPECT_EQ(bySignal(SIGKILL, 1).outcome, Outcome::kRuntimeError);
   EXPECT_EQ(bySignal(SIGKILL, 1).message, "was killed in f");
-  EXPECT_TRUE(bySignal(SIGKILL, 1).killed);
-  EXPECT_FALSE(bySignal(SIGKILL, 3).killed);
+  EXPECT_TRUE(bySignal(SIGKILL, 1).mayBeOfMachine);
+  EXPECT_FALSE(bySignal(SIGKILL, 3).mayBeOfMachine);
 }
 
 TEST(ExplainEnd, NamesTheExitCode) {
