@@ -36,6 +36,7 @@ struct Grading {
   const GradingJob& job;
   std::uint64_t signature = 0;
   std::string secret{};  ///< of the course; empty: there is none
+  bool hasSecretChecks = false;
 };
 
 CheckResult blank(const CheckInfo& info) {
@@ -109,8 +110,8 @@ CheckResult faultyBy(const CheckInfo& info, const std::exception* error) {
   return faulty(info, tell ? error->what() : "the check ended with an exception");
 }
 
-void keep(KeptOutput& kept, const CapturedText& captured) {
-  const std::size_t room = kKeptOutput - std::min(kKeptOutput, kept.text.size());
+void keep(KeptOutput& kept, const CapturedText& captured, std::size_t most) {
+  const std::size_t room = most - std::min(most, kept.text.size());
   const std::size_t taken = std::min(room, captured.text.size());
   kept.text += printable(std::string_view(captured.text).substr(0, taken), 3 * kKeptOutput);
   kept.truncatedBytes += captured.bytes - taken;
@@ -268,10 +269,12 @@ CheckResult runCheck(const RunnableCheck& check, const Grading& grading, GradeRe
     whole.usage.wallSeconds += run.wallSeconds;
     whole.usage.peakMemoryBytes = std::max(whole.usage.peakMemoryBytes, run.peakMemoryBytes);
     whole.usage.outputBytes += run.output.bytes + run.error.bytes;
-    // What a program prints in a hidden check may be that check's input.
+    // What a program prints in a hidden check may be that check's input. Another hand-in that is graded at
+    // the same time may have found a way to pass its own to this one.
     if (check.info.group == Group::kVisible) {
-      keep(whole.output, run.output);
-      keep(whole.error, run.error);
+      const std::size_t room = grading.hasSecretChecks ? 0 : kKeptOutput;
+      keep(whole.output, run.output, room);
+      keep(whole.error, run.error, room);
     }
   } catch (const std::exception& error) {
     return brokenBy(&error);
@@ -363,8 +366,12 @@ void setSandbox(GradeResult& result, sandbox::Level level) {
 
 GradeResult grade(GradeResult result, std::span<const RunnableCheck> checks, const GradingJob& job,
                   std::uint64_t signature, const std::function<void(const GradeResult&)>& save) {
+  const std::string secret = job.secret.empty() ? "" : readCourseSecret(job.secret);
+  const bool hasHidden = std::any_of(checks.begin(), checks.end(), [](const RunnableCheck& check) {
+    return check.info.group == Group::kHidden;
+  });
   const Grading grading{
-      .job = job, .signature = signature, .secret = job.secret.empty() ? "" : readCourseSecret(job.secret)};
+      .job = job, .signature = signature, .secret = secret, .hasSecretChecks = hasHidden && !secret.empty()};
   result.checks.clear();
   result.score = 0;
   result.maxScore = 0;

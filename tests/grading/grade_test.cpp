@@ -210,6 +210,28 @@ TEST(Grade, DrawsVisibleChecksThatDoNotHold) {
   EXPECT_FALSE(std::filesystem::exists(folder / "unseen.png"));
 }
 
+// A hand-in that finds a way to another one could send it what a hidden check asks.
+TEST(Grade, ShowsNoOutputBesideSecretChecks) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "secret") << "the secret of a course";
+  const auto outputOf = [&](Group second, const std::filesystem::path& secret) {
+    const auto ask = [](Check& judge, Student& student) {
+      judge.that("moves", student.ikStep(Eigen::VectorXd::Zero(3), {1, 2, 3}).norm() > 0);
+    };
+    return grade({}, std::vector{check("a", Group::kVisible, ask), check("b", second, ask)},
+                 {.worker = kGood.parent_path() / "secrets", .secret = secret}, Student::signature(),
+                 [](const GradeResult&) {})
+        .output;
+  };
+  const KeptOutput open = outputOf(Group::kHidden, {}),
+                   alone = outputOf(Group::kVisible, folder.path() / "secret"),
+                   beside = outputOf(Group::kHidden, folder.path() / "secret");
+  EXPECT_NE(open.text, "");
+  EXPECT_NE(alone.text, "");
+  EXPECT_EQ(beside.text, "");
+  EXPECT_EQ(beside.truncatedBytes, open.text.size());
+}
+
 TEST(Grade, SavesBeforeTheFirstAndAfterEveryCheck) {
   const auto pass = [](Check& judge, Student& student) { judge.near("square", student.square(3), 9, 1e-9); };
   const std::vector<RunnableCheck> checks = {check("a", Group::kVisible, pass),
