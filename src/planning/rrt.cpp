@@ -243,8 +243,9 @@ double volumeOfEllipsoid(int dimension, double apart, double length) {
 }
 
 // The distance up to which neighbours are considered, so that the tree becomes optimal (Karaman and Frazzoli
-// 2011, theorem 38). Once only paths shorter than the best matter, they lie in an ellipsoid, and its volume
-// and the nodes in it count. If angles close up, it may meet its own images: then the whole space counts.
+// 2011, theorem 38; Solovey et al. 2020 found a gap in its proof, and prove an exponent of 1/(d+1)). Once
+// only paths shorter than the best matter, they lie in an ellipsoid, and its volume and the nodes in it
+// count. If angles close up, it may meet its own images: then the whole space counts.
 class Reach {
  public:
   Reach(const PathProblem& problem, const RrtStarOptions& options)
