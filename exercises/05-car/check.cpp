@@ -6,6 +6,7 @@
 #include <string>
 
 #include "cloud_evidence.h"
+#include "corridor_checks.h"
 #include "drives.h"
 #include "filter_checks.h"
 #include "interface.h"
@@ -26,6 +27,20 @@ const double kNever = -std::numeric_limits<double>::infinity();
 Rng generatorsOf(Check& check) { return check.rng().split(7); }
 
 // Part 1.
+
+void movesInTheCorridor(Check& check, Student& student) {
+  for (int i = 0; i < 30; ++i) movedCellsFit(check, student, i);
+}
+
+void seesInTheCorridor(Check& check, Student& student) {
+  for (int i = 0; i < 30; ++i) seenCellsFit(check, student, i);
+}
+
+void looksBack(Check& check, Student& student) {
+  for (int i = 0; i < 10; ++i) hindsightFits(check, student);
+}
+
+// Part 2.
 
 void stepsLikeTheCar(Check& check, Student& student) {
   Rng& rng = check.rng();
@@ -101,7 +116,7 @@ void driftsAsTheModelSays(Check& check, Student& student) {
 }
 // </hidden>
 
-// Part 2.
+// Part 3.
 
 void seesLandmarks(Check& check, Student& student) {
   for (int i = 0; i < 20; ++i)
@@ -109,6 +124,7 @@ void seesLandmarks(Check& check, Student& student) {
 }
 
 void likelihoodsOfTwo(Check& check, Student& student) {
+  seesLandmarks(check, student);
   for (int i = 0; i < 10; ++i) {
     CarWorld world = worldWith(2, check.rng());
     world.observationNoise = i == 0 ? .3 : check.rng().uniform(0.1, 2);
@@ -155,23 +171,7 @@ void weighsAnywhere(Check& check, Student& student) {
 }
 // </hidden>
 
-// Part 3.
-
-void wholePartsForCertain(Check& check, Student& student) {
-  Rng& rng = check.rng();
-  for (int i = 0; i < 30; ++i) {
-    const int count = i == 0 ? 10 : 2 + rng.index(38);
-    const Eigen::VectorXd weights = i == 0 ? Eigen::VectorXd::Constant(10, .1) : randomWeights(count, rng);
-    check.input(i == 0 ? "10 particles of equal weight" : "particles with random weights",
-                {{"weights", weights}, {"count", count}});
-    keepsWholeParts(check, weights, count, childrenOf(check, student, weights, count, rng.next()));
-  }
-  drawsFromRng(check, student);
-}
-
-void unbiased(Check& check, Student& student) {
-  isUnbiased(check, student, (Eigen::VectorXd(6) << 0.05, 0.1, 0.15, 0.2, 0.22, 0.28).finished(), 6, 1500);
-}
+// Part 4.
 
 void sizeFits(Check& check, Student& student, const Eigen::VectorXd& weights, double wanted) {
   check.input("30 particles", {{"weights", weights}});
@@ -199,6 +199,23 @@ void countsWorth(Check& check, Student& student) {
   }
 }
 
+void wholePartsForCertain(Check& check, Student& student) {
+  Rng& rng = check.rng();
+  for (int i = 0; i < 30; ++i) {
+    const int count = i == 0 ? 10 : 2 + rng.index(38);
+    const Eigen::VectorXd weights = i == 0 ? Eigen::VectorXd::Constant(10, .1) : randomWeights(count, rng);
+    check.input(i == 0 ? "10 particles of equal weight" : "particles with random weights",
+                {{"weights", weights}, {"count", count}});
+    keepsWholeParts(check, weights, count, childrenOf(check, student, weights, count, rng.next()));
+  }
+  drawsFromRng(check, student);
+  countsWorth(check, student);
+}
+
+void unbiased(Check& check, Student& student) {
+  isUnbiased(check, student, (Eigen::VectorXd(6) << 0.05, 0.1, 0.15, 0.2, 0.22, 0.28).finished(), 6, 1500);
+}
+
 // <hidden>
 void resamplesAnyWeights(Check& check, Student& student) {
   Rng& rng = check.rng();
@@ -215,7 +232,7 @@ void resamplesAnyWeights(Check& check, Student& student) {
 }
 // </hidden>
 
-// Part 4.
+// Part 5.
 
 void averages(Check& check, Student& student) {
   Rng& rng = check.rng();
@@ -229,13 +246,10 @@ void averages(Check& check, Student& student) {
   }
 }
 
+// Equal weights after each step, not only after one that no particle explains, must fail.
 void explainsWhatIsSeen(Check& check, Student& student) {
   for (int i = 0; i < 5; ++i) goesThroughAllLines(check, student, false);
   drawsAnew(check, student);
-}
-
-// Includes a step in which the car is not lost: always returning equal weights must fail.
-void survives(Check& check, Student& student) {
   for (const bool isLost : {true, false, true}) goesThroughAllLines(check, student, isLost);
 }
 
@@ -290,7 +304,7 @@ void isConsistent(Check& check, Student& student) {
 }
 // </hidden>
 
-// Part 5.
+// Part 6.
 
 // What could be wrong with the noise found; empty if nothing comes to mind. One number of several explains a
 // result only if the assumption was about right.
@@ -358,7 +372,7 @@ void noiseOfOthers(Check& check, Student& student) {
 }
 // </hidden>
 
-// Part 6.
+// Part 7.
 
 void bearings(Check& check, Student& student) {
   Rng& rng = check.rng();
@@ -414,29 +428,31 @@ void findsItsHeading(Check& check, Student& student) {
 
 grading::Checks<Student> checks() {
   return {
+      {"corridor-moves", "cells", "a belief that moves", 1, Group::kVisible, movesInTheCorridor},
+      {"corridor-sees", "cells", "a door, or none", 1, Group::kVisible, seesInTheCorridor},
+      {"corridor-hindsight", "cells", "bonus: what was seen later", 1, Group::kVisible, looksBack},
       {"car-step", "reckoning", "one step of the car", 1, Group::kVisible, stepsLikeTheCar},
       {"car-spread", "reckoning", "every particle has its own noise", 1, Group::kVisible, spreadsInOneStep},
       // <hidden>
       {"car-drift", "reckoning", "dead reckoning spreads as the model says", 1, Group::kHidden,
        driftsAsTheModelSays},
       // </hidden>
-      {"view", "weights", "landmarks in the frame of the car", 1, Group::kVisible, seesLandmarks},
-      {"likelihood", "weights", "likelihoods of an observation", 1, Group::kVisible, likelihoodsOfTwo},
+      {"likelihood", "weights", "landmarks in the frame of the car, and likelihoods", 1, Group::kVisible,
+       likelihoodsOfTwo},
       {"normalised", "weights", "weights from likelihoods, however small", 1, Group::kVisible, normalises},
       // <hidden>
       {"weights-anywhere", "weights", "other worlds and far particles", 1, Group::kHidden, weighsAnywhere},
       // </hidden>
-      {"whole-parts", "resampling", "integer parts are certain", 1, Group::kVisible, wholePartsForCertain},
+      {"whole-parts", "resampling", "integer parts are certain, and the effective size", 1, Group::kVisible,
+       wholePartsForCertain},
       {"unbiased", "resampling", "the rest is fair", 1, Group::kVisible, unbiased},
-      {"effective-size", "resampling", "the effective size of equal and unequal weights", 1, Group::kVisible,
-       countsWorth},
       // <hidden>
       {"any-weights", "resampling", "other weights and counts", 1, Group::kHidden, resamplesAnyWeights},
       // </hidden>
       {"mean-pose", "filter", "the mean of a cloud", 1, Group::kVisible, averages},
-      {"filter-step", "filter", "resample, move, weigh", 1, Group::kVisible, explainsWhatIsSeen},
+      {"filter-step", "filter", "resample, move, weigh, also if no particle explains the observation", 1,
+       Group::kVisible, explainsWhatIsSeen},
       {"tracks", "filter", "the filter follows the car", 1, Group::kVisible, tracks},
-      {"survives", "filter", "an observation that no particle explains", 1, Group::kVisible, survives},
       // <hidden>
       {"consistent", "filter", "other worlds: errors as large as the cloud is wide", 1, Group::kHidden,
        isConsistent},

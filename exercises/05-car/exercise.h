@@ -15,9 +15,9 @@ struct CarWorld {
   double tau = 1;                 ///< seconds per step
   double wheelbase = 2;           ///< L
   double dynamicsNoise = 0.03;    ///< added to x, to y and to the heading in each step
-  double observationNoise = 0.5;  ///< of both coordinates of a landmark; in part 6 of its distance
-  bool rangeBearing = false;      ///< part 6: see a distance and a bearing instead of a position
-  double bearingNoise = 0.02;     ///< part 6
+  double observationNoise = 0.5;  ///< of both coordinates of a landmark; in part 7 of its distance
+  bool rangeBearing = false;      ///< part 7: see a distance and a bearing instead of a position
+  double bearingNoise = 0.02;     ///< part 7
   Eigen::MatrixXd landmarks;      ///< (x, y) of each of m landmarks in a column, 2 x m
 };
 
@@ -27,7 +27,35 @@ struct Cloud {
   Eigen::VectorXd weights;  ///< N, sum to one
 };
 
-// Part 1, dead reckoning (12.9.1 a).
+// Part 1, a corridor in cells: what a filter does, exactly (7:13 to 7:15).
+
+/// A corridor of n cells in a row, and how badly a robot moves and sees there.
+struct Corridor {
+  Eigen::VectorXd doors;  ///< n >= 3 numbers, from left to right: 1 for a cell with a door, 0 for wall only
+  double misses = 0.2;    ///< the probability that the robot sees no door where there is one
+  double alarms = 0.1;    ///< the probability that it sees a door where there is none
+  double slips = 0.1;     ///< the probability that it stays in its cell when it should move to the next one
+  double leaps = 0.1;     ///< the probability that it moves by two cells then
+};
+
+/// P(y | cell) for each of the n cells: y is a door that was seen, or, if `door` is false, that none was.
+Eigen::VectorXd doorChances(bool door, const Corridor& corridor);
+
+/// Step 2 of 7:15. The belief over the cells after a move to the right (way = 1) or to the left (way = -1).
+/// The corridor has a wall at either end: a robot that would go further stays in the last cell before it.
+Eigen::VectorXd movedCells(const Eigen::VectorXd& belief, int way, const Corridor& corridor);
+
+/// Step 3 of 7:15. The belief given what the robot saw. If that is impossible in every cell where it may be,
+/// the belief stays as it was.
+Eigen::VectorXd seenCells(const Eigen::VectorXd& belief, bool door, const Corridor& corridor);
+
+/// Bonus, 7:30: for each time 0..T the belief given all observations, earlier and later ones. The belief
+/// before the first of them is `prior`. At time t the robot sees a door (seen[t] = 1) or none (seen[t] = 0),
+/// then it moves by ways[t]. There is a way on which all of that is possible.
+std::vector<Eigen::VectorXd> cellsInHindsight(const Eigen::VectorXd& prior, const std::vector<int>& ways,
+                                              const std::vector<int>& seen, const Corridor& corridor);
+
+// Part 2, dead reckoning (12.9.1 a).
 
 /// The state after one Euler step from x with the control u = (speed, steering angle), without noise: 4:48.
 /// All terms use the heading before the step.
@@ -44,10 +72,10 @@ inline std::pair<Eigen::MatrixXd, Eigen::MatrixXd> movesOfTwo(const Eigen::Matri
   return {first, moved(states, u, world, rng)};
 }
 
-// Part 2, how well the particles explain an observation (12.9.1 b).
+// Part 3, how well the particles explain an observation (12.9.1 b).
 
 /// What the car sees from x, without noise: for one landmark after the other, how far it is ahead of the car
-/// and how far to the left. 2 m numbers. With rangeBearing (part 6) instead its distance and its bearing: the
+/// and how far to the left. 2 m numbers. With rangeBearing (part 7) instead its distance and its bearing: the
 /// angle from the heading of the car to the landmark, in [-pi, pi].
 Eigen::VectorXd viewFrom(const Eigen::Vector3d& x, const CarWorld& world);
 
@@ -60,7 +88,7 @@ Eigen::VectorXd logLikelihoods(const Eigen::MatrixXd& states, const Eigen::Vecto
 /// infinite. A logarithm of -infinity means a weight of zero; if all are -infinity, all weights are equal.
 Eigen::VectorXd weightsOf(const Eigen::VectorXd& logarithms);
 
-// Part 3, resampling (7:23).
+// Part 4, resampling (7:23).
 
 /// The parents of `count` particles, numbered from 0, in any order. Parent i occurs count * weights[i] times
 /// on average, and never less often than the integer part of that. The weights sum to one.
@@ -70,7 +98,7 @@ std::vector<int> resampledParents(const Eigen::VectorXd& weights, int count, rex
 /// much. The weights sum to one.
 double effectiveSize(const Eigen::VectorXd& weights);
 
-// Part 4, the filter (12.9.1 c).
+// Part 5, the filter (12.9.1 c).
 
 /// Lines 2 to 4 of 7:22, all three in each step: from the particles before a step with the control u to as
 /// many particles after it, weighted by what the car sees then. If no particle explains the observation (all
@@ -81,7 +109,7 @@ Cloud filterStep(const Cloud& before, const Eigen::Vector2d& u, const Eigen::Vec
 /// The mean of x and of y, and the direction of the mean of (cos heading, sin heading).
 Eigen::Vector3d meanPose(const Cloud& cloud);
 
-// Part 5, the wrong noise (12.9.1 c).
+// Part 6, the wrong noise (12.9.1 c).
 
 /// A recorded drive. The car stood at `start`; then, for t = 0, 1, ..., it moved by one step with controls[t]
 /// and saw observations[t].
@@ -96,4 +124,4 @@ struct DriveLog {
 /// rangeBearing is false.
 double likelyNoise(const DriveLog& log, const CarWorld& world, rex::Rng& rng);
 
-// Part 6, distances and bearings: viewFrom() and logLikelihoods() with rangeBearing.
+// Part 7, distances and bearings: viewFrom() and logLikelihoods() with rangeBearing.

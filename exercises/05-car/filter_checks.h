@@ -8,7 +8,7 @@
 
 #include "sensor_checks.h"
 
-// Part 4: the filter, against what holds for every correct one.
+// Part 5: the filter, against what holds for every correct one.
 
 inline void cloudIsSound(rex::grading::Check& check, const Cloud& cloud, Eigen::Index count) {
   check.shape("states of filterStep", cloud.states, 3, count);

@@ -7,6 +7,31 @@
 
 using namespace rex;
 
+Eigen::VectorXd doorChances(bool door, const Corridor& corridor) {
+  Eigen::VectorXd chances = Eigen::VectorXd::Ones(corridor.doors.size());
+  // TODO: how likely is a door, or none, at a door and at the wall?
+  return chances;
+}
+
+Eigen::VectorXd movedCells(const Eigen::VectorXd& belief, int way, const Corridor& corridor) {
+  Eigen::VectorXd after = Eigen::VectorXd::Zero(belief.size());
+  // TODO: where may the robot be after the move, for each cell where it may have been?
+  return after;
+}
+
+Eigen::VectorXd seenCells(const Eigen::VectorXd& belief, bool door, const Corridor& corridor) {
+  Eigen::VectorXd after = belief;
+  // TODO: Bayes' rule, cell by cell.
+  return after;
+}
+
+std::vector<Eigen::VectorXd> cellsInHindsight(const Eigen::VectorXd& prior, const std::vector<int>& ways,
+                                              const std::vector<int>& seen, const Corridor& corridor) {
+  std::vector<Eigen::VectorXd> beliefs(seen.size(), prior);
+  // TODO: the filter forwards, and what was seen later backwards.
+  return beliefs;
+}
+
 Eigen::Vector3d carStep(const Eigen::Vector3d& x, const Eigen::Vector2d& u, const CarWorld& world) {
   // TODO: slide 4:48, with a dot over the theta of its third line.
   return x;
@@ -22,7 +47,7 @@ Eigen::MatrixXd moved(const Eigen::MatrixXd& states, const Eigen::Vector2d& u, c
 
 Eigen::VectorXd viewFrom(const Eigen::Vector3d& x, const CarWorld& world) {
   Eigen::VectorXd y = Eigen::VectorXd::Zero(2 * world.landmarks.cols());
-  // TODO: the landmarks in the frame of the car. Part 6: their distances and bearings, too.
+  // TODO: the landmarks in the frame of the car. Part 7: their distances and bearings, too.
   return y;
 }
 
@@ -71,13 +96,26 @@ double likelyNoise(const DriveLog& log, const CarWorld& world, Rng& rng) {
 
 // What follows is given: the parts of the exercise one after another. show.cpp draws the pictures.
 int main() {
+  // Part 1: a robot walks along a corridor with four doors, and does not know where it begins.
+  const Corridor corridor = corridorOfFourDoors();
+  const Walk walk = recordWalk(corridor);
+  std::vector<Eigen::VectorXd> beliefs;
+  Eigen::VectorXd belief = Eigen::VectorXd::Constant(corridor.doors.size(), 1. / corridor.doors.size());
+  const Eigen::VectorXd prior = belief;
+  for (std::size_t t = 0; t < walk.seen.size(); ++t) {
+    if (t > 0) belief = movedCells(belief, walk.ways[t - 1], corridor);
+    belief = seenCells(belief, walk.seen[t] == 1, corridor);
+    beliefs.push_back(belief);
+  }
+  showCorridor(beliefs, cellsInHindsight(prior, walk.ways, walk.seen, corridor), walk, corridor);
+
   // The car drives in circles, past two landmarks, and 100 particles start where it does.
   CarWorld world;
   world.landmarks = (Eigen::MatrixXd(2, 2) << 15, -6, 5, 12).finished();
   const RecordedDrive drive = recordDrive(world, {0.1, 0.2});
   const Cloud start{Eigen::MatrixXd::Zero(3, 100), Eigen::VectorXd::Constant(100, 0.01)};
 
-  // Part 1: they move as the car is commanded to, and do not look.
+  // Part 2: they move as the car is commanded to, and do not look.
   Rng rng(5);
   std::vector<Cloud> blind;
   Cloud cloud = start;
@@ -87,14 +125,14 @@ int main() {
   }
   showDeadReckoning(blind, drive, world);
 
-  // Part 2: what the car sees in step 150, and two particles that explain nothing.
+  // Part 3: what the car sees in step 150, and two particles that explain nothing.
   showLikelihood(150, drive, world);
   print("weights of exp(-20000) and exp(-20001), with the sum 1", weightsOf(Eigen::Vector2d(-20000, -20001)));
 
-  // Part 3: ten children of three parents.
+  // Part 4: ten children of three parents.
   showChildren(Eigen::Vector3d(0.55, 0.25, 0.2), 10);
 
-  // Part 4: the particles look, with the noise of the sensor and with wrong ones.
+  // Part 5: the particles look, with the noise of the sensor and with wrong ones.
   rng = Rng(5);
   std::vector<Cloud> clouds;
   cloud = start;
@@ -105,7 +143,7 @@ int main() {
   showFilter(clouds, blind, drive, world);
   showAssumptions(drive, world);
 
-  // Part 5: past eight landmarks, with a noise of 0.5 m.
+  // Part 6: past eight landmarks, with a noise of 0.5 m.
   CarWorld many = world;
   many.landmarks =
       (Eigen::MatrixXd(2, 8) << 15, -6, 20, 3, -12, 8, 0, 12, 5, 12, 22, -8, 1, 28, 20, -2).finished();
@@ -116,7 +154,7 @@ int main() {
     print("noise found, which should be near 0.5 [m]", likelyNoise(log, many, rng));
   }
 
-  // Part 6: distances and bearings.
+  // Part 7: distances and bearings.
   CarWorld polar = world;
   polar.rangeBearing = true;
   polar.bearingNoise = 0.1;

@@ -10,7 +10,7 @@
 #include "interface.h"
 #include "resampling_checks.h"
 
-// Part 1: the motion of the car and of its particles, against the library's.
+// Part 2: the motion of the car and of its particles, against the library's.
 
 inline void positionFits(rex::grading::Check& check, const Eigen::Vector2d& got, const Eigen::Vector3d& x,
                          double speed, double tau, double turn, const Eigen::Vector2d& wanted) {

@@ -108,6 +108,48 @@ void film(const std::string& name, const std::string& caption, const std::vector
 
 }  // namespace
 
+Corridor corridorOfFourDoors() {
+  Corridor corridor{.doors = Eigen::VectorXd::Zero(20)};
+  for (const int door : {2, 5, 6, 13}) corridor.doors[door] = 1;
+  return corridor;
+}
+
+Walk recordWalk(const Corridor& corridor) {
+  Rng rng(4);
+  Walk walk{.ways = std::vector<int>(11, 1), .seen = {}, .cells = {}};
+  int cell = 2;
+  for (std::size_t t = 0; t <= walk.ways.size(); ++t) {
+    walk.cells.push_back(cell);
+    walk.seen.push_back(rng.uniform() < (corridor.doors[cell] > 0 ? 1 - corridor.misses : corridor.alarms));
+    const double chance = rng.uniform();
+    cell += chance < corridor.slips ? 0 : chance < 1 - corridor.leaps ? 1 : 2;
+  }
+  return walk;
+}
+
+void showCorridor(const std::vector<Eigen::VectorXd>& beliefs, const std::vector<Eigen::VectorXd>& hindsight,
+                  const Walk& walk, const Corridor& corridor) {
+  const auto listed = [](const Eigen::VectorXd& x) { return std::vector<double>(x.begin(), x.end()); };
+  Figure cells{.title = "Where is the robot?", .xLabel = "cell", .yLabel = "probability"};
+  for (const std::size_t t : {std::size_t{0}, std::size_t{3}, beliefs.size() - 1})
+    cells.series.push_back(
+        {.label = "step " + std::to_string(t) + ", robot in cell " + std::to_string(walk.cells[t]),
+         .y = listed(beliefs[t]),
+         .style = SeriesStyle::kLinesPoints});
+  cells.series.push_back(
+      {.label = "doors", .y = listed(0.1 * corridor.doors), .dashed = true, .color = kLandmarkColor});
+  plot("corridor", cells);
+  Series filter{.label = "observations so far", .y = {}}, all{.label = "all observations", .y = {}};
+  for (std::size_t t = 0; t < beliefs.size() && t < hindsight.size(); ++t) {
+    filter.y.push_back(beliefs[t][walk.cells[t]]);
+    all.y.push_back(hindsight[t][walk.cells[t]]);
+  }
+  plot("hindsight", {.title = "Probability of the cell in which the robot is",
+                     .xLabel = "step",
+                     .yLabel = "probability",
+                     .series = {filter, all}});
+}
+
 RecordedDrive recordDrive(const CarWorld& world, const Eigen::Vector2d& u) {
   CarSimulator car(9, static_cast<int>(world.landmarks.cols()),
                    {.observationNoise = world.observationNoise,

@@ -11,6 +11,20 @@ struct RecordedDrive {
 /// The library's car drives in that world from (0, 0, 0), with the same control in all 300 steps.
 RecordedDrive recordDrive(const CarWorld& world, const Eigen::Vector2d& u);
 
+/// A corridor of 20 cells with doors at 2, 5, 6 and 13.
+Corridor corridorOfFourDoors();
+
+/// A walk to the right: `cells` are where the robot was.
+struct Walk {
+  std::vector<int> ways, seen, cells;
+};
+Walk recordWalk(const Corridor& corridor);
+
+/// corridor.png: the beliefs at the start, after 3 steps and at the end, above the doors. hindsight.png: the
+/// probability of the cell in which the robot was, in each step.
+void showCorridor(const std::vector<Eigen::VectorXd>& beliefs, const std::vector<Eigen::VectorXd>& hindsight,
+                  const Walk& walk, const Corridor& corridor);
+
 /// dead_reckoning.png, dead_reckoning.mp4: clouds that only move, one for each step. They grow and bend, and
 /// their mean follows a smaller circle than the car.
 void showDeadReckoning(const std::vector<Cloud>& blind, const RecordedDrive& drive, const CarWorld& world);

@@ -11,6 +11,68 @@
 
 using namespace rex;
 
+Eigen::VectorXd doorChances(bool door, const Corridor& corridor) {
+  Eigen::VectorXd chances = Eigen::VectorXd::Ones(corridor.doors.size());
+  // <solution doorChances>
+  for (Eigen::Index i = 0; i < chances.size(); ++i) {
+    const double seesDoor = corridor.doors[i] > 0.5 ? 1 - corridor.misses : corridor.alarms;
+    chances[i] = door ? seesDoor : 1 - seesDoor;
+  }
+  // <todo>
+  //| // TODO: how likely is a door, or none, at a door and at the wall?
+  // </solution>
+  return chances;
+}
+
+Eigen::VectorXd movedCells(const Eigen::VectorXd& belief, int way, const Corridor& corridor) {
+  Eigen::VectorXd after = Eigen::VectorXd::Zero(belief.size());
+  // <solution movedCells>
+  const double chances[] = {corridor.slips, 1 - corridor.slips - corridor.leaps, corridor.leaps};
+  for (Eigen::Index i = 0; i < belief.size(); ++i)
+    for (int cells = 0; cells < 3; ++cells)
+      after[std::clamp<Eigen::Index>(i + way * cells, 0, belief.size() - 1)] += chances[cells] * belief[i];
+  // <todo>
+  //| // TODO: where may the robot be after the move, for each cell where it may have been?
+  // </solution>
+  return after;
+}
+
+Eigen::VectorXd seenCells(const Eigen::VectorXd& belief, bool door, const Corridor& corridor) {
+  Eigen::VectorXd after = belief;
+  // <solution seenCells>
+  after = belief.cwiseProduct(doorChances(door, corridor));
+  const double evidence = after.sum();
+  if (!(evidence > 0)) return belief;
+  after /= evidence;
+  // <todo>
+  //| // TODO: Bayes' rule, cell by cell.
+  // </solution>
+  return after;
+}
+
+std::vector<Eigen::VectorXd> cellsInHindsight(const Eigen::VectorXd& prior, const std::vector<int>& ways,
+                                              const std::vector<int>& seen, const Corridor& corridor) {
+  std::vector<Eigen::VectorXd> beliefs(seen.size(), prior);
+  // <solution cellsInHindsight>
+  for (std::size_t t = 0; t < seen.size(); ++t)
+    beliefs[t] =
+        seenCells(t == 0 ? prior : movedCells(beliefs[t - 1], ways[t - 1], corridor), seen[t] == 1, corridor);
+  // What was seen later, from each cell: up to a factor, which cancels.
+  Eigen::VectorXd later = Eigen::VectorXd::Ones(prior.size());
+  for (std::size_t t = ways.size(); t-- > 0;) {
+    const Eigen::VectorXd ahead = later.cwiseProduct(doorChances(seen[t + 1] == 1, corridor));
+    for (Eigen::Index i = 0; i < later.size(); ++i)
+      later[i] = movedCells(Eigen::VectorXd::Unit(prior.size(), i), ways[t], corridor).dot(ahead);
+    later /= later.sum();
+    beliefs[t] = beliefs[t].cwiseProduct(later);
+    beliefs[t] /= beliefs[t].sum();
+  }
+  // <todo>
+  //| // TODO: the filter forwards, and what was seen later backwards.
+  // </solution>
+  return beliefs;
+}
+
 Eigen::Vector3d carStep(const Eigen::Vector3d& x, const Eigen::Vector2d& u, const CarWorld& world) {
   // <solution carStep>
   const double way = world.tau * u[0];
@@ -46,7 +108,7 @@ Eigen::VectorXd viewFrom(const Eigen::Vector3d& x, const CarWorld& world) {
     y[2 * i + 1] = world.rangeBearing ? std::atan2(left, ahead) : left;
   }
   // <todo>
-  //| // TODO: the landmarks in the frame of the car. Part 6: their distances and bearings, too.
+  //| // TODO: the landmarks in the frame of the car. Part 7: their distances and bearings, too.
   // </solution>
   return y;
 }
@@ -176,13 +238,26 @@ double likelyNoise(const DriveLog& log, const CarWorld& world, Rng& rng) {
 
 // What follows is given: the parts of the exercise one after another. show.cpp draws the pictures.
 int main() {
+  // Part 1: a robot walks along a corridor with four doors, and does not know where it begins.
+  const Corridor corridor = corridorOfFourDoors();
+  const Walk walk = recordWalk(corridor);
+  std::vector<Eigen::VectorXd> beliefs;
+  Eigen::VectorXd belief = Eigen::VectorXd::Constant(corridor.doors.size(), 1. / corridor.doors.size());
+  const Eigen::VectorXd prior = belief;
+  for (std::size_t t = 0; t < walk.seen.size(); ++t) {
+    if (t > 0) belief = movedCells(belief, walk.ways[t - 1], corridor);
+    belief = seenCells(belief, walk.seen[t] == 1, corridor);
+    beliefs.push_back(belief);
+  }
+  showCorridor(beliefs, cellsInHindsight(prior, walk.ways, walk.seen, corridor), walk, corridor);
+
   // The car drives in circles, past two landmarks, and 100 particles start where it does.
   CarWorld world;
   world.landmarks = (Eigen::MatrixXd(2, 2) << 15, -6, 5, 12).finished();
   const RecordedDrive drive = recordDrive(world, {0.1, 0.2});
   const Cloud start{Eigen::MatrixXd::Zero(3, 100), Eigen::VectorXd::Constant(100, 0.01)};
 
-  // Part 1: they move as the car is commanded to, and do not look.
+  // Part 2: they move as the car is commanded to, and do not look.
   Rng rng(5);
   std::vector<Cloud> blind;
   Cloud cloud = start;
@@ -192,14 +267,14 @@ int main() {
   }
   showDeadReckoning(blind, drive, world);
 
-  // Part 2: what the car sees in step 150, and two particles that explain nothing.
+  // Part 3: what the car sees in step 150, and two particles that explain nothing.
   showLikelihood(150, drive, world);
   print("weights of exp(-20000) and exp(-20001), with the sum 1", weightsOf(Eigen::Vector2d(-20000, -20001)));
 
-  // Part 3: ten children of three parents.
+  // Part 4: ten children of three parents.
   showChildren(Eigen::Vector3d(0.55, 0.25, 0.2), 10);
 
-  // Part 4: the particles look, with the noise of the sensor and with wrong ones.
+  // Part 5: the particles look, with the noise of the sensor and with wrong ones.
   rng = Rng(5);
   std::vector<Cloud> clouds;
   cloud = start;
@@ -210,7 +285,7 @@ int main() {
   showFilter(clouds, blind, drive, world);
   showAssumptions(drive, world);
 
-  // Part 5: past eight landmarks, with a noise of 0.5 m.
+  // Part 6: past eight landmarks, with a noise of 0.5 m.
   CarWorld many = world;
   many.landmarks =
       (Eigen::MatrixXd(2, 8) << 15, -6, 20, 3, -12, 8, 0, 12, 5, 12, 22, -8, 1, 28, 20, -2).finished();
@@ -221,7 +296,7 @@ int main() {
     print("noise found, which should be near 0.5 [m]", likelyNoise(log, many, rng));
   }
 
-  // Part 6: distances and bearings.
+  // Part 7: distances and bearings.
   CarWorld polar = world;
   polar.rangeBearing = true;
   polar.bearingNoise = 0.1;

@@ -1,6 +1,117 @@
 // Mistakes that students make, and the checks that catch them: a variant is solution.cpp with other regions.
 // `rex dev check` reads this file; it does not compile as it is.
 
+// <variant a_door_for_sure> caught by: corridor-sees, corridor-hindsight
+// mistake: leaves out false alarms and misses.
+// <solution doorChances>
+for (Eigen::Index i = 0; i < chances.size(); ++i) chances[i] = (corridor.doors[i] > 0.5) == door ? 1 : 0;
+
+// <variant alarms_at_doors> caught by: corridor-sees, corridor-hindsight
+// mistake: exchanges misses and alarms.
+// <solution doorChances>
+// in place of: const double seesDoor = corridor.doors[i] > 0.5 ? 1 - corridor.misses : corridor.alarms;
+const double seesDoor = corridor.doors[i] > 0.5 ? 1 - corridor.alarms : corridor.misses;
+
+// <variant no_news_without_a_door> caught by: corridor-sees, corridor-hindsight
+// mistake: seeing no door tells nothing.
+// <solution doorChances>
+// in place of: chances[i] = door ? seesDoor : 1 - seesDoor;
+chances[i] = door ? seesDoor : 1;
+
+// <variant beyond_the_wall> caught by: corridor-moves
+// mistake: what would go beyond the wall is lost, and the rest made a distribution again.
+// <solution movedCells>
+// in place of: for (int cells = 0; ... after[std::clamp
+for (int cells = 0; cells < 3; ++cells) {
+  const Eigen::Index to = i + way * cells;
+  if (to >= 0 && to < belief.size()) after[to] += chances[cells] * belief[i];
+}
+after /= std::max(after.sum(), 1e-300);
+
+// <variant comes_round> caught by: corridor-moves
+// shown by: corridor-moves
+// mistake: the corridor is a ring.
+// <solution movedCells>
+// in place of: after[std::clamp
+after[(i + way * cells + 2 * belief.size()) % belief.size()] += chances[cells] * belief[i];
+
+// <variant leaps_back_to_its_cell> caught by: corridor-moves
+// mistake: a robot that cannot move by two cells does not move at all.
+// <solution movedCells>
+// in place of: for (int cells = 0; ... after[std::clamp
+for (int cells = 0; cells < 3; ++cells) {
+  const Eigen::Index to = i + way * cells;
+  after[to >= 0 && to < belief.size() ? to : i] += chances[cells] * belief[i];
+}
+
+// <variant moves_to_the_other_side> caught by: corridor-moves, corridor-hindsight
+// mistake: each cell gets what is to its right, so that the belief moves to the left.
+// <solution movedCells>
+// in place of: after[std::clamp
+after[std::clamp<Eigen::Index>(i - way * cells, 0, belief.size() - 1)] += chances[cells] * belief[i];
+
+// <variant never_slips> caught by: corridor-moves, corridor-hindsight
+// mistake: every move works, so that the belief never widens.
+// <solution movedCells>
+for (Eigen::Index i = 0; i < belief.size(); ++i)
+  after[std::clamp<Eigen::Index>(i + way, 0, belief.size() - 1)] += belief[i];
+
+// <variant slips_for_leaps> caught by: corridor-moves, corridor-hindsight
+// mistake: exchanges slips and leaps.
+// <solution movedCells>
+// in place of: const double chances[] = {corridor.slips,
+const double chances[] = {corridor.leaps, 1 - corridor.slips - corridor.leaps, corridor.slips};
+
+// <variant never_in_the_place> caught by: corridor-moves
+// mistake: overwrites what another cell has passed on.
+// <solution movedCells>
+// in place of: after[std::clamp
+after[std::clamp<Eigen::Index>(i + way * cells, 0, belief.size() - 1)] = chances[cells] * belief[i];
+
+// <variant likelihood_alone> caught by: corridor-sees
+// mistake: forgets what was believed before.
+// <solution seenCells>
+// in place of: after = belief.cwiseProduct
+after = doorChances(door, corridor);
+
+// <variant not_a_distribution> caught by: corridor-sees
+// mistake: does not divide by the evidence.
+// <solution seenCells>
+// in place of: after /= evidence;
+
+// <variant equal_when_lost> caught by: corridor-sees
+// mistake: an impossible observation makes all cells equal.
+// <solution seenCells>
+// in place of: if (!(evidence > 0)) return belief;
+if (!(evidence > 0)) return Eigen::VectorXd::Constant(belief.size(), 1. / static_cast<double>(belief.size()));
+
+// <variant filter_for_hindsight> caught by: corridor-hindsight
+// shown by: corridor-hindsight
+// mistake: the filter alone, without what was seen later.
+// <solution cellsInHindsight>
+for (std::size_t t = 0; t < seen.size(); ++t)
+  beliefs[t] =
+      seenCells(t == 0 ? prior : movedCells(beliefs[t - 1], ways[t - 1], corridor), seen[t] == 1, corridor);
+
+// <variant later_without_a_move> caught by: corridor-hindsight
+// mistake: what was seen later is not taken back through the move.
+// <solution cellsInHindsight>
+// in place of: for (Eigen::Index i = 0; i < later.size(); ++i) ... later[i] =
+later = ahead;
+
+// <variant moved_with_time> caught by: corridor-hindsight
+// mistake: what was seen later moves with the robot, not back.
+// <solution cellsInHindsight>
+// in place of: for (Eigen::Index i = 0; i < later.size(); ++i) ... later[i] =
+later = movedCells(ahead, ways[t], corridor);
+
+// <variant seen_twice> caught by: corridor-hindsight
+// mistake: counts each observation in the filter and once more on the way back.
+// <solution cellsInHindsight>
+// in place of: const Eigen::VectorXd ahead =
+const Eigen::VectorXd ahead =
+    later.cwiseProduct(doorChances(seen[t + 1] == 1, corridor)).cwiseProduct(beliefs[t + 1]);
+
 // <variant heading_first> caught by: car-step, car-spread
 // mistake: the car turns first, and then drives in its new direction.
 // <solution carStep>
@@ -81,8 +192,8 @@ for (Eigen::Index i = 0; i < states.cols(); ++i)
 y[2 * i] = world.rangeBearing ? std::hypot(dx, dy) : c * dx + s * dy;
 y[2 * i + 1] = world.rangeBearing ? std::atan2(dy, dx) : c * dy - s * dx;
 
-// <variant turned_the_wrong_way> caught by: view, likelihood, weights-anywhere, tracks
-// shown by: view
+// <variant turned_the_wrong_way> caught by: likelihood, weights-anywhere, tracks
+// shown by: likelihood
 // mistake: the landmarks are turned by the heading, not back.
 // <solution viewFrom>
 // in place of: const double ahead = c * dx + s * dy, left = c * dy - s * dx;
@@ -123,7 +234,7 @@ logarithms[i] -= error * error / (isBearing ? world.bearingNoise : world.observa
 // <solution weightsOf>
 // in place of: weights /= weights.sum();
 
-// <variant zero_by_zero> caught by: normalised, survives
+// <variant zero_by_zero> caught by: normalised, filter-step
 // mistake: far particles and small noise make all likelihoods zero, and all weights 0 / 0.
 // <solution weightsOf>
 for (Eigen::Index i = 0; i < weights.size(); ++i) weights[i] = std::exp(logarithms[i]);
@@ -179,13 +290,13 @@ for (int i = 0; i < weights.size(); ++i)
 for (int i = 0; static_cast<int>(parents.size()) < count; ++i)
   if (weights[i] > 0) parents.push_back(i);
 
-// <variant root_of_the_size> caught by: effective-size
+// <variant root_of_the_size> caught by: whole-parts
 // mistake: one over the norm of the weights, not over its square.
 // <solution effectiveSize>
 return 1 / weights.norm();
 
 // <variant invents_its_cloud>
-// caught by: filter-step, tracks, survives, consistent, noise, noise-elsewhere, finds-heading
+// caught by: filter-step, tracks, consistent, noise, noise-elsewhere, finds-heading
 // mistake: puts all particles in one position, or scatters them so widely that any error looks small
 // <solution filterStep>
 const Eigen::Index count = before.states.cols();
@@ -212,7 +323,7 @@ after.weights.setConstant(1. / static_cast<double>(after.weights.size()));
 const double told = world.observationNoise;
 return told > 1.5 ? told / 10 : told < 0.15 ? told * 10 : told;
 
-// <variant not_resampled> caught by: filter-step, survives, tracks, consistent
+// <variant not_resampled> caught by: filter-step, tracks, consistent
 // shown by: filter-step
 // mistake: the particles move and are weighed, but never resampled.
 // <solution filterStep>
