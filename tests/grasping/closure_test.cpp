@@ -245,6 +245,30 @@ TEST(Closure, OfFormIsThatWithoutFriction) {
   EXPECT_EQ(formClosure(square(0.5, -0.5)).status, ClosureStatus::kClosed);
 }
 
+// Three smooth fingers at the middles of the edges of a triangle: no form closure, since no wrench turns it,
+// but every small motion drives an edge into a finger.
+TEST(Closure, OfFormIsOfFirstOrder) {
+  std::vector<PlanarContact> fingers;
+  for (int k = 0; k < 3; ++k) {
+    const double angle = 2 * std::numbers::pi * k / 3;
+    const Vector2d out(std::cos(angle), std::sin(angle));
+    fingers.push_back({0.5 * out, -out, 1});
+  }
+  EXPECT_EQ(formClosure(wrenchCones(fingers)).rank, 2);
+  EXPECT_EQ(formClosure(wrenchCones(fingers)).status, ClosureStatus::kOpen);
+  Rng rng(26);
+  for (int trial = 0; trial < 1000; ++trial) {
+    const double turn = (trial % 2 == 0 ? 1 : -1) * rng.uniform(1e-3, 0.2);
+    const Vector2d shift = rng.uniform(0, 0.2) * Vector2d(rng.normalVector(2)).normalized();
+    double deepest = 0;  // of a finger below the edge that touched it
+    for (const PlanarContact& finger : fingers) {
+      const Vector2d inTriangle = Eigen::Rotation2Dd(-turn) * (finger.p_OC - shift);
+      deepest = std::max(deepest, 0.5 + finger.normal_O.dot(inTriangle));
+    }
+    EXPECT_GT(deepest, 1e-8) << turn << ' ' << shift.transpose();
+  }
+}
+
 TEST(Closure, OfFormNeedsOneContactMoreThanDimensions) {
   Rng rng(25);
   int closedBySeven = 0;
