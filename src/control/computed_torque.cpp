@@ -37,11 +37,26 @@ Reference referenceAt(const Model& model, const MatrixArg& Q, double tau, int i)
     throw Error({.what = "sample of a reference",
                  .found = fmt::format("{}", i),
                  .wanted = fmt::format("0 to {}", last)});
-  for (int k = std::max(i - 1, 0); k <= std::min(i + 1, last); ++k)
+  const bool isInside = i > 0 && i < last;
+  const int reach = std::min(last, isInside ? 1 : 3);
+  for (int k = std::max(i - reach, 0); k <= std::min(i + reach, last); ++k)
     requireFinite(fmt::format("sample {} of a reference", k), Q.col(k));
-  const Eigen::VectorXd before = difference(model, Q.col(std::max(i - 1, 0)), Q.col(i)) / tau;
-  const Eigen::VectorXd after = difference(model, Q.col(i), Q.col(std::min(i + 1, last))) / tau;
-  return {Q.col(i), (before + after) / 2, (after - before) / tau};
+  if (last == 0) return standAt(model, Q.col(0));
+  // The mean velocity from sample k to its neighbour k + 1.
+  const auto between = [&](int k) -> Eigen::VectorXd {
+    return difference(model, Q.col(k), Q.col(k + 1)) / tau;
+  };
+  if (isInside) {
+    const Eigen::VectorXd before = between(i - 1), after = between(i);
+    return {Q.col(i), (before + after) / 2, (after - before) / tau};
+  }
+  // At an end, from the nearest intervals; the time runs to the other side at the last sample.
+  const bool isFirst = i == 0;
+  const auto fromEnd = [&](int k) { return between(isFirst ? k : last - 1 - k); };
+  const double step = isFirst ? tau : -tau;
+  const Eigen::VectorXd nearest = fromEnd(0), next = last > 1 ? fromEnd(1) : nearest;
+  const Eigen::VectorXd beyond = last > 2 ? fromEnd(2) : 2 * next - nearest;
+  return {Q.col(i), (3 * nearest - next) / 2, (3 * next - 2 * nearest - beyond) / step};
 }
 
 Eigen::VectorXd followReference(const Model& model, const State& state, const Reference& reference,

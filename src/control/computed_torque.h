@@ -23,10 +23,10 @@ struct Reference {
 [[nodiscard]] Reference referenceAlong(const Model& model, const VectorArg& q0, const VectorArg& qT,
                                        double seconds, double t, const MotionProfile& profile = {});
 
-/// The reference at sample i of the postures in the columns of Q (nq x N), tau seconds apart, at rest
-/// before and after. The acceleration is the second difference of slide 3:30, the velocity the central
-/// difference, both exact to O(tau^2). Throws Error if Q has no columns or i is not one of them, and unless
-/// tau > 0.
+/// The reference at sample i of the postures in the columns of Q (nq x N), tau seconds apart: velocity and
+/// acceleration by central differences (slide 3:30), at the first and last sample by one-sided ones, all
+/// exact to O(tau^2) for N >= 4; fewer samples are taken for a parabola, a line, or standing still. Throws
+/// Error if Q has no columns or i is not one of them, and unless tau > 0.
 [[nodiscard]] Reference referenceAt(const Model& model, const MatrixArg& Q, double tau, int i);
 
 /// The acceleration (nv) that makes each joint behave like a unit point mass on a spring to the reference:

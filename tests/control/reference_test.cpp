@@ -1,4 +1,5 @@
 #include <cmath>
+#include <functional>
 
 #include <gtest/gtest.h>
 
@@ -67,14 +68,40 @@ TEST(Reference, IsReadFromSamples) {
   }
 }
 
-TEST(Reference, RestsBeforeTheFirstSampleAndAfterTheLast) {
+// A motion that is under way at its first and last sample is not kicked there: q0 (+) p(t) direction.
+TEST(Reference, IsExactToSecondOrderAtTheEnds) {
   Rng rng(6);
-  const Eigen::MatrixXd Q = interpolatePostures(kModel, posture(rng), posture(rng), 3);
-  const Eigen::VectorXd step = difference(kModel, Q.col(0), Q.col(1));
-  const Reference first = referenceAt(kModel, Q, 0.1, 0), last = referenceAt(kModel, Q, 0.1, 3);
-  EXPECT_LT((first.v - step / 0.2).norm(), 1e-12);
-  EXPECT_LT((first.a - step / 0.01).norm(), 1e-10);
-  EXPECT_LT((last.a + difference(kModel, Q.col(2), Q.col(3)) / 0.01).norm(), 1e-10);
+  const Eigen::VectorXd q0 = posture(rng), direction = rng.normalVector(kModel.nv());
+  const auto samplesOf = [&](const std::function<double(double)>& p, int count, double tau) {
+    Eigen::MatrixXd Q(q0.size(), count);
+    for (int i = 0; i < count; ++i) Q.col(i) = integrate(kModel, q0, p(i * tau) * direction);
+    return Q;
+  };
+  for (const int count : {2, 3, 4, 9}) {
+    const double tau = 0.1, bend = count > 2 ? 0.3 : 0;
+    const Eigen::MatrixXd Q =
+        samplesOf([&](double t) { return 0.2 + 0.4 * t + bend * t * t / 2; }, count, tau);
+    for (const int i : {0, count - 1}) {
+      const Reference end = referenceAt(kModel, Q, tau, i);
+      EXPECT_LT((end.v - (0.4 + bend * i * tau) * direction).norm(), 1e-10) << count << ' ' << i;
+      EXPECT_LT((end.a - bend * direction).norm(), 1e-10) << count << ' ' << i;
+    }
+  }
+  EXPECT_EQ(referenceAt(kModel, q0, 0.1, 0).v, Eigen::VectorXd::Zero(kModel.nv()));
+  Eigen::Vector2d before(0, 0);
+  for (const int steps : {40, 80, 160}) {
+    const double tau = 1. / steps;
+    const Eigen::MatrixXd Q = samplesOf([](double t) { return std::sin(t + 0.5); }, steps + 1, tau);
+    Eigen::Vector2d worst(0, 0);
+    for (const int i : {0, steps}) {
+      const Reference end = referenceAt(kModel, Q, tau, i);
+      const double t = i * tau + 0.5;
+      worst = worst.cwiseMax(Eigen::Vector2d((end.v - std::cos(t) * direction).norm(),
+                                             (end.a + std::sin(t) * direction).norm()));
+    }
+    for (int k = 0; k < 2 && steps > 40; ++k) EXPECT_NEAR(before[k] / worst[k], 4, 0.5);
+    before = worst;
+  }
 }
 
 TEST(FollowReference, PullsLikeASpringToTheReference) {
@@ -120,11 +147,11 @@ TEST(Reference, RefusesNumbersThatAreNotFinite) {
   EXPECT_REX_ERROR(referenceAlong(kModel, bad, q, 1, 0), "posture q0: number 1: found nan");
   EXPECT_REX_ERROR(referenceAlong(kModel, q, bad, 1, 0), "posture qT: number 1: found nan");
   EXPECT_REX_ERROR(referenceAlong(kModel, q, q, 1, nan), "time of a motion profile: found nan");
-  Eigen::MatrixXd Q = q.replicate(1, 4);
+  Eigen::MatrixXd Q = q.replicate(1, 7);
   Q.col(2) = bad;
-  for (const int i : {1, 2, 3})
+  for (const int i : {0, 1, 2, 3})
     EXPECT_REX_ERROR(referenceAt(kModel, Q, 1, i), "sample 2 of a reference: number 1: found nan");
-  EXPECT_NO_THROW(static_cast<void>(referenceAt(kModel, Q, 1, 0)));
+  EXPECT_NO_THROW(static_cast<void>(referenceAt(kModel, Q, 1, 6)));
 }
 
 TEST(FollowReference, RefusesNumbersThatAreNotFinite) {
