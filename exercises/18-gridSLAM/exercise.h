@@ -108,8 +108,8 @@ struct Settings {
 /// The particles after a motion and a scan, in the same order. Each draws a pose by moved(); with
 /// settings.matches, the match of the scan with its own map near that pose takes its place. How well the scan
 /// fits its map there, divided by `temper`, is added to its log weight. Only then is the scan added to its
-/// map. This leaves out that a pose should be drawn around the match, and its weight multiplied by the density
-/// of the motion over that of the draw (7:25). Without that, long corridors become too short.
+/// map. This leaves out that a pose should be drawn around the match, and its weight multiplied by the
+/// density of the motion over that of the draw (7:25). Without that, long corridors become too short.
 std::vector<Particle> slamStep(const std::vector<Particle>& particles, const Eigen::Vector3d& motion,
                                const Scan& scan, const Settings& settings, rex::Rng& rng);
 
