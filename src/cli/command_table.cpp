@@ -53,7 +53,7 @@ std::span<const TableEntry> commandTable() {
       {"plan", "Plan the path of a robot or car around obstacles: path, film and replay", kRobots, kRobot},
       {"doctor", "Test what pictures need on this machine, or attack its sandbox", kRobots, kRobot},
       {"demo", "Show a method of a chapter in a browser, or as a page", kMethods, kStudent},
-      {"slam", "Optimize a pose graph, so that the map fits its measurements", kMethods, kRobot},
+      {"slam", "Optimise a pose graph, so that the map fits its measurements", kMethods, kRobot},
       {"linear", "Judge a linear system: stability, regulator, filter, Bode and Nyquist plots", kMethods,
        kRobot},
       {"import", "Take submissions from Moodle, Gradescope, git clones or folders", kCourses, kInstructor},

@@ -24,13 +24,17 @@ std::size_t columns(std::string_view text) {
       std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
 }
 
-// Messages name commands as they are typed in the source tree, where rex is not on the path.
+// Messages name commands and documents as in the source tree, where rex is not on the path.
 std::string asTyped(std::string_view line) {
-  constexpr std::string_view kInSourceTree = "scripts/rex";
   std::string text(line);
   static const bool isOnPath = isInstalled();
-  for (std::size_t at = 0; isOnPath && (at = text.find(kInSourceTree, at)) != text.npos;)
-    text.erase(at, kInSourceTree.size() - std::string_view("rex").size());
+  if (!isOnPath) return text;
+  static const std::string documents = (homeFolder().parent_path() / "doc" / "rex" / "").string();
+  const std::pair<std::string_view, std::string_view> names[] = {{"scripts/rex", "rex"},
+                                                                 {"share/doc/", documents}};
+  for (const auto& [inSourceTree, installed] : names)
+    for (std::size_t at = text.find(inSourceTree); at != text.npos; at = text.find(inSourceTree, at + 1))
+      if (at == 0 || text[at - 1] != '/') text.replace(at, inSourceTree.size(), installed);
   return text;
 }
 

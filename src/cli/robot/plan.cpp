@@ -144,7 +144,7 @@ void addPlan(CLI::App* command, Action& action) {
       {OptionRow("-o,--out", options->out, "DIR", "folder for the results").required(),
        {"--start", options->start, "POSTURE", "all numbers, joint=number,..., 0, or file (default: file)"},
        OptionRow("--goal", options->goal, "GOAL",
-                 "posture to reach, as for --start; to optimize, BODY:x,y,z in metres")
+                 "posture to reach, as for --start; with --planner optimize, BODY:x,y,z in metres")
            .required(),
        {"--planner", options->planner, plannerNames(), "how to search"},
        {"--margin",

@@ -155,7 +155,7 @@ void addSlam(CLI::App* command, Action& action) {
       "The file is in g2o format: poses, landmarks (VERTEX_XY) and edges. The cost is the sum of\n"
       "e^T information e over the edges, without a factor 1/2; --objective sesync takes distances\n"
       "of rotation matrices instead.\n"
-      "Exit code 1: the optimization did not converge.");
+      "Exit code 1: the optimisation did not converge.");
   command->add_option("file", options->file, "pose graph (.g2o)")->type_name("FILE")->required();
   using enum RobustKernel;
   PoseGraphOptions& how = options->how;
