@@ -30,8 +30,7 @@ struct Scan {
 Eigen::Vector2i cellAt(const Grid& grid, const Eigen::Vector2d& p);
 
 /// All cells that the segment passes, also those outside of the grid, each once and in order: from the one of
-/// `from` to the one of `to`. A cell is optional if the segment passes less than a hundredth
-/// of a side in it.
+/// `from` to the one of `to`. Cells in which the segment is shorter than a hundredth of a side are optional.
 std::vector<Eigen::Vector2i> cellsAlong(const Grid& grid, const Eigen::Vector2d& from,
                                         const Eigen::Vector2d& to);
 
@@ -40,10 +39,10 @@ struct CellEvidence {
   double hit = 1.5, miss = -0.6, bound = 6;
 };
 
-/// The map after a scan from a known pose. Where at least one ray ends, `hit` is added to the cell, once; to
-/// all others that at least one ray passes, `miss`, once. A ray that hit nothing passes all cells up to
-/// maxRange, the one there included: all of them get `miss`. Then log odds are limited to [-bound, bound];
-/// those of the given map are within already. Rays may leave the grid.
+/// The map after a scan from a known pose. `hit` is added once to each cell in which a ray ends, and `miss`
+/// once to each other cell that a ray passes. A ray that hit nothing passes all cells up to maxRange, the
+/// one there included. Then log odds are limited to [-bound, bound]; those of the given map are within
+/// already. Rays may leave the grid.
 Grid observed(const Grid& map, const Eigen::Vector3d& pose, const Scan& scan, const CellEvidence& evidence);
 
 // Part 2, how well a scan fits.
@@ -63,9 +62,8 @@ double fit(const Grid& distances, const Eigen::Vector3d& pose, const Scan& scan,
 
 // Part 3, scan matching.
 
-/// The pose with the best fit, of those that differ from the guess by at most window[0] in x, by as much in
-/// y, and by window[1] in their heading. Accepted is a fit of at least
-/// best - 1 - 0.05 (best - fit(guess)).
+/// The pose with the best fit among those that differ from the guess by at most window[0] in x and in y, and
+/// by at most window[1] in heading. A fit of at least best - 1 - 0.05 (best - fit(guess)) is accepted.
 Eigen::Vector3d matched(const Grid& distances, const Scan& scan, double deviation,
                         const Eigen::Vector3d& guess, const Eigen::Vector2d& window);
 
@@ -76,7 +74,7 @@ Eigen::Vector3d matched(const Grid& distances, const Scan& scan, double deviatio
 Eigen::Matrix3Xd moved(const Eigen::Vector3d& pose, const Eigen::Vector3d& motion,
                        const Eigen::Vector3d& deviations, int count, rex::Rng& rng);
 
-/// A path of poses, the map that its scans draw, and the logarithm of its weight.
+/// A path of poses, the map that follows from it and the scans, and the logarithm of its weight.
 struct Particle {
   std::vector<Eigen::Vector3d> path{};  ///< not empty; the robot is at the last pose
   Grid map{};
@@ -106,14 +104,13 @@ struct Settings {
 };
 
 /// The particles after a motion and a scan, in the same order. Each draws a pose by moved(); with
-/// settings.matches, the match of the scan with its own map near that pose takes its place. How well the scan
+/// settings.matches, it is replaced by the match of the scan with its own map near it. How well the scan
 /// fits its map there, divided by `temper`, is added to its log weight. Only then is the scan added to its
-/// map. This leaves out that a pose should be drawn around the match, and its weight multiplied by the
-/// density of the motion over that of the draw (7:25). Without that, long corridors become too short.
+/// map.
 std::vector<Particle> slamStep(const std::vector<Particle>& particles, const Eigen::Vector3d& motion,
                                const Scan& scan, const Settings& settings, rex::Rng& rng);
 
-/// What a robot measured on its way: scans[0] at the start, scans[t + 1] after motions[t].
+/// What a robot measured: scans[0] at the start, scans[t + 1] after motions[t].
 struct Log {
   Eigen::Vector3d start = Eigen::Vector3d::Zero();
   std::vector<Eigen::Vector3d> motions{};
@@ -126,8 +123,8 @@ struct Mapped {
   std::vector<double> effectiveSizes{};  ///< after each motion and scan, before particles are resampled
 };
 
-/// SLAM with `count` particles that all begin at the start, with the first scan in their maps; `empty` is a
-/// map in which nothing is known. Returns the path and the map of a particle of the largest weight.
+/// SLAM with `count` particles that are all at the start at first, with the first scan in their maps; `empty`
+/// is a map in which nothing is known. Returns the path and the map of a particle of the largest weight.
 Mapped mapped(const Log& log, const Grid& empty, const Settings& settings, int count, rex::Rng& rng);
 
 // Part 5, a bonus: anywhere.
