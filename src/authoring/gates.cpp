@@ -328,8 +328,10 @@ ProcessResult askGrader(const GateContext& context, const std::vector<std::strin
 #ifdef __SANITIZE_ADDRESS__  // the whole worker has them
   limits.cpuSeconds *= kSanitizedSlowness;
 #endif
-  std::vector<std::string> command =
-      toArguments({.worker = built.worker, .limits = limits, .temporaryFolder = context.workFolder});
+  std::vector<std::string> command = toArguments({.worker = built.worker,
+                                                  .parts = built.parts,
+                                                  .limits = limits,
+                                                  .temporaryFolder = context.workFolder});
   command.insert(command.begin(), context.toolchain.grader.string());
   command.insert(command.end(), options.begin(), options.end());
   constexpr double kLongest = 3 * 3600;

@@ -189,6 +189,7 @@ BuiltSubmission JointBuild::link(std::size_t variant) const {
       toolchain.linkFlags.push_back(fmt::format("-Wl,--defsym={}={}", replaced, own));
     const StudentProgram worker = linkWorker(toolchain, object_);
     if (worker.ok) built.worker = worker.program;
+    built.parts = worker.parts;
     messages = worker.messages;
   }
   if (built.worker.empty()) {

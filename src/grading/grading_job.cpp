@@ -1,5 +1,7 @@
 #include "grading/grading_job.h"
 
+#include <algorithm>
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
@@ -7,6 +9,9 @@ namespace rex::grading {
 
 void declareOptions(CLI::App& app, GradingJob& job) {
   app.add_option("--worker", job.worker, "the student's worker program; without it no check is run");
+  app.add_option("--part", job.parts,
+                 "a part of the exercise with a worker of its own, WORKER.PART (repeatable)")
+      ->allow_extra_args(false);
   app.add_option("--results", job.results, "result file; its fields about the submission are kept");
   app.add_option("--check", job.checks, "run only this check (repeatable)")->allow_extra_args(false);
   app.add_option("--seed", job.seed, "seed of all random numbers");
@@ -34,6 +39,7 @@ std::vector<std::string> toArguments(const GradingJob& job) {
     if (!value.empty()) arguments.insert(arguments.end(), {option, value});
   };
   add("--worker", job.worker.string());
+  for (const std::string& part : job.parts) add("--part", part);
   add("--results", job.results.string());
   for (const std::string& check : job.checks) add("--check", check);
   add("--seed", fmt::format("{}", job.seed));
@@ -52,9 +58,9 @@ std::vector<std::string> toArguments(const GradingJob& job) {
   return arguments;
 }
 
-std::filesystem::path workerOf(const std::string& part, const std::filesystem::path& worker) {
-  const std::filesystem::path own = worker.string() + "." + part;
-  return std::filesystem::exists(own) ? own : worker;
+std::filesystem::path workerOf(const std::string& part, const GradingJob& job) {
+  const bool isOwn = std::find(job.parts.begin(), job.parts.end(), part) != job.parts.end();
+  return isOwn ? std::filesystem::path(job.worker.string() + "." + part) : job.worker;
 }
 
 }  // namespace rex::grading

@@ -18,6 +18,7 @@ namespace rex::grading {
 /// to the launch of each worker.
 struct GradingJob {
   std::filesystem::path worker{};     ///< see workerOf(); empty: all checks are listed as not run
+  std::vector<std::string> parts{};   ///< of the exercise, with workers of their own
   std::filesystem::path results{};    ///< results.json; its fields about the submission are kept; empty: none
   std::vector<std::string> checks{};  ///< ids; empty: all
   std::uint64_t seed = 1;
@@ -37,7 +38,8 @@ void declareOptions(CLI::App& app, GradingJob& job);
 /// The command-line arguments that give a grader program this job.
 [[nodiscard]] std::vector<std::string> toArguments(const GradingJob& job);
 
-/// The program that answers the checks of a part: WORKER.PART if it exists, else WORKER.
-[[nodiscard]] std::filesystem::path workerOf(const std::string& part, const std::filesystem::path& worker);
+/// The program that answers the checks of a part: WORKER.PART if the part has a worker of its own, in which
+/// less of the library may be called, else WORKER. Whether it exists is not looked at.
+[[nodiscard]] std::filesystem::path workerOf(const std::string& part, const GradingJob& job);
 
 }  // namespace rex::grading

@@ -469,7 +469,7 @@ WorkerRun Worker::end() {
 
 WorkerRun runWithWorker(const GradingJob& job, const std::string& part, std::uint64_t signature,
                         const std::function<void(remote::Caller&)>& conversation) {
-  Worker worker(job, workerOf(part, job.worker));
+  Worker worker(job, workerOf(part, job));
   std::optional<Failure> failure;
   try {
     worker.converse(signature, conversation);

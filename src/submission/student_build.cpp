@@ -465,15 +465,19 @@ StudentProgram linkWorker(const Toolchain& toolchain, const StudentObject& objec
   if (isWhole || toolchain.workerPart.empty())
     return link(toolchain, tools, worker, {toolchain.workerObject.string(), renamed.string()},
                 librariesOfProgram(toolchain), object.name);
+  std::vector<std::string> parts;
   for (const WorkerOfPart& part : workersOfParts(toolchain.workerPart)) {
     const StudentProgram linked =
         link(toolchain, tools, worker.string() + "." + part.id,
              {part.object.string(), "@" + part.options.string(), renamed.string()}, {}, object.name);
     if (!linked.ok) return linked;
+    parts.push_back(part.id);
   }
   const std::string options = "@" + linkOptions(toolchain.workerPart).string();
-  return link(toolchain, tools, worker, {toolchain.workerPart.string(), options, renamed.string()}, {},
-              object.name);
+  StudentProgram linked = link(toolchain, tools, worker,
+                               {toolchain.workerPart.string(), options, renamed.string()}, {}, object.name);
+  linked.parts = std::move(parts);
+  return linked;
 }
 
 StudentProgram linkProgram(const Toolchain& toolchain, const StudentObject& object) {

@@ -51,6 +51,7 @@ struct StudentObject {
 /// A linked program, or the reasons why there is none.
 struct StudentProgram {
   std::filesystem::path program;
+  std::vector<std::string> parts{};  ///< of the exercise, with workers of their own beside it: see workerOf()
   std::vector<CompileDiagnostic> messages;
   std::string log;
   bool ok = false;
@@ -58,8 +59,7 @@ struct StudentProgram {
 
 /// Links the worker: the exercise's loop around the student's functions, with the parts of the library
 /// chosen by linkWorkerParts(). If `object.graded` is empty, it keeps the student's main() under another
-/// name, and the whole library. The workers of parts are next to it: worker.ID. Throws Error like
-/// compileStudent().
+/// name, and the whole library, for all parts. Throws Error like compileStudent().
 [[nodiscard]] StudentProgram linkWorker(const Toolchain& toolchain, const StudentObject& object,
                                         const sandbox::Sandbox& sandbox = {});
 

@@ -63,9 +63,10 @@ Limits withSanitizers(Limits limits) {
 }
 
 GradingJob jobOf(const Toolchain& toolchain, const ExerciseInfo& exercise, const SubmissionOptions& options,
-                 const path& worker) {
+                 const BuiltSubmission& built) {
   GradingJob job = options.job;
-  job.worker = worker;
+  job.worker = built.worker;
+  job.parts = built.parts;
   job.temporaryFolder = options.workFolder;
   job.limits = options.sanitize ? withSanitizers(exercise.limits) : exercise.limits;
   if (options.sanitize || toolchain.workerPart.empty()) job.libraries = toolchain.libraries;
@@ -153,7 +154,10 @@ void compileAndLink(const Toolchain& toolchain, const ExerciseInfo& exercise,
   auto& diagnostics = built.start.compile.diagnostics;
   if (object.ok) {
     const StudentProgram linked = linkWorker(toolchain, object, options.job.sandbox);
-    if (linked.ok) built.worker = linked.program;
+    if (linked.ok) {
+      built.worker = linked.program;
+      built.parts = linked.parts;
+    }
     diagnostics.insert(diagnostics.end(), linked.messages.begin(), linked.messages.end());
     log += linked.log;
   }
@@ -178,17 +182,17 @@ BuiltSubmission buildWith(const Toolchain& toolchain, const ExerciseInfo& exerci
 
 // What the sanitizers find when one check runs on a build with them.
 std::optional<CrashSite> crashSiteOf(const Toolchain& toolchain, const ExerciseInfo& exercise,
-                                     const SubmissionOptions& options, const path& worker,
-                                     const std::string& check, const std::string& mainFile) {
+                                     const SubmissionOptions& options, const BuiltSubmission& built,
+                                     const std::string& check) {
   SubmissionOptions one = options;
   one.job.checks = {check};
   one.job.evidence.clear();
   one.job.results = options.workFolder / "second-look.json";
   std::filesystem::remove(one.job.results);
-  const GradingJob job = jobOf(toolchain, exercise, one, worker);
+  const GradingJob job = jobOf(toolchain, exercise, one, built);
   const NewDescendants workers;
   static_cast<void>(runProcess(graderCommand(toolchain, job), {.timeout = kLongestGrading}));
-  return crashSiteIn(loadResult(job.results).error.text, mainFile);
+  return crashSiteIn(loadResult(job.results).error.text, built.start.files.front().name);
 }
 
 // "3 and 2" are sizes that differ, "7 and 0" an index that is compared with 0 before the size.
@@ -230,8 +234,7 @@ void repeat(const std::vector<CheckResult*>& checks, const Toolchain& toolchain,
   std::filesystem::create_directories(options.workFolder);
   if (built.worker.empty()) return;
   for (CheckResult* check : checks) {
-    const auto site =
-        crashSiteOf(toolchain, exercise, options, built.worker, check->id, built.start.files.front().name);
+    const auto site = crashSiteOf(toolchain, exercise, options, built, check->id);
     if (!site) continue;
     explain(*site, *check);
     if (site->line > 0) check->line = site->line;
@@ -333,7 +336,7 @@ BuiltSubmission buildSubmission(const Toolchain& toolchain, const ExerciseInfo& 
 
 GradeResult gradeBuilt(const BuiltSubmission& built, const Toolchain& toolchain, const ExerciseInfo& exercise,
                        const SubmissionOptions& options) {
-  const GradingJob job = jobOf(toolchain, exercise, options, built.worker);
+  const GradingJob job = jobOf(toolchain, exercise, options, built);
   saveResult(built.start, job.results);
   GradeResult result = callGrader(graderCommand(toolchain, job), job.results);
   if (built.worker.empty()) return result;

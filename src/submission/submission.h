@@ -41,7 +41,8 @@ struct Submission {
 struct BuiltSubmission {
   GradeResult start;  ///< the result before any check has run
   std::string source;
-  std::filesystem::path worker;  ///< empty: the file does not compile, or the tools failed
+  std::filesystem::path worker;      ///< empty: the file does not compile, or the tools failed
+  std::vector<std::string> parts{};  ///< with workers of their own: see workerOf()
 };
 [[nodiscard]] BuiltSubmission buildSubmission(const Toolchain& toolchain, const ExerciseInfo& exercise,
                                               const SubmissionOptions& options);
