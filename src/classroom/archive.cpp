@@ -11,6 +11,7 @@
 #include <archive_entry.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include "base/error.h"
 #include "base/escape.h"
@@ -93,6 +94,54 @@ std::string nameOfType(archive_entry* entry) {
   }
 }
 
+constexpr int kMostFilesOfStudent = 5000;
+constexpr std::size_t kMostBytesOfStudent = std::size_t{40} << 20;
+
+}  // namespace
+
+void StudentBudgets::see(const std::string& name) {
+  if (name.starts_with("__MACOSX/") || !whyUnsafe(name, {}).empty()) return;
+  const std::string top = name.substr(0, name.find('/') + 1);
+  around_ = around_.value_or(top) == top ? top : "";
+}
+
+bool StudentBudgets::add(const std::string& name, int files, std::size_t bytes) {
+  Used& used = used_[studentOf(name)];
+  if (used.example.empty() || (!isWanted_(used.example) && isWanted_(name))) used.example = name;
+  used.files += files;
+  used.bytes += bytes;
+  return whyTooMuch(used).empty();
+}
+
+bool StudentBudgets::isExceededBy(const std::string& name) const {
+  const auto found = used_.find(studentOf(name));
+  return found != used_.end() && !whyTooMuch(found->second).empty();
+}
+
+std::vector<ArchiveContent::LeftOut> StudentBudgets::leftOut() const {
+  std::vector<ArchiveContent::LeftOut> all;
+  for (const auto& [student, used] : used_)
+    if (const std::string why = whyTooMuch(used); !why.empty()) all.push_back({used.example, why});
+  return all;
+}
+
+std::string StudentBudgets::studentOf(const std::string& name) const {
+  const std::string around = around_.value_or("");
+  const std::string own = name.substr(name.starts_with(around) ? around.size() : 0),
+                    first = own.substr(0, own.find('/'));
+  return first.substr(0, first.find("_assignsubmission_"));
+}
+
+std::string StudentBudgets::whyTooMuch(const Used& used) {
+  if (used.files > kMostFilesOfStudent)
+    return fmt::format("more than {} files of one student", kMostFilesOfStudent);
+  if (used.bytes > kMostBytesOfStudent)
+    return fmt::format("more than {} MiB in the files of one student", kMostBytesOfStudent >> 20);
+  return {};
+}
+
+namespace {
+
 /// Where the bytes of an archive are: in an opened file or in memory.
 struct ArchiveSource {
   int fd = -1;
@@ -113,41 +162,75 @@ class ArchiveReader {
       : file_(file),
         limits_(limits),
         isWanted_(isWanted),
-        archiveBytes_(source.size),
-        archive_(::archive_read_new()) {
+        budgets_(isWanted),
+        source_(source),
+        archiveBytes_(source.size) {
     if (archiveBytes_ > limits.bytes)
       throw refusal("", fmt::format("{} bytes", archiveBytes_), fmt::format("at most {}", limits.bytes));
-    ::archive_read_support_filter_gzip(archive_.get());
-    ::archive_read_support_format_tar(archive_.get());
-    ::archive_read_support_format_zip_seekable(archive_.get());
-    constexpr std::size_t kBlock = 10240;
-    const int opened =
-        source.fd >= 0 ? ::archive_read_open_fd(archive_.get(), source.fd, kBlock)
-                       : ::archive_read_open_memory(archive_.get(), source.bytes.data(), source.bytes.size());
-    if (opened != ARCHIVE_OK) throw broken("");
+    open();
   }
 
   ArchiveContent read() {
+    if (isWanted_) seeNames();
     ArchiveContent content;
     archive_entry* entry = nullptr;
-    for (int count = 1;; ++count) {
-      const int end = ::archive_read_next_header(archive_.get(), &entry);
-      if (end == ARCHIVE_EOF) break;
-      if (end < ARCHIVE_WARN) throw broken("");
-      if (count > limits_.members)
-        throw refusal("", "more members", fmt::format("at most {}", limits_.members));
-      if (isWanted_)
+    for (int count = 1; readHeader(entry); ++count) {
+      if (isWanted_) {
         readBundled(entry, content);
-      else
-        readMember(entry, content);
+        continue;
+      }
+      requireAtMost(limits_.members, count);
+      readMember(entry, content);
     }
     for (const std::string& name : twice_)
       if (std::erase_if(content.files, [&](const ArchiveFile& file) { return file.name == name; }) > 0)
         content.leftOut.push_back({name, "a second file of that name"});
+    if (isWanted_) leaveOutStudents(content);
     return content;
   }
 
  private:
+  void open() {
+    archive_.reset(::archive_read_new());
+    ::archive_read_support_filter_gzip(archive_.get());
+    ::archive_read_support_format_tar(archive_.get());
+    ::archive_read_support_format_zip_seekable(archive_.get());
+    constexpr std::size_t kBlock = 10240;
+    const int opened = source_.fd >= 0 ? ::archive_read_open_fd(archive_.get(), source_.fd, kBlock)
+                                       : ::archive_read_open_memory(archive_.get(), source_.bytes.data(),
+                                                                    source_.bytes.size());
+    if (opened != ARCHIVE_OK) throw broken("");
+  }
+
+  // False at the end.
+  bool readHeader(archive_entry*& entry) {
+    const int end = ::archive_read_next_header(archive_.get(), &entry);
+    if (end != ARCHIVE_EOF && end < ARCHIVE_WARN) throw broken("");
+    return end != ARCHIVE_EOF;
+  }
+
+  void requireAtMost(int members, int count) const {
+    if (count > members) throw refusal("", "more members", fmt::format("at most {}", members));
+  }
+
+  void seeNames() {
+    constexpr int kMostNames = 1'000'000;
+    archive_entry* entry = nullptr;
+    for (int count = 1; readHeader(entry); ++count) {
+      requireAtMost(kMostNames, count);
+      budgets_.see(nameOf(entry));
+    }
+    if (source_.fd >= 0) ::lseek(source_.fd, 0, SEEK_SET);
+    open();
+  }
+
+  void leaveOutStudents(ArchiveContent& content) const {
+    const auto isTooMuch = [&](const auto& file) { return budgets_.isExceededBy(file.name); };
+    std::erase_if(content.files, isTooMuch);
+    std::erase_if(content.leftOut, isTooMuch);
+    for (const ArchiveContent::LeftOut& file : budgets_.leftOut()) content.leftOut.push_back(file);
+  }
+
   void readMember(archive_entry* entry, ArchiveContent& content) {
     const std::string name = checkedName(entry), type = nameOfType(entry);
     std::string text = textOf(name);
@@ -159,6 +242,7 @@ class ArchiveReader {
 
   void readBundled(archive_entry* entry, ArchiveContent& content) {
     const std::string name = nameOf(entry);
+    if (!budgets_.add(name, 1, 0)) return;
     std::string why = whyUnsafe(name, limits_);
     if (why.empty()) why = nameOfType(entry);
     if (why.empty() && ::archive_entry_is_encrypted(entry) != 0) why = "an encrypted file";
@@ -168,7 +252,14 @@ class ArchiveReader {
       return;
     }
     std::string text;
-    if (why.empty() && isWanted_(name)) why = readBundledText(name, text);
+    if (why.empty() && isWanted_(name)) {
+      why = readBundledText(text);
+      if (!budgets_.add(name, 0, text.size())) return;
+      bytes_ += text.size();
+      if (bytes_ > limits_.bytes)
+        throw refusal(name, "more bytes", fmt::format("at most {} in all files", limits_.bytes));
+    }
+    requireAtMost(limits_.members, static_cast<int>(content.files.size()));
     if (why.empty())
       content.files.push_back({name, std::move(text), ::archive_entry_mtime(entry)});
     else
@@ -176,7 +267,7 @@ class ArchiveReader {
   }
 
   // Why the text cannot be had; libarchive skips the rest of the member.
-  std::string readBundledText(const std::string& name, std::string& text) {
+  std::string readBundledText(std::string& text) {
     const ArchiveLimits one;
     const void* block = nullptr;
     std::size_t size = 0;
@@ -190,9 +281,6 @@ class ArchiveReader {
       text.resize(static_cast<std::size_t>(offset));
       text.append(static_cast<const char*>(block), size);
     }
-    bytes_ += text.size();
-    if (bytes_ > limits_.bytes)
-      throw refusal(name, "more bytes", fmt::format("at most {} in all files", limits_.bytes));
     return {};
   }
 
@@ -248,6 +336,8 @@ class ArchiveReader {
   fs::path file_;
   ArchiveLimits limits_;
   IsWanted isWanted_;
+  StudentBudgets budgets_;
+  ArchiveSource source_;
   std::size_t archiveBytes_;
   std::unique_ptr<archive, FreeArchive> archive_;
   std::set<std::string> names_, twice_;

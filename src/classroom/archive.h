@@ -3,8 +3,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/folders.h"
@@ -55,11 +58,40 @@ struct ArchiveContent {
 [[nodiscard]] ArchiveContent readArchive(std::string_view bytes, const std::filesystem::path& file,
                                          const ArchiveLimits& limits = {});
 
+/// Limits what each student may put into a download of a class, so that one student cannot hide the others:
+/// 5000 files, and 40 MiB in those that are read. A student is what follows the folder around all names: its
+/// first folder or file, up to Moodle's "_assignsubmission_".
+class StudentBudgets {
+ public:
+  explicit StudentBudgets(std::function<bool(const std::string& name)> isWanted)
+      : isWanted_(std::move(isWanted)) {}
+
+  /// Wants all names before the first file is added.
+  void see(const std::string& name);
+  /// False if the student of that name has too much by now.
+  [[nodiscard]] bool add(const std::string& name, int files, std::size_t bytes);
+  [[nodiscard]] bool isExceededBy(const std::string& name) const;
+  /// One file of each student who has too much, with the reason.
+  [[nodiscard]] std::vector<ArchiveContent::LeftOut> leftOut() const;
+
+ private:
+  struct Used {
+    std::string example{};
+    int files = 0;
+    std::size_t bytes = 0;
+  };
+  std::string studentOf(const std::string& name) const;
+  static std::string whyTooMuch(const Used& used);
+  std::function<bool(const std::string& name)> isWanted_;
+  std::optional<std::string> around_{};
+  std::map<std::string, Used> used_{};
+};
+
 /// Reads the files of many students that a platform packed together. What readArchive() would refuse the
 /// whole archive for is left out with its reason, so that one student cannot hide the others: names that
-/// leave their folder, the same name twice, encrypted files, and files of more than 20 MiB. Files that
-/// `isWanted` does not name are listed without their text. Throws Error for a broken archive and for more
-/// than 50 000 members or 512 MiB.
+/// leave their folder, the same name twice, encrypted files, files of more than 20 MiB, and all files of a
+/// student beyond StudentBudgets. Files that `isWanted` does not name are listed without their text. Throws
+/// Error for a broken archive and for more than a million members, or 50 000 files or 512 MiB that count.
 [[nodiscard]] ArchiveContent readBundle(const std::filesystem::path& file,
                                         const std::function<bool(const std::string& name)>& isWanted);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -268,28 +269,45 @@ class FolderWalk {
   explicit FolderWalk(const fs::path& path) : path_(path) {}
 
   std::vector<DownloadedFile> read() {
-    visit(OpenedFolder(path_), "", 0);
+    visit(OpenedFolder(path_), "", 0,
+          [&](const OpenedFolder&, const OpenedFolder::Entry&, const std::string& name) {
+            budgets_.see(name);
+          });
+    visit(OpenedFolder(path_), "", 0,
+          [&](const OpenedFolder& folder, const OpenedFolder::Entry& entry, const std::string& name) {
+            take(folder, entry, name);
+          });
+    std::erase_if(files_, [&](const DownloadedFile& file) { return budgets_.isExceededBy(file.name); });
+    for (const auto& [name, why] : budgets_.leftOut())
+      files_.push_back({.name = name, .place = name, .whyNot = why});
     return std::move(files_);
   }
 
  private:
-  void visit(const OpenedFolder& folder, const std::string& prefix, int depth) {
-    if (depth > kDeepest) throw tooMuch(folder.path(), "folders in folders", kDeepest);
+  using Take = std::function<void(const OpenedFolder&, const OpenedFolder::Entry&, const std::string& name)>;
+
+  void visit(const OpenedFolder& folder, const std::string& prefix, int depth, const Take& take) {
     for (const OpenedFolder::Entry& entry : folder.entries()) {
       const std::string name = prefix + entry.name;
-      if (entry.type == fs::file_type::directory) {
-        if (entry.name != ".git") visit(folder.folder(entry.name), name + "/", depth + 1);
-        continue;
-      }
-      if (static_cast<int>(files_.size()) >= kMostFiles) throw tooMuch(path_, "files", kMostFiles);
-      files_.push_back(readEntry(folder, entry, name));
+      if (entry.type != fs::file_type::directory || depth >= kDeepest)
+        take(folder, entry, name);
+      else if (entry.name != ".git")
+        visit(folder.folder(entry.name), name + "/", depth + 1, take);
     }
+  }
+
+  void take(const OpenedFolder& folder, const OpenedFolder::Entry& entry, const std::string& name) {
+    if (!budgets_.add(name, 1, 0)) return;
+    if (static_cast<int>(files_.size()) >= kMostFiles) throw tooMuch(path_, "files", kMostFiles);
+    files_.push_back(readEntry(folder, entry, name));
   }
 
   DownloadedFile readEntry(const OpenedFolder& folder, const OpenedFolder::Entry& entry,
                            const std::string& name) {
     DownloadedFile file{.name = name, .place = name};
-    if (entry.type != fs::file_type::regular)
+    if (entry.type == fs::file_type::directory)
+      file.whyNot = fmt::format("more than {} folders in folders", kDeepest);
+    else if (entry.type != fs::file_type::regular)
       file.whyNot = entry.type == fs::file_type::symlink ? "a symbolic link" : "a pipe or device";
     else if (isWantedInDownload(name))
       readText(folder, entry.name, file);
@@ -307,6 +325,7 @@ class FolderWalk {
         if (n < 0) throw Error({.what = "cannot be read", .found = std::strerror(errno)});
         text.append(buffer.data(), static_cast<std::size_t>(n));
       }
+      if (!budgets_.add(file.name, 0, text.size())) return;
       bytes_ += text.size();
       if (bytes_ > kMostBytes) throw tooMuch(path_, "MiB in all files", static_cast<int>(kMostBytes >> 20));
       if (text.size() > kLargestFile)
@@ -329,6 +348,7 @@ class FolderWalk {
 
   fs::path path_;
   std::vector<DownloadedFile> files_{};
+  StudentBudgets budgets_{isWantedInDownload};
   std::size_t bytes_ = 0;
 };
 

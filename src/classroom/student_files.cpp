@@ -62,7 +62,13 @@ class FilePicker {
       picked_.notes.push_back(ignored(file.place));
   }
 
+  // Each archive may take some seconds and megabytes.
   void unpack(const DownloadedFile& file) {
+    constexpr int kMostArchives = 20;
+    if (++archives_ == kMostArchives + 1)
+      complain({}, "not accepted", file.place,
+               fmt::format("more than {} archives of one student", kMostArchives), "one");
+    if (archives_ > kMostArchives) return;
     try {
       ArchiveContent content = readArchive(*file.text, file.place);
       for (ArchiveFile& member : content.files)
@@ -163,6 +169,7 @@ class FilePicker {
 
   const PickOptions& options_;
   PickedFiles picked_{};
+  int archives_ = 0;
   bool isLeft_ = false;       ///< there is a file of the student's own
   bool isUntouched_ = false;  ///< there is one as it was handed out
   std::vector<std::unique_ptr<DownloadedFile>> kept_{};

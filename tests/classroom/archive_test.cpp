@@ -17,6 +17,7 @@
 
 namespace rex::grading::archive_test {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 class ArchiveTest : public ::testing::Test {
@@ -187,6 +188,37 @@ TEST_F(ArchiveTest, RefusesWhatGoesBeyondTheLimits) {
       readArchive(folder_.path() / "b.zip"),
       "member 'zeros': found more than 100 times the bytes of the archive, wanted files that were "
       "written by hand");
+}
+
+bool isSource(const std::string& name) { return name.ends_with(".cpp") || name.ends_with(".zip"); }
+
+std::vector<std::string> namesOfBundle(const std::filesystem::path& file) {
+  const ArchiveContent content = readBundle(file, isSource);
+  std::vector<std::string> names;
+  for (const ArchiveFile& one : content.files) names.push_back(one.name);
+  for (const auto& [name, why] : content.leftOut) names.push_back(name + ": " + why);
+  return names;
+}
+
+// One student with too much is left out and named; it costs the others nothing.
+TEST_F(ArchiveTest, LeavesOutStudentsWithTooMuchInABundle) {
+  std::vector<SampleMember> many = {{.name = "class/Adam/main.cpp"}}, large = many;
+  for (int k = 0; k <= 50'000; ++k) many.push_back({.name = fmt::format("class/Zoe/{}", k)});
+  many.push_back({.name = "class/Zoe/main.cpp"});
+  for (int k = 0; k < 3; ++k)
+    large.push_back({.name = fmt::format("class/Zoe_1_assignsubmission_file_/{}.zip", k),
+                     .text = std::string(19u << 20, '\0')});
+  std::swap(many.front(), many.back());
+  writeTextFile(folder_.path() / "many.tar", tarOf(many));
+  EXPECT_THAT(namesOfBundle(folder_.path() / "many.tar"),
+              ElementsAre("class/Adam/main.cpp", "class/Zoe/main.cpp: more than 5000 files of one student"));
+  std::vector<ZipEntry> packed;
+  for (const SampleMember& member : large) packed.push_back({member.name, member.text});
+  writeZip(folder_.path() / "large.zip", packed);
+  EXPECT_THAT(namesOfBundle(folder_.path() / "large.zip"),
+              ElementsAre("class/Adam/main.cpp",
+                          "class/Zoe_1_assignsubmission_file_/0.zip: more than 40 MiB in "
+                          "the files of one student"));
 }
 
 TEST_F(ArchiveTest, RefusesSizesThatAreNotTrue) {

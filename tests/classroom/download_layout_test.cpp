@@ -79,6 +79,24 @@ TEST(DownloadLayout, IsRequiredOfArchives) {
       "each student; `rex import moodle` takes what is there");
 }
 
+// One student with too much is left out and named; it costs the others nothing.
+TEST(Download, OfAFolderLeavesOutStudentsWithTooMuch) {
+  const TemporaryFolder folder;
+  writeTextFile(folder.path() / "Adam/main.cpp", "");
+  for (int k = 0; k < 3; ++k) {
+    writeTextFile(folder.path() / "Zoe" / (std::to_string(k) + ".zip"), "");
+    std::filesystem::resize_file(folder.path() / "Zoe" / (std::to_string(k) + ".zip"), 19u << 20);
+  }
+  std::string deep = "Eve";
+  for (int k = 0; k < 32; ++k) deep += "/a";
+  writeTextFile(folder.path() / deep / "main.cpp", "");
+  std::vector<std::string> found;
+  for (const DownloadedFile& file : readDownload(folder.path()).files)
+    found.push_back(file.name.substr(0, 5) + ": " + file.whyNot);
+  EXPECT_THAT(found, ::testing::ElementsAre("Adam/: ", "Eve/a: more than 30 folders in folders",
+                                            "Zoe/0: more than 40 MiB in the files of one student"));
+}
+
 TEST(MoodleNames, ComeApart) {
   const auto parts = parseMoodleName("Group A-Zoe_M_501_assignsubmission_file_main_1.cpp");
   ASSERT_TRUE(parts);

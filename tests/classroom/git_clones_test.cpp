@@ -1,5 +1,6 @@
 // Clones of students' repositories, which git reads without obeying anything in them.
 #include <algorithm>
+#include <cstdlib>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -234,7 +235,16 @@ TEST_F(GitClonesTest, RefusesClonesThatLeadElsewhere) {
   fs::remove_all(source() / "hw-pack/.git/objects/pack");
   fs::create_directory_symlink(source() / "hw-adam/.git/objects/pack",
                                source() / "hw-pack/.git/objects/pack");
-  expectRefusal("hw-pack", "a .git/objects/pack that is no folder");
+  expectRefusal("hw-pack", "a .git/objects/pack that is neither file nor folder");
+  commit("hw-object", "// o", kNoon);
+  const fs::path object = source() / "hw-object/.git/objects" /
+                          git("hw-object", {"rev-parse", "HEAD"}).insert(2, "/"),
+                 another = source() / "hw-adam/object";
+  fs::rename(object, another);
+  fs::create_symlink(another, object);
+  expectRefusal("hw-object", "a .git/objects/" +
+                                 object.lexically_relative(object.parent_path().parent_path()).string() +
+                                 " that is neither file nor folder");
   commit("hw-head", "// h", kNoon);
   writeTextFile(source() / "hw-head/.git/HEAD", "--output=/tmp/x\n");
   expectRefusal("hw-head", "'--output=/tmp/x' as its newest commit");
@@ -242,6 +252,19 @@ TEST_F(GitClonesTest, RefusesClonesThatLeadElsewhere) {
   expectRefusal("hw-head", "git says: ");
   writeTextFile(source() / "hw-head/.git/HEAD", "ref: refs/../../../hw-adam/.git/refs/heads/main\n");
   EXPECT_EQ(of(read(), "hw-head").whyNone, "no commit");
+}
+
+// A commit of some gigabytes, which packs into a few megabytes, fills no machine.
+TEST_F(GitClonesTest, GivesGitLittleMemory) {
+  commit("hw-adam", "// adam", kNoon);
+  const fs::path limit = write("limit", "");
+  writeTextFile(folder_.path() / "bin/git", "#!/bin/sh\nulimit -v > '" + limit.string() + "'\nexit 1\n");
+  fs::permissions(folder_.path() / "bin/git", fs::perms::owner_all);
+  const std::string path = ::getenv("PATH");
+  ::setenv("PATH", ((folder_.path() / "bin").string() + ":" + path).c_str(), 1);
+  EXPECT_THAT(of(read(), "hw-adam").whyNone, HasSubstr("git says: "));
+  ::setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(fileText(limit), "1048576\n");
 }
 
 TEST_F(GitClonesTest, TakesNoLinksAndReadsPackedBranches) {

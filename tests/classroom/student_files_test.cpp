@@ -66,6 +66,16 @@ TEST_F(StudentFilesTest, TakesAFileAnywhereIfTheExerciseIsKnown) {
                   "zoe/a.cpp: more than one source file: found also 'zoe/b.cpp', wanted one, or main.cpp");
 }
 
+TEST_F(StudentFilesTest, LooksIntoAFewArchivesOnly) {
+  const std::string zip = zipOf({{.name = "01/main.cpp", .text = kText}});
+  std::vector<DownloadedFile> files(20, {.name = "a.zip", .text = zip});
+  EXPECT_EQ(pick(files).files.size(), 1u);
+  EXPECT_THAT(pick(files).complaints, IsEmpty());
+  files.resize(30, files.front());
+  EXPECT_THAT(pick(files).complaints,
+              ElementsAre("zoe/a.zip: not accepted: found more than 20 archives of one student, wanted one"));
+}
+
 TEST_F(StudentFilesTest, LooksIntoArchives) {
   const std::string zip = zipOf({{.name = "01/main.cpp", .text = kText}, {.name = "receipt.json"}});
   EXPECT_THAT(sources(pick({{.name = "a.zip", .text = zip}})),
