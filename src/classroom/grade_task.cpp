@@ -29,11 +29,19 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kWorker = "worker";
 constexpr const char* kStart = "start.json";
 constexpr const char* kSource = "main.cpp";
-constexpr const char* kHashes = "kept_sha256";  // in start.json: hashes of the other files
+// In start.json: the parts of the exercise with workers of their own, and the hashes of all other files.
+constexpr const char *kParts = "kept_parts", *kHashes = "kept_sha256";
 
-Json hashesOf(const fs::path& entry) {
+fs::path workerIn(const fs::path& folder, const std::string& part) {
+  return folder / fmt::format("{}.{}", kWorker, part);
+}
+
+// Of all files but start.json itself; one that is missing is an error.
+Json hashesOf(const fs::path& entry, const std::vector<std::string>& parts) {
+  std::vector<fs::path> files = {entry / kWorker, entry / kSource, entry / kBuildLog};
+  for (const std::string& part : parts) files.push_back(workerIn(entry, part));
   Json hashes;
-  for (const char* name : {kWorker, kSource, kBuildLog}) hashes[name] = sha256(readTextFile(entry / name));
+  for (const fs::path& file : files) hashes[file.filename().string()] = sha256(readTextFile(file));
   return hashes;
 }
 
@@ -49,13 +57,21 @@ void takeWorker(const fs::path& kept, const fs::path& worker) {
 std::optional<BuiltSubmission> take(const fs::path& kept, const SubmissionOptions& options) {
   if (!fs::exists(kept / kStart)) return {};
   try {
-    const Json hashes = Json::parse(readTextFile(kept / kStart)).at(kHashes);
+    const Json start = Json::parse(readTextFile(kept / kStart)), &hashes = start.at(kHashes);
+    BuiltSubmission built{.start = loadResult(kept / kStart),
+                          .source = readTextFile(kept / kSource),
+                          .worker = {},
+                          .parts = start.at(kParts).get<std::vector<std::string>>()};
+    if (hashes != hashesOf(kept, built.parts)) return {};
     const fs::path work = fs::absolute(options.workFolder);
     fs::create_directories(work);
-    takeWorker(kept / kWorker, work / kWorker);
-    if (hashes != hashesOf(kept) || hashes.at(kWorker) != sha256(readTextFile(work / kWorker))) return {};
-    BuiltSubmission built{
-        .start = loadResult(kept / kStart), .source = readTextFile(kept / kSource), .worker = work / kWorker};
+    built.worker = work / kWorker;
+    std::vector<fs::path> workers = {built.worker};
+    for (const std::string& part : built.parts) workers.push_back(workerIn(work, part));
+    for (const fs::path& worker : workers) {
+      takeWorker(kept / worker.filename(), worker);
+      if (hashes.at(worker.filename().string()) != sha256(readTextFile(worker))) return {};
+    }
     writeTextFile(options.job.results.parent_path() / kBuildLog, readTextFile(kept / kBuildLog));
     return built;
   } catch (const Error&) {
@@ -80,11 +96,14 @@ void makeFolder(const fs::path& folder) {
 void fill(const fs::path& entry, const BuiltSubmission& built, const fs::path& log) {
   fs::create_directory(entry);
   fs::copy_file(built.worker, entry / kWorker);
+  for (const std::string& part : built.parts)
+    fs::copy_file(workerIn(built.worker.parent_path(), part), workerIn(entry, part));
   writeTextFile(entry / kSource, built.source);
   writeTextFile(entry / kBuildLog, readTextFile(log));
-  for (const char* name : {kWorker, kSource, kBuildLog}) bringToDisk(entry / name);
   Json start = Json::parse(toJson(built.start));
-  start[kHashes] = hashesOf(entry);
+  start[kParts] = built.parts;
+  start[kHashes] = hashesOf(entry, built.parts);
+  for (const auto& [name, hash] : start[kHashes].items()) bringToDisk(entry / name);
   replaceTextFile(entry / kStart, start.dump(2) + "\n", "what is known of a program");
 }
 
@@ -255,7 +274,14 @@ std::string inputOf(const fs::path& file, const char* key) {
              : "";
 }
 
-std::string withInputs(const fs::path& results, const Task& task, bool evidence, bool alone) {
+// Whoever can write to the folder of results can make a hash, but not this one.
+std::string hmacOf(const std::string& seal, const std::string& inputs, const Task& task,
+                   const fs::path& secret) {
+  return hmacSha256(readCourseSecret(secret), fmt::format("{}\n{}\n{}\n", task.student, inputs, seal));
+}
+
+std::string withInputs(const fs::path& results, const Task& task, bool evidence, bool alone,
+                       const fs::path& secret) {
   const std::string text = readTextFile(results);
   Json json = Json::parse(text);
   json["inputs"] = {{"sha256", task.inputsSha256()},      {"source_sha256", task.sourceSha256},
@@ -263,6 +289,9 @@ std::string withInputs(const fs::path& results, const Task& task, bool evidence,
                     {"level", numberOf(task.level)},      {"secret_id", task.secretId}};
   if (task.seed) json["inputs"]["seed"] = *task.seed;
   if (alone) json["inputs"]["alone"] = true;
+  if (!secret.empty())
+    json["inputs"]["result_hmac"] =
+        hmacOf(json["inputs"]["result_sha256"], task.inputsSha256(), task, secret);
   json["volatile"]["evidence"] = evidence;
   return json.dump(2) + "\n";
 }
@@ -288,7 +317,7 @@ std::string secretIdOf(const fs::path& secret) {
 
 fs::path resultFolder(const fs::path& out, const Task& task) { return out / task.student / task.exercise; }
 
-TaskState stateOf(const Task& task, const fs::path& out) {
+TaskState stateOf(const Task& task, const fs::path& out, const fs::path& secret) {
   const fs::path file = resultFolder(out, task) / kResults;
   if (!fs::exists(file)) return TaskState::kMissing;
   try {
@@ -299,13 +328,20 @@ TaskState stateOf(const Task& task, const fs::path& out) {
   } catch (const Json::exception&) {
     return TaskState::kStale;  // some other file of that name
   }
-  return whyRefused(task, out).empty() ? TaskState::kDone : TaskState::kRefused;
+  return whyRefused(task, out, secret).empty() ? TaskState::kDone : TaskState::kRefused;
 }
 
-std::string whyRefused(const Task& task, const fs::path& out) {
+std::string whyRefused(const Task& task, const fs::path& out, const fs::path& secret) {
   try {
     const fs::path file = resultFolder(out, task) / kResults;
     const GradeResult result = loadSoundResult(file);
+    const std::string hmac = inputOf(file, "result_hmac");
+    if (!secret.empty() &&
+        hmac != hmacOf(inputOf(file, "result_sha256"), inputOf(file, "sha256"), task, secret))
+      return Error({.what = "a result that was not written with the secret of the course",
+                    .where = {file.string()},
+                    .found = hmac.empty() ? "no result_hmac" : "another result_hmac"})
+          .what();
     if (result.exerciseId == task.exercise) return {};
     return Error({.what = "a result of another exercise",
                   .where = {file.string()},
@@ -426,7 +462,7 @@ GradeResult gradeTask(const Task& task, const Toolchain& toolchain, const Exerci
   fs::remove_all(folder / kEvidence);
   if (keepsEvidence && fs::exists(evidence))
     fs::copy(evidence, folder / kEvidence, fs::copy_options::recursive);
-  replaceTextFile(folder / kResults, withInputs(results, task, keepsEvidence, options.alone),
+  replaceTextFile(folder / kResults, withInputs(results, task, keepsEvidence, options.alone, options.secret),
                   "the result file");
   return result;
 }

@@ -62,10 +62,13 @@ struct Collected {
 /// The state of a task's result. A stale result is one for other inputs; a failed one reports a grader
 /// error, which is never a grade; a refused one was changed after the grading.
 enum class TaskState { kMissing, kStale, kFailed, kRefused, kDone };
-[[nodiscard]] TaskState stateOf(const Task& task, const std::filesystem::path& out);
+[[nodiscard]] TaskState stateOf(const Task& task, const std::filesystem::path& out,
+                                const std::filesystem::path& secret = {});
 
-/// Why a result for the inputs of the task is not believed: the message of loadSoundResult(); empty if it is.
-[[nodiscard]] std::string whyRefused(const Task& task, const std::filesystem::path& out);
+/// Why a result for the inputs of the task is not believed: the message of loadSoundResult(), or that the
+/// secret of the course, if it is given, did not make its HMAC; empty if it is believed.
+[[nodiscard]] std::string whyRefused(const Task& task, const std::filesystem::path& out,
+                                     const std::filesystem::path& secret = {});
 
 /// Removes the reports in a folder of results, all formats.
 void removeReports(const std::filesystem::path& folder);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "classroom/submission_folder.h"
+#include "grading/hidden_seed.h"
 #include "support/class_results.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
@@ -81,6 +82,35 @@ TEST_F(GradebookTest, CountsWhatCouldNotBeReadAsNotTaken) {
   EXPECT_EQ(row("bob").status, RowStatus::kNotTaken);
   EXPECT_EQ(row("bob").remark, "found a symbolic link");
   EXPECT_EQ(row("bob").final, 0);
+}
+
+// A hash can be made by whoever can write the file.
+TEST_F(GradebookTest, BelievesWithTheSecretOnlyWhatItSealed) {
+  handIn("bob", 7);
+  const Task task = source_.tasks[0];
+  const std::filesystem::path secret = source_.out / "secret",
+                              file = source_.out / "bob" / kEx / "results.json";
+  writeTextFile(secret, "the secret of a course\n");
+  EXPECT_EQ(stateOf(task, source_.out), TaskState::kDone);
+  EXPECT_EQ(stateOf(task, source_.out, secret), TaskState::kRefused);
+  EXPECT_THAT(whyRefused(task, source_.out, secret), HasSubstr("not written with the secret of the course"));
+  auto json = nlohmann::ordered_json::parse(readTextFile(file));
+  const auto seal = [&](const std::string& student) {
+    json["inputs"]["result_hmac"] =
+        hmacSha256("the secret of a course", student + "\n" + task.inputsSha256() + "\n" +
+                                                 json["inputs"]["result_sha256"].get<std::string>() + "\n");
+    writeTextFile(file, json.dump());
+  };
+  seal("bob");
+  EXPECT_EQ(stateOf(task, source_.out, secret), TaskState::kDone);
+  seal("zoe");
+  EXPECT_EQ(stateOf(task, source_.out, secret), TaskState::kRefused) << "the result of another student";
+  seal("bob");
+  json["message"] = "well done";
+  json["inputs"]["result_sha256"] = sealOf(json.dump(), "");
+  writeTextFile(file, json.dump());
+  EXPECT_EQ(stateOf(task, source_.out), TaskState::kDone);
+  EXPECT_EQ(stateOf(task, source_.out, secret), TaskState::kRefused);
 }
 
 TEST_F(GradebookTest, GivesNoGradeWithoutAValidResult) {

@@ -294,8 +294,8 @@ int gradeApart(const Task& task, const Graders::Grader& grader, const grading::T
   }
 }
 
-bool isDone(const Task& task, const fs::path& out) {
-  return grading::stateOf(task, out) == grading::TaskState::kDone;
+bool isDone(const Task& task, const GradeManyOptions& options) {
+  return grading::stateOf(task, options.out, options.secret) == grading::TaskState::kDone;
 }
 
 // With settings of their own, which last until somebody asks to regrade the class.
@@ -306,14 +306,14 @@ bool isAlone(const Task& task, const GradeManyOptions& options) {
 
 bool isOpen(const Task& task, const GradeManyOptions& options) {
   if (!options.student.empty() && options.student != task.student) return false;
-  if (options.regrade || !isDone(task, options.out)) return true;
+  if (options.regrade || !isDone(task, options)) return true;
   return options.evidence && !grading::hasEvidence(task, options.out);
 }
 
-void tellRefused(const std::vector<Task>& tasks, const fs::path& out) {
+void tellRefused(const std::vector<Task>& tasks, const fs::path& out, const fs::path& secret) {
   for (const Task& task : tasks)
-    if (grading::stateOf(task, out) == grading::TaskState::kRefused)
-      note(wrap(escapeForTerminal(grading::whyRefused(task, out)) + "; it is graded again", 2, 0));
+    if (grading::stateOf(task, out, secret) == grading::TaskState::kRefused)
+      note(wrap(escapeForTerminal(grading::whyRefused(task, out, secret)) + "; it is graded again", 2, 0));
 }
 
 // Processor time of a task's own process: compilers, workers and what reads the file have limits of their
@@ -347,7 +347,7 @@ int gradeOpen(const std::vector<Task>& tasks, const GradeManyOptions& options,
                            .alone = isAlone(task, options),
                            .workers = options.workers,
                            .accept = options.acceptFewer,
-                           .anew = options.regrade && isDone(task, options.out)});
+                           .anew = options.regrade && isDone(task, options)});
       },
       [&](int k, int code) {
         std::error_code ignored;
@@ -481,7 +481,7 @@ ExitCode gradeMany(const Project& project, GradeManyOptions options) {
   const grading::GradebookSource source = gradebookSourceOf(project, options.files, tasks, options.out, only);
   const std::vector<grading::ReportFormat> reports = formatsOf(options.reports, tasks, options.out);
   removeLeftovers(options.out, 3);
-  tellRefused(tasks, options.out);
+  tellRefused(tasks, options.out, options.secret);
   const Regrading regrading(
       tasks, options.out, [&](const Task& task) { return isOpen(task, options); }, options.acceptFewer);
   const int graded = gradeOpen(tasks, options, *sandbox, graders);

@@ -19,7 +19,7 @@ ExitCode gradeOne(const Project& project, const GradeOneOptions& options) {
                       .wanted = fmt::format("1 to {}", tasks.size())});
   const grading::Task& task = tasks[static_cast<std::size_t>(options.task) - 1];
   const std::string name = fmt::format("{} {}", task.student, task.exercise);
-  if (grading::stateOf(task, options.out) == grading::TaskState::kDone &&
+  if (grading::stateOf(task, options.out, options.secret) == grading::TaskState::kDone &&
       (!options.evidence || grading::hasEvidence(task, options.out))) {
     say(fmt::format("{}: kept", name));
     return ExitCode::kFull;
