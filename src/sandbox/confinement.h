@@ -62,7 +62,7 @@ struct Confinement {
 };
 
 /// The path of a worker's program and its working folder at levels 2 and 3.
-inline constexpr const char* kInsideProgram = "/rex/worker";
+inline constexpr const char* kInsideProgram = "/program/main";
 inline constexpr const char* kInsideFolder = "/tmp";
 
 /// The descriptor to which the launcher writes its report, if requested: see report.h. The program never

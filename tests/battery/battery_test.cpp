@@ -24,6 +24,7 @@
 #include "base/text_file.h"
 #include "classroom/submission_folder.h"
 #include "grading/results.h"
+#include "sandbox/confinement.h"
 #include "sandbox/probes.h"
 #include "submission/submission.h"
 #include "submission/zip_file.h"
@@ -89,10 +90,11 @@ std::set<fs::path> processesOf(const fs::path& program) {
 
 // In a sandbox all programs lie in the same place, those of gradings beside this one, too: they end soon.
 bool someStayInASandbox() {
-  std::set<fs::path> there = processesOf("/rex/");
+  const fs::path place = fs::path(sandbox::kInsideProgram).parent_path();
+  std::set<fs::path> there = processesOf(place);
   for (int tenths = 0; !there.empty() && tenths < 600; ++tenths) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    const std::set<fs::path> now = processesOf("/rex/");
+    const std::set<fs::path> now = processesOf(place);
     std::erase_if(there, [&](const fs::path& one) { return !now.contains(one); });
   }
   return !there.empty();
