@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/folders.h"
 #include "base/process.h"
+#include "classroom/import_table.h"
 #include "cli/command_table.h"
 #include "cli/option_table_internal.h"
 #include "cli/out_folder.h"
@@ -53,9 +54,23 @@ void sayWhereItIs(const Project& project, const ExerciseInfo& exercise, const fs
                      object.name, escapeForTerminal(site->function)));
 }
 
+// Whether it lies in a folder of hand-ins.
+bool isOfStudent(const fs::path& file) {
+  for (fs::path folder = fs::absolute(file).parent_path(); folder.has_relative_path();
+       folder = folder.parent_path())
+    if (fs::exists(folder / grading::kImportTable)) return true;
+  return false;
+}
+
 ExitCode runFile(const Project& project, const fs::path& file, const RunOptions& options) {
   if (options.solution)
     throw UsageError({.what = "--solution", .found = shown(file), .wanted = "an exercise"});
+  if (isOfStudent(file))
+    note(wrap(fmt::format(
+                  "{} runs with your rights: it may read and change all that you may. `rex test --main` with "
+                  "--level runs its functions confined.",
+                  shown(file)),
+              2, 0));
   const fs::path out = fs::absolute(options.out.empty() ? outFolderOf(project, file) : options.out);
   return runOwnProgram(project, file,
                        {.out = out, .arguments = options.arguments, .seconds = options.seconds});

@@ -54,6 +54,16 @@ constexpr const char* kWritesItsArguments =
     "  for (int i = 1; i < argc; ++i) out << argv[i] << '\\n';\n"
     "}\n";
 
+TEST_F(RunFile, WarnsBeforeItRunsAHandIn) {
+  program("in/zoe/98-template/main.cpp", kWritesItsArguments);
+  const std::string warning = "runs with your rights: it may read and change all that you may.";
+  EXPECT_THAT(flat(rex({"run", in("in/zoe/98-template/main.cpp")}).error), Not(HasSubstr(warning)));
+  program("in/import.json", "{}");
+  const Ended ended = rex({"run", in("in/zoe/98-template/main.cpp")});
+  EXPECT_EQ(ended.code, 0);
+  EXPECT_THAT(flat(ended.error), HasSubstr(warning));
+}
+
 TEST_F(RunFile, NamesResultsByTheFileOrByTheFolderOfAMain) {
   program("try.cpp", kWritesItsArguments);
   program("prog/main.cpp", kWritesItsArguments);
