@@ -618,7 +618,7 @@ TEST_F(StudentBuildTest, BlamesTheFileForToolsThatFailOnItAlone) {
 
 // Two compilers at once, of the graded part and of the whole file, and none after that.
 TEST_F(StudentBuildTest, RunsNoCompilerAgainThatReachedItsLimit) {
-  const fs::path runs = temporary_.path() / "runs";
+  const std::filesystem::path runs = temporary_.path() / "runs";
   std::string source =
       "#include \"exercise.h\"\nconstexpr long slow() {\n  long sum = 0;\n  for (long i = 0; i < 30'000'000; "
       "++i) sum += "
@@ -637,7 +637,7 @@ TEST_F(StudentBuildTest, RunsNoCompilerAgainThatReachedItsLimit) {
                                                .part = true});
   EXPECT_EQ(first(object.messages),
             "main.cpp: error: compiling took more than 1 s of processor time and was stopped");
-  EXPECT_EQ(fs::file_size(runs), 2u);
+  EXPECT_EQ(std::filesystem::file_size(runs), 2u);
 }
 
 // The whole of what is read before a compiler starts has two seconds of processor time; the compiler here

@@ -120,6 +120,14 @@ void sayGates(const Project& project, const std::vector<std::string>& names, boo
 
 }  // namespace
 
+void requireSourceTree(const Project& project, const std::string& command) {
+  if (project.installed.empty()) return;
+  throw UsageError({.what = fmt::format("rex dev {} needs the source tree of rex", command),
+                    .where = {project.installed.string()},
+                    .found = "an installed rex",
+                    .wanted = fmt::format("`scripts/rex dev {}` in a clone", command)});
+}
+
 ExitCode devCheck(const Project& project, const CheckOptions& options) {
   requireSourceTree(project, "check");
   const std::vector<std::string> names =

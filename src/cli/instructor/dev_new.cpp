@@ -44,14 +44,6 @@ void instantiate(const fs::path& from, const fs::path& to, const std::string& na
 
 }  // namespace
 
-void requireSourceTree(const Project& project, const std::string& command) {
-  if (project.installed.empty()) return;
-  throw UsageError({.what = fmt::format("rex dev {} needs the source tree of rex", command),
-                    .where = {project.installed.string()},
-                    .found = "an installed rex",
-                    .wanted = fmt::format("`scripts/rex dev {}` in a clone", command)});
-}
-
 ExitCode devNew(const Project& project, const std::string& name) {
   requireSourceTree(project, "new");
   requireGoodName(name);
