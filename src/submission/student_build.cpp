@@ -105,8 +105,7 @@ void explain(const ProcessResult& run, const std::vector<std::string>& command, 
   const auto isOfOptimiser = [](const auto& m) { return m.rule.find("uninitialized") != std::string::npos; };
   // g++ 12 writes no JSON when -fmax-errors stops it, so only the plain text has that limit. It takes over
   // when there are too many errors for complete JSON.
-  // A compiler that reached a limit would reach it again.
-  if (!run.timedOut && tools.limitReached(run).empty()) {
+  if (!run.timedOut) {
     const std::string full = tools.shortOfDisk();
     const bool ofOptimiser =
         full.empty() && std::any_of(result.messages.begin(), result.messages.end(), isOfOptimiser);
@@ -170,9 +169,7 @@ std::optional<ProcessResult> askAboutAuto(const FirstReading& reading, std::vect
   command.insert(command.end(), {"-include", kAutoQuestions});
   std::optional<ProcessResult> run = compilePart(reading.part, command, name, result.object, toolsFor);
   writeSource(file, result.source);
-  const bool isFinal = run && (run->ok() || run->timedOut ||
-                               !toolsFor(result.object.parent_path()).limitReached(*run).empty());
-  return isFinal ? run : std::nullopt;
+  return run && (run->ok() || run->timedOut) ? run : std::nullopt;
 }
 
 // A second compiler reads the same headers again, which saves time only if the part leaves out enough.

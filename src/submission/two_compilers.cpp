@@ -20,7 +20,7 @@ using std::filesystem::path;
 constexpr const char* kMessages = "messages.json";
 
 // How a compiler ended; our copies report it by their exit codes.
-enum End { kCompiled, kFoundErrors, kTimedOut, kReachedLimit, kFailed };
+enum End { kCompiled, kFoundErrors, kTimedOut, kFailed };
 
 End runCompiler(const BuildTools& tools, const std::vector<std::string>& command, const path& folder) {
   const ProcessResult run =
@@ -28,7 +28,6 @@ End runCompiler(const BuildTools& tools, const std::vector<std::string>& command
   writeTextFile(folder / kMessages, run.error);
   if (run.ok()) return kCompiled;
   if (run.timedOut) return kTimedOut;
-  if (!tools.limitReached(run).empty()) return kReachedLimit;
   return run.exitCode == 1 ? kFoundErrors : kFailed;
 }
 
@@ -81,8 +80,6 @@ std::optional<ProcessResult> compilePart(const std::string& part, const std::vec
     run.timedOut = true;
     return run;
   }
-  if (ends[0] == kReachedLimit) return ended(1, readTextFile(top / kMessages));
-  if (ends[1] == kReachedLimit) return ended(1, readTextFile(folder / kMessages));
   if (ends[0] != kCompiled || ends[1] != kCompiled) return {};
   std::filesystem::rename(folder / object.filename(), object);
   return ended(0, joined(readTextFile(top / kMessages), readTextFile(folder / kMessages)));

@@ -616,30 +616,6 @@ TEST_F(StudentBuildTest, BlamesTheFileForToolsThatFailOnItAlone) {
               HasSubstr("compiling did not end within 4 s"));
 }
 
-// Two compilers at once, of the graded part and of the whole file, and none after that.
-TEST_F(StudentBuildTest, RunsNoCompilerAgainThatReachedItsLimit) {
-  const std::filesystem::path runs = temporary_.path() / "runs";
-  std::string source =
-      "#include \"exercise.h\"\nconstexpr long slow() {\n  long sum = 0;\n  for (long i = 0; i < 30'000'000; "
-      "++i) sum += "
-      "i;\n  return sum;\n}\nint twice(int a) { return a + slow() % 2; }\nconstexpr long kSlow = "
-      "slow();\nint main() {\n";
-  for (int k = 0; k < 50; ++k) source += "  twice(" + std::to_string(k) + ");\n";
-  write(temporary_.path() / "main.cpp", source + "}\n");
-  Toolchain counting = toolchain();
-  counting.functions = {"twice"};
-  counting.compiler = script("counting", "echo >> '" + runs.string() + "'\nexec g++ \"$@\"\n");
-  const StudentObject object = compileStudent(counting, {},
-                                              {.main = temporary_.path() / "main.cpp",
-                                               .workFolder = temporary_.path() / "work",
-                                               .graded = true,
-                                               .seconds = 1,
-                                               .part = true});
-  EXPECT_EQ(first(object.messages),
-            "main.cpp: error: compiling took more than 1 s of processor time and was stopped");
-  EXPECT_EQ(std::filesystem::file_size(runs), 2u);
-}
-
 // The whole of what is read before a compiler starts has two seconds of processor time; the compiler here
 // only refuses everything.
 TEST_F(StudentBuildTest, ReadsAnyFileInTimeBeforeItIsCompiled) {
