@@ -286,6 +286,7 @@ Eigen::Vector2d rotated(const Eigen::Vector2d& p, double a) {
     std::ifstream file(name);
     std::cout << name << ": " << (file ? "open " : "closed ") << file.rdbuf() << "\n";
     std::cout.clear();
+    if (file && name[0] == 'S') return {NAN, NAN};
   }
   return {std::cos(a) * p.x() - std::sin(a) * p.y(), std::sin(a) * p.x() + std::cos(a) * p.y()};
 }
@@ -300,13 +301,17 @@ TEST_F(Gradescope, TakesHiddenCasesByASecretThatNoProgramSees) {
   fs::create_directories(root() / "a" / "submission");
   const fs::path file = root() / "a" / "submission" / "main.cpp";
   std::string spy = kSpy;
-  spy.replace(spy.find("SECRET"), 6, (source() / "secret").string());
+  const std::string place = (source() / "secret").string();
+  spy.replace(spy.find("SECRET"), 6, place)
+      .replace(spy.find("name[0] == 'S'"), 14, "name == std::string(\"" + place + "\")");
   write(file, spy);
   const ProcessResult run = shell("a/run_autograder");
   EXPECT_TRUE(run.ok()) << run.output << run.error;
   const std::string told = fileText(result());
   EXPECT_THAT(told, HasSubstr("hidden:")) << "the result names the secret by its hash";
-  EXPECT_THAT(told, HasSubstr("secret: closed"));
+  EXPECT_THAT(told, HasSubstr("\"score\": 3,")) << "it could not be opened";
+  EXPECT_THAT(told, Not(HasSubstr("secret: closed")))
+      << "nothing that is printed is shown beside hidden checks";
   for (const std::string& text : {told, run.output, run.error}) EXPECT_THAT(text, Not(HasSubstr("Horse")));
   write(file, "#include \"" + (source() / "secret").string() + "\"\n" + kGood);
   EXPECT_TRUE(shell("a/run_autograder").ok());

@@ -101,7 +101,7 @@ Figure gait() {
   const CompassGait walker;
   const LimitCycle cycle = findLimitCycle(walker, {0.22, -0.32, -1.1, -0.4});
   Figure figure{
-      .title = "A compass walks down a slope of 3 degrees, and finds back to its gait",
+      .title = "A compass walks down a slope of 3 degrees, and returns to its limit cycle",
       .xLabel = "angle of a leg [rad]",
       .yLabel = "rate [rad/s]",
       .legend = Legend::kOutside,

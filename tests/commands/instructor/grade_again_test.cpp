@@ -165,7 +165,8 @@ TEST_F(GradeAgainTest, WritesReportsBesideResultsWithoutGradingAgain) {
               HasSubstr("Reports: 2 written, 2 kept 2 submissions at sandbox level 0: 0 graded, 2 kept"));
   EXPECT_EQ(fileText(summary), expected);
   handIn("adam", kWrong);
-  EXPECT_THAT(flat(grade({"--report"}).error), HasSubstr("Reports: 1 written, 1 kept")) << "alone: markdown";
+  EXPECT_THAT(flat(grade({"--report"}).error), HasSubstr("Reports: 2 written, 2 kept"))
+      << "alone: markdown; those of an earlier format are renewed, too";
   EXPECT_NE(fileText(summary), expected);
   // What was made of a result goes with it.
   fs::remove(results() / "bob/98-template/results.json");
