@@ -57,7 +57,8 @@ constexpr const char* kWritesItsArguments =
 TEST_F(RunFile, WarnsBeforeItRunsAHandIn) {
   program("in/zoe/98-template/main.cpp", kWritesItsArguments);
   const std::string warning = "runs with your rights: it may read and change all that you may.";
-  EXPECT_THAT(flat(rex({"run", in("in/zoe/98-template/main.cpp"), "-o", in("shown")}).error), Not(HasSubstr(warning)));
+  EXPECT_THAT(flat(rex({"run", in("in/zoe/98-template/main.cpp"), "-o", in("shown")}).error),
+              Not(HasSubstr(warning)));
   program("in/import.json", "{}");
   const Ended ended = rex({"run", in("in/zoe/98-template/main.cpp"), "-o", in("shown")});
   EXPECT_EQ(ended.code, 0);
