@@ -115,7 +115,7 @@ Corridor corridorOfFourDoors() {
 }
 
 Walk recordWalk(const Corridor& corridor) {
-  Rng rng(4);
+  Rng rng(2);
   Walk walk{.ways = std::vector<int>(11, 1), .seen = {}, .cells = {}};
   int cell = 2;
   for (std::size_t t = 0; t <= walk.ways.size(); ++t) {
@@ -136,8 +136,10 @@ void showCorridor(const std::vector<Eigen::VectorXd>& beliefs, const std::vector
         {.label = "step " + std::to_string(t) + ", robot in cell " + std::to_string(walk.cells[t]),
          .y = listed(beliefs[t]),
          .style = SeriesStyle::kLinesPoints});
-  cells.series.push_back(
-      {.label = "doors", .y = listed(0.1 * corridor.doors), .dashed = true, .color = kLandmarkColor});
+  cells.series.push_back({.label = "doors",
+                          .y = listed(0.1 * corridor.doors),
+                          .dashed = true,
+                          .color = Color{0.55f, 0.55f, 0.55f}});
   plot("corridor", cells);
   Series filter{.label = "observations so far", .y = {}}, all{.label = "all observations", .y = {}};
   for (std::size_t t = 0; t < beliefs.size() && t < hindsight.size(); ++t) {

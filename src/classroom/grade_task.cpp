@@ -123,7 +123,7 @@ void keep(const BuiltSubmission& built, const fs::path& kept, const fs::path& lo
 BuiltSubmission buildOnce(const KeptWorkers& keeping, const Toolchain& toolchain,
                           const ExerciseInfo& exercise, const SubmissionOptions& options) {
   const fs::path kept = keeping.folder / keeping.key;
-  if (!keeping.anew)
+  if (!keeping.recompile)
     if (auto taken = take(kept, options)) return *std::move(taken);
   BuiltSubmission built = buildSubmission(toolchain, exercise, options);
   if (built.worker.empty()) return built;
@@ -274,7 +274,7 @@ std::string inputOf(const fs::path& file, const char* key) {
              : "";
 }
 
-// Whoever can write to the folder of results can make a hash, but not this one.
+// Anyone who can write to the folder of results can make a hash; this one needs the secret.
 std::string hmacOf(const std::string& seal, const std::string& inputs, const Task& task,
                    const fs::path& secret) {
   return hmacSha256(readCourseSecret(secret), fmt::format("{}\n{}\n{}\n", task.student, inputs, seal));
@@ -446,7 +446,7 @@ GradeResult gradeTask(const Task& task, const Toolchain& toolchain, const Exerci
   const BuiltSubmission built =
       options.workers.empty()
           ? buildSubmission(toolchain, exercise, submission)
-          : buildOnce({options.workers, workerKey(task), options.anew}, toolchain, exercise, submission);
+          : buildOnce({options.workers, workerKey(task), options.recompile}, toolchain, exercise, submission);
   GradeResult result = gradeBuilt(built, toolchain, exercise, submission);
   const std::optional<int> before = pointsBefore(task, options.out);
   const bool isHeld =

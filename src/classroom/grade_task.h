@@ -22,7 +22,7 @@ inline constexpr const char* kBuildLog = "build.log";
 struct KeptWorkers {
   std::filesystem::path folder{};
   std::string key{};
-  bool anew = false;  ///< build even if it is kept
+  bool recompile = false;  ///< build even if it is kept
 };
 
 /// The result of buildSubmission(), taken from the folder if an earlier call with the same key left it
@@ -104,7 +104,7 @@ struct TaskOptions {
   bool alone = false;                  ///< see GradedWith
   std::filesystem::path workers{};     ///< where compiled programs are kept; empty: they are not
   bool accept = false;                 ///< take a result with fewer points for the same text, too
-  bool anew = false;                   ///< recompile even what is kept there
+  bool recompile = false;              ///< build even what is kept there
 };
 
 /// Grades a task and writes OUT/STUDENT/EXERCISE/results.json, the hash of the inputs, build.log and, on

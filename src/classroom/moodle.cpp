@@ -209,7 +209,7 @@ class MoodleReader {
     found_.all.push_back(std::move(arrival));
   }
 
-  // The last time of a team counts, and one member's draft is told.
+  // The last time of a team's members counts; a draft is reported once for the team.
   void addMember(const MoodleRow& row, Arrival& arrival) {
     arrival.people.push_back(row.person);
     arrival.submitted = std::max(arrival.submitted, row.submitted);

@@ -145,7 +145,7 @@ void BayesianSearch::add(const VectorArg& x, double value) {
   if (best_.size() == 0) best_ = x;
 }
 
-// Parameters are fitted anew for each of the first points, then whenever their number has grown by a tenth.
+// Parameters are fitted again for each of the first points, then whenever their number has grown by a tenth.
 void BayesianSearch::learn() {
   VectorXd values = y_;
   double worst = -std::numeric_limits<double>::infinity();

@@ -166,7 +166,7 @@ class DualActiveSet {
     active_.erase(active_.begin() + k);
   }
 
-  // x and the multipliers anew from the active rows, without the rounding errors of the steps.
+  // x and the multipliers, recomputed from the active rows, without the rounding errors of the steps.
   void polish() {
     const Index q = count(), rest = g_.size() - q;
     VectorXd bound(q);

@@ -24,7 +24,7 @@ constexpr float kFar = 3e38f;
 constexpr int kBlock = 8;  // points, or boxes, side by side
 // Of a stack of branches: at most five sixths of a node's points are below one of its children.
 constexpr std::size_t kMostOpen = 2048;
-constexpr int kGrowth = 3;  // of a subtree until it is built anew
+constexpr int kGrowth = 3;  // of a subtree until it is rebuilt
 
 const internal::NeighborKernel& neighborKernel() {
   static const auto kernel = kernelFor<internal::NeighborKernel>(cpuLanes());

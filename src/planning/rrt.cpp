@@ -34,7 +34,7 @@ class TreeGrowth {
   }
 
   /// A random target, or the goal with that probability. Where only ways from start to goal shorter than
-  /// `length` matter, targets off all of them are drawn anew, which counts as one sample.
+  /// `length` matter, targets off all of them are drawn again, which counts as one sample.
   const Eigen::VectorXd& draw(double goalBias, double length = std::numeric_limits<double>::infinity());
   /// The node that a tree gains by one step towards a target, -1 if something is in the way.
   int extend(SearchTree& tree, const VectorArg& target);

@@ -347,7 +347,7 @@ int gradeOpen(const std::vector<Task>& tasks, const GradeManyOptions& options,
                            .alone = isAlone(task, options),
                            .workers = options.workers,
                            .accept = options.acceptFewer,
-                           .anew = options.regrade && isDone(task, options)});
+                           .recompile = options.regrade && isDone(task, options)});
       },
       [&](int k, int code) {
         std::error_code ignored;
@@ -451,7 +451,7 @@ ExitCode gradeMany(const Project& project, GradeManyOptions options) {
                                     .json = options.json,
                                     .reports = options.reports});
   requireFolders(options);
-  static_cast<void>(reportsOf(options.reports));
+  static_cast<void>(reportsOf(options.reports));  // a misspelt format is refused before the first grading
   const grading::LatePolicy policy = readDeadlines(project, options.files.deadlines);
   const auto sandbox = chooseForStrangers(project, options.level, options.accept);
   if (!sandbox) return ExitCode::kWeakSandbox;

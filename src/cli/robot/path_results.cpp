@@ -398,6 +398,8 @@ std::string summaryOfAll(const PathTask& task, const PlanOptions& options, const
       fmt::format("{}, {}, seeds {} to {}: {} of {} found a path\n", escapeForTerminal(task.model.name()),
                   nameOf(options.planner), found.all.front().seed, found.all.back().seed, found.successes(),
                   found.all.size());
+  if (const auto ended = std::ranges::count_if(found.all, &FoundPath::isTimeUp); ended > 0)
+    text += fmt::format("{} ended after {:g} s, the --time-limit\n", ended, options.timeLimit);
   text += fmt::format("{:22} {:>10} {:>10} {:>10}", "", "min", "median", "max");
   text += row("nodes", valuesOf(false, [](const FoundPath& one) { return one.nodes; }));
   text += row("configurations checked",

@@ -168,6 +168,9 @@ TEST_F(PlanCommand, EndsAfterItsTimeLimit) {
   EXPECT_THAT(result.output, AnyOf(HasSubstr("no path within 0.05 s, the --time-limit\nexplored "),
                                    HasSubstr("ms for planning, ended by the --time-limit")));
   EXPECT_TRUE(std::filesystem::exists(in("out/tree.png"))) << "what was explored";
+  const ProcessResult table =
+      planBoard({"--planner", "rrt-star", "--samples", "10000000", "--time-limit", "0.05", "--runs", "2"});
+  EXPECT_THAT(table.output, HasSubstr("\n2 ended after 0.05 s, the --time-limit\n"));
 }
 
 TEST_F(PlanCommand, TellsOfAPathThatIsNotClear) {
