@@ -99,10 +99,13 @@ ExitCode plan(const Project& project, PlanOptions options) {
   const bool isCar = options.planner == Planner::kHybridAStar, isPath = drawsSamples(options.planner);
   if (!options.margin) options.margin = isPath ? 0.01 : isCar ? 0.05 : 0.02;
   if (!options.resolution) options.resolution = isPath ? 0.02 : 0.05;
+  const Facing facing = facingOf(fileOf(project, options.scene));
+  requireGiven("--goal", options.goal, "plan");
+  requireGiven("--out", options.out.string(), "plan");
   RenderOptions film = options.film;
   film.out = options.out / "path.mp4";
   if (isCar && film.cameras.empty()) film.cameras = {"0,-0.5,1"};  // a street is seen from above
-  const RenderPlan pictures = planOf(film, facingOf(fileOf(project, options.scene)));
+  const RenderPlan pictures = planOf(film, facing);
   Model model = loadScene(project, options.scene);
   if (model.nv() == 0) throw UsageError({.what = model.name(), .found = "no joint that moves"});
   if (!options.noFilm) requireFilmable(model);
@@ -141,11 +144,11 @@ void addPlan(CLI::App* command, Action& action) {
   addSceneFile(command, "SCENE", options->scene.file);
   addOptions(
       command,
-      {OptionRow("-o,--out", options->out, "DIR", "folder for the results").required(),
-       {"--start", options->start, "POSTURE", "all numbers, joint=number,..., 0, or file (default: file)"},
-       OptionRow("--goal", options->goal, "GOAL",
-                 "posture to reach, as for --start; with --planner optimize, BODY:x,y,z in metres")
-           .required(),
+      {{"-o,--out", options->out, "DIR", "folder for the results"},
+       {"--start", options->start, "POSTURE",
+        "all numbers, joint=number,..., 0, file, or key:NAME or state:NAME of the file (default: file)"},
+       {"--goal", options->goal, "GOAL",
+        "posture to reach, as for --start; with --planner optimize, BODY:x,y,z in metres"},
        {"--planner", options->planner, plannerNames(), "how to search"},
        {"--margin",
         options->margin,

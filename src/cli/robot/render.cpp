@@ -73,7 +73,9 @@ void writePage(const MotionPictures& pictures, const RenderPlan& plan, const Ren
 }  // namespace
 
 ExitCode render(const Project& project, const RenderOptions& options) {
-  const RenderPlan plan = planOf(options, facingOf(fileOf(project, options.scene)));
+  const Facing facing = facingOf(fileOf(project, options.scene));
+  requireGiven("--out", options.out.string(), "render");
+  const RenderPlan plan = planOf(options, facing);
   const Model model = loadScene(project, options.scene);
   const MotionPictures pictures =
       picturesOf(model, motionOf(model, options, plan.seconds), options, plan.product);
@@ -113,7 +115,7 @@ void addRender(CLI::App* command, Action& action) {
       ".gif (for one posture, a walk around it); .glb; .html; or none for a folder of frames.\n"
       "The front of a robot is where it faces: -y in .ors files, +x in all others.");
   addSceneFile(command, "SCENE", options->scene.file);
-  command->add_option("-o,--out", options->out, "what to make")->type_name("FILE")->required();
+  command->add_option("-o,--out", options->out, "what to make")->type_name("FILE");
   addReading(command, options->scene.reading);
   addRenderOptions(command, *options);
   addGl(command, options->gl);

@@ -63,8 +63,16 @@ void addFilmSpeed(CLI::App* command, double& speed) {
 }
 
 void addPosture(CLI::App* command, std::string& posture) {
-  addOptions(command,
-             {{"--q", posture, "POSTURE", "all numbers, joint=number,..., 0, or file (default: file)"}});
+  addOptions(
+      command,
+      {{"--q", posture, "POSTURE",
+        "all numbers, joint=number,..., 0, file, or key:NAME or state:NAME of the file (default: file)"}});
+}
+
+void requireGiven(const char* option, const std::string& value, const char* command) {
+  if (!value.empty()) return;
+  throw UsageError(
+      {.what = fmt::format("{} is required; `rex {} --help` explains the options", option, command)});
 }
 
 void addJson(CLI::App* command, bool& json) { addOptions(command, {{"--json", json, "print JSON"}}); }

@@ -15,6 +15,8 @@ void addSceneFile(CLI::App* command, const std::string& name, std::filesystem::p
 void addReading(CLI::App* command, ReadOptions& reading);
 /// `--q`.
 void addPosture(CLI::App* command, std::string& posture);
+/// Throws UsageError without a value. Options that CLI11 itself requires hide what is wrong with the scene.
+void requireGiven(const char* option, const std::string& value, const char* command);
 void addJson(CLI::App* command, bool& json);
 /// All that a picture can be asked for.
 void addRenderOptions(CLI::App* command, RenderOptions& options);

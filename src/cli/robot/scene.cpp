@@ -139,7 +139,7 @@ void addSceneRender(CLI::App* scene, Action& action, const std::shared_ptr<Scene
   const auto own = std::make_shared<RenderOptions>();
   CLI::App* verb = addVerbOf(scene, "render", "Draw the scene, as `rex render` does",
                              "Example: scripts/rex scene man render -o man.png");
-  verb->add_option("-o,--out", own->out, "what to make")->type_name("FILE")->required();
+  verb->add_option("-o,--out", own->out, "what to make")->type_name("FILE");
   addRenderOptions(verb, *own);
   addGl(verb, own->gl);
   verb->callback([&action, options, own] {

@@ -348,11 +348,13 @@ void noteUnheld(const Model& model, const SimulationPlan& plan) {
 
 // Lets a scene move under gravity. Writes a log, an energy plot and a film, or a page.
 ExitCode simulateScene(const Project& project, const SimulateOptions& options) {
+  const Facing facing = facingOf(fileOf(project, options.scene));
+  requireGiven("--out", options.out.string(), "simulate");
   if (!isPage(options))
     requireFolderName(options.out, "a folder, which gets simulate.mp4, or a page NAME.html");
   RenderOptions filmOptions = options.film;
   filmOptions.out = isPage(options) ? options.out : options.out / "simulate.mp4";
-  const RenderPlan film = planOf(filmOptions, facingOf(fileOf(project, options.scene)));
+  const RenderPlan film = planOf(filmOptions, facing);
   const Model model = modelOf(project, options);
   if (isPage(options) && options.noFilm)
     throw UsageError(
@@ -422,12 +424,10 @@ void addSimulate(CLI::App* command, Action& action) {
       "Each applies until the next. They add to the torques of --hold.\n\n"
       "log.npy is a matrix for numpy.load with the columns of log.csv.");
   addSceneFile(command, "SCENE", options->scene.file);
-  addOptions(
-      command,
-      {OptionRow("-o,--out", options->out, "DIR", "folder for the results, or a page NAME.html").required(),
-       {"--engine", options->engine, engineNames(), "how to integrate, bullet also contacts"},
-       {"--seconds", options->seconds, {1e-6, 120}, "S", "duration"},
-       {"--tau", options->tau, {1e-6, 1}, "S", "seconds per step"}});
+  addOptions(command, {{"-o,--out", options->out, "DIR", "folder for the results, or a page NAME.html"},
+                       {"--engine", options->engine, engineNames(), "how to integrate, bullet also contacts"},
+                       {"--seconds", options->seconds, {1e-6, 120}, "S", "duration"},
+                       {"--tau", options->tau, {1e-6, 1}, "S", "seconds per step"}});
   addPosture(command, options->posture);
   addOptions(
       command,

@@ -252,6 +252,9 @@ TEST_F(PlanCommand, RefusesPosturesThatCannotBe) {
   expectRefusal({"board", "--goal", kGoal, "--start", "1,2,x"}, "--start: found 'x', wanted a number");
   expectRefusal({"board", "--goal", "arm1>arm=1"}, "did you mean 'arm1>arm2'?");
   expectRefusal({"board"}, "--goal is required");
+  for (const char* command : {"plan", "simulate", "render"})
+    EXPECT_THAT(rex({command, "nosuch.ors"}).error, HasSubstr("there is no scene 'nosuch.ors'")) << command;
+  EXPECT_THAT(rex({"simulate", "board"}).error, HasSubstr("--out is required"));
 }
 
 TEST_F(PlanCommand, RefusesScenesThatItCannotPlanIn) {
