@@ -112,6 +112,13 @@ class Simulator {
   [[nodiscard]] ReachedPosture inverseKinematics(const std::string& body, const Eigen::Vector3d& p_W,
                                                  const Eigen::Vector3d& rel = Eigen::Vector3d::Zero()) const;
 
+  /// The same among the postures in which all shapes that may collide, obstacles included, are `clearance` >
+  /// 0 metres apart (for a place, up to a millionth of it). Throws Error as kinematicsContacts().
+  [[nodiscard]] ReachedPosture inverseKinematics(const std::string& body, const Pose& X_WB,
+                                                 double clearance) const;
+  [[nodiscard]] ReachedPosture inverseKinematics(const std::string& body, const Eigen::Vector3d& p_W,
+                                                 const Eigen::Vector3d& rel, double clearance) const;
+
   /// World direction of the vector `vec`, fixed in a body; by default the body's z axis. Slide 2:54.
   Eigen::Vector3d kinematicsVec(const std::string& body,
                                 const Eigen::Vector3d& vec = Eigen::Vector3d::UnitZ()) const;

@@ -13,6 +13,7 @@
 #include "geometry/rotation.h"
 #include "planning/path_problem.h"
 #include "planning/path_problem_internal.h"
+#include "planning/smooth_path.h"
 
 namespace rex {
 namespace {
@@ -299,6 +300,17 @@ SplineResult splineAlong(const PathProblem& problem, const MatrixArg& path) {
     if (std::count(isBad.begin(), isBad.end(), true) == 0) return resultOf(polygon, control);
     refine(polygon, isBad, round < kMostRounds);
   }
+}
+
+PathCurve smoothCurve(const PathProblem& problem, const MatrixArg& path, int rounds, Rng& rng) {
+  const Eigen::MatrixXd shorter = shortcut(problem, path, rounds, rng);
+  const bool hasRotations = std::ranges::any_of(
+      problem.space.parts(), [](const SpacePart& part) { return part.kind == SpacePart::Kind::kQuaternion; });
+  if (hasRotations) return straightCurve(problem.space, shorter);
+  const SplineResult result = splineAlong(problem, shorter);
+  // A straight segment was checked at other points than the spline, which may find an invalid one on it.
+  return result.status == SplineStatus::kInvalid ? straightCurve(problem.space, shorter)
+                                                 : result.spline.curve();
 }
 
 }  // namespace rex

@@ -9,6 +9,8 @@
 
 namespace rex {
 
+class Rng;
+
 /// A point on a path: q (nq), and its first and second derivatives with respect to the path parameter s (nv
 /// each; for a quaternion the angular velocity in the moved frame, as in the model's velocities).
 struct CurvePoint {
@@ -87,5 +89,10 @@ struct SplineResult {
 /// pieces that lie on the path are checked like edges. Throws Error for a path of the wrong size or without
 /// points, and for a space with quaternions.
 [[nodiscard]] SplineResult splineAlong(const PathProblem& problem, const MatrixArg& path);
+
+/// A shorter curve from start to goal of a path: splineAlong() after shortcut() of so many rounds. In spaces
+/// with quaternions, and where the path is not valid at the points of a spline, it has straight segments and
+/// stops at corners. Throws as these.
+[[nodiscard]] PathCurve smoothCurve(const PathProblem& problem, const MatrixArg& path, int rounds, Rng& rng);
 
 }  // namespace rex

@@ -11,6 +11,7 @@
 #include "base/rng.h"
 #include "collision/contacts.h"
 #include "course/clearances.h"
+#include "course/motion.h"
 #include "course/pictures.h"
 #include "course/recording.h"
 #include "course/simulator.h"
@@ -18,6 +19,7 @@
 #include "geometry/pose.h"
 #include "kinematics/forward_kinematics.h"
 #include "physics/physics_world.h"
+#include "planning/timed_path.h"
 #include "scene/model.h"
 #include "support/expect_error.h"
 #include "support/file_text.h"
@@ -201,6 +203,39 @@ TEST_F(SimulatorFacade, SaysHowFarOffWhatItCannotReachIs) {
   EXPECT_REX_ERROR((void)S.inverseKinematics("amr", far), "has no body 'amr' (did you mean 'arm'");
 }
 
+// Postures that reach this place exist clear of the wall and in it.
+TEST_F(SimulatorFacade, ReachesPlacesClearOfContacts) {
+  Simulator S("arm7dof");
+  S.addObstacle({.type = ShapeType::kBox, .extent = {0.04, 1, 0.4}}, translation(0.3, 0, 0.2), "wall");
+  Rng rng(5);
+  int blocked = 0;
+  for (int trial = 0; trial < 10; ++trial) {
+    S.setJointAngles(VectorXd::NullaryExpr(
+        7, [&](Eigen::Index i) { return rng.uniform(S.getLowerLimits()[i], S.getUpperLimits()[i]); }));
+    const Vector3d place(0.45, rng.uniform(-.2, .2), 0.5);
+    const auto touches = [&](const VectorXd& q) {
+      Simulator there = S;
+      there.setContactMargin(0.02);
+      there.setJointAngles(q);
+      return there.kinematicsContacts()[0] > 1e-5;
+    };
+    if (touches(S.inverseKinematics("tool", place).q)) ++blocked;
+    const ReachedPosture clear = S.inverseKinematics("tool", place, Vector3d::Zero(), 0.02);
+    ASSERT_TRUE(clear.isReached) << clear.message;
+    EXPECT_FALSE(touches(clear.q));
+    const Pose X_WB = forwardKinematics(S.model(), clear.q)[S.model().body("tool")];
+    EXPECT_LT((X_WB.p - place).norm(), 2e-6);
+    const ReachedPosture again = S.inverseKinematics("tool", X_WB, 0.01);
+    ASSERT_TRUE(again.isReached) << again.message;
+    Simulator there = S;
+    there.setContactMargin(0.01);
+    there.setJointAngles(again.q);
+    EXPECT_EQ(there.kinematicsContacts()[0], 0);
+  }
+  EXPECT_GT(blocked, 0) << "the test asks for nothing that the plain call does not give";
+  EXPECT_REX_ERROR((void)S.inverseKinematics("tool", Pose{}, 0.), "inverseKinematics: clearance: found 0");
+}
+
 // The distance of a ball from a slab is its height less its radius.
 TEST_F(SimulatorFacade, KeepsObstaclesInMind) {
   Simulator S = ball();
@@ -346,6 +381,46 @@ TEST_F(SimulatorFacade, FeelsWhatTouches) {
   EXPECT_EQ(Simulator(S).getContacts().size(), 1u);
   S.addObstacle({.type = ShapeType::kSphere, .radius = 0.1}, translation(5, 0, 0), "far");
   EXPECT_THAT(S.getContacts(), IsEmpty());
+}
+
+// The way of a cart, past the wall and within its limits; forward kinematics and contacts judge the film.
+TEST_F(SimulatorFacade, MovesToAPosturePastObstacles) {
+  Simulator S("maze");
+  const VectorXd start = S.getJointAngles(), goal = Vector3d(3, 0, 0);
+  const Move move = moveTo(S, goal);
+  ASSERT_TRUE(move.isFound) << move.message;
+  EXPECT_GT(move.clearance, 0);
+  EXPECT_EQ(S.getJointAngles(), goal);
+  EXPECT_NEAR(S.recording().duration(), move.duration, 1e-9);
+  const auto postures = S.recording().evenly(2000);
+  EXPECT_EQ(postures.front().q, start);
+  Simulator there = S;
+  there.setContactMargin(1e-9);
+  const double fastest = jointLimits(S.model()).limits.velocity.maxCoeff();
+  for (std::size_t i = 0; i < postures.size(); ++i) {
+    there.setJointAngles(postures[i].q);
+    ASSERT_EQ(there.kinematicsContacts()[0], 0) << i;
+    if (i == 0) continue;
+    const double tau = postures[i].time - postures[i - 1].time;
+    EXPECT_LT((postures[i].q - postures[i - 1].q).cwiseAbs().maxCoeff(), 1.02 * fastest * tau);
+  }
+  Simulator other("maze");
+  EXPECT_EQ(moveTo(other, goal).duration, move.duration) << "the same seed";
+}
+
+TEST_F(SimulatorFacade, SaysWhatItExploredInVain) {
+  Simulator S("maze");
+  S.addObstacle({.type = ShapeType::kBox, .extent = {0.1, 20, 4}},
+                translation(S.kinematicsPos("cart").x() + 1, 0, 0), "wall");
+  const VectorXd start = S.getJointAngles();
+  const Move move = moveTo(S, Vector3d(3, 0, 0), {.timeLimit = 0.2});
+  EXPECT_FALSE(move.isFound);
+  EXPECT_THAT(move.message, HasSubstr("within 0.2 s: "));
+  EXPECT_THAT(move.message, HasSubstr("samples explored"));
+  EXPECT_EQ(S.getJointAngles(), start);
+  EXPECT_REX_ERROR((void)moveTo(S, Vector2d(0, 0)), "moveTo: goal: found a vector of size 2, wanted size 3");
+  EXPECT_REX_ERROR((void)moveTo(S, Vector3d(1, 0, 0)), "goal");
+  EXPECT_REX_ERROR((void)moveTo(S, start, {.clearance = 0}), "moveTo: clearance: found 0");
 }
 
 }  // namespace rex::simulator_facade_test

@@ -71,18 +71,6 @@ PathResult askRoadmap(const PathProblem& problem, const PathSearch& search, Rng&
   return result;
 }
 
-// There are no splines of rotations: with these, only shortcuts, and stops where the direction changes.
-PathCurve smoothed(const PathProblem& problem, const Eigen::MatrixXd& path, Rng& rng) {
-  const Eigen::MatrixXd shorter = shortcut(problem, path, kShortcuts, rng);
-  const bool hasRotations = std::ranges::any_of(
-      problem.space.parts(), [](const SpacePart& part) { return part.kind == SpacePart::Kind::kQuaternion; });
-  if (hasRotations) return straightCurve(problem.space, shorter);
-  const SplineResult result = splineAlong(problem, shorter);
-  // A straight segment was checked at other points than the spline, which may find an invalid one on it.
-  return result.status == SplineStatus::kInvalid ? straightCurve(problem.space, shorter)
-                                                 : result.spline.curve();
-}
-
 }  // namespace
 
 const std::vector<std::pair<std::string, Planner>>& plannerNames() {
@@ -144,7 +132,8 @@ FoundPath searchPath(const PathTask& task, const PathSearch& search, std::uint64
   for (const PathGraph& graph : found.explored) found.nodes += static_cast<int>(graph.nodes.cols());
   if (result.status != PathStatus::kFound) return found;
   found.plannedLength = result.length;
-  found.curve = search.smooth ? smoothed(problem, result.path, rng) : straightCurve(space, result.path);
+  found.curve =
+      search.smooth ? smoothCurve(problem, result.path, kShortcuts, rng) : straightCurve(space, result.path);
   found.smoothingTime = cpuTime() - planned;
   found.path = sampled(found.curve, kChordTolerance);
   found.length = pathLength(space, found.path);
