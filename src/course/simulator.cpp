@@ -160,7 +160,7 @@ struct Simulator::Parts {
 Simulator::Simulator(const std::string& sceneFile, const SimulatorOptions& options) {
   const std::filesystem::path path = findScene(sceneFile, homeFolder() / "data");
   SceneFile scene = readScene(path, readingOf(path, options));
-  for (const Diagnostic& one : scene.notes)
+  for (const Diagnostic& one : grouped(scene.notes))
     if (one.severity == Severity::kWarning) std::cerr << toString(one) << "\n";
   const bool hasEnding = std::filesystem::path(sceneFile).has_extension();
   scene.spec.name = hasEnding ? sceneFile : path.filename().string();

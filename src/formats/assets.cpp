@@ -79,6 +79,42 @@ std::vector<fs::path> placesOf(const std::string& package, const fs::path& rest,
   return places;
 }
 
+// The folders above a root, without that of the whole system.
+std::vector<fs::path> above(const fs::path& root) {
+  std::vector<fs::path> folders;
+  for (fs::path at = realPath(root).parent_path(); at.has_relative_path(); at = at.parent_path())
+    folders.push_back(at);
+  return folders;
+}
+
+// A folder that may be a root, and the file that is found there.
+struct WiderRoot {
+  fs::path root, file;
+};
+
+// Where a package above the root has the file: each file once, with the nearest root.
+std::vector<WiderRoot> packagesAbove(const std::string& package, const fs::path& rest, const fs::path& root) {
+  std::vector<WiderRoot> found;
+  for (const fs::path& wider : above(root)) {
+    for (const fs::path& place :
+         {wider.filename() == package ? wider / rest : fs::path(), wider / package / rest}) {
+      const auto isKnown = [&](const WiderRoot& one) { return one.file == realPath(place); };
+      if (!place.empty() && isInside(place, wider) && obstacleAt(place).empty() &&
+          std::ranges::none_of(found, isKnown))
+        found.push_back({wider, realPath(place)});
+    }
+  }
+  return found;
+}
+
+// The nearest folder above the root that holds the file, for a message; empty without one.
+std::string rootWith(const fs::path& file, const fs::path& root) {
+  if (!isRegularFile(file)) return {};
+  for (const fs::path& wider : above(root))
+    if (isInside(file, wider)) return fmt::format("; --assets {} has it", wider.string());
+  return {};
+}
+
 // The paths, with links followed, at which the scene may mean the file. Only those inside the root count.
 std::vector<fs::path> inRoot(const std::vector<fs::path>& places, const fs::path& root) {
   std::vector<fs::path> inside;
@@ -105,6 +141,7 @@ bool namesNoPackage(std::string_view file) {
 Assets::Assets(const fs::path& sceneFile, const fs::path& root, bool needsNoPackage)
     : folder_(folderOf(sceneFile)),
       root_(root.empty() ? folder_ / ".." : root),
+      hasUsualRoot_(root.empty()),
       needsNoPackage_(needsNoPackage) {
   if (!root.empty() && !fs::is_directory(root))
     throw Error({.what = "the folder of all assets",
@@ -117,12 +154,15 @@ fs::path Assets::find(const std::string& name, const SourceLocation& where, cons
     throw Error({.what = what, .where = where, .found = found, .wanted = wanted});
   };
   std::vector<fs::path> places;
+  std::vector<WiderRoot> wider;
   if (name.starts_with(kPackage)) {
     const std::string path = name.substr(kPackage.size());
     const std::size_t slash = path.find('/');
     if ((slash == 0 && !needsNoPackage_) || slash == std::string::npos || slash + 1 == path.size())
       fail(fmt::format("'{}'", name), "package://PACKAGE/PATH");
     places = placesOf(path.substr(0, slash), path.substr(slash + 1), folder_, root_);
+    if (hasUsualRoot_ && slash > 0)
+      wider = packagesAbove(path.substr(0, slash), path.substr(slash + 1), root_);
   } else if (name.find("://") != std::string::npos && !name.starts_with(kFile)) {
     fail(fmt::format("'{}'", name), "a file: nothing is fetched from a network");
   } else {
@@ -130,7 +170,8 @@ fs::path Assets::find(const std::string& name, const SourceLocation& where, cons
   }
   const std::vector<fs::path> tried = inRoot(places, root_);
   if (tried.empty())
-    fail(fmt::format("'{}'", name), fmt::format("a file inside the asset root {}", realPath(root_).string()));
+    fail(fmt::format("'{}'", name), fmt::format("a file inside the asset root {}{}", realPath(root_).string(),
+                                                rootWith(places.front(), root_)));
   std::vector<std::string> paths;
   for (const fs::path& path : tried) {
     const std::string obstacle = obstacleAt(path);
@@ -138,10 +179,15 @@ fs::path Assets::find(const std::string& name, const SourceLocation& where, cons
     if (obstacle != kNoSuchFile) fail(fmt::format("{}: {}", obstacle, path.string()), "a file");
     paths.push_back(path.string());
   }
+  if (wider.size() == 1) return wider.front().file;
+  std::vector<std::string> roots;
+  for (const WiderRoot& one : wider) roots.push_back("--assets " + one.root.string());
   throw Error({.what = what,
                .where = where,
                .found = fmt::format("no file '{}'", name),
-               .wanted = fmt::format("{}{}", paths.size() > 1 ? "one of " : "", join(paths, ", ")),
+               .wanted = roots.empty()
+                             ? fmt::format("{}{}", paths.size() > 1 ? "one of " : "", join(paths, ", "))
+                             : "one of its packages: " + join(roots, " or "),
                .nearest = nearestNames(fs::path(name).filename().string(), namesBesideAll(tried))});
 }
 

@@ -11,7 +11,8 @@ namespace rex {
 /// Whether a file name has the form package:///PATH, without a package.
 [[nodiscard]] bool namesNoPackage(std::string_view file);
 
-/// The files that a scene may name: only those inside its asset root after links are resolved.
+/// The files that a scene may name: only those inside its asset root after links are resolved, and, unless
+/// the root is given, those of packages above it.
 class Assets {
  public:
   /// For the scene in `sceneFile`. The default `root` is the parent of the scene's folder, so that a scene
@@ -27,14 +28,15 @@ class Assets {
 
   /// The location of `name`, without links. `name` is a path relative to folder(), or
   /// package://PACKAGE/PATH, which is looked up in folders called PACKAGE above and beside the scene, then
-  /// in the root. Throws Error at `where`, beginning with `what`, for a network address, a path that leaves
-  /// the root, a file that cannot be read, and a missing file, with all paths tried.
+  /// in the root; with the default root also in folders called PACKAGE above it, if exactly one has the file.
+  /// Throws Error at `where`, beginning with `what`, for a network address, a path that leaves the root, a
+  /// file that cannot be read, and a missing file, with all paths tried, or the roots that have it.
   [[nodiscard]] std::filesystem::path find(const std::string& name, const SourceLocation& where,
                                            const std::string& what) const;
 
  private:
   std::filesystem::path folder_, root_;
-  bool needsNoPackage_;
+  bool hasUsualRoot_, needsNoPackage_;
 };
 
 /// The file that a user means by `scene`: a path, or a scene of the course in the folder `library`, with or

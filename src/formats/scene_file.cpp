@@ -1,6 +1,8 @@
 #include "formats/scene_file.h"
 
+#include <cctype>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <system_error>
 
@@ -33,7 +35,46 @@ bool isXacro(const fs::path& file) { return endingOf(file) == ".xacro"; }
                .nearest = nearestNames(ending, {".ors", ".urdf", ".xml"})});
 }
 
+// A message without its quoted names and without numbers.
+std::string kindOf(const std::string& message) {
+  const auto isWord = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; };
+  std::string kind;
+  for (std::size_t i = 0; i < message.size(); ++i) {
+    const bool isAtStart = i == 0 || !isWord(message[i - 1]);
+    if (message[i] == '\'' && isAtStart) {
+      const std::size_t end = message.find('\'', i + 1);
+      if (end != std::string::npos) i = end;
+      kind += '\'';
+    } else if (message[i] == '-' && isAtStart) {
+      continue;  // of a number
+    } else if (isAtStart && std::isdigit(static_cast<unsigned char>(message[i])) != 0) {
+      const auto goesOn = [&](char c) {
+        return isWord(c) || c == '.' || ((c == '-' || c == '+') && message[i] == 'e');
+      };
+      while (i + 1 < message.size() && goesOn(message[i + 1])) ++i;
+      kind += '0';
+    } else {
+      kind += message[i];
+    }
+  }
+  return kind;
+}
+
 }  // namespace
+
+Diagnostics grouped(const Diagnostics& notes) {
+  std::map<std::pair<Severity, std::string>, std::pair<std::size_t, int>> known;  // place and count
+  Diagnostics all;
+  for (const Diagnostic& one : notes) {
+    const auto [kind, isNew] = known.try_emplace({one.severity, kindOf(one.message)}, all.size(), 0);
+    if (isNew) all.push_back(one);
+    ++kind->second.second;
+  }
+  for (const auto& [kind, place] : known)
+    if (place.second > 1)
+      all[place.first].message += fmt::format(" (and {} more like this)", place.second - 1);
+  return all;
+}
 
 SceneFile readScene(const fs::path& file, const ReadOptions& options) {
   if (endingOf(file) == ".ors") return readOrs(file, options);

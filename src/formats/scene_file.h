@@ -30,7 +30,8 @@ struct ReadOptions {
   bool textures = false;                  ///< read those of meshes, see readTexturedMesh(); for drawing
   bool strict = false;                    ///< faults that are otherwise repaired with a warning are errors
   Diagnostics* notesOfFailure = nullptr;  ///< receives the notes made before an Error
-  /// An SRDF that says which links of a URDF robot may collide; empty: NAME.srdf beside NAME.urdf, if any.
+  /// An SRDF that says which links of a URDF robot may collide; empty: NAME.srdf beside NAME.urdf or in
+  /// ../srdf, if any.
   std::filesystem::path srdf{};
   UpAxis upAxis = UpAxis::kAsUsual;
 };
@@ -43,6 +44,10 @@ struct ReadOptions {
 /// Reads no file, so shapes know their mesh by name only.
 [[nodiscard]] SceneFile parseScene(std::string_view text, const std::string& name,
                                    const ReadOptions& options = {});
+
+/// The findings in which those that differ only in quoted names and in numbers are one: the first, with how
+/// many are like it.
+[[nodiscard]] Diagnostics grouped(const Diagnostics& notes);
 
 /// The text of a scene file. Throws Error if it is missing, not a readable file, or larger than `most`
 /// bytes.

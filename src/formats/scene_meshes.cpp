@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <deque>
 #include <map>
 #include <set>
@@ -12,6 +13,7 @@
 
 #include <fmt/format.h>
 
+#include "formats/assets_internal.h"
 #include "formats/mesh_reader_internal.h"
 #include "formats/scaled_mesh.h"
 #include "geometry/convex_hull.h"
@@ -100,6 +102,29 @@ class Missing {
   std::vector<Group> groups_;
 };
 
+// Packages that were found above the asset root.
+class FromAbove {
+ public:
+  void add(const ShapeSpec& shape, const std::filesystem::path& file) {
+    const std::string package = shape.meshFile.substr(0, shape.meshFile.find('/', std::strlen("package://")));
+    if (packages_.insert(package).second) found_.push_back({shape.where, package, file.string()});
+  }
+
+  void addNotes(Diagnostics& notes) const {
+    for (const auto& [where, package, file] : found_)
+      notes.push_back(
+          {where, fmt::format("{} was found above the asset root: its first mesh is {}", package, file)});
+  }
+
+ private:
+  struct Found {
+    SourceLocation where;
+    std::string package, file;
+  };
+  std::set<std::string> packages_;
+  std::vector<Found> found_;
+};
+
 // Collada files that have an up axis other than z, so that the two readings differ.
 class Turned {
  public:
@@ -151,6 +176,7 @@ class Loader {
 
   void addNotes() const {
     missing_.addNotes(notes_);
+    fromAbove_.addNotes(notes_);
     for (const bool ignored : {true, false}) turned_[ignored].addNote(ignored, notes_);
   }
 
@@ -183,6 +209,7 @@ class Loader {
     if (isNew) {
       try {
         known->second = assets_.find(shape.meshFile, shape.where, what);
+        if (!internal::isInside(known->second, assets_.root())) fromAbove_.add(shape, known->second);
       } catch (const Error& error) {
         if (!allowMissing_) throw;
         missing_.add(shape, error.parts());
@@ -285,6 +312,7 @@ class Loader {
   UpAxis upAxis_;
   Diagnostics& notes_;
   Missing missing_;
+  FromAbove fromAbove_;
   std::array<Turned, 2> turned_;  // by whether the up axis is ignored
   std::size_t vertices_ = 0, pixels_ = 0;
   std::map<std::string, std::filesystem::path> paths_;  // where files were found; empty for missing ones

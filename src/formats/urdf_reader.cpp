@@ -156,12 +156,13 @@ SceneSpec readRobot(Reading& reading, const std::string& name, bool freeBase) {
   return spec;
 }
 
-// The collision settings are in a file of their own, which is named like the robot unless another one is
-// given.
+// The SRDF is named like the robot unless another one is given, and lies beside it or, as in packages of
+// MoveIt, in ../srdf.
 void readChoices(const std::filesystem::path& robot, const std::filesystem::path& given, SceneFile& scene) {
   if (!given.empty()) return readSrdf(given, scene);
   const std::filesystem::path beside = std::filesystem::path(robot).replace_extension(".srdf");
-  if (internal::obstacleAt(beside) != internal::kNoSuchFile) readSrdf(beside, scene);
+  for (const auto& file : {beside, internal::folderOf(robot) / ".." / "srdf" / beside.filename()})
+    if (internal::obstacleAt(file) != internal::kNoSuchFile) return readSrdf(file, scene);
 }
 
 }  // namespace

@@ -61,6 +61,30 @@ TEST_F(AssetsOfAnArm, MayComeFromOtherPackagesInAWiderRoot) {
   EXPECT_EQ(assets.find("../../secret.stl", kHere, "mesh"), top() / "secret.stl");
 }
 
+// As in a collection of robots, whose packages lie above those of one of them.
+TEST_F(AssetsOfAnArm, MayComeFromAPackageAboveTheirRoot) {
+  fs::create_directories(top() / "arm_description/robots/six");
+  const fs::path six = top() / "arm_description/robots/six/six.urdf";
+  const std::string palm = "package://hand/meshes/palm.stl",
+                    link = "package://arm_description/meshes/link.stl";
+  EXPECT_EQ(Assets(six).find(palm, kHere, "mesh"), top() / "hand/meshes/palm.stl");
+  EXPECT_EQ(Assets(six).find(link, kHere, "mesh"), this->link());
+  EXPECT_REX_ERROR(Assets(six, six.parent_path()).find(palm, kHere, "mesh"), "no file");
+  EXPECT_REX_ERROR(Assets(six).find("package://meshes/../secret.stl", kHere, "mesh"), "mesh: found");
+  // Two of them are not guessed between.
+  fs::create_directories(top() / "arm_description/hand/meshes");
+  std::ofstream(top() / "arm_description/hand/meshes/palm.stl") << "another";
+  EXPECT_REX_ERROR(Assets(six).find(palm, kHere, "mesh"),
+                   "no file '" + palm + "', wanted one of its packages: --assets " +
+                       (top() / "arm_description").string() + " or --assets " + top().string());
+}
+
+TEST_F(AssetsOfAnArm, SayWhichRootHasAFile) {
+  EXPECT_REX_ERROR(Assets(arm()).find("../../secret.stl", kHere, "mesh"),
+                   "wanted a file inside the asset root " + (top() / "arm_description").string() +
+                       "; --assets " + top().string() + " has it");
+}
+
 TEST_F(AssetsOfAnArm, StayInsideTheirRoot) {
   const Assets assets(arm());
   fs::create_symlink(top() / "secret.stl", top() / "arm_description/meshes/way_out.stl");

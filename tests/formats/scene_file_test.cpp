@@ -87,4 +87,17 @@ TEST_F(SceneFileTest, HasALargestSize) {
                    "a.ors: scene file too large: found 1048577 bytes, wanted at most 1 MiB");
 }
 
+TEST(SceneNotes, AreGroupedByWhatTheySay) {
+  const Diagnostics all = {{{"a", 1}, "joint 'x': limit of -0.5 rad", Severity::kWarning},
+                           {{"a", 2}, "joint 'y': it's 3 long"},
+                           {{"a", 3}, "joint 'z 2': limit of 1e-5 rad", Severity::kWarning},
+                           {{"a", 4}, "joint 'x': limit of 1 rad"},
+                           {{"a", 5}, "joint 'w': limit of 7 rad", Severity::kWarning}};
+  const Diagnostics few = grouped(all);
+  ASSERT_EQ(few.size(), 3u);
+  EXPECT_EQ(toString(few[0]), "a:1: warning: joint 'x': limit of -0.5 rad (and 2 more like this)");
+  EXPECT_EQ(toString(few[1]), toString(all[1]));
+  EXPECT_EQ(toString(few[2]), toString(all[3])) << "a note is no warning";
+}
+
 }  // namespace rex::scene_file_test

@@ -150,6 +150,17 @@ TEST_F(SrdfFile, IsReadWhereItLiesBesideTheRobot) {
   EXPECT_REX_ERROR(readArm(), "arm.srdf:1:");
 }
 
+// As in packages of MoveIt and example-robot-data; the one beside it comes first.
+TEST_F(SrdfFile, IsReadWhereItLiesInASiblingFolder) {
+  for (const char* folder : {"urdf", "srdf"}) fs::create_directory(in(folder));
+  write("urdf/arm.urdf", kArm);
+  write("srdf/arm.srdf",
+        "<robot name='arm'><disable_collisions link1='base' link2='hand' reason='Never'/></robot>");
+  EXPECT_EQ(readUrdf(in("urdf/arm.urdf")).spec.collisionChoices.size(), 1u);
+  write("urdf/arm.srdf", "<robot name='arm'/>");
+  EXPECT_THAT(readUrdf(in("urdf/arm.urdf")).spec.collisionChoices, IsEmpty());
+}
+
 TEST_F(SrdfFile, MustBeThereWhereItIsAskedFor) {
   write("arm.urdf", kArm);
   write("arms.srdf", "<robot name='arm'/>");

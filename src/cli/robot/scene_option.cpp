@@ -51,7 +51,8 @@ SceneFile read(const fs::path& file, const ReadOptions& reading) {
     try {
       return readScene(file, reading);
     } catch (const Error& error) {
-      if (error.parts().what.ends_with(": mesh"))
+      if (error.parts().what.ends_with(": mesh") &&
+          error.parts().wanted.find("--assets") == std::string::npos)
         note("--assets DIR names the folder of all meshes, --allow-missing-meshes draws boxes instead");
       throw;
     }
@@ -84,7 +85,11 @@ SceneSpec loadSpec(const Project& project, const SceneOption& scene) {
   const fs::path file = fileOf(project, scene);
   requireMeaning(file, scene.reading);
   SceneFile loaded = read(file, scene.reading);
-  for (const Diagnostic& one : loaded.notes) note(wrap(escapeForTerminal(toString(one)), 2, 0));
+  const Diagnostics notes = grouped(loaded.notes);
+  for (const Diagnostic& one : notes) note(wrap(escapeForTerminal(toString(one)), 2, 0));
+  if (notes.size() < loaded.notes.size())
+    note(fmt::format("`rex scene {} check` shows all {} findings", escapeForTerminal(scene.file.string()),
+                     loaded.notes.size()));
   if (!loaded.spec.pins.empty())
     note(
         wrap("pins close loops here: Bullet keeps them closed (rex simulate --engine bullet, Simulate in rex "
