@@ -127,6 +127,26 @@
   const setPoints = (object, points) =>
     object.geometry.setAttribute('position', new THREE.Float32BufferAttribute(points.flat(), 3));
 
+  // Once the centre of mass has gone farther than half the size of the scene, the view goes along, and the ground aside.
+  function followRobot() {
+    if (!frame.com) return;
+    const { world, radius } = scene.current, centre = new THREE.Vector3().fromArray(frame.com);
+    if (!scene.start) scene.start = centre.clone(), scene.moved = new THREE.Vector3();
+    const way = centre.sub(scene.start), far = way.length();
+    way.multiplyScalar(Math.max(0, 1 - 0.5 * radius / Math.max(far, 1e-9)));
+    if (way.distanceTo(scene.moved) < 1e-3 * radius) return;
+    view.moveBy(world.localToWorld(way.clone()).sub(world.localToWorld(scene.moved.clone())));
+    const step = way.clone().sub(scene.moved);
+    if (scene.groundNode) {
+      scene.groundNode.position.add(step.clone().setZ(0));
+      scene.groundNode.traverse(({ material }) => {
+        if (material && material.uniforms && material.uniforms.middle)
+          material.uniforms.middle.value.add(new THREE.Vector2(step.x, step.y));
+      });
+    }
+    scene.moved = way;
+  }
+
   function showMarks() {
     scene.com.visible = get('com').checked && Boolean(frame.com);
     if (frame.com) scene.com.position.fromArray(frame.com);
@@ -193,6 +213,7 @@
   function showFrameInScene() {
     isStale = false;
     showPoses();
+    followRobot();
     showMarks();
     showHandles();
     followHandle();

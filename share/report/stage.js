@@ -314,6 +314,15 @@ const rexStage = (function () {
       draw();
     }
 
+    // Moves camera, light and all that the first view aims at by this vector, of three.js.
+    function moveBy(way) {
+      const { target, home, corners, sun } = current;
+      for (const point of [controls.target, view.position, target, home, sun.position, sun.target.position, ...corners])
+        point.add(way);
+      sun.target.updateMatrixWorld();
+      controls.update();
+    }
+
     function placeTexts() {
       const width = stage.clientWidth, height = stage.clientHeight, at = new THREE.Vector3();
       for (const { object, element, below, fixed } of current.texts) {
@@ -398,7 +407,7 @@ const rexStage = (function () {
 
     window.addEventListener('resize', resize);
     renderer.domElement.addEventListener('webglcontextrestored', draw);
-    return { renderer, view, controls, load, draw, resize, resetView, lookFrom, obeys, setQuality };
+    return { renderer, view, controls, load, draw, resize, resetView, lookFrom, moveBy, obeys, setQuality };
   }
 
   const parse = glb => new Promise((resolve, reject) => new THREE.GLTFLoader().parse(glb, '', resolve, reject));
