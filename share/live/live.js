@@ -242,6 +242,16 @@
       return made;
     });
     if (isRobot && sliders.length === 0) get('joints').append(element('p', 'state', 'No joint of this scene moves.'));
+    get('homes').textContent = '';
+    const postures = isRobot ? about.postures : [];
+    get('homes').hidden = postures.length === 0;
+    for (const name of ['', ...postures]) {
+      const choice = element('option', '', name || 'as in the file');
+      choice.value = name;
+      get('homes').append(choice);
+    }
+    // Where a model of MuJoCo has its joints at 0 is often no posture that it can take.
+    get('homes').value = postures.includes('key:home') ? 'key:home' : '';
     get('bodies').textContent = '';
     about.bodies.forEach((body, i) => {
       if (!about.shapes.some(shape => shape.body === i && shape.drawn)) return;
@@ -350,7 +360,9 @@
   const redraw = () => { isStale = true; view.draw(); };
   for (const id of ['names', 'frames', 'com']) get(id).addEventListener('change', redraw);
   get('collision').addEventListener('change', showShapes);
-  get('home').addEventListener('click', () => send({ do: 'home' }));
+  const goHome = () => send(get('homes').value ? { do: 'home', posture: get('homes').value } : { do: 'home' });
+  get('home').addEventListener('click', goHome);
+  get('homes').addEventListener('change', goHome);
   const run = () => send({ do: 'run', on: !(frame && frame.runs) });
   get('run').addEventListener('click', run);
   get('step').addEventListener('click', () => send({ do: 'step' }));

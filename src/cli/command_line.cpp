@@ -65,14 +65,22 @@ bool takes(std::string_view what, const CLI::App& command) {
   return std::ranges::any_of(command.get_options(), isMeant);
 }
 
+bool wantsPosture(const CLI::App& command, const std::string& option) {
+  const CLI::Option* known = command.get_option_no_throw(option);
+  return known && (known->get_type_name() == "POSTURE" || known->get_type_name() == "GOAL");
+}
+
 // What may stand in place of the last of these words, which begins it: a command, an option or a verb of the
-// command that the others reach, an exercise where the command takes one. Sorted; empty if a file is meant.
+// command that the others reach, an exercise where the command takes one, a posture of the scene after its
+// option. Sorted; empty if a file is meant.
 std::vector<std::string> completions(const CLI::App& program, std::span<const std::string> words,
-                                     const Project& project) {
+                                     const Project& project, const Room& room) {
   const std::string begun = words.empty() ? "" : words.back();
   const CLI::App& command = reachedBy(program, words.first(words.empty() ? 0 : words.size() - 1));
   std::vector<std::string> found;
-  if (begun.starts_with('-')) {
+  if (room.postures && words.size() > 2 && wantsPosture(command, words[words.size() - 2])) {
+    found = room.postures(project, words.first(words.size() - 2));
+  } else if (begun.starts_with('-')) {
     for (const CLI::Option* option : command.get_options())
       for (const std::string& name : option->get_lnames()) found.push_back("--" + name);
   } else {
@@ -307,7 +315,7 @@ Action actionOf(int argc, const char* const* argv, const Room& room, const Proje
   if (!words.empty() && words.front() == "--complete") {
     const Program owner = words.size() > 1 ? ownerOf(words[1], room.program) : room.program;
     if (owner != room.program) return handOver(owner);
-    return list(completions(program, std::span(words).subspan(1), here));
+    return list(completions(program, std::span(words).subspan(1), here, room));
   }
   if (!words.empty() && words.front() == "--man") return print(manualPage());
   if (!words.empty())

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/exit_code.h"
 #include "cli/project.h"
@@ -58,6 +59,8 @@ struct Room {
   std::map<std::string_view, Registration> commands{};
   Action withoutCommand{};             ///< empty: `rex` handles it
   Project (*project)() = findProject;  ///< what its commands work with
+  /// For completion: what the file of a scene calls its postures, given the words of the command.
+  std::vector<std::string> (*postures)(const Project&, std::span<const std::string> words) = nullptr;
 };
 
 /// The rooms of the programs; each is defined in the library of its folder.

@@ -48,15 +48,20 @@ std::string srdfOf(const std::filesystem::path& file, const SceneSpec& spec) {
 }
 
 ReadOptions readingOf(const std::filesystem::path& file, const SimulatorOptions& options) {
+  if (!options.srdf.empty() && lowerCase(file.extension().string()) != ".urdf")
+    throw Error({.what = "an SRDF", .where = {file.string()}, .wanted = "a .urdf robot"});
   if (options.freeBase && lowerCase(file.extension().string()) == ".ors")
     throw Error({.what = "free base",
                  .where = {file.string()},
                  .found = "an .ors scene",
                  .wanted = "a .urdf robot; an .ors scene has a joint of type free instead"});
+  const UpAxis axis = options.ignoresUpAxis.value_or(true) ? UpAxis::kIgnored : UpAxis::kRespected;
   return {.assetRoot = options.assetRoot,
           .allowMissingMeshes = !options.strict,
           .freeBase = options.freeBase,
-          .strict = options.strict};
+          .strict = options.strict,
+          .srdf = options.srdf,
+          .upAxis = options.ignoresUpAxis ? axis : UpAxis::kAsUsual};
 }
 
 // As text, without meshes that are in no file: readers of a text draw none.
@@ -168,7 +173,7 @@ Simulator::Simulator(const std::string& sceneFile, const SimulatorOptions& optio
                                          .sceneText = options.freeBase ? "" : std::move(scene.text),
                                          .q = {},
                                          .srdf = srdfOf(path, scene.spec)};
-  start(description, std::move(scene.spec));
+  start(description, std::move(scene.spec), options.posture);
   for (const Diagnostic& one : collisionWarnings(parts_->model)) std::cerr << toString(one) << "\n";
   if (!parts_->model.pins().empty())
     std::cerr << parts_->model.name()
@@ -176,12 +181,14 @@ Simulator::Simulator(const std::string& sceneFile, const SimulatorOptions& optio
               << "sees the tree of joints only\n";
 }
 
-Simulator::Simulator(const SimulatorDescription& description) { start(description, parsed(description)); }
+Simulator::Simulator(const SimulatorDescription& description) { start(description, parsed(description), ""); }
 
-void Simulator::start(const SimulatorDescription& description, SceneSpec spec) {
+void Simulator::start(const SimulatorDescription& description, SceneSpec spec, const std::string& posture) {
   Model model = compile(spec);
   Contacts contacts = contactsOf(model);
-  const Eigen::VectorXd q = description.q.size() > 0 ? description.q : model.initialPositions();
+  const Eigen::VectorXd q = description.q.size() > 0 ? description.q
+                            : posture.empty()        ? model.initialPositions()
+                                                     : model.posture(posture);
   parts_.reset(new Parts{description.sceneName, description.sceneText, description.srdf,
                          std::make_shared<const SceneSpec>(std::move(spec)), std::move(model),
                          std::move(contacts)});
@@ -404,7 +411,7 @@ void Simulator::anchorKinematicChainIn(const std::string& body) {
                                          .dynamicNoise = parts_->dynamicNoise,
                                          .gravity = parts_->gravity,
                                          .seed = parts_->seed};
-  start(description, std::move(spec));
+  start(description, std::move(spec), "");
 }
 
 // The script's forms with an output argument.

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,12 @@ struct SimulatorOptions {
   bool freeBase = false;  ///< the root of a .urdf robot moves freely: x y z and a quaternion come first in q
   std::string assetRoot{};  ///< folder of all files that the scene names; empty: the one above the scene's
   bool strict = false;  ///< faults that are otherwise repaired with a warning are Errors, also a missing mesh
+  std::string srdf{};   ///< of a .urdf robot; empty: NAME.srdf beside NAME.urdf or in ../srdf, if any
+  /// Whether meshes have the axes of their Collada files; unset: those of a .urdf have, as in ROS, and others
+  /// are turned to z up.
+  std::optional<bool> ignoresUpAxis{};
+  /// Where it starts: a name of Model::postures(), such as "key:home"; empty: the posture of the file.
+  std::string posture{};
 };
 
 /// Everything needed to make the same simulator elsewhere: the text of its scene, a posture and settings.
@@ -60,8 +67,8 @@ class Simulator {
  public:
   /// Loads an .ors, .urdf or MuJoCo .xml file: a path, or the name of one of the course's scenes, such as
   /// "man.ors". Throws Error with file:line:column if the scene is missing or broken or a mesh is broken,
-  /// and for a free base with an .ors scene. Boxes replace missing meshes unless `strict`; warnings of the
-  /// reader and of collisionWarnings() are printed.
+  /// for a free base or an SRDF with another format than they are for, and for an unknown posture. Boxes
+  /// replace missing meshes unless `strict`; warnings of the reader and of collisionWarnings() are printed.
   explicit Simulator(const std::string& sceneFile, const SimulatorOptions& options = {});
   /// Reads no file, so shapes described by a mesh are not drawn.
   explicit Simulator(const SimulatorDescription& description);
@@ -232,7 +239,7 @@ class Simulator {
 
  private:
   struct Parts;
-  void start(const SimulatorDescription& description, SceneSpec spec);
+  void start(const SimulatorDescription& description, SceneSpec spec, const std::string& posture);
 
   std::unique_ptr<Parts> parts_;
 };

@@ -186,6 +186,9 @@ void readPins(const std::vector<Tag>& tags, const Defaults& defaults, const Comp
 /// Also lets the geoms of each <pair> touch.
 void readContacts(const std::vector<Tag>& sections, Files& files, BodyTree& tree);
 
+/// <keyframe>: the postures of its keys, called "key:NAME".
+void readKeyframes(const std::vector<Tag>& sections, Files& files, BodyTree& tree);
+
 /// Warns of bodies with geoms that nothing can touch, or nothing that is added to the scene.
 void noteUntouchable(BodyTree& tree, Notes& notes);
 /// Forbids those between which there are several joints: bodies between joints hide that they are neighbours.

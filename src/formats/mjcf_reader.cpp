@@ -217,8 +217,9 @@ using namespace mjcf;
 const Known& knownOfModel() {
   static const Known kKnown = {
       {"model"},
-      {"include", "compiler", "option", "default", "asset", "worldbody", "actuator", "equality", "contact"},
-      {"size", "visual", "statistic", "custom", "deformable", "tendon", "sensor", "keyframe", "extension"}};
+      {"include", "compiler", "option", "default", "asset", "worldbody", "actuator", "equality", "contact",
+       "keyframe"},
+      {"size", "visual", "statistic", "custom", "deformable", "tendon", "sensor", "extension"}};
   return kKnown;
 }
 
@@ -271,6 +272,7 @@ BodyTree readModel(Files& files, const std::string& name, Compiler& compiler) {
   readActuators(named(sections, "actuator"), files, defaults, compiler, tree);
   readEqualities(named(sections, "equality"), files, defaults, compiler, tree);
   readContacts(named(sections, "contact"), files, tree);
+  readKeyframes(named(sections, "keyframe"), files, tree);
   noteUntouchable(tree, files.main().notes);
   chooseNeighbours(tree);
   urdf::keepTargetsMovable(tree.joints, files.main());

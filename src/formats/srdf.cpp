@@ -20,11 +20,15 @@ using namespace urdf;
 constexpr std::size_t kLargestSrdf = 8u << 20;
 
 // Tags of an SRDF that are for other programs.
-const std::vector<std::string> kOfOthers = {
-    "group",         "group_state",    "end_effector", "virtual_joint",
-    "passive_joint", "joint_property", "chained_to",   "link_sphere_approximation"};
-const std::vector<std::string> kChoices = {"disable_collisions", "enable_collisions",
-                                           "disable_default_collisions"};
+const std::vector<std::string> kOfOthers = {"group",
+                                            "end_effector",
+                                            "virtual_joint",
+                                            "passive_joint",
+                                            "joint_property",
+                                            "chained_to",
+                                            "link_sphere_approximation"};
+const std::vector<std::string> kReadTags = {"disable_collisions", "enable_collisions",
+                                            "disable_default_collisions", "group_state"};
 
 bool isOfOthers(const std::string& name) {
   return std::find(kOfOthers.begin(), kOfOthers.end(), name) != kOfOthers.end();
@@ -53,16 +57,17 @@ class SrdfReader {
 
   void read() {
     static const Known kKnown = [] {
-      Known known{{"name", "version"}, kChoices};
+      Known known{{"name", "version"}, kReadTags};
       known.children.insert(known.children.end(), kOfOthers.begin(), kOfOthers.end());
       return known;
     }();
     const Tag robot(reading_, reading_.document.root, "<robot>");
     robot.expect(kKnown);
     for (const Tag& tag : robot.children()) {
-      if (tag.name() == kChoices[0]) addPair(tag, false);
-      if (tag.name() == kChoices[1]) addPair(tag, true);
-      if (tag.name() == kChoices[2]) addAll(tag);
+      if (tag.name() == kReadTags[0]) addPair(tag, false);
+      if (tag.name() == kReadTags[1]) addPair(tag, true);
+      if (tag.name() == kReadTags[2]) addAll(tag);
+      if (tag.name() == kReadTags[3]) addState(tag.of("<group_state>"));
     }
   }
 
@@ -79,8 +84,9 @@ class SrdfReader {
     std::vector<std::string> kinds;
     for (const auto& [name, count] : counts)
       kinds.push_back(count > 1 ? fmt::format("<{}> ({} times)", name, count) : fmt::format("<{}>", name));
-    notes.push_back({reading_.document.where(first->at),
-                     fmt::format("only the collisions of an SRDF are read: {} skipped", join(kinds, ", "))});
+    notes.push_back(
+        {reading_.document.where(first->at),
+         fmt::format("only collisions and states of an SRDF are read: {} skipped", join(kinds, ", "))});
   }
 
  private:
@@ -88,12 +94,7 @@ class SrdfReader {
   bool hasLink(const Tag& tag, const char* attribute) const {
     const std::string& name = tag.nameIn(attribute);
     if (links_.contains(name)) return true;
-    tag.warn(tag.where(attribute), [&] {
-      const std::vector<std::string> nearest =
-          nearestNames(name, std::vector<std::string>(links_.begin(), links_.end()));
-      return fmt::format("the robot has no link {}: ignored{}", xml::quoted(name),
-                         nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest.front()));
-    });
+    warnOfUnknown(tag, attribute, "link", name, {links_.begin(), links_.end()});
     return false;
   }
 
@@ -128,6 +129,53 @@ class SrdfReader {
                [&] { return fmt::format("{} {}; the first is at {}", who, problem, toString(other.where)); });
     }
     robot_.spec.collisionChoices.push_back(std::move(choice));
+  }
+
+  // States of several groups with one name are one posture.
+  void addState(const Tag& tag) {
+    static const Known kKnown = {{"name", "group"}, {"joint"}};
+    tag.expect(kKnown);
+    const std::string name = "state:" + tag.nameIn("name");
+    std::vector<PostureSpec>& postures = robot_.spec.postures;
+    auto posture = std::ranges::find(postures, name, &PostureSpec::name);
+    if (posture == postures.end())
+      posture = postures.insert(postures.end(), {.name = name, .where = tag.where()});
+    for (const Tag& joint : tag.children("joint")) addToState(joint, *posture);
+  }
+
+  void addToState(const Tag& tag, PostureSpec& posture) {
+    static const Known kKnown = {{"name", "value"}, {}};
+    tag.expect(kKnown);
+    const std::string& name = tag.nameIn("name");
+    const auto joint = std::ranges::find(robot_.spec.joints, name, &JointSpec::name);
+    if (joint == robot_.spec.joints.end()) {
+      std::vector<std::string> names;
+      for (const JointSpec& one : robot_.spec.joints) names.push_back(one.name);
+      return warnOfUnknown(tag, "name", "joint", name, names);
+    }
+    if (positionCount(joint->type) != 1)
+      return tag.warn(
+          tag.where("name"),
+          fmt::format("ignored: {} is a {} joint, and only joints with one coordinate have states",
+                      xml::quoted(name), toString(joint->type)));
+    const Eigen::VectorXd value = tag.numbers("value", 1);
+    const auto known = std::ranges::find(posture.joints, name, [](const auto& one) { return one.first; });
+    if (known == posture.joints.end()) {
+      posture.joints.emplace_back(name, value);
+    } else if (known->second != value) {
+      tag.warn(tag.where("value"),
+               fmt::format("joint {} has another value in '{}' already, which counts: {:g}",
+                           xml::quoted(name), posture.name, known->second[0]));
+    }
+  }
+
+  static void warnOfUnknown(const Tag& tag, const char* attribute, const char* kind, const std::string& name,
+                            const std::vector<std::string>& known) {
+    tag.warn(tag.where(attribute), [&] {
+      const std::vector<std::string> nearest = nearestNames(name, known);
+      return fmt::format("the robot has no {} {}: ignored{}", kind, xml::quoted(name),
+                         nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest.front()));
+    });
   }
 
   Reading& reading_;

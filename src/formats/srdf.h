@@ -11,8 +11,9 @@
 namespace rex {
 
 /// Adds the collision choices of an SRDF to a URDF robot: <disable_collisions>, <enable_collisions> and
-/// <disable_default_collisions>, see share/doc/robot-files.md. Warns of links that the robot does not have
-/// and of pairs that are given twice; one note lists what else the file holds. Throws Error with
+/// <disable_default_collisions>, see share/doc/robot-files.md, and the postures that it names:
+/// <group_state>. Warns of links and joints that the robot does not have and of pairs that are given twice;
+/// one note lists what else the file holds. Throws Error with
 /// file:line:column for a file that is missing or over 8 MiB, XML faults, xacro, a URDF in its place, a
 /// missing link name, and a link paired with itself.
 void readSrdf(const std::filesystem::path& file, SceneFile& robot);

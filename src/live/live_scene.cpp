@@ -118,8 +118,12 @@ std::string liveDescription(const Model& model) {
                       {"drawn", isDrawable(shape)},
                       {"visible", shape.visible || !anyVisible},
                       {"contact", shape.contact}});
-  const LiveJson all = {{"kind", "robot"},  {"title", model.name()}, {"mass", model.mass()},
-                        {"bodies", bodies}, {"shapes", shapes},      {"coordinates", coordinatesJson(model)}};
+  LiveJson postures = LiveJson::array();
+  for (const NamedPosture& one : model.postures()) postures.push_back(one.name);
+  const LiveJson all = {{"kind", "robot"},      {"title", model.name()},
+                        {"mass", model.mass()}, {"bodies", bodies},
+                        {"shapes", shapes},     {"coordinates", coordinatesJson(model)},
+                        {"postures", postures}};
   return all.dump(-1, ' ', false, LiveJson::error_handler_t::replace);
 }
 

@@ -115,7 +115,7 @@ void LiveSession::obey(std::string_view message) {
 void LiveSession::obeyOne(const Event& event) {
   const std::string what = event.text("do");
   if (what == "move") return move(event);
-  if (what == "home") return goHome();
+  if (what == "home") return goHome(event);
   if (what == "drag") return drag(event);
   if (what == "push") return push(event);
   if (what == "release") {
@@ -182,9 +182,11 @@ void LiveSession::move(const Event& event) {
 
 // In a simulation joints that are held follow; others jump.
 // No motor moves a free base: in a simulation it is put back, with all the rest.
-void LiveSession::goHome() {
-  if (!simulation_ || !hasFloatingBase(model_)) return setTarget(model_.initialPositions());
-  state_.q = target_ = model_.initialPositions();
+void LiveSession::goHome(const Event& event) {
+  const VectorXd& home =
+      event.has("posture") ? model_.posture(event.text("posture")) : model_.initialPositions();
+  if (!simulation_ || !hasFloatingBase(model_)) return setTarget(home);
+  state_.q = target_ = home;
   state_.v.setZero();
   poses_ = forwardKinematics(model_, state_.q);
   restartSimulation();

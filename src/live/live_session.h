@@ -54,7 +54,7 @@ class LiveSession {
   void obeyOne(const Event& event);
   void obeySimulation(const Event& event);
   void move(const Event& event);
-  void goHome();
+  void goHome(const Event& event);
   void setTarget(const Eigen::VectorXd& q);
   void drag(const Event& event);
   void push(const Event& event);

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "base/text.h"
 #include "geometry/mesh_mass.h"
 #include "scene/links_internal.h"
 #include "scene/model.h"
@@ -407,6 +408,30 @@ Pin resolved(const PinSpec& pin, const BodyNames& bodyByName) {
   return found;
 }
 
+// Joints that mimic have no coordinates of their own: those that a posture gives them are left out.
+NamedPosture resolved(const PostureSpec& posture, const std::vector<Joint>& joints,
+                      const Eigen::VectorXd& start) {
+  NamedPosture found{posture.name, start};
+  for (const auto& [name, coordinates] : posture.joints) {
+    const auto joint = std::ranges::find(joints, name, &Joint::name);
+    const std::string owner = fmt::format("posture '{}'", posture.name);
+    if (joint == joints.end())
+      fail(posture.where, owner + ": unknown joint", fmt::format("'{}'", name), "the name of a joint");
+    if (coordinates.size() != joint->nq || !coordinates.allFinite())
+      fail(posture.where, fmt::format("{}: joint '{}'", owner, name),
+           fmt::format("{} numbers", coordinates.size()), fmt::format("{} finite numbers", joint->nq));
+    if (joint->mimics) continue;
+    found.q.segment(joint->qIndex, joint->nq) = coordinates;
+    if (joint->nq == joint->nv) continue;
+    auto turn = found.q.segment<4>(joint->qIndex + joint->nq - 4);
+    if (!(turn.norm() > 1e-9))
+      fail(posture.where, fmt::format("{}: joint '{}'", owner, name), "a quaternion of length zero",
+           "another one");
+    turn.normalize();
+  }
+  return found;
+}
+
 }  // namespace
 
 Model compile(const SceneSpec& spec) {
@@ -473,7 +498,19 @@ Model compile(const SceneSpec& spec) {
   for (const CollisionChoice& choice : spec.collisionChoices)
     model.collisionChoices_.push_back(resolved(choice, model.bodyByName_));
   for (const PinSpec& pin : spec.pins) model.pins_.push_back(resolved(pin, model.bodyByName_));
+  for (const PostureSpec& posture : spec.postures)
+    model.postures_.push_back(resolved(posture, model.joints_, model.q0_));
   return model;
+}
+
+const Eigen::VectorXd& Model::posture(std::string_view name) const {
+  const auto found = std::ranges::find(postures_, name, &NamedPosture::name);
+  if (found != postures_.end()) return found->q;
+  std::vector<std::string> names;
+  for (const NamedPosture& one : postures_) names.push_back(one.name);
+  throw Error({.what = fmt::format("scene '{}' has no posture '{}'", name_, name),
+               .wanted = names.empty() ? "" : join(names, ", "),
+               .nearest = nearestNames(name, names)});
 }
 
 BodyId Model::body(std::string_view name) const {

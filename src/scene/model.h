@@ -98,6 +98,12 @@ struct Pin {
   Eigen::Vector3d p_AP, p_BQ;  ///< metres
 };
 
+/// A posture that the file names; see PostureSpec.
+struct NamedPosture {
+  std::string name;
+  Eigen::VectorXd q;  ///< nq
+};
+
 /// An immutable robot world; only compile() makes one. Bodies and joints are sorted breadth-first from the
 /// roots (roots in file order, then each body's joints in file order), which is also the order of q. The
 /// world is body 0.
@@ -134,6 +140,10 @@ class Model {
 
   /// The posture described by the file, nq.
   const Eigen::VectorXd& initialPositions() const { return q0_; }
+  /// Others that the file names, in its order.
+  const std::vector<NamedPosture>& postures() const { return postures_; }
+  /// The one of that name, such as "key:home". Throws Error with the names that there are.
+  const Eigen::VectorXd& posture(std::string_view name) const;
   /// Limits of each coordinate, nq; infinite where there are none. They include those of mimic joints:
   /// within them, each mimic joint's ratio * q + offset stays within its own limits.
   const Eigen::VectorXd& lowerLimits() const { return lower_; }
@@ -155,6 +165,7 @@ class Model {
   CollisionRule collisionRule_ = CollisionRule::kAllButNeighbours;
   std::vector<PairChoice> collisionChoices_;
   std::vector<Pin> pins_;
+  std::vector<NamedPosture> postures_;
   std::unordered_map<std::string, BodyId> bodyByName_;
   Eigen::VectorXd q0_, lower_, upper_;
   int nv_ = 0;
@@ -164,9 +175,9 @@ class Model {
 /// Checks a scene and freezes it. Throws Error, with the position in the file if known, for a joint to an
 /// unknown body, two joints with one name, two joints that move one body, a loop, a mimic of an unknown
 /// joint or one of another type, mimic limits that leave no allowed position, a collision choice or a pin
-/// that does not name two bodies, and masses, sizes, poses or limits that are not finite or have the wrong
-/// sign or count. An inertia with a negative principal moment is refused, one that violates the triangle
-/// inequality is not.
+/// that does not name two bodies, a named posture of an unknown joint, and masses, sizes, poses or limits
+/// that are not finite or have the wrong sign or count. An inertia with a negative principal moment is
+/// refused, one that violates the triangle inequality is not.
 [[nodiscard]] Model compile(const SceneSpec& spec);
 
 }  // namespace rex

@@ -127,6 +127,8 @@ void reverse(JointSpec& joint) {
 
 void removeJoint(SceneSpec& spec, const std::string& name) {
   std::erase_if(spec.joints, [&](const JointSpec& joint) { return joint.name == name; });
+  for (PostureSpec& posture : spec.postures)
+    std::erase_if(posture.joints, [&](const auto& joint) { return joint.first == name; });
 }
 
 }  // namespace
@@ -171,6 +173,7 @@ SceneSpec reconfigureRoot(SceneSpec spec, const std::string& body) {
   }
   for (JointSpec& joint : spec.joints)
     if (std::find(names.begin(), names.end(), joint.name) != names.end()) reverse(joint);
+  spec.postures.clear();
   return spec;
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -128,6 +129,13 @@ struct PinSpec {
   SourceLocation where{};
 };
 
+/// A posture that a file names. Joints that it does not list are as in the scene.
+struct PostureSpec {
+  std::string name;  ///< as users give it: "key:home" of an MJCF file, "state:ready" of an SRDF
+  std::vector<std::pair<std::string, Eigen::VectorXd>> joints{};  ///< the coordinates of a joint by its name
+  SourceLocation where{};
+};
+
 /// A scene as it is read and edited. Bodies keep file order; compile() turns it into a Model.
 struct SceneSpec {
   std::string name;  ///< for messages: the file name
@@ -137,6 +145,7 @@ struct SceneSpec {
   CollisionRule collisionRule = CollisionRule::kAllButNeighbours;
   std::vector<CollisionChoice> collisionChoices{};
   std::vector<PinSpec> pins{};
+  std::vector<PostureSpec> postures{};
 };
 
 }  // namespace rex

@@ -150,6 +150,16 @@ TEST_F(Completion, KnowsTheVerbsAndOptionsOfEachCommand) {
   EXPECT_EQ(after({"submit", "01", "--o"}), "--out\n");
 }
 
+TEST_F(Completion, KnowsThePosturesOfAScene) {
+  const std::string swing = (root() / "swing.xml").string();
+  write(swing,
+        "<mujoco><worldbody><body><joint/><geom size='.2'/></body></worldbody>"
+        "<keyframe><key name='home' qpos='.7'/></keyframe></mujoco>");
+  EXPECT_EQ(after({"scene", swing, "fk", "--q", ""}), "0\nfile\nkey:home\n");
+  EXPECT_EQ(after({"plan", swing, "--goal", "key:"}), "key:home\n");
+  EXPECT_EQ(after({"view", "none.xml", "--q", "k"}), "");
+}
+
 TEST_F(Completion, LeavesFilesToTheShell) { EXPECT_EQ(after({"render", "ma"}), ""); }
 
 TEST(ManualPage, ListsAllCommands) {

@@ -124,6 +124,65 @@ TEST_F(SimulatorFacade, FindsMeshesInItsAssetRoot) {
   EXPECT_EQ(S.model().shapes()[0].shape.mesh.triangles().size(), 4u);
 }
 
+constexpr const char* kFork =
+    "<robot name='fork'><link name='base'/><link name='left'><collision><geometry><sphere "
+    "radius='.1'/></geometry>"
+    "</collision></link><link name='right'><collision><geometry><sphere "
+    "radius='.1'/></geometry></collision></link>"
+    "<joint name='l' type='prismatic'><parent link='base'/><child link='left'/><origin xyz='.3 0 0'/>"
+    "<limit lower='-1' upper='1' velocity='1' effort='1'/></joint>"
+    "<joint name='r' type='prismatic'><parent link='base'/><child link='right'/><origin xyz='-.3 0 0'/>"
+    "<limit lower='-1' upper='1' velocity='1' effort='1'/></joint></robot>";
+
+TEST_F(SimulatorFacade, StartsAtAPostureOfItsSrdf) {
+  write("fork.urdf", kFork);
+  write("own.srdf",
+        "<robot name='fork'><disable_collisions link1='left' link2='right'/>"
+        "<group_state name='shut' group='g'><joint name='l' value='-.3'/></group_state></robot>");
+  const std::string fork = in("fork.urdf");
+  EXPECT_EQ(Simulator(fork).getJointAngles(), Vector2d(0, 0));
+  const Simulator S(fork, {.srdf = in("own.srdf"), .posture = "state:shut"});
+  EXPECT_EQ(S.getJointAngles(), Vector2d(-.3, 0));
+  EXPECT_EQ(S.recording().count(), 1u);
+  EXPECT_EQ(Simulator(S.description()).getJointAngles(), S.getJointAngles());
+  Simulator free(fork);
+  free.setContactMargin(1);
+  EXPECT_GT(free.kinematicsContacts()[0], 0);
+  Simulator spared = S;
+  spared.setContactMargin(1);
+  EXPECT_EQ(spared.kinematicsContacts()[0], 0) << "as its SRDF says";
+  EXPECT_REX_ERROR(Simulator(fork, {.srdf = in("own.srdf"), .posture = "state:shot"}), "state:shut");
+  EXPECT_REX_ERROR(Simulator("man.ors", {.srdf = in("own.srdf")}), "an SRDF: wanted a .urdf robot");
+}
+
+// A long wedge of a Collada file with y up.
+TEST_F(SimulatorFacade, ReadsMeshesByEitherUpAxis) {
+  write(
+      "tall.dae",
+      "<?xml version='1.0'?><COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' version='1.4.1'>"
+      "<asset><up_axis>Y_UP</up_axis></asset><library_geometries><geometry id='g'><mesh>"
+      "<source id='p'><float_array id='a' count='12'>0 0 0 1 0 0 0 3 0 0 0 1</float_array><technique_common>"
+      "<accessor source='#a' count='4' stride='3'><param name='X' type='float'/><param name='Y' "
+      "type='float'/>"
+      "<param name='Z' type='float'/></accessor></technique_common></source>"
+      "<vertices id='v'><input semantic='POSITION' source='#p'/></vertices>"
+      "<triangles count='4'><input semantic='VERTEX' source='#v' offset='0'/>"
+      "<p>0 2 1 0 1 3 0 3 2 1 2 3</p></triangles></mesh></geometry></library_geometries>"
+      "<library_visual_scenes><visual_scene id='s'><node><instance_geometry url='#g'/></node></visual_scene>"
+      "</library_visual_scenes><scene><instance_visual_scene url='#s'/></scene></COLLADA>");
+  write("tall.ors", "body tall { type=3 mesh='tall.dae' }");
+  const auto height = [&](const SimulatorOptions& options) {
+    double top = 0;
+    const Simulator S(in("tall.ors"), options);
+    for (const auto& corner : S.model().shapes()[0].shape.mesh.positions())
+      top = std::max(top, static_cast<double>(corner.z()));
+    return top;
+  };
+  EXPECT_NEAR(height({}), 3, 1e-6);
+  EXPECT_NEAR(height({.ignoresUpAxis = false}), 3, 1e-6);
+  EXPECT_NEAR(height({.ignoresUpAxis = true}), 1, 1e-6);
+}
+
 // How often a file was opened while something was done.
 template <class Act>
 int countOpens(const std::string& file, const Act& act) {

@@ -90,7 +90,8 @@ TEST(SrdfReader, WarnsOfPairsThatAreGivenTwice) {
 TEST(SrdfReader, SaysInOneNoteWhatElseThereIs) {
   EXPECT_EQ(notesOf("<group name='a'><chain base_link='base' tip_link='hand'/></group>\n<group name='b'/>\n"
                     "<end_effector name='e'/><virtual_joint name='v'/>"),
-            "arm.srdf:2:1: note: only the collisions of an SRDF are read: <end_effector>, <group> (2 times), "
+            "arm.srdf:2:1: note: only collisions and states of an SRDF are read: <end_effector>, <group> (2 "
+            "times), "
             "<virtual_joint> skipped");
 }
 

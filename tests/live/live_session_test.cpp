@@ -44,6 +44,20 @@ TEST(LiveSession, MovesToPosturesWithinTheLimits) {
   EXPECT_FALSE(session.isMoving());
 }
 
+TEST(LiveSession, GoesHomeToAPostureOfTheFile) {
+  SceneSpec spec = specOf("arm3.ors");
+  spec.postures.push_back({.name = "key:home", .joints = {{spec.joints[0].name, Eigen::VectorXd::Ones(1)}}});
+  const Model model = compile(spec);
+  LiveSession session(spec, model.initialPositions());
+  EXPECT_EQ(Json::parse(session.description())["postures"], Json({"key:home"}));
+  session.obey(R"([{"do": "home", "posture": "key:home"}])");
+  EXPECT_EQ(session.state().q, model.posture("key:home"));
+  EXPECT_NE(session.state().q, model.initialPositions());
+  session.obey(R"([{"do": "home"}])");
+  EXPECT_EQ(session.state().q, model.initialPositions());
+  EXPECT_THAT(refusalOf(session, R"([{"do": "home", "posture": "key:hom"}])"), HasSubstr("key:home"));
+}
+
 TEST(LiveSession, PutsAFreeBaseBack) {
   const std::string file = homeFolder().string() + "/data/robots/humanoid/humanoid.urdf";
   const SceneSpec spec = readScene(file, {.freeBase = true}).spec;

@@ -247,4 +247,30 @@ TEST(Compile, LetsJointsHangOnTheWorld) {
   EXPECT_EQ(model.nq(), 1);
 }
 
+SceneSpec withPosture(const std::string& joint, const Eigen::VectorXd& q) {
+  SceneSpec spec =
+      parseOrs("body a {}\nbody b {}\nbody c {}\njoint j (a b) { q=.5 }\njoint k (b c) { type=quatBall }",
+               "f")
+          .spec;
+  spec.postures.push_back({.name = "key:up", .joints = {{joint, q}}, .where = {"m.xml", 3, 4}});
+  return spec;
+}
+
+TEST(Compile, CompletesNamedPosturesFromThatOfTheFile) {
+  const Model m = compile(withPosture("k", Eigen::Vector4d(0, 0, 0, 2)));
+  EXPECT_EQ(m.posture("key:up"), (Eigen::VectorXd(5) << .5, 0, 0, 0, 1).finished());
+  EXPECT_REX_ERROR(m.posture("up"), "scene 'f' has no posture 'up'");
+  EXPECT_REX_ERROR(model("body a {}").posture("key:up"), "scene 'f' has no posture 'key:up'");
+}
+
+TEST(Compile, RefusesNamedPosturesThatCannotBe) {
+  const auto refuse = [](const std::string& joint, const Eigen::VectorXd& q, const std::string& text) {
+    EXPECT_REX_ERROR(compile(withPosture(joint, q)), "m.xml:3:4: posture 'key:up': " + text);
+  };
+  refuse("i", Eigen::VectorXd::Ones(1), "unknown joint: found 'i', wanted the name of a joint");
+  refuse("j", Eigen::VectorXd::Ones(2), "joint 'j': found 2 numbers, wanted 1 finite numbers");
+  refuse("j", Eigen::VectorXd::Constant(1, std::nan("")), "joint 'j': found ");
+  refuse("k", Eigen::VectorXd::Zero(4), "joint 'k': found a quaternion of length zero");
+}
+
 }  // namespace rex::compile_test

@@ -199,6 +199,8 @@ Eigen::VectorXd parsePosture(const Model& model, const std::string& text) {
 Eigen::VectorXd parsePostureOf(const Model& model, const std::string& option, const std::string& text) {
   if (text == "0") return zeroPositions(model);
   if (text == "file") return model.initialPositions();
+  if (text.starts_with("key:") || text.starts_with("state:"))
+    return asWrongUse([&] { return model.posture(text); }, option + ": ");
   Coordinates kind = kPositions;
   kind.option = option;
   Eigen::VectorXd q = parseCoordinates(model, kind, text, model.initialPositions());

@@ -18,9 +18,10 @@ namespace rex::cli {
 
 /// The posture given by `--q TEXT`: all nq numbers, or "joint=number,..." for some joints with one
 /// coordinate, the others as in the file; separated by blanks or commas. "0" sets all joints to zero
-/// (quaternions to the identity), "file" is the posture of the file. Throws UsageError naming both sizes,
-/// the word that is not a number, the joint whose quaternion is zero, or the nearest joints (the first
-/// dozen if none is near).
+/// (quaternions to the identity), "file" is the posture of the file, "key:home" or "state:ready" one that the
+/// file names, see Model::postures(). Throws UsageError naming an unknown posture, both sizes, the word that
+/// is not a number, the joint whose quaternion is zero, or the nearest joints (the first dozen if none is
+/// near).
 [[nodiscard]] Eigen::VectorXd parsePosture(const Model& model, const std::string& text);
 /// The same for options other than --q, such as "--goal".
 [[nodiscard]] Eigen::VectorXd parsePostureOf(const Model& model, const std::string& option,

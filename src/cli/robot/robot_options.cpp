@@ -16,7 +16,8 @@ void addReading(CLI::App* command, ReadOptions& reading) {
         "folder of all meshes (default: the one above the scene's folder)"},
        {"--allow-missing-meshes", reading.allowMissingMeshes, "use boxes for meshes that cannot be found"},
        {"--strict", reading.strict, "refuse faults of a file instead of repairing them"},
-       {"--srdf", reading.srdf, "FILE", "which links of a .urdf may collide (default: the .srdf beside it)"},
+       {"--srdf", reading.srdf, "FILE",
+        "which links of a .urdf may collide (default: the .srdf beside it or in ../srdf)"},
        OptionRow([&reading](CLI::App* app) {
          return app
              ->add_option_function<std::string>(
@@ -36,7 +37,7 @@ void addRenderOptions(CLI::App* command, RenderOptions& options) {
   addOptions(
       command,
       {{"--q", options.postures, "POSTURE",
-        "all numbers, or joint=number,...; several: a motion through them"},
+        "all numbers, joint=number,..., or key:NAME or state:NAME; several: a motion through them"},
        {"--motion", options.motion, "FILE", "a motion: a posture per line, with or without a time"},
        {"--duration", options.seconds, {0.04, 600}, "S", "time from each --q to the next (default: 2)"},
        {"--camera", options.cameras, "VIEW",

@@ -1,6 +1,28 @@
+#include "base/error.h"
 #include "cli/command_table.h"
+#include "formats/assets.h"
+#include "formats/scene_file.h"
 
 namespace rex::cli {
+namespace {
+
+// The first word after the command that is a scene names the file.
+std::vector<std::string> posturesFor(const Project& project, std::span<const std::string> words) {
+  std::vector<std::string> names = {"0", "file"};
+  for (const std::string& word : words.subspan(1)) {
+    try {
+      const auto file = findScene(word, project.files() / "data");
+      for (const PostureSpec& one : readScene(file, {.allowMissingMeshes = true}).spec.postures)
+        names.push_back(one.name);
+      break;
+    } catch (const Error&) {
+      continue;
+    }
+  }
+  return names;
+}
+
+}  // namespace
 
 Room robotRoom() {
   return {.program = Program::kRobot,
@@ -11,7 +33,8 @@ Room robotRoom() {
                        {"scene", addScene},
                        {"simulate", addSimulate},
                        {"slam", addSlam},
-                       {"view", addView}}};
+                       {"view", addView}},
+          .postures = posturesFor};
 }
 
 }  // namespace rex::cli

@@ -77,6 +77,8 @@ ExitCode sceneConvert(const Project& project, const ConvertOptions& options) {
     makeOutFolder(folder);
     writeTextFile(options.out, text);
   });
+  if (!spec.postures.empty())
+    note(wrap("named postures are left out: the format of the new file has none", 2, 0));
   warnOfMeshesOutside(spec, options.out);
   say(shown(options.out));
   return ExitCode::kFull;

@@ -114,6 +114,12 @@ void sayCoordinates(const Model& model) {
   table.print();
 }
 
+void sayPostures(const Model& model) {
+  std::vector<std::string> names;
+  for (const NamedPosture& one : model.postures()) names.push_back(escapeForTerminal(one.name));
+  say(wrap("postures for --q: " + join(names, ", "), 2, 0));
+}
+
 void sayShapes(const Model& model) {
   std::vector<std::vector<const ModelShape*>> shapes(model.bodies().size());
   for (const ModelShape& shape : model.shapes())
@@ -188,9 +194,12 @@ Json infoOf(const Model& model) {
                     {"p_BQ", jsonOf(pin.p_BQ)},
                     {"gap", gaps[i]}});
   }
-  return {{"ndof", model.nv()}, {"nq", model.nq()}, {"q", jsonOf(model.initialPositions())},
-          {"joints", joints},   {"bodies", bodies}, {"body_masses", masses},
-          {"shapes", shapes},   {"pins", pins},     {"mass", model.mass()}};
+  Json postures = Json::object();
+  for (const NamedPosture& one : model.postures()) postures[one.name] = jsonOf(one.q);
+  return {{"ndof", model.nv()},    {"nq", model.nq()}, {"q", jsonOf(model.initialPositions())},
+          {"postures", postures},  {"joints", joints}, {"bodies", bodies},
+          {"body_masses", masses}, {"shapes", shapes}, {"pins", pins},
+          {"mass", model.mass()}};
 }
 
 }  // namespace
@@ -214,6 +223,10 @@ ExitCode sceneInfo(const Project& project, const SceneOptions& options) {
   if (model.nq() > 0) {
     say();
     sayCoordinates(model);
+  }
+  if (!model.postures().empty()) {
+    say();
+    sayPostures(model);
   }
   if (!model.pins().empty()) {
     say();

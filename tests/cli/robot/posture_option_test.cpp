@@ -204,4 +204,18 @@ TEST(ParsePosture, KnowsTheZeroOfEveryJoint) {
   EXPECT_EQ(parsePosture(model, "file"), (Eigen::VectorXd(8) << 1, 2, 3, 1, 0, 0, 0, 0.7).finished());
 }
 
+TEST(ParsePosture, KnowsThePosturesOfTheFile) {
+  SceneSpec spec = readOrs(sourcePath("data/robots/pegArm.ors")).spec;
+  const std::string joint = spec.joints.back().name;
+  spec.postures.push_back({.name = "key:home", .joints = {{joint, Eigen::VectorXd::Constant(1, .3)}}});
+  const Model model = compile(spec);
+  Eigen::VectorXd q = model.initialPositions();
+  q[2] = .3;
+  EXPECT_EQ(parsePosture(model, "key:home"), q);
+  EXPECT_EQ(postureWithinLimits(model, "--goal", "key:home"), q);
+  EXPECT_REX_ERROR(parsePosture(model, "key:hom"), "--q: scene '");
+  EXPECT_REX_ERROR(parsePosture(model, "key:hom"), "has no posture 'key:hom': wanted key:home (did you mean");
+  EXPECT_REX_ERROR(parsePostureOf(model, "--goal", "state:ready"), "--goal: scene '");
+}
+
 }  // namespace rex::cli::posture_option_test

@@ -543,4 +543,28 @@ TEST_F(SceneCommand, DoesWhatItsExamplesSay) {
   EXPECT_EQ(jsonOf({"man", "fk", "--q", "0"})["bodies"].size(), 30u);
 }
 
+constexpr const char* kSwing =
+    "<mujoco><worldbody><body name='rod'><joint name='turn'/><geom size='.2'/></body></worldbody>"
+    "<keyframe><key name='home' qpos='.7'/></keyframe></mujoco>";
+
+TEST_F(SceneCommand, OffersThePosturesOfTheFile) {
+  std::ofstream(in("swing.xml")) << kSwing;
+  EXPECT_EQ(jsonOf({"swing.xml", "info"})["postures"], json::parse(R"({"key:home": [0.7]})"));
+  EXPECT_THAT(scene({"swing.xml"}).output, HasSubstr("\npostures for --q: key:home\n"));
+  EXPECT_EQ(jsonOf({"swing.xml", "fk", "--q", "key:home"}), jsonOf({"swing.xml", "fk", "--q", "0.7"}));
+  const ProcessResult wrong = scene({"swing.xml", "fk", "--q", "key:hom"});
+  EXPECT_EQ(wrong.exitCode, 64);
+  EXPECT_THAT(wrong.error, HasSubstr("no posture 'key:hom'"));
+  EXPECT_THAT(scene({"swing.xml", "convert", "swing.ors"}).error, HasSubstr("named postures are left out"));
+}
+
+TEST_F(SceneCommand, GroupsEqualWarnings) {
+  std::ofstream(in("odd.ors")) << "body a { colour=1 }\nbody b { colour=2 }\nbody c { colour=3 }\n";
+  const std::string all = scene({"odd.ors", "check"}).output, few = scene({"odd.ors", "info"}).error;
+  for (const char* place : {"odd.ors:1:", "odd.ors:2:", "odd.ors:3:"}) EXPECT_THAT(all, HasSubstr(place));
+  EXPECT_THAT(few, HasSubstr("odd.ors:1:"));
+  EXPECT_THAT(few, HasSubstr("(and 2 more like this)"));
+  EXPECT_THAT(few, HasSubstr("`rex scene odd.ors check` shows all 3 findings"));
+}
+
 }  // namespace rex::cli::scene_test
