@@ -249,6 +249,7 @@ class Placer {
 
   void place(ShapeSpec& shape) const {
     if (!shape.name.empty()) rename(shape.name);
+    for (int& pair : shape.mask.pairs) pair += place_.pairsBefore;
     if (!shape.meshPath.empty())
       shape.meshFile = std::filesystem::proximate(shape.meshPath, place_.folder).generic_string();
   }
@@ -306,7 +307,27 @@ SceneSpec placedRobot(SceneSpec robot, const RobotPlace& place) {
     placer.renameBody(choice.a);
     if (!choice.b.empty()) placer.renameBody(choice.b);
   }
+  for (PinSpec& pin : robot.pins) {
+    for (const auto& [body, point] : {std::pair{&pin.a, &pin.p_AP}, std::pair{&pin.b, &pin.p_BQ}}) {
+      if (*body == kWorldName) *point = place.X_PR * *point;
+      placer.renameBody(*body);
+    }
+  }
+  for (PostureSpec& posture : robot.postures) {
+    posture.name.insert(posture.name.find(':') + 1, place.prefix);
+    for (auto& [joint, coordinates] : posture.joints) placer.rename(joint);
+  }
   return robot;
+}
+
+int pairsIn(const SceneSpec& robot, int least) {
+  const auto look = [&](const std::vector<ShapeSpec>& shapes) {
+    for (const ShapeSpec& shape : shapes)
+      for (const int pair : shape.mask.pairs) least = std::max(least, pair + 1);
+  };
+  look(robot.worldShapes);
+  for (const BodySpec& body : robot.bodies) look(body.shapes);
+  return least;
 }
 
 namespace {

@@ -31,11 +31,14 @@ struct RobotPlace {
   std::string parent = kWorldName;  ///< the body that carries it, or the world
   Pose X_PR{};                      ///< of the robot's world in the parent
   std::filesystem::path folder{};   ///< of the scene, as seen from which its meshes are named
+  int pairsBefore = 0;              ///< how many numbers of ContactMask::pairs are taken
 };
 
 /// The robot in its place. On a body its roots hang by rigid joints called "PARENT>ROOT"; what it has in the
 /// world belongs to the parent then.
 [[nodiscard]] SceneSpec placedRobot(SceneSpec robot, const RobotPlace& place);
+/// One more than the largest number of ContactMask::pairs, at least `least`.
+[[nodiscard]] int pairsIn(const SceneSpec& robot, int least);
 
 /// The attributes that a shape has, and the ones it may have without effect.
 [[nodiscard]] const std::vector<std::string>& shapeAttributes();

@@ -11,7 +11,6 @@
 #include "formats/ors_node_list_internal.h"
 #include "formats/ors_parts_internal.h"
 #include "formats/scene_meshes.h"
-#include "formats/urdf_reader.h"
 #include "geometry/mesh_mass.h"
 
 namespace rex {
@@ -94,13 +93,13 @@ class Reader {
         readPin(node);
       } else if (role == "collisions") {
         readCollisions(node);
-      } else if (role == "urdf") {
-        readRobot(node);
+      } else if (role == "urdf" || role == "mjcf") {
+        readRobot(node, role);
       } else {
         fail(node.where, "unknown statement", fmt::format("'{}'", role),
-             "'body', 'shape', 'joint', 'pin', 'urdf' or 'collisions'",
-             nearestNames(role, {"body", "shape", "joint", "pin", "urdf", "collisions", "Include", "ChDir",
-                                 "Delete", "Edit"}));
+             "'body', 'shape', 'joint', 'pin', 'urdf', 'mjcf' or 'collisions'",
+             nearestNames(role, {"body", "shape", "joint", "pin", "urdf", "mjcf", "collisions", "Include",
+                                 "ChDir", "Delete", "Edit"}));
       }
     }
     if (robots_ > 0 && !hasRule_) file_.spec.collisionRule = CollisionRule::kAllButNeighbours;
@@ -171,17 +170,20 @@ class Reader {
     file_.spec.bodies.push_back(std::move(body));
   }
 
-  // A body called "world", as old scenes have one, is the world itself.
+  // A body called "world", as old scenes have one, is the world itself. What hangs on it later is placed by
+  // its pose.
   void becomeWorld(BodySpec body, int node, const Attributes& attributes) {
     worldNodes_.insert(node);
-    const auto ignore = [&](const char* name, const char* why) {
-      if (attributes.has(name)) attributes.note(name, why, Severity::kWarning, file_.notes);
-    };
-    if (!isApprox(body.X_WB, Pose{}, 0))
-      ignore(attributes.has("pose") ? "pose" : "X", "is ignored: the world itself is at the origin");
+    X_WO_ = body.X_WB;
     for (const char* name : {"mass", "com", "inertia", "kinematic"})
-      ignore(name, "is ignored: the world itself does not move");
-    for (ShapeSpec& shape : body.shapes) file_.spec.worldShapes.push_back(std::move(shape));
+      if (attributes.has(name))
+        attributes.note(name, "is ignored: the world itself does not move", Severity::kWarning, file_.notes);
+    for (ShapeSpec& shape : body.shapes) addToWorld(std::move(shape));
+  }
+
+  void addToWorld(ShapeSpec shape) {
+    shape.X_BS = X_WO_ * shape.X_BS;
+    file_.spec.worldShapes.push_back(std::move(shape));
   }
 
   void noteNoShape(const Attributes& attributes) {
@@ -202,12 +204,11 @@ class Reader {
     }
     attributes.noteUnknown(ors::shapeAttributes(), file_.notes);
     attributes.noteWords({"contact", "hidden"}, file_.notes);
-    std::vector<ShapeSpec>* shapes = &file_.spec.worldShapes;
-    if (!node.parents.empty()) {
-      if (const auto body = bodyOf(node.parents[0], attributes.owner(), "parent"))
-        shapes = &file_.spec.bodies[*body].shapes;
-    }
-    shapes->push_back(ors::readShape(attributes, name, node.where, file_.notes));
+    std::optional<std::size_t> body;
+    if (!node.parents.empty()) body = bodyOf(node.parents[0], attributes.owner(), "parent");
+    ShapeSpec shape = ors::readShape(attributes, name, node.where, file_.notes);
+    if (!body) return addToWorld(std::move(shape));
+    file_.spec.bodies[*body].shapes.push_back(std::move(shape));
   }
 
   void readJoint(const Node& node) {
@@ -257,6 +258,8 @@ class Reader {
     if (pin.a == pin.b) fail(node.parents[1].where, attributes.owner(), "one body", "two different bodies");
     if (const auto A = attributes.row("A", {3})) pin.p_AP = *A;
     if (const auto B = attributes.row("B", {3})) pin.p_BQ = *B;
+    if (pin.a == kWorldName) pin.p_AP = X_WO_ * pin.p_AP;
+    if (pin.b == kWorldName) pin.p_BQ = X_WO_ * pin.p_BQ;
     if (file_.spec.pins.size() == ors::kMostJoints)
       fail(node.where, "too many pins", "", fmt::format("at most {}", ors::kMostJoints));
     file_.spec.pins.push_back(std::move(pin));
@@ -303,35 +306,44 @@ class Reader {
          nearestNames(found, known));
   }
 
-  // A URDF robot, with a prefix to its names, on a body or in the world.
-  void readRobot(const Node& node) {
-    const Attributes attributes(node, called("urdf", nameOf(node)));
+  // A robot of another file, with a prefix to its names, on a body or in the world.
+  void readRobot(const Node& node, const std::string& format) {
+    const Attributes attributes(node, called(format.c_str(), nameOf(node)));
     const std::string& owner = attributes.owner();
     if (node.parents.size() > 1)
       fail(node.parents[1].where, owner, fmt::format("{} parents", node.parents.size()), "one body, or none");
     attributes.noteUnknown({"file", "prefix", "X", "pose"}, file_.notes);
     attributes.noteWords({}, file_.notes);
     if (++robots_ > ors::kMostRobots)
-      fail(node.where, "too many robots", "", fmt::format("at most {} statements 'urdf'", ors::kMostRobots));
-    ors::RobotPlace place;
+      fail(node.where, "too many robots", "",
+           fmt::format("at most {} statements 'urdf' or 'mjcf'", ors::kMostRobots));
+    ors::RobotPlace place{.pairsBefore = pairs_};
     place.prefix = attributes.text("prefix", "a word or \"text\"").value_or("");
     place.X_PR = attributes.pose(attributes.has("pose") ? "pose" : "X").value_or(Pose{});
     if (!node.parents.empty()) {
       Pose unused;
       place.parent = connect(node.parents[0], owner, "parent", unused);
     }
-    const SceneSpec& robot = robotOf(attributes, node.where, place.folder);
+    if (place.parent == kWorldName) place.X_PR = X_WO_ * place.X_PR;
+    const SceneSpec& robot = robotOf(attributes, format, node.where, place.folder);
     if (!robot.bodies.empty()) bodyOfNode_.emplace(node.id, file_.spec.bodies.size());
-    add(ors::placedRobot(robot, place), node, owner);
+    SceneSpec placed = ors::placedRobot(robot, place);
+    pairs_ = ors::pairsIn(placed, pairs_);
+    add(std::move(placed), node, owner);
   }
 
   // The scene in a file, which is read once.
-  const SceneSpec& robotOf(const Attributes& attributes, const Place& where, std::filesystem::path& folder) {
+  const SceneSpec& robotOf(const Attributes& attributes, const std::string& format, const Place& where,
+                           std::filesystem::path& folder) {
     const std::string what = attributes.owner() + ": file";
     const auto file = attributes.file("file");
-    if (!file) fail(where, attributes.owner() + ": attribute 'file' is missing", "", "file='ROBOT.urdf'");
+    const char* const ending = format == "mjcf" ? ".xml" : ".urdf";
+    if (!file)
+      fail(where, attributes.owner() + ": attribute 'file' is missing", "",
+           fmt::format("file='ROBOT{}'", ending));
     const Place at = attributes.where("file");
-    if (endingOf(file->path) != ".urdf") fail(at, what, fmt::format("'{}'", file->path), "a .urdf file");
+    if (endingOf(file->path) != ending)
+      fail(at, what, fmt::format("'{}'", file->path), fmt::format("a {} file", ending));
     if (!assets_)
       fail(at, what, "a scene that was given as text",
            "no robots from other files: only scenes in files can have them");
@@ -339,10 +351,10 @@ class Reader {
     const std::filesystem::path path = assets_->find(file->path, at, what);
     const auto [known, isNew] = robotOfFile_.try_emplace(path.string());
     if (isNew) {
-      SceneFile robot = readUrdf(path, {.assetRoot = assets_->root(),
-                                        .allowMissingMeshes = options_.allowMissingMeshes,
-                                        .strict = options_.strict,
-                                        .upAxis = options_.upAxis});
+      SceneFile robot = readScene(path, {.assetRoot = assets_->root(),
+                                         .allowMissingMeshes = options_.allowMissingMeshes,
+                                         .strict = options_.strict,
+                                         .upAxis = options_.upAxis});
       for (Diagnostic& one : robot.notes)
         if (file_.notes.size() < ors::kMostNotes) file_.notes.push_back(std::move(one));
       known->second = std::move(robot.spec);
@@ -373,6 +385,10 @@ class Reader {
     std::vector<ShapeSpec>& shapes = parent ? spec.bodies[*parent].shapes : spec.worldShapes;
     for (ShapeSpec& shape : robot.worldShapes) shapes.push_back(std::move(shape));
     for (CollisionChoice& choice : robot.collisionChoices) spec.collisionChoices.push_back(std::move(choice));
+    for (PostureSpec& posture : robot.postures) spec.postures.push_back(std::move(posture));
+    if (spec.pins.size() + robot.pins.size() > ors::kMostJoints)
+      fail(node.where, "too many pins", "", fmt::format("at most {}", ors::kMostJoints));
+    for (PinSpec& pin : robot.pins) spec.pins.push_back(std::move(pin));
   }
 
   // A joint whose attributes are not read yet, because it may follow a joint that comes later.
@@ -387,7 +403,9 @@ class Reader {
     const auto followed = jointOfName_.find(ors::readMimic(attributes));
     if (followed != jointOfName_.end() && followed->second != joint.index)
       joint.around.followed = &file_.spec.joints[followed->second];
-    ors::readJoint(attributes, joint.around, file_.spec.joints[joint.index], file_.notes);
+    JointSpec& read = file_.spec.joints[joint.index];
+    ors::readJoint(attributes, joint.around, read, file_.notes);
+    if (read.parent == kWorldName) read.X_PF = X_WO_ * read.X_PF;
   }
 
   Attributes attributesOf(const Waiting& joint) const {
@@ -410,7 +428,10 @@ class Reader {
   // The name by which a joint refers to the body. Sets X_WB to the pose of the body.
   std::string connect(const ors::Word& parent, const std::string& owner, const char* role, Pose& X_WB) const {
     const auto index = bodyOf(parent, owner, role);
-    if (!index) return kWorldName;
+    if (!index) {
+      X_WB = X_WO_;
+      return kWorldName;
+    }
     const BodySpec& body = file_.spec.bodies[*index];
     if (firstOfName_.at(body.name) != *index) {
       fail(parent.where, owner, fmt::format("{}, a further body '{}'", parent.text, body.name),
@@ -437,6 +458,8 @@ class Reader {
   std::unordered_map<std::string, std::size_t> firstOfName_, jointOfName_;
   std::unordered_map<int, std::size_t> bodyOfNode_;
   std::unordered_set<int> worldNodes_;  // bodies that are the world itself
+  Pose X_WO_{};                         // where the last of these is
+  int pairs_ = 0;                       // of masks, in robots so far
 };
 
 SceneFile read(std::string_view text, const std::string& name, const Assets* assets,

@@ -122,7 +122,8 @@ constexpr Row kErrors[] = {
      "{attributes}"},
     // statements
     {"@bodi@ a {}", "body",
-     "unknown statement: found 'bodi', wanted 'body', 'shape', 'joint', 'pin', 'urdf' or 'collisions' (did "
+     "unknown statement: found 'bodi', wanted 'body', 'shape', 'joint', 'pin', 'urdf', 'mjcf' or "
+     "'collisions' (did "
      "you mean "
      "'body'?)"},
     {"body a@ @^body b {}", "\n",
@@ -263,10 +264,6 @@ constexpr Row kErrors[] = {
 constexpr Row kNotes[] = {
     {"@@# nothing", "body a {}", "warning: no statement: the scene is empty"},
     {"body a {}\n^body @a@ {}", "b", "note: body 'a': a second body of this name: references mean the first"},
-    {"body world { X=@<T t(0 0 1)>@ }", "<T>",
-     "warning: body 'world': attribute 'X' is ignored: the world itself is at the origin"},
-    {"body world { pose=@<T t(0 0 1)>@ }", "<T>",
-     "warning: body 'world': attribute 'pose' is ignored: the world itself is at the origin"},
     {"body world { fixed @mass=^1@ }", "",
      "warning: body 'world': attribute 'mass' is ignored: the world itself does not move"},
     {"body world { @kinematic@ }", "fixed",

@@ -139,8 +139,9 @@ TEST(OrsReader, TakesABodyCalledWorldForTheWorld) {
       "joint (transxy car) { A=<T d(-90 0 1 0)> B=<T d(90 0 1 0)> type=0 }\n"
       "shape post (-7) { type=1 size=[0 0 0 1] }",
       "car.ors");
-  EXPECT_EQ(file.notes.size(), 1u);
+  EXPECT_THAT(file.notes, testing::IsEmpty());
   ASSERT_EQ(file.spec.worldShapes.size(), 2u);
+  for (const ShapeSpec& shape : file.spec.worldShapes) EXPECT_EQ(shape.X_BS.p, Eigen::Vector3d(0, 0, .1));
   EXPECT_EQ(file.spec.worldShapes[0].name, "world");
   EXPECT_EQ(file.spec.worldShapes[1].name, "post");
   const Model model = compile(file.spec);
@@ -154,10 +155,23 @@ TEST(OrsReader, TakesABodyCalledWorldForTheWorld) {
   const BodyPoses poses = forwardKinematics(model, Eigen::Vector3d(.3, -.5, .7));
   const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), z = Eigen::Vector3d::UnitZ();
   EXPECT_TRUE(isApprox(poses[kWorld], Pose{}, 0));
-  EXPECT_TRUE(isApprox(poses[model.body("transx")], rotation(.3, x), 1e-15));
-  const Pose transxy = rotation(.3, x) * translation(0, 1, 0) * rotation(-.5, x);
+  const Pose transx = translation(0, 0, .1) * rotation(.3, x);
+  EXPECT_TRUE(isApprox(poses[model.body("transx")], transx, 1e-15));
+  const Pose transxy = transx * translation(0, 1, 0) * rotation(-.5, x);
   EXPECT_TRUE(isApprox(poses[model.body("transxy")], transxy, 1e-15));
   EXPECT_TRUE(isApprox(poses[model.body("car")], transxy * rotation(.7, z), 1e-15));
+}
+
+// Its pose places what refers to it later; the frame of a joint with X is one in the world all the same.
+TEST(OrsReader, PlacesWhatHangsOnABodyCalledWorld) {
+  const SceneSpec spec = read(
+      "body world { X=<T t(0 0 2)> }\nbody a {}\nbody b { X=<T t(5 0 0)> }\n"
+      "joint (world a) { A=<T t(1 0 0)> }\njoint (world b) { X=<T t(4 0 0)> }\n"
+      "pin (world a) { A=[1 1 1] B=[1 1 1] }");
+  EXPECT_EQ(spec.joints[0].X_PF.p, Eigen::Vector3d(1, 0, 2));
+  EXPECT_EQ(spec.joints[1].X_PF.p, Eigen::Vector3d(4, 0, 0));
+  EXPECT_EQ(spec.pins[0].p_AP, Eigen::Vector3d(1, 1, 3));
+  EXPECT_EQ(spec.pins[0].p_BQ, Eigen::Vector3d(1, 1, 1));
 }
 
 TEST(OrsReader, ReadsNumbersAndFlagsAsPeopleWriteThem) {

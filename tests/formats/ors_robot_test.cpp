@@ -54,6 +54,58 @@ constexpr const char* kTwice =
     "urdf right (table) { file='../robots/tricky/tricky.urdf' prefix=\"right_\" X=<T t(1 2 3) d(45 1 0 0)> "
     "}\n";
 
+// A swing that a pin holds, a ball that only its pair may touch, and a key.
+constexpr const char* kSwing =
+    "<mujoco><worldbody><geom name='post' type='sphere' size='.1'/>"
+    "<body name='rod' pos='0 0 1'><joint name='turn' axis='0 1 0'/>"
+    "<geom name='ball' size='.2' contype='0' conaffinity='0' pos='.3 0 0'/></body>"
+    "<body name='loose' pos='0 2 0'><freejoint name='loose'/><geom size='.1'/></body></worldbody>"
+    "<contact><pair geom1='post' geom2='ball'/></contact>"
+    "<equality><connect body1='rod' anchor='0 0 .5'/></equality>"
+    "<keyframe><key name='up' qpos='.7 0 0 3 1 0 0 0'/></keyframe></mujoco>";
+
+TEST_F(OrsRobot, OfMujocoStandsTwice) {
+  write("robots/swing.xml", kSwing);
+  const SceneFile scene = read(
+      "body table { X=<T t(0 0 1)> }\n"
+      "mjcf { file='../robots/swing.xml' prefix=l_ X=<T t(0 .5 0)> }\n"
+      "mjcf (table) { file='../robots/swing.xml' prefix=r_ X=<T t(0 0 3)> }\n");
+  ASSERT_EQ(scene.notes.size(), 1u) << "of the file, once";
+  EXPECT_THAT(scene.notes[0].message, HasSubstr("'rod'"));
+  const Model model = compile(scene.spec);
+  const BodyPoses poses = forwardKinematics(model, model.initialPositions());
+  EXPECT_LT((poses[model.body("l_rod")].p - Eigen::Vector3d(0, .5, 1)).norm(), 1e-15);
+  EXPECT_LT((poses[model.body("r_rod")].p - Eigen::Vector3d(0, 0, 5)).norm(), 1e-15);
+  EXPECT_LT((poses[model.body("l_loose")].p - Eigen::Vector3d(0, 2.5, 0)).norm(), 1e-15);
+  EXPECT_LT((poses[model.body("r_loose")].p - Eigen::Vector3d(0, 2, 4)).norm(), 1e-15);
+
+  ASSERT_EQ(model.pins().size(), 2u);
+  const Pin &left = model.pins()[0], &right = model.pins()[1];
+  EXPECT_EQ(left.a, model.body("l_rod"));
+  EXPECT_EQ(left.b, kWorld);
+  EXPECT_LT((left.p_BQ - Eigen::Vector3d(0, .5, 1.5)).norm(), 1e-15);
+  EXPECT_EQ(right.b, model.body("table"));
+  EXPECT_LT((right.p_BQ - Eigen::Vector3d(0, 0, 4.5)).norm(), 1e-15);
+
+  const auto maskOf = [&](const std::string& name) {
+    return std::ranges::find(model.shapes(), name, &ModelShape::name)->mask;
+  };
+  EXPECT_TRUE(mayTouch(maskOf("l_post"), maskOf("l_ball")));
+  EXPECT_TRUE(mayTouch(maskOf("r_post"), maskOf("r_ball")));
+  EXPECT_FALSE(mayTouch(maskOf("l_post"), maskOf("r_ball"))) << "a pair of another robot";
+
+  const Eigen::VectorXd up = model.posture("key:r_up");
+  const auto turn = std::ranges::find(model.joints(), "r_turn", &Joint::name);
+  EXPECT_EQ(up[turn->qIndex], .7);
+  EXPECT_LT((forwardKinematics(model, up)[model.body("r_loose")].p - Eigen::Vector3d(0, 0, 7)).norm(), 1e-15);
+}
+
+TEST_F(OrsRobot, OfMujocoNeedsItsEnding) {
+  EXPECT_REX_ERROR(read("mjcf { file='../robots/arm/arm.urdf' }"),
+                   "mjcf: file: found '../robots/arm/arm.urdf', wanted a .xml file");
+  EXPECT_REX_ERROR(read("mjcf {}"), "mjcf: attribute 'file' is missing: wanted file='ROBOT.xml'");
+}
+
 // Each of the two stands where the robot by itself does, seen from the place of its root.
 TEST_F(OrsRobot, StandsTwice) {
   const SceneFile scene = read(kTwice);
@@ -174,7 +226,8 @@ TEST_F(OrsRobot, SaysWhatIsWrong) {
   std::string many;
   for (int i = 0; i < 65; ++i)
     many += "urdf { file='../robots/arm/arm.urdf' prefix=p" + std::to_string(i) + "_ }\n";
-  EXPECT_REX_ERROR(read(many), "main.ors:65:1: too many robots: wanted at most 64 statements 'urdf'");
+  EXPECT_REX_ERROR(read(many),
+                   "main.ors:65:1: too many robots: wanted at most 64 statements 'urdf' or 'mjcf'");
   std::string chain = "<robot name='c'><link name='0'/>";
   for (int i = 1; i <= 600; ++i)
     chain += "<link name='" + std::to_string(i) + "'/><joint name='" + std::to_string(i) +
