@@ -9,7 +9,7 @@ option(REX_FUZZ "Build the programs of tests/fuzz with libFuzzer; needs clang" O
 # time. Debuggers look for sources in the folder that an object names, so builds for them share nothing with other clones.
 find_program(REX_CCACHE ccache)
 if(REX_CCACHE AND CMAKE_CXX_COMPILER_ID STREQUAL GNU AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER AND NOT DEFINED ENV{CMAKE_CXX_COMPILER_LAUNCHER})
-  set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_SLOPPINESS=pch_defines,time_macros)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${PROJECT_SOURCE_DIR}/share/cmake/through-ccache CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_SLOPPINESS=pch_defines,time_macros)
   if(CMAKE_BUILD_TYPE STREQUAL Release OR REX_SANITIZE)
     list(APPEND CMAKE_CXX_COMPILER_LAUNCHER CCACHE_NOHASHDIR=1)
   endif()
