@@ -63,10 +63,9 @@ void showTurns() {
     film.push_back({share * 3, std::move(picture)});
   }
   // From afar, so that both are seen from the same direction.
-  Shot shot{.camera = lookAt({0, -14, 12}, {0, 0, 0.05}), .width = 800, .height = 400};
-  shot.camera.verticalFov = 0.14;
-  writeFilmVideo(film, shot, "turns", 30);
-  writeFilmSheet(film, shot, std::string("turns_sheet") + ".png", 6);
+  Camera camera = lookAt({0, -14, 12}, {0, 0, 0.05});
+  camera.verticalFov = 0.14;
+  writeFilm(film, "turns", {.camera = camera, .width = 800, .height = 400});
 
   Figure figure{.title = "Speed of the frame on two ways between the same orientations",
                 .xLabel = "share of the way [1]",
@@ -157,8 +156,6 @@ void showEllipse() {
     }
     ++k;
   }
-  const Shot shot{.camera = framing(film, {1, -0.15, 0.1}, 1), .width = 400, .height = 400};
-  writeFilmVideo(film, shot, "ellipse", kFilmRate);
-  writeFilmSheet(film, shot, std::string("ellipse_sheet") + ".png", 6);
+  writeFilm(film, "ellipse", {.camera = framing(film, {1, -0.15, 0.1}, 1), .width = 400, .height = 400});
   plot("ellipse", figure);
 }

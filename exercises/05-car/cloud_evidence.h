@@ -66,10 +66,7 @@ inline rex::grading::Evidence trackSeen(const CarWorld& world, const Driven& dri
       .title = course.title, .xLabel = "time [s]", .yLabel = "difference " + course.unit, .series = {value}};
   values.horizontalLines = {{.at = course.limit, .label = "wanted: root mean square at most"}};
   values.verticalLines = {rex::grading::wrongFrom(moment)};
-  return {.figures = {values, map},
-          .film = std::move(film),
-          .view = rex::CarPictureOptions{}.view,
-          .moment = moment};
+  return {.figures = {values, map}, .film = std::move(film), .view = rex::kFromAbove, .moment = moment};
 }
 
 inline rex::Series dotsOf(const std::string& label, double size, const rex::Color& color,

@@ -103,7 +103,7 @@ void film(const std::string& name, const std::string& caption, const std::vector
     for (Way& way : view.ways) way.points.conservativeResize(2, t + 1);
     views.push_back(view);
   }
-  writeFilm(views, name, {.step = 3});
+  writeFilm(carFilm(views, 3), name, {.view = kFromAbove, .speed = 30});
 }
 
 }  // namespace
@@ -299,5 +299,5 @@ void showBearings(const RecordedDrive& drive, const CarWorld& world) {
                      .caption = "distances and bearings, step " + std::to_string(t)});
     cloud = filterStep(cloud, drive.log.controls[i], drive.log.observations[i], world, rng);
   }
-  writeFilm(views, "bearings", {.rate = 2});
+  writeFilm(carFilm(views), "bearings", {.view = kFromAbove, .speed = 2});
 }

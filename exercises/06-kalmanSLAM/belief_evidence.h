@@ -80,6 +80,5 @@ inline rex::grading::Evidence trackSeen(const TrackedRun& worst, rex::Figure fig
   }
   figure.xLabel = "step";
   figure.series = {curve};
-  return {
-      .figures = {figure}, .film = std::move(film), .view = rex::CarPictureOptions{}.view, .moment = moment};
+  return {.figures = {figure}, .film = std::move(film), .view = rex::kFromAbove, .moment = moment};
 }

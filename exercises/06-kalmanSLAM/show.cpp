@@ -397,7 +397,7 @@ void showMap(const RecordedDrive& drive) {
     views.push_back(viewAt(drive, mapping, t));
     views.back().caption = "Kalman SLAM: " + std::to_string(t) + " s";
   }
-  writeFilm(views, "slam", {.rate = 10});
+  writeFilm(carFilm(views), "slam", {.view = kFromAbove, .speed = 10});
   for (const std::size_t t : {std::size_t{45}, mapping.joints.size() - 1}) {
     views[t].caption = "Car, map and beliefs after " + std::to_string(t) + " s";
     plot(t == 45 ? "map_before" : "map_after", figureOf(views[t]));

@@ -182,7 +182,7 @@ void showBalance(const Eigen::MatrixXd& K) {
     const Eigen::Vector4d now = states.col(t);
     views.push_back({.x = now, .u = forceOf(K, now), .caption = "u = K x, noise 0.1"});
   }
-  writeFilm(views, "balanced");
+  writeFilm(cartPoleFilm(views), "balanced");
 }
 
 void showFates() {

@@ -160,17 +160,17 @@ void showFilm(const Lesson& lesson) {
   for (const Eigen::VectorXd& w :
        {Eigen::VectorXd(Eigen::VectorXd::Zero(kFeatures)), lesson.halfTaught, lesson.policy})
     rides.push_back(rideOf(w, tilted(.15), noise, {}, {}).states);
-  std::vector<RacerView> views;
+  Film film;
   for (int t = 0; t <= kLongestRide; t += 2) {
-    RacerView view{.x = Eigen::Matrix4Xd(4, 3), .names = {"before", "1000 rides", "after"}};
+    RacerView view{
+        .x = Eigen::Matrix4Xd(4, 3), .names = {"before", "1000 rides", "after"}, .caption = "policy search"};
     for (Eigen::Index k = 0; k < 3; ++k) {
       const Eigen::MatrixXd& X = rides[static_cast<std::size_t>(k)];
       view.x.col(k) = X.col(std::min<Eigen::Index>(t, X.cols() - 1));
     }
-    view.caption = "policy search";
-    views.push_back(view);
+    film.push_back({t * kTau, pictureOf(view)});
   }
-  writeFilm(views, "learnt", {.view = {1.2, -1.6, .7}, .step = 2 * kTau});
+  writeFilm(film, "learnt", {.view = {1.2, -1.6, .7}});
 }
 
 }  // namespace

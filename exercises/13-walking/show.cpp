@@ -250,7 +250,7 @@ void showWalk(const CartTable& cart, const PreviewLaw& law) {
   if (walk.largestError > .05) return nothingYet("humanoid: the zero moment point is off by more than 5 cm");
   humanoid.center = walk.center;
   humanoid.zmp = walk.zmp;
-  writeFilm(humanoid, "humanoid", {.view = {.35, -1, .8}, .width = 800, .height = 600});
+  writeFilm(humanoidFilm(humanoid), "humanoid", {.view = {.35, -1, .8}, .width = 800, .height = 600});
 }
 
 void showHorizon(const CartTable& cart, const PreviewLaw& law) {
@@ -286,8 +286,8 @@ void showCompass(const Walker& walker, const Eigen::Vector4d& guess) {
     showSettling(settles, *gait, sizes[0]);
   }
   plot("phase", phase);
-  writeFilm(wayFrom(walker, guess, 6).film, "walker",
-            {.view = {.15, -2, .25}, .width = 900, .height = 300, .step = 1. / 30});
+  writeFilm(compassFilm(wayFrom(walker, guess, 6).film, 1. / 30), "walker",
+            {.view = {.15, -2, .25}, .width = 900, .height = 300});
 }
 
 void showSlopes(const Eigen::Vector4d& guess) {

@@ -314,13 +314,6 @@ Film filmOfDeletion(const std::vector<Eigen::Vector3d>& corners, const std::vect
   return film;
 }
 
-void writeDeletion(const std::string& name, const Film& film) {
-  Shot shot;
-  shot.camera = lookAt({0.075, -0.195, 0.0975}, {0, 0, 0});
-  writeFilmVideo(film, shot, name, 20);
-  writeFilmSheet(film, shot, name + "_sheet.png", 6);
-}
-
 Eigen::MatrixXd wrenchesOnPlate(const std::vector<PlanarFinger>& fingers) {
   return planarWrenches(fingers, Eigen::Vector2d::Zero(), kPlateLength);
 }
@@ -457,7 +450,9 @@ void showDeletion(const std::vector<double>& frictions) {
     if (kept.empty()) return nothingYet("fewer fingers");
     std::printf("a stone, friction %.2f: %zu of %zu fingers are kept\n", friction, kept.size(),
                 fingers.size());
-    if (friction == frictions.back()) writeDeletion("deletion", filmOfDeletion(stone(), fingers, kept));
+    if (friction == frictions.back())
+      writeFilm(filmOfDeletion(stone(), fingers, kept), "deletion",
+                {.camera = lookAt({0.075, -0.195, 0.0975}, {0, 0, 0})});
   }
 }
 

@@ -214,7 +214,7 @@ void showPole() {
   plot("pole", figure);
   std::vector<CartPoleView> views = balance(planning(poleTask(20)), .9 * plans.y.back(), 120);
   for (CartPoleView& view : views) view.caption = "a plan of 20 steps, every 0.05 s";
-  writeFilm(views, "balanced", {.step = kPoleTau});
+  writeFilm(cartPoleFilm(views, kPoleTau), "balanced");
 }
 
 void showWall(const Task& task) {

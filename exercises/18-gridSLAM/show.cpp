@@ -132,7 +132,7 @@ void filmMapping(const Office& office, const Settings& settings) {
     if (t % 2 == 0) views.push_back(view);
     if (effectiveSize(weights) < settings.threshold * kParticles) particles = resampled(particles, rng);
   }
-  writeFilm(views, "mapping", {.view = {0, -6, 12}, .rate = 8, .step = 2});
+  writeFilm(carFilm(views, 2), "mapping", {.view = {0, -6, 12}, .speed = 16});
 }
 
 }  // namespace

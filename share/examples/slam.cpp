@@ -32,6 +32,6 @@ int main() {
   view.ways = {{.name = "estimated way", .points = way, .color = kEstimateColor}};
   for (int i = 0; i < slam.landmarks(); ++i)
     view.landmarkBeliefs.push_back({slam.landmark(i).mean, slam.landmark(i).covariance});
-  writePicture(view, "slam.png");
+  writePicture(carFilm({view}).front().picture, "slam.png", {.view = kFromAbove});
   plot("map", figureOf(view));
 }

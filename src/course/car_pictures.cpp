@@ -3,15 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
-#include "base/require.h"
 #include "course/car_view_internal.h"
 #include "course/film.h"
-#include "course/pictures.h"
-#include "render/contact_sheet.h"
-#include "render/image.h"
 #include "render/picture.h"
-#include "render/renderer.h"
 
 namespace rex {
 namespace {
@@ -141,18 +135,6 @@ void include(Bounds& bounds, const CarView& view) {
       square(belief.mean, std::min(kReach, view.sigmas * std::sqrt(belief.covariance.trace())));
 }
 
-Shot shotOf(const Bounds& bounds, const CarPictureOptions& options) {
-  requireValid(RendererOptions{.width = options.width, .height = options.height});
-  const double aspect = static_cast<double>(options.width) / options.height;
-  return {framing(bounds, options.view, aspect), options.width, options.height};
-}
-
-void requireFilm(const std::vector<CarView>& views, const CarPictureOptions& options) {
-  if (views.empty()) throw Error({.what = "film of the car", .found = "no views", .wanted = "at least one"});
-  requireValid(ContactSheetOptions{.pictures = options.moments});
-  requirePositive("film of the car: step", options.step, kSeconds);
-}
-
 }  // namespace
 
 Picture pictureOf(const CarView& view) {
@@ -178,26 +160,14 @@ Picture pictureOf(const CarView& view) {
   return picture;
 }
 
-void writePicture(const CarView& view, const std::string& file, const CarPictureOptions& options) {
-  Picture picture = pictureOf(view);
-  include(picture.ground.scene, view);
-  const Shot shot = shotOf(picture.ground.scene, options);
-  Renderer renderer({.width = options.width, .height = options.height, .gl = glChoice()});
-  writePng(renderer.draw(picture, shot.camera), file);
-}
-
-void writeFilm(const std::vector<CarView>& views, const std::string& name, const CarPictureOptions& options) {
-  requireFilm(views, options);
-  Bounds bounds;
-  Film film;
-  for (const CarView& view : views) {
-    film.push_back({static_cast<double>(film.size()) * options.step, pictureOf(view)});
-    include(bounds, view);
-  }
-  for (Frame& frame : film) frame.picture.ground.scene = bounds;
-  const Shot shot = shotOf(bounds, options);
-  writeFilmVideo(film, shot, name, options.rate);
-  writeFilmSheet(film, shot, name + "_sheet.png", options.moments);
+Film carFilm(const std::vector<CarView>& views, double step) {
+  Bounds scene;
+  for (const CarView& view : views) include(scene, view);
+  return filmOf(static_cast<int>(views.size()), step, [&](int i) {
+    Picture picture = pictureOf(views[static_cast<std::size_t>(i)]);
+    picture.ground.scene = scene;
+    return picture;
+  });
 }
 
 }  // namespace rex

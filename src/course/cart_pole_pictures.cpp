@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/require.h"
-#include "course/plant_film_internal.h"
+#include "course/film.h"
 
 namespace rex {
 namespace {
@@ -62,18 +62,13 @@ Picture pictureOf(const CartPoleView& view) {
   return pictureOn(rail, view);
 }
 
-void writePicture(const CartPoleView& view, const std::string& file, const PlantFilmOptions& options) {
-  internal::writePlantPicture(pictureOf(view), file, options);
-}
-
-void writeFilm(const std::vector<CartPoleView>& views, const std::string& name,
-               const PlantFilmOptions& options) {
+Film cartPoleFilm(const std::vector<CartPoleView>& views, double step) {
   const auto isAway = [](const CartPoleView& view) { return std::abs(view.x[0]) > kFarthest; };
   const auto end = std::find_if(views.begin() + (views.empty() ? 0 : 1), views.end(), isAway);
   Rail rail;
   for (auto view = views.begin(); view != end; ++view) rail.reach(view->x[0]);
-  const auto at = [&](int i) { return pictureOn(rail, views[static_cast<std::size_t>(i)]); };
-  internal::writePlantFilm(static_cast<int>(end - views.begin()), at, name, options);
+  return filmOf(static_cast<int>(end - views.begin()), step,
+                [&](int i) { return pictureOn(rail, views[static_cast<std::size_t>(i)]); });
 }
 
 }  // namespace rex

@@ -13,6 +13,8 @@
 
 #include "base/error.h"
 #include "base/interruption.h"
+#include "base/require.h"
+#include "course/film_internal.h"
 #include "course/pictures.h"
 #include "course/recording.h"
 #include "course/simulator.h"
@@ -92,6 +94,67 @@ void writeFilmSheet(const Film& film, const Shot& shot, const std::string& file,
   for (std::size_t i = 0; i < moments.size(); ++i)
     shown.push_back({drawn.frames()[i], fmt::format("{:.2f} s", moments[i].time)});
   writePng(contactSheet(shown, layout), file);
+}
+
+namespace {
+
+Bounds groundOf(const Film& film) {
+  Bounds all;
+  for (const Frame& frame : film) {
+    const Bounds& scene = frame.picture.ground.scene;
+    if (scene.isEmpty()) continue;
+    all.include(scene.low);
+    all.include(scene.high);
+  }
+  return all;
+}
+
+Shot shotFor(const Film& film, const FilmOptions& options) {
+  requireValid(RendererOptions{.width = options.width, .height = options.height});
+  const double aspect = static_cast<double>(options.width) / options.height;
+  const Bounds ground = groundOf(film);
+  const auto all = [&] { return framing(ground.isEmpty() ? bounds(film) : ground, options.view, aspect); };
+  return {options.camera ? *options.camera : all(), options.width, options.height};
+}
+
+}  // namespace
+
+void writePicture(const Picture& picture, const std::string& file, const FilmOptions& options) {
+  const Shot shot = shotFor({{0, picture}}, options);
+  Renderer renderer({.width = shot.width, .height = shot.height, .gl = glChoice()});
+  writePng(renderer.draw(picture, shot.camera), file);
+}
+
+Film filmOf(int count, double step, const std::function<Picture(int)>& frame) {
+  Film film;
+  for (int i = 0; i < count; ++i) film.push_back({i * step, frame(i)});
+  return film;
+}
+
+internal::FilmPace internal::filmPace(int count, double step, double speed) {
+  const double perFrame = std::clamp(speed / (kFilmRate * step), 1., static_cast<double>(count));
+  FilmPace pace;
+  for (int i = 0; std::lround(i * perFrame) < count; ++i)
+    pace.frames.push_back(static_cast<std::size_t>(std::lround(i * perFrame)));
+  pace.rate = static_cast<int>(std::clamp(std::round(speed / (perFrame * step)), 1., 1. * kFilmRate));
+  return pace;
+}
+
+void writeFilm(const Film& film, const std::string& name, const FilmOptions& options) {
+  if (film.empty())
+    throw Error({.what = "film '" + name + "'", .found = "no frames", .wanted = "at least one"});
+  const int count = static_cast<int>(film.size());
+  const double step = count > 1 ? (film.back().time - film.front().time) / (count - 1) : 1. / kFilmRate;
+  requirePositive("film '" + name + "': time between frames", step, kSeconds);
+  requirePositive("film '" + name + "': speed", options.speed);
+  requireValid(ContactSheetOptions{.pictures = options.moments});
+  const internal::FilmPace pace = internal::filmPace(count, step, options.speed);
+  Film shown;
+  for (const std::size_t i : pace.frames) shown.push_back(film[i]);
+  if (groundOf(shown).isEmpty()) settleGround(shown);
+  const Shot shot = shotFor(shown, options);
+  writeFilmVideo(shown, shot, name, pace.rate);
+  writeFilmSheet(shown, shot, name + "_sheet.png", options.moments);
 }
 
 namespace {

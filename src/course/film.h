@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +19,30 @@ struct Shot {
   Camera camera{};
   int width = 640, height = 480;  ///< pixels
 };
+
+/// How pictures and films that a program makes itself are drawn.
+struct FilmOptions {
+  Eigen::Vector3d view{0.35, -2, 0.45};  ///< direction from the scene to the camera
+  std::optional<Camera> camera{};        ///< instead of the one that sees everything from there
+  int width = 640, height = 480;         ///< pixels
+  double speed = 1;                      ///< seconds of the film that the video shows per second
+  int moments = 6;                       ///< pictures in the contact sheet, at least 2
+};
+
+/// Draws the picture into `file`, a .png. The camera sees all that the ground fades out around. Throws Error
+/// for a size out of range, an empty picture, a file that cannot be written, or a machine without software
+/// OpenGL.
+void writePicture(const Picture& picture, const std::string& file, const FilmOptions& options = {});
+
+/// The pictures frame(0), ..., frame(count - 1), `step` seconds apart.
+[[nodiscard]] Film filmOf(int count, double step, const std::function<Picture(int)>& frame);
+
+/// Draws a film whose frames are evenly spaced in time into the folder NAME as 0000.png, 0001.png, ..., the
+/// video NAME.mp4, and the contact sheet NAME_sheet.png of evenly spaced moments, all from the same camera.
+/// Of frames that are closer than the video shows at kFilmRate, some are left out. Without ffmpeg there is no
+/// video, and a line on standard error says so. Throws as writePicture() does, and Error for a film without
+/// frames, times that do not increase, a speed that is not positive, and fewer than 2 moments.
+void writeFilm(const Film& film, const std::string& name, const FilmOptions& options = {});
 
 /// Draws the film as folder/0000.png, 0001.png, ... and first removes frames of an earlier run from that
 /// folder. Ctrl-C leaves only complete files. The functions in this file throw Error for a size out of

@@ -7,7 +7,6 @@
 #include "course/recording.h"
 #include "course/simulator.h"
 #include "render/contact_sheet.h"
-#include "render/image.h"
 #include "render/renderer.h"
 
 namespace rex {
@@ -28,9 +27,8 @@ Shot shotOf(const Film& film, const PictureOptions& options) {
 }  // namespace
 
 void writePicture(const Simulator& simulator, const std::string& file, const PictureOptions& options) {
-  const Film film = stillOf(simulator, options);
-  Renderer renderer({.width = options.width, .height = options.height, .gl = glChoice()});
-  writePng(renderer.draw(film.front().picture, cameraFor(film, options)), file);
+  writePicture(stillOf(simulator, options).front().picture, file,
+               {.view = options.view, .width = options.width, .height = options.height});
 }
 
 void writeFrames(const Simulator& simulator, const std::string& folder, const PictureOptions& options,

@@ -6,7 +6,6 @@
 
 #include "base/error.h"
 #include "base/require.h"
-#include "course/plant_film_internal.h"
 
 namespace rex {
 namespace {
@@ -71,16 +70,6 @@ Picture pictureOf(const RacerView& view) {
   }
   if (!view.caption.empty()) picture.captions.push_back({.text = view.caption});
   return picture;
-}
-
-void writePicture(const RacerView& view, const std::string& file, const PlantFilmOptions& options) {
-  internal::writePlantPicture(pictureOf(view), file, options);
-}
-
-void writeFilm(const std::vector<RacerView>& views, const std::string& name,
-               const PlantFilmOptions& options) {
-  const auto at = [&](int i) { return pictureOf(views[static_cast<std::size_t>(i)]); };
-  internal::writePlantFilm(static_cast<int>(views.size()), at, name, options);
 }
 
 }  // namespace rex

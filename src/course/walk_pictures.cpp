@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "base/folders.h"
 #include "base/require.h"
-#include "course/plant_film_internal.h"
+#include "course/film.h"
 #include "formats/scene_file.h"
 #include "locomotion/walking_pattern.h"
 #include "render/picture.h"
@@ -156,12 +156,11 @@ Picture pictureOf(const CompassWalk& walk, int view) {
   return picture;
 }
 
-void writeFilm(const CompassWalk& walk, const std::string& name, const PlantFilmOptions& options) {
-  const auto at = [&](int view) { return pictureOf(walk, view); };
-  internal::writePlantFilm(static_cast<int>(walk.views.size()), at, name, options);
+Film compassFilm(const CompassWalk& walk, double step) {
+  return filmOf(static_cast<int>(walk.views.size()), step, [&](int view) { return pictureOf(walk, view); });
 }
 
-void writeFilm(const HumanoidWalk& walk, const std::string& name, const PlantFilmOptions& options) {
+Film humanoidFilm(const HumanoidWalk& walk) {
   const CourseHumanoid humanoid = courseHumanoid();
   const WalkingPattern pattern =
       walkingPattern(humanoid.model, humanoid.legs, walk.plan, humanoid.start, {.preview = walk.preview});
@@ -169,21 +168,13 @@ void writeFilm(const HumanoidWalk& walk, const std::string& name, const PlantFil
     throw Error({.what = "film of a humanoid",
                  .found = pattern.message,
                  .wanted = "a walk that the robot can perform"});
-  PlantFilmOptions timed = options;
-  timed.step = walk.preview.step;
-  writeFilm(humanoid, pattern.Q, walk, name, timed);
-}
-
-void writeFilm(const CourseHumanoid& humanoid, const Eigen::MatrixXd& Q, const HumanoidWalk& walk,
-               const std::string& name, const PlantFilmOptions& options) {
-  requireWays(walk, Q.cols());
-  const auto at = [&](int step) {
-    Picture picture = pictureOf(humanoid.model, forwardKinematics(humanoid.model, Q.col(step)));
+  requireWays(walk, pattern.Q.cols());
+  return filmOf(static_cast<int>(pattern.Q.cols()), walk.preview.step, [&](int step) {
+    Picture picture = pictureOf(humanoid.model, forwardKinematics(humanoid.model, pattern.Q.col(step)));
     addFootprints(picture, walk.plan);
     addWays(picture, walk, static_cast<std::size_t>(step));
     return picture;
-  };
-  internal::writePlantFilm(static_cast<int>(Q.cols()), at, name, options);
+  });
 }
 
 }  // namespace rex

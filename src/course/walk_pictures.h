@@ -1,14 +1,12 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
-#include "course/plant_film.h"
 #include "locomotion/compass_gait.h"
 #include "locomotion/footsteps.h"
 #include "locomotion/walking_pattern.h"
 #include "render/figure.h"
-#include "render/picture.h"
+#include "render/film.h"
 
 namespace rex {
 
@@ -33,9 +31,8 @@ struct CompassWalk {
 /// that are not finite.
 [[nodiscard]] Picture pictureOf(const CompassWalk& walk, int view);
 
-/// Draws the views, one for each step, into the folder NAME, the video NAME.mp4 and the contact sheet
-/// NAME_sheet.png. Throws as pictureOf() and as writeFilm() for racers (course/racer_pictures.h).
-void writeFilm(const CompassWalk& walk, const std::string& name, const PlantFilmOptions& options = {});
+/// All views, `step` seconds apart. Throws Error as pictureOf() does.
+[[nodiscard]] Film compassFilm(const CompassWalk& walk, double step);
 
 /// The course's humanoid, alone or on a floor: shapes of the world. Its feet are to start from `start`, with
 /// bent knees.
@@ -55,14 +52,9 @@ struct HumanoidWalk {
   std::vector<Eigen::Vector2d> zmp{};     ///< path of the zero moment point, metres: orange, with a dot
 };
 
-/// The same for a humanoid whose joints follow walkingPattern(). The step is that of the preview. Throws
-/// Error if there is no such pattern, if the paths do not have its length, and for numbers that are not
-/// finite.
-void writeFilm(const HumanoidWalk& walk, const std::string& name, const PlantFilmOptions& options = {});
-
-/// Postures of a humanoid that were measured, not planned: one column of Q (nq x N) per view, options.step
-/// apart; paths have N points. Throws Error if they do not, and for numbers that are not finite.
-void writeFilm(const CourseHumanoid& humanoid, const Eigen::MatrixXd& Q, const HumanoidWalk& walk,
-               const std::string& name, const PlantFilmOptions& options);
+/// The course's humanoid, whose joints follow walkingPattern(), one frame for each step of the preview.
+/// Throws Error if there is no such pattern, if the paths do not have its length, and for numbers that are
+/// not finite.
+[[nodiscard]] Film humanoidFilm(const HumanoidWalk& walk);
 
 }  // namespace rex

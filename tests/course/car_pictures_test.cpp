@@ -9,6 +9,7 @@
 #include "base/process.h"
 #include "base/rng.h"
 #include "course/car_view.h"
+#include "course/film.h"
 #include "render/figure.h"
 #include "render/image.h"
 #include "render/picture.h"
@@ -151,7 +152,7 @@ TEST(CarPicture, ShowsMapsAndSmallCars) {
 TEST(CarPicture, OfNothingIsEmpty) {
   const Picture picture = pictureOf(CarView{});
   EXPECT_TRUE(bounds(picture).isEmpty());
-  EXPECT_REX_ERROR(writePicture(CarView{}, "x.png"), "nothing to draw: found no shape, line");
+  EXPECT_REX_ERROR(writePicture(picture, "x.png"), "nothing to draw: found no shape, line");
 }
 
 TEST(CarPicture, SaysWhatCannotBeDrawn) {
@@ -203,52 +204,28 @@ class CarFilm : public ::testing::Test {
 
 TEST_F(CarFilm, HasFramesAContactSheetAndAVideo) {
   REX_NEEDS_OSMESA();
-  const CarPictureOptions small{.width = 96, .height = 72, .moments = 3};
-  writeFilm(drive(5), in("film"), small);
+  const FilmOptions small{.view = kFromAbove, .width = 96, .height = 72, .moments = 3};
+  writeFilm(carFilm(drive(5)), in("film"), small);
   EXPECT_TRUE(fs::exists(in("film/0004.png")));
   EXPECT_FALSE(fs::exists(in("film/0005.png")));
   EXPECT_FALSE(readPng(in("film/0000.png")) == readPng(in("film/0004.png")));
   const Image sheet = readPng(in("film_sheet.png"));
   EXPECT_GT(sheet.width, 3 * 96);
   EXPECT_EQ(fs::exists(in("film.mp4")), runProcess({"ffmpeg", "-version"}).ok());
-  writeFilm(drive(5), in("again"), small);
+  writeFilm(carFilm(drive(5)), in("again"), small);
   EXPECT_EQ(fileText(in("film/0004.png")), fileText(in("again/0004.png")));
   EXPECT_EQ(fileText(in("film_sheet.png")), fileText(in("again_sheet.png")));
 }
 
 TEST_F(CarFilm, TheCameraDoesNotRunAwayFromGuessesWithoutKnowledge) {
   REX_NEEDS_OSMESA();
-  const CarPictureOptions small{.width = 96, .height = 72};
+  const FilmOptions small{.view = kFromAbove, .width = 96, .height = 72};
   std::vector<CarView> views = drive(2);
   views[1].landmarkBeliefs[0].covariance *= 100;
-  writeFilm(views, in("some"), small);
+  writeFilm(carFilm(views), in("some"), small);
   views[1].landmarkBeliefs[0].covariance *= 1e4;
-  writeFilm(views, in("none"), small);
+  writeFilm(carFilm(views), in("none"), small);
   EXPECT_EQ(readPng(in("some/0000.png")), readPng(in("none/0000.png")));
-}
-
-TEST_F(CarFilm, SaysWhatCannotBe) {
-  EXPECT_REX_ERROR(writeFilm({}, in("x")), "film of the car: found no views, wanted at least one");
-  EXPECT_REX_ERROR(writeFilm(drive(2), in("x"), {.step = 0}),
-                   "film of the car: step: found 0 s, wanted a positive, finite number of seconds");
-  EXPECT_REX_ERROR(writeFilm(drive(2), in("x"), {.moments = 1}), "pictures: found 1, wanted at least 2");
-  EXPECT_REX_ERROR(writeFilm(drive(2), in("x"), {.rate = 0}),
-                   "x.mp4: frames per second: found 0, wanted 1 to 1000");
-  EXPECT_REX_ERROR(writeFilm(drive(2), in("x"), {.width = 0}), "picture size: found 0 x 480");
-  EXPECT_REX_ERROR(writePicture(fullView(), in("x.png"), {.height = 0}), "picture size: found 640 x 0");
-  EXPECT_REX_ERROR(writePicture(fullView(), in("x.png"), {.view = Eigen::Vector3d::Zero()}),
-                   "no view direction");
-  REX_NEEDS_OSMESA();
-  EXPECT_REX_ERROR(writePicture(fullView(), in("no/folder/x.png")), "x.png");
-}
-
-TEST_F(CarFilm, PicturesAreOfTheSizeAskedFor) {
-  REX_NEEDS_OSMESA();
-  for (const auto& [width, height] : {std::pair{640, 480}, {1, 1}, {300, 20}}) {
-    writePicture(fullView(), in("x.png"), {.width = width, .height = height});
-    EXPECT_EQ(readPng(in("x.png")).width, width);
-    EXPECT_EQ(readPng(in("x.png")).height, height);
-  }
 }
 
 TEST(CarFigure, IsTheMapFromAbove) {

@@ -6,7 +6,8 @@
 
 #include "base/process.h"
 #include "course/cart_pole_pictures.h"
-#include "course/plant_film_internal.h"
+#include "course/film.h"
+#include "course/film_internal.h"
 #include "course/racer_pictures.h"
 #include "render/image.h"
 #include "support/expect_error.h"
@@ -112,11 +113,13 @@ class PlantFilm : public testing::Test {
     for (int t = 0; t < count; ++t, cart.step(0)) views.push_back({cart.x});
     return views;
   }
-  static std::vector<RacerView> rolling(int count) {
+  static Film rolling(int count, double step = 0.01) {
     Racer racer(1);
-    std::vector<RacerView> views;
-    for (int t = 0; t < count; ++t, racer.stepDynamics(0.01)) views.push_back({racer.getState()});
-    return views;
+    return filmOf(count, step, [&](int) {
+      const Picture picture = pictureOf(RacerView{racer.getState()});
+      racer.stepDynamics(0.01);
+      return picture;
+    });
   }
 
  private:
@@ -132,65 +135,72 @@ TEST_F(PlantFilm, HasFramesAContactSheetAndAVideo) {
     EXPECT_GT(readPng(in(name + "_sheet.png")).width, 3 * 96);
     EXPECT_EQ(fs::exists(in(name + ".mp4")), runProcess({"ffmpeg", "-version"}).ok());
   };
-  const PlantFilmOptions cart{.width = 96, .height = 72, .step = 1. / 60, .moments = 3};
-  writeFilm(falling(20), in("cart"), cart);
+  const FilmOptions small{.width = 96, .height = 72, .moments = 3};
+  writeFilm(cartPoleFilm(falling(20)), in("cart"), small);
   check("cart", 10);  // every second
   std::vector<CartPoleView> away = falling(20);
   for (std::size_t k = 11; k < away.size(); ++k) away[k].x[0] = -8.1 - 1000. * static_cast<double>(k);
-  writeFilm(away, in("away"), cart);
+  writeFilm(cartPoleFilm(away), in("away"), small);
   check("away", 6);
-  writeFilm(falling(20), in("again"), cart);
+  writeFilm(cartPoleFilm(falling(20)), in("again"), small);
   EXPECT_EQ(fileText(in("cart_sheet.png")), fileText(in("again_sheet.png")));
-  PlantFilmOptions racer{.width = 96, .height = 72, .moments = 3};
-  writeFilm(rolling(31), in("racer"), racer);
+  writeFilm(rolling(31), in("racer"), small);
   check("racer", 10);  // at 0, 3, 7, 10, ...
-  racer.step = 0.1;
-  writeFilm(rolling(4), in("slow"), racer);
+  writeFilm(rolling(4, 0.1), in("slow"), small);
   check("slow", 4);
 }
 
-TEST(PlantFilmTiming, PlaysInRealTime) {
-  const auto timing = [](int count, double step, int rate) {
-    return internal::plantFilmTiming(count, {.step = step, .rate = rate});
+TEST(FilmPace, PlaysAtTheSpeedAskedFor) {
+  const auto pace = [](int count, double step, double speed = 1) {
+    return internal::filmPace(count, step, speed);
   };
-  EXPECT_EQ(timing(31, 0.01, 30).views, (std::vector{0, 3, 7, 10, 13, 17, 20, 23, 27, 30}));
-  EXPECT_EQ(timing(31, 0.01, 30).rate, 30);
-  EXPECT_EQ(timing(5, 1. / 60, 30).views, (std::vector{0, 2, 4}));
-  EXPECT_EQ(timing(5, 1. / 60, 30).rate, 30);
-  EXPECT_EQ(timing(3, 0.1, 30).views, (std::vector{0, 1, 2}));
-  EXPECT_EQ(timing(3, 0.1, 30).rate, 10);
-  EXPECT_EQ(timing(1, 0.1, 30).views, std::vector{0});
+  using Frames = std::vector<std::size_t>;
+  EXPECT_EQ(pace(31, 0.01).frames, (Frames{0, 3, 7, 10, 13, 17, 20, 23, 27, 30}));
+  EXPECT_EQ(pace(31, 0.01).rate, 30);
+  EXPECT_EQ(pace(5, 1. / 60).frames, (Frames{0, 2, 4}));
+  EXPECT_EQ(pace(5, 1. / 60).rate, 30);
+  EXPECT_EQ(pace(3, 0.1).frames, (Frames{0, 1, 2}));
+  EXPECT_EQ(pace(3, 0.1).rate, 10);
+  EXPECT_EQ(pace(1, 0.1).frames, Frames{0});
+  EXPECT_EQ(pace(4, 3, 30).frames, (Frames{0, 1, 2, 3})) << "cars, ten views per second";
+  EXPECT_EQ(pace(4, 3, 30).rate, 10);
+  EXPECT_EQ(pace(9, 0.1, 12).frames, (Frames{0, 4, 8}));
+  EXPECT_EQ(pace(9, 0.1, 12).rate, 30);
   // In steps beyond all measure, a film is still one.
   for (const double step : {1e-320, 1e-300, 1e-20}) {
-    EXPECT_EQ(timing(4, step, 30).views, std::vector{0}) << step;
-    EXPECT_EQ(timing(4, step, 30).rate, 30) << step;
+    EXPECT_EQ(pace(4, step).frames, Frames{0}) << step;
+    EXPECT_EQ(pace(4, step).rate, 30) << step;
   }
-  EXPECT_EQ(timing(2, 1e300, 30).views, (std::vector{0, 1}));
-  EXPECT_EQ(timing(2, 1e300, 30).rate, 1);
+  EXPECT_EQ(pace(2, 1e300).frames, (Frames{0, 1}));
+  EXPECT_EQ(pace(2, 1e300).rate, 1);
 }
 
 TEST_F(PlantFilm, SaysWhatCannotBe) {
-  const auto refuses = [&](const PlantFilmOptions& options, const char* text) {
-    EXPECT_REX_ERROR(writeFilm(falling(2), in("x"), options), text);
-    EXPECT_REX_ERROR(writeFilm(rolling(2), in("x"), options), text);
+  const auto refuses = [&](const Film& film, const FilmOptions& options, const char* text) {
+    EXPECT_REX_ERROR(writeFilm(film, "x", options), text);
   };
-  EXPECT_REX_ERROR(writeFilm(falling(0), in("x")), "film of a plant: found no views, wanted at least one");
-  EXPECT_REX_ERROR(writeFilm(rolling(0), in("x")), "film of a plant: found no views, wanted at least one");
-  refuses({.step = 0}, "film of a plant: step: found 0 s, wanted a positive, finite number of seconds");
-  refuses({.rate = 0}, "film of a plant: frames per second: found 0, wanted at least 1");
-  refuses({.moments = 1}, "pictures: found 1, wanted at least 2");
-  refuses({.width = 0}, "picture size: found 0 x 480");
-  refuses({.view = Vector3d::Zero()}, "no view direction");
+  refuses({}, {}, "film 'x': found no frames, wanted at least one");
+  refuses(cartPoleFilm({}), {}, "film 'x': found no frames, wanted at least one");
+  refuses(rolling(2, 0), {},
+          "film 'x': time between frames: found 0 s, wanted a positive, finite number of seconds");
+  refuses(rolling(2, kNan), {}, "film 'x': time between frames: found nan, wanted a positive");
+  refuses(rolling(2), {.speed = 0}, "film 'x': speed: found 0, wanted a positive, finite number");
+  refuses(rolling(2), {.moments = 1}, "pictures: found 1, wanted at least 2");
+  refuses(rolling(2), {.width = 0}, "picture size: found 0 x 480");
+  refuses(rolling(2), {.view = Vector3d::Zero()}, "no view direction");
 }
 
 TEST_F(PlantFilm, PicturesAreOfTheSizeAskedFor) {
   REX_NEEDS_OSMESA();
-  writePicture(CartPoleView{{0.4, 0, 0.3, 0}, 8, "cart pole"}, in("cart.png"), {.width = 320, .height = 240});
-  EXPECT_EQ(readPng(in("cart.png")).width, 320);
-  writePicture(RacerView{Vector4d(0.1, 0.2, 0, 0), {}, "racer"}, in("racer.png"),
-               {.width = 320, .height = 200});
-  EXPECT_EQ(readPng(in("racer.png")).height, 200);
-  EXPECT_REX_ERROR(writePicture(CartPoleView{}, in("no/folder/x.png")), "x.png");
+  const Picture cart = pictureOf(CartPoleView{{0.4, 0, 0.3, 0}, 8, "cart pole"});
+  for (const auto& [width, height] : {std::pair{320, 240}, {300, 100}}) {
+    writePicture(cart, in("cart.png"), {.width = width, .height = height});
+    EXPECT_EQ(readPng(in("cart.png")).width, width);
+    EXPECT_EQ(readPng(in("cart.png")).height, height);
+  }
+  EXPECT_REX_ERROR(writePicture(cart, in("no/folder/x.png")), "x.png");
+  EXPECT_REX_ERROR(writePicture(cart, in("x.png"), {.height = 0}), "picture size: found 640 x 0");
+  EXPECT_REX_ERROR(writePicture(Picture{}, in("x.png")), "nothing to draw: found no shape, line");
 }
 
 }  // namespace rex::plant_pictures_test

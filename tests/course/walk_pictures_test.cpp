@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "base/process.h"
+#include "course/film.h"
 #include "render/image.h"
 #include "support/expect_error.h"
 #include "support/needs_osmesa.h"
@@ -88,7 +89,7 @@ TEST(CompassPicture, RefusesWhatCannotBeDrawn) {
   EXPECT_REX_ERROR(static_cast<void>(pictureOf(walk, 0)), "compass walker: state: number 2: found nan");
   walk.views[0] = {.foot = kNan};
   EXPECT_REX_ERROR(static_cast<void>(pictureOf(walk, 0)), "compass walker: path of the foot: found nan");
-  EXPECT_REX_ERROR(writeFilm(CompassWalk{}, "x"), "film of a plant: found no views");
+  EXPECT_TRUE(compassFilm({}, 1).empty());
 }
 
 class WalkFilm : public testing::Test {
@@ -112,7 +113,7 @@ class WalkFilm : public testing::Test {
     }
     return walk;
   }
-  PlantFilmOptions small{.width = 96, .height = 72, .moments = 3};
+  FilmOptions small{.width = 96, .height = 72, .moments = 3};
 
  private:
   TemporaryFolder folder_;
@@ -120,14 +121,13 @@ class WalkFilm : public testing::Test {
 
 TEST_F(WalkFilm, OfACompassWalkerAndAHumanoid) {
   REX_NEEDS_OSMESA();
-  small.step = 1. / 30;
   CompassWalk fall;
   for (int i = 0; i < 5; ++i) fall.views.push_back({.x = Vector4d(-0.1 * i, 0.1 * i, 0, 0)});
-  writeFilm(fall, in("walker"), small);
+  writeFilm(compassFilm(fall, 1. / 30), in("walker"), small);
   expectFilm("walker", 5);
-  small.rate = 5;
+  small.speed = 6;
   const HumanoidWalk walk = onTheSpot();
-  writeFilm(walk, in("humanoid"), small);
+  writeFilm(humanoidFilm(walk), in("humanoid"), small);
   // Every twentieth step of 0.01 s.
   expectFilm("humanoid", static_cast<int>((walk.zmp.size() + 19) / 20));
 }
@@ -135,11 +135,11 @@ TEST_F(WalkFilm, OfACompassWalkerAndAHumanoid) {
 TEST_F(WalkFilm, SaysWhatCannotBe) {
   HumanoidWalk walk = onTheSpot();
   walk.zmp[3].x() = kNan;
-  EXPECT_REX_ERROR(writeFilm(walk, in("x"), small), "film of a humanoid: path: number 0: found nan");
+  EXPECT_REX_ERROR(static_cast<void>(humanoidFilm(walk)), "film of a humanoid: path: number 0: found nan");
   walk.center.pop_back();
-  EXPECT_REX_ERROR(writeFilm(walk, in("x"), small), "film of a humanoid: found a path of");
+  EXPECT_REX_ERROR(static_cast<void>(humanoidFilm(walk)), "film of a humanoid: found a path of");
   walk.plan.footsteps = straightFootsteps(2, 3, 0.19);
-  EXPECT_REX_ERROR(writeFilm(walk, in("x"), small), "wanted a walk that the robot can perform");
+  EXPECT_REX_ERROR(static_cast<void>(humanoidFilm(walk)), "wanted a walk that the robot can perform");
 }
 
 }  // namespace rex::walk_pictures_test
