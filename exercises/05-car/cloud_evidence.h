@@ -51,7 +51,7 @@ inline rex::grading::Evidence trackSeen(const CarWorld& world, const Driven& dri
                             .landmarks = world.landmarks,
                             .poseBeliefs = {{record.means[t].head<2>(), spread.topLeftCorner<2, 2>()}},
                             .caption = "solid: the car; pale: the estimate"};
-    film.push_back({time, pictureOf(view)});
+    film.push_back({time, carPicture(view)});
     value.add(time, course.values[t]);
   }
   auto lost =

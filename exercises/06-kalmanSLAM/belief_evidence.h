@@ -66,12 +66,12 @@ inline rex::grading::Evidence trackSeen(const TrackedRun& worst, rex::Figure fig
     const double time = run.car.tau * static_cast<double>(t + 1);
     const Belief& belief = worst.beliefs[t];
     const Eigen::Matrix2d spread = belief.covariance.topLeftCorner<2, 2>();
-    film.push_back({time, pictureOf(rex::CarView{.car = run.states[t + 1],
-                                                 .estimate = belief.mean.head<3>(),
-                                                 .landmarks = run.landmarks,
-                                                 .poseBeliefs = {{belief.mean.head<2>(), spread}},
-                                                 .caption = "the worst run; solid: the car; pale: the "
-                                                            "estimate"})});
+    film.push_back({time, carPicture(rex::CarView{.car = run.states[t + 1],
+                                                  .estimate = belief.mean.head<3>(),
+                                                  .landmarks = run.landmarks,
+                                                  .poseBeliefs = {{belief.mean.head<2>(), spread}},
+                                                  .caption = "the worst run; solid: the car; pale: the "
+                                                             "estimate"})});
     curve.add(static_cast<double>(t + 1), values[static_cast<Eigen::Index>(t)]);
     const double error = (belief.mean - run.states[t + 1]).head(2).norm();
     if (error <= largest) continue;

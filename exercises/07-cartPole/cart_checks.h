@@ -135,7 +135,7 @@ inline std::vector<double> timesOf(const Eigen::MatrixXd& states, double tau) {
 inline rex::Film filmOf(const Eigen::MatrixXd& states, double tau, Eigen::Index stride) {
   rex::Film film;
   for (Eigen::Index k = 0; k < states.cols() && std::abs(states(0, k)) < 8; k += stride)
-    film.push_back({tau * static_cast<double>(k), pictureOf(rex::CartPoleView{.x = states.col(k)})});
+    film.push_back({tau * static_cast<double>(k), cartPolePicture(rex::CartPoleView{.x = states.col(k)})});
   return film;
 }
 

@@ -138,7 +138,7 @@ inline rex::grading::Evidence sideBySide(const Situation& in, const Pair& rides,
     Eigen::Matrix4Xd both(4, 2);
     both << at(rides.got, k), at(rides.other, k);
     film.push_back({kTau * static_cast<double>(rides.first + k),
-                    pictureOf(rex::RacerView{
+                    racerPicture(rex::RacerView{
                         .x = both, .names = {"got", rides.name}, .dynamics = dynamicsOf(in.racer)})});
   }
   return {.film = film, .view = {1.2, -1.6, .7}, .moment = kTau * static_cast<double>(rides.first + moment)};

@@ -168,7 +168,7 @@ void showFilm(const Lesson& lesson) {
       const Eigen::MatrixXd& X = rides[static_cast<std::size_t>(k)];
       view.x.col(k) = X.col(std::min<Eigen::Index>(t, X.cols() - 1));
     }
-    film.push_back({t * kTau, pictureOf(view)});
+    film.push_back({t * kTau, racerPicture(view)});
   }
   writeFilm(film, "learnt", {.view = {1.2, -1.6, .7}});
 }

@@ -85,7 +85,7 @@ int main() {
     const Eigen::Vector2d mass = S.kinematicsCOM();
     const double margin = supportMargin(support, mass).margin;
     view.plot("centre of mass inside the support by [m]", t / 30., margin);
-    Picture picture = pictureOf(S.model(), forwardKinematics(S.model(), S.getJointAngles()));
+    Picture picture = scenePicture(S.model(), forwardKinematics(S.model(), S.getJointAngles()));
     picture.ground.height = ground;
     Polyline edge{.color = margin > 0 ? kLandmarkColor : kDeadReckoningColor, .width = 5};
     for (Eigen::Index i = 0; i <= support.corners.cols(); ++i) {

@@ -45,10 +45,10 @@ int main() {
     view.plot("Dubins [m]", heading, dubins.length(), "heading of the goal [rad]");
     view.plot("Reeds and Shepp [m]", heading, both.length(), "heading of the goal [rad]");
     Picture picture =
-        pictureOf(CarView{.car = from,
-                          .estimate = to,
-                          .carScale = 0.25,
-                          .ways = {wayAlong(dubins, kEstimateColor), wayAlong(both, kDeadReckoningColor)}});
+        carPicture(CarView{.car = from,
+                           .estimate = to,
+                           .carScale = 0.25,
+                           .ways = {wayAlong(dubins, kEstimateColor), wayAlong(both, kDeadReckoningColor)}});
     picture.captions = {{.text = described("Dubins", dubins)}, {.text = described("Reeds-Shepp", both)}};
     picture.polylines.push_back(
         {.points = {{-5, -5, 0}, {5, -5, 0}, {5, 5, 0}, {-5, 5, 0}, {-5, -5, 0}}, .color = kTruthColor});

@@ -258,7 +258,7 @@ int main(int argc, char** argv) {
     view.plot("NEES where noise is believed to be 0.3 of it", step, trusting[step - 1], "step");
     view.plot("95 % are above", step, band.lower, "step");
     view.plot("95 % are below", step, band.upper, "step");
-    view.show(pictureOf(seen));
+    view.show(carPicture(seen));
   }
   std::printf("%d runs; consistent: NEES 3, its mean in the band in 95 %% of the steps, NIS 1\n", runs);
   std::printf(

@@ -51,13 +51,13 @@ int main() {
     (void)particles.step(propose, observationWeights(sight, y), rng);
     kalman = extendedUpdate(extendedPredict(kalman, motion), sight, y).belief;
     const Eigen::Vector3d truth = car.getState();
-    Picture picture =
-        pictureOf(CarView{.car = truth,
-                          .estimate = Eigen::Vector3d(kalman.mean),
-                          .landmarks = car.getLandmarks(),
-                          .particles = particles.particles().states,
-                          .weights = particles.particles().weights,
-                          .poseBeliefs = {{kalman.mean.head<2>(), kalman.covariance.topLeftCorner<2, 2>()}}});
+    Picture picture = carPicture(
+        CarView{.car = truth,
+                .estimate = Eigen::Vector3d(kalman.mean),
+                .landmarks = car.getLandmarks(),
+                .particles = particles.particles().states,
+                .weights = particles.particles().weights,
+                .poseBeliefs = {{kalman.mean.head<2>(), kalman.covariance.topLeftCorner<2, 2>()}}});
     const double error = (momentsOf(particles.particles()).mean - truth).head<2>().norm();
     picture.captions.push_back(
         {.text = error > 3 ? "the particles are lost" : "the particles are with the car", .scale = 1.5});

@@ -140,7 +140,7 @@ int main(int argc, char** argv) {
     if (run < 2 || view.isWatched()) {
       view.plot(draws ? "error [m]" : "error, none from scans [m]", robot->step(), robot->errors.back()[0],
                 "step");
-      view.show(pictureOf(robot->view()));
+      view.show(carPicture(robot->view()));
     }
     if (!robot->isDone()) continue;
     robot->print(seed);

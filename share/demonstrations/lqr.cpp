@@ -45,6 +45,6 @@ int main() {
     view.plot("place [m]", t / 30., plant.x[0]);
     view.plot("angle [rad]", t / 30., plant.x[2]);
     view.plot("force [N]", t / 30., u);
-    view.show(pictureOf(CartPoleView{.x = plant.x, .u = u, .caption = text.str()}));
+    view.show(cartPolePicture(CartPoleView{.x = plant.x, .u = u, .caption = text.str()}));
   }
 }

@@ -118,7 +118,7 @@ int main(int argc, char** argv) {
       view.plot(matches ? "error [m]" : "error by motion alone [m]", robot->step,
                 robot->error(robot->path())[0], "step");
       view.plot("error of the odometry [m]", robot->step, robot->error(robot->reckoned)[0], "step");
-      view.show(pictureOf(seen));
+      view.show(carPicture(seen));
     }
     if (!robot->isDone()) continue;
     robot->print(seed, matches);

@@ -58,7 +58,7 @@ int main() {
       plant.x = Eigen::Vector4d(target, 0, 0, 0);
       text = "it fell, or left the rail, and was set upright again";
     }
-    Picture picture = pictureOf(CartPoleView{.x = plant.x, .u = u, .caption = text});
+    Picture picture = cartPolePicture(CartPoleView{.x = plant.x, .u = u, .caption = text});
     PointSet dots{.color = kEstimateColor, .size = 8};
     for (Eigen::Index k = 0; k < plan.X.cols(); k += 3) dots.points.push_back({plan.X(0, k), -.3, 1});
     if (!dots.points.empty()) picture.pointSets.push_back(dots);

@@ -37,7 +37,7 @@ int main() {
     way.push_back(S.kinematicsPos("tool"));
     if (way.size() > 120) way.erase(way.begin());
 
-    Picture picture = pictureOf(S.model(), forwardKinematics(S.model(), q));
+    Picture picture = scenePicture(S.model(), forwardKinematics(S.model(), q));
     picture.solids.push_back({{.type = ShapeType::kSphere, .radius = 0.03},
                               translation(target.x(), target.y(), target.z()),
                               kDeadReckoningColor,

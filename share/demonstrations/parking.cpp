@@ -86,7 +86,7 @@ int main() {
       show.car = poses[std::max(0, last - std::max(0, age - grown) % (last + 30))];  // driven backward
     show.caption = std::string(onGrid ? "hybrid A*: " : "tree: ") + std::to_string(shown) + " states";
     if (shown == nodes) show.caption += "; " + text;
-    Picture picture = pictureOf(show);
+    Picture picture = carPicture(show);
     LineSet tree{.color = kEstimateColor, .width = 1.5};
     const PathTree& one = way.found.trees[0];
     for (int i = 0; i < shown; ++i)

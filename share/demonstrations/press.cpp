@@ -69,7 +69,7 @@ int main() {
     }
     view.plot("wanted [N]", t / 30., force);
     view.plot("pressed [N]", t / 30., felt);
-    Picture picture = pictureOf(model, forwardKinematics(model, now.q));
+    Picture picture = scenePicture(model, forwardKinematics(model, now.q));
     for (const PhysicsContact& one : world->contacts()) {
       wiped.push_back(one.p_WA + Eigen::Vector3d(0, 0, 0.004));
       picture.arrows.push_back({.from = one.p_WA,

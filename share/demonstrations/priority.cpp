@@ -29,7 +29,7 @@ int main() {
     q += hierarchicalStep(levels, {.a = 0.02 * (rest - q), .damping = 0.2});
     S.setJointAngles(q);
 
-    Picture picture = pictureOf(S.model(), forwardKinematics(S.model(), q));
+    Picture picture = scenePicture(S.model(), forwardKinematics(S.model(), q));
     std::erase_if(picture.solids,
                   [](const Solid& one) { return one.name.find("Target") != std::string::npos; });
     for (int k = 0; k < 2; ++k) {

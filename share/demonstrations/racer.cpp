@@ -80,6 +80,6 @@ int main() {
       }
     racers.names = {isNatural ? "natural gradient" : "plain gradient", "CMA-ES"};
     racers.caption = std::to_string(round * kRides) + " rides";
-    view.show(pictureOf(racers));
+    view.show(racerPicture(racers));
   }
 }

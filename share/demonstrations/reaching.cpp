@@ -64,7 +64,7 @@ int main() {
     const Eigen::VectorXd u = torques(plan.U.col(0));
     for (int i = 0; i < 10; ++i) S.stepDynamics(u, kStep / 10);
 
-    Picture picture = pictureOf(model, forwardKinematics(model, S.getJointAngles()));
+    Picture picture = scenePicture(model, forwardKinematics(model, S.getJointAngles()));
     PointSet dots{.color = kEstimateColor, .size = 7};
     for (const auto& x : plan.X.colwise()) dots.points.push_back(handAt(x) + Eigen::Vector3d(0.06, 0, 0));
     picture.pointSets.push_back(dots);

@@ -73,7 +73,7 @@ int main() {
     show.poseBeliefs = {{pose.mean.head<2>(), pose.covariance.topLeftCorner<2, 2>()}};
     show.caption = "loop " + std::to_string(1 + static_cast<int>(turned / 6.283185307179586)) + ", " +
                    std::to_string(slam->landmarks()) + " landmarks in the map";
-    Picture picture = pictureOf(show);
+    Picture picture = carPicture(show);
     for (const Ellipsoid& one : ellipses) picture.ellipsoids.push_back(one);
     picture.polylines.push_back(
         {.points = {{-18, -6, 0}, {18, -6, 0}, {18, 30, 0}, {-18, 30, 0}, {-18, -6, 0}},

@@ -34,7 +34,7 @@ int main() {
         arm.stepDynamics(u, 1. / 300);
       }
     }
-    Picture picture = pictureOf(model, forwardKinematics(model, wanted.q));
+    Picture picture = scenePicture(model, forwardKinematics(model, wanted.q));
     const std::vector<Solid> pale = picture.solids;
     picture.solids.clear();
     for (int k = 0; k < 2; ++k) {

@@ -47,7 +47,7 @@ struct Walk {
   Picture at(std::size_t i, Polyline& zmp, Polyline& center) const {
     const WalkMeasurement& now = done.samples[i];
     const BodyPoses X = forwardKinematics(humanoid.model, now.q);
-    Picture picture = pictureOf(humanoid.model, X);
+    Picture picture = scenePicture(humanoid.model, X);
     for (const Footstep& one : plan.footsteps)
       picture.solids.push_back(
           {{.type = ShapeType::kBox, .extent = {plan.sole.length, plan.sole.width, 0.004}},

@@ -137,7 +137,7 @@ void include(Bounds& bounds, const CarView& view) {
 
 }  // namespace
 
-Picture pictureOf(const CarView& view) {
+Picture carPicture(const CarView& view) {
   requireDrawable(view);
   Picture picture;
   picture.ground.cell = 5;
@@ -164,7 +164,7 @@ Film carFilm(const std::vector<CarView>& views, double step) {
   Bounds scene;
   for (const CarView& view : views) include(scene, view);
   return filmOf(static_cast<int>(views.size()), step, [&](int i) {
-    Picture picture = pictureOf(views[static_cast<std::size_t>(i)]);
+    Picture picture = carPicture(views[static_cast<std::size_t>(i)]);
     picture.ground.scene = scene;
     return picture;
   });

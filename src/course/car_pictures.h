@@ -11,7 +11,7 @@ namespace rex {
 inline const Eigen::Vector3d kFromAbove{10, -50, 99.5};
 
 /// The view in three dimensions, on a ground with squares of 5 m. Throws Error as requireDrawable() does.
-[[nodiscard]] Picture pictureOf(const CarView& view);
+[[nodiscard]] Picture carPicture(const CarView& view);
 
 /// The views, `step` seconds apart, on a ground around all that they show, which writeFilm() frames. Large
 /// ellipses may extend beyond it. Throws Error as requireDrawable() does.

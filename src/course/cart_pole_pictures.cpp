@@ -56,7 +56,7 @@ Picture pictureOn(const Rail& rail, const CartPoleView& view) {
 
 }  // namespace
 
-Picture pictureOf(const CartPoleView& view) {
+Picture cartPolePicture(const CartPoleView& view) {
   Rail rail;
   rail.reach(view.x[0]);
   return pictureOn(rail, view);

@@ -16,10 +16,10 @@ struct CartPoleView {
 
 /// The cart on its rail, 1 m above the ground; the rail is as long as it has to be. Throws Error for
 /// numbers that are not finite.
-[[nodiscard]] Picture pictureOf(const CartPoleView& view);
+[[nodiscard]] Picture cartPolePicture(const CartPoleView& view);
 
 /// The views, `step` seconds apart, on one rail. The film ends when the cart is more than 8 m away. Throws
-/// Error as pictureOf() does.
+/// Error as cartPolePicture() does.
 [[nodiscard]] Film cartPoleFilm(const std::vector<CartPoleView>& views, double step = 1. / 60);
 
 }  // namespace rex

@@ -198,7 +198,7 @@ Film filmOf(const Simulator& simulator, const std::vector<RecordedPosture>& mome
   const auto traces = tracesOf(simulator, poses, options);
   Film film;
   for (std::size_t i = first; i < poses.size(); ++i) {
-    film.push_back({moments[i].time, decorate(pictureOf(simulator.model(), poses[i]), options)});
+    film.push_back({moments[i].time, decorate(scenePicture(simulator.model(), poses[i]), options)});
     if (i == 0) continue;
     for (const auto& trace : traces) {
       const auto end = trace.begin() + static_cast<std::ptrdiff_t>(i) + 1;

@@ -301,7 +301,7 @@ void LiveView::show(const Simulator& simulator) {
   Parts& parts = *parts_;
   const Eigen::VectorXd q = simulator.getJointAngles();
   const BodyPoses poses = forwardKinematics(simulator.model(), q);
-  parts.record(pictureOf(simulator.model(), poses));
+  parts.record(scenePicture(simulator.model(), poses));
   if (!parts.server) return;
   if (parts.model != &simulator.model() || parts.shapes != simulator.model().shapes().size()) {
     parts.model = &simulator.model(), parts.shapes = simulator.model().shapes().size();

@@ -53,7 +53,7 @@ void addPendulum(Picture& picture, const Pose& X_WB, double l, const Color& colo
 
 }  // namespace
 
-Picture pictureOf(const RacerView& view) {
+Picture racerPicture(const RacerView& view) {
   requireView(view);
   Picture picture;
   picture.ground.cell = 0.1;

@@ -19,6 +19,6 @@ struct RacerView {
 
 /// Draws wheels, with crosses that show how they turn, and pendulums. Throws Error for numbers that are not
 /// finite, if the number of names is not that of racers, and if there is no racer.
-[[nodiscard]] Picture pictureOf(const RacerView& view);
+[[nodiscard]] Picture racerPicture(const RacerView& view);
 
 }  // namespace rex

@@ -135,7 +135,7 @@ Figure footprintFigure(const WalkPlan& plan) {
   return figure;
 }
 
-Picture pictureOf(const CompassWalk& walk, int view) {
+Picture compassPicture(const CompassWalk& walk, int view) {
   requireWalk(walk, view);
   Picture picture;
   addSlope(picture, walk);
@@ -157,7 +157,8 @@ Picture pictureOf(const CompassWalk& walk, int view) {
 }
 
 Film compassFilm(const CompassWalk& walk, double step) {
-  return filmOf(static_cast<int>(walk.views.size()), step, [&](int view) { return pictureOf(walk, view); });
+  return filmOf(static_cast<int>(walk.views.size()), step,
+                [&](int view) { return compassPicture(walk, view); });
 }
 
 Film humanoidFilm(const HumanoidWalk& walk) {
@@ -170,7 +171,7 @@ Film humanoidFilm(const HumanoidWalk& walk) {
                  .wanted = "a walk that the robot can perform"});
   requireWays(walk, pattern.Q.cols());
   return filmOf(static_cast<int>(pattern.Q.cols()), walk.preview.step, [&](int step) {
-    Picture picture = pictureOf(humanoid.model, forwardKinematics(humanoid.model, pattern.Q.col(step)));
+    Picture picture = scenePicture(humanoid.model, forwardKinematics(humanoid.model, pattern.Q.col(step)));
     addFootprints(picture, walk.plan);
     addWays(picture, walk, static_cast<std::size_t>(step));
     return picture;

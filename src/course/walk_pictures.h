@@ -29,9 +29,9 @@ struct CompassWalk {
 
 /// One of the views, on the slope of the whole walk. Throws Error if there is no such view, and for numbers
 /// that are not finite.
-[[nodiscard]] Picture pictureOf(const CompassWalk& walk, int view);
+[[nodiscard]] Picture compassPicture(const CompassWalk& walk, int view);
 
-/// All views, `step` seconds apart. Throws Error as pictureOf() does.
+/// All views, `step` seconds apart. Throws Error as compassPicture() does.
 [[nodiscard]] Film compassFilm(const CompassWalk& walk, double step);
 
 /// The course's humanoid, alone or on a floor: shapes of the world. Its feet are to start from `start`, with

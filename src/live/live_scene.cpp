@@ -88,7 +88,7 @@ LiveJson coordinatesJson(const Model& model) {
 
 std::string liveGlb(const Model& model, const BodyPoses& poses) {
   Picture picture;
-  Picture visible = pictureOf(model, poses);
+  Picture visible = scenePicture(model, poses);
   picture.ground = visible.ground;
   picture.ground.scene = bounds(visible);
   for (std::size_t i = 0; i < model.shapes().size(); ++i) {

@@ -14,7 +14,7 @@ std::string replayOf(const Model& model, const LiveRecording& recording) {
   Report report{.title = model.name()};
   for (std::size_t k = 0; k < recording.times.size(); ++k)
     report.film.push_back({.time = recording.times[k],
-                           .picture = pictureOf(model, forwardKinematics(model, recording.postures[k]))});
+                           .picture = scenePicture(model, forwardKinematics(model, recording.postures[k]))});
   settleGround(report.film);
   if (recording.floor)
     for (Frame& frame : report.film) frame.picture.ground.height = *recording.floor;

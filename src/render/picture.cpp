@@ -219,7 +219,7 @@ std::optional<double> groundHeight(const Model& model, const BodyPoses& poses) {
   return height;
 }
 
-Picture pictureOf(const Model& model, const BodyPoses& poses) {
+Picture scenePicture(const Model& model, const BodyPoses& poses) {
   Picture picture{.solids = solidsOf(model, poses)};
   if (const std::optional<double> height = groundHeight(model, poses)) {
     picture.ground.height = *height;

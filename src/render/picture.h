@@ -142,6 +142,6 @@ void requireDrawable(const Picture& picture);
 
 /// The same on the ground of the scene, or else on one that is never above a shape, for which it checks every
 /// vertex of every mesh.
-[[nodiscard]] Picture pictureOf(const Model& model, const BodyPoses& poses);
+[[nodiscard]] Picture scenePicture(const Model& model, const BodyPoses& poses);
 
 }  // namespace rex

@@ -9,6 +9,6 @@ int main(int argc, char** argv) {
   using namespace rex;
   if (argc != 2) return 64;
   const Model model = compile(readOrs(sourcePath("data/robots/man.ors")).spec);
-  writePng(drawOnce(pictureOf(model, forwardKinematics(model, model.initialPositions()))), argv[1]);
+  writePng(drawOnce(scenePicture(model, forwardKinematics(model, model.initialPositions()))), argv[1]);
   return 0;
 }

@@ -51,7 +51,7 @@ std::size_t countPoints(const Picture& picture, double size) {
 }
 
 TEST(CarPicture, ShowsCarsAndLandmarksWhereTheyAre) {
-  const Picture picture = pictureOf(fullView());
+  const Picture picture = carPicture(fullView());
   // Car, its cabin, three posts, the estimate and its cabin.
   ASSERT_EQ(picture.solids.size(), 7u);
   const Solid& car = picture.solids[0];
@@ -73,7 +73,7 @@ TEST(CarPicture, ShowsCarsAndLandmarksWhereTheyAre) {
 }
 
 TEST(CarPicture, EllipsesHaveTheirSigmas) {
-  const Picture picture = pictureOf(fullView());
+  const Picture picture = carPicture(fullView());
   ASSERT_EQ(picture.ellipsoids.size(), 3u);
   Eigen::Vector3d radii = picture.ellipsoids[2].radii;
   std::sort(radii.begin(), radii.end());
@@ -90,7 +90,7 @@ TEST(CarPicture, EllipsesHaveTheirSigmas) {
 TEST(CarPicture, ParticlesPointWhereTheyHeadAndFadeWithTheirWeight) {
   CarView view{.particles = cloud(4)};
   view.weights = Eigen::Vector4d(0.1, 0.8, 0.8, 0.3);
-  const Picture picture = pictureOf(view);
+  const Picture picture = carPicture(view);
   ASSERT_EQ(picture.pointSets.size(), 3u) << "one of light, one of middle weight, two heavy ones";
   EXPECT_EQ(picture.pointSets[2].points.size(), 2u);
   EXPECT_LT(picture.pointSets[0].color.a, picture.pointSets[1].color.a);
@@ -99,12 +99,12 @@ TEST(CarPicture, ParticlesPointWhereTheyHeadAndFadeWithTheirWeight) {
   EXPECT_EQ(from.head<2>(), view.particles.col(0).head<2>());
   EXPECT_NEAR(std::atan2(to.y() - from.y(), to.x() - from.x()), view.particles(2, 0), 1e-12);
   view.weights.setZero();
-  EXPECT_EQ(pictureOf(view).pointSets.at(0).points.size(), 4u) << "without any weight all are alike";
+  EXPECT_EQ(carPicture(view).pointSets.at(0).points.size(), 4u) << "without any weight all are alike";
 }
 
 TEST(CarPicture, DrawsSomeThousandsOfManyParticlesEvenly) {
   CarView view{.particles = cloud(9000)};
-  const Picture picture = pictureOf(view);
+  const Picture picture = carPicture(view);
   ASSERT_EQ(countPoints(picture, 3), 3000u);
   EXPECT_EQ(picture.pointSets[0].points[1].head<2>(), view.particles.col(3).head<2>());
   EXPECT_EQ(picture.pointSets[0].points[2999].head<2>(), view.particles.col(8997).head<2>());
@@ -112,7 +112,7 @@ TEST(CarPicture, DrawsSomeThousandsOfManyParticlesEvenly) {
 
 TEST(CarPicture, LinesLeadFromTheCarToWhatItSees) {
   CarView view = fullView();
-  const auto linesOf = [](const CarView& shown) { return pictureOf(shown).lineSets.back().segments; };
+  const auto linesOf = [](const CarView& shown) { return carPicture(shown).lineSets.back().segments; };
   ASSERT_EQ(linesOf(view).size(), 2u);
   EXPECT_EQ(linesOf(view)[1].first.head<2>(), Eigen::Vector2d(1, 2));
   EXPECT_EQ(linesOf(view)[1].second.head<2>(), Eigen::Vector2d(-5, 8));
@@ -125,7 +125,7 @@ TEST(CarPicture, ShowsMapsAndSmallCars) {
   for (const auto& [x, y] : {std::pair{0, 1}, {1, 1}, {3, 2}}) map.setLogOdds(x, y, 5);
   map.setLogOdds(2, 0, -5);
   const CarView view{.car = Eigen::Vector3d(2, 3, 0), .carScale = 0.5, .map = map};
-  const Picture picture = pictureOf(view);
+  const Picture picture = carPicture(view);
   ASSERT_EQ(picture.solids.size(), 4u) << "floor, walls, car and cabin";
   const Texture& paint = picture.solids[0].shape.mesh.paint().textures.at(0);
   EXPECT_EQ(paint.width, 4);
@@ -150,7 +150,7 @@ TEST(CarPicture, ShowsMapsAndSmallCars) {
 }
 
 TEST(CarPicture, OfNothingIsEmpty) {
-  const Picture picture = pictureOf(CarView{});
+  const Picture picture = carPicture(CarView{});
   EXPECT_TRUE(bounds(picture).isEmpty());
   EXPECT_REX_ERROR(writePicture(picture, "x.png"), "nothing to draw: found no shape, line");
 }
@@ -160,7 +160,7 @@ TEST(CarPicture, SaysWhatCannotBeDrawn) {
   const auto expect = [](const auto& spoil, const char* text) {
     CarView view = fullView();
     spoil(view);
-    EXPECT_REX_ERROR(pictureOf(view), text);
+    EXPECT_REX_ERROR(carPicture(view), text);
     EXPECT_REX_ERROR(figureOf(view), text);
   };
   expect([&](CarView& v) { v.car->x() = kNan; }, "car: number 0: found nan");

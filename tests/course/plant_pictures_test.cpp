@@ -34,7 +34,7 @@ const Solid& named(const Picture& picture, const std::string& name, int which = 
 
 TEST(CartPolePicture, ShowsCartPoleAndForce) {
   const double angle = 0.5;
-  const Picture picture = pictureOf(CartPoleView{{0.7, 0, angle, 0}, -6, "held"});
+  const Picture picture = cartPolePicture(CartPoleView{{0.7, 0, angle, 0}, -6, "held"});
   EXPECT_EQ(named(picture, "cart").shape.extent, Vector3d(1, 0.2, 0.2));
   EXPECT_EQ(named(picture, "cart").X_WS.p, Vector3d(0.7, 0, 1));
   const Solid& pole = named(picture, "pole");
@@ -48,13 +48,13 @@ TEST(CartPolePicture, ShowsCartPoleAndForce) {
   EXPECT_LT((picture.arrows[0].to - picture.arrows[0].from - Vector3d(-0.3, 0, 0)).norm(), 1e-15);
   EXPECT_EQ(picture.arrows[0].from.x(), 0.7 - 0.5) << "at the end that it pulls";
   EXPECT_EQ(picture.captions.at(0).text, "held");
-  EXPECT_TRUE(pictureOf(CartPoleView{}).arrows.empty());
-  EXPECT_LE((pictureOf(CartPoleView{.u = 1e9}).arrows[0].to).x(), 3);
+  EXPECT_TRUE(cartPolePicture(CartPoleView{}).arrows.empty());
+  EXPECT_LE((cartPolePicture(CartPoleView{.u = 1e9}).arrows[0].to).x(), 3);
 }
 
 TEST(CartPolePicture, RailReachesTheCart) {
   for (const double position : {0., 1.4, -3.7, 30.}) {
-    const Picture picture = pictureOf(CartPoleView{{position, 0, 0, 0}});
+    const Picture picture = cartPolePicture(CartPoleView{{position, 0, 0, 0}});
     const double middle = named(picture, "rail").X_WS.p.x(),
                  half = named(picture, "rail").shape.extent.x() / 2;
     EXPECT_LE(middle - half, std::min(-2., position - 0.5));
@@ -67,7 +67,7 @@ TEST(RacerPicture, ShowsWheelsAndPendulums) {
   const RacerDynamics racer;
   Matrix4Xd x(4, 2);
   x << 0.3, 0, 0.4, -0.2, 0, 0, 0, 0;
-  const Picture picture = pictureOf(RacerView{x, {"before", "after"}, "racers"});
+  const Picture picture = racerPicture(RacerView{x, {"before", "after"}, "racers"});
   for (int k = 0; k < 2; ++k) {
     const double lane = 0.3 * k;
     const Eigen::Matrix<double, 3, 2> poses = racer.poses(x.col(k).head<2>());
@@ -87,18 +87,19 @@ TEST(RacerPicture, ShowsWheelsAndPendulums) {
 }
 
 TEST(PlantPictures, RefuseWhatCannotBeDrawn) {
-  EXPECT_REX_ERROR(pictureOf(CartPoleView{Vector4d(0, 0, kNan, 0)}), "cart pole: state: number 2: found nan");
-  EXPECT_REX_ERROR(pictureOf(CartPoleView{.u = kNan}), "cart pole: control u: found nan");
-  EXPECT_REX_ERROR(pictureOf(RacerView{}), "picture of racers: found none, wanted at least one");
+  EXPECT_REX_ERROR(cartPolePicture(CartPoleView{Vector4d(0, 0, kNan, 0)}),
+                   "cart pole: state: number 2: found nan");
+  EXPECT_REX_ERROR(cartPolePicture(CartPoleView{.u = kNan}), "cart pole: control u: found nan");
+  EXPECT_REX_ERROR(racerPicture(RacerView{}), "picture of racers: found none, wanted at least one");
   RacerView view{.x = Matrix4Xd::Zero(4, 2)};
   view.x(1, 1) = kNan;
-  EXPECT_REX_ERROR(pictureOf(view), "racer: state: number 5: found nan");
+  EXPECT_REX_ERROR(racerPicture(view), "racer: state: number 5: found nan");
   view.x(1, 1) = 0;
   view.names = {"one"};
-  EXPECT_REX_ERROR(pictureOf(view), "picture of racers: found 1 names, wanted 2, or none");
+  EXPECT_REX_ERROR(racerPicture(view), "picture of racers: found 1 names, wanted 2, or none");
   view.names.clear();
   view.dynamics.r = 0;
-  EXPECT_REX_ERROR(pictureOf(view), "racer: radius r: found 0");
+  EXPECT_REX_ERROR(racerPicture(view), "racer: radius r: found 0");
 }
 
 std::string frameOf(const std::string& film, int number) { return fmt::format("{}/{:04}.png", film, number); }
@@ -116,7 +117,7 @@ class PlantFilm : public testing::Test {
   static Film rolling(int count, double step = 0.01) {
     Racer racer(1);
     return filmOf(count, step, [&](int) {
-      const Picture picture = pictureOf(RacerView{racer.getState()});
+      const Picture picture = racerPicture(RacerView{racer.getState()});
       racer.stepDynamics(0.01);
       return picture;
     });
@@ -192,7 +193,7 @@ TEST_F(PlantFilm, SaysWhatCannotBe) {
 
 TEST_F(PlantFilm, PicturesAreOfTheSizeAskedFor) {
   REX_NEEDS_OSMESA();
-  const Picture cart = pictureOf(CartPoleView{{0.4, 0, 0.3, 0}, 8, "cart pole"});
+  const Picture cart = cartPolePicture(CartPoleView{{0.4, 0, 0.3, 0}, 8, "cart pole"});
   for (const auto& [width, height] : {std::pair{320, 240}, {300, 100}}) {
     writePicture(cart, in("cart.png"), {.width = width, .height = height});
     EXPECT_EQ(readPng(in("cart.png")).width, width);

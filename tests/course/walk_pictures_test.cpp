@@ -63,7 +63,7 @@ TEST(CompassPicture, StandsOnTheSlope) {
   const CompassWalk walk{walker, {{x, 0, true}, {x, 1.5, false}}};
   const Vector3d downhill(std::cos(walker.slope), 0, -std::sin(walker.slope));
   for (const int view : {0, 1}) {
-    const Picture picture = pictureOf(walk, view);
+    const Picture picture = compassPicture(walk, view);
     const Vector3d blue = footOf(picture, 0), orange = footOf(picture, 1);
     const Vector3d stands = view == 0 ? blue : orange, swings = view == 0 ? orange : blue;
     const Vector3d aside(0, stands.y(), 0);
@@ -82,13 +82,13 @@ TEST(CompassPicture, StandsOnTheSlope) {
 
 TEST(CompassPicture, RefusesWhatCannotBeDrawn) {
   CompassWalk walk{{}, {CompassView{}}};
-  EXPECT_REX_ERROR(static_cast<void>(pictureOf(walk, 1)),
+  EXPECT_REX_ERROR(static_cast<void>(compassPicture(walk, 1)),
                    "picture of a compass walker: found view 1, wanted one of 1, counted from 0");
-  EXPECT_REX_ERROR(static_cast<void>(pictureOf(walk, -1)), "found view -1");
+  EXPECT_REX_ERROR(static_cast<void>(compassPicture(walk, -1)), "found view -1");
   walk.views[0].x[2] = kNan;
-  EXPECT_REX_ERROR(static_cast<void>(pictureOf(walk, 0)), "compass walker: state: number 2: found nan");
+  EXPECT_REX_ERROR(static_cast<void>(compassPicture(walk, 0)), "compass walker: state: number 2: found nan");
   walk.views[0] = {.foot = kNan};
-  EXPECT_REX_ERROR(static_cast<void>(pictureOf(walk, 0)), "compass walker: path of the foot: found nan");
+  EXPECT_REX_ERROR(static_cast<void>(compassPicture(walk, 0)), "compass walker: path of the foot: found nan");
   EXPECT_TRUE(compassFilm({}, 1).empty());
 }
 

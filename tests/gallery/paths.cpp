@@ -49,10 +49,10 @@ Image followed(const Model& model, const Eigen::MatrixXd& path, const std::strin
                const Vector3d& direction, int width = 560, int height = 420) {
   constexpr int kFaint = 8;
   const Eigen::Index last = path.cols() - 1;
-  Picture picture = pictureOf(model, forwardKinematics(model, path.col(last)));
+  Picture picture = scenePicture(model, forwardKinematics(model, path.col(last)));
   const std::size_t count = picture.solids.size();
   for (Eigen::Index k = 0; k < last; k += std::max<Eigen::Index>(1, last / kFaint)) {
-    const Picture then = pictureOf(model, forwardKinematics(model, path.col(k)));
+    const Picture then = scenePicture(model, forwardKinematics(model, path.col(k)));
     for (std::size_t i = 0; i < count; ++i) {
       Solid solid = then.solids[i];
       if (solid.X_WS.p.isApprox(picture.solids[i].X_WS.p)) continue;

@@ -56,7 +56,7 @@ Image motion() {
   const BodyId hand = model.body("handR");
   const Vector3d middle(-0.2, -0.4, 1.1);
   const auto postures = circling(model, hand, middle, 0.2, 100);
-  Picture picture = pictureOf(model, forwardKinematics(model, postures.back()));
+  Picture picture = scenePicture(model, forwardKinematics(model, postures.back()));
   Polyline way{.color = kOrange, .width = 3};
   for (const auto& q : postures) way.points.push_back(forwardKinematics(model, q)[hand].p);
   picture.polylines.push_back(way);
@@ -68,7 +68,7 @@ Image motion() {
 
 Image views() {
   const Model model = robot("pegInAHole");
-  const Picture picture = pictureOf(model, forwardKinematics(model, model.initialPositions()));
+  const Picture picture = scenePicture(model, forwardKinematics(model, model.initialPositions()));
   Renderer renderer({.width = 320, .height = 300});
   const std::array<std::pair<const char*, Vector3d>, 3> cameras = {
       {{"from the front", {0, -1, 0.25}}, {"from the left", {1, 0, 0.25}}, {"from above", {0, 0, 1}}}};
@@ -141,7 +141,7 @@ Image frames() {
   const Model model = robot("pegArm");
   const Eigen::VectorXd q = Vector3d(0.3, 0.9, 0.8);
   const BodyPoses poses = forwardKinematics(model, q);
-  Picture picture = pictureOf(model, poses);
+  Picture picture = scenePicture(model, poses);
   for (Solid& solid : picture.solids) solid.color.a = 0.45f;
   const BodyId peg = model.body("peg");
   const Eigen::Matrix3Xd J = positionJacobian(model, poses, peg, Vector3d::Zero());
@@ -217,7 +217,7 @@ Image tree() {
 
 Image sensors() {
   const Model model = robot("man");
-  const Picture picture = pictureOf(model, forwardKinematics(model, model.initialPositions()));
+  const Picture picture = scenePicture(model, forwardKinematics(model, model.initialPositions()));
   constexpr int kSize = 300;
   Renderer renderer({.width = kSize, .height = kSize});
   const Camera camera = framing(bounds(picture), kDefaultView, 1);
@@ -256,14 +256,14 @@ Image keyFramesOfASwing() {
   Bounds all;
   for (const auto& q : postures) {
     poses.push_back(forwardKinematics(model, q));
-    const Bounds one = bounds(pictureOf(model, poses.back()));
+    const Bounds one = bounds(scenePicture(model, poses.back()));
     all.include(one.low), all.include(one.high);
   }
   constexpr int kSize = 240;
   Renderer renderer({.width = kSize, .height = kSize});
   std::vector<KeyFrame> frames;
   for (const std::size_t i : keyFrames(poses.size(), 6))
-    frames.push_back({renderer.draw(pictureOf(model, poses[i]), framing(all, {0.5, -2, 0.4}, 1)),
+    frames.push_back({renderer.draw(scenePicture(model, poses[i]), framing(all, {0.5, -2, 0.4}, 1)),
                       "step " + std::to_string(i)});
   return contactSheet(frames);
 }

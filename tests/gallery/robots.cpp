@@ -51,7 +51,7 @@ Eigen::VectorXd postureOf(const Model& model, const Portrait& portrait) {
 
 Image drawn(const Portrait& portrait, int width = 560, int height = 420) {
   const Model model = compile(readScene(sourcePath("data") / portrait.file).spec);
-  Picture picture = pictureOf(model, forwardKinematics(model, postureOf(model, portrait)));
+  Picture picture = scenePicture(model, forwardKinematics(model, postureOf(model, portrait)));
   picture.ground.cell = portrait.cell;
   // The light comes over the left shoulder of who looks.
   const Vector3d& d = portrait.direction;
@@ -109,7 +109,7 @@ Image grasp() {
   const Eigen::VectorXd weight =
       weightWrench(closing_hand::kMass, {0, 0, 0}, X_WO.R.transpose() * Vector3d(0, 0, -9.81));
   const Equilibrium held = equilibrium(wrenchCones(contacts), weight);
-  Picture picture = pictureOf(model, forwardKinematics(model, world.state().q));
+  Picture picture = scenePicture(model, forwardKinematics(model, world.state().q));
   for (Solid& solid : picture.solids)
     if (solid.name == "object") solid.color = {0.3f, 0.55f, 0.85f, 0.3f};
   for (std::size_t i = 0; i < contacts.size(); ++i) {

@@ -18,7 +18,7 @@ SceneSpec falling(const std::string& world = "") {
 
 double groundOf(const SceneSpec& spec) {
   const Model model = compile(spec);
-  return pictureOf(model, forwardKinematics(model, model.initialPositions())).ground.height;
+  return scenePicture(model, forwardKinematics(model, model.initialPositions())).ground.height;
 }
 
 TEST(AddedFloor, IsTheGroundOfPictures) {

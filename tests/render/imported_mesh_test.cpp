@@ -136,7 +136,7 @@ TEST(ImportedMesh, OfASceneIsDrawnWhenItIsLoaded) {
   add({});
   add(meshShape(cubeSample(0.5f)).mesh);
   const Model model = compile(spec);
-  const Picture picture = pictureOf(model, forwardKinematics(model, model.initialPositions()));
+  const Picture picture = scenePicture(model, forwardKinematics(model, model.initialPositions()));
   ASSERT_EQ(picture.solids.size(), 1u);
   EXPECT_EQ(picture.solids[0].shape.mesh, spec.worldShapes[1].shape.mesh);
   EXPECT_EQ(picture.ground.height, -0.5);

@@ -175,7 +175,7 @@ MotionPictures::MotionPictures(const Model& model, const Motion& motion,
     for (const Eigen::Vector3d& point : way) bounds_.include(point);
 }
 
-// Not by pictureOf(): it visits every vertex to find the height of the ground, which is known here.
+// Not by scenePicture(): it visits every vertex to find the height of the ground, which is known here.
 Picture MotionPictures::solidsAt(std::size_t i) const {
   return {.solids = solidsOf(model_, forwardKinematics(model_, motion_.postures[shown_[i]]))};
 }

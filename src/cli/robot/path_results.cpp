@@ -200,8 +200,8 @@ BodyId farthestBody(const Model& model) {
 
 Picture exploredPicture(const PathTask& task, BodyId body, const FoundPath& found) {
   const auto& [model, contacts, problem] = task;
-  Picture picture = pictureOf(model, forwardKinematics(model, problem.start));
-  addFaintly(picture, pictureOf(model, forwardKinematics(model, problem.goal)));
+  Picture picture = scenePicture(model, forwardKinematics(model, problem.start));
+  addFaintly(picture, scenePicture(model, forwardKinematics(model, problem.goal)));
   const double piece = pieceLength(problem.space, found.explored);
   for (std::size_t i = 0; i < found.explored.size(); ++i) {
     picture.lineSets.push_back(linesOf(model, problem.space, body, found.explored[i], piece));
