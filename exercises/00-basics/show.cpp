@@ -18,12 +18,6 @@ Series curve(const std::string& label, double first, double last, int count,
   return series;
 }
 
-Series way(const std::string& label, const std::vector<Eigen::VectorXd>& points, SeriesStyle style) {
-  Series series{.label = label, .style = style};
-  for (const Eigen::VectorXd& p : points) series.add(p[0], p[1]);
-  return series;
-}
-
 Series polynomial(const std::string& label, const Eigen::VectorXd& weights) {
   return curve(label, -1, 1, 200, [&](double x) {
     double y = 0;
@@ -102,15 +96,16 @@ void showDescents(const Eigen::Vector2d& start) {
   HeatMap map = heatMapOf([](double x, double y) { return std::max(depth(Eigen::Vector2d(x, y)), 0.01); },
                           {-1.6, 1.6}, {-1, 1.8}, 320, 280);
   map.contours = 12;
-  plot("paths", {.title = "Two ways down a curved valley",
-                 .xLabel = "x1",
-                 .yLabel = "x2",
-                 .colorLabel = "f(x)",
-                 .logColor = true,
-                 .legend = Legend::kBottomLeft,
-                 .series = {way("gradient descent", descent, SeriesStyle::kLinesPoints),
-                            way("Gauss-Newton", newton, SeriesStyle::kLinesPoints)},
-                 .heatMap = map});
+  plot("paths",
+       {.title = "Two ways down a curved valley",
+        .xLabel = "x1",
+        .yLabel = "x2",
+        .colorLabel = "f(x)",
+        .logColor = true,
+        .legend = Legend::kBottomLeft,
+        .series = {through(descent, {.label = "gradient descent", .style = SeriesStyle::kLinesPoints}),
+                   through(newton, {.label = "Gauss-Newton", .style = SeriesStyle::kLinesPoints})},
+        .heatMap = map});
   const auto depths = [](const std::string& label, const std::vector<Eigen::VectorXd>& points) {
     Series series{.label = label};
     for (const Eigen::VectorXd& x : points)
@@ -141,12 +136,9 @@ void showBook(const Eigen::Matrix3d& X_WB, const Eigen::Vector2d& dot_B, const E
                 .equalAxes = true,
                 .yRange = AxisRange{-0.2, 2.3},
                 .legend = Legend::kOutside};
-  figure.series = {before, after};
-  figure.series.push_back(
-      {.label = "dot p", .x = {dot_W.x()}, .y = {dot_W.y()}, .style = SeriesStyle::kPoints});
-  figure.series.push_back(
-      {.label = "point x", .x = {point_W.x()}, .y = {point_W.y()}, .style = SeriesStyle::kPoints});
-  figure.series[2].size = figure.series[3].size = 2;
+  figure.series = {before, after,
+                   through(dot_W, {.label = "dot p", .style = SeriesStyle::kPoints, .size = 2}),
+                   through(point_W, {.label = "point x", .style = SeriesStyle::kPoints, .size = 2})};
   figure.regions = {{.x = after.x, .y = after.y}};
   plot("book", figure);
 }
@@ -171,17 +163,11 @@ void showPropagation() {
   Rng rng(1);
   std::vector<Eigen::VectorXd> robots;
   for (int i = 0; i < 200; ++i) robots.push_back(std::sqrt(0.03) * rng.normalVector(2));
-  Figure figure{.title = "Driving blindly: 200 robots, and the belief (two standard deviations)",
-                .xLabel = "x [m]",
-                .yLabel = "y [m]",
-                .equalAxes = true,
-                .legend = Legend::kTopLeft};
+  Figure figure =
+      planeFigure({.title = "Driving blindly: 200 robots, and the belief (two standard deviations)",
+                   .legend = Legend::kTopLeft});
   for (int t = 0; t <= 4; ++t) {
-    Series cloud = way(t == 0 ? "robots" : "", robots, SeriesStyle::kPoints);
-    cloud.marker = Marker::kDot;
-    cloud.size = 0.5;
-    cloud.color = kGrey;
-    figure.series.push_back(cloud);
+    figure.series.push_back(dots(robots, {.label = t == 0 ? "robots" : "", .size = 0.5, .color = kGrey}));
     figure.ellipses.push_back(ellipse(t == 0 ? "belief" : "", belief, kOrange));
     for (Eigen::VectorXd& x : robots) {
       const Eigen::Vector2d noise(std::sqrt(0.02) * rng.normal(), std::sqrt(0.005) * rng.normal());
@@ -229,8 +215,6 @@ void showWheel(const Eigen::Vector3d& truth) {
   };
   HeatMap map = heatMapOf(density, {-0.05, 1.05}, {-0.05, 1.05}, 330, 330);
   map.values /= map.values.maxCoeff();
-  Series there = way("true mu", {inTriangle(truth)}, SeriesStyle::kPoints);
-  there.size = 2;
   const Series triangle{.x = {0, 1, 0.5, 0}, .y = {0, 0, kTop, 0}, .color = kGrey};
   Figure figure{.title = "The belief about a wheel of fortune after 40 turns",
                 .xLabel = "from outcome 1 to outcome 2",
@@ -238,7 +222,9 @@ void showWheel(const Eigen::Vector3d& truth) {
                 .colorLabel = "density / its maximum",
                 .equalAxes = true,
                 .legend = Legend::kOutside};
-  figure.series = {triangle, way("mean of mu, turn by turn", guesses, SeriesStyle::kLine), there};
+  figure.series = {
+      triangle, through(guesses, {.label = "mean of mu, turn by turn"}),
+      through(inTriangle(truth), {.label = "true mu", .style = SeriesStyle::kPoints, .size = 2})};
   figure.heatMap = map;
   plot("dirichlet", figure);
 }

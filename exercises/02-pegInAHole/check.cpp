@@ -238,7 +238,7 @@ void clearanceIsKept(Check& check, const Simulator& S, const std::string& functi
 }
 
 // The motion of the peg and the last part of the wanted path.
-grading::Evidence wayOf(const Scene& scene, const Motion& motion) {
+grading::Evidence pegSeen(const Scene& scene, const Motion& motion) {
   return seen(scene.S, scene.peg, motion, {scene.before(), scene.hole});
 }
 
@@ -253,7 +253,7 @@ void postureIsRight(Check& check, Student& student, const Scene& scene, const Ei
   const Eigen::VectorXd q =
       student.pegPosture(scene.S.description(), scene.peg, place, scene.direction, kMargin);
   check.shape("posture of pegPosture", q, scene.S.getJointDimension(), 1);
-  const auto shown = check.show([&] { return wayOf(scene, {q}); });
+  const auto shown = check.show([&] { return pegSeen(scene, {q}); });
   pegIsAt(check, scene, "in pegPosture", q, place, scene.direction);
   check.atLeast("clearance in pegPosture", clearance(at(scene.S, q)), 0.5 * kMargin, "m");
 }
@@ -273,7 +273,7 @@ void movesStraight(Check& check, Student& student) {
   const Eigen::Vector3d start = scene.S.kinematicsPos("peg"), direction = scene.S.kinematicsVec("peg");
   const Motion motion = student.taskSpaceMotion(scene.S.description(), "peg", kHole, kMargin, T);
   checkPostures(check, motion, T, scene.S.getJointDimension());
-  const auto shown = check.show([&] { return wayOf(scene, motion); });
+  const auto shown = check.show([&] { return pegSeen(scene, motion); });
   Motion wanted;
   for (int t = 1; t <= T; ++t)
     wanted.emplace_back(start + (1 - std::cos(std::numbers::pi * t / T)) / 2 * (kHole - start));
@@ -301,7 +301,7 @@ void goesIn(Check& check, Student& student, const Scene& scene) {
   check.atLeast("number of postures of insertPeg", static_cast<double>(motion.size()), 10);
   check.atMost("number of postures of insertPeg", static_cast<double>(motion.size()), 1000);
   for (const Eigen::VectorXd& q : motion) check.shape("posture", q, scene.S.getJointDimension(), 1);
-  const auto shown = check.show([&] { return wayOf(scene, motion); });
+  const auto shown = check.show([&] { return pegSeen(scene, motion); });
   turnsLittle(check, scene.S, "insertPeg", motion);
   pegIsAt(check, scene, "at the end of insertPeg", motion.back(), scene.hole, scene.direction);
   clearanceIsKept(check, scene.S, "insertPeg", motion);

@@ -79,7 +79,7 @@ inline rex::grading::Evidence phaseSeen(const Eigen::Matrix2Xd& states, const Tr
   }
   const auto dots = [](const Eigen::Matrix2Xd& points, const char* label, rex::Marker marker,
                        rex::Color color) {
-    return rex::grading::through(
+    return rex::through(
         points.colwise(),
         rex::Series{
             .label = label, .style = rex::SeriesStyle::kPoints, .marker = marker, .size = 2, .color = color});
@@ -93,7 +93,7 @@ inline rex::grading::Evidence phaseSeen(const Eigen::Matrix2Xd& states, const Tr
   if (got.parent >= 0 && got.parent < states.cols()) {
     Eigen::Matrix2Xd ends(2, 2);
     ends << states.col(got.parent), got.x;
-    figure.series.push_back(rex::grading::through(ends.colwise(), rex::grading::gotCurve("got")));
+    figure.series.push_back(rex::through(ends, rex::grading::gotCurve("got")));
   }
   return {.figures = {figure}};
 }

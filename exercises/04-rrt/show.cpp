@@ -106,15 +106,12 @@ void showHand(double l1, double l2) {
                 .legend = Legend::kOutside,
                 .series = {{.label = "p(r)", .x = r, .y = density, .size = 1.5, .color = kOrange}},
                 .histograms = {sampled}});
-  plot("hand_plane", {.title = "The position of the hand",
-                      .xLabel = "x [m]",
-                      .yLabel = "y [m]",
-                      .colorLabel = "density [1/m^2], at most 1.5",
-                      .equalAxes = true,
-                      .colorRange = AxisRange(0, 1.5),
-                      .series = {hands},
-                      .width = 640,
-                      .height = 560});
+  plot("hand_plane", planeFigure({.title = "The position of the hand",
+                                  .colorLabel = "density [1/m^2], at most 1.5",
+                                  .colorRange = AxisRange(0, 1.5),
+                                  .series = {hands},
+                                  .width = 640,
+                                  .height = 560}));
 }
 
 void showEdges() {

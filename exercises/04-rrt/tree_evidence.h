@@ -16,15 +16,12 @@
 
 /// A world in the plane, from above.
 inline rex::Figure figureOf(const std::string& title, const PlaneWorld& world) {
-  rex::Figure figure{.title = title,
-                     .xLabel = "x [m]",
-                     .yLabel = "y [m]",
-                     .equalAxes = true,
-                     .xRange = rex::AxisRange(-0.03, 1.03),
-                     .yRange = rex::AxisRange(-0.03, 1.03),
-                     .legend = rex::Legend::kOutside,
-                     .width = 720,
-                     .height = 560};
+  rex::Figure figure = rex::planeFigure({.title = title,
+                                         .xRange = rex::AxisRange(-0.03, 1.03),
+                                         .yRange = rex::AxisRange(-0.03, 1.03),
+                                         .legend = rex::Legend::kOutside,
+                                         .width = 720,
+                                         .height = 560});
   drawObstacles(figure, world, 0);
   return figure;
 }
@@ -38,24 +35,20 @@ inline rex::Series edgesOf(const std::string& label, const Tree& tree) {
 
 inline rex::Series dotsOf(const std::string& label, double size, const rex::Color& color,
                           const Path& points = {}) {
-  return rex::grading::through(points, rex::Series{.label = label,
-                                                   .style = rex::SeriesStyle::kPoints,
-                                                   .marker = rex::Marker::kDot,
-                                                   .size = size,
-                                                   .color = color});
+  return rex::dots(points, {.label = label, .size = size, .color = color});
 }
 
 /// A path in the plane beside the one it was made from; pieces that are not free are red.
 inline rex::grading::Evidence shortenedSeen(const PlaneProblem& problem, const Path& given, const Path& got) {
   rex::Figure figure = figureOf("The given path, and the shortened one", problem.world);
-  figure.series = {rex::grading::through(got, rex::grading::gotCurve("got")),
-                   rex::grading::through(given, rex::grading::wantedCurve("given"))};
+  figure.series = {rex::through(got, rex::grading::gotCurve("got")),
+                   rex::through(given, rex::grading::wantedCurve("given"))};
   const EdgeTest isFree = freeIn(problem.world, 1e-9);
   std::string label = "not free";
   for (std::size_t i = 1; i < got.size(); ++i) {
     const Path piece{got[i - 1], got[i]};
     if (isFree(piece[0], piece[1])) continue;
-    figure.series.push_back(rex::grading::through(piece, rex::grading::wrongCurve(std::exchange(label, ""))));
+    figure.series.push_back(rex::through(piece, rex::grading::wrongCurve(std::exchange(label, ""))));
   }
   return {.figures = {figure}};
 }
@@ -67,10 +60,9 @@ inline rex::grading::Evidence pathSeen(const Path& got, const Path& wanted) {
     return dotsOf("", 3, color, {path.front()});
   };
   if (!got.empty()) {
-    figure.series = {rex::grading::through(got, rex::grading::gotCurve("got")),
-                     begin(got, rex::grading::kGotColor)};
+    figure.series = {rex::through(got, rex::grading::gotCurve("got")), begin(got, rex::grading::kGotColor)};
   }
-  figure.series.push_back(rex::grading::through(wanted, rex::grading::wantedCurve("wanted")));
+  figure.series.push_back(rex::through(wanted, rex::grading::wantedCurve("wanted")));
   figure.series.push_back(begin(wanted, rex::grading::kWantedColor));
   const auto along = [](const Path& path, rex::Series curve) {
     for (const Eigen::VectorXd& q : path) curve.add(static_cast<double>(curve.x.size()), q[0]);
@@ -104,7 +96,7 @@ inline rex::grading::Evidence edgeSeen(const std::string& title, const PlaneWorl
       return;
     }
     const Path ends{tree.nodes[static_cast<std::size_t>(edge.parent)], edge.q};
-    figure.series.push_back(rex::grading::through(ends, std::move(look)));
+    figure.series.push_back(rex::through(ends, std::move(look)));
   };
   add(got, rex::grading::gotCurve("got"));
   add(wanted, rex::grading::wantedCurve("wanted"));
@@ -120,7 +112,7 @@ inline rex::grading::Evidence rewiredSeen(const PlaneWorld& world, const Tree& g
   const auto add = [&](const Tree& tree, std::size_t at, rex::Series look) {
     if (tree.parents[at] < 0) return;
     const Path ends{tree.nodes[at], tree.nodes[static_cast<std::size_t>(tree.parents[at])]};
-    figure.series.push_back(rex::grading::through(ends, std::move(look)));
+    figure.series.push_back(rex::through(ends, std::move(look)));
   };
   std::string gotLabel = "got", wantedLabel = "wanted";
   const std::vector<double> costs = costsOf(got);
@@ -146,8 +138,8 @@ inline void markPath(rex::Figure& figure, const PlaneProblem& problem, const Pat
   std::string label = "not free";
   for (std::size_t i = 1; i < path.size(); ++i)
     if (!isFree(path[i - 1], path[i]))
-      figure.series.push_back(rex::grading::through(Path{path[i - 1], path[i]},
-                                                    rex::grading::wrongCurve(std::exchange(label, ""))));
+      figure.series.push_back(
+          rex::through(Path{path[i - 1], path[i]}, rex::grading::wrongCurve(std::exchange(label, ""))));
   label = "not where it should be";
   for (const auto& [q, wanted] : {std::pair{path.front(), problem.start}, {path.back(), problem.goal}})
     if (q != wanted) figure.series.push_back(rex::grading::wrongPoint(std::exchange(label, ""), q[0], q[1]));
@@ -161,14 +153,13 @@ inline rex::grading::Evidence treesSeen(const PlaneProblem& problem, const std::
   if (problem.world.boxes.empty() && problem.world.discs.empty()) figure.xRange = figure.yRange = {};
   for (const Tree& tree : trees) figure.series.push_back(edgesOf(figure.series.empty() ? "tree" : "", tree));
   const bool isPath = std::all_of(path.begin(), path.end(), [](const auto& q) { return q.size() == 2; });
-  if (isPath && !path.empty())
-    figure.series.push_back(rex::grading::through(path, rex::grading::gotCurve("path")));
+  if (isPath && !path.empty()) figure.series.push_back(rex::through(path, rex::grading::gotCurve("path")));
   figure.series.push_back(dotsOf("start and goal", 3, kBlack, {problem.start, problem.goal}));
   if (isPath && !path.empty()) markPath(figure, problem, path);
   if (which >= trees.size() || here == 0 || here >= trees[which].nodes.size()) return {.figures = {figure}};
   const Tree& tree = trees[which];
   const Path ends{tree.nodes[static_cast<std::size_t>(tree.parents[here])], tree.nodes[here]};
-  figure.series.push_back(rex::grading::through(ends, rex::grading::wrongCurve("the edge in question")));
+  figure.series.push_back(rex::through(ends, rex::grading::wrongCurve("the edge in question")));
   figure.series.push_back(rex::grading::wrongPoint("", ends[1][0], ends[1][1]));
   return {.figures = {figure}};
 }
@@ -184,10 +175,9 @@ inline rex::grading::Evidence betterSeen(const PlaneProblem& problem, const Tree
     const auto edge = [&](const Tree& of) {
       return Path{of.nodes[i], of.nodes[static_cast<std::size_t>(of.parents[i])]};
     };
+    figure.series.push_back(rex::through(edge(tree), rex::grading::wrongCurve(std::exchange(gotLabel, ""))));
     figure.series.push_back(
-        rex::grading::through(edge(tree), rex::grading::wrongCurve(std::exchange(gotLabel, ""))));
-    figure.series.push_back(
-        rex::grading::through(edge(better), rex::grading::wantedCurve(std::exchange(wantedLabel, ""))));
+        rex::through(edge(better), rex::grading::wantedCurve(std::exchange(wantedLabel, ""))));
   }
   return {.figures = {figure}};
 }
@@ -196,15 +186,11 @@ inline rex::grading::Evidence betterSeen(const PlaneProblem& problem, const Tree
 inline rex::grading::Evidence nearestSeen(const std::vector<Eigen::VectorXd>& nodes,
                                           const Eigen::VectorXd& target, int got, int wanted) {
   if (target.size() != 2) return {};
-  rex::Figure figure{.title = "Nodes and a target",
-                     .xLabel = "x [m]",
-                     .yLabel = "y [m]",
-                     .equalAxes = true,
-                     .legend = rex::Legend::kOutside};
+  rex::Figure figure = rex::planeFigure({.title = "Nodes and a target", .legend = rex::Legend::kOutside});
   figure.series = {dotsOf("nodes", 1.5, {.5f, .5f, .5f}, nodes)};
   const auto line = [&](int node, const rex::Series& look) {
     if (node < 0 || node >= static_cast<int>(nodes.size())) return;
-    figure.series.push_back(rex::grading::through(Path{target, nodes[static_cast<std::size_t>(node)]}, look));
+    figure.series.push_back(rex::through(Path{target, nodes[static_cast<std::size_t>(node)]}, look));
   };
   line(got, rex::grading::gotCurve("got"));
   line(wanted, rex::grading::wantedCurve("wanted"));

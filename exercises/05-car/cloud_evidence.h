@@ -19,15 +19,6 @@ struct TrackRecord {
   std::vector<Eigen::Vector3d> means{};
 };
 
-inline rex::Way wayOf(const std::string& name, const std::vector<Eigen::Vector3d>& poses,
-                      const rex::Color& color) {
-  rex::Way way{
-      .name = name, .points = Eigen::Matrix2Xd(2, static_cast<Eigen::Index>(poses.size())), .color = color};
-  for (Eigen::Index i = 0; i < way.points.cols(); ++i)
-    way.points.col(i) = poses[static_cast<std::size_t>(i)].head<2>();
-  return way;
-}
-
 /// A quantity after each step of a drive, against its limit on average.
 struct Course {
   std::string title{}, unit{};
@@ -58,10 +49,13 @@ inline rex::grading::Evidence trackSeen(const CarWorld& world, const Driven& dri
       std::find_if(value.y.begin(), value.y.end(), [&](double far) { return far > 2 * course.limit; });
   if (lost == value.y.end()) lost = std::max_element(value.y.begin(), value.y.end());
   const double moment = film[static_cast<std::size_t>(lost - value.y.begin())].time;
-  rex::Figure map = rex::figureOf({.landmarks = world.landmarks,
-                                   .ways = {wayOf("wanted: the car", driven.truth, rex::kTruthColor),
-                                            wayOf("got: the estimate", record.means, rex::kEstimateColor)}});
-  map.title = "The car and its estimate";
+  const rex::Figure map =
+      rex::figureOf({.landmarks = world.landmarks,
+                     .ways = {{.name = "wanted: the car", .points = rex::pathPoints(driven.truth)},
+                              {.name = "got: the estimate",
+                               .points = rex::pathPoints(record.means),
+                               .color = rex::kEstimateColor}},
+                     .caption = "The car and its estimate"});
   rex::Figure values{
       .title = course.title, .xLabel = "time [s]", .yLabel = "difference " + course.unit, .series = {value}};
   values.horizontalLines = {{.at = course.limit, .label = "wanted: root mean square at most"}};
@@ -148,21 +142,16 @@ inline rex::grading::Evidence densitySeen(const Eigen::MatrixXd& d, double noise
 /// The poses of a car before a step, and after it beside the wanted one, as arrows.
 inline rex::grading::Evidence stepSeen(const Eigen::Vector3d& before, const Eigen::Vector3d& got,
                                        const Eigen::Vector3d& wanted) {
-  rex::Figure figure{
-      .title = "A step of the car, from the dot", .xLabel = "x [m]", .yLabel = "y [m]", .equalAxes = true};
+  rex::Figure figure = rex::planeFigure({.title = "A step of the car, from the dot"});
   const auto hand = [](const Eigen::Vector3d& pose, const rex::Series& look) {
     const Eigen::Vector2d ahead(std::cos(pose[2]), std::sin(pose[2]));
-    return rex::grading::through(std::vector<Eigen::Vector2d>{pose.head<2>(), pose.head<2>() + .3 * ahead},
-                                 look);
+    return rex::through({pose.head<2>(), pose.head<2>() + .3 * ahead}, look);
   };
-  const auto foot = [](const Eigen::Vector3d& pose, const rex::Series& look) {
-    return rex::grading::through(std::vector<Eigen::Vector2d>{pose.head<2>()}, look);
-  };
-  figure.series = {foot(before, dotsOf("", 2, {.5f, .5f, .5f})),
+  figure.series = {rex::through(before, dotsOf("", 2, {.5f, .5f, .5f})),
                    hand(before, {.label = "before", .color = rex::Color{.5f, .5f, .5f}}),
-                   foot(got, dotsOf("", 2, rex::grading::kGotColor)),
+                   rex::through(got, dotsOf("", 2, rex::grading::kGotColor)),
                    hand(got, rex::grading::gotCurve("got")),
-                   foot(wanted, dotsOf("", 2, rex::grading::kWantedColor, rex::Marker::kCircle)),
+                   rex::through(wanted, dotsOf("", 2, rex::grading::kWantedColor, rex::Marker::kCircle)),
                    hand(wanted, rex::grading::wantedCurve("wanted"))};
   return {.figures = {figure}};
 }
@@ -251,19 +240,13 @@ inline rex::grading::Evidence drawsSeen(const Eigen::MatrixXd& pairs) {
 /// A cloud with the mean pose that was returned, and the wanted one.
 inline rex::grading::Evidence meanSeen(const Cloud& cloud, const Eigen::Vector3d& got,
                                        const Eigen::Vector3d& wanted) {
-  rex::Figure figure{
-      .title = "The particles, and their mean", .xLabel = "x [m]", .yLabel = "y [m]", .equalAxes = true};
+  rex::Figure figure = rex::planeFigure({.title = "The particles, and their mean"});
   rex::Arrows arrows{.label = "particles"};
-  for (const auto& pose : cloud.states.colwise()) {
-    arrows.x.push_back(pose[0]);
-    arrows.y.push_back(pose[1]);
-    arrows.dx.push_back(.3 * std::cos(pose[2]));
-    arrows.dy.push_back(.3 * std::sin(pose[2]));
-  }
+  for (const auto& pose : cloud.states.colwise())
+    arrows.add(pose.head<2>(), .3 * Eigen::Vector2d(std::cos(pose[2]), std::sin(pose[2])));
   const auto hand = [](const Eigen::Vector3d& pose, const rex::Series& look) {
     const Eigen::Vector2d ahead(std::cos(pose[2]), std::sin(pose[2]));
-    const std::vector<Eigen::Vector2d> ends{pose.head<2>(), pose.head<2>() + ahead};
-    return rex::grading::through(ends, look);
+    return rex::through({pose.head<2>(), pose.head<2>() + ahead}, look);
   };
   figure.arrows = {arrows};
   figure.series = {hand(got, rex::grading::gotCurve("got: position and heading")),

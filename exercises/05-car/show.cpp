@@ -22,10 +22,6 @@ std::vector<double> errorsOf(const Eigen::MatrixXd& means, const Eigen::MatrixXd
   return errors;
 }
 
-Way wayOf(const std::string& name, const Eigen::MatrixXd& poses, const Color& color) {
-  return {.name = name, .points = poses.topRows(2), .color = color};
-}
-
 // The results of meanPose, a column for each step.
 Eigen::MatrixXd meansOf(const std::vector<Cloud>& clouds) {
   Eigen::MatrixXd means(3, kSteps);
@@ -170,8 +166,9 @@ RecordedDrive recordDrive(const CarWorld& world, const Eigen::Vector2d& u) {
 }
 
 void showDeadReckoning(const std::vector<Cloud>& blind, const RecordedDrive& drive, const CarWorld& world) {
-  const std::vector<Way> ways = {wayOf("car", drive.truth, kTruthColor),
-                                 wayOf("mean of the particles", plainMeans(blind), kDeadReckoningColor)};
+  const std::vector<Way> ways = {
+      {.name = "car", .points = drive.truth.topRows(2), .color = kTruthColor},
+      {.name = "mean of the particles", .points = plainMeans(blind), .color = kDeadReckoningColor}};
   plotMap("dead_reckoning", "Dead reckoning: the particles of every 60th step", blind, ways, world);
   film("dead_reckoning", "dead reckoning", blind, ways, world, drive.truth);
 }
@@ -189,22 +186,15 @@ void showLikelihood(int step, const RecordedDrive& drive, const CarWorld& world)
   }
   const Eigen::VectorXd weights = weightsOf(logLikelihoods(particles, y, world));
   const double most = std::max(weights.maxCoeff(), 1e-300);
-  plot("likelihood", {.title = "Where the car could be, given what it sees in step " + std::to_string(step),
-                      .xLabel = "x [m]",
-                      .yLabel = "y [m]",
-                      .colorLabel = "weight / largest weight",
-                      .equalAxes = true,
-                      .colorRange = AxisRange{0, 1},
-                      .series = {{.label = "car",
-                                  .x = {car[0]},
-                                  .y = {car[1]},
-                                  .style = SeriesStyle::kPoints,
-                                  .marker = Marker::kCross,
-                                  .size = 2,
-                                  .color = kTruthColor}},
-                      .heatMap = HeatMap{.xRange = {car[0] + low, car[0] - low},
-                                         .yRange = {car[1] + low, car[1] - low},
-                                         .values = weights.reshaped(kCells, kCells) / most}});
+  plot("likelihood",
+       planeFigure({.title = "Where the car could be, given what it sees in step " + std::to_string(step),
+                    .colorLabel = "weight / largest weight",
+                    .colorRange = AxisRange{0, 1},
+                    .series = {dots(
+                        car, {.label = "car", .marker = Marker::kCross, .size = 2, .color = kTruthColor})},
+                    .heatMap = HeatMap{.xRange = {car[0] + low, car[0] - low},
+                                       .yRange = {car[1] + low, car[1] - low},
+                                       .values = weights.reshaped(kCells, kCells) / most}}));
 }
 
 void showChildren(const Eigen::VectorXd& weights, int count) {
@@ -229,11 +219,13 @@ void showChildren(const Eigen::VectorXd& weights, int count) {
 void showFilter(const std::vector<Cloud>& clouds, const std::vector<Cloud>& blind, const RecordedDrive& drive,
                 const CarWorld& world) {
   const Eigen::MatrixXd reckoned = plainMeans(blind), means = meansOf(clouds);
-  const Way car = wayOf("car", drive.truth, kTruthColor);
+  const Way car{.name = "car", .points = drive.truth.topRows(2), .color = kTruthColor};
   plotMap("filter", "Particle filter: the particles of every 60th step", clouds,
-          {car, wayOf("mean of the particles", means, kEstimateColor)}, world);
-  film("filter", "particle filter", clouds, {car, wayOf("dead reckoning", reckoned, kDeadReckoningColor)},
-       world, drive.truth);
+          {car, {.name = "mean of the particles", .points = means.topRows(2), .color = kEstimateColor}},
+          world);
+  film("filter", "particle filter", clouds,
+       {car, {.name = "dead reckoning", .points = reckoned, .color = kDeadReckoningColor}}, world,
+       drive.truth);
   const auto errors = [&](const std::string& label, const Eigen::MatrixXd& of, const Color& color) -> Series {
     return {.label = label, .y = errorsOf(of, drive.truth), .color = color};
   };

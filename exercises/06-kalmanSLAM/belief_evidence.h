@@ -11,13 +11,6 @@
 
 // What the checks show when a belief is wrong.
 
-inline rex::Way wayOf(const std::string& name, const std::vector<Eigen::Vector3d>& poses) {
-  rex::Way way{.name = name, .points = Eigen::Matrix2Xd(2, static_cast<Eigen::Index>(poses.size()))};
-  for (Eigen::Index i = 0; i < way.points.cols(); ++i)
-    way.points.col(i) = poses[static_cast<std::size_t>(i)].head<2>();
-  return way;
-}
-
 inline std::vector<rex::PlanarGaussian> landmarksOf(const Belief& joint) {
   std::vector<rex::PlanarGaussian> places;
   for (Eigen::Index at = 3; at + 1 < joint.mean.size(); at += 2)
@@ -38,11 +31,12 @@ inline rex::Figure overRuns(const std::string& title, const std::string& unit,
 
 /// A map built on a run, drawn over the true one.
 inline rex::Figure mapSeen(const CarRun& run, const Belief& joint) {
-  rex::Figure figure = rex::figureOf({.car = run.states.back(),
-                                      .estimate = joint.mean.head<3>(),
-                                      .landmarks = run.landmarks,
-                                      .landmarkBeliefs = landmarksOf(joint),
-                                      .ways = {wayOf("wanted: the car", run.states)}});
+  rex::Figure figure =
+      rex::figureOf({.car = run.states.back(),
+                     .estimate = joint.mean.head<3>(),
+                     .landmarks = run.landmarks,
+                     .landmarkBeliefs = landmarksOf(joint),
+                     .ways = {{.name = "wanted: the car", .points = rex::pathPoints(run.states)}}});
   figure.title = "A map: ellipses (got) and true positions (wanted)";
   return figure;
 }

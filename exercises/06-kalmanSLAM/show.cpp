@@ -31,13 +31,6 @@ CarOptions optionsOf(const CarSetup& car) {
   return options;
 }
 
-Way wayOf(const std::string& name, const Poses& poses, const Color& color, bool dashed = false) {
-  Way way{name, Eigen::Matrix2Xd(2, static_cast<Eigen::Index>(poses.size())), color, dashed};
-  for (std::size_t t = 0; t < poses.size(); ++t)
-    way.points.col(static_cast<Eigen::Index>(t)) = poses[t].head(2);
-  return way;
-}
-
 Poses meansOf(const std::vector<Belief>& beliefs) {
   Poses poses;
   for (const Belief& belief : beliefs) poses.emplace_back(belief.mean.head(3));
@@ -141,11 +134,11 @@ CarView viewAt(const RecordedDrive& drive, const Mapping& mapping, std::size_t t
   view.landmarks = drive.landmarks;
   view.poseBeliefs = {planar(joint, 0)};
   for (Eigen::Index i = 3; i < joint.mean.size(); i += 2) view.landmarkBeliefs.push_back(planar(joint, i));
-  Poses truth(drive.states.begin(), drive.states.begin() + static_cast<std::ptrdiff_t>(t) + 1);
-  const Poses all = meansOf(mapping.joints);
-  view.ways = {
-      wayOf("true path", truth, kTruthColor),
-      wayOf("estimate", {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(t) + 1}, kEstimateColor)};
+  const auto count = static_cast<Eigen::Index>(t) + 1;
+  view.ways = {{.name = "true path", .points = pathPoints(drive.states).leftCols(count)},
+               {.name = "estimate",
+                .points = pathPoints(meansOf(mapping.joints)).leftCols(count),
+                .color = kEstimateColor}};
   return view;
 }
 
@@ -250,7 +243,7 @@ Figure particleFigure(const RecordedDrive& drive, const std::vector<MapParticle>
   view.caption = "FastSLAM: 100 particles, each with its map";
   view.car = drive.states.back();
   view.landmarks = drive.landmarks;
-  view.ways = {wayOf("true path", drive.states, kTruthColor)};
+  view.ways = {{.name = "true path", .points = pathPoints(drive.states)}};
   view.particles.resize(3, static_cast<Eigen::Index>(particles.size()));
   Series maps{.label = "landmarks in their maps", .style = SeriesStyle::kPoints};
   maps.marker = Marker::kDot;
@@ -335,8 +328,8 @@ void showSteps(const CarSetup& car, const RecordedDrive& drive) {
   for (const Eigen::Vector2d& u : drive.controls) states.push_back(stepped(car, states.back(), u));
   CarView overview;
   overview.landmarks = drive.landmarks;
-  overview.ways = {wayOf("true path", drive.states, kTruthColor),
-                   wayOf("without noise", states, kEstimateColor, true)};
+  overview.ways = {{.name = "true path", .points = pathPoints(drive.states)},
+                   {"without noise", pathPoints(states), kEstimateColor, true}};
   Figure above = figureOf(overview);
   above.title = "Where the controls lead without noise, with your step";
   plot("steps", above);
@@ -346,8 +339,9 @@ void showTracking(const RecordedDrive& drive, const std::vector<Belief>& run,
                   const std::vector<Belief>& blind) {
   CarView overview;
   overview.landmarks = drive.landmarks;
-  overview.ways = {wayOf("true path", drive.states, kTruthColor), wayOf("filter", meansOf(run), kFilter),
-                   wayOf("without observations", meansOf(blind), kDeadReckoningColor, true)};
+  overview.ways = {{.name = "true path", .points = pathPoints(drive.states)},
+                   {.name = "filter", .points = pathPoints(meansOf(run)), .color = kFilter},
+                   {"without observations", pathPoints(meansOf(blind)), kDeadReckoningColor, true}};
   Figure above = figureOf(overview);
   above.title = "A circle among two landmarks";
   addEllipses(above, "filter, 2 sigma", run, 6, kFilter);

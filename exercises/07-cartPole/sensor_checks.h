@@ -187,8 +187,8 @@ inline void responseFits(rex::grading::Check& check, Student& student, const Pla
   const auto shown = check.show([&] {
     rex::Figure figure{
         .title = "The response in the complex plane", .xLabel = "real part", .yLabel = "imaginary part"};
-    figure.series = {rex::grading::through(pointsOf(got), rex::grading::gotCurve("got")),
-                     rex::grading::through(pointsOf(wanted), rex::grading::wantedCurve("wanted"))};
+    figure.series = {rex::through(pointsOf(got), rex::grading::gotCurve("got")),
+                     rex::through(pointsOf(wanted), rex::grading::wantedCurve("wanted"))};
     return rex::grading::Evidence{.figures = {figure}};
   });
   const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(plant.A.rows(), plant.A.rows());

@@ -19,13 +19,6 @@ namespace {
 constexpr PoleCart kCart;
 constexpr double kTau = 1. / 60;
 
-// A coordinate of the state over time.
-Series overTime(const std::string& label, const Eigen::MatrixXd& states, int row) {
-  Series series{.label = label};
-  for (Eigen::Index t = 0; t < states.cols(); ++t) series.add(kTau * static_cast<double>(t), states(row, t));
-  return series;
-}
-
 double forceOf(const Eigen::MatrixXd& K, const Eigen::Vector4d& x) {
   double u = 0;
   for (int i = 0; i < 4; ++i) u += K(0, i) * x[i];
@@ -134,12 +127,11 @@ void showOutings(const Eigen::MatrixXd& K) {
   for (const double angle : {.2, .5, .8, 1., 1.1}) {
     const Eigen::MatrixXd states = withoutNoise(K, {0, 0, angle, 0}, 12);
     const std::string label = "from " + std::to_string(angle).substr(0, 3);
-    theta.series.push_back(overTime(label, states, 2));
-    position.series.push_back(overTime(label, states, 0));
-    Series forces = overTime(label, states, 0);
-    for (Eigen::Index t = 0; t < states.cols(); ++t)
-      forces.y[static_cast<std::size_t>(t)] = forceOf(K, states.col(t));
-    force.series.push_back(forces);
+    theta.series.push_back(overTime(states.row(2), kTau, {.label = label}));
+    position.series.push_back(overTime(states.row(0), kTau, {.label = label}));
+    std::vector<double> forces;
+    for (const auto& x : states.colwise()) forces.push_back(forceOf(K, x));
+    force.series.push_back(overTime(forces, kTau, {.label = label}));
   }
   plot("theta", theta);
   plot("position", position);
@@ -217,13 +209,12 @@ void showQuick(const Eigen::MatrixXd& K, const Eigen::MatrixXd& quick) {
                 .yLabel = "theta [rad], p [m]"};
   for (const Eigen::MatrixXd* gains : {&K, &quick}) {
     const Eigen::MatrixXd states = withoutNoise(*gains, {0, 0, .2, 0}, 10);
-    for (const int row : {0, 2}) {
-      Series series = overTime(row == 0 ? "p" : "theta", states, row);
-      series.label += gains == &K ? ", optimal" : ", quick";
-      series.dashed = row == 0;
-      series.color = gains == &K ? Color{.1, .4, .7} : Color{.85, .4, .1};
-      figure.series.push_back(series);
-    }
+    for (const int row : {0, 2})
+      figure.series.push_back(
+          overTime(states.row(row), kTau,
+                   {.label = (row == 0 ? "p" : "theta") + std::string(gains == &K ? ", optimal" : ", quick"),
+                    .dashed = row == 0,
+                    .color = gains == &K ? Color{.1, .4, .7} : Color{.85, .4, .1}}));
   }
   plot("quick", figure);
 }
@@ -318,13 +309,11 @@ void showSeen(const Eigen::MatrixXd& K, const Sensor& sensor) {
                 .legend = Legend::kOutside};
   for (const int row : {0, 2}) {
     const std::string name = row == 0 ? "p" : "theta";
-    Series truth = overTime(name, states.leftCols(t), row),
-           estimate = overTime(name + ", estimated", estimates.leftCols(t), row);
-    truth.color = kLoopColors[row];
-    estimate.color = Color{.1, .1, .1};
-    estimate.dashed = true;
-    figure.series.push_back(truth);
-    figure.series.push_back(estimate);
+    figure.series.push_back(
+        overTime(states.row(row).head(t), kTau, {.label = name, .color = kLoopColors[row]}));
+    figure.series.push_back(
+        overTime(estimates.row(row).head(t), kTau,
+                 {.label = name + ", estimated", .dashed = true, .color = Color{.1, .1, .1}}));
   }
   plot("seen", figure);
 }

@@ -173,7 +173,7 @@ inline rex::grading::Evidence arrowsSeen(const std::string& title, const Eigen::
   if (got.size() != 2 || wanted.size() != 2) return barsSeen(title, "entry of beta", got, wanted);
   const auto arrow = [&](const Eigen::VectorXd& to, rex::Series look) {
     look.style = rex::SeriesStyle::kLinesPoints;
-    return rex::grading::through(std::vector<Eigen::VectorXd>{from, to}, look);
+    return rex::through(std::vector<Eigen::VectorXd>{from, to}, look);
   };
   const Eigen::VectorXd low = from.cwiseMin(got).cwiseMin(wanted), high = from.cwiseMax(got).cwiseMax(wanted);
   const double reach = .55 * (high - low).maxCoeff() + 1e-9;

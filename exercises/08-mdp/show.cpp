@@ -1,7 +1,6 @@
 #include "show.h"
 
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 #include "course/mdp_figures.h"
@@ -11,8 +10,6 @@
 using namespace rex;
 
 namespace {
-
-void nothingYet(const char* what) { std::printf("Nothing to show yet for %s.\n", what); }
 
 GridWorld slipperyFloor() {
   return gridWorld(
@@ -140,8 +137,7 @@ void showRollouts(const Policy& policy) {
     const Eigen::MatrixXd states =
         runTrial(poleStep(rng), poleStart(rng), policy, kPoleHorizon, rng).features;
     if (states.cols() == 0) return nothingYet("trials");
-    Series& angle = figure.series.emplace_back();
-    for (Eigen::Index t = 0; t < states.cols(); ++t) angle.add(.02 * static_cast<double>(t), states(0, t));
+    figure.series.push_back(overTime(states.row(0), .02));
   }
   plotOf("rollouts", "The pole before learning: eight trials", figure);
 }
@@ -154,7 +150,7 @@ void showLearning(const Policy& first) {
     curves.push_back({label, learnPole(first, update)});
     if (!curves.back().runs.empty()) return converted.push_back({label, learnPole(first, inDegrees(update))});
     curves.pop_back();
-    nothingYet(("learning by " + label).c_str());
+    nothingYet("learning by " + label);
   };
   learnBy("REINFORCE", byReinforce);
   learnBy("natural gradient", byNaturalGradient);

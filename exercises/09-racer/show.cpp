@@ -15,18 +15,15 @@ using namespace rex;
 
 namespace {
 
-void nothingYet(const char* what) { std::printf("Nothing to show yet for %s.\n", what); }
-
 // A start at rest for a ride.
 Eigen::Vector4d tilted(double theta) { return {0, theta, 0, 0}; }
 
 // x and theta of the columns of X, one for each step.
 void addMotion(Figure& figure, const std::string& whose, const Eigen::MatrixXd& X, bool dashed = false) {
   for (const int i : {0, 1}) {
-    Series series{.label = (i == 0 ? "x" : "theta") + whose, .dashed = dashed};
-    if (dashed) series.color = Color{.2f, .22f, .26f};
-    for (Eigen::Index k = 0; k < X.cols(); ++k) series.add(kTau * static_cast<double>(k), X(i, k));
-    figure.series.push_back(series);
+    Series look{.label = (i == 0 ? "x" : "theta") + whose, .dashed = dashed};
+    if (dashed) look.color = Color{.2f, .22f, .26f};
+    figure.series.push_back(overTime(X.row(i), kTau, look));
   }
 }
 
@@ -134,10 +131,7 @@ Series driftOf(const std::string& label, const Eigen::VectorXd& w) {
     for (Eigen::Index k = 0; k < squares.size(); ++k)
       squares[k] += std::pow(ride.states(0, 50 * k), 2) / kRides;
   }
-  Series series{.label = label};
-  for (Eigen::Index k = 0; k < squares.size(); ++k)
-    series.add(50 * kTau * static_cast<double>(k), std::sqrt(squares[k]));
-  return series;
+  return overTime(squares.sqrt().eval(), 50 * kTau, {.label = label});
 }
 
 // The share of 200 rides that last all 500 steps, with more and more noise.
@@ -188,14 +182,13 @@ void showEquation(const RacerModel& racer, const Eigen::Vector4d& x) {
 }
 
 void showEnergy(const RacerModel& racer, double tilt) {
-  Series runge{.label = "Runge-Kutta"}, euler{.label = "Euler"};
+  std::vector<double> runge, euler;
   Eigen::Vector4d x = tilted(tilt), y = x;
   if (stepped(x, 0, kTau, racer) == x) return nothingYet("the simulation");
   const double start = energyOf(x, racer);
   for (int t = 0; t < 1000; ++t) {
-    for (Series* series : {&runge, &euler}) series->x.push_back(t * kTau);
-    runge.y.push_back(std::abs(energyOf(x, racer) - start) + 1e-9);
-    euler.y.push_back(std::abs(energyOf(y, racer) - start) + 1e-9);
+    runge.push_back(std::abs(energyOf(x, racer) - start) + 1e-9);
+    euler.push_back(std::abs(energyOf(y, racer) - start) + 1e-9);
     x = stepped(x, 0, kTau, racer);
     y += kTau * rateOf(y, 0, racer);
   }
@@ -203,7 +196,8 @@ void showEnergy(const RacerModel& racer, double tilt) {
                   .xLabel = "time [s]",
                   .yLabel = "energy error [J]",
                   .logY = true,
-                  .series = {runge, euler}});
+                  .series = {overTime(runge, kTau, {.label = "Runge-Kutta"}),
+                             overTime(euler, kTau, {.label = "Euler"})}});
 
   Rng rng(3);
   double spread = 0;

@@ -36,14 +36,11 @@ inline std::vector<rex::Region> drawn(const std::vector<Block>& blocks) {
 
 inline rex::Figure planOf(const std::string& title, const Eigen::Vector2d& size,
                           const std::vector<Block>& blocks) {
-  return {.title = title,
-          .xLabel = "x [m]",
-          .yLabel = "y [m]",
-          .equalAxes = true,
-          .xRange = rex::AxisRange{0, size.x()},
-          .yRange = rex::AxisRange{0, size.y()},
-          .legend = rex::Legend::kOutside,
-          .regions = drawn(blocks)};
+  return rex::planeFigure({.title = title,
+                           .xRange = rex::AxisRange{0, size.x()},
+                           .yRange = rex::AxisRange{0, size.y()},
+                           .legend = rex::Legend::kOutside,
+                           .regions = drawn(blocks)});
 }
 
 inline rex::Figure planOf(const std::string& title, const CellMap& map) {
@@ -55,9 +52,7 @@ inline Eigen::Vector2d centerOf(MapCell cell) { return {cell.x + 0.5, cell.y + 0
 // Adds a line, or what there is of it.
 inline void addLine(rex::Figure& figure, const std::vector<Eigen::Vector2d>& points,
                     const rex::Series& look) {
-  if (points.empty()) return;
-  figure.series.push_back(look);
-  for (const Eigen::Vector2d& p : points) figure.series.back().add(p.x(), p.y());
+  if (!points.empty()) figure.series.push_back(rex::through(points, look));
 }
 
 inline std::vector<Eigen::Vector2d> centersOf(const std::vector<MapCell>& cells) {

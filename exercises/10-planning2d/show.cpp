@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <utility>
 
@@ -13,8 +12,6 @@
 using namespace rex;
 
 namespace {
-
-void nothingYet(const char* what) { std::printf("Nothing to show yet for %s.\n", what); }
 
 constexpr int kNeighbors = 8;
 constexpr double kResolution = 0.02, kSigma = 0.3;
@@ -151,15 +148,12 @@ void showRoadmaps(double width) {
   const Yard yard = slotYard(1.7, width);
   Rng seed(1);
   if (nodesOf(yard, Strategy::kUniform, 1, seed).empty()) return nothingYet("roadmaps");
-  Figure figure{.title = "80 nodes: uniform; half of them Gaussian; half of them bridges",
-                .xLabel = "x [m]",
-                .yLabel = "y [m]",
-                .equalAxes = true,
-                .xRange = AxisRange{-0.2, 20.2},
-                .yRange = AxisRange{-0.2, 4.2},
-                .legend = Legend::kNone,
-                .width = 1600,
-                .height = 460};
+  Figure figure = planeFigure({.title = "80 nodes: uniform; half of them Gaussian; half of them bridges",
+                               .xRange = AxisRange{-0.2, 20.2},
+                               .yRange = AxisRange{-0.2, 4.2},
+                               .legend = Legend::kNone,
+                               .width = 1600,
+                               .height = 460});
   for (const Strategy strategy : {Strategy::kUniform, Strategy::kGaussian, Strategy::kBridge}) {
     const Eigen::Vector2d shift(7 * static_cast<double>(strategy), 0);
     for (const Block& block : yard.blocks)

@@ -142,7 +142,8 @@ inline void moves(rex::grading::Check& check, Student& student, const CarModel& 
     check.input("a drive",
                 {{"L", L}, {"q", q}, {"speed", speed}, {"steering", angle}, {"seconds", drive.seconds}});
     const Eigen::Vector3d end = student.driven(car, q, drive), wanted = exact(car, q, drive);
-    const auto shown = check.show([&] { return endsSeen(car, q, end, wayOf(car, q, {drive}, {}).poses); });
+    const auto shown =
+        check.show([&] { return endsSeen(car, q, end, drivenWay(car, q, {drive}, {}).poses); });
     std::string question;
     for (const auto& [asked, value] : mistakenEnds(car, q, drive))
       if (question.empty() && (value - end).cwiseAbs().maxCoeff() <= 1e-6) question = asked;

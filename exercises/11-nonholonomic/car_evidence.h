@@ -42,7 +42,7 @@ inline rex::grading::Evidence endsSeen(const CarModel& car, const Eigen::Vector3
                                        const Eigen::Vector3d& got, const Poses& wanted) {
   rex::Figure figure = carFigure("Where a drive leads", {});
   addOutline(figure, car, start, {.label = "start", .size = 1, .color = kSoft});
-  figure.series.push_back(rex::grading::through(wanted, rex::grading::wantedCurve("")));
+  figure.series.push_back(rex::through(wanted, rex::grading::wantedCurve("")));
   addOutline(figure, car, got, {.label = "got", .size = 2, .color = rex::grading::kGotColor});
   addOutline(figure, car, wanted.back(), rex::grading::wantedCurve("wanted"));
   return {.figures = {figure}};
@@ -52,10 +52,10 @@ inline rex::grading::Evidence endsSeen(const CarModel& car, const Eigen::Vector3
 inline rex::grading::Evidence pathSeen(const std::string& title, const CarModel& car, const Poses& path,
                                        std::size_t broken) {
   rex::Figure figure = carFigure(title, {});
-  figure.series.push_back(rex::grading::through(path, rex::Series{.label = "poses",
-                                                                  .style = rex::SeriesStyle::kLinesPoints,
-                                                                  .marker = rex::Marker::kDot,
-                                                                  .color = rex::grading::kGotColor}));
+  figure.series.push_back(rex::through(path, {.label = "poses",
+                                              .style = rex::SeriesStyle::kLinesPoints,
+                                              .marker = rex::Marker::kDot,
+                                              .color = rex::grading::kGotColor}));
   for (const Eigen::Vector3d& q : path) figure.series.push_back(outline(car, q, kSoft));
   if (broken > 0 && broken < path.size())
     addOutline(figure, car, path[broken], rex::grading::wrongCurve("cannot follow from the one before"));
@@ -79,8 +79,8 @@ struct DrivenWay {
   std::string why{};
 };
 
-inline DrivenWay wayOf(const CarModel& car, const Eigen::Vector3d& start, const std::vector<Drive>& plan,
-                       const std::vector<Block>& blocks) {
+inline DrivenWay drivenWay(const CarModel& car, const Eigen::Vector3d& start, const std::vector<Drive>& plan,
+                           const std::vector<Block>& blocks) {
   constexpr double kLongest = 200;
   constexpr std::size_t kMostPoses = 10'000;
   DrivenWay way{.poses = {start}, .steering = {0}};
@@ -113,7 +113,7 @@ inline rex::Figure wayFigure(const std::string& title, const CarModel& car, cons
   rex::Figure figure = carFigure(title, world.blocks);
   for (std::size_t i = 0; i < way.poses.size(); i += 12)
     figure.series.push_back(outline(car, way.poses[i], kSoft));
-  figure.series.push_back(rex::grading::through(way.poses, rex::grading::gotCurve("got: the rear axle")));
+  figure.series.push_back(rex::through(way.poses, rex::grading::gotCurve("got: the rear axle")));
   addOutline(figure, car, world.goal, rex::grading::wantedCurve("wanted at the end"));
   if (way.wrong > 0)
     addOutline(figure, car, way.poses[way.wrong], rex::grading::wrongCurve(way.why));
@@ -125,7 +125,7 @@ inline rex::Figure wayFigure(const std::string& title, const CarModel& car, cons
 /// Parking as a film with a pale car on the goal, which opens where it goes wrong, or at the end.
 inline rex::grading::Evidence parkingSeen(const CarModel& car, const World& lot,
                                           const std::vector<Drive>& plan) {
-  const DrivenWay way = wayOf(car, lot.start, plan, lot.blocks);
+  const DrivenWay way = drivenWay(car, lot.start, plan, lot.blocks);
   const rex::Simulator S = filmSet(car, lot);
   const auto joints = [](const Eigen::Vector3d& q, double steering) {
     Eigen::VectorXd all(5);
@@ -155,7 +155,8 @@ inline rex::grading::Evidence driveSeen(const CarModel& car, const Eigen::Vector
                                         const Eigen::Vector3d& target, const Drive& drive,
                                         const std::vector<Block>& blocks) {
   World world{.start = from, .goal = target, .blocks = blocks, .lower = {}, .upper = {}};
-  rex::Figure figure = wayFigure("One drive towards a target", car, world, wayOf(car, from, {drive}, blocks));
+  rex::Figure figure =
+      wayFigure("One drive towards a target", car, world, drivenWay(car, from, {drive}, blocks));
   for (rex::Series& series : figure.series)
     if (series.label == "wanted at the end") series.label = "target";
   return {.figures = {figure}};
@@ -169,16 +170,15 @@ inline rex::grading::Evidence treeSeen(const CarModel& car, const World& world,
   const std::size_t count = std::min(node + 1, tree.size());
   for (std::size_t i = 1; i < count; ++i) {
     const Eigen::Vector3d& from = tree[static_cast<std::size_t>(tree[i].parent)].q;
-    const Poses edge = wayOf(car, from, {tree[i].by}, {}).poses;
-    figure.series.push_back(rex::grading::through(edge, rex::Series{.size = 0.5, .color = kSoft}));
+    const Poses edge = drivenWay(car, from, {tree[i].by}, {}).poses;
+    figure.series.push_back(rex::through(edge, {.size = 0.5, .color = kSoft}));
   }
   addOutline(figure, car, world.start, {.label = "start", .size = 1, .color = kGround});
   addOutline(figure, car, world.goal, rex::grading::wantedCurve("goal"));
   if (node >= 1 && node < tree.size()) {
     const Eigen::Vector3d& from = tree[static_cast<std::size_t>(tree[node].parent)].q;
-    const DrivenWay way = wayOf(car, from, {tree[node].by}, world.blocks);
-    figure.series.push_back(
-        rex::grading::through(way.poses, rex::grading::gotCurve("the edge being checked")));
+    const DrivenWay way = drivenWay(car, from, {tree[node].by}, world.blocks);
+    figure.series.push_back(rex::through(way.poses, rex::grading::gotCurve("the edge being checked")));
     if (way.wrong > 0) addOutline(figure, car, way.poses[way.wrong], rex::grading::wrongCurve(way.why));
   }
   return {.figures = {figure}};
@@ -189,20 +189,16 @@ inline rex::grading::Evidence dubinsSeen(const std::string& title, const Poses& 
                                          const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                                          double radius, bool withShortest) {
   rex::Figure figure = carFigure(title, {});
-  figure.series.push_back(rex::grading::through(got, rex::grading::gotCurve("got")));
+  figure.series.push_back(rex::through(got, rex::grading::gotCurve("got")));
   if (withShortest) {
     const rex::Curve shortest = rex::dubinsCurve(from, to, radius);
     Poses poses;
     for (int part = 0; part <= 100; ++part) poses.push_back(shortest.pose(shortest.length() * part / 100));
-    figure.series.push_back(rex::grading::through(poses, rex::grading::wantedCurve("wanted: the shortest")));
+    figure.series.push_back(rex::through(poses, rex::grading::wantedCurve("wanted: the shortest")));
   }
   rex::Arrows ends{.label = "start and goal", .color = rex::grading::kWantedColor};
-  for (const Eigen::Vector3d& pose : {from, to}) {
-    ends.x.push_back(pose[0]);
-    ends.y.push_back(pose[1]);
-    ends.dx.push_back(radius / 2 * std::cos(pose[2]));
-    ends.dy.push_back(radius / 2 * std::sin(pose[2]));
-  }
+  for (const Eigen::Vector3d& pose : {from, to})
+    ends.add(pose.head<2>(), radius / 2 * Eigen::Vector2d(std::cos(pose[2]), std::sin(pose[2])));
   figure.arrows = {ends};
   return {.figures = {figure}};
 }

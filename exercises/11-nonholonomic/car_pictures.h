@@ -29,20 +29,9 @@ inline rex::Series outline(const CarModel& car, const Eigen::Vector3d& q, const 
   return outline(q, car.back, car.front, car.width, color);
 }
 
-inline rex::Series line(const std::string& label, const Poses& poses, const rex::Color& color, double size) {
-  rex::Series series{.label = label, .size = size, .color = color};
-  for (const Eigen::Vector3d& q : poses) series.add(q[0], q[1]);
-  return series;
-}
-
 inline rex::Figure seenFromAbove(const std::string& title, const std::vector<Block>& blocks) {
-  rex::Figure figure{.title = title,
-                     .xLabel = "x [m]",
-                     .yLabel = "y [m]",
-                     .equalAxes = true,
-                     .legend = rex::Legend::kNone,
-                     .width = 1000,
-                     .height = 560};
+  rex::Figure figure =
+      rex::planeFigure({.title = title, .legend = rex::Legend::kNone, .width = 1000, .height = 560});
   for (const Block& obstacle : blocks) {
     const rex::Series edge =
         outline(obstacle.middle, obstacle.length / 2, obstacle.length / 2, obstacle.width, {});

@@ -97,7 +97,7 @@ inline void checkPieces(rex::grading::Check& check, const std::string& function,
     for (std::size_t i = 0; i < 3; ++i)
       if (!isLong(i)) {
         const auto first = pieces.begin() + 50 * static_cast<std::ptrdiff_t>(i);
-        evidence.figures.front().series.push_back(rex::grading::through(
+        evidence.figures.front().series.push_back(rex::through(
             Poses(first, first + 51), rex::grading::wrongCurve("a piece of impossible length", {}, {})));
         break;
       }
@@ -127,7 +127,7 @@ inline rex::grading::Evidence circlesSeen(const std::string& title, const std::s
   for (const auto& [q, turn] : {std::pair{from, word[0]}, {to, word[2]}}) {
     const std::array<double, 3> whole{2 * kPi * radius, 0, 0};
     const bool isFirst = figure.series.empty();
-    figure.series.push_back(rex::grading::through(
+    figure.series.push_back(rex::through(
         piecesOf(std::string(3, turn), whole, q, radius),
         rex::Series{.label = isFirst ? "first and last circle" : "", .color = rex::grading::kWantedColor}));
   }

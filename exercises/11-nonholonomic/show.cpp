@@ -13,8 +13,6 @@ using namespace rex;
 
 namespace {
 
-void nothingYet(const std::string& what) { std::printf("Nothing to show yet for %s.\n", what.c_str()); }
-
 const std::array kWords{"LSL", "LSR", "RSL", "RSR", "LRL", "RLR"};
 const std::array<Color, 6> kWordColors{Color{0, 0.45f, 0.7f},  Color{0.85f, 0.37f, 0},
                                        Color{0, 0.62f, 0.45f}, Color{0.8f, 0.47f, 0.65f},
@@ -88,7 +86,8 @@ void showDrives(const CarModel& car, double seconds) {
   Series steps{.style = SeriesStyle::kPoints, .marker = Marker::kCircle, .color = Color{0, 0, 0}};
   for (const double share : {0., .25, .5, .75, 1.}) {
     const double steering = car.minSteering + share * (car.maxSteering - car.minSteering);
-    figure.series.push_back(line("", along(car, start, {{1, steering, seconds}}, 0.1), kAccent, 1.5));
+    figure.series.push_back(
+        through(along(car, start, {{1, steering, seconds}}, 0.1), {.size = 1.5, .color = kAccent}));
     Eigen::Vector3d q = start;
     for (int i = 0; i < 1000 * seconds; ++i) {
       q += 0.001 * velocityOf(car, q, 1, steering);
@@ -122,7 +121,8 @@ void showTree(const CarModel& car, const World& world) {
   goAround(car, tree, children, 0, around);
   Figure figure =
       seenFromAbove("A tree of controls, " + std::to_string(tree.size()) + " nodes", world.blocks);
-  figure.series = {line("", around, kSoft, 0.6), line("", along(car, world.start, way, 0.1), kAccent, 2),
+  figure.series = {through(around, {.size = 0.6, .color = kSoft}),
+                   through(along(car, world.start, way, 0.1), {.size = 2, .color = kAccent}),
                    outline(car, world.start, kGround), outline(car, world.goal, kAccent)};
   plot("tree", figure);
 }
@@ -137,8 +137,9 @@ void showDubins(const CarModel& car, double radius) {
     for (int turn = 0; turn < 12; ++turn) {
       const DubinsWay way = shortestDubins(start, place + Eigen::Vector3d(0, 0, kPi / 6 * turn), radius);
       const auto word = static_cast<std::size_t>(way.word);
-      fan.series.push_back(line(named.insert(way.word).second ? kWords[word] : "",
-                                along(car, start, drivesOf(car, way), 0.1), kWordColors[word], 1));
+      fan.series.push_back(
+          through(along(car, start, drivesOf(car, way), 0.1),
+                  {.label = named.insert(way.word).second ? kWords[word] : "", .color = kWordColors[word]}));
     }
   }
   fan.series.push_back(outline(car, start, {0, 0, 0}));
@@ -179,7 +180,7 @@ void showParking(const std::string& name, const std::string& title, const CarMod
   Poses bodies = along(car, lot.start, plan, 0.7);
   Figure figure = seenFromAbove(title, lot.blocks);
   for (const Eigen::Vector3d& q : bodies) figure.series.push_back(outline(car, q, kSoft));
-  figure.series.push_back(line("", along(car, lot.start, plan, 0.05), kAccent, 1.5));
+  figure.series.push_back(through(along(car, lot.start, plan, 0.05), {.size = 1.5, .color = kAccent}));
   figure.series.push_back(outline(car, lot.start, kGround));
   figure.series.push_back(outline(car, bodies.back(), kAccent));
   plot(name, figure);

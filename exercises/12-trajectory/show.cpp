@@ -17,8 +17,6 @@ namespace {
 const Color kBlue{0.1f, 0.35f, 0.65f}, kOrange{0.85f, 0.4f, 0.05f}, kGrey{0.55f, 0.58f, 0.6f},
     kPale{0.68f, 0.78f, 0.9f};
 
-void nothingYet(const char* what) { std::printf("Nothing to show yet for %s.\n", what); }
-
 Figure axes(const char* title, const char* xLabel, const char* yLabel) {
   return {.title = title, .xLabel = xLabel, .yLabel = yLabel, .legend = Legend::kOutside, .width = 900};
 }
@@ -28,15 +26,11 @@ enum class Pen { line, dashes, dots, beads };
 // The points (x, y) of a curve, one per column.
 void add(Figure& figure, const std::string& label, const Eigen::MatrixXd& points, const Color& color,
          Pen pen = Pen::line, double size = 1.5) {
-  Series& series = figure.series.emplace_back();
-  series.label = label;
-  series.color = color;
-  series.size = size;
-  series.dashed = pen == Pen::dashes;
-  if (pen == Pen::dots) series.style = SeriesStyle::kPoints;
-  if (pen == Pen::beads) series.style = SeriesStyle::kLinesPoints;
-  series.marker = Marker::kDot;
-  for (Eigen::Index i = 0; i < points.cols(); ++i) series.add(points(0, i), points(1, i));
+  Series look{
+      .label = label, .marker = Marker::kDot, .size = size, .dashed = pen == Pen::dashes, .color = color};
+  if (pen == Pen::dots) look.style = SeriesStyle::kPoints;
+  if (pen == Pen::beads) look.style = SeriesStyle::kLinesPoints;
+  figure.series.push_back(through(points, look));
 }
 
 // A circle as `count` points, counter-clockwise; one more closes it.
@@ -47,12 +41,6 @@ Eigen::MatrixXd circle(const Ball& ball, double radius, int count) {
     points.col(i) << ball.y + radius * std::cos(angle), ball.z + radius * std::sin(angle);
   }
   return points;
-}
-
-void addDisc(Figure& figure, const Ball& ball) {
-  Region& region = figure.regions.emplace_back();
-  const Eigen::MatrixXd border = circle(ball, ball.radius, 72);
-  for (Eigen::Index i = 0; i < border.cols(); ++i) region.add(border(0, i), border(1, i));
 }
 
 // A point that comes from rest at one position to rest at another, and keeps out of a disc.
@@ -111,10 +99,8 @@ TrajectoryResult byLibrary(const DiscPath& path) {
 }
 
 Figure discFigure(const char* title, const DiscPath& path) {
-  Figure figure = axes(title, "x [m]", "y [m]");
-  figure.equalAxes = true;
-  figure.height = 430;
-  addDisc(figure, path.disc);
+  Figure figure = planeFigure({.title = title, .legend = Legend::kOutside, .width = 900, .height = 430});
+  figure.regions = {within(circle(path.disc, path.disc.radius, 72))};
   add(figure, "start", path.guess(), kGrey, Pen::dashes);
   return figure;
 }
@@ -296,7 +282,7 @@ void showArm() {
   arm.equalAxes = true;
   arm.width = 760;
   arm.height = 640;
-  addDisc(arm, kBall[0]);
+  arm.regions = {within(circle(kBall[0], kBall[0].radius, 72))};
   for (Eigen::Index step = 0; step < X.cols(); ++step)
     add(arm, step == 0 ? "links" : "", linksOf(S, X.col(step)), kPale, Pen::line, 1);
   add(arm, "hand, direct", a.hand, kBlue, Pen::dashes);

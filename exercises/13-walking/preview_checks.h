@@ -167,8 +167,7 @@ inline rex::grading::Evidence walkSeen(const rex::WalkPlan& plan, const Eigen::M
   above.title = "Zero moment point on the footprints, until it left them";
   above.legend = rex::Legend::kOutside;
   const Eigen::MatrixXd before = zmp.leftCols(until + 1);
-  above.series = {through(before.colwise(), gotCurve("yours")),
-                  through(reference.colwise(), wantedCurve("wanted")),
+  above.series = {through(before, gotCurve("yours")), through(reference, wantedCurve("wanted")),
                   wrongPoint("off the soles", zmp(0, until), zmp(1, until))};
   return {.figures = {above}};
 }

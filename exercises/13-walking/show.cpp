@@ -18,8 +18,6 @@ const Color kBlue{0.0f, 0.45f, 0.7f}, kOrange{0.84f, 0.37f, 0.0f}, kGrey{0.62f, 
 
 using Points = std::vector<Eigen::Vector2d>;
 
-void nothingYet(const char* what) { std::printf("Nothing to show yet for the %s.\n", what); }
-
 Figure axes(const char* title, const char* xLabel, const char* yLabel, Legend legend = Legend::kAuto) {
   Figure figure;
   figure.title = title;
@@ -38,8 +36,9 @@ Series& curve(Figure& figure, const char* label, const Color& color, double size
   return series;
 }
 
-void addAll(Series& series, const Points& points) {
-  for (const Eigen::Vector2d& p : points) series.add(p.x(), p.y());
+// The border of a polygon with these corners.
+Series closed(const Eigen::MatrixXd& corners, const Series& look) {
+  return through(corners.leftCols(1), through(corners, look));
 }
 
 // Yours is wide and yellow, and the library's lies dashed on top.
@@ -152,16 +151,13 @@ void showSupport(const Eigen::Vector2d& left, const Eigen::Vector2d& right) {
   }
   const Eigen::MatrixXd corners = supportCorners(contacts);
   const Eigen::Index count = corners.cols();
-  if (count < 3) return nothingYet("support polygon");
-  Figure figure = axes("Distance from the border of the support polygon", "x [m]", "y [m]", Legend::kTopLeft);
-  figure.colorLabel = "distance [m]";
-  figure.equalAxes = true;
-  for (const int foot : {0, 4}) {
-    Series& sole = curve(figure, foot == 0 ? "soles" : "", kBlack);
-    for (int i = 0; i < 5; ++i) sole.add(contacts(0, foot + i % 4), contacts(1, foot + i % 4));
-  }
-  Series& border = curve(figure, "support polygon", kOrange, 2);
-  for (Eigen::Index i = 0; i <= count; ++i) border.add(corners(0, i % count), corners(1, i % count));
+  if (count < 3) return nothingYet("the support polygon");
+  Figure figure = planeFigure({.title = "Distance from the border of the support polygon",
+                               .colorLabel = "distance [m]",
+                               .legend = Legend::kTopLeft});
+  figure.series = {closed(contacts.leftCols(4), {.label = "soles", .color = kBlack}),
+                   closed(contacts.rightCols(4), {.color = kBlack}),
+                   closed(corners, {.label = "support polygon", .size = 2, .color = kOrange})};
   const auto distance = [&](double x, double y) { return borderDistance(corners, {x, y}); };
   figure.heatMap = heatMapOf(distance, {-.3, .55}, {-.35, .35}, 170, 140);
   plot("support", figure);
@@ -181,13 +177,13 @@ void showTipping() {
     const std::vector<MovingMass> body = {{40, {0, 0, 1}, {a, 0, 0}}, {20, {0, 0, .4}, {a / 2, 0, 0}}};
     if (const auto point = zeroMoment(body, 0, 9.81)) series.add(a, point->x());
   }
-  if (series.x.empty()) return nothingYet("zero moment point");
+  if (series.x.empty()) return nothingYet("the zero moment point");
   plot("tipping", figure);
 }
 
 void showCapture(const Pendulum& pendulum, const Sway& now) {
   const Eigen::Vector2d capture = capturePoint(pendulum, now);
-  if (swayed(pendulum, now, capture, 1).c == now.c) return nothingYet("pendulum");
+  if (swayed(pendulum, now, capture, 1).c == now.c) return nothingYet("the pendulum");
   Figure figure = axes("Where the foot must go: the pendulum over three points", "time [s]",
                        "centre of mass [m]", Legend::kTopLeft);
   figure.horizontalLines = {{capture.x(), "capture point"}};
@@ -202,7 +198,7 @@ void showCapture(const Pendulum& pendulum, const Sway& now) {
 }
 
 void showGains(const CartTable& cart, const PreviewLaw& law) {
-  if (law.Gi == 0) return nothingYet("preview gains");
+  if (law.Gi == 0) return nothingYet("the preview gains");
   const Eigen::VectorXd library = previewGains({.height = cart.height, .step = cart.step}).Gp;
   Figure figure = axes("Gain on a jump of the reference, by the time until it", "time until the jump [s]",
                        "gain Gp [1/s^3]");
@@ -221,15 +217,15 @@ void showWalk(const CartTable& cart, const PreviewLaw& law) {
   humanoid.preview = {.height = cart.height, .step = cart.step};
   const Eigen::MatrixXd reference = zmpReference(humanoid.plan, cart.step);
   const Walk walk = walkOf(cart, law, reference);
-  if (walk.zmp.empty()) return nothingYet("walk");
+  if (walk.zmp.empty()) return nothingYet("the walk");
 
   Figure above = footprintFigure(humanoid.plan);
   above.title = "A walk from above";
   above.legend = Legend::kTopLeft;
   above.width = 1000;
   above.height = 450;
-  addAll(curve(above, "centre of mass", kBlue), walk.center);
-  addAll(curve(above, "zero moment point", kOrange, 1.5), walk.zmp);
+  above.series = {through(walk.center, {.label = "centre of mass", .color = kBlue}),
+                  through(walk.zmp, {.label = "zero moment point", .size = 1.5, .color = kOrange})};
   plot("zmp", above);
 
   const Eigen::MatrixXd library = followZmp(reference, humanoid.preview).zmp;
@@ -247,7 +243,8 @@ void showWalk(const CartTable& cart, const PreviewLaw& law) {
   plot("zmp_time", sideways);
 
   // The humanoid's joints move by the library; the paths on the ground are yours.
-  if (walk.largestError > .05) return nothingYet("humanoid: the zero moment point is off by more than 5 cm");
+  if (walk.largestError > .05)
+    return nothingYet("the humanoid: the zero moment point is off by more than 5 cm");
   humanoid.center = walk.center;
   humanoid.zmp = walk.zmp;
   writeFilm(humanoidFilm(humanoid), "humanoid", {.view = {.35, -1, .8}, .width = 800, .height = 600});
@@ -274,15 +271,16 @@ void showHorizon(const CartTable& cart, const PreviewLaw& law) {
 
 void showCompass(const Walker& walker, const Eigen::Vector4d& guess) {
   const Way settles = wayFrom(walker, guess, 16);
-  if (settles.leg.empty()) return nothingYet("compass walker");
+  if (settles.leg.empty()) return nothingYet("the compass walker");
   Figure phase =
       axes("One leg of the compass walker, step after step", "angle [rad]", "rate [rad/s]", Legend::kOutside);
-  addAll(curve(phase, "from a guess", kGrey), settles.leg);
+  phase.series = {through(settles.leg, {.label = "from a guess", .color = kGrey})};
   if (const auto gait = gaitNear(walker, guess)) {
     print("the gait, just after an impact", gait->transpose());
     const Eigen::VectorXd sizes = multiplierSizes(walker, *gait);
     print("moduli of its multipliers", sizes.transpose());
-    addAll(curve(phase, "the gait", kOrange, 2), wayFrom(walker, *gait, 3).leg);
+    phase.series.push_back(
+        through(wayFrom(walker, *gait, 3).leg, {.label = "the gait", .size = 2, .color = kOrange}));
     showSettling(settles, *gait, sizes[0]);
   }
   plot("phase", phase);
@@ -306,6 +304,6 @@ void showSlopes(const Eigen::Vector4d& guess) {
     figure.series[0].add(.1 * i, multiplierSizes(walker, *x)[0]);
     figure.series[1].add(.1 * i, std::abs(findLimitCycle(libraryWalker(walker), *x).multipliers[0]));
   }
-  if (figure.series[0].x.empty()) return nothingYet("slopes");
+  if (figure.series[0].x.empty()) return nothingYet("the slopes");
   plot("slopes", figure);
 }

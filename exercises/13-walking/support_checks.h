@@ -90,27 +90,19 @@ inline Eigen::MatrixXd inARow(rex::Rng& rng, int count) {
 /// The polygon between these corners (2 x k) as a closed curve; nothing without corners.
 inline rex::Series closedCurve(const Eigen::MatrixXd& corners, rex::Series curve) {
   if (corners.cols() == 0) return curve;
-  curve = rex::grading::through(corners.colwise(), std::move(curve));
-  return rex::grading::through(corners.leftCols(1).colwise(), std::move(curve));
+  curve = rex::through(corners, std::move(curve));
+  return rex::through(corners.leftCols(1), std::move(curve));
 }
 
 /// The contacts with the returned polygon beside the wanted one.
 inline rex::grading::Evidence supportSeen(const Eigen::MatrixXd& contacts, const Eigen::MatrixXd& corners,
                                           const Eigen::MatrixXd& wanted) {
-  rex::Figure figure{.title = "Support polygon",
-                     .xLabel = "x [m]",
-                     .yLabel = "y [m]",
-                     .equalAxes = true,
-                     .legend = rex::Legend::kOutside};
+  rex::Figure figure = rex::planeFigure({.title = "Support polygon", .legend = rex::Legend::kOutside});
   rex::Series yours = closedCurve(corners, rex::grading::gotCurve("your corners"));
   yours.style = rex::SeriesStyle::kLinesPoints;
   for (const rex::Series& curve : {yours, closedCurve(wanted, rex::grading::wantedCurve("wanted"))})
     if (!curve.x.empty()) figure.series.push_back(curve);
-  figure.series.push_back(
-      rex::grading::through(contacts.colwise(), rex::Series{.label = "contacts",
-                                                            .style = rex::SeriesStyle::kPoints,
-                                                            .marker = rex::Marker::kDot,
-                                                            .color = rex::Color{0, 0, 0}}));
+  figure.series.push_back(rex::dots(contacts, {.label = "contacts", .color = rex::Color{0, 0, 0}}));
   return {.figures = {figure}};
 }
 

@@ -43,31 +43,22 @@ inline void addFinger(rex::Figure& figure, const PlanarFinger& finger, double le
     cone.add(p.x(), p.y());
   }
   const Eigen::Vector2d from = finger.p - 0.25 * length * finger.normal;
-  rex::Series body = rex::grading::gotCurve("", {from.x(), finger.p.x()}, {from.y(), finger.p.y()});
   figure.regions.push_back(cone);
-  figure.series.push_back(body);
+  figure.series.push_back(rex::through({from, finger.p}, rex::grading::gotCurve("")));
 }
 
 /// The polygon with the cones of its fingers.
 inline rex::Figure drawing(const Plate& plate, const std::vector<PlanarFinger>& fingers) {
-  rex::Figure figure{.title = "Your fingers, and the forces they can exert",
-                     .xLabel = "x [m]",
-                     .yLabel = "y [m]",
-                     .equalAxes = true,
-                     .legend = rex::Legend::kOutside};
-  rex::Region outline;
-  for (const Eigen::Vector2d& corner : plate.corners) outline.add(corner.x(), corner.y());
-  figure.regions = {outline};
+  rex::Figure figure = rex::planeFigure({.title = "Your fingers, and the forces they can exert",
+                                         .legend = rex::Legend::kOutside,
+                                         .regions = {rex::within(plate.corners)}});
   for (const PlanarFinger& one : fingers)
     if (one.p.allFinite() && one.normal.allFinite() && std::isfinite(one.friction))
       addFinger(figure, one, plate.length);
   if (!figure.series.empty()) figure.series[0].label = "fingers";
-  rex::Series center{.label = "centre", .x = {plate.center.x()}, .y = {plate.center.y()}};
-  center.style = rex::SeriesStyle::kPoints;
-  center.marker = rex::Marker::kPlus;
-  center.size = 2;
-  center.color = rex::grading::kWantedColor;
-  figure.series.push_back(center);
+  figure.series.push_back(rex::dots(
+      plate.center,
+      {.label = "centre", .marker = rex::Marker::kPlus, .size = 2, .color = rex::grading::kWantedColor}));
   return figure;
 }
 

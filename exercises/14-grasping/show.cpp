@@ -15,8 +15,6 @@ using namespace rex;
 
 namespace {
 
-void nothingYet(const char* what) { std::printf("Nothing to show yet for %s.\n", what); }
-
 std::string text(const char* format, double number) {
   char all[32];
   std::snprintf(all, sizeof all, format, number);
@@ -48,40 +46,21 @@ PlanarFinger fingerAt(const std::vector<Eigen::Vector2d>& corners, double way, d
   }
 }
 
-Region regionOf(const std::vector<Eigen::Vector2d>& corners, const Color& color) {
-  Region region;
-  region.color = color;
-  for (const Eigen::Vector2d& corner : corners) region.add(corner[0], corner[1]);
-  return region;
-}
-
 void addPoint(Figure& figure, const std::string& label, const Color& color, const Eigen::VectorXd& at) {
-  Series point;
-  point.label = label;
-  point.x = {at[0]};
-  point.y = {at[1]};
-  if (at.size() > 2) point.z = {at[2]};
-  point.style = SeriesStyle::kPoints;
-  point.marker = Marker::kPlus;
-  point.size = 2;
-  point.color = color;
-  figure.series.push_back(std::move(point));
+  figure.series.push_back(dots(at, {.label = label, .marker = Marker::kPlus, .size = 2, .color = color}));
+  if (at.size() > 2) figure.series.back().z = {at[2]};
 }
 
 // The object, and the directions into which each finger can push.
 Figure conesFigure(const std::string& title, const std::vector<Eigen::Vector2d>& corners,
                    const std::vector<PlanarFinger>& fingers) {
-  Figure figure;
-  figure.title = title;
-  figure.xLabel = "x [m]";
-  figure.yLabel = "y [m]";
-  figure.xRange = {-0.11, 0.11};
-  figure.yRange = {-0.08, 0.08};
-  figure.equalAxes = true;
-  figure.legend = Legend::kOutside;
-  figure.width = 950;
-  figure.height = 600;
-  figure.regions.push_back(regionOf(corners, kGrey));
+  Figure figure = planeFigure({.title = title,
+                               .xRange = AxisRange{-0.11, 0.11},
+                               .yRange = AxisRange{-0.08, 0.08},
+                               .legend = Legend::kOutside,
+                               .regions = {within(corners, {.color = kGrey})},
+                               .width = 950,
+                               .height = 600});
   constexpr double kCone = 0.025;  // length of a newton [m]
   for (std::size_t i = 0; i < fingers.size(); ++i) {
     const PlanarFinger& finger = fingers[i];
@@ -89,15 +68,10 @@ Figure conesFigure(const std::string& title, const std::vector<Eigen::Vector2d>&
     const Eigen::Vector2d across(-finger.normal[1], finger.normal[0]);
     const Eigen::Vector2d inside = finger.p + kCone * finger.normal;
     const Eigen::Vector2d from = finger.p - 0.8 * kCone * finger.normal;
-    figure.regions.push_back(
-        regionOf({finger.p, inside + side * across, inside - side * across}, fingerColor(i)));
-    Series body;
-    body.label = "finger " + std::to_string(i + 1);
-    body.x = {from[0], finger.p[0]};
-    body.y = {from[1], finger.p[1]};
-    body.size = 3;
-    body.color = fingerColor(i);
-    figure.series.push_back(std::move(body));
+    const std::vector<Eigen::Vector2d> cone{finger.p, inside + side * across, inside - side * across};
+    figure.regions.push_back(within(cone, {.color = fingerColor(i)}));
+    figure.series.push_back(through(
+        {from, finger.p}, {.label = "finger " + std::to_string(i + 1), .size = 3, .color = fingerColor(i)}));
   }
   addPoint(figure, "centre", kBlack, Eigen::Vector2d::Zero());
   return figure;
@@ -105,16 +79,8 @@ Figure conesFigure(const std::string& title, const std::vector<Eigen::Vector2d>&
 
 void addLine(Figure& figure, const std::vector<Eigen::Vector3d>& points, const Color& color, double size,
              const std::string& label = "") {
-  Series series;
-  series.label = label;
-  series.size = size;
-  series.color = color;
-  for (const Eigen::Vector3d& p : points) {
-    series.x.push_back(p[0]);
-    series.y.push_back(p[1]);
-    series.z.push_back(p[2]);
-  }
-  figure.series.push_back(std::move(series));
+  figure.series.push_back(through(points, {.label = label, .size = size, .color = color}));
+  for (const Eigen::Vector3d& p : points) figure.series.back().z.push_back(p[2]);
 }
 
 // The ball around zero, as circles of latitude and longitude.
@@ -152,15 +118,14 @@ Figure hullFigure(const std::string& title, const Eigen::MatrixXd& points) {
   const FacetHull hull = facetHull(points);
   const Eigen::MatrixXd& normals = hull.normals;
   const Eigen::VectorXd& offsets = hull.offsets;
-  Figure figure;
-  figure.title = title;
-  figure.xLabel = "fx [N]";
-  figure.yLabel = "fy [N]";
-  figure.zLabel = "torque / length [N]";
-  figure.equalAxes = true;
-  figure.legend = Legend::kTopRight;
-  figure.width = 900;
-  figure.height = 700;
+  Figure figure{.title = title,
+                .xLabel = "fx [N]",
+                .yLabel = "fy [N]",
+                .zLabel = "torque / length [N]",
+                .equalAxes = true,
+                .legend = Legend::kTopRight,
+                .width = 900,
+                .height = 700};
   std::vector<Eigen::Vector3d> corners;
   for (Eigen::Index i = 0; i < points.cols(); ++i) corners.emplace_back(points.col(i));
   for (std::size_t i = 0; i < corners.size(); ++i)

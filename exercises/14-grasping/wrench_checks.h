@@ -88,9 +88,7 @@ inline rex::grading::Evidence edgesSeen(const Finger& finger, const Eigen::Matri
     const double angle = 2 * std::numbers::pi * i / 96;
     circle.add(finger.friction * std::cos(angle), finger.friction * std::sin(angle));
   }
-  edges = rex::grading::through(Eigen::MatrixXd(R * forces).colwise(), edges);
-  edges.style = rex::SeriesStyle::kPoints;
-  edges.marker = rex::Marker::kDot;
+  edges = rex::dots(Eigen::MatrixXd(R * forces), edges);
   edges.size = 2;
   return {.figures = {{.title = "Edges of a pyramid, seen along the normal",
                        .xLabel = "along the surface [N]",

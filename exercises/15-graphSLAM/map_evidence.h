@@ -17,10 +17,10 @@
 inline rex::grading::Evidence mapSeen(const PoseMap& map, const Adjusted& got, double least) {
   if (got.poses.size() != map.poses.size()) return {};
   rex::Figure figure = planOf("The map");
-  figure.series = {wayOf("given: odometry", map.poses, kGrey)};
+  figure.series = {pathSeries("given: odometry", map.poses, kGrey)};
   addLoops(figure, map, got.poses, kRed);
-  figure.series.push_back(rex::grading::through(got.poses, rex::grading::gotCurve("got")));
-  figure.series.push_back(rex::grading::through(bestPoses(map), rex::grading::wantedCurve("wanted")));
+  figure.series.push_back(rex::through(got.poses, rex::grading::gotCurve("got")));
+  figure.series.push_back(rex::through(bestPoses(map), rex::grading::wantedCurve("wanted")));
   rex::Series costs = rex::grading::gotCurve("got");
   for (const double cost : got.costs) costs.add(static_cast<double>(costs.x.size()), std::max(cost, 1e-12));
   if (costs.y.empty()) return {.figures = {figure}};
@@ -55,9 +55,8 @@ inline rex::grading::Evidence robustSeen(const JudgedWalk& judged) {
                              .size = 0.5,
                              .color = rex::grading::kWrongColor});
   }
-  figure.series.push_back(rex::grading::through(judged.got, rex::grading::gotCurve("got")));
-  figure.series.push_back(
-      rex::grading::through(judged.best, rex::grading::wantedCurve("wanted: as without them")));
+  figure.series.push_back(rex::through(judged.got, rex::grading::gotCurve("got")));
+  figure.series.push_back(rex::through(judged.best, rex::grading::wantedCurve("wanted: as without them")));
   return {.figures = {figure}};
 }
 
@@ -111,7 +110,7 @@ inline rex::grading::Evidence partnersSeen(const ScanPair& pair, const std::vect
     const auto join = [&](int to, rex::Series look) {
       if (to < 0 || to >= static_cast<int>(pair.reference.size())) return;
       const Points ends{at, pair.reference[static_cast<std::size_t>(to)]};
-      figure.series.push_back(rex::grading::through(ends, std::move(look)));
+      figure.series.push_back(rex::through(ends, std::move(look)));
     };
     if (got[k] == partner) continue;
     join(got[k], rex::grading::wrongCurve(std::exchange(gotLabel, "")));
@@ -125,13 +124,11 @@ inline rex::grading::Evidence motionSeen(const Points& from, const Points& to, c
   Points moved;
   for (const Eigen::Vector2d& p : from) moved.push_back(pointFrom(got, p));
   rex::Figure figure = planOf("Points, moved by the motion");
-  const auto dots = [](const char* label, rex::Marker marker, const rex::Color& color) {
-    return rex::Series{
-        .label = label, .style = rex::SeriesStyle::kPoints, .marker = marker, .size = 1.5, .color = color};
-  };
-  figure.series = {
-      rex::grading::through(from, dots("points", rex::Marker::kDot, kGrey)),
-      rex::grading::through(moved, dots("moved, got", rex::Marker::kDot, rex::grading::kGotColor)),
-      rex::grading::through(to, dots("wanted", rex::Marker::kCircle, rex::grading::kWantedColor))};
+  figure.series = {rex::dots(from, {.label = "points", .size = 1.5, .color = kGrey}),
+                   rex::dots(moved, {.label = "moved, got", .size = 1.5, .color = rex::grading::kGotColor}),
+                   rex::dots(to, {.label = "wanted",
+                                  .marker = rex::Marker::kCircle,
+                                  .size = 1.5,
+                                  .color = rex::grading::kWantedColor})};
   return {.figures = {figure}};
 }

@@ -23,34 +23,19 @@ inline Eigen::Vector2d pointFrom(const Eigen::Vector3d& pose, const Eigen::Vecto
 /// All points of all scans, seen from where the poses are.
 inline rex::Series cloud(const std::string& label, const Poses& poses, const std::vector<Points>& scans,
                          const rex::Color& color) {
-  rex::Series series{.label = label,
-                     .style = rex::SeriesStyle::kPoints,
-                     .marker = rex::Marker::kDot,
-                     .size = 0.35,
-                     .color = color};
+  Points points;
   for (std::size_t k = 0; k < poses.size(); ++k)
-    for (const Eigen::Vector2d& p : scans[k]) {
-      const Eigen::Vector2d at = pointFrom(poses[k], p);
-      series.add(at.x(), at.y());
-    }
-  return series;
+    for (const Eigen::Vector2d& p : scans[k]) points.push_back(pointFrom(poses[k], p));
+  return rex::dots(points, {.label = label, .size = 0.35, .color = color});
 }
 
-inline rex::Series wayOf(const std::string& label, const Poses& poses, const rex::Color& color,
-                         bool dashed = false) {
-  rex::Series series{.label = label, .size = 1.5, .dashed = dashed, .color = color};
-  for (const Eigen::Vector3d& pose : poses) series.add(pose[0], pose[1]);
-  return series;
+inline rex::Series pathSeries(const std::string& label, const Poses& poses, const rex::Color& color,
+                              bool dashed = false) {
+  return rex::through(poses, {.label = label, .size = 1.5, .dashed = dashed, .color = color});
 }
 
 inline rex::Figure planOf(const std::string& title) {
-  return {.title = title,
-          .xLabel = "x [m]",
-          .yLabel = "y [m]",
-          .equalAxes = true,
-          .legend = rex::Legend::kOutside,
-          .width = 1000,
-          .height = 600};
+  return rex::planeFigure({.title = title, .legend = rex::Legend::kOutside, .width = 1000, .height = 600});
 }
 
 /// Adds loops as thin lines from pose to pose.

@@ -16,8 +16,6 @@ using namespace rex;
 
 namespace {
 
-void nothingYet(const char* what) { std::printf("Nothing to show yet for %s.\n", what); }
-
 const Eigen::Vector3d kDeviations(0.05, 0.05, 0.03);  // of a step of odometry: m, m, rad
 
 Eigen::Matrix3d informationOf(double way, double turn) {
@@ -31,7 +29,7 @@ Eigen::Vector3d onward(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 }
 
 // Where a robot came to, seen from where it had been.
-Eigen::Vector3d motionOf(const Walk& walk, std::size_t before, std::size_t after) {
+Eigen::Vector3d trueMotion(const Walk& walk, std::size_t before, std::size_t after) {
   const Eigen::Vector3d &a = walk.truth[before], &b = walk.truth[after];
   const double c = std::cos(a[2]), s = std::sin(a[2]), x = b[0] - a[0], y = b[1] - a[1];
   return {c * x + s * y, c * y - s * x, std::remainder(b[2] - a[2], 2 * std::numbers::pi)};
@@ -41,7 +39,8 @@ Eigen::Vector3d motionOf(const Walk& walk, std::size_t before, std::size_t after
 PoseMap mapOfWalk(const Walk& walk, Rng& rng) {
   PoseMap map{{walk.truth.front()}, {}};
   for (std::size_t k = 1; k < walk.truth.size(); ++k) {
-    const Eigen::Vector3d odometry = motionOf(walk, k - 1, k) + kDeviations.cwiseProduct(rng.normalVector(3));
+    const Eigen::Vector3d odometry =
+        trueMotion(walk, k - 1, k) + kDeviations.cwiseProduct(rng.normalVector(3));
     map.poses.push_back(onward(map.poses.back(), odometry));
     const Aligned match = aligned(walk.scans[k - 1], walk.scans[k], odometry);
     const Eigen::Vector3d apart = match.motion - odometry;
@@ -78,7 +77,7 @@ PoseMap mapOfTruth(const Walk& walk) {
   for (std::size_t j = 1; j < walk.truth.size(); ++j) {
     const auto add = [&](std::size_t i, bool isLoop) {
       map.edges.push_back({static_cast<int>(i), static_cast<int>(j),
-                           motionOf(walk, i, j) + kDeviations.cwiseProduct(rng.normalVector(3)),
+                           trueMotion(walk, i, j) + kDeviations.cwiseProduct(rng.normalVector(3)),
                            informationOf(kDeviations[0], kDeviations[2]), isLoop});
     };
     add(j - 1, false);
@@ -134,31 +133,21 @@ double rmsOf(const Eigen::Matrix2Xd& errors) {
   return errors.norm() / std::sqrt(static_cast<double>(errors.cols()));
 }
 
-Series positions(const std::string& label, Marker marker, const Color& color) {
-  return {.label = label, .style = SeriesStyle::kPoints, .marker = marker, .color = color};
-}
-
 // Where pictures of the same points, each with noise of its own, put the camera.
 void plotCameras(VisionSimulator& simulator, const Eigen::Matrix4Xd& points) {
   const Eigen::Matrix3Xd known = points.topRows(3);
   const Eigen::Vector3d truth = simulator.getCameraPose().p;
-  Series found = positions("refined", Marker::kDot, kBlue), there = positions("camera", Marker::kCross, kRed),
-         seen = positions("points", Marker::kDot, kGrey);
+  std::vector<Eigen::Vector3d> found;
   for (int k = 0; k < 100; ++k) {
     const Eigen::Matrix2Xd pixels = simulator.projectWorldPoints(points).topRows(2);
-    const Eigen::Vector3d at = cameraPosition(refined(projectionFromPoints(known, pixels), known, pixels));
-    found.add(at.x(), at.y());
+    found.push_back(cameraPosition(refined(projectionFromPoints(known, pixels), known, pixels)));
   }
-  there.add(truth.x(), truth.y());
-  for (const auto point : known.colwise()) seen.add(point.x(), point.y());
-  found.size = seen.size = .5;
-  there.size = 2;
   Figure figure = planOf("A hundred pictures of the same points: where they put the camera, from above");
   figure.series = {
       {.label = "line of sight", .x = {0, 1.3 * truth.x()}, .y = {0, 1.3 * truth.y()}, .color = kGrey},
-      seen,
-      found,
-      there};
+      dots(known, {.label = "points", .size = .5, .color = kGrey}),
+      dots(found, {.label = "refined", .size = .5, .color = kBlue}),
+      dots(truth, {.label = "camera", .marker = Marker::kCross, .size = 2, .color = kRed})};
   plot("cameras", figure);
 }
 
@@ -194,11 +183,11 @@ void showGivenLoops(const Walk& walk) {
   std::printf("cost after a step %.3f, after many %.3f, least by the library %.3f\n",
               mapCost({after, map.edges}), adjusted(map).costs.back(), library.cost);
   Figure figure = planOf("Odometry and given loops");
-  figure.series = {wayOf("odometry", map.poses, kGrey), wayOf("after one step", after, kRed)};
+  figure.series = {pathSeries("odometry", map.poses, kGrey), pathSeries("after one step", after, kRed)};
   addLoops(figure, map, map.poses, kGrey);
   if (const Poses best = adjusted(map).poses; best != map.poses)
-    figure.series.push_back(wayOf("adjusted", best, kBlue));
-  figure.series.push_back(wayOf("library", library.poses, kBlack, true));
+    figure.series.push_back(pathSeries("adjusted", best, kBlue));
+  figure.series.push_back(pathSeries("library", library.poses, kBlack, true));
   plot("graph", figure);
 }
 
@@ -228,13 +217,13 @@ void showMap(const Walk& walk, const PoseMap& map) {
   const Optimum library = byLibrary(map);
   const Adjusted best = adjusted(map);
   Figure before = planOf("By odometry alone: the scans where it says the robot was");
-  before.series = {cloud("scans", map.poses, walk.scans, kGrey), wayOf("way", map.poses, kBlue)};
+  before.series = {cloud("scans", map.poses, walk.scans, kGrey), pathSeries("way", map.poses, kBlue)};
   addLoops(before, map, map.poses, kRed);
   plot("before", before);
   Figure after = planOf("Adjusted");
-  after.series = {cloud("scans", best.poses, walk.scans, kGrey), wayOf("way", best.poses, kBlue)};
+  after.series = {cloud("scans", best.poses, walk.scans, kGrey), pathSeries("way", best.poses, kBlue)};
   addLoops(after, map, best.poses, kRed);
-  after.series.push_back(wayOf("library", library.poses, kBlack, true));
+  after.series.push_back(pathSeries("library", library.poses, kBlack, true));
   plot("after", after);
   plotCosts(best.costs, library.cost);
 
@@ -250,8 +239,9 @@ void showWrongLoops(const Walk& walk, PoseMap map) {
   const Poses robust = robustlyAdjusted(map);
   if (robust == map.poses) return nothingYet("wrong loops");
   Figure figure = planOf("The same with three wrong loops");
-  figure.series = {wayOf("truth", walk.truth, kGrey), wayOf("all loops trusted", adjusted(map).poses, kRed),
-                   wayOf("robust", robust, kBlue)};
+  figure.series = {pathSeries("truth", walk.truth, kGrey),
+                   pathSeries("all loops trusted", adjusted(map).poses, kRed),
+                   pathSeries("robust", robust, kBlue)};
   figure.series[0].size = 4;
   plot("wrongLoops", figure);
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <limits>
 #include <string>
@@ -38,17 +37,9 @@ Drive followed(const Plant& plant, const Law& law, const Eigen::VectorXd& start,
   return drive;
 }
 
-Series overTime(const std::string& label, const Eigen::MatrixXd& rows, int row, double tau) {
-  Series series{.label = label};
-  for (Eigen::Index t = 0; t < rows.cols(); ++t) series.add(tau * static_cast<double>(t), rows(row, t));
-  return series;
-}
-
 Eigen::MatrixXd regulatorOf(const Task& task, double tau) {
   return lqr({.A = task.plant.A, .B = task.plant.B, .step = tau}, task.costs.Q, task.costs.R).K;
 }
-
-void nothingYet(const char* what) { std::printf("Nothing to show yet for %s.\n", what); }
 
 // Parts 1 to 3 are needed for a plan that is more than zeros.
 bool plansSomething(const Task& task) {
@@ -146,12 +137,7 @@ void showBox() {
     return std::min(6., .5 * z.dot(cost.H * z) + cost.g.dot(z));
   };
   const auto point = [](const char* label, const Eigen::VectorXd& z, Marker marker) {
-    return Series{.label = label,
-                  .x = {z[0]},
-                  .y = {z[1]},
-                  .style = SeriesStyle::kPoints,
-                  .marker = marker,
-                  .size = 2.5};
+    return dots(z, {.label = label, .marker = marker, .size = 2.5});
   };
   Figure figure{.title = "A cost of two numbers, each between -1 and 1",
                 .xLabel = "z_1",
@@ -177,8 +163,8 @@ void showTrolley(const Task& task) {
   Figure control{.title = "Its controls", .xLabel = "time [s]", .yLabel = "u [m/s^2]"};
   const auto add = [&](const std::string& label, const Law& law) {
     const Drive drive = followed(task.plant, law, start, 120);
-    position.series.push_back(overTime(label, drive.X, 0, kTau));
-    control.series.push_back(overTime(label, drive.U, 0, kTau));
+    position.series.push_back(overTime(drive.X.row(0), kTau, {.label = label}));
+    control.series.push_back(overTime(drive.U.row(0), kTau, {.label = label}));
   };
   add("LQR, cut off", cutOff(task, regulatorOf(task, kTau)));
   for (const int N : {10, 40}) {
@@ -230,7 +216,7 @@ void showWall(const Task& task) {
                 .horizontalLines = {{.at = kWall, .label = "wall"}}};
   const auto add = [&](const std::string& label, const Law& law) {
     const Drive drive = followed(task.plant, law, Eigen::Vector2d(4, 0), 100);
-    figure.series.push_back(overTime(label, drive.X, 0, kTau));
+    figure.series.push_back(overTime(drive.X.row(0), kTau, {.label = label}));
   };
   add("no wall", planning(ahead));
   for (const int weight : {1, 10}) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdio>
 
 #include "course/mdp_figures.h"
 #include "learning/mdp.h"
@@ -10,8 +9,6 @@
 using namespace rex;
 
 namespace {
-
-void nothingYet(const char* what) { std::printf("Nothing to show yet for %s.\n", what); }
 
 // A step costs 1, a fall 100 and leads back to the start.
 GridWorld cliff() {

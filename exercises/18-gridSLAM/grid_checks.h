@@ -21,12 +21,8 @@ inline constexpr double kTurn = 2 * 3.14159265358979323846;
 inline rex::Figure figureOf(const std::string& title, const Grid& grid, double low, double high,
                             const std::string& colorLabel) {
   const Eigen::Index width = grid.values.rows(), height = grid.values.cols();
-  rex::Figure figure{.title = title,
-                     .xLabel = "x [m]",
-                     .yLabel = "y [m]",
-                     .colorLabel = colorLabel,
-                     .equalAxes = true,
-                     .colorRange = rex::AxisRange{low, high}};
+  rex::Figure figure =
+      rex::planeFigure({.title = title, .colorLabel = colorLabel, .colorRange = rex::AxisRange{low, high}});
   const Eigen::Vector2d end =
       grid.origin + grid.cell * Eigen::Vector2d(static_cast<double>(width), static_cast<double>(height));
   figure.heatMap = rex::HeatMap{.xRange = {grid.origin[0], end[0]},

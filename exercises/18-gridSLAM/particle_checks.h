@@ -33,14 +33,12 @@ inline void movesOnce(Check& check, Student& student) {
   const Eigen::MatrixXd ways = seenFrom(pose[2]);
   const Eigen::Vector3d mean = meanOf(ways), spread = spreadOf(ways);
   const auto shown = check.show([&] {
-    rex::Series cloud{.label = "moved", .style = rex::SeriesStyle::kPoints, .size = .5};
-    for (int k = 0; k < kCount; ++k) cloud.add(got(0, k), got(1, k));
     const double c = std::cos(pose[2]), s = std::sin(pose[2]);
     Eigen::Matrix2d R;
     R << c, -s, s, c;
-    rex::Figure figure{
-        .title = "poses after a motion", .xLabel = "x [m]", .yLabel = "y [m]", .equalAxes = true};
-    figure.series = {cloud, rex::grading::wrongPoint("before", pose[0], pose[1])};
+    rex::Figure figure = rex::planeFigure({.title = "poses after a motion"});
+    figure.series = {rex::through(got, {.label = "moved", .style = rex::SeriesStyle::kPoints, .size = .5}),
+                     rex::grading::wrongPoint("before", pose[0], pose[1])};
     figure.ellipses = {{.label = "wanted, 2 sigma",
                         .mean = pose.head<2>() + R * motion.head<2>(),
                         .covariance = R * deviations.head<2>().cwiseAbs2().asDiagonal() * R.transpose(),

@@ -17,20 +17,12 @@ namespace {
 
 constexpr int kParticles = 12;
 
-void nothingYet(const char* what) { std::printf("Nothing to show yet for %s.\n", what); }
-
 OccupancyMap drawable(const Grid& grid) {
   OccupancyMap map(static_cast<int>(grid.values.rows()), static_cast<int>(grid.values.cols()), grid.cell,
                    grid.origin);
   for (int i = 0; i < map.width(); ++i)
     for (int j = 0; j < map.height(); ++j) map.setLogOdds(i, j, grid.values(i, j));
   return map;
-}
-
-Eigen::Matrix2Xd pointsOf(const std::vector<Eigen::Vector3d>& path) {
-  Eigen::Matrix2Xd points(2, static_cast<Eigen::Index>(path.size()));
-  for (std::size_t t = 0; t < path.size(); ++t) points.col(static_cast<Eigen::Index>(t)) = path[t].head<2>();
-  return points;
 }
 
 // Where the rays of a scan end that hit something.
@@ -45,13 +37,6 @@ Eigen::Matrix2Xd endsOf(const Eigen::Vector3d& pose, const Scan& scan) {
   return ends.leftCols(count);
 }
 
-Series dots(const std::string& label, const Eigen::Matrix2Xd& points, const Color& color, double size = .6) {
-  Series series{
-      .label = label, .style = SeriesStyle::kPoints, .marker = Marker::kDot, .size = size, .color = color};
-  for (const auto& point : points.colwise()) series.add(point.x(), point.y());
-  return series;
-}
-
 HeatMap heatMapFrom(const Grid& grid) {
   const Eigen::Vector2d end =
       grid.origin + grid.cell * Eigen::Vector2d(static_cast<double>(grid.values.rows()),
@@ -62,8 +47,7 @@ HeatMap heatMapFrom(const Grid& grid) {
 }
 
 Figure seenFromAbove(const std::string& title) {
-  return {
-      .title = title, .xLabel = "x [m]", .yLabel = "y [m]", .equalAxes = true, .width = 700, .height = 600};
+  return planeFigure({.title = title, .width = 700, .height = 600});
 }
 
 // The map that scans draw if these are the poses.
@@ -91,10 +75,10 @@ void plotMap(const std::string& name, const std::string& title, const Office& of
                 pathError(path, office.path), overlap);
   plot(name, figureOf({.map = drawable(map),
                        .ways = {{.name = "true path",
-                                 .points = pointsOf(office.path),
+                                 .points = pathPoints(office.path),
                                  .color = kTruthColor,
                                  .dashed = true},
-                                {.name = label, .points = pointsOf(path), .color = kEstimateColor}},
+                                {.name = label, .points = pathPoints(path), .color = kEstimateColor}},
                        .caption = text}));
 }
 
@@ -127,7 +111,7 @@ void filmMapping(const Office& office, const Settings& settings) {
     for (int k = 0; k < kParticles; ++k) {
       const Particle& particle = particles[static_cast<std::size_t>(k)];
       view.particles.col(k) = particle.path.back();
-      view.ways.push_back({.points = pointsOf(particle.path), .color = kEstimateColor, .width = 1});
+      view.ways.push_back({.points = pathPoints(particle.path), .color = kEstimateColor, .width = 1});
     }
     if (t % 2 == 0) views.push_back(view);
     if (effectiveSize(weights) < settings.threshold * kParticles) particles = resampled(particles, rng);
@@ -164,8 +148,9 @@ void showFit(const Office& office) {
   Figure map = seenFromAbove("Distance from the nearest wall");
   map.colorLabel = "distance [m]";
   map.heatMap = heatMapFrom(distances);
-  map.series = {dots("a scan from its true pose", endsOf(pose, scan), kEstimateColor),
-                dots("from half a metre off", endsOf(off, scan), kDeadReckoningColor)};
+  map.series = {
+      dots(endsOf(pose, scan), {.label = "a scan from its true pose", .size = .6, .color = kEstimateColor}),
+      dots(endsOf(off, scan), {.label = "from half a metre off", .size = .6, .color = kDeadReckoningColor})};
   map.legend = Legend::kOutside;
   plot("distances", map);
   Grid around{pose.head<2>() - Eigen::Vector2d(.6, .6), .03, Eigen::MatrixXd(40, 40)};
@@ -177,7 +162,7 @@ void showFit(const Office& office) {
   hill.colorLabel = "fit";
   hill.heatMap = heatMapFrom(around);
   hill.heatMap->contours = 12;
-  hill.series = {dots("true pose", pose.head<2>(), kDeadReckoningColor, 2)};
+  hill.series = {dots(pose.head<2>(), {.label = "true pose", .size = 2, .color = kDeadReckoningColor})};
   plot("fit", hill);
 }
 
@@ -198,9 +183,9 @@ void showMatches(const Office& office) {
     figure.series.push_back(
         {.x = {from(0, k), to(0, k)}, .y = {from(1, k), to(1, k)}, .color = Color{.8f, .8f, .8f}});
   }
-  figure.series.push_back(dots("guesses", from, kDeadReckoningColor));
-  figure.series.push_back(dots("matches", to, kEstimateColor, .8));
-  figure.series.push_back(dots("true pose", pose.head<2>(), kTruthColor, 1.5));
+  figure.series.push_back(dots(from, {.label = "guesses", .size = .6, .color = kDeadReckoningColor}));
+  figure.series.push_back(dots(to, {.label = "matches", .size = .8, .color = kEstimateColor}));
+  figure.series.push_back(dots(pose.head<2>(), {.label = "true pose", .size = 1.5, .color = kTruthColor}));
   plot("matches", figure);
 }
 
@@ -251,8 +236,10 @@ void showAnywhere(const Office& office) {
   figure.colorLabel = "fit";
   figure.heatMap = heatMapFrom(best);
   figure.legend = Legend::kOutside;
-  figure.series = {dots("the scan, from located()", endsOf(found, scan), kDeadReckoningColor),
-                   dots("located()", found.head<2>(), kDeadReckoningColor, 2),
-                   dots("true position", office.path[30].head<2>(), kTruthColor, 1.2)};
+  figure.series = {
+      dots(endsOf(found, scan),
+           {.label = "the scan, from located()", .size = .6, .color = kDeadReckoningColor}),
+      dots(found.head<2>(), {.label = "located()", .size = 2, .color = kDeadReckoningColor}),
+      dots(office.path[30].head<2>(), {.label = "true position", .size = 1.2, .color = kTruthColor})};
   plot("anywhere", figure);
 }

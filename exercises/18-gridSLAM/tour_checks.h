@@ -56,8 +56,8 @@ inline void maps(Check& check, Student& student) {
   const auto shown = check.show([&] {
     Evidence evidence = gridsOf(truth, got.map.values.cwiseMax(-5).cwiseMin(5), truth.values, "log odds");
     for (rex::Figure& figure : evidence.figures)
-      figure.series = {rex::grading::through(tour.truth, rex::grading::wantedCurve("true path")),
-                       rex::grading::through(got.path, rex::grading::wrongCurve("got"))};
+      figure.series = {rex::through(tour.truth, rex::grading::wantedCurve("true path")),
+                       rex::through(got.path, rex::grading::wrongCurve("got"))};
     return evidence;
   });
   isDrawn(check, got, tour.log, settings.evidence);

@@ -13,12 +13,9 @@ Eigen::Vector2d randomPoint(rex::Rng& rng) { return {rng.uniform(-2, 2), rng.uni
 
 // What (1, 0) was turned into, beside what it should be.
 Evidence quarterTurn(const Eigen::Vector2d& q) {
-  return {.figures = {{.title = "A quarter turn of (1, 0)",
-                       .xLabel = "x [m]",
-                       .yLabel = "y [m]",
-                       .equalAxes = true,
-                       .series = {rex::grading::gotCurve("got", {0, q.x()}, {0, q.y()}),
-                                  rex::grading::wantedCurve("wanted", {0, 0}, {0, 1})}}}};
+  return {.figures = {rex::planeFigure({.title = "A quarter turn of (1, 0)",
+                                        .series = {rex::grading::gotCurve("got", {0, q.x()}, {0, q.y()}),
+                                                   rex::grading::wantedCurve("wanted", {0, 0}, {0, 1})}})}};
 }
 
 void turnsAQuarter(Check& check, Student& student) {

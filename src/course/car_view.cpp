@@ -14,6 +14,17 @@
 #include "estimation/gaussian.h"
 #include "render/figure.h"
 
+namespace rex {
+
+Eigen::Matrix2Xd pathPoints(const std::vector<Eigen::Vector3d>& poses) {
+  Eigen::Matrix2Xd points(2, static_cast<Eigen::Index>(poses.size()));
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    points.col(i) = poses[static_cast<std::size_t>(i)].head<2>();
+  return points;
+}
+
+}  // namespace rex
+
 namespace rex::internal {
 
 std::vector<ParticleGroup> particleGroups(const CarView& view) {
@@ -116,20 +127,10 @@ void requireDrawable(const CarView& view) {
 
 namespace {
 
-Series seriesOf(const std::string& label, const Eigen::Matrix2Xd& points, const Color& color,
-                SeriesStyle style = SeriesStyle::kLine) {
-  Series series{.label = label, .style = style, .color = color};
-  for (const auto& point : points.colwise()) series.add(point.x(), point.y());
-  return series;
-}
-
 void addDots(Figure& figure, const char* label, const Eigen::Matrix2Xd& points, const Color& color,
              Marker marker, double size) {
-  if (points.cols() == 0) return;
-  Series series = seriesOf(label, points, color, SeriesStyle::kPoints);
-  series.marker = marker;
-  series.size = size;
-  figure.series.push_back(std::move(series));
+  if (points.cols() > 0)
+    figure.series.push_back(dots(points, {.label = label, .marker = marker, .size = size, .color = color}));
 }
 
 void addParticles(Figure& figure, const CarView& view) {
@@ -141,10 +142,8 @@ void addParticles(Figure& figure, const CarView& view) {
     const double strength = groups[g].strength;
     const Color color{paled(kEstimateColor.r, strength), paled(kEstimateColor.g, strength),
                       paled(kEstimateColor.b, strength)};
-    Eigen::Matrix2Xd points(2, static_cast<Eigen::Index>(groups[g].poses.size()));
-    for (Eigen::Index i = 0; i < points.cols(); ++i)
-      points.col(i) = groups[g].poses[static_cast<std::size_t>(i)].head<2>();
-    addDots(figure, g + 1 == groups.size() ? "particles" : "", points, color, Marker::kDot, 0.5);
+    addDots(figure, g + 1 == groups.size() ? "particles" : "", pathPoints(groups[g].poses), color,
+            Marker::kDot, 0.5);
   }
 }
 
@@ -183,12 +182,7 @@ void addSightings(Figure& figure, const CarView& view) {
   if (view.sightings.cols() == 0) return;
   const Eigen::Vector3d& from = view.car ? *view.car : *view.estimate;
   Arrows arrows{.label = "seen now"};
-  for (const auto& place : view.sightings.colwise()) {
-    arrows.x.push_back(from.x());
-    arrows.y.push_back(from.y());
-    arrows.dx.push_back(place.x() - from.x());
-    arrows.dy.push_back(place.y() - from.y());
-  }
+  for (const auto& place : view.sightings.colwise()) arrows.add(from.head<2>(), place - from.head<2>());
   figure.arrows.push_back(std::move(arrows));
 }
 
@@ -196,13 +190,8 @@ void addSightings(Figure& figure, const CarView& view) {
 
 Figure figureOf(const CarView& view) {
   requireDrawable(view);
-  Figure figure{.title = view.caption,
-                .xLabel = "x [m]",
-                .yLabel = "y [m]",
-                .equalAxes = true,
-                .legend = Legend::kOutside,
-                .width = 900,
-                .height = 600};
+  Figure figure =
+      planeFigure({.title = view.caption, .legend = Legend::kOutside, .width = 900, .height = 600});
   std::ranges::replace(figure.title, '\n', ' ');
   if (view.map) {
     const Eigen::Matrix2d corners = internal::cornersOf(*view.map);
@@ -220,9 +209,9 @@ Figure figureOf(const CarView& view) {
   addParticles(figure, view);
   for (const Way& way : view.ways) {
     if (way.points.cols() == 0) continue;
-    figure.series.push_back(seriesOf(way.name, way.points, way.color));
-    figure.series.back().dashed = way.dashed;
-    figure.series.back().size = way.width / Way().width;
+    figure.series.push_back(through(
+        way.points,
+        {.label = way.name, .size = way.width / Way().width, .dashed = way.dashed, .color = way.color}));
   }
   addDots(figure, "landmarks", view.landmarks, kLandmarkColor, Marker::kTriangle, 1.5);
   return figure;

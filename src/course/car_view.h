@@ -24,6 +24,9 @@ struct PlanarGaussian {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();
 };
 
+/// The positions of poses (x, y, heading), one in each column.
+[[nodiscard]] Eigen::Matrix2Xd pathPoints(const std::vector<Eigen::Vector3d>& poses);
+
 /// A line through points in the plane, such as the path of a car. The legend shows its name.
 struct Way {
   std::string name{};         ///< empty: not in the legend

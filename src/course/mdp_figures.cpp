@@ -91,10 +91,8 @@ Figure policyFigure(const GridWorld& world, const Eigen::VectorXd& values, const
     for (int a = 0; a < 4; ++a) {
       const double length = kArrow * policy(static_cast<Eigen::Index>(s), a);
       if (length < .02) continue;
-      arrows.x.push_back(world.cells[s][0]);
-      arrows.y.push_back(world.cells[s][1]);
-      arrows.dx.push_back(length * (a == 1 ? 1 : a == 3 ? -1 : 0));
-      arrows.dy.push_back(length * (a == 0 ? 1 : a == 2 ? -1 : 0));
+      const Eigen::Vector2d ways[] = {{0, 1}, {1, 0}, {0, -1}, {-1, 0}};
+      arrows.add({1. * world.cells[s][0], 1. * world.cells[s][1]}, length * ways[a]);
     }
   }
   if (!arrows.x.empty()) figure.arrows.push_back(arrows);

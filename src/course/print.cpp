@@ -64,6 +64,8 @@ void print(const std::string& name, const std::vector<Eigen::VectorXd>& values) 
   for (std::size_t i = 0; i < values.size(); ++i) print(fmt::format("{}[{}]", name, i), values[i]);
 }
 
+void nothingYet(const std::string& what) { fmt::print("Nothing to show yet for {}.\n", what); }
+
 void plot(const std::string& name, const Figure& figure) {
   writeFigure(figure, name + ".png");
   writeFigure(figure, name + ".svg");

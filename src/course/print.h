@@ -21,6 +21,9 @@ void print(const std::string& name, const std::vector<Eigen::VectorXd>& values);
 /// The text that print() writes for lines of `width` characters.
 [[nodiscard]] std::string formatMatrix(const std::string& name, const Eigen::MatrixXd& value, int width = 80);
 
+/// Prints that there is nothing to show yet for `what`.
+void nothingYet(const std::string& what);
+
 /// Draws a figure into NAME.png and NAME.svg. Throws as writeFigure (render/figure.h).
 void plot(const std::string& name, const Figure& figure);
 

@@ -12,7 +12,6 @@
 #include "course/film.h"
 #include "formats/scene_file.h"
 #include "locomotion/walking_pattern.h"
-#include "render/picture.h"
 
 namespace rex {
 namespace {
@@ -117,10 +116,7 @@ CourseHumanoid courseHumanoid(const std::vector<ShapeSpec>& floor) {
 
 Figure footprintFigure(const WalkPlan& plan) {
   static_cast<void>(duration(plan));  // throws if the plan is not valid
-  Figure figure;
-  figure.xLabel = "x [m]";
-  figure.yLabel = "y [m]";
-  figure.equalAxes = true;
+  Figure figure = planeFigure({});
   for (const Footstep& foot : plan.footsteps) {
     const Eigen::Vector2d along(std::cos(foot.yaw), std::sin(foot.yaw)), left(-along.y(), along.x());
     Region sole;

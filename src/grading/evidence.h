@@ -23,16 +23,6 @@ inline constexpr Color kGotColor{0.0f, 0.45f, 0.7f}, kWantedColor{0.20f, 0.22f, 
 /// A ring around a point where something went wrong.
 [[nodiscard]] Series wrongPoint(std::string label, double x, double y);
 
-/// A curve through points of the plane, or through the first two numbers of poses.
-template <class Points>
-[[nodiscard]] Series through(const Points& points, Series curve) {
-  for (const auto& point : points) {
-    curve.x.push_back(point[0]);
-    curve.y.push_back(point[1]);
-  }
-  return curve;
-}
-
 /// A vertical line where a motion goes wrong.
 [[nodiscard]] Guide wrongFrom(double time);
 

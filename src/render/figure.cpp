@@ -39,6 +39,13 @@ std::string drawFigure(const Figure& figure, const std::string& terminal, const 
 
 }  // namespace
 
+Figure planeFigure(Figure figure) {
+  figure.xLabel = "x [m]";
+  figure.yLabel = "y [m]";
+  figure.equalAxes = true;
+  return figure;
+}
+
 void writeFigure(const Figure& figure, const std::string& path) {
   internal::writeWhole(path, drawFigure(figure, terminalFor(path), path));
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <utility>
@@ -90,6 +91,13 @@ struct Arrows {
   std::vector<double> dx{};
   std::vector<double> dy{};
   std::optional<Color> color{};  ///< otherwise grey
+
+  void add(const Eigen::Vector2d& from, const Eigen::Vector2d& along) {
+    x.push_back(from.x());
+    y.push_back(from.y());
+    dx.push_back(along.x());
+    dy.push_back(along.y());
+  }
 };
 
 /// Values as colours: a rectangle of equal cells, row 0 at the low end of y, column 0 at the low end of x.
@@ -160,6 +168,55 @@ struct Figure {
   int width = 800;  ///< pixels, 100 to 8192
   int height = 500;
 };
+
+/// The figure with x and y in metres, in one scale.
+[[nodiscard]] Figure planeFigure(Figure figure);
+
+namespace internal {
+
+// Adds the first two entries of each element of a list, or of each column of a matrix.
+template <class Layer, class Points>
+[[nodiscard]] Layer withPoints(Layer layer, const Points& points) {
+  const auto add = [&](const auto& point) { layer.add(point[0], point[1]); };
+  if constexpr (requires { points.colwise(); })
+    for (const auto& point : points.colwise()) add(point);
+  else
+    for (const auto& point : points) add(point);
+  return layer;
+}
+
+}  // namespace internal
+
+/// A curve through points in the plane, or through the positions of poses (x, y, heading): the columns of a
+/// matrix, a list of vectors, or one vector. `curve` says how it looks, and may have points already.
+template <class Points>
+[[nodiscard]] Series through(const Points& points, Series curve = {}) {
+  return internal::withPoints(std::move(curve), points);
+}
+[[nodiscard]] inline Series through(std::initializer_list<Eigen::Vector2d> points, Series curve = {}) {
+  return internal::withPoints(std::move(curve), points);
+}
+
+/// The same as points without a line, dots unless `look` has another marker.
+template <class Points>
+[[nodiscard]] Series dots(const Points& points, Series look = {}) {
+  look.style = SeriesStyle::kPoints;
+  if (look.marker == Marker::kAuto) look.marker = Marker::kDot;
+  return through(points, std::move(look));
+}
+
+/// The inside of the polygon with these corners.
+template <class Points>
+[[nodiscard]] Region within(const Points& corners, Region look = {}) {
+  return internal::withPoints(std::move(look), corners);
+}
+
+/// Values at 0, step, 2 step, ... seconds: a list, or a row or column of a matrix.
+template <class Values>
+[[nodiscard]] Series overTime(const Values& values, double step, Series curve = {}) {
+  for (const double value : values) curve.add(step * static_cast<double>(curve.y.size()), value);
+  return curve;
+}
 
 /// Draws the figure with gnuplot into a .png or .svg file, which appears whole or not at all. Throws Error
 /// naming the figure and the layer if an axis has no label, there is nothing to draw, sizes differ, a

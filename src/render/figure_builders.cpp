@@ -98,10 +98,7 @@ Arrows arrowsOf(const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& f,
       const Eigen::Vector2d inCells = f(p).cwiseQuotient(cell);
       if (inCells.isZero(0)) continue;
       const Eigen::Vector2d d = 0.7 * inCells.stableNormalized().cwiseProduct(cell);
-      arrows.x.push_back(p.x() - d.x() / 2);
-      arrows.y.push_back(p.y() - d.y() / 2);
-      arrows.dx.push_back(d.x());
-      arrows.dy.push_back(d.y());
+      arrows.add(p - d / 2, d);
     }
   return arrows;
 }

@@ -47,30 +47,16 @@ Eigen::Matrix2Xd landmarksOf(const SpatialPoseGraph&) { return Eigen::Matrix2Xd(
 std::size_t sightingsOf(const PlanarPoseGraph& graph) { return graph.sightings.size(); }
 std::size_t sightingsOf(const SpatialPoseGraph&) { return 0; }
 
-Series lineThrough(const Eigen::Matrix2Xd& positions) {
-  Series line;
-  for (const auto& position : positions.colwise()) line.add(position[0], position[1]);
-  return line;
-}
-
 void writePlot(const SlamOptions& options, const Eigen::Matrix2Xd& before, const Eigen::Matrix2Xd& after,
                const Eigen::Matrix2Xd& landmarks) {
-  Figure figure{.title = fmt::format("{}: before and after", options.file.filename().string()),
-                .xLabel = "x [m]",
-                .yLabel = "y [m]",
-                .equalAxes = true,
-                .legend = Legend::kOutside};
-  figure.series = {lineThrough(before), lineThrough(after)};
-  figure.series[0].label = "before";
-  figure.series[0].dashed = true;
-  figure.series[1].label = "after";
-  if (landmarks.cols() > 0) {
-    Series& points = figure.series.emplace_back(lineThrough(landmarks));
-    points.label = "landmarks";
-    points.style = SeriesStyle::kPoints;
-  }
-  figure.width = 900;
-  figure.height = 700;
+  Figure figure = planeFigure(
+      {.title = fmt::format("{}: before and after", options.file.filename().string()),
+       .legend = Legend::kOutside,
+       .series = {through(before, {.label = "before", .dashed = true}), through(after, {.label = "after"})},
+       .width = 900,
+       .height = 700});
+  if (landmarks.cols() > 0)
+    figure.series.push_back(through(landmarks, {.label = "landmarks", .style = SeriesStyle::kPoints}));
   writeFigure(figure, options.plot);
   if (!options.json) say(fmt::format("wrote {}", options.plot.string()));
 }
