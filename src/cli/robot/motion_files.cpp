@@ -152,13 +152,13 @@ BodyId tracedBody(const Model& model, const std::string& name) {
 MotionPictures::MotionPictures(const Model& model, const Motion& motion,
                                const std::vector<std::size_t>& shown, const std::vector<std::string>& traces,
                                std::string caption)
-    : model_(model), motion_(motion), shown_(shown), ways_(traces.size()), caption_(std::move(caption)) {
+    : model_(model), motion_(motion), shown_(shown), traces_(traces.size()), caption_(std::move(caption)) {
   std::vector<BodyId> traced;
   for (const std::string& name : traces) traced.push_back(tracedBody(model_, name));
   if (!traced.empty()) {
     for (const Eigen::VectorXd& q : motion_.postures) {
       const BodyPoses poses = forwardKinematics(model_, q);
-      for (std::size_t k = 0; k < traced.size(); ++k) ways_[k].push_back(poses[traced[k]].p);
+      for (std::size_t k = 0; k < traced.size(); ++k) traces_[k].push_back(poses[traced[k]].p);
     }
   }
   double lowest = 0;
@@ -171,8 +171,8 @@ MotionPictures::MotionPictures(const Model& model, const Motion& motion,
     bounds_.include(box.high);
   }
   ground_ = groundHeight(model_, forwardKinematics(model_, model_.initialPositions())).value_or(lowest);
-  for (const auto& way : ways_)
-    for (const Eigen::Vector3d& point : way) bounds_.include(point);
+  for (const auto& trace : traces_)
+    for (const Eigen::Vector3d& point : trace) bounds_.include(point);
 }
 
 // Not by scenePicture(): it visits every vertex to find the height of the ground, which is known here.
@@ -186,9 +186,9 @@ Picture MotionPictures::picture(std::size_t i) const {
   picture.ground.scene = bounds_;
   if (!caption_.empty()) picture.captions.push_back({.text = caption_});
   if (shown_[i] == 0) return picture;
-  for (const auto& way : ways_)
+  for (const auto& trace : traces_)
     picture.polylines.push_back(
-        {.points = {way.begin(), way.begin() + static_cast<std::ptrdiff_t>(shown_[i]) + 1}});
+        {.points = {trace.begin(), trace.begin() + static_cast<std::ptrdiff_t>(shown_[i]) + 1}});
   return picture;
 }
 
@@ -215,8 +215,8 @@ void requireFilmable(const Model& model) {
   throw UsageError({.what = model.name(), .found = "no shape that a film can show", .wanted = "--no-film"});
 }
 
-std::filesystem::path writeFilm(const MotionPictures& pictures, const RenderPlan& plan,
-                                std::filesystem::path out) {
+std::filesystem::path writeMotionFilm(const MotionPictures& pictures, const RenderPlan& plan,
+                                      std::filesystem::path out) {
   constexpr std::size_t kTurn = 120;  // frames
   const bool isWalk = pictures.size() == 1;
   const std::size_t count = isWalk ? kTurn : pictures.size();
@@ -287,7 +287,7 @@ std::vector<fs::path> writeFilmAndReplay(const Model& model, const Motion& motio
   std::vector<std::size_t> frames(motion.postures.size());
   std::iota(frames.begin(), frames.end(), std::size_t{0});
   const MotionPictures shots(model, motion, frames, {model[body].name}, report.title);
-  const fs::path film = writeFilm(shots, pictures, fs::path(stem).concat(".mp4"));
+  const fs::path film = writeMotionFilm(shots, pictures, fs::path(stem).concat(".mp4"));
   report.film = shots.film();
   for (Frame& frame : report.film) frame.time /= speed;
   if (speed != 1) report.facts.emplace_back("speed of the replay", fmt::format("{:g}", speed));

@@ -73,7 +73,7 @@ class MotionPictures {
   Model model_;
   Motion motion_;
   std::vector<std::size_t> shown_;
-  std::vector<std::vector<Eigen::Vector3d>> ways_;
+  std::vector<std::vector<Eigen::Vector3d>> traces_;
   std::string caption_;
   Bounds bounds_;
   double ground_ = 0;
@@ -87,8 +87,8 @@ void requireFilmable(const Model& model);
 /// Draws the pictures according to the plan into the film `out` or, without ffmpeg, into a folder of frames
 /// next to it, and returns its path. A single picture becomes a walk around the scene. Nothing is created
 /// until something is visible. Throws like Studio and makeFrameSink().
-std::filesystem::path writeFilm(const MotionPictures& pictures, const RenderPlan& plan,
-                                std::filesystem::path out);
+std::filesystem::path writeMotionFilm(const MotionPictures& pictures, const RenderPlan& plan,
+                                      std::filesystem::path out);
 
 /// The longest duration of a film, seconds.
 inline constexpr double kLongestFilm = 120;
@@ -108,8 +108,8 @@ void makeResultFolder(const std::filesystem::path& folder, std::initializer_list
 
 /// Writes STEM.mp4 (or a folder STEM of frames), the film of a motion with the replay's title and the trace
 /// of `body`, and STEM.html, the replay, which is `report` with that film. Both play `speed` times as fast
-/// as the motion, whose postures are speed / kFilmRate seconds apart. Returns both. Throws like writeFilm()
-/// and writeReport().
+/// as the motion, whose postures are speed / kFilmRate seconds apart. Returns both. Throws like
+/// writeMotionFilm() and writeReport().
 [[nodiscard]] std::vector<std::filesystem::path> writeFilmAndReplay(const Model& model, const Motion& motion,
                                                                     BodyId body, Report report,
                                                                     const RenderPlan& pictures,

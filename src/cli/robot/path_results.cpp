@@ -85,7 +85,7 @@ std::string quoted(const std::string& name) {
 
 }  // namespace
 
-Motion motionOf(const TimedPath& timed, double rate) {
+Motion sampledMotion(const TimedPath& timed, double rate) {
   const double end = timed.duration();
   const auto count = static_cast<std::size_t>(std::ceil(end * rate - 1e-9));
   Motion motion;
@@ -160,7 +160,7 @@ LineSet linesOf(const Model& model, const Space& space, BodyId body, const PathG
   return lines;
 }
 
-Polyline wayOf(const Model& model, const Space& space, BodyId body, const MatrixArg& path) {
+Polyline bodyPath(const Model& model, const Space& space, BodyId body, const MatrixArg& path) {
   constexpr double kFine = 0.03, kMostPieces = 60'000;
   const double piece = std::max(kFine, pathLength(space, path) / kMostPieces);
   Polyline way{.color = kPathColor, .width = 5};
@@ -208,7 +208,7 @@ Picture exploredPicture(const PathTask& task, BodyId body, const FoundPath& foun
     picture.lineSets.back().color = kGraphColors[i % kGraphColors.size()];
     picture.lineSets.back().color.a = opacityOf(found.explored[i].edges.size());
   }
-  if (found.isFound()) picture.polylines.push_back(wayOf(model, problem.space, body, found.path));
+  if (found.isFound()) picture.polylines.push_back(bodyPath(model, problem.space, body, found.path));
   Eigen::MatrixXd ends(problem.start.size(), 2);
   ends << problem.start, problem.goal;
   picture.pointSets.push_back({.points = placesOf(model, body, ends), .color = kPathColor, .size = 11});
@@ -294,7 +294,7 @@ Report replayOf(const PathTask& task, const PlanOptions& options, const FoundPat
 std::string tableOf(const Model& model, const TimedPath& timed) {
   constexpr double kRate = 100, kMostRows = 1e6;
   const double rate = std::min(kRate, kMostRows / std::max(timed.duration(), 1.));
-  return csvOf(model, motionOf(timed, rate));
+  return csvOf(model, sampledMotion(timed, rate));
 }
 
 // Writes the film and the replay.
@@ -302,7 +302,7 @@ std::vector<fs::path> writeMotion(const PathTask& task, const PlanOptions& optio
                                   const RenderPlan& pictures, BodyId body, const FoundPath& found,
                                   const PathTiming& timing) {
   const double speed = filmSpeed(options.speed, timing.result.motion.duration());
-  const Motion motion = motionOf(timing.result.motion, kFilmRate / speed);
+  const Motion motion = sampledMotion(timing.result.motion, kFilmRate / speed);
   return writeFilmAndReplay(task.model, motion, body, replayOf(task, options, found, timing, motion),
                             pictures, options.out / "path", speed);
 }

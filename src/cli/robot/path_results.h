@@ -34,7 +34,7 @@ struct PathTiming {
 [[nodiscard]] std::string limitsTextOf(const PathTiming& timing, const PlanOptions& options);
 
 /// Postures of a motion, `rate` per second, and its end, so that the last interval may be shorter.
-[[nodiscard]] Motion motionOf(const TimedPath& timed, double rate);
+[[nodiscard]] Motion sampledMotion(const TimedPath& timed, double rate);
 
 /// The motion as a table: "time", then the joints by name, separated by commas; a motion for readMotion().
 [[nodiscard]] std::string csvOf(const Model& model, const Motion& motion);

@@ -80,7 +80,7 @@ struct Parking {
 [[nodiscard]] Parking parked(const PathTask& task, const Car& car, const HybridAStarOptions& search);
 
 /// The drive at 1 m/s, `rate` postures per second, and its end. There must be a path.
-[[nodiscard]] Motion motionOf(const Parking& parking, double rate);
+[[nodiscard]] Motion parkingMotion(const Parking& parking, double rate);
 
 /// What was explored, and the path, as exploredPicture() shows them.
 [[nodiscard]] Picture parkingPicture(const PathTask& task, const Parking& parking);

@@ -79,11 +79,11 @@ Parking parked(const PathTask& task, const Car& car, const HybridAStarOptions& s
   // From pose to pose it drives 1 cm, whose chord is within 0.02 mm of it unless it turns on the spot.
   const Space straight = Space::box(Eigen::Vector3d::Constant(-1e9), Eigen::Vector3d::Constant(1e9));
   parking.clearance = pathClearance(task.model, task.contacts, straight,
-                                    posesOf(motionOf(parking, kPosesPerSecond)), kClearanceTolerance);
+                                    posesOf(parkingMotion(parking, kPosesPerSecond)), kClearanceTolerance);
   return parking;
 }
 
-Motion motionOf(const Parking& parking, double rate) {
+Motion parkingMotion(const Parking& parking, double rate) {
   const ControlPath& driven = parking.path.driven;
   Motion motion;
   double begin = 0;  // of the control
@@ -104,7 +104,7 @@ Motion motionOf(const Parking& parking, double rate) {
 
 Picture parkingPicture(const PathTask& task, const Parking& parking) {
   FoundPath seen{.explored = {exploredBy(parking)}};
-  if (parking.isFound()) seen.path = posesOf(motionOf(parking, kPosesPerSecond));
+  if (parking.isFound()) seen.path = posesOf(parkingMotion(parking, kPosesPerSecond));
   return exploredPicture(task, farthestBody(task.model), seen);
 }
 
@@ -161,11 +161,11 @@ std::vector<std::string> writeFiles(const PathTask& task, const Parking& parking
   if (parking.isFound()) {
     files.push_back(options.out / "path.csv");
     constexpr double kRate = 100;
-    writeTextFile(files.back(), csvOf(task.model, motionOf(parking, kRate)));
+    writeTextFile(files.back(), csvOf(task.model, parkingMotion(parking, kRate)));
   }
   if (parking.isFound() && !options.noFilm) {
     const double speed = filmSpeed(options.speed, parking.path.length);
-    const Motion motion = motionOf(parking, kFilmRate / speed);
+    const Motion motion = parkingMotion(parking, kFilmRate / speed);
     for (const fs::path& file : writeFilmAndReplay(task.model, motion, farthestBody(task.model),
                                                    replayOf(task, parking, options, title, motion), pictures,
                                                    options.out / "path", speed))

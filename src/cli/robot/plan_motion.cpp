@@ -130,7 +130,7 @@ TrajectoryTask motionTaskOf(Model model, const PlanOptions& options) {
   return task;
 }
 
-Motion motionOf(const FoundTrajectory& found) {
+Motion trajectoryMotion(const FoundTrajectory& found) {
   Motion motion;
   for (Eigen::Index k = 0; k < found.path.cols(); ++k) {
     motion.times.push_back(static_cast<double>(k) * found.tau);
@@ -196,7 +196,7 @@ std::vector<std::string> writeFiles(const TrajectoryTask& task, const PlanOption
                                     const RenderPlan& pictures, const FoundTrajectory& found) {
   std::vector<fs::path> files{options.out / "costs.png", options.out / "path.csv"};
   writeFigure(costFigure(found), files.front());
-  writeTextFile(files.back(), csvOf(task.model, motionOf(found)));
+  writeTextFile(files.back(), csvOf(task.model, trajectoryMotion(found)));
   if (!options.noFilm) {
     const double speed = filmSpeed(options.speed, task.seconds);
     const Motion film = filmOf(found, kFilmRate / speed);

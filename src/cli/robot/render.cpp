@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Motion motionOf(const Model& model, const RenderOptions& options, double seconds) {
+Motion motionToDraw(const Model& model, const RenderOptions& options, double seconds) {
   if (!options.motion.empty()) return readMotion(model, options.motion, kFilmRate);
   std::vector<Eigen::VectorXd> keys;
   for (const std::string& text : options.postures) keys.push_back(parsePosture(model, text));
@@ -78,7 +78,7 @@ ExitCode render(const Project& project, const RenderOptions& options) {
   const RenderPlan plan = planOf(options, facing);
   const Model model = loadScene(project, options.scene);
   const MotionPictures pictures =
-      picturesOf(model, motionOf(model, options, plan.seconds), options, plan.product);
+      picturesOf(model, motionToDraw(model, options, plan.seconds), options, plan.product);
   if (pictures.bounds().isEmpty())
     throw UsageError({.what = model.name(), .found = "no shape to draw", .wanted = "a scene with shapes"});
   asWrongUse([&] { makeOutPlace(options.out); });
@@ -88,7 +88,7 @@ ExitCode render(const Project& project, const RenderOptions& options) {
       writeStill(pictures, plan, options.out);
       break;
     case Product::kFilm:
-      written = writeFilm(pictures, plan, options.out);
+      written = writeMotionFilm(pictures, plan, options.out);
       break;
     case Product::kModel:
       throwIfInterrupted();

@@ -395,8 +395,8 @@ ExitCode simulateScene(const Project& project, const SimulateOptions& options) {
       files.push_back(shown(options.out / name));
     }
     if (!options.noFilm)
-      files.push_back(shown(writeFilm(motionPicturesOf(model, record.motion(), options, title), film,
-                                      options.out / "simulate.mp4")));
+      files.push_back(shown(writeMotionFilm(motionPicturesOf(model, record.motion(), options, title), film,
+                                            options.out / "simulate.mp4")));
   }
   report(model, plan, record, overlaps, options, files, gain);
   if (!gain) return ExitCode::kFull;

@@ -56,7 +56,7 @@ ViewFilm::Drawn ViewFilm::drawn(const std::string& table) const {
   std::vector<std::size_t> shown(moved.postures.size());
   std::iota(shown.begin(), shown.end(), std::size_t{0});
   const std::filesystem::path written =
-      writeFilm({model_, moved, shown, {}, ""}, planOf({.motion = motion, .out = out}, facing_), out);
+      writeMotionFilm({model_, moved, shown, {}, ""}, planOf({.motion = motion, .out = out}, facing_), out);
   if (written != out)
     return {.text = "There is no ffmpeg here to make films (apt-get install ffmpeg). The replay needs none."};
   return {.text = "The film is ready: film.mp4, below \"Record\".", .bytes = readTextFile(out)};

@@ -134,7 +134,7 @@ TEST(PathMotion, HasEvenTimesAndTheEnd) {
   const TimedPath timed = aroundACorner();
   ASSERT_NEAR(timed.duration(), 3.5 + 2 * .5, .01);
   for (const double rate : {4., 30., 1 / timed.duration()}) {
-    const Motion motion = motionOf(timed, rate);
+    const Motion motion = sampledMotion(timed, rate);
     ASSERT_EQ(motion.times.size(), motion.postures.size());
     EXPECT_EQ(motion.times.size(), static_cast<std::size_t>(std::ceil(timed.duration() * rate - 1e-9)) + 1);
     EXPECT_EQ(motion.times.back(), timed.duration());
@@ -150,7 +150,7 @@ TEST(PathMotion, HasEvenTimesAndTheEnd) {
 
 TEST(PathMotion, RestsWhereNothingMoves) {
   const TimedPath rest({.start = Eigen::Vector2d(1, 1)}, {}, {});
-  const Motion motion = motionOf(rest, 30);
+  const Motion motion = sampledMotion(rest, 30);
   EXPECT_EQ(motion.times, std::vector<double>{0});
   EXPECT_EQ(motion.postures[0], Eigen::Vector2d(1, 1));
 }
