@@ -51,10 +51,10 @@ inline rex::grading::Evidence trackSeen(const CarWorld& world, const Driven& dri
   const double moment = film[static_cast<std::size_t>(lost - value.y.begin())].time;
   const rex::Figure map =
       rex::figureOf({.landmarks = world.landmarks,
-                     .ways = {{.name = "wanted: the car", .points = rex::pathPoints(driven.truth)},
-                              {.name = "got: the estimate",
-                               .points = rex::pathPoints(record.means),
-                               .color = rex::kEstimateColor}},
+                     .paths = {{.name = "wanted: the car", .points = rex::pathPoints(driven.truth)},
+                               {.name = "got: the estimate",
+                                .points = rex::pathPoints(record.means),
+                                .color = rex::kEstimateColor}},
                      .caption = "The car and its estimate"});
   rex::Figure values{
       .title = course.title, .xLabel = "time [s]", .yLabel = "difference " + course.unit, .series = {value}};

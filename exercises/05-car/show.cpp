@@ -68,7 +68,7 @@ Eigen::MatrixXd meansOfTheLibrary(const DriveLog& log, const CarWorld& world) {
 
 // The clouds of every 60th step on one map.
 void plotMap(const std::string& name, const std::string& title, const std::vector<Cloud>& clouds,
-             const std::vector<Way>& ways, const CarWorld& world) {
+             const std::vector<DrawnPath>& paths, const CarWorld& world) {
   Eigen::Matrix3Xd particles(3, 500);
   std::vector<double> steps;
   for (int k = 0; k < 5; ++k) {
@@ -76,7 +76,7 @@ void plotMap(const std::string& name, const std::string& title, const std::vecto
     steps.insert(steps.end(), 100, 60 * k + 60);
   }
   Figure map =
-      figureOf({.landmarks = world.landmarks, .particles = particles, .ways = ways, .caption = title});
+      figureOf({.landmarks = world.landmarks, .particles = particles, .paths = paths, .caption = title});
   for (Series& series : map.series)
     if (series.label == "particles") series.values = steps;
   map.colorLabel = "step";
@@ -88,15 +88,15 @@ void plotMap(const std::string& name, const std::string& title, const std::vecto
 }
 
 void film(const std::string& name, const std::string& caption, const std::vector<Cloud>& clouds,
-          const std::vector<Way>& ways, const CarWorld& world, const Eigen::MatrixXd& truth) {
+          const std::vector<DrawnPath>& paths, const CarWorld& world, const Eigen::MatrixXd& truth) {
   std::vector<CarView> views;
   for (int t = 0; t < kSteps; t += 3) {
     CarView view{.car = truth.col(t),
                  .landmarks = world.landmarks,
                  .particles = clouds[static_cast<std::size_t>(t)].states,
-                 .ways = ways,
+                 .paths = paths,
                  .caption = caption + ", step " + std::to_string(t)};
-    for (Way& way : view.ways) way.points.conservativeResize(2, t + 1);
+    for (DrawnPath& path : view.paths) path.points.conservativeResize(2, t + 1);
     views.push_back(view);
   }
   writeFilm(carFilm(views, 3), name, {.view = kFromAbove, .speed = 30});
@@ -166,11 +166,11 @@ RecordedDrive recordDrive(const CarWorld& world, const Eigen::Vector2d& u) {
 }
 
 void showDeadReckoning(const std::vector<Cloud>& blind, const RecordedDrive& drive, const CarWorld& world) {
-  const std::vector<Way> ways = {
+  const std::vector<DrawnPath> paths = {
       {.name = "car", .points = drive.truth.topRows(2), .color = kTruthColor},
       {.name = "mean of the particles", .points = plainMeans(blind), .color = kDeadReckoningColor}};
-  plotMap("dead_reckoning", "Dead reckoning: the particles of every 60th step", blind, ways, world);
-  film("dead_reckoning", "dead reckoning", blind, ways, world, drive.truth);
+  plotMap("dead_reckoning", "Dead reckoning: the particles of every 60th step", blind, paths, world);
+  film("dead_reckoning", "dead reckoning", blind, paths, world, drive.truth);
 }
 
 void showLikelihood(int step, const RecordedDrive& drive, const CarWorld& world) {
@@ -219,7 +219,7 @@ void showChildren(const Eigen::VectorXd& weights, int count) {
 void showFilter(const std::vector<Cloud>& clouds, const std::vector<Cloud>& blind, const RecordedDrive& drive,
                 const CarWorld& world) {
   const Eigen::MatrixXd reckoned = plainMeans(blind), means = meansOf(clouds);
-  const Way car{.name = "car", .points = drive.truth.topRows(2), .color = kTruthColor};
+  const DrawnPath car{.name = "car", .points = drive.truth.topRows(2), .color = kTruthColor};
   plotMap("filter", "Particle filter: the particles of every 60th step", clouds,
           {car, {.name = "mean of the particles", .points = means.topRows(2), .color = kEstimateColor}},
           world);

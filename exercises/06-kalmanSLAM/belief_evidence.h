@@ -36,7 +36,7 @@ inline rex::Figure mapSeen(const CarRun& run, const Belief& joint) {
                      .estimate = joint.mean.head<3>(),
                      .landmarks = run.landmarks,
                      .landmarkBeliefs = landmarksOf(joint),
-                     .ways = {{.name = "wanted: the car", .points = rex::pathPoints(run.states)}}});
+                     .paths = {{.name = "wanted: the car", .points = rex::pathPoints(run.states)}}});
   figure.title = "A map: ellipses (got) and true positions (wanted)";
   return figure;
 }

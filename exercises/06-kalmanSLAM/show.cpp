@@ -135,10 +135,10 @@ CarView viewAt(const RecordedDrive& drive, const Mapping& mapping, std::size_t t
   view.poseBeliefs = {planar(joint, 0)};
   for (Eigen::Index i = 3; i < joint.mean.size(); i += 2) view.landmarkBeliefs.push_back(planar(joint, i));
   const auto count = static_cast<Eigen::Index>(t) + 1;
-  view.ways = {{.name = "true path", .points = pathPoints(drive.states).leftCols(count)},
-               {.name = "estimate",
-                .points = pathPoints(meansOf(mapping.joints)).leftCols(count),
-                .color = kEstimateColor}};
+  view.paths = {{.name = "true path", .points = pathPoints(drive.states).leftCols(count)},
+                {.name = "estimate",
+                 .points = pathPoints(meansOf(mapping.joints)).leftCols(count),
+                 .color = kEstimateColor}};
   return view;
 }
 
@@ -243,7 +243,7 @@ Figure particleFigure(const RecordedDrive& drive, const std::vector<MapParticle>
   view.caption = "FastSLAM: 100 particles, each with its map";
   view.car = drive.states.back();
   view.landmarks = drive.landmarks;
-  view.ways = {{.name = "true path", .points = pathPoints(drive.states)}};
+  view.paths = {{.name = "true path", .points = pathPoints(drive.states)}};
   view.particles.resize(3, static_cast<Eigen::Index>(particles.size()));
   Series maps{.label = "landmarks in their maps", .style = SeriesStyle::kPoints};
   maps.marker = Marker::kDot;
@@ -328,8 +328,8 @@ void showSteps(const CarSetup& car, const RecordedDrive& drive) {
   for (const Eigen::Vector2d& u : drive.controls) states.push_back(stepped(car, states.back(), u));
   CarView overview;
   overview.landmarks = drive.landmarks;
-  overview.ways = {{.name = "true path", .points = pathPoints(drive.states)},
-                   {"without noise", pathPoints(states), kEstimateColor, true}};
+  overview.paths = {{.name = "true path", .points = pathPoints(drive.states)},
+                    {"without noise", pathPoints(states), kEstimateColor, true}};
   Figure above = figureOf(overview);
   above.title = "Where the controls lead without noise, with your step";
   plot("steps", above);
@@ -339,9 +339,9 @@ void showTracking(const RecordedDrive& drive, const std::vector<Belief>& run,
                   const std::vector<Belief>& blind) {
   CarView overview;
   overview.landmarks = drive.landmarks;
-  overview.ways = {{.name = "true path", .points = pathPoints(drive.states)},
-                   {.name = "filter", .points = pathPoints(meansOf(run)), .color = kFilter},
-                   {"without observations", pathPoints(meansOf(blind)), kDeadReckoningColor, true}};
+  overview.paths = {{.name = "true path", .points = pathPoints(drive.states)},
+                    {.name = "filter", .points = pathPoints(meansOf(run)), .color = kFilter},
+                    {"without observations", pathPoints(meansOf(blind)), kDeadReckoningColor, true}};
   Figure above = figureOf(overview);
   above.title = "A circle among two landmarks";
   addEllipses(above, "filter, 2 sigma", run, 6, kFilter);

@@ -74,11 +74,11 @@ void plotMap(const std::string& name, const std::string& title, const Office& of
   std::snprintf(text, sizeof text, "%s: off by %.2f m, overlap of walls %.2f", title.c_str(),
                 pathError(path, office.path), overlap);
   plot(name, figureOf({.map = drawable(map),
-                       .ways = {{.name = "true path",
-                                 .points = pathPoints(office.path),
-                                 .color = kTruthColor,
-                                 .dashed = true},
-                                {.name = label, .points = pathPoints(path), .color = kEstimateColor}},
+                       .paths = {{.name = "true path",
+                                  .points = pathPoints(office.path),
+                                  .color = kTruthColor,
+                                  .dashed = true},
+                                 {.name = label, .points = pathPoints(path), .color = kEstimateColor}},
                        .caption = text}));
 }
 
@@ -111,7 +111,7 @@ void filmMapping(const Office& office, const Settings& settings) {
     for (int k = 0; k < kParticles; ++k) {
       const Particle& particle = particles[static_cast<std::size_t>(k)];
       view.particles.col(k) = particle.path.back();
-      view.ways.push_back({.points = pathPoints(particle.path), .color = kEstimateColor, .width = 1});
+      view.paths.push_back({.points = pathPoints(particle.path), .color = kEstimateColor, .width = 1});
     }
     if (t % 2 == 0) views.push_back(view);
     if (effectiveSize(weights) < settings.threshold * kParticles) particles = resampled(particles, rng);

@@ -23,10 +23,10 @@ std::string described(const char* name, const Curve& curve) {
   return text;
 }
 
-Way wayAlong(const Curve& curve, const Color& color) {
-  Way way{.points = Eigen::Matrix2Xd(2, 200), .color = color, .width = 4};
-  for (int i = 0; i < 200; ++i) way.points.col(i) = curve.pose(curve.length() * i / 199).head<2>();
-  return way;
+DrawnPath pathAlong(const Curve& curve, const Color& color) {
+  DrawnPath path{.points = Eigen::Matrix2Xd(2, 200), .color = color, .width = 4};
+  for (int i = 0; i < 200; ++i) path.points.col(i) = curve.pose(curve.length() * i / 199).head<2>();
+  return path;
 }
 
 int main() {
@@ -44,11 +44,11 @@ int main() {
                   described("Dubins     ", dubins).c_str(), described("Reeds-Shepp", both).c_str());
     view.plot("Dubins [m]", heading, dubins.length(), "heading of the goal [rad]");
     view.plot("Reeds and Shepp [m]", heading, both.length(), "heading of the goal [rad]");
-    Picture picture =
-        carPicture(CarView{.car = from,
-                           .estimate = to,
-                           .carScale = 0.25,
-                           .ways = {wayAlong(dubins, kEstimateColor), wayAlong(both, kDeadReckoningColor)}});
+    Picture picture = carPicture(
+        CarView{.car = from,
+                .estimate = to,
+                .carScale = 0.25,
+                .paths = {pathAlong(dubins, kEstimateColor), pathAlong(both, kDeadReckoningColor)}});
     picture.captions = {{.text = described("Dubins", dubins)}, {.text = described("Reeds-Shepp", both)}};
     picture.polylines.push_back(
         {.points = {{-5, -5, 0}, {5, -5, 0}, {5, 5, 0}, {-5, 5, 0}, {-5, -5, 0}}, .color = kTruthColor});

@@ -87,11 +87,11 @@ struct Robot {
             .map = coarse(slam->map(slam->likeliest())),
             .particles = slam->poses(),
             .weights = slam->weights(),
-            .ways = {{.name = "true way", .points = walk.truth.topLeftCorner(2, step + 1)},
-                     {.name = "odometry",
-                      .points = reckoned.topLeftCorner(2, step + 1),
-                      .color = kDeadReckoningColor},
-                     {.name = "estimate", .points = mine.topRows<2>(), .color = kEstimateColor}},
+            .paths = {{.name = "true way", .points = walk.truth.topLeftCorner(2, step + 1)},
+                      {.name = "odometry",
+                       .points = reckoned.topLeftCorner(2, step + 1),
+                       .color = kDeadReckoningColor},
+                      {.name = "estimate", .points = mine.topRows<2>(), .color = kEstimateColor}},
             .scan = hits};
   }
 };

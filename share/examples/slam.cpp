@@ -29,7 +29,7 @@ int main() {
   print("estimated pose", slam.pose().mean);
 
   CarView view{.car = car.getState(), .estimate = slam.pose().mean, .landmarks = car.getLandmarks()};
-  view.ways = {{.name = "estimated way", .points = way, .color = kEstimateColor}};
+  view.paths = {{.name = "estimated way", .points = way, .color = kEstimateColor}};
   for (int i = 0; i < slam.landmarks(); ++i)
     view.landmarkBeliefs.push_back({slam.landmark(i).mean, slam.landmark(i).covariance});
   writePicture(carFilm({view}).front().picture, "slam.png", {.view = kFromAbove});

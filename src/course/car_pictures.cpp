@@ -13,7 +13,7 @@ namespace {
 using internal::kCarLength, internal::kCarMiddle, internal::kCarWidth, internal::placeAt;
 
 // Heights of flat marks above the ground, metres.
-constexpr double kEllipseHeight = 0.04, kWayHeight = 0.07, kDotHeight = 0.12;
+constexpr double kEllipseHeight = 0.04, kPathHeight = 0.07, kDotHeight = 0.12;
 // Marks of a car's pose lie above its body, which would hide them.
 constexpr double kPoseHeight = 0.57;
 constexpr double kPostHeight = 1;
@@ -103,11 +103,11 @@ void addSightings(Picture& picture, const CarView& view) {
   picture.lineSets.push_back(std::move(lines));
 }
 
-void addWays(Picture& picture, const std::vector<Way>& ways) {
-  for (const Way& way : ways) {
-    if (way.points.cols() > 1)
-      picture.polylines.push_back({allLifted(way.points, kWayHeight), way.color, way.width});
-    if (!way.name.empty()) picture.captions.push_back({.text = way.name, .color = way.color});
+void addPaths(Picture& picture, const std::vector<DrawnPath>& paths) {
+  for (const DrawnPath& path : paths) {
+    if (path.points.cols() > 1)
+      picture.polylines.push_back({allLifted(path.points, kPathHeight), path.color, path.width});
+    if (!path.name.empty()) picture.captions.push_back({.text = path.name, .color = path.color});
   }
 }
 
@@ -128,7 +128,7 @@ void include(Bounds& bounds, const CarView& view) {
     for (const auto& corner : corners.colwise()) square(corner, 0);
   }
   all(view.landmarks), all(view.particles), all(view.sightings), all(view.scan);
-  for (const Way& way : view.ways) all(way.points);
+  for (const DrawnPath& path : view.paths) all(path.points);
   constexpr double kReach = 5;
   for (const auto* beliefs : {&view.poseBeliefs, &view.landmarkBeliefs})
     for (const PlanarGaussian& belief : *beliefs)
@@ -149,7 +149,7 @@ Picture carPicture(const CarView& view) {
   if (view.scan.cols() > 0) picture.pointSets.push_back({allLifted(view.scan, kDotHeight), kScanColor, 3});
   addBeliefs(picture, view.landmarkBeliefs, view.sigmas, kLandmarkColor, kEllipseHeight);
   addBeliefs(picture, view.poseBeliefs, view.sigmas, kEstimateColor, kPoseHeight);
-  addWays(picture, view.ways);
+  addPaths(picture, view.paths);
   addParticles(picture, view);
   addSightings(picture, view);
   if (view.estimate) {

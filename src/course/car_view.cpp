@@ -105,11 +105,11 @@ void requireDrawable(const CarView& view) {
   requireColumns("particle", view.particles);
   requireColumns("sighting", view.sightings);
   requireColumns("dot of the scan", view.scan);
-  for (const Way& way : view.ways) {
-    requireColumns("way '" + way.name + "', point", way.points);
-    if (!(way.width > 0 && way.width <= kWidest))
-      throw Error({.what = "way '" + way.name + "', width",
-                   .found = fmt::format("{:g}", way.width),
+  for (const DrawnPath& path : view.paths) {
+    requireColumns("path '" + path.name + "', point", path.points);
+    if (!(path.width > 0 && path.width <= kWidest))
+      throw Error({.what = "path '" + path.name + "', width",
+                   .found = fmt::format("{:g}", path.width),
                    .wanted = fmt::format("more than 0, at most {:g} pixels", kWidest)});
   }
   if (view.weights.size() > 0) {
@@ -207,11 +207,12 @@ Figure figureOf(const CarView& view) {
     figure.regions.push_back(carAt(*view.estimate, view.carScale, "estimate now", kEstimateColor));
   addDots(figure, "scan", view.scan, kScanColor, Marker::kDot, 0.5);
   addParticles(figure, view);
-  for (const Way& way : view.ways) {
-    if (way.points.cols() == 0) continue;
-    figure.series.push_back(through(
-        way.points,
-        {.label = way.name, .size = way.width / Way().width, .dashed = way.dashed, .color = way.color}));
+  for (const DrawnPath& path : view.paths) {
+    if (path.points.cols() == 0) continue;
+    figure.series.push_back(through(path.points, {.label = path.name,
+                                                  .size = path.width / DrawnPath().width,
+                                                  .dashed = path.dashed,
+                                                  .color = path.color}));
   }
   addDots(figure, "landmarks", view.landmarks, kLandmarkColor, Marker::kTriangle, 1.5);
   return figure;

@@ -28,7 +28,7 @@ struct PlanarGaussian {
 [[nodiscard]] Eigen::Matrix2Xd pathPoints(const std::vector<Eigen::Vector3d>& poses);
 
 /// A line through points in the plane, such as the path of a car. The legend shows its name.
-struct Way {
+struct DrawnPath {
   std::string name{};         ///< empty: not in the legend
   Eigen::Matrix2Xd points{};  ///< the first two rows of poses: poses.topRows<2>()
   Color color = kTruthColor;
@@ -49,7 +49,7 @@ struct CarView {
   std::vector<PlanarGaussian> poseBeliefs{};
   std::vector<PlanarGaussian> landmarkBeliefs{};
   double sigmas = 2;  ///< size of all ellipses, in standard deviations
-  std::vector<Way> ways{};
+  std::vector<DrawnPath> paths{};
   Eigen::Matrix2Xd sightings{};  ///< positions seen now: lines to them from the car, or from its estimate
   Eigen::Matrix2Xd scan{};       ///< dots, such as the hits of a range scanner
   std::string caption{};         ///< in the top left corner, or the title of a figure

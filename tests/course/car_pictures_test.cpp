@@ -36,7 +36,7 @@ CarView fullView() {
   view.particles = cloud(40);
   view.poseBeliefs = {{{1.5, 2.5}, (Eigen::Matrix2d() << 4, 0, 0, 0.25).finished()}};
   view.landmarkBeliefs = {{{4, 7}, Eigen::Matrix2d::Identity()}, {{-5, 8}, Eigen::Matrix2d::Zero()}};
-  view.ways = {{"true way", view.landmarks, kTruthColor}, {"", view.landmarks, kEstimateColor, true, 4}};
+  view.paths = {{"true way", view.landmarks, kTruthColor}, {"", view.landmarks, kEstimateColor, true, 4}};
   view.sightings = view.landmarks.leftCols(2);
   view.scan = view.landmarks;
   view.caption = "a car";
@@ -170,7 +170,8 @@ TEST(CarPicture, SaysWhatCannotBeDrawn) {
   expect([&](CarView& v) { v.particles(0, 7) = kNan; }, "particle 7: number 0: found nan");
   expect([&](CarView& v) { v.sightings(0, 1) = kNan; }, "sighting 1: number 0: found nan");
   expect([&](CarView& v) { v.scan(0, 1) = kNan; }, "dot of the scan 1: number 0: found nan");
-  expect([&](CarView& v) { v.ways[0].points(0, 2) = kNan; }, "way 'true way', point 2: number 0: found nan");
+  expect([&](CarView& v) { v.paths[0].points(0, 2) = kNan; },
+         "path 'true way', point 2: number 0: found nan");
   expect([](CarView& v) { v.weights.setOnes(3); }, "weights of particles: found a vector of size 3");
   expect([](CarView& v) { v.weights = -Eigen::VectorXd::Ones(40); },
          "weights of particles: number 0: found -1, wanted a finite number, 0 or more");
@@ -179,8 +180,8 @@ TEST(CarPicture, SaysWhatCannotBeDrawn) {
   expect([&](CarView& v) { v.landmarkBeliefs[0].mean.x() = kNan; }, "belief of a landmark 0: number 0");
   expect([](CarView& v) { v.landmarkBeliefs[0].covariance *= 1e20; },
          "belief of a landmark 0, deviations: number 0: found 1e+10");
-  expect([](CarView& v) { v.ways[0].width = 0; },
-         "way 'true way', width: found 0, wanted more than 0, at most 50 pixels");
+  expect([](CarView& v) { v.paths[0].width = 0; },
+         "path 'true way', width: found 0, wanted more than 0, at most 50 pixels");
   expect([](CarView& v) { v.sigmas = 0; }, "sigmas: found 0, wanted a positive, finite number");
   expect([&](CarView& v) { v.sigmas = kNan; }, "sigmas: found nan");
   expect([](CarView& v) { v.carScale = 0; }, "scale of the car: found 0, wanted a positive, finite number");
