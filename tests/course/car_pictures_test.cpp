@@ -229,6 +229,12 @@ TEST_F(CarFilm, TheCameraDoesNotRunAwayFromGuessesWithoutKnowledge) {
   EXPECT_EQ(readPng(in("some/0000.png")), readPng(in("none/0000.png")));
 }
 
+TEST(PathPoints, ArePositionsOfPoses) {
+  const Eigen::Matrix2Xd points = pathPoints({{1, 2, 9}, {3, 4, 9}});
+  EXPECT_EQ(points, (Eigen::Matrix2d() << 1, 3, 2, 4).finished());
+  EXPECT_EQ(pathPoints({}).cols(), 0);
+}
+
 TEST(CarFigure, IsTheMapFromAbove) {
   CarView view = fullView();
   const Figure figure = figureOf(view);

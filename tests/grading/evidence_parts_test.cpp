@@ -74,12 +74,4 @@ TEST(Curves, TellWhatCameOutFromWhatWasWanted) {
   EXPECT_EQ(wrongFrom(1.5).at, 1.5);
 }
 
-TEST(Through, TakesTheFirstTwoNumbers) {
-  const std::vector<Eigen::Vector3d> poses{{1, 2, 9}, {3, 4, 9}};
-  const Series curve = through(poses, wrongCurve("way"));
-  EXPECT_EQ(curve.label, "way");
-  EXPECT_EQ(curve.x, (std::vector<double>{1, 3}));
-  EXPECT_EQ(curve.y, (std::vector<double>{2, 4}));
-}
-
 }  // namespace rex::grading::evidence_parts_test

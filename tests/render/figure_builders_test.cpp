@@ -109,4 +109,47 @@ TEST(PoleFigure, RejectsWhatHasNoPlace) {
                    "zeros: imaginary parts: number 1: found nan");
 }
 
+// Lists of vectors, the columns of a matrix, and one vector are the same points.
+TEST(PointsOfAFigure, AreTheFirstTwoNumbers) {
+  using Numbers = std::vector<double>;
+  const std::vector<Eigen::Vector3d> poses{{1, 2, 9}, {3, 4, 9}};
+  Eigen::MatrixXd columns(3, 2);
+  columns << 1, 3, 2, 4, 9, 9;
+  const std::vector<Eigen::VectorXd> lists{columns.col(0), columns.col(1)};
+  for (const Series& curve : {through(poses, {.label = "path"}), through(columns, {.label = "path"}),
+                              through(columns.topRows(2) + 0 * columns.topRows(2), {.label = "path"}),
+                              through(lists, {.label = "path"}), through({{1, 2}, {3, 4}}, {.label = "path"}),
+                              through(Vector2d(3, 4), through(Vector2d(1, 2), {.label = "path"}))}) {
+    EXPECT_EQ(curve.label, "path");
+    EXPECT_EQ(curve.x, (Numbers{1, 3}));
+    EXPECT_EQ(curve.y, (Numbers{2, 4}));
+    EXPECT_EQ(curve.style, SeriesStyle::kLine);
+  }
+  EXPECT_EQ(dots(poses).style, SeriesStyle::kPoints);
+  EXPECT_EQ(dots(poses).marker, Marker::kDot);
+  EXPECT_EQ(dots(poses, {.marker = Marker::kCross}).marker, Marker::kCross);
+  EXPECT_EQ(within(columns).x, (Numbers{1, 3}));
+  EXPECT_EQ(within(poses, {.label = "wall"}).label, "wall");
+}
+
+TEST(OverTime, HasAValueInEachStep) {
+  using Numbers = std::vector<double>;
+  const Series curve = overTime(Numbers{4, 5, 6}, 0.25, {.dashed = true});
+  EXPECT_TRUE(curve.dashed);
+  EXPECT_EQ(curve.x, (Numbers{0, 0.25, 0.5}));
+  EXPECT_EQ(curve.y, (Numbers{4, 5, 6}));
+  const Eigen::Matrix2d rows = (Eigen::Matrix2d() << 1, 2, 3, 4).finished();
+  EXPECT_EQ(overTime(rows.row(1), 1).y, (Numbers{3, 4}));
+  EXPECT_EQ(overTime(rows.col(1), 1).y, (Numbers{2, 4}));
+}
+
+TEST(PlaneFigure, HasMetresInOneScale) {
+  const Figure figure = planeFigure({.title = "a room", .width = 900});
+  EXPECT_EQ(figure.title, "a room");
+  EXPECT_EQ(figure.width, 900);
+  EXPECT_TRUE(figure.equalAxes);
+  EXPECT_EQ(figure.xLabel, "x [m]");
+  EXPECT_EQ(figure.yLabel, "y [m]");
+}
+
 }  // namespace rex::figure_builders_test
