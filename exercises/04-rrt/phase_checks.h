@@ -77,24 +77,16 @@ inline rex::grading::Evidence phaseSeen(const Eigen::Matrix2Xd& states, const Tr
     const Eigen::Vector2d at = rex::leastEffortState(states.col(wanted), x.to, x.T, tau * i / 50);
     motion.add(at[0], at[1]);
   }
-  const auto dots = [](const Eigen::Matrix2Xd& points, const char* label, rex::Marker marker,
-                       rex::Color color) {
-    return rex::through(
-        points.colwise(),
-        rex::Series{
-            .label = label, .style = rex::SeriesStyle::kPoints, .marker = marker, .size = 2, .color = color});
-  };
   rex::Figure figure{.title = "A step in phase space",
                      .xLabel = "position [m]",
                      .yLabel = "velocity [m/s]",
                      .legend = rex::Legend::kOutside};
-  figure.series = {dots(states, "states", rex::Marker::kDot, {.5f, .5f, .5f}), motion,
-                   dots(x.to, "target", rex::Marker::kCross, {0, 0, 0})};
-  if (got.parent >= 0 && got.parent < states.cols()) {
-    Eigen::Matrix2Xd ends(2, 2);
-    ends << states.col(got.parent), got.x;
-    figure.series.push_back(rex::through(ends, rex::grading::gotCurve("got")));
-  }
+  figure.series = {
+      rex::dots(states, {.label = "states", .size = 2, .color = rex::Color{.5f, .5f, .5f}}), motion,
+      rex::dots(x.to,
+                {.label = "target", .marker = rex::Marker::kCross, .size = 2, .color = rex::Color{0, 0, 0}})};
+  if (got.parent >= 0 && got.parent < states.cols())
+    figure.series.push_back(rex::through({states.col(got.parent), got.x}, rex::grading::gotCurve("got")));
   return {.figures = {figure}};
 }
 

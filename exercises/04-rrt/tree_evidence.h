@@ -15,7 +15,7 @@
 // What the checks show when trees and paths are wrong.
 
 /// A world in the plane, from above.
-inline rex::Figure figureOf(const std::string& title, const PlaneWorld& world) {
+inline rex::Figure worldFigure(const std::string& title, const PlaneWorld& world) {
   rex::Figure figure = rex::planeFigure({.title = title,
                                          .xRange = rex::AxisRange(-0.03, 1.03),
                                          .yRange = rex::AxisRange(-0.03, 1.03),
@@ -40,7 +40,7 @@ inline rex::Series dotsOf(const std::string& label, double size, const rex::Colo
 
 /// A path in the plane beside the one it was made from; pieces that are not free are red.
 inline rex::grading::Evidence shortenedSeen(const PlaneProblem& problem, const Path& given, const Path& got) {
-  rex::Figure figure = figureOf("The given path, and the shortened one", problem.world);
+  rex::Figure figure = worldFigure("The given path, and the shortened one", problem.world);
   figure.series = {rex::through(got, rex::grading::gotCurve("got")),
                    rex::through(given, rex::grading::wantedCurve("given"))};
   const EdgeTest isFree = freeIn(problem.world, 1e-9);
@@ -55,7 +55,7 @@ inline rex::grading::Evidence shortenedSeen(const PlaneProblem& problem, const P
 
 /// A path in the plane beside the wanted one; both begin at a dot.
 inline rex::grading::Evidence pathSeen(const Path& got, const Path& wanted) {
-  rex::Figure figure = figureOf("The path, which begins at the dot", {});
+  rex::Figure figure = worldFigure("The path, which begins at the dot", {});
   const auto begin = [](const Path& path, const rex::Color& color) {
     return dotsOf("", 3, color, {path.front()});
   };
@@ -87,7 +87,7 @@ struct PlaneEdge {
 /// A tree with the returned edge and the wanted one; a parent of -1 stands for none.
 inline rex::grading::Evidence edgeSeen(const std::string& title, const PlaneWorld& world, const Tree& tree,
                                        const PlaneEdge& got, const PlaneEdge& wanted) {
-  rex::Figure figure = figureOf(title, world);
+  rex::Figure figure = worldFigure(title, world);
   figure.series = {edgesOf("tree", tree)};
   const int count = static_cast<int>(tree.nodes.size());
   const auto add = [&](const PlaneEdge& edge, rex::Series look) {
@@ -106,7 +106,7 @@ inline rex::grading::Evidence edgeSeen(const std::string& title, const PlaneWorl
 /// Edges of two trees with the same nodes that differ in their parents, wrong costs, and a ring at a node.
 inline rex::grading::Evidence rewiredSeen(const PlaneWorld& world, const Tree& got, const Tree& wanted,
                                           int node, std::size_t here) {
-  rex::Figure figure = figureOf("Rewiring: edges of the tree, and those that differ", world);
+  rex::Figure figure = worldFigure("Rewiring: edges of the tree, and those that differ", world);
   figure.series = {edgesOf("tree, got", got),
                    dotsOf("the new node", 2.5, kBlack, {got.nodes[static_cast<std::size_t>(node)]})};
   const auto add = [&](const Tree& tree, std::size_t at, rex::Series look) {
@@ -149,7 +149,7 @@ inline void markPath(rex::Figure& figure, const PlaneProblem& problem, const Pat
 /// them.
 inline rex::grading::Evidence treesSeen(const PlaneProblem& problem, const std::vector<Tree>& trees,
                                         const Path& path, std::size_t which = 0, std::size_t here = 0) {
-  rex::Figure figure = figureOf("The tree, from start to goal", problem.world);
+  rex::Figure figure = worldFigure("The tree, from start to goal", problem.world);
   if (problem.world.boxes.empty() && problem.world.discs.empty()) figure.xRange = figure.yRange = {};
   for (const Tree& tree : trees) figure.series.push_back(edgesOf(figure.series.empty() ? "tree" : "", tree));
   const bool isPath = std::all_of(path.begin(), path.end(), [](const auto& q) { return q.size() == 2; });
@@ -166,7 +166,7 @@ inline rex::grading::Evidence treesSeen(const PlaneProblem& problem, const std::
 
 /// A sound tree, and edges to other parents that would save cost.
 inline rex::grading::Evidence betterSeen(const PlaneProblem& problem, const Tree& tree, const Tree& better) {
-  rex::Figure figure = figureOf("The tree, and edges that would save cost", problem.world);
+  rex::Figure figure = worldFigure("The tree, and edges that would save cost", problem.world);
   figure.series = {edgesOf("tree", tree), dotsOf("start and goal", 3, kBlack, {problem.start, problem.goal})};
   std::string gotLabel = "got", wantedLabel = "shorter";
   constexpr std::size_t kMostSeries = 80;

@@ -50,12 +50,12 @@ inline rex::grading::Evidence trackSeen(const CarWorld& world, const Driven& dri
   if (lost == value.y.end()) lost = std::max_element(value.y.begin(), value.y.end());
   const double moment = film[static_cast<std::size_t>(lost - value.y.begin())].time;
   const rex::Figure map =
-      rex::figureOf({.landmarks = world.landmarks,
-                     .paths = {{.name = "wanted: the car", .points = rex::pathPoints(driven.truth)},
-                               {.name = "got: the estimate",
-                                .points = rex::pathPoints(record.means),
-                                .color = rex::kEstimateColor}},
-                     .caption = "The car and its estimate"});
+      rex::carFigure({.landmarks = world.landmarks,
+                      .paths = {{.name = "wanted: the car", .points = rex::pathPoints(driven.truth)},
+                                {.name = "got: the estimate",
+                                 .points = rex::pathPoints(record.means),
+                                 .color = rex::kEstimateColor}},
+                      .caption = "The car and its estimate"});
   rex::Figure values{
       .title = course.title, .xLabel = "time [s]", .yLabel = "difference " + course.unit, .series = {value}};
   values.horizontalLines = {{.at = course.limit, .label = "wanted: root mean square at most"}};

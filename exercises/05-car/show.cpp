@@ -76,7 +76,7 @@ void plotMap(const std::string& name, const std::string& title, const std::vecto
     steps.insert(steps.end(), 100, 60 * k + 60);
   }
   Figure map =
-      figureOf({.landmarks = world.landmarks, .particles = particles, .paths = paths, .caption = title});
+      carFigure({.landmarks = world.landmarks, .particles = particles, .paths = paths, .caption = title});
   for (Series& series : map.series)
     if (series.label == "particles") series.values = steps;
   map.colorLabel = "step";

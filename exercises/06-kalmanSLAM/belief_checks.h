@@ -54,13 +54,8 @@ inline rex::grading::Evidence beliefSeen(const Belief& got, const Belief& wanted
                                .mean = mean(both),
                                .covariance = belief.covariance(both, both),
                                .color = color});
-    figure.series.push_back({.label = label + ", mean",
-                             .x = {mean[both[0]]},
-                             .y = {mean[both[1]]},
-                             .style = rex::SeriesStyle::kPoints,
-                             .marker = rex::Marker::kDot,
-                             .size = 2,
-                             .color = color});
+    figure.series.push_back(
+        rex::dots(Eigen::Vector2d(mean(both)), {.label = label + ", mean", .size = 2, .color = color}));
   };
   add("got", got, rex::grading::kGotColor);
   add("wanted", wanted, rex::grading::kWantedColor);

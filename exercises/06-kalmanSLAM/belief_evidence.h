@@ -32,11 +32,11 @@ inline rex::Figure overRuns(const std::string& title, const std::string& unit,
 /// A map built on a run, drawn over the true one.
 inline rex::Figure mapSeen(const CarRun& run, const Belief& joint) {
   rex::Figure figure =
-      rex::figureOf({.car = run.states.back(),
-                     .estimate = joint.mean.head<3>(),
-                     .landmarks = run.landmarks,
-                     .landmarkBeliefs = landmarksOf(joint),
-                     .paths = {{.name = "wanted: the car", .points = rex::pathPoints(run.states)}}});
+      rex::carFigure({.car = run.states.back(),
+                      .estimate = joint.mean.head<3>(),
+                      .landmarks = run.landmarks,
+                      .landmarkBeliefs = landmarksOf(joint),
+                      .paths = {{.name = "wanted: the car", .points = rex::pathPoints(run.states)}}});
   figure.title = "A map: ellipses (got) and true positions (wanted)";
   return figure;
 }

@@ -202,7 +202,7 @@ inline std::string nameOf(int landmark) {
 inline rex::grading::Evidence namesSeen(const CarSetup& car, const NamingCase& one,
                                         const std::vector<int>& names) {
   const Eigen::Vector3d pose = one.joint.mean.head<3>();
-  rex::Figure figure = rex::figureOf({.car = pose, .landmarkBeliefs = landmarksOf(one.joint)});
+  rex::Figure figure = rex::carFigure({.car = pose, .landmarkBeliefs = landmarksOf(one.joint)});
   figure.title = "Landmarks of the belief, and the sightings";
   for (int i = 0; i < 3; ++i)
     figure.notes.push_back({std::to_string(i), one.joint.mean[3 + 2 * i], one.joint.mean[4 + 2 * i]});

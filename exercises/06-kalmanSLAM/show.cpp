@@ -253,7 +253,7 @@ Figure particleFigure(const RecordedDrive& drive, const std::vector<MapParticle>
     view.particles.col(static_cast<Eigen::Index>(k)) = particles[k].x;
     for (const Belief& landmark : particles[k].map) maps.add(landmark.mean[0], landmark.mean[1]);
   }
-  Figure figure = figureOf(view);
+  Figure figure = carFigure(view);
   if (!maps.x.empty()) figure.series.push_back(maps);
   return figure;
 }
@@ -330,7 +330,7 @@ void showSteps(const CarSetup& car, const RecordedDrive& drive) {
   overview.landmarks = drive.landmarks;
   overview.paths = {{.name = "true path", .points = pathPoints(drive.states)},
                     {"without noise", pathPoints(states), kEstimateColor, true}};
-  Figure above = figureOf(overview);
+  Figure above = carFigure(overview);
   above.title = "Where the controls lead without noise, with your step";
   plot("steps", above);
 }
@@ -342,7 +342,7 @@ void showTracking(const RecordedDrive& drive, const std::vector<Belief>& run,
   overview.paths = {{.name = "true path", .points = pathPoints(drive.states)},
                     {.name = "filter", .points = pathPoints(meansOf(run)), .color = kFilter},
                     {"without observations", pathPoints(meansOf(blind)), kDeadReckoningColor, true}};
-  Figure above = figureOf(overview);
+  Figure above = carFigure(overview);
   above.title = "A circle among two landmarks";
   addEllipses(above, "filter, 2 sigma", run, 6, kFilter);
   addEllipses(above, "without observations", blind, 20, kDeadReckoningColor);
@@ -394,7 +394,7 @@ void showMap(const RecordedDrive& drive) {
   writeFilm(carFilm(views), "slam", {.view = kFromAbove, .speed = 10});
   for (const std::size_t t : {std::size_t{45}, mapping.joints.size() - 1}) {
     views[t].caption = "Car, map and beliefs after " + std::to_string(t) + " s";
-    plot(t == 45 ? "map_before" : "map_after", figureOf(views[t]));
+    plot(t == 45 ? "map_before" : "map_after", carFigure(views[t]));
   }
   plot("deviations", deviationsOf(mapping));
   plot("correlations", correlationsOf(mapping.joints.back()));

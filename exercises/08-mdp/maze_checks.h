@@ -30,10 +30,9 @@ inline rex::Figure mazeFigure(const std::string& title, const Eigen::VectorXd& v
                      .width = 560,
                      .height = 460};
   for (std::size_t child = 1; child < places.size(); ++child)
-    figure.series.push_back(rex::through(std::vector<Eigen::Vector2d>{places[(child - 1) / 2], places[child]},
-                                         rex::Series{.size = 2, .color = rex::Color{.6f, .62f, .65f}}));
-  figure.series.push_back(rex::through(
-      places, rex::Series{.style = rex::SeriesStyle::kPoints, .marker = rex::Marker::kSquare, .size = 4}));
+    figure.series.push_back(rex::through({places[(child - 1) / 2], places[child]},
+                                         {.size = 2, .color = rex::Color{.6f, .62f, .65f}}));
+  figure.series.push_back(rex::dots(places, {.marker = rex::Marker::kSquare, .size = 4}));
   figure.series.back().values.assign(values.begin(), values.end());
   for (Eigen::Index i = 0; i < values.size(); ++i) {
     const Eigen::Vector2d& place = places[static_cast<std::size_t>(i)];

@@ -30,9 +30,7 @@ inline rex::grading::Evidence densityOf(const Eigen::MatrixXd& noise, double dev
 /// The columns of `pairs`, of numbers that should be independent.
 inline rex::grading::Evidence cloudOf(const Eigen::Matrix2Xd& pairs, double deviation,
                                       const std::string& xLabel, const std::string& yLabel) {
-  rex::Series points = rex::through(pairs, rex::grading::gotCurve("got"));
-  points.style = rex::SeriesStyle::kPoints;
-  points.marker = rex::Marker::kDot;
+  rex::Series points = rex::dots(pairs, rex::grading::gotCurve("got"));
   points.size = 1;
   return {.figures = {{.title = "Noise of kicks",
                        .xLabel = xLabel,

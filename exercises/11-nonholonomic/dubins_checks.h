@@ -127,9 +127,9 @@ inline rex::grading::Evidence circlesSeen(const std::string& title, const std::s
   for (const auto& [q, turn] : {std::pair{from, word[0]}, {to, word[2]}}) {
     const std::array<double, 3> whole{2 * kPi * radius, 0, 0};
     const bool isFirst = figure.series.empty();
-    figure.series.push_back(rex::through(
-        piecesOf(std::string(3, turn), whole, q, radius),
-        rex::Series{.label = isFirst ? "first and last circle" : "", .color = rex::grading::kWantedColor}));
+    figure.series.push_back(
+        rex::through(piecesOf(std::string(3, turn), whole, q, radius),
+                     {.label = isFirst ? "first and last circle" : "", .color = rex::grading::kWantedColor}));
   }
   return evidence;
 }

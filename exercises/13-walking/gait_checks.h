@@ -210,13 +210,11 @@ inline rex::grading::Evidence stepSeen(const Walker& walker, Eigen::Vector4d x, 
                      .legend = rex::Legend::kOutside,
                      .series = {legs[0], legs[1]}};
   const auto mark = [&](const std::string& label, const Eigen::Vector4d& state, int leg, rex::Marker marker) {
-    figure.series.push_back({.label = label,
-                             .x = {state[leg]},
-                             .y = {state[leg + 2]},
-                             .style = rex::SeriesStyle::kPoints,
-                             .marker = marker,
-                             .size = 2,
-                             .color = leg == 0 ? rex::grading::kGotColor : kSwingColor});
+    figure.series.push_back(rex::dots(Eigen::Vector2d(state[leg], state[leg + 2]),
+                                      {.label = label,
+                                       .marker = marker,
+                                       .size = 2,
+                                       .color = leg == 0 ? rex::grading::kGotColor : kSwingColor}));
   };
   mark("stance leg, yours", end.x, 0, rex::Marker::kCircle);
   mark("swing leg, yours", end.x, 1, rex::Marker::kCircle);

@@ -18,8 +18,8 @@ using rex::grading::Evidence;
 inline constexpr double kTurn = 2 * 3.14159265358979323846;
 
 // The values of a grid from above, between two limits.
-inline rex::Figure figureOf(const std::string& title, const Grid& grid, double low, double high,
-                            const std::string& colorLabel) {
+inline rex::Figure gridFigure(const std::string& title, const Grid& grid, double low, double high,
+                              const std::string& colorLabel) {
   const Eigen::Index width = grid.values.rows(), height = grid.values.cols();
   rex::Figure figure =
       rex::planeFigure({.title = title, .colorLabel = colorLabel, .colorRange = rex::AxisRange{low, high}});
@@ -40,7 +40,7 @@ inline Evidence gridsOf(const Grid& shape, const Eigen::MatrixXd& got, const Eig
   a.values = got;
   b.values = wanted;
   Evidence evidence{
-      .figures = {figureOf("got", a, low, high, label), figureOf("wanted", b, low, high, label)}};
+      .figures = {gridFigure("got", a, low, high, label), gridFigure("wanted", b, low, high, label)}};
   Eigen::Index i = 0, j = 0;
   if ((got - wanted).cwiseAbs().maxCoeff(&i, &j) > 0) {
     const Eigen::Vector2d middle =
@@ -280,8 +280,8 @@ inline void rates(Check& check, Student& student, int rays) {
   const auto mirror = check.suspect("Are angles of rays subtracted from the heading?",
                                     one(fitOf(distances, pose, mirrored, deviation)));
   const auto shown = check.show([&] {
-    rex::Figure figure = figureOf("distances, and where rays end that hit something", distances, 0,
-                                  3 * distances.cell, "distance [m]");
+    rex::Figure figure = gridFigure("distances, and where rays end that hit something", distances, 0,
+                                    3 * distances.cell, "distance [m]");
     rex::Series ends{.label = "ends of rays", .style = rex::SeriesStyle::kPoints};
     for (Eigen::Index k = 0; k < scan.ranges.size(); ++k) {
       if (scan.ranges[k] >= scan.maxRange) continue;

@@ -35,8 +35,8 @@ inline rex::Figure fitAround(const Sight& sight, const Eigen::Vector3d& middle, 
       const Eigen::Vector2d p = grid.origin + grid.cell * Eigen::Vector2d(i + .5, j + .5);
       grid.values(i, j) = fitOf(sight.distances, {p[0], p[1], heading}, sight.scan, .15);
     }
-  return figureOf("how well the scan fits, with the best heading", grid, grid.values.minCoeff(),
-                  grid.values.maxCoeff(), "fit");
+  return gridFigure("how well the scan fits, with the best heading", grid, grid.values.minCoeff(),
+                    grid.values.maxCoeff(), "fit");
 }
 
 inline void matches(Check& check, Student& student, double share) {
@@ -54,20 +54,12 @@ inline void matches(Check& check, Student& student, double share) {
   };
   const auto shown = check.show([&] {
     rex::Figure figure = fitAround(sight, guess, best[2], 1.3 * window[0]);
-    const auto mark = [](const char* label, const Eigen::Vector3d& pose, rex::Marker marker) {
-      return rex::Series{.label = label,
-                         .x = {pose[0]},
-                         .y = {pose[1]},
-                         .style = rex::SeriesStyle::kPoints,
-                         .marker = marker,
-                         .size = 2.5};
-    };
     const double w = window[0];
     figure.series = {{.label = "window",
                       .x = {guess[0] - w, guess[0] + w, guess[0] + w, guess[0] - w, guess[0] - w},
                       .y = {guess[1] - w, guess[1] - w, guess[1] + w, guess[1] + w, guess[1] - w}},
-                     mark("guess", guess, rex::Marker::kCross),
-                     mark("best", best, rex::Marker::kSquare),
+                     rex::dots(guess, {.label = "guess", .marker = rex::Marker::kCross, .size = 2.5}),
+                     rex::dots(best, {.label = "best", .marker = rex::Marker::kSquare, .size = 2.5}),
                      rex::grading::wrongPoint("got", got[0], got[1])};
     return Evidence{.figures = {figure}};
   });
@@ -119,7 +111,7 @@ inline void locates(Check& check, Student& student) {
   check.input("a scan somewhere in a building", {{"ranges", sight.scan.ranges}});
   const Eigen::Vector3d got = student.located(sight.truth, sight.scan, {});
   const auto shown = check.show([&] {
-    rex::Figure figure = figureOf("the map", sight.truth, -5, 5, "log odds");
+    rex::Figure figure = gridFigure("the map", sight.truth, -5, 5, "log odds");
     const auto ends = [&](const Eigen::Vector3d& pose, rex::Series series) {
       series.style = rex::SeriesStyle::kPoints;
       for (Eigen::Index k = 0; k < sight.scan.ranges.size(); ++k) {

@@ -73,13 +73,13 @@ void plotMap(const std::string& name, const std::string& title, const Office& of
   char text[200];
   std::snprintf(text, sizeof text, "%s: off by %.2f m, overlap of walls %.2f", title.c_str(),
                 pathError(path, office.path), overlap);
-  plot(name, figureOf({.map = drawable(map),
-                       .paths = {{.name = "true path",
-                                  .points = pathPoints(office.path),
-                                  .color = kTruthColor,
-                                  .dashed = true},
-                                 {.name = label, .points = pathPoints(path), .color = kEstimateColor}},
-                       .caption = text}));
+  plot(name, carFigure({.map = drawable(map),
+                        .paths = {{.name = "true path",
+                                   .points = pathPoints(office.path),
+                                   .color = kTruthColor,
+                                   .dashed = true},
+                                  {.name = label, .points = pathPoints(path), .color = kEstimateColor}},
+                        .caption = text}));
 }
 
 Series curveOf(const std::string& label, const std::vector<double>& sizes) {
@@ -131,11 +131,11 @@ Office officeOfShow() {
 void showScan(const Office& office) {
   if (!drawsSomething(office)) return nothingYet("a scan");
   const Grid once = observed(office.empty, office.path[0], office.log.scans[0], CellEvidence{});
-  plot("scan", figureOf({.car = office.path[0],
-                         .carScale = .2,
-                         .map = drawable(once),
-                         .scan = endsOf(office.path[0], office.log.scans[0]),
-                         .caption = "What one scan says: free, occupied, unknown"}));
+  plot("scan", carFigure({.car = office.path[0],
+                          .carScale = .2,
+                          .map = drawable(once),
+                          .scan = endsOf(office.path[0], office.log.scans[0]),
+                          .caption = "What one scan says: free, occupied, unknown"}));
   plotMap("known", "All poses known", office, mapAlong(office, office.path), office.path, "path");
 }
 

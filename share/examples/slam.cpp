@@ -33,5 +33,5 @@ int main() {
   for (int i = 0; i < slam.landmarks(); ++i)
     view.landmarkBeliefs.push_back({slam.landmark(i).mean, slam.landmark(i).covariance});
   writePicture(carFilm({view}).front().picture, "slam.png", {.view = kFromAbove});
-  plot("map", figureOf(view));
+  plot("map", carFigure(view));
 }

@@ -188,7 +188,7 @@ void addSightings(Figure& figure, const CarView& view) {
 
 }  // namespace
 
-Figure figureOf(const CarView& view) {
+Figure carFigure(const CarView& view) {
   requireDrawable(view);
   Figure figure =
       planeFigure({.title = view.caption, .legend = Legend::kOutside, .width = 900, .height = 600});

@@ -140,7 +140,7 @@ TEST(CarPicture, ShowsMapsAndSmallCars) {
       (walls.low - Eigen::Vector3d(1, 2.5, 0)).norm() + (walls.high - Eigen::Vector3d(3, 3.5, 0.4)).norm(),
       1e-6);
   EXPECT_EQ(picture.solids[2].shape.extent, Eigen::Vector3d(1.5, 0.75, 0.25));
-  const Figure figure = figureOf(view);
+  const Figure figure = carFigure(view);
   ASSERT_TRUE(figure.map);
   EXPECT_NEAR(figure.map->xRange.first, 1, 1e-12);
   EXPECT_NEAR(figure.map->yRange.second, 3.5, 1e-12);
@@ -161,7 +161,7 @@ TEST(CarPicture, SaysWhatCannotBeDrawn) {
     CarView view = fullView();
     spoil(view);
     EXPECT_REX_ERROR(carPicture(view), text);
-    EXPECT_REX_ERROR(figureOf(view), text);
+    EXPECT_REX_ERROR(carFigure(view), text);
   };
   expect([&](CarView& v) { v.car->x() = kNan; }, "car: number 0: found nan");
   expect([&](CarView& v) { v.estimate->z() = kNan; }, "estimate of the car: number 2: found nan");
@@ -237,7 +237,7 @@ TEST(PathPoints, ArePositionsOfPoses) {
 
 TEST(CarFigure, IsTheMapFromAbove) {
   CarView view = fullView();
-  const Figure figure = figureOf(view);
+  const Figure figure = carFigure(view);
   EXPECT_TRUE(figure.equalAxes);
   EXPECT_EQ(figure.title, "a car");
   ASSERT_EQ(figure.ellipses.size(), 3u);
@@ -250,17 +250,17 @@ TEST(CarFigure, IsTheMapFromAbove) {
   EXPECT_EQ(landmarks.y, (std::vector<double>{7, 8, -9}));
   EXPECT_TRUE(figure.series[figure.series.size() - 2].dashed);
   view.caption = "two\nlines";
-  EXPECT_EQ(figureOf(view).title, "two lines");
+  EXPECT_EQ(carFigure(view).title, "two lines");
 }
 
 TEST(CarFigure, CanBeDrawn) {
   REX_NEEDS_GNUPLOT();
   CarView view = fullView();
   view.weights = Eigen::VectorXd::LinSpaced(40, 0, 1);
-  const std::string svg = encodeSvg(figureOf(view));
+  const std::string svg = encodeSvg(carFigure(view));
   for (const char* label : {"true way", "particles", "poses, 2 sigma", "seen now", "car now", "estimate now"})
     EXPECT_NE(svg.find(label), std::string::npos) << label;
-  EXPECT_REX_ERROR(encodeSvg(figureOf(CarView{})), "nothing to draw");
+  EXPECT_REX_ERROR(encodeSvg(carFigure(CarView{})), "nothing to draw");
 }
 
 }  // namespace rex::car_pictures_test
