@@ -22,11 +22,11 @@
 #include "base/text.h"
 #include "base/text_file.h"
 #include "cli/command_table.h"
-#include "cli/json_internal.h"
 #include "cli/numbers.h"
 #include "cli/option_table_internal.h"
 #include "cli/out_folder.h"
 #include "cli/project.h"
+#include "cli/results_internal.h"
 #include "cli/terminal.h"
 #include "control/controllability.h"
 #include "control/regulators.h"
@@ -159,25 +159,6 @@ std::filesystem::path inProject(const Project& project, const std::filesystem::p
   return isExample ? project.files() / file : file;
 }
 
-// "K =" and its rows.
-std::string matrixText(const char* name, const Eigen::MatrixXd& M) {
-  std::ostringstream text;
-  text << M.format(Eigen::IOFormat(8, 0, "  ", "\n", "  "));
-  return fmt::format("{} =\n{}", name, text.str());
-}
-
-// Pairs of real and imaginary part.
-Json jsonOfComplex(const Eigen::VectorXcd& values) {
-  Json list = Json::array();
-  for (const std::complex<double> value : values) list.push_back(Json::array({value.real(), value.imag()}));
-  return list;
-}
-
-void sayComplex(const Eigen::VectorXcd& values) {
-  for (const std::complex<double> value : values)
-    say(fmt::format("  {:.8g} {:+.8g}i", value.real(), value.imag()));
-}
-
 namespace fs = std::filesystem;
 
 struct LinearOptions {
@@ -264,12 +245,13 @@ std::vector<double> frequenciesFor(const LinearSystem& system) {
   return frequenciesBetween(std::min(slowest / 100, high / 10), high);
 }
 
-std::vector<fs::path> drawn(const Findings& f, const LinearOptions& options) {
+void draw(const Findings& f, const LinearOptions& options, Results& results) {
   const int input = options.input - 1, output = options.output - 1;
-  std::vector<fs::path> files;
   const auto draw = [&](Figure figure, const char* name, const std::string& title) {
     figure.title = title;
-    writeFigure(figure, files.emplace_back(options.out / name));
+    const fs::path file = options.out / name;
+    results.json["files"].push_back(file.string());  // as it was given
+    writeFigure(figure, file);
   };
   makeOutFolder(options.out);
   const std::string way = fmt::format("u{} to y{}", options.input, options.output);
@@ -289,7 +271,7 @@ std::vector<fs::path> drawn(const Findings& f, const LinearOptions& options) {
     poles.series.push_back(closed.series[0]);
   }
   draw(poles, "poles.png", "Poles");
-  if (!f.closed) return files;
+  if (!f.closed) return;
   const FrequencyResponse loop = frequencyResponse(*f.loop, input, input, frequenciesFor(*f.loop));
   draw(nyquistFigure(loop.values), "nyquist.png", fmt::format("The loop, cut at u{}", options.input));
   double slowest = 1e3;
@@ -299,32 +281,6 @@ std::vector<fs::path> drawn(const Findings& f, const LinearOptions& options) {
   const TimeResponse step = stepResponse(*f.closed, input, 6 / std::max(slowest, 1e-3));
   draw(stepFigure(step.times, step.y), "step.png",
        fmt::format("With the regulator, pushed by 1 at u{} from 0 s on", options.input));
-  return files;
-}
-
-void sayFindings(const Findings& f) {
-  const auto counted = [](Eigen::Index count, const char* name) {
-    return fmt::format("{} {}{}", count, name, count == 1 ? "" : "s");
-  };
-  say(fmt::format("{}, {}, {}; {}", counted(f.system.A.rows(), "state"),
-                  counted(f.system.B.cols(), "control"), counted(f.system.C.rows(), "measurement"),
-                  f.system.step ? fmt::format("in steps of {:g} s", *f.system.step) : "in continuous time"));
-  say(f.stability.message);
-  sayComplex(f.stability.eigenvalues);
-  say(f.controllable.isComplete ? "controllable" : f.controllable.message);
-  say(f.observable.isComplete ? "observable" : f.observable.message);
-  if (f.regulator) {
-    say("LQR: " + f.regulator->message);
-    if (f.regulator->X.size() > 0) say(matrixText("X", f.regulator->X));
-    if (f.regulator->K.size() > 0) say(matrixText("K", f.regulator->K));
-    sayComplex(f.regulator->closedLoop);
-  }
-  if (f.filter) {
-    say("Kalman filter: " + f.filter->message);
-    if (f.filter->L.size() > 0) say(matrixText("L", f.filter->L));
-    sayComplex(f.filter->closedLoop);
-  }
-  if (f.lqg && f.lqg->status != RiccatiStatus::kSolved) say("LQG: " + f.lqg->message);
 }
 
 const char* nameOf(RiccatiStatus status) {
@@ -343,35 +299,61 @@ const char* nameOf(RiccatiStatus status) {
   return "";
 }
 
-Json jsonOfFindings(const Findings& f, const std::vector<fs::path>& files) {
-  const auto rows = [](const Eigen::MatrixXd& M) { return M.size() > 0 ? jsonOfRows(M) : Json(); };
-  const auto states = [](const ReachableStates& s) {
-    return Json{{"rank", s.rank}, {"complete", s.isComplete}, {"message", s.message}};
+// A matrix, below its name; null where there is none.
+void addMatrix(Results& all, Json& part, const char* name, const Eigen::MatrixXd& M) {
+  part[name] = M.size() > 0 ? jsonOfRows(M) : Json();
+  std::ostringstream text;
+  text << M.format(Eigen::IOFormat(8, 0, "  ", "\n", "  "));
+  if (M.size() > 0) all.line("{} =\n{}", name, text.str());
+}
+
+void addEigenvalues(Results& all, Json& part, const Eigen::VectorXcd& values) {
+  part["eigenvalues"] = Json::array();
+  for (const std::complex<double> value : values) {
+    part["eigenvalues"].push_back({value.real(), value.imag()});
+    all.line("  {:.8g} {:+.8g}i", value.real(), value.imag());
+  }
+}
+
+void addReachable(Results& all, const char* name, const ReachableStates& states) {
+  all.line("{}", states.isComplete ? name : states.message);
+  all.json[name] = {{"rank", states.rank}, {"complete", states.isComplete}, {"message", states.message}};
+}
+
+Results resultsOf(const Findings& f) {
+  const auto counted = [](Eigen::Index count, const char* name) {
+    return fmt::format("{} {}{}", count, name, count == 1 ? "" : "s");
   };
-  Json json{{"eigenvalues", jsonOfComplex(f.stability.eigenvalues)},
-            {"stability", f.stability.message},
-            {"controllable", states(f.controllable)},
-            {"observable", states(f.observable)},
-            {"regulator", nullptr},
-            {"filter", nullptr},
-            {"files", Json::array()}};
+  Results all;
+  all.line("{}, {}, {}; {}", counted(f.system.A.rows(), "state"), counted(f.system.B.cols(), "control"),
+           counted(f.system.C.rows(), "measurement"),
+           f.system.step ? fmt::format("in steps of {:g} s", *f.system.step) : "in continuous time");
+  all.line("{}", f.stability.message);
+  addEigenvalues(all, all.json, f.stability.eigenvalues);
+  all.json["stability"] = f.stability.message;
+  addReachable(all, "controllable", f.controllable);
+  addReachable(all, "observable", f.observable);
+  Json regulator, filter;
   if (f.regulator) {
     const RiccatiResult& found = *f.regulator;
-    json["regulator"] = {
-        {"X", rows(found.X)},
-        {"K", rows(found.K)},
-        {"eigenvalues", jsonOfComplex(found.closedLoop)},
-        {"residual", found.X.size() > 0 ? Json(found.residual) : Json()},
-        {"status", nameOf(found.status)},
-        {"mode", found.mode ? Json::array({found.mode->real(), found.mode->imag()}) : Json()},
-        {"message", found.message}};
+    all.line("LQR: {}", found.message);
+    addMatrix(all, regulator, "X", found.X);
+    addMatrix(all, regulator, "K", found.K);
+    addEigenvalues(all, regulator, found.closedLoop);
+    regulator["residual"] = found.X.size() > 0 ? Json(found.residual) : Json();
+    regulator["status"] = nameOf(found.status);
+    regulator["mode"] = found.mode ? Json{found.mode->real(), found.mode->imag()} : Json();
+    regulator["message"] = found.message;
   }
-  if (f.filter)
-    json["filter"] = {{"L", rows(f.filter->L)},
-                      {"eigenvalues", jsonOfComplex(f.filter->closedLoop)},
-                      {"message", f.filter->message}};
-  for (const fs::path& file : files) json["files"].push_back(file.string());
-  return json;
+  if (f.filter) {
+    all.line("Kalman filter: {}", f.filter->message);
+    addMatrix(all, filter, "L", f.filter->L);
+    addEigenvalues(all, filter, f.filter->closedLoop);
+    filter["message"] = f.filter->message;
+  }
+  if (f.lqg && f.lqg->status != RiccatiStatus::kSolved) all.line("LQG: {}", f.lqg->message);
+  all.json.update({{"regulator", regulator}, {"filter", filter}, {"files", Json::array()}});
+  return all;
 }
 
 ExitCode linear(const Project& project, const LinearOptions& options) {
@@ -385,14 +367,9 @@ ExitCode linear(const Project& project, const LinearOptions& options) {
   };
   requireOne("--input", options.input, findings.system.B.cols());
   requireOne("--output", options.output, findings.system.C.rows());
-  std::vector<fs::path> files;
-  if (!options.out.empty()) files = drawn(findings, options);
-  if (options.json) {
-    say(dump(jsonOfFindings(findings, files)));
-  } else {
-    sayFindings(findings);
-    for (const fs::path& written : files) say(shown(written));
-  }
+  Results results = resultsOf(findings);
+  if (!options.out.empty()) draw(findings, options, results);
+  results.print(options.json);
   const bool isSolved = (!findings.regulator || findings.regulator->K.size() > 0) &&
                         (!findings.filter || findings.filter->L.size() > 0);
   return isSolved ? ExitCode::kFull : ExitCode::kBelow;
