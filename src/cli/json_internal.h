@@ -1,7 +1,7 @@
 #pragma once
 
-#include <cmath>
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
@@ -13,11 +13,9 @@ namespace rex::cli {
 /// Keys stay in the order in which they were put.
 using Json = nlohmann::ordered_json;
 
-/// The numbers; null for what is not finite.
+/// The numbers. What is not finite is printed as null.
 inline Json jsonOf(const Eigen::Ref<const Eigen::VectorXd>& values) {
-  Json list = Json::array();
-  for (const double value : values) list.push_back(std::isfinite(value) ? Json(value) : Json());
-  return list;
+  return std::vector<double>(values.begin(), values.end());
 }
 
 /// Row by row.

@@ -11,8 +11,8 @@
 
 namespace rex::cli {
 
-/// What a command has found: lines for people, a JSON object for programs, and under its key "files" the files
-/// that were written, which people see below the lines.
+/// What a command has found: lines for people, a JSON object for programs, and under its key "files" the
+/// files that were written, which people see below the lines.
 struct Results {
   std::vector<std::string> lines{};
   Json json = Json::object();

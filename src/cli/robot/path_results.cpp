@@ -14,7 +14,7 @@
 
 #include "base/text.h"
 #include "base/text_file.h"
-#include "cli/json_internal.h"
+#include "cli/results_internal.h"
 #include "cli/robot/motion_files.h"
 #include "cli/robot/path_search.h"
 #include "cli/robot/posture_option.h"
@@ -268,45 +268,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Contains no computing times: the same input gives the same bytes.
-Report replayOf(const PathTask& task, const PlanOptions& options, const FoundPath& found,
-                const PathTiming& timing, const Motion& motion) {
-  const TimingResult& result = timing.result;
-  Report report{.title = titleOf(task, options, found),
-                .figures = {{jointsFigure(task.model, motion)}},
-                .facts = {{"length", fmt::format("{:.4g}", found.length)},
-                          {"duration", fmt::format("{:.3f} s", result.motion.duration())},
-                          {"from velocity limits alone", fmt::format("{:.3f} s", result.lowerBound)},
-                          {"limits", limitsTextOf(timing, options)},
-                          {"margin", fmt::format("{:g} m", *options.margin)},
-                          {"nodes", fmt::format("{}", found.nodes)},
-                          {"configurations checked", fmt::format("{}", found.checks)}}};
-  if (result.motion.duration() > 0)
-    report.figures.push_back({speedsFigure(result.motion, timing.limits.limits)});
-  if (!task.contacts.pairs().empty()) {
-    report.figures.push_back({clearanceFigure(task.model, task.contacts, motion, *options.margin)});
-    report.facts.emplace_back("clearance", fmt::format("{:.4g} m", found.clearance.atLeast));
-  }
-  return report;
-}
-
-// A hundred rows per second, fewer for very long motions.
-std::string tableOf(const Model& model, const TimedPath& timed) {
-  constexpr double kRate = 100, kMostRows = 1e6;
-  const double rate = std::min(kRate, kMostRows / std::max(timed.duration(), 1.));
-  return csvOf(model, sampledMotion(timed, rate));
-}
-
-// Writes the film and the replay.
-std::vector<fs::path> writeMotion(const PathTask& task, const PlanOptions& options,
-                                  const RenderPlan& pictures, BodyId body, const FoundPath& found,
-                                  const PathTiming& timing) {
-  const double speed = filmSpeed(options.speed, timing.result.motion.duration());
-  const Motion motion = sampledMotion(timing.result.motion, kFilmRate / speed);
-  return writeFilmAndReplay(task.model, motion, body, replayOf(task, options, found, timing, motion),
-                            pictures, options.out / "path", speed);
-}
-
 }  // namespace
 
 void writeExplored(Picture picture, RenderPlan plan, std::string caption, const fs::path& out) {
@@ -323,23 +284,51 @@ std::string titleOf(const PathTask& task, const PlanOptions& options, const Foun
                      found.seed);
 }
 
-std::vector<std::string> writePathFiles(const PathTask& task, const PlanOptions& options,
-                                        const RenderPlan& pictures, BodyId body, const FoundPath& found,
-                                        const PathTiming& timing) {
-  std::vector<fs::path> files = {options.out / "tree.png"};
-  writeExplored(exploredPicture(task, body, found), pictures,
-                fmt::format("{}: {} nodes", titleOf(task, options, found), found.nodes), files.back());
-  const bool canMove = found.isFound() && timing.isFound();
-  if (canMove) {
-    files.push_back(options.out / "path.csv");
-    writeTextFile(files.back(), tableOf(task.model, timing.result.motion));
+void writeMotion(const PlannedMotion& planned, const Motion& table, const PlanOptions& options,
+                 const RenderPlan& pictures, Results& results) {
+  const auto& [model, contacts, body, duration, postures, clearance, page] = planned;
+  writeTextFile(results.file(options.out / "path.csv"), csvOf(model, table));
+  if (options.noFilm) return;
+  const double speed = filmSpeed(options.speed, duration);
+  const Motion motion = postures(kFilmRate / speed);
+  Report report = page;
+  report.figures.insert(report.figures.begin(), {jointsFigure(model, motion)});
+  if (!contacts.pairs().empty()) {
+    report.figures.push_back({clearanceFigure(model, contacts, motion, *options.margin)});
+    report.facts.emplace_back("clearance", fmt::format("{:.4g} m", clearance));
   }
-  if (canMove && !options.noFilm)
-    for (const fs::path& file : writeMotion(task, options, pictures, body, found, timing))
-      files.push_back(file);
-  std::vector<std::string> names;
-  for (const fs::path& file : files) names.push_back(shown(file));
-  return names;
+  for (const fs::path& file :
+       writeFilmAndReplay(model, motion, body, std::move(report), pictures, options.out / "path", speed))
+    results.file(file);
+}
+
+void writePathFiles(const PathTask& task, const PlanOptions& options, const RenderPlan& pictures, BodyId body,
+                    const FoundPath& found, const PathTiming& timing, Results& results) {
+  constexpr double kRate = 100, kMostRows = 1e6;  // fewer rows per second for very long motions
+  const std::string title = titleOf(task, options, found);
+  writeExplored(exploredPicture(task, body, found), pictures, fmt::format("{}: {} nodes", title, found.nodes),
+                results.file(options.out / "tree.png"));
+  if (!found.isFound() || !timing.isFound()) return;
+  const TimedPath& timed = timing.result.motion;
+  const double duration = timed.duration();
+  PlannedMotion planned{
+      .model = task.model,
+      .contacts = task.contacts,
+      .body = body,
+      .duration = duration,
+      .postures = [&](double rate) { return motionOf(timed, rate); },
+      .clearance = found.clearance.atLeast,
+      .page = {.title = title,
+               .facts = {{"length", fmt::format("{:.4g}", found.length)},
+                         {"duration", fmt::format("{:.3f} s", duration)},
+                         {"from velocity limits alone", fmt::format("{:.3f} s", timing.result.lowerBound)},
+                         {"limits", limitsTextOf(timing, options)},
+                         {"margin", fmt::format("{:g} m", *options.margin)},
+                         {"nodes", fmt::format("{}", found.nodes)},
+                         {"configurations checked", fmt::format("{}", found.checks)}}}};
+  if (duration > 0) planned.page.figures.push_back({speedsFigure(timed, timing.limits.limits)});
+  writeMotion(planned, motionOf(timed, std::min(kRate, kMostRows / std::max(duration, 1.))), options,
+              pictures, results);
 }
 
 namespace {
@@ -442,9 +431,8 @@ Json jsonOfPath(const FoundPath& found) {
   json["smoothing_seconds"] = found.smoothingTime;
   json["planned_length"] = found.plannedLength;
   json["length"] = found.length;
-  const bool canCollide = std::isfinite(found.clearance.atLeast);
-  json["clearance"] = canCollide ? Json(found.clearance.atLeast) : Json();
-  json["clearance_measured"] = canCollide ? Json(found.clearance.atMost) : Json();
+  json["clearance"] = found.clearance.atLeast;
+  json["clearance_measured"] = found.clearance.atMost;
   return json;
 }
 
@@ -456,12 +444,13 @@ std::string summaryOf(const PathTask& task, const PlanOptions& options, const Fo
                                : summaryOfAll(task, options, found, timing);
 }
 
-std::string jsonSummaryOf(const PathTask& task, const PlanOptions& options, const FoundPaths& found,
-                          const PathTiming& timing, const std::vector<std::string>& files) {
+Results resultsOf(const PathTask& task, const PlanOptions& options, const FoundPaths& found,
+                  const PathTiming& timing) {
   Json runs = Json::array();
   for (const FoundPath& one : found.all) runs.push_back(jsonOfPath(one));
   const bool isFound = found.successes() > 0;
-  return dump(Json{{"scene", task.model.name()},
+  return {.lines = {summaryOf(task, options, found, timing)},
+          .json = {{"scene", task.model.name()},
                    {"planner", nameOf(options.planner)},
                    {"margin", *options.margin},
                    {"resolution", *options.resolution},
@@ -469,8 +458,7 @@ std::string jsonSummaryOf(const PathTask& task, const PlanOptions& options, cons
                    {"runs", std::move(runs)},
                    {"shortest", isFound ? Json(found.shortest().seed) : Json()},
                    {"timing", isFound ? jsonOfTiming(timing) : Json()},
-                   {"path", isFound ? jsonOfRows(found.shortest().path.transpose()) : Json()},
-                   {"files", files}});
+                   {"path", isFound ? jsonOfRows(found.shortest().path.transpose()) : Json()}}};
 }
 
 }  // namespace rex::cli

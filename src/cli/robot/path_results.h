@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -12,8 +13,11 @@
 #include "planning/timed_path.h"
 #include "render/figure.h"
 #include "render/picture.h"
+#include "render/report.h"
 
 namespace rex::cli {
+
+struct Results;
 
 /// The timing of a path, and its limits.
 struct PathTiming {
@@ -64,21 +68,35 @@ struct PathTiming {
 /// Draws what a search explored, with a caption, into a .png file. Throws Error if nothing is to be seen.
 void writeExplored(Picture picture, RenderPlan plan, std::string caption, const std::filesystem::path& out);
 
-/// Writes into options.out what a search explored, and the motion along the path found as a table, a film
-/// and a page with a replay. Pictures show the traces of `body` and are drawn according to `pictures`.
-/// Returns the files, as a user would type them. Throws Error like the functions that write them.
-[[nodiscard]] std::vector<std::string> writePathFiles(const PathTask& task, const PlanOptions& options,
-                                                      const RenderPlan& pictures, BodyId body,
-                                                      const FoundPath& found, const PathTiming& timing);
+/// A motion that was planned.
+struct PlannedMotion {
+  const Model& model;
+  const ContactModel& contacts;
+  BodyId body{};                                  ///< whose trace the film shows
+  double duration = 0;                            ///< seconds
+  std::function<Motion(double rate)> postures{};  ///< `rate` per second
+  double clearance = 0;                           ///< metres
+  Report page{};  ///< the title, figures besides those of joints and clearances, and facts, none of them a
+                  ///< computing time: the same input gives the same bytes
+};
+
+/// Writes into options.out the table, and unless there is to be no film, the film and a page with a replay.
+/// Throws Error like the functions that write them.
+void writeMotion(const PlannedMotion& planned, const Motion& table, const PlanOptions& options,
+                 const RenderPlan& pictures, Results& results);
+
+/// Writes into options.out what a search explored, and the motion along the path found. Pictures show the
+/// traces of `body` and are drawn according to `pictures`.
+void writePathFiles(const PathTask& task, const PlanOptions& options, const RenderPlan& pictures, BodyId body,
+                    const FoundPath& found, const PathTiming& timing, Results& results);
 
 /// A few lines for one search; for several a table of minima, medians and maxima, with lengths and
 /// clearances only of the paths found. `timing` is that of the shortest path.
 [[nodiscard]] std::string summaryOf(const PathTask& task, const PlanOptions& options, const FoundPaths& found,
                                     const PathTiming& timing);
 
-/// The same as JSON, with the shortest path.
-[[nodiscard]] std::string jsonSummaryOf(const PathTask& task, const PlanOptions& options,
-                                        const FoundPaths& found, const PathTiming& timing,
-                                        const std::vector<std::string>& files);
+/// The same, for programs with the shortest path.
+[[nodiscard]] Results resultsOf(const PathTask& task, const PlanOptions& options, const FoundPaths& found,
+                                const PathTiming& timing);
 
 }  // namespace rex::cli

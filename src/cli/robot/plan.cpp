@@ -13,6 +13,7 @@
 #include "cli/command_table.h"
 #include "cli/numbers.h"
 #include "cli/option_table_internal.h"
+#include "cli/results_internal.h"
 #include "cli/robot/motion_files.h"
 #include "cli/robot/path_results.h"
 #include "cli/robot/posture_option.h"
@@ -84,14 +85,9 @@ ExitCode planPath(const PlanOptions& options, const RenderPlan& pictures, Model 
   const bool isFound = found.successes() > 0;
   const PathTiming timing = isFound ? timingOf(task, options, found.shortest()) : PathTiming{};
   if (const std::string assumed = assumptionsOf(timing, options); !assumed.empty()) note(assumed);
-  const std::vector<std::string> files =
-      writePathFiles(task, options, pictures, body, found.shortest(), timing);
-  if (options.json) {
-    say(jsonSummaryOf(task, options, found, timing, files));
-  } else {
-    say(summaryOf(task, options, found, timing));
-    for (const std::string& file : files) say(file);
-  }
+  Results results = resultsOf(task, options, found, timing);
+  writePathFiles(task, options, pictures, body, found.shortest(), timing, results);
+  results.print(options.json);
   return isClear(found, *options.margin) && timing.isFound() ? ExitCode::kFull : ExitCode::kBelow;
 }
 

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -8,9 +7,8 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/text_file.h"
-#include "cli/json_internal.h"
 #include "cli/numbers.h"
+#include "cli/results_internal.h"
 #include "cli/robot/motion_files.h"
 #include "cli/robot/path_results.h"
 #include "cli/robot/path_search.h"
@@ -110,8 +108,6 @@ Picture parkingPicture(const PathTask& task, const Parking& parking) {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 // Otherwise the car would drive through obstacles there without a word.
 void tellWhatIsNoObstacle(const Model& model) {
   for (const PairVerdict& pair : pairVerdicts(model))
@@ -137,81 +133,59 @@ PathTask carTaskOf(Model model, const PlanOptions& options) {
   return task;
 }
 
-Report replayOf(const PathTask& task, const Parking& parking, const PlanOptions& options,
-                const std::string& title, const Motion& motion) {
-  Report report{.title = title,
-                .figures = {{jointsFigure(task.model, motion)}},
-                .facts = {{"length", fmt::format("{:.2f} m", parking.path.length)},
-                          {"changes of direction", fmt::format("{}", parking.path.switches)},
-                          {"margin", fmt::format("{:g} m", *options.margin)},
-                          {"states expanded", fmt::format("{}", parking.path.expanded)}}};
-  if (!task.contacts.pairs().empty()) {
-    report.figures.push_back({clearanceFigure(task.model, task.contacts, motion, *options.margin)});
-    report.facts.emplace_back("clearance", fmt::format("{:.4g} m", parking.clearance.atLeast));
-  }
-  return report;
-}
-
-std::vector<std::string> writeFiles(const PathTask& task, const Parking& parking, const PlanOptions& options,
-                                    const RenderPlan& pictures) {
+void writeFiles(const PathTask& task, const Parking& parking, const PlanOptions& options,
+                const RenderPlan& pictures, Results& results) {
+  constexpr double kRate = 100;
   const std::string title = escapeForTerminal(task.model.name()) + ", hybrid A*";
-  std::vector<fs::path> files = {options.out / "tree.png"};
-  writeExplored(parkingPicture(task, parking), pictures,
-                fmt::format("{}: {} states expanded", title, parking.path.expanded), files.back());
-  if (parking.isFound()) {
-    files.push_back(options.out / "path.csv");
-    constexpr double kRate = 100;
-    writeTextFile(files.back(), csvOf(task.model, parkingMotion(parking, kRate)));
-  }
-  if (parking.isFound() && !options.noFilm) {
-    const double speed = filmSpeed(options.speed, parking.path.length);
-    const Motion motion = parkingMotion(parking, kFilmRate / speed);
-    for (const fs::path& file : writeFilmAndReplay(task.model, motion, farthestBody(task.model),
-                                                   replayOf(task, parking, options, title, motion), pictures,
-                                                   options.out / "path", speed))
-      files.push_back(file);
-  }
-  std::vector<std::string> names;
-  for (const fs::path& file : files) names.push_back(shown(file));
-  return names;
-}
-
-std::string summaryOf(const PathTask& task, const Parking& parking, const PlanOptions& options) {
-  std::string text = fmt::format("{}, hybrid A*: {}", escapeForTerminal(task.model.name()),
-                                 parking.path.driven.found.message);
-  if (!parking.isFound()) return text;
-  text += fmt::format("\ncost       {:.3f}, no path on the grid costs less than {:.3f}\nclearance  ",
-                      parking.path.cost, parking.path.leastCost);
-  text += std::isfinite(parking.clearance.atLeast) ? fmt::format("{:.4f} m all along the path, margin {:g} m",
-                                                                 parking.clearance.atLeast, *options.margin)
-                                                   : "nothing can collide";
-  text += "\nmetres and steering angles (negative: backward)";
-  for (const auto& [u, seconds] : parking.path.driven.controls)
-    text += fmt::format("\n{:9.3f} {:8.3f}", u[0] * seconds, u[1]);
-  return text;
-}
-
-std::string jsonTextOf(const PathTask& task, const Parking& parking, const std::vector<std::string>& files) {
   const CarPath& path = parking.path;
-  Json controls = Json::array();
-  for (const auto& [u, seconds] : path.driven.controls)
-    controls.push_back(Json::array({u[0] * seconds, u[1]}));
-  const auto orNull = [&](double number) {
-    return parking.isFound() && std::isfinite(number) ? Json(number) : Json();
-  };
-  return dump(Json{{"scene", task.model.name()},
-                   {"found", parking.isFound()},
-                   {"message", path.driven.found.message},
-                   {"expanded", path.expanded},
-                   {"checks", path.driven.found.asked},
-                   {"cost", orNull(path.cost)},
-                   {"least_cost", orNull(path.leastCost)},
-                   {"length", orNull(path.length)},
-                   {"switches", parking.isFound() ? Json(path.switches) : Json()},
-                   {"clearance", orNull(parking.clearance.atLeast)},
-                   {"drives", std::move(controls)},
-                   {"path", parking.isFound() ? jsonOfRows(path.driven.found.path.transpose()) : Json()},
-                   {"files", files}});
+  writeExplored(parkingPicture(task, parking), pictures,
+                fmt::format("{}: {} states expanded", title, path.expanded),
+                results.file(options.out / "tree.png"));
+  if (!parking.isFound()) return;
+  writeMotion({.model = task.model,
+               .contacts = task.contacts,
+               .body = farthestBody(task.model),
+               .duration = path.length,
+               .postures = [&](double rate) { return parkingMotion(parking, rate); },
+               .clearance = parking.clearance.atLeast,
+               .page = {.title = title,
+                        .facts = {{"length", fmt::format("{:.2f} m", path.length)},
+                                  {"changes of direction", fmt::format("{}", path.switches)},
+                                  {"margin", fmt::format("{:g} m", *options.margin)},
+                                  {"states expanded", fmt::format("{}", path.expanded)}}}},
+              parkingMotion(parking, kRate), options, pictures, results);
+}
+
+Results resultsOf(const PathTask& task, const Parking& parking, const PlanOptions& options) {
+  const CarPath& path = parking.path;
+  const bool isFound = parking.isFound();
+  const auto orNull = [&](const Json& value) { return isFound ? value : Json(); };
+  Results all{.json = {{"scene", task.model.name()},
+                       {"found", isFound},
+                       {"message", path.driven.found.message},
+                       {"expanded", path.expanded},
+                       {"checks", path.driven.found.asked},
+                       {"cost", orNull(path.cost)},
+                       {"least_cost", orNull(path.leastCost)},
+                       {"length", orNull(path.length)},
+                       {"switches", orNull(path.switches)},
+                       {"clearance", orNull(parking.clearance.atLeast)},
+                       {"drives", Json::array()},
+                       {"path", isFound ? jsonOfRows(path.driven.found.path.transpose()) : Json()}}};
+  all.line("{}, hybrid A*: {}", escapeForTerminal(task.model.name()), path.driven.found.message);
+  if (!isFound) return all;
+  all.line("cost       {:.3f}, no path on the grid costs less than {:.3f}", path.cost, path.leastCost);
+  if (std::isfinite(parking.clearance.atLeast))
+    all.line("clearance  {:.4f} m all along the path, margin {:g} m", parking.clearance.atLeast,
+             *options.margin);
+  else
+    all.line("clearance  nothing can collide");
+  all.line("metres and steering angles (negative: backward)");
+  for (const auto& [u, seconds] : path.driven.controls) {
+    all.line("{:9.3f} {:8.3f}", u[0] * seconds, u[1]);
+    all.json["drives"].push_back({u[0] * seconds, u[1]});
+  }
+  return all;
 }
 
 }  // namespace
@@ -222,13 +196,9 @@ ExitCode planCar(const PlanOptions& options, const RenderPlan& pictures, Model m
   makeResultFolder(options.out, {"tree.png", "path.csv", "path.mp4", "path.html"}, "path");
 
   const Parking parking = asWrongUse([&] { return parked(task, car, options.grid); });
-  const std::vector<std::string> files = writeFiles(task, parking, options, pictures);
-  if (options.json) {
-    say(jsonTextOf(task, parking, files));
-  } else {
-    say(summaryOf(task, parking, options));
-    for (const std::string& file : files) say(file);
-  }
+  Results results = resultsOf(task, parking, options);
+  writeFiles(task, parking, options, pictures, results);
+  results.print(options.json);
   if (!parking.isFound()) return ExitCode::kBelow;
   if (parking.clearance.atLeast > (*options.margin > 0 ? 0 : -kClearanceTolerance)) return ExitCode::kFull;
   note(

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
-#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,10 +8,9 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/text_file.h"
-#include "cli/json_internal.h"
 #include "cli/numbers.h"
 #include "cli/option_table_internal.h"
+#include "cli/results_internal.h"
 #include "cli/robot/motion_files.h"
 #include "cli/robot/path_results.h"
 #include "cli/robot/path_search.h"
@@ -83,8 +81,6 @@ FoundTrajectory findTrajectory(const TrajectoryTask& task) {
 }
 
 namespace {
-
-namespace fs = std::filesystem;
 
 ConstraintMethod methodOf(Planner planner) {
   return planner == Planner::kOptimizePenalty   ? ConstraintMethod::kSquaredPenalty
@@ -177,71 +173,54 @@ std::string titleOf(const TrajectoryTask& task) {
                      task.p_WQ.z());
 }
 
-// Contains no computing times: the same input gives the same bytes.
-Report replayOf(const TrajectoryTask& task, const FoundTrajectory& found, const Motion& motion) {
-  Report report{.title = titleOf(task),
-                .figures = {{jointsFigure(task.model, motion)}, {costFigure(found)}},
-                .facts = {{"method", nameOf(task.method)},
-                          {"status", nameOf(found.solution.status)},
-                          {"cost", fmt::format("{:.6g}", found.solution.cost)},
-                          {"distance from the goal", fmt::format("{:.3g} m", found.error)},
-                          {"Newton steps", fmt::format("{}", found.solution.log.size())}}};
-  if (task.contacts.pairs().empty()) return report;
-  report.figures.push_back({clearanceFigure(task.model, task.contacts, motion, task.margin)});
-  report.facts.emplace_back("clearance", fmt::format("{:.4g} m", found.clearance.distance));
-  return report;
+void writeFiles(const TrajectoryTask& task, const PlanOptions& options, const RenderPlan& pictures,
+                const FoundTrajectory& found, Results& results) {
+  const Figure costs = costFigure(found);
+  writeFigure(costs, results.file(options.out / "costs.png"));
+  writeMotion({.model = task.model,
+               .contacts = task.contacts,
+               .body = task.body,
+               .duration = task.seconds,
+               .postures = [&](double rate) { return filmOf(found, rate); },
+               .clearance = found.clearance.distance,
+               .page = {.title = titleOf(task),
+                        .figures = {{costs}},
+                        .facts = {{"method", nameOf(task.method)},
+                                  {"status", nameOf(found.solution.status)},
+                                  {"cost", fmt::format("{:.6g}", found.solution.cost)},
+                                  {"distance from the goal", fmt::format("{:.3g} m", found.error)},
+                                  {"Newton steps", fmt::format("{}", found.solution.log.size())}}}},
+              trajectoryMotion(found), options, pictures, results);
 }
 
-std::vector<std::string> writeFiles(const TrajectoryTask& task, const PlanOptions& options,
-                                    const RenderPlan& pictures, const FoundTrajectory& found) {
-  std::vector<fs::path> files{options.out / "costs.png", options.out / "path.csv"};
-  writeFigure(costFigure(found), files.front());
-  writeTextFile(files.back(), csvOf(task.model, trajectoryMotion(found)));
-  if (!options.noFilm) {
-    const double speed = filmSpeed(options.speed, task.seconds);
-    const Motion film = filmOf(found, kFilmRate / speed);
-    for (const fs::path& file : writeFilmAndReplay(task.model, film, task.body, replayOf(task, found, film),
-                                                   pictures, options.out / "path", speed))
-      files.push_back(file);
-  }
-  std::vector<std::string> names;
-  for (const fs::path& file : files) names.push_back(shown(file));
-  return names;
-}
-
-std::string summaryOf(const TrajectoryTask& task, const FoundTrajectory& found) {
-  std::string text = fmt::format("{}\n{}\n", titleOf(task), found.solution.message);
-  text += fmt::format("goal       {:.3g} m away at the end, after {:g} s in {} steps\n", found.error,
-                      task.seconds, task.steps);
-  text +=
-      fmt::format("CPU time   {:.1f} ms, {} Newton steps", 1e3 * found.cpuTime, found.solution.log.size());
+Results resultsOf(const TrajectoryTask& task, const FoundTrajectory& found) {
   const auto& [distance, step] = found.clearance;
-  if (!std::isfinite(distance)) return text + "\nclearance  nothing can collide";
-  text += distance > 0 ? fmt::format("\nclearance  {:.4f} m proven along the whole path", distance)
-                       : fmt::format("\nclearance  none: shapes may overlap by {:.4f} m", -distance);
-  return text +
-         fmt::format(", nearest in step {}{}", step,
-                     task.avoids ? fmt::format(", margin {:g} m", task.margin) : "; nothing was avoided");
-}
-
-std::string jsonTextOf(const TrajectoryTask& task, const FoundTrajectory& found,
-                       const std::vector<std::string>& files) {
-  const bool canCollide = std::isfinite(found.clearance.distance);
-  return dump(Json{{"scene", task.model.name()},
-                   {"body", task.model[task.body].name},
-                   {"method", nameOf(task.method)},
-                   {"status", nameOf(found.solution.status)},
-                   {"message", found.solution.message},
-                   {"cost", found.solution.cost},
-                   {"violation", found.solution.violation},
-                   {"most_violated", found.solution.mostViolated},
-                   {"newton_steps", found.solution.log.size()},
-                   {"cpu_seconds", found.cpuTime},
-                   {"error", found.error},
-                   {"clearance", canCollide ? Json(found.clearance.distance) : Json()},
-                   {"tau", found.tau},
-                   {"path", jsonOfRows(found.path.transpose())},
-                   {"files", files}});
+  Results all{.json = {{"scene", task.model.name()},
+                       {"body", task.model[task.body].name},
+                       {"method", nameOf(task.method)},
+                       {"status", nameOf(found.solution.status)},
+                       {"message", found.solution.message},
+                       {"cost", found.solution.cost},
+                       {"violation", found.solution.violation},
+                       {"most_violated", found.solution.mostViolated},
+                       {"newton_steps", found.solution.log.size()},
+                       {"cpu_seconds", found.cpuTime},
+                       {"error", found.error},
+                       {"clearance", distance},
+                       {"tau", found.tau},
+                       {"path", jsonOfRows(found.path.transpose())}}};
+  all.line("{}\n{}", titleOf(task), found.solution.message);
+  all.line("goal       {:.3g} m away at the end, after {:g} s in {} steps", found.error, task.seconds,
+           task.steps);
+  all.line("CPU time   {:.1f} ms, {} Newton steps", 1e3 * found.cpuTime, found.solution.log.size());
+  if (!std::isfinite(distance))
+    all.line("clearance  nothing can collide");
+  else
+    all.line("clearance  {}, nearest in step {}{}",
+             distance > 0 ? fmt::format("{:.4f} m proven along the whole path", distance)
+                          : fmt::format("none: shapes may overlap by {:.4f} m", -distance),
+             step, task.avoids ? fmt::format(", margin {:g} m", task.margin) : "; nothing was avoided");
+  return all;
 }
 
 }  // namespace
@@ -256,13 +235,9 @@ ExitCode planMotion(const PlanOptions& options, const RenderPlan& pictures, Mode
   makeResultFolder(options.out, {"costs.png", "path.csv", "path.mp4", "path.html"}, "path");
 
   const FoundTrajectory found = findTrajectory(task);
-  const std::vector<std::string> files = writeFiles(task, options, pictures, found);
-  if (options.json) {
-    say(jsonTextOf(task, found, files));
-  } else {
-    say(summaryOf(task, found));
-    for (const std::string& file : files) say(file);
-  }
+  Results results = resultsOf(task, found);
+  writeFiles(task, options, pictures, found, results);
+  results.print(options.json);
   if (found.isSolved() && task.avoids && found.clearance.distance <= 0)
     note("it is not proven that shapes stay apart between steps: use more --steps or a larger --margin");
   return found.isSolved() && !(task.avoids && found.clearance.distance <= 0) ? ExitCode::kFull
