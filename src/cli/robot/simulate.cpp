@@ -14,9 +14,9 @@
 #include "base/error.h"
 #include "base/interruption.h"
 #include "cli/command_table.h"
-#include "cli/json_internal.h"
 #include "cli/numbers.h"
 #include "cli/option_table_internal.h"
+#include "cli/results_internal.h"
 #include "cli/robot/motion_files.h"
 #include "cli/robot/robot_options_internal.h"
 #include "cli/robot/scene_option.h"
@@ -241,52 +241,41 @@ void writeMotionPage(const MotionPictures& pictures, const Record& record, const
 // What rounds to zero has no sign.
 double rounded(double x) { return std::abs(x) < 5e-6 ? 0 : x; }
 
-// Prints the first and the last value of each coordinate.
-void sayPostures(const Model& model, const Eigen::VectorXd& first, const Eigen::VectorXd& last) {
+// The first and the last value of each coordinate.
+void addPostures(Results& all, const Model& model, const Eigen::VectorXd& first,
+                 const Eigen::VectorXd& last) {
   std::size_t width = 0;
   for (const Joint& joint : model.joints()) width = std::max(width, escapeForTerminal(joint.name).size());
   for (const Joint& joint : model.joints()) {
     if (joint.mimics) continue;
     for (int i = joint.qIndex; i < joint.qIndex + joint.nq; ++i)
-      say(fmt::format("q{:<3} {:{}}  {:9.5f} -> {:9.5f}", i, escapeForTerminal(joint.name), width,
-                      rounded(first[i]), rounded(last[i])));
+      all.line("q{:<3} {:{}}  {:9.5f} -> {:9.5f}", i, escapeForTerminal(joint.name), width, rounded(first[i]),
+               rounded(last[i]));
   }
 }
 
-Json jsonOfOverlaps(const std::vector<BodyOverlap>& overlaps) {
-  Json all = Json::array();
-  for (const BodyOverlap& one : overlaps) all.push_back({{"a", one.a}, {"b", one.b}, {"depth", one.depth}});
-  return all;
-}
-
-void report(const Model& model, const SimulationPlan& plan, const Record& record,
-            const std::vector<BodyOverlap>& overlaps, const SimulateOptions& options,
-            const std::vector<std::string>& files, const std::optional<EnergyGain>& gain) {
+Results resultsOf(const Model& model, const SimulationPlan& plan, const Record& record,
+                  const std::vector<BodyOverlap>& overlaps, const SimulateOptions& options,
+                  const std::optional<EnergyGain>& gain) {
   const Moment &first = record.first(), &last = record.last();
-  if (options.json) {
-    say(dump(
-        Json{{"scene", model.name()},
-             {"engine", nameOf(options.engine)},
-             {"held", plan.hold != Hold::kNone},
-             {"tau", options.tau},
-             {"steps", record.steps()},
-             {"stopped", gain ? Json{{"time", gain->time}, {"gained", gain->gained}, {"given", gain->given}}
-                              : Json(nullptr)},
-             {"overlaps", jsonOfOverlaps(overlaps)},
-             {"energy",
-              {{"start", first.energy.total()},
-               {"end", last.energy.total()},
-               {"largest_change", record.largestChange()}}},
-             {"q", jsonOf(last.state.q)},
-             {"v", jsonOf(last.state.v)},
-             {"files", files}}));
-    return;
-  }
-  say(fmt::format("{}: {} steps, {:g} s", titleOf(model, plan, options), record.steps(), last.state.time));
-  say(fmt::format("energy: {:.6g} J at the start, {:.6g} J at the end, largest change {:.2g} J",
-                  first.energy.total(), last.energy.total(), record.largestChange()));
-  sayPostures(model, first.state.q, last.state.q);
-  for (const std::string& file : files) say(file);
+  const double start = first.energy.total(), end = last.energy.total(), change = record.largestChange();
+  Results all{.json = {{"scene", model.name()},
+                       {"engine", nameOf(options.engine)},
+                       {"held", plan.hold != Hold::kNone},
+                       {"tau", options.tau},
+                       {"steps", record.steps()},
+                       {"stopped", nullptr},
+                       {"overlaps", Json::array()},
+                       {"energy", {{"start", start}, {"end", end}, {"largest_change", change}}},
+                       {"q", jsonOf(last.state.q)},
+                       {"v", jsonOf(last.state.v)}}};
+  if (gain) all.json["stopped"] = {{"time", gain->time}, {"gained", gain->gained}, {"given", gain->given}};
+  for (const BodyOverlap& one : overlaps)
+    all.json["overlaps"].push_back({{"a", one.a}, {"b", one.b}, {"depth", one.depth}});
+  all.line("{}: {} steps, {:g} s", titleOf(model, plan, options), record.steps(), last.state.time);
+  all.line("energy: {:.6g} J at the start, {:.6g} J at the end, largest change {:.2g} J", start, end, change);
+  addPostures(all, model, first.state.q, last.state.q);
+  return all;
 }
 
 std::string stopped(const EnergyGain& gain) {
@@ -381,24 +370,22 @@ ExitCode simulateScene(const Project& project, const SimulateOptions& options) {
     return simulate(model, plan, [&](const Moment& moment) { record.add(moment, log ? &*log : nullptr); });
   });
 
-  std::vector<std::string> files;
+  Results results = resultsOf(model, plan, record, overlaps, options, gain);
   if (isPage(options)) {
     writeMotionPage(motionPicturesOf(model, record.motion(), options, ""), record, title, options, film,
                     speed);
-    files.push_back(shown(options.out));
+    results.file(options.out);
   } else {
     log->finish();
-    files.push_back(shown(logFile));
+    results.file(logFile);
     const Figure figure = record.energyFigure(title);
-    for (const char* name : {"energy.png", "energy.svg"}) {
-      writeFigure(figure, options.out / name);
-      files.push_back(shown(options.out / name));
-    }
+    for (const char* name : {"energy.png", "energy.svg"})
+      writeFigure(figure, results.file(options.out / name));
     if (!options.noFilm)
-      files.push_back(shown(writeMotionFilm(motionPicturesOf(model, record.motion(), options, title), film,
-                                            options.out / "simulate.mp4")));
+      results.file(writeMotionFilm(motionPicturesOf(model, record.motion(), options, title), film,
+                             options.out / "simulate.mp4"));
   }
-  report(model, plan, record, overlaps, options, files, gain);
+  results.print(options.json);
   if (!gain) return ExitCode::kFull;
   note(wrap(stopped(*gain), 2, 0));
   return ExitCode::kBelow;
