@@ -9,10 +9,10 @@
 
 #include "base/text_file.h"
 #include "cli/command_table.h"
-#include "cli/json_internal.h"
 #include "cli/numbers.h"
 #include "cli/option_table_internal.h"
 #include "cli/project.h"
+#include "cli/results_internal.h"
 #include "cli/terminal.h"
 #include "estimation/g2o_file.h"
 #include "estimation/pose_graph.h"
@@ -58,7 +58,6 @@ void writePlot(const SlamOptions& options, const Eigen::Matrix2Xd& before, const
   if (landmarks.cols() > 0)
     figure.series.push_back(through(landmarks, {.label = "landmarks", .style = SeriesStyle::kPoints}));
   writeFigure(figure, options.plot);
-  if (!options.json) say(fmt::format("wrote {}", options.plot.string()));
 }
 
 const char* nameOf(PoseGraphStatus status) {
@@ -96,25 +95,22 @@ ExitCode slam(const SlamOptions& options, G2oFile& file, Graph& graph) {
   const std::clock_t begin = std::clock();
   const PoseGraphResult result = asWrongUse([&] { return optimize(graph, how); });
   const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
-  if (options.json) {
-    say(dump(Json{{"poses", file.ids.size()},
-                  {"edges", graph.edges.size()},
-                  {"landmarks", landmarksOf(graph).cols()},
-                  {"sightings", sightingsOf(graph)},
-                  {"initial_cost", result.initialCost},
-                  {"cost", result.cost},
-                  {"iterations", result.iterations},
-                  {"seconds", seconds},
-                  {"status", nameOf(result.status)}}));
-  } else {
-    say(fmt::format("{}; {}", sizeOf(graph, file.ids.size()), result.message));
-    say(fmt::format("{:.3f} s of processor time", seconds));
-  }
+  Results all{.json = {{"poses", file.ids.size()},
+                       {"edges", graph.edges.size()},
+                       {"landmarks", landmarksOf(graph).cols()},
+                       {"sightings", sightingsOf(graph)},
+                       {"initial_cost", result.initialCost},
+                       {"cost", result.cost},
+                       {"iterations", result.iterations},
+                       {"seconds", seconds},
+                       {"status", nameOf(result.status)}}};
+  all.line("{}; {}", sizeOf(graph, file.ids.size()), result.message);
+  all.line("{:.3f} s of processor time", seconds);
   if (!options.plot.empty()) writePlot(options, before, positionsOf(graph), landmarksOf(graph));
-  if (!options.out.empty()) {
-    writeTextFile(options.out, writeG2o(file));
-    if (!options.json) say(fmt::format("wrote {}", options.out.string()));
-  }
+  if (!options.out.empty()) writeTextFile(options.out, writeG2o(file));
+  for (const std::filesystem::path& written : {options.plot, options.out})
+    if (!written.empty()) all.line("wrote {}", written.string());
+  all.print(options.json);
   return result.status == PoseGraphStatus::kConverged ? ExitCode::kFull : ExitCode::kBelow;
 }
 
