@@ -316,7 +316,7 @@ void writePathFiles(const PathTask& task, const PlanOptions& options, const Rend
       .contacts = task.contacts,
       .body = body,
       .duration = duration,
-      .postures = [&](double rate) { return motionOf(timed, rate); },
+      .postures = [&](double rate) { return sampledMotion(timed, rate); },
       .clearance = found.clearance.atLeast,
       .page = {.title = title,
                .facts = {{"length", fmt::format("{:.4g}", found.length)},
@@ -327,7 +327,7 @@ void writePathFiles(const PathTask& task, const PlanOptions& options, const Rend
                          {"nodes", fmt::format("{}", found.nodes)},
                          {"configurations checked", fmt::format("{}", found.checks)}}}};
   if (duration > 0) planned.page.figures.push_back({speedsFigure(timed, timing.limits.limits)});
-  writeMotion(planned, motionOf(timed, std::min(kRate, kMostRows / std::max(duration, 1.))), options,
+  writeMotion(planned, sampledMotion(timed, std::min(kRate, kMostRows / std::max(duration, 1.))), options,
               pictures, results);
 }
 

@@ -383,7 +383,7 @@ ExitCode simulateScene(const Project& project, const SimulateOptions& options) {
       writeFigure(figure, results.file(options.out / name));
     if (!options.noFilm)
       results.file(writeMotionFilm(motionPicturesOf(model, record.motion(), options, title), film,
-                             options.out / "simulate.mp4"));
+                                   options.out / "simulate.mp4"));
   }
   results.print(options.json);
   if (!gain) return ExitCode::kFull;
