@@ -1,10 +1,13 @@
 #include "course/print.h"
 
 #include <algorithm>
+#include <cstdio>
 
 #include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
+
+#include "base/error.h"
 
 namespace rex {
 
@@ -67,8 +70,14 @@ void print(const std::string& name, const std::vector<Eigen::VectorXd>& values) 
 void nothingYet(const std::string& what) { fmt::print("Nothing to show yet for {}.\n", what); }
 
 void plot(const std::string& name, const Figure& figure) {
-  writeFigure(figure, name + ".png");
-  writeFigure(figure, name + ".svg");
+  try {
+    writeFigure(figure, name + ".png");
+    writeFigure(figure, name + ".svg");
+  } catch (const Error& error) {
+    // Wrong numbers of one function must not hide what the others draw.
+    if (!error.parts().what.starts_with("figure ")) throw;  // not of its numbers
+    fmt::print(stderr, "{} is not drawn: {}\n", name, error.what());
+  }
 }
 
 }  // namespace rex

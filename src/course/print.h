@@ -24,7 +24,8 @@ void print(const std::string& name, const std::vector<Eigen::VectorXd>& values);
 /// Prints that there is nothing to show yet for `what`.
 void nothingYet(const std::string& what);
 
-/// Draws a figure into NAME.png and NAME.svg. Throws as writeFigure (render/figure.h).
+/// Draws a figure into NAME.png and NAME.svg. What cannot be drawn, such as numbers that are not finite, is
+/// reported on standard error. Throws as writeFigure (render/figure.h) if that is not due to the figure.
 void plot(const std::string& name, const Figure& figure);
 
 }  // namespace rex

@@ -106,6 +106,21 @@ TEST_F(SimulatorTest, LoadsTheMeshesOfAFileButNotThoseOfADescription) {
   EXPECT_NO_THROW(Simulator(S.description()));
 }
 
+// With the wrong sign of a gain, nothing is left of a figure; the next one must still be drawn.
+TEST(Plot, SaysWhatCannotBeDrawn) {
+  const TemporaryFolder folder;
+  const std::string name = (folder.path() / "figure").string();
+  Figure figure{.title = "Poles", .xLabel = "x", .yLabel = "y", .yRange = AxisRange{-1, 2}};
+  figure.series = {{.label = "a", .x = {1, 2}, .y = {5, 6}}};
+  ::testing::internal::CaptureStderr();
+  plot(name, figure);
+  EXPECT_THAT(::testing::internal::GetCapturedStderr(),
+              ::testing::HasSubstr("is not drawn: figure 'Poles': "));
+  EXPECT_FALSE(std::filesystem::exists(name + ".png"));
+  figure.yRange.reset();
+  EXPECT_THROW(plot("/proc/none/figure", figure), Error);
+}
+
 TEST_F(SimulatorTest, LoadsUrdfByName) {
   const Simulator S("quadruped");
   EXPECT_EQ(S.getJointDimension(), 12);
