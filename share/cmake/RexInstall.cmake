@@ -99,6 +99,7 @@ function(rex_install_exercises)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/share/course ${PROJECT_SOURCE_DIR}/share/demonstrations ${PROJECT_SOURCE_DIR}/share/examples ${PROJECT_SOURCE_DIR}/share/gdb
                     ${PROJECT_SOURCE_DIR}/share/template
           DESTINATION share/rex/share COMPONENT runtime ${REX_TRANSIENT})
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/.vscode DESTINATION share/rex/share/course COMPONENT runtime)
 endfunction()
 
 function(rex_install_development)

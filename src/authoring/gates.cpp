@@ -214,11 +214,11 @@ GateResult mainIsCurrent(const GateContext& context) {
   return failed(fmt::format("main.cpp has {} lines, wanted at most {}", lines, kMostLines));
 }
 
-// What headings of README.md promise: "## Part 2: the step (5 points)". Headings are in the order of the
-// parts.
+// What headings of README.md promise: "## Part 2: the step (2:29; 5 points)". Headings are in the order of
+// the parts.
 std::vector<std::string> wrongHeadings(const ExerciseInfo& exercise) {
   const std::string text = readTextFile(exercise.folder / "README.md");
-  static const std::regex kHeading(R"(^#+ .*\((\d+) points?\))"), kNumber(R"(^#+ +Part +(\d+))");
+  static const std::regex kHeading(R"(^#+ .*[( ](\d+) points?\))"), kNumber(R"(^#+ +Part +(\d+))");
   std::vector<std::string> complaints;
   std::size_t line = 0, next = 0;
   for (const std::string_view one : splitLines(text)) {

@@ -24,7 +24,8 @@ using fs::path;
 // What students get from the root; exercises are treated separately. Everything else stays behind.
 constexpr const char* kReleased[] = {
     "CMakeLists.txt", "CMakePresets.json", "README.md", "LICENSE", ".clang-format", ".editorconfig",
-    ".gitignore",     ".gitattributes",    "share",     "src",     "data",          "scripts"};
+    ".gitignore",     ".gitattributes",    ".vscode",   "share",   "src",           "data",
+    "scripts"};
 
 /// Copies what students get from the root, as far as git knows it.
 class Copier {

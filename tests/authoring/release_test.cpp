@@ -20,11 +20,12 @@ using ::testing::Not;
 class ReleaseTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    for (const char* file : {"CMakeLists.txt", "README.md", "LICENSE", ".clang-format", ".ci/run",
-                             "tests/a_test.cpp", "build/release/rex", "out/01-demo/results.json", "notes.txt",
-                             "share/cmake/a.cmake", "src/base/error.h", "data/robots/arm.ors", "scripts/rex",
-                             "scripts/test", "exercises/CMakeLists.txt", "exercises/01-demo/exercise.h",
-                             "exercises/01-demo/wrong.cpp", "exercises/01-demo/seen.txt"})
+    for (const char* file :
+         {"CMakeLists.txt", "README.md", "LICENSE", ".clang-format", ".ci/run", "tests/a_test.cpp",
+          "build/release/rex", "out/01-demo/results.json", "notes.txt", "share/cmake/a.cmake",
+          "src/base/error.h", "data/robots/arm.ors", "scripts/rex", ".vscode/tasks.json", "scripts/test",
+          "exercises/CMakeLists.txt", "exercises/01-demo/exercise.h", "exercises/01-demo/wrong.cpp",
+          "exercises/01-demo/seen.txt"})
       write(file, file);
     write("exercises/01-demo/wrong.cpp", "// <variant thrice>\n// mistake: trebles the number.\n");
     write("exercises/01-demo/README.md", "Write `twice`.\n");
@@ -55,17 +56,17 @@ TEST_F(ReleaseTest, HoldsWhatStudentsNeedAndNothingElse) {
   const Release release = writeStudentRelease(root(), target());
   EXPECT_EQ(told(release), "no leak");
   EXPECT_EQ(release.exercises, 1);
-  EXPECT_EQ(release.scan.files, 14);
+  EXPECT_EQ(release.scan.files, 15);
   EXPECT_FALSE(release.secrets.empty());
   std::set<std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(target()))
     if (entry.is_regular_file()) files.insert(fs::relative(entry.path(), target()).string());
-  EXPECT_THAT(files,
-              ::testing::UnorderedElementsAre(
-                  "CMakeLists.txt", "README.md", "LICENSE", ".clang-format", "share/cmake/a.cmake",
-                  "src/base/error.h", "data/robots/arm.ors", "scripts/rex", "exercises/CMakeLists.txt",
-                  "exercises/01-demo/exercise.h", "exercises/01-demo/README.md", "exercises/01-demo/main.cpp",
-                  "exercises/01-demo/starter.cpp", "exercises/01-demo/check.cpp"));
+  EXPECT_THAT(files, ::testing::UnorderedElementsAre(
+                         "CMakeLists.txt", "README.md", "LICENSE", ".clang-format", ".vscode/tasks.json",
+                         "share/cmake/a.cmake", "src/base/error.h", "data/robots/arm.ors", "scripts/rex",
+                         "exercises/CMakeLists.txt", "exercises/01-demo/exercise.h",
+                         "exercises/01-demo/README.md", "exercises/01-demo/main.cpp",
+                         "exercises/01-demo/starter.cpp", "exercises/01-demo/check.cpp"));
   EXPECT_EQ(released("exercises/01-demo/main.cpp"), "int twice(int a) {\n  return 0;\n}\n");
   EXPECT_EQ(released("exercises/01-demo/starter.cpp"), released("exercises/01-demo/main.cpp"));
   EXPECT_EQ(released("exercises/01-demo/check.cpp"), "visible();\n");

@@ -39,16 +39,13 @@ void addFilesIn(const fs::path& folder, const fs::path& below, std::map<fs::path
   }
 }
 
-// Texts speak of the source tree, where the command is scripts/rex and check.cpp can be read.
+// Documents speak of the source tree, where the command is scripts/rex.
 std::string textForCourse(const fs::path& name, std::string text) {
-  if (name.extension() != ".md") return text;
-  std::string kept;
-  for (const std::string_view line : splitLines(text))
-    if (!line.starts_with("| `check.cpp`")) (kept += line) += '\n';
-  constexpr std::string_view kScript = "scripts/rex ";
-  for (std::size_t at = kept.find(kScript); at != kept.npos; at = kept.find(kScript, at))
-    kept.replace(at, kScript.size(), "rex ");
-  return kept;
+  constexpr std::string_view kScript = "scripts/rex ", kInstalled = "rex ";
+  if (name.extension() == ".md")
+    for (std::size_t at = text.find(kScript); at != text.npos; at = text.find(kScript, at))
+      text.replace(at, kScript.size(), kInstalled);
+  return text;
 }
 
 // The files of a course folder, and where each comes from.

@@ -1,5 +1,6 @@
 #include "cli/student/course_folder.h"
 
+#include "base/process.h"
 #include "cli/template_project.h"
 
 namespace rex::cli {
@@ -160,10 +161,21 @@ TEST_F(CourseFolder, NamesWhatIsNotBuiltAndTakesNoWorkFolders) {
 }
 
 TEST_F(CourseFolder, HasTextsForAnInstalledRex) {
-  write(exercise() / "README.md",
-        "| file | |\n| `check.cpp` | look |\n| `main.cpp` | edit |\n\n    scripts/rex run 98\n");
+  write(exercise() / "README.md", "`scripts/rex hint 98`\n\n    scripts/rex run 98\n");
+  write(exercise() / "exercise.h", "// scripts/rex run 98\n");
   init();
-  EXPECT_EQ(fileText(mine("README.md")), "| file | |\n| `main.cpp` | edit |\n\n    rex run 98\n");
+  EXPECT_EQ(fileText(mine("README.md")), "`rex hint 98`\n\n    rex run 98\n");
+  EXPECT_EQ(fileText(mine("exercise.h")), "// scripts/rex run 98\n");
+}
+
+TEST_F(CourseFolder, HasDocumentsThatNameOnlyWhatIsInIt) {
+  EXPECT_FALSE(handOut(homeFolder(), course()).empty());
+  const std::vector<std::string> command = {sourcePath("scripts/check-links").string(), course().string()};
+  const ProcessResult whole = runProcess(command);
+  EXPECT_TRUE(whole.ok()) << whole.output;
+  fs::remove(course() / "exercises" / "01-kinematics" / "show.h");
+  EXPECT_EQ(runProcess(command).output,
+            "exercises/01-kinematics/README.md: no such file beside it: show.h\n");
 }
 
 TEST_F(CourseFolder, SaysWhatIsNoLongerPartOfTheCourse) {
