@@ -153,6 +153,10 @@ MotionPictures::MotionPictures(const Model& model, const Motion& motion,
                                const std::vector<std::size_t>& shown, const std::vector<std::string>& traces,
                                std::string caption)
     : model_(model), motion_(motion), shown_(shown), traces_(traces.size()), caption_(std::move(caption)) {
+  if (shown_.empty()) {
+    shown_.resize(motion_.postures.size());
+    std::iota(shown_.begin(), shown_.end(), std::size_t{0});
+  }
   std::vector<BodyId> traced;
   for (const std::string& name : traces) traced.push_back(tracedBody(model_, name));
   if (!traced.empty()) {
@@ -282,20 +286,26 @@ void makeResultFolder(const fs::path& folder, std::initializer_list<const char*>
   }
 }
 
-std::vector<fs::path> writeFilmAndReplay(const Model& model, const Motion& motion, BodyId body, Report report,
-                                         const RenderPlan& pictures, const fs::path& stem, double speed) {
-  std::vector<std::size_t> frames(motion.postures.size());
-  std::iota(frames.begin(), frames.end(), std::size_t{0});
-  const MotionPictures shots(model, motion, frames, {model[body].name}, report.title);
-  const fs::path film = writeMotionFilm(shots, pictures, fs::path(stem).concat(".mp4"));
-  report.film = shots.film();
+void writeReplay(Report report, const MotionPictures& pictures, const RenderPlan& plan, double speed,
+                 const fs::path& page) {
+  report.film = pictures.film();
   for (Frame& frame : report.film) frame.time /= speed;
   if (speed != 1) report.facts.emplace_back("speed of the replay", fmt::format("{:g}", speed));
-  report.view = pictures.views.front().view.direction();
-  report.still.gl = pictures.renderer.gl;
+  report.view = plan.views.front().view.direction();
   for (ReportFigure& item : report.figures) item.figure.width = 560, item.figure.height = 360;
-  const fs::path page = fs::path(stem).concat(".html");
+  throwIfInterrupted();
+  std::error_code ignored;  // writing the page reports the problem
+  if (page.has_parent_path()) fs::create_directories(page.parent_path(), ignored);
   writeReport(report, page);
+}
+
+std::vector<fs::path> writeFilmAndReplay(const Model& model, const Motion& motion, BodyId body, Report report,
+                                         const RenderPlan& pictures, const fs::path& stem, double speed) {
+  const MotionPictures shots(model, motion, {}, {model[body].name}, report.title);
+  const fs::path film = writeMotionFilm(shots, pictures, fs::path(stem).concat(".mp4"));
+  const fs::path page = fs::path(stem).concat(".html");
+  report.still.gl = pictures.renderer.gl;
+  writeReplay(std::move(report), shots, pictures, speed, page);
   return {film, page};
 }
 

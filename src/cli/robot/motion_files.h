@@ -52,8 +52,9 @@ class MotionLog {
 /// would not fit into memory.
 class MotionPictures {
  public:
-  /// Shows the postures with the indices `shown`, in this order. `traces` are bodies whose paths over the
-  /// whole motion are drawn, and every picture has the `caption`. Throws UsageError for an unknown body.
+  /// Shows the postures with the indices `shown`, in this order; empty: all. `traces` are bodies whose paths
+  /// over the whole motion are drawn, and every picture has the `caption`. Throws UsageError for an unknown
+  /// body.
   MotionPictures(const Model& model, const Motion& motion, const std::vector<std::size_t>& shown,
                  const std::vector<std::string>& traces, std::string caption);
 
@@ -105,6 +106,11 @@ void requireFolderName(const std::filesystem::path& folder, const std::string& w
 /// file, cannot be made or written to, or has folders where files should be.
 void makeResultFolder(const std::filesystem::path& folder, std::initializer_list<const char*> files,
                       const std::string& frames);
+
+/// Writes a page with a replay of the pictures, `speed` times as fast as the motion, besides what the report
+/// already has. Throws Error like writeReport().
+void writeReplay(Report report, const MotionPictures& pictures, const RenderPlan& plan, double speed,
+                 const std::filesystem::path& page);
 
 /// Writes STEM.mp4 (or a folder STEM of frames), the film of a motion with the replay's title and the trace
 /// of `body`, and STEM.html, the replay, which is `report` with that film. Both play `speed` times as fast

@@ -1,6 +1,6 @@
 #include <filesystem>
 #include <memory>
-#include <numeric>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -37,9 +37,8 @@ MotionPictures picturesOf(const Model& model, const Motion& motion, const Render
                           Product product) {
   if (!options.traces.empty() && motion.postures.size() == 1)
     throw UsageError({.what = "--trace", .found = "one posture", .wanted = "a motion"});
-  std::vector<std::size_t> shown(motion.postures.size());
-  std::iota(shown.begin(), shown.end(), std::size_t{0});
-  if (product == Product::kPicture) shown = keyFrames(shown.size(), ContactSheetOptions().pictures);
+  std::vector<std::size_t> shown;
+  if (product == Product::kPicture) shown = keyFrames(motion.postures.size(), ContactSheetOptions().pictures);
   // The title of a page is its caption.
   return {model, motion, shown, options.traces, product == Product::kPage ? "" : options.caption};
 }
@@ -59,15 +58,6 @@ void writeStill(const MotionPictures& pictures, const RenderPlan& plan, const fs
 // For products that no Studio describes.
 void noteViews(const RenderPlan& plan) {
   if (const std::string views = viewsOf(plan); !views.empty()) note(views);
-}
-
-void writePage(const MotionPictures& pictures, const RenderPlan& plan, const RenderOptions& options) {
-  throwIfInterrupted();
-  writeReport({.title = options.caption.empty() ? options.scene.file.stem().string() : options.caption,
-               .film = pictures.film(),
-               .view = plan.views.front().view.direction(),
-               .still = plan.renderer},
-              options.out);
 }
 
 }  // namespace
@@ -97,7 +87,9 @@ ExitCode render(const Project& project, const RenderOptions& options) {
       break;
     case Product::kPage:
       noteViews(plan);
-      writePage(pictures, plan, options);
+      writeReplay({.title = options.caption.empty() ? options.scene.file.stem().string() : options.caption,
+                   .still = plan.renderer},
+                  pictures, plan, 1, options.out);
       break;
   }
   say(shown(written));

@@ -2,17 +2,14 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/interruption.h"
 #include "cli/command_table.h"
 #include "cli/numbers.h"
 #include "cli/option_table_internal.h"
@@ -210,32 +207,16 @@ std::string titleOf(const Model& model, const SimulationPlan& plan, const Simula
                      plan.torques ? " with torques" : "", nameOf(options.engine), 1000 * options.tau);
 }
 
-// How a motion is shown: frames, traces and the title.
-MotionPictures motionPicturesOf(const Model& model, const Motion& motion, const SimulateOptions& options,
-                                const std::string& title) {
-  std::vector<std::size_t> shown(motion.postures.size());
-  std::iota(shown.begin(), shown.end(), std::size_t{0});
-  return MotionPictures(model, motion, shown, options.traces, title);
-}
-
 // The replay plays as fast as the film would.
-void writeMotionPage(const MotionPictures& pictures, const Record& record, const std::string& title,
+void writeMotionPage(const Model& model, const Record& record, const std::string& title,
                      const SimulateOptions& options, const RenderPlan& plan, double speed) {
-  Report report{.title = title,
-                .film = pictures.film(),
-                .view = plan.views.front().view.direction(),
-                .figures = {{.figure = record.energyFigure(title)}},
-                .facts = {{"engine", nameOf(options.engine)},
-                          {"step", fmt::format("{:g} s", options.tau)},
-                          {"largest energy change", fmt::format("{:.2g} J", record.largestChange())}},
-                .still = plan.renderer};
-  for (Frame& frame : report.film) frame.time /= speed;
-  if (speed != 1) report.facts.emplace_back("speed of the replay", fmt::format("{:g}", speed));
-  report.figures.front().figure.width = 560, report.figures.front().figure.height = 360;
-  throwIfInterrupted();
-  std::error_code ignored;  // writing the page reports the problem
-  if (options.out.has_parent_path()) fs::create_directories(options.out.parent_path(), ignored);
-  writeReport(report, options.out);
+  writeReplay({.title = title,
+               .figures = {{.figure = record.energyFigure(title)}},
+               .facts = {{"engine", nameOf(options.engine)},
+                         {"step", fmt::format("{:g} s", options.tau)},
+                         {"largest energy change", fmt::format("{:.2g} J", record.largestChange())}},
+               .still = plan.renderer},
+              {model, record.motion(), {}, options.traces, ""}, plan, speed, options.out);
 }
 
 // What rounds to zero has no sign.
@@ -372,8 +353,7 @@ ExitCode simulateScene(const Project& project, const SimulateOptions& options) {
 
   Results results = resultsOf(model, plan, record, overlaps, options, gain);
   if (isPage(options)) {
-    writeMotionPage(motionPicturesOf(model, record.motion(), options, ""), record, title, options, film,
-                    speed);
+    writeMotionPage(model, record, title, options, film, speed);
     results.file(options.out);
   } else {
     log->finish();
@@ -382,7 +362,7 @@ ExitCode simulateScene(const Project& project, const SimulateOptions& options) {
     for (const char* name : {"energy.png", "energy.svg"})
       writeFigure(figure, results.file(options.out / name));
     if (!options.noFilm)
-      results.file(writeMotionFilm(motionPicturesOf(model, record.motion(), options, title), film,
+      results.file(writeMotionFilm({model, record.motion(), {}, options.traces, title}, film,
                                    options.out / "simulate.mp4"));
   }
   results.print(options.json);

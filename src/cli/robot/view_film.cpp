@@ -1,9 +1,7 @@
 #include "cli/robot/view_film.h"
 
 #include <csignal>
-#include <numeric>
 #include <utility>
-#include <vector>
 
 #include <unistd.h>
 
@@ -53,10 +51,8 @@ ViewFilm::Drawn ViewFilm::drawn(const std::string& table) const {
   writeTextFile(motion, table);
   std::filesystem::remove(out);
   const Motion moved = readMotion(model_, motion, kFilmRate);
-  std::vector<std::size_t> shown(moved.postures.size());
-  std::iota(shown.begin(), shown.end(), std::size_t{0});
   const std::filesystem::path written =
-      writeMotionFilm({model_, moved, shown, {}, ""}, planOf({.motion = motion, .out = out}, facing_), out);
+      writeMotionFilm({model_, moved, {}, {}, ""}, planOf({.motion = motion, .out = out}, facing_), out);
   if (written != out)
     return {.text = "There is no ffmpeg here to make films (apt-get install ffmpeg). The replay needs none."};
   return {.text = "The film is ready: film.mp4, below \"Record\".", .bytes = readTextFile(out)};
