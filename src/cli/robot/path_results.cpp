@@ -367,38 +367,32 @@ std::string summaryOfOne(const PathTask& task, const PlanOptions& options, const
                             *options.margin);
 }
 
-std::string row(const char* name, std::vector<double> values) {
-  if (values.empty()) return {};
-  std::ranges::sort(values);
-  const std::size_t half = values.size() / 2;
-  const double median = values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
-  return fmt::format("\n{:22} {:>10.5g} {:>10.5g} {:>10.5g}", name, values.front(), median, values.back());
-}
+std::string fiveDigits(double value) { return fmt::format("{:.5g}", value); }
 
 std::string summaryOfAll(const PathTask& task, const PlanOptions& options, const FoundPaths& found,
                          const PathTiming& timing) {
-  const auto valuesOf = [&](bool ofPaths, const std::function<double(const FoundPath&)>& value) {
+  Table table(22, 10);
+  table.add({"", "min", "median", "max"});
+  const auto add = [&](const char* name, bool ofPaths, const std::function<double(const FoundPath&)>& value) {
     std::vector<double> values;
     for (const FoundPath& one : found.all)
       if (one.isFound() || !ofPaths) values.push_back(value(one));
-    return values;
+    if (values.empty()) return;
+    std::ranges::sort(values);
+    const std::size_t half = values.size() / 2;
+    const double median = values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
+    table.add(name, Eigen::Vector3d(values.front(), median, values.back()), fiveDigits);
   };
+  add("nodes", false, [](const FoundPath& one) { return one.nodes; });
+  add("configurations checked", false, [](const FoundPath& one) { return static_cast<double>(one.checks); });
+  add("planning, CPU ms", false, [](const FoundPath& one) { return 1e3 * one.planningTime; });
+  add("smoothing, CPU ms", true, [](const FoundPath& one) { return 1e3 * one.smoothingTime; });
+  add("length", true, [](const FoundPath& one) { return one.length; });
+  add("clearance, m", true, [](const FoundPath& one) { return one.clearance.atLeast; });
   std::string text =
-      fmt::format("{}, {}, seeds {} to {}: {} of {} found a path\n", escapeForTerminal(task.model.name()),
+      fmt::format("{}, {}, seeds {} to {}: {} of {} found a path\n{}", escapeForTerminal(task.model.name()),
                   nameOf(options.planner), found.all.front().seed, found.all.back().seed, found.successes(),
-                  found.all.size());
-  if (const auto ended = std::ranges::count_if(found.all, &FoundPath::isTimeUp); ended > 0)
-    text += fmt::format("{} ended after {:g} s, the --time-limit\n", ended, options.timeLimit);
-  text += fmt::format("{:22} {:>10} {:>10} {:>10}", "", "min", "median", "max");
-  text += row("nodes", valuesOf(false, [](const FoundPath& one) { return one.nodes; }));
-  text += row("configurations checked",
-              valuesOf(false, [](const FoundPath& one) { return static_cast<double>(one.checks); }));
-  text +=
-      row("planning, CPU ms", valuesOf(false, [](const FoundPath& one) { return 1e3 * one.planningTime; }));
-  text +=
-      row("smoothing, CPU ms", valuesOf(true, [](const FoundPath& one) { return 1e3 * one.smoothingTime; }));
-  text += row("length", valuesOf(true, [](const FoundPath& one) { return one.length; }));
-  text += row("clearance, m", valuesOf(true, [](const FoundPath& one) { return one.clearance.atLeast; }));
+                  found.all.size(), table.text());
   if (found.successes() == 0) return text;
   text += fmt::format("\nshortest: seed {}\n", found.shortest().seed) + timingTextOf(timing, options);
   text.pop_back();

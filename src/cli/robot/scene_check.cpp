@@ -1,10 +1,9 @@
-#include <algorithm>
 #include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "cli/json_internal.h"
+#include "cli/results_internal.h"
 #include "cli/robot/scene_verbs.h"
 #include "cli/terminal.h"
 
@@ -40,31 +39,26 @@ Json message(const char* severity, const SourceLocation& where, const std::strin
           {"text", text}};
 }
 
-void sayJson(const Verdict& verdict) {
-  Json messages = Json::array();
-  for (const Diagnostic& one : verdict.notes)
-    messages.push_back(
-        message(one.severity == Severity::kWarning ? "warning" : "note", one.where, one.message));
+Results resultsOf(const Verdict& verdict) {
+  Results all{.json = {{"file", verdict.file}, {"ok", !verdict.error}, {"messages", Json::array()}}};
+  Json& messages = all.json["messages"];
+  int warnings = 0;
+  for (const Diagnostic& one : verdict.notes) {
+    const bool isWarning = one.severity == Severity::kWarning;
+    warnings += isWarning ? 1 : 0;
+    messages.push_back(message(isWarning ? "warning" : "note", one.where, one.message));
+    all.line("{}", wrap(escapeForTerminal(toString(one)), 2, 0));
+  }
   if (verdict.error) {
     ErrorParts parts = *verdict.error;
+    all.line("{}", wrap(escapeForTerminal(Error(parts).what()), 2, 0));
     const SourceLocation where = std::exchange(parts.where, {});
     messages.push_back(message("error", where, Error(std::move(parts)).what()));
+  } else {
+    all.line("{}: loads{}", escapeForTerminal(verdict.file),
+             warnings == 0 ? "" : fmt::format(", with {} warning{}", warnings, warnings == 1 ? "" : "s"));
   }
-  say(dump(Json{{"file", verdict.file}, {"ok", !verdict.error}, {"messages", messages}}));
-}
-
-void sayText(const Verdict& verdict) {
-  for (const Diagnostic& one : verdict.notes) say(wrap(escapeForTerminal(toString(one)), 2, 0));
-  if (verdict.error) {
-    say(wrap(escapeForTerminal(Error(*verdict.error).what()), 2, 0));
-    return;
-  }
-  const auto warnings = std::count_if(verdict.notes.begin(), verdict.notes.end(), [](const Diagnostic& one) {
-    return one.severity == Severity::kWarning;
-  });
-  say(fmt::format(
-      "{}: loads{}", escapeForTerminal(verdict.file),
-      warnings == 0 ? "" : fmt::format(", with {} warning{}", warnings, warnings == 1 ? "" : "s")));
+  return all;
 }
 
 }  // namespace
@@ -72,7 +66,7 @@ void sayText(const Verdict& verdict) {
 ExitCode sceneCheck(const Project& project, const SceneOptions& options) {
   const Verdict verdict = judge(project, options.scene);
   requireMeaning(verdict.file, options.scene.reading);
-  options.json ? sayJson(verdict) : sayText(verdict);
+  resultsOf(verdict).print(options.json);
   return verdict.error ? ExitCode::kBelow : ExitCode::kFull;
 }
 

@@ -4,7 +4,8 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "cli/json_internal.h"
+#include "base/text.h"
+#include "cli/results_internal.h"
 #include "cli/robot/posture_option.h"
 #include "cli/robot/scene_option.h"
 #include "cli/robot/scene_verbs.h"
@@ -14,14 +15,6 @@
 
 namespace rex::cli {
 namespace {
-
-void sayLines(const std::string& text) {
-  for (std::size_t start = 0; start < text.size();) {
-    const std::size_t end = text.find('\n', start);
-    say(escapeForTerminal(text.substr(start, end - start)));
-    start = end + 1;
-  }
-}
 
 Json jsonOfPairs(const Model& model, const std::vector<Proxy>& near) {
   Json pairs = Json::array();
@@ -46,16 +39,18 @@ ExitCode sceneContacts(const Project& project, const ContactsOptions& options) {
   const double reach = std::max(margin, kQueryCutoff);
   const std::vector<Proxy> near = proxies(contacts, poses, reach);
   const double cost = contactCost(contacts, poses, margin);
-  if (options.scene.json) {
-    say(dump(Json{
-        {"cost", cost}, {"rule", toString(model.collisionRule())}, {"pairs", jsonOfPairs(model, near)}}));
-    return ExitCode::kFull;
-  }
-  say(fmt::format(
+  Results all{.json = {{"cost", cost},
+                       {"rule", toString(model.collisionRule())},
+                       {"pairs", jsonOfPairs(model, near)}}};
+  all.line(
       "{} pairs of shapes may collide (rule {}, see --pairs), {} are nearer than {:g} m; contact cost {:.6g} "
       "with a margin of {:g} m",
-      contacts.pairs().size(), toString(model.collisionRule()), near.size(), reach, cost, margin));
-  if (!near.empty()) sayLines(proxyReport(model, near));
+      contacts.pairs().size(), toString(model.collisionRule()), near.size(), reach, cost, margin);
+  if (!near.empty())
+    for (const std::string& report = proxyReport(model, near);
+         const std::string_view line : splitLines(report))
+      all.line("{}", escapeForTerminal(line));
+  all.print(options.scene.json);
   return ExitCode::kFull;
 }
 

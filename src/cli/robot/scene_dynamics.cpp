@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "cli/json_internal.h"
 #include "cli/numbers.h"
+#include "cli/results_internal.h"
 #include "cli/robot/posture_option.h"
 #include "cli/robot/scene_verbs.h"
 #include "dynamics/energy.h"
@@ -23,47 +23,42 @@ struct Dynamics {
   Eigen::VectorXd a;
 };
 
-constexpr int kColumn = 11;  // characters of a number and the blank before it
+constexpr int kColumn = 10, kNameColumn = 5;  // characters
 
-// Four digits each; zero has no sign.
-std::string numbers(const Eigen::Ref<const Eigen::VectorXd>& values) {
-  std::string line;
-  for (const double value : values) line += fmt::format(" {:{}.4g}", value + 0., kColumn - 1);
-  return line;
-}
+// Zero has no sign.
+std::string fourDigits(double value) { return fmt::format("{:.4g}", value + 0.); }
 
-void sayHead(const std::string& first, std::size_t width, const std::vector<std::string>& names) {
-  std::string line = fmt::format("{:{}}", first, width);
-  for (const std::string& name : names) line += fmt::format(" {:>{}}", name, kColumn - 1);
-  say(line);
-}
-
-// Wide matrices are split into bands of as many columns as fit in the terminal.
-void sayMatrix(const Eigen::MatrixXd& M, const std::vector<std::string>& names, std::size_t width) {
-  constexpr int kLineLength = 80;
-  const int band = std::max(1, (kLineLength - static_cast<int>(width)) / kColumn);
-  for (int from = 0; from < static_cast<int>(M.cols()); from += band) {
-    const int count = std::min(band, static_cast<int>(M.cols()) - from);
-    std::vector<std::string> heads;
-    for (int i = from; i < from + count; ++i) heads.push_back(fmt::format("v{}", i));
-    say("");
-    sayHead("M", width, heads);
-    for (int i = 0; i < static_cast<int>(M.rows()); ++i)
-      say(fmt::format("{:{}}", names[static_cast<std::size_t>(i)], width) +
-          numbers(M.row(i).segment(from, count).transpose()));
-  }
-}
-
-void sayToPeople(const Model& model, const Dynamics& at) {
+Results resultsOf(const Model& model, const Dynamics& at) {
+  Results all{.json = {{"M", jsonOfRows(at.motion.M)},
+                       {"F", jsonOf(at.motion.F)},
+                       {"kinetic", at.energy.kinetic},
+                       {"potential", at.energy.potential},
+                       {"qdd", jsonOf(at.a)}}};
+  all.line("kinetic energy {:.6g} J, potential energy {:.6g} J; M qdd + F = u", at.energy.kinetic,
+           at.energy.potential);
   const std::vector<std::string> names = printableVelocityNames(model);
-  const std::size_t width = widestOf(names, 5);
-  say(fmt::format("kinetic energy {:.6g} J, potential energy {:.6g} J; M qdd + F = u", at.energy.kinetic,
-                  at.energy.potential));
-  sayHead("joint", width, {"v", "u", "F", "qdd"});
+  Table joints(kNameColumn, kColumn);
+  joints.add({"joint", "v", "u", "F", "qdd"});
   for (int i = 0; i < model.nv(); ++i)
-    say(fmt::format("{:{}}", names[static_cast<std::size_t>(i)], width) +
-        numbers(Eigen::Vector4d(at.v[i], at.u[i], at.motion.F[i], at.a[i])));
-  sayMatrix(at.motion.M, names, width);
+    joints.add(names[static_cast<std::size_t>(i)], Eigen::Vector4d(at.v[i], at.u[i], at.motion.F[i], at.a[i]),
+               fourDigits);
+  all.line("{}", joints.text());
+  // Wide matrices are split into bands of as many columns as fit in the terminal.
+  constexpr int kLineLength = 80;
+  const int width = static_cast<int>(widestOf(names, kNameColumn));
+  const int band = std::max(1, (kLineLength - width) / (kColumn + 1));
+  for (int from = 0; from < model.nv(); from += band) {
+    const int count = std::min(band, model.nv() - from);
+    Table M(kNameColumn, kColumn);
+    std::vector<std::string> heads = {"M"};
+    for (int i = from; i < from + count; ++i) heads.push_back(fmt::format("v{}", i));
+    M.add(heads);
+    for (int i = 0; i < model.nv(); ++i)
+      M.add(names[static_cast<std::size_t>(i)], at.motion.M.row(i).segment(from, count).transpose(),
+            fourDigits);
+    all.line("\n{}", M.text());
+  }
+  return all;
 }
 
 }  // namespace
@@ -83,15 +78,7 @@ ExitCode sceneDynamics(const Project& project, const DynamicsOptions& options) {
   });
   noteOverflow(at.motion.M.allFinite() && at.motion.F.allFinite() && at.a.allFinite() &&
                std::isfinite(at.energy.kinetic) && std::isfinite(at.energy.potential));
-  if (!options.scene.json) {
-    sayToPeople(model, at);
-    return ExitCode::kFull;
-  }
-  say(dump(Json{{"M", jsonOfRows(at.motion.M)},
-                {"F", jsonOf(at.motion.F)},
-                {"kinetic", at.energy.kinetic},
-                {"potential", at.energy.potential},
-                {"qdd", jsonOf(at.a)}}));
+  resultsOf(model, at).print(options.scene.json);
   return ExitCode::kFull;
 }
 

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/text.h"
-#include "cli/json_internal.h"
+#include "cli/results_internal.h"
 #include "cli/robot/scene_verbs.h"
 #include "cli/robot/simulation.h"
 #include "cli/terminal.h"
@@ -47,27 +47,6 @@ std::vector<std::vector<BodyId>> childrenOf(const Model& model) {
   return children;
 }
 
-// A table. Each column but the last is as wide as its longest entry.
-class Table {
- public:
-  void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
-  void print() const {
-    std::vector<std::size_t> widths;
-    for (const auto& row : rows_) {
-      widths.resize(std::max(widths.size(), row.size()));
-      for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-    }
-    for (const auto& row : rows_) {
-      std::string line;
-      for (std::size_t i = 0; i < row.size(); ++i) line += fmt::format("{:{}}  ", row[i], widths[i]);
-      say(line.substr(0, line.find_last_not_of(' ') + 1));
-    }
-  }
-
- private:
-  std::vector<std::vector<std::string>> rows_;
-};
-
 // Deep in a long chain, a number shows the depth instead of more blanks.
 std::string indented(const std::string& name, std::size_t depth) {
   constexpr std::size_t kDeepest = 12;
@@ -92,7 +71,7 @@ void sayTree(const Model& model) {
     const auto& below = children[static_cast<std::size_t>(id)];
     for (auto child = below.rbegin(); child != below.rend(); ++child) waiting.emplace_back(*child, depth + 1);
   }
-  table.print();
+  say(table.text());
 }
 
 void sayCoordinates(const Model& model) {
@@ -111,7 +90,7 @@ void sayCoordinates(const Model& model) {
                  limit(model.upperLimits()[at])});
     }
   }
-  table.print();
+  say(table.text());
 }
 
 void sayPostures(const Model& model) {
@@ -133,7 +112,7 @@ void sayShapes(const Model& model) {
     table.add({escapeForTerminal(model.bodies()[b].name), drawn.empty() ? "-" : drawn,
                contact.empty() ? "-" : contact});
   }
-  table.print();
+  say(table.text());
 }
 
 void sayPins(const Model& model) {
@@ -148,7 +127,7 @@ void sayPins(const Model& model) {
     table.add({escapeForTerminal(model[pin.a].name), point(pin.p_AP), escapeForTerminal(model[pin.b].name),
                point(pin.p_BQ), fmt::format("{:.2g}", gaps[i])});
   }
-  table.print();
+  say(table.text());
 }
 
 // For a joint that mimics another: which one, and how.

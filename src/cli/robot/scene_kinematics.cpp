@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "cli/json_internal.h"
 #include "cli/numbers.h"
+#include "cli/results_internal.h"
 #include "cli/robot/posture_option.h"
 #include "cli/robot/scene_verbs.h"
 #include "geometry/rotation.h"
@@ -19,23 +19,13 @@ Eigen::VectorXd postureOf(const Model& model, const std::string& text) {
   return text.empty() ? model.initialPositions() : parsePosture(model, text);
 }
 
-// Nine columns each, even for very large numbers; what rounds to zero has no sign.
-std::string fiveDecimals(const Eigen::Ref<const Eigen::VectorXd>& values) {
-  std::string line;
-  for (const double value : values) {
-    if (std::abs(value) >= 1e3)
-      line += fmt::format(" {:9.3g}", value);
-    else
-      line += fmt::format(" {:9.5f}", std::abs(value) < 5e-6 ? 0. : value);
-  }
-  return line;
+// For at most nine columns, even of large numbers; what rounds to zero has no sign.
+std::string fiveDecimals(double value) {
+  if (std::abs(value) >= 1e3) return fmt::format("{:.3g}", value);
+  return fmt::format("{:.5f}", std::abs(value) < 5e-6 ? 0. : value);
 }
 
-std::string heads(const std::vector<const char*>& names) {
-  std::string line;
-  for (const char* name : names) line += fmt::format(" {:>9}", name);
-  return line;
-}
+constexpr std::size_t kPoseColumn = 9;
 
 }  // namespace
 
@@ -46,22 +36,18 @@ ExitCode sceneKinematics(const Project& project, const SceneOptions& options) {
   noteOverflow(std::ranges::all_of(model.bodiesInFileOrder(), [&](BodyId id) {
     return poses[id].R.allFinite() && poses[id].p.allFinite();
   }));
-  Json bodies = Json::array();
-  std::vector<std::string> names;
-  for (const Body& body : model.bodies()) names.push_back(escapeForTerminal(body.name));
-  const std::size_t width = widestOf(names, 4);
-  if (!options.json)
-    say(fmt::format("{:{}}", "body", width) + heads({"x", "y", "z", "qw", "qx", "qy", "qz"}));
+  Results all{.json = {{"q", jsonOf(q)}, {"bodies", Json::array()}}};
+  Table table(model[kWorld].name.size(), kPoseColumn);
+  table.add({"body", "x", "y", "z", "qw", "qx", "qy", "qz"});
   for (const BodyId id : model.bodiesInFileOrder()) {
-    const Quaternion quaternion = quaternionFromRotation(poses[id].R);
-    if (options.json)
-      bodies.push_back(
-          {{"name", model[id].name}, {"pos", jsonOf(poses[id].p)}, {"quat_wxyz", jsonOf(quaternion)}});
-    else
-      say(fmt::format("{:{}}", escapeForTerminal(model[id].name), width) + fiveDecimals(poses[id].p) +
-          fiveDecimals(quaternion));
+    Eigen::VectorXd pose(7);
+    pose << poses[id].p, quaternionFromRotation(poses[id].R);
+    all.json["bodies"].push_back(
+        {{"name", model[id].name}, {"pos", jsonOf(pose.head(3))}, {"quat_wxyz", jsonOf(pose.tail(4))}});
+    table.add(escapeForTerminal(model[id].name), pose, fiveDecimals);
   }
-  if (options.json) say(dump(Json{{"q", jsonOf(q)}, {"bodies", bodies}}));
+  all.line("{}", table.text());
+  all.print(options.json);
   return ExitCode::kFull;
 }
 
@@ -74,17 +60,17 @@ ExitCode sceneJacobian(const Project& project, const JacobianOptions& options) {
   const Eigen::Matrix3Xd position = positionJacobian(model, poses, body, point);
   const Eigen::Matrix3Xd angular = angularJacobian(model, poses, body);
   noteOverflow(position.allFinite() && angular.allFinite());
-  if (options.scene.json) {
-    say(dump(Json{{"pos", jsonOfRows(position)}, {"rot", jsonOfRows(angular)}}));
-    return ExitCode::kFull;
-  }
+  Results all{.json = {{"pos", jsonOfRows(position)}, {"rot", jsonOfRows(angular)}}};
+  all.line("velocity of the point and angular velocity, per unit of each joint's velocity");
+  Table table(8, kPoseColumn);
+  table.add({"joint", "x", "y", "z", "wx", "wy", "wz"});
   const std::vector<std::string> names = printableVelocityNames(model);
-  const std::size_t width = widestOf(names, 8);
-  say("velocity of the point and angular velocity, per unit of each joint's velocity");
-  say(fmt::format("{:{}}", "joint", width) + heads({"x", "y", "z", "wx", "wy", "wz"}));
+  Eigen::MatrixXd both(6, model.nv());
+  both << position, angular;
   for (int i = 0; i < model.nv(); ++i)
-    say(fmt::format("{:{}}", names[static_cast<std::size_t>(i)], width) + fiveDecimals(position.col(i)) +
-        fiveDecimals(angular.col(i)));
+    table.add(names[static_cast<std::size_t>(i)], both.col(i), fiveDecimals);
+  all.line("{}", table.text());
+  all.print(options.scene.json);
   return ExitCode::kFull;
 }
 

@@ -5,8 +5,8 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "cli/json_internal.h"
 #include "cli/numbers.h"
+#include "cli/results_internal.h"
 #include "cli/robot/scene_option.h"
 #include "cli/robot/scene_verbs.h"
 #include "cli/terminal.h"
@@ -27,17 +27,19 @@ Json jsonOfVerdict(const Model& model, const PairVerdict& verdict) {
           {"reason", toString(verdict, model)}};
 }
 
-void sayPairs(const Model& model, const std::vector<PairVerdict>& verdicts) {
-  const auto free = std::ranges::count_if(verdicts, &PairVerdict::mayCollide);
-  say(fmt::format("rule {}: {} of {} pairs of bodies may collide", toString(model.collisionRule()), free,
-                  verdicts.size()));
-  std::size_t width = 0;
-  for (const PairVerdict& verdict : verdicts) width = std::max(width, pairNames(model, verdict).size());
+Results resultsOf(const Model& model, const std::vector<PairVerdict>& verdicts) {
+  Results all{.json = {{"rule", toString(model.collisionRule())}, {"pairs", Json::array()}}};
+  for (const PairVerdict& verdict : verdicts) all.json["pairs"].push_back(jsonOfVerdict(model, verdict));
+  all.line("rule {}: {} of {} pairs of bodies may collide", toString(model.collisionRule()),
+           std::ranges::count_if(verdicts, &PairVerdict::mayCollide), verdicts.size());
+  Table table;
   for (const bool mayCollide : {false, true})
     for (const PairVerdict& verdict : verdicts)
       if (verdict.mayCollide == mayCollide)
-        say(escapeForTerminal(
-            fmt::format("{:{}}  {}", pairNames(model, verdict), width, toString(verdict, model))));
+        table.add(
+            {escapeForTerminal(pairNames(model, verdict)), escapeForTerminal(toString(verdict, model))});
+  if (!verdicts.empty()) all.line("{}", table.text());
+  return all;
 }
 
 Json jsonOfSample(const Model& model, const TouchSample& sample, std::uint64_t seed) {
@@ -53,13 +55,7 @@ ExitCode scenePairs(const Project& project, const PairsOptions& options) {
   const Model model = loadScene(project, options.scene.scene);
   static_cast<void>(contactModelOf(model));  // not too large, and with its warnings
   const std::vector<PairVerdict> verdicts = pairVerdicts(model);
-  if (!options.scene.json) {
-    sayPairs(model, verdicts);
-    return ExitCode::kFull;
-  }
-  Json pairs = Json::array();
-  for (const PairVerdict& verdict : verdicts) pairs.push_back(jsonOfVerdict(model, verdict));
-  say(dump(Json{{"rule", toString(model.collisionRule())}, {"pairs", pairs}}));
+  resultsOf(model, verdicts).print(options.scene.json);
   return ExitCode::kFull;
 }
 
