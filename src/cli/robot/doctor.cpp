@@ -43,7 +43,7 @@ namespace rex::cli {
 namespace {
 
 struct DoctorOptions {
-  std::string gl;  ///< auto, osmesa or egl; empty: auto
+  std::string gl = kUsualGl;  ///< auto, osmesa or egl
   bool json = false;
   bool sandbox = false;                   ///< attack the sandbox instead
   std::optional<sandbox::Level> level{};  ///< the sandbox level to test; empty: the best

@@ -25,11 +25,22 @@
 namespace rex::cli {
 namespace {
 
+// Where they depend on the planner.
+struct PlannerDefaults {
+  double margin = 0.01, resolution = 0.02;
+  int samples = PathSearch{}.samples;
+};
+
+PlannerDefaults defaultsOf(Planner planner) {
+  if (planner == Planner::kHybridAStar) return {.margin = 0.05, .resolution = 0.05};
+  if (planner == Planner::kRrtStar) return {.samples = 10'000};  // RRT* uses all of them
+  if (!drawsSamples(planner)) return {.margin = 0.02};
+  return growsTrees(planner) ? PlannerDefaults{} : PlannerDefaults{.samples = 2000};
+}
+
 PathSearch searchOf(const PlanOptions& options) {
   PathSearch search{.planner = options.planner, .step = options.step, .smooth = !options.noSmooth};
-  if (search.planner == Planner::kRrtStar) search.samples = 10'000;  // RRT* uses all of them
-  if (!growsTrees(search.planner)) search.samples = 2000;
-  search.samples = options.samples.value_or(search.samples);
+  search.samples = options.samples.value_or(defaultsOf(search.planner).samples);
   search.timeLimit = options.timeLimit;
   if (!growsTrees(search.planner)) requireBetween("--samples", search.samples, 1, 1e5);
   return search;
@@ -39,8 +50,7 @@ PathTask taskOf(Model model, const PlanOptions& options) {
   const ContactModel contacts = contactModelOf(model);
   if (contacts.pairs().empty())
     note(escapeForTerminal(model.name()) + ": no two shapes may collide: every path is free");
-  const Eigen::VectorXd start =
-      postureWithinLimits(model, "--start", options.start.empty() ? "file" : options.start);
+  const Eigen::VectorXd start = postureWithinLimits(model, "--start", options.start);
   const Eigen::VectorXd goal = postureWithinLimits(model, "--goal", options.goal);
   PathProblem problem = asWrongUse(
       [&] { return robotProblem(model, contacts, start, goal, *options.margin, *options.resolution); });
@@ -93,8 +103,8 @@ ExitCode planPath(const PlanOptions& options, const RenderPlan& pictures, Model 
 
 ExitCode plan(const Project& project, PlanOptions options) {
   const bool isCar = options.planner == Planner::kHybridAStar, isPath = drawsSamples(options.planner);
-  if (!options.margin) options.margin = isPath ? 0.01 : isCar ? 0.05 : 0.02;
-  if (!options.resolution) options.resolution = isPath ? 0.02 : 0.05;
+  if (!options.margin) options.margin = defaultsOf(options.planner).margin;
+  if (!options.resolution) options.resolution = defaultsOf(options.planner).resolution;
   const Facing facing = facingOf(fileOf(project, options.scene));
   requireGiven("--goal", options.goal, "plan");
   requireGiven("--out", options.out.string(), "plan");
@@ -121,6 +131,7 @@ void requireOwn(const std::vector<CLI::Option*>& options, bool isTheirs, Planner
 
 void addPlan(CLI::App* command, Action& action) {
   const auto options = std::make_shared<PlanOptions>();
+  const PlannerDefaults usual = defaultsOf(options->planner), car = defaultsOf(Planner::kHybridAStar);
   command->footer(
       "Examples:\n  scripts/rex plan board --goal 1.5,-1.1,-1 -o around\n"
       "  scripts/rex plan maze --goal 3,0,0 --planner rrt-star --speed 0.5 -o rooms\n"
@@ -138,20 +149,20 @@ void addPlan(CLI::App* command, Action& action) {
       "explored) or costs.png, path.mp4 and path.html (a replay).\n"
       "Exit codes: 0 found a path, 1 found none or one not proven clear, 64 wrong use.");
   addSceneFile(command, "SCENE", options->scene.file);
-  addOptions(
-      command,
-      {{"-o,--out", options->out, "DIR", "folder for the results"},
-       {"--start", options->start, "POSTURE",
-        "all numbers, joint=number,..., 0, file, or key:NAME or state:NAME of the file (default: file)"},
-       {"--goal", options->goal, "GOAL",
-        "posture to reach, as for --start; with --planner optimize, BODY:x,y,z in metres"},
-       {"--planner", options->planner, plannerNames(), "how to search"},
-       {"--margin",
-        options->margin,
-        {0, kQueryCutoff},
-        "METRES",
-        "clearance to keep between all shapes (default: 0.01; hybrid-astar 0.05, optimize --avoid 0.02)"},
-       {"--no-film", options->noFilm, "do not make path.mp4 and path.html"}});
+  addOptions(command, {{"-o,--out", options->out, "DIR", "folder for the results"},
+                       {"--start", options->start, "POSTURE",
+                        "all numbers, joint=number,..., 0, file, or key:NAME or state:NAME of the file"},
+                       {"--goal", options->goal, "GOAL",
+                        "posture to reach, as for --start; with --planner optimize, BODY:x,y,z in metres"},
+                       {"--planner", options->planner, plannerNames(), "how to search"},
+                       {"--margin",
+                        options->margin,
+                        {0, kQueryCutoff},
+                        "METRES",
+                        fmt::format("clearance to keep between all shapes (default: {:g}; hybrid-astar {:g}, "
+                                    "optimize --avoid {:g})",
+                                    usual.margin, car.margin, defaultsOf(Planner::kOptimize).margin)},
+                       {"--no-film", options->noFilm, "do not make path.mp4 and path.html"}});
   addFilmSpeed(command, options->speed);
   addFilmOptions(command, options->film);
   addJson(command, options->json);
@@ -163,7 +174,8 @@ void addPlan(CLI::App* command, Action& action) {
         options->samples,
         {1, 1e7},
         "N",
-        "budget of samples (default: 100000; rrt-star 10000, roadmaps 2000)"},
+        fmt::format("budget of samples (default: {}; rrt-star {}, roadmaps {})", usual.samples,
+                    defaultsOf(Planner::kRrtStar).samples, defaultsOf(Planner::kPrm).samples)},
        {"--time-limit",
         options->timeLimit,
         {1e-3, 1e5},
@@ -187,7 +199,8 @@ void addPlan(CLI::App* command, Action& action) {
                    options->resolution,
                    {1e-4, 10},
                    "LENGTH",
-                   "distance between checks along the path (default: 0.02; hybrid-astar 0.05)"}},
+                   fmt::format("distance between checks along the path (default: {:g}; hybrid-astar {:g})",
+                               usual.resolution, car.resolution)}},
                  "All but optimize");
   HybridAStarOptions& grid = options->grid;
   const auto driven =

@@ -21,8 +21,8 @@ namespace rex::cli {
 /// The options of `rex plan`.
 struct PlanOptions {
   SceneOption scene{};
-  std::string start{};  ///< see parsePosture(); empty: that of the file
-  std::string goal{};   ///< a posture; to optimize, BODY:x,y,z
+  std::string start = "file";  ///< see parsePosture()
+  std::string goal{};          ///< a posture; to optimize, BODY:x,y,z
   Planner planner = Planner::kRrtConnect;
   std::optional<double> margin{};  ///< metres between all pairs of shapes; its default depends on the planner
   std::optional<double> resolution{};

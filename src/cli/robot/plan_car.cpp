@@ -122,8 +122,7 @@ void tellWhatIsNoObstacle(const Model& model) {
 PathTask carTaskOf(Model model, const PlanOptions& options) {
   requireCar(model);
   const ContactModel contacts = contactModelOf(model);
-  const Eigen::VectorXd start =
-      postureWithinLimits(model, "--start", options.start.empty() ? "file" : options.start);
+  const Eigen::VectorXd start = postureWithinLimits(model, "--start", options.start);
   const Eigen::VectorXd goal = postureWithinLimits(model, "--goal", options.goal);
   PathTask task = asWrongUse([&] {
     return parkingTask(std::move(model), contacts, start, goal, *options.margin, *options.resolution);

@@ -107,8 +107,7 @@ void requireStartIsClear(const TrajectoryTask& task) {
 TrajectoryTask motionTaskOf(Model model, const PlanOptions& options) {
   const auto [body, p_WQ] = goalOf(model, options.goal);
   ContactModel contacts = contactModelOf(model);
-  const Eigen::VectorXd start =
-      postureWithinLimits(model, "--start", options.start.empty() ? "file" : options.start);
+  const Eigen::VectorXd start = postureWithinLimits(model, "--start", options.start);
   TrajectoryTask task{.model = std::move(model),
                       .contacts = std::move(contacts),
                       .body = body,

@@ -32,11 +32,6 @@ std::vector<std::string> printableVelocityNames(const Model& model) {
   return allHarmless(velocityNames(model));
 }
 
-std::size_t widestOf(const std::vector<std::string>& names, std::size_t least) {
-  for (const std::string& name : names) least = std::max(least, name.size());
-  return least;
-}
-
 namespace {
 
 constexpr double kLongestMotion = 120;  // seconds of a film

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -12,9 +11,6 @@ namespace rex::cli {
 /// positionNames() and velocityNames() of scene/state.h, safe to print.
 [[nodiscard]] std::vector<std::string> printablePositionNames(const Model& model);
 [[nodiscard]] std::vector<std::string> printableVelocityNames(const Model& model);
-
-/// The column width for names: the length of the longest, at least `least`.
-[[nodiscard]] std::size_t widestOf(const std::vector<std::string>& names, std::size_t least);
 
 /// The posture given by `--q TEXT`: all nq numbers, or "joint=number,..." for some joints with one
 /// coordinate, the others as in the file; separated by blanks or commas. "0" sets all joints to zero

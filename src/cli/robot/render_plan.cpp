@@ -192,9 +192,8 @@ std::pair<int, int> sizeOf(const std::string& text) {
 }
 
 Show showOf(const std::string& name) {
-  if (name.empty()) return Show::kColor;
   return choose<Show>(
-      "--show", name,
+      "--show", name.empty() ? kUsualShow : name,
       {{"color", Show::kColor}, {"depth", Show::kDepth}, {"segmentation", Show::kSegmentation}});
 }
 
@@ -203,16 +202,6 @@ AntiAliasing antiAliasingOf(const std::string& name, Product product) {
   return choose<AntiAliasing>(
       "--aa", name,
       {{"none", AntiAliasing::kNone}, {"fxaa", AntiAliasing::kFxaa}, {"msaa4", AntiAliasing::kMsaa4}});
-}
-
-double secondsOf(const RenderOptions& options, double fallback) {
-  constexpr double kShortest = 0.04, kLongest = 600;
-  if (!options.seconds) return fallback;
-  const double seconds = *options.seconds;
-  if (seconds >= kShortest && seconds <= kLongest) return seconds;
-  throw UsageError({.what = "--duration",
-                    .found = fmt::format("{:g}", seconds),
-                    .wanted = fmt::format("{:g} to {:g} seconds", kShortest, kLongest)});
 }
 
 void require(bool holds, const std::string& what, const std::string& wanted) {
@@ -247,7 +236,7 @@ void requireMeaning(const RenderOptions& options, const RenderPlan& plan) {
 
 RenderPlan planOf(const RenderOptions& options, Facing facing) {
   RenderPlan plan{.product = productOf(options.out), .show = showOf(options.show)};
-  const std::string usualSize = plan.product == Product::kPage ? "800x600" : "640x480";
+  const char* usualSize = plan.product == Product::kPage ? kPageSize : kPictureSize;
   const auto [width, height] = sizeOf(options.size.empty() ? usualSize : options.size);
   plan.renderer = {.width = width,
                    .height = height,
@@ -258,7 +247,7 @@ RenderPlan planOf(const RenderOptions& options, Facing facing) {
     plan.views.push_back({view.label(), view});
   }
   if (plan.views.empty()) plan.views.push_back({"default", View("default")});
-  plan.seconds = secondsOf(options, plan.seconds);
+  plan.seconds = options.seconds.value_or(plan.seconds);
   requireMeaning(options, plan);
   return plan;
 }
@@ -273,7 +262,7 @@ std::string viewsOf(const RenderPlan& plan) {
 
 GlBackend backendOf(const std::string& name) {
   try {
-    return glBackendFromName(name.empty() ? "auto" : name);
+    return glBackendFromName(name);
   } catch (const Error& error) {
     throw UsageError(error.parts());
   }

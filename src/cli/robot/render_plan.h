@@ -49,6 +49,10 @@ class View {
   Eigen::Vector3d eye_{0, 0, 0}, target_{0, 0, 0};
 };
 
+/// Defaults as a user would type them.
+inline constexpr const char *kPictureSize = "640x480", *kPageSize = "800x600", *kUsualShow = "color",
+                            *kUsualGl = "auto";
+
 /// Raw option strings, empty if not given. RenderPlan is their interpretation.
 struct RenderOptions {
   SceneOption scene{};
@@ -61,7 +65,7 @@ struct RenderOptions {
   std::string size{};           ///< WIDTHxHEIGHT
   std::string show{};           ///< color, depth or segmentation
   std::string antiAliasing{};   ///< none, fxaa or msaa4
-  std::string gl{};             ///< auto, osmesa or egl
+  std::string gl = kUsualGl;    ///< auto, osmesa or egl
   std::filesystem::path out{};  ///< its extension says what is made
 };
 
@@ -93,7 +97,7 @@ struct RenderPlan {
 /// "view: front (from +x)" for the requested cameras; empty if there are none.
 [[nodiscard]] std::string viewsOf(const RenderPlan& plan);
 
-/// The meaning of `--gl NAME`; an empty name is auto. Throws UsageError naming the choices and their
+/// The meaning of `--gl NAME`. Throws UsageError naming the choices and their
 /// packages.
 [[nodiscard]] GlBackend backendOf(const std::string& name);
 

@@ -34,28 +34,33 @@ void addReading(CLI::App* command, ReadOptions& reading) {
 }
 
 void addRenderOptions(CLI::App* command, RenderOptions& options) {
-  addOptions(
-      command,
-      {{"--q", options.postures, "POSTURE",
-        "all numbers, joint=number,..., or key:NAME or state:NAME; several: a motion through them"},
-       {"--motion", options.motion, "FILE", "a motion: a posture per line, with or without a time"},
-       {"--duration", options.seconds, {0.04, 600}, "S", "time from each --q to the next (default: 2)"},
-       {"--camera", options.cameras, "VIEW",
-        "front, back, left, right, top, x,y,z or eye@target; may be repeated"},
-       {"--trace", options.traces, "BODY", "draw the path of this body as a line"},
-       {"--caption", options.caption, "TEXT", "text in the top left corner, or title of a page"},
-       {"--size", options.size, "WxH", "pixels of one picture (default: 640x480, pages: 800x600)"},
-       {"--shapes", options.scene.shapes, "WHICH",
-        "which shapes to draw: visible, contact or all (default: visible)"},
-       {"--textures", options.scene.reading.textures, "paint meshes with their textures"},
-       {"--show", options.show, "WHAT", "color, depth or segmentation (default: color)"},
-       {"--aa", options.antiAliasing, "KIND",
-        "anti-aliasing: none, fxaa or msaa4 (default: msaa4, films: fxaa)"}});
+  addOptions(command,
+             {{"--q", options.postures, "POSTURE",
+               "all numbers, joint=number,..., or key:NAME or state:NAME; several: a motion through them"},
+              {"--motion", options.motion, "FILE", "a motion: a posture per line, with or without a time"},
+              {"--duration",
+               options.seconds,
+               {0.04, 600},
+               "S",
+               fmt::format("time from each --q to the next (default: {:g})", RenderPlan{}.seconds)},
+              {"--camera", options.cameras, "VIEW",
+               "front, back, left, right, top, x,y,z or eye@target; may be repeated"},
+              {"--trace", options.traces, "BODY", "draw the path of this body as a line"},
+              {"--caption", options.caption, "TEXT", "text in the top left corner, or title of a page"},
+              {"--size", options.size, "WxH",
+               fmt::format("pixels of one picture (default: {}, pages: {})", kPictureSize, kPageSize)},
+              {"--shapes", options.scene.shapes, "WHICH", "which shapes to draw: visible, contact or all"},
+              {"--textures", options.scene.reading.textures, "paint meshes with their textures"},
+              {"--show", options.show, "WHAT",
+               fmt::format("color, depth or segmentation (default: {})", kUsualShow)},
+              {"--aa", options.antiAliasing, "KIND",
+               "anti-aliasing: none, fxaa or msaa4 (default: msaa4, films: fxaa)"}});
 }
 
 void addFilmOptions(CLI::App* command, RenderOptions& film) {
-  addOptions(command, {{"--camera", film.cameras, "VIEW", "as for `rex render`; may be repeated"},
-                       {"--size", film.size, "WxH", "pixels of the film (default: 640x480)"}});
+  addOptions(command,
+             {{"--camera", film.cameras, "VIEW", "as for `rex render`; may be repeated"},
+              {"--size", film.size, "WxH", fmt::format("pixels of the film (default: {})", kPictureSize)}});
 }
 
 void addFilmSpeed(CLI::App* command, double& speed) {
@@ -64,10 +69,8 @@ void addFilmSpeed(CLI::App* command, double& speed) {
 }
 
 void addPosture(CLI::App* command, std::string& posture) {
-  addOptions(
-      command,
-      {{"--q", posture, "POSTURE",
-        "all numbers, joint=number,..., 0, file, or key:NAME or state:NAME of the file (default: file)"}});
+  addOptions(command, {{"--q", posture, "POSTURE",
+                        "all numbers, joint=number,..., 0, file, or key:NAME or state:NAME of the file"}});
 }
 
 void requireGiven(const char* option, const std::string& value, const char* command) {
@@ -79,7 +82,7 @@ void requireGiven(const char* option, const std::string& value, const char* comm
 void addJson(CLI::App* command, bool& json) { addOptions(command, {{"--json", json, "print JSON"}}); }
 
 void addGl(CLI::App* command, std::string& gl) {
-  command->add_option("--gl", gl, "OpenGL backend: auto, osmesa or egl (default: auto)")
+  command->add_option("--gl", gl, fmt::format("OpenGL backend: auto, osmesa or egl (default: {})", gl))
       ->type_name("NAME")
       ->envname("REX_GL");
 }

@@ -54,11 +54,9 @@ void addJacobian(CLI::App* scene, Action& action, const std::shared_ptr<SceneOpt
   CLI::App* verb = addVerbOf(scene, "jacobian",
                              "Compute the position Jacobian of a point on a body, and the rotation Jacobian",
                              "Example: scripts/rex scene pegArm jacobian --body peg --point 0,0,0.3 --q 0");
-  verb->add_option("--body", own->body, "name of the body, or of one of its shapes")
-      ->type_name("NAME")
-      ->required();
-  verb->add_option("--point", own->point, "the point in the body's frame, metres (default: 0,0,0)")
-      ->type_name("x,y,z");
+  addOptions(verb,
+             {OptionRow("--body", own->body, "NAME", "name of the body, or of one of its shapes").required(),
+              {"--point", own->point, "x,y,z", "the point in the body's frame, metres"}});
   addPosture(verb, options->posture);
   addJson(verb, options->json);
   verb->callback([&action, options, own] {
@@ -79,15 +77,12 @@ void addContacts(CLI::App* scene, Action& action, const std::shared_ptr<SceneOpt
           fmt::format("Refuses a scene with more than {} pairs of shapes that take part in contacts.",
                       kMostContactPairs));
   const auto added = addOptions(
-      verb, {{"--margin",
-              own->margin,
-              {1e-9, 1e9},
-              "METRES",
-              "distance below which pairs add to the contact cost (default: 0.1)"},
-             {"--pairs", *listsPairs, "which bodies may collide, and why others may not"},
-             {"--never", *looksForNever, "write an SRDF that disables pairs that never or always touch"},
-             {"--samples", pairs->samples, {1, 1e6}, "N", "number of random postures for --never"},
-             seedRow(pairs->seed, "seed of the random postures")});
+      verb,
+      {{"--margin", own->margin, {1e-9, 1e9}, "METRES", "distance below which pairs add to the contact cost"},
+       {"--pairs", *listsPairs, "which bodies may collide, and why others may not"},
+       {"--never", *looksForNever, "write an SRDF that disables pairs that never or always touch"},
+       {"--samples", pairs->samples, {1, 1e6}, "N", "number of random postures for --never"},
+       seedRow(pairs->seed, "seed of the random postures")});
   addPosture(verb, options->posture);
   CLI::Option *margin = added[0], *list = added[1], *never = added[2];
   for (const std::size_t k : {3, 4}) added[k]->needs(never);
@@ -111,8 +106,8 @@ void addDynamics(CLI::App* scene, Action& action, const std::shared_ptr<SceneOpt
                 "  scripts/rex scene arm3 dynamics --u 5,0,0 --json\n\n"
                 "Gravity is 9.81 m/s^2 along -z. Joints move freely: without friction, limits and contacts.");
   addPosture(verb, options->posture);
-  addOptions(verb, {{"--v", own->velocity, "VELOCITY", "all velocities, or joint=number,... (default: 0)"},
-                    {"--u", own->force, "FORCE", "forces of all joints, or joint=number,... (default: 0)"}});
+  addOptions(verb, {{"--v", own->velocity, "VELOCITY", "all velocities, or joint=number,..."},
+                    {"--u", own->force, "FORCE", "forces of all joints, or joint=number,..."}});
   addJson(verb, options->json);
   verb->callback([&action, options, own] {
     own->scene = *options;

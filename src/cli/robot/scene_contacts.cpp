@@ -30,22 +30,20 @@ Json jsonOfPairs(const Model& model, const std::vector<Proxy>& near) {
 }  // namespace
 
 ExitCode sceneContacts(const Project& project, const ContactsOptions& options) {
-  const double margin = options.margin.value_or(kContactMargin);
   const Model model = loadScene(project, options.scene.scene);
-  const Eigen::VectorXd q =
-      options.scene.posture.empty() ? model.initialPositions() : parsePosture(model, options.scene.posture);
+  const Eigen::VectorXd q = parsePosture(model, options.scene.posture);
   const ContactModel contacts = contactModelOf(model);
   const BodyPoses poses = forwardKinematics(model, q);
-  const double reach = std::max(margin, kQueryCutoff);
+  const double reach = std::max(options.margin, kQueryCutoff);
   const std::vector<Proxy> near = proxies(contacts, poses, reach);
-  const double cost = contactCost(contacts, poses, margin);
+  const double cost = contactCost(contacts, poses, options.margin);
   Results all{.json = {{"cost", cost},
                        {"rule", toString(model.collisionRule())},
                        {"pairs", jsonOfPairs(model, near)}}};
   all.line(
       "{} pairs of shapes may collide (rule {}, see --pairs), {} are nearer than {:g} m; contact cost {:.6g} "
       "with a margin of {:g} m",
-      contacts.pairs().size(), toString(model.collisionRule()), near.size(), reach, cost, margin);
+      contacts.pairs().size(), toString(model.collisionRule()), near.size(), reach, cost, options.margin);
   if (!near.empty())
     for (const std::string& report = proxyReport(model, near);
          const std::string_view line : splitLines(report))

@@ -45,8 +45,9 @@ Results resultsOf(const Model& model, const Dynamics& at) {
   all.line("{}", joints.text());
   // Wide matrices are split into bands of as many columns as fit in the terminal.
   constexpr int kLineLength = 80;
-  const int width = static_cast<int>(widestOf(names, kNameColumn));
-  const int band = std::max(1, (kLineLength - width) / (kColumn + 1));
+  std::size_t width = kNameColumn;
+  for (const std::string& name : names) width = std::max(width, name.size());
+  const int band = std::max(1, (kLineLength - static_cast<int>(width)) / (kColumn + 1));
   for (int from = 0; from < model.nv(); from += band) {
     const int count = std::min(band, model.nv() - from);
     Table M(kNameColumn, kColumn);
@@ -65,13 +66,9 @@ Results resultsOf(const Model& model, const Dynamics& at) {
 
 ExitCode sceneDynamics(const Project& project, const DynamicsOptions& options) {
   const Model model = loadScene(project, options.scene.scene);
-  const auto given = [&](const std::string& text, const auto& parse, const Eigen::VectorXd& otherwise) {
-    return text.empty() ? otherwise : parse(model, text);
-  };
-  const Eigen::VectorXd q = given(options.scene.posture, parsePosture, model.initialPositions());
-  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(model.nv());
-  const Eigen::VectorXd v = given(options.velocity, parseVelocities, zero);
-  const Eigen::VectorXd u = given(options.force, parseForces, zero);
+  const Eigen::VectorXd q = parsePosture(model, options.scene.posture);
+  const Eigen::VectorXd v = parseVelocities(model, options.velocity);
+  const Eigen::VectorXd u = parseForces(model, options.force);
   const Dynamics at = asWrongUse([&] {
     return Dynamics{v, u, equationOfMotion(model, q, v), energy(model, q, v),
                     forwardDynamics(model, q, v, u)};

@@ -15,10 +15,6 @@
 namespace rex::cli {
 namespace {
 
-Eigen::VectorXd postureOf(const Model& model, const std::string& text) {
-  return text.empty() ? model.initialPositions() : parsePosture(model, text);
-}
-
 // For at most nine columns, even of large numbers; what rounds to zero has no sign.
 std::string fiveDecimals(double value) {
   if (std::abs(value) >= 1e3) return fmt::format("{:.3g}", value);
@@ -31,7 +27,7 @@ constexpr std::size_t kPoseColumn = 9;
 
 ExitCode sceneKinematics(const Project& project, const SceneOptions& options) {
   const Model model = loadScene(project, options.scene);
-  const Eigen::VectorXd q = postureOf(model, options.posture);
+  const Eigen::VectorXd q = parsePosture(model, options.posture);
   const BodyPoses poses = forwardKinematics(model, q);
   noteOverflow(std::ranges::all_of(model.bodiesInFileOrder(), [&](BodyId id) {
     return poses[id].R.allFinite() && poses[id].p.allFinite();
@@ -54,9 +50,8 @@ ExitCode sceneKinematics(const Project& project, const SceneOptions& options) {
 ExitCode sceneJacobian(const Project& project, const JacobianOptions& options) {
   const Model model = loadScene(project, options.scene.scene);
   const BodyId body = asWrongUse([&] { return model.body(options.body); }, "--body: ");
-  const Eigen::Vector3d point =
-      options.point.empty() ? Eigen::Vector3d::Zero() : parsePoint(options.point, "--point");
-  const BodyPoses poses = forwardKinematics(model, postureOf(model, options.scene.posture));
+  const Eigen::Vector3d point = parsePoint(options.point, "--point");
+  const BodyPoses poses = forwardKinematics(model, parsePosture(model, options.scene.posture));
   const Eigen::Matrix3Xd position = positionJacobian(model, poses, body, point);
   const Eigen::Matrix3Xd angular = angularJacobian(model, poses, body);
   noteOverflow(position.allFinite() && angular.allFinite());

@@ -27,7 +27,7 @@ void chooseVisibility(ShapeSpec& shape, const std::string& shapes) {
 
 void chooseShapes(SceneSpec& spec, const std::string& shapes) {
   const std::vector<std::string> known = {"visible", "contact", "all"};
-  if (!shapes.empty() && shapes != known[0] && shapes != known[1] && shapes != known[2])
+  if (shapes != known[0] && shapes != known[1] && shapes != known[2])
     throw UsageError({.what = "--shapes",
                       .found = "'" + escapeForTerminal(shapes) + "'",
                       .wanted = "visible, contact or all",

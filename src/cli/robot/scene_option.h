@@ -15,7 +15,7 @@ namespace rex::cli {
 struct SceneOption {
   std::filesystem::path file{};  ///< see findScene()
   ReadOptions reading{};
-  std::string shapes{};  ///< which shapes are drawn: visible, contact or all; empty: visible
+  std::string shapes = "visible";  ///< which shapes are drawn: visible, contact or all
 };
 
 /// Throws UsageError for a free base or an SRDF with an .ors or MJCF file, which would have no effect.

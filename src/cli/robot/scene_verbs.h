@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 
 #include "base/exit_code.h"
@@ -13,7 +12,7 @@ namespace rex::cli {
 
 struct SceneOptions {
   SceneOption scene{};
-  std::string posture{};  ///< see parsePosture(); empty: that of the file
+  std::string posture = "file";  ///< see parsePosture()
   bool json = false;
 };
 /// Prints the bodies as a tree, and the coordinates of the joints.
@@ -26,13 +25,13 @@ ExitCode sceneKinematics(const Project& project, const SceneOptions& options);
 struct JacobianOptions {
   SceneOptions scene{};
   std::string body{};
-  std::string point{};  ///< x,y,z in the body's frame, metres; empty: its origin
+  std::string point = "0,0,0";  ///< in the body's frame, metres
 };
 ExitCode sceneJacobian(const Project& project, const JacobianOptions& options);
 
 struct ContactsOptions {
   SceneOptions scene{};
-  std::optional<double> margin{};  ///< metres; 0.1
+  double margin = kContactMargin;  ///< metres
 };
 /// Prints the nearby pairs that may collide, and their contact cost.
 ExitCode sceneContacts(const Project& project, const ContactsOptions& options);
@@ -49,8 +48,8 @@ ExitCode sceneNeverTouching(const Project& project, const PairsOptions& options)
 
 struct DynamicsOptions {
   SceneOptions scene{};
-  std::string velocity{};  ///< see parseVelocities(); empty: at rest
-  std::string force{};     ///< see parseForces(); empty: none
+  std::string velocity = "0";  ///< see parseVelocities()
+  std::string force = "0";     ///< see parseForces()
 };
 /// Prints the mass matrix, bias forces, energies, and joint accelerations.
 ExitCode sceneDynamics(const Project& project, const DynamicsOptions& options);

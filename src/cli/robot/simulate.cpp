@@ -38,8 +38,8 @@ const std::vector<std::pair<std::string, Engine>>& engineNames() {
 
 struct SimulateOptions {
   SceneOption scene{};
-  std::string posture{};   ///< see parsePosture(); empty: that of the file
-  std::string velocity{};  ///< see parseVelocities(); empty: at rest
+  std::string posture = "file";  ///< see parsePosture()
+  std::string velocity = "0";    ///< see parseVelocities()
   Engine engine = Engine::kRungeKutta4;
   double seconds = 5;
   double tau = 1e-3;              ///< seconds per step
@@ -131,9 +131,7 @@ SimulationPlan planOf(const Model& model, const SimulateOptions& options) {
                         .wanted = "no --hold, or --hold-by exact, gravity or pd, which torques add to"});
     plan.torques = readTorques(model, options.torques);
   }
-  plan.start = initialState(model);
-  if (!options.posture.empty()) plan.start.q = parsePosture(model, options.posture);
-  if (!options.velocity.empty()) plan.start.v = parseVelocities(model, options.velocity);
+  plan.start = {parsePosture(model, options.posture), parseVelocities(model, options.velocity)};
   return plan;
 }
 
@@ -398,7 +396,7 @@ void addSimulate(CLI::App* command, Action& action) {
   addPosture(command, options->posture);
   addOptions(
       command,
-      {{"--v", options->velocity, "VELOCITY", "all velocities, or joint=number,... (default: 0)"},
+      {{"--v", options->velocity, "VELOCITY", "all velocities, or joint=number,..."},
        {"--hold", options->hold, "make the joints hold the initial posture"},
        {"--hold-by",
         options->holdBy,

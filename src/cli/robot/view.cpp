@@ -32,7 +32,7 @@ using std::chrono::microseconds;
 
 struct ViewOptions {
   SceneOption scene{};
-  std::string posture{};  ///< see parsePosture(); empty: that of the file
+  std::string posture = "file";  ///< see parsePosture()
   int port = 0;
   std::string bind = "127.0.0.1";
   bool noBrowser = false;
@@ -90,8 +90,7 @@ void offerRecording(LiveServer& server, LiveSession& session, ViewFilm& film) {
 ExitCode view(const Project& project, const ViewOptions& options) {
   const SceneSpec spec = loadSpec(project, options.scene);
   const Model model = asWrongUse([&] { return compile(spec); });
-  const Eigen::VectorXd q =
-      options.posture.empty() ? model.initialPositions() : parsePosture(model, options.posture);
+  const Eigen::VectorXd q = parsePosture(model, options.posture);
   LiveSession session = asWrongUse([&] { return LiveSession(spec, q); });
   const HeldSignals held;
   const PrivateFolder folder(temporaryFolder());

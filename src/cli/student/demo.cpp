@@ -22,6 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kLecture = 100'000;  // seconds of CPU time: as long as somebody looks
+constexpr std::uint64_t kFirstSeed = 0;
 
 struct DemoOptions {
   std::string which;  ///< a name or a chapter; empty: list all
@@ -84,7 +85,7 @@ std::vector<std::string> argumentsOf(const Demonstration& one, const DemoOptions
   if (options.seed && !one.takesSeed) refuse("--seed", "random numbers");
   if (options.runs && !one.takesRuns) refuse("--runs", "runs to compare");
   if (!options.seed && !options.runs) return {};
-  std::vector<std::string> words{std::to_string(options.seed.value_or(0))};
+  std::vector<std::string> words{std::to_string(options.seed.value_or(kFirstSeed))};
   if (options.runs) words.push_back(std::to_string(*options.runs));
   return words;
 }
@@ -150,7 +151,7 @@ void addDemo(CLI::App* command, Action& action) {
   addOptions(
       command,
       {{"-o,--out", options->out, "PATH", "write the replay to this folder or .html file, and serve nothing"},
-       seedRow(options->seed, "seed of the first run (default: 0)"),
+       seedRow(options->seed, fmt::format("seed of the first run (default: {})", kFirstSeed)),
        {"--runs", options->runs, {1, 10'000}, "N", "runs in the table, each with the next seed"},
        {"--no-browser", options->noBrowser, "serve the page, and open no browser"},
        {"--json", options->json, "list all as JSON"}});
