@@ -71,12 +71,12 @@ class SrdfReader {
     }
   }
 
-  // What else the file holds, in one note.
+  // What else the file holds, in one note. Groups that have states are there for these.
   void noteOthers(Diagnostics& notes) const {
     std::map<std::string, int> counts;
     const xml::Element* first = nullptr;
     for (const xml::Element& child : reading_.document.root.children) {
-      if (!isOfOthers(child.name)) continue;
+      if (!isOfOthers(child.name) || isUsed(child)) continue;
       if (first == nullptr) first = &child;
       ++counts[child.name];
     }
@@ -90,6 +90,12 @@ class SrdfReader {
   }
 
  private:
+  bool isUsed(const xml::Element& tag) const {
+    return tag.name == "group" && std::ranges::any_of(tag.attributes, [&](const xml::Attribute& one) {
+             return one.name == "name" && groups_.contains(one.value);
+           });
+  }
+
   // Whether the robot has the link that an attribute names.
   bool hasLink(const Tag& tag, const char* attribute) const {
     const std::string& name = tag.nameIn(attribute);
@@ -136,6 +142,7 @@ class SrdfReader {
     static const Known kKnown = {{"name", "group"}, {"joint"}};
     tag.expect(kKnown);
     const std::string name = "state:" + tag.nameIn("name");
+    if (tag.has("group")) groups_.insert(tag.text("group"));
     std::vector<PostureSpec>& postures = robot_.spec.postures;
     auto posture = std::ranges::find(postures, name, &PostureSpec::name);
     if (posture == postures.end())
@@ -180,7 +187,7 @@ class SrdfReader {
 
   Reading& reading_;
   SceneFile& robot_;
-  std::set<std::string> links_;
+  std::set<std::string> links_, groups_;                              // groups: those with states
   std::map<std::pair<std::string, std::string>, std::size_t> given_;  // places of choices
 };
 

@@ -93,6 +93,9 @@ TEST(SrdfReader, SaysInOneNoteWhatElseThereIs) {
             "arm.srdf:2:1: note: only collisions and states of an SRDF are read: <end_effector>, <group> (2 "
             "times), "
             "<virtual_joint> skipped");
+  const std::string state = "<group_state name='s' group='arm'><joint name='j' value='1'/></group_state>";
+  EXPECT_EQ(notesOf("<group name='arm'><joint name='j'/></group>" + state), "");
+  EXPECT_THAT(notesOf("<group name='arm'/><group name='leg'/>" + state), HasSubstr("<group> skipped"));
 }
 
 TEST(SrdfReader, WarnsOfWhatItDoesNotKnow) {
