@@ -69,4 +69,6 @@ def robot():
              [Visual("flange", "shell"), Visual("flange_trim", "graphite")])
     arm.joint("tool_mount", "fixed", "flange", "tool", (0, 0, FLANGE))
     arm.frame("tool")
+    arm.state("home", shoulder_pitch=0.5, elbow_pitch=1.2, wrist_pitch=0.9)
+    arm.state("up")
     return arm

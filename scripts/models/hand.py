@@ -1,4 +1,4 @@
-"""A right hand: four fingers and a thumb, whose last joints follow the ones before."""
+"""A hand: four fingers and a thumb, whose last joints follow the ones before."""
 
 from math import pi
 
@@ -58,26 +58,39 @@ def finger(robot, name, up, size, last_ratio):
     robot.frame(f"{name}_tip")
 
 
+def attach(robot, palm="palm", side="", sign=1):
+    """The whole hand, its palm called `palm` and all else with the prefix `side`; a left one with a sign of -1."""
+    flipped = (1, sign, 1)
+    robot.link(palm, 0.38, [Box(0.032, 0.086, 0.08, (0, 0, 0.05)), Cylinder(0.028, 0.045, (0, 0, -0.02))],
+               [Visual("palm", "shell", scale=flipped), Visual("palm_trim", "graphite", scale=flipped),
+                Visual("wrist", "graphite"), Visual("wrist_ring", "accent")])
+    for finger_name, (x, y, z), fan, size in FINGERS:
+        name = side + finger_name
+        robot.joint(f"{name}_spread", "revolute", palm, f"{name}_base", (x, sign * y, z), (-sign * fan, 0, 0),
+                    (sign, 0, 0), (-0.3, 0.3), effort=0.6, velocity=6, damping=0.01, friction=0.005)
+        robot.link(f"{name}_base", 0.006, [Cylinder(0.008 * size, 0.016 * size, turned=Z_TO_Y)],
+                   [Visual("pin", "graphite", scale=size)])
+        finger(robot, name, 0, size, 0.75)
+    thumb = side + "thumb"
+    robot.joint(f"{thumb}_opposition", "revolute", palm, f"{thumb}_base", (0.006, sign * 0.036, 0.028),
+                (-sign * 0.75, 0, sign * 0.5), (0, 0, sign), (-0.3, 1.4), effort=1.2, velocity=6, damping=0.01,
+                friction=0.005)
+    robot.link(f"{thumb}_base", 0.015, [Cylinder(0.008, 0.026, (0, 0, 0.013))],
+               [Visual("pin", "graphite", scale=1.2), Visual("middle", "graphite", scale=0.95)])
+    finger(robot, thumb, 0.026, 1.05, 0.7)
+    for name in ("index", "middle", "ring", "little", "thumb"):
+        robot.overlap(palm, f"{side}{name}_proximal")
+
+
 def robot():
     hand = Robot("hand", ["A right hand: fingers point along z and bend towards x, the thumb is on the side of y.",
                           "Fifteen hinges move it; the last joint of each finger follows the one before."],
                  {"shell": (0.90, 0.91, 0.92), "graphite": (0.22, 0.24, 0.27), "blue": (0.12, 0.45, 0.75),
                   "accent": (0.95, 0.49, 0.10)})
     meshes(hand)
-    hand.link("palm", 0.38, [Box(0.032, 0.086, 0.08, (0, 0, 0.05)), Cylinder(0.028, 0.045, (0, 0, -0.02))],
-              [Visual("palm", "shell"), Visual("palm_trim", "graphite"), Visual("wrist", "graphite"),
-               Visual("wrist_ring", "accent")])
-    for name, at, fan, size in FINGERS:
-        hand.joint(f"{name}_spread", "revolute", "palm", f"{name}_base", at, (-fan, 0, 0), (1, 0, 0), (-0.3, 0.3),
-                   effort=0.6, velocity=6, damping=0.01, friction=0.005)
-        hand.link(f"{name}_base", 0.006, [Cylinder(0.008 * size, 0.016 * size, turned=Z_TO_Y)],
-                  [Visual("pin", "graphite", scale=size)])
-        finger(hand, name, 0, size, 0.75)
-    hand.joint("thumb_opposition", "revolute", "palm", "thumb_base", (0.006, 0.036, 0.028), (-0.75, 0, 0.5), (0, 0, 1),
-               (-0.3, 1.4), effort=1.2, velocity=6, damping=0.01, friction=0.005)
-    hand.link("thumb_base", 0.015, [Cylinder(0.008, 0.026, (0, 0, 0.013))],
-              [Visual("pin", "graphite", scale=1.2), Visual("middle", "graphite", scale=0.95)])
-    finger(hand, "thumb", 0.026, 1.05, 0.7)
-    for name in ("index", "middle", "ring", "little", "thumb"):
-        hand.overlap("palm", f"{name}_proximal")
+    attach(hand)
+    for name, knuckle, bend, thumb in (("home", 0, 0, 0), ("half_closed", 0.7, 0.7, 0.9)):
+        bends = {f"{finger}_knuckle": knuckle for finger, *_ in FINGERS}
+        bends |= {f"{finger}_middle_bend": bend for finger, *_ in FINGERS}
+        hand.state(name, **bends, thumb_opposition=thumb, thumb_knuckle=knuckle / 2, thumb_middle_bend=bend / 2)
     return hand

@@ -1,7 +1,8 @@
-"""A humanoid of 25 hinges, built to walk: flat feet, and the three axes of each hip and the two of each ankle cross."""
+"""A humanoid of 25 hinges, or 55 with the fingers of two hands, built to walk: flat feet, and the three axes of each hip and the two of each ankle cross."""
 
 from math import pi
 
+import hand
 from solid import Z_TO_X, Z_TO_Y, ball, bar, box, cylinder, limb, rectangle, slab
 from urdf import Box, Cylinder, Robot, Sphere, Visual
 
@@ -71,10 +72,10 @@ def leg_meshes(robot):
     robot.mesh("sole", slab(rectangle(0.24, 0.11, 0.035, 5), 0.016, 0.003).moved((0.03, 0, -ANKLE + 0.008)))
 
 
-def arm(robot, side, sign):
-    def hinge(joint, parent, child, at, axis, limits, effort):
-        robot.joint(f"{side}_{joint}", "revolute", parent, f"{side}_{child}", at, axis=axis, limits=limits,
-                    effort=effort, velocity=8, damping=0.3, friction=0.1)
+def arm(robot, side, sign, has_fingers):
+    def hinge(joint, parent, child, at, axis, limits, effort, turned=(0, 0, 0)):
+        robot.joint(f"{side}_{joint}", "revolute", parent, f"{side}_{child}", at, turned, axis, limits, effort=effort,
+                    velocity=8, damping=0.3, friction=0.1)
     outward = (-0.35, 2.6) if sign > 0 else (-2.6, 0.35)
     hinge("shoulder_pitch", "torso", "shoulder_bracket", (0, sign * (SHOULDER[1] - 0.02), SHOULDER[2]), (0, 1, 0),
           (-3.0, 1.5), 50)
@@ -87,6 +88,11 @@ def arm(robot, side, sign):
                [Visual("upper_arm", "white"), Visual("elbow", "graphite", (0, 0, 0.06 - UPPER_ARM))])
     hinge("elbow", f"{side}_upper_arm", "forearm", (0, 0, 0.06 - UPPER_ARM), (0, 1, 0), (-2.4, 0), 35)
     robot.link(f"{side}_forearm", 1.1, [Cylinder(0.034, 0.18, (0, 0, -0.1))], [Visual("forearm", "white")])
+    if has_fingers:  # its fingers point down and its thumb forward
+        hinge("wrist_yaw", f"{side}_forearm", "hand", (0, 0, -FOREARM - 0.02), (0, 0, -1), (-1.6, 1.6), 10,
+              (pi, 0, -sign * pi / 2))
+        hand.attach(robot, f"{side}_hand", f"{side}_", -sign)
+        return
     hinge("wrist_yaw", f"{side}_forearm", "hand", (0, 0, -FOREARM + 0.02), (0, 0, 1), (-1.6, 1.6), 10)
     robot.link(f"{side}_hand", 0.45, [Box(0.088, 0.036, 0.13, (0, 0, -0.085))], [Visual("hand", "graphite")])
 
@@ -113,15 +119,23 @@ def leg(robot, side, sign):
                [Visual("foot", "white"), Visual("sole", "rubber")])
 
 
-def robot():
-    man = Robot("humanoid", ["A humanoid of 25 hinges, 1.6 m tall; x is forward, the root is the pelvis.",
-                             "Legs: hip yaw, roll and pitch (axes cross), knee, ankle pitch and roll (axes cross).",
-                             "At zero it stands straight, its soles 0.885 m below the root."],
-                {"white": (0.92, 0.93, 0.94), "graphite": (0.20, 0.22, 0.25), "teal": (0.05, 0.55, 0.56),
-                 "light": (0.55, 0.95, 0.98), "rubber": (0.11, 0.11, 0.12)}, "package://humanoid/meshes/")
-    trunk_meshes(man)
-    arm_meshes(man)
-    leg_meshes(man)
+def robot(has_fingers=False):
+    colors = {"white": (0.92, 0.93, 0.94), "graphite": (0.20, 0.22, 0.25), "teal": (0.05, 0.55, 0.56),
+              "light": (0.55, 0.95, 0.98), "rubber": (0.11, 0.11, 0.12)}
+    if has_fingers:
+        colors |= {"shell": colors["white"], "blue": colors["teal"], "accent": colors["teal"]}
+    man = Robot("humanoid_hands" if has_fingers else "humanoid",
+                [f"A humanoid of {'25 hinges and two hands of 15' if has_fingers else '25 hinges'}, 1.6 m tall; x is "
+                 "forward, the root is the pelvis.",
+                 "Legs: hip yaw, roll and pitch (axes cross), knee, ankle pitch and roll (axes cross).",
+                 "At zero it stands straight, its soles 0.885 m below the root."], colors, "package://humanoid/meshes/")
+    if has_fingers:
+        man.borrow(robot())
+        man.borrow(hand.robot())
+    else:
+        trunk_meshes(man)
+        arm_meshes(man)
+        leg_meshes(man)
     man.link("pelvis", 6.5, [Box(0.14, 0.22, 0.09, (0, 0, 0.02))], [Visual("pelvis", "white")])
     for side, sign in (("left", 1), ("right", -1)):
         leg(man, side, sign)
@@ -130,7 +144,7 @@ def robot():
               velocity=6, damping=0.5, friction=0.2)
     man.link("torso", 14, [Box(0.18, 0.28, 0.38, (0, 0, 0.22))], [Visual("torso")])
     for side, sign in (("left", 1), ("right", -1)):
-        arm(man, side, sign)
+        arm(man, side, sign, has_fingers)
         man.overlap(f"{side}_shoulder_bracket", f"{side}_upper_arm")
     man.joint("neck_yaw", "revolute", "torso", "neck", (0, 0, 0.42), axis=(0, 0, 1), limits=(-1.4, 1.4), effort=10,
               velocity=6, damping=0.1, friction=0.05)
@@ -139,4 +153,7 @@ def robot():
               velocity=6, damping=0.1, friction=0.05)
     man.link("head", 2.4, [Box(0.16, 0.14, 0.19, (0, 0, 0.085))],
              [Visual("head", "white"), Visual("visor", "graphite"), Visual("eyes", "light")])
+    man.state("home")
+    bends = {"hip_pitch": -0.7, "knee": 1.4, "ankle_pitch": -0.7, "shoulder_pitch": -0.6, "elbow": -0.6}
+    man.state("squat", **{f"{side}_{joint}": bend for side in ("left", "right") for joint, bend in bends.items()})
     return man

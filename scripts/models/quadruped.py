@@ -61,9 +61,12 @@ def robot():
     meshes(dog)
     dog.link("torso", 6.0, [Box(0.50, 0.17, 0.115)],
              [Visual("torso", "paint"), Visual("torso_trim", "graphite"), Visual("torso_lights", "light")])
-    for name, front, left in (("front_left", 1, 1), ("front_right", 1, -1), ("rear_left", -1, 1),
-                              ("rear_right", -1, -1)):
+    legs = (("front_left", 1, 1), ("front_right", 1, -1), ("rear_left", -1, 1), ("rear_right", -1, -1))
+    for name, front, left in legs:
         leg(dog, name, front, left)
     dog.joint("imu_mount", "fixed", "torso", "imu", (0, 0, 0.02))
     dog.frame("imu")
+    for state, pitch, knee in (("home", 0.75, -1.5), ("crouch", 1.2, -2.4)):
+        bends = {"hip_pitch": pitch, "knee": knee}
+        dog.state(state, **{f"{name}_{joint}": bend for name, _, _ in legs for joint, bend in bends.items()})
     return dog

@@ -73,7 +73,7 @@ class Visual:
     material: str = ""
     at: tuple = ORIGIN
     turned: tuple = ORIGIN
-    scale: float = 1
+    scale: float | tuple = 1  # of all three axes, or of each
 
 
 def mass_properties(mass, shapes):
@@ -104,7 +104,12 @@ class Robot:
 
     def __init__(self, name, about, colors, folder="meshes/"):
         self.name, self.about, self.colors, self.folder = name, about, colors, folder
-        self.meshes, self.lines, self.overlaps = {}, [], []
+        self.meshes, self.borrowed, self.lines = {}, {}, []
+        self.overlaps, self.moving, self.states = [], {}, {}
+
+    def borrow(self, other):
+        """Uses the meshes of another robot."""
+        self.borrowed.update({path: f"package://{other.name}/meshes/" for path in other.meshes})
 
     def mesh(self, name, *solids):
         self.meshes[f"meshes/{name}.stl"] = mesh_file.stl(solids)
@@ -138,16 +143,19 @@ class Robot:
         self.part(f'link name="{name}"', content)
 
     def look(self, visual):
-        ending = ".stl" if visual.material else ".obj"
-        assert f"meshes/{visual.mesh}{ending}" in self.meshes, visual.mesh
-        scale = f' scale="{text(*[visual.scale] * 3)}"' if visual.scale != 1 else ""
-        lines = [f'<geometry><mesh filename="{self.folder}{visual.mesh}{ending}"{scale}/></geometry>']
+        file = visual.mesh + (".stl" if visual.material else ".obj")
+        assert f"meshes/{file}" in self.meshes | self.borrowed, file
+        factors = visual.scale if isinstance(visual.scale, tuple) else (visual.scale,) * 3
+        scale = f' scale="{text(*factors)}"' if factors != (1, 1, 1) else ""
+        lines = [f'<geometry><mesh filename="{self.borrowed.get(f"meshes/{file}", self.folder)}{file}"{scale}/></geometry>']
         return lines + ([f'<material name="{visual.material}"/>'] if visual.material else [])
 
     def joint(self, name, kind, parent, child, at=ORIGIN, turned=ORIGIN, axis=None, limits=None, effort=0, velocity=0,
               damping=0, friction=0, mimic=None):
         """`limits` is a pair; `mimic` is (joint, multiplier, offset)."""
         content = [f'<parent link="{parent}"/>', f'<child link="{child}"/>'] + origin(at, turned)
+        if axis and not mimic:
+            self.moving[name] = limits or (0, 0)
         if axis:
             content.append(f'<axis xyz="{text(*axis)}"/>')
         if effort:
@@ -160,13 +168,25 @@ class Robot:
         self.part(f'joint name="{name}" type="{kind}"', content)
 
     def overlap(self, link, other):
-        """Links around one joint of several axes, whose colliding shapes overlap where the links do not."""
+        """Links around one joint of several axes, whose colliding shapes overlap where the links do not, or that are
+        made to touch."""
         self.overlaps.append((link, other))
 
+    def state(self, name, **joints):
+        """A posture; joints that it does not name are at 0, or at the limit next to it."""
+        assert not joints.keys() - self.moving.keys(), joints
+        self.states[name] = {joint: joints.get(joint, min(max(0, low), high)) for joint, (low, high) in self.moving.items()}
+
     def srdf(self):
-        pairs = [f'  <disable_collisions link1="{a}" link2="{b}" reason="User"/>' for a, b in self.overlaps]
+        def element(head, children):
+            return [f"  <{head}>"] + [f"    <joint {child}/>" for child in children] + [f"  </{head.split()[0]}>"]
+        lines = element('group name="all"', [f'name="{joint}"' for joint in self.moving])
+        for name, values in self.states.items():
+            lines += element(f'group_state name="{name}" group="all"',
+                             [f'name="{joint}" value="{text(value)}"' for joint, value in values.items()])
+        lines += [f'  <disable_collisions link1="{a}" link2="{b}" reason="User"/>' for a, b in self.overlaps]
         return "\n".join(['<?xml version="1.0"?>', "<!-- scripts/make-meshes writes this file. -->",
-                          f'<robot name="{self.name}">', *pairs, "</robot>", ""])
+                          f'<robot name="{self.name}">', *lines, "</robot>", ""])
 
     def files(self):
         """What belongs into the folder of the robot: path to bytes."""
@@ -175,5 +195,5 @@ class Robot:
         for name, (red, green, blue) in self.colors.items():
             head.append(f'  <material name="{name}"><color rgba="{text(red, green, blue, 1)}"/></material>')
         urdf = "\n".join(head + self.lines + ["</robot>", ""])
-        choices = {f"{self.name}.srdf": self.srdf().encode()} if self.overlaps else {}
+        choices = {f"{self.name}.srdf": self.srdf().encode()} if self.states else {}
         return {f"{self.name}.urdf": urdf.encode(), **choices, **self.meshes}

@@ -380,7 +380,8 @@ TEST(CollisionPairs, SeesOneLegOfTheHumanoidInTheOther) {
 }
 
 TEST(CollisionPairs, FindsNoFaultWithOurOwnRobots) {
-  for (const char* name : {"humanoid", "quadruped", "hand", "balancer", "arm7dof"}) {
+  for (const char* name : {"humanoid", "humanoid_hands", "quadruped", "hand", "gripper", "balancer",
+                           "arm6dof", "arm7dof", "arm7offset"}) {
     const std::filesystem::path folder = sourcePath("data/robots") / name;
     const Model model = compile(readUrdf((folder / name).replace_extension(".urdf")).spec);
     for (const Diagnostic& one : collisionWarnings(model)) ADD_FAILURE() << toString(one);

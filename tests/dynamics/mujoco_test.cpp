@@ -227,10 +227,14 @@ TEST_P(MujocoDynamics, Agree) {
 
 // Of the sample data all but those with masses without inertia or impossible inertias, which MuJoCo refuses.
 INSTANTIATE_TEST_SUITE_P(Robots, MujocoDynamics,
-                         testing::Values(Sample{"data/robots/arm7dof/arm7dof.urdf", "base"},
+                         testing::Values(Sample{"data/robots/arm6dof/arm6dof.urdf", "base"},
+                                         Sample{"data/robots/arm7dof/arm7dof.urdf", "base"},
+                                         Sample{"data/robots/arm7offset/arm7offset.urdf", "base"},
                                          Sample{"data/robots/balancer/balancer.urdf", "chassis"},
+                                         Sample{"data/robots/gripper/gripper.urdf", "body"},
                                          Sample{"data/robots/hand/hand.urdf", "palm"},
                                          Sample{"data/robots/humanoid/humanoid.urdf", "pelvis"},
+                                         Sample{"data/robots/humanoid_hands/humanoid_hands.urdf", "pelvis"},
                                          Sample{"data/robots/quadruped/quadruped.urdf", "torso"},
                                          Sample{"../shared/data/urdf/panda_arm_hand.urdf", "panda_link0"},
                                          Sample{"../shared/data/urdf/go2_description.urdf", "base_link"},
