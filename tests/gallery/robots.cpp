@@ -1,6 +1,7 @@
 #include "gallery/robots.h"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include "grasping/equilibrium.h"
@@ -17,17 +18,19 @@ namespace {
 using Eigen::Vector3d;
 using Posture = std::vector<std::pair<std::string, double>>;
 
-// How a scene is shown: its posture, by the names of joints; which bodies reach for which others; from where.
+// How a scene is shown: its posture, by its name or the names of joints; which bodies reach for which others;
+// from where.
 struct Portrait {
   std::string file{};  // below data
   Posture posture{};
+  std::string named{};  // such as "state:home"
   std::vector<std::pair<std::string, std::string>> reaching{};
   Vector3d direction = kDefaultView;
   double cell = 0.25;  // of the ground
 };
 
 Eigen::VectorXd postureOf(const Model& model, const Portrait& portrait) {
-  Eigen::VectorXd q = model.initialPositions();
+  Eigen::VectorXd q = portrait.named.empty() ? model.initialPositions() : model.posture(portrait.named);
   for (const auto& [name, value] : portrait.posture) {
     const auto joint = std::find_if(model.joints().begin(), model.joints().end(),
                                     [&name = name](const Joint& one) { return one.name == name; });
@@ -69,13 +72,21 @@ Image courseRobots() {
   return contactSheet(frames);
 }
 
-Posture standing() {
-  Posture posture;
-  for (const std::string leg : {"front_left", "front_right", "rear_left", "rear_right"}) {
-    posture.emplace_back(leg + "_hip_pitch", 0.75);
-    posture.emplace_back(leg + "_knee", -1.5);
+Image publishedRobots() {
+  std::vector<KeyFrame> frames;
+  for (const auto& [name, posture, cell] : {std::tuple{"arm6dof", "reach", 0.25},
+                                            {"arm7offset", "home", 0.25},
+                                            {"gripper", "home", 0.05},
+                                            {"humanoid_hands", "squat", 0.25}}) {
+    const std::string file = std::string("robots/") + name + "/" + name + ".urdf";
+    frames.push_back({drawn({.file = file,
+                             .named = std::string("state:") + posture,
+                             .direction = {1.9, -1.2, 0.6},
+                             .cell = cell},
+                            300, 280),
+                      name});
   }
-  return posture;
+  return contactSheet(frames, {.columns = 2});
 }
 
 Posture halfClosed() {
@@ -140,12 +151,16 @@ std::vector<Drawing> robotPictures() {
                             {"elbow_pitch", 1.2},
                             {"wrist_pitch", 0.9}},
                 .direction = {1.5, -2, 0.7}}),
+      {"own-robots", "Two arms, a gripper and a humanoid with hands",
+       "`data/robots/*/*.urdf`: the lengths and limits of both arms and of the gripper are those of "
+       "published robots.",
+       publishedRobots},
       portrait("balancer", "A robot on two wheels",
                "`data/robots/balancer/balancer.urdf` falls without control.",
                {.file = "robots/balancer/balancer.urdf", .direction = {1.5, -1.2, 0.6}}),
       portrait(
           "quadruped", "A quadruped", "`data/robots/quadruped/quadruped.urdf` has three hinges in each leg.",
-          {.file = "robots/quadruped/quadruped.urdf", .posture = standing(), .direction = {1.6, -1.6, 0.6}}),
+          {.file = "robots/quadruped/quadruped.urdf", .named = "state:home", .direction = {1.6, -1.6, 0.6}}),
       portrait("humanoid", "A humanoid",
                "`data/robots/humanoid/humanoid.urdf` has 25 hinges and is designed for walking: its feet are "
                "flat, and the axes of its hips and ankles intersect.",
@@ -171,6 +186,10 @@ std::vector<Drawing> robotPictures() {
                 .reaching = {{"handR", "rightTarget"}, {"handL", "leftTarget"}},
                 .direction = {1.6, -1.6, 0.8},
                 .cell = 0.5}),
+      portrait(
+          "pick", "An arm and its gripper",
+          "`data/scenes/pick.ors` puts the gripper on the flange of the arm, and the arm on a table.",
+          {.file = "scenes/pick.ors", .named = "state:home", .direction = {1.2, -1.4, 0.8}, .cell = 0.5}),
       portrait("board", "A planar arm above a board",
                "`data/scenes/board.ors`, a scene for planners of paths.",
                {.file = "scenes/board.ors", .direction = {2, -0.9, 0.7}}),
