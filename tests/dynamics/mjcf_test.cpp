@@ -133,11 +133,11 @@ void eraseAll(std::string& text, const std::string& part) {
   for (std::size_t at; (at = text.find(part)) != std::string::npos;) text.erase(at, part.size());
 }
 
-class MjcfPeer : public testing::TestWithParam<const char*> {};
+class MjcfPeer : public testing::TestWithParam<std::string> {};
 
 TEST_P(MjcfPeer, AgreesOnSamples) {
-  const std::filesystem::path file = sharedPath(std::string("data/mjcf/") + GetParam() + ".xml");
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << GetParam() << ".xml";
+  const std::filesystem::path file = sharedPath("data/mjcf") / (GetParam() + ".xml");
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
   std::string xml = fileText(file);
   const SceneSpec spec = readMjcf(file).spec;
   eraseAll(xml,
@@ -150,6 +150,11 @@ TEST_P(MjcfPeer, AgreesOnSamples) {
 INSTANTIATE_TEST_SUITE_P(Samples, MjcfPeer,
                          testing::Values("ant", "capsule_fromtoX", "half_cheetah", "humanoid",
                                          "inverted_pendulum"));
+
+const std::string kOpenAi = "/usr/share/doc/dart/data/mjcf/openai/";  // of the package dart-doc
+INSTANTIATE_TEST_SUITE_P(OpenAi, MjcfPeer,
+                         testing::Values(kOpenAi + "inverted_double_pendulum", kOpenAi + "inverted_pendulum",
+                                         kOpenAi + "point", kOpenAi + "reacher", kOpenAi + "swimmer"));
 
 // MuJoCo has given them up. The masses are those of the hopper that its converted files have.
 TEST(MjcfPeers, MissGlobalCoordinates) {
