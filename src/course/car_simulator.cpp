@@ -105,7 +105,7 @@ Eigen::VectorXd CarSimulator::getMeanStateAfterStep(const Eigen::VectorXd& x,
                                                     const Eigen::VectorXd& u) const {
   requireNumbers("state", x, 3);
   requireNumbers("control", u, 2);
-  return stepCar({.wheelbase = options_.wheelbase}, x, u, options_.tau);
+  return eulerStepCar({.wheelbase = options_.wheelbase}, x, u, options_.tau);
 }
 
 Eigen::MatrixXd CarSimulator::getStateJacobian(const Eigen::VectorXd& x, const Eigen::VectorXd& u) const {

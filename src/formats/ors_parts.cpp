@@ -24,6 +24,7 @@ constexpr JointType kJointTypes[] = {
     JointType::kPlanarXYPhi, JointType::kUniversal, JointType::kRigid,    JointType::kBall,
     JointType::kPlanarPhiXY, JointType::kRigid,     JointType::kFree,     JointType::kScrew,
     JointType::kCylindrical};
+static_assert(std::size(kJointWords) == std::size(kJointTypes));
 constexpr Alias kOfUrdf[] = {{"prismatic", "transX"},  {"revolute", "hingeX"}, {"continuous", "hingeX"},
                              {"fixed", "rigid"},       {"floating", "free"},   {"planar", "transXYPhi"},
                              {"spherical", "quatBall"}};

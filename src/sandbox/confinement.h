@@ -65,7 +65,7 @@ struct Confinement {
 inline constexpr const char* kInsideProgram = "/program/main";
 inline constexpr const char* kInsideFolder = "/tmp";
 
-/// The descriptor to which the launcher writes its report, if requested: see report.h. The program never
+/// The descriptor to which the launcher writes its report, if requested: see probes.h. The program never
 /// has it.
 inline constexpr int kReport = 5;
 

@@ -56,7 +56,7 @@ Eigen::Vector3d carVelocity(const Car& car, const Eigen::Vector3d& q, const Eige
   return {u[0] * std::cos(q[2]), u[0] * std::sin(q[2]), u[0] / car.wheelbase * std::tan(u[1])};
 }
 
-Eigen::Vector3d stepCar(const Car& car, const Eigen::Vector3d& q, const Eigen::Vector2d& u, double tau) {
+Eigen::Vector3d eulerStepCar(const Car& car, const Eigen::Vector3d& q, const Eigen::Vector2d& u, double tau) {
   const double way = tau * u[0];
   return {q[0] + way * std::cos(q[2]), q[1] + way * std::sin(q[2]),
           q[2] + way / car.wheelbase * std::tan(u[1])};

@@ -18,8 +18,8 @@ struct Car {
 [[nodiscard]] Eigen::Vector3d carVelocity(const Car& car, const Eigen::Vector3d& q, const Eigen::Vector2d& u);
 
 /// One Euler step of tau seconds with the heading at its start, and any steering angle: q + tau q'.
-[[nodiscard]] Eigen::Vector3d stepCar(const Car& car, const Eigen::Vector3d& q, const Eigen::Vector2d& u,
-                                      double tau);
+[[nodiscard]] Eigen::Vector3d eulerStepCar(const Car& car, const Eigen::Vector3d& q, const Eigen::Vector2d& u,
+                                           double tau);
 
 /// The pose after `seconds` with constant u: exact, on an arc or a line. Throws like carVelocity.
 [[nodiscard]] Eigen::Vector3d driveCar(const Car& car, const Eigen::Vector3d& q, const Eigen::Vector2d& u,

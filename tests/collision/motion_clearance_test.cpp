@@ -126,7 +126,8 @@ TEST(MotionClearance, FindsTheMomentWhenBallsFillOnePlace) {
   for (int seed = 0; seed < 500; ++seed) {
     Rng rng(static_cast<std::uint64_t>(seed));
     SceneSpec spec = randomScene(rng, 2 + seed % 4);
-    for (JointSpec& joint : spec.joints) joint.type = kAllJointTypes[1 + rng.index(11)], joint.q0 = {};
+    for (JointSpec& joint : spec.joints)
+      joint.type = kAllJointTypes[1 + rng.index(std::size(kAllJointTypes) - 1)], joint.q0 = {};
     const Model bare = compile(spec);
     const VectorXd from = randomPositions(rng, bare.nq());
     VectorXd to = from + 0.5 * rng.normalVector(bare.nq());
