@@ -192,7 +192,7 @@ sandbox::Confinement confinement(const Toolchain& toolchain, const fs::path& wor
                           kDate, kZone},
           .mayStartProgramsOfItsOwn = true,
           .cpuSeconds = limits.seconds,
-          .wallSeconds = clockSeconds(limits.seconds, sandbox.level),
+          .wallSeconds = clockSeconds(limits.seconds),
           .addressSpace = limits.memory,
           .fileSize = limits.fileSize,
           .openFiles = 256};
@@ -229,9 +229,7 @@ std::string missingFile(const std::vector<std::string>& command, const fs::path&
 
 }  // namespace
 
-double clockSeconds(double seconds, sandbox::Level level) {
-  return (isConfined(level) ? 10 : 2) * seconds + 2;
-}
+double clockSeconds(double seconds) { return 10 * seconds + 2; }
 
 BuildTools::BuildTools(const Toolchain& toolchain, const fs::path& workFolder,
                        const sandbox::Sandbox& sandbox, const ToolLimits& limits)
@@ -262,7 +260,7 @@ ProcessResult BuildTools::runConfined(const std::vector<std::string>& command,
 ProcessResult BuildTools::runOnce(const std::vector<std::string>& command, std::size_t outputLimit) const {
   ProcessOptions options{.directory = workFolder_,
                          .environment = {kDate, kZone},
-                         .timeout = clockSeconds(limits_.seconds, level_),
+                         .timeout = clockSeconds(limits_.seconds),
                          .outputLimit = outputLimit,
                          .cpuSeconds = limits_.seconds,
                          .addressSpace = limits_.memory,
@@ -284,10 +282,10 @@ ProcessResult BuildTools::run(const std::vector<std::string>& command, const Exp
   if (isExplained(last)) return last;
   const std::string fault = faultOfMachine(command, last, killedBefore);
   if (fault.empty()) return last;
-  throw Error({.what = fmt::format("{} {} through no fault of the file", command.front(),
-                                   last.timedOut ? fmt::format("did not end within {:g} s",
-                                                               clockSeconds(limits_.seconds, level_))
-                                                 : "failed twice"),
+  throw Error({.what = fmt::format(
+                   "{} {} through no fault of the file", command.front(),
+                   last.timedOut ? fmt::format("did not end within {:g} s", clockSeconds(limits_.seconds))
+                                 : "failed twice"),
                .found = fmt::format("{}; {}", fault, lastWordsOf(last)),
                .wanted = "a machine with free memory and disk space, and working tools"});
 }
@@ -309,8 +307,7 @@ std::string BuildTools::faultOfMachine(const std::vector<std::string>& command, 
   // At the speed of the empty program, the tool would have taken so long for the work that it did. If that is
   // much less than it had, it did not work but wait, for something that the file made it read.
   const double expected = failure.cpuSeconds * took.count() / std::max(control.cpuSeconds, 0.01);
-  return failure.timedOut && expected > clockSeconds(limits_.seconds, level_) / 2 ? "the machine was too busy"
-                                                                                  : "";
+  return failure.timedOut && expected > clockSeconds(limits_.seconds) / 2 ? "the machine was too busy" : "";
 }
 
 // Confined tools write temporary files to memory, or into the work folder.

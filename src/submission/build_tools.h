@@ -59,9 +59,9 @@ struct ToolLimits {
 #endif
 };
 
-/// The wall time for a tool with this limit on CPU time. Confined tools have no pipe or terminal to wait
-/// for, so only a busy machine delays them, and they get more time.
-[[nodiscard]] double clockSeconds(double seconds, sandbox::Level level);
+/// The wall time for a tool with this limit on CPU time: long, since a busy machine delays it. It ends those
+/// that wait, for a pipe or a terminal.
+[[nodiscard]] double clockSeconds(double seconds);
 
 /// Runs compilers and object file tools on a student's file. Confined, they see the system, the headers
 /// that students may include, what workers are linked with, and their work folder. For them it is always

@@ -52,7 +52,7 @@ std::string whyItGaveUp(const ProcessResult& run, const BuildTools& tools,
   if (run.timedOut)
     return fmt::format(
         "compiling did not end within {:g} s: does it include a pipe or a device, or is this machine busy?",
-        clockSeconds(limits.seconds, limits.sandbox.level));
+        clockSeconds(limits.seconds));
   if (const std::string limit = tools.limitReached(run); !limit.empty()) return "compiling " + limit;
   constexpr std::size_t kMostText = 8u << 20;  // all that BuildTools keeps
   if (namesErrors(run.error) || run.error.size() >= kMostText)

@@ -90,6 +90,11 @@ std::vector<std::string> argumentsOf(const Demonstration& one, const DemoOptions
   return words;
 }
 
+// In front of a class nobody waits for a compiler twice.
+fs::path keptProgram(const Project& project, const Demonstration& one) {
+  return project.root / "out" / "demonstrations" / "programs" / one.name;
+}
+
 ExitCode writePage(const Project& project, const Demonstration& one, std::vector<std::string> arguments,
                    const fs::path& page) {
   makeOutPlace(page);
@@ -99,7 +104,8 @@ ExitCode writePage(const Project& project, const Demonstration& one, std::vector
                                        .arguments = std::move(arguments),
                                        .seconds = kLecture,
                                        .environment = {"REX_LIVE=0"},
-                                       .listsFiles = false});
+                                       .listsFiles = false,
+                                       .keptAs = keptProgram(project, one)});
   const fs::path replay = work.path() / (one.name + ".html");
   if (code != ExitCode::kFull || !fs::exists(replay)) return std::max(code, ExitCode::kBelow);
   fs::copy_file(replay, page, fs::copy_options::overwrite_existing);
@@ -127,7 +133,10 @@ ExitCode demo(const Project& project, const DemoOptions& options) {
   note(wrap(fmt::format("Chapter {}: {}. {}", one.chapter, one.title, one.about), 0, 0));
   if (fs::path(options.out).extension() == ".html")
     return writePage(project, one, arguments, fs::absolute(options.out));
-  OwnRun how{.out = project.root / "out" / "demonstrations", .arguments = arguments, .seconds = kLecture};
+  OwnRun how{.out = project.root / "out" / "demonstrations",
+             .arguments = arguments,
+             .seconds = kLecture,
+             .keptAs = keptProgram(project, one)};
   if (options.noBrowser) how.environment = {"REX_LIVE=1"};
   if (!options.out.empty()) how.out = fs::absolute(options.out), how.environment = {"REX_LIVE=0"};
   return runOwnProgram(project, one.file, how);
@@ -144,7 +153,7 @@ void addDemo(CLI::App* command, Action& action) {
       "which waits half a minute for a browser; where there is a screen, one opens. Without a\n"
       "terminal, or with -o, the demonstration plays by itself and becomes a page to replay. Of\n"
       "a chapter with several, the first is shown. Some print a table, of one run with each seed.\n"
-      "Each is a short program in share/demonstrations.");
+      "Each is a short program in share/demonstrations, compiled at its first start.");
   command
       ->add_option("DEMONSTRATION", options->which, "a name, or a chapter of the script; without: list all")
       ->type_name("");

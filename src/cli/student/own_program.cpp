@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/folders.h"
 #include "base/process.h"
+#include "base/text.h"
 #include "base/text_file.h"
 #include "cli/build_on_demand.h"
 #include "cli/out_folder.h"
@@ -77,8 +78,8 @@ fs::path outFolderOf(const Project& project, const fs::path& file) {
   return project.root / "out" / name;
 }
 
-std::optional<fs::path> buildOwnProgram(const Project& project, const fs::path& file,
-                                        const fs::path& workFolder, const fs::path& out) {
+std::optional<OwnProgram> buildOwnProgram(const Project& project, const fs::path& file,
+                                          const fs::path& workFolder, const fs::path& out) {
   grading::ProgramToolchain program =
       grading::readProgramToolchain(project.build / "student" / "program.json");
   grading::Toolchain& toolchain = program.toolchain;
@@ -91,6 +92,7 @@ std::optional<fs::path> buildOwnProgram(const Project& project, const fs::path& 
       grading::opensWithCourseHeader(source, toolchain.flags))
     note("This folder was prepared for another rex: `rex update` makes compiling fast again.");
   toolchain.flags.insert(toolchain.flags.end(), {"-I", file.parent_path().string()});
+  OwnProgram result{.made = {file, project.build / "student" / "program.json"}};
   const auto chooseLibraries = [&](const grading::StudentObject& object) {
     const ProcessResult table =
         runProcess({toolchain.objdump, "-t", "-C", object.object.string()}, {.outputLimit = 256u << 20});
@@ -102,14 +104,19 @@ std::optional<fs::path> buildOwnProgram(const Project& project, const fs::path& 
       std::ranges::copy(grading::dependenciesIn(readTextFile(toolchain.prefix.string() + ".d"), workFolder),
                         std::back_inserter(files));
     for (fs::path& one : files) one = one.lexically_normal();
-    std::vector<std::string> targets;
+    result.made.insert(result.made.end(), files.begin(), files.end());
     for (const grading::LibraryPart& one : librariesFor(program, files, table.output)) {
-      targets.push_back(one.target);
+      result.targets.push_back(one.target);
       toolchain.libraries.push_back(one.file);
     }
-    if (!targets.empty()) bringUpToDate(project, targets, "the library for " + file.filename().string());
+    if (!result.targets.empty())
+      bringUpToDate(project, result.targets, "the library for " + file.filename().string());
   };
-  return buildProgram(toolchain, {.main = file, .workFolder = workFolder}, out, chooseLibraries);
+  const auto linked =
+      buildProgram(toolchain, {.main = file, .workFolder = workFolder}, out, chooseLibraries);
+  if (!linked) return {};
+  result.program = *linked;
+  return result;
 }
 
 namespace {
@@ -121,6 +128,39 @@ void listResults(const fs::path& folder, fs::file_time_type since) {
   const std::vector<std::string> files = shortList(written);
   if (!files.empty()) say("\nFiles in " + shown(folder) + ":");
   for (const std::string& line : files) say("  " + line);
+}
+
+// Beside the program: the targets of its libraries, an empty line, and the files that it was made from.
+fs::path recordOf(const fs::path& kept) { return kept.string() + ".made-from"; }
+
+// Written last, and whole, so that a record belongs to the program beside it.
+void keep(const OwnProgram& built, const fs::path& kept) {
+  fs::create_directories(kept.parent_path());
+  const fs::path half = kept.string() + ".new";
+  fs::remove(recordOf(kept));
+  fs::copy_file(built.program, half, fs::copy_options::overwrite_existing);
+  fs::rename(half, kept);
+  std::string record = join(built.targets, "\n") + "\n\n";
+  for (const fs::path& one : built.made) record += one.string() + "\n";
+  replaceTextFile(recordOf(kept), record, "what a program was made from");
+}
+
+// Whether the kept program is newer than all files it was made from, and so what a compiler would make again.
+// Its libraries are shared: they are brought up to date like those of a new one.
+bool isCurrent(const Project& project, const fs::path& kept, const std::string& name) {
+  std::error_code missing;
+  const auto made = fs::last_write_time(kept, missing);
+  if (missing || !fs::exists(recordOf(kept))) return false;
+  const std::string record = readTextFile(recordOf(kept));
+  const std::vector<std::string_view> lines = splitLines(record);
+  const auto gap = std::ranges::find(lines, "");
+  const bool isOld = std::any_of(gap, lines.end(), [&](std::string_view file) {
+    return !file.empty() && !(fs::last_write_time(file, missing) <= made && !missing);
+  });
+  if (gap == lines.end() || isOld) return false;
+  const std::vector<std::string> targets(lines.begin(), gap);
+  if (!targets.empty()) bringUpToDate(project, targets, "the library for " + name);
+  return true;
 }
 
 }  // namespace
@@ -155,9 +195,16 @@ ExitCode codeOf(Ended ended) { return ended == Ended::kWell ? ExitCode::kFull : 
 ExitCode runOwnProgram(const Project& project, const fs::path& file, const OwnRun& options) {
   makeOutFolder(options.out);
   const PrivateFolder work(project.workPlace("student"));
-  const auto program = buildOwnProgram(project, file, work.path(), options.out);
-  if (!program) return ExitCode::kNotGradable;
-  std::vector<std::string> command = {program->string()};
+  fs::path program = options.keptAs;
+  if (program.empty() || !isCurrent(project, program, file.filename().string())) {
+    const auto built = buildOwnProgram(project, file, work.path(), options.out);
+    if (!built) return ExitCode::kNotGradable;
+    if (program.empty())
+      program = built->program;
+    else
+      keep(*built, program);
+  }
+  std::vector<std::string> command = {program.string()};
   command.insert(command.end(), options.arguments.begin(), options.arguments.end());
   return codeOf(runIn(command, options));
 }

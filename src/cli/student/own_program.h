@@ -21,13 +21,19 @@ namespace rex::cli {
 /// exercise.
 [[nodiscard]] std::filesystem::path outFolderOf(const Project& project, const std::filesystem::path& file);
 
+struct OwnProgram {
+  std::filesystem::path program{};
+  std::vector<std::string> targets{};         ///< of the build, for the libraries that it is linked with
+  std::vector<std::filesystem::path> made{};  ///< the files that it was compiled from
+};
+
 /// Compiles the file like a student's, with the headers next to it, builds the parts of the library that it
 /// needs, and links it. If the file has errors, it prints them and returns no program; the log goes to
 /// out/build.log. Throws Error if the tools fail, and BuildFailure like bringUpToDate().
-[[nodiscard]] std::optional<std::filesystem::path> buildOwnProgram(const Project& project,
-                                                                   const std::filesystem::path& file,
-                                                                   const std::filesystem::path& workFolder,
-                                                                   const std::filesystem::path& out);
+[[nodiscard]] std::optional<OwnProgram> buildOwnProgram(const Project& project,
+                                                        const std::filesystem::path& file,
+                                                        const std::filesystem::path& workFolder,
+                                                        const std::filesystem::path& out);
 
 enum class Ended { kWell, kBadly, kCrashed, kTooLate };
 
@@ -37,6 +43,8 @@ struct OwnRun {
   int seconds = 120;                       ///< of CPU time
   std::vector<std::string> environment{};  ///< NAME=VALUE
   bool listsFiles = true;                  ///< those it wrote
+  /// Where the program stays, to be used again until a file that it was made from changes. Empty: nowhere.
+  std::filesystem::path keptAs{};
 };
 
 /// Runs the command with these settings, and waits for it.

@@ -1,4 +1,5 @@
 // rex run FILE.cpp: programs that are no exercises.
+#include <chrono>
 #include <set>
 #include <sstream>
 
@@ -63,6 +64,30 @@ TEST_F(RunFile, WarnsBeforeItRunsAHandIn) {
   const Ended ended = rex({"run", in("in/zoe/98-template/main.cpp"), "-o", in("shown")});
   EXPECT_EQ(ended.code, 0);
   EXPECT_THAT(flat(ended.error), HasSubstr(warning));
+}
+
+TEST_F(RunFile, CompilesADemonstrationOnceUntilAFileOfItChanges) {
+  const fs::path folder = root() / "share" / "demonstrations";
+  const fs::path kept = root() / "out" / "demonstrations" / "programs" / "swing";
+  fs::create_directories(folder);
+  write(folder / "swing.cpp",
+        "// Chapter 3: A swing. It swings.\n#include <cstdio>\n#include \"times.h\"\n"
+        "int main() { std::printf(\"swings %d times\", times); }\n");
+  write(folder / "times.h", "constexpr int times = 3;\n");
+  const auto outputOfDemo = [&] { return rex({"demo", "swing", "-o", in("replay")}).output; };
+  EXPECT_THAT(outputOfDemo(), HasSubstr("swings 3 times"));
+  const auto compiled = fs::last_write_time(kept);
+  EXPECT_THAT(outputOfDemo(), HasSubstr("swings 3 times"));
+  EXPECT_EQ(fs::last_write_time(kept), compiled);
+  write(folder / "times.h", "constexpr int times = 4;\n");
+  fs::last_write_time(folder / "times.h", compiled + std::chrono::seconds(1));
+  EXPECT_THAT(outputOfDemo(), HasSubstr("swings 4 times"));
+  write(folder / "times.h", "constexpr int ");
+  fs::last_write_time(folder / "times.h", fs::file_time_type::clock::now() + std::chrono::seconds(1));
+  EXPECT_NE(rex({"demo", "swing", "-o", in("replay")}).code, 0);
+  fs::remove(kept.string() + ".made-from");  // as when a power cut came before it was written
+  write(folder / "times.h", "constexpr int times = 5;\n");
+  EXPECT_THAT(outputOfDemo(), HasSubstr("swings 5 times"));
 }
 
 TEST_F(RunFile, NamesResultsByTheFileOrByTheFolderOfAMain) {
