@@ -390,9 +390,12 @@ std::string summaryOfAll(const PathTask& task, const PlanOptions& options, const
   add("length", true, [](const FoundPath& one) { return one.length; });
   add("clearance, m", true, [](const FoundPath& one) { return one.clearance.atLeast; });
   std::string text =
-      fmt::format("{}, {}, seeds {} to {}: {} of {} found a path\n{}", escapeForTerminal(task.model.name()),
+      fmt::format("{}, {}, seeds {} to {}: {} of {} found a path\n", escapeForTerminal(task.model.name()),
                   nameOf(options.planner), found.all.front().seed, found.all.back().seed, found.successes(),
-                  found.all.size(), table.text());
+                  found.all.size());
+  if (const auto ended = std::ranges::count_if(found.all, &FoundPath::isTimeUp); ended > 0)
+    text += fmt::format("{} ended after {:g} s, the --time-limit\n", ended, options.timeLimit);
+  text += table.text();
   if (found.successes() == 0) return text;
   text += fmt::format("\nshortest: seed {}\n", found.shortest().seed) + timingTextOf(timing, options);
   text.pop_back();

@@ -262,7 +262,7 @@ std::string viewsOf(const RenderPlan& plan) {
 
 GlBackend backendOf(const std::string& name) {
   try {
-    return glBackendFromName(name);
+    return glBackendFromName(name.empty() ? kUsualGl : name);
   } catch (const Error& error) {
     throw UsageError(error.parts());
   }

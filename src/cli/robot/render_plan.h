@@ -97,7 +97,7 @@ struct RenderPlan {
 /// "view: front (from +x)" for the requested cameras; empty if there are none.
 [[nodiscard]] std::string viewsOf(const RenderPlan& plan);
 
-/// The meaning of `--gl NAME`. Throws UsageError naming the choices and their
+/// The meaning of `--gl NAME`; an empty name is auto. Throws UsageError naming the choices and their
 /// packages.
 [[nodiscard]] GlBackend backendOf(const std::string& name);
 
