@@ -3,7 +3,6 @@
 #include "cart_checks.h"
 #include "gain_checks.h"
 #include "interface.h"
-#include "lyapunov_checks.h"
 #include "sensor_checks.h"
 #include "stability_checks.h"
 
@@ -86,24 +85,6 @@ void quick(Check& check, Student& student) {
     gainsAreQuick(check, student, cart);
 }
 
-void lyapunov(Check& check, Student& student) {
-  for (const Candidate& candidate : energyCandidates(check.rng()))
-    candidateIsJudged(check, student, candidate);
-  candidateIsJudged(check, student, farFriction(check.rng()));
-  for (const Candidate& candidate : cartCandidates({})) candidateIsJudged(check, student, candidate);
-  for (const Eigen::Index n : {2, 3})
-    for (const Candidate& candidate : cubicCandidates(check.rng(), n))
-      candidateIsJudged(check, student, candidate);
-  for (const Eigen::Index n : {1, 2, 4}) levelFits(check, student, n);
-}
-
-void horizon(Check& check, Student& student) {
-  const Plant mass{(Eigen::Matrix2d() << 1, .1, 0, 1).finished(), Eigen::Vector2d(0, .1)};
-  const Costs costs{Eigen::Vector2d(1, 0).asDiagonal(), Eigen::MatrixXd::Constant(1, 1, .1)};
-  for (const int count : {1, 2, 20})
-    horizonFits(check, student, mass, costs, 5 * Eigen::Matrix2d::Identity(), count);
-}
-
 void observer(Check& check, Student& student) {
   // Of position, velocity, acceleration and jerk only the acceleration is seen.
   Eigen::Matrix4d chain = Eigen::Matrix4d::Zero();
@@ -180,23 +161,6 @@ void quickOnOthers(Check& check, Student& student) {
   });
 }
 
-void judgesOthers(Check& check, Student& student) {
-  check.forEachCase(6, [&](int i) {
-    for (const Candidate& candidate : cubicCandidates(check.rng(), 2 + i % 3))
-      candidateIsJudged(check, student, candidate);
-    levelFits(check, student, 1 + i);
-  });
-}
-
-void otherHorizons(Check& check, Student& student) {
-  check.forEachCase(10, [&](int) {
-    rex::Rng& rng = check.rng();
-    const int n = 1 + rng.index(4), m = 1 + rng.index(3);
-    horizonFits(check, student, randomPlant(rng, n, m),
-                {randomPositive(rng, n, .1), randomPositive(rng, m, .2)}, 3 * randomPositive(rng, n, 0),
-                1 + rng.index(12));
-  });
-}
 void otherSensors(Check& check, Student& student) {
   check.forEachCase(8, [&](int i) {
     rex::Rng& rng = check.rng();
@@ -214,29 +178,25 @@ void otherSensors(Check& check, Student& student) {
 
 rex::grading::Checks<Student> checks() {
   return {
-      {"linear", "linear", "The rates of the cart pole, A and B of that of the sheet", 1, Group::kVisible,
+      {"linear", "linear", "The rates of the cart pole, A and B of that of the sheet", 2, Group::kVisible,
        linear},
       {"iterates", "riccati", "The iteration of the sheet", 1, Group::kVisible, iterates},
-      {"hamiltonian", "riccati", "The Hamiltonian's stable half, gains and their sign", 1, Group::kVisible,
+      {"hamiltonian", "riccati", "The Hamiltonian's stable half, gains and their sign", 2, Group::kVisible,
        halves},
-      {"outings", "simulate", "One step with noise, and all until the end or the fall", 1, Group::kVisible,
+      {"outings", "simulate", "One step with noise, and all until the end or the fall", 2, Group::kVisible,
        outings},
       {"reach", "reach", "The controllability matrix and its rank", 1, Group::kVisible, reach},
       {"poles", "poles", "Poles and what they mean", 1, Group::kVisible, poles},
-      {"quick", "quick", "A search for quick gains", 1, Group::kVisible, quick},
-      {"lyapunov", "lyapunov", "Lyapunov candidates, right and wrong", 1, Group::kVisible, lyapunov},
-      {"horizon", "horizon", "Gains for a point mass", 1, Group::kVisible, horizon},
+      {"quick", "poles", "A search for quick gains", 1, Group::kVisible, quick},
       {"observer", "sensor", "What a sensor never shows, and an observer", 1, Group::kVisible, observer},
-      {"loops", "sensor", "The loop with an observer, and responses to sines", 1, Group::kVisible, loops},
+      {"loops", "sensor", "The loop with an observer, and responses to sines", 2, Group::kVisible, loops},
       // <hidden>
       {"other-carts", "linear", "Other carts and poles", 1, Group::kHidden, otherCarts},
       {"other-regulators", "riccati", "Other plants and costs", 1, Group::kHidden, otherRegulators},
       {"survives", "simulate", "Your own controller stays up", 1, Group::kHidden, survives},
       {"reaches-others", "reach", "Other plants, reached in part", 1, Group::kHidden, reachesOthers},
       {"other-fates", "poles", "The same in other coordinates", 1, Group::kHidden, otherFates},
-      {"quick-others", "quick", "Quick gains for other carts", 1, Group::kHidden, quickOnOthers},
-      {"judges-others", "lyapunov", "Other candidates", 1, Group::kHidden, judgesOthers},
-      {"other-horizons", "horizon", "Other plants over other horizons", 1, Group::kHidden, otherHorizons},
+      {"quick-others", "poles", "Quick gains for other carts", 1, Group::kHidden, quickOnOthers},
       {"other-sensors", "sensor", "Other plants and sensors", 1, Group::kHidden, otherSensors},
       // </hidden>
   };

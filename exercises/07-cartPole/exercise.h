@@ -82,7 +82,7 @@ Eigen::MatrixXd reachMatrix(const Plant& plant);
 /// Its rank, where singular values below 1e-9 of the largest count as zero. B is not zero.
 int reachable(const Plant& plant);
 
-// Part 5, poles (8:36).
+// Part 5, poles (8:36), and the fastest controller (8:39).
 
 /// The largest real part of the eigenvalues of the closed loop of u = K x.
 double slowestPole(const Plant& plant, const Eigen::MatrixXd& K);
@@ -97,37 +97,13 @@ enum class Fate {
 /// between eigenvalues below 1e-4; all others are above 0.01.
 Fate fateOf(const Eigen::MatrixXd& A);
 
-// Part 6, the fastest controller (8:39).
-
 /// A K (1 x n) with no entry larger than `bound` in size, for which slowest(K), the slowestPole() of some
 /// plant, is at most 0.5 times the lowest possible value. `start` (1 x n) is within the bound, and stable.
 /// You may call slowest() 3000 times.
 Eigen::MatrixXd quickGains(const std::function<double(const Eigen::MatrixXd&)>& slowest,
                            const Eigen::MatrixXd& start, double bound, rex::Rng& rng);
 
-// Part 7, Lyapunov's second method (8:40).
-
-/// A rate f(x) of all states x, with f(0) = 0: x' = f(x).
-using Flow = std::function<Eigen::VectorXd(const Eigen::VectorXd& x)>;
-
-/// A point that disproves V = x^T P x (P symmetric) in the box |x_i| <= high_i: x is not 0, and V(x) <= 0
-/// or V'(x) >= 0. Returns nothing if you find none. You must find one if such points fill 1 % of the box,
-/// or a tenth of one of its axes, on which only one x_i is not zero. You may call f 20000 times.
-std::optional<Eigen::VectorXd> counterexample(const Flow& f, const Eigen::MatrixXd& P,
-                                              const Eigen::VectorXd& high, rex::Rng& rng);
-
-/// The largest c for which all x with x^T P x <= c lie in the box. P is symmetric and positive definite.
-double levelInside(const Eigen::MatrixXd& P, const Eigen::VectorXd& high);
-
-// Part 8, a finite horizon (8:19).
-
-/// The gains u_t = K[t] x_t, t = 0, ..., steps - 1, of a plant x_{t+1} = A x_t + B u_t. They minimise the
-/// costs of x_t and u_t, summed over these steps, plus x^T F x of the last state. F is symmetric and has no
-/// negative eigenvalue.
-std::vector<Eigen::MatrixXd> gainsOverTime(const Plant& plant, const Costs& costs, const Eigen::MatrixXd& F,
-                                           int steps);
-
-// Part 9, what a sensor sees (8:3, 8:44). p is the number of measurements, y = C x with C (p x n).
+// Part 6, what a sensor sees (8:3, 8:44). p is the number of measurements, y = C x with C (p x n).
 
 /// An orthonormal basis (n x k) of the states that y never shows: from there y stays zero if u does. k may
 /// be 0. Singular values below 1e-9 of the largest count as zero, as in part 4. C is not zero.

@@ -11,7 +11,7 @@
 #include "interface.h"
 #include "plants.h"
 
-// Parts 2, 6 and 8: what must hold for P and for gains.
+// Parts 2 and 5: what must hold for P and for gains.
 
 /// The bracket of 12.11.1 b.
 inline Eigen::MatrixXd imbalance(const Plant& plant, const Costs& costs, const Eigen::MatrixXd& P) {
@@ -152,46 +152,4 @@ inline void gainsAreQuick(rex::grading::Check& check, Student& student, const Po
   check.atMost("largest entry of K of quickGains", K.cwiseAbs().maxCoeff(), bound * (1 + 1e-9));
   check.atMost("slowest pole under K of quickGains", abscissa(task.plant.A + task.plant.B * K), .5 * least,
                "1/s");
-}
-
-/// The first gain for a horizon of N steps, from the normal equations of the costs as a function of all
-/// controls.
-inline Eigen::MatrixXd firstGain(const Plant& plant, const Costs& costs, const Eigen::MatrixXd& F, int N) {
-  const Eigen::Index n = plant.B.rows(), m = plant.B.cols();
-  Eigen::MatrixXd fromStart = Eigen::MatrixXd::Identity(n, n);
-  Eigen::MatrixXd fromControls = Eigen::MatrixXd::Zero(n, N * m);
-  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(N * m, N * m), G = Eigen::MatrixXd::Zero(N * m, n);
-  for (int t = 0; t < N; ++t) {
-    H.block(t * m, t * m, m, m) += costs.R;
-    fromStart = plant.A * fromStart;
-    fromControls = plant.A * fromControls;
-    fromControls.middleCols(t * m, m) = plant.B;
-    const Eigen::MatrixXd& weight = t + 1 < N ? costs.Q : F;
-    H += fromControls.transpose() * weight * fromControls;
-    G += fromControls.transpose() * weight * fromStart;
-  }
-  return -rex::solveMatrix(H, G).topRows(m);
-}
-
-inline void horizonFits(rex::grading::Check& check, Student& student, const Plant& plant, const Costs& costs,
-                        const Eigen::MatrixXd& F, int steps) {
-  check.input("a plant in discrete time and its costs",
-              {{"A", plant.A}, {"B", plant.B}, {"Q", costs.Q}, {"R", costs.R}, {"F", F}, {"steps", steps}});
-  const std::vector<Eigen::MatrixXd> K = student.gainsOverTime(plant, costs, F, steps);
-  check.near("number of gains of gainsOverTime", static_cast<double>(K.size()), steps, 0);
-  for (int t = 0; t < steps; ++t) {
-    const Eigen::MatrixXd wanted = firstGain(plant, costs, F, steps - t);
-    const auto noEnd = check.suspect("Is the last state weighted with Q instead of F?",
-                                     firstGain(plant, costs, costs.Q, steps - t));
-    const auto backward =
-        check.suspect("Are the gains in the order of their computation? K[0] is the last of it.",
-                      firstGain(plant, costs, F, t + 1));
-    const auto continuous =
-        check.suspect("Is it -R^-1 B^T P, as in continuous time?",
-                      t + 1 < steps ? Eigen::MatrixXd()
-                                    : Eigen::MatrixXd(-rex::solveMatrix(costs.R, plant.B.transpose() * F)));
-    const auto sign = check.suspect("Is the sign that of u = -K x? Here it is u = K x.", -wanted);
-    check.near(fmt::format("K[{}] of gainsOverTime", t), K[static_cast<std::size_t>(t)], wanted,
-               1e-7 * (1 + wanted.norm()));
-  }
 }

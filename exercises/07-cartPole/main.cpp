@@ -71,24 +71,6 @@ Eigen::MatrixXd quickGains(const std::function<double(const Eigen::MatrixXd&)>& 
   return start;
 }
 
-std::optional<Eigen::VectorXd> counterexample(const Flow& f, const Eigen::MatrixXd& P,
-                                              const Eigen::VectorXd& high, Rng& rng) {
-  // TODO: look at many points of the box, and on its axes.
-  return {};
-}
-
-double levelInside(const Eigen::MatrixXd& P, const Eigen::VectorXd& high) {
-  // TODO: where on the ellipsoid of level c is x_i largest?
-  return 0;
-}
-
-std::vector<Eigen::MatrixXd> gainsOverTime(const Plant& plant, const Costs& costs, const Eigen::MatrixXd& F,
-                                           int steps) {
-  // TODO: from the last step to the first.
-  const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(plant.B.cols(), plant.A.rows());
-  return std::vector<Eigen::MatrixXd>(static_cast<std::size_t>(steps), zero);
-}
-
 Eigen::MatrixXd unseen(const Eigen::MatrixXd& A, const Eigen::MatrixXd& C) {
   // TODO: which plant reaches what y shows? The rest is orthogonal to it.
   return Eigen::MatrixXd::Zero(A.rows(), 0);
@@ -145,7 +127,7 @@ int main() {
   print("slowest pole with your K, which should be -0.506 [1/s]", slowestPole(real, K));
   showFates();
 
-  // Part 6: gains as large as the largest of the optimal ones, all of which are positive.
+  // Gains as large as the largest of the optimal ones, all of which are positive.
   Rng rng(2);
   const auto slowest = [&](const Eigen::MatrixXd& gains) { return slowestPole(real, gains); };
   const Eigen::MatrixXd quick = quickGains(slowest, optimal, optimal.maxCoeff(), rng);
@@ -154,13 +136,7 @@ int main() {
   showPoles(real, K, printed, quick);
   showQuick(K, quick);
 
-  // Part 7: what V = x^T P x proves.
-  showRegion(real);
-
-  // Part 8: the last eight seconds, in steps of 1/60 s.
-  showHorizon(real, costs, optimal);
-
-  // Part 9: which sensors suffice; then little noise, and sensors with errors of 2 mm and 2 mrad.
+  // Part 6: which sensors suffice; then little noise, and sensors with errors of 2 mm and 2 mrad.
   const Eigen::MatrixXd position = Eigen::RowVector4d(1, 0, 0, 0), angle = Eigen::RowVector4d(0, 0, 1, 0);
   Eigen::MatrixXd both(2, 4);
   both << position, angle;

@@ -14,7 +14,7 @@
 #include "plants.h"
 #include "stability_checks.h"
 
-// Part 9: what a sensor sees.
+// Part 6: what a sensor sees.
 
 inline Eigen::MatrixXd numberAsMatrix(double number) { return Eigen::MatrixXd::Constant(1, 1, number); }
 

@@ -51,27 +51,6 @@ Series polesOf(const std::string& label, const Plant& plant, const Eigen::Matrix
   return series;
 }
 
-// Along rays from rest: the first distance at which `ends` holds.
-Series edgeOf(const std::string& label, const Color& color,
-              const std::function<bool(double theta, double rate)>& ends) {
-  Series series{.label = label, .color = color};
-  for (int i = 0; i <= 120; ++i) {
-    const double angle = 2 * std::numbers::pi * i / 120, c = std::cos(angle), s = 3 * std::sin(angle);
-    double r = .03;
-    while (r < 5 && std::abs(r * c) < 1.56 && !ends(r * c, r * s)) r += .03;
-    series.add(r * c, r * s);
-  }
-  return series;
-}
-
-// The starts with p = p' = 0 for which x^T P x is at most the level.
-CovarianceEllipse sectionOf(const Eigen::MatrixXd& P, double level) {
-  const double a = P(2, 2), b = P(2, 3), c = P(3, 3), D = a * c - b * b;
-  CovarianceEllipse section{.label = "proved", .sigmas = std::sqrt(level), .color = Color{.1, .4, .7}};
-  section.covariance << c / D, -b / D, -b / D, a / D;
-  return section;
-}
-
 const Color kLoopColors[] = {{.1, .4, .7}, {.15, .55, .3}, {.85, .4, .1}};
 
 // The loop cut open at u, from u to -u: its critical point is -1.
@@ -217,61 +196,6 @@ void showQuick(const Eigen::MatrixXd& K, const Eigen::MatrixXd& quick) {
                     .color = gains == &K ? Color{.1, .4, .7} : Color{.85, .4, .1}}));
   }
   plot("quick", figure);
-}
-
-void showRegion(const Plant& real) {
-  const Costs costs{Eigen::Vector4d(1, 1, 100, 100).asDiagonal(), Eigen::MatrixXd::Identity(1, 1)};
-  const Eigen::MatrixXd P = viaHamiltonian(real, costs), K = gainOf(real, costs, P);
-  const Flow f = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return rateOf(kCart, x, forceOf(K, x)); };
-  const auto falls = [&](double theta, double rate) {
-    return withoutNoise(K, {0, 0, theta, rate}, 10).cols() < 600;
-  };
-  const auto rises = [&](double theta, double rate) {
-    const Eigen::VectorXd moves = f(Eigen::Vector4d(0, 0, theta, rate));
-    double slope = 0;
-    for (int i = 0; i < 4; ++i) slope += (theta * P(2, i) + rate * P(3, i)) * moves[i];
-    return slope >= 0;
-  };
-  Figure figure{.title = "Starts with p = p' = 0",
-                .xLabel = "theta [rad]",
-                .yLabel = "theta' [rad/s]",
-                .yRange = AxisRange{-9, 9},
-                .legend = Legend::kOutside};
-  figure.series = {edgeOf("falls from here on", {.7, .15, .2}, falls),
-                   edgeOf("V rises from here on", {.85, .5, .1}, rises)};
-  if (P.isZero()) return plot("region", figure);
-
-  Eigen::VectorXd high = Eigen::Vector4d(8, 6, 1.5, 3);
-  Rng rng(1);
-  for (int i = 0; i < 40 && counterexample(f, P, high, rng); ++i) high *= .9;
-  const double level = levelInside(P, high);
-  print("box in which V falls", high.transpose());
-  print("level in that box", level);
-  if (level > 0) figure.ellipses = {sectionOf(P, level)};
-  plot("region", figure);
-}
-
-void showHorizon(const Plant& real, const Costs& costs, const Eigen::MatrixXd& optimal) {
-  constexpr int kSteps = 480;
-  // In discrete time, by Euler steps.
-  Plant steps{kTau * real.A, kTau * real.B};
-  for (int i = 0; i < 4; ++i) steps.A(i, i) += 1;
-  const std::vector<Eigen::MatrixXd> K =
-      gainsOverTime(steps, {kTau * costs.Q, kTau * costs.R}, Eigen::MatrixXd::Zero(4, 4), kSteps);
-  Figure figure{.title = "Gains of a horizon of 8 s (dashed: continuous time, infinite horizon)",
-                .xLabel = "time [s]",
-                .yLabel = "gain",
-                .legend = Legend::kOutside};
-  const char* names[] = {"p", "p'", "theta", "theta'"};
-  const Color colors[] = {{.1, .4, .7}, {.85, .5, .1}, {.15, .55, .3}, {.7, .15, .2}};
-  for (int i = 0; i < 4; ++i) {
-    Series series{.label = std::string("of ") + names[i], .color = colors[i]};
-    for (int t = 0; t < kSteps; ++t) series.add(kTau * t, K[static_cast<std::size_t>(t)](0, i));
-    figure.series.push_back(series);
-    figure.series.push_back(
-        {.x = {0, 8}, .y = {optimal(0, i), optimal(0, i)}, .dashed = true, .color = colors[i]});
-  }
-  plot("horizon", figure);
 }
 
 Noise noiseOfSteps(double ofRates, double ofSensors, int sensors) {

@@ -34,14 +34,6 @@ void showPoles(const Plant& real, const Eigen::MatrixXd& K, const Eigen::MatrixX
 /// quick.png: cart and pole from 0.2 rad, with the optimal gains and with the quick ones.
 void showQuick(const Eigen::MatrixXd& K, const Eigen::MatrixXd& quick);
 
-/// region.png: what V proves about a controller, where V begins to rise, and from where the pole really
-/// falls. Prints the box of counterexample() and the level of levelInside().
-void showRegion(const Plant& real);
-
-/// horizon.png: long before the end the gains are constant, and nearly the optimal ones for an infinite
-/// horizon.
-void showHorizon(const Plant& real, const Costs& costs, const Eigen::MatrixXd& optimal);
-
 /// The noise of x' and y, if in each step of 1/60 s random numbers of that size are added to p' and theta',
 /// and others to each of the measurements.
 Noise noiseOfSteps(double ofRates, double ofSensors, int sensors);

@@ -206,65 +206,6 @@ Eigen::MatrixXd quickGains(const std::function<double(const Eigen::MatrixXd&)>& 
   // </solution>
 }
 
-std::optional<Eigen::VectorXd> counterexample(const Flow& f, const Eigen::MatrixXd& P,
-                                              const Eigen::VectorXd& high, Rng& rng) {
-  // <solution counterexample>
-  const auto isOne = [&](const Eigen::VectorXd& x) {
-    const Eigen::VectorXd Px = P * x;
-    return x.dot(Px) <= 0 || Px.dot(f(x)) >= 0;
-  };
-  const auto n = static_cast<int>(high.size());
-  for (int axis = 0; axis < n; ++axis)
-    for (int part = -20; part <= 20; ++part) {
-      if (part == 0) continue;
-      Eigen::VectorXd x = Eigen::VectorXd::Zero(n);
-      x[axis] = part / 20. * high[axis];
-      if (isOne(x)) return x;
-    }
-  for (int k = 0; k < 10000; ++k) {
-    const Eigen::VectorXd x = high.cwiseProduct(rng.uniformVector(n, -1, 1));
-    if (isOne(x)) return x;
-  }
-  return {};
-  // <todo>
-  //| // TODO: look at many points of the box, and on its axes.
-  //| return {};
-  // </solution>
-}
-
-double levelInside(const Eigen::MatrixXd& P, const Eigen::VectorXd& high) {
-  // <solution levelInside>
-  const Eigen::MatrixXd inverseP = inverse(P);
-  double level = INFINITY;
-  for (Eigen::Index i = 0; i < high.size(); ++i) level = std::min(level, high[i] * high[i] / inverseP(i, i));
-  return level;
-  // <todo>
-  //| // TODO: where on the ellipsoid of level c is x_i largest?
-  //| return 0;
-  // </solution>
-}
-
-std::vector<Eigen::MatrixXd> gainsOverTime(const Plant& plant, const Costs& costs, const Eigen::MatrixXd& F,
-                                           int steps) {
-  // <solution gainsOverTime>
-  const Eigen::MatrixXd At = plant.A.transpose(), Bt = plant.B.transpose();
-  std::vector<Eigen::MatrixXd> K(static_cast<std::size_t>(steps));
-  Eigen::MatrixXd P = F;
-  for (auto k = K.rbegin(); k != K.rend(); ++k) {
-    const Eigen::MatrixXd PA = P * plant.A, PB = P * plant.B, M = Bt * PB;
-    *k = -solveMatrix(costs.R + M, Bt * PA);
-    const Eigen::MatrixXd PBK = PB * *k, both = PA + PBK;
-    P = costs.Q + At * both;
-    P = .5 * (P + P.transpose()).eval();  // else rounding grows over a long time
-  }
-  return K;
-  // <todo>
-  //| // TODO: from the last step to the first.
-  //| const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(plant.B.cols(), plant.A.rows());
-  //| return std::vector<Eigen::MatrixXd>(static_cast<std::size_t>(steps), zero);
-  // </solution>
-}
-
 Eigen::MatrixXd unseen(const Eigen::MatrixXd& A, const Eigen::MatrixXd& C) {
   // <solution unseen>
   const Plant dual{A.transpose(), C.transpose()};
@@ -356,7 +297,7 @@ int main() {
   print("slowest pole with your K, which should be -0.506 [1/s]", slowestPole(real, K));
   showFates();
 
-  // Part 6: gains as large as the largest of the optimal ones, all of which are positive.
+  // Gains as large as the largest of the optimal ones, all of which are positive.
   Rng rng(2);
   const auto slowest = [&](const Eigen::MatrixXd& gains) { return slowestPole(real, gains); };
   const Eigen::MatrixXd quick = quickGains(slowest, optimal, optimal.maxCoeff(), rng);
@@ -365,13 +306,7 @@ int main() {
   showPoles(real, K, printed, quick);
   showQuick(K, quick);
 
-  // Part 7: what V = x^T P x proves.
-  showRegion(real);
-
-  // Part 8: the last eight seconds, in steps of 1/60 s.
-  showHorizon(real, costs, optimal);
-
-  // Part 9: which sensors suffice; then little noise, and sensors with errors of 2 mm and 2 mrad.
+  // Part 6: which sensors suffice; then little noise, and sensors with errors of 2 mm and 2 mrad.
   const Eigen::MatrixXd position = Eigen::RowVector4d(1, 0, 0, 0), angle = Eigen::RowVector4d(0, 0, 1, 0);
   Eigen::MatrixXd both(2, 4);
   both << position, angle;

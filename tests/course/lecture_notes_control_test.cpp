@@ -329,6 +329,18 @@ TEST(LectureNotesOnControl, ThePointMassOfTheSlides) {
   EXPECT_EQ(discreteStabilityOf(shear).stability, Stability::kUnstable);
 }
 
+TEST(LectureNotesOnControl, TheTableOfThePendulum) {
+  expectStated("07b-swingup",
+               fmt::format("$\\rho = -\\ln(0.995) / 0.05 = {:.4f}$ per second", -std::log(.995) / .05));
+  expectStated("07b-swingup",
+               fmt::format("{:.0f} sweeps for a factor of ten", std::ceil(std::log(.1) / std::log(.995))));
+  const double nodes = std::pow(60, 4);
+  expectStated("07b-swingup", fmt::format("{:.0f} million instead of {}", nodes / 1e6, 60 * 60));
+  expectStated("07b-swingup", fmt::format("the table {:.0f} MB", nodes * sizeof(double) / 1e6));
+  const Matrix2d upright{{0, 1}, {9.81, -.1}};
+  expectStated("07b-swingup", fmt::format("$e^{{{:.1f} t}}$", stabilityOf(upright).rate));
+}
+
 TEST(LectureNotesOnControl, RoundingErrorsThatGrow) {
   const BalancedPole balanced;
   const Matrix4d A = Matrix4d::Identity() + .01 * balanced.plant.A;

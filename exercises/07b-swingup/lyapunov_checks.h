@@ -8,12 +8,12 @@
 
 #include <Eigen/Cholesky>
 
-#include "cart_checks.h"
+#include "control/riccati.h"
 #include "grading/check.h"
 #include "interface.h"
 #include "plants.h"
 
-// Part 7: Lyapunov functions.
+// Part 4: Lyapunov functions.
 
 /// A flow, a candidate and a box.
 struct Candidate {
@@ -126,22 +126,6 @@ inline Candidate farFriction(rex::Rng& rng) {
   return {"a mass on a spring with friction far away, V its energy", f, energy, high, true};
 }
 
-/// The cart pole under optimal gains, with costs on all states: near upright the value function proves
-/// stability; in the large box V rises at four points out of ten.
-inline std::vector<Candidate> cartCandidates(const PoleCart& cart) {
-  const Costs costs{Eigen::Vector4d(1, 1, 100, 100).asDiagonal(), Eigen::MatrixXd::Identity(1, 1)};
-  const Regulation task = regulationOf(plantOf(cart), costs);
-  const rex::CartPoleDynamics dynamics = dynamicsOf(cart);
-  const Eigen::MatrixXd K = -task.optimal.K;
-  const Flow f = [dynamics, K](const Eigen::VectorXd& x) -> Eigen::VectorXd {
-    return dynamics.derivative(x, (K * x)[0]);
-  };
-  return {{"the cart pole, optimal gains and V = x^T P x, a small box", f, task.optimal.X,
-           Eigen::Vector4d(.2, .2, .05, .1), false},
-          {"the cart pole, optimal gains and V = x^T P x, a large box", f, task.optimal.X,
-           Eigen::Vector4d(2, 2, 1.5, 2), true}};
-}
-
 /// Whether the candidate holds at the corners of the box and on its axes, so that a search of these alone
 /// fails.
 inline bool holdsAtTheCorners(const Candidate& candidate) {
@@ -197,6 +181,15 @@ inline void levelFits(rex::grading::Check& check, Student& student, Eigen::Index
     lowest = std::min(lowest, left * high[face] * high[face]);
   }
   const auto number = [](double value) { return Eigen::MatrixXd::Constant(1, 1, value); };
+  double last = 0, plain = INFINITY;
+  for (Eigen::Index face = 0; face < n; ++face) {
+    const double reach = rex::inverse(P)(face, face);
+    last = std::max(last, high[face] * high[face] / reach);
+    plain = std::min(plain, high[face] / reach);
+  }
+  const auto all =
+      check.suspect("Is it where the ellipsoid is outside on all sides? One is enough.", number(last));
+  const auto roots = check.suspect("Is high_i not squared? V is a square.", number(plain));
   const auto axes =
       check.suspect("Is it where the ellipsoid meets the box on an axis? It leaves the box elsewhere.",
                     number((P.diagonal().array() * high.array().square()).minCoeff()));
