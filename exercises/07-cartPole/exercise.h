@@ -17,8 +17,8 @@
 struct PoleCart {
   double poleMass = 1;  ///< M_p
   double cartMass = 1;  ///< M_c
-  double l = 1;
-  double g = 9.8;  ///< m/s^2
+  double l = 1;         ///< from the hinge to the centre of the pole, which is uniform and 2 l long [m]
+  double g = 9.8;       ///< m/s^2
 };
 
 /// x' under the force u on the cart: eqs. (13) and (14).

@@ -43,12 +43,14 @@ void addForce(Picture& picture, const CartPoleView& view) {
 Picture pictureOn(const Rail& rail, const CartPoleView& view) {
   requireFinite("cart pole: state", view.x);
   requireFinite("cart pole: control u", view.u);
+  requirePositive("cart pole: half the length of the pole", view.l);
   Picture picture;
   addRail(picture, rail);
   const Pose X_WC = translation(view.x[0], 0, kHeight),
              X_WP = X_WC * rotation(view.x[2], Eigen::Vector3d::UnitY());
   picture.solids.push_back({{.extent = {1, 0.2, 0.2}}, X_WC, kCartColor, "cart"});
-  picture.solids.push_back({{.extent = {0.1, 0.1, 1}}, X_WP * translation(0, 0, 0.5), kPoleColor, "pole"});
+  picture.solids.push_back(
+      {{.extent = {0.1, 0.1, 2 * view.l}}, X_WP * translation(0, 0, view.l), kPoleColor, "pole"});
   addForce(picture, view);
   if (!view.caption.empty()) picture.captions.push_back({.text = view.caption});
   return picture;

@@ -40,6 +40,20 @@ MatrixXd randomMetric(int size, Rng& rng) {
   return root * root.transpose() + .1 * MatrixXd::Identity(size, size);
 }
 
+// Slide 6:33 takes the root of the determinant twice: the integral by a sum over a fine grid.
+TEST(LectureNotes, TheDensityOfSlide633IsNotNormalised) {
+  for (const double A : {0.3, 2.}) {
+    double printed = 0, right = 0;
+    for (double x = -20; x < 20; x += 1e-3) {
+      const double bell = std::exp(-x * x / (2 * A)) * 1e-3, determinant = 2 * std::numbers::pi * A;
+      right += bell / std::sqrt(determinant);
+      printed += bell / std::sqrt(std::sqrt(determinant));
+    }
+    EXPECT_NEAR(right, 1, 1e-9);
+    EXPECT_NEAR(printed, std::pow(2 * std::numbers::pi * A, 0.25), 1e-9);
+  }
+}
+
 TEST(LectureNotes, MatrixEquations) {
   Rng rng(1);
   const MatrixXd A = randomMatrix(4, 4, rng), B = randomMatrix(4, 4, rng), C = randomMatrix(4, 4, rng);

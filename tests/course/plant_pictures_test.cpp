@@ -38,11 +38,10 @@ TEST(CartPolePicture, ShowsCartPoleAndForce) {
   EXPECT_EQ(named(picture, "cart").shape.extent, Vector3d(1, 0.2, 0.2));
   EXPECT_EQ(named(picture, "cart").X_WS.p, Vector3d(0.7, 0, 1));
   const Solid& pole = named(picture, "pole");
-  EXPECT_EQ(pole.shape.extent, Vector3d(0.1, 0.1, 1));
-  EXPECT_LT((pole.X_WS * Vector3d(0, 0, -0.5) - Vector3d(0.7, 0, 1)).norm(), 1e-15) << "its foot on the cart";
-  EXPECT_LT(
-      (pole.X_WS * Vector3d(0, 0, 0.5) - Vector3d(0.7 + std::sin(angle), 0, 1 + std::cos(angle))).norm(),
-      1e-15)
+  EXPECT_EQ(pole.shape.extent, Vector3d(0.1, 0.1, 2)) << "2 l";
+  EXPECT_LT((pole.X_WS * Vector3d(0, 0, -1) - Vector3d(0.7, 0, 1)).norm(), 1e-15) << "its foot on the cart";
+  EXPECT_LT((pole.X_WS * Vector3d(0, 0, 0) - Vector3d(0.7 + std::sin(angle), 0, 1 + std::cos(angle))).norm(),
+            1e-15)
       << "falls towards x";
   ASSERT_EQ(picture.arrows.size(), 1u);
   EXPECT_LT((picture.arrows[0].to - picture.arrows[0].from - Vector3d(-0.3, 0, 0)).norm(), 1e-15);
@@ -87,9 +86,9 @@ TEST(RacerPicture, ShowsWheelsAndPendulums) {
 }
 
 TEST(PlantPictures, RefuseWhatCannotBeDrawn) {
-  EXPECT_REX_ERROR(cartPolePicture(CartPoleView{Vector4d(0, 0, kNan, 0)}),
-                   "cart pole: state: number 2: found nan");
+  EXPECT_REX_ERROR(cartPolePicture(CartPoleView{Vector4d(0, 0, kNan, 0)}), "cart pole: state: number 2: found nan");
   EXPECT_REX_ERROR(cartPolePicture(CartPoleView{.u = kNan}), "cart pole: control u: found nan");
+  EXPECT_REX_ERROR(cartPolePicture(CartPoleView{.l = 0}), "cart pole: half the length of the pole: found 0");
   EXPECT_REX_ERROR(racerPicture(RacerView{}), "picture of racers: found none, wanted at least one");
   RacerView view{.x = Matrix4Xd::Zero(4, 2)};
   view.x(1, 1) = kNan;
