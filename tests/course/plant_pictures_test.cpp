@@ -86,7 +86,8 @@ TEST(RacerPicture, ShowsWheelsAndPendulums) {
 }
 
 TEST(PlantPictures, RefuseWhatCannotBeDrawn) {
-  EXPECT_REX_ERROR(cartPolePicture(CartPoleView{Vector4d(0, 0, kNan, 0)}), "cart pole: state: number 2: found nan");
+  EXPECT_REX_ERROR(cartPolePicture(CartPoleView{Vector4d(0, 0, kNan, 0)}),
+                   "cart pole: state: number 2: found nan");
   EXPECT_REX_ERROR(cartPolePicture(CartPoleView{.u = kNan}), "cart pole: control u: found nan");
   EXPECT_REX_ERROR(cartPolePicture(CartPoleView{.l = 0}), "cart pole: half the length of the pole: found 0");
   EXPECT_REX_ERROR(racerPicture(RacerView{}), "picture of racers: found none, wanted at least one");

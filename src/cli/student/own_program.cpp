@@ -112,8 +112,7 @@ std::optional<OwnProgram> buildOwnProgram(const Project& project, const fs::path
     if (!result.targets.empty())
       bringUpToDate(project, result.targets, "the library for " + file.filename().string());
   };
-  const auto linked =
-      buildProgram(toolchain, {.main = file, .workFolder = workFolder}, out, chooseLibraries);
+  const auto linked = buildProgram(toolchain, {.main = file, .workFolder = workFolder}, out, chooseLibraries);
   if (!linked) return {};
   result.program = *linked;
   return result;
