@@ -192,7 +192,5 @@ void showMotions(const Pendulum& pendulum, const std::vector<Motion>& motions) {
   if (angles.series.empty()) return;
   plot("angles", angles);
   plot("energies", energies);
-  const Shot shot{.camera = framing(film, {0, -1, .1}, 2.2), .width = 660, .height = 300};
-  writeFilmVideo(film, shot, "swings", kFilmRate);
-  writeFilmSheet(film, shot, "swings_sheet.png", 6);
+  writeFilm(film, "swings", {.camera = framing(film, {0, -1, .1}, 2.2), .width = 660, .height = 300});
 }
