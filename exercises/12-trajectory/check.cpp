@@ -354,7 +354,7 @@ void goesThrough(Check& check, Student& student, const Eigen::VectorXd& start, c
   check.nearAlong("configuration of throughPoints", motion, best.values, 2e-6 * reach);
 }
 
-void through(Check& check, Student& student) {
+void passesPoints(Check& check, Student& student) {
   Rng& rng = check.rng();
   for (const int T : {5, 2, 40})
     goesThrough(check, student, Eigen::VectorXd::Zero(1), Eigen::MatrixXd::Ones(1, 1), {T - 1}, 1. / T);
@@ -518,7 +518,7 @@ rex::grading::Checks<Student> checks() {
       {"unseen-minima", "constraints", "Other problems with a known minimum", 2, Group::kHidden,
        unseenMinima},
       // </hidden>
-      {"through-points", "via", "Via points, and rest", 1, Group::kVisible, through},
+      {"through-points", "via", "Via points, and rest", 1, Group::kVisible, passesPoints},
       // <hidden>
       {"other-points", "via", "Other via points", 1, Group::kHidden, throughOthers},
       // </hidden>
