@@ -3,20 +3,24 @@
 #include <csignal>
 #include <map>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
 #include "base/escape.h"
 #include "base/isolated_call.h"
+#include "base/text_file.h"
 #include "submission/build_tools.h"
 #include "submission/compiler_messages.h"
 #include "submission/graded_part.h"
 #include "submission/included_files.h"
 #include "submission/mentions.h"
 #include "submission/program_build.h"
+#include "submission/reading_apart_internal.h"
 #include "submission/sanitizer_rerun.h"
 #include "submission/source_remarks.h"
+#include "support/paths.h"
 #include "support/rounds.h"
 #include "support/slow_sources.h"
 
@@ -24,6 +28,7 @@ namespace rex::grading::slow_text_test {
 
 using ::testing::AllOf;
 using ::testing::Gt;
+using ::testing::HasSubstr;
 using ::testing::Le;
 
 std::vector<CheckResult> failedChecks() {
@@ -76,6 +81,11 @@ std::map<std::string, Reader> readersOfSource() {
          for (int k = 0; k < 5; ++k) sum += onlyMentionOf(k % 2 == 0 ? "f" : "g", text).first;
          return static_cast<std::size_t>(sum);
        }},
+      {"included files",
+       [](const std::string& text) {
+         const std::vector<std::filesystem::path> files(100, "/etc/passwd");
+         return forbiddenIncludes(files, text, "main.cpp", "/tmp", {}).size();
+       }},
       {"macros", [](const std::string& text) { return forbiddenMacros(text, "main.cpp").size(); }},
       {"standard input",
        [](const std::string& text) {
@@ -105,6 +115,9 @@ std::map<std::string, std::string> slowOutputs() {
           {"missing functions", repeated("a.o: undefined reference to `f'\n", kMostOutput)},
           {"complaints", repeated("ld: a.o: in function `f':\n", kMostOutput)},
           {"origins", repeated("main.cpp:1:1:   required from here\na.h:1:1: error: x\n", kMostOutput)},
+          {"included files", "student.o: " + repeated("/etc/passwd ", kMostOutput)},
+          {"one file with a long name", repeated("\\ ", kMostOutput)},
+          {"folders in folders", repeated("../", kMostOutput)},
           {"frames", repeated("    #1 0x1 in f main.cpp:3\n", kMostOutput)},
           {"colons", repeated(":", kMostOutput)},
           {"line ends", repeated("\n", kMostOutput)}};
@@ -116,6 +129,7 @@ std::map<std::string, Reader> readersOfOutput() {
       {"text", [](const std::string& text) { return parseCompilerText(text).size(); }},
       {"assembler", [](const std::string& text) { return parseAssemblerText(text).size(); }},
       {"linker", [](const std::string& text) { return parseLinkerText(text, "main.cpp").size(); }},
+      {"dependencies", [](const std::string& text) { return filesOfAssembler(text, "/tmp").size(); }},
       {"quick look", [](const std::string& text) { return static_cast<std::size_t>(namesErrors(text)); }},
       {"complaint", [](const std::string& text) { return complaintAbout("a.o", text).size(); }},
       {"last words",
@@ -172,6 +186,15 @@ TEST(SlowText, OfAFileIsReadInTime) {
 }
 
 TEST(SlowText, OfToolsIsReadInTime) { expectLinear(readersOfOutput(), slowOutputs()); }
+
+TEST(SlowText, HasTheLimitsOfTheDocument) {
+  const std::string page = readTextFile(homeFolder() / "share" / "doc" / "sandbox.md");
+  EXPECT_THAT(page,
+              HasSubstr(fmt::format("| {} MiB of text; {:g} s of processor time, {} MiB |", kLargest >> 20,
+                                    kBeforeCompiling.cpuSeconds, kBeforeCompiling.memory >> 20)));
+  EXPECT_THAT(page, HasSubstr(fmt::format("| 8 MiB; {:g} s, {} GiB for each reading |",
+                                          kAfterCompiling.cpuSeconds, kAfterCompiling.memory >> 30)));
+}
 
 // The judge works: a reader that goes to the end from each line is stopped.
 TEST(SlowText, IsNoticed) {
