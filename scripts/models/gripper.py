@@ -19,12 +19,12 @@ def robot():
     gripper.mesh("finger", box(0.05, 0.022, 0.018, 0.006, 0.003).moved((0, 0.016, 0.007)),
                  box(0.022, 0.016, 0.048, 0.005, 0.003).moved((0, 0.013, 0.03)))
     gripper.mesh("pad", box(0.02, 0.006, 0.02, 0.002, 0.001).moved((0, 0.003, 0.044)))
-    gripper.link("body", 0.67, [Box(0.062, 0.19, 0.045, (0, 0, 0.036)), Cylinder(0.04, 0.016, (0, 0, 0.008))],
-                 [Visual("body", "shell"), Visual("body_trim", "graphite")])
+    gripper.link("body", 0.67, [Box(0.062, 0.19, 0.045, (0, 0, 0.036)), Box(0.05, 0.172, 0.02, (0, 0, 0.059)),
+                                 Cylinder(0.04, 0.016, (0, 0, 0.008))], [Visual("body", "shell"), Visual("body_trim", "graphite")])
     for name, turned, mimic in (("left", 0, None), ("right", pi, ("left_slide", 1, 0))):
         gripper.joint(f"{name}_slide", "prismatic", "body", f"{name}_finger", (0, 0, GRASP - 0.044), (0, 0, turned),
                       (0, 1, 0), (0, STROKE), 70, 0.05, mimic=mimic)
-        gripper.link(f"{name}_finger", 0.03, [Box(0.02, 0.021, 0.054, (0, 0.0105, 0.027))],
+        gripper.link(f"{name}_finger", 0.03, [Box(0.05, 0.022, 0.018, (0, 0.016, 0.007)), Box(0.022, 0.021, 0.054, (0, 0.0105, 0.027))],
                      [Visual("finger", "graphite"), Visual("pad", "accent")])
     gripper.joint("grasp_mount", "fixed", "body", "grasp", (0, 0, GRASP))
     gripper.frame("grasp")
