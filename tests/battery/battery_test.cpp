@@ -68,6 +68,13 @@ TEST_P(Level, IsOffered) {
 }
 INSTANTIATE_TEST_SUITE_P(Sandbox, Level, ::testing::Values(3, 2, 1));
 
+std::vector<std::string> cut(const std::string& text, char separator) {
+  std::vector<std::string> fields;
+  std::istringstream stream(text);
+  for (std::string field; std::getline(stream, field, separator);) fields.push_back(field);
+  return fields;
+}
+
 void eraseVolatile(nlohmann::json& json) {
   if (json.is_object()) {
     json.erase("volatile");
@@ -150,6 +157,17 @@ class Battery : public ::testing::Test {
   Toolchain toolchain_ = readToolchain(kOutput / "build.json");
 };
 
+// Whether a file was built or refused as its row says: "-" for a file that is built, or pieces of the
+// messages that may refuse it. A file that is refused for another reason, such as a header that is gone,
+// attacks nothing.
+bool isAsExpected(const BuiltSubmission& built, const std::string& refused) {
+  const std::string& message = built.start.message;
+  const std::vector<std::string> pieces = cut(refused, '|');
+  return std::any_of(pieces.begin(), pieces.end(), [&](const std::string& piece) {
+    return piece == "-" ? !built.worker.empty() : built.worker.empty() && message.find(piece) != message.npos;
+  });
+}
+
 // A line of attacks.tsv: what may become of a program that means harm, level by level.
 struct Attack {
   std::string file;
@@ -157,16 +175,10 @@ struct Attack {
   int mostPoints = 0;
   std::vector<std::string> checks{};  // those that matter, where each takes its time
   bool whileCompiling = false;
+  std::string refused{};
 };
 
 void PrintTo(const Attack& attack, std::ostream* out) { *out << attack.file; }
-
-std::vector<std::string> cut(const std::string& text, char separator) {
-  std::vector<std::string> fields;
-  std::istringstream stream(text);
-  for (std::string field; std::getline(stream, field, separator);) fields.push_back(field);
-  return fields;
-}
 
 std::set<Outcome> outcomesFrom(const std::string& text) {
   std::set<Outcome> outcomes;
@@ -182,6 +194,7 @@ Attack attackFrom(const std::string& line) {
   attack.mostPoints = std::stoi(fields.at(4));
   if (fields.at(5) != "all") attack.checks = cut(fields.at(5), ',');
   attack.whileCompiling = fields.at(6) == "compiler";
+  attack.refused = fields.at(7);
   return attack;
 }
 
@@ -205,9 +218,6 @@ class Attacks : public Battery, public ::testing::WithParamInterface<Attack> {
         << toString(result.outcome) << ": " << result.message
         << (result.checks.empty() ? "" : "; " + result.checks.front().message);
     EXPECT_LE(result.score, attack.mostPoints);
-    if (attack.file.starts_with("A37")) {
-      EXPECT_THAT(result.message, HasSubstr("forbidden-call"));
-    }
     if (compiled) expectNoHarm(result, options);
     const std::string log = readTextFile(options.job.results.parent_path() / "build.log");
     EXPECT_THAT(log, Not(HasSubstr("root:x:0:0")));
@@ -231,6 +241,7 @@ TEST_P(Attacks, GainNothingAndHarmNobody) {
     // Some machines need more than a second to touch all memory that is allowed.
     if (attack.outcomes.at(level).contains(Outcome::kMemoryLimit)) info.limits.cpuSeconds = 4;
     if (!built || attack.whileCompiling) built = buildSubmission(toolchain_, info, options);
+    EXPECT_TRUE(isAsExpected(*built, attack.refused)) << built->start.message;
     expectHarmless(gradeBuilt(*built, toolchain_, info, options), options, !built->worker.empty());
     EXPECT_EQ(honest(level), before);
   }
@@ -263,11 +274,12 @@ using enum Outcome;
 INSTANTIATE_TEST_SUITE_P(All, Attacks, ::testing::ValuesIn(knownAttacks()),
                          [](const auto& attack) { return attack.param.file; });
 
-// Attacks by the classes of causes that were found once, A to N, at least three of each: what may become of
+// Attacks by the classes of causes that were found once, A to Q, at least three of each: what may become of
 // them is nobody's business but that they get nothing.
 struct ClassedAttack {
-  std::string file{}, kind{};
+  std::string file{}, refused{};
   int mostPoints = 0;  ///< for what it answers honestly
+  int number = 0;      ///< in its class, from 0
 };
 
 void PrintTo(const ClassedAttack& attack, std::ostream* out) { *out << attack.file; }
@@ -280,8 +292,9 @@ std::vector<ClassedAttack> classedAttacks() {
   std::string line;
   for (std::getline(lines, line); std::getline(lines, line);) {
     const std::vector<std::string> fields = cut(line, '\t');
-    if (++count[fields.at(1)] <= rounds(3, 1000))
-      attacks.push_back({fields.at(0), fields.at(1), std::stoi(fields.at(2))});
+    const int number = count[fields.at(1)]++;
+    if (number < rounds(3, 1000))
+      attacks.push_back({fields.at(0), fields.at(3), std::stoi(fields.at(2)), number});
   }
   return attacks;
 }
@@ -299,7 +312,7 @@ std::string textOfAttack(const std::string& name) {
 class Classes : public Battery, public ::testing::WithParamInterface<ClassedAttack> {
  protected:
   // What follows a line "// double N" is doubled N times, so that long files are short here; if it says "in
-  // one line", all of it is on the line before.
+  // one line", all of it is on the line before. What "#if 0" leaves out ends with the file.
   fs::path source() const {
     constexpr std::string_view kMark = "// double ";
     std::string text = textOfAttack(GetParam().file);
@@ -310,6 +323,7 @@ class Classes : public Battery, public ::testing::WithParamInterface<ClassedAtta
       std::string grown = text.substr(start, text.size() - start - (isOneLine ? 1 : 0));
       for (int k = 0; k < times; ++k) grown += std::string(grown);
       text.replace(isOneLine ? mark - 1 : mark, text.npos, grown);
+      if (text.find("\n#if 0\n") != text.npos) text += "\n#endif\n";
     }
     const fs::path file = temporary_.path() / "source" / (GetParam().file + ".cpp");
     writeTextFile(file, text);
@@ -325,16 +339,18 @@ void expectNothingTold(const std::string& text) {
     EXPECT_THAT(text, Not(HasSubstr(hidden)));
 }
 
+// Short runs try each attack at one level, and so each class at all of them.
 TEST_P(Classes, GainNothingAndHarmNobody) {
   std::vector<int> levels = offeredLevels();
   if (levels.empty()) GTEST_SKIP() << "no sandbox is offered here";
-  if (!isLongRun()) levels.resize(1);
+  if (!isLongRun()) levels = {levels[static_cast<std::size_t>(GetParam().number) % levels.size()]};
   const std::string before = honest(levels.front());
   for (const int level : levels) {
     SCOPED_TRACE("level " + std::to_string(level));
     SubmissionOptions options = optionsFor(source(), level, "attack");
     if (GetParam().file.starts_with("C_") || GetParam().file.starts_with("N_")) options.compileSeconds = 2;
     const BuiltSubmission built = buildSubmission(toolchain_, exercise(), options);
+    EXPECT_TRUE(isAsExpected(built, GetParam().refused)) << built.start.message;
     const GradeResult result = gradeBuilt(built, toolchain_, exercise(), options);
     RecordProperty("level_" + std::to_string(level), std::string(toString(result.outcome)));
     EXPECT_NE(result.outcome, Outcome::kGraderError) << result.message;
@@ -363,6 +379,17 @@ TEST_F(Battery, FindsTheAnswerWhereItIsInMemory) {
   EXPECT_EQ(gradeBuilt(built, whole, exercise(), options).score, 8) << built.start.message;
 }
 
+TEST(AnAttack, IsStaleIfItIsRefusedForAnotherReason) {
+  BuiltSubmission built;
+  built.start.message = "main.cpp:3:10: fatal error: old.h: No such file or directory";
+  EXPECT_FALSE(isAsExpected(built, "-"));
+  EXPECT_FALSE(isAsExpected(built, "-|includes passwd: only public headers"));
+  EXPECT_TRUE(isAsExpected(built, "old.h: No such file"));
+  built.worker = "worker";
+  EXPECT_TRUE(isAsExpected(built, "-"));
+  EXPECT_FALSE(isAsExpected(built, "old.h: No such file"));
+}
+
 TEST(ClassesOfAttacks, AreAllTriedAtLeastThreeTimes) {
   std::map<std::string, int> count;
   std::istringstream lines(readTextFile(kFolder / "attacks_by_class" / "list.tsv"));
@@ -373,7 +400,7 @@ TEST(ClassesOfAttacks, AreAllTriedAtLeastThreeTimes) {
     ++count[fields.at(1)];
   }
   // H and J are archives: see ArchiveBattery and HandInTest.
-  for (const char* kind : {"A", "B", "C", "D", "E", "F", "G", "I", "K", "L", "M", "N"})
+  for (const char* kind : {"A", "B", "C", "D", "E", "F", "G", "I", "K", "L", "M", "N", "O", "P", "Q"})
     EXPECT_GE(count[kind], 3) << kind;
 }
 

@@ -4,10 +4,11 @@
 
 #define TEXT(x) #x
 #define PATH(x) TEXT(x)
-#define HERE / proc / self / cwd
-#define CLIMB(n) PATH(/ proc / self / cwd /../ n)
-#define BESIDE(n) PATH(/ proc / self / cwd / n)
-#define TOP(n) PATH(/ proc / self / root / usr / include / n)
+// clang-format off
+#define CLIMB(n) PATH(/proc/self/cwd/../n)
+#define BESIDE(n) PATH(/proc/self/cwd/n)
+#define TOP(n) PATH(/proc/self/root/usr/include/n)
+// clang-format on
 
 #define twice original_twice
 #define squares original_squares
