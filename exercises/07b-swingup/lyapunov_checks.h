@@ -73,6 +73,8 @@ inline void candidateIsJudged(rex::grading::Check& check, Student& student, cons
   check.atLeast("norm of the point", x->norm(), 1e-12);
   check.atMost("the point, as a share of the box", (x->cwiseAbs().cwiseQuotient(candidate.high)).maxCoeff(),
                1 + 1e-9);
+  const auto slope =
+      check.ask("At the point V' = 2 x^T P f(x) has to be 0 or more, or V 0 or less. Is it so there?");
   check.that("the point disproves V", disproves(candidate, *x, 1e-9));
 }
 
@@ -181,14 +183,18 @@ inline void levelFits(rex::grading::Check& check, Student& student, Eigen::Index
     lowest = std::min(lowest, left * high[face] * high[face]);
   }
   const auto number = [](double value) { return Eigen::MatrixXd::Constant(1, 1, value); };
-  double last = 0, plain = INFINITY;
+  double last = 0, plain = INFINITY, multiplied = INFINITY;
   for (Eigen::Index face = 0; face < n; ++face) {
     const double reach = rex::inverse(P)(face, face);
     last = std::max(last, high[face] * high[face] / reach);
     plain = std::min(plain, high[face] / reach);
+    multiplied = std::min(multiplied, high[face] * high[face] * reach);
   }
   const auto all =
       check.suspect("Is it where the ellipsoid is outside on all sides? One is enough.", number(last));
+  const auto product =
+      check.suspect("Is high_i^2 multiplied by the entry of P^-1? The ellipsoid reaches as far as its root.",
+                    number(multiplied));
   const auto roots = check.suspect("Is high_i not squared? V is a square.", number(plain));
   const auto axes =
       check.suspect("Is it where the ellipsoid meets the box on an axis? It leaves the box elsewhere.",

@@ -208,6 +208,30 @@ const Eigen::MatrixXd PBK = PB * *k, both = PA - PBK;
 // in place of: return K;
 return std::vector<Eigen::MatrixXd>(static_cast<std::size_t>(steps), K.front());
 
+// <variant last_charged_twice> caught by: horizon, other-horizons
+// mistake: adds Q to the cost of the last state.
+// <solution gainsOverTime>
+// in place of: Eigen::MatrixXd P = F;
+Eigen::MatrixXd P = F + costs.Q;
+
+// <variant nothing_on_the_way> caught by: horizon, other-horizons
+// mistake: the states on the way cost nothing.
+// <solution gainsOverTime>
+// in place of: P = costs.Q + At * both;
+P = At * both;
+
+// <variant uncontrolled_values> caught by: horizon, other-horizons
+// mistake: P of a motion without control.
+// <solution gainsOverTime>
+// in place of: const Eigen::MatrixXd PBK = PB * *k, both = PA + PBK;
+const Eigen::MatrixXd both = PA;
+
+// <variant only_r_inverted> caught by: horizon, other-horizons
+// mistake: leaves B^T P B out.
+// <solution gainsOverTime>
+// in place of: *k = -solveMatrix(costs.R + M, Bt * PA);
+*k = -solveMatrix(costs.R, Bt* PA);
+
 // <variant zero_hanging> caught by: energy, other-pendulums
 // mistake: the energy is zero hanging.
 // <solution energyOf>
@@ -322,6 +346,24 @@ return {};
 // mistake: the level where the ellipsoid leaves the box along an axis. It leaves earlier elsewhere.
 // <solution levelInside>
 return (P.diagonal().array() * high.array().square()).minCoeff();
+
+// <variant v_is_the_norm> caught by: lyapunov, judges-others
+// mistake: tests whether the distance grows, whatever P.
+// <solution counterexample>
+// in place of: return x.dot(Px) <= 0 || Px.dot(f(x)) >= 0;
+return x.dot(Px) <= 0 || x.dot(f(x)) >= 0;
+
+// <variant finds_where_it_falls> caught by: lyapunov, judges-others
+// mistake: returns a point at which V falls.
+// <solution counterexample>
+// in place of: return x.dot(Px) <= 0 || Px.dot(f(x)) >= 0;
+return x.dot(Px) <= 0 || Px.dot(f(x)) <= 0;
+
+// <variant reach_multiplied> caught by: lyapunov, judges-others
+// mistake: multiplies where it should divide.
+// <solution levelInside>
+// in place of: for (Eigen::Index i = 0; i < high.size(); ++i) level
+for (Eigen::Index i = 0; i < high.size(); ++i) level = std::min(level, high[i] * high[i] * inverseP(i, i));
 
 // <variant box_of_the_diagonal> caught by: lyapunov, judges-others
 // mistake: the square root is forgotten.
