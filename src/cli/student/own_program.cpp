@@ -104,7 +104,8 @@ std::optional<OwnProgram> buildOwnProgram(const Project& project, const fs::path
       std::ranges::copy(grading::dependenciesIn(readTextFile(toolchain.prefix.string() + ".d"), workFolder),
                         std::back_inserter(files));
     for (fs::path& one : files) one = one.lexically_normal();
-    result.made.insert(result.made.end(), files.begin(), files.end());
+    std::ranges::copy_if(files, std::back_inserter(result.made),
+                         [&](const fs::path& one) { return !isBelow(workFolder, one); });
     for (const grading::LibraryPart& one : librariesFor(program, files, table.output)) {
       result.targets.push_back(one.target);
       toolchain.libraries.push_back(one.file);
