@@ -15,7 +15,7 @@
 #include "reports/markdown.h"
 #include "submission/exercise_info.h"
 
-namespace rex::grading {
+namespace rex::authoring {
 namespace {
 
 namespace fs = std::filesystem;
@@ -54,9 +54,9 @@ class SiteWriter {
   // A page from a Markdown file of the project, between two pieces of HTML. Returns its title.
   std::string addMarkdown(const fs::path& file, const fs::path& source, const std::string& before = "",
                           const std::string& after = "") {
-    const MarkdownPage page = pageFrom(source, file.parent_path());
+    const reports::MarkdownPage page = pageFrom(source, file.parent_path());
     const std::string title = page.sections.empty() ? file.stem().string() : page.sections.front().title;
-    for (const PageSection& section : page.sections)
+    for (const reports::PageSection& section : page.sections)
       entries_.push_back({{"page", title},
                           {"heading", section.title},
                           {"url", file.generic_string() + "#" + section.anchor},
@@ -100,10 +100,11 @@ class SiteWriter {
   [[nodiscard]] int pages() const { return pages_; }
 
  private:
-  MarkdownPage pageFrom(const fs::path& source, const fs::path& folder) {
+  reports::MarkdownPage pageFrom(const fs::path& source, const fs::path& folder) {
     try {
-      return pageOf(readTextFile(root_ / source),
-                    [&](const std::string& link) { return targetOf(link, source.parent_path(), folder); });
+      return reports::pageOf(readTextFile(root_ / source), [&](const std::string& link) {
+        return targetOf(link, source.parent_path(), folder);
+      });
     } catch (const Error& error) {
       ErrorParts parts = error.parts();
       if (parts.where.file.empty()) parts.where.file = source.generic_string();
@@ -150,9 +151,9 @@ class SiteWriter {
   int pages_ = 0;
 };
 
-std::string pointsTable(const ExerciseInfo& exercise) {
+std::string pointsTable(const submission::ExerciseInfo& exercise) {
   std::string rows;
-  for (const ExercisePart& part : exercise.parts)
+  for (const submission::ExercisePart& part : exercise.parts)
     rows += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", htmlText(part.title), part.points);
   return fmt::format(
       "<h2 id=\"points\">Points</h2>\n<table>\n<tr><th>part</th><th>points</th></tr>\n{}"
@@ -170,10 +171,10 @@ std::string linkTo(const std::string& file, const std::string& title) {
 }
 
 // `documents` and `notes` are items of lists.
-std::string firstPage(const std::vector<ExerciseInfo>& exercises, const std::string& documents,
+std::string firstPage(const std::vector<submission::ExerciseInfo>& exercises, const std::string& documents,
                       const std::string& notes) {
   std::string rows;
-  for (const ExerciseInfo& one : exercises)
+  for (const submission::ExerciseInfo& one : exercises)
     rows += fmt::format(
         "<tr><td><a href=\"exercises/{0}.html\">{0}</a></td><td>{1}</td><td>{2}</td><td>{3}</td></tr>\n",
         htmlText(one.name), htmlText(one.title), htmlText(one.script), one.points());
@@ -207,8 +208,8 @@ std::string addNotes(SiteWriter& site, const fs::path& root) {
 
 int writePages(const fs::path& root, const fs::path& target, SiteReaders readers) {
   SiteWriter site(root, target);
-  const std::vector<ExerciseInfo> exercises = listExercises(root / "exercises");
-  for (const ExerciseInfo& one : exercises)
+  const std::vector<submission::ExerciseInfo> exercises = submission::listExercises(root / "exercises");
+  for (const submission::ExerciseInfo& one : exercises)
     site.addMarkdown(fs::path("exercises") / (one.name + ".html"),
                      fs::path("exercises") / one.name / "README.md", "",
                      pointsTable(one) + contract(one.folder));
@@ -260,4 +261,4 @@ CourseSite writeCourseSite(const fs::path& root, const fs::path& target, const f
   }
 }
 
-}  // namespace rex::grading
+}  // namespace rex::authoring

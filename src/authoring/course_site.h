@@ -4,7 +4,7 @@
 
 #include "authoring/leak_scan.h"
 
-namespace rex::grading {
+namespace rex::authoring {
 
 /// Whether the pages contain the lecturer's notes, which students must not get.
 enum class SiteReaders { kEverybody, kLecturers };
@@ -24,4 +24,4 @@ struct CourseSite {
                                          const std::filesystem::path& courseSecret = {},
                                          SiteReaders readers = SiteReaders::kEverybody);
 
-}  // namespace rex::grading
+}  // namespace rex::authoring

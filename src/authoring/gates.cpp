@@ -22,7 +22,10 @@
 #include "submission/regions.h"
 #include "submission/submission.h"
 
-namespace rex::grading {
+namespace rex::authoring {
+
+using grading::GradeResult;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -31,7 +34,7 @@ using Words = std::set<std::string>;
 
 // The identifiers in a text.
 std::vector<std::string> wordsOf(std::string_view text) {
-  const CppText tokens(text);
+  const submission::CppText tokens(text);
   std::vector<std::string> words;
   for (std::size_t i = 0; i < tokens.size(); ++i)
     if (tokens.isName(i)) words.emplace_back(tokens.at(i));
@@ -40,10 +43,10 @@ std::vector<std::string> wordsOf(std::string_view text) {
 
 // A comment that mentions a name does not make it exist; a literal does, as the name of a file that is made.
 void addCodeWords(const std::string& source, Words& words) {
-  const CppText code(source);
+  const submission::CppText code(source);
   for (std::size_t i = 0; i < code.size(); ++i) {
     if (code.isName(i)) words.emplace(code.at(i));
-    if (!code.isKind(i, TokenKind::kText)) continue;
+    if (!code.isKind(i, submission::TokenKind::kText)) continue;
     for (std::string& word : wordsOf(code.at(i).substr(1, code.at(i).size() - 2)))
       words.insert(std::move(word));
   }
@@ -84,9 +87,9 @@ bool fileExists(const std::string& name, const fs::path& root, const fs::path& e
 bool looksLikeName(const std::string& text) {
   const std::string name = text.substr(0, text.find('('));
   if (name.size() < 2 || name.starts_with("std::") || name.starts_with("Eigen::")) return false;
-  const bool plain =
-      std::all_of(name.begin(), name.end(), [](char c) { return isWord(c) || c == ':' || c == '.'; });
-  return plain && std::isdigit(static_cast<unsigned char>(name[0])) == 0 && isWord(name[0]);
+  const bool plain = std::all_of(name.begin(), name.end(),
+                                 [](char c) { return submission::isWord(c) || c == ':' || c == '.'; });
+  return plain && std::isdigit(static_cast<unsigned char>(name[0])) == 0 && submission::isWord(name[0]);
 }
 
 class Checker {
@@ -183,21 +186,21 @@ GateResult judge(const std::vector<std::string>& complaints) {
   return {.passed = complaints.empty(), .message = join(complaints, "\n")};
 }
 
-SubmissionOptions optionsFor(const GateContext& context, const path& file) {
+submission::SubmissionOptions optionsFor(const GateContext& context, const path& file) {
   return {.main = file,
           .workFolder = context.workFolder / "build",
           .job = {.results = context.workFolder / "results.json"}};
 }
 
 GradeResult grade(const GateContext& context, const path& file) {
-  return gradeSubmission(context.toolchain, context.exercise, optionsFor(context, file)).result;
+  return submission::gradeSubmission(context.toolchain, context.exercise, optionsFor(context, file)).result;
 }
 
 // Everything that is wrong in a result, line by line.
 std::string shortfalls(const GradeResult& result) {
   std::string lines = result.message.empty() ? "" : "\n  " + result.message;
-  for (const CheckResult& check : result.checks)
-    if (check.status != Outcome::kPass) lines += fmt::format("\n  {}: {}", check.id, check.message);
+  for (const grading::CheckResult& check : result.checks)
+    if (check.status != grading::Outcome::kPass) lines += fmt::format("\n  {}: {}", check.id, check.message);
   return lines;
 }
 
@@ -206,7 +209,7 @@ GateResult mainIsCurrent(const GateContext& context) {
   constexpr std::size_t kMostLines = 200;
   const path folder = context.exercise.folder, solution = folder / "solution.cpp";
   const std::string main = readTextFile(folder / "main.cpp");
-  if (main != stripSolution(readTextFile(solution), solution.string()))
+  if (main != submission::stripSolution(readTextFile(solution), solution.string()))
     return failed(fmt::format("main.cpp does not match solution.cpp; run: scripts/rex dev strip {}",
                               context.exercise.name));
   const std::size_t lines = splitLines(main).size();
@@ -216,7 +219,7 @@ GateResult mainIsCurrent(const GateContext& context) {
 
 // What headings of README.md promise: "## Part 2: the step (2:29; 5 points)". Headings are in the order of
 // the parts.
-std::vector<std::string> wrongHeadings(const ExerciseInfo& exercise) {
+std::vector<std::string> wrongHeadings(const submission::ExerciseInfo& exercise) {
   const std::string text = readTextFile(exercise.folder / "README.md");
   static const std::regex kHeading(R"(^#+ .*[( ](\d+) points?\))"), kNumber(R"(^#+ +Part +(\d+))");
   std::vector<std::string> complaints;
@@ -247,9 +250,10 @@ std::vector<std::string> wrongHeadings(const ExerciseInfo& exercise) {
 GateResult pointsAddUp(const GateContext& context) {
   constexpr int kMost = 20;
   Points checked;
-  for (const CheckResult& check : listChecks(context.toolchain)) checked[check.part] += check.maxPoints;
+  for (const grading::CheckResult& check : submission::listChecks(context.toolchain))
+    checked[check.part] += check.maxPoints;
   std::vector<std::string> complaints;
-  for (const ExercisePart& part : context.exercise.parts) {
+  for (const submission::ExercisePart& part : context.exercise.parts) {
     if (checked[part.id] != part.points)
       complaints.push_back(fmt::format("part '{}': checks are worth {} points, exercise.toml says {}",
                                        part.id, checked[part.id], part.points));
@@ -284,15 +288,15 @@ GateResult mainScoresFloor(const GateContext& context) {
   const GradeResult result = grade(context, context.exercise.folder / "main.cpp");
   if (!result.compile.diagnostics.empty())
     return failed("main.cpp does not compile cleanly: " + toString(result.compile.diagnostics.front()));
-  if (result.outcome == Outcome::kGraderError) return failed("the grader failed: " + result.message);
+  if (result.outcome == grading::Outcome::kGraderError) return failed("the grader failed: " + result.message);
   Points scored;
   std::map<std::string, std::vector<std::string>> checks;  // with points, by part
-  for (const CheckResult& check : result.checks) {
+  for (const grading::CheckResult& check : result.checks) {
     scored[check.part] += check.points;
     if (check.points > 0) checks[check.part].push_back(fmt::format("{} {}", check.id, check.points));
   }
   std::vector<std::string> complaints;
-  for (const ExercisePart& part : context.exercise.parts)
+  for (const submission::ExercisePart& part : context.exercise.parts)
     if (scored[part.id] != part.floor)
       complaints.push_back(
           fmt::format("part '{}': the untouched main.cpp gets {} point{} ({}), exercise.toml says floor = {}",
@@ -302,15 +306,16 @@ GateResult mainScoresFloor(const GateContext& context) {
 }
 
 GateResult solutionIsFull(const GateContext& context) {
-  SubmissionOptions options = optionsFor(context, context.exercise.folder / "solution.cpp");
-  const BuiltSubmission built = buildSubmission(context.toolchain, context.exercise, options);
+  submission::SubmissionOptions options = optionsFor(context, context.exercise.folder / "solution.cpp");
+  const submission::BuiltSubmission built =
+      submission::buildSubmission(context.toolchain, context.exercise, options);
   if (!built.start.compile.diagnostics.empty())
     return failed("solution.cpp does not compile cleanly: " +
                   toString(built.start.compile.diagnostics.front()));
   for (int seed = 1; seed <= context.seeds; ++seed) {
     options.job.seed = static_cast<std::uint64_t>(seed);
-    const GradeResult result = gradeBuilt(built, context.toolchain, context.exercise, options);
-    if (result.outcome != Outcome::kPass || result.score != context.exercise.points())
+    const GradeResult result = submission::gradeBuilt(built, context.toolchain, context.exercise, options);
+    if (result.outcome != grading::Outcome::kPass || result.score != context.exercise.points())
       return failed(fmt::format("solution.cpp scores {} of {} under seed {}{}", result.score,
                                 context.exercise.points(), seed, shortfalls(result)));
   }
@@ -320,18 +325,20 @@ GateResult solutionIsFull(const GateContext& context) {
 // The grader's output on the solution with options that ask for something other than points. Throws Error if
 // the solution cannot be built.
 ProcessResult askGrader(const GateContext& context, const std::vector<std::string>& options) {
-  const SubmissionOptions solution = optionsFor(context, context.exercise.folder / "solution.cpp");
-  const BuiltSubmission built = buildSubmission(context.toolchain, context.exercise, solution);
+  const submission::SubmissionOptions solution =
+      optionsFor(context, context.exercise.folder / "solution.cpp");
+  const submission::BuiltSubmission built =
+      submission::buildSubmission(context.toolchain, context.exercise, solution);
   if (built.worker.empty())
     throw Error({.what = "solution.cpp cannot be built", .found = built.start.message});
-  Limits limits = context.exercise.limits;
+  grading::Limits limits = context.exercise.limits;
 #ifdef __SANITIZE_ADDRESS__  // the whole worker has them
-  limits.cpuSeconds *= kSanitizedSlowness;
+  limits.cpuSeconds *= grading::kSanitizedSlowness;
 #endif
-  std::vector<std::string> command = toArguments({.worker = built.worker,
-                                                  .parts = built.parts,
-                                                  .limits = limits,
-                                                  .temporaryFolder = context.workFolder});
+  std::vector<std::string> command = grading::toArguments({.worker = built.worker,
+                                                           .parts = built.parts,
+                                                           .limits = limits,
+                                                           .temporaryFolder = context.workFolder});
   command.insert(command.begin(), context.toolchain.grader.string());
   command.insert(command.end(), options.begin(), options.end());
   constexpr double kLongest = 3 * 3600;
@@ -369,7 +376,7 @@ GateResult liarsGetNothing(const GateContext& context) {
   }
   std::vector<std::string> complaints;
   for (const auto& [lie, points] : scored)
-    for (const ExercisePart& part : context.exercise.parts)
+    for (const submission::ExercisePart& part : context.exercise.parts)
       if (points.contains(part.id) && points.at(part.id) > part.lies)
         complaints.push_back(
             fmt::format("part '{}': the liar '{}' gets {} points, exercise.toml allows {}:{}", part.id, lie,
@@ -379,25 +386,27 @@ GateResult liarsGetNothing(const GateContext& context) {
 
 // The sanitizers, which students use after a crash, must accept a correct program. One check is enough.
 GateResult solutionPassesSanitizers(const GateContext& context) {
-  SubmissionOptions options = optionsFor(context, context.exercise.folder / "solution.cpp");
+  submission::SubmissionOptions options = optionsFor(context, context.exercise.folder / "solution.cpp");
   options.sanitize = true;
-  for (const CheckResult& check : listChecks(context.toolchain))
-    if (check.group == Group::kVisible && options.job.checks.empty()) options.job.checks = {check.id};
-  const GradeResult result = gradeSubmission(context.toolchain, context.exercise, options).result;
-  if (result.outcome == Outcome::kPass) return kPassed;
+  for (const grading::CheckResult& check : submission::listChecks(context.toolchain))
+    if (check.group == grading::Group::kVisible && options.job.checks.empty())
+      options.job.checks = {check.id};
+  const GradeResult result = submission::gradeSubmission(context.toolchain, context.exercise, options).result;
+  if (result.outcome == grading::Outcome::kPass) return kPassed;
   return failed("solution.cpp does not pass with the sanitizers: " + shortfalls(result));
 }
 
 // The parts whose checks catch no wrong variant: nothing proves that they can fail.
 std::vector<std::string> partsWithoutMistake(const GateContext& context,
-                                             const std::vector<WrongVariant>& variants) {
+                                             const std::vector<submission::WrongVariant>& variants) {
   std::map<std::string, std::string> partOf;  // by check
-  for (const CheckResult& check : listChecks(context.toolchain)) partOf[check.id] = check.part;
+  for (const grading::CheckResult& check : submission::listChecks(context.toolchain))
+    partOf[check.id] = check.part;
   std::set<std::string> tried;
-  for (const WrongVariant& variant : variants)
+  for (const submission::WrongVariant& variant : variants)
     for (const std::string& check : variant.caughtBy) tried.insert(partOf[check]);
   std::vector<std::string> complaints;
-  for (const ExercisePart& part : context.exercise.parts)
+  for (const submission::ExercisePart& part : context.exercise.parts)
     if (!tried.contains(part.id))
       complaints.push_back(
           fmt::format("part '{}': no wrong variant is caught by one of its checks", part.id));
@@ -406,13 +415,13 @@ std::vector<std::string> partsWithoutMistake(const GateContext& context,
 
 // The gates of the variants prove that the picture exists and that the messages are those of the file.
 GateResult mistakesAreShown(const GateContext& context) {
-  const std::vector<WrongVariant> variants = variantsOf(context.exercise);
+  const std::vector<submission::WrongVariant> variants = variantsOf(context.exercise);
   if (const auto untried = partsWithoutMistake(context, variants); !untried.empty()) return judge(untried);
   if (!variants.empty() && !std::filesystem::exists(seenMessagesFile(context.exercise.folder)))
     return failed(
         fmt::format("seen.txt is missing; run: REX_UPDATE_GOLDEN=1 scripts/rex dev check {} --gate wrong",
                     context.exercise.name));
-  for (const WrongVariant& variant : variants)
+  for (const submission::WrongVariant& variant : variants)
     if (!variant.shownBy.empty()) return kPassed;
   return failed("no wrong variant names a check that shows its mistake: '// shown by: CHECK, ...'");
 }
@@ -426,7 +435,7 @@ GateResult variantsAreCaught(const GateContext& context) {
 
 }  // namespace
 
-std::vector<std::string> gateNames(const ExerciseInfo& exercise) {
+std::vector<std::string> gateNames(const submission::ExerciseInfo& exercise) {
   std::vector<std::string> names = {"main-current", "points",     "names",    "release",
                                     "evidence",     "main-floor", "solution", "sanitizers",
                                     "hostile",      "grown",      "liars"};
@@ -457,4 +466,4 @@ GateResult runGate(const GateContext& context, const std::string& gate) {
   }
 }
 
-}  // namespace rex::grading
+}  // namespace rex::authoring

@@ -9,7 +9,7 @@
 #include "submission/build_tools.h"
 #include "submission/exercise_info.h"
 
-namespace rex::grading {
+namespace rex::authoring {
 
 /// A name that does not exist.
 struct DeadName {
@@ -29,8 +29,8 @@ struct DeadName {
 /// The inputs of the gates of one exercise.
 struct GateContext {
   std::filesystem::path root;  ///< of the project
-  ExerciseInfo exercise;
-  Toolchain toolchain;
+  submission::ExerciseInfo exercise;
+  submission::Toolchain toolchain;
   std::filesystem::path workFolder;  ///< empty and writable
   int seeds = 3;                     ///< number of seeds to grade the solution with: 1, 2, ...
   std::filesystem::path sheet{};     ///< where gate wrong puts the pictures of failed checks; empty: nowhere
@@ -48,11 +48,11 @@ struct GateResult {
 
 /// The gates of an exercise in order: main-current, points, names, release, evidence, main-floor, solution,
 /// sanitizers, hostile, grown, liars, and, if there is wrong.cpp, wrong.
-[[nodiscard]] std::vector<std::string> gateNames(const ExerciseInfo& exercise);
+[[nodiscard]] std::vector<std::string> gateNames(const submission::ExerciseInfo& exercise);
 
 /// Runs one gate on the exercise. The gate wrong/NAME tests a single variant by itself, which takes longer
 /// and proves more: see whyNotCaughtTogether(). Throws Error for an unknown gate; malformed files of the
 /// exercise fail the gate.
 [[nodiscard]] GateResult runGate(const GateContext& context, const std::string& gate);
 
-}  // namespace rex::grading
+}  // namespace rex::authoring

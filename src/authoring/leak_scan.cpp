@@ -17,7 +17,7 @@
 #include "base/text.h"
 #include "base/text_file.h"
 
-namespace rex::grading {
+namespace rex::authoring {
 namespace {
 
 // Both ways to write them: the second is that of htmlText().
@@ -365,4 +365,4 @@ LeakScan scanForLeaks(const fs::path& tree, const std::vector<Secret>& secrets, 
   }
 }
 
-}  // namespace rex::grading
+}  // namespace rex::authoring

@@ -10,7 +10,7 @@
 #include "authoring/secrets.h"
 #include "base/error.h"
 
-namespace rex::grading {
+namespace rex::authoring {
 
 /// Text normalised for comparison with what must not leak: in lower case, without blanks, line breaks,
 /// control characters and comment markers. `lines` has the line, from 1, of each letter.
@@ -70,4 +70,4 @@ enum class TreeKind { kSource, kInstalled };
                                     const std::filesystem::path& library = {},
                                     TreeKind kind = TreeKind::kSource);
 
-}  // namespace rex::grading
+}  // namespace rex::authoring

@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace rex::grading::internal {
+namespace rex::authoring::internal {
 
 /// Finds any of many texts at once, by their first letters.
 class FormIndex {
@@ -39,4 +39,4 @@ class FormIndex {
   mutable std::string key_;  // spares an allocation per letter
 };
 
-}  // namespace rex::grading::internal
+}  // namespace rex::authoring::internal

@@ -15,7 +15,7 @@
 #include "base/text_file.h"
 #include "submission/regions.h"
 
-namespace rex::grading {
+namespace rex::authoring {
 namespace {
 
 namespace fs = std::filesystem;
@@ -63,8 +63,9 @@ std::map<std::string, std::string> madeFiles(const path& exercise) {
   const path solution = exercise / "solution.cpp", check = exercise / "check.cpp";
   // Twice: the second one is for `rex reset`.
   for (const char* name : {"main.cpp", "starter.cpp"})
-    if (fs::exists(solution)) made[name] = stripSolution(readTextFile(solution), solution.string());
-  if (fs::exists(check)) made["check.cpp"] = stripHidden(readTextFile(check), check.string());
+    if (fs::exists(solution))
+      made[name] = submission::stripSolution(readTextFile(solution), solution.string());
+  if (fs::exists(check)) made["check.cpp"] = submission::stripHidden(readTextFile(check), check.string());
   return made;
 }
 
@@ -187,4 +188,4 @@ Release writeStudentRelease(const path& root, const path& target, const path& co
   }
 }
 
-}  // namespace rex::grading
+}  // namespace rex::authoring

@@ -6,7 +6,7 @@
 
 #include "authoring/leak_scan.h"
 
-namespace rex::grading {
+namespace rex::authoring {
 
 /// The contents of a student release, and the result of its scan.
 struct Release {
@@ -34,4 +34,4 @@ struct Release {
 /// secrets.
 void requireNoSolutionText(const std::filesystem::path& exercise);
 
-}  // namespace rex::grading
+}  // namespace rex::authoring

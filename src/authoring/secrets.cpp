@@ -15,7 +15,7 @@
 #include "grading/hidden_seed.h"
 #include "submission/regions.h"
 
-namespace rex::grading {
+namespace rex::authoring {
 namespace {
 
 // The names that `git ls-files` prints, each ended by a zero byte.
@@ -66,7 +66,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using Block = std::vector<BlockLine>;
+using Block = std::vector<submission::BlockLine>;
 
 // A single line of a check or of a mistake may occur anywhere; several in a row are no coincidence.
 constexpr std::size_t kShortestRun = 48;
@@ -108,11 +108,14 @@ class Collector {
 
   void read(const fs::path& exercise) {
     if (const fs::path file = exercise / "solution.cpp"; fs::exists(file))
-      for (const Block& block : solutionBlocks(readTextFile(file), file.string())) addSolution(block, file);
+      for (const Block& block : submission::solutionBlocks(readTextFile(file), file.string()))
+        addSolution(block, file);
     if (const fs::path file = exercise / "check.cpp"; fs::exists(file))
-      for (const Block& block : hiddenBlocks(readTextFile(file), file.string())) addHidden(block, file);
+      for (const Block& block : submission::hiddenBlocks(readTextFile(file), file.string()))
+        addHidden(block, file);
     if (const fs::path file = exercise / "wrong.cpp"; fs::exists(file))
-      for (const Block& block : variantBlocks(readTextFile(file), file.string())) addWrong(block, file);
+      for (const Block& block : submission::variantBlocks(readTextFile(file), file.string()))
+        addWrong(block, file);
     if (const fs::path file = exercise / "seen.txt"; fs::exists(file))
       addRuns(SecretKind::kWrongVariant, linesOf(readTextFile(file)), file);
   }
@@ -145,10 +148,10 @@ class Collector {
     const fs::path solution = exercise / "solution.cpp", check = exercise / "check.cpp";
     if (fs::exists(solution)) {
       const std::string text = readTextFile(solution);
-      handedOut_.add(textOutsideRegions(text, solution.string()));
-      readable_.add(stripSolution(text, solution.string()));
+      handedOut_.add(submission::textOutsideRegions(text, solution.string()));
+      readable_.add(submission::stripSolution(text, solution.string()));
     }
-    if (fs::exists(check)) readable_.add(stripHidden(readTextFile(check), check.string()));
+    if (fs::exists(check)) readable_.add(submission::stripHidden(readTextFile(check), check.string()));
     for (const auto& entry : fs::directory_iterator(exercise))
       if (entry.path().extension() == ".h" || entry.path().filename() == "show.cpp")
         readable_.addFile(entry.path());
@@ -168,7 +171,8 @@ class Collector {
       if (secret.forms.size() > 1 && secret.forms[1].size() < kShortestCode) secret.forms.pop_back();
   }
 
-  void add(SecretKind kind, const BlockLine& line, const fs::path& file, std::vector<std::string> forms) {
+  void add(SecretKind kind, const submission::BlockLine& line, const fs::path& file,
+           std::vector<std::string> forms) {
     std::erase_if(forms, [](const std::string& form) { return form.size() < kShortestForm; });
     if (forms.empty()) return;
     const std::string name = file.lexically_relative(root_).generic_string();
@@ -177,7 +181,7 @@ class Collector {
   }
 
   void addSolution(const Block& block, const fs::path& file) {
-    for (const BlockLine& line : block) {
+    for (const submission::BlockLine& line : block) {
       const std::string whole = letters(line.text, Comments::kKeep),
                         code = letters(line.text, Comments::kDrop);
       add(SecretKind::kSolution, line, file, whole == code ? std::vector{whole} : std::vector{whole, code});
@@ -197,13 +201,13 @@ class Collector {
 
   void addHidden(const Block& block, const fs::path& file) {
     addRuns(SecretKind::kHiddenCheck, block, file);
-    for (const BlockLine& line : block)
+    for (const submission::BlockLine& line : block)
       for (const std::string& literal : literalsIn(line.text))
         add(SecretKind::kHiddenName, {line.number, literal}, file, {letters(literal, Comments::kKeep)});
   }
 
   void addWrong(const Block& block, const fs::path& file) {
-    for (const BlockLine& line : block)
+    for (const submission::BlockLine& line : block)
       if (line.text.starts_with("// mistake:"))
         add(SecretKind::kWrongVariant, line, file, {letters(line.text, Comments::kKeep)});
     addRuns(SecretKind::kWrongVariant, block, file);
@@ -261,7 +265,7 @@ std::vector<Secret> secretsOf(const std::vector<fs::path>& exercises, const fs::
 }
 
 Secret courseSecretIn(const fs::path& file) {
-  const std::string form = letters(readCourseSecret(file), Comments::kKeep);
+  const std::string form = letters(grading::readCourseSecret(file), Comments::kKeep);
   if (form.size() < kShortestForm)
     throw Error({.what = "cannot scan for the secret of the course",
                  .where = {file.string()},
@@ -270,4 +274,4 @@ Secret courseSecretIn(const fs::path& file) {
   return {.kind = SecretKind::kCourseSecret, .text = {}, .origin = {file.string(), 1}, .forms = {form}};
 }
 
-}  // namespace rex::grading
+}  // namespace rex::authoring

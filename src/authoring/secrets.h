@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 
-namespace rex::grading {
+namespace rex::authoring {
 
 /// The files below `root` that are in its git history or index, as "src/a.h"; empty if root has no .git of
 /// its own. Throws Error naming a file in `places` (names below root) that is neither known to git nor
@@ -44,4 +44,4 @@ inline constexpr std::size_t kShortestForm = 16;
 /// remains to search for.
 [[nodiscard]] Secret courseSecretIn(const std::filesystem::path& file);
 
-}  // namespace rex::grading
+}  // namespace rex::authoring

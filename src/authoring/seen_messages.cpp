@@ -9,7 +9,7 @@
 #include "base/text.h"
 #include "base/text_file.h"
 
-namespace rex::grading {
+namespace rex::authoring {
 namespace {
 
 constexpr std::string_view kIndent = "    ";
@@ -25,13 +25,14 @@ std::filesystem::path seenMessagesFile(const std::filesystem::path& exercise) {
   return exercise / "seen.txt";
 }
 
-std::string seenMessage(const GradeResult& result, const std::vector<std::string>& ids) {
-  for (const Group group : {Group::kVisible, Group::kHidden})
-    for (const CheckResult& check : result.checks)
-      if (check.group == group && check.status != Outcome::kPass &&
+std::string seenMessage(const grading::GradeResult& result, const std::vector<std::string>& ids) {
+  for (const grading::Group group : {grading::Group::kVisible, grading::Group::kHidden})
+    for (const grading::CheckResult& check : result.checks)
+      if (check.group == group && check.status != grading::Outcome::kPass &&
           std::find(ids.begin(), ids.end(), check.id) != ids.end())
-        return fmt::format("{}{}: {}", check.id, group == Group::kHidden ? " (hidden)" : "", check.message);
-  for (const CompileDiagnostic& one : result.compile.diagnostics)
+        return fmt::format("{}{}: {}", check.id, group == grading::Group::kHidden ? " (hidden)" : "",
+                           check.message);
+  for (const grading::CompileDiagnostic& one : result.compile.diagnostics)
     if (one.severity == "error") return toString(one);
   return result.message;
 }
@@ -79,4 +80,4 @@ std::vector<std::string> changedMessages(const SeenMessages& now, const SeenMess
   return changes;
 }
 
-}  // namespace rex::grading
+}  // namespace rex::authoring

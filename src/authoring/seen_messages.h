@@ -7,7 +7,7 @@
 
 #include "grading/results.h"
 
-namespace rex::grading {
+namespace rex::authoring {
 
 /// The file seen.txt of an exercise: what a student who makes the mistake of a wrong variant reads
 /// first. Lines "NAME" and, indented, "CHECK: MESSAGE".
@@ -17,7 +17,8 @@ using SeenMessages = std::map<std::string, std::string>;
 
 /// The first failing check that has one of these ids, and its message: "CHECK: MESSAGE". Hidden checks count
 /// if no visible one fails. For a submission that was not graded, the compiler's first error.
-[[nodiscard]] std::string seenMessage(const GradeResult& result, const std::vector<std::string>& ids);
+[[nodiscard]] std::string seenMessage(const grading::GradeResult& result,
+                                      const std::vector<std::string>& ids);
 
 /// Throws Error naming the line if a message has no variant.
 [[nodiscard]] SeenMessages readSeenMessages(const std::filesystem::path& file);
@@ -27,4 +28,4 @@ void writeSeenMessages(const SeenMessages& messages, const std::filesystem::path
 /// round in their own way, or that only one of both has. One line each; empty if there are none.
 [[nodiscard]] std::vector<std::string> changedMessages(const SeenMessages& now, const SeenMessages& stored);
 
-}  // namespace rex::grading
+}  // namespace rex::authoring

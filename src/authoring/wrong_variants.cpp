@@ -18,7 +18,7 @@
 #include "submission/submission.h"
 #include "submission/symbol_scan.h"
 
-namespace rex::grading {
+namespace rex::authoring {
 namespace {
 
 std::string ownName(std::size_t variant, std::string_view function) {
@@ -26,7 +26,7 @@ std::string ownName(std::size_t variant, std::string_view function) {
 }
 
 // Whether a piece is a function and `text` differs from it in the body only.
-bool differsInBody(std::string_view reference, const FilePiece& piece, std::string_view text) {
+bool differsInBody(std::string_view reference, const submission::FilePiece& piece, std::string_view text) {
   const std::string_view function = reference.substr(piece.start, piece.end - piece.start);
   const std::size_t head = function.find('{', piece.nameStart - piece.start);
   return !piece.function.empty() && !piece.isInternal &&
@@ -34,10 +34,9 @@ bool differsInBody(std::string_view reference, const FilePiece& piece, std::stri
 }
 
 // The texts of the pieces, by index, that differ from the reference; none if some cannot be swapped.
-std::vector<std::pair<std::size_t, std::string>> differingBodies(std::string_view reference,
-                                                                 const std::vector<FilePiece>& pieces,
-                                                                 std::string_view variant) {
-  const std::vector<FilePiece> its = filePieces(CppText(variant));
+std::vector<std::pair<std::size_t, std::string>> differingBodies(
+    std::string_view reference, const std::vector<submission::FilePiece>& pieces, std::string_view variant) {
+  const std::vector<submission::FilePiece> its = submission::filePieces(submission::CppText(variant));
   if (its.size() != pieces.size()) return {};
   std::vector<std::pair<std::size_t, std::string>> differing;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
@@ -54,7 +53,7 @@ int linesIn(std::string_view text) { return static_cast<int>(std::count(text.beg
 }  // namespace
 
 JoinedVariants::JoinedVariants(std::string_view reference, const std::vector<std::string>& variants) {
-  const std::vector<FilePiece> pieces = filePieces(CppText(reference));
+  const std::vector<submission::FilePiece> pieces = submission::filePieces(submission::CppText(reference));
   std::vector<std::vector<std::pair<std::size_t, std::string>>> versions(pieces.size());  // variant, text
   for (std::size_t k = 0; k < variants.size(); ++k) {
     const auto bodies = differingBodies(reference, pieces, variants[k]);
@@ -63,7 +62,7 @@ JoinedVariants::JoinedVariants(std::string_view reference, const std::vector<std
   }
   std::size_t done = 0;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const FilePiece& piece = pieces[i];
+    const submission::FilePiece& piece = pieces[i];
     source_ += reference.substr(done, piece.start - done);
     done = piece.end;
     // The compiler must not use anything that it knows about the body when it compiles the callers.
@@ -122,17 +121,18 @@ JointBuild::JointBuild(const GateContext& context, const std::string& reference,
 std::vector<std::size_t> JointBuild::compile(const std::string& reference) {
   const JoinedVariants joined(reference, sources_);
   functions_.assign(sources_.size(), {});
-  Toolchain toolchain = context_.toolchain;
+  submission::Toolchain toolchain = context_.toolchain;
   toolchain.flags.emplace_back("-w");  // functions that only main() used are unused now
   const path file = context_.workFolder / "main.cpp";
   writeTextFile(file, joined.source());
   constexpr double kSeconds = 60, kSecondsEach = 5;
-  object_ = compileStudent(toolchain, {},
-                           {.main = file,
-                            .workFolder = folder_,
-                            .publicHeadersOnly = true,
-                            .seconds = kSeconds + kSecondsEach * static_cast<double>(sources_.size()),
-                            .memory = std::size_t{4} << 30});
+  object_ =
+      submission::compileStudent(toolchain, {},
+                                 {.main = file,
+                                  .workFolder = folder_,
+                                  .publicHeadersOnly = true,
+                                  .seconds = kSeconds + kSecondsEach * static_cast<double>(sources_.size()),
+                                  .memory = std::size_t{4} << 30});
   std::vector<std::size_t> culprits;
   if (object_.ok) {
     const std::vector<std::string> all = symbols();
@@ -141,7 +141,7 @@ std::vector<std::size_t> JointBuild::compile(const std::string& reference) {
       if (functions_[k].size() != joined.functions(k)) functions_[k].clear();
     }
   } else {
-    for (const CompileDiagnostic& message : object_.messages)
+    for (const grading::CompileDiagnostic& message : object_.messages)
       if (const std::size_t k = joined.variantAt(message.line); k < sources_.size()) culprits.push_back(k);
   }
   return culprits;
@@ -150,8 +150,8 @@ std::vector<std::size_t> JointBuild::compile(const std::string& reference) {
 // The functions that other files may call, from lines such as
 // "0000000000000000 g     F .text._Z4stepv\t0000000000000045 _Z4stepv".
 std::vector<std::string> JointBuild::symbols() const {
-  const Toolchain& toolchain = context_.toolchain;
-  const ProcessResult listed = BuildTools(toolchain, folder_, {})
+  const submission::Toolchain& toolchain = context_.toolchain;
+  const ProcessResult listed = submission::BuildTools(toolchain, folder_, {})
                                    .run({toolchain.objdump, "-t", object_.object.string()}, {}, 256u << 20);
   if (!listed.ok()) throw Error({.what = "cannot list the functions of the variants", .found = listed.error});
   std::vector<std::string> names;
@@ -166,34 +166,34 @@ bool JointBuild::holds(std::size_t variant) const { return !functions_[variant].
 
 // The scan of compileStudent() over everything that these functions reach. Whatever the rest of the file
 // calls, the solution calls, too.
-std::vector<CompileDiagnostic> JointBuild::forbiddenCallsOf(std::size_t variant) const {
+std::vector<grading::CompileDiagnostic> JointBuild::forbiddenCallsOf(std::size_t variant) const {
   const auto& forbidden = context_.exercise.forbidden;
   if (forbidden.empty()) return {};
   const path part = folder_ / "part.o";
   std::vector<std::string> command = {context_.toolchain.compiler, "-r", "-nostdlib", "-Wl,--gc-sections"};
   for (const StandIn& function : functions_[variant]) command.push_back("-Wl,--undefined=" + function.own);
   command.insert(command.end(), {object_.object.string(), "-o", part.string()});
-  const BuildTools tools(context_.toolchain, folder_, {});
+  const submission::BuildTools tools(context_.toolchain, folder_, {});
   const ProcessResult run = tools.run(command);
   if (!run.ok()) throw Error({.what = "cannot separate a variant from the others", .found = run.error});
-  return scanSymbols(part, sources_[variant], object_.name, forbidden);
+  return submission::scanSymbols(part, sources_[variant], object_.name, forbidden);
 }
 
-BuiltSubmission JointBuild::link(std::size_t variant) const {
-  BuiltSubmission built{.start = {}, .source = sources_[variant], .worker = {}};
-  std::vector<CompileDiagnostic>& messages = built.start.compile.diagnostics;
+submission::BuiltSubmission JointBuild::link(std::size_t variant) const {
+  submission::BuiltSubmission built{.start = {}, .source = sources_[variant], .worker = {}};
+  std::vector<grading::CompileDiagnostic>& messages = built.start.compile.diagnostics;
   messages = forbiddenCallsOf(variant);
   if (messages.empty()) {
-    Toolchain toolchain = context_.toolchain;
+    submission::Toolchain toolchain = context_.toolchain;
     for (const auto& [own, replaced] : functions_[variant])
       toolchain.linkFlags.push_back(fmt::format("-Wl,--defsym={}={}", replaced, own));
-    const StudentProgram worker = linkWorker(toolchain, object_);
+    const submission::StudentProgram worker = submission::linkWorker(toolchain, object_);
     if (worker.ok) built.worker = worker.program;
     built.parts = worker.parts;
     messages = worker.messages;
   }
   if (built.worker.empty()) {
-    built.start.outcome = Outcome::kCompileError;
+    built.start.outcome = grading::Outcome::kCompileError;
     built.start.message = messages.empty() ? "it cannot be linked" : toString(messages.front());
   }
   return built;
@@ -204,37 +204,38 @@ namespace {
 using std::filesystem::path;
 using Complaints = std::vector<std::string>;
 
-path wrongFileOf(const ExerciseInfo& exercise) { return exercise.folder / "wrong.cpp"; }
+path wrongFileOf(const submission::ExerciseInfo& exercise) { return exercise.folder / "wrong.cpp"; }
 
-SubmissionOptions gradingOf(const GateContext& context, const WrongVariant& variant) {
-  SubmissionOptions options{.main = context.workFolder / "main.cpp",
-                            .workFolder = context.workFolder / "build",
-                            .job = {.results = context.workFolder / "results.json"}};
+submission::SubmissionOptions gradingOf(const GateContext& context, const submission::WrongVariant& variant) {
+  submission::SubmissionOptions options{.main = context.workFolder / "main.cpp",
+                                        .workFolder = context.workFolder / "build",
+                                        .job = {.results = context.workFolder / "results.json"}};
   if (!variant.shownBy.empty() || !context.sheet.empty())
     options.job.evidence = context.workFolder / "checks";
   return options;
 }
 
 // A variant with a forbidden call is refused before any check runs.
-Complaints whyNotRefused(const GradeResult& result) {
+Complaints whyNotRefused(const grading::GradeResult& result) {
   const auto& diagnostics = result.compile.diagnostics;
   const bool refused = std::any_of(diagnostics.begin(), diagnostics.end(),
-                                   [](const auto& d) { return d.rule == kForbiddenCall; });
+                                   [](const auto& d) { return d.rule == submission::kForbiddenCall; });
   if (refused) return {};
   return {"it should call a forbidden function, but no call was found"};
 }
 
-const CheckResult& checkNamed(const GradeResult& result, const std::string& id, const WrongVariant& variant) {
-  const auto isIt = [&](const CheckResult& check) { return check.id == id; };
+const grading::CheckResult& checkNamed(const grading::GradeResult& result, const std::string& id,
+                                       const submission::WrongVariant& variant) {
+  const auto isIt = [&](const grading::CheckResult& check) { return check.id == id; };
   const auto check = std::find_if(result.checks.begin(), result.checks.end(), isIt);
   if (check != result.checks.end()) return *check;
   std::vector<std::string> ids;
-  for (const CheckResult& known : result.checks) ids.push_back(known.id);
-  throw unknownCheck(id, ids, variant.namedAt.at(id));
+  for (const grading::CheckResult& known : result.checks) ids.push_back(known.id);
+  throw grading::unknownCheck(id, ids, variant.namedAt.at(id));
 }
 
 // Complains if there is no picture, or if there is a replay that begins while all is still well.
-Complaints missingOf(const CheckResult& check, const path& workFolder) {
+Complaints missingOf(const grading::CheckResult& check, const path& workFolder) {
   if (check.picture.empty() || !std::filesystem::exists(workFolder / check.picture))
     return {fmt::format("check '{}' leaves no picture", check.id)};
   constexpr std::string_view kAtOnce = "data-start=\"0\"";
@@ -244,12 +245,13 @@ Complaints missingOf(const CheckResult& check, const path& workFolder) {
 }
 
 // Complaints if the result is not what the variant promises.
-Complaints whyNotCaughtIn(const GradeResult& result, const WrongVariant& variant, const path& workFolder) {
-  if (variant.caughtBy.front() == kForbiddenCall) return whyNotRefused(result);
-  if (result.outcome == Outcome::kCompileError || result.outcome == Outcome::kGraderError)
+Complaints whyNotCaughtIn(const grading::GradeResult& result, const submission::WrongVariant& variant,
+                          const path& workFolder) {
+  if (variant.caughtBy.front() == submission::kForbiddenCall) return whyNotRefused(result);
+  if (result.outcome == grading::Outcome::kCompileError || result.outcome == grading::Outcome::kGraderError)
     return {"it was not graded: " + result.message};
   for (const std::string& id : variant.caughtBy)
-    if (checkNamed(result, id, variant).status == Outcome::kPass)
+    if (checkNamed(result, id, variant).status == grading::Outcome::kPass)
       return {fmt::format("check '{}' does not catch this mistake: {}", id, variant.mistake)};
   if (result.score >= result.maxScore) return {"it gets the full score"};
   Complaints missing;
@@ -259,35 +261,35 @@ Complaints whyNotCaughtIn(const GradeResult& result, const WrongVariant& variant
   return missing;
 }
 
-void requireChecks(const WrongVariant& variant, const std::vector<std::string>& known) {
+void requireChecks(const submission::WrongVariant& variant, const std::vector<std::string>& known) {
   for (const auto* ids : {&variant.caughtBy, &variant.shownBy})
     for (const std::string& id : *ids)
-      if (id != kForbiddenCall && std::find(known.begin(), known.end(), id) == known.end())
-        throw unknownCheck(id, known, variant.namedAt.at(id));
+      if (id != submission::kForbiddenCall && std::find(known.begin(), known.end(), id) == known.end())
+        throw grading::unknownCheck(id, known, variant.namedAt.at(id));
 }
 
-GradeResult gradeWhole(const GateContext& context, const WrongVariant& variant) {
-  const SubmissionOptions options = gradingOf(context, variant);
+grading::GradeResult gradeWhole(const GateContext& context, const submission::WrongVariant& variant) {
+  const submission::SubmissionOptions options = gradingOf(context, variant);
   writeTextFile(options.main, variant.source);
-  return gradeSubmission(context.toolchain, context.exercise, options).result;
+  return submission::gradeSubmission(context.toolchain, context.exercise, options).result;
 }
 
 // Runs only the checks that the variant names: as soon as one of them fails, the full score is out of reach.
-GradeResult gradeLinked(const GateContext& context, const BuiltSubmission& built,
-                        const WrongVariant& variant) {
+grading::GradeResult gradeLinked(const GateContext& context, const submission::BuiltSubmission& built,
+                                 const submission::WrongVariant& variant) {
   if (built.worker.empty()) return built.start;
-  SubmissionOptions options = gradingOf(context, variant);
+  submission::SubmissionOptions options = gradingOf(context, variant);
   options.workFolder = built.worker.parent_path();
   options.job.checks = variant.caughtBy;
   options.job.checks.insert(options.job.checks.end(), variant.shownBy.begin(), variant.shownBy.end());
-  return gradeBuilt(built, context.toolchain, context.exercise, options);
+  return submission::gradeBuilt(built, context.toolchain, context.exercise, options);
 }
 
 // The pictures of the checks of `ids` that failed, on the sheet.
-void addPictures(std::vector<KeyFrame>& sheet, const GradeResult& result, const std::vector<std::string>& ids,
-                 const std::string& name, const path& workFolder) {
-  for (const CheckResult& check : result.checks)
-    if (check.status != Outcome::kPass && !check.picture.empty() &&
+void addPictures(std::vector<KeyFrame>& sheet, const grading::GradeResult& result,
+                 const std::vector<std::string>& ids, const std::string& name, const path& workFolder) {
+  for (const grading::CheckResult& check : result.checks)
+    if (check.status != grading::Outcome::kPass && !check.picture.empty() &&
         std::find(ids.begin(), ids.end(), check.id) != ids.end())
       sheet.push_back({readPng(workFolder / check.picture), fmt::format("{}: {}", name, check.id)});
 }
@@ -301,12 +303,12 @@ void writeSheet(const std::vector<KeyFrame>& pictures, const path& file) {
 }
 
 // The variants that the context names, or all.
-std::vector<WrongVariant> wantedVariants(const GateContext& context) {
+std::vector<submission::WrongVariant> wantedVariants(const GateContext& context) {
   const std::vector<std::string>& wanted = context.variants;
   requireVariants(context.exercise, wanted);
-  std::vector<WrongVariant> variants = variantsOf(context.exercise);
+  std::vector<submission::WrongVariant> variants = variantsOf(context.exercise);
   if (!wanted.empty())
-    std::erase_if(variants, [&](const WrongVariant& variant) {
+    std::erase_if(variants, [&](const submission::WrongVariant& variant) {
       return std::find(wanted.begin(), wanted.end(), variant.name) == wanted.end();
     });
   return variants;
@@ -339,19 +341,20 @@ void addComplaints(std::vector<std::string>& complaints, const std::string& name
 
 }  // namespace
 
-std::vector<WrongVariant> variantsOf(const ExerciseInfo& exercise) {
+std::vector<submission::WrongVariant> variantsOf(const submission::ExerciseInfo& exercise) {
   const path solution = exercise.folder / "solution.cpp", wrong = wrongFileOf(exercise);
   if (!std::filesystem::exists(wrong)) return {};
-  return readVariants(readTextFile(solution), solution.string(), readTextFile(wrong), wrong.string());
+  return submission::readVariants(readTextFile(solution), solution.string(), readTextFile(wrong),
+                                  wrong.string());
 }
 
-std::vector<std::string> variantNames(const ExerciseInfo& exercise) {
+std::vector<std::string> variantNames(const submission::ExerciseInfo& exercise) {
   const path wrong = wrongFileOf(exercise);
   if (!std::filesystem::exists(wrong)) return {};
-  return variantNamesIn(readTextFile(wrong));
+  return submission::variantNamesIn(readTextFile(wrong));
 }
 
-void requireVariants(const ExerciseInfo& exercise, const std::vector<std::string>& names) {
+void requireVariants(const submission::ExerciseInfo& exercise, const std::vector<std::string>& names) {
   const std::vector<std::string> known = variantNames(exercise);
   for (const std::string& name : names)
     if (std::find(known.begin(), known.end(), name) == known.end())
@@ -361,18 +364,19 @@ void requireVariants(const ExerciseInfo& exercise, const std::vector<std::string
 
 std::vector<std::string> whyNotCaught(const GateContext& context, const std::string& name) {
   requireVariants(context.exercise, {name});
-  const std::vector<WrongVariant> variants = variantsOf(context.exercise);
+  const std::vector<submission::WrongVariant> variants = variantsOf(context.exercise);
   const auto variant = std::find_if(variants.begin(), variants.end(),
-                                    [&](const WrongVariant& one) { return one.name == name; });
+                                    [&](const submission::WrongVariant& one) { return one.name == name; });
   return whyNotCaughtIn(gradeWhole(context, *variant), *variant, context.workFolder);
 }
 
 CaughtTogether whyNotCaughtTogether(const GateContext& context) {
   std::vector<std::string> known, sources;
-  for (const CheckResult& check : listChecks(context.toolchain)) known.push_back(check.id);
+  for (const grading::CheckResult& check : submission::listChecks(context.toolchain))
+    known.push_back(check.id);
   CaughtTogether all;
-  std::vector<WrongVariant> variants;
-  for (const WrongVariant& variant : wantedVariants(context))
+  std::vector<submission::WrongVariant> variants;
+  for (const submission::WrongVariant& variant : wantedVariants(context))
     addComplaints(all.complaints, variant.name, [&]() -> Complaints {
       requireChecks(variant, known);
       sources.push_back(variant.source);
@@ -380,14 +384,15 @@ CaughtTogether whyNotCaughtTogether(const GateContext& context) {
       return {};
     });
   const path solution = context.exercise.folder / "solution.cpp";
-  const JointBuild build(context, referenceText(readTextFile(solution), solution.string()), sources);
+  const JointBuild build(context, submission::referenceText(readTextFile(solution), solution.string()),
+                         sources);
   SeenMessages seen;
   std::vector<KeyFrame> pictures;
   for (std::size_t k = 0; k < variants.size(); ++k) {
-    const WrongVariant& variant = variants[k];
+    const submission::WrongVariant& variant = variants[k];
     if (!build.holds(k)) all.alone.push_back(variant.name);
     addComplaints(all.complaints, variant.name, [&] {
-      const GradeResult result =
+      const grading::GradeResult result =
           build.holds(k) ? gradeLinked(context, build.link(k), variant) : gradeWhole(context, variant);
       seen[variant.name] = seenMessage(result, variant.caughtBy);
       addPictures(pictures, result, variant.caughtBy, variant.name, context.workFolder);
@@ -400,4 +405,4 @@ CaughtTogether whyNotCaughtTogether(const GateContext& context) {
   return all;
 }
 
-}  // namespace rex::grading
+}  // namespace rex::authoring

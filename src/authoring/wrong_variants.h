@@ -12,7 +12,7 @@
 #include "submission/student_build.h"
 #include "submission/submission.h"
 
-namespace rex::grading {
+namespace rex::authoring {
 
 /// Joins the wrong variants of a file into one source, so that headers and common code are compiled only
 /// once: the reference with an empty main(), and after each function the variants' versions that differ.
@@ -61,29 +61,29 @@ class JointBuild {
 
   /// The worker of a compiled variant, or the forbidden calls of its functions, as buildSubmission() would
   /// report for the whole file. The next call overwrites the worker. Throws Error if the tools fail.
-  BuiltSubmission link(std::size_t variant) const;
+  submission::BuiltSubmission link(std::size_t variant) const;
 
  private:
   std::vector<std::size_t> compile(const std::string& reference);
   std::vector<std::string> symbols() const;
-  std::vector<CompileDiagnostic> forbiddenCallsOf(std::size_t variant) const;
+  std::vector<grading::CompileDiagnostic> forbiddenCallsOf(std::size_t variant) const;
 
   GateContext context_;
   std::vector<std::string> sources_;  // of each variant
   std::filesystem::path folder_;
-  StudentObject object_;
+  submission::StudentObject object_;
   std::vector<std::vector<StandIn>> functions_;  // of each variant; none if it is not there
 };
 
 /// The wrong variants of an exercise in the order of wrong.cpp, composed with the solution; none without that
 /// file. Throws Error (file:line:column) like readVariants().
-[[nodiscard]] std::vector<WrongVariant> variantsOf(const ExerciseInfo& exercise);
+[[nodiscard]] std::vector<submission::WrongVariant> variantsOf(const submission::ExerciseInfo& exercise);
 
 /// Their names, also if wrong.cpp is malformed.
-[[nodiscard]] std::vector<std::string> variantNames(const ExerciseInfo& exercise);
+[[nodiscard]] std::vector<std::string> variantNames(const submission::ExerciseInfo& exercise);
 
 /// Throws UsageError unless the exercise has a variant of each of these names.
-void requireVariants(const ExerciseInfo& exercise, const std::vector<std::string>& names);
+void requireVariants(const submission::ExerciseInfo& exercise, const std::vector<std::string>& names);
 
 /// Why a variant is not caught as it promises, line by line, when compiled like a student's file and graded
 /// by all checks; empty if it is. Throws Error like variantsOf() and requireVariants(), and for checks that
@@ -103,4 +103,4 @@ struct CaughtTogether {
 /// Throws Error like variantsOf() and requireVariants().
 [[nodiscard]] CaughtTogether whyNotCaughtTogether(const GateContext& context);
 
-}  // namespace rex::grading
+}  // namespace rex::authoring

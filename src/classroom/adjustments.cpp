@@ -7,7 +7,7 @@
 
 #include "base/toml_table.h"
 
-namespace rex::grading {
+namespace rex::classroom {
 namespace {
 
 constexpr double kMostPoints = 1000;
@@ -16,7 +16,7 @@ constexpr double kMostPoints = 1000;
 class AdjustmentReader {
  public:
   AdjustmentReader(const std::filesystem::path& file, const Course& course,
-                   const std::vector<ExerciseInfo>& exercises)
+                   const std::vector<submission::ExerciseInfo>& exercises)
       : course_(course),
         exercises_(exercises),
         top_(TomlTable::read(file, "the file of adjustments", "a file of adjustments")) {}
@@ -98,7 +98,7 @@ class AdjustmentReader {
 
   std::string exercise(const TomlTable& table) const {
     try {
-      return findExercise(exercises_, table.text("exercise")).name;
+      return submission::findExercise(exercises_, table.text("exercise")).name;
     } catch (const UsageError& error) {
       ErrorParts parts = error.parts();
       parts.where = table.where("exercise");
@@ -107,15 +107,15 @@ class AdjustmentReader {
   }
 
   const Course& course_;
-  const std::vector<ExerciseInfo>& exercises_;
+  const std::vector<submission::ExerciseInfo>& exercises_;
   TomlTable top_;
 };
 
 }  // namespace
 
 Adjustments readAdjustments(const std::filesystem::path& file, const Course& course,
-                            const std::vector<ExerciseInfo>& exercises) {
+                            const std::vector<submission::ExerciseInfo>& exercises) {
   return AdjustmentReader(file, course, exercises).read();
 }
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

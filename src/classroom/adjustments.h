@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "classroom/course_file.h"
 
-namespace rex::grading {
+namespace rex::classroom {
 
 /// What a person decides about a grade. It changes a check before the penalty for lateness, or the final
 /// points after it.
@@ -40,6 +40,6 @@ struct Adjustments {
 /// Reads a file of adjustments (share/doc/grading.md) for the students of a course. Throws Error with
 /// the position for malformed files, and for students, groups and exercises that do not exist.
 [[nodiscard]] Adjustments readAdjustments(const std::filesystem::path& file, const Course& course,
-                                          const std::vector<ExerciseInfo>& exercises);
+                                          const std::vector<submission::ExerciseInfo>& exercises);
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

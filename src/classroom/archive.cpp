@@ -19,7 +19,7 @@
 #include "base/text.h"
 #include "classroom/gradebook_text.h"
 
-namespace rex::grading {
+namespace rex::classroom {
 namespace {
 
 namespace fs = std::filesystem;
@@ -411,4 +411,4 @@ ArchiveContent readBundle(const fs::path& file, const IsWanted& isWanted) {
   return readIsolated(sourceOf(opened), file, kBundle, isWanted);
 }
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

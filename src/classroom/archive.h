@@ -12,7 +12,7 @@
 
 #include "base/folders.h"
 
-namespace rex::grading {
+namespace rex::classroom {
 
 struct ArchiveFile {
   std::string name{};  ///< with slashes
@@ -95,4 +95,4 @@ class StudentBudgets {
 [[nodiscard]] ArchiveContent readBundle(const std::filesystem::path& file,
                                         const std::function<bool(const std::string& name)>& isWanted);
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

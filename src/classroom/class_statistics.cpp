@@ -14,7 +14,7 @@
 #include "classroom/task_list.h"
 #include "grading/results.h"
 
-namespace rex::grading {
+namespace rex::classroom {
 namespace {
 
 namespace fs = std::filesystem;
@@ -37,7 +37,7 @@ StudentResult readOne(const fs::path& folder) {
         {.what = "not counted", .where = {file.string()}, .found = "no result", .wanted = "this file"});
   StudentResult read{.student = folder.parent_path().filename().string(),
                      .exercise = folder.filename().string(),
-                     .result = loadSoundResult(file)};
+                     .result = grading::loadSoundResult(file)};
   if (read.result.exerciseId != read.exercise)
     throw Error({.what = "not counted",
                  .where = {file.string()},
@@ -53,7 +53,7 @@ std::size_t binOf(int points, int possible) {
   return static_cast<std::size_t>(4 - quarters);
 }
 
-CheckStatistics& statisticsFor(const CheckResult& check, std::vector<CheckStatistics>& checks) {
+CheckStatistics& statisticsFor(const grading::CheckResult& check, std::vector<CheckStatistics>& checks) {
   const auto known = std::find_if(checks.begin(), checks.end(),
                                   [&](const CheckStatistics& one) { return one.id == check.id; });
   if (known != checks.end()) return *known;
@@ -61,10 +61,10 @@ CheckStatistics& statisticsFor(const CheckResult& check, std::vector<CheckStatis
   return checks.back();
 }
 
-void count(const GradeResult& result, std::vector<CheckStatistics>& checks) {
-  for (const CheckResult& check : result.checks) {
+void count(const grading::GradeResult& result, std::vector<CheckStatistics>& checks) {
+  for (const grading::CheckResult& check : result.checks) {
     CheckStatistics& known = statisticsFor(check, checks);
-    if (check.status == Outcome::kPass) continue;
+    if (check.status == grading::Outcome::kPass) continue;
     ++known.failed;
     ++known.classes[classOf(check, result)];
     if (const std::string question = questionOf(check.message); !question.empty())
@@ -73,9 +73,9 @@ void count(const GradeResult& result, std::vector<CheckStatistics>& checks) {
 }
 
 // Points of each part, over the results that have checks of it.
-void countParts(const GradeResult& result, std::vector<PartStatistics>& parts) {
+void countParts(const grading::GradeResult& result, std::vector<PartStatistics>& parts) {
   std::vector<PartStatistics> own;
-  for (const CheckResult& check : result.checks) {
+  for (const grading::CheckResult& check : result.checks) {
     auto known =
         std::find_if(own.begin(), own.end(), [&](const PartStatistics& one) { return one.id == check.part; });
     if (known == own.end()) known = own.insert(own.end(), {.id = check.part});
@@ -111,8 +111,8 @@ std::optional<double> discriminationOf(const std::string& check,
                                        const std::vector<const StudentResult*>& results) {
   std::vector<std::pair<double, double>> pairs;
   for (const StudentResult* one : results)
-    for (const CheckResult& result : one->result.checks)
-      if (result.id == check && one->result.outcome != Outcome::kGraderError)
+    for (const grading::CheckResult& result : one->result.checks)
+      if (result.id == check && one->result.outcome != grading::Outcome::kGraderError)
         pairs.emplace_back(result.points, one->result.score - result.points);
   return correlationOf(pairs);
 }
@@ -140,8 +140,8 @@ ExerciseStatistics statisticsOfOne(const std::vector<const StudentResult*>& resu
   std::vector<double> points, seconds;
   std::set<std::string> versions;
   for (const StudentResult* one : results) {
-    const GradeResult& result = one->result;
-    if (result.outcome == Outcome::kGraderError) {
+    const grading::GradeResult& result = one->result;
+    if (result.outcome == grading::Outcome::kGraderError) {
       ++all.graderFailed;
       continue;
     }
@@ -153,7 +153,7 @@ ExerciseStatistics statisticsOfOne(const std::vector<const StudentResult*>& resu
     all.meanPoints += result.score;
     points.push_back(result.score);
     // A file that does not compile takes no time.
-    if (result.outcome != Outcome::kCompileError) seconds.push_back(result.usage.wallSeconds);
+    if (result.outcome != grading::Outcome::kCompileError) seconds.push_back(result.usage.wallSeconds);
     if (all.slowest.empty() || result.usage.wallSeconds > all.longestSeconds)
       std::tie(all.slowest, all.longestSeconds) = std::tie(one->student, result.usage.wallSeconds);
     versions.insert(result.exerciseVersion);
@@ -227,27 +227,27 @@ ClassResults readClassResults(const fs::path& folder) {
   return all;
 }
 
-std::string classOf(const CheckResult& check, const GradeResult& whole) {
-  if (!check.status) return whole.outcome == Outcome::kCompileError ? "compile" : "not run";
+std::string classOf(const grading::CheckResult& check, const grading::GradeResult& whole) {
+  if (!check.status) return whole.outcome == grading::Outcome::kCompileError ? "compile" : "not run";
   switch (*check.status) {
-    case Outcome::kCompileError:
+    case grading::Outcome::kCompileError:
       return "compile";
-    case Outcome::kRuntimeError:
+    case grading::Outcome::kRuntimeError:
       return "crash";
-    case Outcome::kTimeLimit:
+    case grading::Outcome::kTimeLimit:
       return "timeout";
-    case Outcome::kMemoryLimit:
+    case grading::Outcome::kMemoryLimit:
       return "memory";
-    case Outcome::kOutputLimit:
+    case grading::Outcome::kOutputLimit:
       return "output";
-    case Outcome::kProtocolError:
+    case grading::Outcome::kProtocolError:
       return "protocol";
-    case Outcome::kSecurityEvent:
+    case grading::Outcome::kSecurityEvent:
       return "security";
-    case Outcome::kGraderError:
+    case grading::Outcome::kGraderError:
       return "not run";
-    case Outcome::kFail:
-    case Outcome::kPass:
+    case grading::Outcome::kFail:
+    case grading::Outcome::kPass:
       if (check.message.find(check.property + ": not finite") != std::string::npos) return "non-finite";
       return check.message.find(check.property + ": wrong shape") != std::string::npos ? "shape" : "wrong";
   }
@@ -262,4 +262,4 @@ std::vector<ExerciseStatistics> statisticsOf(const std::vector<StudentResult>& r
   return all;
 }
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

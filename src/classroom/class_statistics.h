@@ -10,12 +10,12 @@
 
 #include "grading/results.h"
 
-namespace rex::grading {
+namespace rex::classroom {
 
 struct StudentResult {
   std::string student{};
   std::string exercise{};
-  GradeResult result{};
+  grading::GradeResult result{};
   std::optional<std::int64_t> submitted{};  ///< seconds since 1970 in UTC, as the list of tasks has it
   std::string timeFrom{};                   ///< table, platform, git or file
   int attempts = 0;                         ///< 0: nobody counted them
@@ -36,7 +36,7 @@ struct CheckStatistics {
   std::string id{};
   std::string part{};
   std::string title{};
-  Group group = Group::kVisible;
+  grading::Group group = grading::Group::kVisible;
   int failed = 0;                        ///< number of students who did not pass it fully
   std::map<std::string, int> classes{};  ///< how many of them by class: "compile", "crash", "timeout", ...
   /// How many of them were asked what: "Is S never moved?"
@@ -97,7 +97,7 @@ struct ExerciseStatistics {
 
 /// "compile", "crash", "timeout", "memory", "output", "protocol", "security", "non-finite", "shape",
 /// "wrong" or "not run", for a check that did not pass.
-[[nodiscard]] std::string classOf(const CheckResult& check, const GradeResult& whole);
+[[nodiscard]] std::string classOf(const grading::CheckResult& check, const grading::GradeResult& whole);
 
 /// The question at the end of a message, after the input: "Is S never moved?"; empty if there is none.
 [[nodiscard]] std::string questionOf(const std::string& message);
@@ -105,4 +105,4 @@ struct ExerciseStatistics {
 /// The median; for an even count the mean of the middle two; 0 if empty.
 [[nodiscard]] double medianOf(std::vector<double> values);
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

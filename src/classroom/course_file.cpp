@@ -14,7 +14,7 @@
 #include "classroom/platform_time.h"
 #include "classroom/submission_folder.h"
 
-namespace rex::grading {
+namespace rex::classroom {
 namespace {
 
 namespace fs = std::filesystem;
@@ -112,9 +112,9 @@ void readStudentRows(const fs::path& file, RosterReader& roster) {
 /// Reads one course file.
 class CourseReader {
  public:
-  CourseReader(const fs::path& file, const std::vector<ExerciseInfo>& exercises)
+  CourseReader(const fs::path& file, const std::vector<submission::ExerciseInfo>& exercises)
       : folder_(file.parent_path()), top_(TomlTable::read(file, "the course file", "a course file")) {
-    for (const ExerciseInfo& exercise : exercises) exercises_.push_back(exercise.name);
+    for (const submission::ExerciseInfo& exercise : exercises) exercises_.push_back(exercise.name);
   }
 
   Course read() {
@@ -245,7 +245,7 @@ std::vector<std::string> Course::members(const std::string& group) const {
   return ids;
 }
 
-Course readCourse(const fs::path& file, const std::vector<ExerciseInfo>& exercises) {
+Course readCourse(const fs::path& file, const std::vector<submission::ExerciseInfo>& exercises) {
   return CourseReader(file, exercises).read();
 }
 
@@ -253,4 +253,4 @@ std::string shownName(const CourseStudent& student) {
   return student.name.empty() ? student.id : student.name;
 }
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

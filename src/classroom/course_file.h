@@ -10,7 +10,7 @@
 #include "classroom/late_policy.h"
 #include "submission/exercise_info.h"
 
-namespace rex::grading {
+namespace rex::classroom {
 
 /// One person on the roster.
 struct CourseStudent {
@@ -51,9 +51,9 @@ struct Course {
 /// Paths in the file are relative to its folder. Throws Error with file, line and column for malformed
 /// files, unknown exercises, extensions for nobody, and students without id or with that of another.
 [[nodiscard]] Course readCourse(const std::filesystem::path& file,
-                                const std::vector<ExerciseInfo>& exercises);
+                                const std::vector<submission::ExerciseInfo>& exercises);
 
 /// A name as people write it: "Zoe Müller", or the id if none is known.
 [[nodiscard]] std::string shownName(const CourseStudent& student);
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

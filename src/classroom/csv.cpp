@@ -8,7 +8,7 @@
 #include "base/text_file.h"
 #include "classroom/gradebook_text.h"
 
-namespace rex::grading {
+namespace rex::classroom {
 namespace {
 
 // Quoted where needed, else as it was: Moodle compares what it reads back.
@@ -125,4 +125,4 @@ std::string CsvTable::csv() const {
   return all;
 }
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace rex::grading {
+namespace rex::classroom {
 
 /// One line of a CSV file (RFC 4180, but ending in LF). Fields that a spreadsheet would take for a formula
 /// are prefixed with ' (csvField()).
@@ -61,4 +61,4 @@ class CsvTable {
   std::vector<CsvRow> rows_{};
 };
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

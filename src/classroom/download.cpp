@@ -19,7 +19,10 @@
 #include "classroom/gradebook.h"
 #include "classroom/gradebook_text.h"
 
-namespace rex::grading {
+namespace rex::classroom {
+
+using submission::ExerciseInfo;
+
 namespace {
 
 constexpr const char* kNotTakenHeadings = "student\texercise\twhy";
@@ -64,7 +67,7 @@ constexpr const char* kMoodleMark = "_assignsubmission_";
 
 bool isExerciseName(const std::vector<ExerciseInfo>& exercises, const std::string& name) {
   try {
-    return !findExercise(exercises, name).name.empty();
+    return !submission::findExercise(exercises, name).name.empty();
   } catch (const Error&) {
     return false;
   }
@@ -391,4 +394,4 @@ bool isSourceName(const std::string& name) {
   return ending == ".cpp" || ending == ".cc" || ending == ".cxx" || ending == ".c++";
 }
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

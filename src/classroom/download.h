@@ -9,7 +9,7 @@
 
 #include "submission/exercise_info.h"
 
-namespace rex::grading {
+namespace rex::classroom {
 
 /// One file of a download.
 struct DownloadedFile {
@@ -50,20 +50,20 @@ struct Layout {
 
 /// The layout of files with these names, paths with slashes. A repository has a name such as "zoe/.git/HEAD".
 [[nodiscard]] Layout layoutOf(const std::vector<std::string>& names,
-                              const std::vector<ExerciseInfo>& exercises);
+                              const std::vector<submission::ExerciseInfo>& exercises);
 
 /// Reads what that importer takes. Throws UsageError for another layout, which says what was found and which
 /// importer fits, and like readDownload().
 [[nodiscard]] Download readDownloadOf(Platform platform, const std::filesystem::path& path,
-                                      const std::vector<ExerciseInfo>& exercises);
+                                      const std::vector<submission::ExerciseInfo>& exercises);
 
 /// Throws the same UsageError unless the folder has that layout.
 void requireLayout(Platform platform, const std::filesystem::path& folder,
-                   const std::vector<ExerciseInfo>& exercises);
+                   const std::vector<submission::ExerciseInfo>& exercises);
 
 /// The layout of a folder, as far as four levels tell it.
 [[nodiscard]] Layout layoutOfFolder(const std::filesystem::path& folder,
-                                    const std::vector<ExerciseInfo>& exercises);
+                                    const std::vector<submission::ExerciseInfo>& exercises);
 
 /// The parts of "Zoe Miller_501_assignsubmission_file_main.cpp", as Moodle names files, or of
 /// "Zoe Miller_501_assignsubmission_file", as it names folders from version 4.1 on; before, they ended in
@@ -118,11 +118,11 @@ struct MoodleOptions {
 /// for each student or each team; the column Group of the worksheet says who is in a team. Members of a group
 /// with the same files are one arrival. Throws UsageError for another layout and a worksheet that is none.
 [[nodiscard]] Arrivals readMoodle(const std::filesystem::path& source, const MoodleOptions& options,
-                                  const std::vector<ExerciseInfo>& exercises);
+                                  const std::vector<submission::ExerciseInfo>& exercises);
 
 /// Reads the zip of "Export Submissions", or its folder. Throws like readMoodle().
 [[nodiscard]] Arrivals readGradescope(const std::filesystem::path& source,
-                                      const std::vector<ExerciseInfo>& exercises);
+                                      const std::vector<submission::ExerciseInfo>& exercises);
 
 struct CloneOptions {
   std::filesystem::path roster{};  ///< CSV file that says who is who; empty: none
@@ -133,10 +133,10 @@ struct CloneOptions {
 };
 /// Reads a folder of clones. Throws like readMoodle().
 [[nodiscard]] Arrivals readClones(const std::filesystem::path& source, const CloneOptions& options,
-                                  const std::vector<ExerciseInfo>& exercises);
+                                  const std::vector<submission::ExerciseInfo>& exercises);
 
 /// Reads NAME/main.cpp, NAME.cpp and NAME.zip. Throws like readMoodle().
 [[nodiscard]] Arrivals readFolders(const std::filesystem::path& source,
-                                   const std::vector<ExerciseInfo>& exercises);
+                                   const std::vector<submission::ExerciseInfo>& exercises);
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

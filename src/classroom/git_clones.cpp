@@ -14,7 +14,7 @@
 #include "classroom/platform_time.h"
 #include "classroom/repository.h"
 
-namespace rex::grading {
+namespace rex::classroom {
 namespace {
 
 namespace fs = std::filesystem;
@@ -271,11 +271,11 @@ class CloneReader {
 }  // namespace
 
 Arrivals readClones(const fs::path& source, const CloneOptions& options,
-                    const std::vector<ExerciseInfo>& exercises) {
+                    const std::vector<submission::ExerciseInfo>& exercises) {
   if (!fs::is_directory(source))
     throw UsageError({.what = "no such folder", .where = {source.string()}, .wanted = "a folder of clones"});
   requireLayout(Platform::kGit, source, exercises);
   return CloneReader(options).read(source);
 }
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

@@ -20,7 +20,10 @@
 #include "submission/student_build.h"
 #include "submission/submission.h"
 
-namespace rex::grading {
+namespace rex::classroom {
+
+using submission::SubmissionOptions;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -54,14 +57,14 @@ void takeWorker(const fs::path& kept, const fs::path& worker) {
 }
 
 // Empty if an entry is missing or has changed since it was written, as after a power cut or a disk failure.
-std::optional<BuiltSubmission> take(const fs::path& kept, const SubmissionOptions& options) {
+std::optional<submission::BuiltSubmission> take(const fs::path& kept, const SubmissionOptions& options) {
   if (!fs::exists(kept / kStart)) return {};
   try {
     const Json start = Json::parse(readTextFile(kept / kStart)), &hashes = start.at(kHashes);
-    BuiltSubmission built{.start = loadResult(kept / kStart),
-                          .source = readTextFile(kept / kSource),
-                          .worker = {},
-                          .parts = start.at(kParts).get<std::vector<std::string>>()};
+    submission::BuiltSubmission built{.start = grading::loadResult(kept / kStart),
+                                      .source = readTextFile(kept / kSource),
+                                      .worker = {},
+                                      .parts = start.at(kParts).get<std::vector<std::string>>()};
     if (hashes != hashesOf(kept, built.parts)) return {};
     const fs::path work = fs::absolute(options.workFolder);
     fs::create_directories(work);
@@ -93,14 +96,14 @@ void makeFolder(const fs::path& folder) {
 }
 
 // The hashes come last, once the hashed files are on the disk.
-void fill(const fs::path& entry, const BuiltSubmission& built, const fs::path& log) {
+void fill(const fs::path& entry, const submission::BuiltSubmission& built, const fs::path& log) {
   fs::create_directory(entry);
   fs::copy_file(built.worker, entry / kWorker);
   for (const std::string& part : built.parts)
     fs::copy_file(workerIn(built.worker.parent_path(), part), workerIn(entry, part));
   writeTextFile(entry / kSource, built.source);
   writeTextFile(entry / kBuildLog, readTextFile(log));
-  Json start = Json::parse(toJson(built.start));
+  Json start = Json::parse(grading::toJson(built.start));
   start[kParts] = built.parts;
   start[kHashes] = hashesOf(entry, built.parts);
   for (const auto& [name, hash] : start[kHashes].items()) bringToDisk(entry / name);
@@ -108,7 +111,7 @@ void fill(const fs::path& entry, const BuiltSubmission& built, const fs::path& l
 }
 
 // The entry is complete and on the disk before it gets its name. If two processes build the same, one wins.
-void keep(const BuiltSubmission& built, const fs::path& kept, const fs::path& log) {
+void keep(const submission::BuiltSubmission& built, const fs::path& kept, const fs::path& log) {
   makeFolder(kept.parent_path());
   const PrivateFolder folder(kept.parent_path());
   fill(folder.path() / "entry", built, log);
@@ -120,12 +123,13 @@ void keep(const BuiltSubmission& built, const fs::path& kept, const fs::path& lo
 
 }  // namespace
 
-BuiltSubmission buildOnce(const KeptWorkers& keeping, const Toolchain& toolchain,
-                          const ExerciseInfo& exercise, const SubmissionOptions& options) {
+submission::BuiltSubmission buildOnce(const KeptWorkers& keeping, const submission::Toolchain& toolchain,
+                                      const submission::ExerciseInfo& exercise,
+                                      const SubmissionOptions& options) {
   const fs::path kept = keeping.folder / keeping.key;
   if (!keeping.recompile)
     if (auto taken = take(kept, options)) return *std::move(taken);
-  BuiltSubmission built = buildSubmission(toolchain, exercise, options);
+  submission::BuiltSubmission built = submission::buildSubmission(toolchain, exercise, options);
   if (built.worker.empty()) return built;
   keep(built, kept, options.job.results.parent_path() / kBuildLog);
   return built;
@@ -134,7 +138,7 @@ BuiltSubmission buildOnce(const KeptWorkers& keeping, const Toolchain& toolchain
 namespace {
 
 std::vector<std::string> rowOf(const Task& task, const std::filesystem::path& out, const LatePolicy& policy) {
-  const GradeResult result = loadResult(resultFolder(out, task) / "results.json");
+  const grading::GradeResult result = grading::loadResult(resultFolder(out, task) / "results.json");
   const auto rule = policy.find(task.exercise);
   const Lateness late = rule == policy.end()
                             ? Lateness{}
@@ -145,8 +149,8 @@ std::vector<std::string> rowOf(const Task& task, const std::filesystem::path& ou
           fmt::format("{}", result.maxScore),
           std::string(toString(result.outcome)),
           fmt::format("{}", late.days),
-          hundredthsText(late.penalty),
-          hundredthsText(std::int64_t{100} * result.score - late.penalty)};
+          reports::hundredthsText(late.penalty),
+          reports::hundredthsText(std::int64_t{100} * result.score - late.penalty)};
 }
 
 }  // namespace
@@ -174,7 +178,7 @@ Collected collect(const std::vector<Task>& tasks, const std::filesystem::path& o
         break;
       case TaskState::kFailed:
         found.failed.push_back(number);
-        row[4] = toString(Outcome::kGraderError);
+        row[4] = toString(grading::Outcome::kGraderError);
         break;
       case TaskState::kDone:
         row = rowOf(task, out, policy);
@@ -241,8 +245,8 @@ void require(const std::string& what, const std::string& found, const std::strin
                .wanted = wanted.substr(0, 12) + ", or a new list"});
 }
 
-void requireInputs(const Task& task, const fs::path& file, const Toolchain& toolchain,
-                   const ExerciseInfo& exercise, const TaskOptions& options) {
+void requireInputs(const Task& task, const fs::path& file, const submission::Toolchain& toolchain,
+                   const submission::ExerciseInfo& exercise, const TaskOptions& options) {
   require(file.string(), sha256(gradedText(file)), task.sourceSha256);
   require("the grader of " + exercise.name, graderFingerprint(toolchain, exercise, options.launcher),
           task.graderSha256);
@@ -277,16 +281,18 @@ std::string inputOf(const fs::path& file, const char* key) {
 // Anyone who can write to the folder of results can make a hash; this one needs the secret.
 std::string hmacOf(const std::string& seal, const std::string& inputs, const Task& task,
                    const fs::path& secret) {
-  return hmacSha256(readCourseSecret(secret), fmt::format("{}\n{}\n{}\n", task.student, inputs, seal));
+  return grading::hmacSha256(grading::readCourseSecret(secret),
+                             fmt::format("{}\n{}\n{}\n", task.student, inputs, seal));
 }
 
 std::string withInputs(const fs::path& results, const Task& task, bool evidence, bool alone,
                        const fs::path& secret) {
   const std::string text = readTextFile(results);
   Json json = Json::parse(text);
-  json["inputs"] = {{"sha256", task.inputsSha256()},      {"source_sha256", task.sourceSha256},
-                    {"grader_sha256", task.graderSha256}, {"result_sha256", sealOf(text, results.string())},
-                    {"level", numberOf(task.level)},      {"secret_id", task.secretId}};
+  json["inputs"] = {
+      {"sha256", task.inputsSha256()},      {"source_sha256", task.sourceSha256},
+      {"grader_sha256", task.graderSha256}, {"result_sha256", grading::sealOf(text, results.string())},
+      {"level", numberOf(task.level)},      {"secret_id", task.secretId}};
   if (task.seed) json["inputs"]["seed"] = *task.seed;
   if (alone) json["inputs"]["alone"] = true;
   if (!secret.empty())
@@ -298,11 +304,12 @@ std::string withInputs(const fs::path& results, const Task& task, bool evidence,
 
 }  // namespace
 
-std::string graderFingerprint(const Toolchain& toolchain, const ExerciseInfo& exercise,
-                              const fs::path& launcher) {
-  std::string text = fmt::format(
-      "{}\n{}\n{}\n{}\n{}\n{}\n", REX_VERSION, exerciseVersion(exercise.definition), toolchain.compiler,
-      join(toolchain.flags, "\n"), join(toolchain.linkFlags, "\n"), sha256(headersOf(toolchain.flags)));
+std::string graderFingerprint(const submission::Toolchain& toolchain,
+                              const submission::ExerciseInfo& exercise, const fs::path& launcher) {
+  std::string text =
+      fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n", REX_VERSION, submission::exerciseVersion(exercise.definition),
+                  toolchain.compiler, join(toolchain.flags, "\n"), join(toolchain.linkFlags, "\n"),
+                  sha256(headersOf(toolchain.flags)));
   std::vector<fs::path> files = toolchain.libraries;
   files.insert(files.end(), {toolchain.grader, toolchain.workerObject});
   for (const fs::path& file : files) text += sha256(readTextFile(file)) + "\n";
@@ -312,7 +319,7 @@ std::string graderFingerprint(const Toolchain& toolchain, const ExerciseInfo& ex
 }
 
 std::string secretIdOf(const fs::path& secret) {
-  return secret.empty() ? "" : courseSecretId(readCourseSecret(secret));
+  return secret.empty() ? "" : grading::courseSecretId(grading::readCourseSecret(secret));
 }
 
 fs::path resultFolder(const fs::path& out, const Task& task) { return out / task.student / task.exercise; }
@@ -324,7 +331,7 @@ TaskState stateOf(const Task& task, const fs::path& out, const fs::path& secret)
     const Json json = Json::parse(readTextFile(file));
     if (json.at("inputs").at("sha256") != task.inputsSha256() && !isHeldBack(task, out))
       return TaskState::kStale;
-    if (json.at("outcome") == toString(Outcome::kGraderError)) return TaskState::kFailed;
+    if (json.at("outcome") == toString(grading::Outcome::kGraderError)) return TaskState::kFailed;
   } catch (const Json::exception&) {
     return TaskState::kStale;  // some other file of that name
   }
@@ -334,7 +341,7 @@ TaskState stateOf(const Task& task, const fs::path& out, const fs::path& secret)
 std::string whyRefused(const Task& task, const fs::path& out, const fs::path& secret) {
   try {
     const fs::path file = resultFolder(out, task) / kResults;
-    const GradeResult result = loadSoundResult(file);
+    const grading::GradeResult result = grading::loadSoundResult(file);
     const std::string hmac = inputOf(file, "result_hmac");
     if (!secret.empty() &&
         hmac != hmacOf(inputOf(file, "result_sha256"), inputOf(file, "sha256"), task, secret))
@@ -354,7 +361,7 @@ std::string whyRefused(const Task& task, const fs::path& out, const fs::path& se
 }
 
 void removeReports(const fs::path& folder) {
-  for (const ReportFormat& format : reportFormats()) fs::remove(folder / format.file);
+  for (const reports::ReportFormat& format : reports::reportFormats()) fs::remove(folder / format.file);
 }
 
 bool isHeldBack(const Task& task, const fs::path& out) {
@@ -384,8 +391,8 @@ std::optional<int> pointsBefore(const Task& task, const fs::path& out) {
   const fs::path file = resultFolder(out, task) / kResults;
   if (!fs::exists(file) || inputOf(file, "source_sha256") != task.sourceSha256) return {};
   try {
-    const GradeResult result = loadSoundResult(file);
-    if (result.exerciseId != task.exercise || result.outcome == Outcome::kGraderError) return {};
+    const grading::GradeResult result = grading::loadSoundResult(file);
+    if (result.exerciseId != task.exercise || result.outcome == grading::Outcome::kGraderError) return {};
     return result.score;
   } catch (const Error&) {
     return {};
@@ -393,7 +400,7 @@ std::optional<int> pointsBefore(const Task& task, const fs::path& out) {
 }
 
 std::optional<int> pointsNow(const Task& task, const fs::path& out) {
-  if (isHeldBack(task, out)) return loadResult(resultFolder(out, task) / kRegraded / kResults).score;
+  if (isHeldBack(task, out)) return grading::loadResult(resultFolder(out, task) / kRegraded / kResults).score;
   return stateOf(task, out) == TaskState::kDone ? pointsBefore(task, out) : std::nullopt;
 }
 
@@ -427,8 +434,8 @@ bool hasEvidence(const Task& task, const fs::path& out) {
   }
 }
 
-GradeResult gradeTask(const Task& task, const Toolchain& toolchain, const ExerciseInfo& exercise,
-                      const TaskOptions& options) {
+grading::GradeResult gradeTask(const Task& task, const submission::Toolchain& toolchain,
+                               const submission::ExerciseInfo& exercise, const TaskOptions& options) {
   const fs::path file = options.out / task.file;
   requireInputs(task, file, toolchain, exercise, options);
   const fs::path results = options.workFolder / "out" / kResults,
@@ -439,18 +446,18 @@ GradeResult gradeTask(const Task& task, const Toolchain& toolchain, const Exerci
   const SubmissionOptions submission{.main = file,
                                      .workFolder = options.workFolder / "work",
                                      .job = {.results = results,
-                                             .seed = task.seed.value_or(GradingJob{}.seed),
+                                             .seed = task.seed.value_or(grading::GradingJob{}.seed),
                                              .sandbox = {.level = task.level, .launcher = options.launcher},
                                              .evidence = keepsEvidence ? evidence : fs::path(),
                                              .secret = options.secret}};
-  const BuiltSubmission built =
+  const submission::BuiltSubmission built =
       options.workers.empty()
-          ? buildSubmission(toolchain, exercise, submission)
+          ? submission::buildSubmission(toolchain, exercise, submission)
           : buildOnce({options.workers, workerKey(task), options.recompile}, toolchain, exercise, submission);
-  GradeResult result = gradeBuilt(built, toolchain, exercise, submission);
+  grading::GradeResult result = submission::gradeBuilt(built, toolchain, exercise, submission);
   const std::optional<int> before = pointsBefore(task, options.out);
   const bool isHeld =
-      !options.accept && before && result.outcome != Outcome::kGraderError && result.score < *before;
+      !options.accept && before && result.outcome != grading::Outcome::kGraderError && result.score < *before;
   const fs::path whole = resultFolder(options.out, task), folder = isHeld ? whole / kRegraded : whole;
   fs::remove_all(whole / kRegraded);
   fs::create_directories(folder);
@@ -469,10 +476,10 @@ GradeResult gradeTask(const Task& task, const Toolchain& toolchain, const Exerci
 
 std::string gradedText(const fs::path& file) {
   try {
-    return readStudentFile(file);
+    return submission::readStudentFile(file);
   } catch (const Error&) {
     return {};
   }
 }
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

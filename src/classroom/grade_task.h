@@ -12,7 +12,7 @@
 #include "submission/exercise_info.h"
 #include "submission/submission.h"
 
-namespace rex::grading {
+namespace rex::classroom {
 
 /// The compiler's output for a submission, next to its result.
 inline constexpr const char* kBuildLog = "build.log";
@@ -28,8 +28,10 @@ struct KeptWorkers {
 /// The result of buildSubmission(), taken from the folder if an earlier call with the same key left it
 /// there, else built and stored. Files that do not compile are built each time, and so are programs with a
 /// wrong hash. Throws Error if the folder cannot be written.
-[[nodiscard]] BuiltSubmission buildOnce(const KeptWorkers& keeping, const Toolchain& toolchain,
-                                        const ExerciseInfo& exercise, const SubmissionOptions& options);
+[[nodiscard]] submission::BuiltSubmission buildOnce(const KeptWorkers& keeping,
+                                                    const submission::Toolchain& toolchain,
+                                                    const submission::ExerciseInfo& exercise,
+                                                    const submission::SubmissionOptions& options);
 
 /// The results found for a list of tasks, which are numbered from 1.
 struct Collected {
@@ -50,7 +52,8 @@ struct Collected {
 /// Hash of everything that grades an exercise here: its description and grader, the compiler and flags for
 /// students' files, the headers they may include, the library they are linked to, the running program
 /// itself, and the sandbox launcher if there is one. Throws Error if one of these files cannot be read.
-[[nodiscard]] std::string graderFingerprint(const Toolchain& toolchain, const ExerciseInfo& exercise,
+[[nodiscard]] std::string graderFingerprint(const submission::Toolchain& toolchain,
+                                            const submission::ExerciseInfo& exercise,
                                             const std::filesystem::path& launcher);
 
 /// The first digits of the hash of the secret in that file, which identify it in results.
@@ -112,10 +115,11 @@ struct TaskOptions {
 /// Reports of an earlier result are removed. If the same text had more points before, that result stays, and
 /// the new one waits in the folder `regraded` (isHeldBack()). Throws Error without writing a result if the
 /// file or the grader is not that of the task.
-[[nodiscard]] GradeResult gradeTask(const Task& task, const Toolchain& toolchain,
-                                    const ExerciseInfo& exercise, const TaskOptions& options);
+[[nodiscard]] grading::GradeResult gradeTask(const Task& task, const submission::Toolchain& toolchain,
+                                             const submission::ExerciseInfo& exercise,
+                                             const TaskOptions& options);
 
 /// The text of a file to grade, or "" if it cannot be read: see Task::sourceSha256.
 [[nodiscard]] std::string gradedText(const std::filesystem::path& file);
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

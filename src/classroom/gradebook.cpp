@@ -13,7 +13,7 @@
 #include "classroom/submission_folder.h"
 #include "grading/results.h"
 
-namespace rex::grading {
+namespace rex::classroom {
 namespace {
 
 constexpr std::int64_t kWhole = 100;  // hundredths of a point
@@ -23,11 +23,11 @@ bool holds(const std::vector<std::string>& names, const std::string& name) {
 }
 
 // The number of a hidden check is all that students learn about it.
-std::string targetOf(const GradeResult& result, const CheckResult& check) {
-  if (check.group == Group::kVisible) return fmt::format("{} [{}]", check.title, check.id);
+std::string targetOf(const grading::GradeResult& result, const grading::CheckResult& check) {
+  if (check.group == grading::Group::kVisible) return fmt::format("{} [{}]", check.title, check.id);
   int number = 0;
-  for (const CheckResult& one : result.checks) {
-    if (one.group == Group::kHidden) ++number;
+  for (const grading::CheckResult& one : result.checks) {
+    if (one.group == grading::Group::kHidden) ++number;
     if (&one == &check) break;
   }
   return fmt::format("Hidden check {}", number);
@@ -162,7 +162,7 @@ class BookMaker {
     if (state == TaskState::kFailed) row.remark = "the grader failed";
     if (state == TaskState::kRefused) row.remark = "the result was changed after the grading";
     if (state != TaskState::kDone) return;
-    row.result = loadResult(resultFolder(source_.out, task) / "results.json");
+    row.result = grading::loadResult(resultFolder(source_.out, task) / "results.json");
     row.status = RowStatus::kGraded;
     row.possible = kWhole * row.result->maxScore;
   }
@@ -222,13 +222,13 @@ class BookMaker {
   void adjustChecks(GradeRow& row) {
     std::map<std::string, std::int64_t> now;
     for (const Adjustment* one : adjustmentsOf(row, true)) {
-      const CheckResult& check = checkOf(*row.result, *one);
+      const grading::CheckResult& check = checkOf(*row.result, *one);
       const std::int64_t most = kWhole * check.maxPoints;
       const std::int64_t before = now.try_emplace(check.id, kWhole * check.points).first->second;
       if (one->points && *one->points > most)
         throw Error({.what = fmt::format("[[adjustment]] of the check '{}'", check.id),
                      .where = one->where,
-                     .found = hundredthsText(*one->points) + " points",
+                     .found = reports::hundredthsText(*one->points) + " points",
                      .wanted = fmt::format("at most {}", check.maxPoints)});
       const std::int64_t after = one->points.value_or(std::clamp(before + one->add, std::int64_t{0}, most));
       if (!one->points && after != before + one->add)
@@ -240,9 +240,10 @@ class BookMaker {
     }
   }
 
-  static const CheckResult& checkOf(const GradeResult& result, const Adjustment& adjustment) {
+  static const grading::CheckResult& checkOf(const grading::GradeResult& result,
+                                             const Adjustment& adjustment) {
     std::vector<std::string> ids;
-    for (const CheckResult& check : result.checks) {
+    for (const grading::CheckResult& check : result.checks) {
       if (check.id == adjustment.check) return check;
       ids.push_back(check.id);
     }
@@ -370,4 +371,4 @@ Course withStudents(Course course, const std::vector<Task>& tasks, const ImportT
   return course;
 }
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

@@ -15,7 +15,7 @@
 #include "grading/results.h"
 #include "reports/report.h"
 
-namespace rex::grading {
+namespace rex::classroom {
 
 /// What became of one exercise of one student.
 enum class RowStatus {
@@ -39,13 +39,13 @@ struct GradeRow {
   CourseStudent student{};
   std::string exercise{};
   RowStatus status = RowStatus::kMissing;
-  std::string remark{};                      ///< why it was not taken, who else handed it in
-  std::optional<std::size_t> task{};         ///< the index of what counts
-  std::string handedInAs{};                  ///< the folder of it, which may be that of another member
-  std::optional<GradeResult> result{};       ///< as graded, without adjustments
-  std::vector<AppliedAdjustment> applied{};  ///< in order: checks, then the final points
-  std::vector<Comment> comments{};           ///< by line
-  std::int64_t points = 0;                   ///< after adjustments of checks, before lateness
+  std::string remark{};                          ///< why it was not taken, who else handed it in
+  std::optional<std::size_t> task{};             ///< the index of what counts
+  std::string handedInAs{};                      ///< the folder of it, which may be that of another member
+  std::optional<grading::GradeResult> result{};  ///< as graded, without adjustments
+  std::vector<AppliedAdjustment> applied{};      ///< in order: checks, then the final points
+  std::vector<Comment> comments{};               ///< by line
+  std::int64_t points = 0;                       ///< after adjustments of checks, before lateness
   std::int64_t possible = 0;
   Lateness late{};
   std::optional<std::int64_t> deadline{};  ///< with extension
@@ -104,7 +104,7 @@ struct GradebookSource {
 [[nodiscard]] std::string totalsCsv(const Gradebook& book);
 
 /// For reports of this result. Empty if there is no grade.
-[[nodiscard]] std::optional<Judgement> judgementOf(const GradeRow& row);
+[[nodiscard]] std::optional<reports::Judgement> judgementOf(const GradeRow& row);
 /// How the grade came about, a line each, for those who grade.
 [[nodiscard]] std::vector<std::string> explain(const GradeRow& row);
 
@@ -117,4 +117,4 @@ struct GradebookSource {
 /// Reads that file; empty if there is none. Throws Error with the line if it is malformed.
 [[nodiscard]] std::vector<NotTaken> readNotTaken(const std::filesystem::path& file);
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

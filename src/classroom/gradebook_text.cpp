@@ -19,7 +19,7 @@
 #include "classroom/platform_time.h"
 #include "classroom/submission_folder.h"
 
-namespace rex::grading {
+namespace rex::classroom {
 namespace {
 
 // Nothing if the text is not UTF-8.
@@ -70,23 +70,23 @@ void clearFeedback(const fs::path& folder) {
 
 }  // namespace
 
-std::optional<Feedback> feedbackOf(const GradeRow& row, const fs::path& out) {
+std::optional<reports::Feedback> feedbackOf(const GradeRow& row, const fs::path& out) {
   if (!row.result) return {};
-  Feedback feedback{.student = shownName(row.student),
-                    .result = *row.result,
-                    .judgement = judgementOf(row),
-                    .source = readTextFile(out / row.handedInAs / row.exercise / "main.cpp")};
+  reports::Feedback feedback{.student = shownName(row.student),
+                             .result = *row.result,
+                             .judgement = judgementOf(row),
+                             .source = readTextFile(out / row.handedInAs / row.exercise / "main.cpp")};
   for (const Comment& comment : row.comments)
     feedback.comments.push_back({comment.line, comment.text, comment.author});
   return feedback;
 }
 
-std::vector<FeedbackFile> evidenceOf(const GradeRow& row, const fs::path& out) {
-  std::vector<FeedbackFile> files;
+std::vector<reports::FeedbackFile> evidenceOf(const GradeRow& row, const fs::path& out) {
+  std::vector<reports::FeedbackFile> files;
   if (!row.result) return files;
   const fs::path folder = out / row.handedInAs / row.exercise;
-  for (const CheckResult& check : row.result->checks) {
-    if (check.group == Group::kHidden) continue;
+  for (const grading::CheckResult& check : row.result->checks) {
+    if (check.group == grading::Group::kHidden) continue;
     for (const std::string& name : {check.picture, check.replay}) {
       const fs::path path(name);
       const bool isBeside = !name.empty() && path.is_relative() && path.lexically_normal() == path &&
@@ -110,11 +110,11 @@ int writeFeedbackFolders(const Gradebook& book, const fs::path& results, const f
     const auto feedback = feedbackOf(row, results);
     if (!feedback) continue;
     fs::create_directories(folder / "checks");
-    const std::vector<FeedbackFile> files = evidenceOf(row, results);
-    for (const FeedbackFile& file : files)
+    const std::vector<reports::FeedbackFile> files = evidenceOf(row, results);
+    for (const reports::FeedbackFile& file : files)
       if (!file.name.ends_with(".png")) replaceTextFile(folder / file.name, file.bytes, "a replay");
     if (fs::is_empty(folder / "checks")) fs::remove(folder / "checks");
-    replaceTextFile(folder / kFeedbackPage, feedbackPage(*feedback, files), "the feedback");
+    replaceTextFile(folder / kFeedbackPage, reports::feedbackPage(*feedback, files), "the feedback");
     ++written;
   }
   return written;
@@ -198,10 +198,10 @@ std::string gradesJson(const Gradebook& book, const Course& course) {
   return visibleJson(json.dump(2, ' ', false, GradesJson::error_handler_t::replace)) + "\n";
 }
 
-}  // namespace rex::grading
+}  // namespace rex::classroom
 
 // Grade books as tables and sentences.
-namespace rex::grading {
+namespace rex::classroom {
 namespace {
 
 std::int64_t changeOf(const GradeRow& row) {
@@ -211,7 +211,7 @@ std::int64_t changeOf(const GradeRow& row) {
 }
 
 std::string optionalText(const std::optional<std::int64_t>& hundredths) {
-  return hundredths ? hundredthsText(*hundredths) : "";
+  return hundredths ? reports::hundredthsText(*hundredths) : "";
 }
 
 // After the deadline, but not late.
@@ -234,14 +234,15 @@ std::string timesText(const GradeRow& row) {
 std::string lateText(const GradeRow& row) {
   if (row.late.days == 0) return "";
   return fmt::format("{} day{} late: {} of {} points are taken away.", row.late.days,
-                     row.late.days == 1 ? "" : "s", hundredthsText(row.late.penalty),
-                     hundredthsText(row.points));
+                     row.late.days == 1 ? "" : "s", reports::hundredthsText(row.late.penalty),
+                     reports::hundredthsText(row.points));
 }
 
 std::string changeText(const AppliedAdjustment& one) {
   const Adjustment& by = one.adjustment;
-  return fmt::format("{}: {} instead of {} points: {} ({}, {})", one.target, hundredthsText(one.after),
-                     hundredthsText(one.before), by.reason, by.author, by.date);
+  return fmt::format("{}: {} instead of {} points: {} ({}, {})", one.target,
+                     reports::hundredthsText(one.after), reports::hundredthsText(one.before), by.reason,
+                     by.author, by.date);
 }
 
 std::vector<std::string> cellsOf(const GradeRow& row) {
@@ -249,13 +250,13 @@ std::vector<std::string> cellsOf(const GradeRow& row) {
   std::vector<std::string> cells = {who.id,    who.name,     who.email,
                                     who.group, row.exercise, std::string(toString(row.status))};
   if (row.result)
-    cells.insert(cells.end(), {fmt::format("{}", row.result->score), hundredthsText(row.possible),
+    cells.insert(cells.end(), {fmt::format("{}", row.result->score), reports::hundredthsText(row.possible),
                                std::string(toString(row.result->outcome))});
   else
-    cells.insert(cells.end(), {"", hundredthsText(row.possible), ""});
-  cells.push_back(row.applied.empty() ? "" : hundredthsText(changeOf(row)));
+    cells.insert(cells.end(), {"", reports::hundredthsText(row.possible), ""});
+  cells.push_back(row.applied.empty() ? "" : reports::hundredthsText(changeOf(row)));
   if (row.result)
-    cells.insert(cells.end(), {fmt::format("{}", row.late.days), hundredthsText(row.late.penalty)});
+    cells.insert(cells.end(), {fmt::format("{}", row.late.days), reports::hundredthsText(row.late.penalty)});
   else
     cells.insert(cells.end(), {"", ""});
   cells.push_back(optionalText(row.final));
@@ -269,9 +270,9 @@ std::vector<std::string> cellsOf(const GradeRow& row) {
 }
 
 void explainChecks(const GradeRow& row, std::vector<std::string>& lines) {
-  for (const CheckResult& check : row.result->checks)
+  for (const grading::CheckResult& check : row.result->checks)
     lines.push_back(fmt::format("  {}/{} {} [{}{}]: {}", check.points, check.maxPoints, check.title, check.id,
-                                check.group == Group::kHidden ? ", hidden" : "",
+                                check.group == grading::Group::kHidden ? ", hidden" : "",
                                 check.status ? toString(*check.status) : "not run"));
 }
 
@@ -308,19 +309,19 @@ std::string totalsCsv(const Gradebook& book) {
       cells.push_back(row == nullptr ? "" : optionalText(row->final));
     }
     cells.push_back(optionalText(sum.total));
-    cells.push_back(hundredthsText(sum.possible));
+    cells.push_back(reports::hundredthsText(sum.possible));
     text += csvLine(cells);
   }
   return text;
 }
 
-std::optional<Judgement> judgementOf(const GradeRow& row) {
+std::optional<reports::Judgement> judgementOf(const GradeRow& row) {
   if (!row.final) return {};
-  Judgement judgement{.student = shownName(row.student),
-                      .lateness = timesText(row) + (row.late.days > 0 ? " " : "") + lateText(row),
-                      .penalty = row.late.penalty,
-                      .final = *row.final,
-                      .possible = row.possible};
+  reports::Judgement judgement{.student = shownName(row.student),
+                               .lateness = timesText(row) + (row.late.days > 0 ? " " : "") + lateText(row),
+                               .penalty = row.late.penalty,
+                               .final = *row.final,
+                               .possible = row.possible};
   for (const AppliedAdjustment& one : row.applied) judgement.changes.push_back(changeText(one));
   return judgement;
 }
@@ -342,10 +343,10 @@ std::vector<std::string> explain(const GradeRow& row) {
   for (const AppliedAdjustment& one : row.applied)
     if (one.adjustment.check.empty())
       lines.push_back(fmt::format("Adjusted, {}: {}", toString(one.adjustment.where), changeText(one)));
-  lines.push_back(row.final ? fmt::format("Final: {} of {} points", hundredthsText(*row.final),
-                                          hundredthsText(row.possible))
-                            : fmt::format("No grade (of {} points)", hundredthsText(row.possible)));
+  lines.push_back(row.final ? fmt::format("Final: {} of {} points", reports::hundredthsText(*row.final),
+                                          reports::hundredthsText(row.possible))
+                            : fmt::format("No grade (of {} points)", reports::hundredthsText(row.possible)));
   return lines;
 }
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

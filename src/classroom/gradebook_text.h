@@ -9,7 +9,7 @@
 #include "classroom/gradebook.h"
 #include "reports/feedback_page.h"
 
-namespace rex::grading {
+namespace rex::classroom {
 
 /// The text in Unicode's composed form (NFC), so that an umlaut is one character wherever it was typed. A
 /// text that is not UTF-8 comes back as it is.
@@ -22,11 +22,13 @@ namespace rex::grading {
 
 /// What the student of a row gets back; empty if nothing was graded. Reads main.cpp below `out`, the folder
 /// of results. Throws Error if it cannot be read.
-[[nodiscard]] std::optional<Feedback> feedbackOf(const GradeRow& row, const std::filesystem::path& out);
+[[nodiscard]] std::optional<reports::Feedback> feedbackOf(const GradeRow& row,
+                                                          const std::filesystem::path& out);
 
 /// Pictures and replays of the visible checks of a row, from the folder that was graded for it. A name in
 /// the result that leaves that folder is ignored.
-[[nodiscard]] std::vector<FeedbackFile> evidenceOf(const GradeRow& row, const std::filesystem::path& out);
+[[nodiscard]] std::vector<reports::FeedbackFile> evidenceOf(const GradeRow& row,
+                                                            const std::filesystem::path& out);
 
 /// Writes OUT/STUDENT/EXERCISE/feedback.html with its replays for each row that has a result, and removes
 /// that of an earlier export for the others; returns the number of pages. Throws Error for a student whose
@@ -37,4 +39,4 @@ int writeFeedbackFolders(const Gradebook& book, const std::filesystem::path& res
 /// The whole book for programs: schema rex-grades/1, share/grading/grades.schema.json.
 [[nodiscard]] std::string gradesJson(const Gradebook& book, const Course& course);
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

@@ -14,7 +14,7 @@
 #include "classroom/gradebook_text.h"
 #include "classroom/submission_folder.h"
 
-namespace rex::grading {
+namespace rex::classroom {
 namespace {
 
 bool isSame(const std::string& a, const std::string& b) { return !a.empty() && caseless(a) == caseless(b); }
@@ -265,4 +265,4 @@ std::string importTableText(const ImportTable& table) {
          "\n";
 }
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

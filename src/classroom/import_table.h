@@ -9,7 +9,7 @@
 
 #include "classroom/download.h"
 
-namespace rex::grading {
+namespace rex::classroom {
 
 /// The name of the table that `rex import` writes beside the students' folders.
 inline constexpr const char* kImportTable = "import.json";
@@ -95,4 +95,4 @@ class ImportNames {
   int byNameAlone_ = 0;
 };
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

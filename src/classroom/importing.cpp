@@ -14,7 +14,7 @@
 #include "classroom/submission_folder.h"
 #include "submission/student_build.h"
 
-namespace rex::grading {
+namespace rex::classroom {
 namespace {
 
 namespace fs = std::filesystem;
@@ -225,7 +225,7 @@ class Importer {
   std::optional<std::string> presentHash(const fs::path& file) const {
     if (fs::symlink_status(file).type() == fs::file_type::not_found) return {};
     try {
-      return sha256(readStudentFile(file));
+      return sha256(submission::readStudentFile(file));
     } catch (const Error&) {
       return "";
     }
@@ -336,4 +336,4 @@ ImportReport importArrivals(const Arrivals& arrivals, const PickOptions& options
   return Importer(arrivals, options, handedIn).run();
 }
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

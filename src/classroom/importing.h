@@ -8,7 +8,7 @@
 #include "classroom/import_table.h"
 #include "classroom/student_files.h"
 
-namespace rex::grading {
+namespace rex::classroom {
 
 /// What an import did.
 struct ImportReport {
@@ -30,4 +30,4 @@ struct ImportReport {
 [[nodiscard]] ImportReport importArrivals(const Arrivals& arrivals, const PickOptions& options,
                                           const std::filesystem::path& handedIn);
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/toml_table.h"
 
-namespace rex::grading {
+namespace rex::classroom {
 namespace {
 
 constexpr std::int64_t kDay = 86400;
@@ -132,4 +132,4 @@ std::vector<std::string> unknownExtensions(const LatePolicy& policy,
   return sentences;
 }
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

@@ -9,7 +9,7 @@
 
 #include "base/toml_table.h"
 
-namespace rex::grading {
+namespace rex::classroom {
 
 /// When an exercise is given out and due, and the penalty for lateness. Times in seconds since 1970 in UTC.
 struct LateRule {
@@ -60,4 +60,4 @@ inline const std::vector<std::string> kCourseKeys = {
 [[nodiscard]] std::vector<std::string> unknownExtensions(const LatePolicy& policy,
                                                          const std::vector<std::string>& students);
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

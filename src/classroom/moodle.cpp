@@ -16,7 +16,7 @@
 #include "classroom/platform_time.h"
 #include "classroom/submission_folder.h"
 
-namespace rex::grading {
+namespace rex::classroom {
 
 /// Headings of Moodle's grading worksheet in English, German and French; case does not count.
 inline const CsvTable::Headings kMoodleIdentifier = {"Identifier", "ID", "Identifiant"},
@@ -257,7 +257,7 @@ class MoodleReader {
 }  // namespace
 
 Arrivals readMoodle(const std::filesystem::path& source, const MoodleOptions& options,
-                    const std::vector<ExerciseInfo>& exercises) {
+                    const std::vector<submission::ExerciseInfo>& exercises) {
   Download download = readDownloadOf(Platform::kMoodle, source, exercises);
   return MoodleReader(readWorksheet(options)).read(std::move(download), options);
 }
@@ -315,7 +315,7 @@ class WorksheetWriter {
                    .wanted = fmt::format("one; the first is at {}", first->second)});
     const GradeRow* graded = book_.row(id, exercise_);
     if (graded == nullptr || !graded->final) return;
-    table_.set(row, kMoodleGrade, hundredthsText(scaled(*graded, row)));
+    table_.set(row, kMoodleGrade, reports::hundredthsText(scaled(*graded, row)));
   }
 
   std::int64_t scaled(const GradeRow& graded, std::size_t row) const {
@@ -333,8 +333,8 @@ class WorksheetWriter {
     const auto most = static_cast<std::int64_t>(100 * maximum.value_or(0) + 0.5);
     if (!maximum || most == graded.possible) return *graded.final;
     if (!scale_ || graded.possible == 0)
-      refuse(shown,
-             fmt::format("{}, the points of the exercise, or --scale", hundredthsText(graded.possible)));
+      refuse(shown, fmt::format("{}, the points of the exercise, or --scale",
+                                reports::hundredthsText(graded.possible)));
     return (*graded.final * most + graded.possible / 2) / graded.possible;
   }
 
@@ -386,4 +386,4 @@ std::string moodleFolder(const WorksheetRow& row) {
   return fmt::format("{}_{}_assignsubmission_file_", name.empty() ? "Student" : name, row.number);
 }
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

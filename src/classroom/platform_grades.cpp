@@ -15,11 +15,11 @@
 #include "classroom/gradebook_text.h"
 #include "classroom/platform_time.h"
 
-namespace rex::grading {
+namespace rex::classroom {
 namespace {
 
 std::string finalText(const GradeRow* row) {
-  return row != nullptr && row->final ? hundredthsText(*row->final) : "";
+  return row != nullptr && row->final ? reports::hundredthsText(*row->final) : "";
 }
 
 // What students have gets a number; what they lack stays empty, and is told.
@@ -52,8 +52,8 @@ PlatformGrades gradescopeGrades(const Gradebook& book) {
     std::vector<std::string> cells = {shownName(sum.student), sisOf(sum.student), sum.student.email};
     for (const std::string& exercise : book.exercises)
       cells.push_back(finalText(book.row(sum.student.id, exercise)));
-    cells.push_back(sum.total ? hundredthsText(*sum.total) : "");
-    cells.push_back(hundredthsText(sum.possible));
+    cells.push_back(sum.total ? reports::hundredthsText(*sum.total) : "");
+    cells.push_back(reports::hundredthsText(sum.possible));
     grades.csv += csvLine(cells);
   }
   tellEmpty(book, grades);
@@ -66,7 +66,7 @@ PlatformGrades canvasGrades(const Gradebook& book) {
                            possible = {"    Points Possible", "", "", "", ""};
   for (const std::string& exercise : book.exercises) {
     headings.push_back(exercise);
-    possible.push_back(hundredthsText(possibleOf(book, exercise)));
+    possible.push_back(reports::hundredthsText(possibleOf(book, exercise)));
   }
   PlatformGrades grades{.csv = csvLine(headings) + csvLine(possible)};
   for (const StudentTotal& sum : book.totals) {
@@ -160,7 +160,8 @@ std::vector<GradescopeEntry> readMetadata(const DownloadedFile& file, const std:
 
 }  // namespace
 
-Arrivals readGradescope(const std::filesystem::path& source, const std::vector<ExerciseInfo>& exercises) {
+Arrivals readGradescope(const std::filesystem::path& source,
+                        const std::vector<submission::ExerciseInfo>& exercises) {
   Download download = readDownloadOf(Platform::kGradescope, source, exercises);
   const auto metadata = std::find_if(download.files.begin(), download.files.end(), [](const auto& file) {
     return !isOfSystem(file.name) && std::filesystem::path(file.name).filename() == kGradescopeMetadata;
@@ -208,4 +209,4 @@ Arrivals readGradescope(const std::filesystem::path& source, const std::vector<E
   return found;
 }
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

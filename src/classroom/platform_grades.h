@@ -6,7 +6,7 @@
 
 #include "classroom/gradebook.h"
 
-namespace rex::grading {
+namespace rex::classroom {
 
 /// A table of grades in the columns of a platform, and what its reader should know.
 struct PlatformGrades {
@@ -49,4 +49,4 @@ struct Worksheet {
 /// "Zoe Müller_501_assignsubmission_file_", as Moodle's reader of feedback zips takes it apart.
 [[nodiscard]] std::string moodleFolder(const WorksheetRow& row);
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

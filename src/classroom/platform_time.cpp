@@ -16,7 +16,7 @@
 #include "classroom/csv.h"
 #include "classroom/gradebook_text.h"
 
-namespace rex::grading {
+namespace rex::classroom {
 namespace {
 
 using namespace std::chrono;
@@ -228,7 +228,7 @@ std::string PlatformZone::textOf(std::int64_t instant) const {
 }
 
 SubmissionTimes::SubmissionTimes(const std::filesystem::path& file,
-                                 const std::vector<ExerciseInfo>& exercises) {
+                                 const std::vector<submission::ExerciseInfo>& exercises) {
   const CsvTable table(file, "a table of submission times");
   table.require({"student"}), table.require({"submitted"});
   table.requireWholeRows();
@@ -248,7 +248,7 @@ SubmissionTimes::SubmissionTimes(const std::filesystem::path& file,
                  "a time with its zone, such as 2026-11-20T23:59:00+01:00");
     std::string name;
     try {
-      if (!exercise.empty()) name = findExercise(exercises, exercise).name;
+      if (!exercise.empty()) name = submission::findExercise(exercises, exercise).name;
     } catch (const Error& error) {
       throw fail(error.parts().what, "", error.parts().wanted);
     }
@@ -264,4 +264,4 @@ std::optional<std::int64_t> SubmissionTimes::of(const std::string& student,
   return std::nullopt;
 }
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

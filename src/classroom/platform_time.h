@@ -10,7 +10,7 @@
 
 #include "submission/exercise_info.h"
 
-namespace rex::grading {
+namespace rex::classroom {
 
 /// A time as a platform writes it, perhaps without a zone.
 struct PlatformTime {
@@ -51,7 +51,7 @@ class SubmissionTimes {
   /// Reads a CSV file with the columns student, submitted (a time with its zone, or empty) and, if
   /// exercises differ, exercise. Throws Error with the line for anything else and for two times of one
   /// submission.
-  SubmissionTimes(const std::filesystem::path& file, const std::vector<ExerciseInfo>& exercises);
+  SubmissionTimes(const std::filesystem::path& file, const std::vector<submission::ExerciseInfo>& exercises);
 
   /// Seconds since 1970 in UTC; empty if the file does not have it.
   [[nodiscard]] std::optional<std::int64_t> of(const std::string& student, const std::string& exercise) const;
@@ -60,4 +60,4 @@ class SubmissionTimes {
   std::map<std::pair<std::string, std::string>, std::int64_t> times_;  ///< exercise "": all
 };
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

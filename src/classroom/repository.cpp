@@ -11,7 +11,7 @@
 #include "base/process.h"
 #include "base/text_file.h"
 
-namespace rex::grading {
+namespace rex::classroom {
 namespace {
 
 namespace fs = std::filesystem;
@@ -229,4 +229,4 @@ std::vector<std::string> Repository::contentsOf(const std::vector<CommittedFile>
   return contents;
 }
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

@@ -11,7 +11,7 @@
 #include "base/error.h"
 #include "base/folders.h"
 
-namespace rex::grading {
+namespace rex::classroom {
 
 struct Commit {
   std::string id{};
@@ -58,4 +58,4 @@ class Repository {
   std::unique_ptr<PrivateFolder> ours_;
 };
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

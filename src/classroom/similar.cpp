@@ -13,7 +13,7 @@
 #include "base/text.h"
 #include "submission/cpp_text.h"
 
-namespace rex::grading {
+namespace rex::classroom {
 namespace {
 
 bool isWordLetter(char c) {
@@ -42,15 +42,15 @@ std::uint64_t mixed(std::uint64_t h) {
   return h ^ (h >> 29);
 }
 
-std::uint64_t symbolOf(const CppText& text, std::size_t i) {
+std::uint64_t symbolOf(const submission::CppText& text, std::size_t i) {
   static const std::set<std::string_view> kKeywords = {
       "auto",   "bool",  "break",     "case", "catch",    "class",    "const",  "constexpr", "continue",
       "delete", "do",    "double",    "else", "enum",     "false",    "float",  "for",       "if",
       "int",    "long",  "namespace", "new",  "return",   "static",   "struct", "switch",    "template",
       "this",   "throw", "true",      "try",  "typename", "unsigned", "using",  "void",      "while"};
   std::string_view symbol = text.at(i);
-  if (text.isKind(i, TokenKind::kNumber)) symbol = "0";
-  if (text.isKind(i, TokenKind::kText)) symbol = "\"";
+  if (text.isKind(i, submission::TokenKind::kNumber)) symbol = "0";
+  if (text.isKind(i, submission::TokenKind::kText)) symbol = "\"";
   if (text.isName(i) && !kKeywords.contains(symbol)) symbol = "a";
   std::uint64_t hash = 14695981039346656037u;
   for (const char c : symbol) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
@@ -60,8 +60,8 @@ std::uint64_t symbolOf(const CppText& text, std::size_t i) {
 // Of each window of grams, the last one with the smallest hash is chosen.
 Fingerprints fingerprintsOf(const std::string& source) {
   Fingerprints prints;
-  const CppText text(source);
-  const TextPlaces places(source);
+  const submission::CppText text(source);
+  const submission::TextPlaces places(source);
   for (std::size_t i = 0; i < text.size(); ++i) {
     prints.symbols.push_back(symbolOf(text, i));
     prints.lines.push_back(places.line(text[i].start));
@@ -267,4 +267,4 @@ std::string similarPage(const std::string& exercise, const std::vector<ComparedT
   return html + "</body>\n</html>\n";
 }
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace rex::grading {
+namespace rex::classroom {
 
 /// A submission to be compared with others.
 struct ComparedText {
@@ -47,4 +47,4 @@ struct SimilarPair {
 [[nodiscard]] std::string similarPage(const std::string& exercise, const std::vector<ComparedText>& texts,
                                       std::string_view handedOut, const std::vector<SimilarPair>& pairs);
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

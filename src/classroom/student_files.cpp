@@ -8,7 +8,7 @@
 #include "base/escape.h"
 #include "classroom/archive.h"
 
-namespace rex::grading {
+namespace rex::classroom {
 namespace {
 
 namespace fs = std::filesystem;
@@ -106,7 +106,7 @@ class FilePicker {
   std::string exerciseAround(const std::string& name) const {
     for (fs::path folder = fs::path(name).parent_path(); !folder.empty(); folder = folder.parent_path()) {
       try {
-        return findExercise(options_.exercises, folder.filename().string()).name;
+        return submission::findExercise(options_.exercises, folder.filename().string()).name;
       } catch (const Error&) {
         continue;
       }
@@ -183,4 +183,4 @@ PickedFiles pickFiles(const std::vector<DownloadedFile>& files, const PickOption
   return FilePicker(options).pick(files);
 }
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

@@ -7,7 +7,7 @@
 #include "classroom/download.h"
 #include "submission/exercise_info.h"
 
-namespace rex::grading {
+namespace rex::classroom {
 
 /// One main.cpp that a student handed in.
 struct PickedFile {
@@ -29,7 +29,7 @@ struct PickedFiles {
 
 /// How to find exercises.
 struct PickOptions {
-  const std::vector<ExerciseInfo>& exercises;
+  const std::vector<submission::ExerciseInfo>& exercises;
   std::string exercise{};  ///< full name of the only one wanted, also for files outside of exercise folders
   std::map<std::string, std::string>
       handedOut{};  ///< texts by exercise; a file that is the same is not taken
@@ -41,4 +41,4 @@ struct PickOptions {
 /// neither is taken. Never throws for what a student handed in.
 [[nodiscard]] PickedFiles pickFiles(const std::vector<DownloadedFile>& files, const PickOptions& options);
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

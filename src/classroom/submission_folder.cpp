@@ -18,7 +18,7 @@
 #include "classroom/import_table.h"
 #include "submission/student_build.h"
 
-namespace rex::grading {
+namespace rex::classroom {
 namespace {
 
 bool isSameText(const std::string& a, const std::string& b) {
@@ -91,8 +91,8 @@ std::string nameOf(fs::file_type type) {
 /// Collects the contents of one folder of submissions.
 class HandInReader {
  public:
-  HandInReader(const std::vector<ExerciseInfo>& exercises, const std::string& only)
-      : exercises_(exercises), only_(only.empty() ? only : findExercise(exercises, only).name) {}
+  HandInReader(const std::vector<submission::ExerciseInfo>& exercises, const std::string& only)
+      : exercises_(exercises), only_(only.empty() ? only : submission::findExercise(exercises, only).name) {}
 
   HandIns read(const fs::path& path) {
     const OpenedFolder folder(path);
@@ -217,7 +217,7 @@ class HandInReader {
 
   bool isExercise(const std::string& name) const {
     try {
-      return !findExercise(exercises_, name).name.empty();
+      return !submission::findExercise(exercises_, name).name.empty();
     } catch (const UsageError&) {
       return false;
     }
@@ -268,7 +268,7 @@ class HandInReader {
   // The full name of the exercise, or empty with a complaint.
   std::string exerciseOf(const fs::path& folder) {
     try {
-      return findExercise(exercises_, folder.filename().string()).name;
+      return submission::findExercise(exercises_, folder.filename().string()).name;
     } catch (const UsageError& error) {
       ErrorParts parts = error.parts();
       parts.where = {folder.string()};
@@ -289,7 +289,7 @@ class HandInReader {
                 .from = folder.path() / kFile,
                 .submitted = folder.modifiedAt()};
     try {
-      StudentFile read = readStudentFile(folder, kFile);
+      submission::StudentFile read = submission::readStudentFile(folder, kFile);
       file.text = std::move(read.text);
       file.submitted = read.modifiedAt;
     } catch (const Error& error) {
@@ -301,7 +301,7 @@ class HandInReader {
     found_.files.push_back(std::move(file));
   }
 
-  const std::vector<ExerciseInfo>& exercises_;
+  const std::vector<submission::ExerciseInfo>& exercises_;
   std::string only_;
   HandIns found_{};
   std::string student_{}, exercise_{};  // of complaints, if known
@@ -359,9 +359,9 @@ std::string whyNoStudentName(const std::string& name) {
   return {};
 }
 
-HandIns readHandIns(const fs::path& folder, const std::vector<ExerciseInfo>& exercises,
+HandIns readHandIns(const fs::path& folder, const std::vector<submission::ExerciseInfo>& exercises,
                     const std::string& only) {
   return HandInReader(exercises, only).read(folder);
 }
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

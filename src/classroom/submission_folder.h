@@ -11,7 +11,7 @@
 #include "classroom/import_table.h"
 #include "submission/exercise_info.h"
 
-namespace rex::grading {
+namespace rex::classroom {
 
 /// The id of the student of the course who is this person of a platform: by id, number, e-mail, name of the
 /// folder or user name, in this order, else by a full name that only one has. Case does not count, nor how
@@ -67,7 +67,8 @@ struct HandIns {
 /// read. A file that is not accepted never hides another; of two spellings of one name neither is accepted.
 /// Throws Error if `folder` itself cannot be read.
 [[nodiscard]] HandIns readHandIns(const std::filesystem::path& folder,
-                                  const std::vector<ExerciseInfo>& exercises, const std::string& only = {});
+                                  const std::vector<submission::ExerciseInfo>& exercises,
+                                  const std::string& only = {});
 
 /// Writes the copy of a file that is graded, OUT/STUDENT/EXERCISE/main.cpp, and returns its path relative
 /// to `out`. For a file that could not be read, the copy does not compile and says why. Throws Error if it
@@ -84,4 +85,4 @@ void requireNameOfResults(const std::filesystem::path& file, const std::filesyst
 /// can.
 [[nodiscard]] std::string whyNoStudentName(const std::string& name);
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

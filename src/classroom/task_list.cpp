@@ -8,7 +8,7 @@
 #include "base/text_file.h"
 #include "classroom/submission_folder.h"
 
-namespace rex::grading {
+namespace rex::classroom {
 namespace {
 
 constexpr const char* kHeadings =
@@ -104,4 +104,4 @@ std::vector<Task> readManifest(const std::filesystem::path& file) {
   return tasks;
 }
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

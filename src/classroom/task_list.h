@@ -8,7 +8,7 @@
 
 #include "sandbox/confinement.h"
 
-namespace rex::grading {
+namespace rex::classroom {
 
 /// One grading task: a student's file for one exercise, and everything that its result depends on.
 struct Task {
@@ -34,4 +34,4 @@ struct Task {
 /// Reads it back. Throws Error with the line if the text is malformed.
 [[nodiscard]] std::vector<Task> readManifest(const std::filesystem::path& file);
 
-}  // namespace rex::grading
+}  // namespace rex::classroom

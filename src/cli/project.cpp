@@ -33,14 +33,14 @@ Project findProjectOfInstructor() {
 }
 
 std::vector<std::string> Project::exerciseNames() const {
-  std::vector<std::string> names = grading::exerciseNames(files() / "exercises");
+  std::vector<std::string> names = submission::exerciseNames(files() / "exercises");
   if (!installed.empty())
     std::erase_if(names, [&](const std::string& one) { return !fs::is_directory(root / "exercises" / one); });
   return names;
 }
 
 ExerciseInfo Project::read(const std::string& name) const {
-  ExerciseInfo exercise = grading::readExerciseInfo(shown(files() / "exercises" / name));
+  ExerciseInfo exercise = submission::readExerciseInfo(shown(files() / "exercises" / name));
   exercise.folder = shown(root / "exercises" / name);
   return exercise;
 }
@@ -63,7 +63,7 @@ std::string Project::exerciseName(std::string_view name) const {
     throw UsageError({.what = "there are no exercises here",
                       .where = {root.string()},
                       .wanted = "a course folder; `rex init course` makes one"});
-  return grading::findExercise(known, name).name;
+  return submission::findExercise(known, name).name;
 }
 
 ExerciseInfo Project::exercise(std::string_view name) const { return read(exerciseName(name)); }
@@ -92,9 +92,9 @@ std::string shown(const fs::path& path) {
   return relative.starts_with("..") ? path.string() : relative;
 }
 
-grading::Toolchain prepare(const Project& project, const ExerciseInfo& exercise) {
+submission::Toolchain prepare(const Project& project, const ExerciseInfo& exercise) {
   bringUpToDate(project, {exercise.name + "_ready"}, "the grader of " + exercise.name);
-  grading::Toolchain toolchain = grading::readToolchain(project.buildFolder(exercise) / "build.json");
+  submission::Toolchain toolchain = submission::readToolchain(project.buildFolder(exercise) / "build.json");
   if (!project.installed.empty()) toolchain.prefix = project.root / kPrefixFile;
   return toolchain;
 }

@@ -10,7 +10,7 @@
 
 namespace rex::cli {
 
-using grading::ExerciseInfo;
+using submission::ExerciseInfo;
 
 /// The absolute folders that commands work with: the source tree and its build, or a course folder and the
 /// installed rex.
@@ -59,7 +59,7 @@ inline constexpr const char* kNoCourseHere =
     "Other commands: rex --help";
 
 /// Files of a course folder: the one that says what was handed out, which marks the folder, and the one that
-/// programs are compiled from, see grading::prefixFlags().
+/// programs are compiled from, see submission::prefixFlags().
 inline constexpr const char *kCourseFile = ".rex/course.json", *kPrefixFile = ".rex/prefix.h";
 
 /// The path as a user in the current folder would type it.
@@ -67,6 +67,6 @@ inline constexpr const char *kCourseFile = ".rex/course.json", *kPrefixFile = ".
 
 /// How to build and grade student code of an exercise; first builds what that needs. Throws like
 /// bringUpToDate() and readToolchain().
-[[nodiscard]] grading::Toolchain prepare(const Project& project, const ExerciseInfo& exercise);
+[[nodiscard]] submission::Toolchain prepare(const Project& project, const ExerciseInfo& exercise);
 
 }  // namespace rex::cli

@@ -13,9 +13,9 @@ namespace rex::cli {
 
 namespace {
 
-const grading::ReportFormat& reportFormat(const std::string& name) {
+const reports::ReportFormat& reportFormat(const std::string& name) {
   std::vector<std::string> known;
-  for (const grading::ReportFormat& format : grading::reportFormats()) {
+  for (const reports::ReportFormat& format : reports::reportFormats()) {
     if (format.name == name) return format;
     known.emplace_back(format.name);
   }
@@ -27,8 +27,8 @@ const grading::ReportFormat& reportFormat(const std::string& name) {
 
 }  // namespace
 
-std::vector<grading::ReportFormat> reportsOf(const std::string& names) {
-  std::vector<grading::ReportFormat> formats;
+std::vector<reports::ReportFormat> reportsOf(const std::string& names) {
+  std::vector<reports::ReportFormat> formats;
   for (std::size_t at = 0; at < names.size();) {
     const std::size_t end = std::min(names.find(',', at), names.size());
     formats.push_back(reportFormat(names.substr(at, end - at)));
@@ -37,9 +37,9 @@ std::vector<grading::ReportFormat> reportsOf(const std::string& names) {
   return formats;
 }
 
-bool contains(const std::vector<grading::ReportFormat>& formats, const grading::ReportFormat& format) {
+bool contains(const std::vector<reports::ReportFormat>& formats, const reports::ReportFormat& format) {
   return std::ranges::any_of(formats,
-                             [&](const grading::ReportFormat& one) { return one.name == format.name; });
+                             [&](const reports::ReportFormat& one) { return one.name == format.name; });
 }
 
 }  // namespace rex::cli

@@ -9,10 +9,10 @@ namespace rex::cli {
 
 /// The report formats with these comma-separated names, as `--report` takes them. Throws UsageError naming
 /// the nearest.
-[[nodiscard]] std::vector<grading::ReportFormat> reportsOf(const std::string& names);
+[[nodiscard]] std::vector<reports::ReportFormat> reportsOf(const std::string& names);
 
 /// Whether a format is among them.
-[[nodiscard]] bool contains(const std::vector<grading::ReportFormat>& formats,
-                            const grading::ReportFormat& format);
+[[nodiscard]] bool contains(const std::vector<reports::ReportFormat>& formats,
+                            const reports::ReportFormat& format);
 
 }  // namespace rex::cli

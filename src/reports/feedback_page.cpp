@@ -11,7 +11,7 @@
 #include "base/text.h"
 #include "reports/report_text_internal.h"
 
-namespace rex::grading {
+namespace rex::reports {
 namespace {
 
 using namespace internal;
@@ -41,15 +41,16 @@ std::string html(const std::string& text, std::size_t limit = kLongestMessage) {
 }
 
 // "Hidden check 2", or title and id.
-std::string nameOfCheck(const CheckResult& check, int& hidden) {
+std::string nameOfCheck(const grading::CheckResult& check, int& hidden) {
   return isHidden(check) ? fmt::format("Hidden check {}", ++hidden)
                          : fmt::format("{} ({})", shownText(check.title), shownText(check.id));
 }
 
 // With the place, unless links lead there.
-std::string foundBy(const CheckResult& check, const GradeResult& result, const std::string& path = "") {
+std::string foundBy(const grading::CheckResult& check, const grading::GradeResult& result,
+                    const std::string& path = "") {
   if (isPassed(check) || isHidden(check) || !check.status) return "";
-  CheckResult placeless = check;
+  grading::CheckResult placeless = check;
   if (!path.empty()) placeless.line = 0;
   return messageOf(placeless, fileOf(result));
 }
@@ -78,11 +79,11 @@ std::string placeOf(const std::string& path, const std::string& file, int line) 
       editorLink(path, line, html(fmt::format("{}:{}", file, line))), htmlText(path), line);
 }
 
-std::string tableOfChecks(const GradeResult& result, const std::string& path) {
+std::string tableOfChecks(const grading::GradeResult& result, const std::string& path) {
   std::string text =
       "<table>\n<tr><th>Result</th><th>Check</th><th>Points</th><th>What was found</th></tr>\n";
   int hidden = 0;
-  for (const CheckResult& check : result.checks) {
+  for (const grading::CheckResult& check : result.checks) {
     const bool isShown = !isPassed(check) && !isHidden(check);
     text += fmt::format("<tr{}><td>{}</td><td>{}</td><td>{}/{}</td><td>{}{}</td></tr>\n",
                         path.empty()      ? ""
@@ -96,18 +97,18 @@ std::string tableOfChecks(const GradeResult& result, const std::string& path) {
 }
 
 // Where the compiler found something, one place for each line.
-std::string compilerPlaces(const GradeResult& result, const std::string& path) {
+std::string compilerPlaces(const grading::GradeResult& result, const std::string& path) {
   std::string text;
   std::set<int> seen;
-  for (const CompileDiagnostic& message : result.compile.diagnostics)
+  for (const grading::CompileDiagnostic& message : result.compile.diagnostics)
     if (message.file == fileOf(result) && message.severity != "note" && seen.insert(message.line).second)
       text += placeOf(path, fileOf(result), message.line);
   return text;
 }
 
-std::string evidence(const GradeResult& result, const std::vector<FeedbackFile>& files) {
+std::string evidence(const grading::GradeResult& result, const std::vector<FeedbackFile>& files) {
   std::string text;
-  for (const CheckResult& check : result.checks) {
+  for (const grading::CheckResult& check : result.checks) {
     if (isHidden(check)) continue;
     for (const FeedbackFile& file : files) {
       if (file.check != check.id) continue;
@@ -131,8 +132,8 @@ std::string noteOf(const LineComment& comment) {
 }
 
 std::string gradeOf(const Feedback& feedback) {
-  const GradeResult& result = feedback.result;
-  if (result.outcome == Outcome::kGraderError) return kGraderFailed;
+  const grading::GradeResult& result = feedback.result;
+  if (result.outcome == grading::Outcome::kGraderError) return kGraderFailed;
   return feedback.judgement ? fmt::format("{} of {} points", hundredthsText(feedback.judgement->final),
                                           hundredthsText(feedback.judgement->possible))
                             : pointsOf(result);
@@ -140,9 +141,9 @@ std::string gradeOf(const Feedback& feedback) {
 
 }  // namespace
 
-std::string checksHtml(const GradeResult& result, const std::string& path) {
-  if (result.outcome == Outcome::kGraderError) return "";
-  if (result.outcome != Outcome::kCompileError) return tableOfChecks(result, path);
+std::string checksHtml(const grading::GradeResult& result, const std::string& path) {
+  if (result.outcome == grading::Outcome::kGraderError) return "";
+  if (result.outcome != grading::Outcome::kCompileError) return tableOfChecks(result, path);
   return fmt::format("<p>Cannot be graded:</p>\n<pre>{}</pre>\n", html(compileText(result), kLongestText)) +
          compilerPlaces(result, path);
 }
@@ -164,7 +165,7 @@ std::string listingHtml(const Feedback& feedback, const std::string& path) {
 }
 
 std::string feedbackPage(const Feedback& feedback, const std::vector<FeedbackFile>& files) {
-  const GradeResult& result = feedback.result;
+  const grading::GradeResult& result = feedback.result;
   const std::string title = fmt::format("{}: {}", result.exerciseId, gradeOf(feedback));
   std::string page = fmt::format(fmt::runtime(kPageStart), fmt::arg("title", html(title)));
   page += fmt::format("<h1>{}</h1>\n<p>{}</p>\n", html(title), html(feedback.student));
@@ -175,9 +176,10 @@ std::string feedbackPage(const Feedback& feedback, const std::vector<FeedbackFil
     page += "</ul>\n";
   }
   page += checksHtml(result);
-  const bool hasChecks = result.outcome != Outcome::kCompileError && result.outcome != Outcome::kGraderError;
+  const bool hasChecks =
+      result.outcome != grading::Outcome::kCompileError && result.outcome != grading::Outcome::kGraderError;
   if (hasChecks) page += evidence(result, files);
   return page + listingHtml(feedback) + "</body>\n</html>\n";
 }
 
-}  // namespace rex::grading
+}  // namespace rex::reports

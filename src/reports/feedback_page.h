@@ -7,7 +7,7 @@
 #include "grading/results.h"
 #include "reports/report.h"
 
-namespace rex::grading {
+namespace rex::reports {
 
 /// What a person writes about a line of main.cpp.
 struct LineComment {
@@ -19,7 +19,7 @@ struct LineComment {
 /// What a student gets back for one exercise.
 struct Feedback {
   std::string student{};  ///< the name
-  GradeResult result{};
+  grading::GradeResult result{};
   std::optional<Judgement> judgement{};
   std::string source{};  ///< main.cpp, as it was graded
   std::vector<LineComment> comments{};
@@ -39,7 +39,7 @@ struct FeedbackFile {
 
 /// Parts of that page for other pages: the table of checks, or what the compiler says; and main.cpp with the
 /// comments. If `path`, absolute, says where main.cpp is, lines lead to it in an editor.
-[[nodiscard]] std::string checksHtml(const GradeResult& result, const std::string& path = "");
+[[nodiscard]] std::string checksHtml(const grading::GradeResult& result, const std::string& path = "");
 [[nodiscard]] std::string listingHtml(const Feedback& feedback, const std::string& path = "");
 
-}  // namespace rex::grading
+}  // namespace rex::reports

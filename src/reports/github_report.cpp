@@ -9,7 +9,7 @@
 #include "reports/report.h"
 #include "reports/report_text_internal.h"
 
-namespace rex::grading {
+namespace rex::reports {
 namespace {
 
 using namespace internal;
@@ -34,16 +34,17 @@ std::string command(const char* kind, const std::string& title, const Place& pla
 }
 
 // The student's file, or no file at all: a `#line` directive of the student may name any other.
-Place placeOf(const CompileDiagnostic& message, const GradeResult& result) {
-  const bool isTheirs = std::any_of(result.files.begin(), result.files.end(),
-                                    [&](const SourceFile& file) { return file.name == message.file; });
+Place placeOf(const grading::CompileDiagnostic& message, const grading::GradeResult& result) {
+  const bool isTheirs =
+      std::any_of(result.files.begin(), result.files.end(),
+                  [&](const grading::SourceFile& file) { return file.name == message.file; });
   return isTheirs ? Place{pathOf(result), message.line, message.column} : Place{};
 }
 
-void addDiagnostics(const GradeResult& result, std::vector<std::string>& errors,
+void addDiagnostics(const grading::GradeResult& result, std::vector<std::string>& errors,
                     std::vector<std::string>& warnings) {
   const std::string title = shownText(result.exerciseId);
-  for (const CompileDiagnostic& d : result.compile.diagnostics) {
+  for (const grading::CompileDiagnostic& d : result.compile.diagnostics) {
     const std::string rule = d.rule.empty() ? "" : " [" + d.rule + "]";
     const bool isError = d.severity == "error";
     (isError ? errors : warnings)
@@ -51,8 +52,8 @@ void addDiagnostics(const GradeResult& result, std::vector<std::string>& errors,
   }
 }
 
-void addChecks(const GradeResult& result, std::vector<std::string>& errors) {
-  for (const CheckResult& check : result.checks) {
+void addChecks(const grading::GradeResult& result, std::vector<std::string>& errors) {
+  for (const grading::CheckResult& check : result.checks) {
     if (isHidden(check) || isPassed(check) || !check.status) continue;
     const std::string title =
         fmt::format("{} ({}/{})", shownText(check.title), check.points, check.maxPoints);
@@ -63,13 +64,13 @@ void addChecks(const GradeResult& result, std::vector<std::string>& errors) {
 
 }  // namespace
 
-std::string githubReport(const GradeResult& result, const Judgement* judgement) {
+std::string githubReport(const grading::GradeResult& result, const Judgement* judgement) {
   const std::string exercise = shownText(result.exerciseId);
-  if (result.outcome == Outcome::kGraderError) return command("error", exercise, {}, kGraderFailed);
+  if (result.outcome == grading::Outcome::kGraderError) return command("error", exercise, {}, kGraderFailed);
   std::vector<std::string> errors, warnings;
   addDiagnostics(result, errors, warnings);
   addChecks(result, errors);
-  if (result.outcome == Outcome::kCompileError && errors.empty())
+  if (result.outcome == grading::Outcome::kCompileError && errors.empty())
     errors.push_back(command("error", exercise, {pathOf(result)}, compileText(result)));
   errors.insert(errors.end(), warnings.begin(), warnings.end());
   const std::size_t shown = std::min(errors.size(), kMostAnnotations - 1), more = errors.size() - shown;
@@ -81,4 +82,4 @@ std::string githubReport(const GradeResult& result, const Judgement* judgement) 
   return join(errors, "");
 }
 
-}  // namespace rex::grading
+}  // namespace rex::reports

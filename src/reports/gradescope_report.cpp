@@ -6,14 +6,14 @@
 #include "reports/report.h"
 #include "reports/report_text_internal.h"
 
-namespace rex::grading {
+namespace rex::reports {
 namespace {
 
 using Json = nlohmann::ordered_json;
 using namespace internal;
 
 // A hidden check's message is left out: it may quote text that a program chose while it knew the input.
-std::string outputOf(const CheckResult& check, const std::string& file) {
+std::string outputOf(const grading::CheckResult& check, const std::string& file) {
   if (isPassed(check)) return "";
   if (!isHidden(check)) return messageOf(check, file);
   const std::string cases =
@@ -22,7 +22,7 @@ std::string outputOf(const CheckResult& check, const std::string& file) {
   return statusOf(check) + cases + property;
 }
 
-Json gradescopeTest(const CheckResult& check, const std::string& number, const std::string& file) {
+Json gradescopeTest(const grading::CheckResult& check, const std::string& number, const std::string& file) {
   return {{"number", number},
           {"name", shownText(check.title)},
           {"score", check.points},
@@ -35,19 +35,19 @@ Json gradescopeTest(const CheckResult& check, const std::string& number, const s
 }
 
 // Numbered by part and check: 1.1, 1.2, 2.1.
-Json testsOf(const GradeResult& result) {
+Json testsOf(const grading::GradeResult& result) {
   std::map<std::string, std::pair<std::size_t, int>> parts;  // number of the part, its checks so far
   Json tests = Json::array();
-  for (const CheckResult& check : result.checks) {
+  for (const grading::CheckResult& check : result.checks) {
     auto& [part, count] = parts.try_emplace(check.part, parts.size() + 1, 0).first->second;
     tests.push_back(gradescopeTest(check, fmt::format("{}.{}", part, ++count), fileOf(result)));
   }
   return tests;
 }
 
-std::string outputOf(const GradeResult& result) {
-  if (result.outcome == Outcome::kGraderError) return kGraderFailed;
-  if (result.outcome == Outcome::kCompileError) return "Cannot be graded:\n" + compileText(result);
+std::string outputOf(const grading::GradeResult& result) {
+  if (result.outcome == grading::Outcome::kGraderError) return kGraderFailed;
+  if (result.outcome == grading::Outcome::kCompileError) return "Cannot be graded:\n" + compileText(result);
   const std::string printed = printedText(result);
   return pointsOf(result) + (printed.empty() ? "" : "\n\nThe program printed:\n" + printed);
 }
@@ -62,9 +62,9 @@ std::string judgedText(const Judgement* judgement, const std::string& text) {
 
 }  // namespace
 
-std::string gradescopeReport(const GradeResult& result, const Judgement* judgement) {
+std::string gradescopeReport(const grading::GradeResult& result, const Judgement* judgement) {
   Json json;
-  if (result.outcome != Outcome::kGraderError) {
+  if (result.outcome != grading::Outcome::kGraderError) {
     json["score"] = result.score;
     if (judgement != nullptr) json["score"] = static_cast<double>(judgement->final) / 100;
   }
@@ -80,8 +80,8 @@ std::string gradescopeReport(const GradeResult& result, const Judgement* judgeme
                         {"snapshot_sha256", shownText(result.snapshotSha256)},
                         {"tool_version", shownText(result.toolVersion)},
                         {"sandbox_level", result.sandboxLevel}};
-  if (result.outcome != Outcome::kGraderError) json["tests"] = testsOf(result);
+  if (result.outcome != grading::Outcome::kGraderError) json["tests"] = testsOf(result);
   return json.dump(2) + "\n";
 }
 
-}  // namespace rex::grading
+}  // namespace rex::reports

@@ -7,7 +7,7 @@
 #include "reports/report.h"
 #include "reports/report_text_internal.h"
 
-namespace rex::grading {
+namespace rex::reports {
 namespace {
 
 using namespace internal;
@@ -38,7 +38,8 @@ std::string skipped(const char* why) {
 }
 
 // Students read what CI shows, so a hidden check reveals only that it exists and how it ended.
-TestCase junitTest(const CheckResult& check, const GradeResult& result, int hiddenNumber, Counts& counts) {
+TestCase junitTest(const grading::CheckResult& check, const grading::GradeResult& result, int hiddenNumber,
+                   Counts& counts) {
   TestCase test{.name = hiddenNumber > 0
                             ? fmt::format("Hidden check {}", hiddenNumber)
                             : fmt::format("{} [{}]", shownText(check.title), shownText(check.id)),
@@ -53,7 +54,7 @@ TestCase junitTest(const CheckResult& check, const GradeResult& result, int hidd
   const std::string message =
       fmt::format("{} of {} points: {}", check.points, check.maxPoints,
                   isHidden(check) ? statusOf(check) : messageOf(check, fileOf(result)));
-  const bool isFailure = check.status == Outcome::kFail;
+  const bool isFailure = check.status == grading::Outcome::kFail;
   ++(isFailure ? counts.failures : counts.errors);
   test.body = shortfall(isFailure ? "failure" : "error", toString(*check.status), message);
   if (!isHidden(check) && check.line > 0)
@@ -61,14 +62,14 @@ TestCase junitTest(const CheckResult& check, const GradeResult& result, int hidd
   return test;
 }
 
-std::string textOf(const TestCase& test, const GradeResult& result) {
+std::string textOf(const TestCase& test, const grading::GradeResult& result) {
   const std::string start =
       fmt::format("    <testcase{}{} time=\"{:.3f}\"{}", attribute("name", test.name),
                   attribute("classname", shownText(result.exerciseId)), test.seconds, test.place);
   return test.body.empty() ? start + "/>\n" : fmt::format("{}>\n{}    </testcase>\n", start, test.body);
 }
 
-std::string propertiesOf(const GradeResult& result, const Judgement* judgement) {
+std::string propertiesOf(const grading::GradeResult& result, const Judgement* judgement) {
   std::string text = "    <properties>\n";
   const auto add = [&](const char* name, const std::string& value) {
     text += fmt::format("      <property{}{}/>\n", attribute("name", name), attribute("value", value));
@@ -91,10 +92,11 @@ std::string propertiesOf(const GradeResult& result, const Judgement* judgement) 
 }
 
 // Whatever concerns all checks is a separate test case before them.
-std::string wholeOf(const GradeResult& result, Counts& counts) {
-  if (result.outcome != Outcome::kCompileError && result.outcome != Outcome::kGraderError) return "";
+std::string wholeOf(const grading::GradeResult& result, Counts& counts) {
+  if (result.outcome != grading::Outcome::kCompileError && result.outcome != grading::Outcome::kGraderError)
+    return "";
   ++counts.tests, ++counts.errors;
-  const bool isFault = result.outcome == Outcome::kGraderError;
+  const bool isFault = result.outcome == grading::Outcome::kGraderError;
   return textOf(
       {.name = isFault ? "grader" : "compile",
        .body = shortfall("error", toString(result.outcome), isFault ? kGraderFailed : compileText(result))},
@@ -103,17 +105,17 @@ std::string wholeOf(const GradeResult& result, Counts& counts) {
 
 }  // namespace
 
-std::string junitReport(const GradeResult& result, const Judgement* judgement) {
+std::string junitReport(const grading::GradeResult& result, const Judgement* judgement) {
   Counts counts;
   std::string cases = wholeOf(result, counts);
   int hidden = 0;
-  for (const CheckResult& check : result.checks)
+  for (const grading::CheckResult& check : result.checks)
     cases += textOf(junitTest(check, result, isHidden(check) ? ++hidden : 0, counts), result);
   const std::string totals =
       fmt::format("{} tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"{}\" time=\"{:.3f}\"",
                   attribute("name", shownText(result.exerciseId)), counts.tests, counts.failures,
                   counts.errors, counts.skipped, visibleSeconds(result));
-  const auto stream = [](const char* name, const KeptOutput& kept) {
+  const auto stream = [](const char* name, const grading::KeptOutput& kept) {
     return fmt::format("    <{}>{}</{}>\n", name, xmlText(shownText(kept.text, kLongestText)), name);
   };
   return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites" + totals + ">\n  <testsuite" + totals +
@@ -121,4 +123,4 @@ std::string junitReport(const GradeResult& result, const Judgement* judgement) {
          stream("system-err", result.error) + "  </testsuite>\n</testsuites>\n";
 }
 
-}  // namespace rex::grading
+}  // namespace rex::reports

@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 
-namespace rex::grading {
+namespace rex::reports {
 namespace {
 
 // The texts of md4c's HTML, which escapes with these names only.
@@ -131,4 +131,4 @@ MarkdownPage pageOf(std::string_view markdown,
   return page;
 }
 
-}  // namespace rex::grading
+}  // namespace rex::reports

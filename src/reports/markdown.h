@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-namespace rex::grading {
+namespace rex::reports {
 
 /// A heading of a page and the text below it, up to the next heading.
 struct PageSection {
@@ -36,4 +36,4 @@ struct MarkdownPage {
 /// environments matrix, pmatrix, bmatrix, cases and aligned. Throws Error for anything else.
 [[nodiscard]] std::string mathMlOf(std::string_view tex, bool isDisplayed);
 
-}  // namespace rex::grading
+}  // namespace rex::reports

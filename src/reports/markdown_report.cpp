@@ -6,7 +6,7 @@
 #include "reports/report.h"
 #include "reports/report_text_internal.h"
 
-namespace rex::grading {
+namespace rex::reports {
 namespace {
 
 using namespace internal;
@@ -22,7 +22,7 @@ std::string block(const char* title, const std::string& text) {
   return fmt::format("\n{}\n\n<pre>\n{}\n</pre>\n", title, markdownBlock(shown));
 }
 
-std::string row(const CheckResult& check, const GradeResult& result, int& hidden) {
+std::string row(const grading::CheckResult& check, const grading::GradeResult& result, int& hidden) {
   const std::string name = isHidden(check) ? fmt::format("Hidden check {}", ++hidden)
                                            : fmt::format("{} ({})", cell(check.title), cell(check.id));
   const std::string found =
@@ -31,10 +31,10 @@ std::string row(const CheckResult& check, const GradeResult& result, int& hidden
                      found);
 }
 
-std::string table(const GradeResult& result) {
+std::string table(const grading::GradeResult& result) {
   std::string text = "\n| Result | Check | Points | What was found |\n| --- | --- | ---: | --- |\n";
   int hidden = 0;
-  for (const CheckResult& check : result.checks) text += row(check, result, hidden);
+  for (const grading::CheckResult& check : result.checks) text += row(check, result, hidden);
   return text;
 }
 
@@ -48,12 +48,12 @@ std::string judgementText(const Judgement* judgement) {
 
 }  // namespace
 
-std::string markdownReport(const GradeResult& result, const Judgement* judgement) {
+std::string markdownReport(const grading::GradeResult& result, const Judgement* judgement) {
   const std::string exercise = cell(result.exerciseId);
-  if (result.outcome == Outcome::kGraderError)
+  if (result.outcome == grading::Outcome::kGraderError)
     return fmt::format("## {}: not graded\n\n{}\n", exercise, kGraderFailed);
   std::string text = fmt::format("## {}: {}\n", exercise, pointsOf(result)) + judgementText(judgement);
-  if (result.outcome == Outcome::kCompileError) {
+  if (result.outcome == grading::Outcome::kCompileError) {
     text += block("Cannot be graded:", compileText(result));
   } else {
     text += table(result);
@@ -65,4 +65,4 @@ std::string markdownReport(const GradeResult& result, const Judgement* judgement
                             cell(result.exerciseVersion), cell(result.toolVersion), result.sandboxLevel);
 }
 
-}  // namespace rex::grading
+}  // namespace rex::reports

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace rex::grading {
+namespace rex::reports {
 
 std::string hundredthsText(std::int64_t value) {
   const std::string sign = value < 0 ? "-" : "";
@@ -31,4 +31,4 @@ std::span<const ReportFormat> reportFormats() {
   return kFormats;
 }
 
-}  // namespace rex::grading
+}  // namespace rex::reports

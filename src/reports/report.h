@@ -8,7 +8,7 @@
 
 #include "grading/results.h"
 
-namespace rex::grading {
+namespace rex::reports {
 
 /// What a course makes of a result: whose it is, what people changed, what lateness costs. Points in
 /// hundredths. No part of it is in results.json.
@@ -32,17 +32,22 @@ struct Judgement {
 /// titles and properties go only to Gradescope, to be shown after the grades are published. A grader error
 /// is never written as a grade. A judgement is shown as such, and its final points are the points of the
 /// whole; the checks keep theirs. Formats and fields: share/doc/platforms.md.
-[[nodiscard]] std::string gradescopeReport(const GradeResult& result, const Judgement* judgement = nullptr);
-[[nodiscard]] std::string junitReport(const GradeResult& result, const Judgement* judgement = nullptr);
-[[nodiscard]] std::string markdownReport(const GradeResult& result, const Judgement* judgement = nullptr);
-[[nodiscard]] std::string githubReport(const GradeResult& result, const Judgement* judgement = nullptr);
+[[nodiscard]] std::string gradescopeReport(const grading::GradeResult& result,
+                                           const Judgement* judgement = nullptr);
+[[nodiscard]] std::string junitReport(const grading::GradeResult& result,
+                                      const Judgement* judgement = nullptr);
+[[nodiscard]] std::string markdownReport(const grading::GradeResult& result,
+                                         const Judgement* judgement = nullptr);
+[[nodiscard]] std::string githubReport(const grading::GradeResult& result,
+                                       const Judgement* judgement = nullptr);
 
 struct ReportFormat {
   std::string_view name;
   std::string_view file;  ///< its name next to the result
-  std::string (*writer)(const GradeResult& result, const Judgement* judgement);
+  std::string (*writer)(const grading::GradeResult& result, const Judgement* judgement);
 
-  [[nodiscard]] std::string write(const GradeResult& result, const Judgement* judgement = nullptr) const {
+  [[nodiscard]] std::string write(const grading::GradeResult& result,
+                                  const Judgement* judgement = nullptr) const {
     return writer(result, judgement);
   }
 };
@@ -50,4 +55,4 @@ struct ReportFormat {
 /// All of them, by name.
 [[nodiscard]] std::span<const ReportFormat> reportFormats();
 
-}  // namespace rex::grading
+}  // namespace rex::reports

@@ -6,7 +6,7 @@
 #include "grading/results.h"
 #include "reports/report_text_internal.h"
 
-namespace rex::grading::internal {
+namespace rex::reports::internal {
 
 std::string shownText(std::string_view text, std::size_t limit) {
   constexpr std::string_view kCut = " ...";
@@ -17,51 +17,52 @@ std::string shownText(std::string_view text, std::size_t limit) {
   return printable(text, limit - kCut.size()).append(kCut);
 }
 
-bool isPassed(const CheckResult& check) { return check.status == Outcome::kPass; }
+bool isPassed(const grading::CheckResult& check) { return check.status == grading::Outcome::kPass; }
 
-bool isHidden(const CheckResult& check) { return check.group == Group::kHidden; }
+bool isHidden(const grading::CheckResult& check) { return check.group == grading::Group::kHidden; }
 
-std::string statusOf(const CheckResult& check) {
+std::string statusOf(const grading::CheckResult& check) {
   std::string name = check.status ? std::string(toString(*check.status)) : "not run";
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;
 }
 
-std::string messageOf(const CheckResult& check, const std::string& file) {
+std::string messageOf(const grading::CheckResult& check, const std::string& file) {
   const std::string message = shownText(check.message.empty() ? statusOf(check) : check.message);
   return check.line > 0 ? fmt::format("{}\n{}:{}", message, file, check.line) : message;
 }
 
-std::string compileText(const GradeResult& result) {
+std::string compileText(const grading::GradeResult& result) {
   std::string text;
-  for (const CompileDiagnostic& message : result.compile.diagnostics) text += toString(message) + "\n";
+  for (const grading::CompileDiagnostic& message : result.compile.diagnostics)
+    text += toString(message) + "\n";
   if (text.empty()) text = result.message.empty() ? "does not compile" : result.message;
   return shownText(text, kLongestText);
 }
 
-std::string fileOf(const GradeResult& result) {
+std::string fileOf(const grading::GradeResult& result) {
   return result.files.empty() ? "main.cpp" : shownText(result.files.front().name);
 }
 
-std::string pathOf(const GradeResult& result) {
+std::string pathOf(const grading::GradeResult& result) {
   return fmt::format("exercises/{}/{}", shownText(result.exerciseId), fileOf(result));
 }
 
-std::string pointsOf(const GradeResult& result) {
+std::string pointsOf(const grading::GradeResult& result) {
   return fmt::format("{} of {} points", result.score, result.maxScore);
 }
 
-double visibleSeconds(const GradeResult& result) {
+double visibleSeconds(const grading::GradeResult& result) {
   double seconds = 0;
-  for (const CheckResult& check : result.checks)
+  for (const grading::CheckResult& check : result.checks)
     if (!isHidden(check)) seconds += check.wallSeconds;
   return seconds;
 }
 
-std::string printedText(const GradeResult& result) {
+std::string printedText(const grading::GradeResult& result) {
   std::string text = result.output.text;
   if (!text.empty() && !result.error.text.empty() && text.back() != '\n') text += '\n';
   return shownText(text + result.error.text, kLongestText);
 }
 
-}  // namespace rex::grading::internal
+}  // namespace rex::reports::internal

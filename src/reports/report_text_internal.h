@@ -6,7 +6,7 @@
 
 #include "grading/results.h"
 
-namespace rex::grading::internal {
+namespace rex::reports::internal {
 
 /// Texts of a report are cut here, in bytes: readers of results have limits of about a megabyte.
 inline constexpr std::size_t kLongestText = 50'000, kLongestMessage = 4'000;
@@ -18,31 +18,31 @@ inline constexpr const char* kGraderFailed =
 /// printable() text of at most `limit` bytes; what is longer ends in " ...".
 [[nodiscard]] std::string shownText(std::string_view text, std::size_t limit = kLongestMessage);
 
-[[nodiscard]] bool isPassed(const CheckResult& check);
-[[nodiscard]] bool isHidden(const CheckResult& check);
+[[nodiscard]] bool isPassed(const grading::CheckResult& check);
+[[nodiscard]] bool isHidden(const grading::CheckResult& check);
 
 /// "pass", "time limit", "not run".
-[[nodiscard]] std::string statusOf(const CheckResult& check);
+[[nodiscard]] std::string statusOf(const grading::CheckResult& check);
 
 /// What a student reads about a visible check that did not pass: message, and place in `file`.
-[[nodiscard]] std::string messageOf(const CheckResult& check, const std::string& file);
+[[nodiscard]] std::string messageOf(const grading::CheckResult& check, const std::string& file);
 
 /// What the compiler said, a line for each message; or why the file was refused.
-[[nodiscard]] std::string compileText(const GradeResult& result);
+[[nodiscard]] std::string compileText(const grading::GradeResult& result);
 
 /// The student's file, as it is called: "main.cpp".
-[[nodiscard]] std::string fileOf(const GradeResult& result);
+[[nodiscard]] std::string fileOf(const grading::GradeResult& result);
 
 /// The same in the student's tree: "exercises/01-kinematics/main.cpp".
-[[nodiscard]] std::string pathOf(const GradeResult& result);
+[[nodiscard]] std::string pathOf(const grading::GradeResult& result);
 
 /// "3 of 9 points".
-[[nodiscard]] std::string pointsOf(const GradeResult& result);
+[[nodiscard]] std::string pointsOf(const grading::GradeResult& result);
 
 /// Seconds that visible checks took: how long a hidden one takes could tell its input.
-[[nodiscard]] double visibleSeconds(const GradeResult& result);
+[[nodiscard]] double visibleSeconds(const grading::GradeResult& result);
 
 /// What the program printed in visible checks, both streams; empty if nothing.
-[[nodiscard]] std::string printedText(const GradeResult& result);
+[[nodiscard]] std::string printedText(const grading::GradeResult& result);
 
-}  // namespace rex::grading::internal
+}  // namespace rex::reports::internal

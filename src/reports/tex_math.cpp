@@ -9,7 +9,7 @@
 #include "base/escape.h"
 #include "reports/markdown.h"
 
-namespace rex::grading {
+namespace rex::reports {
 namespace {
 
 using Names = std::map<std::string_view, std::string_view>;
@@ -317,4 +317,4 @@ std::string mathMlOf(std::string_view tex, bool isDisplayed) {
   return isDisplayed ? fmt::format("<math display=\"block\">{}</math>", inside) : element("math", inside);
 }
 
-}  // namespace rex::grading
+}  // namespace rex::reports

@@ -22,7 +22,7 @@
 #include "sandbox/probes.h"
 #include "submission/worker_part.h"
 
-namespace rex::grading {
+namespace rex::submission {
 namespace {
 
 std::vector<std::filesystem::path> paths(const nlohmann::json& list) {
@@ -360,4 +360,4 @@ std::vector<fs::path> studentHeaders(const fs::path& folder) {
   return found;
 }
 
-}  // namespace rex::grading
+}  // namespace rex::submission

@@ -10,7 +10,7 @@
 #include "base/process.h"
 #include "sandbox/cell.h"
 
-namespace rex::grading {
+namespace rex::submission {
 
 /// How student code of one exercise is compiled and graded; the build writes this to build.json.
 struct Toolchain {
@@ -113,4 +113,4 @@ void writeSource(const std::filesystem::path& file, const std::string& text);
 /// checks and headers written by the student are not among them: only main.cpp is handed in.
 [[nodiscard]] std::vector<std::filesystem::path> studentHeaders(const std::filesystem::path& folder);
 
-}  // namespace rex::grading
+}  // namespace rex::submission

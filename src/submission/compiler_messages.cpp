@@ -17,7 +17,7 @@
 #include "submission/graded_part.h"
 #include "submission/mentions.h"
 
-namespace rex::grading {
+namespace rex::submission {
 namespace {
 
 using Json = nlohmann::json;
@@ -64,8 +64,8 @@ std::vector<std::string_view> arraysIn(std::string_view text) {
   return arrays;
 }
 
-CompileDiagnostic readMessage(const Json& json) {
-  CompileDiagnostic message;
+grading::CompileDiagnostic readMessage(const Json& json) {
+  grading::CompileDiagnostic message;
   const std::string kind = json.at("kind").get<std::string>();
   message.severity = kind == "warning" ? "warning" : "error";
   message.rule = json.value("option", "");
@@ -97,7 +97,7 @@ std::pair<int, int> originIn(std::string_view line, const std::string& mainFile)
 }
 
 // GCC spells a part of a matrix as an expression that fills the screen.
-void shortenNames(CompileDiagnostic& message) {
+void shortenNames(grading::CompileDiagnostic& message) {
   const std::size_t end = std::min(message.message.find("' is used uninitialized"),
                                    message.message.find("' may be used uninitialized"));
   if (end == std::string::npos || message.message.find("<unnamed>") > end) return;
@@ -127,8 +127,8 @@ bool namesErrors(std::string_view standardError) {
 }
 
 // An array is on one line or, from g++ 14 on, on several; the driver adds lines of plain text.
-std::vector<CompileDiagnostic> parseCompilerJson(std::string_view standardError) {
-  std::vector<CompileDiagnostic> messages;
+std::vector<grading::CompileDiagnostic> parseCompilerJson(std::string_view standardError) {
+  std::vector<grading::CompileDiagnostic> messages;
   for (const std::string_view text : arraysIn(standardError)) {
     const Json array = Json::parse(text, nullptr, false);
     if (!array.is_array()) continue;
@@ -142,15 +142,15 @@ std::vector<CompileDiagnostic> parseCompilerJson(std::string_view standardError)
   return messages;
 }
 
-std::vector<CompileDiagnostic> parseCompilerText(std::string_view standardError) {
-  std::vector<CompileDiagnostic> messages;
+std::vector<grading::CompileDiagnostic> parseCompilerText(std::string_view standardError) {
+  std::vector<grading::CompileDiagnostic> messages;
   for (const std::string_view line : splitLines(standardError)) {
     const std::size_t label = std::min(line.find(": error: "), line.find(": fatal error: "));
     if (label == line.npos || label == 0) continue;
     const std::size_t column = line.rfind(':', label - 1);
     const std::size_t row = column == line.npos || column == 0 ? line.npos : line.rfind(':', column - 1);
     if (row == line.npos) continue;
-    CompileDiagnostic message{.file = std::string(line.substr(0, row)), .severity = "error"};
+    grading::CompileDiagnostic message{.file = std::string(line.substr(0, row)), .severity = "error"};
     message.line = parseNumber<int>(line.substr(row + 1, column - row - 1)).value_or(0);
     message.column = parseNumber<int>(line.substr(column + 1, label - column - 1)).value_or(0);
     message.message = tidy(line.substr(line.find("error: ", label) + 7));
@@ -160,13 +160,13 @@ std::vector<CompileDiagnostic> parseCompilerText(std::string_view standardError)
 }
 
 // Errors for which the assembler knows no line of the source name a line of a temporary file that is gone.
-std::vector<CompileDiagnostic> parseAssemblerText(std::string_view standardError) {
-  std::vector<CompileDiagnostic> messages;
+std::vector<grading::CompileDiagnostic> parseAssemblerText(std::string_view standardError) {
+  std::vector<grading::CompileDiagnostic> messages;
   for (const std::string_view line : splitLines(standardError)) {
     const std::size_t label = std::min(line.find(": Error: "), line.find(": Fatal error: "));
     const std::size_t row = label == line.npos || label == 0 ? line.npos : line.rfind(':', label - 1);
     if (row == line.npos) continue;
-    CompileDiagnostic message{.file = std::string(line.substr(0, row)), .severity = "error"};
+    grading::CompileDiagnostic message{.file = std::string(line.substr(0, row)), .severity = "error"};
     message.line = parseNumber<int>(line.substr(row + 1, label - row - 1)).value_or(0);
     message.message = tidy(line.substr(line.find("rror: ", label) + 6));
     if (message.line == 0) continue;
@@ -176,10 +176,10 @@ std::vector<CompileDiagnostic> parseAssemblerText(std::string_view standardError
   return messages;
 }
 
-void blameMainFile(std::vector<CompileDiagnostic>& messages, const std::string& mainFile,
+void blameMainFile(std::vector<grading::CompileDiagnostic>& messages, const std::string& mainFile,
                    std::string_view plainText) {
   const std::vector<std::string_view> lines = splitLines(plainText);
-  for (CompileDiagnostic& message : messages) {
+  for (grading::CompileDiagnostic& message : messages) {
     shortenNames(message);
     if (message.file == mainFile) continue;
     const std::string start = toString(SourceLocation{message.file, message.line, message.column}) + ": ";
@@ -196,24 +196,25 @@ void blameMainFile(std::vector<CompileDiagnostic>& messages, const std::string& 
   std::erase_if(messages, [](const auto& one) { return one.severity == "warning" && one.line == 0; });
 }
 
-bool admitMessages(std::vector<CompileDiagnostic>& messages) {
+bool admitMessages(std::vector<grading::CompileDiagnostic>& messages) {
   constexpr std::size_t kLongest = 2000;
   const bool tooMany = messages.size() > kMostMessages;
   if (tooMany) messages.resize(kMostMessages);
-  for (CompileDiagnostic& message : messages)
+  for (grading::CompileDiagnostic& message : messages)
     for (std::string* text : {&message.file, &message.rule, &message.message})
       *text = tidy(printable(*text, kLongest));
   return tooMany;
 }
 
-std::vector<CompileDiagnostic> parseLinkerText(std::string_view standardError, const std::string& mainFile) {
+std::vector<grading::CompileDiagnostic> parseLinkerText(std::string_view standardError,
+                                                        const std::string& mainFile) {
   struct Phrase {
     std::string_view text, explanation;
   };
   constexpr Phrase kPhrases[] = {
       {"undefined reference to `", "is declared but not defined here"},
       {"multiple definition of `", "is defined, but the exercise already defines it"}};
-  std::vector<CompileDiagnostic> messages;
+  std::vector<grading::CompileDiagnostic> messages;
   std::set<std::string> seen;
   for (const std::string_view line : splitLines(standardError)) {
     for (const Phrase& phrase : kPhrases) {
@@ -266,9 +267,9 @@ Names reachedFrom(const std::string& function, const Uses& uses) {
   return reached;
 }
 
-bool hasFailed(const CheckResult& check) {
-  return check.group == Group::kVisible && check.status && *check.status != Outcome::kPass &&
-         !check.function.empty();
+bool hasFailed(const grading::CheckResult& check) {
+  return check.group == grading::Group::kVisible && check.status &&
+         *check.status != grading::Outcome::kPass && !check.function.empty();
 }
 
 // A question would guess at what is known: that of a function which is wrong itself.
@@ -288,11 +289,11 @@ std::string asSentence(const std::string& text) {
 
 }  // namespace
 
-void explainCascades(std::vector<CheckResult>& checks, std::string_view source) {
+void explainCascades(std::vector<grading::CheckResult>& checks, std::string_view source) {
   const Uses uses = usesIn(source);
   std::map<std::string, Names> reached;
   std::map<std::string, std::string> failed;  // functions, with the check
-  for (CheckResult& check : checks) {
+  for (grading::CheckResult& check : checks) {
     if (!hasFailed(check)) continue;
     const auto [used, isNew] = reached.try_emplace(check.function);
     if (isNew) used->second = reachedFrom(check.function, uses);
@@ -307,4 +308,4 @@ void explainCascades(std::vector<CheckResult>& checks, std::string_view source) 
   }
 }
 
-}  // namespace rex::grading
+}  // namespace rex::submission

@@ -4,7 +4,7 @@
 #include <array>
 #include <cctype>
 
-namespace rex::grading {
+namespace rex::submission {
 namespace {
 
 bool isDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
@@ -161,4 +161,4 @@ std::pair<std::string, std::vector<std::size_t>> spliced(std::string_view source
   return {std::move(text), std::move(places)};
 }
 
-}  // namespace rex::grading
+}  // namespace rex::submission

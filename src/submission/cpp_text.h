@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace rex::grading {
+namespace rex::submission {
 
 /// Whether a character may be part of a name.
 [[nodiscard]] bool isWord(char c);
@@ -74,4 +74,4 @@ class TextPlaces {
 /// A C++ source after joining lines that end in a backslash, and the original position of each character.
 [[nodiscard]] std::pair<std::string, std::vector<std::size_t>> spliced(std::string_view source);
 
-}  // namespace rex::grading
+}  // namespace rex::submission

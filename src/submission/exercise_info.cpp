@@ -9,17 +9,17 @@
 #include "base/text.h"
 #include "base/toml_table.h"
 
-namespace rex::grading {
+namespace rex::submission {
 namespace {
 
 using std::filesystem::path;
 
-Limits readLimits(const TomlTable& table) {
+grading::Limits readLimits(const TomlTable& table) {
   table.refuseKeysBut({"cpu_seconds", "memory_mb", "output_mb"});
-  Limits limits;
+  grading::Limits limits;
   if (table.has("cpu_seconds")) limits.cpuSeconds = table.number("cpu_seconds", 0, 3600);
-  if (table.has("memory_mb")) limits.memory = kMegabyte * table.integer("memory_mb", 64, 65536);
-  if (table.has("output_mb")) limits.output = kMegabyte * table.integer("output_mb", 1, 1024);
+  if (table.has("memory_mb")) limits.memory = grading::kMegabyte * table.integer("memory_mb", 64, 65536);
+  if (table.has("output_mb")) limits.output = grading::kMegabyte * table.integer("output_mb", 1, 1024);
   return limits;
 }
 
@@ -134,4 +134,4 @@ const ExerciseInfo& findExercise(const std::vector<ExerciseInfo>& exercises, std
   throw UsageError({.what = fmt::format("several exercises are called '{}'", name), .nearest = candidates});
 }
 
-}  // namespace rex::grading
+}  // namespace rex::submission

@@ -7,7 +7,7 @@
 
 #include "grading/limits.h"
 
-namespace rex::grading {
+namespace rex::submission {
 
 /// One part of an exercise: what a student completes for points.
 struct ExercisePart {
@@ -41,7 +41,7 @@ struct ExerciseInfo {
   std::string title;
   std::string script;  ///< section of the course script
   SolutionRule solution = SolutionRule::kNever;
-  Limits limits;
+  grading::Limits limits;
   std::vector<ExercisePart> parts;
   std::vector<std::string>
       allowed;  ///< library functions that graded functions may call: see allowedFunctions()
@@ -63,4 +63,4 @@ struct ExerciseInfo {
 [[nodiscard]] const ExerciseInfo& findExercise(const std::vector<ExerciseInfo>& exercises,
                                                std::string_view name);
 
-}  // namespace rex::grading
+}  // namespace rex::submission

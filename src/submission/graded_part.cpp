@@ -7,7 +7,7 @@
 
 #include "submission/mentions.h"
 
-namespace rex::grading {
+namespace rex::submission {
 namespace {
 
 // Words before the body of anything but a function, of a function whose body its callers may inspect, and of
@@ -194,4 +194,4 @@ std::string gradedPart(std::string_view source, const std::vector<std::string>& 
   return text;
 }
 
-}  // namespace rex::grading
+}  // namespace rex::submission

@@ -7,7 +7,7 @@
 
 #include "submission/cpp_text.h"
 
-namespace rex::grading {
+namespace rex::submission {
 
 /// A declaration, a definition or a preprocessor line of a C++ file, at file scope or in an unnamed
 /// namespace. The first line and the last brace of such a namespace are pieces, too.
@@ -31,4 +31,4 @@ struct FilePiece {
 [[nodiscard]] std::string gradedPart(std::string_view source, const std::vector<std::string>& functions,
                                      const std::vector<std::string>& watched);
 
-}  // namespace rex::grading
+}  // namespace rex::submission

@@ -17,7 +17,10 @@
 #include "submission/cpp_text.h"
 #include "submission/mentions.h"
 
-namespace rex::grading {
+namespace rex::submission {
+
+using grading::CompileDiagnostic;
+
 namespace {
 
 constexpr std::string_view kDirectiveBlanks = " \t\v\f\r";
@@ -267,4 +270,4 @@ std::vector<CompileDiagnostic> forbiddenMacros(std::string_view source, const st
   return {refusal(mainFile, line, "defines a macro 'rex', which is the name of the library")};
 }
 
-}  // namespace rex::grading
+}  // namespace rex::submission

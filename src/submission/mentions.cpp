@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace rex::grading {
+namespace rex::submission {
 namespace {
 
 std::pair<int, int> placeOf(std::size_t token, const CppText& text) {
@@ -79,4 +79,4 @@ std::pair<int, int> onlyMentionOf(std::string_view function, const CppText& text
   return found < text.size() ? placeOf(found, text) : std::pair{0, 0};
 }
 
-}  // namespace rex::grading
+}  // namespace rex::submission

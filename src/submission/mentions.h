@@ -8,7 +8,7 @@
 
 #include "submission/cpp_text.h"
 
-namespace rex::grading {
+namespace rex::submission {
 
 /// The names among some tokens of a C++ source, from `first` to the one before `end`.
 using Names = std::set<std::string, std::less<>>;
@@ -30,4 +30,4 @@ using Names = std::set<std::string, std::less<>>;
 /// standard input with std::cin, stdin, scanf or getchar; 0, 0 if it does not.
 [[nodiscard]] std::pair<int, int> standardInputUse(const CppText& text);
 
-}  // namespace rex::grading
+}  // namespace rex::submission

@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "base/text_file.h"
 
-namespace rex::grading {
+namespace rex::submission {
 namespace {
 
 namespace fs = std::filesystem;
@@ -294,4 +294,4 @@ std::vector<LibraryPart> librariesFor(const ProgramToolchain& program, const std
   return found;
 }
 
-}  // namespace rex::grading
+}  // namespace rex::submission

@@ -7,7 +7,7 @@
 
 #include "submission/build_tools.h"
 
-namespace rex::grading {
+namespace rex::submission {
 
 /// Flags that make g++ start from the precompiled header next to `prefix`, which includes only
 /// course/course.h. Empty if that is missing or older than a file it was made from, if `prefix` is empty,
@@ -50,4 +50,4 @@ struct ProgramToolchain {
                                                     const std::vector<std::filesystem::path>& files,
                                                     std::string_view symbolTable);
 
-}  // namespace rex::grading
+}  // namespace rex::submission

@@ -5,7 +5,7 @@
 #include "base/process.h"
 #include "submission/reading_apart_internal.h"
 
-namespace rex::grading {
+namespace rex::submission {
 namespace {
 
 using Json = nlohmann::json;
@@ -41,16 +41,21 @@ Json readApart(const std::string& what, const IsolationLimits& limits, const std
   throw UnreadableFile({.what = fmt::format("reading {} {}", what, howItEnded(result, limits))});
 }
 
-std::vector<CompileDiagnostic> messagesApart(const std::string& what,
-                                             const std::function<std::vector<CompileDiagnostic>()>& read) {
-  return readApart(what, kAfterCompiling, [&] { return Json(read()); }).get<std::vector<CompileDiagnostic>>();
+std::vector<grading::CompileDiagnostic> messagesApart(
+    const std::string& what, const std::function<std::vector<grading::CompileDiagnostic>()>& read) {
+  return readApart(what, kAfterCompiling, [&] { return Json(read()); })
+      .get<std::vector<grading::CompileDiagnostic>>();
 }
 
-void to_json(Json& json, const CompileDiagnostic& message) {
+}  // namespace rex::submission
+
+namespace rex::grading {
+
+void to_json(nlohmann::json& json, const CompileDiagnostic& message) {
   json = {message.file, message.line, message.column, message.severity, message.rule, message.message};
 }
 
-void from_json(const Json& json, CompileDiagnostic& message) {
+void from_json(const nlohmann::json& json, CompileDiagnostic& message) {
   message = {json.at(0), json.at(1), json.at(2), json.at(3), json.at(4), json.at(5)};
 }
 

@@ -9,7 +9,7 @@
 #include "base/isolated_call.h"
 #include "submission/compiler_messages.h"
 
-namespace rex::grading {
+namespace rex::submission {
 
 /// A file was made such that reading it, or what a tool wrote about it, took too much: its own fault. what()
 /// says which reading, and how it ended.
@@ -30,8 +30,12 @@ inline constexpr IsolationLimits kAfterCompiling{.cpuSeconds = 10, .wallSeconds 
                                        const std::function<nlohmann::json()>& read);
 
 /// The same for messages.
-[[nodiscard]] std::vector<CompileDiagnostic> messagesApart(
-    const std::string& what, const std::function<std::vector<CompileDiagnostic>()>& read);
+[[nodiscard]] std::vector<grading::CompileDiagnostic> messagesApart(
+    const std::string& what, const std::function<std::vector<grading::CompileDiagnostic>()>& read);
+
+}  // namespace rex::submission
+
+namespace rex::grading {
 
 void to_json(nlohmann::json& json, const CompileDiagnostic& message);
 void from_json(const nlohmann::json& json, CompileDiagnostic& message);

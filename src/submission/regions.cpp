@@ -14,7 +14,7 @@
 #include "base/error.h"
 #include "base/text.h"
 
-namespace rex::grading {
+namespace rex::submission {
 namespace {
 
 enum class Place { kPublic, kSolution, kTodo, kHidden, kMarker, kVariant };
@@ -499,4 +499,4 @@ std::vector<std::vector<BlockLine>> variantBlocks(std::string_view wrong, const 
   return blocks;
 }
 
-}  // namespace rex::grading
+}  // namespace rex::submission

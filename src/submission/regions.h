@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 
-namespace rex::grading {
+namespace rex::submission {
 
 /// Makes the student's main.cpp from solution.cpp. Between `// <solution NAME>` and `// </solution>` only
 /// the lines `//| text` after `// <todo>` remain, uncommented at their own indentation. `file` is for
@@ -70,4 +70,4 @@ inline constexpr std::string_view kForbiddenCall = "forbidden-call";
 [[nodiscard]] std::vector<std::vector<BlockLine>> variantBlocks(std::string_view wrong,
                                                                 const std::string& file);
 
-}  // namespace rex::grading
+}  // namespace rex::submission

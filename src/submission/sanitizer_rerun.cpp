@@ -11,7 +11,7 @@
 #include "base/text_file.h"
 #include "grading/limits.h"
 
-namespace rex::grading {
+namespace rex::submission {
 namespace {
 
 // The options are part of the program because its environment is empty. The library that it calls is built
@@ -156,8 +156,9 @@ const Frame& recursionIn(const std::vector<Frame>& stack) {
 Toolchain withReports(const Toolchain& toolchain, const std::filesystem::path& folder, std::size_t memory,
                       const std::string& code) {
   const std::filesystem::path header = folder / "sanitizer_options.h";
-  writeTextFile(header,
-                fmt::format("#pragma once\n#define REX_MEMORY_MEGABYTES \"{}\"", memory / kMegabyte) + code);
+  writeTextFile(
+      header,
+      fmt::format("#pragma once\n#define REX_MEMORY_MEGABYTES \"{}\"", memory / grading::kMegabyte) + code);
   Toolchain changed = toolchain;
   changed.prefix.clear();
   for (const std::string& flag :
@@ -216,4 +217,4 @@ Toolchain locatingToolchain(const Toolchain& toolchain, const std::filesystem::p
   return withReports(toolchain, folder, memory, time + kOptionsHeader + kTimeHeader);
 }
 
-}  // namespace rex::grading
+}  // namespace rex::submission

@@ -8,7 +8,7 @@
 
 #include "submission/build_tools.h"
 
-namespace rex::grading {
+namespace rex::submission {
 
 /// Where and why a program crashed, according to the sanitizers.
 struct CrashSite {
@@ -35,4 +35,4 @@ struct CrashSite {
 [[nodiscard]] Toolchain locatingToolchain(const Toolchain& toolchain, const std::filesystem::path& folder,
                                           std::size_t memory, double seconds);
 
-}  // namespace rex::grading
+}  // namespace rex::submission

@@ -9,7 +9,7 @@
 
 #include "base/text.h"
 
-namespace rex::grading {
+namespace rex::submission {
 namespace {
 
 // The value of a number of at most nine decimal digits; 0 for any other token.
@@ -22,9 +22,9 @@ long wholeNumber(const CppText& text, std::size_t i) {
 
 }  // namespace
 
-std::vector<CompileDiagnostic> integerDivisions(const CppText& text, const std::string& name) {
+std::vector<grading::CompileDiagnostic> integerDivisions(const CppText& text, const std::string& name) {
   const TextPlaces places(text.source());
-  std::vector<CompileDiagnostic> found;
+  std::vector<grading::CompileDiagnostic> found;
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text.startsDirective(i)) {
       i = text.nextLine(i) - 1;
@@ -137,17 +137,17 @@ std::string withAutoQuestions(const CppText& text) {
   return done == 0 ? "" : asking.append(text.source().substr(done));
 }
 
-void explainAutoAnswers(std::vector<CompileDiagnostic>& messages, const CppText& text) {
-  const auto isAbout = [](const CompileDiagnostic& message) {
+void explainAutoAnswers(std::vector<grading::CompileDiagnostic>& messages, const CppText& text) {
+  const auto isAbout = [](const grading::CompileDiagnostic& message) {
     return message.message.find(kQuestion) != std::string::npos;
   };
-  std::erase_if(messages, [&](const CompileDiagnostic& message) {
+  std::erase_if(messages, [&](const grading::CompileDiagnostic& message) {
     return isAbout(message) && message.severity == "note";
   });
   const TextPlaces places(text.source());
   std::map<int, Declaration> byLine;
   for (const Declaration& declared : declarationsIn(text)) byLine[places.line(declared.start)] = declared;
-  for (CompileDiagnostic& message : messages) {
+  for (grading::CompileDiagnostic& message : messages) {
     const auto declared = byLine.find(message.line);
     if (!isAbout(message) || declared == byLine.end()) continue;
     message.column = places.place(declared->second.start).second;
@@ -159,4 +159,4 @@ void explainAutoAnswers(std::vector<CompileDiagnostic>& messages, const CppText&
   }
 }
 
-}  // namespace rex::grading
+}  // namespace rex::submission

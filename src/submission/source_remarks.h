@@ -6,12 +6,13 @@
 #include "grading/results.h"
 #include "submission/cpp_text.h"
 
-namespace rex::grading {
+namespace rex::submission {
 
 /// A warning for each quotient of two whole numbers that is written out and leaves a remainder: 1 / 2 is 0
 /// in C++. Preprocessor directives are skipped, and a quotient that is itself divided or divides: in
 /// x / 3 / 2 no 3 is divided.
-[[nodiscard]] std::vector<CompileDiagnostic> integerDivisions(const CppText& text, const std::string& name);
+[[nodiscard]] std::vector<grading::CompileDiagnostic> integerDivisions(const CppText& text,
+                                                                       const std::string& name);
 
 /// The header with the questions that withAutoQuestions() asks, for the flag -include.
 inline constexpr const char* kAutoQuestions = "course/auto_guard.h";
@@ -22,6 +23,6 @@ inline constexpr const char* kAutoQuestions = "course/auto_guard.h";
 [[nodiscard]] std::string withAutoQuestions(const CppText& text);
 
 /// Puts our words and the place in the source into the answers among the compiler's messages.
-void explainAutoAnswers(std::vector<CompileDiagnostic>& messages, const CppText& text);
+void explainAutoAnswers(std::vector<grading::CompileDiagnostic>& messages, const CppText& text);
 
-}  // namespace rex::grading
+}  // namespace rex::submission

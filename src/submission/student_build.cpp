@@ -27,7 +27,7 @@
 #include "submission/two_compilers.h"
 #include "submission/worker_part.h"
 
-namespace rex::grading {
+namespace rex::submission {
 namespace {
 
 using std::filesystem::path;
@@ -89,13 +89,13 @@ ProcessResult plainReport(std::vector<std::string> command, const std::string& n
   return tools.runOnce(command);
 }
 
-std::string writeLog(const std::vector<CompileDiagnostic>& messages) {
+std::string writeLog(const std::vector<grading::CompileDiagnostic>& messages) {
   std::string log;
-  for (const CompileDiagnostic& message : messages) log += toString(message) + "\n";
+  for (const grading::CompileDiagnostic& message : messages) log += toString(message) + "\n";
   return log;
 }
 
-bool isError(const CompileDiagnostic& message) { return message.severity == "error"; }
+bool isError(const grading::CompileDiagnostic& message) { return message.severity == "error"; }
 
 // Finds what the file did wrong. Throws Error if the disk is full and the syntax is right: a compiler that
 // cannot write reports that as an error, in words that a file could use, too.
@@ -137,7 +137,7 @@ std::vector<std::string> lastNames(const std::vector<ForbiddenFunction>& forbidd
 
 // What is read in a student's file before a compiler starts.
 struct FirstReading {
-  std::vector<CompileDiagnostic> lineMarkers{};
+  std::vector<grading::CompileDiagnostic> lineMarkers{};
   std::vector<std::string> prefix{};  // prefixFlags()
   std::string part{};                 // gradedPart()
   std::string asking{};               // withAutoQuestions(), if there is a part
@@ -147,7 +147,7 @@ FirstReading readFirst(const std::string& source, const std::string& name, const
                        const std::vector<ForbiddenFunction>& forbidden, const StudentBuildOptions& options) {
   const auto read = [&]() -> nlohmann::json {
     const auto markers =
-        options.publicHeadersOnly ? lineMarkers(source, name) : std::vector<CompileDiagnostic>{};
+        options.publicHeadersOnly ? lineMarkers(source, name) : std::vector<grading::CompileDiagnostic>{};
     if (!markers.empty()) return {markers, std::vector<std::string>{}, "", ""};
     const std::string part =
         options.part ? gradedPart(source, toolchain.functions, lastNames(forbidden)) : "";
@@ -202,12 +202,12 @@ ProcessResult compileAll(const Toolchain& toolchain, const std::vector<std::stri
 }
 
 // Adds warnings of our own, and puts each message at a line of the file.
-std::vector<CompileDiagnostic> finished(std::vector<CompileDiagnostic> messages,
-                                        const StudentObject& result) {
+std::vector<grading::CompileDiagnostic> finished(std::vector<grading::CompileDiagnostic> messages,
+                                                 const StudentObject& result) {
   const CppText text(result.source);
   explainAutoAnswers(messages, text);
   if (messages.size() > kMostMessages + 1) messages.resize(kMostMessages + 1);
-  const std::vector<CompileDiagnostic> divisions = integerDivisions(text, result.name);
+  const std::vector<grading::CompileDiagnostic> divisions = integerDivisions(text, result.name);
   messages.insert(messages.end(), divisions.begin(), divisions.end());
   blameMainFile(messages, result.name, result.log);
   return messages;
@@ -228,9 +228,10 @@ void compile(const Toolchain& toolchain, const std::vector<std::string>& command
 }
 
 // What the linker found wrong with the last of the objects, which is the student's.
-std::vector<CompileDiagnostic> explainLinking(const ProcessResult& run, const BuildTools& tools,
-                                              const std::string& object, const std::string& mainFile) {
-  std::vector<CompileDiagnostic> messages =
+std::vector<grading::CompileDiagnostic> explainLinking(const ProcessResult& run, const BuildTools& tools,
+                                                       const std::string& object,
+                                                       const std::string& mainFile) {
+  std::vector<grading::CompileDiagnostic> messages =
       messagesApart("the linker's text", [&] { return parseLinkerText(run.error, mainFile); });
   if (!messages.empty()) return messages;
   const std::string limit = tools.limitReached(run);
@@ -242,12 +243,12 @@ std::vector<CompileDiagnostic> explainLinking(const ProcessResult& run, const Bu
 
 // The forbidden ones among all files that the compiler and the assembler opened. If only a part was compiled,
 // that was done in a folder of its own.
-std::vector<CompileDiagnostic> forbiddenFilesIn(const StudentObject& object, const path& folder,
-                                                const Toolchain& toolchain) {
+std::vector<grading::CompileDiagnostic> forbiddenFilesIn(const StudentObject& object, const path& folder,
+                                                         const Toolchain& toolchain) {
   const auto forbidden = [&](const std::vector<path>& files, const path& where) {
     return forbiddenIncludes(files, object.source, object.name, where, toolchain);
   };
-  std::vector<CompileDiagnostic> found =
+  std::vector<grading::CompileDiagnostic> found =
       forbidden(dependenciesIn(readTextFile(folder / kDependencies), folder), folder);
   const path assembled = std::filesystem::exists(folder / kOfAssembler) ? folder : folder / kPart;
   const auto more = forbidden(filesOfAssembler(readTextFile(assembled / kOfAssembler), assembled), assembled);
@@ -256,15 +257,15 @@ std::vector<CompileDiagnostic> forbiddenFilesIn(const StudentObject& object, con
 }
 
 // Makes `result.graded`, in which nothing may call what is forbidden; messages say if the file prevents that.
-std::vector<CompileDiagnostic> forbiddenCallsIn(StudentObject& result, const Toolchain& toolchain,
-                                                const std::vector<ForbiddenFunction>& forbidden,
-                                                const BuildTools& tools) {
+std::vector<grading::CompileDiagnostic> forbiddenCallsIn(StudentObject& result, const Toolchain& toolchain,
+                                                         const std::vector<ForbiddenFunction>& forbidden,
+                                                         const BuildTools& tools) {
   const std::string bytes = readTextFile(result.object);
-  const std::vector<CompileDiagnostic> messages = messagesApart("the object file", [&] {
+  const std::vector<grading::CompileDiagnostic> messages = messagesApart("the object file", [&] {
     try {
       return strangeParts(readObjectFile(bytes, kPart), result.name);
     } catch (const Error& error) {
-      return std::vector<CompileDiagnostic>{
+      return std::vector<grading::CompileDiagnostic>{
           {result.name, 0, 0, "error", "forbidden-call",
            "makes an object file that cannot be read: " + error.parts().found}};
     }
@@ -363,7 +364,7 @@ StudentFile readStudentFile(const OpenedFolder& folder, const std::string& name)
 namespace {
 
 // A file of which nothing is compiled, or nothing that was compiled may be used.
-void reject(StudentObject& result, std::vector<CompileDiagnostic> messages) {
+void reject(StudentObject& result, std::vector<grading::CompileDiagnostic> messages) {
   result.messages = std::move(messages);
   result.truncated = admitMessages(result.messages);
   result.log = writeLog(result.messages);
@@ -379,12 +380,12 @@ void reject(StudentObject& result, const Error& error) {
 }
 
 // What the scans after compiling find: errors, and a warning.
-std::vector<CompileDiagnostic> findingsIn(const StudentObject& object, const Toolchain& toolchain,
-                                          const StudentBuildOptions& options) {
-  std::vector<CompileDiagnostic> found;
+std::vector<grading::CompileDiagnostic> findingsIn(const StudentObject& object, const Toolchain& toolchain,
+                                                   const StudentBuildOptions& options) {
+  std::vector<grading::CompileDiagnostic> found;
   if (options.publicHeadersOnly) {
     found = forbiddenFilesIn(object, options.workFolder, toolchain);
-    const std::vector<CompileDiagnostic> macros = forbiddenMacros(object.source, object.name);
+    const std::vector<grading::CompileDiagnostic> macros = forbiddenMacros(object.source, object.name);
     found.insert(found.end(), macros.begin(), macros.end());
   }
   if (const auto [line, column] = standardInputUse(CppText(object.source)); line > 0)
@@ -412,9 +413,9 @@ void compileText(const Toolchain& toolchain, const std::vector<ForbiddenFunction
   compile(toolchain, compileCommand(toolchain, options, reading.prefix), result.name, tools, options, reading,
           result);
   if (!result.ok) return;
-  std::vector<CompileDiagnostic> found;
+  std::vector<grading::CompileDiagnostic> found;
   if (options.graded) found = forbiddenCallsIn(result, toolchain, forbidden, tools);
-  const std::vector<CompileDiagnostic> more =
+  const std::vector<grading::CompileDiagnostic> more =
       messagesApart("the file and what it includes", [&] { return findingsIn(result, toolchain, options); });
   found.insert(found.end(), more.begin(), more.end());
   result.ok = std::none_of(found.begin(), found.end(), isError);
@@ -486,4 +487,4 @@ StudentProgram linkProgram(const Toolchain& toolchain, const StudentObject& obje
               librariesOfProgram(toolchain), object.name);
 }
 
-}  // namespace rex::grading
+}  // namespace rex::submission

@@ -12,7 +12,7 @@
 #include "submission/compiler_messages.h"
 #include "submission/exercise_info.h"
 
-namespace rex::grading {
+namespace rex::submission {
 
 /// What to build from a student's file.
 struct StudentBuildOptions {
@@ -33,7 +33,7 @@ struct StudentObject {
   std::string source;  ///< what was compiled; empty if the file was rejected
   std::filesystem::path object;
   std::filesystem::path graded{};  ///< withoutMain(); empty: nothing was left out
-  std::vector<CompileDiagnostic> messages;
+  std::vector<grading::CompileDiagnostic> messages;
   std::string log;         ///< for build.log: the compiler's own words
   int exitCode = 0;        ///< of the compiler; 1 for a rejected file
   bool truncated = false;  ///< there were more messages
@@ -52,7 +52,7 @@ struct StudentObject {
 struct StudentProgram {
   std::filesystem::path program;
   std::vector<std::string> parts{};  ///< of the exercise, with workers of their own beside it: see workerOf()
-  std::vector<CompileDiagnostic> messages;
+  std::vector<grading::CompileDiagnostic> messages;
   std::string log;
   bool ok = false;
 };
@@ -78,4 +78,4 @@ struct StudentFile {
 /// The same for an entry of an opened folder, unaffected by renaming in the meantime.
 [[nodiscard]] StudentFile readStudentFile(const OpenedFolder& folder, const std::string& name);
 
-}  // namespace rex::grading
+}  // namespace rex::submission

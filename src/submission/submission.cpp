@@ -23,7 +23,7 @@
 #include "submission/sanitizer_rerun.h"
 #include "submission/student_build.h"
 
-namespace rex::grading {
+namespace rex::submission {
 namespace {
 
 using std::filesystem::path;
@@ -31,7 +31,7 @@ using std::filesystem::path;
 constexpr double kLongestGrading = 3600;
 constexpr std::size_t kLongestLine = 1000;
 // A program with the sanitizers keeps records of its memory and some of what it has freed.
-constexpr std::size_t kSanitizedFactor = 2, kKeptBack = 256 * kMegabyte;
+constexpr std::size_t kSanitizedFactor = 2, kKeptBack = 256 * grading::kMegabyte;
 
 // "c++ (Debian 12.2.0-14) 12.2.0", or only its name if the compiler does not run.
 std::string compilerVersion(const std::string& compiler) {
@@ -40,9 +40,9 @@ std::string compilerVersion(const std::string& compiler) {
 }
 
 // The result as far as it is known before any check runs.
-GradeResult startResult(const Toolchain& toolchain, const ExerciseInfo& exercise,
-                        const StudentObject& object) {
-  GradeResult result;
+grading::GradeResult startResult(const Toolchain& toolchain, const ExerciseInfo& exercise,
+                                 const StudentObject& object) {
+  grading::GradeResult result;
   result.snapshotSha256 = sha256(object.source);
   result.submissionId = result.snapshotSha256.substr(0, 12);
   result.files = {{object.name, result.snapshotSha256}};
@@ -55,16 +55,16 @@ GradeResult startResult(const Toolchain& toolchain, const ExerciseInfo& exercise
   return result;
 }
 
-Limits withSanitizers(Limits limits) {
-  limits.cpuSeconds *= kSanitizedSlowness;
+grading::Limits withSanitizers(grading::Limits limits) {
+  limits.cpuSeconds *= grading::kSanitizedSlowness;
   limits.memory = kSanitizedFactor * limits.memory + kKeptBack;
   limits.sanitized = true;
   return limits;
 }
 
-GradingJob jobOf(const Toolchain& toolchain, const ExerciseInfo& exercise, const SubmissionOptions& options,
-                 const BuiltSubmission& built) {
-  GradingJob job = options.job;
+grading::GradingJob jobOf(const Toolchain& toolchain, const ExerciseInfo& exercise,
+                          const SubmissionOptions& options, const BuiltSubmission& built) {
+  grading::GradingJob job = options.job;
   job.worker = built.worker;
   job.parts = built.parts;
   job.temporaryFolder = options.workFolder;
@@ -73,43 +73,43 @@ GradingJob jobOf(const Toolchain& toolchain, const ExerciseInfo& exercise, const
   return job;
 }
 
-std::vector<std::string> graderCommand(const Toolchain& toolchain, const GradingJob& job) {
-  std::vector<std::string> command = toArguments(job);
+std::vector<std::string> graderCommand(const Toolchain& toolchain, const grading::GradingJob& job) {
+  std::vector<std::string> command = grading::toArguments(job);
   command.insert(command.begin(), toolchain.grader.string());
   return command;
 }
 
 // Runs the grader and reads what it wrote. If the grader breaks, the result says that it is our fault. A
 // grader that is stopped leaves its worker behind, and what that started.
-GradeResult callGrader(const std::vector<std::string>& command, const path& results) {
-  const NewDescendants workers;
+grading::GradeResult callGrader(const std::vector<std::string>& command, const path& results) {
+  const grading::NewDescendants workers;
   const ProcessResult run = runProcess(command, {.timeout = kLongestGrading});
   const std::string said = run.error.substr(0, run.error.find_last_not_of('\n') + 1);
-  GradeResult result = loadResult(results);
+  grading::GradeResult result = grading::loadResult(results);
   if (run.exitCode != numberOf(ExitCode::kFull) && run.exitCode != numberOf(ExitCode::kBelow)) {
-    result.outcome = Outcome::kGraderError;
+    result.outcome = grading::Outcome::kGraderError;
     // A grader that reports a fault of its own explains it in the result.
     if (run.exitCode != numberOf(ExitCode::kGraderFault) || result.message.empty())
       result.message =
           fmt::format("the grader failed (exit code {}, signal {}): {}", run.exitCode, run.signal, said);
-    saveResult(result, results);
+    grading::saveResult(result, results);
   }
   return result;
 }
 
-std::string firstError(const std::vector<CompileDiagnostic>& messages) {
-  const auto first = std::find_if(messages.begin(), messages.end(), [](const CompileDiagnostic& message) {
-    return message.severity == "error";
-  });
+std::string firstError(const std::vector<grading::CompileDiagnostic>& messages) {
+  const auto first =
+      std::find_if(messages.begin(), messages.end(),
+                   [](const grading::CompileDiagnostic& message) { return message.severity == "error"; });
   return first == messages.end() ? "does not compile" : toString(*first);
 }
 
 void requireKnownChecks(const Toolchain& toolchain, const std::vector<std::string>& wanted) {
   if (wanted.empty()) return;
   std::vector<std::string> known;
-  for (const CheckResult& check : listChecks(toolchain)) known.push_back(check.id);
+  for (const grading::CheckResult& check : listChecks(toolchain)) known.push_back(check.id);
   for (const std::string& id : wanted)
-    if (std::find(known.begin(), known.end(), id) == known.end()) throw unknownCheck(id, known);
+    if (std::find(known.begin(), known.end(), id) == known.end()) throw grading::unknownCheck(id, known);
 }
 
 Toolchain sanitized(const Toolchain& toolchain, const ExerciseInfo& exercise,
@@ -148,7 +148,7 @@ void compileAndLink(const Toolchain& toolchain, const ExerciseInfo& exercise,
                     const SubmissionOptions& options, BuiltSubmission& built) {
   const StudentObject object = compileAsAsked(toolchain, exercise, options);
   built.start = startResult(toolchain, exercise, object);
-  setSandbox(built.start, options.job.sandbox.level);
+  grading::setSandbox(built.start, options.job.sandbox.level);
   built.source = object.source;
   std::string log = object.log;
   auto& diagnostics = built.start.compile.diagnostics;
@@ -162,7 +162,7 @@ void compileAndLink(const Toolchain& toolchain, const ExerciseInfo& exercise,
     log += linked.log;
   }
   if (built.worker.empty()) {
-    built.start.outcome = Outcome::kCompileError;
+    built.start.outcome = grading::Outcome::kCompileError;
     built.start.message = firstError(diagnostics);
   }
   writeTextFile(options.job.results.parent_path() / "build.log", log);
@@ -189,10 +189,10 @@ std::optional<CrashSite> crashSiteOf(const Toolchain& toolchain, const ExerciseI
   one.job.evidence.clear();
   one.job.results = options.workFolder / "second-look.json";
   std::filesystem::remove(one.job.results);
-  const GradingJob job = jobOf(toolchain, exercise, one, built);
-  const NewDescendants workers;
+  const grading::GradingJob job = jobOf(toolchain, exercise, one, built);
+  const grading::NewDescendants workers;
   static_cast<void>(runProcess(graderCommand(toolchain, job), {.timeout = kLongestGrading}));
-  return crashSiteIn(loadResult(job.results).error.text, built.start.files.front().name);
+  return crashSiteIn(grading::loadResult(job.results).error.text, built.start.files.front().name);
 }
 
 // "3 and 2" are sizes that differ, "7 and 0" an index that is compared with 0 before the size.
@@ -217,23 +217,23 @@ std::string messageAbout(const CrashSite& site, const std::string& crash) {
 }
 
 // Visible checks with an outcome of which a second look says more.
-std::vector<CheckResult*> chosen(GradeResult& result, std::size_t most,
-                                 const std::function<bool(const CheckResult&)>& tells) {
-  std::vector<CheckResult*> checks;
-  for (CheckResult& check : result.checks)
-    if (check.group == Group::kVisible && tells(check)) checks.push_back(&check);
+std::vector<grading::CheckResult*> chosen(grading::GradeResult& result, std::size_t most,
+                                          const std::function<bool(const grading::CheckResult&)>& tells) {
+  std::vector<grading::CheckResult*> checks;
+  for (grading::CheckResult& check : result.checks)
+    if (check.group == grading::Group::kVisible && tells(check)) checks.push_back(&check);
   if (checks.size() > most) checks.resize(most);
   return checks;
 }
 
 // Another build of the file repeats the checks to find out where they end. The verdict stays: whatever goes
 // wrong here, the result is no worse than without.
-void repeat(const std::vector<CheckResult*>& checks, const Toolchain& toolchain, const ExerciseInfo& exercise,
-            const SubmissionOptions& options, const BuiltSubmission& built,
-            const std::function<void(const CrashSite&, CheckResult&)>& explain) {
+void repeat(const std::vector<grading::CheckResult*>& checks, const Toolchain& toolchain,
+            const ExerciseInfo& exercise, const SubmissionOptions& options, const BuiltSubmission& built,
+            const std::function<void(const CrashSite&, grading::CheckResult&)>& explain) {
   std::filesystem::create_directories(options.workFolder);
   if (built.worker.empty()) return;
-  for (CheckResult* check : checks) {
+  for (grading::CheckResult* check : checks) {
     const auto site = crashSiteOf(toolchain, exercise, options, built, check->id);
     if (!site) continue;
     explain(*site, *check);
@@ -242,24 +242,24 @@ void repeat(const std::vector<CheckResult*>& checks, const Toolchain& toolchain,
 }
 
 void findCrashes(const Toolchain& toolchain, const ExerciseInfo& exercise, const SubmissionOptions& options,
-                 const BuiltSubmission& graded, GradeResult& result) {
-  const auto crashed =
-      chosen(result, 2, [](const CheckResult& check) { return tellsOfCrash(check.message); });
+                 const BuiltSubmission& graded, grading::GradeResult& result) {
+  const auto crashed = chosen(
+      result, 2, [](const grading::CheckResult& check) { return grading::tellsOfCrash(check.message); });
   if (crashed.empty()) return;
   SubmissionOptions again = options;
   again.sanitize = true;
   const BuiltSubmission built = options.sanitize ? graded : buildSubmission(toolchain, exercise, again);
-  repeat(crashed, toolchain, exercise, again, built, [](const CrashSite& site, CheckResult& check) {
+  repeat(crashed, toolchain, exercise, again, built, [](const CrashSite& site, grading::CheckResult& check) {
     check.message = messageAbout(site, check.message);
   });
 }
 
 // The function that was called last need not be the one that never ends.
 void findEndlessLoops(const Toolchain& toolchain, const ExerciseInfo& exercise,
-                      const SubmissionOptions& options, GradeResult& result) {
+                      const SubmissionOptions& options, grading::GradeResult& result) {
   constexpr double kMostSeconds = 3;
-  const auto late = chosen(result, 1, [](const CheckResult& check) {
-    return check.status == Outcome::kTimeLimit && !check.function.empty() &&
+  const auto late = chosen(result, 1, [](const grading::CheckResult& check) {
+    return check.status == grading::Outcome::kTimeLimit && !check.function.empty() &&
            check.message.find("CPU time") != std::string::npos;  // not asleep
   });
   if (late.empty() || options.sanitize) return;
@@ -272,7 +272,7 @@ void findEndlessLoops(const Toolchain& toolchain, const ExerciseInfo& exercise,
                                                withSanitizers(exercise.limits).memory,
                                                std::min(exercise.limits.cpuSeconds, kMostSeconds));
   const BuiltSubmission built = buildWith(locating, timed, again);
-  repeat(late, locating, timed, again, built, [](const CrashSite& site, CheckResult& check) {
+  repeat(late, locating, timed, again, built, [](const CrashSite& site, grading::CheckResult& check) {
     if (site.line == 0) return;
     check.message = printable(fmt::format("{}; line {}, in {}, was running: an endless loop?", check.message,
                                           site.line, site.function),
@@ -281,7 +281,7 @@ void findEndlessLoops(const Toolchain& toolchain, const ExerciseInfo& exercise,
 }
 
 void lookAgain(const Toolchain& toolchain, const ExerciseInfo& exercise, const SubmissionOptions& options,
-               const BuiltSubmission& graded, GradeResult& result) {
+               const BuiltSubmission& graded, grading::GradeResult& result) {
   // The sanitizers need to read and map memory in ways that a sandbox forbids.
   if (isConfined(options.job.sandbox.level)) return;
   SubmissionOptions again = options;
@@ -305,23 +305,23 @@ nlohmann::json hintsFrom(const std::function<nlohmann::json()>& read) {
   }
 }
 
-void findLines(const std::string& source, std::vector<CheckResult>& checks) {
+void findLines(const std::string& source, std::vector<grading::CheckResult>& checks) {
   const nlohmann::json lines = hintsFrom([&] {
     const CppText text(source);
     nlohmann::json found;
-    for (const CheckResult& check : checks)
+    for (const grading::CheckResult& check : checks)
       found.push_back(check.function.empty() ? 0 : definitionLineOf(check.function, text));
     return found;
   });
   for (std::size_t k = 0; k < lines.size(); ++k) checks[k].line = lines[k];
 }
 
-void explain(const std::string& source, std::vector<CheckResult>& checks) {
+void explain(const std::string& source, std::vector<grading::CheckResult>& checks) {
   const nlohmann::json messages = hintsFrom([&] {
-    std::vector<CheckResult> explained = checks;
+    std::vector<grading::CheckResult> explained = checks;
     explainCascades(explained, source);
     nlohmann::json found;
-    for (const CheckResult& check : explained) found.push_back(check.message);
+    for (const grading::CheckResult& check : explained) found.push_back(check.message);
     return found;
   });
   for (std::size_t k = 0; k < messages.size(); ++k) checks[k].message = messages[k];
@@ -334,16 +334,16 @@ BuiltSubmission buildSubmission(const Toolchain& toolchain, const ExerciseInfo& 
   return buildWith(options.sanitize ? sanitized(toolchain, exercise, options) : toolchain, exercise, options);
 }
 
-GradeResult gradeBuilt(const BuiltSubmission& built, const Toolchain& toolchain, const ExerciseInfo& exercise,
-                       const SubmissionOptions& options) {
-  const GradingJob job = jobOf(toolchain, exercise, options, built);
-  saveResult(built.start, job.results);
-  GradeResult result = callGrader(graderCommand(toolchain, job), job.results);
+grading::GradeResult gradeBuilt(const BuiltSubmission& built, const Toolchain& toolchain,
+                                const ExerciseInfo& exercise, const SubmissionOptions& options) {
+  const grading::GradingJob job = jobOf(toolchain, exercise, options, built);
+  grading::saveResult(built.start, job.results);
+  grading::GradeResult result = callGrader(graderCommand(toolchain, job), job.results);
   if (built.worker.empty()) return result;
   findLines(built.source, result.checks);
   if (options.lookAgain || options.sanitize) lookAgain(toolchain, exercise, options, built, result);
   explain(built.source, result.checks);
-  saveResult(result, job.results);
+  grading::saveResult(result, job.results);
   return result;
 }
 
@@ -361,13 +361,13 @@ std::string exerciseVersion(const path& folder) {
   return sha256(text).substr(0, 12);
 }
 
-std::vector<CheckResult> listChecks(const Toolchain& toolchain) {
+std::vector<grading::CheckResult> listChecks(const Toolchain& toolchain) {
   const ProcessResult run = runProcess({toolchain.grader.string(), "--list"});
-  std::vector<CheckResult> checks;
+  std::vector<grading::CheckResult> checks;
   try {
     for (const nlohmann::json& entry : nlohmann::json::parse(run.output)) {
-      CheckResult check{.id = entry.at("id"), .part = entry.at("part"), .title = entry.at("title")};
-      check.group = entry.at("group") == "hidden" ? Group::kHidden : Group::kVisible;
+      grading::CheckResult check{.id = entry.at("id"), .part = entry.at("part"), .title = entry.at("title")};
+      check.group = entry.at("group") == "hidden" ? grading::Group::kHidden : grading::Group::kVisible;
       check.maxPoints = entry.at("points");
       checks.push_back(std::move(check));
     }
@@ -379,4 +379,4 @@ std::vector<CheckResult> listChecks(const Toolchain& toolchain) {
   return checks;
 }
 
-}  // namespace rex::grading
+}  // namespace rex::submission

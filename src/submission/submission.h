@@ -9,7 +9,7 @@
 #include "submission/build_tools.h"
 #include "submission/exercise_info.h"
 
-namespace rex::grading {
+namespace rex::submission {
 
 /// What to grade, and how.
 struct SubmissionOptions {
@@ -18,7 +18,7 @@ struct SubmissionOptions {
   /// Its sandbox is also used for compilers, which use as many processors as it has jobs; build.log is
   /// written next to its results. The worker, limits, libraries and temporary folder are set by the
   /// functions below.
-  GradingJob job{};
+  grading::GradingJob job{};
   bool lookAgain = false;      ///< after a crash in a visible check, find its line with the sanitizers
   bool sanitize = false;       ///< grade a build with the sanitizers, with twenty times the CPU time
   double compileSeconds = 30;  ///< of CPU time
@@ -26,7 +26,7 @@ struct SubmissionOptions {
 
 /// A graded file.
 struct Submission {
-  GradeResult result;
+  grading::GradeResult result;
   std::string source;  ///< what was compiled; empty if the file was rejected
 };
 
@@ -39,7 +39,7 @@ struct Submission {
 /// The first of the two steps of gradeSubmission(): the result of compiling, and the worker if there is
 /// one.
 struct BuiltSubmission {
-  GradeResult start;  ///< the result before any check has run
+  grading::GradeResult start;  ///< the result before any check has run
   std::string source;
   std::filesystem::path worker;      ///< empty: the file does not compile, or the tools failed
   std::vector<std::string> parts{};  ///< with workers of their own: see workerOf()
@@ -48,13 +48,13 @@ struct BuiltSubmission {
                                               const SubmissionOptions& options);
 
 /// The second step, which may be repeated with other seeds.
-[[nodiscard]] GradeResult gradeBuilt(const BuiltSubmission& built, const Toolchain& toolchain,
-                                     const ExerciseInfo& exercise, const SubmissionOptions& options);
+[[nodiscard]] grading::GradeResult gradeBuilt(const BuiltSubmission& built, const Toolchain& toolchain,
+                                              const ExerciseInfo& exercise, const SubmissionOptions& options);
 
 /// Twelve digits that change whenever the exercise in that folder or its checks change.
 [[nodiscard]] std::string exerciseVersion(const std::filesystem::path& folder);
 
 /// All checks of an exercise, not run. Throws Error if the grader cannot list them.
-[[nodiscard]] std::vector<CheckResult> listChecks(const Toolchain& toolchain);
+[[nodiscard]] std::vector<grading::CheckResult> listChecks(const Toolchain& toolchain);
 
-}  // namespace rex::grading
+}  // namespace rex::submission

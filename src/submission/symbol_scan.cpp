@@ -20,7 +20,7 @@
 #include "submission/mentions.h"
 #include "submission/worker_part.h"
 
-namespace rex::grading {
+namespace rex::submission {
 namespace {
 
 constexpr unsigned char kByteOrder = std::endian::native == std::endian::little ? ELFDATA2LSB : ELFDATA2MSB;
@@ -268,7 +268,8 @@ std::string nameIn(const std::string& symbol) {
   return std::string(name.substr(0, name.find_first_of("(<[ ")));
 }
 
-CompileDiagnostic forbiddenCall(const std::string& mainFile, std::pair<int, int> place, std::string message) {
+grading::CompileDiagnostic forbiddenCall(const std::string& mainFile, std::pair<int, int> place,
+                                         std::string message) {
   return {mainFile, place.first, place.second, "error", "forbidden-call", std::move(message)};
 }
 
@@ -312,9 +313,9 @@ std::vector<ForbiddenFunction> forbiddenCalls(const ObjectFile& object,
   return found;
 }
 
-std::vector<CompileDiagnostic> strangeParts(const ObjectFile& object, const std::string& mainFile) {
+std::vector<grading::CompileDiagnostic> strangeParts(const ObjectFile& object, const std::string& mainFile) {
   constexpr std::size_t kShown = 60;
-  std::vector<CompileDiagnostic> messages;
+  std::vector<grading::CompileDiagnostic> messages;
   const auto complain = [&](const char* text, const std::string& name) {
     if (messages.size() < 4)  // further ones add nothing
       messages.push_back(
@@ -345,13 +346,13 @@ std::vector<std::string> callsNotOffered(const ObjectFile& object, const std::ve
   return {found.begin(), found.end()};
 }
 
-std::vector<CompileDiagnostic> scanSymbols(const std::filesystem::path& object, std::string_view source,
-                                           const std::string& mainFile,
-                                           const std::vector<ForbiddenFunction>& forbidden,
-                                           const std::filesystem::path& offers) {
+std::vector<grading::CompileDiagnostic> scanSymbols(const std::filesystem::path& object,
+                                                    std::string_view source, const std::string& mainFile,
+                                                    const std::vector<ForbiddenFunction>& forbidden,
+                                                    const std::filesystem::path& offers) {
   const ObjectFile file = readObjectFile(readTextFile(object), object.string());
   const CppText text(source);
-  std::vector<CompileDiagnostic> messages;
+  std::vector<grading::CompileDiagnostic> messages;
   const auto complain = [&](const std::string& function, std::string message) {
     if (messages.size() <= kMostMessages)
       messages.push_back(forbiddenCall(mainFile, onlyMentionOf(function, text), std::move(message)));
@@ -375,4 +376,4 @@ std::vector<CompileDiagnostic> scanSymbols(const std::filesystem::path& object, 
   return messages;
 }
 
-}  // namespace rex::grading
+}  // namespace rex::submission

@@ -9,7 +9,7 @@
 #include "submission/compiler_messages.h"
 #include "submission/exercise_info.h"
 
-namespace rex::grading {
+namespace rex::submission {
 
 /// A named symbol of an object file. Symbols for sections and for the source file are left out.
 struct ObjectSymbol {
@@ -60,16 +60,15 @@ struct ObjectFile {
 /// Finds what no compiler writes into the object file of a C++ source: unprintable names, sections that
 /// only the linker makes, sections with code for the linker to compile, and more than 64 MiB of variables of
 /// each thread. Each is an error with the rule "forbidden-call". Call it before a linker reads the file.
-[[nodiscard]] std::vector<CompileDiagnostic> strangeParts(const ObjectFile& object,
-                                                          const std::string& mainFile);
+[[nodiscard]] std::vector<grading::CompileDiagnostic> strangeParts(const ObjectFile& object,
+                                                                   const std::string& mainFile);
 
 /// Explains each of the forbiddenCalls() and, if a file of `offers` is given, callsNotOffered() of an
 /// object file without main() (see withoutMain()) as an error with the rule "forbidden-call". It is at the
 /// line of `source` that names the function, if there is exactly one outside main(). Throws Error like
 /// readObjectFile().
-[[nodiscard]] std::vector<CompileDiagnostic> scanSymbols(const std::filesystem::path& object,
-                                                         std::string_view source, const std::string& mainFile,
-                                                         const std::vector<ForbiddenFunction>& forbidden,
-                                                         const std::filesystem::path& offers = {});
+[[nodiscard]] std::vector<grading::CompileDiagnostic> scanSymbols(
+    const std::filesystem::path& object, std::string_view source, const std::string& mainFile,
+    const std::vector<ForbiddenFunction>& forbidden, const std::filesystem::path& offers = {});
 
-}  // namespace rex::grading
+}  // namespace rex::submission

@@ -12,7 +12,7 @@
 #include "submission/compiler_messages.h"
 #include "submission/reading_apart_internal.h"
 
-namespace rex::grading {
+namespace rex::submission {
 namespace {
 
 using std::filesystem::path;
@@ -85,4 +85,4 @@ std::optional<ProcessResult> compilePart(const std::string& part, const std::vec
   return ended(0, joined(readTextFile(top / kMessages), readTextFile(folder / kMessages)));
 }
 
-}  // namespace rex::grading
+}  // namespace rex::submission

@@ -9,7 +9,7 @@
 #include "base/process.h"
 #include "submission/build_tools.h"
 
-namespace rex::grading {
+namespace rex::submission {
 
 /// Compiles a part of a source (see gradedPart()) to `object`, while another compiler checks the syntax of
 /// the whole, the file `name` next to the object. Both use `command`. Returns the messages of the second
@@ -21,4 +21,4 @@ namespace rex::grading {
     const std::filesystem::path& object,
     const std::function<BuildTools(const std::filesystem::path& folder)>& toolsFor);
 
-}  // namespace rex::grading
+}  // namespace rex::submission

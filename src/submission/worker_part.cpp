@@ -14,7 +14,7 @@
 #include "submission/reading_apart_internal.h"
 #include "submission/symbol_scan.h"
 
-namespace rex::grading {
+namespace rex::submission {
 namespace {
 
 namespace fs = std::filesystem;
@@ -291,4 +291,4 @@ std::vector<std::string> offeredSymbols(const fs::path& offers) {
   return names;
 }
 
-}  // namespace rex::grading
+}  // namespace rex::submission

@@ -9,7 +9,7 @@
 #include "submission/build_tools.h"
 #include "submission/exercise_info.h"
 
-namespace rex::grading {
+namespace rex::submission {
 
 /// Links a student's object file into `part` without main() and what only main() uses. What is reachable
 /// from a function that the worker needs or from code that runs before main() remains; a pointer to main()
@@ -61,4 +61,4 @@ struct WorkerOfPart {
 /// The mangled names that linkWorkerParts() offers to a student's file, sorted.
 [[nodiscard]] std::vector<std::string> offeredSymbols(const std::filesystem::path& offers);
 
-}  // namespace rex::grading
+}  // namespace rex::submission

@@ -7,7 +7,7 @@
 
 namespace {
 
-rex::grading::WorkerPartOrder readOrder(const char* file) {
+rex::submission::WorkerPartOrder readOrder(const char* file) {
   const auto order = rex::TomlTable::read(file, "order", "what the build has written");
   const auto paths = [&](const char* key) {
     const std::vector<std::string> texts = order.texts(key);
@@ -33,7 +33,7 @@ int main(int argc, char** argv) {
     return 64;
   }
   try {
-    rex::grading::linkWorkerParts(readOrder(argv[1]));
+    rex::submission::linkWorkerParts(readOrder(argv[1]));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 1;

@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "base/text_file.h"
 
-namespace rex::grading {
+namespace rex::submission {
 namespace {
 
 /// Names are marked as UTF-8 in a thread whose locale has that encoding.
@@ -61,4 +61,4 @@ void writeZip(const std::filesystem::path& file, const std::vector<ZipEntry>& en
   replaceTextFile(file, bytes, "the zip file");
 }
 
-}  // namespace rex::grading
+}  // namespace rex::submission

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace rex::grading {
+namespace rex::submission {
 
 struct ZipEntry {
   std::string name;  ///< with slashes: "01-kinematics/main.cpp"
@@ -15,4 +15,4 @@ struct ZipEntry {
 /// Throws Error if it cannot be written.
 void writeZip(const std::filesystem::path& file, const std::vector<ZipEntry>& entries);
 
-}  // namespace rex::grading
+}  // namespace rex::submission

@@ -12,7 +12,7 @@
 #include "support/paths.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::course_site_test {
+namespace rex::authoring::course_site_test {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
@@ -121,4 +121,4 @@ TEST_F(CourseSiteTest, OverwritesNothing) {
   EXPECT_EQ(fileText(out() / "notes.txt"), "mine");
 }
 
-}  // namespace rex::grading::course_site_test
+}  // namespace rex::authoring::course_site_test

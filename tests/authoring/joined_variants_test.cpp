@@ -3,7 +3,7 @@
 
 #include "authoring/wrong_variants.h"
 
-namespace rex::grading::joined_variants_test {
+namespace rex::authoring::joined_variants_test {
 
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -109,4 +109,4 @@ TEST(JoinedVariants, AreSwappedByTheirSymbols) {
   EXPECT_THAT(standIns(symbols, 1), IsEmpty());
 }
 
-}  // namespace rex::grading::joined_variants_test
+}  // namespace rex::authoring::joined_variants_test

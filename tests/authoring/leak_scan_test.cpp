@@ -12,7 +12,7 @@
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::leak_scan_test {
+namespace rex::authoring::leak_scan_test {
 
 namespace fs = std::filesystem;
 using ::testing::ElementsAre;
@@ -173,11 +173,12 @@ TEST_F(LeakScanTest, FindsMarksThatWereNotTakenAway) {
 }
 
 TEST_F(LeakScanTest, OpensArchivesInsideOfArchives) {
-  writeZip(folder_.path() / "inner.zip", {{"deep/a.txt", "one\nreturn 3.14159265 * square;\n"}});
-  writeZip(folder_.path() / "outer.zip", {{"inner.zip", readTextFile(folder_.path() / "inner.zip")}});
+  submission::writeZip(folder_.path() / "inner.zip", {{"deep/a.txt", "one\nreturn 3.14159265 * square;\n"}});
+  submission::writeZip(folder_.path() / "outer.zip",
+                       {{"inner.zip", readTextFile(folder_.path() / "inner.zip")}});
   const std::string outer = readTextFile(folder_.path() / "outer.zip");
   EXPECT_EQ(leakOf("old.bak", outer), std::string("old.bak: inner.zip: deep/a.txt:2: ") + kOfSolution);
-  writeZip(folder_.path() / "named.zip", {{"x/solution.cpp", "int a;"}});
+  submission::writeZip(folder_.path() / "named.zip", {{"x/solution.cpp", "int a;"}});
   EXPECT_THAT(leakOf("a.zip", readTextFile(folder_.path() / "named.zip")),
               HasSubstr("a.zip: x/solution.cpp: a file of that name"));
   write("tree/outer.zip", outer);
@@ -198,7 +199,7 @@ TEST_F(LeakScanTest, RefusesWhatNobodyCanLookThrough) {
               HasSubstr("a.zip: an archive that cannot be opened ("));
   std::string nested = "text";
   for (int k = 0; k < 6; ++k) {
-    writeZip(folder_.path() / "n.zip", {{"n.zip", nested}});
+    submission::writeZip(folder_.path() / "n.zip", {{"n.zip", nested}});
     nested = readTextFile(folder_.path() / "n.zip");
   }
   EXPECT_THAT(leakOf("n.zip", nested),
@@ -282,4 +283,4 @@ TEST_F(LeakScanTest, TakesHeadersForPublicButNotWithLinesOfTheSolution) {
   EXPECT_THAT(leaks(), ElementsAre(std::string("exercise.h:2: ") + kOfSolution));
 }
 
-}  // namespace rex::grading::leak_scan_test
+}  // namespace rex::authoring::leak_scan_test

@@ -13,7 +13,7 @@
 #include "base/text_file.h"
 #include "support/paths.h"
 
-namespace rex::grading::lecture_notes_test {
+namespace rex::authoring::lecture_notes_test {
 
 namespace fs = std::filesystem;
 using ::testing::Contains;
@@ -90,4 +90,4 @@ TEST(LectureNotes, AnswerThePaperExercisesOfTheScript) {
   expectAnswered("08-mdp", {"## 12.10.1 a:", "## 12.10.1 d:"});
 }
 
-}  // namespace rex::grading::lecture_notes_test
+}  // namespace rex::authoring::lecture_notes_test

@@ -6,7 +6,7 @@
 #include "authoring/gates.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::named_symbols_test {
+namespace rex::authoring::named_symbols_test {
 
 namespace fs = std::filesystem;
 using ::testing::ElementsAre;
@@ -70,4 +70,4 @@ TEST_F(DeadNamesTest, FindForbiddenFunctionsThatTheLibraryDoesNotHave) {
   EXPECT_THAT(places_[0].nearest, ElementsAre("jacobianPos"));
 }
 
-}  // namespace rex::grading::named_symbols_test
+}  // namespace rex::authoring::named_symbols_test

@@ -2,7 +2,7 @@
 
 #include "authoring/leak_scan.h"
 
-namespace rex::grading::normal_text_test {
+namespace rex::authoring::normal_text_test {
 
 std::string letters(std::string_view text, Comments comments = Comments::kKeep) {
   return normalText(text, comments).letters;
@@ -37,4 +37,4 @@ TEST(NormalText, TellsTheLineOfEachLetter) {
   EXPECT_TRUE(normalText("", Comments::kKeep).letters.empty());
 }
 
-}  // namespace rex::grading::normal_text_test
+}  // namespace rex::authoring::normal_text_test

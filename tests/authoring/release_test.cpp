@@ -11,7 +11,7 @@
 #include "support/file_text.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::release_test {
+namespace rex::authoring::release_test {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
@@ -218,4 +218,4 @@ TEST_F(ReleaseTest, PassesOnComplaintsAboutMarkers) {
   EXPECT_REX_ERROR(writeStudentRelease(root(), target()), "check.cpp:1:5: no '// </hidden>' closes this");
 }
 
-}  // namespace rex::grading::release_test
+}  // namespace rex::authoring::release_test

@@ -9,21 +9,21 @@
 #include "support/file_text.h"
 #include "support/fresh_folder.h"
 
-namespace rex::grading::seen_messages_test {
+namespace rex::authoring::seen_messages_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-GradeResult graded() {
-  GradeResult result;
-  const auto add = [&](const char* id, Group group, Outcome status, const char* message) {
+grading::GradeResult graded() {
+  grading::GradeResult result;
+  const auto add = [&](const char* id, grading::Group group, grading::Outcome status, const char* message) {
     result.checks.push_back({.id = id, .group = group, .status = status, .message = message});
   };
-  add("hidden", Group::kHidden, Outcome::kFail, "x: does not hold");
-  add("passed", Group::kVisible, Outcome::kPass, "");
-  add("first", Group::kVisible, Outcome::kFail, "y: got 1");
-  add("second", Group::kVisible, Outcome::kFail, "z: got 2");
+  add("hidden", grading::Group::kHidden, grading::Outcome::kFail, "x: does not hold");
+  add("passed", grading::Group::kVisible, grading::Outcome::kPass, "");
+  add("first", grading::Group::kVisible, grading::Outcome::kFail, "y: got 1");
+  add("second", grading::Group::kVisible, grading::Outcome::kFail, "z: got 2");
   return result;
 }
 
@@ -34,7 +34,7 @@ TEST(SeenMessage, IsThatOfTheFirstVisibleCheckThatFails) {
 }
 
 TEST(SeenMessage, IsTheCompilersIfNothingWasGraded) {
-  GradeResult result{.message = "does not compile"};
+  grading::GradeResult result{.message = "does not compile"};
   EXPECT_EQ(seenMessage(result, {"first"}), "does not compile");
   result.compile.diagnostics = {
       {.file = "main.cpp", .line = 2, .column = 1, .severity = "warning", .message = "unused"},
@@ -75,4 +75,4 @@ TEST(ChangedMessages, NameWhatIsNewGoneOrOtherwise) {
                   "gone: is in seen.txt, but there is no such variant", HasSubstr("REX_UPDATE_GOLDEN=1")));
 }
 
-}  // namespace rex::grading::seen_messages_test
+}  // namespace rex::authoring::seen_messages_test

@@ -9,7 +9,7 @@
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::unpack_test {
+namespace rex::authoring::unpack_test {
 
 // Programs that share no code with us pack them.
 TEST(Unpack, ReadsWhatOthersPack) {
@@ -36,7 +36,7 @@ TEST(Unpack, ReadsWhatOthersPack) {
 
 TEST(Unpack, ReadsZipFiles) {
   const TemporaryFolder folder;
-  writeZip(folder.path() / "a.zip", {{"b/c.txt", "one"}, {"d", ""}});
+  submission::writeZip(folder.path() / "a.zip", {{"b/c.txt", "one"}, {"d", ""}});
   const std::string bytes = readTextFile(folder.path() / "a.zip");
   EXPECT_TRUE(isPacked(bytes));
   const auto files = unpack(bytes, "a.zip");
@@ -70,4 +70,4 @@ TEST(Unpack, RefusesWhatIsBroken) {
   }
 }
 
-}  // namespace rex::grading::unpack_test
+}  // namespace rex::authoring::unpack_test

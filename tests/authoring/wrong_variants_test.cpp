@@ -11,7 +11,7 @@
 #include "support/paths.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::wrong_variants_test {
+namespace rex::authoring::wrong_variants_test {
 
 namespace fs = std::filesystem;
 using ::testing::ElementsAre;
@@ -45,13 +45,14 @@ class WrongVariantsTest : public ::testing::Test {
     const fs::path work = temporary_.path() / "work";
     fs::remove_all(work);
     fs::create_directory(work);
-    return runGate({.root = temporary_.path(),
-                    .exercise = readExerciseInfo(exercise()),
-                    .toolchain = readToolchain(buildPath("tests/template/exercises/98-template/build.json")),
-                    .workFolder = work,
-                    .variants = variants,
-                    .storesMessages = storesMessages},
-                   gate);
+    return runGate(
+        {.root = temporary_.path(),
+         .exercise = submission::readExerciseInfo(exercise()),
+         .toolchain = submission::readToolchain(buildPath("tests/template/exercises/98-template/build.json")),
+         .workFolder = work,
+         .variants = variants,
+         .storesMessages = storesMessages},
+        gate);
   }
 
   static constexpr const char* kByLibrary =
@@ -157,11 +158,11 @@ TEST_F(WrongVariantsTest, AreCalledWhateverTheReferenceDoes) {
 }
 
 TEST_F(WrongVariantsTest, AreGatesThemselvesIfOneAsks) {
-  EXPECT_EQ(gateNames(readExerciseInfo(exercise())).back(), "wrong");
+  EXPECT_EQ(gateNames(submission::readExerciseInfo(exercise())).back(), "wrong");
   EXPECT_TRUE(pass("wrong/library").passed);
   fs::remove(exercise() / "wrong.cpp");
-  EXPECT_EQ(gateNames(readExerciseInfo(exercise())).back(), "liars");
+  EXPECT_EQ(gateNames(submission::readExerciseInfo(exercise())).back(), "liars");
   EXPECT_THROW(pass("wrong"), UsageError);
 }
 
-}  // namespace rex::grading::wrong_variants_test
+}  // namespace rex::authoring::wrong_variants_test

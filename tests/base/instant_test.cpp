@@ -6,7 +6,7 @@
 
 #include "base/rng.h"
 
-namespace rex::grading::instant_test {
+namespace rex::instant_test {
 
 TEST(Instant, ReadsTimesWithTheirZones) {
   EXPECT_EQ(parseInstant("1970-01-01T00:00:00Z"), 0);
@@ -37,4 +37,4 @@ TEST(Instant, AgreesWithTheSystem) {
   }
 }
 
-}  // namespace rex::grading::instant_test
+}  // namespace rex::instant_test

@@ -8,7 +8,7 @@
 #include "base/process.h"
 #include "base/rng.h"
 
-namespace rex::grading::printable_test {
+namespace rex::printable_test {
 
 const std::string kMark = "\xEF\xBF\xBD";
 
@@ -73,4 +73,4 @@ TEST(Printable, IsValidForEveryInput) {
   }
 }
 
-}  // namespace rex::grading::printable_test
+}  // namespace rex::printable_test

@@ -8,7 +8,7 @@
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::private_folder_test {
+namespace rex::private_folder_test {
 
 namespace fs = std::filesystem;
 
@@ -41,4 +41,4 @@ TEST(PrivateFolder, RemovesThoseWhoseOwnersWereKilled) {
   for (const fs::path& folder : {young, course, held.path(), next.path()}) EXPECT_TRUE(fs::exists(folder));
 }
 
-}  // namespace rex::grading::private_folder_test
+}  // namespace rex::private_folder_test

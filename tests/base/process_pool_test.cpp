@@ -12,7 +12,7 @@
 #include "base/interruption.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::process_pool_test {
+namespace rex::process_pool_test {
 
 namespace fs = std::filesystem;
 
@@ -124,4 +124,4 @@ TEST_F(ProcessPoolTest, PassesARequestToStopOnAndWaits) {
   EXPECT_EQ(count("tidied"), 2);
 }
 
-}  // namespace rex::grading::process_pool_test
+}  // namespace rex::process_pool_test

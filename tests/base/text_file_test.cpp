@@ -5,7 +5,7 @@
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::text_file_test {
+namespace rex::text_file_test {
 
 TEST(TextFile, KeepsEveryByteAndMakesFolders) {
   const TemporaryFolder temporary;
@@ -37,4 +37,4 @@ TEST(TextFile, IsReplacedWithoutATrace) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(temporary.path()), {}), 2);
 }
 
-}  // namespace rex::grading::text_file_test
+}  // namespace rex::text_file_test

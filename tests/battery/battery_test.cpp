@@ -111,7 +111,7 @@ class Battery : public ::testing::Test {
  protected:
   Battery() { writeTextFile(secret(), kSecret); }
 
-  SubmissionOptions optionsFor(const fs::path& file, int level, const std::string& name) const {
+  submission::SubmissionOptions optionsFor(const fs::path& file, int level, const std::string& name) const {
     return {.main = file,
             .workFolder = temporary_.path() / name / "work",
             .job = {.results = temporary_.path() / name / "results.json",
@@ -122,22 +122,22 @@ class Battery : public ::testing::Test {
 
   // The result of an honest program, without what may differ.
   std::string honest(int level) const {
-    const SubmissionOptions options = optionsFor("", level, "honest");
+    const submission::SubmissionOptions options = optionsFor("", level, "honest");
     fs::create_directories(options.workFolder);
-    BuiltSubmission built;
+    submission::BuiltSubmission built;
     built.worker = kOutput / "honest";
-    EXPECT_EQ(gradeBuilt(built, toolchain_, exercise(), options).score, 10);
+    EXPECT_EQ(submission::gradeBuilt(built, toolchain_, exercise(), options).score, 10);
     nlohmann::json json = nlohmann::json::parse(readTextFile(options.job.results));
     eraseVolatile(json);
     return json.dump(1);
   }
 
-  static ExerciseInfo exercise() { return readExerciseInfo(kFolder / "battery"); }
+  static submission::ExerciseInfo exercise() { return submission::readExerciseInfo(kFolder / "battery"); }
 
   fs::path secret() const { return temporary_.path() / "secret-of-the-course"; }
 
   // What must hold whatever was handed in.
-  void expectNoHarm(const GradeResult& result, const SubmissionOptions& options) const {
+  void expectNoHarm(const GradeResult& result, const submission::SubmissionOptions& options) const {
     for (const CheckResult& check : result.checks) EXPECT_LE(check.wallSeconds, 4 * 2.4 + 2) << check.id;
     EXPECT_EQ(loadResult(options.job.results).outcome, result.outcome);
     EXPECT_EQ(result.sandboxLevel, numberOf(options.job.sandbox.level));
@@ -154,13 +154,13 @@ class Battery : public ::testing::Test {
   }
 
   TemporaryFolder temporary_;
-  Toolchain toolchain_ = readToolchain(kOutput / "build.json");
+  submission::Toolchain toolchain_ = submission::readToolchain(kOutput / "build.json");
 };
 
 // Whether a file was built or refused as its row says: "-" for a file that is built, or pieces of the
 // messages that may refuse it. A file that is refused for another reason, such as a header that is gone,
 // attacks nothing.
-bool isAsExpected(const BuiltSubmission& built, const std::string& refused) {
+bool isAsExpected(const submission::BuiltSubmission& built, const std::string& refused) {
   const std::string& message = built.start.message;
   const std::vector<std::string> pieces = cut(refused, '|');
   return std::any_of(pieces.begin(), pieces.end(), [&](const std::string& piece) {
@@ -210,7 +210,8 @@ class Attacks : public Battery, public ::testing::WithParamInterface<Attack> {
  protected:
   fs::path source() const { return kFolder / "attacks" / (GetParam().file + ".cpp"); }
 
-  void expectHarmless(const GradeResult& result, const SubmissionOptions& options, bool compiled) const {
+  void expectHarmless(const GradeResult& result, const submission::SubmissionOptions& options,
+                      bool compiled) const {
     const Attack& attack = GetParam();
     const int level = numberOf(options.job.sandbox.level);
     RecordProperty("level_" + std::to_string(level), std::string(toString(result.outcome)));
@@ -231,18 +232,19 @@ TEST_P(Attacks, GainNothingAndHarmNobody) {
   if (levels.empty()) GTEST_SKIP() << "no sandbox is offered here";
   if (!isLongRun()) levels.resize(1);
   const std::string before = honest(levels.front());
-  std::optional<BuiltSubmission> built;
+  std::optional<submission::BuiltSubmission> built;
   for (const int level : levels) {
     SCOPED_TRACE("level " + std::to_string(level));
-    SubmissionOptions options = optionsFor(source(), level, "attack");
+    submission::SubmissionOptions options = optionsFor(source(), level, "attack");
     options.job.checks = attack.checks;
     if (attack.file.starts_with("A15") || attack.file.starts_with("A16")) options.compileSeconds = 2;
-    ExerciseInfo info = exercise();
+    submission::ExerciseInfo info = exercise();
     // Some machines need more than a second to touch all memory that is allowed.
     if (attack.outcomes.at(level).contains(Outcome::kMemoryLimit)) info.limits.cpuSeconds = 4;
-    if (!built || attack.whileCompiling) built = buildSubmission(toolchain_, info, options);
+    if (!built || attack.whileCompiling) built = submission::buildSubmission(toolchain_, info, options);
     EXPECT_TRUE(isAsExpected(*built, attack.refused)) << built->start.message;
-    expectHarmless(gradeBuilt(*built, toolchain_, info, options), options, !built->worker.empty());
+    expectHarmless(submission::gradeBuilt(*built, toolchain_, info, options), options,
+                   !built->worker.empty());
     EXPECT_EQ(honest(level), before);
   }
 }
@@ -299,13 +301,15 @@ std::vector<ClassedAttack> classedAttacks() {
   return attacks;
 }
 
-// The text of an attack, with the tools in place of the line that includes them.
+// The text of an attack, with the text of a header beside it in place of the line that includes it.
 std::string textOfAttack(const std::string& name) {
-  constexpr std::string_view kInclude = "#include \"attack_tools.h\"\n";
   const fs::path folder = kFolder / "attacks_by_class";
   std::string text = readTextFile(folder / (name + ".cpp"));
-  if (const std::size_t include = text.find(kInclude); include != text.npos)
-    text.replace(include, kInclude.size(), readTextFile(folder / "attack_tools.h"));
+  for (const std::string header : {"attack_tools.h", "channel.h", "system_call.h"}) {
+    const std::string line = "#include \"" + header + "\"\n";
+    if (const std::size_t include = text.find(line); include != text.npos)
+      text.replace(include, line.size(), readTextFile(folder / header));
+  }
   return text;
 }
 
@@ -347,11 +351,11 @@ TEST_P(Classes, GainNothingAndHarmNobody) {
   const std::string before = honest(levels.front());
   for (const int level : levels) {
     SCOPED_TRACE("level " + std::to_string(level));
-    SubmissionOptions options = optionsFor(source(), level, "attack");
+    submission::SubmissionOptions options = optionsFor(source(), level, "attack");
     if (GetParam().file.starts_with("C_") || GetParam().file.starts_with("N_")) options.compileSeconds = 2;
-    const BuiltSubmission built = buildSubmission(toolchain_, exercise(), options);
+    const submission::BuiltSubmission built = submission::buildSubmission(toolchain_, exercise(), options);
     EXPECT_TRUE(isAsExpected(built, GetParam().refused)) << built.start.message;
-    const GradeResult result = gradeBuilt(built, toolchain_, exercise(), options);
+    const GradeResult result = submission::gradeBuilt(built, toolchain_, exercise(), options);
     RecordProperty("level_" + std::to_string(level), std::string(toString(result.outcome)));
     EXPECT_NE(result.outcome, Outcome::kGraderError) << result.message;
     EXPECT_LE(result.score, GetParam().mostPoints) << toString(result.outcome);
@@ -369,18 +373,18 @@ INSTANTIATE_TEST_SUITE_P(All, Classes, ::testing::ValuesIn(classedAttacks()),
 TEST_F(Battery, FindsTheAnswerWhereItIsInMemory) {
   const fs::path file = temporary_.path() / "source" / "main.cpp";
   writeTextFile(file, textOfAttack("A_header_below_return_address"));
-  const SubmissionOptions options = optionsFor(file, 0, "attack");
-  Toolchain whole = toolchain_;
+  const submission::SubmissionOptions options = optionsFor(file, 0, "attack");
+  submission::Toolchain whole = toolchain_;
   whole.workerPart.clear();
   whole.offers.clear();
   whole.linkFlags.insert(whole.linkFlags.begin(),
                          {"-Wl,--no-as-needed", (kBinary / "lib" / "librex_battery_answer.so").string()});
-  const BuiltSubmission built = buildSubmission(whole, exercise(), options);
-  EXPECT_EQ(gradeBuilt(built, whole, exercise(), options).score, 8) << built.start.message;
+  const submission::BuiltSubmission built = submission::buildSubmission(whole, exercise(), options);
+  EXPECT_EQ(submission::gradeBuilt(built, whole, exercise(), options).score, 8) << built.start.message;
 }
 
 TEST(AnAttack, IsStaleIfItIsRefusedForAnotherReason) {
-  BuiltSubmission built;
+  submission::BuiltSubmission built;
   built.start.message = "main.cpp:3:10: fatal error: old.h: No such file or directory";
   EXPECT_FALSE(isAsExpected(built, "-"));
   EXPECT_FALSE(isAsExpected(built, "-|includes passwd: only public headers"));
@@ -445,13 +449,14 @@ TEST_F(Battery, A13SeesNothingBesideACompilerInTheHome) {
   fs::create_directories(home / "bin");
   fs::create_symlink("/usr/bin/c++", home / "bin" / "c++");
   writeTextFile(home / "secret.h", readTextFile(kFolder / "battery" / "honest.cpp"));
-  Toolchain toolchain = toolchain_;
+  submission::Toolchain toolchain = toolchain_;
   toolchain.compiler = home / "bin" / "c++";
   for (const int level : offeredLevels()) {
     for (const std::string& text :
          {readTextFile(home / "secret.h"), "#include \"" + (home / "secret.h").string() + "\"\n"}) {
       writeTextFile(main, text);
-      const BuiltSubmission built = buildSubmission(toolchain, exercise(), optionsFor(main, level, "attack"));
+      const submission::BuiltSubmission built =
+          submission::buildSubmission(toolchain, exercise(), optionsFor(main, level, "attack"));
       EXPECT_EQ(built.worker.empty(), text.starts_with("#include \"/")) << built.start.message;
       EXPECT_EQ(built.start.outcome == kCompileError, built.worker.empty()) << built.start.message;
     }
@@ -466,11 +471,12 @@ TEST_F(Battery, ToolsThatAreKilledAreNoFaultOfTheFile) {
   writeTextFile(tools / "cc1plus", "#!/bin/sh\nkill -KILL $$\n");
   fs::permissions(tools / "cc1plus", fs::perms(0755));
   writeTextFile(main, readTextFile(kFolder / "battery" / "honest.cpp"));
-  Toolchain toolchain = toolchain_;
+  submission::Toolchain toolchain = toolchain_;
   toolchain.compiler = tools / "c++";
   toolchain.flags.push_back("-B" + tools.string());
   for (const int level : offeredLevels()) {
-    const BuiltSubmission built = buildSubmission(toolchain, exercise(), optionsFor(main, level, "killed"));
+    const submission::BuiltSubmission built =
+        submission::buildSubmission(toolchain, exercise(), optionsFor(main, level, "killed"));
     EXPECT_EQ(built.start.outcome, Outcome::kGraderError);
     EXPECT_THAT(built.start.message, HasSubstr("failed twice through no fault of the file")) << level;
   }
@@ -488,11 +494,11 @@ TEST_F(Battery, A24TalksToNobody) {
   const fs::path main = temporary_.path() / "main.cpp";
   writeTextFile(main, "#define REX_PORT " + std::to_string(::ntohs(address.sin_port)) + "\n" +
                           readTextFile(kFolder / "attacks" / "A24_talks.cpp"));
-  std::optional<BuiltSubmission> built;
+  std::optional<submission::BuiltSubmission> built;
   for (const int level : offeredLevels()) {
-    const SubmissionOptions options = optionsFor(main, level, "attack");
-    if (!built) built = buildSubmission(toolchain_, exercise(), options);
-    const GradeResult result = gradeBuilt(*built, toolchain_, exercise(), options);
+    const submission::SubmissionOptions options = optionsFor(main, level, "attack");
+    if (!built) built = submission::buildSubmission(toolchain_, exercise(), options);
+    const GradeResult result = submission::gradeBuilt(*built, toolchain_, exercise(), options);
     EXPECT_EQ(result.outcome, kFail) << level;
     EXPECT_EQ(result.score, 0) << level;
     expectNoHarm(result, options);
@@ -523,7 +529,7 @@ class ArchiveBattery : public Battery {
   }
   void expectRefusal(const std::string& name, const std::string& reason) const {
     const std::vector<std::string> before = everythingHere();
-    const HandIns found = readHandIns(in(), {exercise()});
+    const classroom::HandIns found = classroom::readHandIns(in(), {exercise()});
     EXPECT_THAT(found.complaints,
                 ::testing::ElementsAre(::testing::AllOf(HasSubstr(name), HasSubstr(reason))));
     ASSERT_EQ(found.files.size(), 1u);
@@ -546,7 +552,7 @@ TEST_F(ArchiveBattery, A26RefusesMembersThatAreNoFilesOfTheirFolder) {
   both({.name = "battery/Main.CPP"}, "member 'battery/Main.CPP': found a second file of that name");
   const auto leavesOut = [&](const std::string& name, const std::string& bytes, const std::string& kind) {
     writeTextFile(in() / name, bytes);
-    const HandIns found = readHandIns(in(), {exercise()});
+    const classroom::HandIns found = classroom::readHandIns(in(), {exercise()});
     EXPECT_THAT(found.complaints, ::testing::IsEmpty()) << kind;
     EXPECT_THAT(found.notes, ::testing::ElementsAre(HasSubstr(name + "/battery/x: ignored: " + kind)));
     EXPECT_EQ(found.files.size(), 2u) << kind;
@@ -568,7 +574,7 @@ std::string gzipped(const std::string& bytes) {
 
 TEST_F(ArchiveBattery, A27StopsAtItsLimits) {
   constexpr std::size_t kBomb = 200'000'000;
-  writeZip(in() / "mallory.zip", {{"battery/main.cpp", std::string(kBomb, '\0')}});
+  submission::writeZip(in() / "mallory.zip", {{"battery/main.cpp", std::string(kBomb, '\0')}});
   EXPECT_LT(fs::file_size(in() / "mallory.zip"), 300'000u);
   expectRefusal("mallory.zip", "member 'battery/main.cpp': found more ");
   constexpr int kMany = 100'000;
@@ -603,7 +609,7 @@ TEST_F(ArchiveBattery, A27OpensNoArchiveInsideOfOne) {
   const std::string inner = zipOf({{.name = "../main.cpp"}});
   writeTextFile(in() / "mallory.zip", zipOf({{.name = "inner.zip", .text = inner},
                                              {.name = "battery/main.cpp", .text = "int a;\n"}}));
-  const HandIns found = readHandIns(in(), {exercise()});
+  const classroom::HandIns found = classroom::readHandIns(in(), {exercise()});
   EXPECT_THAT(found.complaints, ::testing::IsEmpty());
   EXPECT_THAT(found.notes, ::testing::ElementsAre(HasSubstr("mallory.zip/inner.zip: ignored")));
   EXPECT_EQ(found.files.size(), 2u);
@@ -622,7 +628,8 @@ TEST_F(Battery, A28RefusesWhatIsNoSourceFile) {
   for (const int level : offeredLevels()) {
     for (const char* name : {"link.cpp", "pipe.cpp", "folder.cpp", "sparse.cpp", "nul.cpp", "utf16.cpp"}) {
       const GradeResult result =
-          gradeSubmission(toolchain_, exercise(), optionsFor(folder / name, level, "attack")).result;
+          submission::gradeSubmission(toolchain_, exercise(), optionsFor(folder / name, level, "attack"))
+              .result;
       EXPECT_EQ(result.outcome, kCompileError) << name;
       EXPECT_THAT(result.message, Not(HasSubstr("root:x")));
     }
@@ -634,10 +641,10 @@ TEST_F(Battery, A28TakesLineEndsAndMarksOfOtherSystems) {
   for (const char c : text) windows += c == '\n' ? "\r\n" : std::string(1, c);
   std::ofstream(temporary_.path() / "main.cpp", std::ios::binary) << windows;
   for (const int level : offeredLevels())
-    EXPECT_EQ(
-        gradeSubmission(toolchain_, exercise(), optionsFor(temporary_.path() / "main.cpp", level, "honest"))
-            .result.outcome,
-        kPass);
+    EXPECT_EQ(submission::gradeSubmission(toolchain_, exercise(),
+                                          optionsFor(temporary_.path() / "main.cpp", level, "honest"))
+                  .result.outcome,
+              kPass);
 }
 
 TEST_F(Battery, A29IgnoresWhatLiesBesideTheFile) {
@@ -651,8 +658,8 @@ TEST_F(Battery, A29IgnoresWhatLiesBesideTheFile) {
   for (const char* name : {".clang-tidy", "compile_commands.json", ".gitattributes", "conftest.py", "main.o"})
     writeTextFile(folder / name, "touch /tmp/rex-battery-stayed\n");
   for (const int level : offeredLevels()) {
-    const SubmissionOptions options = optionsFor(folder / "main.cpp", level, "honest");
-    const GradeResult result = gradeSubmission(toolchain_, exercise(), options).result;
+    const submission::SubmissionOptions options = optionsFor(folder / "main.cpp", level, "honest");
+    const GradeResult result = submission::gradeSubmission(toolchain_, exercise(), options).result;
     EXPECT_EQ(result.outcome, kPass) << result.message;
     EXPECT_EQ(result.files.size(), 1u);
     expectNoHarm(result, options);
@@ -668,8 +675,8 @@ TEST_F(Battery, A30TakesNamesAsTheyAre) {
     const fs::path file = temporary_.path() / name;
     fs::create_directories(file.parent_path());
     fs::copy_file(kFolder / "battery" / "honest.cpp", file, fs::copy_options::overwrite_existing);
-    const SubmissionOptions options = optionsFor(file, level, "honest");
-    const GradeResult result = gradeSubmission(toolchain_, exercise(), options).result;
+    const submission::SubmissionOptions options = optionsFor(file, level, "honest");
+    const GradeResult result = submission::gradeSubmission(toolchain_, exercise(), options).result;
     EXPECT_EQ(result.outcome, kPass) << name << ": " << result.message;
     EXPECT_TRUE(nlohmann::json::accept(readTextFile(options.job.results)));
     EXPECT_FALSE(fs::exists(options.workFolder / "x"));

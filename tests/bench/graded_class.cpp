@@ -20,10 +20,10 @@ constexpr int kFiles = 16;
 const fs::path kExercise = sourcePath("exercises/01-kinematics");
 
 // The exercise's mistakes in the order of their names.
-std::vector<grading::WrongVariant> mistakes(const std::string& solution) {
+std::vector<submission::WrongVariant> mistakes(const std::string& solution) {
   const fs::path wrong = kExercise / "wrong.cpp";
-  std::vector<grading::WrongVariant> all =
-      grading::readVariants(solution, "solution.cpp", rex::readTextFile(wrong), wrong.string());
+  std::vector<submission::WrongVariant> all =
+      submission::readVariants(solution, "solution.cpp", rex::readTextFile(wrong), wrong.string());
   std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
   return all;
 }
@@ -34,7 +34,7 @@ GradedClass::GradedClass() {
   fs::create_directory_symlink(sourcePath("exercises"), folder_.path() / "exercises");
   fs::create_directory_symlink(ownFolder(), folder_.path() / "build");
   const std::string solution = rex::readTextFile(kExercise / "solution.cpp");
-  const std::vector<grading::WrongVariant> mistaken = mistakes(solution);
+  const std::vector<submission::WrongVariant> mistaken = mistakes(solution);
   for (int k = 0; k < kFiles; ++k) {
     const std::string number = std::to_string(k);
     const fs::path folder = folder_.path() / "handed-in" / ("student" + number) / "01-kinematics";

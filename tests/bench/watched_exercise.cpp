@@ -28,7 +28,7 @@ void copyExercise(const fs::path& from, const fs::path& to) {
 
 std::string nearlyRight(const fs::path& exercise) {
   const fs::path solution = exercise / "solution.cpp", wrong = exercise / "wrong.cpp";
-  for (const grading::WrongVariant& variant : grading::readVariants(
+  for (const submission::WrongVariant& variant : submission::readVariants(
            rex::readTextFile(solution), solution.string(), rex::readTextFile(wrong), wrong.string()))
     if (variant.name == kMistake) return variant.source;
   throw std::runtime_error(wrong.string() + " has no variant " + kMistake);

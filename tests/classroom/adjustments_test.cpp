@@ -7,15 +7,15 @@
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::adjustments_test {
+namespace rex::classroom::adjustments_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 class AdjustmentsTest : public ::testing::Test {
  protected:
-  static std::vector<ExerciseInfo> exercises() {
-    std::vector<ExerciseInfo> all(2);
+  static std::vector<submission::ExerciseInfo> exercises() {
+    std::vector<submission::ExerciseInfo> all(2);
     all[0].name = "01-kinematics", all[1].name = "02-control";
     return all;
   }
@@ -85,4 +85,4 @@ TEST_F(AdjustmentsTest, NamesThePlaceOfWhatIsWrong) {
                    "none.toml: no such file: wanted a file of adjustments");
 }
 
-}  // namespace rex::grading::adjustments_test
+}  // namespace rex::classroom::adjustments_test

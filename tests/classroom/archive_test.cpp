@@ -15,7 +15,7 @@
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::archive_test {
+namespace rex::classroom::archive_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -52,7 +52,7 @@ TEST(ArchiveName, TellsByItsEnding) {
 }
 
 TEST_F(ArchiveTest, ReadsWhatSubmitWrites) {
-  writeZip(folder_.path() / "a.zip", {{"01/main.cpp", "int a;\n"}, {"receipt.json", ""}});
+  submission::writeZip(folder_.path() / "a.zip", {{"01/main.cpp", "int a;\n"}, {"receipt.json", ""}});
   EXPECT_EQ(asMap(readArchive(folder_.path() / "a.zip").files),
             (std::map<std::string, std::string>{{"01/main.cpp", "int a;\n"}, {"receipt.json", ""}}));
 }
@@ -64,7 +64,7 @@ TEST_F(ArchiveTest, WritesWhatOthersRead) {
   for (const char* zone : {"UTC", "Asia/Tokyo", "America/New_York"}) {
     ::setenv("TZ", zone, 1);
     ::tzset();
-    writeZip(zip, {{"Zoë/a.txt", "one"}, {"b", ""}});
+    submission::writeZip(zip, {{"Zoë/a.txt", "one"}, {"b", ""}});
     if (first.empty()) first = readTextFile(zip);
     EXPECT_EQ(readTextFile(zip), first) << zone;
   }
@@ -183,7 +183,7 @@ TEST_F(ArchiveTest, RefusesWhatGoesBeyondTheLimits) {
   const ArchiveLimits few{.bytes = 3000};
   expectRefusal({large, {.name = "y", .text = std::string(2500, 'x')}}, "bytes, wanted at most 3000", few);
   EXPECT_REX_ERROR(read("a.zip", zipOf({{.name = std::string(300, 'n')}})), "found a name of 300 bytes");
-  writeZip(folder_.path() / "b.zip", {{"zeros", std::string(1u << 20, '\0')}});
+  submission::writeZip(folder_.path() / "b.zip", {{"zeros", std::string(1u << 20, '\0')}});
   EXPECT_REX_ERROR(
       readArchive(folder_.path() / "b.zip"),
       "member 'zeros': found more than 100 times the bytes of the archive, wanted files that were "
@@ -212,9 +212,9 @@ TEST_F(ArchiveTest, LeavesOutStudentsWithTooMuchInABundle) {
   writeTextFile(folder_.path() / "many.tar", tarOf(many));
   EXPECT_THAT(namesOfBundle(folder_.path() / "many.tar"),
               ElementsAre("class/Adam/main.cpp", "class/Zoe/main.cpp: more than 5000 files of one student"));
-  std::vector<ZipEntry> packed;
+  std::vector<submission::ZipEntry> packed;
   for (const SampleMember& member : large) packed.push_back({member.name, member.text});
-  writeZip(folder_.path() / "large.zip", packed);
+  submission::writeZip(folder_.path() / "large.zip", packed);
   EXPECT_THAT(namesOfBundle(folder_.path() / "large.zip"),
               ElementsAre("class/Adam/main.cpp",
                           "class/Zoe_1_assignsubmission_file_/0.zip: more than 40 MiB in "
@@ -257,4 +257,4 @@ TEST_F(ArchiveTest, SurvivesChangedBytes) {
   EXPECT_LT(taken, 400);
 }
 
-}  // namespace rex::grading::archive_test
+}  // namespace rex::classroom::archive_test

@@ -9,7 +9,7 @@
 #include "support/file_text.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::class_feedback_test {
+namespace rex::classroom::class_feedback_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -26,7 +26,7 @@ class ClassFeedbackTest : public ::testing::Test {
       const std::string mark = std::string("PLANTED-") + student;
       source_.course.students.push_back(
           {.id = student, .name = mark + "-name", .email = std::string(student) + "@uni.example"});
-      GradeResult result = sampleResult(3, 1, 0);
+      grading::GradeResult result = sampleResult(3, 1, 0);
       result.checks[1].message = mark + "-message <b>";
       result.checks[0].picture = "checks/hand.png", result.checks[1].replay = "checks/turn.html";
       result.checks[2].picture = "checks/far.png";
@@ -73,7 +73,7 @@ TEST_F(ClassFeedbackTest, NeverTakesFilesFromElsewhere) {
   const Task task = source_.tasks[0];
   for (const char* name : {"../../zoe/01-kinematics/main.cpp", "/etc/hostname", "checks/../main.cpp",
                            "checks/none.png", "main.cpp"}) {
-    GradeResult result = sampleResult(3, 1, 0);
+    grading::GradeResult result = sampleResult(3, 1, 0);
     result.checks[0].picture = name;
     saveSample(source_.out, task, result);
     source_.adjustments.comments.clear();
@@ -82,16 +82,16 @@ TEST_F(ClassFeedbackTest, NeverTakesFilesFromElsewhere) {
 }
 
 TEST_F(ClassFeedbackTest, SaysWhatDoesNotCompileAndGivesNothingForNothing) {
-  GradeResult result = sampleResult(0, 0, 0);
-  result.outcome = Outcome::kCompileError;
-  for (CheckResult& check : result.checks) check.status = {};
+  grading::GradeResult result = sampleResult(0, 0, 0);
+  result.outcome = grading::Outcome::kCompileError;
+  for (grading::CheckResult& check : result.checks) check.status = {};
   result.compile.diagnostics = {
       {.file = "main.cpp", .line = 2, .severity = "error", .message = "expected '}' <x>"}};
   saveSample(source_.out, source_.tasks[0], result, "a\nb\n");
   source_.tasks.pop_back();
   source_.adjustments = {};
   const auto feedback = feedbackOf(*book().row("adam", kEx), source_.out).value();
-  EXPECT_THAT(feedbackPage(feedback, {}),
+  EXPECT_THAT(reports::feedbackPage(feedback, {}),
               HasSubstr("<pre>main.cpp:2: error: expected &#39;}&#39; &#60;x&#62;"));
   EXPECT_FALSE(feedbackOf(*book().row("zoe", kEx), source_.out).has_value());
 }
@@ -125,4 +125,4 @@ TEST_F(ClassFeedbackTest, GivesAllGradesToPrograms) {
   EXPECT_EQ(json.at("exercises")[0].at("weight"), 1);
 }
 
-}  // namespace rex::grading::class_feedback_test
+}  // namespace rex::classroom::class_feedback_test

@@ -14,7 +14,9 @@
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::class_statistics_test {
+namespace rex::classroom::class_statistics_test {
+
+using grading::Outcome;
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -34,7 +36,8 @@ std::vector<StudentResult> staircase(int n) {
   return results;
 }
 
-CheckResult check(const std::string& id, std::optional<Outcome> status, const std::string& message = "") {
+grading::CheckResult check(const std::string& id, std::optional<Outcome> status,
+                           const std::string& message = "") {
   return {.id = id, .title = "Title of " + id, .status = status, .message = message, .property = "length"};
 }
 
@@ -107,7 +110,7 @@ TEST(ClassStatistics, PutTheMostFailedChecksFirst) {
 }
 
 TEST(ClassStatistics, NameTheClassOfEachFailure) {
-  const GradeResult whole;
+  const grading::GradeResult whole;
   const std::pair<Outcome, const char*> classes[] = {{Outcome::kCompileError, "compile"},
                                                      {Outcome::kRuntimeError, "crash"},
                                                      {Outcome::kTimeLimit, "timeout"},
@@ -129,10 +132,10 @@ TEST(ClassStatistics, NameTheClassOfEachFailure) {
 TEST(ClassResults, AreReadAndForeignFilesTold) {
   const TemporaryFolder folder;
   const auto save = [&](const std::string& student, const std::string& exercise, const std::string& id) {
-    GradeResult result;
+    grading::GradeResult result;
     result.exerciseId = id;
     result.outcome = Outcome::kFail;
-    writeTextFile(folder.path() / student / exercise / "results.json", toJson(result));
+    writeTextFile(folder.path() / student / exercise / "results.json", grading::toJson(result));
   };
   save("zoe", "01-a", "01-a"), save("adam", "01-a", "01-a"), save("adam", "02-b", "02-b");
   save("eve", "01-a", "02-b");
@@ -178,7 +181,7 @@ TEST(ClassResults, KnowTimesAndAttemptsAndRefuseWhatWasEdited) {
   const TemporaryFolder folder;
   const Task adam = sampleTask("adam"), zoe = sampleTask("zoe");
   saveSample(folder.path(), adam, sampleResult(3, 4, 3));
-  GradeResult edited = sampleResult(3, 0, 0);
+  grading::GradeResult edited = sampleResult(3, 0, 0);
   edited.score = 10;
   saveSample(folder.path(), zoe, edited);
   writeTextFile(folder.path() / "tasks.tsv", toManifest({adam, zoe}));
@@ -210,7 +213,7 @@ std::vector<StudentResult> halves() {
     const bool good = k < 4;
     StudentResult one{.student = "s" + std::to_string(k), .exercise = "01-a", .result = {}};
     const auto point = [&](const std::string& id, const std::string& part, bool has) {
-      CheckResult result = check(id, has ? Outcome::kPass : Outcome::kFail);
+      grading::CheckResult result = check(id, has ? Outcome::kPass : Outcome::kFail);
       if (!has) result.message = "length: got 2, wanted 1; input: x = (1, 2) (seed 1). Is it a " + id + "?";
       result.part = part;
       result.points = has ? 1 : 0;
@@ -246,7 +249,7 @@ TEST(ClassStatistics, AgreeWithTheCorrelationOfFourFields) {
     for (int y = 0; y < 2; ++y)
       for (int k = 0; k < fields[x][y]; ++k) {
         StudentResult one{.student = "s", .exercise = "01-a", .result = {}};
-        CheckResult tried = check("a", x == 1 ? Outcome::kPass : Outcome::kFail);
+        grading::CheckResult tried = check("a", x == 1 ? Outcome::kPass : Outcome::kFail);
         tried.points = x;
         one.result.checks = {tried};
         one.result.score = x + y;
@@ -275,4 +278,4 @@ TEST(ClassStatistics, FindTheQuestionOfAMessage) {
   EXPECT_EQ(questionOf("a: got 1, wanted 2; input: n = 2 (seed 7). A remark."), "");
 }
 
-}  // namespace rex::grading::class_statistics_test
+}  // namespace rex::classroom::class_statistics_test

@@ -8,15 +8,15 @@
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::course_file_test {
+namespace rex::classroom::course_file_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 class CourseFileTest : public ::testing::Test {
  protected:
-  static std::vector<ExerciseInfo> exercises() {
-    std::vector<ExerciseInfo> all(2);
+  static std::vector<submission::ExerciseInfo> exercises() {
+    std::vector<submission::ExerciseInfo> all(2);
     all[0].name = "01-kinematics", all[1].name = "02-control";
     return all;
   }
@@ -176,4 +176,4 @@ TEST_F(CourseFileTest, NamesTheLineOfABrokenTable) {
   EXPECT_THAT(messageFor(course), HasSubstr(table + ":3: a second student with the id 'ZOE'"));
 }
 
-}  // namespace rex::grading::course_file_test
+}  // namespace rex::classroom::course_file_test

@@ -7,7 +7,7 @@
 #include "base/rng.h"
 #include "support/expect_error.h"
 
-namespace rex::grading::csv_test {
+namespace rex::classroom::csv_test {
 
 std::vector<std::string> onlyRow(const std::string& text) {
   const std::vector<CsvRow> rows = parseCsv(text, "table.csv");
@@ -100,4 +100,4 @@ TEST(Csv, IsReadByOthersAlike) {
   for (std::size_t k = 0; k < ours.size(); ++k) EXPECT_EQ(theirs[k], nlohmann::json(ours[k].fields));
 }
 
-}  // namespace rex::grading::csv_test
+}  // namespace rex::classroom::csv_test

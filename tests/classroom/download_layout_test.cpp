@@ -7,12 +7,12 @@
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::download_layout_test {
+namespace rex::classroom::download_layout_test {
 
 using ::testing::HasSubstr;
 
-std::vector<ExerciseInfo> twoExercises() {
-  std::vector<ExerciseInfo> exercises(2);
+std::vector<submission::ExerciseInfo> twoExercises() {
+  std::vector<submission::ExerciseInfo> exercises(2);
   exercises[0].name = "01-kinematics";
   exercises[1].name = "02-control";
   return exercises;
@@ -122,4 +122,4 @@ TEST(Platforms, HaveTheNamesOfTheirCommands) {
   EXPECT_EQ(toString(Platform::kFolders), "folders");
 }
 
-}  // namespace rex::grading::download_layout_test
+}  // namespace rex::classroom::download_layout_test

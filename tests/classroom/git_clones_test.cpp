@@ -16,7 +16,7 @@
 #include "support/synthetic_class.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::git_clones_test {
+namespace rex::classroom::git_clones_test {
 
 namespace fs = std::filesystem;
 using ::testing::Contains;
@@ -72,7 +72,7 @@ class GitClonesTest : public ::testing::Test {
   }
 
   TemporaryFolder folder_;
-  std::vector<ExerciseInfo> exercises_;
+  std::vector<submission::ExerciseInfo> exercises_;
 };
 
 TEST_F(GitClonesTest, TakesAClassWithItsRosterAndRecord) {
@@ -296,4 +296,4 @@ TEST_F(GitClonesTest, ReadsShallowClones) {
   EXPECT_EQ(of(read(), "hw-bob").files.front().text, "// new");
 }
 
-}  // namespace rex::grading::git_clones_test
+}  // namespace rex::classroom::git_clones_test

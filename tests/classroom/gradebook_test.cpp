@@ -9,7 +9,7 @@
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::gradebook_test {
+namespace rex::classroom::gradebook_test {
 
 using ::testing::Contains;
 using ::testing::ElementsAre;
@@ -96,9 +96,9 @@ TEST_F(GradebookTest, BelievesWithTheSecretOnlyWhatItSealed) {
   EXPECT_THAT(whyRefused(task, source_.out, secret), HasSubstr("not written with the secret of the course"));
   auto json = nlohmann::ordered_json::parse(readTextFile(file));
   const auto seal = [&](const std::string& student) {
-    json["inputs"]["result_hmac"] =
-        hmacSha256("the secret of a course", student + "\n" + task.inputsSha256() + "\n" +
-                                                 json["inputs"]["result_sha256"].get<std::string>() + "\n");
+    json["inputs"]["result_hmac"] = grading::hmacSha256(
+        "the secret of a course", student + "\n" + task.inputsSha256() + "\n" +
+                                      json["inputs"]["result_sha256"].get<std::string>() + "\n");
     writeTextFile(file, json.dump());
   };
   seal("bob");
@@ -107,7 +107,7 @@ TEST_F(GradebookTest, BelievesWithTheSecretOnlyWhatItSealed) {
   EXPECT_EQ(stateOf(task, source_.out, secret), TaskState::kRefused) << "the result of another student";
   seal("bob");
   json["message"] = "well done";
-  json["inputs"]["result_sha256"] = sealOf(json.dump(), "");
+  json["inputs"]["result_sha256"] = grading::sealOf(json.dump(), "");
   writeTextFile(file, json.dump());
   EXPECT_EQ(stateOf(task, source_.out), TaskState::kDone);
   EXPECT_EQ(stateOf(task, source_.out, secret), TaskState::kRefused);
@@ -117,8 +117,8 @@ TEST_F(GradebookTest, GivesNoGradeWithoutAValidResult) {
   handIn("bob", 7), handIn("carl", 7), handIn("zoe", 7);
   source_.tasks[0].seed = 3;
   saveSample(source_.out, source_.tasks[1], [] {
-    GradeResult result = sampleResult(0, 0, 0);
-    result.outcome = Outcome::kGraderError;
+    grading::GradeResult result = sampleResult(0, 0, 0);
+    result.outcome = grading::Outcome::kGraderError;
     return result;
   }());
   std::filesystem::remove(source_.out / "zoe" / kEx / "results.json");
@@ -232,9 +232,9 @@ TEST_F(GradebookTest, AppliesAdjustmentsOfChecksBeforeAndOfTheTotalAfterLateness
   EXPECT_EQ(graded.late.penalty, 70);
   EXPECT_EQ(graded.final, 680);
   EXPECT_THAT(gradesCsv({graded}), HasSubstr("late,5,10,fail,2.5,1,0.7,6.8,"));
-  const Judgement judgement = judgementOf(graded).value();
+  const reports::Judgement judgement = judgementOf(graded).value();
   EXPECT_THAT(
-      sentencesOf(judgement),
+      reports::sentencesOf(judgement),
       ElementsAre("Turns [turn]: 4 instead of 2 points: seen (Tutor, 2026-12-01)",
                   "Final points: 6.8 instead of 6.3 points: seen (Tutor, 2026-12-01)",
                   "Handed in at 2023-11-15T22:13:20Z, deadline 2023-11-14T22:13:20Z. 1 day late: 0.7 of 7 "
@@ -258,7 +258,7 @@ TEST_F(GradebookTest, TellsStudentsOnlyTheNumberOfAHiddenCheck) {
   Adjustment far = adjustment("bob", "far");
   far.points = 150;
   source_.adjustments.adjustments = {far};
-  const std::vector<std::string> sentences = sentencesOf(judgementOf(row("bob")).value());
+  const std::vector<std::string> sentences = reports::sentencesOf(judgementOf(row("bob")).value());
   EXPECT_EQ(sentences.at(0), "Hidden check 1: 1.5 instead of 0 points: seen (Tutor, 2026-12-01)");
 }
 
@@ -332,7 +332,7 @@ TEST_F(GradebookTest, ShowsTimesInTheZoneOfTheCourseAndTheGrace) {
   EXPECT_THAT(explain(graded), Contains("Handed in at 2023-11-14T23:23:10+01:00 (time from table) as 'bob'"));
   EXPECT_THAT(explain(graded),
               Contains("Deadline 2023-11-14T23:13:20+01:00; 10 minutes after it, within the grace of 15"));
-  EXPECT_THAT(sentencesOf(judgementOf(graded).value()).front(),
+  EXPECT_THAT(reports::sentencesOf(judgementOf(graded).value()).front(),
               HasSubstr("10 minutes after it, within the grace of 15."));
 }
 
@@ -369,4 +369,4 @@ TEST(NotTakenList, KeepsWhatWasNotTaken) {
                    ":2: not a list of what was not taken: wanted student, exercise and reason");
 }
 
-}  // namespace rex::grading::gradebook_test
+}  // namespace rex::classroom::gradebook_test

@@ -11,7 +11,7 @@
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::grader_fingerprint_test {
+namespace rex::classroom::grader_fingerprint_test {
 
 class GraderFingerprint : public ::testing::Test {
  protected:
@@ -24,13 +24,13 @@ class GraderFingerprint : public ::testing::Test {
   bool runsInACopy() const { return folder_ != temporary_.path(); }
   std::filesystem::path file(const std::string& name) const { return folder_ / name; }
   std::string fingerprint(const std::string& flag = "-O1") const {
-    Toolchain toolchain;
+    submission::Toolchain toolchain;
     toolchain.compiler = "c++";
     toolchain.flags = {flag, "-isystem", file("src").string(), "-isystem", file("none").string()};
     toolchain.workerObject = file("worker.o");
     toolchain.grader = file("grader");
     toolchain.libraries = {file("library.so")};
-    ExerciseInfo exercise;
+    submission::ExerciseInfo exercise;
     exercise.folder = exercise.definition = file("01-x");
     return graderFingerprint(toolchain, exercise, file("launcher"));
   }
@@ -104,4 +104,4 @@ TEST_F(GraderFingerprint, NeedsAllFiles) {
   EXPECT_REX_ERROR(fingerprint(), "worker.o: cannot read this file");
 }
 
-}  // namespace rex::grading::grader_fingerprint_test
+}  // namespace rex::classroom::grader_fingerprint_test

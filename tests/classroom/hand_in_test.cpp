@@ -17,7 +17,7 @@
 #include "support/paths.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::hand_in_test {
+namespace rex::classroom::hand_in_test {
 
 namespace fs = std::filesystem;
 using ::testing::ElementsAre;
@@ -51,7 +51,7 @@ class HandInTest : public ::testing::Test {
   }
 
   TemporaryFolder temporary_;
-  std::vector<ExerciseInfo> exercises_;
+  std::vector<submission::ExerciseInfo> exercises_;
 };
 
 TEST_F(HandInTest, TakesEachFileOfEachStudentInOrder) {
@@ -341,4 +341,4 @@ TEST_F(HandInTest, ComplainsOfALinkInTheFilesPlace) {
   EXPECT_THAT(namesOf(read()), ElementsAre("good 01-kinematics", "zoe 02-control"));
 }
 
-}  // namespace rex::grading::hand_in_test
+}  // namespace rex::classroom::hand_in_test

@@ -3,7 +3,7 @@
 
 #include "classroom/import_table.h"
 
-namespace rex::grading::import_names_test {
+namespace rex::classroom::import_names_test {
 
 const std::vector<std::string> kExercises = {"01-kinematics"};
 
@@ -61,4 +61,4 @@ TEST_F(ImportNamesTest, BelieveTheIdentifierOfThePlatformForItsOwnExercise) {
   EXPECT_EQ(namesOf({{.name = "Yan", .identifier = "Participant 501"}}, Platform::kGradescope), Names{"Yan"});
 }
 
-}  // namespace rex::grading::import_names_test
+}  // namespace rex::classroom::import_names_test

@@ -9,7 +9,7 @@
 #include "support/report_checker.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::import_table_test {
+namespace rex::classroom::import_table_test {
 
 ImportTable sample() {
   return {{{.student = "zoe@uni.example",
@@ -104,4 +104,4 @@ TEST_F(ImportTableTest, SaysWhereItIsWrong) {
       "students[0].exercises.x.submitted: found 'now', wanted a time such as");
 }
 
-}  // namespace rex::grading::import_table_test
+}  // namespace rex::classroom::import_table_test

@@ -18,7 +18,7 @@
 #include "support/synthetic_class.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::importing_test {
+namespace rex::classroom::importing_test {
 
 namespace fs = std::filesystem;
 using ::testing::Contains;
@@ -107,7 +107,7 @@ class ImportingTest : public ::testing::Test {
   }
 
   TemporaryFolder folder_;
-  std::vector<ExerciseInfo> exercises_;
+  std::vector<submission::ExerciseInfo> exercises_;
   std::vector<SyntheticStudent> all_;
 };
 
@@ -524,4 +524,4 @@ TEST_F(ImportingTest, LeavesOutWhatIsHostileAndTakesTheRest) {
               Contains(HasSubstr("found a symbolic link")));
 }
 
-}  // namespace rex::grading::importing_test
+}  // namespace rex::classroom::importing_test

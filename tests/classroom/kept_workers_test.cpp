@@ -4,7 +4,7 @@
 #include "support/class_results.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::kept_workers_test {
+namespace rex::classroom::kept_workers_test {
 
 namespace fs = std::filesystem;
 
@@ -12,11 +12,11 @@ namespace fs = std::filesystem;
 TEST(KeptWorkers, AreTakenAsAWhole) {
   const TemporaryFolder folder;
   const fs::path kept = folder.path() / "kept" / "key";
-  const SubmissionOptions options{.main = folder.path() / "none.cpp",
-                                  .workFolder = folder.path() / "work",
-                                  .job = {.results = folder.path() / "out" / "results.json"}};
+  const submission::SubmissionOptions options{.main = folder.path() / "none.cpp",
+                                              .workFolder = folder.path() / "work",
+                                              .job = {.results = folder.path() / "out" / "results.json"}};
   const std::vector<std::string> files = {"worker", "main.cpp", "build.log", "worker.kin"};
-  auto start = nlohmann::ordered_json::parse(toJson(sampleResult(0, 0, 0)));
+  auto start = nlohmann::ordered_json::parse(grading::toJson(sampleResult(0, 0, 0)));
   start["kept_parts"] = {"kin"};
   for (const std::string& file : files) {
     writeTextFile(kept / file, "text of " + file);
@@ -25,9 +25,9 @@ TEST(KeptWorkers, AreTakenAsAWhole) {
   writeTextFile(kept / "start.json", start.dump());
   writeTextFile(folder.path() / "out" / "build.log", "");
   const auto take = [&] { return buildOnce({folder.path() / "kept", "key"}, {}, {}, options); };
-  const BuiltSubmission taken = take();
+  const submission::BuiltSubmission taken = take();
   EXPECT_EQ(readTextFile(taken.worker), "text of worker");
-  EXPECT_EQ(readTextFile(workerOf("kin", {.worker = taken.worker, .parts = taken.parts})),
+  EXPECT_EQ(readTextFile(grading::workerOf("kin", {.worker = taken.worker, .parts = taken.parts})),
             "text of worker.kin");
   for (const std::string& file : files) {
     writeTextFile(kept / file, "another text");
@@ -39,4 +39,4 @@ TEST(KeptWorkers, AreTakenAsAWhole) {
   }
 }
 
-}  // namespace rex::grading::kept_workers_test
+}  // namespace rex::classroom::kept_workers_test

@@ -11,7 +11,7 @@
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::late_policy_test {
+namespace rex::classroom::late_policy_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -150,4 +150,4 @@ TEST_F(LatePolicyTest, TellsOfExtensionsForNobody) {
                           "(did you mean 'alice'?)"));
 }
 
-}  // namespace rex::grading::late_policy_test
+}  // namespace rex::classroom::late_policy_test

@@ -8,7 +8,7 @@
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::platform_grades_test {
+namespace rex::classroom::platform_grades_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -121,4 +121,4 @@ TEST(MoodleFolder, LeavesNoNameThatMoodleTakesApart) {
   EXPECT_EQ(moodleFolder({"", "", "7"}), "Student_7_assignsubmission_file_");
 }
 
-}  // namespace rex::grading::platform_grades_test
+}  // namespace rex::classroom::platform_grades_test

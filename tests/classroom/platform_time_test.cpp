@@ -11,7 +11,7 @@
 #include "classroom/gradebook_text.h"
 #include "support/expect_error.h"
 
-namespace rex::grading::platform_time_test {
+namespace rex::classroom::platform_time_test {
 
 std::string instant(const std::string& text, const std::string& zone) {
   return instantText(PlatformZone(zone).instantOf(text, "grades.csv:3"));
@@ -99,4 +99,4 @@ TEST(ComposedText, MakesOneOfTwoWaysToTypeAnUmlaut) {
   EXPECT_FALSE(isUtf8("\xfc"));
 }
 
-}  // namespace rex::grading::platform_time_test
+}  // namespace rex::classroom::platform_time_test

@@ -8,7 +8,7 @@
 #include "base/text.h"
 #include "support/slow_sources.h"
 
-namespace rex::grading::similar_test {
+namespace rex::classroom::similar_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -55,7 +55,7 @@ const std::string kOwn =
 TEST(SimilarTexts, AreReadInTime) {
   SimilarPair pair{.first = "a", .second = "b"};
   for (int k = 1; k < 20'000; ++k) pair.runs.push_back({{k, k + 9}, {k, k + 9}});
-  for (const auto& [shape, text] : slowSources()) {
+  for (const auto& [shape, text] : submission::slowSources()) {
     const auto read = [&] {
       const std::string page = similarPage("01", {{"a", text}, {"b", "int a;\n"}}, "", {pair});
       return std::to_string(page.size() + withoutHandedOut(text, kHandedOut).size());
@@ -171,4 +171,4 @@ TEST(Similar, ShowsPairsSideBySideAsTextOnly) {
   EXPECT_THAT(page, HasSubstr("this page decides nothing"));
 }
 
-}  // namespace rex::grading::similar_test
+}  // namespace rex::classroom::similar_test

@@ -5,7 +5,7 @@
 
 #include "support/archive_samples.h"
 
-namespace rex::grading::student_files_test {
+namespace rex::classroom::student_files_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -34,7 +34,7 @@ class StudentFilesTest : public ::testing::Test {
     EXPECT_THAT(picked.complaints, ElementsAre(HasSubstr(text)));
     EXPECT_THAT(picked.files, IsEmpty());
   }
-  std::vector<ExerciseInfo> exercises_;
+  std::vector<submission::ExerciseInfo> exercises_;
   std::map<std::string, std::string> handedOut_{};
 };
 
@@ -127,4 +127,4 @@ TEST_F(StudentFilesTest, RefusesWhatGradingWouldRefuse) {
                   "zoe/a.pdf: nothing to grade: found this and 1 more");
 }
 
-}  // namespace rex::grading::student_files_test
+}  // namespace rex::classroom::student_files_test

@@ -7,13 +7,13 @@
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::submission_times_test {
+namespace rex::classroom::submission_times_test {
 
 class SubmissionTimesTest : public ::testing::Test {
  protected:
   SubmissionTimes read(const std::string& text) const {
     std::ofstream(file()) << text;
-    std::vector<ExerciseInfo> exercises(2);
+    std::vector<submission::ExerciseInfo> exercises(2);
     exercises[0].name = "01-kinematics";
     exercises[1].name = "02-control";
     return {file(), exercises};
@@ -50,4 +50,4 @@ TEST_F(SubmissionTimesTest, RefusesOtherTables) {
               ":3: a second time for the same submission: found 'a' again, wanted one row");
 }
 
-}  // namespace rex::grading::submission_times_test
+}  // namespace rex::classroom::submission_times_test

@@ -9,7 +9,7 @@
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::task_list_test {
+namespace rex::classroom::task_list_test {
 
 Task sample() {
   return {.student = "zoe",
@@ -99,4 +99,4 @@ TEST(Ranges, JoinNeighbours) {
   EXPECT_EQ(rangesOf({2, 1}), "1-2");
 }
 
-}  // namespace rex::grading::task_list_test
+}  // namespace rex::classroom::task_list_test

@@ -69,11 +69,11 @@ TEST_F(AcceptanceBars, Bar10ReportsFitTheirSchemas) {
   const auto report = [&](const std::string& name, const std::string& source) {
     write(main(), source);
     std::string formats;
-    for (const grading::ReportFormat& format : grading::reportFormats())
+    for (const reports::ReportFormat& format : reports::reportFormats())
       formats += (formats.empty() ? "" : ",") + std::string(format.name);
     rex({"test", "98", "--report", formats, "-o", (root() / name).string()});
     fs::copy_file(root() / name / "results.json", reports / (name + ".results"));
-    for (const grading::ReportFormat& format : grading::reportFormats())
+    for (const reports::ReportFormat& format : reports::reportFormats())
       fs::copy_file(root() / name / format.file, reports / (name + "." + std::string(format.name)));
   };
   std::string half = kGood;

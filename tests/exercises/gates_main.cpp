@@ -35,7 +35,7 @@ int main(int argc, char** argv) {
     const rex::cli::CheckOptions options = {
         .exercise = argv[1],
         .gates = {"main-floor", "solution", "wrong"},
-        .variants = fiveOf(rex::grading::variantNames(project.exercise(argv[1])),
+        .variants = fiveOf(rex::authoring::variantNames(project.exercise(argv[1])),
                            number == nullptr ? 0 : std::strtoul(number, nullptr, 10)),
         .runs = 1};
     return static_cast<int>(rex::cli::devCheck(project, options));

@@ -40,11 +40,11 @@ class AcceptanceBars : public ::testing::Test {
   void SetUp() override {
     if (!fs::exists(kProof / "out/passed")) GTEST_SKIP() << "needs the test exercise/student-release";
   }
-  std::vector<grading::ExerciseInfo> exercises_ = grading::listExercises(sourcePath("exercises"));
+  std::vector<submission::ExerciseInfo> exercises_ = submission::listExercises(sourcePath("exercises"));
 };
 
 TEST_F(AcceptanceBars, Bar02EveryExerciseDrawsPicturesWithoutADisplay) {
-  for (const grading::ExerciseInfo& exercise : exercises_) {
+  for (const submission::ExerciseInfo& exercise : exercises_) {
     const std::vector<fs::path> pictures = picturesIn(kProof / "out" / exercise.name);
     EXPECT_FALSE(pictures.empty()) << exercise.name;
     for (const fs::path& picture : pictures) EXPECT_FALSE(isUniform(readPng(picture))) << picture;
@@ -80,10 +80,10 @@ TEST_F(AcceptanceBars, Bar03SolutionsStartersAndReleaseAreGated) {
   };
   const std::string all = textBelow(kRelease / "exercises");
   std::string open;
-  for (const grading::ExerciseInfo& exercise : exercises_)
+  for (const submission::ExerciseInfo& exercise : exercises_)
     for (const char* file : {"main.cpp", "README.md", "exercise.h", "check.cpp"})
       open += fileText(exercise.folder / file);
-  for (const grading::ExerciseInfo& exercise : exercises_) {
+  for (const submission::ExerciseInfo& exercise : exercises_) {
     for (const char* gate : {"solution", "main-floor", "release"})
       EXPECT_THAT(tests, ::testing::HasSubstr("exercise/" + exercise.name + "/" + gate + "\n"));
     const std::string own = textBelow(kRelease / "exercises" / exercise.name);

@@ -10,7 +10,7 @@
 #include "support/file_text.h"
 #include "support/paths.h"
 
-namespace rex::grading::hostile_text_test {
+namespace rex::reports::hostile_text_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -19,8 +19,8 @@ const std::vector<std::string> kHostile = {"\u202E",  "\u2066", "\u2069", "\u200
                                            "\u2029",  "\u0085", "\uFEFF", "\u00AD", "\U000E0041",  "\u061C",
                                            "\x1b[2J", "\r",     "\x07",   "\xff",   "\xed\xa0\x80"};
 
-GradeResult resultWith(const std::string& text, Outcome outcome) {
-  GradeResult result;
+grading::GradeResult resultWith(const std::string& text, grading::Outcome outcome) {
+  grading::GradeResult result;
   const std::string t = "a" + text + "b";
   result.submissionId = result.snapshotSha256 = result.exerciseId = result.exerciseVersion = t;
   result.seedId = result.toolVersion = result.compiler = result.message = t;
@@ -29,9 +29,9 @@ GradeResult resultWith(const std::string& text, Outcome outcome) {
   result.output.text = result.error.text = t;
   result.sandboxWarnings = {t};
   result.compile.diagnostics = {{t, 1, 1, "warning", t, t}, {t, 1, 1, "error", t, t}};
-  for (const Group group : {Group::kVisible, Group::kHidden}) {
-    CheckResult check{
-        .id = t, .part = t, .title = t, .group = group, .status = Outcome::kFail, .maxPoints = 2};
+  for (const grading::Group group : {grading::Group::kVisible, grading::Group::kHidden}) {
+    grading::CheckResult check{
+        .id = t, .part = t, .title = t, .group = group, .status = grading::Outcome::kFail, .maxPoints = 2};
     check.message = check.property = check.expected = check.got = check.tolerance = check.input = t;
     check.function = check.worst.property = check.worst.value = check.worst.limit = t;
     check.picture = check.replay = t;
@@ -44,9 +44,10 @@ GradeResult resultWith(const std::string& text, Outcome outcome) {
 
 TEST(HostileText, IsShownInEveryFormat) {
   for (const std::string& text : kHostile)
-    for (const Outcome outcome : {Outcome::kFail, Outcome::kCompileError, Outcome::kGraderError}) {
-      const GradeResult result = resultWith(text, outcome);
-      EXPECT_THAT(toJson(result), Not(HasSubstr(text)));
+    for (const grading::Outcome outcome :
+         {grading::Outcome::kFail, grading::Outcome::kCompileError, grading::Outcome::kGraderError}) {
+      const grading::GradeResult result = resultWith(text, outcome);
+      EXPECT_THAT(grading::toJson(result), Not(HasSubstr(text)));
       for (const ReportFormat& format : reportFormats())
         EXPECT_THAT(format.write(result), Not(HasSubstr(text))) << format.name;
     }
@@ -54,10 +55,10 @@ TEST(HostileText, IsShownInEveryFormat) {
 
 // Also where it was written by number, as JSON may.
 TEST(HostileText, IsShownInResultsThatAreReadAgain) {
-  const std::string json = toJson(resultWith("\u202E", Outcome::kFail));
+  const std::string json = grading::toJson(resultWith("\u202E", grading::Outcome::kFail));
   EXPECT_THAT(json, Not(HasSubstr("\\u202e")));
   EXPECT_THAT(json, HasSubstr("a\uFFFDb"));
-  EXPECT_EQ(toJson(gradeResultFromJson(json, "results.json")), json);
+  EXPECT_EQ(grading::toJson(grading::gradeResultFromJson(json, "results.json")), json);
 }
 
 // Every test that tests/sandbox/README.md names for a promise is there.
@@ -74,4 +75,4 @@ TEST(Promises, NameTestsThatThereAre) {
   EXPECT_GE(named, 20);
 }
 
-}  // namespace rex::grading::hostile_text_test
+}  // namespace rex::reports::hostile_text_test

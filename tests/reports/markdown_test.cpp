@@ -5,7 +5,7 @@
 
 #include "support/expect_error.h"
 
-namespace rex::grading::markdown_test {
+namespace rex::reports::markdown_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -76,4 +76,4 @@ TEST(Markdown, TakesNothing) {
   EXPECT_TRUE(pageOf("no heading\n", same).sections.empty());
 }
 
-}  // namespace rex::grading::markdown_test
+}  // namespace rex::reports::markdown_test

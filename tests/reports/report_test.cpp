@@ -17,15 +17,19 @@
 #include "support/report_checker.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::report_test {
+namespace rex::reports::report_test {
 
 namespace fs = std::filesystem;
+
+using grading::GradeResult;
+using grading::Outcome;
+
 using ::testing::HasSubstr;
 using ::testing::Not;
 
 const fs::path kGolden = sourcePath("tests/golden/reports");
 
-GradeResult golden(const std::string& name) { return loadResult(kGolden / (name + ".results")); }
+GradeResult golden(const std::string& name) { return grading::loadResult(kGolden / (name + ".results")); }
 
 void write(const fs::path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
 
@@ -51,8 +55,8 @@ TEST(Report, TellsNothingByHowLongHiddenChecksTook) {
   const GradeResult quick = golden("graded");
   for (const double seconds : {0.001, 3.25, 60.}) {
     GradeResult slow = quick;
-    for (CheckResult& check : slow.checks)
-      if (check.group == Group::kHidden) check.wallSeconds = check.cpuSeconds = seconds;
+    for (grading::CheckResult& check : slow.checks)
+      if (check.group == grading::Group::kHidden) check.wallSeconds = check.cpuSeconds = seconds;
     slow.usage = {
         .cpuSeconds = 2 * seconds, .wallSeconds = 3 * seconds, .peakMemoryBytes = 1 << 20, .outputBytes = 7};
     for (const ReportFormat& format : reportFormats())
@@ -227,17 +231,17 @@ class Hostile {
   Rng rng_;
 };
 
-CheckResult hostileCheck(Hostile& any, int number, bool runs) {
-  CheckResult check{.id = std::to_string(number) + any.text(),
-                    .part = any.text(),
-                    .title = any.text(),
-                    .maxPoints = static_cast<int>(any.below(9))};
-  if (any.below(3) == 0) check.group = Group::kHidden;
+grading::CheckResult hostileCheck(Hostile& any, int number, bool runs) {
+  grading::CheckResult check{.id = std::to_string(number) + any.text(),
+                             .part = any.text(),
+                             .title = any.text(),
+                             .maxPoints = static_cast<int>(any.below(9))};
+  if (any.below(3) == 0) check.group = grading::Group::kHidden;
   if (runs) check.status = static_cast<Outcome>(any.below(3) == 0 ? 1 + any.below(8) : 0);
   if (check.status == Outcome::kCompileError) check.status = Outcome::kFail;
   if (check.status == Outcome::kPass) check.points = check.maxPoints;
   if (check.status == Outcome::kFail) check.points = check.maxPoints / 2;
-  const std::string secret = check.group == Group::kHidden ? "SECRET" : "";
+  const std::string secret = check.group == grading::Group::kHidden ? "SECRET" : "";
   check.message = any.text() + secret;
   check.property = any.text();
   check.expected = check.got = check.tolerance = check.input = check.function = check.worst.value =
@@ -269,7 +273,7 @@ GradeResult hostileResult(std::uint64_t seed) {
     result.maxScore += result.checks.back().maxPoints;
   }
   result.outcome = Outcome::kPass;
-  for (const CheckResult& check : result.checks)
+  for (const grading::CheckResult& check : result.checks)
     if (check.status != Outcome::kPass) result.outcome = check.status.value_or(Outcome::kCompileError);
   if (kind == 1) result.outcome = Outcome::kGraderError;
   return result;
@@ -277,8 +281,8 @@ GradeResult hostileResult(std::uint64_t seed) {
 
 // Reports of the result as the program reads it from its file, and of one whose texts never were in a file.
 void writeReports(const fs::path& folder, const std::string& name, const GradeResult& result) {
-  const std::string json = toJson(result);
-  const GradeResult read = gradeResultFromJson(json, name);
+  const std::string json = grading::toJson(result);
+  const GradeResult read = grading::gradeResultFromJson(json, name);
   write(folder / (name + ".results"), json);
   for (const ReportFormat& format : reportFormats()) {
     const std::string text = format.write(read);
@@ -338,4 +342,4 @@ TEST(Report, LetsNoTextForgeACommand) {
   }
 }
 
-}  // namespace rex::grading::report_test
+}  // namespace rex::reports::report_test

@@ -4,7 +4,7 @@
 #include "reports/markdown.h"
 #include "support/expect_error.h"
 
-namespace rex::grading::tex_math_test {
+namespace rex::reports::tex_math_test {
 
 using ::testing::HasSubstr;
 
@@ -81,4 +81,4 @@ TEST(TexMath, RefusesWhatItDoesNotKnow) {
   EXPECT_REX_ERROR(refused("\\begin{matrix}a\\end{cases}"), "found the end of another environment");
 }
 
-}  // namespace rex::grading::tex_math_test
+}  // namespace rex::reports::tex_math_test

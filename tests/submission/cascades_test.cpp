@@ -3,7 +3,10 @@
 
 #include "submission/compiler_messages.h"
 
-namespace rex::grading::cascades_test {
+namespace rex::submission::cascades_test {
+
+using grading::Group;
+using grading::Outcome;
 
 constexpr const char* kSource = R"(
 double step(double x) { return -x; }  // like circle
@@ -13,15 +16,15 @@ double other(double x) { return x; /* step */ }
 int main() { step(1); }
 )";
 
-CheckResult check(const std::string& id, const std::string& function, Outcome status = Outcome::kFail,
-                  Group group = Group::kVisible) {
+grading::CheckResult check(const std::string& id, const std::string& function,
+                           Outcome status = Outcome::kFail, Group group = Group::kVisible) {
   return {.id = id, .group = group, .status = status, .message = "wrong.", .function = function};
 }
 
-std::vector<std::string> messagesAfter(std::vector<CheckResult> checks) {
+std::vector<std::string> messagesAfter(std::vector<grading::CheckResult> checks) {
   explainCascades(checks, kSource);
   std::vector<std::string> messages;
-  for (const CheckResult& one : checks) messages.push_back(one.message);
+  for (const grading::CheckResult& one : checks) messages.push_back(one.message);
   return messages;
 }
 
@@ -34,7 +37,7 @@ TEST(Cascades, NameTheFunctionThatFailedBefore) {
 
 // The cause is known, so that no question guesses at it; the sentences end once.
 TEST(Cascades, JoinSentences) {
-  CheckResult number = check("b", "circle"), question = number, bracket = number, word = number;
+  grading::CheckResult number = check("b", "circle"), question = number, bracket = number, word = number;
   number.message = "angle: got 0.2, wanted 3";
   question.message = "angle: got 0.2, wanted 3. Is 2. a factor? Or one of pi?";
   bracket.message = "stopped. (A check failed.)";
@@ -55,4 +58,4 @@ TEST(Cascades, NeedAFailureBeforeThatStudentsCanSee) {
   EXPECT_EQ(messagesAfter({check("a", ""), check("b", "circle")}).back(), "wrong.");
 }
 
-}  // namespace rex::grading::cascades_test
+}  // namespace rex::submission::cascades_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rex::grading::compiler_messages_test {
+namespace rex::submission::compiler_messages_test {
 
 constexpr const char* kJson =
     R"([{"kind": "error", "children": [], "locations": [{"caret": {"line": 47, "file": "main.cpp", "column": 3}}], "message": "‘foo’ was not declared"},)"
@@ -63,7 +63,7 @@ TEST(ParseCompilerText, KeepsErrors) {
 }
 
 TEST(BlameMainFile, FindsTheLineThatInstantiated) {
-  std::vector<CompileDiagnostic> messages = {
+  std::vector<grading::CompileDiagnostic> messages = {
       {"/usr/include/eigen3/Eigen/src/Core/Product.h", 115, 7, "error", "", "SIZES"}};
   blameMainFile(messages, "main.cpp",
                 "main.cpp:9:1: error: other\n"
@@ -74,8 +74,8 @@ TEST(BlameMainFile, FindsTheLineThatInstantiated) {
 }
 
 TEST(BlameMainFile, FindsTheLineThatIncluded) {
-  std::vector<CompileDiagnostic> messages = {{"own/exercise.h", 3, 1, "error", "", "bad"},
-                                             {"elsewhere.h", 3, 1, "error", "", "bad"}};
+  std::vector<grading::CompileDiagnostic> messages = {{"own/exercise.h", 3, 1, "error", "", "bad"},
+                                                      {"elsewhere.h", 3, 1, "error", "", "bad"}};
   blameMainFile(messages, "main.cpp",
                 "In file included from own/a.h:3,\n"
                 "                 from main.cpp:2:\n"
@@ -86,7 +86,7 @@ TEST(BlameMainFile, FindsTheLineThatIncluded) {
 
 // The natural (K * x)(0) makes g++ 12 warn of a pointer in Eigen's memory; no line of the file changes that.
 TEST(BlameMainFile, LeavesOutWarningsThatNoLineCaused) {
-  std::vector<CompileDiagnostic> messages = {
+  std::vector<grading::CompileDiagnostic> messages = {
       {"eigen3/Memory.h", 203, 7, "warning", "-Wuse-after-free", "used"},
       {"main.cpp", 4, 1, "warning", "-Wunused", "x"},
       {"eigen3/Memory.h", 203, 7, "error", "", "bad"}};
@@ -122,7 +122,8 @@ TEST(CompilerMessages, ReadsTheAssemblersText) {
 }
 
 TEST(AdmitMessages, CutsAndShows) {
-  std::vector<CompileDiagnostic> messages(60, {"a\nb", 1, 1, "error", "x\u202Ey", std::string(100'000, 'm')});
+  std::vector<grading::CompileDiagnostic> messages(
+      60, {"a\nb", 1, 1, "error", "x\u202Ey", std::string(100'000, 'm')});
   messages[0].message = "a\u2028b\x1b[2J\nmain.cpp:1:1: error: forged";
   messages[1].message = "\xff";
   EXPECT_TRUE(admitMessages(messages));
@@ -134,4 +135,4 @@ TEST(AdmitMessages, CutsAndShows) {
   EXPECT_FALSE(admitMessages(messages));
 }
 
-}  // namespace rex::grading::compiler_messages_test
+}  // namespace rex::submission::compiler_messages_test

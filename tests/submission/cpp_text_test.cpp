@@ -9,7 +9,7 @@
 #include "support/paths.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::cpp_text_test {
+namespace rex::submission::cpp_text_test {
 
 // "w:int n:12 t:"x" s:;", with a bar before each token that begins a line.
 std::string tokens(std::string_view source) {
@@ -105,4 +105,4 @@ TEST(CppText, AgreesWithThePreprocessor) {
   EXPECT_GT(compared, 20);
 }
 
-}  // namespace rex::grading::cpp_text_test
+}  // namespace rex::submission::cpp_text_test

@@ -3,7 +3,7 @@
 
 #include "submission/source_remarks.h"
 
-namespace rex::grading::dangling_auto_test {
+namespace rex::submission::dangling_auto_test {
 
 using ::testing::HasSubstr;
 
@@ -38,7 +38,7 @@ TEST(AutoQuestions, TellViewsOfAnswersFromThoseOfVariables) {
 
 TEST(AutoAnswers, AreOurWordsAtTheDeclaration) {
   const std::string source = "int a;\n  auto b = A * x;\n";
-  std::vector<CompileDiagnostic> messages = {
+  std::vector<grading::CompileDiagnostic> messages = {
       {"main.cpp", 2, 44, "warning", "-Wdeprecated-declarations",
        "'char rex::guard::autoHolds(const T&) [with T = ...]' is deprecated"},
       {"src/course/auto_guard.h", 30, 21, "note", "", "declared here: rex::guard::autoHolds"},
@@ -53,4 +53,4 @@ TEST(AutoAnswers, AreOurWordsAtTheDeclaration) {
   EXPECT_EQ(messages[1].line, 1);
 }
 
-}  // namespace rex::grading::dangling_auto_test
+}  // namespace rex::submission::dangling_auto_test

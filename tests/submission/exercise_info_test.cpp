@@ -8,7 +8,7 @@
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::exercise_info_test {
+namespace rex::submission::exercise_info_test {
 
 constexpr const char* kGood = R"(title = "Kinematics"
 script = "12.3"
@@ -57,8 +57,8 @@ TEST_F(ExerciseInfoTest, ReadsEverything) {
   EXPECT_EQ(info.title, "Kinematics");
   EXPECT_EQ(info.script, "12.3");
   EXPECT_EQ(info.limits.cpuSeconds, 2.5);
-  EXPECT_EQ(info.limits.memory, 512 * kMegabyte);
-  EXPECT_EQ(info.limits.output, 4 * kMegabyte);
+  EXPECT_EQ(info.limits.memory, 512 * grading::kMegabyte);
+  EXPECT_EQ(info.limits.output, 4 * grading::kMegabyte);
   ASSERT_EQ(info.parts.size(), 2u);
   EXPECT_EQ(info.parts[0].id, "maps");
   EXPECT_EQ(info.parts[0].title, "Task maps");
@@ -143,4 +143,4 @@ TEST_F(ExerciseInfoTest, ListsByNameAndFindsByNumberOrTopic) {
   EXPECT_TRUE(listExercises("no/where").empty());
 }
 
-}  // namespace rex::grading::exercise_info_test
+}  // namespace rex::submission::exercise_info_test

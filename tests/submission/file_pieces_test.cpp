@@ -3,7 +3,7 @@
 
 #include "submission/graded_part.h"
 
-namespace rex::grading::file_pieces_test {
+namespace rex::submission::file_pieces_test {
 
 using ::testing::ElementsAre;
 
@@ -106,4 +106,4 @@ TEST(FilePieces, NameNothingElse) {
     EXPECT_EQ(functionIn(source), "none") << source;
 }
 
-}  // namespace rex::grading::file_pieces_test
+}  // namespace rex::submission::file_pieces_test

@@ -8,7 +8,7 @@
 #include "support/paths.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::forbidden_members_test {
+namespace rex::submission::forbidden_members_test {
 
 constexpr const char* kAsks =
     "#include \"course/course.h\"\n"
@@ -49,4 +49,4 @@ TEST(ForbiddenMembers, OfTheSimulatorInExercisesThatAskForThem) {
   EXPECT_TRUE(compile(kCompares).ok);
 }
 
-}  // namespace rex::grading::forbidden_members_test
+}  // namespace rex::submission::forbidden_members_test

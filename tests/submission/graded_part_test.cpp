@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace rex::grading::graded_part_test {
+namespace rex::submission::graded_part_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -71,4 +71,4 @@ TEST(GradedPart, TakesAnyText) {
   EXPECT_EQ(gradedPart("int g() { return 1; }", {"f"}, {}), "");
 }
 
-}  // namespace rex::grading::graded_part_test
+}  // namespace rex::submission::graded_part_test

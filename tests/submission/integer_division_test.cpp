@@ -3,7 +3,7 @@
 
 #include "submission/source_remarks.h"
 
-namespace rex::grading::integer_division_test {
+namespace rex::submission::integer_division_test {
 
 TEST(IntegerDivision, IsNamedWithItsResult) {
   const auto found = integerDivisions(CppText("int a;\nx = 2 * (1 / 2) + 7/3;\n"), "main.cpp");
@@ -42,4 +42,4 @@ TEST(IntegerDivision, IsNotSeenInOtherText) {
     EXPECT_EQ(integerDivisions(CppText(line), "main.cpp").size(), 1u) << line;
 }
 
-}  // namespace rex::grading::integer_division_test
+}  // namespace rex::submission::integer_division_test

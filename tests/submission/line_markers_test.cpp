@@ -9,7 +9,7 @@
 #include "submission/included_files.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::line_markers_test {
+namespace rex::submission::line_markers_test {
 
 int countIn(const std::string& source) { return static_cast<int>(lineMarkers(source, "main.cpp").size()); }
 
@@ -97,4 +97,4 @@ TEST(LineMarkers, MissesNothingThatTheCompilerObeys) {
   EXPECT_GT(obeyed, 5);
 }
 
-}  // namespace rex::grading::line_markers_test
+}  // namespace rex::submission::line_markers_test

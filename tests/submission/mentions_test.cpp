@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace rex::grading::mentions_test {
+namespace rex::submission::mentions_test {
 
 using Place = std::pair<int, int>;
 constexpr Place kNowhere{0, 0};
@@ -83,4 +83,4 @@ TEST(MacroDefinition, IsFoundHoweverItIsWritten) {
     EXPECT_EQ(macroDefinitionLineOf("rex", source), 0) << source;
 }
 
-}  // namespace rex::grading::mentions_test
+}  // namespace rex::submission::mentions_test

@@ -13,7 +13,7 @@
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::object_file_test {
+namespace rex::submission::object_file_test {
 
 using ::testing::HasSubstr;
 
@@ -177,4 +177,4 @@ TEST_F(ObjectFileTest, SurvivesAnyBytes) {
   EXPECT_GT(refused, 1000) << "seed " << kSeed;
 }
 
-}  // namespace rex::grading::object_file_test
+}  // namespace rex::submission::object_file_test

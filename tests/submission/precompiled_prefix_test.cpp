@@ -10,7 +10,7 @@
 #include "support/paths.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::precompiled_prefix_test {
+namespace rex::submission::precompiled_prefix_test {
 
 using std::filesystem::path;
 using namespace std::chrono_literals;
@@ -189,4 +189,4 @@ TEST(Prefix, IsForWhatStudentsStartFrom) {
   EXPECT_GT(exercises, 5);
 }
 
-}  // namespace rex::grading::precompiled_prefix_test
+}  // namespace rex::submission::precompiled_prefix_test

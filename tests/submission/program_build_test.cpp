@@ -8,7 +8,7 @@
 #include "support/paths.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::program_build_test {
+namespace rex::submission::program_build_test {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -80,4 +80,4 @@ TEST(ProgramBuild, RefusesOtherFiles) {
   EXPECT_REX_ERROR(readProgramToolchain(file), "program.json: not a build description: found ");
 }
 
-}  // namespace rex::grading::program_build_test
+}  // namespace rex::submission::program_build_test

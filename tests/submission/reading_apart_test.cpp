@@ -7,7 +7,9 @@
 #include "submission/reading_apart_internal.h"
 #include "support/expect_error.h"
 
-namespace rex::grading::reading_apart_test {
+namespace rex::submission::reading_apart_test {
+
+using grading::CompileDiagnostic;
 
 constexpr IsolationLimits kLittle{.cpuSeconds = 1, .wallSeconds = 60, .memory = 64u << 20};
 
@@ -64,4 +66,4 @@ TEST(ReadApart, BlamesTheMachineForWhatComesFromOutside) {
       "no");
 }
 
-}  // namespace rex::grading::reading_apart_test
+}  // namespace rex::submission::reading_apart_test

@@ -5,7 +5,7 @@
 
 #include "support/expect_error.h"
 
-namespace rex::grading::regions_test {
+namespace rex::submission::regions_test {
 
 using ::testing::ElementsAre;
 
@@ -288,4 +288,4 @@ int main() { return area(1) > 0; }
   EXPECT_REX_ERROR(referenceText("// <solution a>\n", "s.cpp"), "s.cpp:1:5: no '// </solution>' closes this");
 }
 
-}  // namespace rex::grading::regions_test
+}  // namespace rex::submission::regions_test

@@ -8,7 +8,7 @@
 #include "support/file_text.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::second_look_test {
+namespace rex::submission::second_look_test {
 
 // A report as the sanitizer of addresses writes it, shortened.
 constexpr const char* kOverflow = R"(I print, too.
@@ -104,7 +104,7 @@ class SanitizedToolchain : public ::testing::Test {
   ProcessResult run() const { return runProcess({(temporary_.path() / "program").string()}); }
 
   TemporaryFolder temporary_;
-  Toolchain toolchain_ = sanitizedToolchain(plain(), temporary_.path(), 200 * kMegabyte);
+  Toolchain toolchain_ = sanitizedToolchain(plain(), temporary_.path(), 200 * grading::kMegabyte);
 };
 
 TEST_F(SanitizedToolchain, MakesProgramsThatReportWhereTheyCrash) {
@@ -147,9 +147,10 @@ TEST_F(SanitizedToolchain, MakesProgramsThatEndWhenTheyHoldTooMuchMemory) {
                                     "int main() { " +
                                         std::string(body) + " }\n"));
     const ProcessResult run = this->run();
-    const Failure failure = explainEnd({.status = run.signal, .function = "f", .errorTail = run.error},
-                                       {.memory = 200 * kMegabyte});
-    EXPECT_EQ(failure.outcome, Outcome::kMemoryLimit) << run.error;
+    const grading::Failure failure =
+        grading::explainEnd({.status = run.signal, .function = "f", .errorTail = run.error},
+                            {.memory = 200 * grading::kMegabyte});
+    EXPECT_EQ(failure.outcome, grading::Outcome::kMemoryLimit) << run.error;
     EXPECT_EQ(failure.message, "used more than 200 MB of memory in f");
   }
 }
@@ -168,4 +169,4 @@ TEST_F(SanitizedToolchain, SharesVectorsWithALibraryThatKnowsNothingOfIt) {
   EXPECT_TRUE(run.ok()) << run.error;
 }
 
-}  // namespace rex::grading::second_look_test
+}  // namespace rex::submission::second_look_test

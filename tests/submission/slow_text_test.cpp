@@ -24,19 +24,19 @@
 #include "support/rounds.h"
 #include "support/slow_sources.h"
 
-namespace rex::grading::slow_text_test {
+namespace rex::submission::slow_text_test {
 
 using ::testing::AllOf;
 using ::testing::Gt;
 using ::testing::HasSubstr;
 using ::testing::Le;
 
-std::vector<CheckResult> failedChecks() {
-  std::vector<CheckResult> checks;
+std::vector<grading::CheckResult> failedChecks() {
+  std::vector<grading::CheckResult> checks;
   for (int k = 0; k < 40; ++k) {
-    CheckResult check{.id = std::to_string(k)};
+    grading::CheckResult check{.id = std::to_string(k)};
     check.function = "f" + std::to_string(k < 20 ? k : 24'000 - k);
-    check.status = Outcome::kFail;
+    check.status = grading::Outcome::kFail;
     checks.push_back(check);
   }
   return checks;
@@ -45,55 +45,55 @@ std::vector<CheckResult> failedChecks() {
 using Reader = std::function<std::size_t(const std::string&)>;
 
 std::map<std::string, Reader> readersOfSource() {
-  return {
-      {"tokens", [](const std::string& text) { return CppText(text).size(); }},
-      {"line markers", [](const std::string& text) { return lineMarkers(text, "main.cpp").size(); }},
-      {"quotients", [](const std::string& text) { return integerDivisions(CppText(text), "a").size(); }},
-      {"auto", [](const std::string& text) { return withAutoQuestions(CppText(text)).size(); }},
-      {"answers about auto",
-       [](const std::string& text) {
-         std::vector<CompileDiagnostic> messages(1000, {"main.cpp", 1, 1, "warning", "", "rex::guard::auto"});
-         explainAutoAnswers(messages, CppText(text));
-         return messages.size();
-       }},
-      {"pieces", [](const std::string& text) { return filePieces(CppText(text)).size(); }},
-      {"graded part",
-       [](const std::string& text) {
-         return gradedPart(text, {"f0", "f9"}, {"solve"}).size();
-       }},
-      {"cascades",
-       [](const std::string& text) {
-         std::vector<CheckResult> checks = failedChecks();
-         explainCascades(checks, text);
-         return checks.size();
-       }},
-      {"definitions",
-       [](const std::string& source) {
-         const CppText text(source);
-         int sum = 0;
-         for (int k = 0; k < 5; ++k) sum += definitionLineOf(k % 2 == 0 ? "f" : "a", text);
-         return static_cast<std::size_t>(sum);
-       }},
-      {"mentions",
-       [](const std::string& source) {
-         const CppText text(source);
-         int sum = 0;
-         for (int k = 0; k < 5; ++k) sum += onlyMentionOf(k % 2 == 0 ? "f" : "g", text).first;
-         return static_cast<std::size_t>(sum);
-       }},
-      {"included files",
-       [](const std::string& text) {
-         const std::vector<std::filesystem::path> files(100, "/etc/passwd");
-         return forbiddenIncludes(files, text, "main.cpp", "/tmp", {}).size();
-       }},
-      {"macros", [](const std::string& text) { return forbiddenMacros(text, "main.cpp").size(); }},
-      {"standard input",
-       [](const std::string& text) {
-         return static_cast<std::size_t>(standardInputUse(CppText(text)).first);
-       }},
-      {"headers", [](const std::string& text) {
-         return static_cast<std::size_t>(opensWithCourseHeader(text, {"-iquote", "/usr/include"}));
-       }}};
+  return {{"tokens", [](const std::string& text) { return CppText(text).size(); }},
+          {"line markers", [](const std::string& text) { return lineMarkers(text, "main.cpp").size(); }},
+          {"quotients", [](const std::string& text) { return integerDivisions(CppText(text), "a").size(); }},
+          {"auto", [](const std::string& text) { return withAutoQuestions(CppText(text)).size(); }},
+          {"answers about auto",
+           [](const std::string& text) {
+             std::vector<grading::CompileDiagnostic> messages(
+                 1000, {"main.cpp", 1, 1, "warning", "", "rex::guard::auto"});
+             explainAutoAnswers(messages, CppText(text));
+             return messages.size();
+           }},
+          {"pieces", [](const std::string& text) { return filePieces(CppText(text)).size(); }},
+          {"graded part",
+           [](const std::string& text) {
+             return gradedPart(text, {"f0", "f9"}, {"solve"}).size();
+           }},
+          {"cascades",
+           [](const std::string& text) {
+             std::vector<grading::CheckResult> checks = failedChecks();
+             explainCascades(checks, text);
+             return checks.size();
+           }},
+          {"definitions",
+           [](const std::string& source) {
+             const CppText text(source);
+             int sum = 0;
+             for (int k = 0; k < 5; ++k) sum += definitionLineOf(k % 2 == 0 ? "f" : "a", text);
+             return static_cast<std::size_t>(sum);
+           }},
+          {"mentions",
+           [](const std::string& source) {
+             const CppText text(source);
+             int sum = 0;
+             for (int k = 0; k < 5; ++k) sum += onlyMentionOf(k % 2 == 0 ? "f" : "g", text).first;
+             return static_cast<std::size_t>(sum);
+           }},
+          {"included files",
+           [](const std::string& text) {
+             const std::vector<std::filesystem::path> files(100, "/etc/passwd");
+             return forbiddenIncludes(files, text, "main.cpp", "/tmp", {}).size();
+           }},
+          {"macros", [](const std::string& text) { return forbiddenMacros(text, "main.cpp").size(); }},
+          {"standard input",
+           [](const std::string& text) {
+             return static_cast<std::size_t>(standardInputUse(CppText(text)).first);
+           }},
+          {"headers", [](const std::string& text) {
+             return static_cast<std::size_t>(opensWithCourseHeader(text, {"-iquote", "/usr/include"}));
+           }}};
 }
 
 std::map<std::string, std::string> slowOutputs() {
@@ -124,33 +124,33 @@ std::map<std::string, std::string> slowOutputs() {
 }
 
 std::map<std::string, Reader> readersOfOutput() {
-  return {
-      {"JSON", [](const std::string& text) { return parseCompilerJson(text).size(); }},
-      {"text", [](const std::string& text) { return parseCompilerText(text).size(); }},
-      {"assembler", [](const std::string& text) { return parseAssemblerText(text).size(); }},
-      {"linker", [](const std::string& text) { return parseLinkerText(text, "main.cpp").size(); }},
-      {"dependencies", [](const std::string& text) { return filesOfAssembler(text, "/tmp").size(); }},
-      {"quick look", [](const std::string& text) { return static_cast<std::size_t>(namesErrors(text)); }},
-      {"complaint", [](const std::string& text) { return complaintAbout("a.o", text).size(); }},
-      {"last words",
-       [](const std::string& text) {
-         return lastWordsOf({.started = true, .output = {}, .error = text}).size();
-       }},
-      {"origins",
-       [](const std::string& text) {
-         std::vector<CompileDiagnostic> messages(100, {"a.h", 1, 1, "error", "", "x"});
-         blameMainFile(messages, "main.cpp", printable(text, 64u << 10));
-         return messages.size();
-       }},
-      {"limits of messages",
-       [](const std::string& text) {
-         std::vector<CompileDiagnostic> messages(100, {"a.h", 1, 1, "error", "", text.substr(0, 1u << 20)});
-         admitMessages(messages);
-         return messages.size();
-       }},
-      {"crashes", [](const std::string& text) {
-         return static_cast<std::size_t>(crashSiteIn(text, "main.cpp").has_value());
-       }}};
+  return {{"JSON", [](const std::string& text) { return parseCompilerJson(text).size(); }},
+          {"text", [](const std::string& text) { return parseCompilerText(text).size(); }},
+          {"assembler", [](const std::string& text) { return parseAssemblerText(text).size(); }},
+          {"linker", [](const std::string& text) { return parseLinkerText(text, "main.cpp").size(); }},
+          {"dependencies", [](const std::string& text) { return filesOfAssembler(text, "/tmp").size(); }},
+          {"quick look", [](const std::string& text) { return static_cast<std::size_t>(namesErrors(text)); }},
+          {"complaint", [](const std::string& text) { return complaintAbout("a.o", text).size(); }},
+          {"last words",
+           [](const std::string& text) {
+             return lastWordsOf({.started = true, .output = {}, .error = text}).size();
+           }},
+          {"origins",
+           [](const std::string& text) {
+             std::vector<grading::CompileDiagnostic> messages(100, {"a.h", 1, 1, "error", "", "x"});
+             blameMainFile(messages, "main.cpp", printable(text, 64u << 10));
+             return messages.size();
+           }},
+          {"limits of messages",
+           [](const std::string& text) {
+             std::vector<grading::CompileDiagnostic> messages(
+                 100, {"a.h", 1, 1, "error", "", text.substr(0, 1u << 20)});
+             admitMessages(messages);
+             return messages.size();
+           }},
+          {"crashes", [](const std::string& text) {
+             return static_cast<std::size_t>(crashSiteIn(text, "main.cpp").has_value());
+           }}};
 }
 
 // Calls the reader, and returns how many milliseconds of processor time this process has used.
@@ -210,4 +210,4 @@ TEST(SlowText, IsNoticed) {
   EXPECT_EQ(result.signal, SIGXCPU);
 }
 
-}  // namespace rex::grading::slow_text_test
+}  // namespace rex::submission::slow_text_test

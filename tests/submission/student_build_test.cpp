@@ -17,7 +17,7 @@
 #include "support/temporary_folder.h"
 #include "support/tiny_disk.h"
 
-namespace rex::grading::student_build_test {
+namespace rex::submission::student_build_test {
 
 using std::filesystem::path;
 using ::testing::HasSubstr;
@@ -85,7 +85,7 @@ class StudentBuildTest : public ::testing::Test {
     return temporary_.path() / file;
   }
 
-  static std::string first(const std::vector<CompileDiagnostic>& messages) {
+  static std::string first(const std::vector<grading::CompileDiagnostic>& messages) {
     return messages.empty() ? "" : toString(messages.front());
   }
 
@@ -716,4 +716,4 @@ TEST_F(StudentBuildTest, ReadsBuildJson) {
   EXPECT_EQ(read.objdump, "od");
 }
 
-}  // namespace rex::grading::student_build_test
+}  // namespace rex::submission::student_build_test

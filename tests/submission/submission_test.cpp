@@ -8,7 +8,7 @@
 #include "support/paths.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::submission_test {
+namespace rex::submission::submission_test {
 
 using ::testing::HasSubstr;
 
@@ -28,11 +28,11 @@ TEST_F(SubmissionTest, BlamesABrokenGraderNotTheStudent) {
   Toolchain toolchain;
   toolchain.grader = "/bin/sh";  // ends with an error for options that it does not know
   const Submission submission = submit(toolchain, "no/such/main.cpp");
-  EXPECT_EQ(submission.result.outcome, Outcome::kGraderError);
+  EXPECT_EQ(submission.result.outcome, grading::Outcome::kGraderError);
   EXPECT_THAT(submission.result.message, HasSubstr("the grader failed (exit code 2, signal 0): "));
-  EXPECT_EQ(loadResult(results()).outcome, Outcome::kGraderError);
+  EXPECT_EQ(grading::loadResult(results()).outcome, grading::Outcome::kGraderError);
   toolchain.grader = "/no/such/grader";
-  EXPECT_EQ(submit(toolchain, "no/such/main.cpp").result.outcome, Outcome::kGraderError);
+  EXPECT_EQ(submit(toolchain, "no/such/main.cpp").result.outcome, grading::Outcome::kGraderError);
 }
 
 TEST_F(SubmissionTest, BlamesMissingTools) {
@@ -40,7 +40,7 @@ TEST_F(SubmissionTest, BlamesMissingTools) {
   toolchain.compiler = "no-such-compiler";
   toolchain.grader = "/bin/true";
   const Submission submission = submit(toolchain, sourcePath("share/template/solution.cpp"));
-  EXPECT_EQ(submission.result.outcome, Outcome::kGraderError);
+  EXPECT_EQ(submission.result.outcome, grading::Outcome::kGraderError);
   EXPECT_THAT(submission.result.message, HasSubstr("cannot run no-such-compiler"));
 }
 
@@ -50,4 +50,4 @@ TEST_F(SubmissionTest, SaysWhenAGraderCannotList) {
   EXPECT_REX_ERROR(listChecks(toolchain), "/bin/false: the grader cannot list its checks");
 }
 
-}  // namespace rex::grading::submission_test
+}  // namespace rex::submission::submission_test

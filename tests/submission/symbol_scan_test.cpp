@@ -13,7 +13,7 @@
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::symbol_scan_test {
+namespace rex::submission::symbol_scan_test {
 
 const std::vector<ForbiddenFunction> kForbidden = {{"rex::solveIk", "you write it"}};
 
@@ -76,7 +76,7 @@ TEST(IsSymbolOf, AgreesWithADemangler) {
 class ScanSymbolsTest : public ::testing::Test {
  protected:
   // What the scan says about a source file compiled here.
-  std::vector<CompileDiagnostic> scan(const std::string& source) {
+  std::vector<grading::CompileDiagnostic> scan(const std::string& source) {
     const std::filesystem::path object = temporary_.path() / "a.o";
     const ProcessResult compiled =
         runProcess({"g++", "-std=c++20", "-O1", "-ffunction-sections", "-fdata-sections", "-x", "c++", "-c",
@@ -344,7 +344,7 @@ TEST_F(ScanSymbolsTest, RefusesTablesOfTheLoader) {
     EXPECT_THAT(
         scan(std::string("extern \"C\" char ") + name + "[];\nchar f() { return " + name + "[1]; }\n"),
         ::testing::ElementsAre(
-            ::testing::Field(&CompileDiagnostic::message,
+            ::testing::Field(&grading::CompileDiagnostic::message,
                              ::testing::StartsWith(std::string("calls ") + name + ", which nobody"))));
   EXPECT_TRUE(scan("namespace mine { int dlsym(int); }\nint f() { return mine::dlsym(1); }\n").empty());
 }
@@ -355,4 +355,4 @@ TEST_F(ScanSymbolsTest, SaysWhenItCannotRead) {
   EXPECT_REX_ERROR(scanSymbols(file, "", "main.cpp", kForbidden), "cannot read the compiled file");
 }
 
-}  // namespace rex::grading::symbol_scan_test
+}  // namespace rex::submission::symbol_scan_test

@@ -5,7 +5,7 @@
 
 #include "submission/build_tools.h"
 
-namespace rex::grading::tool_failure_test {
+namespace rex::submission::tool_failure_test {
 
 ProcessResult ended(const std::string& error, int exitCode = 1) {
   return {.started = true, .exitCode = exitCode, .output = {}, .error = error};
@@ -46,4 +46,4 @@ TEST(ToolFailure, QuotesWhatTellsMost) {
             "ld: final link failed: No space left on device");
 }
 
-}  // namespace rex::grading::tool_failure_test
+}  // namespace rex::submission::tool_failure_test

@@ -9,7 +9,7 @@
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
-namespace rex::grading::worker_part_test {
+namespace rex::submission::worker_part_test {
 
 namespace fs = std::filesystem;
 using ::testing::ElementsAre;
@@ -172,4 +172,4 @@ TEST_F(WorkerPart, IsLinkedWithThoseLibrariesOfOthersThatItNeeds) {
   EXPECT_REX_ERROR(link("allowed = [\"course\"]"), "cannot run nm");
 }
 
-}  // namespace rex::grading::worker_part_test
+}  // namespace rex::submission::worker_part_test

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace rex::grading {
+namespace rex::submission {
 
 inline constexpr std::size_t kLargest = 1u << 20;  // of a student's file
 
@@ -89,4 +89,4 @@ inline std::map<std::string, std::string> slowSources(std::size_t size = kLarges
           {"bytes of no encoding", repeated("\xff", size)}};
 }
 
-}  // namespace rex::grading
+}  // namespace rex::submission

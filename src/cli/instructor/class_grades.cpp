@@ -25,48 +25,48 @@ namespace rex::cli {
 
 namespace fs = std::filesystem;
 
-grading::Course courseOf(const Project& project, const ClassFiles& files) {
-  if (!files.course.empty()) return grading::readCourse(files.course, project.exercises());
+classroom::Course courseOf(const Project& project, const ClassFiles& files) {
+  if (!files.course.empty()) return classroom::readCourse(files.course, project.exercises());
   return {.policy = readDeadlines(project, files.deadlines)};
 }
 
-grading::GradebookSource gradebookSourceOf(const Project& project, const ClassFiles& files,
-                                           const std::vector<grading::Task>& tasks, const fs::path& out,
-                                           const std::string& only) {
-  grading::GradebookSource source{.tasks = tasks, .out = out, .only = only};
+classroom::GradebookSource gradebookSourceOf(const Project& project, const ClassFiles& files,
+                                             const std::vector<classroom::Task>& tasks, const fs::path& out,
+                                             const std::string& only) {
+  classroom::GradebookSource source{.tasks = tasks, .out = out, .only = only};
   source.course = courseOf(project, files);
-  source.imported = grading::importTableIn(out);
-  source.notTaken = grading::readNotTaken(out / kNotTakenFile);
+  source.imported = classroom::importTableIn(out);
+  source.notTaken = classroom::readNotTaken(out / kNotTakenFile);
   for (const ExerciseInfo& exercise : project.exercises()) source.points[exercise.name] = exercise.points();
   const fs::path adjustments = files.adjustments.empty() ? source.course.adjustments : files.adjustments;
   if (!adjustments.empty())
-    source.adjustments = grading::readAdjustments(
-        adjustments, grading::withStudents(source.course, tasks, source.imported), project.exercises());
+    source.adjustments = classroom::readAdjustments(
+        adjustments, classroom::withStudents(source.course, tasks, source.imported), project.exercises());
   return source;
 }
 
-grading::Gradebook gradebookOf(const Project& project, const ClassFiles& files,
-                               const std::vector<grading::Task>& tasks, const fs::path& out,
-                               const std::string& only) {
-  return grading::makeGradebook(gradebookSourceOf(project, files, tasks, out, only));
+classroom::Gradebook gradebookOf(const Project& project, const ClassFiles& files,
+                                 const std::vector<classroom::Task>& tasks, const fs::path& out,
+                                 const std::string& only) {
+  return classroom::makeGradebook(gradebookSourceOf(project, files, tasks, out, only));
 }
 
-void writeBook(const grading::Gradebook& book, const fs::path& out, bool print) {
-  const std::string text = grading::gradesCsv(book.rows);
+void writeBook(const classroom::Gradebook& book, const fs::path& out, bool print) {
+  const std::string text = classroom::gradesCsv(book.rows);
   replaceTextFile(out / "grades.csv", text, "the table of grades");
-  replaceTextFile(out / kTotals, grading::totalsCsv(book), "the table of totals");
+  replaceTextFile(out / kTotals, classroom::totalsCsv(book), "the table of totals");
   if (book.strangers.empty())
     fs::remove(out / kStrangers);
   else
-    replaceTextFile(out / kStrangers, grading::gradesCsv(book.strangers), "the table of strangers");
+    replaceTextFile(out / kStrangers, classroom::gradesCsv(book.strangers), "the table of strangers");
   if (print) std::fputs(text.c_str(), stdout);
   for (const std::string& sentence : book.notes) note(wrap(escapeForTerminal(sentence), 2, 0));
-  for (const grading::GradeRow& row : book.strangers)
+  for (const classroom::GradeRow& row : book.strangers)
     note(wrap(escapeForTerminal(fmt::format("'{}' is not on the roster: {} is graded and listed in {}",
                                             row.student.id, row.exercise, kStrangers)),
               2, 0));
   std::map<std::string_view, int> counts;
-  for (const grading::GradeRow& row : book.rows) ++counts[toString(row.status)];
+  for (const classroom::GradeRow& row : book.rows) ++counts[toString(row.status)];
   std::vector<std::string> parts;
   for (const auto& [status, count] : counts) parts.push_back(fmt::format("{} {}", count, status));
   note(fmt::format("{} students: {}", book.totals.size(), join(parts, ", ")));
@@ -74,14 +74,14 @@ void writeBook(const grading::Gradebook& book, const fs::path& out, bool print) 
 
 ExitCode explainResults(const Project& project, const ExplainOptions& options) {
   const std::string name = project.exercise(options.exercise).name;
-  const grading::Gradebook book =
+  const classroom::Gradebook book =
       gradebookOf(project, options.files, tasksIn(options.out, options.manifest), options.out);
   std::vector<std::string> known;
   for (const auto* rows : {&book.rows, &book.strangers})
-    for (const grading::GradeRow& row : *rows) {
+    for (const classroom::GradeRow& row : *rows) {
       known.push_back(row.student.id);
       if (row.student.id != options.student || row.exercise != name) continue;
-      const std::vector<std::string> lines = grading::explain(row);
+      const std::vector<std::string> lines = classroom::explain(row);
       if (options.json)
         say(dump(Json{{"student", options.student}, {"exercise", name}, {"lines", lines}}));
       else
@@ -115,7 +115,7 @@ void requireFolder(const fs::path& folder, const std::string& wanted) {
                     .nearest = nearestNames(path.filename().string(), beside)});
 }
 
-std::vector<grading::Task> tasksIn(const fs::path& results, const fs::path& manifest) {
+std::vector<classroom::Task> tasksIn(const fs::path& results, const fs::path& manifest) {
   requireFolder(results, "the folder of results that rex grade wrote");
   const fs::path file = manifest.empty() ? results / "tasks.tsv" : manifest;
   if (manifest.empty() && !fs::is_regular_file(file))
@@ -126,12 +126,12 @@ std::vector<grading::Task> tasksIn(const fs::path& results, const fs::path& mani
     throw UsageError({.what = "no such list of tasks",
                       .where = {file.string()},
                       .wanted = "one that rex grade --manifest wrote"});
-  return grading::readManifest(file);
+  return classroom::readManifest(file);
 }
 
 namespace {
 
-using grading::StudentResult;
+using classroom::StudentResult;
 
 double percentOf(const grading::GradeResult& result) {
   return result.maxScore > 0 ? 100.0 * result.score / result.maxScore : 0;
@@ -187,7 +187,7 @@ Figure pointsFigure(const std::vector<StudentResult>& results) {
       students.y.push_back(value);
     }
     medians.x.push_back(place);
-    medians.y.push_back(grading::medianOf(values));
+    medians.y.push_back(classroom::medianOf(values));
   }
   return {.title = "Points of the class",
           .xLabel = "number of the exercise",
@@ -198,9 +198,9 @@ Figure pointsFigure(const std::vector<StudentResult>& results) {
           .series = {std::move(students), std::move(medians)}};
 }
 
-Figure partsFigure(const std::vector<grading::ExerciseStatistics>& all) {
+Figure partsFigure(const std::vector<classroom::ExerciseStatistics>& all) {
   std::set<std::string> exercises;
-  for (const grading::ExerciseStatistics& one : all)
+  for (const classroom::ExerciseStatistics& one : all)
     if (one.graded > 0 && !one.parts.empty()) exercises.insert(one.exercise);
   if (exercises.empty()) throw Error({.what = "no points to draw", .found = "only faults of the grader"});
   const std::map<std::string, int> places = placesOf(exercises);
@@ -210,13 +210,13 @@ Figure partsFigure(const std::vector<grading::ExerciseStatistics>& all) {
                 .legend = Legend::kNone};
   std::size_t columns = 0;
   int first = places.begin()->second, last = first;
-  for (const grading::ExerciseStatistics& one : all) {
+  for (const classroom::ExerciseStatistics& one : all) {
     if (!exercises.contains(one.exercise)) continue;
     const int row = places.at(one.exercise);
     first = std::min(first, row), last = std::max(last, row);
     columns = std::max(columns, one.parts.size());
     for (std::size_t k = 0; k < one.parts.size(); ++k) {
-      const grading::PartStatistics& part = one.parts[k];
+      const classroom::PartStatistics& part = one.parts[k];
       const double share = part.maxPoints > 0 ? part.meanPoints / part.maxPoints : 0;
       const auto column = static_cast<double>(k + 1);
       figure.regions.push_back(fieldOf(column, row, share));
@@ -233,7 +233,7 @@ Figure partsFigure(const std::vector<grading::ExerciseStatistics>& all) {
 
 namespace {
 
-using grading::ComparedText;
+using classroom::ComparedText;
 
 void writeForOthers(const fs::path& folder, const std::vector<ComparedText>& texts,
                     const std::string& handedOut) {
@@ -244,33 +244,33 @@ void writeForOthers(const fs::path& folder, const std::vector<ComparedText>& tex
 }
 
 // Who hands in together may hand in the same.
-bool areOneGroup(const grading::SimilarPair& pair, const grading::Course& course) {
-  const grading::CourseStudent *first = course.student(pair.first), *second = course.student(pair.second);
+bool areOneGroup(const classroom::SimilarPair& pair, const classroom::Course& course) {
+  const classroom::CourseStudent *first = course.student(pair.first), *second = course.student(pair.second);
   return first != nullptr && second != nullptr && !first->group.empty() && first->group == second->group;
 }
 
 }  // namespace
 
-void writeSimilar(const Project& project, const grading::Course& course,
-                  const std::vector<grading::Task>& tasks, const fs::path& out, const fs::path& folder,
+void writeSimilar(const Project& project, const classroom::Course& course,
+                  const std::vector<classroom::Task>& tasks, const fs::path& out, const fs::path& folder,
                   int percent) {
   std::map<std::string, std::vector<ComparedText>> byExercise;
-  for (const grading::Task& task : tasks)
-    byExercise[task.exercise].push_back({task.student, grading::gradedText(out / task.file)});
+  for (const classroom::Task& task : tasks)
+    byExercise[task.exercise].push_back({task.student, classroom::gradedText(out / task.file)});
   for (const auto& [name, texts] : byExercise) {
     const std::string handedOut = readTextFile(project.exercise(name).definition / "main.cpp");
     writeForOthers(folder / name, texts, handedOut);
-    auto pairs = grading::similarPairs(texts, handedOut, percent);
-    std::erase_if(pairs, [&](const grading::SimilarPair& pair) { return areOneGroup(pair, course); });
+    auto pairs = classroom::similarPairs(texts, handedOut, percent);
+    std::erase_if(pairs, [&](const classroom::SimilarPair& pair) { return areOneGroup(pair, course); });
     const fs::path page = folder / (name + ".html");
     if (pairs.empty()) {
       fs::remove(page);
       say(fmt::format("{}: no two of {} submissions have {} % in common", name, texts.size(), percent));
       continue;
     }
-    replaceTextFile(page, grading::similarPage(name, texts, handedOut, pairs),
+    replaceTextFile(page, classroom::similarPage(name, texts, handedOut, pairs),
                     "the page of similar submissions");
-    const auto groups = grading::groupsOf(pairs);
+    const auto groups = classroom::groupsOf(pairs);
     say(fmt::format("{}: {} group{} of similar submissions, to be looked at: {}", name, groups.size(),
                     groups.size() == 1 ? "" : "s", shown(page)));
     for (const std::vector<std::string>& group : groups)

@@ -25,21 +25,22 @@ struct ClassFiles {
 inline constexpr const char *kNotTakenFile = "not_taken.tsv", *kTotals = "totals.csv",
                             *kStrangers = "not_on_roster.csv", *kRegradedFile = "regraded.csv";
 
-/// The course, or one without a roster. Throws like grading::readCourse().
-[[nodiscard]] grading::Course courseOf(const Project& project, const ClassFiles& files);
+/// The course, or one without a roster. Throws like classroom::readCourse().
+[[nodiscard]] classroom::Course courseOf(const Project& project, const ClassFiles& files);
 
 /// What makes the grade book of a folder of results, and the book: the list of tasks, what was not taken and
 /// the table of imports lie in it. Throws like the readers of these files.
-[[nodiscard]] grading::GradebookSource gradebookSourceOf(const Project& project, const ClassFiles& files,
-                                                         const std::vector<grading::Task>& tasks,
-                                                         const std::filesystem::path& out,
-                                                         const std::string& only = {});
-[[nodiscard]] grading::Gradebook gradebookOf(const Project& project, const ClassFiles& files,
-                                             const std::vector<grading::Task>& tasks,
-                                             const std::filesystem::path& out, const std::string& only = {});
+[[nodiscard]] classroom::GradebookSource gradebookSourceOf(const Project& project, const ClassFiles& files,
+                                                           const std::vector<classroom::Task>& tasks,
+                                                           const std::filesystem::path& out,
+                                                           const std::string& only = {});
+[[nodiscard]] classroom::Gradebook gradebookOf(const Project& project, const ClassFiles& files,
+                                               const std::vector<classroom::Task>& tasks,
+                                               const std::filesystem::path& out,
+                                               const std::string& only = {});
 
 /// Writes grades.csv, totals.csv and the table of people who are not on the roster, and tells the notes.
-void writeBook(const grading::Gradebook& book, const std::filesystem::path& out, bool print);
+void writeBook(const classroom::Gradebook& book, const std::filesystem::path& out, bool print);
 
 struct ExplainOptions {
   std::filesystem::path out{};       ///< the folder of results
@@ -63,17 +64,17 @@ void requireFolder(const std::filesystem::path& folder, const std::string& wante
 
 /// The list of tasks of a folder of results; `manifest`: another file with it. Throws UsageError if there is
 /// no such folder or list, and Error like readManifest().
-[[nodiscard]] std::vector<grading::Task> tasksIn(const std::filesystem::path& results,
-                                                 const std::filesystem::path& manifest = {});
+[[nodiscard]] std::vector<classroom::Task> tasksIn(const std::filesystem::path& results,
+                                                   const std::filesystem::path& manifest = {});
 
 /// The points of every student in each exercise, in percent of the maximum, over the exercise's number
 /// ("01-kinematics" is 1; one without a number gets the next after the largest). Equal points are drawn
 /// side by side, with a line at each median. Grader errors are left out. Throws Error if nothing is left.
-[[nodiscard]] Figure pointsFigure(const std::vector<grading::StudentResult>& results);
+[[nodiscard]] Figure pointsFigure(const std::vector<classroom::StudentResult>& results);
 
 /// A row of fields for each exercise, one for each part, with its name and the mean of its points in percent;
 /// the fewer points, the darker. Throws Error if there is nothing to draw.
-[[nodiscard]] Figure partsFigure(const std::vector<grading::ExerciseStatistics>& all);
+[[nodiscard]] Figure partsFigure(const std::vector<classroom::ExerciseStatistics>& all);
 
 /// How much of each of two submissions the other must have, in percent, to be shown.
 inline constexpr int kSimilarPercent = 70;
@@ -82,8 +83,8 @@ inline constexpr int kSimilarPercent = 70;
 /// least that percentage in common and no group of the roster, or removes the one of an earlier run if there
 /// are none, and folder/EXERCISE/{base,submissions/STUDENT}/main.cpp for other programs that compare. Prints
 /// the groups.
-void writeSimilar(const Project& project, const grading::Course& course,
-                  const std::vector<grading::Task>& tasks, const std::filesystem::path& out,
+void writeSimilar(const Project& project, const classroom::Course& course,
+                  const std::vector<classroom::Task>& tasks, const std::filesystem::path& out,
                   const std::filesystem::path& folder, int percent);
 
 }  // namespace rex::cli

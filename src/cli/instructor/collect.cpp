@@ -21,8 +21,8 @@ namespace rex::cli {
 
 namespace {
 
-using grading::Task;
-using grading::TaskState;
+using classroom::Task;
+using classroom::TaskState;
 
 const char* nameOf(TaskState state) {
   switch (state) {
@@ -47,12 +47,12 @@ Json statesJson(const std::vector<Task>& tasks, const std::filesystem::path& out
   bool isComplete = true;
   for (std::size_t k = 0; k < tasks.size(); ++k) {
     const Task& task = tasks[k];
-    const TaskState state = grading::stateOf(task, out);
+    const TaskState state = classroom::stateOf(task, out);
     isComplete = isComplete && state == TaskState::kDone;
     std::optional<int> points, possible;
     if (state == TaskState::kDone) {
       const grading::GradeResult result =
-          grading::loadResult(grading::resultFolder(out, task) / "results.json");
+          grading::loadResult(classroom::resultFolder(out, task) / "results.json");
       points = result.score, possible = result.maxScore;
     }
     list.push_back(
@@ -62,7 +62,8 @@ Json statesJson(const std::vector<Task>& tasks, const std::filesystem::path& out
          {"state", nameOf(state)},
          {"points", optionalJson(points)},
          {"possible", optionalJson(possible)},
-         {"waiting", grading::isHeldBack(task, out) ? optionalJson(grading::pointsNow(task, out)) : Json()}});
+         {"waiting",
+          classroom::isHeldBack(task, out) ? optionalJson(classroom::pointsNow(task, out)) : Json()}});
   }
   return {{"tasks", list}, {"complete", isComplete}, {"table", (out / "grades.csv").string()}};
 }
@@ -89,7 +90,7 @@ namespace {
 void tell(const std::string& what, const std::vector<int>& numbers, const std::vector<Task>& tasks) {
   if (numbers.empty()) return;
   constexpr std::size_t kMostNamed = 10;
-  note(fmt::format("{}: tasks {}", what, grading::rangesOf(numbers)));
+  note(fmt::format("{}: tasks {}", what, classroom::rangesOf(numbers)));
   for (std::size_t k = 0; k < std::min(numbers.size(), kMostNamed); ++k) {
     const Task& task = tasks[static_cast<std::size_t>(numbers[k]) - 1];
     note(fmt::format("  {} {}", task.student, task.exercise));
@@ -101,8 +102,8 @@ void tell(const std::string& what, const std::vector<int>& numbers, const std::v
 void tellRefused(const std::vector<int>& numbers, const std::vector<Task>& tasks,
                  const std::filesystem::path& out) {
   for (const int number : numbers)
-    note(
-        wrap(escapeForTerminal(grading::whyRefused(tasks[static_cast<std::size_t>(number) - 1], out)), 2, 0));
+    note(wrap(escapeForTerminal(classroom::whyRefused(tasks[static_cast<std::size_t>(number) - 1], out)), 2,
+              0));
 }
 
 // An incomplete file left by an earlier run does not count, as its text differs.
@@ -114,7 +115,7 @@ bool holds(const std::filesystem::path& file, const std::string& text) {
 
 ExitCode collectResults(const Project& project, const CollectOptions& options) {
   const std::vector<Task> tasks = tasksIn(options.out, options.manifest);
-  const grading::Gradebook book = gradebookOf(project, options.files, tasks, options.out);
+  const classroom::Gradebook book = gradebookOf(project, options.files, tasks, options.out);
   writeReports(tasks, options.out, reportsOf(options.reports), book);
   const bool complete = writeGrades(tasks, options.out, readDeadlines(project, options.files.deadlines),
                                     options.files.hasBook() ? &book : nullptr, options.csv);
@@ -126,19 +127,19 @@ ExitCode collectResults(const Project& project, const CollectOptions& options) {
 }
 
 void writeReports(const std::vector<Task>& tasks, const std::filesystem::path& out,
-                  const std::vector<grading::ReportFormat>& reports, const grading::Gradebook& book) {
+                  const std::vector<reports::ReportFormat>& reports, const classroom::Gradebook& book) {
   int written = 0, kept = 0;
   for (std::size_t k = 0; k < tasks.size(); ++k) {
     const Task& task = tasks[k];
-    const grading::GradeRow* row = rowOfTask(book, k);
+    const classroom::GradeRow* row = rowOfTask(book, k);
     const auto judgement = row == nullptr ? std::nullopt : judgementOf(*row);
-    const std::filesystem::path folder = grading::resultFolder(out, task);
-    const grading::TaskState state = grading::stateOf(task, out);
-    if (state != grading::TaskState::kDone && state != grading::TaskState::kFailed) {
-      grading::removeReports(folder);
+    const std::filesystem::path folder = classroom::resultFolder(out, task);
+    const classroom::TaskState state = classroom::stateOf(task, out);
+    if (state != classroom::TaskState::kDone && state != classroom::TaskState::kFailed) {
+      classroom::removeReports(folder);
       continue;
     }
-    for (const grading::ReportFormat& format : grading::reportFormats()) {
+    for (const reports::ReportFormat& format : reports::reportFormats()) {
       const std::filesystem::path file = folder / format.file;
       if (!contains(reports, format) && !std::filesystem::exists(file)) continue;
       const std::string text =
@@ -152,21 +153,21 @@ void writeReports(const std::vector<Task>& tasks, const std::filesystem::path& o
   if (!reports.empty() || written > 0) note(fmt::format("Reports: {} written, {} kept", written, kept));
 }
 
-grading::LatePolicy readDeadlines(const Project& project, const std::filesystem::path& file) {
+classroom::LatePolicy readDeadlines(const Project& project, const std::filesystem::path& file) {
   if (file.empty()) return {};
   std::vector<std::string> names;
   for (const ExerciseInfo& exercise : project.exercises()) names.push_back(exercise.name);
-  return grading::readLatePolicy(file, names);
+  return classroom::readLatePolicy(file, names);
 }
 
 bool writeGrades(const std::vector<Task>& tasks, const std::filesystem::path& out,
-                 const grading::LatePolicy& policy, const grading::Gradebook* book, bool print) {
+                 const classroom::LatePolicy& policy, const classroom::Gradebook* book, bool print) {
   std::vector<std::string> students;
   for (const Task& task : tasks) students.push_back(task.student);
   if (book != nullptr) writeBook(*book, out, print);
-  for (const std::string& sentence : grading::unknownExtensions(policy, students))
+  for (const std::string& sentence : classroom::unknownExtensions(policy, students))
     note(wrap(escapeForTerminal(sentence), 2, 0));
-  const grading::Collected found = grading::collect(tasks, out, policy);
+  const classroom::Collected found = classroom::collect(tasks, out, policy);
   if (book == nullptr) {
     replaceTextFile(out / "grades.csv", found.csv, "the table of grades");
     for (const char* other : {kTotals, kStrangers}) std::filesystem::remove(out / other);
@@ -182,14 +183,14 @@ bool writeGrades(const std::vector<Task>& tasks, const std::filesystem::path& ou
   again.insert(again.end(), found.refused.begin(), found.refused.end());
   again.insert(again.end(), found.failed.begin(), found.failed.end());
   if (again.empty()) return true;
-  note(fmt::format("To repeat: {}", grading::rangesOf(again)));
+  note(fmt::format("To repeat: {}", classroom::rangesOf(again)));
   return false;
 }
 
 int tellHeldBack(const std::vector<Task>& tasks, const std::filesystem::path& out) {
   std::vector<int> held;
   for (std::size_t k = 0; k < tasks.size(); ++k)
-    if (grading::isHeldBack(tasks[k], out)) held.push_back(static_cast<int>(k) + 1);
+    if (classroom::isHeldBack(tasks[k], out)) held.push_back(static_cast<int>(k) + 1);
   tell("fewer points than before wait for `rex grade --accept`", held, tasks);
   return static_cast<int>(held.size());
 }
@@ -210,16 +211,16 @@ Regrading::Regrading(const std::vector<Task>& tasks, const std::filesystem::path
   readNotes();
   for (const Task& task : tasks) {
     const auto noted = noted_.find(keyOf(task));
-    const bool isOld = noted != noted_.end(), isHeld = grading::isHeldBack(task, out_),
+    const bool isOld = noted != noted_.end(), isHeld = classroom::isHeldBack(task, out_),
                isAgain = isOld || isOpen(task);
     before_.push_back(isOld               ? std::optional<int>(noted->second)
-                      : isAgain || isHeld ? grading::pointsBefore(task, out_)
+                      : isAgain || isHeld ? classroom::pointsBefore(task, out_)
                                           : std::nullopt);
     isNew_ = isNew_ || (before_.back() && (isAgain || accept));
   }
   writeNotes();
   if (!accept) return;
-  for (const Task& task : tasks) grading::acceptRegrading(task, out_);
+  for (const Task& task : tasks) classroom::acceptRegrading(task, out_);
 }
 
 void Regrading::readNotes() {
@@ -248,15 +249,15 @@ void Regrading::writeNotes() const {
 
 void Regrading::tell() const {
   constexpr int kMostTold = 20;
-  std::string table = grading::csvLine({"student", "exercise", "before", "after", "counts"});
+  std::string table = classroom::csvLine({"student", "exercise", "before", "after", "counts"});
   int changed = 0, same = 0;
   for (std::size_t k = 0; k < tasks_.size(); ++k) {
     const Task& task = tasks_[k];
-    const std::optional<int> after = grading::pointsNow(task, out_);
+    const std::optional<int> after = classroom::pointsNow(task, out_);
     if (!before_[k] || !after) continue;
-    const bool isHeld = grading::isHeldBack(task, out_);
-    table += grading::csvLine({task.student, task.exercise, fmt::format("{}", *before_[k]),
-                               fmt::format("{}", *after), isHeld ? "before" : "after"});
+    const bool isHeld = classroom::isHeldBack(task, out_);
+    table += classroom::csvLine({task.student, task.exercise, fmt::format("{}", *before_[k]),
+                                 fmt::format("{}", *after), isHeld ? "before" : "after"});
     if (*before_[k] == *after) {
       ++same;
     } else if (++changed <= kMostTold) {

@@ -20,7 +20,7 @@ class GateReport {
  public:
   explicit GateReport(bool json) : json_(json) {}
 
-  void add(const std::string& exercise, const std::string& gate, const grading::GateResult& result) {
+  void add(const std::string& exercise, const std::string& gate, const authoring::GateResult& result) {
     open_ += result.passed ? 0 : 1;
     if (json_) {
       gates_.push_back({{"exercise", exercise},
@@ -65,20 +65,20 @@ class GateReport {
 
 bool isSet(const char* variable) { return std::getenv(variable) != nullptr; }
 
-grading::GateResult resultOf(const Project& project, const ExerciseInfo& exercise,
-                             const grading::Toolchain& toolchain, const std::string& gate,
-                             const CheckOptions& options) {
+authoring::GateResult resultOf(const Project& project, const ExerciseInfo& exercise,
+                               const submission::Toolchain& toolchain, const std::string& gate,
+                               const CheckOptions& options) {
   const PrivateFolder work(project.workPlace("exercises/" + exercise.name));
-  return grading::runGate({.root = project.root,
-                           .exercise = exercise,
-                           .toolchain = toolchain,
-                           .workFolder = work.path(),
-                           .seeds = options.runs,
-                           .sheet = options.sheet,
-                           .hostileAnswers = isSet("REX_LONG_RUN") ? 10000 : 3000,
-                           .variants = options.variants,
-                           .storesMessages = isSet("REX_UPDATE_GOLDEN")},
-                          gate);
+  return authoring::runGate({.root = project.root,
+                             .exercise = exercise,
+                             .toolchain = toolchain,
+                             .workFolder = work.path(),
+                             .seeds = options.runs,
+                             .sheet = options.sheet,
+                             .hostileAnswers = isSet("REX_LONG_RUN") ? 10000 : 3000,
+                             .variants = options.variants,
+                             .storesMessages = isSet("REX_UPDATE_GOLDEN")},
+                            gate);
 }
 
 // All gates, unless some are named; a variant names the gate that tests it. Throws UsageError for a variant
@@ -89,7 +89,7 @@ std::vector<std::string> wantedGates(const ExerciseInfo& exercise, const CheckOp
       std::find(gates.begin(), gates.end(), "wrong") == gates.end())
     throw UsageError({.what = "--variant has no effect without --gate wrong"});
   if (!gates.empty()) return gates;
-  return options.variants.empty() ? grading::gateNames(exercise) : std::vector<std::string>{"wrong"};
+  return options.variants.empty() ? authoring::gateNames(exercise) : std::vector<std::string>{"wrong"};
 }
 
 void checkOne(const Project& project, const std::string& name, const CheckOptions& options,
@@ -101,8 +101,8 @@ void checkOne(const Project& project, const std::string& name, const CheckOption
     report.add(name, "exercise.toml", {.passed = false, .message = error.what()});
     return;
   }
-  grading::requireVariants(exercise, options.variants);
-  const grading::Toolchain toolchain = prepare(project, exercise);
+  authoring::requireVariants(exercise, options.variants);
+  const submission::Toolchain toolchain = prepare(project, exercise);
   for (const std::string& gate : wantedGates(exercise, options))
     report.add(name, gate, resultOf(project, exercise, toolchain, gate, options));
 }
@@ -110,7 +110,7 @@ void checkOne(const Project& project, const std::string& name, const CheckOption
 void sayGates(const Project& project, const std::vector<std::string>& names, bool json) {
   Json all = Json::object();
   for (const std::string& name : names) {
-    const std::vector<std::string> gates = grading::gateNames(project.exercise(name));
+    const std::vector<std::string> gates = authoring::gateNames(project.exercise(name));
     all[name] = gates;
     for (const std::string& gate : gates)
       if (!json) say(gate);

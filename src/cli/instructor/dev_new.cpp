@@ -52,7 +52,7 @@ ExitCode devNew(const Project& project, const std::string& name) {
     throw UsageError({.what = "this exercise exists already", .where = {shown(folder)}});
   instantiate(source, folder, name);
   const fs::path solution = folder / "solution.cpp";
-  writeTextFile(folder / "main.cpp", grading::stripSolution(readTextFile(solution), shown(solution)));
+  writeTextFile(folder / "main.cpp", submission::stripSolution(readTextFile(solution), shown(solution)));
   std::ofstream(project.root / "exercises" / "CMakeLists.txt", std::ios::app)
       << fmt::format("rex_exercise({} FUNCTIONS {})\n", name, kFunctions);
   say(fmt::format("Made {}, and its line in exercises/CMakeLists.txt, which names the", shown(folder)));

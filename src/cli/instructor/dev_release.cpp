@@ -93,31 +93,31 @@ void proveRelease(const fs::path& release, const fs::path& in) {
 
 namespace {
 
-void tellLeaks(const std::vector<grading::Leak>& leaks) {
+void tellLeaks(const std::vector<authoring::Leak>& leaks) {
   constexpr std::size_t kMostTold = 20;
   for (std::size_t k = 0; k < std::min(leaks.size(), kMostTold); ++k)
     note(wrap(escapeForTerminal(toString(leaks[k])), 2, 0));
   if (leaks.size() > kMostTold) note(fmt::format("and {} more", leaks.size() - kMostTold));
 }
 
-std::string sizeOf(const grading::LeakScan& scan) {
+std::string sizeOf(const authoring::LeakScan& scan) {
   const std::string packed =
       scan.packed == 0 ? "" : fmt::format(" ({} of them archives, which were opened)", scan.packed);
   return fmt::format("{} files{}, {:.1f} MB", scan.files, packed, static_cast<double>(scan.bytes) / 1e6);
 }
 
-void saySecrets(const std::vector<grading::Secret>& secrets) {
-  std::map<grading::SecretKind, int> counts;
-  for (const grading::Secret& secret : secrets) ++counts[secret.kind];
+void saySecrets(const std::vector<authoring::Secret>& secrets) {
+  std::map<authoring::SecretKind, int> counts;
+  for (const authoring::Secret& secret : secrets) ++counts[secret.kind];
   std::vector<std::string> parts;
-  for (const auto& [kind, name] : std::map<grading::SecretKind, const char*>{
-           {grading::SecretKind::kSolution, "lines of solutions"},
-           {grading::SecretKind::kHiddenCheck, "passages of hidden checks"},
-           {grading::SecretKind::kHiddenName, "texts of hidden checks"},
-           {grading::SecretKind::kWrongVariant, "passages of wrong variants"},
-           {grading::SecretKind::kLecturersNote, "lines of lecturer's notes"}})
+  for (const auto& [kind, name] : std::map<authoring::SecretKind, const char*>{
+           {authoring::SecretKind::kSolution, "lines of solutions"},
+           {authoring::SecretKind::kHiddenCheck, "passages of hidden checks"},
+           {authoring::SecretKind::kHiddenName, "texts of hidden checks"},
+           {authoring::SecretKind::kWrongVariant, "passages of wrong variants"},
+           {authoring::SecretKind::kLecturersNote, "lines of lecturer's notes"}})
     parts.push_back(fmt::format("{} {}", counts[kind], name));
-  parts.emplace_back(counts.contains(grading::SecretKind::kCourseSecret)
+  parts.emplace_back(counts.contains(authoring::SecretKind::kCourseSecret)
                          ? "the secret of the course"
                          : "no secret of the course (--secret-file)");
   constexpr std::size_t kColumn = 14;
@@ -125,9 +125,9 @@ void saySecrets(const std::vector<grading::Secret>& secrets) {
 }
 
 // `out`: the release; empty after a mere scan, or if something leaks.
-void sayJson(const grading::LeakScan& scan, const fs::path& out, int exercises, bool proven) {
+void sayJson(const authoring::LeakScan& scan, const fs::path& out, int exercises, bool proven) {
   Json leaks = Json::array();
-  for (const grading::Leak& leak : scan.leaks) leaks.push_back(toString(leak));
+  for (const authoring::Leak& leak : scan.leaks) leaks.push_back(toString(leak));
   say(dump(Json{{"written", out.empty() ? Json() : Json(shown(out))},
                 {"exercises", exercises},
                 {"files", scan.files},
@@ -140,10 +140,10 @@ void sayJson(const grading::LeakScan& scan, const fs::path& out, int exercises, 
 ExitCode scanOnly(const Project& project, const ReleaseOptions& options) {
   if (!fs::is_directory(options.scan))
     throw UsageError({.what = "no such folder", .where = {options.scan.string()}});
-  const std::vector<grading::Secret> secrets = grading::secretsOfCourse(project.root, options.secret);
-  const grading::LeakScan scan =
-      grading::scanForLeaks(options.scan, secrets, project.root / "src",
-                            options.installed ? grading::TreeKind::kInstalled : grading::TreeKind::kSource);
+  const std::vector<authoring::Secret> secrets = authoring::secretsOfCourse(project.root, options.secret);
+  const authoring::LeakScan scan = authoring::scanForLeaks(
+      options.scan, secrets, project.root / "src",
+      options.installed ? authoring::TreeKind::kInstalled : authoring::TreeKind::kSource);
   const ExitCode code = scan.leaks.empty() ? ExitCode::kFull : ExitCode::kBelow;
   if (options.json) {
     sayJson(scan, {}, 0, false);
@@ -167,7 +167,7 @@ std::vector<std::string> chosenExercises(const Project& project, const ReleaseOp
     throw UsageError({.what = "--until",
                       .found = escapeForTerminal(options.until),
                       .wanted = "a day such as 2026-12-01, or a time such as 2026-12-01T08:00:00+01:00"});
-  const grading::LatePolicy policy = readDeadlines(project, options.deadlines);
+  const classroom::LatePolicy policy = readDeadlines(project, options.deadlines);
   std::vector<std::string> without;
   for (const std::string& name : project.exerciseNames())
     if (const std::optional<std::int64_t> opening = policy.at(name).opening; !opening)
@@ -189,7 +189,7 @@ std::vector<std::string> chosenExercises(const Project& project, const ReleaseOp
 ExitCode devRelease(const Project& project, const ReleaseOptions& options) {
   requireSourceTree(project, "release");
   if (!options.scan.empty()) return scanOnly(project, options);
-  const grading::Release release = grading::writeStudentRelease(
+  const authoring::Release release = authoring::writeStudentRelease(
       project.root, fs::absolute(options.out), options.secret, chosenExercises(project, options));
   if (!release.scan.leaks.empty()) {
     if (options.json) {

@@ -8,19 +8,19 @@
 namespace rex::cli {
 
 ExitCode devSite(const Project& project, const SiteOptions& options) {
-  using grading::SiteReaders;
+  using authoring::SiteReaders;
   requireSourceTree(project, "site");
-  const grading::CourseSite site =
-      grading::writeCourseSite(project.root, std::filesystem::absolute(options.out), options.secret,
-                               options.notes ? SiteReaders::kLecturers : SiteReaders::kEverybody);
+  const authoring::CourseSite site =
+      authoring::writeCourseSite(project.root, std::filesystem::absolute(options.out), options.secret,
+                                 options.notes ? SiteReaders::kLecturers : SiteReaders::kEverybody);
   const bool leaks = !site.scan.leaks.empty();
   if (options.json) {
     Json list = Json::array();
-    for (const grading::Leak& leak : site.scan.leaks) list.push_back(toString(leak));
+    for (const authoring::Leak& leak : site.scan.leaks) list.push_back(toString(leak));
     say(dump(Json{
         {"written", leaks ? Json() : Json(shown(options.out))}, {"pages", site.pages}, {"leaks", list}}));
   } else if (leaks) {
-    for (const grading::Leak& leak : site.scan.leaks) note(wrap(escapeForTerminal(toString(leak)), 2, 0));
+    for (const authoring::Leak& leak : site.scan.leaks) note(wrap(escapeForTerminal(toString(leak)), 2, 0));
     note("Nothing was written.");
   } else {
     say(fmt::format("{} pages, {:.1f} MB, nothing leaks: open {}", site.pages,

@@ -20,9 +20,9 @@
 namespace rex::cli {
 namespace {
 
-using grading::CheckStatistics;
-using grading::ExerciseStatistics;
-using grading::PartStatistics;
+using classroom::CheckStatistics;
+using classroom::ExerciseStatistics;
+using classroom::PartStatistics;
 
 std::string groupOf(const CheckStatistics& check) {
   return check.group == grading::Group::kHidden ? "hidden" : "visible";
@@ -92,18 +92,18 @@ std::string relationText(std::int64_t time, const std::optional<std::int64_t>& t
                      what);
 }
 
-grading::LateRule ruleOf(const grading::LatePolicy& policy, const std::string& exercise) {
+classroom::LateRule ruleOf(const classroom::LatePolicy& policy, const std::string& exercise) {
   const auto rule = policy.find(exercise);
-  return rule == policy.end() ? grading::LateRule{} : rule->second;
+  return rule == policy.end() ? classroom::LateRule{} : rule->second;
 }
 
-void sayFirstFull(const ExerciseStatistics& all, const grading::LateRule& rule) {
+void sayFirstFull(const ExerciseStatistics& all, const classroom::LateRule& rule) {
   if (all.full == 0) return;
   if (!all.firstFull) {
     say("  first full score: at an unknown time, as no list of tasks (tasks.tsv) has it");
     return;
   }
-  const grading::FirstFull& first = *all.firstFull;
+  const classroom::FirstFull& first = *all.firstFull;
   say("  " + wrap(fmt::format("first full score: {}, handed in {}{}{} (time from {})",
                               escapeForTerminal(first.student), instantText(first.submitted),
                               relationText(first.submitted, rule.opening, "opening"),
@@ -114,7 +114,7 @@ void sayFirstFull(const ExerciseStatistics& all, const grading::LateRule& rule) 
 }
 
 void sayAttempts(const ExerciseStatistics& all) {
-  const grading::AttemptStatistics& attempts = all.attempts;
+  const classroom::AttemptStatistics& attempts = all.attempts;
   if (attempts.known == 0) {
     say("  attempts unknown: neither a platform nor an import has counted them");
     return;
@@ -128,7 +128,7 @@ void sayAttempts(const ExerciseStatistics& all) {
   say("  " + wrap(text, 6, 6));
 }
 
-void sayExercise(const ExerciseStatistics& all, const grading::LateRule& rule) {
+void sayExercise(const ExerciseStatistics& all, const classroom::LateRule& rule) {
   say(fmt::format("{}: {} graded, {} with full score", escapeForTerminal(all.exercise), all.graded,
                   all.full));
   if (all.graderFailed > 0)
@@ -141,7 +141,7 @@ void sayExercise(const ExerciseStatistics& all, const grading::LateRule& rule) {
                   all.maxPoints));
   std::string bins;
   for (std::size_t k = 0; k < all.distribution.size(); ++k)
-    bins += fmt::format("{}{}: {}", k == 0 ? "" : "   ", grading::kDistribution[k], all.distribution[k]);
+    bins += fmt::format("{}{}: {}", k == 0 ? "" : "   ", classroom::kDistribution[k], all.distribution[k]);
   say("  at least " + bins);
   say(fmt::format("  grading  median {:.1f} s, longest {:.1f} s ({})", all.medianSeconds, all.longestSeconds,
                   escapeForTerminal(all.slowest)));
@@ -151,9 +151,9 @@ void sayExercise(const ExerciseStatistics& all, const grading::LateRule& rule) {
   sayChecks(all);
 }
 
-Json firstFullJson(const ExerciseStatistics& all, const grading::LateRule& rule) {
+Json firstFullJson(const ExerciseStatistics& all, const classroom::LateRule& rule) {
   if (!all.firstFull) return {};
-  const grading::FirstFull& first = *all.firstFull;
+  const classroom::FirstFull& first = *all.firstFull;
   return {{"student", first.student},
           {"submitted", instantText(first.submitted)},
           {"time_from", first.timeFrom},
@@ -161,7 +161,7 @@ Json firstFullJson(const ExerciseStatistics& all, const grading::LateRule& rule)
           {"seconds_before_deadline", rule.deadline ? Json(*rule.deadline - first.submitted) : Json()}};
 }
 
-Json attemptsJson(const grading::AttemptStatistics& attempts) {
+Json attemptsJson(const classroom::AttemptStatistics& attempts) {
   if (attempts.known == 0) return {};
   return {{"known", attempts.known},
           {"at_least", attempts.atLeast},
@@ -170,9 +170,9 @@ Json attemptsJson(const grading::AttemptStatistics& attempts) {
           {"most_by", attempts.mostBy}};
 }
 
-Json studentsJson(const std::vector<grading::StudentResult>& results, const std::string& exercise) {
+Json studentsJson(const std::vector<classroom::StudentResult>& results, const std::string& exercise) {
   Json students = Json::array();
-  for (const grading::StudentResult& one : results)
+  for (const classroom::StudentResult& one : results)
     if (one.exercise == exercise)
       students.push_back({{"student", one.student},
                           {"points", one.result.score},
@@ -184,11 +184,11 @@ Json studentsJson(const std::vector<grading::StudentResult>& results, const std:
   return students;
 }
 
-Json toJson(const ExerciseStatistics& all, const grading::LateRule& rule,
-            const std::vector<grading::StudentResult>& results) {
+Json toJson(const ExerciseStatistics& all, const classroom::LateRule& rule,
+            const std::vector<classroom::StudentResult>& results) {
   Json distribution = Json::object(), checks = Json::array(), parts = Json::array();
   for (std::size_t k = 0; k < all.distribution.size(); ++k)
-    distribution[grading::kDistribution[k]] = all.distribution[k];
+    distribution[classroom::kDistribution[k]] = all.distribution[k];
   for (const CheckStatistics& check : all.checks)
     checks.push_back({{"id", check.id},
                       {"part", check.part},
@@ -223,32 +223,32 @@ Json toJson(const ExerciseStatistics& all, const grading::LateRule& rule,
 }
 
 void printCsv(const std::vector<ExerciseStatistics>& all) {
-  std::string text = grading::csvLine(
+  std::string text = classroom::csvLine(
       {"exercise", "part", "check", "group", "graded", "failed", "classes", "question", "discrimination"});
   for (const ExerciseStatistics& exercise : all)
     for (const CheckStatistics& check : exercise.checks)
-      text += grading::csvLine({exercise.exercise, check.part, check.id, groupOf(check),
-                                fmt::format("{}", exercise.graded), fmt::format("{}", check.failed),
-                                classesOf(check), mostAsked(check).first, discriminationText(check)});
+      text += classroom::csvLine({exercise.exercise, check.part, check.id, groupOf(check),
+                                  fmt::format("{}", exercise.graded), fmt::format("{}", check.failed),
+                                  classesOf(check), mostAsked(check).first, discriminationText(check)});
   std::fputs(text.c_str(), stdout);
 }
 
-void printStudents(const std::vector<grading::StudentResult>& results) {
-  std::string text = grading::csvLine({"student", "exercise", "points", "possible", "outcome", "submitted",
-                                       "time_from", "attempts", "attempts_from"});
-  for (const grading::StudentResult& one : results) {
+void printStudents(const std::vector<classroom::StudentResult>& results) {
+  std::string text = classroom::csvLine({"student", "exercise", "points", "possible", "outcome", "submitted",
+                                         "time_from", "attempts", "attempts_from"});
+  for (const classroom::StudentResult& one : results) {
     const bool isGraded = one.result.outcome != grading::Outcome::kGraderError;
     text +=
-        grading::csvLine({one.student, one.exercise, isGraded ? fmt::format("{}", one.result.score) : "",
-                          fmt::format("{}", one.result.maxScore), std::string(toString(one.result.outcome)),
-                          one.submitted ? instantText(*one.submitted) : "", one.timeFrom,
-                          one.attempts > 0 ? fmt::format("{}", one.attempts) : "", one.attemptsFrom});
+        classroom::csvLine({one.student, one.exercise, isGraded ? fmt::format("{}", one.result.score) : "",
+                            fmt::format("{}", one.result.maxScore), std::string(toString(one.result.outcome)),
+                            one.submitted ? instantText(*one.submitted) : "", one.timeFrom,
+                            one.attempts > 0 ? fmt::format("{}", one.attempts) : "", one.attemptsFrom});
   }
   std::fputs(text.c_str(), stdout);
 }
 
-void print(const std::vector<ExerciseStatistics>& all, const grading::ClassResults& read,
-           const grading::LatePolicy& policy, const StatsOptions& options) {
+void print(const std::vector<ExerciseStatistics>& all, const classroom::ClassResults& read,
+           const classroom::LatePolicy& policy, const StatsOptions& options) {
   if (options.json) {
     Json list = Json::array();
     for (const ExerciseStatistics& exercise : all)
@@ -270,15 +270,15 @@ void print(const std::vector<ExerciseStatistics>& all, const grading::ClassResul
 
 ExitCode devStats(const Project& project, const StatsOptions& options) {
   requireFolder(options.results, "the folder of results that rex grade wrote");
-  const grading::LatePolicy policy = readDeadlines(project, options.deadlines);
-  const grading::ClassResults read = grading::readClassResults(options.results);
+  const classroom::LatePolicy policy = readDeadlines(project, options.deadlines);
+  const classroom::ClassResults read = classroom::readClassResults(options.results);
   for (const std::string& complaint : read.complaints) note(wrap(escapeForTerminal(complaint), 2, 0));
   if (read.results.empty())
     throw UsageError({.what = "nothing to evaluate",
                       .where = {options.results.string()},
                       .found = "no results",
                       .wanted = "STUDENT/EXERCISE/results.json in it"});
-  const std::vector<ExerciseStatistics> all = grading::statisticsOf(read.results);
+  const std::vector<ExerciseStatistics> all = classroom::statisticsOf(read.results);
   print(all, read, policy, options);
   if (!options.figure.empty()) {
     writeFigure(pointsFigure(read.results), options.figure);

@@ -15,7 +15,7 @@ ExitCode devStrip(const Project& project, const std::string& name) {
                               main = exercise.folder / "main.cpp";
   if (!std::filesystem::exists(solution))
     throw UsageError({.what = "there is no solution to strip", .where = {solution.string()}});
-  writeTextFile(main, grading::stripSolution(readTextFile(solution), solution.string()));
+  writeTextFile(main, submission::stripSolution(readTextFile(solution), solution.string()));
   say(fmt::format("Wrote {}.", main.string()));
   return ExitCode::kFull;
 }

@@ -40,7 +40,7 @@ struct ReleaseOptions {
   std::string until{};                ///< those whose opening is not after this time; empty: all
   std::filesystem::path deadlines{};  ///< the file with the openings
   std::filesystem::path scan{};       ///< only scan this tree, and write nothing
-  bool installed = false;             ///< what is scanned was installed: see grading::TreeKind
+  bool installed = false;             ///< what is scanned was installed: see authoring::TreeKind
   std::filesystem::path secret{};     ///< file with the secret of the course; empty: none
   bool prove = false;                 ///< see proveRelease()
   std::filesystem::path proveIn{};    ///< the same, in this folder, which is kept

@@ -39,10 +39,10 @@ struct ExportOptions {
 
 /// What all exports are made of.
 struct Export {
-  std::vector<grading::Task> tasks{};
-  grading::Course course{};
-  grading::Gradebook book{};
-  grading::ImportTable imported{};
+  std::vector<classroom::Task> tasks{};
+  classroom::Course course{};
+  classroom::Gradebook book{};
+  classroom::ImportTable imported{};
 };
 
 Export read(const Project& project, const ExportOptions& options) {
@@ -50,7 +50,7 @@ Export read(const Project& project, const ExportOptions& options) {
   const std::string only = options.exercise.empty() ? "" : project.exercise(options.exercise).name;
   all.course = courseOf(project, options.files);
   all.book = gradebookOf(project, options.files, all.tasks, options.results, only);
-  all.imported = grading::importTableIn(options.results);
+  all.imported = classroom::importTableIn(options.results);
   if (all.book.rows.empty())
     throw UsageError({.what = "nothing to export",
                       .where = {options.results.string()},
@@ -74,7 +74,8 @@ ExitCode told(const std::vector<std::string>& notes) {
   return notes.empty() ? ExitCode::kFull : ExitCode::kNotGradable;
 }
 
-ExitCode write(const grading::PlatformGrades& grades, const ExportOptions& options, const std::string& name) {
+ExitCode write(const classroom::PlatformGrades& grades, const ExportOptions& options,
+               const std::string& name) {
   makePlace(options);
   const fs::path file = options.out / name;
   replaceTextFile(file, grades.csv, "the table of grades");
@@ -92,7 +93,7 @@ ExitCode exportCanvas(const Project& project, const ExportOptions& options) {
 
 ExitCode exportJson(const Project& project, const ExportOptions& options) {
   const Export all = read(project, options);
-  const std::string text = grading::gradesJson(all.book, all.course);
+  const std::string text = classroom::gradesJson(all.book, all.course);
   if (options.out.empty()) {
     std::fputs(text.c_str(), stdout);
     return ExitCode::kFull;
@@ -105,20 +106,20 @@ ExitCode exportJson(const Project& project, const ExportOptions& options) {
 ExitCode exportHtml(const Project& project, const ExportOptions& options) {
   const Export all = read(project, options);
   makePlace(options);
-  const int written = grading::writeFeedbackFolders(all.book, options.results, options.out);
+  const int written = classroom::writeFeedbackFolders(all.book, options.results, options.out);
   say(fmt::format("Feedback: {} pages in {}", written, shown(options.out)));
   return ExitCode::kFull;
 }
 
 void addFeedback(const Export& all, const ExportOptions& options, const std::string& exercise,
-                 const grading::WorksheetRow& row, std::vector<grading::ZipEntry>& entries) {
-  const grading::GradeRow* graded = all.book.row(row.student, exercise);
-  const auto feedback = graded == nullptr ? std::nullopt : grading::feedbackOf(*graded, options.results);
+                 const classroom::WorksheetRow& row, std::vector<submission::ZipEntry>& entries) {
+  const classroom::GradeRow* graded = all.book.row(row.student, exercise);
+  const auto feedback = graded == nullptr ? std::nullopt : classroom::feedbackOf(*graded, options.results);
   if (!feedback) return;
-  const std::string folder = grading::moodleFolder(row);
-  const auto files = grading::evidenceOf(*graded, options.results);
-  entries.push_back({folder + "/feedback.html", grading::feedbackPage(*feedback, files)});
-  for (const grading::FeedbackFile& file : files)
+  const std::string folder = classroom::moodleFolder(row);
+  const auto files = classroom::evidenceOf(*graded, options.results);
+  entries.push_back({folder + "/feedback.html", reports::feedbackPage(*feedback, files)});
+  for (const reports::FeedbackFile& file : files)
     if (!file.name.ends_with(".png")) entries.push_back({folder + "/" + file.name, file.bytes});
 }
 
@@ -127,26 +128,26 @@ ExitCode exportMoodle(const Project& project, const ExportOptions& options) {
   const std::string exercise = project.exercise(options.exercise).name;
   makePlace(options);
   std::vector<std::string> notes;
-  std::vector<grading::WorksheetRow> rows;
+  std::vector<classroom::WorksheetRow> rows;
   if (options.worksheet.empty()) {
-    rows = grading::moodleStudents(all.book, exercise, all.imported);
+    rows = classroom::moodleStudents(all.book, exercise, all.imported);
     notes.emplace_back("no grades are written without --worksheet, the grading worksheet of this assignment");
   } else {
-    const grading::Worksheet sheet =
-        grading::moodleGrades(options.worksheet, all.book, exercise, all.imported, options.scale);
+    const classroom::Worksheet sheet =
+        classroom::moodleGrades(options.worksheet, all.book, exercise, all.imported, options.scale);
     replaceTextFile(options.out / "grades.csv", sheet.csv, "the grading worksheet");
     say(fmt::format("Grades: {}", shown(options.out / "grades.csv")));
     rows = sheet.rows;
     notes = sheet.notes;
   }
-  std::vector<grading::ZipEntry> entries;
-  for (const grading::WorksheetRow& row : rows)
+  std::vector<submission::ZipEntry> entries;
+  for (const classroom::WorksheetRow& row : rows)
     if (!row.student.empty() && !row.number.empty()) addFeedback(all, options, exercise, row, entries);
   if (entries.empty()) {
     fs::remove(options.out / kFeedbackZip);  // of an earlier export
     notes.emplace_back("no feedback is written: nobody's number in Moodle is known");
   } else {
-    grading::writeZip(options.out / kFeedbackZip, entries);
+    submission::writeZip(options.out / kFeedbackZip, entries);
     say(fmt::format("Feedback: {}", shown(options.out / kFeedbackZip)));
   }
   return told(notes);

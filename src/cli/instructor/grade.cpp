@@ -70,7 +70,7 @@ struct GradeManyOptions {
   int similarPercent = kSimilarPercent;
 };
 
-using grading::Task;
+using classroom::Task;
 
 /// How exercises are graded here, made when the first task asks.
 class Graders {
@@ -79,7 +79,7 @@ class Graders {
 
   struct Grader {
     ExerciseInfo exercise;
-    grading::Toolchain toolchain;
+    submission::Toolchain toolchain;
     std::string sha256;
   };
   /// Throws BuildFailure like prepare().
@@ -87,7 +87,7 @@ class Graders {
     if (const auto found = graders_.find(name); found != graders_.end()) return found->second;
     Grader grader{.exercise = project_.exercise(name), .toolchain = {}, .sha256 = {}};
     grader.toolchain = prepare(project_, grader.exercise);
-    grader.sha256 = grading::graderFingerprint(grader.toolchain, grader.exercise, launcherOf(project_));
+    grader.sha256 = classroom::graderFingerprint(grader.toolchain, grader.exercise, launcherOf(project_));
     return graders_.emplace(name, std::move(grader)).first->second;
   }
 
@@ -125,7 +125,7 @@ std::optional<sandbox::Sandbox> chooseForStrangers(const Project& project,
 void requireFolders(const GradeManyOptions& options) {
   requireFolder(options.folder, "a folder of submissions");
   requireApart("--out", options.out, options.folder);
-  if (!options.manifest.empty()) grading::requireNameOfResults(options.manifest, options.out);
+  if (!options.manifest.empty()) classroom::requireNameOfResults(options.manifest, options.out);
   if (!options.similar.empty()) {
     requireApart("--similar", options.similar, options.folder);
     requireApart("--similar", options.similar, options.out);
@@ -144,15 +144,15 @@ void makeFolder(const fs::path& out) {
 }
 
 // What an import could not take is in no folder, and must not be forgotten.
-void addNotTaken(const fs::path& folder, const std::string& only, grading::HandIns& handedIn) {
+void addNotTaken(const fs::path& folder, const std::string& only, classroom::HandIns& handedIn) {
   const auto isThere = [&](const std::string& student, const std::string& exercise) {
-    return std::any_of(handedIn.files.begin(), handedIn.files.end(), [&](const grading::HandIn& file) {
+    return std::any_of(handedIn.files.begin(), handedIn.files.end(), [&](const classroom::HandIn& file) {
       return file.student == student && file.exercise == exercise;  // put there by hand since then
     });
   };
-  for (const grading::ImportedStudent& student : grading::importTableIn(folder).students)
+  for (const classroom::ImportedStudent& student : classroom::importTableIn(folder).students)
     for (const auto& [exercise, told] : student.exercises)
-      if (told.status == grading::HandInStatus::kNotTaken && (only.empty() || only == exercise) &&
+      if (told.status == classroom::HandInStatus::kNotTaken && (only.empty() || only == exercise) &&
           !isThere(student.student, exercise))
         handedIn.complaints.push_back(
             fmt::format("{} {}: not taken by the import: {}", student.student, exercise, told.why));
@@ -160,13 +160,13 @@ void addNotTaken(const fs::path& folder, const std::string& only, grading::HandI
 
 // A download as it came from a platform is no folder of submissions yet.
 void adviseImport(const fs::path& folder, const std::vector<ExerciseInfo>& exercises) {
-  const grading::Layout layout = grading::layoutOfFolder(folder, exercises);
+  const classroom::Layout layout = classroom::layoutOfFolder(folder, exercises);
   if (layout.platform)
     note(fmt::format("`rex import {0} {1} -o HANDED_IN` makes a folder of submissions of what is there",
-                     grading::toString(*layout.platform), shown(folder)));
+                     classroom::toString(*layout.platform), shown(folder)));
 }
 
-void tell(const grading::HandIns& handedIn) {
+void tell(const classroom::HandIns& handedIn) {
   for (const std::string& complaint : handedIn.complaints) note(wrap(escapeForTerminal(complaint), 2, 0));
   constexpr std::size_t kMostNotes = 5;
   for (std::size_t k = 0; k < std::min(handedIn.notes.size(), kMostNotes); ++k)
@@ -176,9 +176,9 @@ void tell(const grading::HandIns& handedIn) {
 }
 
 // The exercises whose grader does not build. They wait while the others are graded.
-std::set<std::string> blockedOf(const grading::HandIns& handedIn, Graders& graders) {
+std::set<std::string> blockedOf(const classroom::HandIns& handedIn, Graders& graders) {
   std::map<std::string, int> counts;
-  for (const grading::HandIn& file : handedIn.files) ++counts[file.exercise];
+  for (const classroom::HandIn& file : handedIn.files) ++counts[file.exercise];
   std::set<std::string> blocked;
   for (const auto& [exercise, count] : counts) {
     try {
@@ -192,25 +192,25 @@ std::set<std::string> blockedOf(const grading::HandIns& handedIn, Graders& grade
   return blocked;
 }
 
-std::vector<Task> tasksOf(const grading::HandIns& handedIn, const GradeManyOptions& options,
+std::vector<Task> tasksOf(const classroom::HandIns& handedIn, const GradeManyOptions& options,
                           sandbox::Level level, const std::vector<ExerciseInfo>& exercises,
                           const std::set<std::string>& blocked, Graders& graders) {
-  std::optional<grading::SubmissionTimes> times;
+  std::optional<classroom::SubmissionTimes> times;
   if (!options.submitted.empty()) times.emplace(options.submitted, exercises);
-  const grading::ImportTable imports = grading::importTableIn(options.folder);
-  const std::string secretId = grading::secretIdOf(options.secret);
+  const classroom::ImportTable imports = classroom::importTableIn(options.folder);
+  const std::string secretId = classroom::secretIdOf(options.secret);
   std::vector<Task> tasks;
-  for (const grading::HandIn& file : handedIn.files) {
+  for (const classroom::HandIn& file : handedIn.files) {
     if (blocked.contains(file.exercise)) continue;
     Task task{.student = file.student, .exercise = file.exercise};
-    task.file = grading::snapshotOf(file, options.out);
-    task.sourceSha256 = sha256(grading::gradedText(options.out / task.file));
+    task.file = classroom::snapshotOf(file, options.out);
+    task.sourceSha256 = sha256(classroom::gradedText(options.out / task.file));
     task.graderSha256 = graders.of(file.exercise).sha256;
     task.level = level;
     task.seed = options.seed;
     task.secretId = secretId;
     const auto told = times ? times->of(file.student, file.exercise) : std::nullopt;
-    const grading::ImportedExercise* imported = imports.find(file.student, file.exercise);
+    const classroom::ImportedExercise* imported = imports.find(file.student, file.exercise);
     task.submitted = told.value_or(file.submitted);
     task.timeFrom = told ? "table" : "file";
     if (!told && imported != nullptr && imported->submitted) {
@@ -218,7 +218,7 @@ std::vector<Task> tasksOf(const grading::HandIns& handedIn, const GradeManyOptio
       task.timeFrom = imported->timeFrom;
     }
     // Others keep what they were graded with, and so does who was graded alone.
-    const auto before = grading::gradedWith(task, options.out);
+    const auto before = classroom::gradedWith(task, options.out);
     const bool isChosen = options.student.empty() || options.student == task.student;
     if (before && (!isChosen || (before->alone && options.student.empty() && !options.regrade)))
       task.level = before->level, task.seed = before->seed, task.secretId = before->secretId;
@@ -251,7 +251,7 @@ void requireSameSettings(const std::vector<Task>& tasks, const GradeManyOptions&
   };
   const auto secretOf = [](const std::string& id) { return id.empty() ? "none" : id; };
   for (const Task& task : tasks)
-    if (const auto before = grading::gradedWith(task, options.out)) {
+    if (const auto before = classroom::gradedWith(task, options.out)) {
       const bool level = compare("sandbox level", fmt::format("{}", numberOf(before->level)),
                                  fmt::format("{}", numberOf(task.level))),
                  seed = compare("seed", seedOf(before->seed), seedOf(task.seed)),
@@ -269,14 +269,14 @@ void requireSameSettings(const std::vector<Task>& tasks, const GradeManyOptions&
 }
 
 // A report that was asked for once is kept up to date.
-std::vector<grading::ReportFormat> formatsOf(const std::string& asked, const std::vector<Task>& tasks,
+std::vector<reports::ReportFormat> formatsOf(const std::string& asked, const std::vector<Task>& tasks,
                                              const fs::path& out) {
-  std::vector<grading::ReportFormat> formats = reportsOf(asked);
-  for (const grading::ReportFormat& format : grading::reportFormats()) {
+  std::vector<reports::ReportFormat> formats = reportsOf(asked);
+  for (const reports::ReportFormat& format : reports::reportFormats()) {
     const bool isAsked =
         std::any_of(formats.begin(), formats.end(), [&](const auto& one) { return one.file == format.file; });
     if (!isAsked && std::any_of(tasks.begin(), tasks.end(), [&](const Task& task) {
-          return fs::exists(grading::resultFolder(out, task) / format.file);
+          return fs::exists(classroom::resultFolder(out, task) / format.file);
         }))
       formats.push_back(format);
   }
@@ -284,9 +284,10 @@ std::vector<grading::ReportFormat> formatsOf(const std::string& asked, const std
 }
 
 // Grades one task in its own process, so that a failure affects this task alone.
-int gradeApart(const Task& task, const Graders::Grader& grader, const grading::TaskOptions& options) {
+int gradeApart(const Task& task, const Graders::Grader& grader, const classroom::TaskOptions& options) {
   try {
-    const grading::GradeResult result = grading::gradeTask(task, grader.toolchain, grader.exercise, options);
+    const grading::GradeResult result =
+        classroom::gradeTask(task, grader.toolchain, grader.exercise, options);
     return result.outcome == grading::Outcome::kGraderError ? 1 : 0;
   } catch (const std::exception& error) {
     note(wrap(escapeForTerminal(fmt::format("{} {}: {}", task.student, task.exercise, error.what())), 2, 0));
@@ -295,25 +296,25 @@ int gradeApart(const Task& task, const Graders::Grader& grader, const grading::T
 }
 
 bool isDone(const Task& task, const GradeManyOptions& options) {
-  return grading::stateOf(task, options.out, options.secret) == grading::TaskState::kDone;
+  return classroom::stateOf(task, options.out, options.secret) == classroom::TaskState::kDone;
 }
 
 // With settings of their own, which last until somebody asks to regrade the class.
 bool isAlone(const Task& task, const GradeManyOptions& options) {
-  const auto before = grading::gradedWith(task, options.out);
+  const auto before = classroom::gradedWith(task, options.out);
   return !options.student.empty() || (!options.regrade && before && before->alone);
 }
 
 bool isOpen(const Task& task, const GradeManyOptions& options) {
   if (!options.student.empty() && options.student != task.student) return false;
   if (options.regrade || !isDone(task, options)) return true;
-  return options.evidence && !grading::hasEvidence(task, options.out);
+  return options.evidence && !classroom::hasEvidence(task, options.out);
 }
 
 void tellRefused(const std::vector<Task>& tasks, const fs::path& out, const fs::path& secret) {
   for (const Task& task : tasks)
-    if (grading::stateOf(task, out, secret) == grading::TaskState::kRefused)
-      note(wrap(escapeForTerminal(grading::whyRefused(task, out, secret)) + "; it is graded again", 2, 0));
+    if (classroom::stateOf(task, out, secret) == classroom::TaskState::kRefused)
+      note(wrap(escapeForTerminal(classroom::whyRefused(task, out, secret)) + "; it is graded again", 2, 0));
 }
 
 // Processor time of a task's own process: compilers, workers and what reads the file have limits of their
@@ -391,18 +392,18 @@ void tellWhatTablesLeaveOut(const fs::path& manifest, const std::string& only) {
 }
 
 // `rex grade --collect` has only the folder of results.
-void keepWhatCollectNeeds(const grading::HandIns& handedIn, const GradeManyOptions& options) {
-  replaceTextFile(options.out / kNotTakenFile, grading::notTakenText(handedIn.notTaken),
+void keepWhatCollectNeeds(const classroom::HandIns& handedIn, const GradeManyOptions& options) {
+  replaceTextFile(options.out / kNotTakenFile, classroom::notTakenText(handedIn.notTaken),
                   "the list of what was not taken");
-  const fs::path imported = options.folder / grading::kImportTable;
+  const fs::path imported = options.folder / classroom::kImportTable;
   if (fs::exists(imported))
-    replaceTextFile(options.out / grading::kImportTable, readTextFile(imported), "the table of imports");
+    replaceTextFile(options.out / classroom::kImportTable, readTextFile(imported), "the table of imports");
   else
-    fs::remove(options.out / grading::kImportTable);
+    fs::remove(options.out / classroom::kImportTable);
 }
 
-ExitCode sayTasks(const std::vector<Task>& tasks, const grading::HandIns& handedIn, const fs::path& manifest,
-                  const GradeManyOptions& options, ExitCode taken) {
+ExitCode sayTasks(const std::vector<Task>& tasks, const classroom::HandIns& handedIn,
+                  const fs::path& manifest, const GradeManyOptions& options, ExitCode taken) {
   if (options.json)
     say(dump(
         Json{{"tasks", tasks.size()}, {"manifest", manifest.string()}, {"not_taken", handedIn.complaints}}));
@@ -411,7 +412,7 @@ ExitCode sayTasks(const std::vector<Task>& tasks, const grading::HandIns& handed
   return taken;
 }
 
-void takeSettings(const grading::GradingSettings& settings, GradeManyOptions& options) {
+void takeSettings(const classroom::GradingSettings& settings, GradeManyOptions& options) {
   if (options.secret.empty()) options.secret = settings.secret;
   if (!options.seed) options.seed = settings.seed;
   if (!options.level && settings.level) options.level = sandbox::levelOf(*settings.level);
@@ -422,7 +423,7 @@ void takeSettings(const grading::GradingSettings& settings, GradeManyOptions& op
 // Grades the submissions of many students. kFull whatever the grades are; kNotGradable if a submission could
 // not be taken, kGraderFault if something must be graded again.
 ExitCode gradeMany(const Project& project, GradeManyOptions options) {
-  const grading::Course course = courseOf(project, options.files);
+  const classroom::Course course = courseOf(project, options.files);
   takeSettings(course.settings, options);
   if (options.out.empty()) options.out = course.results;
   if (options.out.empty())
@@ -452,11 +453,11 @@ ExitCode gradeMany(const Project& project, GradeManyOptions options) {
                                     .reports = options.reports});
   requireFolders(options);
   static_cast<void>(reportsOf(options.reports));  // a misspelt format is refused before the first grading
-  const grading::LatePolicy policy = readDeadlines(project, options.files.deadlines);
+  const classroom::LatePolicy policy = readDeadlines(project, options.files.deadlines);
   const auto sandbox = chooseForStrangers(project, options.level, options.accept);
   if (!sandbox) return ExitCode::kWeakSandbox;
   const std::vector<ExerciseInfo> exercises = project.exercises();
-  grading::HandIns handedIn = grading::readHandIns(options.folder, exercises, options.only);
+  classroom::HandIns handedIn = classroom::readHandIns(options.folder, exercises, options.only);
   const std::string only = options.only.empty() ? "" : project.exercise(options.only).name;
   addNotTaken(options.folder, only, handedIn);
   tell(handedIn);
@@ -469,7 +470,7 @@ ExitCode gradeMany(const Project& project, GradeManyOptions options) {
   requireSameSettings(tasks, options);
   const fs::path manifest = options.manifest.empty() ? options.out / "tasks.tsv" : options.manifest;
   if (options.manifest.empty()) tellWhatTablesLeaveOut(manifest, only);
-  replaceTextFile(manifest, grading::toManifest(tasks), "the list of tasks");
+  replaceTextFile(manifest, classroom::toManifest(tasks), "the list of tasks");
   const ExitCode taken = !blocked.empty()              ? ExitCode::kGraderFault
                          : handedIn.complaints.empty() ? ExitCode::kFull
                                                        : ExitCode::kNotGradable;
@@ -478,8 +479,9 @@ ExitCode gradeMany(const Project& project, GradeManyOptions options) {
     return sayTasks(tasks, handedIn, manifest, options, taken);
   }
   // What could be wrong with roster, dates and adjustments is said before the first grading.
-  const grading::GradebookSource source = gradebookSourceOf(project, options.files, tasks, options.out, only);
-  const std::vector<grading::ReportFormat> reports = formatsOf(options.reports, tasks, options.out);
+  const classroom::GradebookSource source =
+      gradebookSourceOf(project, options.files, tasks, options.out, only);
+  const std::vector<reports::ReportFormat> reports = formatsOf(options.reports, tasks, options.out);
   removeLeftovers(options.out, 3);
   tellRefused(tasks, options.out, options.secret);
   const Regrading regrading(
@@ -487,7 +489,7 @@ ExitCode gradeMany(const Project& project, GradeManyOptions options) {
   const int graded = gradeOpen(tasks, options, *sandbox, graders);
   regrading.tell();
   tellTimes(tasks, options);
-  const grading::Gradebook book = grading::makeGradebook(source);
+  const classroom::Gradebook book = classroom::makeGradebook(source);
   writeReports(tasks, options.out, reports, book);
   const bool complete =
       writeGrades(tasks, options.out, policy, options.files.hasBook() ? &book : nullptr, options.csv);

@@ -12,15 +12,15 @@
 
 namespace rex::cli {
 ExitCode gradeOne(const Project& project, const GradeOneOptions& options) {
-  const std::vector<grading::Task> tasks = grading::readManifest(options.manifest);
+  const std::vector<classroom::Task> tasks = classroom::readManifest(options.manifest);
   if (options.task < 1 || options.task > static_cast<int>(tasks.size()))
     throw UsageError({.what = "--task",
                       .found = fmt::format("{}", options.task),
                       .wanted = fmt::format("1 to {}", tasks.size())});
-  const grading::Task& task = tasks[static_cast<std::size_t>(options.task) - 1];
+  const classroom::Task& task = tasks[static_cast<std::size_t>(options.task) - 1];
   const std::string name = fmt::format("{} {}", task.student, task.exercise);
-  if (grading::stateOf(task, options.out, options.secret) == grading::TaskState::kDone &&
-      (!options.evidence || grading::hasEvidence(task, options.out))) {
+  if (classroom::stateOf(task, options.out, options.secret) == classroom::TaskState::kDone &&
+      (!options.evidence || classroom::hasEvidence(task, options.out))) {
     say(fmt::format("{}: kept", name));
     return ExitCode::kFull;
   }
@@ -28,14 +28,14 @@ ExitCode gradeOne(const Project& project, const GradeOneOptions& options) {
   if (!sandbox) return ExitCode::kWeakSandbox;
   const ExerciseInfo exercise = project.exercise(task.exercise);
   const PrivateFolder work(std::filesystem::temp_directory_path());
-  const grading::GradeResult result = grading::gradeTask(task, prepare(project, exercise), exercise,
-                                                         {.out = options.out,
-                                                          .workFolder = work.path(),
-                                                          .launcher = sandbox->launcher,
-                                                          .secret = options.secret,
-                                                          .evidence = options.evidence,
-                                                          .workers = options.workers,
-                                                          .accept = options.accept});
+  const grading::GradeResult result = classroom::gradeTask(task, prepare(project, exercise), exercise,
+                                                           {.out = options.out,
+                                                            .workFolder = work.path(),
+                                                            .launcher = sandbox->launcher,
+                                                            .secret = options.secret,
+                                                            .evidence = options.evidence,
+                                                            .workers = options.workers,
+                                                            .accept = options.accept});
   say(wrap(escapeForTerminal(fmt::format("{}: {}, {} of {} points {}", name, toString(result.outcome),
                                          result.score, result.maxScore, result.message)),
            2, 0));

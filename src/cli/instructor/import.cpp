@@ -35,7 +35,7 @@ struct ImportOptions {
 };
 
 using Read =
-    std::function<grading::Arrivals(const fs::path& source, const std::vector<ExerciseInfo>& exercises)>;
+    std::function<classroom::Arrivals(const fs::path& source, const std::vector<ExerciseInfo>& exercises)>;
 
 void requireApartFromSource(const ImportOptions& options) {
   if (!fs::exists(options.source))
@@ -59,7 +59,7 @@ void list(const char* heading, const std::vector<std::string>& lines) {
   for (const std::string& line : lines) note("  " + wrap(escapeForTerminal(line), 4, 4));
 }
 
-std::string timesOf(const grading::ImportReport& report) {
+std::string timesOf(const classroom::ImportReport& report) {
   std::vector<std::string> parts;
   const auto add = [&](int count, const char* from) {
     if (count > 0) parts.push_back(fmt::format("{} {}", count, from));
@@ -71,7 +71,7 @@ std::string timesOf(const grading::ImportReport& report) {
   return join(parts, ", ");
 }
 
-void tell(const grading::ImportReport& report, const ImportOptions& options) {
+void tell(const classroom::ImportReport& report, const ImportOptions& options) {
   list("Not taken", report.complaints);
   list("Noted", report.notes);
   list("Changed since an earlier import", report.changes);
@@ -79,17 +79,17 @@ void tell(const grading::ImportReport& report, const ImportOptions& options) {
                   report.handedIn, report.missing, report.notTaken, report.added, report.changed,
                   report.same));
   if (report.handedIn > 0) say("Times of submission: " + timesOf(report) + ".");
-  say(fmt::format("Table: {}", shown(options.handedIn / grading::kImportTable)));
+  say(fmt::format("Table: {}", shown(options.handedIn / classroom::kImportTable)));
 }
 
 ExitCode import(const Project& project, const ImportOptions& options, const Read& read) {
   requireApartFromSource(options);
   const std::vector<ExerciseInfo> exercises = project.exercises();
-  grading::PickOptions pick{.exercises = exercises};
+  classroom::PickOptions pick{.exercises = exercises};
   if (!options.exercise.empty()) pick.exercise = project.exercise(options.exercise).name;
-  const grading::Arrivals arrivals = read(options.source, exercises);
-  if (arrivals.platform == grading::Platform::kGit) pick.handedOut = handedOutTexts(exercises);
-  const grading::ImportReport report = grading::importArrivals(arrivals, pick, options.handedIn);
+  const classroom::Arrivals arrivals = read(options.source, exercises);
+  if (arrivals.platform == classroom::Platform::kGit) pick.handedOut = handedOutTexts(exercises);
+  const classroom::ImportReport report = classroom::importArrivals(arrivals, pick, options.handedIn);
   tell(report, options);
   return report.complaints.empty() ? ExitCode::kFull : ExitCode::kNotGradable;
 }
@@ -119,19 +119,19 @@ void addMoodle(CLI::App* all, Action& action) {
               "The worksheet tells addresses and times of submission; without it, names are all there is.\n" +
                   std::string(kImportCodes));
   const auto options = addCommon(command, "the zip, or the folder it was unpacked into");
-  const auto moodle = std::make_shared<grading::MoodleOptions>();
+  const auto moodle = std::make_shared<classroom::MoodleOptions>();
   addOptions(command, {{"--worksheet", moodle->worksheet, "FILE.csv",
                         "\"Download grading worksheet\" of the same assignment"},
                        {"--time-zone", moodle->timeZone, "ZONE",
                         "zone of the times in the worksheet: Europe/Berlin, +01:00"}});
   setAction(command, action, options, [moodle](const auto& source, const auto& exercises) {
-    return grading::readMoodle(source, *moodle, exercises);
+    return classroom::readMoodle(source, *moodle, exercises);
   });
 }
 
 void addGit(CLI::App* all, Action& action) {
   struct Words {
-    grading::CloneOptions options{};
+    classroom::CloneOptions options{};
     std::string deadline{};
   };
   CLI::App* command = addVerb(
@@ -160,7 +160,7 @@ void addGit(CLI::App* all, Action& action) {
                           .found = words->deadline,
                           .wanted = "a time with its zone, such as 2026-11-20T23:59:00+01:00"});
     }
-    return grading::readClones(source, words->options, exercises);
+    return classroom::readClones(source, words->options, exercises);
   });
 }
 
@@ -171,14 +171,14 @@ void addGradescope(CLI::App* all, Action& action) {
               "Groups hand in once: all members get that grade.\n" +
                   std::string(kImportCodes));
   setAction(command, action, addCommon(command, "the zip, or the folder it was unpacked into"),
-            grading::readGradescope);
+            classroom::readGradescope);
 }
 
 void addFolders(CLI::App* all, Action& action) {
   CLI::App* command = addVerb(
       all, "folders", "From files of students: NAME/main.cpp, NAME.cpp or NAME.zip",
       "Example: scripts/rex import folders mails -o handed-in --exercise 01\n\n" + std::string(kImportCodes));
-  setAction(command, action, addCommon(command, "the folder, or an archive of it"), grading::readFolders);
+  setAction(command, action, addCommon(command, "the folder, or an archive of it"), classroom::readFolders);
 }
 
 }  // namespace

@@ -158,7 +158,8 @@ void writeCompileCommands(const Project& project) {
                 2, 0));
       continue;
     }
-    const grading::Toolchain toolchain = grading::readToolchain(project.buildFolder(exercise) / "build.json");
+    const submission::Toolchain toolchain =
+        submission::readToolchain(project.buildFolder(exercise) / "build.json");
     const fs::path folder = project.root / "exercises" / exercise.name;
     for (const char* name : {"main.cpp", "show.cpp"}) {
       if (!fs::exists(folder / name)) continue;
@@ -173,11 +174,11 @@ void writeCompileCommands(const Project& project) {
 }
 
 void preparePrefix(const Project& project) {
-  const grading::Toolchain toolchain =
-      grading::readProgramToolchain(project.build / "student" / "program.json").toolchain;
+  const submission::Toolchain toolchain =
+      submission::readProgramToolchain(project.build / "student" / "program.json").toolchain;
   const std::string prefix = (project.root / kPrefixFile).string();
   const std::string text = "#include \"course/course.h\"\n";
-  if (!grading::prefixFlags(prefix, text, toolchain.flags).empty()) return;
+  if (!submission::prefixFlags(prefix, text, toolchain.flags).empty()) return;
   writeTextFile(prefix, text);
   std::vector<std::string> command = {toolchain.compiler};
   command.insert(command.end(), toolchain.flags.begin(), toolchain.flags.end());

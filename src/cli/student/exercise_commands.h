@@ -20,8 +20,8 @@ struct ShownHints {
   bool isKept = true;  ///< progress could be stored
 };
 /// Opens the next hint of a part, which counts; or none if it is to show them `again`.
-ShownHints openHint(const Project& project, const ExerciseInfo& exercise, const grading::ExercisePart& part,
-                    bool again = false);
+ShownHints openHint(const Project& project, const ExerciseInfo& exercise,
+                    const submission::ExercisePart& part, bool again = false);
 
 ExitCode hint(const Project& project, const HintOptions& options);
 

@@ -16,7 +16,7 @@
 namespace rex::cli {
 namespace {
 
-using grading::ExercisePart;
+using submission::ExercisePart;
 
 // Of the last complete test; empty: there was none.
 std::vector<grading::CheckResult> lastChecks(const Project& project, const ExerciseInfo& exercise) {

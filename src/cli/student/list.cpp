@@ -16,7 +16,7 @@ void sayJson(const std::vector<ExerciseInfo>& exercises) {
   Json all = Json::array();
   for (const ExerciseInfo& exercise : exercises) {
     Json parts = Json::array();
-    for (const grading::ExercisePart& part : exercise.parts)
+    for (const submission::ExercisePart& part : exercise.parts)
       parts.push_back({{"id", part.id}, {"title", part.title}, {"points", part.points}});
     all.push_back({{"name", exercise.name},
                    {"title", exercise.title},

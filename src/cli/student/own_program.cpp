@@ -80,33 +80,34 @@ fs::path outFolderOf(const Project& project, const fs::path& file) {
 
 std::optional<OwnProgram> buildOwnProgram(const Project& project, const fs::path& file,
                                           const fs::path& workFolder, const fs::path& out) {
-  grading::ProgramToolchain program =
-      grading::readProgramToolchain(project.build / "student" / "program.json");
-  grading::Toolchain& toolchain = program.toolchain;
+  submission::ProgramToolchain program =
+      submission::readProgramToolchain(project.build / "student" / "program.json");
+  submission::Toolchain& toolchain = program.toolchain;
   if (!project.installed.empty()) toolchain.prefix = project.root / kPrefixFile;
   const std::string source = readTextFile(file);
-  if (!toolchain.prefix.empty() && grading::opensWithCourseHeader(source, toolchain.flags))
+  if (!toolchain.prefix.empty() && submission::opensWithCourseHeader(source, toolchain.flags))
     bringUpToDate(project, {"rex_student_prefix"}, "what programs start from");
-  const bool hasPrefix = !grading::prefixFlags(toolchain.prefix, source, toolchain.flags).empty();
+  const bool hasPrefix = !submission::prefixFlags(toolchain.prefix, source, toolchain.flags).empty();
   if (!hasPrefix && !project.installed.empty() && fs::exists(toolchain.prefix) &&
-      grading::opensWithCourseHeader(source, toolchain.flags))
+      submission::opensWithCourseHeader(source, toolchain.flags))
     note("This folder was prepared for another rex: `rex update` makes compiling fast again.");
   toolchain.flags.insert(toolchain.flags.end(), {"-I", file.parent_path().string()});
   OwnProgram result{.made = {file, project.build / "student" / "program.json"}};
-  const auto chooseLibraries = [&](const grading::StudentObject& object) {
+  const auto chooseLibraries = [&](const submission::StudentObject& object) {
     const ProcessResult table =
         runProcess({toolchain.objdump, "-t", "-C", object.object.string()}, {.outputLimit = 256u << 20});
     if (!table.ok())
       throw Error({.what = "cannot list what the compiled file refers to", .found = table.error});
-    auto files = grading::dependenciesIn(readTextFile(workFolder / "student.d"), workFolder);
+    auto files = submission::dependenciesIn(readTextFile(workFolder / "student.d"), workFolder);
     // The compiler does not list the files of its precompiled prefix.
     if (hasPrefix)
-      std::ranges::copy(grading::dependenciesIn(readTextFile(toolchain.prefix.string() + ".d"), workFolder),
-                        std::back_inserter(files));
+      std::ranges::copy(
+          submission::dependenciesIn(readTextFile(toolchain.prefix.string() + ".d"), workFolder),
+          std::back_inserter(files));
     for (fs::path& one : files) one = one.lexically_normal();
     std::ranges::copy_if(files, std::back_inserter(result.made),
                          [&](const fs::path& one) { return !isBelow(workFolder, one); });
-    for (const grading::LibraryPart& one : librariesFor(program, files, table.output)) {
+    for (const submission::LibraryPart& one : librariesFor(program, files, table.output)) {
       result.targets.push_back(one.target);
       toolchain.libraries.push_back(one.file);
     }

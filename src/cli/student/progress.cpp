@@ -137,7 +137,7 @@ namespace {
 // Whether main.cpp differs from what was tested last.
 bool isEdited(const ExerciseInfo& exercise, const Progress& progress) {
   try {
-    return sha256(grading::readStudentFile(exercise.folder / "main.cpp")) != progress.fileSha256;
+    return sha256(submission::readStudentFile(exercise.folder / "main.cpp")) != progress.fileSha256;
   } catch (const Error&) {
     return true;
   }

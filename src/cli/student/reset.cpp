@@ -25,7 +25,7 @@ std::string starterOf(const ExerciseInfo& info) {
     return readTextFile(exercise / "main.cpp");
   const fs::path copy = exercise / "starter.cpp", solution = exercise / "solution.cpp";
   if (fs::exists(copy)) return readTextFile(copy);
-  if (fs::exists(solution)) return grading::stripSolution(readTextFile(solution), solution.string());
+  if (fs::exists(solution)) return submission::stripSolution(readTextFile(solution), solution.string());
   throw UsageError(
       {.what = fmt::format("{} has no copy of main.cpp as it was handed out", exercise.filename().string()),
        .where = {copy.string()}});

@@ -41,14 +41,14 @@ struct RunOptions {
 void sayWhereItIs(const Project& project, const ExerciseInfo& exercise, const fs::path& file, int allowed) {
   const double seconds = std::min(2, allowed);
   const PrivateFolder work(project.workPlace("exercises/" + exercise.name));
-  const grading::Toolchain locating =
-      grading::locatingToolchain(prepare(project, exercise), work.path(), 4096 * grading::kMegabyte, seconds);
+  const submission::Toolchain locating = submission::locatingToolchain(
+      prepare(project, exercise), work.path(), 4096 * grading::kMegabyte, seconds);
   const auto object = compileStudent(locating, {}, {.main = file, .workFolder = work.path() / "again"});
   if (!object.ok) return;
   const auto program = linkProgram(locating, object);
   if (!program.ok) return;
   const ProcessResult run = runProcess({program.program.string()}, {.directory = work.path()});
-  const auto site = grading::crashSiteIn(run.error, object.name);
+  const auto site = submission::crashSiteIn(run.error, object.name);
   if (site && site->line > 0)
     note(fmt::format("After {:.0f} s it is in line {} of {}, in {}: an endless loop?", seconds, site->line,
                      object.name, escapeForTerminal(site->function)));
@@ -58,7 +58,7 @@ void sayWhereItIs(const Project& project, const ExerciseInfo& exercise, const fs
 bool isOfStudent(const fs::path& file) {
   for (fs::path folder = fs::absolute(file).parent_path(); folder.has_relative_path();
        folder = folder.parent_path())
-    if (fs::exists(folder / grading::kImportTable)) return true;
+    if (fs::exists(folder / classroom::kImportTable)) return true;
   return false;
 }
 

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using grading::SolutionRule;
+using submission::SolutionRule;
 
 // RFC 3986: all characters but letters, digits and a few signs are written as % and two digits.
 std::string urlOf(const fs::path& file) {

@@ -48,13 +48,13 @@ std::filesystem::path ownShow(const ExerciseInfo& exercise) {
 }
 
 // Exercises are not linked with the server of a live page, which main() may want.
-void addLiveView(const Project& project, const grading::StudentObject& object,
-                 grading::Toolchain& toolchain) {
+void addLiveView(const Project& project, const submission::StudentObject& object,
+                 submission::Toolchain& toolchain) {
   constexpr const char* kHeader = "course/live_view.h";
   if (object.source.find(kHeader) == std::string::npos) return;
-  const auto program = grading::readProgramToolchain(project.build / "student" / "program.json");
+  const auto program = submission::readProgramToolchain(project.build / "student" / "program.json");
   std::vector<std::string> targets;
-  for (const grading::LibraryPart& one : librariesFor(program, {program.sourceFolder / kHeader}, "")) {
+  for (const submission::LibraryPart& one : librariesFor(program, {program.sourceFolder / kHeader}, "")) {
     targets.push_back(one.target);
     toolchain.libraries.push_back(one.file);
   }
@@ -90,12 +90,12 @@ void explain(const std::vector<CompileDiagnostic>& messages, const std::string& 
 }
 
 std::optional<std::filesystem::path> buildProgram(const Project& project, const ExerciseInfo& exercise,
-                                                  const grading::StudentBuildOptions& options,
+                                                  const submission::StudentBuildOptions& options,
                                                   const std::filesystem::path& out) {
-  grading::Toolchain toolchain = prepare(project, exercise);
+  submission::Toolchain toolchain = prepare(project, exercise);
   const std::filesystem::path show = ownShow(exercise);
   if (!show.empty()) {
-    const grading::StudentObject object =
+    const submission::StudentObject object =
         compileStudent(toolchain, {}, {.main = show, .workFolder = options.workFolder / "show"});
     if (!object.ok) {
       writeTextFile(out / "build.log", object.log);
@@ -104,17 +104,18 @@ std::optional<std::filesystem::path> buildProgram(const Project& project, const 
     }
     toolchain.show = object.object;
   }
-  return buildProgram(toolchain, options, out,
-                      [&](const grading::StudentObject& object) { addLiveView(project, object, toolchain); });
+  return buildProgram(toolchain, options, out, [&](const submission::StudentObject& object) {
+    addLiveView(project, object, toolchain);
+  });
 }
 
 std::optional<std::filesystem::path> buildProgram(
-    const grading::Toolchain& toolchain, const grading::StudentBuildOptions& options,
+    const submission::Toolchain& toolchain, const submission::StudentBuildOptions& options,
     const std::filesystem::path& out,
-    const std::function<void(const grading::StudentObject& object)>& beforeLinking) {
+    const std::function<void(const submission::StudentObject& object)>& beforeLinking) {
   const std::filesystem::path log = out / "build.log";
   // Students may try anything here: only grading looks for forbidden calls.
-  const grading::StudentObject object = compileStudent(toolchain, {}, options);
+  const submission::StudentObject object = compileStudent(toolchain, {}, options);
   writeTextFile(log, object.log);
   if (!object.ok) {
     explain(object.messages, object.source, log);
@@ -123,7 +124,7 @@ std::optional<std::filesystem::path> buildProgram(
   for (const CompileDiagnostic& message : object.messages)
     note(wrap(escapeForTerminal(toString(message)), 2, 0));
   beforeLinking(object);
-  const grading::StudentProgram program = linkProgram(toolchain, object);
+  const submission::StudentProgram program = linkProgram(toolchain, object);
   if (program.ok) return program.program;
   writeTextFile(log, program.log);
   explain(program.messages, object.source, log);

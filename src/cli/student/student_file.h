@@ -18,16 +18,15 @@ namespace rex::cli {
 
 /// Compiles the file and links the student's program, keeping the log in out/build.log. If the file has
 /// errors, it prints them and returns no program. Throws Error if the tools fail, and like prepare().
-[[nodiscard]] std::optional<std::filesystem::path> buildProgram(const Project& project,
-                                                                const ExerciseInfo& exercise,
-                                                                const grading::StudentBuildOptions& options,
-                                                                const std::filesystem::path& out);
+[[nodiscard]] std::optional<std::filesystem::path> buildProgram(
+    const Project& project, const ExerciseInfo& exercise, const submission::StudentBuildOptions& options,
+    const std::filesystem::path& out);
 
 /// The same with any toolchain; `beforeLinking` is called with the compiled file.
 [[nodiscard]] std::optional<std::filesystem::path> buildProgram(
-    const grading::Toolchain& toolchain, const grading::StudentBuildOptions& options,
+    const submission::Toolchain& toolchain, const submission::StudentBuildOptions& options,
     const std::filesystem::path& out,
-    const std::function<void(const grading::StudentObject& object)>& beforeLinking);
+    const std::function<void(const submission::StudentObject& object)>& beforeLinking);
 
 /// Prints the first error in detail, the number of others, and where the log is.
 void explain(const std::vector<grading::CompileDiagnostic>& messages, const std::string& source,

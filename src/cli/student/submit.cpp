@@ -37,7 +37,7 @@ struct HandedIn {
 HandedIn handInOf(const ExerciseInfo& exercise) {
   HandedIn file{.exercise = exercise,
                 .name = exercise.name + "/main.cpp",
-                .text = grading::readStudentFile(exercise.folder / "main.cpp"),
+                .text = submission::readStudentFile(exercise.folder / "main.cpp"),
                 .sha256 = {}};
   file.sha256 = sha256(file.text);
   return file;
@@ -49,7 +49,7 @@ std::string receiptOf(const std::vector<HandedIn>& files) {
     list.push_back({{"name", file.name},
                     {"bytes", file.text.size()},
                     {"sha256", file.sha256},
-                    {"exercise_version", grading::exerciseVersion(file.exercise.definition)}});
+                    {"exercise_version", submission::exerciseVersion(file.exercise.definition)}});
   return Json{{"schema", "rex-receipt/1"}, {"tool", REX_VERSION}, {"files", list}}.dump(2) + "\n";
 }
 
@@ -79,10 +79,10 @@ ExitCode submit(const Project& project, const SubmitOptions& options) {
     }
   }
   const std::string receipt = receiptOf(files);
-  std::vector<grading::ZipEntry> entries;
+  std::vector<submission::ZipEntry> entries;
   for (const HandedIn& file : files) entries.push_back({file.name, file.text});
   entries.push_back({"receipt.json", receipt});
-  grading::writeZip(options.out, entries);
+  submission::writeZip(options.out, entries);
   const AllProgress all = ProgressFile(project.root).read();
   for (const HandedIn& file : files) {
     warnUnlessTested(file, all);

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using grading::GradeResult;
-using grading::Submission;
+using submission::Submission;
 
 void requireOptionsOfMany(const TestOptions& options) {
   for (const auto& [name, isGiven] :

@@ -47,7 +47,7 @@ std::string cut(const std::string& code, std::size_t columns) {
 }
 
 // Prints the line of the student's file where it happened.
-void sayPlace(const CheckResult& check, const grading::Submission& graded) {
+void sayPlace(const CheckResult& check, const submission::Submission& graded) {
   if (check.line == 0 || graded.result.files.empty()) return;
   constexpr std::size_t kColumns = 80, kLeast = 30;
   std::istringstream lines(graded.source);
@@ -75,7 +75,7 @@ std::string lineOf(const CheckResult& check, const std::string& remark) {
                      wrap(title, kIndent, kIndent));
 }
 
-void printInFull(const CheckResult& check, const grading::Submission& graded,
+void printInFull(const CheckResult& check, const submission::Submission& graded,
                  const std::filesystem::path& folder, bool isWhole) {
   say(lineOf(check, marginOf(check, isWhole)));
   if (check.status == Outcome::kPass || check.message.empty()) return;
@@ -85,12 +85,12 @@ void printInFull(const CheckResult& check, const grading::Submission& graded,
 }
 
 // Of failed checks only the first one in full, unless all are wanted. Returns the number of the others.
-int printChecks(const ExerciseInfo& exercise, const grading::Submission& graded,
+int printChecks(const ExerciseInfo& exercise, const submission::Submission& graded,
                 const std::filesystem::path& folder, const ReportView& view) {
   const std::vector<CheckResult>& checks = graded.result.checks;
   bool isFirst = true;
   int shortened = 0;
-  for (const grading::ExercisePart& part : exercise.parts) {
+  for (const submission::ExercisePart& part : exercise.parts) {
     const auto isOfPart = [&](const CheckResult& check) { return check.part == part.id; };
     if (std::none_of(checks.begin(), checks.end(), isOfPart)) continue;
     say(paint(Colour::kBold, part.title));
@@ -184,7 +184,7 @@ void sayFirst(const std::string& what, std::vector<std::filesystem::path> files,
 
 }  // namespace
 
-void printResult(const ExerciseInfo& exercise, const grading::Submission& graded,
+void printResult(const ExerciseInfo& exercise, const submission::Submission& graded,
                  const std::filesystem::path& results, const std::filesystem::path& source,
                  const ReportView& view) {
   const grading::GradeResult& result = graded.result;

@@ -51,7 +51,7 @@ std::optional<GradeResult> lastResult(const fs::path& file) {
 
 // With the checks of a part instead of its name, and those that blamed a function in the last test.
 std::vector<std::string> withParts(const std::vector<std::string>& names, const ExerciseInfo& exercise,
-                                   const grading::Toolchain& toolchain, const fs::path& lastTest) {
+                                   const submission::Toolchain& toolchain, const fs::path& lastTest) {
   std::vector<std::string> checks;
   const auto takeAll = [&](const std::vector<grading::CheckResult>& all,
                            std::string grading::CheckResult::*field, const std::string& name) {
@@ -61,9 +61,9 @@ std::vector<std::string> withParts(const std::vector<std::string>& names, const 
     return checks.size() > before;
   };
   for (const std::string& name : names) {
-    const auto isNamed = [&](const grading::ExercisePart& part) { return part.id == name; };
+    const auto isNamed = [&](const submission::ExercisePart& part) { return part.id == name; };
     if (std::any_of(exercise.parts.begin(), exercise.parts.end(), isNamed)) {
-      takeAll(grading::listChecks(toolchain), &grading::CheckResult::part, name);
+      takeAll(submission::listChecks(toolchain), &grading::CheckResult::part, name);
       continue;
     }
     const auto last = lastResult(lastTest);
@@ -99,13 +99,13 @@ TestRun::TestRun(const Project& project, ExerciseInfo exercise, const TestOption
   if (!options.job.secret.empty()) static_cast<void>(grading::readCourseSecret(options.job.secret));
 }
 
-grading::Submission TestRun::grade(const sandbox::Sandbox& sandbox, int processors) const {
+submission::Submission TestRun::grade(const sandbox::Sandbox& sandbox, int processors) const {
   grading::GradingJob job = options_.job;
   job.results = ownResults();
   job.evidence = work_.path() / "checks";
   job.sandbox = sandbox;
   job.jobs = processors;
-  return grading::gradeSubmission(
+  return submission::gradeSubmission(
       toolchain_, exercise_,
       {.main = file_, .workFolder = work_.path(), .job = job, .lookAgain = true, .sanitize = options_.debug});
 }
@@ -129,7 +129,7 @@ void TestRun::publish(const Project& project, const GradeResult& result) const {
                  evidence = work_.path() / "checks";
   replaceTextFile(results_, readTextFile(ownResults()), "the result file");
   if (fs::exists(log)) replaceTextFile(out / "build.log", readTextFile(log), "the log");
-  for (const grading::ReportFormat& format : grading::reportFormats())
+  for (const reports::ReportFormat& format : reports::reportFormats())
     if (contains(reports_, format) || fs::exists(out / format.file))
       replaceTextFile(out / format.file, format.write(result), "the report");
   fs::remove_all(out / "checks");
@@ -138,7 +138,7 @@ void TestRun::publish(const Project& project, const GradeResult& result) const {
     remember(project, exercise_, result);
 }
 
-void TestRun::print(const grading::Submission& graded) const {
+void TestRun::print(const submission::Submission& graded) const {
   const bool isWhole = options_.job.checks.empty();
   printResult(exercise_, graded, results_, file_,
               {.isWhole = isWhole,
@@ -162,7 +162,7 @@ ExitCode testOne(const Project& project, const TestOptions& options) {
   // A sandbox has one work folder for all tools.
   const int processors =
       isConfined(sandbox->level) ? 1 : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  const grading::Submission graded = [&] {
+  const submission::Submission graded = [&] {
     const ProgressLine line([&] { return run.stage(); });
     return run.grade(*sandbox, processors);
   }();

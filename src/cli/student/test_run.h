@@ -42,23 +42,23 @@ class TestRun {
   [[nodiscard]] const std::filesystem::path& folder() const { return work_.path(); }
 
   /// Grades the exercise on up to `processors` processors. Throws like gradeSubmission().
-  [[nodiscard]] grading::Submission grade(const sandbox::Sandbox& sandbox, int processors = 1) const;
+  [[nodiscard]] submission::Submission grade(const sandbox::Sandbox& sandbox, int processors = 1) const;
   /// What grade() is doing, from the growing result file.
   [[nodiscard]] std::string stage() const;
   /// Copies the result, log and evidence to the student's results folder, writes its reports there, renewing
   /// those that are there already, and records the points. Throws Error if that fails.
   void publish(const Project& project, const grading::GradeResult& result) const;
   /// Prints the table for people. Call it after publish().
-  void print(const grading::Submission& graded) const;
+  void print(const submission::Submission& graded) const;
 
  private:
   ExerciseInfo exercise_;
   TestOptions options_;
   std::filesystem::path file_, results_;
   std::optional<grading::GradeResult> before_;  // what the student's folder held
-  grading::Toolchain toolchain_;
+  submission::Toolchain toolchain_;
   PrivateFolder work_;
-  std::vector<grading::ReportFormat> reports_;
+  std::vector<reports::ReportFormat> reports_;
 };
 
 [[nodiscard]] ExitCode exitCodeOf(const grading::GradeResult& result);
@@ -73,7 +73,7 @@ struct ReportView {
 /// Prints the result for people: each check with its points and, if it failed, what was wanted and what came
 /// out; what changed since the last time; what the graded functions printed, if only some checks ran; files
 /// in the folder of `results` that are newer than `source`; and how to repeat one check.
-void printResult(const ExerciseInfo& exercise, const grading::Submission& graded,
+void printResult(const ExerciseInfo& exercise, const submission::Submission& graded,
                  const std::filesystem::path& results, const std::filesystem::path& source,
                  const ReportView& view);
 

@@ -91,7 +91,7 @@ bool WatchKeys::answer(char key) {
 }
 
 bool WatchKeys::chooseCheck() {
-  const std::vector<grading::CheckResult> checks = grading::listChecks(prepare(project_, exercise_));
+  const std::vector<grading::CheckResult> checks = submission::listChecks(prepare(project_, exercise_));
   for (std::size_t k = 0; k < checks.size(); ++k)
     say(fmt::format(" {:2}  {}", k + 1,
                     wrap(fmt::format("{} [{}]", escapeForTerminal(checks[k].title), checks[k].id), 5, 5)));

@@ -24,9 +24,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using grading::CheckResult;
-using grading::ExercisePart;
 using grading::GradeResult;
 using grading::Outcome;
+using submission::ExercisePart;
 
 bool passes(const CheckResult& check) { return check.status == Outcome::kPass; }
 
@@ -40,13 +40,13 @@ std::string taskOf(const fs::path& readMe) {
   };
   const std::string text = textOrNothing(readMe);
   try {
-    return grading::pageOf(text, target).html;
+    return reports::pageOf(text, target).html;
   } catch (const Error& error) {  // a formula that we cannot draw
     return fmt::format("<pre>{}</pre>\n<p class=\"soft\">{}</p>\n", htmlText(text), htmlText(error.what()));
   }
 }
 
-std::string pointsOf(const grading::ExerciseInfo& exercise) {
+std::string pointsOf(const submission::ExerciseInfo& exercise) {
   std::string text = "<h2>Points</h2>\n<table>\n";
   for (const ExercisePart& part : exercise.parts)
     text += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", htmlText(part.title), part.points);
@@ -93,7 +93,7 @@ bool isShowable(const fs::path& file) {
 
 }  // namespace
 
-std::string emptyWatchPage(const grading::ExerciseInfo& exercise) {
+std::string emptyWatchPage(const submission::ExerciseInfo& exercise) {
   std::string page = kWatchPage;
   fillIn(page, "name", htmlText(exercise.name));
   fillIn(page, "title", htmlText(exercise.name));
@@ -139,7 +139,8 @@ std::string ownPart(const std::vector<WatchFile>& files) {
   return text.empty() ? "" : "<h2>What your program has drawn</h2>\n" + text;
 }
 
-std::string hintsPart(const grading::ExerciseInfo& exercise, const std::map<std::string, int>& shownHints) {
+std::string hintsPart(const submission::ExerciseInfo& exercise,
+                      const std::map<std::string, int>& shownHints) {
   std::string text;
   for (const ExercisePart& part : exercise.parts) {
     const auto found = shownHints.find(part.id);
@@ -160,7 +161,7 @@ std::string hintsPart(const grading::ExerciseInfo& exercise, const std::map<std:
 }
 
 std::string sourcePart(const GradeResult& result, const std::string& source, const std::string& path) {
-  grading::Feedback feedback{.result = result, .source = source};
+  reports::Feedback feedback{.result = result, .source = source};
   const std::string file = result.files.empty() ? "main.cpp" : result.files.front().name;
   for (const CheckResult& check : result.checks)
     if (check.group == grading::Group::kVisible && !passes(check) && check.line > 0)
@@ -168,7 +169,7 @@ std::string sourcePart(const GradeResult& result, const std::string& source, con
   for (const grading::CompileDiagnostic& message : result.compile.diagnostics)
     if (message.file == file && message.severity != "note")
       feedback.comments.push_back({.line = message.line, .text = message.severity + ": " + message.message});
-  return grading::listingHtml(feedback, path);
+  return reports::listingHtml(feedback, path);
 }
 
 std::vector<WatchFile> filesOfChecks(const GradeResult& result, const fs::path& folder) {
@@ -248,7 +249,7 @@ void WatchPage::renew(const std::string& text) {
     offerFiles(server_, files);
     parts_["news"] = newsPart(now, last_);
     parts_["checks"] = fmt::format("<h2>{} of {} points</h2>\n", now.score, now.maxScore) +
-                       grading::checksHtml(now, main.string());
+                       reports::checksHtml(now, main.string());
     parts_["evidence"] = evidencePart(now, files);
     parts_["source"] = sourcePart(now, fs::exists(main) ? readTextFile(main) : "", main.string());
     last_ = std::move(now);
@@ -278,7 +279,7 @@ void WatchPage::renewOwn() {
 void WatchPage::hear(const std::string& message) {
   const Json event = Json::parse(message, nullptr, false);
   if (!event.is_object() || !event.contains("hint") || !event["hint"].is_string()) return;
-  for (const grading::ExercisePart& part : exercise_.parts)
+  for (const submission::ExercisePart& part : exercise_.parts)
     if (part.id == event["hint"].get<std::string>() && !part.hints.empty())
       static_cast<void>(openHint(project_, exercise_, part));
 }

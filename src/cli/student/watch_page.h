@@ -22,7 +22,7 @@ extern const char *const kWatchPage, *const kWatchStyle, *const kWatchScript;
 
 /// The whole page of an exercise, still without results: its task with formulas, points, and exercise.h. Only
 /// links to the web and inside of the page remain.
-[[nodiscard]] std::string emptyWatchPage(const grading::ExerciseInfo& exercise);
+[[nodiscard]] std::string emptyWatchPage(const submission::ExerciseInfo& exercise);
 
 /// What visible checks now pass or fail, unlike before the last save.
 [[nodiscard]] std::string newsPart(const grading::GradeResult& result,
@@ -42,7 +42,7 @@ struct WatchFile {
 [[nodiscard]] std::string ownPart(const std::vector<WatchFile>& files);
 
 /// The hints that were shown, by part, and buttons for the next ones.
-[[nodiscard]] std::string hintsPart(const grading::ExerciseInfo& exercise,
+[[nodiscard]] std::string hintsPart(const submission::ExerciseInfo& exercise,
                                     const std::map<std::string, int>& shownHints);
 
 /// main.cpp with what the checks and the compiler say about its lines; `path` is where it is.

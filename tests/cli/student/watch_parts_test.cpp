@@ -7,9 +7,9 @@
 namespace rex::cli::watch_parts_test {
 
 using grading::CheckResult;
-using grading::ExerciseInfo;
 using grading::GradeResult;
 using grading::Outcome;
+using submission::ExerciseInfo;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;

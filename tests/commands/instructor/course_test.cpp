@@ -67,12 +67,12 @@ author = "A. Tutor"
   fs::path results() const { return root() / "results"; }
   std::string course() const { return (root() / "course.toml").string(); }
   void save(const std::string& student, int hand, int turn) {
-    const grading::Task task = grading::sampleTask(student, kEx);
-    grading::GradeResult result = grading::sampleResult(hand, turn, 0, kEx);
+    const classroom::Task task = classroom::sampleTask(student, kEx);
+    grading::GradeResult result = classroom::sampleResult(hand, turn, 0, kEx);
     result.checks[1].message = "PLANTED-" + student;
     saveSample(results(), task, result, "// PLANTED-" + student + "\n");
     tasks_.push_back(task);
-    write(results() / "tasks.tsv", grading::toManifest(tasks_));
+    write(results() / "tasks.tsv", classroom::toManifest(tasks_));
   }
   Ended collect(std::vector<std::string> more = {}) const {
     std::vector<std::string> arguments = {"grade",    "--collect", "-o", results().string(),
@@ -93,7 +93,7 @@ author = "A. Tutor"
     return Json::parse(run.output, nullptr, false);
   }
 
-  std::vector<grading::Task> tasks_{};
+  std::vector<classroom::Task> tasks_{};
 };
 
 TEST_F(CourseTest, CollectsARowForEveryoneAndListsOthersApart) {
@@ -284,7 +284,7 @@ TEST_F(CourseTest, TellsWrongUseOfExports) {
     EXPECT_THAT(flat(inside.error),
                 HasSubstr("--out: found " + out.string() + ", wanted a folder outside of the"));
   }
-  write(results() / "tasks.tsv", grading::toManifest({}));
+  write(results() / "tasks.tsv", classroom::toManifest({}));
   EXPECT_THAT(flat(exported("html").error),
               HasSubstr("nothing to export: found no grades, wanted an exercise"));
   EXPECT_THAT(flat(exported("html", {"98"}).error), HasSubstr("found no grades for 98-template"));
@@ -296,9 +296,9 @@ TEST_F(CourseTest, TellsWrongUseOfExports) {
 TEST_F(CourseTest, KeepsOldPointsUntilFewerAreAccepted) {
   fs::remove_all(results());
   const std::string broken = "int main() { return }\n";
-  grading::Task old = grading::sampleTask("adam", kEx);
+  classroom::Task old = classroom::sampleTask("adam", kEx);
   old.sourceSha256 = sha256(broken);
-  saveSample(results(), old, grading::sampleResult(3, 4, 3, kEx), broken);
+  saveSample(results(), old, classroom::sampleResult(3, 4, 3, kEx), broken);
   fs::create_directories(root() / "in/adam/98-template");
   write(root() / "in/adam/98-template/main.cpp", broken);
   fs::create_directories(root() / "in/carl/98-tempalte");

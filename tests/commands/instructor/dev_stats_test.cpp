@@ -114,23 +114,23 @@ TEST_F(DevStatsTest, TellsWhatItDoesNotCount) {
 
 TEST_F(DevStatsTest, SaysWhenTheFirstFullScoreCameAndHowOftenStudentsHandedIn) {
   save("dora", true, Outcome::kPass, 3);
-  std::vector<grading::Task> tasks;
+  std::vector<classroom::Task> tasks;
   for (const auto& [student, submitted] : {std::pair("adam", 1'700'000'000), {"dora", 1'699'990'000}}) {
     tasks.push_back(
         {.student = student, .exercise = "98-template", .submitted = submitted, .timeFrom = "platform"});
   }
-  write(results() / "tasks.tsv", grading::toManifest(tasks));
+  write(results() / "tasks.tsv", classroom::toManifest(tasks));
   const auto entry = [](const std::string& student, int attempts, const std::string& from) {
-    return grading::ImportedStudent{.student = student,
-                                    .exercises = {{"98-template",
-                                                   {.platform = "moodle",
-                                                    .status = grading::HandInStatus::kHandedIn,
-                                                    .handedInBy = student,
-                                                    .attempts = attempts,
-                                                    .attemptsFrom = from}}}};
+    return classroom::ImportedStudent{.student = student,
+                                      .exercises = {{"98-template",
+                                                     {.platform = "moodle",
+                                                      .status = classroom::HandInStatus::kHandedIn,
+                                                      .handedInBy = student,
+                                                      .attempts = attempts,
+                                                      .attemptsFrom = from}}}};
   };
   write(results() / "import.json",
-        grading::importTableText({{entry("adam", 5, "platform"), entry("bob", 2, "imports")}}));
+        classroom::importTableText({{entry("adam", 5, "platform"), entry("bob", 2, "imports")}}));
   const std::string deadlines = (root() / "deadlines.toml").string();
   write(deadlines, "[all]\nopening = 2023-11-13T00:00:00Z\ndeadline = 2023-11-14T21:00:00Z\n");
   const Ended ended = stats({"--deadlines", deadlines});
@@ -196,8 +196,8 @@ TEST_F(DevStatsTest, DrawsThePoints) {
   EXPECT_TRUE(fileText(parts).starts_with("\x89PNG"));
 }
 
-grading::StudentResult resultOf(const std::string& exercise, int score) {
-  grading::StudentResult one{.student = "s", .exercise = exercise, .result = {}};
+classroom::StudentResult resultOf(const std::string& exercise, int score) {
+  classroom::StudentResult one{.student = "s", .exercise = exercise, .result = {}};
   one.result.outcome = grading::Outcome::kFail;
   one.result.score = score;
   one.result.maxScore = 4;
@@ -215,7 +215,7 @@ TEST(ClassFigure, ShowsEveryStudentAndTheMedians) {
 }
 
 TEST(ClassFigure, LaysNoTwoPointsOnEachOther) {
-  std::vector<grading::StudentResult> results;
+  std::vector<classroom::StudentResult> results;
   for (int k = 0; k < 200; ++k) results.push_back(resultOf("03-a", k % 3));
   const Series students = pointsFigure(results).series[0];
   std::set<std::pair<double, double>> places;
@@ -227,17 +227,18 @@ TEST(ClassFigure, LaysNoTwoPointsOnEachOther) {
 }
 
 TEST(ClassFigure, NeedsPoints) {
-  std::vector<grading::StudentResult> results = {resultOf("01-a", 0)};
+  std::vector<classroom::StudentResult> results = {resultOf("01-a", 0)};
   results[0].result.outcome = grading::Outcome::kGraderError;
   EXPECT_REX_ERROR(pointsFigure(results), "no points to draw: found only faults of the grader");
 }
 
 TEST(ClassFigure, ShowsWhichPartIsHard) {
-  grading::ExerciseStatistics first{.exercise = "03-a", .graded = 2}, second{.exercise = "05-b", .graded = 2};
+  classroom::ExerciseStatistics first{.exercise = "03-a", .graded = 2},
+      second{.exercise = "05-b", .graded = 2};
   first.parts = {{.id = "easy", .maxPoints = 4, .meanPoints = 4},
                  {.id = "hard", .maxPoints = 4, .meanPoints = 1}};
   second.parts = {{.id = "half", .maxPoints = 2, .meanPoints = 1}};
-  grading::ExerciseStatistics zeroth{.exercise = "00-c", .graded = 2};
+  classroom::ExerciseStatistics zeroth{.exercise = "00-c", .graded = 2};
   zeroth.parts = {{.id = "all", .maxPoints = 2, .meanPoints = 2}};
   EXPECT_EQ(partsFigure({zeroth, first}).notes[0].y, 0);
   const Figure figure = partsFigure({first, second});

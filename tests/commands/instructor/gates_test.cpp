@@ -199,9 +199,9 @@ std::set<std::string> listed(const std::string& exercise) {
 }
 
 TEST(Gates, AreAllTestsOfTheSuite) {
-  const auto exercises = grading::listExercises(sourcePath("exercises"));
+  const auto exercises = submission::listExercises(sourcePath("exercises"));
   ASSERT_FALSE(exercises.empty());
-  for (const grading::ExerciseInfo& exercise : exercises) {
+  for (const submission::ExerciseInfo& exercise : exercises) {
 #ifdef __SANITIZE_ADDRESS__
     EXPECT_EQ(registered(exercise.name, exercise.name), std::set<std::string>{"hostile"})
         << "see RexGates.cmake";
