@@ -56,7 +56,7 @@ TEST_F(CourseSiteTest, HasNoDeadLinks) {
   EXPECT_THAT(fileText(out() / "exercises" / "05-car.html"), HasSubstr("exercise.h</h2>"));
   EXPECT_TRUE(fs::exists(out() / "documents" / "gallery" / "motion.png"));
   EXPECT_THAT(fileText(out() / "entries.js"),
-              HasSubstr("\"url\":\"exercises/05-car.html#part-4-resampling-723\""));
+              HasSubstr("\"url\":\"exercises/05-car.html#part-4-resampling-723-3-points\""));
   EXPECT_THAT(fileText(out() / "entries.js"), Not(HasSubstr("</")));
   EXPECT_FALSE(fs::exists(out() / "notes"));
   EXPECT_THAT(fileText(out() / "index.html"), Not(HasSubstr("notes/")));
