@@ -297,7 +297,7 @@ int main() {
   print("slowest pole with your K, which should be -0.506 [1/s]", slowestPole(real, K));
   showFates();
 
-  // Gains as large as the largest of the optimal ones, all of which are positive.
+  // No gain may be larger than the largest optimal one. All optimal gains are positive.
   Rng rng(2);
   const auto slowest = [&](const Eigen::MatrixXd& gains) { return slowestPole(real, gains); };
   const Eigen::MatrixXd quick = quickGains(slowest, optimal, optimal.maxCoeff(), rng);

@@ -85,8 +85,6 @@ inline constexpr int kMostFrames = 900;
 /// The camera that sees the whole film from the direction that the options ask for.
 [[nodiscard]] Camera cameraFor(const Film& film, const PictureOptions& options);
 
-class Simulator;
-
 /// Writes the recording as NAME.html, a self-contained page for any browser, in which the motion plays in
 /// real time and can be turned, next to the `figures`. It has at most `most` frames, evenly spaced, by
 /// default as many as writeFrames(); without a recording it shows the present posture. Throws as

@@ -11,7 +11,7 @@ struct FilmPace {
   std::vector<std::size_t> frames{};
   int rate = 0;
 };
-/// For `count` frames, `step` seconds apart, of which the video shows `speed` seconds per second.
+/// For `count` frames, `step` seconds apart; one second of the video shows `speed` seconds of the film.
 [[nodiscard]] FilmPace filmPace(int count, double step, double speed);
 
 }  // namespace rex::internal

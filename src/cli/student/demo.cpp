@@ -92,7 +92,7 @@ std::vector<std::string> argumentsOf(const Demonstration& one, const DemoOptions
 
 // In front of a class nobody waits for a compiler twice.
 fs::path keptProgram(const Project& project, const Demonstration& one) {
-  return project.root / "out" / "demonstrations" / "programs" / one.name;
+  return project.root / ".rex" / "demonstrations" / one.name;
 }
 
 ExitCode writePage(const Project& project, const Demonstration& one, std::vector<std::string> arguments,

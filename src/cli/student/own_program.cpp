@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/error.h"
 #include "base/folders.h"
@@ -92,7 +93,7 @@ std::optional<OwnProgram> buildOwnProgram(const Project& project, const fs::path
       submission::opensWithCourseHeader(source, toolchain.flags))
     note("This folder was prepared for another rex: `rex update` makes compiling fast again.");
   toolchain.flags.insert(toolchain.flags.end(), {"-I", file.parent_path().string()});
-  OwnProgram result{.made = {file, project.build / "student" / "program.json"}};
+  OwnProgram result{.madeFrom = {file, project.build / "student" / "program.json"}};
   const auto chooseLibraries = [&](const submission::StudentObject& object) {
     const ProcessResult table =
         runProcess({toolchain.objdump, "-t", "-C", object.object.string()}, {.outputLimit = 256u << 20});
@@ -105,7 +106,7 @@ std::optional<OwnProgram> buildOwnProgram(const Project& project, const fs::path
           submission::dependenciesIn(readTextFile(toolchain.prefix.string() + ".d"), workFolder),
           std::back_inserter(files));
     for (fs::path& one : files) one = one.lexically_normal();
-    std::ranges::copy_if(files, std::back_inserter(result.made),
+    std::ranges::copy_if(files, std::back_inserter(result.madeFrom),
                          [&](const fs::path& one) { return !isBelow(workFolder, one); });
     for (const submission::LibraryPart& one : librariesFor(program, files, table.output)) {
       result.targets.push_back(one.target);
@@ -131,34 +132,44 @@ void listResults(const fs::path& folder, fs::file_time_type since) {
   for (const std::string& line : files) say("  " + line);
 }
 
-// Beside the program: the targets of its libraries, an empty line, and the files that it was made from.
+// Beside the program: the targets of its libraries, an empty line, and the stamps of the files that it was
+// made from.
 fs::path recordOf(const fs::path& kept) { return kept.string() + ".made-from"; }
 
-// Written last, and whole, so that a record belongs to the program beside it.
-void keep(const OwnProgram& built, const fs::path& kept) {
+// The time of its last change and its path; empty for a file that is not there.
+std::string fileStamp(const fs::path& file) {
+  std::error_code missing;
+  const auto changed = fs::last_write_time(file, missing);
+  return missing ? "" : fmt::format("{} {}", changed.time_since_epoch().count(), file.string());
+}
+
+// The record is written last, and whole. There is none if a file changed while it was compiled.
+void keep(const OwnProgram& built, const fs::path& kept, fs::file_time_type started) {
   fs::create_directories(kept.parent_path());
-  const fs::path half = kept.string() + ".new";
   fs::remove(recordOf(kept));
+  const fs::path half = fmt::format("{}.{}", kept.string(), ::getpid());
   fs::copy_file(built.program, half, fs::copy_options::overwrite_existing);
   fs::rename(half, kept);
   std::string record = join(built.targets, "\n") + "\n\n";
-  for (const fs::path& one : built.made) record += one.string() + "\n";
+  for (const fs::path& one : built.madeFrom) {
+    if (fs::last_write_time(one) > started) return;
+    record += fileStamp(one) + "\n";
+  }
   replaceTextFile(recordOf(kept), record, "what a program was made from");
 }
 
-// Whether the kept program is newer than all files it was made from, and so what a compiler would make again.
-// Its libraries are shared: they are brought up to date like those of a new one.
+// Whether a compiler would make the kept program again. Another rex, whose headers may be older than the
+// program, has other stamps. The libraries are shared: they are brought up to date like those of a new one.
 bool isCurrent(const Project& project, const fs::path& kept, const std::string& name) {
-  std::error_code missing;
-  const auto made = fs::last_write_time(kept, missing);
-  if (missing || !fs::exists(recordOf(kept))) return false;
+  if (!fs::exists(kept) || !fs::exists(recordOf(kept))) return false;
   const std::string record = readTextFile(recordOf(kept));
   const std::vector<std::string_view> lines = splitLines(record);
   const auto gap = std::ranges::find(lines, "");
-  const bool isOld = std::any_of(gap, lines.end(), [&](std::string_view file) {
-    return !file.empty() && !(fs::last_write_time(file, missing) <= made && !missing);
+  if (gap == lines.end()) return false;
+  const bool isOld = std::any_of(gap + 1, lines.end(), [](std::string_view stamp) {
+    return fileStamp(stamp.substr(stamp.find(' ') + 1)) != stamp;
   });
-  if (gap == lines.end() || isOld) return false;
+  if (isOld) return false;
   const std::vector<std::string> targets(lines.begin(), gap);
   if (!targets.empty()) bringUpToDate(project, targets, "the library for " + name);
   return true;
@@ -198,12 +209,13 @@ ExitCode runOwnProgram(const Project& project, const fs::path& file, const OwnRu
   const PrivateFolder work(project.workPlace("student"));
   fs::path program = options.keptAs;
   if (program.empty() || !isCurrent(project, program, file.filename().string())) {
+    const auto started = fs::file_time_type::clock::now();
     const auto built = buildOwnProgram(project, file, work.path(), options.out);
     if (!built) return ExitCode::kNotGradable;
     if (program.empty())
       program = built->program;
     else
-      keep(*built, program);
+      keep(*built, program, started);
   }
   std::vector<std::string> command = {program.string()};
   command.insert(command.end(), options.arguments.begin(), options.arguments.end());

@@ -23,8 +23,8 @@ namespace rex::cli {
 
 struct OwnProgram {
   std::filesystem::path program{};
-  std::vector<std::string> targets{};         ///< of the build, for the libraries that it is linked with
-  std::vector<std::filesystem::path> made{};  ///< the files that it was compiled from
+  std::vector<std::string> targets{};             ///< of the build, for the libraries that it is linked with
+  std::vector<std::filesystem::path> madeFrom{};  ///< files
 };
 
 /// Compiles the file like a student's, with the headers next to it, builds the parts of the library that it
