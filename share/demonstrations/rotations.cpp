@@ -1,7 +1,7 @@
-// Chapter 2: rotations. Left: three sliders turn a plane by yaw, pitch and roll; rings show the axes of the
-// three. With a pitch of a quarter turn two of them coincide, and one direction is lost: gimbal lock. Right:
-// two planes fly from a first orientation to that of the sliders and back, by quaternions and by Euler
-// angles.
+// Chapter 2: Rotations and gimbal lock. Left: three sliders turn a plane by yaw, pitch and roll; rings show
+// the axes of the three. With a pitch of a quarter turn two of them coincide, and one direction is lost:
+// gimbal lock. Right: two planes fly from a first orientation to that of the sliders and back, by quaternions
+// and by Euler angles.
 #include <cmath>
 #include <numbers>
 #include <vector>
