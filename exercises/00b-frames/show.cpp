@@ -67,8 +67,8 @@ void showTurns() {
   camera.verticalFov = 0.14;
   writeFilm(film, "turns", {.camera = camera, .width = 800, .height = 400});
 
-  Figure figure{.title = "Speed of the frame on two ways between the same orientations",
-                .xLabel = "share of the way [1]",
+  Figure figure{.title = "Speed of the frame on two paths between the same orientations",
+                .xLabel = "share of the path [1]",
                 .yLabel = "angular speed [rad/s]"};
   for (int side = 0; side < 2; ++side) {
     Series speed{.label = side == 0 ? "between" : "Euler angles"};

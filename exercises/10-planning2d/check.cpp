@@ -396,7 +396,7 @@ void queriesInTheSlotYard(Check& check, Student& student) {
   const Points wanted{kSlotStart, nodes[0], nodes[2], nodes[3], kSlotGoal};
   {
     const auto shown = check.show([&] {
-      Figure figure = planOf("A way over the roadmap", yard.size, yard.blocks);
+      Figure figure = planOf("A path over the roadmap", yard.size, yard.blocks);
       addLine(figure, way, grading::gotCurve("got"));
       addLine(figure, wanted, grading::wantedCurve("wanted"));
       addLine(figure, nodes, dots("nodes", kBlack, 1.5));

@@ -217,11 +217,11 @@ void showMap(const Walk& walk, const PoseMap& map) {
   const Optimum library = byLibrary(map);
   const Adjusted best = adjusted(map);
   Figure before = planOf("By odometry alone: the scans where it says the robot was");
-  before.series = {cloud("scans", map.poses, walk.scans, kGrey), pathSeries("way", map.poses, kBlue)};
+  before.series = {cloud("scans", map.poses, walk.scans, kGrey), pathSeries("path", map.poses, kBlue)};
   addLoops(before, map, map.poses, kRed);
   plot("before", before);
   Figure after = planOf("Adjusted");
-  after.series = {cloud("scans", best.poses, walk.scans, kGrey), pathSeries("way", best.poses, kBlue)};
+  after.series = {cloud("scans", best.poses, walk.scans, kGrey), pathSeries("path", best.poses, kBlue)};
   addLoops(after, map, best.poses, kRed);
   after.series.push_back(pathSeries("library", library.poses, kBlack, true));
   plot("after", after);
