@@ -35,13 +35,12 @@ Figure splines() {
       .title = "Through the points, or in their hull",
       .xLabel = "x [m]",
       .yLabel = "y [m]",
-      .equalAxes = true,
       .legend = Legend::kOutside,
       .series = {{.label = "points", .style = SeriesStyle::kLinesPoints, .dashed = true, .color = kGrey},
                  {.label = "cubic spline, natural ends"},
                  {.label = "cubic spline, at rest at its ends"},
                  {.label = "B-spline, degree 3"}},
-      .height = 300};
+      .height = 450};
   for (const auto& point : points.colwise()) append(figure.series[0], point.x(), point.y());
   const VectorXd times = VectorXd::LinSpaced(points.cols(), 0, 1);
   const CubicSpline natural(times, points),

@@ -1,6 +1,7 @@
 #include "gallery/paths.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "cli/robot/path_results.h"
@@ -22,32 +23,45 @@ using cli::PathTask;
 using cli::Planner;
 using Eigen::Vector3d;
 
-Image explored(const std::string& file, const Eigen::VectorXd& goal, double margin, const PathSearch& search,
-               const Vector3d& direction) {
+Picture explored(const std::string& file, const Eigen::VectorXd& goal, double margin,
+                 const PathSearch& search) {
   const Model model = compile(readScene(sourcePath("data") / file).spec);
   const ContactModel contacts(model);
   const PathTask task{model, contacts,
                       robotProblem(model, contacts, model.initialPositions(), goal, margin, 0.02)};
   const FoundPath found = cli::searchPath(task, search, 9);
-  const Picture picture = cli::exploredPicture(task, cli::farthestBody(model), found);
-  return Renderer({.width = 560, .height = 420}).draw(picture, framing(bounds(picture), direction, 4. / 3));
+  return cli::exploredPicture(task, cli::farthestBody(model), found);
+}
+
+// The box of a picture around its middle, shrunk by a factor.
+Bounds zoomed(const Bounds& all, double factor) {
+  const Vector3d middle = (all.low + all.high) / 2, half = (all.high - all.low) / (2 * factor);
+  return {.low = middle - half, .high = middle + half};
 }
 
 Image peg() {
   Eigen::VectorXd goal(7);
   goal << 0.945499, 0.431195, -1.97155, 0.623969, 2.22355, -0.665206, -1.48356;
-  return explored("robots/pegInAHole.ors", goal, 0.02, {}, {1, -1, 0.5});
+  Picture picture = explored("robots/pegInAHole.ors", goal, 0.02, {});
+  for (LineSet& tree : picture.lineSets) tree.color.a = 0.3f;
+  // The second half of the solids is the arm at its goal.
+  for (std::size_t i = picture.solids.size() / 2; i < picture.solids.size(); ++i)
+    picture.solids[i].color = {0.84f, 0.37f, 0.0f, 0.5f};
+  picture.polylines.back().width = 8;
+  return Renderer({.width = kSlideWidth, .height = kSlideHeight})
+      .draw(picture, framing(zoomed(bounds({.solids = picture.solids}), 0.9), {1, -1, 0.5}, 4. / 3));
 }
 
 Image cart() {
-  return explored("scenes/maze.ors", Vector3d(3, 0, 0), 0.01, {.planner = Planner::kRrtStar, .samples = 5000},
-                  {0, -0.7, 2});
+  const Picture picture =
+      explored("scenes/maze.ors", Vector3d(3, 0, 0), 0.01, {.planner = Planner::kRrtStar, .samples = 5000});
+  return Renderer({.width = 560, .height = 420})
+      .draw(picture, framing(bounds(picture), {0, -0.7, 2}, 4. / 3));
 }
 
-// Where a motion goes: its last posture, those before it faintly, and the way of the body.
-Image followed(const Model& model, const Eigen::MatrixXd& path, const std::string& body,
-               const Vector3d& direction, int width = 560, int height = 420) {
-  constexpr int kFaint = 8;
+// Where a motion goes: its last posture, those before it faintly, and the path of the body.
+Picture followed(const Model& model, const Eigen::MatrixXd& path, const std::string& body) {
+  constexpr int kFaint = 5;
   const Eigen::Index last = path.cols() - 1;
   Picture picture = scenePicture(model, forwardKinematics(model, path.col(last)));
   const std::size_t count = picture.solids.size();
@@ -60,24 +74,30 @@ Image followed(const Model& model, const Eigen::MatrixXd& path, const std::strin
       picture.solids.push_back(std::move(solid));
     }
   }
-  Polyline way{.width = 5};
+  Polyline way{.width = 8};
   const BodyId id = model.body(body);
   for (const auto& q : path.colwise()) way.points.push_back(forwardKinematics(model, q)[id].p);
   picture.polylines.push_back(std::move(way));
-  return Renderer({.width = width, .height = height})
-      .draw(picture, framing(bounds(picture), direction, static_cast<double>(width) / height));
+  return picture;
 }
 
 Image around() {
   const Model model = compile(readScene(sourcePath("data/scenes/board.ors")).spec);
   const ContactModel contacts(model);
+  const Vector3d goal(0, -0.3, 0.5);
   const cli::FoundTrajectory found = cli::findTrajectory({.model = model,
                                                           .contacts = contacts,
                                                           .body = model.body("eff"),
-                                                          .p_WQ = {0, -0.3, 0.5},
+                                                          .p_WQ = goal,
                                                           .start = model.initialPositions(),
                                                           .avoids = true});
-  return followed(model, found.path, "eff", Vector3d(2, -0.9, 0.7));
+  Picture picture = followed(model, found.path, "eff");
+  // The ball of the scene is the goal of another motion.
+  std::erase_if(picture.solids, [](const Solid& solid) { return solid.name == "goal"; });
+  picture.pointSets.push_back({.points = {goal}, .color = {0.8f, 0.1f, 0.12f}, .size = 24});
+  picture.labels.push_back({.text = "goal", .p_WQ = goal + Vector3d(0, 0.1, 0), .scale = 2.5});
+  return Renderer({.width = kSlideWidth, .height = kSlideHeight})
+      .draw(picture, framing(zoomed(bounds(picture), 1.1), {2, -0.9, 0.7}, 4. / 3));
 }
 
 Image legs() {
@@ -89,22 +109,33 @@ Image legs() {
   Eigen::MatrixXd straight(start.size(), 41);
   for (int k = 0; k <= 40; ++k) straight.col(k) = start + k / 40. * (goal - start);
   const auto shown = [&](const Eigen::MatrixXd& path) {
-    return followed(model, path, "left_foot", Vector3d(2, 0.7, 0.5), 400, 500);
+    const Picture picture = followed(model, path, "left_foot");
+    const Bounds below{.low = {-0.45, -0.35, -0.92}, .high = {0.45, 0.45, -0.1}};
+    return Renderer({.width = 620, .height = 620}).draw(picture, framing(below, {2, 0.7, 0.5}, 1));
   };
-  return contactSheet({{shown(straight), "straight, through the other leg"},
-                       {shown(cli::searchPath(task, {}, 9).path), "as rex plan leads it"}},
+  return contactSheet({{shown(straight), "straight path, through the other leg"},
+                       {shown(cli::searchPath(task, {}, 9).path), "planned path"}},
                       {.columns = 2});
 }
 
 Image parking() {
   const Model model = compile(readScene(sourcePath("data/scenes/street.ors")).spec);
   const ContactModel contacts(model);
-  const PathTask task = cli::parkingTask(model, contacts, model.initialPositions(),
-                                         Eigen::VectorXd(Vector3d(-1.3, 1.1, 0)), 0.05, 0.05);
+  const Vector3d goal(-1.3, 1.1, 0);
+  const PathTask task =
+      cli::parkingTask(model, contacts, model.initialPositions(), Eigen::VectorXd(goal), 0.05, 0.05);
   const cli::Parking found = cli::parked(task, {.wheelbase = 2.6, .maxSteering = 0.6}, {});
-  const Picture picture = cli::parkingPicture(task, found);
-  return Renderer({.width = 560, .height = 320})
-      .draw(picture, framing(bounds(picture), {0, -0.5, 1}, 560. / 320));
+  Picture picture = cli::parkingPicture(task, found);
+  Bounds cars;
+  for (const Vector3d& q : {Vector3d(model.initialPositions()), goal}) {
+    const Vector3d at(q.x(), q.y(), 1.8), ahead(std::cos(q.z()), std::sin(q.z()), 0);
+    picture.arrows.push_back(
+        {.from = at, .to = at + 2.5 * ahead, .color = {0.8f, 0.1f, 0.12f}, .radius = 0.12});
+    cars.include(at + Vector3d(6.5, 2, -1.8)), cars.include(at - Vector3d(5, 2, 1.8));
+  }
+  constexpr int kHigh = 720;
+  return Renderer({.width = kSlideWidth, .height = kHigh})
+      .draw(picture, framing(cars, {0, -0.5, 1}, static_cast<double>(kSlideWidth) / kHigh));
 }
 
 }  // namespace

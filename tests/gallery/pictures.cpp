@@ -5,9 +5,10 @@
 #include <numbers>
 
 #include <Eigen/Dense>
+#include <fmt/format.h>
 
 #include "base/rng.h"
-#include "formats/ors_reader.h"
+#include "formats/scene_file.h"
 #include "geometry/rotation.h"
 #include "kinematics/inverse_kinematics.h"
 #include "kinematics/jacobians.h"
@@ -31,8 +32,14 @@ Image drawn(const Picture& picture, const Vector3d& direction = kDefaultView, in
       .draw(picture, framing(bounds(picture), direction, aspect));
 }
 
+Image drawnForSlide(const Picture& picture, const Bounds& shown, const Vector3d& direction) {
+  return Renderer({.width = kSlideWidth, .height = kSlideHeight})
+      .draw(picture, framing(shown, direction, 4. / 3));
+}
+
 Model robot(const std::string& name) {
-  return compile(readOrs(sourcePath("data/robots/").string() + name + ".ors").spec);
+  return compile(
+      readScene(sourcePath("data/robots") / (name + (name == "humanoid" ? "/humanoid.urdf" : ".ors"))).spec);
 }
 
 // The postures of a robot whose body goes once around a circle in front of it.
@@ -67,14 +74,15 @@ Image motion() {
 }
 
 Image views() {
-  const Model model = robot("pegInAHole");
+  const Model model = robot("humanoid");
   const Picture picture = scenePicture(model, forwardKinematics(model, model.initialPositions()));
-  Renderer renderer({.width = 320, .height = 300});
+  constexpr int kView = 420;
+  Renderer renderer({.width = kView, .height = kView});
   const std::array<std::pair<const char*, Vector3d>, 3> cameras = {
-      {{"from the front", {0, -1, 0.25}}, {"from the left", {1, 0, 0.25}}, {"from above", {0, 0, 1}}}};
+      {{"from the front", {1, 0, 0.25}}, {"from the left", {0, 1, 0.25}}, {"from above", {0.001, 0, 1}}}};
   std::vector<KeyFrame> frames;
   for (const auto& [name, direction] : cameras)
-    frames.push_back({renderer.draw(picture, framing(bounds(picture), direction, 320. / 300)), name});
+    frames.push_back({renderer.draw(picture, framing(bounds(picture), direction, 1)), name});
   return contactSheet(frames);
 }
 
@@ -139,20 +147,23 @@ Image shapes() {
 
 Image frames() {
   const Model model = robot("pegArm");
-  const Eigen::VectorXd q = Vector3d(0.3, 0.9, 0.8);
+  const Eigen::VectorXd q = Vector3d(0.2, 0.35, 0.35);
   const BodyPoses poses = forwardKinematics(model, q);
   Picture picture = scenePicture(model, poses);
-  for (Solid& solid : picture.solids) solid.color.a = 0.45f;
+  for (Solid& solid : picture.solids) solid.color.a = 0.6f;
+  picture.ground.visible = false;
   const BodyId peg = model.body("peg");
   const Eigen::Matrix3Xd J = positionJacobian(model, poses, peg, Vector3d::Zero());
-  for (const Joint& joint : model.joints())
-    picture.axes.push_back({.X_WF = poses[joint.child], .size = 0.15, .name = model[joint.child].name});
+  for (const Joint& joint : model.joints()) picture.axes.push_back({.X_WF = poses[joint.child], .size = 0.2});
   for (Eigen::Index k = 0; k < J.cols(); ++k) {
-    picture.arrows.push_back(
-        {.from = poses[peg].p, .to = poses[peg].p + 0.6 * J.col(k), .color = kOrange, .radius = 0.008});
-    picture.labels.push_back({.text = "J" + std::to_string(k + 1), .p_WQ = poses[peg].p + 0.6 * J.col(k)});
+    picture.arrows.push_back({.from = poses[peg].p,
+                              .to = poses[peg].p + 0.6 * J.col(k),
+                              .color = {1.0f, 0.6f, 0.0f},
+                              .radius = 0.012});
+    picture.labels.push_back(
+        {.text = "J" + std::to_string(k + 1), .p_WQ = poses[peg].p + 0.65 * J.col(k), .scale = 2.5});
   }
-  return drawn(picture, {2, -0.6, 0.5});
+  return drawnForSlide(picture, bounds(picture), {2, -0.6, 0.5});
 }
 
 Image particles() {
@@ -167,10 +178,11 @@ Image particles() {
     picture.solids.push_back({.shape = {.type = ShapeType::kSphere, .radius = 0.05},
                               .X_WS = {.p = landmarks[i]},
                               .color = kOrange});
-    picture.labels.push_back(
-        {.text = "landmark " + std::to_string(i + 1), .p_WQ = landmarks[i] + Vector3d(-0.2, -0.3, -0.15)});
+    picture.labels.push_back({.text = "landmark " + std::to_string(i + 1),
+                              .p_WQ = landmarks[i] + Vector3d(-0.2, -0.3, -0.15),
+                              .scale = 2});
   }
-  PointSet samples{.color = kBlue, .size = 3};
+  PointSet samples{.color = kBlue, .size = 5};
   for (int i = 0; i < 800; ++i) {
     const Eigen::VectorXd n = rng.normalVector(2);
     const double bend = 0.35 * n[0];
@@ -178,41 +190,59 @@ Image particles() {
                                 -0.3 + 0.55 * (1 - std::cos(bend)) + 0.06 * n[1], 0.02);
   }
   picture.pointSets.push_back(samples);
-  picture.solids.push_back({.shape = {.extent = {0.3, 0.18, 0.12}},
-                            .X_WS = {.p = {-0.1, -0.3, 0.07}},
-                            .color = {0.25f, 0.3f, 0.35f, 0.8f}});
-  picture.captions.push_back({.text = "800 particles; landmarks within 2 standard deviations"});
-  return drawn(picture, {0.6, -2, 1.6});
+  // The car is above the points, which would show through it.
+  picture.solids.push_back(
+      {.shape = {.extent = {0.24, 0.13, 0.06}}, .X_WS = {.p = {-0.1, -0.3, 0.2}}, .color = kGrey});
+  picture.arrows.push_back(
+      {.from = {-0.1, -0.3, 0.25}, .to = {0.3, -0.3, 0.25}, .color = kRed, .radius = 0.015});
+  picture.labels.push_back({.text = "car and its heading", .p_WQ = {0.35, -0.35, 0.25}, .scale = 2});
+  picture.captions.push_back({.text = "800 particles; landmarks within 2 standard deviations", .scale = 2});
+  return drawnForSlide(picture, bounds(picture), {0.6, -2, 1.6});
 }
 
-// Grown towards random points, outside of a ball.
-LineSet randomTree(int size) {
+// Grown from a start towards random points, outside of a ball, until it is at the goal.
+struct RandomTree {
+  LineSet edges{.color = {0.2f, 0.45f, 0.35f, 0.85f}, .width = 2.5};
+  Polyline path{.color = kOrange, .width = 7};
+};
+
+RandomTree randomTree(const Vector3d& start, const Vector3d& goal) {
+  constexpr double kStep = 0.08, kBias = 0.02;  // metres; the share of steps towards the goal
   Rng rng(3);
-  std::vector<Vector3d> nodes = {{-1, -1, 0.1}};
-  LineSet tree{.color = {0.2f, 0.45f, 0.35f}, .width = 1};
-  while (static_cast<int>(nodes.size()) < size) {
-    const Vector3d goal(rng.uniform(-1.2, 1.2), rng.uniform(-1.2, 1.2), rng.uniform(0, 1.6));
+  std::vector<Vector3d> nodes = {start};
+  std::vector<std::size_t> parents = {0};
+  RandomTree tree;
+  while ((nodes.back() - goal).norm() > kStep) {
+    const Vector3d random(rng.uniform(-1.2, 1.2), rng.uniform(-1.2, 1.2), rng.uniform(0, 1.6));
+    const Vector3d target = rng.uniform(0, 1) < kBias ? goal : random;
     const auto nearest = std::min_element(nodes.begin(), nodes.end(), [&](const auto& a, const auto& b) {
-      return (a - goal).squaredNorm() < (b - goal).squaredNorm();
+      return (a - target).squaredNorm() < (b - target).squaredNorm();
     });
-    const Vector3d from = *nearest, to = from + 0.06 * (goal - from).normalized();
+    const Vector3d from = *nearest, to = from + kStep * (target - from).normalized();
     if ((to - Vector3d(0, 0, 0.8)).norm() < 0.5) continue;
-    tree.segments.emplace_back(from, to);
+    parents.push_back(static_cast<std::size_t>(nearest - nodes.begin()));
+    tree.edges.segments.emplace_back(from, to);
     nodes.push_back(to);
   }
-  return tree;
+  tree.path.points = {goal};
+  for (std::size_t i = nodes.size() - 1;; i = parents[i]) {
+    tree.path.points.push_back(nodes[i]);
+    if (i == 0) return tree;
+  }
 }
 
 Image tree() {
-  Picture picture;
-  picture.lineSets.push_back(randomTree(8000));
+  const Vector3d start(-1, -1, 0.1), goal(1, 0.9, 1.4);
+  const RandomTree grown = randomTree(start, goal);
+  Picture picture{.polylines = {grown.path}, .lineSets = {grown.edges}};
   picture.solids.push_back({.shape = {.type = ShapeType::kSphere, .radius = 0.48},
                             .X_WS = {.p = {0, 0, 0.8}},
                             .color = kRed,
                             .name = "obstacle"});
-  picture.pointSets.push_back({.points = {{-1, -1, 0.1}}, .color = kOrange, .size = 10});
-  picture.labels.push_back({.text = "start", .p_WQ = {-1, -1, 0.1}});
-  return drawn(picture, {0.7, -2, 0.9});
+  picture.pointSets.push_back({.points = {start, goal}, .color = kOrange, .size = 22});
+  picture.labels.push_back({.text = "start", .p_WQ = start, .scale = 2.5});
+  picture.labels.push_back({.text = "goal", .p_WQ = goal, .scale = 2.5});
+  return drawnForSlide(picture, bounds(picture), {0.7, -2, 0.9});
 }
 
 Image sensors() {
@@ -252,19 +282,21 @@ Image edges() {
 Image keyFramesOfASwing() {
   const Model model = robot("man");
   const auto postures = circling(model, model.body("handR"), {-0.2, -0.4, 1.1}, 0.2, 60);
-  std::vector<BodyPoses> poses;
-  Bounds all;
-  for (const auto& q : postures) {
-    poses.push_back(forwardKinematics(model, q));
-    const Bounds one = bounds(scenePicture(model, poses.back()));
-    all.include(one.low), all.include(one.high);
-  }
-  constexpr int kSize = 240;
+  constexpr int kSize = 420, kPerSecond = 20;
+  const Bounds upperBody{.low = {-0.4, -0.5, 0.95}, .high = {0.4, 0.2, 1.65}};
   Renderer renderer({.width = kSize, .height = kSize});
   std::vector<KeyFrame> frames;
-  for (const std::size_t i : keyFrames(poses.size(), 6))
-    frames.push_back({renderer.draw(scenePicture(model, poses[i]), framing(all, {0.5, -2, 0.4}, 1)),
-                      "step " + std::to_string(i)});
+  Polyline trace{.color = kOrange, .width = 4};
+  const std::vector<std::size_t> shown = keyFrames(postures.size(), 6);
+  for (std::size_t i = 0; i < postures.size(); ++i) {
+    const BodyPoses poses = forwardKinematics(model, postures[i]);
+    trace.points.push_back(poses[model.body("handR")].p);
+    if (std::find(shown.begin(), shown.end(), i) == shown.end()) continue;
+    Picture picture = scenePicture(model, poses);
+    if (i > 0) picture.polylines.push_back(trace);
+    frames.push_back({renderer.draw(picture, framing(upperBody, {-0.5, -2, 0.4}, 1)),
+                      fmt::format("{:.1f} s", static_cast<double>(i) / kPerSecond)});
+  }
   return contactSheet(frames);
 }
 
@@ -286,8 +318,10 @@ std::vector<Drawing> pictures() {
           {"particles", "Particles and covariances",
            "The belief of a filter: particles as points, normal distributions as translucent ellipsoids.",
            particles},
-          {"tree", "A tree of eight thousand edges",
-           "The edges of a search tree. Edges behind the obstacle remain faintly visible.", tree},
+          {"tree", "A search tree",
+           "A tree that has grown at random from the start to the goal, and its path. Edges behind the "
+           "obstacle remain faintly visible.",
+           tree},
           {"views", "Several cameras", "One picture from three sides.", views},
           {"sensors", "Depth and segmentation",
            "The image of a depth camera in metres, from near (yellow) to far (blue), and the solid that each "

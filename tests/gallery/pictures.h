@@ -8,6 +8,8 @@
 
 namespace rex::gallery {
 
+inline constexpr int kSlideWidth = 1280, kSlideHeight = 960;  ///< of a picture as wide as a slide, pixels
+
 /// One picture of the gallery: its file is NAME.png.
 struct Drawing {
   std::string name;

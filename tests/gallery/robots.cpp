@@ -52,7 +52,7 @@ Eigen::VectorXd postureOf(const Model& model, const Portrait& portrait) {
   return q;
 }
 
-Image drawn(const Portrait& portrait, int width = 560, int height = 420) {
+Image drawn(const Portrait& portrait, int width = kSlideWidth, int height = kSlideHeight) {
   const Model model = compile(readScene(sourcePath("data") / portrait.file).spec);
   Picture picture = scenePicture(model, forwardKinematics(model, postureOf(model, portrait)));
   picture.ground.cell = portrait.cell;
@@ -122,16 +122,24 @@ Image grasp() {
   const Equilibrium held = equilibrium(wrenchCones(contacts), weight);
   Picture picture = scenePicture(model, forwardKinematics(model, world.state().q));
   for (Solid& solid : picture.solids)
-    if (solid.name == "object") solid.color = {0.3f, 0.55f, 0.85f, 0.3f};
+    if (solid.name == "object")
+      solid.color = {0.2f, 0.5f, 0.9f, 0.75f};
+    else
+      solid.color = {0.85f, 0.86f, 0.88f, 0.35f};
+  PointSet touched{.color = {0.8f, 0.1f, 0.12f}, .size = 16};
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Vector3d force_O = contactFrame(contacts[i]) * held.forces_C.col(static_cast<Eigen::Index>(i));
     const Vector3d at_W = X_WO * contacts[i].p_OC, force_W = X_WO.R * force_O;
+    touched.points.push_back(at_W);
     if (force_W.norm() > 1e-3)
-      picture.arrows.push_back({.from = at_W, .to = at_W + kLength * force_W, .radius = 0.0015});
+      picture.arrows.push_back(
+          {.from = at_W - kLength * force_W, .to = at_W, .color = {1.0f, 0.75f, 0.0f}, .radius = 0.002});
   }
+  picture.pointSets.push_back(std::move(touched));
   picture.ground.cell = 0.05;
-  const Vector3d direction(1.5, -0.3, 0.1);
-  return Renderer({.width = 560, .height = 420}).draw(picture, framing(bounds(picture), direction, 4. / 3));
+  const Bounds shown{.low = X_WO.p.array() - 0.075, .high = X_WO.p.array() + 0.075};
+  return Renderer({.width = kSlideWidth, .height = kSlideHeight})
+      .draw(picture, framing(shown, {1.5, 1, 0.4}, 4. / 3));
 }
 
 }  // namespace
@@ -176,8 +184,8 @@ std::vector<Drawing> robotPictures() {
                 .direction = {1.6, 1.2, 0.5},
                 .cell = 0.05}),
       {"grasp", "The hand holds a ball",
-       "Bullet has closed the hand on a ball of 100 g. The arrows are contact forces within the friction "
-       "cones that carry the ball.",
+       "Bullet has closed the hand on a ball of 100 g. Dots are contacts; arrows are forces within the "
+       "friction cones that carry the ball.",
        grasp},
       portrait("table", "The man of the course at a table",
                "`data/scenes/table.ors` includes the man, moves his targets and adds the table. Inverse "
