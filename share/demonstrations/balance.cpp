@@ -4,6 +4,7 @@
 #include "course/car_view.h"
 #include "course/course.h"
 #include "course/live_view.h"
+#include "kinematics/forward_kinematics.h"
 #include "kinematics/inverse_kinematics.h"
 #include "locomotion/footsteps.h"
 #include "render/picture.h"

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "estimation/occupancy_map.h"
+#include "render/color.h"
 #include "render/image.h"
 
 namespace rex {

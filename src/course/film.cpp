@@ -18,6 +18,7 @@
 #include "course/pictures.h"
 #include "course/recording.h"
 #include "course/simulator.h"
+#include "kinematics/forward_kinematics.h"
 #include "render/contact_sheet.h"
 #include "render/film.h"
 #include "render/frame_sink.h"
@@ -25,6 +26,7 @@
 #include "render/picture.h"
 #include "render/report.h"
 #include "render/video_sink.h"
+#include "scene/model.h"
 
 namespace rex {
 namespace {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "render/color.h"
 #include "render/image.h"
 #include "render/text.h"
 

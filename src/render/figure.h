@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include "render/image.h"
+#include "render/color.h"
 
 namespace rex {
 

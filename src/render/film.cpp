@@ -7,6 +7,9 @@
 
 #include "base/error.h"
 #include "base/interruption.h"
+#include "render/frame_sink.h"
+#include "render/image.h"
+#include "render/renderer.h"
 
 namespace rex {
 

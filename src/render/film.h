@@ -3,11 +3,13 @@
 #include <vector>
 
 #include "render/camera.h"
-#include "render/frame_sink.h"
 #include "render/picture.h"
-#include "render/renderer.h"
 
 namespace rex {
+
+class FrameSink;
+class Renderer;
+struct Image;
 
 /// One moment of a motion.
 struct Frame {
@@ -28,9 +30,6 @@ using Film = std::vector<Frame>;
 /// Puts the ground of all pictures at the height of the lowest one and around the whole film, so that the
 /// floor does not move.
 void settleGround(Film& film);
-
-/// The anti-aliasing for frames of a film: in motion, the best one would look no different.
-inline constexpr AntiAliasing kFilmAntiAliasing = AntiAliasing::kFxaa;
 
 /// Draws all frames, seen from one camera, into the sink and finishes it. Throws as Renderer::drawFrame()
 /// and the sink, Error if no frame shows anything, and Interrupted for a signal of HeldSignals.

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <GL/glcorearb.h>
 
+#include "render/color.h"
 #include "render/gl_context.h"
 #include "render/image.h"
 

@@ -16,6 +16,7 @@
 #include "geometry/pose.h"
 #include "geometry/shape.h"
 #include "render/camera.h"
+#include "render/color.h"
 #include "render/image.h"
 
 namespace rex::internal {

@@ -8,13 +8,6 @@
 
 namespace rex {
 
-/// A colour as a screen shows it (sRGB), each part in [0, 1]; a = 0 is invisible, a = 1 opaque.
-struct Color {
-  float r = 0, g = 0, b = 0, a = 1;
-
-  bool operator==(const Color&) const = default;
-};
-
 /// A picture of width x height pixels, 8 bits each of red, green, blue (sRGB); rows from the top, no padding.
 struct Image {
   int width = 0;

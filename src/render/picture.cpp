@@ -10,6 +10,8 @@
 #include "base/error.h"
 #include "base/require.h"
 #include "geometry/rotation.h"
+#include "kinematics/forward_kinematics.h"
+#include "scene/model.h"
 
 namespace rex {
 namespace {

@@ -9,11 +9,13 @@
 
 #include "geometry/pose.h"
 #include "geometry/shape.h"
-#include "kinematics/forward_kinematics.h"
 #include "render/camera.h"
-#include "render/image.h"
+#include "render/color.h"
 
 namespace rex {
+
+class Model;
+struct BodyPoses;
 
 /// A body to draw: `shape` at X_WS. Materials of a mesh override `color`, except its opacity. A mesh
 /// without triangles and a point cloud are drawn as points, a sphere-swept convex mesh without the swept

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "render/color.h"
 #include "render/image.h"
 
 namespace rex::internal {

@@ -15,6 +15,9 @@ namespace rex {
 /// finished picture, for films; by four samples per pixel, for stills.
 enum class AntiAliasing { kNone, kFxaa, kMsaa4 };
 
+/// That of frames of a film: in motion, the best one would look no different.
+inline constexpr AntiAliasing kFilmAntiAliasing = AntiAliasing::kFxaa;
+
 /// Settings for drawing pictures; their content is a Picture.
 struct RendererOptions {
   int width = 640;  ///< pixels, 1 to 8192

@@ -2,6 +2,7 @@
 
 #include <string_view>
 
+#include "render/color.h"
 #include "render/image.h"
 
 namespace rex {

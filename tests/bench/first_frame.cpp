@@ -1,7 +1,9 @@
 // first_frame FILE: loads the man scene and writes a picture of it, as a user's first program does.
 #include "formats/ors_reader.h"
+#include "kinematics/forward_kinematics.h"
 #include "render/image.h"
 #include "render/picture.h"
+#include "scene/model.h"
 #include "support/draw_once.h"
 #include "support/paths.h"
 

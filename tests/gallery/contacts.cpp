@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "contact/contact_scenes.h"
+#include "kinematics/forward_kinematics.h"
 #include "render/contact_sheet.h"
 #include "render/picture.h"
 #include "render/renderer.h"

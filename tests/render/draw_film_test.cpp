@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include "base/interruption.h"
+#include "render/depth_image.h"
 #include "render/film.h"
 #include "render/frame_sink.h"
+#include "render/renderer.h"
 #include "support/expect_error.h"
 #include "support/needs_osmesa.h"
 

@@ -3,9 +3,12 @@
 
 #include "geometry/rotation.h"
 #include "geometry/welded_mesh.h"
+#include "kinematics/forward_kinematics.h"
 #include "render/mesh_store_internal.h"
 #include "render/picture.h"
 #include "render/renderer.h"
+#include "scene/model.h"
+#include "scene/scene_spec.h"
 #include "support/draw_once.h"
 #include "support/image_difference.h"
 #include "support/mesh_samples.h"
