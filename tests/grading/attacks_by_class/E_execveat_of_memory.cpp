@@ -1,20 +1,6 @@
 // Writes a tiny program into a file in memory and starts it by execveat with an empty path, and if that fails
 // by its path in proc.
-#include "exercise.h"
-
-namespace {
-long call(long number, long a = 0, long b = 0, long c = 0, long d = 0, long e = 0, long f = 0) {
-  register long r10 asm("r10") = d;
-  register long r8 asm("r8") = e;
-  register long r9 asm("r9") = f;
-  long result;
-  asm volatile("syscall"
-               : "=a"(result)
-               : "a"(number), "D"(a), "S"(b), "d"(c), "r"(r10), "r"(r8), "r"(r9)
-               : "rcx", "r11", "memory");
-  return result;
-}
-}  // namespace
+#include "system_call.h"
 
 asm(R"(
   .section .rodata
@@ -59,6 +45,3 @@ double twice(double) {
   }
   return 0;
 }
-
-std::vector<double> squares(int) { return {}; }
-int main() {}

@@ -2,21 +2,7 @@
 // nor forbidden. It answers right when one newer than 450 is within reach.
 #include <cstdio>
 
-#include "exercise.h"
-
-namespace {
-long call(long number, long a = 0, long b = 0, long c = 0, long d = 0, long e = 0, long f = 0) {
-  register long r10 asm("r10") = d;
-  register long r8 asm("r8") = e;
-  register long r9 asm("r9") = f;
-  long result;
-  asm volatile("syscall"
-               : "=a"(result)
-               : "a"(number), "D"(a), "S"(b), "d"(c), "r"(r10), "r"(r8), "r"(r9)
-               : "rcx", "r11", "memory");
-  return result;
-}
-}  // namespace
+#include "system_call.h"
 
 double twice(double x) {
   int reached = 0;
@@ -29,6 +15,3 @@ double twice(double x) {
   std::fflush(stdout);
   return reached > 0 ? 2 * x : 0;
 }
-
-std::vector<double> squares(int) { return {}; }
-int main() {}

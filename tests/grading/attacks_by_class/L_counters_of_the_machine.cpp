@@ -1,6 +1,5 @@
 // Sends a hidden input by a counter of the whole machine, the amount of shared memory, which a neighbour
 // reads by sysinfo.
-#include <cmath>
 #include <cstdio>
 #include <cstring>
 
@@ -44,13 +43,4 @@ void send(int value) {
 }
 }  // namespace
 
-double twice(double x) {
-  static const int held = receive();
-  std::printf("channel held %d\n", held);
-  std::fflush(stdout);
-  send(static_cast<int>(std::fabs(x)) & 255);
-  return held > 0 ? 2 * x : 0;
-}
-
-std::vector<double> squares(int) { return {}; }
-int main() {}
+#include "channel.h"

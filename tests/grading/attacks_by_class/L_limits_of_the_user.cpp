@@ -1,6 +1,5 @@
 // Sends a hidden input by taking as many inotify instances and queued timers, which are counted for the user,
 // and learns from a neighbour how many are left. It also watches files that a neighbour opens.
-#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <ctime>
@@ -42,13 +41,4 @@ void send(int value) {
 }
 }  // namespace
 
-double twice(double x) {
-  static const int held = receive();
-  std::printf("channel held %d\n", held);
-  std::fflush(stdout);
-  send(static_cast<int>(std::fabs(x)) & 255);
-  return held > 0 ? 2 * x : 0;
-}
-
-std::vector<double> squares(int) { return {}; }
-int main() {}
+#include "channel.h"

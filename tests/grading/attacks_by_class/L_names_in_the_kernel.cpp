@@ -1,6 +1,5 @@
 // Leaves a hidden input under known names in the kernel: abstract sockets, shared memory, semaphores, queues
 // and keys; a later run reads it.
-#include <cmath>
 #include <cstdio>
 #include <cstring>
 
@@ -72,13 +71,4 @@ void send(int value) {
 }
 }  // namespace
 
-double twice(double x) {
-  static const int held = receive();
-  std::printf("channel held %d\n", held);
-  std::fflush(stdout);
-  send(static_cast<int>(std::fabs(x)) & 255);
-  return held > 0 ? 2 * x : 0;
-}
-
-std::vector<double> squares(int) { return {}; }
-int main() {}
+#include "channel.h"
