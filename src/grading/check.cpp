@@ -19,6 +19,7 @@ namespace rex::grading {
 namespace {
 
 constexpr std::size_t kLongestText = 2000;
+constexpr double kTurn = 2 * std::numbers::pi, kNoPeriod = std::numeric_limits<double>::infinity();
 
 /// Ends a check function or a case. Not a std::exception, so that no check function catches it by accident.
 struct RequirementFailed {};
@@ -86,19 +87,12 @@ void requireSound(bool sound, const CheckInfo& info, const std::string& fault) {
   if (!sound) throw std::logic_error("check '" + info.id + "' " + fault);
 }
 
-// False for other shapes, empty ones, and numbers that are not finite.
-bool isWithin(double tolerance, const MatrixArg& a, const MatrixArg& b) {
-  return a.rows() == b.rows() && a.cols() == b.cols() && a.size() > 0 &&
-         (a - b).cwiseAbs().maxCoeff() <= tolerance;
-}
-
-// The first mistake that gives `got`; one without a value if there is none.
-Mistake mistakeBy(const MatrixArg& got, const MatrixArg& wanted, double tolerance,
-                  const std::vector<Mistake>& mistakes) {
-  for (const Mistake& mistake : mistakes)
-    if (isWithin(tolerance, got, mistake.value) && !isWithin(10 * tolerance, wanted, mistake.value))
-      return mistake;
-  return {"", Eigen::MatrixXd()};
+// Only differences modulo `period` count. False for other shapes, empty ones, and numbers that are not
+// finite.
+bool isWithin(double tolerance, const MatrixArg& a, const MatrixArg& b, double period = kNoPeriod) {
+  if (a.rows() != b.rows() || a.cols() != b.cols() || a.size() == 0) return false;
+  const auto reduced = [period](double x) { return std::abs(std::remainder(x, period)); };
+  return (a - b).unaryExpr(reduced).maxCoeff() <= tolerance;
 }
 
 }  // namespace
@@ -136,10 +130,12 @@ void Check::measure(std::string_view property, double excess, std::string value,
 
 // Only students who see the check's numbers are asked.
 std::string Check::questionAbout(const MatrixArg& got, const MatrixArg& wanted, double tolerance,
-                                 std::string_view unit) const {
+                                 std::string_view unit, double period) const {
   if (info_.group == Group::kHidden) return "";
-  for (const auto& [question, value] : suspects_)
-    if (isWithin(tolerance, got, value)) return question;
+  for (const Mistake& mistake : suspects_)
+    if (isWithin(tolerance, got, mistake.value, period) &&
+        !isWithin(10 * tolerance, wanted, mistake.value, period))
+      return mistake.question;
   for (const InputValue& one : inputs_)
     if (one.value.size() > 1 && !one.value.isZero(tolerance) && isWithin(tolerance, got, one.value))
       return fmt::format("Your value is the input {}, unchanged.", one.name);
@@ -179,7 +175,8 @@ void Check::fail(Shortfall shortfall, const std::optional<Plot>& plot) {
   if (shortfall.question.empty() && !questions_.empty() && info_.group == Group::kVisible)
     shortfall.question = questions_.front();
   if (shortfall.question.empty() && comparison_)
-    shortfall.question = questionAbout(comparison_->got, comparison_->wanted, comparison_->tolerance, "");
+    shortfall.question =
+        questionAbout(comparison_->got, comparison_->wanted, comparison_->tolerance, "", kNoPeriod);
   if (keep(std::move(shortfall)) && info_.group == Group::kVisible) keepEvidence(plot);
   throw RequirementFailed{};
 }
@@ -192,8 +189,7 @@ void Check::near(std::string_view property, double got, double wanted, double to
 
 void Check::near(std::string_view property, const MatrixArg& got, const MatrixArg& wanted, double tolerance,
                  const std::vector<Mistake>& mistakes, std::string_view unit) {
-  const Mistake mistake = mistakeBy(got, wanted, tolerance, mistakes);
-  const auto suspicion = suspect(mistake.question, mistake.value);
+  const auto suspicion = suspect(mistakes);
   near(property, got, wanted, tolerance, unit);
 }
 
@@ -215,7 +211,7 @@ void Check::near(std::string_view property, const MatrixArg& got, const MatrixAr
           .what = "wrong shape",
           .got = shapeText(got.rows(), got.cols()),
           .wanted = shapeText(wanted.rows(), wanted.cols()),
-          .question = questionAbout(got, wanted, tolerance, unit)});
+          .question = questionAbout(got, wanted, tolerance, unit, kNoPeriod)});
   }
   shape(property, got, wanted.rows(), wanted.cols());
   if (got.size() == 0) return;
@@ -234,7 +230,7 @@ void Check::near(std::string_view property, const MatrixArg& got, const MatrixAr
         .wanted = withUnit(valueText(wanted, row, col), unit),
         .tolerance = tolerance > 0 ? withUnit(number(tolerance), unit) : "",
         .deviation = "off by " + withUnit(number(error), unit),
-        .question = questionAbout(got, wanted, tolerance, unit),
+        .question = questionAbout(got, wanted, tolerance, unit, kNoPeriod),
         .excess = excess},
        plot);
 }
@@ -270,9 +266,8 @@ void Check::nearAngle(std::string_view property, double got, double wanted, doub
   tellAllowance(property, tolerance);
   shape(property, Eigen::Matrix<double, 1, 1>(got), 1, 1);
   const Eigen::Matrix<double, 1, 1> gotEntry(got), wantedEntry(wanted);
-  const Mistake mistake = mistakeBy(gotEntry, wantedEntry, tolerance, mistakes);
-  const auto suspicion = suspect(mistake.question, mistake.value);
-  const double error = std::abs(std::remainder(got - wanted, 2 * std::numbers::pi));
+  const auto suspicion = suspect(mistakes);
+  const double error = std::abs(std::remainder(got - wanted, kTurn));
   const double excess = excessOver(tolerance, error - tolerance);
   measure(property, excess, "off by " + withUnit(number(error), "rad"), atMostText(tolerance, "rad"));
   if (state(error <= tolerance)) return;
@@ -281,7 +276,7 @@ void Check::nearAngle(std::string_view property, double got, double wanted, doub
         .wanted = withUnit(number(wanted), "rad"),
         .tolerance = withUnit(number(tolerance), "rad"),
         .deviation = "off by " + withUnit(number(error), "rad"),
-        .question = questionAbout(gotEntry, wantedEntry, tolerance, "rad"),
+        .question = questionAbout(gotEntry, wantedEntry, tolerance, "rad", kTurn),
         .excess = excess});
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
@@ -116,19 +117,26 @@ class Check {
   /// the check is hidden.
   const std::optional<Evidence>& evidence() const { return evidence_; }
 
-  /// While the returned object is alive, near() whose `got` is that value (a wrong one, by a mistake that
-  /// students make) asks the question: "Is S never moved?" Others are found by usualMistake().
-  [[nodiscard]] auto suspect(std::string question, Eigen::MatrixXd value) {
+  /// While the returned object is alive, near() asks about the first mistake whose value is within the
+  /// tolerance of `got`: "Is S never moved?" Mistakes that hardly differ from the wanted value, by at most
+  /// ten tolerances, explain nothing. Others are found by usualMistake().
+  [[nodiscard]] auto suspect(const std::vector<Mistake>& mistakes) {
     struct Suspecting {
-      std::vector<std::pair<std::string, Eigen::MatrixXd>>& suspects;
+      std::vector<Mistake>& suspects;
       std::size_t before;
-      ~Suspecting() { suspects.resize(before); }
+      ~Suspecting() {
+        suspects.erase(suspects.begin() + static_cast<std::ptrdiff_t>(before), suspects.end());
+      }
     };
-    suspects_.emplace_back(std::move(question), std::move(value));
-    return Suspecting{suspects_, suspects_.size() - 1};
+    const std::size_t before = suspects_.size();
+    suspects_.insert(suspects_.end(), mistakes.begin(), mistakes.end());
+    return Suspecting{suspects_, before};
+  }
+  [[nodiscard]] auto suspect(std::string question, const Eigen::MatrixXd& value) {
+    return suspect({Mistake(std::move(question), value)});
   }
   [[nodiscard]] auto suspect(std::string question, double value) {
-    return suspect(std::move(question), Eigen::MatrixXd(Eigen::MatrixXd::Constant(1, 1, value)));
+    return suspect({Mistake(std::move(question), value)});
   }
 
   /// While the returned object is alive, a requirement that does not hold asks the question, if it
@@ -164,8 +172,7 @@ class Check {
   /// The same for every entry, after comparing the shapes.
   void near(std::string_view property, const MatrixArg& got, const MatrixArg& wanted, double tolerance,
             std::string_view unit = "");
-  /// The same; a visible check that fails asks about the first mistake whose value is within the tolerance of
-  /// `got`. Mistakes that hardly differ from the wanted value, by at most ten tolerances, explain nothing.
+  /// The same; a visible check that fails asks about these mistakes, as after suspect().
   void near(std::string_view property, double got, double wanted, double tolerance,
             const std::vector<Mistake>& mistakes, std::string_view unit = "");
   void near(std::string_view property, const MatrixArg& got, const MatrixArg& wanted, double tolerance,
@@ -175,7 +182,8 @@ class Check {
   /// Requires the shape rows x cols and finite entries. State this before the grader computes with a
   /// student's value.
   void shape(std::string_view property, const MatrixArg& got, Eigen::Index rows, Eigen::Index cols);
-  /// The same as near() for angles in radians: only the difference modulo a whole turn counts.
+  /// The same as near() for angles in radians: only differences modulo a whole turn count, also from
+  /// mistakes.
   void nearAngle(std::string_view property, double got, double wanted, double tolerance,
                  const std::vector<Mistake>& mistakes = {});
 
@@ -246,7 +254,7 @@ class Check {
   void along(std::string_view property, const Signal& got, const Rule& rule, std::string_view unit);
   void requireSignal(const Signal& got) const;
   std::string questionAbout(const MatrixArg& got, const MatrixArg& wanted, double tolerance,
-                            std::string_view unit) const;
+                            std::string_view unit, double period) const;
   bool keep(Shortfall shortfall);
   void keepRefused(const remote::AnswerRefused& refused);
   [[noreturn]] void fail(Shortfall shortfall, const std::optional<Plot>& plot = {});
@@ -266,7 +274,7 @@ class Check {
   std::function<void(bool)> watchCase_;
   std::optional<Comparison> comparison_;
   std::function<std::string()> lastCalled_;
-  std::vector<std::pair<std::string, Eigen::MatrixXd>> suspects_;
+  std::vector<Mistake> suspects_;
   std::vector<std::string> questions_;
   std::optional<Evidence> evidence_;
   std::optional<Shortfall> worst_;  ///< the worst requirement that does not hold

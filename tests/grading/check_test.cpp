@@ -313,6 +313,38 @@ TEST(Check, AsksAboutUsualMistakesAndThoseThatTheAuthorSuspects) {
               }),
               Not(HasSubstr("never moved")))
       << "the suspicion has ended";
+  EXPECT_THAT(messageOf([&](Check& check) {
+                const auto rounded = check.suspect("Is it rounded?", wanted + Eigen::Vector2d(5e-6, 0));
+                check.near("posture", wanted + Eigen::Vector2d(5e-6, 0), wanted, 1e-6);
+              }),
+              Not(HasSubstr("rounded")))
+      << "it hardly differs from the wanted value";
+}
+
+TEST(Check, KnowsMistakesInAnglesModuloAWholeTurn) {
+  const double turn = 2 * std::numbers::pi;
+  for (const double turns : {-2., 0., 1.}) {
+    const auto ask = [&](double suspected, bool isPassed) {
+      return messageOf([&](Check& check) {
+        const auto outside = check.suspect("Outside?", isPassed ? 0.7 : suspected);
+        const std::vector<Mistake> mistakes{{"Passed?", isPassed ? suspected : 0.7}};
+        check.nearAngle("heading", 3.2 + turns * turn, 3.1, 1e-3, mistakes);
+      });
+    };
+    EXPECT_THAT(ask(3.2, true), ::testing::EndsWith(". Passed?")) << turns;
+    EXPECT_THAT(ask(3.2 - turn, false), ::testing::EndsWith(". Outside?")) << turns;
+    EXPECT_THAT(ask(3.3, true), ::testing::EndsWith("(seed 7)")) << turns;
+  }
+  EXPECT_THAT(messageOf([&](Check& check) {
+                check.nearAngle("heading", 3.105, 3.1, 1e-3, {{"A turn more?", 3.105 + turn}});
+              }),
+              ::testing::EndsWith("(seed 7)"))
+      << "it hardly differs from the wanted angle";
+  EXPECT_THAT(messageOf([&](Check& check) {
+                check.near("x", 0.2 + turn, 0, 1e-3, {{"Plain?", 0.2}});
+              }),
+              ::testing::EndsWith("(seed 7)"))
+      << "numbers have no turns";
 }
 
 TEST(Check, AsksAboutTheFirstMistakeThatExplainsAValue) {
