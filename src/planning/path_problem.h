@@ -52,7 +52,7 @@ struct PathResult {
   int samples = 0;         ///< random targets; RRT* may draw up to 101 configurations for an informed one
   long asked = 0;          ///< configurations that were checked for validity
   std::vector<PathTree> trees{};
-  std::string message{};
+  std::string message{};  ///< for people: whether a path was found, after how much work
 };
 
 /// The length of a path, one configuration per column.

@@ -98,15 +98,17 @@ bool growsTrees(Planner planner) {
   return planner == Planner::kRrt || planner == Planner::kRrtConnect || planner == Planner::kRrtStar;
 }
 
-void requireFreeEnds(const PathProblem& problem, double margin) {
-  const auto requireFree = [&](const char* option, const Eigen::VectorXd& q) {
-    if (problem.allValid(q)) return;
-    throw UsageError({.what = option,
-                      .found = escapeForTerminal(problem.reason(q)),
-                      .wanted = fmt::format("all shapes {:g} m apart, the --margin", margin)});
-  };
-  requireFree("--start", problem.start);
-  requireFree("--goal", problem.goal);
+void requireClear(const char* option, const VectorArg& q, const AllValid& allValid,
+                  const std::function<std::string(const VectorArg& q)>& reason, double margin) {
+  if (allValid(q)) return;
+  throw UsageError({.what = option,
+                    .found = escapeForTerminal(reason(q)),
+                    .wanted = fmt::format("all shapes {:g} m apart, the --margin", margin)});
+}
+
+void requireClearEnds(const PathProblem& problem, double margin) {
+  requireClear("--start", problem.start, problem.allValid, problem.reason, margin);
+  requireClear("--goal", problem.goal, problem.allValid, problem.reason, margin);
 }
 
 FoundPath searchPath(const PathTask& task, const PathSearch& search, std::uint64_t seed) {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -47,8 +48,11 @@ struct PathTask {
   PathProblem problem;
 };
 
-/// Throws UsageError naming --start or --goal if it is not valid, with the reason.
-void requireFreeEnds(const PathProblem& problem, double margin);
+/// Throws UsageError with the reason and the margin if the posture that `option` gives is not valid.
+void requireClear(const char* option, const VectorArg& q, const AllValid& allValid,
+                  const std::function<std::string(const VectorArg& q)>& reason, double margin);
+/// The same for both ends of a path.
+void requireClearEnds(const PathProblem& problem, double margin);
 
 /// How `rex plan` searches.
 struct PathSearch {

@@ -25,24 +25,24 @@
 namespace rex::cli {
 namespace {
 
-// Where they depend on the planner.
+// Defaults and ranges that depend on the planner.
 struct PlannerDefaults {
   double margin = 0.01, resolution = 0.02;
   int samples = PathSearch{}.samples;
+  Range margins{0, kQueryCutoff}, budgets{1, 1e7};  // of margin and samples
 };
 
 PlannerDefaults defaultsOf(Planner planner) {
   if (planner == Planner::kHybridAStar) return {.margin = 0.05, .resolution = 0.05};
   if (planner == Planner::kRrtStar) return {.samples = 10'000};  // RRT* uses all of them
-  if (!drawsSamples(planner)) return {.margin = 0.02};
-  return growsTrees(planner) ? PlannerDefaults{} : PlannerDefaults{.samples = 2000};
+  if (!drawsSamples(planner)) return {.margin = 0.02, .margins = {1e-4, kQueryCutoff}};
+  return growsTrees(planner) ? PlannerDefaults{} : PlannerDefaults{.samples = 2000, .budgets = {1, 1e5}};
 }
 
 PathSearch searchOf(const PlanOptions& options) {
   PathSearch search{.planner = options.planner, .step = options.step, .smooth = !options.noSmooth};
-  search.samples = options.samples.value_or(defaultsOf(search.planner).samples);
+  search.samples = *options.samples;
   search.timeLimit = options.timeLimit;
-  if (!growsTrees(search.planner)) requireBetween("--samples", search.samples, 1, 1e5);
   return search;
 }
 
@@ -54,7 +54,7 @@ PathTask taskOf(Model model, const PlanOptions& options) {
   const Eigen::VectorXd goal = postureWithinLimits(model, "--goal", options.goal);
   PathProblem problem = asWrongUse(
       [&] { return robotProblem(model, contacts, start, goal, *options.margin, *options.resolution); });
-  requireFreeEnds(problem, *options.margin);
+  requireClearEnds(problem, *options.margin);
   return {std::move(model), contacts, std::move(problem)};
 }
 
@@ -103,11 +103,15 @@ ExitCode planPath(const PlanOptions& options, const RenderPlan& pictures, Model 
 
 ExitCode plan(const Project& project, PlanOptions options) {
   const bool isCar = options.planner == Planner::kHybridAStar, isPath = drawsSamples(options.planner);
-  if (!options.margin) options.margin = defaultsOf(options.planner).margin;
-  if (!options.resolution) options.resolution = defaultsOf(options.planner).resolution;
+  const PlannerDefaults usual = defaultsOf(options.planner);
+  options.margin = options.margin.value_or(usual.margin);
+  options.resolution = options.resolution.value_or(usual.resolution);
+  options.samples = options.samples.value_or(usual.samples);
   const Facing facing = facingOf(fileOf(project, options.scene));
   requireGiven("--goal", options.goal, "plan");
   requireGiven("--out", options.out.string(), "plan");
+  requireBetween("--margin", *options.margin, usual.margins.least, usual.margins.most);
+  requireBetween("--samples", *options.samples, usual.budgets.least, usual.budgets.most);
   RenderOptions film = options.film;
   film.out = options.out / "path.mp4";
   if (isCar && film.cameras.empty()) film.cameras = {"0,-0.5,1"};  // a street is seen from above
@@ -155,10 +159,7 @@ void addPlan(CLI::App* command, Action& action) {
                        {"--goal", options->goal, "GOAL",
                         "posture to reach, as for --start; with --planner optimize, BODY:x,y,z in metres"},
                        {"--planner", options->planner, plannerNames(), "how to search"},
-                       {"--margin",
-                        options->margin,
-                        {0, kQueryCutoff},
-                        "METRES",
+                       {"--margin", options->margin, usual.margins, "METRES",
                         fmt::format("clearance to keep between all shapes (default: {:g}; hybrid-astar {:g}, "
                                     "optimize --avoid {:g})",
                                     usual.margin, car.margin, defaultsOf(Planner::kOptimize).margin)},
@@ -170,10 +171,7 @@ void addPlan(CLI::App* command, Action& action) {
   addGl(command, options->film.gl);
   const auto drawn = addOptions(
       command,
-      {{"--samples",
-        options->samples,
-        {1, 1e7},
-        "N",
+      {{"--samples", options->samples, usual.budgets, "N",
         fmt::format("budget of samples (default: {}; rrt-star {}, roadmaps {})", usual.samples,
                     defaultsOf(Planner::kRrtStar).samples, defaultsOf(Planner::kPrm).samples)},
        {"--time-limit",

@@ -97,13 +97,6 @@ std::pair<BodyId, Eigen::Vector3d> goalOf(const Model& model, const std::string&
   return {body, parsePoint(text.substr(colon + 1), "--goal", "BODY:x,y,z")};
 }
 
-void requireStartIsClear(const TrajectoryTask& task) {
-  if (contactFree(task.model, task.contacts, task.margin)(task.start)) return;
-  throw UsageError({.what = "--start",
-                    .found = escapeForTerminal(nearestContact(task.model, task.contacts, task.start)),
-                    .wanted = fmt::format("all shapes {:g} m apart, the --margin", task.margin)});
-}
-
 TrajectoryTask motionTaskOf(Model model, const PlanOptions& options) {
   const auto [body, p_WQ] = goalOf(model, options.goal);
   ContactModel contacts = contactModelOf(model);
@@ -121,7 +114,10 @@ TrajectoryTask motionTaskOf(Model model, const PlanOptions& options) {
   if (task.avoids && task.contacts.pairs().empty())
     note(escapeForTerminal(task.model.name()) + ": no two shapes may collide: there is nothing to avoid");
   task.avoids = task.avoids && !task.contacts.pairs().empty();
-  if (task.avoids) requireStartIsClear(task);
+  if (task.avoids)
+    requireClear(
+        "--start", task.start, contactFree(task.model, task.contacts, task.margin),
+        [&](const VectorArg& q) { return nearestContact(task.model, task.contacts, q); }, task.margin);
   return task;
 }
 
@@ -226,7 +222,6 @@ Results resultsOf(const TrajectoryTask& task, const FoundTrajectory& found) {
 
 // Moves a body to a point with little acceleration.
 ExitCode planMotion(const PlanOptions& options, const RenderPlan& pictures, Model model) {
-  requireBetween("--margin", *options.margin, 1e-4, 1);
   if (model.nq() != model.nv())
     throw UsageError(
         {.what = model.name(), .found = "joints with quaternions", .wanted = "hinges and sliders"});

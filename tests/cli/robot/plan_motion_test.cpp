@@ -147,10 +147,11 @@ TEST_F(MotionPlan, RefusesWrongUse) {
                 "(did you mean 'optimize-penalty'");
   expectRefusal({"board", "--goal", "eff:0,0,0", "--wheelbase", "3"},
                 "--wheelbase: found --planner optimize, wanted --planner hybrid-astar");
-  expectRefusal({"board", "--goal", "eff:0,0,0", "--margin", "0"}, "--margin");
+  expectRefusal({"board", "--goal", "eff:0,0,0", "--margin", "0"}, "--margin: found 0, wanted 0.0001 to 0.5");
+  expectRefusal({"board", "--goal", "eff:0,0,0", "--margin", "0.6"}, "--margin: found 0.6, wanted 0 to 0.5");
   expectRefusal({"board", "--goal", "eff:0,0,0", "--start", "1,2"}, "--start");
   expectRefusal({"board", "--goal", "eff:0,0,0", "--avoid", "--margin", "0.5"},
-                "wanted all shapes 0.5 m apart");
+                "m apart, wanted all shapes 0.5 m apart, the --margin");
   std::ofstream(in("ball.ors"))
       << "body base {}\nbody ball {}\nshape (ball) { type=ST_sphere size=[0 0 0 .1] }\n"
          "joint spin (base ball) { type=quatBall }\n";
