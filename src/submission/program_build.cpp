@@ -8,7 +8,10 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/process.h"
 #include "base/text_file.h"
+#include "submission/included_files.h"
+#include "submission/made_from.h"
 
 namespace rex::submission {
 namespace {
@@ -138,47 +141,36 @@ bool isOwn(std::string_view name, const std::vector<std::string>& flags) {
   return false;
 }
 
-// The files after the colon of a make rule written by g++. A blank in a name is escaped by a backslash.
-std::vector<std::string> prerequisites(const std::string& rule) {
-  std::vector<std::string> files(1);
-  for (std::size_t i = rule.find(": "); i < rule.size(); ++i) {
-    const bool escaped = rule[i] == '\\' && i + 1 < rule.size();
-    if (escaped && rule[i + 1] != '\n')
-      files.back() += rule[++i];
-    else if (escaped || rule[i] == ' ' || rule[i] == '\n')
-      files.emplace_back();
-    else
-      files.back() += rule[i];
-  }
-  std::erase(files, "");
-  std::erase(files, ":");
-  return files;
-}
-
 // Whether the course's header that these flags find is among the files: another rex has another one.
-bool isOfThisRex(const std::vector<std::string>& files, const std::vector<std::string>& flags) {
+bool isOfThisRex(const std::vector<fs::path>& files, const std::vector<std::string>& flags) {
   constexpr const char* kHeader = "course/course.h";
   for (std::size_t i = 1; i < flags.size(); ++i) {
     const fs::path header = fs::path(flags[i]) / kHeader;
     if (flags[i - 1] != "-isystem" || !fs::exists(header)) continue;
-    return std::any_of(files.begin(), files.end(), [&](const std::string& file) {
+    return std::any_of(files.begin(), files.end(), [&](const fs::path& file) {
       std::error_code missing;
-      return file.ends_with(kHeader) && fs::equivalent(file, header, missing);
+      return file.string().ends_with(kHeader) && fs::equivalent(file, header, missing);
     });
   }
   return true;
 }
 
-bool isCurrent(const fs::path& precompiled, const fs::path& rule, const std::vector<std::string>& flags) {
+fs::path precompiled(const fs::path& prefix) { return prefix.string() + ".gch"; }
+fs::path ruleOf(const fs::path& prefix) { return prefix.string() + ".d"; }
+
+std::vector<fs::path> prerequisites(const fs::path& prefix) {
+  return dependenciesIn(readTextFile(ruleOf(prefix)), prefix.parent_path());
+}
+
+// Without a record, the build program keeps it up to date, which goes by the order of times.
+bool isCurrent(const fs::path& prefix, const std::vector<std::string>& flags) {
   std::error_code missing;
-  const auto made = fs::last_write_time(precompiled, missing);
-  if (missing || !fs::exists(rule)) return false;
-  const std::vector<std::string> files = prerequisites(readTextFile(rule));
-  return !files.empty() && isOfThisRex(files, flags) &&
-         std::all_of(files.begin(), files.end(), [&](const std::string& file) {
-           const auto changed = fs::last_write_time(file, missing);
-           return !missing && changed <= made;
-         });
+  const auto made = fs::last_write_time(precompiled(prefix), missing);
+  if (missing || !fs::exists(ruleOf(prefix))) return false;
+  const std::vector<fs::path> files = prerequisites(prefix);
+  if (files.empty() || !isOfThisRex(files, flags)) return false;
+  const fs::path record = recordOf(precompiled(prefix));
+  return fs::exists(record) ? haveStamps(readTextFile(record)) : !stampsOf(files, made).empty();
 }
 
 }  // namespace
@@ -202,8 +194,31 @@ bool opensWithCourseHeader(std::string_view source, const std::vector<std::strin
 std::vector<std::string> prefixFlags(const fs::path& prefix, std::string_view source,
                                      const std::vector<std::string>& flags) {
   if (prefix.empty() || !opensWithCourseHeader(source, flags)) return {};
-  if (!isCurrent(prefix.string() + ".gch", prefix.string() + ".d", flags)) return {};
+  if (!isCurrent(prefix, flags)) return {};
   return {"-include", prefix.string()};
+}
+
+void makePrefix(const fs::path& prefix, const Toolchain& toolchain) {
+  const std::string text = "#include \"course/course.h\"\n";
+  if (!prefixFlags(prefix, text, toolchain.flags).empty()) return;
+  writeTextFile(prefix, text);
+  const auto started = fs::file_time_type::clock::now();
+  const fs::path made = precompiled(prefix), half = prefix.string() + ".new";
+  std::vector<std::string> command = {toolchain.compiler};
+  command.insert(command.end(), toolchain.flags.begin(), toolchain.flags.end());
+  command.insert(command.end(),
+                 {"-MD", "-MF", ruleOf(prefix), "-MQ", made, "-x", "c++-header", prefix, "-o", half});
+  constexpr double kLongest = 300;  // seconds
+  const ProcessResult run = runProcess(command, {.timeout = kLongest});
+  if (!run.ok())
+    throw Error({.what = "the compiler cannot read the library",
+                 .where = {toolchain.compiler},
+                 .found = run.error.substr(0, run.error.find('\n')),
+                 .wanted = "g++ in the version that rex was built with"});
+  fs::remove(recordOf(made));
+  fs::rename(half, made);
+  const std::string stamps = stampsOf(prerequisites(prefix), started);
+  if (!stamps.empty()) replaceTextFile(recordOf(made), stamps, "what a header was made from");
 }
 
 namespace {

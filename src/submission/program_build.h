@@ -10,12 +10,16 @@
 namespace rex::submission {
 
 /// Flags that make g++ start from the precompiled header next to `prefix`, which includes only
-/// course/course.h. Empty if that is missing or older than a file it was made from, if `prefix` is empty,
-/// and unless the source opensWithCourseHeader(). `flags` are the other compiler flags. Messages and
-/// program are the same with and without it.
+/// course/course.h. Empty if that is missing or was made from other files, if `prefix` is empty, and unless
+/// the source opensWithCourseHeader(). `flags` are the other compiler flags. Messages and program are the
+/// same with and without it.
 [[nodiscard]] std::vector<std::string> prefixFlags(const std::filesystem::path& prefix,
                                                    std::string_view source,
                                                    const std::vector<std::string>& flags);
+
+/// Makes `prefix`, and beside it what prefixFlags() looks for, unless it is there and current. Throws Error
+/// if the toolchain's compiler refuses the header.
+void makePrefix(const std::filesystem::path& prefix, const Toolchain& toolchain);
 
 /// Whether a source includes "exercise.h" or "course/course.h" before anything except blank lines, //
 /// comments, standard C++ headers, and headers in the -iquote and -isystem folders of the flags. Then

@@ -55,23 +55,18 @@ class PrefixTest : public ::testing::Test {
         "inline int half(int a) { return a / 2; } }\n");
     writeTextFile(folder() / "exercise/exercise.h",
                   "#pragma once\n#include \"course/course.h\"\nint twice(int a);\n");
-    writeTextFile(prefix(), "#include \"course/course.h\"\n");
-    std::vector<std::string> command = {"g++"};
-    for (const std::string& flag : toolchain().flags) command.push_back(flag);
-    const path precompiled = prefix().string() + ".gch";
-    command.insert(command.end(), {"-MD", "-MF", prefix().string() + ".d", "-MQ", precompiled, "-x",
-                                   "c++-header", prefix(), "-o", precompiled});
-    const ProcessResult made = runProcess(command, {.directory = folder()});
-    ASSERT_TRUE(made.ok()) << made.error;
+    setAge(header(), 1h);
+    makePrefix(prefix(), toolchain());
   }
   static void TearDownTestSuite() { shared_.reset(); }
-  void TearDown() override { setAge(folder() / "src/course/course.h", 1h); }
-  void SetUp() override { TearDown(); }
+  void TearDown() override { setAge(header(), 1h); }
 
   static path folder() { return shared_->path() / "a folder"; }
   static path prefix() { return folder() / "prefix.h"; }
+  static path header() { return folder() / "src/course/course.h"; }
   static void setAge(const path& file, std::chrono::hours age) {
-    std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now() - age);
+    static const auto kNow = std::filesystem::file_time_type::clock::now();
+    std::filesystem::last_write_time(file, kNow - age);
   }
 
   static Toolchain toolchain() {
@@ -103,8 +98,31 @@ TEST_F(PrefixTest, GivesFlagsWhileItIsCurrent) {
   writeTextFile(folder() / "moved/course/course.h", readTextFile(folder() / "src/course/course.h"));
   EXPECT_TRUE(prefixFlags(prefix(), kSource, {"-isystem", (folder() / "moved").string()}).empty())
       << "made with the header of another rex";
-  setAge(folder() / "src/course/course.h", -1h);
+  for (const std::chrono::hours age : {-1h, 2h}) {
+    setAge(header(), age);
+    EXPECT_TRUE(prefixFlags(prefix(), kSource, {}).empty()) << "an updated rex may have older headers";
+  }
+  setAge(header(), 1h);
+  EXPECT_FALSE(prefixFlags(prefix(), kSource, {}).empty());
+}
+
+TEST_F(PrefixTest, IsMadeOnceForTheSameFiles) {
+  const path precompiled = prefix().string() + ".gch";
+  const auto made = std::filesystem::last_write_time(precompiled);
+  makePrefix(prefix(), toolchain());
+  EXPECT_EQ(std::filesystem::last_write_time(precompiled), made);
+  setAge(header(), 2h);
+  makePrefix(prefix(), toolchain());
+  EXPECT_NE(std::filesystem::last_write_time(precompiled), made);
+  EXPECT_FALSE(prefixFlags(prefix(), kSource, {}).empty());
+  setAge(header(), 1h);
+  makePrefix(prefix(), toolchain());
+  std::filesystem::remove(prefix().string() + ".gch.made-from");
+  EXPECT_FALSE(prefixFlags(prefix(), kSource, {}).empty()) << "a build program looks after this one";
+  setAge(header(), -1h);
   EXPECT_TRUE(prefixFlags(prefix(), kSource, {}).empty());
+  setAge(header(), 1h);
+  makePrefix(prefix(), toolchain());
 }
 
 TEST_F(PrefixTest, GivesNoFlagsWhereAFileIsMissing) {
@@ -120,12 +138,13 @@ TEST_F(PrefixTest, GivesNoFlagsWhereAFileIsMissing) {
 
 TEST_F(PrefixTest, IsTakenByTheCompiler) {
   // The compiler reads this only if it does not take what was made before.
+  const auto written = std::filesystem::last_write_time(prefix());
   writeTextFile(prefix(), "#error not precompiled\n");
-  setAge(prefix(), 1h);
+  std::filesystem::last_write_time(prefix(), written);
   const StudentObject object =
       compile(toolchain(), "#include \"exercise.h\"\nint twice(int a) { return a; }\n");
   writeTextFile(prefix(), "#include \"course/course.h\"\n");
-  setAge(prefix(), 1h);
+  std::filesystem::last_write_time(prefix(), written);
   EXPECT_TRUE(object.ok) << object.log;
 }
 

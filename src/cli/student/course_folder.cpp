@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "base/process.h"
 #include "base/sha256.h"
 #include "base/text.h"
 #include "base/text_file.h"
@@ -173,27 +172,6 @@ void writeCompileCommands(const Project& project) {
   replaceTextFile(project.root / "compile_commands.json", commands.dump(1) + "\n", "compile_commands.json");
 }
 
-void preparePrefix(const Project& project) {
-  const submission::Toolchain toolchain =
-      submission::readProgramToolchain(project.build / "student" / "program.json").toolchain;
-  const std::string prefix = (project.root / kPrefixFile).string();
-  const std::string text = "#include \"course/course.h\"\n";
-  if (!submission::prefixFlags(prefix, text, toolchain.flags).empty()) return;
-  writeTextFile(prefix, text);
-  std::vector<std::string> command = {toolchain.compiler};
-  command.insert(command.end(), toolchain.flags.begin(), toolchain.flags.end());
-  command.insert(command.end(), {"-MD", "-MF", prefix + ".d", "-MQ", prefix + ".gch", "-x", "c++-header",
-                                 prefix, "-o", prefix + ".new"});
-  constexpr double kLongest = 300;  // seconds
-  const ProcessResult made = runProcess(command, {.timeout = kLongest});
-  if (!made.ok())
-    throw Error({.what = "the compiler cannot read the library",
-                 .where = {toolchain.compiler},
-                 .found = made.error.substr(0, made.error.find('\n')),
-                 .wanted = "g++ in the version that rex was built with"});
-  fs::rename(prefix + ".new", prefix + ".gch");
-}
-
 }  // namespace
 
 std::vector<HandedOut> handOut(const fs::path& installed, const fs::path& course) {
@@ -221,7 +199,9 @@ void prepareTools(const Project& course) {
   writeCompileCommands(course);
   try {
     const ProgressLine line([] { return std::string("preparing the compiler, once"); });
-    preparePrefix(course);
+    submission::makePrefix(
+        course.root / kPrefixFile,
+        submission::readProgramToolchain(course.build / "student" / "program.json").toolchain);
   } catch (const Error& error) {
     note(wrap(fmt::format("Compiling will take longer: {}", error.what()), 2, 0));
   }

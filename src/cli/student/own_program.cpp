@@ -20,6 +20,7 @@
 #include "cli/student/student_file.h"
 #include "cli/terminal.h"
 #include "submission/included_files.h"
+#include "submission/made_from.h"
 #include "submission/program_build.h"
 
 namespace rex::cli {
@@ -132,45 +133,30 @@ void listResults(const fs::path& folder, fs::file_time_type since) {
   for (const std::string& line : files) say("  " + line);
 }
 
-// Beside the program: the targets of its libraries, an empty line, and the stamps of the files that it was
-// made from.
-fs::path recordOf(const fs::path& kept) { return kept.string() + ".made-from"; }
-
-// The time of its last change and its path; empty for a file that is not there.
-std::string fileStamp(const fs::path& file) {
-  std::error_code missing;
-  const auto changed = fs::last_write_time(file, missing);
-  return missing ? "" : fmt::format("{} {}", changed.time_since_epoch().count(), file.string());
-}
-
-// The record is written last, and whole. There is none if a file changed while it was compiled.
+// The record, the targets of its libraries, an empty line, and stamps, is written last, and whole. There is
+// none if a file changed while it was compiled.
 void keep(const OwnProgram& built, const fs::path& kept, fs::file_time_type started) {
   fs::create_directories(kept.parent_path());
-  fs::remove(recordOf(kept));
+  const fs::path record = submission::recordOf(kept);
+  fs::remove(record);
   const fs::path half = fmt::format("{}.{}", kept.string(), ::getpid());
   fs::copy_file(built.program, half, fs::copy_options::overwrite_existing);
   fs::rename(half, kept);
-  std::string record = join(built.targets, "\n") + "\n\n";
-  for (const fs::path& one : built.madeFrom) {
-    if (fs::last_write_time(one) > started) return;
-    record += fileStamp(one) + "\n";
-  }
-  replaceTextFile(recordOf(kept), record, "what a program was made from");
+  const std::string stamps = submission::stampsOf(built.madeFrom, started);
+  if (stamps.empty()) return;
+  replaceTextFile(record, join(built.targets, "\n") + "\n\n" + stamps, "what a program was made from");
 }
 
-// Whether a compiler would make the kept program again. Another rex, whose headers may be older than the
-// program, has other stamps. The libraries are shared: they are brought up to date like those of a new one.
+// Whether a compiler would make the kept program again. The libraries are shared: they are brought up to date
+// like those of a new one.
 bool isCurrent(const Project& project, const fs::path& kept, const std::string& name) {
-  if (!fs::exists(kept) || !fs::exists(recordOf(kept))) return false;
-  const std::string record = readTextFile(recordOf(kept));
-  const std::vector<std::string_view> lines = splitLines(record);
-  const auto gap = std::ranges::find(lines, "");
-  if (gap == lines.end()) return false;
-  const bool isOld = std::any_of(gap + 1, lines.end(), [](std::string_view stamp) {
-    return fileStamp(stamp.substr(stamp.find(' ') + 1)) != stamp;
-  });
-  if (isOld) return false;
-  const std::vector<std::string> targets(lines.begin(), gap);
+  if (!fs::exists(kept) || !fs::exists(submission::recordOf(kept))) return false;
+  const std::string record = readTextFile(submission::recordOf(kept));
+  const std::size_t gap = record.find("\n\n");
+  if (gap == record.npos || !submission::haveStamps(std::string_view(record).substr(gap + 2))) return false;
+  std::vector<std::string> targets;
+  for (const std::string_view one : splitLines(std::string_view(record).substr(0, gap)))
+    if (!one.empty()) targets.emplace_back(one);
   if (!targets.empty()) bringUpToDate(project, targets, "the library for " + name);
   return true;
 }
