@@ -14,7 +14,7 @@
 #include "cli/instructor/class_grades.h"
 #include "cli/instructor/collect.h"
 #include "cli/instructor/dev_verbs.h"
-#include "cli/json_internal.h"
+#include "cli/results_internal.h"
 #include "cli/terminal.h"
 
 namespace rex::cli {
@@ -35,14 +35,14 @@ std::string classesOf(const CheckStatistics& check) {
 }
 
 // How the parts went, so that one sees which is too hard.
-void sayParts(const ExerciseStatistics& all) {
+void addParts(Results& results, const ExerciseStatistics& all) {
   std::size_t width = 0;
   for (const PartStatistics& part : all.parts) width = std::max(width, part.id.size());
   for (const PartStatistics& part : all.parts) {
     const double share = part.maxPoints > 0 ? part.meanPoints / part.maxPoints : 0;
-    say(fmt::format("  part {:{}}  {} {:3.0f} % of {} points, {} of {} have them all",
-                    escapeForTerminal(part.id), width, bar(static_cast<int>(std::lround(share * 1000)), 1000),
-                    100 * share, part.maxPoints, part.full, all.graded));
+    results.line("  part {:{}}  {} {:3.0f} % of {} points, {} of {} have them all",
+                 escapeForTerminal(part.id), width, bar(static_cast<int>(std::lround(share * 1000)), 1000),
+                 100 * share, part.maxPoints, part.full, all.graded);
   }
 }
 
@@ -63,7 +63,7 @@ std::string discriminationText(const CheckStatistics& check) {
   return check.discrimination ? fmt::format("{:.2f}", *check.discrimination) : "";
 }
 
-void sayChecks(const ExerciseStatistics& all) {
+void addChecks(Results& results, const ExerciseStatistics& all) {
   const auto passed = std::count_if(all.checks.begin(), all.checks.end(),
                                     [](const CheckStatistics& check) { return check.failed == 0; });
   for (const CheckStatistics& check : all.checks) {
@@ -74,9 +74,9 @@ void sayChecks(const ExerciseStatistics& all) {
     const std::string text = fmt::format("{} of {} failed: {} [{}{}]: {}{}{}", check.failed, all.graded,
                                          escapeForTerminal(check.title), escapeForTerminal(check.id), mark,
                                          classesOf(check), escapeForTerminal(commonQuestion(check)), worth);
-    say("  " + wrap(text, 6, 6));
+    results.line("  {}", wrap(text, 6, 6));
   }
-  if (passed > 0) say(fmt::format("  {} check{} passed by all", passed, passed == 1 ? "" : "s"));
+  if (passed > 0) results.line("  {} check{} passed by all", passed, passed == 1 ? "" : "s");
 }
 
 // "2 days 5 h", "5 h 12 min", "12 min".
@@ -97,14 +97,15 @@ classroom::LateRule ruleOf(const classroom::LatePolicy& policy, const std::strin
   return rule == policy.end() ? classroom::LateRule{} : rule->second;
 }
 
-void sayFirstFull(const ExerciseStatistics& all, const classroom::LateRule& rule) {
+void addFirstFull(Results& results, const ExerciseStatistics& all, const classroom::LateRule& rule) {
   if (all.full == 0) return;
   if (!all.firstFull) {
-    say("  first full score: at an unknown time, as no list of tasks (tasks.tsv) has it");
+    results.line("  first full score: at an unknown time, as no list of tasks (tasks.tsv) has it");
     return;
   }
   const classroom::FirstFull& first = *all.firstFull;
-  say("  " + wrap(fmt::format("first full score: {}, handed in {}{}{} (time from {})",
+  results.lines.push_back(
+      "  " + wrap(fmt::format("first full score: {}, handed in {}{}{} (time from {})",
                               escapeForTerminal(first.student), instantText(first.submitted),
                               relationText(first.submitted, rule.opening, "opening"),
                               relationText(first.submitted, rule.deadline, "deadline"),
@@ -113,10 +114,10 @@ void sayFirstFull(const ExerciseStatistics& all, const classroom::LateRule& rule
                   6, 6));
 }
 
-void sayAttempts(const ExerciseStatistics& all) {
+void addAttempts(Results& results, const ExerciseStatistics& all) {
   const classroom::AttemptStatistics& attempts = all.attempts;
   if (attempts.known == 0) {
-    say("  attempts unknown: neither a platform nor an import has counted them");
+    results.line("  attempts unknown: neither a platform nor an import has counted them");
     return;
   }
   std::string text =
@@ -125,30 +126,29 @@ void sayAttempts(const ExerciseStatistics& all) {
   if (attempts.atLeast > 0)
     text += fmt::format(", of {} as the number of imports that brought another file: at least so many",
                         attempts.atLeast);
-  say("  " + wrap(text, 6, 6));
+  results.line("  {}", wrap(text, 6, 6));
 }
 
-void sayExercise(const ExerciseStatistics& all, const classroom::LateRule& rule) {
-  say(fmt::format("{}: {} graded, {} with full score", escapeForTerminal(all.exercise), all.graded,
-                  all.full));
+void addStatistics(Results& results, const ExerciseStatistics& all, const classroom::LateRule& rule) {
+  results.line("{}: {} graded, {} with full score", escapeForTerminal(all.exercise), all.graded, all.full);
   if (all.graderFailed > 0)
-    say(fmt::format("  the grader failed on {} more: not counted, to be graded again", all.graderFailed));
+    results.line("  the grader failed on {} more: not counted, to be graded again", all.graderFailed);
   if (all.versions > 1)
-    say(fmt::format("  these results are from {} versions of the exercise: grade again to compare them",
-                    all.versions));
+    results.line("  these results are from {} versions of the exercise: grade again to compare them",
+                 all.versions);
   if (all.graded == 0) return;
-  say(fmt::format("  points   mean {:.4g}, median {:.4g} of {}", all.meanPoints, all.medianPoints,
-                  all.maxPoints));
+  results.line("  points   mean {:.4g}, median {:.4g} of {}", all.meanPoints, all.medianPoints,
+               all.maxPoints);
   std::string bins;
   for (std::size_t k = 0; k < all.distribution.size(); ++k)
     bins += fmt::format("{}{}: {}", k == 0 ? "" : "   ", classroom::kDistribution[k], all.distribution[k]);
-  say("  at least " + bins);
-  say(fmt::format("  grading  median {:.1f} s, longest {:.1f} s ({})", all.medianSeconds, all.longestSeconds,
-                  escapeForTerminal(all.slowest)));
-  sayFirstFull(all, rule);
-  sayAttempts(all);
-  sayParts(all);
-  sayChecks(all);
+  results.line("  at least {}", bins);
+  results.line("  grading  median {:.1f} s, longest {:.1f} s ({})", all.medianSeconds, all.longestSeconds,
+               escapeForTerminal(all.slowest));
+  addFirstFull(results, all, rule);
+  addAttempts(results, all);
+  addParts(results, all);
+  addChecks(results, all);
 }
 
 Json firstFullJson(const ExerciseStatistics& all, const classroom::LateRule& rule) {
@@ -249,21 +249,16 @@ void printStudents(const std::vector<classroom::StudentResult>& results) {
 
 void print(const std::vector<ExerciseStatistics>& all, const classroom::ClassResults& read,
            const classroom::LatePolicy& policy, const StatsOptions& options) {
-  if (options.json) {
-    Json list = Json::array();
-    for (const ExerciseStatistics& exercise : all)
-      list.push_back(toJson(exercise, ruleOf(policy, exercise.exercise), read.results));
-    say(dump(Json{{"exercises", list}, {"not_counted", read.complaints}}));
-  } else if (options.csv) {
-    printCsv(all);
-  } else if (options.students) {
-    printStudents(read.results);
-  } else {
-    for (std::size_t k = 0; k < all.size(); ++k) {
-      if (k > 0) say();
-      sayExercise(all[k], ruleOf(policy, all[k].exercise));
-    }
+  if (options.csv) return printCsv(all);
+  if (options.students) return printStudents(read.results);
+  Results results{.json = {{"exercises", Json::array()}, {"not_counted", read.complaints}}};
+  for (const ExerciseStatistics& exercise : all) {
+    const classroom::LateRule rule = ruleOf(policy, exercise.exercise);
+    if (!results.lines.empty()) results.line("");
+    addStatistics(results, exercise, rule);
+    results.json["exercises"].push_back(toJson(exercise, rule, read.results));
   }
+  results.print(options.json);
 }
 
 }  // namespace
