@@ -27,6 +27,7 @@
 #include "cli/option_table_internal.h"
 #include "cli/out_folder.h"
 #include "cli/project.h"
+#include "cli/results_internal.h"
 #include "cli/robot/render_plan.h"
 #include "cli/robot/robot_options_internal.h"
 #include "cli/sandbox_choice.h"
@@ -76,28 +77,22 @@ Trial tryLevels(const Project& project, sandbox::Level highest) {
   return trial;
 }
 
-void sayTrial(const Trial& trial) {
-  for (const Probe& probe : trial.probes)
-    say(fmt::format("{:<10}  {}  {}", probe.name,
-                    probe.held ? paint(Colour::kGreen, "held ") : paint(Colour::kRed, "fails"),
-                    escapeForTerminal(probe.text)));
-  say(paint(Colour::kBold, describe(trial.level)));
-  if (const std::string warning = sandbox::warningOf(trial.level); !warning.empty()) say(wrap(warning, 0, 0));
-}
-
-void sayTrialAsJson(const Trial& trial, bool ok) {
-  nlohmann::json rows = nlohmann::json::array();
-  for (const Probe& probe : trial.probes)
-    rows.push_back({{"name", probe.name}, {"held", probe.held}, {"text", probe.text}});
-  say(nlohmann::json{{"level", numberOf(trial.level)}, {"probes", rows}, {"ok", ok}}.dump(2));
-}
-
 // Attacks the sandbox from inside with our own program. Returns kWeakSandbox unless the requested level
 // holds.
 ExitCode doctorOfSandbox(const Project& project, const DoctorOptions& options) {
   const Trial trial = tryLevels(project, options.level.value_or(sandbox::Level::kControlGroup));
   const bool ok = trial.level >= options.level.value_or(sandbox::Level::kFiles);
-  options.json ? sayTrialAsJson(trial, ok) : sayTrial(trial);
+  Results results{.json = {{"level", numberOf(trial.level)}, {"probes", Json::array()}, {"ok", ok}}};
+  for (const Probe& probe : trial.probes) {
+    results.line("{:<10}  {}  {}", probe.name,
+                 probe.held ? paint(Colour::kGreen, "held ") : paint(Colour::kRed, "fails"),
+                 escapeForTerminal(probe.text));
+    results.json["probes"].push_back({{"name", probe.name}, {"held", probe.held}, {"text", probe.text}});
+  }
+  results.lines.push_back(paint(Colour::kBold, describe(trial.level)));
+  if (const std::string warning = sandbox::warningOf(trial.level); !warning.empty())
+    results.lines.push_back(wrap(warning, 0, 0));
+  results.print(options.json);
   return ok ? ExitCode::kFull : ExitCode::kWeakSandbox;
 }
 
@@ -334,26 +329,6 @@ const char* nameOf(Status status) {
   return status == Status::kWorks ? "works" : status == Status::kMissing ? "missing" : "fails";
 }
 
-void sayAll(const std::vector<Finding>& findings) {
-  constexpr std::size_t kColumn = 28;
-  for (const Finding& finding : findings) {
-    const Colour colour = finding.status == Status::kWorks ? Colour::kGreen
-                          : isWell(finding)                ? Colour::kYellow
-                                                           : Colour::kRed;
-    say(fmt::format("{:<18}  {} {}", finding.name,
-                    paint(colour, fmt::format("{:<7}", nameOf(finding.status))),
-                    wrap(finding.text, kColumn, kColumn)));
-  }
-  say(toDo(findings));
-}
-
-void sayJson(const std::vector<Finding>& findings, bool ok) {
-  nlohmann::json rows = nlohmann::json::array();
-  for (const Finding& finding : findings)
-    rows.push_back({{"name", finding.name}, {"status", nameOf(finding.status)}, {"text", finding.text}});
-  say(nlohmann::json{{"findings", rows}, {"ok", ok}}.dump(2));
-}
-
 // Tries everything that pictures need on this machine. kGraderFault if something needed does not work. One of
 // the two OpenGL backends is enough unless `gl` names the one that must work.
 ExitCode doctor(const Project& project, const DoctorOptions& options) {
@@ -368,7 +343,19 @@ ExitCode doctor(const Project& project, const DoctorOptions& options) {
   findings.push_back(tryWatching(folder.path()));
   findings.push_back(trySandbox(project, folder.path()));
   const bool ok = std::all_of(findings.begin(), findings.end(), isWell);
-  options.json ? sayJson(findings, ok) : sayAll(findings);
+  Results results{.json = {{"findings", Json::array()}, {"ok", ok}}};
+  for (const Finding& finding : findings) {
+    constexpr std::size_t kColumn = 28;
+    const Colour colour = finding.status == Status::kWorks ? Colour::kGreen
+                          : isWell(finding)                ? Colour::kYellow
+                                                           : Colour::kRed;
+    results.line("{:<18}  {} {}", finding.name, paint(colour, fmt::format("{:<7}", nameOf(finding.status))),
+                 wrap(finding.text, kColumn, kColumn));
+    results.json["findings"].push_back(
+        {{"name", finding.name}, {"status", nameOf(finding.status)}, {"text", finding.text}});
+  }
+  results.lines.push_back(toDo(findings));
+  results.print(options.json);
   return ok ? ExitCode::kFull : ExitCode::kGraderFault;
 }
 
