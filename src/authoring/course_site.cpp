@@ -102,7 +102,7 @@ class SiteWriter {
  private:
   reports::MarkdownPage pageFrom(const fs::path& source, const fs::path& folder) {
     try {
-      return reports::pageOf(readTextFile(root_ / source), [&](const std::string& link) {
+      return reports::markdownPage(readTextFile(root_ / source), [&](const std::string& link) {
         return targetOf(link, source.parent_path(), folder);
       });
     } catch (const Error& error) {

@@ -415,7 +415,7 @@ std::vector<std::string> partsWithoutMistake(const GateContext& context,
 
 // The gates of the variants prove that the picture exists and that the messages are those of the file.
 GateResult mistakesAreShown(const GateContext& context) {
-  const std::vector<submission::WrongVariant> variants = variantsOf(context.exercise);
+  const std::vector<submission::WrongVariant> variants = exerciseVariants(context.exercise);
   if (const auto untried = partsWithoutMistake(context, variants); !untried.empty()) return judge(untried);
   if (!variants.empty() && !std::filesystem::exists(seenMessagesFile(context.exercise.folder)))
     return failed(

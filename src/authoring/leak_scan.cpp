@@ -323,7 +323,7 @@ class Scanner {
         if (isUsualElsewhere(secret, isInstalled_ ? name : fs::path(place))) return;
         if (!told_.insert(k).second) return;
         found_.leaks.push_back({.where = {place, hasLines ? normal.lines[at] : 0},
-                                .what = std::string(nameOf(secret.kind)),
+                                .what = std::string(toString(secret.kind)),
                                 .text = secret.text,
                                 .origin = secret.origin});
       });

@@ -136,7 +136,7 @@ Error unwritten(const path& target, const fs::filesystem_error& error) {
 }  // namespace
 
 std::vector<Secret> secretsOfCourse(const path& root, const path& courseSecret) {
-  std::vector<Secret> secrets = secretsOf(exercisesOf(root), root);
+  std::vector<Secret> secrets = collectSecrets(exercisesOf(root), root);
   if (!courseSecret.empty()) secrets.push_back(courseSecretIn(courseSecret));
   return secrets;
 }
@@ -150,7 +150,7 @@ void requireNoSolutionText(const path& exercise) {
   }
   const PrivateFolder folder(fs::temp_directory_path());
   for (const auto& [name, text] : released) writeTextFile(folder.path() / name, text);
-  const LeakScan scan = scanForLeaks(folder.path(), secretsOf({exercise}, exercise));
+  const LeakScan scan = scanForLeaks(folder.path(), collectSecrets({exercise}, exercise));
   if (scan.leaks.empty()) return;
   const Leak& first = scan.leaks.front();
   throw Error({.what = toString(first)});

@@ -26,7 +26,7 @@ struct Release {
                                           const std::filesystem::path& courseSecret = {},
                                           const std::vector<std::string>& only = {});
 
-/// The secrets in `root` that must not reach students: see secretsOf().
+/// The secrets in `root` that must not reach students: see collectSecrets().
 [[nodiscard]] std::vector<Secret> secretsOfCourse(const std::filesystem::path& root,
                                                   const std::filesystem::path& courseSecret = {});
 

@@ -239,7 +239,7 @@ class Collector {
 
 }  // namespace
 
-std::string_view nameOf(SecretKind kind) {
+std::string_view toString(SecretKind kind) {
   switch (kind) {
     case SecretKind::kSolution:
       return "a line of the solution";
@@ -257,7 +257,7 @@ std::string_view nameOf(SecretKind kind) {
   return "the secret of the course";
 }
 
-std::vector<Secret> secretsOf(const std::vector<fs::path>& exercises, const fs::path& root) {
+std::vector<Secret> collectSecrets(const std::vector<fs::path>& exercises, const fs::path& root) {
   Collector collector(exercises, root);
   for (const fs::path& exercise : exercises) collector.read(exercise);
   collector.readNotes(root / "notes");

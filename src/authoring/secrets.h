@@ -21,7 +21,7 @@ namespace rex::authoring {
 enum class SecretKind { kSolution, kHiddenCheck, kHiddenName, kWrongVariant, kLecturersNote, kCourseSecret };
 
 /// "a line of the solution", "a hidden check".
-[[nodiscard]] std::string_view nameOf(SecretKind kind);
+[[nodiscard]] std::string_view toString(SecretKind kind);
 
 /// One piece of a secret, long enough to be distinctive.
 struct Secret {
@@ -37,8 +37,8 @@ inline constexpr std::size_t kShortestForm = 16;
 /// and the long lines of the lecturer's notes in ROOT/notes, except for the questions that they quote. Public
 /// text is excluded: code outside regions, the template and, except from solutions, todos, headers and
 /// visible checks. Throws Error for malformed markers.
-[[nodiscard]] std::vector<Secret> secretsOf(const std::vector<std::filesystem::path>& exercises,
-                                            const std::filesystem::path& root);
+[[nodiscard]] std::vector<Secret> collectSecrets(const std::vector<std::filesystem::path>& exercises,
+                                                 const std::filesystem::path& root);
 
 /// The secret of the course in that file. Throws Error like readCourseSecret(), and if too little of it
 /// remains to search for.

@@ -14,7 +14,7 @@
 #include "render/contact_sheet.h"
 #include "render/image.h"
 #include "submission/build_tools.h"
-#include "submission/graded_part.h"
+#include "submission/graded_source.h"
 #include "submission/submission.h"
 #include "submission/symbol_scan.h"
 
@@ -26,7 +26,7 @@ std::string ownName(std::size_t variant, std::string_view function) {
 }
 
 // Whether a piece is a function and `text` differs from it in the body only.
-bool differsInBody(std::string_view reference, const submission::FilePiece& piece, std::string_view text) {
+bool differsInBody(std::string_view reference, const submission::CppPiece& piece, std::string_view text) {
   const std::string_view function = reference.substr(piece.start, piece.end - piece.start);
   const std::size_t head = function.find('{', piece.nameStart - piece.start);
   return !piece.function.empty() && !piece.isInternal &&
@@ -35,8 +35,8 @@ bool differsInBody(std::string_view reference, const submission::FilePiece& piec
 
 // The texts of the pieces, by index, that differ from the reference; none if some cannot be swapped.
 std::vector<std::pair<std::size_t, std::string>> differingBodies(
-    std::string_view reference, const std::vector<submission::FilePiece>& pieces, std::string_view variant) {
-  const std::vector<submission::FilePiece> its = submission::filePieces(submission::CppText(variant));
+    std::string_view reference, const std::vector<submission::CppPiece>& pieces, std::string_view variant) {
+  const std::vector<submission::CppPiece> its = submission::cppPieces(submission::CppText(variant));
   if (its.size() != pieces.size()) return {};
   std::vector<std::pair<std::size_t, std::string>> differing;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
@@ -53,7 +53,7 @@ int linesIn(std::string_view text) { return static_cast<int>(std::count(text.beg
 }  // namespace
 
 JoinedVariants::JoinedVariants(std::string_view reference, const std::vector<std::string>& variants) {
-  const std::vector<submission::FilePiece> pieces = submission::filePieces(submission::CppText(reference));
+  const std::vector<submission::CppPiece> pieces = submission::cppPieces(submission::CppText(reference));
   std::vector<std::vector<std::pair<std::size_t, std::string>>> versions(pieces.size());  // variant, text
   for (std::size_t k = 0; k < variants.size(); ++k) {
     const auto bodies = differingBodies(reference, pieces, variants[k]);
@@ -62,7 +62,7 @@ JoinedVariants::JoinedVariants(std::string_view reference, const std::vector<std
   }
   std::size_t done = 0;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const submission::FilePiece& piece = pieces[i];
+    const submission::CppPiece& piece = pieces[i];
     source_ += reference.substr(done, piece.start - done);
     done = piece.end;
     // The compiler must not use anything that it knows about the body when it compiles the callers.
@@ -166,7 +166,7 @@ bool JointBuild::holds(std::size_t variant) const { return !functions_[variant].
 
 // The scan of compileStudent() over everything that these functions reach. Whatever the rest of the file
 // calls, the solution calls, too.
-std::vector<grading::CompileDiagnostic> JointBuild::forbiddenCallsOf(std::size_t variant) const {
+std::vector<grading::CompileDiagnostic> JointBuild::forbiddenCalls(std::size_t variant) const {
   const auto& forbidden = context_.exercise.forbidden;
   if (forbidden.empty()) return {};
   const path part = folder_ / "part.o";
@@ -182,7 +182,7 @@ std::vector<grading::CompileDiagnostic> JointBuild::forbiddenCallsOf(std::size_t
 submission::BuiltSubmission JointBuild::link(std::size_t variant) const {
   submission::BuiltSubmission built{.start = {}, .source = sources_[variant], .worker = {}};
   std::vector<grading::CompileDiagnostic>& messages = built.start.compile.diagnostics;
-  messages = forbiddenCallsOf(variant);
+  messages = forbiddenCalls(variant);
   if (messages.empty()) {
     submission::Toolchain toolchain = context_.toolchain;
     for (const auto& [own, replaced] : functions_[variant])
@@ -306,7 +306,7 @@ void writeSheet(const std::vector<KeyFrame>& pictures, const path& file) {
 std::vector<submission::WrongVariant> wantedVariants(const GateContext& context) {
   const std::vector<std::string>& wanted = context.variants;
   requireVariants(context.exercise, wanted);
-  std::vector<submission::WrongVariant> variants = variantsOf(context.exercise);
+  std::vector<submission::WrongVariant> variants = exerciseVariants(context.exercise);
   if (!wanted.empty())
     std::erase_if(variants, [&](const submission::WrongVariant& variant) {
       return std::find(wanted.begin(), wanted.end(), variant.name) == wanted.end();
@@ -341,7 +341,7 @@ void addComplaints(std::vector<std::string>& complaints, const std::string& name
 
 }  // namespace
 
-std::vector<submission::WrongVariant> variantsOf(const submission::ExerciseInfo& exercise) {
+std::vector<submission::WrongVariant> exerciseVariants(const submission::ExerciseInfo& exercise) {
   const path solution = exercise.folder / "solution.cpp", wrong = wrongFileOf(exercise);
   if (!std::filesystem::exists(wrong)) return {};
   return submission::readVariants(readTextFile(solution), solution.string(), readTextFile(wrong),
@@ -364,7 +364,7 @@ void requireVariants(const submission::ExerciseInfo& exercise, const std::vector
 
 std::vector<std::string> whyNotCaught(const GateContext& context, const std::string& name) {
   requireVariants(context.exercise, {name});
-  const std::vector<submission::WrongVariant> variants = variantsOf(context.exercise);
+  const std::vector<submission::WrongVariant> variants = exerciseVariants(context.exercise);
   const auto variant = std::find_if(variants.begin(), variants.end(),
                                     [&](const submission::WrongVariant& one) { return one.name == name; });
   return whyNotCaughtIn(gradeWhole(context, *variant), *variant, context.workFolder);

@@ -66,7 +66,7 @@ class JointBuild {
  private:
   std::vector<std::size_t> compile(const std::string& reference);
   std::vector<std::string> symbols() const;
-  std::vector<grading::CompileDiagnostic> forbiddenCallsOf(std::size_t variant) const;
+  std::vector<grading::CompileDiagnostic> forbiddenCalls(std::size_t variant) const;
 
   GateContext context_;
   std::vector<std::string> sources_;  // of each variant
@@ -77,7 +77,8 @@ class JointBuild {
 
 /// The wrong variants of an exercise in the order of wrong.cpp, composed with the solution; none without that
 /// file. Throws Error (file:line:column) like readVariants().
-[[nodiscard]] std::vector<submission::WrongVariant> variantsOf(const submission::ExerciseInfo& exercise);
+[[nodiscard]] std::vector<submission::WrongVariant> exerciseVariants(
+    const submission::ExerciseInfo& exercise);
 
 /// Their names, also if wrong.cpp is malformed.
 [[nodiscard]] std::vector<std::string> variantNames(const submission::ExerciseInfo& exercise);
@@ -86,8 +87,8 @@ class JointBuild {
 void requireVariants(const submission::ExerciseInfo& exercise, const std::vector<std::string>& names);
 
 /// Why a variant is not caught as it promises, line by line, when compiled like a student's file and graded
-/// by all checks; empty if it is. Throws Error like variantsOf() and requireVariants(), and for checks that
-/// do not exist.
+/// by all checks; empty if it is. Throws Error like exerciseVariants() and requireVariants(), and for checks
+/// that do not exist.
 [[nodiscard]] std::vector<std::string> whyNotCaught(const GateContext& context, const std::string& name);
 
 /// The results for several variants of an exercise.
@@ -100,7 +101,7 @@ struct CaughtTogether {
 /// functions that differ, and only the checks that a variant names are run. Only whyNotCaught() proves that
 /// the whole file compiles, and runs the other checks. Also complains if students read other messages than
 /// seen.txt says, or stores them there if the context asks for it. Writes the context's sheet if it has one.
-/// Throws Error like variantsOf() and requireVariants().
+/// Throws Error like exerciseVariants() and requireVariants().
 [[nodiscard]] CaughtTogether whyNotCaughtTogether(const GateContext& context);
 
 }  // namespace rex::authoring

@@ -66,8 +66,8 @@ void count(const grading::GradeResult& result, std::vector<CheckStatistics>& che
     CheckStatistics& known = statisticsFor(check, checks);
     if (check.status == grading::Outcome::kPass) continue;
     ++known.failed;
-    ++known.classes[classOf(check, result)];
-    if (const std::string question = questionOf(check.message); !question.empty())
+    ++known.classes[failureClass(check, result)];
+    if (const std::string question = askedQuestion(check.message); !question.empty())
       ++known.questions[question];
   }
 }
@@ -188,7 +188,7 @@ void addHandIns(const fs::path& folder, ClassResults& all) {
 
 }  // namespace
 
-std::string questionOf(const std::string& message) {
+std::string askedQuestion(const std::string& message) {
   constexpr std::string_view kAfterInput = "). ";
   const std::size_t end = message.rfind(kAfterInput);
   const std::string rest = end == message.npos ? "" : message.substr(end + kAfterInput.size());
@@ -227,7 +227,7 @@ ClassResults readClassResults(const fs::path& folder) {
   return all;
 }
 
-std::string classOf(const grading::CheckResult& check, const grading::GradeResult& whole) {
+std::string failureClass(const grading::CheckResult& check, const grading::GradeResult& whole) {
   if (!check.status) return whole.outcome == grading::Outcome::kCompileError ? "compile" : "not run";
   switch (*check.status) {
     case grading::Outcome::kCompileError:
@@ -254,7 +254,7 @@ std::string classOf(const grading::CheckResult& check, const grading::GradeResul
   return "";
 }
 
-std::vector<ExerciseStatistics> statisticsOf(const std::vector<StudentResult>& results) {
+std::vector<ExerciseStatistics> exerciseStatistics(const std::vector<StudentResult>& results) {
   std::map<std::string, std::vector<const StudentResult*>> byExercise;
   for (const StudentResult& one : results) byExercise[one.exercise].push_back(&one);
   std::vector<ExerciseStatistics> all;

@@ -93,14 +93,14 @@ struct ExerciseStatistics {
   std::vector<PartStatistics> parts{};    ///< in the order of the results
 };
 
-[[nodiscard]] std::vector<ExerciseStatistics> statisticsOf(const std::vector<StudentResult>& results);
+[[nodiscard]] std::vector<ExerciseStatistics> exerciseStatistics(const std::vector<StudentResult>& results);
 
 /// "compile", "crash", "timeout", "memory", "output", "protocol", "security", "non-finite", "shape",
 /// "wrong" or "not run", for a check that did not pass.
-[[nodiscard]] std::string classOf(const grading::CheckResult& check, const grading::GradeResult& whole);
+[[nodiscard]] std::string failureClass(const grading::CheckResult& check, const grading::GradeResult& whole);
 
 /// The question at the end of a message, after the input: "Is S never moved?"; empty if there is none.
-[[nodiscard]] std::string questionOf(const std::string& message);
+[[nodiscard]] std::string askedQuestion(const std::string& message);
 
 /// The median; for an even count the mean of the middle two; 0 if empty.
 [[nodiscard]] double medianOf(std::vector<double> values);

@@ -125,7 +125,7 @@ class CourseReader {
     readSettings(course_.settings);
     if (top_.has("time_zone")) course_.timeZone = zoneAt("time_zone");
     readStudents();
-    course_.policy = latePolicyOf(top_, exercises_);
+    course_.policy = parseLatePolicy(top_, exercises_);
     const auto exercises = top_.table("exercise", "[exercise]", "a table");
     for (const std::string& name : exercises ? exercises->keys() : std::vector<std::string>{})
       readExercise(*exercises->table(name, fmt::format("[exercise.{}]", name), "a table"), name);

@@ -25,7 +25,7 @@ using submission::ExerciseInfo;
 
 namespace {
 
-constexpr const char* kNotTakenHeadings = "student\texercise\twhy";
+constexpr const char* kRejectedHeadings = "student\texercise\twhy";
 
 std::string oneCell(const std::string& text) {
   std::string cell = printable(text);
@@ -36,21 +36,21 @@ std::string oneCell(const std::string& text) {
 
 }  // namespace
 
-std::string notTakenText(const std::vector<NotTaken>& all) {
-  std::string text = fmt::format("{}\n", kNotTakenHeadings);
-  for (const NotTaken& one : all)
+std::string rejectedText(const std::vector<RejectedSubmission>& all) {
+  std::string text = fmt::format("{}\n", kRejectedHeadings);
+  for (const RejectedSubmission& one : all)
     text += fmt::format("{}\t{}\t{}\n", oneCell(one.student), one.exercise, oneCell(one.why));
   return text;
 }
 
-std::vector<NotTaken> readNotTaken(const std::filesystem::path& file) {
-  std::vector<NotTaken> all;
+std::vector<RejectedSubmission> readRejected(const std::filesystem::path& file) {
+  std::vector<RejectedSubmission> all;
   if (!std::filesystem::exists(file)) return all;
   const std::string text = readTextFile(file);
   int number = 0;
   for (const std::string_view line : splitLines(text)) {
     const std::vector<std::string_view> cells = splitAt(line, '\t');
-    if (++number == 1 ? line != kNotTakenHeadings : cells.size() != 3)
+    if (++number == 1 ? line != kRejectedHeadings : cells.size() != 3)
       throw Error({.what = "not a list of what was not taken",
                    .where = {file.string(), number, 0},
                    .wanted = "student, exercise and reason, as `rex grade` writes them"});
@@ -132,7 +132,7 @@ std::string_view toString(Platform platform) {
   return kNames[static_cast<int>(platform)];
 }
 
-Layout layoutOf(const std::vector<std::string>& names, const std::vector<ExerciseInfo>& exercises) {
+Layout recognizeLayout(const std::vector<std::string>& names, const std::vector<ExerciseInfo>& exercises) {
   Layout layout;
   std::vector<std::string> real;
   for (const std::string& name : names)
@@ -160,18 +160,19 @@ Layout layoutOf(const std::vector<std::string>& names, const std::vector<Exercis
   return layout;
 }
 
-Layout layoutOfFolder(const fs::path& folder, const std::vector<ExerciseInfo>& exercises) {
+Layout recognizeFolderLayout(const fs::path& folder, const std::vector<ExerciseInfo>& exercises) {
   std::vector<std::string> names;
   collectNames(OpenedFolder(folder), "", 1, names);
-  return layoutOf(names, exercises);
+  return recognizeLayout(names, exercises);
 }
 
 void requireLayout(Platform platform, const fs::path& folder, const std::vector<ExerciseInfo>& exercises) {
-  if (const Layout layout = layoutOfFolder(folder, exercises); layout.platform != platform)
+  if (const Layout layout = recognizeFolderLayout(folder, exercises); layout.platform != platform)
     throw refusal(folder, platform, layout);
 }
 
-Download readDownloadOf(Platform platform, const fs::path& path, const std::vector<ExerciseInfo>& exercises) {
+Download readPlatformDownload(Platform platform, const fs::path& path,
+                              const std::vector<ExerciseInfo>& exercises) {
   if (fs::is_directory(path)) {
     requireLayout(platform, path, exercises);
     return readDownload(path);
@@ -179,7 +180,7 @@ Download readDownloadOf(Platform platform, const fs::path& path, const std::vect
   Download download = readDownload(path);
   std::vector<std::string> names;
   for (const DownloadedFile& file : download.files) names.push_back(file.name);
-  if (const Layout layout = layoutOf(names, exercises); layout.platform != platform)
+  if (const Layout layout = recognizeLayout(names, exercises); layout.platform != platform)
     throw refusal(path, platform, layout);
   return download;
 }
@@ -223,11 +224,12 @@ std::string personOfFile(const std::string& name) {
 
 }  // namespace
 
-Arrivals readFolders(const std::filesystem::path& source, const std::vector<ExerciseInfo>& exercises) {
-  Download download = readDownloadOf(Platform::kFolders, source, exercises);
+DownloadedSubmissions readFolders(const std::filesystem::path& source,
+                                  const std::vector<ExerciseInfo>& exercises) {
+  Download download = readPlatformDownload(Platform::kFolders, source, exercises);
   const std::string around = folderAround(download);
-  Arrivals found{.platform = Platform::kFolders};
-  std::map<std::string, Arrival> arrivals;
+  DownloadedSubmissions found{.platform = Platform::kFolders};
+  std::map<std::string, DownloadedSubmission> submissions;
   for (DownloadedFile& file : download.files) {
     if (isOfSystem(file.name)) continue;
     file.name = file.name.substr(around.size());
@@ -239,19 +241,19 @@ Arrivals readFolders(const std::filesystem::path& source, const std::vector<Exer
           fmt::format("{}: whose? Wanted NAME/main.cpp, NAME.cpp or NAME.zip", file.place));
       continue;
     }
-    Arrival& arrival = arrivals[caseless(person)];
-    if (!arrival.people.empty() && arrival.people.front().name != person) {
+    DownloadedSubmission& received = submissions[caseless(person)];
+    if (!received.people.empty() && received.people.front().name != person) {
       found.complaints.push_back(fmt::format("{}: not taken: the same name as '{}', spelt differently",
-                                             file.place, arrival.people.front().name));
+                                             file.place, received.people.front().name));
       continue;
     }
-    arrival.people = {{.name = person}};
-    if (arrival.place.empty())
-      arrival.place = file.place.substr(0, file.place.size() - file.name.size()) + person;
+    received.people = {{.name = person}};
+    if (received.place.empty())
+      received.place = file.place.substr(0, file.place.size() - file.name.size()) + person;
     if (slash != file.name.npos) file.name = file.name.substr(slash + 1);
-    arrival.files.push_back(std::move(file));
+    received.files.push_back(std::move(file));
   }
-  for (auto& [person, arrival] : arrivals) found.all.push_back(std::move(arrival));
+  for (auto& [person, received] : submissions) found.all.push_back(std::move(received));
   return found;
 }
 

@@ -49,21 +49,21 @@ struct Layout {
 };
 
 /// The layout of files with these names, paths with slashes. A repository has a name such as "zoe/.git/HEAD".
-[[nodiscard]] Layout layoutOf(const std::vector<std::string>& names,
-                              const std::vector<submission::ExerciseInfo>& exercises);
+[[nodiscard]] Layout recognizeLayout(const std::vector<std::string>& names,
+                                     const std::vector<submission::ExerciseInfo>& exercises);
 
 /// Reads what that importer takes. Throws UsageError for another layout, which says what was found and which
 /// importer fits, and like readDownload().
-[[nodiscard]] Download readDownloadOf(Platform platform, const std::filesystem::path& path,
-                                      const std::vector<submission::ExerciseInfo>& exercises);
+[[nodiscard]] Download readPlatformDownload(Platform platform, const std::filesystem::path& path,
+                                            const std::vector<submission::ExerciseInfo>& exercises);
 
 /// Throws the same UsageError unless the folder has that layout.
 void requireLayout(Platform platform, const std::filesystem::path& folder,
                    const std::vector<submission::ExerciseInfo>& exercises);
 
 /// The layout of a folder, as far as four levels tell it.
-[[nodiscard]] Layout layoutOfFolder(const std::filesystem::path& folder,
-                                    const std::vector<submission::ExerciseInfo>& exercises);
+[[nodiscard]] Layout recognizeFolderLayout(const std::filesystem::path& folder,
+                                           const std::vector<submission::ExerciseInfo>& exercises);
 
 /// The parts of "Zoe Miller_501_assignsubmission_file_main.cpp", as Moodle names files, or of
 /// "Zoe Miller_501_assignsubmission_file", as it names folders from version 4.1 on; before, they ended in
@@ -91,7 +91,7 @@ struct Person {
 };
 
 /// What one student or one group handed in, or a student who handed in nothing.
-struct Arrival {
+struct DownloadedSubmission {
   std::vector<Person> people{};  ///< the members of a group; at least one
   std::string group{};
   std::string place{};                  ///< in the download, for messages
@@ -103,9 +103,9 @@ struct Arrival {
 };
 
 /// What a download contains.
-struct Arrivals {
+struct DownloadedSubmissions {
   Platform platform{};
-  std::vector<Arrival> all{};
+  std::vector<DownloadedSubmission> all{};
   std::vector<std::string> complaints{};  ///< what belongs to nobody or contradicts itself
   std::vector<std::string> notes{};
 };
@@ -116,13 +116,14 @@ struct MoodleOptions {
 };
 /// Reads the zip of "Download all submissions", or the folder it was unpacked into, with a folder or a file
 /// for each student or each team; the column Group of the worksheet says who is in a team. Members of a group
-/// with the same files are one arrival. Throws UsageError for another layout and a worksheet that is none.
-[[nodiscard]] Arrivals readMoodle(const std::filesystem::path& source, const MoodleOptions& options,
-                                  const std::vector<submission::ExerciseInfo>& exercises);
+/// with the same files are one submission. Throws UsageError for another layout and a worksheet that is none.
+[[nodiscard]] DownloadedSubmissions readMoodle(const std::filesystem::path& source,
+                                               const MoodleOptions& options,
+                                               const std::vector<submission::ExerciseInfo>& exercises);
 
 /// Reads the zip of "Export Submissions", or its folder. Throws like readMoodle().
-[[nodiscard]] Arrivals readGradescope(const std::filesystem::path& source,
-                                      const std::vector<submission::ExerciseInfo>& exercises);
+[[nodiscard]] DownloadedSubmissions readGradescope(const std::filesystem::path& source,
+                                                   const std::vector<submission::ExerciseInfo>& exercises);
 
 struct CloneOptions {
   std::filesystem::path roster{};  ///< CSV file that says who is who; empty: none
@@ -132,11 +133,12 @@ struct CloneOptions {
   std::optional<std::int64_t> deadline{};  ///< take the last commit until then
 };
 /// Reads a folder of clones. Throws like readMoodle().
-[[nodiscard]] Arrivals readClones(const std::filesystem::path& source, const CloneOptions& options,
-                                  const std::vector<submission::ExerciseInfo>& exercises);
+[[nodiscard]] DownloadedSubmissions readClones(const std::filesystem::path& source,
+                                               const CloneOptions& options,
+                                               const std::vector<submission::ExerciseInfo>& exercises);
 
 /// Reads NAME/main.cpp, NAME.cpp and NAME.zip. Throws like readMoodle().
-[[nodiscard]] Arrivals readFolders(const std::filesystem::path& source,
-                                   const std::vector<submission::ExerciseInfo>& exercises);
+[[nodiscard]] DownloadedSubmissions readFolders(const std::filesystem::path& source,
+                                                const std::vector<submission::ExerciseInfo>& exercises);
 
 }  // namespace rex::classroom

@@ -57,7 +57,7 @@ class CloneReader {
   CloneReader(const CloneOptions& options)
       : options_(options), roster_(readRoster(options.roster)), record_(readRecord(options)) {}
 
-  Arrivals read(const fs::path& source) {
+  DownloadedSubmissions read(const fs::path& source) {
     found_.platform = Platform::kGit;
     const OpenedFolder folder(source);
     std::vector<std::string> names;
@@ -90,7 +90,7 @@ class CloneReader {
       one.commit = table.text(k, kCommit);
       one.group = table.text(k, kGroupName);
       const std::string time = table.text(k, kHandedInAt);
-      if (!time.empty()) one.submitted = zone.instantOf(time, table.place(k));
+      if (!time.empty()) one.submitted = zone.toInstant(time, table.place(k));
     }
     return record;
   }
@@ -125,19 +125,19 @@ class CloneReader {
   }
 
   void readClone(const OpenedFolder& clone, const std::string& name) {
-    Arrival arrival = arrivalOf(name);
+    DownloadedSubmission received = submissionIn(name);
     seen_.insert(caseless(name));
     try {
       const Repository repository(clone);
       const Recorded& recorded = recordOf(name);
-      if (const std::optional<Commit> commit = choose(repository, recorded, arrival)) {
-        arrival.commit = commit->id;
-        addFiles(repository, *commit, arrival);
+      if (const std::optional<Commit> commit = choose(repository, recorded, received)) {
+        received.commit = commit->id;
+        addFiles(repository, *commit, received);
       }
     } catch (const Error& error) {
-      arrival.whyNone = error.what();
+      received.whyNone = error.what();
     }
-    found_.all.push_back(std::move(arrival));
+    found_.all.push_back(std::move(received));
   }
 
   const Recorded& recordOf(const std::string& name) const {
@@ -146,16 +146,16 @@ class CloneReader {
     return found == record_.end() ? kNothing : found->second;
   }
 
-  Arrival arrivalOf(const std::string& name) {
+  DownloadedSubmission submissionIn(const std::string& name) {
     const Recorded& recorded = recordOf(name);
-    Arrival arrival{.people = recorded.people, .group = recorded.group, .place = name};
-    if (arrival.people.empty()) {
+    DownloadedSubmission received{.people = recorded.people, .group = recorded.group, .place = name};
+    if (received.people.empty()) {
       if (!record_.empty() && !record_.contains(caseless(name)))
         found_.complaints.push_back(fmt::format("{}: not in the record of the platform", name));
       const std::string user = userOf(name);
-      arrival.people = {{.githubUsername = user, .identifier = user}};
+      received.people = {{.githubUsername = user, .identifier = user}};
     }
-    for (Person& person : arrival.people) {
+    for (Person& person : received.people) {
       const auto listed = std::find_if(roster_.begin(), roster_.end(), [&](const Person& one) {
         const bool isUser =
             !one.githubUsername.empty() && caseless(one.githubUsername) == caseless(person.githubUsername);
@@ -167,7 +167,7 @@ class CloneReader {
         found_.notes.push_back(fmt::format("{}: '{}' is not on the roster", name, person.githubUsername));
       }
     }
-    return arrival;
+    return received;
   }
 
   // By the roster, whose names may contain dashes; else what follows the name of the assignment.
@@ -183,14 +183,15 @@ class CloneReader {
     return name.size() > prefix_.size() && name.starts_with(prefix_) ? name.substr(prefix_.size()) : name;
   }
 
-  std::optional<Commit> choose(const Repository& repository, const Recorded& recorded, Arrival& arrival) {
+  std::optional<Commit> choose(const Repository& repository, const Recorded& recorded,
+                               DownloadedSubmission& received) {
     if (!recorded.commit.empty()) {
       const std::optional<Commit> commit = repository.find(recorded.commit);
       if (!commit)
-        arrival.whyNone = fmt::format("the clone lacks the commit {} of the record", recorded.commit);
-      arrival.submitted = recorded.submitted;
-      arrival.timeFrom = recorded.submitted ? "platform" : "";
-      if (commit && !recorded.submitted) arrival.submitted = commit->time, arrival.timeFrom = "git";
+        received.whyNone = fmt::format("the clone lacks the commit {} of the record", recorded.commit);
+      received.submitted = recorded.submitted;
+      received.timeFrom = recorded.submitted ? "platform" : "";
+      if (commit && !recorded.submitted) received.submitted = commit->time, received.timeFrom = "git";
       return commit;
     }
     const std::vector<Commit> history = repository.history();
@@ -200,46 +201,48 @@ class CloneReader {
     const auto commit = std::find_if(history.begin(), history.end(),
                                      [&](const Commit& one) { return !last || one.time <= *last; });
     if (commit == history.end()) {
-      arrival.whyNone = history.empty() ? "no commit" : fmt::format("no commit until {}", instantText(*last));
+      received.whyNone =
+          history.empty() ? "no commit" : fmt::format("no commit until {}", instantText(*last));
       return {};
     }
     if (commit != history.begin())
-      found_.notes.push_back(fmt::format("{}: {} newer commit{} left out", arrival.place,
+      found_.notes.push_back(fmt::format("{}: {} newer commit{} left out", received.place,
                                          commit - history.begin(), commit - history.begin() == 1 ? "" : "s"));
     ++(isRecorded ? chosenByTime_ : chosenByClock_);
-    arrival.submitted = isRecorded ? *recorded.submitted : commit->time;
-    arrival.timeFrom = isRecorded ? "platform" : "git";
+    received.submitted = isRecorded ? *recorded.submitted : commit->time;
+    received.timeFrom = isRecorded ? "platform" : "git";
     return *commit;
   }
 
-  static void addFiles(const Repository& repository, const Commit& commit, Arrival& arrival) {
+  static void addFiles(const Repository& repository, const Commit& commit, DownloadedSubmission& received) {
     const std::vector<CommittedFile> files = repository.filesNamed("main.cpp", commit);
-    std::vector<std::string> contents = repository.contentsOf(files);
-    const std::map<std::string, int> changes = repository.changesOf("main.cpp", commit);
+    std::vector<std::string> contents = repository.readContents(files);
+    const std::map<std::string, int> changes = repository.changeCounts("main.cpp", commit);
     for (std::size_t k = 0; k < files.size(); ++k) {
-      DownloadedFile& file = arrival.files.emplace_back(DownloadedFile{
-          .name = files[k].path, .place = arrival.place + "/" + files[k].path, .whyNot = files[k].whyNot});
+      DownloadedFile& file = received.files.emplace_back(DownloadedFile{
+          .name = files[k].path, .place = received.place + "/" + files[k].path, .whyNot = files[k].whyNot});
       if (file.whyNot.empty()) file.text = std::move(contents[k]);
       if (const auto found = changes.find(file.name); found != changes.end()) file.attempts = found->second;
     }
-    if (files.empty()) arrival.whyNone = "no main.cpp in its commit " + commit.id.substr(0, 7);
+    if (files.empty()) received.whyNone = "no main.cpp in its commit " + commit.id.substr(0, 7);
   }
 
   // Who is in the record or on the roster, without a clone.
   void addMissing() {
     for (const auto& [name, recorded] : record_)
       if (!seen_.contains(name) && recorded.submitted) {
-        Arrival arrival{
+        DownloadedSubmission received{
             .people = recorded.people, .group = recorded.group, .place = name, .whyNone = "no clone of it"};
-        if (arrival.people.empty())
-          arrival.people = {{.githubUsername = userOf(name), .identifier = userOf(name)}};
-        found_.all.push_back(std::move(arrival));
+        if (received.people.empty())
+          received.people = {{.githubUsername = userOf(name), .identifier = userOf(name)}};
+        found_.all.push_back(std::move(received));
       }
     for (const Person& person : roster_) {
-      const bool isThere = std::any_of(found_.all.begin(), found_.all.end(), [&](const Arrival& arrival) {
-        return std::any_of(arrival.people.begin(), arrival.people.end(),
-                           [&](const Person& one) { return one.id == person.id; });
-      });
+      const bool isThere =
+          std::any_of(found_.all.begin(), found_.all.end(), [&](const DownloadedSubmission& received) {
+            return std::any_of(received.people.begin(), received.people.end(),
+                               [&](const Person& one) { return one.id == person.id; });
+          });
       if (!isThere) found_.all.push_back({.people = {person}});
     }
   }
@@ -265,13 +268,13 @@ class CloneReader {
   std::set<std::string> seen_{};            // clones, as in the record
   std::string prefix_{};
   int chosenByClock_ = 0, chosenByTime_ = 0;
-  Arrivals found_{};
+  DownloadedSubmissions found_{};
 };
 
 }  // namespace
 
-Arrivals readClones(const fs::path& source, const CloneOptions& options,
-                    const std::vector<submission::ExerciseInfo>& exercises) {
+DownloadedSubmissions readClones(const fs::path& source, const CloneOptions& options,
+                                 const std::vector<submission::ExerciseInfo>& exercises) {
   if (!fs::is_directory(source))
     throw UsageError({.what = "no such folder", .where = {source.string()}, .wanted = "a folder of clones"});
   requireLayout(Platform::kGit, source, exercises);

@@ -142,7 +142,7 @@ std::vector<std::string> rowOf(const Task& task, const std::filesystem::path& ou
   const auto rule = policy.find(task.exercise);
   const Lateness late = rule == policy.end()
                             ? Lateness{}
-                            : latenessOf(rule->second, task.student, task.submitted, result.score);
+                            : computeLateness(rule->second, task.student, task.submitted, result.score);
   return {task.student,
           task.exercise,
           fmt::format("{}", result.score),
@@ -164,7 +164,7 @@ Collected collect(const std::vector<Task>& tasks, const std::filesystem::path& o
     const Task& task = tasks[k];
     const int number = static_cast<int>(k) + 1;
     std::vector<std::string> row = {task.student, task.exercise, "", "", "missing", "", "", ""};
-    switch (stateOf(task, out)) {
+    switch (taskState(task, out)) {
       case TaskState::kMissing:
         found.missing.push_back(number);
         break;
@@ -189,7 +189,7 @@ Collected collect(const std::vector<Task>& tasks, const std::filesystem::path& o
   return found;
 }
 
-std::string rangesOf(std::vector<int> numbers) {
+std::string numberRanges(std::vector<int> numbers) {
   std::sort(numbers.begin(), numbers.end());
   std::string text;
   for (std::size_t k = 0; k < numbers.size();) {
@@ -250,9 +250,9 @@ void requireInputs(const Task& task, const fs::path& file, const submission::Too
   require(file.string(), sha256(gradedText(file)), task.sourceSha256);
   require("the grader of " + exercise.name, graderFingerprint(toolchain, exercise, options.launcher),
           task.graderSha256);
-  if (secretIdOf(options.secret) != task.secretId)
+  if (secretFileId(options.secret) != task.secretId)
     throw Error({.what = "the secret of the course",
-                 .found = options.secret.empty() ? "none" : secretIdOf(options.secret),
+                 .found = options.secret.empty() ? "none" : secretFileId(options.secret),
                  .wanted = task.secretId.empty() ? "none" : task.secretId});
 }
 
@@ -291,7 +291,7 @@ std::string withInputs(const fs::path& results, const Task& task, bool evidence,
   Json json = Json::parse(text);
   json["inputs"] = {
       {"sha256", task.inputsSha256()},      {"source_sha256", task.sourceSha256},
-      {"grader_sha256", task.graderSha256}, {"result_sha256", grading::sealOf(text, results.string())},
+      {"grader_sha256", task.graderSha256}, {"result_sha256", grading::computeSeal(text, results.string())},
       {"level", numberOf(task.level)},      {"secret_id", task.secretId}};
   if (task.seed) json["inputs"]["seed"] = *task.seed;
   if (alone) json["inputs"]["alone"] = true;
@@ -318,13 +318,13 @@ std::string graderFingerprint(const submission::Toolchain& toolchain,
   return sha256(text);
 }
 
-std::string secretIdOf(const fs::path& secret) {
+std::string secretFileId(const fs::path& secret) {
   return secret.empty() ? "" : grading::courseSecretId(grading::readCourseSecret(secret));
 }
 
 fs::path resultFolder(const fs::path& out, const Task& task) { return out / task.student / task.exercise; }
 
-TaskState stateOf(const Task& task, const fs::path& out, const fs::path& secret) {
+TaskState taskState(const Task& task, const fs::path& out, const fs::path& secret) {
   const fs::path file = resultFolder(out, task) / kResults;
   if (!fs::exists(file)) return TaskState::kMissing;
   try {
@@ -401,14 +401,14 @@ std::optional<int> pointsBefore(const Task& task, const fs::path& out) {
 
 std::optional<int> pointsNow(const Task& task, const fs::path& out) {
   if (isHeldBack(task, out)) return grading::loadResult(resultFolder(out, task) / kRegraded / kResults).score;
-  return stateOf(task, out) == TaskState::kDone ? pointsBefore(task, out) : std::nullopt;
+  return taskState(task, out) == TaskState::kDone ? pointsBefore(task, out) : std::nullopt;
 }
 
 std::optional<GradedWith> gradedWith(const Task& task, const fs::path& out) {
   const fs::path folder = resultFolder(out, task), waiting = folder / kRegraded / kResults;
   try {
     const Json inputs = resultJson(fs::exists(waiting) ? waiting : folder / kResults).at("inputs");
-    GradedWith with{.level = sandbox::levelOf(inputs.at("level").get<int>()),
+    GradedWith with{.level = sandbox::parseLevel(inputs.at("level").get<int>()),
                     .secretId = inputs.at("secret_id").get<std::string>(),
                     .alone = inputs.value("alone", false)};
     if (inputs.contains("seed")) with.seed = inputs["seed"].get<std::uint64_t>();

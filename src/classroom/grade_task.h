@@ -47,7 +47,7 @@ struct Collected {
                                 const LatePolicy& policy);
 
 /// "1,4-6,9": how batch systems name tasks.
-[[nodiscard]] std::string rangesOf(std::vector<int> numbers);
+[[nodiscard]] std::string numberRanges(std::vector<int> numbers);
 
 /// Hash of everything that grades an exercise here: its description and grader, the compiler and flags for
 /// students' files, the headers they may include, the library they are linked to, the running program
@@ -57,7 +57,7 @@ struct Collected {
                                             const std::filesystem::path& launcher);
 
 /// The first digits of the hash of the secret in that file, which identify it in results.
-[[nodiscard]] std::string secretIdOf(const std::filesystem::path& secret);
+[[nodiscard]] std::string secretFileId(const std::filesystem::path& secret);
 
 /// OUT/STUDENT/EXERCISE.
 [[nodiscard]] std::filesystem::path resultFolder(const std::filesystem::path& out, const Task& task);
@@ -65,8 +65,8 @@ struct Collected {
 /// The state of a task's result. A stale result is one for other inputs; a failed one reports a grader
 /// error, which is never a grade; a refused one was changed after the grading.
 enum class TaskState { kMissing, kStale, kFailed, kRefused, kDone };
-[[nodiscard]] TaskState stateOf(const Task& task, const std::filesystem::path& out,
-                                const std::filesystem::path& secret = {});
+[[nodiscard]] TaskState taskState(const Task& task, const std::filesystem::path& out,
+                                  const std::filesystem::path& secret = {});
 
 /// Why a result for the inputs of the task is not believed: the message of loadSoundResult(), or that the
 /// secret of the course, if it is given, did not make its HMAC; empty if it is believed.

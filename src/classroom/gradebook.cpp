@@ -45,7 +45,7 @@ class BookMaker {
     book_.hasRoster = !source_.course.students.empty();
     chooseExercises();
     assignTasks();
-    assignNotTaken();
+    assignRejected();
     for (const CourseStudent& student : course_.students)
       for (const std::string& exercise : shown_)
         if (holds(book_.exercises, exercise) || candidates_.contains({student.id, exercise}))
@@ -101,19 +101,20 @@ class BookMaker {
                        source_.tasks[tasks.front()].exercise, tasks.size(), join(names, ", "));
   }
 
-  void assignNotTaken() {
-    for (const NotTaken& one : source_.notTaken) {
+  void assignRejected() {
+    for (const RejectedSubmission& one : source_.rejected) {
       const std::vector<std::string> ids = owners_.of(one.student, one.exercise);
-      for (const std::string& id : ids) notTaken_[{id, one.exercise}].push_back(one);
+      for (const std::string& id : ids) rejected_[{id, one.exercise}].push_back(one);
       if (ids.empty() && book_.hasRoster)
         book_.notes.push_back(fmt::format("'{}' is not on the roster: {}", one.student, one.why));
     }
     for (const ImportedStudent& person : source_.imported.students)
       for (const auto& [exercise, entry] : person.exercises)
         // A file that somebody has put there by hand since then counts.
-        if (const std::string id = studentOf(person, course_);
-            entry.status == HandInStatus::kNotTaken && !id.empty() && !candidates_.contains({id, exercise}))
-          notTaken_[{id, exercise}].push_back({person.student, exercise, entry.why});
+        if (const std::string id = courseStudent(person, course_);
+            entry.status == SubmissionStatus::kRejected && !id.empty() &&
+            !candidates_.contains({id, exercise}))
+          rejected_[{id, exercise}].push_back({person.student, exercise, entry.why});
   }
 
   GradeRow strangerOf(std::size_t task) {
@@ -131,13 +132,13 @@ class BookMaker {
     const auto points = source_.points.find(exercise);
     if (points != source_.points.end()) row.possible = kWhole * points->second;
     if (const auto rule = course_.policy.find(exercise); rule != course_.policy.end()) {
-      row.deadline = deadlineOf(rule->second, student.id);
+      row.deadline = studentDeadline(rule->second, student.id);
       row.isExtended = row.deadline != rule->second.deadline;
       row.graceSeconds = rule->second.graceSeconds;
     }
     const auto found = candidates_.find({student.id, exercise});
     if (found != candidates_.end()) take(found->second.back(), row);
-    tellNotTaken(row);
+    tellRejected(row);
     for (const Comment& comment : source_.adjustments.comments)
       if (comment.exercise == exercise && holds(comment.students, student.id)) addComment(comment, row);
     std::stable_sort(row.comments.begin(), row.comments.end(),
@@ -154,7 +155,7 @@ class BookMaker {
     row.submitted = task.submitted;
     row.timeFrom = task.timeFrom;
     row.status = RowStatus::kToRepeat;
-    const TaskState state = stateOf(task, source_.out);
+    const TaskState state = taskState(task, source_.out);
     if (task.student != row.student.id)
       row.remark += (row.remark.empty() ? "" : "; ") + ("handed in by " + task.student);
     if (state == TaskState::kMissing) row.remark = "there is no result yet";
@@ -168,13 +169,13 @@ class BookMaker {
   }
 
   // A file that could not be read has a result that says so; what has no task has none.
-  void tellNotTaken(GradeRow& row) const {
+  void tellRejected(GradeRow& row) const {
     for (const std::string& exercise : {row.exercise, std::string()}) {
-      const auto found = notTaken_.find({row.student.id, exercise});
-      if (found == notTaken_.end()) continue;
-      for (const NotTaken& one : found->second) {
+      const auto found = rejected_.find({row.student.id, exercise});
+      if (found == rejected_.end()) continue;
+      for (const RejectedSubmission& one : found->second) {
         if (row.task && (one.student != row.handedInAs || exercise.empty())) continue;
-        if (row.status != RowStatus::kToRepeat) row.status = RowStatus::kNotTaken;
+        if (row.status != RowStatus::kToRepeat) row.status = RowStatus::kRejected;
         row.remark += (row.remark.empty() ? "" : "; ") + one.why;
       }
     }
@@ -307,7 +308,7 @@ class BookMaker {
   SubmissionOwners owners_;
   std::vector<std::string> shown_{};                      // exercises with rows
   std::map<Key, std::vector<std::size_t>> candidates_{};  // tasks, the last one counts
-  std::map<Key, std::vector<NotTaken>> notTaken_{};
+  std::map<Key, std::vector<RejectedSubmission>> rejected_{};
   Gradebook book_{};
 };
 
@@ -321,7 +322,7 @@ std::string_view toString(RowStatus status) {
       return "late";
     case RowStatus::kMissing:
       return "missing";
-    case RowStatus::kNotTaken:
+    case RowStatus::kRejected:
       return "not taken";
     case RowStatus::kToRepeat:
       return "to repeat";
@@ -360,7 +361,7 @@ Course withStudents(Course course, const std::vector<Task>& tasks, const ImportT
     for (const std::string& id : ids) course.students.push_back({.id = id});
   }
   for (const ImportedStudent& person : imported.students) {
-    const std::string id = studentOf(person, course);
+    const std::string id = courseStudent(person, course);
     for (CourseStudent& student : course.students) {
       if (student.id != id) continue;
       if (student.name.empty()) student.name = person.name;

@@ -22,7 +22,7 @@ enum class RowStatus {
   kGraded,
   kLate,      ///< graded, with a penalty or without
   kMissing,   ///< nothing was handed in
-  kNotTaken,  ///< something was handed in that could not be taken as it is
+  kRejected,  ///< something was handed in that could not be taken as it is
   kToRepeat   ///< there is no valid result: to be graded, again or at all
 };
 [[nodiscard]] std::string_view toString(RowStatus status);
@@ -84,7 +84,7 @@ struct GradebookSource {
   Course course{};              ///< without students: everybody who handed something in
   Adjustments adjustments{};
   ImportTable imported{};
-  std::vector<NotTaken> notTaken{};
+  std::vector<RejectedSubmission> rejected{};
   std::map<std::string, int> points{};  ///< of each exercise, for rows without a result
   std::string only{};                   ///< exercise; empty: all
 };
@@ -104,7 +104,7 @@ struct GradebookSource {
 [[nodiscard]] std::string totalsCsv(const Gradebook& book);
 
 /// For reports of this result. Empty if there is no grade.
-[[nodiscard]] std::optional<reports::Judgement> judgementOf(const GradeRow& row);
+[[nodiscard]] std::optional<reports::Judgement> rowJudgement(const GradeRow& row);
 /// How the grade came about, a line each, for those who grade.
 [[nodiscard]] std::vector<std::string> explain(const GradeRow& row);
 
@@ -113,8 +113,8 @@ struct GradebookSource {
 [[nodiscard]] const GradeRow* rowOfTask(const Gradebook& book, std::size_t task);
 
 /// What a grading could not take, kept beside its results for `rex grade --collect`.
-[[nodiscard]] std::string notTakenText(const std::vector<NotTaken>& all);
+[[nodiscard]] std::string rejectedText(const std::vector<RejectedSubmission>& all);
 /// Reads that file; empty if there is none. Throws Error with the line if it is malformed.
-[[nodiscard]] std::vector<NotTaken> readNotTaken(const std::filesystem::path& file);
+[[nodiscard]] std::vector<RejectedSubmission> readRejected(const std::filesystem::path& file);
 
 }  // namespace rex::classroom

@@ -70,18 +70,18 @@ void clearFeedback(const fs::path& folder) {
 
 }  // namespace
 
-std::optional<reports::Feedback> feedbackOf(const GradeRow& row, const fs::path& out) {
+std::optional<reports::Feedback> rowFeedback(const GradeRow& row, const fs::path& out) {
   if (!row.result) return {};
   reports::Feedback feedback{.student = shownName(row.student),
                              .result = *row.result,
-                             .judgement = judgementOf(row),
+                             .judgement = rowJudgement(row),
                              .source = readTextFile(out / row.handedInAs / row.exercise / "main.cpp")};
   for (const Comment& comment : row.comments)
     feedback.comments.push_back({comment.line, comment.text, comment.author});
   return feedback;
 }
 
-std::vector<reports::FeedbackFile> evidenceOf(const GradeRow& row, const fs::path& out) {
+std::vector<reports::FeedbackFile> evidenceFiles(const GradeRow& row, const fs::path& out) {
   std::vector<reports::FeedbackFile> files;
   if (!row.result) return files;
   const fs::path folder = out / row.handedInAs / row.exercise;
@@ -107,10 +107,10 @@ int writeFeedbackFolders(const Gradebook& book, const fs::path& results, const f
                    .wanted = "a plain name"});
     const fs::path folder = out / row.student.id / row.exercise;
     clearFeedback(folder);
-    const auto feedback = feedbackOf(row, results);
+    const auto feedback = rowFeedback(row, results);
     if (!feedback) continue;
     fs::create_directories(folder / "checks");
-    const std::vector<reports::FeedbackFile> files = evidenceOf(row, results);
+    const std::vector<reports::FeedbackFile> files = evidenceFiles(row, results);
     for (const reports::FeedbackFile& file : files)
       if (!file.name.ends_with(".png")) replaceTextFile(folder / file.name, file.bytes, "a replay");
     if (fs::is_empty(folder / "checks")) fs::remove(folder / "checks");
@@ -227,8 +227,8 @@ std::string graceText(const GradeRow& row) {
 std::string timesText(const GradeRow& row) {
   if (!row.task || !row.deadline || row.submitted <= *row.deadline) return "";
   const PlatformZone zone(row.timeZone);
-  return fmt::format("Handed in at {}, deadline {}{}.", zone.textOf(row.submitted),
-                     zone.textOf(*row.deadline), graceText(row));
+  return fmt::format("Handed in at {}, deadline {}{}.", zone.toText(row.submitted),
+                     zone.toText(*row.deadline), graceText(row));
 }
 
 std::string lateText(const GradeRow& row) {
@@ -262,7 +262,7 @@ std::vector<std::string> cellsOf(const GradeRow& row) {
   cells.push_back(optionalText(row.final));
   if (row.task)
     cells.insert(cells.end(),
-                 {PlatformZone(row.timeZone).textOf(row.submitted), row.timeFrom, row.handedInAs});
+                 {PlatformZone(row.timeZone).toText(row.submitted), row.timeFrom, row.handedInAs});
   else
     cells.insert(cells.end(), {"", "", ""});
   cells.push_back(row.remark);
@@ -278,10 +278,10 @@ void explainChecks(const GradeRow& row, std::vector<std::string>& lines) {
 
 void explainTime(const GradeRow& row, std::vector<std::string>& lines) {
   const PlatformZone zone(row.timeZone);
-  lines.push_back(fmt::format("Handed in at {} (time from {}) as '{}'", zone.textOf(row.submitted),
+  lines.push_back(fmt::format("Handed in at {} (time from {}) as '{}'", zone.toText(row.submitted),
                               row.timeFrom, row.handedInAs));
   if (row.deadline)
-    lines.push_back(fmt::format("Deadline {}{}{}", zone.textOf(*row.deadline),
+    lines.push_back(fmt::format("Deadline {}{}{}", zone.toText(*row.deadline),
                                 row.isExtended ? ", an extension of this student" : "", graceText(row)));
   else
     lines.emplace_back("No deadline");
@@ -315,7 +315,7 @@ std::string totalsCsv(const Gradebook& book) {
   return text;
 }
 
-std::optional<reports::Judgement> judgementOf(const GradeRow& row) {
+std::optional<reports::Judgement> rowJudgement(const GradeRow& row) {
   if (!row.final) return {};
   reports::Judgement judgement{.student = shownName(row.student),
                                .lateness = timesText(row) + (row.late.days > 0 ? " " : "") + lateText(row),

@@ -22,13 +22,13 @@ namespace rex::classroom {
 
 /// What the student of a row gets back; empty if nothing was graded. Reads main.cpp below `out`, the folder
 /// of results. Throws Error if it cannot be read.
-[[nodiscard]] std::optional<reports::Feedback> feedbackOf(const GradeRow& row,
-                                                          const std::filesystem::path& out);
+[[nodiscard]] std::optional<reports::Feedback> rowFeedback(const GradeRow& row,
+                                                           const std::filesystem::path& out);
 
 /// Pictures and replays of the visible checks of a row, from the folder that was graded for it. A name in
 /// the result that leaves that folder is ignored.
-[[nodiscard]] std::vector<reports::FeedbackFile> evidenceOf(const GradeRow& row,
-                                                            const std::filesystem::path& out);
+[[nodiscard]] std::vector<reports::FeedbackFile> evidenceFiles(const GradeRow& row,
+                                                               const std::filesystem::path& out);
 
 /// Writes OUT/STUDENT/EXERCISE/feedback.html with its replays for each row that has a result, and removes
 /// that of an earlier export for the others; returns the number of pages. Throws Error for a student whose

@@ -33,10 +33,10 @@ void complete(std::string& known, const std::string& told) {
 
 }  // namespace
 
-ImportNames::ImportNames(ImportTable& table, const Arrivals& arrivals)
-    : table_(table), platform_(toString(arrivals.platform)) {
-  for (const Arrival& arrival : arrivals.all)
-    for (const Person& person : arrival.people) ++nameCounts_[caseless(person.name)];
+ImportNames::ImportNames(ImportTable& table, const DownloadedSubmissions& submissions)
+    : table_(table), platform_(toString(submissions.platform)) {
+  for (const DownloadedSubmission& received : submissions.all)
+    for (const Person& person : received.people) ++nameCounts_[caseless(person.name)];
 }
 
 // A name counts only if nobody else has it here or there, and nothing else contradicts.
@@ -90,7 +90,7 @@ std::string ImportNames::newName(const Person& person) const {
   return candidates.back();
 }
 
-std::string ImportNames::folderOf(const Person& person, const std::vector<std::string>& exercises) {
+std::string ImportNames::personFolder(const Person& person, const std::vector<std::string>& exercises) {
   ImportedStudent* entry = known(person, exercises);
   if (entry == nullptr) entry = &table_.students.emplace_back(ImportedStudent{.student = newName(person)});
   complete(entry->id, person.id);
@@ -179,7 +179,7 @@ class ImportTableReader {
     const std::string status = textIn(json, "status", place);
     const auto found = std::find(kStatus.begin(), kStatus.end(), status);
     if (found == kStatus.end()) throw refusal(place + ".status", "'" + status + "'", join(kStatus, ", "));
-    read.status = static_cast<HandInStatus>(found - kStatus.begin());
+    read.status = static_cast<SubmissionStatus>(found - kStatus.begin());
     const std::string submitted = textIn(json, "submitted", place);
     read.submitted = parseInstant(submitted);
     if (!submitted.empty() && !read.submitted)

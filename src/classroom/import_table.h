@@ -16,10 +16,10 @@ inline constexpr const char* kImportTable = "import.json";
 /// The same table while the files that it names are being written: what an interrupted import leaves.
 inline constexpr const char* kBegunTable = "import.begun.json";
 
-enum class HandInStatus {
+enum class SubmissionStatus {
   kHandedIn,
   kNothing,  ///< the student is on the platform's list, without a file
-  kNotTaken  ///< there is a file, but none that can be graded
+  kRejected  ///< there is a file, but none that can be graded
 };
 
 /// What a platform says about one student and one exercise. Empty texts: it says nothing.
@@ -27,7 +27,7 @@ struct ImportedExercise {
   std::string platform{};      ///< moodle, classroom, gradescope or folders
   std::string identifier{};    ///< by which that platform takes this grade back: "Participant 501"
   std::string maximumGrade{};  ///< of Moodle's grading worksheet, as written there
-  HandInStatus status = HandInStatus::kNothing;
+  SubmissionStatus status = SubmissionStatus::kNothing;
   std::string why{};                        ///< of a file that was not taken
   std::string handedInBy{};                 ///< the student whose folder holds the file: one for each group
   std::string group{};                      ///< its name on the platform
@@ -72,15 +72,15 @@ struct ImportTable {
 /// The text of import.json. The same table gives the same bytes.
 [[nodiscard]] std::string importTableText(const ImportTable& table);
 
-/// Gives each person who arrives an entry in the table, and a name for their folder that stays.
+/// Gives each person of a download an entry in the table, and a name for their folder that stays.
 class ImportNames {
  public:
-  /// `arrivals` are asked for how often a name occurs.
-  ImportNames(ImportTable& table, const Arrivals& arrivals);
+  /// `submissions` are asked for how often a name occurs.
+  ImportNames(ImportTable& table, const DownloadedSubmissions& submissions);
 
   /// The name of the person's folder; adds or completes their entry. `exercises`: of this import, in which
   /// the platform's identifier means the same person.
-  std::string folderOf(const Person& person, const std::vector<std::string>& exercises);
+  std::string personFolder(const Person& person, const std::vector<std::string>& exercises);
 
   /// How many people are known by their name alone, so that another of that name would be taken for them.
   [[nodiscard]] int knownByNameAlone() const { return byNameAlone_; }

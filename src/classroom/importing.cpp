@@ -19,34 +19,35 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// An arrival whose files have been sorted.
-struct SortedArrival {
-  const Arrival& arrival;
+/// A submission whose files have been sorted.
+struct SortedSubmission {
+  const DownloadedSubmission& received;
   PickedFiles picked{};
 };
 
 /// Brings one download into one folder.
 class Importer {
  public:
-  Importer(const Arrivals& arrivals, const PickOptions& options, const fs::path& handedIn)
-      : arrivals_(arrivals),
+  Importer(const DownloadedSubmissions& submissions, const PickOptions& options, const fs::path& handedIn)
+      : submissions_(submissions),
         options_(options),
         folder_(handedIn),
         table_(tableAt(handedIn / kImportTable)),
         before_(table_) {
-    report_.complaints = arrivals.complaints;
-    report_.notes = arrivals.notes;
+    report_.complaints = submissions.complaints;
+    report_.notes = submissions.notes;
     removeLeftovers(folder_, 2);
     takeBegun(tableAt(folder_ / kBegunTable));
   }
 
   ImportReport run() {
-    std::vector<SortedArrival> sorted;
-    for (const Arrival& arrival : arrivals_.all)
-      sorted.push_back({arrival, arrival.files.empty() ? PickedFiles{} : pickFiles(arrival.files, options_)});
+    std::vector<SortedSubmission> sorted;
+    for (const DownloadedSubmission& received : submissions_.all)
+      sorted.push_back(
+          {received, received.files.empty() ? PickedFiles{} : pickFiles(received.files, options_)});
     exercises_ = exercisesOf(sorted);
-    ImportNames names(table_, arrivals_);
-    for (const SortedArrival& one : sorted) take(one, names);
+    ImportNames names(table_, submissions_);
+    for (const SortedSubmission& one : sorted) take(one, names);
     tellNames(names);
     std::sort(table_.students.begin(), table_.students.end(),
               [](const auto& a, const auto& b) { return a.student < b.student; });
@@ -65,7 +66,7 @@ class Importer {
     for (const ImportedStudent& student : begun.students)
       for (const auto& [exercise, entry] : student.exercises) {
         const fs::path file = folder_ / entry.handedInBy / exercise / "main.cpp";
-        const bool isWritten = entry.status == HandInStatus::kHandedIn &&
+        const bool isWritten = entry.status == SubmissionStatus::kHandedIn &&
                                whyNoStudentName(entry.handedInBy).empty() &&
                                whyNoStudentName(exercise).empty() && presentHash(file) == entry.sha256;
         if (!isWritten) continue;
@@ -102,35 +103,36 @@ class Importer {
   }
 
   // Of this download: the wanted one, or all that somebody handed in.
-  std::vector<std::string> exercisesOf(const std::vector<SortedArrival>& sorted) const {
+  std::vector<std::string> exercisesOf(const std::vector<SortedSubmission>& sorted) const {
     if (!options_.exercise.empty()) return {options_.exercise};
     std::set<std::string> names;
-    for (const SortedArrival& one : sorted)
+    for (const SortedSubmission& one : sorted)
       for (const PickedFile& file : one.picked.files) names.insert(file.exercise);
     return {names.begin(), names.end()};
   }
 
-  void take(const SortedArrival& one, ImportNames& names) {
+  void take(const SortedSubmission& one, ImportNames& names) {
     std::vector<std::string> members;
-    for (const Person& person : one.arrival.people) members.push_back(names.folderOf(person, exercises_));
+    for (const Person& person : one.received.people)
+      members.push_back(names.personFolder(person, exercises_));
     report_.complaints.insert(report_.complaints.end(), one.picked.complaints.begin(),
                               one.picked.complaints.end());
     report_.notes.insert(report_.notes.end(), one.picked.notes.begin(), one.picked.notes.end());
-    if (!one.arrival.whyNone.empty())
-      report_.complaints.push_back(one.arrival.place + ": not taken: " + one.arrival.whyNone);
+    if (!one.received.whyNone.empty())
+      report_.complaints.push_back(one.received.place + ": not taken: " + one.received.whyNone);
     for (const std::string& exercise : exercises_) {
       const auto file = std::find_if(one.picked.files.begin(), one.picked.files.end(),
                                      [&](const PickedFile& picked) { return picked.exercise == exercise; });
       if (file != one.picked.files.end())
-        takeFile(one.arrival, *file, members);
+        takeFile(one.received, *file, members);
       else
-        takeNothing(one.arrival, exercise, members, whyNone(one, exercise));
+        takeNothing(one.received, exercise, members, whyNone(one, exercise));
     }
   }
 
   // A fault of one exercise says nothing about the others.
-  static std::string whyNone(const SortedArrival& one, const std::string& exercise) {
-    if (!one.arrival.whyNone.empty()) return one.arrival.whyNone;
+  static std::string whyNone(const SortedSubmission& one, const std::string& exercise) {
+    if (!one.received.whyNone.empty()) return one.received.whyNone;
     for (const std::string& about : {exercise, std::string()})
       if (const auto found = one.picked.whyNone.find(about); found != one.picked.whyNone.end())
         return found->second;
@@ -142,11 +144,11 @@ class Importer {
                          [&](const ImportedStudent& entry) { return entry.student == student; });
   }
 
-  ImportedExercise startOf(const Arrival& arrival, std::size_t member) const {
-    return {.platform = std::string(toString(arrivals_.platform)),
-            .identifier = arrival.people[member].identifier,
-            .maximumGrade = arrival.people[member].maximumGrade,
-            .group = arrival.group};
+  ImportedExercise startOf(const DownloadedSubmission& received, std::size_t member) const {
+    return {.platform = std::string(toString(submissions_.platform)),
+            .identifier = received.people[member].identifier,
+            .maximumGrade = received.people[member].maximumGrade,
+            .group = received.group};
   }
 
   // One for all: who held it before, else the first.
@@ -160,26 +162,27 @@ class Importer {
     return members.front();
   }
 
-  void takeFile(const Arrival& arrival, const PickedFile& file, const std::vector<std::string>& members) {
+  void takeFile(const DownloadedSubmission& received, const PickedFile& file,
+                const std::vector<std::string>& members) {
     const std::string holder = holderOf(file.exercise, members);
     const std::optional<std::int64_t> time =
-        arrival.submitted || file.modifiedAt == 0 ? arrival.submitted : file.modifiedAt;
+        received.submitted || file.modifiedAt == 0 ? received.submitted : file.modifiedAt;
     if (!isFirst(file, members) || !write(holder, file, time)) {
       for (std::size_t k = 0; k < members.size(); ++k) {
         if (entryOf(members[k]).exercises.contains(file.exercise))
-          ++report_.notTaken;
+          ++report_.rejected;
         else
-          noteNothing(arrival, k, file.exercise, members[k], "another file is there already");
+          noteNothing(received, k, file.exercise, members[k], "another file is there already");
       }
       return;
     }
     for (std::size_t k = 0; k < members.size(); ++k) {
-      ImportedExercise entry = startOf(arrival, k);
-      entry.status = HandInStatus::kHandedIn;
+      ImportedExercise entry = startOf(received, k);
+      entry.status = SubmissionStatus::kHandedIn;
       entry.handedInBy = holder;
       entry.submitted = time;
-      entry.timeFrom = !time ? "" : arrival.timeFrom.empty() ? "file" : arrival.timeFrom;
-      entry.commit = arrival.commit;
+      entry.timeFrom = !time ? "" : received.timeFrom.empty() ? "file" : received.timeFrom;
+      entry.commit = received.commit;
       entry.source = file.source;
       entry.sha256 = sha256(file.text);
       countAttempts(file, members[k], entry);
@@ -192,7 +195,7 @@ class Importer {
   // If the platform keeps no attempts, each import that brought another text is one of at least so many.
   void countAttempts(const PickedFile& file, const std::string& member, ImportedExercise& entry) {
     entry.attempts = file.attempts;
-    entry.attemptsFrom = arrivals_.platform == Platform::kGit ? "git" : "platform";
+    entry.attemptsFrom = submissions_.platform == Platform::kGit ? "git" : "platform";
     if (file.attempts > 0) return;
     const auto before = entryOf(member).exercises.find(file.exercise);
     const bool isKnown = before != entryOf(member).exercises.end() && !before->second.sha256.empty();
@@ -282,35 +285,35 @@ class Importer {
     report_.changes.push_back(fmt::format("{} {}: removed, now handed in by the group", member, exercise));
   }
 
-  void takeNothing(const Arrival& arrival, const std::string& exercise,
+  void takeNothing(const DownloadedSubmission& received, const std::string& exercise,
                    const std::vector<std::string>& members, const std::string& why) {
     for (std::size_t k = 0; k < members.size(); ++k) {
       const auto& before = entryOf(members[k]).exercises;
       const auto found = before.find(exercise);
-      if (found != before.end() && found->second.status == HandInStatus::kHandedIn) {
+      if (found != before.end() && found->second.status == SubmissionStatus::kHandedIn) {
         report_.notes.push_back(fmt::format(
             "{} {}: no longer in the download; the file of an earlier import stays", members[k], exercise));
         continue;
       }
-      noteNothing(arrival, k, exercise, members[k], why);
+      noteNothing(received, k, exercise, members[k], why);
     }
   }
 
-  void noteNothing(const Arrival& arrival, std::size_t k, const std::string& exercise,
+  void noteNothing(const DownloadedSubmission& received, std::size_t k, const std::string& exercise,
                    const std::string& member, const std::string& why) {
-    ImportedExercise entry = startOf(arrival, k);
-    entry.status = why.empty() ? HandInStatus::kNothing : HandInStatus::kNotTaken;
+    ImportedExercise entry = startOf(received, k);
+    entry.status = why.empty() ? SubmissionStatus::kNothing : SubmissionStatus::kRejected;
     entry.why = why;
     if (!why.empty()) {
-      entry.submitted = arrival.submitted;
-      entry.timeFrom = arrival.timeFrom;
+      entry.submitted = received.submitted;
+      entry.timeFrom = received.timeFrom;
     }
-    ++(why.empty() ? report_.missing : report_.notTaken);
+    ++(why.empty() ? report_.missing : report_.rejected);
     entryOf(member).exercises[exercise] = std::move(entry);
   }
 
   void tellNames(const ImportNames& names) {
-    if (const int count = names.knownByNameAlone(); count > 0 && arrivals_.platform != Platform::kFolders)
+    if (const int count = names.knownByNameAlone(); count > 0 && submissions_.platform != Platform::kFolders)
       report_.notes.push_back(
           fmt::format("{} {} known by the name alone: another person of that name in another assignment "
                       "would be taken for the "
@@ -318,7 +321,7 @@ class Importer {
                       count, count == 1 ? "student is" : "students are"));
   }
 
-  const Arrivals& arrivals_;
+  const DownloadedSubmissions& submissions_;
   const PickOptions& options_;
   fs::path folder_;
   ImportTable table_;
@@ -332,8 +335,9 @@ class Importer {
 
 }  // namespace
 
-ImportReport importArrivals(const Arrivals& arrivals, const PickOptions& options, const fs::path& handedIn) {
-  return Importer(arrivals, options, handedIn).run();
+ImportReport importSubmissions(const DownloadedSubmissions& submissions, const PickOptions& options,
+                               const fs::path& handedIn) {
+  return Importer(submissions, options, handedIn).run();
 }
 
 }  // namespace rex::classroom

@@ -85,20 +85,21 @@ class PolicyReader {
 
 }  // namespace
 
-std::optional<std::int64_t> deadlineOf(const LateRule& rule, const std::string& student) {
+std::optional<std::int64_t> studentDeadline(const LateRule& rule, const std::string& student) {
   // An extension for all exercises must not shorten the time for one that is due later.
   if (const auto own = rule.extensions.find(student); rule.deadline && own != rule.extensions.end())
     return std::max(*rule.deadline, own->second);
   return rule.deadline;
 }
 
-Lateness latenessOf(const LateRule& rule, const std::string& student, std::int64_t submitted, int points) {
+Lateness computeLateness(const LateRule& rule, const std::string& student, std::int64_t submitted,
+                         int points) {
   return latenessOfHundredths(rule, student, submitted, std::int64_t{100} * points);
 }
 
 Lateness latenessOfHundredths(const LateRule& rule, const std::string& student, std::int64_t submitted,
                               std::int64_t points) {
-  const std::optional<std::int64_t> deadline = deadlineOf(rule, student);
+  const std::optional<std::int64_t> deadline = studentDeadline(rule, student);
   if (!deadline || submitted <= *deadline + rule.graceSeconds) return {};
   const std::int64_t late = submitted - *deadline, days = (late + kDay - 1) / kDay;
   const std::int64_t cost = std::min(days * rule.perDay, rule.cap.value_or(days * rule.perDay));
@@ -110,10 +111,10 @@ Lateness latenessOfHundredths(const LateRule& rule, const std::string& student, 
 LatePolicy readLatePolicy(const std::filesystem::path& file, const std::vector<std::string>& exercises) {
   const TomlTable top = TomlTable::read(file, "the file of deadlines", "a file of deadlines");
   top.refuseKeysBut(kCourseKeys);
-  return latePolicyOf(top, exercises);
+  return parseLatePolicy(top, exercises);
 }
 
-LatePolicy latePolicyOf(const TomlTable& file, const std::vector<std::string>& exercises) {
+LatePolicy parseLatePolicy(const TomlTable& file, const std::vector<std::string>& exercises) {
   return PolicyReader(file, exercises).read();
 }
 

@@ -30,15 +30,15 @@ struct Lateness {
 
 /// The lateness of a submission. Days count from the deadline even if there is grace. Hundredths are
 /// rounded to the nearest, halves up.
-[[nodiscard]] Lateness latenessOf(const LateRule& rule, const std::string& student, std::int64_t submitted,
-                                  int points);
+[[nodiscard]] Lateness computeLateness(const LateRule& rule, const std::string& student,
+                                       std::int64_t submitted, int points);
 
 /// The same for hundredths of points.
 [[nodiscard]] Lateness latenessOfHundredths(const LateRule& rule, const std::string& student,
                                             std::int64_t submitted, std::int64_t points);
 
 /// The deadline of a student, with an extension that is later; empty: none.
-[[nodiscard]] std::optional<std::int64_t> deadlineOf(const LateRule& rule, const std::string& student);
+[[nodiscard]] std::optional<std::int64_t> studentDeadline(const LateRule& rule, const std::string& student);
 
 /// Rules by full exercise name; a missing exercise has no deadline.
 using LatePolicy = std::map<std::string, LateRule>;
@@ -49,7 +49,7 @@ using LatePolicy = std::map<std::string, LateRule>;
                                         const std::vector<std::string>& exercises);
 
 /// The same from the tables [all] and [exercise.NAME] of a file.
-[[nodiscard]] LatePolicy latePolicyOf(const TomlTable& file, const std::vector<std::string>& exercises);
+[[nodiscard]] LatePolicy parseLatePolicy(const TomlTable& file, const std::vector<std::string>& exercises);
 
 /// All keys at the top of a course file; those of a file of deadlines are the first two.
 inline const std::vector<std::string> kCourseKeys = {

@@ -68,7 +68,7 @@ std::map<std::string, MoodleRow> readWorksheet(const MoodleOptions& options) {
                         .found = "'" + printable(row.person.identifier, 100) + "'",
                         .wanted = "an identifier such as 'Participant 501'"});
     const std::string time = table.text(k, kMoodleSubmitted);
-    if (!time.empty() && time != "-") row.submitted = zone.instantOf(time, table.place(k));
+    if (!time.empty() && time != "-") row.submitted = zone.toInstant(time, table.place(k));
     const std::string number = row.person.number;
     if (!rows.emplace(number, std::move(row)).second)
       throw UsageError({.what = "a second row for the same participant",
@@ -108,13 +108,13 @@ class MoodleReader {
       if (!row.group.empty()) teams_[caseless(inFolderName(row.group))].push_back(number);
   }
 
-  Arrivals read(Download download, const MoodleOptions& options) {
+  DownloadedSubmissions read(Download download, const MoodleOptions& options) {
     found_.platform = Platform::kMoodle;
     for (DownloadedFile& file : download.files) sort(std::move(file));
     requireRows(options);
-    for (auto& [number, arrival] : arrivals_) add(number, std::move(arrival));
+    for (auto& [number, received] : submissions_) add(number, std::move(received));
     for (auto& [number, row] : rows_)
-      if (!arrivals_.contains(number) && !inTeams_.contains(number))
+      if (!submissions_.contains(number) && !inTeams_.contains(number))
         found_.all.push_back({.people = {row.person}});
     joinGroups();
     return std::move(found_);
@@ -142,13 +142,13 @@ class MoodleReader {
       const std::string person = isBlindName(name->person) ? "" : composed(name->person);
       std::string key = isTeam(*name) ? "team " + name->number : name->number;
       // A team may have the number of a participant, and without a worksheet they differ by their names only.
-      if (const auto other = arrivals_.find(key);
-          other != arrivals_.end() && other->second.people.front().name != person)
+      if (const auto other = submissions_.find(key);
+          other != submissions_.end() && other->second.people.front().name != person)
         key += " " + person;
-      Arrival& arrival = arrivals_[key];
-      if (arrival.people.empty()) {
-        arrival.people = {{.name = person, .number = name->number}};
-        arrival.place = before + part->string();
+      DownloadedSubmission& received = submissions_[key];
+      if (received.people.empty()) {
+        received.people = {{.name = person, .number = name->number}};
+        received.place = before + part->string();
       }
       if (name->kind != "file") {
         online_[key] = file.place;
@@ -157,108 +157,108 @@ class MoodleReader {
       std::filesystem::path rest = name->file;
       for (auto inner = std::next(part); inner != path.end(); ++inner) rest /= *inner;
       file.name = rest.string();
-      arrival.files.push_back(std::move(file));
+      received.files.push_back(std::move(file));
       return;
     }
     found_.notes.push_back(fmt::format("{}: ignored", file.place));
   }
 
   void requireRows(const MoodleOptions& options) const {
-    if (rows_.empty() || arrivals_.empty()) return;
-    if (std::any_of(arrivals_.begin(), arrivals_.end(), [&](const auto& one) {
+    if (rows_.empty() || submissions_.empty()) return;
+    if (std::any_of(submissions_.begin(), submissions_.end(), [&](const auto& one) {
           return rows_.contains(one.first) ||
                  teams_.contains(caseless(inFolderName(one.second.people.front().name)));
         }))
       return;
     throw UsageError({.what = "a grading worksheet of another assignment",
                       .where = {options.worksheet.string()},
-                      .found = fmt::format("no participant {}", arrivals_.begin()->first),
+                      .found = fmt::format("no participant {}", submissions_.begin()->first),
                       .wanted = "the worksheet of the assignment that was downloaded, for teams with its "
                                 "column Group"});
   }
 
-  void add(const std::string& number, Arrival arrival) {
+  void add(const std::string& number, DownloadedSubmission received) {
     const auto online = online_.find(number);
-    if (online != online_.end() && !arrival.files.empty())
+    if (online != online_.end() && !received.files.empty())
       found_.notes.push_back(fmt::format("{}: an online text, ignored", online->second));
     else if (online != online_.end())
-      arrival.whyNone = "an online text, no uploaded file", arrival.place = online->second;
-    if (number.starts_with("team ")) return addTeam(std::move(arrival));
+      received.whyNone = "an online text, no uploaded file", received.place = online->second;
+    if (number.starts_with("team ")) return addTeam(std::move(received));
     const auto row = rows_.find(number);
     if (row == rows_.end()) {
       if (!rows_.empty())
         found_.complaints.push_back(
             fmt::format("{}: participant {} is not in the grading worksheet; taken under "
                         "the name of the folder",
-                        arrival.place, number));
-      found_.all.push_back(std::move(arrival));
+                        received.place, number));
+      found_.all.push_back(std::move(received));
       return;
     }
-    arrival.group = groupIn(arrival.people.front().name, row->second.person.name);
-    arrival.people.clear();
-    addMember(row->second, arrival);
-    found_.all.push_back(std::move(arrival));
+    received.group = groupIn(received.people.front().name, row->second.person.name);
+    received.people.clear();
+    addMember(row->second, received);
+    found_.all.push_back(std::move(received));
   }
 
-  void addTeam(Arrival arrival) {
-    const std::vector<std::string>& members = teams_.at(caseless(inFolderName(arrival.people.front().name)));
-    arrival.group = rows_.at(members.front()).group;
-    arrival.people.clear();
-    for (const std::string& member : members) addMember(rows_.at(member), arrival);
+  void addTeam(DownloadedSubmission received) {
+    const std::vector<std::string>& members = teams_.at(caseless(inFolderName(received.people.front().name)));
+    received.group = rows_.at(members.front()).group;
+    received.people.clear();
+    for (const std::string& member : members) addMember(rows_.at(member), received);
     inTeams_.insert(members.begin(), members.end());
-    found_.all.push_back(std::move(arrival));
+    found_.all.push_back(std::move(received));
   }
 
   // The last time of a team's members counts; a draft is reported once for the team.
-  void addMember(const MoodleRow& row, Arrival& arrival) {
-    arrival.people.push_back(row.person);
-    arrival.submitted = std::max(arrival.submitted, row.submitted);
-    if (arrival.submitted) arrival.timeFrom = "platform";
+  void addMember(const MoodleRow& row, DownloadedSubmission& received) {
+    received.people.push_back(row.person);
+    received.submitted = std::max(received.submitted, row.submitted);
+    if (received.submitted) received.timeFrom = "platform";
     const std::string status = caseless(row.status);
-    if (arrival.people.size() == 1 &&
+    if (received.people.size() == 1 &&
         (status.starts_with("draft") || status.starts_with("entwurf") || status.starts_with("brouillon")))
-      found_.notes.push_back(fmt::format("{}: a draft that was not submitted; taken", arrival.place));
+      found_.notes.push_back(fmt::format("{}: a draft that was not submitted; taken", received.place));
   }
 
   // Each member of a group has the same files in a folder of their own.
   void joinGroups() {
-    const auto sameFiles = [](const Arrival& a, const Arrival& b) {
+    const auto sameFiles = [](const DownloadedSubmission& a, const DownloadedSubmission& b) {
       return std::equal(a.files.begin(), a.files.end(), b.files.begin(), b.files.end(),
                         [](const auto& x, const auto& y) { return x.name == y.name && x.text == y.text; });
     };
-    std::vector<Arrival> joined;
-    for (Arrival& arrival : found_.all) {
-      const auto first = std::find_if(joined.begin(), joined.end(), [&](const Arrival& one) {
-        return !arrival.group.empty() && one.group == arrival.group;
+    std::vector<DownloadedSubmission> joined;
+    for (DownloadedSubmission& received : found_.all) {
+      const auto first = std::find_if(joined.begin(), joined.end(), [&](const DownloadedSubmission& one) {
+        return !received.group.empty() && one.group == received.group;
       });
       if (first == joined.end())
-        joined.push_back(std::move(arrival));
-      else if (sameFiles(*first, arrival))
-        first->people.push_back(arrival.people.front());
+        joined.push_back(std::move(received));
+      else if (sameFiles(*first, received))
+        first->people.push_back(received.people.front());
       else {
         found_.complaints.push_back(
-            fmt::format("{}: other files than in '{}', though both are of the group '{}'", arrival.place,
-                        first->place, arrival.group));
-        arrival.group.clear();
-        joined.push_back(std::move(arrival));
+            fmt::format("{}: other files than in '{}', though both are of the group '{}'", received.place,
+                        first->place, received.group));
+        received.group.clear();
+        joined.push_back(std::move(received));
       }
     }
     found_.all = std::move(joined);
   }
 
-  std::map<std::string, MoodleRow> rows_;                    // by number of the participant
-  std::map<std::string, std::vector<std::string>> teams_{};  // by name: numbers of the members
-  std::map<std::string, Arrival> arrivals_{};                // by number, or "team " and its number
-  std::map<std::string, std::string> online_{};              // the same: places of online texts
+  std::map<std::string, MoodleRow> rows_;                      // by number of the participant
+  std::map<std::string, std::vector<std::string>> teams_{};    // by name: numbers of the members
+  std::map<std::string, DownloadedSubmission> submissions_{};  // by number, or "team " and its number
+  std::map<std::string, std::string> online_{};                // the same: places of online texts
   std::set<std::string> inTeams_{};  // numbers of participants for whom a team handed in
-  Arrivals found_{};
+  DownloadedSubmissions found_{};
 };
 
 }  // namespace
 
-Arrivals readMoodle(const std::filesystem::path& source, const MoodleOptions& options,
-                    const std::vector<submission::ExerciseInfo>& exercises) {
-  Download download = readDownloadOf(Platform::kMoodle, source, exercises);
+DownloadedSubmissions readMoodle(const std::filesystem::path& source, const MoodleOptions& options,
+                                 const std::vector<submission::ExerciseInfo>& exercises) {
+  Download download = readPlatformDownload(Platform::kMoodle, source, exercises);
   return MoodleReader(readWorksheet(options)).read(std::move(download), options);
 }
 
@@ -277,7 +277,7 @@ class WorksheetWriter {
         scale_(scale) {
     for (const ImportedStudent& person : imported.students)
       if (const auto entry = person.exercises.find(exercise); entry != person.exercises.end())
-        if (const std::string id = studentOf(person, everyone_);
+        if (const std::string id = courseStudent(person, everyone_);
             !id.empty() && !entry->second.identifier.empty())
           known_[entry->second.identifier] = id;
   }
@@ -295,10 +295,10 @@ class WorksheetWriter {
   std::string studentIn(std::size_t row) const {
     if (const auto found = known_.find(table_.text(row, kMoodleIdentifier)); found != known_.end())
       return found->second;
-    return studentOf({.id = table_.text(row, kMoodleIdNumber),
-                      .name = table_.text(row, kMoodleName),
-                      .email = table_.text(row, kMoodleEmail)},
-                     everyone_);
+    return courseStudent({.id = table_.text(row, kMoodleIdNumber),
+                          .name = table_.text(row, kMoodleName),
+                          .email = table_.text(row, kMoodleEmail)},
+                         everyone_);
   }
 
   void complete(std::size_t row) {
@@ -368,7 +368,7 @@ std::vector<WorksheetRow> moodleStudents(const Gradebook& book, const std::strin
   std::vector<WorksheetRow> rows;
   for (const ImportedStudent& person : imported.students) {
     const auto entry = person.exercises.find(exercise);
-    const std::string id = studentOf(person, everyone);
+    const std::string id = courseStudent(person, everyone);
     if (entry == person.exercises.end() || entry->second.platform != "moodle" || id.empty()) continue;
     if (const std::string number = participantNumber(entry->second.identifier); !number.empty())
       rows.push_back({id, person.name, number});

@@ -160,41 +160,41 @@ std::vector<GradescopeEntry> readMetadata(const DownloadedFile& file, const std:
 
 }  // namespace
 
-Arrivals readGradescope(const std::filesystem::path& source,
-                        const std::vector<submission::ExerciseInfo>& exercises) {
-  Download download = readDownloadOf(Platform::kGradescope, source, exercises);
+DownloadedSubmissions readGradescope(const std::filesystem::path& source,
+                                     const std::vector<submission::ExerciseInfo>& exercises) {
+  Download download = readPlatformDownload(Platform::kGradescope, source, exercises);
   const auto metadata = std::find_if(download.files.begin(), download.files.end(), [](const auto& file) {
     return !isOfSystem(file.name) && std::filesystem::path(file.name).filename() == kGradescopeMetadata;
   });
   const std::string root = metadata->name.substr(
                         0, metadata->name.size() - std::string(kGradescopeMetadata).size()),
                     place = (source / metadata->place).string();
-  Arrivals found{.platform = Platform::kGradescope};
-  std::map<std::string, Arrival> arrivals;
+  DownloadedSubmissions found{.platform = Platform::kGradescope};
+  std::map<std::string, DownloadedSubmission> submissions;
   std::map<std::string, int> attempts;
   for (GradescopeEntry& entry : readMetadata(*metadata, place)) {
-    Arrival arrival{.people = std::move(entry.people), .place = root + entry.folder};
-    if (arrival.people.empty()) {
+    DownloadedSubmission received{.people = std::move(entry.people), .place = root + entry.folder};
+    if (received.people.empty()) {
       found.complaints.push_back(
           fmt::format("{}: {}: nobody handed this in", place, printable(entry.folder, 100)));
       continue;
     }
     if (!entry.createdAt.empty()) {
-      arrival.submitted = PlatformZone("").instantOf(entry.createdAt, place + ": " + entry.folder);
-      arrival.timeFrom = "platform";
+      received.submitted = PlatformZone("").toInstant(entry.createdAt, place + ": " + entry.folder);
+      received.timeFrom = "platform";
     }
     attempts[entry.folder] = entry.attempts;
-    arrivals.emplace(entry.folder, std::move(arrival));
+    submissions.emplace(entry.folder, std::move(received));
   }
   for (DownloadedFile& file : download.files) {
     if (isOfSystem(file.name) || &file == &*metadata) continue;
     const std::string inside = file.name.starts_with(root) ? file.name.substr(root.size()) : "";
     const std::size_t slash = inside.find('/');
-    const auto arrival = arrivals.find(inside.substr(0, slash));
-    if (slash != inside.npos && arrival != arrivals.end()) {
+    const auto received = submissions.find(inside.substr(0, slash));
+    if (slash != inside.npos && received != submissions.end()) {
       file.name = inside.substr(slash + 1);
-      file.attempts = attempts.at(arrival->first);
-      arrival->second.files.push_back(std::move(file));
+      file.attempts = attempts.at(received->first);
+      received->second.files.push_back(std::move(file));
     } else if (slash != inside.npos && inside.starts_with("submission_")) {
       found.complaints.push_back(
           fmt::format("{}: of a submission that {} does not name", file.place, kGradescopeMetadata));
@@ -202,9 +202,9 @@ Arrivals readGradescope(const std::filesystem::path& source,
       found.notes.push_back(fmt::format("{}: ignored", file.place));
     }
   }
-  for (auto& [folder, arrival] : arrivals) {
-    if (arrival.files.empty()) arrival.whyNone = "no files in the export";
-    found.all.push_back(std::move(arrival));
+  for (auto& [folder, received] : submissions) {
+    if (received.files.empty()) received.whyNone = "no files in the export";
+    found.all.push_back(std::move(received));
   }
   return found;
 }

@@ -197,7 +197,7 @@ PlatformZone::PlatformZone(std::string name) : name_(std::move(name)) {
                       .wanted = "a name such as Europe/Berlin, or a difference such as +01:00"});
 }
 
-std::int64_t PlatformZone::instantOf(const std::string& text, const std::string& place) const {
+std::int64_t PlatformZone::toInstant(const std::string& text, const std::string& place) const {
   const std::optional<PlatformTime> time = parsePlatformTime(text);
   if (!time)
     throw Error({.what = "not a time", .where = {place}, .found = "'" + text + "'", .wanted = kTimeExamples});
@@ -215,7 +215,7 @@ std::int64_t PlatformZone::instantOf(const std::string& text, const std::string&
                .wanted = "another time, or another zone"});
 }
 
-std::string PlatformZone::textOf(std::int64_t instant) const {
+std::string PlatformZone::toText(std::int64_t instant) const {
   if (name_.empty()) return instantText(instant);
   const auto offset =
       fixedSeconds_

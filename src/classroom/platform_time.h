@@ -35,10 +35,10 @@ class PlatformZone {
   /// Seconds since 1970 in UTC. An hour that exists twice when summer ends is the earlier one. Throws Error
   /// for text that is no time, for a time without a zone if the zone is unknown, and for an hour that does
   /// not exist; `place` is for messages.
-  [[nodiscard]] std::int64_t instantOf(const std::string& text, const std::string& place) const;
+  [[nodiscard]] std::int64_t toInstant(const std::string& text, const std::string& place) const;
 
   /// "2026-11-20T23:58:00+01:00"; in UTC, "2026-11-20T22:58:00Z", if the zone is unknown.
-  [[nodiscard]] std::string textOf(std::int64_t instant) const;
+  [[nodiscard]] std::string toText(std::int64_t instant) const;
 
  private:
   std::string name_;

@@ -194,7 +194,7 @@ std::vector<CommittedFile> Repository::filesNamed(const std::string& name, const
   return files;
 }
 
-std::map<std::string, int> Repository::changesOf(const std::string& name, const Commit& commit) const {
+std::map<std::string, int> Repository::changeCounts(const std::string& name, const Commit& commit) const {
   std::map<std::string, int> changes;
   const std::string list = git({"log", "--first-parent", "--no-renames", "--format=", "--name-only", "-z",
                                 "-n", "20000", commit.id, "--", ":(glob)**/" + name});
@@ -208,7 +208,7 @@ std::map<std::string, int> Repository::changesOf(const std::string& name, const 
 }
 
 // git answers each id with "ID blob SIZE", a line break, the content and another line break.
-std::vector<std::string> Repository::contentsOf(const std::vector<CommittedFile>& files) const {
+std::vector<std::string> Repository::readContents(const std::vector<CommittedFile>& files) const {
   std::string ids;
   for (const CommittedFile& file : files)
     if (file.whyNot.empty()) ids += file.id + "\n";

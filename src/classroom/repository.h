@@ -43,11 +43,11 @@ class Repository {
 
   /// How many commits, from this one back on the side that history() takes, changed each file of that name,
   /// in any folder. Throws Error if git cannot read it.
-  [[nodiscard]] std::map<std::string, int> changesOf(const std::string& name, const Commit& commit) const;
+  [[nodiscard]] std::map<std::string, int> changeCounts(const std::string& name, const Commit& commit) const;
 
   /// The contents of files, in their order; empty texts for those with a `whyNot`. Throws Error if git cannot
   /// read one.
-  [[nodiscard]] std::vector<std::string> contentsOf(const std::vector<CommittedFile>& files) const;
+  [[nodiscard]] std::vector<std::string> readContents(const std::vector<CommittedFile>& files) const;
 
  private:
   std::string git(const std::vector<std::string>& arguments, const std::string& input = {}) const;

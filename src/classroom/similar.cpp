@@ -158,7 +158,7 @@ std::vector<SimilarPair> similarPairs(const std::vector<ComparedText>& texts, st
   return pairs;
 }
 
-std::vector<std::vector<std::string>> groupsOf(const std::vector<SimilarPair>& pairs) {
+std::vector<std::vector<std::string>> similarGroups(const std::vector<SimilarPair>& pairs) {
   std::map<std::string, std::set<std::string>> groups;  // by their first member
   std::map<std::string, std::string> first;             // of each student's group
   for (const SimilarPair& pair : pairs) {
@@ -242,7 +242,7 @@ std::string similarPage(const std::string& exercise, const std::vector<ComparedT
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{0}: similar "
       "submissions</title>\n<style>{1}</style>\n</head>\n<body>\n<h1>{0}: similar submissions</h1>\n{2}",
       htmlText(exercise), kStyle, kLimits);
-  const auto groups = groupsOf(pairs);
+  const auto groups = similarGroups(pairs);
   html += fmt::format("<p>{} submission{} compared, {} group{}, {} pair{}.</p>\n<ul>\n", texts.size(),
                       texts.size() == 1 ? "" : "s", groups.size(), groups.size() == 1 ? "" : "s",
                       pairs.size(), pairs.size() == 1 ? "" : "s");

@@ -40,7 +40,7 @@ struct SimilarPair {
                                                     std::string_view handedOut, int leastPercent);
 
 /// The students that pairs connect, each group and all groups in order.
-[[nodiscard]] std::vector<std::vector<std::string>> groupsOf(const std::vector<SimilarPair>& pairs);
+[[nodiscard]] std::vector<std::vector<std::string>> similarGroups(const std::vector<SimilarPair>& pairs);
 
 /// A page that shows the pairs side by side with their similar lines marked; those of the handed-out text are
 /// grey. It has no scripts, and says what the comparison does not know.

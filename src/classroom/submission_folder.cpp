@@ -27,7 +27,7 @@ bool isSameText(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-std::string studentOf(const ImportedStudent& person, const Course& course) {
+std::string courseStudent(const ImportedStudent& person, const Course& course) {
   // What the platform knows for certain comes first: a folder may be called like another student.
   using Field = std::pair<const std::string&, std::string CourseStudent::*>;
   for (const auto& [told, known] :
@@ -46,7 +46,7 @@ SubmissionOwners::SubmissionOwners(const Course& course, const ImportTable& impo
     : course_(course), imported_(imported) {
   for (const CourseStudent& student : course.students) ids_[caseless(student.id)] = student.id;
   for (const ImportedStudent& person : imported.students)
-    if (const std::string id = studentOf(person, course); !id.empty()) people_[person.student] = id;
+    if (const std::string id = courseStudent(person, course); !id.empty()) people_[person.student] = id;
 }
 
 std::vector<std::string> SubmissionOwners::withGroups(const std::vector<std::string>& ids) const {
@@ -94,7 +94,7 @@ class HandInReader {
   HandInReader(const std::vector<submission::ExerciseInfo>& exercises, const std::string& only)
       : exercises_(exercises), only_(only.empty() ? only : submission::findExercise(exercises, only).name) {}
 
-  HandIns read(const fs::path& path) {
+  SubmittedFiles read(const fs::path& path) {
     const OpenedFolder folder(path);
     std::map<std::string, std::vector<OpenedFolder::Entry>>
         students;  // names that differ only in case are one
@@ -114,7 +114,7 @@ class HandInReader {
         students[caseless(name)].push_back(entry);
     }
     for (const auto& [name, entries] : students) readStudent(folder, entries), student_.clear();
-    std::sort(found_.files.begin(), found_.files.end(), [](const HandIn& a, const HandIn& b) {
+    std::sort(found_.files.begin(), found_.files.end(), [](const SubmittedFile& a, const SubmittedFile& b) {
       return std::pair(a.student, a.exercise) < std::pair(b.student, b.exercise);
     });
     return std::move(found_);
@@ -130,7 +130,7 @@ class HandInReader {
   void complain(ErrorParts parts) {
     found_.complaints.emplace_back(Error(parts).what());
     parts.where = {};
-    if (!student_.empty()) found_.notTaken.push_back({student_, exercise_, Error(std::move(parts)).what()});
+    if (!student_.empty()) found_.rejected.push_back({student_, exercise_, Error(std::move(parts)).what()});
   }
 
   // Complains if there are several spellings: nobody knows which one is meant.
@@ -284,10 +284,10 @@ class HandInReader {
   void readFile(const std::string& student, const std::string& exercise, const OpenedFolder& folder) {
     for (const OpenedFolder::Entry& entry : folder.entries())
       if (entry.name != kFile) noteUnlisted(folder.path() / entry.name);
-    HandIn file{.student = student,
-                .exercise = exercise,
-                .from = folder.path() / kFile,
-                .submitted = folder.modifiedAt()};
+    SubmittedFile file{.student = student,
+                       .exercise = exercise,
+                       .from = folder.path() / kFile,
+                       .submitted = folder.modifiedAt()};
     try {
       submission::StudentFile read = submission::readStudentFile(folder, kFile);
       file.text = std::move(read.text);
@@ -303,7 +303,7 @@ class HandInReader {
 
   const std::vector<submission::ExerciseInfo>& exercises_;
   std::string only_;
-  HandIns found_{};
+  SubmittedFiles found_{};
   std::string student_{}, exercise_{};  // of complaints, if known
 };
 
@@ -320,7 +320,7 @@ bool startsOrEndsBlank(std::string_view name) {
 }  // namespace
 
 // The original is never read again: by then, another file may have taken its place.
-fs::path snapshotOf(const HandIn& file, const fs::path& out) {
+fs::path writeSnapshot(const SubmittedFile& file, const fs::path& out) {
   const fs::path snapshot = fs::path(file.student) / file.exercise / kFile;
   const std::string text = file.text.value_or(
       fmt::format("// Not what was handed in, which could not be read.\n#error cannot be graded: found {}, "
@@ -359,8 +359,9 @@ std::string whyNoStudentName(const std::string& name) {
   return {};
 }
 
-HandIns readHandIns(const fs::path& folder, const std::vector<submission::ExerciseInfo>& exercises,
-                    const std::string& only) {
+SubmittedFiles readSubmittedFiles(const fs::path& folder,
+                                  const std::vector<submission::ExerciseInfo>& exercises,
+                                  const std::string& only) {
   return HandInReader(exercises, only).read(folder);
 }
 

@@ -16,7 +16,7 @@ namespace rex::classroom {
 /// The id of the student of the course who is this person of a platform: by id, number, e-mail, name of the
 /// folder or user name, in this order, else by a full name that only one has. Case does not count, nor how
 /// umlauts are written. Empty: nobody.
-[[nodiscard]] std::string studentOf(const ImportedStudent& person, const Course& course);
+[[nodiscard]] std::string courseStudent(const ImportedStudent& person, const Course& course);
 
 /// Whose submissions the folders of a class are.
 class SubmissionOwners {
@@ -37,7 +37,7 @@ class SubmissionOwners {
 };
 
 /// One file that a student handed in.
-struct HandIn {
+struct SubmittedFile {
   std::string student{};
   std::string exercise{};             ///< full name
   std::filesystem::path from{};       ///< where it was found
@@ -47,18 +47,18 @@ struct HandIn {
 };
 
 /// Something that a student handed in but that was not taken as it is.
-struct NotTaken {
+struct RejectedSubmission {
   std::string student{};   ///< the name of the folder or archive, without its ending
   std::string exercise{};  ///< empty: it is not known which one was meant
   std::string why{};       ///< one sentence without the path
 };
 
 /// The contents of a folder of submissions.
-struct HandIns {
-  std::vector<HandIn> files{};            ///< by student, then by exercise
+struct SubmittedFiles {
+  std::vector<SubmittedFile> files{};     ///< by student, then by exercise
   std::vector<std::string> complaints{};  ///< what was not accepted as it is: file, finding, what was wanted
-  std::vector<NotTaken> notTaken{};       ///< those of the complaints that concern one student
-  std::vector<std::string> notes{};       ///< other things that were found
+  std::vector<RejectedSubmission> rejected{};  ///< those of the complaints that concern one student
+  std::vector<std::string> notes{};            ///< other things that were found
 };
 
 /// Reads DIR/STUDENT/EXERCISE/main.cpp, or EXERCISE/main.cpp from the archive DIR/STUDENT.zip, which may
@@ -66,14 +66,15 @@ struct HandIns {
 /// is opened once, with OpenedFolder, so that no link is followed and nothing that is swapped meanwhile is
 /// read. A file that is not accepted never hides another; of two spellings of one name neither is accepted.
 /// Throws Error if `folder` itself cannot be read.
-[[nodiscard]] HandIns readHandIns(const std::filesystem::path& folder,
-                                  const std::vector<submission::ExerciseInfo>& exercises,
-                                  const std::string& only = {});
+[[nodiscard]] SubmittedFiles readSubmittedFiles(const std::filesystem::path& folder,
+                                                const std::vector<submission::ExerciseInfo>& exercises,
+                                                const std::string& only = {});
 
 /// Writes the copy of a file that is graded, OUT/STUDENT/EXERCISE/main.cpp, and returns its path relative
 /// to `out`. For a file that could not be read, the copy does not compile and says why. Throws Error if it
 /// cannot be written.
-[[nodiscard]] std::filesystem::path snapshotOf(const HandIn& file, const std::filesystem::path& out);
+[[nodiscard]] std::filesystem::path writeSnapshot(const SubmittedFile& file,
+                                                  const std::filesystem::path& out);
 
 /// Whether a name ends like the result files next to the students' folders: .csv, .log and others.
 [[nodiscard]] bool isNameOfResults(const std::string& name);

@@ -65,7 +65,7 @@ Task readTask(const Line& line, std::size_t number) {
             .exercise = line.text(2),
             .sourceSha256 = line.text(3),
             .graderSha256 = line.text(4),
-            .level = sandbox::levelOf(line.number<int>(5, "a sandbox level")),
+            .level = sandbox::parseLevel(line.number<int>(5, "a sandbox level")),
             .seed = {},
             .secretId = line.text(7),
             .submitted = line.number<std::int64_t>(8, "a time in seconds"),

@@ -14,7 +14,7 @@ namespace rex::classroom {
 struct Task {
   std::string student{};
   std::string exercise{};
-  std::string sourceSha256{};  ///< hash of the copy's text: see snapshotOf()
+  std::string sourceSha256{};  ///< hash of the copy's text: see writeSnapshot()
   std::string graderSha256{};  ///< see graderFingerprint()
   sandbox::Level level{};
   std::optional<std::uint64_t> seed{};

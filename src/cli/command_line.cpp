@@ -74,12 +74,12 @@ bool wantsPosture(const CLI::App& command, const std::string& option) {
 // command that the others reach, an exercise where the command takes one, a posture of the scene after its
 // option. Sorted; empty if a file is meant.
 std::vector<std::string> completions(const CLI::App& program, std::span<const std::string> words,
-                                     const Project& project, const Room& room) {
+                                     const Project& project, const CommandSet& set) {
   const std::string begun = words.empty() ? "" : words.back();
   const CLI::App& command = reachedBy(program, words.first(words.empty() ? 0 : words.size() - 1));
   std::vector<std::string> found;
-  if (room.postures && words.size() > 2 && wantsPosture(command, words[words.size() - 2])) {
-    found = room.postures(project, words.first(words.size() - 2));
+  if (set.postures && words.size() > 2 && wantsPosture(command, words[words.size() - 2])) {
+    found = set.postures(project, words.first(words.size() - 2));
   } else if (begun.starts_with('-')) {
     for (const CLI::Option* option : command.get_options())
       for (const std::string& name : option->get_lnames()) found.push_back("--" + name);
@@ -125,8 +125,8 @@ std::string manualPage() {
                      ".SH COMMANDS\n";
   const char* topic = "";
   for (const TableEntry& entry : commandTable()) {
-    if (std::string_view(topic) != nameOf(entry.topic))
-      page += fmt::format(".SS {}\n", topic = nameOf(entry.topic));
+    if (std::string_view(topic) != toString(entry.topic))
+      page += fmt::format(".SS {}\n", topic = toString(entry.topic));
     page += fmt::format(".TP\n.B {}\n{}.\n", plain(entry.name), plain(entry.purpose));
   }
   page += fmt::format(".SH EXIT STATUS\n{}\n", plain(kExitCodesHelp));
@@ -228,12 +228,12 @@ std::string reasonOf(const CLI::ParseError& error, const CLI::App* command) {
 }
 
 // Commands of the other programs have only names and purposes here; their arguments are not parsed.
-void addCommands(CLI::App& program, const Room& room, Action& action) {
+void addCommands(CLI::App& program, const CommandSet& set, Action& action) {
   for (const TableEntry& entry : commandTable()) {
     CLI::App* command = program.add_subcommand(std::string(entry.name), std::string(entry.purpose));
-    command->group(nameOf(entry.topic));
-    if (entry.program == room.program) {
-      room.commands.at(entry.name)(command, action);
+    command->group(toString(entry.topic));
+    if (entry.program == set.program) {
+      set.commands.at(entry.name)(command, action);
       continue;
     }
     command->set_help_flag();
@@ -298,39 +298,39 @@ Action parse(CLI::App& program, const std::vector<std::string>& words, const Act
   return action;
 }
 
-Action actionOf(int argc, const char* const* argv, const Room& room, const Project& here) {
+Action actionOf(int argc, const char* const* argv, const CommandSet& set, const Project& here) {
   const std::vector<std::string> words = wordsOf(argc, argv);
   const auto handOver = [words](Program other) {
     return [=](const Project& project) -> ExitCode { execProgram(project, other, words); };
   };
-  Action action = room.withoutCommand ? room.withoutCommand : handOver(Program::kStudent);
+  Action action = set.withoutCommand ? set.withoutCommand : handOver(Program::kStudent);
   CLI::App program("Robotics exercises: see, solve and test them. Without a command: your progress", "rex");
   program.footer("`rex help COMMAND` explains a command.\n\n" + std::string(kExitCodesHelp));
   program.set_version_flag("--version", "rex " REX_VERSION, "print the version");
   program.require_subcommand(0, 1);
   program.get_formatter()->column_width(22);
   program.get_formatter()->label("REQUIRED", "");
-  addCommands(program, room, action);
+  addCommands(program, set, action);
   // For shells, and for `cmake --install`; neither is in the help.
   if (!words.empty() && words.front() == "--complete") {
-    const Program owner = words.size() > 1 ? ownerOf(words[1], room.program) : room.program;
-    if (owner != room.program) return handOver(owner);
-    return list(completions(program, std::span(words).subspan(1), here, room));
+    const Program owner = words.size() > 1 ? ownerOf(words[1], set.program) : set.program;
+    if (owner != set.program) return handOver(owner);
+    return list(completions(program, std::span(words).subspan(1), here, set));
   }
   if (!words.empty() && words.front() == "--man") return print(manualPage());
   if (!words.empty())
     if (const std::string now = newNameOf(words); !now.empty()) return complain(now);
   Action asked = parse(program, words, action);
-  const Program owner = ownerOf(program, room.program);
-  return owner == room.program ? asked : handOver(owner);
+  const Program owner = ownerOf(program, set.program);
+  return owner == set.program ? asked : handOver(owner);
 }
 
 }  // namespace
 
-int runCommandLine(int argc, const char* const* argv, const Project& project, const Room& room) {
+int runCommandLine(int argc, const char* const* argv, const Project& project, const CommandSet& set) {
   ExitCode code = ExitCode::kGraderFault;
   try {
-    code = actionOf(argc, argv, room, project)(project);
+    code = actionOf(argc, argv, set, project)(project);
   } catch (const UsageError& error) {
     note(wrap(fmt::format("rex: {}", error.what()), 2, 0));
     code = ExitCode::kUsage;
@@ -342,10 +342,10 @@ int runCommandLine(int argc, const char* const* argv, const Project& project, co
   return static_cast<int>(code);
 }
 
-int runProgram(int argc, const char* const* argv, const Project& project, const Room& room) {
+int runProgram(int argc, const char* const* argv, const Project& project, const CommandSet& set) {
   try {
     const HeldSignals held;
-    return runCommandLine(argc, argv, project, room);
+    return runCommandLine(argc, argv, project, set);
   } catch (const Interrupted& stop) {
     // All is cleaned up. Flush the output, then end by the signal, as its sender wants.
     std::fflush(nullptr);

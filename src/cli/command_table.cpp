@@ -16,7 +16,7 @@ std::string programName(Program program) {
   return "";
 }
 
-const char* nameOf(Topic topic) {
+const char* toString(Topic topic) {
   switch (topic) {
     case Topic::kExercises:
       return "Exercises";

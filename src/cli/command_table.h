@@ -26,7 +26,7 @@ enum class Program { kStudent, kRobot, kInstructor };
 /// The groups of `rex --help`.
 enum class Topic { kExercises, kRobots, kMethods, kCourses };
 
-[[nodiscard]] const char* nameOf(Topic topic);
+[[nodiscard]] const char* toString(Topic topic);
 
 /// What every program knows about a command, including those that it hands over.
 struct TableEntry {
@@ -54,7 +54,7 @@ using Action = std::function<ExitCode(const Project&)>;
 using Registration = void (*)(CLI::App* command, Action& action);
 
 /// What one program does itself: the commands that the table assigns to it.
-struct Room {
+struct CommandSet {
   Program program{};
   std::map<std::string_view, Registration> commands{};
   Action withoutCommand{};             ///< empty: `rex` handles it
@@ -63,10 +63,10 @@ struct Room {
   std::vector<std::string> (*postures)(const Project&, std::span<const std::string> words) = nullptr;
 };
 
-/// The rooms of the programs; each is defined in the library of its folder.
-[[nodiscard]] Room studentRoom();
-[[nodiscard]] Room robotRoom();
-[[nodiscard]] Room instructorRoom();
+/// The commands of the programs; each set is defined in the library of its folder.
+[[nodiscard]] CommandSet studentCommands();
+[[nodiscard]] CommandSet robotCommands();
+[[nodiscard]] CommandSet instructorCommands();
 
 /// The commands, in a file each; see Registration.
 void addDebug(CLI::App* command, Action& action);

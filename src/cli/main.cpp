@@ -1,7 +1,7 @@
-// The programs behind `rex`, one for each room.
+// The programs behind `rex`, one for each set of commands.
 #include "cli/command_line.h"
 
 int main(int argc, char** argv) {
-  const rex::cli::Room room = rex::cli::REX_ROOM();
-  return rex::cli::runProgram(argc, argv, room.project(), room);
+  const rex::cli::CommandSet set = rex::cli::REX_COMMANDS();
+  return rex::cli::runProgram(argc, argv, set.project(), set);
 }

@@ -34,7 +34,7 @@ std::vector<NumberTable::Name> namesIn(std::string_view line) {
 
 }  // namespace
 
-Refusal refusalOf(const std::string& option) {
+Refusal optionRefusal(const std::string& option) {
   return [option](const std::string& found, const std::string& wanted) {
     throw UsageError({.what = option, .found = found, .wanted = wanted});
   };
@@ -49,7 +49,7 @@ std::vector<std::string_view> numberWords(std::string_view text, const Refusal& 
 }
 
 Eigen::Vector3d parsePoint(const std::string& text, const std::string& option, const std::string& form) {
-  const Refusal refuse = refusalOf(option);
+  const Refusal refuse = optionRefusal(option);
   const std::vector<std::string_view> words = numberWords(text, refuse);
   if (words.size() != 3) refuse(fmt::format("{} numbers", words.size()), "three: " + form);
   Eigen::Vector3d point;

@@ -33,7 +33,7 @@ auto asWrongUse(const Attempt& attempt, const std::string& option = "") {
 using Refusal = std::function<void(const std::string&, const std::string&)>;
 
 /// Throws a UsageError that begins with the option.
-[[nodiscard]] Refusal refusalOf(const std::string& option);
+[[nodiscard]] Refusal optionRefusal(const std::string& option);
 
 /// The words of a text, as views into it, separated by commas or blanks; a final comma is allowed. Refuses
 /// empty fields and ';'.

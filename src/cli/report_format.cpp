@@ -27,7 +27,7 @@ const reports::ReportFormat& reportFormat(const std::string& name) {
 
 }  // namespace
 
-std::vector<reports::ReportFormat> reportsOf(const std::string& names) {
+std::vector<reports::ReportFormat> parseReportFormats(const std::string& names) {
   std::vector<reports::ReportFormat> formats;
   for (std::size_t at = 0; at < names.size();) {
     const std::size_t end = std::min(names.find(',', at), names.size());

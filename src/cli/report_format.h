@@ -9,7 +9,7 @@ namespace rex::cli {
 
 /// The report formats with these comma-separated names, as `--report` takes them. Throws UsageError naming
 /// the nearest.
-[[nodiscard]] std::vector<reports::ReportFormat> reportsOf(const std::string& names);
+[[nodiscard]] std::vector<reports::ReportFormat> parseReportFormats(const std::string& names);
 
 /// Whether a format is among them.
 [[nodiscard]] bool contains(const std::vector<reports::ReportFormat>& formats,

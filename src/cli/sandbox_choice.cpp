@@ -9,16 +9,16 @@
 
 namespace rex::cli {
 
-std::filesystem::path launcherOf(const Project& project) { return project.build / "rex-sandbox"; }
+std::filesystem::path launcherPath(const Project& project) { return project.build / "rex-sandbox"; }
 
-std::filesystem::path probeOf(const Project& project) { return project.build / "rex-sandbox-probe"; }
+std::filesystem::path probePath(const Project& project) { return project.build / "rex-sandbox-probe"; }
 
 std::optional<sandbox::Sandbox> chooseSandbox(const Project& project, std::optional<sandbox::Level> level) {
   sandbox::Sandbox chosen{.level = level.value_or(sandbox::Level::kLimitsOnly),
-                          .launcher = launcherOf(project)};
+                          .launcher = launcherPath(project)};
   if (!isConfined(chosen.level)) return chosen;
   const PrivateFolder folder(temporaryFolder());
-  const std::string reason = sandbox::whyNot(chosen, probeOf(project), folder.path());
+  const std::string reason = sandbox::whyNot(chosen, probePath(project), folder.path());
   if (reason.empty()) return chosen;
   note(wrap(
       fmt::format("sandbox level {} is not available here: {}", numberOf(*level), escapeForTerminal(reason)),

@@ -9,8 +9,8 @@
 namespace rex::cli {
 
 /// The programs that set up the sandbox and attack it; they are next to `rex`.
-[[nodiscard]] std::filesystem::path launcherOf(const Project& project);
-[[nodiscard]] std::filesystem::path probeOf(const Project& project);
+[[nodiscard]] std::filesystem::path launcherPath(const Project& project);
+[[nodiscard]] std::filesystem::path probePath(const Project& project);
 
 /// The sandbox of the requested level if that holds here; otherwise empty, with the reasons on standard
 /// error. Without a requested level: limits only.

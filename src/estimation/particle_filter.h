@@ -50,7 +50,7 @@ struct ParticleFilterOptions {
 
 /// The outcome of a step.
 struct ParticleStep {
-  double logEvidence = 0;    ///< log p(y | earlier observations), up to the constant of Weigh
+  double logEvidence = 0;    ///< log p(y | earlier observations), up to the constant of LogLikelihood
   double effectiveSize = 0;  ///< after weighing
   bool resampled = false;
   bool lost = false;  ///< no particle explains the observation: it was ignored, but particles moved

@@ -195,7 +195,7 @@ AnswerValue readAnswer(std::span<const std::byte> bytes, const std::string& layo
   return AnswerParser(layout, bytes).all();
 }
 
-std::vector<std::byte> bytesOf(const AnswerValue& value) {
+std::vector<std::byte> toBytes(const AnswerValue& value) {
   Bytes bytes;
   write(value, bytes);
   return bytes;

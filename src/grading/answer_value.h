@@ -25,7 +25,7 @@ struct AnswerValue {
 /// Throws Error if the bytes are not one value of that layout. An empty layout means no value.
 [[nodiscard]] AnswerValue readAnswer(std::span<const std::byte> bytes, const std::string& layout);
 
-[[nodiscard]] std::vector<std::byte> bytesOf(const AnswerValue& value);
+[[nodiscard]] std::vector<std::byte> toBytes(const AnswerValue& value);
 
 /// The number of bytes of the value at the beginning of `bytes`. Throws Error if they do not begin with a
 /// value of that layout.

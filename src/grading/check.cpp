@@ -282,8 +282,8 @@ void Check::nearAngle(std::string_view property, double got, double wanted, doub
 
 void Check::along(std::string_view property, const Signal& got, const Rule& rule, std::string_view unit) {
   constexpr double kLeast = 1e-9;  // the length of a motion that is one moment
-  const Breaches breaches = breachesOf(rule.beyond);
-  const auto place = [&](std::size_t i) { return " at " + placeOf(got, i); };
+  const Breaches breaches = findBreaches(rule.beyond);
+  const auto place = [&](std::size_t i) { return " at " + placeText(got, i); };
   const auto value = [&](std::size_t i) {
     return withUnit(valueText(got.values[i], largestEntry(rule.beyond[i]), 0), unit);
   };
@@ -310,8 +310,9 @@ void Check::along(std::string_view property, const Signal& got, const Rule& rule
   if (shortfall.what.empty() && breaches.worst != first) shortfall.worst = worst;
   // A signal may begin later than its motion, whose first step is 1.
   const double begin = std::min(got.axis == "step" ? 1.0 : 0.0, got.at.front());
-  Plot plot{.figure = figureOf(std::string(property), got, rule.wanted, breaches.ofComponents, first, unit),
-            .share = (got.at[first] - begin) / std::max(got.at.back() - begin, kLeast)};
+  Plot plot{
+      .figure = signalFigure(std::string(property), got, rule.wanted, breaches.ofComponents, first, unit),
+      .share = (got.at[first] - begin) / std::max(got.at.back() - begin, kLeast)};
   plot.figure.horizontalLines = rule.limits;
   fail(std::move(shortfall), plot);
 }
@@ -474,7 +475,7 @@ CheckResult Check::result() const {
   if (info_.group == Group::kVisible) verdict.worst = nearest_;
   if (!worst_) return verdict;
   verdict.status = worst_->outcome;
-  verdict.message = printable(messageOf(*worst_), kLongestText);
+  verdict.message = printable(shortfallText(*worst_), kLongestText);
   verdict.property = worst_->property;
   verdict.function = worst_->function;
   if (info_.group == Group::kHidden) return verdict;
@@ -485,7 +486,7 @@ CheckResult Check::result() const {
   return verdict;
 }
 
-std::string Check::messageOf(const Shortfall& shortfall) const {
+std::string Check::shortfallText(const Shortfall& shortfall) const {
   std::string text;
   if (shortfall.caseNumber >= 0)
     text = fmt::format("{} of {} cases hold; case {}: ", casesPassed_, cases_, shortfall.caseNumber + 1);

@@ -261,7 +261,7 @@ class Check {
   void keepEvidence(const std::optional<Plot>& plot);
   bool runCase(int number, const std::function<void(int)>& run);
   CheckResult result() const;
-  std::string messageOf(const Shortfall& shortfall) const;
+  std::string shortfallText(const Shortfall& shortfall) const;
 
   CheckInfo info_;
   std::uint64_t seed_;

@@ -360,7 +360,7 @@ void runInTheirCopies(const GradeResult& start, std::span<const RunnableCheck> c
 
 void setSandbox(GradeResult& result, sandbox::Level level) {
   result.sandboxLevel = sandbox::numberOf(level);
-  const std::string warning = sandbox::warningOf(level);
+  const std::string warning = sandbox::levelWarning(level);
   result.sandboxWarnings = warning.empty() ? std::vector<std::string>{} : std::vector{warning};
 }
 

@@ -120,11 +120,11 @@ ExitCode attack(const Arguments& arguments, const std::vector<RunnableCheck>& ch
 // Prints the lies for which a check gives points: part, check, lie and points, separated by tabs.
 ExitCode lie(const Arguments& arguments, const std::vector<RunnableCheck>& checks,
              const CallLayouts& layouts) {
-  const std::vector<LieOutcome> outcomes =
+  const std::vector<FalseAnswerOutcome> outcomes =
       runAdversarially(checks, arguments.job, arguments.signature, layouts);
   if (outcomes.empty()) throw std::logic_error("there are no checks");
   int points = 0;
-  for (const LieOutcome& one : outcomes) {
+  for (const FalseAnswerOutcome& one : outcomes) {
     points += one.points;
     if (one.points > 0) fmt::print("{}\t{}\t{}\t{}\n", one.part, one.check, toString(one.lie), one.points);
   }

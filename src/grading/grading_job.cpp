@@ -58,7 +58,7 @@ std::vector<std::string> toArguments(const GradingJob& job) {
   return arguments;
 }
 
-std::filesystem::path workerOf(const std::string& part, const GradingJob& job) {
+std::filesystem::path workerProgram(const std::string& part, const GradingJob& job) {
   const bool isOwn = std::find(job.parts.begin(), job.parts.end(), part) != job.parts.end();
   return isOwn ? std::filesystem::path(job.worker.string() + "." + part) : job.worker;
 }

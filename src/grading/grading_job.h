@@ -17,7 +17,7 @@ namespace rex::grading {
 /// What one run of a grader program is asked to do. It is passed as a whole from the command line of `rex`
 /// to the launch of each worker.
 struct GradingJob {
-  std::filesystem::path worker{};     ///< see workerOf(); empty: all checks are listed as not run
+  std::filesystem::path worker{};     ///< see workerProgram(); empty: all checks are listed as not run
   std::vector<std::string> parts{};   ///< of the exercise, with workers of their own
   std::filesystem::path results{};    ///< results.json; its fields about the submission are kept; empty: none
   std::vector<std::string> checks{};  ///< ids; empty: all
@@ -40,6 +40,6 @@ void declareOptions(CLI::App& app, GradingJob& job);
 
 /// The program that answers the checks of a part: WORKER.PART if the part has a worker of its own, in which
 /// less of the library may be called, else WORKER. Whether it exists is not looked at.
-[[nodiscard]] std::filesystem::path workerOf(const std::string& part, const GradingJob& job);
+[[nodiscard]] std::filesystem::path workerProgram(const std::string& part, const GradingJob& job);
 
 }  // namespace rex::grading

@@ -81,7 +81,7 @@ void choose(AnswerValue& J) {
 
 }  // namespace
 
-std::optional<ValueAndJacobian> valueAndJacobianOf(AnswerValue& answer) {
+std::optional<ValueAndJacobian> asValueAndJacobian(AnswerValue& answer) {
   ValueAndJacobian found;
   for (AnswerValue& part : answer.parts) {
     if (answer.kind != '(' || part.kind != 'M' || !isNumbers(part)) continue;
@@ -94,8 +94,8 @@ std::optional<ValueAndJacobian> valueAndJacobianOf(AnswerValue& answer) {
   return found;
 }
 
-std::vector<AnswerValue> argumentsOf(std::span<const std::byte> bytes,
-                                     const std::vector<std::string>& layouts) {
+std::vector<AnswerValue> readArguments(std::span<const std::byte> bytes,
+                                       const std::vector<std::string>& layouts) {
   std::vector<AnswerValue> values;
   for (std::size_t k = 1; k < layouts.size(); ++k) {
     const std::size_t size = sizeOfValue(bytes, layouts[k]);
@@ -106,7 +106,7 @@ std::vector<AnswerValue> argumentsOf(std::span<const std::byte> bytes,
 }
 
 void RememberedAnswer::remember(AnswerValue honest, std::vector<AnswerValue> question) {
-  if (const auto pair = valueAndJacobianOf(honest)) choose(*pair->J);
+  if (const auto pair = asValueAndJacobian(honest)) choose(*pair->J);
   first_ = std::move(honest);
   question_ = std::move(question);
 }
@@ -115,15 +115,15 @@ std::vector<std::byte> RememberedAnswer::answer(std::span<const std::byte> argum
                                                 std::span<const std::byte> honest,
                                                 const std::vector<std::string>& layouts) {
   if (layouts.front().empty()) return {};
-  std::vector<AnswerValue> question = argumentsOf(arguments, layouts);
+  std::vector<AnswerValue> question = readArguments(arguments, layouts);
   AnswerValue right = readAnswer(honest, layouts.front());
   if (!first_ || !haveSameSizes(*first_, right) || !std::ranges::equal(question_, question, haveSameSizes)) {
     remember(std::move(right), std::move(question));
-    return bytesOf(*first_);
+    return toBytes(*first_);
   }
   const std::vector<double> x = numbersOf(question), x0 = numbersOf(question_);
   AnswerValue said = *first_;
-  const auto pair = valueAndJacobianOf(said);
+  const auto pair = asValueAndJacobian(said);
   if (pair) {
     std::optional<std::size_t> begin;
     std::size_t at = 0;
@@ -140,7 +140,7 @@ std::vector<std::byte> RememberedAnswer::answer(std::span<const std::byte> argum
       for (std::size_t j = 0; j < x.size(); ++j) y += .5 * std::cos(slope += 2) * (x[j] - x0[j]);
     });
   }
-  return bytesOf(said);
+  return toBytes(said);
 }
 
 namespace {
@@ -190,7 +190,7 @@ void addEntries(AnswerValue& value, double number) {
 
 // A value and its Jacobian get a component whose Jacobian is right, and the other rows are wrong.
 void grow(AnswerValue& answer, double number, const Change& change) {
-  const auto pair = valueAndJacobianOf(answer);
+  const auto pair = asValueAndJacobian(answer);
   if (!pair) {
     makeWrong(answer);
     if (!change.isPlain) addEntries(answer, number);
@@ -233,10 +233,10 @@ std::vector<std::byte> grown(std::span<const std::byte> answer, std::span<const 
       break;
     case Growth::kSteep:
     case Growth::kCount:
-      grow(value, factor * (1 + sumOf(argumentsOf(arguments, layouts))), change);
+      grow(value, factor * (1 + sumOf(readArguments(arguments, layouts))), change);
       break;
   }
-  return bytesOf(value);
+  return toBytes(value);
 }
 
 namespace {

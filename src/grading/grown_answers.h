@@ -39,11 +39,11 @@ struct ValueAndJacobian {
 };
 
 /// Empty unless the answer is a struct with one column of n numbers and a matrix of n rows.
-[[nodiscard]] std::optional<ValueAndJacobian> valueAndJacobianOf(AnswerValue& answer);
+[[nodiscard]] std::optional<ValueAndJacobian> asValueAndJacobian(AnswerValue& answer);
 
 /// The arguments of a call, taken apart.
-[[nodiscard]] std::vector<AnswerValue> argumentsOf(std::span<const std::byte> bytes,
-                                                   const std::vector<std::string>& layouts);
+[[nodiscard]] std::vector<AnswerValue> readArguments(std::span<const std::byte> bytes,
+                                                     const std::vector<std::string>& layouts);
 
 /// Ways in which an answer could make more room for itself: all of its numbers huge, all of them tiny, one
 /// of them huge, or one more entry, row and list element, steep in every number of the question, beside

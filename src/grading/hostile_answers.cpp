@@ -163,12 +163,12 @@ bool keepsNumbers(Hostility hostility) {
   return std::ranges::find(kKeeping, hostility) != kKeeping.end();
 }
 
-std::vector<std::byte> spoilt(std::span<const std::byte> answer, const std::string& layout,
-                              Hostility hostility, Rng& rng) {
+std::vector<std::byte> corrupted(std::span<const std::byte> answer, const std::string& layout,
+                                 Hostility hostility, Rng& rng) {
   AnswerValue value = readAnswer(answer, layout);
   if (layout.empty()) return {};
   Spoiler(hostility, rng).spoil(value);
-  return bytesOf(value);
+  return toBytes(value);
 }
 
 namespace {
@@ -217,22 +217,23 @@ Bytes firstLikeTheResult(Caller::Bytes arguments, const std::vector<std::string>
 }
 
 /// Replaces honest answers with lies.
-class Liar {
+class FalseAnswerer {
  public:
-  Liar(Lie lie, const Pool& pool, const CallLayouts& layouts) : lie_(lie), pool_(pool), layouts_(layouts) {}
+  FalseAnswerer(FalseAnswer lie, const Pool& pool, const CallLayouts& layouts)
+      : lie_(lie), pool_(pool), layouts_(layouts) {}
 
   /// Whether it lied since it was last asked. Other lies than those from memory count even if they are true.
-  bool lied() { return std::exchange(lied_, false) || lie_ != Lie::kMemory; }
+  bool lied() { return std::exchange(lied_, false) || lie_ != FalseAnswer::kMemory; }
 
   Caller::Bytes tell(std::uint32_t method, Caller::Bytes arguments, Caller::Bytes honest) {
     Bytes last = std::exchange(last_[method], copyOf(honest));
-    said_ = lie_ == Lie::kMemory       ? memories_[method].answer(arguments, honest, layouts_[method])
-            : lie_ == Lie::kConstant   ? answerToAnother(method, arguments)
-            : lie_ == Lie::kLastAnswer ? std::move(last)
-            : lie_ == Lie::kEcho       ? firstLikeTheResult(arguments, layouts_[method])
-                                       : Bytes{};
+    said_ = lie_ == FalseAnswer::kMemory       ? memories_[method].answer(arguments, honest, layouts_[method])
+            : lie_ == FalseAnswer::kConstant   ? answerToAnother(method, arguments)
+            : lie_ == FalseAnswer::kLastAnswer ? std::move(last)
+            : lie_ == FalseAnswer::kEcho       ? firstLikeTheResult(arguments, layouts_[method])
+                                               : Bytes{};
     lied_ = lied_ || !std::ranges::equal(said_, honest);
-    if (said_.empty()) said_ = spoilt(honest, layouts_[method].front(), Hostility::kZero, rng_);
+    if (said_.empty()) said_ = corrupted(honest, layouts_[method].front(), Hostility::kZero, rng_);
     return said_;
   }
 
@@ -244,7 +245,7 @@ class Liar {
     return {};
   }
 
-  Lie lie_;
+  FalseAnswer lie_;
   const Pool& pool_;
   const CallLayouts& layouts_;
   std::map<std::uint32_t, Bytes> last_{};
@@ -254,11 +255,12 @@ class Liar {
   Rng rng_{};
 };
 
-int pointsFor(const Liar& liar, const RunnableCheck& check, const Reference& reference) {
+int pointsFor(const FalseAnswerer& liar, const RunnableCheck& check, const Reference& reference) {
   Check judge(check.info, reference.job.seed);
-  std::vector<std::unique_ptr<Liar>> liars;  // a fresh worker remembers nothing of what others were asked
+  std::vector<std::unique_ptr<FalseAnswerer>>
+      liars;  // a fresh worker remembers nothing of what others were asked
   const auto another = [&](const Caller&) {
-    liars.push_back(std::make_unique<Liar>(liar));
+    liars.push_back(std::make_unique<FalseAnswerer>(liar));
     return [one = liars.back().get()](std::uint32_t method, Caller::Bytes arguments, Caller::Bytes honest) {
       return one->tell(method, arguments, honest);
     };
@@ -283,7 +285,7 @@ int pointsFor(const Liar& liar, const RunnableCheck& check, const Reference& ref
 }
 
 // In a copy of this process, as when grading: a lie that brings the grader down gets nothing.
-int pointsApart(const Liar& liar, const RunnableCheck& check, const Reference& reference) {
+int pointsApart(const FalseAnswerer& liar, const RunnableCheck& check, const Reference& reference) {
   const IsolatedResult result =
       callIsolated([&] { return std::to_string(pointsFor(liar, check, reference)); }, kOneRun);
   return result.end == IsolatedEnd::kReturned ? parseNumber<int>(result.bytes).value_or(0) : 0;
@@ -327,7 +329,7 @@ class Attack {
         throw Error({.what = "the reference solution never answers " + std::to_string(method)});
       const Bytes& honest =
           known->second[static_cast<std::size_t>(rng_.index(static_cast<int>(known->second.size())))].answer;
-      answer = spoilt(honest, layouts_[method].front(), outcome_.hostility, rng_);
+      answer = corrupted(honest, layouts_[method].front(), outcome_.hostility, rng_);
       allAreLies = allAreLies && !std::ranges::equal(answer, honest);
       ++outcome_.answers;
       return std::span<const std::byte>(answer);
@@ -399,25 +401,25 @@ std::vector<HostileOutcome> giveHostileAnswers(std::span<const RunnableCheck> ch
   return outcomes;
 }
 
-std::string toString(Lie lie) {
-  constexpr std::array<const char*, static_cast<std::size_t>(Lie::kCount)> kNames = {
+std::string toString(FalseAnswer lie) {
+  constexpr std::array<const char*, static_cast<std::size_t>(FalseAnswer::kCount)> kNames = {
       "zeros", "constant", "last answer", "echo", "memory"};
   return kNames.at(static_cast<std::size_t>(lie));
 }
 
-std::vector<LieOutcome> runAdversarially(std::span<const RunnableCheck> checks, const GradingJob& job,
-                                         std::uint64_t signature, const CallLayouts& layouts) {
+std::vector<FalseAnswerOutcome> runAdversarially(std::span<const RunnableCheck> checks, const GradingJob& job,
+                                                 std::uint64_t signature, const CallLayouts& layouts) {
   GradingJob others = job;
   others.seed += 1000;  // constants that were right for another seed
   const Pool pool = recordHonestAnswers(checks, {others, signature});
-  std::vector<LieOutcome> outcomes;
+  std::vector<FalseAnswerOutcome> outcomes;
   for (const RunnableCheck& check : checks)
-    for (int k = 0; k < static_cast<int>(Lie::kCount); ++k) {
-      const Lie lie = static_cast<Lie>(k);
+    for (int k = 0; k < static_cast<int>(FalseAnswer::kCount); ++k) {
+      const FalseAnswer lie = static_cast<FalseAnswer>(k);
       outcomes.push_back({.check = check.info.id,
                           .part = check.info.part,
                           .lie = lie,
-                          .points = pointsApart(Liar(lie, pool, layouts), check, {job, signature})});
+                          .points = pointsApart(FalseAnswerer(lie, pool, layouts), check, {job, signature})});
     }
   return outcomes;
 }

@@ -36,10 +36,10 @@ enum class Hostility {
 /// Whether some numbers of the honest answer stay unchanged.
 [[nodiscard]] bool keepsNumbers(Hostility hostility);
 
-/// The honest answer, spoilt: bytes of the same layout (remote/layout.h). Throws Error if `answer` does not
-/// have that layout.
-[[nodiscard]] std::vector<std::byte> spoilt(std::span<const std::byte> answer, const std::string& layout,
-                                            Hostility hostility, Rng& rng);
+/// The honest answer, corrupted: bytes of the same layout (remote/layout.h). Throws Error if `answer` does
+/// not have that layout.
+[[nodiscard]] std::vector<std::byte> corrupted(std::span<const std::byte> answer, const std::string& layout,
+                                               Hostility hostility, Rng& rng);
 
 /// For each of the student's functions: the layout of its return value, then those of its arguments.
 using CallLayouts = std::vector<std::vector<std::string>>;
@@ -69,20 +69,20 @@ struct HostileOutcome {
 /// Generic wrong functions: they return zeros, always the same answer, the answer of the last call, their
 /// input in the right shape, or what follows from the first answer by a slope of their choice
 /// (remembered_answer.h).
-enum class Lie { kZeros, kConstant, kLastAnswer, kEcho, kMemory, kCount };
+enum class FalseAnswer { kZeros, kConstant, kLastAnswer, kEcho, kMemory, kCount };
 
-[[nodiscard]] std::string toString(Lie lie);
+[[nodiscard]] std::string toString(FalseAnswer lie);
 
 /// The points that a check gives for a lie.
-struct LieOutcome {
+struct FalseAnswerOutcome {
   std::string check, part;
-  Lie lie = Lie::kZeros;
+  FalseAnswer lie = FalseAnswer::kZeros;
   int points = 0;
 };
 
 /// Has the reference solution's worker tell each lie to each check.
-[[nodiscard]] std::vector<LieOutcome> runAdversarially(std::span<const RunnableCheck> checks,
-                                                       const GradingJob& job, std::uint64_t signature,
-                                                       const CallLayouts& layouts);
+[[nodiscard]] std::vector<FalseAnswerOutcome> runAdversarially(std::span<const RunnableCheck> checks,
+                                                               const GradingJob& job, std::uint64_t signature,
+                                                               const CallLayouts& layouts);
 
 }  // namespace rex::grading

@@ -18,7 +18,7 @@ std::vector<Eigen::VectorXd> placesOfDifferences(const Eigen::VectorXd& x) {
   return places;
 }
 
-Eigen::MatrixXd differencesOf(std::span<const Eigen::VectorXd> values, const Eigen::VectorXd& x) {
+Eigen::MatrixXd finiteDifferences(std::span<const Eigen::VectorXd> values, const Eigen::VectorXd& x) {
   std::size_t next = 0;
   return numericJacobian([&](const Eigen::VectorXd&) { return values[next++]; }, x);
 }

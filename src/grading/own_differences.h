@@ -20,8 +20,8 @@ namespace rex::grading {
 [[nodiscard]] std::vector<Eigen::VectorXd> placesOfDifferences(const Eigen::VectorXd& x);
 
 /// The Jacobian at x by the values at placesOfDifferences(x), in this order.
-[[nodiscard]] Eigen::MatrixXd differencesOf(std::span<const Eigen::VectorXd> values,
-                                            const Eigen::VectorXd& x);
+[[nodiscard]] Eigen::MatrixXd finiteDifferences(std::span<const Eigen::VectorXd> values,
+                                                const Eigen::VectorXd& x);
 
 /// Asks a fresh worker for the value of the student's function at a place, and requires its size.
 using ValueAt = std::function<Eigen::VectorXd(remote::Caller&, const Eigen::VectorXd& place)>;

@@ -56,7 +56,7 @@ GradeResult loadSoundResult(const std::filesystem::path& file) {
   const SortedJson& inputs = json["inputs"];
   const bool isSealed =
       inputs.is_object() && inputs.contains("result_sha256") && inputs["result_sha256"].is_string();
-  const std::string found = sealOf(text, file.string()),
+  const std::string found = computeSeal(text, file.string()),
                     wanted = isSealed ? inputs["result_sha256"].get<std::string>() : "none";
   if (found != wanted)
     throw Error({.what = "a result that was changed after the grading",
@@ -66,7 +66,7 @@ GradeResult loadSoundResult(const std::filesystem::path& file) {
   return result;
 }
 
-std::string sealOf(const std::string& text, const std::string& file) {
+std::string computeSeal(const std::string& text, const std::string& file) {
   SortedJson json = SortedJson::parse(text, nullptr, false);
   if (!json.is_object())
     throw Error({.what = "result file: not JSON", .where = {.file = file}, .wanted = "a result"});

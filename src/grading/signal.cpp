@@ -49,7 +49,7 @@ Signal overSteps(const std::vector<Eigen::VectorXd>& values) {
   return signal;
 }
 
-Breaches breachesOf(const std::vector<Eigen::VectorXd>& beyond) {
+Breaches findBreaches(const std::vector<Eigen::VectorXd>& beyond) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Breaches breaches{.most = -kInfinity,
                     .ofComponents = Eigen::VectorXd::Constant(beyond.front().size(), -kInfinity)};
@@ -65,15 +65,16 @@ Breaches breachesOf(const std::vector<Eigen::VectorXd>& beyond) {
   return breaches;
 }
 
-std::string placeOf(const Signal& signal, std::size_t i) {
+std::string placeText(const Signal& signal, std::size_t i) {
   const std::size_t bracket = signal.axis.find(" [");
   if (bracket == std::string::npos) return fmt::format("{} {:.6g}", signal.axis, signal.at[i]);
   const std::string unit = signal.axis.substr(bracket + 2, signal.axis.find(']') - bracket - 2);
   return fmt::format("{} {:.6g} {}", signal.axis.substr(0, bracket), signal.at[i], unit);
 }
 
-Figure figureOf(const std::string& title, const Signal& signal, const std::vector<Eigen::VectorXd>& wanted,
-                const Eigen::VectorXd& excess, std::size_t first, std::string_view unit) {
+Figure signalFigure(const std::string& title, const Signal& signal,
+                    const std::vector<Eigen::VectorXd>& wanted, const Eigen::VectorXd& excess,
+                    std::size_t first, std::string_view unit) {
   Figure figure{
       .title = title, .xLabel = signal.axis, .yLabel = fmt::format("value [{}]", unit.empty() ? "1" : unit)};
   for (const Eigen::Index row : largest(excess)) {

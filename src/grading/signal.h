@@ -34,16 +34,16 @@ struct Breaches {
 };
 /// By the excess of all values, which is at most 0 where the rule holds; NaN counts as infinite. There must
 /// be one at least, and all must have the same size.
-[[nodiscard]] Breaches breachesOf(const std::vector<Eigen::VectorXd>& beyond);
+[[nodiscard]] Breaches findBreaches(const std::vector<Eigen::VectorXd>& beyond);
 
 /// Place i in words: "step 7", "time 0.35 s".
-[[nodiscard]] std::string placeOf(const Signal& signal, std::size_t i);
+[[nodiscard]] std::string placeText(const Signal& signal, std::size_t i);
 
 /// The signal over its axis next to the wanted one, which may be empty, and a mark at place `first`, from
 /// which it is wrong. Of several components at most four: those with the largest `excess`, which has their
 /// number. Leaves out what is not finite.
-[[nodiscard]] Figure figureOf(const std::string& title, const Signal& signal,
-                              const std::vector<Eigen::VectorXd>& wanted, const Eigen::VectorXd& excess,
-                              std::size_t first, std::string_view unit);
+[[nodiscard]] Figure signalFigure(const std::string& title, const Signal& signal,
+                                  const std::vector<Eigen::VectorXd>& wanted, const Eigen::VectorXd& excess,
+                                  std::size_t first, std::string_view unit);
 
 }  // namespace rex::grading

@@ -35,7 +35,7 @@ constexpr int kLoaderFailed = 127;
 Failure tooSlow(const WorkerEnd& end, const Limits& limits) {
   return {.outcome = Outcome::kTimeLimit,
           .message = fmt::format("stopped after {:.1f} s of CPU time {}", limits.cpuBudget(),
-                                 placeOf(end.ready, end.function))};
+                                 failurePlace(end.ready, end.function))};
 }
 
 Failure tooMuchMemory(const Limits& limits, const std::string& place) {
@@ -54,7 +54,7 @@ bool ranOutOfMemory(const std::string& errorTail) {
 }
 
 Failure badAccess(const WorkerEnd& end, const Limits& limits) {
-  const std::string message = "crashed with a segmentation fault " + placeOf(end.ready, end.function);
+  const std::string message = "crashed with a segmentation fault " + failurePlace(end.ready, end.function);
   if (end.ready) return {.message = message + " (an index out of range, or infinite recursion?)"};
   // The kernel also kills a program whose globals do not fit while it is being loaded.
   return {.message =
@@ -64,7 +64,7 @@ Failure badAccess(const WorkerEnd& end, const Limits& limits) {
 }
 
 Failure explainSignal(const WorkerEnd& end, const Limits& limits) {
-  const std::string place = placeOf(end.ready, end.function);
+  const std::string place = failurePlace(end.ready, end.function);
   if (end.outOfMemory) return tooMuchMemory(limits, place);
   switch (WTERMSIG(end.status)) {
     case SIGSYS:
@@ -97,7 +97,7 @@ Failure explainSignal(const WorkerEnd& end, const Limits& limits) {
 
 }  // namespace
 
-std::string placeOf(bool ready, const std::string& function) {
+std::string failurePlace(bool ready, const std::string& function) {
   if (!function.empty()) return "in " + function;
   return ready ? "between two calls" : "before the first call";
 }
@@ -110,7 +110,7 @@ bool tellsOfCrash(std::string_view message) {
 Failure explainEnd(const WorkerEnd& end, const Limits& limits) {
   if (WIFSIGNALED(end.status)) return explainSignal(end, limits);
   const int code = WEXITSTATUS(end.status);
-  const std::string place = placeOf(end.ready, end.function);
+  const std::string place = failurePlace(end.ready, end.function);
   if (code == remote::kProtocolFailure)
     return {.outcome = Outcome::kProtocolError, .message = "lost its connection to the grader " + place};
   if (code == kLoaderFailed && !end.ready)
@@ -122,7 +122,7 @@ Failure explainEnd(const WorkerEnd& end, const Limits& limits) {
 Failure explainThrow(const remote::RemoteThrow& error, const Limits& limits) {
   const remote::Thrown& thrown = error.thrown();
   if (thrown.kind == remote::Thrown::Kind::kBadAlloc) {
-    Failure failure = tooMuchMemory(limits, placeOf(true, error.function()));
+    Failure failure = tooMuchMemory(limits, failurePlace(true, error.function()));
     failure.function = error.function();
     return failure;
   }

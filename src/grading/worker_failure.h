@@ -51,7 +51,7 @@ struct WorkerEnd {
 };
 
 /// "in ikStep", "before the first call" or "between two calls".
-[[nodiscard]] std::string placeOf(bool ready, const std::string& function);
+[[nodiscard]] std::string failurePlace(bool ready, const std::string& function);
 
 /// Whether a message of ours reports a crash, for which a second look with the sanitizers may find the line.
 [[nodiscard]] bool tellsOfCrash(std::string_view message);

@@ -117,7 +117,7 @@ void execWorker(const LaunchOrder& order, char* const* arguments, const std::vec
   static_cast<void>(!::write(status, &cause, sizeof cause));
 }
 
-std::vector<char*> argumentsOf(const LaunchOrder& order) {
+std::vector<char*> readArguments(const LaunchOrder& order) {
   static const std::string kName = "worker";
   std::vector<char*> arguments;
   for (const std::string& word : order.command) arguments.push_back(const_cast<char*>(word.c_str()));
@@ -133,7 +133,7 @@ Launched launchWorker(const LaunchOrder& order) {
   static_assert(remote::kWorkerIn == 3 && remote::kWorkerOut == 4 && sandbox::kReport == 5);
   Pipe in, out, output, error, status;
   std::optional<Pipe> report;
-  const std::vector<char*> arguments = argumentsOf(order);
+  const std::vector<char*> arguments = readArguments(order);
   std::vector<int> fds{output.writeEnd(), error.writeEnd(), in.readEnd(), out.writeEnd()};
   if (sandbox::isConfined(order.level)) fds.push_back(report.emplace().writeEnd());
   pid_t child = -1;
@@ -268,7 +268,7 @@ class Worker {
   bool saidItsEnd();
   int trueStatus();
   void killAll();
-  std::string place() const { return placeOf(ready_, caller_.running()); }
+  std::string place() const { return failurePlace(ready_, caller_.running()); }
 
   const GradingJob& job_;
   SigpipeIgnored sigpipe_;
@@ -469,7 +469,7 @@ WorkerRun Worker::end() {
 
 WorkerRun runWithWorker(const GradingJob& job, const std::string& part, std::uint64_t signature,
                         const std::function<void(remote::Caller&)>& conversation) {
-  Worker worker(job, workerOf(part, job));
+  Worker worker(job, workerProgram(part, job));
   std::optional<Failure> failure;
   try {
     worker.converse(signature, conversation);

@@ -175,7 +175,7 @@ BulletWorld::BulletWorld(const Model& model, const PhysicsOptions& options)
     std::vector<BodyId> tree;
     for (std::size_t j = i; j < model.bodies().size(); ++j)
       if (all.root[j] == body) tree.push_back(BodyId{static_cast<int>(j)});
-    trees.push_back(addMover(model, tree, all.X_WB[static_cast<std::size_t>(model[body].parent)], options));
+    trees.push_back(addTree(model, tree, all.X_WB[static_cast<std::size_t>(model[body].parent)], options));
   }
   std::erase(trees, nullptr);
   addCouplings(model, trees, pinsOf(model, trees, all.X_WB));
@@ -286,8 +286,8 @@ void BulletWorld::addStill(const Model& model, BodyId body, const Pose& X_WB, co
   still_.push_back(std::move(object));
 }
 
-Articulation* BulletWorld::addMover(const Model& model, std::span<const BodyId> bodies, const Pose& X_WP,
-                                    const PhysicsOptions& options) {
+Articulation* BulletWorld::addTree(const Model& model, std::span<const BodyId> bodies, const Pose& X_WP,
+                                   const PhysicsOptions& options) {
   const Joint& joint = model[model[bodies.front()].joint];
   std::vector<btCollisionShape*> shapes;
   for (const BodyId body : bodies) shapes.push_back(addShape(model, body, bulletLink(model[body]).X_BL));
@@ -298,25 +298,25 @@ Articulation* BulletWorld::addMover(const Model& model, std::span<const BodyId> 
     if (shapes.front() == nullptr) shapes.front() = &nothing_;
     auto body = std::make_unique<FreeBody>(joint, bulletLink(model[joint.child]), X_WP, shapes.front());
     setUp(body->object(), joint.child, options);
-    movers_.push_back(std::move(body));
+    trees_.push_back(std::move(body));
     return nullptr;
   }
   auto tree = std::make_unique<Articulation>(model, bodies, X_WP, shapes, options);
   tree->forEachObject([&](btCollisionObject& object, BodyId body) { setUp(object, body, options); });
   Articulation* const added = tree.get();
-  movers_.push_back(std::move(tree));
+  trees_.push_back(std::move(tree));
   return added;
 }
 
 void BulletWorld::addAll() {
   for (const auto& object : still_) world_.addCollisionObject(object.get());
-  for (const auto& mover : movers_) mover->addTo(world_);
+  for (const auto& tree : trees_) tree->addTo(world_);
   if (couplings_) couplings_->addTo(world_);
 }
 
 void BulletWorld::removeAll() {
   if (couplings_) couplings_->removeFrom(world_);
-  for (const auto& mover : movers_) mover->removeFrom(world_);
+  for (const auto& tree : trees_) tree->removeFrom(world_);
   for (const auto& object : still_) world_.removeCollisionObject(object.get());
 }
 
@@ -325,7 +325,7 @@ void BulletWorld::reset(const State& state) {
   removeAll();
   broadphase_.resetPool(&dispatcher_);
   solver_.reset();
-  for (const auto& mover : movers_) mover->place(state);
+  for (const auto& tree : trees_) tree->place(state);
   if (couplings_) couplings_->forget();
   addAll();
 }

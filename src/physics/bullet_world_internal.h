@@ -45,7 +45,7 @@ class BulletWorld {
   BulletWorld(const BulletWorld&) = delete;
   BulletWorld& operator=(const BulletWorld&) = delete;
 
-  [[nodiscard]] const std::vector<std::unique_ptr<SimulatedTree>>& movers() const { return movers_; }
+  [[nodiscard]] const std::vector<std::unique_ptr<SimulatedTree>>& trees() const { return trees_; }
   /// Sets the state and forgets all contacts, so that the same steps follow as from a new world.
   void reset(const State& state);
   /// Advances by h; if the caller knows that nothing can touch, much faster.
@@ -66,8 +66,8 @@ class BulletWorld {
   btCollisionShape* addShape(const Model& model, BodyId body, const Pose& X_BL);
   void addStill(const Model& model, BodyId body, const Pose& X_WB, const PhysicsOptions& options);
   // Gives back what may have couplings, else null.
-  Articulation* addMover(const Model& model, std::span<const BodyId> bodies, const Pose& X_WP,
-                         const PhysicsOptions& options);
+  Articulation* addTree(const Model& model, std::span<const BodyId> bodies, const Pose& X_WP,
+                        const PhysicsOptions& options);
   void setUp(btCollisionObject& object, BodyId body, const PhysicsOptions& options);
   void addCouplings(const Model& model, const std::vector<Articulation*>& trees, const Couplings::Pins& pins);
   static Couplings::Pins pinsOf(const Model& model, const std::vector<Articulation*>& trees,
@@ -83,7 +83,7 @@ class BulletWorld {
   std::vector<std::vector<int>> shapesOf_;  // of each body: places in Model::shapes()
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;
   std::vector<std::unique_ptr<btCollisionObject>> still_;
-  std::vector<std::unique_ptr<SimulatedTree>> movers_;
+  std::vector<std::unique_ptr<SimulatedTree>> trees_;
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_{&configuration_};
   btDbvtBroadphase broadphase_;

@@ -144,7 +144,7 @@ struct PhysicsWorld::Parts {
       state.q = now.q;
       state.v = now.v;
     } else {
-      for (const auto& mover : world.movers()) mover->read(state);
+      for (const auto& tree : world.trees()) tree->read(state);
     }
   }
 
@@ -166,7 +166,7 @@ struct PhysicsWorld::Parts {
       events.touching().clear();
     } else {
       handOver();
-      for (const auto& mover : world.movers()) mover->drive(motors, h);
+      for (const auto& tree : world.trees()) tree->drive(motors, h);
       world.step(h, isApart);
       world.collectTouching(events.touching());
     }
@@ -178,13 +178,13 @@ struct PhysicsWorld::Parts {
     if (isUntouched) {
       start = now;
     } else {
-      for (const auto& mover : world.movers()) mover->remember();
+      for (const auto& tree : world.trees()) tree->remember();
     }
   }
 
   void undo() {
     if (startsUntouched) return reset(start);
-    for (const auto& mover : world.movers()) mover->undo();
+    for (const auto& tree : world.trees()) tree->undo();
     isUntouched = false;
     read(now);
     reset(State(now));
@@ -197,8 +197,8 @@ struct PhysicsWorld::Parts {
         if (!(std::abs(now.v[i]) < kRunawaySpeed)) return static_cast<int>(i);
       return -1;
     }
-    for (const auto& mover : world.movers()) {
-      const int iv = mover->runaway(kRunawaySpeed);
+    for (const auto& tree : world.trees()) {
+      const int iv = tree->runaway(kRunawaySpeed);
       if (iv >= 0) return iv;
     }
     return -1;

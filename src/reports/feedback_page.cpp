@@ -52,7 +52,7 @@ std::string foundBy(const grading::CheckResult& check, const grading::GradeResul
   if (isPassed(check) || isHidden(check) || !check.status) return "";
   grading::CheckResult placeless = check;
   if (!path.empty()) placeless.line = 0;
-  return messageOf(placeless, fileOf(result));
+  return checkMessage(placeless, submittedFile(result));
 }
 
 // For addresses, in which everything but these characters is written as its bytes.
@@ -89,9 +89,9 @@ std::string tableOfChecks(const grading::GradeResult& result, const std::string&
                         path.empty()      ? ""
                         : isPassed(check) ? " class=\"passes\""
                                           : " class=\"fails\"",
-                        html(statusOf(check)), html(nameOfCheck(check, hidden)), check.points,
+                        html(statusText(check)), html(nameOfCheck(check, hidden)), check.points,
                         check.maxPoints, html(foundBy(check, result, path)),
-                        isShown ? placeOf(path, fileOf(result), check.line) : "");
+                        isShown ? placeOf(path, submittedFile(result), check.line) : "");
   }
   return text + "</table>\n";
 }
@@ -101,8 +101,9 @@ std::string compilerPlaces(const grading::GradeResult& result, const std::string
   std::string text;
   std::set<int> seen;
   for (const grading::CompileDiagnostic& message : result.compile.diagnostics)
-    if (message.file == fileOf(result) && message.severity != "note" && seen.insert(message.line).second)
-      text += placeOf(path, fileOf(result), message.line);
+    if (message.file == submittedFile(result) && message.severity != "note" &&
+        seen.insert(message.line).second)
+      text += placeOf(path, submittedFile(result), message.line);
   return text;
 }
 
@@ -136,7 +137,7 @@ std::string gradeOf(const Feedback& feedback) {
   if (result.outcome == grading::Outcome::kGraderError) return kGraderFailed;
   return feedback.judgement ? fmt::format("{} of {} points", hundredthsText(feedback.judgement->final),
                                           hundredthsText(feedback.judgement->possible))
-                            : pointsOf(result);
+                            : pointsText(result);
 }
 
 }  // namespace
@@ -171,7 +172,7 @@ std::string feedbackPage(const Feedback& feedback, const std::vector<FeedbackFil
   page += fmt::format("<h1>{}</h1>\n<p>{}</p>\n", html(title), html(feedback.student));
   if (feedback.judgement) {
     page += "<ul>\n";
-    for (const std::string& sentence : sentencesOf(*feedback.judgement))
+    for (const std::string& sentence : judgementSentences(*feedback.judgement))
       page += fmt::format("<li>{}</li>\n", html(sentence));
     page += "</ul>\n";
   }

@@ -38,7 +38,7 @@ Place placeOf(const grading::CompileDiagnostic& message, const grading::GradeRes
   const bool isTheirs =
       std::any_of(result.files.begin(), result.files.end(),
                   [&](const grading::SourceFile& file) { return file.name == message.file; });
-  return isTheirs ? Place{pathOf(result), message.line, message.column} : Place{};
+  return isTheirs ? Place{submittedPath(result), message.line, message.column} : Place{};
 }
 
 void addDiagnostics(const grading::GradeResult& result, std::vector<std::string>& errors,
@@ -57,8 +57,8 @@ void addChecks(const grading::GradeResult& result, std::vector<std::string>& err
     if (isHidden(check) || isPassed(check) || !check.status) continue;
     const std::string title =
         fmt::format("{} ({}/{})", shownText(check.title), check.points, check.maxPoints);
-    errors.push_back(command("error", title, {pathOf(result), check.line},
-                             check.message.empty() ? statusOf(check) : check.message));
+    errors.push_back(command("error", title, {submittedPath(result), check.line},
+                             check.message.empty() ? statusText(check) : check.message));
   }
 }
 
@@ -71,12 +71,12 @@ std::string githubReport(const grading::GradeResult& result, const Judgement* ju
   addDiagnostics(result, errors, warnings);
   addChecks(result, errors);
   if (result.outcome == grading::Outcome::kCompileError && errors.empty())
-    errors.push_back(command("error", exercise, {pathOf(result)}, compileText(result)));
+    errors.push_back(command("error", exercise, {submittedPath(result)}, compileText(result)));
   errors.insert(errors.end(), warnings.begin(), warnings.end());
   const std::size_t shown = std::min(errors.size(), kMostAnnotations - 1), more = errors.size() - shown;
   errors.resize(shown);
-  std::string points = pointsOf(result);
-  if (judgement != nullptr) points += fmt::format("; {}", join(sentencesOf(*judgement), " "));
+  std::string points = pointsText(result);
+  if (judgement != nullptr) points += fmt::format("; {}", join(judgementSentences(*judgement), " "));
   errors.push_back(command("notice", exercise, {},
                            points + (more == 0 ? "" : fmt::format("; {} more in the summary", more))));
   return join(errors, "");

@@ -15,11 +15,11 @@ using namespace internal;
 // A hidden check's message is left out: it may quote text that a program chose while it knew the input.
 std::string outputOf(const grading::CheckResult& check, const std::string& file) {
   if (isPassed(check)) return "";
-  if (!isHidden(check)) return messageOf(check, file);
+  if (!isHidden(check)) return checkMessage(check, file);
   const std::string cases =
       check.cases > 0 ? fmt::format(", {} of {} cases hold", check.casesHeld, check.cases) : "";
   const std::string property = check.property.empty() ? "" : ": " + shownText(check.property);
-  return statusOf(check) + cases + property;
+  return statusText(check) + cases + property;
 }
 
 Json gradescopeTest(const grading::CheckResult& check, const std::string& number, const std::string& file) {
@@ -31,7 +31,7 @@ Json gradescopeTest(const grading::CheckResult& check, const std::string& number
           {"output", outputOf(check, file)},
           {"tags", {shownText(check.part)}},
           {"visibility", isHidden(check) ? "after_published" : "visible"},
-          {"extra_data", {{"id", shownText(check.id)}, {"status", statusOf(check)}}}};
+          {"extra_data", {{"id", shownText(check.id)}, {"status", statusText(check)}}}};
 }
 
 // Numbered by part and check: 1.1, 1.2, 2.1.
@@ -40,7 +40,7 @@ Json testsOf(const grading::GradeResult& result) {
   Json tests = Json::array();
   for (const grading::CheckResult& check : result.checks) {
     auto& [part, count] = parts.try_emplace(check.part, parts.size() + 1, 0).first->second;
-    tests.push_back(gradescopeTest(check, fmt::format("{}.{}", part, ++count), fileOf(result)));
+    tests.push_back(gradescopeTest(check, fmt::format("{}.{}", part, ++count), submittedFile(result)));
   }
   return tests;
 }
@@ -49,14 +49,14 @@ std::string outputOf(const grading::GradeResult& result) {
   if (result.outcome == grading::Outcome::kGraderError) return kGraderFailed;
   if (result.outcome == grading::Outcome::kCompileError) return "Cannot be graded:\n" + compileText(result);
   const std::string printed = printedText(result);
-  return pointsOf(result) + (printed.empty() ? "" : "\n\nThe program printed:\n" + printed);
+  return pointsText(result) + (printed.empty() ? "" : "\n\nThe program printed:\n" + printed);
 }
 
 // A line for each sentence of the judgement, before `text`; only the text without one.
 std::string judgedText(const Judgement* judgement, const std::string& text) {
   if (judgement == nullptr) return text;
   std::string judged = shownText(judgement->student) + "\n";
-  for (const std::string& sentence : sentencesOf(*judgement)) judged += shownText(sentence) + "\n";
+  for (const std::string& sentence : judgementSentences(*judgement)) judged += shownText(sentence) + "\n";
   return judged + "\n" + text;
 }
 

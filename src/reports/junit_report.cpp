@@ -53,12 +53,12 @@ TestCase junitTest(const grading::CheckResult& check, const grading::GradeResult
   }
   const std::string message =
       fmt::format("{} of {} points: {}", check.points, check.maxPoints,
-                  isHidden(check) ? statusOf(check) : messageOf(check, fileOf(result)));
+                  isHidden(check) ? statusText(check) : checkMessage(check, submittedFile(result)));
   const bool isFailure = check.status == grading::Outcome::kFail;
   ++(isFailure ? counts.failures : counts.errors);
   test.body = shortfall(isFailure ? "failure" : "error", toString(*check.status), message);
   if (!isHidden(check) && check.line > 0)
-    test.place = attribute("file", pathOf(result)) + fmt::format(" line=\"{}\"", check.line);
+    test.place = attribute("file", submittedPath(result)) + fmt::format(" line=\"{}\"", check.line);
   return test;
 }
 
@@ -86,7 +86,7 @@ std::string propertiesOf(const grading::GradeResult& result, const Judgement* ju
   if (judgement != nullptr) {
     add("student", shownText(judgement->student));
     add("final", hundredthsText(judgement->final));
-    for (const std::string& sentence : sentencesOf(*judgement)) add("judgement", shownText(sentence));
+    for (const std::string& sentence : judgementSentences(*judgement)) add("judgement", shownText(sentence));
   }
   return text + "    </properties>\n";
 }

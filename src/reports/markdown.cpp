@@ -85,7 +85,7 @@ std::string withFormulas(const std::string& html) {
   for (std::sregex_iterator found(html.begin(), html.end(), kFormula), end; found != end; ++found) {
     const std::smatch& formula = *found;
     result.append(last, formula[0].first);
-    result += mathMlOf(plainText(formula[2].str()), formula[1].matched);
+    result += toMathMl(plainText(formula[2].str()), formula[1].matched);
     last = formula[0].second;
   }
   return result.append(last, html.end());
@@ -93,7 +93,7 @@ std::string withFormulas(const std::string& html) {
 
 }  // namespace
 
-std::string anchorOf(std::string_view heading) {
+std::string headingAnchor(std::string_view heading) {
   std::string anchor;
   for (const char c : heading) {
     const auto letter = static_cast<unsigned char>(c);
@@ -104,8 +104,8 @@ std::string anchorOf(std::string_view heading) {
   return anchor;
 }
 
-MarkdownPage pageOf(std::string_view markdown,
-                    const std::function<std::string(const std::string&)>& newTarget) {
+MarkdownPage markdownPage(std::string_view markdown,
+                          const std::function<std::string(const std::string&)>& newTarget) {
   static const std::regex kHeading(R"(<h([1-6])>([\s\S]*?)</h\1>)");
   const std::string html = withFormulas(withTargets(convert(markdown), newTarget));
   MarkdownPage page;
@@ -118,7 +118,7 @@ MarkdownPage pageOf(std::string_view markdown,
     page.html += before;
     last = heading[0].second;
     PageSection section{.title = plainText(heading[2].str()), .level = std::stoi(heading[1])};
-    const std::string first = anchorOf(section.title);
+    const std::string first = headingAnchor(section.title);
     section.anchor = first;
     for (int again = 1; !taken.insert(section.anchor).second; ++again)
       section.anchor = fmt::format("{}-{}", first, again);

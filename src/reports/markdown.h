@@ -23,17 +23,17 @@ struct MarkdownPage {
 
 /// Converts Markdown with tables and TeX between $ or $$, as GitHub reads it. `newTarget` gives the new
 /// target of each link and picture; where it gives none, only their text remains. HTML in the source is shown
-/// as text. Throws Error for formulas that mathMlOf() does not know.
-[[nodiscard]] MarkdownPage pageOf(std::string_view markdown,
-                                  const std::function<std::string(const std::string&)>& newTarget);
+/// as text. Throws Error for formulas that toMathMl() does not know.
+[[nodiscard]] MarkdownPage markdownPage(std::string_view markdown,
+                                        const std::function<std::string(const std::string&)>& newTarget);
 
 /// What GitHub makes of a heading in links: small letters and digits, blanks as dashes, nothing else.
-[[nodiscard]] std::string anchorOf(std::string_view heading);
+[[nodiscard]] std::string headingAnchor(std::string_view heading);
 
 /// Converts a formula to a <math> element of MathML Core, which browsers draw without a script or a font of
 /// ours. Knows the part of TeX that formulas of a lecture need: scripts, \frac, \sqrt, \left and \right,
 /// accents, \text, alphabets such as \mathbb, names of functions, Greek letters, usual signs, and the
 /// environments matrix, pmatrix, bmatrix, cases and aligned. Throws Error for anything else.
-[[nodiscard]] std::string mathMlOf(std::string_view tex, bool isDisplayed);
+[[nodiscard]] std::string toMathMl(std::string_view tex, bool isDisplayed);
 
 }  // namespace rex::reports

@@ -25,9 +25,10 @@ std::string block(const char* title, const std::string& text) {
 std::string row(const grading::CheckResult& check, const grading::GradeResult& result, int& hidden) {
   const std::string name = isHidden(check) ? fmt::format("Hidden check {}", ++hidden)
                                            : fmt::format("{} ({})", cell(check.title), cell(check.id));
-  const std::string found =
-      isPassed(check) || isHidden(check) || !check.status ? "" : cell(messageOf(check, fileOf(result)));
-  return fmt::format("| {} | {} | {}/{} | {} |\n", statusOf(check), name, check.points, check.maxPoints,
+  const std::string found = isPassed(check) || isHidden(check) || !check.status
+                                ? ""
+                                : cell(checkMessage(check, submittedFile(result)));
+  return fmt::format("| {} | {} | {}/{} | {} |\n", statusText(check), name, check.points, check.maxPoints,
                      found);
 }
 
@@ -42,7 +43,8 @@ std::string table(const grading::GradeResult& result) {
 std::string judgementText(const Judgement* judgement) {
   if (judgement == nullptr) return "";
   std::string text = fmt::format("\n{}\n\n", cell(judgement->student));
-  for (const std::string& sentence : sentencesOf(*judgement)) text += fmt::format("- {}\n", cell(sentence));
+  for (const std::string& sentence : judgementSentences(*judgement))
+    text += fmt::format("- {}\n", cell(sentence));
   return text;
 }
 
@@ -52,7 +54,7 @@ std::string markdownReport(const grading::GradeResult& result, const Judgement* 
   const std::string exercise = cell(result.exerciseId);
   if (result.outcome == grading::Outcome::kGraderError)
     return fmt::format("## {}: not graded\n\n{}\n", exercise, kGraderFailed);
-  std::string text = fmt::format("## {}: {}\n", exercise, pointsOf(result)) + judgementText(judgement);
+  std::string text = fmt::format("## {}: {}\n", exercise, pointsText(result)) + judgementText(judgement);
   if (result.outcome == grading::Outcome::kCompileError) {
     text += block("Cannot be graded:", compileText(result));
   } else {

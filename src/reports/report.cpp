@@ -15,7 +15,7 @@ std::string hundredthsText(std::int64_t value) {
   return text;
 }
 
-std::vector<std::string> sentencesOf(const Judgement& judgement) {
+std::vector<std::string> judgementSentences(const Judgement& judgement) {
   std::vector<std::string> sentences = judgement.changes;
   if (!judgement.lateness.empty()) sentences.push_back(judgement.lateness);
   sentences.push_back(fmt::format("Final grade: {} of {} points.", hundredthsText(judgement.final),

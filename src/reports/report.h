@@ -25,7 +25,7 @@ struct Judgement {
 [[nodiscard]] std::string hundredthsText(std::int64_t value);
 
 /// The sentences of a judgement, the last of which gives the final points.
-[[nodiscard]] std::vector<std::string> sentencesOf(const Judgement& judgement);
+[[nodiscard]] std::vector<std::string> judgementSentences(const Judgement& judgement);
 
 /// A result in the format of another program. The same result gives the same bytes, whatever bytes its
 /// texts contain. For hidden checks students see the points and the kind of outcome, never a message. Their

@@ -21,14 +21,14 @@ bool isPassed(const grading::CheckResult& check) { return check.status == gradin
 
 bool isHidden(const grading::CheckResult& check) { return check.group == grading::Group::kHidden; }
 
-std::string statusOf(const grading::CheckResult& check) {
+std::string statusText(const grading::CheckResult& check) {
   std::string name = check.status ? std::string(toString(*check.status)) : "not run";
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;
 }
 
-std::string messageOf(const grading::CheckResult& check, const std::string& file) {
-  const std::string message = shownText(check.message.empty() ? statusOf(check) : check.message);
+std::string checkMessage(const grading::CheckResult& check, const std::string& file) {
+  const std::string message = shownText(check.message.empty() ? statusText(check) : check.message);
   return check.line > 0 ? fmt::format("{}\n{}:{}", message, file, check.line) : message;
 }
 
@@ -40,15 +40,15 @@ std::string compileText(const grading::GradeResult& result) {
   return shownText(text, kLongestText);
 }
 
-std::string fileOf(const grading::GradeResult& result) {
+std::string submittedFile(const grading::GradeResult& result) {
   return result.files.empty() ? "main.cpp" : shownText(result.files.front().name);
 }
 
-std::string pathOf(const grading::GradeResult& result) {
-  return fmt::format("exercises/{}/{}", shownText(result.exerciseId), fileOf(result));
+std::string submittedPath(const grading::GradeResult& result) {
+  return fmt::format("exercises/{}/{}", shownText(result.exerciseId), submittedFile(result));
 }
 
-std::string pointsOf(const grading::GradeResult& result) {
+std::string pointsText(const grading::GradeResult& result) {
   return fmt::format("{} of {} points", result.score, result.maxScore);
 }
 

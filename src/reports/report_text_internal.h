@@ -22,22 +22,22 @@ inline constexpr const char* kGraderFailed =
 [[nodiscard]] bool isHidden(const grading::CheckResult& check);
 
 /// "pass", "time limit", "not run".
-[[nodiscard]] std::string statusOf(const grading::CheckResult& check);
+[[nodiscard]] std::string statusText(const grading::CheckResult& check);
 
 /// What a student reads about a visible check that did not pass: message, and place in `file`.
-[[nodiscard]] std::string messageOf(const grading::CheckResult& check, const std::string& file);
+[[nodiscard]] std::string checkMessage(const grading::CheckResult& check, const std::string& file);
 
 /// What the compiler said, a line for each message; or why the file was refused.
 [[nodiscard]] std::string compileText(const grading::GradeResult& result);
 
 /// The student's file, as it is called: "main.cpp".
-[[nodiscard]] std::string fileOf(const grading::GradeResult& result);
+[[nodiscard]] std::string submittedFile(const grading::GradeResult& result);
 
 /// The same in the student's tree: "exercises/01-kinematics/main.cpp".
-[[nodiscard]] std::string pathOf(const grading::GradeResult& result);
+[[nodiscard]] std::string submittedPath(const grading::GradeResult& result);
 
 /// "3 of 9 points".
-[[nodiscard]] std::string pointsOf(const grading::GradeResult& result);
+[[nodiscard]] std::string pointsText(const grading::GradeResult& result);
 
 /// Seconds that visible checks took: how long a hidden one takes could tell its input.
 [[nodiscard]] double visibleSeconds(const grading::GradeResult& result);

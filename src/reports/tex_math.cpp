@@ -312,7 +312,7 @@ class TexReader {
 
 }  // namespace
 
-std::string mathMlOf(std::string_view tex, bool isDisplayed) {
+std::string toMathMl(std::string_view tex, bool isDisplayed) {
   const std::string inside = TexReader(tex).formula();
   return isDisplayed ? fmt::format("<math display=\"block\">{}</math>", inside) : element("math", inside);
 }

@@ -10,7 +10,7 @@
 
 namespace rex::sandbox {
 
-Level levelOf(int number) {
+Level parseLevel(int number) {
   if (number < 0 || number > numberOf(Level::kControlGroup))
     throw Error({.what = "sandbox level", .found = fmt::format("{}", number), .wanted = "0, 1, 2 or 3"});
   return static_cast<Level>(number);
@@ -18,7 +18,7 @@ Level levelOf(int number) {
 
 std::string describe(Level level) { return fmt::format("sandbox level {} of 3", numberOf(level)); }
 
-std::string warningOf(Level level) {
+std::string levelWarning(Level level) {
   switch (level) {
     case Level::kControlGroup:
       return "";
@@ -98,7 +98,7 @@ Order orderFromArguments(const std::vector<std::string>& arguments) {
   Confinement c;
   Reader reader(arguments);
   const std::map<std::string, std::function<void()>> options = {
-      {"--level", [&] { c.level = levelOf(reader.whole<int>()); }},
+      {"--level", [&] { c.level = parseLevel(reader.whole<int>()); }},
       {"--read",
        [&] {
          const std::string path = reader.text();

@@ -29,13 +29,13 @@ inline constexpr std::array kConfiningLevels = {Level::kControlGroup, Level::kNa
 
 [[nodiscard]] constexpr int numberOf(Level level) { return static_cast<int>(level); }
 /// Throws Error unless it is 0 to 3.
-[[nodiscard]] Level levelOf(int number);
+[[nodiscard]] Level parseLevel(int number);
 
 /// "sandbox level 1 of 3", as users read it.
 [[nodiscard]] std::string describe(Level level);
 
 /// What programs at this level may still do, in one line; empty for the best.
-[[nodiscard]] std::string warningOf(Level level);
+[[nodiscard]] std::string levelWarning(Level level);
 
 /// A file or folder of the machine that a confined program may read and execute.
 struct Readable {

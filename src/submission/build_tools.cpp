@@ -117,7 +117,7 @@ bool blamesObject(std::string_view linkerText, std::string_view object) {
          contains(linkerText, "multiple definition of `") || !complaintAbout(object, linkerText).empty();
 }
 
-std::string lastWordsOf(const ProcessResult& run) {
+std::string lastLine(const ProcessResult& run) {
   std::string found;
   for (const std::string_view line : splitLines(run.error)) {
     if (tellsNothing(line)) continue;
@@ -286,7 +286,7 @@ ProcessResult BuildTools::run(const std::vector<std::string>& command, const Exp
                    "{} {} through no fault of the file", command.front(),
                    last.timedOut ? fmt::format("did not end within {:g} s", clockSeconds(limits_.seconds))
                                  : "failed twice"),
-               .found = fmt::format("{}; {}", fault, lastWordsOf(last)),
+               .found = fmt::format("{}; {}", fault, lastLine(last)),
                .wanted = "a machine with free memory and disk space, and working tools"});
 }
 

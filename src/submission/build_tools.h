@@ -46,7 +46,7 @@ struct Toolchain {
 [[nodiscard]] bool blamesObject(std::string_view linkerText, std::string_view object);
 
 /// The line of a tool's output that explains most, or how it ended if there is none.
-[[nodiscard]] std::string lastWordsOf(const ProcessResult& run);
+[[nodiscard]] std::string lastLine(const ProcessResult& run);
 
 /// The limits of one tool.
 struct ToolLimits {

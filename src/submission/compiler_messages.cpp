@@ -14,8 +14,8 @@
 #include "base/error.h"
 #include "base/escape.h"
 #include "base/text.h"
-#include "submission/graded_part.h"
-#include "submission/mentions.h"
+#include "submission/cpp_names.h"
+#include "submission/graded_source.h"
 
 namespace rex::submission {
 namespace {
@@ -240,7 +240,7 @@ using Uses = std::map<std::string, Names, std::less<>>;
 Uses usesIn(std::string_view source) {
   const CppText text(source);
   Uses uses;
-  for (const FilePiece& piece : filePieces(text)) {
+  for (const CppPiece& piece : cppPieces(text)) {
     std::size_t name = piece.last, body = piece.first;
     for (; body < piece.last && !text.isSign(body, '{'); ++body)
       if (name == piece.last && text.isSign(body, '(') && body > piece.first) name = body - 1;

@@ -14,8 +14,8 @@
 #include <unistd.h>
 
 #include "submission/build_tools.h"
+#include "submission/cpp_names.h"
 #include "submission/cpp_text.h"
-#include "submission/mentions.h"
 
 namespace rex::submission {
 
@@ -265,7 +265,7 @@ std::vector<fs::path> filesOfAssembler(std::string_view list, const fs::path& fo
 }
 
 std::vector<CompileDiagnostic> forbiddenMacros(std::string_view source, const std::string& mainFile) {
-  const int line = macroDefinitionLineOf("rex", source);
+  const int line = macroDefinitionLine("rex", source);
   if (line == 0) return {};
   return {refusal(mainFile, line, "defines a macro 'rex', which is the name of the library")};
 }

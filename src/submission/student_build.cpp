@@ -17,9 +17,9 @@
 #include "base/process.h"
 #include "base/text_file.h"
 #include "submission/build_tools.h"
-#include "submission/graded_part.h"
+#include "submission/cpp_names.h"
+#include "submission/graded_source.h"
 #include "submission/included_files.h"
-#include "submission/mentions.h"
 #include "submission/program_build.h"
 #include "submission/reading_apart_internal.h"
 #include "submission/source_remarks.h"
@@ -57,7 +57,7 @@ std::string whyItGaveUp(const ProcessResult& run, const BuildTools& tools,
   constexpr std::size_t kMostText = 8u << 20;  // all that BuildTools keeps
   if (namesErrors(run.error) || run.error.size() >= kMostText)
     return "the compiler prints more than can be read";
-  return "the compiler gave up: " + lastWordsOf(run);
+  return "the compiler gave up: " + lastLine(run);
 }
 
 std::vector<std::string> compileCommand(const Toolchain& toolchain, const StudentBuildOptions& options,
@@ -116,7 +116,7 @@ void explain(const ProcessResult& run, const std::vector<std::string>& command, 
            .found = fmt::format(
                "{}; {}", full,
                explained() ? std::find_if(result.messages.begin(), result.messages.end(), isError)->message
-                           : lastWordsOf(run)),
+                           : lastLine(run)),
            .wanted = "a machine with free disk space"});
     result.log = printable(plain.error, kLogSize);
   }
@@ -139,7 +139,7 @@ std::vector<std::string> lastNames(const std::vector<ForbiddenFunction>& forbidd
 struct FirstReading {
   std::vector<grading::CompileDiagnostic> lineMarkers{};
   std::vector<std::string> prefix{};  // prefixFlags()
-  std::string part{};                 // gradedPart()
+  std::string part{};                 // gradedSource()
   std::string asking{};               // withAutoQuestions(), if there is a part
 };
 
@@ -150,7 +150,7 @@ FirstReading readFirst(const std::string& source, const std::string& name, const
         options.publicHeadersOnly ? lineMarkers(source, name) : std::vector<grading::CompileDiagnostic>{};
     if (!markers.empty()) return {markers, std::vector<std::string>{}, "", ""};
     const std::string part =
-        options.part ? gradedPart(source, toolchain.functions, lastNames(forbidden)) : "";
+        options.part ? gradedSource(source, toolchain.functions, lastNames(forbidden)) : "";
     return {markers, prefixFlags(toolchain.prefix, source, toolchain.flags), part,
             part.empty() ? "" : withAutoQuestions(CppText(source))};
   };
@@ -237,8 +237,8 @@ std::vector<grading::CompileDiagnostic> explainLinking(const ProcessResult& run,
   const std::string limit = tools.limitReached(run);
   if (!limit.empty()) return {{mainFile, 0, 0, "error", "", "linking " + limit}};
   const std::string complaint = complaintAbout(object, run.error);
-  return {{mainFile, 0, 0, "error", "",
-           "cannot be linked: " + (complaint.empty() ? lastWordsOf(run) : complaint)}};
+  return {
+      {mainFile, 0, 0, "error", "", "cannot be linked: " + (complaint.empty() ? lastLine(run) : complaint)}};
 }
 
 // The forbidden ones among all files that the compiler and the assembler opened. If only a part was compiled,
@@ -459,7 +459,7 @@ StudentProgram linkWorker(const Toolchain& toolchain, const StudentObject& objec
     if (!tools.runOnce({toolchain.objcopy, "--version"}).ok())
       throw Error({.what = "cannot rename main in the compiled file", .found = run.error});
     return {.program = {},
-            .messages = {{object.name, 0, 0, "error", "", "cannot be linked: " + lastWordsOf(run)}},
+            .messages = {{object.name, 0, 0, "error", "", "cannot be linked: " + lastLine(run)}},
             .log = printable(run.error, kLogSize)};
   }
   const path worker = folder / "worker";

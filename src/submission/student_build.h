@@ -51,7 +51,8 @@ struct StudentObject {
 /// A linked program, or the reasons why there is none.
 struct StudentProgram {
   std::filesystem::path program;
-  std::vector<std::string> parts{};  ///< of the exercise, with workers of their own beside it: see workerOf()
+  std::vector<std::string>
+      parts{};  ///< of the exercise, with workers of their own beside it: see workerProgram()
   std::vector<grading::CompileDiagnostic> messages;
   std::string log;
   bool ok = false;

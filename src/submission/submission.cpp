@@ -18,7 +18,7 @@
 #include "grading/unknown_check.h"
 #include "grading/worker_failure.h"
 #include "submission/compiler_messages.h"
-#include "submission/mentions.h"
+#include "submission/cpp_names.h"
 #include "submission/reading_apart_internal.h"
 #include "submission/sanitizer_rerun.h"
 #include "submission/student_build.h"
@@ -310,7 +310,7 @@ void findLines(const std::string& source, std::vector<grading::CheckResult>& che
     const CppText text(source);
     nlohmann::json found;
     for (const grading::CheckResult& check : checks)
-      found.push_back(check.function.empty() ? 0 : definitionLineOf(check.function, text));
+      found.push_back(check.function.empty() ? 0 : definitionLine(check.function, text));
     return found;
   });
   for (std::size_t k = 0; k < lines.size(); ++k) checks[k].line = lines[k];

@@ -42,7 +42,7 @@ struct BuiltSubmission {
   grading::GradeResult start;  ///< the result before any check has run
   std::string source;
   std::filesystem::path worker;      ///< empty: the file does not compile, or the tools failed
-  std::vector<std::string> parts{};  ///< with workers of their own: see workerOf()
+  std::vector<std::string> parts{};  ///< with workers of their own: see workerProgram()
 };
 [[nodiscard]] BuiltSubmission buildSubmission(const Toolchain& toolchain, const ExerciseInfo& exercise,
                                               const SubmissionOptions& options);

@@ -17,7 +17,7 @@
 #include "base/error.h"
 #include "base/escape.h"
 #include "base/text_file.h"
-#include "submission/mentions.h"
+#include "submission/cpp_names.h"
 #include "submission/worker_part.h"
 
 namespace rex::submission {
@@ -355,7 +355,7 @@ std::vector<grading::CompileDiagnostic> scanSymbols(const std::filesystem::path&
   std::vector<grading::CompileDiagnostic> messages;
   const auto complain = [&](const std::string& function, std::string message) {
     if (messages.size() <= kMostMessages)
-      messages.push_back(forbiddenCall(mainFile, onlyMentionOf(function, text), std::move(message)));
+      messages.push_back(forbiddenCall(mainFile, onlyMention(function, text), std::move(message)));
   };
   for (const ForbiddenFunction& call : forbiddenCalls(file, forbidden)) {
     const char* form = isLookup(call.function) ? "calls {}, which nobody may call in this exercise: {}"

@@ -11,7 +11,7 @@
 
 namespace rex::submission {
 
-/// Compiles a part of a source (see gradedPart()) to `object`, while another compiler checks the syntax of
+/// Compiles a part of a source (see gradedSource()) to `object`, while another compiler checks the syntax of
 /// the whole, the file `name` next to the object. Both use `command`. Returns the messages of the second
 /// compiler, with additional warnings for the part, as JSON. If a compiler does not end, the result is timed
 /// out. Empty if something failed that is not an error in the whole: then the source must be compiled as it

@@ -60,7 +60,7 @@ class LeakScanTest : public ::testing::Test {
   }
   fs::path tree() const { return folder_.path() / "tree"; }
   std::vector<Secret> secrets() const {
-    return secretsOf({folder_.path() / "root/exercises/01-circle"}, folder_.path() / "root");
+    return collectSecrets({folder_.path() / "root/exercises/01-circle"}, folder_.path() / "root");
   }
   std::vector<std::string> leaks() const {
     std::vector<std::string> told;

@@ -44,7 +44,7 @@ const fs::path kFolder = homeFolder() / "tests" / "grading";
 constexpr const char* kSecret = "the-secret-of-the-course-0123456789";
 
 const sandbox::Sandbox sandboxOf(int level) {
-  return {.level = sandbox::levelOf(level), .launcher = kBinary / "rex-sandbox"};
+  return {.level = sandbox::parseLevel(level), .launcher = kBinary / "rex-sandbox"};
 }
 
 std::string whyNot(int level) {
@@ -529,7 +529,7 @@ class ArchiveBattery : public Battery {
   }
   void expectRefusal(const std::string& name, const std::string& reason) const {
     const std::vector<std::string> before = everythingHere();
-    const classroom::HandIns found = classroom::readHandIns(in(), {exercise()});
+    const classroom::SubmittedFiles found = classroom::readSubmittedFiles(in(), {exercise()});
     EXPECT_THAT(found.complaints,
                 ::testing::ElementsAre(::testing::AllOf(HasSubstr(name), HasSubstr(reason))));
     ASSERT_EQ(found.files.size(), 1u);
@@ -552,7 +552,7 @@ TEST_F(ArchiveBattery, A26RefusesMembersThatAreNoFilesOfTheirFolder) {
   both({.name = "battery/Main.CPP"}, "member 'battery/Main.CPP': found a second file of that name");
   const auto leavesOut = [&](const std::string& name, const std::string& bytes, const std::string& kind) {
     writeTextFile(in() / name, bytes);
-    const classroom::HandIns found = classroom::readHandIns(in(), {exercise()});
+    const classroom::SubmittedFiles found = classroom::readSubmittedFiles(in(), {exercise()});
     EXPECT_THAT(found.complaints, ::testing::IsEmpty()) << kind;
     EXPECT_THAT(found.notes, ::testing::ElementsAre(HasSubstr(name + "/battery/x: ignored: " + kind)));
     EXPECT_EQ(found.files.size(), 2u) << kind;
@@ -609,7 +609,7 @@ TEST_F(ArchiveBattery, A27OpensNoArchiveInsideOfOne) {
   const std::string inner = zipOf({{.name = "../main.cpp"}});
   writeTextFile(in() / "mallory.zip", zipOf({{.name = "inner.zip", .text = inner},
                                              {.name = "battery/main.cpp", .text = "int a;\n"}}));
-  const classroom::HandIns found = classroom::readHandIns(in(), {exercise()});
+  const classroom::SubmittedFiles found = classroom::readSubmittedFiles(in(), {exercise()});
   EXPECT_THAT(found.complaints, ::testing::IsEmpty());
   EXPECT_THAT(found.notes, ::testing::ElementsAre(HasSubstr("mallory.zip/inner.zip: ignored")));
   EXPECT_EQ(found.files.size(), 2u);

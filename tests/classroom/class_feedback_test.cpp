@@ -77,7 +77,7 @@ TEST_F(ClassFeedbackTest, NeverTakesFilesFromElsewhere) {
     result.checks[0].picture = name;
     saveSample(source_.out, task, result);
     source_.adjustments.comments.clear();
-    EXPECT_TRUE(evidenceOf(*book().row("adam", kEx), source_.out).empty()) << name;
+    EXPECT_TRUE(evidenceFiles(*book().row("adam", kEx), source_.out).empty()) << name;
   }
 }
 
@@ -90,10 +90,10 @@ TEST_F(ClassFeedbackTest, SaysWhatDoesNotCompileAndGivesNothingForNothing) {
   saveSample(source_.out, source_.tasks[0], result, "a\nb\n");
   source_.tasks.pop_back();
   source_.adjustments = {};
-  const auto feedback = feedbackOf(*book().row("adam", kEx), source_.out).value();
+  const auto feedback = rowFeedback(*book().row("adam", kEx), source_.out).value();
   EXPECT_THAT(reports::feedbackPage(feedback, {}),
               HasSubstr("<pre>main.cpp:2: error: expected &#39;}&#39; &#60;x&#62;"));
-  EXPECT_FALSE(feedbackOf(*book().row("zoe", kEx), source_.out).has_value());
+  EXPECT_FALSE(rowFeedback(*book().row("zoe", kEx), source_.out).has_value());
 }
 
 TEST_F(ClassFeedbackTest, RefusesStudentsWhoseNameIsNoFolder) {

@@ -43,7 +43,7 @@ grading::CheckResult check(const std::string& id, std::optional<Outcome> status,
 
 TEST(ClassStatistics, AreThoseOfAStaircase) {
   for (const int n : {2, 5, 9, 20}) {
-    const ExerciseStatistics all = statisticsOf(staircase(n)).front();
+    const ExerciseStatistics all = exerciseStatistics(staircase(n)).front();
     EXPECT_EQ(all.graded, n);
     EXPECT_EQ(all.full, 1);
     EXPECT_EQ(all.maxPoints, n - 1);
@@ -54,20 +54,20 @@ TEST(ClassStatistics, AreThoseOfAStaircase) {
     EXPECT_EQ((std::stoi(all.slowest.substr(1)) * 7) % n, n - 1);
   }
   // Points 0 to 8 of 8.
-  EXPECT_THAT(statisticsOf(staircase(9)).front().distribution, ElementsAre(1, 2, 2, 2, 1, 1));
+  EXPECT_THAT(exerciseStatistics(staircase(9)).front().distribution, ElementsAre(1, 2, 2, 2, 1, 1));
 }
 
 TEST(ClassStatistics, TakeTheMiddleOfSkewedPoints) {
   std::vector<StudentResult> results = staircase(4);
   const int points[] = {3, 0, 0, 0};
   for (std::size_t k = 0; k < 4; ++k) results[k].result.score = points[k];
-  const ExerciseStatistics all = statisticsOf(results).front();
+  const ExerciseStatistics all = exerciseStatistics(results).front();
   EXPECT_DOUBLE_EQ(all.meanPoints, 0.75);
   EXPECT_DOUBLE_EQ(all.medianPoints, 0);
   EXPECT_THAT(all.distribution, ElementsAre(1, 0, 0, 0, 0, 3));
   EXPECT_DOUBLE_EQ(all.medianSeconds, 1.5);
   results[0].result.outcome = Outcome::kCompileError;  // the one of 0 s
-  EXPECT_DOUBLE_EQ(statisticsOf(results).front().medianSeconds, 2);
+  EXPECT_DOUBLE_EQ(exerciseStatistics(results).front().medianSeconds, 2);
   EXPECT_EQ(medianOf({}), 0);
   EXPECT_EQ(medianOf({5, 1, 3}), 3);
 }
@@ -76,13 +76,13 @@ TEST(ClassStatistics, CountFaultsOfTheGraderApart) {
   std::vector<StudentResult> results = staircase(3);
   results[0].result.outcome = Outcome::kGraderError;
   results[1].result.exerciseVersion = "another";
-  const ExerciseStatistics all = statisticsOf(results).front();
+  const ExerciseStatistics all = exerciseStatistics(results).front();
   EXPECT_EQ(all.graded, 2);
   EXPECT_EQ(all.graderFailed, 1);
   EXPECT_EQ(all.versions, 2);
   EXPECT_DOUBLE_EQ(all.meanPoints, 1.5);
   results.resize(1);
-  const ExerciseStatistics none = statisticsOf(results).front();
+  const ExerciseStatistics none = exerciseStatistics(results).front();
   EXPECT_EQ(none.graded, 0);
   EXPECT_EQ(none.meanPoints, 0);
   EXPECT_TRUE(none.checks.empty());
@@ -98,7 +98,7 @@ TEST(ClassStatistics, PutTheMostFailedChecksFirst) {
                               check("c", Outcome::kPass)};
   results[3].result.outcome = Outcome::kCompileError;
   results[3].result.checks = {check("a", {}), check("b", {}), check("c", {})};
-  const std::vector<CheckStatistics> checks = statisticsOf(results).front().checks;
+  const std::vector<CheckStatistics> checks = exerciseStatistics(results).front().checks;
   ASSERT_EQ(checks.size(), 3u);
   EXPECT_EQ(checks[0].id, "b");
   EXPECT_EQ(checks[0].failed, 4);
@@ -120,12 +120,12 @@ TEST(ClassStatistics, NameTheClassOfEachFailure) {
                                                      {Outcome::kSecurityEvent, "security"},
                                                      {Outcome::kGraderError, "not run"},
                                                      {Outcome::kFail, "wrong"}};
-  for (const auto& [outcome, name] : classes) EXPECT_EQ(classOf(check("a", outcome), whole), name);
-  EXPECT_EQ(classOf(check("a", {}), whole), "not run");
-  EXPECT_EQ(
-      classOf(check("a", Outcome::kFail, "0 of 2 cases hold; case 1: length: not finite: got nan"), whole),
-      "non-finite");
-  EXPECT_EQ(classOf(check("a", Outcome::kFail, "length: wrong shape: got 3 x 1, wanted 2 x 1"), whole),
+  for (const auto& [outcome, name] : classes) EXPECT_EQ(failureClass(check("a", outcome), whole), name);
+  EXPECT_EQ(failureClass(check("a", {}), whole), "not run");
+  EXPECT_EQ(failureClass(check("a", Outcome::kFail, "0 of 2 cases hold; case 1: length: not finite: got nan"),
+                         whole),
+            "non-finite");
+  EXPECT_EQ(failureClass(check("a", Outcome::kFail, "length: wrong shape: got 3 x 1, wanted 2 x 1"), whole),
             "shape");
 }
 
@@ -160,13 +160,13 @@ TEST(ClassResults, AreReadAndForeignFilesTold) {
 TEST(ClassStatistics, NameTheFirstFullScoreAndCountAttempts) {
   std::vector<StudentResult> results = staircase(3);
   for (StudentResult& one : results) one.result.score = one.result.maxScore;
-  EXPECT_FALSE(statisticsOf(results).front().firstFull) << "at an unknown time";
-  EXPECT_EQ(statisticsOf(results).front().attempts.known, 0);
+  EXPECT_FALSE(exerciseStatistics(results).front().firstFull) << "at an unknown time";
+  EXPECT_EQ(exerciseStatistics(results).front().attempts.known, 0);
   results[0].submitted = 300, results[1].submitted = 200, results[1].timeFrom = "platform";
   results[2].submitted = 100, results[2].result.score = 0;
   results[0].attempts = 4, results[0].attemptsFrom = "platform";
   results[2].attempts = 1, results[2].attemptsFrom = "imports";
-  const ExerciseStatistics all = statisticsOf(results).front();
+  const ExerciseStatistics all = exerciseStatistics(results).front();
   EXPECT_EQ(all.firstFull.value().student, "s1");
   EXPECT_EQ(all.firstFull->submitted, 200);
   EXPECT_EQ(all.firstFull->timeFrom, "platform");
@@ -188,7 +188,7 @@ TEST(ClassResults, KnowTimesAndAttemptsAndRefuseWhatWasEdited) {
   const ImportTable imported{{{.student = "adam",
                                .exercises = {{"01-kinematics",
                                               {.platform = "gradescope",
-                                               .status = HandInStatus::kHandedIn,
+                                               .status = SubmissionStatus::kHandedIn,
                                                .handedInBy = "adam",
                                                .attempts = 3,
                                                .attemptsFrom = "platform"}}}}}};
@@ -230,7 +230,7 @@ std::vector<StudentResult> halves() {
 }
 
 TEST(ClassStatistics, SayHowEachCheckSeparatesStudents) {
-  const ExerciseStatistics all = statisticsOf(halves()).front();
+  const ExerciseStatistics all = exerciseStatistics(halves()).front();
   std::map<std::string, CheckStatistics> checks;
   for (const CheckStatistics& one : all.checks) checks[one.id] = one;
   // (1, 2) for the good half and (0, 2) for the others: b and all, or odd and all.
@@ -257,12 +257,12 @@ TEST(ClassStatistics, AgreeWithTheCorrelationOfFourFields) {
         one.result.outcome = Outcome::kFail;
         results.push_back(one);
       }
-  EXPECT_NEAR(statisticsOf(results).front().checks.front().discrimination.value(),
+  EXPECT_NEAR(exerciseStatistics(results).front().checks.front().discrimination.value(),
               (5 * 4 - 2 * 1) / std::sqrt(7.0 * 5 * 6 * 6), 1e-12);
 }
 
 TEST(ClassStatistics, AddUpThePointsOfParts) {
-  const std::vector<PartStatistics> parts = statisticsOf(halves()).front().parts;
+  const std::vector<PartStatistics> parts = exerciseStatistics(halves()).front().parts;
   ASSERT_EQ(parts.size(), 2u);
   EXPECT_EQ(parts[0].id, "p");
   EXPECT_EQ(parts[0].maxPoints, 2);
@@ -272,10 +272,10 @@ TEST(ClassStatistics, AddUpThePointsOfParts) {
 }
 
 TEST(ClassStatistics, FindTheQuestionOfAMessage) {
-  EXPECT_EQ(questionOf("a: got 1.5, wanted 2; input: q = (1, 2) (seed 7). Is it 1? It is not."),
+  EXPECT_EQ(askedQuestion("a: got 1.5, wanted 2; input: q = (1, 2) (seed 7). Is it 1? It is not."),
             "Is it 1? It is not.");
-  EXPECT_EQ(questionOf("a: got 1, wanted 2; input: n = 2 (seed 7)"), "");
-  EXPECT_EQ(questionOf("a: got 1, wanted 2; input: n = 2 (seed 7). A remark."), "");
+  EXPECT_EQ(askedQuestion("a: got 1, wanted 2; input: n = 2 (seed 7)"), "");
+  EXPECT_EQ(askedQuestion("a: got 1, wanted 2; input: n = 2 (seed 7). A remark."), "");
 }
 
 }  // namespace rex::classroom::class_statistics_test

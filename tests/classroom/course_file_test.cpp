@@ -71,7 +71,7 @@ section = "A"
   EXPECT_EQ(course.weights.at("01-kinematics"), 250);
   EXPECT_EQ(course.weights.at("02-control"), 100);
   EXPECT_EQ(course.policy.at("02-control").perDay, 1000);
-  EXPECT_EQ(instantText(*deadlineOf(course.policy.at("01-kinematics"), "adam")), "2026-11-27T22:59:00Z")
+  EXPECT_EQ(instantText(*studentDeadline(course.policy.at("01-kinematics"), "adam")), "2026-11-27T22:59:00Z")
       << "an extension of the group";
 }
 

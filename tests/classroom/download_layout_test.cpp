@@ -18,7 +18,7 @@ std::vector<submission::ExerciseInfo> twoExercises() {
   return exercises;
 }
 
-Layout layout(const std::vector<std::string>& names) { return layoutOf(names, twoExercises()); }
+Layout layout(const std::vector<std::string>& names) { return recognizeLayout(names, twoExercises()); }
 
 TEST(DownloadLayout, IsKnownByTheNamesThatPlatformsGive) {
   const std::pair<const char*, Platform> samples[] = {
@@ -58,8 +58,8 @@ TEST(DownloadLayout, OfAFolderLooksIntoNoRepository) {
   const TemporaryFolder folder;
   writeTextFile(folder.path() / "hw-zoe/.git/objects/Zoe_1_assignsubmission_file_", "x");
   writeTextFile(folder.path() / "hw-zoe/01/main.cpp", "x");
-  EXPECT_EQ(layoutOfFolder(folder.path(), twoExercises()).platform, Platform::kGit);
-  EXPECT_EQ(layoutOfFolder(folder.path(), twoExercises()).found, "2 files such as 'hw-zoe/.git/HEAD'");
+  EXPECT_EQ(recognizeFolderLayout(folder.path(), twoExercises()).platform, Platform::kGit);
+  EXPECT_EQ(recognizeFolderLayout(folder.path(), twoExercises()).found, "2 files such as 'hw-zoe/.git/HEAD'");
   requireLayout(Platform::kGit, folder.path(), twoExercises());
   EXPECT_REX_ERROR(
       requireLayout(Platform::kMoodle, folder.path(), twoExercises()),
@@ -71,9 +71,9 @@ TEST(DownloadLayout, IsRequiredOfArchives) {
   const TemporaryFolder folder;
   const std::filesystem::path zip = folder.path() / "all.zip";
   writeTextFile(zip, zipOf({{.name = "Zoe_501_assignsubmission_file_/main.cpp", .text = "x"}}));
-  EXPECT_EQ(readDownloadOf(Platform::kMoodle, zip, twoExercises()).files.size(), 1u);
+  EXPECT_EQ(readPlatformDownload(Platform::kMoodle, zip, twoExercises()).files.size(), 1u);
   EXPECT_REX_ERROR(
-      (void)readDownloadOf(Platform::kFolders, zip, twoExercises()),
+      (void)readPlatformDownload(Platform::kFolders, zip, twoExercises()),
       "nothing that `rex import folders` knows: found 1 file such as "
       "'Zoe_501_assignsubmission_file_/main.cpp', wanted 'NAME/main.cpp', 'NAME.cpp' or 'NAME.zip' for "
       "each student; `rex import moodle` takes what is there");

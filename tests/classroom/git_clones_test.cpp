@@ -61,14 +61,16 @@ class GitClonesTest : public ::testing::Test {
     git(clone, {"commit", "-q", "-m", "work"}, time);
     return git(clone, {"rev-parse", "HEAD"});
   }
-  Arrivals read(const CloneOptions& options = {}) const { return readClones(source(), options, exercises_); }
-  ImportReport import(const Arrivals& arrivals) const {
-    return importArrivals(arrivals, {.exercises = exercises_, .handedOut = {{"02-control", "starter"}}},
-                          handedIn());
+  DownloadedSubmissions read(const CloneOptions& options = {}) const {
+    return readClones(source(), options, exercises_);
   }
-  static const Arrival& of(const Arrivals& arrivals, const std::string& place) {
-    return *std::find_if(arrivals.all.begin(), arrivals.all.end(),
-                         [&](const Arrival& one) { return one.place == place; });
+  ImportReport import(const DownloadedSubmissions& submissions) const {
+    return importSubmissions(submissions, {.exercises = exercises_, .handedOut = {{"02-control", "starter"}}},
+                             handedIn());
+  }
+  static const DownloadedSubmission& of(const DownloadedSubmissions& submissions, const std::string& place) {
+    return *std::find_if(submissions.all.begin(), submissions.all.end(),
+                         [&](const DownloadedSubmission& one) { return one.place == place; });
   }
 
   TemporaryFolder folder_;
@@ -100,7 +102,7 @@ TEST_F(GitClonesTest, TakesAClassWithItsRosterAndRecord) {
     ASSERT_NE(told, nullptr) << k;
     EXPECT_EQ(table.find(all[k].email, "02-control"), nullptr) << "as it was handed out";
     if (all[k].work == SyntheticWork::kMissing) {
-      EXPECT_EQ(told->status, HandInStatus::kNothing);
+      EXPECT_EQ(told->status, SubmissionStatus::kNothing);
       continue;
     }
     EXPECT_EQ(fileText(handedIn() / told->handedInBy / kExercise / "main.cpp"), all[k].text);
@@ -124,18 +126,18 @@ TEST_F(GitClonesTest, CountsTheCommitsThatChangedAFile) {
 TEST_F(GitClonesTest, SaysThatDatesOfCommitsAreTheStudents) {
   commit("hw-adam", "// early", kNoon), commit("hw-adam", "// late", kNoon + 7200),
       commit("hw-anna", "// a", kNoon);
-  const Arrivals newest = read();
+  const DownloadedSubmissions newest = read();
   EXPECT_EQ(of(newest, "hw-adam").files.front().text, "// late");
   EXPECT_EQ(of(newest, "hw-adam").people.front().githubUsername, "adam");
   EXPECT_EQ(of(newest, "hw-adam").timeFrom, "git");
   EXPECT_THAT(newest.notes,
               Contains(HasSubstr("2 clones: which commit counts, and when it was made, is known from "
                                  "dates in the clone alone, which students can set")));
-  const Arrivals until = read({.deadline = kNoon + 3600});
+  const DownloadedSubmissions until = read({.deadline = kNoon + 3600});
   EXPECT_EQ(of(until, "hw-adam").files.front().text, "// early");
   EXPECT_EQ(of(until, "hw-adam").submitted, kNoon);
   EXPECT_THAT(until.notes, Contains("hw-adam: 1 newer commit left out"));
-  const Arrivals none = read({.deadline = kNoon - 1});
+  const DownloadedSubmissions none = read({.deadline = kNoon - 1});
   EXPECT_EQ(of(none, "hw-adam").whyNone, "no commit until 2026-11-20T11:59:59Z");
   EXPECT_THAT(import(none).complaints, Contains("hw-adam: not taken: no commit until 2026-11-20T11:59:59Z"));
 }
@@ -147,7 +149,7 @@ TEST_F(GitClonesTest, TakesTheLastCommitUntilTheTimeOfTheRecord) {
       write("record.csv",
             "repository,username,submitted,commit\n"
             "hw-adam,adam,2026-11-20 13:00:00 UTC,\nhw-gone,bob,2026-11-20 13:00:00 UTC,\n");
-  const Arrivals found = read({.record = record});
+  const DownloadedSubmissions found = read({.record = record});
   EXPECT_EQ(of(found, "hw-adam").files.front().text, "// early");
   EXPECT_EQ(of(found, "hw-adam").submitted, kNoon + 3600);
   EXPECT_EQ(of(found, "hw-adam").timeFrom, "platform");
@@ -157,7 +159,7 @@ TEST_F(GitClonesTest, TakesTheLastCommitUntilTheTimeOfTheRecord) {
   // A record of pushes names no people, and its times may be local.
   write("record.csv",
         "repository,submitted,commit\nhw-adam,2026-11-20 14:00:00,\nhw-gone,2026-11-20 14:00:00,\n");
-  const Arrivals pushes = read({.record = record, .timeZone = "Europe/Berlin"});
+  const DownloadedSubmissions pushes = read({.record = record, .timeZone = "Europe/Berlin"});
   EXPECT_EQ(of(pushes, "hw-adam").people.front().githubUsername, "adam");
   EXPECT_EQ(of(pushes, "hw-adam").submitted, kNoon + 3600);
   EXPECT_EQ(of(pushes, "hw-gone").people.front().githubUsername, "gone");
@@ -180,14 +182,14 @@ TEST_F(GitClonesTest, FindsTheStudentInTheNameOfTheClone) {
   commit("group/project", "c", kNoon);
   fs::create_directories(source() / "empty");
   write("clones/notes.txt", "");
-  const Arrivals found = read({.assignment = "week-1"});
+  const DownloadedSubmissions found = read({.assignment = "week-1"});
   EXPECT_EQ(of(found, "week-1-anna-lena").people.front().githubUsername, "anna-lena");
   EXPECT_EQ(of(found, "group").people.front().githubUsername, "group") << "as in GitLab";
   EXPECT_THAT(found.complaints, Contains("empty: no clone: found none, wanted a folder .git"));
   EXPECT_THAT(found.notes, Contains("notes.txt: ignored"));
   const fs::path roster =
       write("roster.csv", "identifier,github_username,github_id,name\n7,Anna-Lena,,Anna\n");
-  const Arrivals listed = read({.roster = roster});
+  const DownloadedSubmissions listed = read({.roster = roster});
   EXPECT_EQ(of(listed, "week-1-anna-lena").people.front().name, "Anna");
   EXPECT_THAT(listed.notes, Contains(HasSubstr("week-1-andrea: '")));
 }
@@ -218,7 +220,7 @@ TEST_F(GitClonesTest, ObeysNothingInAClone) {
 TEST_F(GitClonesTest, RefusesClonesThatLeadElsewhere) {
   commit("hw-adam", "// adam", kNoon);
   const auto expectRefusal = [&](const std::string& clone, const std::string& why) {
-    const Arrivals found = read();
+    const DownloadedSubmissions found = read();
     EXPECT_THAT(of(found, clone).whyNone, HasSubstr("cannot read this repository: found " + why)) << clone;
     EXPECT_EQ(of(found, "hw-adam").files.size(), 1u) << "the others are read all the same";
   };
@@ -275,7 +277,7 @@ TEST_F(GitClonesTest, TakesNoLinksAndReadsPackedBranches) {
   commit("hw-adam", std::string((2u << 20) + 1, ' '), kNoon + 1, "03/main.cpp");
   git("hw-adam", {"pack-refs", "--all"});
   git("hw-adam", {"gc", "-q"});
-  const Arrivals found = read();
+  const DownloadedSubmissions found = read();
   std::vector<std::string> whyNot;
   for (const DownloadedFile& file : of(found, "hw-adam").files) whyNot.push_back(file.whyNot);
   EXPECT_THAT(whyNot, ::testing::UnorderedElementsAre("", "a symbolic link", "more than 2 MiB"));

@@ -53,7 +53,7 @@ class GradebookTest : public ::testing::Test {
 
 TEST_F(GradebookTest, GivesEveryoneOnTheRosterARow) {
   handIn("bob", 7), handIn("Dora", 10);
-  source_.notTaken = {{"carl", "", "no exercise is called '01-kinematic'"}, {"emil", "", "a link"}};
+  source_.rejected = {{"carl", "", "no exercise is called '01-kinematic'"}, {"emil", "", "a link"}};
   const Gradebook book = makeGradebook(source_);
   ASSERT_EQ(book.rows.size(), 4u);
   EXPECT_EQ(book.row("adam", kEx)->status, RowStatus::kMissing);
@@ -61,7 +61,7 @@ TEST_F(GradebookTest, GivesEveryoneOnTheRosterARow) {
   EXPECT_EQ(book.row("adam", kEx)->possible, 1000) << "of the exercise";
   EXPECT_EQ(book.row("bob", kEx)->status, RowStatus::kGraded);
   EXPECT_EQ(book.row("bob", kEx)->final, 700);
-  EXPECT_EQ(book.row("carl", kEx)->status, RowStatus::kNotTaken);
+  EXPECT_EQ(book.row("carl", kEx)->status, RowStatus::kRejected);
   EXPECT_EQ(book.row("carl", kEx)->remark, "no exercise is called '01-kinematic'");
   ASSERT_EQ(book.strangers.size(), 1u);
   EXPECT_EQ(book.strangers[0].student.id, "Dora");
@@ -78,8 +78,8 @@ TEST_F(GradebookTest, GivesEveryoneOnTheRosterARow) {
 
 TEST_F(GradebookTest, CountsWhatCouldNotBeReadAsNotTaken) {
   handIn("bob", 0);
-  source_.notTaken = {{"bob", kEx, "found a symbolic link"}};
-  EXPECT_EQ(row("bob").status, RowStatus::kNotTaken);
+  source_.rejected = {{"bob", kEx, "found a symbolic link"}};
+  EXPECT_EQ(row("bob").status, RowStatus::kRejected);
   EXPECT_EQ(row("bob").remark, "found a symbolic link");
   EXPECT_EQ(row("bob").final, 0);
 }
@@ -91,8 +91,8 @@ TEST_F(GradebookTest, BelievesWithTheSecretOnlyWhatItSealed) {
   const std::filesystem::path secret = source_.out / "secret",
                               file = source_.out / "bob" / kEx / "results.json";
   writeTextFile(secret, "the secret of a course\n");
-  EXPECT_EQ(stateOf(task, source_.out), TaskState::kDone);
-  EXPECT_EQ(stateOf(task, source_.out, secret), TaskState::kRefused);
+  EXPECT_EQ(taskState(task, source_.out), TaskState::kDone);
+  EXPECT_EQ(taskState(task, source_.out, secret), TaskState::kRefused);
   EXPECT_THAT(whyRefused(task, source_.out, secret), HasSubstr("not written with the secret of the course"));
   auto json = nlohmann::ordered_json::parse(readTextFile(file));
   const auto seal = [&](const std::string& student) {
@@ -102,15 +102,15 @@ TEST_F(GradebookTest, BelievesWithTheSecretOnlyWhatItSealed) {
     writeTextFile(file, json.dump());
   };
   seal("bob");
-  EXPECT_EQ(stateOf(task, source_.out, secret), TaskState::kDone);
+  EXPECT_EQ(taskState(task, source_.out, secret), TaskState::kDone);
   seal("zoe");
-  EXPECT_EQ(stateOf(task, source_.out, secret), TaskState::kRefused) << "the result of another student";
+  EXPECT_EQ(taskState(task, source_.out, secret), TaskState::kRefused) << "the result of another student";
   seal("bob");
   json["message"] = "well done";
-  json["inputs"]["result_sha256"] = grading::sealOf(json.dump(), "");
+  json["inputs"]["result_sha256"] = grading::computeSeal(json.dump(), "");
   writeTextFile(file, json.dump());
-  EXPECT_EQ(stateOf(task, source_.out), TaskState::kDone);
-  EXPECT_EQ(stateOf(task, source_.out, secret), TaskState::kRefused);
+  EXPECT_EQ(taskState(task, source_.out), TaskState::kDone);
+  EXPECT_EQ(taskState(task, source_.out, secret), TaskState::kRefused);
 }
 
 TEST_F(GradebookTest, GivesNoGradeWithoutAValidResult) {
@@ -162,7 +162,7 @@ TEST_F(GradebookTest, KnowsPeopleByWhatPlatformsSayOfThem) {
                              {.id = "emil"}};
   const auto person = [&](const std::string& folder, ImportedStudent known, const std::string& by) {
     known.student = folder;
-    known.exercises[kEx] = {.status = HandInStatus::kHandedIn, .handedInBy = by};
+    known.exercises[kEx] = {.status = SubmissionStatus::kHandedIn, .handedInBy = by};
     source_.imported.students.push_back(known);
   };
   person("501", {.id = "4711", .name = "Adam A."}, "501");
@@ -170,14 +170,15 @@ TEST_F(GradebookTest, KnowsPeopleByWhatPlatformsSayOfThem) {
   person("503", {.name = "Carl C."}, "503");
   person("504", {.githubUsername = "dora"}, "503");
   source_.imported.students.push_back({.student = "505", .githubUsername = "emil"});
-  source_.imported.students.back().exercises[kEx] = {.status = HandInStatus::kNotTaken, .why = "two files"};
+  source_.imported.students.back().exercises[kEx] = {.status = SubmissionStatus::kRejected,
+                                                     .why = "two files"};
   handIn("501", 1), handIn("502", 2), handIn("503", 3);
   EXPECT_EQ(row("adam").final, 100);
   EXPECT_EQ(row("adam").student.name, "Adam A.");
   EXPECT_EQ(row("bob").final, 200);
   EXPECT_EQ(row("carl").final, 300);
   EXPECT_EQ(row("dora").final, 300) << "a group of the platform";
-  EXPECT_EQ(row("emil").status, RowStatus::kNotTaken);
+  EXPECT_EQ(row("emil").status, RowStatus::kRejected);
   EXPECT_EQ(row("emil").remark, "two files");
 }
 
@@ -185,11 +186,11 @@ TEST(SubmissionOwnersTest, BelieveAddressesRatherThanNamesOfFolders) {
   const Course course{.students = {{.id = "adam", .name = "J\u00FCrgen Gro\u00DF"},
                                    {.id = "bob", .email = "bob@uni.example"},
                                    {.id = "\u00C4nne"}}};
-  EXPECT_EQ(studentOf({.student = "adam", .email = "Bob@uni.example"}, course), "bob");
-  EXPECT_EQ(studentOf({.student = "ADAM", .email = "x@uni.example"}, course), "adam");
-  EXPECT_EQ(studentOf({.student = "7", .name = "Ju\u0308rgen GROSS"}, course), "adam") << "decomposed";
-  EXPECT_EQ(studentOf({.student = "a\u0308nne"}, course), "\u00C4nne");
-  EXPECT_EQ(studentOf({.student = "7"}, course), "");
+  EXPECT_EQ(courseStudent({.student = "adam", .email = "Bob@uni.example"}, course), "bob");
+  EXPECT_EQ(courseStudent({.student = "ADAM", .email = "x@uni.example"}, course), "adam");
+  EXPECT_EQ(courseStudent({.student = "7", .name = "Ju\u0308rgen GROSS"}, course), "adam") << "decomposed";
+  EXPECT_EQ(courseStudent({.student = "a\u0308nne"}, course), "\u00C4nne");
+  EXPECT_EQ(courseStudent({.student = "7"}, course), "");
 }
 
 TEST_F(GradebookTest, HasARowForEachSubmissionWithoutARoster) {
@@ -232,9 +233,9 @@ TEST_F(GradebookTest, AppliesAdjustmentsOfChecksBeforeAndOfTheTotalAfterLateness
   EXPECT_EQ(graded.late.penalty, 70);
   EXPECT_EQ(graded.final, 680);
   EXPECT_THAT(gradesCsv({graded}), HasSubstr("late,5,10,fail,2.5,1,0.7,6.8,"));
-  const reports::Judgement judgement = judgementOf(graded).value();
+  const reports::Judgement judgement = rowJudgement(graded).value();
   EXPECT_THAT(
-      reports::sentencesOf(judgement),
+      reports::judgementSentences(judgement),
       ElementsAre("Turns [turn]: 4 instead of 2 points: seen (Tutor, 2026-12-01)",
                   "Final points: 6.8 instead of 6.3 points: seen (Tutor, 2026-12-01)",
                   "Handed in at 2023-11-15T22:13:20Z, deadline 2023-11-14T22:13:20Z. 1 day late: 0.7 of 7 "
@@ -258,7 +259,7 @@ TEST_F(GradebookTest, TellsStudentsOnlyTheNumberOfAHiddenCheck) {
   Adjustment far = adjustment("bob", "far");
   far.points = 150;
   source_.adjustments.adjustments = {far};
-  const std::vector<std::string> sentences = reports::sentencesOf(judgementOf(row("bob")).value());
+  const std::vector<std::string> sentences = reports::judgementSentences(rowJudgement(row("bob")).value());
   EXPECT_EQ(sentences.at(0), "Hidden check 1: 1.5 instead of 0 points: seen (Tutor, 2026-12-01)");
 }
 
@@ -332,7 +333,7 @@ TEST_F(GradebookTest, ShowsTimesInTheZoneOfTheCourseAndTheGrace) {
   EXPECT_THAT(explain(graded), Contains("Handed in at 2023-11-14T23:23:10+01:00 (time from table) as 'bob'"));
   EXPECT_THAT(explain(graded),
               Contains("Deadline 2023-11-14T23:13:20+01:00; 10 minutes after it, within the grace of 15"));
-  EXPECT_THAT(reports::sentencesOf(judgementOf(graded).value()).front(),
+  EXPECT_THAT(reports::judgementSentences(rowJudgement(graded).value()).front(),
               HasSubstr("10 minutes after it, within the grace of 15."));
 }
 
@@ -341,10 +342,10 @@ TEST_F(GradebookTest, CountsWhatWasPutRightAfterAnImport) {
   handIn("bob", 5);
   source_.imported.students = {{.student = "bob"}, {.student = "carl"}};
   for (ImportedStudent& one : source_.imported.students)
-    one.exercises[kEx] = {.status = HandInStatus::kNotTaken, .why = "an archive in an archive"};
+    one.exercises[kEx] = {.status = SubmissionStatus::kRejected, .why = "an archive in an archive"};
   EXPECT_EQ(row("bob").status, RowStatus::kGraded);
   EXPECT_EQ(row("bob").remark, "");
-  EXPECT_EQ(row("carl").status, RowStatus::kNotTaken);
+  EXPECT_EQ(row("carl").status, RowStatus::kRejected);
 }
 
 TEST_F(GradebookTest, TellsWhoHasAnExtension) {
@@ -355,17 +356,17 @@ TEST_F(GradebookTest, TellsWhoHasAnExtension) {
   EXPECT_THAT(explain(row("carl")), Contains("No grade (of 10 points)"));
 }
 
-TEST(NotTakenList, KeepsWhatWasNotTaken) {
+TEST(RejectedList, KeepsWhatWasNotTaken) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "not_taken.tsv";
-  EXPECT_TRUE(readNotTaken(file).empty());
-  writeTextFile(file, notTakenText({{"zoe", kEx, "a\tlink"}, {"adam", "", "x"}}));
-  const std::vector<NotTaken> all = readNotTaken(file);
+  EXPECT_TRUE(readRejected(file).empty());
+  writeTextFile(file, rejectedText({{"zoe", kEx, "a\tlink"}, {"adam", "", "x"}}));
+  const std::vector<RejectedSubmission> all = readRejected(file);
   ASSERT_EQ(all.size(), 2u);
   EXPECT_EQ(all[0].why, "a link");
   EXPECT_EQ(all[1].exercise, "");
   writeTextFile(file, "student\texercise\twhy\nzoe\n");
-  EXPECT_REX_ERROR((void)readNotTaken(file),
+  EXPECT_REX_ERROR((void)readRejected(file),
                    ":2: not a list of what was not taken: wanted student, exercise and reason");
 }
 

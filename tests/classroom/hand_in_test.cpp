@@ -36,16 +36,18 @@ class HandInTest : public ::testing::Test {
   void write(const std::string& name, const std::string& text = "int main() {}\n") const {
     writeTextFile(folder() / name, text);
   }
-  HandIns read(const std::string& only = {}) const { return readHandIns(folder(), exercises_, only); }
-  static std::vector<std::string> namesOf(const HandIns& found) {
+  SubmittedFiles read(const std::string& only = {}) const {
+    return readSubmittedFiles(folder(), exercises_, only);
+  }
+  static std::vector<std::string> namesOf(const SubmittedFiles& found) {
     std::vector<std::string> names;
-    for (const HandIn& file : found.files) names.push_back(file.student + " " + file.exercise);
+    for (const SubmittedFile& file : found.files) names.push_back(file.student + " " + file.exercise);
     return names;
   }
   // What is refused besides `good`, whose file must be taken all the same.
   void expectComplaint(const std::string& text) const {
     write("good/01-kinematics/main.cpp");
-    const HandIns found = read();
+    const SubmittedFiles found = read();
     EXPECT_THAT(found.complaints, ElementsAre(HasSubstr(text)));
     EXPECT_THAT(namesOf(found), ::testing::Contains("good 01-kinematics"));
   }
@@ -59,7 +61,7 @@ TEST_F(HandInTest, TakesEachFileOfEachStudentInOrder) {
   write("zoe/kinematics/main.cpp", "// zoe");
   write("adam/02/main.cpp");
   write("Müller, Änne/01-kinematics/main.cpp");
-  const HandIns found = read();
+  const SubmittedFiles found = read();
   EXPECT_THAT(namesOf(found), ElementsAre("Müller, Änne 01-kinematics", "adam 02-control",
                                           "zoe 01-kinematics", "zoe 02-control"));
   EXPECT_THAT(found.complaints, IsEmpty());
@@ -77,14 +79,14 @@ TEST_F(HandInTest, TellsWhenAFileWasModified) {
 
 TEST_F(HandInTest, NotesWhatIsNotGraded) {
   write("zoe/01/main.cpp"), write("zoe/01/notes.txt"), write("zoe/receipt.json"), write(".DS_Store");
-  const HandIns found = read();
+  const SubmittedFiles found = read();
   EXPECT_THAT(found.complaints, IsEmpty());
   EXPECT_THAT(found.notes, ElementsAre(HasSubstr(".DS_Store: ignored"), HasSubstr("notes.txt: ignored")));
 }
 
 TEST_F(HandInTest, ComplainsOfAnUnknownExercise) {
   write("zoe/01-kinematic/main.cpp");
-  const HandIns found = read();
+  const SubmittedFiles found = read();
   EXPECT_THAT(found.complaints,
               ElementsAre(AllOf(HasSubstr("in/zoe/01-kinematic: no exercise is called '01-kinematic'"),
                                 HasSubstr("did you mean '01-kinematics'")),
@@ -94,7 +96,7 @@ TEST_F(HandInTest, ComplainsOfAnUnknownExercise) {
 
 TEST_F(HandInTest, ComplainsOfStudentsWithoutAnExerciseEvenIfOnlyOneIsWanted) {
   write("zoe/main.cpp"), write("adam/01/main.cpp");
-  const HandIns found = read("02");
+  const SubmittedFiles found = read("02");
   EXPECT_THAT(found.complaints,
               ElementsAre(HasSubstr("in/zoe: nothing to grade: found no exercise folder, wanted "
                                     "02-control/main.cpp")));
@@ -146,7 +148,7 @@ TEST_F(HandInTest, TakesArchivesAsFolders) {
   pack("adam.tar", {{.name = "./02-control/main.cpp", .text = "// adam"}});
   const timespec times[2] = {{1, 0}, {1'700'000'000, 0}};
   ASSERT_EQ(::utimensat(AT_FDCWD, (folder() / "zoe.zip").c_str(), times, 0), 0);
-  HandIns found = read();
+  SubmittedFiles found = read();
   EXPECT_THAT(namesOf(found), ElementsAre("adam 02-control", "zoe 01-kinematics"));
   EXPECT_THAT(found.complaints, IsEmpty());
   EXPECT_THAT(found.notes, ElementsAre(HasSubstr("in/zoe.zip/notes.txt: ignored")));
@@ -170,7 +172,7 @@ TEST_F(HandInTest, TakesArchivesWithOneFolderAroundAll) {
                           {.name = "Zoe's work/01/build/main.cpp"},
                           {.name = "__MACOSX/Zoe's work/01/._main.cpp"},
                           {.name = "Zoe's work/receipt.json"}}));
-  const HandIns found = read();
+  const SubmittedFiles found = read();
   EXPECT_THAT(namesOf(found), ElementsAre("zoe 01-kinematics"));
   EXPECT_THAT(found.complaints, IsEmpty());
   EXPECT_EQ(found.files[0].text, "// zoe");
@@ -263,20 +265,20 @@ TEST_F(HandInTest, WritesNoListUnderTheNameOfAStudent) {
 }
 
 TEST_F(HandInTest, FailsWithoutAFolder) {
-  EXPECT_REX_ERROR(readHandIns(folder() / "none", exercises_), "in/none: cannot read this folder");
+  EXPECT_REX_ERROR(readSubmittedFiles(folder() / "none", exercises_), "in/none: cannot read this folder");
 }
 
 TEST_F(HandInTest, KeepsACopyOfWhatCanBeRead) {
   const fs::path out = temporary_.path() / "out";
-  HandIn file{.student = "zoe", .exercise = "01-kinematics", .from = "x/main.cpp", .text = "int a;"};
-  EXPECT_EQ(snapshotOf(file, out), fs::path("zoe/01-kinematics/main.cpp"));
+  SubmittedFile file{.student = "zoe", .exercise = "01-kinematics", .from = "x/main.cpp", .text = "int a;"};
+  EXPECT_EQ(writeSnapshot(file, out), fs::path("zoe/01-kinematics/main.cpp"));
   EXPECT_EQ(readTextFile(out / "zoe/01-kinematics/main.cpp"), "int a;");
   file.text = "int b;";
-  static_cast<void>(snapshotOf(file, out));
+  static_cast<void>(writeSnapshot(file, out));
   EXPECT_EQ(readTextFile(out / "zoe/01-kinematics/main.cpp"), "int b;");
   file.text.reset();
   file.whyNot = "a symbolic link";
-  EXPECT_EQ(snapshotOf(file, out), fs::path("zoe/01-kinematics/main.cpp"));
+  EXPECT_EQ(writeSnapshot(file, out), fs::path("zoe/01-kinematics/main.cpp"));
   EXPECT_THAT(readTextFile(out / "zoe/01-kinematics/main.cpp"),
               HasSubstr("#error cannot be graded: found a symbolic link, wanted a C++ source file\n"));
 }
@@ -302,7 +304,7 @@ TEST_F(HandInTest, ReadsNoOtherFileWhateverIsSwapped) {
     int taken = 0;
     // A busy machine may always let the other thread run between the same two calls.
     for (int k = 0; k < 300 || (taken == 0 && k < 100'000); ++k)
-      for (const HandIn& file : read().files) {
+      for (const SubmittedFile& file : read().files) {
         taken += file.text ? 1 : 0;
         EXPECT_NE(file.text, "// victim");
       }
@@ -323,7 +325,7 @@ TEST_F(HandInTest, TakesArchivesOfHonestPeople) {
                           {.name = "01/.DS_Store"},
                           {.name = "__MACOSX/01/main.cpp"},
                           {.name = "__MACOSX/01/._main.cpp"}}));
-  const HandIns found = read();
+  const SubmittedFiles found = read();
   EXPECT_THAT(found.complaints, IsEmpty());
   ASSERT_EQ(found.files.size(), 1u);
   EXPECT_EQ(found.files[0].text, "// zoe");

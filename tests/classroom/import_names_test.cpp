@@ -7,15 +7,15 @@ namespace rex::classroom::import_names_test {
 
 const std::vector<std::string> kExercises = {"01-kinematics"};
 
-/// Gives names to people in the order of their arrival.
+/// Gives names to people in the order of their submissions.
 class ImportNamesTest : public ::testing::Test {
  protected:
   std::vector<std::string> namesOf(const std::vector<Person>& people, Platform platform = Platform::kMoodle) {
-    Arrivals arrivals{.platform = platform};
-    for (const Person& person : people) arrivals.all.push_back({.people = {person}});
-    ImportNames names(table_, arrivals);
+    DownloadedSubmissions submissions{.platform = platform};
+    for (const Person& person : people) submissions.all.push_back({.people = {person}});
+    ImportNames names(table_, submissions);
     std::vector<std::string> folders;
-    for (const Person& person : people) folders.push_back(names.folderOf(person, kExercises));
+    for (const Person& person : people) folders.push_back(names.personFolder(person, kExercises));
     byNameAlone_ = names.knownByNameAlone();
     return folders;
   }

@@ -21,7 +21,7 @@ ImportTable sample() {
                            {.platform = "moodle",
                             .identifier = "Participant 501",
                             .maximumGrade = "100.00",
-                            .status = HandInStatus::kHandedIn,
+                            .status = SubmissionStatus::kHandedIn,
                             .handedInBy = "zoe@uni.example",
                             .group = "Pair 1",
                             .submitted = 1'795'215'540,
@@ -32,7 +32,7 @@ ImportTable sample() {
                             .attempts = 3,
                             .attemptsFrom = "imports"}},
                           {"02-control",
-                           {.platform = "moodle", .status = HandInStatus::kNotTaken, .why = "a zip"}}}},
+                           {.platform = "moodle", .status = SubmissionStatus::kRejected, .why = "a zip"}}}},
            {.student = "zz", .exercises = {{"01-kinematics", {.platform = "moodle"}}}}}};
 }
 

@@ -50,12 +50,13 @@ class ImportingTest : public ::testing::Test {
     writeTextFile(in(name), text);
     return in(name);
   }
-  ImportReport import(const Arrivals& arrivals, const std::string& exercise = kExercise) const {
-    return importArrivals(arrivals, {.exercises = exercises_, .exercise = exercise, .handedOut = {}},
-                          handedIn());
+  ImportReport import(const DownloadedSubmissions& submissions,
+                      const std::string& exercise = kExercise) const {
+    return importSubmissions(submissions, {.exercises = exercises_, .exercise = exercise, .handedOut = {}},
+                             handedIn());
   }
-  Arrivals moodle(const fs::path& source, const std::string& worksheet,
-                  const std::string& zone = "Europe/Berlin") const {
+  DownloadedSubmissions moodle(const fs::path& source, const std::string& worksheet,
+                               const std::string& zone = "Europe/Berlin") const {
     return readMoodle(source, {.worksheet = write("worksheet.csv", worksheet), .timeZone = zone}, exercises_);
   }
 
@@ -77,17 +78,17 @@ class ImportingTest : public ::testing::Test {
       const ImportedExercise* told = table.find(folderOf(student), kExercise);
       if (student.work == SyntheticWork::kMissing) {
         EXPECT_EQ(told != nullptr, isListed) << student.name;
-        EXPECT_TRUE(told == nullptr || told->status == HandInStatus::kNothing) << student.name;
+        EXPECT_TRUE(told == nullptr || told->status == SubmissionStatus::kNothing) << student.name;
         continue;
       }
       ASSERT_NE(told, nullptr) << student.name << " " << folderOf(student);
       if (student.work == SyntheticWork::kAttack) {
-        EXPECT_EQ(told->status, HandInStatus::kNotTaken);
+        EXPECT_EQ(told->status, SubmissionStatus::kRejected);
         EXPECT_THAT(told->why, HasSubstr("not accepted")) << student.name;
         EXPECT_FALSE(fs::exists(handedIn() / folderOf(student)));
         continue;
       }
-      EXPECT_EQ(told->status, HandInStatus::kHandedIn) << student.name;
+      EXPECT_EQ(told->status, SubmissionStatus::kHandedIn) << student.name;
       EXPECT_EQ(fileText(handedIn() / told->handedInBy / kExercise / "main.cpp"), student.text)
           << student.name;
       EXPECT_EQ(told->timeFrom, timeFrom);
@@ -97,7 +98,7 @@ class ImportingTest : public ::testing::Test {
   }
   // What `rex grade` finds: one file for each student or pair, and nothing to complain about.
   void expectGradable() const {
-    const HandIns found = readHandIns(handedIn(), exercises_);
+    const SubmittedFiles found = readSubmittedFiles(handedIn(), exercises_);
     EXPECT_THAT(found.complaints, IsEmpty());
     EXPECT_THAT(found.notes, IsEmpty());
     EXPECT_EQ(static_cast<int>(found.files.size()), count([](const SyntheticStudent& one) {
@@ -117,7 +118,7 @@ TEST_F(ImportingTest, TakesMoodlesZipWithItsWorksheet) {
   const ImportReport report =
       import(moodle(zip("all.zip", moodleMembers(all_, kExercise)), moodleWorksheet(all_)));
   expectAll(emailOf, "platform", true);
-  EXPECT_EQ(report.notTaken, attacks());
+  EXPECT_EQ(report.rejected, attacks());
   EXPECT_EQ(report.missing, missing());
   EXPECT_EQ(static_cast<int>(report.complaints.size()), attacks());
   EXPECT_EQ(report.timesOfPlatform, report.handedIn);
@@ -308,24 +309,24 @@ TEST_F(ImportingTest, CountsWhatGradescopeKeepsAsAttempts) {
 }
 
 TEST_F(ImportingTest, BlamesNoExerciseForTheFaultOfAnother) {
-  const auto arrival = [&](DownloadedFile file) {
+  const auto received = [&](DownloadedFile file) {
     file.place = file.name;
-    return Arrivals{
+    return DownloadedSubmissions{
         .platform = Platform::kFolders,
         .all = {{.people = {{.name = "Zoe"}},
                  .files = {{.name = "02/main.cpp", .place = "02/main.cpp", .text = "b"}, std::move(file)}},
                 {.people = {{.name = "Yan"}},
                  .files = {{.name = "01/main.cpp", .place = "01/main.cpp", .text = "a"}}}}};
   };
-  import(arrival({.name = "01/main.cpp", .whyNot = "a symbolic link"}), "");
+  import(received({.name = "01/main.cpp", .whyNot = "a symbolic link"}), "");
   EXPECT_EQ(readImportTable(handedIn() / kImportTable).find("Zoe", "01-kinematics")->status,
-            HandInStatus::kNotTaken);
+            SubmissionStatus::kRejected);
   EXPECT_EQ(readImportTable(handedIn() / kImportTable).find("Zoe", "02-control")->status,
-            HandInStatus::kHandedIn);
+            SubmissionStatus::kHandedIn);
   fs::remove_all(handedIn());
-  import(arrival({.name = "03/main.cpp", .text = "c"}), "");
+  import(received({.name = "03/main.cpp", .text = "c"}), "");
   EXPECT_EQ(readImportTable(handedIn() / kImportTable).find("Zoe", "01-kinematics")->status,
-            HandInStatus::kNotTaken)
+            SubmissionStatus::kRejected)
       << "nobody knows which one was meant";
 }
 
@@ -388,14 +389,14 @@ TEST_F(ImportingTest, KnowsPeopleAgainInAnotherAssignment) {
 }
 
 TEST_F(ImportingTest, FindsNamesThatCanBeFolders) {
-  Arrivals arrivals{.platform = Platform::kGradescope};
-  const auto arrive = [&](Person person) { arrivals.all.push_back({.people = {std::move(person)}}); };
+  DownloadedSubmissions submissions{.platform = Platform::kGradescope};
+  const auto arrive = [&](Person person) { submissions.all.push_back({.people = {std::move(person)}}); };
   arrive({.id = "../etc", .name = "A/B", .email = "X@Uni.Example", .number = "1"});
   arrive({.name = std::string("evil\nname"), .number = "2"});
   arrive({.name = "table.csv", .number = "3"});
   arrive({.name = "Bo", .number = "4"}), arrive({.name = "bO", .number = "5"});
   arrive({});
-  import(arrivals);
+  import(submissions);
   std::vector<std::string> names;
   for (const ImportedStudent& student : readImportTable(handedIn() / kImportTable).students)
     names.push_back(student.student);
@@ -411,7 +412,7 @@ TEST_F(ImportingTest, TellsWhatContradictsItself) {
                                   {.name = "Yan_2_assignsubmission_file_/main.cpp", .text = "b"}}),
                     sheet));
   EXPECT_THAT(twice.complaints, Contains(HasSubstr("a second file of zoe@x for 01-kinematics: not taken")));
-  const Arrivals group =
+  const DownloadedSubmissions group =
       moodle(zip("b.zip", {{.name = "A-Zoe_1_assignsubmission_file_/main.cpp", .text = "a"},
                            {.name = "A-Yan_2_assignsubmission_file_/main.cpp", .text = "b"},
                            {.name = "Xi_3_assignsubmission_file_/main.cpp", .text = "c"},
@@ -420,10 +421,10 @@ TEST_F(ImportingTest, TellsWhatContradictsItself) {
   EXPECT_THAT(group.complaints, Contains(HasSubstr("other files than in 'A-Zoe_1_assignsubmission_file_'")));
   EXPECT_THAT(group.complaints, Contains(HasSubstr("participant 3 is not in the grading worksheet")));
   EXPECT_THAT(import(group).complaints, Contains(HasSubstr("not taken: an online text, no uploaded file")));
-  const Arrivals spelt = readFolders(unpacked("f", {{.name = "zoe.cpp", .text = "a"},
-                                                    {.name = "Zoe.zip", .text = "b"},
-                                                    {.name = "main.cpp", .text = "c"}}),
-                                     exercises_);
+  const DownloadedSubmissions spelt = readFolders(unpacked("f", {{.name = "zoe.cpp", .text = "a"},
+                                                                 {.name = "Zoe.zip", .text = "b"},
+                                                                 {.name = "main.cpp", .text = "c"}}),
+                                                  exercises_);
   EXPECT_THAT(spelt.complaints, Contains(HasSubstr("the same name as 'Zoe', spelt differently")));
   EXPECT_THAT(spelt.complaints, Contains(HasSubstr("main.cpp: whose?")));
 }
@@ -461,7 +462,7 @@ TEST_F(ImportingTest, RefusesMetadataOfOtherKinds) {
   expectRefusal(std::string(200'000, '['), "not Gradescope's metadata: found ");
   expectRefusal("submission_1:\n  :submitters:\n  - :name: Zoe\n  :created_at: soon\n",
                 "not a time: found 'soon'");
-  const Arrivals odd = readGradescope(
+  const DownloadedSubmissions odd = readGradescope(
       zip("g.zip",
           {{.name = "submission_metadata.yml",
             .text = "submission_1:\n  :submitters: []\nsubmission_2:\n  :submitters:\n  - :name: Zoe\n"},

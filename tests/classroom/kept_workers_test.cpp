@@ -27,7 +27,7 @@ TEST(KeptWorkers, AreTakenAsAWhole) {
   const auto take = [&] { return buildOnce({folder.path() / "kept", "key"}, {}, {}, options); };
   const submission::BuiltSubmission taken = take();
   EXPECT_EQ(readTextFile(taken.worker), "text of worker");
-  EXPECT_EQ(readTextFile(grading::workerOf("kin", {.worker = taken.worker, .parts = taken.parts})),
+  EXPECT_EQ(readTextFile(grading::workerProgram("kin", {.worker = taken.worker, .parts = taken.parts})),
             "text of worker.kin");
   for (const std::string& file : files) {
     writeTextFile(kept / file, "another text");

@@ -86,7 +86,9 @@ TEST_F(LatePolicyTest, NamesThePlaceOfWhatIsWrong) {
 
 TEST(Lateness, CountsDaysBegunAfterTheDeadline) {
   const LateRule rule{.deadline = kDeadline, .graceSeconds = 900, .perDay = 1000};
-  const auto daysAt = [&](std::int64_t late) { return latenessOf(rule, "a", kDeadline + late, 10).days; };
+  const auto daysAt = [&](std::int64_t late) {
+    return computeLateness(rule, "a", kDeadline + late, 10).days;
+  };
   EXPECT_EQ(daysAt(-kDay), 0);
   EXPECT_EQ(daysAt(0), 0);
   EXPECT_EQ(daysAt(900), 0) << "the last second of grace";
@@ -97,16 +99,16 @@ TEST(Lateness, CountsDaysBegunAfterTheDeadline) {
 }
 
 TEST(Lateness, CostsNothingWithoutADeadline) {
-  const Lateness lateness = latenessOf({.perDay = 1000}, "a", kDeadline, 10);
+  const Lateness lateness = computeLateness({.perDay = 1000}, "a", kDeadline, 10);
   EXPECT_EQ(lateness.days, 0);
   EXPECT_EQ(lateness.penalty, 0);
 }
 
 TEST(Lateness, TakesTheOwnDeadlineOfAStudent) {
   const LateRule rule{.deadline = kDeadline, .extensions = {{"alice", kDeadline + 2 * kDay}}, .perDay = 1000};
-  EXPECT_EQ(latenessOf(rule, "alice", kDeadline + 2 * kDay, 10).days, 0);
-  EXPECT_EQ(latenessOf(rule, "alice", kDeadline + 2 * kDay + 1, 10).days, 1);
-  EXPECT_EQ(latenessOf(rule, "bob", kDeadline + 2 * kDay, 10).days, 2);
+  EXPECT_EQ(computeLateness(rule, "alice", kDeadline + 2 * kDay, 10).days, 0);
+  EXPECT_EQ(computeLateness(rule, "alice", kDeadline + 2 * kDay + 1, 10).days, 1);
+  EXPECT_EQ(computeLateness(rule, "bob", kDeadline + 2 * kDay, 10).days, 2);
 }
 
 // The same in floating-point numbers, from the words of the manual.
@@ -118,7 +120,7 @@ TEST(Lateness, CostsWhatTheClosedFormSays) {
     const bool isPercent = rng.index(2) == 1, hasCap = rng.index(2) == 1;
     LateRule rule{.deadline = kDeadline, .isPercent = isPercent, .perDay = 1 + rng.index(10000)};
     if (hasCap) rule.cap = 1 + rng.index(10000);
-    const Lateness lateness = latenessOf(rule, "a", kDeadline + days * kDay, points);
+    const Lateness lateness = computeLateness(rule, "a", kDeadline + days * kDay, points);
     double cost = 0.01 * static_cast<double>(rule.perDay) * days;
     if (hasCap) cost = std::min(cost, 0.01 * static_cast<double>(*rule.cap));
     const double penalty = std::min<double>(isPercent ? points * cost / 100 : cost, points);
@@ -130,16 +132,16 @@ TEST(Lateness, CostsWhatTheClosedFormSays) {
 
 TEST(Lateness, RoundsHalvesUp) {
   const LateRule rule{.deadline = kDeadline, .perDay = 50};  // half a percent
-  EXPECT_EQ(latenessOf(rule, "a", kDeadline + 1, 1).penalty, 1) << "half a hundredth";
-  EXPECT_EQ(latenessOf(rule, "a", kDeadline + 1, 3).penalty, 2) << "one and a half";
+  EXPECT_EQ(computeLateness(rule, "a", kDeadline + 1, 1).penalty, 1) << "half a hundredth";
+  EXPECT_EQ(computeLateness(rule, "a", kDeadline + 1, 3).penalty, 2) << "one and a half";
 }
 
 // One for all exercises is written for those that are due soon.
 TEST(Lateness, DoesNotGrowByAnExtension) {
   const LateRule rule{.deadline = kDeadline, .extensions = {{"alice", kDeadline - 2 * kDay}}, .perDay = 1000};
-  EXPECT_EQ(latenessOf(rule, "alice", kDeadline, 20).days, 0);
-  EXPECT_EQ(latenessOf(rule, "alice", kDeadline + 1, 20).days, 1);
-  EXPECT_EQ(latenessOf({.extensions = {{"alice", kDeadline}}}, "alice", kDeadline + 1, 20).days, 0);
+  EXPECT_EQ(computeLateness(rule, "alice", kDeadline, 20).days, 0);
+  EXPECT_EQ(computeLateness(rule, "alice", kDeadline + 1, 20).days, 1);
+  EXPECT_EQ(computeLateness({.extensions = {{"alice", kDeadline}}}, "alice", kDeadline + 1, 20).days, 0);
 }
 
 TEST_F(LatePolicyTest, TellsOfExtensionsForNobody) {

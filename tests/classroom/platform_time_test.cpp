@@ -14,7 +14,7 @@
 namespace rex::classroom::platform_time_test {
 
 std::string instant(const std::string& text, const std::string& zone) {
-  return instantText(PlatformZone(zone).instantOf(text, "grades.csv:3"));
+  return instantText(PlatformZone(zone).toInstant(text, "grades.csv:3"));
 }
 
 TEST(PlatformTime, ReadsWhatPlatformsWrite) {
@@ -71,7 +71,7 @@ TEST(PlatformZone, AgreesWithTheCLibrary) {
       ::localtime_r(&time, &local);
       char text[32];
       std::strftime(text, sizeof text, "%d.%m.%Y %H:%M", &local);
-      const std::int64_t found = PlatformZone(zone).instantOf(text, "x");
+      const std::int64_t found = PlatformZone(zone).toInstant(text, "x");
       EXPECT_TRUE(found == time || (found < time && time - found <= 3600)) << zone << " " << text;
       same += found == time ? 1 : 0;
     }

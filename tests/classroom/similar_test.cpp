@@ -148,8 +148,8 @@ TEST(Similar, JoinsPairsToGroups) {
                                           {.first = "x", .second = "y"},
                                           {.first = "a", .second = "c"},
                                           {.first = "a", .second = "b"}};
-  EXPECT_THAT(groupsOf(pairs), ElementsAre(ElementsAre("a", "b", "c"), ElementsAre("x", "y")));
-  EXPECT_TRUE(groupsOf({}).empty());
+  EXPECT_THAT(similarGroups(pairs), ElementsAre(ElementsAre("a", "b", "c"), ElementsAre("x", "y")));
+  EXPECT_TRUE(similarGroups({}).empty());
 }
 
 TEST(Similar, ShowsPairsSideBySideAsTextOnly) {

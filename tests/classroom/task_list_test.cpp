@@ -93,10 +93,10 @@ TEST_F(TaskListTest, RefusesOtherTexts) {
 }
 
 TEST(Ranges, JoinNeighbours) {
-  EXPECT_EQ(rangesOf({}), "");
-  EXPECT_EQ(rangesOf({3}), "3");
-  EXPECT_EQ(rangesOf({9, 4, 6, 5, 1}), "1,4-6,9");
-  EXPECT_EQ(rangesOf({2, 1}), "1-2");
+  EXPECT_EQ(numberRanges({}), "");
+  EXPECT_EQ(numberRanges({3}), "3");
+  EXPECT_EQ(numberRanges({9, 4, 6, 5, 1}), "1,4-6,9");
+  EXPECT_EQ(numberRanges({2, 1}), "1-2");
 }
 
 }  // namespace rex::classroom::task_list_test

@@ -165,7 +165,7 @@ TEST_F(Completion, LeavesFilesToTheShell) { EXPECT_EQ(after({"render", "ma"}), "
 TEST(ManualPage, ListsAllCommands) {
   ::testing::internal::CaptureStdout();
   const char* const words[] = {"rex", "--man"};
-  EXPECT_EQ(runCommandLine(2, words, {"/", "/"}, studentRoom()), 0);
+  EXPECT_EQ(runCommandLine(2, words, {"/", "/"}, studentCommands()), 0);
   const std::string page = ::testing::internal::GetCapturedStdout();
   for (const TableEntry& entry : commandTable())  // hyphens are written in another way
     EXPECT_THAT(page, HasSubstr("\n.B " + std::string(entry.name.substr(0, entry.name.find('-')))));

@@ -9,7 +9,7 @@
 
 #include "base/process.h"
 #include "cli/command_line.h"
-#include "cli/rooms_of_students.h"
+#include "cli/commands_for_students.h"
 #include "support/paths.h"
 #include "support/temporary_folder.h"
 
@@ -24,13 +24,13 @@ class RexCommand : public ::testing::Test {
     std::filesystem::current_path(folder());
     std::vector<const char*> argv = {"rex"};
     for (const std::string& argument : arguments) argv.push_back(argument.c_str());
-    const Room room = roomOfStudents(programOf(arguments.empty() ? "" : arguments[0]));
+    const CommandSet set = commandsForStudents(programOf(arguments.empty() ? "" : arguments[0]));
     ::testing::internal::CaptureStdout();
     ::testing::internal::CaptureStderr();
     ProcessResult result;
     result.started = true;
     result.exitCode = runProgram(static_cast<int>(argv.size()), argv.data(),
-                                 {.root = homeFolder(), .build = ownFolder()}, room);
+                                 {.root = homeFolder(), .build = ownFolder()}, set);
     result.output = ::testing::internal::GetCapturedStdout();
     result.error = ::testing::internal::GetCapturedStderr();
     std::filesystem::current_path(before);

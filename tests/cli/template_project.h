@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "cli/command_line.h"
-#include "cli/rooms_of_students.h"
+#include "cli/commands_for_students.h"
 #include "support/file_text.h"
 #include "support/paths.h"
 #include "support/temporary_folder.h"
@@ -56,17 +56,17 @@ class TemplateProject : public ::testing::Test {
   fs::path exercise() const { return root() / "exercises" / "98-template"; }
   fs::path out() const { return root() / "out" / "98-template"; }
   fs::path build() const { return root() / "build"; }
-  virtual Room roomOf(Program program) const { return roomOfStudents(program); }
+  virtual CommandSet commandSet(Program program) const { return commandsForStudents(program); }
 
   Ended rexWith(const Project& project, const std::vector<std::string>& arguments) const {
     std::vector<const char*> argv = {"rex"};
     for (const std::string& argument : arguments) argv.push_back(argument.c_str());
     // What is to be completed has another command in front.
     const std::size_t command = arguments.size() > 1 && arguments[0] == "--complete" ? 1 : 0;
-    const Room room = roomOf(programOf(arguments.empty() ? "" : arguments[command]));
+    const CommandSet set = commandSet(programOf(arguments.empty() ? "" : arguments[command]));
     ::testing::internal::CaptureStdout();
     ::testing::internal::CaptureStderr();
-    const int code = runCommandLine(static_cast<int>(argv.size()), argv.data(), project, room);
+    const int code = runCommandLine(static_cast<int>(argv.size()), argv.data(), project, set);
     std::string output = ::testing::internal::GetCapturedStdout();
     return {code, std::move(output), ::testing::internal::GetCapturedStderr()};
   }

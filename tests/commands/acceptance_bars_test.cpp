@@ -141,7 +141,7 @@ TEST_F(AcceptanceBars, Bar06EachSaveLeadsToOneVerdict) {
 // screen is tested by scripts/check-replay, with Chromium.
 TEST_F(AcceptanceBars, Bar07ThePageNeedsNoNetworkAndHoldsAMotion) {
   REX_NEEDS_OSMESA();
-  const auto pageOf = [&](const std::vector<std::string>& postures) {
+  const auto markdownPage = [&](const std::vector<std::string>& postures) {
     std::vector<std::string> command = {buildPath("rex-robot"), "render", "man.ors", "-o",
                                         root() / "page.html"};
     for (const std::string& q : postures) command.insert(command.end(), {"--q", q});
@@ -149,7 +149,7 @@ TEST_F(AcceptanceBars, Bar07ThePageNeedsNoNetworkAndHoldsAMotion) {
     EXPECT_TRUE(ended.ok()) << ended.error;
     return fileText(root() / "page.html");
   };
-  const std::string page = pageOf({"upArmR>dnArmR=0", "upArmR>dnArmR=1.5"});
+  const std::string page = markdownPage({"upArmR>dnArmR=0", "upArmR>dnArmR=1.5"});
   EXPECT_THAT(page, HasSubstr("http-equiv=\"Content-Security-Policy\" content=\"default-src 'none';"));
   EXPECT_EQ(page.find("http://"), page.npos);
   EXPECT_EQ(page.find("https://"), page.npos);

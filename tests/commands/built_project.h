@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/template_project.h"
-#include "commands/all_rooms.h"
+#include "commands/all_commands.h"
 #include "support/paths.h"
 
 namespace rex::cli {
@@ -21,7 +21,7 @@ class BuiltProject : public TemplateProject {
     TemplateProject::SetUp();
     link("98-template");
   }
-  Room roomOf(Program program) const override { return anyRoomOf(program); }
+  CommandSet commandSet(Program program) const override { return anyCommands(program); }
 
   // Another exercise, in everything but its name the one that is there.
   void addExercise(const std::string& name) const {

@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "cli/command_line.h"
-#include "commands/all_rooms.h"
+#include "commands/all_commands.h"
 #include "support/file_text.h"
 #include "support/temporary_folder.h"
 
@@ -28,8 +28,8 @@ class HandOver : public ::testing::Test {
       if (std::freopen(in("output").c_str(), "w", stdout) == nullptr ||
           std::freopen(in("error").c_str(), "w", stderr) == nullptr)
         ::_exit(98);
-      const int code =
-          runCommandLine(static_cast<int>(words.size()), words.data(), {folder(), folder()}, studentRoom());
+      const int code = runCommandLine(static_cast<int>(words.size()), words.data(), {folder(), folder()},
+                                      studentCommands());
       std::fflush(nullptr);
       ::_exit(code);
     }
@@ -100,7 +100,7 @@ TEST_F(HandOver, HelpsAlikeInAllPrograms) {
   for (const Program program : {Program::kRobot, Program::kInstructor}) {
     const char* const words[] = {"rex", "--help"};
     ::testing::internal::CaptureStdout();
-    EXPECT_EQ(runCommandLine(2, words, {folder(), folder()}, anyRoomOf(program)), 0);
+    EXPECT_EQ(runCommandLine(2, words, {folder(), folder()}, anyCommands(program)), 0);
     EXPECT_EQ(::testing::internal::GetCapturedStdout(), help) << programName(program);
   }
 }

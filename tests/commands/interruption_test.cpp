@@ -14,7 +14,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "commands/all_rooms.h"
+#include "commands/all_commands.h"
 #include "support/paths.h"
 #include "support/temporary_folder.h"
 

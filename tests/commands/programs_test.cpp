@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/process.h"
-#include "commands/all_rooms.h"
+#include "commands/all_commands.h"
 #include "support/paths.h"
 
 namespace rex::cli::programs_test {
@@ -25,10 +25,10 @@ void expectUsageError(const std::vector<std::string>& arguments, const std::stri
 
 TEST(Programs, HaveTheCommandsThatTheTableGivesThem) {
   for (const Program program : {Program::kStudent, Program::kRobot, Program::kInstructor}) {
-    const Room room = anyRoomOf(program);
-    EXPECT_EQ(room.program, program) << programName(program);
+    const CommandSet set = anyCommands(program);
+    EXPECT_EQ(set.program, program) << programName(program);
     std::vector<std::string_view> registered, given;
-    for (const auto& [name, registration] : room.commands) registered.push_back(name);
+    for (const auto& [name, registration] : set.commands) registered.push_back(name);
     for (const TableEntry& entry : commandTable())
       if (entry.program == program) given.push_back(entry.name);
     EXPECT_THAT(registered, ::testing::UnorderedElementsAreArray(given)) << programName(program);

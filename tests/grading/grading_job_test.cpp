@@ -66,8 +66,8 @@ TEST(GradingJob, RefusesWhatIsNotALimit) {
 // Another worker may allow more of the library, so it is never taken in place of a missing one.
 TEST(WorkerOf, IsThatOfThePart) {
   const GradingJob job = {.worker = "no/such/worker", .parts = {"own"}};
-  EXPECT_EQ(workerOf("own", job), "no/such/worker.own");
-  EXPECT_EQ(workerOf("other", job), job.worker);
+  EXPECT_EQ(workerProgram("own", job), "no/such/worker.own");
+  EXPECT_EQ(workerProgram("other", job), job.worker);
 }
 
 }  // namespace rex::grading::grading_job_test

@@ -71,7 +71,7 @@ TEST(HostileAnswers, FindCarelessChecks) {
 TEST(Lies, FindChecksThatAreEasilyPleased) {
   const auto points = [](const RunnableCheck& one) {
     std::vector<int> all;
-    for (const LieOutcome& outcome :
+    for (const FalseAnswerOutcome& outcome :
          runAdversarially(std::vector{one}, kJob, Student::signature(), Student::layouts()))
       all.push_back(outcome.points);
     return all;

@@ -34,7 +34,7 @@ CheckResult ask(const VectorFunction& program, const Eigen::VectorXd& first,
                            asked.push_back(q);
                            return program(q);
                          });
-    if (numeric != nullptr) *numeric = differencesOf(values, kPlace);
+    if (numeric != nullptr) *numeric = finiteDifferences(values, kPlace);
   });
 }
 

@@ -181,7 +181,7 @@ TEST(ResultFile, IsNotBelievedIfItWasChangedAfterItWasSealed) {
   GradeResult result;
   result.outcome = Outcome::kFail;
   auto json = nlohmann::json::parse(toJson(result));
-  json["inputs"]["result_sha256"] = sealOf(json.dump(), "r.json");
+  json["inputs"]["result_sha256"] = computeSeal(json.dump(), "r.json");
   json["volatile"]["usage"]["cpu_ms"] = 7;
   std::ofstream(file) << json.dump();
   EXPECT_EQ(loadSoundResult(file).outcome, Outcome::kFail) << "neither times nor the order of keys count";
@@ -191,7 +191,7 @@ TEST(ResultFile, IsNotBelievedIfItWasChangedAfterItWasSealed) {
   json["inputs"].erase("result_sha256");
   std::ofstream(file) << json.dump();
   EXPECT_REX_ERROR(loadSoundResult(file), "wanted none, or a new grading");
-  EXPECT_REX_ERROR(sealOf("[]", "r.json"), "r.json: result file: not JSON: wanted a result");
+  EXPECT_REX_ERROR(computeSeal("[]", "r.json"), "r.json: result file: not JSON: wanted a result");
 }
 
 }  // namespace rex::grading::results_test

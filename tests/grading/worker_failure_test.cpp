@@ -66,7 +66,7 @@ TEST(ExplainEnd, NamesTheExitCode) {
   EXPECT_EQ(byExit(127, false).detail, "no such library");
   EXPECT_EQ(byExit(remote::kProtocolFailure).outcome, Outcome::kProtocolError);
   EXPECT_EQ(byExit(remote::kProtocolFailure).message, "lost its connection to the grader in f");
-  EXPECT_EQ(placeOf(true, ""), "between two calls");
+  EXPECT_EQ(failurePlace(true, ""), "between two calls");
 }
 
 TEST(ExplainEnd, KnowsAnExceptionForWantOfMemory) {

@@ -10,7 +10,7 @@ using ::testing::HasSubstr;
 
 // The inside of the element.
 std::string inside(std::string_view tex) {
-  const std::string all = mathMlOf(tex, false);
+  const std::string all = toMathMl(tex, false);
   const std::string_view open = "<math><mrow>", close = "</mrow></math>";
   EXPECT_TRUE(all.starts_with(open) && all.ends_with(close)) << all;
   return all.substr(open.size(), all.size() - open.size() - close.size());
@@ -22,7 +22,7 @@ TEST(TexMath, ReadsLettersNumbersAndSigns) {
   EXPECT_EQ(inside("\\theta \\le \\infty"), "<mi>θ</mi><mo>≤</mo><mi>∞</mi>");
   EXPECT_EQ(inside("a/b"), "<mi>a</mi><mo stretchy=\"false\" lspace=\"0\" rspace=\"0\">/</mo><mi>b</mi>");
   EXPECT_EQ(inside("(x)"), "<mo stretchy=\"false\">(</mo><mi>x</mi><mo stretchy=\"false\">)</mo>");
-  EXPECT_EQ(mathMlOf("", true), "<math display=\"block\"><mrow></mrow></math>");
+  EXPECT_EQ(toMathMl("", true), "<math display=\"block\"><mrow></mrow></math>");
 }
 
 TEST(TexMath, ReadsScripts) {
@@ -63,7 +63,7 @@ TEST(TexMath, ReadsBracketsAndMatrices) {
 }
 
 TEST(TexMath, RefusesWhatItDoesNotKnow) {
-  const auto refused = [](const char* tex) { return static_cast<void>(mathMlOf(tex, false)); };
+  const auto refused = [](const char* tex) { return static_cast<void>(toMathMl(tex, false)); };
   EXPECT_REX_ERROR(refused("a \\foo b"),
                    "cannot read the formula 'a \\foo b': found an unknown command at '\\foo b'");
   EXPECT_REX_ERROR(refused("a}"), "found something that nothing opened at '}'");

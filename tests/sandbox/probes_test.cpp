@@ -22,7 +22,7 @@ class Probes : public ::testing::TestWithParam<int> {
 };
 
 TEST_P(Probes, AllHoldWhereTheLevelStands) {
-  const Sandbox sandbox{.level = levelOf(GetParam()), .launcher = kLauncher};
+  const Sandbox sandbox{.level = parseLevel(GetParam()), .launcher = kLauncher};
   if (const std::string reason = whyNot(sandbox, kProbe, folder_.path()); !reason.empty())
     GTEST_SKIP() << "sandbox level " << GetParam() << ": " << reason;
   std::vector<std::string> names;
@@ -64,9 +64,9 @@ TEST_F(Probes, BlameNoAttackThatNeverRan) {
 }
 
 TEST_F(Probes, WarnBelowTheHighestLevel) {
-  EXPECT_EQ(warningOf(Level::kControlGroup), "");
+  EXPECT_EQ(levelWarning(Level::kControlGroup), "");
   for (const int level : {0, 1, 2})
-    EXPECT_THAT(warningOf(levelOf(level)),
+    EXPECT_THAT(levelWarning(parseLevel(level)),
                 ::testing::StartsWith("sandbox level " + std::to_string(level) + " of 3: "));
 }
 

@@ -91,7 +91,7 @@ class SystemCalls : public ::testing::Test {
     std::ofstream(file) << "text";
     const pid_t parent = ::getpid();
     const IsolatedResult result = callIsolated([&] {
-      if (level > 0) filterSystemCalls({.level = levelOf(level)}, {}, landlock);
+      if (level > 0) filterSystemCalls({.level = parseLevel(level)}, {}, landlock);
       std::string names;
       for (const auto& [name, attempt] : attempts)
         if (attempt(file.c_str(), parent) >= 0) names += name + " ";

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "submission/graded_part.h"
+#include "submission/graded_source.h"
 
 namespace rex::submission::file_pieces_test {
 
@@ -9,7 +9,7 @@ using ::testing::ElementsAre;
 
 std::vector<std::string> texts(const std::string& source) {
   std::vector<std::string> all;
-  for (const FilePiece& piece : filePieces(CppText(source)))
+  for (const CppPiece& piece : cppPieces(CppText(source)))
     all.push_back(source.substr(piece.start, piece.end - piece.start));
   return all;
 }
@@ -17,7 +17,7 @@ std::vector<std::string> texts(const std::string& source) {
 // The only function of a source; "none" if there is none, or the name does not start where it should.
 std::string functionIn(const std::string& source) {
   std::string found = "none";
-  for (const FilePiece& piece : filePieces(CppText(source))) {
+  for (const CppPiece& piece : cppPieces(CppText(source))) {
     if (piece.function.empty()) continue;
     EXPECT_EQ(found, "none") << source;
     EXPECT_EQ(source.substr(piece.nameStart, piece.function.size()), piece.function);
@@ -65,14 +65,14 @@ TEST(FilePieces, NameFunctionsThatCanBeSwapped) {
         "int f(int a) {\n  const auto g = [&] { return a; };\n  return g();\n}"})
     EXPECT_EQ(functionIn(source), "f") << source;
   EXPECT_EQ(functionIn("int main() {}"), "main");
-  ASSERT_EQ(filePieces(CppText("int f(int) {}\nint f(double) {}\n")).size(), 2u);
+  ASSERT_EQ(cppPieces(CppText("int f(int) {}\nint f(double) {}\n")).size(), 2u);
 }
 
 TEST(FilePieces, KnowWhatTheLinkerDoesNotSee) {
   const std::string source =
       "int a() {}\nnamespace {\nint b() {}\nnamespace { int c() {} }\nint d() {}\n}\nint e() {}\n";
   std::string internal, others;
-  for (const FilePiece& piece : filePieces(CppText(source)))
+  for (const CppPiece& piece : cppPieces(CppText(source)))
     (piece.isInternal ? internal : others) += piece.function;
   EXPECT_EQ(internal, "bcd");
   EXPECT_EQ(others, "ae");

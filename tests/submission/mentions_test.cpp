@@ -1,13 +1,13 @@
-#include "submission/mentions.h"
-
 #include <gtest/gtest.h>
+
+#include "submission/cpp_names.h"
 
 namespace rex::submission::mentions_test {
 
 using Place = std::pair<int, int>;
 constexpr Place kNowhere{0, 0};
 
-Place place(std::string_view source) { return onlyMentionOf("rex::solveIk", CppText(source)); }
+Place place(std::string_view source) { return onlyMention("rex::solveIk", CppText(source)); }
 
 TEST(OnlyMentionOf, IsTheOneLineOutsideMain) {
   EXPECT_EQ(place("int f() {\n  return rex::solveIk(1);\n}\n"), Place(2, 15));
@@ -29,10 +29,10 @@ TEST(MacroDefinitionLineOf, IsNotMisledByLiterals) {
        {R"_(const char* a = R"(" /* )";)_", R"_(const char* a = u8R"x()" /* )x";)_",
         R"_(wchar_t a[] = {L'"', L"/*"[0]};)_", R"_(int a = 0xF'F'F; char b = '"', c[] = "/*";)_",
         R"_(double a = 1e-3'0, b = .5'0; const char* c = "'/*";)_"})
-    EXPECT_EQ(macroDefinitionLineOf("rex", std::string(before) + "\n#define rex mine\n//*/\n"), 2) << before;
-  EXPECT_EQ(macroDefinitionLineOf("rex", "auto a = R\"(\n#define rex mine\n)\";\n"), 0);
-  EXPECT_EQ(macroDefinitionLineOf("rex", "auto a = R\"(\n#define rex mine\n"), 0);
-  EXPECT_EQ(macroDefinitionLineOf("rex", "int a = R\""), 0);
+    EXPECT_EQ(macroDefinitionLine("rex", std::string(before) + "\n#define rex mine\n//*/\n"), 2) << before;
+  EXPECT_EQ(macroDefinitionLine("rex", "auto a = R\"(\n#define rex mine\n)\";\n"), 0);
+  EXPECT_EQ(macroDefinitionLine("rex", "auto a = R\"(\n#define rex mine\n"), 0);
+  EXPECT_EQ(macroDefinitionLine("rex", "int a = R\""), 0);
 }
 
 TEST(OnlyMentionOf, IsNothingWhereSeveralOrNoneAre) {
@@ -59,11 +59,11 @@ Vec solveIk(const Vec& q,
 Vec mySolveIk(int) { return {}; }
 )";
   const CppText text(source);
-  EXPECT_EQ(definitionLineOf("solveIk", text), 9);
-  EXPECT_EQ(definitionLineOf("helper", text), 4);
-  EXPECT_EQ(definitionLineOf("step", text), 0);
-  EXPECT_EQ(definitionLineOf("", text), 0);
-  EXPECT_EQ(definitionLineOf("f", CppText("int f(")), 0);
+  EXPECT_EQ(definitionLine("solveIk", text), 9);
+  EXPECT_EQ(definitionLine("helper", text), 4);
+  EXPECT_EQ(definitionLine("step", text), 0);
+  EXPECT_EQ(definitionLine("", text), 0);
+  EXPECT_EQ(definitionLine("f", CppText("int f(")), 0);
 }
 
 TEST(StandardInputUse, IsTheFirstInCode) {
@@ -76,11 +76,11 @@ TEST(MacroDefinition, IsFoundHoweverItIsWritten) {
   for (const char* source : {"#define rex mine", "int a;\n  #  define\trex", "#define rex(x) x",
                              "%:define rex mine", "#/* a */define/* b */rex mine", "#/*\n*/define rex",
                              "#def\\\nine re\\  \nx mine", "#define \\\n rex mine\n"})
-    EXPECT_GT(macroDefinitionLineOf("rex", source), 0) << source;
-  EXPECT_EQ(macroDefinitionLineOf("rex", "int a;\n\n#def\\\nine rex mine\n"), 3);
+    EXPECT_GT(macroDefinitionLine("rex", source), 0) << source;
+  EXPECT_EQ(macroDefinitionLine("rex", "int a;\n\n#def\\\nine rex mine\n"), 3);
   for (const char* source : {"", "define rex", "#define rexx", "#define a rex", "// #define rex",
                              "#undef rex", "\"#define rex\"", "define", "#define"})
-    EXPECT_EQ(macroDefinitionLineOf("rex", source), 0) << source;
+    EXPECT_EQ(macroDefinitionLine("rex", source), 0) << source;
 }
 
 }  // namespace rex::submission::mentions_test

@@ -13,9 +13,9 @@
 #include "base/text_file.h"
 #include "submission/build_tools.h"
 #include "submission/compiler_messages.h"
-#include "submission/graded_part.h"
+#include "submission/cpp_names.h"
+#include "submission/graded_source.h"
 #include "submission/included_files.h"
-#include "submission/mentions.h"
 #include "submission/program_build.h"
 #include "submission/reading_apart_internal.h"
 #include "submission/sanitizer_rerun.h"
@@ -56,10 +56,10 @@ std::map<std::string, Reader> readersOfSource() {
              explainAutoAnswers(messages, CppText(text));
              return messages.size();
            }},
-          {"pieces", [](const std::string& text) { return filePieces(CppText(text)).size(); }},
+          {"pieces", [](const std::string& text) { return cppPieces(CppText(text)).size(); }},
           {"graded part",
            [](const std::string& text) {
-             return gradedPart(text, {"f0", "f9"}, {"solve"}).size();
+             return gradedSource(text, {"f0", "f9"}, {"solve"}).size();
            }},
           {"cascades",
            [](const std::string& text) {
@@ -71,14 +71,14 @@ std::map<std::string, Reader> readersOfSource() {
            [](const std::string& source) {
              const CppText text(source);
              int sum = 0;
-             for (int k = 0; k < 5; ++k) sum += definitionLineOf(k % 2 == 0 ? "f" : "a", text);
+             for (int k = 0; k < 5; ++k) sum += definitionLine(k % 2 == 0 ? "f" : "a", text);
              return static_cast<std::size_t>(sum);
            }},
           {"mentions",
            [](const std::string& source) {
              const CppText text(source);
              int sum = 0;
-             for (int k = 0; k < 5; ++k) sum += onlyMentionOf(k % 2 == 0 ? "f" : "g", text).first;
+             for (int k = 0; k < 5; ++k) sum += onlyMention(k % 2 == 0 ? "f" : "g", text).first;
              return static_cast<std::size_t>(sum);
            }},
           {"included files",
@@ -133,7 +133,7 @@ std::map<std::string, Reader> readersOfOutput() {
           {"complaint", [](const std::string& text) { return complaintAbout("a.o", text).size(); }},
           {"last words",
            [](const std::string& text) {
-             return lastWordsOf({.started = true, .output = {}, .error = text}).size();
+             return lastLine({.started = true, .output = {}, .error = text}).size();
            }},
           {"origins",
            [](const std::string& text) {

@@ -38,11 +38,11 @@ TEST(ToolFailure, KnowsWhenTheLinkerBlamesTheObject) {
 }
 
 TEST(ToolFailure, QuotesWhatTellsMost) {
-  EXPECT_EQ(lastWordsOf(ended("[]\ncompilation terminated.\n")), "exit code 1");
-  EXPECT_EQ(lastWordsOf({.started = true, .signal = SIGABRT, .output = {}, .error = {}}), "signal 6");
-  EXPECT_EQ(lastWordsOf(ended("[]\n/tmp/x.s: Assembler messages:\n/tmp/x.s: Fatal error: x\n")),
+  EXPECT_EQ(lastLine(ended("[]\ncompilation terminated.\n")), "exit code 1");
+  EXPECT_EQ(lastLine({.started = true, .signal = SIGABRT, .output = {}, .error = {}}), "signal 6");
+  EXPECT_EQ(lastLine(ended("[]\n/tmp/x.s: Assembler messages:\n/tmp/x.s: Fatal error: x\n")),
             "/tmp/x.s: Fatal error: x");
-  EXPECT_EQ(lastWordsOf(ended("ld: warning: a\nld: final link failed: No space left on device\n")),
+  EXPECT_EQ(lastLine(ended("ld: warning: a\nld: final link failed: No space left on device\n")),
             "ld: final link failed: No space left on device");
 }
 

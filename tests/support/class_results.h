@@ -57,7 +57,7 @@ inline void saveSample(const std::filesystem::path& out, const Task& task, gradi
   json["inputs"] = {{"sha256", task.inputsSha256()},
                     {"source_sha256", task.sourceSha256},
                     {"grader_sha256", task.graderSha256},
-                    {"result_sha256", grading::sealOf(grading::toJson(result), "")}};
+                    {"result_sha256", grading::computeSeal(grading::toJson(result), "")}};
   writeTextFile(resultFolder(out, task) / "results.json", json.dump(2) + "\n");
   writeTextFile(out / task.file, text);
 }

@@ -25,18 +25,18 @@ namespace rex::cli {
 
 namespace fs = std::filesystem;
 
-classroom::Course courseOf(const Project& project, const ClassFiles& files) {
+classroom::Course readClassCourse(const Project& project, const ClassFiles& files) {
   if (!files.course.empty()) return classroom::readCourse(files.course, project.exercises());
   return {.policy = readDeadlines(project, files.deadlines)};
 }
 
-classroom::GradebookSource gradebookSourceOf(const Project& project, const ClassFiles& files,
-                                             const std::vector<classroom::Task>& tasks, const fs::path& out,
-                                             const std::string& only) {
+classroom::GradebookSource readGradebookSource(const Project& project, const ClassFiles& files,
+                                               const std::vector<classroom::Task>& tasks, const fs::path& out,
+                                               const std::string& only) {
   classroom::GradebookSource source{.tasks = tasks, .out = out, .only = only};
-  source.course = courseOf(project, files);
+  source.course = readClassCourse(project, files);
   source.imported = classroom::importTableIn(out);
-  source.notTaken = classroom::readNotTaken(out / kNotTakenFile);
+  source.rejected = classroom::readRejected(out / kRejectedFile);
   for (const ExerciseInfo& exercise : project.exercises()) source.points[exercise.name] = exercise.points();
   const fs::path adjustments = files.adjustments.empty() ? source.course.adjustments : files.adjustments;
   if (!adjustments.empty())
@@ -45,10 +45,10 @@ classroom::GradebookSource gradebookSourceOf(const Project& project, const Class
   return source;
 }
 
-classroom::Gradebook gradebookOf(const Project& project, const ClassFiles& files,
-                                 const std::vector<classroom::Task>& tasks, const fs::path& out,
-                                 const std::string& only) {
-  return classroom::makeGradebook(gradebookSourceOf(project, files, tasks, out, only));
+classroom::Gradebook readGradebook(const Project& project, const ClassFiles& files,
+                                   const std::vector<classroom::Task>& tasks, const fs::path& out,
+                                   const std::string& only) {
+  return classroom::makeGradebook(readGradebookSource(project, files, tasks, out, only));
 }
 
 void writeBook(const classroom::Gradebook& book, const fs::path& out, bool print) {
@@ -75,7 +75,7 @@ void writeBook(const classroom::Gradebook& book, const fs::path& out, bool print
 ExitCode explainResults(const Project& project, const ExplainOptions& options) {
   const std::string name = project.exercise(options.exercise).name;
   const classroom::Gradebook book =
-      gradebookOf(project, options.files, tasksIn(options.out, options.manifest), options.out);
+      readGradebook(project, options.files, tasksIn(options.out, options.manifest), options.out);
   std::vector<std::string> known;
   for (const auto* rows : {&book.rows, &book.strangers})
     for (const classroom::GradeRow& row : *rows) {
@@ -270,7 +270,7 @@ void writeSimilar(const Project& project, const classroom::Course& course,
     }
     replaceTextFile(page, classroom::similarPage(name, texts, handedOut, pairs),
                     "the page of similar submissions");
-    const auto groups = classroom::groupsOf(pairs);
+    const auto groups = classroom::similarGroups(pairs);
     say(fmt::format("{}: {} group{} of similar submissions, to be looked at: {}", name, groups.size(),
                     groups.size() == 1 ? "" : "s", shown(page)));
     for (const std::vector<std::string>& group : groups)

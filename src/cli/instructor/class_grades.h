@@ -22,22 +22,22 @@ struct ClassFiles {
 };
 
 /// Files beside the results.
-inline constexpr const char *kNotTakenFile = "not_taken.tsv", *kTotals = "totals.csv",
+inline constexpr const char *kRejectedFile = "not_taken.tsv", *kTotals = "totals.csv",
                             *kStrangers = "not_on_roster.csv", *kRegradedFile = "regraded.csv";
 
 /// The course, or one without a roster. Throws like classroom::readCourse().
-[[nodiscard]] classroom::Course courseOf(const Project& project, const ClassFiles& files);
+[[nodiscard]] classroom::Course readClassCourse(const Project& project, const ClassFiles& files);
 
 /// What makes the grade book of a folder of results, and the book: the list of tasks, what was not taken and
 /// the table of imports lie in it. Throws like the readers of these files.
-[[nodiscard]] classroom::GradebookSource gradebookSourceOf(const Project& project, const ClassFiles& files,
-                                                           const std::vector<classroom::Task>& tasks,
-                                                           const std::filesystem::path& out,
-                                                           const std::string& only = {});
-[[nodiscard]] classroom::Gradebook gradebookOf(const Project& project, const ClassFiles& files,
-                                               const std::vector<classroom::Task>& tasks,
-                                               const std::filesystem::path& out,
-                                               const std::string& only = {});
+[[nodiscard]] classroom::GradebookSource readGradebookSource(const Project& project, const ClassFiles& files,
+                                                             const std::vector<classroom::Task>& tasks,
+                                                             const std::filesystem::path& out,
+                                                             const std::string& only = {});
+[[nodiscard]] classroom::Gradebook readGradebook(const Project& project, const ClassFiles& files,
+                                                 const std::vector<classroom::Task>& tasks,
+                                                 const std::filesystem::path& out,
+                                                 const std::string& only = {});
 
 /// Writes grades.csv, totals.csv and the table of people who are not on the roster, and tells the notes.
 void writeBook(const classroom::Gradebook& book, const std::filesystem::path& out, bool print);

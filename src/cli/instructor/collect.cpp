@@ -24,7 +24,7 @@ namespace {
 using classroom::Task;
 using classroom::TaskState;
 
-const char* nameOf(TaskState state) {
+const char* toString(TaskState state) {
   switch (state) {
     case TaskState::kMissing:
       return "missing";
@@ -47,7 +47,7 @@ Json statesJson(const std::vector<Task>& tasks, const std::filesystem::path& out
   bool isComplete = true;
   for (std::size_t k = 0; k < tasks.size(); ++k) {
     const Task& task = tasks[k];
-    const TaskState state = classroom::stateOf(task, out);
+    const TaskState state = classroom::taskState(task, out);
     isComplete = isComplete && state == TaskState::kDone;
     std::optional<int> points, possible;
     if (state == TaskState::kDone) {
@@ -59,7 +59,7 @@ Json statesJson(const std::vector<Task>& tasks, const std::filesystem::path& out
         {{"task", k + 1},
          {"student", task.student},
          {"exercise", task.exercise},
-         {"state", nameOf(state)},
+         {"state", toString(state)},
          {"points", optionalJson(points)},
          {"possible", optionalJson(possible)},
          {"waiting",
@@ -80,7 +80,7 @@ std::string gradingJson(const std::vector<Task>& tasks, const std::filesystem::p
   json["level"] = summary.level;
   json["graded"] = summary.graded;
   json["kept"] = static_cast<int>(tasks.size()) - summary.graded;
-  json["not_taken"] = summary.notTaken;
+  json["not_taken"] = summary.rejected;
   json["blocked"] = summary.blocked;
   return dump(json);
 }
@@ -90,7 +90,7 @@ namespace {
 void tell(const std::string& what, const std::vector<int>& numbers, const std::vector<Task>& tasks) {
   if (numbers.empty()) return;
   constexpr std::size_t kMostNamed = 10;
-  note(fmt::format("{}: tasks {}", what, classroom::rangesOf(numbers)));
+  note(fmt::format("{}: tasks {}", what, classroom::numberRanges(numbers)));
   for (std::size_t k = 0; k < std::min(numbers.size(), kMostNamed); ++k) {
     const Task& task = tasks[static_cast<std::size_t>(numbers[k]) - 1];
     note(fmt::format("  {} {}", task.student, task.exercise));
@@ -115,8 +115,8 @@ bool holds(const std::filesystem::path& file, const std::string& text) {
 
 ExitCode collectResults(const Project& project, const CollectOptions& options) {
   const std::vector<Task> tasks = tasksIn(options.out, options.manifest);
-  const classroom::Gradebook book = gradebookOf(project, options.files, tasks, options.out);
-  writeReports(tasks, options.out, reportsOf(options.reports), book);
+  const classroom::Gradebook book = readGradebook(project, options.files, tasks, options.out);
+  writeReports(tasks, options.out, parseReportFormats(options.reports), book);
   const bool complete = writeGrades(tasks, options.out, readDeadlines(project, options.files.deadlines),
                                     options.files.hasBook() ? &book : nullptr, options.csv);
   const int held = tellHeldBack(tasks, options.out);
@@ -132,9 +132,9 @@ void writeReports(const std::vector<Task>& tasks, const std::filesystem::path& o
   for (std::size_t k = 0; k < tasks.size(); ++k) {
     const Task& task = tasks[k];
     const classroom::GradeRow* row = rowOfTask(book, k);
-    const auto judgement = row == nullptr ? std::nullopt : judgementOf(*row);
+    const auto judgement = row == nullptr ? std::nullopt : rowJudgement(*row);
     const std::filesystem::path folder = classroom::resultFolder(out, task);
-    const classroom::TaskState state = classroom::stateOf(task, out);
+    const classroom::TaskState state = classroom::taskState(task, out);
     if (state != classroom::TaskState::kDone && state != classroom::TaskState::kFailed) {
       classroom::removeReports(folder);
       continue;
@@ -183,7 +183,7 @@ bool writeGrades(const std::vector<Task>& tasks, const std::filesystem::path& ou
   again.insert(again.end(), found.refused.begin(), found.refused.end());
   again.insert(again.end(), found.failed.begin(), found.failed.end());
   if (again.empty()) return true;
-  note(fmt::format("To repeat: {}", classroom::rangesOf(again)));
+  note(fmt::format("To repeat: {}", classroom::numberRanges(again)));
   return false;
 }
 

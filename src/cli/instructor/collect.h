@@ -20,7 +20,7 @@ namespace rex::cli {
 struct GradingSummary {
   int level = 0;                        ///< of the sandbox
   int graded = 0;                       ///< tasks; the others had a valid result
-  std::vector<std::string> notTaken{};  ///< complaints about what was handed in
+  std::vector<std::string> rejected{};  ///< complaints about what was handed in
   std::vector<std::string> blocked{};   ///< exercises whose grader does not build
 };
 
@@ -54,7 +54,7 @@ struct CollectOptions {
   ClassFiles files{};
   bool csv = false;
   bool json = false;
-  std::string reports{};  ///< see reportsOf()
+  std::string reports{};  ///< see parseReportFormats()
 };
 /// Makes grades.csv from all results and names the tasks to repeat. kGraderFault if there are any.
 [[nodiscard]] ExitCode collectResults(const Project& project, const CollectOptions& options);

@@ -273,7 +273,7 @@ ExitCode devStats(const Project& project, const StatsOptions& options) {
                       .where = {options.results.string()},
                       .found = "no results",
                       .wanted = "STUDENT/EXERCISE/results.json in it"});
-  const std::vector<ExerciseStatistics> all = classroom::statisticsOf(read.results);
+  const std::vector<ExerciseStatistics> all = classroom::exerciseStatistics(read.results);
   print(all, read, policy, options);
   if (!options.figure.empty()) {
     writeFigure(pointsFigure(read.results), options.figure);

@@ -48,8 +48,8 @@ struct Export {
 Export read(const Project& project, const ExportOptions& options) {
   Export all{.tasks = tasksIn(options.results)};
   const std::string only = options.exercise.empty() ? "" : project.exercise(options.exercise).name;
-  all.course = courseOf(project, options.files);
-  all.book = gradebookOf(project, options.files, all.tasks, options.results, only);
+  all.course = readClassCourse(project, options.files);
+  all.book = readGradebook(project, options.files, all.tasks, options.results, only);
   all.imported = classroom::importTableIn(options.results);
   if (all.book.rows.empty())
     throw UsageError({.what = "nothing to export",
@@ -114,10 +114,10 @@ ExitCode exportHtml(const Project& project, const ExportOptions& options) {
 void addFeedback(const Export& all, const ExportOptions& options, const std::string& exercise,
                  const classroom::WorksheetRow& row, std::vector<submission::ZipEntry>& entries) {
   const classroom::GradeRow* graded = all.book.row(row.student, exercise);
-  const auto feedback = graded == nullptr ? std::nullopt : classroom::feedbackOf(*graded, options.results);
+  const auto feedback = graded == nullptr ? std::nullopt : classroom::rowFeedback(*graded, options.results);
   if (!feedback) return;
   const std::string folder = classroom::moodleFolder(row);
-  const auto files = classroom::evidenceOf(*graded, options.results);
+  const auto files = classroom::evidenceFiles(*graded, options.results);
   entries.push_back({folder + "/feedback.html", reports::feedbackPage(*feedback, files)});
   for (const reports::FeedbackFile& file : files)
     if (!file.name.ends_with(".png")) entries.push_back({folder + "/" + file.name, file.bytes});

@@ -65,7 +65,7 @@ struct GradeManyOptions {
   std::vector<std::string> explain{};  ///< a student and an exercise: only say how this grade came about
   bool regrade = false;                ///< also submissions that have a valid result
   bool evidence = false;               ///< keep pictures and replays of failed visible checks
-  std::string reports{};               ///< see reportsOf(): written beside each result
+  std::string reports{};               ///< see parseReportFormats(): written beside each result
   fs::path similar{};                  ///< folder for pages of similar submissions; empty: none
   int similarPercent = kSimilarPercent;
 };
@@ -87,7 +87,7 @@ class Graders {
     if (const auto found = graders_.find(name); found != graders_.end()) return found->second;
     Grader grader{.exercise = project_.exercise(name), .toolchain = {}, .sha256 = {}};
     grader.toolchain = prepare(project_, grader.exercise);
-    grader.sha256 = classroom::graderFingerprint(grader.toolchain, grader.exercise, launcherOf(project_));
+    grader.sha256 = classroom::graderFingerprint(grader.toolchain, grader.exercise, launcherPath(project_));
     return graders_.emplace(name, std::move(grader)).first->second;
   }
 
@@ -104,7 +104,7 @@ std::optional<sandbox::Sandbox> chooseForStrangers(const Project& project,
                                                    std::optional<sandbox::Level> accepted) {
   if (!level) {
     const PrivateFolder folder(std::filesystem::temp_directory_path());
-    const auto best = sandbox::bestLevel(launcherOf(project), probeOf(project), folder.path());
+    const auto best = sandbox::bestLevel(launcherPath(project), probePath(project), folder.path());
     level = best.level;
     for (const std::string& reason : best.reasons)
       if (!isForStrangers(best.level)) note(wrap(escapeForTerminal(reason), 2, 0));
@@ -112,13 +112,13 @@ std::optional<sandbox::Sandbox> chooseForStrangers(const Project& project,
   if (accepted ? *level < *accepted : !isForStrangers(*level)) {
     note(wrap(fmt::format("sandbox level {} is not for work of strangers: {}; to grade anyway, use "
                           "--i-accept-level {}",
-                          numberOf(*level), sandbox::warningOf(*level), numberOf(*level)),
+                          numberOf(*level), sandbox::levelWarning(*level), numberOf(*level)),
               2, 0));
     return {};
   }
   const std::optional<sandbox::Sandbox> chosen = chooseSandbox(project, level);
   if (chosen && !isForStrangers(*level))
-    note(wrap(fmt::format("sandbox level {}: {}", numberOf(*level), sandbox::warningOf(*level)), 2, 0));
+    note(wrap(fmt::format("sandbox level {}: {}", numberOf(*level), sandbox::levelWarning(*level)), 2, 0));
   return chosen;
 }
 
@@ -144,15 +144,16 @@ void makeFolder(const fs::path& out) {
 }
 
 // What an import could not take is in no folder, and must not be forgotten.
-void addNotTaken(const fs::path& folder, const std::string& only, classroom::HandIns& handedIn) {
+void addRejected(const fs::path& folder, const std::string& only, classroom::SubmittedFiles& handedIn) {
   const auto isThere = [&](const std::string& student, const std::string& exercise) {
-    return std::any_of(handedIn.files.begin(), handedIn.files.end(), [&](const classroom::HandIn& file) {
-      return file.student == student && file.exercise == exercise;  // put there by hand since then
-    });
+    return std::any_of(
+        handedIn.files.begin(), handedIn.files.end(), [&](const classroom::SubmittedFile& file) {
+          return file.student == student && file.exercise == exercise;  // put there by hand since then
+        });
   };
   for (const classroom::ImportedStudent& student : classroom::importTableIn(folder).students)
     for (const auto& [exercise, told] : student.exercises)
-      if (told.status == classroom::HandInStatus::kNotTaken && (only.empty() || only == exercise) &&
+      if (told.status == classroom::SubmissionStatus::kRejected && (only.empty() || only == exercise) &&
           !isThere(student.student, exercise))
         handedIn.complaints.push_back(
             fmt::format("{} {}: not taken by the import: {}", student.student, exercise, told.why));
@@ -160,13 +161,13 @@ void addNotTaken(const fs::path& folder, const std::string& only, classroom::Han
 
 // A download as it came from a platform is no folder of submissions yet.
 void adviseImport(const fs::path& folder, const std::vector<ExerciseInfo>& exercises) {
-  const classroom::Layout layout = classroom::layoutOfFolder(folder, exercises);
+  const classroom::Layout layout = classroom::recognizeFolderLayout(folder, exercises);
   if (layout.platform)
     note(fmt::format("`rex import {0} {1} -o HANDED_IN` makes a folder of submissions of what is there",
                      classroom::toString(*layout.platform), shown(folder)));
 }
 
-void tell(const classroom::HandIns& handedIn) {
+void tell(const classroom::SubmittedFiles& handedIn) {
   for (const std::string& complaint : handedIn.complaints) note(wrap(escapeForTerminal(complaint), 2, 0));
   constexpr std::size_t kMostNotes = 5;
   for (std::size_t k = 0; k < std::min(handedIn.notes.size(), kMostNotes); ++k)
@@ -176,9 +177,9 @@ void tell(const classroom::HandIns& handedIn) {
 }
 
 // The exercises whose grader does not build. They wait while the others are graded.
-std::set<std::string> blockedOf(const classroom::HandIns& handedIn, Graders& graders) {
+std::set<std::string> blockedOf(const classroom::SubmittedFiles& handedIn, Graders& graders) {
   std::map<std::string, int> counts;
-  for (const classroom::HandIn& file : handedIn.files) ++counts[file.exercise];
+  for (const classroom::SubmittedFile& file : handedIn.files) ++counts[file.exercise];
   std::set<std::string> blocked;
   for (const auto& [exercise, count] : counts) {
     try {
@@ -192,18 +193,18 @@ std::set<std::string> blockedOf(const classroom::HandIns& handedIn, Graders& gra
   return blocked;
 }
 
-std::vector<Task> tasksOf(const classroom::HandIns& handedIn, const GradeManyOptions& options,
+std::vector<Task> tasksOf(const classroom::SubmittedFiles& handedIn, const GradeManyOptions& options,
                           sandbox::Level level, const std::vector<ExerciseInfo>& exercises,
                           const std::set<std::string>& blocked, Graders& graders) {
   std::optional<classroom::SubmissionTimes> times;
   if (!options.submitted.empty()) times.emplace(options.submitted, exercises);
   const classroom::ImportTable imports = classroom::importTableIn(options.folder);
-  const std::string secretId = classroom::secretIdOf(options.secret);
+  const std::string secretId = classroom::secretFileId(options.secret);
   std::vector<Task> tasks;
-  for (const classroom::HandIn& file : handedIn.files) {
+  for (const classroom::SubmittedFile& file : handedIn.files) {
     if (blocked.contains(file.exercise)) continue;
     Task task{.student = file.student, .exercise = file.exercise};
-    task.file = classroom::snapshotOf(file, options.out);
+    task.file = classroom::writeSnapshot(file, options.out);
     task.sourceSha256 = sha256(classroom::gradedText(options.out / task.file));
     task.graderSha256 = graders.of(file.exercise).sha256;
     task.level = level;
@@ -271,7 +272,7 @@ void requireSameSettings(const std::vector<Task>& tasks, const GradeManyOptions&
 // A report that was asked for once is kept up to date.
 std::vector<reports::ReportFormat> formatsOf(const std::string& asked, const std::vector<Task>& tasks,
                                              const fs::path& out) {
-  std::vector<reports::ReportFormat> formats = reportsOf(asked);
+  std::vector<reports::ReportFormat> formats = parseReportFormats(asked);
   for (const reports::ReportFormat& format : reports::reportFormats()) {
     const bool isAsked =
         std::any_of(formats.begin(), formats.end(), [&](const auto& one) { return one.file == format.file; });
@@ -296,7 +297,7 @@ int gradeApart(const Task& task, const Graders::Grader& grader, const classroom:
 }
 
 bool isDone(const Task& task, const GradeManyOptions& options) {
-  return classroom::stateOf(task, options.out, options.secret) == classroom::TaskState::kDone;
+  return classroom::taskState(task, options.out, options.secret) == classroom::TaskState::kDone;
 }
 
 // With settings of their own, which last until somebody asks to regrade the class.
@@ -313,7 +314,7 @@ bool isOpen(const Task& task, const GradeManyOptions& options) {
 
 void tellRefused(const std::vector<Task>& tasks, const fs::path& out, const fs::path& secret) {
   for (const Task& task : tasks)
-    if (classroom::stateOf(task, out, secret) == classroom::TaskState::kRefused)
+    if (classroom::taskState(task, out, secret) == classroom::TaskState::kRefused)
       note(wrap(escapeForTerminal(classroom::whyRefused(task, out, secret)) + "; it is graded again", 2, 0));
 }
 
@@ -392,8 +393,8 @@ void tellWhatTablesLeaveOut(const fs::path& manifest, const std::string& only) {
 }
 
 // `rex grade --collect` has only the folder of results.
-void keepWhatCollectNeeds(const classroom::HandIns& handedIn, const GradeManyOptions& options) {
-  replaceTextFile(options.out / kNotTakenFile, classroom::notTakenText(handedIn.notTaken),
+void keepWhatCollectNeeds(const classroom::SubmittedFiles& handedIn, const GradeManyOptions& options) {
+  replaceTextFile(options.out / kRejectedFile, classroom::rejectedText(handedIn.rejected),
                   "the list of what was not taken");
   const fs::path imported = options.folder / classroom::kImportTable;
   if (fs::exists(imported))
@@ -402,7 +403,7 @@ void keepWhatCollectNeeds(const classroom::HandIns& handedIn, const GradeManyOpt
     fs::remove(options.out / classroom::kImportTable);
 }
 
-ExitCode sayTasks(const std::vector<Task>& tasks, const classroom::HandIns& handedIn,
+ExitCode sayTasks(const std::vector<Task>& tasks, const classroom::SubmittedFiles& handedIn,
                   const fs::path& manifest, const GradeManyOptions& options, ExitCode taken) {
   if (options.json)
     say(dump(
@@ -415,7 +416,7 @@ ExitCode sayTasks(const std::vector<Task>& tasks, const classroom::HandIns& hand
 void takeSettings(const classroom::GradingSettings& settings, GradeManyOptions& options) {
   if (options.secret.empty()) options.secret = settings.secret;
   if (!options.seed) options.seed = settings.seed;
-  if (!options.level && settings.level) options.level = sandbox::levelOf(*settings.level);
+  if (!options.level && settings.level) options.level = sandbox::parseLevel(*settings.level);
   if (options.reports.empty()) options.reports = settings.reports;
   options.evidence = options.evidence || settings.evidence;
 }
@@ -423,7 +424,7 @@ void takeSettings(const classroom::GradingSettings& settings, GradeManyOptions& 
 // Grades the submissions of many students. kFull whatever the grades are; kNotGradable if a submission could
 // not be taken, kGraderFault if something must be graded again.
 ExitCode gradeMany(const Project& project, GradeManyOptions options) {
-  const classroom::Course course = courseOf(project, options.files);
+  const classroom::Course course = readClassCourse(project, options.files);
   takeSettings(course.settings, options);
   if (options.out.empty()) options.out = course.results;
   if (options.out.empty())
@@ -452,14 +453,15 @@ ExitCode gradeMany(const Project& project, GradeManyOptions options) {
                                     .json = options.json,
                                     .reports = options.reports});
   requireFolders(options);
-  static_cast<void>(reportsOf(options.reports));  // a misspelt format is refused before the first grading
+  static_cast<void>(
+      parseReportFormats(options.reports));  // a misspelt format is refused before the first grading
   const classroom::LatePolicy policy = readDeadlines(project, options.files.deadlines);
   const auto sandbox = chooseForStrangers(project, options.level, options.accept);
   if (!sandbox) return ExitCode::kWeakSandbox;
   const std::vector<ExerciseInfo> exercises = project.exercises();
-  classroom::HandIns handedIn = classroom::readHandIns(options.folder, exercises, options.only);
+  classroom::SubmittedFiles handedIn = classroom::readSubmittedFiles(options.folder, exercises, options.only);
   const std::string only = options.only.empty() ? "" : project.exercise(options.only).name;
-  addNotTaken(options.folder, only, handedIn);
+  addRejected(options.folder, only, handedIn);
   tell(handedIn);
   if (handedIn.files.empty()) adviseImport(options.folder, exercises);
   makeFolder(options.out);
@@ -480,7 +482,7 @@ ExitCode gradeMany(const Project& project, GradeManyOptions options) {
   }
   // What could be wrong with roster, dates and adjustments is said before the first grading.
   const classroom::GradebookSource source =
-      gradebookSourceOf(project, options.files, tasks, options.out, only);
+      readGradebookSource(project, options.files, tasks, options.out, only);
   const std::vector<reports::ReportFormat> reports = formatsOf(options.reports, tasks, options.out);
   removeLeftovers(options.out, 3);
   tellRefused(tasks, options.out, options.secret);
@@ -500,7 +502,7 @@ ExitCode gradeMany(const Project& project, GradeManyOptions options) {
     say(gradingJson(tasks, options.out,
                     GradingSummary{.level = numberOf(sandbox->level),
                                    .graded = graded,
-                                   .notTaken = handedIn.complaints,
+                                   .rejected = handedIn.complaints,
                                    .blocked = {blocked.begin(), blocked.end()}}));
   note(
       fmt::format("{} submission{} at sandbox level {}: {} graded, {} kept, {} could not be taken. Table: {}",

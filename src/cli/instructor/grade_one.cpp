@@ -19,7 +19,7 @@ ExitCode gradeOne(const Project& project, const GradeOneOptions& options) {
                       .wanted = fmt::format("1 to {}", tasks.size())});
   const classroom::Task& task = tasks[static_cast<std::size_t>(options.task) - 1];
   const std::string name = fmt::format("{} {}", task.student, task.exercise);
-  if (classroom::stateOf(task, options.out, options.secret) == classroom::TaskState::kDone &&
+  if (classroom::taskState(task, options.out, options.secret) == classroom::TaskState::kDone &&
       (!options.evidence || classroom::hasEvidence(task, options.out))) {
     say(fmt::format("{}: kept", name));
     return ExitCode::kFull;

@@ -20,7 +20,7 @@ CLI::Option* addDeadlines(CLI::App* command, std::filesystem::path& file);
 void addSecret(CLI::App* command, std::filesystem::path& file);
 /// `--course`, `--deadlines` and `--adjustments`.
 void addClassFiles(CLI::App* command, ClassFiles& files);
-/// `--report`; see reportsOf().
+/// `--report`; see parseReportFormats().
 void addReport(CLI::App* command, std::string& reports);
 /// `--out`: the folder of results.
 void addResults(CLI::App* command, std::filesystem::path& out);

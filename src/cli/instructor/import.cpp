@@ -34,8 +34,8 @@ struct ImportOptions {
   std::string exercise{};
 };
 
-using Read =
-    std::function<classroom::Arrivals(const fs::path& source, const std::vector<ExerciseInfo>& exercises)>;
+using Read = std::function<classroom::DownloadedSubmissions(const fs::path& source,
+                                                            const std::vector<ExerciseInfo>& exercises)>;
 
 void requireApartFromSource(const ImportOptions& options) {
   if (!fs::exists(options.source))
@@ -76,7 +76,7 @@ void tell(const classroom::ImportReport& report, const ImportOptions& options) {
   list("Noted", report.notes);
   list("Changed since an earlier import", report.changes);
   say(fmt::format("{} handed in, {} nothing, {} not taken. Files: {} new, {} changed, {} as before.",
-                  report.handedIn, report.missing, report.notTaken, report.added, report.changed,
+                  report.handedIn, report.missing, report.rejected, report.added, report.changed,
                   report.same));
   if (report.handedIn > 0) say("Times of submission: " + timesOf(report) + ".");
   say(fmt::format("Table: {}", shown(options.handedIn / classroom::kImportTable)));
@@ -87,9 +87,9 @@ ExitCode import(const Project& project, const ImportOptions& options, const Read
   const std::vector<ExerciseInfo> exercises = project.exercises();
   classroom::PickOptions pick{.exercises = exercises};
   if (!options.exercise.empty()) pick.exercise = project.exercise(options.exercise).name;
-  const classroom::Arrivals arrivals = read(options.source, exercises);
-  if (arrivals.platform == classroom::Platform::kGit) pick.handedOut = handedOutTexts(exercises);
-  const classroom::ImportReport report = classroom::importArrivals(arrivals, pick, options.handedIn);
+  const classroom::DownloadedSubmissions submissions = read(options.source, exercises);
+  if (submissions.platform == classroom::Platform::kGit) pick.handedOut = handedOutTexts(exercises);
+  const classroom::ImportReport report = classroom::importSubmissions(submissions, pick, options.handedIn);
   tell(report, options);
   return report.complaints.empty() ? ExitCode::kFull : ExitCode::kNotGradable;
 }

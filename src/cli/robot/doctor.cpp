@@ -63,7 +63,7 @@ Trial tryLevels(const Project& project, sandbox::Level highest) {
   Trial trial;
   for (const sandbox::Level level : sandbox::kConfiningLevels) {
     if (level > highest) continue;
-    trial.probes = sandbox::attack({level, launcherOf(project)}, probeOf(project), folder.path());
+    trial.probes = sandbox::attack({level, launcherPath(project)}, probePath(project), folder.path());
     if (std::all_of(trial.probes.begin(), trial.probes.end(), [](const Probe& p) { return p.held; })) {
       trial.level = level;
       break;
@@ -90,7 +90,7 @@ ExitCode doctorOfSandbox(const Project& project, const DoctorOptions& options) {
     results.json["probes"].push_back({{"name", probe.name}, {"held", probe.held}, {"text", probe.text}});
   }
   results.lines.push_back(paint(Colour::kBold, describe(trial.level)));
-  if (const std::string warning = sandbox::warningOf(trial.level); !warning.empty())
+  if (const std::string warning = sandbox::levelWarning(trial.level); !warning.empty())
     results.lines.push_back(wrap(warning, 0, 0));
   results.print(options.json);
   return ok ? ExitCode::kFull : ExitCode::kWeakSandbox;
@@ -291,8 +291,8 @@ Finding tryWatching(const fs::path& folder) {
 
 // The level that `rex grade` would use. Own programs need none.
 Finding trySandbox(const Project& project, const fs::path& folder) {
-  const sandbox::Available best = sandbox::bestLevel(launcherOf(project), probeOf(project), folder);
-  const std::string warning = sandbox::warningOf(best.level);
+  const sandbox::Available best = sandbox::bestLevel(launcherPath(project), probePath(project), folder);
+  const std::string warning = sandbox::levelWarning(best.level);
   std::string text = warning.empty() ? sandbox::describe(best.level) : warning;
   for (const std::string& reason : best.reasons) text += "; " + escapeForTerminal(reason);
   return {.name = "sandbox", .text = text + "; all attacks: rex doctor --sandbox"};
@@ -325,14 +325,14 @@ std::string toDo(const std::vector<Finding>& findings) {
   return steps.empty() ? "Nothing else is needed." : fmt::format("To do: {}", join(steps, "; then "));
 }
 
-const char* nameOf(Status status) {
+const char* toString(Status status) {
   return status == Status::kWorks ? "works" : status == Status::kMissing ? "missing" : "fails";
 }
 
 // Tries everything that pictures need on this machine. kGraderFault if something needed does not work. One of
 // the two OpenGL backends is enough unless `gl` names the one that must work.
 ExitCode doctor(const Project& project, const DoctorOptions& options) {
-  const GlBackend backend = backendOf(options.gl);
+  const GlBackend backend = parseBackend(options.gl);
   const PrivateFolder folder(temporaryFolder());
   std::vector<Finding> findings = tryBackends(backend, folder.path());
   const Finding replays = tryReplays(backend, findings);
@@ -349,10 +349,10 @@ ExitCode doctor(const Project& project, const DoctorOptions& options) {
     const Colour colour = finding.status == Status::kWorks ? Colour::kGreen
                           : isWell(finding)                ? Colour::kYellow
                                                            : Colour::kRed;
-    results.line("{:<18}  {} {}", finding.name, paint(colour, fmt::format("{:<7}", nameOf(finding.status))),
+    results.line("{:<18}  {} {}", finding.name, paint(colour, fmt::format("{:<7}", toString(finding.status))),
                  wrap(finding.text, kColumn, kColumn));
     results.json["findings"].push_back(
-        {{"name", finding.name}, {"status", nameOf(finding.status)}, {"text", finding.text}});
+        {{"name", finding.name}, {"status", toString(finding.status)}, {"text", finding.text}});
   }
   results.lines.push_back(toDo(findings));
   results.print(options.json);

@@ -283,7 +283,7 @@ void draw(const Findings& f, const LinearOptions& options, Results& results) {
        fmt::format("With the regulator, pushed by 1 at u{} from 0 s on", options.input));
 }
 
-const char* nameOf(RiccatiStatus status) {
+const char* toString(RiccatiStatus status) {
   switch (status) {
     case RiccatiStatus::kSolved:
       return "solved";
@@ -341,7 +341,7 @@ Results resultsOf(const Findings& f) {
     addMatrix(all, regulator, "K", found.K);
     addEigenvalues(all, regulator, found.closedLoop);
     regulator["residual"] = found.X.size() > 0 ? Json(found.residual) : Json();
-    regulator["status"] = nameOf(found.status);
+    regulator["status"] = toString(found.status);
     regulator["mode"] = found.mode ? Json{found.mode->real(), found.mode->imag()} : Json();
     regulator["message"] = found.message;
   }

@@ -42,7 +42,7 @@ std::string listOf(const std::vector<std::string>& names) {
 
 }  // namespace
 
-PathTiming timingOf(const PathTask& task, const PlanOptions& options, const FoundPath& found) {
+PathTiming timePath(const PathTask& task, const PlanOptions& options, const FoundPath& found) {
   PathTiming timing{
       .limits = jointLimits(task.model,
                             {.velocity = options.velocity, .ramp = options.ramp, .effort = options.effort})};
@@ -50,7 +50,7 @@ PathTiming timingOf(const PathTask& task, const PlanOptions& options, const Foun
   return timing;
 }
 
-std::string assumptionsOf(const PathTiming& timing, const PlanOptions& options) {
+std::string assumedLimits(const PathTiming& timing, const PlanOptions& options) {
   std::string text;
   if (!timing.limits.assumedVelocity.empty())
     text = fmt::format("no velocity limit for {}: assuming {:g} rad/s or m/s, see --velocity",
@@ -61,7 +61,7 @@ std::string assumptionsOf(const PathTiming& timing, const PlanOptions& options) 
   return text;
 }
 
-std::string limitsTextOf(const PathTiming& timing, const PlanOptions& options) {
+std::string limitsText(const PathTiming& timing, const PlanOptions& options) {
   const auto all = timing.limits.limits.velocity.size();
   const auto assumed = static_cast<Eigen::Index>(timing.limits.assumedVelocity.size());
   const std::string velocity =
@@ -98,7 +98,7 @@ Motion sampledMotion(const TimedPath& timed, double rate) {
   return motion;
 }
 
-std::string csvOf(const Model& model, const Motion& motion) {
+std::string motionCsv(const Model& model, const Motion& motion) {
   fmt::memory_buffer table;
   const auto out = std::back_inserter(table);
   fmt::format_to(out, "time");
@@ -279,15 +279,15 @@ void writeExplored(Picture picture, RenderPlan plan, std::string caption, const 
   writePng(image, out);
 }
 
-std::string titleOf(const PathTask& task, const PlanOptions& options, const FoundPath& found) {
-  return fmt::format("{}, {}, seed {}", escapeForTerminal(task.model.name()), nameOf(options.planner),
+std::string pathTitle(const PathTask& task, const PlanOptions& options, const FoundPath& found) {
+  return fmt::format("{}, {}, seed {}", escapeForTerminal(task.model.name()), toString(options.planner),
                      found.seed);
 }
 
 void writeMotion(const PlannedMotion& planned, const Motion& table, const PlanOptions& options,
                  const RenderPlan& pictures, Results& results) {
   const auto& [model, contacts, body, duration, postures, clearance, page] = planned;
-  writeTextFile(results.file(options.out / "path.csv"), csvOf(model, table));
+  writeTextFile(results.file(options.out / "path.csv"), motionCsv(model, table));
   if (options.noFilm) return;
   const double speed = filmSpeed(options.speed, duration);
   const Motion motion = postures(kFilmRate / speed);
@@ -305,7 +305,7 @@ void writeMotion(const PlannedMotion& planned, const Motion& table, const PlanOp
 void writePathFiles(const PathTask& task, const PlanOptions& options, const RenderPlan& pictures, BodyId body,
                     const FoundPath& found, const PathTiming& timing, Results& results) {
   constexpr double kRate = 100, kMostRows = 1e6;  // fewer rows per second for very long motions
-  const std::string title = titleOf(task, options, found);
+  const std::string title = pathTitle(task, options, found);
   writeExplored(exploredPicture(task, body, found), pictures, fmt::format("{}: {} nodes", title, found.nodes),
                 results.file(options.out / "tree.png"));
   if (!found.isFound() || !timing.isFound()) return;
@@ -322,7 +322,7 @@ void writePathFiles(const PathTask& task, const PlanOptions& options, const Rend
                .facts = {{"length", fmt::format("{:.4g}", found.length)},
                          {"duration", fmt::format("{:.3f} s", duration)},
                          {"from velocity limits alone", fmt::format("{:.3f} s", timing.result.lowerBound)},
-                         {"limits", limitsTextOf(timing, options)},
+                         {"limits", limitsText(timing, options)},
                          {"margin", fmt::format("{:g} m", *options.margin)},
                          {"nodes", fmt::format("{}", found.nodes)},
                          {"configurations checked", fmt::format("{}", found.checks)}}}};
@@ -341,13 +341,13 @@ std::string timingTextOf(const PathTiming& timing, const PlanOptions& options) {
   return fmt::format("duration   {:.3f} s, at least {:.3f} s from the velocity limits alone; {} on the way\n",
                      result.motion.duration(), result.lowerBound,
                      stops == 0 ? "no stop" : fmt::format("{} stop{}", stops, stops == 1 ? "" : "s")) +
-         fmt::format("limits     {}\n", limitsTextOf(timing, options));
+         fmt::format("limits     {}\n", limitsText(timing, options));
 }
 
 std::string summaryOfOne(const PathTask& task, const PlanOptions& options, const FoundPath& found,
                          const PathTiming& timing) {
   std::string text =
-      fmt::format("{}: {}\n", titleOf(task, options, found),
+      fmt::format("{}: {}\n", pathTitle(task, options, found),
                   found.isFound()  ? "found a path"
                   : found.isTimeUp ? fmt::format("no path within {:g} s, the --time-limit", options.timeLimit)
                                    : "no path within the budget of --samples");
@@ -391,7 +391,7 @@ std::string summaryOfAll(const PathTask& task, const PlanOptions& options, const
   add("clearance, m", true, [](const FoundPath& one) { return one.clearance.atLeast; });
   std::string text =
       fmt::format("{}, {}, seeds {} to {}: {} of {} found a path\n", escapeForTerminal(task.model.name()),
-                  nameOf(options.planner), found.all.front().seed, found.all.back().seed, found.successes(),
+                  toString(options.planner), found.all.front().seed, found.all.back().seed, found.successes(),
                   found.all.size());
   if (const auto ended = std::ranges::count_if(found.all, &FoundPath::isTimeUp); ended > 0)
     text += fmt::format("{} ended after {:g} s, the --time-limit\n", ended, options.timeLimit);
@@ -435,20 +435,20 @@ Json jsonOfPath(const FoundPath& found) {
 
 }  // namespace
 
-std::string summaryOf(const PathTask& task, const PlanOptions& options, const FoundPaths& found,
-                      const PathTiming& timing) {
+std::string pathSummary(const PathTask& task, const PlanOptions& options, const FoundPaths& found,
+                        const PathTiming& timing) {
   return found.all.size() == 1 ? summaryOfOne(task, options, found.shortest(), timing)
                                : summaryOfAll(task, options, found, timing);
 }
 
-Results resultsOf(const PathTask& task, const PlanOptions& options, const FoundPaths& found,
-                  const PathTiming& timing) {
+Results pathResults(const PathTask& task, const PlanOptions& options, const FoundPaths& found,
+                    const PathTiming& timing) {
   Json runs = Json::array();
   for (const FoundPath& one : found.all) runs.push_back(jsonOfPath(one));
   const bool isFound = found.successes() > 0;
-  return {.lines = {summaryOf(task, options, found, timing)},
+  return {.lines = {pathSummary(task, options, found, timing)},
           .json = {{"scene", task.model.name()},
-                   {"planner", nameOf(options.planner)},
+                   {"planner", toString(options.planner)},
                    {"margin", *options.margin},
                    {"resolution", *options.resolution},
                    {"found", found.successes()},

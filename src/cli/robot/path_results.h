@@ -29,19 +29,19 @@ struct PathTiming {
 
 /// The fastest motion along the path found, within the limits of the scene and of the options. Throws Error
 /// like jointLimits().
-[[nodiscard]] PathTiming timingOf(const PathTask& task, const PlanOptions& options, const FoundPath& found);
+[[nodiscard]] PathTiming timePath(const PathTask& task, const PlanOptions& options, const FoundPath& found);
 
 /// One line about limits that do not come from the scene; empty if all do.
-[[nodiscard]] std::string assumptionsOf(const PathTiming& timing, const PlanOptions& options);
+[[nodiscard]] std::string assumedLimits(const PathTiming& timing, const PlanOptions& options);
 
 /// One line about the limits that were respected.
-[[nodiscard]] std::string limitsTextOf(const PathTiming& timing, const PlanOptions& options);
+[[nodiscard]] std::string limitsText(const PathTiming& timing, const PlanOptions& options);
 
 /// Postures of a motion, `rate` per second, and its end, so that the last interval may be shorter.
 [[nodiscard]] Motion sampledMotion(const TimedPath& timed, double rate);
 
 /// The motion as a table: "time", then the joints by name, separated by commas; a motion for readMotion().
-[[nodiscard]] std::string csvOf(const Model& model, const Motion& motion);
+[[nodiscard]] std::string motionCsv(const Model& model, const Motion& motion);
 
 /// The body whose trace a picture shows by default: the first of those moved by the most joints.
 [[nodiscard]] BodyId farthestBody(const Model& model);
@@ -63,7 +63,7 @@ struct PathTiming {
                                      double margin);
 
 /// "scene, planner, seed 3", without control characters.
-[[nodiscard]] std::string titleOf(const PathTask& task, const PlanOptions& options, const FoundPath& found);
+[[nodiscard]] std::string pathTitle(const PathTask& task, const PlanOptions& options, const FoundPath& found);
 
 /// Draws what a search explored, with a caption, into a .png file. Throws Error if nothing is to be seen.
 void writeExplored(Picture picture, RenderPlan plan, std::string caption, const std::filesystem::path& out);
@@ -92,11 +92,11 @@ void writePathFiles(const PathTask& task, const PlanOptions& options, const Rend
 
 /// A few lines for one search; for several a table of minima, medians and maxima, with lengths and
 /// clearances only of the paths found. `timing` is that of the shortest path.
-[[nodiscard]] std::string summaryOf(const PathTask& task, const PlanOptions& options, const FoundPaths& found,
-                                    const PathTiming& timing);
+[[nodiscard]] std::string pathSummary(const PathTask& task, const PlanOptions& options,
+                                      const FoundPaths& found, const PathTiming& timing);
 
 /// The same, for programs with the shortest path.
-[[nodiscard]] Results resultsOf(const PathTask& task, const PlanOptions& options, const FoundPaths& found,
-                                const PathTiming& timing);
+[[nodiscard]] Results pathResults(const PathTask& task, const PlanOptions& options, const FoundPaths& found,
+                                  const PathTiming& timing);
 
 }  // namespace rex::cli

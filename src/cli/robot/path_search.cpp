@@ -88,7 +88,7 @@ const std::vector<std::pair<std::string, Planner>>& plannerNames() {
   return names;
 }
 
-const std::string& nameOf(Planner planner) {
+const std::string& toString(Planner planner) {
   return std::ranges::find(plannerNames(), planner, &std::pair<std::string, Planner>::second)->first;
 }
 

@@ -35,7 +35,7 @@ enum class Planner {
 
 /// What `--planner NAME` means.
 [[nodiscard]] const std::vector<std::pair<std::string, Planner>>& plannerNames();
-[[nodiscard]] const std::string& nameOf(Planner planner);
+[[nodiscard]] const std::string& toString(Planner planner);
 /// Whether it draws samples: one of the first six.
 [[nodiscard]] bool drawsSamples(Planner planner);
 /// Whether the planner grows trees step by step; otherwise it makes a roadmap.

@@ -47,7 +47,7 @@ PathSearch searchOf(const PlanOptions& options) {
 }
 
 PathTask taskOf(Model model, const PlanOptions& options) {
-  const ContactModel contacts = contactModelOf(model);
+  const ContactModel contacts = sceneContactModel(model);
   if (contacts.pairs().empty())
     note(escapeForTerminal(model.name()) + ": no two shapes may collide: every path is free");
   const Eigen::VectorXd start = postureWithinLimits(model, "--start", options.start);
@@ -93,9 +93,9 @@ ExitCode planPath(const PlanOptions& options, const RenderPlan& pictures, Model 
 
   const FoundPaths found = asWrongUse([&] { return searchPaths(task, search, options.seed, options.runs); });
   const bool isFound = found.successes() > 0;
-  const PathTiming timing = isFound ? timingOf(task, options, found.shortest()) : PathTiming{};
-  if (const std::string assumed = assumptionsOf(timing, options); !assumed.empty()) note(assumed);
-  Results results = resultsOf(task, options, found, timing);
+  const PathTiming timing = isFound ? timePath(task, options, found.shortest()) : PathTiming{};
+  if (const std::string assumed = assumedLimits(timing, options); !assumed.empty()) note(assumed);
+  Results results = pathResults(task, options, found, timing);
   writePathFiles(task, options, pictures, body, found.shortest(), timing, results);
   results.print(options.json);
   return isClear(found, *options.margin) && timing.isFound() ? ExitCode::kFull : ExitCode::kBelow;
@@ -107,7 +107,7 @@ ExitCode plan(const Project& project, PlanOptions options) {
   options.margin = options.margin.value_or(usual.margin);
   options.resolution = options.resolution.value_or(usual.resolution);
   options.samples = options.samples.value_or(usual.samples);
-  const Facing facing = facingOf(fileOf(project, options.scene));
+  const Facing facing = sceneFacing(sceneFilePath(project, options.scene));
   requireGiven("--goal", options.goal, "plan");
   requireGiven("--out", options.out.string(), "plan");
   requireBetween("--margin", *options.margin, usual.margins.least, usual.margins.most);
@@ -115,7 +115,7 @@ ExitCode plan(const Project& project, PlanOptions options) {
   RenderOptions film = options.film;
   film.out = options.out / "path.mp4";
   if (isCar && film.cameras.empty()) film.cameras = {"0,-0.5,1"};  // a street is seen from above
-  const RenderPlan pictures = planOf(film, facing);
+  const RenderPlan pictures = makeRenderPlan(film, facing);
   Model model = loadScene(project, options.scene);
   if (model.nv() == 0) throw UsageError({.what = model.name(), .found = "no joint that moves"});
   if (!options.noFilm) requireFilmable(model);
@@ -128,7 +128,7 @@ void requireOwn(const std::vector<CLI::Option*>& options, bool isTheirs, Planner
   for (const CLI::Option* option : options)
     if (option->count() > 0 && !isTheirs)
       throw UsageError(
-          {.what = option->get_name(), .found = "--planner " + nameOf(planner), .wanted = wanted});
+          {.what = option->get_name(), .found = "--planner " + toString(planner), .wanted = wanted});
 }
 
 }  // namespace

@@ -121,7 +121,7 @@ void tellWhatIsNoObstacle(const Model& model) {
 
 PathTask carTaskOf(Model model, const PlanOptions& options) {
   requireCar(model);
-  const ContactModel contacts = contactModelOf(model);
+  const ContactModel contacts = sceneContactModel(model);
   const Eigen::VectorXd start = postureWithinLimits(model, "--start", options.start);
   const Eigen::VectorXd goal = postureWithinLimits(model, "--goal", options.goal);
   PathTask task = asWrongUse([&] {

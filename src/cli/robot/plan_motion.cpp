@@ -99,7 +99,7 @@ std::pair<BodyId, Eigen::Vector3d> goalOf(const Model& model, const std::string&
 
 TrajectoryTask motionTaskOf(Model model, const PlanOptions& options) {
   const auto [body, p_WQ] = goalOf(model, options.goal);
-  ContactModel contacts = contactModelOf(model);
+  ContactModel contacts = sceneContactModel(model);
   const Eigen::VectorXd start = postureWithinLimits(model, "--start", options.start);
   TrajectoryTask task{.model = std::move(model),
                       .contacts = std::move(contacts),

@@ -109,7 +109,7 @@ std::string pairWanted(const Model& model, Eigen::Index all) {
 // All numbers, or those of some joints; the others keep their values.
 Eigen::VectorXd parseCoordinates(const Model& model, const Coordinates& kind, const std::string& text,
                                  Eigen::VectorXd x) {
-  const std::vector<std::string_view> all = numberWords(text, refusalOf(kind.option));
+  const std::vector<std::string_view> all = numberWords(text, optionRefusal(kind.option));
   if (text.find('=') != std::string::npos) {
     for (const std::string_view word : all) {
       const std::size_t sign = word.find('=');
@@ -188,10 +188,10 @@ Motion evenly(const Motion& motion, double rate) {
 }  // namespace
 
 Eigen::VectorXd parsePosture(const Model& model, const std::string& text) {
-  return parsePostureOf(model, kPositions.option, text);
+  return parsePostureAsGiven(model, kPositions.option, text);
 }
 
-Eigen::VectorXd parsePostureOf(const Model& model, const std::string& option, const std::string& text) {
+Eigen::VectorXd parsePostureAsGiven(const Model& model, const std::string& option, const std::string& text) {
   if (text == "0") return zeroPositions(model);
   if (text == "file") return model.initialPositions();
   if (text.starts_with("key:") || text.starts_with("state:"))
@@ -199,7 +199,7 @@ Eigen::VectorXd parsePostureOf(const Model& model, const std::string& option, co
   Coordinates kind = kPositions;
   kind.option = option;
   Eigen::VectorXd q = parseCoordinates(model, kind, text, model.initialPositions());
-  requireQuaternions(model, q, refusalOf(option));
+  requireQuaternions(model, q, optionRefusal(option));
   return q;
 }
 
@@ -248,7 +248,7 @@ void requireWithinLimits(const Model& model, const std::string& option, const Ve
 }  // namespace
 
 Eigen::VectorXd postureWithinLimits(const Model& model, const std::string& option, const std::string& text) {
-  Eigen::VectorXd q = parsePostureOf(model, option, text);
+  Eigen::VectorXd q = parsePostureAsGiven(model, option, text);
   forEachQuaternion(model, [&](int iq, int) { q.segment<4>(iq).normalize(); });
   requireWithinLimits(model, option, q);
   return q;

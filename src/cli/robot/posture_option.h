@@ -20,8 +20,8 @@ namespace rex::cli {
 /// near).
 [[nodiscard]] Eigen::VectorXd parsePosture(const Model& model, const std::string& text);
 /// The same for options other than --q, such as "--goal".
-[[nodiscard]] Eigen::VectorXd parsePostureOf(const Model& model, const std::string& option,
-                                             const std::string& text);
+[[nodiscard]] Eigen::VectorXd parsePostureAsGiven(const Model& model, const std::string& option,
+                                                  const std::string& text);
 
 /// The velocities (nv) given by `--v TEXT`: all numbers, "joint=number,..." with the others at rest, or
 /// "0". Throws like parsePosture.
@@ -47,7 +47,7 @@ struct Motion {
 [[nodiscard]] Motion moveThrough(const Model& model, const std::vector<Eigen::VectorXd>& keys, double seconds,
                                  double rate);
 
-/// parsePostureOf() with normalised quaternions. Also throws UsageError for a zero quaternion, and for a
+/// parsePostureAsGiven() with normalised quaternions. Also throws UsageError for a zero quaternion, and for a
 /// joint outside its limits, saying by how much.
 [[nodiscard]] Eigen::VectorXd postureWithinLimits(const Model& model, const std::string& option,
                                                   const std::string& text);

@@ -49,7 +49,7 @@ void writeStill(const MotionPictures& pictures, const RenderPlan& plan, const fs
   std::vector<KeyFrame> drawn;
   for (std::size_t i = 0; i < pictures.size(); ++i)
     drawn.push_back({studio.draw(pictures.picture(i)), fmt::format("{:.2f} s", pictures.time(i))});
-  const Image whole = drawn.size() == 1 ? drawn.front().image : sheetOf(drawn);
+  const Image whole = drawn.size() == 1 ? drawn.front().image : contactSheet(drawn);
   studio.requireSomethingSeen();
   throwIfInterrupted();
   writePng(whole, out);
@@ -57,15 +57,15 @@ void writeStill(const MotionPictures& pictures, const RenderPlan& plan, const fs
 
 // For products that no Studio describes.
 void noteViews(const RenderPlan& plan) {
-  if (const std::string views = viewsOf(plan); !views.empty()) note(views);
+  if (const std::string views = viewNames(plan); !views.empty()) note(views);
 }
 
 }  // namespace
 
 ExitCode render(const Project& project, const RenderOptions& options) {
-  const Facing facing = facingOf(fileOf(project, options.scene));
+  const Facing facing = sceneFacing(sceneFilePath(project, options.scene));
   requireGiven("--out", options.out.string(), "render");
-  const RenderPlan plan = planOf(options, facing);
+  const RenderPlan plan = makeRenderPlan(options, facing);
   const Model model = loadScene(project, options.scene);
   const MotionPictures pictures =
       picturesOf(model, motionToDraw(model, options, plan.seconds), options, plan.product);

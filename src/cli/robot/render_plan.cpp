@@ -61,7 +61,7 @@ std::optional<Vector3d> pointIn(std::string_view text) {
 
 }  // namespace
 
-Facing facingOf(const std::filesystem::path& file) {
+Facing sceneFacing(const std::filesystem::path& file) {
   return endingOf(file) == ".ors" ? Facing::kMinusY : Facing::kPlusX;
 }
 
@@ -114,7 +114,7 @@ Studio::Studio(const RenderPlan& plan, const Bounds& scene)
     : plan_(plan), scene_(scene), renderer_(plan.renderer) {}
 
 std::string Studio::describe() const {
-  const std::string views = viewsOf(plan_);
+  const std::string views = viewNames(plan_);
   return renderer_.describe() + (views.empty() ? "" : "; " + views);
 }
 
@@ -125,7 +125,7 @@ Image Studio::draw(const Picture& picture, double angle) {
     const Camera camera = view.camera(scene_, aspect);
     seen.push_back({drawFrom(picture, turnedCamera(camera, view.target(scene_), angle)), name});
   }
-  return seen.size() == 1 ? seen.front().image : sheetOf(seen);
+  return seen.size() == 1 ? seen.front().image : contactSheet(seen);
 }
 
 Image Studio::drawFrom(const Picture& picture, const Camera& camera) {
@@ -149,7 +149,7 @@ void Studio::requireSomethingSeen() const {
         {.what = "--camera", .found = "nothing of the scene in view", .wanted = "a view of the scene"});
 }
 
-Image sheetOf(const std::vector<KeyFrame>& pictures) {
+Image contactSheet(const std::vector<KeyFrame>& pictures) {
   constexpr int kNarrowest = 16;  // the least that a sheet accepts; it never widens a picture
   return contactSheet(pictures, {.pictureWidth = std::max(pictures.front().image.width, kNarrowest)});
 }
@@ -234,14 +234,14 @@ void requireMeaning(const RenderOptions& options, const RenderPlan& plan) {
 
 }  // namespace
 
-RenderPlan planOf(const RenderOptions& options, Facing facing) {
+RenderPlan makeRenderPlan(const RenderOptions& options, Facing facing) {
   RenderPlan plan{.product = productOf(options.out), .show = showOf(options.show)};
   const char* usualSize = plan.product == Product::kPage ? kPageSize : kPictureSize;
   const auto [width, height] = sizeOf(options.size.empty() ? usualSize : options.size);
   plan.renderer = {.width = width,
                    .height = height,
                    .antiAliasing = antiAliasingOf(options.antiAliasing, plan.product),
-                   .gl = {.backend = backendOf(options.gl)}};
+                   .gl = {.backend = parseBackend(options.gl)}};
   for (const std::string& text : options.cameras) {
     const View view(text, facing);
     plan.views.push_back({view.label(), view});
@@ -252,7 +252,7 @@ RenderPlan planOf(const RenderOptions& options, Facing facing) {
   return plan;
 }
 
-std::string viewsOf(const RenderPlan& plan) {
+std::string viewNames(const RenderPlan& plan) {
   std::vector<std::string> names;
   for (const auto& [name, view] : plan.views)
     if (name != "default") names.push_back(name);
@@ -260,7 +260,7 @@ std::string viewsOf(const RenderPlan& plan) {
   return fmt::format("{}: {}", names.size() == 1 ? "view" : "views", join(names, "; "));
 }
 
-GlBackend backendOf(const std::string& name) {
+GlBackend parseBackend(const std::string& name) {
   try {
     return glBackendFromName(name.empty() ? kUsualGl : name);
   } catch (const Error& error) {

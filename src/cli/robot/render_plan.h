@@ -20,7 +20,7 @@ namespace rex::cli {
 enum class Facing { kMinusY, kPlusX };
 
 /// The facing that the extension of a scene's file implies.
-[[nodiscard]] Facing facingOf(const std::filesystem::path& file);
+[[nodiscard]] Facing sceneFacing(const std::filesystem::path& file);
 
 /// The position of `--camera TEXT`: "front", "back", "left", "right" or "top" of a robot, or "default", the
 /// same direction for all; "x,y,z", a direction from the scene; or "x,y,z@x,y,z", the eye and its target,
@@ -92,14 +92,14 @@ struct RenderPlan {
 /// Parses the options without accessing files. The scene's file may be just a name, so `facing` says which
 /// way its robots face. Throws UsageError for an option that cannot be parsed, is out of range, contradicts
 /// another, or has no effect on the product.
-[[nodiscard]] RenderPlan planOf(const RenderOptions& options, Facing facing = Facing::kMinusY);
+[[nodiscard]] RenderPlan makeRenderPlan(const RenderOptions& options, Facing facing = Facing::kMinusY);
 
 /// "view: front (from +x)" for the requested cameras; empty if there are none.
-[[nodiscard]] std::string viewsOf(const RenderPlan& plan);
+[[nodiscard]] std::string viewNames(const RenderPlan& plan);
 
 /// The meaning of `--gl NAME`; an empty name is auto. Throws UsageError naming the choices and their
 /// packages.
-[[nodiscard]] GlBackend backendOf(const std::string& name);
+[[nodiscard]] GlBackend parseBackend(const std::string& name);
 
 /// Draws pictures of one scene according to a plan, with several cameras side by side.
 class Studio {
@@ -127,12 +127,13 @@ class Studio {
 };
 
 /// The pictures (at least one) in rows of three with their captions, at full size.
-[[nodiscard]] Image sheetOf(const std::vector<KeyFrame>& pictures);
+[[nodiscard]] Image contactSheet(const std::vector<KeyFrame>& pictures);
 
 /// The box that contains `scene` for any rotation about the vertical through its centre.
 [[nodiscard]] Bounds turningBox(const Bounds& scene);
 
-/// Makes what the options request. Throws like planOf(), loadScene() and the functions that write files.
+/// Makes what the options request. Throws like makeRenderPlan(), loadScene() and the functions that write
+/// files.
 ExitCode render(const Project& project, const RenderOptions& options);
 
 }  // namespace rex::cli

@@ -21,7 +21,7 @@ Verdict judge(const Project& project, const SceneOption& option) {
   ReadOptions options = option.reading;
   options.notesOfFailure = &verdict.notes;
   try {
-    verdict.file = fileOf(project, option).string();
+    verdict.file = sceneFilePath(project, option).string();
     SceneFile scene = readScene(verdict.file, options);
     verdict.notes = std::move(scene.notes);
     static_cast<void>(compile(scene.spec));

@@ -32,7 +32,7 @@ Json jsonOfPairs(const Model& model, const std::vector<Proxy>& near) {
 ExitCode sceneContacts(const Project& project, const ContactsOptions& options) {
   const Model model = loadScene(project, options.scene.scene);
   const Eigen::VectorXd q = parsePosture(model, options.scene.posture);
-  const ContactModel contacts = contactModelOf(model);
+  const ContactModel contacts = sceneContactModel(model);
   const BodyPoses poses = forwardKinematics(model, q);
   const double reach = std::max(options.margin, kQueryCutoff);
   const std::vector<Proxy> near = proxies(contacts, poses, reach);

@@ -60,7 +60,7 @@ void warnOfMeshesOutside(const SceneSpec& spec, const fs::path& out) {
 
 ExitCode sceneConvert(const Project& project, const ConvertOptions& options) {
   requireEnding(options.out);
-  requireAnother(fileOf(project, options.scene), options.out);
+  requireAnother(sceneFilePath(project, options.scene), options.out);
   SceneSpec spec = loadSpec(project, options.scene);
   const fs::path folder = folderOf(options.out);
   std::string text;

@@ -77,12 +77,12 @@ void requireMeaning(const fs::path& file, const ReadOptions& reading) {
                                       : "a .urdf file; in MJCF, use <contact>"});
 }
 
-fs::path fileOf(const Project& project, const SceneOption& scene) {
+fs::path sceneFilePath(const Project& project, const SceneOption& scene) {
   return asWrongUse([&] { return shown(findScene(scene.file, project.files() / "data")); });
 }
 
 SceneSpec loadSpec(const Project& project, const SceneOption& scene) {
-  const fs::path file = fileOf(project, scene);
+  const fs::path file = sceneFilePath(project, scene);
   requireMeaning(file, scene.reading);
   SceneFile loaded = read(file, scene.reading);
   const Diagnostics notes = grouped(loaded.notes);
@@ -118,7 +118,7 @@ std::size_t pairsOfBodies(const Model& model) {
 
 }  // namespace
 
-ContactModel contactModelOf(const Model& model) {
+ContactModel sceneContactModel(const Model& model) {
   if (const std::size_t pairs = pairsOfBodies(model); pairs > kMostContactPairs)
     throw UsageError({.what = escapeForTerminal(model.name()) + ": too many shapes take part in contacts",
                       .found = fmt::format("{} pairs of shapes", pairs),

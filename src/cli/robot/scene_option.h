@@ -22,7 +22,7 @@ struct SceneOption {
 void requireMeaning(const std::filesystem::path& file, const ReadOptions& reading);
 
 /// The file that a user means. Throws UsageError where findScene() throws Error.
-[[nodiscard]] std::filesystem::path fileOf(const Project& project, const SceneOption& scene);
+[[nodiscard]] std::filesystem::path sceneFilePath(const Project& project, const SceneOption& scene);
 
 /// Reads the scene that a user means; its name is as typed, without folders. Prints the reader's notes.
 /// Throws UsageError where findScene() and readScene() throw Error, and for unknown `shapes`.
@@ -36,7 +36,7 @@ inline constexpr std::size_t kMostContactPairs = 200'000;
 
 /// What may collide in a model; prints warnings about doubtful settings. Throws UsageError for more pairs
 /// of shapes on different bodies, before allocating them, and if ContactModel throws Error.
-[[nodiscard]] ContactModel contactModelOf(const Model& model);
+[[nodiscard]] ContactModel sceneContactModel(const Model& model);
 
 /// Prints collisionWarnings().
 void noteCollisionWarnings(const Model& model);

@@ -53,7 +53,7 @@ Json jsonOfSample(const Model& model, const TouchSample& sample, std::uint64_t s
 
 ExitCode scenePairs(const Project& project, const PairsOptions& options) {
   const Model model = loadScene(project, options.scene.scene);
-  static_cast<void>(contactModelOf(model));  // not too large, and with its warnings
+  static_cast<void>(sceneContactModel(model));  // not too large, and with its warnings
   const std::vector<PairVerdict> verdicts = pairVerdicts(model);
   resultsOf(model, verdicts).print(options.scene.json);
   return ExitCode::kFull;
@@ -62,7 +62,7 @@ ExitCode scenePairs(const Project& project, const PairsOptions& options) {
 ExitCode sceneNeverTouching(const Project& project, const PairsOptions& options) {
   SceneSpec spec = loadSpec(project, options.scene.scene);
   const Model model = asWrongUse([&] { return compile(spec); });
-  static_cast<void>(contactModelOf(model));
+  static_cast<void>(sceneContactModel(model));
   Rng rng(options.seed);
   const TouchSample sample = asWrongUse([&] { return sampleTouches(model, options.samples, rng); });
   if (!sample.held.empty())

@@ -64,7 +64,7 @@ struct SimulateOptions {
 constexpr double kMostSteps = 2e5;
 constexpr double kMostLogged = 1e7;  // numbers, 200 megabytes of text
 
-const std::string& nameOf(Engine engine) {
+const std::string& toString(Engine engine) {
   return std::ranges::find(engineNames(), engine, &std::pair<std::string, Engine>::second)->first;
 }
 
@@ -97,7 +97,7 @@ Hold holdOf(const Model& model, const SimulateOptions& options, bool isBullet) {
   }
   if (options.holdBy == Hold::kMotor && !isBullet)
     throw UsageError({.what = "--hold-by motor",
-                      .found = "--engine " + nameOf(options.engine),
+                      .found = "--engine " + toString(options.engine),
                       .wanted = "--engine bullet, which has motors"});
   return options.holdBy;
 }
@@ -105,7 +105,7 @@ Hold holdOf(const Model& model, const SimulateOptions& options, bool isBullet) {
 void requireContacts(const char* option, const SimulateOptions& options) {
   if (integratorOf(options.engine))
     throw UsageError({.what = option,
-                      .found = "--engine " + nameOf(options.engine),
+                      .found = "--engine " + toString(options.engine),
                       .wanted = "--engine bullet, which handles contacts"});
 }
 
@@ -202,7 +202,7 @@ class Record {
 
 std::string titleOf(const Model& model, const SimulationPlan& plan, const SimulateOptions& options) {
   return fmt::format("{}, {}{}, {}, steps of {:g} ms", model.name(), toString(plan.hold),
-                     plan.torques ? " with torques" : "", nameOf(options.engine), 1000 * options.tau);
+                     plan.torques ? " with torques" : "", toString(options.engine), 1000 * options.tau);
 }
 
 // The replay plays as fast as the film would.
@@ -210,7 +210,7 @@ void writeMotionPage(const Model& model, const Record& record, const std::string
                      const SimulateOptions& options, const RenderPlan& plan, double speed) {
   writeReplay({.title = title,
                .figures = {{.figure = record.energyFigure(title)}},
-               .facts = {{"engine", nameOf(options.engine)},
+               .facts = {{"engine", toString(options.engine)},
                          {"step", fmt::format("{:g} s", options.tau)},
                          {"largest energy change", fmt::format("{:.2g} J", record.largestChange())}},
                .still = plan.renderer},
@@ -239,7 +239,7 @@ Results resultsOf(const Model& model, const SimulationPlan& plan, const Record& 
   const Moment &first = record.first(), &last = record.last();
   const double start = first.energy.total(), end = last.energy.total(), change = record.largestChange();
   Results all{.json = {{"scene", model.name()},
-                       {"engine", nameOf(options.engine)},
+                       {"engine", toString(options.engine)},
                        {"held", plan.hold != Hold::kNone},
                        {"tau", options.tau},
                        {"steps", record.steps()},
@@ -316,7 +316,7 @@ void noteUnheld(const Model& model, const SimulationPlan& plan) {
 
 // Lets a scene move under gravity. Writes a log, an energy plot and a film, or a page.
 ExitCode simulateScene(const Project& project, const SimulateOptions& options) {
-  const Facing facing = facingOf(fileOf(project, options.scene));
+  const Facing facing = sceneFacing(sceneFilePath(project, options.scene));
   requireGiven("--out", options.out.string(), "simulate");
   if (!isPage(options))
     requireFolderName(options.out, "a folder, which gets simulate.mp4, or a page NAME.html");

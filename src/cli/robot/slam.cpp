@@ -60,7 +60,7 @@ void writePlot(const SlamOptions& options, const Eigen::Matrix2Xd& before, const
   writeFigure(figure, options.plot);
 }
 
-const char* nameOf(PoseGraphStatus status) {
+const char* toString(PoseGraphStatus status) {
   switch (status) {
     case PoseGraphStatus::kConverged:
       return "converged";
@@ -103,7 +103,7 @@ ExitCode slam(const SlamOptions& options, G2oFile& file, Graph& graph) {
                        {"cost", result.cost},
                        {"iterations", result.iterations},
                        {"seconds", seconds},
-                       {"status", nameOf(result.status)}}};
+                       {"status", toString(result.status)}}};
   all.line("{}; {}", sizeOf(graph, file.ids.size()), result.message);
   all.line("{:.3f} s of processor time", seconds);
   if (!options.plot.empty()) writePlot(options, before, positionsOf(graph), landmarksOf(graph));

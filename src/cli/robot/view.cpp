@@ -105,7 +105,7 @@ ExitCode view(const Project& project, const ViewOptions& options) {
   if (!more.empty()) say(more);
   say("press Ctrl-C to end");
   std::fflush(stdout);
-  ViewFilm film(session.model(), facingOf(fileOf(project, options.scene)), folder.path());
+  ViewFilm film(session.model(), sceneFacing(sceneFilePath(project, options.scene)), folder.path());
   try {
     serve(*server, session, film);
   } catch (const Interrupted&) {

@@ -51,8 +51,8 @@ ViewFilm::Drawn ViewFilm::drawn(const std::string& table) const {
   writeTextFile(motion, table);
   std::filesystem::remove(out);
   const Motion moved = readMotion(model_, motion, kFilmRate);
-  const std::filesystem::path written =
-      writeMotionFilm({model_, moved, {}, {}, ""}, planOf({.motion = motion, .out = out}, facing_), out);
+  const std::filesystem::path written = writeMotionFilm(
+      {model_, moved, {}, {}, ""}, makeRenderPlan({.motion = motion, .out = out}, facing_), out);
   if (written != out)
     return {.text = "There is no ffmpeg here to make films (apt-get install ffmpeg). The replay needs none."};
   return {.text = "The film is ready: film.mp4, below \"Record\".", .bytes = readTextFile(out)};

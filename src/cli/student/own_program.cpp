@@ -70,7 +70,7 @@ std::variant<fs::path, ExerciseInfo> programMeant(const Project& project, const 
   failWithoutFile(file);
 }
 
-fs::path outFolderOf(const Project& project, const fs::path& file) {
+fs::path programOutFolder(const Project& project, const fs::path& file) {
   const std::string name =
       file.filename() == "main.cpp" ? file.parent_path().filename().string() : file.stem().string();
   if (isExercise(project, name))
@@ -188,7 +188,7 @@ Ended runIn(const std::vector<std::string>& command, const OwnRun& options) {
   return result.signal == SIGINT ? Ended::kBadly : Ended::kCrashed;
 }
 
-ExitCode codeOf(Ended ended) { return ended == Ended::kWell ? ExitCode::kFull : ExitCode::kBelow; }
+ExitCode toExitCode(Ended ended) { return ended == Ended::kWell ? ExitCode::kFull : ExitCode::kBelow; }
 
 ExitCode runOwnProgram(const Project& project, const fs::path& file, const OwnRun& options) {
   makeOutFolder(options.out);
@@ -205,7 +205,7 @@ ExitCode runOwnProgram(const Project& project, const fs::path& file, const OwnRu
   }
   std::vector<std::string> command = {program.string()};
   command.insert(command.end(), options.arguments.begin(), options.arguments.end());
-  return codeOf(runIn(command, options));
+  return toExitCode(runIn(command, options));
 }
 
 }  // namespace rex::cli

@@ -19,7 +19,8 @@ namespace rex::cli {
 
 /// out/NAME for NAME.cpp, and out/FOLDER for FOLDER/main.cpp. Throws UsageError if that is the folder of an
 /// exercise.
-[[nodiscard]] std::filesystem::path outFolderOf(const Project& project, const std::filesystem::path& file);
+[[nodiscard]] std::filesystem::path programOutFolder(const Project& project,
+                                                     const std::filesystem::path& file);
 
 struct OwnProgram {
   std::filesystem::path program{};
@@ -50,7 +51,7 @@ struct OwnRun {
 /// Runs the command with these settings, and waits for it.
 [[nodiscard]] Ended runIn(const std::vector<std::string>& command, const OwnRun& options);
 
-[[nodiscard]] ExitCode codeOf(Ended ended);
+[[nodiscard]] ExitCode toExitCode(Ended ended);
 
 /// Builds a program by buildOwnProgram() and runs it by runIn(). Throws as buildOwnProgram() and
 /// makeOutFolder().

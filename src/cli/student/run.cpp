@@ -71,7 +71,7 @@ ExitCode runFile(const Project& project, const fs::path& file, const RunOptions&
                   "--level runs its functions confined.",
                   shown(file)),
               2, 0));
-  const fs::path out = fs::absolute(options.out.empty() ? outFolderOf(project, file) : options.out);
+  const fs::path out = fs::absolute(options.out.empty() ? programOutFolder(project, file) : options.out);
   return runOwnProgram(project, file,
                        {.out = out, .arguments = options.arguments, .seconds = options.seconds});
 }
@@ -94,7 +94,7 @@ ExitCode run(const Project& project, const RunOptions& options) {
   const Ended ended = runIn({program->string()}, {.out = out, .seconds = options.seconds});
   if (ended == Ended::kCrashed) note(fmt::format("To see where: scripts/rex debug {}", exercise.name));
   if (ended == Ended::kTooLate) sayWhereItIs(project, exercise, file, options.seconds);
-  return codeOf(ended);
+  return toExitCode(ended);
 }
 
 }  // namespace

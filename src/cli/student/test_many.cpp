@@ -98,7 +98,7 @@ class TestMany {
     int full = 0, refused = 0, faults = 0, points = 0, maxPoints = 0;
     const std::vector<GradeResult> all = results();
     for (const GradeResult& result : all) {
-      const ExitCode code = exitCodeOf(result);
+      const ExitCode code = toExitCode(result);
       full += code == ExitCode::kFull;
       refused += code == ExitCode::kNotGradable;
       faults += code == ExitCode::kGraderFault;
@@ -122,7 +122,7 @@ class TestMany {
   // Exit codes grow with severity.
   ExitCode worst() const {
     ExitCode code = ExitCode::kFull;
-    for (const GradeResult& result : results()) code = std::max(code, exitCodeOf(result));
+    for (const GradeResult& result : results()) code = std::max(code, toExitCode(result));
     return code;
   }
 

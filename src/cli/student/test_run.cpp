@@ -93,7 +93,7 @@ TestRun::TestRun(const Project& project, ExerciseInfo exercise, const TestOption
       before_(options.main.empty() ? lastResult(results_) : std::nullopt),
       toolchain_(prepare(project, exercise_)),
       work_(project.workPlace("exercises/" + exercise_.name)),
-      reports_(reportsOf(options.reports)) {
+      reports_(parseReportFormats(options.reports)) {
   options_.job.checks = withParts(options.job.checks, exercise_, toolchain_,
                                   project.outFolder(exercise_, false) / "results.json");
   if (!options.job.secret.empty()) static_cast<void>(grading::readCourseSecret(options.job.secret));
@@ -148,7 +148,7 @@ void TestRun::print(const submission::Submission& graded) const {
     say(fmt::format("To restore it as it was handed out: scripts/rex reset {}", exercise_.name));
 }
 
-ExitCode exitCodeOf(const GradeResult& result) {
+ExitCode toExitCode(const GradeResult& result) {
   if (result.outcome == Outcome::kGraderError) return ExitCode::kGraderFault;
   if (result.outcome == Outcome::kCompileError) return ExitCode::kNotGradable;
   return result.outcome == Outcome::kPass ? ExitCode::kFull : ExitCode::kBelow;
@@ -171,7 +171,7 @@ ExitCode testOne(const Project& project, const TestOptions& options) {
     std::fputs(readTextFile(run.ownResults()).c_str(), stdout);
   else
     run.print(graded);
-  return exitCodeOf(graded.result);
+  return toExitCode(graded.result);
 }
 
 }  // namespace rex::cli

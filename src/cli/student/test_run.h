@@ -24,7 +24,7 @@ struct TestOptions {
   bool debug = false;                     ///< with the sanitizers
   bool inFull = false;                    ///< every message, also of checks that failed the last time
   std::filesystem::path out;              ///< empty: as for run
-  std::string reports;                    ///< see reportsOf(): written beside the result
+  std::string reports;                    ///< see parseReportFormats(): written beside the result
   std::optional<sandbox::Level> level{};  ///< empty: limits only
 };
 
@@ -61,7 +61,7 @@ class TestRun {
   std::vector<reports::ReportFormat> reports_;
 };
 
-[[nodiscard]] ExitCode exitCodeOf(const grading::GradeResult& result);
+[[nodiscard]] ExitCode toExitCode(const grading::GradeResult& result);
 
 /// What a report is about besides its result.
 struct ReportView {

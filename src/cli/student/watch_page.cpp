@@ -40,7 +40,7 @@ std::string taskOf(const fs::path& readMe) {
   };
   const std::string text = textOrNothing(readMe);
   try {
-    return reports::pageOf(text, target).html;
+    return reports::markdownPage(text, target).html;
   } catch (const Error& error) {  // a formula that we cannot draw
     return fmt::format("<pre>{}</pre>\n<p class=\"soft\">{}</p>\n", htmlText(text), htmlText(error.what()));
   }

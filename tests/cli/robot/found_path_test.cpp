@@ -166,7 +166,7 @@ TEST(PathTable, IsAMotionForOtherCommands) {
   const Model model = compile(spec);
   const Motion motion{.times = {0, 2.5},
                       .postures = {Eigen::Vector4d::Zero(), Eigen::Vector4d(1, 2, -1. / 3, 0.1)}};
-  const std::string table = csvOf(model, motion);
+  const std::string table = motionCsv(model, motion);
   EXPECT_THAT(table, StartsWith("time,\"slide [0]\",\"slide [1]\",\"slide [2]\",\"a, b\"\n0,0,0,0,0\n"));
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "path.csv") << table;
@@ -196,7 +196,7 @@ PathTiming timed(const PathTask& task, const PlanOptions& options) {
   Eigen::MatrixXd path(task.model.nq(), 2);
   path << task.problem.start, task.problem.goal;
   found.curve = straightCurve(task.problem.space, path);
-  return timingOf(task, options, found);
+  return timePath(task, options, found);
 }
 
 TEST(PathTiming, KeepsToTheScene) {
@@ -204,27 +204,27 @@ TEST(PathTiming, KeepsToTheScene) {
   const PathTiming timing = timed(task, {.ramp = .25});
   ASSERT_TRUE(timing.isFound());
   EXPECT_NEAR(timing.result.motion.duration(), .5 + .25, 1e-3);
-  EXPECT_EQ(assumptionsOf(timing, {}), "");
-  EXPECT_EQ(limitsTextOf(timing, {.ramp = .25}),
+  EXPECT_EQ(assumedLimits(timing, {}), "");
+  EXPECT_EQ(limitsText(timing, {.ramp = .25}),
             "velocities of the scene; accelerations that reach them in 0.25 s");
-  EXPECT_EQ(limitsTextOf(timing, {.effort = true}),
+  EXPECT_EQ(limitsText(timing, {.effort = true}),
             "velocities of the scene; accelerations that reach them in 0.5 s; efforts of the scene");
 }
 
 TEST(PathTiming, SaysWhatItAssumes) {
   const PlanOptions options{.velocity = .7, .effort = true};
   EXPECT_EQ(
-      assumptionsOf(timed(chain(2, 1), options), options),
+      assumedLimits(timed(chain(2, 1), options), options),
       "no velocity limit for 'j2': assuming 0.7 rad/s or m/s, see --velocity; no effort limit for 'j2': "
       "assuming any effort");
   EXPECT_EQ(
-      limitsTextOf(timed(chain(2, 1), options), options),
+      limitsText(timed(chain(2, 1), options), options),
       "velocities of the scene, for 1 of 2 coordinates 0.7 rad/s or m/s; accelerations that reach them in "
       "0.5 s; efforts of the scene");
-  EXPECT_EQ(assumptionsOf(timed(chain(8, 0), {}), {}),
+  EXPECT_EQ(assumedLimits(timed(chain(8, 0), {}), {}),
             "no velocity limit for 'j1', 'j2', 'j3', 'j4', 'j5', 'j6' and 2 more: assuming 1 rad/s or m/s, "
             "see --velocity");
-  EXPECT_EQ(limitsTextOf(timed(chain(2, 0), {}), {}),
+  EXPECT_EQ(limitsText(timed(chain(2, 0), {}), {}),
             "velocities 1 rad/s or m/s; accelerations that reach them in 0.5 s");
 }
 
@@ -234,7 +234,7 @@ class Summary : public ::testing::Test {
   PathTiming timing() const {
     FoundPath found;
     found.curve = straightCurve(task.problem.space, Eigen::RowVector2d(0, 1));
-    return timingOf(task, options, found);
+    return timePath(task, options, found);
   }
   static FoundPath path(std::uint64_t seed, double length) {
     return {.seed = seed,
@@ -257,7 +257,7 @@ class Summary : public ::testing::Test {
 };
 
 TEST_F(Summary, TellsOfOneSearch) {
-  EXPECT_EQ(summaryOf(task, options, {.all = {path(7, 3)}}, timing()),
+  EXPECT_EQ(pathSummary(task, options, {.all = {path(7, 3)}}, timing()),
             "pole, rrt-connect, seed 7: found a path\n"
             "explored   7 nodes of 9 samples, 100 configurations checked\n"
             "CPU time   250.0 ms for planning, 1.0 ms for smoothing\n"
@@ -268,12 +268,12 @@ TEST_F(Summary, TellsOfOneSearch) {
   FoundPath free = path(7, 3);
   constexpr double kEndless = std::numeric_limits<double>::infinity();
   free.clearance = {kEndless, kEndless};
-  EXPECT_THAT(summaryOf(task, options, {.all = {free}}, timing()), HasSubstr("nothing can collide"));
+  EXPECT_THAT(pathSummary(task, options, {.all = {free}}, timing()), HasSubstr("nothing can collide"));
   FoundPath open = path(7, 3);
   open.clearance = {-0.01, 0.02};
-  EXPECT_THAT(summaryOf(task, options, {.all = {open}}, timing()),
+  EXPECT_THAT(pathSummary(task, options, {.all = {open}}, timing()),
               HasSubstr("-0.0100 m all along the path is proven, 0.0200 m measured, margin"));
-  EXPECT_EQ(summaryOf(task, options, {.all = {{.samples = 4, .nodes = 2, .checks = 5}}}, {}),
+  EXPECT_EQ(pathSummary(task, options, {.all = {{.samples = 4, .nodes = 2, .checks = 5}}}, {}),
             "pole, rrt-connect, seed 0: no path within the budget of --samples\n"
             "explored   2 nodes of 4 samples, 5 configurations checked\n"
             "CPU time   0.0 ms for planning");
@@ -282,18 +282,18 @@ TEST_F(Summary, TellsOfOneSearch) {
 TEST_F(Summary, TellsWhyThereIsNoMotion) {
   PathTiming none;
   none.result.message = "no motion along the path: at s = 0 of 1: too heavy";
-  EXPECT_THAT(summaryOf(task, options, {.all = {path(7, 3)}}, none),
+  EXPECT_THAT(pathSummary(task, options, {.all = {path(7, 3)}}, none),
               HasSubstr("\nduration   none: no motion along the path: at s = 0 of 1: too heavy\n"));
 }
 
 TEST_F(Summary, TellsOfSeveralInATable) {
   const FoundPaths found{.all = {path(1, 9), {.seed = 2, .nodes = 50}, path(3, 4), path(4, 6)}, .best = 2};
-  const std::string text = summaryOf(task, options, found, timing());
+  const std::string text = pathSummary(task, options, found, timing());
   EXPECT_THAT(text, HasSubstr("pole, rrt-connect, seeds 1 to 4: 3 of 4 found a path\n"));
   EXPECT_THAT(text, HasSubstr("\nnodes                           1        3.5         50\n"));
   EXPECT_THAT(text, HasSubstr("\nlength                          4          6          9\n"));
   EXPECT_THAT(text, HasSubstr("\nshortest: seed 3\nduration   1.500 s, at least 1.000 s"));
-  const std::string none = summaryOf(task, options, {.all = {FoundPath{}, FoundPath{}}}, {});
+  const std::string none = pathSummary(task, options, {.all = {FoundPath{}, FoundPath{}}}, {});
   EXPECT_THAT(none, HasSubstr("0 of 2 found a path"));
   EXPECT_THAT(none, HasSubstr("nodes"));
   EXPECT_THAT(none, Not(HasSubstr("length")));

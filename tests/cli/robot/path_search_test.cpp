@@ -189,9 +189,9 @@ TEST(PathSearch, StopsWhenTheUserWants) {
 }
 
 TEST(PathSearch, NamesAllPlanners) {
-  EXPECT_EQ(nameOf(Planner::kPrmStar), "prm-star");
+  EXPECT_EQ(toString(Planner::kPrmStar), "prm-star");
   for (const auto& [name, planner] : plannerNames()) {
-    EXPECT_EQ(nameOf(planner), name);
+    EXPECT_EQ(toString(planner), name);
     EXPECT_EQ(drawsSamples(planner), name.find("rrt") != name.npos || name.find("prm") != name.npos) << name;
   }
 }

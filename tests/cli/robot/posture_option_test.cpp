@@ -78,7 +78,7 @@ TEST(PostureOption, RefusesAQuaternionThatIsZero) {
   const std::string wanted = ", wanted a quaternion w, x, y, z that is not zero";
   EXPECT_REX_ERROR(parsePosture(model, "0,0,0,0,0,0,0,1,0,0,0"),
                    "--q: found (0, 0, 0, 0) for joint 'a>b'" + wanted);
-  EXPECT_REX_ERROR(parsePostureOf(model, "--goal", "1,2,3,1,0,0,0,0,-0,0,0"),
+  EXPECT_REX_ERROR(parsePostureAsGiven(model, "--goal", "1,2,3,1,0,0,0,0,-0,0,0"),
                    "--goal: found (0, 0, 0, 0) for joint 'ball'" + wanted);
   EXPECT_EQ(parsePosture(model, "0,0,0,1e-300,0,0,0,0,0,0,-2").size(), 11);
 }
@@ -215,7 +215,7 @@ TEST(ParsePosture, KnowsThePosturesOfTheFile) {
   EXPECT_EQ(postureWithinLimits(model, "--goal", "key:home"), q);
   EXPECT_REX_ERROR(parsePosture(model, "key:hom"), "--q: scene '");
   EXPECT_REX_ERROR(parsePosture(model, "key:hom"), "has no posture 'key:hom': wanted key:home (did you mean");
-  EXPECT_REX_ERROR(parsePostureOf(model, "--goal", "state:ready"), "--goal: scene '");
+  EXPECT_REX_ERROR(parsePostureAsGiven(model, "--goal", "state:ready"), "--goal: scene '");
 }
 
 }  // namespace rex::cli::posture_option_test

@@ -7,7 +7,7 @@
 namespace rex::cli::render_plan_test {
 
 TEST(RenderPlan, TakesTheProductFromTheEnding) {
-  const auto productOf = [](const char* out) { return planOf({.out = out}).product; };
+  const auto productOf = [](const char* out) { return makeRenderPlan({.out = out}).product; };
   EXPECT_EQ(productOf("a.png"), Product::kPicture);
   EXPECT_EQ(productOf("a.gif"), Product::kFilm);
   EXPECT_EQ(productOf("frames"), Product::kFilm);
@@ -18,8 +18,8 @@ TEST(RenderPlan, TakesTheProductFromTheEnding) {
 }
 
 TEST(RenderPlan, KnowsWhatIsUsual) {
-  const RenderPlan still = planOf({.out = "a.png"}), film = planOf({.out = "a.mp4"}),
-                   page = planOf({.out = "a.html"});
+  const RenderPlan still = makeRenderPlan({.out = "a.png"}), film = makeRenderPlan({.out = "a.mp4"}),
+                   page = makeRenderPlan({.out = "a.html"});
   EXPECT_EQ(still.renderer.width, 640);
   EXPECT_EQ(still.renderer.height, 480);
   EXPECT_EQ(page.renderer.width, 800);
@@ -32,28 +32,29 @@ TEST(RenderPlan, KnowsWhatIsUsual) {
 }
 
 TEST(RenderPlan, TakesWhatIsAskedFor) {
-  const RenderPlan plan = planOf({.postures = {"0", "1"},
-                                  .seconds = 0.04,
-                                  .cameras = {"front", "1,2,3"},
-                                  .size = "1x8192",
-                                  .show = "depth",
-                                  .gl = "egl",
-                                  .out = "a.webm"});
+  const RenderPlan plan = makeRenderPlan({.postures = {"0", "1"},
+                                          .seconds = 0.04,
+                                          .cameras = {"front", "1,2,3"},
+                                          .size = "1x8192",
+                                          .show = "depth",
+                                          .gl = "egl",
+                                          .out = "a.webm"});
   EXPECT_EQ(plan.seconds, 0.04);
   EXPECT_EQ(plan.views[1].name, "1,2,3");
   EXPECT_EQ(plan.renderer.width, 1);
   EXPECT_EQ(plan.renderer.height, 8192);
   EXPECT_EQ(plan.show, Show::kDepth);
   EXPECT_EQ(plan.renderer.gl.backend, GlBackend::kEgl);
-  const RenderPlan page = planOf({.size = "80x60", .antiAliasing = "none", .out = "a.html"});
+  const RenderPlan page = makeRenderPlan({.size = "80x60", .antiAliasing = "none", .out = "a.html"});
   EXPECT_EQ(page.renderer.width, 80);
   EXPECT_EQ(page.renderer.antiAliasing, AntiAliasing::kNone);
 }
 
 TEST(RenderPlan, NamesTheAxesOfItsViews) {
-  EXPECT_EQ(viewsOf(planOf({.out = "a.png"})), "");
-  EXPECT_EQ(viewsOf(planOf({.cameras = {"left"}, .out = "a.png"}, Facing::kPlusX)), "view: left (from +y)");
-  EXPECT_EQ(viewsOf(planOf({.cameras = {"left", "top"}, .out = "a.png"})),
+  EXPECT_EQ(viewNames(makeRenderPlan({.out = "a.png"})), "");
+  EXPECT_EQ(viewNames(makeRenderPlan({.cameras = {"left"}, .out = "a.png"}, Facing::kPlusX)),
+            "view: left (from +y)");
+  EXPECT_EQ(viewNames(makeRenderPlan({.cameras = {"left", "top"}, .out = "a.png"})),
             "views: left (from +x); top (from +z)");
 }
 
@@ -61,20 +62,20 @@ TEST(RenderPlan, RefusesValuesThatItCannotRead) {
   for (const std::string size : {"640", "x", "640x", "x480", "640x480x", "640 x 480", "0x480", "640x0",
                                  "-4x4", "8193x1", "99999999999x1"})
     EXPECT_REX_ERROR(
-        planOf({.size = size, .out = "a.png"}),
+        makeRenderPlan({.size = size, .out = "a.png"}),
         "--size: found '" + size + "', wanted WIDTHxHEIGHT, 1 to 8192 pixels each, such as 640x480");
-  EXPECT_REX_ERROR(planOf({.show = "colour", .out = "a.png"}),
+  EXPECT_REX_ERROR(makeRenderPlan({.show = "colour", .out = "a.png"}),
                    "--show: found 'colour', wanted color, depth, segmentation (did you mean 'color'?)");
-  EXPECT_REX_ERROR(planOf({.antiAliasing = "msa4", .out = "a.png"}),
+  EXPECT_REX_ERROR(makeRenderPlan({.antiAliasing = "msa4", .out = "a.png"}),
                    "--aa: found 'msa4', wanted none, fxaa, msaa4 (did you mean 'msaa4'?)");
-  EXPECT_REX_ERROR(planOf({.gl = "opengl", .out = "a.png"}),
+  EXPECT_REX_ERROR(makeRenderPlan({.gl = "opengl", .out = "a.png"}),
                    "OpenGL backend: found 'opengl', wanted auto, osmesa");
-  EXPECT_REX_ERROR(planOf({.cameras = {"frnt"}, .out = "a.png"}), "--camera: found 'frnt'");
+  EXPECT_REX_ERROR(makeRenderPlan({.cameras = {"frnt"}, .out = "a.png"}), "--camera: found 'frnt'");
 }
 
 TEST(RenderPlan, RefusesWhatMeansNothing) {
   const auto refuses = [](const RenderOptions& options, const std::string& message) {
-    EXPECT_REX_ERROR(planOf(options), message);
+    EXPECT_REX_ERROR(makeRenderPlan(options), message);
   };
   refuses({.postures = {"1"}, .motion = "x", .out = "a.png"}, "--motion and --q: wanted only one of them");
   refuses({.postures = {"1"}, .seconds = 1, .out = "a.mp4"}, "--duration: wanted several --q");

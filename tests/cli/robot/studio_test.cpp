@@ -16,7 +16,8 @@ TEST(Studio, TurnsAboutWhatTheCameraLooksAt) {
       .solids = {
           {.shape = {.type = ShapeType::kSphere, .radius = 0.2}, .X_WS = {.p = target}, .color = {1, 0, 0}},
           {.shape = {.extent = {0.4, 0.4, 0.4}}, .X_WS = {.p = {-2, 0, 0.2}}, .color = {0, 0, 1}}}};
-  Studio studio(planOf({.cameras = {"3,-2,1@1,0.5,0.5"}, .size = "64x48", .out = "a.png"}), bounds(picture));
+  Studio studio(makeRenderPlan({.cameras = {"3,-2,1@1,0.5,0.5"}, .size = "64x48", .out = "a.png"}),
+                bounds(picture));
   const Image first = studio.draw(picture);
   for (const double angle : {0.5, 1.5, 3., 5.}) {
     const Image image = studio.draw(picture, angle);
@@ -30,19 +31,20 @@ TEST(Studio, TurnsAllCameras) {
   REX_NEEDS_OSMESA();
   const Picture picture{.solids = {{.shape = {.extent = {1, 0.2, 0.4}}, .X_WS = {.p = {0, 0, 0.2}}}}};
   const auto drawn = [&](const std::vector<std::string>& cameras, double angle) {
-    return Studio(planOf({.cameras = cameras, .size = "64x48", .out = "a.png"}), turningBox(bounds(picture)))
+    return Studio(makeRenderPlan({.cameras = cameras, .size = "64x48", .out = "a.png"}),
+                  turningBox(bounds(picture)))
         .draw(picture, angle);
   };
   const Image both = drawn({"front", "left"}, std::numbers::pi / 2);
-  EXPECT_EQ(both, sheetOf({{drawn({"front"}, std::numbers::pi / 2), "front (from -y)"},
-                           {drawn({"left"}, std::numbers::pi / 2), "left (from +x)"}}));
+  EXPECT_EQ(both, contactSheet({{drawn({"front"}, std::numbers::pi / 2), "front (from -y)"},
+                                {drawn({"left"}, std::numbers::pi / 2), "left (from +x)"}}));
   EXPECT_NE(both, drawn({"front", "left"}, 0));
 }
 
 TEST(Studio, SaysWhatItLooksFrom) {
   REX_NEEDS_OSMESA();
   const auto said = [](const std::vector<std::string>& cameras, Facing facing) {
-    const RenderPlan plan = planOf({.cameras = cameras, .size = "8x8", .out = "a.png"}, facing);
+    const RenderPlan plan = makeRenderPlan({.cameras = cameras, .size = "8x8", .out = "a.png"}, facing);
     return Studio(plan, Bounds()).describe();
   };
   EXPECT_TRUE(said({"front"}, Facing::kPlusX).ends_with("; view: front (from +x)"));
@@ -51,8 +53,8 @@ TEST(Studio, SaysWhatItLooksFrom) {
 }
 
 TEST(Studio, ShrinksNothingOnASheet) {
-  EXPECT_GE(sheetOf({{Image(900, 30), "wide"}, {Image(900, 30), "too"}}).width, 1800);
-  EXPECT_GE(sheetOf({{Image(5, 5), "tiny"}}).width, 5);
+  EXPECT_GE(contactSheet({{Image(900, 30), "wide"}, {Image(900, 30), "too"}}).width, 1800);
+  EXPECT_GE(contactSheet({{Image(5, 5), "tiny"}}).width, 5);
 }
 
 TEST(TurningBox, HoldsTheSceneHoweverItIsTurned) {

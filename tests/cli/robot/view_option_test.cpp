@@ -67,9 +67,9 @@ TEST(ViewOption, SaysOnWhichAxisANameStands) {
 }
 
 TEST(ViewOption, TakesTheConventionOfTheFormat) {
-  EXPECT_EQ(facingOf("a/man.ors"), Facing::kMinusY);
-  EXPECT_EQ(facingOf("MAN.ORS"), Facing::kMinusY);
-  EXPECT_EQ(facingOf("robot.urdf"), Facing::kPlusX);
+  EXPECT_EQ(sceneFacing("a/man.ors"), Facing::kMinusY);
+  EXPECT_EQ(sceneFacing("MAN.ORS"), Facing::kMinusY);
+  EXPECT_EQ(sceneFacing("robot.urdf"), Facing::kPlusX);
 }
 
 TEST(ViewOption, TakesADirectionOrAnEyeWithItsTarget) {

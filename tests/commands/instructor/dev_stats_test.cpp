@@ -124,7 +124,7 @@ TEST_F(DevStatsTest, SaysWhenTheFirstFullScoreCameAndHowOftenStudentsHandedIn) {
     return classroom::ImportedStudent{.student = student,
                                       .exercises = {{"98-template",
                                                      {.platform = "moodle",
-                                                      .status = classroom::HandInStatus::kHandedIn,
+                                                      .status = classroom::SubmissionStatus::kHandedIn,
                                                       .handedInBy = student,
                                                       .attempts = attempts,
                                                       .attemptsFrom = from}}}};

@@ -273,7 +273,7 @@ TEST_F(GradeAgainTest, BelievesNoResultThatWasEdited) {
   EXPECT_EQ(rex({"grade", "--collect", "-o", results().string()}).code, 3);
   json = Json::parse(whole);
   json["exercise"]["id"] = "97-other";
-  json["inputs"]["result_sha256"] = grading::sealOf(json.dump(), "");
+  json["inputs"]["result_sha256"] = grading::computeSeal(json.dump(), "");
   write(file, json.dump());
   EXPECT_THAT(flat(rex({"grade", "--collect", "-o", results().string()}).error),
               HasSubstr("a result of another exercise: found '97-other', wanted '98-template'"));

@@ -18,7 +18,7 @@ class OneExercise : public BuiltProject {};
 // The fixtures rely on it: equal files are compiled once, others never share a result.
 TEST(KeptCompiler, GivesEqualFilesTheSameAndOthersTheirOwn) {
   const TemporaryFolder folder;
-  const auto exitCodeOf = [&](const std::string& project, const std::string& text,
+  const auto toExitCode = [&](const std::string& project, const std::string& text,
                               const std::string& header) {
     const fs::path place = folder.path() / project;
     fs::create_directories(place);
@@ -31,10 +31,10 @@ TEST(KeptCompiler, GivesEqualFilesTheSameAndOthersTheirOwn) {
   };
   const std::string header = "constexpr int seven = 7;\n";
   for (const char* project : {"one", "two"}) {
-    EXPECT_EQ(exitCodeOf(project, "int main() { return seven; }\n", header), 7);
-    EXPECT_EQ(exitCodeOf(project, "int main() { return seven + 1; }\n", header), 8);
-    EXPECT_EQ(exitCodeOf(project, "int main() { return seven; }\n", "constexpr int seven = 9;\n"), 9);
-    EXPECT_EQ(exitCodeOf(project, "int main() { return nothing; }\n", header), -1);
+    EXPECT_EQ(toExitCode(project, "int main() { return seven; }\n", header), 7);
+    EXPECT_EQ(toExitCode(project, "int main() { return seven + 1; }\n", header), 8);
+    EXPECT_EQ(toExitCode(project, "int main() { return seven; }\n", "constexpr int seven = 9;\n"), 9);
+    EXPECT_EQ(toExitCode(project, "int main() { return nothing; }\n", header), -1);
   }
 }
 

@@ -55,7 +55,7 @@ class Watching : public BuiltProject {
       ++count;
     return count >= times;
   }
-  static int exitCodeOf(pid_t child) {
+  static int toExitCode(pid_t child) {
     int status = 0;
     ::waitpid(child, &status, 0);
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
@@ -74,7 +74,7 @@ TEST_F(Watching, GradesAgainAtEverySaveUntilAllIsRight) {
     EXPECT_THAT(log(), HasSubstr("Not graded"));
     write(root() / "saved", kGood);
     fs::rename(root() / "saved", main());
-    EXPECT_EQ(exitCodeOf(child), 0);
+    EXPECT_EQ(toExitCode(child), 0);
     EXPECT_THAT(log(), HasSubstr("3 of 3 points"));
     EXPECT_EQ(log().find('\033'), std::string::npos) << "no colours and no keys in a file";
   }
@@ -105,7 +105,7 @@ TEST_F(Watching, RenewsItsPageAtEverySave) {
   Connection viewer(std::stoi(host.substr(host.find(':') + 1)));
   viewer.send("GET " + url.substr(7 + host.size()) + "frames HTTP/1.1\r\nHost: " + host + "\r\n\r\n");
   EXPECT_THAT(viewer.readUntil("Now passes: A quarter turn", 60000), HasSubstr("Now passes: A quarter turn"));
-  EXPECT_EQ(exitCodeOf(child), 0);
+  EXPECT_EQ(toExitCode(child), 0);
 }
 
 TEST_F(Watching, EndsWhenItIsAskedTo) {
@@ -114,7 +114,7 @@ TEST_F(Watching, EndsWhenItIsAskedTo) {
     const pid_t child = start();
     ASSERT_TRUE(waitUntil([&] { return hasGraded(1); })) << log();
     ::kill(child, signal);
-    EXPECT_EQ(exitCodeOf(child), 99);
+    EXPECT_EQ(toExitCode(child), 99);
   }
 }
 

@@ -16,15 +16,15 @@ using Names = std::set<std::string, std::less<>>;
 
 /// Line and column, from 1, of the only place outside comments, literals and the body of main() where a C++
 /// source names the function, by the last part of its qualified name; 0, 0 if there are none or several.
-[[nodiscard]] std::pair<int, int> onlyMentionOf(std::string_view function, const CppText& text);
+[[nodiscard]] std::pair<int, int> onlyMention(std::string_view function, const CppText& text);
 
 /// The line, from 1, on which a C++ source defines a macro of that name, also across spliced lines; 0 if it
 /// does not.
-[[nodiscard]] int macroDefinitionLineOf(std::string_view name, std::string_view source);
+[[nodiscard]] int macroDefinitionLine(std::string_view name, std::string_view source);
 
 /// The line, from 1, on which the definition of a function with that unqualified name begins; 0 if there is
 /// none.
-[[nodiscard]] int definitionLineOf(std::string_view function, const CppText& text);
+[[nodiscard]] int definitionLine(std::string_view function, const CppText& text);
 
 /// Line and column, from 1, of the first place outside comments and literals where a C++ source reads
 /// standard input with std::cin, stdin, scanf or getchar; 0, 0 if it does not.

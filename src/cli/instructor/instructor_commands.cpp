@@ -2,7 +2,7 @@
 
 namespace rex::cli {
 
-Room instructorRoom() {
+CommandSet instructorCommands() {
   return {.program = Program::kInstructor,
           .commands = {{"dev", addDev}, {"export", addExport}, {"grade", addGrade}, {"import", addImport}},
           .project = findProjectOfInstructor};

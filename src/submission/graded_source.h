@@ -11,7 +11,7 @@ namespace rex::submission {
 
 /// A declaration, a definition or a preprocessor line of a C++ file, at file scope or in an unnamed
 /// namespace. The first line and the last brace of such a namespace are pieces, too.
-struct FilePiece {
+struct CppPiece {
   std::size_t start = 0, end = 0;   ///< its characters, without comments before it
   std::size_t first = 0, last = 0;  ///< its first token, and the one after it
   /// The name of a plain function; empty for anything else, and if that is uncertain, as for a template.
@@ -22,13 +22,13 @@ struct FilePiece {
 };
 
 /// All pieces of a file, in order. Text that is not C++ gives meaningless pieces.
-[[nodiscard]] std::vector<FilePiece> filePieces(const CppText& text);
+[[nodiscard]] std::vector<CppPiece> cppPieces(const CppText& text);
 
 /// The graded part of a student's file: `functions` and everything they need. main() and what only main()
 /// needs, which takes as long to compile, is replaced by blanks and declarations, so that the rest keeps
 /// its lines, columns and behaviour. Empty if none of the functions exists, or if a removed function other
 /// than main() names one of `watched`. The result need not compile.
-[[nodiscard]] std::string gradedPart(std::string_view source, const std::vector<std::string>& functions,
-                                     const std::vector<std::string>& watched);
+[[nodiscard]] std::string gradedSource(std::string_view source, const std::vector<std::string>& functions,
+                                       const std::vector<std::string>& watched);
 
 }  // namespace rex::submission

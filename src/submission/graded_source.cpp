@@ -1,11 +1,11 @@
-#include "submission/graded_part.h"
+#include "submission/graded_source.h"
 
 #include <algorithm>
 #include <array>
 #include <map>
 #include <set>
 
-#include "submission/mentions.h"
+#include "submission/cpp_names.h"
 
 namespace rex::submission {
 namespace {
@@ -69,8 +69,8 @@ bool opensNamelessNamespace(const CppText& text, std::size_t i) {
   return text.isName(i) && text.at(i) == "namespace" && text.isSign(i + 1, '{');
 }
 
-FilePiece pieceAt(const CppText& text, std::size_t i) {
-  FilePiece piece{.start = text[i].start, .first = i};
+CppPiece pieceAt(const CppText& text, std::size_t i) {
+  CppPiece piece{.start = text[i].start, .first = i};
   piece.isDirective = text.isSign(i, '#');
   piece.last = piece.isDirective                 ? text.nextLine(i)
                : opensNamelessNamespace(text, i) ? i + 2
@@ -88,11 +88,11 @@ FilePiece pieceAt(const CppText& text, std::size_t i) {
 
 }  // namespace
 
-std::vector<FilePiece> filePieces(const CppText& text) {
-  std::vector<FilePiece> pieces;
+std::vector<CppPiece> cppPieces(const CppText& text) {
+  std::vector<CppPiece> pieces;
   int open = 0;  // unnamed namespaces
   for (std::size_t i = 0; i < text.size(); i = pieces.back().last) {
-    FilePiece piece = pieceAt(text, i);
+    CppPiece piece = pieceAt(text, i);
     const bool closes = piece.last == i + 1 && text.isSign(i, '}') && open > 0;
     if (closes) --open;
     piece.isInternal = open > 0;
@@ -105,7 +105,7 @@ std::vector<FilePiece> filePieces(const CppText& text) {
 namespace {
 
 struct NamedPiece {
-  FilePiece piece;
+  CppPiece piece;
   Names names;  // mentioned in it
   bool isFunction() const { return !piece.function.empty(); }
   bool isMain() const { return piece.function == "main"; }
@@ -114,7 +114,7 @@ struct NamedPiece {
 std::vector<NamedPiece> namedPieces(std::string_view source) {
   const CppText text(source);
   std::vector<NamedPiece> named;
-  for (FilePiece& piece : filePieces(text)) {
+  for (CppPiece& piece : cppPieces(text)) {
     Names names = namesIn(text, piece.first, piece.last);
     named.push_back({std::move(piece), std::move(names)});
   }
@@ -169,8 +169,8 @@ void leaveOut(std::string& text, const NamedPiece& function) {
 
 }  // namespace
 
-std::string gradedPart(std::string_view source, const std::vector<std::string>& functions,
-                       const std::vector<std::string>& watched) {
+std::string gradedSource(std::string_view source, const std::vector<std::string>& functions,
+                         const std::vector<std::string>& watched) {
   const std::vector<NamedPiece> pieces = namedPieces(source);
   // Types, constants, macros and templates may call functions, too.
   Names roots(functions.begin(), functions.end());

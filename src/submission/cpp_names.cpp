@@ -1,4 +1,4 @@
-#include "submission/mentions.h"
+#include "submission/cpp_names.h"
 
 #include <algorithm>
 #include <array>
@@ -45,7 +45,7 @@ std::pair<int, int> standardInputUse(const CppText& text) {
   return {0, 0};
 }
 
-int macroDefinitionLineOf(std::string_view name, std::string_view source) {
+int macroDefinitionLine(std::string_view name, std::string_view source) {
   const auto [joined, places] = spliced(source);
   const CppText text(joined);
   for (std::size_t i = 0; i + 1 < text.size(); ++i)
@@ -54,13 +54,13 @@ int macroDefinitionLineOf(std::string_view name, std::string_view source) {
   return 0;
 }
 
-int definitionLineOf(std::string_view function, const CppText& text) {
+int definitionLine(std::string_view function, const CppText& text) {
   for (std::size_t i = 0; i < text.size(); ++i)
     if (text.isName(i) && text.at(i) == function && opensBody(text, i + 1)) return placeOf(i, text).first;
   return 0;
 }
 
-std::pair<int, int> onlyMentionOf(std::string_view function, const CppText& text) {
+std::pair<int, int> onlyMention(std::string_view function, const CppText& text) {
   const std::size_t colons = function.rfind("::");
   const std::string_view word = colons == function.npos ? function : function.substr(colons + 2);
   std::size_t found = text.size();

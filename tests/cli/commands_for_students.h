@@ -16,12 +16,12 @@ inline Program programOf(std::string_view command) {
 
 /// The programs that students get. The one for instructors needs modules that these tests do without: see
 /// tests/commands.
-inline Room roomOfStudents(Program program) {
+inline CommandSet commandsForStudents(Program program) {
   switch (program) {
     case Program::kStudent:
-      return studentRoom();
+      return studentCommands();
     case Program::kRobot:
-      return robotRoom();
+      return robotCommands();
     case Program::kInstructor:
       break;
   }

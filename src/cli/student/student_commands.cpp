@@ -3,7 +3,7 @@
 
 namespace rex::cli {
 
-Room studentRoom() {
+CommandSet studentCommands() {
   return {.program = Program::kStudent,
           .commands = {{"debug", addDebug},
                        {"demo", addDemo},

@@ -24,7 +24,7 @@ std::vector<std::string> posturesFor(const Project& project, std::span<const std
 
 }  // namespace
 
-Room robotRoom() {
+CommandSet robotCommands() {
   return {.program = Program::kRobot,
           .commands = {{"doctor", addDoctor},
                        {"linear", addLinear},
