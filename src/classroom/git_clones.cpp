@@ -129,7 +129,7 @@ class CloneReader {
     seen_.insert(caseless(name));
     try {
       const Repository repository(clone);
-      const Recorded& recorded = recordOf(name);
+      const Recorded& recorded = recordedStudent(name);
       if (const std::optional<Commit> commit = choose(repository, recorded, received)) {
         received.commit = commit->id;
         addFiles(repository, *commit, received);
@@ -140,14 +140,14 @@ class CloneReader {
     found_.all.push_back(std::move(received));
   }
 
-  const Recorded& recordOf(const std::string& name) const {
+  const Recorded& recordedStudent(const std::string& name) const {
     static const Recorded kNothing;
     const auto found = record_.find(caseless(name));
     return found == record_.end() ? kNothing : found->second;
   }
 
   DownloadedSubmission submissionIn(const std::string& name) {
-    const Recorded& recorded = recordOf(name);
+    const Recorded& recorded = recordedStudent(name);
     DownloadedSubmission received{.people = recorded.people, .group = recorded.group, .place = name};
     if (received.people.empty()) {
       if (!record_.empty() && !record_.contains(caseless(name)))

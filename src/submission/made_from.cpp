@@ -12,21 +12,21 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string stampOf(const fs::path& file, fs::file_time_type changed) {
+std::string timeStamp(const fs::path& file, fs::file_time_type changed) {
   return fmt::format("{} {}", changed.time_since_epoch().count(), file.string());
 }
 
 }  // namespace
 
-fs::path recordOf(const fs::path& kept) { return kept.string() + ".made-from"; }
+fs::path recordFile(const fs::path& kept) { return kept.string() + ".made-from"; }
 
-std::string stampsOf(const std::vector<fs::path>& files, fs::file_time_type started) {
+std::string timeStamps(const std::vector<fs::path>& files, fs::file_time_type started) {
   std::string stamps;
   for (const fs::path& one : files) {
     std::error_code missing;
     const auto changed = fs::last_write_time(one, missing);
     if (missing || changed > started) return "";
-    stamps += stampOf(one, changed) + "\n";
+    stamps += timeStamp(one, changed) + "\n";
   }
   return stamps;
 }
@@ -37,7 +37,7 @@ bool haveStamps(std::string_view stamps) {
     const fs::path file = line.substr(line.find(' ') + 1);
     std::error_code missing;
     const auto changed = fs::last_write_time(file, missing);
-    return !missing && stampOf(file, changed) == line;
+    return !missing && timeStamp(file, changed) == line;
   });
 }
 

@@ -169,8 +169,8 @@ bool isCurrent(const fs::path& prefix, const std::vector<std::string>& flags) {
   if (missing || !fs::exists(ruleOf(prefix))) return false;
   const std::vector<fs::path> files = prerequisites(prefix);
   if (files.empty() || !isOfThisRex(files, flags)) return false;
-  const fs::path record = recordOf(precompiled(prefix));
-  return fs::exists(record) ? haveStamps(readTextFile(record)) : !stampsOf(files, made).empty();
+  const fs::path record = recordFile(precompiled(prefix));
+  return fs::exists(record) ? haveStamps(readTextFile(record)) : !timeStamps(files, made).empty();
 }
 
 }  // namespace
@@ -215,10 +215,10 @@ void makePrefix(const fs::path& prefix, const Toolchain& toolchain) {
                  .where = {toolchain.compiler},
                  .found = run.error.substr(0, run.error.find('\n')),
                  .wanted = "g++ in the version that rex was built with"});
-  fs::remove(recordOf(made));
+  fs::remove(recordFile(made));
   fs::rename(half, made);
-  const std::string stamps = stampsOf(prerequisites(prefix), started);
-  if (!stamps.empty()) replaceTextFile(recordOf(made), stamps, "what a header was made from");
+  const std::string stamps = timeStamps(prerequisites(prefix), started);
+  if (!stamps.empty()) replaceTextFile(recordFile(made), stamps, "what a header was made from");
 }
 
 namespace {

@@ -7,8 +7,10 @@
 #include <gtest/gtest.h>
 
 #include "base/process.h"
+#include "base/rng.h"
 #include "base/text_file.h"
 #include "submission/zip_file.h"
+#include "support/archive_samples.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
@@ -281,6 +283,98 @@ TEST_F(LeakScanTest, TakesHeadersForPublicButNotWithLinesOfTheSolution) {
         "// return 3.14159265 * square;\n");
   fs::copy_file(folder_.path() / "root/exercises/01-circle/exercise.h", tree() / "exercise.h");
   EXPECT_THAT(leaks(), ElementsAre(std::string("exercise.h:2: ") + kOfSolution));
+}
+
+std::string letters(std::string_view text, Comments comments = Comments::kKeep) {
+  return normalText(text, comments).letters;
+}
+
+TEST(NormalText, KnowsNoLayoutAndNoCase) {
+  for (const char* text : {"x = A * b;", "X=a*B;", "  x\t=\n\r\n A *\n b ;", "// x = A\n//   * b;",
+                           "/* x = A */ * /* b; */", "x = A \\\n * b;", "x =\\n A\\t * b;", "\x01x = A * b;"})
+    EXPECT_EQ(letters(text), "x=a*b;") << text;
+}
+
+TEST(NormalText, DropsCommentsWhereAsked) {
+  for (const char* text :
+       {"x = A /* why */ * b; // because", "// why\nx =\n// why\nA * b;", "x = A * b; /* open"})
+    EXPECT_EQ(letters(text, Comments::kDrop), "x=a*b;") << text;
+  EXPECT_EQ(letters("// only\n/**/", Comments::kDrop), "");
+  EXPECT_EQ(letters("a / b * c", Comments::kDrop), "a/b*c");
+}
+
+TEST(NormalText, ReadsEscapesEntitiesAndWideText) {
+  EXPECT_EQ(letters("if (a &lt; b &amp;&amp; c &gt; d) &quot;&#39;"), "if(a<b&&c>d)\"'");
+  EXPECT_EQ(letters("a &#60; b &#38;&#38; c &#62; d &#34;"), "a<b&&c>d\"") << "as htmlText() writes it";
+  EXPECT_EQ(letters(R"({"code": "say(\"hello\");\n"})"), R"({"code":"say("hello");"})");
+  EXPECT_EQ(letters(std::string_view("x\0 \0=\0A\0", 8)), "x=a");
+  EXPECT_EQ(letters("&lt"), "&lt");
+}
+
+TEST(NormalText, TellsTheLineOfEachLetter) {
+  const NormalText text = normalText("a\n/* b\nc */ d\\\ne\n", Comments::kDrop);
+  EXPECT_EQ(text.letters, "ade");
+  EXPECT_EQ(text.lines, (std::vector<int>{1, 3, 4}));
+  EXPECT_TRUE(normalText("", Comments::kKeep).letters.empty());
+}
+
+// Programs that share no code with us pack them.
+TEST(Unpack, ReadsWhatOthersPack) {
+  const TemporaryFolder folder;
+  writeTextFile(folder.path() / "a.txt", "the text\n");
+  const std::vector<std::pair<std::vector<std::string>, std::string>> ways = {
+      {{"tar", "cf", "p", "a.txt"}, "a.txt"},  {{"tar", "czf", "p", "a.txt"}, "a.txt"},
+      {{"tar", "cJf", "p", "a.txt"}, "a.txt"}, {{"tar", "cjf", "p", "a.txt"}, "a.txt"},
+      {{"sh", "-c", "gzip -c a.txt >p"}, ""},  {{"sh", "-c", "xz -c a.txt >p"}, ""},
+      {{"sh", "-c", "bzip2 -c a.txt >p"}, ""}};
+  int tried = 0;
+  for (const auto& [command, name] : ways) {
+    if (!runProcess(command, {.directory = folder.path()}).ok()) continue;
+    const std::string bytes = readTextFile(folder.path() / "p");
+    EXPECT_TRUE(isPacked(bytes)) << command.back();
+    const auto files = unpack(bytes, "p");
+    ASSERT_EQ(files.size(), 1u) << command.back();
+    EXPECT_EQ(files[0].name, name) << command.back();
+    EXPECT_EQ(files[0].bytes, "the text\n");
+    ++tried;
+  }
+  EXPECT_GE(tried, 2) << "tar is always there";
+}
+
+TEST(Unpack, ReadsZipFiles) {
+  const TemporaryFolder folder;
+  submission::writeZip(folder.path() / "a.zip", {{"b/c.txt", "one"}, {"d", ""}});
+  const std::string bytes = readTextFile(folder.path() / "a.zip");
+  EXPECT_TRUE(isPacked(bytes));
+  const auto files = unpack(bytes, "a.zip");
+  ASSERT_EQ(files.size(), 2u);
+  EXPECT_EQ(files[0].name, "b/c.txt");
+  EXPECT_EQ(files[0].bytes, "one");
+}
+
+TEST(Unpack, LeavesOtherFilesAlone) {
+  for (const char* text : {"", "text", "BZ", "PK and more",
+                           "\x7f"
+                           "ELF",
+                           "\x89PNG\r\n\x1a\n"})
+    EXPECT_FALSE(isPacked(text)) << text;
+}
+
+TEST(Unpack, RefusesWhatIsBroken) {
+  std::string bytes = zipOf({{.name = "a", .text = std::string(3000, 'x')}});
+  EXPECT_REX_ERROR(unpack(bytes.substr(0, 200), "a.zip"), "a.zip: cannot look into this archive: found ");
+  EXPECT_REX_ERROR(unpack("BZh nothing of that kind", "b"), "b: cannot look into this archive: found ");
+  Rng rng(3);
+  for (int k = 0; k < 200; ++k) {
+    std::string bad = bytes;
+    for (int n = 0; n < 5; ++n)
+      bad[static_cast<std::size_t>(rng.index(static_cast<int>(bad.size())))] =
+          static_cast<char>(rng.index(256));
+    try {
+      static_cast<void>(unpack(bad, "c"));
+    } catch (const Error&) {
+    }
+  }
 }
 
 }  // namespace rex::authoring::leak_scan_test

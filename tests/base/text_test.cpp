@@ -1,8 +1,13 @@
 #include "base/text.h"
 
+#include <array>
 #include <cstdint>
 #include <cstdlib>
+#include <set>
+#include <span>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -104,6 +109,32 @@ TEST(Text, MayBeANumeralThatIsNoFiniteNumber) {
 TEST(Text, HoldsBytesAsDigits) {
   EXPECT_EQ(bytesOfHex("00ff7F"), std::string("\0\xff\x7f", 3));
   EXPECT_EQ(bytesOfHex(""), "");
+}
+
+TEST(Join, PutsTextBetweenNeighboursOnly) {
+  using Texts = std::vector<std::string>;
+  EXPECT_EQ(join(Texts{}, ", "), "");
+  EXPECT_EQ(join(Texts{"a"}, ", "), "a");
+  EXPECT_EQ(join(Texts{"a", "", "c"}, ", "), "a, , c");
+}
+
+TEST(Join, TakesAllKindsOfTexts) {
+  const std::vector<std::string> texts{"one", "two", "three"};
+  EXPECT_EQ(join(std::span(texts).first(2), " and "), "one and two");
+  EXPECT_EQ(join(std::set<std::string>{"b", "a"}, ""), "ab");
+  EXPECT_EQ(join(std::array{"x", "y"}, "; "), "x; y");
+  EXPECT_EQ(join(std::vector<std::string_view>{"x", "y"}, "\n"), "x\ny");
+}
+
+TEST(LowerCase, ChangesTheCapitalsOfTheAlphabetOnly) {
+  EXPECT_EQ(lowerCase("AbcXYZ[@`{ 09 \xc3\x84"), "abcxyz[@`{ 09 \xc3\x84");
+  EXPECT_EQ(lowerCase(""), "");
+}
+
+TEST(EndingOf, HasItsPointAndSmallLetters) {
+  EXPECT_EQ(endingOf("a/b.tar.GZ"), ".gz");
+  EXPECT_EQ(endingOf("a.b/Arm.URDF"), ".urdf");
+  for (const char* none : {"", "arm", "a.b/arm", ".ors", "a/..", "."}) EXPECT_EQ(endingOf(none), "") << none;
 }
 
 }  // namespace rex::text_test

@@ -137,12 +137,12 @@ void listResults(const fs::path& folder, fs::file_time_type since) {
 // none if a file changed while it was compiled.
 void keep(const OwnProgram& built, const fs::path& kept, fs::file_time_type started) {
   fs::create_directories(kept.parent_path());
-  const fs::path record = submission::recordOf(kept);
+  const fs::path record = submission::recordFile(kept);
   fs::remove(record);
   const fs::path half = fmt::format("{}.{}", kept.string(), ::getpid());
   fs::copy_file(built.program, half, fs::copy_options::overwrite_existing);
   fs::rename(half, kept);
-  const std::string stamps = submission::stampsOf(built.madeFrom, started);
+  const std::string stamps = submission::timeStamps(built.madeFrom, started);
   if (stamps.empty()) return;
   replaceTextFile(record, join(built.targets, "\n") + "\n\n" + stamps, "what a program was made from");
 }
@@ -150,8 +150,8 @@ void keep(const OwnProgram& built, const fs::path& kept, fs::file_time_type star
 // Whether a compiler would make the kept program again. The libraries are shared: they are brought up to date
 // like those of a new one.
 bool isCurrent(const Project& project, const fs::path& kept, const std::string& name) {
-  if (!fs::exists(kept) || !fs::exists(submission::recordOf(kept))) return false;
-  const std::string record = readTextFile(submission::recordOf(kept));
+  if (!fs::exists(kept) || !fs::exists(submission::recordFile(kept))) return false;
+  const std::string record = readTextFile(submission::recordFile(kept));
   const std::size_t gap = record.find("\n\n");
   if (gap == record.npos || !submission::haveStamps(std::string_view(record).substr(gap + 2))) return false;
   std::vector<std::string> targets;

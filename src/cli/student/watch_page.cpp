@@ -211,7 +211,7 @@ void offerFiles(LiveServer& server, const std::vector<WatchFile>& files) {
 }
 
 // Changes when a file of the folder does.
-std::string stampOf(const fs::path& folder) {
+std::string timeStamp(const fs::path& folder) {
   std::string stamp;
   std::error_code problem;
   for (const auto& entry : fs::directory_iterator(folder, problem))
@@ -300,7 +300,7 @@ void WatchPage::serve(const std::stop_token& stop) {
 }
 
 void WatchPage::renewWhatChanged() {
-  std::string stamp = stampOf(folder_) + stampOf(project_.root / ".rex");
+  std::string stamp = timeStamp(folder_) + timeStamp(project_.root / ".rex");
   if (stamp == stamp_) return;
   stamp_ = std::move(stamp);
   const std::lock_guard lock(mutex_);

@@ -1,13 +1,14 @@
+#include "classroom/download.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "base/text_file.h"
-#include "classroom/download.h"
 #include "support/archive_samples.h"
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
-namespace rex::classroom::download_layout_test {
+namespace rex::classroom::download_test {
 
 using ::testing::HasSubstr;
 
@@ -122,4 +123,4 @@ TEST(Platforms, HaveTheNamesOfTheirCommands) {
   EXPECT_EQ(toString(Platform::kFolders), "folders");
 }
 
-}  // namespace rex::classroom::download_layout_test
+}  // namespace rex::classroom::download_test

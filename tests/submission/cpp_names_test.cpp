@@ -1,8 +1,8 @@
-#include <gtest/gtest.h>
-
 #include "submission/cpp_names.h"
 
-namespace rex::submission::mentions_test {
+#include <gtest/gtest.h>
+
+namespace rex::submission::cpp_names_test {
 
 using Place = std::pair<int, int>;
 constexpr Place kNowhere{0, 0};
@@ -83,4 +83,4 @@ TEST(MacroDefinition, IsFoundHoweverItIsWritten) {
     EXPECT_EQ(macroDefinitionLine("rex", source), 0) << source;
 }
 
-}  // namespace rex::submission::mentions_test
+}  // namespace rex::submission::cpp_names_test

@@ -1,12 +1,13 @@
+#include "authoring/gates.h"
+
 #include <fstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "authoring/gates.h"
 #include "support/temporary_folder.h"
 
-namespace rex::authoring::named_symbols_test {
+namespace rex::authoring::gates_test {
 
 namespace fs = std::filesystem;
 using ::testing::ElementsAre;
@@ -70,4 +71,4 @@ TEST_F(DeadNamesTest, FindForbiddenFunctionsThatTheLibraryDoesNotHave) {
   EXPECT_THAT(places_[0].nearest, ElementsAre("jacobianPos"));
 }
 
-}  // namespace rex::authoring::named_symbols_test
+}  // namespace rex::authoring::gates_test

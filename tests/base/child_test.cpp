@@ -1,3 +1,5 @@
+#include "base/child.h"
+
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
@@ -9,10 +11,9 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "base/child.h"
 #include "support/expect_error.h"
 
-namespace rex::pipe_test {
+namespace rex::child_test {
 
 TEST(Pipe, CarriesBytesAndEndsWhenItsWriterCloses) {
   Pipe pipe;
@@ -85,4 +86,4 @@ TEST(SigpipeIgnored, HoldsForItsThreadWhateverOthersDo) {
   writer.join();
 }
 
-}  // namespace rex::pipe_test
+}  // namespace rex::child_test

@@ -1,14 +1,15 @@
 // Pictures and files of motions.
+#include "cli/robot/motion_files.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cli/robot/motion_files.h"
 #include "formats/ors_reader.h"
 #include "kinematics/forward_kinematics.h"
 #include "support/expect_error.h"
 #include "support/paths.h"
 
-namespace rex::cli::motion_results_test {
+namespace rex::cli::motion_files_test {
 
 using Eigen::Vector3d;
 using ::testing::HasSubstr;
@@ -84,4 +85,4 @@ TEST(ResultFolder, IsNotCalledLikeAFile) {
   EXPECT_REX_ERROR(makeResultFolder("a.csv", {"b.csv"}, "frames"), "-o a.csv: found the name of a file");
 }
 
-}  // namespace rex::cli::motion_results_test
+}  // namespace rex::cli::motion_files_test

@@ -1,4 +1,6 @@
 // Runs the sample's grader program on good and bad workers, as the desk will.
+#include "grading/grader_main.h"
+
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -11,11 +13,10 @@
 
 #include "base/exit_code.h"
 #include "base/process.h"
-#include "grading/grader_main.h"
 #include "grading/results.h"
 #include "support/paths.h"
 
-namespace rex::grading::grader_test {
+namespace rex::grading::grader_main_test {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
@@ -290,4 +291,4 @@ TEST_F(Grader, ListsItsChecks) {
                                                "title": "One step reaches unseen targets"})"));
 }
 
-}  // namespace rex::grading::grader_test
+}  // namespace rex::grading::grader_main_test

@@ -1,3 +1,5 @@
+#include "cli/student/progress.h"
+
 #include <chrono>
 #include <csignal>
 #include <fstream>
@@ -9,11 +11,10 @@
 #include <unistd.h>
 
 #include "base/rng.h"
-#include "cli/student/progress.h"
 #include "support/file_text.h"
 #include "support/temporary_folder.h"
 
-namespace rex::cli::progress_file_test {
+namespace rex::cli::progress_test {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
@@ -130,4 +131,4 @@ TEST_F(ProgressFileTest, LosesNothingOfTwoProgramsAtOnce) {
   for (int k = 0; k < kPrograms; ++k) EXPECT_EQ(hints.at("part" + std::to_string(k)), kTimes);
 }
 
-}  // namespace rex::cli::progress_file_test
+}  // namespace rex::cli::progress_test

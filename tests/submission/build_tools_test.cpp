@@ -1,11 +1,11 @@
 // What compilers and linkers of GNU say when they fail, word by word.
+#include "submission/build_tools.h"
+
 #include <csignal>
 
 #include <gtest/gtest.h>
 
-#include "submission/build_tools.h"
-
-namespace rex::submission::tool_failure_test {
+namespace rex::submission::build_tools_test {
 
 ProcessResult ended(const std::string& error, int exitCode = 1) {
   return {.started = true, .exitCode = exitCode, .output = {}, .error = error};
@@ -46,4 +46,4 @@ TEST(ToolFailure, QuotesWhatTellsMost) {
             "ld: final link failed: No space left on device");
 }
 
-}  // namespace rex::submission::tool_failure_test
+}  // namespace rex::submission::build_tools_test

@@ -1,10 +1,11 @@
+#include "cli/student/watch_page.h"
+
 #include <gmock/gmock.h>
 
 #include "base/text_file.h"
-#include "cli/student/watch_page.h"
 #include "support/temporary_folder.h"
 
-namespace rex::cli::watch_parts_test {
+namespace rex::cli::watch_page_test {
 
 using grading::CheckResult;
 using grading::GradeResult;
@@ -93,4 +94,4 @@ TEST(WatchParts, LeadToLinesInAnEditor) {
   EXPECT_THAT(source, HasSubstr("warning: unused &#60;x&#62;"));
 }
 
-}  // namespace rex::cli::watch_parts_test
+}  // namespace rex::cli::watch_page_test

@@ -1,3 +1,5 @@
+#include "classroom/submission_folder.h"
+
 #include <atomic>
 #include <cstdio>
 #include <fstream>
@@ -11,13 +13,12 @@
 #include <sys/stat.h>
 
 #include "base/text_file.h"
-#include "classroom/submission_folder.h"
 #include "support/archive_samples.h"
 #include "support/expect_error.h"
 #include "support/paths.h"
 #include "support/temporary_folder.h"
 
-namespace rex::classroom::hand_in_test {
+namespace rex::classroom::submission_folder_test {
 
 namespace fs = std::filesystem;
 using ::testing::ElementsAre;
@@ -343,4 +344,4 @@ TEST_F(HandInTest, ComplainsOfALinkInTheFilesPlace) {
   EXPECT_THAT(namesOf(read()), ElementsAre("good 01-kinematics", "zoe 02-control"));
 }
 
-}  // namespace rex::classroom::hand_in_test
+}  // namespace rex::classroom::submission_folder_test

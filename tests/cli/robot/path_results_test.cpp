@@ -1,4 +1,6 @@
 // What is made of a path that was found: its motion with times, a summary, pictures and plots.
+#include "cli/robot/path_results.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -7,7 +9,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cli/robot/path_results.h"
 #include "cli/robot/path_search.h"
 #include "collision/contacts.h"
 #include "formats/ors_reader.h"
@@ -18,7 +19,7 @@
 #include "support/paths.h"
 #include "support/temporary_folder.h"
 
-namespace rex::cli::found_path_test {
+namespace rex::cli::path_results_test {
 
 using Eigen::Vector3d;
 using ::testing::HasSubstr;
@@ -300,4 +301,4 @@ TEST_F(Summary, TellsOfSeveralInATable) {
   EXPECT_THAT(none, Not(HasSubstr("shortest")));
 }
 
-}  // namespace rex::cli::found_path_test
+}  // namespace rex::cli::path_results_test

@@ -1,15 +1,16 @@
+#include "classroom/gradebook_text.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "base/text_file.h"
-#include "classroom/gradebook_text.h"
 #include "support/class_results.h"
 #include "support/expect_error.h"
 #include "support/file_text.h"
 #include "support/temporary_folder.h"
 
-namespace rex::classroom::class_feedback_test {
+namespace rex::classroom::gradebook_text_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -125,4 +126,4 @@ TEST_F(ClassFeedbackTest, GivesAllGradesToPrograms) {
   EXPECT_EQ(json.at("exercises")[0].at("weight"), 1);
 }
 
-}  // namespace rex::classroom::class_feedback_test
+}  // namespace rex::classroom::gradebook_text_test

@@ -1,14 +1,15 @@
+#include "submission/sanitizer_rerun.h"
+
 #include <fstream>
 
 #include <gtest/gtest.h>
 
 #include "base/process.h"
 #include "grading/worker_failure.h"
-#include "submission/sanitizer_rerun.h"
 #include "support/file_text.h"
 #include "support/temporary_folder.h"
 
-namespace rex::submission::second_look_test {
+namespace rex::submission::sanitizer_rerun_test {
 
 // A report as the sanitizer of addresses writes it, shortened.
 constexpr const char* kOverflow = R"(I print, too.
@@ -169,4 +170,4 @@ TEST_F(SanitizedToolchain, SharesVectorsWithALibraryThatKnowsNothingOfIt) {
   EXPECT_TRUE(run.ok()) << run.error;
 }
 
-}  // namespace rex::submission::second_look_test
+}  // namespace rex::submission::sanitizer_rerun_test

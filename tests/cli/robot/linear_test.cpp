@@ -12,7 +12,7 @@
 #include "support/needs_gnuplot.h"
 #include "support/paths.h"
 
-namespace rex::cli::linear_systems_test {
+namespace rex::cli::linear_test {
 
 using nlohmann::json;
 using ::testing::HasSubstr;
@@ -213,4 +213,4 @@ TEST_F(LinearCommand, RefusesWhatIsNoSystem) {
               HasSubstr("--output: found 0, wanted 1 to "));
 }
 
-}  // namespace rex::cli::linear_systems_test
+}  // namespace rex::cli::linear_test

@@ -1,3 +1,5 @@
+#include "submission/included_files.h"
+
 #include <sstream>
 
 #include <gmock/gmock.h>
@@ -6,10 +8,9 @@
 #include "base/process.h"
 #include "base/rng.h"
 #include "base/text_file.h"
-#include "submission/included_files.h"
 #include "support/temporary_folder.h"
 
-namespace rex::submission::line_markers_test {
+namespace rex::submission::included_files_test {
 
 int countIn(const std::string& source) { return static_cast<int>(lineMarkers(source, "main.cpp").size()); }
 
@@ -97,4 +98,4 @@ TEST(LineMarkers, MissesNothingThatTheCompilerObeys) {
   EXPECT_GT(obeyed, 5);
 }
 
-}  // namespace rex::submission::line_markers_test
+}  // namespace rex::submission::included_files_test
