@@ -124,7 +124,6 @@ TEST(SinCos, AgreesWithTheLibrary) {
 }
 
 TEST(SinCos, KeepsNoNumbersForNoAngle) {
-  using Limits = std::numeric_limits<double>;
   const SinesAndCosines got = compute({Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity(), 0.}, 1);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_TRUE(std::isnan(got.sines[i]));

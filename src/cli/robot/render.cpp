@@ -49,7 +49,7 @@ void writeStill(const MotionPictures& pictures, const RenderPlan& plan, const fs
   std::vector<KeyFrame> drawn;
   for (std::size_t i = 0; i < pictures.size(); ++i)
     drawn.push_back({studio.draw(pictures.picture(i)), fmt::format("{:.2f} s", pictures.time(i))});
-  const Image whole = drawn.size() == 1 ? drawn.front().image : contactSheet(drawn);
+  const Image whole = drawn.size() == 1 ? drawn.front().image : captionedSheet(drawn);
   studio.requireSomethingSeen();
   throwIfInterrupted();
   writePng(whole, out);

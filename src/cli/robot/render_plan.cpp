@@ -125,7 +125,7 @@ Image Studio::draw(const Picture& picture, double angle) {
     const Camera camera = view.camera(scene_, aspect);
     seen.push_back({drawFrom(picture, turnedCamera(camera, view.target(scene_), angle)), name});
   }
-  return seen.size() == 1 ? seen.front().image : contactSheet(seen);
+  return seen.size() == 1 ? seen.front().image : captionedSheet(seen);
 }
 
 Image Studio::drawFrom(const Picture& picture, const Camera& camera) {
@@ -149,7 +149,7 @@ void Studio::requireSomethingSeen() const {
         {.what = "--camera", .found = "nothing of the scene in view", .wanted = "a view of the scene"});
 }
 
-Image contactSheet(const std::vector<KeyFrame>& pictures) {
+Image captionedSheet(const std::vector<KeyFrame>& pictures) {
   constexpr int kNarrowest = 16;  // the least that a sheet accepts; it never widens a picture
   return contactSheet(pictures, {.pictureWidth = std::max(pictures.front().image.width, kNarrowest)});
 }

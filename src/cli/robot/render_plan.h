@@ -127,7 +127,7 @@ class Studio {
 };
 
 /// The pictures (at least one) in rows of three with their captions, at full size.
-[[nodiscard]] Image contactSheet(const std::vector<KeyFrame>& pictures);
+[[nodiscard]] Image captionedSheet(const std::vector<KeyFrame>& pictures);
 
 /// The box that contains `scene` for any rotation about the vertical through its centre.
 [[nodiscard]] Bounds turningBox(const Bounds& scene);

@@ -322,7 +322,7 @@ ExitCode simulateScene(const Project& project, const SimulateOptions& options) {
     requireFolderName(options.out, "a folder, which gets simulate.mp4, or a page NAME.html");
   RenderOptions filmOptions = options.film;
   filmOptions.out = isPage(options) ? options.out : options.out / "simulate.mp4";
-  const RenderPlan film = planOf(filmOptions, facing);
+  const RenderPlan film = makeRenderPlan(filmOptions, facing);
   const Model model = modelOf(project, options);
   if (isPage(options) && options.noFilm)
     throw UsageError(

@@ -141,8 +141,8 @@ TEST(Studio, TurnsAllCameras) {
         .draw(picture, angle);
   };
   const Image both = drawn({"front", "left"}, std::numbers::pi / 2);
-  EXPECT_EQ(both, contactSheet({{drawn({"front"}, std::numbers::pi / 2), "front (from -y)"},
-                                {drawn({"left"}, std::numbers::pi / 2), "left (from +x)"}}));
+  EXPECT_EQ(both, captionedSheet({{drawn({"front"}, std::numbers::pi / 2), "front (from -y)"},
+                                  {drawn({"left"}, std::numbers::pi / 2), "left (from +x)"}}));
   EXPECT_NE(both, drawn({"front", "left"}, 0));
 }
 
@@ -158,8 +158,8 @@ TEST(Studio, SaysWhatItLooksFrom) {
 }
 
 TEST(Studio, ShrinksNothingOnASheet) {
-  EXPECT_GE(contactSheet({{Image(900, 30), "wide"}, {Image(900, 30), "too"}}).width, 1800);
-  EXPECT_GE(contactSheet({{Image(5, 5), "tiny"}}).width, 5);
+  EXPECT_GE(captionedSheet({{Image(900, 30), "wide"}, {Image(900, 30), "too"}}).width, 1800);
+  EXPECT_GE(captionedSheet({{Image(5, 5), "tiny"}}).width, 5);
 }
 
 TEST(TurningBox, HoldsTheSceneHoweverItIsTurned) {
