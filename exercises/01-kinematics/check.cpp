@@ -80,7 +80,7 @@ void checkJacobianOf(Check& check, Student& student, const TestedMap& tested,
   check.shape("y of " + function, value.y, value.y.size(), 1);
   check.shape("J of " + function, value.J, value.y.size(), S.getJointDimension());
   const Eigen::VectorXd posture = S.getJointAngles();
-  const Eigen::MatrixXd numeric = grading::differencesOf(
+  const Eigen::MatrixXd numeric = grading::finiteDifferences(
       valuesOf(check, tested, grading::placesOfDifferences(posture), value.y), posture);
   check.atLeast("largest derivative of y of " + function + " by a joint angle", numeric.cwiseAbs().maxCoeff(),
                 kNotZero);
@@ -111,7 +111,7 @@ void checkIsOfTheTask(Check& check, Student& student, const TestedMap& tested) {
   const std::vector<Eigen::VectorXd> values = valuesOf(check, tested, postures, y);
   const Eigen::VectorXd beside = values[1].cwiseAbs();
   const Eigen::VectorXd change =
-      grading::differencesOf(std::span(values).subspan(1), q + way).cwiseAbs() * way.cwiseAbs();
+      grading::finiteDifferences(std::span(values).subspan(1), q + way).cwiseAbs() * way.cwiseAbs();
   const Eigen::VectorXd most = (kZero + 10 * change.array().min(kMostDerivative * way.lpNorm<1>())).matrix();
   Eigen::Index worst = 0;
   (beside - most).maxCoeff(&worst);
