@@ -337,9 +337,9 @@ void goesThrough(Check& check, Student& student, const Eigen::VectorXd& start, c
   const double reach = (points.colwise() - start).cwiseAbs().maxCoeff();
   const Signal motion = configurations(got), best = configurations(wanted);
   const auto seen = [&](int t) {
-    return grading::Evidence{
-        .figures = {grading::figureOf("Configurations of throughPoints", motion, best.values,
-                                      Eigen::VectorXd::Zero(start.size()), static_cast<std::size_t>(t), "")}};
+    return grading::Evidence{.figures = {grading::signalFigure(
+                                 "Configurations of throughPoints", motion, best.values,
+                                 Eigen::VectorXd::Zero(start.size()), static_cast<std::size_t>(t), "")}};
   };
   for (std::size_t k = 0; k < when.size(); ++k) {
     const auto shown = check.show([&] { return seen(when[k]); });
