@@ -1,40 +1,17 @@
 #include "dynamics/forward_dynamics.h"
 
-#include <cmath>
-
 #include "base/cpu_lanes.h"
 #include "base/error.h"
 #include "dynamics/equations_of_motion.h"
 #include "dynamics/kernel_room_internal.h"
 #include "dynamics/kernels_internal.h"
+#include "dynamics/mass_factor_internal.h"
 #include "dynamics/requirements_internal.h"
-#include "scene/state.h"
 
 namespace rex {
 namespace {
 
 constexpr int kRegular = internal::ForwardDynamicsKernel::kRegular;
-
-// Solves M x = b by L^T L = M, overwriting both; only the lower half of M is read. It runs from the last
-// joint to the first, like the articulated-body algorithm, and so finds the joint that itself moves no mass:
-// returns its freedom if there is one, else kRegular.
-int solveFromLast(Eigen::MatrixXd& M, Eigen::Ref<Eigen::VectorXd> b) {
-  const Eigen::Index n = M.cols();
-  const auto below = [&](Eigen::Index k) { return M.col(k).tail(n - 1 - k); };
-  for (Eigen::Index k = n - 1; k >= 0; --k) {
-    const auto column = below(k);
-    const double left = M(k, k) - column.squaredNorm();
-    if (left <= internal::ForwardDynamicsKernel::kLeastShare * M(k, k)) return static_cast<int>(k);
-    M(k, k) = std::sqrt(left);
-    for (Eigen::Index i = 0; i < k; ++i) M(k, i) = (M(k, i) - column.dot(M.col(i).tail(n - 1 - k))) / M(k, k);
-    b[k] = (b[k] - column.dot(b.tail(n - 1 - k))) / M(k, k);
-  }
-  for (Eigen::Index k = 0; k < n; ++k) {
-    b[k] /= M(k, k);
-    b.tail(n - 1 - k) -= b[k] * below(k);
-  }
-  return kRegular;
-}
 
 void byMassMatrix(const Model& model, const VectorArg& q, const VectorArg& v, const VectorArg& u,
                   const Eigen::Vector3d& gravity_W, DynamicsWorkspace& workspace,
@@ -44,8 +21,8 @@ void byMassMatrix(const Model& model, const VectorArg& q, const VectorArg& v, co
   massMatrix(model, q, workspace, workspace.M);
   biasForces(model, q, v, gravity_W, workspace, workspace.F);
   workspace.F = u - workspace.F;
-  const int freedom = solveFromLast(workspace.M, workspace.F);
-  if (freedom != kRegular) internal::throwSingular(model, jointOfVelocity(model, freedom));
+  internal::factorFromLast(model, workspace.M);
+  internal::solveFromLast(workspace.M, workspace.F);
   a = workspace.F;
 }
 

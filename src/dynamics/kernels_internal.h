@@ -46,4 +46,17 @@ struct MassMatrixKernel {
   static MassMatrixKernel compiled();
 };
 
+/// The derivatives of inverse dynamics at one state in plain numbers: results are those by q, v and a, each
+/// nv x nv by columns.
+struct DerivativesKernel {
+  void (*one)(const DynamicsTask& task);
+  int numbersPerLink, numbersPerFreedom;  ///< of memory; see roomFor()
+  /// Overwrites B by the solution of L^T L X = B, n rows of `stride` numbers, a multiple of four. L has n
+  /// columns, of which only the lower half is read; zeros, of which trees have many, cost nothing.
+  void (*solve)(const double* L, double* B, int n, int stride);
+
+  template <int kLanes>
+  static DerivativesKernel compiled();
+};
+
 }  // namespace rex::internal
