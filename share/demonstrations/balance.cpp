@@ -1,6 +1,10 @@
 // Chapter 11: Static walking. A humanoid shifts its centre of mass over one foot before it lifts the other:
 // it may stop at any time without falling. After each step the other foot becomes the root of its joints.
 // Sliders change the steps and how far it leans.
+// Slides: 11:7, 2:61
+// Formula: the centre of mass projected onto the floor is inside the support polygon
+// Try: A humanoid walks statically: its centre of mass (blue) stays inside the support polygon (green). Set
+// "lean" to 0.3.
 #include "course/car_view.h"
 #include "course/course.h"
 #include "course/live_view.h"

@@ -1,6 +1,10 @@
 // Chapter 6: Bandits. Three rules choose among five arms that pay with probabilities nobody tells them; bars
 // show how often each arm was pulled. Epsilon-greedy goes on losing, the others lose less and less. Sliders
 // set how much better the best arm is, and epsilon.
+// Slides: 6:22
+// Formula: UCB pulls argmax_a (mean_a + sqrt(2 ln n / n_a))
+// Try: Epsilon-greedy keeps losing; the losses of UCB and Thompson sampling level off. Lower "best arm
+// better by".
 #include "learning/bandits.h"
 
 #include "course/car_view.h"

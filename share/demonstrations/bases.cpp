@@ -1,6 +1,10 @@
 // Chapter 7: System equations of mobile bases. Five bases get the same command, speeds ahead and to the left
 // and a turning rate, and each follows what it can; grey is what was asked for. Dots are runs with the noise
 // of the model, green ellipses what a Kalman filter predicts. Drive them with the sliders.
+// Slides: 7:5, 7:6
+// Formula: x' = f(x, u); a car: (v cos θ, v sin θ, v tan φ / L)
+// Try: Five bases follow the same command as far as they can. The samples bend around the ellipse of a
+// Kalman filter. With "speed ahead" 0 and "speed to the left" 1, only the omnidirectional base follows.
 #include "course/car_view.h"
 #include "course/course.h"
 #include "course/live_view.h"

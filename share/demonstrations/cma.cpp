@@ -2,6 +2,9 @@
 // ellipse (two deviations) that adapts to them; it stretches along the valley. Sliders change samples and
 // first deviation. A table counts the evaluations that it needs for test functions in ten dimensions; where
 // there are many local minima, larger populations and restarts help.
+// Slides: 9:30, 9:31
+// Formula: x_i ~ N(m, σ² C); m ← Σ w_i x_i over the better half; σ and C from the paths of m
+// Try: The ellipse of samples stretches along a valley and finds its end. With 4 samples it wanders.
 #include <cstdio>
 
 #include "course/car_view.h"

@@ -1,6 +1,10 @@
 // Chapter 4: The shortest curves of a car. Dubins' car (blue) drives forward only, that of Reeds and Shepp
 // (orange) also backward. Drag the goal; its heading turns. Lengths jump where another word of left, straight
 // and right becomes the shortest one.
+// Slides: 4:61
+// Formula: words of left, straight and right with curvature 1/r: LSL, RSR, LSR, RSL, RLR, LRL
+// Try: Shortest curves of a car: Dubins only forward, Reeds-Shepp also backward. Drag the goal close to the
+// car.
 #include <cstdio>
 
 #include "course/car_pictures.h"

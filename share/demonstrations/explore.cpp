@@ -1,6 +1,10 @@
 // Chapter 9: Exploring. A river pays a little at its source and much at its mouth, where the current makes it
 // hard to get to. Bars show how often three learners swam left (dark) or right in each state. Q-learning
 // explores by chance, R-max with a plan, posterior sampling where it believes differently from draw to draw.
+// Slides: 9:6 to 9:8, 6:22
+// Formula: Q(s, a) ← Q + α (r + γ max_a' Q(s', a') - Q); R-max: r = r_max where (s, a) is little known
+// Try: Three learners in a river that pays at its far end: Q-learning stays near, R-max and posterior
+// sampling find it. Raise "states" to 10.
 #include "course/car_view.h"
 #include "course/course.h"
 #include "course/live_view.h"

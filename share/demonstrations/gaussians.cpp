@@ -1,6 +1,9 @@
 // Chapter 6: Gaussians and particles as beliefs. Prior (blue) times likelihood (orange) is the posterior
 // (green); particles of the prior get weights, shown as size. Sliders set both; with few particles in the
 // overlap, few count.
+// Slides: 6:28, 6:30, 6:31
+// Formula: N(x|a, A) N(x|b, B) ~ N(x|c, C) with C = (A⁻¹ + B⁻¹)⁻¹, c = C (A⁻¹ a + B⁻¹ b)
+// Try: Prior times likelihood is the posterior. Narrow the likelihood: few particles keep weight.
 #include "course/car_view.h"
 #include "course/course.h"
 #include "course/live_view.h"

@@ -1,6 +1,10 @@
 // Chapter 10: Force closure. Fingers move on a disc (left); the hull of their wrenches (right: forces x and
 // y, torque upward) turns from orange to blue when it holds zero inside, with the largest ball in it. The
 // mouse moves the fingers.
+// Slides: 10:9
+// Formula: 0 inside conv{w_i}, w = (f, (p - c) × f), f on the edges of the friction cones
+// Try: Drag the fingers and watch whether the hull of wrenches contains the origin. Without "friction" it
+// never does.
 #include "course/car_view.h"
 #include "course/course.h"
 #include "course/live_view.h"

@@ -1,6 +1,10 @@
 // Chapter 11: Raibert's hopper. One leg, three controllers: thrust for the height, position of the foot for
 // the speed, the hip's torque for the attitude. Sliders ask for height and speed; switch a controller off by
 // setting its gain to zero.
+// Slides: 11:4
+// Formula: x_foot = x' T_s / 2 + k (x' - x'*)
+// Try: One leg, three controllers. Change "speed" and press "tilt". Set "position of the foot" or "hip
+// damping" to zero: it hardly moves, or rocks.
 #include "course/car_view.h"
 #include "course/course.h"
 #include "course/live_view.h"

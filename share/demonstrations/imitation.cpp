@@ -1,6 +1,10 @@
 // Chapter 9: Imitation. Demonstrations (grey) pass an obstacle on the left or on the right. A clone that
 // averages them drives into it; a mixture keeps both ways. DAgger asks an expert, who passes on the left,
 // wherever its clone gets to, and so learns to come back when gusts push it. Sliders set what is shown.
+// Slides: 9:9 to 9:11
+// Formula: min_β Σ (u_t - β φ(x_t))² over the states of the teacher, or, as in DAgger, of the pupil
+// Try: The mean of demonstrations on both sides hits the obstacle; "next clone" shows a mixture and DAgger.
+// With demonstrations on one side without noise, only DAgger avoids the obstacle in every run.
 #include "course/car_view.h"
 #include "course/course.h"
 #include "course/live_view.h"

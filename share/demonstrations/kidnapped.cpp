@@ -1,6 +1,10 @@
 // Chapter 7: A kidnapped robot. A particle filter (dots) and a Kalman filter (pale car, ellipse) follow a car
 // among landmarks; at 3 s somebody puts it elsewhere. Few particles that start anywhere find it at once;
 // without them the others creep after it. Sliders say how many.
+// Slides: 7:22, 7:25
+// Formula: w_i ~ P(y|x_i); a share of the x_i is drawn from anywhere
+// Try: At 3 s the car is moved; particles from anywhere find it. Set "share from anywhere" to zero and
+// press "kidnap".
 #include "course/car_pictures.h"
 #include "course/car_simulator.h"
 #include "course/course.h"

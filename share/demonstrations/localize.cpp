@@ -2,6 +2,10 @@
 // Particles that its scans weigh find it; half way somebody carries it elsewhere. Drawing a tenth of the
 // particles from the scan alone finds it again, without them it stays lost for long. Each run prints when the
 // mean was within half a metre for good.
+// Slides: 7:22, 7:25
+// Formula: w_i ~ P(y|x_i) P(x_i|u) / q(x_i) with a proposal q that knows the scan
+// Try: Particles find the robot in an office, also after a kidnapping. Press "draw from scans or not": it
+// stays lost, or is found late.
 #include <cstdio>
 #include <numbers>
 

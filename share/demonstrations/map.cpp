@@ -2,6 +2,10 @@
 // path and the map which that path draws; shown is the likeliest, beside the way by odometry alone (orange).
 // Without matching scans to their maps, particles have to guess, and walls double. Each walk prints how true
 // map and path became.
+// Slides: 7:33, 7:39
+// Formula: log-odds of a cell: l ← l + log (P(occupied|y) / P(free|y)), one map for each particle
+// Try: Particles map an office; orange is the odometry. Keep 1 of the "particles" and press "match scans or
+// not": the map is as wrong as the odometry.
 #include <cstdio>
 #include <numbers>
 

@@ -1,6 +1,11 @@
 // Chapter 8: Model-predictive control. A cart with a pole goes back and forth between two targets near the
 // ends of its rail. Every thirtieth of a second it plans the next steps within the limits of its motor and of
 // the rail; dots show where it plans to be. LQR knows no limits: cut off, it falls.
+// Slides: 8:12, 8:13
+// Formula: min Σ xᵀQx + uᵀRu over the next steps, subject to x_t+1 = A x_t + B u_t, |u| <= u_max, |p| <=
+// p_max
+// Try: A cart with a weak motor avoids its walls; dots show the plan. Plan 10 "steps" instead of 45, or
+// press "MPC or LQR": it falls.
 #include <algorithm>
 #include <limits>
 

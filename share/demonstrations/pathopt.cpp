@@ -1,6 +1,9 @@
 // Chapter 5: Path optimisation. A path of 40 points with smooth accelerations bends round two discs that
 // move; each picture shows a few Gauss-Newton steps more. Sliders weigh obstacles against smoothness and move
 // the discs.
+// Slides: 5:3
+// Formula: min Σ |q_t-1 - 2 q_t + q_t+1|² + ρ Σ collision(q_t)²
+// Try: A path avoids moving discs. Raise "weight of accelerations": it becomes stiff and cuts into them.
 #include "course/car_view.h"
 #include "course/course.h"
 #include "course/live_view.h"

@@ -1,5 +1,9 @@
 // Chapter 3: PID control. Three masses on rails under the same load: P swings for ever, PD comes to rest
 // below its target, and the integral of PID lifts it up. Sliders change the gains and the load.
+// Slides: 3:15 to 3:17
+// Formula: u = Kp (q* - q) - Kd q' + Ki ∫ (q* - q) dt
+// Try: P oscillates, PD stays below its target, PID reaches it. With "load" zero, PD reaches it, too. With
+// "Kd" 1 and "Ki" 60, PID is unstable.
 #include "control/point_mass.h"
 #include "course/car_view.h"
 #include "course/course.h"

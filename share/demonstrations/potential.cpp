@@ -1,6 +1,10 @@
 // Chapter 4: Potential fields and their local minima. Eight robots roll downhill to the goal (orange) around
 // a box and a pocket that moves; those that end in a local minimum are pink. The mouse moves pocket and
 // goal.
+// Slides: 4:13 to 4:17
+// Formula: q' = -∇(U_goal + U_obstacles)
+// Try: Pink paths end in a local minimum. Set "reach" to 0.2: paths graze the boxes. Drag the pocket or the
+// goal.
 #include "course/car_view.h"
 #include "course/course.h"
 #include "course/live_view.h"

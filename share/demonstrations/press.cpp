@@ -1,6 +1,10 @@
 // Chapter 3: Pressing and wiping. An arm wipes a table in a physics engine and presses with the force that is
 // wanted, because its torques come from motion and force together. Sliders change the force, the speed and
 // the friction; a button makes up for friction.
+// Slides: 3:36
+// Formula: τ = JᵀF + the torques of the motion along the table
+// Try: An arm wipes a table and presses with 20 N. Set "friction" to 0.6 and switch off its compensation:
+// the force is wrong by half.
 #include "control/operational_contacts.h"
 #include "course/course.h"
 #include "course/live_view.h"

@@ -1,6 +1,9 @@
 // Chapter 2: Priorities of tasks. A man reaches for two targets (orange: right hand, green: left) that drift
 // apart and that the mouse moves: the hand that comes first reaches its target, the other one does what is
 // left. A button swaps them.
+// Slides: 2:50, 2:51
+// Formula: dq_2 = dq_1 + (J_2 N_1)# (dy_2 - J_2 dq_1), N_1 = I - J_1# J_1
+// Try: Two targets drift apart; the hand with priority keeps its own. Press "swap priorities".
 #include "course/car_view.h"
 #include "course/course.h"
 #include "course/live_view.h"

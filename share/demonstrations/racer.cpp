@@ -2,6 +2,10 @@
 // rides, which last longer and longer, by the same cost and with the same five weights: the one in front by
 // the natural gradient, the one behind by CMA-ES. Both show what they have learnt so far, in noise
 // that is new to them.
+// Slides: 9:17, 9:30, 9:31
+// Formula: β ← β + α F⁻¹ ∇J(β), F the Fisher matrix; or CMA-ES on β
+// Try: Two racers learn by the natural gradient and by CMA-ES. Press "natural or plain gradient": the plain
+// one never balances. Press "growing or long rides".
 #include <algorithm>
 #include <cmath>
 #include <optional>

@@ -1,6 +1,10 @@
 // Chapter 8: Nonlinear model-predictive control. An arm reaches for targets with motors that are too weak to
 // hold it stretched out. Thirty times a second iLQR improves the plan of the last time, within the strength
 // of the motors; dots show where it plans its hand to be.
+// Slides: 8:12, 8:13
+// Formula: min Σ c(x_t, u_t) subject to x_t+1 = f(x_t, u_t), |u| <= u_max: linearised again and again
+// Try: An arm with weak motors swings its hand to targets. Plan 5 "steps" instead of 30: it oscillates for
+// seconds.
 #include "control/ilqr.h"
 #include "course/car_view.h"
 #include "course/course.h"

@@ -2,6 +2,12 @@
 // the axes of the three. With a pitch of a quarter turn two of them coincide, and one direction is lost:
 // gimbal lock. Right: two planes fly from a first orientation to that of the sliders and back, by quaternions
 // and by Euler angles.
+// Slides: 2:8
+// Formula: R = Rz(yaw) Ry(pitch) Rx(roll)
+// Try: On the left, a plane and the rings of its Euler angles; on the right, two planes that turn to its
+// orientation and back, by quaternions and by Euler angles. Set "pitch" to a quarter turn, 1.57: two rings
+// coincide, and "independence of the axes" drops to zero. By Euler angles the plane makes detours at
+// varying speed.
 #include <cmath>
 #include <numbers>
 #include <vector>

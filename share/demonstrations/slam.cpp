@@ -1,6 +1,10 @@
 // Chapter 7: Kalman SLAM. The car maps landmarks it does not know and itself (pale car): all ellipses grow
 // with the distance driven, and shrink together when the first landmark is seen again. Sliders change the
 // noises.
+// Slides: 7:36 to 7:38
+// Formula: x = (car, m_1, ..., m_n): Σ ← F Σ Fᵀ + Q, K = Σ Hᵀ (H Σ Hᵀ + R)⁻¹
+// Try: Ellipses grow along the path and shrink when the loop closes. Raise the noises and press "from the
+// start".
 #include "course/car_pictures.h"
 #include "course/car_simulator.h"
 #include "course/course.h"

@@ -2,6 +2,10 @@
 // (left: height and colour; arrows are its policy). A pupil only sees it walk, looks for rewards that tell
 // the walks from those of all its policies so far, and adds the policy that is best for these rewards
 // (right).
+// Slides: 9:12 to 9:14
+// Formula: find w with wᵀφ(teacher) >= wᵀφ(π) + margin for all policies π so far
+// Try: Inverse reinforcement learning infers what a teacher likes. With 5 "walks of the teacher" it infers
+// something else.
 #include "course/car_view.h"
 #include "course/course.h"
 #include "course/live_view.h"

@@ -1,6 +1,9 @@
 // Chapter 9: Value iteration sweep by sweep. The values of a grid world (height and colour) spread from the
 // goal, and arrows show the best actions so far. Sliders change discount and slipping; the dark cell is a
 // trap.
+// Slides: 9:6 to 9:8
+// Formula: V(s) ← max_a Σ_s' P(s'|s, a) (r + γ V(s'))
+// Try: Values spread from the goal, one cell per sweep. Raise "slipping": the policy avoids the trap.
 #include "course/car_view.h"
 #include "course/course.h"
 #include "course/live_view.h"

@@ -2,6 +2,9 @@
 // of the capture point and of the whole body keeps it on its feet. The zero moment point measured from the
 // contacts (orange) follows its plan. A push to the side at 4 s makes it step aside. Sliders change push and
 // floor.
+// Slides: 11:11
+// Formula: ξ = x + x' / ω, ω = sqrt(g / z): the capture point ξ' = ω (ξ - zmp)
+// Try: The humanoid walks in Bullet and is pushed at 4 s. Raise "push to the left" until it falls.
 #include <cstdio>
 
 #include "course/car_view.h"

@@ -116,11 +116,12 @@ const rexControls = (function () {
       canvas.width = width * ratio, canvas.height = height * ratio;
       const pen = canvas.getContext('2d');
       pen.scale(ratio, ratio);
-      pen.font = '12px system-ui, "DejaVu Sans", sans-serif';
+      const size = parseFloat(getComputedStyle(canvas).fontSize) * 0.9, rough = size / 12;
+      pen.font = size + 'px system-ui, "DejaVu Sans", sans-serif';
       const all = samples.flatMap(({ values }) => values).concat([0]);
       let low = Math.min(...all), high = Math.max(...all);
       if (high - low < 1e-9) high = low + 1;
-      const margin = 60, axis = 16;
+      const margin = 60 * rough, axis = 16 * rough;
       const end = samples.length ? samples[samples.length - 1].time : 0, begin = samples.length ? samples[0].time : 0;
       const wide = span === Infinity ? Math.max(end - begin, 1) : span;
       const last = span === Infinity ? begin + wide : Math.max(end, span);
@@ -128,9 +129,9 @@ const rexControls = (function () {
       const y = v => 6 + (height - 12 - axis) * (high - v) / (high - low);
       pen.strokeStyle = '#dde3e9', pen.fillStyle = '#5c6875', pen.textAlign = 'right', pen.textBaseline = 'middle';
       for (const value of [low, 0, high]) {
-        if (value === 0 && Math.min(y(low) - y(0), y(0) - y(high)) < 14 && low !== 0 && high !== 0) continue;
+        if (value === 0 && Math.min(y(low) - y(0), y(0) - y(high)) < 14 * rough && low !== 0 && high !== 0) continue;
         pen.beginPath(), pen.moveTo(margin, y(value)), pen.lineTo(width - 4, y(value)), pen.stroke();
-        pen.fillText(short(value), margin - 6, Math.min(Math.max(y(value), 7), height - axis - 7));
+        pen.fillText(short(value), margin - 6, Math.min(Math.max(y(value), 7 * rough), height - axis - 7 * rough));
       }
       pen.textBaseline = 'bottom';
       pen.fillText(short(last), width - 4, height);
@@ -138,12 +139,15 @@ const rexControls = (function () {
       pen.fillText(short(last - wide), margin, height);
       pen.textAlign = 'center';
       pen.fillText(label, (margin + width) / 2, height);
-      pen.lineWidth = 1.8, pen.lineJoin = 'round';
+      pen.lineWidth = 1.8 * rough, pen.lineJoin = 'round';
       colors.forEach((color, k) => {
         pen.strokeStyle = color;
         pen.beginPath();
         for (const { time, values } of samples) pen.lineTo(x(time), y(values[k]));
         pen.stroke();
+        const now = samples[samples.length - 1];
+        pen.fillStyle = color;
+        if (now) pen.beginPath(), pen.arc(x(now.time), y(now.values[k]), 3 * rough, 0, 7), pen.fill();
       });
     }
     return { add, draw, clear: () => { samples.length = 0; } };

@@ -228,6 +228,9 @@
   function buildPanels() {
     const isRobot = about.kind === 'robot';
     document.title = about.title;
+    const facts = about.facts || [];
+    get('aboutPanel').hidden = facts.length === 0;
+    get('facts').replaceChildren(...facts.flatMap(([name, text]) => [element('dt', '', name), element('dd', '', text)]));
     get('title').textContent = about.title;
     for (const id of ['jointPanel', 'physicsPanel']) get(id).hidden = !isRobot;
     for (const id of ['lookPanel', 'bodyPanel']) get(id).hidden = about.bodies.length === 0;
@@ -558,7 +561,11 @@
     ' ': run, '.': () => send({ do: 'step' }), r: view.resetView,
     t: () => { if (chosen) gizmo.setMode(gizmo.mode === 'translate' ? 'rotate' : 'translate'); }
   };
+  const whole = () => document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen();
+  get('whole').addEventListener('click', whole);
   document.addEventListener('keydown', event => {
+    const isPlainKey = !event.ctrlKey && !event.altKey && !event.metaKey && !event.target.closest?.('input, select');
+    if (event.key === 'f' && isPlainKey) return whole();
     if (event.ctrlKey || event.altKey || event.metaKey || !about || about.kind !== 'robot') return view.obeys(event);
     const within = what => event.target.closest && event.target.closest(what);
     const isTyped = within('input[type=number], select, textarea') || (event.key === ' ' && within('input, button'));

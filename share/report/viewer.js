@@ -32,6 +32,19 @@
       for (const node of nodes) node.visible = node.scale.x !== 0;
     }
 
+    // Where the curves are at that time.
+    const marked = Array.from(document.querySelectorAll('.marked'), box => ({
+      line: box.querySelector('i'), numbers: box.dataset.marks.trim().split(' ').map(Number), at: 0
+    }));
+    function mark(time) {
+      for (const one of marked) {
+        const { line, numbers } = one;
+        if (numbers[one.at] > time) one.at = 0;
+        while (one.at + 2 < numbers.length && numbers[one.at + 2] <= time + 1e-6) one.at += 2;
+        line.style.left = 100 * numbers[one.at + 1] + '%';
+      }
+    }
+
     // The clock.
     let time = 0, playing = false, last = null, sliderHeld = false;
     const slider = get('time'), clock = get('clock'), speed = get('speed');
@@ -67,9 +80,11 @@
       goTo(direction > 0 ? (ahead === undefined ? duration : ahead) : (behind === undefined ? 0 : behind));
     }
 
+    const whole = () => document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen();
+    get('whole').addEventListener('click', whole);
     const keys = {
       ' ': () => setPlaying(!playing), ',': () => step(-1), '.': () => step(1), r: shown.resetView,
-      Home: () => goTo(0), End: () => goTo(duration)
+      Home: () => goTo(0), End: () => goTo(duration), f: whole
     };
     document.addEventListener('keydown', event => {
       if (event.ctrlKey || event.altKey || event.metaKey) return;
@@ -88,6 +103,7 @@
     beforeDraw = now => {
       advance(now);
       show(time);
+      mark(time);
     };
     slider.max = duration;
     const asks = new URLSearchParams(location.hash.slice(1));

@@ -20,9 +20,9 @@
 #include "cli/build_on_demand.h"
 #include "cli/command_line_internal.h"
 #include "cli/command_table.h"
-#include "cli/demonstrations.h"
 #include "cli/project.h"
 #include "cli/terminal.h"
+#include "submission/demonstrations.h"
 
 namespace rex::cli {
 
@@ -88,7 +88,9 @@ std::vector<std::string> completions(const CLI::App& program, std::span<const st
     if (takes("EXERCISE", command) || takes("PROGRAM", command))
       for (const ExerciseInfo& one : project.exercises()) found.push_back(one.name);
     if (takes("DEMONSTRATION", command))
-      for (const Demonstration& one : demonstrations(project)) found.push_back(one.name);
+      for (const submission::Demonstration& one :
+           submission::demonstrations(project.files() / "share" / "demonstrations"))
+        found.push_back(one.name);
   }
   std::erase_if(found, [&](const std::string& one) { return !one.starts_with(begun); });
   std::ranges::sort(found);

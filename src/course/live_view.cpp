@@ -9,6 +9,8 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <sstream>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -48,6 +50,24 @@ bool isServed() {
   return ::isatty(STDOUT_FILENO) == 1;
 }
 
+/// What the pages say about the program, one line each: the title, then names and texts.
+struct ViewAbout {
+  std::string title{};
+  std::vector<std::pair<std::string, std::string>> facts{};
+};
+
+// `rex demo` sets it.
+ViewAbout aboutOr(const std::string& name) {
+  const char* said = std::getenv("REX_LIVE_ABOUT");
+  if (said == nullptr || *said == '\0') return {name};
+  std::istringstream lines(said);
+  ViewAbout about;
+  std::getline(lines, about.title);
+  for (std::string key, text; std::getline(lines, key, '\t') && std::getline(lines, text);)
+    about.facts.emplace_back(key, text);
+  return about;
+}
+
 }  // namespace
 
 struct LiveView::Parts {
@@ -56,11 +76,13 @@ struct LiveView::Parts {
     double low = 0, high = 1, value = 0;
     int pressed = 0;
     Eigen::Vector3d at = Eigen::Vector3d::Zero(), normal = at;  // of a handle
-    Series curve{};                                             // of a plot
+    Series curve{};                                             // of a plot, and
+    std::vector<double> moments{};                              // when the film shows each point
     std::string xLabel{};
   };
 
   std::string name{};
+  ViewAbout page{};
   std::unique_ptr<LiveServer> server{};
   std::optional<PrivateFolder> folder{};  // while the browser reads it
   bool hasWaited = false, isPaused = false;
@@ -212,15 +234,26 @@ struct LiveView::Parts {
   }
 
   // The curves for the replay, of which long ones become coarser.
-  static void keepPoint(Series& curve, double x, double y) {
+  void keepPoint(Control& plot, double x, double y) const {
     constexpr std::size_t kMostPoints = 4000;
+    Series& curve = plot.curve;
     if (!std::isfinite(x) || !std::isfinite(y)) return;
     if (curve.x.size() >= kMostPoints)
-      for (std::vector<double>* all : {&curve.x, &curve.y}) {
+      for (std::vector<double>* all : {&curve.x, &curve.y, &plot.moments}) {
         for (std::size_t k = 0; 2 * k < all->size(); ++k) (*all)[k] = (*all)[2 * k];
         all->resize(all->size() / 2);
       }
     curve.x.push_back(x), curve.y.push_back(y);
+    plot.moments.push_back(static_cast<double>(count) / 30);
+  }
+
+  // A few hundred lines are as many as the eye tells apart.
+  static std::vector<std::pair<double, double>> marksOf(const Control& plot) {
+    const std::size_t step = 1 + plot.moments.size() / 400;
+    std::vector<std::pair<double, double>> marks;
+    for (std::size_t k = 0; k < plot.moments.size(); k += step)
+      marks.emplace_back(plot.moments[k], plot.curve.x[k]);
+    return marks;
   }
 
   std::vector<ReportFigure> figures() const {
@@ -230,17 +263,19 @@ struct LiveView::Parts {
         all.push_back({.figure = {.xLabel = one.xLabel,
                                   .yLabel = one.name,
                                   .series = {one.curve},
-                                  .width = 560,
-                                  .height = 260}});
+                                  .width = 420,
+                                  .height = 230},
+                       .marks = marksOf(one)});
     return all;
   }
 
   // Without gnuplot there are no curves.
   void write() const {
-    Report report{.title = name,
+    Report report{.title = page.title,
                   .film = film,
                   .view = view,
                   .figures = figures(),
+                  .facts = page.facts,
                   .still = {.width = 640, .height = 480, .gl = glChoice()}};
     try {
       writeReport(report, name + ".html");
@@ -269,6 +304,7 @@ struct LiveView::Parts {
 
 LiveView::LiveView(const std::string& name) : parts_(std::make_unique<Parts>()) {
   parts_->name = name;
+  parts_->page = aboutOr(name);
   if (!isServed()) return;
   parts_->server = std::make_unique<LiveServer>(LiveServerOptions{});
   offerLivePage(*parts_->server);
@@ -306,7 +342,7 @@ void LiveView::show(const Simulator& simulator) {
   if (parts.model != &simulator.model() || parts.shapes != simulator.model().shapes().size()) {
     parts.model = &simulator.model(), parts.shapes = simulator.model().shapes().size();
     ViewJson about = ViewJson::parse(liveDescription(simulator.model()));
-    about["kind"] = "program", about["title"] = parts.name;
+    about["kind"] = "program", about["title"] = parts.page.title, about["facts"] = parts.page.facts;
     parts.offer(liveGlb(simulator.model(), poses), about);
   }
   parts.poses = posesText(poses);
@@ -320,9 +356,13 @@ void LiveView::show(const Picture& picture) {
   parts.record(picture);
   if (!parts.server) return;
   parts.model = nullptr;
-  const ViewJson about = {
-      {"kind", "program"},           {"title", parts.name},         {"mass", 0},
-      {"bodies", ViewJson::array()}, {"shapes", ViewJson::array()}, {"coordinates", ViewJson::array()}};
+  const ViewJson about = {{"kind", "program"},
+                          {"title", parts.page.title},
+                          {"facts", parts.page.facts},
+                          {"mass", 0},
+                          {"bodies", ViewJson::array()},
+                          {"shapes", ViewJson::array()},
+                          {"coordinates", ViewJson::array()}};
   parts.offer(glbOf({{.picture = picture}}, parts.view), about);
   parts.poses.clear(), parts.q = ViewJson::array();
   parts.waitForTurn();
@@ -367,7 +407,7 @@ bool LiveView::button(const std::string& name) {
 void LiveView::plot(const std::string& name, double x, double y, const std::string& xLabel) {
   Parts::Control& one = parts_->control("plot", name);
   one.xLabel = xLabel;
-  Parts::keepPoint(one.curve, x, y);
+  parts_->keepPoint(one, x, y);
 }
 
 void LiveView::pause() {

@@ -31,9 +31,10 @@ std::string cleaned(std::string svg) {
   return svg;
 }
 
-// The bytes of the picture; `name` is what messages call the figure.
-std::string drawFigure(const Figure& figure, const std::string& terminal, const std::string& name) {
-  std::string bytes = internal::runGnuplot(internal::figureScript(figure, terminal), name);
+// The bytes of the picture; `name` is what messages call the figure, `before` are further commands.
+std::string drawFigure(const Figure& figure, const std::string& terminal, const std::string& name,
+                       const std::string& before = "") {
+  std::string bytes = internal::runGnuplot(before + internal::figureScript(figure, terminal), name);
   return terminal == "svg" ? cleaned(std::move(bytes)) : bytes;
 }
 
@@ -55,6 +56,10 @@ std::string encodeSvg(const Figure& figure) { return drawFigure(figure, "svg", f
 }  // namespace rex
 
 namespace rex::internal {
+
+std::string encodeSvg(const Figure& figure, const std::string& commands) {
+  return drawFigure(figure, "svg", figure.title, commands);
+}
 
 std::string runGnuplot(const std::string& script, const std::string& name, double patience) {
   constexpr std::size_t kLargestFile = 256u << 20;

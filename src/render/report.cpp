@@ -13,6 +13,7 @@
 #include "base/base64.h"
 #include "base/escape.h"
 #include "base/text.h"
+#include "render/figure_internal.h"
 #include "render/film.h"
 #include "render/frame_sink_internal.h"
 #include "render/glb.h"
@@ -75,14 +76,41 @@ std::string stillOf(const Film& film, const Report& report) {
 // As the viewer reads it.
 std::string partsOf(const Color& color) { return fmt::format("{} {} {}", color.r, color.g, color.b); }
 
+// Left and right edge of the axes of a figure with marks, as shares of its width.
+constexpr double kMarkedLeft = 0.19, kMarkedRight = 0.96;
+
+/// A figure as an SVG, and where on it the viewer draws marks: "time share time share ...".
+struct MarkedFigure {
+  std::string svg, marks{};
+};
+
+MarkedFigure markedFigure(const ReportFigure& item) {
+  const auto byX = [](const auto& a, const auto& b) { return a.second < b.second; };
+  const auto [low, high] = std::minmax_element(item.marks.begin(), item.marks.end(), byX);
+  if (item.marks.empty() || !(low->second < high->second)) return {encodeSvg(item.figure)};
+  Figure figure = item.figure;
+  if (!figure.xRange) figure.xRange = AxisRange{low->second, high->second};
+  const auto [from, to] = *figure.xRange;
+  MarkedFigure marked{internal::encodeSvg(
+      figure,
+      fmt::format("set lmargin at screen {}\nset rmargin at screen {}\n", kMarkedLeft, kMarkedRight))};
+  for (const auto& [time, x] : item.marks)
+    marked.marks += fmt::format("{:.3f} {:.4f} ", time,
+                                kMarkedLeft + (kMarkedRight - kMarkedLeft) * (x - from) / (to - from));
+  return marked;
+}
+
 std::string figuresOf(const Report& report) {
   if (report.figures.empty()) return {};
   std::string html = "<section class=\"figures\" aria-label=\"Figures\">\n";
   for (const ReportFigure& item : report.figures) {
     const std::string alt = escaped(internal::singleLine(item.figure.title));
-    html += fmt::format(
-        "<figure><img src=\"data:image/svg+xml;base64,{}\" alt=\"{}\" width=\"{}\" height=\"{}\">",
-        base64(encodeSvg(item.figure)), alt, item.figure.width, item.figure.height);
+    const MarkedFigure drawn = markedFigure(item);
+    html += drawn.marks.empty() ? "<figure>"
+                                : "<figure><div class=\"marked\" data-marks=\"" + drawn.marks + "\"><i></i>";
+    html += fmt::format("<img src=\"data:image/svg+xml;base64,{}\" alt=\"{}\" width=\"{}\" height=\"{}\">",
+                        base64(drawn.svg), alt, item.figure.width, item.figure.height);
+    if (!drawn.marks.empty()) html += "</div>";
     if (!item.caption.empty()) html += "<figcaption>" + escaped(item.caption) + "</figcaption>";
     html += "</figure>\n";
   }

@@ -15,6 +15,9 @@ namespace rex {
 struct ReportFigure {
   Figure figure{};
   std::string caption{};
+  /// Times of the film, in order, and the place along x that a line marks from each of them on. Empty: no
+  /// line. The x axis must not be logarithmic.
+  std::vector<std::pair<double, double>> marks{};
 };
 
 /// A motion to view from all sides, with figures and facts about it. Texts may hold any characters.

@@ -64,6 +64,23 @@ TEST_F(LiveViewTest, ShowsPictures) {
   EXPECT_THAT(textOf(in("dots.html")), HasSubstr("<html"));
 }
 
+TEST_F(LiveViewTest, SaysWhatItIsAbout) {
+  ::setenv("REX_LIVE_ABOUT", "PID control\nabout\tThree masses.\ntry\tSet \"load\" to <zero>.", 1);
+  {
+    LiveView view(in("pid"));
+    ::unsetenv("REX_LIVE_ABOUT");
+    for (int k = 0; k < 3; ++k) {
+      view.plot("height", 10 * k, 1);
+      view.show(Picture{.pointSets = {{.points = {{0.1 * k, 0, 0}, {1, 1, 1}}}}});
+    }
+  }
+  const std::string page = textOf(in("pid.html"));
+  EXPECT_THAT(page, HasSubstr("<h1>PID control</h1>"));
+  EXPECT_THAT(page, HasSubstr("<th scope=\"row\">about</th><td>Three masses.</td>"));
+  EXPECT_THAT(page, HasSubstr("<td>Set &#34;load&#34; to &#60;zero&#62;.</td>"));
+  EXPECT_THAT(page, HasSubstr("data-marks=\"0.000 0.1900 0.033 0.5750 0.067 0.9600 \""));
+}
+
 // `rex run` leaves programs the terminal for their output, and nothing to read.
 TEST(LiveViewInATerminal, SaysItsAddress) {
   int terminal = -1;

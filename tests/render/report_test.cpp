@@ -327,6 +327,23 @@ TEST(Report, ShowsTextAsText) {
   EXPECT_EQ(embedded(page, "id=\"film\">", "</script>").substr(0, 4), "glTF");
 }
 
+TEST(Report, MarksTheMomentInItsCurves) {
+  REX_NEEDS_OSMESA();
+  REX_NEEDS_GNUPLOT();
+  Report report = rollingBall();
+  const Figure figure{
+      .xLabel = "time [s]", .yLabel = "speed [m/s]", .series = {{.x = {1, 2, 3}, .y = {1, 2, 3}}}};
+  report.figures = {{.figure = figure, .marks = {{0, 1}, {0.5, 2}, {1, 3}}},
+                    {.figure = figure, .marks = {{0, 1}}}};
+  const std::string page = reportPage(report);
+  EXPECT_EQ(count(page, "data-marks="), 1) << "one moment alone spans no axis";
+  EXPECT_THAT(page, testing::HasSubstr("data-marks=\"0.000 0.1900 0.500 0.5750 1.000 0.9600 \""));
+  // The axes are where the marks think: gnuplot draws the border of 800 x 500 pixels from there.
+  const std::string svg = embedded(page, "data:image/svg+xml;base64,", "\"");
+  EXPECT_THAT(svg, testing::ContainsRegex("M152\\.[0-9]*,[0-9.]* L152\\."));
+  EXPECT_THAT(svg, testing::ContainsRegex("[ L]76(7\\.9|8\\.0)"));
+}
+
 TEST(Report, ShowsFiguresAsTheyAreDrawn) {
   REX_NEEDS_OSMESA();
   REX_NEEDS_GNUPLOT();

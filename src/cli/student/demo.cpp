@@ -8,18 +8,21 @@
 #include "base/error.h"
 #include "base/folders.h"
 #include "base/text.h"
+#include "base/text_file.h"
 #include "cli/command_table.h"
-#include "cli/demonstrations.h"
 #include "cli/json_internal.h"
 #include "cli/option_table_internal.h"
 #include "cli/out_folder.h"
 #include "cli/student/own_program.h"
 #include "cli/terminal.h"
+#include "reports/markdown.h"
+#include "submission/demonstrations.h"
 
 namespace rex::cli {
 namespace {
 
 namespace fs = std::filesystem;
+using submission::Demonstration;
 
 constexpr int kLecture = 100'000;  // seconds of CPU time: as long as somebody looks
 constexpr std::uint64_t kFirstSeed = 0;
@@ -40,6 +43,9 @@ void sayJson(const std::vector<Demonstration>& all) {
                     {"chapter", one.chapter},
                     {"title", one.title},
                     {"about", one.about},
+                    {"slides", one.slides},
+                    {"formula", one.formula},
+                    {"try", one.toTry},
                     {"seed", one.takesSeed},
                     {"runs", one.takesRuns},
                     {"file", one.file.string()}});
@@ -51,7 +57,8 @@ void sayTable(const std::vector<Demonstration>& all) {
   for (const Demonstration& one : all) width = std::max(width, one.name.size());
   for (const Demonstration& one : all) {
     const std::string start = fmt::format("{:2}  {:{}}  ", one.chapter, one.name, width);
-    say(paint(Colour::kBold, start) + wrap(one.title, start.size(), start.size()));
+    const std::string slides = one.slides.empty() ? "" : fmt::format(" ({})", one.slides);
+    say(paint(Colour::kBold, start) + wrap(one.title + slides, start.size(), start.size()));
   }
 }
 
@@ -95,6 +102,13 @@ fs::path keptProgram(const Project& project, const Demonstration& one) {
   return project.root / ".rex" / "demonstrations" / one.name;
 }
 
+// What its pages say: LiveView (course/live_view.cpp) reads it.
+std::string aboutVariable(const Demonstration& one) {
+  std::string text = "REX_LIVE_ABOUT=" + one.title;
+  for (const auto& [name, value] : submission::factsOf(one)) text += "\n" + name + "\t" + value;
+  return text;
+}
+
 ExitCode writePage(const Project& project, const Demonstration& one, std::vector<std::string> arguments,
                    const fs::path& page) {
   makeOutPlace(page);
@@ -103,7 +117,7 @@ ExitCode writePage(const Project& project, const Demonstration& one, std::vector
                                       {.out = work.path(),
                                        .arguments = std::move(arguments),
                                        .seconds = kLecture,
-                                       .environment = {"REX_LIVE=0"},
+                                       .environment = {"REX_LIVE=0", aboutVariable(one)},
                                        .listsFiles = false,
                                        .keptAs = keptProgram(project, one)});
   const fs::path replay = work.path() / (one.name + ".html");
@@ -113,8 +127,32 @@ ExitCode writePage(const Project& project, const Demonstration& one, std::vector
   return code;
 }
 
+// A page for each, and index.html, which leads to those that were written.
+ExitCode writeAll(const Project& project, const std::vector<Demonstration>& all, const fs::path& folder) {
+  makeOutFolder(folder);
+  ExitCode code = ExitCode::kFull;
+  for (const Demonstration& one : all)
+    code = std::max(code, writePage(project, one, {}, folder / (one.name + ".html")));
+  const std::string page = submission::demonstrationsPage(all, [&](const Demonstration& one) {
+    const std::string name = one.name + ".html";
+    return fs::exists(folder / name) ? name : "";
+  });
+  replaceTextFile(
+      folder / "index.html",
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<title>Demonstrations</title>\n<style>body { font: 1.2rem/1.45 sans-serif; margin: 2rem; } "
+      "table { border-collapse: collapse; width: 100%; } td, th { text-align: left; "
+      "vertical-align: top; padding: 0.4rem 0.8rem; border-top: 1px solid #ccc; }</style>\n"
+      "</head>\n<body>\n" +
+          reports::pageOf(page, [](const std::string& link) { return link; }).html + "</body>\n</html>\n",
+      "the page of all demonstrations");
+  say(shown(folder / "index.html"));
+  return code;
+}
+
 ExitCode demo(const Project& project, const DemoOptions& options) {
-  const std::vector<Demonstration> all = demonstrations(project);
+  const std::vector<Demonstration> all =
+      submission::demonstrations(project.files() / "share" / "demonstrations");
   if (options.json) {
     if (!options.which.empty() || !options.out.empty())
       throw UsageError({.what = "--json lists all demonstrations",
@@ -124,6 +162,9 @@ ExitCode demo(const Project& project, const DemoOptions& options) {
     return ExitCode::kFull;
   }
   if (options.which.empty()) {
+    if (options.seed || options.runs)
+      throw UsageError({.what = "--seed and --runs are for one demonstration", .wanted = "its name"});
+    if (!options.out.empty()) return writeAll(project, all, fs::absolute(options.out));
     sayTable(all);
     say("\nTo show one: scripts/rex demo NAME");
     return ExitCode::kFull;
@@ -131,6 +172,7 @@ ExitCode demo(const Project& project, const DemoOptions& options) {
   const Demonstration& one = choose(all, options.which);
   const std::vector<std::string> arguments = argumentsOf(one, options);
   note(wrap(fmt::format("Chapter {}: {}. {}", one.chapter, one.title, one.about), 0, 0));
+  if (!one.toTry.empty()) note(wrap("Try: " + one.toTry, 5, 0));
   if (fs::path(options.out).extension() == ".html")
     return writePage(project, one, arguments, fs::absolute(options.out));
   OwnRun how{.out = project.root / "out" / "demonstrations",
@@ -139,6 +181,7 @@ ExitCode demo(const Project& project, const DemoOptions& options) {
              .keptAs = keptProgram(project, one)};
   if (options.noBrowser) how.environment = {"REX_LIVE=1"};
   if (!options.out.empty()) how.out = fs::absolute(options.out), how.environment = {"REX_LIVE=0"};
+  how.environment.push_back(aboutVariable(one));
   return runOwnProgram(project, one.file, how);
 }
 
@@ -148,11 +191,12 @@ void addDemo(CLI::App* command, Action& action) {
   const auto options = std::make_shared<DemoOptions>();
   command->footer(
       "Examples:\n  scripts/rex demo\n  scripts/rex demo pid\n  scripts/rex demo 4\n"
-      "  scripts/rex demo localize --seed 3 --runs 5 -o localize.html\n\n"
+      "  scripts/rex demo localize --seed 3 --runs 5 -o localize.html\n  scripts/rex demo -o pages\n\n"
       "The first line on standard output is the address of a page with sliders and buttons,\n"
       "which waits half a minute for a browser; where there is a screen, one opens. Without a\n"
       "terminal, or with -o, the demonstration plays by itself and becomes a page to replay. Of\n"
-      "a chapter with several, the first is shown. Some print a table, of one run with each seed.\n"
+      "a chapter with several, the first is shown. Some print a table, of one run with each\n"
+      "seed. Without a name, -o writes a page of each, and an index.\n"
       "Each is a short program in share/demonstrations, compiled at its first start.");
   command
       ->add_option("DEMONSTRATION", options->which, "a name, or a chapter of the script; without: list all")

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command_schema.h"
-#include "cli/demonstrations.h"
 #include "cli/template_project.h"
+#include "submission/demonstrations.h"
 #include "support/paths.h"
 
 namespace rex::cli::demo_test {
@@ -25,24 +25,28 @@ class Demo : public TemplateProject {
 
 TEST(Demonstrations, CoverChapters2To11) {
   std::set<int> chapters;
-  Project project;
-  project.root = homeFolder();
-  for (const Demonstration& one : demonstrations(project)) {
+  for (const submission::Demonstration& one :
+       submission::demonstrations(homeFolder() / "share" / "demonstrations")) {
     chapters.insert(one.chapter);
-    EXPECT_FALSE(one.title.empty() || one.about.empty()) << one.name;
+    EXPECT_EQ(submission::factsOf(one).size(), 4u) << one.name;
+    EXPECT_TRUE(one.slides.starts_with(std::to_string(one.chapter) + ":")) << one.name;
   }
   EXPECT_EQ(chapters, (std::set<int>{2, 3, 4, 5, 6, 7, 8, 9, 10, 11}));
 }
 
 TEST_F(Demo, ListsByChapter) {
-  demonstration("swing", "// Chapter 3: A swing. It swings\n// to and fro.\nint main() {}\n");
+  demonstration("swing",
+                "// Chapter 3: A swing. It swings\n// to and fro.\n// Slides: 3:4, 3:5\n"
+                "// Formula: |x| = a sin(w t)\n// Try: Push it\n// hard.\nint main() {}\n");
   demonstration("arm", "// Chapter 2: An arm. It moves.\nint main() {}\n");
   EXPECT_EQ(rex({"demo"}).output,
-            " 2  arm    An arm\n 3  swing  A swing\n\nTo show one: scripts/rex demo NAME\n");
+            " 2  arm    An arm\n 3  swing  A swing (3:4, 3:5)\n\nTo show one: scripts/rex demo NAME\n");
   const Ended asJson = rex({"demo", "--json"});
   EXPECT_EQ(schemaFaultsOf(asJson.output, "demo"), "");
   const auto all = nlohmann::json::parse(asJson.output).at("demonstrations");
   EXPECT_EQ(all.at(1).at("about"), "It swings to and fro.");
+  EXPECT_EQ(all.at(1).at("try"), "Push it hard.");
+  EXPECT_EQ(all.at(1).at("formula"), "|x| = a sin(w t)");
   EXPECT_THAT(rex({"--complete", "demo", "s"}).output, HasSubstr("swing"));
 }
 
@@ -55,6 +59,8 @@ TEST_F(Demo, SaysWhatThereIsInstead) {
   EXPECT_THAT(rex({"demo", "12"}).error, HasSubstr("no demonstration belongs to chapter 12"));
   EXPECT_THAT(flat(rex({"demo", "3", "--json"}).error),
               HasSubstr("--json lists all demonstrations: found 3, wanted nothing else"));
+  EXPECT_THAT(flat(rex({"demo", "--seed", "3"}).error),
+              HasSubstr("--seed and --runs are for one demonstration: wanted its name"));
   EXPECT_THAT(flat(rex({"demo", "swing", "--seed", "3"}).error),
               HasSubstr("swing has no random numbers: --seed has no effect"));
   EXPECT_THAT(flat(rex({"demo", "swing", "--runs", "3"}).error),

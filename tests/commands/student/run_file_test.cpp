@@ -12,6 +12,7 @@
 
 namespace rex::cli::run_file_test {
 
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsSupersetOf;
@@ -95,6 +96,28 @@ TEST_F(RunFile, CompilesADemonstrationOnceUntilAFileOfItChanges) {
   fs::last_write_time(folder / "times.h", fs::file_time_type::clock::now() + std::chrono::hours(1));
   EXPECT_THAT(outputOfDemo(), HasSubstr("swings 5 times"));
   EXPECT_FALSE(fs::exists(kept.string() + ".made-from"));
+}
+
+TEST_F(RunFile, WritesAPageOfEachDemonstrationAndAnIndex) {
+  const fs::path folder = root() / "share" / "demonstrations";
+  fs::create_directories(folder);
+  const std::string program =
+      "#include <cstdlib>\n#include <fstream>\n"
+      "int main() { std::ofstream(\"swing.html\") << std::getenv(\"REX_LIVE_ABOUT\"); }\n";
+  write(folder / "swing.cpp",
+        "// Chapter 3: A swing. It swings.\n// Slides: 3:4\n// Formula: |x| = a\n"
+        "// Try: Push it.\n" +
+            program);
+  write(folder / "broken.cpp", "// Chapter 4: None. Nothing.\nint main() { return 1; }\n");
+  const Ended ended = rex({"demo", "-o", in("pages")});
+  EXPECT_EQ(ended.code, 1);
+  EXPECT_EQ(fileText(in("pages/swing.html")),
+            "A swing\nabout\tIt swings.\ntry\tPush it.\nformula\t|x| = a\nslides\t3:4");
+  const std::string index = fileText(in("pages/index.html"));
+  EXPECT_THAT(index, HasSubstr("<a href=\"swing.html\">A swing</a>"));
+  EXPECT_THAT(index, HasSubstr("<code>|x| = a</code>"));
+  EXPECT_THAT(index, HasSubstr("Push it."));
+  EXPECT_THAT(index, AllOf(HasSubstr("None"), Not(HasSubstr("broken.html"))));
 }
 
 TEST_F(RunFile, NamesResultsByTheFileOrByTheFolderOfAMain) {
