@@ -13,6 +13,7 @@
 #include "base/escape.h"
 #include "base/text_file.h"
 #include "reports/markdown.h"
+#include "submission/demonstrations.h"
 #include "submission/exercise_info.h"
 
 namespace rex::authoring {
@@ -25,6 +26,7 @@ using Json = nlohmann::ordered_json;
 struct Document {
   const char* name;
   const char* title;
+  bool isForLecturers = false;
 };
 constexpr Document kDocuments[] = {{"student.md", "For students"},
                                    {"programs.md", "Your own programs"},
@@ -39,22 +41,38 @@ constexpr Document kDocuments[] = {{"student.md", "For students"},
                                    {"notation.md", "Notation"},
                                    {"scenes.md", "Scene files"},
                                    {"robot-files.md", "URDF, SRDF and MJCF"},
-                                   {"teaching.md", "Teaching with rex"},
-                                   {"grading.md", "Grading a class"},
-                                   {"platforms.md", "Reports, CI services and Gradescope"},
-                                   {"writing-an-exercise.md", "Writing an exercise"},
-                                   {"sandbox.md", "The sandbox"},
-                                   {"architecture.md", "Architecture"}};
+                                   {"teaching.md", "Teaching with rex", true},
+                                   {"grading.md", "Grading a class", true},
+                                   {"platforms.md", "Reports, CI services and Gradescope", true},
+                                   {"writing-an-exercise.md", "Writing an exercise", true},
+                                   {"sandbox.md", "The sandbox", true},
+                                   {"architecture.md", "Architecture", true}};
 
 // Writes pages, and keeps what the search looks through.
 class SiteWriter {
  public:
-  SiteWriter(fs::path root, fs::path target) : root_(std::move(root)), target_(std::move(target)) {}
+  SiteWriter(fs::path root, fs::path target, std::vector<submission::ExerciseInfo> exercises,
+             bool isForStudents)
+      : root_(std::move(root)),
+        target_(std::move(target)),
+        exercises_(std::move(exercises)),
+        isForStudents_(isForStudents) {}
+
+  // Whether the site has that document.
+  [[nodiscard]] bool has(const Document& document) const {
+    return fs::exists(root_ / "share/doc" / document.name) && !(isForStudents_ && document.isForLecturers);
+  }
 
   // A page from a Markdown file of the project, between two pieces of HTML. Returns its title.
   std::string addMarkdown(const fs::path& file, const fs::path& source, const std::string& before = "",
                           const std::string& after = "") {
-    const reports::MarkdownPage page = pageFrom(source, file.parent_path());
+    return addText(file, source, readTextFile(root_ / source), before, after);
+  }
+
+  // The same from a text whose links are those of a file `source`.
+  std::string addText(const fs::path& file, const fs::path& source, const std::string& text,
+                      const std::string& before = "", const std::string& after = "") {
+    const reports::MarkdownPage page = pageFrom(source, text, file.parent_path());
     const std::string title = page.sections.empty() ? file.stem().string() : page.sections.front().title;
     for (const reports::PageSection& section : page.sections)
       entries_.push_back({{"page", title},
@@ -100,11 +118,10 @@ class SiteWriter {
   [[nodiscard]] int pages() const { return pages_; }
 
  private:
-  reports::MarkdownPage pageFrom(const fs::path& source, const fs::path& folder) {
+  reports::MarkdownPage pageFrom(const fs::path& source, const std::string& text, const fs::path& folder) {
     try {
-      return reports::markdownPage(readTextFile(root_ / source), [&](const std::string& link) {
-        return targetOf(link, source.parent_path(), folder);
-      });
+      return reports::markdownPage(
+          text, [&](const std::string& link) { return targetOf(link, source.parent_path(), folder); });
     } catch (const Error& error) {
       ErrorParts parts = error.parts();
       if (parts.where.file.empty()) parts.where.file = source.generic_string();
@@ -130,8 +147,8 @@ class SiteWriter {
         pictures_.insert(inside);
         return "documents" / inside;
       }
-      const auto isIt = [&](const Document& one) { return inside == one.name; };
-      if (std::any_of(std::begin(kDocuments), std::end(kDocuments), isIt) && fs::exists(root_ / file))
+      const auto isIt = [&](const Document& one) { return inside == one.name && has(one); };
+      if (std::any_of(std::begin(kDocuments), std::end(kDocuments), isIt))
         return fs::path("documents") / inside.stem().concat(".html");
     }
     if (name.starts_with("notes/") && file.extension() == ".md" &&
@@ -139,13 +156,16 @@ class SiteWriter {
       return fs::path("notes") / file.stem().concat(".html");
     if (const fs::path inside = file.lexically_relative("exercises"); name.starts_with("exercises/")) {
       const fs::path exercise = *inside.begin();
-      if (fs::exists(root_ / "exercises" / exercise / "exercise.toml"))
+      if (std::any_of(exercises_.begin(), exercises_.end(),
+                      [&](const auto& one) { return exercise == one.name; }))
         return fs::path("exercises") / (exercise.string() + ".html");
     }
     return {};
   }
 
   fs::path root_, target_;
+  std::vector<submission::ExerciseInfo> exercises_;
+  bool isForStudents_;
   std::set<fs::path> pictures_;
   Json entries_ = Json::array();
   int pages_ = 0;
@@ -170,18 +190,34 @@ std::string linkTo(const std::string& file, const std::string& title) {
   return fmt::format("<li><a href=\"{}\">{}</a></li>\n", htmlText(file), htmlText(title));
 }
 
-// `documents` and `notes` are items of lists.
-std::string firstPage(const std::vector<submission::ExerciseInfo>& exercises, const std::string& documents,
+// What the plan says about an exercise.
+SiteExercise plannedOf(const SitePlan& plan, const std::string& name) {
+  for (const SiteExercise& one : plan.exercises)
+    if (one.name == name) return one;
+  return {};
+}
+
+// `documents`, `forLecturers` and `notes` are items of lists.
+std::string firstPage(const std::vector<submission::ExerciseInfo>& exercises, const SitePlan& plan,
+                      const std::string& documents, const std::string& forLecturers,
                       const std::string& notes) {
   std::string rows;
-  for (const submission::ExerciseInfo& one : exercises)
+  const bool hasDates = std::any_of(plan.exercises.begin(), plan.exercises.end(), [](const auto& one) {
+    return !one.opening.empty() || !one.deadline.empty();
+  });
+  for (const submission::ExerciseInfo& one : exercises) {
+    const SiteExercise planned = plannedOf(plan, one.name);
+    const std::string dates =
+        fmt::format("<td>{}</td><td>{}</td>", htmlText(planned.opening), htmlText(planned.deadline));
     rows += fmt::format(
-        "<tr><td><a href=\"exercises/{0}.html\">{0}</a></td><td>{1}</td><td>{2}</td><td>{3}</td></tr>\n",
-        htmlText(one.name), htmlText(one.title), htmlText(one.script), one.points());
+        "<tr><td><a href=\"exercises/{0}.html\">{0}</a></td><td>{1}</td><td>{2}</td><td>{3}</td>{4}</tr>\n",
+        htmlText(one.name), htmlText(one.title), htmlText(one.script), one.points(), hasDates ? dates : "");
+  }
   return fmt::format(
-             "<h1>Robotics exercises</h1>\n<table class=\"names\">\n<tr><th>exercise</th><th>about</th>"
-             "<th>script</th><th>points</th></tr>\n{}</table>\n<h2>Documents</h2>\n<ul>\n{}</ul>\n",
-             rows, documents) +
+             "<h1>{}</h1>\n<table class=\"names\">\n<tr><th>exercise</th><th>about</th>"
+             "<th>script</th><th>points</th>{}</tr>\n{}</table>\n<h2>Documents</h2>\n<ul>\n{}</ul>\n",
+             htmlText(plan.title), hasDates ? "<th>opens</th><th>due</th>" : "", rows, documents) +
+         (forLecturers.empty() ? "" : "<h2>For lecturers</h2>\n<ul>\n" + forLecturers + "</ul>\n") +
          (notes.empty() ? "" : "<h2>Lecturer's notes</h2>\n<ul>\n" + notes + "</ul>\n");
 }
 
@@ -206,23 +242,33 @@ std::string addNotes(SiteWriter& site, const fs::path& root) {
   return links;
 }
 
-int writePages(const fs::path& root, const fs::path& target, SiteReaders readers) {
-  SiteWriter site(root, target);
-  const std::vector<submission::ExerciseInfo> exercises = submission::listExercises(root / "exercises");
+int writePages(const fs::path& root, const fs::path& target, SiteReaders readers, const SitePlan& plan) {
+  std::vector<submission::ExerciseInfo> exercises = submission::listExercises(root / "exercises");
+  if (!plan.exercises.empty())
+    std::erase_if(exercises, [&](const auto& one) { return plannedOf(plan, one.name).name.empty(); });
+  SiteWriter site(root, target, exercises, !plan.exercises.empty() && readers == SiteReaders::kEverybody);
   for (const submission::ExerciseInfo& one : exercises)
     site.addMarkdown(fs::path("exercises") / (one.name + ".html"),
                      fs::path("exercises") / one.name / "README.md", "",
                      pointsTable(one) + contract(one.folder));
-  std::string documents, notes;
+  std::string documents, forLecturers, notes;
   for (const Document& one : kDocuments) {
+    if (!site.has(one)) continue;
     const fs::path file = fs::path("share/doc") / one.name;
-    if (!fs::exists(root / file)) continue;
     const fs::path page = fs::path("documents") / file.stem().concat(".html");
     site.addMarkdown(page, file);
-    documents += linkTo(page.generic_string(), one.title);
+    (one.isForLecturers ? forLecturers : documents) += linkTo(page.generic_string(), one.title);
+  }
+  const std::vector<submission::Demonstration> shown =
+      submission::demonstrations(root / "share" / "demonstrations");
+  if (!shown.empty()) {
+    const std::string page = "documents/demonstrations.html";
+    documents +=
+        linkTo(page, site.addText(page, "share/demonstrations/index.md",
+                                  submission::demonstrationsPage(shown, [](const auto&) { return ""; })));
   }
   if (readers == SiteReaders::kLecturers) notes = addNotes(site, root);
-  site.write("index.html", "Robotics exercises", firstPage(exercises, documents, notes));
+  site.write("index.html", plan.title, firstPage(exercises, plan, documents, forLecturers, notes));
   site.finish();
   return site.pages();
 }
@@ -230,7 +276,7 @@ int writePages(const fs::path& root, const fs::path& target, SiteReaders readers
 }  // namespace
 
 CourseSite writeCourseSite(const fs::path& root, const fs::path& target, const fs::path& courseSecret,
-                           SiteReaders readers) {
+                           SiteReaders readers, const SitePlan& plan) {
   const auto unwritten = [&](const fs::filesystem_error& error) {
     return Error({.what = "cannot write the pages of the course",
                   .where = {(error.path1().empty() ? target : error.path1()).string()},
@@ -245,7 +291,7 @@ CourseSite writeCourseSite(const fs::path& root, const fs::path& target, const f
   }
   std::error_code ignored;
   try {
-    CourseSite site{.pages = writePages(root, target, readers)};
+    CourseSite site{.pages = writePages(root, target, readers, plan)};
     std::vector<Secret> secrets = secretsOfCourse(root, courseSecret);
     if (readers == SiteReaders::kLecturers)
       std::erase_if(secrets, [](const Secret& one) { return one.kind == SecretKind::kLecturersNote; });

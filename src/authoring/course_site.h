@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "authoring/leak_scan.h"
 
@@ -8,6 +10,17 @@ namespace rex::authoring {
 
 /// Whether the pages contain the lecturer's notes, which students must not get.
 enum class SiteReaders { kEverybody, kLecturers };
+
+/// An exercise of a course, with times as people read them; empty: none is said.
+struct SiteExercise {
+  std::string name{}, opening{}, deadline{};
+};
+
+/// What a course makes of its pages. Without exercises: all, and the documents for lecturers, too.
+struct SitePlan {
+  std::string title = "Robotics exercises";
+  std::vector<SiteExercise> exercises{};  ///< the pages have these alone
+};
 
 /// What the pages of a course consist of, and the result of their scan.
 struct CourseSite {
@@ -22,6 +35,7 @@ struct CourseSite {
 [[nodiscard]] CourseSite writeCourseSite(const std::filesystem::path& root,
                                          const std::filesystem::path& target,
                                          const std::filesystem::path& courseSecret = {},
-                                         SiteReaders readers = SiteReaders::kEverybody);
+                                         SiteReaders readers = SiteReaders::kEverybody,
+                                         const SitePlan& plan = {});
 
 }  // namespace rex::authoring

@@ -254,6 +254,32 @@ std::string failureClass(const grading::CheckResult& check, const grading::Grade
   return "";
 }
 
+ClassResults resultsOfPeople(const ClassResults& read, const Gradebook& book) {
+  ClassResults people{.complaints = read.complaints};
+  const auto wholePoints = [](std::int64_t hundredths) {
+    return static_cast<int>(std::lround(static_cast<double>(hundredths) / 100));
+  };
+  for (const GradeRow& row : book.rows) {
+    const auto found = std::ranges::find_if(read.results, [&](const StudentResult& one) {
+      return one.student == row.handedInAs && one.exercise == row.exercise;
+    });
+    if (!row.result || found == read.results.end()) continue;
+    StudentResult one = *found;
+    one.student = row.student.id;
+    for (const AppliedAdjustment& by : row.applied)
+      for (grading::CheckResult& check : one.result.checks) {
+        if (by.adjustment.check != check.id) continue;
+        check.points = wholePoints(by.after);
+        if (check.points == check.maxPoints) check.status = grading::Outcome::kPass;
+      }
+    one.result.score = wholePoints(row.points);
+    people.results.push_back(std::move(one));
+  }
+  std::ranges::stable_sort(people.results, {},
+                           [](const StudentResult& one) { return std::tie(one.exercise, one.student); });
+  return people;
+}
+
 std::vector<ExerciseStatistics> exerciseStatistics(const std::vector<StudentResult>& results) {
   std::map<std::string, std::vector<const StudentResult*>> byExercise;
   for (const StudentResult& one : results) byExercise[one.exercise].push_back(&one);

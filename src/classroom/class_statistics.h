@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "classroom/gradebook.h"
 #include "grading/results.h"
 
 namespace rex::classroom {
@@ -31,6 +32,11 @@ struct ClassResults {
 
 /// Throws Error if the folder itself cannot be read.
 [[nodiscard]] ClassResults readClassResults(const std::filesystem::path& folder);
+
+/// The same for the people of a grade book: a result that a group handed in counts for each of its members,
+/// one that a later one replaced for nobody, and that of a stranger not at all. Points of checks are those
+/// after adjustments by people, rounded; changes of final points and lateness are left out.
+[[nodiscard]] ClassResults resultsOfPeople(const ClassResults& read, const Gradebook& book);
 
 struct CheckStatistics {
   std::string id{};

@@ -58,8 +58,26 @@ TEST_F(CourseSiteTest, HasNoDeadLinks) {
   EXPECT_THAT(fileText(out() / "entries.js"),
               HasSubstr("\"url\":\"exercises/05-car.html#part-4-resampling-723-3-points\""));
   EXPECT_THAT(fileText(out() / "entries.js"), Not(HasSubstr("</")));
+  const std::string demonstrations = fileText(out() / "documents" / "demonstrations.html");
+  EXPECT_THAT(demonstrations, HasSubstr("<code>u = Kp (q* - q)"));
+  EXPECT_THAT(demonstrations, HasSubstr("3:15 to 3:17"));
   EXPECT_FALSE(fs::exists(out() / "notes"));
   EXPECT_THAT(fileText(out() / "index.html"), Not(HasSubstr("notes/")));
+}
+
+TEST_F(CourseSiteTest, HasOnlyWhatTheCourseHas) {
+  const SitePlan plan{.title = "Winter", .exercises = {{"01-kinematics", "", "1 May"}, {"05-car", "", ""}}};
+  const CourseSite site = writeCourseSite(homeFolder(), out(), {}, SiteReaders::kEverybody, plan);
+  ASSERT_TRUE(site.scan.leaks.empty()) << toString(site.scan.leaks.front());
+  EXPECT_EQ(expectLiveLinks(out(), 50), site.pages);
+  const std::string index = fileText(out() / "index.html");
+  EXPECT_THAT(index, HasSubstr("<h1>Winter</h1>"));
+  EXPECT_THAT(index, HasSubstr("<td>1 May</td>"));
+  EXPECT_THAT(index, Not(HasSubstr("06-kalmanSLAM")));
+  for (const char* file :
+       {"documents/grading.html", "documents/sandbox.html", "exercises/06-kalmanSLAM.html"})
+    EXPECT_FALSE(fs::exists(out() / file)) << file;
+  EXPECT_TRUE(fs::exists(out() / "exercises/05-car.html"));
 }
 
 TEST_F(CourseSiteTest, HasNotesForLecturers) {

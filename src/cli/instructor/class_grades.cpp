@@ -30,6 +30,13 @@ classroom::Course readClassCourse(const Project& project, const ClassFiles& file
   return {.policy = readDeadlines(project, files.deadlines)};
 }
 
+std::vector<std::string> courseExercises(const Project& project, const classroom::Course& course) {
+  std::vector<std::string> names = project.exerciseNames();
+  if (!course.weights.empty())
+    std::erase_if(names, [&](const std::string& one) { return !course.weights.contains(one); });
+  return names;
+}
+
 classroom::GradebookSource readGradebookSource(const Project& project, const ClassFiles& files,
                                                const std::vector<classroom::Task>& tasks, const fs::path& out,
                                                const std::string& only) {

@@ -69,7 +69,7 @@ void addDevRelease(CLI::App* dev, Action& action) {
   CLI::App* command =
       addVerb(dev, "release", "Write the tree that students get, and look for leaks in it",
               "Examples:\n  scripts/rex dev release /tmp/students 01 02 --prove\n"
-              "  scripts/rex dev release /tmp/students --until 2026-12-01 --deadlines deadlines.toml\n"
+              "  scripts/rex dev release /tmp/students --until 2026-12-01 --course course.toml\n"
               "  scripts/rex dev release --scan handouts\n\n"
               "The tree has no solution, hidden check or wrong variant.\n"
               "Exit code 1: something leaks; nothing was written.");
@@ -87,10 +87,12 @@ void addDevRelease(CLI::App* dev, Action& action) {
        {"--installed", options->installed, "this folder is an installed tree, with programs and libraries"},
        {"--json", options->json, "print JSON"},
        {"--secret-file", options->secret, "FILE",
-        "secret of the course, which must not be in the tree either"}});
-  CLI::Option *until = added[0], *scan = added[4];
-  until->excludes(only)->needs(added[1]);
-  added[1]->needs(until);
+        "secret of the course, which must not be in the tree either"},
+       {"--course", options->course, "FILE.toml", "only the exercises of this course, with its openings"}});
+  CLI::Option *until = added[0], *scan = added[4], *course = added[8];
+  until->excludes(only);
+  added[1]->needs(until)->excludes(course);
+  course->excludes(only)->excludes(scan);
   scan->excludes(out)->excludes(only)->excludes(until)->excludes(added[2])->excludes(added[3]);
   added[5]->needs(scan);
   command->callback([&action, options] {
@@ -109,6 +111,8 @@ void addDevSite(CLI::App* dev, Action& action) {
   addOptions(command,
              {{"--secret-file", options->secret, "FILE",
                "secret of the course, which must not be in the pages either"},
+              {"--course", options->course, "FILE.toml",
+               "only the exercises of this course, with its title and dates, and nothing for lecturers"},
               {"--notes", options->notes, "also the lecturer's notes: pages that students must not get"},
               {"--json", options->json, "print JSON"}});
   command->callback(
@@ -140,7 +144,7 @@ void addDevStats(CLI::App* dev, Action& action) {
   CLI::App* command =
       addVerb(dev, "stats", "Show how a class did: points, and which checks fail most",
               "Examples:\n  scripts/rex dev stats results\n"
-              "  scripts/rex dev stats results --json --deadlines course.toml\n"
+              "  scripts/rex dev stats results --json --course course.toml\n"
               "  scripts/rex dev stats results --students\n"
               "  scripts/rex dev stats results -o points.png --parts parts.png\n\n"
               "Exit code 2: some results could not be read, or were changed; they are named.");
@@ -154,10 +158,13 @@ void addDevStats(CLI::App* dev, Action& action) {
                             "print a table of the students: points, time and number of attempts"},
                            {"--deadlines", options->deadlines, "FILE.toml",
                             "say when the first full score came, by opening and deadline (or a course file)"},
+                           {"--course", options->course, "FILE.toml",
+                            "count the people of this course, with adjustments by people, not folders"},
                            {"-o,--out", options->figure, "FILE.png", "draw the points of each exercise"},
                            {"--parts", options->parts, "FILE.png", "draw the mean points of each part"}});
   added[1]->excludes(added[0]);
   added[2]->excludes(added[0])->excludes(added[1]);
+  added[3]->excludes(added[4]);
   command->callback(
       [&action, options] { action = [options](const Project& p) { return devStats(p, *options); }; });
 }

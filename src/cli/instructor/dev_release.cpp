@@ -13,6 +13,7 @@
 #include "base/instant.h"
 #include "base/process.h"
 #include "base/text.h"
+#include "cli/instructor/class_grades.h"
 #include "cli/instructor/collect.h"
 #include "cli/instructor/dev_verbs.h"
 #include "cli/json_internal.h"
@@ -160,23 +161,31 @@ ExitCode scanOnly(const Project& project, const ReleaseOptions& options) {
 std::vector<std::string> chosenExercises(const Project& project, const ReleaseOptions& options) {
   std::vector<std::string> chosen;
   for (const std::string& name : options.only) chosen.push_back(project.exercise(name).name);
-  if (options.until.empty()) return chosen;
+  const bool hasCourse = !options.course.empty();
+  const classroom::Course course =
+      hasCourse ? readClassCourse(project, {.course = options.course}) : classroom::Course{};
+  const std::vector<std::string> names = hasCourse ? courseExercises(project, course) : project.exerciseNames();
+  if (options.until.empty()) return hasCourse ? names : chosen;
+  if (!hasCourse && options.deadlines.empty())
+    throw UsageError({.what = "--until",
+                      .found = "no file with openings",
+                      .wanted = "--course FILE.toml or --deadlines FILE.toml"});
   const std::optional<std::int64_t> time = parseInstant(
       options.until.find('T') == std::string::npos ? options.until + "T23:59:59Z" : options.until);
   if (!time)
     throw UsageError({.what = "--until",
                       .found = escapeForTerminal(options.until),
                       .wanted = "a day such as 2026-12-01, or a time such as 2026-12-01T08:00:00+01:00"});
-  const classroom::LatePolicy policy = readDeadlines(project, options.deadlines);
+  const classroom::LatePolicy policy = hasCourse ? course.policy : readDeadlines(project, options.deadlines);
   std::vector<std::string> without;
-  for (const std::string& name : project.exerciseNames())
+  for (const std::string& name : names)
     if (const std::optional<std::int64_t> opening = policy.at(name).opening; !opening)
       without.push_back(name);
     else if (*opening <= *time)
       chosen.push_back(name);
   if (!without.empty())
-    note(wrap(fmt::format("Left out, since {} says no `opening` for them: {}", shown(options.deadlines),
-                          join(without, ", ")),
+    note(wrap(fmt::format("Left out, since {} says no `opening` for them: {}",
+                          shown(hasCourse ? options.course : options.deadlines), join(without, ", ")),
               2, 0));
   if (chosen.empty())
     throw UsageError(

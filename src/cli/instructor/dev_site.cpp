@@ -1,18 +1,41 @@
 #include <fmt/format.h>
 
 #include "authoring/course_site.h"
+#include "classroom/platform_time.h"
+#include "cli/instructor/class_grades.h"
 #include "cli/instructor/dev_verbs.h"
 #include "cli/json_internal.h"
 #include "cli/terminal.h"
 
 namespace rex::cli {
 
+namespace {
+
+authoring::SitePlan planOf(const Project& project, const std::filesystem::path& file) {
+  if (file.empty()) return {};
+  const classroom::Course course = readClassCourse(project, {.course = file});
+  const classroom::PlatformZone zone(course.timeZone);
+  const auto shownTime = [&](const std::optional<std::int64_t>& time) {
+    return time ? zone.textOf(*time) : "";
+  };
+  authoring::SitePlan plan;
+  if (!course.title.empty()) plan.title = course.title;
+  for (const std::string& name : courseExercises(project, course)) {
+    const auto rule = course.policy.find(name);
+    plan.exercises.push_back({name, rule == course.policy.end() ? "" : shownTime(rule->second.opening),
+                              rule == course.policy.end() ? "" : shownTime(rule->second.deadline)});
+  }
+  return plan;
+}
+
+}  // namespace
+
 ExitCode devSite(const Project& project, const SiteOptions& options) {
   using authoring::SiteReaders;
   requireSourceTree(project, "site");
-  const authoring::CourseSite site =
-      authoring::writeCourseSite(project.root, std::filesystem::absolute(options.out), options.secret,
-                                 options.notes ? SiteReaders::kLecturers : SiteReaders::kEverybody);
+  const authoring::CourseSite site = authoring::writeCourseSite(
+      project.root, std::filesystem::absolute(options.out), options.secret,
+      options.notes ? SiteReaders::kLecturers : SiteReaders::kEverybody, planOf(project, options.course));
   const bool leaks = !site.scan.leaks.empty();
   if (options.json) {
     Json list = Json::array();

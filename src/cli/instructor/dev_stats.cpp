@@ -265,8 +265,12 @@ void print(const std::vector<ExerciseStatistics>& all, const classroom::ClassRes
 
 ExitCode devStats(const Project& project, const StatsOptions& options) {
   requireFolder(options.results, "the folder of results that rex grade wrote");
-  const classroom::LatePolicy policy = readDeadlines(project, options.deadlines);
-  const classroom::ClassResults read = classroom::readClassResults(options.results);
+  const classroom::LatePolicy policy =
+      readDeadlines(project, options.course.empty() ? options.deadlines : options.course);
+  classroom::ClassResults read = classroom::readClassResults(options.results);
+  if (!options.course.empty())
+    read = classroom::resultsOfPeople(
+        read, gradebookOf(project, {.course = options.course}, tasksIn(options.results), options.results));
   for (const std::string& complaint : read.complaints) note(wrap(escapeForTerminal(complaint), 2, 0));
   if (read.results.empty())
     throw UsageError({.what = "nothing to evaluate",

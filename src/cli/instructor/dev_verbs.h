@@ -37,6 +37,7 @@ ExitCode devStrip(const Project& project, const std::string& name);
 struct ReleaseOptions {
   std::filesystem::path out{};        ///< new folder
   std::vector<std::string> only{};    ///< these exercises; empty: all
+  std::filesystem::path course{};     ///< those of this course file, which has the openings; empty: all
   std::string until{};                ///< those whose opening is not after this time; empty: all
   std::filesystem::path deadlines{};  ///< the file with the openings
   std::filesystem::path scan{};       ///< only scan this tree, and write nothing
@@ -62,6 +63,7 @@ ExitCode devBench(const Project& project, const BenchOptions& options);
 struct SiteOptions {
   std::filesystem::path out{};     ///< new folder
   std::filesystem::path secret{};  ///< file with the secret of the course; empty: none
+  std::filesystem::path course{};  ///< course file: its exercises alone, its title and dates; empty: all
   bool notes = false;
   bool json = false;
 };
@@ -73,6 +75,7 @@ struct StatsOptions {
   std::filesystem::path figure{};     ///< the points of each exercise, .png or .svg; empty: none
   std::filesystem::path parts{};      ///< the points of each part, likewise
   std::filesystem::path deadlines{};  ///< a file of deadlines or course file; empty: none
+  std::filesystem::path course{};     ///< a course file, to count its people; empty: count folders
   bool json = false;
   bool csv = false;       ///< a table of the checks
   bool students = false;  ///< a table of the students

@@ -70,7 +70,9 @@ TEST_F(DevReleaseTest, HoldsTheExercisesThatAreOpenByADay) {
   write(file, "[all]\ngrace_minutes = 5\n");
   EXPECT_THAT(flat(until("2026-12-01").error),
               HasSubstr("deadlines.toml says no `opening` for them: 98-template"));
-  EXPECT_EQ(rex({"dev", "release", "x", "--until", "2026-12-01"}).code, 64);
+  EXPECT_THAT(
+      flat(rex({"dev", "release", "x", "--until", "2026-12-01"}).error),
+      HasSubstr("--until: found no file with openings, wanted --course FILE.toml or --deadlines FILE.toml"));
 }
 
 // They would write into the installation, or find nothing there to look for.
@@ -154,6 +156,29 @@ TEST_F(DevReleaseTest, ProvesThatTheTreeWorksAlone) {
     EXPECT_EQ(ended.output.find("proven") != std::string::npos, message.empty());
     EXPECT_FALSE(fs::exists(students() / "build")) << "a copy is built";
   }
+}
+
+TEST_F(DevReleaseTest, TakesTheExercisesTheTitleAndTheDatesOfACourse) {
+  fs::copy(exercise(), root() / "exercises" / "99-other", fs::copy_options::recursive);
+  fs::copy(sourcePath("share/site"), root() / "share" / "site");
+  const std::string course = (root() / "course.toml").string(), site = (root() / "site").string();
+  write(course,
+        "title = \"Robots <1>\"\ntime_zone = \"+01:00\"\n[exercise.98-template]\n"
+        "opening = 2026-12-01T08:00:00+01:00\ndeadline = 2026-12-08T23:59:00+01:00\n");
+  EXPECT_EQ(release({"--course", course}).code, 0);
+  EXPECT_TRUE(fs::exists(students() / "exercises/98-template"));
+  EXPECT_FALSE(fs::exists(students() / "exercises/99-other"));
+  fs::remove_all(students());
+  EXPECT_THAT(flat(release({"--course", course, "--until", "2026-11-30"}).error),
+              HasSubstr("--until: found no exercise that opens by 2026-11-30"));
+  EXPECT_EQ(release({"--course", course, "--until", "2026-12-01"}).code, 0);
+  const Ended ended = rex({"dev", "site", site, "--course", course});
+  EXPECT_EQ(ended.code, 0) << ended.error;
+  const std::string index = fileText(root() / "site" / "index.html");
+  EXPECT_THAT(index, HasSubstr("<h1>Robots &#60;1&#62;</h1>"));
+  EXPECT_THAT(index, HasSubstr("<td>2026-12-01T08:00:00+01:00</td><td>2026-12-08T23:59:00+01:00</td>"));
+  EXPECT_THAT(index, ::testing::Not(HasSubstr("99-other")));
+  EXPECT_FALSE(fs::exists(root() / "site/exercises/99-other.html"));
 }
 
 TEST_F(DevReleaseTest, WritesPagesOfTheCourse) {
