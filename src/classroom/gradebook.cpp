@@ -351,6 +351,25 @@ const GradeRow* rowOfTask(const Gradebook& book, std::size_t task) {
   return found;
 }
 
+std::optional<reports::Judgement> taskJudgement(const Gradebook& book, const std::vector<Task>& tasks,
+                                                std::size_t task) {
+  const GradeRow* row = rowOfTask(book, task);
+  const bool counts = row != nullptr;
+  if (!counts) row = book.row(tasks[task].student, tasks[task].exercise);
+  if (row == nullptr || !row->task) return {};
+  auto judgement = rowJudgement(*row);
+  if (!judgement) return {};
+  std::vector<std::string> names;
+  for (const GradeRow& one : book.rows)
+    if (one.task == row->task && one.exercise == row->exercise) names.push_back(shownName(one.student));
+  if (!names.empty()) judgement->student = join(names, ", ");
+  if (!counts)
+    judgement->changes.insert(
+        judgement->changes.begin(),
+        fmt::format("The points are those of what {} handed in later.", row->handedInAs));
+  return judgement;
+}
+
 Gradebook makeGradebook(const GradebookSource& source) { return BookMaker(source).make(); }
 
 Course withStudents(Course course, const std::vector<Task>& tasks, const ImportTable& imported) {

@@ -112,6 +112,12 @@ struct GradebookSource {
 /// submission counts instead.
 [[nodiscard]] const GradeRow* rowOfTask(const Gradebook& book, std::size_t task);
 
+/// What a report of that task says: the grade of all who handed it in, by their names. If a later submission
+/// counts instead, it is the grade for that one, and the report says so. Empty if there is no grade.
+[[nodiscard]] std::optional<reports::Judgement> taskJudgement(const Gradebook& book,
+                                                              const std::vector<Task>& tasks,
+                                                              std::size_t task);
+
 /// What a grading could not take, kept beside its results for `rex grade --collect`.
 [[nodiscard]] std::string rejectedText(const std::vector<RejectedSubmission>& all);
 /// Reads that file; empty if there is none. Throws Error with the line if it is malformed.

@@ -30,6 +30,8 @@ td, th {{ text-align: left; vertical-align: top; padding: .2rem .8rem .2rem 0; b
 .code td {{ border: 0; padding: 0 .8rem 0 0; font: 13px/1.5 monospace; white-space: pre-wrap; }}
 .code td:first-child {{ color: #5c6875; text-align: right; }}
 .note td {{ background: #fff6d6; font: inherit; padding: .2rem .8rem; }}
+.passes td:first-child {{ color: #1b6e36; font-weight: 600; }}
+.fails td:first-child {{ color: #b3261e; font-weight: 600; }}
 img {{ max-width: 100%; border: 1px solid #dde3e9; }}
 </style>
 </head>
@@ -85,15 +87,14 @@ std::string tableOfChecks(const grading::GradeResult& result, const std::string&
   int hidden = 0;
   for (const grading::CheckResult& check : result.checks) {
     const bool isShown = !isPassed(check) && !isHidden(check);
-    text += fmt::format("<tr{}><td>{}</td><td>{}</td><td>{}/{}</td><td>{}{}</td></tr>\n",
-                        path.empty()      ? ""
-                        : isPassed(check) ? " class=\"passes\""
-                                          : " class=\"fails\"",
-                        html(statusText(check)), html(nameOfCheck(check, hidden)), check.points,
-                        check.maxPoints, html(foundBy(check, result, path)),
+    text += fmt::format("<tr class=\"{}\"><td>{}</td><td>{}</td><td>{}/{}</td><td>{}{}</td></tr>\n",
+                        isPassed(check) ? "passes" : "fails", html(statusText(check)),
+                        html(nameOfCheck(check, hidden)), check.points, check.maxPoints,
+                        html(foundBy(check, result, path)),
                         isShown ? placeOf(path, submittedFile(result), check.line) : "");
   }
-  return text + "</table>\n";
+  const std::string parts = pointsByPart(result);
+  return text + "</table>\n" + (parts.empty() ? "" : "<p>" + html(parts) + "</p>\n");
 }
 
 // Where the compiler found something, one place for each line.

@@ -59,6 +59,8 @@ std::string markdownReport(const grading::GradeResult& result, const Judgement* 
     text += block("Cannot be graded:", compileText(result));
   } else {
     text += table(result);
+    if (const std::string parts = pointsByPart(result); !parts.empty())
+      text += fmt::format("\n{}\n", cell(parts));
     if (!result.compile.diagnostics.empty()) text += block("The compiler warns:", compileText(result));
   }
   const std::string printed = printedText(result);

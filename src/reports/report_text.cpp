@@ -52,6 +52,26 @@ std::string pointsText(const grading::GradeResult& result) {
   return fmt::format("{} of {} points", result.score, result.maxScore);
 }
 
+std::string pointsByPart(const grading::GradeResult& result) {
+  struct Part {
+    std::string id;
+    int points = 0, maxPoints = 0;
+  };
+  std::vector<Part> parts;
+  for (const grading::CheckResult& check : result.checks) {
+    auto part =
+        std::find_if(parts.begin(), parts.end(), [&](const Part& one) { return one.id == check.part; });
+    if (part == parts.end()) part = parts.insert(part, {.id = check.part});
+    part->points += check.points, part->maxPoints += check.maxPoints;
+  }
+  if (parts.size() < 2) return "";
+  std::string text = "By part: ";
+  for (const Part& part : parts)
+    text += fmt::format("{}{} {}/{}", &part == parts.data() ? "" : ", ", shownText(part.id), part.points,
+                        part.maxPoints);
+  return text + ".";
+}
+
 double visibleSeconds(const grading::GradeResult& result) {
   double seconds = 0;
   for (const grading::CheckResult& check : result.checks)

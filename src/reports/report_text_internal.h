@@ -39,6 +39,9 @@ inline constexpr const char* kGraderFailed =
 /// "3 of 9 points".
 [[nodiscard]] std::string pointsText(const grading::GradeResult& result);
 
+/// "By part: step 2/4, motion 3/3."; empty for a single part.
+[[nodiscard]] std::string pointsByPart(const grading::GradeResult& result);
+
 /// Seconds that visible checks took: how long a hidden one takes could tell its input.
 [[nodiscard]] double visibleSeconds(const grading::GradeResult& result);
 

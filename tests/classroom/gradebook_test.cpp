@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "classroom/class_statistics.h"
 #include "classroom/submission_folder.h"
 #include "grading/hidden_seed.h"
 #include "support/class_results.h"
@@ -145,6 +146,37 @@ TEST_F(GradebookTest, CountsTheLastSubmissionOfAGroupForEachMember) {
               ElementsAre(kEx + " was handed in 2 times by one student or group: 'adam' "
                                 "(2023-11-14T22:13:20Z), 'zoe' (2023-11-14T22:14:20Z); the last one counts"));
   EXPECT_TRUE(book.strangers.empty());
+}
+
+TEST_F(GradebookTest, NamesAllWhoHandedInForReportsOfAPair) {
+  handIn("adam", 7), handIn("zoe", 10, kTime + 60), handIn("bob", 4);
+  const Gradebook book = makeGradebook(source_);
+  const auto earlier = taskJudgement(book, source_.tasks, 0), later = taskJudgement(book, source_.tasks, 1),
+             alone = taskJudgement(book, source_.tasks, 2);
+  ASSERT_TRUE(earlier && later && alone);
+  EXPECT_EQ(later->student, "Adam A., zoe");
+  EXPECT_THAT(later->changes, ElementsAre());
+  EXPECT_EQ(earlier->student, later->student);
+  EXPECT_EQ(earlier->final, later->final) << "what counts for both";
+  EXPECT_THAT(earlier->changes, ElementsAre("The points are those of what zoe handed in later."));
+  EXPECT_EQ(alone->student, "bob");
+}
+
+TEST_F(GradebookTest, CountsPeopleForStatistics) {
+  handIn("adam", 7), handIn("zoe", 10, kTime + 60), handIn("bob", 5), handIn("Dora", 1);
+  Adjustment turn = adjustment("bob", "turn"), bonus = adjustment("bob", "");
+  turn.points = 400, bonus.add = 50;
+  source_.adjustments.adjustments = {turn, bonus};
+  const ClassResults people = resultsOfPeople(readClassResults(source_.out), makeGradebook(source_));
+  std::vector<std::string> found;
+  for (const StudentResult& one : people.results)
+    found.push_back(one.student + " " + std::to_string(one.result.score));
+  EXPECT_THAT(found, ElementsAre("adam 10", "bob 7", "zoe 10")) << "not adam's 7, nor Dora";
+  const ExerciseStatistics all = statisticsOf(people.results).at(0);
+  EXPECT_EQ(all.graded, 3);
+  EXPECT_EQ(all.checks.at(0).id, "far");
+  EXPECT_EQ(all.checks.at(0).failed, 1) << "bob, whose other checks are full now";
+  EXPECT_EQ(all.checks.at(1).failed, 0);
 }
 
 TEST_F(GradebookTest, TakesTheFolderOfAGroup) {

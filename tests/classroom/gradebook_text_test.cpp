@@ -62,6 +62,7 @@ TEST_F(ClassFeedbackTest, ShowsEachStudentNothingOfOthersNorOfHiddenChecks) {
       EXPECT_THAT(all, HasSubstr(mark + own));
   }
   const std::string page = fileText(out / "adam" / kEx / "feedback.html");
+  EXPECT_THAT(page, HasSubstr("<tr class=\"passes\"><td>pass</td>"));
   EXPECT_THAT(page, HasSubstr("<h1>01-kinematics: 4 of 10 points</h1>"));
   EXPECT_THAT(page, HasSubstr("<td>fail</td><td>Hidden check 1</td><td>0/3</td><td></td>"));
   EXPECT_THAT(page, HasSubstr("src=\"data:image/png;base64,UExBTlRFRC1hZGFtLWhhbmQucG5n\""));

@@ -29,7 +29,8 @@ inline constexpr const char *kRejectedFile = "not_taken.tsv", *kTotals = "totals
 [[nodiscard]] classroom::Course readClassCourse(const Project& project, const ClassFiles& files);
 
 /// The exercises that the course counts, by name; all if it names none.
-[[nodiscard]] std::vector<std::string> courseExercises(const Project& project, const classroom::Course& course);
+[[nodiscard]] std::vector<std::string> courseExercises(const Project& project,
+                                                       const classroom::Course& course);
 
 /// What makes the grade book of a folder of results, and the book: the list of tasks, what was not taken and
 /// the table of imports lie in it. Throws like the readers of these files.

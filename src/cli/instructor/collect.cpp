@@ -131,8 +131,7 @@ void writeReports(const std::vector<Task>& tasks, const std::filesystem::path& o
   int written = 0, kept = 0;
   for (std::size_t k = 0; k < tasks.size(); ++k) {
     const Task& task = tasks[k];
-    const classroom::GradeRow* row = rowOfTask(book, k);
-    const auto judgement = row == nullptr ? std::nullopt : rowJudgement(*row);
+    const auto judgement = taskJudgement(book, tasks, k);
     const std::filesystem::path folder = classroom::resultFolder(out, task);
     const classroom::TaskState state = classroom::taskState(task, out);
     if (state != classroom::TaskState::kDone && state != classroom::TaskState::kFailed) {

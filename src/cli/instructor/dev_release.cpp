@@ -164,7 +164,8 @@ std::vector<std::string> chosenExercises(const Project& project, const ReleaseOp
   const bool hasCourse = !options.course.empty();
   const classroom::Course course =
       hasCourse ? readClassCourse(project, {.course = options.course}) : classroom::Course{};
-  const std::vector<std::string> names = hasCourse ? courseExercises(project, course) : project.exerciseNames();
+  const std::vector<std::string> names =
+      hasCourse ? courseExercises(project, course) : project.exerciseNames();
   if (options.until.empty()) return hasCourse ? names : chosen;
   if (!hasCourse && options.deadlines.empty())
     throw UsageError({.what = "--until",

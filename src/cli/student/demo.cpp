@@ -144,7 +144,8 @@ ExitCode writeAll(const Project& project, const std::vector<Demonstration>& all,
       "table { border-collapse: collapse; width: 100%; } td, th { text-align: left; "
       "vertical-align: top; padding: 0.4rem 0.8rem; border-top: 1px solid #ccc; }</style>\n"
       "</head>\n<body>\n" +
-          reports::markdownPage(page, [](const std::string& link) { return link; }).html + "</body>\n</html>\n",
+          reports::markdownPage(page, [](const std::string& link) { return link; }).html +
+          "</body>\n</html>\n",
       "the page of all demonstrations");
   say(shown(folder / "index.html"));
   return code;
