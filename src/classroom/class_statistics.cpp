@@ -254,7 +254,7 @@ std::string failureClass(const grading::CheckResult& check, const grading::Grade
   return "";
 }
 
-ClassResults resultsOfPeople(const ClassResults& read, const Gradebook& book) {
+ClassResults resultsByPerson(const ClassResults& read, const Gradebook& book) {
   ClassResults people{.complaints = read.complaints};
   const auto wholePoints = [](std::int64_t hundredths) {
     return static_cast<int>(std::lround(static_cast<double>(hundredths) / 100));

@@ -167,7 +167,7 @@ TEST_F(GradebookTest, CountsPeopleForStatistics) {
   Adjustment turn = adjustment("bob", "turn"), bonus = adjustment("bob", "");
   turn.points = 400, bonus.add = 50;
   source_.adjustments.adjustments = {turn, bonus};
-  const ClassResults people = resultsOfPeople(readClassResults(source_.out), makeGradebook(source_));
+  const ClassResults people = resultsByPerson(readClassResults(source_.out), makeGradebook(source_));
   std::vector<std::string> found;
   for (const StudentResult& one : people.results)
     found.push_back(one.student + " " + std::to_string(one.result.score));

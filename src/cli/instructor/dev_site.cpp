@@ -16,7 +16,7 @@ authoring::SitePlan planOf(const Project& project, const std::filesystem::path& 
   const classroom::Course course = readClassCourse(project, {.course = file});
   const classroom::PlatformZone zone(course.timeZone);
   const auto shownTime = [&](const std::optional<std::int64_t>& time) {
-    return time ? zone.textOf(*time) : "";
+    return time ? zone.toText(*time) : "";
   };
   authoring::SitePlan plan;
   if (!course.title.empty()) plan.title = course.title;

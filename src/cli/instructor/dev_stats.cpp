@@ -269,8 +269,8 @@ ExitCode devStats(const Project& project, const StatsOptions& options) {
       readDeadlines(project, options.course.empty() ? options.deadlines : options.course);
   classroom::ClassResults read = classroom::readClassResults(options.results);
   if (!options.course.empty())
-    read = classroom::resultsOfPeople(
-        read, gradebookOf(project, {.course = options.course}, tasksIn(options.results), options.results));
+    read = classroom::resultsByPerson(
+        read, readGradebook(project, {.course = options.course}, tasksIn(options.results), options.results));
   for (const std::string& complaint : read.complaints) note(wrap(escapeForTerminal(complaint), 2, 0));
   if (read.results.empty())
     throw UsageError({.what = "nothing to evaluate",
