@@ -172,7 +172,7 @@ TEST_F(GradebookTest, CountsPeopleForStatistics) {
   for (const StudentResult& one : people.results)
     found.push_back(one.student + " " + std::to_string(one.result.score));
   EXPECT_THAT(found, ElementsAre("adam 10", "bob 7", "zoe 10")) << "not adam's 7, nor Dora";
-  const ExerciseStatistics all = statisticsOf(people.results).at(0);
+  const ExerciseStatistics all = exerciseStatistics(people.results).at(0);
   EXPECT_EQ(all.graded, 3);
   EXPECT_EQ(all.checks.at(0).id, "far");
   EXPECT_EQ(all.checks.at(0).failed, 1) << "bob, whose other checks are full now";
