@@ -6,10 +6,11 @@
 // Try: An arm with weak motors swings its hand to targets. Plan 5 "steps" instead of 30: it oscillates for
 // seconds.
 #include "control/ilqr.h"
+#include "control/robot_steps.h"
 #include "course/car_view.h"
 #include "course/course.h"
 #include "course/live_view.h"
-#include "dynamics/forward_dynamics.h"
+#include "kinematics/jacobians.h"
 #include "render/picture.h"
 
 using namespace rex;
@@ -23,21 +24,18 @@ int main() {
   const auto handAt = [&](const Eigen::VectorXd& x) -> Eigen::Vector3d {
     return forwardKinematics(model, x.head(3))[end] * Eigen::Vector3d(0, 0, 0.15);
   };
+  const auto handJacobian = [&](const Eigen::VectorXd& x) {
+    return positionJacobian(model, forwardKinematics(model, x.head(3)), end, {0, 0, 0.15});
+  };
   Eigen::Array3d strength;
   const auto torques = [&](const Eigen::VectorXd& u) -> Eigen::VectorXd {
     return strength * (u.array() / strength).tanh();
   };
   Eigen::Vector3d target;
   // The motion in semi-implicit Euler steps; the arm itself moves by Runge-Kutta steps.
+  RobotSteps steps(model, kStep, 2);
   ControlProblem problem{
-      .next = [&](const Eigen::VectorXd& x, const Eigen::VectorXd& u) -> Eigen::VectorXd {
-        Eigen::VectorXd y = x;
-        for (int half = 0; half < 2; ++half) {
-          y.tail(3) += kStep / 2 * forwardDynamics(model, y.head(3), y.tail(3), torques(u));
-          y.head(3) += kStep / 2 * y.tail(3);
-        }
-        return y;
-      },
+      .next = [&](const Eigen::VectorXd& x, const Eigen::VectorXd& u) { return steps.next(x, torques(u)); },
       .stage = [&](const Eigen::VectorXd& x, const Eigen::VectorXd& u, int) -> Eigen::VectorXd {
         Eigen::VectorXd e(9);
         e << 2 * (handAt(x) - target), 0.1 * x.tail(3), 0.02 * u;
@@ -48,7 +46,28 @@ int main() {
         e << 20 * (handAt(x) - target), 2 * x.tail(3);
         return e;
       },
-      .start = {}};
+      .start = {},
+      .derivative =
+          [&](const Eigen::VectorXd& x, const Eigen::VectorXd& u) {
+            MotionJacobians J = steps.derivative(x, torques(u));
+            J.B *= (1 - (u.array() / strength).tanh().square()).matrix().asDiagonal();
+            return J;
+          },
+      .stageDerivative =
+          [&](const Eigen::VectorXd& x, const Eigen::VectorXd&, int) {
+            MotionJacobians J{Eigen::MatrixXd::Zero(9, 6), Eigen::MatrixXd::Zero(9, 3)};
+            J.A.topLeftCorner(3, 3) = 2 * handJacobian(x);
+            J.A.block(3, 3, 3, 3).diagonal().setConstant(0.1);
+            J.B.bottomRows(3).diagonal().setConstant(0.02);
+            return J;
+          },
+      .finalDerivative =
+          [&](const Eigen::VectorXd& x) {
+            Eigen::MatrixXd J = Eigen::MatrixXd::Zero(6, 6);
+            J.topLeftCorner(3, 3) = 20 * handJacobian(x);
+            J.bottomRightCorner(3, 3).diagonal().setConstant(2);
+            return J;
+          }};
   LiveView view("reaching");
   view.lookFrom({2.5, -0.4, 0.3});
   IlqrResult plan;

@@ -54,14 +54,29 @@ struct Local {
   Eigen::VectorXd f;
 };
 
+void requireJacobian(const char* what, const Eigen::MatrixXd& J, Eigen::Index rows, Eigen::Index columns) {
+  requireSize(fmt::format("rows of {}", what), J.rows(), rows);
+  requireSize(fmt::format("columns of {}", what), J.cols(), columns);
+  internal::requireFiniteMatrix(what, J);
+}
+
+// By x and u.
+MotionJacobians costJacobians(const ControlProblem& problem, const Eigen::VectorXd& x,
+                              const Eigen::VectorXd& u, int t, Eigen::Index terms) {
+  if (!problem.stageDerivative)
+    return {numericJacobian([&](const Eigen::VectorXd& moved) { return problem.stage(moved, u, t); }, x),
+            numericJacobian([&](const Eigen::VectorXd& moved) { return problem.stage(x, moved, t); }, u)};
+  MotionJacobians J = problem.stageDerivative(x, u, t);
+  requireJacobian("the stage cost's derivative by x", J.A, terms, x.size());
+  requireJacobian("the stage cost's derivative by u", J.B, terms, u.size());
+  return J;
+}
+
 LqStage stageAround(const ControlProblem& problem, const Eigen::VectorXd& x, const Eigen::VectorXd& u,
                     int t) {
   Linearization next = linearized(problem.next, x, u, problem.derivative);
   const Eigen::VectorXd e = problem.stage(x, u, t);
-  const Eigen::MatrixXd Jx =
-      numericJacobian([&](const Eigen::VectorXd& moved) { return problem.stage(moved, u, t); }, x);
-  const Eigen::MatrixXd Ju =
-      numericJacobian([&](const Eigen::VectorXd& moved) { return problem.stage(x, moved, t); }, u);
+  const auto [Jx, Ju] = costJacobians(problem, x, u, t, e.size());
   return {.A = std::move(next.A),
           .B = std::move(next.B),
           .Q = Jx.transpose() * Jx,
@@ -76,9 +91,12 @@ Local localProblem(const ControlProblem& problem, const Motion& motion) {
   for (Eigen::Index t = 0; t < motion.U.cols(); ++t)
     local.stages.push_back(stageAround(problem, motion.X.col(t), motion.U.col(t), static_cast<int>(t)));
   const Eigen::VectorXd last = motion.X.col(motion.X.cols() - 1);
-  const Eigen::MatrixXd J = numericJacobian(problem.final, last);
+  const Eigen::VectorXd e = problem.final(last);
+  const Eigen::MatrixXd J =
+      problem.finalDerivative ? problem.finalDerivative(last) : numericJacobian(problem.final, last);
+  requireJacobian("the final cost's derivative", J, e.size(), last.size());
   local.F = J.transpose() * J;
-  local.f = J.transpose() * problem.final(last);
+  local.f = J.transpose() * e;
   return local;
 }
 

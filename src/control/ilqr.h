@@ -18,8 +18,10 @@ struct ControlProblem {
   std::function<Eigen::VectorXd(const Eigen::VectorXd& x, const Eigen::VectorXd& u, int t)> stage{};
   std::function<Eigen::VectorXd(const Eigen::VectorXd& x)> final{};
   Eigen::VectorXd start{};
-  /// Derivatives of `next`; empty: finite differences, as for the costs.
+  /// Derivatives of `next`, of `stage` by x and u, and of `final`; what is empty comes from differences.
   MotionDerivative derivative{};
+  std::function<MotionJacobians(const Eigen::VectorXd& x, const Eigen::VectorXd& u, int t)> stageDerivative{};
+  std::function<Eigen::MatrixXd(const Eigen::VectorXd& x)> finalDerivative{};
 };
 
 struct IlqrOptions {
@@ -52,7 +54,7 @@ struct IlqrResult {
 /// Iterative LQR (Li and Todorov 2004): linearises around the motion, solves the linear quadratic problem
 /// with Gauss-Newton matrices, and shortens the step until it lowers the cost. U is the initial guess, m x
 /// N. Throws Error for a problem without functions, sizes that do not fit, numbers in start and U that are
-/// not finite, and options out of range.
+/// not finite, derivatives of the wrong size or not finite, and options out of range.
 [[nodiscard]] IlqrResult ilqr(const ControlProblem& problem, const Eigen::MatrixXd& U,
                               const IlqrOptions& options = {});
 

@@ -110,6 +110,21 @@ TEST(Ilqr, TakesExactDerivatives) {
   const IlqrResult exact = ilqr(problem, MatrixXd::Constant(1, 60, 0.1), {.maxIterations = 500});
   EXPECT_GT(calls, 60);
   EXPECT_NEAR(exact.cost, numeric.cost, 1e-5 * numeric.cost);
+  // Nothing is left that could be asked beside the motion itself.
+  problem.stageDerivative = [](const VectorXd&, const VectorXd&, int) {
+    return MotionJacobians{MatrixXd::Zero(1, 2), MatrixXd::Constant(1, 1, 0.05)};
+  };
+  problem.finalDerivative = [](const VectorXd&) { return MatrixXd(10 * MatrixXd::Identity(2, 2)); };
+  int stages = 0;
+  problem.stage = [&stages](const VectorXd&, const VectorXd& u, int) {
+    ++stages;
+    return VectorXd(0.05 * u);
+  };
+  EXPECT_EQ(ilqr(problem, MatrixXd::Constant(1, 60, 0.1), {.maxIterations = 0}).status,
+            IlqrStatus::kBudgetSpent);
+  EXPECT_EQ(stages, 2 * 60);
+  const IlqrResult all = ilqr(problem, MatrixXd::Constant(1, 60, 0.1), {.maxIterations = 500});
+  EXPECT_NEAR(all.cost, exact.cost, 1e-5 * exact.cost);
 }
 
 TEST(Ilqr, TellsHowFarItCame) {
@@ -151,6 +166,15 @@ TEST(Ilqr, SaysWhatIsWrong) {
   expect([](ControlProblem& p) { p.start[0] = kNan; }, "start of a control problem: number 0: found nan");
   expect([](ControlProblem& p) { p.next = [](const VectorXd&, const VectorXd& u) { return u; }; },
          "next state: found a vector of size 1, wanted size 2");
+  expect(
+      [](ControlProblem& p) {
+        p.stageDerivative = [](const VectorXd&, const VectorXd&, int) {
+          return MotionJacobians{MatrixXd::Zero(1, 2), MatrixXd::Zero(2, 1)};
+        };
+      },
+      "rows of the stage cost's derivative by u: found a vector of size 2, wanted size 1");
+  expect([](ControlProblem& p) { p.finalDerivative = [](const VectorXd&) { return MatrixXd(2, 1); }; },
+         "columns of the final cost's derivative: found a vector of size 1, wanted size 2");
   EXPECT_REX_ERROR(ilqr(pendulum(), MatrixXd(1, 0)), "first guess U: found no controls");
   EXPECT_REX_ERROR(ilqr(pendulum(), MatrixXd::Constant(1, 3, kNan)), "first guess U: number 0: found nan");
   EXPECT_REX_ERROR(ilqr(pendulum(), U, {.tolerance = 0}), "tolerance of iLQR: found 0");
