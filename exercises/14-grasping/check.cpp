@@ -20,16 +20,6 @@ void wrenches(Check& check, Student& student) {
   for (int i = 0; i < 5; ++i) spatialWrenchFits(check, student, check.rng());
 }
 
-void cones(Check& check, Student& student) {
-  for (const int edges : {3, 4, 8}) {
-    const Finger finger = randomFinger(check.rng(), check.rng().uniform(0.2, 1));
-    check.input("a pyramid", {{"edges", edges}, {"normal", finger.normal}, {"friction", finger.friction}});
-    areEdges(check, finger, student.pyramidEdges(finger, edges), edges);
-  }
-  for (int i = 0; i < 20; ++i) coneFits(check, student, check.rng());
-}
-
-// <hidden>
 void planarWrenchesOfFingers(Check& check, Student& student, int count) {
   Rng& rng = check.rng();
   std::vector<PlanarFinger> fingers;
@@ -38,11 +28,13 @@ void planarWrenchesOfFingers(Check& check, Student& student, int count) {
   const double length = rng.uniform(0.2, 2);
   const Eigen::MatrixXd got = student.planarWrenches(fingers, center, length);
   const Eigen::MatrixXd wanted = wrenchesOf(fingers, center, length);
-  check.shape("wrenches of planar fingers", got, 3, 2 * count);
+  check.shape("planarWrenches", got, 3, 2 * count);
   for (Eigen::Index k = 0; k < 2 * count; k += 2) {
     const bool isSwapped = (got.col(k) - wanted.col(k)).norm() > (got.col(k) - wanted.col(k + 1)).norm();
-    check.near("wrench of one edge", got.col(k), wanted.col(isSwapped ? k + 1 : k), 1e-9, "N");
-    check.near("wrench of the other edge", got.col(k + 1), wanted.col(isSwapped ? k : k + 1), 1e-9, "N");
+    check.near("wrench of one edge of a finger, in planarWrenches", got.col(k),
+               wanted.col(isSwapped ? k + 1 : k), 1e-9, "N");
+    check.near("wrench of the other edge, in planarWrenches", got.col(k + 1),
+               wanted.col(isSwapped ? k : k + 1), 1e-9, "N");
   }
 }
 
@@ -54,19 +46,46 @@ void spatialWrenchesOfFingers(Check& check, Student& student, int count) {
   const Eigen::Vector3d center = rng.uniformVector(3, -1, 1);
   const double length = rng.uniform(0.2, 2);
   const Eigen::MatrixXd got = student.spatialWrenches(fingers, edges, center, length);
-  check.shape("wrenches of fingers", got, 6, edges * count);
+  check.shape("spatialWrenches", got, 6, edges * count);
+  bool isByEdges = count > 1;
+  for (int k = 0; k < edges * count; ++k)
+    isByEdges =
+        isByEdges &&
+        std::abs(fingers[static_cast<std::size_t>(k % count)].normal.dot(got.col(k).head(3)) - 1) < 1e-9;
+  const auto byEdges = check.ask(
+      "Are the columns in the order of edges? All of a finger come before those of the next one.", isByEdges);
   for (int k = 0; k < count; ++k) {
     const Finger& finger = fingers[static_cast<std::size_t>(k)];
     const Eigen::MatrixXd part = got.middleCols(edges * k, edges);
-    areEdges(check, finger, part.topRows(3), edges);
+    areEdges(check, finger, part.topRows(3), edges, "spatialWrenches");
     for (Eigen::Index i = 0; i < edges; ++i) {
       const Eigen::Vector3d force = part.col(i).head(3);
-      check.near("torque / length of an edge", part.col(i).tail(3),
+      check.near("torque / length of an edge, in spatialWrenches", part.col(i).tail(3),
                  Eigen::Vector3d((finger.p - center).cross(force) / length), 1e-9, "N");
     }
   }
 }
 
+void cones(Check& check, Student& student) {
+  for (const int edges : {3, 4, 8}) {
+    const Finger finger = randomFinger(check.rng(), check.rng().uniform(0.2, 1));
+    check.input("a pyramid", {{"edges", edges}, {"normal", finger.normal}, {"friction", finger.friction}});
+    areEdges(check, finger, student.pyramidEdges(finger, edges), edges);
+  }
+  for (const double side : {1, -1}) {
+    const Finger finger{{0, 0, 0}, {0, 0, side}, .5};
+    check.input("a pyramid", {{"edges", 4}, {"normal", finger.normal}, {"friction", finger.friction}});
+    areEdges(check, finger, student.pyramidEdges(finger, 4), 4);
+  }
+  for (int i = 0; i < 20; ++i) coneFits(check, student, check.rng());
+  for (const int count : {1, 2}) {
+    check.input(count == 1 ? "a finger" : "two fingers");
+    planarWrenchesOfFingers(check, student, count);
+    spatialWrenchesOfFingers(check, student, count);
+  }
+}
+
+// <hidden>
 void wrenchesOfFingers(Check& check, Student& student) {
   for (const int count : {1, 2, 5}) {
     planarWrenchesOfFingers(check, student, count);

@@ -51,7 +51,31 @@ return (force - force.dot(finger.normal) * finger.normal).norm() <=
 const double normal = force.dot(finger.normal), along = (force - normal * finger.normal).norm();
 return along <= finger.friction * normal + 1e-9;
 
-// <variant axis_along_the_normal> caught by: any-cones
+// <variant no_room_for_rounding> caught by: cones, any-cones
+// mistake: compares without any tolerance.
+// <solution inCone>
+// in place of: return across <= finger.friction * along + 1e-9 * force.norm();
+return across <= finger.friction * along;
+
+// <variant both_edges_alike> caught by: cones, all-wrenches
+// mistake: returns the same edge of a planar cone twice.
+// <solution planarWrenches>
+Eigen::Index column = 0;
+for (const PlanarFinger& finger : fingers)
+  for (int i = 0; i < 2; ++i) {
+    const Eigen::Vector2d across(-finger.normal.y(), finger.normal.x());
+    wrenches.col(column++) = planarWrench(finger.p, finger.normal + finger.friction * across, center, length);
+  }
+
+// <variant edge_by_edge> caught by: cones, all-wrenches
+// mistake: the first edges of all fingers, then the second ones.
+// <solution spatialWrenches>
+Eigen::Index column = 0;
+for (Eigen::Index k = 0; k < edges; ++k)
+  for (const Finger& finger : fingers)
+    wrenches.col(column++) = spatialWrench(finger.p, pyramidEdges(finger, edges).col(k), center, length);
+
+// <variant axis_along_the_normal> caught by: cones, any-cones
 // mistake: the first direction along the surface comes from the z axis, which may be the normal.
 // <solution pyramidEdges>
 // in place of: const Eigen::Vector3d least = std::abs(n.x()) < 0.6 ? ... const Eigen::Vector3d a =
@@ -189,6 +213,16 @@ if (!judged(wrenches).closed) return kept;
 for (const int one : finger)
   if ((kept.empty() || kept.back() != one) && !judged(without(one)).closed) kept.push_back(one);
 return kept;
+
+// <variant one_wrench_of_each_finger> caught by: fewer, fewer-on-solids
+// mistake: judges the first wrench of each finger alone.
+// <solution keptFingers>
+// in place of: if (std::find(fingers.begin(), fingers.end(), finger[k]) != fingers.end()) { ... }
+if ((k == 0 || finger[k] != finger[k - 1]) &&
+    std::find(fingers.begin(), fingers.end(), finger[k]) != fingers.end()) {
+  some.conservativeResize(wrenches.rows(), some.cols() + 1);
+  some.col(some.cols() - 1) = wrenches.col(static_cast<Eigen::Index>(k));
+}
 
 // <variant deletes_until_open> caught by: fewer, fewer-on-solids
 // mistake: stops at the first finger that is needed; later ones may be redundant.
