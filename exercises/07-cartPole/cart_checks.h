@@ -30,6 +30,9 @@ inline void ratesFit(rex::grading::Check& check, Student& student, const PoleCar
   whole[1] -= share * c * (whole[3] - wanted[3]);
   const auto integers =
       check.suspect("Is 4 / 3 computed with integers? That is 1 in C++; write 4. / 3.", whole);
+  const auto exchanged =
+      check.suspect("Are p'' and theta'' exchanged? The rates are those of (p, p', theta, theta').",
+                    Eigen::Vector4d(wanted[0], wanted[3], wanted[2], wanted[1]));
   check.near("(p', p'', theta', theta'') of rateOf", student.rateOf(cart, x, u), wanted,
              1e-9 * (1 + wanted.norm()));
 }
@@ -71,6 +74,8 @@ inline void checkStep(rex::grading::Check& check, Student& student, const PoleCa
   const double u = 5 * rng.normal(), tau = rng.uniform(.005, .1);
   check.input(described(cart), {{"x", x}, {"u", u}, {"tau", tau}, {"noise", noise}});
   const rex::Rng given = rng.split(7);
+  const Eigen::Vector4d rates = dynamicsOf(cart).derivative(x, u);
+  const bool isRate = (student.rateOf(cart, x, u) - rates).norm() <= 1e-9 * (1 + rates.norm());
   const Eigen::Vector4d got = student.stepped(cart, x, u, tau, noise, given);
   const auto stepWith = [&](double ofNoise) {
     rex::Rng same = given;
@@ -81,6 +86,8 @@ inline void checkStep(rex::grading::Check& check, Student& student, const PoleCa
   const auto newRates =
       check.suspect("Are the new p' and theta' used? All states move with the rates before the step.", moved);
   const auto unmoved = check.suspect("Are p and theta never moved?", before);
+  const auto whole = check.suspect("Is tau left out?", Eigen::Vector2d(x[0] + rates[0], x[2] + rates[2]));
+  const auto ofRates = check.ask("Does stepped use rateOf? That is wrong for this input, too.", !isRate);
   check.near("(p, theta) of stepped", Eigen::Vector2d(got[0], got[2]), Eigen::Vector2d(wanted[0], wanted[2]),
              1e-9);
   const auto ratesOf = [](const Eigen::Vector4d& state) { return Eigen::Vector2d(state[1], state[3]); };
@@ -196,15 +203,19 @@ inline Eigen::MatrixXd outingFits(rex::grading::Check& check, Student& student, 
   std::vector<Eigen::VectorXd> wanted;
   double largest = 1;
   bool hasFallen = false, isRepeated = outing.noise > 0 && states.cols() > 2;
+  bool isTurned = K.norm() > 0 && states.cols() > 1;
   for (Eigen::Index t = 0; t + 1 < states.cols(); ++t) {
     const Eigen::Vector4d x = states.col(t);
     angles.add(outing.tau * static_cast<double>(t), std::abs(x[2]));
     hasFallen = hasFallen || std::abs(x[2]) > std::numbers::pi / 2;
     if (hasFallen) continue;  // numbers may become large
     got.add(outing.tau * static_cast<double>(t + 1), states.col(t + 1));
+    rex::Rng again = same;
+    const Eigen::Vector4d turned = euler(cart, x, -(K * x)[0], outing.tau, outing.noise, again);
     wanted.emplace_back(euler(cart, x, (K * x)[0], outing.tau, outing.noise, same));
     // A motion that explodes hides nothing.
     largest = std::max(largest, rex::grading::sizeUpTo(1000, wanted.back()));
+    isTurned = isTurned && (turned - states.col(t + 1)).norm() < 1e-9 * largest;
     rex::Rng first = given;
     const Eigen::Vector4d repeated = euler(cart, x, (K * x)[0], outing.tau, outing.noise, first);
     isRepeated = isRepeated && (repeated - states.col(t + 1)).norm() < 1e-9 * largest;
@@ -214,6 +225,7 @@ inline Eigen::MatrixXd outingFits(rex::grading::Check& check, Student& student, 
   if (!wanted.empty()) {
     const auto copied = check.ask(
         "Does each step get the same noise? Pass rng on by reference, not a copy of it.", isRepeated);
+    const auto opposite = check.ask("Is it u = -K x? Here the control is u = K x.", isTurned);
     check.nearAlong("(p, p', theta, theta') in balanced, next to a step from the state before", got, wanted,
                     1e-9 * largest);
     const auto goesOn = check.ask("Does the outing go on after the pole has fallen?");

@@ -17,6 +17,7 @@ void linear(Check& check, Student& student) {
 }
 
 void iterates(Check& check, Student& student) {
+  firstStepsFit(check, student);
   iterationFits(check, student, regulationOf(plantOf({}), costsOfTheSheet()), 1e-3, 1e-5);
   iterationFits(check, student, randomRegulation(check.rng(), false), 5e-3, 1e-4);
   iterationEnds(check, student);
@@ -47,6 +48,7 @@ void reach(Check& check, Student& student) {
   reachFits(check, student, {still, Eigen::Vector2d(1, 0)}, 1);
   reachFits(check, student, {still, Eigen::Vector2d(1, 1)}, 1);
   reachFits(check, student, {drift(), Eigen::Vector2d(0, 1)}, 2);
+  reachFits(check, student, {still, Eigen::Vector2d(1, 1e-7).asDiagonal().toDenseMatrix()}, 2);
   reachFits(check, student, {drift(), Eigen::Vector2d(1, 0)}, 1);
   reachFits(check, student, plantOf({}), 4);
   reachFits(check, student, partlyReached(check.rng(), 4, 3, 2), 3);
@@ -81,8 +83,11 @@ void poles(Check& check, Student& student) {
 
 // With the cart of the sheet alone, four fixed numbers would pass.
 void quick(Check& check, Student& student) {
-  for (const PoleCart& cart : {PoleCart{}, randomCart(check.rng()), randomCart(check.rng())})
+  for (int i = 0; i < 3; ++i) {
+    PoleCart cart = i == 0 ? PoleCart{} : randomCart(check.rng());
+    cart.g = 9.8;  // so that the bound is met
     gainsAreQuick(check, student, cart);
+  }
 }
 
 void observer(Check& check, Student& student) {

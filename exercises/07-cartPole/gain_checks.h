@@ -1,8 +1,10 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "cart_checks.h"
@@ -43,6 +45,81 @@ inline double betweenSteps(const Plant& plant, const Costs& costs, double epsilo
     if (count == steps) return (before + size) / 2;
     before = std::min(before, size);
     now += epsilon * rate;
+  }
+}
+
+/// What the sheet puts between the bars, or what a mistake makes of it: for a plant, costs and P.
+using Bracket = std::function<Eigen::MatrixXd(const Plant&, const Costs&, const Eigen::MatrixXd&)>;
+
+/// P of the iteration from Q on, and the one after it, where the bracket times `scale` is within the
+/// tolerance.
+inline std::optional<std::pair<Eigen::MatrixXd, Eigen::MatrixXd>> firstWithin(
+    const Regulation& task, double epsilon, double tolerance, const Bracket& bracket, double scale = 1) {
+  Eigen::MatrixXd now = task.costs.Q;
+  for (int count = 0; count <= 50; ++count) {
+    const Eigen::MatrixXd rate = bracket(task.plant, task.costs, now), next = now + epsilon * rate;
+    if (scale * rate.cwiseAbs().maxCoeff() <= tolerance) return std::pair(now, next);
+    now = next;
+  }
+  return {};
+}
+
+/// P_1, P_2 and P_3 of a small plant, each the first within a wide tolerance. So a wrong term of the bracket
+/// is not taken for a loop that is a step too short.
+inline void firstStepsFit(rex::grading::Check& check, Student& student) {
+  Plant plant{Eigen::MatrixXd(2, 2), Eigen::MatrixXd(2, 2)};
+  plant.A << -1, .5, .25, -2;
+  plant.B << 1, .5, 0, 2;
+  Costs costs{Eigen::MatrixXd(2, 2), Eigen::MatrixXd(2, 2)};
+  costs.Q << 1, .2, .2, 2;
+  costs.R << 2, .5, .5, 1;
+  const Regulation task = regulationOf(plant, costs);
+  constexpr double kEpsilon = .05;
+  const auto change = [](const Eigen::MatrixXd& by) {
+    return [by](const Plant& of, const Costs& c, const Eigen::MatrixXd& P) -> Eigen::MatrixXd {
+      return imbalance(of, c, P) + by;
+    };
+  };
+  const auto withR = [](auto weightOf) {
+    return [weightOf](const Plant& of, const Costs& c, const Eigen::MatrixXd& P) -> Eigen::MatrixXd {
+      const Eigen::MatrixXd PA = P * of.A, PB = P * of.B;
+      return PA + PA.transpose() - PB * weightOf(c.R) * PB.transpose() + c.Q;
+    };
+  };
+  const auto sideways = [](const Plant& of, const Costs& c, const Eigen::MatrixXd& P) -> Eigen::MatrixXd {
+    return imbalance({of.A.transpose(), of.B}, c, P);
+  };
+  const auto ofR = withR([](const Eigen::MatrixXd& R) -> Eigen::MatrixXd { return R; });
+  const auto ofOne =
+      withR([](const Eigen::MatrixXd& R) -> Eigen::MatrixXd { return 0 * R + Eigen::Matrix2d::Identity(); });
+  const auto plus = withR([](const Eigen::MatrixXd& R) -> Eigen::MatrixXd { return -rex::inverse(R); });
+  for (int steps = 1; steps <= 3; ++steps) {
+    const double tolerance = betweenSteps(plant, costs, kEpsilon, steps);
+    check.input("a small plant and its costs", {{"A", plant.A},
+                                                {"B", plant.B},
+                                                {"Q", costs.Q},
+                                                {"R", costs.R},
+                                                {"epsilon", kEpsilon},
+                                                {"tolerance", tolerance},
+                                                {"most", 50}});
+    const auto is = [&](const char* question, const Bracket& bracket, double scale = 1) {
+      const auto found = firstWithin(task, kEpsilon, tolerance, bracket, scale);
+      return check.suspect(question, found ? found->first : Eigen::MatrixXd());
+    };
+    const auto right = firstWithin(task, kEpsilon, tolerance, imbalance);
+    const std::optional<Eigen::MatrixXd> P = student.iterated(plant, costs, kEpsilon, tolerance, 50);
+    check.that("iterated returns a P where a few steps are enough", P.has_value());
+    check.shape("P of iterated", *P, 2, 2);
+    const auto noQ = is("Is Q left out of the bracket?", change(-costs.Q));
+    const auto turned = is("Is A transposed? The bracket has A^T P + P A.", sideways);
+    const auto inverse = is("Is R used in place of its inverse?", ofR);
+    const auto none = is("Is R left out of the bracket?", ofOne);
+    const auto sign = is("Which sign has the term with R^-1?", plus);
+    const auto small = is("Is the change of P compared with the tolerance? It is epsilon times the bracket.",
+                          imbalance, kEpsilon);
+    const auto next =
+        check.suspect("Is the P after it returned? Wanted is the one whose bracket is small.", right->second);
+    check.near("P of iterated, which needs few steps", *P, right->first, 1e-9);
   }
 }
 
@@ -114,6 +191,8 @@ inline void gainsFit(rex::grading::Check& check, Student& student, const Regulat
   check.input("a plant, its costs and their P", {{"B", plant.B}, {"R", costs.R}, {"P", optimal.X}});
   const auto sign = check.suspect("Is the sign that of u = -K x? Here it is u = K x.", optimal.K);
   const auto noR = check.suspect("Is R left out?", -plant.B.transpose() * optimal.X);
+  const auto ofR =
+      check.suspect("Is R used in place of its inverse?", -costs.R * plant.B.transpose() * optimal.X);
   check.near("K of gainOf", student.gainOf(plant, costs, optimal.X), -optimal.K,
              1e-8 * (1 + optimal.K.norm()));
 }

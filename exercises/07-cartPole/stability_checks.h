@@ -31,8 +31,9 @@ inline void reachFits(rex::grading::Check& check, Student& student, const Plant&
           .finished());
   check.near("reachMatrix", student.reachMatrix(plant), wanted, 1e-9 * (1 + wanted.norm()));
   const auto ofB = check.suspect("Is it the rank of B?", Eigen::MatrixXd::Constant(1, 1, rankOf(plant.B)));
-  const auto zeros = check.ask("Which singular values count as zero? Those below 1e-9 of the largest.",
-                               rank < plant.A.rows() || wanted.norm() < 1e-6);
+  const auto zeros = check.ask(
+      "Which singular values count as zero? Those below 1e-9 of the largest.",
+      rank < plant.A.rows() || wanted.norm() < 1e-6 || rex::svd(wanted).s.tail(1)[0] < 1e-5 * wanted.norm());
   const double rankOfA = rankOf(plant.A), n = static_cast<double>(plant.A.rows());
   const auto ofA =
       check.suspect("Is it the rank of A?", Eigen::MatrixXd::Constant(1, 1, rankOfA < n ? rankOfA : -1));

@@ -39,6 +39,30 @@ plant.A(1, 2) = cart.g / D;
 plant.A(3, 2) = -c2 * cart.g / D;
 plant.B << 0, -c1 / D, 0, c1 + c1* c2 / D;
 
+// <variant rates_exchanged> caught by: linear, outings
+// mistake: p'' and theta'' change places.
+// <solution rateOf>
+// in place of: return {x[1], c1 * u + swing - c2 * turn * c, x[3], turn};
+return {x[1], turn, x[3], c1* u + swing - c2* turn* c};
+
+// <variant bracket_without_q> caught by: iterates, other-regulators
+// mistake: leaves out Q.
+// <solution iterated>
+// in place of: const Eigen::MatrixXd bracket = PA + PA.transpose() - PSP + costs.Q;
+const Eigen::MatrixXd bracket = PA + PA.transpose() - PSP;
+
+// <variant r_for_its_inverse> caught by: iterates, other-regulators
+// mistake: multiplies by R where its inverse belongs.
+// <solution iterated>
+// in place of: const Eigen::MatrixXd S = plant.B * solve(costs.R, plant.B.transpose());
+const Eigen::MatrixXd S = plant.B * costs.R * plant.B.transpose();
+
+// <variant the_p_after_it> caught by: iterates
+// mistake: returns the P after the one whose bracket is small.
+// <solution iterated>
+// in place of: if (bracket.cwiseAbs().maxCoeff() <= tolerance) return P;
+if (bracket.cwiseAbs().maxCoeff() <= tolerance) return Eigen::MatrixXd(P + epsilon * bracket);
+
 // <variant always_a_controller> caught by: iterates
 // mistake: returns the last P, even if it has not converged.
 // <solution iterated>
@@ -115,6 +139,18 @@ for (Eigen::Index i = 0; i < n; ++i) P.col(i) = leastSquares(Z.rightCols(n), -Z.
 // <solution gainOf>
 return solve(costs.R, plant.B.transpose() * P);
 
+// <variant tau_forgotten> caught by: outings
+// mistake: adds the rates as they are.
+// <solution stepped>
+// in place of: Eigen::Vector4d next = x + tau * rateOf(cart, x, u);
+Eigen::Vector4d next = x + rateOf(cart, x, u);
+
+// <variant control_turned_round> caught by: outings, survives
+// mistake: applies u = -K x.
+// <solution balanced>
+// in place of: states.col(++t) = stepped(cart, before, K.row(0).dot(before), outing.tau, outing.noise, rng);
+states.col(++t) = stepped(cart, before, -K.row(0).dot(before), outing.tau, outing.noise, rng);
+
 // <variant new_velocities> caught by: outings
 // shown by: outings
 // mistake: moves the positions with the new velocities.
@@ -182,6 +218,12 @@ return static_cast<int>((sizes.array() > 1e-9 * sizes[0]).count());
 // <solution reachable>
 return static_cast<int>((svd(reachMatrix(plant)).s.array() > 1e-9).count());
 
+// <variant rank_with_a_wide_limit> caught by: reach
+// mistake: counts singular values as zero that are far from it.
+// <solution reachable>
+// in place of: for (const double size : sizes) rank += size > 1e-9 * sizes[0];
+for (const double size : sizes) rank += size > 1e-6 * sizes[0];
+
 // <variant rank_without_tolerance> caught by: reaches-others
 // mistake: counts singular values that are zero up to rounding.
 // <solution reachable>
@@ -244,7 +286,7 @@ for (int k = 0; k < 3000; ++k) {
 }
 return best;
 
-// <variant bound_forgotten> caught by: quick-others
+// <variant bound_forgotten> caught by: quick, quick-others
 // mistake: lets the gains grow.
 // <solution quickGains>
 Eigen::MatrixXd best = start;
