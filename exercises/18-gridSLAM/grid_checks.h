@@ -244,13 +244,16 @@ inline void rates(Check& check, Student& student, int rays) {
   const Grid distances = distancesTo(map, 3 * map.cell);
   const Eigen::Vector2d p = pointIn(map, check.rng());
   const Eigen::Vector3d pose(p[0], p[1], rounded(check.rng().uniform(-3, 3)));
-  const Scan scan = randomScan(map, pose, rays, check.rng());
+  Scan scan = randomScan(map, pose, rays, check.rng());
+  // A single end tells few mistakes apart.
+  while ((scan.ranges.array() < scan.maxRange).count() < 2) scan = randomScan(map, pose, rays, check.rng());
   const double deviation = .05 * (1 + check.rng().index(6));
   describe(check, distances, pose, scan);
   const double got = student.fit(distances, pose, scan, deviation),
                wanted = fitOf(distances, pose, scan, deviation);
   const auto one = [](double value) -> Eigen::MatrixXd { return Eigen::MatrixXd::Constant(1, 1, value); };
-  Scan all = scan, cut = scan, mirrored = scan;
+  Scan all = scan, cut = scan, mirrored = scan, degrees = scan;
+  degrees.angles *= kTurn / 360;
   all.maxRange = cut.maxRange = 10 * scan.maxRange;
   cut.ranges = cut.ranges.cwiseMin(scan.maxRange);
   mirrored.angles *= -1;
@@ -273,6 +276,9 @@ inline void rates(Check& check, Student& student, int rays) {
   const auto flat = check.suspect("Are distances not squared?", one(-linear / (2 * deviation * deviation)));
   const auto mean = check.suspect("Is it the mean over all rays? It is their sum.", one(wanted / hits));
   const auto meanOfAll = check.suspect("Is it the mean over all rays? It is their sum.", one(wanted / rays));
+  const auto converted =
+      check.suspect("Are angles converted from degrees? They are radians.",
+                    one(fitOf(distances, {pose[0], pose[1], pose[2] * kTurn / 360}, degrees, deviation)));
   const auto unturned = check.suspect("Is the heading of the robot forgotten?",
                                       one(fitOf(distances, {pose[0], pose[1], 0}, scan, deviation)));
   const auto turned = check.suspect("Is the heading of the robot subtracted?",

@@ -57,6 +57,8 @@ inline void movesOnce(Check& check, Student& student) {
     const auto after =
         check.ask("Is the heading after the motion used? Odometry is in the frame of the pose before.",
                   nearly(pose[2] + motion[2]) || nearly(pose[2] + motion[2] / 2));
+    const auto once = check.ask("Do all poses get the same noise? It is drawn for each of them.",
+                                spread.norm() < 1e-9 && (mean - motion).norm() > 1e-9);
     check.near("mean of moved, seen from the pose before", mean, motion, tolerance);
   }
   const auto none = check.ask("Is there no noise?", spread.norm() < 1e-6);
@@ -159,6 +161,10 @@ inline void resamples(Check& check, Student& student, int count, double spread) 
     }
     Eigen::Index worst = 0;
     const double lack = ((expected.array() - 1e-9).floor() - copies.array()).maxCoeff(&worst);
+    bool isNext = true;
+    for (Eigen::Index k = 0; k < count; ++k)
+      isNext = isNext && copies[(k + 1) % count] >= std::floor(expected[k] - 1e-9);
+    const auto shifted = check.ask("Is particle i + 1 copied as often as particle i should be?", isNext);
     const auto drawn =
         check.ask("Is each copy drawn by itself? Then a likely particle may be lost by bad luck.");
     if (lack > 0)
@@ -267,8 +273,26 @@ inline void stepsParticles(Check& check, Student& student) {
       const auto ways = [&](std::size_t k) {
         return motionFrom(particles[k].path.back(), got[k].path.back());
       };
-      const auto once = check.ask("Do all particles get the same noise?");
-      check.atLeast("difference of the motions of two particles", (ways(0) - ways(1)).norm(), 1e-6);
+      {
+        const auto once = check.ask("Do all particles get the same noise?");
+        check.atLeast("difference of the motions of two particles", (ways(0) - ways(1)).norm(), 1e-6);
+      }
+      // The mean over 24 calls, 3 particles and 3 numbers of the square of what is 1 on average.
+      double share = 0;
+      for (int n = 0; n < 24; ++n) {
+        const std::vector<Particle> more =
+            student.slamStep(particles, motion, sight.scan, settings, check.rng().split(100 + n));
+        check.near("number of particles after slamStep", static_cast<double>(more.size()), 3, 0);
+        for (std::size_t k = 0; k < 3; ++k) {
+          check.that("each particle has a path after slamStep", !more[k].path.empty());
+          share += (motionFrom(particles[k].path.back(), more[k].path.back()) - motion)
+                       .cwiseQuotient(settings.odometry)
+                       .squaredNorm() /
+                   216;
+        }
+      }
+      const auto always = check.ask("Are poses matched although `matches` is false?");
+      check.atLeast("mean square of the noise of slamStep without matches, in deviations", share, .6);
     }
   });
 }

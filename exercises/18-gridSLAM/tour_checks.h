@@ -24,9 +24,10 @@ inline void isDrawn(Check& check, const Mapped& got, const Log& log, const CellE
   check.near("first pose of mapped", got.path.front(), log.start, 1e-9);
   for (const Eigen::Vector3d& pose : got.path)
     check.atMost("distance of a pose of mapped from the start", (pose - log.start).head<2>().norm(), 30, "m");
-  Grid drawn = emptyGrid(), later = drawn;
+  Grid drawn = emptyGrid(), later = drawn, late = drawn;
   for (std::size_t t = 0; t < got.path.size(); ++t) {
     drawn = mapAfter(drawn, got.path[t], log.scans[t], evidence);
+    late = mapAfter(late, got.path[t], log.scans[t > 0 ? t - 1 : 0], evidence);
     if (t > 0) later = mapAfter(later, got.path[t], log.scans[t], evidence);
   }
   // Cells that a ray hardly passes may differ by one scan or two.
@@ -34,6 +35,9 @@ inline void isDrawn(Check& check, const Mapped& got, const Log& log, const CellE
     return ((map.values - got.map.values).array().abs() > .5).cast<double>().mean();
   };
   const auto first = check.ask("Is the first scan missing in the map?", shareOff(later) < .05);
+  const auto scanBefore =
+      check.ask("Does each motion go with the scan before it? scans[t + 1] comes after motions[t].",
+                shareOff(late) < .05);
   const auto mixed = check.ask("Is it the map of another particle than the path?");
   check.atMost("share of the cells in which the map is not what scans along the path say", shareOff(drawn),
                .08);
@@ -84,22 +88,31 @@ inline void keepsRule(Check& check, Student& student) {
     for (std::size_t t = 25; t < 40; ++t) sum += sizes[t] / 15;
     return sum;
   };
-  const std::vector<double> never = sizesFor(0), always = sizesFor(1.1);
+  std::vector<double> always;
+  const std::vector<double> never = sizesFor(0);
   const auto shown = check.show([&] {
     const auto curve = [](const std::vector<double>& sizes, rex::Series series) {
       for (std::size_t t = 0; t < sizes.size(); ++t) series.add(static_cast<double>(t), sizes[t]);
       return series;
     };
-    return Evidence{.figures = {{.title = "effective sizes of 10 particles",
-                                 .xLabel = "step",
-                                 .yLabel = "effective size",
-                                 .series = {curve(never, rex::grading::gotCurve("threshold 0")),
-                                            curve(always, rex::grading::wrongCurve("threshold 1.1"))}}}};
+    rex::Figure figure{.title = "effective sizes of 10 particles",
+                       .xLabel = "step",
+                       .yLabel = "effective size",
+                       .series = {curve(never, rex::grading::gotCurve("threshold 0"))}};
+    if (!always.empty())
+      figure.series.push_back(curve(always, rex::grading::wrongCurve("threshold 1.1")));
+    return Evidence{.figures = {figure}};
   });
   {
     const auto resampledAll =
         check.ask("Are particles resampled even if the effective size is not below the threshold?");
     check.atMost("mean effective size of the last steps if the threshold is 0", meanOfLast(never), 3);
+  }
+  always = sizesFor(1.1);
+  {
+    const auto after = check.ask("Are these the sizes after resampling? Then all weights are equal.");
+    check.atMost("least effective size if the threshold is above 1",
+                 *std::min_element(always.begin(), always.end()), 9.99);
   }
   const auto neverDone = check.ask("Are particles never resampled, or do they keep their weights?");
   check.atLeast("mean effective size of the last steps if the threshold is above 1", meanOfLast(always), 4.5);

@@ -91,7 +91,7 @@ const double direction = pose[2] + scan.angles[ray];
 // in place of: after.values = (map.values + change).cwiseMax(-evidence.bound).cwiseMin(evidence.bound);
 after.values = (map.values + change);
 
-// <variant the_last_ray_wins> caught by: more-updates
+// <variant the_last_ray_wins> caught by: update, more-updates
 // mistake: a ray that passes clears a cell in which another one ended.
 // <solution observed>
 // in place of: if (isHit && i + 1 == cells.size()) ... change(x, y) = evidence.miss;
@@ -165,6 +165,12 @@ const Eigen::Vector2d share = ((p - grid.origin) / grid.cell).array() - 0.;
 // <solution fit>
 // in place of: sum += d * d;
 sum += d;
+
+// <variant angles_in_degrees> caught by: fits
+// mistake: converts angles, as if they were degrees.
+// <solution fit>
+// in place of: const double direction = pose[2] + scan.angles[ray];
+const double direction = (pose[2] + scan.angles[ray]) * std::acos(-1) / 180;
 
 // <variant seen_by_the_robot> caught by: fits
 // mistake: the heading is subtracted.
@@ -245,6 +251,15 @@ poses.col(k) += way;
 // in place of: for (int i = 0; i < 3; ++i) way[i] += deviations[i] * rng.normal();
 for (int i = 0; i < 3; ++i) way[i] += 0 * deviations[i] * rng.normal();
 
+// <variant one_noise_for_all_poses> caught by: motion
+// mistake: draws the noise once.
+// <solution moved>
+const double cosine = std::cos(pose[2]), sine = std::sin(pose[2]);
+Eigen::Vector3d way = motion;
+for (int i = 0; i < 3; ++i) way[i] += deviations[i] * rng.normal();
+for (int k = 0; k < count; ++k)
+  poses.col(k) += Eigen::Vector3d(cosine * way[0] - sine * way[1], sine* way[0] + cosine * way[1], way[2]);
+
 // <variant noise_in_the_world> caught by: motion
 // mistake: noise is added after the rotation.
 // <solution moved>
@@ -295,6 +310,12 @@ for (std::size_t n = 0; n < particles.size(); ++n) {
   copies.push_back({particles[k].path, particles[k].map, 0});
 }
 
+// <variant the_next_particle> caught by: copies, more-copies
+// mistake: copies particle i + 1 instead of i.
+// <solution resampled>
+// in place of: copies.push_back({particles[i].path, particles[i].map, 0});
+copies.push_back({particles[(i + 1) % particles.size()].path, particles[(i + 1) % particles.size()].map, 0});
+
 // <variant maps_stay> caught by: copies, more-copies
 // mistake: paths are copied, and maps stay where they are.
 // <solution resampled>
@@ -321,6 +342,12 @@ particle.map = observed(particle.map, drawn, scan, settings.evidence);
 // mistake: poses are those of the motion.
 // <solution slamStep>
 // in place of: if (settings.matches) pose = matched(distances, scan, settings.deviation, pose,
+
+// <variant always_matches> caught by: step
+// mistake: matches, whatever the settings say.
+// <solution slamStep>
+// in place of: if (settings.matches) pose = matched(distances, scan, settings.deviation, pose,
+pose = matched(distances, scan, settings.deviation, pose, settings.window);
 
 // <variant no_temper> caught by: step
 // mistake: rays count as if they were independent.
@@ -374,6 +401,16 @@ particle.logWeight = fit(distances, pose, scan, settings.deviation) / settings.t
 // mistake: never resamples.
 // <solution mapped>
 // in place of: if (!sizes.empty() && sizes.back() < settings.threshold * count) particles =
+
+// <variant sizes_after_resampling> caught by: rule
+// mistake: notes the effective size after particles were resampled.
+// <solution mapped>
+for (Particle& one : particles) one.map = observed(empty, log.start, log.scans[0], settings.evidence);
+for (std::size_t t = 0; t < log.motions.size(); ++t) {
+  particles = slamStep(particles, log.motions[t], log.scans[t + 1], settings, rng);
+  if (effectiveSize(weightsOf(particles)) < settings.threshold * count) particles = resampled(particles, rng);
+  sizes.push_back(effectiveSize(weightsOf(particles)));
+}
 
 // <variant one_scan_late> caught by: tour, more-tours
 // shown by: tour
