@@ -37,9 +37,11 @@ struct RunOptions {
   std::vector<std::string> arguments;  ///< for the user's own program
 };
 
-// The program again for two seconds, or less where it was given less, to say where it is then.
-void sayWhereItIs(const Project& project, const ExerciseInfo& exercise, const fs::path& file, int allowed) {
-  const double seconds = std::min(2, allowed);
+// The program again: to say where it is after two seconds, or less where it was given less, or where in the
+// file it was when it crashed.
+void sayWhereItIs(const Project& project, const ExerciseInfo& exercise, const fs::path& file, int allowed,
+                  bool isCrash) {
+  const double seconds = isCrash ? allowed : std::min(2, allowed);
   const PrivateFolder work(project.workPlace("exercises/" + exercise.name));
   const submission::Toolchain locating = submission::locatingToolchain(
       prepare(project, exercise), work.path(), 4096 * grading::kMegabyte, seconds);
@@ -49,7 +51,10 @@ void sayWhereItIs(const Project& project, const ExerciseInfo& exercise, const fs
   if (!program.ok) return;
   const ProcessResult run = runProcess({program.program.string()}, {.directory = work.path()});
   const auto site = submission::crashSiteIn(run.error, object.name);
-  if (site && site->line > 0)
+  if (site && site->line > 0 && isCrash)
+    note(fmt::format("It was in line {} of {}, in {}.", site->line, object.name,
+                     escapeForTerminal(site->function)));
+  else if (site && site->line > 0)
     note(fmt::format("After {:.0f} s it is in line {} of {}, in {}: an endless loop?", seconds, site->line,
                      object.name, escapeForTerminal(site->function)));
 }
@@ -92,8 +97,9 @@ ExitCode run(const Project& project, const RunOptions& options) {
   const auto program = buildProgram(project, exercise, {.main = file, .workFolder = work.path()}, out);
   if (!program) return ExitCode::kNotGradable;
   const Ended ended = runIn({program->string()}, {.out = out, .seconds = options.seconds});
-  if (ended == Ended::kCrashed) note(fmt::format("To see where: scripts/rex debug {}", exercise.name));
-  if (ended == Ended::kTooLate) sayWhereItIs(project, exercise, file, options.seconds);
+  if (ended == Ended::kCrashed || ended == Ended::kTooLate)
+    sayWhereItIs(project, exercise, file, options.seconds, ended == Ended::kCrashed);
+  if (ended == Ended::kCrashed) note(fmt::format("To see more: scripts/rex debug {}", exercise.name));
   return toExitCode(ended);
 }
 

@@ -249,6 +249,21 @@ TEST_F(OneExercise, SaysHowAProgramEnded) {
   EXPECT_THAT(rex({"run", "98"}).error, HasSubstr("exit code 5"));
 }
 
+TEST_F(OneExercise, SaysInWhichFunctionAProgramThrew) {
+  addProgramDescription();
+  write(exercise() / "main.cpp", std::string("#include <stdexcept>\n") + kGood);
+  std::string text = fileText(exercise() / "main.cpp");
+  text.replace(
+      text.find("int main() {}"), 13,
+      "double halved(double x) {\n  if (x < 0) throw std::runtime_error(\"negative\");\n  return x / 2;\n}\n"
+      "int main(int n, char**) { return halved(-n) > 0; }");
+  write(exercise() / "main.cpp", text);
+  const Ended ended = rex({"run", "98"});
+  EXPECT_EQ(ended.code, 1);
+  const auto lines = std::count(text.begin(), text.begin() + static_cast<long>(text.find("throw")), '\n') + 1;
+  EXPECT_THAT(ended.error, HasSubstr("It was in line " + std::to_string(lines) + " of main.cpp, in halved"));
+}
+
 TEST_F(OneExercise, PrintsADebuggerCommand) {
   const Ended ended = rex({"debug", "98", "--solution", "--print"});
   EXPECT_EQ(ended.code, 0) << ended.error;
