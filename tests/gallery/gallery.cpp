@@ -13,18 +13,14 @@ namespace {
 
 constexpr const char* kIntroduction = R"(# Gallery
 
-rex draws all of this without a screen.
+rex draws all of this without a screen: see [rex render](commands.md#rex-render) and [programs.md](programs.md#figures).
 The code is in `tests/gallery`; `scripts/gallery` draws the pictures again, and a test compares them.
-
-`rex render man.ors -o man.mp4` makes a film around a robot, and `-o man.html` a page in which you can turn it.
-[programs.md](programs.md) shows how programs draw.
 )";
 
 std::string section(const std::string& title, const std::vector<Drawing>& drawings) {
   std::string text = "\n## " + title + "\n";
   for (const Drawing& drawing : drawings)
-    text += "\n### " + drawing.title + "\n\n" + drawing.text + "\n\n![" + drawing.title + "](gallery/" +
-            drawing.name + ".png)\n";
+    text += "\n### " + drawing.title + "\n\n" + drawing.text + "\n\n![](gallery/" + drawing.name + ".png)\n";
   return text;
 }
 

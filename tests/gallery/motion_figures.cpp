@@ -40,7 +40,8 @@ Figure splines() {
                  {.label = "cubic spline, natural ends"},
                  {.label = "cubic spline, at rest at its ends"},
                  {.label = "B-spline, degree 3"}},
-      .height = 450};
+      .width = 1280,
+      .height = 640};
   for (const auto& point : points.colwise()) append(figure.series[0], point.x(), point.y());
   const VectorXd times = VectorXd::LinSpaced(points.cols(), 0, 1);
   const CubicSpline natural(times, points),

@@ -39,33 +39,43 @@ Bounds zoomed(const Bounds& all, double factor) {
   return {.low = middle - half, .high = middle + half};
 }
 
+bool isIn(const Bounds& box, const Vector3d& p) {
+  return (p.array() >= box.low.array()).all() && (p.array() <= box.high.array()).all();
+}
+
 Image peg() {
   Eigen::VectorXd goal(7);
   goal << 0.945499, 0.431195, -1.97155, 0.623969, 2.22355, -0.665206, -1.48356;
   Picture picture = explored("robots/pegInAHole.ors", goal, 0.02, {});
-  for (LineSet& tree : picture.lineSets) tree.color.a = 0.3f;
+  // The trees go far around the arm; edges of them that leave the picture would only look cut off.
+  Bounds box = bounds({.solids = picture.solids});
+  box.include(box.high + Vector3d(0, 0, 0.35)), box.low.z() += 0.3;
+  for (LineSet& tree : picture.lineSets) {
+    tree.color.a = 0.35f;
+    std::erase_if(tree.segments,
+                  [&](const auto& edge) { return !isIn(box, edge.first) || !isIn(box, edge.second); });
+  }
   // The second half of the solids is the arm at its goal.
   for (std::size_t i = picture.solids.size() / 2; i < picture.solids.size(); ++i)
     picture.solids[i].color = {0.84f, 0.37f, 0.0f, 0.5f};
   picture.polylines.back().width = 8;
   return Renderer({.width = kSlideWidth, .height = kSlideHeight})
-      .draw(picture, framing(zoomed(bounds({.solids = picture.solids}), 0.9), {1, -1, 0.5}, 4. / 3));
+      .draw(picture, framing(box, {1, -1, 0.5}, 4. / 3));
 }
 
 Image cart() {
   const Picture picture =
       explored("scenes/maze.ors", Vector3d(3, 0, 0), 0.01, {.planner = Planner::kRrtStar, .samples = 5000});
-  return Renderer({.width = 560, .height = 420})
+  return Renderer({.width = kSlideWidth, .height = kSlideHeight})
       .draw(picture, framing(bounds(picture), {0, -0.7, 2}, 4. / 3));
 }
 
 // Where a motion goes: its last posture, those before it faintly, and the path of the body.
-Picture followed(const Model& model, const Eigen::MatrixXd& path, const std::string& body) {
-  constexpr int kFaint = 5;
+Picture followed(const Model& model, const Eigen::MatrixXd& path, const std::string& body, int faint = 5) {
   const Eigen::Index last = path.cols() - 1;
   Picture picture = scenePicture(model, forwardKinematics(model, path.col(last)));
   const std::size_t count = picture.solids.size();
-  for (Eigen::Index k = 0; k < last; k += std::max<Eigen::Index>(1, last / kFaint)) {
+  for (Eigen::Index k = 0; k < last; k += std::max<Eigen::Index>(1, last / faint)) {
     const Picture then = scenePicture(model, forwardKinematics(model, path.col(k)));
     for (std::size_t i = 0; i < count; ++i) {
       Solid solid = then.solids[i];
@@ -95,13 +105,21 @@ Image around() {
   // The ball of the scene is the goal of another motion.
   std::erase_if(picture.solids, [](const Solid& solid) { return solid.name == "goal"; });
   picture.pointSets.push_back({.points = {goal}, .color = {0.8f, 0.1f, 0.12f}, .size = 24});
-  picture.labels.push_back({.text = "goal", .p_WQ = goal + Vector3d(0, 0.1, 0), .scale = 2.5});
+  picture.labels.push_back({.text = "goal", .p_WQ = goal + Vector3d(0, 0.065, -0.12), .scale = 2.2});
   return Renderer({.width = kSlideWidth, .height = kSlideHeight})
       .draw(picture, framing(zoomed(bounds(picture), 1.1), {2, -0.9, 0.7}, 4. / 3));
 }
 
 Image legs() {
-  const Model model = compile(readScene(sourcePath("data/robots/humanoid/humanoid.urdf")).spec);
+  SceneSpec spec = readScene(sourcePath("data/robots/humanoid/humanoid.urdf")).spec;
+  for (JointSpec& joint : spec.joints) {  // the rest of the body keeps still
+    const std::string& name = joint.name;
+    if (name.find("hip") != name.npos || name.find("knee") != name.npos || name.find("ankle") != name.npos)
+      continue;
+    joint.type = JointType::kRigid;
+    joint.lower = joint.upper = joint.q0 = {};
+  }
+  const Model model = compile(spec);
   const ContactModel contacts(model);
   const Eigen::VectorXd start = cli::parsePosture(model, "left_hip_roll=-.3,left_hip_pitch=-.7"),
                         goal = cli::parsePosture(model, "left_hip_roll=-.3,left_hip_pitch=.6");
@@ -109,13 +127,13 @@ Image legs() {
   Eigen::MatrixXd straight(start.size(), 41);
   for (int k = 0; k <= 40; ++k) straight.col(k) = start + k / 40. * (goal - start);
   const auto shown = [&](const Eigen::MatrixXd& path) {
-    const Picture picture = followed(model, path, "left_foot");
+    const Picture picture = followed(model, path, "left_foot", 3);
     const Bounds below{.low = {-0.45, -0.35, -0.92}, .high = {0.45, 0.45, -0.1}};
-    return Renderer({.width = 620, .height = 620}).draw(picture, framing(below, {2, 0.7, 0.5}, 1));
+    return Renderer({.width = 625, .height = 625}).draw(picture, framing(below, {2, 0.7, 0.5}, 1));
   };
   return contactSheet({{shown(straight), "straight path, through the other leg"},
                        {shown(cli::searchPath(task, {}, 9).path), "planned path"}},
-                      {.columns = 2});
+                      {.columns = 2, .pictureWidth = 625});
 }
 
 Image parking() {
@@ -126,14 +144,13 @@ Image parking() {
       cli::parkingTask(model, contacts, model.initialPositions(), Eigen::VectorXd(goal), 0.05, 0.05);
   const cli::Parking found = cli::parked(task, {.wheelbase = 2.6, .maxSteering = 0.6}, {});
   Picture picture = cli::parkingPicture(task, found);
-  Bounds cars;
+  const Bounds cars{.low = {-10, -0.3, 0}, .high = {8, 6, 1.5}};
   for (const Vector3d& q : {Vector3d(model.initialPositions()), goal}) {
     const Vector3d at(q.x(), q.y(), 1.8), ahead(std::cos(q.z()), std::sin(q.z()), 0);
     picture.arrows.push_back(
         {.from = at, .to = at + 2.5 * ahead, .color = {0.8f, 0.1f, 0.12f}, .radius = 0.12});
-    cars.include(at + Vector3d(6.5, 2, -1.8)), cars.include(at - Vector3d(5, 2, 1.8));
   }
-  constexpr int kHigh = 720;
+  constexpr int kHigh = 560;
   return Renderer({.width = kSlideWidth, .height = kHigh})
       .draw(picture, framing(cars, {0, -0.5, 1}, static_cast<double>(kSlideWidth) / kHigh));
 }
