@@ -65,7 +65,7 @@ enum class TreeKind { kSource, kInstalled };
 /// in nested archives and binary data. Also reports solution.cpp, wrong.cpp, seen.txt, region markers in C++
 /// files (except in share/template), git history, links, compiled files, and unreadable archives. In a file
 /// src/NAME equal to LIBRARY/NAME, only the secret of the course is a leak. Limits:
-/// share/doc/writing-an-exercise.md. Throws Error for files that cannot be read.
+/// share/doc/teaching.md. Throws Error for files that cannot be read.
 [[nodiscard]] LeakScan scanForLeaks(const std::filesystem::path& tree, const std::vector<Secret>& secrets,
                                     const std::filesystem::path& library = {},
                                     TreeKind kind = TreeKind::kSource);
