@@ -11,6 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/rng.h"
 #include "collision/motion_clearance.h"
 #include "course/motion.h"
 #include "course/recording.h"
@@ -150,16 +151,93 @@ TEST_P(OwnRobots, ReachWhereTheirPosturesHaveThem) {
 INSTANTIATE_TEST_SUITE_P(Ours, OwnRobots, testing::ValuesIn(kOwn),
                          [](const auto& i) { return i.param.name; });
 
-// The published tables, multiplied.
-TEST(OwnArms, HaveTheLengthsThatTheirMakersPublish) {
-  const auto toolAt = [](const std::string& name, const Eigen::VectorXd& q) {
-    const Model model = compile(readScene(fileOf(name)).spec);
-    return forwardKinematics(model, q)[model.body("tool")].p;
-  };
-  EXPECT_LT(
-      (toolAt("arm6dof", Eigen::VectorXd::Zero(6)) - Eigen::Vector3d(-0.81725, -0.19145, -0.005491)).norm(),
-      1e-6);
-  EXPECT_LT((toolAt("arm7offset", Eigen::VectorXd::Zero(7)) - Eigen::Vector3d(0.088, 0, 0.926)).norm(), 1e-6);
+// A joint as its maker publishes it: Denavit and Hartenberg's parameters, the range in rad, rad/s and Nm.
+struct PublishedJoint {
+  double a, alpha, d, lower, upper, velocity, effort;
+};
+
+struct PublishedArm {
+  std::string name;
+  bool isCraig = false;  // a and alpha lie before the joint, as Craig has them, and not behind it
+  double flange = 0;     // from the last frame to the tool
+  std::vector<PublishedJoint> joints;
+};
+
+constexpr double kRight = M_PI / 2, kTurn = 2 * M_PI;
+
+const PublishedArm kPublished[] = {{.name = "arm6dof",
+                                    .joints = {{0, kRight, 0.089159, -kTurn, kTurn, M_PI, 150},
+                                               {-0.425, 0, 0, -kTurn, kTurn, M_PI, 150},
+                                               {-0.39225, 0, 0, -M_PI, M_PI, M_PI, 150},
+                                               {0, kRight, 0.10915, -kTurn, kTurn, M_PI, 28},
+                                               {0, -kRight, 0.09465, -kTurn, kTurn, M_PI, 28},
+                                               {0, 0, 0.0823, -kTurn, kTurn, M_PI, 28}}},
+                                   {.name = "arm7offset",
+                                    .isCraig = true,
+                                    .flange = 0.107,
+                                    .joints = {{0, 0, 0.333, -2.8973, 2.8973, 2.175, 87},
+                                               {0, -kRight, 0, -1.7628, 1.7628, 2.175, 87},
+                                               {0, kRight, 0.316, -2.8973, 2.8973, 2.175, 87},
+                                               {0.0825, kRight, 0, -3.0718, -0.0698, 2.175, 87},
+                                               {-0.0825, -kRight, 0.384, -2.8973, 2.8973, 2.61, 12},
+                                               {0, kRight, 0, -0.0175, 3.7525, 2.61, 12},
+                                               {0.088, kRight, 0, -2.8973, 2.8973, 2.61, 12}}}};
+
+Eigen::Isometry3d toolOf(const PublishedArm& arm, const Eigen::VectorXd& q) {
+  using Eigen::AngleAxisd, Eigen::Isometry3d, Eigen::Translation3d, Eigen::Vector3d;
+  Isometry3d X = Isometry3d::Identity();
+  for (std::size_t i = 0; i < arm.joints.size(); ++i) {
+    const PublishedJoint& joint = arm.joints[i];
+    const Isometry3d link = Translation3d(joint.a, 0, 0) * AngleAxisd(joint.alpha, Vector3d::UnitX());
+    const Isometry3d turn =
+        Translation3d(0, 0, joint.d) * AngleAxisd(q[static_cast<Eigen::Index>(i)], Vector3d::UnitZ());
+    X = arm.isCraig ? X * link * turn : X * turn * link;
+  }
+  return X * Translation3d(0, 0, arm.flange);
+}
+
+TEST(OwnArms, AreAsTheirMakersPublish) {
+  for (const PublishedArm& arm : kPublished) {
+    SCOPED_TRACE(arm.name);
+    const Model model = compile(readScene(fileOf(arm.name)).spec);
+    ASSERT_EQ(model.nq(), static_cast<int>(arm.joints.size()));
+    for (const Joint& joint : model.joints()) {
+      if (joint.nv != 1) continue;
+      const PublishedJoint& published = arm.joints[static_cast<std::size_t>(joint.qIndex)];
+      EXPECT_NEAR(model.lowerLimits()[joint.qIndex], published.lower, 1e-9) << joint.name;
+      EXPECT_NEAR(model.upperLimits()[joint.qIndex], published.upper, 1e-9) << joint.name;
+      EXPECT_NEAR(joint.maxVelocity, published.velocity, 1e-9) << joint.name;
+      EXPECT_EQ(joint.maxEffort, published.effort) << joint.name;
+    }
+    Rng rng(8);
+    for (int round = 0; round < 20; ++round) {
+      const Eigen::VectorXd q =
+          round == 0 ? Eigen::VectorXd::Zero(model.nq()) : rng.uniformVector(model.nq(), -M_PI, M_PI);
+      const Pose X_WT = forwardKinematics(model, q)[model.body("tool")];
+      const Eigen::Isometry3d wanted = toolOf(arm, q);
+      EXPECT_LT((X_WT.p - wanted.translation()).norm(), 1e-8);
+      EXPECT_LT((X_WT.R - wanted.linear()).norm(), 1e-8);
+    }
+  }
+}
+
+// The maker's own file of the Panda, which has a base and joints of other names.
+TEST(OwnArms, MoveAsThePanda) {
+  const fs::path file = sharedPath("data/urdf/panda_arm_hand.urdf");
+  if (!fs::exists(file)) GTEST_SKIP() << "no " << file;
+  const Model panda = compile(readScene(file, {.allowMissingMeshes = true}).spec),
+              ours = compile(readScene(fileOf("arm7offset")).spec);
+  Rng rng(9);
+  for (int round = 0; round < 20; ++round) {
+    Eigen::VectorXd q = Eigen::VectorXd::Zero(panda.nq());
+    q.head(7) = rng.uniformVector(7, -2, 2);
+    const Pose X_WT = forwardKinematics(ours, q.head(7))[ours.body("tool")],
+               wanted = forwardKinematics(panda, q)[panda.body("panda_link8")];
+    EXPECT_LT((X_WT.p - wanted.p).norm(), 1e-8);
+    EXPECT_LT((X_WT.R - wanted.R).norm(), 1e-8);
+  }
+  EXPECT_EQ(panda.lowerLimits().head(7), ours.lowerLimits());
+  EXPECT_EQ(panda.upperLimits().head(7), ours.upperLimits());
 }
 
 TEST(OwnRobotsFolder, HasNoRobotThatNobodyTests) {

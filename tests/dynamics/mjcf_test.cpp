@@ -9,6 +9,7 @@
 
 #include <mujoco/mujoco.h>
 
+#include "base/process.h"
 #include "base/rng.h"
 #include "bench/mujoco_model.h"
 #include "dynamics/equations_of_motion.h"
@@ -32,8 +33,8 @@ struct DataDeleter {
 // own: P takes our velocities to all of its.
 class Peer {
  public:
-  Peer(const std::string& xml, const SceneSpec& spec, const Model& ours)
-      : model_(bench::loadMujoco(xml)), data_(mj_makeData(model_.get())), ours_(ours) {
+  Peer(bench::MujocoModel theirs, const SceneSpec& spec, const Model& ours)
+      : model_(std::move(theirs)), data_(mj_makeData(model_.get())), ours_(ours) {
     model_->opt.disableflags |= mjDSBL_CONSTRAINT | mjDSBL_PASSIVE;
     for (const JointSpec& joint : spec.joints)
       if (joint.type != JointType::kRigid) joints_.push_back(jointOf(joint.name));
@@ -108,9 +109,9 @@ VectorXd randomPositions(Rng& rng, const Model& model) {
   return q;
 }
 
-void expectSame(const std::string& xml, const SceneSpec& spec, double tolerance = 1e-9) {
+void expectSame(bench::MujocoModel loaded, const SceneSpec& spec, double tolerance = 1e-9) {
   const Model model = compile(spec);
-  Peer peer(xml, spec, model);
+  Peer peer(std::move(loaded), spec, model);
   EXPECT_LT((model.initialPositions() - peer.start()).norm(), 1e-12);
   for (int body = 1; body < peer.bodies(); ++body)
     EXPECT_NEAR(model[model.body(peer.name(body))].mass, peer.mass(body), tolerance * peer.mass(body))
@@ -129,8 +130,18 @@ void expectSame(const std::string& xml, const SceneSpec& spec, double tolerance 
   }
 }
 
+void expectSame(const std::string& xml, const SceneSpec& spec, double tolerance = 1e-9) {
+  expectSame(bench::loadMujoco(xml), spec, tolerance);
+}
+
 void eraseAll(std::string& text, const std::string& part) {
   for (std::size_t at; (at = text.find(part)) != std::string::npos;) text.erase(at, part.size());
+}
+
+// The default of later versions.
+void setAutolimits(std::string& xml) {
+  if (const std::size_t at = xml.find("<compiler "); at != std::string::npos)
+    xml.insert(at + 10, "autolimits='true' ");
 }
 
 class MjcfPeer : public testing::TestWithParam<std::string> {};
@@ -142,8 +153,7 @@ TEST_P(MjcfPeer, AgreesOnSamples) {
   const SceneSpec spec = readMjcf(file).spec;
   eraseAll(xml,
            R"(<inertial mass="10"/>)");  // without 'pos', which MuJoCo refuses even where it does not count
-  if (const std::size_t at = xml.find("<compiler "); at != std::string::npos)
-    xml.insert(at + 10, "autolimits='true' ");  // the default of later versions
+  setAutolimits(xml);
   expectSame(xml, spec);
 }
 
@@ -155,6 +165,29 @@ const std::string kOpenAi = "/usr/share/doc/dart/data/mjcf/openai/";  // of the 
 INSTANTIATE_TEST_SUITE_P(OpenAi, MjcfPeer,
                          testing::Values(kOpenAi + "inverted_double_pendulum", kOpenAi + "inverted_pendulum",
                                          kOpenAi + "point", kOpenAi + "reacher", kOpenAi + "swimmer"));
+
+// Those that the package compresses, and those that include others and have meshes.
+TEST(MjcfPeers, AgreeOnMoreOfOpenAi) {
+  namespace fs = std::filesystem;
+  if (!fs::exists(kOpenAi)) GTEST_SKIP() << "needs the package dart-doc";
+  const TemporaryFolder folder;
+  fs::copy(kOpenAi, folder.path(), fs::copy_options::recursive);
+  ASSERT_TRUE(runProcess({"gunzip", "-r", folder.path()}).ok());
+  for (const char* name : {"ant", "half_cheetah", "humanoid", "humanoidstandup", "pusher", "striker",
+                           "thrower", "robotics/fetch/pick_and_place", "robotics/fetch/push",
+                           "robotics/fetch/reach", "robotics/fetch/slide"}) {
+    SCOPED_TRACE(name);
+    const fs::path file = folder.path() / (std::string(name) + ".xml");
+    const SceneSpec spec = readMjcf(file, {.assetRoot = folder.path()}).spec;
+    std::string xml = fileText(file);
+    setAutolimits(xml);
+    std::ofstream(file) << xml;
+    char message[1000] = "";
+    bench::MujocoModel theirs(mj_loadXML(file.c_str(), nullptr, message, sizeof message));
+    ASSERT_TRUE(theirs) << message;
+    expectSame(std::move(theirs), spec);
+  }
+}
 
 // MuJoCo has given them up. The masses are those of the hopper that its converted files have.
 TEST(MjcfPeers, MissGlobalCoordinates) {
@@ -288,7 +321,7 @@ TEST(MjcfPeers, AgreeOnFollowers) {
   const SceneSpec spec = parseMjcf(xml, "m.xml").spec;
   const Model model = compile(spec);
   ASSERT_EQ(model.nv(), 1);
-  Peer peer(xml, spec, model);
+  Peer peer(bench::loadMujoco(xml), spec, model);
   for (const double q : {.3, 1., -2.}) {
     const VectorXd one = VectorXd::Constant(1, q);
     peer.set(one);
