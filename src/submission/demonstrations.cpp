@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/escape.h"
 #include "base/text.h"
 #include "base/text_file.h"
 
@@ -57,7 +58,7 @@ Demonstration readDemonstration(const fs::path& file) {
 }
 
 // A cell of a table in Markdown.
-std::string cellOf(std::string text) {
+std::string cellText(std::string text) {
   for (std::size_t at = 0; (at = text.find('|', at)) != text.npos; at += 2) text.insert(at, "\\");
   return text;
 }
@@ -73,7 +74,7 @@ std::vector<Demonstration> demonstrations(const fs::path& folder) {
   return all;
 }
 
-std::vector<std::pair<std::string, std::string>> factsOf(const Demonstration& one) {
+std::vector<std::pair<std::string, std::string>> demonstrationFacts(const Demonstration& one) {
   std::vector<std::pair<std::string, std::string>> facts{
       {"about", one.about}, {"try", one.toTry}, {"formula", one.formula}, {"slides", one.slides}};
   std::erase_if(facts, [](const auto& fact) { return fact.second.empty(); });
@@ -92,7 +93,7 @@ std::string demonstrationsPage(const std::vector<Demonstration>& all,
     const std::string link = linkTo(one);
     page += fmt::format("| `{}` | {}{} | {} | {} |\n", one.name,
                         link.empty() ? "**" + one.title + "**" : fmt::format("[{}]({})", one.title, link),
-                        one.formula.empty() ? "" : ": `" + cellOf(one.formula) + "`", cellOf(one.toTry),
+                        one.formula.empty() ? "" : ": " + markdownText(one.formula), cellText(one.toTry),
                         one.slides);
   }
   return page;

@@ -30,7 +30,7 @@ struct Demonstration {
 [[nodiscard]] std::vector<Demonstration> demonstrations(const std::filesystem::path& folder);
 
 /// Name and text of what a page says about it, in order.
-[[nodiscard]] std::vector<std::pair<std::string, std::string>> factsOf(const Demonstration& one);
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> demonstrationFacts(const Demonstration& one);
 
 /// All of them as a page in Markdown, a table for each chapter. `linkTo` gives the page that a title leads
 /// to; empty: none.

@@ -105,7 +105,7 @@ fs::path keptProgram(const Project& project, const Demonstration& one) {
 // What its pages say: LiveView (course/live_view.cpp) reads it.
 std::string aboutVariable(const Demonstration& one) {
   std::string text = "REX_LIVE_ABOUT=" + one.title;
-  for (const auto& [name, value] : submission::factsOf(one)) text += "\n" + name + "\t" + value;
+  for (const auto& [name, value] : submission::demonstrationFacts(one)) text += "\n" + name + "\t" + value;
   return text;
 }
 

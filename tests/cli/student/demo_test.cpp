@@ -28,7 +28,7 @@ TEST(Demonstrations, CoverChapters2To11) {
   for (const submission::Demonstration& one :
        submission::demonstrations(homeFolder() / "share" / "demonstrations")) {
     chapters.insert(one.chapter);
-    EXPECT_EQ(submission::factsOf(one).size(), 4u) << one.name;
+    EXPECT_EQ(submission::demonstrationFacts(one).size(), 4u) << one.name;
     EXPECT_TRUE(one.slides.starts_with(std::to_string(one.chapter) + ":")) << one.name;
   }
   EXPECT_EQ(chapters, (std::set<int>{2, 3, 4, 5, 6, 7, 8, 9, 10, 11}));

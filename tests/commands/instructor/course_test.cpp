@@ -148,10 +148,9 @@ TEST_F(CourseTest, ShowsAdjustmentsInEveryReport) {
   for (const char* file : {"summary.md", "gradescope.json", "junit.xml", "github.txt"})
     EXPECT_THAT(fileText(zoe / file), AllOf(HasSubstr("a good question"), HasSubstr("6.8 of 10 points")))
         << file;
-  EXPECT_THAT(
-      fileText(zoe / "summary.md"),
-      HasSubstr(
-          "## 98-template: 7 of 10 points\n\nZoë &#60;b&#62; \"Müller\"\n\n- Final points: 6.8 instead of"));
+  EXPECT_THAT(fileText(zoe / "summary.md"),
+              HasSubstr("## 98-template: 7 of 10 points\n\nYan, Y., Zoë &#60;b&#62; \"Müller\"\n\n- Final "
+                        "points: 6.8 instead of"));
   EXPECT_EQ(Json::parse(fileText(zoe / "gradescope.json")).at("score"), 6.8);
   REX_NEEDS_REPORT_CHECKER();
   for (const auto& [format, file] : std::map<std::string, std::string>{{"markdown", "summary.md"},
