@@ -119,6 +119,7 @@ Image legs() {
     joint.type = JointType::kRigid;
     joint.lower = joint.upper = joint.q0 = {};
   }
+  spec.postures.clear();  // they have numbers for all joints
   const Model model = compile(spec);
   const ContactModel contacts(model);
   const Eigen::VectorXd start = cli::parsePosture(model, "left_hip_roll=-.3,left_hip_pitch=-.7"),
