@@ -148,8 +148,8 @@ TEST_F(ImportingTest, TakesMoodlesFlatFiles) {
 
 TEST_F(ImportingTest, TakesTheFolderNamesOfMoodleFrom4_1OnAlsoBesideOlderOnes) {
   std::vector<SampleMember> members = moodleMembers(all_, kExercise);
-  for (std::size_t k = 0; k < members.size(); ++k)
-    if (const std::size_t end = members[k].name.find("_/"); k % 4 != 3) members[k].name.erase(end, 1);
+  for (SampleMember& member : members)  // all files of one person alike
+    if (const std::size_t end = member.name.find("_/"); end % 4 != 3) member.name.erase(end, 1);
   import(moodle(zip("all.zip", members), moodleWorksheet(all_)));
   expectAll(emailOf, "platform", true);
 }
