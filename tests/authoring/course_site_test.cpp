@@ -59,7 +59,7 @@ TEST_F(CourseSiteTest, HasNoDeadLinks) {
               HasSubstr("\"url\":\"exercises/05-car.html#part-4-resampling-723-3-points\""));
   EXPECT_THAT(fileText(out() / "entries.js"), Not(HasSubstr("</")));
   const std::string demonstrations = fileText(out() / "documents" / "demonstrations.html");
-  EXPECT_THAT(demonstrations, HasSubstr("<code>u = Kp (q* - q)"));
+  EXPECT_THAT(demonstrations, HasSubstr("u = Kp (q* - q)"));
   EXPECT_THAT(demonstrations, HasSubstr("3:15 to 3:17"));
   EXPECT_FALSE(fs::exists(out() / "notes"));
   EXPECT_THAT(fileText(out() / "index.html"), Not(HasSubstr("notes/")));

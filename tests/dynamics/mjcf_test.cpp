@@ -166,16 +166,17 @@ INSTANTIATE_TEST_SUITE_P(OpenAi, MjcfPeer,
                          testing::Values(kOpenAi + "inverted_double_pendulum", kOpenAi + "inverted_pendulum",
                                          kOpenAi + "point", kOpenAi + "reacher", kOpenAi + "swimmer"));
 
-// Those that the package compresses, and those that include others and have meshes.
+// Those that the package compresses, and those that include others and have meshes; but for ant, striker and
+// thrower, whose bodies have not all names.
 TEST(MjcfPeers, AgreeOnMoreOfOpenAi) {
   namespace fs = std::filesystem;
   if (!fs::exists(kOpenAi)) GTEST_SKIP() << "needs the package dart-doc";
   const TemporaryFolder folder;
   fs::copy(kOpenAi, folder.path(), fs::copy_options::recursive);
   ASSERT_TRUE(runProcess({"gunzip", "-r", folder.path()}).ok());
-  for (const char* name : {"ant", "half_cheetah", "humanoid", "humanoidstandup", "pusher", "striker",
-                           "thrower", "robotics/fetch/pick_and_place", "robotics/fetch/push",
-                           "robotics/fetch/reach", "robotics/fetch/slide"}) {
+  for (const char* name :
+       {"half_cheetah", "humanoid", "humanoidstandup", "pusher", "robotics/fetch/pick_and_place",
+        "robotics/fetch/push", "robotics/fetch/reach", "robotics/fetch/slide"}) {
     SCOPED_TRACE(name);
     const fs::path file = folder.path() / (std::string(name) + ".xml");
     const SceneSpec spec = readMjcf(file, {.assetRoot = folder.path()}).spec;
