@@ -42,6 +42,7 @@
         if (numbers[one.at] > time) one.at = 0;
         while (one.at + 2 < numbers.length && numbers[one.at + 2] <= time + 1e-6) one.at += 2;
         line.style.left = 100 * numbers[one.at + 1] + '%';
+        line.hidden = false;
       }
     }
 

@@ -106,8 +106,9 @@ std::string figuresOf(const Report& report) {
   for (const ReportFigure& item : report.figures) {
     const std::string alt = escaped(internal::singleLine(item.figure.title));
     const MarkedFigure drawn = markedFigure(item);
-    html += drawn.marks.empty() ? "<figure>"
-                                : "<figure><div class=\"marked\" data-marks=\"" + drawn.marks + "\"><i></i>";
+    html += drawn.marks.empty()
+                ? "<figure>"
+                : "<figure><div class=\"marked\" data-marks=\"" + drawn.marks + "\"><i hidden></i>";
     html += fmt::format("<img src=\"data:image/svg+xml;base64,{}\" alt=\"{}\" width=\"{}\" height=\"{}\">",
                         base64(drawn.svg), alt, item.figure.width, item.figure.height);
     if (!drawn.marks.empty()) html += "</div>";
