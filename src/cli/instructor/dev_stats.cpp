@@ -265,12 +265,12 @@ void print(const std::vector<ExerciseStatistics>& all, const classroom::ClassRes
 
 ExitCode devStats(const Project& project, const StatsOptions& options) {
   requireFolder(options.results, "the folder of results that rex grade wrote");
-  const classroom::LatePolicy policy =
-      readDeadlines(project, options.course.empty() ? options.deadlines : options.course);
+  const ClassFiles files{.course = options.course, .deadlines = options.deadlines};
+  const classroom::LatePolicy policy = readClassCourse(project, files).policy;
   classroom::ClassResults read = classroom::readClassResults(options.results);
   if (!options.course.empty())
     read = classroom::resultsByPerson(
-        read, readGradebook(project, {.course = options.course}, tasksIn(options.results), options.results));
+        read, readGradebook(project, files, tasksIn(options.results), options.results));
   for (const std::string& complaint : read.complaints) note(wrap(escapeForTerminal(complaint), 2, 0));
   if (read.results.empty())
     throw UsageError({.what = "nothing to evaluate",
