@@ -19,7 +19,7 @@ void followsRays(Check& check, Student& student) {
 }
 
 void updatesMap(Check& check, Student& student) {
-  // Many rays, of which some pass where others end.
+  // Many rays, so that some pass through cells in which others end.
   check.forEachCase(5, [&](int i) { updates(check, student, i < 4 ? 3 + 2 * i : 60, {.bound = 4.5}); });
 }
 

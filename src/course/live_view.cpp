@@ -233,7 +233,7 @@ struct LiveView::Parts {
     publish();
   }
 
-  // The curves for the replay, of which long ones become coarser.
+  // A point of a curve for the replay; long curves become coarser.
   void keepPoint(Control& plot, double x, double y) const {
     constexpr std::size_t kMostPoints = 4000;
     Series& curve = plot.curve;

@@ -51,8 +51,8 @@ struct MassMatrixKernel {
 struct DerivativesKernel {
   void (*one)(const DynamicsTask& task);
   int numbersPerLink, numbersPerFreedom;  ///< of memory; see roomFor()
-  /// Overwrites B by the solution of L^T L X = B, n rows of `stride` numbers, a multiple of four. L has n
-  /// columns, of which only the lower half is read; zeros, of which trees have many, cost nothing.
+  /// Overwrites B by the solution of L^T L X = B, n rows of `stride` numbers, a multiple of four. Only the
+  /// lower half of the n columns of L is read. Zeros cost nothing, and L of a tree has many.
   void (*solve)(const double* L, double* B, int n, int stride);
 
   template <int kLanes>

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
@@ -125,17 +124,15 @@ class Check {
       std::vector<Mistake>& suspects;
       std::size_t before;
       ~Suspecting() {
-        suspects.erase(suspects.begin() + static_cast<std::ptrdiff_t>(before), suspects.end());
+        while (suspects.size() > before) suspects.pop_back();
       }
     };
     const std::size_t before = suspects_.size();
     suspects_.insert(suspects_.end(), mistakes.begin(), mistakes.end());
     return Suspecting{suspects_, before};
   }
-  [[nodiscard]] auto suspect(std::string question, const Eigen::MatrixXd& value) {
-    return suspect({Mistake(std::move(question), value)});
-  }
-  [[nodiscard]] auto suspect(std::string question, double value) {
+  template <class Value>
+  [[nodiscard]] auto suspect(std::string question, const Value& value) {
     return suspect({Mistake(std::move(question), value)});
   }
 
