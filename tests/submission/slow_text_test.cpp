@@ -162,13 +162,13 @@ std::string tellingTime(const Reader& read, const std::string& text) {
                         (used.ru_utime.tv_usec + used.ru_stime.tv_usec) / 1000);
 }
 
-// Each reader with each text in one second of processor time.
+// Each reader ends with each text within the limits of rex.
 void expectLinear(const std::map<std::string, Reader>& readers,
-                  const std::map<std::string, std::string>& texts) {
+                  const std::map<std::string, std::string>& texts, const IsolationLimits& limits) {
   std::pair<int, std::string> slowest;
   for (const auto& [name, read] : readers)
     for (const auto& [shape, text] : texts) {
-      const IsolatedResult result = callIsolated([&] { return tellingTime(read, text); }, {.cpuSeconds = 1});
+      const IsolatedResult result = callIsolated([&] { return tellingTime(read, text); }, limits);
       EXPECT_EQ(result.end, IsolatedEnd::kReturned) << name << ": " << shape << ": signal " << result.signal;
       if (result.end == IsolatedEnd::kReturned)
         slowest = std::max(slowest, {std::stoi(result.bytes), name + ": " + shape});
@@ -182,10 +182,10 @@ TEST(SlowText, OfAFileIsReadInTime) {
   const std::size_t size = isLongRun() ? kLargest : kLargest / 4;
   const std::map<std::string, std::string> sources = slowSources(size);
   for (const auto& [shape, text] : sources) EXPECT_THAT(text.size(), AllOf(Gt(size / 4), Le(size))) << shape;
-  expectLinear(readersOfSource(), sources);
+  expectLinear(readersOfSource(), sources, kBeforeCompiling);
 }
 
-TEST(SlowText, OfToolsIsReadInTime) { expectLinear(readersOfOutput(), slowOutputs()); }
+TEST(SlowText, OfToolsIsReadInTime) { expectLinear(readersOfOutput(), slowOutputs(), kAfterCompiling); }
 
 TEST(SlowText, HasTheLimitsOfTheDocument) {
   const std::string page = readTextFile(homeFolder() / "share" / "doc" / "sandbox.md");
