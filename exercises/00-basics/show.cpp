@@ -93,8 +93,9 @@ void showDescents(const Eigen::Vector2d& start) {
   const std::vector<Eigen::VectorXd> descent = gradientDescent(depth, slope, start, {});
   const std::vector<Eigen::VectorXd> newton = gaussNewton(valley, valleyJacobian, start, {});
   // Zero has no place on a logarithmic axis or colour scale.
-  HeatMap map = heatMapOf([](double x, double y) { return std::max(depth(Eigen::Vector2d(x, y)), 0.01); },
-                          {-1.6, 1.6}, {-1, 1.8}, 320, 280);
+  HeatMap map =
+      sampledHeatMap([](double x, double y) { return std::max(depth(Eigen::Vector2d(x, y)), 0.01); },
+                     {-1.6, 1.6}, {-1, 1.8}, 320, 280);
   map.contours = 12;
   plot("paths",
        {.title = "Two ways down a curved valley",
@@ -213,7 +214,7 @@ void showWheel(const Eigen::Vector3d& truth) {
     return std::exp((alpha[0] - 1) * std::log(mu1) + (alpha[1] - 1) * std::log(mu2) +
                     (alpha[2] - 1) * std::log(mu3));
   };
-  HeatMap map = heatMapOf(density, {-0.05, 1.05}, {-0.05, 1.05}, 330, 330);
+  HeatMap map = sampledHeatMap(density, {-0.05, 1.05}, {-0.05, 1.05}, 330, 330);
   map.values /= map.values.maxCoeff();
   const Series triangle{.x = {0, 1, 0.5, 0}, .y = {0, 0, kTop, 0}, .color = kGrey};
   Figure figure{.title = "The belief about a wheel of fortune after 40 turns",

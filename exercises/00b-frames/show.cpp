@@ -135,7 +135,7 @@ void showEllipse() {
     const double bend = 0.5 * (1 + std::cos(kPi * k / kFrames));
     postures.push_back(Eigen::Vector3d(-1.6 + 1.2 * bend, -1.9 * bend, -1.4 * bend));
   }
-  Film film = filmOf(S, postures, {});
+  Film film = makeFilm(S, postures, {});
   Figure figure{.title = "What unit velocities of the joints move the tip",
                 .xLabel = "share of the motion [1]",
                 .yLabel = "radius [m/s]",

@@ -62,7 +62,7 @@ inline rex::grading::Evidence seen(const rex::Simulator& S, const std::string& b
                                    const Place& wanted) {
   std::vector<Eigen::Vector3d> way;
   for (int t = 1; t <= static_cast<int>(motion.size()); ++t) way.push_back(wanted(t));
-  rex::Film film = rex::filmOf(S, motion, {.traces = {body}, .paths = {way}});
+  rex::Film film = rex::makeFilm(S, motion, {.traces = {body}, .paths = {way}});
   for (std::size_t i = 0; i < film.size(); ++i)
     film[i].picture.pointSets.push_back({.points = {way[i]}, .color = {.8f, .1f, .12f}, .size = 9});
   return {.film = std::move(film)};

@@ -178,8 +178,8 @@ inline std::vector<std::pair<const char*, TaskMapValue>> mistakenCenters(const S
 inline rex::grading::Evidence pointSeen(const rex::Simulator& S, const Eigen::Vector3d& from,
                                         const Eigen::Vector3d& got, const Eigen::Vector3d& wanted) {
   const auto with = [&](const Eigen::Vector3d& point) {
-    return rex::filmOf(S, {S.getJointAngles(), S.getJointAngles()},
-                       {.paths = {{from, point}}, .points = {point}});
+    return rex::makeFilm(S, {S.getJointAngles(), S.getJointAngles()},
+                         {.paths = {{from, point}}, .points = {point}});
   };
   return {.film = rex::grading::withWanted(with(got), with(wanted)), .moment = 1. / rex::kFilmRate};
 }

@@ -63,7 +63,7 @@ inline rex::grading::Evidence seen(const rex::Simulator& S, const std::string& b
   const std::size_t stride = 1 + motion.size() / 300;
   Motion shown;
   for (std::size_t t = 0; t < motion.size(); t += stride) shown.push_back(motion[t]);
-  rex::Film film = rex::filmOf(S, shown, {.traces = {body}, .paths = {path}});
+  rex::Film film = rex::makeFilm(S, shown, {.traces = {body}, .paths = {path}});
   for (rex::Frame& frame : film)
     if (!path.empty()) frame.picture.captions.push_back({.text = "grey: the wanted path"});
   return {.film = std::move(film)};
@@ -136,7 +136,7 @@ inline void staysAtHome(rex::grading::Check& check, const rex::Simulator& S, con
   };
   const auto shown = check.show([&] {
     rex::grading::Evidence evidence = seen(S, "handR", motion);
-    evidence.film = rex::grading::withWanted(evidence.film, rex::filmOf(S, Motion{atFirst}, {}));
+    evidence.film = rex::grading::withWanted(evidence.film, rex::makeFilm(S, Motion{atFirst}, {}));
     return evidence;
   });
   const auto moves = check.ask("Is home the posture before the first step, in every step?", true);

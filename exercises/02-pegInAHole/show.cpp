@@ -296,7 +296,7 @@ void showBalance(const Eigen::Vector3d& target) {
   picture("reach_alone", "The hand alone: he falls", alone);
   picture("reach_balanced", "With all three maps", all);
   look.caption = "Centre of mass, joint limits, and a hand on the hip";
-  Film film = filmOf(start, all, look);
+  Film film = makeFilm(start, all, look);
   Simulator S = start;
   for (std::size_t t = 0; t < film.size(); ++t) {
     S.setJointAngles(all[t]);

@@ -34,7 +34,7 @@ inline rex::grading::Evidence handSeen(const rex::Simulator& S, const std::strin
                                        const std::vector<Eigen::VectorXd>& moments) {
   std::vector<Eigen::Vector3d> way;
   for (int step = 0; step <= 300; ++step) way.emplace_back(path.at(kTau * step).y);
-  rex::Film film = rex::filmOf(
+  rex::Film film = rex::makeFilm(
       S, moments, {.caption = "wanted: the hand on the red point", .traces = {hand}, .paths = {way}});
   for (std::size_t i = 0; i < film.size(); ++i) {
     film[i].time = kTau * static_cast<double>(i);

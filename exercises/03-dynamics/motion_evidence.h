@@ -70,7 +70,7 @@ inline rex::grading::Evidence filmed(const rex::Simulator& S, const std::vector<
     shown.push_back(got[i]);
     beside.push_back(wanted[std::min(i, wanted.size() - 1)]);
   }
-  rex::Film film = rex::grading::withWanted(rex::filmOf(S, shown, {}), rex::filmOf(S, beside, {}));
+  rex::Film film = rex::grading::withWanted(rex::makeFilm(S, shown, {}), rex::makeFilm(S, beside, {}));
   for (std::size_t i = 0; i < film.size(); ++i) film[i].time = kTau * static_cast<double>(kStride * i);
   const double end = film.empty() ? 0 : film.back().time;
   return {.film = std::move(film), .moment = end};

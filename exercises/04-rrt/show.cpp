@@ -97,7 +97,7 @@ void showHand(double l1, double l2) {
     r.push_back(at);
     density.push_back(std::min(radiusDensity(at, l1, l2), 6.));
   }
-  Histogram sampled = normalized(histogramOf(radii, 80));
+  Histogram sampled = normalized(sampleHistogram(radii, 80));
   sampled.label = "20000 random postures";
   plot("hand", {.title = "How far the hand of a two-link arm is from the shoulder",
                 .xLabel = "distance r [m]",
@@ -165,7 +165,7 @@ void showArm() {
 
 void showDistances(const Eigen::Vector2d& from, double T) {
   const auto distance = [&](double q, double v) { return std::sqrt(effort(from, {q, v}, T)); };
-  HeatMap map = heatMapOf(distance, {-2, 6}, {-3, 5}, 120, 120);
+  HeatMap map = sampledHeatMap(distance, {-2, 6}, {-3, 5}, 120, 120);
   map.contours = 10;
   std::vector<Series> motions;
   for (const Eigen::Vector2d& to :

@@ -235,7 +235,7 @@ inline rex::grading::Evidence armEdgeSeen(const rex::Simulator& S, const Eigen::
                      .yLabel = "distance between bodies [m]",
                      .series = {distances}};
   figure.horizontalLines = {{.at = kApart, .label = "free: at least"}};
-  const rex::Film film = rex::filmOf(S, postures, {});
+  const rex::Film film = rex::makeFilm(S, postures, {});
   return {.figures = {figure}, .film = film, .moment = film[wrong].time};
 }
 
@@ -261,7 +261,7 @@ inline rex::grading::Evidence armPathSeen(const rex::Simulator& S, const Path& p
                                           const EdgeTest& isFree) {
   const auto fits = [&](const Eigen::VectorXd& q) { return q.size() == goal.size() && q.allFinite(); };
   if (path.empty() || !std::all_of(path.begin(), path.end(), fits)) return {};
-  const rex::Film film = rex::filmOf(S, path, {}), wanted = rex::filmOf(S, Path{goal}, {});
+  const rex::Film film = rex::makeFilm(S, path, {}), wanted = rex::makeFilm(S, Path{goal}, {});
   std::size_t wrong = path.size() - 1;
   rex::Series lengths = rex::grading::gotCurve("got");
   for (std::size_t i = path.size() - 1; i > 0; --i) {

@@ -127,7 +127,7 @@ inline rex::grading::Evidence neighboursSeen(const Eigen::MatrixXd& d, double no
 
 /// All numbers of the noise as a histogram beside the density that they should have.
 inline rex::grading::Evidence densitySeen(const Eigen::MatrixXd& d, double noise) {
-  rex::Histogram bars = normalized(rex::histogramOf({d.data(), d.data() + d.size()}, 40));
+  rex::Histogram bars = normalized(rex::sampleHistogram({d.data(), d.data() + d.size()}, 40));
   bars.label = "got";
   rex::Series density = rex::grading::wantedCurve("wanted");
   for (double at = -4; at <= 4; at += .05)

@@ -61,7 +61,7 @@ Eigen::MatrixXd meansOfTheLibrary(const DriveLog& log, const CarWorld& world) {
     const LogLikelihood weigh =
         observationWeights(observation, log.observations[static_cast<std::size_t>(t)]);
     std::ignore = library.step(motionProposal(transition), weigh, rng);
-    means.col(t) = momentsOf(library.particles()).mean;
+    means.col(t) = sampleMoments(library.particles()).mean;
   }
   return means;
 }

@@ -207,7 +207,7 @@ inline rex::grading::Evidence namesSeen(const CarSetup& car, const NamingCase& o
   for (int i = 0; i < 3; ++i)
     figure.notes.push_back({std::to_string(i), one.joint.mean[3 + 2 * i], one.joint.mean[4 + 2 * i]});
   for (std::size_t k = 0; k < names.size(); ++k) {
-    const Eigen::Vector2d place = rex::placeOf(sensorOf(car), pose, one.ys[k]).landmark;
+    const Eigen::Vector2d place = rex::landmarkPosition(sensorOf(car), pose, one.ys[k]).landmark;
     figure.series.push_back(rex::grading::wrongPoint(
         "seen: got " + nameOf(names[k]) + ", wanted " + nameOf(one.names[k]), place.x(), place.y()));
     if (names[k] == one.names[k]) figure.series.back().color = rex::grading::kWantedColor;
@@ -223,7 +223,8 @@ inline std::string questionAboutName(const CarSetup& car, const NamingCase& one,
     return "Are the names in the order of the sightings?";
   int nearest = 0, inMetres = 0;
   double least = 1e9, way = 1e9, ofSensor = 1e9;
-  const Eigen::Vector2d place = rex::placeOf(sensorOf(car), one.joint.mean.head<3>(), one.ys[k]).landmark;
+  const Eigen::Vector2d place =
+      rex::landmarkPosition(sensorOf(car), one.joint.mean.head<3>(), one.ys[k]).landmark;
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector2d gap = gapTo(car, one.joint, i, one.ys[k]).gap;
     if (gap.norm() < least) nearest = i;

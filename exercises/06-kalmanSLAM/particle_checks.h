@@ -42,7 +42,7 @@ inline Observation gapOfLandmark(const CarSetup& car, const MapParticle& particl
 
 inline void newLandmarkFits(rex::grading::Check& check, const CarSetup& car, const MapParticle& particle,
                             const LandmarkObservation& seen, const Belief& got) {
-  const Eigen::Vector2d place = rex::placeOf(sensorOf(car), particle.x, seen.y).landmark;
+  const Eigen::Vector2d place = rex::landmarkPosition(sensorOf(car), particle.x, seen.y).landmark;
   check.input(described(car), {{"x of the particle", particle.x}, {"y", seen.y}});
   const Observation at = gapOfLandmark(car, particle, seen, place);
   const Belief wanted{place, rex::inverse(carried(transposed(at.C), rex::inverse(at.W)))};

@@ -130,7 +130,7 @@ inline std::vector<std::pair<const char*, Eigen::Vector2d>> wrongPlaces(const Ca
                                                                         const Eigen::Vector3d& x,
                                                                         const Eigen::Vector2d& y) {
   const auto place = [&](const CarSetup& setup, const Eigen::Vector3d& from) -> Eigen::Vector2d {
-    return rex::placeOf(sensorOf(setup), from, y).landmark;
+    return rex::landmarkPosition(sensorOf(setup), from, y).landmark;
   };
   return {{"Is the heading of the car left out?", place(car, {x[0], x[1], 0})},
           {"Is y rotated the wrong way, from the frame of the world to that of the car?",

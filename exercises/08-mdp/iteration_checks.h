@@ -166,7 +166,7 @@ inline Process improvableProcess(rex::Rng& rng) {
     const rex::Mdp mdp = mdpOf(process);
     std::vector<int> actions(4, 0);
     for (int i = 0; i < 2; ++i) {
-      const Eigen::VectorXd V = rex::policyValues(mdp, rex::policyOf(mdp, actions)).V;
+      const Eigen::VectorXd V = rex::policyValues(mdp, rex::deterministicPolicy(mdp, actions)).V;
       const std::vector<int> better = rex::greedyActions(rex::actionValues(mdp, V));
       if (better == actions) break;
       if (i == 1) return process;
@@ -250,7 +250,7 @@ inline std::vector<std::vector<int>> policiesImprove(rex::grading::Check& check,
       check.that(fmt::format("policy {} of iteratePolicies differs from policy {}", i, i - 1),
                  policies[i] != policies[i - 1]);
     }
-    V = rex::policyValues(mdp, rex::policyOf(mdp, policies[i])).V;
+    V = rex::policyValues(mdp, rex::deterministicPolicy(mdp, policies[i])).V;
   }
   describe();
   const Eigen::VectorXd best = rex::policyIteration(mdp).V;

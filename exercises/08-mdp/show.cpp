@@ -101,7 +101,7 @@ void showRandomWalk() {
   std::vector<int> best(static_cast<std::size_t>(V.size()));
   for (Eigen::Index s = 0; s < V.size(); ++s) worth.row(s).maxCoeff(&best[static_cast<std::size_t>(s)]);
   plotOf("improved", "The best actions by the values of the random walk",
-         policyFigure(world, V, policyOf(world.mdp, best)));
+         policyFigure(world, V, deterministicPolicy(world.mdp, best)));
 }
 
 void showOptimum(double tolerance) {
@@ -119,11 +119,12 @@ void showOptimum(double tolerance) {
 
   const std::vector<std::vector<int>> policies = iteratePolicies(floor);
   if (policies.size() > 1) {
-    plotOf("policy", "Optimal policy", policyFigure(world, V.back(), policyOf(world.mdp, policies.back())));
+    plotOf("policy", "Optimal policy",
+           policyFigure(world, V.back(), deterministicPolicy(world.mdp, policies.back())));
     Series& steps =
         figure.series.emplace_back(Series{.label = "policy iteration", .style = SeriesStyle::kLinesPoints});
     for (const std::vector<int>& actions : policies)
-      steps.y.push_back(error(valuesOf(floor, policyOf(world.mdp, actions))));
+      steps.y.push_back(error(valuesOf(floor, deterministicPolicy(world.mdp, actions))));
   } else {
     nothingYet("policy iteration");
   }

@@ -13,7 +13,8 @@
 
 /// A histogram of the noise beside the density that it should have.
 inline rex::grading::Evidence densityOf(const Eigen::MatrixXd& noise, double deviation) {
-  rex::Histogram bars = normalized(rex::histogramOf({noise.reshaped().begin(), noise.reshaped().end()}, 40));
+  rex::Histogram bars =
+      normalized(rex::sampleHistogram({noise.reshaped().begin(), noise.reshaped().end()}, 40));
   bars.label = "got";
   std::vector<double> x, density;
   for (double at = -4; at <= 4; at += .05) {

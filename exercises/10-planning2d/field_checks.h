@@ -198,7 +198,7 @@ inline rex::grading::Evidence slideSeen(const Slide& slide, const FieldTrail& tr
     const Eigen::Vector2d down = -trueGradient(yard, goal, gains, p);
     return isFree(yard, p) && down.allFinite() ? down : Eigen::Vector2d::Zero();
   };
-  figure.arrows = {rex::arrowsOf(pull, {0, yard.size.x()}, {0, yard.size.y()})};
+  figure.arrows = {rex::arrowField(pull, {0, yard.size.x()}, {0, yard.size.y()})};
   const auto end = std::find_if(trail.points.begin(), trail.points.end(),
                                 [](const Eigen::Vector2d& p) { return !p.allFinite(); });
   addLine(figure, {trail.points.begin(), end},

@@ -115,7 +115,7 @@ inline rex::grading::Evidence straightSeen(const Yard& yard, const Eigen::Vector
 /// The distances of Gaussian nodes from a wall, in sigmas, and their density, which is proportional to the
 /// probability of a normal number beyond.
 inline rex::Figure distancesSeen(const std::vector<double>& distances) {
-  rex::Histogram bars = normalized(rex::histogramOf(distances, 20));
+  rex::Histogram bars = normalized(rex::sampleHistogram(distances, 20));
   bars.label = "got";
   rex::Series density = rex::grading::wantedCurve("wanted");
   for (double x = 0; x <= 3.5; x += .05) density.add(x, std::sqrt(M_PI / 2) * std::erfc(x / std::sqrt(2)));

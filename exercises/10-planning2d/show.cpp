@@ -126,9 +126,9 @@ void showField(const Yard& yard, const Eigen::Vector2d& goal, const FieldGains& 
   };
   Figure figure = planOf("A potential field, and where it leads", yard.size, yard.blocks);
   figure.colorLabel = "U, 50 J at most";
-  figure.heatMap = heatMapOf(U, {0, yard.size.x()}, {0, yard.size.y()}, 200, 120);
+  figure.heatMap = sampledHeatMap(U, {0, yard.size.x()}, {0, yard.size.y()}, 200, 120);
   figure.heatMap->contours = 25;
-  Arrows arrows = arrowsOf(force, {0.2, yard.size.x() - 0.2}, {0.2, yard.size.y() - 0.2}, 25, 15);
+  Arrows arrows = arrowField(force, {0.2, yard.size.x() - 0.2}, {0.2, yard.size.y() - 0.2}, 25, 15);
   arrows.color = Color{1, 1, 1};
   if (!arrows.x.empty()) figure.arrows = {arrows};
   for (const double y : {0.3, 1.2, 2.4, 3., 3.9, 5., 5.7}) {

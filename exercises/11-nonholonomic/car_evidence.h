@@ -140,7 +140,7 @@ inline rex::grading::Evidence parkingSeen(const CarModel& car, const World& lot,
     postures.push_back(joints(way.poses[i], way.steering[i]));
   }
   rex::Film film =
-      rex::grading::withWanted(rex::filmOf(S, postures, {}), rex::filmOf(S, {joints(lot.goal, 0)}, {}));
+      rex::grading::withWanted(rex::makeFilm(S, postures, {}), rex::makeFilm(S, {joints(lot.goal, 0)}, {}));
   for (std::size_t i = 0; i < film.size(); ++i)  // at 1 m/s
     film[i].time = kPoseSpacing * static_cast<double>(stride * i);
   const double moment = film[opening].time;
@@ -219,7 +219,7 @@ inline rex::grading::Evidence reversingSeen(const Rig& rig, const std::vector<Ei
     postures.push_back(all);
     axle.add(q[0] - rig.hitchLength * std::cos(q[3]), q[1] - rig.hitchLength * std::sin(q[3]));
   }
-  rex::Film film = rex::filmOf(S, postures, {.paths = {{{-56, 0, .02}, {8, 0, .02}}}});
+  rex::Film film = rex::makeFilm(S, postures, {.paths = {{{-56, 0, .02}, {8, 0, .02}}}});
   for (std::size_t i = 0; i < film.size(); ++i) film[i].time = tau * static_cast<double>(stride * i);
   const double moment = film.back().time;
   rex::Figure figure{.title = "Backward along a line", .xLabel = "x [m]", .yLabel = "y [m]"};

@@ -421,7 +421,7 @@ grading::Evidence motionSeen(const Simulator& S, const Eigen::MatrixXd& path) {
     for (int k = 0; k < 4; ++k) postures.emplace_back(path.col(i) + k / 4. * (path.col(i + 1) - path.col(i)));
   postures.emplace_back(path.col(path.cols() - 1));
   const Eigen::Vector3d view(2, -0.6, 0.5);
-  Film film = filmOf(S, postures, {.traces = {"eff"}, .view = view});
+  Film film = makeFilm(S, postures, {.traces = {"eff"}, .view = view});
   const double end = film.back().time;
   return {.film = std::move(film), .view = view, .moment = end};
 }

@@ -198,7 +198,7 @@ inline void staysOnTheSoles(rex::grading::Check& check, Student& student, const 
   for (Eigen::Index k = 0; k < zmp.cols(); ++k) {
     const double time = static_cast<double>(k) * cart.step;
     const rex::WalkPhase phase = rex::phaseAt(plan, time);
-    margin.add(time, rex::supportMargin(rex::supportOf(phase, plan.sole), zmp.col(k)).margin);
+    margin.add(time, rex::supportMargin(rex::supportPolygon(phase, plan.sole), zmp.col(k)).margin);
     if (margin.values.back()[0] < 0) left = std::min(left, k);
   }
   const auto shown = check.show([&] { return walkSeen(plan, zmp, reference, left); });

@@ -159,7 +159,7 @@ void showSupport(const Eigen::Vector2d& left, const Eigen::Vector2d& right) {
                    closed(contacts.rightCols(4), {.color = kBlack}),
                    closed(corners, {.label = "support polygon", .size = 2, .color = kOrange})};
   const auto distance = [&](double x, double y) { return borderDistance(corners, {x, y}); };
-  figure.heatMap = heatMapOf(distance, {-.3, .55}, {-.35, .35}, 170, 140);
+  figure.heatMap = sampledHeatMap(distance, {-.3, .55}, {-.35, .35}, 170, 140);
   plot("support", figure);
 
   // Trunk and legs, the trunk a bit to the front and to the left; together they weigh 60 kg.

@@ -321,7 +321,7 @@ void showCone(double friction, int edges) {
                 .height = 600};
   const auto isInside = [&](double x, double y) { return inCone(finger, {x, y, 1}) ? 1. : 0.; };
   const AxisRange range{-1.4 * friction, 1.4 * friction};
-  figure.heatMap = heatMapOf(isInside, range, range, 140, 140);
+  figure.heatMap = sampledHeatMap(isInside, range, range, 140, 140);
   figure.colorRange = {0, 1};
   Series edge{.label = "edges of the pyramid",
               .style = SeriesStyle::kLinesPoints,
@@ -379,7 +379,7 @@ void showMap(double friction) {
   const auto quality = [&](double a, double b) {
     return epsilonOf(wrenchesOnPlate({fingerAt(corners, a, friction), fingerAt(corners, b, friction)}));
   };
-  figure.heatMap = heatMapOf(quality, {0, around}, {0, around}, 150, 150);
+  figure.heatMap = sampledHeatMap(quality, {0, around}, {0, around}, 150, 150);
   figure.colorRange = {0, std::max(0.1, figure.heatMap->values.maxCoeff())};
   plot("map", figure);
 }

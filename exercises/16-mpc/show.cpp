@@ -151,7 +151,7 @@ void showBox() {
                            point("the same, cut off", cut, Marker::kSquare),
                            point("boxed()", found, Marker::kDot)}};
   figure.equalAxes = true;
-  figure.heatMap = heatMapOf(value, {-2, 4}, {-3, 2});
+  figure.heatMap = sampledHeatMap(value, {-2, 4}, {-3, 2});
   figure.heatMap->contours = 12;
   plot("box", figure);
 }

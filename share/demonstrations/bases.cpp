@@ -51,13 +51,13 @@ int main() {
     };
     const double steering = ahead == 0 ? 0 : std::clamp(std::atan(turn / ahead), -0.7, 0.7);
     const std::pair<MotionModel, Eigen::VectorXd> moves[] = {
-        {motionOf(DifferentialDrive{kRadius, 2 * kHalf}, noise),
+        {motionModel(DifferentialDrive{kRadius, 2 * kHalf}, noise),
          Eigen::Vector2d(ahead - kHalf * turn, ahead + kHalf * turn) / kRadius},
-        {motionOf(OmnidirectionalBase{kRadius, kHalf}, noise),
+        {motionModel(OmnidirectionalBase{kRadius, kHalf}, noise),
          Eigen::Vector3d(wheelAt(60), wheelAt(180), wheelAt(300))},
-        {motionOf(SlippingUnicycle{slip, slip}, noise), Eigen::Vector2d(ahead, turn)},
-        {motionOf(Car{1}, noise), Eigen::Vector2d(ahead, steering)},
-        {motionOf(CarWithTrailer{{1}, 1}, noise), Eigen::Vector2d(ahead, steering)}};
+        {motionModel(SlippingUnicycle{slip, slip}, noise), Eigen::Vector2d(ahead, turn)},
+        {motionModel(Car{1}, noise), Eigen::Vector2d(ahead, steering)},
+        {motionModel(CarWithTrailer{{1}, 1}, noise), Eigen::Vector2d(ahead, steering)}};
     Picture picture{.ground = {.cell = 1}};
     for (int k = 0; k < 5; ++k) {
       Base& base = bases[k];
@@ -70,7 +70,7 @@ int main() {
         base.asked = x.head<3>();
         base.way = {.color = kEstimateColor}, base.askedWay = {.color = {0.6f, 0.6f, 0.62f}, .width = 4};
       } else {
-        base.belief = extendedPredict(base.belief, transitionOf(model, base.belief.mean, u, kStep));
+        base.belief = extendedPredict(base.belief, transitionModel(model, base.belief.mean, u, kStep));
         for (auto run : base.runs.colwise()) run = moved(model, run, u, kStep, rng);
         base.asked = meanAfter(obeying, base.asked, Eigen::Vector3d(ahead, left, turn), kStep);
       }

@@ -31,7 +31,7 @@ void count(const TestFunction& function, int lambda, int restarts, std::uint64_t
                             .limits = {.target = function.target, .maxEvaluations = 10'000'000},
                             .maxRestarts = restarts});
     std::printf("%-18s %7d %9d %5d %12ld %12.5g  %s\n", std::string(function.name).c_str(), lambda, restarts,
-                static_cast<int>(seed) + i, result.evaluations, result.value, nameOf(result.status));
+                static_cast<int>(seed) + i, result.evaluations, result.value, toString(result.status));
     if (result.status == SearchStatus::kTargetReached)
       ++successes, evaluations += static_cast<double>(result.evaluations);
   }

@@ -85,7 +85,7 @@ struct ParticlesOnly : Filter {
     const ParticleStep done = filter.step(motionProposal(motion()), observationWeights(sighting(y), y), rng);
     effective = done.lost ? 0 : done.effectiveSize;
   }
-  Gaussian pose() const override { return momentsOf(filter.particles()); }
+  Gaussian pose() const override { return sampleMoments(filter.particles()); }
   void draw(CarView& view) const override {
     view.particles = filter.particles().states, view.weights = filter.particles().weights;
   }

@@ -62,7 +62,7 @@ int main() {
                 .particles = particles.particles().states,
                 .weights = particles.particles().weights,
                 .poseBeliefs = {{kalman.mean.head<2>(), kalman.covariance.topLeftCorner<2, 2>()}}});
-    const double error = (momentsOf(particles.particles()).mean - truth).head<2>().norm();
+    const double error = (sampleMoments(particles.particles()).mean - truth).head<2>().norm();
     picture.captions.push_back(
         {.text = error > 3 ? "the particles are lost" : "the particles are with the car", .scale = 1.5});
     picture.polylines.push_back(

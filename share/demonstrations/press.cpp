@@ -22,7 +22,7 @@ int main() {
   const Model& model = scene.model();
   const BodyId last = model.body("arm7");
   const TaskMap tip = positionTask(last, {0, 0, 0.2});  // the centre of a ball of 10 cm
-  const TaskMap place = rowsOf(tip, 0, 2), height = rowsOf(tip, 2, 1);
+  const TaskMap place = taskRows(tip, 0, 2), height = taskRows(tip, 2, 1);
   State now = initialState(model);
   now.q << -0.3, 0.6, 0.9, 0.5, 0.7, 0.3, 0.2;
   const Eigen::VectorXd posture = now.q;

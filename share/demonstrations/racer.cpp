@@ -55,7 +55,7 @@ int main() {
           .episodes = kRides,
           .rate = 1,
           .longestStep = 0.2};
-      policy = improvedPolicy(rolloutsOf(racerTask(starts, {.steps = steps})), policy, one, rng).policy;
+      policy = improvedPolicy(rolloutSource(racerTask(starts, {.steps = steps})), policy, one, rng).policy;
       Eigen::MatrixXd W(5, kLambda);
       for (int generation = 0; generation < kGenerations; ++generation) {
         search->sample(W, rng);

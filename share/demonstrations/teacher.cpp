@@ -60,7 +60,7 @@ int main() {
       last = {slip, walks}, rounds = 1, plotted = 0;
       world = gridWorld("......\n......\n......\n......\n......\n......", {.slip = slip});
       world.mdp.rewards.colwise() = features.transpose() * worth;
-      teacher = policyOf(world.mdp, policyIteration(world.mdp).actions);
+      teacher = deterministicPolicy(world.mdp, policyIteration(world.mdp).actions);
       std::vector<std::vector<int>> shown;
       for (int k = 0; k < walks; ++k)
         shown.push_back(mdpEpisode(world.mdp, teacher, rng.index(36), 200, rng).states);

@@ -43,7 +43,7 @@ int main() {
     for (int k = 0; k < 2; ++k) {
       const Pose place = translation(k == 0 ? -0.9 : 0.9, 0, 0);
       for (Solid one : pale) one.X_WS = place * one.X_WS, one.color.a = 0.25f, picture.solids.push_back(one);
-      for (Solid one : solidsOf(model, forwardKinematics(model, arms[k].getJointAngles())))
+      for (Solid one : placedSolids(model, forwardKinematics(model, arms[k].getJointAngles())))
         one.X_WS = place * one.X_WS, picture.solids.push_back(one);
       picture.labels.push_back({.text = k == 0 ? "PD" : "computed torque",
                                 .p_WQ = place.p + Eigen::Vector3d(0, 0, 1.55),

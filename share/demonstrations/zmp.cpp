@@ -62,7 +62,7 @@ int main() {
       if (one.points.size() > 1) picture.polylines.push_back(one);
     view.plot("sideways: body [m]", time, c.y());
     view.plot("sideways: zero moment point [m]", time, p.y());
-    view.plot("how far inside the feet [m]", time, supportMargin(supportOf(phase, plan.sole), p).margin);
+    view.plot("how far inside the feet [m]", time, supportMargin(supportPolygon(phase, plan.sole), p).margin);
     time += 1. / 30;
     view.show(picture);
   }

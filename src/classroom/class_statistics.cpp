@@ -126,7 +126,7 @@ void countAttempts(const std::vector<const StudentResult*>& results, AttemptStat
     attempts.push_back(one->attempts);
     if (one->attempts > all.most) std::tie(all.most, all.mostBy) = std::tie(one->attempts, one->student);
   }
-  all.median = medianOf(attempts);
+  all.median = medianValue(attempts);
 }
 
 void noteFull(const StudentResult& one, std::optional<FirstFull>& first) {
@@ -165,8 +165,8 @@ ExerciseStatistics statisticsOfOne(const std::vector<const StudentResult*>& resu
   for (PartStatistics& part : all.parts) part.meanPoints /= std::max(1, all.graded);
   for (CheckStatistics& check : all.checks) check.discrimination = discriminationOf(check.id, results);
   countAttempts(results, all.attempts);
-  all.medianPoints = medianOf(points);
-  all.medianSeconds = medianOf(seconds);
+  all.medianPoints = medianValue(points);
+  all.medianSeconds = medianValue(seconds);
   std::stable_sort(all.checks.begin(), all.checks.end(),
                    [](const CheckStatistics& a, const CheckStatistics& b) { return a.failed > b.failed; });
   return all;
@@ -195,7 +195,7 @@ std::string askedQuestion(const std::string& message) {
   return rest.find('?') == rest.npos ? "" : rest;
 }
 
-double medianOf(std::vector<double> values) {
+double medianValue(std::vector<double> values) {
   if (values.empty()) return 0;
   std::sort(values.begin(), values.end());
   const std::size_t half = values.size() / 2;

@@ -109,6 +109,6 @@ struct ExerciseStatistics {
 [[nodiscard]] std::string askedQuestion(const std::string& message);
 
 /// The median; for an even count the mean of the middle two; 0 if empty.
-[[nodiscard]] double medianOf(std::vector<double> values);
+[[nodiscard]] double medianValue(std::vector<double> values);
 
 }  // namespace rex::classroom

@@ -14,14 +14,14 @@ namespace rex::cli {
 using Json = nlohmann::ordered_json;
 
 /// The numbers. What is not finite is printed as null.
-inline Json jsonOf(const Eigen::Ref<const Eigen::VectorXd>& values) {
+inline Json toJson(const Eigen::Ref<const Eigen::VectorXd>& values) {
   return std::vector<double>(values.begin(), values.end());
 }
 
 /// Row by row.
 inline Json jsonOfRows(const Eigen::Ref<const Eigen::MatrixXd>& matrix) {
   Json rows = Json::array();
-  for (const auto& row : matrix.rowwise()) rows.push_back(jsonOf(row.transpose()));
+  for (const auto& row : matrix.rowwise()) rows.push_back(toJson(row.transpose()));
   return rows;
 }
 

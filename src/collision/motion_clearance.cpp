@@ -281,7 +281,7 @@ ClearanceWatch::ClearanceWatch(const Model& model) {
   const std::span<const ShapePair> all = contacts_->pairs();
   std::vector<Eigen::VectorXd> levers;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const Eigen::VectorXd one = leversOf(model, all[i]);
+    const Eigen::VectorXd one = motionLevers(model, all[i]);
     if (one.isZero(0)) continue;
     pairs_.push_back(i);
     levers.push_back(one);
@@ -292,7 +292,7 @@ ClearanceWatch::ClearanceWatch(const Model& model) {
   distances_.resize(levers_.rows());
 }
 
-Eigen::VectorXd ClearanceWatch::leversOf(const Model& model, const ShapePair& pair) const {
+Eigen::VectorXd ClearanceWatch::motionLevers(const Model& model, const ShapePair& pair) const {
   const ContactModel::Data& data = contacts_->data();
   const auto solid = [&](int shape) -> const ContactSolid& {
     return data.solids[static_cast<std::size_t>(data.solidOf[static_cast<std::size_t>(shape)])];

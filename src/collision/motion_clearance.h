@@ -44,7 +44,7 @@ class ClearanceWatch {
   void reset();
 
  private:
-  [[nodiscard]] Eigen::VectorXd leversOf(const Model& model, const ShapePair& pair) const;
+  [[nodiscard]] Eigen::VectorXd motionLevers(const Model& model, const ShapePair& pair) const;
   void measure(const Model& model, const Eigen::VectorXd& q);
   [[nodiscard]] bool isProven(const Eigen::VectorXd& way, double distance);
 

@@ -143,7 +143,7 @@ Eigen::MatrixXd gramian(const LinearSystem& given, double T) {
 }
 
 Eigen::MatrixXd gramian(const LinearSystem& system) {
-  const StabilityResult stability = system.step ? discreteStabilityOf(system.A) : stabilityOf(system.A);
+  const StabilityResult stability = system.step ? discreteStability(system.A) : continuousStability(system.A);
   if (stability.stability != Stability::kAsymptotic)
     throw Error({.what = "Gramian of all time",
                  .found = "a system that is " + stability.message,

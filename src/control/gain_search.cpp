@@ -121,7 +121,7 @@ GainSearchResult fastestGains(const LinearSystem& given, const Eigen::MatrixXd& 
   result.K = gainsOf(best.at);
   result.rate = best.value;
   const Eigen::MatrixXd closed = system.A - system.B * result.K * system.C;
-  const StabilityResult stability = system.step ? discreteStabilityOf(closed) : stabilityOf(closed);
+  const StabilityResult stability = system.step ? discreteStability(closed) : continuousStability(closed);
   result.isStable = stability.stability == Stability::kAsymptotic;
   result.message =
       fmt::format("{} after {} evaluations: the slowest closed-loop eigenvalue has the {} {:.6g}{}",

@@ -257,7 +257,7 @@ std::optional<Eigen::MatrixXd> bySchurForm(const Problem& problem,
 // Without a cost and with nothing to stabilize, X is exactly zero: a relative residual would not recognize
 // it.
 std::optional<Eigen::MatrixXd> startOf(const Problem& problem, std::optional<std::complex<double>>& border) {
-  const auto stability = problem.kind == Kind::kDiscrete ? discreteStabilityOf : stabilityOf;
+  const auto stability = problem.kind == Kind::kDiscrete ? discreteStability : continuousStability;
   if (problem.Q.isZero(0) && stability(problem.A).stability == Stability::kAsymptotic)
     return Eigen::MatrixXd::Zero(problem.A.rows(), problem.A.rows()).eval();
   return bySchurForm(problem, border);

@@ -149,7 +149,7 @@ double roundingOf(Eigen::Index n, double norm) {
 
 }  // namespace internal
 
-StabilityResult stabilityOf(const MatrixArg& A) { return decided(A, false); }
-StabilityResult discreteStabilityOf(const MatrixArg& A) { return decided(A, true); }
+StabilityResult continuousStability(const MatrixArg& A) { return decided(A, false); }
+StabilityResult discreteStability(const MatrixArg& A) { return decided(A, true); }
 
 }  // namespace rex

@@ -32,8 +32,8 @@ struct StabilityResult {
 /// Stability of x' = A x, slide 8:36. An eigenvalue on the imaginary axis is marginal only if it has as
 /// many eigenvectors as its multiplicity: a double integrator is unstable. Eigenvalues count as on the axis
 /// if rounding may have moved them off it. Throws Error unless A is square and finite.
-[[nodiscard]] StabilityResult stabilityOf(const MatrixArg& A);
+[[nodiscard]] StabilityResult continuousStability(const MatrixArg& A);
 /// Stability of x_{t+1} = A x_t, slide 8:38: the same with the unit circle.
-[[nodiscard]] StabilityResult discreteStabilityOf(const MatrixArg& A);
+[[nodiscard]] StabilityResult discreteStability(const MatrixArg& A);
 
 }  // namespace rex

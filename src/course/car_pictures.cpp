@@ -142,7 +142,7 @@ Picture carPicture(const CarView& view) {
   Picture picture;
   picture.ground.cell = 5;
   if (!view.caption.empty()) picture.captions.push_back({.text = view.caption});
-  if (view.map) picture.solids = internal::solidsOf(*view.map);
+  if (view.map) picture.solids = internal::wallSolids(*view.map);
   if (view.car)
     addCar(picture, *view.car, view.carScale, "car", {0.32f, 0.35f, 0.41f}, {0.80f, 0.82f, 0.86f});
   addLandmarks(picture, view.landmarks);
@@ -163,7 +163,7 @@ Picture carPicture(const CarView& view) {
 Film carFilm(const std::vector<CarView>& views, double step) {
   Bounds scene;
   for (const CarView& view : views) include(scene, view);
-  return filmOf(static_cast<int>(views.size()), step, [&](int i) {
+  return makeFilm(static_cast<int>(views.size()), step, [&](int i) {
     Picture picture = carPicture(views[static_cast<std::size_t>(i)]);
     picture.ground.scene = scene;
     return picture;

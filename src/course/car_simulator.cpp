@@ -158,7 +158,7 @@ void CarSimulator::getLinearObservationModelAtState(Eigen::MatrixXd& C, Eigen::V
     throw Error({.what = "CarSimulator::getLinearObservationModelAtState",
                  .found = "a car that observes distances and bearings",
                  .wanted = "one that observes (ahead, left), which is linear in the landmarks"});
-  const LandmarkView view = viewOf(sensorOf(options_), x, {0, 0});
+  const LandmarkView view = landmarkView(sensorOf(options_), x, {0, 0});
   C = Eigen::MatrixXd::Zero(landmarks_.size(), landmarks_.size());
   for (Eigen::Index i = 0; i < C.rows(); i += 2) C.block<2, 2>(i, i) = view.Jl;
   c = view.y.replicate(countLandmarks(), 1);
@@ -170,7 +170,7 @@ Eigen::VectorXd CarSimulator::getMeanObservationAtStateAndLandmarks(const Eigen:
   requireNumbers("landmarks", landmarks, landmarks_.size());
   Eigen::VectorXd y(landmarks.size());
   for (Eigen::Index i = 0; i < landmarks.size(); i += 2)
-    y.segment<2>(i) = viewOf(sensorOf(options_), x, landmarks.segment<2>(i)).y;
+    y.segment<2>(i) = landmarkView(sensorOf(options_), x, landmarks.segment<2>(i)).y;
   return y;
 }
 
@@ -180,7 +180,7 @@ Eigen::MatrixXd CarSimulator::getObservationJacobianAtStateAndLandmarks(
   requireNumbers("landmarks", landmarks, landmarks_.size());
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(landmarks.size(), 3 + landmarks.size());
   for (Eigen::Index i = 0; i < landmarks.size(); i += 2) {
-    const LandmarkView view = viewOf(sensorOf(options_), x, landmarks.segment<2>(i));
+    const LandmarkView view = landmarkView(sensorOf(options_), x, landmarks.segment<2>(i));
     J.block<2, 3>(i, 0) = view.Jx;
     J.block<2, 2>(i, 3 + i) = view.Jl;
   }

@@ -290,7 +290,7 @@ Eigen::MatrixXd probabilitiesOf(const OccupancyMap& map) {
   return probabilities;
 }
 
-std::vector<Solid> solidsOf(const OccupancyMap& map) {
+std::vector<Solid> wallSolids(const OccupancyMap& map) {
   std::vector<Eigen::Vector3f> positions, normals;
   std::vector<TriangleMesh::Triangle> triangles;
   const auto corner = [&](int x, int y, double z) {

@@ -26,7 +26,7 @@ inline constexpr double kCarMiddle = 1, kCarLength = 3, kCarWidth = 1.5;
 [[nodiscard]] Eigen::Vector2d placeAt(const Eigen::Vector3d& pose, double ahead, double left);
 
 /// A floor with the map painted on it, and a low block for each occupied cell.
-[[nodiscard]] std::vector<Solid> solidsOf(const OccupancyMap& map);
+[[nodiscard]] std::vector<Solid> wallSolids(const OccupancyMap& map);
 /// The probability of being occupied, one row of cells per row.
 [[nodiscard]] Eigen::MatrixXd probabilitiesOf(const OccupancyMap& map);
 /// Two opposite corners of the map.

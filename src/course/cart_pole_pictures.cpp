@@ -69,8 +69,8 @@ Film cartPoleFilm(const std::vector<CartPoleView>& views, double step) {
   const auto end = std::find_if(views.begin() + (views.empty() ? 0 : 1), views.end(), isAway);
   Rail rail;
   for (auto view = views.begin(); view != end; ++view) rail.reach(view->x[0]);
-  return filmOf(static_cast<int>(end - views.begin()), step,
-                [&](int i) { return pictureOn(rail, views[static_cast<std::size_t>(i)]); });
+  return makeFilm(static_cast<int>(end - views.begin()), step,
+                  [&](int i) { return pictureOn(rail, views[static_cast<std::size_t>(i)]); });
 }
 
 }  // namespace rex

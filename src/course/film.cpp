@@ -127,7 +127,7 @@ void writePicture(const Picture& picture, const std::string& file, const FilmOpt
   writePng(renderer.draw(picture, shot.camera), file);
 }
 
-Film filmOf(int count, double step, const std::function<Picture(int)>& frame) {
+Film makeFilm(int count, double step, const std::function<Picture(int)>& frame) {
   Film film;
   for (int i = 0; i < count; ++i) film.push_back({i * step, frame(i)});
   return film;
@@ -193,8 +193,8 @@ int framesFor(double seconds) {
 }
 
 // From frame `first` on.
-Film filmOf(const Simulator& simulator, const std::vector<RecordedPosture>& moments,
-            const PictureOptions& options, std::size_t first = 0) {
+Film makeFilm(const Simulator& simulator, const std::vector<RecordedPosture>& moments,
+              const PictureOptions& options, std::size_t first = 0) {
   std::vector<BodyPoses> poses;
   for (const RecordedPosture& one : moments) poses.push_back(forwardKinematics(simulator.model(), one.q));
   const auto traces = tracesOf(simulator, poses, options);
@@ -214,28 +214,28 @@ Film filmOf(const Simulator& simulator, const std::vector<RecordedPosture>& mome
 
 }  // namespace
 
-Film filmOf(const Simulator& simulator, const PictureOptions& options, std::optional<int> most) {
+Film makeFilm(const Simulator& simulator, const PictureOptions& options, std::optional<int> most) {
   const Recording& recording = simulator.recording();
   const int asked = most.value_or(framesFor(recording.duration()));
-  return filmOf(simulator, recording.evenly(static_cast<std::size_t>(std::max(asked, 0))), options);
+  return makeFilm(simulator, recording.evenly(static_cast<std::size_t>(std::max(asked, 0))), options);
 }
 
-Film filmOf(const Simulator& simulator, const std::vector<Eigen::VectorXd>& postures,
-            const PictureOptions& options) {
+Film makeFilm(const Simulator& simulator, const std::vector<Eigen::VectorXd>& postures,
+              const PictureOptions& options) {
   std::vector<RecordedPosture> moments;
   for (const Eigen::VectorXd& q : postures)
     moments.push_back({static_cast<double>(moments.size()) / kFilmRate, q});
-  return filmOf(simulator, moments, options);
+  return makeFilm(simulator, moments, options);
 }
 
-Film stillOf(const Simulator& simulator, const PictureOptions& options) {
+Film makeStill(const Simulator& simulator, const PictureOptions& options) {
   std::vector<RecordedPosture> moments;
   if (!options.traces.empty()) moments = simulator.recording().evenly(Recording::kCapacity);
   moments.push_back({0, simulator.getJointAngles()});
-  return filmOf(simulator, moments, options, moments.size() - 1);
+  return makeFilm(simulator, moments, options, moments.size() - 1);
 }
 
-int videoRateOf(const Film& film) {
+int videoRate(const Film& film) {
   if (film.size() < 2) return kFilmRate;
   const double seconds = film.back().time - film.front().time;
   const double rate = std::round(static_cast<double>(film.size() - 1) / seconds);
@@ -249,10 +249,10 @@ Camera cameraFor(const Film& film, const PictureOptions& options) {
 void writeReplay(const Simulator& simulator, const std::string& name, const PictureOptions& options,
                  const std::vector<Figure>& figures, std::optional<int> most) {
   Report report{.title = options.caption.empty() ? name : options.caption,
-                .film = filmOf(simulator, options, most),
+                .film = makeFilm(simulator, options, most),
                 .view = options.view,
                 .still = {.width = options.width, .height = options.height, .gl = glChoice()}};
-  if (report.film.empty()) report.film = filmOf(simulator, {simulator.getJointAngles()}, options);
+  if (report.film.empty()) report.film = makeFilm(simulator, {simulator.getJointAngles()}, options);
   for (Figure figure : figures) {
     figure.width = 560, figure.height = 360;  // a column next to the robot: a smaller figure has larger texts
     report.figures.push_back({.figure = std::move(figure)});

@@ -35,7 +35,7 @@ struct FilmOptions {
 void writePicture(const Picture& picture, const std::string& file, const FilmOptions& options = {});
 
 /// The pictures frame(0), ..., frame(count - 1), `step` seconds apart.
-[[nodiscard]] Film filmOf(int count, double step, const std::function<Picture(int)>& frame);
+[[nodiscard]] Film makeFilm(int count, double step, const std::function<Picture(int)>& frame);
 
 /// Draws a film whose frames are evenly spaced in time into the folder NAME as 0000.png, 0001.png, ..., the
 /// video NAME.mp4, and the contact sheet NAME_sheet.png of evenly spaced moments, all from the same camera.
@@ -68,19 +68,19 @@ inline constexpr int kMostFrames = 900;
 /// at 0; see Recording::evenly() for postures without times. By default there are kFilmRate frames per
 /// second of motion, but at most kMostFrames. Throws Error for an unknown body in `traces` and if `most` is
 /// below 2.
-[[nodiscard]] Film filmOf(const Simulator& simulator, const PictureOptions& options,
-                          std::optional<int> most = {});
+[[nodiscard]] Film makeFilm(const Simulator& simulator, const PictureOptions& options,
+                            std::optional<int> most = {});
 
 /// The same for any postures, each given by its joint angles, at kFilmRate per second.
-[[nodiscard]] Film filmOf(const Simulator& simulator, const std::vector<Eigen::VectorXd>& postures,
-                          const PictureOptions& options);
+[[nodiscard]] Film makeFilm(const Simulator& simulator, const std::vector<Eigen::VectorXd>& postures,
+                            const PictureOptions& options);
 
 /// The present posture as a film of one frame, with the traces of the recording up to it.
-[[nodiscard]] Film stillOf(const Simulator& simulator, const PictureOptions& options);
+[[nodiscard]] Film makeStill(const Simulator& simulator, const PictureOptions& options);
 
 /// The frame rate, 1 to kFilmRate per second, at which a video of the film's frames plays closest to real
 /// time.
-[[nodiscard]] int videoRateOf(const Film& film);
+[[nodiscard]] int videoRate(const Film& film);
 
 /// The camera that sees the whole film from the direction that the options ask for.
 [[nodiscard]] Camera cameraFor(const Film& film, const PictureOptions& options);

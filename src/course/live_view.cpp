@@ -186,7 +186,7 @@ struct LiveView::Parts {
   // the pictures of the last five seconds did without it. Small ones are no request of their own.
   void offer(const std::string& glb, ViewJson about) {
     constexpr std::size_t kKept = 150, kSmall = 512;
-    const LivePieces cut = piecesOf(glb);
+    const LivePieces cut = splitGlb(glb);
     ViewJson list = ViewJson::array();
     std::set<std::string> names;
     for (const LivePiece& piece : cut.pieces) {
@@ -363,7 +363,7 @@ void LiveView::show(const Picture& picture) {
                           {"bodies", ViewJson::array()},
                           {"shapes", ViewJson::array()},
                           {"coordinates", ViewJson::array()}};
-  parts.offer(glbOf({{.picture = picture}}, parts.view), about);
+  parts.offer(toGlb({{.picture = picture}}, parts.view), about);
   parts.poses.clear(), parts.q = ViewJson::array();
   parts.waitForTurn();
   parts.publish();

@@ -27,7 +27,7 @@ class LiveView {
   [[nodiscard]] bool isWatched();
 
   /// Shows the robot in its present posture, or a picture of anything; 1/30 s after the one before, while
-  /// somebody looks. Throws Error as glbOf() (render/glb.h), and for a robot without any shape.
+  /// somebody looks. Throws Error as toGlb() (render/glb.h), and for a robot without any shape.
   void show(const Simulator& simulator);
   void show(const Picture& picture);
 

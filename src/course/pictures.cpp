@@ -27,26 +27,26 @@ Shot shotOf(const Film& film, const PictureOptions& options) {
 }  // namespace
 
 void writePicture(const Simulator& simulator, const std::string& file, const PictureOptions& options) {
-  writePicture(stillOf(simulator, options).front().picture, file,
+  writePicture(makeStill(simulator, options).front().picture, file,
                {.view = options.view, .width = options.width, .height = options.height});
 }
 
 void writeFrames(const Simulator& simulator, const std::string& folder, const PictureOptions& options,
                  std::optional<int> most) {
-  const Film film = filmOf(simulator, options, most);
+  const Film film = makeFilm(simulator, options, most);
   if (!film.empty()) writeFilmFrames(film, shotOf(film, options), folder);
 }
 
 void writeVideo(const Simulator& simulator, const std::string& name, const PictureOptions& options,
                 std::optional<int> most) {
-  const Film film = filmOf(simulator, options, most);
-  if (!film.empty()) writeFilmVideo(film, shotOf(film, options), name, videoRateOf(film));
+  const Film film = makeFilm(simulator, options, most);
+  if (!film.empty()) writeFilmVideo(film, shotOf(film, options), name, videoRate(film));
 }
 
 void writeContactSheet(const Simulator& simulator, const std::string& name, const PictureOptions& options,
                        int pictures, std::optional<int> most) {
   requireValid(ContactSheetOptions{.pictures = pictures});
-  const Film film = filmOf(simulator, options, most);
+  const Film film = makeFilm(simulator, options, most);
   if (film.empty()) throw Error({.what = "no postures for a contact sheet", .where = {name + ".png"}});
   writeFilmSheet(film, shotOf(film, options), name + ".png", pictures);
 }

@@ -32,7 +32,7 @@ struct PictureOptions {
 void writePicture(const Simulator& simulator, const std::string& file, const PictureOptions& options = {});
 
 /// Draws the recording as folder/0000.png, 0001.png, ..., at most `most` frames, evenly spaced and seen
-/// from one camera; by default 30 for each second of motion, at most 900 (see filmOf() in course/film.h).
+/// from one camera; by default 30 for each second of motion, at most 900 (see makeFilm() in course/film.h).
 /// Frames of an earlier run in that folder are removed first. Ctrl-C leaves only complete files. Throws as
 /// writePicture, and Error if `most` is below 2.
 void writeFrames(const Simulator& simulator, const std::string& folder, const PictureOptions& options = {},

@@ -153,8 +153,8 @@ Picture compassPicture(const CompassWalk& walk, int view) {
 }
 
 Film compassFilm(const CompassWalk& walk, double step) {
-  return filmOf(static_cast<int>(walk.views.size()), step,
-                [&](int view) { return compassPicture(walk, view); });
+  return makeFilm(static_cast<int>(walk.views.size()), step,
+                  [&](int view) { return compassPicture(walk, view); });
 }
 
 Film humanoidFilm(const HumanoidWalk& walk) {
@@ -166,7 +166,7 @@ Film humanoidFilm(const HumanoidWalk& walk) {
                  .found = pattern.message,
                  .wanted = "a walk that the robot can perform"});
   requireWays(walk, pattern.Q.cols());
-  return filmOf(static_cast<int>(pattern.Q.cols()), walk.preview.step, [&](int step) {
+  return makeFilm(static_cast<int>(pattern.Q.cols()), walk.preview.step, [&](int step) {
     Picture picture = scenePicture(humanoid.model, forwardKinematics(humanoid.model, pattern.Q.col(step)));
     addFootprints(picture, walk.plan);
     addWays(picture, walk, static_cast<std::size_t>(step));

@@ -76,7 +76,7 @@ void EkfSlam::predict(const PoseTransition& transition) {
 EkfSlam::Innovation EkfSlam::innovate(int landmark, const Eigen::Vector2d& y) const {
   const int at = 3 + 2 * landmark;
   Innovation result;
-  result.view = viewOf(sensor_, poseMean(), mean_.segment<2>(at));
+  result.view = landmarkView(sensor_, poseMean(), mean_.segment<2>(at));
   result.error = innovation(sensor_, y, result.view.y);
   const Eigen::Matrix3d P_xx = covariance_.topLeftCorner<3, 3>().selfadjointView<Eigen::Lower>();
   const Eigen::Matrix2d P_ll = covariance_.block<2, 2>(at, at).selfadjointView<Eigen::Lower>();
@@ -101,7 +101,7 @@ void EkfSlam::add(const Eigen::Vector2d& y) {
     covariance_.conservativeResize(room, room);
     gain_.resize(room, 2);
   }
-  const LandmarkPlace place = placeOf(sensor_, poseMean(), y);
+  const LandmarkPlace place = landmarkPosition(sensor_, poseMean(), y);
   mean_.segment<2>(at) = place.landmark;
   const Eigen::Matrix3d P_xx = covariance_.topLeftCorner<3, 3>().selfadjointView<Eigen::Lower>();
   covariance_.block<2, 3>(at, 0) = place.Jx * P_xx;

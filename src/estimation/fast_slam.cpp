@@ -52,13 +52,13 @@ Eigen::Matrix2d sightingCovariance(const LandmarkSensor& sensor, const LandmarkV
 
 LandmarkBelief firstBelief(const LandmarkSensor& sensor, const Eigen::Vector3d& pose,
                            const Eigen::Vector2d& y) {
-  const LandmarkPlace place = placeOf(sensor, pose, y);
+  const LandmarkPlace place = landmarkPosition(sensor, pose, y);
   return {place.landmark, place.Jy * sensor.W * place.Jy.transpose()};
 }
 
 double updateBelief(const LandmarkSensor& sensor, const Eigen::Vector3d& pose, const Eigen::Vector2d& y,
                     LandmarkBelief& landmark) {
-  const LandmarkView view = viewOf(sensor, pose, landmark.mean);
+  const LandmarkView view = landmarkView(sensor, pose, landmark.mean);
   const Eigen::Vector2d error = innovation(sensor, y, view.y);
   const Eigen::Matrix2d S = view.Jl * landmark.covariance * view.Jl.transpose() + sensor.W;
   const Eigen::Matrix2d K = landmark.covariance * view.Jl.transpose() * S.inverse();
@@ -74,7 +74,7 @@ PoseDraw drawPose(const LandmarkSensor& sensor, const Eigen::Vector3d& predicted
   Eigen::Vector3d mean = predicted;
   Eigen::Matrix3d P = noise.covariance;
   for (const LandmarkSeen& one : seen) {
-    const LandmarkView view = viewOf(sensor, mean, one.landmark->mean);
+    const LandmarkView view = landmarkView(sensor, mean, one.landmark->mean);
     const Eigen::Matrix2d S = sightingCovariance(sensor, view, P, *one.landmark);
     const Eigen::Matrix<double, 3, 2> K = P * view.Jx.transpose() * S.inverse();
     mean += K * innovation(sensor, one.y, view.y);

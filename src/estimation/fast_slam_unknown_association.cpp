@@ -145,7 +145,7 @@ std::vector<int> FastSlamUnknownAssociation::associate(const Map& map, const Eig
   Eigen::MatrixXd cost = Eigen::MatrixXd::Constant(count, known + count, -newLandmark_);
   for (Eigen::Index i = 0; i < known; ++i) {
     const LandmarkBelief& belief = map[static_cast<std::size_t>(i)].belief;
-    const LandmarkView view = viewOf(sensor_, pose, belief.mean);
+    const LandmarkView view = landmarkView(sensor_, pose, belief.mean);
     const Eigen::Matrix2d S = internal::sightingCovariance(sensor_, view, P, belief);
     for (Eigen::Index k = 0; k < count; ++k) {
       const Eigen::Vector2d error = innovation(sensor_, ys[static_cast<std::size_t>(k)], view.y);

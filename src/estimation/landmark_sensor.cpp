@@ -10,7 +10,8 @@
 
 namespace rex {
 
-LandmarkView viewOf(const LandmarkSensor& sensor, const Eigen::Vector3d& x, const Eigen::Vector2d& landmark) {
+LandmarkView landmarkView(const LandmarkSensor& sensor, const Eigen::Vector3d& x,
+                          const Eigen::Vector2d& landmark) {
   const Eigen::Vector2d d = landmark - x.head<2>();
   LandmarkView view;
   if (sensor.kind == LandmarkSensor::Kind::kCartesian) {
@@ -32,7 +33,8 @@ LandmarkView viewOf(const LandmarkSensor& sensor, const Eigen::Vector3d& x, cons
   return view;
 }
 
-LandmarkPlace placeOf(const LandmarkSensor& sensor, const Eigen::Vector3d& x, const Eigen::Vector2d& y) {
+LandmarkPlace landmarkPosition(const LandmarkSensor& sensor, const Eigen::Vector3d& x,
+                               const Eigen::Vector2d& y) {
   LandmarkPlace place;
   Eigen::Vector2d d;  // from the pose, in world axes
   if (sensor.kind == LandmarkSensor::Kind::kCartesian) {

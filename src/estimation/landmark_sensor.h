@@ -28,8 +28,8 @@ struct LandmarkView {
 };
 /// The observation of `landmark` from pose x. Throws Error if range and bearing are not differentiable: for
 /// a landmark less than 1e-9 m away.
-[[nodiscard]] LandmarkView viewOf(const LandmarkSensor& sensor, const Eigen::Vector3d& x,
-                                  const Eigen::Vector2d& landmark);
+[[nodiscard]] LandmarkView landmarkView(const LandmarkSensor& sensor, const Eigen::Vector3d& x,
+                                        const Eigen::Vector2d& landmark);
 
 /// The position of the landmark observed as y, and its derivatives.
 struct LandmarkPlace {
@@ -37,9 +37,9 @@ struct LandmarkPlace {
   Eigen::Matrix<double, 2, 3> Jx;  ///< dl/dx
   Eigen::Matrix2d Jy;              ///< dl/dy
 };
-/// The inverse of viewOf(). Throws Error for a range that is not positive.
-[[nodiscard]] LandmarkPlace placeOf(const LandmarkSensor& sensor, const Eigen::Vector3d& x,
-                                    const Eigen::Vector2d& y);
+/// The inverse of landmarkView(). Throws Error for a range that is not positive.
+[[nodiscard]] LandmarkPlace landmarkPosition(const LandmarkSensor& sensor, const Eigen::Vector3d& x,
+                                             const Eigen::Vector2d& y);
 
 /// seen - expected, with bearing differences wrapped.
 [[nodiscard]] Eigen::Vector2d innovation(const LandmarkSensor& sensor, const Eigen::Vector2d& seen,

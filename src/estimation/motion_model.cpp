@@ -21,7 +21,7 @@ Eigen::VectorXd moved(const MotionModel& model, const VectorArg& x, const Vector
   return next;
 }
 
-NonlinearModel transitionOf(const MotionModel& model, const VectorArg& x, const VectorArg& u, double dt) {
+NonlinearModel transitionModel(const MotionModel& model, const VectorArg& x, const VectorArg& u, double dt) {
   requireMotion(model, x, u, dt);
   NonlinearModel transition{.W = noiseOf(model, x, u, dt)};
   transition.g = [model, u = Eigen::VectorXd(u), dt](const Eigen::VectorXd& y) {

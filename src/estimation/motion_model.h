@@ -13,10 +13,10 @@ namespace rex {
 [[nodiscard]] Eigen::VectorXd moved(const MotionModel& model, const VectorArg& x, const VectorArg& u,
                                     double dt, Rng& rng);
 
-/// The transition for Kalman filters: extendedPredict(belief, transitionOf(model, belief.mean, u, dt)). Its
-/// noise is that at x.
-[[nodiscard]] NonlinearModel transitionOf(const MotionModel& model, const VectorArg& x, const VectorArg& u,
-                                          double dt);
+/// The transition for Kalman filters: extendedPredict(belief, transitionModel(model, belief.mean, u, dt)).
+/// Its noise is that at x.
+[[nodiscard]] NonlinearModel transitionModel(const MotionModel& model, const VectorArg& x, const VectorArg& u,
+                                             double dt);
 /// The motion for particle filters, with the noise of each particle.
 [[nodiscard]] MotionSampler motionProposal(const MotionModel& model, const VectorArg& u, double dt);
 

@@ -86,7 +86,7 @@ Particles sampledParticles(const Gaussian& gaussian, int count, Rng& rng) {
   return particles;
 }
 
-Gaussian momentsOf(const Particles& particles) {
+Gaussian sampleMoments(const Particles& particles) {
   requireSize("weights", particles.weights.size(), particles.states.cols());
   const Eigen::VectorXd weights = particles.weights / particles.weights.sum();
   const Eigen::VectorXd mean = particles.states * weights;

@@ -18,7 +18,7 @@ struct Particles {
 
 [[nodiscard]] Particles sampledParticles(const Gaussian& gaussian, int count, Rng& rng);
 /// Mean and covariance of the particles.
-[[nodiscard]] Gaussian momentsOf(const Particles& particles);
+[[nodiscard]] Gaussian sampleMoments(const Particles& particles);
 
 /// Replaces each column of X, a state, by a draw of the next state. For a proposal other than the motion,
 /// it adds log(p(next | state) / p_proposal(next)) to the log weights.

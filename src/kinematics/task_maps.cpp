@@ -180,7 +180,7 @@ TaskMap homingTask(const VectorArg& home) {
   };
 }
 
-TaskMap rowsOf(const TaskMap& map, int first, int count) {
+TaskMap taskRows(const TaskMap& map, int first, int count) {
   requireCount("first row of a map", first, 0);
   requireCount("rows of a map", count, 0);
   return [map, first, count](const Posture& at, TaskValue& out) {

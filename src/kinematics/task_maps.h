@@ -78,9 +78,9 @@ using TaskMap = std::function<void(const Posture&, TaskValue&)>;
 /// from home, in the moved frame. Evaluating it throws Error unless `home` has nq numbers.
 [[nodiscard]] TaskMap homingTask(const VectorArg& home);
 
-/// Some rows of a map, from row `first` on: its height is rowsOf(positionTask(body), 2, 1). Throws Error for
-/// numbers below zero, and evaluating it for a map that has fewer rows.
-[[nodiscard]] TaskMap rowsOf(const TaskMap& map, int first, int count);
+/// Some rows of a map, from row `first` on: its height is taskRows(positionTask(body), 2, 1). Throws Error
+/// for numbers below zero, and evaluating it for a map that has fewer rows.
+[[nodiscard]] TaskMap taskRows(const TaskMap& map, int first, int count);
 
 /// The tolerance of a task that is only weighed against others: no distance from its target is too large.
 inline constexpr double kNoTolerance = std::numeric_limits<double>::infinity();

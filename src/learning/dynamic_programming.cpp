@@ -221,7 +221,7 @@ MdpSolution policyIteration(const Mdp& mdp, int maxIterations) {
   MdpSolution solution;
   solution.actions = actionsTowardTheEnd(mdp);
   while (solution.iterations < maxIterations) {
-    const PolicyValues values = policyValues(mdp, policyOf(mdp, solution.actions));
+    const PolicyValues values = policyValues(mdp, deterministicPolicy(mdp, solution.actions));
     if (values.status != MdpStatus::kSolved) {
       solution.status = values.status;
       if (values.status == MdpStatus::kEndless)  // then the optimum is not finite, and no V is near it

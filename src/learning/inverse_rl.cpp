@@ -38,7 +38,7 @@ void require(const Mdp& mdp, const MatrixArg& features, const VectorArg& teacher
 // The best policy where being in s pays w^T phi(s).
 Eigen::MatrixXd bestUnder(Mdp mdp, const MatrixArg& features, const Eigen::VectorXd& w) {
   mdp.rewards.colwise() = features.transpose() * w;
-  return policyOf(mdp, policyIteration(mdp).actions);
+  return deterministicPolicy(mdp, policyIteration(mdp).actions);
 }
 
 Eigen::MatrixXd asColumns(const std::vector<Eigen::VectorXd>& columns) {

@@ -106,7 +106,7 @@ double meanReturn(const std::vector<Episode>& episodes, double discount) {
   return sum / static_cast<double>(episodes.size());
 }
 
-RolloutSource rolloutsOf(ControlTask task) {
+RolloutSource rolloutSource(ControlTask task) {
   if (!task.start || !task.features || !task.step)
     throw Error({.what = "task", .found = "a function that is empty", .wanted = "start, features and step"});
   requireCount("horizon of the task", task.horizon, 1);

@@ -66,6 +66,6 @@ struct ControlTask {
 };
 /// Rollouts of a task. Throws Error for missing functions and a horizon that is not positive; the rollouts
 /// throw like requirePolicy, and for the wrong number of features.
-[[nodiscard]] RolloutSource rolloutsOf(ControlTask task);
+[[nodiscard]] RolloutSource rolloutSource(ControlTask task);
 
 }  // namespace rex

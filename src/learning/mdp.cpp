@@ -101,7 +101,7 @@ Eigen::MatrixXd uniformPolicy(const Mdp& mdp) {
   return Eigen::MatrixXd::Constant(mdp.states(), mdp.actions(), 1. / mdp.actions());
 }
 
-Eigen::MatrixXd policyOf(const Mdp& mdp, const std::vector<int>& actions) {
+Eigen::MatrixXd deterministicPolicy(const Mdp& mdp, const std::vector<int>& actions) {
   requireSize("actions, one for each state", static_cast<long>(actions.size()), mdp.states());
   Eigen::MatrixXd policy = Eigen::MatrixXd::Zero(mdp.states(), mdp.actions());
   for (int s = 0; s < mdp.states(); ++s) {

@@ -47,7 +47,7 @@ void requirePolicy(const Mdp& mdp, const MatrixArg& policy);
 [[nodiscard]] Eigen::MatrixXd uniformPolicy(const Mdp& mdp);
 /// The deterministic policy that takes actions[s] in state s. Throws Error for a wrong number of states or
 /// an unknown action.
-[[nodiscard]] Eigen::MatrixXd policyOf(const Mdp& mdp, const std::vector<int>& actions);
+[[nodiscard]] Eigen::MatrixXd deterministicPolicy(const Mdp& mdp, const std::vector<int>& actions);
 /// The best action of each state with probability 1 - epsilon, otherwise a random one. Throws like
 /// greedyActions, and Error unless epsilon is in [0, 1].
 [[nodiscard]] Eigen::MatrixXd epsilonGreedy(const MatrixArg& Q, double epsilon);

@@ -29,7 +29,7 @@ std::size_t uint32At(const std::string& bytes, std::size_t at) {
 
 }  // namespace
 
-LivePieces piecesOf(const std::string& glb) {
+LivePieces splitGlb(const std::string& glb) {
   constexpr std::size_t kHeader = 12, kChunk = 8;  // bytes before a file and before a chunk
   const std::size_t length = uint32At(glb, kHeader), binary = kHeader + kChunk + length + kChunk;
   LivePieces result{.json = glb.substr(kHeader + kChunk, length)};
@@ -102,7 +102,7 @@ std::string liveGlb(const Model& model, const BodyPoses& poses) {
   }
   if (picture.solids.empty())
     throw Error({.what = model.name(), .found = "no shape", .wanted = "something to see"});
-  return glbOf({{.picture = std::move(picture)}});
+  return toGlb({{.picture = std::move(picture)}});
 }
 
 std::string liveDescription(const Model& model) {

@@ -22,12 +22,12 @@ struct LivePieces {
   std::vector<LivePiece> pieces{};
 };
 
-/// Cuts a GLB of glbOf() at its buffer views.
-[[nodiscard]] LivePieces piecesOf(const std::string& glb);
+/// Cuts a GLB of toGlb() at its buffer views.
+[[nodiscard]] LivePieces splitGlb(const std::string& glb);
 
 /// The shapes of a model as a GLB for the live page, at these poses of the bodies: shape i of
 /// Model::shapes() is the node "s<i>". Shapes whose mesh was not loaded are left out. Throws Error as
-/// glbOf().
+/// toGlb().
 [[nodiscard]] std::string liveGlb(const Model& model, const BodyPoses& poses);
 
 /// What the page says about a model, as JSON: bodies, shapes with their poses on bodies, coordinates with

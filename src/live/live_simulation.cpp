@@ -10,7 +10,7 @@
 
 namespace rex {
 
-std::string replayOf(const Model& model, const LiveRecording& recording) {
+std::string toReplay(const Model& model, const LiveRecording& recording) {
   Report report{.title = model.name()};
   for (std::size_t k = 0; k < recording.times.size(); ++k)
     report.film.push_back({.time = recording.times[k],
@@ -21,7 +21,7 @@ std::string replayOf(const Model& model, const LiveRecording& recording) {
   return reportPage(report);
 }
 
-std::string tableOf(const Model& model, const LiveRecording& recording) {
+std::string toTable(const Model& model, const LiveRecording& recording) {
   std::string text = "time";
   for (const std::string& name : positionNames(model)) {
     text += ',';

@@ -22,10 +22,10 @@ struct LiveRecording {
 
 /// The recording as a page for browsers, as `rex simulate -o NAME.html` makes it. Throws Error as
 /// reportPage(), and for an empty recording.
-[[nodiscard]] std::string replayOf(const Model& model, const LiveRecording& recording);
+[[nodiscard]] std::string toReplay(const Model& model, const LiveRecording& recording);
 
 /// A table with the names of the columns: time, then q. `rex render --motion` reads it.
-[[nodiscard]] std::string tableOf(const Model& model, const LiveRecording& recording);
+[[nodiscard]] std::string toTable(const Model& model, const LiveRecording& recording);
 
 struct LiveSimulationOptions {
   bool gravity = true;

@@ -239,7 +239,7 @@ WalkPhase phaseAt(const WalkPlan& plan, double t) {
   return phaseOf(plan, t);
 }
 
-SupportPolygon supportOf(const WalkPhase& phase, const Sole& sole) {
+SupportPolygon supportPolygon(const WalkPhase& phase, const Sole& sole) {
   Eigen::Matrix2Xd corners(2, 0);
   for (const Footstep& foot : {phase.left, phase.right})
     if (!phase.swing || phase.swing->side != foot.side) addCorners(foot, sole, corners);

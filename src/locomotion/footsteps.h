@@ -89,7 +89,7 @@ struct WalkPhase {
 /// The phase at time t, seconds, with t clamped to [0, duration()]. Throws like duration().
 [[nodiscard]] WalkPhase phaseAt(const WalkPlan& plan, double t);
 /// The hull of the soles on the ground in this phase.
-[[nodiscard]] SupportPolygon supportOf(const WalkPhase& phase, const Sole& sole);
+[[nodiscard]] SupportPolygon supportPolygon(const WalkPhase& phase, const Sole& sole);
 
 /// phaseAt().zmp at 0, step, 2 step, ... to the end: 2 x N. Throws like duration(), and for a step that is
 /// not positive or gives more than a million columns.

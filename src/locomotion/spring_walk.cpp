@@ -87,7 +87,7 @@ struct Walking {
 };
 
 Walking beginning(const SpringLeg& leg, const MidStance& from, double timeLimit) {
-  static_cast<void>(energyOf(leg, from));  // throws for numbers that are none
+  static_cast<void>(totalEnergy(leg, from));  // throws for numbers that are none
   return {.leg = leg, .timeLimit = timeLimit, .x = {0, from.height, from.speed, from.rise}};
 }
 
@@ -207,7 +207,7 @@ std::vector<WalkSample> walkSamples(const SpringLeg& leg, const MidStance& from,
   return samples;
 }
 
-double energyOf(const SpringLeg& leg, const MidStance& at) {
+double totalEnergy(const SpringLeg& leg, const MidStance& at) {
   requireMidStance(at);
   return leg.stanceEnergy({0, at.height, at.speed, at.rise});
 }
@@ -215,7 +215,7 @@ double energyOf(const SpringLeg& leg, const MidStance& at) {
 WalkingGait findWalkingGait(const SpringLeg& leg, const MidStance& guess) {
   constexpr int kMostIterations = 50;
   constexpr double kClosest = 1e-12;
-  const StanceFamily family{energyOf(leg, guess)};
+  const StanceFamily family{totalEnergy(leg, guess)};
   StepTrial trial(leg, family, coordinates(guess));
   WalkingGait gait;
   gait.message = fmt::format("not found in {} iterations", kMostIterations);

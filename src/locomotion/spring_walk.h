@@ -47,7 +47,7 @@ inline constexpr double kLongestPhase = 5;  ///< seconds
                                 double timeLimit = kLongestPhase);
 
 /// Joules, of a walker at mid-stance: it does not change.
-[[nodiscard]] double energyOf(const SpringLeg& leg, const MidStance& at);
+[[nodiscard]] double totalEnergy(const SpringLeg& leg, const MidStance& at);
 
 /// The walker at one time of a step, and how its legs push.
 struct WalkSample {

@@ -275,7 +275,7 @@ bool CmaTermination::hasNoEffect(const CmaEs& es) {
   return (moved_.array() == es.mean().array()).any();
 }
 
-double CmaTermination::medianOf(const std::vector<double>& history, std::size_t from, std::size_t count) {
+double CmaTermination::windowMedian(const std::vector<double>& history, std::size_t from, std::size_t count) {
   const auto begin = history.begin() + static_cast<std::ptrdiff_t>(from);
   sorted_.assign(begin, begin + static_cast<std::ptrdiff_t>(count));
   const auto middle = sorted_.begin() + static_cast<std::ptrdiff_t>(count / 2);
@@ -292,7 +292,7 @@ bool CmaTermination::isStagnating(int generation) {
   if (all < span || generation % 20 != 0) return false;
   const std::size_t part = 3 * span / 10;
   for (const auto* history : {&bests_, &medians_})
-    if (medianOf(*history, all - part, part) < medianOf(*history, all - span, part)) return false;
+    if (windowMedian(*history, all - part, part) < windowMedian(*history, all - span, part)) return false;
   return true;
 }
 

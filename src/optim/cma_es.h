@@ -114,7 +114,7 @@ class CmaTermination {
   [[nodiscard]] bool hasNoEffect(const CmaEs& es);
   [[nodiscard]] bool isFlat(const VectorArg& values) const;
   [[nodiscard]] bool isStagnating(int generation);
-  [[nodiscard]] double medianOf(const std::vector<double>& history, std::size_t from, std::size_t count);
+  [[nodiscard]] double windowMedian(const std::vector<double>& history, std::size_t from, std::size_t count);
 
   CmaLimits limits_;
   double firstSigma_, firstAxis_;

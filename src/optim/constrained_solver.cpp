@@ -224,8 +224,8 @@ class ConstrainedSolver {
     if (status != ConstrainedStatus::kNotFinite) {
       result_.stationarity = maxOf(descent_.gradientOf(plainWeights(lambda_, kappa_)));
     }
-    result_.message = fmt::format("{} ({}) after {} steps: cost {:.6g}", nameOf(status),
-                                  nameOf(options_.method), result_.iterations, result_.cost);
+    result_.message = fmt::format("{} ({}) after {} steps: cost {:.6g}", toString(status),
+                                  toString(options_.method), result_.iterations, result_.cost);
     if (!result_.mostViolated.empty() && (result_.violation > 0 || status == ConstrainedStatus::kInfeasible))
       result_.message +=
           fmt::format(", most violated is {} by {:.3g}", result_.mostViolated, result_.violation);
@@ -242,7 +242,7 @@ class ConstrainedSolver {
 
 }  // namespace
 
-const char* nameOf(ConstraintMethod method) {
+const char* toString(ConstraintMethod method) {
   switch (method) {
     case ConstraintMethod::kSquaredPenalty:
       return "squared penalty";
@@ -254,7 +254,7 @@ const char* nameOf(ConstraintMethod method) {
   return "";
 }
 
-const char* nameOf(ConstrainedStatus status) {
+const char* toString(ConstrainedStatus status) {
   switch (status) {
     case ConstrainedStatus::kSolved:
       return "solved";

@@ -73,7 +73,7 @@ enum class ConstraintMethod {
 };
 
 /// As words: "squared penalty", "log barrier", "augmented Lagrangian".
-[[nodiscard]] const char* nameOf(ConstraintMethod method);
+[[nodiscard]] const char* toString(ConstraintMethod method);
 
 struct ConstrainedOptions {
   ConstraintMethod method = ConstraintMethod::kAugmentedLagrangian;
@@ -102,7 +102,7 @@ enum class ConstrainedStatus {
 };
 
 /// As words: "solved", "infeasible" ...
-[[nodiscard]] const char* nameOf(ConstrainedStatus status);
+[[nodiscard]] const char* toString(ConstrainedStatus status);
 
 /// One Newton step and its result.
 struct ConstrainedIteration {

@@ -11,7 +11,7 @@
 
 namespace rex {
 
-const char* nameOf(SearchStatus status) {
+const char* toString(SearchStatus status) {
   switch (status) {
     case SearchStatus::kTargetReached:
       return "target reached";
@@ -45,7 +45,7 @@ void SearchResult::add(const Eigen::Ref<const Eigen::VectorXd>& point, double va
 
 void SearchResult::end(SearchStatus why) {
   status = why;
-  message = fmt::format("{}: {:.6g} after {} evaluations in {} iterations", nameOf(why), value, evaluations,
+  message = fmt::format("{}: {:.6g} after {} evaluations in {} iterations", toString(why), value, evaluations,
                         iterations);
   if (invalid > 0) message += fmt::format("; {} evaluations gave no finite value", invalid);
 }

@@ -38,7 +38,7 @@ enum class SearchStatus {
 };
 
 /// As words: "target reached", "budget spent", "small steps" ...
-[[nodiscard]] const char* nameOf(SearchStatus status);
+[[nodiscard]] const char* toString(SearchStatus status);
 
 /// The best point a search has seen. It is reliable only if `status` says so: target reached, small steps.
 struct SearchResult {

@@ -235,8 +235,8 @@ class ControlTree {
 
 }  // namespace
 
-ControlSystem controlSystemOf(const MotionModel& model, const Space& space, const VectorArg& lower,
-                              const VectorArg& upper) {
+ControlSystem controlSystem(const MotionModel& model, const Space& space, const VectorArg& lower,
+                            const VectorArg& upper) {
   requireSize("space of a motion model", space.size(), model.states);
   requireSize("lower bounds of controls", lower.size(), model.controls);
   requireSize("upper bounds of controls", upper.size(), model.controls);

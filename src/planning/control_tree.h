@@ -34,8 +34,8 @@ struct ControlSystem {
 
 /// The system that moves as a model says, without its noise; steered by shooting. Throws Error for a space of
 /// another size than the model's state, bounds of another size than its controls, and a model without f.
-[[nodiscard]] ControlSystem controlSystemOf(const MotionModel& model, const Space& space,
-                                            const VectorArg& lower, const VectorArg& upper);
+[[nodiscard]] ControlSystem controlSystem(const MotionModel& model, const Space& space,
+                                          const VectorArg& lower, const VectorArg& upper);
 
 struct ControlTreeOptions {
   double shortest = 0.1, longest = 0.5;  ///< tau: seconds of a step towards a target, drawn between these

@@ -75,7 +75,7 @@ NearestNeighbors::NearestNeighbors(Space space) : space_(std::move(space)) {
     } else {
       parts_.insert(parts_.end(), part.kind == Kind::kChord ? 2 : 1, {});
     }
-    width_ += static_cast<std::size_t>(part.kind == Kind::kChord ? 2 : sizeOf(part.kind));
+    width_ += static_cast<std::size_t>(part.kind == Kind::kChord ? 2 : coordinateCount(part.kind));
   }
   isStraight_ = width_ == parts_.size() && largest_ == 0;
 }
@@ -96,7 +96,7 @@ NearestNeighbors::Query NearestNeighbors::scaled(const VectorArg& q) const {
       *rounded++ = static_cast<float>(part.weight * std::sin(x));
       ++i;
     } else {
-      for (const Eigen::Index end = i + sizeOf(part.kind); i < end; ++i)
+      for (const Eigen::Index end = i + coordinateCount(part.kind); i < end; ++i)
         *rounded++ = static_cast<float>(query.x[i] *= part.weight);
     }
   }
@@ -345,8 +345,8 @@ double NearestNeighbors::distance2(const double* x, int point) const {
           part.kind == Kind::kCircle ? std::min(gap, 2 * std::numbers::pi * part.weight - gap) : gap;
       sum += way * way;
     }
-    x += sizeOf(part.kind);
-    y += sizeOf(part.kind);
+    x += coordinateCount(part.kind);
+    y += coordinateCount(part.kind);
   }
   return sum;
 }

@@ -96,7 +96,7 @@ int piecesOf(const Space& space, const VectorArg& from, const VectorArg& to) {
       const double cosine = std::abs(from.segment<4>(i).dot(to.segment<4>(i)));
       longest = std::max(longest, 2 * std::acos(std::min(1., cosine)));
     }
-    i += sizeOf(part.kind);
+    i += coordinateCount(part.kind);
   }
   return std::max(1, static_cast<int>(std::ceil(longest / kTurn)));
 }

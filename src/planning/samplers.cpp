@@ -85,7 +85,7 @@ bool stepAway(const Space& space, const VectorArg& from, double sigma, Rng& rng,
       to[i] = from[i] + spread * rng.normal();
       if (part.kind == SpacePart::Kind::kLine && (to[i] < part.lower || to[i] > part.upper)) return false;
     }
-    i += sizeOf(part.kind);
+    i += coordinateCount(part.kind);
   }
   return true;
 }

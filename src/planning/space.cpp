@@ -61,7 +61,7 @@ double squaredDistance(const SpacePart& part, const double* a, const double* b) 
 Space::Space(std::vector<SpacePart> parts) : parts_(std::move(parts)) {
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     requireSound(parts_[i], i);
-    size_ += sizeOf(parts_[i].kind);
+    size_ += coordinateCount(parts_[i].kind);
   }
 }
 
@@ -91,7 +91,7 @@ double Space::distance(const VectorArg& a, const VectorArg& b) const {
   Eigen::Index i = 0;
   for (const SpacePart& part : parts_) {
     sum += part.weight * part.weight * squaredDistance(part, a.data() + i, b.data() + i);
-    i += sizeOf(part.kind);
+    i += coordinateCount(part.kind);
   }
   return std::sqrt(sum);
 }
@@ -106,7 +106,7 @@ double Space::wayLength(const VectorArg& a, const VectorArg& b) const {
                           : part.kind == Kind::kQuaternion ? halfTurn(a.segment<4>(i), b.segment<4>(i))
                                                            : turn(a[i], b[i]);
     sum += part.weight * part.weight * length * length;
-    i += sizeOf(part.kind);
+    i += coordinateCount(part.kind);
   }
   return std::sqrt(sum);
 }
@@ -132,7 +132,7 @@ void Space::interpolate(const VectorArg& a, const VectorArg& b, double t,
     } else {
       out[i] = a[i] + t * turn(a[i], b[i]);
     }
-    i += sizeOf(part.kind);
+    i += coordinateCount(part.kind);
   }
 }
 
@@ -147,7 +147,7 @@ void Space::sample(Rng& rng, Eigen::Ref<Eigen::VectorXd> out) const {
       out[i] = rng.uniform(part.lower, part.upper);
     else
       out[i] = rng.uniform(-std::numbers::pi, std::numbers::pi);
-    i += sizeOf(part.kind);
+    i += coordinateCount(part.kind);
   }
 }
 
@@ -161,7 +161,7 @@ Eigen::MatrixXd unrolled(const Space& space, Eigen::MatrixXd path) {
       } else if (part.kind != Kind::kLine) {
         path(i, k) = path(i, k - 1) + turn(path(i, k - 1), path(i, k));
       }
-      i += sizeOf(part.kind);
+      i += coordinateCount(part.kind);
     }
   }
   return path;
@@ -183,7 +183,7 @@ void Space::require(std::string_view what, const VectorArg& q) const {
       refuse(i, fmt::format("at most {:g}: it is {:g} above", part.upper, q[i] - part.upper));
     if (part.kind == Kind::kQuaternion && std::abs(q.segment<4>(i).norm() - 1) > 1e-6)
       refuse(i, fmt::format("a unit quaternion: its length is {:g}", q.segment<4>(i).norm()));
-    i += sizeOf(part.kind);
+    i += coordinateCount(part.kind);
   }
 }
 

@@ -63,7 +63,7 @@ class Space {
 [[nodiscard]] Eigen::MatrixXd unrolled(const Space& space, Eigen::MatrixXd path);
 
 /// The number of coordinates of a part.
-[[nodiscard]] constexpr int sizeOf(SpacePart::Kind kind) {
+[[nodiscard]] constexpr int coordinateCount(SpacePart::Kind kind) {
   return kind == SpacePart::Kind::kQuaternion ? 4 : 1;
 }
 

@@ -51,7 +51,7 @@ struct Band {
 };
 
 /// Bars from 0 to heights[i] between edges[i] and edges[i + 1], which ascend. Without edges the bars stand at
-/// 0, 1, 2, ... histogramOf() in render/figure_builders.h counts samples.
+/// 0, 1, 2, ... sampleHistogram() in render/figure_builders.h counts samples.
 struct Histogram {
   std::string label{};
   std::vector<double> edges{};
@@ -82,7 +82,7 @@ struct Region {
   }
 };
 
-/// Arrows from (x[i], y[i]) to (x[i] + dx[i], y[i] + dy[i]). arrowsOf() in render/figure_builders.h draws a
+/// Arrows from (x[i], y[i]) to (x[i] + dx[i], y[i] + dy[i]). arrowField() in render/figure_builders.h draws a
 /// vector field.
 struct Arrows {
   std::string label{};
@@ -101,7 +101,7 @@ struct Arrows {
 };
 
 /// Values as colours: a rectangle of equal cells, row 0 at the low end of y, column 0 at the low end of x.
-/// heatMapOf() in render/figure_builders.h samples a function.
+/// sampledHeatMap() in render/figure_builders.h samples a function.
 struct HeatMap {
   AxisRange xRange{0, 1};    ///< outer edges of the first and the last column
   AxisRange yRange{0, 1};    ///< of the rows

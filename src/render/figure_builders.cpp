@@ -45,7 +45,7 @@ Region unitDisc() {
 
 }  // namespace
 
-Histogram histogramOf(const std::vector<double>& samples, int bins) {
+Histogram sampleHistogram(const std::vector<double>& samples, int bins) {
   requireCount("bins of a histogram", bins, 1, 10000);
   if (samples.empty()) throw Error({.what = "histogram", .found = "no samples", .wanted = "at least one"});
   requireFinite("samples of a histogram", numbersOf(samples));
@@ -75,8 +75,8 @@ Histogram normalized(Histogram histogram) {
   return histogram;
 }
 
-HeatMap heatMapOf(const std::function<double(double, double)>& f, AxisRange xRange, AxisRange yRange,
-                  int columns, int rows) {
+HeatMap sampledHeatMap(const std::function<double(double, double)>& f, AxisRange xRange, AxisRange yRange,
+                       int columns, int rows) {
   requireCount("columns of a heat map", columns, 2, 2000);
   requireCount("rows of a heat map", rows, 2, 2000);
   HeatMap heatMap{.xRange = xRange, .yRange = yRange, .values = Eigen::MatrixXd(rows, columns)};
@@ -86,8 +86,8 @@ HeatMap heatMapOf(const std::function<double(double, double)>& f, AxisRange xRan
   return heatMap;
 }
 
-Arrows arrowsOf(const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& f, AxisRange xRange,
-                AxisRange yRange, int columns, int rows) {
+Arrows arrowField(const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& f, AxisRange xRange,
+                  AxisRange yRange, int columns, int rows) {
   requireCount("columns of arrows", columns, 1, 200);
   requireCount("rows of arrows", rows, 1, 200);
   const Eigen::Vector2d cell((xRange.second - xRange.first) / columns, (yRange.second - yRange.first) / rows);

@@ -393,7 +393,7 @@ class FilmWriter {
 
 }  // namespace
 
-std::string glbOf(const Film& film, const Vector3d& view) {
+std::string toGlb(const Film& film, const Vector3d& view) {
   if (film.empty()) throw Error({.what = "a film to replay", .found = "no frames", .wanted = "at least one"});
   for (const Frame& frame : film) requireDrawable(frame.picture);
   const Bounds scene = bounds(film);
@@ -401,7 +401,7 @@ std::string glbOf(const Film& film, const Vector3d& view) {
 }
 
 void writeGlb(const Film& film, const std::filesystem::path& path, const Vector3d& view) {
-  internal::writeWhole(path, glbOf(film, view));
+  internal::writeWhole(path, toGlb(film, view));
 }
 
 }  // namespace rex

@@ -194,7 +194,7 @@ Ellipsoid covarianceEllipsoid(const Eigen::Vector3d& mean, const Eigen::Matrix3d
   return ellipsoid;
 }
 
-std::vector<Solid> solidsOf(const Model& model, const BodyPoses& poses) {
+std::vector<Solid> placedSolids(const Model& model, const BodyPoses& poses) {
   const auto isVisible = [](const ModelShape& shape) { return shape.visible; };
   const bool showsAll = std::none_of(model.shapes().begin(), model.shapes().end(), isVisible);
   std::vector<Solid> solids;
@@ -222,7 +222,7 @@ std::optional<double> groundHeight(const Model& model, const BodyPoses& poses) {
 }
 
 Picture scenePicture(const Model& model, const BodyPoses& poses) {
-  Picture picture{.solids = solidsOf(model, poses)};
+  Picture picture{.solids = placedSolids(model, poses)};
   if (const std::optional<double> height = groundHeight(model, poses)) {
     picture.ground.height = *height;
     return picture;

@@ -136,7 +136,7 @@ void requireDrawable(const Picture& picture);
 
 /// The visible shapes of a scene, or all if none is visible, at `poses`, each in its own colour. Shapes
 /// whose mesh was not loaded are left out.
-[[nodiscard]] std::vector<Solid> solidsOf(const Model& model, const BodyPoses& poses);
+[[nodiscard]] std::vector<Solid> placedSolids(const Model& model, const BodyPoses& poses);
 
 /// Where the ground of a scene is, if it has one: the highest point of its shapes that are called so (W,
 /// metres).

@@ -144,7 +144,7 @@ std::string filled(std::string_view page, const std::map<std::string_view, std::
 
 std::string reportPage(const Report& report) {
   const Film film = withoutCaption(report.film, report.title);
-  const std::string glb = glbOf(film, report.view);
+  const std::string glb = toGlb(film, report.view);
   const internal::ReportTemplate parts = internal::reportTemplate();
   return filled(parts.html, {{"title", escaped(report.title)},
                              {"style", std::string(parts.style)},

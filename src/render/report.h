@@ -34,7 +34,7 @@ struct Report {
 
 /// The report as one self-contained HTML page, without other files or network: the film plays and can be
 /// turned, with its figures beside it. A browser without WebGL or scripts shows a picture instead. The
-/// title is the headline, and captions equal to it are left out. Throws Error as glbOf(), Renderer,
+/// title is the headline, and captions equal to it are left out. Throws Error as toGlb(), Renderer,
 /// drawStill() and writeFigure().
 [[nodiscard]] std::string reportPage(const Report& report);
 

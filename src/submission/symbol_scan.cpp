@@ -282,7 +282,7 @@ std::string demangled(const std::string& symbol) {
   return text ? text.get() : symbol;
 }
 
-bool isSymbolOf(std::string_view symbol, std::string_view function) {
+bool isSymbolFor(std::string_view symbol, std::string_view function) {
   symbol = withoutVersion(symbol);
   if (symbol == function) return true;  // a name of the language C is not mangled
   if (!skip(symbol, "_Z")) return false;
@@ -303,7 +303,7 @@ std::vector<ForbiddenFunction> forbiddenCalls(const ObjectFile& object,
   std::vector<ForbiddenFunction> found;
   for (const ForbiddenFunction& one : forbidden)
     if (std::any_of(referred.begin(), referred.end(),
-                    [&](std::string_view symbol) { return isSymbolOf(symbol, one.function); }))
+                    [&](std::string_view symbol) { return isSymbolFor(symbol, one.function); }))
       found.push_back(one);
   std::set<std::string_view> lookups;
   for (const std::string_view symbol : referred)
@@ -340,7 +340,7 @@ std::vector<grading::CompileDiagnostic> strangeParts(const ObjectFile& object, c
 std::vector<std::string> callsNotOffered(const ObjectFile& object, const std::vector<std::string>& offers) {
   std::set<std::string> found;
   for (const ObjectSymbol& symbol : object.symbols)
-    if (symbol.isReferred && !symbol.isDefined && isSymbolOf(symbol.name, "rex") &&
+    if (symbol.isReferred && !symbol.isDefined && isSymbolFor(symbol.name, "rex") &&
         !std::binary_search(offers.begin(), offers.end(), symbol.name))
       found.insert(nameIn(symbol.name));
   return {found.begin(), found.end()};

@@ -42,7 +42,7 @@ struct ObjectFile {
 /// Whether a symbol is the function `rex::f` with any arguments, a member of the class or namespace
 /// `rex::f`, or generated for one of these (Itanium C++ ABI, section 5.1). `symbol` is mangled, as in the
 /// object file.
-[[nodiscard]] bool isSymbolOf(std::string_view symbol, std::string_view function);
+[[nodiscard]] bool isSymbolFor(std::string_view symbol, std::string_view function);
 
 /// "rex::f(int)" for the symbol of that function; the symbol itself if it is not mangled.
 [[nodiscard]] std::string demangled(const std::string& symbol);

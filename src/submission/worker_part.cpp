@@ -68,7 +68,7 @@ constexpr const char *kInstances = "eigen_", *kRefusal = "rexNotAllowedHere";
 
 bool isOneOf(std::string_view symbol, const std::vector<std::string>& functions) {
   return std::any_of(functions.begin(), functions.end(),
-                     [&](const std::string& function) { return isSymbolOf(symbol, function); });
+                     [&](const std::string& function) { return isSymbolFor(symbol, function); });
 }
 
 std::vector<std::string> namesOf(const std::vector<ForbiddenFunction>& forbidden) {
@@ -105,7 +105,7 @@ Definitions definitionsIn(const std::vector<fs::path>& objects) {
     const bool isInstances = object.filename().string().starts_with(kInstances);
     for (const std::string& symbol : definedIn(object)) {
       found.all.insert(symbol);
-      if (isInstances && isSymbolOf(symbol, "Eigen")) found.ofEigen.insert(symbol);
+      if (isInstances && isSymbolFor(symbol, "Eigen")) found.ofEigen.insert(symbol);
     }
   }
   return found;
@@ -118,7 +118,7 @@ Names offered(const Definitions& definitions, const std::vector<std::string>& al
   Names found = definitions.ofEigen, unknown(allowed.begin(), allowed.end());
   for (const std::string& symbol : definitions.all) {
     if (!isOneOf(symbol, allowed)) continue;
-    std::erase_if(unknown, [&](const std::string& name) { return isSymbolOf(symbol, name); });
+    std::erase_if(unknown, [&](const std::string& name) { return isSymbolFor(symbol, name); });
     if (!isOneOf(symbol, forbidden)) found.insert(symbol);
   }
   if (!unknown.empty())
@@ -142,7 +142,7 @@ void requireNothingForbidden(const fs::path& object, const std::string& part, co
   for (const ForbiddenFunction& one : exercise.forbidden) {
     const bool isBanned = one.part.empty() || one.part == part;
     const auto isIt = [&](const ObjectSymbol& symbol) {
-      return symbol.isDefined && isSymbolOf(symbol.name, one.function) && !solvesNothing(symbol.name);
+      return symbol.isDefined && isSymbolFor(symbol.name, one.function) && !solvesNothing(symbol.name);
     };
     if (isBanned && std::any_of(file.symbols.begin(), file.symbols.end(), isIt))
       there.push_back(one.function);

@@ -95,7 +95,7 @@ MotionModel planarMotion(const BaseTwist& twist, const BaseNoise& noise) {
   return model;
 }
 
-MotionModel motionOf(const DifferentialDrive& base, const BaseNoise& noise) {
+MotionModel motionModel(const DifferentialDrive& base, const BaseNoise& noise) {
   requirePositive("radius of wheels", base.wheelRadius, kMetres);
   requirePositive("track of a differential drive", base.track, kMetres);
   const double r = base.wheelRadius;
@@ -106,7 +106,7 @@ MotionModel motionOf(const DifferentialDrive& base, const BaseNoise& noise) {
       noise);
 }
 
-MotionModel motionOf(const OmnidirectionalBase& base, const BaseNoise& noise) {
+MotionModel motionModel(const OmnidirectionalBase& base, const BaseNoise& noise) {
   requirePositive("radius of wheels", base.wheelRadius, kMetres);
   requirePositive("reach of an omnidirectional base", base.reach, kMetres);
   // Each wheel rolls across the direction in which it lies, and along it its rollers turn: its speed is
@@ -121,7 +121,7 @@ MotionModel motionOf(const OmnidirectionalBase& base, const BaseNoise& noise) {
       noise);
 }
 
-MotionModel motionOf(const SlippingUnicycle& base, const BaseNoise& noise) {
+MotionModel motionModel(const SlippingUnicycle& base, const BaseNoise& noise) {
   requireNotNegative("drift of a slipping base", base.drift, kSeconds);
   if (!(base.slip >= 0 && base.slip < 1))
     throw Error({.what = "slip of a base",
@@ -138,11 +138,11 @@ MotionModel motionOf(const SlippingUnicycle& base, const BaseNoise& noise) {
       noise);
 }
 
-MotionModel motionOf(const Car& car, const BaseNoise& noise) { return planarMotion(twistOf(car), noise); }
+MotionModel motionModel(const Car& car, const BaseNoise& noise) { return planarMotion(twistOf(car), noise); }
 
-MotionModel motionOf(const CarWithTrailer& rig, const BaseNoise& noise) {
+MotionModel motionModel(const CarWithTrailer& rig, const BaseNoise& noise) {
   requirePositive("hitch of a trailer", rig.hitchLength, kMetres);
-  const MotionModel car = motionOf(rig.car, noise);
+  const MotionModel car = motionModel(rig.car, noise);
   const Hitch hitch{rig.hitchLength};
   const double L = rig.car.wheelbase;
   MotionModel model{.states = 4, .controls = 2};

@@ -45,11 +45,11 @@ struct SlippingUnicycle {
 
 /// Their motions, exact for controls that are constant. Throw Error for lengths that are not positive, a slip
 /// out of range, and as planarMotion. Cars steer as far as u says.
-[[nodiscard]] MotionModel motionOf(const DifferentialDrive& base, const BaseNoise& noise = {});
-[[nodiscard]] MotionModel motionOf(const OmnidirectionalBase& base, const BaseNoise& noise = {});
-[[nodiscard]] MotionModel motionOf(const SlippingUnicycle& base, const BaseNoise& noise = {});
-[[nodiscard]] MotionModel motionOf(const Car& car, const BaseNoise& noise = {});
+[[nodiscard]] MotionModel motionModel(const DifferentialDrive& base, const BaseNoise& noise = {});
+[[nodiscard]] MotionModel motionModel(const OmnidirectionalBase& base, const BaseNoise& noise = {});
+[[nodiscard]] MotionModel motionModel(const SlippingUnicycle& base, const BaseNoise& noise = {});
+[[nodiscard]] MotionModel motionModel(const Car& car, const BaseNoise& noise = {});
 /// Its trailer drifts as its car does.
-[[nodiscard]] MotionModel motionOf(const CarWithTrailer& rig, const BaseNoise& noise = {});
+[[nodiscard]] MotionModel motionModel(const CarWithTrailer& rig, const BaseNoise& noise = {});
 
 }  // namespace rex

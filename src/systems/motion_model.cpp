@@ -31,7 +31,7 @@ Eigen::VectorXd meanAfter(const MotionModel& model, const VectorArg& x, const Ve
   return checkedState(model, model.f(x, u, dt));
 }
 
-StepJacobians jacobiansOf(const MotionModel& model, const VectorArg& x, const VectorArg& u, double dt) {
+StepJacobians stepJacobians(const MotionModel& model, const VectorArg& x, const VectorArg& u, double dt) {
   requireMotion(model, x, u, dt);
   StepJacobians at;
   at.A = model.A ? model.A(x, u, dt)

@@ -7,8 +7,8 @@
 namespace rex {
 
 /// How a robot moves: x' = f(x, u, dt) + w with w ~ N(0, Q), where u is constant for dt seconds. Slide 7:5.
-/// Filters take it as transitionOf() and motionProposal(), demonstrations as moved()
-/// (estimation/motion_model.h), planners as controlSystemOf() (planning/control_tree.h).
+/// Filters take it as transitionModel() and motionProposal(), demonstrations as moved()
+/// (estimation/motion_model.h), planners as controlSystem() (planning/control_tree.h).
 struct MotionModel {
   int states = 0, controls = 0;  ///< the sizes of x and u
   std::function<Eigen::VectorXd(const VectorArg& x, const VectorArg& u, double dt)> f{};
@@ -31,7 +31,7 @@ struct StepJacobians {
   Eigen::MatrixXd A{};  ///< states x states
   Eigen::MatrixXd B{};  ///< states x controls
 };
-[[nodiscard]] StepJacobians jacobiansOf(const MotionModel& model, const VectorArg& x, const VectorArg& u,
-                                        double dt);
+[[nodiscard]] StepJacobians stepJacobians(const MotionModel& model, const VectorArg& x, const VectorArg& u,
+                                          double dt);
 
 }  // namespace rex

@@ -82,7 +82,7 @@ Eigen::MatrixXd slopes(const PlanarQuadrotor& quadrotor, const VectorArg& x, con
 
 }  // namespace
 
-MotionModel motionOf(const PlanarQuadrotor& quadrotor) {
+MotionModel motionModel(const PlanarQuadrotor& quadrotor) {
   requirePositive("mass of a quadrotor", quadrotor.mass);
   requirePositive("inertia of a quadrotor", quadrotor.inertia);
   requirePositive("arm of a quadrotor", quadrotor.arm, kMetres);
@@ -116,7 +116,7 @@ Eigen::Vector2d hoverThrusts(const PlanarQuadrotor& quadrotor) {
   return Eigen::Vector2d::Constant(quadrotor.mass * quadrotor.gravity / 2);
 }
 
-double energyOf(const PlanarQuadrotor& quadrotor, const VectorArg& x) {
+double totalEnergy(const PlanarQuadrotor& quadrotor, const VectorArg& x) {
   requireSize("state of a quadrotor", x.size(), kQuadrotorStates);
   return quadrotor.mass * (x.segment<2>(3).squaredNorm() / 2 + quadrotor.gravity * x[1]) +
          quadrotor.inertia * x[5] * x[5] / 2;

@@ -17,12 +17,12 @@ struct PlanarQuadrotor {
 
 /// Its motion with constant thrusts: pitch and rate exactly, the rest by integrals that are accurate to
 /// rounding. Throws Error for a mass, inertia or arm that is not positive, and negative noise.
-[[nodiscard]] MotionModel motionOf(const PlanarQuadrotor& quadrotor);
+[[nodiscard]] MotionModel motionModel(const PlanarQuadrotor& quadrotor);
 
 /// The thrusts that keep it hovering level: half of its weight each, N.
 [[nodiscard]] Eigen::Vector2d hoverThrusts(const PlanarQuadrotor& quadrotor);
 
 /// Kinetic and potential energy of a state, joules; zero at rest at z = 0.
-[[nodiscard]] double energyOf(const PlanarQuadrotor& quadrotor, const VectorArg& x);
+[[nodiscard]] double totalEnergy(const PlanarQuadrotor& quadrotor, const VectorArg& x);
 
 }  // namespace rex

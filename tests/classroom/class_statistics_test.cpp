@@ -68,8 +68,8 @@ TEST(ClassStatistics, TakeTheMiddleOfSkewedPoints) {
   EXPECT_DOUBLE_EQ(all.medianSeconds, 1.5);
   results[0].result.outcome = Outcome::kCompileError;  // the one of 0 s
   EXPECT_DOUBLE_EQ(exerciseStatistics(results).front().medianSeconds, 2);
-  EXPECT_EQ(medianOf({}), 0);
-  EXPECT_EQ(medianOf({5, 1, 3}), 3);
+  EXPECT_EQ(medianValue({}), 0);
+  EXPECT_EQ(medianValue({5, 1, 3}), 3);
 }
 
 TEST(ClassStatistics, CountFaultsOfTheGraderApart) {

@@ -32,7 +32,7 @@ TaskValue valueAt(const State& state, const TaskMap& map) {
 
 // Some coordinates of a point of the last body.
 TaskMap coordinates(int first, int count) {
-  return rowsOf(positionTask(arm().joints().back().child, {0.05, 0.02, 0.1}), first, count);
+  return taskRows(positionTask(arm().joints().back().child, {0.05, 0.02, 0.1}), first, count);
 }
 
 // The point lies on a table: its height does not change.

@@ -47,7 +47,7 @@ TEST(RacerTask, CostsWhatRolloutsDo) {
     w.head<4>() += Vector4d(0, -1.9, 12, 0.25) * (flags % 3 > 0);
     const Vector4d start = 0.1 * rng.normalVector(4);
     const Rollouts wanted = racerRollouts(w, {{start, 0}}, options);
-    const auto episodes = rolloutsOf(racerTask({start}, options))(exploring(w, 0), 1, rng);
+    const auto episodes = rolloutSource(racerTask({start}, options))(exploring(w, 0), 1, rng);
     const int steps = wanted.steps(0, 0);
     (steps < 80 ? failed : lasting)++;
     EXPECT_EQ(episodes[0].rewards.size(), std::min(80, steps + 1)) << flags;
@@ -66,7 +66,7 @@ TEST(RacerTask, IsAsNoisyAsRollouts) {
   std::vector<Trial> trials;
   for (int k = 0; k < kMany; ++k) trials.push_back({kStarts[k % 2], rng.next()});
   const VectorXd batch = racerRollouts(w, trials, options).cost;
-  const VectorXd ridden = returnsOf(rolloutsOf(racerTask(kStarts, options))(exploring(w, 0), kMany, rng));
+  const VectorXd ridden = returnsOf(rolloutSource(racerTask(kStarts, options))(exploring(w, 0), kMany, rng));
   const auto error = [](const VectorXd& v) { return (v.array() - v.mean()).square().mean() / kMany; };
   EXPECT_NEAR(-ridden.mean(), batch.mean(), 4 * std::sqrt(error(batch) + error(ridden)));
 }
@@ -76,7 +76,7 @@ TEST(RacerTask, HasTheGradientOfDifferences) {
   constexpr int kMany = 3000;
   constexpr double kStep = 1e-3;
   const RacerRolloutOptions options{.steps = 40};
-  const RolloutSource rides = rolloutsOf(racerTask(kStarts, options));
+  const RolloutSource rides = rolloutSource(racerTask(kStarts, options));
   const LinearGaussianPolicy policy = exploring((VectorXd(5) << 0, -1, 6, 0.3, 0.05).finished(), 0.5);
   const auto returns = [&](int i, double step) {
     LinearGaussianPolicy other = policy;
@@ -111,7 +111,7 @@ VectorXd byGradient(SearchMethod method, std::uint64_t seed) {
   for (const int steps : kStages)
     policy =
         improvedPolicy(
-            rolloutsOf(racerTask(kStarts, {.steps = steps})), policy,
+            rolloutSource(racerTask(kStarts, {.steps = steps})), policy,
             {.method = method, .iterations = kRounds, .episodes = kRides, .rate = 1, .longestStep = 0.2}, rng)
             .policy;
   return policy.beta;

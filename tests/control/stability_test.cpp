@@ -33,16 +33,17 @@ MatrixXd turned(const MatrixXd& A, Rng& rng) {
 TEST(Stability, OfThePointMass) {
   const double m = 2, Kp = 3;
   for (const double Kd : {-1., 0., 0.5, 10.}) {
-    const StabilityResult result = stabilityOf(two(0, 1, -Kp / m, -Kd / m));
+    const StabilityResult result = continuousStability(two(0, 1, -Kp / m, -Kd / m));
     EXPECT_EQ(result.stability, Kd > 0    ? Stability::kAsymptotic
                                 : Kd == 0 ? Stability::kMarginal
                                           : Stability::kUnstable);
     const std::complex<double> slow = (-Kd + std::sqrt(std::complex<double>(Kd * Kd - 4 * m * Kp))) / (2 * m);
     EXPECT_NEAR(result.rate, slow.real(), 1e-12);
   }
-  EXPECT_THAT(stabilityOf(two(0, 1, -1.5, 0)).message,
+  EXPECT_THAT(continuousStability(two(0, 1, -1.5, 0)).message,
               HasSubstr("marginally stable: the mode of eigenvalue"));
-  EXPECT_THAT(stabilityOf(two(0, 1, -1.5, 1)).message, HasSubstr("unstable: the mode of eigenvalue 0.5"));
+  EXPECT_THAT(continuousStability(two(0, 1, -1.5, 1)).message,
+              HasSubstr("unstable: the mode of eigenvalue 0.5"));
 }
 
 // Erratum 16: all real parts are zero, yet the double integrator runs away, in whatever coordinates.
@@ -56,7 +57,7 @@ TEST(Stability, NeedsAsManyEigenvectorsAsEigenvalues) {
   triple(0, 1) = triple(1, 2) = 1;
   for (int round = 0; round < 20; ++round) {
     const bool isTurned = round > 0;
-    const auto seen = [&](const MatrixXd& A) { return stabilityOf(isTurned ? turned(A, rng) : A); };
+    const auto seen = [&](const MatrixXd& A) { return continuousStability(isTurned ? turned(A, rng) : A); };
     const StabilityResult drifts = seen(two(0, 1, 0, 0));
     EXPECT_EQ(drifts.stability, Stability::kUnstable) << drifts.message;
     EXPECT_EQ(drifts.algebraic, 2);
@@ -77,27 +78,27 @@ TEST(Stability, OfCriticalDampingBesideAFastMode) {
     MatrixXd A = MatrixXd::Zero(3, 3);
     A.topLeftCorner(2, 2) = two(-1, 1, 0, -1);
     A(2, 2) = -fast;
-    EXPECT_EQ(stabilityOf(A).stability, Stability::kAsymptotic) << stabilityOf(A).message;
+    EXPECT_EQ(continuousStability(A).stability, Stability::kAsymptotic) << continuousStability(A).message;
     A(0, 0) = A(1, 1) = 1;
-    EXPECT_EQ(stabilityOf(A).stability, Stability::kUnstable);
-    EXPECT_THAT(stabilityOf(A).message, HasSubstr("unstable: the mode of eigenvalue 1 grows"));
+    EXPECT_EQ(continuousStability(A).stability, Stability::kUnstable);
+    EXPECT_THAT(continuousStability(A).message, HasSubstr("unstable: the mode of eigenvalue 1 grows"));
   }
 }
 
 TEST(Stability, DoesNotDependOnTheUnitOfTime) {
   for (const double unit : {1e-300, 1e-155, 1., 1e155, 1e300}) {
-    EXPECT_EQ(stabilityOf(unit * two(-1, 1, 0, -1)).stability, Stability::kAsymptotic) << unit;
-    EXPECT_EQ(stabilityOf(unit * two(1, 1, 0, -1)).stability, Stability::kUnstable) << unit;
-    EXPECT_EQ(stabilityOf(unit * two(0, 1, -1, 0)).stability, Stability::kMarginal) << unit;
-    EXPECT_EQ(stabilityOf(unit * two(0, 1, 0, 0)).stability, Stability::kUnstable) << unit;
+    EXPECT_EQ(continuousStability(unit * two(-1, 1, 0, -1)).stability, Stability::kAsymptotic) << unit;
+    EXPECT_EQ(continuousStability(unit * two(1, 1, 0, -1)).stability, Stability::kUnstable) << unit;
+    EXPECT_EQ(continuousStability(unit * two(0, 1, -1, 0)).stability, Stability::kMarginal) << unit;
+    EXPECT_EQ(continuousStability(unit * two(0, 1, 0, 0)).stability, Stability::kUnstable) << unit;
   }
 }
 
 // Weak damping is damping.
 TEST(Stability, TellsSlowDecayFromNone) {
   for (const double damping : {1e-6, 1e-9, 1e-12}) {
-    EXPECT_EQ(stabilityOf(two(0, 1, -1, -damping)).stability, Stability::kAsymptotic) << damping;
-    EXPECT_EQ(stabilityOf(two(0, 1, -1, damping)).stability, Stability::kUnstable) << damping;
+    EXPECT_EQ(continuousStability(two(0, 1, -1, -damping)).stability, Stability::kAsymptotic) << damping;
+    EXPECT_EQ(continuousStability(two(0, 1, -1, damping)).stability, Stability::kUnstable) << damping;
   }
 }
 
@@ -105,15 +106,15 @@ TEST(Stability, OfStepsHoldsTheUnitCircle) {
   Rng rng(6);
   const double c = std::cos(0.4), s = std::sin(0.4);
   const MatrixXd turn = two(c, -s, s, c);
-  EXPECT_EQ(discreteStabilityOf(turn).stability, Stability::kMarginal) << discreteStabilityOf(turn).message;
-  EXPECT_EQ(discreteStabilityOf(0.999 * turn).stability, Stability::kAsymptotic);
-  EXPECT_NEAR(discreteStabilityOf(0.999 * turn).rate, 0.999, 1e-14);
-  EXPECT_EQ(discreteStabilityOf(1.001 * turn).stability, Stability::kUnstable);
-  EXPECT_EQ(discreteStabilityOf(MatrixXd::Identity(2, 2)).stability, Stability::kMarginal);
-  const StabilityResult drifts = discreteStabilityOf(turned(two(1, 1, 0, 1), rng));
+  EXPECT_EQ(discreteStability(turn).stability, Stability::kMarginal) << discreteStability(turn).message;
+  EXPECT_EQ(discreteStability(0.999 * turn).stability, Stability::kAsymptotic);
+  EXPECT_NEAR(discreteStability(0.999 * turn).rate, 0.999, 1e-14);
+  EXPECT_EQ(discreteStability(1.001 * turn).stability, Stability::kUnstable);
+  EXPECT_EQ(discreteStability(MatrixXd::Identity(2, 2)).stability, Stability::kMarginal);
+  const StabilityResult drifts = discreteStability(turned(two(1, 1, 0, 1), rng));
   EXPECT_EQ(drifts.stability, Stability::kUnstable) << drifts.message;
   EXPECT_THAT(drifts.message, HasSubstr("on the unit circle"));
-  EXPECT_EQ(discreteStabilityOf(-MatrixXd::Identity(2, 2)).stability, Stability::kMarginal);
+  EXPECT_EQ(discreteStability(-MatrixXd::Identity(2, 2)).stability, Stability::kMarginal);
 }
 
 // Lyapunov's equation has a positive X exactly for stable systems.
@@ -124,7 +125,7 @@ TEST(Stability, AgreesWithLyapunov) {
     const int n = 1 + rng.index(6);
     MatrixXd A = rng.normalVector(n * n).reshaped(n, n);
     A.diagonal().array() -= 1.5;
-    const bool isStable = stabilityOf(A).stability == Stability::kAsymptotic;
+    const bool isStable = continuousStability(A).stability == Stability::kAsymptotic;
     const MatrixXd X = solveLyapunov(A, MatrixXd::Identity(n, n));
     EXPECT_EQ(isStable, X.ldlt().isPositive() && X.determinant() > 0);
     stable += isStable;
@@ -134,10 +135,10 @@ TEST(Stability, AgreesWithLyapunov) {
 }
 
 TEST(Stability, SaysWhatIsWrong) {
-  EXPECT_REX_ERROR(stabilityOf(MatrixXd::Zero(2, 3)),
+  EXPECT_REX_ERROR(continuousStability(MatrixXd::Zero(2, 3)),
                    "columns of A: found a vector of size 3, wanted size 2");
-  EXPECT_REX_ERROR(stabilityOf(MatrixXd(0, 0)), "matrix A: found no rows");
-  EXPECT_REX_ERROR(discreteStabilityOf(two(NAN, 0, 0, 0)), "matrix A: found entries that are not finite");
+  EXPECT_REX_ERROR(continuousStability(MatrixXd(0, 0)), "matrix A: found no rows");
+  EXPECT_REX_ERROR(discreteStability(two(NAN, 0, 0, 0)), "matrix A: found entries that are not finite");
 }
 
 }  // namespace rex::stability_test

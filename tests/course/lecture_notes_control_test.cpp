@@ -60,7 +60,7 @@ TEST(LectureNotesOnControl, TheLimitOfTheIntegral) {
   const auto stable = [&](double Ki) {
     Eigen::Matrix3d A;
     A << 0, 1, 0, 0, 0, 1, -Ki / m, -Kp / m, -Kd / m;
-    return stabilityOf(A).rate < 0;
+    return continuousStability(A).rate < 0;
   };
   EXPECT_TRUE(stable(.999 * Kp * Kd / m));
   EXPECT_FALSE(stable(1.001 * Kp * Kd / m));
@@ -168,7 +168,7 @@ struct ObservedPole : BalancedPole {
     MatrixXd loop(8, 8);
     const MatrixXd BK = plant.B * K, LC = L * C, inner = closed - LC;
     loop << plant.A, factor * BK, LC, inner;
-    return stabilityOf(loop).rate < 0;
+    return continuousStability(loop).rate < 0;
   }
 };
 
@@ -202,7 +202,7 @@ TEST(LectureNotesOnControl, MarginsOfTheObservedPole) {
                            limitBetween(1, 9, stable(ofBoth))));
   const double least = limitBetween(1, .1, [&](double m) {
     const Matrix4d loop = ofP.plant.A + m * ofP.plant.B * ofP.K;
-    return stabilityOf(loop).rate < 0;
+    return continuousStability(loop).rate < 0;
   });
   expectStated("07-cartPole", fmt::format("at $-{:.2f}$, hence $m > {:.3f}$", 1 / least, least));
   // Zeros from u to p: where the pencil (A - z I, B; C, 0) is singular.
@@ -250,7 +250,7 @@ TEST(LectureNotesOnControl, DoylesExample) {
     EXPECT_NEAR(at(0), 1 + (1 - m) * d * f, 1e-6);
     EXPECT_NEAR((at(1e-4) - at(-1e-4)) / 2e-4, d + f - 4 + 2 * (m - 1) * d * f, 1e-4);
   }
-  const auto stable = [&](double m) { return stabilityOf(loop(m, 10)).rate < 0; };
+  const auto stable = [&](double m) { return continuousStability(loop(m, 10)).rate < 0; };
   expectStated("07-cartPole", fmt::format("stable for ${:.3f} < m < {:.3f}$", limitBetween(1, .5, stable),
                                           limitBetween(1, 2, stable)));
   EXPECT_NEAR(1 - (10 + 10 - 4) / 200., .92, 1e-12);
@@ -326,7 +326,7 @@ TEST(LectureNotesOnControl, ThePointMassOfTheSlides) {
   EXPECT_NEAR(.5 * std::sqrt(2 + std::sqrt(.3 / 1e6) / 1.7), 1 / std::sqrt(2), 1e-3);
   Matrix2d shear;
   shear << 1, 1, 0, 1;
-  EXPECT_EQ(discreteStabilityOf(shear).stability, Stability::kUnstable);
+  EXPECT_EQ(discreteStability(shear).stability, Stability::kUnstable);
 }
 
 TEST(LectureNotesOnControl, TheTableOfThePendulum) {
@@ -338,7 +338,7 @@ TEST(LectureNotesOnControl, TheTableOfThePendulum) {
   expectStated("07b-swingup", fmt::format("{:.0f} million instead of {}", nodes / 1e6, 60 * 60));
   expectStated("07b-swingup", fmt::format("the table {:.0f} MB", nodes * sizeof(double) / 1e6));
   const Matrix2d upright{{0, 1}, {9.81, -.1}};
-  expectStated("07b-swingup", fmt::format("$e^{{{:.1f} t}}$", stabilityOf(upright).rate));
+  expectStated("07b-swingup", fmt::format("$e^{{{:.1f} t}}$", continuousStability(upright).rate));
 }
 
 TEST(LectureNotesOnControl, RoundingErrorsThatGrow) {

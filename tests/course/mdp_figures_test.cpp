@@ -24,7 +24,7 @@ TEST(MdpFigures, PlacesValuesAndWalls) {
   EXPECT_EQ(values.regions[0].y, (std::vector<double>{-.5, -.5, .5, .5}));
   ASSERT_EQ(values.notes.size(), 3u);
   EXPECT_EQ(values.notes[1].text, "1.00");
-  const Figure policy = policyFigure(world, solution.V, policyOf(world.mdp, solution.actions));
+  const Figure policy = policyFigure(world, solution.V, deterministicPolicy(world.mdp, solution.actions));
   ASSERT_EQ(policy.arrows.size(), 1u);
   EXPECT_EQ(policy.arrows[0].x, (std::vector<double>{0, 1}));  // north from (0, 0), west from (1, 1)
   EXPECT_GT(policy.arrows[0].dy[0], 0);
@@ -47,7 +47,7 @@ TEST(MdpFigures, CanBeDrawn) {
       gridWorld("...G\n.#.P\n....", {.stepReward = -.04, .slip = .2, .marks = {{'G', 1}, {'P', -1}}});
   const MdpSolution solution = policyIteration(world.mdp);
   for (Figure figure : {valueFigure(world, solution.V),
-                        policyFigure(world, solution.V, policyOf(world.mdp, solution.actions)),
+                        policyFigure(world, solution.V, deterministicPolicy(world.mdp, solution.actions)),
                         valueFigure(world, Eigen::VectorXd::Ones(11)),
                         learningFigure({{"a", {{1, 2, 4}, {2, 3, 3}}}, {"b", {{0, 1, 0}, {1, 1, 3}}}})})
     EXPECT_THAT(encodeSvg(figure), testing::HasSubstr("</svg>"));

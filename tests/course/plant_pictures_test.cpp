@@ -116,7 +116,7 @@ class PlantFilm : public testing::Test {
   }
   static Film rolling(int count, double step = 0.01) {
     Racer racer(1);
-    return filmOf(count, step, [&](int) {
+    return makeFilm(count, step, [&](int) {
       const Picture picture = racerPicture(RacerView{racer.getState()});
       racer.stepDynamics(0.01);
       return picture;

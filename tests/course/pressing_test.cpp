@@ -14,8 +14,8 @@ TEST(ForcesInContact, AreMeasuredByThePhysicsEngine) {
   scene.addObstacle({.type = ShapeType::kBox, .extent = {1.2, 1.2, 0.1}}, translation(0, -1.6, 0.95),
                     "table");
   const Model& model = scene.model();
-  const TaskMap tip = positionTask(model.body("arm7"), {0, 0, 0.2}), place = rowsOf(tip, 0, 2),
-                height = rowsOf(tip, 2, 1);
+  const TaskMap tip = positionTask(model.body("arm7"), {0, 0, 0.2}), place = taskRows(tip, 0, 2),
+                height = taskRows(tip, 2, 1);
   State now = initialState(model);
   now.q << -0.3, 0.6, 0.9, 0.5, 0.7, 0.3, 0.2;
   const Eigen::VectorXd posture = now.q;

@@ -42,7 +42,7 @@ TEST(Replay, OfTheManWithThreeFiguresIsSmall) {
 }
 
 TEST(Replay, ThinsTheRecording) {
-  const Film film = filmOf(swinging(300), {.traces = {"handR"}}, 40);
+  const Film film = makeFilm(swinging(300), {.traces = {"handR"}}, 40);
   ASSERT_EQ(film.size(), 40u);
   EXPECT_NEAR(film.back().time, 39 / 30., 1e-12);
   EXPECT_TRUE(film[0].picture.polylines.empty());
@@ -60,11 +60,11 @@ Simulator timed(double tau) {
 TEST(Replay, TakesTheTimeOfTheMotionAndBeginsWithIt) {
   for (const double tau : {.001, .01, .1, 1.23}) {
     const Simulator S = timed(tau);
-    const Film film = filmOf(S, {.traces = {"handR"}});
+    const Film film = makeFilm(S, {.traces = {"handR"}});
     EXPECT_NEAR(film.back().time, 12.3, .06) << tau;
     EXPECT_EQ(film.front().time, 0);
     EXPECT_EQ(film.size(), tau > .03 ? static_cast<std::size_t>(std::lround(12.3 / tau)) + 1 : 370u);
-    EXPECT_EQ(videoRateOf(film), tau < .03 ? 30 : tau < 1 ? 10 : 1);
+    EXPECT_EQ(videoRate(film), tau < .03 ? 30 : tau < 1 ? 10 : 1);
     const auto& trace = film.back().picture.polylines.at(0).points;
     ASSERT_EQ(trace.size(), film.size());
     Simulator first("man.ors");
@@ -74,10 +74,10 @@ TEST(Replay, TakesTheTimeOfTheMotionAndBeginsWithIt) {
 }
 
 TEST(Replay, ShowsThirtyFramesPerSecondByDefaultAndHalfAMinuteOfThemAtMost) {
-  EXPECT_EQ(filmOf(swinging(62), {}).size(), 61u);
-  EXPECT_DOUBLE_EQ(filmOf(swinging(62), {}).back().time, 2);
-  EXPECT_EQ(filmOf(swinging(1500), {}).size(), static_cast<std::size_t>(kMostFrames));
-  EXPECT_EQ(filmOf(swinging(3), {}).size(), 2u);
+  EXPECT_EQ(makeFilm(swinging(62), {}).size(), 61u);
+  EXPECT_DOUBLE_EQ(makeFilm(swinging(62), {}).back().time, 2);
+  EXPECT_EQ(makeFilm(swinging(1500), {}).size(), static_cast<std::size_t>(kMostFrames));
+  EXPECT_EQ(makeFilm(swinging(3), {}).size(), 2u);
 }
 
 TEST(Replay, ShowsThePostureWithoutARecording) {

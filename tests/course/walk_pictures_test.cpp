@@ -33,7 +33,7 @@ TEST(FootprintFigure, HasTheSolesOfThePlan) {
     const Footstep& foot = plan.footsteps[i];
     WalkPhase phase;
     phase.left = phase.right = foot;
-    const SupportPolygon sole = supportOf(phase, plan.sole);
+    const SupportPolygon sole = supportPolygon(phase, plan.sole);
     ASSERT_EQ(figure.regions[i].x.size(), 4u);
     ASSERT_EQ(sole.corners.cols(), 4);
     for (int k = 0; k < 4; ++k) {

@@ -28,26 +28,27 @@ TEST(LandmarkSensor, JacobiansAreDerivatives) {
     for (const double size : {0., 1e-8, 2.}) {
       Eigen::VectorXd z(5);
       z << size * rng.normalVector(3), Eigen::Vector2d(3, -1) + size * rng.normalVector(2);
-      const LandmarkView view = viewOf(sensor, z.head<3>(), z.tail<2>());
+      const LandmarkView view = landmarkView(sensor, z.head<3>(), z.tail<2>());
       Eigen::MatrixXd J(2, 5);
       J << view.Jx, view.Jl;
       const auto look = [&](const Eigen::VectorXd& at) -> Eigen::VectorXd {
-        return innovation(sensor, viewOf(sensor, at.head<3>(), at.tail<2>()).y, view.y);
+        return innovation(sensor, landmarkView(sensor, at.head<3>(), at.tail<2>()).y, view.y);
       };
       const JacobianCheck seen = checkJacobian(look, J, z, 1e-7);
       EXPECT_TRUE(seen.ok) << seen.message;
-      const LandmarkPlace place = placeOf(sensor, z.head<3>(), view.y);
-      EXPECT_LT((place.landmark - z.tail<2>()).norm(), 1e-12) << "placeOf is the inverse of viewOf";
+      const LandmarkPlace place = landmarkPosition(sensor, z.head<3>(), view.y);
+      EXPECT_LT((place.landmark - z.tail<2>()).norm(), 1e-12)
+          << "landmarkPosition is the inverse of landmarkView";
       J << place.Jx, place.Jy;
       z.tail<2>() = view.y;
       const auto put = [&](const Eigen::VectorXd& at) -> Eigen::VectorXd {
-        return placeOf(sensor, at.head<3>(), at.tail<2>()).landmark;
+        return landmarkPosition(sensor, at.head<3>(), at.tail<2>()).landmark;
       };
       const JacobianCheck placed = checkJacobian(put, J, z, 1e-7);
       EXPECT_TRUE(placed.ok) << placed.message;
     }
   }
-  EXPECT_REX_ERROR(viewOf({.kind = Kind::kRangeBearing}, {1, 2, 0}, {1, 2}),
+  EXPECT_REX_ERROR(landmarkView({.kind = Kind::kRangeBearing}, {1, 2, 0}, {1, 2}),
                    "landmark seen by range and bearing: found a distance of 0 m");
 }
 
@@ -74,7 +75,7 @@ TEST(EkfSlam, IsTheExtendedFilterOfThePoseAndAllLandmarks) {
         EXPECT_EQ(slam.observe(i, y).isNew, isNew);
         const Eigen::Index size = dense.mean.size();
         if (isNew) {
-          const LandmarkPlace place = placeOf(world.sensor, dense.mean.head<3>(), y);
+          const LandmarkPlace place = landmarkPosition(world.sensor, dense.mean.head<3>(), y);
           Eigen::MatrixXd F = Eigen::MatrixXd::Zero(size + 2, size);
           F.topRows(size).setIdentity();
           F.bottomLeftCorner<2, 3>() = place.Jx;
@@ -86,11 +87,12 @@ TEST(EkfSlam, IsTheExtendedFilterOfThePoseAndAllLandmarks) {
         } else {
           const NonlinearModel see{
               .g = [&](const Eigen::VectorXd& z) -> Eigen::VectorXd {
-                return viewOf(world.sensor, z.head<3>(), z.segment<2>(3 + 2 * i)).y;
+                return landmarkView(world.sensor, z.head<3>(), z.segment<2>(3 + 2 * i)).y;
               },
               .jacobian =
                   [&](const Eigen::VectorXd& z) {
-                    const LandmarkView view = viewOf(world.sensor, z.head<3>(), z.segment<2>(3 + 2 * i));
+                    const LandmarkView view =
+                        landmarkView(world.sensor, z.head<3>(), z.segment<2>(3 + 2 * i));
                     Eigen::MatrixXd H = Eigen::MatrixXd::Zero(2, z.size());
                     H.leftCols<3>() = view.Jx;
                     H.middleCols<2>(3 + 2 * i) = view.Jl;
@@ -217,7 +219,7 @@ TEST(EkfSlam, SaysWhatIsWrong) {
                    "association gates: found same 0, different 18.42, wanted 0 < same <= different");
   EXPECT_REX_ERROR(slam.observe(ys, {.same = 9, .different = 3}), "association gates: found same 9");
   EXPECT_REX_ERROR(slam.observe(ys, {.same = std::nan("")}), "association gates: found same nan");
-  EXPECT_REX_ERROR(placeOf({.kind = Kind::kRangeBearing}, {0, 0, 0}, {0, 1}),
+  EXPECT_REX_ERROR(landmarkPosition({.kind = Kind::kRangeBearing}, {0, 0, 0}, {0, 1}),
                    "range of a new landmark: found 0 m, wanted a positive, finite number of metres");
   EXPECT_REX_ERROR(slam.predict({}), "transition: found no function for its mean");
   EXPECT_REX_ERROR(slam.predict({.mean = [](const Eigen::Vector3d& x) { return x; }}),

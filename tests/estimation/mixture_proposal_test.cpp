@@ -160,7 +160,7 @@ TEST(MixtureProposal, FindsAKidnappedRobot) {
         const double y = world.expected(x) + world.sensor * rng.normal();
         (void)filter.step(world.propose(filter.particles(), y, mixes ? .2 : 0), world.weigh(y), rng);
       }
-      found[mixes] += std::abs(momentsOf(filter.particles()).mean[0] - x) < .1;
+      found[mixes] += std::abs(sampleMoments(filter.particles()).mean[0] - x) < .1;
     }
   EXPECT_LE(found[0], seeds / 4);
   EXPECT_GE(found[1], seeds - 1);

@@ -27,12 +27,12 @@ struct Robot {
 };
 
 std::vector<Robot> robots() {
-  return {{"differential drive", motionOf(DifferentialDrive{}), 20},
-          {"omnidirectional", motionOf(OmnidirectionalBase{}), 20},
-          {"slipping unicycle", motionOf(SlippingUnicycle{}), 2},
-          {"car", motionOf(Car{2}), .8},
-          {"trailer", motionOf(CarWithTrailer{{2}, 2}), .8},
-          {"quadrotor", motionOf(PlanarQuadrotor{}), 4}};
+  return {{"differential drive", motionModel(DifferentialDrive{}), 20},
+          {"omnidirectional", motionModel(OmnidirectionalBase{}), 20},
+          {"slipping unicycle", motionModel(SlippingUnicycle{}), 2},
+          {"car", motionModel(Car{2}), .8},
+          {"trailer", motionModel(CarWithTrailer{{2}, 2}), .8},
+          {"quadrotor", motionModel(PlanarQuadrotor{}), 4}};
 }
 
 // The second opinion on motions: what the laws of each robot say about x', written out here, in small steps
@@ -106,22 +106,22 @@ TEST(MotionModel, HasJacobiansLikeDifferences) {
       const VectorXd x = scale * rng.uniformVector(model.states, -2, 2);
       const VectorXd u =
           scale * rng.uniformVector(model.controls, -robot.largestControl, robot.largestControl);
-      const StepJacobians at = jacobiansOf(model, x, u, .4);
+      const StepJacobians at = stepJacobians(model, x, u, .4);
       const JacobianCheck A =
           checkJacobian([&](const VectorXd& y) { return model.f(y, u, .4); }, at.A, x, 1e-8);
       const JacobianCheck B =
           checkJacobian([&](const VectorXd& v) { return model.f(x, v, .4); }, at.B, u, 1e-8);
       EXPECT_TRUE(A.ok) << A.message << " at scale " << scale;
       EXPECT_TRUE(B.ok) << B.message << " at scale " << scale;
-      EXPECT_LT((jacobiansOf(bare, x, u, .4).A - at.A).norm(), 1e-7);
-      EXPECT_LT((jacobiansOf(bare, x, u, .4).B - at.B).norm(), 1e-7);
+      EXPECT_LT((stepJacobians(bare, x, u, .4).A - at.A).norm(), 1e-7);
+      EXPECT_LT((stepJacobians(bare, x, u, .4).B - at.B).norm(), 1e-7);
     }
   }
 }
 
 TEST(DifferentialDrive, DrivesArcsAroundItsCentre) {
   const DifferentialDrive base{.wheelRadius = .1, .track = .5};
-  const MotionModel model = motionOf(base);
+  const MotionModel model = motionModel(base);
   const Vector3d x(1, 2, .3);
   const double left = 4, right = 7, seconds = 1.5;
   // The centre lies on the axle, at the distance track / 2 (r + l) / (r - l).
@@ -139,7 +139,7 @@ TEST(DifferentialDrive, DrivesArcsAroundItsCentre) {
 
 // Driven around for long, backward too, where the trailer folds and may turn over.
 TEST(CarWithTrailer, FollowsItsCarForLong) {
-  const MotionModel model = motionOf(CarWithTrailer{{2}, 2});
+  const MotionModel model = motionModel(CarWithTrailer{{2}, 2});
   Rng rng(4);
   for (int i = 0; i < 6; ++i) {
     const VectorXd x = rng.uniformVector(4, -2, 2);
@@ -150,13 +150,13 @@ TEST(CarWithTrailer, FollowsItsCarForLong) {
 
 TEST(PlanarQuadrotor, HoversAndKeepsItsEnergy) {
   const PlanarQuadrotor quadrotor;
-  const MotionModel model = motionOf(quadrotor);
+  const MotionModel model = motionModel(quadrotor);
   VectorXd x = VectorXd::Zero(6);
   x[1] = 2;
   EXPECT_LT((meanAfter(model, x, hoverThrusts(quadrotor), 3) - x).norm(), 1e-13);
   x << 0, 2, .4, 1, 3, 5;
   const VectorXd fallen = meanAfter(model, x, Vector2d(0, 0), .8);
-  EXPECT_NEAR(energyOf(quadrotor, fallen), energyOf(quadrotor, x), 1e-12);
+  EXPECT_NEAR(totalEnergy(quadrotor, fallen), totalEnergy(quadrotor, x), 1e-12);
   EXPECT_NEAR(fallen[1], 2 + 3 * .8 - 9.81 / 2 * .64, 1e-13);
   // What the rotors do to it is their power over time, by Simpson's rule.
   const Vector2d u(2, 2.1);
@@ -169,7 +169,8 @@ TEST(PlanarQuadrotor, HoversAndKeepsItsEnergy) {
                          quadrotor.arm * (u[1] - u[0]) * at[5];
     work += h / 3 * power * (i == 0 || i == kSteps ? 1 : i % 2 == 1 ? 4 : 2);
   }
-  EXPECT_NEAR(energyOf(quadrotor, meanAfter(model, x, u, seconds)) - energyOf(quadrotor, x), work, 1e-7);
+  EXPECT_NEAR(totalEnergy(quadrotor, meanAfter(model, x, u, seconds)) - totalEnergy(quadrotor, x), work,
+              1e-7);
 }
 
 // One noise, three ways: drawn by the simulator, moved by particles, and predicted by the Kalman filter,
@@ -184,13 +185,13 @@ TEST(MotionModel, ServesSimulatorsAndFiltersAlike) {
     const VectorXd mean = rng.uniformVector(model.states, -1, 1);
     const VectorXd u = rng.uniformVector(model.controls, 0, robot.largestControl);
     const Gaussian belief{mean, 1e-4 * Eigen::MatrixXd::Identity(model.states, model.states)};
-    const Gaussian predicted = extendedPredict(belief, transitionOf(model, mean, u, kSeconds));
+    const Gaussian predicted = extendedPredict(belief, transitionModel(model, mean, u, kSeconds));
     Particles particles = sampledParticles(belief, kCount, rng), simulated = particles;
     VectorXd unused = VectorXd::Zero(kCount);
     motionProposal(model, u, kSeconds)(particles.states, unused, rng);
     for (auto x : simulated.states.colwise()) x = moved(model, x, u, kSeconds, rng);
     for (const Particles& cloud : {particles, simulated}) {
-      const Gaussian moments = momentsOf(cloud);
+      const Gaussian moments = sampleMoments(cloud);
       for (int i = 0; i < model.states; ++i) {
         const double deviation = std::sqrt(predicted.covariance(i, i));
         EXPECT_NEAR(moments.mean[i], predicted.mean[i], 5 * deviation / std::sqrt(kCount) + 2e-4);
@@ -205,12 +206,12 @@ TEST(MotionModel, ServesSimulatorsAndFiltersAlike) {
 // Errors of wheels grow with the way that they roll, so that the noise of a way does not depend on how it is
 // divided.
 TEST(BaseNoise, AddsUpAlongAWay) {
-  const MotionModel model = motionOf(DifferentialDrive{}, {.travel = .1, .drift = {.02, .01, .03}});
+  const MotionModel model = motionModel(DifferentialDrive{}, {.travel = .1, .drift = {.02, .01, .03}});
   const Vector2d u(8, 9);
   const auto after = [&](int steps) {
     Gaussian belief{Vector3d(1, 0, .5), Eigen::Matrix3d::Zero()};
     for (int i = 0; i < steps; ++i)
-      belief = extendedPredict(belief, transitionOf(model, belief.mean, u, 2. / steps));
+      belief = extendedPredict(belief, transitionModel(model, belief.mean, u, 2. / steps));
     return belief;
   };
   const Gaussian fine = after(400), coarse = after(100);
@@ -221,7 +222,7 @@ TEST(BaseNoise, AddsUpAlongAWay) {
 }
 
 TEST(MotionModel, SaysWhatIsWrong) {
-  const MotionModel model = motionOf(DifferentialDrive{});
+  const MotionModel model = motionModel(DifferentialDrive{});
   const Vector3d x(0, 0, 0);
   const Vector2d u(1, 1);
   EXPECT_REX_ERROR(meanAfter(MotionModel{}, x, u, 1), "motion model: found no function f");
@@ -245,30 +246,31 @@ TEST(MotionModel, SaysWhatIsWrong) {
   };
   Rng rng(1);
   EXPECT_REX_ERROR(moved(broken, x, u, 1, rng), "noise of a motion model");
-  EXPECT_REX_ERROR(transitionOf(broken, x, u, 1), "noise of a motion model");
+  EXPECT_REX_ERROR(transitionModel(broken, x, u, 1), "noise of a motion model");
   broken = model;
   broken.A = [](const VectorArg&, const VectorArg&, double) -> Eigen::MatrixXd {
     return Eigen::Matrix2d::Identity();
   };
-  EXPECT_REX_ERROR(jacobiansOf(broken, x, u, 1), "df/dx of a motion model");
-  EXPECT_REX_ERROR(motionOf(DifferentialDrive{.wheelRadius = 0}), "radius of wheels: found 0 m");
-  EXPECT_REX_ERROR(motionOf(DifferentialDrive{.track = -1}), "track of a differential drive: found -1 m");
-  EXPECT_REX_ERROR(motionOf(OmnidirectionalBase{.reach = 0}), "reach of an omnidirectional base: found 0 m");
-  EXPECT_REX_ERROR(motionOf(SlippingUnicycle{.slip = 1}),
+  EXPECT_REX_ERROR(stepJacobians(broken, x, u, 1), "df/dx of a motion model");
+  EXPECT_REX_ERROR(motionModel(DifferentialDrive{.wheelRadius = 0}), "radius of wheels: found 0 m");
+  EXPECT_REX_ERROR(motionModel(DifferentialDrive{.track = -1}), "track of a differential drive: found -1 m");
+  EXPECT_REX_ERROR(motionModel(OmnidirectionalBase{.reach = 0}),
+                   "reach of an omnidirectional base: found 0 m");
+  EXPECT_REX_ERROR(motionModel(SlippingUnicycle{.slip = 1}),
                    "slip of a base: found 1, wanted a number from 0 to");
-  EXPECT_REX_ERROR(motionOf(SlippingUnicycle{.drift = -1}), "drift of a slipping base: found -1 s");
-  EXPECT_REX_ERROR(motionOf(Car{.wheelbase = 0}), "wheelbase of a car: found 0 m");
-  EXPECT_REX_ERROR(motionOf(CarWithTrailer{.hitchLength = 0}), "hitch of a trailer: found 0 m");
-  EXPECT_REX_ERROR(motionOf(DifferentialDrive{}, {.travel = -1}), "noise of travel: found -1");
-  EXPECT_REX_ERROR(motionOf(DifferentialDrive{}, {.drift = {0, -1, 0}}),
+  EXPECT_REX_ERROR(motionModel(SlippingUnicycle{.drift = -1}), "drift of a slipping base: found -1 s");
+  EXPECT_REX_ERROR(motionModel(Car{.wheelbase = 0}), "wheelbase of a car: found 0 m");
+  EXPECT_REX_ERROR(motionModel(CarWithTrailer{.hitchLength = 0}), "hitch of a trailer: found 0 m");
+  EXPECT_REX_ERROR(motionModel(DifferentialDrive{}, {.travel = -1}), "noise of travel: found -1");
+  EXPECT_REX_ERROR(motionModel(DifferentialDrive{}, {.drift = {0, -1, 0}}),
                    "drift of a base: number 1: found -1");
   EXPECT_REX_ERROR(planarMotion({}), "twist of a base: found no function");
-  EXPECT_REX_ERROR(motionOf(PlanarQuadrotor{.mass = 0}), "mass of a quadrotor: found 0");
-  EXPECT_REX_ERROR(motionOf(PlanarQuadrotor{.inertia = 0}), "inertia of a quadrotor: found 0");
-  EXPECT_REX_ERROR(motionOf(PlanarQuadrotor{.arm = 0}), "arm of a quadrotor: found 0 m");
-  EXPECT_REX_ERROR(motionOf(PlanarQuadrotor{.gust = -1}), "gust: found -1");
-  EXPECT_REX_ERROR(motionOf(PlanarQuadrotor{.tumble = -1}), "tumble: found -1");
-  EXPECT_REX_ERROR(energyOf(PlanarQuadrotor{}, x),
+  EXPECT_REX_ERROR(motionModel(PlanarQuadrotor{.mass = 0}), "mass of a quadrotor: found 0");
+  EXPECT_REX_ERROR(motionModel(PlanarQuadrotor{.inertia = 0}), "inertia of a quadrotor: found 0");
+  EXPECT_REX_ERROR(motionModel(PlanarQuadrotor{.arm = 0}), "arm of a quadrotor: found 0 m");
+  EXPECT_REX_ERROR(motionModel(PlanarQuadrotor{.gust = -1}), "gust: found -1");
+  EXPECT_REX_ERROR(motionModel(PlanarQuadrotor{.tumble = -1}), "tumble: found -1");
+  EXPECT_REX_ERROR(totalEnergy(PlanarQuadrotor{}, x),
                    "state of a quadrotor: found a vector of size 3, wanted size 6");
 }
 

@@ -144,7 +144,7 @@ TEST(OccupancyMap, RobotFindsItselfInIt) {
       ranges += .05 * rng.normalVector(18);
       (void)filter.step(motionProposal(drive), scanWeights(map, eye, ranges, {.temper = 3}), rng);
     }
-    found += (momentsOf(filter.particles()).mean - pose).head<2>().norm() < .15;
+    found += (sampleMoments(filter.particles()).mean - pose).head<2>().norm() < .15;
   }
   EXPECT_GE(found, 5);
 }

@@ -60,7 +60,7 @@ Answer byParticles(const Walk& walk, int count, bool looksAhead, const ParticleF
   }
   // Weights leave out the constant of the density.
   answer.logEvidence -= double(walk.y.size()) * .5 * std::log(2 * M_PI * walk.see.W(0, 0));
-  answer.belief = momentsOf(filter.particles());
+  answer.belief = sampleMoments(filter.particles());
   return answer;
 }
 

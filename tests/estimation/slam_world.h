@@ -41,7 +41,7 @@ struct SlamWorld {
   }
   void drive(Rng& rng) { x = transition().mean(x) + deviation * rng.normalVector(3); }
   Eigen::Vector2d look(std::size_t i, Rng& rng) const {
-    return viewOf(sensor, x, landmarks[i]).y +
+    return landmarkView(sensor, x, landmarks[i]).y +
            sensor.W.diagonal().cwiseSqrt().cwiseProduct(Eigen::Vector2d(rng.normalVector(2)));
   }
 };

@@ -128,7 +128,7 @@ double integral(const LandmarkSensor& sensor, const Eigen::Vector3d& x, const Ei
   for (double a = -width; a <= width; a += step)
     for (double b = -width; b <= width; b += step) {
       const Eigen::Vector2d offset(a, b);
-      const Eigen::Vector2d error = innovation(sensor, y, viewOf(sensor, x, belief.mean + offset).y);
+      const Eigen::Vector2d error = innovation(sensor, y, landmarkView(sensor, x, belief.mean + offset).y);
       sum += density(error, sensor.W) * density(offset, belief.covariance) * step * step;
     }
   return sum;

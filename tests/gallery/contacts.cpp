@@ -39,7 +39,7 @@ Image sceneImage(const contact::ContactScene& scene) {
       forwardKinematics(model, scene.shown.size() > 0 ? scene.shown : model.initialPositions());
   Picture picture;
   std::vector<Solid> still;
-  for (const Solid& solid : solidsOf(model, poses)) {
+  for (const Solid& solid : placedSolids(model, poses)) {
     if (solid.name == "ground" || solid.name == "wall") {
       still.push_back(solid);
     } else {

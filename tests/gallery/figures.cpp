@@ -131,7 +131,7 @@ Figure samplesOfAMixture() {
                 .xLabel = "x [m]",
                 .yLabel = "density [1/m]",
                 .series = {{.label = "density", .color = Color{0.84f, 0.37f, 0}}},
-                .histograms = {normalized(histogramOf(samples, 40))}};
+                .histograms = {normalized(sampleHistogram(samples, 40))}};
   figure.histograms[0].label = "samples";
   for (double x = -4; x <= 4; x += 0.02)
     append(figure.series[0], Vector2d(x, 0.35 * normal(x, -1.2, 0.5) + 0.65 * normal(x, 1, 0.8)));
@@ -175,7 +175,7 @@ Figure costAndPaths() {
                 .series = {{.label = "gradient descent, 400 steps", .size = 1.5},
                            {.label = "damped Gauss-Newton, 15 steps", .style = SeriesStyle::kLinesPoints},
                            {.x = {1}, .y = {1}, .marker = Marker::kPlus, .size = 2.5, .color = Color{}}},
-                .heatMap = heatMapOf(
+                .heatMap = sampledHeatMap(
                     [&](double x, double y) {
                       return 1e-3 + residual({x, y}).squaredNorm();
                     },
@@ -214,7 +214,7 @@ Figure pendulum() {
                 .yRange = AxisRange{-9, 9},
                 .legend = Legend::kNone,
                 .series = {},
-                .arrows = {arrowsOf(field, {-5, 8}, {-9, 9}, 26, 18)},
+                .arrows = {arrowField(field, {-5, 8}, {-9, 9}, 26, 18)},
                 .notes = {{.text = "hangs", .x = 0, .y = 0}, {.text = "stands", .x = kPi, .y = 0}},
                 .height = 540};
   for (const Vector2d& start : {Vector2d(-4.9, 6.5), Vector2d(-4.9, 8.5), Vector2d(7.9, -7)}) {
@@ -255,7 +255,7 @@ Figure valueOfAPendulum() {
                 .colorLabel = "cost [1]",
                 .legend = Legend::kNone,
                 .series = {},
-                .heatMap = heatMapOf(
+                .heatMap = sampledHeatMap(
                     [&](double x, double y) {
                       return grid.value({x, y});
                     },

@@ -211,13 +211,13 @@ TEST(RowsOf, AreThoseOfTheMap) {
   const Model model = limitedModel();
   const TaskMap whole = homingTask(model.initialPositions());
   const Eigen::VectorXd q = integrate(model, model.initialPositions(), Eigen::VectorXd::LinSpaced(7, .1, .7));
-  const TaskValue all = valueAt(whole, model, q), some = valueAt(rowsOf(whole, 2, 3), model, q);
+  const TaskValue all = valueAt(whole, model, q), some = valueAt(taskRows(whole, 2, 3), model, q);
   EXPECT_EQ(some.y, all.y.segment(2, 3));
   EXPECT_EQ(some.J, all.J.middleRows(2, 3));
-  EXPECT_REX_ERROR(valueAt(rowsOf(whole, 5, 3), model, q),
+  EXPECT_REX_ERROR(valueAt(taskRows(whole, 5, 3), model, q),
                    "rows of a map: found a value of 7 numbers, wanted at least 8");
-  EXPECT_REX_ERROR(rowsOf(whole, -1, 3), "first row of a map: found -1");
-  EXPECT_REX_ERROR(rowsOf(whole, 0, -3), "rows of a map: found -3");
+  EXPECT_REX_ERROR(taskRows(whole, -1, 3), "first row of a map: found -1");
+  EXPECT_REX_ERROR(taskRows(whole, 0, -3), "rows of a map: found -3");
 }
 
 TEST(TaskMaps, RefuseBadArguments) {

@@ -67,7 +67,7 @@ TEST(DynamicProgramming, AgreesWithTheDualProgramme) {
   EXPECT_GT(solution.iterations, 2);
   EXPECT_EQ(solution.history.size() + 1, static_cast<std::size_t>(solution.iterations));
   const Eigen::VectorXd start = Eigen::VectorXd::Constant(300, 1. / 300);
-  const Eigen::MatrixXd policy = policyOf(mdp, solution.actions);
+  const Eigen::MatrixXd policy = deterministicPolicy(mdp, solution.actions);
   const Eigen::VectorXd visits = discountedVisits(mdp, policy, start);
   EXPECT_GE(visits.minCoeff(), 0);
   EXPECT_NEAR(visits.dot(mdp.rewards.cwiseProduct(policy).rowwise().sum()), start.dot(solution.V), 1e-10);

@@ -28,7 +28,7 @@ Lesson rooms(Rng& rng) {
   lesson.start = Eigen::VectorXd::Constant(36, 1. / 36);
   lesson.trueW = rng.uniformVector(9, -1, 1).normalized();
   lesson.mdp.rewards.colwise() = lesson.features.transpose() * lesson.trueW;
-  lesson.expert = policyOf(lesson.mdp, policyIteration(lesson.mdp).actions);
+  lesson.expert = deterministicPolicy(lesson.mdp, policyIteration(lesson.mdp).actions);
   lesson.teacher = featureExpectations(lesson.mdp, lesson.expert, lesson.features, lesson.start);
   lesson.mdp.rewards.setZero();
   return lesson;
@@ -82,7 +82,8 @@ TEST(InverseRl, SaysWhenNobodyCanDoThat) {
   EXPECT_NEAR(found.w.norm(), 1, 1e-12);
   // Under w, no other policy is nearer.
   for (int i = 0; i < 200; ++i) {
-    const Eigen::MatrixXd policy = policyOf(lesson.mdp, greedyActions(randomPolicy(lesson.mdp, rng)));
+    const Eigen::MatrixXd policy =
+        deterministicPolicy(lesson.mdp, greedyActions(randomPolicy(lesson.mdp, rng)));
     EXPECT_GE(found.w.dot(wish - featureExpectations(lesson.mdp, policy, lesson.features, lesson.start)),
               found.margins.back() - 1e-5);
   }

@@ -112,7 +112,7 @@ TEST(LearnedModel, SamplesFromThePosterior) {
 TEST(LearnedModel, PosteriorSamplingLosesLittleInTheRiver) {
   const Mdp river = riverSwim();
   const Eigen::VectorXd start = Eigen::VectorXd::Unit(6, 0);
-  const double best = policyValues(river, policyOf(river, std::vector<int>(6, 1))).V[0];
+  const double best = policyValues(river, deterministicPolicy(river, std::vector<int>(6, 1))).V[0];
   constexpr int kEpisodes = 150, kSteps = 100, kRuns = 10;  // .95^100 = .006
   const auto lost = [&](const std::vector<double>& returns, std::size_t from) {
     double sum = 0;
@@ -158,8 +158,8 @@ TEST(LearnedModel, PosteriorSamplingFindsTheEndOfAMaze) {
   Rng rng(6), same(6);
   const auto result = posteriorSampling(world.mdp, {.episodes = 600}, rng);
   const Eigen::VectorXd got =
-      policyValues(world.mdp,
-                   policyOf(world.mdp, greedyActions(valueIteration(result.model.mostLikely(.9)).Q)))
+      policyValues(world.mdp, deterministicPolicy(
+                                  world.mdp, greedyActions(valueIteration(result.model.mostLikely(.9)).Q)))
           .V;
   EXPECT_LT((policyIteration(world.mdp).V - got).maxCoeff(), .1);
   EXPECT_EQ(posteriorSampling(world.mdp, {.episodes = 600}, same).returns, result.returns);
@@ -169,7 +169,8 @@ TEST(LearnedModel, RMaxActsWellOnASlipperyFloor) {
   const GridWorld world = gridWorld("....G\n.##.P\n.....", {.slip = .2, .marks = {{'G', 1}, {'P', -1}}});
   Rng rng(3);
   const RMaxResult result = rMax(world.mdp, {.known = 40, .episodes = 2000}, rng);
-  const Eigen::VectorXd got = policyValues(world.mdp, policyOf(world.mdp, greedyActions(result.Q))).V;
+  const Eigen::VectorXd got =
+      policyValues(world.mdp, deterministicPolicy(world.mdp, greedyActions(result.Q))).V;
   EXPECT_LT((policyIteration(world.mdp).V - got).maxCoeff(), .1);
 }
 

@@ -21,7 +21,7 @@ TEST(LinearGaussianPolicy, NoiseHasItsCovariance) {
   task.features = [](const Eigen::VectorXd& x) { return x; };
   task.step = [](const Eigen::VectorXd& x, double, Rng&) { return ControlTask::Outcome{x, 0, false}; };
   Rng rng(1);
-  const Episode episode = rolloutsOf(task)({Eigen::Vector3d::Zero(), Sigma}, 1, rng).front();
+  const Episode episode = rolloutSource(task)({Eigen::Vector3d::Zero(), Sigma}, 1, rng).front();
   EXPECT_LT((episode.noise * episode.noise.transpose() / 20000 - Sigma).cwiseAbs().maxCoeff(), .1);
 }
 
@@ -36,7 +36,7 @@ TEST(LinearGaussianPolicy, RolloutsTellWhatHappened) {
   };
   Rng rng(2), same(2);
   const LinearGaussianPolicy policy{Eigen::VectorXd::Constant(1, .5), Eigen::MatrixXd::Constant(1, 1, .01)};
-  const std::vector<Episode> episodes = rolloutsOf(task)(policy, 4, rng);
+  const std::vector<Episode> episodes = rolloutSource(task)(policy, 4, rng);
   ASSERT_EQ(episodes.size(), 4u);
   for (const Episode& episode : episodes) {
     EXPECT_EQ(episode.features, Eigen::RowVector3d(1, 2, 3));
@@ -44,7 +44,7 @@ TEST(LinearGaussianPolicy, RolloutsTellWhatHappened) {
               episode.features.cwiseProduct((episode.noise.array() + .5).matrix()));
   }
   EXPECT_NE(episodes[0].noise, episodes[1].noise);
-  EXPECT_EQ(rolloutsOf(task)(policy, 4, same)[3].noise, episodes[3].noise);
+  EXPECT_EQ(rolloutSource(task)(policy, 4, same)[3].noise, episodes[3].noise);
 }
 
 TEST(LinearGaussianPolicy, SumsReturns) {
@@ -66,15 +66,16 @@ TEST(LinearGaussianPolicy, RefusesWrongInput) {
   EXPECT_REX_ERROR(requirePolicy({beta, Eigen::Matrix2d{{1, .1}, {0, 1}}}), "a matrix that is not symmetric");
   EXPECT_REX_ERROR(requirePolicy({beta, -I}), "found the eigenvalue -1, wanted none below zero");
   EXPECT_REX_ERROR(meanReturn({}, 1), "episodes: found none");
-  EXPECT_REX_ERROR(rolloutsOf({}), "task: found a function that is empty, wanted start, features and step");
+  EXPECT_REX_ERROR(rolloutSource({}),
+                   "task: found a function that is empty, wanted start, features and step");
   ControlTask task;
   task.start = [](Rng&) { return Eigen::VectorXd::Ones(1); };
   task.features = [](const Eigen::VectorXd& x) { return x; };
   task.step = [](const Eigen::VectorXd& x, double, Rng&) { return ControlTask::Outcome{x, 0, false}; };
   Rng rng(1);
-  EXPECT_REX_ERROR(rolloutsOf(task)({beta, I}, 1, rng), "features of the state");
+  EXPECT_REX_ERROR(rolloutSource(task)({beta, I}, 1, rng), "features of the state");
   task.horizon = 0;
-  EXPECT_REX_ERROR(rolloutsOf(task), "horizon of the task: found 0, wanted at least 1");
+  EXPECT_REX_ERROR(rolloutSource(task), "horizon of the task: found 0, wanted at least 1");
 }
 
 TEST(LinearGaussianPolicy, TellsTheVarianceOfActionsFromRounding) {

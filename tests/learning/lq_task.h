@@ -31,7 +31,7 @@ struct LqTask {
       const Eigen::VectorXd next = A * x + B * a + std::sqrt(W(0, 0)) * rng.normalVector(2);
       return ControlTask::Outcome{next, bonus - x.dot(Q * x) - R * a * a, false};
     };
-    return rolloutsOf(task);
+    return rolloutSource(task);
   }
 
   /// The expected return without bonus, by the second moments of x over time.

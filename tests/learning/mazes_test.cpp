@@ -44,7 +44,7 @@ TEST(Mazes, RiverSwimPaysWhatItsBalanceSays) {
   const double gain = p[5] / (p[0] + p[1] + p[2] + p[3] + p[4] + p[5]);
   EXPECT_NEAR(gain, .4286, 1e-4);
   river.discount = 1 - 1e-7;
-  const Eigen::VectorXd V = policyValues(river, policyOf(river, std::vector<int>(6, 1))).V;
+  const Eigen::VectorXd V = policyValues(river, deterministicPolicy(river, std::vector<int>(6, 1))).V;
   for (int s = 0; s < 6; ++s) EXPECT_NEAR(1e-7 * V[s], gain, 1e-5);
   const MdpSolution solution = policyIteration(river);
   EXPECT_EQ(solution.actions, std::vector<int>(6, 1));
@@ -52,7 +52,7 @@ TEST(Mazes, RiverSwimPaysWhatItsBalanceSays) {
   // At the discount that it has, too; going left for ever pays .005 / (1 - .95).
   river = riverSwim();
   EXPECT_EQ(policyIteration(river).actions, std::vector<int>(6, 1));
-  EXPECT_NEAR(policyValues(river, policyOf(river, std::vector<int>(6, 0))).V[0], .1, 1e-12);
+  EXPECT_NEAR(policyValues(river, deterministicPolicy(river, std::vector<int>(6, 0))).V[0], .1, 1e-12);
   EXPECT_REX_ERROR((void)riverSwim(2), "states of a river: found 2, wanted at least 3");
 }
 

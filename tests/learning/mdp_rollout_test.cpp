@@ -24,11 +24,11 @@ TEST(MdpRollout, MeanReturnIsTheValue) {
 TEST(MdpRollout, EpisodesFollowTheProcess) {
   Rng rng(6);
   const Mdp maze = tMaze();
-  const MdpEpisode left = mdpEpisode(maze, policyOf(maze, {0, 1, 0, 0, 0, 0, 0}), 0, 10, rng);
+  const MdpEpisode left = mdpEpisode(maze, deterministicPolicy(maze, {0, 1, 0, 0, 0, 0, 0}), 0, 10, rng);
   EXPECT_EQ(left.states, (std::vector<int>{0, 1, 4}));
   EXPECT_EQ(left.actions, (std::vector<int>{0, 1, 0}));
   EXPECT_TRUE(left.ended);
-  const MdpEpisode right = mdpEpisode(maze, policyOf(maze, {1, 1, 1, 0, 0, 0, 0}), 0, 10, rng);
+  const MdpEpisode right = mdpEpisode(maze, deterministicPolicy(maze, {1, 1, 1, 0, 0, 0, 0}), 0, 10, rng);
   EXPECT_EQ(right.discountedReturn, .75);
   const MdpEpisode cut = mdpEpisode(maze, uniformPolicy(maze), 0, 2, rng);
   EXPECT_EQ(cut.states.size(), 2u);

@@ -66,8 +66,9 @@ TEST(Mdp, SaysWhatIsWrongWithAPolicy) {
                    "policy in state 3: found probabilities that sum to 1.00000001");
   policy(3, 1) = -1;
   EXPECT_REX_ERROR(requirePolicy(mdp, policy), "policy in state 3, action 1: found -1, wanted a probability");
-  EXPECT_REX_ERROR(policyOf(mdp, {0, 1}), "actions, one for each state");
-  EXPECT_REX_ERROR(policyOf(mdp, {0, 1, 0, 0, 2, 0, 0}), "action in state 4: found 2, wanted one of 0 to 1");
+  EXPECT_REX_ERROR(deterministicPolicy(mdp, {0, 1}), "actions, one for each state");
+  EXPECT_REX_ERROR(deterministicPolicy(mdp, {0, 1, 0, 0, 2, 0, 0}),
+                   "action in state 4: found 2, wanted one of 0 to 1");
   EXPECT_REX_ERROR(epsilonGreedy(policy, 1.5), "epsilon: found 1.5");
   EXPECT_REX_ERROR(epsilonGreedy(policy.leftCols(0), .5), "values of actions: found no action");
   EXPECT_REX_ERROR(greedyActions(policy.leftCols(0)), "values of actions: found no action");

@@ -55,7 +55,7 @@ TEST(PolicySearch, PowerHitsTheTarget) {
   const LinearGaussianPolicy start{Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity()};
   const PolicySearchOptions options{
       .method = SearchMethod::kPower, .iterations = 60, .episodes = 300, .longestStep = 1, .noiseDecay = .95};
-  const PolicySearchResult result = improvedPolicy(rolloutsOf(task), start, options, rng);
+  const PolicySearchResult result = improvedPolicy(rolloutSource(task), start, options, rng);
   EXPECT_EQ(result.status, PolicySearchStatus::kFinished) << result.message;
   EXPECT_LT((result.policy.beta - target).norm(), .2);
   EXPECT_GT(result.returns.back(), .9);

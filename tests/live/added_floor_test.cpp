@@ -51,7 +51,7 @@ TEST(AddedFloor, HoldsWhatFallsInTheLivePage) {
     recording.postures.push_back(simulation.state().q);
   }
   EXPECT_NEAR(simulation.state().q[2], 0.3, 1e-4);
-  EXPECT_NE(replayOf(model, recording), replayOf(model, {recording.times, recording.postures, {}}));
+  EXPECT_NE(toReplay(model, recording), toReplay(model, {recording.times, recording.postures, {}}));
 }
 
 }  // namespace rex::added_floor_test

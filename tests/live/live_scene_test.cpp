@@ -45,10 +45,10 @@ TEST(LiveScene, CutsPicturesIntoPiecesThatStayTheSame) {
   picture.solids.push_back({.shape = {.type = ShapeType::kBox, .extent = {1, 2, 3}}, .name = "one"});
   picture.solids.push_back(
       {.shape = {.type = ShapeType::kSphere, .radius = 1}, .X_WS = translation(0, 0, 4), .name = "two"});
-  const std::string glb = glbOf({{.picture = picture}});
-  const LivePieces first = piecesOf(glb);
+  const std::string glb = toGlb({{.picture = picture}});
+  const LivePieces first = splitGlb(glb);
   picture.solids[1].X_WS = translation(0, 0, 5);
-  const LivePieces moved = piecesOf(glbOf({{.picture = picture}}));
+  const LivePieces moved = splitGlb(toGlb({{.picture = picture}}));
   ASSERT_GE(first.pieces.size(), 4u);
   std::size_t same = 0;
   for (const LivePiece& piece : first.pieces) {

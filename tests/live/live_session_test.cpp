@@ -154,8 +154,8 @@ TEST(LiveSession, RecordsForAReplayAndATable) {
   const std::optional<LiveRecording> recording = session.takeRecording();
   ASSERT_TRUE(recording);
   EXPECT_NEAR(static_cast<double>(recording->times.size()), 31, 1);
-  EXPECT_THAT(tableOf(session.model(), *recording), HasSubstr("time,"));
-  EXPECT_THAT(replayOf(session.model(), *recording), HasSubstr("<html"));
+  EXPECT_THAT(toTable(session.model(), *recording), HasSubstr("time,"));
+  EXPECT_THAT(toReplay(session.model(), *recording), HasSubstr("<html"));
   EXPECT_FALSE(session.takeFilmWish());
   session.obey(R"([{"do": "film"}])");
   EXPECT_TRUE(session.takeFilmWish());

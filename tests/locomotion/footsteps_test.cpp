@@ -31,7 +31,7 @@ TEST(WalkPlan, KeepsItsReferenceOnTheSoles) {
   int landings = 0;
   for (double t = 0; t < end + .1; t += 1e-3) {
     const WalkPhase phase = phaseAt(walk, t);
-    const SupportMargin margin = supportMargin(supportOf(phase, walk.sole), phase.zmp, .05);
+    const SupportMargin margin = supportMargin(supportPolygon(phase, walk.sole), phase.zmp, .05);
     EXPECT_TRUE(margin.isInside) << t << ": " << margin.message;
     EXPECT_LT((phase.zmp - before.zmp).norm(), 3e-3) << t;
     if (phase.swing && before.swing) {
@@ -62,7 +62,8 @@ TEST(WalkPlan, PreviewControlKeepsTheZmpOnTheSoles) {
   EXPECT_LT(motion.largestError, .03);
   int outside = 0;  // the centre of mass itself leaves the soles: the walk is not statically stable
   for (Eigen::Index k = 0; k < motion.zmp.cols(); ++k) {
-    const SupportPolygon support = supportOf(phaseAt(walk, static_cast<double>(k) * options.step), walk.sole);
+    const SupportPolygon support =
+        supportPolygon(phaseAt(walk, static_cast<double>(k) * options.step), walk.sole);
     const SupportMargin margin = supportMargin(support, motion.zmp.col(k), .02);
     EXPECT_TRUE(margin.isInside) << k << ": " << margin.message;
     outside += !supportMargin(support, motion.c.col(k)).isInside;

@@ -15,7 +15,7 @@ using Eigen::Vector4d;
 SpringLeg leg(double degrees = 69) { return {.stiffness = 14000, .angle = degrees * M_PI / 180}; }
 
 MidStance ofEnergy(double joules, double height, double rise = 0) {
-  const double atRest = energyOf(leg(), {.height = height, .speed = 0, .rise = rise});
+  const double atRest = totalEnergy(leg(), {.height = height, .speed = 0, .rise = rise});
   return {.height = height, .speed = std::sqrt(2 * (joules - atRest) / leg().mass), .rise = rise};
 }
 
@@ -35,7 +35,7 @@ TEST(SpringWalk, KeepsItsEnergy) {
   ASSERT_EQ(step.status, WalkStatus::kStepped) << step.message;
   EXPECT_NEAR(leg().stanceEnergy(step.touchdown), 816, 1e-10);
   EXPECT_NEAR(energyOnBoth(step, step.takeoff), 816, 1e-10);
-  EXPECT_NEAR(energyOf(leg(), step.next), 816, 1e-10);
+  EXPECT_NEAR(totalEnergy(leg(), step.next), 816, 1e-10);
   EXPECT_NEAR(step.touchdown[1], std::sin(leg().angle), 1e-14);
   EXPECT_NEAR(step.takeoff.head<2>().norm(), leg().restLength, 1e-14);
 }

@@ -67,7 +67,7 @@ TEST(WalkingPattern, KeepsTheZmpOfTheWholeRobotOnTheSoles) {
         zmpOfMotion(robot.model, pattern.Q.col(k), (before + after) / 2, (after - before) / h);
     ASSERT_TRUE(zmp.exists);
     const WalkPhase phase = phaseAt(plan, static_cast<double>(k) * h);
-    const SupportMargin margin = supportMargin(supportOf(phase, plan.sole), zmp.p_W.head<2>());
+    const SupportMargin margin = supportMargin(supportPolygon(phase, plan.sole), zmp.p_W.head<2>());
     EXPECT_TRUE(margin.isInside) << static_cast<double>(k) * h << " s: " << margin.message;
   }
 }

@@ -216,7 +216,7 @@ INSTANTIATE_TEST_SUITE_P(Constrained, EachMethod,
                          testing::Values(ConstraintMethod::kSquaredPenalty, ConstraintMethod::kLogBarrier,
                                          ConstraintMethod::kAugmentedLagrangian),
                          [](const auto& method) {
-                           std::string name = nameOf(method.param);
+                           std::string name = toString(method.param);
                            std::erase(name, ' ');
                            return name;
                          });

@@ -135,9 +135,9 @@ TEST(ControlTree, CutsSteeringShort) {
 // must.
 TEST(ControlTree, MovesAsAnyModelSays) {
   const Space plane = Space::se2({0, 0}, {4, 4}, .3);
-  const MotionModel drive = motionOf(DifferentialDrive{});
+  const MotionModel drive = motionModel(DifferentialDrive{});
   const ControlSystem wheels =
-      controlSystemOf(drive, plane, Eigen::Vector2d(-20, -20), Eigen::Vector2d(20, 20));
+      controlSystem(drive, plane, Eigen::Vector2d(-20, -20), Eigen::Vector2d(20, 20));
   const ControlTreeOptions options{.tolerance = .3, .maxSamples = 60000};
   Rng rng(1);
   expectDriven(wheels, lot(), options, growControlTree(wheels, lot(), options, rng));
@@ -148,7 +148,7 @@ TEST(ControlTree, MovesAsAnyModelSays) {
     PathProblem problem{.space = space, .allValid = eachColumn([](const VectorArg&) { return true; })};
     problem.start = Eigen::VectorXd::Zero(model.states);
     problem.goal = Eigen::VectorXd::Constant(model.states, 2.5);
-    const ControlPath path = growControlTree(controlSystemOf(model, space, lower, upper), problem,
+    const ControlPath path = growControlTree(controlSystem(model, space, lower, upper), problem,
                                              {.tolerance = 0, .maxSamples = 200}, rng);
     const PathTree& tree = path.found.trees.at(0);
     ASSERT_EQ(tree.parents.size(), 201u);
@@ -157,16 +157,15 @@ TEST(ControlTree, MovesAsAnyModelSays) {
       EXPECT_LT((meanAfter(model, from, path.edges[k].u, path.edges[k].seconds) - to).norm(), 1e-12);
     }
   };
-  expectEdges(motionOf(CarWithTrailer{{2}, 2}), Space({side, side, angle, angle}), Eigen::Vector2d(-1, -.6),
-              Eigen::Vector2d(1, .6));
-  expectEdges(motionOf(PlanarQuadrotor{}), Space({side, side, angle, speed, speed, speed}),
+  expectEdges(motionModel(CarWithTrailer{{2}, 2}), Space({side, side, angle, angle}),
+              Eigen::Vector2d(-1, -.6), Eigen::Vector2d(1, .6));
+  expectEdges(motionModel(PlanarQuadrotor{}), Space({side, side, angle, speed, speed, speed}),
               Eigen::Vector2d(0, 0), Eigen::Vector2d(5, 5));
   const Eigen::Vector2d two(1, 1);
-  EXPECT_REX_ERROR(controlSystemOf(drive, Space::box(-two, two), -two, two),
-                   "space of a motion model: found");
-  EXPECT_REX_ERROR(controlSystemOf(drive, plane, Eigen::Vector3d(0, 0, 0), two), "lower bounds of controls");
-  EXPECT_REX_ERROR(controlSystemOf(drive, plane, -two, Eigen::Vector3d(0, 0, 0)), "upper bounds of controls");
-  EXPECT_REX_ERROR(controlSystemOf({.states = 3, .controls = 2}, plane, -two, two), "motion model: found no");
+  EXPECT_REX_ERROR(controlSystem(drive, Space::box(-two, two), -two, two), "space of a motion model: found");
+  EXPECT_REX_ERROR(controlSystem(drive, plane, Eigen::Vector3d(0, 0, 0), two), "lower bounds of controls");
+  EXPECT_REX_ERROR(controlSystem(drive, plane, -two, Eigen::Vector3d(0, 0, 0)), "upper bounds of controls");
+  EXPECT_REX_ERROR(controlSystem({.states = 3, .controls = 2}, plane, -two, two), "motion model: found no");
 }
 
 TEST(ControlTree, SaysWhatIsWrong) {

@@ -22,7 +22,7 @@ TEST(HistogramOf, CountsEverySampleOnce) {
     std::vector<double> samples;
     const int count = 1 + rng.index(500), bins = 1 + rng.index(30);
     for (int i = 0; i < count; ++i) samples.push_back(round % 2 == 0 ? rng.normal() : rng.index(10));
-    const Histogram histogram = histogramOf(samples, bins);
+    const Histogram histogram = sampleHistogram(samples, bins);
     ASSERT_EQ(histogram.heights.size(), static_cast<std::size_t>(bins));
     ASSERT_EQ(histogram.edges.size(), histogram.heights.size() + 1);
     EXPECT_EQ(std::accumulate(histogram.heights.begin(), histogram.heights.end(), 0.), count);
@@ -40,15 +40,15 @@ TEST(HistogramOf, CountsEverySampleOnce) {
 }
 
 TEST(HistogramOf, GivesEqualSamplesOneBinOfWidthOne) {
-  const Histogram histogram = histogramOf({3, 3, 3}, 1);
+  const Histogram histogram = sampleHistogram({3, 3, 3}, 1);
   EXPECT_EQ(histogram.edges, (std::vector<double>{2.5, 3.5}));
   EXPECT_EQ(histogram.heights, (std::vector<double>{3}));
 }
 
 TEST(HistogramOf, RejectsWhatItCannotCount) {
-  EXPECT_REX_ERROR(histogramOf({}, 3), "histogram: found no samples, wanted at least one");
-  EXPECT_REX_ERROR(histogramOf({1}, 0), "bins of a histogram: found 0, wanted 1 to 10000");
-  EXPECT_REX_ERROR(histogramOf({1, kNan}, 3),
+  EXPECT_REX_ERROR(sampleHistogram({}, 3), "histogram: found no samples, wanted at least one");
+  EXPECT_REX_ERROR(sampleHistogram({1}, 0), "bins of a histogram: found 0, wanted 1 to 10000");
+  EXPECT_REX_ERROR(sampleHistogram({1, kNan}, 3),
                    "samples of a histogram: number 1: found nan, wanted a finite number");
 }
 
@@ -60,19 +60,19 @@ TEST(Normalized, HasAreaOne) {
 }
 
 TEST(HeatMapOf, SamplesAtTheCentresOfCells) {
-  const HeatMap heatMap = heatMapOf([](double x, double y) { return 10 * x + y; }, {0, 2}, {0, 6}, 2, 3);
+  const HeatMap heatMap = sampledHeatMap([](double x, double y) { return 10 * x + y; }, {0, 2}, {0, 6}, 2, 3);
   Eigen::MatrixXd wanted(3, 2);
   wanted << 6, 16, 8, 18, 10, 20;
   EXPECT_TRUE(heatMap.values.isApprox(wanted, 1e-12)) << heatMap.values;
-  EXPECT_REX_ERROR(heatMapOf([](double, double) { return 0; }, {0, 1}, {0, 1}, 1, 5),
+  EXPECT_REX_ERROR(sampledHeatMap([](double, double) { return 0; }, {0, 1}, {0, 1}, 1, 5),
                    "columns of a heat map: found 1, wanted 2 to 2000");
-  EXPECT_REX_ERROR(heatMapOf([](double, double) { return 0; }, {0, 1}, {0, 1}, 5, 2001),
+  EXPECT_REX_ERROR(sampledHeatMap([](double, double) { return 0; }, {0, 1}, {0, 1}, 5, 2001),
                    "rows of a heat map: found 2001, wanted 2 to 2000");
 }
 
 TEST(ArrowsOf, PointAlongTheFieldAndStayInTheirCells) {
   const auto field = [](const Vector2d& p) { return Vector2d(-p.y(), 50 * p.x()); };
-  const Arrows arrows = arrowsOf(field, {-2, 2}, {-30, 30}, 5, 7);
+  const Arrows arrows = arrowField(field, {-2, 2}, {-30, 30}, 5, 7);
   EXPECT_EQ(arrows.x.size(), 34u);  // the field is zero in the middle
   for (std::size_t i = 0; i < arrows.x.size(); ++i) {
     const Vector2d d(arrows.dx[i], arrows.dy[i]), f = field(Vector2d(arrows.x[i], arrows.y[i]) + d / 2);
@@ -80,8 +80,8 @@ TEST(ArrowsOf, PointAlongTheFieldAndStayInTheirCells) {
     EXPECT_GT(d.dot(f), 0);
     EXPECT_NEAR(std::hypot(d.x() / (4. / 5), d.y() / (60. / 7)), 0.7, 1e-12);
   }
-  EXPECT_REX_ERROR(arrowsOf(field, {0, 1}, {0, 1}, 0, 5), "columns of arrows: found 0, wanted 1 to 200");
-  EXPECT_REX_ERROR(arrowsOf(field, {0, 1}, {0, 1}, 5, 201), "rows of arrows: found 201, wanted 1 to 200");
+  EXPECT_REX_ERROR(arrowField(field, {0, 1}, {0, 1}, 0, 5), "columns of arrows: found 0, wanted 1 to 200");
+  EXPECT_REX_ERROR(arrowField(field, {0, 1}, {0, 1}, 5, 201), "rows of arrows: found 201, wanted 1 to 200");
 }
 
 TEST(PoleFigure, ShowsEveryPoleAndTheRegionOfStability) {

@@ -203,7 +203,7 @@ TEST(FigureDrawing, ContoursFollowEqualValues) {
   Figure figure = plain();
   figure.colorLabel = "square [m^2]";
   figure.colorRange = {0, 2};
-  figure.heatMap = heatMapOf([](double x, double y) { return x * x + y * y; }, {-2, 2}, {-2, 2}, 80, 80);
+  figure.heatMap = sampledHeatMap([](double x, double y) { return x * x + y * y; }, {-2, 2}, {-2, 2}, 80, 80);
   figure.heatMap->contours = 1;
   const std::vector<Vector2d> points = Drawing(figure).points(2);
   ASSERT_GT(points.size(), 100u);

@@ -47,7 +47,7 @@ void expectGolden(const std::string& name, Figure figure) {
 TEST(FigureGallery, LooksAsStored) {
   REX_NEEDS_GNUPLOT();
   Figure heat{.xLabel = "x [m]", .yLabel = "y [m]", .colorLabel = "z [m]"};
-  heat.heatMap = heatMapOf([](double x, double y) { return x * x - y; }, {-1, 1}, {-1, 1}, 20, 20);
+  heat.heatMap = sampledHeatMap([](double x, double y) { return x * x - y; }, {-1, 1}, {-1, 1}, 20, 20);
   heat.heatMap->contours = 4;
   expectGolden("figure-heat", heat);
   Figure layers{.xLabel = "x [m]", .yLabel = "y [m]", .legend = Legend::kNone};

@@ -182,7 +182,7 @@ Film tumblingFilm() {
 
 TEST(Glb, PutsEveryNodeWhereTheFilmHasIt) {
   const Film film = tumblingFilm();
-  const GlbFile file(glbOf(film));
+  const GlbFile file(toGlb(film));
   ASSERT_EQ(file.named("tumbler").size(), 1u);
   ASSERT_EQ(file.named("still").size(), 1u);
   for (const Frame& frame : film) {
@@ -195,7 +195,7 @@ TEST(Glb, PutsEveryNodeWhereTheFilmHasIt) {
 }
 
 TEST(Glb, MovesOnlyWhatMovesThroughOneTimeLine) {
-  const GlbFile file(glbOf(tumblingFilm()));
+  const GlbFile file(toGlb(tumblingFilm()));
   const json& animation = file.root["animations"][0];
   std::set<int> inputs;
   for (const json& sampler : animation["samplers"]) inputs.insert(sampler["input"].get<int>());
@@ -211,7 +211,7 @@ TEST(Glb, MovesOnlyWhatMovesThroughOneTimeLine) {
 }
 
 TEST(Glb, TurnsTheShortWay) {
-  const GlbFile file(glbOf(tumblingFilm()));
+  const GlbFile file(toGlb(tumblingFilm()));
   int compared = 0;
   for (std::size_t i = 0; i < file.root["accessors"].size(); ++i) {
     if (file.root["accessors"][i]["type"] != "VEC4") continue;
@@ -228,7 +228,7 @@ Film filmOfOne(const Picture& picture) { return {{0, picture}}; }
 TEST(Glb, StandsStillWithOneFrame) {
   Picture picture;
   picture.solids = {boxAt(translation(1, 2, 3))};
-  const GlbFile file(glbOf(filmOfOne(picture)));
+  const GlbFile file(toGlb(filmOfOne(picture)));
   EXPECT_FALSE(file.root.contains("animations"));
   EXPECT_TRUE((kOurs * file.world(file.named("box")[0], 0)).isApprox(asAffine(translation(1, 2, 3)), 1e-5));
 }
@@ -282,7 +282,7 @@ TEST(Glb, HasASurfaceForEachShape) {
   Picture picture;
   for (const auto& [shape, unused] : shapes)
     picture.solids.push_back({.shape = shape, .name = std::string(toString(shape.type))});
-  const GlbFile file(glbOf(filmOfOne(picture)));
+  const GlbFile file(toGlb(filmOfOne(picture)));
   for (const auto& [shape, wanted] : shapes) {
     SCOPED_TRACE(toString(shape.type));
     const int node = file.named(std::string(toString(shape.type)))[0];
@@ -307,10 +307,10 @@ TEST(Glb, IsReadBackAsItStood) {
 TEST(Glb, StoresEqualShapesOnce) {
   Picture picture;
   for (int i = 0; i < 10; ++i) picture.solids.push_back(boxAt(translation(i, 0, 0)));
-  const std::size_t meshes = GlbFile(glbOf(filmOfOne(picture))).root["meshes"].size();
+  const std::size_t meshes = GlbFile(toGlb(filmOfOne(picture))).root["meshes"].size();
   EXPECT_EQ(meshes, 2u);  // with the ground
   picture.solids[0].color = {0, 1, 0};
-  const GlbFile file(glbOf(filmOfOne(picture)));
+  const GlbFile file(toGlb(filmOfOne(picture)));
   EXPECT_EQ(file.root["meshes"].size(), 3u);
   EXPECT_EQ(file.positions(file.named("box")[0]).size(), 24u);
   EXPECT_EQ(file.primitive(file.named("box")[0])["attributes"],
@@ -320,7 +320,7 @@ TEST(Glb, StoresEqualShapesOnce) {
 TEST(Glb, CountsColoursAsLight) {
   Picture picture;
   picture.solids = {boxAt({}, {0.5f, 0.02f, 1, 0.4f}, "glass")};
-  const GlbFile file(glbOf(filmOfOne(picture)));
+  const GlbFile file(toGlb(filmOfOne(picture)));
   const auto color = file.color(file.named("glass")[0]);
   EXPECT_NEAR(color[0], 0.21404, 1e-4);
   EXPECT_NEAR(color[1], 0.02 / 12.92, 1e-6);
@@ -331,7 +331,7 @@ TEST(Glb, CountsColoursAsLight) {
 }
 
 TEST(Glb, TellsTheRangeOfAllPositions) {
-  const GlbFile file(glbOf(tumblingFilm()));
+  const GlbFile file(toGlb(tumblingFilm()));
   std::set<int> accessors;
   for (const json& mesh : file.root["meshes"])
     for (const json& primitive : mesh["primitives"])
@@ -356,7 +356,7 @@ TEST(Glb, GrowsATraceInOneBuffer) {
     picture.polylines = {trace};
     film.push_back({0.1 * k, picture});
   }
-  const GlbFile file(glbOf(film));
+  const GlbFile file(toGlb(film));
   const std::vector<int> nodes = file.named("polyline 0");
   EXPECT_EQ(nodes.size(), 29u);
   std::set<int> views;
@@ -383,7 +383,7 @@ TEST(Glb, ShowsWhatChangesOrComesAndGoesWhenItDoes) {
     if (k == 2 || k == 6) picture.solids.push_back(boxAt(translation(0, k, 0), {}, "guest"));
     film.push_back({1. * k, picture});
   }
-  const GlbFile file(glbOf(film));
+  const GlbFile file(toGlb(film));
   ASSERT_EQ(file.named("chameleon").size(), 2u);
   ASSERT_EQ(file.named("guest").size(), 1u);
   for (int k = 0; k < 8; ++k) {
@@ -411,7 +411,7 @@ TEST(Glb, CarriesOverlays) {
     picture.captions = {{k < 2 ? "start" : "end", Corner::kBottomRight}};
     film.push_back({1. * k, picture});
   }
-  const GlbFile file(glbOf(film));
+  const GlbFile file(toGlb(film));
   const auto meshExtras = [&](int node) {
     return file.root["meshes"][file.root["nodes"][node]["mesh"].get<int>()]["extras"];
   };
@@ -444,7 +444,7 @@ TEST(Glb, TellsSeparateLinesFromOneThroughTheSamePoints) {
   Picture picture;
   picture.lineSets = {{.segments = {{{0, 0, 0}, {1, 0, 1}}}, .color = {1, 0, 0}, .width = 2}};
   picture.polylines = {{.points = {{0, 0, 0}, {1, 0, 1}}, .color = {1, 0, 0}, .width = 2}};
-  const GlbFile file(glbOf(filmOfOne(picture)));
+  const GlbFile file(toGlb(filmOfOne(picture)));
   EXPECT_EQ(file.primitive(file.named("lines 0")[0])["mode"], 1);
   EXPECT_EQ(file.primitive(file.named("polyline 0")[0])["mode"], 3);
   EXPECT_EQ(file.positions(file.named("lines 0")[0]), file.positions(file.named("polyline 0")[0]));
@@ -453,7 +453,7 @@ TEST(Glb, TellsSeparateLinesFromOneThroughTheSamePoints) {
 TEST(Glb, DrawsAFlatEllipsoidAsAThinLensAndAPointNot) {
   Picture picture;
   picture.ellipsoids = {{translation(1, 0, 1), {0.5, 0, 0.2}}, {translation(2, 0, 1), {0, 0, 0}}};
-  const GlbFile file(glbOf(filmOfOne(picture)));
+  const GlbFile file(toGlb(filmOfOne(picture)));
   ASSERT_EQ(file.named("ellipsoid 0").size(), 1u);
   EXPECT_EQ(file.root["nodes"][file.named("ellipsoid 0")[0]]["scale"], json({0.5, 0.0005, 0.2}));
   EXPECT_TRUE(file.named("ellipsoid 1").empty());
@@ -463,7 +463,7 @@ TEST(Glb, TakesACaptionOfAnyNumberOfLines) {
   Picture picture;
   picture.solids = {boxAt({})};
   picture.captions = {{"first" + std::string(200'000, '\n') + "\xfflast\t"}};
-  const GlbFile file(glbOf(filmOfOne(picture)));
+  const GlbFile file(toGlb(filmOfOne(picture)));
   EXPECT_EQ(file.root["nodes"][file.named("caption 0")[0]]["extras"]["caption"],
             "first" + std::string(200'000, '\n') + "?last ");
 }
@@ -472,7 +472,7 @@ TEST(Glb, StoresNothingForAGroundThatIsNotVisible) {
   Picture picture;
   picture.solids = {boxAt({})};
   picture.ground.visible = false;
-  const GlbFile file(glbOf(filmOfOne(picture)));
+  const GlbFile file(toGlb(filmOfOne(picture)));
   EXPECT_EQ(file.root["meshes"].size(), 1u);
   EXPECT_TRUE(file.named("ground").empty());
 }
@@ -481,14 +481,14 @@ TEST(Glb, NeedsNoDataForTexts) {
   Picture picture;
   picture.labels = {{.text = "here", .p_WQ = {0, 0, 1}}};
   picture.ground.visible = false;
-  const GlbFile file(glbOf(filmOfOne(picture)));
+  const GlbFile file(toGlb(filmOfOne(picture)));
   EXPECT_FALSE(file.root.contains("buffers"));
   EXPECT_EQ(file.named("label 0").size(), 1u);
 }
 
 TEST(Glb, LooksThroughTheCameraOfTheFilm) {
   const Film film = tumblingFilm();
-  const GlbFile file(glbOf(film, {1, 1, 1}));
+  const GlbFile file(toGlb(film, {1, 1, 1}));
   const Camera camera = framing(film, {1, 1, 1}, 4. / 3);
   EXPECT_TRUE((kOurs * file.world(file.named("camera")[0], 0)).isApprox(asAffine(camera.X_WC), 1e-5));
   EXPECT_NEAR(file.root["cameras"][0]["perspective"]["yfov"], camera.verticalFov, 1e-12);
@@ -497,7 +497,7 @@ TEST(Glb, LooksThroughTheCameraOfTheFilm) {
 TEST(Glb, KeepsStrangeNames) {
   Picture picture;
   picture.solids = {boxAt({}, {}, "a \"quoted\"\n\\name\xff \xc3\xa4")};
-  const GlbFile file(glbOf(filmOfOne(picture)));
+  const GlbFile file(toGlb(filmOfOne(picture)));
   EXPECT_EQ(file.named("a \"quoted\" \\name? \xc3\xa4").size(), 1u);
 }
 
@@ -533,7 +533,7 @@ Shape openShape(ShapeType type) {
 TEST(Glb, ShowsImportedSurfacesFromBothSides) {
   Picture picture;
   picture.solids = {{.shape = openShape(ShapeType::kMesh), .name = "open"}, {.name = "closed"}};
-  const GlbFile file(glbOf(filmOfOne(picture)));
+  const GlbFile file(toGlb(filmOfOne(picture)));
   const auto isSeenFromBothSides = [&](const std::string& name) {
     const int material = file.primitive(file.named(name)[0])["material"];
     return file.root["materials"][material].value("doubleSided", false);
@@ -545,36 +545,36 @@ TEST(Glb, ShowsImportedSurfacesFromBothSides) {
 TEST(Glb, ShowsOnlyThePointsOfAPointCloud) {
   Picture picture;
   picture.solids = {{.shape = openShape(ShapeType::kPointCloud), .name = "cloud"}};
-  const GlbFile file(glbOf(filmOfOne(picture)));
+  const GlbFile file(toGlb(filmOfOne(picture)));
   EXPECT_EQ(file.primitive(file.named("cloud")[0])["mode"], 0);
 }
 
-TEST(Glb, GivesTheSameBytesTwice) { EXPECT_EQ(glbOf(tumblingFilm()), glbOf(tumblingFilm())); }
+TEST(Glb, GivesTheSameBytesTwice) { EXPECT_EQ(toGlb(tumblingFilm()), toGlb(tumblingFilm())); }
 
 TEST(Glb, RefusesWhatCannotBePlayed) {
-  EXPECT_REX_ERROR(glbOf({}), "a film to replay: found no frames, wanted at least one");
-  EXPECT_REX_ERROR(glbOf(filmOfOne({})), "nothing to draw: found no shape");
+  EXPECT_REX_ERROR(toGlb({}), "a film to replay: found no frames, wanted at least one");
+  EXPECT_REX_ERROR(toGlb(filmOfOne({})), "nothing to draw: found no shape");
   Film film = tumblingFilm();
   film[3].time = film[2].time;
-  EXPECT_REX_ERROR(glbOf(film),
+  EXPECT_REX_ERROR(toGlb(film),
                    "frame 3 of a film: found time 5.5 after 5.5, wanted finite seconds that increase");
   film[3].time = std::nextafter(film[2].time, 6);
-  EXPECT_REX_ERROR(glbOf(film),
+  EXPECT_REX_ERROR(toGlb(film),
                    "frame 3 of a film: found time 5.500000000000001 after 5.5, wanted finite seconds that "
                    "increase from frame to frame, even in single precision");
   film[3].time = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_REX_ERROR(glbOf(film), "frame 3 of a film: found time nan after 5.5");
+  EXPECT_REX_ERROR(toGlb(film), "frame 3 of a film: found time nan after 5.5");
   film[0].time = std::numeric_limits<double>::infinity();
-  EXPECT_REX_ERROR(glbOf(film), "frame 0 of a film: found time inf, wanted");
+  EXPECT_REX_ERROR(toGlb(film), "frame 0 of a film: found time inf, wanted");
   film = tumblingFilm();
   film[7].picture.solids[0].X_WS.p.x() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_REX_ERROR(glbOf(film), "solid 'tumbler', pose: found a number that is not finite");
+  EXPECT_REX_ERROR(toGlb(film), "solid 'tumbler', pose: found a number that is not finite");
 }
 
 TEST(Glb, WritesWholeFilesOrNone) {
   const fs::path folder = freshFolder("glb");
   writeGlb(tumblingFilm(), folder / "film.glb");
-  EXPECT_EQ(fileText(folder / "film.glb"), glbOf(tumblingFilm()));
+  EXPECT_EQ(fileText(folder / "film.glb"), toGlb(tumblingFilm()));
   EXPECT_REX_ERROR(writeGlb(tumblingFilm(), folder / "missing" / "film.glb"),
                    "missing/film.glb': found No such file");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator{}), 1);

@@ -138,7 +138,7 @@ TEST(OwnGround, NeverMixesWithTheCheckers) {
 
 TEST(OwnGround, IsTheOnlyOneOfAReplay) {
   const auto countOf = [](const std::vector<Solid>& solids) {
-    const std::string bytes = glbOf({{0, {.solids = solids}}});
+    const std::string bytes = toGlb({{0, {.solids = solids}}});
     std::size_t count = 0;
     for (std::size_t at = 0; (at = bytes.find("\"ground\"", at)) != std::string::npos; ++at) ++count;
     return count;

@@ -175,7 +175,7 @@ TEST(Report, HoldsTheFilmAndItsPicture) {
   REX_NEEDS_OSMESA();
   const Report report = rollingBall();
   const std::string page = reportPage(report);
-  EXPECT_TRUE(embedded(page, "id=\"film\">", "</script>") == glbOf(report.film, report.view));
+  EXPECT_TRUE(embedded(page, "id=\"film\">", "</script>") == toGlb(report.film, report.view));
   const fs::path still = freshFolder("report-still") / "still.png";
   std::ofstream(still, std::ios::binary) << embedded(page, "data:image/png;base64,", "\"");
   const Camera camera = framing(report.film, report.view, 4. / 3);

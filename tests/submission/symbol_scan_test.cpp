@@ -24,11 +24,11 @@ TEST(IsSymbolOf, MatchesTheFunctionWhateverItsArguments) {
         "_ZN3rex7solveIkC1Ei", "_ZTIN3rex7solveIkE", "_ZTVN3rex7solveIkE", "_ZThn16_N3rex7solveIk3runEi",
         "_ZTv0_n24_N3rex7solveIk3runEi", "_ZZN3rex7solveIkEiE4kept", "_ZGVZN3rex7solveIkEiE4kept",
         "_ZN3rex7solveIkEi.constprop.0", "_ZN3rex7solveIkEi@REX_1", "_ZNVKR3rex7solveIk3runEi"})
-    EXPECT_TRUE(isSymbolOf(symbol, "rex::solveIk")) << symbol;
-  EXPECT_TRUE(isSymbolOf("_ZNK3rex9Simulator17inverseKinematicsEv", "rex::Simulator::inverseKinematics"));
-  EXPECT_TRUE(isSymbolOf("_ZN3rex8internal4stepEv", "rex::internal"));
-  EXPECT_TRUE(isSymbolOf("_Z5solvei", "solve"));
-  EXPECT_TRUE(isSymbolOf("solve", "solve"));
+    EXPECT_TRUE(isSymbolFor(symbol, "rex::solveIk")) << symbol;
+  EXPECT_TRUE(isSymbolFor("_ZNK3rex9Simulator17inverseKinematicsEv", "rex::Simulator::inverseKinematics"));
+  EXPECT_TRUE(isSymbolFor("_ZN3rex8internal4stepEv", "rex::internal"));
+  EXPECT_TRUE(isSymbolFor("_Z5solvei", "solve"));
+  EXPECT_TRUE(isSymbolFor("solve", "solve"));
 }
 
 TEST(IsSymbolOf, LeavesOtherNamesAlone) {
@@ -36,9 +36,9 @@ TEST(IsSymbolOf, LeavesOtherNamesAlone) {
        {"_ZN3rex13solveIkFasterEi", "_ZN4mine3rex7solveIkEi", "_ZN12_GLOBAL__N_17solveIkEi",
         "_ZNKSt6vectorIN3rex7solveIkESaIS1_EE4sizeEv", "_Z3runRKN3rex7solveIkE", "_Z7solveIki", "", "_Z",
         "_ZN", "_ZTh", "_ZTv0", "_ZThn16", "rex", "main", "_ZN3rex7solveI"})
-    EXPECT_FALSE(isSymbolOf(symbol, "rex::solveIk")) << symbol;
-  EXPECT_FALSE(isSymbolOf("_ZN3rex9SimulatorC1Ev", "rex::Simulator::inverseKinematics"));
-  EXPECT_FALSE(isSymbolOf("_ZN4mine5solveEi", "solve"));
+    EXPECT_FALSE(isSymbolFor(symbol, "rex::solveIk")) << symbol;
+  EXPECT_FALSE(isSymbolFor("_ZN3rex9SimulatorC1Ev", "rex::Simulator::inverseKinematics"));
+  EXPECT_FALSE(isSymbolFor("_ZN4mine5solveEi", "solve"));
 }
 
 // The second opinion: a demangler says the same of all symbols of a large object.
@@ -67,7 +67,7 @@ TEST(IsSymbolOf, AgreesWithADemangler) {
       if (name.starts_with(kind)) name.erase(0, std::strlen(kind));
     if (name.starts_with("int rex::")) name.erase(0, 4);
     const bool is = name == "rex::solveIk" || name.starts_with("rex::solveIk::");
-    EXPECT_EQ(isSymbolOf(symbol.name, "rex::solveIk"), is) << name;
+    EXPECT_EQ(isSymbolFor(symbol.name, "rex::solveIk"), is) << name;
     count += is ? 1 : 0;
   }
   EXPECT_GE(count, 6);

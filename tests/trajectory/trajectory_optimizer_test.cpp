@@ -91,7 +91,7 @@ TEST(TrajectoryOptimizer, AgreesWithADenseSolution) {
                                      }};
   for (const ConstraintMethod method : {ConstraintMethod::kSquaredPenalty, ConstraintMethod::kLogBarrier,
                                         ConstraintMethod::kAugmentedLagrangian}) {
-    SCOPED_TRACE(nameOf(method));
+    SCOPED_TRACE(toString(method));
     const TrajectoryResult banded = optimizeTrajectory(problem, start, {.method = method});
     const ConstrainedResult other = solveConstrained(dense, VectorXd(start.reshaped()));
     EXPECT_EQ(banded.solution.status, ConstrainedStatus::kSolved) << banded.solution.message;

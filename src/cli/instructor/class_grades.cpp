@@ -194,7 +194,7 @@ Figure pointsFigure(const std::vector<StudentResult>& results) {
       students.y.push_back(value);
     }
     medians.x.push_back(place);
-    medians.y.push_back(classroom::medianOf(values));
+    medians.y.push_back(classroom::medianValue(values));
   }
   return {.title = "Points of the class",
           .xLabel = "number of the exercise",

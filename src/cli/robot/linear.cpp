@@ -205,7 +205,7 @@ Findings findingsOf(const MatrixFile& file) {
   if (file.has("D")) f.system.D = file.matrix("D");
   if (file.has("step")) f.system.step = file.number("step");
   f.system = completed(f.system);
-  f.stability = f.system.step ? discreteStabilityOf(f.system.A) : stabilityOf(f.system.A);
+  f.stability = f.system.step ? discreteStability(f.system.A) : continuousStability(f.system.A);
   f.controllable = controllability(f.system);
   f.observable = observability(f.system);
   const bool hasWeights = file.has("Q") || file.has("R"), hasNoise = file.has("W") || file.has("V");

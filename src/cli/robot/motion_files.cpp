@@ -181,7 +181,7 @@ MotionPictures::MotionPictures(const Model& model, const Motion& motion,
 
 // Not by scenePicture(): it visits every vertex to find the height of the ground, which is known here.
 Picture MotionPictures::solidsAt(std::size_t i) const {
-  return {.solids = solidsOf(model_, forwardKinematics(model_, motion_.postures[shown_[i]]))};
+  return {.solids = placedSolids(model_, forwardKinematics(model_, motion_.postures[shown_[i]]))};
 }
 
 Picture MotionPictures::picture(std::size_t i) const {

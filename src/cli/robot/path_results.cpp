@@ -408,11 +408,11 @@ Json jsonOfTiming(const PathTiming& timing) {
             {"least_duration", timing.isFound() ? Json(timing.result.lowerBound) : Json()},
             {"stops", timing.isFound() ? Json(timing.result.motion.curve().stops()) : Json()},
             {"message", timing.result.message},
-            {"velocity_limits", jsonOf(kept.limits.velocity)},
-            {"acceleration_limits", jsonOf(kept.limits.acceleration)},
+            {"velocity_limits", toJson(kept.limits.velocity)},
+            {"acceleration_limits", toJson(kept.limits.acceleration)},
             {"assumed_velocities", kept.assumedVelocity}};
   // Infinite limits are null.
-  json["effort_limits"] = kept.limits.effort.size() > 0 ? jsonOf(kept.limits.effort) : Json();
+  json["effort_limits"] = kept.limits.effort.size() > 0 ? toJson(kept.limits.effort) : Json();
   return json;
 }
 

@@ -22,8 +22,8 @@ Json jsonOfPairs(const Model& model, const std::vector<Proxy>& near) {
     pairs.push_back({{"a", shapeLabel(model, pair.a)},
                      {"b", shapeLabel(model, pair.b)},
                      {"distance", proximity.distance},
-                     {"pa", jsonOf(proximity.p_WA)},
-                     {"pb", jsonOf(proximity.p_WB)}});
+                     {"pa", toJson(proximity.p_WA)},
+                     {"pb", toJson(proximity.p_WB)}});
   return pairs;
 }
 

@@ -30,10 +30,10 @@ std::string fourDigits(double value) { return fmt::format("{:.4g}", value + 0.);
 
 Results resultsOf(const Model& model, const Dynamics& at) {
   Results all{.json = {{"M", jsonOfRows(at.motion.M)},
-                       {"F", jsonOf(at.motion.F)},
+                       {"F", toJson(at.motion.F)},
                        {"kinetic", at.energy.kinetic},
                        {"potential", at.energy.potential},
-                       {"qdd", jsonOf(at.a)}}};
+                       {"qdd", toJson(at.a)}}};
   all.line("kinetic energy {:.6g} J, potential energy {:.6g} J; M qdd + F = u", at.energy.kinetic,
            at.energy.potential);
   const std::vector<std::string> names = printableVelocityNames(model);

@@ -150,8 +150,8 @@ Json infoOf(const Model& model) {
                                          {"dim", joint.nq},
                                          {"mimics", mimicOf(model, joint)}});
     if (joint.nq == 0) continue;
-    one["low"] = jsonOf(model.lowerLimits().segment(joint.qIndex, joint.nq));
-    one["high"] = jsonOf(model.upperLimits().segment(joint.qIndex, joint.nq));
+    one["low"] = toJson(model.lowerLimits().segment(joint.qIndex, joint.nq));
+    one["high"] = toJson(model.upperLimits().segment(joint.qIndex, joint.nq));
   }
   for (const BodyId id : model.bodiesInFileOrder()) {
     bodies.push_back(model[id].name);
@@ -168,14 +168,14 @@ Json infoOf(const Model& model) {
   for (Eigen::Index i = 0; i < gaps.size(); ++i) {
     const Pin& pin = model.pins()[static_cast<std::size_t>(i)];
     pins.push_back({{"a", model[pin.a].name},
-                    {"p_AP", jsonOf(pin.p_AP)},
+                    {"p_AP", toJson(pin.p_AP)},
                     {"b", model[pin.b].name},
-                    {"p_BQ", jsonOf(pin.p_BQ)},
+                    {"p_BQ", toJson(pin.p_BQ)},
                     {"gap", gaps[i]}});
   }
   Json postures = Json::object();
-  for (const NamedPosture& one : model.postures()) postures[one.name] = jsonOf(one.q);
-  return {{"ndof", model.nv()},    {"nq", model.nq()}, {"q", jsonOf(model.initialPositions())},
+  for (const NamedPosture& one : model.postures()) postures[one.name] = toJson(one.q);
+  return {{"ndof", model.nv()},    {"nq", model.nq()}, {"q", toJson(model.initialPositions())},
           {"postures", postures},  {"joints", joints}, {"bodies", bodies},
           {"body_masses", masses}, {"shapes", shapes}, {"pins", pins},
           {"mass", model.mass()}};

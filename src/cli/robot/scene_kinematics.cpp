@@ -32,14 +32,14 @@ ExitCode sceneKinematics(const Project& project, const SceneOptions& options) {
   noteOverflow(std::ranges::all_of(model.bodiesInFileOrder(), [&](BodyId id) {
     return poses[id].R.allFinite() && poses[id].p.allFinite();
   }));
-  Results all{.json = {{"q", jsonOf(q)}, {"bodies", Json::array()}}};
+  Results all{.json = {{"q", toJson(q)}, {"bodies", Json::array()}}};
   Table table(model[kWorld].name.size(), kPoseColumn);
   table.add({"body", "x", "y", "z", "qw", "qx", "qy", "qz"});
   for (const BodyId id : model.bodiesInFileOrder()) {
     Eigen::VectorXd pose(7);
     pose << poses[id].p, quaternionFromRotation(poses[id].R);
     all.json["bodies"].push_back(
-        {{"name", model[id].name}, {"pos", jsonOf(pose.head(3))}, {"quat_wxyz", jsonOf(pose.tail(4))}});
+        {{"name", model[id].name}, {"pos", toJson(pose.head(3))}, {"quat_wxyz", toJson(pose.tail(4))}});
     table.add(escapeForTerminal(model[id].name), pose, fiveDecimals);
   }
   all.line("{}", table.text());

@@ -246,8 +246,8 @@ Results resultsOf(const Model& model, const SimulationPlan& plan, const Record& 
                        {"stopped", nullptr},
                        {"overlaps", Json::array()},
                        {"energy", {{"start", start}, {"end", end}, {"largest_change", change}}},
-                       {"q", jsonOf(last.state.q)},
-                       {"v", jsonOf(last.state.v)}}};
+                       {"q", toJson(last.state.q)},
+                       {"v", toJson(last.state.v)}}};
   if (gain) all.json["stopped"] = {{"time", gain->time}, {"gained", gain->gained}, {"given", gain->given}};
   for (const BodyOverlap& one : overlaps)
     all.json["overlaps"].push_back({{"a", one.a}, {"b", one.b}, {"depth", one.depth}});

@@ -46,12 +46,12 @@ void offerRecording(LiveServer& server, LiveSession& session, ViewFilm& film) {
   }
   const std::optional<LiveRecording> recording = session.takeRecording();
   if (!recording) return;
-  const std::string table = tableOf(session.model(), *recording);
+  const std::string table = toTable(session.model(), *recording);
   film.setMotion(table);
   server.offer("motion.csv", {"text/csv; charset=utf-8", table});
   session.tell("The recording is ready: save it below \"Record\".");
   try {
-    server.offer("replay.html", {"application/octet-stream", replayOf(session.model(), *recording)});
+    server.offer("replay.html", {"application/octet-stream", toReplay(session.model(), *recording)});
   } catch (const Error& error) {
     session.tell(error.what());
   }

@@ -27,7 +27,7 @@ class ViewFilm {
   /// Gives up what is being drawn.
   ~ViewFilm();
 
-  /// The table of the motion that is drawn next; see tableOf().
+  /// The table of the motion that is drawn next; see toTable().
   void setMotion(const std::string& table) { table_ = table; }
   /// Begins to draw, unless it draws already or there is no motion. Returns a sentence about it. Signals of
   /// HeldSignals end the drawing, but stay for the caller's throwIfInterrupted().

@@ -31,7 +31,7 @@ class ViewFilmTest : public ::testing::Test {
  protected:
   // As long as films may be, which takes a minute to draw.
   void drawFor(ViewFilm& film) {
-    film.setMotion(tableOf(arm, {{0, 120}, {Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()}}));
+    film.setMotion(toTable(arm, {{0, 120}, {Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()}}));
     ASSERT_EQ(film.draw(), "The film is being drawn.");
     ASSERT_EQ(film.draw(), "A film is being drawn.");
   }
