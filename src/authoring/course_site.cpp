@@ -92,6 +92,7 @@ class SiteWriter {
             "<meta name=\"viewport\" content=\"width=device-width\">\n<title>{1}</title>\n"
             "<link rel=\"stylesheet\" href=\"{0}style.css\">\n</head>\n<body>\n"
             "<nav><a href=\"{0}index.html\">All exercises</a>"
+            "<a href=\"{0}documents/demonstrations.html\">Demonstrations</a>"
             "<a href=\"{0}documents/course-map.html\">Course map</a>"
             "<a href=\"{0}documents/gallery.html\">Gallery</a>"
             "<span class=\"search\"><input type=\"search\" placeholder=\"Search\" "
@@ -151,9 +152,9 @@ class SiteWriter {
       if (std::any_of(std::begin(kDocuments), std::end(kDocuments), isIt))
         return fs::path("documents") / inside.stem().concat(".html");
     }
-    if (name.starts_with("notes/") && file.extension() == ".md" &&
-        fs::exists(target_ / "notes" / file.stem().concat(".html")))
-      return fs::path("notes") / file.stem().concat(".html");
+    if (const fs::path page = fs::path(file).replace_extension(".html");
+        (name.starts_with("notes/") && file.extension() == ".md") || name.starts_with("demonstrations/"))
+      return fs::exists(target_ / page) ? page : "";
     if (const fs::path inside = file.lexically_relative("exercises"); name.starts_with("exercises/")) {
       const fs::path exercise = *inside.begin();
       if (std::any_of(exercises_.begin(), exercises_.end(),
@@ -197,10 +198,22 @@ SiteExercise plannedOf(const SitePlan& plan, const std::string& name) {
   return {};
 }
 
-// `documents`, `forLecturers` and `notes` are items of lists.
+// The first picture named in the README of an exercise that its solution has drawn; empty if there is none.
+fs::path pictureOf(const fs::path& root, const submission::ExerciseInfo& exercise) {
+  const std::string readme = readTextFile(exercise.folder / "README.md");
+  for (std::size_t end = 0; (end = readme.find(".png`", end)) != readme.npos; ++end) {
+    const std::size_t start = readme.rfind('`', end) + 1;
+    const fs::path file =
+        root / "out" / (exercise.name + "-solution") / readme.substr(start, end + 4 - start);
+    if (fs::is_regular_file(file)) return file;
+  }
+  return {};
+}
+
+// `documents`, `forLecturers` and `notes` are items of lists, `drawn` the exercises that have a picture.
 std::string firstPage(const std::vector<submission::ExerciseInfo>& exercises, const SitePlan& plan,
-                      const std::string& documents, const std::string& forLecturers,
-                      const std::string& notes) {
+                      const std::set<std::string>& drawn, const std::string& documents,
+                      const std::string& forLecturers, const std::string& notes) {
   std::string rows;
   const bool hasDates = std::any_of(plan.exercises.begin(), plan.exercises.end(), [](const auto& one) {
     return !one.opening.empty() || !one.deadline.empty();
@@ -209,14 +222,19 @@ std::string firstPage(const std::vector<submission::ExerciseInfo>& exercises, co
     const SiteExercise planned = plannedOf(plan, one.name);
     const std::string dates =
         fmt::format("<td>{}</td><td>{}</td>", htmlText(planned.opening), htmlText(planned.deadline));
+    const std::string picture =
+        fmt::format("<img class=\"small\" src=\"exercises/{}.png\" alt=\"\">", htmlText(one.name));
     rows += fmt::format(
-        "<tr><td><a href=\"exercises/{0}.html\">{0}</a></td><td>{1}</td><td>{2}</td><td>{3}</td>{4}</tr>\n",
-        htmlText(one.name), htmlText(one.title), htmlText(one.script), one.points(), hasDates ? dates : "");
+        "<tr><td><a "
+        "href=\"exercises/{0}.html\">{0}</a></td><td>{1}</td><td>{2}</td><td>{3}</td>{4}{5}</tr>\n",
+        htmlText(one.name), htmlText(one.title), htmlText(one.script), one.points(), hasDates ? dates : "",
+        drawn.empty() ? "" : "<td>" + (drawn.contains(one.name) ? picture : "") + "</td>");
   }
   return fmt::format(
              "<h1>{}</h1>\n<table class=\"names\">\n<tr><th>exercise</th><th>about</th>"
-             "<th>script</th><th>points</th>{}</tr>\n{}</table>\n<h2>Documents</h2>\n<ul>\n{}</ul>\n",
-             htmlText(plan.title), hasDates ? "<th>opens</th><th>due</th>" : "", rows, documents) +
+             "<th>script</th><th>points</th>{}{}</tr>\n{}</table>\n<h2>Documents</h2>\n<ul>\n{}</ul>\n",
+             htmlText(plan.title), hasDates ? "<th>opens</th><th>due</th>" : "",
+             drawn.empty() ? "" : "<th></th>", rows, documents) +
          (forLecturers.empty() ? "" : "<h2>For lecturers</h2>\n<ul>\n" + forLecturers + "</ul>\n") +
          (notes.empty() ? "" : "<h2>Lecturer's notes</h2>\n<ul>\n" + notes + "</ul>\n");
 }
@@ -242,15 +260,50 @@ std::string addNotes(SiteWriter& site, const fs::path& root) {
   return links;
 }
 
-int writePages(const fs::path& root, const fs::path& target, SiteReaders readers, const SitePlan& plan) {
+// A list of them, and a page for each that has a replay. Returns a link to the list.
+std::string addDemonstrations(SiteWriter& site, const fs::path& root, const fs::path& target,
+                              CourseSite& result) {
+  const fs::path folder = "demonstrations", list = "documents/demonstrations.html";
+  const std::vector<submission::Demonstration> all =
+      submission::demonstrations(root / "share" / "demonstrations");
+  if (all.empty()) return "";
+  result.demonstrations = static_cast<int>(all.size());
+  for (const submission::Demonstration& one : all) {
+    const fs::path name = one.name + ".html", replay = root / "out" / folder / name;
+    if (!fs::is_regular_file(replay)) continue;
+    fs::create_directories(target / folder / "replays");
+    fs::copy_file(replay, target / folder / "replays" / name);
+    const std::string frame = "replays/" + name.string(), title = htmlText(one.title);
+    site.addText(folder / name, folder / name,
+                 fmt::format("# {}\n\n{}\n", markdownText(one.title), markdownText(one.about)), "",
+                 fmt::format("<iframe src=\"{}\" title=\"{}\" allowfullscreen></iframe>\n", frame, title));
+    ++result.playing;
+  }
+  return linkTo(list, site.addText(list, "demonstrations/index.md",
+                                   submission::demonstrationsPage(all, [&](const auto& one) {
+                                     const std::string page = one.name + ".html";
+                                     return fs::exists(target / folder / page) ? page : "";
+                                   })));
+}
+
+CourseSite writePages(const fs::path& root, const fs::path& target, SiteReaders readers,
+                      const SitePlan& plan) {
   std::vector<submission::ExerciseInfo> exercises = submission::listExercises(root / "exercises");
   if (!plan.exercises.empty())
     std::erase_if(exercises, [&](const auto& one) { return plannedOf(plan, one.name).name.empty(); });
   SiteWriter site(root, target, exercises, !plan.exercises.empty() && readers == SiteReaders::kEverybody);
-  for (const submission::ExerciseInfo& one : exercises)
+  CourseSite result{.exercises = static_cast<int>(exercises.size())};
+  std::set<std::string> drawn;
+  for (const submission::ExerciseInfo& one : exercises) {
     site.addMarkdown(fs::path("exercises") / (one.name + ".html"),
                      fs::path("exercises") / one.name / "README.md", "",
                      pointsTable(one) + contract(one.folder));
+    const fs::path picture = pictureOf(root, one);
+    if (picture.empty()) continue;
+    fs::copy_file(picture, target / "exercises" / (one.name + ".png"));
+    drawn.insert(one.name);
+  }
+  result.drawn = static_cast<int>(drawn.size());
   std::string documents, forLecturers, notes;
   for (const Document& one : kDocuments) {
     if (!site.has(one)) continue;
@@ -259,18 +312,12 @@ int writePages(const fs::path& root, const fs::path& target, SiteReaders readers
     site.addMarkdown(page, file);
     (one.isForLecturers ? forLecturers : documents) += linkTo(page.generic_string(), one.title);
   }
-  const std::vector<submission::Demonstration> shown =
-      submission::demonstrations(root / "share" / "demonstrations");
-  if (!shown.empty()) {
-    const std::string page = "documents/demonstrations.html";
-    documents +=
-        linkTo(page, site.addText(page, "share/demonstrations/index.md",
-                                  submission::demonstrationsPage(shown, [](const auto&) { return ""; })));
-  }
+  documents += addDemonstrations(site, root, target, result);
   if (readers == SiteReaders::kLecturers) notes = addNotes(site, root);
-  site.write("index.html", plan.title, firstPage(exercises, plan, documents, forLecturers, notes));
+  site.write("index.html", plan.title, firstPage(exercises, plan, drawn, documents, forLecturers, notes));
   site.finish();
-  return site.pages();
+  result.pages = site.pages();
+  return result;
 }
 
 }  // namespace
@@ -291,7 +338,7 @@ CourseSite writeCourseSite(const fs::path& root, const fs::path& target, const f
   }
   std::error_code ignored;
   try {
-    CourseSite site{.pages = writePages(root, target, readers, plan)};
+    CourseSite site = writePages(root, target, readers, plan);
     std::vector<Secret> secrets = secretsOfCourse(root, courseSecret);
     if (readers == SiteReaders::kLecturers)
       std::erase_if(secrets, [](const Secret& one) { return one.kind == SecretKind::kLecturersNote; });

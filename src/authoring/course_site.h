@@ -24,14 +24,19 @@ struct SitePlan {
 
 /// What the pages of a course consist of, and the result of their scan.
 struct CourseSite {
-  int pages = 0;
-  LeakScan scan{};  ///< if it has leaks, the folder was removed
+  int pages = 0;                        ///< without replays
+  int demonstrations = 0, playing = 0;  ///< how many of them have a replay
+  int exercises = 0, drawn = 0;         ///< how many of them have a picture
+  LeakScan scan{};                      ///< if it has leaks, the folder was removed
 };
 
 /// Writes to `target` static pages about the course in `root`: each exercise with its task, points and
-/// contract, the documents of share/doc for students and lecturers with their pictures, and a search over all
-/// of them. They need no server and no network, and print well. Finally scans them for leaks like a student
-/// release. Throws UsageError if the target is not empty, and Error for files that cannot be read or written.
+/// contract, the demonstrations, the documents of share/doc for students and lecturers with their pictures,
+/// and a search over all of them. A demonstration plays if `rex demo` has written its replay to
+/// out/demonstrations. The picture of an exercise is the first one named in its README that `rex run NAME
+/// --solution` has drawn. The pages need no server and no network, and print well. Finally scans them for
+/// leaks like a student release. Throws UsageError if the target is not empty, and Error for files that
+/// cannot be read or written.
 [[nodiscard]] CourseSite writeCourseSite(const std::filesystem::path& root,
                                          const std::filesystem::path& target,
                                          const std::filesystem::path& courseSecret = {},

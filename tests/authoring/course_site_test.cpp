@@ -15,6 +15,7 @@
 namespace rex::authoring::course_site_test {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -108,8 +109,9 @@ TEST_F(CourseSiteTest, SaysWhatIsWrongWithNotes) {
   EXPECT_FALSE(fs::exists(out()));
 }
 
-TEST_F(CourseSiteTest, WritesNothingThatLeaks) {
-  const fs::path root = temporary_.path() / "course", exercise = root / "exercises" / "98-a";
+// A course with one exercise, whose README is that text.
+fs::path writeSmallCourse(const fs::path& root, const std::string& readme) {
+  const fs::path exercise = root / "exercises" / "98-a";
   writeTextFile(
       exercise / "exercise.toml",
       "title = \"T\"\nscript = \"1\"\n[[part]]\nid = \"p\"\ntitle = \"P\"\npoints = 1\nhints = [\"h?\"]\n");
@@ -119,7 +121,13 @@ TEST_F(CourseSiteTest, WritesNothingThatLeaks) {
                 "<todo>\n// </solution>\n");
   writeTextFile(exercise / "check.cpp", "\n");
   for (const char* file : {"style.css", "search.js"}) writeTextFile(root / "share" / "site" / file, "");
-  writeTextFile(exercise / "README.md", "# 98\n\n    return 7 * std::sin(x) + 31 * std::cos(x);\n");
+  writeTextFile(exercise / "README.md", "# 98\n\n" + readme + "\n");
+  return root;
+}
+
+TEST_F(CourseSiteTest, WritesNothingThatLeaks) {
+  const fs::path root =
+      writeSmallCourse(temporary_.path() / "course", "    return 7 * std::sin(x) + 31 * std::cos(x);");
   const CourseSite site = writeCourseSite(root, out());
   ASSERT_FALSE(site.scan.leaks.empty());
   std::string leaks;
@@ -127,6 +135,35 @@ TEST_F(CourseSiteTest, WritesNothingThatLeaks) {
   EXPECT_THAT(leaks, HasSubstr("98-a.html:"));
   EXPECT_THAT(leaks, HasSubstr("entries.js:")) << "the search would give it away, too";
   EXPECT_FALSE(fs::exists(out()));
+}
+
+// The solution has drawn the second and the third picture named in the README, and one of two demonstrations
+// was played.
+TEST_F(CourseSiteTest, ShowsPicturesOfExercisesAndPlaysDemonstrations) {
+  const fs::path root =
+      writeSmallCourse(temporary_.path() / "course", "`none.png` and `curve.png`, `last.png`");
+  for (const char* picture : {"curve", "last"})
+    writeTextFile(root / "out" / "98-a-solution" / (std::string(picture) + ".png"), picture);
+  writeTextFile(root / "share" / "demonstrations" / "pid.cpp", "// Chapter 3: PID <now>. It & overshoots.\n");
+  writeTextFile(root / "share" / "demonstrations" / "tree.cpp", "// Chapter 4: A tree. It grows.\n");
+  writeTextFile(root / "out" / "demonstrations" / "pid.html", "it plays");
+  const CourseSite site = writeCourseSite(root, out());
+  ASSERT_TRUE(site.scan.leaks.empty()) << toString(site.scan.leaks.front());
+  EXPECT_EQ(site.drawn, 1);
+  EXPECT_EQ(site.exercises, 1);
+  EXPECT_EQ(site.playing, 1);
+  EXPECT_EQ(site.demonstrations, 2);
+  EXPECT_EQ(site.pages, 4) << "first page, exercise, list of demonstrations, one that plays";
+  EXPECT_EQ(fileText(out() / "exercises" / "98-a.png"), "curve");
+  EXPECT_THAT(fileText(out() / "index.html"), HasSubstr("src=\"exercises/98-a.png\""));
+  EXPECT_EQ(fileText(out() / "demonstrations" / "replays" / "pid.html"), "it plays");
+  EXPECT_THAT(fileText(out() / "demonstrations" / "pid.html"),
+              AllOf(HasSubstr("<iframe src=\"replays/pid.html\""), HasSubstr("It &#38; overshoots.")));
+  EXPECT_THAT(fileText(out() / "documents" / "demonstrations.html"),
+              AllOf(HasSubstr("href=\"../demonstrations/pid.html\""), HasSubstr("<strong>A tree</strong>"),
+                    Not(HasSubstr("tree.html"))));
+  EXPECT_THAT(fileText(out() / "entries.js"), HasSubstr("\"url\":\"demonstrations/pid.html#"));
+  EXPECT_EQ(fileText(root / "out" / "demonstrations" / "pid.html"), "it plays") << "copied";
 }
 
 TEST_F(CourseSiteTest, OverwritesNothing) {

@@ -103,10 +103,11 @@ void addDevRelease(CLI::App* dev, Action& action) {
 
 void addDevSite(CLI::App* dev, Action& action) {
   const auto options = std::make_shared<SiteOptions>();
-  CLI::App* command = addVerb(dev, "site", "Write pages about the course, for a browser or a printer",
-                              "Example: scripts/rex dev site /tmp/site\n\n"
-                              "Exercises, documents, gallery and a search; no server or network is needed.\n"
-                              "Exit code 1: something leaks; nothing was written.");
+  CLI::App* command =
+      addVerb(dev, "site", "Write pages about the course, for a browser or a printer",
+              "Example: scripts/rex dev site /tmp/site\n\n"
+              "Exercises, demonstrations, documents and a search; no server or network is needed.\n"
+              "Exit code 1: something leaks; nothing was written.");
   command->add_option("DIR", options->out, "new folder for the pages")->type_name("")->required();
   addOptions(command,
              {{"--secret-file", options->secret, "FILE",

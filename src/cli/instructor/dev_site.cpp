@@ -40,14 +40,22 @@ ExitCode devSite(const Project& project, const SiteOptions& options) {
   if (options.json) {
     Json list = Json::array();
     for (const authoring::Leak& leak : site.scan.leaks) list.push_back(toString(leak));
-    say(dump(Json{
-        {"written", leaks ? Json() : Json(shown(options.out))}, {"pages", site.pages}, {"leaks", list}}));
+    say(dump(Json{{"written", leaks ? Json() : Json(shown(options.out))},
+                  {"pages", site.pages},
+                  {"replays", site.playing},
+                  {"pictures", site.drawn},
+                  {"leaks", list}}));
   } else if (leaks) {
     for (const authoring::Leak& leak : site.scan.leaks) note(wrap(escapeForTerminal(toString(leak)), 2, 0));
     note("Nothing was written.");
   } else {
     say(fmt::format("{} pages, {:.1f} MB, nothing leaks: open {}", site.pages,
                     static_cast<double>(site.scan.bytes) / 1e6, shown(options.out / "index.html")));
+    if (site.playing < site.demonstrations || site.drawn < site.exercises)
+      say(wrap(fmt::format("{} of {} demonstrations play, and {} of {} exercises have a picture. For more: "
+                           "rex demo -o out/demonstrations, and rex run NAME --solution",
+                           site.playing, site.demonstrations, site.drawn, site.exercises),
+               0, 0));
   }
   return leaks ? ExitCode::kBelow : ExitCode::kFull;
 }
