@@ -20,8 +20,7 @@ int main() {
   }
   print("posture [rad]", goal.q);
 
-  constexpr int kSteps = 60;
-  for (int t = 0; t <= kSteps; ++t) S.setJointAngles(q0 + (goal.q - q0) * t / kSteps);
+  for (int t = 0; t <= 60; ++t) S.setJointAngles(q0 + (goal.q - q0) * t / 60);
   print("tool [m]", S.kinematicsPos("tool"));
   writeReplay(S, "reach", {.traces = {"tool"}, .points = {X_WB.p}});
 }
