@@ -144,7 +144,7 @@ class SiteWriter {
   fs::path placeOf(const fs::path& file) {
     const std::string name = file.generic_string();
     if (const fs::path inside = file.lexically_relative("share/doc"); name.starts_with("share/doc/")) {
-      if (file.extension() == ".png" && fs::is_regular_file(root_ / file)) {
+      if ((file.extension() == ".png" || file.extension() == ".webp") && fs::is_regular_file(root_ / file)) {
         pictures_.insert(inside);
         return "documents" / inside;
       }
