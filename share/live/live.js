@@ -387,7 +387,8 @@
 
   for (const button of document.querySelectorAll('[data-from]'))
     button.addEventListener('click', () => {
-      const [x, y, z] = button.dataset.from.split(',').map(Number);
+      const [fx, fy] = about && about.front || [1, 0];  // where the robot faces
+      const [x, y, z] = { front: [fx, fy, 0], side: [fy, -fx, 0] }[button.dataset.from] || button.dataset.from.split(',').map(Number);
       if (y === undefined) view.resetView();
       else view.lookFrom(new THREE.Vector3(x, z + 1e-6, -y));
     });

@@ -13,6 +13,7 @@
 
 #include "base/base64.h"
 #include "base/error.h"
+#include "base/text.h"
 #include "geometry/rotation.h"
 #include "render/glb.h"
 #include "render/picture.h"
@@ -120,10 +121,11 @@ std::string liveDescription(const Model& model) {
                       {"contact", shape.contact}});
   LiveJson postures = LiveJson::array();
   for (const NamedPosture& one : model.postures()) postures.push_back(one.name);
+  const bool isOrs = endingOf(model.name()) == ".ors";
   const LiveJson all = {{"kind", "robot"},      {"title", model.name()},
                         {"mass", model.mass()}, {"bodies", bodies},
                         {"shapes", shapes},     {"coordinates", coordinatesJson(model)},
-                        {"postures", postures}};
+                        {"postures", postures}, {"front", isOrs ? LiveJson{0, -1} : LiveJson{1, 0}}};
   return all.dump(-1, ' ', false, LiveJson::error_handler_t::replace);
 }
 

@@ -31,7 +31,8 @@ struct LivePieces {
 [[nodiscard]] std::string liveGlb(const Model& model, const BodyPoses& poses);
 
 /// What the page says about a model, as JSON: bodies, shapes with their poses on bodies, coordinates with
-/// names, units and limits, and the names of postures. Names are as in the scene.
+/// names, units and limits, the names of postures, and x and y of the direction that robots of this format
+/// face: -y in .ors files, +x in others. Names are as in the scene.
 [[nodiscard]] std::string liveDescription(const Model& model);
 
 /// Poses as the page reads them: for each body x y z and a quaternion x y z w as little-endian floats, in

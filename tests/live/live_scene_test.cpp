@@ -34,6 +34,15 @@ TEST(LiveScene, SaysUnitsAndLimits) {
   EXPECT_EQ(about["coordinates"][0]["unit"], "rad");
 }
 
+TEST(LiveScene, SaysWhereRobotsFace) {
+  const std::pair<const char*, const char*> cases[] = {{"robots/man.ors", "[0,-1]"},
+                                                       {"robots/balancer/balancer.urdf", "[1,0]"}};
+  for (const auto& [file, front] : cases) {
+    const Model model = compile(readScene(homeFolder().string() + "/data/" + file).spec);
+    EXPECT_EQ(Json::parse(liveDescription(model))["front"].dump(), front) << file;
+  }
+}
+
 TEST(LiveScene, WritesPosesAsFloats) {
   const Model model = modelOf("body a { X=<T t(1 2 3)> mass=1 }\nshape (a) { type=0 size=[.1 .1 .1 0] }\n");
   // Two bodies of seven floats each: 56 bytes, 76 characters.
