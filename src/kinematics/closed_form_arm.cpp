@@ -432,7 +432,7 @@ void ClosedFormArm::addElbows(const Pose& X, Angles6 arm, const Angles6& referen
   if (isSingular) arm.angle[4] = angleBetween(h5, h6, seen.dot(h6) * h, 0).value_or(arm.angle[4]);
   if (!isSingular) {
     arm.angle[5] = angleBetween(h6, seen, turned(h5, -arm.angle[4], h), 0).value_or(reference.angle[5]);
-    addElbows(X, arm, reference, found);
+    addPlanarTriples(X, arm, reference, found);
     return;
   }
   // Not at every angle of the last axis is the rest within reach: the nearest to the reference.
@@ -442,13 +442,13 @@ void ClosedFormArm::addElbows(const Pose& X, Angles6 arm, const Angles6& referen
   for (int k = 0; k < kTries && found.size() == before; ++k) {
     const int steps = (k + 1) / 2 * (k % 2 == 0 ? 1 : -1);
     arm.angle[5] = reference.angle[5] + steps * 2 * std::numbers::pi / kTries;
-    addElbows(X, arm, reference, found);
+    addPlanarTriples(X, arm, reference, found);
   }
 }
 
 // Three hinges in a plane, when all other angles are known.
-void ClosedFormArm::addElbows(const Pose& X, const Angles6& arm, const Angles6& reference,
-                              std::vector<Angles6>& found) const {
+void ClosedFormArm::addPlanarTriples(const Pose& X, const Angles6& arm, const Angles6& reference,
+                                     std::vector<Angles6>& found) const {
   const Vector3d &h = axis_[1], &h6 = axis_[5];
   const Matrix3d R1 = turn(axis_[0], arm.angle[0]), R5 = turn(axis_[4], arm.angle[4]);
   const Matrix3d R234 = R1.transpose() * X.R * turn(h6, arm.angle[5]).transpose() * R5.transpose();

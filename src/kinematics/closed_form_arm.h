@@ -64,8 +64,8 @@ class ClosedFormArm {
                  std::vector<Angles6>& found) const;
   void addByParallels(const Pose& X, const Angles6& reference, std::vector<Angles6>& found) const;
   void addElbows(const Pose& X, Angles6 arm, const Angles6& reference, std::vector<Angles6>& found) const;
-  void addElbows(const Pose& X, const Angles6& arm, const Angles6& reference,
-                 std::vector<Angles6>& found) const;
+  void addPlanarTriples(const Pose& X, const Angles6& arm, const Angles6& reference,
+                        std::vector<Angles6>& found) const;
   bool polish(const Pose& X, Angles6& arm) const;
   void addTurns(ClosedFormPosture& posture, const Angles6& arm, std::size_t i,
                 const ClosedFormOptions& options, std::vector<ClosedFormPosture>& result) const;

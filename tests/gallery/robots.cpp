@@ -198,8 +198,7 @@ std::vector<Drawing> robotPictures() {
           "pick", "An arm and its gripper",
           "`data/scenes/pick.ors` puts the gripper on the flange of the arm, and the arm on a table.",
           {.file = "scenes/pick.ors", .named = "state:home", .direction = {1.2, -1.4, 0.8}, .cell = 0.5}),
-      portrait("board", "A planar arm above a board",
-               "`data/scenes/board.ors`, a scene for path planners.",
+      portrait("board", "A planar arm above a board", "`data/scenes/board.ors`, a scene for path planners.",
                {.file = "scenes/board.ors", .direction = {2, -0.9, 0.7}}),
       portrait("maze", "A cart in four rooms", "`data/scenes/maze.ors`, a scene for path planners.",
                {.file = "scenes/maze.ors", .direction = {-0.9, -1.5, 2.0}, .cell = 0.5})};
