@@ -158,7 +158,7 @@ TEST_F(CourseSiteTest, ShowsPicturesOfExercisesAndPlaysDemonstrations) {
   EXPECT_THAT(fileText(out() / "index.html"), HasSubstr("src=\"exercises/98-a.png\""));
   EXPECT_EQ(fileText(out() / "demonstrations" / "replays" / "pid.html"), "it plays");
   EXPECT_THAT(fileText(out() / "demonstrations" / "pid.html"),
-              AllOf(HasSubstr("<iframe src=\"replays/pid.html\""), HasSubstr("It &#38; overshoots.")));
+              AllOf(HasSubstr("<iframe src=\"replays/pid.html\""), HasSubstr("It &amp; overshoots.")));
   EXPECT_THAT(fileText(out() / "documents" / "demonstrations.html"),
               AllOf(HasSubstr("href=\"../demonstrations/pid.html\""), HasSubstr("<strong>A tree</strong>"),
                     Not(HasSubstr("tree.html"))));
