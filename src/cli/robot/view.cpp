@@ -1,4 +1,5 @@
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -88,7 +89,9 @@ void offerRecording(LiveServer& server, LiveSession& session, ViewFilm& film) {
 }
 
 ExitCode view(const Project& project, const ViewOptions& options) {
-  const SceneSpec spec = loadSpec(project, options.scene);
+  SceneSpec spec = loadSpec(project, options.scene);
+  const std::filesystem::path file = sceneFilePath(project, options.scene);
+  spec.name = file.filename().string();  // its ending says where robots face
   const Model model = asWrongUse([&] { return compile(spec); });
   const Eigen::VectorXd q = parsePosture(model, options.posture);
   LiveSession session = asWrongUse([&] { return LiveSession(spec, q); });
@@ -105,7 +108,7 @@ ExitCode view(const Project& project, const ViewOptions& options) {
   if (!more.empty()) say(more);
   say("press Ctrl-C to end");
   std::fflush(stdout);
-  ViewFilm film(session.model(), sceneFacing(sceneFilePath(project, options.scene)), folder.path());
+  ViewFilm film(session.model(), sceneFacing(file), folder.path());
   try {
     serve(*server, session, film);
   } catch (const Interrupted&) {
