@@ -223,18 +223,19 @@ std::string firstPage(const std::vector<submission::ExerciseInfo>& exercises, co
     const std::string dates =
         fmt::format("<td>{}</td><td>{}</td>", htmlText(planned.opening), htmlText(planned.deadline));
     const std::string picture =
-        fmt::format("<img class=\"small\" src=\"exercises/{}.png\" alt=\"\">", htmlText(one.name));
+        drawn.contains(one.name)
+            ? fmt::format("<img class=\"small\" src=\"exercises/{}.png\" alt=\"\">", htmlText(one.name))
+            : "";
     rows += fmt::format(
         "<tr><td><a "
-        "href=\"exercises/{0}.html\">{0}</a></td><td>{1}</td><td>{2}</td><td>{3}</td>{4}{5}</tr>\n",
+        "href=\"exercises/{0}.html\">{0}</a>{5}</td><td>{1}</td><td>{2}</td><td>{3}</td>{4}</tr>\n",
         htmlText(one.name), htmlText(one.title), htmlText(one.script), one.points(), hasDates ? dates : "",
-        drawn.empty() ? "" : "<td>" + (drawn.contains(one.name) ? picture : "") + "</td>");
+        picture);
   }
   return fmt::format(
              "<h1>{}</h1>\n<table class=\"names\">\n<tr><th>exercise</th><th>about</th>"
-             "<th>script</th><th>points</th>{}{}</tr>\n{}</table>\n<h2>Documents</h2>\n<ul>\n{}</ul>\n",
-             htmlText(plan.title), hasDates ? "<th>opens</th><th>due</th>" : "",
-             drawn.empty() ? "" : "<th></th>", rows, documents) +
+             "<th>script</th><th>points</th>{}</tr>\n{}</table>\n<h2>Documents</h2>\n<ul>\n{}</ul>\n",
+             htmlText(plan.title), hasDates ? "<th>opens</th><th>due</th>" : "", rows, documents) +
          (forLecturers.empty() ? "" : "<h2>For lecturers</h2>\n<ul>\n" + forLecturers + "</ul>\n") +
          (notes.empty() ? "" : "<h2>Lecturer's notes</h2>\n<ul>\n" + notes + "</ul>\n");
 }
