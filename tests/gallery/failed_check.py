@@ -1,6 +1,10 @@
-"""Films the replay that a student gets who draws the circle of exercise 01 in the wrong plane: failed_check.py REX OUT.webp"""
+"""Films the replay that a student gets who draws the circle of exercise 01 in the wrong plane, and takes the picture of that check.
+
+failed_check.py REX FOLDER writes failed.webp and check.png.
+"""
 
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -22,6 +26,7 @@ with tempfile.TemporaryDirectory() as name:
     test = subprocess.run([rex, "test", "01", "--check", "circle", "--main", folder / "main.cpp", "-o", folder], cwd=root)
     if test.returncode != 1:
         sys.exit("failed_check.py: the check does not fail")
+    shutil.copy(folder / "checks" / "circle.png", pathlib.Path(out) / "check.png")
     browser = Browser()
     page = Page(browser, "about:blank")
     page.call("Emulation.setDeviceMetricsOverride", width=960, height=556, deviceScaleFactor=1, mobile=False)
@@ -35,4 +40,4 @@ with tempfile.TemporaryDirectory() as name:
         page.shot(folder / ("%03d.png" % k))
     browser.close()
     subprocess.run(["ffmpeg", "-v", "error", "-y", "-framerate", str(RATE), "-i", folder / "%03d.png", "-c:v", "libwebp_anim",
-                    "-loop", "0", "-quality", "80", "-compression_level", "6", out], check=True)
+                    "-loop", "0", "-quality", "80", "-compression_level", "6", pathlib.Path(out) / "failed.webp"], check=True)
