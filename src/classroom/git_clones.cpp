@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <map>
+#include <ranges>
 #include <set>
 
 #include <fmt/format.h>
@@ -49,6 +50,14 @@ std::vector<Person> readRoster(const fs::path& file) {
     people.push_back(
         personOfRoster(table.text(k, kRosterId), table.text(k, kRosterName), table.text(k, kUser)));
   return people;
+}
+
+// Of "2026-06-01T14-32-05Z-a1b2c3d", as Classroom 50 names tags.
+std::optional<std::int64_t> timeOfTag(std::string name) {
+  constexpr std::size_t kMinutes = 13, kSeconds = 16, kEnd = 20;
+  if (name.size() <= kEnd || name[kEnd] != '-') return {};
+  name[kMinutes] = name[kSeconds] = ':';
+  return parseInstant(name.substr(0, kEnd));
 }
 
 /// Finds out whose clones there are, and which commit counts.
@@ -194,10 +203,11 @@ class CloneReader {
       if (commit && !recorded.submitted) received.submitted = commit->time, received.timeFrom = "git";
       return commit;
     }
-    const std::vector<Commit> history = repository.history();
     std::optional<std::int64_t> last = options_.deadline;
     const bool isRecorded = recorded.submitted && (!last || *recorded.submitted <= *last);
     if (isRecorded) last = recorded.submitted;
+    if (!isRecorded && !repository.submitTags().empty()) return lastTagged(repository, last, received);
+    const std::vector<Commit> history = repository.history();
     const auto commit = std::find_if(history.begin(), history.end(),
                                      [&](const Commit& one) { return !last || one.time <= *last; });
     if (commit == history.end()) {
@@ -212,6 +222,28 @@ class CloneReader {
     received.submitted = isRecorded ? *recorded.submitted : commit->time;
     received.timeFrom = isRecorded ? "platform" : "git";
     return *commit;
+  }
+
+  std::optional<Commit> lastTagged(const Repository& repository, std::optional<std::int64_t> last,
+                                   DownloadedSubmission& received) {
+    std::optional<Commit> commit;
+    for (const auto& [name, id] : std::views::reverse(repository.submitTags())) {
+      const std::optional<std::int64_t> time = timeOfTag(name);
+      if (!time || (last && *time > *last)) continue;
+      commit = repository.find(id);
+      if (!commit) continue;
+      commit->time = *time;
+      break;
+    }
+    if (!commit) {
+      received.whyNone =
+          fmt::format("no tag submit/TIME-COMMIT{}", last ? " until " + instantText(*last) : "");
+      return {};
+    }
+    ++chosenByTag_;
+    received.submitted = commit->time;
+    received.timeFrom = "git";
+    return commit;
   }
 
   static void addFiles(const Repository& repository, const Commit& commit, DownloadedSubmission& received) {
@@ -254,6 +286,11 @@ class CloneReader {
                       "clone alone, which "
                       "students can set; --record FILE.csv gives the platform's record",
                       chosenByClock_, chosenByClock_ == 1 ? "" : "s"));
+    if (chosenByTag_ > 0)
+      found_.notes.push_back(
+          fmt::format("{} clone{}: taken is the commit of the last tag submit/..., at the time in its name; "
+                      "students can push such tags themselves",
+                      chosenByTag_, chosenByTag_ == 1 ? "" : "s"));
     if (chosenByTime_ > 0)
       found_.notes.push_back(
           fmt::format("{} clone{}: the record has a time but no commit; taken is the last commit that is "
@@ -267,7 +304,7 @@ class CloneReader {
   std::map<std::string, Recorded> record_;  // by name of the repository
   std::set<std::string> seen_{};            // clones, as in the record
   std::string prefix_{};
-  int chosenByClock_ = 0, chosenByTime_ = 0;
+  int chosenByClock_ = 0, chosenByTime_ = 0, chosenByTag_ = 0;
   DownloadedSubmissions found_{};
 };
 

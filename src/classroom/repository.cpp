@@ -57,6 +57,25 @@ std::string commitOf(const OpenedFolder& git, const std::string& branch) {
   return {};
 }
 
+// Those below refs/tags/submit, in files of their own or in the list of packed ones.
+std::map<std::string, std::string> submitTagsOf(const OpenedFolder& git) {
+  constexpr std::string_view kMark = "refs/tags/submit/";
+  std::map<std::string, std::string> tags;
+  std::istringstream packed(textIn(git, "packed-refs").value_or(""));
+  for (std::string line; std::getline(packed, line);)
+    if (line.size() > 41 && line.substr(41).starts_with(kMark))
+      tags[line.substr(41 + kMark.size())] = line.substr(0, 40);
+  std::optional<OpenedFolder> folder(git.folder("refs"));
+  for (const char* part : {"tags", "submit"}) {
+    if (folder->typeOf(part) != fs::file_type::directory) return tags;
+    OpenedFolder inner = folder->folder(part);
+    folder.emplace(std::move(inner));
+  }
+  for (const OpenedFolder::Entry& entry : folder->entries())
+    if (const auto id = textIn(*folder, entry.name)) tags[entry.name] = *id;
+  return tags;
+}
+
 // git follows links to objects, also to those of other students.
 std::string linkBelow(const OpenedFolder& folder, int depth = 0) {
   constexpr int kDeepestObject = 2;  // "pack/NAME", "ab/NAME" and "info/commit-graphs/NAME"
@@ -92,6 +111,7 @@ Repository::Repository(const OpenedFolder& clone)
   head_ = headOf(git);
   if (!head_.empty() && !isCommitId(head_))
     throw unreadable(fmt::format("'{}' as its newest commit", printable(head_, 60)));
+  tags_ = submitTagsOf(git);
   fs::create_directories(ours_->path() / "git" / "objects");
   fs::create_directories(ours_->path() / "git" / "refs");
   writeTextFile(ours_->path() / "git" / "HEAD", "ref: refs/heads/none\n");

@@ -38,6 +38,10 @@ class Repository {
   /// The commit with that id, which may be cut to seven digits, if the clone has it.
   [[nodiscard]] std::optional<Commit> find(const std::string& id) const;
 
+  /// Tags as Classroom 50 makes them, "2026-06-01T14-32-05Z-a1b2c3d" for one called submit/..., in their
+  /// order, with what each names.
+  [[nodiscard]] const std::map<std::string, std::string>& submitTags() const { return tags_; }
+
   /// Its files of that name, in any folder. Throws Error if git cannot read it.
   [[nodiscard]] std::vector<CommittedFile> filesNamed(const std::string& name, const Commit& commit) const;
 
@@ -55,6 +59,7 @@ class Repository {
 
   std::filesystem::path clone_;
   std::string head_;  ///< empty: no commit
+  std::map<std::string, std::string> tags_{};
   std::unique_ptr<PrivateFolder> ours_;
 };
 

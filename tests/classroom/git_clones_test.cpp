@@ -177,6 +177,30 @@ TEST_F(GitClonesTest, TakesTheLastCommitUntilTheTimeOfTheRecord) {
                    "not a roster: found the columns a, b, wanted a column 'identifier'");
 }
 
+TEST_F(GitClonesTest, TakesTheCommitOfTheLastTagOfClassroom50) {
+  const std::string early = commit("hw-adam", "// early", kNoon);
+  git("hw-adam", {"tag", "submit/2026-11-20T12-00-10Z-" + early.substr(0, 7)});
+  const std::string late = commit("hw-adam", "// late", kNoon + 7200);
+  git("hw-adam", {"tag", "-m", "note", "submit/2026-11-20T14-00-10Z-" + late.substr(0, 7)});
+  git("hw-adam", {"tag", "submit/of-my-own"});
+  commit("hw-adam", "// not handed in", kNoon - 60), commit("hw-anna", "// a", kNoon);
+  for (const bool isPacked : {false, true}) {
+    if (isPacked) git("hw-adam", {"pack-refs", "--all"});
+    const DownloadedSubmissions newest = read();
+    EXPECT_EQ(of(newest, "hw-adam").files.front().text, "// late");
+    EXPECT_EQ(of(newest, "hw-adam").submitted, kNoon + 7210);
+    EXPECT_EQ(of(newest, "hw-adam").commit, late);
+    EXPECT_EQ(of(newest, "hw-adam").timeFrom, "git");
+    EXPECT_EQ(of(newest, "hw-anna").files.front().text, "// a") << "without tags";
+    EXPECT_THAT(newest.notes, Contains(HasSubstr("1 clone: taken is the commit of the last tag submit/...")));
+    const DownloadedSubmissions until = read({.deadline = kNoon + 3600});
+    EXPECT_EQ(of(until, "hw-adam").files.front().text, "// early");
+    EXPECT_EQ(of(until, "hw-adam").submitted, kNoon + 10);
+    EXPECT_EQ(of(read({.deadline = kNoon}), "hw-adam").whyNone,
+              "no tag submit/TIME-COMMIT until 2026-11-20T12:00:00Z");
+  }
+}
+
 TEST_F(GitClonesTest, FindsTheStudentInTheNameOfTheClone) {
   commit("week-1-anna-lena", "a", kNoon), commit("week-1-andrea", "b", kNoon);
   commit("group/project", "c", kNoon);
