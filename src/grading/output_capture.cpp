@@ -24,6 +24,8 @@ const char* meaningOf(const std::string& assertion) {
       {"lhs.cols() == rhs.rows()", "the sizes of a matrix product do not fit"},
       {"row >= 0 && row < rows()", "an index is outside of a matrix"},
       {"index >= 0 && index < size()", "an index is outside of a vector"},
+      {"(BlockRows==1) && (BlockCols==XprType::ColsAtCompileTime)",
+       "a row or column outside of a matrix is used"},
       {"startRow >= 0", "a block reaches beyond its matrix"},
       {"DenseBase::resize() does not actually allow",
        "a value of another size is assigned to a part of a matrix"},

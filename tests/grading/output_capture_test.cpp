@@ -36,6 +36,10 @@ TEST(TellingLine, PrefersTheReasonToTheLastLine) {
   EXPECT_EQ(
       tellingLine("/c++/12/stl_vector.h:1123: T f() [with T = X]: Assertion '__n < this->size()' failed.\n"),
       "an index is beyond the end of a std::vector or std::array (Assertion '__n < this->size()' failed.)");
+  const std::string column =
+      "(i>=0) && ( ((BlockRows==1) && (BlockCols==XprType::ColsAtCompileTime) && i<xpr.rows()) ||(...))";
+  EXPECT_EQ(tellingLine("w: Block.h:120: T f() [with T = X]: Assertion `" + column + "' failed.\n"),
+            "a row or column outside of a matrix is used (Assertion `" + column + "' failed.)");
   EXPECT_EQ(tellingLine("x.cpp:3:5: runtime error: division by zero\nmore\n"),
             "x.cpp:3:5: runtime error: division by zero");
   EXPECT_EQ(tellingLine("==1==ERROR: AddressSanitizer: heap-use-after-free\n==1==ABORTING\n"),
