@@ -398,6 +398,48 @@ TEST(PackageVersions, SortByTheTimeOfTheCommitAndBeforeTheNextRelease) {
   EXPECT_EQ(sorted.output, "0.3.0~git20261128210640.fff\n") << sorted.error;
 }
 
+TEST_F(CiFiles, NameTheImageOfTheCourse) {
+  fs::copy(sourcePath("share/course"), root() / "share" / "course", fs::copy_options::recursive);
+  const auto named = [&](const std::string& image) {
+    return runProcess({"/bin/bash", "-ec",
+                       "source scripts/bootstrap; name_image '" + root().string() + "' '" + image + "'"},
+                      {.directory = sourcePath("")});
+  };
+  EXPECT_EQ(named("a|b").exitCode, 64);
+  const ProcessResult run = named("ghcr.io/course/rex:2026");
+  EXPECT_TRUE(run.ok()) << run.error;
+  for (const char* file :
+       {"ci/github-actions.yml", "ci/gitlab-ci.yml", "course/.devcontainer/devcontainer.json"})
+    EXPECT_THAT(fileText(root() / "share" / file), HasSubstr("ghcr.io/course/rex:2026")) << file;
+  EXPECT_NE(shell("grep -rl registry.example.org share").exitCode, 0);
+}
+
+// The environment that Classroom 50's runner sets.
+TEST_F(CiFiles, GradeForClassroom50) {
+  const auto graded = [&](const std::string& text) {
+    write(main(), text);
+    const std::string environment =
+        "export CLASSROOM=robotics ASSIGNMENT=98-template SUBMISSION_TAG=submit/2026-11-20T12-00-10Z-abcdef0 "
+        "COMMIT_URL=https://x/commit/1 RELEASE_URL=https://x/releases/1; rm -f result.json; exec ";
+    const ProcessResult run = shell(environment + kPython + " share/ci/classroom50/autograder.py");
+    EXPECT_TRUE(run.ok()) << run.error;
+    return nlohmann::json::parse(fileText(root() / "result.json"));
+  };
+  const nlohmann::json full = graded(kGood);
+  EXPECT_EQ(full.at("schema"), "classroom50/result/v1");
+  EXPECT_EQ(full.at("classroom"), "robotics");
+  EXPECT_EQ(full.at("assignment"), "98-template");
+  EXPECT_EQ(full.at("review"), "https://x/commit/1");
+  EXPECT_EQ(
+      full.at("tests")[0],
+      (nlohmann::json{{"test-name", "A quarter turn"}, {"passed", true}, {"score", 1}, {"max-score", 1}}));
+  EXPECT_EQ(full.at("score"), full.at("max-score"));
+  EXPECT_EQ(full.dump().find("Two turns"), std::string::npos) << "a hidden check";
+  const nlohmann::json none = graded("int main() {");
+  EXPECT_EQ(none.at("score"), 0);
+  EXPECT_EQ(none.at("tests")[0].at("test-name"), "main.cpp compiles");
+}
+
 // Numbers beyond the largest of the cluster come in arrays of their own; only those that were asked for.
 TEST_F(ManyByEngines, CutsArraysThatAreTooLongForSlurm) {
   fs::create_directories(root() / "bin");
