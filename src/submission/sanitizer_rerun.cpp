@@ -20,7 +20,7 @@ namespace {
 constexpr const char* kOptionsHeader = R"(
 extern "C" __attribute__((no_sanitize("address", "undefined"))) const char* __asan_default_options() {
   return "abort_on_error=1:handle_abort=1:detect_leaks=0:detect_container_overflow=0:detect_odr_violation=0:"
-         "print_legend=0:hard_rss_limit_mb=" REX_MEMORY_MEGABYTES;
+         "print_legend=0:hard_rss_limit_mb=" REX_MEMORY_MEGABYTES REX_ASKING;
 }
 extern "C" __attribute__((no_sanitize("address", "undefined"))) const char* __ubsan_default_options() {
   return "print_stacktrace=1";
@@ -88,6 +88,7 @@ template <class T> Sides sidesOf(const T&) { return {}; }
 
 constexpr const char* kSanitizers = "-fsanitize=address,undefined";
 constexpr std::string_view kStackOverflow = "stack-overflow";
+constexpr const char* kAsked = "asked for more: does a loop never end, or is a size wrong?";
 
 std::string plainWords(std::string_view kind) {
   constexpr std::pair<std::string_view, const char*> kWords[] = {
@@ -104,6 +105,8 @@ std::string plainWords(std::string_view kind) {
       {"attempting free", "frees memory that was not allocated"},
       {"SEGV", "uses an invalid address: a null pointer, or an index far out of range?"},
       {"FPE", "divides an integer by zero"},
+      {"specified RSS limit", kAsked},
+      {"requested allocation size", kAsked},
       {"ABRT", "aborts"},
   };
   for (const auto& [name, words] : kWords)
@@ -158,7 +161,7 @@ Toolchain withReports(const Toolchain& toolchain, const std::filesystem::path& f
   const std::filesystem::path header = folder / "sanitizer_options.h";
   writeTextFile(
       header,
-      fmt::format("#pragma once\n#define REX_MEMORY_MEGABYTES \"{}\"", memory / grading::kMegabyte) + code);
+      fmt::format("#pragma once\n#define REX_MEMORY_MEGABYTES \"{}\"\n", memory / grading::kMegabyte) + code);
   Toolchain changed = toolchain;
   changed.prefix.clear();
   for (const std::string& flag :
@@ -194,8 +197,8 @@ std::optional<CrashSite> crashSiteIn(std::string_view standardError, const std::
 
 Toolchain sanitizedToolchain(const Toolchain& toolchain, const std::filesystem::path& folder,
                              std::size_t memory) {
-  Toolchain sanitized =
-      withReports(toolchain, folder, memory, std::string(kOptionsHeader) + kAssertionHeader);
+  Toolchain sanitized = withReports(toolchain, folder, memory,
+                                    std::string("#define REX_ASKING\n") + kOptionsHeader + kAssertionHeader);
   // What is left out would test each use of a pointer, of which the address sanitizer finds those that
   // matter; compiling takes a fifth less time without.
   for (const char* flag :
@@ -206,15 +209,19 @@ Toolchain sanitizedToolchain(const Toolchain& toolchain, const std::filesystem::
   // the library must be freed the way it was allocated.
   const auto isSanitizer = [](const std::string& flag) { return flag.starts_with("-fsanitize="); };
   if (std::none_of(toolchain.flags.begin(), toolchain.flags.end(), isSanitizer))
-    sanitized.flags.push_back("-DEIGEN_MALLOC_ALREADY_ALIGNED=1");
+    sanitized.flags.emplace_back("-DEIGEN_MALLOC_ALREADY_ALIGNED=1");
   return sanitized;
 }
 
-// Only the sanitizer's runtime is there, for its report.
+// Only the sanitizer's runtime is there, for its report. It measures the memory ten times a second, so what
+// ends a program without a report is farther away.
 Toolchain locatingToolchain(const Toolchain& toolchain, const std::filesystem::path& folder,
                             std::size_t memory, double seconds) {
-  const std::string time = fmt::format("\n#define REX_MICROSECONDS {:.0f}", 1e6 * seconds);
-  return withReports(toolchain, folder, memory, time + kOptionsHeader + kTimeHeader);
+  const std::string limits = fmt::format(
+      "#define REX_MICROSECONDS {0:.0f}\n"
+      "#define REX_ASKING \":soft_rss_limit_mb={1}:max_allocation_size_mb={1}\"\n",
+      1e6 * seconds, memory / 2 / grading::kMegabyte);
+  return withReports(toolchain, folder, memory, limits + kOptionsHeader + kTimeHeader);
 }
 
 }  // namespace rex::submission

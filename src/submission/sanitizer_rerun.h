@@ -31,7 +31,8 @@ struct CrashSite {
                                            std::size_t memory);
 
 /// A toolchain for the same program, as fast as before, which ends with such a report wherever it is after
-/// so many seconds of CPU time. Writes a header into `folder`, too.
+/// so many seconds of CPU time, or where it asks for memory with more than half of `memory` in use. Writes a
+/// header into `folder`, too.
 [[nodiscard]] Toolchain locatingToolchain(const Toolchain& toolchain, const std::filesystem::path& folder,
                                           std::size_t memory, double seconds);
 

@@ -254,13 +254,14 @@ void findCrashes(const Toolchain& toolchain, const ExerciseInfo& exercise, const
   });
 }
 
-// The function that was called last need not be the one that never ends.
+// The function that was called last need not be the one that never ends, or that fills the memory.
 void findEndlessLoops(const Toolchain& toolchain, const ExerciseInfo& exercise,
                       const SubmissionOptions& options, grading::GradeResult& result) {
   constexpr double kMostSeconds = 3;
   const auto late = chosen(result, 1, [](const grading::CheckResult& check) {
-    return check.status == grading::Outcome::kTimeLimit && !check.function.empty() &&
-           check.message.find("CPU time") != std::string::npos;  // not asleep
+    const bool isAsleep = check.message.find("CPU time") == std::string::npos;
+    return !check.function.empty() && (check.status == grading::Outcome::kMemoryLimit ||
+                                       (check.status == grading::Outcome::kTimeLimit && !isAsleep));
   });
   if (late.empty() || options.sanitize) return;
   std::filesystem::create_directories(options.workFolder);
@@ -274,8 +275,9 @@ void findEndlessLoops(const Toolchain& toolchain, const ExerciseInfo& exercise,
   const BuiltSubmission built = buildWith(locating, timed, again);
   repeat(late, locating, timed, again, built, [](const CrashSite& site, grading::CheckResult& check) {
     if (site.line == 0) return;
-    check.message = printable(fmt::format("{}; line {}, in {}, was running: an endless loop?", check.message,
-                                          site.line, site.function),
+    const bool isAsking = site.finding.starts_with("asked");
+    check.message = printable(fmt::format("{}; line {}, in {}, {}", check.message, site.line, site.function,
+                                          isAsking ? site.finding : "was running: an endless loop?"),
                               kLongestLine);
   });
 }

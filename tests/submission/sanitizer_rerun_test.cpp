@@ -2,6 +2,7 @@
 
 #include <fstream>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "base/process.h"
@@ -153,6 +154,25 @@ TEST_F(SanitizedToolchain, MakesProgramsThatEndWhenTheyHoldTooMuchMemory) {
                             {.memory = 200 * grading::kMegabyte});
     EXPECT_EQ(failure.outcome, grading::Outcome::kMemoryLimit) << run.error;
     EXPECT_EQ(failure.message, "used more than 200 MB of memory in f");
+  }
+}
+
+TEST_F(SanitizedToolchain, MakesProgramsThatSayWhereTheyAskForTooMuchMemory) {
+  const Toolchain locating = locatingToolchain(plain(), temporary_.path(), 600 * grading::kMegabyte, 100);
+  const char* bodies[] = {"std::vector<int*> all;\n  for (;;) all.push_back(new int[1000]());",
+                          "std::vector<int> all(n);\n  all.resize(1 << 30);"};
+  for (const char* body : bodies) {
+    ASSERT_NO_FATAL_FAILURE(
+        compile(locating, {"-o", "program"},
+                "#include <vector>\nstd::vector<int> filled(int n) {\n  " + std::string(body) +
+                    "\n  return all.size() > 9 ? std::vector<int>(n) : std::vector<int>();\n}\n"
+                    "int main(int n, char**) { return filled(n).size(); }\n"));
+    const ProcessResult run = this->run();
+    const auto site = crashSiteIn(run.error, "main.cpp");
+    ASSERT_TRUE(site) << run.error;
+    EXPECT_EQ(site->line, 4) << run.error;
+    EXPECT_THAT(site->function, ::testing::StartsWith("filled")) << run.error;
+    EXPECT_EQ(site->finding, "asked for more: does a loop never end, or is a size wrong?");
   }
 }
 

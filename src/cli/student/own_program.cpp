@@ -19,9 +19,11 @@
 #include "cli/out_folder.h"
 #include "cli/student/student_file.h"
 #include "cli/terminal.h"
+#include "grading/limits.h"
 #include "submission/included_files.h"
 #include "submission/made_from.h"
 #include "submission/program_build.h"
+#include "submission/sanitizer_rerun.h"
 
 namespace rex::cli {
 
@@ -119,6 +121,7 @@ std::optional<OwnProgram> buildOwnProgram(const Project& project, const fs::path
   const auto linked = buildProgram(toolchain, {.main = file, .workFolder = workFolder}, out, chooseLibraries);
   if (!linked) return {};
   result.program = *linked;
+  result.toolchain = toolchain;
   return result;
 }
 
@@ -188,15 +191,39 @@ Ended runIn(const std::vector<std::string>& command, const OwnRun& options) {
   return result.signal == SIGINT ? Ended::kBadly : Ended::kCrashed;
 }
 
+void sayWhereItEnded(const submission::Toolchain& toolchain, const submission::StudentBuildOptions& build,
+                     const OwnRun& options, Ended ended) {
+  if (ended != Ended::kCrashed && ended != Ended::kTooLate) return;
+  const bool isLate = ended == Ended::kTooLate;
+  const double seconds = isLate ? std::min(2, options.seconds) : options.seconds;
+  fs::create_directories(build.workFolder);
+  const submission::Toolchain locating =
+      submission::locatingToolchain(toolchain, build.workFolder, 4096 * grading::kMegabyte, seconds);
+  const auto object = compileStudent(locating, {}, build);
+  if (!object.ok) return;
+  const auto program = linkProgram(locating, object);
+  if (!program.ok) return;
+  std::vector<std::string> command = {program.program.string()};
+  command.insert(command.end(), options.arguments.begin(), options.arguments.end());
+  const ProcessResult run = runProcess(command, {.directory = build.workFolder});
+  const auto site = submission::crashSiteIn(run.error, object.name);
+  if (!site || site->line == 0) return;
+  const std::string place =
+      fmt::format("in line {} of {}, in {}", site->line, object.name, escapeForTerminal(site->function));
+  note(isLate ? fmt::format("After {:.0f} s it is {}: an endless loop?", seconds, place)
+              : fmt::format("It was {}.", place));
+}
+
 ExitCode toExitCode(Ended ended) { return ended == Ended::kWell ? ExitCode::kFull : ExitCode::kBelow; }
 
 ExitCode runOwnProgram(const Project& project, const fs::path& file, const OwnRun& options) {
   makeOutFolder(options.out);
   const PrivateFolder work(project.workPlace("student"));
   fs::path program = options.keptAs;
+  std::optional<OwnProgram> built;
   if (program.empty() || !isCurrent(project, program, file.filename().string())) {
     const auto started = fs::file_time_type::clock::now();
-    const auto built = buildOwnProgram(project, file, work.path(), options.out);
+    built = buildOwnProgram(project, file, work.path(), options.out);
     if (!built) return ExitCode::kNotGradable;
     if (program.empty())
       program = built->program;
@@ -205,7 +232,10 @@ ExitCode runOwnProgram(const Project& project, const fs::path& file, const OwnRu
   }
   std::vector<std::string> command = {program.string()};
   command.insert(command.end(), options.arguments.begin(), options.arguments.end());
-  return toExitCode(runIn(command, options));
+  const Ended ended = runIn(command, options);
+  if (built && options.keptAs.empty())
+    sayWhereItEnded(built->toolchain, {.main = file, .workFolder = work.path() / "again"}, options, ended);
+  return toExitCode(ended);
 }
 
 }  // namespace rex::cli

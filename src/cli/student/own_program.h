@@ -8,6 +8,7 @@
 
 #include "base/exit_code.h"
 #include "cli/project.h"
+#include "submission/student_build.h"
 
 namespace rex::cli {
 
@@ -24,6 +25,7 @@ namespace rex::cli {
 
 struct OwnProgram {
   std::filesystem::path program{};
+  submission::Toolchain toolchain{};              ///< that made it, with its libraries
   std::vector<std::string> targets{};             ///< of the build, for the libraries that it is linked with
   std::vector<std::filesystem::path> madeFrom{};  ///< files
 };
@@ -50,6 +52,11 @@ struct OwnRun {
 
 /// Runs the command with these settings, and waits for it.
 [[nodiscard]] Ended runIn(const std::vector<std::string>& command, const OwnRun& options);
+
+/// Runs a program that crashed or took too long once more, and says in which line of its file that was; or,
+/// if it took too long, where it is after 2 s. `build` is how it was made, in a folder of its own.
+void sayWhereItEnded(const submission::Toolchain& toolchain, const submission::StudentBuildOptions& build,
+                     const OwnRun& options, Ended ended);
 
 [[nodiscard]] ExitCode toExitCode(Ended ended);
 

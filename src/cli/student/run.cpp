@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <chrono>
-#include <csignal>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -8,11 +5,9 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <string.h>
 
 #include "base/error.h"
 #include "base/folders.h"
-#include "base/process.h"
 #include "classroom/import_table.h"
 #include "cli/command_table.h"
 #include "cli/option_table_internal.h"
@@ -20,8 +15,6 @@
 #include "cli/student/own_program.h"
 #include "cli/student/student_file.h"
 #include "cli/terminal.h"
-#include "grading/limits.h"
-#include "submission/sanitizer_rerun.h"
 #include "submission/student_build.h"
 
 namespace rex::cli {
@@ -36,28 +29,6 @@ struct RunOptions {
   std::filesystem::path out;           ///< empty: out/EXERCISE, out/EXERCISE-solution or out/FILE
   std::vector<std::string> arguments;  ///< for the user's own program
 };
-
-// The program again: to say where it is after two seconds, or less where it was given less, or where in the
-// file it was when it crashed.
-void sayWhereItIs(const Project& project, const ExerciseInfo& exercise, const fs::path& file, int allowed,
-                  bool isCrash) {
-  const double seconds = isCrash ? allowed : std::min(2, allowed);
-  const PrivateFolder work(project.workPlace("exercises/" + exercise.name));
-  const submission::Toolchain locating = submission::locatingToolchain(
-      prepare(project, exercise), work.path(), 4096 * grading::kMegabyte, seconds);
-  const auto object = compileStudent(locating, {}, {.main = file, .workFolder = work.path() / "again"});
-  if (!object.ok) return;
-  const auto program = linkProgram(locating, object);
-  if (!program.ok) return;
-  const ProcessResult run = runProcess({program.program.string()}, {.directory = work.path()});
-  const auto site = submission::crashSiteIn(run.error, object.name);
-  if (site && site->line > 0 && isCrash)
-    note(fmt::format("It was in line {} of {}, in {}.", site->line, object.name,
-                     escapeForTerminal(site->function)));
-  else if (site && site->line > 0)
-    note(fmt::format("After {:.0f} s it is in line {} of {}, in {}: an endless loop?", seconds, site->line,
-                     object.name, escapeForTerminal(site->function)));
-}
 
 // Whether it lies in a folder of hand-ins.
 bool isOfStudent(const fs::path& file) {
@@ -96,9 +67,10 @@ ExitCode run(const Project& project, const RunOptions& options) {
   const PrivateFolder work(project.workPlace("exercises/" + exercise.name));
   const auto program = buildProgram(project, exercise, {.main = file, .workFolder = work.path()}, out);
   if (!program) return ExitCode::kNotGradable;
-  const Ended ended = runIn({program->string()}, {.out = out, .seconds = options.seconds});
-  if (ended == Ended::kCrashed || ended == Ended::kTooLate)
-    sayWhereItIs(project, exercise, file, options.seconds, ended == Ended::kCrashed);
+  const OwnRun how{.out = out, .seconds = options.seconds};
+  const Ended ended = runIn({program->string()}, how);
+  sayWhereItEnded(prepare(project, exercise), {.main = file, .workFolder = work.path() / "again"}, how,
+                  ended);
   if (ended == Ended::kCrashed) note(fmt::format("To see more: scripts/rex debug {}", exercise.name));
   return toExitCode(ended);
 }

@@ -203,6 +203,24 @@ TEST_F(RunFile, SaysHowTheProgramEnded) {
   EXPECT_THAT(rex({"run", in("ends.cpp"), "once"}).error, HasSubstr("exit code 5"));
 }
 
+TEST_F(RunFile, SaysInWhichLineAProgramWasWhenItEnded) {
+  program("lost.cpp",
+          "#include <vector>\nnamespace {\nint searched(const std::vector<int>& all, int start) {\n"
+          "  int found = start;\n  while (all[found % 3] > 0)\n    found = (found + 3) % 9;\n  return "
+          "found;\n}\n}\n"
+          "int main(int argc, char**) {\n  const std::vector<int> all = {1, 1, argc > 1};\n"
+          "  return argc > 1 ? all.at(argc + 5) : searched(all, argc);\n}\n");
+  const Ended late = rex({"run", in("lost.cpp"), "--time-limit", "1"});
+  EXPECT_EQ(late.code, 1);
+  EXPECT_THAT(late.error, HasSubstr("stopped after 1 s of CPU time"));
+  EXPECT_THAT(
+      flat(late.error),
+      ::testing::ContainsRegex("After 1 s it is in line [56] of lost.cpp, in .*searched.*: an endless loop"));
+  const Ended crashed = rex({"run", in("lost.cpp"), "--", "argument"});
+  EXPECT_EQ(crashed.code, 1);
+  EXPECT_THAT(flat(crashed.error), HasSubstr("It was in line 12 of lost.cpp, in main."));
+}
+
 TEST_F(RunFile, AMainOfAnExerciseIsThatExercise) {
   write(exercise() / "main.cpp", kGood);
   for (const std::string& path : {(exercise() / "main.cpp").string(), std::string("98-template/main.cpp")}) {
