@@ -251,8 +251,8 @@ std::vector<CompileDiagnostic> forbiddenIncludes(const std::vector<fs::path>& de
     messages.push_back(refusal(
         mainFile, lineOf(name, source),
         fmt::format(
-            "includes {}: only public headers of the library, of the system and of the exercise may be "
-            "included",
+            "includes {}: only public headers of the library, of the system, and those that the handed-out "
+            "main.cpp includes may be included",
             name)));
   }
   return messages;

@@ -30,7 +30,10 @@ TEST_F(FeedbackTest, ShowsTheFirstMessageAndWhatChanged) {
   EXPECT_THAT(first,
               AllOf(HasSubstr("point after a quarter turn: got"), HasSubstr("distance from the origin: got"),
                     Not(HasSubstr("Since the last test"))));
+  fs::create_directories(out() / "arm");
+  write(out() / "arm" / "0000.png", "a film of `rex run`");
   const std::string second = flat(rex({"test", "98"}).output);
+  EXPECT_THAT(second, AllOf(HasSubstr("98-template/checks/quarter-turn.png"), Not(HasSubstr("0000.png"))));
   EXPECT_THAT(second, AllOf(HasSubstr("point after a quarter turn: got"),
                             Not(HasSubstr("distance from the origin: got")),
                             HasSubstr("Since the last test: no verdict has changed."),
@@ -44,6 +47,8 @@ TEST_F(FeedbackTest, ShowsTheFirstMessageAndWhatChanged) {
       flat(rex({"test", "98"}).output),
       HasSubstr("Since the last test: now passed: quarter-turn; passed before: keeps-length, angles-add; "
                 "2 points before."));
+  writeMain(kRight);
+  EXPECT_THAT(flat(rex({"test", "98"}).output), HasSubstr("; 1 point before."));
 }
 
 TEST_F(FeedbackTest, TestsOnePartAndShowsWhatItsFunctionsPrint) {

@@ -289,8 +289,9 @@ TEST_F(StudentBuildTest, RefusesForbiddenCalls) {
 }
 
 constexpr const char* kNotPublic =
-    ": only public headers of the library, of the system and of the exercise may be included "
-    "[forbidden-call]";
+    ": only public headers of the library, of the system, and those that the handed-out main.cpp includes "
+    "may "
+    "be included [forbidden-call]";
 
 TEST_F(StudentBuildTest, RefusesInternalHeadersHoweverTheyAreIncluded) {
   const std::string rest = "int twice(int a) { return inlined(a); }\nint main() {}\n";

@@ -125,7 +125,8 @@ void sayChanges(const grading::GradeResult& before, const grading::GradeResult& 
   std::string text;
   if (!better.empty()) text += fmt::format(" now passed: {};", join(better, ", "));
   if (!worse.empty()) text += fmt::format(" passed before: {};", join(worse, ", "));
-  if (before.score != now.score) text += fmt::format(" {} points before;", before.score);
+  if (before.score != now.score)
+    text += fmt::format(" {} point{} before;", before.score, before.score == 1 ? "" : "s");
   if (text.empty()) text = " no verdict has changed;";
   text.back() = '.';
   say(wrap("Since the last test:" + escapeForTerminal(text), 2, 0));
@@ -209,8 +210,9 @@ void printResult(const ExerciseInfo& exercise, const submission::Submission& gra
   sayHowToRepeat(exercise, result);
   sayPoints(result, view.isWhole ? exercise.points() - result.maxScore : 0);
   say("Result: " + shown(results));
-  sayFirst("Replay", filesIn(results.parent_path(), ".html"), source);
-  sayFirst("Picture", filesIn(results.parent_path(), ".png"), source);
+  // Beside them are those of `rex run`.
+  sayFirst("Replay", filesIn(results.parent_path() / "checks", ".html"), source);
+  sayFirst("Picture", filesIn(results.parent_path() / "checks", ".png"), source);
 }
 
 }  // namespace rex::cli
