@@ -8,7 +8,7 @@ function(rex_exercise_gates name)
   if(REX_SANITIZE)
     set(gates hostile)  # it asks graders most; each gate links a solution of 200 MB
   else()
-    set(gates main-current points names release evidence main-floor solution hostile grown liars sanitizers)
+    set(gates main-current points names release evidence main-floor mains solution hostile grown liars sanitizers)
     set(wrong_file ${PROJECT_SOURCE_DIR}/exercises/${name}/wrong.cpp)
     if(EXISTS ${wrong_file})
       file(STRINGS ${wrong_file} variants REGEX "^// <variant ")
@@ -24,8 +24,9 @@ function(rex_exercise_gates name)
     add_test(NAME exercise/${name}/${gate} COMMAND rex-teach dev check ${name} --gate ${gate})
     set_tests_properties(exercise/${name}/${gate} PROPERTIES LABELS "exercise;${name}" TIMEOUT 600)
   endforeach()
-  # Built with the sanitizers, a solution takes a quarter of a minute to compile; the others ask it many times.
-  foreach(gate sanitizers hostile grown liars)
+  # Built with the sanitizers, a solution takes a quarter of a minute to compile, and so do some programs to draw; the
+  # others ask it many times.
+  foreach(gate mains sanitizers hostile grown liars)
     if(TEST exercise/${name}/${gate})
       set_tests_properties(exercise/${name}/${gate} PROPERTIES LABELS "exercise;${name};long")
     endif()

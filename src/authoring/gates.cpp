@@ -20,6 +20,7 @@
 #include "submission/compiler_messages.h"
 #include "submission/cpp_text.h"
 #include "submission/regions.h"
+#include "submission/student_build.h"
 #include "submission/submission.h"
 
 namespace rex::authoring {
@@ -305,6 +306,30 @@ GateResult mainScoresFloor(const GateContext& context) {
   return judge(complaints);
 }
 
+// Whatever they print or draw: students run both, the stub first of all. Films may take longer.
+GateResult mainsRun(const GateContext& context) {
+  constexpr double kSeconds = 20;
+  const ProcessOptions limits{.directory = context.workFolder, .timeout = 1200, .cpuSeconds = kSeconds};
+  std::vector<std::string> complaints;
+  for (const char* name : {"main.cpp", "solution.cpp"}) {
+    const submission::StudentObject object = submission::compileStudent(
+        context.toolchain, {},
+        {.main = context.exercise.folder / name, .workFolder = context.workFolder / "run"});
+    const submission::StudentProgram program =
+        object.ok ? submission::linkProgram(context.toolchain, object) : submission::StudentProgram{};
+    if (!program.ok) {
+      complaints.push_back(fmt::format("{} cannot be built: {}", name, object.log + program.log));
+      continue;
+    }
+    const ProcessResult run = runProcess({program.program.string()}, limits);
+    if (run.ok() || run.cpuSeconds >= kSeconds) continue;
+    const std::string end =
+        run.signal != 0 ? fmt::format("signal {}", run.signal) : fmt::format("exit code {}", run.exitCode);
+    complaints.push_back(fmt::format("main() of {} ends with {}: {}", name, end, run.error));
+  }
+  return judge(complaints);
+}
+
 GateResult solutionIsFull(const GateContext& context) {
   submission::SubmissionOptions options = optionsFor(context, context.exercise.folder / "solution.cpp");
   const submission::BuiltSubmission built =
@@ -436,9 +461,9 @@ GateResult variantsAreCaught(const GateContext& context) {
 }  // namespace
 
 std::vector<std::string> gateNames(const submission::ExerciseInfo& exercise) {
-  std::vector<std::string> names = {"main-current", "points",     "names",    "release",
-                                    "evidence",     "main-floor", "solution", "sanitizers",
-                                    "hostile",      "grown",      "liars"};
+  std::vector<std::string> names = {"main-current", "points",     "names", "release",
+                                    "evidence",     "main-floor", "mains", "solution",
+                                    "sanitizers",   "hostile",    "grown", "liars"};
   if (std::filesystem::exists(exercise.folder / "wrong.cpp")) names.emplace_back("wrong");
   return names;
 }
@@ -452,12 +477,19 @@ GateResult runGate(const GateContext& context, const std::string& gate) {
     throw UsageError({.what = fmt::format("{} has no gate '{}'", context.exercise.name, gate),
                       .nearest = nearestNames(gate, names)});
   const std::map<std::string, GateResult (*)(const GateContext&)> gates = {
-      {"main-current", mainIsCurrent}, {"points", pointsAddUp},
-      {"names", namesExist},           {"release", releaseIsClean},
-      {"evidence", mistakesAreShown},  {"main-floor", mainScoresFloor},
-      {"solution", solutionIsFull},    {"sanitizers", solutionPassesSanitizers},
-      {"hostile", answersHurtNobody},  {"grown", growthGainsNothing},
-      {"liars", liarsGetNothing},      {"wrong", variantsAreCaught}};
+      {"main-current", mainIsCurrent},
+      {"points", pointsAddUp},
+      {"names", namesExist},
+      {"release", releaseIsClean},
+      {"evidence", mistakesAreShown},
+      {"main-floor", mainScoresFloor},
+      {"mains", mainsRun},
+      {"solution", solutionIsFull},
+      {"sanitizers", solutionPassesSanitizers},
+      {"hostile", answersHurtNobody},
+      {"grown", growthGainsNothing},
+      {"liars", liarsGetNothing},
+      {"wrong", variantsAreCaught}};
   try {
     return gate.starts_with(kOneVariant) ? judge(whyNotCaught(context, gate.substr(kOneVariant.size())))
                                          : gates.at(gate)(context);

@@ -46,8 +46,8 @@ struct GateResult {
   std::string note{};     ///< another remark of one line; empty: none
 };
 
-/// The gates of an exercise in order: main-current, points, names, release, evidence, main-floor, solution,
-/// sanitizers, hostile, grown, liars, and, if there is wrong.cpp, wrong.
+/// The gates of an exercise in order: main-current, points, names, release, evidence, main-floor, mains,
+/// solution, sanitizers, hostile, grown, liars, and, if there is wrong.cpp, wrong.
 [[nodiscard]] std::vector<std::string> gateNames(const submission::ExerciseInfo& exercise);
 
 /// Runs one gate on the exercise. The gate wrong/NAME tests a single variant by itself, which takes longer

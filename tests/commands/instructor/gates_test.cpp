@@ -33,7 +33,7 @@ TEST_F(ExerciseGates, PassesTheTemplateThroughAllGates) {
   const std::string gates = rex({"dev", "check", "98", "--list-gates"}).output;
   EXPECT_EQ(gates,
             "main-current\npoints\nnames\nrelease\nevidence\nmain-"
-            "floor\nsolution\nsanitizers\nhostile\ngrown\nliars\nwrong\n");
+            "floor\nmains\nsolution\nsanitizers\nhostile\ngrown\nliars\nwrong\n");
 }
 
 TEST_F(ExerciseGates, TestsOneVariant) {
@@ -94,6 +94,13 @@ TEST_F(ExerciseGates, FindsWhatIsWrongWithTheSolution) {
   replace(exercise() / "solution.cpp", "const double s = std::sin(angle);",
           "double sines[2] = {std::sin(angle), 0};\n  const double s = sines[angle > 99 ? 0 : 2];");
   expectOpenGate("sanitizers", "solution.cpp does not pass with the sanitizers:");
+}
+
+TEST_F(ExerciseGates, FindsWhatMainDoes) {
+  const std::string whole = fileText(exercise() / "main.cpp");
+  write(exercise() / "main.cpp",
+        "#include <cstdlib>\n" + whole.substr(0, whole.find("int main(")) + "int main() { std::abort(); }\n");
+  expectOpenGate("mains", "main() of main.cpp ends with signal 6");
 }
 
 TEST_F(ExerciseGates, FindsMistakesThatAreNotCaught) {
