@@ -110,13 +110,13 @@ inline void firstStepsFit(rex::grading::Check& check, Student& student) {
     const std::optional<Eigen::MatrixXd> P = student.iterated(plant, costs, kEpsilon, tolerance, 50);
     check.that("iterated returns a P where a few steps are enough", P.has_value());
     check.shape("P of iterated", *P, 2, 2);
+    const auto small = is("Is the change of P compared with the tolerance? It is epsilon times the bracket.",
+                          imbalance, kEpsilon);
     const auto noQ = is("Is Q left out of the bracket?", change(-costs.Q));
     const auto turned = is("Is A transposed? The bracket has A^T P + P A.", sideways);
     const auto inverse = is("Is R used in place of its inverse?", ofR);
     const auto none = is("Is R left out of the bracket?", ofOne);
     const auto sign = is("Which sign has the term with R^-1?", plus);
-    const auto small = is("Is the change of P compared with the tolerance? It is epsilon times the bracket.",
-                          imbalance, kEpsilon);
     const auto next =
         check.suspect("Is the P after it returned? Wanted is the one whose bracket is small.", right->second);
     check.near("P of iterated, which needs few steps", *P, right->first, 1e-9);
@@ -176,6 +176,10 @@ inline void hamiltonianFits(rex::grading::Check& check, Student& student, const 
   const Costs ofOne{costs.Q, Eigen::MatrixXd::Identity(costs.R.rows(), costs.R.rows())};
   const auto withoutR =
       check.suspect("Is R left out, as if it were the identity?", regulationOf(plant, ofOne).optimal.X);
+  const auto ofR = check.suspect("Is R used in place of its inverse?",
+                                 regulationOf(plant, {costs.Q, rex::inverse(costs.R)}).optimal.X);
+  const auto turned =
+      check.suspect("Is it the inverse of P? The stable half is spanned by (I; P).", rex::inverse(optimal.X));
   const auto unstable = check.ask(
       "Does P belong to the unstable half of the Hamiltonian's eigenvalues?",
       abscissa(plant.A - plant.B * rex::solveMatrix(costs.R, plant.B.transpose() * P)) > 0 &&

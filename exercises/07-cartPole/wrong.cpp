@@ -123,6 +123,18 @@ return .5 * (P + P.transpose());
 // <solution viaHamiltonian>
 return iterated(plant, costs, 1e-3, 1e-9, 1000000).value_or(costs.Q);
 
+// <variant r_in_the_hamiltonian> caught by: hamiltonian, other-regulators
+// mistake: R where its inverse belongs.
+// <solution viaHamiltonian>
+// in place of: const Eigen::MatrixXd S = plant.B * solve(costs.R, plant.B.transpose());
+const Eigen::MatrixXd S = plant.B * costs.R * plant.B.transpose();
+
+// <variant inverse_of_p> caught by: hamiltonian, other-regulators
+// mistake: X Y^-1 for Y X^-1.
+// <solution viaHamiltonian>
+// in place of: return .5 * (P + P.transpose());
+return inverse(P);
+
 // <variant unstable_half> caught by: hamiltonian, other-regulators
 // mistake: the eigenvectors of the growing motions.
 // <solution viaHamiltonian>
@@ -273,6 +285,13 @@ for (int asked = 1; asked < 3000; ++asked) {
   if (found < rate) best = K, rate = found;
 }
 return best;
+
+// <variant one_gain_at_a_time> caught by: quick, quick-others
+// mistake: steps along the axes, which end on the edge.
+// <solution quickGains>
+// in place of: for (double& k : K.reshaped()) k = std::clamp(k + size * rng.normal(), -bound, bound);
+double& k = K(0, asked % K.cols());
+k = std::clamp(k + size * rng.normal(), -bound, bound);
 
 // <variant asks_too_often> caught by: quick, quick-others
 // mistake: calls slowest() twice per step.

@@ -123,6 +123,8 @@ inline void areEdges(rex::grading::Check& check, const Finger& finger, const Eig
   double nearest = 2 * mu;
   for (Eigen::Index k = 0; k < edges; ++k)
     for (Eigen::Index i = 0; i < k; ++i) nearest = std::min(nearest, (forces.col(k) - forces.col(i)).norm());
+  const auto same = check.ask("Are all edges the same? With integers, k / edges is 0.",
+                              (forces.colwise() - forces.col(0)).cwiseAbs().maxCoeff() < 1e-9);
   check.atLeast("distance of the two nearest edges of " + function, nearest,
                 2 * mu * std::sin(std::numbers::pi / edges) - 1e-8, "N");
 }

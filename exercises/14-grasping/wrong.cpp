@@ -81,6 +81,12 @@ for (Eigen::Index k = 0; k < edges; ++k)
 // in place of: const Eigen::Vector3d least = std::abs(n.x()) < 0.6 ? ... const Eigen::Vector3d a =
 const Eigen::Vector3d a = n.cross(Eigen::Vector3d::UnitZ()).normalized(), b = n.cross(a);
 
+// <variant edges_of_integers> caught by: cones
+// mistake: divides integers.
+// <solution pyramidEdges>
+// in place of: const double angle = 2 * std::numbers::pi * k / edges;
+const double angle = 2 * std::numbers::pi * (k / edges);
+
 // <variant pyramid_around_the_cone> caught by: cones, any-cones, all-wrenches
 // shown by: cones
 // mistake: a pyramid whose sides touch the cone, so that its edges lie outside.

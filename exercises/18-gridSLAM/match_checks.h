@@ -64,15 +64,20 @@ inline void matches(Check& check, Student& student, double share) {
     return Evidence{.figures = {figure}};
   });
   const Eigen::Vector3d apart(got[0] - guess[0], got[1] - guess[1], std::remainder(got[2] - guess[2], kTurn));
-  check.atMost("how far matched is from the guess in x or y", apart.head<2>().cwiseAbs().maxCoeff(),
-               window[0] + 1e-9, "m");
-  check.atMost("how far the heading of matched is from the guess", std::abs(apart[2]), window[1] + 1e-9,
-               "rad");
-  Eigen::Vector3d placed = best;
-  placed[2] = guess[2];
+  {
+    const auto leaves = check.ask("May each step leave the window? It is around the guess.");
+    check.atMost("how far matched is from the guess in x or y", apart.head<2>().cwiseAbs().maxCoeff(),
+                 window[0] + 1e-9, "m");
+    check.atMost("how far the heading of matched is from the guess", std::abs(apart[2]), window[1] + 1e-9,
+                 "rad");
+  }
   const auto same = check.ask("Is it the guess?", apart.norm() < 1e-9);
   const auto unturned = check.ask("Is the heading never changed?", apart[2] == 0);
   const auto unmoved = check.ask("Is only the heading changed?", apart.head<2>().norm() == 0);
+  const double aside = std::abs(apart[1]), limit = window[1] + 1e-9;
+  const auto narrow =
+      check.ask("Is y limited by window[1]? That is for the heading, window[0] for x and y.",
+                aside <= limit && aside > .9 * limit && std::abs(best[1] - guess[1]) > limit + .01);
   const auto local =
       check.ask("Is it the summit of a small hill? Begin at several poses.",
                 rate(got) >= rate(bestIn(sight.distances, sight.scan, deviation, got, {.03, .02})) - .5);

@@ -178,11 +178,17 @@ const double direction = (pose[2] + scan.angles[ray]) * std::acos(-1) / 180;
 // in place of: const double direction = pose[2] + scan.angles[ray];
 const double direction = scan.angles[ray] - pose[2];
 
-// <variant leaves_the_window> caught by: more-matches
+// <variant leaves_the_window> caught by: match, more-matches
 // mistake: climbs on beyond the window.
 // <solution matched>
 // in place of: if (((pose - guess).cwiseAbs() - half).maxCoeff() > 0) return false;
 if (((pose - guess).cwiseAbs() - 2 * half).maxCoeff() > 0) return false;
+
+// <variant y_like_the_heading> caught by: match
+// mistake: window[1] limits y.
+// <solution matched>
+// in place of: const Eigen::Vector3d half(window[0], window[0], window[1]);
+const Eigen::Vector3d half(window[0], window[1], window[1]);
 
 // <variant never_turns> caught by: match, more-matches
 // mistake: only positions are tried.
