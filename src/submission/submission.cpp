@@ -268,10 +268,12 @@ void findEndlessLoops(const Toolchain& toolchain, const ExerciseInfo& exercise,
   SubmissionOptions again = options;
   again.sanitize = true;
   ExerciseInfo timed = exercise;
-  timed.limits.wallSeconds = 10 * kMostSeconds;
+  // With the sanitizers, memory fills more slowly.
+  const bool isFull = late.front()->status == grading::Outcome::kMemoryLimit;
+  const double seconds = isFull ? 10 * kMostSeconds : std::min(exercise.limits.cpuSeconds, kMostSeconds);
+  timed.limits.wallSeconds = 10 * seconds;
   const Toolchain locating = locatingToolchain(toolchain, std::filesystem::absolute(options.workFolder),
-                                               withSanitizers(exercise.limits).memory,
-                                               std::min(exercise.limits.cpuSeconds, kMostSeconds));
+                                               withSanitizers(exercise.limits).memory, seconds);
   const BuiltSubmission built = buildWith(locating, timed, again);
   repeat(late, locating, timed, again, built, [](const CrashSite& site, grading::CheckResult& check) {
     if (site.line == 0) return;
