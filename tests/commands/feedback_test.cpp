@@ -65,13 +65,14 @@ TEST_F(FeedbackTest, TestsOnePartAndShowsWhatItsFunctionsPrint) {
 
 TEST_F(FeedbackTest, ListsNoPictureThatIsOlderThanTheProgram) {
   writeMain(kRight);
-  fs::create_directories(out());
-  write(out() / "old.png", "");
-  fs::last_write_time(out() / "old.png",
+  const fs::path checks = out() / "checks";
+  fs::create_directories(checks);
+  write(checks / "old.png", "");
+  fs::last_write_time(checks / "old.png",
                       fs::last_write_time(exercise() / "main.cpp") - std::chrono::seconds(1));
   EXPECT_THAT(rex({"test", "98"}).output, Not(HasSubstr("old.png")));
-  write(out() / "new.png", "");
-  EXPECT_THAT(rex({"test", "98"}).output, HasSubstr("Picture: " + (out() / "new.png").string()));
+  write(checks / "new.png", "");
+  EXPECT_THAT(rex({"test", "98"}).output, HasSubstr("Picture: " + (checks / "new.png").string()));
 }
 
 TEST_F(FeedbackTest, StopsAProgramThatDoesNotEndAndNamesTheLine) {

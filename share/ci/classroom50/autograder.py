@@ -17,7 +17,7 @@ assert graded["outcome"] != "grader_error", graded["message"]
 tests = [
     {"test-name": check["title"], "passed": check["status"] == "pass", "score": check["points"],
      "max-score": check["max_points"]} for check in graded["checks"] if check["group"] == "visible"
-] or [{"test-name": "main.cpp compiles", "passed": False, "score": 0, "max-score": graded["max_score"]}]
+]
 pathlib.Path("result.json").write_text(json.dumps({
     "schema": "classroom50/result/v1",
     "classroom": os.environ["CLASSROOM"],
