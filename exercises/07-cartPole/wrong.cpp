@@ -286,13 +286,6 @@ for (int asked = 1; asked < 3000; ++asked) {
 }
 return best;
 
-// <variant one_gain_at_a_time> caught by: quick, quick-others
-// mistake: steps along the axes, which end on the edge.
-// <solution quickGains>
-// in place of: for (double& k : K.reshaped()) k = std::clamp(k + size * rng.normal(), -bound, bound);
-double& k = K(0, asked % K.cols());
-k = std::clamp(k + size * rng.normal(), -bound, bound);
-
 // <variant asks_too_often> caught by: quick, quick-others
 // mistake: calls slowest() twice per step.
 // <solution quickGains>
