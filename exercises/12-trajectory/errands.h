@@ -39,7 +39,7 @@ inline double budgetOf(const Scene& scene) {
   const Errand& errand = scene.errand;
   const rex::Simulator S(armAmong(scene.balls, scene.start));
   const rex::ContactModel contacts(S.model());
-  std::vector<rex::TrajectoryTerm> terms = rex::restAt(errand.goal, errand.steps);
+  std::vector<rex::TrajectoryTerm> terms = rex::restTerms(errand.goal, errand.steps);
   terms.push_back(rex::accelerationTerm());
   terms.push_back(rex::clearanceTerm(S.model(), contacts, {errand.margin, 8}));
   const rex::TrajectoryProblem problem(terms, scene.start.replicate(1, 2), errand.steps, errand.tau);

@@ -91,7 +91,7 @@ TrajectoryResult byLibrary(const DiscPath& path) {
   outside.function = [&](const TrajectoryWindow& window, FunctionValue& value) {
     path.outside(window.X(0, 0), window.X(1, 0), value.y, value.J);
   };
-  std::vector<TrajectoryTerm> terms = restAt(path.to, path.steps);
+  std::vector<TrajectoryTerm> terms = restTerms(path.to, path.steps);
   terms.push_back(accelerationTerm());
   terms.push_back(outside);
   const TrajectoryProblem problem(terms, Eigen::VectorXd(path.from).replicate(1, 2), path.steps, path.tau);

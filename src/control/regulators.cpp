@@ -105,7 +105,7 @@ LinearSystem closedLoop(const LinearSystem& given, const LinearSystem& givenCont
   return loop;
 }
 
-RestPoint restAt(const LinearSystem& given, const VectorArg& target) {
+RestPoint restPoint(const LinearSystem& given, const VectorArg& target) {
   const LinearSystem system = completed(given);
   const Eigen::Index n = system.A.rows(), m = system.B.cols(), p = system.C.rows();
   requireSize("target y", target.size(), p);

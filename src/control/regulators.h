@@ -48,6 +48,6 @@ struct RestPoint {
   Eigen::VectorXd x{}, u{};
   bool isExact = false;
 };
-[[nodiscard]] RestPoint restAt(const LinearSystem& system, const VectorArg& target);
+[[nodiscard]] RestPoint restPoint(const LinearSystem& system, const VectorArg& target);
 
 }  // namespace rex

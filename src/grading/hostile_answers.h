@@ -68,7 +68,7 @@ struct HostileOutcome {
 
 /// Generic wrong functions: they return zeros, always the same answer, the answer of the last call, their
 /// input in the right shape, or what follows from the first answer by a slope of their choice
-/// (remembered_answer.h).
+/// (`RememberedAnswer` of grown_answers.h).
 enum class FalseAnswer { kZeros, kConstant, kLastAnswer, kEcho, kMemory, kCount };
 
 [[nodiscard]] std::string toString(FalseAnswer lie);

@@ -258,7 +258,9 @@ class FilmWriter {
         mesh = solid.color.a > 0 ? meshes_.ofShape(solid.shape, solid.color) : -1;
       last = &solid;
       if (mesh < 0) return std::nullopt;
-      return GlbState{.mesh = mesh, .pose = solid.X_WS};
+      const bool isSphere = solid.shape.type == ShapeType::kSphere;
+      return GlbState{
+          .mesh = mesh, .pose = solid.X_WS, .scale = Vector3d::Constant(isSphere ? solid.shape.radius : 1)};
     });
   }
 

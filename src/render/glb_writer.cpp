@@ -44,10 +44,10 @@ int GlbMeshes::ofShape(const Shape& shape, const Color& color) {
     case ShapeType::kRoundedBox:
       return hasBox ? ofRoundedBox(shape, color) : -1;
     case ShapeType::kSphere:
+      return r > 0 ? ball(color) : -1;
     case ShapeType::kCapsule: {
-      const double stretch = shape.type == ShapeType::kCapsule ? shape.extent.z() / 2 : 0;
-      const SolidMesh mesh = makeCapsuleMesh(kSides);
-      return r > 0 ? add(surfaceOf(mesh, Vector3d::Constant(r), {0, 0, stretch}), color) : -1;
+      const Vector3d stretch(0, 0, shape.extent.z() / 2);
+      return r > 0 ? add(surfaceOf(makeCapsuleMesh(kSides), Vector3d::Constant(r), stretch), color) : -1;
     }
     case ShapeType::kEllipsoid:
       return hasBox ? add(surfaceOf(makeCapsuleMesh(kSides), shape.extent / 2), color) : -1;

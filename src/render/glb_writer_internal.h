@@ -97,7 +97,7 @@ class GlbMeshes {
  public:
   explicit GlbMeshes(GlbWriter& writer) : writer_(&writer) {}
 
-  /// A shape in its own frame.
+  /// A shape in its own frame; a sphere as ball(), to be scaled by its radius.
   int ofShape(const Shape& shape, const Color& color);
   /// Cylinder and cone of radius 1 with z from 0 to 1, the cone's tip above.
   int shaft(const Color& color);

@@ -141,7 +141,7 @@ TrajectoryTerm velocityLimitsTerm(const VectorArg& limit) {
   return {.name = "velocity limits", .kind = TermKind::kInequality, .order = 1, .function = function};
 }
 
-std::vector<TrajectoryTerm> restAt(const VectorArg& target, int steps) {
+std::vector<TrajectoryTerm> restTerms(const VectorArg& target, int steps) {
   TrajectoryTerm goal = as(TermKind::kEquality, at(postureTerm(target), steps - 1));
   TrajectoryTerm rest = as(TermKind::kEquality, at(velocityTerm(), steps - 1));
   goal.name = "goal";

@@ -28,7 +28,7 @@ namespace rex {
 [[nodiscard]] TrajectoryTerm velocityLimitsTerm(const VectorArg& limit);
 
 /// x_T-1 = x and x_T-1 = x_T-2: a motion that ends at rest there, as two equalities.
-[[nodiscard]] std::vector<TrajectoryTerm> restAt(const VectorArg& target, int steps);
+[[nodiscard]] std::vector<TrajectoryTerm> restTerms(const VectorArg& target, int steps);
 
 // Terms of order 1 that evaluate `samples` postures on the straight segment from x_{t-1} to x_t, the last
 // one being x_t, because thin obstacles may lie between steps. Nothing is missed if no point of the robot

@@ -30,7 +30,7 @@ Model armModel(bool hasObstacle) {
 }
 
 TrajectoryProblem problemOf(const Model& model, int steps, bool hasObstacle) {
-  std::vector<TrajectoryTerm> terms = restAt(to(), steps);
+  std::vector<TrajectoryTerm> terms = restTerms(to(), steps);
   terms.push_back(accelerationTerm());
   terms.push_back(jointLimitsTerm(model));
   if (hasObstacle)

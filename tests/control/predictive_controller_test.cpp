@@ -166,7 +166,7 @@ TEST(PredictiveController, AgreesWithAPackagedSolver) {
     PredictiveOptions options{.Q = positive(n), .R = positive(m), .F = positive(n), .horizon = 5 + trial};
     options.uMin = VectorXd::Constant(m, -0.5), options.uMax = VectorXd::Constant(m, 0.4);
     const VectorXd start = 2 * rng.normalVector(n);
-    const RestPoint target = restAt(completed(system), rng.normalVector(m));
+    const RestPoint target = restPoint(completed(system), rng.normalVector(m));
     ASSERT_TRUE(target.isExact);
     // Hard limits are those of a motion that is possible, so that there is one within them.
     VectorXd x = start;
@@ -217,7 +217,7 @@ TEST(PredictiveController, BringsTheMassHomeWithAndWithoutTheLastPlan) {
 
 TEST(PredictiveController, GoesToATargetThatIsAnEquilibrium) {
   const LinearSystem system = completed(mass());
-  const RestPoint target = restAt(system, Eigen::Vector2d(2, 0));
+  const RestPoint target = restPoint(system, Eigen::Vector2d(2, 0));
   ASSERT_TRUE(target.isExact);
   const PredictiveController controller(system, massOptions());
   VectorXd x = Eigen::Vector2d(-1, 0);

@@ -215,21 +215,21 @@ TEST(ClosedLoop, SaysWhatDoesNotFit) {
 TEST(RestAt, HoldsTheTarget) {
   LinearSystem system = seen(cartPole(-5.88));
   system.A(0, 0) = -0.5;  // a spring of sorts, so that rest needs a force
-  const RestPoint rest = restAt(system, VectorXd::Constant(1, 2));
+  const RestPoint rest = restPoint(system, VectorXd::Constant(1, 2));
   EXPECT_TRUE(rest.isExact);
   EXPECT_LT((system.A * rest.x + system.B * rest.u).norm(), 1e-12);
   EXPECT_NEAR(system.C.row(0).dot(rest.x), 2, 1e-12);
   const LinearSystem steps = discretized(system, 0.05);
-  const RestPoint held = restAt(steps, VectorXd::Constant(1, 2));
+  const RestPoint held = restPoint(steps, VectorXd::Constant(1, 2));
   EXPECT_TRUE(held.isExact);
   EXPECT_LT((steps.A * held.x + steps.B * held.u - held.x).norm(), 1e-12);
-  EXPECT_FALSE(restAt(pointMass(1), Eigen::Vector2d(1, 1)).isExact) << "nothing rests while it moves";
+  EXPECT_FALSE(restPoint(pointMass(1), Eigen::Vector2d(1, 1)).isExact) << "nothing rests while it moves";
   LinearSystem stiff{.A = MatrixXd::Zero(3, 3), .B = MatrixXd::Zero(3, 1)};
   stiff.A.topLeftCorner(2, 2) = pointMass(1).A;
   stiff.A(2, 2) = -1e10, stiff.B(1, 0) = 1;
-  EXPECT_FALSE(restAt(stiff, Eigen::Vector3d(1, 1, 0)).isExact) << "nor beside a fast mode";
-  EXPECT_REX_ERROR(restAt(system, VectorXd::Zero(2)), "target y: found a vector of size 2, wanted size 1");
-  EXPECT_REX_ERROR(restAt(system, VectorXd::Constant(1, NAN)), "target y: number 0: found nan");
+  EXPECT_FALSE(restPoint(stiff, Eigen::Vector3d(1, 1, 0)).isExact) << "nor beside a fast mode";
+  EXPECT_REX_ERROR(restPoint(system, VectorXd::Zero(2)), "target y: found a vector of size 2, wanted size 1");
+  EXPECT_REX_ERROR(restPoint(system, VectorXd::Constant(1, NAN)), "target y: number 0: found nan");
 }
 
 }  // namespace rex::regulators_test

@@ -37,7 +37,7 @@ TEST(Replay, OfTheManWithThreeFiguresIsSmall) {
   const std::string name = (freshFolder("replay") / "swing").string();
   const PictureOptions options{.caption = "The arms swing", .traces = {"handR"}};
   writeReplay(swinging(300), name, options, {curve("a"), curve("b"), curve("c")});
-  EXPECT_LT(fs::file_size(name + ".html"), 1'300'000u);
+  EXPECT_LT(fs::file_size(name + ".html"), 1'200'000u);
   EXPECT_GT(fs::file_size(name + ".html"), 300'000u);
 }
 

@@ -79,7 +79,7 @@ TEST(MotionTerms, LeaveOutInfiniteLimitsOfVelocity) {
 }
 
 TEST(MotionTerms, EndAtRest) {
-  const std::vector<TrajectoryTerm> terms = restAt(Eigen::Vector2d(1, 2), 5);
+  const std::vector<TrajectoryTerm> terms = restTerms(Eigen::Vector2d(1, 2), 5);
   ASSERT_EQ(terms.size(), 2u);
   for (const TrajectoryTerm& term : terms) {
     EXPECT_EQ(term.kind, TermKind::kEquality);

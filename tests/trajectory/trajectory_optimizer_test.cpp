@@ -22,7 +22,7 @@ VectorXd point(double x, double y) { return Eigen::Vector2d(x, y); }
 TrajectoryProblem restToRest(const VectorXd& from, const VectorXd& to, int steps,
                              std::vector<TrajectoryTerm> terms = {}) {
   terms.push_back(accelerationTerm());
-  for (TrajectoryTerm& term : restAt(to, steps)) terms.push_back(std::move(term));
+  for (TrajectoryTerm& term : restTerms(to, steps)) terms.push_back(std::move(term));
   return {terms, from.replicate(1, 2), steps, 1. / steps};
 }
 
