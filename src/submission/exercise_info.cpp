@@ -24,9 +24,10 @@ grading::Limits readLimits(const TomlTable& table) {
 }
 
 ExercisePart readPart(const TomlTable& table) {
-  table.refuseKeysBut({"id", "title", "points", "floor", "lies", "hints", "functions", "allowed"});
+  table.refuseKeysBut({"id", "title", "points", "core", "floor", "lies", "hints", "functions", "allowed"});
   ExercisePart part{.id = table.text("id"), .title = table.text("title"), .hints = {}};
   part.points = table.integer("points", 1, 1000);
+  if (table.has("core")) part.isCore = table.boolean("core");
   if (table.has("floor")) part.floor = table.integer("floor", 0, part.points);
   if (table.has("lies")) part.lies = table.integer("lies", 0, part.points);
   if (table.has("hints")) part.hints = table.texts("hints");
@@ -77,13 +78,17 @@ int ExerciseInfo::points() const {
 ExerciseInfo readExerciseInfo(const path& folder) {
   const path file = folder / "exercise.toml";
   const TomlTable top = TomlTable::read(file, "the exercise", "the description of an exercise");
-  top.refuseKeysBut({"title", "script", "solution", "allowed", "limits", "part", "forbidden"});
+  top.refuseKeysBut(
+      {"title", "script", "chapter", "needs", "hours", "solution", "allowed", "limits", "part", "forbidden"});
 
   ExerciseInfo info;
   info.folder = info.definition = folder;
   info.name = folder.filename().string();
   info.title = top.text("title");
   info.script = top.text("script");
+  if (top.has("chapter")) info.chapter = top.integer("chapter", 1, 99);
+  if (top.has("needs")) info.needs = top.texts("needs");
+  if (top.has("hours")) info.hours = top.integer("hours", 1, 99);
   info.solution = readSolutionRule(top);
   info.allowed = top.has("allowed") ? top.texts("allowed") : std::vector<std::string>{"course"};
   if (const auto limits = top.table("limits", "[limits]", "a table headed [limits]"))

@@ -15,6 +15,7 @@ struct ExercisePart {
   std::string title;
   int points = 0;
   int floor = 0;                   ///< points that the untouched main.cpp gets
+  bool isCore = true;              ///< no bonus, and no part that a course can leave out
   int lies = 0;                    ///< points that a generic wrong function may get: see the gate `liars`
   std::vector<std::string> hints;  ///< increasingly specific questions; the last may be almost code
   /// If given, the part is graded by its own worker, which serves only these functions of the student and
@@ -39,7 +40,10 @@ struct ExerciseInfo {
   std::filesystem::path
       definition;  ///< the same, or the folder of an installed rex that says what is demanded
   std::string title;
-  std::string script;  ///< section of the course script
+  std::string script;              ///< section of the course script
+  int chapter = 0;                 ///< of the script; 0: none
+  std::vector<std::string> needs;  ///< numbers of the exercises that it builds on: "01"
+  int hours = 0;                   ///< of a student's work; 0: not said
   SolutionRule solution = SolutionRule::kNever;
   grading::Limits limits;
   std::vector<ExercisePart> parts;

@@ -70,6 +70,15 @@ TEST_F(ExerciseInfoTest, ReadsEverything) {
   ASSERT_EQ(info.forbidden.size(), 1u);
   EXPECT_EQ(info.forbidden[0].function, "rex::inverseKinematicsStep");
   EXPECT_EQ(info.forbidden[0].reason, "the step is what you write here");
+  EXPECT_EQ(info.chapter, 0);
+  EXPECT_EQ(info.hours, 0);
+  EXPECT_TRUE(info.needs.empty());
+  EXPECT_TRUE(info.parts[1].isCore);
+  EXPECT_FALSE(readWith("floor = 1", "floor = 1\ncore = false").parts[1].isCore);
+  const ExerciseInfo placed = readWith("[limits]", "chapter = 2\nneeds = [\"00\"]\nhours = 5\n[limits]");
+  EXPECT_EQ(placed.chapter, 2);
+  EXPECT_EQ(placed.hours, 5);
+  EXPECT_THAT(placed.needs, ::testing::ElementsAre("00"));
   EXPECT_EQ(info.parts[1].lies, 0);
   EXPECT_EQ(readWith("floor = 1", "floor = 1\nlies = 2").parts[1].lies, 2);
   EXPECT_EQ(info.forbidden[0].part, "");
