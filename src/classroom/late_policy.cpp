@@ -67,9 +67,9 @@ class PolicyReader {
         throw Error({.what = fmt::format("both {} and {}_per_day", perDay, other),
                      .where = keys.where(perDay),
                      .wanted = "one of them"});
+      if (rule.isPercent != isPercent) rule.cap.reset();  // that of [all] has the other unit
       rule.isPercent = isPercent;
       rule.perDay = hundredths(keys.number(perDay, 0, most));
-      rule.cap.reset();  // a cap from [all] could have the other unit
     }
     if (!keys.has(cap)) return;
     if (rule.isPercent != isPercent)

@@ -64,6 +64,12 @@ alice = 2026-12-03T12:00:00Z
   EXPECT_EQ(instantText(second.extensions.at("alice")), "2026-12-03T12:00:00Z");
 }
 
+TEST_F(LatePolicyTest, KeepsTheCapOfAllUnlessItsUnitIsAnother) {
+  const std::string all = "[all]\npercent_per_day = 10\ncap_percent = 50\n[exercise.01-kinematics]\n";
+  EXPECT_EQ(read(all + "percent_per_day = 20\n").at("01-kinematics").cap, 5000);
+  EXPECT_EQ(read(all + "points_per_day = 1\n").at("01-kinematics").cap, std::nullopt);
+}
+
 TEST_F(LatePolicyTest, NamesThePlaceOfWhatIsWrong) {
   const std::string at = file() + ":";
   EXPECT_EQ(messageFor("[exercise.01-kinematic]\n"),

@@ -182,7 +182,7 @@ CLI::App* addTarget(CLI::App* all, Action& action, const std::string& name, cons
 void addExport(CLI::App* all, Action& action) {
   all->footer(
       "Examples:\n  scripts/rex export html results --course course.toml -o feedback\n"
-      "  scripts/rex export moodle results 01 --worksheet grades.csv -o moodle\n\n"
+      "  scripts/rex export moodle results 01 --worksheet grades.csv --course course.toml -o moodle\n\n"
       "What students get shows nothing of other students, and of hidden checks only points.");
   all->require_subcommand(0, 1);
   all->callback([&action, all] {
@@ -190,9 +190,9 @@ void addExport(CLI::App* all, Action& action) {
   });
   const auto options = [] { return std::make_shared<ExportOptions>(); };
   const auto moodle = options();
-  CLI::App* command =
-      addTarget(all, action, "moodle", "The grading worksheet filled in, and a zip of feedback",
-                "moodle results 01 --worksheet grades.csv -o moodle", exportMoodle, moodle);
+  CLI::App* command = addTarget(
+      all, action, "moodle", "The grading worksheet filled in, and a zip of feedback",
+      "moodle results 01 --worksheet grades.csv --course course.toml -o moodle", exportMoodle, moodle);
   addOptions(command, {{"--worksheet", moodle->worksheet, "FILE.csv",
                         "grading worksheet that was downloaded from Moodle"},
                        {"--scale", moodle->scale, "scale points to the maximum grade of the worksheet"}});
