@@ -29,15 +29,6 @@ template <class Numbers>
 inline auto isLess(Numbers a, Numbers b) {
   return a < b;
 }
-inline float rooted(float x) { return __builtin_sqrtf(x); }
-inline FloatTypes<4>::Numbers rooted(FloatTypes<4>::Numbers x) {
-#ifdef __x86_64__
-  return __builtin_ia32_sqrtps(x);
-#else
-  return FloatTypes<4>::Numbers{__builtin_sqrtf(x[0]), __builtin_sqrtf(x[1]), __builtin_sqrtf(x[2]),
-                                __builtin_sqrtf(x[3])};
-#endif
-}
 inline unsigned signsOf(int mask) { return static_cast<unsigned>(mask) & 1u; }
 inline unsigned signsOf(FloatTypes<4>::Mask mask) {
 #ifdef __x86_64__
@@ -47,7 +38,6 @@ inline unsigned signsOf(FloatTypes<4>::Mask mask) {
 #endif
 }
 #ifdef __AVX__
-inline FloatTypes<8>::Numbers rooted(FloatTypes<8>::Numbers x) { return __builtin_ia32_sqrtps256(x); }
 inline unsigned signsOf(FloatTypes<8>::Mask mask) {
   return static_cast<unsigned>(__builtin_ia32_movmskps256(reinterpret_cast<FloatTypes<8>::Numbers>(mask)));
 }
@@ -60,11 +50,6 @@ struct Eight {
   static constexpr int kParts = 8 / kWidth;
   struct Mask {
     typename FloatTypes<kWidth>::Mask part[kParts];
-    friend Mask operator&(const Mask& a, const Mask& b) {
-      Mask both;
-      for (int i = 0; i < kParts; ++i) both.part[i] = a.part[i] & b.part[i];
-      return both;
-    }
   };
 
   Numbers part[kParts];
@@ -125,12 +110,6 @@ template <int kWidth>
 inline Eight<kWidth> absolute(const Eight<kWidth>& a) {
   return larger(a, Eight<kWidth>(0.0f) - a);
 }
-template <int kWidth>
-inline Eight<kWidth> rooted(const Eight<kWidth>& a) {
-  Eight<kWidth> result;
-  for (int i = 0; i < Eight<kWidth>::kParts; ++i) result.part[i] = rooted(a.part[i]);
-  return result;
-}
 
 /// Loads a V from the numbers that start at `from`, and stores it.
 template <class V>
@@ -142,36 +121,6 @@ inline V loadAt(const float* from) {
 template <int kWidth>
 inline void storeEight(const Eight<kWidth>& x, float* to) {
   __builtin_memcpy(to, &x, sizeof x);
-}
-
-/// Sine and cosine of angles of up to a few thousand radians, with an error of 2e-7. The polynomials are
-/// those of Cephes (Moshier 1989).
-template <int kWidth>
-inline void sineAndCosine(const Eight<kWidth>& angle, Eight<kWidth>& sine, Eight<kWidth>& cosine) {
-  using V = Eight<kWidth>;
-  // Adding it rounds to an integer, of which the last bits are those of the number of quarter turns.
-  constexpr float kRounding = 0x1.8p23f;
-  const V rounded = angle * V(0x1.45f306p-1f) + V(kRounding);
-  const V n = rounded - V(kRounding);
-  const V r = angle - n * V(0x1.92p0f) - n * V(0x1.fbp-12f) - n * V(0x1.51p-22f) - n * V(0x1.0b4612p-34f);
-  const V z = r * r;
-  const V s = r + r * z * (V(-1.6666654611e-1f) + z * (V(8.3321608736e-3f) - z * V(1.9515295891e-4f)));
-  const V c =
-      V(1.0f) - V(0.5f) * z +
-      z * z * (V(4.166664568298827e-2f) + z * (V(-1.388731625493765e-3f) + z * V(2.443315711809948e-5f)));
-  for (int i = 0; i < V::kParts; ++i) {
-    typename FloatTypes<kWidth>::Mask quarter, sineBits, cosineBits;
-    __builtin_memcpy(&quarter, &rounded.part[i], sizeof quarter);
-    __builtin_memcpy(&sineBits, &s.part[i], sizeof quarter);
-    __builtin_memcpy(&cosineBits, &c.part[i], sizeof quarter);
-    // An odd quarter swaps the two; bit 1 of the quarter is the sign of the sine, bit 1 of the next that of
-    // the cosine.
-    const auto swap = (sineBits ^ cosineBits) & -(quarter & 1);
-    sineBits ^= swap ^ ((quarter & 2) << 30);
-    cosineBits ^= swap ^ (((quarter + 1) & 2) << 30);
-    __builtin_memcpy(&sine.part[i], &sineBits, sizeof quarter);
-    __builtin_memcpy(&cosine.part[i], &cosineBits, sizeof quarter);
-  }
 }
 
 }  // namespace

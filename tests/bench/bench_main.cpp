@@ -1,6 +1,5 @@
 // rex_bench [NAME...] [--json] [--report FILE.html]: measures ours against its peers; `rex dev bench` runs
-// it. rex_bench panda --problems DIR [--urdf FILE] [--srdf FILE] [--seed N] [--json]: solves motion planning
-// problems.
+// it.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -11,13 +10,11 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <malloc.h>
 #include <stdlib.h>
 
 #include "base/error.h"
 #include "base/text_file.h"
-#include "bench/panda_problems.h"
 #include "bench/report.h"
 #include "bench/report_page.h"
 
@@ -124,21 +121,6 @@ void run(const std::vector<std::string>& names, Form form, const std::filesystem
   if (form == Form::kPage) writeTextFile(page, reportPage(lines));
 }
 
-// The group of problems has options of its own, and needs them.
-bool wantsPanda(const std::vector<std::string>& names, const PandaOptions& panda) {
-  const bool isNamed = std::count(names.begin(), names.end(), "panda") > 0;
-  if (isNamed && panda.problems.empty())
-    throw UsageError({.what = "benchmark 'panda'",
-                      .found = "no --problems",
-                      .wanted = "a folder of problem files, as in share/doc/benchmarks.md"});
-  const bool isAlone = names.size() == 1 && isNamed;
-  if (!panda.problems.empty() && !isAlone)
-    throw UsageError({.what = "--problems",
-                      .found = names.empty() ? "no name" : fmt::format("'{}'", fmt::join(names, "', '")),
-                      .wanted = "the benchmark 'panda' alone"});
-  return isNamed;
-}
-
 int main(int argc, char** argv) {
   CLI::App app(
       "Measures rex against its peers: CPU time, the smallest of several runs of both sides in turn.",
@@ -149,22 +131,11 @@ int main(int argc, char** argv) {
   app.add_flag("--json", asJson, "print JSON instead of a table");
   std::filesystem::path page;
   app.add_option("--report", page, "also write a page with figures to this HTML file");
-  PandaOptions panda;
-  app.add_option("--problems", panda.problems, "panda: the folder of problems");
-  app.add_option("--urdf", panda.urdf,
-                 "panda: the robot (default: ../urdf/panda_spherized.urdf beside the folder)");
-  app.add_option("--srdf", panda.srdf,
-                 "panda: which links may collide (default: NAME.srdf beside NAME.urdf)");
-  app.add_option("--seed", panda.seed, "panda: the first point of the Halton sequence (default: 1)");
   try {
     app.parse(argc, argv);
     // Both sides draw on one thread: processor time then holds no waiting of threads for each other.
     ::setenv("LP_NUM_THREADS", "0", 0);
-    panda.asJson = asJson;
-    if (wantsPanda(names, panda))
-      runPandaProblems(panda);
-    else
-      run(names, asJson ? Form::kJson : page.empty() ? Form::kTable : Form::kPage, page);
+    run(names, asJson ? Form::kJson : page.empty() ? Form::kTable : Form::kPage, page);
     return 0;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kUsageError;

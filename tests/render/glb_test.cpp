@@ -128,8 +128,13 @@ class GlbFile {
     const json& material = root["materials"][primitive(node)["material"].get<int>()];
     return material["pbrMetallicRoughness"]["baseColorFactor"];
   }
+  // With the scale of the node.
   std::vector<std::vector<double>> positions(int node) const {
-    return floats(primitive(node)["attributes"]["POSITION"]);
+    std::vector<std::vector<double>> all = floats(primitive(node)["attributes"]["POSITION"]);
+    const auto scale = root["nodes"][node].value("scale", std::vector<double>{1, 1, 1});
+    for (std::vector<double>& p : all)
+      for (std::size_t i = 0; i < 3; ++i) p[i] *= scale[i];
+    return all;
   }
 
   json root;

@@ -99,9 +99,10 @@ TEST_F(ExerciseInfoTest, ReadsEverything) {
 TEST_F(ExerciseInfoTest, RefusesBadFilesWithPlaceAndAdvice) {
   EXPECT_REX_ERROR(readExerciseInfo("no/where"), "no/where/exercise.toml: no such file");
   EXPECT_REX_ERROR(read("title = \"x\"\nscript = \n"), "exercise.toml:2:");
-  EXPECT_REX_ERROR(readWith("title = \"Kin", "titel = \"Kin"),
-                   "exercise.toml:1:1: unknown key 'titel' in the exercise: wanted one of title, script, "
-                   "chapter, needs, hours, solution, allowed, limits, part, forbidden (did you mean 'title'?)");
+  EXPECT_REX_ERROR(
+      readWith("title = \"Kin", "titel = \"Kin"),
+      "exercise.toml:1:1: unknown key 'titel' in the exercise: wanted one of title, script, "
+      "chapter, needs, hours, solution, allowed, limits, part, forbidden (did you mean 'title'?)");
   EXPECT_REX_ERROR(readWith("memory_mb", "memory"), "exercise.toml:6:1: unknown key 'memory' in [limits]");
   EXPECT_REX_ERROR(readWith("floor = 1", "flor = 1"), "exercise.toml:19:1: unknown key 'flor' in [[part]]");
   EXPECT_REX_ERROR(readWith("reason", "why"), "exercise.toml:23:1: unknown key 'why' in [[forbidden]]");

@@ -124,18 +124,10 @@ void addDevBench(CLI::App* dev, Action& action) {
   const auto options = std::make_shared<BenchOptions>();
   CLI::App* command = addVerb(dev, "bench", "Measure speed against other libraries",
                               "Examples:\n  scripts/rex dev bench --report out/bench.html\n"
-                              "  scripts/rex dev bench kinematics --json\n"
-                              "  scripts/rex dev bench panda --problems DIR");
+                              "  scripts/rex dev bench kinematics --json");
   command->add_option("NAME", options->names, "groups to measure (default: all)")->type_name("");
-  addOptions(command,
-             {{"--json", options->json, "print JSON instead of a table"},
-              {"--report", options->report, "FILE.html", "also write a page with figures"},
-              {"--problems", options->problems, "DIR", "panda: a folder of motion planning problems"},
-              {"--urdf", options->urdf, "FILE.urdf",
-               "panda: the robot (default: ../urdf/panda_spherized.urdf beside DIR)"},
-              {"--srdf", options->srdf, "FILE.srdf",
-               "panda: which links may collide (default: NAME.srdf beside the URDF)"},
-              {"--seed", options->seed, "S", "panda: the first point of the Halton sequence (default: 1)"}});
+  addOptions(command, {{"--json", options->json, "print JSON instead of a table"},
+                       {"--report", options->report, "FILE.html", "also write a page with figures"}});
   command->callback(
       [&action, options] { action = [options](const Project& p) { return devBench(p, *options); }; });
 }

@@ -15,14 +15,7 @@ ExitCode devBench(const Project& project, const BenchOptions& options) {
   std::vector<std::string> command = {program.string()};
   command.insert(command.end(), options.names.begin(), options.names.end());
   if (options.json) command.push_back("--json");
-  const auto pass = [&](const char* name, const std::string& value) {
-    if (!value.empty()) command.insert(command.end(), {name, value});
-  };
-  pass("--report", options.report);
-  pass("--problems", options.problems);
-  pass("--urdf", options.urdf);
-  pass("--srdf", options.srdf);
-  pass("--seed", options.seed);
+  if (!options.report.empty()) command.insert(command.end(), {"--report", options.report});
   const ProcessResult result = runProcess(command, {.timeout = 3600, .inheritOutput = true});
   if (result.exitCode == static_cast<int>(ExitCode::kUsage)) return ExitCode::kUsage;
   if (!result.started || result.signal != 0)

@@ -55,7 +55,6 @@ struct BenchOptions {
   std::vector<std::string> names{};  ///< groups; empty: all
   bool json = false;
   std::string report{};
-  std::string problems{}, urdf{}, srdf{}, seed{};  ///< of the group panda
 };
 /// Runs the benchmarks. Throws Error if they are not built or were ended by a signal.
 ExitCode devBench(const Project& project, const BenchOptions& options);
