@@ -118,8 +118,9 @@ int main() {
   showCircles(circleWithTasks(longRun, "handR", center, 0.2, "handL", 2000), turns, center);
   longRun.watch("circle_with_tasks_after_2000_steps");
 
-  // Part 3: first a posture with the peg above the hole, from a bent arm. Then from above the hole into it,
-  // in joint space and in task space. In the end the whole way from the bent arm.
+  // Part 3: motion profiles. Then a posture with the peg above the hole, from a bent arm, and from above the
+  // hole into it, in joint space and in task space. In the end the whole way from the bent arm.
+  showProfiles();
   const Eigen::Vector3d hole(0, -1, 1), down(0, 0, -1);
   const double margin = 0.02;
   Simulator bent("pegInAHole.ors"), above = bent;

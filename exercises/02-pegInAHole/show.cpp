@@ -6,6 +6,7 @@
 
 #include "course/film.h"
 #include "kinematics/hierarchical_step.h"
+#include "kinematics/motion_profile.h"
 #include "scene/model.h"
 
 using namespace rex;
@@ -134,6 +135,34 @@ void showPosture(const Eigen::VectorXd& q) {
   PictureOptions look = kLook;
   look.caption = "The peg above the hole";
   writePicture(S, "peg_posture.png", look);
+}
+
+void showProfiles() {
+  const std::pair<const char*, MotionProfile> shapes[] = {
+      {"ramp", {ProfileShape::kRamp}},
+      {"sine", {ProfileShape::kSine}},
+      {"trapezoid, blend 1/4", {ProfileShape::kTrapezoid}},
+      {"minimum jerk", {ProfileShape::kMinimumJerk}}};
+  const auto compare = [&](const std::string& name, const std::string& label, double ProfilePoint::*number) {
+    Figure figure{.title = "One metre in one second",
+                  .xLabel = "time [s]",
+                  .yLabel = label,
+                  .legend = Legend::kOutside};
+    for (const auto& [shape, profile] : shapes) {
+      Series series{.label = shape, .size = 1.5};
+      for (int i = -100; i <= 1100; ++i) series.add(i / 1000., profileAt(profile, i / 1000.).*number);
+      figure.series.push_back(series);
+    }
+    if (name == "profile_position") {
+      Series yours{.label = "yours", .dashed = true, .color = Color{0, 0, 0}};
+      for (int i = 0; i <= 100; ++i) yours.add(i / 100., sineProfile(i / 100.));
+      figure.series.push_back(yours);
+    }
+    plot(name, figure);
+  };
+  compare("profile_position", "position [m]", &ProfilePoint::position);
+  compare("profile_velocity", "velocity [m/s]", &ProfilePoint::velocity);
+  compare("profile_acceleration", "acceleration [m/s^2]", &ProfilePoint::acceleration);
 }
 
 Figure showInterpolation(const Postures& inJointSpace, const Postures& inTaskSpace,

@@ -13,6 +13,10 @@ void showCircles(const Postures& longRun, const rex::Simulator& turns, const Eig
 /// peg_posture.png: pegInAHole.ors in posture q. Prints the position of the peg, metres, and its direction.
 void showPosture(const Eigen::VectorXd& q);
 
+/// profile_position.png, profile_velocity.png, profile_acceleration.png: four motion profiles over time. Your
+/// sine lies on the library's.
+void showProfiles();
+
 /// interpolation.png, contacts.png: two ways from above the hole into it. In joint space the peg leaves the
 /// axis of the hole and the contact cost rises; in task space neither does noticeably. Returns the second
 /// figure.

@@ -19,6 +19,7 @@
 #include "estimation/gaussian.h"
 #include "geometry/rotation.h"
 #include "kinematics/inverse_kinematics.h"
+#include "kinematics/motion_profile.h"
 #include "learning/policy_search.h"
 #include "planning/car_curves.h"
 #include "support/integral.h"
@@ -529,6 +530,26 @@ TEST(LectureNotes, TheNaturalGradient) {
            (std::pow(a - shift, 2) - a * a) / (2 * variance);
   };
   EXPECT_NEAR(integral(-reach, reach, difference), shift * shift / (2 * variance), 1e-9);
+}
+
+TEST(LectureNotes, MotionProfiles) {
+  const auto largest = [](const MotionProfile& profile, double ProfilePoint::*number) {
+    double most = 0;
+    for (int i = 0; i <= 100000; ++i) most = std::max(most, profileAt(profile, i / 1e5).*number);
+    return most;
+  };
+  for (const double b : {0.1, 0.25, 0.5}) {
+    EXPECT_NEAR(largest({ProfileShape::kTrapezoid, b}, &ProfilePoint::velocity), 1 / (1 - b), 1e-9);
+    EXPECT_NEAR(largest({ProfileShape::kTrapezoid, b}, &ProfilePoint::acceleration), 1 / (b * (1 - b)), 1e-9);
+  }
+  const auto stated = [&](const char* formula, ProfileShape shape, double ProfilePoint::*number) {
+    expectStated("02-pegInAHole", fmt::format("${} = {:.3f}$", formula, largest({shape}, number)));
+  };
+  stated("\\pi / 2", ProfileShape::kSine, &ProfilePoint::velocity);
+  stated("\\pi^2 / 2", ProfileShape::kSine, &ProfilePoint::acceleration);
+  stated("15 / 8", ProfileShape::kMinimumJerk, &ProfilePoint::velocity);
+  stated("10 / \\sqrt 3", ProfileShape::kMinimumJerk, &ProfilePoint::acceleration);
+  expectStated("02-pegInAHole", fmt::format("= {:.3f}$", std::sqrt(10 / std::sqrt(3) / 4)));
 }
 
 TEST(LectureNotes, LimitsAndFrames) {
