@@ -240,6 +240,318 @@ void checkOptimism(Check& check, Student& student, int states, double maxReward,
 
 void checkSmallOptimism(Check& check, Student& student) { checkOptimism(check, student, 4, 2, .8); }
 
+void checkCloned(Check& check, Student& student, int states, int actions, int count) {
+  const std::vector<Lesson> lessons = randomLessons(states, actions, count, check.rng());
+  check.input("lessons",
+              {{"lessons (state, action)", rowsOf(lessons)}, {"states", states}, {"actions", actions}});
+  const Eigen::MatrixXd got = student.cloned(lessons, states, actions);
+  const Eigen::MatrixXd wanted = cloneOf(lessons, states, actions);
+  Eigen::MatrixXd counts = Eigen::MatrixXd::Zero(states, actions), last = wanted, most = wanted;
+  for (const Lesson& l : lessons) {
+    ++counts(l.state, l.action);
+    last.row(l.state) = Eigen::RowVectorXd::Unit(actions, l.action);
+  }
+  Eigen::MatrixXd silent = wanted;
+  for (int s = 0; s < states; ++s) {
+    Eigen::Index a = 0;
+    if (counts.row(s).maxCoeff(&a) > 0)
+      most.row(s) = Eigen::RowVectorXd::Unit(actions, a);
+    else
+      silent.row(s).setZero();
+  }
+  const Eigen::VectorXd tries = counts.rowwise().sum();
+  const Eigen::MatrixXd smooth =
+      (tries.array() + actions).inverse().matrix().asDiagonal() * (counts.array() + 1).matrix();
+  const auto mistakes = check.suspect(
+      {{"Are these counts? Wanted are shares.", counts},
+       {"Is there no action in states without lessons? All are equally likely there.", silent},
+       {"Is it the share of all lessons? Those of the state itself count.", counts / double(lessons.size())},
+       {"Is the most frequent action always taken? Each has its share.", most},
+       {"Does only the last lesson of a state count?", last},
+       {"Is one added to each count? The shares are those of the lessons alone.", smooth}});
+  const auto shown = check.show([&] { return tableSeen("Policy of the clone", got, wanted); });
+  check.near("policy of the clone", got, wanted, 1e-9);
+}
+
+void checkMistakes(Check& check, Student& student, int states, int actions, int steps) {
+  rex::Rng& rng = check.rng();
+  const FeatureWorld world = randomWorld(states, actions, 1, 0, rng);
+  const Eigen::MatrixXd policy = randomPolicy(states, actions, rng);
+  const std::vector<int> teacher = randomTeacher(states, actions, rng);
+  Eigen::MatrixXd rights = Eigen::MatrixXd::Zero(states, actions);
+  for (int s = 0; s < states; ++s) rights(s, teacher[static_cast<std::size_t>(s)]) = 1;
+  const Eigen::MatrixXd actsLikeTeacher = policy.cwiseProduct(rights);
+  const Eigen::VectorXd wrong = (policy - actsLikeTeacher).rowwise().sum();
+  check.input("a clone and a teacher", {{"P, action by action", stackedOf({world.P, policy, {}})},
+                                        {"start", world.start},
+                                        {"policy", policy},
+                                        {"teacher", numbersOf(teacher)},
+                                        {"steps", steps}});
+  // Backwards: what a state now means for a chance t steps later.
+  const auto chances = [&](const Eigen::MatrixXd& next, Eigen::VectorXd later) {
+    Eigen::VectorXd all(steps);
+    for (int t = 0; t < steps; ++t, later = (next * later).eval()) all[t] = world.start.dot(later);
+    return all;
+  };
+  const Eigen::MatrixXd next = nextUnder(world.P, policy);
+  const Eigen::VectorXd wanted = chances(next, wrong), left = chances(next, Eigen::VectorXd::Ones(states));
+  Eigen::VectorXd sums = wanted;
+  for (int t = 1; t < steps; ++t) sums[t] += sums[t - 1];
+  const Eigen::VectorXd got = student.mistakeChances(world.P, world.start, policy, teacher, steps);
+  const auto mistakes = check.suspect(
+      {{"Do the states follow the teacher? The clone acts.", chances(nextUnder(world.P, rights), wrong)},
+       {"Does a walk end with its first mistake? The clone goes on.",
+        chances(nextUnder(world.P, actsLikeTeacher), wrong)},
+       {"Are rows and columns of P exchanged?", chances(next.transpose(), wrong)},
+       {"Is entry 0 the second step? It is the first.", chances(next, next * wrong)},
+       {"Are these the mistakes of all steps so far? Each step has its own entry.", sums},
+       {"Is it a share of the walks that go on? What has ended makes no mistake.",
+        wanted.cwiseQuotient(left)},
+       {"Are these the chances of the teacher's action?", left - wanted},
+       {"Does a walk that has ended still make mistakes?", wanted + (1 - left.array()).matrix()}});
+  check.near("chances of mistakes", got, wanted, 1e-9);
+}
+
+// The states that a clone visits are drawn beforehand, whatever it does.
+void checkAggregated(Check& check, Student& student, int states, int actions, int rounds) {
+  rex::Rng& rng = check.rng();
+  const std::vector<Lesson> lessons = randomLessons(states, actions, 5, rng);
+  const std::vector<int> teacher = randomTeacher(states, actions, rng);
+  std::vector<std::vector<int>> visits;
+  Eigen::MatrixXd seen(rounds, 4);
+  for (int r = 0; r < rounds; ++r) {
+    const int s = rng.index(states);
+    visits.push_back({s, rng.index(states), s, r % 2 == 0 ? states - 1 : 0});
+    for (int i = 0; i < 4; ++i) seen(r, i) = visits.back()[static_cast<std::size_t>(i)];
+  }
+  check.input("a teacher and lessons", {{"lessons (state, action)", rowsOf(lessons)},
+                                        {"visited, round by round", seen},
+                                        {"the teacher's actions", numbersOf(teacher)}});
+  std::vector<Eigen::MatrixXd> acted;
+  const auto visited = [&](const Eigen::MatrixXd& policy) {
+    const std::size_t r = acted.size();
+    if (r <= visits.size()) acted.push_back(policy);
+    return r < visits.size() ? visits[r] : std::vector<int>();
+  };
+  const auto taught = [&](int s) { return s >= 0 && s < states ? teacher[static_cast<std::size_t>(s)] : 0; };
+  const Eigen::MatrixXd got = student.aggregated(lessons, states, actions, rounds, visited, taught);
+  check.near("rounds in which a clone acts", static_cast<double>(acted.size()), rounds, 0);
+  acted.push_back(got);
+  std::vector<Lesson> all = lessons, latest = lessons, alone, once = lessons, own = lessons;
+  Eigen::MatrixXd before = cloneOf(lessons, states, actions);
+  for (std::size_t r = 0; r < acted.size(); ++r) {
+    const bool isLast = r + 1 == acted.size();
+    const Eigen::MatrixXd wanted = cloneOf(all, states, actions);
+    const auto mistakes = check.suspect(
+        {{isLast ? "Is it the clone that acted last? It has not had the lessons of that round."
+                 : "Does the clone of the round before act again?",
+          before},
+         {"Do only the lessons of the last round count? All do.", cloneOf(latest, states, actions)},
+         {"Do the demonstrations not count?", cloneOf(alone, states, actions)},
+         {"Are the lessons of the rounds never used?", cloneOf(lessons, states, actions)},
+         {"Does each state count once in a round? Each visit is a lesson.", cloneOf(once, states, actions)},
+         {"Does the clone learn from its own actions? It is the teacher who says what to do.",
+          cloneOf(own, states, actions)}});
+    const std::string property =
+        isLast ? "policy of aggregated" : fmt::format("policy that acts in round {}", r + 1);
+    const auto shown = check.show([&] { return tableSeen(property, acted[r], wanted); });
+    check.near(property, acted[r], wanted, 1e-9);
+    if (isLast) break;
+    before = wanted;
+    latest.clear();
+    for (const int s : visits[r]) {
+      Eigen::Index best = 0;
+      cloneOf(own, states, actions).row(s).maxCoeff(&best);
+      own.push_back({s, static_cast<int>(best)});
+      latest.push_back({s, taught(s)});
+      const bool isNew =
+          std::none_of(latest.begin(), latest.end() - 1, [&](const Lesson& l) { return l.state == s; });
+      if (isNew) once.push_back(latest.back());
+    }
+    all.insert(all.end(), latest.begin(), latest.end());
+    alone.insert(alone.end(), latest.begin(), latest.end());
+  }
+}
+
+void checkClone(Check& check, Student& student) {
+  checkCloned(check, student, 4, 3, 7);
+  checkMistakes(check, student, 3, 2, 4);
+}
+void checkAggregation(Check& check, Student& student) { checkAggregated(check, student, 4, 2, 2); }
+
+void inputWorld(Check& check, const std::string& text, const FeatureWorld& world,
+                const rex::grading::InputValue& more) {
+  check.input(text, {{"P, action by action",
+                      stackedOf({world.P, paidBy(world, Eigen::VectorXd::Zero(world.features.rows())), {}})},
+                     {"start", world.start},
+                     {"features", world.features},
+                     {"discount", world.discount},
+                     more});
+}
+
+void isPolicy(Check& check, const std::string& name, const Eigen::MatrixXd& policy,
+              const FeatureWorld& world) {
+  check.shape(name, policy, world.features.cols(), static_cast<Eigen::Index>(world.P.size()));
+  const auto values = check.ask("Are these values of actions? A policy has their probabilities.");
+  check.atLeast("smallest probability of " + name, policy.minCoeff(), 0);
+  check.near("sums of the rows of " + name, policy.rowwise().sum(), Eigen::VectorXd::Ones(policy.rows()),
+             1e-10);
+}
+
+void checkFeatures(Check& check, Student& student, int states, int actions, int features, double discount) {
+  rex::Rng& rng = check.rng();
+  const FeatureWorld world = randomWorld(states, actions, features, discount, rng);
+  const Eigen::MatrixXd policy = randomPolicy(states, actions, rng);
+  inputWorld(check, "a policy in a world", world, {"policy", policy});
+  const Eigen::VectorXd got = student.expectedFeatures(world, policy), wanted = featuresOf(world, policy);
+  const Eigen::VectorXd first = world.features * world.start;
+  const auto visited = [&](const Eigen::MatrixXd& next) -> Eigen::VectorXd {
+    const Eigen::MatrixXd rest = Eigen::MatrixXd::Identity(states, states) - next;
+    return world.features * rex::solveMatrix(rest, world.start);
+  };
+  const Eigen::MatrixXd next = nextUnder(world.P, policy);
+  const auto mistakes =
+      check.suspect({{"Are rows and columns of P exchanged? It is a row that says where a state leads.",
+                      visited(discount * next)},
+                     {"Do the features of the first state not count?", wanted - first},
+                     {"Do the features of the first state count with the discount?", discount * wanted},
+                     {"Does only the first state count?", first},
+                     {"Is the discount forgotten?", visited(next.transpose())},
+                     {"Is it a mean over the steps? Wanted is the sum.", (1 - discount) * wanted},
+                     {"Do all actions count alike? The policy draws them.",
+                      featuresOf(world, uniformChoice(states, actions))}});
+  check.near("expected features", got, wanted, 1e-8);
+}
+
+void checkBest(Check& check, Student& student, int states, int actions, int features, double discount) {
+  rex::Rng& rng = check.rng();
+  const FeatureWorld world = randomWorld(states, actions, features, discount, rng);
+  Eigen::VectorXd w(features);
+  for (double& number : w) number = .1 * (rng.index(19) - 9) + .05;
+  inputWorld(check, "a world and weights", world, {"w", w});
+  const Eigen::MatrixXd got = student.bestPolicy(world, w);
+  isPolicy(check, "bestPolicy", got, world);
+  Eigen::MatrixXd greedy = Eigen::MatrixXd::Zero(states, actions), first = greedy;
+  first.col(0).setOnes();
+  for (int s = 0; s < states; ++s) {
+    Eigen::VectorXd soon(actions);
+    for (int a = 0; a < actions; ++a)
+      soon[a] = world.P[static_cast<std::size_t>(a)].row(s) * world.features.transpose() * w;
+    Eigen::Index a = 0;
+    soon.maxCoeff(&a);
+    greedy(s, a) = 1;
+  }
+  check.near("values of the states under bestPolicy", worthOf(world, w, got), bestWorth(world, w), 1e-4,
+             {{"Is it the worst policy?", -bestWorth(world, -w)},
+              {"Does only the next state count? All later ones do, too.", worthOf(world, w, greedy)},
+              {"Is it always the first action?", worthOf(world, w, first)},
+              {"Are all actions equally likely?", worthOf(world, w, uniformChoice(states, actions))}});
+}
+
+void checkShare(Check& check, Student& student, const Eigen::VectorXd& teacher, const Eigen::VectorXd& mixed,
+                const Eigen::VectorXd& candidate) {
+  check.input("three points", {{"teacher", teacher}, {"mixed", mixed}, {"candidate", candidate}});
+  const double got = student.nearestShare(teacher, mixed, candidate);
+  const Eigen::VectorXd way = candidate - mixed, gap = teacher - mixed;
+  const double length = std::max(1e-300, way.norm()), free = gap.dot(way) / (length * length),
+               wanted = std::min(1., std::max(0., free));
+  check.near("nearest share", got, wanted, 1e-9,
+             {{"May the share be less than 0 or more than 1?", free},
+              {"Is it the share of the mixture so far? Wanted is that of the candidate.", 1 - wanted},
+              {"Is it a length? Wanted is its share of the distance from `mixed` to `candidate`.",
+               gap.dot(way) / length},
+              {"Is it a length, cut off at 0 and 1?", std::clamp(gap.dot(way) / length, 0., 1.)},
+              {"Does only the distance to the teacher count? The direction does, too.",
+               std::min(1., gap.norm() / length)},
+              {"Is the teacher projected from the origin? The line begins at `mixed`.",
+               std::clamp(teacher.dot(candidate) / std::max(1e-300, candidate.squaredNorm()), 0., 1.)}});
+}
+
+// Follows the search along the policies of the answer: any best policy will do.
+void explains(Check& check, Student& student, const FeatureWorld& world, const Eigen::VectorXd& teacher,
+              int rounds, double tolerance) {
+  inputWorld(check, fmt::format("a world and a teacher; rounds = {}, tolerance = {:g}", rounds, tolerance),
+             world, {"teacher", teacher});
+  const Explanation got = student.explained(world, teacher, rounds, tolerance);
+  const auto count = static_cast<Eigen::Index>(got.policies.size());
+  check.that("the first policy is there, and at most one more for each round",
+             count >= 1 && count <= rounds + 1);
+  check.shape("shares", got.shares, count, 1);
+  check.shape("w", got.w, teacher.size(), 1);
+  Eigen::VectorXd mixed, last, w = Eigen::VectorXd::Zero(teacher.size()), gap = w, first = w;
+  Eigen::VectorXd shares = Eigen::VectorXd::Zero(count), kept = shares;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Eigen::MatrixXd& policy = got.policies[static_cast<std::size_t>(i)];
+    const std::string name = fmt::format("policy {}", i);
+    isPolicy(check, name, policy, world);
+    const Eigen::VectorXd candidate = featuresOf(world, policy);
+    if (i == 0) {
+      check.near(name, policy, uniformChoice(policy.rows(), policy.cols()), 1e-9);
+      mixed = last = candidate;
+      shares[0] = kept[0] = 1;
+      continue;
+    }
+    gap = teacher - mixed;
+    check.that("the search ends where the mixture is as near as the tolerance", gap.norm() > .99 * tolerance);
+    w = gap / gap.norm();
+    if (i == 1) first = w;
+    const auto isBest = [&](const Eigen::VectorXd& other) {
+      return (worthOf(world, other, policy) - bestWorth(world, other)).cwiseAbs().maxCoeff() < 1e-4;
+    };
+    const auto away = check.ask("Does w point from the teacher to the mixture?", isBest(-w));
+    const auto same = check.ask("Is w the same in each round?", i > 1 && isBest(first));
+    const auto alone = check.ask("Is the teacher compared with the last policy alone? The mixture counts.",
+                                 i > 1 && isBest(teacher - last));
+    const auto absolute =
+        check.ask("Is w the teacher's <phi>? It is what that has more than the mixture.", isBest(teacher));
+    check.near(fmt::format("values of policy {} where w^T phi is paid", i), worthOf(world, w, policy),
+               bestWorth(world, w), 1e-4);
+    const Eigen::VectorXd way = candidate - mixed;
+    const double length = way.squaredNorm(),
+                 share = length > 0 ? std::clamp(gap.dot(way) / length, 0., 1.) : 0;
+    mixed += share * way;
+    last = candidate;
+    shares *= 1 - share;
+    shares[i] = kept[i] = share;
+  }
+  if (count <= rounds)
+    check.atMost("distance of the mixture from the teacher, where the search ends early",
+                 (teacher - mixed).norm(), 1.01 * tolerance);
+  check.near("shares", got.shares, shares, 1e-6,
+             {{"Do the shares of the others not shrink?", kept},
+              {"Have all policies the same share?",
+               Eigen::VectorXd::Constant(count, 1. / static_cast<double>(count))},
+              {"Has the last policy all of the mixture?", Eigen::VectorXd::Unit(count, count - 1)},
+              {"Do both have each other's share?", shares.reverse()}});
+  const Eigen::VectorXd after = teacher - mixed;
+  check.near("w", got.w, w, 1e-6,
+             {{"Has w not the length 1?", gap},
+              {"Is it the w of the round to come? Wanted is that of the last policy.",
+               after / std::max(1e-300, after.norm())},
+              {"Is it the w of the round to come? Wanted is that of the last policy, of length 1.", after}});
+}
+
+void checkWishes(Check& check, Student& student) {
+  checkFeatures(check, student, 3, 2, 2, .8);
+  checkBest(check, student, 4, 2, 2, .8);
+}
+
+// The teacher has hidden wishes, or none.
+void explainsTeacher(Check& check, Student& student, int states, int features, int rounds) {
+  const FeatureWorld world = randomWorld(states, 2, features, .7, check.rng());
+  explains(check, student, world, featuresOf(world, randomPolicy(states, 2, check.rng())), rounds, 1e-3);
+}
+
+void checkExplained(Check& check, Student& student) {
+  const Eigen::Vector2d mixed(1, 1), candidate(4, 5);
+  checkShare(check, student, Eigen::Vector2d(3, 1.5), mixed, candidate);
+  checkShare(check, student, Eigen::Vector2d(9, 7), mixed, candidate);
+  checkShare(check, student, Eigen::Vector2d(0, -2), mixed, candidate);
+  checkShare(check, student, Eigen::Vector2d(3, 2), mixed, mixed);
+  explainsTeacher(check, student, 3, 2, 1);
+  explainsTeacher(check, student, 4, 3, 4);
+}
+
 void bounds(Check& check, Student& student, const Eigen::VectorXi& pulls, const Eigen::VectorXd& paid) {
   check.input("arms", {{"pulls", Eigen::VectorXd(pulls.cast<double>())}, {"paid", paid}});
   const Eigen::VectorXd got = student.upperBounds(pulls, paid);
@@ -321,6 +633,27 @@ void plansMore(Check& check, Student& student) {
 void hopesMore(Check& check, Student& student) {
   check.forEachCase(6, [&](int i) { checkOptimism(check, student, 2 + 2 * i, 2 + i, .15 * (i + 1)); });
 }
+void otherClones(Check& check, Student& student) {
+  check.forEachCase(5, [&](int i) {
+    checkCloned(check, student, 2 + i, 2 + i % 3, 8 + 5 * i);
+    checkMistakes(check, student, 2 + i, 2 + i % 3, 1 + 4 * i);
+    checkAggregated(check, student, 2 + i, 2 + i % 3, i);
+  });
+}
+
+void otherTeachers(Check& check, Student& student) {
+  check.forEachCase(5, [&](int i) {
+    rex::Rng& rng = check.rng();
+    checkFeatures(check, student, 2 + 2 * i, 1 + i, 1 + i, .2 * i);
+    checkBest(check, student, 3 + i, 2 + i % 2, 2 + i, .2 * i);
+    checkShare(check, student, rng.uniformVector(2 + i, -1, 1), rng.uniformVector(2 + i, -1, 1),
+               rng.uniformVector(2 + i, -1, 1));
+    explainsTeacher(check, student, 3 + i, 2 + i, 2 * i);
+    // A teacher without wishes.
+    const FeatureWorld world = randomWorld(4, 2, 3, .5, rng);
+    explains(check, student, world, featuresOf(world, uniformChoice(4, 2)), 3, 1e-3);
+  });
+}
 // </hidden>
 
 }  // namespace
@@ -333,6 +666,10 @@ rex::grading::Checks<Student> checks() {
       {"estimate", "model", "The model of a few steps", 1, Group::kVisible, estimatesFew},
       {"plan", "model", "A plan in a model", 1, Group::kVisible, plansSmall},
       {"hope", "rmax", "An optimistic plan", 1, Group::kVisible, checkSmallOptimism},
+      {"clone", "imitation", "A clone, and its mistakes", 1, Group::kVisible, checkClone},
+      {"aggregate", "imitation", "Aggregation in two rounds", 1, Group::kVisible, checkAggregation},
+      {"wishes", "inverse", "Expected features, and a policy for weights", 1, Group::kVisible, checkWishes},
+      {"explain", "inverse", "The search for weights", 1, Group::kVisible, checkExplained},
       {"bounds", "bandits", "Upper confidence bounds of a few arms", 1, Group::kVisible, boundsOfThree},
       // <hidden>
       {"other-choices", "q", "Other numbers of actions", 1, Group::kHidden, otherChoices},
@@ -341,6 +678,8 @@ rex::grading::Checks<Student> checks() {
       {"unseen-map", "model", "A model and a plan on an unseen map", 1, Group::kHidden, unseenMap},
       {"more-plans", "model", "Plans in other models", 1, Group::kHidden, plansMore},
       {"more-hope", "rmax", "Optimistic plans in other models", 1, Group::kHidden, hopesMore},
+      {"other-clones", "imitation", "Other lessons, clones and teachers", 1, Group::kHidden, otherClones},
+      {"other-teachers", "inverse", "Other worlds and teachers", 1, Group::kHidden, otherTeachers},
       {"other-bounds", "bandits", "Upper confidence bounds of other arms", 1, Group::kHidden, otherBounds},
       // </hidden>
   };

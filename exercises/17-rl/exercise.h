@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "course/course.h"
@@ -66,7 +67,78 @@ Eigen::MatrixXd plannedValues(const LearnedWorld& model, double discount);
 /// which is at least 0.
 Eigen::MatrixXd optimisticValues(const LearnedWorld& model, int known, double maxReward, double discount);
 
-// Part 5, a bonus: bandits (6:22).
+// Part 5, imitation (9:9 to 9:11).
+
+/// What a teacher did in a state.
+struct Lesson {
+  int state = 0, action = 0;
+};
+
+/// The policy (n x m) of a clone, P(a | s): the share of a among the actions of the lessons in s. In a state
+/// without lessons, all actions are equally likely.
+Eigen::MatrixXd cloned(const std::vector<Lesson>& lessons, int states, int actions);
+
+/// P(t | s), n x n, if the action is drawn from `policy` (n x m), for a P as in LearnedWorld. Given.
+inline Eigen::MatrixXd nextUnder(const std::vector<Eigen::MatrixXd>& P, const Eigen::MatrixXd& policy) {
+  Eigen::MatrixXd next = Eigen::MatrixXd::Zero(policy.rows(), policy.rows());
+  for (Eigen::Index a = 0; a < policy.cols(); ++a)
+    next += policy.col(a).asDiagonal() * P[static_cast<std::size_t>(a)];
+  return next;
+}
+
+/// Entry t (`steps` numbers, t = 0, 1, ...): the probability that step t is taken, and its action is not
+/// that of the teacher, who always does `teacher`[s] in s. The first state is drawn from `start` (n), all
+/// actions from `policy` (n x m), and P is as in LearnedWorld: no step follows an end.
+Eigen::VectorXd mistakeChances(const std::vector<Eigen::MatrixXd>& P, const Eigen::VectorXd& start,
+                               const Eigen::MatrixXd& policy, const std::vector<int>& teacher, int steps);
+
+/// The policy of the clone after dataset aggregation (Ross, Gordon and Bagnell 2011). In each of `rounds`
+/// rounds a clone of all lessons so far acts: `visited`(policy) are the states it comes to, maybe several
+/// times. Each visit gives one lesson more: the teacher says what to do there, `taught`(s). The clone that
+/// is returned has all lessons, also those of the last round.
+Eigen::MatrixXd aggregated(const std::vector<Lesson>& lessons, int states, int actions, int rounds,
+                           const std::function<std::vector<int>(const Eigen::MatrixXd& policy)>& visited,
+                           const std::function<int(int state)>& taught);
+
+// Part 6, inverse reinforcement learning (9:12 to 9:14).
+
+/// A world without rewards.
+struct FeatureWorld {
+  std::vector<Eigen::MatrixXd> P;  ///< as in LearnedWorld
+  Eigen::VectorXd start;           ///< n: how likely a walk starts in each state
+  Eigen::MatrixXd features;        ///< k x n: phi(s) in column s
+  double discount = 0;             ///< at least 0 and below 1
+};
+
+/// <phi> of 9:13 for a policy (n x m): the expectation of phi(s_0) + discount phi(s_1) + discount^2 phi(s_2)
+/// + ... (k).
+Eigen::VectorXd expectedFeatures(const FeatureWorld& world, const Eigen::MatrixXd& policy);
+
+/// A policy (n x m) that is best in each state if each step from s pays w^T phi(s).
+Eigen::MatrixXd bestPolicy(const FeatureWorld& world, const Eigen::VectorXd& w);
+
+/// The share of `candidate`, between 0 and 1, in the mixture of it and `mixed` that is nearest to `teacher`
+/// (k numbers each). 0 if both are equal.
+double nearestShare(const Eigen::VectorXd& teacher, const Eigen::VectorXd& mixed,
+                    const Eigen::VectorXd& candidate);
+
+/// What a learner has found out about a teacher.
+struct Explanation {
+  std::vector<Eigen::MatrixXd> policies;  ///< the candidates of 9:13, in the order in which they were found
+  Eigen::VectorXd shares;                 ///< one for each: how often the mixture follows it; their sum is 1
+  Eigen::VectorXd w;                      ///< k: the weights for which the last policy is best, of length 1
+};
+
+/// The search of 9:13 by projections (Abbeel and Ng 2004). `teacher` (k) is the <phi> of the demonstrations.
+/// The first policy chooses among all actions with equal probability, and has all of the mixture. In each
+/// round, w points from the <phi> of the mixture to the teacher, a policy that is best under w is added, and
+/// the mixture gives it the nearest share; the shares of all others shrink in proportion. This ends after
+/// `rounds` rounds, or as soon as the mixture is no farther than `tolerance` from the teacher: without any
+/// round, w is zero.
+Explanation explained(const FeatureWorld& world, const Eigen::VectorXd& teacher, int rounds,
+                      double tolerance);
+
+// Part 7, a bonus: bandits (6:22).
 
 /// An optimistic estimate of what each arm of a bandit pays on average, its upper confidence bound (m): the
 /// mean payment plus a margin b. Payments are between 0 and 1; arm k was pulled N_k = `pulls`[k] times, at

@@ -39,6 +39,46 @@ Eigen::MatrixXd optimisticValues(const LearnedWorld& model, int known, double ma
   return Eigen::MatrixXd::Zero(model.R.rows(), model.R.cols());
 }
 
+Eigen::MatrixXd cloned(const std::vector<Lesson>& lessons, int states, int actions) {
+  // TODO: count, then divide.
+  return Eigen::MatrixXd::Zero(states, actions);
+}
+
+Eigen::VectorXd mistakeChances(const std::vector<Eigen::MatrixXd>& P, const Eigen::VectorXd& start,
+                               const Eigen::MatrixXd& policy, const std::vector<int>& teacher, int steps) {
+  // TODO: how likely is each state in each step, and a mistake in it?
+  return Eigen::VectorXd::Zero(steps);
+}
+
+Eigen::MatrixXd aggregated(const std::vector<Lesson>& lessons, int states, int actions, int rounds,
+                           const std::function<std::vector<int>(const Eigen::MatrixXd& policy)>& visited,
+                           const std::function<int(int state)>& taught) {
+  // TODO: the clone acts, the teacher corrects it.
+  return Eigen::MatrixXd::Zero(states, actions);
+}
+
+Eigen::VectorXd expectedFeatures(const FeatureWorld& world, const Eigen::MatrixXd& policy) {
+  // TODO: how often is each state visited, and with which discount?
+  return Eigen::VectorXd::Zero(world.features.rows());
+}
+
+Eigen::MatrixXd bestPolicy(const FeatureWorld& world, const Eigen::VectorXd& w) {
+  // TODO: a plan for these rewards.
+  return Eigen::MatrixXd::Zero(world.features.cols(), static_cast<Eigen::Index>(world.P.size()));
+}
+
+double nearestShare(const Eigen::VectorXd& teacher, const Eigen::VectorXd& mixed,
+                    const Eigen::VectorXd& candidate) {
+  // TODO: project, but not beyond the ends.
+  return 0;
+}
+
+Explanation explained(const FeatureWorld& world, const Eigen::VectorXd& teacher, int rounds,
+                      double tolerance) {
+  // TODO: weights, a policy, a share; and again.
+  return {};
+}
+
 Eigen::VectorXd upperBounds(const Eigen::VectorXi& pulls, const Eigen::VectorXd& paid) {
   // TODO: the mean of each arm, and its margin.
   return Eigen::VectorXd::Zero(pulls.size());
@@ -51,6 +91,10 @@ int main() {
   showCliff(.1);
   // Parts 3 and 4: a maze, explored by chance and with a plan.
   showExploration();
-  // Part 5: five arms, one of which pays best.
+  // Part 5: a clone leaves the row that it was shown, and learns to come back.
+  showImitation();
+  // Part 6: a teacher walks over several kinds of ground. What does it like?
+  showTeacher();
+  // Part 7: five arms, one of which pays best.
   showBandits(.1);
 }

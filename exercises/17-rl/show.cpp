@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <cstdint>
 
+#include <fmt/format.h>
+
 #include "course/mdp_figures.h"
+#include "learning/dynamic_programming.h"
+#include "learning/inverse_rl.h"
 #include "learning/mdp.h"
 
 using namespace rex;
@@ -58,6 +62,22 @@ Learned learnCliff(const GridWorld& world, bool isSarsa, double epsilon, Rng& rn
     result.returns.push_back(sum);
   }
   return result;
+}
+
+// From the left to the flag on the right.
+GridWorld field(double slip) {
+  const std::string row = "................\n", middle = "S..............G\n";
+  return gridWorld(row + row + row + row + middle + row + row + row + row,
+                   {.discount = .95, .slip = slip, .marks = {{'S', 0, false}, {'G', 1}}});
+}
+
+// A row for each step, until and with the last: how likely it is taken in each state.
+Eigen::MatrixXd whereabouts(const std::vector<Eigen::MatrixXd>& P, Eigen::VectorXd now,
+                            const Eigen::MatrixXd& policy, int steps) {
+  Eigen::MatrixXd all(steps, now.size());
+  const Eigen::MatrixXd next = nextUnder(P, policy);
+  for (int t = 0; t < steps; ++t, now = (next.transpose() * now).eval()) all.row(t) = now.transpose();
+  return all;
 }
 
 }  // namespace
@@ -127,6 +147,97 @@ void showExploration() {
     }
   }
   plot("explored", figure);
+}
+
+void showImitation() {
+  constexpr int kSteps = 40;
+  const GridWorld world = field(.2);
+  const Mdp& mdp = world.mdp;
+  const int n = mdp.states(), home = *world.state(0, 4);
+  const std::vector<int> teacher = policyIteration(mdp).actions;
+  const Eigen::VectorXd start = Eigen::VectorXd::Unit(n, home);
+  std::vector<Eigen::MatrixXd> P = denseTransitions(mdp);
+  for (Eigen::MatrixXd& next : P) next.col(*world.state(15, 4)).setZero();  // the flag is the end
+  std::vector<LearningCurves> curves;
+  for (const int rounds : {0, 5, 20, 80}) {
+    LearningCurves curve{fmt::format("{} rounds", rounds), {}};
+    if (rounds == 0) curve.label = "one demonstration, or many";
+    for (std::uint64_t seed = 0; seed < 30; ++seed) {
+      Rng rng(seed);
+      std::vector<Lesson> lessons;
+      const MdpEpisode shown = mdpEpisode(field(0).mdp, deterministicPolicy(mdp, teacher), home, kSteps, rng);
+      for (std::size_t t = 0; t < shown.actions.size(); ++t)
+        lessons.push_back({shown.states[t], shown.actions[t]});
+      const Eigen::MatrixXd policy = aggregated(
+          lessons, n, 4, rounds,
+          [&](const Eigen::MatrixXd& clone) { return mdpEpisode(mdp, clone, home, kSteps, rng).states; },
+          [&](int s) { return teacher[static_cast<std::size_t>(s)]; });
+      if (policy.isZero(0)) return nothingYet("imitation");
+      if (seed == 0 && (rounds == 0 || rounds == 80)) {
+        Figure figure =
+            policyFigure(world, whereabouts(P, start, policy, kSteps).colwise().sum().transpose(), policy);
+        figure.title =
+            rounds == 0 ? "A clone of one demonstration" : "The same after 80 rounds of aggregation";
+        figure.colorLabel = "visits in 40 steps";
+        plot(rounds == 0 ? "cloned" : "aggregated", figure);
+      }
+      const Eigen::VectorXd chances = mistakeChances(P, start, policy, teacher, kSteps);
+      curve.runs.emplace_back(chances.begin(), chances.end());
+    }
+    curves.push_back(curve);
+  }
+  Figure figure = learningFigure(curves);
+  figure.title = "A clone on slippery ground: 30 runs each";
+  figure.xLabel = "step";
+  figure.yLabel = "chance of a mistake";
+  plot("drift", figure);
+}
+
+void showTeacher() {
+  // Road, grass, water, home.
+  const std::string map = "....,,,,..\n.,,.,~~,..\n.,~.,~~,.,\n.,~....,.,\n.,~~~~.,.,\n....,,...H";
+  std::string cells = map;
+  for (char& c : cells) c = c == '\n' ? c : '.';
+  const GridWorld world = gridWorld(cells, {.slip = .1});
+  Mdp mdp = world.mdp;
+  const int n = mdp.states();
+  FeatureWorld walk{denseTransitions(mdp), Eigen::VectorXd::Constant(n, 1. / n), Eigen::MatrixXd::Zero(4, n),
+                    .9};
+  for (int s = 0; s < n; ++s) {
+    const auto& [column, row] = world.cells[static_cast<std::size_t>(s)];
+    walk.features(static_cast<Eigen::Index>(
+                      std::string_view(".,~H").find(map[static_cast<std::size_t>((5 - row) * 11 + column)])),
+                  s) = 1;
+  }
+  const Eigen::Vector4d wishes(0, -.3, -.8, .5);
+  mdp.rewards = (walk.features.transpose() * wishes).replicate(1, 4);
+  const Eigen::MatrixXd acts = deterministicPolicy(mdp, policyIteration(mdp).actions);
+  Rng rng(1);
+  std::vector<std::vector<int>> seen;
+  for (int i = 0; i < 500; ++i) seen.push_back(mdpEpisode(mdp, acts, rng.index(n), 100, rng).states);
+  const Eigen::VectorXd teacher = featureExpectations(seen, walk.features, .9);
+  const auto draw = [&](const char* name, const char* title, const Eigen::VectorXd& w,
+                        const Eigen::MatrixXd& policy) {
+    Figure figure = policyFigure(world, walk.features.transpose() * w, policy);
+    figure.title = title;
+    figure.colorLabel = "w^T phi";
+    plot(name, figure);
+  };
+  draw("wishes", "What a teacher likes, and does", wishes, acts);
+  Series gap{.label = "under its own weights"}, distance{.label = "distance of <phi>"};
+  Explanation found;
+  for (int rounds = 0; rounds <= 20; ++rounds) {
+    found = explained(walk, teacher, rounds, 0);
+    if (found.policies.empty()) return nothingYet("inverse reinforcement learning");
+    Eigen::VectorXd mixed = Eigen::VectorXd::Zero(4);
+    for (std::size_t i = 0; i < found.policies.size(); ++i)
+      mixed += found.shares[static_cast<Eigen::Index>(i)] * expectedFeatures(walk, found.policies[i]);
+    gap.add(rounds, wishes.dot(teacher - mixed));
+    distance.add(rounds, (teacher - mixed).norm());
+  }
+  draw("inferred", "What its walks reveal", found.w, found.policies.back());
+  plot("gap",
+       {.title = "What the mixture lacks", .xLabel = "round", .yLabel = "value", .series = {gap, distance}});
 }
 
 void showBandits(double epsilon) {

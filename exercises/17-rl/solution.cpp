@@ -116,6 +116,122 @@ Eigen::MatrixXd optimisticValues(const LearnedWorld& model, int known, double ma
   // </solution>
 }
 
+Eigen::MatrixXd cloned(const std::vector<Lesson>& lessons, int states, int actions) {
+  // <solution cloned>
+  Eigen::MatrixXd policy = Eigen::MatrixXd::Zero(states, actions);
+  for (const Lesson& lesson : lessons) policy(lesson.state, lesson.action) += 1;
+  for (int s = 0; s < states; ++s) {
+    const double all = policy.row(s).sum();
+    if (all == 0) policy.row(s).setOnes();
+    policy.row(s) /= all > 0 ? all : actions;
+  }
+  return policy;
+  // <todo>
+  //| // TODO: count, then divide.
+  //| return Eigen::MatrixXd::Zero(states, actions);
+  // </solution>
+}
+
+Eigen::VectorXd mistakeChances(const std::vector<Eigen::MatrixXd>& P, const Eigen::VectorXd& start,
+                               const Eigen::MatrixXd& policy, const std::vector<int>& teacher, int steps) {
+  // <solution mistakeChances>
+  const Eigen::MatrixXd next = nextUnder(P, policy);
+  Eigen::VectorXd chances = Eigen::VectorXd::Zero(steps), now = start;
+  for (int t = 0; t < steps; ++t) {
+    for (Eigen::Index s = 0; s < now.size(); ++s)
+      chances[t] += now[s] * (1 - policy(s, teacher[static_cast<std::size_t>(s)]));
+    now = (next.transpose() * now).eval();
+  }
+  return chances;
+  // <todo>
+  //| // TODO: how likely is each state in each step, and a mistake in it?
+  //| return Eigen::VectorXd::Zero(steps);
+  // </solution>
+}
+
+Eigen::MatrixXd aggregated(const std::vector<Lesson>& lessons, int states, int actions, int rounds,
+                           const std::function<std::vector<int>(const Eigen::MatrixXd& policy)>& visited,
+                           const std::function<int(int state)>& taught) {
+  // <solution aggregated>
+  std::vector<Lesson> all = lessons;
+  for (int round = 0; round < rounds; ++round) {
+    const std::vector<int> here = visited(cloned(all, states, actions));
+    for (const int s : here) all.push_back({s, taught(s)});
+  }
+  return cloned(all, states, actions);
+  // <todo>
+  //| // TODO: the clone acts, the teacher corrects it.
+  //| return Eigen::MatrixXd::Zero(states, actions);
+  // </solution>
+}
+
+Eigen::VectorXd expectedFeatures(const FeatureWorld& world, const Eigen::MatrixXd& policy) {
+  // <solution expectedFeatures>
+  const Eigen::MatrixXd stay = Eigen::MatrixXd::Identity(policy.rows(), policy.rows()),
+                        next = nextUnder(world.P, policy).transpose();
+  const Eigen::VectorXd visits = solve(stay - world.discount * next, world.start);
+  return world.features * visits;
+  // <todo>
+  //| // TODO: how often is each state visited, and with which discount?
+  //| return Eigen::VectorXd::Zero(world.features.rows());
+  // </solution>
+}
+
+Eigen::MatrixXd bestPolicy(const FeatureWorld& world, const Eigen::VectorXd& w) {
+  // <solution bestPolicy>
+  const auto n = world.features.cols(), m = static_cast<Eigen::Index>(world.P.size());
+  Eigen::MatrixXd policy = Eigen::MatrixXd::Zero(n, m), paid(n, m);
+  for (Eigen::Index s = 0; s < n; ++s) paid.row(s).setConstant(w.dot(world.features.col(s)));
+  const Eigen::MatrixXd Q = plannedValues({world.P, paid, policy}, world.discount);
+  for (Eigen::Index s = 0; s < n; ++s) {
+    Eigen::Index best = 0;
+    Q.row(s).maxCoeff(&best);
+    policy(s, best) = 1;
+  }
+  return policy;
+  // <todo>
+  //| // TODO: a plan for these rewards.
+  //| return Eigen::MatrixXd::Zero(world.features.cols(), static_cast<Eigen::Index>(world.P.size()));
+  // </solution>
+}
+
+double nearestShare(const Eigen::VectorXd& teacher, const Eigen::VectorXd& mixed,
+                    const Eigen::VectorXd& candidate) {
+  // <solution nearestShare>
+  const Eigen::VectorXd way = candidate - mixed;
+  if (way.squaredNorm() == 0) return 0;
+  return std::clamp(way.dot(teacher - mixed) / way.squaredNorm(), 0., 1.);
+  // <todo>
+  //| // TODO: project, but not beyond the ends.
+  //| return 0;
+  // </solution>
+}
+
+Explanation explained(const FeatureWorld& world, const Eigen::VectorXd& teacher, int rounds,
+                      double tolerance) {
+  // <solution explained>
+  const auto n = world.features.cols(), m = static_cast<Eigen::Index>(world.P.size());
+  Explanation found{{Eigen::MatrixXd::Constant(n, m, 1. / static_cast<double>(m))},
+                    Eigen::VectorXd::Ones(1),
+                    Eigen::VectorXd::Zero(teacher.size())};
+  Eigen::VectorXd mixed = expectedFeatures(world, found.policies[0]);
+  for (int round = 0; round < rounds && (teacher - mixed).norm() > tolerance; ++round) {
+    found.w = (teacher - mixed) / (teacher - mixed).norm();
+    found.policies.push_back(bestPolicy(world, found.w));
+    const Eigen::VectorXd candidate = expectedFeatures(world, found.policies.back());
+    const double share = nearestShare(teacher, mixed, candidate);
+    mixed += share * (candidate - mixed);
+    found.shares *= 1 - share;
+    found.shares.conservativeResize(found.shares.size() + 1);
+    found.shares[found.shares.size() - 1] = share;
+  }
+  return found;
+  // <todo>
+  //| // TODO: weights, a policy, a share; and again.
+  //| return {};
+  // </solution>
+}
+
 Eigen::VectorXd upperBounds(const Eigen::VectorXi& pulls, const Eigen::VectorXd& paid) {
   // <solution upperBounds>
   const Eigen::ArrayXd N = pulls.cast<double>();
@@ -133,6 +249,10 @@ int main() {
   showCliff(.1);
   // Parts 3 and 4: a maze, explored by chance and with a plan.
   showExploration();
-  // Part 5: five arms, one of which pays best.
+  // Part 5: a clone leaves the row that it was shown, and learns to come back.
+  showImitation();
+  // Part 6: a teacher walks over several kinds of ground. What does it like?
+  showTeacher();
+  // Part 7: five arms, one of which pays best.
   showBandits(.1);
 }

@@ -5,6 +5,7 @@
 
 #include "interface.h"
 #include "learning/dynamic_programming.h"
+#include "learning/inverse_rl.h"
 #include "learning/mazes.h"
 #include "learning/mdp.h"
 #include "learning/q_learning.h"
@@ -80,20 +81,25 @@ inline Eigen::MatrixXd stackedOf(const LearnedWorld& model) {
   return stacked;
 }
 
-/// Q in the model; ends lead to a state of their own, where nothing is paid.
-inline Eigen::MatrixXd exactValues(const LearnedWorld& model, double discount) {
-  const Eigen::Index n = model.R.rows(), m = model.R.cols();
-  rex::Mdp mdp{.rewards = Eigen::MatrixXd::Zero(n + 1, m), .discount = discount};
-  mdp.rewards.topRows(n) = model.R;
+/// The process of a world; ends lead to a state of their own, where nothing is paid.
+inline rex::Mdp endingMdp(const std::vector<Eigen::MatrixXd>& P, const Eigen::MatrixXd& R, double discount) {
+  const Eigen::Index n = R.rows();
+  rex::Mdp mdp{.rewards = Eigen::MatrixXd::Zero(n + 1, R.cols()), .discount = discount};
+  mdp.rewards.topRows(n) = R;
   mdp.terminal.assign(static_cast<std::size_t>(n), false);
   mdp.terminal.push_back(true);
-  for (const Eigen::MatrixXd& P : model.P) {
+  for (const Eigen::MatrixXd& rows : P) {
     Eigen::MatrixXd all = Eigen::MatrixXd::Zero(n + 1, n + 1);
-    all.topLeftCorner(n, n) = P;
-    all.col(n).head(n) = (1 - P.rowwise().sum().array()).max(0);
+    all.topLeftCorner(n, n) = rows;
+    all.col(n).head(n) = (1 - rows.rowwise().sum().array()).max(0);
     mdp.transitions.emplace_back(all.sparseView());
   }
-  return rex::policyIteration(mdp).Q.topRows(n);
+  return mdp;
+}
+
+/// Q in the model.
+inline Eigen::MatrixXd exactValues(const LearnedWorld& model, double discount) {
+  return rex::policyIteration(endingMdp(model.P, model.R, discount)).Q.topRows(model.R.rows());
 }
 
 /// The model in which pairs that are not known are worth that much.
@@ -122,4 +128,103 @@ inline std::vector<Experience> wander(const rex::GridWorld& world, int count, re
     steps.push_back({s, a, world.mdp.rewards(s, a), ends ? s : rex::sampledNext(world.mdp, s, a, rng), ends});
   }
   return steps;
+}
+
+inline Eigen::MatrixXd uniformChoice(Eigen::Index states, Eigen::Index actions) {
+  return Eigen::MatrixXd::Constant(states, actions, 1. / static_cast<double>(actions));
+}
+
+/// Frequencies as running means.
+inline Eigen::MatrixXd cloneOf(const std::vector<Lesson>& lessons, int states, int actions) {
+  Eigen::MatrixXd policy = uniformChoice(states, actions);
+  std::vector<int> seen(static_cast<std::size_t>(states), 0);
+  for (const Lesson& l : lessons) {
+    policy.row(l.state) *= 1 - 1. / ++seen[static_cast<std::size_t>(l.state)];
+    policy(l.state, l.action) += 1. / seen[static_cast<std::size_t>(l.state)];
+  }
+  return policy;
+}
+
+/// One lesson per row.
+inline Eigen::MatrixXd rowsOf(const std::vector<Lesson>& lessons) {
+  Eigen::MatrixXd rows(lessons.size(), 2);
+  for (std::size_t i = 0; i < lessons.size(); ++i)
+    rows.row(static_cast<Eigen::Index>(i)) << lessons[i].state, lessons[i].action;
+  return rows;
+}
+
+/// Lessons in all states but the last; in state 0 two different ones.
+inline std::vector<Lesson> randomLessons(int states, int actions, int count, rex::Rng& rng) {
+  std::vector<Lesson> lessons{{0, 1}, {0, 0}, {0, 1}};
+  while (static_cast<int>(lessons.size()) < count)
+    lessons.push_back({rng.index(states - 1), rng.index(actions)});
+  return lessons;
+}
+
+inline std::vector<int> randomTeacher(int states, int actions, rex::Rng& rng) {
+  std::vector<int> teacher;
+  for (int s = 0; s < states; ++s) teacher.push_back(rng.index(actions));
+  return teacher;
+}
+
+inline Eigen::VectorXd numbersOf(const std::vector<int>& list) {
+  return Eigen::Map<const Eigen::VectorXi>(list.data(), static_cast<Eigen::Index>(list.size()))
+      .cast<double>();
+}
+
+/// Each pair leads to one state or another, and each step ends with a probability of at least .05.
+inline FeatureWorld randomWorld(int states, int actions, int features, double discount, rex::Rng& rng) {
+  FeatureWorld world{{}, Eigen::VectorXd::Zero(states), Eigen::MatrixXd(features, states), discount};
+  for (int a = 0; a < actions; ++a) {
+    world.P.emplace_back(Eigen::MatrixXd::Zero(states, states));
+    for (int s = 0; s < states; ++s) {
+      const int nearby = rng.index(8);
+      world.P.back()(s, rng.index(states)) += .05 * (11 + nearby);
+      world.P.back()(s, rng.index(states)) += .05 * (8 - nearby - s % 2);
+    }
+  }
+  world.start[0] = .75;
+  world.start[1 + rng.index(states - 1)] = .25;
+  for (double& number : world.features.reshaped()) number = .1 * (rng.index(21) - 10);
+  return world;
+}
+
+/// Probabilities of actions, in steps of .1.
+inline Eigen::MatrixXd randomPolicy(int states, int actions, rex::Rng& rng) {
+  Eigen::MatrixXd policy = Eigen::MatrixXd::Zero(states, actions);
+  for (int i = 0; i < 10 * states; ++i) policy(i / 10, rng.index(actions)) += .1;
+  return policy;
+}
+
+/// Rewards (n x m) if each step from s pays w^T phi(s).
+inline Eigen::MatrixXd paidBy(const FeatureWorld& world, const Eigen::VectorXd& w) {
+  return (world.features.transpose() * w).replicate(1, static_cast<Eigen::Index>(world.P.size()));
+}
+
+/// With zeros for the state in which all ends.
+inline Eigen::MatrixXd extended(const Eigen::MatrixXd& part, int moreRows, int moreColumns) {
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(part.rows() + moreRows, part.cols() + moreColumns);
+  all.topLeftCorner(part.rows(), part.cols()) = part;
+  return all;
+}
+
+inline Eigen::MatrixXd untilEnd(const Eigen::MatrixXd& policy) {
+  Eigen::MatrixXd acts = extended(policy, 1, 0);
+  acts(policy.rows(), 0) = 1;
+  return acts;
+}
+
+/// The second opinions on a policy: its expected features, and its values if being in s pays w^T phi(s).
+inline Eigen::VectorXd featuresOf(const FeatureWorld& world, const Eigen::MatrixXd& policy) {
+  const rex::Mdp mdp = endingMdp(world.P, policy, world.discount);
+  return rex::featureExpectations(mdp, untilEnd(policy), extended(world.features, 0, 1),
+                                  extended(world.start, 1, 0).col(0));
+}
+inline Eigen::VectorXd worthOf(const FeatureWorld& world, const Eigen::VectorXd& w,
+                               const Eigen::MatrixXd& policy) {
+  const rex::Mdp mdp = endingMdp(world.P, paidBy(world, w), world.discount);
+  return rex::policyValues(mdp, untilEnd(policy)).V.head(policy.rows());
+}
+inline Eigen::VectorXd bestWorth(const FeatureWorld& world, const Eigen::VectorXd& w) {
+  return exactValues({world.P, paidBy(world, w), {}}, world.discount).rowwise().maxCoeff();
 }

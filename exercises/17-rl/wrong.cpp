@@ -163,6 +163,355 @@ if (known > 0 && model.visits(s, a) > 0) continue;
 // in place of: hoped.R(s, a) = maxReward / (1 - discount);
 hoped.R(s, a) = maxReward;
 
+// <variant counts_for_shares> caught by: clone, other-clones
+// mistake: does not divide the counts.
+// <solution cloned>
+// in place of: if (all == 0) policy.row(s).setOnes(); ... policy.row(s) /= all > 0 ? all : actions;
+if (all == 0) policy.row(s).setConstant(1. / actions);
+
+// <variant nothing_without_lessons> caught by: clone, other-clones
+// mistake: leaves zeros where there are no lessons.
+// <solution cloned>
+// in place of: if (all == 0) policy.row(s).setOnes(); ... policy.row(s) /= all > 0 ? all : actions;
+if (all > 0) policy.row(s) /= all;
+
+// <variant nothing_by_nothing> caught by: clone, other-clones
+// mistake: divides zero by zero where there are no lessons.
+// <solution cloned>
+// in place of: if (all == 0) policy.row(s).setOnes(); ... policy.row(s) /= all > 0 ? all : actions;
+policy.row(s) /= all;
+
+// <variant share_of_all_lessons> caught by: clone, other-clones
+// mistake: divides by the number of all lessons.
+// <solution cloned>
+// in place of: policy.row(s) /= all > 0 ? all : actions;
+policy.row(s) /= all > 0 ? static_cast<double>(lessons.size()) : actions;
+
+// <variant most_frequent_action> caught by: clone, other-clones
+// mistake: always takes the most frequent action.
+// <solution cloned>
+// in place of: policy.row(s) /= all > 0 ? all : actions;
+Eigen::Index best = 0;
+policy.row(s).maxCoeff(&best);
+policy.row(s) = all > 0 ? Eigen::RowVectorXd::Unit(actions, best) : Eigen::RowVectorXd::Constant(actions, 1. / actions);
+
+// <variant last_lesson> caught by: clone, other-clones
+// mistake: remembers only the last lesson of a state.
+// <solution cloned>
+// in place of: for (const Lesson& lesson : lessons) policy(lesson.state, lesson.action) += 1;
+for (const Lesson& lesson : lessons) policy.row(lesson.state) = Eigen::RowVectorXd::Unit(actions, lesson.action);
+
+// <variant one_more_of_each> caught by: clone, other-clones
+// mistake: adds one to each count.
+// <solution cloned>
+// in place of: Eigen::MatrixXd policy = Eigen::MatrixXd::Zero(states, actions);
+Eigen::MatrixXd policy = Eigen::MatrixXd::Ones(states, actions);
+
+// <variant follows_the_teacher> caught by: clone, other-clones
+// mistake: the teacher acts, and the clone is asked what it would do.
+// <solution mistakeChances>
+// in place of: const Eigen::MatrixXd next = nextUnder(P, policy);
+Eigen::MatrixXd acts = Eigen::MatrixXd::Zero(policy.rows(), policy.cols());
+for (Eigen::Index s = 0; s < policy.rows(); ++s) acts(s, teacher[static_cast<std::size_t>(s)]) = 1;
+const Eigen::MatrixXd next = nextUnder(P, acts);
+
+// <variant ends_with_a_mistake> caught by: clone, other-clones
+// mistake: follows only walks without a mistake.
+// <solution mistakeChances>
+// in place of: const Eigen::MatrixXd next = nextUnder(P, policy);
+Eigen::MatrixXd acts = Eigen::MatrixXd::Zero(policy.rows(), policy.cols());
+for (Eigen::Index s = 0; s < policy.rows(); ++s) {
+  const int a = teacher[static_cast<std::size_t>(s)];
+  acts(s, a) = policy(s, a);
+}
+const Eigen::MatrixXd next = nextUnder(P, acts);
+
+// <variant from_columns_to_rows> caught by: clone, other-clones
+// mistake: multiplies by P, not by its transpose.
+// <solution mistakeChances>
+// in place of: now = (next.transpose() * now).eval();
+now = (next * now).eval();
+
+// <variant second_step_first> caught by: clone, other-clones
+// mistake: moves on before it counts.
+// <solution mistakeChances>
+// in place of: for (Eigen::Index s = 0; s < now.size(); ++s) ... now = (next.transpose() * now).eval();
+now = (next.transpose() * now).eval();
+for (Eigen::Index s = 0; s < now.size(); ++s)
+  chances[t] += now[s] * (1 - policy(s, teacher[static_cast<std::size_t>(s)]));
+
+// <variant mistakes_so_far> caught by: clone, other-clones
+// mistake: sums over the steps.
+// <solution mistakeChances>
+// in place of: now = (next.transpose() * now).eval();
+now = (next.transpose() * now).eval();
+if (t > 0) chances[t] += chances[t - 1];
+
+// <variant share_of_those_left> caught by: clone, other-clones
+// mistake: divides by the probability that the walk goes on.
+// <solution mistakeChances>
+// in place of: now = (next.transpose() * now).eval();
+chances[t] /= now.sum();
+now = (next.transpose() * now).eval();
+
+// <variant chance_of_being_right> caught by: clone, other-clones
+// mistake: adds up what the teacher would do, too.
+// <solution mistakeChances>
+// in place of: chances[t] += now[s] * (1 - policy(s, teacher[static_cast<std::size_t>(s)]));
+chances[t] += now[s] * policy(s, teacher[static_cast<std::size_t>(s)]);
+
+// <variant one_less_right> caught by: clone, other-clones
+// mistake: one minus the chance of being right, also after the end.
+// <solution mistakeChances>
+// in place of: for (Eigen::Index s = 0; s < now.size(); ++s) ... chances[t] += now[s] * (1 - policy(s, teacher[static_cast<std::size_t>(s)]));
+chances[t] = 1;
+for (Eigen::Index s = 0; s < now.size(); ++s)
+  chances[t] -= now[s] * policy(s, teacher[static_cast<std::size_t>(s)]);
+
+// <variant forgets_the_rounds_before> caught by: aggregate, other-clones
+// mistake: learns only the lessons of the last round.
+// <solution aggregated>
+// in place of: for (const int s : here) all.push_back({s, taught(s)});
+all.clear();
+for (const int s : here) all.push_back({s, taught(s)});
+
+// <variant forgets_the_demonstrations> caught by: aggregate, other-clones
+// mistake: begins without the demonstrations.
+// <solution aggregated>
+// in place of: std::vector<Lesson> all = lessons;
+std::vector<Lesson> all;
+
+// <variant same_clone_in_each_round> caught by: aggregate, other-clones
+// mistake: the clone of the demonstrations acts in each round.
+// <solution aggregated>
+// in place of: const std::vector<int> here = visited(cloned(all, states, actions));
+const std::vector<int> here = visited(cloned(lessons, states, actions));
+
+// <variant never_learns> caught by: aggregate, other-clones
+// mistake: asks the teacher, and does not use the answers.
+// <solution aggregated>
+// in place of: return cloned(all, states, actions);
+return cloned(lessons, states, actions);
+
+// <variant last_that_acted> caught by: aggregate, other-clones
+// mistake: returns the clone that acted last.
+// <solution aggregated>
+Eigen::MatrixXd policy = cloned(lessons, states, actions);
+std::vector<Lesson> all = lessons;
+for (int round = 0; round < rounds; ++round) {
+  policy = cloned(all, states, actions);
+  for (const int s : visited(policy)) all.push_back({s, taught(s)});
+}
+return policy;
+
+// <variant each_state_once> caught by: aggregate, other-clones
+// mistake: asks once about each state of a round.
+// <solution aggregated>
+// in place of: for (const int s : here) all.push_back({s, taught(s)});
+for (std::size_t i = 0; i < here.size(); ++i)
+  if (std::find(here.begin(), here.begin() + static_cast<std::ptrdiff_t>(i), here[i]) == here.begin() + static_cast<std::ptrdiff_t>(i))
+    all.push_back({here[i], taught(here[i])});
+
+// <variant copies_itself> caught by: aggregate, other-clones
+// mistake: learns what the clone would do.
+// <solution aggregated>
+// in place of: for (const int s : here) all.push_back({s, taught(s)});
+for (const int s : here) {
+  int best = 0;
+  cloned(all, states, actions).row(s).maxCoeff(&best);
+  all.push_back({s, best});
+}
+
+// <variant one_round_more> caught by: aggregate, other-clones
+// mistake: lets the clone act once more.
+// <solution aggregated>
+// in place of: for (int round = 0; round < rounds; ++round) {
+for (int round = 0; round <= rounds; ++round) {
+
+// <variant first_state_only> caught by: aggregate, other-clones
+// mistake: asks only about the first state of a walk.
+// <solution aggregated>
+// in place of: for (const int s : here) all.push_back({s, taught(s)});
+all.push_back({here.front(), taught(here.front())});
+
+// <variant rows_of_p_as_columns> caught by: wishes, other-teachers
+// mistake: does not transpose P.
+// <solution expectedFeatures>
+// in place of: const Eigen::VectorXd visits = solve(stay - world.discount * next, world.start);
+const Eigen::VectorXd visits = solve(stay - world.discount * next.transpose(), world.start);
+
+// <variant without_the_first_state> caught by: wishes, other-teachers
+// mistake: begins with the second state.
+// <solution expectedFeatures>
+// in place of: const Eigen::VectorXd visits = solve(stay - world.discount * next, world.start);
+const Eigen::VectorXd visits = solve(stay - world.discount * next, world.start) - world.start;
+
+// <variant discount_from_the_first> caught by: wishes, other-teachers
+// mistake: also discounts the first state.
+// <solution expectedFeatures>
+// in place of: return world.features * visits;
+return world.discount * (world.features * visits);
+
+// <variant mean_over_the_steps> caught by: wishes, other-teachers
+// mistake: divides by the sum of the discounts.
+// <solution expectedFeatures>
+// in place of: return world.features * visits;
+return (1 - world.discount) * (world.features * visits);
+
+// <variant features_without_discount> caught by: wishes, other-teachers
+// mistake: forgets the discount.
+// <solution expectedFeatures>
+// in place of: const Eigen::VectorXd visits = solve(stay - world.discount * next, world.start);
+const Eigen::VectorXd visits = solve(stay - next, world.start);
+
+// <variant first_state_alone> caught by: wishes, other-teachers
+// mistake: looks at the first state only.
+// <solution expectedFeatures>
+// in place of: const Eigen::VectorXd visits = solve(stay - world.discount * next, world.start);
+const Eigen::VectorXd visits = world.discount < 0 ? stay.col(0) : world.start;
+
+// <variant twenty_steps> caught by: wishes, other-teachers
+// mistake: adds up twenty steps only.
+// <solution expectedFeatures>
+// in place of: const Eigen::VectorXd visits = solve(stay - world.discount * next, world.start);
+Eigen::VectorXd visits = stay.col(0) * 0, now = world.start;
+for (int t = 0; t < 20; ++t) {
+  visits += now;
+  now = (world.discount * next * now).eval();
+}
+
+// <variant worst_policy> caught by: wishes, other-teachers
+// mistake: takes the worst action.
+// <solution bestPolicy>
+// in place of: Q.row(s).maxCoeff(&best);
+Q.row(s).minCoeff(&best);
+
+// <variant next_state_only> caught by: wishes, other-teachers
+// mistake: looks one step ahead only.
+// <solution bestPolicy>
+// in place of: const Eigen::MatrixXd Q = plannedValues({world.P, paid, policy}, world.discount);
+Eigen::MatrixXd Q = paid;
+for (Eigen::Index a = 0; a < m; ++a) Q.col(a) += world.P[static_cast<std::size_t>(a)] * paid.col(0);
+
+// <variant rewards_without_plan> caught by: wishes, other-teachers
+// mistake: compares the rewards, which are equal.
+// <solution bestPolicy>
+// in place of: Q.row(s).maxCoeff(&best);
+paid.row(s).maxCoeff(&best);
+
+// <variant values_for_probabilities> caught by: wishes, other-teachers
+// mistake: returns the values of the actions.
+// <solution bestPolicy>
+// in place of: for (Eigen::Index s = 0; s < n; ++s) { ... return policy;
+return Q;
+
+// <variant undecided> caught by: wishes, other-teachers
+// mistake: takes all actions with equal probability.
+// <solution bestPolicy>
+// in place of: policy(s, best) = 1;
+policy.row(s).setConstant(1. / static_cast<double>(m));
+
+// <variant beyond_the_ends> caught by: explain, other-teachers
+// mistake: does not stop at the ends.
+// <solution nearestShare>
+// in place of: return std::clamp(way.dot(teacher - mixed) / way.squaredNorm(), 0., 1.);
+return way.dot(teacher - mixed) / way.squaredNorm();
+
+// <variant share_of_the_mixture> caught by: explain, other-teachers
+// mistake: returns the share of the other.
+// <solution nearestShare>
+// in place of: return std::clamp(way.dot(teacher - mixed) / way.squaredNorm(), 0., 1.);
+return std::clamp(1 - way.dot(teacher - mixed) / way.squaredNorm(), 0., 1.);
+
+// <variant length_of_the_projection> caught by: explain, other-teachers
+// mistake: divides by the length, not by its square.
+// <solution nearestShare>
+// in place of: return std::clamp(way.dot(teacher - mixed) / way.squaredNorm(), 0., 1.);
+return std::clamp(way.dot(teacher - mixed) / way.norm(), 0., 1.);
+
+// <variant share_by_distances> caught by: explain, other-teachers
+// mistake: compares the distances only.
+// <solution nearestShare>
+// in place of: return std::clamp(way.dot(teacher - mixed) / way.squaredNorm(), 0., 1.);
+return std::clamp((teacher - mixed).norm() / way.norm(), 0., 1.);
+
+// <variant projected_from_the_origin> caught by: explain, other-teachers
+// mistake: projects the teacher from the origin.
+// <solution nearestShare>
+// in place of: return std::clamp(way.dot(teacher - mixed) / way.squaredNorm(), 0., 1.);
+return std::clamp(teacher.dot(candidate) / candidate.squaredNorm(), 0., 1.);
+
+// <variant no_way_at_all> caught by: explain, other-teachers
+// mistake: divides zero by zero if both are equal.
+// <solution nearestShare>
+// in place of: if (way.squaredNorm() == 0) return 0;
+
+// <variant away_from_the_teacher> caught by: explain, other-teachers
+// mistake: w points away from the teacher.
+// <solution explained>
+// in place of: found.w = (teacher - mixed) / (teacher - mixed).norm();
+found.w = (mixed - teacher) / (mixed - teacher).norm();
+
+// <variant last_policy_alone> caught by: explain, other-teachers
+// mistake: compares the teacher with the last policy, not with the mixture.
+// <solution explained>
+// in place of: found.w = (teacher - mixed) / (teacher - mixed).norm();
+const Eigen::VectorXd lack = teacher - expectedFeatures(world, found.policies.back());
+found.w = lack / lack.norm();
+
+// <variant teacher_alone> caught by: explain, other-teachers
+// mistake: takes what the teacher has for w.
+// <solution explained>
+// in place of: found.w = (teacher - mixed) / (teacher - mixed).norm();
+found.w = teacher / teacher.norm();
+
+// <variant w_of_any_length> caught by: explain, other-teachers
+// mistake: does not give w the length 1.
+// <solution explained>
+// in place of: found.w = (teacher - mixed) / (teacher - mixed).norm();
+found.w = teacher - mixed;
+
+// <variant mixture_replaced> caught by: explain, other-teachers
+// mistake: takes the last policy for the mixture.
+// <solution explained>
+// in place of: mixed += share * (candidate - mixed);
+mixed = candidate;
+
+// <variant others_keep_their_shares> caught by: explain, other-teachers
+// mistake: does not shrink the shares of the others.
+// <solution explained>
+// in place of: found.shares *= 1 - share;
+
+// <variant all_shares_equal> caught by: explain, other-teachers
+// mistake: gives all policies the same share.
+// <solution explained>
+// in place of: return found;
+found.shares.setConstant(1. / static_cast<double>(found.shares.size()));
+return found;
+
+// <variant w_of_the_round_to_come> caught by: explain, other-teachers
+// mistake: returns the next w.
+// <solution explained>
+// in place of: return found;
+if (found.policies.size() > 1 && teacher != mixed) found.w = (teacher - mixed) / (teacher - mixed).norm();
+return found;
+
+// <variant without_the_first_policy> caught by: explain, other-teachers
+// mistake: leaves out the policy that it begins with.
+// <solution explained>
+// in place of: return found;
+if (found.policies.size() > 1) {
+  found.policies.erase(found.policies.begin());
+  found.shares = found.shares.tail(found.shares.size() - 1).eval();
+}
+return found;
+
+// <variant never_ends_early> caught by: other-teachers
+// mistake: goes on where the teacher is matched.
+// <solution explained>
+// in place of: for (int round = 0; round < rounds && (teacher - mixed).norm() > tolerance; ++round) {
+for (int round = 0; round < rounds && (teacher - mixed).norm() > 0; ++round) {
+
 // <variant margin_of_sums> caught by: bounds, other-bounds
 // mistake: adds the margin to the sum of payments.
 // <solution upperBounds>

@@ -604,6 +604,9 @@ TEST(LectureNotes, FallsAndSlips) {
   const double random = .1, down = 1. / 4;
   expectStated("17-rl", fmt::format("about one fall for {:g} steps", 1 / (random * down)));
   expectStated("17-rl", fmt::format("still {:.0f} %", 100 * std::pow(1 - .2, 10)));
+  double mistakes = 0;
+  for (int t = 1; t <= 100; ++t) mistakes += 1 - std::pow(1 - .01, t);
+  expectStated("17-rl", fmt::format("{:.1f} mistakes in 100 steps", mistakes));
 }
 
 TEST(LectureNotes, FewStepsFromRestToRest) {
