@@ -4,10 +4,12 @@
 #include <cmath>
 #include <complex>
 
+#include "evolution_checks.h"
 #include "interface.h"
 #include "noise_checks.h"
 #include "racer_checks.h"
 #include "search_checks.h"
+#include "sensed_checks.h"
 
 using rex::grading::Check;
 using rex::grading::Group;
@@ -53,19 +55,26 @@ void features(Check& check, Student& student) {
 
 void rides(Check& check, Student& student) {
   for (int i = 0; i < 3; ++i) rideFits(check, student, {}, balancing(check.rng()), 60);
-}
-
-void ridesThatFail(Check& check, Student& student) {
   rideFits(check, student, {}, Eigen::VectorXd::Zero(kFeatures), 200);
   rideFits(check, student, {}, tippingOver(check.rng()), 100);
   rideFits(check, student, {}, shaking(check.rng()), 25);
 }
 
-void searches(Check& check, Student& student) {
-  for (int i = 0; i < 2; ++i) searchSucceeds(check, student, rewired({}, check.rng()));
+void selects(Check& check, Student& student) {
+  selectionFits(check, student, 2, 2, 5);
+  selectionFits(check, student, 4, 5, 12);
 }
 
-void stays(Check& check, Student& student) { searchedPolicyStays(check, student, rewired({}, check.rng())); }
+void evolves(Check& check, Student& student) { strategyFits(check, student, 3, 4, 60); }
+
+void searches(Check& check, Student& student) { searchSucceeds(check, student, {}); }
+
+void sensesCost(Check& check, Student& student) {
+  sensedCostFits(check, student, 3, 3);
+  sensedCostFits(check, student, 3, 8);
+}
+
+void sensesPose(Check& check, Student& student) { sensedPoseFits(check, student, {}); }
 
 // <hidden>
 // The energies of any racer from the velocities of its bodies, by complex steps, which are exact up to
@@ -131,31 +140,6 @@ void numericLagrangian(Check& check, Student& student) {
   });
 }
 
-// Over 10 s without control, in steps so short that the Runge-Kutta method loses little energy even for the
-// fastest of these racers.
-void keepsEnergy(Check& check, Student& student) {
-  check.forEachCase(4, [&](int i) {
-    const RacerModel racer = i == 0 ? RacerModel{} : randomRacer(check.rng());
-    Eigen::Vector4d x(0, check.rng().uniform(.3, 1.5), .3 * check.rng().normal(), 0);
-    const auto energy = [&] {
-      const Eigen::Vector2d q = x.head<2>(), v = x.tail<2>();
-      return v.dot(inertiaAt(q, racer) * v) / 2 + heightEnergy(q, racer);
-    };
-    const double start = energy(), swing = racer.mB * racer.g * racer.l;
-    double lowest = start;
-    rex::grading::Signal energies{.axis = "time [s]"};
-    for (int t = 0; t < 4000; ++t) {
-      x = student.stepped(x, 0, kTau / 4, racer);
-      check.shape("state after a step of stepped", x, 4, 1);
-      energies.add(kTau / 4 * (t + 1), energy());
-      lowest = std::min(lowest, heightEnergy(x.head<2>(), racer));
-    }
-    check.nearAlong("energy without control, over steps of stepped", energies,
-                    {energies.values.size(), Eigen::VectorXd::Constant(1, start)}, .01 * swing, "J");
-    check.atLeast("depth of the pendulum's fall, as a share of its length", (start - lowest) / swing, .3);
-  });
-}
-
 void unseenLqr(Check& check, Student& student) {
   check.forEachCase(6, [&](int) {
     const RacerModel racer = randomRacer(check.rng());
@@ -180,9 +164,22 @@ void otherRides(Check& check, Student& student) {
   });
 }
 
+void unseenEvolution(Check& check, Student& student) {
+  check.forEachCase(6, [&](int i) {
+    selectionFits(check, student, 1 + 2 * i, 1 + i, 4 + 3 * i);
+    strategyFits(check, student, 2 + 2 * i, 1 + 2 * i, 60);
+  });
+}
+
 void unseenSearch(Check& check, Student& student) {
-  check.forEachCase(
-      3, [&](int) { searchSucceeds(check, student, rewired(similarSituation(check.rng()), check.rng())); });
+  check.forEachCase(3, [&](int) { searchSucceeds(check, student, similarSituation(check.rng())); });
+}
+
+void unseenSensing(Check& check, Student& student) {
+  check.forEachCase(6, [&](int i) {
+    sensedCostFits(check, student, 1 + 7 * i, 40);
+    sensedPoseFits(check, student, {randomRacer(check.rng()), randomSensors(check.rng())});
+  });
 }
 // </hidden>
 
@@ -196,19 +193,22 @@ rex::grading::Checks<Student> checks() {
       {"noise", "simulation", "Noise of the right size", 1, Group::kVisible, noises},
       {"linear", "lqr", "The linear system near rest", 1, Group::kVisible, linearises},
       {"gain", "lqr", "The gain of the racer of the sheet", 1, Group::kVisible, gainOfTheSheet},
-      {"features", "features", "Features of successive readings", 2, Group::kVisible, features},
-      {"ride", "ride", "Rides that last", 1, Group::kVisible, rides},
-      {"failed-ride", "ride", "Rides that end in a failure", 1, Group::kVisible, ridesThatFail},
+      {"features", "features", "Features of successive readings", 1, Group::kVisible, features},
+      {"ride", "ride", "Rides that last, and rides that end in a failure", 1, Group::kVisible, rides},
+      {"selection", "evolution", "The species after a generation", 1, Group::kVisible, selects},
+      {"evolution", "evolution", "Generations of a strategy", 1, Group::kVisible, evolves},
       {"search", "search", "A policy that balances on unseen noise", 1, Group::kVisible, searches},
-      {"stays", "search", "A policy that does not roll away", 2, Group::kVisible, stays},
+      {"sensed-cost", "sensed", "What readings cost", 1, Group::kVisible, sensesCost},
+      {"sensed-pose", "sensed", "Where the racer is, by its sensors", 1, Group::kVisible, sensesPose},
       // <hidden>
-      {"lagrangian", "lagrange", "Other racers, by a numeric Lagrangian", 2, Group::kHidden,
+      {"lagrangian", "lagrange", "Other racers, by a numeric Lagrangian", 1, Group::kHidden,
        numericLagrangian},
-      {"energy", "simulation", "Energy without control", 1, Group::kHidden, keepsEnergy},
       {"unseen-lqr", "lqr", "Other racers, held by your gain", 1, Group::kHidden, unseenLqr},
       {"unseen-features", "features", "Other readings and time steps", 1, Group::kHidden, unseenFeatures},
       {"unseen-rides", "ride", "Rides of other racers", 1, Group::kHidden, otherRides},
+      {"unseen-evolution", "evolution", "Other generations", 1, Group::kHidden, unseenEvolution},
       {"unseen-search", "search", "Policies for other racers", 1, Group::kHidden, unseenSearch},
+      {"unseen-sensed", "sensed", "Other readings, racers and sensors", 1, Group::kHidden, unseenSensing},
       // </hidden>
   };
 }

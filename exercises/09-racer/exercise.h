@@ -99,20 +99,51 @@ struct Ride {
 Ride rideOf(const Eigen::VectorXd& w, const Eigen::Vector4d& start, const Eigen::MatrixXd& noise,
             const RacerModel& racer, const rex::RacerSensors& sensors);
 
-// Part 6, policy search (9:29 to 9:32, 12.12.1).
+// Part 6, an evolution strategy (9:27 to 9:31).
+
+/// A Gaussian N(mean, deviation^2 1) to sample from: the theta of slide 9:28.
+struct Species {
+  Eigen::VectorXd mean;  ///< n
+  double deviation = 1;
+  Eigen::VectorXd path;  ///< n, where the mean has moved lately: p_sigma of 9:31, zero at first
+};
+
+/// The species after it was sampled: at X (n x lambda, a sample in each column) the costs (lambda) were
+/// found. The new mean is that of the `mu` samples with the lowest costs, and with c = 1 / sqrt(n)
+///   new path      = (1 - c) path + sqrt(c (2 - c) mu) (new mean - mean) / deviation
+///   new deviation = deviation exp(c / 2 (|new path|^2 / n - 1)).
+Species nextSpecies(const Species& species, const Eigen::MatrixXd& X, const Eigen::VectorXd& costs, int mu);
+
+/// The costs (m) of the columns of X (n x m).
+using Costs = std::function<Eigen::VectorXd(const Eigen::MatrixXd& X)>;
+
+/// The species that a (mu, lambda) evolution strategy ends with. In each of the generations, draw lambda
+/// samples from the species, ask for their costs, once, and go on with nextSpecies().
+Species evolved(const Costs& costs, const Species& start, int mu, int lambda, int generations, rex::Rng& rng);
+
+// Part 7, policy search (9:30 to 9:34, 12.12.1).
 
 /// The costs (m) of the policies in the columns of W (27 x m), from one ride each over `steps` steps, at
 /// most kLongestRide. All rides of a call have the same start, at rest with a theta from -.2 to .2, and the
-/// same noise; the next call has others. The motor and each sensor may be wired the other way round: u or
-/// that y then has the opposite sign. Each sensor may also use units up to three times as large: its y is
-/// then smaller by that factor. The two accelerometers may be rotated by any angle relative to the body.
+/// same noise; the next call has others.
 using Rides = std::function<Eigen::VectorXd(const Eigen::MatrixXd& W, int steps)>;
 
 inline constexpr int kLongestRide = 500;  ///< steps
-inline constexpr int kBudget = 30000;     ///< rides
+inline constexpr int kBudget = 20000;     ///< rides
 
-/// Weights (27) of a policy that keeps a racer upright and where it is, on unseen noise. The search may use
-/// `budget` rides; a call with m columns uses m. Out of 100 other rides from such starts, at least 95 last
-/// 500 steps and 80 last 2000. The racer does not roll away later either: over 50000 steps of 16 rides, the
-/// cost of rideOf() is below .02 per step on average, so none may fall.
+/// Weights (27) of a policy that keeps a racer upright on unseen noise: of 100 other rides from such starts,
+/// at least 95 last 500 steps. The search uses at least 1000 and at most `budget` rides; a call with m
+/// columns uses m. Lengths, masses, sensors and noise differ by up to a fifth from those of the sheet.
 Eigen::VectorXd searchedPolicy(const Rides& rides, int budget, rex::Rng& rng);
+
+// Part 8, a bonus: costs from sensors alone (12.12.1).
+
+/// The cost of a ride of `steps` steps, from the readings Y (4 x n) after those n steps that did not fail, at
+/// least one: y2^2 + y3^2 / 10 for each of them, with the gyroscope y2 and the encoder y3, and kCostOfMissing
+/// for each of the other steps.
+double sensedCost(const Eigen::MatrixXd& Y, int steps);
+
+/// x and theta, from one reading of sensors with known constants; |theta| is below pi / 2.
+/// systems/racer_sensors.h has the formulas of y.
+Eigen::Vector2d sensedPose(const Eigen::Vector4d& y, const RacerModel& racer,
+                           const rex::RacerSensors& sensors);

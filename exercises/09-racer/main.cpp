@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 #include "course/search_cma.h"
 #include "exercise.h"
@@ -63,9 +65,29 @@ Ride rideOf(const Eigen::VectorXd& w, const Eigen::Vector4d& start, const Eigen:
   return {start, Eigen::VectorXd(0), 0};
 }
 
+Species nextSpecies(const Species& species, const Eigen::MatrixXd& X, const Eigen::VectorXd& costs, int mu) {
+  // TODO: which samples are the best, and where is their mean? Then path and deviation.
+  return species;
+}
+
+Species evolved(const Costs& costs, const Species& start, int mu, int lambda, int generations, Rng& rng) {
+  // TODO: sample, ask for the costs, select.
+  return start;
+}
+
 Eigen::VectorXd searchedPolicy(const Rides& rides, int budget, Rng& rng) {
-  // TODO: SearchCma proposes, rides() judges. Which features, how far away, how many steps, how often?
+  // TODO: SearchCma or evolved() proposes, rides() judges. Which features, how many steps, how often?
   return Eigen::VectorXd::Zero(kFeatures);
+}
+
+double sensedCost(const Eigen::MatrixXd& Y, int steps) {
+  // TODO: what the readings cost, and the steps without one.
+  return 0;
+}
+
+Eigen::Vector2d sensedPose(const Eigen::Vector4d& y, const RacerModel& racer, const RacerSensors& sensors) {
+  // TODO: solve the formulas of y for theta', theta and x, in this order.
+  return Eigen::Vector2d::Zero();
 }
 
 // What follows is given, and never graded: change it as you like. show.h says what each line draws.
@@ -92,6 +114,12 @@ int main() {
   direct.head(5) << -.1087, -4.83, 30.02, .295, .4098;
   showRides(direct);
 
-  // Part 6: a policy on all features, found by your search.
-  showSearch(direct);
+  // Part 6: your strategy and CMA-ES.
+  showEvolution();
+
+  // Part 7: a policy on all features, found by your search.
+  const Eigen::VectorXd policy = showSearch(direct);
+
+  // Part 8, the bonus: the same search by the costs of sensors.
+  showSensed(policy);
 }

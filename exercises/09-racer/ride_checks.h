@@ -17,7 +17,6 @@ struct Situation {
   RacerModel racer{};
   rex::RacerSensors sensors{};
   double noise = kNoise;
-  Eigen::VectorXd wiring = Eigen::VectorXd::Ones(kFeatures);  ///< factors of a policy's weights
 };
 
 inline rex::RacerRolloutOptions optionsOf(const Situation& in, int steps) {
@@ -92,18 +91,17 @@ inline Eigen::Vector4d kicked(const Situation& in, const Eigen::Vector4d& x, dou
 /// The ride of a policy according to the equations, as ridden() gives it.
 inline Eigen::MatrixXd rightRide(const Situation& in, const Eigen::VectorXd& w, const Eigen::Vector4d& start,
                                  const Eigen::MatrixXd& noise) {
-  rex::RacerPolicy policy(optionsOf(in, 1).features, in.wiring.cwiseProduct(w), kTau, kLargestControl);
+  rex::RacerPolicy policy(optionsOf(in, 1).features, w, kTau, kLargestControl);
   return ridden(
       start, noise.cols(),
       [&](const Eigen::Vector4d& x) { return policy.control(in.sensors.measured(x, in.racer.r)); },
       [&](const Eigen::Vector4d& x, double u, Eigen::Index t) { return kicked(in, x, u, noise.col(t)); });
 }
 
-/// Two rides, as ridden() gives them, from their step `first` on.
+/// Two rides, as ridden() gives them.
 struct Pair {
   Eigen::MatrixXd got, other;
   std::string name = "wanted";  ///< of the other
-  Eigen::Index first = 0;
 };
 
 /// One row of both rides over time.
@@ -111,14 +109,14 @@ inline rex::Figure rowOf(const Pair& rides, Eigen::Index row, Eigen::Index momen
   constexpr std::array kNames{"x [m]", "theta [rad]", "x' [m/s]", "theta' [rad/s]", "u [N m]"};
   const auto curve = [&](const Eigen::MatrixXd& ride, rex::Series series) {
     for (Eigen::Index k = 0; k < ride.cols() - (row == 4 ? 1 : 0); ++k)
-      series.add(kTau * static_cast<double>(rides.first + k), ride(row, k));
+      series.add(kTau * static_cast<double>(k), ride(row, k));
     return series;
   };
   const char* name = kNames[static_cast<std::size_t>(row)];
   rex::Figure figure{.title = "The ride", .xLabel = "time [s]", .yLabel = name};
   figure.series = {curve(rides.got, rex::grading::gotCurve("got")),
                    curve(rides.other, rex::grading::wantedCurve(rides.name))};
-  figure.verticalLines = {rex::grading::wrongFrom(kTau * static_cast<double>(rides.first + moment))};
+  figure.verticalLines = {rex::grading::wrongFrom(kTau * static_cast<double>(moment))};
   if (row == 4 && rides.got.row(4).cwiseAbs().maxCoeff() > 3 * kLargestControl) {  // it would hide the rest
     figure.yRange = {-3 * kLargestControl, 3 * kLargestControl};
     figure.horizontalLines = {{.at = kLargestControl, .label = "limits of the motor"},
@@ -137,11 +135,11 @@ inline rex::grading::Evidence sideBySide(const Situation& in, const Pair& rides,
   for (Eigen::Index k = 0; k < count; k += stride) {
     Eigen::Matrix4Xd both(4, 2);
     both << at(rides.got, k), at(rides.other, k);
-    film.push_back({kTau * static_cast<double>(rides.first + k),
+    film.push_back({kTau * static_cast<double>(k),
                     racerPicture(rex::RacerView{
                         .x = both, .names = {"got", rides.name}, .dynamics = dynamicsOf(in.racer)})});
   }
-  return {.film = film, .view = {1.2, -1.6, .7}, .moment = kTau * static_cast<double>(rides.first + moment)};
+  return {.film = film, .view = {1.2, -1.6, .7}, .moment = kTau * static_cast<double>(moment)};
 }
 
 /// What is being checked: a row of ridden() at a step.

@@ -10,6 +10,7 @@
 #include "control/regulators.h"
 #include "course/mdp_figures.h"
 #include "course/racer_pictures.h"
+#include "course/search_cma.h"
 
 using namespace rex;
 
@@ -55,12 +56,25 @@ Rides ridesOfLibrary(Rng& rng) {
   };
 }
 
-Rides ridesOfYours(Rng& rng) {
-  return [&rng](const Eigen::MatrixXd& W, int steps) {
+// What the sensors read after the steps of a ride that did not fail.
+Eigen::MatrixXd readingsOf(const Ride& ride) {
+  const RacerModel racer;
+  Eigen::Index n = ride.controls.size();
+  if (n > 0 && std::abs(ride.states(1, n)) > kLargestAngle) --n;
+  Eigen::MatrixXd Y(4, n);
+  for (Eigen::Index t = 0; t < n; ++t) Y.col(t) = RacerSensors{}.measured(ride.states.col(t + 1), racer.r);
+  return Y;
+}
+
+Rides ridesOfYours(Rng& rng, bool bySensors = false) {
+  return [&rng, bySensors](const Eigen::MatrixXd& W, int steps) {
     const Eigen::Vector4d start = tilted(rng.uniform(-.2, .2));
     const Eigen::MatrixXd noise = kicks(steps, kTau, kNoise, rng);
     Eigen::VectorXd costs(W.cols());
-    for (Eigen::Index i = 0; i < W.cols(); ++i) costs[i] = rideOf(W.col(i), start, noise, {}, {}).cost;
+    for (Eigen::Index i = 0; i < W.cols(); ++i) {
+      const Ride ride = rideOf(W.col(i), start, noise, {}, {});
+      costs[i] = bySensors ? sensedCost(readingsOf(ride), steps) : ride.cost;
+    }
     return costs;
   };
 }
@@ -250,10 +264,48 @@ void showRides(const Eigen::VectorXd& w) {
   plot("rides", figure);
 }
 
-void showSearch(const Eigen::VectorXd& direct) {
+void showEvolution() {
+  constexpr int kLambda = 20, kMu = 5, kGenerations = 120;
+  const Species start{Eigen::VectorXd::Constant(6, 3), 1, Eigen::VectorXd::Zero(6)};
+  Figure figure{.title = "Searching the lowest point of a bowl",
+                .xLabel = "generation",
+                .yLabel = "lowest cost of its samples",
+                .logY = true};
+  for (const auto& [name, steepest] : {std::pair{"a round bowl", 1.}, {"a long valley", 1e4}}) {
+    Eigen::VectorXd steepness(6);
+    for (int i = 0; i < 6; ++i) steepness[i] = std::pow(steepest, i / 5.);
+    Series yours{.label = std::string("your strategy, ") + name},
+        library{.label = std::string("CMA-ES, ") + name, .dashed = true};
+    const auto recorded = [&](Series& series, const Eigen::MatrixXd& X) {
+      const Eigen::VectorXd costs = X.cwiseAbs2().transpose() * steepness;
+      series.add(static_cast<double>(series.x.size()), costs.minCoeff());
+      return costs;
+    };
+    Rng rng(1);
+    evolved([&](const Eigen::MatrixXd& X) { return recorded(yours, X); }, start, kMu, kLambda, kGenerations,
+            rng);
+    if (yours.x.empty()) return nothingYet("an evolution strategy");
+    SearchCma cma(1);
+    cma.init(start.mean, kMu, kLambda, start.deviation);
+    Eigen::MatrixXd samples;
+    Eigen::VectorXd values;
+    for (int i = 0; i < kGenerations; ++i) {
+      cma.step(samples, values);
+      values = recorded(library, samples.transpose());
+    }
+    figure.series.push_back(yours);
+    figure.series.push_back(library);
+  }
+  plot("evolution", figure);
+}
+
+Eigen::VectorXd showSearch(const Eigen::VectorXd& direct) {
   Rng rng(7);
   const Lesson lesson = learnt(ridesOfYours(rng), 0);
-  if (lesson.policy.isZero()) return nothingYet("a search");
+  if (lesson.policy.isZero()) {
+    nothingYet("a search");
+    return lesson.policy;
+  }
   print("rides of the search", static_cast<double>(lesson.costs.size()));
   print("weights of 1, y and its rates", lesson.policy.head(9).transpose());
   plot("drift", {.title = "Without an estimate of the wheel's speed, a racer sways more and more",
@@ -268,6 +320,33 @@ void showSearch(const Eigen::VectorXd& direct) {
         .series = {robustnessOf("a policy on (1, y)", direct), robustnessOf("your policy", lesson.policy),
                    robustnessOf("without control", Eigen::VectorXd::Zero(kFeatures))}});
   showFilm(lesson);
-  if (lesson.costs.size() >= 1000) return showLearning(lesson);
-  std::printf("No learning.png: it needs a search of 1000 rides.\n");
+  if (lesson.costs.size() >= 1000)
+    showLearning(lesson);
+  else
+    std::printf("No learning.png: it needs a search of 1000 rides.\n");
+  return lesson.policy;
+}
+
+void showSensed(const Eigen::VectorXd& policy) {
+  const RacerModel racer;
+  Rng rng(7);
+  const Eigen::MatrixXd noise = kicks(1000, kTau, kNoise, rng);
+  const Ride byState = rideOf(policy, tilted(.2), noise, {}, {});
+  const Eigen::MatrixXd Y = readingsOf(byState);
+  if (Y.cols() == 0 || sensedCost(Y, 1000) == 0) return nothingYet("costs from sensors");
+  Rng other(7);
+  const Ride bySensors = rideOf(learnt(ridesOfYours(other, true), 0).policy, tilted(.2), noise, {}, {});
+  std::printf("10 s of the policy by the state cost %.3f, and by the sensors %.3f.\n", byState.cost,
+              bySensors.cost);
+  Figure figure{.title = "Policies that were searched by the state and by the sensors",
+                .xLabel = "time [s]",
+                .yLabel = "[m], [rad]"};
+  addMotion(figure, ", by the state", byState.states);
+  addMotion(figure, ", by the sensors", bySensors.states, true);
+  Series sensed{.label = "x of your sensedPose"};
+  for (Eigen::Index t = 0; t < Y.cols(); t += 20)
+    sensed.add(kTau * static_cast<double>(t + 1), sensedPose(Y.col(t), racer, {})[0]);
+  sensed.style = SeriesStyle::kPoints;
+  figure.series.push_back(sensed);
+  plot("sensed", figure);
 }

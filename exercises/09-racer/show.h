@@ -19,8 +19,16 @@ void showFeatures();
 /// rides.png: x [m] and theta [rad] of a ride under the policy w; the pendulum stands, and the wheel sways.
 void showRides(const Eigen::VectorXd& w);
 
+/// evolution.png: how low your strategy and CMA-ES get on a round bowl, and on one that is a hundred times as
+/// long as wide.
+void showEvolution();
+
 /// Searches in your simulator. drift.png: how far the wheel sways in 100 s, compared with the policy
 /// `direct`; robust.png: how many rides last, with more and more noise; learning.png: costs during your
 /// search and during ten more in the library's simulator; learnt.mp4: the racer before, during and after
-/// the search.
-void showSearch(const Eigen::VectorXd& direct);
+/// the search. Returns what was found.
+Eigen::VectorXd showSearch(const Eigen::VectorXd& direct);
+
+/// sensed.png: a ride under a policy, one under another that your search finds by the costs of the sensors,
+/// and where the sensors say the first one is.
+void showSensed(const Eigen::VectorXd& policy);

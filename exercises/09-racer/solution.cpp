@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 #include "course/search_cma.h"
 #include "exercise.h"
@@ -170,9 +172,44 @@ Ride rideOf(const Eigen::VectorXd& w, const Eigen::Vector4d& start, const Eigen:
   // </solution>
 }
 
+Species nextSpecies(const Species& species, const Eigen::MatrixXd& X, const Eigen::VectorXd& costs, int mu) {
+  // <solution nextSpecies>
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(costs.size()));
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::sort(order, {}, [&](Eigen::Index i) { return costs[i]; });
+  order.resize(static_cast<std::size_t>(mu));
+  const double n = static_cast<double>(X.rows()), c = 1 / std::sqrt(n);
+  Species next;
+  next.mean = X(Eigen::all, order).rowwise().mean();
+  const Eigen::VectorXd step = (next.mean - species.mean) / species.deviation;
+  next.path = (1 - c) * species.path + std::sqrt(c * (2 - c) * mu) * step;
+  next.deviation = species.deviation * std::exp(c / 2 * (next.path.squaredNorm() / n - 1));
+  return next;
+  // <todo>
+  //| // TODO: which samples are the best, and where is their mean? Then path and deviation.
+  //| return species;
+  // </solution>
+}
+
+Species evolved(const Costs& costs, const Species& start, int mu, int lambda, int generations, Rng& rng) {
+  // <solution evolved>
+  const int n = static_cast<int>(start.mean.size());
+  Species species = start;
+  for (int i = 0; i < generations; ++i) {
+    Eigen::MatrixXd X = species.mean.replicate(1, lambda);
+    X += species.deviation * rng.normalVector(n * lambda).reshaped(n, lambda);
+    species = nextSpecies(species, X, costs(X), mu);
+  }
+  return species;
+  // <todo>
+  //| // TODO: sample, ask for the costs, select.
+  //| return start;
+  // </solution>
+}
+
 Eigen::VectorXd searchedPolicy(const Rides& rides, int budget, Rng& rng) {
   // <solution searchedPolicy>
-  constexpr int kSearches = 3, kSamples = 20, kRepeats = 4, kTests = 50, kSearched = 9;
+  constexpr int kSearches = 2, kSamples = 20, kRepeats = 4, kTests = 50, kSearched = 9;
   // Of 1, y and its rates: these tell how fast the wheel turns, and are a hundred times as large.
   Eigen::VectorXd deviations = Eigen::VectorXd::Constant(kSearched, .3);
   deviations.tail(4) *= kTau;
@@ -199,8 +236,30 @@ Eigen::VectorXd searchedPolicy(const Rides& rides, int budget, Rng& rng) {
   costs.minCoeff(&best);
   return found.col(best);
   // <todo>
-  //| // TODO: SearchCma proposes, rides() judges. Which features, how far away, how many steps, how often?
+  //| // TODO: SearchCma or evolved() proposes, rides() judges. Which features, how many steps, how often?
   //| return Eigen::VectorXd::Zero(kFeatures);
+  // </solution>
+}
+
+double sensedCost(const Eigen::MatrixXd& Y, int steps) {
+  // <solution sensedCost>
+  return Y.row(2).squaredNorm() + Y.row(3).squaredNorm() / 10 +
+         kCostOfMissing * static_cast<double>(steps - Y.cols());
+  // <todo>
+  //| // TODO: what the readings cost, and the steps without one.
+  //| return 0;
+  // </solution>
+}
+
+Eigen::Vector2d sensedPose(const Eigen::Vector4d& y, const RacerModel& racer, const RacerSensors& sensors) {
+  // <solution sensedPose>
+  const double spin = y[2] + sensors.gyroBias, pull = sensors.kappa * spin * spin;
+  const double theta =
+      std::atan2(y[1] + pull * std::sin(sensors.phi), y[0] + pull * std::cos(sensors.phi)) - sensors.phi;
+  return {racer.r * (y[3] + theta), theta};
+  // <todo>
+  //| // TODO: solve the formulas of y for theta', theta and x, in this order.
+  //| return Eigen::Vector2d::Zero();
   // </solution>
 }
 
@@ -228,6 +287,12 @@ int main() {
   direct.head(5) << -.1087, -4.83, 30.02, .295, .4098;
   showRides(direct);
 
-  // Part 6: a policy on all features, found by your search.
-  showSearch(direct);
+  // Part 6: your strategy and CMA-ES.
+  showEvolution();
+
+  // Part 7: a policy on all features, found by your search.
+  const Eigen::VectorXd policy = showSearch(direct);
+
+  // Part 8, the bonus: the same search by the costs of sensors.
+  showSensed(policy);
 }

@@ -49,7 +49,7 @@ next.tail<2>() += tau * rateOf(x, u, racer).tail<2>();
 next.head<2>() += tau * next.tail<2>();
 return next;
 
-// <variant old_velocities> caught by: step, energy
+// <variant old_velocities> caught by: step
 // mistake: one step of Euler.
 // <solution stepped>
 return x + tau * rateOf(x, u, racer);
@@ -138,19 +138,19 @@ x = stepped(x, u, kTau, racer);
 ride.cost +=
     stands ? last[0] * last[0] + 10 * last[1] * last[1] : kCostOfMissing * static_cast<double>(T - n);
 
-// <variant failing_is_cheap> caught by: failed-ride
+// <variant failing_is_cheap> caught by: ride
 // mistake: the ride is cut, but the missing steps cost nothing.
 // <solution rideOf>
 // in place of: ride.cost += stands ? x[0] * x[0] + 10 * x[1] * x[1] : kCostOfMissing * static_cast<double>(T
 ride.cost += stands ? x[0] * x[0] + 10 * x[1] * x[1] : 0;
 
-// <variant motor_without_limits> caught by: failed-ride, unseen-rides
+// <variant motor_without_limits> caught by: ride, unseen-rides
 // mistake: the motor gives whatever the policy asks for.
 // <solution rideOf>
 // in place of: u = std::clamp(w.dot(features), -kLargestControl, kLargestControl);
 u = w.dot(features);
 
-// <variant not_cut_at_failure> caught by: failed-ride
+// <variant not_cut_at_failure> caught by: ride
 // mistake: goes on after the failure, turning round and round.
 // <solution rideOf>
 const Eigen::Index T = noise.cols();
@@ -170,45 +170,237 @@ for (Eigen::Index n = 0; n < T; ++n) {
 }
 return ride;
 
+// <variant highest_costs> caught by: selection, unseen-evolution
+// shown by: selection
+// mistake: selects the worst.
+// <solution nextSpecies>
+// in place of: std::ranges::sort(order
+std::ranges::sort(order, {}, [&](Eigen::Index i) { return -costs[i]; });
+
+// <variant first_in_order> caught by: selection, unseen-evolution
+// mistake: takes the first samples, which nobody has sorted.
+// <solution nextSpecies>
+// in place of: std::ranges::sort(order
+
+// <variant best_alone> caught by: selection, unseen-evolution
+// mistake: moves to the best sample.
+// <solution nextSpecies>
+// in place of: next.mean =
+next.mean = X.col(order[0]);
+
+// <variant nothing_selected> caught by: selection, unseen-evolution
+// mistake: takes the mean of all samples.
+// <solution nextSpecies>
+// in place of: next.mean =
+next.mean = X.rowwise().mean();
+
+// <variant step_in_units_of_x> caught by: selection, unseen-evolution
+// mistake: does not divide the step by the deviation.
+// <solution nextSpecies>
+// in place of: next.path =
+next.path = (1 - c) * species.path + std::sqrt(c * (2 - c) * mu) * (next.mean - species.mean);
+
+// <variant mu_forgotten> caught by: selection, unseen-evolution
+// mistake: the length of the path depends on mu.
+// <solution nextSpecies>
+// in place of: next.path =
+next.path = (1 - c) * species.path + std::sqrt(c * (2 - c)) * step;
+
+// <variant weights_sum_to_one> caught by: selection, unseen-evolution
+// mistake: takes the path for an average of steps.
+// <solution nextSpecies>
+// in place of: next.path =
+next.path = (1 - c) * species.path + c * step;
+
+// <variant shares_exchanged> caught by: selection, unseen-evolution
+// mistake: c and 1 - c exchanged.
+// <solution nextSpecies>
+// in place of: next.path =
+next.path = c * species.path + std::sqrt(c * (2 - c) * mu) * step;
+
+// <variant path_forgotten> caught by: selection, unseen-evolution
+// mistake: the path is the last step.
+// <solution nextSpecies>
+// in place of: next.path =
+next.path = std::sqrt(c * (2 - c) * mu) * step;
+
+// <variant fixed_deviation> caught by: selection, unseen-evolution
+// mistake: keeps the deviation, as slide 9:29 does.
+// <solution nextSpecies>
+// in place of: next.deviation =
+next.deviation = species.deviation;
+
+// <variant path_before> caught by: selection, unseen-evolution
+// mistake: the deviation follows the path before.
+// <solution nextSpecies>
+// in place of: next.deviation =
+next.deviation = species.deviation * std::exp(c / 2 * (species.path.squaredNorm() / n - 1));
+
+// <variant length_not_squared> caught by: selection, unseen-evolution
+// mistake: compares the length of the path with n.
+// <solution nextSpecies>
+// in place of: next.deviation =
+next.deviation = species.deviation * std::exp(c / 2 * (next.path.norm() / n - 1));
+
+// <variant dimension_forgotten> caught by: selection, unseen-evolution
+// mistake: expects a path as long as in one dimension.
+// <solution nextSpecies>
+// in place of: next.deviation =
+next.deviation = species.deviation * std::exp(c / 2 * (next.path.squaredNorm() - 1));
+
+// <variant around_the_start> caught by: evolution, unseen-evolution
+// shown by: evolution
+// mistake: samples around the start, always.
+// <solution evolved>
+// in place of: Eigen::MatrixXd X = species.mean.replicate(1, lambda);
+Eigen::MatrixXd X = start.mean.replicate(1, lambda);
+
+// <variant deviation_of_the_start> caught by: evolution, unseen-evolution
+// mistake: samples with the first deviation, always.
+// <solution evolved>
+// in place of: X +=
+X += start.deviation * rng.normalVector(n * lambda).reshaped(n, lambda);
+
+// <variant variance> caught by: evolution, unseen-evolution
+// mistake: takes the deviation for the variance.
+// <solution evolved>
+// in place of: X +=
+X += std::sqrt(species.deviation) * rng.normalVector(n * lambda).reshaped(n, lambda);
+
+// <variant one_number_per_sample> caught by: evolution, unseen-evolution
+// mistake: adds the same number to all coordinates.
+// <solution evolved>
+// in place of: X +=
+X += species.deviation * rng.normalVector(lambda).transpose().replicate(n, 1);
+
+// <variant twins> caught by: evolution, unseen-evolution
+// mistake: all samples of a generation are the same.
+// <solution evolved>
+// in place of: X +=
+X.colwise() += species.deviation * rng.normalVector(n);
+
+// <variant copied_generator> caught by: evolution, unseen-evolution
+// mistake: draws the same numbers in each generation.
+// <solution evolved>
+// in place of: X +=
+Rng mine = rng;
+X += species.deviation * mine.normalVector(n * lambda).reshaped(n, lambda);
+
+// <variant new_path_each_time> caught by: evolution, unseen-evolution
+// mistake: begins each generation without a path.
+// <solution evolved>
+// in place of: species = nextSpecies(species, X, costs(X), mu);
+species.path.setZero();
+species = nextSpecies(species, X, costs(X), mu);
+
+// <variant one_generation_less> caught by: evolution, unseen-evolution
+// mistake: counts the start as a generation.
+// <solution evolved>
+// in place of: Eigen::MatrixXd X = species.mean.replicate(1, lambda);
+if (i == 0) continue;
+Eigen::MatrixXd X = species.mean.replicate(1, lambda);
+
 // <variant budget_per_search> caught by: search, unseen-search
 // mistake: counts generations instead of rides.
 // <solution searchedPolicy>
 // in place of: const int generations = (budget / kSearches - kTests) / (kSamples * kRepeats);
 const int generations = budget / kSearches / kSamples;
 
-// <variant direct_sensors_only> caught by: stays
-// mistake: searches on (1, y) only, which do not show how fast the wheel turns.
-// <solution searchedPolicy>
-// in place of: constexpr int kSearches = 3, kSamples = 20, kRepeats = 4, ... deviations.tail(4) *= kTau;
-constexpr int kSearches = 3, kSamples = 20, kRepeats = 4, kTests = 50, kSearched = 5;
-Eigen::VectorXd deviations = Eigen::VectorXd::Constant(kSearched, .3);
-
-// <variant one_deviation_for_all> caught by: search, stays, unseen-search
+// <variant one_deviation_for_all> caught by: search, unseen-search
 // mistake: searches the weights of rates as far away as those of readings.
 // <solution searchedPolicy>
 // in place of: deviations.tail(4) *= kTau;
 
-// <variant signs_tried_out> caught by: search, stays, unseen-search
-// shown by: search
-// mistake: does not search; tries known weights with all signs of motor and sensors.
-// <solution searchedPolicy>
-Eigen::VectorXd known = Eigen::VectorXd::Zero(kFeatures);
-known.head(9) << .037, -.986, 5.999, .726, .07, -.001, -.001, -.004, .053;
-Eigen::MatrixXd W = known.replicate(1, 32);
-for (int p = 0; p < 32; ++p)
-  for (int i = 0; i < 9; ++i) {
-    const bool isOther = i > 0 && (p >> (i - 1) % 4 & 1) == 1;
-    if (isOther != (p >= 16)) W(i, p) *= -1;
-  }
-Eigen::VectorXd costs = Eigen::VectorXd::Zero(32);
-for (int k = 0; k < 20; ++k) costs += rides(W, kLongestRide);
-int best = 0;
-costs.minCoeff(&best);
-return W.col(best);
-
-// <variant weights_from_elsewhere> caught by: search, stays, unseen-search
-// mistake: does not search; takes weights that balance the racer of the sheet, wired as it is there.
+// <variant weights_from_elsewhere> caught by: search, unseen-search
+// mistake: does not search; takes weights that balance the racer of the sheet.
 // <solution searchedPolicy>
 Eigen::VectorXd w = Eigen::VectorXd::Zero(kFeatures);
 w.head(9) << .0005, -1.31, 8.28, 1.34, .166, .0045, -.0195, -.0054, .0907;
 return w;
+
+// <variant gyroscope_and_encoder_exchanged> caught by: sensed-cost, unseen-sensed
+// mistake: prices the encoder like the gyroscope.
+// <solution sensedCost>
+// in place of: return Y.row(2) ... kCostOfMissing
+return Y.row(2).squaredNorm() / 10 + Y.row(3).squaredNorm() +
+       kCostOfMissing * static_cast<double>(steps - Y.cols());
+
+// <variant rows_counted_from_one> caught by: sensed-cost, unseen-sensed
+// mistake: takes rows 1 and 2.
+// <solution sensedCost>
+// in place of: return Y.row(2) ... kCostOfMissing
+return Y.row(1).squaredNorm() + Y.row(2).squaredNorm() / 10 +
+       kCostOfMissing * static_cast<double>(steps - Y.cols());
+
+// <variant tenth_of_the_reading> caught by: sensed-cost, unseen-sensed
+// mistake: divides before it squares.
+// <solution sensedCost>
+// in place of: return Y.row(2) ... kCostOfMissing
+return Y.row(2).squaredNorm() + (Y.row(3) / 10).squaredNorm() +
+       kCostOfMissing * static_cast<double>(steps - Y.cols());
+
+// <variant early_end_for_free> caught by: sensed-cost, unseen-sensed
+// mistake: a ride that ends early is cheap.
+// <solution sensedCost>
+// in place of: return Y.row(2) ... kCostOfMissing
+return Y.row(2).squaredNorm() + Y.row(3).squaredNorm() / 10;
+
+// <variant one_price_for_failing> caught by: sensed-cost, unseen-sensed
+// mistake: the cost of failing does not depend on when.
+// <solution sensedCost>
+// in place of: return Y.row(2) ... kCostOfMissing
+return Y.row(2).squaredNorm() + Y.row(3).squaredNorm() / 10 + (Y.cols() < steps ? kCostOfMissing : 0);
+
+// <variant ridden_steps_cost> caught by: sensed-cost, unseen-sensed
+// mistake: charges for steps that were ridden.
+// <solution sensedCost>
+// in place of: return Y.row(2) ... kCostOfMissing
+return Y.row(2).squaredNorm() + Y.row(3).squaredNorm() / 10 + kCostOfMissing * static_cast<double>(Y.cols());
+
+// <variant bias_left_out> caught by: sensed-pose, unseen-sensed
+// mistake: takes the gyroscope at its word.
+// <solution sensedPose>
+// in place of: const double spin =
+const double spin = y[2], pull = sensors.kappa * spin * spin;
+
+// <variant bias_subtracted> caught by: sensed-pose, unseen-sensed
+// mistake: the sign of the bias.
+// <solution sensedPose>
+// in place of: const double spin =
+const double spin = y[2] - sensors.gyroBias, pull = sensors.kappa * spin * spin;
+
+// <variant no_centrifugal_terms> caught by: sensed-pose, unseen-sensed
+// mistake: the direction of gravity alone.
+// <solution sensedPose>
+// in place of: const double spin =
+const double pull = 0;
+
+// <variant mount_left_out> caught by: sensed-pose, unseen-sensed
+// mistake: the angle of the accelerometers instead of the body.
+// <solution sensedPose>
+// in place of: std::atan2(
+std::atan2(y[1] + pull * std::sin(sensors.phi), y[0] + pull * std::cos(sensors.phi));
+
+// <variant small_angle> caught by: sensed-pose, unseen-sensed
+// mistake: takes sin(theta + phi) for the angle.
+// <solution sensedPose>
+// in place of: const double spin = ... std::atan2(
+const double theta = y[1] / sensors.s - sensors.phi;
+
+// <variant wheel_alone> caught by: sensed-pose, unseen-sensed
+// mistake: forgets that the encoder turns with the body.
+// <solution sensedPose>
+// in place of: return {racer.r * (y[3] + theta), theta};
+return {racer.r * y[3], theta};
+
+// <variant body_turns_back> caught by: sensed-pose, unseen-sensed
+// mistake: the sign of theta in the reading of the encoder.
+// <solution sensedPose>
+// in place of: return {racer.r * (y[3] + theta), theta};
+return {racer.r * (y[3] - theta), theta};
+
+// <variant angle_of_the_wheel> caught by: sensed-pose, unseen-sensed
+// mistake: returns the angle of the wheel.
+// <solution sensedPose>
+// in place of: return {racer.r * (y[3] + theta), theta};
+return {y[3] + theta, theta};
