@@ -251,24 +251,29 @@ void checkCloned(Check& check, Student& student, int states, int actions, int co
     ++counts(l.state, l.action);
     last.row(l.state) = Eigen::RowVectorXd::Unit(actions, l.action);
   }
-  Eigen::MatrixXd silent = wanted;
-  for (int s = 0; s < states; ++s) {
-    Eigen::Index a = 0;
-    if (counts.row(s).maxCoeff(&a) > 0)
-      most.row(s) = Eigen::RowVectorXd::Unit(actions, a);
-    else
-      silent.row(s).setZero();
-  }
   const Eigen::VectorXd tries = counts.rowwise().sum();
-  const Eigen::MatrixXd smooth =
-      (tries.array() + actions).inverse().matrix().asDiagonal() * (counts.array() + 1).matrix();
+  Eigen::MatrixXd rest = wanted;  // in states without lessons
+  for (Eigen::Index s = 0; s < states; ++s) {
+    if (tries[s] == 0) continue;
+    Eigen::Index a = 0;
+    counts.row(s).maxCoeff(&a);
+    most.row(s) = Eigen::RowVectorXd::Unit(actions, a);
+    rest.row(s).setZero();
+  }
+  const Eigen::MatrixXd ofAll = counts / static_cast<double>(lessons.size());
+  const auto smooth = (tries.array() + actions).inverse().matrix().asDiagonal();
+  const char *counted = "Are these counts? Wanted are shares.",
+             *together = "Is it the share of all lessons? Those of the state itself count.";
   const auto mistakes = check.suspect(
-      {{"Are these counts? Wanted are shares.", counts},
-       {"Is there no action in states without lessons? All are equally likely there.", silent},
-       {"Is it the share of all lessons? Those of the state itself count.", counts / double(lessons.size())},
+      {{counted, counts},
+       {counted, counts + rest},
+       {together, ofAll},
+       {together, ofAll + rest},
+       {"Is there no action in states without lessons? All are equally likely there.", wanted - rest},
        {"Is the most frequent action always taken? Each has its share.", most},
        {"Does only the last lesson of a state count?", last},
-       {"Is one added to each count? The shares are those of the lessons alone.", smooth}});
+       {"Is one added to each count? The shares are those of the lessons alone.",
+        smooth * (counts.array() + 1).matrix()}});
   const auto shown = check.show([&] { return tableSeen("Policy of the clone", got, wanted); });
   check.near("policy of the clone", got, wanted, 1e-9);
 }
@@ -279,7 +284,7 @@ void checkMistakes(Check& check, Student& student, int states, int actions, int 
   const Eigen::MatrixXd policy = randomPolicy(states, actions, rng);
   const std::vector<int> teacher = randomTeacher(states, actions, rng);
   Eigen::MatrixXd rights = Eigen::MatrixXd::Zero(states, actions);
-  for (int s = 0; s < states; ++s) rights(s, teacher[static_cast<std::size_t>(s)]) = 1;
+  for (Eigen::Index s = 0; s < states; ++s) rights(s, teacher[static_cast<std::size_t>(s)]) = 1;
   const Eigen::MatrixXd actsLikeTeacher = policy.cwiseProduct(rights);
   const Eigen::VectorXd wrong = (policy - actsLikeTeacher).rowwise().sum();
   check.input("a clone and a teacher", {{"P, action by action", stackedOf({world.P, policy, {}})},
@@ -420,6 +425,8 @@ void checkFeatures(Check& check, Student& student, int states, int actions, int 
                      {"Is it a mean over the steps? Wanted is the sum.", (1 - discount) * wanted},
                      {"Do all actions count alike? The policy draws them.",
                       featuresOf(world, uniformChoice(states, actions))}});
+  check.shape("expected features", got, features, 1);
+  const auto early = check.ask("Does the sum end too early?", (got - wanted).norm() < .1 * wanted.norm());
   check.near("expected features", got, wanted, 1e-8);
 }
 
@@ -431,18 +438,22 @@ void checkBest(Check& check, Student& student, int states, int actions, int feat
   inputWorld(check, "a world and weights", world, {"w", w});
   const Eigen::MatrixXd got = student.bestPolicy(world, w);
   isPolicy(check, "bestPolicy", got, world);
-  Eigen::MatrixXd greedy = Eigen::MatrixXd::Zero(states, actions), first = greedy;
+  const Eigen::MatrixXd Q = exactValues({world.P, paidBy(world, w), {}}, discount);
+  Eigen::MatrixXd greedy = Eigen::MatrixXd::Zero(states, actions), first = greedy, worst = greedy;
   first.col(0).setOnes();
-  for (int s = 0; s < states; ++s) {
+  for (Eigen::Index s = 0; s < states; ++s) {
     Eigen::VectorXd soon(actions);
     for (int a = 0; a < actions; ++a)
       soon[a] = world.P[static_cast<std::size_t>(a)].row(s) * world.features.transpose() * w;
     Eigen::Index a = 0;
     soon.maxCoeff(&a);
     greedy(s, a) = 1;
+    Q.row(s).minCoeff(&a);
+    worst(s, a) = 1;
   }
   check.near("values of the states under bestPolicy", worthOf(world, w, got), bestWorth(world, w), 1e-4,
-             {{"Is it the worst policy?", -bestWorth(world, -w)},
+             {{"Is it the worst action?", worthOf(world, w, worst)},
+              {"Has w the opposite sign?", -bestWorth(world, -w)},
               {"Does only the next state count? All later ones do, too.", worthOf(world, w, greedy)},
               {"Is it always the first action?", worthOf(world, w, first)},
               {"Are all actions equally likely?", worthOf(world, w, uniformChoice(states, actions))}});
@@ -459,8 +470,7 @@ void checkShare(Check& check, Student& student, const Eigen::VectorXd& teacher, 
              {{"May the share be less than 0 or more than 1?", free},
               {"Is it the share of the mixture so far? Wanted is that of the candidate.", 1 - wanted},
               {"Is it a length? Wanted is its share of the distance from `mixed` to `candidate`.",
-               gap.dot(way) / length},
-              {"Is it a length, cut off at 0 and 1?", std::clamp(gap.dot(way) / length, 0., 1.)},
+               std::clamp(gap.dot(way) / length, 0., 1.)},
               {"Does only the distance to the teacher count? The direction does, too.",
                std::min(1., gap.norm() / length)},
               {"Is the teacher projected from the origin? The line begins at `mixed`.",
@@ -478,7 +488,10 @@ void explains(Check& check, Student& student, const FeatureWorld& world, const E
              count >= 1 && count <= rounds + 1);
   check.shape("shares", got.shares, count, 1);
   check.shape("w", got.w, teacher.size(), 1);
-  Eigen::VectorXd mixed, last, w = Eigen::VectorXd::Zero(teacher.size()), gap = w, first = w;
+  const auto unit = [](const Eigen::VectorXd& v) -> Eigen::VectorXd {
+    return v / std::max(1e-300, v.norm());
+  };
+  Eigen::VectorXd mixed, last, first, w = Eigen::VectorXd::Zero(teacher.size());
   Eigen::VectorXd shares = Eigen::VectorXd::Zero(count), kept = shares;
   for (Eigen::Index i = 0; i < count; ++i) {
     const Eigen::MatrixXd& policy = got.policies[static_cast<std::size_t>(i)];
@@ -486,34 +499,40 @@ void explains(Check& check, Student& student, const FeatureWorld& world, const E
     isPolicy(check, name, policy, world);
     const Eigen::VectorXd candidate = featuresOf(world, policy);
     if (i == 0) {
+      const auto other = check.ask("Is the policy left out with which the search begins?");
       check.near(name, policy, uniformChoice(policy.rows(), policy.cols()), 1e-9);
       mixed = last = candidate;
       shares[0] = kept[0] = 1;
       continue;
     }
-    gap = teacher - mixed;
+    const Eigen::VectorXd gap = teacher - mixed, way = candidate - mixed;
     check.that("the search ends where the mixture is as near as the tolerance", gap.norm() > .99 * tolerance);
-    w = gap / gap.norm();
+    w = unit(gap);
     if (i == 1) first = w;
-    const auto isBest = [&](const Eigen::VectorXd& other) {
-      return (worthOf(world, other, policy) - bestWorth(world, other)).cwiseAbs().maxCoeff() < 1e-4;
-    };
-    const auto away = check.ask("Does w point from the teacher to the mixture?", isBest(-w));
-    const auto same = check.ask("Is w the same in each round?", i > 1 && isBest(first));
-    const auto alone = check.ask("Is the teacher compared with the last policy alone? The mixture counts.",
-                                 i > 1 && isBest(teacher - last));
-    const auto absolute =
-        check.ask("Is w the teacher's <phi>? It is what that has more than the mixture.", isBest(teacher));
-    check.near(fmt::format("values of policy {} where w^T phi is paid", i), worthOf(world, w, policy),
-               bestWorth(world, w), 1e-4);
-    const Eigen::VectorXd way = candidate - mixed;
     const double length = way.squaredNorm(),
                  share = length > 0 ? std::clamp(gap.dot(way) / length, 0., 1.) : 0;
     mixed += share * way;
-    last = candidate;
     shares *= 1 - share;
     shares[i] = kept[i] = share;
+    if (i + 1 == count)
+      check.near(
+          "w", got.w, w, 1e-6,
+          {{"Has w not the length 1?", gap},
+           {"Does w point from the teacher to the mixture?", -w},
+           {"Is w the teacher's <phi>? It is what that has more than the mixture.", unit(teacher)},
+           {"Is the teacher compared with the last policy alone? The mixture counts.", unit(teacher - last)},
+           {"Is it the w of the round to come? Wanted is that of the last policy.", unit(teacher - mixed)}});
+    const auto isBest = [&](const Eigen::VectorXd& other) {
+      return i > 1 && (worthOf(world, other, policy) - bestWorth(world, other)).cwiseAbs().maxCoeff() < 1e-4;
+    };
+    const auto same = check.ask("Is w the same in each round?", isBest(first));
+    const auto alone = check.ask("Is the teacher compared with the last policy alone? The mixture counts.",
+                                 isBest(teacher - last));
+    check.near(fmt::format("values of policy {} where w^T phi is paid", i), worthOf(world, w, policy),
+               bestWorth(world, w), 1e-4);
+    last = candidate;
   }
+  if (count == 1) check.near("w without any round", got.w, w, 0);
   if (count <= rounds)
     check.atMost("distance of the mixture from the teacher, where the search ends early",
                  (teacher - mixed).norm(), 1.01 * tolerance);
@@ -523,12 +542,6 @@ void explains(Check& check, Student& student, const FeatureWorld& world, const E
                Eigen::VectorXd::Constant(count, 1. / static_cast<double>(count))},
               {"Has the last policy all of the mixture?", Eigen::VectorXd::Unit(count, count - 1)},
               {"Do both have each other's share?", shares.reverse()}});
-  const Eigen::VectorXd after = teacher - mixed;
-  check.near("w", got.w, w, 1e-6,
-             {{"Has w not the length 1?", gap},
-              {"Is it the w of the round to come? Wanted is that of the last policy.",
-               after / std::max(1e-300, after.norm())},
-              {"Is it the w of the round to come? Wanted is that of the last policy, of length 1.", after}});
 }
 
 void checkWishes(Check& check, Student& student) {

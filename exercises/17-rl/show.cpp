@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cstdint>
-
-#include <fmt/format.h>
+#include <string>
+#include <string_view>
 
 #include "course/mdp_figures.h"
 #include "learning/dynamic_programming.h"
@@ -160,7 +160,7 @@ void showImitation() {
   for (Eigen::MatrixXd& next : P) next.col(*world.state(15, 4)).setZero();  // the flag is the end
   std::vector<LearningCurves> curves;
   for (const int rounds : {0, 5, 20, 80}) {
-    LearningCurves curve{fmt::format("{} rounds", rounds), {}};
+    LearningCurves curve{std::to_string(rounds) + " rounds", {}};
     if (rounds == 0) curve.label = "one demonstration, or many";
     for (std::uint64_t seed = 0; seed < 30; ++seed) {
       Rng rng(seed);
@@ -168,24 +168,32 @@ void showImitation() {
       const MdpEpisode shown = mdpEpisode(field(0).mdp, deterministicPolicy(mdp, teacher), home, kSteps, rng);
       for (std::size_t t = 0; t < shown.actions.size(); ++t)
         lessons.push_back({shown.states[t], shown.actions[t]});
-      const Eigen::MatrixXd policy = aggregated(
-          lessons, n, 4, rounds,
-          [&](const Eigen::MatrixXd& clone) { return mdpEpisode(mdp, clone, home, kSteps, rng).states; },
-          [&](int s) { return teacher[static_cast<std::size_t>(s)]; });
-      if (policy.isZero(0)) return nothingYet("imitation");
+      const auto walked = [&](const Eigen::MatrixXd& clone) {
+        return mdpEpisode(mdp, clone, home, kSteps, rng).states;
+      };
+      const auto asked = [&](int s) { return teacher[static_cast<std::size_t>(s)]; };
+      const Eigen::MatrixXd policy =
+          rounds == 0 ? cloned(lessons, n, 4) : aggregated(lessons, n, 4, rounds, walked, asked);
+      if (policy.isZero(0)) break;
       if (seed == 0 && (rounds == 0 || rounds == 80)) {
         Figure figure =
             policyFigure(world, whereabouts(P, start, policy, kSteps).colwise().sum().transpose(), policy);
         figure.title =
             rounds == 0 ? "A clone of one demonstration" : "The same after 80 rounds of aggregation";
         figure.colorLabel = "visits in 40 steps";
+        figure.colorRange = AxisRange(0, 1.2);
         plot(rounds == 0 ? "cloned" : "aggregated", figure);
       }
       const Eigen::VectorXd chances = mistakeChances(P, start, policy, teacher, kSteps);
       curve.runs.emplace_back(chances.begin(), chances.end());
     }
+    if (curve.runs.empty()) {
+      nothingYet(rounds == 0 ? "clones" : "aggregation");
+      break;
+    }
     curves.push_back(curve);
   }
+  if (curves.empty()) return;
   Figure figure = learningFigure(curves);
   figure.title = "A clone on slippery ground: 30 runs each";
   figure.xLabel = "step";
@@ -220,11 +228,13 @@ void showTeacher() {
                         const Eigen::MatrixXd& policy) {
     Figure figure = policyFigure(world, walk.features.transpose() * w, policy);
     figure.title = title;
-    figure.colorLabel = "w^T phi";
+    figure.colorLabel = "w^T phi: water, grass, road, home";
+    figure.colorRange = AxisRange(w.minCoeff() - .1, w.maxCoeff() + .1);
     plot(name, figure);
   };
   draw("wishes", "What a teacher likes, and does", wishes, acts);
-  Series gap{.label = "under its own weights"}, distance{.label = "distance of <phi>"};
+  Series gap{.label = "value, by the weights of the teacher"},
+      distance{.label = "distance between both <phi>"};
   Explanation found;
   for (int rounds = 0; rounds <= 20; ++rounds) {
     found = explained(walk, teacher, rounds, 0);
@@ -232,12 +242,15 @@ void showTeacher() {
     Eigen::VectorXd mixed = Eigen::VectorXd::Zero(4);
     for (std::size_t i = 0; i < found.policies.size(); ++i)
       mixed += found.shares[static_cast<Eigen::Index>(i)] * expectedFeatures(walk, found.policies[i]);
-    gap.add(rounds, wishes.dot(teacher - mixed));
+    gap.add(rounds, std::max(1e-3, wishes.dot(teacher - mixed)));
     distance.add(rounds, (teacher - mixed).norm());
   }
-  draw("inferred", "What its walks reveal", found.w, found.policies.back());
-  plot("gap",
-       {.title = "What the mixture lacks", .xLabel = "round", .yLabel = "value", .series = {gap, distance}});
+  draw("inferred", "What 500 of its walks reveal, and a policy for that", found.w, found.policies.back());
+  plot("gap", {.title = "What the mixture lacks to be like the teacher",
+               .xLabel = "round",
+               .yLabel = "value, distance",
+               .logY = true,
+               .series = {gap, distance}});
 }
 
 void showBandits(double epsilon) {

@@ -153,11 +153,12 @@ inline Eigen::MatrixXd rowsOf(const std::vector<Lesson>& lessons) {
   return rows;
 }
 
-/// Lessons in all states but the last; in state 0 two different ones.
+/// Lessons in all states but the last; the last one in state 0 differs from most of the others there.
 inline std::vector<Lesson> randomLessons(int states, int actions, int count, rex::Rng& rng) {
-  std::vector<Lesson> lessons{{0, 1}, {0, 0}, {0, 1}};
-  while (static_cast<int>(lessons.size()) < count)
+  std::vector<Lesson> lessons{{0, 1}, {0, 1}, {0, 1}};
+  while (static_cast<int>(lessons.size()) + 1 < count)
     lessons.push_back({rng.index(states - 1), rng.index(actions)});
+  lessons.push_back({0, 0});
   return lessons;
 }
 
@@ -177,10 +178,10 @@ inline FeatureWorld randomWorld(int states, int actions, int features, double di
   FeatureWorld world{{}, Eigen::VectorXd::Zero(states), Eigen::MatrixXd(features, states), discount};
   for (int a = 0; a < actions; ++a) {
     world.P.emplace_back(Eigen::MatrixXd::Zero(states, states));
-    for (int s = 0; s < states; ++s) {
+    for (Eigen::Index s = 0; s < states; ++s) {
       const int nearby = rng.index(8);
       world.P.back()(s, rng.index(states)) += .05 * (11 + nearby);
-      world.P.back()(s, rng.index(states)) += .05 * (8 - nearby - s % 2);
+      world.P.back()(s, rng.index(states)) += .05 * static_cast<double>(8 - nearby - s % 2);
     }
   }
   world.start[0] = .75;

@@ -193,7 +193,8 @@ policy.row(s) /= all > 0 ? static_cast<double>(lessons.size()) : actions;
 // in place of: policy.row(s) /= all > 0 ? all : actions;
 Eigen::Index best = 0;
 policy.row(s).maxCoeff(&best);
-policy.row(s) = all > 0 ? Eigen::RowVectorXd::Unit(actions, best) : Eigen::RowVectorXd::Constant(actions, 1. / actions);
+policy.row(s).setConstant(all > 0 ? 0 : 1. / actions);
+if (all > 0) policy(s, best) = 1;
 
 // <variant last_lesson> caught by: clone, other-clones
 // mistake: remembers only the last lesson of a state.
@@ -328,12 +329,6 @@ for (const int s : here) {
 // in place of: for (int round = 0; round < rounds; ++round) {
 for (int round = 0; round <= rounds; ++round) {
 
-// <variant first_state_only> caught by: aggregate, other-clones
-// mistake: asks only about the first state of a walk.
-// <solution aggregated>
-// in place of: for (const int s : here) all.push_back({s, taught(s)});
-all.push_back({here.front(), taught(here.front())});
-
 // <variant rows_of_p_as_columns> caught by: wishes, other-teachers
 // mistake: does not transpose P.
 // <solution expectedFeatures>
@@ -441,7 +436,7 @@ return std::clamp((teacher - mixed).norm() / way.norm(), 0., 1.);
 // in place of: return std::clamp(way.dot(teacher - mixed) / way.squaredNorm(), 0., 1.);
 return std::clamp(teacher.dot(candidate) / candidate.squaredNorm(), 0., 1.);
 
-// <variant no_way_at_all> caught by: explain, other-teachers
+// <variant no_way_at_all> caught by: explain
 // mistake: divides zero by zero if both are equal.
 // <solution nearestShare>
 // in place of: if (way.squaredNorm() == 0) return 0;
