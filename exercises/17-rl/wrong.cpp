@@ -200,7 +200,8 @@ if (all > 0) policy(s, best) = 1;
 // mistake: remembers only the last lesson of a state.
 // <solution cloned>
 // in place of: for (const Lesson& lesson : lessons) policy(lesson.state, lesson.action) += 1;
-for (const Lesson& lesson : lessons) policy.row(lesson.state) = Eigen::RowVectorXd::Unit(actions, lesson.action);
+for (const Lesson& lesson : lessons)
+  policy.row(lesson.state) = Eigen::RowVectorXd::Unit(actions, lesson.action);
 
 // <variant one_more_of_each> caught by: clone, other-clones
 // mistake: adds one to each count.
@@ -264,7 +265,7 @@ chances[t] += now[s] * policy(s, teacher[static_cast<std::size_t>(s)]);
 // <variant one_less_right> caught by: clone, other-clones
 // mistake: one minus the chance of being right, also after the end.
 // <solution mistakeChances>
-// in place of: for (Eigen::Index s = 0; s < now.size(); ++s) ... chances[t] += now[s] * (1 - policy(s, teacher[static_cast<std::size_t>(s)]));
+// in place of: for (Eigen::Index s = 0; s < now.size(); ++s) ... chances[t] +=
 chances[t] = 1;
 for (Eigen::Index s = 0; s < now.size(); ++s)
   chances[t] -= now[s] * policy(s, teacher[static_cast<std::size_t>(s)]);
@@ -310,7 +311,8 @@ return policy;
 // <solution aggregated>
 // in place of: for (const int s : here) all.push_back({s, taught(s)});
 for (std::size_t i = 0; i < here.size(); ++i)
-  if (std::find(here.begin(), here.begin() + static_cast<std::ptrdiff_t>(i), here[i]) == here.begin() + static_cast<std::ptrdiff_t>(i))
+  if (std::find(here.begin(), here.begin() + static_cast<std::ptrdiff_t>(i), here[i]) ==
+      here.begin() + static_cast<std::ptrdiff_t>(i))
     all.push_back({here[i], taught(here[i])});
 
 // <variant copies_itself> caught by: aggregate, other-clones
@@ -326,8 +328,10 @@ for (const int s : here) {
 // <variant one_round_more> caught by: aggregate, other-clones
 // mistake: lets the clone act once more.
 // <solution aggregated>
-// in place of: for (int round = 0; round < rounds; ++round) {
-for (int round = 0; round <= rounds; ++round) {
+// in place of: for (int round ... return
+for (int round = 0; round <= rounds; ++round)
+  for (const int s : visited(cloned(all, states, actions))) all.push_back({s, taught(s)});
+return cloned(all, states, actions);
 
 // <variant rows_of_p_as_columns> caught by: wishes, other-teachers
 // mistake: does not transpose P.
@@ -504,8 +508,9 @@ return found;
 // <variant never_ends_early> caught by: other-teachers
 // mistake: goes on where the teacher is matched.
 // <solution explained>
-// in place of: for (int round = 0; round < rounds && (teacher - mixed).norm() > tolerance; ++round) {
-for (int round = 0; round < rounds && (teacher - mixed).norm() > 0; ++round) {
+// in place of: Eigen::VectorXd mixed = expectedFeatures(world, found.policies[0]);
+Eigen::VectorXd mixed = expectedFeatures(world, found.policies[0]);
+tolerance = 0;
 
 // <variant margin_of_sums> caught by: bounds, other-bounds
 // mistake: adds the margin to the sum of payments.
