@@ -20,12 +20,12 @@ Eigen::Matrix3d rotationMatrix(const Eigen::Vector3d& axis, double angle);
 Eigen::Vector3d rotationVector(const Eigen::Matrix3d& R);
 
 /// The quaternion of the rotation R(a) R(b): first b, then a. Slide 2:10, where the cross product has its
-/// factors in the wrong order.
+/// factors in the wrong order. q and -q are the same orientation, and either may be returned.
 Eigen::Vector4d composed(const Eigen::Vector4d& a, const Eigen::Vector4d& b);
 
 /// The unit quaternion on the way from orientation `a` (share = 0) to `b` (share = 1): a rotation about a
-/// fixed axis, at constant speed, on the shorter way. q and -q are the same orientation, and either may be
-/// returned. `a` and `b` may be equal or opposite. They are never half a turn apart. 0 <= share <= 1.
+/// fixed axis, at constant speed, on the shorter way. Again, q or -q may be returned. `a` and `b` may be
+/// equal or opposite. They are never half a turn apart. 0 <= share <= 1.
 Eigen::Vector4d between(const Eigen::Vector4d& a, const Eigen::Vector4d& b, double share);
 
 // Part 2, Euler angles (2:8). Three angles turn a frame by three rotations in a row: about an axis of the

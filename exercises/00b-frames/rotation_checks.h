@@ -80,6 +80,15 @@ inline void findsAxis(rex::grading::Check& check, Student& student, const Eigen:
 inline Eigen::Vector4d randomQuaternion(rex::Rng& rng) { return rng.normalVector(4).normalized(); }
 inline Eigen::Vector4d conjugate(const Eigen::Vector4d& a) { return {a[0], -a[1], -a[2], -a[3]}; }
 
+/// q and -q are the same orientation: the answer and the mistakes get the sign that fits `wanted`.
+inline void nearUpToSign(rex::grading::Check& check, const std::string& property, Eigen::Vector4d got,
+                         const Eigen::Vector4d& wanted, double tolerance, Mistakes mistakes) {
+  if (got.dot(wanted) < 0) got = -got;
+  for (rex::grading::Mistake& mistake : mistakes)
+    if (mistake.value.col(0).dot(wanted) < 0) mistake.value *= -1;
+  check.near(property + ", with the sign that fits", got, wanted, tolerance, mistakes);
+}
+
 inline void composes(rex::grading::Check& check, Student& student, const Eigen::Vector4d& a,
                      const Eigen::Vector4d& b) {
   check.input("two quaternions", {{"a", a}, {"b", b}});
@@ -91,17 +100,17 @@ inline void composes(rex::grading::Check& check, Student& student, const Eigen::
   crossed.tail<3>() = a[0] * u + b[0] * v + u.cross(v);
   const auto last = [](const Eigen::Vector4d& q) { return Eigen::Vector4d(q[3], q[0], q[1], q[2]); };
   const Eigen::Vector4d scalarLast = rex::quaternionProduct(last(a), last(b));
-  check.near("quaternion of composed", student.composed(a, b), wanted, 1e-12,
-             {{"Is the cross product that of slide 2:10? It has its factors in the wrong order.",
-               rex::quaternionProduct(b, a)},
-              {"Is the cross product left out?", plain},
-              {"Has the scalar product of the vector parts the wrong sign?", added},
-              {"Is each vector part multiplied by its own scalar? Each goes with the other one.", crossed},
-              {"Are the quaternions added?", a + b},
-              {"Is b conjugated?", rex::quaternionProduct(a, conjugate(b))},
-              {"Is a conjugated?", rex::quaternionProduct(conjugate(a), b)},
-              {"Is the scalar the last of the four numbers? Here it is the first.",
-               Eigen::Vector4d(scalarLast[1], scalarLast[2], scalarLast[3], scalarLast[0])}});
+  nearUpToSign(check, "quaternion of composed", student.composed(a, b), wanted, 1e-12,
+               {{"Is the cross product that of slide 2:10? It has its factors in the wrong order.",
+                 rex::quaternionProduct(b, a)},
+                {"Is the cross product left out?", plain},
+                {"Has the scalar product of the vector parts the wrong sign?", added},
+                {"Is each vector part multiplied by its own scalar? Each goes with the other one.", crossed},
+                {"Are the quaternions added?", a + b},
+                {"Is b conjugated?", rex::quaternionProduct(a, conjugate(b))},
+                {"Is a conjugated?", rex::quaternionProduct(conjugate(a), b)},
+                {"Is the scalar the last of the four numbers? Here it is the first.",
+                 Eigen::Vector4d(scalarLast[1], scalarLast[2], scalarLast[3], scalarLast[0])}});
 }
 
 /// Of two orientations that are `arc` apart, as unit vectors in four dimensions; b is negated if `flips`.
@@ -116,27 +125,22 @@ inline void turnsSmoothly(rex::grading::Check& check, Student& student, double a
     const Eigen::Vector4d end = flips ? Eigen::Vector4d(-b) : b, wanted = at(share * arc);
     check.input(arc < 1e-9 ? "twice the same orientation" : "two orientations",
                 {{"a", a}, {"b", end}, {"share", share}});
-    Eigen::Vector4d got = student.between(a, end, share);
-    const double sign = got.dot(wanted) < 0 ? -1 : 1;
-    got *= sign;
+    const Eigen::Vector4d got = student.between(a, end, share);
     const auto shown = check.show(
         [&] { return arrowsOf(rex::rotationFromQuaternion(got), rex::rotationFromQuaternion(wanted)); });
     const auto same =
         check.ask("Are a and b the same orientation here? Do not divide by the sine of the arc.", arc < 1e-6);
     const Eigen::Vector4d mixed = (1 - share) * a + share * b, longer = at(share * (arc - kPi));
-    Mistakes mistakes = {
-        {"Is it linear interpolation, normalised? Its speed is not constant.", mixed.normalized()},
-        {"Is it linear interpolation? The result has to have length one.", mixed},
-        {"Does it take the longer way? One of b and -b is nearer to a.", sign * longer},
-        {"Is it the way from b to a?", at((1 - share) * arc)},
-        {"Is the angle of rotation taken for the arc? It is twice as large.",
-         std::sin((1 - share) * 2 * arc) / std::sin(2 * arc) * a +
-             std::sin(share * 2 * arc) / std::sin(2 * arc) * b},
-        {"Is the division by the sine of the arc left out?",
-         std::sin((1 - share) * arc) * a + std::sin(share * arc) * b}};
-    for (rex::grading::Mistake& mistake : mistakes)
-      if (mistake.value.col(0).dot(wanted) < 0) mistake.value *= -1;
-    check.near("quaternion of between, with the sign that fits", got, wanted, 1e-9, mistakes);
+    nearUpToSign(check, "quaternion of between", got, wanted, 1e-9,
+                 {{"Is it linear interpolation, normalised? Its speed is not constant.", mixed.normalized()},
+                  {"Is it linear interpolation? The result has to have length one.", mixed},
+                  {"Does it take the longer way? One of b and -b is nearer to a.", longer},
+                  {"Is it the way from b to a?", at((1 - share) * arc)},
+                  {"Is the angle of rotation taken for the arc? It is twice as large.",
+                   std::sin((1 - share) * 2 * arc) / std::sin(2 * arc) * a +
+                       std::sin(share * 2 * arc) / std::sin(2 * arc) * b},
+                  {"Is the division by the sine of the arc left out?",
+                   std::sin((1 - share) * arc) * a + std::sin(share * arc) * b}});
   }
 }
 
