@@ -288,10 +288,10 @@ void showEvolution() {
     SearchCma cma(1);
     cma.init(start.mean, kMu, kLambda, start.deviation);
     Eigen::MatrixXd samples;
-    Eigen::VectorXd values;
+    Eigen::VectorXd costs;
     for (int i = 0; i < kGenerations; ++i) {
-      cma.step(samples, values);
-      values = recorded(library, samples.transpose());
+      cma.step(samples, costs);
+      costs = recorded(library, samples.transpose());
     }
     figure.series.push_back(yours);
     figure.series.push_back(library);

@@ -365,9 +365,9 @@ void checkAggregated(Check& check, Student& student, int states, int actions, in
     before = wanted;
     latest.clear();
     for (const int s : visits[r]) {
-      Eigen::Index best = 0;
-      cloneOf(own, states, actions).row(s).maxCoeff(&best);
-      own.push_back({s, static_cast<int>(best)});
+      Eigen::Index likeliest = 0;
+      cloneOf(own, states, actions).row(s).maxCoeff(&likeliest);
+      own.push_back({s, static_cast<int>(likeliest)});
       latest.push_back({s, taught(s)});
       const bool isNew =
           std::none_of(latest.begin(), latest.end() - 1, [&](const Lesson& l) { return l.state == s; });

@@ -75,8 +75,8 @@ GridWorld field(double slip) {
 Eigen::MatrixXd whereabouts(const std::vector<Eigen::MatrixXd>& P, Eigen::VectorXd now,
                             const Eigen::MatrixXd& policy, int steps) {
   Eigen::MatrixXd all(steps, now.size());
-  const Eigen::MatrixXd next = nextUnder(P, policy);
-  for (int t = 0; t < steps; ++t, now = (next.transpose() * now).eval()) all.row(t) = now.transpose();
+  const Eigen::MatrixXd onward = nextUnder(P, policy).transpose();
+  for (int t = 0; t < steps; ++t, now = (onward * now).eval()) all.row(t) = now.transpose();
   return all;
 }
 

@@ -164,7 +164,7 @@ inline std::vector<Lesson> randomLessons(int states, int actions, int count, rex
 
 inline std::vector<int> randomTeacher(int states, int actions, rex::Rng& rng) {
   std::vector<int> teacher;
-  for (int s = 0; s < states; ++s) teacher.push_back(rng.index(actions));
+  for (int i = 0; i < states; ++i) teacher.push_back(rng.index(actions));
   return teacher;
 }
 
@@ -176,7 +176,7 @@ inline Eigen::VectorXd numbersOf(const std::vector<int>& list) {
 /// Each pair leads to one state or another, and each step ends with a probability of at least .05.
 inline FeatureWorld randomWorld(int states, int actions, int features, double discount, rex::Rng& rng) {
   FeatureWorld world{{}, Eigen::VectorXd::Zero(states), Eigen::MatrixXd(features, states), discount};
-  for (int a = 0; a < actions; ++a) {
+  for (int action = 0; action < actions; ++action) {
     world.P.emplace_back(Eigen::MatrixXd::Zero(states, states));
     for (Eigen::Index s = 0; s < states; ++s) {
       const int nearby = rng.index(8);
@@ -192,9 +192,9 @@ inline FeatureWorld randomWorld(int states, int actions, int features, double di
 
 /// Probabilities of actions, in steps of .1.
 inline Eigen::MatrixXd randomPolicy(int states, int actions, rex::Rng& rng) {
-  Eigen::MatrixXd policy = Eigen::MatrixXd::Zero(states, actions);
-  for (int i = 0; i < 10 * states; ++i) policy(i / 10, rng.index(actions)) += .1;
-  return policy;
+  Eigen::MatrixXd chosen = Eigen::MatrixXd::Zero(states, actions);
+  for (int i = 0; i < 10 * states; ++i) chosen(i / 10, rng.index(actions)) += .1;
+  return chosen;
 }
 
 /// Rewards (n x m) if each step from s pays w^T phi(s).
