@@ -204,7 +204,7 @@ class Generations {
     const auto shown = check.show(
         [&] { return cloudOf(Z.topRows(2), 1, "first coordinate, in deviations from the mean", "second"); });
     const bool isNew = draws_.size() < 2 || !draws_[0].isApprox(draws_[1], 1e-9);
-    const auto copy = check.ask("Does evolved draw from a copy of rng? Pass rng by reference.");
+    const auto copy = check.ask("Does evolved draw from a copy of rng? Pass rng by reference.", !isNew);
     check.that("evolved draws other numbers in each generation", isNew);
     const auto same = check.ask("Is the same number added to all coordinates of a sample?",
                                 Z.row(0).isApprox(Z.row(1), 1e-9));
@@ -212,11 +212,11 @@ class Generations {
         check.ask("Are all samples of a generation the same?", Z.col(0).isApprox(Z.col(1), 1e-9));
     check.near("correlation of the coordinates of the samples of evolved", correlationOf(Z.topRows(2)), 0,
                6 / std::sqrt(Z.cols()));
+    const auto other = check.ask(question());
     Eigen::Matrix2Xd successive(2, Z.size() - n);
     successive << Z.leftCols(Z.cols() - 1).reshaped().transpose(),
         Z.rightCols(Z.cols() - 1).reshaped().transpose();
     check.near("correlation of successive samples of evolved", correlationOf(successive), 0, error);
-    const auto other = check.ask(question());
     check.near("samples of evolved less the mean of their species, in units of its deviation, on average",
                Z.rowwise().mean(), Eigen::VectorXd::Zero(n), 6 / std::sqrt(Z.cols()));
     check.near("standard deviation of the samples of evolved, in units of that of their species",
