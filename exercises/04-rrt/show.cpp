@@ -64,17 +64,42 @@ const PlaneWorld kOneDisc{.discs = {{{0.5, 0.5}, 0.25}}};
 const Eigen::Vector2d kLeft(0.1, 0.4), kRight(0.9, 0.55);
 constexpr double kShortest = 0.944047, kGamma = 1.5;
 
-// The length of the path of the library's RRT* after n samples; 2 if there is none.
-double lengthByLibrary(int n) {
+// The length of the path of the library's RRT*; 2 if there is none.
+double lengthByLibrary(const RrtStarOptions& options, std::uint64_t seed = 1) {
   const PathProblem problem{
       .space = Space::box(Eigen::Vector2d(0, 0), Eigen::Vector2d(1, 1)),
       .allValid = eachColumn([](const Eigen::VectorXd& q) { return wayIsFree(kOneDisc, q, q); }),
       .start = kLeft,
       .goal = kRight};
-  Rng rng(1);
-  const RrtOptions growth{.stepSize = 0.1, .goalBias = 0.05, .maxSamples = n};
-  const PathResult result = growRrtStar(problem, {.growth = growth, .gamma = kGamma}, rng);
+  Rng rng(seed);
+  const PathResult result = growRrtStar(problem, options, rng);
   return result.status == PathStatus::kFound ? result.length : 2;
+}
+
+// With steps of 0.3, so that the radius of the exponent limits what is near.
+void plotExponents() {
+  Figure figure{.title = "RRT* of the library around a disc, mean of 10 seeds",
+                .xLabel = "samples",
+                .yLabel = "length above that of the shortest path [m]",
+                .logX = true,
+                .logY = true};
+  for (const int extra : {0, 1}) {
+    Series series{.label = extra == 0 ? "(log n / n)^(1/d)" : "(log n / n)^(1/(d+1))",
+                  .style = SeriesStyle::kLinesPoints};
+    for (int n = 250; n <= 8000; n *= 2) {
+      double mean = 0;
+      for (std::uint64_t seed = 1; seed <= 10; ++seed)
+        mean += lengthByLibrary({.growth = {.stepSize = 0.3, .maxSamples = n},
+                                 .gamma = kGamma,
+                                 .exponent = 1. / (2 + extra),
+                                 .isInformed = false},
+                                seed) /
+                10;
+      series.add(n, mean - kShortest);
+    }
+    figure.series.push_back(series);
+  }
+  plot("exponents", figure);
 }
 
 }  // namespace
@@ -224,7 +249,8 @@ void showStar() {
     if (!series.x.empty()) costs.push_back(series);
   }
   Series library{.label = "library", .dashed = true, .color = kBlack};
-  for (int n = 200; n <= settings.maxSamples; n += 100) library.add(n, lengthByLibrary(n));
+  for (int n = 200; n <= settings.maxSamples; n += 100)
+    library.add(n, lengthByLibrary({.growth = {.stepSize = 0.1, .maxSamples = n}, .gamma = kGamma}));
   costs.push_back(library);
   plot("costs", {.title = "Around a disc with RRT*",
                  .xLabel = "samples",
@@ -239,4 +265,5 @@ void showStar() {
   plotPanels("star", "RRT and RRT*, 2000 samples each",
              {{"RRT, length " + text(lengthOf(first)), kOneDisc, {plain}, first},
               {"RRT*, length " + text(lengthOf(best)), kOneDisc, {star.tree}, best}});
+  plotExponents();
 }

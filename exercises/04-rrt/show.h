@@ -28,5 +28,6 @@ void showDistances(const Eigen::Vector2d& from, double T);
 void showPhaseTree(const Eigen::Vector2d& from, double T);
 
 /// costs.png, star.png: the cost falls towards the shortest path for each seed, as with the library; RRT* has
-/// straight branches where RRT has crooked ones.
+/// straight branches where RRT has crooked ones. exponents.png: the library's cost over the number of samples
+/// with two exponents of the search radius.
 void showStar();

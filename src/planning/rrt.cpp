@@ -242,10 +242,9 @@ double volumeOfEllipsoid(int dimension, double apart, double length) {
   return volumeOfUnitBall(dimension) * length / 2 * std::pow(thin, dimension - 1);
 }
 
-// The distance up to which neighbours are considered, so that the tree becomes optimal (Karaman and Frazzoli
-// 2011, theorem 38; Solovey et al. 2020 found a gap in its proof, and prove an exponent of 1/(d+1)). Once
-// only paths shorter than the best matter, they lie in an ellipsoid, and its volume and the nodes in it
-// count. If angles close up, it may meet its own images: then the whole space counts.
+// The distance up to which neighbours are considered, so that the tree becomes optimal. Once only paths
+// shorter than the best matter, they lie in an ellipsoid, and its volume and the nodes in it count. If angles
+// close up, it may meet its own images: then the whole space counts.
 class Reach {
  public:
   Reach(const PathProblem& problem, const RrtStarOptions& options)
@@ -273,7 +272,9 @@ class Reach {
     const double gamma =
         options_.gamma > 0 ? options_.gamma
                            : 2 * std::pow((1 + power) * volume / volumeOfUnitBall(extent_.dimension), power);
-    return std::min(options_.growth.stepSize, gamma * std::pow(std::log(nodes) / nodes, power));
+    return std::min(
+        options_.growth.stepSize,
+        gamma * std::pow(std::log(nodes) / nodes, options_.exponent > 0 ? options_.exponent : power));
   }
 
  private:
@@ -356,6 +357,7 @@ int goalBehind(CostTree& tree, int node, const PathProblem& problem, double step
 PathResult growRrtStar(const PathProblem& problem, const RrtStarOptions& options, Rng& rng) {
   TreeGrowth growth(problem, options.growth, rng);
   requireNotNegative("gamma of RRT*", options.gamma);
+  requireNotNegative("exponent of RRT*", options.exponent);
   Reach reach(problem, options);
   CostTree tree(problem);
   const NearestNeighbors& points = tree.tree().points();

@@ -25,9 +25,12 @@ struct RrtOptions {
 
 struct RrtStarOptions {
   RrtOptions growth{};
-  /// Nodes within gamma (log n / n)^(1/d), and within a step, are considered as parents and rewired; 0: as
+  /// Nodes within gamma (log n / n)^exponent, and within a step, are considered as parents and rewired; 0: as
   /// large as optimality requires in a space of this size (Karaman and Frazzoli 2011, theorem 38).
   double gamma = 0;
+  /// 0: theirs, 1/d in d dimensions. 1/(d+1) is what Solovey et al. 2020 prove to be enough, who found a gap
+  /// in that theorem; it considers more nodes.
+  double exponent = 0;
   /// Once there is a path, draw only targets through which a shorter path may lead (Gammell, Srinivasa and
   /// Barfoot, Informed RRT*, 2014); in spaces of lines the search radius shrinks accordingly.
   bool isInformed = true;

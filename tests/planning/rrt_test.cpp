@@ -166,6 +166,35 @@ TEST(RrtStar, LooksAsFarAsTheNodesThatMatterAskFor) {
   EXPECT_LT(excess, .01);
 }
 
+// 1/d and 1/(d+1): with the latter, more edges are worth a test, and the same samples lead to shorter paths.
+TEST(RrtStar, ConvergesWithBothExponents) {
+  const PathProblem problem = wallWithHole(2, .1);
+  constexpr double kShortest = 1.089949;
+  constexpr int kSeeds = 10;
+  struct {
+    double excess = 0, asked = 0;
+  } early[2], late[2];
+  const auto grown = [&](double exponent, int samples, std::uint64_t seed) {
+    Rng rng(seed);
+    const RrtOptions growth{.stepSize = .3, .maxSamples = samples};
+    const RrtStarOptions options{.growth = growth, .exponent = exponent, .isInformed = false};
+    return growRrtStar(problem, options, rng);
+  };
+  for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
+    EXPECT_EQ(grown(0, 1000, seed).path, grown(1. / 2, 1000, seed).path);
+    for (const int k : {0, 1})
+      for (auto* mean : {&early[k], &late[k]}) {
+        const PathResult result = grown(1. / (2 + k), mean == &early[k] ? 1000 : 8000, seed);
+        expectPath(problem, result);
+        mean->excess += (result.length / kShortest - 1) / kSeeds;
+        mean->asked += static_cast<double>(result.asked) / kSeeds;
+      }
+  }
+  for (const int k : {0, 1}) EXPECT_LT(late[k].excess, early[k].excess / 2);
+  EXPECT_LT(late[1].excess, late[0].excess);
+  EXPECT_GT(late[1].asked, 1.2 * late[0].asked);
+}
+
 TEST(RrtStar, FindsTheGoalWithoutEverAimingAtIt) {
   const Space square = Space::box(Eigen::Vector2d(0, 0), Eigen::Vector2d(1, 1));
   const PathProblem problem{.space = square,
@@ -190,6 +219,7 @@ TEST(Rrt, RefusesWhatItCannotPlan) {
   for (const double gamma : {-1., std::nan(""), double{INFINITY}})
     EXPECT_REX_ERROR(growRrtStar(problem, {.gamma = gamma}, rng),
                      fmt::format("gamma of RRT*: found {:g}, wanted a finite number, 0 or more", gamma));
+  EXPECT_REX_ERROR(growRrtStar(problem, {.exponent = -1}, rng), "exponent of RRT*: found -1");
   problem.resolution = 0;
   EXPECT_REX_ERROR(plan({}), "resolution of a path check: found 0, wanted a positive, finite number");
   problem = wallWithHole(2, .1);
