@@ -5,6 +5,7 @@
 
 #include "control/regulators.h"
 #include "grading/evidence.h"
+#include "hand_checks.h"
 #include "interface.h"
 #include "plans.h"
 
@@ -411,7 +412,7 @@ void drivesSled(Check& check, Student& student) {
   drives(check, student, sledTask(.5, 8), Eigen::Vector2d(4, 0), rarePushes(2, 20, .5, check.rng()));
 }
 
-// Part 5.
+// Part 6.
 
 void keeps(Check& check, Student& student, const Task& task, const Corridor& corridor,
            const Eigen::VectorXd& x) {
@@ -501,6 +502,31 @@ void drivesMore(Check& check, Student& student) {
   });
 }
 
+void tracesMore(Check& check, Student& student) {
+  check.forEachCase(6, [&](int i) {
+    rex::Rng& rng = check.rng();
+    const bool isLong = i % 2 == 0;
+    Line line{.robot = isLong ? "arm7.ors" : "pegArm2.ors",
+              .body = isLong ? "arm7" : "peg",
+              .rel = rng.uniformVector(3, -.1, .1)};
+    const rex::Simulator S(line.robot);
+    const int n = S.getJointDimension();
+    line.q = S.getJointAngles() + .5 * rng.normalVector(n);
+    line.limits = {line.q - rng.uniformVector(n, .1, .6), line.q + rng.uniformVector(n, .1, .6),
+                   rng.uniformVector(n, .3, 1.5)};
+    line.goal = armOf(line)(line.q).p + .4 * rng.normalVector(3).normalized();
+    line.pace = rng.uniform(.03, .06);
+    line.T = 40;
+    traces(check, student, line);
+  });
+  check.forEachCase(4, [&](int i) { bounds(check, student, 1 + 3 * i, .02 + .1 * i); });
+  check.forEachCase(8, [&](int i) {
+    rex::Rng& rng = check.rng();
+    const Eigen::Index n = 2 + i;
+    rates(check, student, randomHandTask(1 + i % 3, n, rng), randomLimitedPosture(n, .05, rng), .05);
+  });
+}
+
 void keepsMore(Check& check, Student& student) {
   check.forEachCase(6, [&](int i) {
     rex::Rng& rng = check.rng();
@@ -524,6 +550,9 @@ rex::grading::Checks<Student> checks() {
       {"box", "bounds", "Minima of a few numbers", 1, Group::kVisible, boxesSmall},
       {"plan", "receding", "Plans within bounds", 1, Group::kVisible, plansSled},
       {"drive", "receding", "A drive with pushes", 1, Group::kVisible, drivesSled},
+      {"rate-bounds", "limits", "Bounds of a step", 1, Group::kVisible, boundsOfSteps},
+      {"rates", "limits", "Rates within limits", 1, Group::kVisible, ratesOfHands},
+      {"line", "limits", "A hand on a line", 1, Group::kVisible, tracesDown},
       {"wall", "corridor", "A plan near a wall", 1, Group::kVisible, keepsFromWall},
       // <hidden>
       {"more-predictions", "prediction", "Predictions of other plants", 1, Group::kHidden, predictsMore},
@@ -532,6 +561,7 @@ rex::grading::Checks<Student> checks() {
       {"more-boxes", "bounds", "Minima of up to 56 numbers", 2, Group::kHidden, boxesMore},
       {"more-plans", "receding", "Plans of other plants", 1, Group::kHidden, plansMore},
       {"more-drives", "receding", "Drives of other plants", 1, Group::kHidden, drivesMore},
+      {"more-hands", "limits", "Hands of other robots", 1, Group::kHidden, tracesMore},
       {"more-walls", "corridor", "Plans within other corridors", 1, Group::kHidden, keepsMore},
       // </hidden>
   };

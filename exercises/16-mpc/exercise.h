@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "course/course.h"
 
 // The functions you complete in main.cpp. n is the number of states, m that of controls, N that of steps
@@ -78,7 +80,52 @@ struct Drive {
 /// Plans do not anticipate pushes.
 Drive driven(const Task& task, const Eigen::VectorXd& start, const Eigen::MatrixXd& pushes);
 
-// Part 5, a bonus: soft limits of states.
+// Part 5, a hand within limits (2:29, 2:37; limits are not on these slides). n joints turn at rates w
+// [rad/s], the same for the tau seconds of a step. d numbers say where the hand is [m].
+
+struct ArmLimits {
+  Eigen::VectorXd qMin, qMax;  ///< n each [rad]; infinite: none
+  Eigen::VectorXd rateMax;     ///< n, positive [rad/s]
+};
+
+struct RateBounds {
+  Eigen::VectorXd lower, upper;  ///< of the same size, lower <= upper
+};
+
+/// Of the rates of a step from q: none is beyond rateMax in size, and no joint leaves its limits. A joint
+/// that is outside of them returns at least to the nearer limit; if it cannot in one step, as fast as it may.
+RateBounds rateBounds(const ArmLimits& limits, const Eigen::VectorXd& q, double tau);
+
+/// A hand with Jacobian J shall move at v.
+struct HandTask {
+  Eigen::MatrixXd J;                      ///< d x n
+  Eigen::VectorXd v;                      ///< d [m/s]
+  Eigen::MatrixXd W;                      ///< d x d, symmetric, positive definite
+  double damping = 1e-3, slowness = 0.1;  ///< positive
+};
+
+/// The hand may do with a share s of its speed. The cost of z = (w, s), n + 1 numbers, except for a constant:
+/// (J w - s v)^T W (J w - s v) + damping |w|^2 + slowness (1 - s)^2.
+Quadratic rateCost(const HandTask& task);
+
+/// The cheapest z in a step from q, within rateBounds() and 0 <= s <= 1. The H of its cost is as in boxed().
+Eigen::VectorXd limitedRates(const HandTask& task, const ArmLimits& limits, const Eigen::VectorXd& q,
+                             double tau);
+
+/// Where the hand is in a posture.
+struct Hand {
+  Eigen::VectorXd p;  ///< d
+  Eigen::MatrixXd J;  ///< d x n
+};
+using Arm = std::function<Hand(const Eigen::VectorXd& q)>;
+
+/// q_0 = q, ..., q_T (n x (T + 1)): T steps along the line from the hand in q to `goal`, with W = Id. In each
+/// step the hand shall get from where it is to the point of the line at r' = min(1, r + pace): r is the share
+/// of the line that is done, at first 0. Then r grows by s (r' - r).
+Eigen::MatrixXd traced(const Arm& arm, const ArmLimits& limits, const Eigen::VectorXd& q,
+                       const Eigen::VectorXd& goal, double pace, double tau, int T);
+
+// Part 6, a bonus: soft limits of states.
 
 /// A state beyond xMin or xMax by s costs `weight` s^2 for each step and each number, from x_1 to x_N.
 struct Corridor {

@@ -48,6 +48,32 @@ Drive driven(const Task& task, const Eigen::VectorXd& start, const Eigen::Matrix
   return drive;
 }
 
+RateBounds rateBounds(const ArmLimits& limits, const Eigen::VectorXd& q, double tau) {
+  // TODO: how fast may a joint turn if it has to stop at its limit, and what if it is beyond it already?
+  return {-limits.rateMax, limits.rateMax};
+}
+
+Quadratic rateCost(const HandTask& task) {
+  const Eigen::Index n = task.J.cols();
+  Quadratic cost{Eigen::MatrixXd::Zero(n + 1, n + 1), Eigen::VectorXd::Zero(n + 1)};
+  // TODO: write J w - s v as a matrix times z.
+  return cost;
+}
+
+Eigen::VectorXd limitedRates(const HandTask& task, const ArmLimits& limits, const Eigen::VectorXd& q,
+                             double tau) {
+  // TODO: part 3, with the bounds of the rates and of the share.
+  return Eigen::VectorXd::Zero(q.size() + 1);
+}
+
+Eigen::MatrixXd traced(const Arm& arm, const ArmLimits& limits, const Eigen::VectorXd& q,
+                       const Eigen::VectorXd& goal, double pace, double tau, int T) {
+  const Eigen::Index n = q.size();
+  Eigen::MatrixXd Q = q.replicate(1, T + 1);
+  // TODO: look where the hand is, ask for the next point, step, and remember how far you are.
+  return Q;
+}
+
 Eigen::MatrixXd plannedWithin(const Task& task, const Corridor& corridor, const Eigen::VectorXd& x) {
   // TODO: the cost beyond the corridor is a parabola only outside. Where is it one with bounds?
   return planned(task, x);
@@ -66,6 +92,8 @@ int main() {
   // Part 4: a trolley that must brake in time, and a pole that a weak motor keeps upright.
   showTrolley(trolley);
   showPole();
-  // Part 5: a wall.
+  // Part 5: a hand that shall move faster than its joints may turn, on a line that leads to their limits.
+  showLine();
+  // Part 6: a wall.
   showWall(trolley);
 }

@@ -203,6 +203,64 @@ void showPole() {
   writeFilm(cartPoleFilm(views, kPoleTau), "balanced");
 }
 
+void showLine() {
+  constexpr double kStep = .05;
+  constexpr int kSteps = 70;
+  Simulator S("arm3.ors");
+  const Arm arm = [S](const Eigen::VectorXd& q) mutable -> Hand {
+    S.setJointAngles(q);
+    const Eigen::Vector3d tip(0, 0, .15);
+    return {S.kinematicsPos("eff", tip).tail(2), S.jacobianPos("eff", tip).bottomRows(2)};
+  };
+  const Eigen::VectorXd most = Eigen::Vector3d(1.8, 1.3, 1.3), start = Eigen::Vector3d(-.5, -.2, -.2);
+  const ArmLimits limits{-most, most, Eigen::Vector3d::Ones()};
+  const Eigen::VectorXd goal = Eigen::Vector2d(-.4, .6), way = goal - arm(start).p;
+  const double pace = .025;
+  const Eigen::MatrixXd Q = traced(arm, limits, start, goal, pace, kStep, kSteps);
+  if (Q.isApprox(start.replicate(1, kSteps + 1))) return nothingYet("traced");
+  // The pseudo-inverse knows no limits, and its points of the line come by the clock.
+  Eigen::MatrixXd cut = start.replicate(1, kSteps + 1);
+  for (int t = 0; t < kSteps; ++t) {
+    const Eigen::VectorXd q = cut.col(t);
+    const Hand hand = arm(q);
+    const Eigen::VectorXd v = (arm(start).p + std::min(1., pace * (t + 1)) * way - hand.p) / kStep;
+    const RateBounds bounds = rateBounds(limits, q, kStep);
+    const Eigen::VectorXd w = leastSquares(hand.J, v);
+    cut.col(t + 1) = q + kStep * w.cwiseMax(bounds.lower).cwiseMin(bounds.upper);
+  }
+  Figure paths{.title = "A hand on a line, every 0.2 s; its joints turn at 1 rad/s or less",
+               .xLabel = "y [m]",
+               .yLabel = "z [m]",
+               .equalAxes = true,
+               .xRange = AxisRange{-1.1, .6},
+               .legend = Legend::kTopRight};
+  const auto links = [&](const Eigen::VectorXd& q, const std::string& label, bool isOld) {
+    S.setJointAngles(q);
+    Series arms{
+        .label = label, .style = SeriesStyle::kLinesPoints, .marker = Marker::kCircle, .dashed = isOld};
+    for (const char* body : {"arm1", "arm2", "eff"}) {
+      const Eigen::Vector3d joint = S.kinematicsPos(body, {0, 0, -.15});
+      arms.add(joint.y(), joint.z());
+    }
+    const Eigen::VectorXd tip = arm(q).p;
+    arms.add(tip[0], tip[1]);
+    return arms;
+  };
+  const auto add = [&](const std::string& label, const Eigen::MatrixXd& motion) {
+    Series path{.label = label, .style = SeriesStyle::kLinesPoints, .marker = Marker::kDot, .size = 1.5};
+    for (int t = 0; t <= kSteps; t += 4) {
+      const Eigen::VectorXd p = arm(motion.col(t)).p;
+      path.add(p[0], p[1]);
+    }
+    paths.series.push_back(path);
+  };
+  add("quadratic program", Q);
+  add("pseudo-inverse, cut off", cut);
+  paths.series.push_back(links(start, "the arm at first", true));
+  paths.series.push_back(links(Q.rightCols(1), "the arm in the end", false));
+  plot("line", paths);
+}
+
 void showWall(const Task& task) {
   if (!plansSomething(task)) return nothingYet("the wall");
   Task ahead = task;

@@ -23,5 +23,9 @@ void showTrolley(const Task& task);
 /// balanced.mp4: one of these drives.
 void showPole();
 
+/// line.png: a planar arm whose joints are too slow for a line, and reach their limits on it: by traced(),
+/// and by the pseudo-inverse with its rates cut off.
+void showLine();
+
 /// wall.png: a wall 0.1 m behind the goal, for several weights.
 void showWall(const Task& task);

@@ -145,6 +145,69 @@ Drive driven(const Task& task, const Eigen::VectorXd& start, const Eigen::Matrix
   return drive;
 }
 
+RateBounds rateBounds(const ArmLimits& limits, const Eigen::VectorXd& q, double tau) {
+  // <solution rateBounds>
+  const Eigen::VectorXd &most = limits.rateMax, least = -most;
+  return {((limits.qMin - q) / tau).cwiseMax(least).cwiseMin(most),
+          ((limits.qMax - q) / tau).cwiseMax(least).cwiseMin(most)};
+  // <todo>
+  //| // TODO: how fast may a joint turn if it has to stop at its limit, and what if it is beyond it already?
+  //| return {-limits.rateMax, limits.rateMax};
+  // </solution>
+}
+
+Quadratic rateCost(const HandTask& task) {
+  const Eigen::Index n = task.J.cols();
+  Quadratic cost{Eigen::MatrixXd::Zero(n + 1, n + 1), Eigen::VectorXd::Zero(n + 1)};
+  // <solution rateCost>
+  Eigen::MatrixXd rows(task.J.rows(), n + 1);  // of z, gives the error of the hand's velocity
+  rows << task.J, -task.v;
+  cost.H = 2 * rows.transpose() * task.W * rows;
+  cost.H.diagonal().head(n).array() += 2 * task.damping;
+  cost.H(n, n) += 2 * task.slowness;
+  cost.g[n] = -2 * task.slowness;
+  // <todo>
+  //| // TODO: write J w - s v as a matrix times z.
+  // </solution>
+  return cost;
+}
+
+Eigen::VectorXd limitedRates(const HandTask& task, const ArmLimits& limits, const Eigen::VectorXd& q,
+                             double tau) {
+  // <solution limitedRates>
+  const RateBounds rates = rateBounds(limits, q, tau);
+  Eigen::VectorXd lower(q.size() + 1), upper(q.size() + 1);
+  lower << rates.lower, 0;
+  upper << rates.upper, 1;
+  return boxed(rateCost(task), lower, upper);
+  // <todo>
+  //| // TODO: part 3, with the bounds of the rates and of the share.
+  //| return Eigen::VectorXd::Zero(q.size() + 1);
+  // </solution>
+}
+
+Eigen::MatrixXd traced(const Arm& arm, const ArmLimits& limits, const Eigen::VectorXd& q,
+                       const Eigen::VectorXd& goal, double pace, double tau, int T) {
+  const Eigen::Index n = q.size();
+  Eigen::MatrixXd Q = q.replicate(1, T + 1);
+  // <solution traced>
+  const Eigen::VectorXd start = arm(q).p;
+  double r = 0;
+  for (int t = 1; t <= T; ++t) {
+    const Hand hand = arm(Q.col(t - 1));
+    const double next = std::min(1., r + pace);
+    const Eigen::VectorXd v = (start + next * (goal - start) - hand.p) / tau;
+    const HandTask task{.J = hand.J, .v = v, .W = Eigen::MatrixXd::Identity(v.size(), v.size())};
+    const Eigen::VectorXd z = limitedRates(task, limits, Q.col(t - 1), tau);
+    Q.col(t) = Q.col(t - 1) + tau * z.head(n);
+    r += z[n] * (next - r);
+  }
+  // <todo>
+  //| // TODO: look where the hand is, ask for the next point, step, and remember how far you are.
+  // </solution>
+  return Q;
+}
+
 Eigen::MatrixXd plannedWithin(const Task& task, const Corridor& corridor, const Eigen::VectorXd& x) {
   // <solution plannedWithin>
   // Beside U, wished states Y within the corridor. Whatever separates them from the predicted ones costs.
@@ -182,6 +245,8 @@ int main() {
   // Part 4: a trolley that must brake in time, and a pole that a weak motor keeps upright.
   showTrolley(trolley);
   showPole();
-  // Part 5: a wall.
+  // Part 5: a hand that shall move faster than its joints may turn, on a line that leads to their limits.
+  showLine();
+  // Part 6: a wall.
   showWall(trolley);
 }

@@ -255,6 +255,111 @@ drive.U.col(t) = planned(task, drive.X.col(t)).rightCols(1);
 // in place of: drive.X.col(t + 1) = task.plant.A * drive.X.col(t) + task.plant.B * drive.U.col(t) +
 drive.X.col(t + 1) = task.plant.A * drive.X.col(t) + task.plant.B * drive.U.col(t);
 
+// <variant distance_for_a_rate> caught by: rate-bounds, rates, line, more-hands
+// mistake: lets a joint cover the distance to its limit in a second, not in a step.
+// <solution rateBounds>
+const Eigen::VectorXd &most = limits.rateMax, least = -most;
+return {(limits.qMin - q).cwiseMax(least).cwiseMin(most), (limits.qMax - q).cwiseMax(least).cwiseMin(most)};
+
+// <variant only_speeds> caught by: rate-bounds, rates, line, more-hands
+// mistake: forgets that joints have limits.
+// <solution rateBounds>
+return {-limits.rateMax, limits.rateMax};
+
+// <variant returns_at_once> caught by: rate-bounds, more-hands
+// mistake: bounds cross if a joint is too far beyond its limit.
+// <solution rateBounds>
+return {((limits.qMin - q) / tau).cwiseMax(-limits.rateMax),
+        ((limits.qMax - q) / tau).cwiseMin(limits.rateMax)};
+
+// <variant stays_outside> caught by: rate-bounds, rates, more-hands
+// mistake: a joint beyond its limit need not return.
+// <solution rateBounds>
+const Eigen::VectorXd none = Eigen::VectorXd::Zero(q.size());
+return {((limits.qMin - q) / tau).cwiseMax(-limits.rateMax).cwiseMin(none),
+        ((limits.qMax - q) / tau).cwiseMin(limits.rateMax).cwiseMax(none)};
+
+// <variant against_the_hand> caught by: rates, line, more-hands
+// mistake: the wrong sign between rates and speed.
+// <solution rateCost>
+// in place of: rows << task.J, -task.v;
+rows << task.J, task.v;
+
+// <variant half_the_rates> caught by: rates, more-hands
+// mistake: forgets that the quadratic form has a factor of one half.
+// <solution rateCost>
+// in place of: cost.H = 2 * rows.transpose() * task.W * rows; ... cost.g[n]
+cost.H = rows.transpose() * task.W * rows;
+cost.H.diagonal().head(n).array() += task.damping;
+cost.H(n, n) += task.slowness;
+cost.g[n] = -2 * task.slowness;
+
+// <variant share_damped> caught by: rates, more-hands
+// mistake: damps all numbers of z.
+// <solution rateCost>
+// in place of: cost.H.diagonal().head(n).array() += 2 * task.damping;
+cost.H.diagonal().array() += 2 * task.damping;
+
+// <variant unweighted> caught by: rates, more-hands
+// mistake: leaves out W.
+// <solution rateCost>
+// in place of: cost.H = 2 * rows.transpose() * task.W * rows;
+cost.H = 2 * rows.transpose() * rows;
+
+// <variant all_slower> caught by: rates, line, more-hands
+// mistake: makes all rates smaller until the last one is within its bounds.
+// <solution limitedRates>
+const Quadratic cost = rateCost(task);
+const RateBounds rates = rateBounds(limits, q, tau);
+const Eigen::VectorXd z = -solve(cost.H, cost.g);
+double factor = 1;
+for (Eigen::Index i = 0; i < q.size(); ++i)
+  factor = std::min(factor, std::max(0., (z[i] > 0 ? rates.upper : rates.lower)[i] / z[i]));
+return factor * z;
+
+// <variant never_slower> caught by: rates, line, more-hands
+// mistake: insists on the full speed.
+// <solution limitedRates>
+// in place of: lower << rates.lower, 0;
+lower << rates.lower, 1;
+
+// <variant pseudo_inverse> caught by: rates, line, more-hands
+// shown by: line
+// mistake: cuts off the rates of the damped pseudo-inverse.
+// <solution limitedRates>
+const RateBounds rates = rateBounds(limits, q, tau);
+const Eigen::MatrixXd damped = task.J * task.J.transpose() + task.damping * inverse(task.W);
+const Eigen::VectorXd w = task.J.transpose() * solve(damped, task.v);
+Eigen::VectorXd z(q.size() + 1);
+z << w.cwiseMax(rates.lower).cwiseMin(rates.upper), 1;
+return z;
+
+// <variant share_without_bounds> caught by: rates
+// mistake: takes for granted that the share is between 0 and 1.
+// <solution limitedRates>
+// in place of: lower << rates.lower, 0;
+// in place of: upper << rates.upper, 1;
+lower << rates.lower, -1e3;
+upper << rates.upper, 1e3;
+
+// <variant always_along_the_line> caught by: line, more-hands
+// mistake: does not look where the hand is.
+// <solution traced>
+// in place of: const Eigen::VectorXd v = (start + next * (goal - start) - hand.p) / tau;
+const Eigen::VectorXd v = (next - r) * (goal - start) / tau;
+
+// <variant by_the_clock> caught by: line, more-hands
+// mistake: the next point of the line does not wait for the hand.
+// <solution traced>
+// in place of: r += z[n] * (next - r);
+r = next;
+
+// <variant jacobian_of_the_start> caught by: line, more-hands
+// mistake: never computes the Jacobian again.
+// <solution traced>
+// in place of: const HandTask task{.J = hand.J, .v = v, .W = Eigen::MatrixXd::Identity(v.size(), v.size())};
+const HandTask task{.J = arm(q).J, .v = v, .W = Eigen::MatrixXd::Identity(v.size(), v.size())};
+
 // <variant half_the_wall> caught by: wall, more-walls
 // shown by: wall
 // mistake: forgets the factor of one half in the quadratic form.

@@ -19,6 +19,7 @@
 #include "control/riccati.h"
 #include "control/stability.h"
 #include "course/linear_algebra.h"
+#include "course/simulator.h"
 #include "locomotion/compass_gait.h"
 #include "locomotion/limit_cycle.h"
 #include "support/lecture_note.h"
@@ -505,6 +506,49 @@ TEST(LectureNotesOnControl, Penalties) {
   EXPECT_NEAR(minimum(1000, 0) - 1, 1. / 2000, 2e-5);
   EXPECT_NEAR(minimum(0, 2), 1, 2e-5);
   EXPECT_GT(minimum(0, .5), 1.1);
+}
+
+// The line of part 5 of 16-mpc, on arm3.ors: by how many millimetres the hand leaves it, with this slowness;
+// with none, by the pseudo-inverse, cut off, whose points of the line come by the clock.
+double leavesLine(double slowness) {
+  Simulator arm("arm3.ors");
+  const Eigen::Vector3d tip(0, 0, .15), most(1.8, 1.3, 1.3), one = Eigen::Vector3d::Ones();
+  Eigen::Vector3d q(-.5, -.2, -.2);
+  arm.setJointAngles(q);
+  const Vector2d start = arm.kinematicsPos("eff", tip).tail(2), way = Vector2d(-.4, .6) - start;
+  double r = 0, farthest = 0;
+  for (int t = 0; t < 70; ++t) {
+    const double next = std::min(1., r + .025);
+    const Vector2d away = arm.kinematicsPos("eff", tip).tail(2) - start, v = (next * way - away) / .05;
+    const MatrixXd J = arm.jacobianPos("eff", tip).bottomRows(2);
+    VectorXd lower(4), upper(4), z(4);
+    lower << ((-most - q) / .05).cwiseMax(-one), 0;
+    upper << ((most - q) / .05).cwiseMin(one), 1;
+    if (slowness == 0) {
+      z << leastSquares(J, v), 1;
+      z = z.cwiseMax(lower).cwiseMin(upper).eval();
+    } else {
+      MatrixXd rows(2, 4);
+      rows << J, -v;
+      MatrixXd H = rows.transpose() * rows;
+      H.diagonal() += Vector4d(1e-3, 1e-3, 1e-3, slowness);
+      z = QuadraticProgram(H, Matrix4d::Identity()).minimize(Vector4d(0, 0, 0, -slowness), lower, upper).x;
+    }
+    q += .05 * z.head(3);
+    r += z[3] * (next - r);
+    arm.setJointAngles(q);
+    const Vector2d now = arm.kinematicsPos("eff", tip).tail(2) - start;
+    farthest = std::max(farthest, std::abs(now[0] * way[1] - now[1] * way[0]) / way.norm());
+  }
+  EXPECT_GT(r, .99);
+  return 1e3 * farthest;
+}
+
+TEST(LectureNotesOnControl, SlowerAndBesideTheLine) {
+  expectStated("16-mpc",
+               fmt::format("it leaves it by {:.0f} mm, with a tenth of the slowness by {:.1f} mm; by the "
+                           "pseudo-inverse, cut off, by {:.0f} mm",
+                           leavesLine(.1), leavesLine(.01), leavesLine(0)));
 }
 
 TEST(LectureNotesOnControl, LongHorizons) {
