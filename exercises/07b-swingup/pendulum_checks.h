@@ -177,6 +177,8 @@ inline void sweeps(rex::grading::Check& check, Student& student, const Table& ta
   add("Is nothing discounted?", [=](double c, double v) { return tau * c + v; });
   add("Is the discount applied to the cost of the step, too?",
       [=](double c, double v) { return gamma * (tau * c + v); });
+  add("Is the discount taken for that of a second? It is that of a step.",
+      [=](double c, double v) { return tau * c + std::pow(gamma, tau) * v; });
   add("Is the cost of the step left out?", [=](double, double v) { return gamma * v; });
   add("Is it the cost of the step alone?", [=](double c, double) { return tau * c; });
   add("Is it V at the node itself? What comes after a step is at nextOf().", right, Step::kNone);
@@ -383,7 +385,8 @@ inline void fallsBelow(rex::grading::Check& check, Student& student, const std::
                         many = edgesOf(region.f, region.P, most, 400);
   const auto is = [&](double level) { return std::abs(got / level - 1) < .03; };
   const auto square = check.ask("Is it a length? V grows with its square.", is(std::sqrt(region.level)));
-  const auto whole = check.ask("Is it `most`, although V rises somewhere below?", is(most));
+  const auto whole = check.ask(
+      "Is it `most`? V rises below, on some rays: are there enough, and does the worst decide?", is(most));
   const auto mean = check.ask("Is it the mean over the rays? The worst of them decides.", is(many.mean()));
   const auto largest =
       check.ask("Is it the largest level over the rays? The worst of them decides.", is(many.maxCoeff()));
@@ -437,6 +440,15 @@ inline void swingsUp(rex::grading::Check& check, Student& student, const Pendulu
   };
   const Eigen::MatrixXd wanted = by(right), got = student.swungUp(p, swing, start, steps);
   check.shape("states of swungUp", got, 2, steps + 1);
+  // Where the motions part, the next state shows whether the torque was that of the other controller.
+  Eigen::Index last = 0;
+  while (last + 1 < steps && (got.col(last + 1) - wanted.col(last + 1)).norm() < 1e-6) ++last;
+  const Eigen::Vector2d there = wanted.col(last), seen(std::remainder(there[0], 2 * kPi), there[1]);
+  const auto isUsed = [&](double u) {
+    return (got.col(last + 1) - nextOf(p, there, u, swing.tau)).norm() < 1e-5;
+  };
+  const auto region = check.ask("Is it x^T P x < level, and nothing else, that decides which torque is used?",
+                                isUsed(near(seen) ? pumping(seen) : limited(swing.K.dot(seen))));
   check.near(
       "states of swungUp", got, wanted, 1e-5,
       {{"Is the angle of the catch not brought to -pi ... pi?",

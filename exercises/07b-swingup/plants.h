@@ -71,6 +71,8 @@ inline void horizonFits(rex::grading::Check& check, Student& student, const Plan
           firstGain(plant, costs, F, t + 1)},
          {"Is it always the same gain? It depends on the time that is left.",
           firstGain(plant, costs, F, steps)},
+         {"Is it the gain of the step before? The P in K[t] is that after the step.",
+          firstGain(plant, costs, F, left + 1)},
          {"Is it the cost of states without control that P follows?", gainAfter(idle)},
          {"Is it -R^-1 B^T P, as in continuous time?",
           left > 1 ? wanted : Eigen::MatrixXd(-rex::solveMatrix(costs.R, Bt * F))},

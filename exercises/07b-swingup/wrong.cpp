@@ -72,6 +72,12 @@ swept(i, j) = decision.tau * costOf(x, u, decision.effort) + after;
 // in place of: swept(i, j) = decision.tau * costOf(x, u, decision.effort)
 swept(i, j) = decision.discount * (decision.tau * costOf(x, u, decision.effort) + after);
 
+// <variant discount_per_second> caught by: bellman, other-grids
+// mistake: takes the discount of a step for that of a second.
+// <solution swept>
+// in place of: swept(i, j) = decision.tau * costOf(x, u, decision.effort)
+swept(i, j) = decision.tau * costOf(x, u, decision.effort) + std::pow(decision.discount, decision.tau) * after;
+
 // <variant value_here> caught by: bellman, other-grids
 // mistake: adds the value of the node, not of where the step leads.
 // <solution swept>
@@ -207,6 +213,13 @@ const Eigen::MatrixXd PBK = PB * *k, both = PA - PBK;
 // <solution gainsOverTime>
 // in place of: return K;
 return std::vector<Eigen::MatrixXd>(static_cast<std::size_t>(steps), K.front());
+
+// <variant gain_of_the_step_before> caught by: horizon, other-horizons
+// mistake: takes P of the time t for K[t], not that after the step.
+// <solution gainsOverTime>
+// in place of: P = .5 * (P + P.transpose()).eval();
+P = .5 * (P + P.transpose()).eval();
+*k = -solveMatrix(costs.R + Bt * P * plant.B, Bt * P * plant.A);
 
 // <variant last_charged_twice> caught by: horizon, other-horizons
 // mistake: adds Q to the cost of the last state.
@@ -459,6 +472,12 @@ if (x.dot(Px) < swing.level) u = swing.K.dot(x);
 // <solution swungUp>
 // in place of: if (x.dot(Px) < swing.level) u
 if (x.dot(Px) > swing.level) u = std::clamp(swing.K.dot(x), -pendulum.strongest, pendulum.strongest);
+
+// <variant catches_by_the_angle> caught by: swing
+// mistake: catches wherever the rod is nearly upright, however fast.
+// <solution swungUp>
+// in place of: if (x.dot(Px) < swing.level) u
+if (std::abs(x[0]) < .5) u = std::clamp(swing.K.dot(x), -pendulum.strongest, pendulum.strongest);
 
 // <variant eulers_steps> caught by: swing
 // mistake: makes steps of Euler.
