@@ -8,6 +8,8 @@
 
 #include "car_pictures.h"
 #include "planning/car_curves.h"
+#include "planning/control_tree.h"
+#include "systems/mobile_bases.h"
 
 using namespace rex;
 
@@ -60,6 +62,79 @@ struct Reversing {
   std::vector<Eigen::Vector4d> states;
   std::vector<double> steering;
 };
+
+// To four poses, one beside the other: forward only by your curve, and both ways by the library's.
+void showReverse(const CarModel& car, double radius) {
+  const std::pair<const char*, Eigen::Vector3d> poses[] = {
+      {"behind", {-3, 0, 0}}, {"beside", {0, 3, 0}}, {"turned", {2, 0, kPi}}, {"far", {9, 4, 0.6}}};
+  Figure figure = seenFromAbove("Dubins (blue) and Reeds-Shepp (red)", {});
+  figure.height = 320;
+  double shift = 0;
+  for (const auto& [name, pose] : poses) {
+    const Eigen::Vector3d from(shift, 0, 0), to = from + pose;
+    const DubinsWay forward = shortestDubins(from, to, radius);
+    const Curve both = reedsSheppCurve(from, to, radius);
+    Poses way;
+    for (int i = 0; i <= 200; ++i) way.push_back(both.pose(both.length() * i / 200));
+    figure.series.insert(figure.series.end(), {outline(car, from, kSoft), outline(car, to, kSoft),
+                                               through(along(car, from, drivesOf(car, forward), 0.1),
+                                                       {.size = 2, .color = kGround}),
+                                               through(way, {.size = 2, .color = kAccent})});
+    char text[64];
+    std::snprintf(text, sizeof text, "%s: %.1f m, %.1f m", name, lengthOf(forward), both.length());
+    figure.notes.push_back({text, shift - 8, 13});
+    shift += 24;
+  }
+  figure.yRange = AxisRange(-5, 15);
+  plot("reverse", figure);
+}
+
+// A tree of controls of the library for car and trailer; `isFree` is yours.
+void showRig(const Rig& rig, const World& world) {
+  using Kind = SpacePart::Kind;
+  const CarModel trailer{.front = rig.hitchLength - 0.8, .back = 0.9, .width = rig.car.width};
+  const auto axle = [&](const VectorArg& q) -> Eigen::Vector3d {
+    return {q[0] - rig.hitchLength * std::cos(q[3]), q[1] - rig.hitchLength * std::sin(q[3]), q[3]};
+  };
+  const SpacePart angle{.kind = Kind::kChord, .weight = 2};
+  const Space space({{.lower = world.lower.x(), .upper = world.upper.x()},
+                     {.lower = world.lower.y(), .upper = world.upper.y()},
+                     angle,
+                     angle});
+  const CarWithTrailer model{{rig.car.wheelbase, rig.car.maxSteering}, rig.hitchLength};
+  const Eigen::Vector2d most(1, rig.car.maxSteering);
+  const PathProblem problem{
+      .space = space,
+      .allValid = eachColumn([&](const VectorArg& q) {
+        return std::abs(std::remainder(q[2] - q[3], 2 * kPi)) < 1 &&
+               isFree(rig.car, q.head<3>(), world.blocks) && isFree(trailer, axle(q), world.blocks);
+      }),
+      .start = Eigen::Vector4d(world.start[0], world.start[1], world.start[2], world.start[2]),
+      .goal = Eigen::Vector4d(world.goal[0], world.goal[1], world.goal[2], world.goal[2])};
+  Rng rng(1);
+  const ControlPath plan =
+      growControlTree(controlSystem(motionModel(model), space, -most, most), problem,
+                      {.shortest = 0.5, .longest = 3, .checkEvery = 0.2, .tolerance = 1}, rng);
+  Figure figure = seenFromAbove("With a trailer: the library's tree of controls", world.blocks);
+  figure.series = {dots(plan.found.trees.at(0).nodes, {.size = 0.4, .color = kSoft})};
+  const auto draw = [&](const Eigen::VectorXd& q) {
+    figure.series.push_back(outline(trailer, axle(q), kSoft));
+    figure.series.push_back(outline(rig.car, q.head<3>(), kGround));
+  };
+  draw(problem.start);
+  for (std::size_t i = 0; i < plan.controls.size(); ++i) {
+    const auto& [u, seconds] = plan.controls[i];
+    const Eigen::Vector4d from = plan.found.path.col(static_cast<Eigen::Index>(i));
+    Series way{.size = 2, .color = kAccent};
+    for (double s = 0; s <= seconds; s += 0.05) {
+      const Eigen::Vector4d q = driveTrailer(model, from, u, s);
+      way.add(q[0], q[1]);
+    }
+    figure.series.push_back(way);
+    if (i % 4 == 3 || i + 1 == plan.controls.size()) draw(driveTrailer(model, from, u, seconds));
+  }
+  plot("rig", figure);
+}
 
 // 30 m backward at 1 m/s, or until the rig folds up.
 Reversing reverse(const Rig& rig, Eigen::Vector4d q, bool feedback) {
@@ -172,6 +247,7 @@ void showDubins(const CarModel& car, double radius) {
   }
   lengths.series.push_back(library);
   plot("dubins", lengths);
+  showReverse(car, radius);
 }
 
 void showParking(const std::string& name, const std::string& title, const CarModel& car, const World& lot) {
@@ -242,4 +318,5 @@ void showTrailer(const Rig& rig, const Eigen::Vector4d& start) {
   const PictureOptions look{.caption = "Backward with a trailer", .view = {-0.2, -0.8, 0.8}};
   writeVideo(S, "trailer", look, 240);
   writeContactSheet(S, "trailer_sheet", look, 6, 240);
+  showRig(rig, yard());
 }

@@ -23,6 +23,19 @@ inline World room() {
           .upper = {24, 16}};
 }
 
+// A yard with a wall to drive around, 26 m x 16 m.
+inline World yard() {
+  return {.start = {4, 7, kPi / 2},
+          .goal = {21, 6, -kPi / 2},
+          .blocks = {{{13, -0.2, 0}, 26.8, 0.4},
+                     {{13, 16.2, 0}, 26.8, 0.4},
+                     {{-0.2, 8, kPi / 2}, 16.8, 0.4},
+                     {{26.2, 8, kPi / 2}, 16.8, 0.4},
+                     {{12, 4, kPi / 2}, 8, 1}},
+          .lower = {0, 0},
+          .upper = {26, 16}};
+}
+
 // A street with cars at its kerb and one space; the other side is a wall, `width` away from that row.
 inline World street(double width, double slot) {
   World lot{
