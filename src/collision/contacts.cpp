@@ -81,6 +81,16 @@ void requirePair(const Model& model, const ShapePair& pair) {
                .wanted = fmt::format("0 <= a < b < {}", count)});
 }
 
+void addBox(ContactSolid& solid) {
+  const internal::ConvexCore core(solid.form);
+  for (int k = 0; k < 3; ++k) {
+    const double high = core.support(Eigen::Vector3d::Unit(k))[k],
+                 low = core.support(-Eigen::Vector3d::Unit(k))[k];
+    solid.middle[k] = (high + low) / 2;
+    solid.half[k] = (high - low) / 2 + core.radius();
+  }
+}
+
 // The solid of a shape, which is added on first use.
 int solidOf(ContactModel::Data& data, const Model& model, int place) {
   int& solid = data.solidOf[static_cast<std::size_t>(place)];
@@ -92,6 +102,7 @@ int solidOf(ContactModel::Data& data, const Model& model, int place) {
       shape.shape);
   const internal::Core core = internal::coreOf(shape.shape);
   data.solids.push_back({place, shape.body, shape.X_BS, shape.shape, core, halfBounds(shape.shape).norm()});
+  addBox(data.solids.back());
   const Pose& X_BS = shape.X_BS;
   data.X_BS.insert(data.X_BS.end(), X_BS.R.data(), X_BS.R.data() + 9);
   data.X_BS.insert(data.X_BS.end(), X_BS.p.data(), X_BS.p.data() + 3);
@@ -150,12 +161,16 @@ static_assert(kContactLanes == PoseBatch::kLanes);
 
 // Processes a batch, one block of configurations after another.
 class Blocks {
+  template <int kNumbers>
+  using LaneArray = Eigen::Array<double, kContactLanes, kNumbers>;
+
  public:
   Blocks(const ContactModel& contacts, const PoseBatch& poses)
       : data_(contacts.data()),
         poses_(poses),
         kernel_(kernelFor<ContactKernel>(cpuLanes())),
-        X_WS_(std::make_unique_for_overwrite<double[]>(data_.solids.size() * kPoseNumbers)) {}
+        X_WS_(std::make_unique_for_overwrite<double[]>(data_.solids.size() * kPoseNumbers)),
+        middles_(data_.others.empty() ? 0 : data_.solids.size()) {}
 
   [[nodiscard]] int count() const { return (poses_.count() + kContactLanes - 1) / kContactLanes; }
   [[nodiscard]] int lanesOf(int block) const {
@@ -191,8 +206,7 @@ class Blocks {
     }
     for (const CorePair& pair : data_.others) {
       if (isEnough()) break;
-      for (int lane = 0; lane < lanesOf(block); ++lane)
-        if ((found >> lane & 1) == 0 && isNearer(pair, lane, margin)) found |= 1u << lane;
+      found |= otherHits(pair, margin, found);
     }
     return found & all;
   }
@@ -205,6 +219,12 @@ class Blocks {
       const ContactSolid& solid = data_.solids[i];
       kernel_.place(poses_.block(block, solid.body).data(), data_.X_BS.data() + 12 * i,
                     X_WS_.get() + i * kPoseNumbers);
+    }
+    for (std::size_t i = 0; i < middles_.size(); ++i) {
+      const auto X_WS = posesOf(i);
+      const Eigen::Vector3d& middle = data_.solids[i].middle;
+      middles_[i] = X_WS.rightCols<3>();
+      for (int k = 0; k < 3; ++k) middles_[i] += middle[k] * X_WS.middleCols<3>(3 * k);
     }
   }
 
@@ -219,17 +239,54 @@ class Blocks {
     return X_WS;
   }
 
-  // NaN never counts as far.
-  [[nodiscard]] bool isNearer(const CorePair& pair, int lane, double margin) const {
-    const Pose X_WA = pose(pair.a, lane), X_WB = pose(pair.b, lane);
-    if ((X_WA.p - X_WB.p).norm() >= pair.reach + margin + internal::kCullSlack) return false;
-    return internal::isNearer(solid(pair.a).form, X_WA, solid(pair.b).form, X_WB, margin);
+  [[nodiscard]] Eigen::Map<const LaneArray<12>> posesOf(std::size_t i) const {
+    return Eigen::Map<const LaneArray<12>>(X_WS_.get() + i * kPoseNumbers);
+  }
+
+  // How far the box about a solid extends to one side along directions, times their lengths.
+  [[nodiscard]] LaneArray<1> extent(int i, const LaneArray<3>& directions) const {
+    const auto X_WS = posesOf(static_cast<std::size_t>(i));
+    LaneArray<1> sum = LaneArray<1>::Zero();
+    for (int k = 0; k < 3; ++k)
+      sum +=
+          solid(i).half[k] * (X_WS.col(3 * k) * directions.col(0) + X_WS.col(3 * k + 1) * directions.col(1) +
+                              X_WS.col(3 * k + 2) * directions.col(2))
+                                 .abs();
+    return sum;
+  }
+
+  // The lanes, as bits, in which a pair is nearer than the margin and which are not in `known`. Balls, then
+  // boxes along the line of their middles, prove most of them apart. NaN never counts as far.
+  [[nodiscard]] unsigned otherHits(const CorePair& pair, double margin, unsigned known) const {
+    const ContactSolid &a = solid(pair.a), &b = solid(pair.b);
+    const double far = margin + internal::kCullSlack, reach = a.half.norm() + b.half.norm() + far;
+    const LaneArray<3> between =
+        middles_[static_cast<std::size_t>(pair.a)] - middles_[static_cast<std::size_t>(pair.b)];
+    const LaneArray<1> squares = between.col(0).square() + between.col(1).square() + between.col(2).square();
+    if ((squares >= reach * reach).all()) return 0;
+    const LaneArray<1> lengths = squares.sqrt(),
+                       gaps = squares - extent(pair.a, between) - extent(pair.b, between) - far * lengths;
+    unsigned found = 0;
+    Eigen::Vector3d apart_A = Eigen::Vector3d::Zero();
+    for (int lane = 0; lane < kContactLanes; ++lane) {
+      if ((known >> lane & 1) != 0 || gaps[lane] > 0) continue;
+      const Pose X_WA = pose(pair.a, lane), X_WB = pose(pair.b, lane);
+      const Eigen::Matrix3d R_AW = X_WA.R.transpose();
+      const Eigen::Vector3d way = R_AW * between.row(lane).matrix().transpose();
+      if (apart_A.isZero(0)) apart_A = way / lengths[lane];
+      const double widths =
+          apart_A.cwiseAbs().dot(a.half) + (X_WB.R.transpose() * (X_WA.R * apart_A)).cwiseAbs().dot(b.half);
+      if (apart_A.dot(way) - widths >= far) continue;
+      if (internal::isNearer(a.form, X_WA, b.form, X_WB, margin, apart_A)) found |= 1u << lane;
+    }
+    return found;
   }
 
   const ContactModel::Data& data_;
   const PoseBatch& poses_;
   ContactKernel kernel_;
   std::unique_ptr<double[]> X_WS_;
+  std::vector<LaneArray<3>> middles_;  // of the boxes about all solids
 };
 
 }  // namespace

@@ -16,6 +16,7 @@ struct ContactSolid {
   Shape form{};
   internal::Core core{};
   double reach = 0;  ///< radius of a sphere about its origin that holds it, metres
+  Eigen::Vector3d middle{0, 0, 0}, half{0, 0, 0};  ///< of a box along its axes that holds it
 };
 
 /// Rows are places in `pairs`; the other pairs name solids by their places here.

@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "collision/contact_kernel_internal.h"
 #include "collision/convex_core_internal.h"
 #include "collision/convex_distance_internal.h"
 
@@ -15,8 +16,9 @@ namespace rex::internal {
 /// The distance of two cores that lie apart, with a slack of 1e-10 m; more only where features of nanometres
 /// blur the direction. If they touch or overlap, zero, and then only `nearest` counts: the origin if the
 /// difference is flat. Gilbert, Johnson and Keerthi, 1988, with the nearest point of a simplex by trying all
-/// its sides.
-[[nodiscard]] CoreProximity coreGap(const MinkowskiDifference& difference);
+/// its sides. It ends early, with a distance that is not the least, where that is at least `enough`.
+[[nodiscard]] CoreProximity coreGap(const MinkowskiDifference& difference,
+                                    double enough = std::numeric_limits<double>::infinity());
 
 /// A convex polytope of triangles that grows by points outside of it. Its normals point inwards. Some 100 kB
 /// lie in itself, room for a few hundred corners; only beyond those does it allocate.
@@ -188,7 +190,7 @@ Simplex nearestWith(const Simplex& old, const DifferencePoint& w) {
 
 }  // namespace
 
-CoreProximity coreGap(const MinkowskiDifference& difference) {
+CoreProximity coreGap(const MinkowskiDifference& difference, double enough) {
   Simplex simplex;
   const Vector3d start = difference.centres();
   tryPoint(difference.lowest(start.squaredNorm() > 0 ? start : Vector3d::UnitX()), simplex);
@@ -196,9 +198,9 @@ CoreProximity coreGap(const MinkowskiDifference& difference) {
   best.slack = std::numeric_limits<double>::infinity();
   for (int step = 0; step < kMostSteps && simplex.distance > kTouch; ++step) {
     const DifferencePoint w = difference.lowest(simplex.n);
-    const double slack = simplex.distance - simplex.n.dot(w.x);
+    const double gap = simplex.n.dot(w.x), slack = simplex.distance - gap;
     if (slack < best.slack) best = {simplex.distance, slack, simplex.n, simplex.sum()};
-    if (slack <= kGapSlack || holdsOrigin(simplex, w)) break;
+    if (slack <= kGapSlack || gap >= enough || holdsOrigin(simplex, w)) break;
     const Simplex next = nearestWith(simplex, w);
     if (!(next.distance <= simplex.distance * kNoFarther)) break;
     simplex = next;
@@ -471,11 +473,16 @@ Proximity convexProximity(const Shape& a, const Pose& X_WA, const Shape& b, cons
   return certifiedProximity(a, X_WA, b, X_WB).proximity;
 }
 
-bool isNearer(const Shape& a, const Pose& X_WA, const Shape& b, const Pose& X_WB, double margin) {
+bool isNearer(const Shape& a, const Pose& X_WA, const Shape& b, const Pose& X_WB, double margin,
+              Eigen::Vector3d& apart_A) {
   if (margin < 0) return !(convexProximity(a, X_WA, b, X_WB).distance >= margin);
   const ConvexCore coreA(a), coreB(b);
-  const double cores = coreGap(MinkowskiDifference(coreA, coreB, X_WA.inverse() * X_WB)).distance;
-  return !(cores > 0 && cores - coreA.radius() - coreB.radius() >= margin);
+  const MinkowskiDifference difference(coreA, coreB, X_WA.inverse() * X_WB);
+  const double radii = coreA.radius() + coreB.radius(), far = margin + radii + kCullSlack;
+  if (apart_A.dot(difference.lowest(apart_A).x) >= far) return false;
+  const CoreProximity cores = coreGap(difference, far);
+  apart_A = cores.normal;
+  return !(cores.distance > 0 && cores.distance - radii >= margin);
 }
 
 }  // namespace rex::internal

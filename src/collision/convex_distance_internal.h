@@ -20,8 +20,9 @@ struct CertifiedProximity {
 [[nodiscard]] Proximity convexProximity(const Shape& a, const Pose& X_WA, const Shape& b, const Pose& X_WB);
 
 /// Whether they are nearer than `margin` metres, or not a number. Only for a negative margin does it find out
-/// how deep cores overlap; for others those that touch are nearer.
-[[nodiscard]] bool isNearer(const Shape& a, const Pose& X_WA, const Shape& b, const Pose& X_WB,
-                            double margin);
+/// how deep cores overlap; for others those that touch are nearer. `apart_A`, a unit vector that may
+/// tell them apart, becomes the one that was found, for the next posture; the answer does not depend on it.
+[[nodiscard]] bool isNearer(const Shape& a, const Pose& X_WA, const Shape& b, const Pose& X_WB, double margin,
+                            Eigen::Vector3d& apart_A);
 
 }  // namespace rex::internal
