@@ -101,7 +101,6 @@ class MotionSearch {
       : model_(model), data_(contacts.data()), from_(from), to_(to) {
     for (const Joint& joint : model.joints()) travels_.push_back(internal::jointTravel(joint, from, to));
     forwardKinematics(model, (from + to) / 2, poses_);
-    for (const ShapePair& pair : data_.pairs) speeds_.push_back(speed(pair));
     measureEnds();
   }
 
@@ -123,12 +122,44 @@ class MotionSearch {
   }
 
  private:
+  // Only of pairs that may come as near as those measured before. Balls about the others prove that their
+  // bounds are larger than the least distance, so they change no result.
   void measureEnds() {
-    stretches_.resize(speeds_.size());
-    moveTo(0);
-    for (std::size_t i = 0; i < speeds_.size(); ++i) stretches_[i] = {i, measured(i), 0};
-    moveTo(1);
-    for (Stretch& stretch : stretches_) stretch.atEnd = measured(stretch.pair);
+    BodyPoses start, end;
+    forwardKinematics(model_, from_, start);
+    forwardKinematics(model_, to_, end);
+    const std::vector<double> bounds = boundsOfBalls(start, end);
+    const std::size_t nearest =
+        static_cast<std::size_t>(std::min_element(bounds.begin(), bounds.end()) - bounds.begin());
+    speeds_.resize(bounds.size());
+    Stretch first{nearest, 0, 0};
+    const auto measure = [&](std::size_t pair) {
+      speeds_[pair] = speed(data_.pairs[pair]);
+      return Stretch{pair, measured(pair, start), measured(pair, end)};
+    };
+    if (!bounds.empty()) first = measure(nearest);
+    for (std::size_t i = 0; i < bounds.size(); ++i)
+      if (!(bounds[i] > least_)) stretches_.push_back(i == nearest ? first : measure(i));
+  }
+
+  // Lower bounds on the distances of all pairs over the whole motion.
+  std::vector<double> boundsOfBalls(const BodyPoses& start, const BodyPoses& end) const {
+    struct Ball {
+      Vector3d start, end;
+      double reach;  // with half of its way
+    };
+    std::vector<Ball> balls;
+    for (const ContactSolid& solid : data_.solids) {
+      const Vector3d middle = solid.X_BS * solid.middle;
+      balls.push_back({start[solid.body] * middle, end[solid.body] * middle,
+                       solid.half.norm() + speedBelow(kWorld, solid) / 2 + internal::kCullSlack});
+    }
+    std::vector<double> bounds;
+    for (const ShapePair& pair : data_.pairs) {
+      const Ball &a = balls[place(pair.a)], &b = balls[place(pair.b)];
+      bounds.push_back(std::min((a.start - b.start).norm(), (a.end - b.end).norm()) - a.reach - b.reach);
+    }
+    return bounds;
   }
 
   // A lower bound on the pair's distance over a stretch of this length.
@@ -160,7 +191,7 @@ class MotionSearch {
     if (first == last) return;
     const double middle = (start + end) / 2, length = (end - start) / 2;
     moveTo(middle);
-    for (std::size_t i = first; i < last; ++i) stretches_[i].atMiddle = measured(stretches_[i].pair);
+    for (std::size_t i = first; i < last; ++i) stretches_[i].atMiddle = measured(stretches_[i].pair, poses_);
     for (std::size_t i = first; i < last; ++i)
       keepUnlessBounded({stretches_[i].pair, stretches_[i].atStart, stretches_[i].atMiddle}, length);
     search(start, middle, last);
@@ -200,25 +231,26 @@ class MotionSearch {
 
   void moveTo(double t) { forwardKinematics(model_, (1 - t) * from_ + t * to_, poses_); }
 
-  double measured(std::size_t pair) {
+  double measured(std::size_t pair, const BodyPoses& poses) {
     const ContactSolid& a = solid(data_.pairs[pair].a);
     const ContactSolid& b = solid(data_.pairs[pair].b);
     const double distance =
-        proximity(a.form, poses_[a.body] * a.X_BS, b.form, poses_[b.body] * b.X_BS).distance;
+        proximity(a.form, poses[a.body] * a.X_BS, b.form, poses[b.body] * b.X_BS).distance;
     least_ = std::min(least_, distance);
     --left_;
     return distance;
   }
 
-  const ContactSolid& solid(int shape) const {
-    return data_.solids[static_cast<std::size_t>(data_.solidOf[static_cast<std::size_t>(shape)])];
+  std::size_t place(int shape) const {
+    return static_cast<std::size_t>(data_.solidOf[static_cast<std::size_t>(shape)]);
   }
+  const ContactSolid& solid(int shape) const { return data_.solids[place(shape)]; }
 
   const Model& model_;
   const ContactModel::Data& data_;
   const Eigen::VectorXd from_, to_;
   std::vector<JointTravel> travels_;
-  std::vector<double> speeds_;
+  std::vector<double> speeds_;  // of pairs in stretches_
   BodyPoses poses_;
   std::vector<Stretch> stretches_;
   double least_ = std::numeric_limits<double>::infinity();  // distance measured
