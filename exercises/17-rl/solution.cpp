@@ -184,9 +184,9 @@ Eigen::MatrixXd bestPolicy(const FeatureWorld& world, const Eigen::VectorXd& w) 
   for (Eigen::Index s = 0; s < n; ++s) paid.row(s).setConstant(w.dot(world.features.col(s)));
   const Eigen::MatrixXd Q = plannedValues({world.P, paid, policy}, world.discount);
   for (Eigen::Index s = 0; s < n; ++s) {
-    Eigen::Index best = 0;
-    Q.row(s).maxCoeff(&best);
-    policy(s, best) = 1;
+    Eigen::Index favourite = 0;
+    Q.row(s).maxCoeff(&favourite);
+    policy(s, favourite) = 1;
   }
   return policy;
   // <todo>

@@ -191,10 +191,10 @@ policy.row(s) /= all > 0 ? static_cast<double>(lessons.size()) : actions;
 // mistake: always takes the most frequent action.
 // <solution cloned>
 // in place of: policy.row(s) /= all > 0 ? all : actions;
-Eigen::Index best = 0;
-policy.row(s).maxCoeff(&best);
+Eigen::Index favourite = 0;
+policy.row(s).maxCoeff(&favourite);
 policy.row(s).setConstant(all > 0 ? 0 : 1. / actions);
-if (all > 0) policy(s, best) = 1;
+if (all > 0) policy(s, favourite) = 1;
 
 // <variant last_lesson> caught by: clone, other-clones
 // mistake: remembers only the last lesson of a state.
