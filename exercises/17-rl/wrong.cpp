@@ -382,8 +382,8 @@ for (int t = 0; t < 20; ++t) {
 // <variant worst_policy> caught by: wishes, other-teachers
 // mistake: takes the worst action.
 // <solution bestPolicy>
-// in place of: Q.row(s).maxCoeff(&best);
-Q.row(s).minCoeff(&best);
+// in place of: Q.row(s).maxCoeff(&favourite);
+Q.row(s).minCoeff(&favourite);
 
 // <variant next_state_only> caught by: wishes, other-teachers
 // mistake: looks one step ahead only.
@@ -395,8 +395,8 @@ for (Eigen::Index a = 0; a < m; ++a) Q.col(a) += world.P[static_cast<std::size_t
 // <variant rewards_without_plan> caught by: wishes, other-teachers
 // mistake: compares the rewards, which are equal.
 // <solution bestPolicy>
-// in place of: Q.row(s).maxCoeff(&best);
-paid.row(s).maxCoeff(&best);
+// in place of: Q.row(s).maxCoeff(&favourite);
+paid.row(s).maxCoeff(&favourite);
 
 // <variant values_for_probabilities> caught by: wishes, other-teachers
 // mistake: returns the values of the actions.
@@ -407,7 +407,7 @@ return Q;
 // <variant undecided> caught by: wishes, other-teachers
 // mistake: takes all actions with equal probability.
 // <solution bestPolicy>
-// in place of: policy(s, best) = 1;
+// in place of: policy(s, favourite) = 1;
 policy.row(s).setConstant(1. / static_cast<double>(m));
 
 // <variant beyond_the_ends> caught by: explain, other-teachers
