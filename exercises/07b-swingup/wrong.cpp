@@ -76,7 +76,8 @@ swept(i, j) = decision.discount * (decision.tau * costOf(x, u, decision.effort) 
 // mistake: takes the discount of a step for that of a second.
 // <solution swept>
 // in place of: swept(i, j) = decision.tau * costOf(x, u, decision.effort)
-swept(i, j) = decision.tau * costOf(x, u, decision.effort) + std::pow(decision.discount, decision.tau) * after;
+const double kept = std::pow(decision.discount, decision.tau);
+swept(i, j) = decision.tau * costOf(x, u, decision.effort) + kept * after;
 
 // <variant value_here> caught by: bellman, other-grids
 // mistake: adds the value of the node, not of where the step leads.
@@ -219,7 +220,8 @@ return std::vector<Eigen::MatrixXd>(static_cast<std::size_t>(steps), K.front());
 // <solution gainsOverTime>
 // in place of: P = .5 * (P + P.transpose()).eval();
 P = .5 * (P + P.transpose()).eval();
-*k = -solveMatrix(costs.R + Bt * P * plant.B, Bt * P * plant.A);
+const Eigen::MatrixXd BtP = Bt * P;
+*k = -solveMatrix(costs.R + BtP * plant.B, BtP* plant.A);
 
 // <variant last_charged_twice> caught by: horizon, other-horizons
 // mistake: adds Q to the cost of the last state.

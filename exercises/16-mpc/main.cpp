@@ -68,7 +68,6 @@ Eigen::VectorXd limitedRates(const HandTask& task, const ArmLimits& limits, cons
 
 Eigen::MatrixXd traced(const Arm& arm, const ArmLimits& limits, const Eigen::VectorXd& q,
                        const Eigen::VectorXd& goal, double pace, double tau, int T) {
-  const Eigen::Index n = q.size();
   Eigen::MatrixXd Q = q.replicate(1, T + 1);
   // TODO: look where the hand is, ask for the next point, step, and remember how far you are.
   return Q;

@@ -188,9 +188,9 @@ Eigen::VectorXd limitedRates(const HandTask& task, const ArmLimits& limits, cons
 
 Eigen::MatrixXd traced(const Arm& arm, const ArmLimits& limits, const Eigen::VectorXd& q,
                        const Eigen::VectorXd& goal, double pace, double tau, int T) {
-  const Eigen::Index n = q.size();
   Eigen::MatrixXd Q = q.replicate(1, T + 1);
   // <solution traced>
+  const Eigen::Index joints = q.size();
   const Eigen::VectorXd start = arm(q).p;
   double r = 0;
   for (int t = 1; t <= T; ++t) {
@@ -199,8 +199,8 @@ Eigen::MatrixXd traced(const Arm& arm, const ArmLimits& limits, const Eigen::Vec
     const Eigen::VectorXd v = (start + next * (goal - start) - hand.p) / tau;
     const HandTask task{.J = hand.J, .v = v, .W = Eigen::MatrixXd::Identity(v.size(), v.size())};
     const Eigen::VectorXd z = limitedRates(task, limits, Q.col(t - 1), tau);
-    Q.col(t) = Q.col(t - 1) + tau * z.head(n);
-    r += z[n] * (next - r);
+    Q.col(t) = Q.col(t - 1) + tau * z.head(joints);
+    r += z[joints] * (next - r);
   }
   // <todo>
   //| // TODO: look where the hand is, ask for the next point, step, and remember how far you are.

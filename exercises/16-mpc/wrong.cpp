@@ -351,7 +351,7 @@ const Eigen::VectorXd v = (next - r) * (goal - start) / tau;
 // <variant by_the_clock> caught by: line, more-hands
 // mistake: the next point of the line does not wait for the hand.
 // <solution traced>
-// in place of: r += z[n] * (next - r);
+// in place of: r += z[joints] * (next - r);
 r = next;
 
 // <variant jacobian_of_the_start> caught by: line, more-hands

@@ -60,7 +60,7 @@ int main() {
   view.lookFrom({0, -0.3, 1});
   Base bases[] = {{"differential drive", 0, 4.5}, {"omnidirectional", 5, 4.5},
                   {"slipping unicycle", 10, 4.5}, {"car", 1.5, 0},
-                  {"car with trailer", 8, 0},     {"quadrotor from the side", 12, 0}};
+                  {"car with trailer", 8, 0},     {"quadrotor", 12, 0}};
   const BaseTwist all{3, [](const VectorArg& u) { return Eigen::Vector3d(u); },
                       [](const VectorArg&) { return Eigen::Matrix3d::Identity(); }};
   const MotionModel obeying = planarMotion(all);
