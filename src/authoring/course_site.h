@@ -1,5 +1,5 @@
 #pragma once
-
+// Writes the pages of a course as a folder of HTML files.
 #include <filesystem>
 #include <string>
 #include <vector>

@@ -1,5 +1,5 @@
 #pragma once
-
+// The gates that an exercise passes before it is published, and the search for names that do not exist.
 #include <cstdint>
 #include <filesystem>
 #include <string>

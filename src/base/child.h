@@ -47,8 +47,8 @@ class SigpipeIgnored {
 
 }  // namespace rex
 
-// What all have in common that start processes of ours: a child that ends with us, its limits, and what it
-// used.
+// Shared by all code that starts our processes: a child that ends with us, its limits, and the resources
+// that it used.
 namespace rex {
 
 /// How a child ended, and what it and the children it waited for used.

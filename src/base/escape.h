@@ -1,5 +1,5 @@
 #pragma once
-
+// Makes untrusted text harmless: printable characters, escaped for the medium that shows them.
 #include <cstddef>
 #include <string>
 #include <string_view>

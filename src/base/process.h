@@ -1,5 +1,5 @@
 #pragma once
-
+// Runs other programs, with limits of time and output.
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
@@ -64,8 +64,8 @@ class ChildProcess {
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  /// Feeds its standard input and waits until everything is taken. Returns false if nobody reads any more,
-  /// also after the deadline, at which the program and its process group are killed. Throws Interrupted as
+  /// Feeds its standard input and waits until everything is taken. Returns false if it stopped reading, or
+  /// at the deadline, when the program and its process group are killed. Throws Interrupted as
   /// runProcess() does.
   [[nodiscard]] bool write(std::string_view bytes, Deadline deadline);
 

@@ -1,5 +1,5 @@
 #pragma once
-
+// Reads numbers from options and tables of a user.
 #include <filesystem>
 #include <functional>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-
+// Text for people at a terminal: colours, wrapping, progress.
 #include <condition_variable>
 #include <cstddef>
 #include <functional>

@@ -52,8 +52,8 @@ struct PairVerdict {
 /// without shapes count as one; of everything fixed to the world, only the body that carries the joint
 /// counts. A free joint makes no neighbours, and overlaps at home with its descendants do not count, because
 /// they will be moved elsewhere. With kFourGenerations, neighbours are the two bodies of a joint, and those
-/// of a pin with everything fixed to them; overlaps at home do not count. Bodies with shapes that are a pair
-/// in their masks may collide; shapes of other pairs of theirs touch only if the bodies may without it.
+/// of a pin with everything fixed to them; overlaps at home do not count. Shapes that are paired
+/// in their masks may touch; other shapes of these bodies may touch only if these rules allow it.
 [[nodiscard]] std::vector<PairVerdict> pairVerdicts(const Model& model);
 
 /// The pairs of shapes in contact that may touch (ContactMask) on bodies that may collide, and those of pairs

@@ -46,7 +46,7 @@ struct RiccatiIteration {
   std::string message{};
 };
 /// Solves the algebraic equation with explicit Euler steps of the differential one, from P = Q: P +=
-/// epsilon (A^T P + P A - P B R^-1 B^T P + Q), as in exercise 11b. It is slow, and diverges for large
+/// epsilon (A^T P + P A - P B R^-1 B^T P + Q), as in sheet 12.11.1 b. It is slow, and diverges for large
 /// steps. Use solveCare() instead, except for comparison. Throws Error like continuousHorizon(), and for
 /// options out of range.
 [[nodiscard]] RiccatiIteration iterateCare(const LinearSystem& system, const MatrixArg& Q, const MatrixArg& R,

@@ -29,9 +29,9 @@ struct FilmOptions {
   int moments = 6;                       ///< pictures in the contact sheet, at least 2
 };
 
-/// Draws the picture into `file`, a .png. The camera sees all that the ground fades out around. Throws Error
-/// for a size out of range, an empty picture, a file that cannot be written, or a machine without software
-/// OpenGL.
+/// Draws the picture into `file`, a .png. The camera sees the whole scene; the ground fades out around it.
+/// Throws Error for a size out of range, an empty picture, a file that cannot be written, or a machine
+/// without software OpenGL.
 void writePicture(const Picture& picture, const std::string& file, const FilmOptions& options = {});
 
 /// The pictures frame(0), ..., frame(count - 1), `step` seconds apart.

@@ -31,7 +31,7 @@ class LiveView {
   void show(const Simulator& simulator);
   void show(const Picture& picture);
 
-  /// Lets the page and the replay look at pictures from this direction (W, any length) from now on.
+  /// Sets the direction (W, any length) from which page and replay show pictures from now on.
   void lookFrom(const Eigen::Vector3d& direction);
 
   /// The value of a slider on the page, which first is `start`. Throws Error unless low <= start <= high.

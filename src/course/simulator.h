@@ -186,8 +186,8 @@ class Simulator {
   /// The same with contacts between all shapes that may collide, with limits, damping and friction of the
   /// joints, and without noise, by Bullet in steps of at most a millisecond. The contact friction is 0.6,
   /// nothing bounces, and meshes collide as their convex hulls. A copy made in contact starts without the
-  /// last contact forces, so its motion is close to the original's but not bitwise equal. Throws Error as
-  /// PhysicsWorld (physics/physics_world.h), also for joints that mimic others and for screws; the robot
+  /// last contact forces, so its motion is close to the original's but not bitwise equal. Throws like
+  /// PhysicsWorld (physics/physics_world.h), for example for a ball joint that mimics another; the robot
   /// then stays where it was.
   void stepPhysics(const Eigen::VectorXd& u, double tau);
   /// The same without joint forces other than those of motors.

@@ -9,8 +9,8 @@
 namespace rex {
 
 struct LoopDynamicsOptions {
-  /// 1/s: errors of the loops decay like critically damped springs of this rate (Baumgarte 1972); 0: not at
-  /// all, as befits states that are closed.
+  /// 1/s: errors of the loops decay like critically damped springs of this rate (Baumgarte 1972); 0: no
+  /// correction; use it for closed states.
   double stabilisation = 0;
   Eigen::Vector3d gravity_W = earthGravity();
 };

@@ -45,8 +45,8 @@ struct ReadOptions {
 [[nodiscard]] SceneFile parseScene(std::string_view text, const std::string& name,
                                    const ReadOptions& options = {});
 
-/// The findings in which those that differ only in quoted names and in numbers are one: the first, with how
-/// many are like it.
+/// Merges findings that differ only in quoted names and in numbers into the first of them, with their
+/// number.
 [[nodiscard]] Diagnostics grouped(const Diagnostics& notes);
 
 /// The text of a scene file. Throws Error if it is missing, not a readable file, or larger than `most`

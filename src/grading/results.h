@@ -1,5 +1,5 @@
 #pragma once
-
+// The result of a grading, and its file results.json.
 #include <cstdint>
 #include <filesystem>
 #include <optional>

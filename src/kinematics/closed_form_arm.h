@@ -33,7 +33,7 @@ class ClosedFormArm {
   enum class Kind { kWrist, kParallel };
 
   /// The arm that moves `tip` relative to the world; empty, with the reason in `why`, if it is none of these:
-  /// not six joints, others than hinges, a joint that mimics, or other axes. Throws Error for no body.
+  /// not six joints, others than hinges, a joint that mimics, or other axes. Throws Error for a missing body.
   static std::optional<ClosedFormArm> of(const Model& model, BodyId tip, std::string* why = nullptr);
 
   Kind kind() const { return kind_; }

@@ -41,8 +41,8 @@ struct ClosedPosture {
   std::string message{};
 };
 
-/// The posture near q at which all maps are zero, by damped Newton steps of least length. Entries of v named
-/// by `driven` do not move: so a mechanism is solved for the posture that its motors give it. Throws Error
+/// The posture near q at which all maps are zero, by damped Newton steps of least length. `driven` lists
+/// entries of v that stay fixed, such as those of motors. Throws Error
 /// for a q of the wrong size and for a `driven` that is no entry of v.
 [[nodiscard]] ClosedPosture assemble(const Model& model, std::span<const TaskMap> loops, const VectorArg& q,
                                      std::span<const int> driven = {});

@@ -22,9 +22,9 @@ enum class BanditRule {
   kThompson        ///< the largest draw from the posteriors Beta(1 + paid, 1 + pulls - paid)
 };
 
-/// The arm to pull next; of equal ones any. Those that were never pulled come first, except for kThompson.
-/// Throws Error for no arms, vectors of different sizes, sums that such payments cannot have, and an epsilon
-/// outside [0, 1].
+/// The arm to pull next; ties are broken at random. Those that were never pulled come first, except for
+/// kThompson. Throws Error for no arms, vectors of different sizes, sums that such payments cannot have, and
+/// an epsilon outside [0, 1].
 [[nodiscard]] int nextArm(const ArmRecord& record, BanditRule rule, Rng& rng, double epsilon = 0.1);
 
 struct BanditRun {

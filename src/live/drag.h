@@ -7,8 +7,8 @@
 
 namespace rex {
 
-/// Where a point of a body, p_BQ in its frame, is dragged to, in W, metres; and how its frame shall be
-/// turned.
+/// Where a point of a body, p_BQ in its frame, is dragged to, in W, metres; and the wanted
+/// orientation of its frame.
 struct DragGoal {
   BodyId body{};
   Eigen::Vector3d p_BQ{0, 0, 0}, p_WQ{0, 0, 0};

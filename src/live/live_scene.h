@@ -1,5 +1,5 @@
 #pragma once
-
+// The picture of a live page: the shapes of a model as a GLB in pieces, and the poses of its bodies.
 #include <cstddef>
 #include <string>
 #include <vector>

@@ -12,7 +12,7 @@
 
 namespace rex {
 
-/// One robot that is moved by the hands of those who look at it: what the live page shows and what it asks
+/// One robot that is moved by its viewers: what the live page shows and what it asks
 /// for, as values and without a network. In a posture, sliders and drags move it; in a simulation, forces do,
 /// and sliders move what the joints are held at.
 class LiveSession {

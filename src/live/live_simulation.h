@@ -1,5 +1,5 @@
 #pragma once
-
+// The simulation behind a live page, its pushes, and recordings.
 #include <optional>
 #include <string>
 #include <vector>

@@ -23,7 +23,7 @@ struct QuadraticSolution {
 };
 
 /// Minimises 1/2 x.H x + g.x subject to lower <= A x <= upper, with A of m x n; equal bounds are an equation,
-/// infinite ones are none. H and A stay, g and the bounds change: so it is in model-predictive control. Meant
+/// infinite ones are none. H and A are fixed; g and the bounds vary, as in model-predictive control. Meant
 /// for at most some hundred variables: one O(n^2) update for each row that becomes active or inactive.
 class QuadraticProgram {
  public:

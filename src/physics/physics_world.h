@@ -55,14 +55,14 @@ struct RayHit {
 
 /// Simulation of one model with contacts, by Bullet's multibody dynamics in double precision;
 /// deterministic. It advances v first, then q with the new v, and errors are of first order in the step.
-/// But robots of hinges without pins that nothing can touch in a step move by our own dynamics: where only
+/// Our own dynamics moves a robot that has only hinges and no pins while nothing can touch it: where only
 /// forces act, by Stepper's kBeeman, which keeps their energy; else by Bullet's rule, with motors, friction,
 /// damping and limits of joints solved exactly. ContactModel says what may collide; meshes collide as their
 /// convex hulls. A stack of 20 boxes stays up. Contacts give no energy back: what overlaps is moved apart, at
 /// 0.25 m/s at most, and keeps no speed of it. Mimic joints follow to rounding, and a motor moves all joints
 /// that share its coordinate. Points of pins stay together to first order in the step h: a relative
 /// acceleration c leaves a gap of c h / (400 /s). Gaps at the start close at 1 m/s at most; a loop that
-/// cannot be closed whirls. Only this module knows Bullet.
+/// cannot be closed moves wildly. Only this module knows Bullet.
 class PhysicsWorld {
  public:
   /// Throws Error for what cannot be simulated, naming it: ball and free joints that mimic others, moving

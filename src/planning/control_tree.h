@@ -1,5 +1,5 @@
 #pragma once
-
+// Trees of motions that controls produce, for systems such as cars.
 #include <functional>
 #include <vector>
 
@@ -27,7 +27,7 @@ struct ControlSystem {
   /// The distance between two states, which need not be symmetric; empty: the metric of the space.
   std::function<double(const VectorArg& from, const VectorArg& to)> distance{};
   /// The controls, one after the other, that lead from one state to another if nothing is in the way, or
-  /// none if it knows no way: the local planner of slide 4:58. Empty: shooting, which takes the best of some
+  /// none if it finds no path: the local planner of slide 4:58. Empty: shooting, which takes the best of some
   /// random controls.
   std::function<std::vector<HeldControl>(const VectorArg& from, const VectorArg& to)> steer{};
 };

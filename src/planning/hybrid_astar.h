@@ -8,7 +8,7 @@
 namespace rex {
 
 struct HybridAStarOptions {
-  double cellSize = 0.1;       ///< metres; arcs are half as long again
+  double cellSize = 0.1;       ///< metres; an arc is 1.5 cells long
   int headings = 144;          ///< cells of a whole turn
   int steeringAngles = 3;      ///< that are tried, evenly spaced: an odd number
   double reverseFactor = 1.5;  ///< cost of a metre backward, at least 1; a metre forward costs 1

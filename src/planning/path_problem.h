@@ -15,7 +15,7 @@ using AllValid = std::function<bool(const MatrixArg& Q)>;
 /// Makes one from a function of a single configuration.
 [[nodiscard]] AllValid eachColumn(std::function<bool(const VectorArg& q)> isValid);
 
-/// Valid if a clearance is positive. If it is not a number, Error names the configuration.
+/// A configuration is valid if its clearance is positive. Throws Error, naming it, if that is not a number.
 [[nodiscard]] AllValid whereClear(std::function<double(const VectorArg& q)> clearance);
 
 /// A planning problem: find a path through valid configurations.

@@ -9,8 +9,8 @@ namespace rex {
 struct TimingOptions {
   double startSpeed = 0, endSpeed = 0;  ///< of the path's parameter, per second
   int intervals = 1000;                 ///< minimum for the grid; each piece has at least eight
-  /// By which fraction a limit may be exceeded between grid points. Intervals that exceed it in the middle
-  /// are halved, up to six times. At the grid points limits hold.
+  /// The fraction by which a limit may be exceeded between grid points. Intervals that exceed it in the
+  /// middle are halved, up to six times. At the grid points limits hold.
   double excess = 0.01;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-
+// Values as bytes between grader and worker, and back.
 #include <array>
 #include <cstddef>
 #include <cstdint>

@@ -1,5 +1,5 @@
 #pragma once
-
+// Cameras, and the boxes that they look at.
 #include <limits>
 #include <numbers>
 #include <optional>

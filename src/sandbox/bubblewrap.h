@@ -1,5 +1,5 @@
 #pragma once
-
+// The options for bubblewrap, which confines programs at levels 2 and 3.
 #include <cstddef>
 #include <filesystem>
 #include <string>

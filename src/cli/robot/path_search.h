@@ -1,5 +1,5 @@
 #pragma once
-
+// Searches a path for `rex plan`, shortens it, and measures its clearance.
 #include <cstddef>
 #include <cstdint>
 #include <functional>

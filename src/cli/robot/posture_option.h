@@ -1,5 +1,5 @@
 #pragma once
-
+// Reads postures, velocities, forces and motions from options and files.
 #include <filesystem>
 #include <string>
 #include <vector>
