@@ -253,6 +253,6 @@ int main() {
   showImitation();
   // Part 6: a teacher walks over several kinds of ground. What does it like?
   showTeacher();
-  // Part 7: five arms, one of which pays best.
+  // Part 7: five arms, and one pays best.
   showBandits(.1);
 }
