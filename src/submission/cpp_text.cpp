@@ -149,6 +149,8 @@ int TextPlaces::line(std::size_t position) const { return place(position).first;
 std::pair<std::string, std::vector<std::size_t>> spliced(std::string_view source) {
   std::string text;
   std::vector<std::size_t> places;
+  text.reserve(source.size());
+  places.reserve(source.size());
   for (std::size_t at = 0; at < source.size(); ++at) {
     const std::size_t end = source[at] == '\\' ? source.find_first_not_of(" \t\r\v\f", at + 1) : source.npos;
     if (end != source.npos && source[end] == '\n') {

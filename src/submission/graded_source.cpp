@@ -97,7 +97,7 @@ std::vector<CppPiece> cppPieces(const CppText& text) {
     if (closes) --open;
     piece.isInternal = open > 0;
     if (opensNamelessNamespace(text, i)) ++open;
-    pieces.push_back(std::move(piece));
+    pieces.push_back(piece);
   }
   return pieces;
 }
@@ -111,12 +111,13 @@ struct NamedPiece {
   bool isMain() const { return piece.function == "main"; }
 };
 
+// Without pieces that name nothing, such as a ';' alone: a file may have a million of them.
 std::vector<NamedPiece> namedPieces(std::string_view source) {
   const CppText text(source);
   std::vector<NamedPiece> named;
-  for (CppPiece& piece : cppPieces(text)) {
+  for (const CppPiece& piece : cppPieces(text)) {
     Names names = namesIn(text, piece.first, piece.last);
-    named.push_back({std::move(piece), std::move(names)});
+    if (!names.empty()) named.push_back({piece, std::move(names)});
   }
   return named;
 }
@@ -154,7 +155,7 @@ std::set<std::size_t> unused(const std::vector<NamedPiece>& pieces) {
     for (const std::string& name : one.names) ++mentions[name];
   std::set<std::size_t> found;
   for (std::size_t i = 0; i < pieces.size(); ++i)
-    if (pieces[i].piece.isInternal && pieces[i].isFunction() && mentions.at(pieces[i].piece.function) == 1)
+    if (pieces[i].piece.isInternal && pieces[i].isFunction() && mentions.find(pieces[i].piece.function)->second == 1)
       found.insert(i);
   return found;
 }
