@@ -155,8 +155,6 @@ constexpr int kMostAttempts = 10;        // to find out which inequalities count
 constexpr double kUnboundedFall = 1e12;  // of the cost, relative to that at the start
 constexpr double kRounding = 1e-15;      // of sums that make up a merit
 
-double largestOf(const Eigen::VectorXd& v) { return v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0; }
-
 }  // namespace
 
 double violationOf(const ConstrainedValues& values) {
@@ -208,7 +206,8 @@ DescentEnd ConstrainedDescent::descend(const ConstraintMerit& merit, double tole
     if (isForInside && (values_.g.array() < 0).all()) return DescentEnd::kInside;
     merit.weigh(values_, weights_);
     const double stationarity = gradientOf(weights_).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
-    if (stationarity <= tolerance * std::max({1., largestOf(weights_.g), largestOf(weights_.h)}))
+    if (stationarity <= tolerance * std::max({1., weights_.g.lpNorm<Eigen::Infinity>(),
+                                              weights_.h.lpNorm<Eigen::Infinity>()}))
       return DescentEnd::kConverged;
     if (result_.iterations >= budget_) return DescentEnd::kBudgetSpent;
     const double value = merit.value(values_);

@@ -23,8 +23,6 @@ constexpr double kAllowed =
 constexpr double kTiny = 1e-300;      // against division by zero
 constexpr double kDependent = 1e-10;  // what is left of a row beside the active ones, relative to the row
 
-double largestEntry(const VectorXd& v) { return v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0; }
-
 // A row that holds with equality: sign * a.x = sign * bound, with the multiplier u >= 0.
 struct ActiveRow {
   Index row;
@@ -39,7 +37,7 @@ class DualActiveSet {
                 const VectorXd& upper)
       : At_(At), g_(g), lower_(lower), upper_(upper), J_(J), R_(MatrixXd::Zero(g.size(), g.size())) {
     x_ = -J_ * (J_.transpose() * g_);
-    scale_ = largestEntry(x_);
+    scale_ = x_.lpNorm<Eigen::Infinity>();
     for (const VectorXd* bounds : {&lower_, &upper_})
       for (const double bound : *bounds)
         if (std::isfinite(bound)) scale_ = std::max(scale_, std::abs(bound));
@@ -248,9 +246,10 @@ QuadraticSolution QuadraticProgram::minimize(const VectorArg& g, const VectorArg
   solution.x = search.x();
   const VectorXd slope = H_ * solution.x;
   solution.value = solution.x.dot(slope / 2 + g);
-  const double largestSlope = std::max(largestEntry(g), largestEntry(slope));
-  solution.residual = std::max(largestEntry(slope + g - At_ * y) / std::max(largestSlope, kTiny),
-                               search.largestViolation() / std::max(search.scale(), kTiny));
+  const double largestSlope = std::max(g.lpNorm<Eigen::Infinity>(), slope.lpNorm<Eigen::Infinity>());
+  solution.residual =
+      std::max(VectorXd(slope + g - At_ * y).lpNorm<Eigen::Infinity>() / std::max(largestSlope, kTiny),
+               search.largestViolation() / std::max(search.scale(), kTiny));
   return solution;
 }
 
