@@ -138,7 +138,7 @@ class Descent {
   enum class End { kConverged, kGivenUp, kIterationLimit };
 
   Descent(const Model& model, std::span<const Task> tasks, const Options& options)
-      : model_(model), tasks_(tasks), options_(options), limits_(internal::jointLimits(model)) {
+      : model_(model), tasks_(tasks), options_(options), limits_(internal::limitedCoordinates(model)) {
     held_.reserve(limits_.size());
     for (const Task& task : tasks) isWeighed_ = isWeighed_ || task.tolerance == kNoTolerance;
   }
@@ -377,7 +377,7 @@ Result solveInverseKinematics(const Model& model, const PoseTarget& target, cons
                   .tolerance = target.tolerance};
   requireProblem(model, {&task, 1}, start, options);
   Eigen::VectorXd clamped = start;
-  internal::clampToLimits(internal::jointLimits(model), clamped);
+  internal::clampToLimits(internal::limitedCoordinates(model), clamped);
   std::optional<Result> closed = solveInClosedForm(model, target, task, clamped);
   if (closed && closed->status == Result::Status::kSolved) return *closed;
   return search(model, {&task, 1}, start, options, rng, target.isAllowed, std::move(closed));

@@ -14,7 +14,7 @@ struct JointLimit {
   double lower, upper;
 };
 
-inline std::vector<JointLimit> jointLimits(const Model& model) {
+inline std::vector<JointLimit> limitedCoordinates(const Model& model) {
   std::vector<JointLimit> limits;
   forEachPlainCoordinate(model, [&](int iq, int iv, const DegreeOfFreedom&) {
     const double lower = model.lowerLimits()[iq], upper = model.upperLimits()[iq];

@@ -35,7 +35,7 @@ Eigen::MatrixXd interpolateValues(const VectorArg& y0, const VectorArg& yT, int 
 
 FollowedTask followTask(const Model& model, const Task& followed, const MatrixArg& Y, const VectorArg& q0,
                         const std::vector<Task>& others, const Eigen::MatrixXd& W) {
-  const std::vector<internal::JointLimit> limits = internal::jointLimits(model);
+  const std::vector<internal::JointLimit> limits = internal::limitedCoordinates(model);
   std::vector<Task> tasks{followed};
   tasks.insert(tasks.end(), others.begin(), others.end());
   std::vector<TaskValue> values;
