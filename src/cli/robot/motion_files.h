@@ -80,7 +80,7 @@ class MotionPictures {
   double ground_ = 0;
 };
 
-inline constexpr double kFilmRate = VideoOptions().rate;  ///< frames per second
+inline constexpr double kVideoRate = VideoOptions().rate;  ///< frames per second
 
 /// Throws UsageError naming --no-film for a scene without a visible shape.
 void requireFilmable(const Model& model);
@@ -114,7 +114,7 @@ void writeReplay(Report report, const MotionPictures& pictures, const RenderPlan
 
 /// Writes STEM.mp4 (or a folder STEM of frames), the film of a motion with the replay's title and the trace
 /// of `body`, and STEM.html, the replay, which is `report` with that film. Both play `speed` times as fast
-/// as the motion, whose postures are speed / kFilmRate seconds apart. Returns both. Throws like
+/// as the motion, whose postures are speed / kVideoRate seconds apart. Returns both. Throws like
 /// writeMotionFilm() and writeReport().
 [[nodiscard]] std::vector<std::filesystem::path> writeFilmAndReplay(const Model& model, const Motion& motion,
                                                                     BodyId body, Report report,

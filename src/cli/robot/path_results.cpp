@@ -290,7 +290,7 @@ void writeMotion(const PlannedMotion& planned, const Motion& table, const PlanOp
   writeTextFile(results.file(options.out / "path.csv"), motionCsv(model, table));
   if (options.noFilm) return;
   const double speed = filmSpeed(options.speed, duration);
-  const Motion motion = postures(kFilmRate / speed);
+  const Motion motion = postures(kVideoRate / speed);
   Report report = page;
   report.figures.insert(report.figures.begin(), {jointsFigure(model, motion)});
   if (!contacts.pairs().empty()) {

@@ -25,11 +25,11 @@ namespace {
 namespace fs = std::filesystem;
 
 Motion motionToDraw(const Model& model, const RenderOptions& options, double seconds) {
-  if (!options.motion.empty()) return readMotion(model, options.motion, kFilmRate);
+  if (!options.motion.empty()) return readMotion(model, options.motion, kVideoRate);
   std::vector<Eigen::VectorXd> keys;
   for (const std::string& text : options.postures) keys.push_back(parsePosture(model, text));
   if (keys.empty()) keys.push_back(model.initialPositions());
-  return moveThrough(model, keys, seconds, kFilmRate);
+  return moveThrough(model, keys, seconds, kVideoRate);
 }
 
 // A still of a motion shows its key frames only.

@@ -341,7 +341,7 @@ ExitCode simulateScene(const Project& project, const SimulateOptions& options) {
   const int stride = logStride(model, plan, options);
 
   const std::string title = titleOf(model, plan, options);
-  Record record(plan, options, kFilmRate / speed, stride);
+  Record record(plan, options, kVideoRate / speed, stride);
   std::optional<MotionLog> log;
   const fs::path logFile = options.out / (options.logFormat == LogFormat::kCsv ? "log.csv" : "log.npy");
   if (!isPage(options)) log.emplace(logFile, options.logFormat, model);

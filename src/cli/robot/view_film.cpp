@@ -50,7 +50,7 @@ ViewFilm::Drawn ViewFilm::drawn(const std::string& table) const {
   const std::filesystem::path motion = folder_ / "motion.csv", out = folder_ / "film.mp4";
   writeTextFile(motion, table);
   std::filesystem::remove(out);
-  const Motion moved = readMotion(model_, motion, kFilmRate);
+  const Motion moved = readMotion(model_, motion, kVideoRate);
   const std::filesystem::path written = writeMotionFilm(
       {model_, moved, {}, {}, ""}, makeRenderPlan({.motion = motion, .out = out}, facing_), out);
   if (written != out)
