@@ -216,8 +216,8 @@ std::string toString(Growth growth) {
   return kNames.at(static_cast<std::size_t>(growth));
 }
 
-std::vector<std::byte> grown(std::span<const std::byte> answer, std::span<const std::byte> arguments,
-                             const std::vector<std::string>& layouts, const Change& change) {
+std::vector<std::byte> grownAnswer(std::span<const std::byte> answer, std::span<const std::byte> arguments,
+                                   const std::vector<std::string>& layouts, const Change& change) {
   if (layouts.front().empty()) return {};
   AnswerValue value = readAnswer(answer, layouts.front());
   const double factor = change.isPlain ? kPlainFactor : change.factor;
@@ -276,7 +276,7 @@ Judged judgeGrown(const RunnableCheck& check, const Reference& reference, const 
       ++judged.questions;
       judged.functions.try_emplace(method, caller.lastCalled());
       if (!change || method != change->method) return honest;
-      said = grown(honest, arguments, layouts[method], change->change);
+      said = grownAnswer(honest, arguments, layouts[method], change->change);
       judged.changed = judged.changed || !std::ranges::equal(said, honest);
       return said;
     };

@@ -64,9 +64,10 @@ struct Change {
 /// The honest answer, changed. `layouts` are those of the answer and of each argument (remote/layout.h).
 /// An answer without such numbers, or of a fixed size, stays as it is. Throws Error if `answer` or
 /// `arguments` do not have these layouts.
-[[nodiscard]] std::vector<std::byte> grown(std::span<const std::byte> answer,
-                                           std::span<const std::byte> arguments,
-                                           const std::vector<std::string>& layouts, const Change& change);
+[[nodiscard]] std::vector<std::byte> grownAnswer(std::span<const std::byte> answer,
+                                                 std::span<const std::byte> arguments,
+                                                 const std::vector<std::string>& layouts,
+                                                 const Change& change);
 
 /// What a check gave for the answers of the reference solution if all those of one function were changed.
 struct GrownOutcome {

@@ -163,8 +163,8 @@ bool keepsNumbers(Hostility hostility) {
   return std::ranges::find(kKeeping, hostility) != kKeeping.end();
 }
 
-std::vector<std::byte> corrupted(std::span<const std::byte> answer, const std::string& layout,
-                                 Hostility hostility, Rng& rng) {
+std::vector<std::byte> corruptedAnswer(std::span<const std::byte> answer, const std::string& layout,
+                                       Hostility hostility, Rng& rng) {
   AnswerValue value = readAnswer(answer, layout);
   if (layout.empty()) return {};
   Spoiler(hostility, rng).spoil(value);
@@ -233,7 +233,7 @@ class FalseAnswerer {
             : lie_ == FalseAnswer::kEcho       ? firstLikeTheResult(arguments, layouts_[method])
                                                : Bytes{};
     lied_ = lied_ || !std::ranges::equal(said_, honest);
-    if (said_.empty()) said_ = corrupted(honest, layouts_[method].front(), Hostility::kZero, rng_);
+    if (said_.empty()) said_ = corruptedAnswer(honest, layouts_[method].front(), Hostility::kZero, rng_);
     return said_;
   }
 
@@ -329,7 +329,7 @@ class Attack {
         throw Error({.what = "the reference solution never answers " + std::to_string(method)});
       const Bytes& honest =
           known->second[static_cast<std::size_t>(rng_.index(static_cast<int>(known->second.size())))].answer;
-      answer = corrupted(honest, layouts_[method].front(), outcome_.hostility, rng_);
+      answer = corruptedAnswer(honest, layouts_[method].front(), outcome_.hostility, rng_);
       allAreLies = allAreLies && !std::ranges::equal(answer, honest);
       ++outcome_.answers;
       return std::span<const std::byte>(answer);

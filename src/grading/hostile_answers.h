@@ -38,8 +38,9 @@ enum class Hostility {
 
 /// The honest answer, corrupted: bytes of the same layout (remote/layout.h). Throws Error if `answer` does
 /// not have that layout.
-[[nodiscard]] std::vector<std::byte> corrupted(std::span<const std::byte> answer, const std::string& layout,
-                                               Hostility hostility, Rng& rng);
+[[nodiscard]] std::vector<std::byte> corruptedAnswer(std::span<const std::byte> answer,
+                                                     const std::string& layout, Hostility hostility,
+                                                     Rng& rng);
 
 /// For each of the student's functions: the layout of its return value, then those of its arguments.
 using CallLayouts = std::vector<std::vector<std::string>>;

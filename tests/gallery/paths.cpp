@@ -143,7 +143,7 @@ Image parking() {
   const Vector3d goal(-1.3, 1.1, 0);
   const PathTask task =
       cli::parkingTask(model, contacts, model.initialPositions(), Eigen::VectorXd(goal), 0.05, 0.05);
-  const cli::Parking found = cli::parked(task, {.wheelbase = 2.6, .maxSteering = 0.6}, {});
+  const cli::Parking found = cli::parkCar(task, {.wheelbase = 2.6, .maxSteering = 0.6}, {});
   Picture picture = cli::parkingPicture(task, found);
   const Bounds cars{.low = {-10, -0.3, 0}, .high = {8, 6, 1.5}};
   for (const Vector3d& q : {Vector3d(model.initialPositions()), goal}) {

@@ -130,7 +130,7 @@ T grownTo(const T& honest, Growth growth, bool isPlain = false, double place = 0
   const std::vector<std::string> layouts = {remote::Layout<T>::text(),
                                             remote::Layout<Eigen::VectorXd>::text()};
   const std::vector<std::byte> bytes =
-      grown(answer.bytes(), question.bytes(), layouts, {growth, isPlain, place});
+      grownAnswer(answer.bytes(), question.bytes(), layouts, {growth, isPlain, place});
   remote::Reader reader(bytes);
   T said = remote::Wire<T>::get(reader);
   reader.expectEnd();

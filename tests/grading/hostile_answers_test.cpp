@@ -143,7 +143,7 @@ Sample spoiltBy(Hostility hostility) {
   remote::Wire<Sample>::put(writer, kHonest);
   Rng rng(3);
   const std::vector<std::byte> bytes =
-      corrupted(writer.bytes(), remote::Layout<Sample>::text(), hostility, rng);
+      corruptedAnswer(writer.bytes(), remote::Layout<Sample>::text(), hostility, rng);
   remote::Reader reader(bytes);
   Sample sample = remote::Wire<Sample>::get(reader);
   reader.expectEnd();
@@ -175,7 +175,8 @@ TEST(Spoilt, RefusesBytesOfAnotherLayout) {
   Rng rng;
   const std::vector<std::byte> bytes(9);
   for (const char* layout : {"d", "[d]", "(dd)", "M-1,1,d", "i4", "x", "s", "r", "?d", "i"})
-    EXPECT_REX_ERROR(corrupted(bytes, layout, Hostility::kZero, rng), "an answer does not match its layout");
+    EXPECT_REX_ERROR(corruptedAnswer(bytes, layout, Hostility::kZero, rng),
+                     "an answer does not match its layout");
 }
 
 TEST(SizeOfValue, EndsWhereTheNextBegins) {

@@ -77,7 +77,7 @@ struct Parking {
 };
 
 /// Searches by findCarPath(). Throws like it.
-[[nodiscard]] Parking parked(const PathTask& task, const Car& car, const HybridAStarOptions& search);
+[[nodiscard]] Parking parkCar(const PathTask& task, const Car& car, const HybridAStarOptions& search);
 
 /// The drive at 1 m/s, `rate` postures per second, and its end. There must be a path.
 [[nodiscard]] Motion parkingMotion(const Parking& parking, double rate);

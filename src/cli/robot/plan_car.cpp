@@ -71,7 +71,7 @@ PathTask parkingTask(Model model, const ContactModel& contacts, const VectorArg&
   return {std::move(model), contacts, std::move(problem)};
 }
 
-Parking parked(const PathTask& task, const Car& car, const HybridAStarOptions& search) {
+Parking parkCar(const PathTask& task, const Car& car, const HybridAStarOptions& search) {
   Parking parking{.car = car, .path = findCarPath(car, task.problem, search)};
   if (!parking.isFound()) return parking;
   // From pose to pose it drives 1 cm, whose chord is within 0.02 mm of it unless it turns on the spot.
@@ -194,7 +194,7 @@ ExitCode planCar(const PlanOptions& options, const RenderPlan& pictures, Model m
   const PathTask task = carTaskOf(std::move(model), options);
   makeResultFolder(options.out, {"tree.png", "path.csv", "path.mp4", "path.html"}, "path");
 
-  const Parking parking = asWrongUse([&] { return parked(task, car, options.grid); });
+  const Parking parking = asWrongUse([&] { return parkCar(task, car, options.grid); });
   Results results = resultsOf(task, parking, options);
   writeFiles(task, parking, options, pictures, results);
   results.print(options.json);
