@@ -93,7 +93,7 @@ inline bool all(Mask mask) {
   return lanesOf(mask) == (1 << sizeof(Mask) / sizeof(long long)) - 1;
 }
 
-/// Converts the bits of each lane to an integer for computations, and back.
+/// The bits of each lane as an integer, to compute with, and back.
 inline long long bitsOf(double x) {
   long long bits;
   __builtin_memcpy(&bits, &x, sizeof bits);

@@ -19,8 +19,8 @@ struct Box {
   Vec3<T> half;
 };
 
-/// How two cores A and B lie to one another: the nearest point of B, the unit vector from B to A, and how far
-/// it is along it to the nearest point of A; negative in overlap, as in Proximity.
+/// The gap between cores A and B: the nearest point of B, the unit normal from B to A, and the distance
+/// along it to the nearest point of A; negative in overlap, as in Proximity.
 template <class T>
 struct Gap {
   Vec3<T> p_B, normal;
@@ -136,8 +136,8 @@ inline Separation<T> separation(const Vec3<T>& half, const Vec3<T>& c, const Vec
   return best;
 }
 
-/// A segment and a box. In overlap, what moves the segment out soonest is a direction across a face, or
-/// across an edge and the segment; then both touch in one point at least.
+/// A segment and a box. The shortest way out of an overlap is along the normal of a face, or across
+/// an edge and the segment; then both touch in one point at least.
 template <class T>
 [[gnu::always_inline]] inline Gap<T> gap(const Segment<T>& A, const Box<T>& B) {
   const Vec3<T> p = transposedTimes(B.X.R, A.p - B.X.p), d = transposedTimes(B.X.R, A.d);
@@ -204,8 +204,8 @@ inline void tryCorners(NearPoints<T>& best, const KernelPose<T>& X, const Vec3<T
   }
 }
 
-/// Two boxes. The 15 separating directions tell whether they overlap, and how to get out: what touches last
-/// is found by moving A out. Of boxes apart, an edge of A or a corner of B is always among the nearest.
+/// Two boxes. The 15 separating axes show whether they overlap, and how to get out: boxes that do are moved
+/// apart first, and touch then. Of boxes apart, an edge of A or a corner of B is always among the nearest.
 template <class T>
 inline Gap<T> gap(const Box<T>& A, const Box<T>& B) {
   const Mat3<T> R{transposedTimes(B.X.R, A.X.R.c0), transposedTimes(B.X.R, A.X.R.c1),
@@ -224,7 +224,8 @@ inline Gap<T> gap(const Box<T>& A, const Box<T>& B) {
   tryEdges(near, moved.p, edges[0], edges[1], edges[2], B.half);
   tryCorners(near, moved, A.half, B.half);
 
-  // Squared distances tell the nearest points to half of the digits only; the rest comes from looking back.
+  // Squared distances tell the nearest points to half of the digits only; projecting once more gives the
+  // rest.
   near.onA = nearestOn(moved, A.half, near.onB);
   near.onB = clampedTo(B.half, near.onA);
   const Vec3<T> apart = near.onA - near.onB;
@@ -259,8 +260,8 @@ inline Vec3<T> acrossBoth(const Vec3<T>& a, const Vec3<T>& b) {
   return select(isDirection, unit, across(select(dot(a, a) > dot(b, b), a, b)));
 }
 
-/// Two segments. Each step is exact where the others meet no end (Ericson, Real-Time Collision Detection,
-/// 5.1.9).
+/// Two segments. Each step is exact if the nearest points are no ends (Ericson, Real-Time Collision
+/// Detection, 5.1.9).
 template <class T>
 [[gnu::always_inline]] inline Gap<T> gap(const Segment<T>& A, const Segment<T>& B) {
   const T one(1.0), ab = dot(A.d, B.d);

@@ -168,7 +168,7 @@ class Simulator {
   /// distance and nearest points, metres.
   std::string proxyReport() const;
 
-  /// Joint angles and velocities, n numbers each; each quaternion has one velocity fewer (see Joint::nv).
+  /// Joint angles and velocities, as many as there are; a quaternion has four angles, but three velocities.
   /// setJointAngles() leaves the velocities as they are; initially the robot is at rest.
   void getJointAnglesAndVels(Eigen::VectorXd& q, Eigen::VectorXd& qdot) const;
   Eigen::VectorXd getJointVels() const;

@@ -10,7 +10,7 @@ namespace {
 // A link, in the axes of the world and about the origin O of its tree.
 struct Part {
   KernelPose<double> X;  // in the parent, then in the world
-  Sym3<double> inertia;  // from here to the mass, ten numbers, of what it carries, too
+  Sym3<double> inertia;  // from here to `mass`, ten numbers: later with all descendants
   Vec3<double> moment;
   double mass;
   int root;         // of its tree
@@ -75,7 +75,7 @@ inline Sym3<double> symmetricProduct(const Vec3<double>& a, const Vec3<double>& 
 }
 
 // O is the origin of the first link with a mass, so that inertias stay small even far from the world's
-// origin: nearly always the root, and only else the others are asked.
+// origin: usually the root, otherwise its first descendant with a mass.
 inline void chooseOrigins(const Link* links, int count, Part* parts) {
   bool areRoots = true;
   for (int i = 0; i < count; ++i) {
@@ -88,7 +88,7 @@ inline void chooseOrigins(const Link* links, int count, Part* parts) {
     if (Part& root = parts[parts[i].root]; links[root.origin].mass == 0) root.origin = i;
 }
 
-// Mass, moment and inertia of the link alone. About O, the latter comes from the squares of r = p + d with
+// Mass, moment and inertia of the link alone. The inertia about O comes from the squares of r = p + d with
 // the link's d: r r = p p + (p d + d p) + d d, summed by mass.
 #ifdef __AVX__
 inline void weigh(const Link& link, const Vec3<double>& p_OL, Part& part) {

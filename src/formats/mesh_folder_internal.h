@@ -9,8 +9,8 @@
 
 namespace rex::mesh {
 
-/// All that assimp gets to see of the disk: the mesh file, whose bytes are at hand, under a name of our own,
-/// and for reading the files in its folder or below, links followed. Without a folder there is nothing else.
+/// The files that assimp may read: the mesh, from memory and under a name of our own, and files in its folder
+/// or below, after following links. Without a folder only the mesh.
 class MeshFolder : public Assimp::IOSystem {
  public:
   /// Neither name nor bytes are copied.

@@ -155,7 +155,7 @@ void noteUntouchable(BodyTree& tree, Notes& notes) {
          "it has contype 1 and conaffinity 1", notes);
 }
 
-void chooseNeighbours(BodyTree& tree) {
+void forbidNeighbours(BodyTree& tree) {
   const std::unordered_map<std::string, std::string> carrierOf = carriers(tree);
   std::unordered_map<std::string, std::vector<std::string>> carried;
   for (const std::string& name : touchable(tree)) carried[carrierOf.at(name)].push_back(name);

@@ -53,11 +53,11 @@ void readCompiler(const Tag& tag, Compiler& compiler);
                                  const std::vector<std::string>& words);
 /// "true" or "false".
 [[nodiscard]] bool flag(const Tag& tag, const char* attribute);
-/// Whether a range counts: `limited` says so, or without a word its presence.
+/// Whether a range counts: as `limited` says, or else if it is given.
 [[nodiscard]] bool isLimited(const Styled& tag, const char* limited, const char* range,
                              const Compiler& compiler);
 
-/// The meshes and colours that geoms name.
+/// A <mesh>.
 struct MeshAsset {
   std::string file;
   Eigen::Vector3d scale{1, 1, 1};
@@ -70,6 +70,7 @@ struct HeightField {
   TriangleMesh drawn{};
   std::vector<TriangleMesh> pieces{};
 };
+/// The meshes, height fields and colours that geoms name.
 struct MjcfAssets {
   std::unordered_map<std::string, MeshAsset> meshes;
   std::unordered_map<std::string, HeightField> heightFields;
@@ -109,8 +110,8 @@ struct GeomFit {
   double scale = 1;
   bool contact = true;  ///< of the shape that it becomes
 };
-/// A <geom>: shapes unless rex has none like it, and a solid if it weighs something. A shape without a name
-/// has none yet.
+/// A <geom>: shapes unless rex has none like it, and a solid if it weighs something. Names that
+/// are missing are given later.
 struct Geom {
   std::vector<ShapeSpec> shapes{};
   std::optional<Solid> solid{};
@@ -122,7 +123,7 @@ struct Geom {
                             const MjcfAssets& assets);
 
 /// A <joint> of a body: X_PF and X_MC are as if the parent's frame were that of the body where the joint is
-/// at `ref`. A joint without a name has none yet.
+/// at `ref`. A missing name is given later.
 [[nodiscard]] const Known& knownOfJoint();
 [[nodiscard]] JointSpec readBodyJoint(const Styled& tag, const Compiler& compiler);
 
@@ -163,15 +164,14 @@ struct BodyTree {
 [[nodiscard]] BodyTree readTree(const std::vector<Tag>& worldbodies, Files& files, const Defaults& defaults,
                                 const Compiler& compiler, const MjcfAssets& assets);
 
-/// Makes fitted geoms the solids that they are to be, as MuJoCo does by default: of the inertia of their
-/// mesh, or with `fitaabb` around it.
+/// Replaces each fitted geom by the solid with the inertia of its mesh, or with `fitaabb` its bounds, as
+/// MuJoCo does.
 void fitGeoms(BodyTree& tree, const Compiler& compiler, Reading& reading);
 
 /// Gives all bodies their masses.
 void setMasses(BodyTree& tree, const Compiler& compiler, Reading& reading);
 
 /// <actuator>: how strong joints are. <equality>: which follow others, and what is pinned to what.
-/// <contact>: who may not collide.
 [[nodiscard]] const Known& knownOfActuator();
 void readActuators(const std::vector<Tag>& sections, Files& files, const Defaults& defaults,
                    const Compiler& compiler, BodyTree& tree);
@@ -183,15 +183,15 @@ void readPins(const std::vector<Tag>& tags, const Defaults& defaults, const Comp
               BodyTree& tree);
 /// The name of a body of the tree, or "world".
 [[nodiscard]] const std::string& bodyIn(const Tag& tag, const char* attribute, const BodyTree& tree);
-/// Also lets the geoms of each <pair> touch.
+/// <contact>: who may not collide, and which geoms may (<pair>).
 void readContacts(const std::vector<Tag>& sections, Files& files, BodyTree& tree);
 
 /// <keyframe>: the postures of its keys, called "key:NAME".
 void readKeyframes(const std::vector<Tag>& sections, Files& files, BodyTree& tree);
 
-/// Warns of bodies with geoms that nothing can touch, or nothing that is added to the scene.
+/// Warns of bodies with geoms that can touch nothing in this scene, or nothing that is added to it.
 void noteUntouchable(BodyTree& tree, Notes& notes);
 /// Forbids those between which there are several joints: bodies between joints hide that they are neighbours.
-void chooseNeighbours(BodyTree& tree);
+void forbidNeighbours(BodyTree& tree);
 
 }  // namespace rex::mjcf

@@ -274,7 +274,7 @@ BodyTree readModel(Files& files, const std::string& name, Compiler& compiler) {
   readContacts(named(sections, "contact"), files, tree);
   readKeyframes(named(sections, "keyframe"), files, tree);
   noteUntouchable(tree, files.main().notes);
-  chooseNeighbours(tree);
+  forbidNeighbours(tree);
   urdf::keepTargetsMovable(tree.joints, files.main());
   noteStarts(tree.joints, files.main().notes);
   for (const urdf::ReadJoint& joint : tree.joints) tree.spec.joints.push_back(joint.spec);

@@ -126,7 +126,7 @@ inline KernelPose<T> broadcastPose(const double* from) {
 }  // namespace rex
 
 // One pose in lanes, for kernels of four: its columns, each in the first three lanes of a pack. All numbers
-// have the bits that kernel_math.h gives. See base/pack.h for the reason for the anonymous namespace.
+// have the bits that the functions above give. See base/pack.h for the reason for the anonymous namespace.
 #ifdef __AVX__
 namespace rex {
 namespace {

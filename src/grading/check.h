@@ -155,15 +155,16 @@ class Check {
   [[nodiscard]] auto suspectUsualMistake(Eigen::MatrixXd got, Eigen::MatrixXd wanted, double tolerance) {
     struct Suspecting {
       std::optional<Comparison>& comparison;
-      ~Suspecting() { comparison.reset(); }
+      std::optional<Comparison> before;
+      ~Suspecting() { comparison = std::move(before); }
     };
-    comparison_ = {std::move(got), std::move(wanted), tolerance};
-    return Suspecting{comparison_};
+    Comparison now{std::move(got), std::move(wanted), tolerance};
+    return Suspecting{comparison_, std::exchange(comparison_, std::move(now))};
   }
 
   /// Requires |got - wanted| <= tolerance. Fails if `got` is not finite. All three have the same unit. A
-  /// tolerance, and a limit below, is made of constants, inputs and wanted values that do not depend on the
-  /// student's (tolerance.h): what comes from an answer may make it smaller, never larger. Gate `grown`.
+  /// tolerance, and a limit below, may depend on constants, inputs, and wanted values that do not follow
+  /// from answers (tolerance.h); an answer may make it smaller, never larger. The gate `grown` proves it.
   void near(std::string_view property, double got, double wanted, double tolerance,
             std::string_view unit = "");
   /// The same for every entry, after comparing the shapes.
@@ -233,16 +234,16 @@ class Check {
     std::string deviation{};  ///< of `got` from `wanted`
     std::string worst{};      ///< the worst value along a motion, if `got` is only the first
     std::string input{};
-    std::string question{};  ///< about the mistake that would explain it
-    std::string function{};  ///< the student's function that threw, or answered last
-    double excess = kBeyondMeasure;
+    std::string question{};          ///< about the mistake that would explain it
+    std::string function{};          ///< the student's function that threw, or answered last
+    double excess = kBeyondMeasure;  ///< how far beyond its limit, relative to it; negative within
     int caseNumber = -1;
   };
   struct Comparison {
     Eigen::MatrixXd got, wanted;
     double tolerance = 0;
   };
-  /// How far a value is beyond its limit, relative to the limit; negative within it.
+  /// The excess of a value that cannot be measured.
   static constexpr double kBeyondMeasure = std::numeric_limits<double>::infinity();
 
   bool state(bool requirement);

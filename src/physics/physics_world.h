@@ -58,11 +58,11 @@ struct RayHit {
 /// Our own dynamics moves a robot that has only hinges and no pins while nothing can touch it: where only
 /// forces act, by Stepper's kBeeman, which keeps their energy; else by Bullet's rule, with motors, friction,
 /// damping and limits of joints solved exactly. ContactModel says what may collide; meshes collide as their
-/// convex hulls. A stack of 20 boxes stays up. Contacts give no energy back: what overlaps is moved apart, at
-/// 0.25 m/s at most, and keeps no speed of it. Mimic joints follow to rounding, and a motor moves all joints
-/// that share its coordinate. Points of pins stay together to first order in the step h: a relative
-/// acceleration c leaves a gap of c h / (400 /s). Gaps at the start close at 1 m/s at most; a loop that
-/// cannot be closed moves wildly. Only this module knows Bullet.
+/// convex hulls. A stack of 20 boxes stays up. Moving overlapping shapes apart adds no energy: it
+/// happens at 0.25 m/s at most, and they keep none of that speed. Mimic joints follow to rounding, and a
+/// motor moves all joints that share its coordinate. Points of pins stay together to first order in the step
+/// h: a relative acceleration c leaves a gap of c h / (400 /s). Gaps at the start close at 1 m/s at most; a
+/// loop that cannot be closed moves wildly. Only this module knows Bullet.
 class PhysicsWorld {
  public:
   /// Throws Error for what cannot be simulated, naming it: ball and free joints that mimic others, moving

@@ -6,7 +6,7 @@
 
 namespace rex::internal {
 
-/// The points (x, y) of a plane with y * Y + x * X <= bound.
+/// The points (X, Y) of a plane with x * X + y * Y <= bound.
 struct HalfPlane {
   double y = 0, x = 0, bound = 0;
 };
@@ -29,8 +29,8 @@ struct Slice {
 [[nodiscard]] Slice sliceAt(std::span<const HalfPlane> rows, const Range& yRange, double x);
 
 /// The linear program of two variables: the largest x (or the smallest) within xRange for which there is a y.
-/// What is left of y is concave in x, so that Newton's steps from outside come from line to line to the exact
-/// answer. If none: `failed` gets the slice at which that was seen. Allocates nothing.
+/// What is left of y is concave in x, so that Newton's method, started outside, reaches the exact answer in
+/// finitely many steps. If none: `failed` gets the slice at which that was seen. Allocates nothing.
 [[nodiscard]] std::optional<double> largestX(std::span<const HalfPlane> rows, const Range& xRange,
                                              const Range& yRange, Slice& failed);
 [[nodiscard]] std::optional<double> smallestX(std::span<const HalfPlane> rows, const Range& xRange,

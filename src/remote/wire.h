@@ -75,9 +75,15 @@ class Reader {
     function_ = &function;
   }
 
-  /// Called with all numbers that are read; checks them if there are limits.
+  /// Called with all floating-point numbers that are read; checks them if there are limits.
   void numbers(const double* first, std::size_t count) {
     if (limits_ != nullptr) examine(first, count);
+  }
+  void numbers(const float* first, std::size_t count) {
+    for (const float* one = first; one != first + count; ++one) {
+      const double number = *one;
+      numbers(&number, 1);
+    }
   }
 
   /// Copies the next `size` bytes. Throws ProtocolError if there are fewer.
@@ -125,7 +131,7 @@ struct Wire<T> {
   static T get(Reader& reader) {
     T value{};
     reader.raw(&value, sizeof value);
-    if constexpr (std::is_same_v<T, double>) reader.numbers(&value, 1);
+    if constexpr (std::is_floating_point_v<T>) reader.numbers(&value, 1);
     return value;
   }
 };
@@ -233,7 +239,7 @@ struct Wire<Eigen::Matrix<S, rows, cols, options, maxRows, maxCols>> {
     Matrix matrix;
     matrix.resize(r, c);
     reader.raw(matrix.data(), sizeof(S) * coefficients);
-    if constexpr (std::is_same_v<S, double>) reader.numbers(matrix.data(), coefficients);
+    if constexpr (std::is_floating_point_v<S>) reader.numbers(matrix.data(), coefficients);
     return matrix;
   }
 

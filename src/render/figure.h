@@ -21,7 +21,7 @@ enum class SeriesStyle { kLine, kPoints, kLinesPoints };
 enum class Marker { kAuto, kDot, kCircle, kCross, kPlus, kSquare, kTriangle };
 
 /// One curve or cloud of points (x[i], y[i]). An empty x stands for 0, 1, 2, ... In a 3-D figure every
-/// series has a z. With `values`, one for each point, the colour bar gives the colours.
+/// series has a z. With `values`, one for each point, the colour bar colours the points.
 struct Series {
   std::string label{};  ///< in the legend; empty: not shown
   std::vector<double> x{};

@@ -14,8 +14,8 @@ namespace rex::submission {
 using Names = std::set<std::string, std::less<>>;
 [[nodiscard]] Names namesIn(const CppText& text, std::size_t first, std::size_t end);
 
-/// Line and column, from 1, of the only place outside comments, literals and the body of main() where a C++
-/// source names the function, by the last part of its qualified name; 0, 0 if there are none or several.
+/// Line and column, from 1, of the only mention of the function outside comments, literals and main(), by the
+/// last part of its qualified name; 0, 0 if there are none or several.
 [[nodiscard]] std::pair<int, int> onlyMention(std::string_view function, const CppText& text);
 
 /// The line, from 1, on which a C++ source defines a macro of that name, also across spliced lines; 0 if it

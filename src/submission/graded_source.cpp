@@ -155,7 +155,8 @@ std::set<std::size_t> unused(const std::vector<NamedPiece>& pieces) {
     for (const std::string& name : one.names) ++mentions[name];
   std::set<std::size_t> found;
   for (std::size_t i = 0; i < pieces.size(); ++i)
-    if (pieces[i].piece.isInternal && pieces[i].isFunction() && mentions.find(pieces[i].piece.function)->second == 1)
+    if (pieces[i].piece.isInternal && pieces[i].isFunction() &&
+        mentions.find(pieces[i].piece.function)->second == 1)
       found.insert(i);
   return found;
 }

@@ -15,7 +15,7 @@ struct CppPiece {
   std::size_t start = 0, end = 0;   ///< its characters, without comments before it
   std::size_t first = 0, last = 0;  ///< its first token, and the one after it
   /// The name of a plain function; empty for anything else, and if that is uncertain, as for a template.
-  std::string_view function{};  ///< part of the source
+  std::string_view function{};               ///< part of the source
   std::size_t nameStart = 0, bodyStart = 0;  ///< for a function: where its name and its '{' are
   bool isInternal = false;                   ///< in an unnamed namespace: invisible to the linker
   bool isDirective = false;                  ///< for the preprocessor

@@ -68,4 +68,13 @@ TEST(AnswerLimits, AreAskedBeforeAnAnswerIsUsed) {
   EXPECT_EQ(refusal(0, std::nan(""), true), "number 3 is nan, wanted finite numbers");
 }
 
+TEST(AnswerLimits, HoldForSinglePrecision) {
+  Writer writer;
+  Wire<std::pair<float, Eigen::Vector2f>>::put(writer, {1.f, {0, std::numeric_limits<float>::infinity()}});
+  Caller standIn([&](std::uint32_t) { return writer.bytes(); });
+  const Call<std::pair<float, Eigen::Vector2f>(int)> call(standIn, 0, "pair");
+  EXPECT_THROW(call(1), AnswerRefused);
+  EXPECT_EQ(call.orInfinite()(1).first, 1.f);
+}
+
 }  // namespace rex::remote::layout_test

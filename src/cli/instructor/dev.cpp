@@ -15,7 +15,9 @@ void addDevNew(CLI::App* dev, Action& action) {
   const auto name = std::make_shared<std::string>();
   CLI::App* command = addVerb(dev, "new", "Make a new exercise that passes its own gates",
                               "Example: scripts/rex dev new 99-demo");
-  command->add_option("NAME", *name, "two digits, a dash, a topic: 99-demo")->type_name("")->required();
+  command->add_option("NAME", *name, "two digits (and a letter), a dash, a topic: 99-demo")
+      ->type_name("")
+      ->required();
   command->callback([&action, name] { action = [name](const Project& p) { return devNew(p, *name); }; });
 }
 

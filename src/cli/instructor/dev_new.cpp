@@ -21,13 +21,16 @@ constexpr const char* kFunctions = "rotated";
 void requireGoodName(const std::string& name) {
   const auto digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
   const auto letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
-  const bool good = name.size() >= 4 && name.size() <= 40 && digit(name[0]) && digit(name[1]) &&
-                    name[2] == '-' && letter(name[3]) &&
-                    std::all_of(name.begin() + 3, name.end(), [&](char c) { return digit(c) || letter(c); });
+  const std::size_t dash = name.find('-');
+  const bool good = name.size() <= 40 && (dash == 2 || (dash == 3 && letter(name[2]))) &&
+                    dash + 1 < name.size() && digit(name[0]) && digit(name[1]) && letter(name[dash + 1]) &&
+                    std::all_of(name.begin() + static_cast<std::ptrdiff_t>(dash) + 1, name.end(),
+                                [&](char c) { return digit(c) || letter(c); });
   if (!good)
-    throw UsageError({.what = "not a name for an exercise",
-                      .found = "'" + name + "'",
-                      .wanted = "two digits, a dash, then letters and digits, like 01-kinematics"});
+    throw UsageError(
+        {.what = "not a name for an exercise",
+         .found = "'" + name + "'",
+         .wanted = "two digits (and a letter), a dash, then letters and digits, like 01-kinematics"});
 }
 
 // Copies the template, with the exercise's name in place of the placeholder.

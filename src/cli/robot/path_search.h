@@ -38,7 +38,7 @@ enum class Planner {
 [[nodiscard]] const std::string& toString(Planner planner);
 /// Whether it draws samples: one of the first six.
 [[nodiscard]] bool drawsSamples(Planner planner);
-/// Whether the planner grows trees step by step; otherwise it makes a roadmap.
+/// Whether the planner grows trees step by step; the others that draw samples make a roadmap.
 [[nodiscard]] bool growsTrees(Planner planner);
 
 /// A robot, its shapes that may collide, and the planning problem.

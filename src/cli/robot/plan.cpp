@@ -151,7 +151,8 @@ void addPlan(CLI::App* command, Action& action) {
       "optimize-barrier by these.\n"
       "DIR gets path.csv (time and joints; `rex render --motion` reads it), tree.png (what was\n"
       "explored) or costs.png, path.mp4 and path.html (a replay).\n"
-      "Exit codes: 0 found a path, 1 found none or one not proven clear, 64 wrong use.");
+      "Exit codes: 0 found a path, 1 found none, one not proven clear, or one\n"
+      "that cannot be timed, 64 wrong use.");
   addSceneFile(command, "SCENE", options->scene.file);
   addOptions(command, {{"-o,--out", options->out, "DIR", "folder for the results"},
                        {"--start", options->start, "POSTURE",

@@ -54,8 +54,8 @@ struct PlanOptions {
   double duration = 2;  ///< of the motion, seconds
 };
 
-/// Each searches in its way, and writes what it found. kBelow if nothing was found, or it is not proven that
-/// nothing touches.
+/// Each searches in its way, and writes what it found. kBelow if nothing was found, or nothing proven
+/// clear.
 [[nodiscard]] ExitCode planCar(const PlanOptions& options, const RenderPlan& pictures, Model model);
 [[nodiscard]] ExitCode planMotion(const PlanOptions& options, const RenderPlan& pictures, Model model);
 
