@@ -1,12 +1,8 @@
 #include "planning/grid_map.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
 #include <functional>
-#include <iterator>
 #include <numbers>
 #include <queue>
 #include <utility>
@@ -16,77 +12,11 @@
 #include "base/error.h"
 #include "base/require.h"
 #include "base/text.h"
-#include "render/image.h"
 
 namespace rex {
 namespace {
 
 constexpr std::size_t kMostCells = 100'000'000;
-
-// A P2 or P5 picture as it is read: numbers between blanks, and comments.
-class PgmReader {
- public:
-  PgmReader(std::string_view bytes, std::string file) : bytes_(bytes), file_(std::move(file)) {}
-
-  GridMap read(double cellSize) {
-    const bool isText = bytes_.starts_with("P2"), isBinary = bytes_.starts_with("P5");
-    if (!isText && !isBinary) refuse("another format", "one that begins with P2 or P5");
-    at_ = 2;
-    const int width = number("a width", 1, 1 << 20), height = number("a height", 1, 1 << 20);
-    const int white = number("the grey of white", 1, 65535);
-    if (isBinary && white > 255) refuse("two bytes for each pixel", "one");
-    GridMap map(width, height, cellSize);
-    if (isBinary) ++at_;  // the blank after the header
-    for (int y = height - 1; y >= 0; --y) {
-      for (int x = 0; x < width; ++x) {
-        const int grey = isBinary ? byte() : number("a grey", 0, white);
-        map.setBlocked({x, y}, 2 * grey < white);
-      }
-    }
-    return map;
-  }
-
- private:
-  [[noreturn]] void refuse(const std::string& found, const std::string& wanted) const {
-    throw Error({.what = "grid map", .where = {.file = file_}, .found = found, .wanted = wanted});
-  }
-  int byte() {
-    if (at_ >= bytes_.size()) refuse("the end of the file", "more pixels");
-    return static_cast<unsigned char>(bytes_[at_++]);
-  }
-  int number(const std::string& what, int least, int most) {
-    while (at_ < bytes_.size() &&
-           (std::isspace(static_cast<unsigned char>(bytes_[at_])) || bytes_[at_] == '#')) {
-      if (bytes_[at_] == '#')
-        while (at_ < bytes_.size() && bytes_[at_] != '\n') ++at_;
-      else
-        ++at_;
-    }
-    int value = 0;
-    const std::size_t begin = at_;
-    for (; at_ < bytes_.size() && bytes_[at_] >= '0' && bytes_[at_] <= '9' && value <= most; ++at_)
-      value = 10 * value + (bytes_[at_] - '0');
-    if (at_ == begin) refuse(at_ < bytes_.size() ? "no number" : "the end of the file", what);
-    if (value < least || value > most)
-      refuse(fmt::format("{}", value), fmt::format("{} from {} to {}", what, least, most));
-    return value;
-  }
-
-  std::string_view bytes_;
-  std::string file_;
-  std::size_t at_ = 0;
-};
-
-GridMap mapOf(const Image& image, double cellSize) {
-  GridMap map(image.width, image.height, cellSize);
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) {
-      const auto [red, green, blue] = image.at(x, y);
-      map.setBlocked({x, image.height - 1 - y}, 2 * (red + green + blue) < 3 * 255);
-    }
-  }
-  return map;
-}
 
 }  // namespace
 
@@ -149,17 +79,6 @@ GridMap parseGridMap(std::string_view text, const std::string& name, double cell
       map.setBlocked({static_cast<int>(x), static_cast<int>(rows.size() - 1 - row)}, rows[row][x] == '#');
   }
   return map;
-}
-
-GridMap readGridMap(const std::filesystem::path& file, double cellSize) {
-  if (file.extension() == ".png") return mapOf(readPng(file), cellSize);
-  std::ifstream input(file, std::ios::binary);
-  if (!input || !std::filesystem::is_regular_file(file))
-    throw Error(
-        {.what = "grid map", .where = {.file = file.string()}, .found = "a file that cannot be read"});
-  const std::string bytes{std::istreambuf_iterator<char>(input), {}};
-  if (file.extension() == ".pgm") return PgmReader(bytes, file.string()).read(cellSize);
-  return parseGridMap(bytes, file.string(), cellSize);
 }
 
 namespace {

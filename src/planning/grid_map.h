@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -59,10 +58,6 @@ class GridMap {
 /// Reads a map of '#' (blocked) and '.' (free), one row per line, top row first. Throws Error with
 /// file:line:column for other characters, rows of different lengths, and a map without cells.
 [[nodiscard]] GridMap parseGridMap(std::string_view text, const std::string& name, double cellSize = 1);
-
-/// Reads a .png or .pgm picture, in which pixels darker than half are blocked, or any other file like
-/// parseGridMap(). Throws Error naming the file and what is wrong with it.
-[[nodiscard]] GridMap readGridMap(const std::filesystem::path& file, double cellSize = 1);
 
 /// Which cells are neighbours: those that share a side; also those that share a corner, as on the slides;
 /// or the latter only if both other cells at that corner are free, so that no path cuts the corner of an

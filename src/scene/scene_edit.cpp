@@ -125,12 +125,6 @@ void reverse(JointSpec& joint) {
   joint.upper = one.cwiseMax(other);
 }
 
-void removeJoint(SceneSpec& spec, const std::string& name) {
-  std::erase_if(spec.joints, [&](const JointSpec& joint) { return joint.name == name; });
-  for (PostureSpec& posture : spec.postures)
-    std::erase_if(posture.joints, [&](const auto& joint) { return joint.first == name; });
-}
-
 }  // namespace
 
 SceneSpec atPositions(SceneSpec spec, const VectorArg& q) {
@@ -174,56 +168,6 @@ SceneSpec reconfigureRoot(SceneSpec spec, const std::string& body) {
   for (JointSpec& joint : spec.joints)
     if (std::find(names.begin(), names.end(), joint.name) != names.end()) reverse(joint);
   spec.postures.clear();
-  return spec;
-}
-
-Glued glueBodies(SceneSpec spec, const std::string& parent, const std::string& child) {
-  if (parent != kWorldName) static_cast<void>(bodyNamed(spec, parent));
-  static_cast<void>(bodyNamed(spec, child));
-  JointSpec glue{.name = parent + ">" + child,
-                 .parent = parent,
-                 .child = child,
-                 .type = JointType::kRigid,
-                 .X_PF = initialPose(spec, parent).inverse() * initialPose(spec, child),
-                 .X_MC = {}};
-  for (const JointSpec* joint : jointsAbove(spec, parent))
-    if (joint->parent == child || joint->child == child)
-      fail(glue, "joints form a loop", fmt::format("joint '{}'", joint->name), "a tree");
-  if (parent == child) fail(glue, "joints form a loop", "one body", "two bodies");
-  std::optional<JointSpec> former;
-  if (const JointSpec* joint = jointInto(spec, child)) {
-    if (const JointSpec* mimic = follower(spec, *joint))
-      fail(*joint, "cannot be replaced", fmt::format("joint '{}' that mimics it", mimic->name), "none");
-    former = *joint;
-    removeJoint(spec, former->name);
-  }
-  for (const JointSpec& joint : spec.joints)
-    if (joint.name == glue.name) fail(glue, "duplicate joint", "another of that name", "a name of its own");
-  spec.joints.push_back(std::move(glue));
-  return {std::move(spec), std::move(former)};
-}
-
-SceneSpec unglueBody(SceneSpec spec, const std::string& child, const std::optional<JointSpec>& former) {
-  BodySpec& body = bodyNamed(spec, child);
-  const JointSpec* glue = jointInto(spec, child);
-  if (glue == nullptr || glue->type != JointType::kRigid)
-    throw Error({.what = fmt::format("body '{}' is not glued", child),
-                 .where = body.where,
-                 .found = glue == nullptr ? "no joint" : fmt::format("joint '{}'", glue->name),
-                 .wanted = "a rigid joint"});
-  if (former && !former->mimic.empty())
-    fail(*former, "cannot be put back", fmt::format("a mimic of '{}'", former->mimic), "none");
-  const Pose X_WC = initialPose(spec, child);
-  removeJoint(spec, std::string(glue->name));
-  if (!former) {
-    body.X_WB = X_WC;
-    return spec;
-  }
-  const Pose X_WP = initialPose(spec, former->parent);
-  JointSpec joint = *former;
-  joint.q0 =
-      jointCoordinates(joint.type, joint.axis, (X_WP * joint.X_PF).inverse() * X_WC * joint.X_MC.inverse());
-  spec.joints.push_back(std::move(joint));
   return spec;
 }
 

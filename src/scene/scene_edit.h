@@ -27,21 +27,4 @@ std::size_t removeMeshesWithoutFile(SceneSpec& spec);
 /// free joint with limits, or has several coordinates and mimics or is mimicked.
 [[nodiscard]] SceneSpec reconfigureRoot(SceneSpec spec, const std::string& body);
 
-/// A scene in which a body was glued to another, and the joint that moved it before, if any.
-struct Glued {
-  SceneSpec spec;
-  std::optional<JointSpec> former;
-};
-
-/// Fixes `child` to `parent` (or "world") at their initial relative pose, by a rigid joint called
-/// "PARENT>CHILD". The joint that moved `child` is removed. Throws Error if another joint mimics that one,
-/// if the name of the new joint is taken, or if `parent` is a descendant of `child`.
-[[nodiscard]] Glued glueBodies(SceneSpec spec, const std::string& parent, const std::string& child);
-
-/// Undoes glueBodies(): removes the rigid joint of `child` and restores `former`, with the coordinates that
-/// come nearest to the body's present pose. Without `former` the body becomes a root at its present pose.
-/// Throws Error if `child` is not held by a rigid joint, and if `former` mimics another joint.
-[[nodiscard]] SceneSpec unglueBody(SceneSpec spec, const std::string& child,
-                                   const std::optional<JointSpec>& former = {});
-
 }  // namespace rex

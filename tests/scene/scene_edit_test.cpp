@@ -177,55 +177,8 @@ TEST(ReconfigureRoot, SaysWhatCannotBeTurned) {
                    "joint 'first': cannot be reversed: found a mimic with several coordinates");
 }
 
-TEST(GlueBodies, HoldsABodyAndLetsItGoAgain) {
-  Rng rng(6);
-  for (int round = 0; round < 30; ++round) {
-    const SceneSpec spec = randomPosture(rng, 14);
-    const std::string child = "b" + std::to_string(8 + rng.index(6)),
-                      parent = "b" + std::to_string(rng.index(8));
-    const Glued glued = glueBodies(spec, parent, child);
-    expectSamePlaces(spec, glued.spec);
-    ASSERT_TRUE(glued.former);
-    EXPECT_EQ(compile(glued.spec).nq(), compile(spec).nq() - positionCount(glued.former->type));
-    const SceneSpec freed = unglueBody(glued.spec, child, glued.former);
-    expectSamePlaces(spec, freed, 1e-11);
-    EXPECT_EQ(compile(freed).nq(), compile(spec).nq());
-  }
-}
-
-TEST(GlueBodies, TakesRootsAndTheWorld) {
-  SceneSpec spec = smallTree();
-  spec.bodies.push_back({.name = "box", .X_WB = translation(3, 2, 1)});
-  const Glued held = glueBodies(spec, "b3", "box");
-  EXPECT_FALSE(held.former);
-  expectSamePlaces(spec, held.spec);
-  const SceneSpec dropped =
-      unglueBody(atPositions(held.spec, (Eigen::VectorXd(5) << 0.5, 1, 0, 0, 0).finished()), "box");
-  EXPECT_TRUE(isApprox(dropped.bodies.back().X_WB,
-                       translation(1, 0, 0) * rotation(0.5, {1, 0, 0}) * translation(2, 2, 1), 1e-14));
-  const Glued fixed = glueBodies(spec, "world", "b3");
-  expectSamePlaces(spec, fixed.spec);
-  EXPECT_EQ(fixed.former->name, "third");
-}
-
-TEST(GlueBodies, SaysWhatIsWrong) {
-  const SceneSpec spec = smallTree();
-  EXPECT_REX_ERROR(glueBodies(spec, "b0", "b9"), "scene 'tree' has no body 'b9'");
-  EXPECT_REX_ERROR(glueBodies(spec, "b9", "b0"), "scene 'tree' has no body 'b9'");
-  EXPECT_REX_ERROR(glueBodies(spec, "b2", "b0"), "joint 'b2>b0': joints form a loop: found joint 'first'");
-  EXPECT_REX_ERROR(glueBodies(spec, "b0", "b0"), "joint 'b0>b0': joints form a loop: found one body");
-  EXPECT_REX_ERROR(glueBodies(spec, "b0", "b1"),
-                   "joint 'first': cannot be replaced: found joint 'second' that mimics it");
-  SceneSpec taken = spec;
-  taken.joints[0].name = "b0>b3";
-  taken.joints[1].mimic = "b0>b3";
-  EXPECT_REX_ERROR(glueBodies(taken, "b0", "b3"), "joint 'b0>b3': duplicate joint");
-  EXPECT_REX_ERROR(unglueBody(spec, "b0"), "body 'b0' is not glued: found no joint, wanted a rigid joint");
-  EXPECT_REX_ERROR(unglueBody(spec, "b3"), "body 'b3' is not glued: found joint 'third'");
-  const Glued held = glueBodies(spec, "b0", "b2");
-  EXPECT_REX_ERROR(unglueBody(held.spec, "b2", held.former),
-                   "joint 'second': cannot be put back: found a mimic of 'first', wanted none");
-  SceneSpec loop = spec;
+TEST(InitialPose, RefusesLoops) {
+  SceneSpec loop = smallTree();
   loop.joints.push_back({.name = "back", .parent = "b2", .child = "b0", .X_PF = {}, .X_MC = {}});
   EXPECT_REX_ERROR(initialPose(loop, "b2"), "loop: found joints that lead back to it, wanted a tree");
 }
