@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -6,9 +7,12 @@
 #include <Eigen/Eigenvalues>
 
 #include "base/rng.h"
+#include "bench/robots.h"
 #include "bench/row.h"
+#include "control/ilqr.h"
 #include "control/predictive_controller.h"
 #include "control/riccati.h"
+#include "control/robot_steps.h"
 #ifdef REX_WITH_SLICOT
 #include "bench/slicot_peer.h"
 #endif
@@ -96,8 +100,49 @@ Row predictiveRow() {
           .unit = "us"};
 }
 
+// Seven joints plan a second to another posture, by ten steps of iLQR with exact derivatives; the peer is
+// iLQR with differences.
+Row ilqrRow() {
+  constexpr int kJoints = 7, kSteps = 30;
+  const auto robot = std::make_shared<const Robot>(robots().front());
+  const auto steps = std::make_shared<RobotSteps>(robot->model, 1. / kSteps, 2);
+  using Eigen::VectorXd;
+  const ControlProblem differences{
+      .next = [=](const VectorXd& x, const VectorXd& u) { return steps->next(x, u); },
+      .stage = [](const VectorXd&, const VectorXd& u, int) -> VectorXd { return 0.02 * u; },
+      .final = [=](const VectorXd& x) -> VectorXd {
+        VectorXd e = 2 * x;
+        e.head(kJoints) = 20 * (x.head(kJoints) - robot->Q.col(0));
+        return e;
+      },
+      .start = VectorXd::Zero(2 * kJoints)};
+  ControlProblem exact = differences;
+  exact.derivative = [=](const VectorXd& x, const VectorXd& u) { return steps->derivative(x, u); };
+  exact.stageDerivative = [](const VectorXd&, const VectorXd&, int) {
+    return MotionJacobians{Eigen::MatrixXd::Zero(kJoints, 2 * kJoints),
+                           0.02 * Eigen::MatrixXd::Identity(kJoints, kJoints)};
+  };
+  exact.finalDerivative = [](const VectorXd&) {
+    Eigen::MatrixXd J = 2 * Eigen::MatrixXd::Identity(2 * kJoints, 2 * kJoints);
+    J.topLeftCorner(kJoints, kJoints) *= 10;
+    return J;
+  };
+  const auto planned = [](const ControlProblem& problem) {
+    return ilqr(problem, Eigen::MatrixXd::Zero(kJoints, kSteps), {.maxIterations = 10});
+  };
+  const double cost = planned(exact).cost;
+  if (!(std::abs(planned(differences).cost - cost) <= 1e-6 * cost))
+    throw std::logic_error("iLQR plans otherwise with differences");
+  return {.name = "ilqr-arm7",
+          .ours = timed([=] { (void)planned(exact); }),
+          .peerName = "differences",
+          .peer = timed([=] { (void)planned(differences); }),
+          .target = 0.4,
+          .unit = "ms"};
+}
+
 }  // namespace
 
-std::vector<Row> controlRows() { return {careRow(50), predictiveRow()}; }
+std::vector<Row> controlRows() { return {careRow(50), ilqrRow(), predictiveRow()}; }
 
 }  // namespace rex::bench

@@ -3,6 +3,7 @@
 #include "base/rng.h"
 #include "bench/dynamics_peer.h"
 #include "bench/row.h"
+#include "control/robot_steps.h"
 #include "dynamics/dynamics_batch.h"
 #include "dynamics/equations_of_motion.h"
 #include "dynamics/forward_dynamics.h"
@@ -14,6 +15,7 @@ namespace {
 struct Workspace {
   explicit Workspace(MovingRobot r)
       : robot(std::move(r)),
+        steps(robot.model, kStepSeconds),
         M(robot.model.nv(), robot.model.nv()),
         result(robot.model.nv()),
         results(robot.model.nv(), Robot::kPostures) {}
@@ -27,6 +29,11 @@ struct Workspace {
                          result);
   }
   void massMatrix(int k) { rex::massMatrix(robot.model, robot.Q.col(k), memory, M); }
+  void inverseDynamicsDerivatives(int k) {
+    rex::inverseDynamicsDerivatives(robot.model, robot.Q.col(k), robot.V.col(k), robot.A.col(k), gravity_W,
+                                    memory, derivatives);
+  }
+  void stepDerivatives(int k) { (void)steps.derivative(robot.state(k), robot.U.col(k)); }
   void inverseDynamicsBatch() {
     rex::inverseDynamicsBatch(robot.model, robot.Q, robot.V, robot.A, gravity_W, memory, results);
   }
@@ -35,11 +42,13 @@ struct Workspace {
   }
 
   MovingRobot robot;
+  RobotSteps steps;
   Eigen::Vector3d gravity_W = earthGravity();
   DynamicsWorkspace memory;
   Eigen::MatrixXd M;
   Eigen::VectorXd result;
   Eigen::MatrixXd results;
+  InverseDynamicsDerivatives derivatives;
 };
 using Ours = std::shared_ptr<Workspace>;
 
@@ -66,6 +75,18 @@ void addForwardDynamics(const Ours& ours, const DynamicsPeer& mujoco, std::vecto
                   "MuJoCo", theirs, 0.14});
 }
 
+// Those of inverse dynamics against inverse dynamics alone; those of a step against MuJoCo's differences,
+// which are not asked for derivatives by forces.
+void addDerivatives(const Ours& ours, const DynamicsPeer& mujoco, std::vector<Row>& rows) {
+  const std::string on = "-" + ours->robot.name;
+  rows.push_back({"rnea-derivatives" + on,
+                  timedInTurn([ours](int k) { ours->inverseDynamicsDerivatives(k); }), "rnea" + on,
+                  timedInTurn([ours](int k) { ours->inverseDynamics(k); }),
+                  ours->robot.name == "man" ? 6. : 4.});
+  rows.push_back({"step-derivatives" + on, timedInTurn([ours](int k) { ours->stepDerivatives(k); }), "MuJoCo",
+                  timedInTurn(mujoco.stepDerivatives), 0.3});
+}
+
 }  // namespace
 
 std::vector<MovingRobot> movingRobots() {
@@ -89,6 +110,7 @@ std::vector<Row> dynamicsRows() {
     addInverseDynamics(ours, mujoco, rows);
     addMassMatrix(ours, mujoco, rows);
     addForwardDynamics(ours, mujoco, rows);
+    addDerivatives(ours, mujoco, rows);
   }
   return rows;
 }

@@ -5,6 +5,7 @@
 
 #include "bench/dynamics_peer.h"
 #include "bench/mujoco_model.h"
+#include "control/robot_steps.h"
 #include "dynamics/equations_of_motion.h"
 #include "dynamics/forward_dynamics.h"
 
@@ -30,6 +31,8 @@ struct Simulation {
       U.row(column) = robot.U.row(joint.vIndex);
       columns.push_back(column);
     }
+    model->opt.timestep = kStepSeconds;
+    byState.resize(2 * model->nv, 2 * model->nv);
   }
 
   void setState(int k) {
@@ -60,15 +63,24 @@ struct Simulation {
     mj_solveM(model.get(), data.get(), result.data(), bias.data(), 1);
   }
 
+  // Of (q, v) after a step, by (q, v) before; differences to one side cost half.
+  void stepDerivatives(int k, bool isCentral) {
+    setState(k);
+    Eigen::Map<Eigen::VectorXd>(data->qfrc_applied, U.rows()) = U.col(k);
+    mjd_transitionFD(model.get(), data.get(), 1e-6, isCentral, byState.data(), nullptr, nullptr, nullptr);
+  }
+
   MujocoModel model;
   std::unique_ptr<mjData, DataDeleter> data;
   Eigen::MatrixXd Q, V, A, U;  // the states in MuJoCo's order
   Eigen::VectorXd bias, result;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> byState;
   std::vector<int> columns;  // theirs, for each of ours
 };
 
-void requireAgreement(const std::string& what, const Eigen::VectorXd& ours, const Eigen::VectorXd& theirs) {
-  if ((ours - theirs).lpNorm<Eigen::Infinity>() <= 1e-9 * ours.lpNorm<Eigen::Infinity>()) return;
+void requireAgreement(const std::string& what, const Eigen::VectorXd& ours, const Eigen::VectorXd& theirs,
+                      double tolerance = 1e-9) {
+  if ((ours - theirs).lpNorm<Eigen::Infinity>() <= tolerance * ours.lpNorm<Eigen::Infinity>()) return;
   throw std::logic_error(what + " differ from ours");
 }
 
@@ -86,6 +98,13 @@ void requireSameResults(const MovingRobot& robot, Simulation& mujoco, int k) {
   requireAgreement(robot.name + ": MuJoCo accelerations",
                    forwardDynamics(robot.model, robot.Q.col(k), robot.V.col(k), robot.U.col(k)),
                    mujoco.result(mujoco.columns));
+  mujoco.stepDerivatives(k, true);
+  std::vector<int> both = mujoco.columns;
+  for (const int column : mujoco.columns) both.push_back(column + robot.model.nv());
+  const MotionJacobians step =
+      RobotSteps(robot.model, kStepSeconds).derivative(robot.state(k), robot.U.col(k));
+  requireAgreement(robot.name + ": MuJoCo derivatives of a step", step.A.reshaped(),
+                   Eigen::MatrixXd(mujoco.byState(both, both)).reshaped(), 1e-6);
 }
 
 }  // namespace
@@ -95,7 +114,8 @@ DynamicsPeer mujocoDynamicsPeer(const MovingRobot& robot) {
   for (int k = 0; k < Robot::kPostures; ++k) requireSameResults(robot, *mujoco, k);
   return {.inverseDynamics = [mujoco](int k) { mujoco->inverseDynamics(k); },
           .massMatrix = [mujoco](int k) { mujoco->massMatrix(k); },
-          .forwardDynamics = [mujoco](int k) { mujoco->forwardDynamics(k); }};
+          .forwardDynamics = [mujoco](int k) { mujoco->forwardDynamics(k); },
+          .stepDerivatives = [mujoco](int k) { mujoco->stepDerivatives(k, false); }};
 }
 
 }  // namespace rex::bench
