@@ -45,9 +45,14 @@ MotionJacobians RobotSteps::derivative(const Eigen::VectorXd& x, const Eigen::Ve
   V.middleCols(n, n).setIdentity();
   for (int i = 0; i < parts_; ++i) {
     forwardDynamicsDerivatives(model_, y.head(n), y.tail(n), u, gravity_W_, workspace_, at_);
-    const Eigen::MatrixXd before = at_.a_v * V;
-    V += h_ * before;
-    V += h_ * (at_.a_q * Q);
+    if (i == 0) {  // times the identity
+      V.leftCols(n) += h_ * at_.a_q;
+      V.middleCols(n, n) += h_ * at_.a_v;
+    } else {
+      const Eigen::MatrixXd before = at_.a_v * V;
+      V += h_ * before;
+      V += h_ * (at_.a_q * Q);
+    }
     V.rightCols(n) += h_ * at_.a_u;
     Q += h_ * V;
     move(y);
