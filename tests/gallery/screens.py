@@ -1,16 +1,27 @@
-"""Films the program for README.md and the documents: screens.py REX FOLDER
+"""Films the program for README.md and the documents: screens.py REX REX_OF_TREE FOLDER
 
-Writes dragged.webp (the mouse drags a hand in `rex view`), failed.webp (the replay that a student gets who draws the circle
-of exercise 01 in the wrong plane) and check.png (the picture of that check).
+Writes exercises.webp (a picture of each exercise, that of the course's pages) and dragged.webp (the mouse drags a hand in
+`rex view`). Of the circle of exercise 01 in the wrong plane: test.webp (`rex test` in a terminal), check.png (the picture of the
+check), failed.webp (its replay) and watch.webp (the page of `rex watch --open`). Of a small class: statistics.webp.
 """
 
+import fcntl
+import html
+
 import math
+import os
 import pathlib
+import pty
+import random
+import re
 import shutil
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
+import termios
+import tomllib
 
 root = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(root / "tests" / "support"))
@@ -25,9 +36,9 @@ if solution.count(RIGHT) != 1:
     sys.exit("screens.py: the solution of %s has changed" % EXERCISE)
 
 
-def page_of(browser, url, width, height, ready):
+def page_of(browser, url, width, height, ready, scale=1):
     page = Page(browser, "about:blank")
-    page.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
+    page.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=scale, mobile=False)
     page.go(url)
     if not page.wait(ready, 200):
         sys.exit("screens.py: %s does not get ready" % url)
@@ -50,11 +61,112 @@ class Film:
         self.folder.cleanup()
 
 
+def still(page, file, quality=80):
+    with tempfile.NamedTemporaryFile(suffix=".png") as shot:
+        page.shot(shot.name)
+        subprocess.run(["ffmpeg", "-v", "error", "-y", "-i", shot.name, "-c:v", "libwebp", "-quality", str(quality), file], check=True)
+
+
+def draw_page(browser, body, width, file, scale=1):
+    """A picture of HTML, as high as it is."""
+    with tempfile.NamedTemporaryFile("w", suffix=".html") as text:
+        text.write("<!DOCTYPE html><meta charset=utf-8>" + body)
+        text.flush()
+        page = page_of(browser, "file://" + text.name, width, 100, "document.readyState === 'complete'", scale)
+        height = page.js("document.documentElement.scrollHeight")
+        page.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=scale, mobile=False)
+        still(page, file)
+
+
+def typed(command, folder, columns=80):
+    """The exit code of a command in a terminal, and what it printed, as HTML."""
+    ours, theirs = pty.openpty()
+    fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 50, columns, 0, 0))
+    process = subprocess.Popen(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=theirs, stderr=subprocess.DEVNULL)
+    os.close(theirs)
+    text = b""
+    try:
+        while part := os.read(ours, 65536):
+            text += part
+    except OSError:  # so Linux says that nobody writes any more
+        pass
+    os.close(ours)
+    text = html.escape(text.decode().replace("\r\n", "\n"))
+    return process.wait(), re.sub("\x1b\\[(\\d+)m(.*?)\x1b\\[0m", r'<span class="c\1">\2</span>', text, flags=re.S)
+
+
+def draw_terminal(browser, command, text, file, after=""):
+    draw_page(browser, """<style>body { margin: 0; padding: 12px 16px; background: #1d2229; color: #e4e7eb }
+        pre { margin: 0; font: 14px/1.35 "DejaVu Sans Mono", monospace } b { color: #fff } img { width: 100%%; margin-top: 12px }
+        .c31 { color: #ff7b72 } .c32 { color: #6cc96f } .c33 { color: #e3b341 } .c2, .c90 { color: #98a2ad }</style>
+        <pre><b>$ %s</b>\n%s</pre>%s""" % (command, text.rstrip(), after), 720, file, 16 / 9)
+
+
+def draw_exercises(browser, rex, out):
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([rex, "dev", "site", folder + "/site"], cwd=root, check=True)
+        cells = ""
+        for picture in sorted(pathlib.Path(folder, "site/exercises").glob("*.png")):
+            number = picture.stem.split("-")[0]
+            title = tomllib.loads((root / "exercises" / picture.stem / "exercise.toml").read_text())["title"]
+            cells += "<figure><img src='%s'><figcaption><b>%s</b> %s</figcaption></figure>" % (picture, number, html.escape(title))
+        draw_page(browser, """<style>body { margin: 0; padding: 8px; font: 13px/1.25 "DejaVu Sans", sans-serif; background: #e9ecef;
+            display: flex; flex-wrap: wrap; justify-content: center; gap: 8px } figure { margin: 0; width: 204px; background: #fff }
+            img { width: 204px; height: 153px; object-fit: contain } figcaption { padding: 2px 6px 6px; height: 33px }</style>"""
+                  + cells, 1280, out / "exercises.webp")
+
+
+def written(solved, wrong):
+    """main.cpp of a student who has solved some regions of the exercise."""
+    def region(found):
+        return found[2] if found[1] in solved else re.sub(r"^ *//\| ?", "", found[3], flags=re.M)
+    text = re.sub(r"^ *// <solution (\w+)>\n(.*?)^ *// <todo>\n(.*?)^ *// </solution>\n", region, solution, flags=re.M | re.S)
+    return text.replace(RIGHT, WRONG) if wrong else text
+
+
+def draw_statistics(browser, rex, folder, out):
+    regions = re.findall(r"<solution (\w+)>", solution)
+    chance = random.Random(1)
+    for number in range(12):
+        file = folder / "class" / ("student%02d" % number) / EXERCISE / "main.cpp"
+        file.parent.mkdir(parents=True)
+        solved = [one for k, one in enumerate(regions) if chance.random() < 1 - 0.09 * k]
+        file.write_text(written(solved, wrong=number % 3 == 0))
+    subprocess.run([rex, "grade", folder / "class", "01", "-o", folder / "results"], cwd=root, stdout=subprocess.DEVNULL)
+    parts = folder / "parts.png"
+    code, text = typed([rex, "dev", "stats", folder / "results", "--parts", parts], root)
+    if code != 0:
+        sys.exit("screens.py: no statistics: " + text)
+    draw_terminal(browser, "rex dev stats results --parts parts.png", text.replace(str(parts), "parts.png"),
+                  out / "statistics.webp", "<img src='%s'>" % parts)
+
+
+def draw_watch_page(browser, rex_of_tree, folder, out):
+    tree = folder / "tree"  # the same by links, but for one file
+    ours = tree / "exercises" / EXERCISE
+    ours.mkdir(parents=True)
+    for there, here in ((root, tree), (root / "exercises", tree / "exercises"), (root / "exercises" / EXERCISE, ours)):
+        for file in there.iterdir():
+            if file.name not in ("out", ".rex", "exercises", EXERCISE, "main.cpp"):
+                (here / file.name).symlink_to(file)
+    (ours / "main.cpp").write_text(written(re.findall(r"<solution (\w+)>", solution), wrong=True))
+    process = subprocess.Popen([rex_of_tree, tree, "watch", "01", "--open"], cwd=tree, stdin=subprocess.DEVNULL,
+                               stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    try:
+        page = page_of(browser, process.stdout.readline().split()[1], 1280, 800, "document.querySelector('#evidence img')")
+        page.wait("document.images.length && [...document.images].every(one => one.complete)", 20)
+        still(page, out / "watch.webp")
+    finally:
+        process.send_signal(signal.SIGINT)
+        process.wait(20)
+
+
 def failed_check(browser, rex, folder, out):
     (folder / "main.cpp").write_text(solution.replace(RIGHT, WRONG))
-    test = subprocess.run([rex, "test", "01", "--check", "circle", "--main", folder / "main.cpp", "-o", folder], cwd=root)
-    if test.returncode != 1:
+    code, text = typed([rex, "test", "01", "--check", "circle", "--main", folder / "main.cpp", "-o", folder], root)
+    if code != 1:
         sys.exit("screens.py: the check does not fail")
+    draw_terminal(browser, "rex test 01 --check circle", text.replace(str(folder), "out/" + EXERCISE), out / "test.webp")
     shutil.copy(folder / "checks" / "circle.png", out / "check.png")
     film = Film(page_of(browser, f"file://{folder}/checks/circle.html#paused", 960, 556,
                         "document.body && document.body.classList.contains('running')"))
@@ -87,9 +199,12 @@ def dragged(browser, rex, out):
 
 
 if __name__ == "__main__":
-    rex, out = sys.argv[1], pathlib.Path(sys.argv[2])
+    rex, rex_of_tree, out = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3])
     chromium = Browser()
+    draw_exercises(chromium, rex, out)
     dragged(chromium, rex, out)
     with tempfile.TemporaryDirectory() as name:
         failed_check(chromium, rex, pathlib.Path(name), out)
+        draw_watch_page(chromium, rex_of_tree, pathlib.Path(name), out)
+        draw_statistics(chromium, rex, pathlib.Path(name), out)
     chromium.close()
