@@ -148,7 +148,7 @@ void showBox() {
                 .legend = Legend::kOutside,
                 .series = {{.label = "bounds", .x = {-1, 1, 1, -1, -1}, .y = {-1, -1, 1, 1, -1}},
                            point("minimum without bounds", free, Marker::kCross),
-                           point("the same, cut off", cut, Marker::kSquare),
+                           point("the same, clipped", cut, Marker::kSquare),
                            point("boxed()", found, Marker::kDot)}};
   figure.equalAxes = true;
   figure.heatMap = sampledHeatMap(value, {-2, 4}, {-3, 2});
@@ -160,13 +160,13 @@ void showTrolley(const Task& task) {
   if (!plansSomething(task)) return nothingYet("plans");
   const Eigen::Vector2d start(5, 0);
   Figure position{.title = "A trolley, 5 m from its goal", .xLabel = "time [s]", .yLabel = "position [m]"};
-  Figure control{.title = "Its controls", .xLabel = "time [s]", .yLabel = "u [m/s^2]"};
+  Figure control{.title = "Controls of the trolley", .xLabel = "time [s]", .yLabel = "u [m/s^2]"};
   const auto add = [&](const std::string& label, const Law& law) {
     const Drive drive = followed(task.plant, law, start, 120);
     position.series.push_back(overTime(drive.X.row(0), kTau, {.label = label}));
     control.series.push_back(overTime(drive.U.row(0), kTau, {.label = label}));
   };
-  add("LQR, cut off", cutOff(task, regulatorOf(task, kTau)));
+  add("LQR, clipped", cutOff(task, regulatorOf(task, kTau)));
   for (const int N : {10, 40}) {
     Task other = task;
     other.N = N;
@@ -191,12 +191,12 @@ void showPole() {
   for (const int N : {1, 3, 6, 10, 15, 20}) {
     plans.add(N, farthest(planning(poleTask(N))));
   }
-  Figure figure{.title = "From how far a motor of 4 N brings a pole back",
+  Figure figure{.title = "Largest angle from which a motor of 4 N rights the pole",
                 .xLabel = "horizon [steps of 0.05 s]",
                 .yLabel = "angle [rad]",
                 .series = {plans},
                 .horizontalLines = {{.at = farthest(cutOff(shortest, regulatorOf(shortest, kPoleTau))),
-                                     .label = "LQR, cut off"}}};
+                                     .label = "LQR, clipped"}}};
   plot("pole", figure);
   std::vector<CartPoleView> views = balance(planning(poleTask(20)), .9 * plans.y.back(), 120);
   for (CartPoleView& view : views) view.caption = "a plan of 20 steps, every 0.05 s";
@@ -255,9 +255,9 @@ void showLine() {
     paths.series.push_back(path);
   };
   add("quadratic program", Q);
-  add("pseudo-inverse, cut off", cut);
+  add("pseudo-inverse, clipped", cut);
   paths.series.push_back(links(start, "the arm at first", true));
-  paths.series.push_back(links(Q.rightCols(1), "the arm in the end", false));
+  paths.series.push_back(links(Q.rightCols(1), "the arm at the end", false));
   plot("line", paths);
 }
 

@@ -179,9 +179,10 @@ void showImitation() {
         Figure figure =
             policyFigure(world, whereabouts(P, start, policy, kSteps).colwise().sum().transpose(), policy);
         figure.title =
-            rounds == 0 ? "A clone of one demonstration" : "The same after 80 rounds of aggregation";
+            rounds == 0 ? "A clone of one demonstration" : "The clone after 80 rounds of aggregation";
         figure.colorLabel = "visits in 40 steps";
         figure.colorRange = AxisRange(0, 1.2);
+        for (Arrows& arrows : figure.arrows) arrows.color = {1, 1, 1};
         plot(rounds == 0 ? "cloned" : "aggregated", figure);
       }
       const Eigen::VectorXd chances = mistakeChances(P, start, policy, teacher, kSteps);
@@ -198,6 +199,7 @@ void showImitation() {
   figure.title = "A clone on slippery ground: 30 runs each";
   figure.xLabel = "step";
   figure.yLabel = "chance of a mistake";
+  figure.yRange = AxisRange(0, .7);  // the legend is above the curves
   plot("drift", figure);
 }
 
@@ -228,13 +230,14 @@ void showTeacher() {
                         const Eigen::MatrixXd& policy) {
     Figure figure = policyFigure(world, walk.features.transpose() * w, policy);
     figure.title = title;
-    figure.colorLabel = "w^T phi: water, grass, road, home";
+    figure.colorLabel = "reward: water, grass, road, home";
+    for (Arrows& arrows : figure.arrows) arrows.color = {1, 1, 1};
     figure.colorRange = AxisRange(w.minCoeff() - .1, w.maxCoeff() + .1);
     plot(name, figure);
   };
-  draw("wishes", "What a teacher likes, and does", wishes, acts);
-  Series gap{.label = "value, by the weights of the teacher"},
-      distance{.label = "distance between both <phi>"};
+  draw("wishes", "Rewards and policy of a teacher", wishes, acts);
+  Series gap{.label = "in value, by the weights of the teacher"},
+      distance{.label = "in <phi>"};
   Explanation found;
   for (int rounds = 0; rounds <= 20; ++rounds) {
     found = explained(walk, teacher, rounds, 0);
@@ -245,11 +248,12 @@ void showTeacher() {
     gap.add(rounds, std::max(1e-3, wishes.dot(teacher - mixed)));
     distance.add(rounds, (teacher - mixed).norm());
   }
-  draw("inferred", "What 500 of its walks reveal, and a policy for that", found.w, found.policies.back());
-  plot("gap", {.title = "What the mixture lacks to be like the teacher",
+  draw("inferred", "Rewards and policy inferred from 500 walks", found.w, found.policies.back());
+  plot("gap", {.title = "How far the mixture is from the teacher",
                .xLabel = "round",
-               .yLabel = "value, distance",
+               .yLabel = "difference [1]",
                .logY = true,
+               .yRange = AxisRange(.05, 10),
                .series = {gap, distance}});
 }
 
