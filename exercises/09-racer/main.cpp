@@ -15,7 +15,7 @@ Eigen::Matrix2d massMatrix(const Eigen::Vector2d& q, const RacerModel& racer) {
 }
 
 Eigen::Vector2d forceTerm(const Eigen::Vector2d& q, const Eigen::Vector2d& v, const RacerModel& racer) {
-  // TODO: what d/dt dT/dq' - dT/dq + dU/dq has besides M q''.
+  // TODO: all terms of d/dt dT/dq' - dT/dq + dU/dq but M q''.
   return Eigen::Vector2d::Zero();
 }
 
@@ -40,7 +40,7 @@ Eigen::Vector4d stepped(const Eigen::Vector4d& x, double u, double tau, const Ra
 }
 
 Eigen::MatrixXd kicks(int steps, double tau, double noise, Rng& rng) {
-  // TODO: normal numbers of the right deviation; `rng` has some.
+  // TODO: normally distributed numbers with the right deviation, from `rng`.
   return Eigen::MatrixXd::Zero(2, steps);
 }
 
@@ -50,12 +50,12 @@ Linear linearNearRest(const RacerModel& racer) {
 }
 
 Eigen::Vector4d lqrGain(const Linear& system, const Eigen::Matrix4d& Q, double R) {
-  // TODO: the P of 0 = A^T P + P A - P B B^T P / R + Q, and what K is then. inverse(), solve() may help.
+  // TODO: solve 0 = A^T P + P A - P B B^T P / R + Q for P, which gives K. inverse(), solve() may help.
   return Eigen::Vector4d::Zero();
 }
 
 Eigen::VectorXd featuresAt(const Eigen::Vector4d& y, const Eigen::VectorXd& before, double u, double tau) {
-  // TODO: 27 numbers, those of the first reading apart.
+  // TODO: 27 numbers; the first reading is a special case.
   return Eigen::VectorXd::Zero(kFeatures);
 }
 
@@ -81,7 +81,7 @@ Eigen::VectorXd searchedPolicy(const Rides& rides, int budget, Rng& rng) {
 }
 
 double sensedCost(const Eigen::MatrixXd& Y, int steps) {
-  // TODO: what the readings cost, and the steps without one.
+  // TODO: the cost of the readings, and that of the steps without one.
   return 0;
 }
 

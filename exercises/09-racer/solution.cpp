@@ -31,7 +31,7 @@ Eigen::Vector2d forceTerm(const Eigen::Vector2d& q, const Eigen::Vector2d& v, co
   const double swing = racer.mB * racer.l * std::sin(q[1]);
   return {-swing * v[1] * v[1], -swing * racer.g};
   // <todo>
-  //| // TODO: what d/dt dT/dq' - dT/dq + dU/dq has besides M q''.
+  //| // TODO: all terms of d/dt dT/dq' - dT/dq + dU/dq but M q''.
   //| return Eigen::Vector2d::Zero();
   // </solution>
 }
@@ -83,7 +83,7 @@ Eigen::MatrixXd kicks(int steps, double tau, double noise, Rng& rng) {
   // <solution kicks>
   return std::sqrt(tau) * noise * rng.normalVector(2 * steps).reshaped(2, steps);
   // <todo>
-  //| // TODO: normal numbers of the right deviation; `rng` has some.
+  //| // TODO: normally distributed numbers with the right deviation, from `rng`.
   //| return Eigen::MatrixXd::Zero(2, steps);
   // </solution>
 }
@@ -119,7 +119,7 @@ Eigen::Vector4d lqrGain(const Linear& system, const Eigen::Matrix4d& Q, double R
   }
   return K;
   // <todo>
-  //| // TODO: the P of 0 = A^T P + P A - P B B^T P / R + Q, and what K is then. inverse(), solve() may help.
+  //| // TODO: solve 0 = A^T P + P A - P B B^T P / R + Q for P, which gives K. inverse(), solve() may help.
   //| return Eigen::Vector4d::Zero();
   // </solution>
 }
@@ -138,7 +138,7 @@ Eigen::VectorXd featuresAt(const Eigen::Vector4d& y, const Eigen::VectorXd& befo
   now[26] = before[25];
   return now;
   // <todo>
-  //| // TODO: 27 numbers, those of the first reading apart.
+  //| // TODO: 27 numbers; the first reading is a special case.
   //| return Eigen::VectorXd::Zero(kFeatures);
   // </solution>
 }
@@ -246,7 +246,7 @@ double sensedCost(const Eigen::MatrixXd& Y, int steps) {
   return Y.row(2).squaredNorm() + Y.row(3).squaredNorm() / 10 +
          kCostOfMissing * static_cast<double>(steps - Y.cols());
   // <todo>
-  //| // TODO: what the readings cost, and the steps without one.
+  //| // TODO: the cost of the readings, and that of the steps without one.
   //| return 0;
   // </solution>
 }

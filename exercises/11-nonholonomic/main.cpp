@@ -12,7 +12,7 @@
 using namespace rex;
 
 Eigen::Vector3d velocityOf(const CarModel& car, const Eigen::Vector3d& q, double speed, double steering) {
-  // TODO: slide 4:48. What does its third line say about a car that stands?
+  // TODO: slide 4:48. What does its third line say about a car that stands still?
   return Eigen::Vector3d::Zero();
 }
 
@@ -27,12 +27,12 @@ bool canFollow(const CarModel& car, const std::vector<Eigen::Vector3d>& path) {
 }
 
 double poseDistance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  // TODO: slide 4:59, a), and then with x and y.
+  // TODO: slide 4:59 a), and then add x and y.
   return 0;
 }
 
 double angleDistance(double a, double b) {
-  // TODO: slide 4:59, b). What if one angle is 7 turns?
+  // TODO: slide 4:59 b). What if one angle is 7 turns?
   return 0;
 }
 
@@ -41,12 +41,12 @@ bool isFree(const CarModel& car, const Eigen::Vector3d& q, const std::vector<Blo
   return true;
 }
 
-// TODO: you may want a function that tests the whole way of a drive.
+// TODO: you may want a function that tests the whole path of a drive.
 
 std::optional<Drive> driveTowards(const CarModel& car, const Eigen::Vector3d& from,
                                   const Eigen::Vector3d& target, double seconds,
                                   const std::vector<Block>& blocks, Rng& rng) {
-  // TODO: which of 20 random controls leads nearest to the target, with nothing in its way?
+  // TODO: which of 20 random controls leads nearest to the target without a collision?
   return {};
 }
 
@@ -68,10 +68,10 @@ DubinsWay shortestDubins(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
   return best;
 }
 
-// TODO: what else parking needs: curves and parts of a way as your own functions.
+// TODO: your own functions for parking, such as curves and parts of a path.
 
 std::vector<Drive> park(const CarModel& car, const World& lot) {
-  // TODO: a way out of the space, driven backward, is a way in.
+  // TODO: a path out of the space, driven backward, is a path into it.
   return {};
 }
 
@@ -88,7 +88,7 @@ double hitchGrowth(const Rig& rig, double speed) {
 
 double reverseSteering(const Rig& rig, const Eigen::Vector4d& q) {
   // TODO: which heading should the trailer have beside the axis? Which angle at the hitch turns it there,
-  // and which steering angle makes that?
+  // and which steering angle leads to that?
   return 0;
 }
 

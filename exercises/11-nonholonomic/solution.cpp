@@ -19,7 +19,7 @@ Eigen::Vector3d velocityOf(const CarModel& car, const Eigen::Vector3d& q, double
   // <solution velocityOf>
   return {speed * std::cos(q[2]), speed * std::sin(q[2]), speed / car.wheelbase * std::tan(steering)};
   // <todo>
-  //| // TODO: slide 4:48. What does its third line say about a car that stands?
+  //| // TODO: slide 4:48. What does its third line say about a car that stands still?
   //| return Eigen::Vector3d::Zero();
   // </solution>
 }
@@ -64,7 +64,7 @@ double poseDistance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   const double heading = 2 * std::sin((a[2] - b[2]) / 2);
   return std::hypot(a[0] - b[0], a[1] - b[1], heading);
   // <todo>
-  //| // TODO: slide 4:59, a), and then with x and y.
+  //| // TODO: slide 4:59 a), and then add x and y.
   //| return 0;
   // </solution>
 }
@@ -73,7 +73,7 @@ double angleDistance(double a, double b) {
   // <solution angleDistance>
   return std::abs(std::remainder(a - b, 2 * std::numbers::pi));
   // <todo>
-  //| // TODO: slide 4:59, b). What if one angle is 7 turns?
+  //| // TODO: slide 4:59 b). What if one angle is 7 turns?
   //| return 0;
   // </solution>
 }
@@ -118,7 +118,7 @@ bool isFreeOnTheWay(CarModel car, const Eigen::Vector3d& from, const Drive& driv
   return true;
 }
 // <todo>
-//| // TODO: you may want a function that tests the whole way of a drive.
+//| // TODO: you may want a function that tests the whole path of a drive.
 // </solution>
 
 std::optional<Drive> driveTowards(const CarModel& car, const Eigen::Vector3d& from,
@@ -136,7 +136,7 @@ std::optional<Drive> driveTowards(const CarModel& car, const Eigen::Vector3d& fr
     if (isFreeOnTheWay(car, from, drive, blocks)) return drive;
   return {};
   // <todo>
-  //| // TODO: which of 20 random controls leads nearest to the target, with nothing in its way?
+  //| // TODO: which of 20 random controls leads nearest to the target without a collision?
   //| return {};
   // </solution>
 }
@@ -302,7 +302,7 @@ std::vector<Drive> parkInSteps(const CarModel& car, const World& lot, double ste
   return {};
 }
 // <todo>
-//| // TODO: what else parking needs: curves and parts of a way as your own functions.
+//| // TODO: your own functions for parking, such as curves and parts of a path.
 // </solution>
 
 std::vector<Drive> park(const CarModel& car, const World& lot) {
@@ -314,7 +314,7 @@ std::vector<Drive> park(const CarModel& car, const World& lot) {
   }
   return {};
   // <todo>
-  //| // TODO: a way out of the space, driven backward, is a way in.
+  //| // TODO: a path out of the space, driven backward, is a path into it.
   //| return {};
   // </solution>
 }
@@ -355,7 +355,7 @@ double reverseSteering(const Rig& rig, const Eigen::Vector4d& q) {
   return std::clamp(steering, rig.car.minSteering, rig.car.maxSteering);
   // <todo>
   //| // TODO: which heading should the trailer have beside the axis? Which angle at the hitch turns it there,
-  //| // and which steering angle makes that?
+  //| // and which steering angle leads to that?
   //| return 0;
   // </solution>
 }

@@ -75,7 +75,7 @@ double nearestShare(const Eigen::VectorXd& teacher, const Eigen::VectorXd& mixed
 
 Explanation explained(const FeatureWorld& world, const Eigen::VectorXd& teacher, int rounds,
                       double tolerance) {
-  // TODO: weights, a policy, a share; and again.
+  // TODO: weights, a policy for them, its share; then repeat.
   return {};
 }
 

@@ -227,7 +227,7 @@ Explanation explained(const FeatureWorld& world, const Eigen::VectorXd& teacher,
   }
   return found;
   // <todo>
-  //| // TODO: weights, a policy, a share; and again.
+  //| // TODO: weights, a policy for them, its share; then repeat.
   //| return {};
   // </solution>
 }
