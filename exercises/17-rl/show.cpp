@@ -236,8 +236,7 @@ void showTeacher() {
     plot(name, figure);
   };
   draw("wishes", "Rewards and policy of a teacher", wishes, acts);
-  Series gap{.label = "in value, by the weights of the teacher"},
-      distance{.label = "in <phi>"};
+  Series gap{.label = "in value, by the weights of the teacher"}, distance{.label = "in <phi>"};
   Explanation found;
   for (int rounds = 0; rounds <= 20; ++rounds) {
     found = explained(walk, teacher, rounds, 0);

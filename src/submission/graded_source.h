@@ -24,10 +24,11 @@ struct CppPiece {
 /// All pieces of a file, in order. Text that is not C++ gives meaningless pieces.
 [[nodiscard]] std::vector<CppPiece> cppPieces(const CppText& text);
 
-/// The graded part of a student's file: `functions` and everything they need. main() and what only main()
-/// needs, which takes as long to compile, is replaced by blanks and declarations, so that the rest keeps
-/// its lines, columns and behaviour. Empty if none of the functions exists, or if a removed function other
-/// than main() names one of `watched`. The result need not compile.
+/// A student's file in which the compiler reads everything, and warns about it, but makes code only of
+/// `functions` and what they need. main() and what only main() needs, which takes as long, gets further
+/// words, between pieces and before the last brace, so that the rest keeps its lines, columns and behaviour;
+/// if that is short, nothing. Empty if none of the functions exists, or if a function other than main() of
+/// which no code is made names one of `watched`. The result need not compile.
 [[nodiscard]] std::string gradedSource(std::string_view source, const std::vector<std::string>& functions,
                                        const std::vector<std::string>& watched);
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <functional>
 #include <optional>
 
 #include <fcntl.h>
@@ -24,7 +23,6 @@
 #include "submission/reading_apart_internal.h"
 #include "submission/source_remarks.h"
 #include "submission/symbol_scan.h"
-#include "submission/two_compilers.h"
 #include "submission/worker_part.h"
 
 namespace rex::submission {
@@ -32,7 +30,7 @@ namespace {
 
 using std::filesystem::path;
 
-constexpr const char *kDependencies = "student.d", *kOfAssembler = "student.as.d", *kPart = "graded";
+constexpr const char *kDependencies = "student.d", *kOfAssembler = "student.as.d";
 constexpr std::size_t kLogSize = 64u << 10;
 
 // The name to compile under: the student's own if it is plain, for names come from strangers.
@@ -140,7 +138,7 @@ struct FirstReading {
   std::vector<grading::CompileDiagnostic> lineMarkers{};
   std::vector<std::string> prefix{};  // prefixFlags()
   std::string part{};                 // gradedSource()
-  std::string asking{};               // withAutoQuestions(), if there is a part
+  bool isAsking = false;              // with withAutoQuestions()
 };
 
 FirstReading readFirst(const std::string& source, const std::string& name, const Toolchain& toolchain,
@@ -148,57 +146,39 @@ FirstReading readFirst(const std::string& source, const std::string& name, const
   const auto read = [&]() -> nlohmann::json {
     const auto markers =
         options.publicHeadersOnly ? lineMarkers(source, name) : std::vector<grading::CompileDiagnostic>{};
-    if (!markers.empty()) return {markers, std::vector<std::string>{}, "", ""};
+    if (!markers.empty()) return {markers, std::vector<std::string>{}, "", false};
+    const std::string asking = options.part ? withAutoQuestions(CppText(source)) : "";
+    const std::string& whole = asking.empty() ? source : asking;
     const std::string part =
-        options.part ? gradedSource(source, toolchain.functions, lastNames(forbidden)) : "";
-    return {markers, prefixFlags(toolchain.prefix, source, toolchain.flags), part,
-            part.empty() ? "" : withAutoQuestions(CppText(source))};
+        options.part ? gradedSource(whole, toolchain.functions, lastNames(forbidden)) : "";
+    return {markers, prefixFlags(toolchain.prefix, source, toolchain.flags), part, !asking.empty()};
   };
   const nlohmann::json found = readApart("the file", kBeforeCompiling, read);
   return {found.at(0), found.at(1), found.at(2), found.at(3)};
 }
 
-// Like compilePart(), with questions in the text that is only checked. Empty if there are none, or errors:
-// those are better reported without.
-std::optional<ProcessResult> askAboutAuto(const FirstReading& reading, std::vector<std::string> command,
-                                          const std::string& name, const StudentObject& result,
-                                          const std::function<BuildTools(const path&)>& toolsFor) {
-  if (reading.asking.empty()) return {};
-  const path file = result.object.parent_path() / name;
-  writeSource(file, reading.asking);
-  command.insert(command.end(), {"-include", kAutoQuestions});
-  std::optional<ProcessResult> run = compilePart(reading.part, command, name, result.object, toolsFor);
-  writeSource(file, result.source);
-  return run && (run->ok() || run->timedOut) ? run : std::nullopt;
-}
-
-// A second compiler reads the same headers again, which saves time only if the part leaves out enough.
-bool leavesOutMuch(const std::string& part, const std::string& source) {
-  constexpr int kMuch = 300;  // characters
-  int changed = 0;
-  for (std::size_t k = 0; k < source.size(); ++k) changed += part[k] != source[k];
-  return changed > kMuch;
-}
-
 // Compiles the graded part alone if that is wanted and the file allows it. It does not if the scan for
-// forbidden functions, which sees only what is compiled, would miss something.
-ProcessResult compileAll(const Toolchain& toolchain, const std::vector<std::string>& command,
-                         const std::string& name, const BuildTools& tools, const StudentBuildOptions& options,
+// forbidden functions, which sees only what is compiled, would miss something. Errors are better reported
+// without the words that are put into the part.
+ProcessResult compileAll(const std::vector<std::string>& command, const std::string& name,
+                         const BuildTools& tools, const StudentBuildOptions& options,
                          const FirstReading& reading, const StudentObject& result) {
   std::vector<std::string> withJson = command;
   withJson.insert(withJson.end(), {"-fdiagnostics-format=json", "-MD", "-MF", kDependencies,
-                                   std::string("-Wa,--MD,") + kOfAssembler});
-  if (!reading.part.empty()) {
-    const auto toolsFor = [&](const path& folder) {
-      return BuildTools(toolchain, folder, options.sandbox,
-                        {.seconds = options.seconds, .memory = options.memory});
-    };
-    if (const auto run = askAboutAuto(reading, withJson, name, result, toolsFor)) return *run;
-    if (leavesOutMuch(reading.part, result.source))
-      if (const auto run = compilePart(reading.part, withJson, name, result.object, toolsFor)) return *run;
+                                   std::string("-Wa,--MD,") + kOfAssembler, "-c", name, "-o",
+                                   result.object.filename().string()});
+  const auto hasErrors = [](const ProcessResult& failed) { return namesErrors(failed.error); };
+  if (!reading.part.empty() && reading.part != result.source) {
+    const path file = options.workFolder / name;
+    writeSource(file, reading.part);
+    std::vector<std::string> ofPart = withJson;
+    ofPart.emplace_back("-Wfatal-errors");
+    if (reading.isAsking) ofPart.insert(ofPart.end(), {"-include", kAutoQuestions});
+    const ProcessResult run = tools.run(ofPart, hasErrors);
+    writeSource(file, result.source);
+    if (run.ok() || run.timedOut) return run;
   }
-  withJson.insert(withJson.end(), {"-c", name, "-o", result.object.filename().string()});
-  return tools.run(withJson, [](const ProcessResult& failed) { return namesErrors(failed.error); });
+  return tools.run(withJson, hasErrors);
 }
 
 // Adds warnings of our own, and puts each message at a line of the file.
@@ -213,10 +193,9 @@ std::vector<grading::CompileDiagnostic> finished(std::vector<grading::CompileDia
   return messages;
 }
 
-void compile(const Toolchain& toolchain, const std::vector<std::string>& command, const std::string& name,
-             const BuildTools& tools, const StudentBuildOptions& options, const FirstReading& reading,
-             StudentObject& result) {
-  const ProcessResult run = compileAll(toolchain, command, name, tools, options, reading, result);
+void compile(const std::vector<std::string>& command, const std::string& name, const BuildTools& tools,
+             const StudentBuildOptions& options, const FirstReading& reading, StudentObject& result) {
+  const ProcessResult run = compileAll(command, name, tools, options, reading, result);
   result.exitCode = run.exitCode;
   result.ok = run.ok();
   result.messages = messagesApart("the compiler's messages", [&] { return parseCompilerJson(run.error); });
@@ -241,17 +220,15 @@ std::vector<grading::CompileDiagnostic> explainLinking(const ProcessResult& run,
       {mainFile, 0, 0, "error", "", "cannot be linked: " + (complaint.empty() ? lastLine(run) : complaint)}};
 }
 
-// The forbidden ones among all files that the compiler and the assembler opened. If only a part was compiled,
-// that was done in a folder of its own.
+// The forbidden ones among all files that the compiler and the assembler opened.
 std::vector<grading::CompileDiagnostic> forbiddenFilesIn(const StudentObject& object, const path& folder,
                                                          const Toolchain& toolchain) {
-  const auto forbidden = [&](const std::vector<path>& files, const path& where) {
-    return forbiddenIncludes(files, object.source, object.name, where, toolchain);
+  const auto forbidden = [&](const std::vector<path>& files) {
+    return forbiddenIncludes(files, object.source, object.name, folder, toolchain);
   };
   std::vector<grading::CompileDiagnostic> found =
-      forbidden(dependenciesIn(readTextFile(folder / kDependencies), folder), folder);
-  const path assembled = std::filesystem::exists(folder / kOfAssembler) ? folder : folder / kPart;
-  const auto more = forbidden(filesOfAssembler(readTextFile(assembled / kOfAssembler), assembled), assembled);
+      forbidden(dependenciesIn(readTextFile(folder / kDependencies), folder));
+  const auto more = forbidden(filesOfAssembler(readTextFile(folder / kOfAssembler), folder));
   found.insert(found.end(), more.begin(), more.end());
   return found;
 }
@@ -263,7 +240,7 @@ std::vector<grading::CompileDiagnostic> forbiddenCallsIn(StudentObject& result, 
   const std::string bytes = readTextFile(result.object);
   const std::vector<grading::CompileDiagnostic> messages = messagesApart("the object file", [&] {
     try {
-      return strangeParts(readObjectFile(bytes, kPart), result.name);
+      return strangeParts(readObjectFile(bytes, "graded"), result.name);
     } catch (const Error& error) {
       return std::vector<grading::CompileDiagnostic>{
           {result.name, 0, 0, "error", "forbidden-call",
@@ -405,13 +382,11 @@ void compileText(const Toolchain& toolchain, const std::vector<ForbiddenFunction
   writeSource(folder / result.name, result.source);
   result.object = folder / "student.o";
   // They may belong to another user, after grading at another level.
-  for (const path& old :
-       {folder / kDependencies, folder / kOfAssembler, folder / kPart / kOfAssembler, result.object})
+  for (const path& old : {folder / kDependencies, folder / kOfAssembler, result.object})
     std::filesystem::remove(old);
   const BuildTools tools(toolchain, folder, options.sandbox,
                          {.seconds = options.seconds, .memory = options.memory});
-  compile(toolchain, compileCommand(toolchain, options, reading.prefix), result.name, tools, options, reading,
-          result);
+  compile(compileCommand(toolchain, options, reading.prefix), result.name, tools, options, reading, result);
   if (!result.ok) return;
   std::vector<grading::CompileDiagnostic> found;
   if (options.graded) found = forbiddenCallsIn(result, toolchain, forbidden, tools);

@@ -24,7 +24,7 @@ struct StudentBuildOptions {
   double seconds = 30;  ///< of CPU time that compiling may take
   std::size_t memory = std::size_t{2} << 30;  ///< bytes that compiling may take
   sandbox::Sandbox sandbox{};                 ///< in which the tools run
-  bool part = false;  ///< the object holds only what is graded; another compiler checks the whole
+  bool part = false;                          ///< the object holds only what is graded
 };
 
 /// A compiled student file, or the reasons why there is none.
