@@ -267,7 +267,7 @@ void showRides(const Eigen::VectorXd& w) {
 void showEvolution() {
   constexpr int kLambda = 20, kMu = 5, kGenerations = 120;
   const Species start{Eigen::VectorXd::Constant(6, 3), 1, Eigen::VectorXd::Zero(6)};
-  Figure figure{.title = "Searching the lowest point of a bowl",
+  Figure figure{.title = "Search for the lowest point of a bowl",
                 .xLabel = "generation",
                 .yLabel = "lowest cost of its samples",
                 .logY = true};
@@ -338,12 +338,14 @@ void showSensed(const Eigen::VectorXd& policy) {
   const Ride bySensors = rideOf(learnt(ridesOfYours(other, true), 0).policy, tilted(.2), noise, {}, {});
   std::printf("10 s of the policy by the state cost %.3f, and by the sensors %.3f.\n", byState.cost,
               bySensors.cost);
-  Figure figure{.title = "Policies that were searched by the state and by the sensors",
+  Figure figure{.title = "Two policies: searched with costs of the state, and of the sensors",
                 .xLabel = "time [s]",
                 .yLabel = "[m], [rad]"};
   addMotion(figure, ", by the state", byState.states);
   addMotion(figure, ", by the sensors", bySensors.states, true);
-  Series sensed{.label = "x of your sensedPose"};
+  figure.series[2].color = Color{0, .45f, .7f};  // x is blue and theta orange, as above
+  figure.series[3].color = Color{.84f, .37f, 0};
+  Series sensed{.label = "x of your sensedPose", .color = Color{0, 0, 0}};
   for (Eigen::Index t = 0; t < Y.cols(); t += 20)
     sensed.add(kTau * static_cast<double>(t + 1), sensedPose(Y.col(t), racer, {})[0]);
   sensed.style = SeriesStyle::kPoints;

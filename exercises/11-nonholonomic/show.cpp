@@ -219,7 +219,7 @@ void showDubins(const CarModel& car, double radius) {
   }
   fan.series.push_back(outline(car, start, {0, 0, 0}));
   plot("fan", fan);
-  Figure lengths{.title = "The six words to the pose (5, 3, heading)",
+  Figure lengths{.title = "Lengths of the six words to the pose (5, 3, heading)",
                  .xLabel = "heading at the goal [rad]",
                  .yLabel = "length [m]",
                  .legend = Legend::kOutside};
@@ -295,7 +295,7 @@ void showTrailer(const Rig& rig, const Eigen::Vector4d& start) {
                            {.label = "with feedback", .x = steered.way, .y = steered.hitch},
                            law}};
   plot("hitch", angles);
-  Figure above = seenFromAbove("Backward along the x axis, from the right to the left", {});
+  Figure above = seenFromAbove("Backward along the x axis, from right to left; red: with feedback", {});
   above.horizontalLines = {{0, ""}};
   for (const Reversing* run : {&straight, &steered}) {
     const Color& color = run == &straight ? kSoft : kAccent;

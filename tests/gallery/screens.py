@@ -99,7 +99,7 @@ def draw_terminal(browser, command, text, file, after=""):
     draw_page(browser, """<style>body { margin: 0; padding: 12px 16px; background: #1d2229; color: #e4e7eb }
         pre { margin: 0; font: 14px/1.35 "DejaVu Sans Mono", monospace } b { color: #fff } img { width: 100%%; margin-top: 12px }
         .c31 { color: #ff7b72 } .c32 { color: #6cc96f } .c33 { color: #e3b341 } .c2, .c90 { color: #98a2ad }</style>
-        <pre><b>$ %s</b>\n%s</pre>%s""" % (command, text.rstrip(), after), 720, file, 16 / 9)
+        <pre><b>$ %s</b>\n%s</pre>%s""" % (command, text.rstrip().replace("scripts/rex", "rex"), after), 720, file, 16 / 9)
 
 
 def draw_exercises(browser, rex, out):
