@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <memory>
+#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -193,8 +194,9 @@ class Blocks {
   }
 
   // The lanes, as bits, in which some pair is closer than the margin; at least one of them if one is
-  // enough.
-  unsigned hits(int block, double margin, bool isOneEnough) {
+  // enough. Pairs outside the kernels are asked in an order, if there is one, and one that suffices moves to
+  // its front.
+  unsigned hits(int block, double margin, bool isOneEnough, std::span<int> order = {}) {
     place(block);
     const unsigned all = (1u << lanesOf(block)) - 1;
     unsigned found = ~all & ((1u << kContactLanes) - 1);
@@ -204,9 +206,10 @@ class Blocks {
       found = kernel_.pairs[type].hits(pairs.data(), static_cast<int>(pairs.size()), solids(), margin, found,
                                        isOneEnough);
     }
-    for (const CorePair& pair : data_.others) {
-      if (isEnough()) break;
-      found |= otherHits(pair, margin, found);
+    for (std::size_t i = 0; i < data_.others.size() && !isEnough(); ++i) {
+      const std::size_t next = order.empty() ? i : static_cast<std::size_t>(order[i]);
+      found |= otherHits(data_.others[next], margin, found, isOneEnough);
+      if (isEnough() && !order.empty()) std::rotate(&order[0], &order[i], &order[i] + 1);
     }
     return found & all;
   }
@@ -255,9 +258,11 @@ class Blocks {
     return sum;
   }
 
-  // The lanes, as bits, in which a pair is nearer than the margin and which are not in `known`. Balls, then
-  // boxes along the line of their middles, prove most of them apart. NaN never counts as far.
-  [[nodiscard]] unsigned otherHits(const CorePair& pair, double margin, unsigned known) const {
+  // The lanes, as bits, in which a pair is nearer than the margin and which are not in `known`; the first of
+  // them if one is enough. Balls, then boxes along the line of their middles, prove most of them apart. NaN
+  // never counts as far.
+  [[nodiscard]] unsigned otherHits(const CorePair& pair, double margin, unsigned known,
+                                   bool isOneEnough) const {
     const ContactSolid &a = solid(pair.a), &b = solid(pair.b);
     const double far = margin + internal::kCullSlack, reach = a.half.norm() + b.half.norm() + far;
     const LaneArray<3> between =
@@ -278,6 +283,7 @@ class Blocks {
           apart_A.cwiseAbs().dot(a.half) + (X_WB.R.transpose() * (X_WA.R * apart_A)).cwiseAbs().dot(b.half);
       if (apart_A.dot(way) - widths >= far) continue;
       if (internal::isNearer(a.form, X_WA, b.form, X_WB, margin, apart_A)) found |= 1u << lane;
+      if (isOneEnough && found != 0) break;
     }
     return found;
   }
@@ -315,11 +321,21 @@ void contactFreeBatch(const ContactModel& contacts, const PoseBatch& poses, doub
   }
 }
 
-bool allContactFree(const ContactModel& contacts, const PoseBatch& poses, double margin) {
+bool allContactFree(const ContactModel& contacts, const PoseBatch& poses, double margin,
+                    std::vector<int>& order) {
+  if (const std::size_t others = contacts.data().others.size(); order.size() != others) {
+    order.resize(others);
+    std::iota(order.begin(), order.end(), 0);
+  }
   Blocks blocks(contacts, poses);
   for (int block = 0; block < blocks.count(); ++block)
-    if (blocks.hits(block, margin, true) != 0) return false;
+    if (blocks.hits(block, margin, true, order) != 0) return false;
   return true;
+}
+
+bool allContactFree(const ContactModel& contacts, const PoseBatch& poses, double margin) {
+  std::vector<int> order;
+  return allContactFree(contacts, poses, margin, order);
 }
 
 }  // namespace rex

@@ -87,5 +87,9 @@ void contactFreeBatch(const ContactModel& contacts, const PoseBatch& poses, doub
 
 /// Whether all configurations are free. Stops at the first that is not.
 [[nodiscard]] bool allContactFree(const ContactModel& contacts, const PoseBatch& poses, double margin);
+/// Overload for hot loops. Pairs that were the first to be found too near are asked first the next time:
+/// `order` remembers them between calls with the same contacts, and starts empty.
+[[nodiscard]] bool allContactFree(const ContactModel& contacts, const PoseBatch& poses, double margin,
+                                  std::vector<int>& order);
 
 }  // namespace rex

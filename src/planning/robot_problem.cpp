@@ -52,10 +52,10 @@ Space postureSpace(const Model& model) {
 }
 
 AllValid contactFree(const Model& model, const ContactModel& contacts, double margin) {
-  return [model = std::make_shared<const Model>(model), contacts, margin,
-          poses = PoseBatch()](const MatrixArg& Q) mutable {
+  return [model = std::make_shared<const Model>(model), contacts, margin, poses = PoseBatch(),
+          order = std::vector<int>()](const MatrixArg& Q) mutable {
     forwardKinematicsBatch(*model, Q, poses);
-    return allContactFree(contacts, poses, margin);
+    return allContactFree(contacts, poses, margin, order);
   };
 }
 

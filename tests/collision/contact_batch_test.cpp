@@ -63,6 +63,7 @@ TEST_P(ContactBatch, IsFreeWhereAllDistancesAre) {
   Eigen::MatrixXd distances;
   contactDistancesBatch(contacts, poses, distances);
   int freeOnes = 0;
+  std::vector<int> order;
   for (const double margin : {-0.3, -0.22, -0.1, 0., 0.1, 0.2}) {
     Eigen::Array<bool, Eigen::Dynamic, 1> free;
     contactFreeBatch(contacts, poses, margin, free);
@@ -72,6 +73,8 @@ TEST_P(ContactBatch, IsFreeWhereAllDistancesAre) {
       freeOnes += free[k];
     }
     EXPECT_EQ(allContactFree(contacts, poses, margin), free.all());
+    for (int again = 0; again < 3; ++again)
+      EXPECT_EQ(allContactFree(contacts, poses, margin, order), free.all());
   }
   if (GetParam() < 64) return;
   EXPECT_GT(freeOnes, GetParam());
