@@ -173,9 +173,9 @@ TEST_F(CourseFolder, HasDocumentsThatNameOnlyWhatIsInIt) {
   const std::vector<std::string> command = {sourcePath("scripts/check-links").string(), course().string()};
   const ProcessResult whole = runProcess(command);
   EXPECT_TRUE(whole.ok()) << whole.output;
-  fs::remove(course() / "exercises" / "01-kinematics" / "show.h");
+  fs::remove(course() / "exercises" / "01-kinematics" / "show.cpp");
   EXPECT_EQ(runProcess(command).output,
-            "exercises/01-kinematics/README.md: no such file beside it: show.h\n");
+            "exercises/01-kinematics/README.md: no such file beside it: show.cpp\n");
 }
 
 TEST_F(CourseFolder, SaysWhatIsNoLongerPartOfTheCourse) {

@@ -65,7 +65,7 @@ TEST_F(ExerciseGates, FindsWhatIsWrongWithTheTexts) {
   replace(exercise() / "exercise.toml", "points = 3", "points = 4");
   expectOpenGate("points", "part 'rotate': checks are worth 3 points, exercise.toml says 4");
   expectOpenGate("points",
-                 "README.md:17: the heading promises 3 points, exercise.toml says 4 for part 'rotate'");
+                 "README.md:13: the heading promises 3 points, exercise.toml says 4 for part 'rotate'");
   replace(exercise() / "exercise.toml", "points = 4", "points = 21");
   expectOpenGate("points", "the parts are worth 21 points together, wanted at most 20");
   replace(exercise() / "README.md", "## Part 1", "## Part 2");
