@@ -290,6 +290,16 @@ TEST(Cases, NameTheOneThatIsFurthestBeyondItsLimit) {
   EXPECT_EQ(result.casesHeld, 1);
 }
 
+TEST(Check, GoesBackToTheOuterOfTwoUsualMistakes) {
+  const Eigen::Vector2d wanted(1, 2);
+  const auto message = messageOf([&](Check& check) {
+    const auto outer = check.suspectUsualMistake(-wanted, wanted, 1e-6);
+    { const auto inner = check.suspectUsualMistake(wanted, wanted, 1e-6); }
+    check.that("it holds", false);
+  });
+  EXPECT_THAT(message, HasSubstr("opposite sign"));
+}
+
 TEST(Check, AsksAboutUsualMistakesAndThoseThatTheAuthorSuspects) {
   const Eigen::Vector2d wanted(1, 2), start(3, 5);
   const auto answer = [&](const Eigen::Vector2d& got) {
