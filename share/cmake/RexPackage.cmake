@@ -44,7 +44,7 @@ set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/lib)
 string(REGEX MATCH "^[0-9]+" compiler "${CMAKE_CXX_COMPILER_VERSION}")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS
-    "g++ (>= 4:${compiler}), binutils, libeigen3-dev, bubblewrap, fonts-dejavu-core, gnuplot-nox, libgl1-mesa-dri, libosmesa6 | libegl1")
+    "g++ (>= 4:${compiler}), binutils, libeigen3-dev, bubblewrap, fonts-dejavu-core, gnuplot-nox, libgl1-mesa-dri, libegl1 | libosmesa6")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "ffmpeg, git, tzdata")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "gdb, librex-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "rex (= ${REX_PACKAGE_VERSION}), libeigen3-dev")

@@ -74,14 +74,15 @@ class EglContext final : public GlContext {
   Proc proc(const char* name) const override { return procAddress_(name); }
   std::string describe() const override { return "EGL (" + name_ + ")"; }
 
-  void requireSoftware() {
+  void requireCard(bool wanted) {
     makeCurrent();
     const auto getString = reinterpret_cast<const unsigned char* (*)(unsigned)>(proc("glGetString"));
     const std::string renderer = reinterpret_cast<const char*>(getString(kGlRenderer));
-    if (!isSoftware(renderer))
+    if (isSoftware(renderer) == wanted)
       throw Error({.what = "OpenGL by " + describe(),
                    .found = "'" + renderer + "'",
-                   .wanted = "a software renderer, whose pictures are the same everywhere"});
+                   .wanted = wanted ? "a graphics card"
+                                    : "a software renderer, whose pictures are the same everywhere"});
   }
 
  private:
@@ -116,12 +117,12 @@ class EglContext final : public GlContext {
 
 std::vector<std::string> eglLibraries() { return {"libEGL.so.1", "libEGL.so"}; }
 
-std::unique_ptr<GlContext> makeEglContext(const std::vector<std::string>& libraries, bool allowHardware) {
+std::unique_ptr<GlContext> makeEglContext(const std::vector<std::string>& libraries, bool wantsCard) {
   std::string causes;
   for (const std::string& name : libraries) {
     if (void* library = ::dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL)) {
       auto context = std::make_unique<EglContext>(library, name);
-      if (!allowHardware) context->requireSoftware();
+      context->requireCard(wantsCard);
       return context;
     }
     causes += (causes.empty() ? "" : "; ") + std::string(::dlerror());
@@ -257,19 +258,19 @@ void requireDriver(const std::string& driver) {
                .nearest = nearestNames(driver, known)});
 }
 
-std::unique_ptr<GlContext> makeFirstThatWorks(const internal::GlLibraries& libraries, bool allowHardware) {
+std::unique_ptr<GlContext> makeFirstThatWorks(const internal::GlLibraries& libraries) {
   std::string cause;
   try {
-    return internal::makeOsMesaContext(libraries.osMesa);
+    return internal::makeEglContext(libraries.egl, false);
   } catch (const Error& error) {
     cause = error.parts().found;
   }
   try {
-    return internal::makeEglContext(libraries.egl, allowHardware);
+    return internal::makeOsMesaContext(libraries.osMesa);
   } catch (const Error& error) {
     throw Error({.what = "OpenGL without a screen",
-                 .found = fmt::format("neither OSMesa ({}) nor EGL ({})", cause, error.parts().found),
-                 .wanted = "Debian package libosmesa6, or libegl1 and libgl1-mesa-dri"});
+                 .found = fmt::format("neither EGL ({}) nor OSMesa ({})", cause, error.parts().found),
+                 .wanted = "Debian packages libegl1 and libgl1-mesa-dri, or libosmesa6"});
   }
 }
 
@@ -283,16 +284,17 @@ std::unique_ptr<GlContext> makeContextFrom(const GlLibraries& libraries, const G
   const ScopedVariable driver("GALLIUM_DRIVER", options.driver);
   // Without this, EGL would use the graphics card of a computer that has one.
   std::optional<ScopedVariable> software;
-  if (!options.allowHardware) software.emplace("LIBGL_ALWAYS_SOFTWARE", "1");
+  if (options.backend != GlBackend::kGpu) software.emplace("LIBGL_ALWAYS_SOFTWARE", "1");
   switch (options.backend) {
     case GlBackend::kOsMesa:
       return makeOsMesaContext(libraries.osMesa);
     case GlBackend::kEgl:
-      return makeEglContext(libraries.egl, options.allowHardware);
+    case GlBackend::kGpu:
+      return makeEglContext(libraries.egl, options.backend == GlBackend::kGpu);
     case GlBackend::kAuto:
       break;
   }
-  return makeFirstThatWorks(libraries, options.allowHardware);
+  return makeFirstThatWorks(libraries);
 }
 
 }  // namespace internal
@@ -301,10 +303,11 @@ GlBackend glBackendFromName(const std::string& name) {
   if (name == "auto") return GlBackend::kAuto;
   if (name == "osmesa") return GlBackend::kOsMesa;
   if (name == "egl") return GlBackend::kEgl;
+  if (name == "gpu") return GlBackend::kGpu;
   throw Error({.what = "OpenGL backend",
                .found = "'" + name + "'",
-               .wanted = "auto, osmesa (Debian package libosmesa6) or egl (libegl1 and libgl1-mesa-dri)",
-               .nearest = nearestNames(name, {"auto", "osmesa", "egl"})});
+               .wanted = "auto, egl (Debian packages libegl1 and libgl1-mesa-dri), osmesa (libosmesa6) or gpu",
+               .nearest = nearestNames(name, {"auto", "egl", "osmesa", "gpu"})});
 }
 
 std::unique_ptr<GlContext> makeGlContext(const GlOptions& options) {

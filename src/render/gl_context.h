@@ -5,9 +5,9 @@
 
 namespace rex {
 
-/// The source of OpenGL: Mesa's OSMesa library, or EGL without a screen. Both give the same pictures. kAuto
-/// takes the first that works, in this order.
-enum class GlBackend { kAuto, kOsMesa, kEgl };
+/// The source of OpenGL: EGL without a screen, or Mesa's OSMesa library, both in software and with the same
+/// pictures; or a graphics card by EGL, whose pictures differ. kAuto takes the first in software that works.
+enum class GlBackend { kAuto, kEgl, kOsMesa, kGpu };
 
 /// Settings of a context. The environment is not read: a program that wants to honour GALLIUM_DRIVER passes
 /// it on here.
@@ -17,9 +17,6 @@ struct GlOptions {
   /// GALLIUM_DRIVER and crashes for other values, so that variable is set while the context is made, and
   /// restored. Mesa keeps the driver of a process's first context for all others.
   std::string driver = "llvmpipe";
-  /// Whether EGL may use a graphics card, whose pictures differ from those of software. The first EGL context
-  /// of a process decides for all others; if it has a card, a later one that must not have it is refused.
-  bool allowHardware = false;
 };
 
 /// An OpenGL 3.3 core context without a window. Its objects are destroyed with it.
@@ -44,11 +41,12 @@ class GlContext {
   GlContext() = default;
 };
 
-/// The backend of that name: "auto", "osmesa", "egl". Throws Error naming the choices and their packages.
+/// The backend of that name: "auto", "egl", "osmesa", "gpu". Throws Error naming the choices and their packages.
 [[nodiscard]] GlBackend glBackendFromName(const std::string& name);
 
-/// Makes a context. Throws Error naming the Debian packages if no backend works, and the choices for an
-/// unknown driver.
+/// Makes a context. The first EGL context of a process decides for all others between software and a graphics
+/// card; a later one that wants the other is refused. Throws Error naming the Debian packages if no backend
+/// works, and the choices for an unknown driver.
 [[nodiscard]] std::unique_ptr<GlContext> makeGlContext(const GlOptions& options = {});
 
 }  // namespace rex

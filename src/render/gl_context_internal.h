@@ -21,9 +21,9 @@ struct GlLibraries {
 [[nodiscard]] std::vector<std::string> eglLibraries();
 
 /// A context of the first of `libraries` that can be loaded, on Mesa's display without a screen. Throws Error
-/// naming the Debian packages, and for a graphics card's driver unless `allowHardware`.
+/// naming the Debian packages, and where it is not in software, or not by a graphics card if `wantsCard`.
 [[nodiscard]] std::unique_ptr<GlContext> makeEglContext(const std::vector<std::string>& libraries,
-                                                        bool allowHardware);
+                                                        bool wantsCard);
 
 /// File names of the OSMesa library, tried in this order.
 [[nodiscard]] std::vector<std::string> osMesaLibraries();

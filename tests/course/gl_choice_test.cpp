@@ -15,9 +15,10 @@ GlBackend chosenBy(const char* value) {
 TEST(GlChoice, ComesFromTheEnvironment) {
   EXPECT_EQ(chosenBy("osmesa"), GlBackend::kOsMesa);
   EXPECT_EQ(chosenBy("egl"), GlBackend::kEgl);
+  EXPECT_EQ(chosenBy("gpu"), GlBackend::kGpu);
   EXPECT_EQ(chosenBy("auto"), GlBackend::kAuto);
   EXPECT_EQ(chosenBy(""), GlBackend::kAuto);
-  EXPECT_REX_ERROR(chosenBy("elg"), "OpenGL backend: found 'elg', wanted auto, osmesa");
+  EXPECT_REX_ERROR(chosenBy("elg"), "OpenGL backend: found 'elg', wanted auto, egl");
   ::unsetenv("REX_GL");
   EXPECT_EQ(glChoice().backend, GlBackend::kAuto);
 }

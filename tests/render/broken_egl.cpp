@@ -12,7 +12,7 @@ bool works(const char* function) {
 
 int thing = 0;
 const unsigned char* rendererName(unsigned) {
-  return reinterpret_cast<const unsigned char*>("Graphics Card 9");
+  return reinterpret_cast<const unsigned char*>(works("card") ? "Graphics Card 9" : "llvmpipe");
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ namespace rex::cli {
 namespace {
 
 struct DoctorOptions {
-  std::string gl = kUsualGl;  ///< auto, osmesa or egl
+  std::string gl = kUsualGl;  ///< auto, egl, osmesa or gpu
   bool json = false;
   bool sandbox = false;                   ///< attack the sandbox instead
   std::optional<sandbox::Level> level{};  ///< the sandbox level to test; empty: the best
@@ -182,12 +182,14 @@ Image testImage(GlBackend backend, const fs::path& folder, std::string& descript
 
 // One of them is enough unless the user chose one.
 std::vector<Finding> tryBackends(GlBackend wanted, const fs::path& folder) {
-  constexpr std::array<std::tuple<GlBackend, const char*, const char*>, 2> kBackends = {
-      {{GlBackend::kOsMesa, "osmesa", "libosmesa6"}, {GlBackend::kEgl, "egl", "libegl1 libgl1-mesa-dri"}}};
+  constexpr std::array<std::tuple<GlBackend, const char*, const char*>, 3> kBackends = {
+      {{GlBackend::kEgl, "egl", "libegl1 libgl1-mesa-dri"},
+       {GlBackend::kOsMesa, "osmesa", "libosmesa6"},
+       {GlBackend::kGpu, "gpu", "libegl1 libgl1-mesa-dri"}}};
   std::vector<Finding> findings;
   std::optional<Image> first;
   for (const auto& [backend, name, packages] : kBackends) {
-    if (wanted != GlBackend::kAuto && wanted != backend) continue;
+    if (wanted == GlBackend::kAuto ? backend == GlBackend::kGpu : wanted != backend) continue;
     findings.push_back(tryOut(std::string("OpenGL by ") + name, packages, [&, one = backend] {
       std::string description;
       const auto start = std::chrono::steady_clock::now();

@@ -65,7 +65,7 @@ struct RenderOptions {
   std::string size{};           ///< WIDTHxHEIGHT
   std::string show{};           ///< color, depth or segmentation
   std::string antiAliasing{};   ///< none, fxaa or msaa4
-  std::string gl = kUsualGl;    ///< auto, osmesa or egl
+  std::string gl = kUsualGl;    ///< auto, egl, osmesa or gpu
   std::filesystem::path out{};  ///< its extension says what is made
 };
 

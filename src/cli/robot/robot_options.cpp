@@ -82,7 +82,7 @@ void requireGiven(const char* option, const std::string& value, const char* comm
 void addJson(CLI::App* command, bool& json) { addOptions(command, {{"--json", json, "print JSON"}}); }
 
 void addGl(CLI::App* command, std::string& gl) {
-  command->add_option("--gl", gl, fmt::format("OpenGL backend: auto, osmesa or egl (default: {})", gl))
+  command->add_option("--gl", gl, fmt::format("OpenGL backend: auto, egl, osmesa or gpu (default: {})", gl))
       ->type_name("NAME")
       ->envname("REX_GL");
 }

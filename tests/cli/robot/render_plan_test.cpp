@@ -76,7 +76,7 @@ TEST(RenderPlan, RefusesValuesThatItCannotRead) {
   EXPECT_REX_ERROR(makeRenderPlan({.antiAliasing = "msa4", .out = "a.png"}),
                    "--aa: found 'msa4', wanted none, fxaa, msaa4 (did you mean 'msaa4'?)");
   EXPECT_REX_ERROR(makeRenderPlan({.gl = "opengl", .out = "a.png"}),
-                   "OpenGL backend: found 'opengl', wanted auto, osmesa");
+                   "OpenGL backend: found 'opengl', wanted auto, egl");
   EXPECT_REX_ERROR(makeRenderPlan({.cameras = {"frnt"}, .out = "a.png"}), "--camera: found 'frnt'");
 }
 
