@@ -137,7 +137,7 @@ StudentObject compileAsAsked(const Toolchain& toolchain, const ExerciseInfo& exe
                             .graded = true,
                             .seconds = compileSeconds(options),
                             .sandbox = options.job.sandbox,
-                            .part = options.job.jobs > 1};
+                            .part = true};
   if (!options.sanitize) return compileStudent(toolchain, exercise.forbidden, build);
   // Unoptimised inline functions of the library, used by main(), refer to functions forbidden elsewhere.
   build.graded = build.part = false;
