@@ -29,7 +29,7 @@ struct RrtStarOptions {
   /// large as optimality requires in a space of this size (Karaman and Frazzoli 2011, theorem 38).
   double gamma = 0;
   /// 0: theirs, 1/d in d dimensions. 1/(d+1) is what Solovey et al. 2020 prove to be enough, who found a gap
-  /// in that theorem; it considers more nodes.
+  /// in that theorem, for a gamma of their own, which is not the default; it considers more nodes.
   double exponent = 0;
   /// Once there is a path, draw only targets through which a shorter path may lead (Gammell, Srinivasa and
   /// Barfoot, Informed RRT*, 2014); in spaces of lines the search radius shrinks accordingly.
