@@ -48,8 +48,8 @@ struct ConeClosure {
 /// Throws like primitiveWrenches().
 [[nodiscard]] ConeClosure forceClosure(std::span<const WrenchCone> cones);
 
-/// First-order form closure: force closure without friction, slide 10:7 with erratum 44. Needs d + 1 contacts. Throws as
-/// above.
+/// First-order form closure: force closure without friction, slide 10:7 with erratum 44. Needs d + 1
+/// contacts. Throws as above.
 [[nodiscard]] Closure formClosure(std::span<const WrenchCone> cones);
 
 /// What remains of many contacts after deleting the redundant ones.

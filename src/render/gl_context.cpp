@@ -304,10 +304,11 @@ GlBackend glBackendFromName(const std::string& name) {
   if (name == "osmesa") return GlBackend::kOsMesa;
   if (name == "egl") return GlBackend::kEgl;
   if (name == "gpu") return GlBackend::kGpu;
-  throw Error({.what = "OpenGL backend",
-               .found = "'" + name + "'",
-               .wanted = "auto, egl (Debian packages libegl1 and libgl1-mesa-dri), osmesa (libosmesa6) or gpu",
-               .nearest = nearestNames(name, {"auto", "egl", "osmesa", "gpu"})});
+  throw Error(
+      {.what = "OpenGL backend",
+       .found = "'" + name + "'",
+       .wanted = "auto, egl (Debian packages libegl1 and libgl1-mesa-dri), osmesa (libosmesa6) or gpu",
+       .nearest = nearestNames(name, {"auto", "egl", "osmesa", "gpu"})});
 }
 
 std::unique_ptr<GlContext> makeGlContext(const GlOptions& options) {

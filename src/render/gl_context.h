@@ -41,7 +41,8 @@ class GlContext {
   GlContext() = default;
 };
 
-/// The backend of that name: "auto", "egl", "osmesa", "gpu". Throws Error naming the choices and their packages.
+/// The backend of that name: "auto", "egl", "osmesa", "gpu". Throws Error naming the choices and their
+/// packages.
 [[nodiscard]] GlBackend glBackendFromName(const std::string& name);
 
 /// Makes a context. The first EGL context of a process decides for all others between software and a graphics

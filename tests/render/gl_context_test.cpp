@@ -82,8 +82,7 @@ TEST(GlContext, RefusesAGraphicsCardUnlessAsked) {
   EXPECT_REX_ERROR(internal::makeContextFrom(libraries, {.backend = GlBackend::kGpu}),
                    "found 'llvmpipe', wanted a graphics card");
   breakEgl("nothing");
-  EXPECT_NO_THROW(
-      static_cast<void>(internal::makeContextFrom(libraries, {.backend = GlBackend::kGpu})));
+  EXPECT_NO_THROW(static_cast<void>(internal::makeContextFrom(libraries, {.backend = GlBackend::kGpu})));
 }
 
 TEST(GlContext, TakesTheFirstBackendThatWorks) {

@@ -338,7 +338,8 @@ TEST(Renderer, DrawsAnySize) {
 TEST(Renderer, SaysWhatItUses) {
   REX_NEEDS_OSMESA();
   const Renderer renderer({.width = 8, .height = 8});
-  EXPECT_THAT(renderer.describe(), testing::AnyOf(testing::HasSubstr("EGL (libEGL.so."), testing::HasSubstr("OSMesa (libOSMesa.so.")));
+  EXPECT_THAT(renderer.describe(), testing::AnyOf(testing::HasSubstr("EGL (libEGL.so."),
+                                                  testing::HasSubstr("OSMesa (libOSMesa.so.")));
   EXPECT_THAT(renderer.describe(), testing::HasSubstr("4 samples per pixel"));
   const Renderer plain({.width = 8, .height = 8, .antiAliasing = AntiAliasing::kNone});
   EXPECT_THAT(plain.describe(), testing::EndsWith("no anti-aliasing"));
