@@ -273,14 +273,21 @@ ProcessResult BuildTools::runOnce(const std::vector<std::string>& command, std::
 // A tool that did not end is not tried again: a file could hold up the grading in this way.
 ProcessResult BuildTools::run(const std::vector<std::string>& command, const Explains& explains,
                               std::size_t outputLimit) const {
-  const long killedBefore = oomKills();
+  // Killed in between in whatever group: a neighbour's misfortune explains one failure, hardly two.
+  bool wereKilled = true;
+  const auto runOnceMore = [&] {
+    const long before = oomKills();
+    ProcessResult ended = runOnce(command, outputLimit);
+    wereKilled = wereKilled && !ended.timedOut && oomKills() > before;
+    return ended;
+  };
   const auto isExplained = [&](const ProcessResult& run) {
     return run.ok() || (!run.timedOut && !limitReached(run).empty()) || (explains && explains(run));
   };
-  ProcessResult last = runOnce(command, outputLimit);
-  if (!isExplained(last) && !last.timedOut) last = runOnce(command, outputLimit);
+  ProcessResult last = runOnceMore();
+  if (!isExplained(last) && !last.timedOut) last = runOnceMore();
   if (isExplained(last)) return last;
-  const std::string fault = faultOfMachine(command, last, killedBefore);
+  const std::string fault = faultOfMachine(command, last, wereKilled);
   if (fault.empty()) return last;
   throw Error({.what = fmt::format(
                    "{} {} through no fault of the file", command.front(),
@@ -293,8 +300,8 @@ ProcessResult BuildTools::run(const std::vector<std::string>& command, const Exp
 // What the system says, and whether the same tools build an empty program now. No words of a tool count,
 // since a file can make it say anything. If they do build it, the file is to blame.
 std::string BuildTools::faultOfMachine(const std::vector<std::string>& command, const ProcessResult& failure,
-                                       long oomKillsBefore) const {
-  if (oomKills() > oomKillsBefore) return "the kernel killed a process because memory was short";
+                                       bool wereKilled) const {
+  if (wereKilled) return "the kernel killed a process because memory was short";
   if (const std::string free = shortOfDisk(); !free.empty()) return free;
   if (const std::string missing = missingFile(command, workFolder_); !missing.empty())
     return "no file " + missing;

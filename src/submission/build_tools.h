@@ -94,7 +94,7 @@ class BuildTools {
 
  private:
   std::string faultOfMachine(const std::vector<std::string>& command, const ProcessResult& failure,
-                             long oomKillsBefore) const;
+                             bool wereKilled) const;
   ProcessResult runConfined(const std::vector<std::string>& command, const ProcessOptions& options) const;
 
   std::filesystem::path workFolder_;
