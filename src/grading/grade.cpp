@@ -78,14 +78,16 @@ std::string messageWithoutDetails(const Failure& failure) {
                      failure.function.empty() ? "outside your functions" : "in " + failure.function);
 }
 
-CheckResult failed(const CheckInfo& info, const Failure& failure, const std::string& input) {
+// What a program prints as it crashes is its output, too: see KeptOutput.
+CheckResult failed(const CheckInfo& info, const Failure& failure, const std::string& input,
+                   bool hasSecretChecks) {
   if (failure.outcome == Outcome::kGraderError) return faulty(info, failure.message);
   CheckResult check = blank(info);
   check.status = failure.outcome;
   check.function = failure.function;
   check.message = messageWithoutDetails(failure);
   if (info.group == Group::kHidden) return check;
-  const std::string detail = failure.detail.empty() ? "" : ": " + failure.detail;
+  const std::string detail = failure.detail.empty() || hasSecretChecks ? "" : ": " + failure.detail;
   check.message = printable(failure.message + detail, kLongestMessage);
   check.input = printable(input, kLongestMessage);
   return check;
@@ -233,7 +235,7 @@ Attempt attempt(const RunnableCheck& check, const Grading& grading, std::uint64_
   addUsage(run, fresh);
   if (!run.failure) run.failure = std::move(failure);
   if (run.failure) {
-    verdict = failed(check.info, *run.failure, judge.input());
+    verdict = failed(check.info, *run.failure, judge.input(), grading.hasSecretChecks);
   } else {
     standing.keep(verdict);  // in case the picture ends this process
     keepEvidence(judge, grading.job.evidence, verdict);

@@ -187,11 +187,16 @@ class OneCore {
   cpu_set_t before_;
 };
 
-/// Seconds that a process was ready to run while others had its core; 0 if the kernel does not count them.
-double secondsWithoutCore(pid_t process) {
+/// Seconds that a process ran on a core, and that it was ready to run while others had it; 0 if the kernel
+/// does not count them.
+struct CoreSeconds {
+  double with = 0, without = 0;
+};
+
+CoreSeconds coreSeconds(pid_t process) {
   std::ifstream file(fmt::format("/proc/{}/schedstat", process));
   double running = 0, ready = 0;  // nanoseconds
-  return file >> running >> ready ? 1e-9 * ready : 0;
+  return file >> running >> ready ? CoreSeconds{1e-9 * running, 1e-9 * ready} : CoreSeconds{};
 }
 
 // The only child of a process, or the process itself if it has none: in a sandbox with namespaces the program
@@ -257,10 +262,11 @@ class Worker {
   pid_t program() const;
   double budget() const { return ready_ ? job_.limits.wallBudget() : job_.limits.startBudget(); }
   double secondsWithoutCores() const {
-    return secondsWithoutCore(program()) + secondsWithoutCore(::getpid());
+    return coreSeconds(program()).without + coreSeconds(::getpid()).without;
   }
   double secondsLeft();
   bool sleepsAtStart();
+  bool delaysItsStart();
   Failure tooLate();
   void drain();
   bool waitForEnd(double seconds);
@@ -280,7 +286,8 @@ class Worker {
   OutputCapture output_;
   OutputCapture error_;
   remote::Caller caller_;
-  double coreless_ = secondsWithoutCore(::getpid());
+  double coreless_ = coreSeconds(::getpid()).without;
+  double asleep_ = 0;  // seconds before it was ready
   double waited_ = 0;
   double allowed_ = job_.limits.startBudget();
   bool ready_ = false;
@@ -331,8 +338,6 @@ pid_t Worker::program() const {
   return sandbox::hasNamespaces(job_.sandbox.level) ? childOf(childOf(launched_.process)) : launched_.process;
 }
 
-// Constructors of global variables run before the worker is ready. While the machine loads a program, it is
-// ready to run or waits for a disk, but never sleeps.
 bool Worker::sleepsAtStart() {
   if (sandbox::isConfined(job_.sandbox.level)) {
     readReport();
@@ -341,8 +346,14 @@ bool Worker::sleepsAtStart() {
   return hasSleepingThread(program());
 }
 
+// Constructors of global variables run before the worker is ready. While the machine loads a program, it is
+// ready to run or waits for a disk, never sleeps, and runs for a moment only.
+bool Worker::delaysItsStart() {
+  return sleepsAtStart() || asleep_ + coreSeconds(program()).with > budget() / 2;
+}
+
 Failure Worker::tooLate() {
-  if (!ready_ && !sleepsAtStart())
+  if (!ready_ && !delaysItsStart())
     return {.outcome = Outcome::kGraderError,
             .message = fmt::format("a worker was not ready after {:.1f} s", budget()),
             .mayBeOfMachine = true};
@@ -358,9 +369,11 @@ void Worker::waitFor(int fd, remote::Channel::Direction direction) {
   const double before = waited_;
   bool ended = false;
   for (;;) {
+    constexpr double kBetweenLooks = 0.1;
     waited_ = before + secondsSince(start);
-    const double left = secondsLeft();
+    double left = secondsLeft();
     if (left <= 0) throw GaveUp(tooLate());
+    if (!ready_) left = std::min(left, kBetweenLooks);
     std::array<pollfd, 4> polled{{{fd, events, 0},
                                   {launched_.processFd, POLLIN, 0},
                                   {output_.fd(), POLLIN, 0},
@@ -368,6 +381,7 @@ void Worker::waitFor(int fd, remote::Channel::Direction direction) {
     ::poll(polled.data(), polled.size(), ended ? 0 : static_cast<int>(std::min(std::ceil(left * 1000), 1e6)));
     if (polled[2].revents != 0 || polled[3].revents != 0) drain();
     if (polled[0].revents != 0) break;
+    if (!ready_ && sleepsAtStart()) asleep_ += before + secondsSince(start) - waited_;
     // A last message may arrive while poll() looks at one descriptor after the other: poll once more.
     if (polled[1].revents != 0 && std::exchange(ended, true)) throw remote::Closed("the worker ended");
   }

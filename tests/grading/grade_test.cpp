@@ -211,6 +211,24 @@ TEST(Grade, DrawsVisibleChecksThatDoNotHold) {
 }
 
 // A hand-in that finds a way to another one could send it what a hidden check asks.
+// What a program prints as it ends, such as the text of an assertion, is output, too.
+TEST(Grade, ShowsNoLastWordsBesideSecretChecks) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "secret") << "the secret of a course";
+  const auto messageOf = [&](const std::filesystem::path& secret) {
+    const auto ask = [](Check& judge, Student& student) {
+      judge.that("moves", student.ikStep(Eigen::VectorXd::Zero(3), {1, 2, 3}).norm() > 0);
+    };
+    return grade({}, std::vector{check("a", Group::kVisible, ask), check("b", Group::kHidden, ask)},
+                 {.worker = kGood.parent_path() / "assertion", .secret = secret}, Student::signature(),
+                 [](const GradeResult&) {})
+        .checks[0]
+        .message;
+  };
+  EXPECT_THAT(messageOf({}), HasSubstr("Assertion"));
+  EXPECT_THAT(messageOf(folder.path() / "secret"), ::testing::Not(HasSubstr("Assertion")));
+}
+
 TEST(Grade, ShowsNoOutputBesideSecretChecks) {
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "secret") << "the secret of a course";
@@ -328,12 +346,14 @@ TEST(Grade, IsToBlameIfNoWorkerStarts) {
 
 // A program that sleeps in a constructor of a global variable is no fault of the machine.
 TEST(Grade, BlamesWhatSleepsAtTheStart) {
-  const GradeResult result =
-      grade({}, std::vector{check("a", Group::kVisible, [](Check&, Student& student) { student.square(3); })},
-            {.worker = kGood.parent_path() / "sleep_at_start", .limits = {.wallSeconds = 0.1}},
-            Student::signature(), [](const GradeResult&) {});
-  EXPECT_EQ(result.outcome, Outcome::kTimeLimit) << result.checks[0].message;
-  EXPECT_THAT(result.checks[0].message, HasSubstr("before the first call"));
+  for (const char* program : {"sleep_at_start", "sleep_and_spin_at_start"}) {
+    const GradeResult result = grade(
+        {}, std::vector{check("a", Group::kVisible, [](Check&, Student& student) { student.square(3); })},
+        {.worker = kGood.parent_path() / program, .limits = {.wallSeconds = 0.1}}, Student::signature(),
+        [](const GradeResult&) {});
+    EXPECT_EQ(result.outcome, Outcome::kTimeLimit) << program << ": " << result.checks[0].message;
+    EXPECT_THAT(result.checks[0].message, HasSubstr("before the first call"));
+  }
 }
 
 // On a machine that is busy with other things, an honest worker may not get to run.
