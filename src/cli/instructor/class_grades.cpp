@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "base/folders.h"
+#include "base/isolated_call.h"
 #include "base/text.h"
 #include "base/text_file.h"
 #include "classroom/grade_task.h"
@@ -250,6 +251,9 @@ void writeForOthers(const fs::path& folder, const std::vector<ComparedText>& tex
     writeTextFile(folder / "submissions" / one.student / "main.cpp", one.text);
 }
 
+constexpr IsolationLimits kSimilarLimits{
+    .cpuSeconds = 600, .wallSeconds = 6000, .memory = std::size_t{4} << 30};
+
 // Who hands in together may hand in the same.
 bool areOneGroup(const classroom::SimilarPair& pair, const classroom::Course& course) {
   const classroom::CourseStudent *first = course.student(pair.first), *second = course.student(pair.second);
@@ -267,17 +271,28 @@ void writeSimilar(const Project& project, const classroom::Course& course,
   for (const auto& [name, texts] : byExercise) {
     const std::string handedOut = readTextFile(project.exercise(name).definition / "main.cpp");
     writeForOthers(folder / name, texts, handedOut);
-    auto pairs = classroom::similarPairs(texts, handedOut, percent);
-    std::erase_if(pairs, [&](const classroom::SimilarPair& pair) { return areOneGroup(pair, course); });
+    const auto compare = [&] {
+      auto pairs = classroom::similarPairs(texts, handedOut, percent);
+      std::erase_if(pairs, [&](const classroom::SimilarPair& pair) { return areOneGroup(pair, course); });
+      const bool any = !pairs.empty();
+      return Json{classroom::similarGroups(pairs),
+                  any ? classroom::similarPage(name, texts, handedOut, pairs) : ""}
+          .dump(-1, ' ', false, Json::error_handler_t::replace);
+    };
+    const IsolatedResult compared = callIsolated(compare, kSimilarLimits);
+    if (compared.end != IsolatedEnd::kReturned)
+      throw Error({.what = "cannot compare the submissions of " + name,
+                   .found = "more than the limits of time and memory, or a crash",
+                   .wanted = fmt::format("{:g} s, 4 GiB", kSimilarLimits.cpuSeconds)});
+    const Json found = Json::parse(compared.bytes);
+    const auto groups = found.at(0).get<std::vector<std::vector<std::string>>>();
     const fs::path page = folder / (name + ".html");
-    if (pairs.empty()) {
+    if (groups.empty()) {
       fs::remove(page);
       say(fmt::format("{}: no two of {} submissions have {} % in common", name, texts.size(), percent));
       continue;
     }
-    replaceTextFile(page, classroom::similarPage(name, texts, handedOut, pairs),
-                    "the page of similar submissions");
-    const auto groups = classroom::similarGroups(pairs);
+    replaceTextFile(page, found.at(1).get<std::string>(), "the page of similar submissions");
     say(fmt::format("{}: {} group{} of similar submissions, to be looked at: {}", name, groups.size(),
                     groups.size() == 1 ? "" : "s", shown(page)));
     for (const std::vector<std::string>& group : groups)

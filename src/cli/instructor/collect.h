@@ -34,6 +34,10 @@ struct GradingSummary {
 /// The deadlines in that file; none without a file. Throws like classroom::readLatePolicy().
 [[nodiscard]] classroom::LatePolicy readDeadlines(const Project& project, const std::filesystem::path& file);
 
+/// Processor time of a task's own process: compilers, workers and what reads the file have limits of their
+/// own, so it does little itself.
+inline constexpr int kSecondsOfTask = 300;
+
 /// One line of a list of tasks.
 struct GradeOneOptions {
   std::filesystem::path manifest{};

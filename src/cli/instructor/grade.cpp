@@ -318,10 +318,6 @@ void tellRefused(const std::vector<Task>& tasks, const fs::path& out, const fs::
       note(wrap(escapeForTerminal(classroom::whyRefused(task, out, secret)) + "; it is graded again", 2, 0));
 }
 
-// Processor time of a task's own process: compilers, workers and what reads the file have limits of their
-// own, so it does little itself.
-constexpr int kSecondsOfTask = 300;
-
 // Grades the tasks without a valid result; returns their number.
 int gradeOpen(const std::vector<Task>& tasks, const GradeManyOptions& options,
               const sandbox::Sandbox& sandbox, Graders& graders) {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "base/child.h"
 #include "base/error.h"
 #include "base/folders.h"
 #include "classroom/grade_task.h"
@@ -26,6 +27,7 @@ ExitCode gradeOne(const Project& project, const GradeOneOptions& options) {
   }
   const auto sandbox = chooseSandbox(project, task.level);
   if (!sandbox) return ExitCode::kWeakSandbox;
+  lowerCpuSeconds(kSecondsOfTask);
   const ExerciseInfo exercise = project.exercise(task.exercise);
   const PrivateFolder work(std::filesystem::temp_directory_path());
   const grading::GradeResult result = classroom::gradeTask(task, prepare(project, exercise), exercise,
