@@ -249,9 +249,9 @@ TEST_P(Attacks, GainNothingAndHarmNobody) {
   }
 }
 
-// Root has a user of its own for each program; others share theirs with what they grade. The same once more
-// by a user who owns nothing, at the levels that he is offered.
-TEST_P(Attacks, GainNothingFromAnOrdinaryUser) {
+// Root has a user of its own for each program; others share theirs with what they grade. The test of that
+// name once more by a user who owns nothing, at the levels that he is offered.
+void expectTheSameAsAnOrdinaryUser(const std::string& name) {
   if (::geteuid() != 0) GTEST_SKIP() << "this is an ordinary user: the test before has tried";
   constexpr const char* kNobodysNumber = "60705";
   const std::vector<std::string> asUser = {"setpriv", "--reuid",      kNobodysNumber,
@@ -264,12 +264,15 @@ TEST_P(Attacks, GainNothingFromAnOrdinaryUser) {
   const std::string self = fs::read_symlink("/proc/self/exe").string();
   if (!run({"test", "-x", self}).ok() || !run({"test", "-r", (kFolder / "attacks.tsv").string()}).ok())
     GTEST_SKIP() << "setpriv is missing, or an ordinary user cannot read " << kFolder;
-  const std::string name = "All/Attacks.GainNothingAndHarmNobody/" + GetParam().file;
   const ProcessResult ended = run({self, "--gtest_filter=" + name});
   if (ended.output.find("[  SKIPPED ] 1 test") != std::string::npos)
     GTEST_SKIP() << "no sandbox is offered to an ordinary user here";
   EXPECT_TRUE(ended.ok()) << ended.output << ended.error;
   EXPECT_THAT(ended.output, HasSubstr("[  PASSED  ] 1 test"));
+}
+
+TEST_P(Attacks, GainNothingFromAnOrdinaryUser) {
+  expectTheSameAsAnOrdinaryUser("All/Attacks.GainNothingAndHarmNobody/" + GetParam().file);
 }
 
 using enum Outcome;
@@ -343,6 +346,17 @@ void expectNothingTold(const std::string& text) {
     EXPECT_THAT(text, Not(HasSubstr(hidden)));
 }
 
+// The same without a secret, with all checks at once: channels need a neighbour.
+void expectNothingPrinted(const submission::BuiltSubmission& built, submission::SubmissionOptions options) {
+  options.job.secret.clear();
+  options.job.jobs = 3;
+  static_cast<void>(submission::gradeBuilt(built, submission::readToolchain(kOutput / "build.json"),
+                                           submission::readExerciseInfo(kFolder / "battery"), options));
+  const std::string text = readTextFile(options.job.results);
+  expectNothingTold(text);
+  EXPECT_THAT(text, Not(::testing::ContainsRegex("channel held [1-9]")));
+}
+
 // Short runs try each attack at one level, and so each class at all of them.
 TEST_P(Classes, GainNothingAndHarmNobody) {
   std::vector<int> levels = offeredLevels();
@@ -362,8 +376,26 @@ TEST_P(Classes, GainNothingAndHarmNobody) {
     if (!built.worker.empty()) expectNoHarm(result, options);
     expectNothingTold(readTextFile(options.job.results));
     expectNothingTold(readTextFile(options.job.results.parent_path() / "build.log"));
+    if (!built.worker.empty() && std::string("EL").find(GetParam().file.front()) != std::string::npos)
+      expectNothingPrinted(built, options);
     EXPECT_EQ(honest(level), before);
   }
+}
+
+// Nothing that is printed is shown beside secret checks, so a program that can start another, or talk to a
+// neighbour, would not be seen by that.
+TEST_F(Battery, SeesWhatIsPrintedWithoutWalls) {
+  const fs::path file = temporary_.path() / "source" / "main.cpp";
+  writeTextFile(file, textOfAttack("E_spawns_beside"));
+  submission::SubmissionOptions options = optionsFor(file, 0, "attack");
+  options.job.secret.clear();
+  const submission::BuiltSubmission built = submission::buildSubmission(toolchain_, exercise(), options);
+  static_cast<void>(submission::gradeBuilt(built, toolchain_, exercise(), options));
+  EXPECT_THAT(readTextFile(options.job.results), HasSubstr("another program ran"));
+}
+
+TEST_P(Classes, GainNothingFromAnOrdinaryUser) {
+  expectTheSameAsAnOrdinaryUser("All/Classes.GainNothingAndHarmNobody/" + GetParam().file);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Classes, ::testing::ValuesIn(classedAttacks()),
