@@ -85,7 +85,11 @@ ShadowView ShadowMap::draw(const std::vector<DrawItem>& casters, const Eigen::Ve
   gl_->Clear(GL_DEPTH_BUFFER_BIT);
   program_.use();
   program_.set("shadowClipFromWorld", view.clipFromWorld);
-  for (const DrawItem& item : items) meshes.draw(item, program_);
+  for (const DrawItem& item : items) {
+    meshes.cullBackOf(item);  // what is nearest to the light faces it
+    meshes.draw(item, program_);
+  }
+  gl_->Disable(GL_CULL_FACE);
   drawnToLight_ = toLight;
   drawn_ = std::move(items);
   return view;
