@@ -113,13 +113,16 @@ ExitCode writePage(const Project& project, const Demonstration& one, std::vector
                    const fs::path& page) {
   makeOutPlace(page);
   const PrivateFolder work(project.workPlace("student"));
+  const fs::path log = fs::path(page).replace_extension(".build.log");
   const ExitCode code = runOwnProgram(project, one.file,
                                       {.out = work.path(),
                                        .arguments = std::move(arguments),
                                        .seconds = kLecture,
                                        .environment = {"REX_LIVE=0", aboutVariable(one)},
                                        .listsFiles = false,
+                                       .log = log,
                                        .keptAs = keptProgram(project, one)});
+  if (code != ExitCode::kNotGradable) fs::remove(log);
   const fs::path replay = work.path() / (one.name + ".html");
   if (code != ExitCode::kFull || !fs::exists(replay)) return std::max(code, ExitCode::kBelow);
   fs::copy_file(replay, page, fs::copy_options::overwrite_existing);

@@ -83,7 +83,7 @@ fs::path programOutFolder(const Project& project, const fs::path& file) {
 }
 
 std::optional<OwnProgram> buildOwnProgram(const Project& project, const fs::path& file,
-                                          const fs::path& workFolder, const fs::path& out) {
+                                          const fs::path& workFolder, const fs::path& log) {
   submission::ProgramToolchain program =
       submission::readProgramToolchain(project.build / "student" / "program.json");
   submission::Toolchain& toolchain = program.toolchain;
@@ -118,7 +118,7 @@ std::optional<OwnProgram> buildOwnProgram(const Project& project, const fs::path
     if (!result.targets.empty())
       bringUpToDate(project, result.targets, "the library for " + file.filename().string());
   };
-  const auto linked = buildProgram(toolchain, {.main = file, .workFolder = workFolder}, out, chooseLibraries);
+  const auto linked = buildProgram(toolchain, {.main = file, .workFolder = workFolder}, log, chooseLibraries);
   if (!linked) return {};
   result.program = *linked;
   result.toolchain = toolchain;
@@ -223,7 +223,8 @@ ExitCode runOwnProgram(const Project& project, const fs::path& file, const OwnRu
   std::optional<OwnProgram> built;
   if (program.empty() || !isCurrent(project, program, file.filename().string())) {
     const auto started = fs::file_time_type::clock::now();
-    built = buildOwnProgram(project, file, work.path(), options.out);
+    built = buildOwnProgram(project, file, work.path(),
+                            options.log.empty() ? options.out / "build.log" : options.log);
     if (!built) return ExitCode::kNotGradable;
     if (program.empty())
       program = built->program;

@@ -31,12 +31,12 @@ struct OwnProgram {
 };
 
 /// Compiles the file like a student's, with the headers next to it, builds the parts of the library that it
-/// needs, and links it. If the file has errors, it prints them and returns no program; the log goes to
-/// out/build.log. Throws Error if the tools fail, and BuildFailure like bringUpToDate().
+/// needs, and links it. If the file has errors, it prints them and returns no program. Throws Error if
+/// the tools fail, and BuildFailure like bringUpToDate().
 [[nodiscard]] std::optional<OwnProgram> buildOwnProgram(const Project& project,
                                                         const std::filesystem::path& file,
                                                         const std::filesystem::path& workFolder,
-                                                        const std::filesystem::path& out);
+                                                        const std::filesystem::path& log);
 
 enum class Ended { kWell, kBadly, kCrashed, kTooLate };
 
@@ -46,6 +46,7 @@ struct OwnRun {
   int seconds = 120;                       ///< of CPU time
   std::vector<std::string> environment{};  ///< NAME=VALUE
   bool listsFiles = true;                  ///< those it wrote
+  std::filesystem::path log{};             ///< of the compiler; empty: build.log in `out`
   /// Where the program stays, to be used again until a file that it was made from changes. Empty: nowhere.
   std::filesystem::path keptAs{};
 };

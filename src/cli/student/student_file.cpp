@@ -104,16 +104,15 @@ std::optional<std::filesystem::path> buildProgram(const Project& project, const 
     }
     toolchain.show = object.object;
   }
-  return buildProgram(toolchain, options, out, [&](const submission::StudentObject& object) {
+  return buildProgram(toolchain, options, out / "build.log", [&](const submission::StudentObject& object) {
     addLiveView(project, object, toolchain);
   });
 }
 
 std::optional<std::filesystem::path> buildProgram(
     const submission::Toolchain& toolchain, const submission::StudentBuildOptions& options,
-    const std::filesystem::path& out,
+    const std::filesystem::path& log,
     const std::function<void(const submission::StudentObject& object)>& beforeLinking) {
-  const std::filesystem::path log = out / "build.log";
   // Students may try anything here: only grading looks for forbidden calls.
   const submission::StudentObject object = compileStudent(toolchain, {}, options);
   writeTextFile(log, object.log);

@@ -22,10 +22,10 @@ namespace rex::cli {
     const Project& project, const ExerciseInfo& exercise, const submission::StudentBuildOptions& options,
     const std::filesystem::path& out);
 
-/// The same with any toolchain; `beforeLinking` is called with the compiled file.
+/// The same with any toolchain and a file for the log; `beforeLinking` is called with the compiled file.
 [[nodiscard]] std::optional<std::filesystem::path> buildProgram(
     const submission::Toolchain& toolchain, const submission::StudentBuildOptions& options,
-    const std::filesystem::path& out,
+    const std::filesystem::path& log,
     const std::function<void(const submission::StudentObject& object)>& beforeLinking);
 
 /// Prints the first error in detail, the number of others, and where the log is.

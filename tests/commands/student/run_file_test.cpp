@@ -109,8 +109,12 @@ TEST_F(RunFile, WritesAPageOfEachDemonstrationAndAnIndex) {
         "// Try: Push it.\n" +
             program);
   write(folder / "broken.cpp", "// Chapter 4: None. Nothing.\nint main() { return 1; }\n");
+  write(folder / "unfinished.cpp", "// Chapter 5: None. Nothing.\nint main() {\n");
   const Ended ended = rex({"demo", "-o", in("pages")});
-  EXPECT_EQ(ended.code, 1);
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_THAT(flat(ended.error), HasSubstr("Full log: " + in("pages/unfinished.build.log")));
+  EXPECT_THAT(fileText(in("pages/unfinished.build.log")), HasSubstr("error: "));
+  EXPECT_FALSE(fs::exists(in("pages/broken.build.log")));
   EXPECT_EQ(fileText(in("pages/swing.html")),
             "A swing\nabout\tIt swings.\ntry\tPush it.\nformula\t|x| = a\nslides\t3:4");
   const std::string index = fileText(in("pages/index.html"));
