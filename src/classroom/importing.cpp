@@ -262,8 +262,8 @@ class Importer {
     if (present && *present != wanted) {
       const auto before = entryOf(holder).exercises.at(file.exercise).submitted;
       const auto text = [](const auto& at) { return at ? instantText(*at) : "at an unknown time"; };
-      report_.changes.push_back(
-          fmt::format("{} {}: handed in {}, before {}", holder, file.exercise, text(time), text(before)));
+      report_.changes.push_back(fmt::format("{} {}: handed in {}, at the import before: {}", holder,
+                                            file.exercise, text(time), text(before)));
     }
     if (!present || *present != wanted) writes_.emplace_back(path, file.text);
     return true;

@@ -247,7 +247,7 @@ TEST_F(ImportingTest, BringsUpToDateAndSaysWhatHasChanged) {
   EXPECT_EQ(newer.changed, 1);
   EXPECT_THAT(newer.changes,
               ElementsAre("student0@uni.example 01-kinematics: handed in " + syntheticInstant(all_[0].time) +
-                          ", before " + syntheticInstant(all_[0].time - 3600)));
+                          ", at the import before: " + syntheticInstant(all_[0].time - 3600)));
   expectAll(emailOf, "platform", true);
 }
 
