@@ -35,8 +35,10 @@ class FilePicker {
     for (auto& [exercise, found] : found_) take(exercise, found);
     for (const DownloadedFile* file : others_) picked_.notes.push_back(ignored(file->place));
     if (picked_.files.empty() && picked_.complaints.empty() && isLeft_ && !isUntouched_)
-      complain({}, "nothing to grade", files.front().place,
-               files.size() == 1 ? "this file" : fmt::format("this and {} more", files.size() - 1),
+      complain({}, "nothing to grade", nested_.empty() ? files.front().place : nested_,
+               !nested_.empty()    ? "an archive in an archive"
+               : files.size() == 1 ? "this file"
+                                   : fmt::format("this and {} more", files.size() - 1),
                example());
     return std::move(picked_);
   }
@@ -56,6 +58,8 @@ class FilePicker {
       lookAtMain(file);
     else if (isArchive && !isPacked)
       unpack(file);
+    else if (isArchive)
+      nested_ = file.place, picked_.notes.push_back(ignored(file.place) + ": an archive in an archive");
     else if (isSourceName(file.name))
       others_.push_back(&keep(file));
     else
@@ -170,6 +174,7 @@ class FilePicker {
   const PickOptions& options_;
   PickedFiles picked_{};
   int archives_ = 0;
+  std::string nested_{};      ///< an archive in an archive
   bool isLeft_ = false;       ///< there is a file of the student's own
   bool isUntouched_ = false;  ///< there is one as it was handed out
   std::vector<std::unique_ptr<DownloadedFile>> kept_{};

@@ -83,7 +83,13 @@ TEST_F(StudentFilesTest, LooksIntoArchives) {
   EXPECT_THAT(sources(pick({{.name = "control.zip", .text = zipOf({{.name = "main.cpp", .text = kText}})}})),
               ElementsAre("02-control from zoe/control.zip/main.cpp"));
   expectComplaint(pick({{.name = "a.zip", .text = zipOf({{.name = "b.zip", .text = zip}})}}),
-                  "zoe/a.zip: nothing to grade: found this file, wanted 01-kinematics/main.cpp");
+                  "zoe/a.zip/b.zip: nothing to grade: found an archive in an archive, wanted "
+                  "01-kinematics/main.cpp");
+  const PickedFiles beside =
+      pick({{.name = "a.zip", .text = zipOf({{.name = "01/main.cpp", .text = kText}, {.name = "b.zip"}})}});
+  EXPECT_EQ(beside.files.size(), 1u);
+  EXPECT_THAT(beside.complaints, IsEmpty());
+  EXPECT_THAT(beside.notes, ElementsAre("zoe/a.zip/b.zip: ignored: an archive in an archive"));
 }
 
 TEST_F(StudentFilesTest, RefusesHostileArchivesAndSaysWhy) {
