@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <iterator>
 #include <map>
 #include <set>
 #include <string>
@@ -17,6 +18,7 @@
 #include "base/text.h"
 #include "base/text_file.h"
 #include "classroom/grade_task.h"
+#include "classroom/gradebook_text.h"
 #include "classroom/similar.h"
 #include "cli/instructor/collect.h"
 #include "cli/json_internal.h"
@@ -84,21 +86,33 @@ ExitCode explainResults(const Project& project, const ExplainOptions& options) {
   const std::string name = project.exercise(options.exercise).name;
   const classroom::Gradebook book =
       readGradebook(project, options.files, tasksIn(options.out, options.manifest), options.out);
-  std::vector<std::string> known;
-  for (const auto* rows : {&book.rows, &book.strangers})
-    for (const classroom::GradeRow& row : *rows) {
-      known.push_back(row.student.id);
-      if (row.student.id != options.student || row.exercise != name) continue;
-      const std::vector<std::string> lines = classroom::explain(row);
-      if (options.json)
-        say(dump(Json{{"student", options.student}, {"exercise", name}, {"lines", lines}}));
-      else
-        for (const std::string& line : lines) say(wrap(escapeForTerminal(line), 2, 0));
-      return ExitCode::kFull;
+  std::vector<const classroom::GradeRow*> rows, found;
+  std::vector<std::string> known, ids;
+  for (const auto* part : {&book.rows, &book.strangers})
+    for (const classroom::GradeRow& row : *part) {
+      known.insert(known.end(), {row.student.id, row.student.name});
+      if (row.exercise == name) rows.push_back(&row);
     }
-  throw UsageError({.what = fmt::format("no grade of '{}' for {}", options.student, name),
-                    .wanted = "the id of a student, and an exercise that was graded",
-                    .nearest = nearestNames(options.student, known)});
+  std::ranges::copy_if(rows, std::back_inserter(found),
+                       [&](const auto* row) { return row->student.id == options.student; });
+  const std::string called = classroom::caseless(options.student);
+  if (found.empty())
+    std::ranges::copy_if(rows, std::back_inserter(found),
+                         [&](const auto* row) { return classroom::caseless(row->student.name) == called; });
+  if (found.empty())
+    throw UsageError({.what = fmt::format("no grade of '{}' for {}", options.student, name),
+                      .wanted = "the id or the name of a student, and an exercise that was graded",
+                      .nearest = nearestNames(options.student, known)});
+  for (const auto* row : found) ids.push_back(row->student.id);
+  if (found.size() > 1)
+    throw UsageError({.what = fmt::format("several students are called '{}'", options.student),
+                      .wanted = fmt::format("one of the ids {}", join(ids, ", "))});
+  const std::vector<std::string> lines = classroom::explain(*found.front());
+  if (options.json)
+    say(dump(Json{{"student", ids.front()}, {"exercise", name}, {"lines", lines}}));
+  else
+    for (const std::string& line : lines) say(wrap(escapeForTerminal(line), 2, 0));
+  return ExitCode::kFull;
 }
 
 void requireApart(const std::string& option, const fs::path& folder, const fs::path& other) {

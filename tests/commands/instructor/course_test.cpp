@@ -135,8 +135,12 @@ TEST_F(CourseTest, ExplainsAGrade) {
   const Ended nobody = collect({"--explain", "zo", "98"});
   EXPECT_EQ(nobody.code, 64);
   EXPECT_THAT(flat(nobody.error),
-              HasSubstr("no grade of 'zo' for 98-template: wanted the id of a student, and an "
-                        "exercise that was graded (did you mean 'zoe'?)"));
+              HasSubstr("no grade of 'zo' for 98-template: wanted the id or the name of a student, "
+                        "and an exercise that was graded (did you mean 'zoe'?)"));
+  EXPECT_EQ(collect({"--explain", "ZOË <b> \"müller\"", "98"}).output, ended.output);
+  replace(course(), "Carl C.", "Yan, Y.");
+  EXPECT_THAT(flat(collect({"--explain", "yan, y.", "98"}).error),
+              HasSubstr("several students are called 'yan, y.': wanted one of the ids carl, yan"));
 }
 
 // Reports say what people and lateness make of a result; results.json stays as it is.
