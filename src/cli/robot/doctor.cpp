@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <set>
@@ -39,6 +40,7 @@
 #include "render/video_sink.h"
 #include "sandbox/confinement.h"
 #include "sandbox/probes.h"
+#include "submission/exercise_info.h"
 
 namespace rex::cli {
 namespace {
@@ -291,6 +293,18 @@ Finding tryWatching(const fs::path& folder) {
   return {.name = "watch", .text = FileWatcher(folder / "main.cpp").describe()};
 }
 
+// A build that was interrupted installs only some of them.
+Finding aboutExercises(const Project& project) {
+  const std::vector<std::string> all = submission::exerciseNames(project.files() / "exercises");
+  std::vector<std::string> missing;
+  std::ranges::copy_if(all, std::back_inserter(missing),
+                       [&](const std::string& one) { return !project.isBuilt(one); });
+  const bool ok = missing.empty();
+  return {.name = "exercises",
+          .status = ok ? Status::kWorks : Status::kFails,
+          .text = ok ? std::to_string(all.size()) : "not built in this rex: " + join(missing, ", ")};
+}
+
 // The level that `rex grade` would use. Own programs need none.
 Finding trySandbox(const Project& project, const fs::path& folder) {
   const sandbox::Available best = sandbox::bestLevel(launcherPath(project), probePath(project), folder);
@@ -343,6 +357,7 @@ ExitCode doctor(const Project& project, const DoctorOptions& options) {
   findings.push_back(tryVideos(folder.path()));
   findings.push_back(replays);
   findings.push_back(tryWatching(folder.path()));
+  findings.push_back(aboutExercises(project));
   findings.push_back(trySandbox(project, folder.path()));
   const bool ok = std::all_of(findings.begin(), findings.end(), isWell);
   Results results{.json = {{"findings", Json::array()}, {"ok", ok}}};

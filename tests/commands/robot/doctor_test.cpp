@@ -8,6 +8,7 @@
 #include <stdlib.h>
 
 #include "cli/command_schema.h"
+#include "commands/built_project.h"
 #include "commands/rex_program.h"
 #include "support/changed_path.h"
 #include "support/needs_egl.h"
@@ -79,7 +80,8 @@ TEST_F(Doctor, FindsThatAllWorks) {
                                                     {"libraries", "works"},     {"OpenGL by osmesa", "works"},
                                                     {"OpenGL by egl", "works"}, {"figures", "works"},
                                                     {"videos", "works"},        {"replays", "works"},
-                                                    {"watch", "works"},         {"sandbox", "works"}};
+                                                    {"watch", "works"},         {"sandbox", "works"},
+                                                    {"exercises", "works"}};
   EXPECT_EQ(diagnosis.status, works);
   EXPECT_THAT(diagnosis.text.at("rex"), ::testing::ContainsRegex("^[0-9.]+, by (g|clang)\\+\\+ .*, on .+"));
   EXPECT_THAT(diagnosis.text.at("OpenGL by osmesa"), HasSubstr("the same pixels"));
@@ -121,6 +123,18 @@ TEST_F(Doctor, NamesThePackagesOfMissingPrograms) {
             "film.mp4 is missing because ffmpeg is not installed (apt-get install ffmpeg)");
   const std::string table = rex({"doctor", "--gl", "osmesa"}).output;
   EXPECT_TRUE(table.ends_with("\nTo do: apt-get install ffmpeg g++ gnuplot-nox\n")) << table;
+}
+
+using InstalledDoctor = BuiltProject;
+
+TEST_F(InstalledDoctor, NamesExercisesThatAreNotBuilt) {
+  fs::create_directories(root() / "exercises" / "97-new");
+  fs::copy(exercise() / "exercise.toml", root() / "exercises" / "97-new" / "exercise.toml");
+  const Ended ended =
+      rexWith({.root = root(), .build = build(), .installed = root()}, {"doctor", "--gl", "osmesa"});
+  EXPECT_EQ(ended.code, 3);
+  EXPECT_THAT(flat(ended.output), HasSubstr("exercises fails not built in this rex: 97-new"));
+  EXPECT_THAT(flat(ended.output), HasSubstr("repair what fails: exercises"));
 }
 
 TEST_F(Doctor, IsContentWithOneWayToOpenGl) {
