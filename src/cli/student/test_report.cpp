@@ -123,13 +123,13 @@ void sayChanges(const grading::GradeResult& before, const grading::GradeResult& 
   if (before.checks.empty() || now.checks.empty()) return;
   const std::vector<std::string> better = turned(before, now, true), worse = turned(before, now, false);
   std::string text;
-  if (!better.empty()) text += fmt::format(" now passed: {};", join(better, ", "));
-  if (!worse.empty()) text += fmt::format(" passed before: {};", join(worse, ", "));
+  if (!better.empty()) text += fmt::format("These pass now: {}. ", join(better, ", "));
+  if (!worse.empty()) text += fmt::format("These no longer pass: {}. ", join(worse, ", "));
   if (before.score != now.score)
-    text += fmt::format(" {} point{} before;", before.score, before.score == 1 ? "" : "s");
-  if (text.empty()) text = " no verdict has changed;";
-  text.back() = '.';
-  say(wrap("Since the last test:" + escapeForTerminal(text), 2, 0));
+    text += fmt::format("The last test gave {} point{}. ", before.score, before.score == 1 ? "" : "s");
+  if (text.empty()) text = "No verdict has changed since the last test. ";
+  text.pop_back();
+  say(wrap(escapeForTerminal(text), 2, 0));
 }
 
 // What the functions printed while they were graded. A loop can print much.
