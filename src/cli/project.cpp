@@ -89,7 +89,7 @@ fs::path Project::outFolder(const ExerciseInfo& exercise, bool solution) const {
 
 std::string shown(const fs::path& path) {
   const std::string relative = fs::proximate(path).string();
-  return relative.starts_with("..") ? path.string() : relative;
+  return relative.starts_with("..") ? path.lexically_normal().string() : relative;
 }
 
 submission::Toolchain prepare(const Project& project, const ExerciseInfo& exercise) {

@@ -64,6 +64,10 @@ TEST_F(StudentLoop, ListsExercises) {
           "\"title\":\"Rotation in the plane\",\"points\":3,\"core\":true}]}]}\n");
 }
 
+TEST_F(StudentLoop, ShowsPathsWithoutWaysBack) {
+  EXPECT_EQ(shown(exercise() / ".." / "97-new"), (root() / "exercises" / "97-new").string());
+}
+
 TEST_F(StudentLoop, FindsExercisesByNumberTopicAndFolder) {
   for (const char* name :
        {"98", "template", "98-template", "exercises/98-template/", "./exercises/98-template/main.cpp"})
