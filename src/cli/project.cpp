@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/folders.h"
+#include "base/text.h"
 #include "cli/build_on_demand.h"
 #include "cli/out_folder.h"
 
@@ -58,11 +59,18 @@ std::string Project::exerciseName(std::string_view name) const {
   for (const std::string_view folder : {"./", "exercises/"})
     if (name.starts_with(folder)) name.remove_prefix(folder.size());
   std::vector<ExerciseInfo> known;
-  for (std::string& one : exerciseNames()) known.emplace_back().name = std::move(one);
+  std::vector<std::string> fitting;
+  for (std::string& one : exerciseNames()) {
+    if (lowerCase(one).find(lowerCase(name)) != one.npos) fitting.push_back(one);
+    known.emplace_back().name = std::move(one);
+  }
   if (known.empty() && !installed.empty())
     throw UsageError({.what = "there are no exercises here",
                       .where = {root.string()},
                       .wanted = "a course folder; `rex init course` makes one"});
+  // Shorter parts would be numbers of other exercises.
+  constexpr std::size_t kShortestPart = 3;
+  if (fitting.size() == 1 && name.size() >= kShortestPart) return fitting.front();
   return submission::findExercise(known, name).name;
 }
 

@@ -26,8 +26,9 @@ struct Project {
   /// These exercises. What they demand is read from files(), so that a student cannot change it. Throws Error
   /// for a bad exercise.toml.
   [[nodiscard]] std::vector<ExerciseInfo> exercises() const;
-  /// The full name of the exercise with that name, number or topic. Throws UsageError naming the nearest, and
-  /// outside of a course folder.
+  /// The full name of the exercise with that name, number, topic or, of three letters at least, part of the
+  /// name that no other has, in small or large letters. Throws UsageError naming the nearest, and outside of
+  /// a course folder.
   [[nodiscard]] std::string exerciseName(std::string_view name) const;
   /// That exercise; the others are not read. Throws like exerciseName(), and Error for a bad exercise.toml.
   [[nodiscard]] ExerciseInfo exercise(std::string_view name) const;

@@ -69,9 +69,12 @@ TEST_F(StudentLoop, ShowsPathsWithoutWaysBack) {
 }
 
 TEST_F(StudentLoop, FindsExercisesByNumberTopicAndFolder) {
-  for (const char* name :
-       {"98", "template", "98-template", "exercises/98-template/", "./exercises/98-template/main.cpp"})
+  for (const char* name : {"98", "template", "98-template", "TEMPL", "98-t", "exercises/98-template/",
+                           "./exercises/98-template/main.cpp"})
     EXPECT_EQ(rex({"hint", name}).code, 0) << name;
+  EXPECT_EQ(rex({"hint", "te"}).code, 64);
+  fs::copy(exercise(), root() / "exercises" / "97-templates", fs::copy_options::recursive);
+  EXPECT_EQ(rex({"hint", "templ"}).code, 64) << "a part of both";
 }
 
 TEST_F(StudentLoop, ShowsProgressAndTheNextStep) {
