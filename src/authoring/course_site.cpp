@@ -66,7 +66,9 @@ class SiteWriter {
   // A page from a Markdown file of the project, between two pieces of HTML. Returns its title.
   std::string addMarkdown(const fs::path& file, const fs::path& source, const std::string& before = "",
                           const std::string& after = "") {
-    return addText(file, source, readTextFile(root_ / source), before, after);
+    std::string text = readTextFile(root_ / source);
+    if (isForStudents_) text = reports::forInstalledRex(std::move(text));
+    return addText(file, source, text, before, after);
   }
 
   // The same from a text whose links are those of a file `source`.

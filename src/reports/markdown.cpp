@@ -93,6 +93,13 @@ std::string withFormulas(const std::string& html) {
 
 }  // namespace
 
+std::string forInstalledRex(std::string markdown) {
+  constexpr std::string_view kScript = "scripts/rex ", kInstalled = "rex ";
+  for (std::size_t at = markdown.find(kScript); at != markdown.npos; at = markdown.find(kScript, at))
+    markdown.replace(at, kScript.size(), kInstalled);
+  return markdown;
+}
+
 std::string headingAnchor(std::string_view heading) {
   std::string anchor;
   for (const char c : heading) {

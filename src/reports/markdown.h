@@ -27,6 +27,9 @@ struct MarkdownPage {
 [[nodiscard]] MarkdownPage markdownPage(std::string_view markdown,
                                         const std::function<std::string(const std::string&)>& newTarget);
 
+/// Documents speak of the source tree, where the command is `scripts/rex`; for others it is `rex`.
+[[nodiscard]] std::string forInstalledRex(std::string markdown);
+
 /// What GitHub makes of a heading in links: small letters and digits, blanks as dashes, nothing else.
 [[nodiscard]] std::string headingAnchor(std::string_view heading);
 

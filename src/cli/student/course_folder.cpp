@@ -12,6 +12,7 @@
 #include "base/text.h"
 #include "base/text_file.h"
 #include "cli/terminal.h"
+#include "reports/markdown.h"
 #include "submission/program_build.h"
 
 namespace rex::cli {
@@ -36,15 +37,6 @@ void addFilesIn(const fs::path& folder, const fs::path& below, std::map<fs::path
     else if (entry.is_regular_file() && isForStudents(name))
       files[below / name] = entry.path();
   }
-}
-
-// Documents speak of the source tree, where the command is scripts/rex.
-std::string textForCourse(const fs::path& name, std::string text) {
-  constexpr std::string_view kScript = "scripts/rex ", kInstalled = "rex ";
-  if (name.extension() == ".md")
-    for (std::size_t at = text.find(kScript); at != text.npos; at = text.find(kScript, at))
-      text.replace(at, kScript.size(), kInstalled);
-  return text;
 }
 
 // The files of a course folder, and where each comes from.
@@ -105,7 +97,9 @@ class Update {
   Update(fs::path course, Record before) : course_(std::move(course)), before_(std::move(before)) {}
 
   void bring(const fs::path& name, const fs::path& source) {
-    const std::string text = textForCourse(name, readTextFile(source)), hash = sha256(text);
+    std::string text = readTextFile(source);
+    if (name.extension() == ".md") text = reports::forInstalledRex(std::move(text));
+    const std::string hash = sha256(text);
     const auto known = before_.hashes.find(name);
     const bool changed = known == before_.hashes.end() || known->second != hash;
     const fs::path file = course_ / name;
