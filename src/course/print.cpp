@@ -21,6 +21,12 @@ int terminalWidth() {
   return isKnown ? size.ws_col : kUsualWidth;
 }
 
+// At once, so that a pipe has it, too, if the program is stopped later.
+void write(const std::string& text) {
+  fmt::print("{}", text);
+  std::fflush(stdout);
+}
+
 }  // namespace
 
 std::string formatMatrix(const std::string& name, const Eigen::MatrixXd& value, int width) {
@@ -42,10 +48,12 @@ std::string formatMatrix(const std::string& name, const Eigen::MatrixXd& value, 
   return text;
 }
 
-void print(const std::string& name, double value) { fmt::print("{} = {:.6g}\n", name, value); }
+void print(const std::string& name, double value) { write(fmt::format("{} = {:.6g}\n", name, value)); }
+
+void print(const std::string& name, const std::string& text) { write(fmt::format("{} = {}\n", name, text)); }
 
 void print(const std::string& name, const Eigen::MatrixXd& value) {
-  fmt::print("{}", formatMatrix(name, value, terminalWidth()));
+  write(formatMatrix(name, value, terminalWidth()));
 }
 
 void print(const std::string& name, const std::vector<double>& values) {

@@ -10,13 +10,19 @@
 
 namespace rex {
 
-/// Prints a number, vector or matrix to standard output under its name: "J (3 x 7)", then its rows with six
-/// digits, as many columns at a time as the terminal has room for. Each of several vectors is a row.
+/// Prints a number, text, vector or matrix to standard output under its name, at once: "J (3 x 7)", then its
+/// rows with six digits, as many columns at a time as the terminal has room for. Each of several vectors is a
+/// row.
 void print(const std::string& name, double value);
 void print(const std::string& name, const Eigen::MatrixXd& value);
 void print(const std::string& name, const std::vector<double>& values);
 void print(const std::string& name, const std::vector<int>& values);
 void print(const std::string& name, const std::vector<Eigen::VectorXd>& values);
+void print(const std::string& name, const std::string& text);
+template <class Numbers>
+void print(const std::string& name, const Eigen::MatrixBase<Numbers>& value) {
+  print(name, Eigen::MatrixXd(value.template cast<double>()));
+}
 
 /// The text that print() writes for lines of `width` characters.
 [[nodiscard]] std::string formatMatrix(const std::string& name, const Eigen::MatrixXd& value, int width = 80);

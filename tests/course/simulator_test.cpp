@@ -1,10 +1,13 @@
 #include <algorithm>
+#include <csignal>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "base/process.h"
 #include "course/course.h"
@@ -620,11 +623,25 @@ TEST(Print, TakesVectorsOfNumbersAndOfVectors) {
   print("q", std::vector<Eigen::VectorXd>{Eigen::Vector2d(1, 2), Eigen::Vector2d(3, 4)});
   print("p", std::vector<Eigen::VectorXd>{Eigen::Vector2d(1, 2), Eigen::Vector3d(3, 4, 5)});
   print("e", std::vector<Eigen::VectorXd>{});
-  EXPECT_EQ(
-      ::testing::internal::GetCapturedStdout(),
-      "x (2)\n           1         2.5\nn (2)\n           3           4\n"
-      "q (2 x 2)\n           1           2\n           3           4\n"
-      "p[0] (2)\n           1           2\np[1] (3)\n           3           4           5\ne (0 x 0)\n");
+  print("i", Eigen::Vector2i(5, 6));
+  print("s", Eigen::Vector2d(1, 2) + Eigen::Vector2d(3, 4));
+  print("n", 3);
+  print("t", "a text");
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(),
+            "x (2)\n           1         2.5\nn (2)\n           3           4\n"
+            "q (2 x 2)\n           1           2\n           3           4\n"
+            "p[0] (2)\n           1           2\np[1] (3)\n           3           4           5\ne (0 x 0)\n"
+            "i (2)\n           5           6\ns (2)\n           4           6\nn = 3\nt = a text\n");
+}
+
+TEST(Print, IsReadBeforeTheProgramIsKilled) {
+  const auto printIntoAPipe = [] {
+    ::dup2(STDERR_FILENO, STDOUT_FILENO);
+    std::setvbuf(stdout, nullptr, _IOFBF, BUFSIZ);
+    print("x", 1);
+    ::raise(SIGKILL);
+  };
+  EXPECT_EXIT(printIntoAPipe(), ::testing::KilledBySignal(SIGKILL), "x = 1");
 }
 
 }  // namespace rex::simulator_test
