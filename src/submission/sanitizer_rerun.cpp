@@ -159,9 +159,10 @@ const Frame& recursionIn(const std::vector<Frame>& stack) {
 Toolchain withReports(const Toolchain& toolchain, const std::filesystem::path& folder, std::size_t memory,
                       const std::string& code) {
   const std::filesystem::path header = folder / "sanitizer_options.h";
-  writeTextFile(
-      header,
-      fmt::format("#pragma once\n#define REX_MEMORY_MEGABYTES \"{}\"\n", memory / grading::kMegabyte) + code);
+  // As a header of the system: Eigen's assertions warn in the words of our macro.
+  writeTextFile(header, fmt::format("#pragma GCC system_header\n#define REX_MEMORY_MEGABYTES \"{}\"\n",
+                                    memory / grading::kMegabyte) +
+                            code);
   Toolchain changed = toolchain;
   changed.prefix.clear();
   for (const std::string& flag :

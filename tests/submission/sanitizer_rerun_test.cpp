@@ -138,6 +138,15 @@ TEST_F(SanitizedToolchain, MakesProgramsThatReportWhereTheyCrash) {
   }
 }
 
+TEST_F(SanitizedToolchain, WarnsOfNothingInEigen) {
+  Toolchain warning = plain();
+  warning.flags.front() = "-Wall";
+  warning.flags.emplace_back("-Werror");
+  compile(
+      sanitizedToolchain(warning, temporary_.path(), 200 * grading::kMegabyte), {"-c"},
+      "#include <Eigen/Dense>\nEigen::MatrixXd f(const Eigen::MatrixXd& A) { return A.inverse() * A; }\n");
+}
+
 // The second program asks for more than there can be, at once.
 TEST_F(SanitizedToolchain, MakesProgramsThatEndWhenTheyHoldTooMuchMemory) {
   const char* bodies[] = {
