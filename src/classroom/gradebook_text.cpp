@@ -322,7 +322,10 @@ std::optional<reports::Judgement> rowJudgement(const GradeRow& row) {
                                .penalty = row.late.penalty,
                                .final = *row.final,
                                .possible = row.possible};
-  for (const AppliedAdjustment& one : row.applied) judgement.changes.push_back(changeText(one));
+  for (const AppliedAdjustment& one : row.applied) {
+    judgement.changes.push_back(changeText(one));
+    if (!one.adjustment.check.empty()) judgement.checks[one.adjustment.check] = one.after;
+  }
   return judgement;
 }
 

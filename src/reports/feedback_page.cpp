@@ -81,19 +81,28 @@ std::string placeOf(const std::string& path, const std::string& file, int line) 
       editorLink(path, line, html(fmt::format("{}:{}", file, line))), htmlText(path), line);
 }
 
-std::string tableOfChecks(const grading::GradeResult& result, const std::string& path) {
+// "3/4 instead of 1/4" if a person gave 3.
+std::string pointsOf(const grading::CheckResult& check, const Judgement* judgement) {
+  const std::string graded = fmt::format("{}/{}", check.points, check.maxPoints);
+  const std::string given =
+      fmt::format("{}/{}", hundredthsText(pointsGiven(check, judgement)), check.maxPoints);
+  return given == graded ? graded : given + " instead of " + graded;
+}
+
+std::string tableOfChecks(const grading::GradeResult& result, const std::string& path,
+                          const Judgement* judgement) {
   std::string text =
       "<table>\n<tr><th>Result</th><th>Check</th><th>Points</th><th>What was found</th></tr>\n";
   int hidden = 0;
   for (const grading::CheckResult& check : result.checks) {
     const bool isShown = !isPassed(check) && !isHidden(check);
-    text += fmt::format("<tr class=\"{}\"><td>{}</td><td>{}</td><td>{}/{}</td><td>{}{}</td></tr>\n",
+    text += fmt::format("<tr class=\"{}\"><td>{}</td><td>{}</td><td>{}</td><td>{}{}</td></tr>\n",
                         isPassed(check) ? "passes" : "fails", html(statusText(check)),
-                        html(nameOfCheck(check, hidden)), check.points, check.maxPoints,
+                        html(nameOfCheck(check, hidden)), pointsOf(check, judgement),
                         html(foundBy(check, result, path)),
                         isShown ? placeOf(path, submittedFile(result), check.line) : "");
   }
-  const std::string parts = pointsByPart(result);
+  const std::string parts = pointsByPart(result, judgement);
   return text + "</table>\n" + (parts.empty() ? "" : "<p>" + html(parts) + "</p>\n");
 }
 
@@ -143,9 +152,10 @@ std::string gradeOf(const Feedback& feedback) {
 
 }  // namespace
 
-std::string checksHtml(const grading::GradeResult& result, const std::string& path) {
+std::string checksHtml(const grading::GradeResult& result, const std::string& path,
+                       const Judgement* judgement) {
   if (result.outcome == grading::Outcome::kGraderError) return "";
-  if (result.outcome != grading::Outcome::kCompileError) return tableOfChecks(result, path);
+  if (result.outcome != grading::Outcome::kCompileError) return tableOfChecks(result, path, judgement);
   return fmt::format("<p>Cannot be graded:</p>\n<pre>{}</pre>\n", html(compileText(result), kLongestText)) +
          compilerPlaces(result, path);
 }
@@ -177,7 +187,7 @@ std::string feedbackPage(const Feedback& feedback, const std::vector<FeedbackFil
       page += fmt::format("<li>{}</li>\n", html(sentence));
     page += "</ul>\n";
   }
-  page += checksHtml(result);
+  page += checksHtml(result, "", feedback.judgement ? &*feedback.judgement : nullptr);
   const bool hasChecks =
       result.outcome != grading::Outcome::kCompileError && result.outcome != grading::Outcome::kGraderError;
   if (hasChecks) page += evidence(result, files);

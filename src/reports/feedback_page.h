@@ -39,7 +39,9 @@ struct FeedbackFile {
 
 /// Parts of that page for other pages: the table of checks, or what the compiler says; and main.cpp with the
 /// comments. If `path`, absolute, says where main.cpp is, lines lead to it in an editor.
-[[nodiscard]] std::string checksHtml(const grading::GradeResult& result, const std::string& path = "");
+/// A judgement changes points of checks.
+[[nodiscard]] std::string checksHtml(const grading::GradeResult& result, const std::string& path = "",
+                                     const Judgement* judgement = nullptr);
 [[nodiscard]] std::string listingHtml(const Feedback& feedback, const std::string& path = "");
 
 }  // namespace rex::reports

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,6 +20,7 @@ struct Judgement {
   std::int64_t penalty = 0;            ///< for lateness
   std::int64_t final = 0;
   std::int64_t possible = 0;
+  std::map<std::string, std::int64_t> checks{};  ///< points that people gave, by the id of the check
 };
 
 /// "7.5": a number of hundredths, as short as possible.

@@ -52,23 +52,31 @@ std::string pointsText(const grading::GradeResult& result) {
   return fmt::format("{} of {} points", result.score, result.maxScore);
 }
 
-std::string pointsByPart(const grading::GradeResult& result) {
+std::int64_t pointsGiven(const grading::CheckResult& check, const Judgement* judgement) {
+  if (judgement != nullptr)
+    if (const auto given = judgement->checks.find(check.id); given != judgement->checks.end())
+      return given->second;
+  return std::int64_t{100} * check.points;
+}
+
+std::string pointsByPart(const grading::GradeResult& result, const Judgement* judgement) {
   struct Part {
     std::string id;
-    int points = 0, maxPoints = 0;
+    std::int64_t points = 0;
+    int maxPoints = 0;
   };
   std::vector<Part> parts;
   for (const grading::CheckResult& check : result.checks) {
     auto part =
         std::find_if(parts.begin(), parts.end(), [&](const Part& one) { return one.id == check.part; });
     if (part == parts.end()) part = parts.insert(part, {.id = check.part});
-    part->points += check.points, part->maxPoints += check.maxPoints;
+    part->points += pointsGiven(check, judgement), part->maxPoints += check.maxPoints;
   }
   if (parts.size() < 2) return "";
   std::string text = "By part: ";
   for (const Part& part : parts)
-    text += fmt::format("{}{} {}/{}", &part == parts.data() ? "" : ", ", shownText(part.id), part.points,
-                        part.maxPoints);
+    text += fmt::format("{}{} {}/{}", &part == parts.data() ? "" : ", ", shownText(part.id),
+                        hundredthsText(part.points), part.maxPoints);
   return text + ".";
 }
 

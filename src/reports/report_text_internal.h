@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
 #include "grading/results.h"
+#include "reports/report.h"
 
 namespace rex::reports::internal {
 
@@ -39,8 +41,12 @@ inline constexpr const char* kGraderFailed =
 /// "3 of 9 points".
 [[nodiscard]] std::string pointsText(const grading::GradeResult& result);
 
+/// In hundredths: those of a person count instead of those of the grading.
+[[nodiscard]] std::int64_t pointsGiven(const grading::CheckResult& check, const Judgement* judgement);
+
 /// "By part: step 2/4, motion 3/3."; empty for a single part.
-[[nodiscard]] std::string pointsByPart(const grading::GradeResult& result);
+[[nodiscard]] std::string pointsByPart(const grading::GradeResult& result,
+                                       const Judgement* judgement = nullptr);
 
 /// Seconds that visible checks took: how long a hidden one takes could tell its input.
 [[nodiscard]] double visibleSeconds(const grading::GradeResult& result);

@@ -12,6 +12,7 @@
 
 namespace rex::classroom::gradebook_text_test {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -69,6 +70,17 @@ TEST_F(ClassFeedbackTest, ShowsEachStudentNothingOfOthersNorOfHiddenChecks) {
   EXPECT_THAT(page, HasSubstr("<a href=\"checks/turn.html\">Replay: Turns</a>"));
   EXPECT_THAT(page, HasSubstr("<tr id=\"line2\">"));
   EXPECT_FALSE(fs::exists(out / "adam" / kEx / "checks/hand.png")) << "it is in the page";
+}
+
+TEST_F(ClassFeedbackTest, ShowsPointsOfPeopleInTheRowOfTheirCheckAndInItsPart) {
+  grading::GradeResult result = sampleResult(3, 1, 0);
+  result.checks[0].part = "pos";
+  saveSample(source_.out, source_.tasks[0], result, "");
+  source_.adjustments.adjustments = {{.students = {"adam"}, .exercise = kEx, .check = "turn", .add = 150}};
+  const auto feedback = rowFeedback(*book().row("adam", kEx), source_.out).value();
+  EXPECT_THAT(reports::feedbackPage(feedback, {}),
+              AllOf(HasSubstr("<td>2.5/4 instead of 1/4</td>"), HasSubstr("<td>3/3</td>"),
+                    HasSubstr("By part: pos 3/3, kin 2.5/7.")));
 }
 
 TEST_F(ClassFeedbackTest, NeverTakesFilesFromElsewhere) {
