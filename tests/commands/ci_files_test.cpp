@@ -389,13 +389,13 @@ TEST_F(ManyByEngines, HandsAnArrayToSlurm) {
 }
 
 TEST(PackageVersions, SortByTheTimeOfTheCommitAndBeforeTheNextRelease) {
-  const ProcessResult sorted = runProcess({"/bin/bash", "-ec",
-                                           "source scripts/bootstrap; a=$(package_version 0.2.0 1795900000 "
-                                           "fff); b=$(package_version 0.2.0 1795900001 "
-                                           "abc); for c in 0.2.0 $a $b 0.3.0; do test -z \"$p\" || dpkg "
-                                           "--compare-versions $p lt $c; p=$c; done; echo $a"},
-                                          {.directory = sourcePath("")});
-  EXPECT_EQ(sorted.output, "0.3.0~git20261128210640.fff\n") << sorted.error;
+  const ProcessResult sorted =
+      runProcess({"/bin/bash", "-ec",
+                  "source scripts/bootstrap; a=$(package_version 0.2.0 1795900000 fff v0.2.0); "
+                  "b=$(package_version 0.3.0 1795900001 abc ''); for c in 0.2.0 $a $b 0.3.0; do test -z "
+                  "\"$p\" || dpkg --compare-versions $p lt $c; p=$c; done; echo $a $b"},
+                 {.directory = sourcePath("")});
+  EXPECT_EQ(sorted.output, "0.3.0~git20261128210640.fff 0.3.0~git20261128210641.abc\n") << sorted.error;
 }
 
 TEST_F(CiFiles, NameTheImageOfTheCourse) {
