@@ -61,6 +61,16 @@ TEST_F(FeedbackTest, TestsOnePartAndShowsWhatItsFunctionsPrint) {
       HasSubstr("no check is called 'sideways': wanted one of quarter-turn, keeps-length, angles-add"));
 }
 
+TEST_F(FeedbackTest, TestsTheChecksThatBlamedAFunction) {
+  writeMain("  return p;\n");
+  EXPECT_THAT(flat(rex({"test", "98", "--check", "rotated"}).error),
+              HasSubstr("no check is called 'rotated'"));
+  EXPECT_EQ(rex({"test", "98"}).code, 1);
+  const Ended ended = rex({"test", "98", "--check", "rotated"});
+  EXPECT_EQ(ended.code, 1) << ended.error;
+  EXPECT_THAT(ended.output, AllOf(HasSubstr("[quarter-turn]"), Not(HasSubstr("[keeps-length"))));
+}
+
 TEST_F(FeedbackTest, ListsNoPictureOfAnEarlierTest) {
   writeMain(kRight);
   const fs::path checks = out() / "checks";

@@ -272,4 +272,20 @@ TEST_F(GradeManyTest, ShowsSimilarSubmissionsApartFromTheResults) {
   EXPECT_EQ(grade({"--similar-percent", "50"}).code, 64);
 }
 
+TEST_F(GradeManyTest, NamesNoMembersOfOneGroupAsSimilar) {
+  handIn("anna", kGood), handIn("bert", kGood), handIn("carl", kWrong);
+  const auto similar = [&](const std::string& groupOfBert) {
+    std::string course;
+    for (const auto& [id, group] :
+         {std::pair("anna", "one"), {"bert", groupOfBert.c_str()}, {"carl", "three"}})
+      course += std::string("[[student]]\nid = \"") + id + "\"\ngroup = \"" + group + "\"\n";
+    write(root() / "course.toml", course);
+    return flat(
+        grade({"--similar", (root() / "similar").string(), "--course", (root() / "course.toml").string()})
+            .output);
+  };
+  EXPECT_THAT(similar("one"), HasSubstr("98-template: no two of 3 submissions have 70 % in common"));
+  EXPECT_THAT(similar("two"), HasSubstr("98-template: 1 group of similar submissions"));
+}
+
 }  // namespace rex::cli::grade_many_test
