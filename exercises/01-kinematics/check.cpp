@@ -171,7 +171,8 @@ void isZeroOnlyAt(Check& check, const std::string& text, const Eigen::Vector3d& 
     check.atMost(size + map.zero, y.cwiseAbs().maxCoeff(), kZero);
   }
   {
-    const auto cross = check.ask("Is it a cross product, or a square? These are zero there, too.");
+    const auto cross = check.ask("Is it a cross product, or a square? These are zero there, too.",
+                                 !isZero(valueAt(w.unitOrthogonal())));
     notZero(map.opposite, -w);
   }
   for (int i = 0; i < 3; ++i) {

@@ -7,6 +7,11 @@
 // in place of: return {S.kinematicsVec(body, gaze) - toTarget, S.jacobianVec(body, gaze) + across *
 return {gaze - toTarget, across* S.jacobianPos(body)};
 
+// <variant nothing_yet> caught by: look-at-zero
+// mistake: as it was handed out.
+// <solution lookAt>
+return {Eigen::Vector3d::Zero(), Eigen::MatrixXd::Zero(3, S.getJointDimension())};
+
 // <variant looks_away_too> caught by: look-at-zero
 // mistake: The cross product of gaze and direction is zero also when the body looks away from the target.
 // <solution lookAt>
