@@ -45,6 +45,18 @@ for (const Experience& e : steps)
             std::nullopt, stepSize, discount);
 return learned;
 
+// <variant nothing_learned> caught by: q-steps, more-steps
+// mistake: as it was handed out.
+// <solution qLearned>
+return Q;
+
+// <variant learns_as_sarsa> caught by: q-steps, more-steps
+// mistake: is SARSA.
+// <solution qLearned>
+// in place of: const double later = step.ended ? 0 : learned.row(step.next).maxCoeff();
+if (!step.ended && &step == &steps.back()) break;
+const double later = step.ended ? 0 : learned(step.next, (&step + 1)->action);
+
 // <variant end_is_worth_something> caught by: q-steps, more-steps
 // shown by: q-steps
 // mistake: adds the values of the next state after the end.
