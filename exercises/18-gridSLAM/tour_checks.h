@@ -39,8 +39,8 @@ inline void isDrawn(Check& check, const Mapped& got, const Log& log, const CellE
       check.ask("Does each motion go with the scan before it? scans[t + 1] comes after motions[t].",
                 shareOff(late) < .05);
   const auto mixed = check.ask("Is it the map of another particle than the path?");
-  check.atMost("share of the cells in which the map is not what scans along the path say", shareOff(drawn),
-               .08);
+  check.atMost("share of the cells in which the map of mapped is not what scans draw along its path",
+               shareOff(drawn), .08);
 }
 
 inline void maps(Check& check, Student& student) {
