@@ -38,7 +38,10 @@ void matchesScans(Check& check, Student& student) {
   check.forEachCase(5, [&](int i) { matches(check, student, i < 4 ? .8 : 2.2); });
 }
 
-void resamplesParticles(Check& check, Student& student) { resamples(check, student, 8, 1.5); }
+// Among particles of almost equal weights, a likely one is lost easily.
+void resamplesParticles(Check& check, Student& student) {
+  for (const double spread : {1.5, .2}) resamples(check, student, 8, spread);
+}
 
 void mapsOnce(Check& check, Student& student) { maps(check, student); }
 

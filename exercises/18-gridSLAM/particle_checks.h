@@ -161,9 +161,13 @@ inline void resamples(Check& check, Student& student, int count, double spread) 
     }
     Eigen::Index worst = 0;
     const double lack = ((expected.array() - 1e-9).floor() - copies.array()).maxCoeff(&worst);
-    bool isNext = true;
-    for (Eigen::Index k = 0; k < count; ++k)
+    bool isNext = true, isInOrder = true;
+    for (Eigen::Index k = 0; k < count; ++k) {
       isNext = isNext && copies[(k + 1) % count] >= std::floor(expected[k] - 1e-9);
+      isInOrder = isInOrder && std::abs(copies.head(k + 1).sum() - expected.head(k + 1).sum()) < 1;
+    }
+    const auto several =
+        check.ask("Is a new random number drawn for each copy? One is enough for all.", isInOrder);
     const auto shifted = check.ask("Is particle i + 1 copied as often as particle i should be?", isNext);
     const auto drawn =
         check.ask("Is each copy drawn by itself? Then a likely particle may be lost by bad luck.");
