@@ -90,7 +90,7 @@ inline Eigen::MatrixXd whereClear(const Eigen::MatrixXd& got, const Grid& map, c
   return (all.array() == clear.array()).select(got, all);
 }
 
-/// The distance of two cells that are x and y cells apart.
+/// The distance of two cells that are x and y cells apart, at least the larger of both.
 using CellDistance = std::function<double(double x, double y)>;
 
 /// By all pairs of cells. `isWall` says which log odds are a wall.
@@ -106,9 +106,11 @@ inline Grid distancesTo(
   for (Eigen::Index i = 0; i < map.values.rows(); ++i)
     for (Eigen::Index j = 0; j < map.values.cols(); ++j) {
       double& nearest = distances.values(i, j) = reach;
-      for (const Eigen::Vector2d& wall : walls)
-        nearest = std::min(nearest, map.cell * apart(std::abs(wall[0] - static_cast<double>(i)),
-                                                     std::abs(wall[1] - static_cast<double>(j))));
+      for (const Eigen::Vector2d& wall : walls) {
+        const double x = std::abs(wall[0] - static_cast<double>(i)),
+                     y = std::abs(wall[1] - static_cast<double>(j));
+        if (map.cell * std::max(x, y) < reach) nearest = std::min(nearest, map.cell * apart(x, y));
+      }
     }
   return distances;
 }

@@ -410,6 +410,17 @@ particle.logWeight = fit(distances, pose, scan, settings.deviation) / settings.t
 // <solution mapped>
 // in place of: for (Particle& one : particles) one.map = observed(empty, log.start, log.scans[0],
 
+// <variant least_weight> caught by: rule
+// mistake: returns the particle of the least weight.
+// <solution mapped>
+// in place of: for (std::size_t t = 0; t < log.motions.size(); ++t) { ... }
+for (std::size_t t = 0; t < log.motions.size(); ++t) {
+  if (!sizes.empty() && sizes.back() < settings.threshold * count) particles = resampled(particles, rng);
+  particles = slamStep(particles, log.motions[t], log.scans[t + 1], settings, rng);
+  sizes.push_back(effectiveSize(weightsOf(particles)));
+}
+for (Particle& one : particles) one.logWeight = -one.logWeight;
+
 // <variant never_resamples> caught by: rule
 // mistake: never resamples.
 // <solution mapped>
