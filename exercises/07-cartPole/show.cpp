@@ -136,7 +136,11 @@ void showSurvival(const Eigen::MatrixXd& K, const Eigen::MatrixXd& printed) {
 }
 
 void showBalance(const Eigen::MatrixXd& K) {
-  Eigen::MatrixXd states = withoutNoise(K, {0, 0, .8, 0}, 8);
+  Rng rng(2);
+  const Eigen::MatrixXd states = withoutNoise(K, {0, 0, .8, 0}, 8),
+                        noisy = balanced(kCart, K, {0, 0, .4, 0}, {.steps = 600}, rng);
+  if (!K.allFinite() || !states.allFinite() || !noisy.allFinite() || states.size() * noisy.size() == 0)
+    return nothingYet("your simulation: K or a state is not finite, or there are no states");
   CartPole pole(0, {.noise = 0});
   pole.x = Eigen::Vector4d(0, 0, .8, 0);
   double apart = 0;
@@ -144,13 +148,11 @@ void showBalance(const Eigen::MatrixXd& K) {
     apart = std::max(apart, (pole.x - states.col(t)).cwiseAbs().maxCoeff());
     pole.step(forceOf(K, pole.x));
   }
-  print("seconds in your simulation, which should be 8", kTau * static_cast<double>(states.cols() - 1));
-  print("largest distance from the library's, which should be 0", apart);
-  Rng rng(2);
-  states = balanced(kCart, K, {0, 0, .4, 0}, {.steps = 600}, rng);
+  print("seconds in your simulation (wanted: 8)", kTau * static_cast<double>(states.cols() - 1));
+  print("largest distance from the library's (wanted: 0)", apart);
   std::vector<CartPoleView> views;
-  for (Eigen::Index t = 0; t < states.cols(); ++t) {
-    const Eigen::Vector4d now = states.col(t);
+  for (Eigen::Index t = 0; t < noisy.cols(); ++t) {
+    const Eigen::Vector4d now = noisy.col(t);
     views.push_back({.x = now, .u = forceOf(K, now), .caption = "u = K x, noise 0.1"});
   }
   writeFilm(cartPoleFilm(views), "balanced");
