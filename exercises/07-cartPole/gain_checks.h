@@ -51,21 +51,25 @@ inline double betweenSteps(const Plant& plant, const Costs& costs, double epsilo
 /// What the sheet puts between the bars, or what a mistake makes of it: for a plant, costs and P.
 using Bracket = std::function<Eigen::MatrixXd(const Plant&, const Costs&, const Eigen::MatrixXd&)>;
 
-/// P of the iteration from Q on, and the one after it, where the bracket times `scale` is within the
-/// tolerance.
-inline std::optional<std::pair<Eigen::MatrixXd, Eigen::MatrixXd>> firstWithin(
-    const Regulation& task, double epsilon, double tolerance, const Bracket& bracket, double scale = 1) {
+/// The size of a bracket, or what a mistake takes for it.
+using Size = std::function<double(const Eigen::MatrixXd&)>;
+
+inline double largestOf(const Eigen::MatrixXd& bracket) { return bracket.cwiseAbs().maxCoeff(); }
+
+/// The first P of the iteration from Q on for which the size of the bracket is within the tolerance.
+inline Eigen::MatrixXd firstWithin(const Regulation& task, double epsilon, double tolerance,
+                                   const Bracket& bracket, const Size& sizeOf) {
   Eigen::MatrixXd now = task.costs.Q;
   for (int count = 0; count <= 50; ++count) {
-    const Eigen::MatrixXd rate = bracket(task.plant, task.costs, now), next = now + epsilon * rate;
-    if (scale * rate.cwiseAbs().maxCoeff() <= tolerance) return std::pair(now, next);
-    now = next;
+    const Eigen::MatrixXd rate = bracket(task.plant, task.costs, now);
+    if (sizeOf(rate) <= tolerance) return now;
+    now += epsilon * rate;
   }
   return {};
 }
 
 /// P_1, P_2 and P_3 of a small plant, each the first within a wide tolerance. So a wrong term of the bracket
-/// is not taken for a loop that is a step too short.
+/// is not taken for a loop that is a step too short. The norms of the last two brackets exceed the tolerance.
 inline void firstStepsFit(rex::grading::Check& check, Student& student) {
   Plant plant{Eigen::MatrixXd(2, 2), Eigen::MatrixXd(2, 2)};
   plant.A << -1, .5, .25, -2;
@@ -93,8 +97,11 @@ inline void firstStepsFit(rex::grading::Check& check, Student& student) {
   const auto ofOne =
       withR([](const Eigen::MatrixXd& R) -> Eigen::MatrixXd { return 0 * R + Eigen::Matrix2d::Identity(); });
   const auto plus = withR([](const Eigen::MatrixXd& R) -> Eigen::MatrixXd { return -rex::inverse(R); });
+  Eigen::MatrixXd wanted = costs.Q;
   for (int steps = 1; steps <= 3; ++steps) {
-    const double tolerance = betweenSteps(plant, costs, kEpsilon, steps);
+    wanted += kEpsilon * imbalance(plant, costs, wanted);
+    const double tolerance = steps == 1 ? betweenSteps(plant, costs, kEpsilon, steps)
+                                        : 1.03 * largestOf(imbalance(plant, costs, wanted));
     check.input("a small plant and its costs", {{"A", plant.A},
                                                 {"B", plant.B},
                                                 {"Q", costs.Q},
@@ -102,24 +109,24 @@ inline void firstStepsFit(rex::grading::Check& check, Student& student) {
                                                 {"epsilon", kEpsilon},
                                                 {"tolerance", tolerance},
                                                 {"most", 50}});
-    const auto is = [&](const char* question, const Bracket& bracket, double scale = 1) {
-      const auto found = firstWithin(task, kEpsilon, tolerance, bracket, scale);
-      return check.suspect(question, found ? found->first : Eigen::MatrixXd());
+    const auto is = [&](const char* question, const Bracket& bracket, const Size& sizeOf = largestOf) {
+      return check.suspect(question, firstWithin(task, kEpsilon, tolerance, bracket, sizeOf));
     };
-    const auto right = firstWithin(task, kEpsilon, tolerance, imbalance);
     const std::optional<Eigen::MatrixXd> P = student.iterated(plant, costs, kEpsilon, tolerance, 50);
     check.that("iterated returns a P where a few steps are enough", P.has_value());
     check.shape("P of iterated", *P, 2, 2);
     const auto small = is("Is the change of P compared with the tolerance? It is epsilon times the bracket.",
-                          imbalance, kEpsilon);
+                          imbalance, [](const Eigen::MatrixXd& rate) { return kEpsilon * largestOf(rate); });
+    const auto norm = is("Is it the norm of the bracket? Wanted is that no entry exceeds the tolerance.",
+                         imbalance, [](const Eigen::MatrixXd& rate) { return rate.norm(); });
     const auto noQ = is("Is Q left out of the bracket?", change(-costs.Q));
     const auto turned = is("Is A transposed? The bracket has A^T P + P A.", sideways);
     const auto inverse = is("Is R used in place of its inverse?", ofR);
     const auto none = is("Is R left out of the bracket?", ofOne);
     const auto sign = is("Which sign has the term with R^-1?", plus);
-    const auto next =
-        check.suspect("Is the P after it returned? Wanted is the one whose bracket is small.", right->second);
-    check.near("P of iterated, which needs few steps", *P, right->first, 1e-9);
+    const auto next = check.suspect("Is the P after it returned? Wanted is the one whose bracket is small.",
+                                    wanted + kEpsilon * imbalance(plant, costs, wanted));
+    check.near("P of iterated, which needs few steps", *P, wanted, 1e-9);
   }
 }
 

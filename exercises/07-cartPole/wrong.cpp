@@ -63,6 +63,12 @@ const Eigen::MatrixXd S = plant.B * costs.R * plant.B.transpose();
 // in place of: if (bracket.cwiseAbs().maxCoeff() <= tolerance) return P;
 if (bracket.cwiseAbs().maxCoeff() <= tolerance) return Eigen::MatrixXd(P + epsilon * bracket);
 
+// <variant norm_of_the_bracket> caught by: iterates
+// mistake: compares the norm of the bracket with the tolerance.
+// <solution iterated>
+// in place of: if (bracket.cwiseAbs().maxCoeff() <= tolerance) return P;
+if (bracket.norm() <= tolerance) return P;
+
 // <variant always_a_controller> caught by: iterates
 // mistake: returns the last P, even if it has not converged.
 // <solution iterated>
