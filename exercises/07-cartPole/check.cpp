@@ -24,7 +24,12 @@ void iterates(Check& check, Student& student) {
 }
 
 void halves(Check& check, Student& student) {
+  hamiltonianFits(check, student, smallRegulation());
   hamiltonianFits(check, student, regulationOf(plantOf({}), costsOfTheSheet()));
+  // Both poles of the closed loop are -1, with a single eigenvector.
+  hamiltonianFits(check, student,
+                  regulationOf({drift(), Eigen::Vector2d(0, 1)},
+                               {Eigen::Vector2d(1, 2).asDiagonal(), Eigen::MatrixXd::Identity(1, 1)}));
   for (int i = 0; i < 5; ++i) hamiltonianFits(check, student, randomRegulation(check.rng(), i == 4));
   hamiltonianFits(check, student, stiffRegulation(check.rng()));
   gainsOfTheSheetFit(check, student);

@@ -172,6 +172,21 @@ inline void iterationEnds(rex::grading::Check& check, Student& student) {
   check.that("iterated returns nothing if there is no P", !student.iterated(plant, costs, .01, 1e-3, 5000));
 }
 
+/// P from the stable half of a matrix (2 n x 2 n), symmetric; empty if that half has not n dimensions.
+inline Eigen::MatrixXd fromStableHalf(const Eigen::MatrixXd& Z) {
+  const Eigen::Index n = Z.rows() / 2;
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(Z);
+  Eigen::MatrixXcd half(2 * n, 0);
+  for (Eigen::Index i = 0; i < 2 * n; ++i) {
+    if (solver.eigenvalues()[i].real() >= 0) continue;
+    half.conservativeResize(Eigen::NoChange, half.cols() + 1);
+    half.rightCols(1) = solver.eigenvectors().col(i);
+  }
+  if (half.cols() != n) return {};
+  const Eigen::MatrixXd P = (half.bottomRows(n) * half.topRows(n).inverse()).real();
+  return .5 * (P + P.transpose());
+}
+
 /// The bracket shows how exact P is, but not what is wrong with it: first P is compared with the wanted one,
 /// as far as that is known.
 inline void hamiltonianFits(rex::grading::Check& check, Student& student, const Regulation& task) {
@@ -187,6 +202,18 @@ inline void hamiltonianFits(rex::grading::Check& check, Student& student, const 
                                  regulationOf(plant, {costs.Q, rex::inverse(costs.R)}).optimal.X);
   const auto turned =
       check.suspect("Is it the inverse of P? The stable half is spanned by (I; P).", rex::inverse(optimal.X));
+  const Eigen::MatrixXd S = plant.B * rex::solveMatrix(costs.R, plant.B.transpose()), &Q = costs.Q,
+                        At = plant.A.transpose();
+  const auto blocks = [&](const char* question, const Eigen::MatrixXd& upper, const Eigen::MatrixXd& lower,
+                          const Eigen::MatrixXd& last) {
+    return check.suspect(
+        question,
+        fromStableHalf(
+            (Eigen::MatrixXd(2 * At.rows(), 2 * At.rows()) << plant.A, upper, lower, last).finished()));
+  };
+  const auto plusQ = blocks("Which sign has Q in the Hamiltonian matrix?", -S, Q, -At);
+  const auto plusA = blocks("Which sign has A^T in the Hamiltonian matrix?", -S, -Q, At);
+  const auto swapped = blocks("Which of the blocks B R^-1 B^T and Q is above the other?", -Q, -S, -At);
   const auto unstable = check.ask(
       "Does P belong to the unstable half of the Hamiltonian's eigenvalues?",
       abscissa(plant.A - plant.B * rex::solveMatrix(costs.R, plant.B.transpose() * P)) > 0 &&

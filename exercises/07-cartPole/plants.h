@@ -100,6 +100,17 @@ inline Regulation regulationOf(const Plant& plant, const Costs& costs) {
   return {plant, costs, rex::solveCare(plant.A, plant.B, costs.Q, costs.R)};
 }
 
+/// A task of two states whose P can be computed even with usual mistakes in the Hamiltonian matrix.
+inline Regulation smallRegulation() {
+  Plant plant{Eigen::MatrixXd(2, 2), Eigen::MatrixXd(2, 2)};
+  plant.A << 1, .5, .25, -2;
+  plant.B << 1, .5, 0, 1;
+  Costs costs{Eigen::MatrixXd(2, 2), Eigen::MatrixXd(2, 2)};
+  costs.Q << 1, .2, .2, 2;
+  costs.R << 4, 1, 1, 2;
+  return regulationOf(plant, costs);
+}
+
 /// A random task whose closed loop is neither slow nor fast, so that the iteration of the sheet converges
 /// with epsilon = 0.005, and whose P is not large. If `hasUnmoved`, it has a mode that u does not reach and
 /// that decays by itself.

@@ -135,6 +135,24 @@ return iterated(plant, costs, 1e-3, 1e-9, 1000000).value_or(costs.Q);
 // in place of: const Eigen::MatrixXd S = plant.B * solve(costs.R, plant.B.transpose());
 const Eigen::MatrixXd S = plant.B * costs.R * plant.B.transpose();
 
+// <variant sign_of_q> caught by: hamiltonian, other-regulators
+// mistake: +Q in the Hamiltonian matrix.
+// <solution viaHamiltonian>
+// in place of: Z << plant.A, -S, -costs.Q, -plant.A.transpose();
+Z << plant.A, -S, costs.Q, -plant.A.transpose();
+
+// <variant sign_of_a> caught by: hamiltonian, other-regulators
+// mistake: +A^T in the Hamiltonian matrix.
+// <solution viaHamiltonian>
+// in place of: Z << plant.A, -S, -costs.Q, -plant.A.transpose();
+Z << plant.A, -S, -costs.Q, plant.A.transpose();
+
+// <variant blocks_exchanged> caught by: hamiltonian, other-regulators
+// mistake: Q above, where B R^-1 B^T belongs.
+// <solution viaHamiltonian>
+// in place of: Z << plant.A, -S, -costs.Q, -plant.A.transpose();
+Z << plant.A, -costs.Q, -S, -plant.A.transpose();
+
 // <variant inverse_of_p> caught by: hamiltonian, other-regulators
 // mistake: X Y^-1 for Y X^-1.
 // <solution viaHamiltonian>
