@@ -138,6 +138,7 @@ Figure hullFigure(const std::string& title, const Eigen::MatrixXd& points) {
     figure.series.back().style = SeriesStyle::kLinesPoints;
     figure.series.back().marker = Marker::kCircle;
   }
+  addPoint(figure, "zero", kRed, Eigen::Vector3d::Zero());
   Eigen::Index nearest = 0;
   for (Eigen::Index f = 0; f < offsets.size(); ++f)
     if (offsets[f] < offsets[nearest]) nearest = f;

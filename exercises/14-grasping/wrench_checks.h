@@ -166,6 +166,9 @@ inline void coneFits(rex::grading::Check& check, Student& student, rex::Rng& rng
     const auto exact = check.ask(
         "Is there room for rounding? A force along the normal may have a part of 1e-17 N along the surface.",
         one.isInside && one.finger.friction == 0);
+    const auto whole = check.ask(
+        "Is friction multiplied by the size of the force? Only its component along the normal counts.",
+        !one.isInside && one.finger.friction > 0 && one.force.dot(one.finger.normal) > 1e-6);
     check.input(one.input,
                 {{"friction", one.finger.friction}, {"normal", one.finger.normal}, {"force", one.force}});
     check.that(one.property, student.inCone(one.finger, one.force) == one.isInside);
@@ -283,6 +286,8 @@ inline void reachIs(rex::grading::Check& check, Student& student, const std::str
                                      number((W.transpose() * direction).maxCoeff()));
   const auto each = check.suspect("Is each weight at most one? All together sum to one.",
                                   number(W.rows() == 2 ? reachOfEach(W, direction) : NAN));
+  const auto back = check.suspect("Is it how far the hull reaches the other way, along -direction?",
+                                  number(W.rows() == 2 ? reachOf(rex::facetHull(W), -direction) : NAN));
   if (W.rows() != 2) return check.near("reachAlong", got, wanted, 1e-6, "N");
   const auto shown = check.show([&] { return reachSeen(W, direction, got, wanted); });
   check.near("reachAlong", got, wanted, 1e-6, "N");

@@ -38,6 +38,12 @@ return std::acos(std::min(1., force.dot(finger.normal) / force.norm())) <= finge
 // in place of: forces.col(k) = n + finger.friction * (std::cos(angle) * a + std::sin(angle) * b);
 forces.col(k) = n + std::tan(finger.friction) * (std::cos(angle) * a + std::sin(angle) * b);
 
+// <variant friction_of_the_whole_force> caught by: cones, any-cones
+// mistake: friction times the size of the force.
+// <solution inCone>
+// in place of: return across <= finger.friction * along + 1e-9 * force.norm();
+return along >= 0 && across <= finger.friction * force.norm() + 1e-9 * force.norm();
+
 // <variant pulls_too> caught by: cones, any-cones
 // mistake: forgets that a finger only pushes.
 // <solution inCone>
@@ -145,6 +151,13 @@ return {false, -inside.y.head(d).normalized()};
 // <solution reachAlong>
 return (wrenches.transpose() * direction).maxCoeff();
 
+// <variant reaches_back> caught by: reach, any-reach
+// shown by: reach
+// mistake: -s * direction is in the hull.
+// <solution reachAlong>
+// in place of: A.topRightCorner(d, 1) = -direction;
+A.topRightCorner(d, 1) = direction;
+
 // <variant weights_without_sum> caught by: reach, any-reach
 // shown by: reach
 // mistake: each weight at most one, instead of one for all together.
@@ -201,6 +214,11 @@ for (Eigen::Index i = 0; i < n; ++i)
         least = std::min(least, std::abs(here));
     }
 return least;
+
+// <variant keeps_none> caught by: fewer, fewer-on-solids
+// mistake: as it was handed out.
+// <solution keptFingers>
+return {};
 
 // <variant all_at_once> caught by: fewer, fewer-on-solids
 // mistake: finds the fingers that are redundant, and deletes all of them at once.
