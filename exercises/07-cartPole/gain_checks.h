@@ -184,7 +184,7 @@ inline Eigen::MatrixXd fromStableHalf(const Eigen::MatrixXd& Z) {
   }
   if (half.cols() != n) return {};
   const Eigen::MatrixXd P = (half.bottomRows(n) * half.topRows(n).inverse()).real();
-  return .5 * (P + P.transpose());
+  return (P + P.transpose()) / 2;
 }
 
 /// The bracket shows how exact P is, but not what is wrong with it: first P is compared with the wanted one,
