@@ -64,12 +64,12 @@ Eigen::Vector3d lostAxis(Convention convention, const Eigen::Vector3d& angles) {
 }
 
 Eigen::Matrix4d inverted(const Eigen::Matrix4d& X_AB) {
-  // TODO: solve p_A = R p_B + t for p_B. transform(R, p) is above.
+  // TODO: solve p_A = R p_B + p for p_B. transform(R, p) is above.
   return Eigen::Matrix4d::Zero();
 }
 
 Eigen::Matrix4d seenFrom(const Eigen::Matrix4d& X_WA, const Eigen::Matrix4d& X_WB) {
-  // TODO: equal letters must meet.
+  // TODO: X_AB X_BC = X_AC: neighbouring letters are equal and cancel.
   return Eigen::Matrix4d::Zero();
 }
 
@@ -99,7 +99,8 @@ Eigen::MatrixXd vectorJacobian(const Chain& chain, const Eigen::VectorXd& q, con
 
 Eigen::MatrixXd differences(const VectorFunction& f, const Eigen::VectorXd& x) {
   Eigen::MatrixXd J(f(x).size(), x.size());
-  // TODO: one column for each entry of x. How large is the error of your formula, and that of rounding?
+  // TODO: one column for each entry of x. The formula has an error, and rounding, too: which step
+  // makes the larger of both small?
   J.setZero();
   return J;
 }
@@ -110,7 +111,8 @@ Manipulability manipulability(const Eigen::MatrixXd& J) {
 }
 
 Eigen::Matrix4d screwMotion(const Screw& screw, double q) {
-  // TODO: the rotation is that of Rodrigues. The position is the integral of R(t) v over t from 0 to q.
+  // TODO: the rotation is that of Rodrigues. The position is the integral of R(t) v over t from 0 to q,
+  // where R(t) is the rotation by t about w.
   return Eigen::Matrix4d::Zero();
 }
 
@@ -146,7 +148,7 @@ int main() {
   // Part 3: the end of a robot's chain, which should be where the simulator says.
   Simulator S("arm7.ors");
   S.setJointAngles(Eigen::VectorXd::LinSpaced(7, -0.5, 0.7));
-  const Chain arm = chainOf(S, "arm7");
+  const Chain arm = chainOf(S, "arm7");  // chainOf: show.h
   const Eigen::VectorXd q = S.getJointAngles();
   print("endPose", endPose(arm, q));
   print("its position by the simulator", S.kinematicsPos("arm7"));

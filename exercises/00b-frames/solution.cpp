@@ -137,7 +137,7 @@ Eigen::Matrix4d inverted(const Eigen::Matrix4d& X_AB) {
   const Eigen::Matrix3d R_BA = X_AB.topLeftCorner(3, 3).transpose();
   return transform(R_BA, -R_BA * X_AB.topRightCorner(3, 1));
   // <todo>
-  //| // TODO: solve p_A = R p_B + t for p_B. transform(R, p) is above.
+  //| // TODO: solve p_A = R p_B + p for p_B. transform(R, p) is above.
   //| return Eigen::Matrix4d::Zero();
   // </solution>
 }
@@ -146,7 +146,7 @@ Eigen::Matrix4d seenFrom(const Eigen::Matrix4d& X_WA, const Eigen::Matrix4d& X_W
   // <solution seenFrom>
   return inverted(X_WA) * X_WB;
   // <todo>
-  //| // TODO: equal letters must meet.
+  //| // TODO: X_AB X_BC = X_AC: neighbouring letters are equal and cancel.
   //| return Eigen::Matrix4d::Zero();
   // </solution>
 }
@@ -230,7 +230,8 @@ Eigen::MatrixXd differences(const VectorFunction& f, const Eigen::VectorXd& x) {
     J.col(i) = (f(x + move) - f(x - move)) / (2 * h);
   }
   // <todo>
-  //| // TODO: one column for each entry of x. How large is the error of your formula, and that of rounding?
+  //| // TODO: one column for each entry of x. The formula has an error, and rounding, too: which step
+  //| // makes the larger of both small?
   //| J.setZero();
   // </solution>
   return J;
@@ -254,7 +255,8 @@ Eigen::Matrix4d screwMotion(const Screw& screw, double q) {
       q * Eigen::Matrix3d::Identity() + (1 - std::cos(q)) * W + (q - std::sin(q)) * W * W;
   return transform(rotationMatrix(screw.w, q), G * screw.v);
   // <todo>
-  //| // TODO: the rotation is that of Rodrigues. The position is the integral of R(t) v over t from 0 to q.
+  //| // TODO: the rotation is that of Rodrigues. The position is the integral of R(t) v over t from 0 to q,
+  //| // where R(t) is the rotation by t about w.
   //| return Eigen::Matrix4d::Zero();
   // </solution>
 }
@@ -304,7 +306,7 @@ int main() {
   // Part 3: the end of a robot's chain, which should be where the simulator says.
   Simulator S("arm7.ors");
   S.setJointAngles(Eigen::VectorXd::LinSpaced(7, -0.5, 0.7));
-  const Chain arm = chainOf(S, "arm7");
+  const Chain arm = chainOf(S, "arm7");  // chainOf: show.h
   const Eigen::VectorXd q = S.getJointAngles();
   print("endPose", endPose(arm, q));
   print("its position by the simulator", S.kinematicsPos("arm7"));
