@@ -54,8 +54,8 @@ struct Grid {
 double valueAt(const Grid& grid, const Eigen::MatrixXd& V, const Eigen::Vector2d& x);
 
 /// The problem in discrete time: a torque is held for tau seconds and costs tau costOf(x, u, effort). What
-/// comes after a step counts `discount` times. There are `torques` to choose from, at equal distances, from
-/// -strongest to strongest; both are among them.
+/// comes after a step counts `discount` times. There are `torques` to choose from, at least 2, at equal
+/// distances from -strongest to strongest, both ends included.
 struct Decision {
   Pendulum pendulum{};
   Grid grid{};
@@ -65,14 +65,14 @@ struct Decision {
   int torques = 9;
 };
 
-/// One sweep of Bellman's equation (8:9, 8:12), from the values V of what comes after a step to those before
-/// it: at each node the least of what the torques lead to.
+/// One sweep of Bellman's equation (8:9, 8:12). V holds the values after the step; returns at each node the
+/// minimum over the torques of tau costOf(x, u, effort) + discount V(nextOf(x, u)).
 Eigen::MatrixXd swept(const Decision& decision, const Eigen::MatrixXd& V);
 
-/// The torque of the list with which the least is reached at x, any state.
+/// The torque with which that minimum is reached at x, any state. If several reach it, any of them.
 double bestTorque(const Decision& decision, const Eigen::MatrixXd& V, const Eigen::Vector2d& x);
 
-// Part 2, a finite horizon (8:14, 8:19): the same equation where values are squares, x^T P x.
+// Part 2, a finite horizon (8:14, 8:19): the same equation where values are quadratic, x^T P x.
 
 /// x_{t+1} = A x_t + B u_t.
 struct Plant {
@@ -96,7 +96,7 @@ std::vector<Eigen::MatrixXd> gainsOverTime(const Plant& plant, const Costs& cost
 /// Kinetic and potential energy [J]; zero upright and at rest.
 double energyOf(const Pendulum& pendulum, const Eigen::Vector2d& x);
 
-/// The torque with which the energy changes at the rate E' = -gain theta'^2 E, whatever the friction; if the
+/// The torque with which the energy changes at the rate E' = -gain theta'^2 E, friction included; if the
 /// motor is too weak for it, the one nearest to it. At rest: 0.
 double pumpTorque(const Pendulum& pendulum, double gain, const Eigen::Vector2d& x);
 
@@ -106,8 +106,9 @@ double pumpTorque(const Pendulum& pendulum, double gain, const Eigen::Vector2d& 
 using Flow = std::function<Eigen::VectorXd(const Eigen::VectorXd& x)>;
 
 /// A point that disproves V = x^T P x (P symmetric) in the box |x_i| <= high_i: x is not 0, and V(x) <= 0
-/// or V'(x) >= 0. Returns nothing if you find none. You must find one if such points fill 1 % of the box,
-/// or a tenth of one of its axes, on which only one x_i is not zero. You may call f 20000 times.
+/// or V'(x) >= 0 as computed, without a tolerance. Returns nothing if you find none. You must find one if
+/// such points fill 1 % of the box, or a tenth of an axis: the segment |x_i| <= high_i on which all other x
+/// are 0. You may call f 20000 times.
 std::optional<Eigen::VectorXd> counterexample(const Flow& f, const Eigen::MatrixXd& P,
                                               const Eigen::VectorXd& high, rex::Rng& rng);
 
@@ -116,29 +117,29 @@ double levelInside(const Eigen::MatrixXd& P, const Eigen::VectorXd& high);
 
 // Part 5, the catch.
 
-/// Of two states: the largest c such that V = x^T P x falls, V' < 0, wherever 0 < V(x) <= c; at most 2 % too
-/// large and 10 % too small. P is positive definite; near 0 V falls, and it rises somewhere at V(x) <= most.
-/// You may call f 100000 times.
+/// For a system with two state variables: the largest c such that V = x^T P x falls, V' < 0, wherever
+/// 0 < V(x) <= c; at most 2 % too large and 10 % too small. P is positive definite, 1.02 c < most, near 0 V
+/// falls, and on at least 2 % of the ellipse V(x) = 1.02 c it does not. You may call f 100000 times.
 double fallingLevel(const Flow& f, const Eigen::Matrix2d& P, double most);
 
-/// Pumping as in part 3 with this gain, and a linear controller that takes over where x^T P x < level.
+/// Pumping as in part 3 with this gain, but a linear controller in every step in which x^T P x < level.
 struct Swing {
   double gain = 1;
-  Eigen::RowVector2d K{0, 0};  ///< u = K x, as far as the motor can
+  Eigen::RowVector2d K{0, 0};  ///< u = K x, limited to -strongest ... strongest
   Eigen::Matrix2d P = Eigen::Matrix2d::Zero();
   double level = 0;
   double tau = .01;
 };
 
 /// The states of a motion, one per column, `start` first: steps + 1 of them, each nextOf() the one before.
-/// In each step the controller takes the angle to be between -pi and pi.
+/// The controllers get an angle from -pi to pi; the states keep their whole turns.
 Eigen::MatrixXd swungUp(const Pendulum& pendulum, const Swing& swing, const Eigen::Vector2d& start,
                         int steps);
 
 // Part 6, a bonus: a plan (8:22; iterative LQR, Li and Todorov 2004).
 
-/// The torques U = (u_0, ..., u_{N-1}) move x_0 = start by nextOf(), with no limit, and cost the sum of
-/// tau costOf(x_t, u_t, effort), t = 0, ..., N - 1, plus last * costOf(x_N, 0, 0).
+/// The torques U = (u_0, ..., u_{N-1}) move x_0 = start by nextOf(), with no limit on the torque, and cost
+/// the sum of tau costOf(x_t, u_t, effort), t = 0, ..., N - 1, plus last * costOf(x_N, 0, 0).
 struct Journey {
   Pendulum pendulum{};
   Eigen::Vector2d start{std::numbers::pi, 0};
@@ -147,7 +148,7 @@ struct Journey {
   double last = 20;
 };
 
-/// Given: nextOf(x + dx, u + du) is nextOf(x, u) + A dx + B du, nearly.
+/// Given: nextOf(x + dx, u + du) is nextOf(x, u) + A dx + B du to first order; A and B are exact derivatives.
 inline Plant stepNear(const Pendulum& p, const Eigen::Vector2d& x, double u, double tau) {
   const Eigen::Vector2d middle = x + tau / 2 * rateOf(p, x, u);
   const double inertia = p.mass * p.length * p.length;
@@ -177,5 +178,5 @@ inline double priceOf(const Journey& journey, const Eigen::VectorXd& U) {
 /// The derivatives of the cost by each torque (N numbers).
 Eigen::VectorXd costSlope(const Journey& journey, const Eigen::VectorXd& U);
 
-/// Torques that cost less than U, where no number of the slope is larger than 1e-3 in size. N is at most 40.
+/// Torques that cost less than U, with each |slope| <= 1e-3. N is at most 40 in the checks, and 80 in main().
 Eigen::VectorXd planned(const Journey& journey, const Eigen::VectorXd& U);

@@ -90,10 +90,11 @@ int main() {
     V = next;
   }
   print("sweeps", sweeps);
-  print("cost from below", valueAt(decision.grid, V, down));
+  print("cost from hanging at rest", valueAt(decision.grid, V, down));
   print("the same by the library", costByTheLibrary(decision, down));
   Motion byValues{"by values", Eigen::MatrixXd::Zero(2, 801), Eigen::VectorXd::Zero(800), .01};
   byValues.X.col(0) = down;
+  // A torque that is best for .05 s is chosen every .01 s.
   for (int t = 0; t < 800; ++t) {
     byValues.U[t] = bestTorque(decision, V, byValues.X.col(t));
     byValues.X.col(t + 1) = nextOf(pendulum, byValues.X.col(t), byValues.U[t], byValues.tau);
@@ -108,8 +109,8 @@ int main() {
   print("torque that pumps at 1 rad/s there", pumpTorque(pendulum, 1, {pi, 1}));
 
   // Parts 4 and 5: where the linear controller catches, by boxes and by rays, and the whole motion.
-  Swing swing = regulatorOfTheLibrary(pendulum);
-  const Flow f = flowOf(pendulum, swing.K);
+  Swing swing = regulatorOfTheLibrary(pendulum);  // K and P of a linear regulator, see show.h
+  const Flow f = flowOf(pendulum, swing.K);       // x' under u = K x, limited to what the motor can
   Eigen::VectorXd high = Eigen::Vector2d(1, 4);
   Rng rng(1);
   for (int i = 0; i < 60 && counterexample(f, swing.P, high, rng); ++i) high *= .9;
@@ -119,7 +120,7 @@ int main() {
   showRegion(pendulum, swing);
   Motion byEnergy{"by energy", swungUp(pendulum, swing, nudged, 800), {}, swing.tau};
 
-  // Part 6: four seconds of a plan, twice as long as those of the checks, from torques that are only a guess.
+  // Part 6: a plan of four seconds from a guess, with 80 torques; the checks have at most 40.
   const Journey journey;
   Eigen::VectorXd guess(80);
   for (int t = 0; t < 80; ++t) guess[t] = std::sin(3 * journey.tau * t);

@@ -19,7 +19,7 @@ double costByTheLibrary(const Decision& decision, const Eigen::Vector2d& x);
 double priceByTheLibrary(const Journey& journey, const Eigen::VectorXd& U);
 Swing regulatorOfTheLibrary(const Pendulum& pendulum);
 
-/// x' under u = K x, as far as the motor can.
+/// x' under u = K x, limited to what the motor can.
 Flow flowOf(const Pendulum& pendulum, const Eigen::RowVector2d& K);
 
 /// values.png: V over all states, and the motion.
