@@ -48,9 +48,13 @@ inline void describe(rex::grading::Check& check, const Chain& chain, const Eigen
     axes.col(i) = joint.axis;
     slides(0, i) = joint.kind == JointKind::kPrismatic ? 1 : 0;
   }
-  check.input(
-      "a chain of " + std::to_string(count) + " joints",
-      {{"all X_PJ", frames}, {"axes", axes}, {"is prismatic", slides}, {"X_ME", chain.X_ME}, {"q", q}});
+  check.input("a chain of " + std::to_string(count) + " joints",
+              {{"X_PJ of joints 0 and 1", frames.leftCols(8)},
+               {"X_PJ of the others", frames.rightCols(4 * count - 8)},
+               {"axes", axes},
+               {"is prismatic", slides},
+               {"X_ME", chain.X_ME},
+               {"q", q}});
 }
 
 inline void movesJoint(rex::grading::Check& check, Student& student, bool slides) {
@@ -320,6 +324,7 @@ inline void shapesEllipsoid(rex::grading::Check& check, Student& student, const 
   check.near("axes diag(radii^2) axes^T of manipulability, which is J J^T", root * root.transpose(), square,
              1e-8);
   const double measure = s.prod();
+  const auto volume = check.ask("Is it sqrt(det(J J^T)), the product of the radii?");
   check.near("measure of manipulability", got.measure, measure, 1e-9,
              {{"Is the determinant not rooted?", measure * measure},
               {"Is it the condition, the ratio of the shortest and the longest radius?", s[d - 1] / s[0]},

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -223,12 +224,18 @@ inline void findsEuler(rex::grading::Check& check, Student& student, Convention 
                Eigen::Vector3d(angles[0], angles[1], 0)}});
 }
 
-/// Where the convention locks, any first and third angle with the same sum or difference turn alike.
-inline void findsLocked(rex::grading::Check& check, Student& student, Convention convention) {
+/// Where the convention locks, any first and third angle with the same sum or difference turn alike. If
+/// `isRounded`, the sine or cosine of the second is the least number above 1 in size.
+inline void findsLocked(rex::grading::Check& check, Student& student, Convention convention, bool isRounded) {
   const Eigen::Vector3d angles = anglesNear(check.rng(), convention, 0);
-  const Eigen::Matrix3d R = trueEuler(convention, angles);
+  Eigen::Matrix3d R = trueEuler(convention, angles);
+  double& entry = R(2, convention == Convention::k313 ? 2 : 0);
+  if (isRounded) entry = std::copysign(1 + std::numeric_limits<double>::epsilon(), entry);
   check.input(convention == Convention::k313 ? "k313, locked" : "kYawPitchRoll, locked", {{"R", R}});
-  const Eigen::Vector3d got = student.eulerAngles(convention, R);
+  const Eigen::Vector3d got = student.eulerAngles.asItIs()(convention, R);
+  const auto finite =
+      check.ask("Is asin or acos used? An entry of R may be 1 + 2e-16 by rounding.", !got.allFinite());
+  check.shape("angles of eulerAngles where it locks", got, 3, 1);
   check.near("third angle of eulerAngles where it locks", got[2], 0, 1e-9,
              {{"Is the third angle computed from entries that are 0 up to rounding?", got[2]}}, "rad");
   check.near("second angle of eulerAngles where it locks", got[1], angles[1], 1e-7,
@@ -260,6 +267,7 @@ inline void findsAxes(rex::grading::Check& check, Student& student, Convention c
   turned = R * unmoved;
   crossed.col(1) = turn(Eigen::Vector3d::UnitZ(), -angles[0]).col(is313 ? 0 : 1);
   const auto shown = check.show([&] { return arrowsOf(got, A); });
+  const auto each = check.ask("Is each axis that of the frame as the rotations before it left the frame?");
   check.near("axes of turningAxes", got, A, 1e-12,
              {{"Are the axes not turned by the rotations before them?", unmoved},
               {"Are the axes given in the turned frame? Wanted are world coordinates.", R.transpose() * A},
@@ -275,8 +283,9 @@ inline void losesAxis(rex::grading::Check& check, Student& student, Convention c
   const Eigen::Vector3d angles = anglesNear(check.rng(), convention, 0);
   describe(check, convention, angles);
   const Eigen::Matrix3d A = trueAxes(convention, angles);
-  const Eigen::Vector3d lost = A.col(0).cross(A.col(1)), got = student.lostAxis(convention, angles);
   const Eigen::Matrix3d seen = student.turningAxes(convention, angles);
+  const Eigen::Vector3d lost = A.col(0).cross(A.col(1)), got = student.lostAxis(convention, angles);
+  const bool isWrong = (seen - A).cwiseAbs().maxCoeff() > 1e-9;
   Eigen::Matrix3d two = Eigen::Matrix3d::Zero();
   two << A.col(0), A.col(1), got;
   Eigen::Matrix3d all = two;
@@ -285,13 +294,15 @@ inline void losesAxis(rex::grading::Check& check, Student& student, Convention c
   check.near("determinant of turningAxes where it locks", seen.determinant(), 0, 1e-12,
              {{"Are the axes independent even where two of them should coincide?", seen.determinant()}});
   const double sign = got.dot(lost) < 0 ? -1 : 1;
-  check.near("axis of lostAxis, with the sign that fits", sign * got, lost, 1e-9,
-             {{"Is it the axis that occurs twice? Rates of the angles can turn about it.", sign * A.col(0)},
-              {"Is it the axis of the second rotation? The frame still turns about it.", sign * A.col(1)},
-              {"Is the axis given in the turned frame? Wanted are world coordinates.",
-               Eigen::Vector3d(sign * trueEuler(convention, angles).transpose() * lost)},
-              {"Is it the direction of rates that turn nothing, in place of the axis?",
-               Eigen::Vector3d(sign * Eigen::Vector3d(1, 0, 1).normalized())},
-              {"Is it the direction of rates that turn nothing, in place of the axis?",
-               Eigen::Vector3d(sign * Eigen::Vector3d(1, 0, -1).normalized())}});
+  check.near(
+      "axis of lostAxis, with the sign that fits", sign * got, lost, 1e-9,
+      {{"Does lostAxis use turningAxes, which is wrong here?", isWrong ? Eigen::Vector3d(sign * got) : lost},
+       {"Is it the axis that occurs twice? Rates of the angles can turn about it.", sign * A.col(0)},
+       {"Is it the axis of the second rotation? The frame still turns about it.", sign * A.col(1)},
+       {"Is the axis given in the turned frame? Wanted are world coordinates.",
+        Eigen::Vector3d(sign * trueEuler(convention, angles).transpose() * lost)},
+       {"Is it the direction of rates that turn nothing, in place of the axis?",
+        Eigen::Vector3d(sign * Eigen::Vector3d(1, 0, 1).normalized())},
+       {"Is it the direction of rates that turn nothing, in place of the axis?",
+        Eigen::Vector3d(sign * Eigen::Vector3d(1, 0, -1).normalized())}});
 }

@@ -148,6 +148,12 @@ if (convention == Convention::k313)
   return {std::atan2(R(0, 2), -R(1, 2)), std::atan2(s, R(2, 2)), std::atan2(R(2, 0), R(2, 1))};
 return {std::atan2(R(1, 0), R(0, 0)), std::atan2(-R(2, 0), c), std::atan2(R(2, 1), R(2, 2))};
 
+// <variant pitch_by_asin> caught by: euler-locked
+// mistake: Takes pitch from asin, which is nan beyond 1.
+// <solution eulerAngles>
+// in place of: if (c < 1e-6) return
+if (c < 1e-6) return {std::atan2(-R(0, 1), R(1, 1)), std::asin(-R(2, 0)), 0};
+
 // <variant axes_unmoved> caught by: euler-axes, euler-lost
 // shown by: euler-axes
 // mistake: Leaves the axes where they are at zero.
@@ -156,6 +162,13 @@ const bool zxz = convention == Convention::k313;
 Eigen::Matrix3d A;
 A << Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Unit(zxz ? 0 : 1), Eigen::Vector3d::Unit(zxz ? 2 : 0);
 return A;
+
+// <variant second_axis_unmoved> caught by: euler-axes, euler-lost
+// mistake: Leaves the second axis where it is at zero.
+// <solution turningAxes>
+// in place of: A << Eigen::Vector3d::UnitZ(), eulerMatrix( ... eulerMatrix(convention, angles).col(zxz
+A << Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Unit(zxz ? 0 : 1),
+    eulerMatrix(convention, angles).col(zxz ? 2 : 0);
 
 // <variant axes_of_the_body> caught by: euler-axes
 // mistake: Gives the axes in the turned frame.
@@ -352,6 +365,12 @@ return {parts.U, parts.s, std::sqrt(parts.s.prod())};
 // <solution manipulability>
 const SingularValues parts = svd(J);
 return {parts.U, parts.s, parts.s.prod() * parts.s.prod()};
+
+// <variant mean_radius> caught by: ellipsoid
+// mistake: Takes the mean radius for the measure.
+// <solution manipulability>
+const SingularValues parts = svd(J);
+return {parts.U, parts.s, parts.s.mean()};
 
 // <variant ascending> caught by: ellipsoid
 // mistake: Begins with the shortest axis.
