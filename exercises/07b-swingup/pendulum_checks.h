@@ -227,8 +227,13 @@ inline void choosesTorques(rex::grading::Check& check, Student& student) {
     return torqueOf(d, k);
   };
   all.maxCoeff(&most);
+  // With costs per second, too, the best torque may be 0.
+  const double perSecond = at([gamma = d.discount](double c, double v) { return c + gamma * v; });
   check.near("torque of bestTorque", student.bestTorque(d, V, x), torqueOf(d, best), 1e-9,
-             {{"Is it the torque that costs least at once? Most of the cost comes after.", 0},
+             {{perSecond == 0 ? "Is the cost not multiplied by tau, or is what comes after the step left out?"
+                              : "Is it the torque that costs least at once? Most of the cost comes after.",
+               0},
+              {"Is the cost not multiplied by tau? costOf() is per second.", perSecond},
               {"Is it the number of the torque?", best},
               {"Is it the least value, not the torque that leads to it?", all[best]},
               {"Is the cost of the step left out?", at([](double, double v) { return v; })},
@@ -390,7 +395,8 @@ inline void fallsBelow(rex::grading::Check& check, Student& student, const std::
   const auto mean = check.ask("Is it the mean over the rays? The worst of them decides.", is(many.mean()));
   const auto largest =
       check.ask("Is it the largest level over the rays? The worst of them decides.", is(many.maxCoeff()));
-  const auto few = check.ask("Are there enough rays?", got > region.level && got < four.maxCoeff() * 1.1);
+  const auto few = check.ask("Are there enough rays, and small enough steps on each?",
+                             got > region.level && got < four.maxCoeff() * 1.1);
   const auto high = check.ask("Where on the ellipse of this level does V rise?", got > region.level);
   const auto low = check.ask("Is the level far below the first place at which V rises?");
   check.atMost("level of fallingLevel", got, 1.02 * region.level);
@@ -447,6 +453,11 @@ inline void swingsUp(rex::grading::Check& check, Student& student, const Pendulu
   const auto isUsed = [&](double u) {
     return (got.col(last + 1) - nextOf(p, there, u, swing.tau)).norm() < 1e-5;
   };
+  Eigen::MatrixXd apart = got - wanted;
+  apart.row(0) = apart.row(0).unaryExpr([](double turned) { return std::remainder(turned, 2 * kPi); });
+  const auto wrapped =
+      check.ask("Were whole turns taken from the states? Only the controllers get an angle from -pi to pi.",
+                apart.cwiseAbs().maxCoeff() < 1e-5);
   const auto region = check.ask("Is it x^T P x < level, and nothing else, that decides which torque is used?",
                                 isUsed(near(seen) ? pumping(seen) : limited(swing.K.dot(seen))));
   check.near(

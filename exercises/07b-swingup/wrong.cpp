@@ -152,6 +152,12 @@ if (total < least) best = k, least = total;
 // in place of: const double after ... const double total
 const double total = decision.tau * costOf(next, u, decision.effort);
 
+// <variant torque_per_second> caught by: torques, other-grids
+// mistake: takes the cost per second for that of a step.
+// <solution bestTorque>
+// in place of: const double total
+const double total = costOf(x, u, decision.effort) + after;
+
 // <variant only_two> caught by: torques, other-grids
 // mistake: full strength, one way or the other.
 // <solution bestTorque>
@@ -408,6 +414,12 @@ for (int k = 0; k < 4; ++k) {
 }
 return level;
 
+// <variant coarse_steps> caught by: level, other-catches
+// mistake: looks at ten places of each ray.
+// <solution fallingLevel>
+// in place of: constexpr int kRays
+constexpr int kRays = 400, kPlaces = 10;
+
 // <variant level_is_a_length> caught by: level, other-catches
 // mistake: returns the root of the level.
 // <solution fallingLevel>
@@ -462,6 +474,12 @@ if (x.dot(Px) < swing.level) u = std::clamp(-swing.K.dot(x), -pendulum.strongest
 // <solution swungUp>
 // in place of: const Eigen::Vector2d x(std::remainder(now[0]
 const Eigen::Vector2d x = now, Px = swing.P * x;
+
+// <variant states_wrapped> caught by: swing
+// mistake: takes whole turns from the states.
+// <solution swungUp>
+// in place of: states.col(step + 1) = nextOf(pendulum, now, u, swing.tau);
+states.col(step + 1) = nextOf(pendulum, x, u, swing.tau);
 
 // <variant strong_catch> caught by: swing
 // mistake: does not limit the torque of the catch.
