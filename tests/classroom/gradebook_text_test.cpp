@@ -75,7 +75,7 @@ TEST_F(ClassFeedbackTest, ShowsEachStudentNothingOfOthersNorOfHiddenChecks) {
 TEST_F(ClassFeedbackTest, ShowsPointsOfPeopleInTheRowOfTheirCheckAndInItsPart) {
   grading::GradeResult result = sampleResult(3, 1, 0);
   result.checks[0].part = "pos";
-  saveSample(source_.out, source_.tasks[0], result, "");
+  saveSample(source_.out, source_.tasks[0], result, "a\nb\n");
   source_.adjustments.adjustments = {{.students = {"adam"}, .exercise = kEx, .check = "turn", .add = 150}};
   const auto feedback = rowFeedback(*book().row("adam", kEx), source_.out).value();
   EXPECT_THAT(reports::feedbackPage(feedback, {}),

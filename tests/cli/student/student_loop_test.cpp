@@ -279,7 +279,7 @@ TEST_F(StudentLoop, RefusesWhatCannotBeHandedIn) {
 
 TEST_F(StudentLoop, AnswersTyposInAllCommands) {
   for (const char* command : {"test", "watch", "hint", "show", "reset", "submit"}) {
-    const Ended typo = rex({command, "98-templat"});
+    const Ended typo = rex({command, "98-tempalte"});
     EXPECT_EQ(typo.code, 64) << command;
     EXPECT_THAT(flat(typo.error), HasSubstr("did you mean '98-template'")) << command;
     EXPECT_EQ(rex({command}).code, 64) << command;

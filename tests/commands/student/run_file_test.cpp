@@ -247,8 +247,8 @@ TEST_F(RunFile, AnswersWrongUse) {
     EXPECT_EQ(ended.code, 64);
     EXPECT_THAT(flat(ended.error), HasSubstr(text));
   };
-  expectUsage({"98-templat"}, "no exercise is called '98-templat'");
-  expectUsage({"98-templat"}, "did you mean '98-template'");
+  expectUsage({"98-tempalte"}, "no exercise is called '98-tempalte'");
+  expectUsage({"98-tempalte"}, "did you mean '98-template'");
   expectUsage({in("tri.cpp")},
               "tri.cpp': found no such file, wanted an exercise, or the path of a .cpp file "
               "(did you mean 'try.cpp'?)");
