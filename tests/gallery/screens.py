@@ -1,8 +1,8 @@
-"""Films the program for README.md and the documents: screens.py REX REX_OF_TREE FOLDER
+"""Films the program for README.md and the documents: screens.py REX FOLDER
 
 Writes exercises.webp (a picture of each exercise, that of the course's pages) and dragged.webp (the mouse drags a hand in
 `rex view`). Of the circle of exercise 01 in the wrong plane: test.webp (`rex test` in a terminal), check.png (the picture of the
-check), failed.webp (its replay) and watch.webp (the page of `rex watch --open`). Of a small class: statistics.webp.
+check) and failed.webp (its replay). Of a small class: statistics.webp.
 """
 
 import fcntl
@@ -141,26 +141,6 @@ def draw_statistics(browser, rex, folder, out):
                   out / "statistics.webp", "<img src='%s'>" % parts)
 
 
-def draw_watch_page(browser, rex_of_tree, folder, out):
-    tree = folder / "tree"  # the same by links, but for one file
-    ours = tree / "exercises" / EXERCISE
-    ours.mkdir(parents=True)
-    for there, here in ((root, tree), (root / "exercises", tree / "exercises"), (root / "exercises" / EXERCISE, ours)):
-        for file in there.iterdir():
-            if file.name not in ("out", ".rex", "exercises", EXERCISE, "main.cpp"):
-                (here / file.name).symlink_to(file)
-    (ours / "main.cpp").write_text(written(re.findall(r"<solution (\w+)>", solution), wrong=True))
-    process = subprocess.Popen([rex_of_tree, tree, "watch", "01", "--open"], cwd=tree, stdin=subprocess.DEVNULL,
-                               stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
-    try:
-        page = page_of(browser, process.stdout.readline().split()[1], 1280, 800, "document.querySelector('#evidence img')")
-        page.wait("document.images.length && [...document.images].every(one => one.complete)", 20)
-        still(page, out / "watch.webp")
-    finally:
-        process.send_signal(signal.SIGINT)
-        process.wait(20)
-
-
 def failed_check(browser, rex, folder, out):
     (folder / "main.cpp").write_text(solution.replace(RIGHT, WRONG))
     code, text = typed([rex, "test", "01", "--check", "circle", "--main", folder / "main.cpp", "-o", folder], root)
@@ -199,12 +179,11 @@ def dragged(browser, rex, out):
 
 
 if __name__ == "__main__":
-    rex, rex_of_tree, out = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3])
+    rex, out = sys.argv[1], pathlib.Path(sys.argv[2])
     chromium = Browser()
     draw_exercises(chromium, rex, out)
     dragged(chromium, rex, out)
     with tempfile.TemporaryDirectory() as name:
         failed_check(chromium, rex, pathlib.Path(name), out)
-        draw_watch_page(chromium, rex_of_tree, pathlib.Path(name), out)
         draw_statistics(chromium, rex, pathlib.Path(name), out)
     chromium.close()
