@@ -319,9 +319,8 @@ for (std::size_t n = 0; n < particles.size(); ++n) {
 // <variant a_number_for_each_copy> caught by: copies, more-copies
 // mistake: draws a new random number for each copy.
 // <solution resampled>
-// in place of: for (; copies.size() < particles.size() && (isLast || point < end); point += 1)
-for (; copies.size() < particles.size() && (isLast || point < end);
-     point = static_cast<double>(copies.size()) + rng.uniform())
+// in place of: copies.push_back({particles[i].path, particles[i].map, 0});
+copies.push_back({particles[i].path, particles[i].map, 0}), point = std::floor(point) + rng.uniform();
 
 // <variant the_next_particle> caught by: copies, more-copies
 // mistake: copies particle i + 1 instead of i.

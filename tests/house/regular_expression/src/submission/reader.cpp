@@ -1,2 +1,3 @@
-#include "base/text.h"
 #include <regex>
+
+#include "base/text.h"
