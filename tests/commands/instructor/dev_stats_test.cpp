@@ -158,24 +158,6 @@ TEST_F(DevStatsTest, SaysWhenTheFirstFullScoreCameAndHowOftenStudentsHandedIn) {
   EXPECT_THAT(flat(stats({"--deadlines", deadlines}).output), HasSubstr("Z, 6 min after the deadline (time"));
 }
 
-TEST_F(DevStatsTest, CountsPeopleOfACourseWithTheirAdjustments) {
-  std::vector<classroom::Task> tasks;
-  for (const char* student : {"adam", "carl", "dora"})
-    tasks.push_back({.student = student, .exercise = "98-template", .submitted = 1'700'000'000});
-  write(results() / "tasks.tsv", classroom::toManifest(tasks));
-  write(root() / "course.toml",
-        "adjustments = \"adjustments.toml\"\n[[student]]\nid = \"adam\"\ngroup = \"pair\"\n"
-        "[[student]]\nid = \"yan\"\ngroup = \"pair\"\n[[student]]\nid = \"carl\"\n");
-  write(root() / "adjustments.toml",
-        "[[adjustment]]\nstudent = \"carl\"\nexercise = \"98\"\ncheck = \"keeps\"\npoints = 1\n"
-        "reason = \"seen\"\nauthor = \"A. Tutor\"\ndate = 2026-12-01\n");
-  const Ended ended = stats({"--course", (root() / "course.toml").string(), "--students"});
-  EXPECT_EQ(ended.code, 0) << ended.error;
-  EXPECT_THAT(ended.output,
-              ::testing::AllOf(HasSubstr("\nadam,98-template,3,"), HasSubstr("\nyan,98-template,3,"),
-                               HasSubstr("\ncarl,98-template,1,"), ::testing::Not(HasSubstr("dora"))));
-}
-
 TEST_F(DevStatsTest, BelievesNoResultThatWasEdited) {
   const fs::path file = results() / "carl" / "98-template" / "results.json";
   Json json = Json::parse(fileText(file));
