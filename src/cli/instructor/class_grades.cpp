@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -159,32 +160,47 @@ double percentOf(const grading::GradeResult& result) {
   return result.maxScore > 0 ? 100.0 * result.score / result.maxScore : 0;
 }
 
-// The position of each exercise on the axis: its number, or the next after the largest.
-std::map<std::string, int> placesOf(const std::set<std::string>& exercises) {
-  const auto numberOf = [](std::string_view name) { return takeNumber<int>(name); };
-  std::map<std::string, int> places;
-  int last = 0;
+// Exercises on an axis: at their numbers, 00b at 0.5, those without a number behind all others.
+struct ExerciseAxis {
+  std::map<std::string, double> places{};
+  std::string label = "number of the exercise";
+  double gap = 1;  // between neighbours
+};
+
+ExerciseAxis axisOf(const std::set<std::string>& exercises) {
+  ExerciseAxis axis;
+  double last = 0;
+  for (const std::string& one : exercises) {
+    std::string_view rest = one;
+    const auto number = takeNumber<int>(rest);
+    if (!number) continue;
+    const bool isBetween = !rest.empty() && rest.front() != '-';
+    axis.places[one] = *number + (isBetween ? 0.5 : 0);
+    last = std::max<double>(last, *number);
+    if (!isBetween) continue;
+    axis.gap = 0.5;
+    axis.label += fmt::format("; {}: {}", one.substr(0, one.find('-')), axis.places[one]);
+  }
   for (const std::string& one : exercises)
-    if (const auto number = numberOf(one)) last = std::max(last, places[one] = *number);
-  for (const std::string& one : exercises)
-    if (!numberOf(one)) places[one] = ++last;
-  return places;
+    if (!axis.places.contains(one)) axis.places[one] = ++last;
+  return axis;
 }
 
 // Offsets around 0: 0, 1, -1, 2, ... steps, which are narrower if there are many points.
-double offsetOf(int k, int count) {
+double offsetOf(int k, int count, double gap) {
   constexpr double kStep = 0.06, kWidest = 0.4;
-  const double step = std::min(kStep, 2 * kWidest / std::max(1, count));
+  const double step = gap * std::min(kStep, 2 * kWidest / std::max(1, count));
   return (k % 2 == 1 ? 1 : -1) * ((k + 1) / 2) * step;
 }
 
 // A field of one part; `share` is the part of the points that the class got.
-Region fieldOf(double x, double y, double share) {
-  constexpr double kHalfWidth = 0.48, kHalfHeight = 0.42;
+Region fieldOf(double x, double y, double gap, double share) {
+  constexpr double kHalfWidth = 0.48;
+  const double halfHeight = 0.42 * gap;
   // A tenth less must be seen.
   const auto shade = static_cast<float>(std::sqrt(1 - std::clamp(share, 0.0, 1.0)));
   return {.x = {x - kHalfWidth, x + kHalfWidth, x + kHalfWidth, x - kHalfWidth},
-          .y = {y - kHalfHeight, y - kHalfHeight, y + kHalfHeight, y + kHalfHeight},
+          .y = {y - halfHeight, y - halfHeight, y + halfHeight, y + halfHeight},
           .color = Color{1 - 0.2F * shade, 1 - 0.8F * shade, 1 - shade}};
 }
 
@@ -193,11 +209,11 @@ Region fieldOf(double x, double y, double share) {
 Figure pointsFigure(const std::vector<StudentResult>& results) {
   std::set<std::string> exercises;
   for (const StudentResult& one : results) exercises.insert(one.exercise);
-  const std::map<std::string, int> places = placesOf(exercises);
-  std::map<int, std::vector<double>> points;
+  const ExerciseAxis axis = axisOf(exercises);
+  std::map<double, std::vector<double>> points;
   for (const StudentResult& one : results)
     if (one.result.outcome != grading::Outcome::kGraderError)
-      points[places.at(one.exercise)].push_back(percentOf(one.result));
+      points[axis.places.at(one.exercise)].push_back(percentOf(one.result));
   if (points.empty()) throw Error({.what = "no points to draw", .found = "only faults of the grader"});
   Series students{.label = "a student", .style = SeriesStyle::kPoints, .marker = Marker::kDot, .size = 2};
   Series medians{.label = "median", .style = SeriesStyle::kPoints, .marker = Marker::kPlus, .size = 3};
@@ -205,14 +221,14 @@ Figure pointsFigure(const std::vector<StudentResult>& results) {
     std::map<double, int> drawn;
     for (const double value : values) {
       const auto same = static_cast<int>(std::count(values.begin(), values.end(), value));
-      students.x.push_back(place + offsetOf(drawn[value]++, same));
+      students.x.push_back(place + offsetOf(drawn[value]++, same, axis.gap));
       students.y.push_back(value);
     }
     medians.x.push_back(place);
     medians.y.push_back(classroom::medianValue(values));
   }
   return {.title = "Points of the class",
-          .xLabel = "number of the exercise",
+          .xLabel = axis.label,
           .yLabel = "points [% of the maximum]",
           .xRange = AxisRange{points.begin()->first - 0.5, points.rbegin()->first + 0.5},
           .yRange = AxisRange{-5, 105},
@@ -225,31 +241,31 @@ Figure partsFigure(const std::vector<classroom::ExerciseStatistics>& all) {
   for (const classroom::ExerciseStatistics& one : all)
     if (one.graded > 0 && !one.parts.empty()) exercises.insert(one.exercise);
   if (exercises.empty()) throw Error({.what = "no points to draw", .found = "only faults of the grader"});
-  const std::map<std::string, int> places = placesOf(exercises);
+  const ExerciseAxis axis = axisOf(exercises);
   Figure figure{.title = "Mean points of the parts (darker: fewer)",
                 .xLabel = "part",
-                .yLabel = "number of the exercise",
+                .yLabel = axis.label,
                 .legend = Legend::kNone};
   std::size_t columns = 0;
-  int first = places.begin()->second, last = first;
+  double first = axis.places.begin()->second, last = first;
   for (const classroom::ExerciseStatistics& one : all) {
     if (!exercises.contains(one.exercise)) continue;
-    const int row = places.at(one.exercise);
+    const double row = axis.places.at(one.exercise);
     first = std::min(first, row), last = std::max(last, row);
     columns = std::max(columns, one.parts.size());
     for (std::size_t k = 0; k < one.parts.size(); ++k) {
       const classroom::PartStatistics& part = one.parts[k];
       const double share = part.maxPoints > 0 ? part.meanPoints / part.maxPoints : 0;
       const auto column = static_cast<double>(k + 1);
-      figure.regions.push_back(fieldOf(column, row, share));
+      figure.regions.push_back(fieldOf(column, row, axis.gap, share));
       figure.notes.push_back(
-          {.text = fmt::format("{} {:.0f} %", part.id, 100 * share), .x = column - 0.47, .y = double(row)});
+          {.text = fmt::format("{} {:.0f} %", part.id, 100 * share), .x = column - 0.47, .y = row});
     }
   }
   figure.width = static_cast<int>(std::min<std::size_t>(8192, 330 + 130 * columns));
-  figure.height = std::min(8192, 170 + 40 * (last - first + 1));
+  figure.height = static_cast<int>(std::min(8192., 170 + 40 * ((last - first) / axis.gap + 1)));
   figure.xRange = AxisRange{0.5, static_cast<double>(columns) + 1.5};  // room for the last names
-  figure.yRange = AxisRange{first - 0.5, last + 0.5};
+  figure.yRange = AxisRange{first - 0.5 * axis.gap, last + 0.5 * axis.gap};
   return figure;
 }
 

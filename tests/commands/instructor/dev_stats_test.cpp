@@ -241,6 +241,12 @@ TEST(ClassFigure, ShowsWhichPartIsHard) {
   classroom::ExerciseStatistics zeroth{.exercise = "00-c", .graded = 2};
   zeroth.parts = {{.id = "all", .maxPoints = 2, .meanPoints = 2}};
   EXPECT_EQ(partsFigure({zeroth, first}).notes[0].y, 0);
+  classroom::ExerciseStatistics between = zeroth;
+  between.exercise = "00b-d";
+  const Figure both = partsFigure({zeroth, between});
+  EXPECT_EQ(both.yLabel, "number of the exercise; 00b: 0.5");
+  EXPECT_EQ(both.notes[1].y, 0.5);
+  EXPECT_LT(both.regions[0].y[2], both.regions[1].y[0]) << "their fields lie on each other";
   const Figure figure = partsFigure({first, second});
   ASSERT_EQ(figure.notes.size(), 3u);
   EXPECT_EQ(figure.notes[1].text, "hard 25 %");
