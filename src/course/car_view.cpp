@@ -4,7 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -202,7 +205,7 @@ Figure carFigure(const CarView& view) {
   addBeliefs(figure, view.landmarkBeliefs, "landmarks", view.sigmas, kLandmarkColor);
   addBeliefs(figure, view.poseBeliefs, "poses", view.sigmas, kEstimateColor);
   addSightings(figure, view);
-  if (view.car) figure.regions.push_back(carAt(*view.car, view.carScale, "car now", kTruthColor));
+  if (view.car) figure.regions.push_back(carAt(*view.car, view.carScale, "now", kTruthColor));
   if (view.estimate)
     figure.regions.push_back(carAt(*view.estimate, view.carScale, "estimate now", kEstimateColor));
   addDots(figure, "scan", view.scan, kScanColor, Marker::kDot, 0.5);
@@ -226,26 +229,54 @@ namespace {
 constexpr double kWallHeight = 0.4, kFloorHeight = 0.02;  // metres
 
 // Free cells are nearly white, unknown ones grey, occupied ones dark.
-std::uint8_t shadeOf(double probability) {
-  constexpr double kFree = 250, kUnknown = 200, kOccupied = 60;
-  const double shade = probability < 0.5 ? kFree + 2 * probability * (kUnknown - kFree)
-                                         : kUnknown + (2 * probability - 1) * (kOccupied - kUnknown);
-  return static_cast<std::uint8_t>(std::lround(shade));
+float brightnessOf(double probability) {
+  constexpr double kFree = 0.98, kUnknown = 0.78, kOccupied = 0.24;
+  return static_cast<float>(probability < 0.5 ? kFree + 2 * probability * (kUnknown - kFree)
+                                              : kUnknown + (2 * probability - 1) * (kOccupied - kUnknown));
 }
 
+// The cells in a few shades, as rectangles: of one shade, as wide as they are in a row, over equal rows.
 Solid floorOf(const OccupancyMap& map) {
-  MeshPaint paint{.points = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
-  Texture& texture = paint.textures.emplace_back(Texture{.width = map.width(), .height = map.height()});
+  constexpr int kShades = 9;
+  using Columns = std::pair<int, int>;  // [first, last)
+  using Rows = std::pair<int, int>;
+  std::vector<Eigen::Vector3f> positions;
+  std::vector<TriangleMesh::Triangle> triangles;
+  std::vector<TriangleMesh::Part> parts;
+  const auto add = [&](const Columns& x, const Rows& y) {
+    const auto first = static_cast<std::uint32_t>(positions.size());
+    for (const auto& [i, j] :
+         {std::pair{x.first, y.first}, {x.second, y.first}, {x.second, y.second}, {x.first, y.second}})
+      positions.push_back((map.cellSize() * Eigen::Vector3d(i, j, 0)).cast<float>());
+    triangles.insert(triangles.end(), {{first, first + 1, first + 2}, {first, first + 2, first + 3}});
+  };
+  std::array<std::vector<std::pair<Columns, Rows>>, kShades> done;
+  std::array<std::map<Columns, Rows>, kShades> open;
+  const auto shadeAt = [&](int x, int y) {
+    return static_cast<std::size_t>(std::lround((kShades - 1) * map.probability(x, y)));
+  };
   for (int y = 0; y < map.height(); ++y)
-    for (int x = 0; x < map.width(); ++x)
-      texture.rgb.insert(texture.rgb.end(), 3, shadeOf(map.probability(x, y)));
-  const Eigen::Vector2f size = (cornersOf(map).col(1) - cornersOf(map).col(0)).cast<float>();
-  const std::vector<Eigen::Vector3f> positions{
-      {0, 0, 0}, {size.x(), 0, 0}, {size.x(), size.y(), 0}, {0, size.y(), 0}},
-      normals(4, Eigen::Vector3f::UnitZ());
-  TriangleMesh mesh(positions, normals, {{0, 1, 2}, {0, 2, 3}},
-                    {{.color = Eigen::Vector4f::Ones(), .triangleCount = 2, .texture = 0}}, std::move(paint));
-  return {{.type = ShapeType::kMesh, .mesh = std::move(mesh)},
+    for (int x = 0; x < map.width();) {
+      const int first = x;
+      const std::size_t shade = shadeAt(x, y);
+      while (x < map.width() && shadeAt(x, y) == shade) ++x;
+      const auto [above, isNew] = open[shade].try_emplace({first, x}, y, y + 1);
+      if (isNew) continue;
+      if (above->second.second < y) done[shade].push_back(*above), above->second.first = y;
+      above->second.second = y + 1;
+    }
+  for (std::size_t shade = 0; shade < kShades; ++shade) {
+    const std::size_t before = triangles.size();
+    for (const auto& [columns, rows] : done[shade]) add(columns, rows);
+    for (const auto& [columns, rows] : open[shade]) add(columns, rows);
+    const float brightness = brightnessOf(static_cast<double>(shade) / (kShades - 1));
+    if (triangles.size() > before)
+      parts.push_back({.color = Eigen::Vector4f(brightness, brightness, brightness, 1),
+                       .firstTriangle = static_cast<std::uint32_t>(before),
+                       .triangleCount = static_cast<std::uint32_t>(triangles.size() - before)});
+  }
+  const std::vector<Eigen::Vector3f> normals(positions.size(), Eigen::Vector3f::UnitZ());
+  return {{.type = ShapeType::kMesh, .mesh = TriangleMesh(positions, normals, triangles, std::move(parts))},
           translation(map.origin().x(), map.origin().y(), kFloorHeight),
           {1, 1, 1},
           "floor"};
