@@ -91,7 +91,7 @@ void readStudentTables(const TomlTable& top, RosterReader& roster) {
 
 void readStudentRows(const fs::path& file, RosterReader& roster) {
   // In the order of kRosterKeys, also as platforms export them in German and French.
-  static const CsvTable::Headings kColumns[] = {
+  static const std::vector<CsvTable::Headings> kColumns = {
       {"id", "Kennung", "Identifiant"},
       {"name", "Full name", "Vollständiger Name", "Nom complet", "Nom"},
       {"email", "E-Mail", "Email address", "E-Mail-Adresse", "Adresse de courriel", "Courriel"},
@@ -100,6 +100,7 @@ void readStudentRows(const fs::path& file, RosterReader& roster) {
       {"section", "Sektion"}};
   const CsvTable table(file, "a table of students");
   table.require(kColumns[0]);
+  table.refuseMisspelt(kColumns);
   table.requireWholeRows();
   for (std::size_t k = 0; k < table.size(); ++k) {
     CourseStudent student;

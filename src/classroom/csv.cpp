@@ -1,5 +1,7 @@
 #include "classroom/csv.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "base/error.h"
@@ -90,6 +92,25 @@ void CsvTable::require(const Headings& column) const {
                     .where = {file_, headings_.line, 0},
                     .found = printable(fmt::format("the columns {}", join(headings_.fields, ", ")), 400),
                     .wanted = fmt::format("a column '{}'", join(column, "' or '"))});
+}
+
+void CsvTable::refuseMisspelt(const std::vector<Headings>& columns) const {
+  const auto isKnown = [&](const std::string& heading) {
+    return std::ranges::any_of(columns, [&](const Headings& one) {
+      return std::ranges::any_of(
+          one, [&](const std::string& name) { return caseless(name) == caseless(heading); });
+    });
+  };
+  for (const std::string& field : headings_.fields) {
+    const std::string heading(trimmed(field));
+    if (heading.empty() || isKnown(heading)) continue;
+    for (const Headings& column : columns)
+      if (const auto nearest = nearestNames(heading, column); !has(column) && !nearest.empty())
+        throw UsageError({.what = fmt::format("column '{}' of {}", printable(heading), what_),
+                          .where = {file_, headings_.line, 0},
+                          .found = "an unknown heading",
+                          .nearest = nearest});
+  }
 }
 
 void CsvTable::requireWholeRows() const {

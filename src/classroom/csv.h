@@ -33,6 +33,8 @@ class CsvTable {
   CsvTable(const std::filesystem::path& file, const std::string& what);
 
   [[nodiscard]] bool has(const Headings& column) const;
+  /// Throws UsageError for a heading that is nearly one of these columns, if that column is missing.
+  void refuseMisspelt(const std::vector<Headings>& columns) const;
   /// Throws UsageError with the headings that are there.
   void require(const Headings& column) const;
   /// Throws UsageError for a row with more or fewer fields than there are headings.

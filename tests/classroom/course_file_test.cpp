@@ -112,6 +112,11 @@ TEST_F(CourseFileTest, ReadsTheHeadingsOfThreeLanguages) {
     ASSERT_NE(zoe, nullptr) << headings;
     EXPECT_EQ(zoe->name + zoe->email + zoe->group + zoe->number, "Zoëz@xA17") << headings;
   }
+  writeTextFile(folder_.path() / "students.csv", "id,Gruppen\nzoe,A\n");
+  EXPECT_THAT(
+      messageFor("students = \"students.csv\"\n"),
+      HasSubstr("students.csv:1: column 'Gruppen' of a table of students: found an unknown heading (did you "
+                "mean 'Gruppe'?)"));
 }
 
 // A file of deadlines is a course file without students, and the other way round.
