@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cerrno>
 #include <cstddef>
@@ -234,7 +235,9 @@ std::filesystem::path writeMotionFilm(const MotionPictures& pictures, const Rend
   for (std::size_t i = 0; i < count && !studio.sawSomething(); ++i) static_cast<void>(draw(i));
   studio.requireSomethingSeen();
   const MadeSink made = openSink(out);
-  for (std::size_t i = 0; i < count; ++i) made.sink->add(draw(i));
+  std::atomic<std::size_t> frame = 0;
+  const ProgressLine progress([&] { return fmt::format("film: frame {} of {}", frame.load(), count); });
+  for (; frame < count; ++frame) made.sink->add(draw(frame));
   throwIfInterrupted();
   made.sink->finish();
   return out;
