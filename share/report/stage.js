@@ -232,7 +232,7 @@ const rexStage = (function () {
         element.className = 'text';
         element.textContent = data.label !== undefined ? data.label : data.caption;
         element.style.color = data.color || '#1a1a1f';
-        element.style.fontSize = 14 * (data.textScale || 1) + 'px';
+        element.style.setProperty('--scale', data.textScale || 1);
         if (data.caption === undefined) stage.appendChild(element);
         else captionCorner(data.corner).appendChild(element);
         return { object, element, below: data.below || 0, fixed: data.caption !== undefined };
