@@ -44,7 +44,7 @@ int main() {
   const auto settle = [&] {
     optimize(graph, {.kernel = doubts ? RobustKernel::kGemanMcClure : RobustKernel::kNone, .kernelSize = 3});
   };
-  for (int t = 0, age = 0; t < 300 || view.isWatched(); ++t, ++age) {
+  for (int t = 0, age = 0; t <= 240 || view.isWatched(); ++t, ++age) {
     const double drift = view.slider("drift of odometry", 0, 0.02, 0.005),
                  closure = view.slider("noise of closures", 0.01, 1, 0.05);
     const double wrong = view.slider("wrong closures", 0, 1, 0);

@@ -128,7 +128,8 @@ std::string evidence(const grading::GradeResult& result, const std::vector<Feedb
             fmt::format("<h3>{}</h3>\n<p><img alt=\"What happened\" src=\"data:image/png;base64,{}\"></p>\n",
                         html(check.title), base64(file.bytes));
       else
-        text += fmt::format("<p><a href=\"{}\">Replay: {}</a></p>\n", html(file.name), html(check.title));
+        text += fmt::format("<p><a href=\"{}\">Replay: {}</a> (a file in the folder of this page)</p>\n",
+                            html(file.name), html(check.title));
     }
   }
   return text.empty() ? "" : "<h2>Pictures</h2>\n" + text;
