@@ -170,6 +170,7 @@ inline rex::grading::Evidence seenApart(const Eigen::MatrixXd& states, const Eig
   const Eigen::Index last = std::min(states.cols(), wanted.cols()) - 1;
   while (t + 1 < last && std::abs(states(2, t + 1) - wanted(2, t + 1)) < apart) ++t;
   rex::grading::Evidence evidence = seen(states, wanted, tau);
+  if (last < 1 || std::abs(states(2, t + 1) - wanted(2, t + 1)) < apart) return evidence;
   evidence.moment = tau * static_cast<double>(t + 1);
   evidence.figures[0].verticalLines = {rex::grading::wrongFrom(evidence.moment)};
   return evidence;
@@ -250,8 +251,9 @@ inline void stepsFit(rex::grading::Check& check, Student& student, const PoleCar
   const Eigen::MatrixXd states = student.balanced(cart, K, start, calm, rex::Rng(1)),
                         wanted = statesOf(cart, K, start, calm, rex::Rng(1));
   const auto shown = check.show([&] {
-    const bool isOuting = states.rows() == 4 && states.cols() > 1;
-    return isOuting ? seenApart(states, wanted, calm.tau, 1e-6) : rex::grading::Evidence{};
+    const bool isOuting = states.rows() == 4 && states.cols() > 1 && wanted.cols() > 1;
+    return isOuting && !states.isApprox(wanted) ? seenApart(states, wanted, calm.tau, 1e-6)
+                                                : rex::grading::Evidence{};
   });
   for (int i = 0; i < 20; ++i) checkStep(check, student, randomCart(check.rng()), i < 10 ? 0 : .1 * i);
 }

@@ -14,6 +14,9 @@ namespace {
 void linear(Check& check, Student& student) {
   for (int i = 0; i < 20; ++i) ratesFit(check, student, i < 5 ? PoleCart{} : randomCart(check.rng()));
   linearisationFits(check, student, {});
+  const auto fixed =
+      check.ask("It is right for the cart of the sheet: is a number of that cart in the code?");
+  linearisationFits(check, student, randomCart(check.rng()));
 }
 
 void iterates(Check& check, Student& student) {

@@ -42,14 +42,14 @@ struct Costs {
 };
 
 /// The iteration of 12.11.1 b from P_0 = Q. Returns the first of P_0, P_1, ..., P_most for which no entry
-/// of the bracket is larger than `tolerance` in size, or nothing if there is none.
+/// of D = A^T P + P A - P B R^-1 B^T P + Q is larger than `tolerance` in size, or nothing if there is none.
 std::optional<Eigen::MatrixXd> iterated(const Plant& plant, const Costs& costs, double epsilon,
                                         double tolerance, int most);
 
 /// The symmetric P that solves the equation and makes the closed loop stable, from the stable half of the
-/// Hamiltonian matrix; the bracket is zero up to 1e-9 of its largest term. Such a P exists even if u does
-/// not reach all of x, because what it does not reach decays by itself. The closed loop has no pole near
-/// the imaginary axis. Poles may differ in size by a factor of 1e4.
+/// Hamiltonian matrix; D is zero up to 1e-9 of its largest term. If u does not reach all of x, the rest
+/// decays by itself, so that P exists. The closed loop has no pole near the imaginary axis. Poles may differ
+/// in size by a factor of 1e4.
 Eigen::MatrixXd viaHamiltonian(const Plant& plant, const Costs& costs);
 
 /// The K (m x n) that belongs to P, for u = K x.
@@ -98,7 +98,8 @@ enum class Fate {
 Fate fateOf(const Eigen::MatrixXd& A);
 
 /// A K (1 x n) with no entry larger than `bound` in size, for which slowest(K), the slowestPole() of some
-/// plant, is at most 0.5 times the lowest possible value. `start` (1 x n) is within the bound, and stable.
+/// plant, is at most half of the lowest possible value, which is negative. `start` (1 x n) is within the
+/// bound, and stable.
 /// You may call slowest() 3000 times.
 Eigen::MatrixXd quickGains(const std::function<double(const Eigen::MatrixXd&)>& slowest,
                            const Eigen::MatrixXd& start, double bound, rex::Rng& rng);

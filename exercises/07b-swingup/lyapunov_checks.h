@@ -73,6 +73,12 @@ inline void candidateIsJudged(rex::grading::Check& check, Student& student, cons
   check.atLeast("norm of the point", x->norm(), 1e-12);
   check.atMost("the point, as a share of the box", (x->cwiseAbs().cwiseQuotient(candidate.high)).maxCoeff(),
                1 + 1e-9);
+  const Eigen::VectorXd across = candidate.P * *x;
+  check.input(candidate.name, {{"P", candidate.P},
+                               {"high", candidate.high},
+                               {"x", *x},
+                               {"V", x->dot(across)},
+                               {"V'", 2 * across.dot(candidate.f(*x))}});
   const auto slope =
       check.ask("At the point V' = 2 x^T P f(x) has to be 0 or more, or V 0 or less. Is it so there?");
   check.that("the point disproves V", disproves(candidate, *x, 1e-9));

@@ -82,9 +82,9 @@ double epsilonOf(const Eigen::MatrixXd& wrenches);
 
 // Part 4, fewer fingers (10:8).
 
-/// Which fingers to keep so that their wrenches still have force closure, but lose it without any one of
-/// them: indices of fingers in ascending order. Column k of the wrenches (d x N) belongs to the finger
-/// finger[k]. Empty if all fingers together have no force closure.
+/// Which fingers to keep so that their wrenches still have force closure, and lose it
+/// if any one of them is removed: indices of fingers in ascending order. Column k of the wrenches (d x N)
+/// belongs to the finger finger[k]. Empty if all fingers together have no force closure.
 std::vector<int> keptFingers(const Eigen::MatrixXd& wrenches, const std::vector<int>& finger);
 
 // Part 5, a good grasp.
@@ -93,6 +93,6 @@ std::vector<int> keptFingers(const Eigen::MatrixXd& wrenches, const std::vector<
 /// planarWrenches() with this center and length is large: at least 0.8 of the best that the grader knows.
 /// Corners are given counter-clockwise; the polygon may be concave. Fingers touch at least 2 mm from any
 /// corner, with the normal of the edge and that friction. Objects are 5 to 20 cm large, their edges 15 mm
-/// long or more.
+/// long or more. You have 10 s.
 std::vector<PlanarFinger> bestGrasp(const std::vector<Eigen::Vector2d>& corners,
                                     const Eigen::Vector2d& center, double length, double friction, int count);

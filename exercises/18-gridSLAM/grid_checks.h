@@ -45,7 +45,12 @@ inline Evidence gridsOf(const Grid& shape, const Eigen::MatrixXd& got, const Eig
   if ((got - wanted).cwiseAbs().maxCoeff(&i, &j) > 0) {
     const Eigen::Vector2d middle =
         shape.origin + shape.cell * Eigen::Vector2d(static_cast<double>(i) + .5, static_cast<double>(j) + .5);
-    evidence.figures[0].series.push_back(rex::grading::wrongPoint("differs most", middle[0], middle[1]));
+    Grid difference = shape;
+    difference.values = got - wanted;
+    const double most = difference.values.cwiseAbs().maxCoeff();
+    evidence.figures.push_back(gridFigure("got - wanted", difference, -most, most, label));
+    for (const std::size_t k : {0u, 2u})
+      evidence.figures[k].series.push_back(rex::grading::wrongPoint("differs most", middle[0], middle[1]));
   }
   for (rex::Figure& figure : evidence.figures)
     figure.series.insert(figure.series.end(), on.begin(), on.end());

@@ -201,8 +201,8 @@ inline std::vector<Particle> threeParticles(const Sight& sight, const Eigen::Vec
   return particles;
 }
 
-// What slamStep() made of one particle.
-inline void steps(Check& check, const Particle& before, const Particle& after,
+// What slamStep() made of one particle; `other` is another one.
+inline void steps(Check& check, const Particle& before, const Particle& after, const Particle& other,
                   const Eigen::Vector3d& expected, const Sight& sight, const Settings& settings) {
   const Grid distances = distancesTo(before.map, settings.reach);
   check.near("length of a path after slamStep", static_cast<double>(after.path.size()),
@@ -236,6 +236,10 @@ inline void steps(Check& check, const Particle& before, const Particle& after,
     const auto blind = check.suspect(
         "Is the scan in the map already that says how well it fits? It would always fit.",
         one(before.logWeight + fitOf(now, pose, sight.scan, settings.deviation) / settings.temper));
+    const auto shared = check.suspect("Is the map of another particle used? Each has its own.",
+                                      one(before.logWeight + fitOf(distancesTo(other.map, settings.reach),
+                                                                   pose, sight.scan, settings.deviation) /
+                                                                 settings.temper));
     check.near("log weight after slamStep", one(after.logWeight), one(before.logWeight + says),
                1e-6 * (1 + std::abs(says)));
   }
@@ -271,7 +275,7 @@ inline void stepsParticles(Check& check, Student& student) {
       const Eigen::Vector3d expected =
           last + Eigen::Vector3d(c * motion[0] - s * motion[1], s * motion[0] + c * motion[1], motion[2]);
       check.shape("values of a map after slamStep", got[k].map.values, 60, 60);
-      steps(check, particles[k], got[k], expected, sight, settings);
+      steps(check, particles[k], got[k], particles[k == 0 ? 1 : 0], expected, sight, settings);
     }
     if (!settings.matches) {
       const auto ways = [&](std::size_t k) {

@@ -130,7 +130,7 @@ inline void keepsRule(Check& check, Student& student) {
                        .xLabel = "step",
                        .yLabel = "effective size",
                        .series = {curve(never, rex::grading::gotCurve("threshold 0"))}};
-    if (!always.empty()) figure.series.push_back(curve(always, rex::grading::wrongCurve("threshold 1.1")));
+    if (!always.empty()) figure.series.push_back(curve(always, rex::grading::wantedCurve("threshold 1.1")));
     return Evidence{.figures = {figure}};
   });
   {
