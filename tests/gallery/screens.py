@@ -2,7 +2,7 @@
 
 Writes exercises.webp (a picture of each exercise, that of the course's pages) and dragged.webp (the mouse drags a hand in
 `rex view`). Of the circle of exercise 01 in the wrong plane: test.webp (`rex test` in a terminal), check.png (the picture of the
-check) and failed.webp (its replay). Of a small class: statistics.webp.
+check), failed.webp (its replay) and watch.webp (the page of `rex watch`). Of a small class: statistics.webp.
 """
 
 import fcntl
@@ -27,6 +27,10 @@ root = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(root / "tests" / "support"))
 from browser import Browser, Page  # noqa: E402
 
+# Where a film says more than the picture of the course's pages.
+FILMS = {"00b": "turns.mp4", "01": "circle.mp4", "02": "peg.mp4", "03": "circle.mp4", "04": "path.mp4", "06": "slam.mp4",
+         "07b": "swings.mp4", "11": "street.mp4", "12": "around.mp4", "13": "humanoid.mp4", "14": "deletion.mp4",
+         "16": "balanced.mp4", "18": "mapping.mp4"}
 EXERCISE = "01-kinematics"
 RIGHT, WRONG = "std::cos(angle), 0, std::sin(angle)", "std::cos(angle), std::sin(angle), 0"
 FIRST, LAST, RATE = 0.6, 7.5, 8  # seconds of the replay, pictures per second
@@ -102,11 +106,20 @@ def draw_terminal(browser, command, text, file, after=""):
         <pre><b>$ %s</b>\n%s</pre>%s""" % (command, text.rstrip().replace("scripts/rex", "rex"), after), 720, file, 16 / 9)
 
 
+def at_last_third(film, picture):
+    seconds = float(subprocess.run(["ffprobe", "-v", "error", "-show_entries", "format=duration", "-of", "csv=p=0", film],
+                                   check=True, capture_output=True, text=True).stdout)
+    subprocess.run(["ffmpeg", "-v", "error", "-y", "-ss", str(seconds * 2 / 3), "-i", film, "-frames:v", "1", picture], check=True)
+
+
 def draw_exercises(browser, rex, out):
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([rex, "dev", "site", folder + "/site"], cwd=root, check=True)
         cells = ""
         for picture in sorted(pathlib.Path(folder, "site/exercises").glob("*.png")):
+            film = FILMS.get(picture.stem.split("-")[0])
+            if film:
+                at_last_third(root / "out" / (picture.stem + "-solution") / film, picture)
             number = picture.stem.split("-")[0]
             title = tomllib.loads((root / "exercises" / picture.stem / "exercise.toml").read_text())["title"]
             cells += "<figure><img src='%s'><figcaption><b>%s</b> %s</figcaption></figure>" % (picture, number, html.escape(title))
@@ -157,6 +170,26 @@ def failed_check(browser, rex, folder, out):
     film.write(out / "failed.webp", 960)
 
 
+def watched(browser, rex, folder, out):
+    """After a save that made the line right; the circle is still wrong."""
+    subprocess.run([rex, "init", folder / "course"], cwd=root, stdout=subprocess.DEVNULL, check=True)
+    file = folder / "course" / "exercises" / EXERCISE / "main.cpp"
+    regions = re.findall(r"<solution (\w+)>", solution)
+    file.write_text(written([one for one in regions if one != "straightLine"], wrong=True))
+    process = subprocess.Popen([rex, "watch", "01", "--open"], cwd=folder / "course", stdin=subprocess.DEVNULL,
+                               stdout=subprocess.PIPE, text=True)
+    try:
+        page = page_of(browser, process.stdout.readline().removeprefix("page: ").strip(), 1280, 800,
+                       "document.getElementById('state').textContent.startsWith('graded')")
+        file.write_text(written(regions, wrong=True))
+        if not page.wait("document.querySelector('#news li') && document.querySelector('#evidence img')?.complete", 200):
+            sys.exit("screens.py: the page of rex watch shows nothing new")
+        still(page, out / "watch.webp")
+    finally:
+        process.send_signal(signal.SIGINT)
+        process.wait(20)
+
+
 def dragged(browser, rex, out):
     process = subprocess.Popen([rex, "view", "man", "--no-browser"], cwd=root, stdout=subprocess.PIPE, text=True)
     try:
@@ -185,5 +218,6 @@ if __name__ == "__main__":
     dragged(chromium, rex, out)
     with tempfile.TemporaryDirectory() as name:
         failed_check(chromium, rex, pathlib.Path(name), out)
+        watched(chromium, rex, pathlib.Path(name), out)
         draw_statistics(chromium, rex, pathlib.Path(name), out)
     chromium.close()
