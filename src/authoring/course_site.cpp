@@ -81,7 +81,8 @@ class SiteWriter {
                           {"heading", section.title},
                           {"url", file.generic_string() + "#" + section.anchor},
                           {"text", section.text}});
-    write(file, title, before + page.html + after);
+    write(file, title,
+          before + (source.filename() == "course-map.md" ? linked(page.html) : page.html) + after);
     return title;
   }
 
@@ -130,6 +131,18 @@ class SiteWriter {
       if (parts.where.file.empty()) parts.where.file = source.generic_string();
       throw Error(std::move(parts));
     }
+  }
+
+  // The numbers of exercises on the site become links, from a page in a folder of the site.
+  [[nodiscard]] std::string linked(std::string html) const {
+    for (const submission::ExerciseInfo& one : exercises_) {
+      const std::string number = fmt::format("<code>{}</code>", one.name.substr(0, one.name.find('-')));
+      const std::string link =
+          fmt::format("<a href=\"../exercises/{}.html\">{}</a>", htmlText(one.name), number);
+      for (std::size_t at = 0; (at = html.find(number, at)) != html.npos; at += link.size())
+        html.replace(at, number.size(), link);
+    }
+    return html;
   }
 
   // Where a link of a file in that folder leads from a page in `page`; empty: to nothing on the site.

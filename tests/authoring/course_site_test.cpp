@@ -59,6 +59,8 @@ TEST_F(CourseSiteTest, HasNoDeadLinks) {
   EXPECT_THAT(fileText(out() / "entries.js"),
               HasSubstr("\"url\":\"exercises/05-car.html#part-4-resampling-723-3-points\""));
   EXPECT_THAT(fileText(out() / "entries.js"), Not(HasSubstr("</")));
+  EXPECT_THAT(fileText(out() / "documents" / "course-map.html"),
+              HasSubstr("<a href=\"../exercises/00b-frames.html\"><code>00b</code></a> 3"));
   const std::string demonstrations = fileText(out() / "documents" / "demonstrations.html");
   EXPECT_THAT(demonstrations, HasSubstr("u = Kp (q* - q)"));
   EXPECT_THAT(demonstrations, HasSubstr("3:15 to 3:17"));
