@@ -189,6 +189,7 @@ inline void responseFits(rex::grading::Check& check, Student& student, const Pla
         .title = "The response in the complex plane", .xLabel = "real part", .yLabel = "imaginary part"};
     figure.series = {rex::through(pointsOf(got), rex::grading::gotCurve("got")),
                      rex::through(pointsOf(wanted), rex::grading::wantedCurve("wanted"))};
+    for (rex::Series& one : figure.series) one.style = rex::SeriesStyle::kLinesPoints;
     return rex::grading::Evidence{.figures = {figure}};
   });
   const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(plant.A.rows(), plant.A.rows());
