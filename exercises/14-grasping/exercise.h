@@ -82,9 +82,9 @@ double epsilonOf(const Eigen::MatrixXd& wrenches);
 
 // Part 4, fewer fingers (10:8).
 
-/// Which fingers to keep so that their wrenches still have force closure, and lose it
-/// if any one of them is removed: indices of fingers in ascending order. Column k of the wrenches (d x N)
-/// belongs to the finger finger[k]. Empty if all fingers together have no force closure.
+/// Which fingers to keep so that their wrenches still have force closure, and lose it if any one of them is
+/// removed: indices of fingers in ascending order. Column k of the wrenches (d x N) belongs to the finger
+/// finger[k]. Empty if all fingers together have no force closure.
 std::vector<int> keptFingers(const Eigen::MatrixXd& wrenches, const std::vector<int>& finger);
 
 // Part 5, a good grasp.
