@@ -15,7 +15,7 @@ return {x[1], c1* u + swing - c2* turn* c, x[3], turn};
 // in place of: const double c1 = 1 / (cart.poleMass + cart.cartMass), c2 = cart.l * cart.poleMass * c1;
 const double c1 = 1 / (cart.poleMass + cart.cartMass), c2 = cart.poleMass * c1;
 
-// <variant cart_of_the_sheet_only> caught by: other-carts
+// <variant cart_of_the_sheet_only> caught by: linear, other-carts
 // mistake: the numbers of the sheet, whatever the cart.
 // <solution linearised>
 Plant plant{Eigen::MatrixXd::Zero(4, 4), Eigen::MatrixXd::Zero(4, 1)};
