@@ -72,7 +72,7 @@ WeightsKernel::Sums quotientsOf(const double* weights, double divisor, long coun
       sums.add(k, quotient);
       squaredSums.add(k, quotient * quotient);
     }
-  double squares[kParts];
+  double squares[kParts] = {};
   for (long k = i; k < count; ++k) {
     quotients[k] = weights[k] / divisor;
     squares[k - i] = quotients[k] * quotients[k];
