@@ -7,7 +7,6 @@ check), failed.webp (its replay) and watch.webp (the page of `rex watch`). Of a 
 
 import fcntl
 import html
-
 import math
 import os
 import pathlib
@@ -117,10 +116,9 @@ def draw_exercises(browser, rex, out):
         subprocess.run([rex, "dev", "site", folder + "/site"], cwd=root, check=True)
         cells = ""
         for picture in sorted(pathlib.Path(folder, "site/exercises").glob("*.png")):
-            film = FILMS.get(picture.stem.split("-")[0])
-            if film:
-                at_last_third(root / "out" / (picture.stem + "-solution") / film, picture)
             number = picture.stem.split("-")[0]
+            if film := FILMS.get(number):
+                at_last_third(root / "out" / (picture.stem + "-solution") / film, picture)
             title = tomllib.loads((root / "exercises" / picture.stem / "exercise.toml").read_text())["title"]
             cells += "<figure><img src='%s'><figcaption><b>%s</b> %s</figcaption></figure>" % (picture, number, html.escape(title))
         draw_page(browser, """<style>body { margin: 0; padding: 8px; font: 13px/1.25 "DejaVu Sans", sans-serif; background: #e9ecef;
@@ -171,19 +169,22 @@ def failed_check(browser, rex, folder, out):
 
 
 def watched(browser, rex, folder, out):
-    """After a save that made the line right; the circle is still wrong."""
-    subprocess.run([rex, "init", folder / "course"], cwd=root, stdout=subprocess.DEVNULL, check=True)
-    file = folder / "course" / "exercises" / EXERCISE / "main.cpp"
+    """After a save that made the line right; the circle is still wrong. In a course folder, which an installed rex makes."""
+    subprocess.run(["cmake", "--install", pathlib.Path(rex).parent, "--prefix", folder / "installed"],
+                   stdout=subprocess.DEVNULL, check=True)
+    rex, file = folder / "installed" / "bin" / "rex", folder / "course" / "exercises" / EXERCISE / "main.cpp"
+    subprocess.run([rex, "init", folder / "course"], cwd=folder, stdout=subprocess.DEVNULL, check=True)
     regions = re.findall(r"<solution (\w+)>", solution)
     file.write_text(written([one for one in regions if one != "straightLine"], wrong=True))
     process = subprocess.Popen([rex, "watch", "01", "--open"], cwd=folder / "course", stdin=subprocess.DEVNULL,
                                stdout=subprocess.PIPE, text=True)
     try:
-        page = page_of(browser, process.stdout.readline().removeprefix("page: ").strip(), 1280, 800,
-                       "document.getElementById('state').textContent.startsWith('graded')")
+        url = process.stdout.readline().removeprefix("page: ").strip()
+        page = page_of(browser, url, 1280, 800, "document.getElementById('state')?.textContent.startsWith('graded')")
         file.write_text(written(regions, wrong=True))
         if not page.wait("document.querySelector('#news li') && document.querySelector('#evidence img')?.complete", 200):
             sys.exit("screens.py: the page of rex watch shows nothing new")
+        page.js("document.querySelector('#evidence').scrollIntoView({ block: 'end' })")
         still(page, out / "watch.webp")
     finally:
         process.send_signal(signal.SIGINT)
