@@ -27,9 +27,9 @@ sys.path.insert(0, str(root / "tests" / "support"))
 from browser import Browser, Page  # noqa: E402
 
 # Where a film says more than the picture of the course's pages.
-FILMS = {"00b": "turns.mp4", "01": "circle.mp4", "02": "peg.mp4", "03": "circle.mp4", "04": "path.mp4", "06": "slam.mp4",
-         "07b": "swings.mp4", "11": "street.mp4", "12": "around.mp4", "13": "humanoid.mp4", "14": "deletion.mp4",
-         "16": "balanced.mp4", "18": "mapping.mp4"}
+FILMS = {"00b": "turns.mp4", "01": "circle.mp4", "02": "peg.mp4", "03": "circle.mp4", "04": "path.mp4", "05": "filter.mp4",
+         "06": "slam.mp4", "07": "balanced.mp4", "07b": "swings.mp4", "09": "learnt.mp4", "11": "street.mp4", "12": "around.mp4",
+         "13": "humanoid.mp4", "14": "deletion.mp4", "15": "adjusting.mp4", "16": "balanced.mp4", "18": "mapping.mp4"}
 EXERCISE = "01-kinematics"
 RIGHT, WRONG = "std::cos(angle), 0, std::sin(angle)", "std::cos(angle), std::sin(angle), 0"
 FIRST, LAST, RATE = 0.6, 7.5, 8  # seconds of the replay, pictures per second
@@ -123,7 +123,7 @@ def draw_exercises(browser, rex, out):
             cells += "<figure><img src='%s'><figcaption><b>%s</b> %s</figcaption></figure>" % (picture, number, html.escape(title))
         draw_page(browser, """<style>body { margin: 0; padding: 8px; font: 13px/1.25 "DejaVu Sans", sans-serif; background: #e9ecef;
             display: flex; flex-wrap: wrap; justify-content: center; gap: 8px } figure { margin: 0; width: 204px; background: #fff }
-            img { width: 204px; height: 153px; object-fit: contain } figcaption { padding: 2px 6px 6px; height: 33px }</style>"""
+            img { width: 204px; height: 153px; object-fit: contain } figcaption { padding: 2px 6px 6px; height: 48px }</style>"""
                   + cells, 1280, out / "exercises.webp")
 
 
