@@ -29,7 +29,7 @@ std::vector<Row> testRows() {
   };
   for (const std::string& name : TestedExercises::names())
     add(
-        "test-" + name, [tested, name] { return tested->seconds(name, File::kSolution); }, kWorst, 3);
+        "test-" + name, [tested, name] { return tested->seconds(name, File::kSolution); }, kWorst, 1);
   add(
       "test-median", [tested] { return tested->median(File::kSolution); }, kMedian, 1);
   add(
