@@ -108,6 +108,18 @@ Camera turnedCamera(const Camera& camera, const Vector3d& p_WT, double angle) {
   return result;
 }
 
+// Widths of lines and texts are pixels of the usual picture; they grow with a larger one.
+Picture enlarged(Picture picture, const RendererOptions& renderer) {
+  const double factor = std::min(renderer.width / 640., renderer.height / 480.);  // kPictureSize
+  if (factor <= 1) return picture;
+  for (Polyline& line : picture.polylines) line.width *= factor;
+  for (LineSet& lines : picture.lineSets) lines.width *= factor;
+  for (PointSet& points : picture.pointSets) points.size *= factor;
+  for (Label& label : picture.labels) label.scale *= factor;
+  for (Caption& caption : picture.captions) caption.scale *= factor;
+  return picture;
+}
+
 }  // namespace
 
 Studio::Studio(const RenderPlan& plan, const Bounds& scene)
@@ -131,7 +143,7 @@ Image Studio::draw(const Picture& picture, double angle) {
 Image Studio::drawFrom(const Picture& picture, const Camera& camera) {
   throwIfInterrupted();
   if (plan_.show == Show::kColor) {
-    DrawnFrame drawn = renderer_.drawFrame(picture, camera);
+    DrawnFrame drawn = renderer_.drawFrame(enlarged(picture, plan_.renderer), camera);
     sawSomething_ |= drawn.showsSomething;
     return std::move(drawn.image);
   }

@@ -101,7 +101,8 @@ struct RenderPlan {
 /// packages.
 [[nodiscard]] GlBackend parseBackend(const std::string& name);
 
-/// Draws pictures of one scene according to a plan, with several cameras side by side.
+/// Draws pictures of one scene according to a plan, with several cameras side by side. Lines, points and
+/// texts grow with pictures larger than kPictureSize.
 class Studio {
  public:
   /// `scene` bounds everything that will be seen. Throws Error like Renderer.

@@ -146,6 +146,29 @@ TEST(Studio, TurnsAllCameras) {
   EXPECT_NE(both, drawn({"front", "left"}, 0));
 }
 
+TEST(Studio, DrawsTextsAndLinesAsLargeAsThePicture) {
+  REX_NEEDS_OSMESA();
+  const Picture line{.ground = {.visible = false},
+                     .polylines = {{.points = {{-1, 0, 0}, {1, 0, 0}}, .color = {1, 0, 0}, .width = 6}}};
+  const Picture caption{.ground = {.visible = false}, .captions = {{.text = "caption", .scale = 2}}};
+  // The share of the pixels that what is drawn changes.
+  const auto share = [](const Picture& picture, const std::string& size) {
+    const RenderPlan plan = makeRenderPlan({.cameras = {"0,-3,0@0,0,0"}, .size = size, .out = "a.png"});
+    const auto drawn = [&](const Picture& shown) { return Studio(plan, Bounds()).draw(shown); };
+    const Image with = drawn(picture), without = drawn({.ground = {.visible = false}});
+    double changed = 0;
+    for (int y = 0; y < with.height; ++y)
+      for (int x = 0; x < with.width; ++x) changed += with.at(x, y) != without.at(x, y);
+    return changed / (with.width * with.height);
+  };
+  for (const Picture& picture : {line, caption}) {
+    const double usual = share(picture, "640x480");
+    EXPECT_GT(usual, 0);
+    EXPECT_NEAR(share(picture, "1920x1440") / usual, 1, 0.25);
+    EXPECT_NEAR(share(picture, "1920x480") / usual, 1. / 3, 0.1);  // no higher: not larger
+  }
+}
+
 TEST(Studio, SaysWhatItLooksFrom) {
   REX_NEEDS_OSMESA();
   const auto said = [](const std::vector<std::string>& cameras, Facing facing) {
