@@ -89,7 +89,7 @@ int main() {
     const SupportPolygon support = supportPolygon(corners);
     const Eigen::Vector2d mass = S.kinematicsCOM();
     const double margin = supportMargin(support, mass).margin;
-    view.plot("centre of mass inside the support by [m]", t / 30., margin);
+    view.plot("margin of the centre of mass [m]", t / 30., margin);
     Picture picture = scenePicture(S.model(), forwardKinematics(S.model(), S.getJointAngles()));
     picture.ground.height = ground;
     Polyline edge{.color = margin > 0 ? kLandmarkColor : kDeadReckoningColor, .width = 5};

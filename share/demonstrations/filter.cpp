@@ -259,7 +259,7 @@ int main(int argc, char** argv) {
     view.plot("two deviations [m]", step, 2 * std::sqrt(pose.covariance.topLeftCorner<2, 2>().trace()),
               "step");
     view.plot("NEES, mean of the runs", step, right[step - 1], "step");
-    view.plot("NEES where noise is believed to be 0.3 of it", step, trusting[step - 1], "step");
+    view.plot("NEES, noise assumed 0.3 of it", step, trusting[step - 1], "step");
     view.plot("95 % are above", step, band.lower, "step");
     view.plot("95 % are below", step, band.upper, "step");
     view.show(carPicture(seen));

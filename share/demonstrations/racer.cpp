@@ -68,8 +68,8 @@ int main() {
       both << policy.beta, search->mean();
       const Eigen::RowVectorXd costs = racerRollouts(both, unseen).cost.colwise().mean() / 500;
       ++round;
-      view.plot("log10 of the cost per step, gradient", round * kRides, std::log10(costs[0]), "rides");
-      view.plot("log10 of the cost per step, CMA-ES", round * kRides, std::log10(costs[1]), "rides");
+      view.plot("log10 cost per step, gradient", round * kRides, std::log10(costs[0]), "rides");
+      view.plot("log10 cost per step, CMA-ES", round * kRides, std::log10(costs[1]), "rides");
     }
     // The newest policies ride for three seconds; one that has fallen lies there until then.
     if (at++ % 90 == 0) {

@@ -83,8 +83,8 @@ int main() {
                                         (isRunning ? "" : ", and it needs no more"),
                                 .scale = 1.5});
     if (isRunning && rounds != plotted)
-      view.plot("what the pupil's policies are worse by", plotted = rounds,
-                best - worth.dot(found.expectations), "round");
+      view.plot("reward lost by the pupil's policies", plotted = rounds, best - worth.dot(found.expectations),
+                "round");
     view.show(picture);
   }
 }

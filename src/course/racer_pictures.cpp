@@ -64,9 +64,11 @@ Picture racerPicture(const RacerView& view) {
     const Color& color = kBodyColors[static_cast<std::size_t>(k) % std::size(kBodyColors)];
     addWheel(picture, poseInLane(poses.col(0), lane), view.dynamics.r);
     addPendulum(picture, X_WB, l, color);
-    if (!view.names.empty())
+    if (!view.names.empty()) {  // each higher than the one in front, beside whose name it would be
+      const double above = l * (0.4 + 0.2 * static_cast<double>(k));
       picture.labels.push_back(
-          {view.names[static_cast<std::size_t>(k)], X_WB * Eigen::Vector3d(0, 0, 0.4 * l), color});
+          {view.names[static_cast<std::size_t>(k)], X_WB * Eigen::Vector3d(0, 0, above), color});
+    }
   }
   if (!view.caption.empty()) picture.captions.push_back({.text = view.caption});
   return picture;
