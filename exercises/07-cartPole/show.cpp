@@ -177,10 +177,15 @@ void showPoles(const Plant& real, const Eigen::MatrixXd& K, const Eigen::MatrixX
                 .yRange = AxisRange{-4, 4},
                 .legend = Legend::kOutside};
   figure.regions = {{.label = "stable", .x = {-6, 0, 0, -6}, .y = {-4, -4, 4, 4}}};
-  figure.series = {polesOf("without control", real, Eigen::MatrixXd::Zero(1, 4), Marker::kCross),
-                   polesOf("your K", real, K, Marker::kCircle),
+  figure.series = {polesOf("your K", real, K, Marker::kCircle),
+                   polesOf("your quick K", real, quick, Marker::kSquare),
                    polesOf("K of the sheet", real, printed, Marker::kPlus),
-                   polesOf("your quick K", real, quick, Marker::kSquare)};
+                   polesOf("without control", real, Eigen::MatrixXd::Zero(1, 4), Marker::kCross)};
+  for (const Series& one : figure.series)
+    for (std::size_t i = 0; i < one.x.size(); ++i)
+      for (std::size_t k = 0; k < i; ++k)
+        if (std::hypot(one.x[i] - one.x[k], one.y[i] - one.y[k]) < .02)
+          figure.notes.push_back({"twice", one.x[i] + .15, one.y[i] - .3});
   plot("poles", figure);
 }
 

@@ -76,7 +76,7 @@ void plotMap(const std::string& name, const std::string& title, const Office& of
   plot(name, carFigure({.map = drawable(map),
                         .paths = {{.name = "true path",
                                    .points = pathPoints(office.path),
-                                   .color = kTruthColor,
+                                   .color = Color{.85f, .1f, .1f},
                                    .dashed = true},
                                   {.name = label, .points = pathPoints(path), .color = kEstimateColor}},
                         .caption = text}));
@@ -149,8 +149,8 @@ void showFit(const Office& office) {
   map.colorLabel = "distance [m]";
   map.heatMap = heatMapFrom(distances);
   map.series = {
-      dots(endsOf(pose, scan), {.label = "a scan from its true pose", .size = .6, .color = kEstimateColor}),
-      dots(endsOf(off, scan), {.label = "from half a metre off", .size = .6, .color = kDeadReckoningColor})};
+      dots(endsOf(pose, scan), {.label = "a scan from its true pose", .size = .9, .color = {.9, .1, .1}}),
+      dots(endsOf(off, scan), {.label = "from half a metre off", .size = .9, .color = {.95, .5, .75}})};
   map.legend = Legend::kOutside;
   plot("distances", map);
   Grid around{pose.head<2>() - Eigen::Vector2d(.6, .6), .03, Eigen::MatrixXd(40, 40)};
