@@ -148,9 +148,10 @@ void showFit(const Office& office) {
   Figure map = seenFromAbove("Distance from the nearest wall");
   map.colorLabel = "distance [m]";
   map.heatMap = heatMapFrom(distances);
-  map.series = {
-      dots(endsOf(pose, scan), {.label = "a scan from its true pose", .size = .9, .color = {.9, .1, .1}}),
-      dots(endsOf(off, scan), {.label = "from half a metre off", .size = .9, .color = {.95, .5, .75}})};
+  map.series = {dots(endsOf(pose, scan),
+                     {.label = "a scan from its true pose", .size = .9, .color = Color{.9f, .1f, .1f}}),
+                dots(endsOf(off, scan),
+                     {.label = "from half a metre off", .size = .9, .color = Color{.95f, .5f, .75f}})};
   map.legend = Legend::kOutside;
   plot("distances", map);
   Grid around{pose.head<2>() - Eigen::Vector2d(.6, .6), .03, Eigen::MatrixXd(40, 40)};

@@ -46,7 +46,7 @@ Figure stepResponses() {
                 .yLabel = "position [m]",
                 .verticalLines = {{.at = 1}},
                 .horizontalLines = {{.at = 1}},
-                .notes = {{.text = "the step", .x = 1, .y = 0}, {.text = "set point", .x = 0, .y = 1}}};
+                .notes = {{.text = "the step", .x = 1.05, .y = 0.08}, {.text = "set point", .x = 0, .y = 1}}};
   const double dt = 0.01, stiffness = 16;
   for (const double ratio : {0.2, 0.6, 1.0}) {
     Series& series = figure.series.emplace_back(Series{.label = fmt::format("damping ratio {}", ratio)});
@@ -165,9 +165,9 @@ Figure costAndPaths() {
     J << -1, 0, -2 * std::sqrt(20.) * p.x(), std::sqrt(20.);
     return J;
   };
-  Figure figure{.title = "Two ways down Rosenbrock's valley",
-                .xLabel = "x [m]",
-                .yLabel = "y [m]",
+  Figure figure{.title = "Two descents into Rosenbrock's valley",
+                .xLabel = "x [1]",
+                .yLabel = "y [1]",
                 .colorLabel = "cost [1]",
                 .logColor = true,
                 .colorRange = AxisRange{0.01, 300},
@@ -207,16 +207,17 @@ Figure pendulum() {
   const auto field = [&](const Vector2d& s) {
     return Vector2d(s.y(), -9.81 * std::sin(s.x()) - damping * s.y());
   };
-  Figure figure{.title = "Phase portrait of a damped pendulum",
-                .xLabel = "angle [rad]",
-                .yLabel = "angular velocity [rad/s]",
-                .xRange = AxisRange{-5, 8},
-                .yRange = AxisRange{-9, 9},
-                .legend = Legend::kNone,
-                .series = {},
-                .arrows = {arrowField(field, {-5, 8}, {-9, 9}, 26, 18)},
-                .notes = {{.text = "hangs", .x = 0, .y = 0}, {.text = "stands", .x = kPi, .y = 0}},
-                .height = 540};
+  Figure figure{
+      .title = "Phase portrait of a damped pendulum",
+      .xLabel = "angle [rad]",
+      .yLabel = "angular velocity [rad/s]",
+      .xRange = AxisRange{-5, 8},
+      .yRange = AxisRange{-9, 9},
+      .legend = Legend::kNone,
+      .series = {},
+      .arrows = {arrowField(field, {-5, 8}, {-9, 9}, 26, 18)},
+      .notes = {{.text = "hangs", .x = 0.2, .y = 0.9}, {.text = "upright", .x = kPi + 0.2, .y = 0.9}},
+      .height = 540};
   for (const Vector2d& start : {Vector2d(-4.9, 6.5), Vector2d(-4.9, 8.5), Vector2d(7.9, -7)}) {
     Series series;
     Vector2d s = start;
@@ -260,7 +261,7 @@ Figure valueOfAPendulum() {
                       return grid.value({x, y});
                     },
                     {-kPi, kPi}, {-9, 9}, 200, 200),
-                .notes = {{.text = "hangs", .x = -kPi, .y = 0}, {.text = "stands", .x = 0, .y = 0}},
+                .notes = {{.text = "hangs", .x = -2.7, .y = -1.2}, {.text = "upright", .x = 0.15, .y = 1.2}},
                 .width = 720,
                 .height = 560};
   figure.heatMap->contours = 10;

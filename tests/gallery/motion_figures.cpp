@@ -40,8 +40,7 @@ Figure splines() {
                  {.label = "cubic spline, natural ends"},
                  {.label = "cubic spline, at rest at its ends"},
                  {.label = "B-spline, degree 3"}},
-      .width = 1280,
-      .height = 640};
+      .height = 450};
   for (const auto& point : points.colwise()) append(figure.series[0], point.x(), point.y());
   const VectorXd times = VectorXd::LinSpaced(points.cols(), 0, 1);
   const CubicSpline natural(times, points),
@@ -62,14 +61,15 @@ Figure preview() {
   const WalkPlan plan{.footsteps = straightFootsteps(5, 0.3, 0.2)};
   const Eigen::Matrix2Xd reference = zmpReference(plan, options.step);
   const PreviewMotion motion = followZmp(reference, options);
-  Figure figure{.title = "The body leans before the foot is lifted: preview control",
-                .xLabel = "time [s]",
-                .yLabel = "to the left [m]",
-                .legend = Legend::kOutside,
-                .series = {{.label = "centre of mass"},
-                           {.label = "zero moment point", .size = 1.6},
-                           {.label = "the same, wanted", .dashed = true, .color = Color{0.1f, 0.1f, 0.1f}}},
-                .height = 420};
+  Figure figure{
+      .title = "The body leans before the foot is lifted: preview control",
+      .xLabel = "time [s]",
+      .yLabel = "to the left [m]",
+      .legend = Legend::kOutside,
+      .series = {{.label = "centre of mass"},
+                 {.label = "zero moment point", .size = 1.6},
+                 {.label = "zero moment point, reference", .dashed = true, .color = Color{0.1f, 0.1f, 0.1f}}},
+      .height = 420};
   for (Eigen::Index k = 0; k < reference.cols(); k += 2) {
     const double time = static_cast<double>(k) * options.step;
     append(figure.series[0], time, motion.c(1, k));
@@ -105,7 +105,7 @@ Figure gait() {
       .xLabel = "angle of a leg [rad]",
       .yLabel = "rate [rad/s]",
       .legend = Legend::kOutside,
-      .series = {{.label = "from beside it", .color = kGrey}, {.label = "limit cycle", .size = 1.4}},
+      .series = {{.label = "perturbed start", .color = kGrey}, {.label = "limit cycle", .size = 1.4}},
       .height = 420};
   appendSteps(walker, cycle.x + Vector4d(0, 0, -0.12, -0.1), 12, figure.series[0]);
   appendSteps(walker, cycle.x, 3, figure.series[1]);
@@ -156,7 +156,7 @@ Figure springWalk() {
   const SpringLeg leg{.stiffness = 14000, .angle = 1.2042771838760873};  // 69 degrees
   const WalkingGait gait = findWalkingGait(leg, {.height = 0.97, .speed = 1.1});
   const double weight = leg.mass * leg.g;
-  Figure figure{.title = "People walk like this: two humps, and a valley over the foot",
+  Figure figure{.title = "Ground reaction force in walking: two humps for each step",
                 .xLabel = "time [s]",
                 .yLabel = "vertical force / weight",
                 .legend = Legend::kOutside,

@@ -173,7 +173,8 @@ std::vector<Drawing> pathPictures() {
        "that avoids the board and ends at rest at the goal.",
        around},
       {"legs", "A leg goes around the other",
-       "`rex plan humanoid` moves the foot from one side of the stance leg to the other; the planner also avoids "
+       "`rex plan humanoid` moves the foot from one side of the stance leg to the other; the planner also "
+       "avoids "
        "collisions between the legs.",
        legs},
       {"parking", "A car parks",
