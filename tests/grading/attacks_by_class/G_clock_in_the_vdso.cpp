@@ -1,41 +1,8 @@
 // Finds the page of functions that the kernel gives to each process and asks its clock there, without a
 // system call and without a library.
-#include <cstdio>
-
-#include "exercise.h"
+#include "attack_tools.h"
 
 namespace {
-struct Dyn {
-  long tag;
-  unsigned long value;
-};
-struct Sym {
-  unsigned name;
-  unsigned char info, other;
-  unsigned short section;
-  unsigned long value, size;
-};
-struct Segment {
-  unsigned type, flags;
-  unsigned long offset, address, physical, in_file, in_memory, align;
-};
-struct Header {
-  unsigned char magic[16];
-  unsigned short type, machine;
-  unsigned version;
-  unsigned long entry, segments, sections;
-  unsigned flags;
-  unsigned short size, segment_size, segment_count, section_size, section_count, names;
-};
-
-bool same(const char* a, const char* b) {
-  while (*a != 0 && *a == *b) {
-    ++a;
-    ++b;
-  }
-  return *a == *b;
-}
-
 char** environment;
 __attribute__((constructor)) void remember(int, char**, char** given) { environment = given; }
 }  // namespace
