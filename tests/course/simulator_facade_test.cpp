@@ -87,7 +87,7 @@ TEST_F(SimulatorFacade, KnowsNamesAndLimits) {
 TEST_F(SimulatorFacade, NumbersTheCoordinatesOfAJoint) {
   const Simulator S("maze");
   EXPECT_THAT(S.getJointNames(), ElementsAre("drive [0]", "drive [1]", "drive [2]"));
-  EXPECT_EQ(S.getLowerLimits(), Vector3d(-0.5, -0.5, -10));
+  EXPECT_EQ(S.getLowerLimits(), Vector3d(-0.5, -0.5, -3.2));
   EXPECT_EQ(Simulator("man.ors").getUpperLimits().minCoeff(), std::numeric_limits<double>::infinity());
 }
 
