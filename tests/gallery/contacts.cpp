@@ -66,7 +66,7 @@ Image contactScenesSheet() {
 
 std::vector<Drawing> contactPictures() {
   return {{"contact-scenes", "Contacts with closed answers",
-           "The scenes that measure the physics against [closed answers](benchmarks.md#contacts).",
+           "These scenes compare the physics with [results in closed form](benchmarks.md#contacts).",
            contactScenesSheet}};
 }
 

@@ -13,8 +13,8 @@ namespace {
 
 constexpr const char* kIntroduction = R"(# Gallery
 
-rex draws all of this without a screen: see [rex render](commands.md#rex-render) and [programs.md](programs.md#figures).
-The code is in `tests/gallery`; `scripts/gallery` draws the pictures again, and a test compares them.
+rex draws all these pictures without a screen: see [rex render](commands.md#rex-render) and [programs.md](programs.md#figures).
+The code is in `tests/gallery`; `scripts/gallery` redraws the pictures, and a test compares them.
 )";
 
 std::string section(const std::string& title, const std::vector<Drawing>& drawings) {

@@ -161,16 +161,15 @@ Image parking() {
 std::vector<Drawing> pathPictures() {
   return {
       {"peg-path", "A peg finds its hole",
-       "`rex plan pegInAHole`: two trees grow from the start and from the goal in the hole, which is drawn "
-       "faintly. Thin lines are paths of the peg, the thick one is the result, shortened and smoothed.",
+       "`rex plan pegInAHole`: one tree grows from the start, the other from the goal in the hole (drawn "
+       "faintly). Thin lines are paths of the peg; the thick one is the result, shortened and smoothed.",
        peg},
       {"maze-path", "A cart finds its way",
-       "`rex plan maze --planner rrt-star`: a tree that is rewired as it grows, so that its branches become "
-       "short.",
+       "`rex plan maze --planner rrt-star`: the tree is rewired as it grows, which shortens its branches.",
        cart},
       {"around", "An arm moves around the edge of a board",
        "`rex plan board --goal eff:0,-0.3,0.5 --planner optimize --avoid`: a motion with small accelerations "
-       "that avoids the board and ends at rest at the goal.",
+       "avoids the board and ends at rest at the goal.",
        around},
       {"legs", "A leg goes around the other",
        "`rex plan humanoid` moves the foot from one side of the stance leg to the other; the planner also "
@@ -179,7 +178,7 @@ std::vector<Drawing> pathPictures() {
        legs},
       {"parking", "A car parks",
        "`rex plan street --goal -1.3,1.1,0 --planner hybrid-astar`: hybrid A* searches backward from the gap "
-       "until a Reeds-Shepp curve reaches the start. Lines are the arcs that it tried.",
+       "until a Reeds-Shepp curve reaches the start. The lines are the arcs that it tried.",
        parking}};
 }
 

@@ -308,27 +308,29 @@ std::vector<Drawing> pictures() {
            "polyline, a labelled point and a caption.",
            motion},
           {"shapes", "All shapes",
-           "Boxes, rounded boxes, spheres, capsules, cylinders, meshes with several materials, point clouds; "
-           "everything may be translucent.",
+           "Boxes, rounded boxes, spheres, capsules, cylinders, meshes with several materials and point "
+           "clouds may all be translucent.",
            shapes},
           {"frames", "Frames and arrows",
-           "The frames of an arm, and the columns of a position Jacobian as arrows: each is the velocity of "
-           "the peg when one joint rotates.",
+           "Each arrow is a column of the position Jacobian: the velocity of the peg when one joint of the "
+           "arm rotates.",
            frames},
           {"particles", "Particles and covariances",
-           "The belief of a filter: particles as points, normal distributions as translucent ellipsoids.",
+           "A filter's belief is drawn as particles (points) or normal distributions (translucent "
+           "ellipsoids).",
            particles},
           {"tree", "A search tree",
-           "A tree that has grown at random from the start to the goal, and its path. Edges behind the "
-           "obstacle remain faintly visible.",
+           "A random tree has grown from the start to the goal and found a path. Edges behind the obstacle "
+           "remain faintly visible.",
            tree},
-          {"views", "Several cameras", "One picture from three sides.", views},
+          {"views", "Several cameras", "One picture shows a robot from three sides.", views},
           {"sensors", "Depth and segmentation",
-           "The image of a depth camera in metres, from near (yellow) to far (blue), and the solid that each "
-           "pixel shows.",
+           "A depth camera measures metres, from near (yellow) to far (blue); the segmentation shows the "
+           "solid at each pixel.",
            sensors},
           {"edges", "Anti-aliasing",
-           "A small picture, enlarged four times, without anti-aliasing and with its two kinds.", edges},
+           "A small picture is enlarged four times: without anti-aliasing, and with each of the two kinds.",
+           edges},
           {"key-frames", "Key frames of a motion", "A contact sheet shows a motion on paper.",
            keyFramesOfASwing}};
 }

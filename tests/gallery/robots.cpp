@@ -150,9 +150,9 @@ std::vector<Drawing> robotPictures() {
   };
   return {
       {"course-robots", "The arms of the course",
-       "`data/robots/*.ors`: links are capsules, joints are hinges.", courseRobots},
+       "In `data/robots/*.ors`, links are capsules and joints are hinges.", courseRobots},
       portrait("arm7dof", "An arm with seven joints",
-               "`data/robots/arm7dof/arm7dof.urdf`: its joints rotate alternately about z and y.",
+               "The joints of `data/robots/arm7dof/arm7dof.urdf` rotate alternately about z and y.",
                {.file = "robots/arm7dof/arm7dof.urdf",
                 .posture = {{"shoulder_yaw", -0.6},
                             {"shoulder_pitch", 0.5},
@@ -160,8 +160,8 @@ std::vector<Drawing> robotPictures() {
                             {"wrist_pitch", 0.9}},
                 .direction = {1.5, -2, 0.7}}),
       {"own-robots", "Two arms, a gripper and a humanoid with hands",
-       "`data/robots/*/*.urdf`: the lengths and limits of both arms and of the gripper are those of "
-       "published robots.",
+       "In `data/robots/*/*.urdf`, the arms and the gripper have the lengths and limits of published "
+       "robots.",
        publishedRobots},
       portrait("balancer", "A robot on two wheels",
                "`data/robots/balancer/balancer.urdf` falls without control.",
@@ -177,15 +177,15 @@ std::vector<Drawing> robotPictures() {
                 .direction = {1.9, -1.2, 0.5},
                 .cell = 0.5}),
       portrait("hand", "A hand",
-               "`data/robots/hand/hand.urdf`: it has fifteen driven hinges; the last joint of each finger "
+               "`data/robots/hand/hand.urdf` has fifteen driven hinges; the last joint of each finger "
                "follows the previous one.",
                {.file = "robots/hand/hand.urdf",
                 .posture = halfClosed(),
                 .direction = {1.6, 1.2, 0.5},
                 .cell = 0.05}),
       {"grasp", "The hand holds a ball",
-       "Bullet has closed the hand on a ball of 100 g. Dots are contacts; arrows are forces within the "
-       "friction cones that carry the ball.",
+       "Bullet has closed the hand on a ball of 100 g. Dots are contacts; arrows are forces that carry the "
+       "ball, within the friction cones.",
        grasp},
       portrait("table", "The man of the course at a table",
                "`data/scenes/table.ors` includes the man, moves his targets and adds the table. Inverse "
@@ -198,9 +198,11 @@ std::vector<Drawing> robotPictures() {
           "pick", "An arm and its gripper",
           "`data/scenes/pick.ors` puts the gripper on the flange of the arm, and the arm on a table.",
           {.file = "scenes/pick.ors", .named = "state:home", .direction = {1.2, -1.4, 0.8}, .cell = 0.5}),
-      portrait("board", "A planar arm above a board", "`data/scenes/board.ors`, a scene for path planners.",
+      portrait("board", "A planar arm above a board",
+               "`data/scenes/board.ors` is a scene for path "
+               "planners.",
                {.file = "scenes/board.ors", .direction = {2, -0.9, 0.7}}),
-      portrait("maze", "A cart in four rooms", "`data/scenes/maze.ors`, a scene for path planners.",
+      portrait("maze", "A cart in four rooms", "`data/scenes/maze.ors` is a scene for path planners.",
                {.file = "scenes/maze.ors", .direction = {-0.9, -1.5, 2.0}, .cell = 0.5})};
 }
 
