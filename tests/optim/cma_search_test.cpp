@@ -31,7 +31,8 @@ struct TableLine {
 };
 
 // Boxes and steps are those of the functions, which are the paper's. Populations are those that cost least
-// per success, found by trial, for the slide does not tell.
+// per success, found by trial, for the slide does not tell. Shares near their bound need many seeds, because
+// the last bits of cos, and so the runs, differ between processors.
 class Table932 : public ::testing::TestWithParam<TableLine> {};
 
 TEST_P(Table932, NeedsAsFewEvaluations) {
@@ -51,21 +52,18 @@ TEST_P(Table932, NeedsAsFewEvaluations) {
     ++successes;
     spent += static_cast<double>(result.evaluations);
   }
-  // Processors differ in the last bits of cos, so their runs differ, too: what must hold is what no sample
-  // contradicts by more than two standard errors of its share.
   const double share = static_cast<double>(successes) / line.seeds;
-  const double most = share + 2 * std::sqrt(share * (1 - share) / line.seeds);
-  EXPECT_GE(most, line.leastShare);
+  EXPECT_GE(share, line.leastShare);
   const double perSuccess = spent / successes / share;
-  EXPECT_LE(perSuccess * share / most, 1.15 * line.evaluations);
+  EXPECT_LE(perSuccess, 1.15 * line.evaluations);
   EXPECT_GE(perSuccess, 0.5 * line.evaluations);  // much less would be another problem
 }
 
 INSTANTIATE_TEST_SUITE_P(Script, Table932,
                          ::testing::Values(TableLine{"ackley", 20, 12, 2667, 20, 0.95},
                                            TableLine{"ackley", 30, 13, 3701, 20, 0.95},
-                                           TableLine{"griewank", 20, 15, 3111, 100, 0.75},
-                                           TableLine{"griewank", 30, 13, 4455, 100, 0.8},
+                                           TableLine{"griewank", 20, 15, 3111, 400, 0.75},
+                                           TableLine{"griewank", 30, 13, 4455, 400, 0.8},
                                            TableLine{"rastrigin", 20, 600, 68586, 20, 0.8},
                                            TableLine{"schwefel", 5, 600, 43810, 20, 0.8}),
                          [](const auto& line) { return line.param.name + std::to_string(line.param.n); });
