@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <compare>
+#include <cstring>
 #include <optional>
 #include <set>
 
@@ -13,6 +15,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include "base/error.h"
 #include "submission/build_tools.h"
 #include "submission/cpp_names.h"
 #include "submission/cpp_text.h"
@@ -133,12 +136,16 @@ struct FoundFile {
 };
 
 // Empty if there is no such file. Paths through the magic links of /proc are refused: they lead elsewhere in
-// each process.
+// each process. A machine without openat2 is the grader's fault, not the file's.
 std::optional<FoundFile> findFile(const fs::path& path) {
   open_how how{};
   how.flags = O_PATH | O_CLOEXEC;
   how.resolve = RESOLVE_NO_MAGICLINKS;
   const int fd = static_cast<int>(::syscall(SYS_openat2, AT_FDCWD, path.c_str(), &how, sizeof how));
+  if (fd < 0 && (errno == ENOSYS || errno == EPERM))
+    throw Error({.what = "cannot check included files",
+                 .found = std::string("openat2: ") + std::strerror(errno),
+                 .wanted = "Linux 5.6 or later, and a container that allows this call"});
   if (fd < 0) return {};
   struct stat status {};
   std::error_code failure;

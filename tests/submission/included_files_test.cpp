@@ -1,10 +1,14 @@
 #include "submission/included_files.h"
 
+#include <cerrno>
 #include <sstream>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <seccomp.h>
+#include <unistd.h>
 
+#include "base/error.h"
 #include "base/process.h"
 #include "base/rng.h"
 #include "base/text_file.h"
@@ -96,6 +100,24 @@ TEST(LineMarkers, MissesNothingThatTheCompilerObeys) {
     EXPECT_GT(countIn(source), 0) << source;
   }
   EXPECT_GT(obeyed, 5);
+}
+
+// Exits with 0 if the machine gets the blame. The kernel is made to look like one before 5.6, or a container.
+void checkFileWithoutOpenat2(int error) {
+  const scmp_filter_ctx filter = seccomp_init(SCMP_ACT_ALLOW);
+  if (seccomp_rule_add(filter, SCMP_ACT_ERRNO(error), SCMP_SYS(openat2), 0) != 0 || seccomp_load(filter) != 0)
+    ::_exit(1);
+  try {
+    (void)forbiddenIncludes({"/usr/include/stdio.h"}, "", "main.cpp", "/tmp", {});
+  } catch (const Error& failure) {
+    ::_exit(failure.parts().found.starts_with("openat2: ") ? 0 : 2);
+  }
+  ::_exit(3);
+}
+
+TEST(ForbiddenIncludes, BlamesAMachineThatCannotOpenFilesSafely) {
+  EXPECT_EXIT(checkFileWithoutOpenat2(ENOSYS), testing::ExitedWithCode(0), "");
+  EXPECT_EXIT(checkFileWithoutOpenat2(EPERM), testing::ExitedWithCode(0), "");
 }
 
 }  // namespace rex::submission::included_files_test
