@@ -72,8 +72,7 @@ class Check {
   Rng& rng() { return rng_; }
   std::uint64_t seed() const { return seed_; }
 
-  /// Describes the input that the student's functions get from here on. It is shown if a requirement of a
-  /// visible check fails.
+  /// Sets the input that the student's functions get from here on. A visible check shows it when it fails.
   void input(std::string text) { input(std::move(text), {}); }
   /// The same with the values from which the case can be computed by hand: "a random task: J = [1, 2; 3, 4]".
   /// Of a matrix of more than 40 numbers only the size is shown. near() says if its `got` is one of them.

@@ -223,14 +223,10 @@ std::vector<grading::CompileDiagnostic> explainLinking(const ProcessResult& run,
 // The forbidden ones among all files that the compiler and the assembler opened.
 std::vector<grading::CompileDiagnostic> forbiddenFilesIn(const StudentObject& object, const path& folder,
                                                          const Toolchain& toolchain) {
-  const auto forbidden = [&](const std::vector<path>& files) {
-    return forbiddenIncludes(files, object.source, object.name, folder, toolchain);
-  };
-  std::vector<grading::CompileDiagnostic> found =
-      forbidden(dependenciesIn(readTextFile(folder / kDependencies), folder));
-  const auto more = forbidden(filesOfAssembler(readTextFile(folder / kOfAssembler), folder));
-  found.insert(found.end(), more.begin(), more.end());
-  return found;
+  std::vector<path> files = dependenciesIn(readTextFile(folder / kDependencies), folder);
+  const std::vector<path> more = filesOfAssembler(readTextFile(folder / kOfAssembler), folder);
+  files.insert(files.end(), more.begin(), more.end());
+  return forbiddenIncludes(files, object.source, object.name, folder, toolchain);
 }
 
 // Makes `result.graded`, in which nothing may call what is forbidden; messages say if the file prevents that.
