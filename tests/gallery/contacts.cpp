@@ -65,8 +65,8 @@ Image contactScenesSheet() {
 }  // namespace
 
 std::vector<Drawing> contactPictures() {
-  return {{"contact-scenes", "Contacts with closed answers",
-           "These scenes compare the physics with [results in closed form](benchmarks.md#contacts).",
+  return {{"contact-scenes", "Contacts with closed-form results",
+           "These scenes compare the simulation with [results in closed form](benchmarks.md#contacts).",
            contactScenesSheet}};
 }
 

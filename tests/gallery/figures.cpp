@@ -94,7 +94,7 @@ Figure trackingError() {
 
 // Particles after one measurement of the distance to a beacon, before they are drawn anew.
 Figure particles() {
-  Figure figure{.title = "Particles after a distance to the beacon",
+  Figure figure{.title = "Particles after measuring the distance to the beacon",
                 .xLabel = "x [m]",
                 .yLabel = "y [m]",
                 .colorLabel = "weight, times the number of particles [1]",
@@ -314,7 +314,7 @@ Figure polesAndZeros() {
 // A robot drives a circle, measures distance and bearing of the landmarks it sees, and corrects its odometry.
 Figure localisation() {
   const std::vector<Vector2d> landmarks = {{6, 1}, {5.5, 6.5}, {0.5, 7.5}, {-3.5, 5}, {-3.5, 0.5}, {1, 3.4}};
-  Figure figure{.title = "A robot that locates itself by landmarks",
+  Figure figure{.title = "A robot localises itself with landmarks",
                 .xLabel = "x [m]",
                 .yLabel = "y [m]",
                 .equalAxes = true,

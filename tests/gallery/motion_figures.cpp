@@ -32,7 +32,7 @@ Figure splines() {
   Eigen::Matrix2Xd points(2, 5);
   points << 0, 0.5, 1.2, 1.8, 2.4, /**/ 0, 0.9, 0.2, 1.0, 0.1;
   Figure figure{
-      .title = "Through the points, or in their hull",
+      .title = "Splines through points, or in their convex hull",
       .xLabel = "x [m]",
       .yLabel = "y [m]",
       .legend = Legend::kOutside,
@@ -101,7 +101,7 @@ Figure gait() {
   const CompassGait walker;
   const LimitCycle cycle = findLimitCycle(walker, {0.22, -0.32, -1.1, -0.4});
   Figure figure{
-      .title = "A compass walks down a slope of 3 degrees, and returns to its limit cycle",
+      .title = "A compass walker on a slope of 3 degrees returns to its limit cycle",
       .xLabel = "angle of a leg [rad]",
       .yLabel = "rate [rad/s]",
       .legend = Legend::kOutside,
@@ -119,7 +119,7 @@ Figure couplerCurves() {
   const std::vector<TaskMap> loops = pinTasks(model);
   constexpr std::array<int, 1> kCrank{0};
   const Vector2d points[] = {{0.45, 0.35}, {0.9, 0.5}, {0.45, -0.35}};
-  Figure figure{.title = "What points of a coupler draw: a four-bar closes its loop",
+  Figure figure{.title = "Coupler curves of a four-bar linkage, a closed loop",
                 .xLabel = "x [m]",
                 .yLabel = "z [m]",
                 .equalAxes = true,

@@ -161,8 +161,9 @@ Image parking() {
 std::vector<Drawing> pathPictures() {
   return {
       {"peg-path", "A peg finds its hole",
-       "`rex plan pegInAHole`: one tree grows from the start, the other from the goal in the hole (drawn "
-       "faintly). Thin lines are paths of the peg; the thick one is the result, shortened and smoothed.",
+       "`rex plan pegInAHole`: one tree grows from the start, the other from the goal, with the peg in the "
+       "hole (drawn faintly). Thin lines are paths of the peg; the thick line is the result, shortened and "
+       "smoothed.",
        peg},
       {"maze-path", "A cart finds its way",
        "`rex plan maze --planner rrt-star`: the tree is rewired as it grows, which shortens its branches.",
@@ -171,14 +172,14 @@ std::vector<Drawing> pathPictures() {
        "`rex plan board --goal eff:0,-0.3,0.5 --planner optimize --avoid`: a motion with small accelerations "
        "avoids the board and ends at rest at the goal.",
        around},
-      {"legs", "A leg goes around the other",
+      {"legs", "One leg moves around the other",
        "`rex plan humanoid` moves the foot from one side of the stance leg to the other; the planner also "
        "avoids "
        "collisions between the legs.",
        legs},
       {"parking", "A car parks",
        "`rex plan street --goal -1.3,1.1,0 --planner hybrid-astar`: hybrid A* searches backward from the gap "
-       "until a Reeds-Shepp curve reaches the start. The lines are the arcs that it tried.",
+       "until a Reeds-Shepp curve reaches the start. The lines are the arcs that the search tried.",
        parking}};
 }
 

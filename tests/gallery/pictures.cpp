@@ -304,34 +304,33 @@ Image keyFramesOfASwing() {
 
 std::vector<Drawing> pictures() {
   return {{"motion", "A robot and the path of its hand",
-           "Inverse kinematics has moved the right hand around a circle. The picture has shadows, ground, a "
-           "polyline, a labelled point and a caption.",
+           "Inverse kinematics has moved the right hand around a circle. The picture shows shadows, the "
+           "ground, a polyline, a labelled point and a caption.",
            motion},
           {"shapes", "All shapes",
-           "Boxes, rounded boxes, spheres, capsules, cylinders, meshes with several materials and point "
-           "clouds may all be translucent.",
+           "Boxes, rounded boxes, spheres, capsules, cylinders, meshes with several materials, and point "
+           "clouds: all can be translucent.",
            shapes},
           {"frames", "Frames and arrows",
            "Each arrow is a column of the position Jacobian: the velocity of the peg when one joint of the "
-           "arm rotates.",
+           "arm rotates at unit speed.",
            frames},
           {"particles", "Particles and covariances",
            "A filter's belief is drawn as particles (points) or normal distributions (translucent "
            "ellipsoids).",
            particles},
           {"tree", "A search tree",
-           "A random tree has grown from the start to the goal and found a path. Edges behind the obstacle "
-           "remain faintly visible.",
+           "A random tree, grown from the start, has reached the goal and found a path. Edges behind the "
+           "obstacle remain faintly visible.",
            tree},
           {"views", "Several cameras", "One picture shows a robot from three sides.", views},
           {"sensors", "Depth and segmentation",
-           "A depth camera measures metres, from near (yellow) to far (blue); the segmentation shows the "
-           "solid at each pixel.",
+           "A depth camera measures metres, from near (yellow) to far (blue); the segmentation shows which "
+           "solid is visible at each pixel.",
            sensors},
           {"edges", "Anti-aliasing",
-           "A small picture is enlarged four times: without anti-aliasing, and with each of the two kinds.",
-           edges},
-          {"key-frames", "Key frames of a motion", "A contact sheet shows a motion on paper.",
+           "A small picture, enlarged four times: without anti-aliasing, with FXAA, and with MSAA.", edges},
+          {"key-frames", "Key frames of a motion", "A contact sheet shows a motion in print.",
            keyFramesOfASwing}};
 }
 

@@ -184,8 +184,8 @@ std::vector<Drawing> robotPictures() {
                 .direction = {1.6, 1.2, 0.5},
                 .cell = 0.05}),
       {"grasp", "The hand holds a ball",
-       "Bullet has closed the hand on a ball of 100 g. Dots are contacts; arrows are forces that carry the "
-       "ball, within the friction cones.",
+       "Bullet has closed the hand on a ball of 100 g. Dots are contacts; arrows, within the friction cones, "
+       "are the forces that carry the ball.",
        grasp},
       portrait("table", "The man of the course at a table",
                "`data/scenes/table.ors` includes the man, moves his targets and adds the table. Inverse "
