@@ -159,9 +159,12 @@ void sayIfSomeEndedBadly(const std::vector<CheckResult>& checks) {
 void sayHowToRepeat(const ExerciseInfo& exercise, const grading::GradeResult& result) {
   const auto failed = std::find_if(result.checks.begin(), result.checks.end(), hasFailed);
   if (failed == result.checks.end()) return;
-  const std::size_t colon = result.seedId.rfind(':');
-  say(fmt::format("One check alone: scripts/rex test {} --check {} --seed {}", exercise.name, failed->id,
-                  colon == std::string::npos ? "1" : result.seedId.substr(colon + 1)));
+  // "public:1", and "hidden:" with the hash of the secret, if there is one.
+  const std::size_t colon = result.seedId.find(':'), blank = result.seedId.find(' ');
+  const bool needsSecret = failed->group == Group::kHidden && blank != std::string::npos;
+  say(fmt::format("One check alone: scripts/rex test {} --check {} --seed {}{}", exercise.name, failed->id,
+                  colon == std::string::npos ? "1" : result.seedId.substr(colon + 1, blank - colon - 1),
+                  needsSecret ? " --secret-file FILE" : ""));
 }
 
 void sayPoints(const grading::GradeResult& result, int unseen) {

@@ -81,6 +81,21 @@ TEST_F(OneExercise, RunsOneCheckAndPrintsJson) {
   EXPECT_THAT(unknown.error, HasSubstr("no check is called 'keeps-lenght' (did you mean 'keeps-length'?)"));
 }
 
+TEST_F(OneExercise, SaysHowToRepeatACheckThatFailed) {
+  write(root() / "mine.cpp",
+        "#include \"exercise.h\"\nEigen::Vector2d rotated(const Eigen::Vector2d& p, double) { return 2 * p; "
+        "}\n");
+  write(root() / "secret", "sixteen letters and more\n");
+  std::vector<std::string> test = {"test", "98", "--main", root() / "mine.cpp", "--seed", "7"};
+  for (const std::string suffix : {"", " --secret-file FILE"}) {
+    EXPECT_THAT(rex(test).output, HasSubstr("--check quarter-turn --seed 7\n"));
+    test.insert(test.end(), {"--check", "angles-add"});
+    EXPECT_THAT(rex(test).output, HasSubstr("--check angles-add --seed 7" + suffix + "\n"));
+    test.resize(6);
+    test.insert(test.end(), {"--secret-file", root() / "secret"});
+  }
+}
+
 // What the other commands of the loop find: tests/cli records the same.
 TEST_F(OneExercise, RemembersWholeTestsOfTheStudentsFileOnly) {
   write(root() / "mine.cpp", kGood);
