@@ -133,8 +133,7 @@ struct FoundFile {
   fs::path place;
 };
 
-// Empty if there is no such file. Paths through the magic links of /proc are refused: they lead elsewhere in
-// each process.
+// Empty if there is no such file. Magic links of /proc are refused: they lead elsewhere in each process.
 std::optional<FoundFile> findFile(const fs::path& path) {
   open_how how{};
   how.flags = O_PATH | O_CLOEXEC;

@@ -224,8 +224,8 @@ std::vector<grading::CompileDiagnostic> explainLinking(const ProcessResult& run,
 std::vector<grading::CompileDiagnostic> forbiddenFilesIn(const StudentObject& object, const path& folder,
                                                          const Toolchain& toolchain) {
   std::vector<path> files = dependenciesIn(readTextFile(folder / kDependencies), folder);
-  const std::vector<path> more = filesOfAssembler(readTextFile(folder / kOfAssembler), folder);
-  files.insert(files.end(), more.begin(), more.end());
+  for (path& file : filesOfAssembler(readTextFile(folder / kOfAssembler), folder))
+    files.push_back(std::move(file));
   return forbiddenIncludes(files, object.source, object.name, folder, toolchain);
 }
 

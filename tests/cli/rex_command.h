@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "base/process.h"
@@ -44,6 +45,13 @@ class RexCommand : public ::testing::Test {
     for (std::size_t at; (at = text.find('\n')) != std::string::npos;) text.replace(at, 1, " ");
     for (std::size_t at; (at = text.find("  ")) != std::string::npos;) text.erase(at, 1);
     return text;
+  }
+
+  /// For wrong use: the exit code, the message, and no folder "out".
+  void expectRefused(const ProcessResult& result, const std::string& message) const {
+    EXPECT_EQ(result.exitCode, 64) << message;
+    EXPECT_THAT(flat(result.error), ::testing::HasSubstr(message));
+    EXPECT_FALSE(std::filesystem::exists(in("out"))) << message;
   }
 
   /// The examples that `rex COMMAND --help` shows, as words after "rex".

@@ -2,7 +2,6 @@
 // are in exercises/release_bars, the corpus of 4 in commands/broken_submissions.
 #include <future>
 #include <regex>
-#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,6 +14,7 @@
 #include "support/needs_osmesa.h"
 #include "support/paths.h"
 #include "support/report_checker.h"
+#include "support/wait_until.h"
 
 namespace rex::cli::acceptance_bars_test {
 
@@ -116,9 +116,7 @@ TEST_F(AcceptanceBars, Bar06EachSaveLeadsToOneVerdict) {
     return text.empty() ? "" : nlohmann::json::parse(text).at("outcome");
   };
   const auto hasOutcome = [&](const std::string& wanted) {
-    for (int k = 0; k < 6000 && outcome() != wanted; ++k)
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    return outcome() == wanted;
+    return waitUntil([&] { return outcome() == wanted; });
   };
   auto watching = std::async(std::launch::async, [&] {
     return runProcess({kRexOfTree, root().string(), "watch", "98"}, {.timeout = 280});

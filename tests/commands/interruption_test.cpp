@@ -1,11 +1,8 @@
 #include "base/interruption.h"
 
-#include <chrono>
 #include <csignal>
 #include <fstream>
-#include <functional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <fcntl.h>
@@ -17,20 +14,13 @@
 #include "commands/all_commands.h"
 #include "support/paths.h"
 #include "support/temporary_folder.h"
+#include "support/wait_until.h"
 
 namespace rex::cli::interruption_test {
 
 namespace fs = std::filesystem;
 
 constexpr int kDefinitelyInterrupted = 99;
-
-bool waitUntil(const std::function<bool()>& holds) {
-  for (int k = 0; k < 3000; ++k) {
-    if (holds()) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
-  return false;
-}
 
 // A project whose build folder nobody else uses, and the program working on it in a process of its own.
 class InterruptionTest : public ::testing::Test {

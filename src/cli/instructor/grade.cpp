@@ -449,8 +449,7 @@ ExitCode gradeMany(const Project& project, GradeManyOptions options) {
                                     .json = options.json,
                                     .reports = options.reports});
   requireFolders(options);
-  static_cast<void>(
-      parseReportFormats(options.reports));  // a misspelt format is refused before the first grading
+  static_cast<void>(parseReportFormats(options.reports));  // refuses a misspelt one before it grades
   const classroom::LatePolicy policy = readDeadlines(project, options.files.deadlines);
   const auto sandbox = chooseForStrangers(project, options.level, options.accept);
   if (!sandbox) return ExitCode::kWeakSandbox;

@@ -69,8 +69,7 @@ bool hasFailed(const CheckResult& check) { return check.status && *check.status 
 
 std::string lineOf(const CheckResult& check, const std::string& remark) {
   const std::string hidden = check.group == Group::kHidden ? ", hidden" : "";
-  const std::string title =
-      fmt::format("{} [{}{}]{}", escapeForTerminal(check.title), check.id, hidden, remark);
+  const auto title = fmt::format("{} [{}{}]{}", escapeForTerminal(check.title), check.id, hidden, remark);
   return fmt::format(" {} {:2}/{:<2}  {}", verdict(check), check.points, check.maxPoints,
                      wrap(title, kIndent, kIndent));
 }
@@ -159,12 +158,11 @@ void sayIfSomeEndedBadly(const std::vector<CheckResult>& checks) {
 void sayHowToRepeat(const ExerciseInfo& exercise, const grading::GradeResult& result) {
   const auto failed = std::find_if(result.checks.begin(), result.checks.end(), hasFailed);
   if (failed == result.checks.end()) return;
-  // "public:1", and "hidden:" with the hash of the secret, if there is one.
-  const std::size_t colon = result.seedId.find(':'), blank = result.seedId.find(' ');
-  const bool needsSecret = failed->group == Group::kHidden && blank != std::string::npos;
-  say(fmt::format("One check alone: scripts/rex test {} --check {} --seed {}{}", exercise.name, failed->id,
-                  colon == std::string::npos ? "1" : result.seedId.substr(colon + 1, blank - colon - 1),
-                  needsSecret ? " --secret-file FILE" : ""));
+  const std::string seed = result.seedId.substr(result.seedId.find(':') + 1);  // or "1 hidden:HASH"
+  say(fmt::format(
+      "One check alone: scripts/rex test {} --check {} --seed {}{}", exercise.name, failed->id,
+      seed.substr(0, seed.find(' ')),
+      failed->group == Group::kHidden && seed.find(' ') != seed.npos ? " --secret-file FILE" : ""));
 }
 
 void sayPoints(const grading::GradeResult& result, int unseen) {

@@ -43,10 +43,7 @@ class PlanCommand : public RexCommand {
   }
   void expectRefusal(std::vector<std::string> arguments, const std::string& message) const {
     arguments.insert(arguments.end(), {"-o", "out"});
-    const ProcessResult result = plan(arguments);
-    EXPECT_EQ(result.exitCode, 64) << message;
-    EXPECT_THAT(flat(result.error), HasSubstr(message));
-    EXPECT_FALSE(fs::exists(in("out"))) << message;
+    expectRefused(plan(arguments), message);
   }
   void expectRefusalOnBoard(std::vector<std::string> arguments, const std::string& message) const {
     arguments.insert(arguments.begin(), {"board", "--goal", kGoal});

@@ -32,10 +32,7 @@ class SimulateCommand : public RexCommand {
   }
   void expectRefusal(std::vector<std::string> arguments, const std::string& message) const {
     arguments.insert(arguments.begin(), {"pegArm.ors", "-o", "out"});
-    const ProcessResult result = simulate(arguments);
-    EXPECT_EQ(result.exitCode, 64) << message;
-    EXPECT_THAT(flat(result.error), HasSubstr(message));
-    EXPECT_FALSE(fs::exists(in("out"))) << message;
+    expectRefused(simulate(arguments), message);
   }
 };
 

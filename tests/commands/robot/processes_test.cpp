@@ -3,7 +3,6 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <thread>
 #include <vector>
 
@@ -20,6 +19,7 @@
 #include "support/needs_osmesa.h"
 #include "support/paths.h"
 #include "support/temporary_folder.h"
+#include "support/wait_until.h"
 
 namespace rex::cli::processes_test {
 
@@ -53,14 +53,6 @@ class RenderInterruption : public ::testing::Test {
     ::kill(child, SIGKILL);
     ::waitpid(child, &status, 0);
     return 0;
-  }
-
-  static bool waitUntil(const std::function<bool()>& holds) {
-    for (int k = 0; k < 3000; ++k) {
-      if (holds()) return true;
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    }
-    return false;
   }
 
   bool hasNotes() const {

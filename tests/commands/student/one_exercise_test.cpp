@@ -82,16 +82,15 @@ TEST_F(OneExercise, RunsOneCheckAndPrintsJson) {
 }
 
 TEST_F(OneExercise, SaysHowToRepeatACheckThatFailed) {
-  write(root() / "mine.cpp",
-        "#include \"exercise.h\"\nEigen::Vector2d rotated(const Eigen::Vector2d& p, double) { return 2 * p; "
-        "}\n");
+  write(exercise() / "main.cpp",
+        "#include \"exercise.h\"\nEigen::Vector2d rotated(const Eigen::Vector2d& p, double) { return -p; }");
   write(root() / "secret", "sixteen letters and more\n");
-  std::vector<std::string> test = {"test", "98", "--main", root() / "mine.cpp", "--seed", "7"};
+  std::vector<std::string> test = {"test", "98", "--seed", "7"};
   for (const std::string suffix : {"", " --secret-file FILE"}) {
     EXPECT_THAT(rex(test).output, HasSubstr("--check quarter-turn --seed 7\n"));
     test.insert(test.end(), {"--check", "angles-add"});
     EXPECT_THAT(rex(test).output, HasSubstr("--check angles-add --seed 7" + suffix + "\n"));
-    test.resize(6);
+    test.resize(4);
     test.insert(test.end(), {"--secret-file", root() / "secret"});
   }
 }

@@ -1,7 +1,5 @@
 // `rex test` of several exercises at once.
 #include <csignal>
-#include <functional>
-#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,6 +9,7 @@
 
 #include "base/interruption.h"
 #include "commands/built_project.h"
+#include "support/wait_until.h"
 
 namespace rex::cli::test_many_test {
 
@@ -92,14 +91,6 @@ TEST_F(TestMany, KeepsAFaultToItsExercise) {
   EXPECT_THAT(ended.output, HasSubstr("96-fine: "));
   EXPECT_THAT(ended.output, EndsWith("\n1 of 3 exercises in full, 3 of 9 points; 2 hit a grader fault\n"));
   EXPECT_EQ(workFolders(), 0);
-}
-
-bool waitUntil(const std::function<bool()>& holds) {
-  for (int k = 0; k < 6000; ++k) {
-    if (holds()) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
-  return false;
 }
 
 TEST_F(TestMany, LeavesNothingBehindWhenItIsStopped) {

@@ -1,6 +1,4 @@
 // `rex watch` without a terminal: saves, its page, and its end.
-#include <functional>
-#include <thread>
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -10,20 +8,13 @@
 
 #include "base/interruption.h"
 #include "commands/built_project.h"
+#include "support/wait_until.h"
 #include "support/web_connection.h"
 
 namespace rex::cli::watch_test {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-bool waitUntil(const std::function<bool()>& holds) {
-  for (int k = 0; k < 3000; ++k) {
-    if (holds()) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
-  return false;
-}
 
 // `rex watch` in a process of its own, without a terminal, writing to a file.
 class Watching : public BuiltProject {

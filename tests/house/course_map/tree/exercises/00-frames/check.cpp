@@ -1,0 +1,1 @@
+Checks all{{"far", "far", "Far away", 1, Group::kHidden, far}};
