@@ -87,9 +87,12 @@ endif()
 # How code is compiled that runs once, or waits for people and files. At this level g++ 12 warns of what is not there.
 set(REX_COLD "-O1;-Wno-array-bounds;-Wno-maybe-uninitialized;-Wno-stringop-overflow")
 # From version 13 on, g++ has these at -O2 only, and refuses a precompiled header with others.
-if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13
-   AND CMAKE_SYSTEM_PROCESSOR STREQUAL x86_64)
-  string(APPEND REX_COLD ";-munroll-only-small-loops;-mvzeroupper")
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13)
+  if(CMAKE_SYSTEM_PROCESSOR STREQUAL x86_64)
+    string(APPEND REX_COLD ";-munroll-only-small-loops;-mvzeroupper")
+  elseif(CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 14)
+    string(APPEND REX_COLD ";-mearly-ra=all")
+  endif()
 endif()
 set(REX_COLD "$<$<CONFIG:Release>:${REX_COLD}>")
 
