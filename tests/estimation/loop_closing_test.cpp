@@ -1,7 +1,9 @@
 #include "estimation/loop_closing.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include <gtest/gtest.h>
 
@@ -38,29 +40,6 @@ TEST(LoopClosing, MapErrorFallsByALargeFactor) {
     EXPECT_GT(before, 1) << seed;
     EXPECT_LT(test::mapError(graph.poses, walk.truth), before / 10) << seed;
   }
-}
-
-TEST(LoopClosing, SaysWhyNot) {
-  std::array<int, 5> counts{};
-  // Many, because the last digits of sines, which differ between processors, change a walk.
-  for (std::uint64_t seed = 0; seed < 12; ++seed) {
-    Rng rng(seed);
-    const test::Walk walk = test::walkAround(test::hall(), 1.5, rng);
-    const LoopClosing closing = closeLoops(walk.odometry, walk.scans);
-    int accepted = 0;
-    for (const LoopCandidate& loop : closing.candidates) {
-      ++counts[static_cast<std::size_t>(loop.verdict)];
-      EXPECT_LE(loop.from + LoopOptions{}.leastGap, loop.to);
-      EXPECT_EQ(loop.reason.empty(), loop.verdict == LoopVerdict::kAccepted);
-      if (loop.verdict == LoopVerdict::kAccepted) {
-        EXPECT_GE(loop.match.overlap, LoopOptions{}.leastOverlap);
-        EXPECT_LE(loop.mahalanobis, LoopOptions{}.bound);
-        ++accepted;
-      }
-    }
-    EXPECT_EQ(accepted, closing.accepted);
-  }
-  for (const int count : counts) EXPECT_GT(count, 0) << "each verdict occurs";
 }
 
 // Two rooms with the same things in them, side by side on a corridor.
@@ -119,6 +98,33 @@ test::Walk throughBothRooms(Rng& rng) {
   return walk;
 }
 
+const LoopOptions kInRooms{.radius = 5, .leastGap = 6, .candidates = 4};
+
+// Overconfident odometry contradicts true loops. To odometry without confidence, false loops are likely, too.
+TEST(LoopClosing, SaysWhyNot) {
+  using enum LoopVerdict;
+  for (const auto& [confidence, reason] :
+       {std::pair{1., kAccepted}, {100., kUnlikely}, {0.03, kInconsistent}}) {
+    std::map<LoopVerdict, int> counts;
+    for (const std::uint64_t seed : {0, 1, 2, 3}) {
+      Rng rng(seed);
+      test::Walk walk = throughBothRooms(rng);
+      for (auto& edge : walk.odometry.edges) edge.information *= confidence;
+      const LoopClosing closing = closeLoops(walk.odometry, walk.scans, kInRooms);
+      EXPECT_EQ(std::ranges::count(closing.candidates, kAccepted, &LoopCandidate::verdict), closing.accepted);
+      for (const LoopCandidate& loop : closing.candidates) {
+        ++counts[loop.verdict];
+        EXPECT_LE(loop.from + kInRooms.leastGap, loop.to);
+        EXPECT_EQ(loop.reason.empty(), loop.verdict == kAccepted);
+        if (loop.verdict != kAccepted) continue;
+        EXPECT_GE(loop.match.overlap, kInRooms.leastOverlap);
+        EXPECT_LE(loop.mahalanobis, kInRooms.bound);
+      }
+    }
+    for (const auto verdict : {kNoMatch, kLittleOverlap, reason}) EXPECT_GT(counts[verdict], 5) << confidence;
+  }
+}
+
 TEST(LoopClosing, TakesNoRoomForOneThatLooksAlike) {
   // Scans alone do not tell the rooms apart.
   Rng noise(20);
@@ -131,11 +137,7 @@ TEST(LoopClosing, TakesNoRoomForOneThatLooksAlike) {
   for (int seed = 0; seed < 5; ++seed) {
     Rng rng(seed);
     const test::Walk walk = throughBothRooms(rng);
-    LoopOptions options;
-    options.leastGap = 6;
-    options.radius = 5;
-    options.candidates = 4;
-    const LoopClosing closing = closeLoops(walk.odometry, walk.scans, options);
+    const LoopClosing closing = closeLoops(walk.odometry, walk.scans, kInRooms);
     EXPECT_EQ(falseLoops(closing, walk.truth), 0) << seed;
     EXPECT_GE(closing.accepted, 3) << seed;
     PlanarPoseGraph graph = closing.graph;
