@@ -103,13 +103,12 @@ const LoopOptions kInRooms{.radius = 5, .leastGap = 6, .candidates = 4};
 // Overconfident odometry contradicts true loops. To odometry without confidence, false loops are likely, too.
 TEST(LoopClosing, SaysWhyNot) {
   using enum LoopVerdict;
-  for (const auto& [confidence, reason] :
-       {std::pair{1., kAccepted}, {100., kUnlikely}, {0.03, kInconsistent}}) {
+  for (const auto& [trust, reason] : {std::pair{1., kAccepted}, {100., kUnlikely}, {0.03, kInconsistent}}) {
     std::map<LoopVerdict, int> counts;
     for (const std::uint64_t seed : {0, 1, 2, 3}) {
       Rng rng(seed);
       test::Walk walk = throughBothRooms(rng);
-      for (auto& edge : walk.odometry.edges) edge.information *= confidence;
+      for (auto& edge : walk.odometry.edges) edge.information *= trust;
       const LoopClosing closing = closeLoops(walk.odometry, walk.scans, kInRooms);
       EXPECT_EQ(std::ranges::count(closing.candidates, kAccepted, &LoopCandidate::verdict), closing.accepted);
       for (const LoopCandidate& loop : closing.candidates) {
@@ -121,7 +120,7 @@ TEST(LoopClosing, SaysWhyNot) {
         EXPECT_LE(loop.mahalanobis, kInRooms.bound);
       }
     }
-    for (const auto verdict : {kNoMatch, kLittleOverlap, reason}) EXPECT_GT(counts[verdict], 5) << confidence;
+    for (const auto verdict : {kNoMatch, kLittleOverlap, reason}) EXPECT_GT(counts[verdict], 5) << trust;
   }
 }
 
