@@ -61,7 +61,7 @@ if(REX_HAS_GOLD)
   add_link_options(-fuse-ld=gold)
 endif()
 
-# No contraction: the same bits on every x86-64 (on arm64, Eigen itself fuses products with sums). No errno: sqrt becomes one instruction.
+# No contraction: the same bits on every x86-64; Eigen's code for arm64 fuses anyway. No errno: sqrt is one instruction.
 add_compile_options(-ffp-contract=off -fno-math-errno)
 
 if(REX_SANITIZE)

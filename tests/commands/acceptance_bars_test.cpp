@@ -115,9 +115,7 @@ TEST_F(AcceptanceBars, Bar06EachSaveLeadsToOneVerdict) {
     const std::string text = fileText(out() / "results.json");
     return text.empty() ? "" : nlohmann::json::parse(text).at("outcome");
   };
-  const auto hasOutcome = [&](const std::string& wanted) {
-    return waitUntil([&] { return outcome() == wanted; });
-  };
+  const auto hasOutcome = [&](const char* text) { return waitUntil([&] { return outcome() == text; }); };
   auto watching = std::async(std::launch::async, [&] {
     return runProcess({kRexOfTree, root().string(), "watch", "98"}, {.timeout = 280});
   });

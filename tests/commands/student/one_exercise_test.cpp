@@ -90,8 +90,7 @@ TEST_F(OneExercise, SaysHowToRepeatACheckThatFailed) {
     EXPECT_THAT(rex(test).output, HasSubstr("--check quarter-turn --seed 7\n"));
     test.insert(test.end(), {"--check", "angles-add"});
     EXPECT_THAT(rex(test).output, HasSubstr("--check angles-add --seed 7" + suffix + "\n"));
-    test.resize(4);
-    test.insert(test.end(), {"--secret-file", root() / "secret"});
+    test = {"test", "98", "--seed", "7", "--secret-file", root() / "secret"};
   }
 }
 
