@@ -15,8 +15,9 @@ if(DEFINED ENV{REX_MAINTAINER})
 endif()
 
 # The modules that other programs may link. Headers of the others are not installed.
-set(REX_PUBLIC_LAYERS base geometry optim remote scene formats estimation learning kinematics dynamics collision render physics
-                      planning trajectory control grasping locomotion course legacy)
+file(STRINGS ${PROJECT_SOURCE_DIR}/share/layers.txt REX_PUBLIC_MODULES REGEX " public$")
+list(TRANSFORM REX_PUBLIC_MODULES REPLACE "^[0-9]+ (.*) public$" "\\1")
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/share/layers.txt)
 
 # Never installed: folders and files of running programs, which remain if a program is killed (src/base/folders.h), backups by `rex reset`, lists of dependencies, and the cache of Python.
 set(REX_TRANSIENT PATTERN "rex-work-*" EXCLUDE PATTERN "*.new" EXCLUDE PATTERN "main.backup-*" EXCLUDE
@@ -51,8 +52,8 @@ function(rex_install_programs)
   install(TARGETS ${modules} LIBRARY DESTINATION ${REX_INSTALLED}/lib COMPONENT runtime)
   install(TARGETS ${REX_INSTALLED_PROGRAMS}
           RUNTIME DESTINATION ${REX_INSTALLED} COMPONENT runtime)
-  foreach(layer IN LISTS REX_PUBLIC_LAYERS)
-    install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/${layer} DESTINATION include/rex COMPONENT runtime
+  foreach(module IN LISTS REX_PUBLIC_MODULES)
+    install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/${module} DESTINATION include/rex COMPONENT runtime
             FILES_MATCHING PATTERN "*.h" PATTERN "*_internal.h" EXCLUDE)
   endforeach()
   install(CODE "
@@ -87,8 +88,10 @@ function(rex_install_exercises)
             FILES_MATCHING PATTERN "worker*.o" PATTERN "worker*.options" PATTERN "worker.offers" PATTERN "show.a"
             ${REX_TRANSIENT})
     rex_install_description(${built}/build.json ${destination}/build.json)
-    install(DIRECTORY ${PROJECT_SOURCE_DIR}/exercises/${name} DESTINATION share/rex/exercises COMPONENT runtime
-            PATTERN solution.cpp EXCLUDE PATTERN wrong.cpp EXCLUDE PATTERN seen.txt EXCLUDE ${REX_TRANSIENT})
+    install(CODE "
+      set(folder \"${PROJECT_SOURCE_DIR}/exercises/${name}\")
+      set(target \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/share/rex/exercises/${name}\")
+      include(\"${PROJECT_SOURCE_DIR}/share/cmake/install/exercise_files.cmake\")" COMPONENT runtime)
   endforeach()
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/data DESTINATION share/rex COMPONENT runtime ${REX_TRANSIENT})
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/share/ci DESTINATION share/rex COMPONENT runtime USE_SOURCE_PERMISSIONS
@@ -102,18 +105,29 @@ function(rex_install_exercises)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/.vscode DESTINATION share/rex/share/course COMPONENT runtime)
 endfunction()
 
+# Leaves the libraries of public modules in `variable`.
+function(rex_public_targets variable)
+  get_property(modules GLOBAL PROPERTY REX_MODULE_TARGETS)
+  set(public)
+  foreach(module IN LISTS modules)
+    get_target_property(folder ${module} SOURCE_DIR)
+    cmake_path(GET folder FILENAME folder)
+    if(folder IN_LIST REX_PUBLIC_MODULES)
+      list(APPEND public ${module})
+    endif()
+  endforeach()
+  set(${variable} ${public} PARENT_SCOPE)
+endfunction()
+
 function(rex_install_development)
   include(CMakePackageConfigHelpers)
   set(folder ${PROJECT_BINARY_DIR}/development)
-  get_property(modules GLOBAL PROPERTY REX_MODULE_TARGETS)
+  rex_public_targets(modules)
+  list(JOIN modules "|" public)
   foreach(module IN LISTS modules)
-    get_target_property(sources ${module} SOURCE_DIR)
     get_target_property(uses ${module} LINK_LIBRARIES)
-    get_filename_component(layer ${sources} NAME)
-    if(NOT layer IN_LIST REX_PUBLIC_LAYERS)
-      continue()
-    endif()
-    list(FILTER uses INCLUDE REGEX "^rex_")
+    # A library finds the others by itself; a program names those whose headers it includes.
+    list(FILTER uses INCLUDE REGEX "^(${public})$")
     string(REGEX REPLACE "^rex_" "" name ${module})
     string(REGEX REPLACE "rex_" "rex::" targets "${uses}")
     string(APPEND REX_CONFIG_MODULES "rex_imported(${name} Eigen3::Eigen;${targets})\n")
@@ -170,6 +184,7 @@ endfunction()
 
 function(rex_install)
   get_property(modules GLOBAL PROPERTY REX_MODULE_TARGETS)
+  install(CODE "execute_process(COMMAND \"${PROJECT_SOURCE_DIR}/scripts/check-layers\" COMMAND_ERROR_IS_FATAL ANY)" COMPONENT runtime)
   rex_install_only_if_built(${REX_INSTALLED_PROGRAMS} ${modules})
   rex_install_programs()
   rex_install_exercises()
