@@ -5,6 +5,7 @@
 #include <set>
 #include <system_error>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
@@ -198,7 +199,7 @@ std::vector<std::string> prefixFlags(const fs::path& prefix, std::string_view so
   return {"-include", prefix.string()};
 }
 
-void makePrefix(const fs::path& prefix, const Toolchain& toolchain) {
+void makePrefix(const fs::path& prefix, const Toolchain& toolchain, double longest) {
   const std::string text = "#include \"course/course.h\"\n";
   if (!prefixFlags(prefix, text, toolchain.flags).empty()) return;
   writeTextFile(prefix, text);
@@ -208,13 +209,18 @@ void makePrefix(const fs::path& prefix, const Toolchain& toolchain) {
   command.insert(command.end(), toolchain.flags.begin(), toolchain.flags.end());
   command.insert(command.end(),
                  {"-MD", "-MF", ruleOf(prefix), "-MQ", made, "-x", "c++-header", prefix, "-o", half});
-  constexpr double kLongest = 300;  // seconds
-  const ProcessResult run = runProcess(command, {.timeout = kLongest});
-  if (!run.ok())
+  const ProcessResult run = runProcess(command, {.timeout = longest});
+  if (!run.ok()) {
+    for (const fs::path& file : {half, ruleOf(prefix)}) fs::remove(file);
+    if (run.timedOut)
+      throw Error({.what = fmt::format("the compiler did not read the library within {:g} s", longest),
+                   .where = {toolchain.compiler},
+                   .wanted = "a machine that is less busy: `rex update` tries again"});
     throw Error({.what = "the compiler cannot read the library",
                  .where = {toolchain.compiler},
                  .found = run.error.substr(0, run.error.find('\n')),
                  .wanted = "g++ in the version that rex was built with"});
+  }
   fs::remove(recordFile(made));
   fs::rename(half, made);
   const std::string stamps = timeStamps(prerequisites(prefix), started);

@@ -197,6 +197,27 @@ TEST_F(PrefixTest, IsMadeOnceForTheSameFiles) {
   makePrefix(prefix(), toolchain());
 }
 
+TEST_F(PrefixTest, LeavesNothingWhereTheCompilerIsTooSlowOrRefuses) {
+  const path other = folder() / "other" / "prefix.h";
+  std::filesystem::create_directories(other.parent_path());
+  const path slow = other.parent_path() / "slow";
+  writeTextFile(slow, "#!/bin/sh\nfor word; do :; done\necho half >\"$word\"\nexec sleep 60\n");
+  std::filesystem::permissions(slow, std::filesystem::perms::owner_all);
+  const auto filesLeft = [&] {
+    return std::distance(std::filesystem::directory_iterator(other.parent_path()), {});
+  };
+  Toolchain real = toolchain();
+  real.compiler = slow;
+  EXPECT_REX_ERROR(makePrefix(other, real, 0.5),
+                   "slow: the compiler did not read the library within 0.5 s: wanted a machine that is less "
+                   "busy: `rex update` tries again");
+  EXPECT_EQ(filesLeft(), 2) << "prefix.h and the compiler";
+  real.compiler = "g++";
+  real.flags.insert(real.flags.end(), {"-include", "no_such_file.h"});
+  EXPECT_REX_ERROR(makePrefix(other, real), "g++: the compiler cannot read the library: found ");
+  EXPECT_EQ(filesLeft(), 2);
+}
+
 TEST_F(PrefixTest, GivesNoFlagsWhereAFileIsMissing) {
   const path other = folder() / "other.h";
   EXPECT_TRUE(prefixFlags(other, kSource, {}).empty());

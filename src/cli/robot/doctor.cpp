@@ -41,6 +41,7 @@
 #include "sandbox/confinement.h"
 #include "sandbox/probes.h"
 #include "submission/exercise_info.h"
+#include "submission/program_build.h"
 
 namespace rex::cli {
 namespace {
@@ -293,9 +294,32 @@ Finding tryWatching(const fs::path& folder) {
   return {.name = "watch", .text = FileWatcher(folder / "main.cpp").describe()};
 }
 
-// A build that was interrupted installs only some of them.
+// The first complaint of the preprocessor about a header of what students compile; empty if all are there.
+std::string missingHeader(const Project& project, const std::vector<std::string>& exercises) {
+  const fs::path description = project.build / "student" / "program.json";
+  if (!fs::exists(description)) return {};
+  const submission::Toolchain toolchain = submission::readProgramToolchain(description).toolchain;
+  std::string text;
+  for (const std::string& exercise : exercises)
+    for (const char* file : {"main.cpp", "show.cpp"})
+      if (const fs::path path = project.files() / "exercises" / exercise / file; fs::exists(path))
+        text += fmt::format("#include \"{}\"\n", path.string());
+  std::vector<std::string> command = {toolchain.compiler};
+  command.insert(command.end(), toolchain.flags.begin(), toolchain.flags.end());
+  command.insert(command.end(), {"-M", "-x", "c++", "-"});
+  const ProcessResult run = runProcess(command, {.input = text});
+  if (run.ok() || !run.started) return {};  // that there is no compiler is said elsewhere
+  const std::size_t error = run.error.find("error: ");
+  return run.error.substr(error == std::string::npos ? 0 : error + 7, run.error.find('\n', error) - error - 7);
+}
+
+// A build that was interrupted installs only some of them, and a broken one not all headers.
 Finding aboutExercises(const Project& project) {
   const std::vector<std::string> all = submission::exerciseNames(project.files() / "exercises");
+  if (const std::string header = missingHeader(project, all); !header.empty())
+    return {.name = "exercises",
+            .status = Status::kFails,
+            .text = fmt::format("a header of the library is missing: {}; install rex again", header)};
   std::vector<std::string> missing;
   std::ranges::copy_if(all, std::back_inserter(missing),
                        [&](const std::string& one) { return !project.isBuilt(one); });

@@ -137,6 +137,17 @@ TEST_F(InstalledDoctor, NamesExercisesThatAreNotBuilt) {
   EXPECT_THAT(flat(ended.output), HasSubstr("repair what fails: exercises"));
 }
 
+TEST_F(InstalledDoctor, FindsThatAHeaderOfTheLibraryIsMissing) {
+  addProgramDescription();
+  write(exercise() / "show.cpp", "#include \"exercise.h\"\n#include \"systems/no_such_model.h\"\n");
+  const Ended ended =
+      rexWith({.root = root(), .build = build(), .installed = root()}, {"doctor", "--gl", "osmesa"});
+  EXPECT_EQ(ended.code, 3);
+  EXPECT_THAT(flat(ended.output),
+              HasSubstr("exercises fails a header of the library is missing: systems/no_such_model.h: No such "
+                        "file or directory; install rex again"));
+}
+
 TEST_F(Doctor, IsContentWithOneWayToOpenGl) {
   REX_NEEDS_OSMESA();
   REX_NEEDS_EGL();
