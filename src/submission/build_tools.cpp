@@ -20,6 +20,7 @@
 #include "base/text.h"
 #include "base/text_file.h"
 #include "sandbox/probes.h"
+#include "submission/student_files.h"
 #include "submission/worker_part.h"
 
 namespace rex::submission {
@@ -134,17 +135,6 @@ namespace fs = std::filesystem;
 
 // __DATE__ and __TIME__ are always the start of 1970 (reproducible-builds.org); __TIMESTAMP__: writeSource().
 constexpr const char *kDate = "SOURCE_DATE_EPOCH=0", *kZone = "TZ=UTC0";
-
-// The names in lines `#include "name"`.
-std::vector<std::string> includedNames(const std::string& text) {
-  std::vector<std::string> names;
-  constexpr std::string_view kInclude = "#include \"";
-  for (std::size_t at = text.find(kInclude); at != text.npos; at = text.find(kInclude, at + 1)) {
-    const std::size_t first = at + kInclude.size(), end = text.find_first_of("\"\n", first);
-    names.push_back(text.substr(first, end - first));
-  }
-  return names;
-}
 
 void showAll(std::vector<sandbox::Readable>& readable, const std::vector<fs::path>& paths) {
   for (const fs::path& path : paths) {
@@ -353,17 +343,11 @@ void writeSource(const fs::path& file, const std::string& text) {
 }
 
 std::vector<fs::path> studentHeaders(const fs::path& folder) {
-  std::vector<fs::path> found;
   const bool hasStarter = fs::exists(folder / "starter.cpp");
-  std::vector<std::string> open = {"exercise.h", hasStarter ? "starter.cpp" : "main.cpp", "solution.cpp"};
-  for (std::size_t k = 0; k < open.size(); ++k) {
-    const fs::path file = folder / open[k];
-    if (!fs::is_regular_file(fs::symlink_status(file))) continue;
-    if (open[k].ends_with(".h")) found.push_back(file);
-    for (const std::string& name : includedNames(readTextFile(file)))
-      if (std::find(open.begin(), open.end(), name) == open.end() && name.find("..") == name.npos)
-        open.push_back(name);
-  }
+  std::vector<fs::path> found;
+  for (const std::string& name :
+       filesIncludedFrom(folder, {"exercise.h", hasStarter ? "starter.cpp" : "main.cpp", "solution.cpp"}))
+    if (name.ends_with(".h")) found.push_back(folder / name);
   return found;
 }
 
