@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <string>
 
-#include "base/rng.h"
 #include "course/simulator.h"
 #include "exercise.h"
-#include "geometry/rotation.h"
 #include "scene/model.h"
 
-// Chains of the course's robots and random ones, for pictures and checks.
+// Chains of the course's robots, for pictures and checks.
 
 inline Eigen::Matrix4d matrixOf(const rex::Pose& pose) {
   Eigen::Matrix4d X = Eigen::Matrix4d::Identity();
@@ -47,36 +45,5 @@ inline Chain chainOfRobot(const rex::Simulator& S, const std::string& name) {
     at = body.parent;
   }
   if (!chain.joints.empty()) chain.joints.front().X_PJ = matrixOf(X_JE);
-  return chain;
-}
-
-/// X_WE by the library's poses.
-inline rex::Pose trueEnd(const Chain& chain, const Eigen::VectorXd& q) {
-  rex::Pose X;
-  int k = 0;
-  for (const ChainJoint& one : chain.joints) {
-    const Eigen::Vector3d move = q[k++] * one.axis;
-    const bool slides = one.kind == JointKind::kPrismatic;
-    X = X * poseOf(one.X_PJ) *
-        (slides ? rex::translation(move.x(), move.y(), move.z()) : rex::Pose{rex::expSO3(move)});
-  }
-  return X * poseOf(chain.X_ME);
-}
-
-inline Eigen::Vector3d randomDirection(rex::Rng& rng) { return rng.normalVector(3).normalized(); }
-
-inline rex::Pose randomPose(rex::Rng& rng) {
-  return {rex::expSO3(rng.uniform(0.3, 2.8) * randomDirection(rng)), rng.uniformVector(3, -1, 1)};
-}
-
-/// A chain of `size` joints; the second, and some of the others, are prismatic.
-inline Chain randomChain(rex::Rng& rng, int size) {
-  Chain chain;
-  chain.X_ME = matrixOf(randomPose(rng));
-  for (int i = 0; i < size; ++i) {
-    const bool slides = i == 1 || (i > 2 && rng.index(3) == 0);
-    chain.joints.push_back({matrixOf(randomPose(rng)), slides ? JointKind::kPrismatic : JointKind::kRevolute,
-                            randomDirection(rng)});
-  }
   return chain;
 }

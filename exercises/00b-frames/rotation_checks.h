@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "chains.h"
 #include "grading/evidence.h"
 #include "interface.h"
+#include "random_chains.h"
 
 // The checks of parts 1 and 2. Wanted values are those of the library; each mistake beside them is one that
 // students make.
