@@ -14,6 +14,7 @@
 #include "cli/terminal.h"
 #include "reports/markdown.h"
 #include "submission/program_build.h"
+#include "submission/student_files.h"
 
 namespace rex::cli {
 namespace {
@@ -21,21 +22,13 @@ namespace {
 namespace fs = std::filesystem;
 using Change = HandedOut::Change;
 
-// What the folder of an exercise contains for others than students who work on it.
-bool isForStudents(const fs::path& file) {
-  const std::string name = file.filename().string();
-  return name != "check.cpp" && name != "starter.cpp" && name != "solution.cpp" && name != "wrong.cpp" &&
-         name != "seen.txt" && !name.starts_with("main.backup-");
-}
-
 void addFilesIn(const fs::path& folder, const fs::path& below, std::map<fs::path, fs::path>& files) {
   for (const auto& entry : fs::directory_iterator(folder)) {
-    const fs::path name = entry.path().filename();
-    if (name.string().starts_with("rex-work-")) continue;  // of a command that was running or killed
+    const fs::path name = below / entry.path().filename();
     if (entry.is_directory())
-      addFilesIn(entry.path(), below / name, files);
-    else if (entry.is_regular_file() && isForStudents(name))
-      files[below / name] = entry.path();
+      addFilesIn(entry.path(), name, files);
+    else if (entry.is_regular_file())
+      files[name] = entry.path();
   }
 }
 
@@ -43,9 +36,12 @@ void addFilesIn(const fs::path& folder, const fs::path& below, std::map<fs::path
 std::map<fs::path, fs::path> handedOutFiles(const fs::path& installed) {
   std::map<fs::path, fs::path> files;
   addFilesIn(installed / "share" / "course", "", files);
-  for (const auto& exercise : fs::directory_iterator(installed / "exercises"))
-    if (fs::exists(exercise.path() / "exercise.toml"))
-      addFilesIn(exercise.path(), "exercises" / exercise.path().filename(), files);
+  for (const auto& exercise : fs::directory_iterator(installed / "exercises")) {
+    if (!fs::exists(exercise.path() / "exercise.toml")) continue;
+    for (const fs::path& name : submission::studentFiles(exercise.path()))
+      if (name != "starter.cpp")
+        files["exercises" / exercise.path().filename() / name] = exercise.path() / name;
+  }
   return files;
 }
 
@@ -124,9 +120,15 @@ class Update {
   }
 
   std::vector<HandedOut> finish() {
-    for (const auto& [name, hash] : before_.hashes)
-      if (!now_.hashes.contains(name) && fs::exists(course_ / name))
-        done_.push_back({Change::kNoLongerPart, name});
+    for (const auto& [name, hash] : before_.hashes) {
+      if (now_.hashes.contains(name) || !fs::exists(course_ / name)) continue;
+      // What rex once handed out with the checks of an exercise.
+      const bool isOfChecks = (name.extension() == ".h" || name.filename() == "check.cpp") &&
+                              now_.hashes.contains(name.parent_path() / "exercise.h");
+      const bool isLeftOver = isOfChecks && sha256(readTextFile(course_ / name)) == hash;
+      if (isLeftOver) fs::remove(course_ / name);
+      done_.push_back({isLeftOver ? Change::kRemoved : Change::kNoLongerPart, name});
+    }
     writeRecord(course_, now_);
     return std::move(done_);
   }

@@ -16,6 +16,7 @@ struct HandedOut {
     kKeptBeside,   ///< replaced; the old one, which was changed or is a contract, is kept as `kept`
     kOwnChange,    ///< not a main.cpp, changed by the student and handed out as before; it stays
     kNotTouched,   ///< a main.cpp: what is handed out changed, the student's file did not
+    kRemoved,      ///< a file of the checks, which earlier versions handed out; it was as they did
     kNoLongerPart  ///< no longer handed out; the file stays
   };
   Change change{};

@@ -28,6 +28,8 @@ std::string describe(const HandedOut& one) {
           file);
     case kNotTouched:
       return fmt::format("not yours  {} is handed out differently now; yours stays as it is", file);
+    case kRemoved:
+      return fmt::format("removed    {}: it belongs to the checks, which are no longer handed out", file);
     case kNoLongerPart:
       return fmt::format("left       {} is no longer part of the course; it stays", file);
   }
@@ -54,7 +56,8 @@ void addUpdate(CLI::App* command, Action& action) {
       "Example: rex update\n\n"
       "Brings exercises and texts of the installed version. It never changes a main.cpp. If you\n"
       "changed another file that is new now, or if it is a header with a contract, the one before\n"
-      "is kept beside the new one.");
+      "is kept beside the new one. Headers of checks that earlier versions handed out are removed,\n"
+      "unless you changed them.");
   command->callback([&action] { action = update; });
 }
 

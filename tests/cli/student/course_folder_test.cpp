@@ -1,6 +1,9 @@
 #include "cli/student/course_folder.h"
 
+#include <nlohmann/json.hpp>
+
 #include "base/process.h"
+#include "base/sha256.h"
 #include "cli/template_project.h"
 
 namespace rex::cli {
@@ -151,12 +154,13 @@ TEST_F(CourseFolder, NamesWhatIsNotBuiltAndTakesNoWorkFolders) {
   fs::create_directories(root() / "exercises" / "97-new");
   fs::copy(exercise() / "exercise.toml", root() / "exercises" / "97-new" / "exercise.toml");
   fs::create_directories(exercise() / "rex-work-abc123");
+  write(exercise() / "checks.h", "double answer();\n");
   write(exercise() / "rex-work-abc123" / "main.cpp", "int main() {}\n");
   const Ended made = installed({"init", course().string()});
   EXPECT_EQ(made.code, 0) << made.error;
   EXPECT_THAT(flat(made.error),
               HasSubstr("97-new is not built in this rex: it can be read, not run or graded"));
-  EXPECT_FALSE(fs::exists(mine("rex-work-abc123")));
+  EXPECT_FALSE(fs::exists(mine("rex-work-abc123")) || fs::exists(mine("checks.h")));
   EXPECT_THAT(flat(installed({"list"}).output), HasSubstr("(not built in this rex)"));
 }
 
@@ -183,6 +187,30 @@ TEST_F(CourseFolder, SaysWhatIsNoLongerPartOfTheCourse) {
   fs::remove(exercise() / "README.md");
   EXPECT_THAT(installed({"update"}).output, HasSubstr("README.md is no longer part of the course"));
   EXPECT_TRUE(fs::exists(mine("README.md")));
+}
+
+// As rex 0.3.0 did.
+TEST_F(CourseFolder, LosesHeadersOfChecksThatNobodyChanged) {
+  init();
+  nlohmann::json record = nlohmann::json::parse(fileText(course() / kCourseFile));
+  for (const char* name : {"check.cpp", "old_checks.h", "my_checks.h", "pictures.csv"}) {
+    write(mine(name), "double answer();\n");
+    record["files"][std::string("exercises/98-template/") + name] = sha256("double answer();\n");
+  }
+  write(course() / kCourseFile, record.dump());
+  write(mine("my_checks.h"), "double answer();  // mine\n");
+  write(mine("own.h"), "double own();\n");
+  const Ended ended = installed({"update"});
+  EXPECT_THAT(ended.output,
+              HasSubstr("removed    exercises/98-template/check.cpp: it belongs to the checks"));
+  EXPECT_THAT(ended.output,
+              HasSubstr("removed    exercises/98-template/old_checks.h: it belongs to the checks"));
+  EXPECT_THAT(ended.output, HasSubstr("left       exercises/98-template/my_checks.h is no longer part"));
+  EXPECT_THAT(ended.output, HasSubstr("left       exercises/98-template/pictures.csv is no longer part"));
+  EXPECT_FALSE(fs::exists(mine("old_checks.h")) || fs::exists(mine("check.cpp")));
+  EXPECT_TRUE(fs::exists(mine("my_checks.h")) && fs::exists(mine("own.h")) &&
+              fs::exists(mine("pictures.csv")));
+  EXPECT_THAT(installed({"update"}).output, HasSubstr("Everything is as rex"));
 }
 
 TEST_F(CourseFolder, ReportsADamagedRecord) {
