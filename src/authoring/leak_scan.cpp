@@ -304,6 +304,7 @@ class Scanner {
   void judgeName(const std::string& place, const fs::path& name) {
     for (const char* secret : {"solution.cpp", "wrong.cpp", "seen.txt"})
       if (name.filename() == secret) refuse(place, "a file of that name");
+    if (isInstalled_ && name.filename() == "check.cpp") refuse(place, "a file of that name");
     const fs::path folders = name.parent_path();
     if (std::find(folders.begin(), folders.end(), "wrong") != folders.end())
       refuse(place, "a file in a folder of that name");
@@ -320,6 +321,7 @@ class Scanner {
       index_.search(normal.letters, [&](std::size_t k, std::size_t at) {
         const Secret& secret = secrets_[k];
         if (isLibrary && secret.kind != SecretKind::kCourseSecret) return;
+        if (!isInstalled_ && secret.kind == SecretKind::kVisibleCheck) return;
         if (isUsualElsewhere(secret, isInstalled_ ? name : fs::path(place))) return;
         if (!told_.insert(k).second) return;
         found_.leaks.push_back({.where = {place, hasLines ? normal.lines[at] : 0},

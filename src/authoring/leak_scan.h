@@ -58,7 +58,8 @@ struct LeakScan {
 };
 
 /// What a tree is. The files of an installed one are compared with those of the source tree by where they
-/// came from, and it may contain compiled files, and links that stay in it.
+/// came from. It may contain compiled files, and links that stay in it, but no sources of visible checks,
+/// which a source tree needs to build graders.
 enum class TreeKind { kSource, kInstalled };
 
 /// Searches names and contents of all files of a tree for secrets, in any layout, case and comments, also

@@ -14,6 +14,7 @@
 #include "base/text_file.h"
 #include "grading/hidden_seed.h"
 #include "submission/regions.h"
+#include "submission/student_files.h"
 
 namespace rex::authoring {
 namespace {
@@ -70,6 +71,8 @@ using Block = std::vector<submission::BlockLine>;
 
 // A single line of a check or of a mistake may occur anywhere; several in a row are no coincidence.
 constexpr std::size_t kShortestRun = 48;
+// Checks and programs that draw have short passages in common.
+constexpr std::size_t kShortestOfCheck = 64;
 // For a line without its comment.
 constexpr std::size_t kShortestCode = 20;
 // For a line of the lecturer's notes: shorter ones end paragraphs.
@@ -113,6 +116,7 @@ class Collector {
     if (const fs::path file = exercise / "check.cpp"; fs::exists(file))
       for (const Block& block : submission::hiddenBlocks(readTextFile(file), file.string()))
         addHidden(block, file);
+    for (const fs::path& file : filesOfChecks(exercise)) addVisible(file);
     if (const fs::path file = exercise / "wrong.cpp"; fs::exists(file))
       for (const Block& block : submission::variantBlocks(readTextFile(file), file.string()))
         addWrong(block, file);
@@ -145,25 +149,41 @@ class Collector {
 
  private:
   void readPublic(const fs::path& exercise) {
-    const fs::path solution = exercise / "solution.cpp", check = exercise / "check.cpp";
+    const fs::path solution = exercise / "solution.cpp";
     if (fs::exists(solution)) {
       const std::string text = readTextFile(solution);
       handedOut_.add(submission::textOutsideRegions(text, solution.string()));
       readable_.add(submission::stripSolution(text, solution.string()));
     }
-    if (fs::exists(check)) readable_.add(submission::stripHidden(readTextFile(check), check.string()));
-    for (const auto& entry : fs::directory_iterator(exercise))
-      if (entry.path().extension() == ".h" || entry.path().filename() == "show.cpp")
-        readable_.addFile(entry.path());
+    for (const fs::path& file : filesOfChecks(exercise))
+      checks_.add(submission::stripHidden(readTextFile(file), file.string()));
+    for (const fs::path& name : submission::studentFiles(exercise))
+      if (name.extension() == ".h" || name == "show.cpp") readable_.addFile(exercise / name);
+  }
+
+  // check.cpp, and the headers that students do not get.
+  static std::vector<fs::path> filesOfChecks(const fs::path& exercise) {
+    const std::vector<fs::path> shown = submission::studentFiles(exercise);
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(exercise)) {
+      const fs::path name = entry.path().filename();
+      const bool isShown = std::find(shown.begin(), shown.end(), name) != shown.end();
+      if (name == "check.cpp" || (name.extension() == ".h" && !isShown)) files.push_back(entry.path());
+    }
+    return files;
   }
 
   void leaveOutThePublic() {
     std::vector<std::string> all;
     for (const Secret& secret : secrets_) all.insert(all.end(), secret.forms.begin(), secret.forms.end());
-    const std::set<std::string> handedOut = handedOut_.formsIn(all), readable = readable_.formsIn(all);
+    const std::set<std::string> handedOut = handedOut_.formsIn(all), readable = readable_.formsIn(all),
+                                checks = checks_.formsIn(all);
     std::erase_if(secrets_, [&](const Secret& secret) {
+      const bool isSolution = secret.kind == SecretKind::kSolution,
+                 isVisible = secret.kind == SecretKind::kVisibleCheck;
       return std::any_of(secret.forms.begin(), secret.forms.end(), [&](const std::string& form) {
-        return handedOut.contains(form) || (secret.kind != SecretKind::kSolution && readable.contains(form));
+        return handedOut.contains(form) || (!isSolution && readable.contains(form)) ||
+               (!isSolution && !isVisible && checks.contains(form));
       });
     });
     // Short code is no evidence without the comment that follows it.
@@ -189,13 +209,14 @@ class Collector {
   }
 
   // Adds runs from each line on, with as many lines as it takes.
-  void addRuns(SecretKind kind, const Block& block, const fs::path& file) {
+  void addRuns(SecretKind kind, const Block& block, const fs::path& file,
+               std::size_t shortest = kShortestRun) {
     for (std::size_t first = 0; first < block.size(); ++first) {
       std::string code;
-      for (std::size_t k = first; k < block.size() && code.size() < kShortestRun; ++k)
+      for (std::size_t k = first; k < block.size() && code.size() < shortest; ++k)
         code += letters(block[k].text, Comments::kDrop);
       const bool begins = !letters(block[first].text, Comments::kDrop).empty();
-      if (begins && code.size() >= kShortestRun) add(kind, block[first], file, {code});
+      if (begins && code.size() >= shortest) add(kind, block[first], file, {code});
     }
   }
 
@@ -204,6 +225,18 @@ class Collector {
     for (const submission::BlockLine& line : block)
       for (const std::string& literal : literalsIn(line.text))
         add(SecretKind::kHiddenName, {line.number, literal}, file, {letters(literal, Comments::kKeep)});
+  }
+
+  // All of it but includes and hidden blocks, which are other secrets.
+  void addVisible(const fs::path& file) {
+    const std::string text = readTextFile(file);
+    Block lines = linesOf(text);
+    std::erase_if(lines, [](const submission::BlockLine& line) { return line.text.starts_with('#'); });
+    for (const Block& hidden : submission::hiddenBlocks(text, file.string()))
+      std::erase_if(lines, [&](const submission::BlockLine& line) {
+        return !hidden.empty() && line.number >= hidden.front().number && line.number <= hidden.back().number;
+      });
+    addRuns(SecretKind::kVisibleCheck, lines, file, kShortestOfCheck);
   }
 
   void addWrong(const Block& block, const fs::path& file) {
@@ -234,6 +267,7 @@ class Collector {
   fs::path root_;
   PublicText handedOut_;  // secrets of any kind that occur here are public
   PublicText readable_;   // so are those that occur here, except lines of solutions
+  PublicText checks_;     // and here, except also visible checks
   std::vector<Secret> secrets_{};
 };
 
@@ -247,6 +281,8 @@ std::string_view toString(SecretKind kind) {
       return "a hidden check";
     case SecretKind::kHiddenName:
       return "a text of a hidden check";
+    case SecretKind::kVisibleCheck:
+      return "a check or its helper";
     case SecretKind::kWrongVariant:
       return "a wrong variant";
     case SecretKind::kLecturersNote:

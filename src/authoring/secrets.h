@@ -18,7 +18,15 @@ namespace rex::authoring {
                                                               const std::vector<std::string>& places);
 
 /// What students must not get before they solve an exercise, or ever.
-enum class SecretKind { kSolution, kHiddenCheck, kHiddenName, kWrongVariant, kLecturersNote, kCourseSecret };
+enum class SecretKind {
+  kSolution,
+  kHiddenCheck,
+  kHiddenName,
+  kVisibleCheck,  ///< no secret of source trees, which packages are built from
+  kWrongVariant,
+  kLecturersNote,
+  kCourseSecret
+};
 
 /// "a line of the solution", "a hidden check".
 [[nodiscard]] std::string_view toString(SecretKind kind);
@@ -33,10 +41,11 @@ struct Secret {
 inline constexpr std::size_t kShortestForm = 16;
 
 /// The secrets of these exercise folders below `root`: each line of a solution's regions; runs of at least
-/// 48 letters of hidden checks and wrong variants; literals of hidden checks; the headers of wrong variants;
-/// and the long lines of the lecturer's notes in ROOT/notes, except for the questions that they quote. Public
-/// text is excluded: code outside regions, the template and, except from solutions, todos, headers and
-/// visible checks. Throws Error for malformed markers.
+/// 48 letters of hidden checks and wrong variants, and of 64 of visible checks and of headers that only
+/// checks include; literals of hidden checks; the headers of wrong variants; and the long lines of the
+/// lecturer's notes in ROOT/notes, except for the questions that they quote. Public text is excluded: code
+/// outside regions, the template and, except from solutions, what studentFiles() have; for hidden checks and
+/// wrong variants also that of visible checks. Throws Error for malformed markers.
 [[nodiscard]] std::vector<Secret> collectSecrets(const std::vector<std::filesystem::path>& exercises,
                                                  const std::filesystem::path& root);
 

@@ -245,6 +245,38 @@ TEST_F(LeakScanTest, FindsSecretsInTheProgramsOfAnInstalledTree) {
   EXPECT_EQ(found().size(), 2u);
 }
 
+// A package has compiled graders; a source tree, from which it is built, has visible checks.
+TEST_F(LeakScanTest, FindsVisibleChecksAndTheirHelpersInAnInstalledTree) {
+  const std::string helper =
+      "inline double wantedArea(double radius) {\n  return std::numbers::pi * std::pow(radius, 2);\n}\n";
+  write("root/exercises/01-circle/area_checks.h", "#pragma once\n" + helper);
+  write("root/exercises/01-circle/round.h",
+        "inline double half(double diameter) { return diameter / 2 + 0 * std::sqrt(2.); }\n");
+  write("root/exercises/01-circle/show.cpp", "#include \"round.h\"\n");
+  write("tree/share/rex/exercises/01-circle/round.h",
+        readTextFile(folder_.path() / "root/exercises/01-circle/round.h"));
+  const auto told = [&](const std::string& name, const std::string& text) {
+    write("tree/" + name, text);
+    std::vector<std::string> all;
+    for (const Leak& leak : scanForLeaks(tree(), secrets(), {}, TreeKind::kInstalled).leaks)
+      all.push_back(toString(leak));
+    EXPECT_THAT(leaks(), IsEmpty()) << "as a source tree";
+    fs::remove(tree() / name);
+    return all;
+  };
+  EXPECT_THAT(told("share/doc/rex/a.md", "Nothing.\n"), IsEmpty());
+  EXPECT_THAT(
+      told("share/rex/exercises/01-circle/area_checks.h", helper),
+      ElementsAre(
+          "share/rex/exercises/01-circle/area_checks.h:1: a check or its helper would reach students: "
+          "found 'inline double wantedArea(double radius) {' of exercises/01-circle/area_checks.h:2"));
+  EXPECT_THAT(told("share/doc/rex/a.md",
+                   "void growsWithRadius() { require(area(2) > area(1), \"area grows with the radius\"); }"),
+              ElementsAre(HasSubstr("a check or its helper would reach students")));
+  EXPECT_THAT(told("share/rex/exercises/01-circle/check.cpp", "int main() {}\n"),
+              ElementsAre(HasSubstr("a file of that name")));
+}
+
 TEST_F(LeakScanTest, LetsTheLibraryHoldAllButTheSecretOfTheCourse) {
   write("tree/src/area.cpp", "return 3.14159265 * square;\n");
   write("tree/src/solution.cpp", "// how the program shows one\n");

@@ -52,7 +52,7 @@ void addDevStrip(CLI::App* dev, Action& action) {
   const auto words = std::make_shared<Words>();
   CLI::App* command = addVerb(dev, "strip", "Make main.cpp from solution.cpp",
                               "Example: scripts/rex dev strip 01\n\n"
-                              "`rex dev release DIR` makes the tree for students.");
+                              "`rex dev release DIR` does so for the tree that students' packages are built from.");
   command->add_option("EXERCISE", words->exercise, "exercise whose main.cpp is written")->type_name("");
   // Earlier versions made the release with these options: say what to use now instead of "unknown option".
   command->add_flag("--release", words->release)->group("");
@@ -69,11 +69,12 @@ void addDevStrip(CLI::App* dev, Action& action) {
 void addDevRelease(CLI::App* dev, Action& action) {
   const auto options = std::make_shared<ReleaseOptions>();
   CLI::App* command =
-      addVerb(dev, "release", "Write the tree that students get, and look for leaks in it",
+      addVerb(dev, "release", "Write the tree for students' packages, and look for leaks in it",
               "Examples:\n  scripts/rex dev release /tmp/students 01 02 --prove\n"
               "  scripts/rex dev release /tmp/students --until 2026-12-01 --course course.toml\n"
               "  scripts/rex dev release --scan handouts\n\n"
-              "The tree has no solution, hidden check or wrong variant.\n"
+              "The tree has no solution, hidden check or wrong variant, but visible checks: hand out the\n"
+              "packages that scripts/package makes of it.\n"
               "Exit code 1: something leaks; nothing was written.");
   CLI::Option* out = command->add_option("DIR", options->out, "new folder for the release")->type_name("");
   CLI::Option* only =

@@ -107,7 +107,7 @@ std::string sizeOf(const authoring::LeakScan& scan) {
   return fmt::format("{} files{}, {:.1f} MB", scan.files, packed, static_cast<double>(scan.bytes) / 1e6);
 }
 
-void saySecrets(const std::vector<authoring::Secret>& secrets) {
+void saySecrets(const std::vector<authoring::Secret>& secrets, bool isInstalled) {
   std::map<authoring::SecretKind, int> counts;
   for (const authoring::Secret& secret : secrets) ++counts[secret.kind];
   std::vector<std::string> parts;
@@ -115,9 +115,11 @@ void saySecrets(const std::vector<authoring::Secret>& secrets) {
            {authoring::SecretKind::kSolution, "lines of solutions"},
            {authoring::SecretKind::kHiddenCheck, "passages of hidden checks"},
            {authoring::SecretKind::kHiddenName, "texts of hidden checks"},
+           {authoring::SecretKind::kVisibleCheck, "passages of visible checks"},
            {authoring::SecretKind::kWrongVariant, "passages of wrong variants"},
            {authoring::SecretKind::kLecturersNote, "lines of lecturer's notes"}})
-    parts.push_back(fmt::format("{} {}", counts[kind], name));
+    if (isInstalled || kind != authoring::SecretKind::kVisibleCheck)
+      parts.push_back(fmt::format("{} {}", counts[kind], name));
   parts.emplace_back(counts.contains(authoring::SecretKind::kCourseSecret)
                          ? "the secret of the course"
                          : "no secret of the course (--secret-file)");
@@ -152,7 +154,7 @@ ExitCode scanOnly(const Project& project, const ReleaseOptions& options) {
   }
   tellLeaks(scan.leaks);
   say(fmt::format("{} holds {}", shown(options.scan), sizeOf(scan)));
-  saySecrets(secrets);
+  saySecrets(secrets, options.installed);
   say(fmt::format("  found       {} leak{}", scan.leaks.size(), scan.leaks.size() == 1 ? "" : "s"));
   return code;
 }
@@ -215,7 +217,8 @@ ExitCode devRelease(const Project& project, const ReleaseOptions& options) {
     say(fmt::format("The student release is in {}", shown(options.out)));
     say(fmt::format("  holds       {} exercise{}, {}", release.exercises, release.exercises == 1 ? "" : "s",
                     sizeOf(release.scan)));
-    saySecrets(release.secrets);
+    saySecrets(release.secrets, false);
+    say("  hand out    packages made of it (scripts/package): the tree itself has the visible checks");
   }
   const bool prove = options.prove || !options.proveIn.empty();
   if (prove)

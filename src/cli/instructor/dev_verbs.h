@@ -47,8 +47,8 @@ struct ReleaseOptions {
   std::filesystem::path proveIn{};    ///< the same, in this folder, which is kept
   bool json = false;
 };
-/// Writes the students' tree, and prints what it contains. Returns kBelow, without writing anything, if
-/// anything leaks.
+/// Writes the tree that packages for students are built from, and prints what it contains. Returns kBelow,
+/// without writing anything, if anything leaks.
 ExitCode devRelease(const Project& project, const ReleaseOptions& options);
 
 struct BenchOptions {
