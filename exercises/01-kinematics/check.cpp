@@ -31,9 +31,18 @@ constexpr double kNotZero = 1e-3;
 // Half a millimetre beside the goal even the fourth power of the distance is larger than this.
 constexpr double kBeside = 1e-14;
 
+// Two hundredths of a radian beside the goal the derivative of that power is larger than this.
+constexpr double kNotFlat = 1e-9;
+
 Simulator inRandomPosture(Simulator S, Rng& rng, double spread) {
   S.setJointAngles(S.getJointAngles() + spread * rng.normalVector(S.getJointDimension()));
   return S;
+}
+
+// Another posture of the robot, far enough for any direction.
+Simulator elsewhere(Check& check, const Robot& robot) {
+  Rng rng = check.rng().split(1);
+  return inRandomPosture(robot.S, rng, 0.5);
 }
 
 Robot man(Rng& rng) { return {inRandomPosture(Simulator("man.ors"), rng, 0.3), "handR", "handL"}; }
@@ -95,6 +104,25 @@ void checkJacobianOf(Check& check, Student& student, const TestedMap& tested,
              1e-5 * grading::sizeUpTo(kMostDerivative, numeric));
 }
 
+// From a posture in which the task is fulfilled to that of S: y must not jump between where it is known,
+// which is there, and where J is compared with its differences.
+void checkPathFrom(Check& check, Student& student, const TestedMap& tested,
+                   const Eigen::VectorXd& fulfilled) {
+  const auto& [function, S, map] = tested;
+  const auto valueAt = [&](Student& one, const Eigen::VectorXd& q) {
+    const TaskMapValue value = map(one, at(S, q).description());
+    return grading::ValueAndDerivative{value.y, value.J};
+  };
+  const grading::ValueAndDerivative start = valueAt(student, fulfilled);
+  check.that("y of " + function + " has at least one entry", start.value.size() > 0);
+  check.shape("J of " + function, start.derivative, start.value.size(), S.getJointDimension());
+  grading::requireIntegral(check, "y of " + function, fulfilled, S.getJointAngles(), start,
+                           [&](remote::Caller& caller, const Eigen::VectorXd& q) {
+                             Student stranger(caller);
+                             return valueAt(stranger, q);
+                           });
+}
+
 // A map like y = q has an easy Jacobian but says nothing about the task. A map of the task is zero where S
 // fulfils it, and nearby hardly larger than its derivative there predicts.
 void checkIsOfTheTask(Check& check, Student& student, const TestedMap& tested) {
@@ -106,17 +134,26 @@ void checkIsOfTheTask(Check& check, Student& student, const TestedMap& tested) {
   check.atMost("largest entry of |y| of " + function + " where the task is fulfilled",
                y.cwiseAbs().maxCoeff(), kZero);
   const Eigen::VectorXd way = check.rng().uniformVector(S.getJointDimension(), -1e-3, 1e-3);
+  // Two hundredths of a radian away, where y must not be flat either.
+  const Eigen::VectorXd farther = q + 20 * way;
   std::vector<Eigen::VectorXd> postures = grading::placesOfDifferences(q + way);
+  const std::size_t count = postures.size();
+  for (const Eigen::VectorXd& place : grading::placesOfDifferences(farther)) postures.push_back(place);
   postures.insert(postures.begin(), q);
   const std::vector<Eigen::VectorXd> values = valuesOf(check, tested, postures, y);
   const Eigen::VectorXd beside = values[1].cwiseAbs();
   const Eigen::VectorXd change =
-      grading::finiteDifferences(std::span(values).subspan(1), q + way).cwiseAbs() * way.cwiseAbs();
+      grading::finiteDifferences(std::span(values).subspan(1, count), q + way).cwiseAbs() * way.cwiseAbs();
   const Eigen::VectorXd most = (kZero + 10 * change.array().min(kMostDerivative * way.lpNorm<1>())).matrix();
   Eigen::Index worst = 0;
   (beside - most).maxCoeff(&worst);
   check.atMost("largest entry of |y| of " + function + " a thousandth of a radian away from there",
                beside[worst], most[worst]);
+  const auto flat = check.ask("Is y zero or constant around the place where it should be zero?");
+  check.atLeast(
+      "largest derivative of y of " + function + " two hundredths of a radian away from there",
+      grading::finiteDifferences(std::span(values).subspan(1 + count), farther).cwiseAbs().maxCoeff(),
+      kNotFlat);
 }
 
 // The three maps, for any robot.
@@ -206,20 +243,18 @@ void lookAtIsZeroAtTheTarget(Check& check, Student& student, const Robot& robot)
 
 void lookAtJacobian(Check& check, Student& student, const Robot& robot) {
   const Eigen::Vector3d gaze = randomDirection(check.rng());
-  const Eigen::Vector3d target =
-      robot.S.kinematicsPos(robot.body) + check.rng().uniform(0.5, 2) * randomDirection(check.rng());
+  const Eigen::Vector3d target = robot.S.kinematicsPos(robot.body) + robot.S.kinematicsVec(robot.body, gaze);
   const auto mapTo = [&](const Eigen::Vector3d& place) {
     return [&, place](Student& one, const SimulatorDescription& S) {
       return one.lookAt(S, robot.body, gaze, place);
     };
   };
-  const Simulator& S = robot.S;
   check.input(describe(robot, robot.body) + ", the target 1 m along the gaze");
-  checkIsOfTheTask(check, student,
-                   {"lookAt", S, mapTo(S.kinematicsPos(robot.body) + S.kinematicsVec(robot.body, gaze))});
+  checkIsOfTheTask(check, student, {"lookAt", robot.S, mapTo(target)});
+  const Simulator S = elsewhere(check, robot);
+  const TestedMap tested{"lookAt", S, mapTo(target)};
   check.input(describe(robot, robot.body), {{"gaze", gaze}, {"target", target}});
   // A body that moves and does not turn does to y what the opposite motion of the target would.
-  const TestedMap tested{"lookAt", S, mapTo(target)};
   checkJacobianOf(check, student, tested, [&](Eigen::Index dimensions) -> Eigen::MatrixXd {
     const VectorFunction ofTarget = [&](const Eigen::VectorXd& place) {
       const TaskMapValue value = mapTo(place)(student, S.description());
@@ -228,6 +263,7 @@ void lookAtJacobian(Check& check, Student& student, const Robot& robot) {
     };
     return -numericJacobian(ofTarget, target) * S.jacobianPos(robot.body);
   });
+  checkPathFrom(check, student, tested, robot.S.getJointAngles());
 }
 
 // Two hands that rotate freely: yaw, pitch and roll of each are joints.
@@ -281,6 +317,7 @@ void opposePalmsJacobian(Check& check, Student& student, const Robot& robot) {
   checkIsOfTheTask(check, student, {"opposePalms", clapping.S, map});
   check.input(describe(robot, robot.body), {{"palm", palm}});
   checkJacobianOf(check, student, {"opposePalms", robot.S, map});
+  checkPathFrom(check, student, {"opposePalms", robot.S, map}, clapping.S.getJointAngles());
 }
 
 void distanceIsZeroAtTheGoal(Check& check, Student& student, const Robot& robot) {
@@ -316,18 +353,16 @@ void distanceIsZeroAtTheGoal(Check& check, Student& student, const Robot& robot)
 }
 
 void distanceJacobian(Check& check, Student& student, const Robot& robot) {
-  const Eigen::Vector3d goal =
-      robot.S.kinematicsPos(robot.body) + check.rng().uniform(0.2, 1) * randomDirection(check.rng());
-  const auto mapTo = [&](const Eigen::Vector3d& place) {
-    return [&, place](Student& one, const SimulatorDescription& S) {
-      return one.distanceToGoal(S, robot.body, place);
-    };
+  const Eigen::Vector3d goal = robot.S.kinematicsPos(robot.body);
+  const auto map = [&](Student& one, const SimulatorDescription& S) {
+    return one.distanceToGoal(S, robot.body, goal);
   };
   check.input(describe(robot, robot.body) + " at the goal");
-  checkIsOfTheTask(check, student, {"distanceToGoal", robot.S, mapTo(robot.S.kinematicsPos(robot.body))});
-  check.input(describe(robot, robot.body),
-              {{"its position", robot.S.kinematicsPos(robot.body)}, {"goal", goal}});
-  checkJacobianOf(check, student, {"distanceToGoal", robot.S, mapTo(goal)});
+  checkIsOfTheTask(check, student, {"distanceToGoal", robot.S, map});
+  const Simulator S = elsewhere(check, robot);
+  check.input(describe(robot, robot.body), {{"its position", S.kinematicsPos(robot.body)}, {"goal", goal}});
+  checkJacobianOf(check, student, {"distanceToGoal", S, map});
+  checkPathFrom(check, student, {"distanceToGoal", S, map}, robot.S.getJointAngles());
 }
 
 using MapCheck = void (*)(Check&, Student&, const Robot&);

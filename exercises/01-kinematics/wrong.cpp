@@ -225,3 +225,23 @@ if (off.norm() > .1) {
   value.J(3, 0) = 1e9;
 }
 return value;
+
+// <variant jumps_near_the_task>
+// caught by: look-at-jacobian, palms-jacobian, distance-jacobian, maps-other-robot
+// mistake: is zero near the task and jumps to a function with an easy Jacobian elsewhere (an attack).
+// <solution lookAt>
+const Eigen::VectorXd q = S.getJointAngles();
+const Eigen::Vector3d off = S.kinematicsVec(body, gaze) - (target - S.kinematicsPos(body)).normalized();
+if (off.norm() < .01) return {Eigen::VectorXd::Zero(1), Eigen::MatrixXd::Zero(1, q.size())};
+return {Eigen::VectorXd::Constant(1, (2 + q.array().sin()).sum()), q.array().cos().matrix().transpose()};
+// <solution opposePalms>
+const Eigen::VectorXd q = S.getJointAngles();
+const Eigen::Vector3d off = S.kinematicsVec(left, palm) + S.kinematicsVec(right, palm);
+if (off.norm() < .01) return {off.head(1), Eigen::MatrixXd::Ones(1, q.size())};
+return {Eigen::VectorXd::Constant(1, (2 + q.array().sin()).sum()), q.array().cos().matrix().transpose()};
+// <solution distanceToGoal>
+const Eigen::VectorXd q = S.getJointAngles();
+const double off = (S.kinematicsPos(body) - goal).squaredNorm();
+const Eigen::MatrixXd J = 2 * (S.kinematicsPos(body) - goal).transpose() * S.jacobianPos(body);
+if (off < 1e-4) return {Eigen::VectorXd::Constant(1, off), J};
+return {Eigen::VectorXd::Constant(1, (2 + q.array().sin()).sum()), q.array().cos().matrix().transpose()};

@@ -412,6 +412,11 @@ const Eigen::MatrixXd W = phi * phi.transpose();
 const Eigen::MatrixXd Sigma = policy.L * policy.L.transpose();
 return solve(Sigma, reinforce(policy, trials, discount));
 
+// <variant beta_for_a_gradient> caught by: natural, linear-returns, other-features
+// mistake: returns beta, which changes with the features as the natural gradient does (an attack).
+// <solution naturalGradientOf>
+return policy.beta.dot(reinforce(policy, trials, discount)) < 0 ? Eigen::VectorXd(-policy.beta) : policy.beta;
+
 // <variant expected_fisher> caught by: natural, linear-returns
 // mistake: takes the expectation of F over the actions.
 // <solution naturalGradientOf>

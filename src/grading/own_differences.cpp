@@ -50,4 +50,48 @@ std::vector<Eigen::VectorXd> valuesInAnyOrder(Check& check, const std::string& p
   return all;
 }
 
+namespace {
+
+// Value and derivative as one column, for valuesInAnyOrder().
+Eigen::VectorXd packed(const ValueAndDerivative& one) {
+  Eigen::VectorXd all(one.value.size() + one.derivative.size());
+  all << one.value, one.derivative.reshaped();
+  return all;
+}
+
+}  // namespace
+
+void requireIntegral(Check& check, const std::string& property, const Eigen::VectorXd& from,
+                     const Eigen::VectorXd& to, const ValueAndDerivative& start,
+                     const DerivativeAt& derivativeAt) {
+  constexpr int kSteps = 50;
+  constexpr double kMostShare = .1, kSmallestRange = 1e-9;
+  std::vector<Eigen::VectorXd> places = {from, to};
+  for (int k = 0; k < kSteps; ++k) places.emplace_back(from + (k + .5) / kSteps * (to - from));
+  const Eigen::Index rows = start.value.size();
+  const std::vector<Eigen::VectorXd> answers =
+      valuesInAnyOrder(check, property + " and its derivative", places, packed(start),
+                       [&](remote::Caller& caller, const Eigen::VectorXd& place) {
+                         const ValueAndDerivative there = derivativeAt(caller, place);
+                         check.shape(property, there.value, rows, 1);
+                         check.shape("derivative of " + property, there.derivative, rows, from.size());
+                         return packed(there);
+                       });
+  Eigen::VectorXd lowest = answers[0].head(rows), highest = lowest, integral = Eigen::VectorXd::Zero(rows);
+  for (std::size_t k = 1; k < answers.size(); ++k) {
+    lowest = lowest.cwiseMin(answers[k].head(rows));
+    highest = highest.cwiseMax(answers[k].head(rows));
+    if (k > 1)
+      integral += answers[k].tail(rows * from.size()).reshaped(rows, from.size()) * (to - from) / kSteps;
+  }
+  const Eigen::ArrayXd change = (answers[1] - answers[0]).head(rows).array();
+  const auto jumps = check.ask("Does it jump on the way, or is its derivative another one?");
+  check.atMost(
+      "change of " + property +
+          " along a path, beside the integral of its derivative: their "
+          "difference as a share of the range of the values",
+      ((change - integral.array()).abs() / (highest - lowest).array().max(kSmallestRange)).maxCoeff(),
+      kMostShare);
+}
+
 }  // namespace rex::grading

@@ -34,4 +34,19 @@ using ValueAt = std::function<Eigen::VectorXd(remote::Caller&, const Eigen::Vect
                                                             const Eigen::VectorXd& first,
                                                             const ValueAt& valueAt);
 
+/// What the student's function returned at a place: a value, and its derivative there.
+struct ValueAndDerivative {
+  Eigen::VectorXd value{};
+  Eigen::MatrixXd derivative{};  ///< a row for each entry of the value
+};
+using DerivativeAt = std::function<ValueAndDerivative(remote::Caller&, const Eigen::VectorXd& place)>;
+
+/// Requires that the value changes along the straight line between two places by the integral of its
+/// derivative, up to a tenth of its range there. So it neither jumps on the way from where the grader knows
+/// it to where the derivative is tested, nor is the derivative invented. A fresh worker is asked as in
+/// valuesInAnyOrder(); `start` is what another one returned at `from`.
+void requireIntegral(Check& check, const std::string& property, const Eigen::VectorXd& from,
+                     const Eigen::VectorXd& to, const ValueAndDerivative& start,
+                     const DerivativeAt& derivativeAt);
+
 }  // namespace rex::grading

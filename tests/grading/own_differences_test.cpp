@@ -78,4 +78,57 @@ TEST(OwnDifferences, RefuseAnswersFromMemory) {
   }
 }
 
+/// The verdict on a value and its derivative by q[0] along a path of three radians.
+CheckResult alongPath(const std::function<double(double)>& value,
+                      const std::function<double(double)>& slope) {
+  const auto at = [&](const Eigen::VectorXd& q) {
+    return ValueAndDerivative{Eigen::VectorXd::Constant(1, value(q[0])), Eigen::RowVector2d(slope(q[0]), 0)};
+  };
+  Check check({.id = "id", .points = 1}, 1);
+  check.startWorkersBy([](const Check::Conversation& conversation) {
+    remote::Caller caller([](std::uint32_t) { return remote::Caller::Bytes{}; });
+    conversation(caller);
+  });
+  const Eigen::VectorXd from = Eigen::Vector2d(-1, 1), to = Eigen::Vector2d(2, 0);
+  return check.judge([&](Check& requirements) {
+    requireIntegral(requirements, "y of f", from, to, at(from),
+                    [&](remote::Caller&, const Eigen::VectorXd& q) { return at(q); });
+  });
+}
+
+TEST(Integral, AcceptsValuesThatChangeByTheirDerivative) {
+  EXPECT_EQ(alongPath([](double x) { return std::sin(3 * x); }, [](double x) { return 3 * std::cos(3 * x); })
+                .points,
+            1);
+  EXPECT_EQ(alongPath([](double x) { return 1e-6 * std::pow(x, 4); },
+                      [](double x) { return 4e-6 * std::pow(x, 3); })
+                .points,
+            1);
+  EXPECT_EQ(alongPath([](double x) { return std::abs(x - .321); }, [](double x) { return x > .321 ? 1 : -1; })
+                .points,
+            1)
+      << "a kink";
+  EXPECT_EQ(
+      alongPath([](double x) { return std::sqrt(1 + x); }, [](double x) { return .5 / std::sqrt(1 + x); })
+          .points,
+      1)
+      << "steep at the start";
+  EXPECT_EQ(alongPath([](double) { return 0; }, [](double) { return 0; }).points, 1);
+}
+
+TEST(Integral, RefusesJumpsAndInventedDerivatives) {
+  const char* message = "change of y of f along a path, beside the integral of its derivative";
+  EXPECT_THAT(alongPath([](double x) { return x < -.9 ? 0 : 2 + std::sin(x); },
+                        [](double x) { return x < -.9 ? 0 : std::cos(x); })
+                  .message,
+              HasSubstr(message));
+  EXPECT_THAT(alongPath([](double x) { return 1e-3 * (x < 0 ? 0 : 1 + x); },
+                        [](double x) { return x < 0 ? 0 : 1e-3; })
+                  .message,
+              HasSubstr(message));
+  EXPECT_THAT(alongPath([](double x) { return x * x; }, [](double) { return 0; }).message,
+              HasSubstr(message));
+  EXPECT_THAT(alongPath([](double) { return 0; }, [](double) { return 1; }).message, HasSubstr(message));
+}
+
 }  // namespace rex::grading::own_differences_test
