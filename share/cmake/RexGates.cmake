@@ -8,7 +8,7 @@ function(rex_exercise_gates name)
   if(REX_SANITIZE)
     set(gates hostile)  # it asks graders most; each gate links a solution of 200 MB
   else()
-    set(gates main-current points names release evidence main-floor mains solution hostile grown liars sanitizers)
+    set(gates main-current points names release evidence main-floor mains solution hostile grown liars pasted sanitizers)
     set(wrong_file ${PROJECT_SOURCE_DIR}/exercises/${name}/wrong.cpp)
     if(EXISTS ${wrong_file})
       file(STRINGS ${wrong_file} variants REGEX "^// <variant ")

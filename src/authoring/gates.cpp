@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "authoring/pasted.h"
 #include "authoring/release.h"
 #include "authoring/seen_messages.h"
 #include "authoring/wrong_variants.h"
@@ -246,6 +247,21 @@ std::vector<std::string> wrongHeadings(const submission::ExerciseInfo& exercise)
   return complaints;
 }
 
+// Where checks compare an answer with other answers of the same program, by grading/own_differences.h: each
+// is a place where lies could agree with each other.
+int comparisonsOfAnswers(const path& exercise) {
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(exercise)) {
+    if (entry.path().filename() != "check.cpp" && entry.path().extension() != ".h") continue;
+    const std::string source = readTextFile(entry.path());
+    const submission::CppText text(source);
+    for (std::size_t i = 0; i < text.size(); ++i)
+      if (text.isSign(i + 1, '(') && (text.at(i) == "valuesInAnyOrder" || text.at(i) == "requireIntegral"))
+        ++count;
+  }
+  return count;
+}
+
 // The checks of each part must be worth what exercise.toml and README.md promise, and exercises at most as
 // much as each other.
 GateResult pointsAddUp(const GateContext& context) {
@@ -267,7 +283,10 @@ GateResult pointsAddUp(const GateContext& context) {
         fmt::format("exercise.toml: the parts are worth {} points together, wanted at most {}",
                     context.exercise.points(), kMost));
   for (std::string& heading : wrongHeadings(context.exercise)) complaints.push_back(std::move(heading));
-  return judge(complaints);
+  GateResult result = judge(complaints);
+  if (const int count = comparisonsOfAnswers(context.exercise.folder); count > 0)
+    result.note = fmt::format("places that compare answers with other answers of the program: {}", count);
+  return result;
 }
 
 GateResult namesExist(const GateContext& context) {
@@ -451,6 +470,14 @@ GateResult mistakesAreShown(const GateContext& context) {
   return failed("no wrong variant names a check that shows its mistake: '// shown by: CHECK, ...'");
 }
 
+// No code that students are shown does a part of their work.
+GateResult shownCodeGetsNothing(const GateContext& context) {
+  const Pasted all = pastedCode(context);
+  GateResult result = judge(all.complaints);
+  result.note = fmt::format("pasted {} functions and {} expressions", all.functions, all.expressions);
+  return result;
+}
+
 GateResult variantsAreCaught(const GateContext& context) {
   const CaughtTogether all = whyNotCaughtTogether(context);
   GateResult result = judge(all.complaints);
@@ -461,9 +488,9 @@ GateResult variantsAreCaught(const GateContext& context) {
 }  // namespace
 
 std::vector<std::string> gateNames(const submission::ExerciseInfo& exercise) {
-  std::vector<std::string> names = {"main-current", "points",     "names", "release",
-                                    "evidence",     "main-floor", "mains", "solution",
-                                    "sanitizers",   "hostile",    "grown", "liars"};
+  std::vector<std::string> names = {"main-current", "points", "names",    "release",    "evidence",
+                                    "main-floor",   "mains",  "solution", "sanitizers", "hostile",
+                                    "grown",        "liars",  "pasted"};
   if (std::filesystem::exists(exercise.folder / "wrong.cpp")) names.emplace_back("wrong");
   return names;
 }
@@ -489,6 +516,7 @@ GateResult runGate(const GateContext& context, const std::string& gate) {
       {"hostile", answersHurtNobody},
       {"grown", growthGainsNothing},
       {"liars", liarsGetNothing},
+      {"pasted", shownCodeGetsNothing},
       {"wrong", variantsAreCaught}};
   try {
     return gate.starts_with(kOneVariant) ? judge(whyNotCaught(context, gate.substr(kOneVariant.size())))

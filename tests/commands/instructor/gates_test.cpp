@@ -33,7 +33,7 @@ TEST_F(ExerciseGates, PassesTheTemplateThroughAllGates) {
   const std::string gates = rex({"dev", "check", "98", "--list-gates"}).output;
   EXPECT_EQ(gates,
             "main-current\npoints\nnames\nrelease\nevidence\nmain-"
-            "floor\nmains\nsolution\nsanitizers\nhostile\ngrown\nliars\nwrong\n");
+            "floor\nmains\nsolution\nsanitizers\nhostile\ngrown\nliars\npasted\nwrong\n");
 }
 
 TEST_F(ExerciseGates, TestsOneVariant) {
@@ -119,6 +119,26 @@ TEST_F(ExerciseGates, FindsMistakesThatAreNotCaught) {
   replace(exercise() / "wrong.cpp", "rex::rotationAboutAxis(angle, Eigen::Vector3d::UnitZ())",
           "Eigen::Matrix3d::Identity()");
   expectOpenGate("wrong/library", "no call was found");
+}
+
+TEST_F(ExerciseGates, FindsShownCodeThatGetsPoints) {
+  EXPECT_EQ(rex({"dev", "check", "98", "--gate", "pasted"}).code, 0);
+  write(exercise() / "help.h",
+        "#pragma once\n#include \"exercise.h\"\n"
+        "inline Eigen::Vector2d turnedBy(double a, Eigen::Vector2d v, bool isLeft = true) {\n"
+        "  const double s = isLeft ? std::sin(a) : -std::sin(a), c = std::cos(a);\n"
+        "  return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};\n}\n");
+  write(exercise() / "show.cpp",
+        "#include <cmath>\n#include \"help.h\"\n"
+        "void show(const Eigen::Vector2d& at, double turn) {\n"
+        "  const Eigen::Vector2d end = Eigen::Vector2d(std::cos(turn) * at.x() - std::sin(turn) * at.y(),\n"
+        "                                              std::sin(turn) * at.x() + std::cos(turn) * at.y());\n"
+        "  rex::print(\"end\", Eigen::MatrixXd(end));\n}\n");
+  expectOpenGate("pasted",
+                 "show.cpp: the function 'turnedBy', pasted into 'rotated', passes angles-add, keeps-length, "
+                 "quarter-turn");
+  expectOpenGate("pasted", "show.cpp: the expression 'Eigen::Vector2d(std::cos(turn) * at.x()");
+  expectOpenGate("pasted", "pasted 1 functions and 1 expressions");
 }
 
 TEST_F(ExerciseGates, RunsTheChosenGatesAndPrintsThemAsJson) {
