@@ -179,6 +179,7 @@ class Pasting {
       const ShownSource& source = shown_.sources()[k];
       functions_.push_back(functionsIn(source.text));
       std::erase_if(functions_.back(), [&](const ShownCode& code) { return isTask(code.name); });
+      for (ShownCode& code : functions_.back()) code.isLambda = code.isLambda || source.isLibrary;
     }
     for (std::size_t k = 0; k < functions_.size(); ++k) {
       for (const ShownCode& code : functions_[k]) pasteFunction(k, code);
@@ -199,7 +200,7 @@ class Pasting {
       for (const auto& chosen : Calls(code, tasks_[t], 1).take()) {
         if (chosen.empty() && !tasks_[t].parameters.empty()) continue;
         const std::string call = callOf(k, code, tasks_[t], chosen);
-        if (fits(code.result, tasks_[t].result))
+        if (code.result.empty() || fits(code.result, tasks_[t].result))
           add(t, k, code, before(k, code) + "return " + call + ";");
         else
           addConverted(t, k, code, call);
@@ -210,9 +211,8 @@ class Pasting {
   void addConverted(std::size_t t, std::size_t k, const ShownCode& code, const std::string& call) {
     for (std::size_t s = 0; s < functions_.size(); ++s)
       for (const ShownCode& by : functions_[s])
-        if (by.parameters.size() == 1 && !shown_.sources()[s].isLibrary &&
-            (s == k || shown_.sources()[s].scope.empty()) && by.parameters[0].type == code.result &&
-            fits(by.result, tasks_[t].result)) {
+        if (by.parameters.size() == 1 && !by.isLambda && (s == k || shown_.sources()[s].scope.empty()) &&
+            by.parameters[0].type == code.result && fits(by.result, tasks_[t].result)) {
           ShownCode both = code;
           both.text += by.text;  // so that it is kept
           add(t, k, both, before(k, code) + fmt::format("return {}({});", by.name, call));
@@ -242,8 +242,7 @@ class Pasting {
   }
 
   std::string before(std::size_t k, const ShownCode& code) const {
-    return scopeOf(k) +
-           (shown_.sources()[k].isLibrary ? fmt::format("const auto rexShown = {};\n", code.lambda) : "");
+    return scopeOf(k) + (code.isLambda ? fmt::format("const auto rexShown = {};\n", code.lambda) : "");
   }
 
   std::string callOf(std::size_t k, const ShownCode& code, const ShownCode& task,
@@ -257,7 +256,7 @@ class Pasting {
                               ? fmt::format("*std::make_unique<std::decay_t<decltype({0})>>({0})", given.name)
                               : given.name);
     }
-    const std::string name = source.isLibrary       ? "rexShown"
+    const std::string name = code.isLambda          ? "rexShown"
                              : source.scope.empty() ? "::" + code.name
                                                     : source.scope + "::" + code.name;
     return fmt::format("{}({})", name, join(arguments, ", "));
@@ -278,7 +277,7 @@ class Pasting {
 // The functions that students complete, in a source.
 std::vector<ShownCode> tasksIn(const std::string& source, const std::vector<std::string>& functions) {
   std::vector<ShownCode> tasks = functionsIn(source);
-  std::erase_if(tasks, [&](const ShownCode& code) { return !isIn(functions, code.name); });
+  std::erase_if(tasks, [&](const ShownCode& code) { return code.isLambda || !isIn(functions, code.name); });
   return tasks;
 }
 

@@ -27,6 +27,9 @@ std::string flattened(std::string_view source) {
   };
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text.isName(i) && std::find(kWords.begin(), kWords.end(), text.at(i)) != kWords.end()) blank(i, i);
+    // So that it counts as a type: whatever it is.
+    if (text.isName(i) && text.at(i) == "auto" && text.isName(i + 1) && text.isSign(i + 2, '('))
+      flat[text[i].start] = 'A';
     if (text.isSign(i, '[') && text.isSign(i + 1, '[') && text.partner(i) < text.size())
       blank(i, text.partner(i));
     if (!text.isName(i) || text.at(i) != "namespace" || !text.isName(i + 1)) continue;
@@ -46,7 +49,7 @@ std::string typeOf(const CppText& text, std::size_t first, std::size_t end) {
   std::string type;
   for (std::size_t i = first; i < end; ++i) {
     const std::string_view word = text.at(i);
-    if (word == "auto") return {};
+    if (word == "auto" || word == "Auto") return {};
     if (std::find(kIgnored.begin(), kIgnored.end(), word) == kIgnored.end() && word != ":" && word != "&")
       type += word;
   }
@@ -113,9 +116,30 @@ ShownCode functionOf(const CppText& flat, std::string_view source, const CppPiec
   code.start = piece.start;
   code.body = piece.bodyStart;
   const std::size_t open = flat[name + 1].start;
-  code.lambda = "[&]" + std::string(source.substr(open, piece.bodyStart - open)) + "-> " +
-                std::string(flat.source().substr(piece.start, piece.nameStart - piece.start)) +
-                std::string(source.substr(piece.bodyStart, piece.end - piece.bodyStart));
+  code.lambda = "[&]" + std::string(source.substr(open, piece.bodyStart - open));
+  if (!code.result.empty())
+    code.lambda += "-> " + std::string(flat.source().substr(piece.start, piece.nameStart - piece.start));
+  code.lambda += source.substr(piece.bodyStart, piece.end - piece.bodyStart);
+  return code;
+}
+
+// The lambda of `name = [](...) {...}` whose name is token `i`; nothing if there is none.
+std::optional<ShownCode> lambdaAt(const CppText& text, std::size_t i) {
+  if (!text.isName(i) || !text.isSign(i + 1, '=') || !text.isSign(i + 2, '[') || !text.isSign(i + 3, ']'))
+    return {};
+  const std::size_t open = i + 4;
+  if (!text.isSign(open, '(')) return {};
+  const std::size_t close = text.partner(open);
+  std::size_t body = close;
+  while (body < text.size() && !text.isSign(body, '{') && !text.isSign(body, ';')) ++body;
+  if (!text.isSign(body, '{') || text.partner(body) >= text.size()) return {};
+  ShownCode code{.name = std::string(text.at(i)), .isLambda = true};
+  code.parameters = parametersIn(text, open, close);
+  code.start = text[i].start;
+  code.body = text[body].start;
+  const std::size_t end = text[text.partner(body)].end;
+  code.text = text.source().substr(code.start, end - code.start);
+  code.lambda = "[&]" + std::string(text.source().substr(text[open].start, end - text[open].start));
   return code;
 }
 
@@ -264,6 +288,9 @@ std::vector<ShownCode> functionsIn(std::string_view source) {
   for (const CppPiece& piece : submission::cppPieces(flat))
     if (!piece.function.empty() && piece.function != "main")
       functions.push_back(functionOf(flat, source, piece));
+  const CppText tokens(source);
+  for (std::size_t i = 0; i < tokens.size(); ++i)
+    if (std::optional<ShownCode> lambda = lambdaAt(tokens, i)) functions.push_back(std::move(*lambda));
   return functions;
 }
 

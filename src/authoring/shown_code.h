@@ -17,16 +17,17 @@ struct ShownParameter {
 /// A function of C++ source, or an expression in it that takes more than one line.
 struct ShownCode {
   std::string name{};    ///< of the function; empty: an expression
-  std::string result{};  ///< its type; empty: unknown
+  std::string result{};  ///< its type; empty: unknown, as `auto`
   std::vector<ShownParameter> parameters{};
   std::string text{};     ///< the whole function, or the expression
-  std::string lambda{};   ///< the function from its parameters to its last brace, as a lambda
+  std::string lambda{};   ///< the function as a lambda
+  bool isLambda = false;  ///< it is one
   std::size_t start = 0;  ///< of the text in the source
   std::size_t body = 0;   ///< of the function's brace in the source
 };
 
-/// The plain functions of a source, at file scope or in any namespace, also inline ones; no templates,
-/// members or lambdas. Text that is not C++ gives meaningless ones.
+/// The plain functions of a source, at file scope or in any namespace, also inline ones, and lambdas that
+/// have a name and capture nothing; no templates and members. Text that is not C++ gives meaningless ones.
 [[nodiscard]] std::vector<ShownCode> functionsIn(std::string_view source);
 
 /// The expressions of more than one line that functions of the source return or that initialise a variable,

@@ -43,6 +43,23 @@ int main() { return twice(1); }
                           "sum(VectorXd a,Rng rng&,) -> VectorXd"));
 }
 
+TEST(ShownCode, KnowsLambdasAndUnknownResults) {
+  const std::vector<ShownCode> all = functionsIn(R"(
+auto twice(double x) { return 2 * x; }
+double sum(double a) {
+  const auto half = [](const Eigen::Vector2d& p, int k) { return p / k; };
+  const auto mine = [&](int k) { return a / k; };
+  const double list[] = {1, 2};
+  return half({1, 2}, 2).norm() + list[0] + mine(2);
+}
+)");
+  EXPECT_THAT(written(all),
+              ElementsAre("twice(double x,) -> ", "sum(double a,) -> double", "half(Vector2d p,int k,) -> "));
+  EXPECT_EQ(all[0].lambda, "[&](double x) { return 2 * x; }");
+  EXPECT_EQ(all[2].lambda, "[&](const Eigen::Vector2d& p, int k) { return p / k; }");
+  EXPECT_TRUE(all[2].isLambda && !all[0].isLambda);
+}
+
 TEST(ShownCode, KnowsExpressionsOfSeveralLines) {
   const std::vector<ShownCode> all = longExpressionsIn(R"(
 const Eigen::Vector3d kHome = Eigen::Vector3d(1, 2,
