@@ -30,9 +30,11 @@ Eigen::Vector3d onward(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 
 // Where a robot came to, seen from where it had been.
 Eigen::Vector3d trueMotion(const Walk& walk, std::size_t before, std::size_t after) {
-  const Eigen::Vector3d &a = walk.truth[before], &b = walk.truth[after];
-  const double c = std::cos(a[2]), s = std::sin(a[2]), x = b[0] - a[0], y = b[1] - a[1];
-  return {c * x + s * y, c * y - s * x, std::remainder(b[2] - a[2], 2 * std::numbers::pi)};
+  const auto frameOf = [](const Eigen::Vector3d& x) {
+    return Eigen::Isometry2d(Eigen::Translation2d(x[0], x[1]) * Eigen::Rotation2Dd(x[2]));
+  };
+  const Eigen::Isometry2d motion = frameOf(walk.truth[before]).inverse() * frameOf(walk.truth[after]);
+  return {motion.translation().x(), motion.translation().y(), Eigen::Rotation2Dd(motion.linear()).angle()};
 }
 
 // Odometry with noise, replaced by what the scans say if they agree with it.

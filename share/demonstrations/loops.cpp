@@ -15,10 +15,12 @@ using namespace rex;
 
 namespace {
 
-// The pose b as seen from a.
-Eigen::Vector3d between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  const Eigen::Vector2d d = Eigen::Rotation2Dd(-a[2]) * (b - a).head<2>();
-  return {d.x(), d.y(), std::remainder(b[2] - a[2], 6.283185307179586)};
+Eigen::Isometry2d frameOf(const Eigen::Vector3d& pose) {
+  return Eigen::Isometry2d(Eigen::Translation2d(pose.head<2>()) * Eigen::Rotation2Dd(pose[2]));
+}
+
+Eigen::Vector3d poseOf(const Eigen::Isometry2d& frame) {
+  return {frame.translation().x(), frame.translation().y(), Eigen::Rotation2Dd(frame.linear()).angle()};
 }
 
 Eigen::Vector3d compose(const Eigen::Vector3d& a, const Eigen::Vector3d& d) {
@@ -61,7 +63,7 @@ int main() {
       const Eigen::Vector3d next(8 * std::sin(s), 4 * std::sin(2 * s),
                                  std::atan2(8 * std::cos(2 * s), 8 * std::cos(s)));
       if (n == 0) truth(2, 0) = odometry(2, 0) = graph.poses(2, 0) = std::atan2(8., 8.);
-      const Eigen::Vector3d step = between(truth.col(n), next) +
+      const Eigen::Vector3d step = poseOf(frameOf(truth.col(n)).inverse() * frameOf(next)) +
                                    drift * Eigen::Vector3d(rng.normal(), rng.normal(), rng.normal() + 0.3);
       for (Eigen::Matrix3Xd* all : {&truth, &odometry, &graph.poses}) all->conservativeResize(3, n + 2);
       truth.col(n + 1) = next, odometry.col(n + 1) = compose(odometry.col(n), step),
@@ -73,7 +75,8 @@ int main() {
           if ((truth.col(i) - next).head<2>().norm() < 0.8) {
             const int to = rng.uniform() < wrong ? static_cast<int>(rng.uniform(0, n)) : i;
             if (to == n + 1) break;
-            const Eigen::Vector3d seen = between(truth.col(i), next) + closure * rng.normalVector(3);
+            const Eigen::Vector3d seen =
+                poseOf(frameOf(truth.col(i)).inverse() * frameOf(next)) + closure * rng.normalVector(3);
             graph.edges.push_back({to, n + 1, seen, Eigen::Matrix3d::Identity() / (closure * closure)});
             settle();
             break;
