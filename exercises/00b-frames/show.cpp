@@ -7,6 +7,7 @@
 
 #include "chains.h"
 #include "course/film.h"
+#include "geometry/rotation.h"
 
 using namespace rex;
 
