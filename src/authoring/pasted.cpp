@@ -178,7 +178,8 @@ class Pasting {
     for (std::size_t k = 0; k < shown_.sources().size(); ++k) {
       const ShownSource& source = shown_.sources()[k];
       functions_.push_back(functionsIn(source.text));
-      std::erase_if(functions_.back(), [&](const ShownCode& code) { return isTask(code.name); });
+      if (source.name == "main.cpp")
+        std::erase_if(functions_.back(), [&](const ShownCode& code) { return isTask(code.name); });
       for (ShownCode& code : functions_.back()) code.isLambda = code.isLambda || source.isLibrary;
     }
     for (std::size_t k = 0; k < functions_.size(); ++k) {
@@ -299,8 +300,12 @@ class PasteGrader {
     pastes_ = Pasting(shown_, tasksIn(reference_, functions)).take();
     const std::size_t last = reference_.rfind("\n#include ");
     const std::size_t at = last == reference_.npos ? 0 : reference_.find('\n', last + 1) + 1;
-    reference_.insert(at, shown_.preamble(pastes_));
+    const std::string preamble = shown_.preamble(pastes_);
+    reference_.insert(at, preamble);
     tasks_ = tasksIn(reference_, functions);
+    std::erase_if(tasks_, [&](const ShownCode& code) {  // others of the same name
+      return at <= code.start && code.start < at + preamble.size();
+    });
     const std::string main = submission::stripSolution(solution, file.string());
     for (const ShownCode& stub : tasksIn(main, functions))
       stubs_[stub.name] = stub.text.substr(stub.body - stub.start);
