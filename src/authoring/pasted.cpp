@@ -68,11 +68,12 @@ class Shown {
     for (const char* place : {"share/examples", "share/demonstrations"})
       for (const fs::path& file : sourcesBelow(context.root / place, ".cpp"))
         addApart(file.lexically_relative(context.root).generic_string(), file, {});
-    for (const fs::path& file : sourcesBelow(context.root / "src", ".h"))
-      if (!file.string().ends_with("_internal.h"))
-        sources_.push_back({.name = file.lexically_relative(context.root).generic_string(),
-                            .text = readTextFile(file),
-                            .isLibrary = true});
+    for (const std::string& layer : publicLayers(context.root))
+      for (const fs::path& file : sourcesBelow(context.root / "src" / layer, ".h"))
+        if (!file.string().ends_with("_internal.h"))
+          sources_.push_back({.name = file.lexically_relative(context.root).generic_string(),
+                              .text = readTextFile(file),
+                              .isLibrary = true});
   }
 
   const std::vector<ShownSource>& sources() const { return sources_; }
@@ -84,7 +85,7 @@ class Shown {
     for (const Paste& paste : pastes) wanted[paste.source].push_back(paste.code);
     for (const auto& [k, codes] : wanted) {
       const ShownSource& source = sources_[k];
-      if (source.isLibrary)
+      if (source.isLibrary && !source.name.starts_with("src/legacy/"))  // which has names like course.h
         text =
             fmt::format("#include \"{}\"\n", fs::path(source.name).lexically_relative("src").string()) + text;
       if (source.scope.empty()) continue;
@@ -95,6 +96,19 @@ class Shown {
   }
 
  private:
+  // The modules whose headers packages have.
+  static std::vector<std::string> publicLayers(const fs::path& root) {
+    const fs::path file = root / "share/cmake/RexInstall.cmake";
+    const std::string text = fs::exists(file) ? readTextFile(file) : "";
+    const std::size_t list = text.find("set(REX_PUBLIC_LAYERS ");
+    if (list == text.npos) return {""};  // all
+    const std::size_t first = text.find(' ', list);
+    std::vector<std::string> layers;
+    for (const std::string_view word : splitWords(text.substr(first, text.find(')', first) - first)))
+      layers.emplace_back(word);
+    return layers;
+  }
+
   static std::vector<fs::path> sourcesBelow(const fs::path& folder, const std::string& ending) {
     std::vector<fs::path> files;
     if (fs::is_directory(folder))
