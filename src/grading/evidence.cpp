@@ -1,7 +1,9 @@
 #include "grading/evidence.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
+#include <span>
 #include <sstream>
 #include <utility>
 
@@ -16,6 +18,9 @@
 namespace rex::grading {
 namespace {
 
+// For any colour vision, as those of a figure are.
+constexpr std::array<Color, 4> kRowColors{
+    {kGotColor, {0.84f, 0.37f, 0.0f}, {0.0f, 0.62f, 0.45f}, {0.80f, 0.47f, 0.65f}}};
 constexpr Color kPale{0.0f, 0.62f, 0.45f, 0.4f}, kPaleLine{0.0f, 0.62f, 0.45f};
 
 bool isSame(const Solid& a, const Solid& b) {
@@ -163,7 +168,6 @@ Image drawingOf(const std::vector<Figure>& figures, const std::filesystem::path&
 
 Figure comparison(const std::string& title, const Eigen::Ref<const Eigen::MatrixXd>& got,
                   const Eigen::Ref<const Eigen::MatrixXd>& wanted) {
-  constexpr std::size_t kMost = 4;
   if (got.rows() != wanted.rows() || got.cols() != wanted.cols())
     throw Error({.what = "comparison: " + title,
                  .found = fmt::format("{} x {} numbers", got.rows(), got.cols()),
@@ -181,15 +185,17 @@ Figure comparison(const std::string& title, const Eigen::Ref<const Eigen::Matrix
   std::vector<Eigen::Index> rows(static_cast<std::size_t>(got.rows()));
   std::iota(rows.begin(), rows.end(), 0);
   std::stable_sort(rows.begin(), rows.end(), [&](auto a, auto b) { return error[a] > error[b]; });
-  rows.resize(std::min(rows.size(), kMost));
+  rows.resize(std::min(rows.size(), kRowColors.size()));
   std::sort(rows.begin(), rows.end());
   Figure figure{.title = title, .xLabel = "entry", .yLabel = "value"};
   for (const Eigen::Index row : rows) {
     const std::string name = got.rows() > 1 ? fmt::format("row {}, ", row) : "";
     figure.series.push_back(gotCurve(name + "got", entries, valuesOf(got.row(row).segment(first, columns))));
-    figure.series.back().color.reset();  // each row has its own
     figure.series.push_back(
         wantedCurve(name + "wanted", entries, valuesOf(wanted.row(row).segment(first, columns))));
+    if (got.rows() > 1)  // both curves of a row have its colour
+      for (Series& one : std::span(figure.series).last(2))
+        one.color = kRowColors[figure.series.size() / 2 - 1];
   }
   if (figure.series.size() > 2) figure.legend = Legend::kOutside;
   return figure;

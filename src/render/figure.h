@@ -143,8 +143,9 @@ struct Figure {
   std::string title{};
   std::string xLabel{};
   std::string yLabel{};
-  std::string zLabel{};      ///< needed if series have z
-  std::string colorLabel{};  ///< beside the colour bar; needed with a heat map or values of points
+  std::vector<std::string> yNames{};  ///< beside 0, 1, 2, ... on the y axis, instead of numbers
+  std::string zLabel{};               ///< needed if series have z
+  std::string colorLabel{};           ///< beside the colour bar; needed with a heat map or values of points
   bool logX = false;
   bool logY = false;
   bool logColor = false;

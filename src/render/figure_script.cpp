@@ -302,9 +302,22 @@ void addAxis(Script out, const char* name, const Axis& axis, bool logarithmic) {
   }
 }
 
-void addAxes(Script out, const Figure& figure, const FigureAxes& axes) {
+// A percent sign in them is a command of its own.
+void addNames(Script out, const std::vector<std::string>& names, Texts& texts) {
+  if (names.empty()) return;
+  fmt::format_to(out, "set ytics noenhanced (");
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    std::string text;
+    for (const char c : names[k]) text += c == '%' ? "%%" : std::string(1, c);
+    fmt::format_to(out, "{}{} {}", k == 0 ? "" : ",", texts.add(text), k);
+  }
+  fmt::format_to(out, ")\n");
+}
+
+void addAxes(Script out, const Figure& figure, const FigureAxes& axes, Texts& texts) {
   addAxis(out, "x", axes.x, figure.logX);
   addAxis(out, "y", axes.y, figure.logY);
+  addNames(out, figure.yNames, texts);
   if (inSpace(figure)) addAxis(out, "z", axes.z, false);
   if (hasColorBar(figure)) addAxis(out, "cb", axes.color, figure.logColor);
   if (inSpace(figure)) fmt::format_to(out, "{}", kSpaceStyle);
@@ -407,7 +420,7 @@ std::string figureScript(const Figure& figure, const std::string& terminal) {
   addText("ylabel", figure.yLabel);
   addText("zlabel", figure.zLabel);
   addText("cblabel", figure.colorLabel);
-  addAxes(out, figure, axes);
+  addAxes(out, figure, axes, texts);
   addNotes(out, figure, axes, texts);
   const bool freely = figure.legend == Legend::kAuto && !inSpace(figure);
   fmt::format_to(out, "{}\n", placeOf(figure, freely ? emptiestCorner(figure, traces, axes) : figure.legend));

@@ -27,6 +27,11 @@ TEST(Comparison, DrawsTheRowsThatDifferMost) {
   EXPECT_EQ(figure.series[6].y[3], 5);
   EXPECT_EQ(figure.series[7].y[3], 0);
   EXPECT_EQ(figure.series[0].y.size(), 9u);
+  for (std::size_t k = 0; k < 8; k += 2) {
+    EXPECT_EQ(figure.series[k].color, figure.series[k + 1].color) << "both of a row";
+    EXPECT_TRUE(figure.series[k + 1].dashed);
+    EXPECT_NE(figure.series[k].color, figure.series[(k + 2) % 8].color);
+  }
 }
 
 TEST(Comparison, ShowsOfManyColumnsThoseAroundTheWorst) {
