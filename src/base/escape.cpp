@@ -52,30 +52,86 @@ char32_t characterOf(std::string_view sequence) {
   return character;
 }
 
-bool isShown(std::string_view sequence) {
-  return sequence == "\n" || sequence == "\t" || (!sequence.empty() && !isInvisible(characterOf(sequence)));
+// Joiners, which choose the forms of their neighbours, and selectors of variants.
+constexpr auto kJoiners = std::to_array<CodeRange>({{0x200C, 0x200D}});
+constexpr auto kSelectors =
+    std::to_array<CodeRange>({{0x34F, 0x34F}, {0x180B, 0x180F}, {0xFE00, 0xFE0F}, {0xE0100, 0xE01EF}});
+
+// Scripts and signs that need them: from Hebrew to Tai Tham, symbols, East Asia, forms of Arabic, emoji.
+constexpr auto kJoinedScripts = std::to_array<CodeRange>({{0x590, 0x1CFF},
+                                                          {0x2190, 0x2BFF},
+                                                          {0x2E80, 0xD7FF},
+                                                          {0xF900, 0xFAFF},
+                                                          {0xFB1D, 0xFDFF},
+                                                          {0xFE70, 0xFEFC},
+                                                          {0x10000, 0x3FFFF}});
+
+constexpr auto kAddedBySpreadsheets =
+    std::to_array<CodeRange>({{0xAD, 0xAD}, {0x200B, 0x200B}, {0x200E, 0x200F}, {0xFEFF, 0xFEFF}});
+
+bool isAmong(const auto& ranges, char32_t character) {
+  const auto range = std::lower_bound(ranges.begin(), ranges.end(), character,
+                                      [](const CodeRange& a, char32_t c) { return a.last < c; });
+  return range != ranges.end() && range->first <= character;
 }
+
+/// Whether the next character of a text is shown, which may depend on the one before.
+class ShownCharacters {
+ public:
+  bool take(char32_t character) {
+    const bool isSelector = isAmong(kSelectors, character), isJoiner = isAmong(kJoiners, character);
+    const bool isNeeded = (isSelector && before_ == Before::kJoined) ||
+                          (isJoiner && (before_ == Before::kJoined || before_ == Before::kSelected));
+    const bool isShown = character == '\n' || character == '\t' || isNeeded || !isInvisible(character);
+    const bool isJoined = isShown && !isNeeded && isAmong(kJoinedScripts, character);
+    before_ = isJoined ? Before::kJoined : isNeeded && isSelector ? Before::kSelected : Before::kOther;
+    return isShown;
+  }
+
+ private:
+  enum class Before { kOther, kJoined, kSelected };  ///< a character of such a script, with its selector
+  Before before_ = Before::kOther;
+};
 
 }  // namespace
 
 bool isInvisible(char32_t character) {
-  if ((character & 0xFFFE) == 0xFFFE) return true;
-  const auto range = std::lower_bound(kInvisible.begin(), kInvisible.end(), character,
-                                      [](const CodeRange& a, char32_t c) { return a.last < c; });
-  return range != kInvisible.end() && range->first <= character;
+  return (character & 0xFFFE) == 0xFFFE || isAmong(kInvisible, character);
 }
 
 std::string printable(std::string_view text, std::size_t limit) {
   std::string safe;
+  ShownCharacters shownCharacters;
   while (!text.empty()) {
     const std::size_t length = sequenceLength(text);
     const std::string_view sequence = text.substr(0, length);
-    const std::string_view shown = isShown(sequence) ? sequence : kReplacement;
+    const bool isShown = shownCharacters.take(length == 0 ? U'\0' : characterOf(sequence));
+    const std::string_view shown = isShown ? sequence : kReplacement;
     if (safe.size() + shown.size() > limit) break;
     safe += shown;
     text.remove_prefix(length == 0 ? 1 : length);
   }
   return safe;
+}
+
+CleanName cleanName(std::string_view text) {
+  CleanName name;
+  ShownCharacters shownCharacters;
+  while (!text.empty()) {
+    const std::size_t length = std::max<std::size_t>(sequenceLength(text), 1);
+    const std::string_view sequence = text.substr(0, length);
+    const char32_t character = sequenceLength(text) == 0 ? U'\0' : characterOf(sequence);
+    const bool isAdded = isAmong(kAddedBySpreadsheets, character);
+    const bool isStray = !isAdded && !shownCharacters.take(character) &&
+                         (isAmong(kJoiners, character) || isAmong(kSelectors, character));
+    if (isAdded || isStray)
+      name.lost.insert(fmt::format("U+{:04X}", static_cast<std::uint32_t>(character)));
+    else
+      name.text += sequence;
+    text.remove_prefix(length);
+  }
+  if (!name.lost.empty()) name.text = std::string(trimmed(name.text));
+  return name;
 }
 
 namespace {

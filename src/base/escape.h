@@ -1,6 +1,7 @@
 #pragma once
 // Makes untrusted text harmless: printable characters, escaped for the medium that shows them.
 #include <cstddef>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -12,9 +13,19 @@ namespace rex {
 [[nodiscard]] bool isInvisible(char32_t character);
 
 /// The single entry for untrusted text, before an escaper of base/escape.h: valid UTF-8 of at most `limit`
-/// bytes, in which U+FFFD replaces every invalid byte and every isInvisible() character except newline and
-/// tab. Applying it twice changes nothing more.
+/// bytes, in which U+FFFD replaces every invalid byte and every isInvisible() character except newline, tab,
+/// and what a script needs: a variation selector or a joiner (U+200C, U+200D) after a character of Arabic,
+/// Indic and other such scripts, or after an emoji. Applying it twice changes nothing more.
 [[nodiscard]] std::string printable(std::string_view text, std::size_t limit = std::string_view::npos);
+
+/// The name of a person without the invisible characters that spreadsheets add (U+00AD, U+200B, U+200E,
+/// U+200F, U+FEFF), without joiners and selectors where printable() would replace them, and without blanks
+/// that these leave at its ends.
+struct CleanName {
+  std::string text{};
+  std::set<std::string> lost{};  ///< what was left out: "U+200B"
+};
+[[nodiscard]] CleanName cleanName(std::string_view text);
 
 /// Escapers of untrusted text, one for each medium, in which the result is nothing but text. All make the
 /// text printable() first, so that it holds nothing invisible.

@@ -79,11 +79,15 @@ class AdjustmentReader {
                    .wanted = "one of them"});
     if (table.has("student")) {
       const std::string id = table.text("student");
-      requireKnown(id, course_.ids(), "student", table.where("student"));
+      std::vector<std::string> known = course_.ids();
+      for (const RosterFault& fault : course_.faults) known.push_back(fault.student.id);
+      requireKnown(id, known, "student", table.where("student"));
       return {id};
     }
     const std::string group = table.text("group");
-    requireKnown(group, course_.groups(), "group", table.where("group"));
+    std::vector<std::string> known = course_.groups();
+    for (const RosterFault& fault : course_.faults) known.push_back(fault.student.group);
+    requireKnown(group, known, "group", table.where("group"));
     return course_.members(group);
   }
 

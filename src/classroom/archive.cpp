@@ -72,7 +72,9 @@ std::string nameOf(archive_entry* entry) {
 // What is wrong with a name; empty if it is safe.
 std::string whyUnsafe(const std::string& name, const ArchiveLimits& limits) {
   if (name.empty()) return "no name";
-  if (name.size() > limits.nameBytes) return fmt::format("a name of {} bytes", name.size());
+  for (const std::string_view part : splitAt(name, '/'))
+    if (part.size() > limits.nameBytes) return fmt::format("a name of {} bytes", part.size());
+  if (name.size() > limits.pathBytes) return fmt::format("a path of {} bytes", name.size());
   if (name.front() == '/' || name.find('\\') != std::string::npos) return "an absolute name or a backslash";
   const fs::path path(name);
   if (std::find(path.begin(), path.end(), "..") != path.end()) return "a path out of its folder";
@@ -283,7 +285,7 @@ class ArchiveReader {
   std::string checkedName(archive_entry* entry) {
     const std::string name = nameOf(entry), shown = printable(name, 100);
     if (const std::string why = whyUnsafe(name, limits_); !why.empty())
-      throw refusal(shown, why, "a name inside a folder");
+      throw refusal(shown, why, wantedInsteadOf(why, "a name inside a folder"));
     if (::archive_entry_is_encrypted(entry) != 0)
       throw refusal(shown, "an encrypted file", "one without a password");
     const std::string normal = lowerCase(fs::path(name).lexically_normal().string());
@@ -382,6 +384,14 @@ ArchiveContent readIsolated(const ArchiveSource& source, const fs::path& file, c
 }  // namespace
 
 bool isArchiveName(const std::string& name) { return endingSize(name) > 0; }
+
+std::string wantedInsteadOf(const std::string& why, const std::string& otherwise) {
+  const bool isTooLong = why.ends_with(" bytes") && (why.starts_with("a name") || why.starts_with("a path"));
+  const ArchiveLimits limits;
+  return isTooLong ? fmt::format("names of at most {} bytes in a path of at most {}", limits.nameBytes,
+                                 limits.pathBytes)
+                   : otherwise;
+}
 
 std::string withoutArchiveEnding(const std::string& name) {
   return name.substr(0, name.size() - endingSize(name));

@@ -25,8 +25,12 @@ struct ArchiveLimits {
   int members = 200;                          ///< files and folders
   std::size_t bytes = std::size_t{20} << 20;  ///< for the archive, and for all its files together
   std::size_t ratio = 100;                    ///< size of its files relative to the archive
-  std::size_t nameBytes = 255;
+  std::size_t nameBytes = 255;                ///< of a file or a folder, as file systems have it
+  std::size_t pathBytes = 4096;
 };
+
+/// What is wanted of a member that was left out for this reason: a shorter name, else `otherwise`.
+[[nodiscard]] std::string wantedInsteadOf(const std::string& why, const std::string& otherwise);
 
 /// The contents of an archive.
 struct ArchiveContent {

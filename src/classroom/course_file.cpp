@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -30,41 +32,62 @@ std::string& fieldOf(CourseStudent& student, const std::string& key) {
   return key == "number" ? student.number : student.section;
 }
 
-/// Students with the places where they stand, until it is known that they are different people.
+/// Students with the places where they stand, until it is known that they are different people. A fault of
+/// one row stops that row, not the class.
 class RosterReader {
  public:
   explicit RosterReader(Course& course) : course_(course) {}
 
-  void add(CourseStudent student, const SourceLocation& where) {
-    if (const std::string why = whyNoStudentName(student.id); !why.empty())
-      throw Error({.what = fmt::format("{}: 'id'", kCourseStudent),
-                   .where = where,
-                   .found = student.id.empty() ? "none" : why,
-                   .wanted = "the name of the folder that is handed in"});
-    for (const std::string& key : kRosterKeys) requireOneLine(fieldOf(student, key), key, where);
-    requireNew(ids_, student.id, "id", where);
-    if (!student.email.empty()) requireNew(emails_, student.email, "e-mail", where);
-    course_.students.push_back(std::move(student));
+  /// `read` fills in the student and throws Error as far as it cannot.
+  void add(const SourceLocation& where, const std::function<void(CourseStudent&)>& read) {
+    CourseStudent student;
+    try {
+      read(student);
+      if (const std::string why = whyNoStudentName(student.id); !why.empty())
+        throw Error({.what = fmt::format("{}: 'id'", kCourseStudent),
+                     .where = where,
+                     .found = student.id.empty() ? "none" : why,
+                     .wanted = "the name of the folder that is handed in"});
+      for (const std::string& key : kRosterKeys)
+        if (key != "id") clean(fieldOf(student, key), key, student.id, where);
+      requireNew(ids_, student.id, "id", where);
+      if (!student.email.empty()) requireNew(emails_, student.email, "e-mail", where);
+      rows_.emplace_back(std::move(student), where);
+    } catch (const Error& error) {
+      course_.faults.push_back({std::move(student), error.what()});
+    }
   }
 
   // A folder of that name would belong to two.
   void end() {
-    for (const CourseStudent& student : course_.students)
-      if (const auto same = ids_.find(caseless(student.group)); same != ids_.end())
-        throw Error({.what = fmt::format("the group '{}' is also the id of a student", student.group),
-                     .where = same->second,
-                     .wanted = "another name for the group"});
+    for (auto& [student, where] : rows_) {
+      const auto same = ids_.find(caseless(student.group));
+      if (same == ids_.end())
+        course_.students.push_back(std::move(student));
+      else
+        course_.faults.push_back(
+            {student, Error({.what = fmt::format("the group '{}' is also the id of a student", student.group),
+                             .where = where,
+                             .wanted = fmt::format("another name for the group; the student is at {}",
+                                                   toString(same->second))})
+                          .what()});
+    }
     std::sort(course_.students.begin(), course_.students.end(),
               [](const CourseStudent& a, const CourseStudent& b) { return a.id < b.id; });
   }
 
  private:
-  static void requireOneLine(const std::string& text, const std::string& key, const SourceLocation& where) {
-    if (printable(text) == text && text.find('\n') == std::string::npos) return;
-    throw Error({.what = fmt::format("{}: '{}'", kCourseStudent, key),
-                 .where = where,
-                 .found = "a line break or an invisible character",
-                 .wanted = "one line of text"});
+  void clean(std::string& text, const std::string& key, const std::string& id, const SourceLocation& where) {
+    CleanName name = cleanName(text);
+    if (printable(name.text) != name.text || name.text.find('\n') != std::string::npos)
+      throw Error({.what = fmt::format("{}: '{}'", kCourseStudent, key),
+                   .where = where,
+                   .found = "a line break or an invisible character",
+                   .wanted = "one line of text"});
+    if (!name.lost.empty())
+      course_.notes.push_back(fmt::format("{}: left out of the {} of '{}', where nobody sees it: {}",
+                                          toString(where), key, id, join(name.lost, ", ")));
+    text = std::move(name.text);
   }
   static void requireNew(std::map<std::string, SourceLocation>& seen, const std::string& text,
                          const std::string& what, const SourceLocation& where) {
@@ -76,17 +99,18 @@ class RosterReader {
   }
 
   Course& course_;
+  std::vector<std::pair<CourseStudent, SourceLocation>> rows_{};
   std::map<std::string, SourceLocation> ids_{}, emails_{};  // by caseless() text
 };
 
 void readStudentTables(const TomlTable& top, RosterReader& roster) {
-  for (const TomlTable& table : top.tables("student")) {
-    table.refuseKeysBut(kRosterKeys);
-    CourseStudent student{.id = table.text("id")};
-    for (const std::string& key : kRosterKeys)
-      if (table.has(key)) fieldOf(student, key) = table.text(key);
-    roster.add(std::move(student), table.where("id"));
-  }
+  for (const TomlTable& table : top.tables("student"))
+    roster.add(table.where("id"), [&](CourseStudent& student) {
+      student.id = table.text("id");
+      table.refuseKeysBut(kRosterKeys);
+      for (const std::string& key : kRosterKeys)
+        if (table.has(key)) fieldOf(student, key) = table.text(key);
+    });
 }
 
 void readStudentRows(const fs::path& file, RosterReader& roster) {
@@ -101,20 +125,21 @@ void readStudentRows(const fs::path& file, RosterReader& roster) {
   const CsvTable table(file, "a table of students");
   table.require(kColumns[0]);
   table.refuseMisspelt(kColumns);
-  table.requireWholeRows();
-  for (std::size_t k = 0; k < table.size(); ++k) {
-    CourseStudent student;
-    for (std::size_t c = 0; c < kRosterKeys.size(); ++c)
-      fieldOf(student, kRosterKeys[c]) = table.text(k, kColumns[c]);
-    roster.add(std::move(student), {table.place(k)});
-  }
+  for (std::size_t k = 0; k < table.size(); ++k)
+    roster.add({table.place(k)}, [&](CourseStudent& student) {
+      for (std::size_t c = 0; c < kRosterKeys.size(); ++c)
+        fieldOf(student, kRosterKeys[c]) = table.text(k, kColumns[c]);
+      table.requireWholeRow(k);
+    });
 }
 
 /// Reads one course file.
 class CourseReader {
  public:
-  CourseReader(const fs::path& file, const std::vector<submission::ExerciseInfo>& exercises)
-      : folder_(file.parent_path()), top_(TomlTable::read(file, "the course file", "a course file")) {
+  CourseReader(const fs::path& file, const std::vector<submission::ExerciseInfo>& exercises, RosterUse use)
+      : folder_(file.parent_path()),
+        use_(use),
+        top_(TomlTable::read(file, "the course file", "a course file")) {
     for (const submission::ExerciseInfo& exercise : exercises) exercises_.push_back(exercise.name);
   }
 
@@ -125,7 +150,7 @@ class CourseReader {
     if (top_.has("adjustments")) course_.adjustments = folder_ / top_.text("adjustments");
     readSettings(course_.settings);
     if (top_.has("time_zone")) course_.timeZone = zoneAt("time_zone");
-    readStudents();
+    if (use_ == RosterUse::kRead) readStudents();
     course_.policy = parseLatePolicy(top_, exercises_);
     const auto exercises = top_.table("exercise", "[exercise]", "a table");
     for (const std::string& name : exercises ? exercises->keys() : std::vector<std::string>{})
@@ -192,9 +217,11 @@ class CourseReader {
   // An extension for a name that nobody has is one that somebody misses.
   void requireExtensions(const TomlTable& keys) const {
     const auto extensions = keys.table("extensions", "extensions", "a table");
-    if (!extensions || course_.students.empty()) return;
+    if (!extensions || !course_.hasRoster()) return;
     std::vector<std::string> known = course_.ids();
     for (const std::string& group : course_.groups()) known.push_back(group);
+    for (const RosterFault& fault : course_.faults)
+      known.insert(known.end(), {fault.student.id, fault.student.group});
     for (const std::string& name : extensions->keys())
       if (std::find(known.begin(), known.end(), name) == known.end())
         throw Error({.what = fmt::format("an extension for '{}'", name),
@@ -211,6 +238,7 @@ class CourseReader {
   }
 
   fs::path folder_;
+  RosterUse use_;
   std::vector<std::string> exercises_{};
   TomlTable top_;
   Course course_{};
@@ -246,8 +274,9 @@ std::vector<std::string> Course::members(const std::string& group) const {
   return ids;
 }
 
-Course readCourse(const fs::path& file, const std::vector<submission::ExerciseInfo>& exercises) {
-  return CourseReader(file, exercises).read();
+Course readCourse(const fs::path& file, const std::vector<submission::ExerciseInfo>& exercises,
+                  RosterUse roster) {
+  return CourseReader(file, exercises, roster).read();
 }
 
 std::string shownName(const CourseStudent& student) {

@@ -22,6 +22,12 @@ struct CourseStudent {
   std::string section{};  ///< of the course, for Canvas
 };
 
+/// A row of the roster that was not taken; the others were.
+struct RosterFault {
+  CourseStudent student{};  ///< as far as it could be read
+  std::string why{};        ///< place, what was found and what is wanted
+};
+
 /// What a course is graded with, unless an option says otherwise.
 struct GradingSettings {
   std::filesystem::path secret{};  ///< file; empty: none
@@ -34,7 +40,9 @@ struct GradingSettings {
 /// The contents of a course file (share/doc/grading.md).
 struct Course {
   std::string title{};
-  std::vector<CourseStudent> students{};          ///< by id; empty: there is no roster
+  std::vector<CourseStudent> students{};          ///< by id
+  std::vector<RosterFault> faults{};              ///< by place
+  std::vector<std::string> notes{};               ///< what names of the roster lost
   LatePolicy policy{};                            ///< extensions of groups are listed for each member
   std::map<std::string, std::int64_t> weights{};  ///< of the exercises of the course, in hundredths
   std::filesystem::path results{};                ///< where results go; empty: not said
@@ -42,16 +50,21 @@ struct Course {
   GradingSettings settings{};
   std::string timeZone{};  ///< in which times are shown to people; empty: UTC
 
+  [[nodiscard]] bool hasRoster() const { return !students.empty() || !faults.empty(); }
   [[nodiscard]] const CourseStudent* student(const std::string& id) const;
   [[nodiscard]] std::vector<std::string> ids() const;
   [[nodiscard]] std::vector<std::string> groups() const;
   [[nodiscard]] std::vector<std::string> members(const std::string& group) const;
 };
 
-/// Paths in the file are relative to its folder. Throws Error with file, line and column for malformed
-/// files, unknown exercises, extensions for nobody, and students without id or with that of another.
+enum class RosterUse { kRead, kLeave };
+
+/// Paths in the file are relative to its folder. A row of the roster that is malformed, without id or with
+/// that of another becomes a fault. Throws Error with file, line and column for malformed files, unknown
+/// exercises and extensions for nobody. kLeave: as if there were no roster.
 [[nodiscard]] Course readCourse(const std::filesystem::path& file,
-                                const std::vector<submission::ExerciseInfo>& exercises);
+                                const std::vector<submission::ExerciseInfo>& exercises,
+                                RosterUse roster = RosterUse::kRead);
 
 /// A name as people write it: "Zoe Müller", or the id if none is known.
 [[nodiscard]] std::string shownName(const CourseStudent& student);

@@ -113,13 +113,17 @@ void CsvTable::refuseMisspelt(const std::vector<Headings>& columns) const {
   }
 }
 
+void CsvTable::requireWholeRow(std::size_t row) const {
+  const std::size_t found = rows_.at(row).fields.size();
+  if (found != headings_.fields.size())
+    throw UsageError({.what = "not " + what_,
+                      .where = {file_, rows_.at(row).line, 0},
+                      .found = fmt::format("{} fields", found),
+                      .wanted = fmt::format("{}", headings_.fields.size())});
+}
+
 void CsvTable::requireWholeRows() const {
-  for (const CsvRow& row : rows_)
-    if (row.fields.size() != headings_.fields.size())
-      throw UsageError({.what = "not " + what_,
-                        .where = {file_, row.line, 0},
-                        .found = fmt::format("{} fields", row.fields.size()),
-                        .wanted = fmt::format("{}", headings_.fields.size())});
+  for (std::size_t row = 0; row < size(); ++row) requireWholeRow(row);
 }
 
 std::string CsvTable::text(std::size_t row, const Headings& column) const {

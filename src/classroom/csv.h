@@ -38,6 +38,7 @@ class CsvTable {
   /// Throws UsageError with the headings that are there.
   void require(const Headings& column) const;
   /// Throws UsageError for a row with more or fewer fields than there are headings.
+  void requireWholeRow(std::size_t row) const;
   void requireWholeRows() const;
 
   [[nodiscard]] std::size_t size() const { return rows_.size(); }

@@ -106,7 +106,8 @@ struct DownloadedSubmission {
 struct DownloadedSubmissions {
   Platform platform{};
   std::vector<DownloadedSubmission> all{};
-  std::vector<std::string> complaints{};  ///< what belongs to nobody or contradicts itself
+  std::vector<std::string> complaints{};  ///< what was not taken, as it belongs to nobody
+  std::vector<std::string> doubts{};      ///< what was taken, though something contradicts it
   std::vector<std::string> notes{};
 };
 

@@ -160,7 +160,7 @@ class CloneReader {
     DownloadedSubmission received{.people = recorded.people, .group = recorded.group, .place = name};
     if (received.people.empty()) {
       if (!record_.empty() && !record_.contains(caseless(name)))
-        found_.complaints.push_back(fmt::format("{}: not in the record of the platform", name));
+        found_.doubts.push_back(fmt::format("{}: not in the record of the platform", name));
       const std::string user = userOf(name);
       received.people = {{.githubUsername = user, .identifier = user}};
     }

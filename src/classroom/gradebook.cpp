@@ -42,9 +42,10 @@ class BookMaker {
         owners_(course_, source.imported) {}
 
   Gradebook make() {
-    book_.hasRoster = !source_.course.students.empty();
+    book_.hasRoster = source_.course.hasRoster();
     chooseExercises();
     assignTasks();
+    addFaults();
     assignRejected();
     for (const CourseStudent& student : course_.students)
       for (const std::string& exercise : shown_)
@@ -71,7 +72,16 @@ class BookMaker {
     }
     for (const auto& [exercise, weight] : weights())
       if (!graded.contains(exercise) && source_.only.empty())
-        book_.notes.push_back(fmt::format("{}: nobody has handed it in, so it does not count yet", exercise));
+        book_.notes.push_back(fmt::format(
+            "{}: {}, so it does not count yet", exercise,
+            isImported(exercise) ? "it was imported, but not graded" : "nobody has handed it in"));
+  }
+
+  bool isImported(const std::string& exercise) const {
+    return std::ranges::any_of(source_.imported.students, [&](const ImportedStudent& person) {
+      const auto entry = person.exercises.find(exercise);
+      return entry != person.exercises.end() && entry->second.status == SubmissionStatus::kHandedIn;
+    });
   }
 
   void assignTasks() {
@@ -122,9 +132,29 @@ class BookMaker {
     if (const ImportedStudent* person = source_.imported.find(row.student.id))
       row.student.name = person->name, row.student.email = person->email;
     row.remark = "not on the roster";
+    if (const RosterFault* fault = faultOf(source_.tasks[task])) row.remark += ": " + fault->why;
     take(task, row);
     finish(row);
     return row;
+  }
+
+  // Of the student whose folder it is, if that row of the roster was not taken.
+  const RosterFault* faultOf(const Task& task) const {
+    for (const RosterFault& fault : course_.faults) {
+      const Course alone{.students = {fault.student}};
+      if (!SubmissionOwners(alone, source_.imported).of(task.student, task.exercise).empty()) return &fault;
+    }
+    return nullptr;
+  }
+
+  // Who handed in nothing is named beside those who did.
+  void addFaults() {
+    for (const RosterFault& fault : course_.faults)
+      if (std::ranges::none_of(book_.strangers, [&](const GradeRow& row) {
+            return row.remark.find(fault.why) != std::string::npos;
+          }))
+        book_.strangers.push_back(
+            {.student = fault.student, .status = RowStatus::kRejected, .remark = fault.why});
   }
 
   GradeRow rowOf(const CourseStudent& student, const std::string& exercise) {
@@ -292,12 +322,16 @@ class BookMaker {
 
   // Adjustments that met no row are mistakes that somebody would wait for.
   void tellUnused() {
-    const auto tell = [&](const std::string& exercise, const SourceLocation& where) {
-      if (!holds(shown_, exercise) && source_.only.empty())
-        book_.notes.push_back(fmt::format("{}: nobody has handed in {}", toString(where), exercise));
+    const auto tell = [&](const auto& one) {
+      if (!holds(shown_, one.exercise) && source_.only.empty())
+        book_.notes.push_back(fmt::format("{}: nobody has handed in {}", toString(one.where), one.exercise));
+      for (const std::string& id : one.students)
+        if (course_.student(id) == nullptr)
+          book_.notes.push_back(fmt::format("{}: waits until the row of '{}' is taken from the roster",
+                                            toString(one.where), id));
     };
-    for (const Adjustment& one : source_.adjustments.adjustments) tell(one.exercise, one.where);
-    for (const Comment& one : source_.adjustments.comments) tell(one.exercise, one.where);
+    for (const Adjustment& one : source_.adjustments.adjustments) tell(one);
+    for (const Comment& one : source_.adjustments.comments) tell(one);
   }
 
   const std::map<std::string, std::int64_t>& weights() const { return course_.weights; }
@@ -373,7 +407,7 @@ std::optional<reports::Judgement> taskJudgement(const Gradebook& book, const std
 Gradebook makeGradebook(const GradebookSource& source) { return BookMaker(source).make(); }
 
 Course withStudents(Course course, const std::vector<Task>& tasks, const ImportTable& imported) {
-  if (course.students.empty()) {
+  if (!course.hasRoster()) {
     std::set<std::string> ids;
     for (const Task& task : tasks) ids.insert(task.student);
     for (const ImportedStudent& person : imported.students) ids.insert(person.student);

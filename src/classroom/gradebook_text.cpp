@@ -43,7 +43,7 @@ std::string caseless(std::string_view text) {
   // Most names, and quicker: tables compare each with each.
   if (std::all_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x80; }))
     return lowerCase(text);
-  return composed(mapped(text, kComposed | UTF8PROC_CASEFOLD).value_or(std::string(text)));
+  return composed(mapped(text, kComposed | UTF8PROC_CASEFOLD | UTF8PROC_IGNORE).value_or(std::string(text)));
 }
 
 bool isUtf8(std::string_view text) { return mapped(text, kComposed).has_value(); }

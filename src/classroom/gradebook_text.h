@@ -15,7 +15,8 @@ namespace rex::classroom {
 /// text that is not UTF-8 comes back as it is.
 [[nodiscard]] std::string composed(std::string_view text);
 
-/// composed() without differences of case, to compare names and addresses.
+/// composed() without differences of case and without joiners and other characters that programs may ignore,
+/// to compare names and addresses.
 [[nodiscard]] std::string caseless(std::string_view text);
 
 [[nodiscard]] bool isUtf8(std::string_view text);

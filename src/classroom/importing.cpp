@@ -6,9 +6,11 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/escape.h"
 #include "base/folders.h"
 #include "base/instant.h"
 #include "base/sha256.h"
+#include "base/text.h"
 #include "base/text_file.h"
 #include "classroom/import_table.h"
 #include "classroom/submission_folder.h"
@@ -35,6 +37,7 @@ class Importer {
         table_(tableAt(handedIn / kImportTable)),
         before_(table_) {
     report_.complaints = submissions.complaints;
+    report_.doubts = submissions.doubts;
     report_.notes = submissions.notes;
     removeLeftovers(folder_, 2);
     takeBegun(tableAt(folder_ / kBegunTable));
@@ -113,8 +116,14 @@ class Importer {
 
   void take(const SortedSubmission& one, ImportNames& names) {
     std::vector<std::string> members;
-    for (const Person& person : one.received.people)
+    for (Person person : one.received.people) {
+      CleanName name = cleanName(person.name);
+      if (!name.lost.empty())
+        report_.notes.push_back(fmt::format("{}: left out of the name '{}', where nobody sees it: {}",
+                                            one.received.place, name.text, join(name.lost, ", ")));
+      person.name = std::move(name.text);
       members.push_back(names.personFolder(person, exercises_));
+    }
     report_.complaints.insert(report_.complaints.end(), one.picked.complaints.begin(),
                               one.picked.complaints.end());
     report_.notes.insert(report_.notes.end(), one.picked.notes.begin(), one.picked.notes.end());
@@ -275,7 +284,7 @@ class Importer {
     const std::optional<std::string> present = presentHash(path);
     if (!present) return;
     if (present->empty() || !isOurs(member, exercise, *present)) {
-      report_.complaints.push_back(
+      report_.doubts.push_back(
           fmt::format("{}: not removed, though the group of {} hands in together: no import "
                       "wrote it",
                       path.string(), member));

@@ -14,6 +14,7 @@ namespace rex::classroom {
 struct ImportReport {
   std::vector<std::string> changes{};           ///< files that differ from those of an earlier import
   std::vector<std::string> complaints{};        ///< what was not taken, with its place and why
+  std::vector<std::string> doubts{};            ///< what was taken and should be looked at
   std::vector<std::string> notes{};             ///< other things that were found
   int added = 0, changed = 0, same = 0;         ///< files
   int handedIn = 0, missing = 0, rejected = 0;  ///< students, members of groups each, per exercise

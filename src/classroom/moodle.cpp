@@ -187,7 +187,7 @@ class MoodleReader {
     const auto row = rows_.find(number);
     if (row == rows_.end()) {
       if (!rows_.empty())
-        found_.complaints.push_back(
+        found_.doubts.push_back(
             fmt::format("{}: participant {} is not in the grading worksheet; taken under "
                         "the name of the folder",
                         received.place, number));
@@ -236,9 +236,8 @@ class MoodleReader {
       else if (sameFiles(*first, received))
         first->people.push_back(received.people.front());
       else {
-        found_.complaints.push_back(
-            fmt::format("{}: other files than in '{}', though both are of the group '{}'", received.place,
-                        first->place, received.group));
+        found_.doubts.push_back(fmt::format("{}: other files than in '{}', though both are of the group '{}'",
+                                            received.place, first->place, received.group));
         received.group.clear();
         joined.push_back(std::move(received));
       }
@@ -318,7 +317,7 @@ class WorksheetWriter {
     table_.set(row, kMoodleGrade, reports::hundredthsText(scaled(*graded, row)));
   }
 
-  std::int64_t scaled(const GradeRow& graded, std::size_t row) const {
+  std::int64_t scaled(const GradeRow& graded, std::size_t row) {
     const std::string shown = table_.text(row, kMoodleMaximum);
     std::string text = shown;
     std::replace(text.begin(), text.end(), ',', '.');
@@ -331,6 +330,8 @@ class WorksheetWriter {
     };
     if (!maximum && scale_) refuse(text.empty() ? "none" : shown, "a number, to scale the points to it");
     const auto most = static_cast<std::int64_t>(100 * maximum.value_or(0) + 0.5);
+    if (*graded.final > graded.possible)
+      sheet_.notes.push_back(table_.place(row) + ": " + aboveMaximum(graded, *graded.final, graded.possible));
     if (!maximum || most == graded.possible) return *graded.final;
     if (!scale_ || graded.possible == 0)
       refuse(shown, fmt::format("{}, the points of the exercise, or --scale",
@@ -376,9 +377,11 @@ std::vector<WorksheetRow> moodleStudents(const Gradebook& book, const std::strin
   return rows;
 }
 
-// Moodle splits the name at underscores; slashes and dots at the start would be folders of their own.
+// Moodle splits the name at underscores; slashes and dots at the start would be folders of their own. Few
+// file systems take more than 255 bytes.
 std::string moodleFolder(const WorksheetRow& row) {
-  std::string name = printable(row.name);
+  constexpr std::size_t kLongest = 200;
+  std::string name = printable(row.name, kLongest);
   for (char& c : name)
     if (std::string_view("_/\\:*?\"<>|\n\t").find(c) != std::string_view::npos) c = ' ';
   while (!name.empty() && (name.front() == '.' || name.front() == ' ' || name.front() == '~'))

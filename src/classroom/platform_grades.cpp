@@ -22,12 +22,14 @@ std::string finalText(const GradeRow* row) {
   return row != nullptr && row->final ? reports::hundredthsText(*row->final) : "";
 }
 
-// What students have gets a number; what they lack stays empty, and is told.
-void tellEmpty(const Gradebook& book, PlatformGrades& grades) {
+// What students have gets a number; what they lack stays empty, and is told, and so is what may be too much.
+void tellOdd(const Gradebook& book, PlatformGrades& grades) {
   for (const GradeRow& row : book.rows)
     if (row.status == RowStatus::kToRepeat)
       grades.notes.push_back(
           fmt::format("{} {}: no grade yet ({})", row.student.id, row.exercise, row.remark));
+    else if (row.final.value_or(0) > row.possible)
+      grades.notes.push_back(aboveMaximum(row, *row.final, row.possible));
 }
 
 std::string sisOf(const CourseStudent& student) {
@@ -41,6 +43,12 @@ std::int64_t possibleOf(const Gradebook& book, const std::string& exercise) {
 }
 
 }  // namespace
+
+std::string aboveMaximum(const GradeRow& row, std::int64_t points, std::int64_t most) {
+  return fmt::format("{} {}: {} points, though the maximum is {}: the platform may refuse or cut them",
+                     row.student.id, row.exercise, reports::hundredthsText(points),
+                     reports::hundredthsText(most));
+}
 
 PlatformGrades gradescopeGrades(const Gradebook& book) {
   std::vector<std::string> headings = {"Name", "SID", "Email"};
@@ -56,7 +64,7 @@ PlatformGrades gradescopeGrades(const Gradebook& book) {
     cells.push_back(reports::hundredthsText(sum.possible));
     grades.csv += csvLine(cells);
   }
-  tellEmpty(book, grades);
+  tellOdd(book, grades);
   return grades;
 }
 
@@ -76,7 +84,7 @@ PlatformGrades canvasGrades(const Gradebook& book) {
       cells.push_back(finalText(book.row(sum.student.id, exercise)));
     grades.csv += csvLine(cells);
   }
-  tellEmpty(book, grades);
+  tellOdd(book, grades);
   return grades;
 }
 

@@ -20,6 +20,9 @@ struct PlatformGrades {
 /// For the import of Canvas: a column per exercise, with the row of possible points.
 [[nodiscard]] PlatformGrades canvasGrades(const Gradebook& book);
 
+/// Says that a grade has more points than a platform has as the maximum, for the reader of a table of grades.
+[[nodiscard]] std::string aboveMaximum(const GradeRow& row, std::int64_t points, std::int64_t most);
+
 /// A student of Moodle's grading worksheet.
 struct WorksheetRow {
   std::string student{};  ///< id in the book; empty: nobody

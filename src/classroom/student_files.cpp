@@ -51,7 +51,7 @@ class FilePicker {
     const bool isMain = path.filename() == kMainFile, isArchive = isArchiveName(file.name);
     if (!file.text && !file.whyNot.empty() && (isMain || isArchive || isSourceName(file.name)))
       complain(isArchive ? "" : exerciseOf(file), "not accepted", file.place, file.whyNot,
-               "a C++ source file or an archive");
+               wantedInsteadOf(file.whyNot, "a C++ source file or an archive"));
     else if (!file.text)
       picked_.notes.push_back(ignored(file.place) + (file.whyNot.empty() ? "" : ": " + file.whyNot));
     else if (isMain)

@@ -42,18 +42,46 @@ std::string courseStudent(const ImportedStudent& person, const Course& course) {
   return named.size() == 1 ? named.front() : "";
 }
 
+std::string studentCalled(const std::string& text, const Course& course, const ImportTable& imported,
+                          const std::vector<std::string>& folders) {
+  const ImportedStudent any{.student = text, .id = text, .name = text, .email = text};
+  if (std::string id = courseStudent(any, course); !id.empty()) return id;
+  std::set<std::string> ids;
+  for (const CourseStudent& student : course.students)
+    if (isSameText(text, student.name)) ids.insert(student.id);
+  for (const ImportedStudent& person : imported.students)
+    for (const std::string& key :
+         {person.student, person.id, person.name, person.email, person.githubUsername})
+      if (isSameText(text, key)) ids.insert(courseStudent(person, course));
+  ids.erase("");
+  if (ids.size() == 1) return *ids.begin();
+  if (ids.size() > 1)
+    throw UsageError({.what = fmt::format("several students are called '{}'", text),
+                      .wanted = fmt::format("one of the ids {}", join(ids, ", "))});
+  const auto folder = std::ranges::find_if(folders, [&](const auto& one) { return isSameText(text, one); });
+  return folder == folders.end() ? "" : *folder;
+}
+
 SubmissionOwners::SubmissionOwners(const Course& course, const ImportTable& imported)
     : course_(course), imported_(imported) {
-  for (const CourseStudent& student : course.students) ids_[caseless(student.id)] = student.id;
+  // The partners of a student whose row was not taken still get what that student handed in.
+  everyone_.students = course.students;
+  for (const RosterFault& fault : course.faults)
+    if (whyNoStudentName(fault.student.id).empty() && everyone_.student(fault.student.id) == nullptr)
+      everyone_.students.push_back(fault.student);
+  for (const CourseStudent& student : everyone_.students) ids_[caseless(student.id)] = student.id;
   for (const ImportedStudent& person : imported.students)
-    if (const std::string id = courseStudent(person, course); !id.empty()) people_[person.student] = id;
+    if (const std::string id = courseStudent(person, everyone_); !id.empty()) people_[person.student] = id;
 }
 
 std::vector<std::string> SubmissionOwners::withGroups(const std::vector<std::string>& ids) const {
-  std::set<std::string> all(ids.begin(), ids.end());
-  for (const std::string& id : ids)
-    if (const CourseStudent* student = course_.student(id))
+  std::set<std::string> all;
+  for (const std::string& id : ids) {
+    const CourseStudent* student = everyone_.student(id);
+    if (course_.student(id) != nullptr) all.insert(id);
+    if (student != nullptr)
       for (const std::string& member : course_.members(student->group)) all.insert(member);
+  }
   return {all.begin(), all.end()};
 }
 
@@ -352,7 +380,9 @@ std::string whyNoStudentName(const std::string& name) {
   constexpr std::size_t kLongest = 100;
   if (name.empty() || name.starts_with('.')) return "an empty name, or one that begins with a dot";
   if (name.size() > kLongest) return fmt::format("{} bytes, more than {}", name.size(), kLongest);
-  if (name.find_first_of("/\\\n\t") != std::string::npos || printable(name, 4 * kLongest) != name)
+  const bool isVisible =
+      printable(name) == name && visibleJson(name) == name;  // also where scripts have joiners
+  if (name.find_first_of("/\\\n\t") != std::string::npos || !isVisible)
     return "a slash, a control character, an invisible one or bytes that are not UTF-8";
   if (startsOrEndsBlank(name)) return "a leading or trailing blank";
   if (isNameOfResults(name)) return "the name of a results file";

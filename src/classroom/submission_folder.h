@@ -18,6 +18,12 @@ namespace rex::classroom {
 /// umlauts are written. Empty: nobody.
 [[nodiscard]] std::string courseStudent(const ImportedStudent& person, const Course& course);
 
+/// The id of the student whom a text names: by what courseStudent() knows or what a platform does, else the
+/// one of these folders that is called so. Empty: nobody. Throws UsageError if several students are called
+/// so.
+[[nodiscard]] std::string studentCalled(const std::string& text, const Course& course,
+                                        const ImportTable& imported, const std::vector<std::string>& folders);
+
 /// Whose submissions the folders of a class are.
 class SubmissionOwners {
  public:
@@ -32,6 +38,7 @@ class SubmissionOwners {
 
   const Course& course_;
   const ImportTable& imported_;
+  Course everyone_{};                            ///< also those whose row of the roster was not taken
   std::map<std::string, std::string> ids_{};     ///< by caseless(id)
   std::map<std::string, std::string> people_{};  ///< of a platform: folder, id
 };

@@ -4,11 +4,14 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <cwchar>
 #include <utility>
 
 #include <fmt/format.h>
+#include <locale.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
+#include <wchar.h>
 
 #include "base/escape.h"
 #include "base/folders.h"
@@ -19,9 +22,22 @@ namespace {
 
 constexpr std::size_t kColumns = 80;
 
+// Marks and joiners take none, Chinese characters and emoji two.
 std::size_t columns(std::string_view text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
+  static const locale_t unicode = ::newlocale(LC_CTYPE_MASK, "C.UTF-8", nullptr);
+  const locale_t before = unicode == nullptr ? nullptr : ::uselocale(unicode);
+  std::mbstate_t state{};
+  std::size_t all = 0;
+  while (!text.empty()) {
+    wchar_t character = 0;
+    const std::size_t length = std::mbrtowc(&character, text.data(), text.size(), &state);
+    const bool isKnown = length != 0 && length <= text.size();
+    all += isKnown ? static_cast<std::size_t>(std::max(0, ::wcwidth(character))) : 1;
+    if (!isKnown) state = {};
+    text.remove_prefix(isKnown ? length : 1);
+  }
+  if (before != nullptr) ::uselocale(before);
+  return all;
 }
 
 // Messages name commands and documents as in the source tree, where rex is not on the path.

@@ -140,7 +140,8 @@ std::string author(const LineComment& comment) {
 }
 
 std::string noteOf(const LineComment& comment) {
-  return fmt::format("<tr class=\"note\"><td></td><td>{}</td></tr>\n", html(comment.text + author(comment)));
+  return fmt::format("<tr class=\"note\"><td></td><td dir=\"auto\">{}</td></tr>\n",
+                     html(comment.text + author(comment)));
 }
 
 std::string gradeOf(const Feedback& feedback) {
@@ -181,11 +182,11 @@ std::string feedbackPage(const Feedback& feedback, const std::vector<FeedbackFil
   const grading::GradeResult& result = feedback.result;
   const std::string title = fmt::format("{}: {}", result.exerciseId, gradeOf(feedback));
   std::string page = fmt::format(fmt::runtime(kPageStart), fmt::arg("title", html(title)));
-  page += fmt::format("<h1>{}</h1>\n<p>{}</p>\n", html(title), html(feedback.student));
+  page += fmt::format("<h1>{}</h1>\n<p><bdi>{}</bdi></p>\n", html(title), html(feedback.student));
   if (feedback.judgement) {
     page += "<ul>\n";
     for (const std::string& sentence : judgementSentences(*feedback.judgement))
-      page += fmt::format("<li>{}</li>\n", html(sentence));
+      page += fmt::format("<li><bdi>{}</bdi></li>\n", html(sentence));
     page += "</ul>\n";
   }
   page += checksHtml(result, "", feedback.judgement ? &*feedback.judgement : nullptr);

@@ -112,6 +112,31 @@ TEST(Printable, ShowsWhatHasNoLookOfItsOwn) {
     EXPECT_EQ(printable(text), text);
 }
 
+// What Persian, Sinhala, Japanese and emoji are written with; never two in a row, and never in other scripts.
+TEST(Printable, KeepsTheJoinersThatAScriptNeeds) {
+  for (const char* text : {"\u0639\u0644\u06CC\u200C\u0631\u0636\u0627", "\u0DC1\u0DCA\u200D\u0DBB\u0DD3",
+                           "\u845B\U000E0100", "\u2764\uFE0F\u200D\U0001F525", "\u1820\u180E\u1820"}) {
+    EXPECT_EQ(printable(text), text);
+    EXPECT_EQ(htmlText(text), text);
+    EXPECT_EQ(csvField(text), text);
+    EXPECT_EQ(markdownText(text), text);
+    EXPECT_EQ(cleanName(text).text, text);
+  }
+  EXPECT_EQ(printable("a\u200Cb\uFE0F"), "a" + kMark + "b" + kMark);
+  EXPECT_EQ(printable("\u0628\u200C\u200C\u0628"), "\u0628\u200C" + kMark + "\u0628");
+  EXPECT_EQ(printable(kMark + "\u200D"), kMark + kMark);
+  EXPECT_EQ(printable("\u0628\u202E\u200C"), "\u0628" + kMark + kMark);
+}
+
+TEST(CleanName, LosesWhatNobodySees) {
+  const CleanName name = cleanName(" \uFEFFZo\u00ADe\u200B \u200CM\u200E\u200F.\u00AD ");
+  EXPECT_EQ(name.text, "Zoe M.");
+  EXPECT_EQ(name.lost, (std::set<std::string>{"U+00AD", "U+200B", "U+200C", "U+200E", "U+200F", "U+FEFF"}));
+  EXPECT_EQ(cleanName("\u200B").text, "");
+  EXPECT_EQ(cleanName("a\u202Eb\xff").text, "a\u202Eb\xff") << "a fault to be told";
+  EXPECT_TRUE(cleanName("Änne, O'Hara").lost.empty());
+}
+
 // Python's tables are another opinion: all of the categories Cc, Cf, Zl, Zp and Cs, and nothing that has
 // another look than a format character, a filler or a variation selector.
 TEST(Printable, AgreesWithPythonsTables) {

@@ -182,7 +182,13 @@ TEST_F(ArchiveTest, RefusesWhatGoesBeyondTheLimits) {
   const SampleMember large{.name = "x", .text = std::string(1000, 'x')};
   const ArchiveLimits few{.bytes = 3000};
   expectRefusal({large, {.name = "y", .text = std::string(2500, 'x')}}, "bytes, wanted at most 3000", few);
-  EXPECT_REX_ERROR(read("a.zip", zipOf({{.name = std::string(300, 'n')}})), "found a name of 300 bytes");
+  EXPECT_REX_ERROR(read("a.zip", zipOf({{.name = std::string(300, 'n')}})),
+                   "found a name of 300 bytes, wanted names of at most 255 bytes in a path of at most 4096");
+  const std::string longest(255, 'n');
+  std::string path = longest;
+  while (path.size() < 4096 - 256) path += "/" + longest;
+  EXPECT_EQ(read("a.zip", zipOf({{.name = path}})).at(0).name, path) << "each name has room";
+  EXPECT_REX_ERROR(read("a.zip", zipOf({{.name = path + "/" + longest + "/x"}})), "found a path of ");
   submission::writeZip(folder_.path() / "b.zip", {{"zeros", std::string(1u << 20, '\0')}});
   EXPECT_REX_ERROR(
       readArchive(folder_.path() / "b.zip"),
@@ -219,6 +225,36 @@ TEST_F(ArchiveTest, LeavesOutStudentsWithTooMuchInABundle) {
               ElementsAre("class/Adam/main.cpp",
                           "class/Zoe_1_assignsubmission_file_/0.zip: more than 40 MiB in "
                           "the files of one student"));
+}
+
+// With the mark of encryption in both headers of its first member.
+std::string withEncrypted(std::string zip) {
+  constexpr std::size_t kInLocal = 6, kInDirectory = 8;
+  zip[kInLocal] |= 1;
+  zip[zip.find("PK\x01\x02") + kInDirectory] |= 1;
+  return zip;
+}
+
+TEST_F(ArchiveTest, TakesNothingEncrypted) {
+  const std::string zip = withEncrypted(
+      zipOf({{.name = "zoe/main.cpp", .text = "int a;\n"}, {.name = "adam/main.cpp", .text = "int b;\n"}}));
+  EXPECT_REX_ERROR(read("a.zip", zip),
+                   "member 'zoe/main.cpp': found an encrypted file, wanted one without a password");
+  writeTextFile(folder_.path() / "all.zip", zip);
+  EXPECT_THAT(namesOfBundle(folder_.path() / "all.zip"),
+              ElementsAre("adam/main.cpp", "zoe/main.cpp: an encrypted file"));
+}
+
+TEST_F(ArchiveTest, ReadsFiftyThousandFilesOfABundleAndNoMore) {
+  std::vector<SampleMember> many;
+  for (int k = 0; k < 50'000; ++k) many.push_back({.name = fmt::format("class/{}/main.cpp", k)});
+  writeTextFile(folder_.path() / "many.tar", tarOf(many));
+  EXPECT_EQ(namesOfBundle(folder_.path() / "many.tar").size(), 50'000u);
+  many.push_back({.name = "class/one more/main.cpp"});
+  many.push_back({.name = "class/and one/main.cpp"});
+  writeTextFile(folder_.path() / "many.tar", tarOf(many));
+  EXPECT_REX_ERROR((void)readBundle(folder_.path() / "many.tar", isSource),
+                   "found more members, wanted at most 50000");
 }
 
 TEST_F(ArchiveTest, RefusesSizesThatAreNotTrue) {

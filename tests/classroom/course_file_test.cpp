@@ -135,23 +135,6 @@ TEST_F(CourseFileTest, NamesThePlaceOfWhatIsWrong) {
   EXPECT_THAT(messageFor("titel = \"x\"\n"), HasSubstr("did you mean 'title'?"));
   EXPECT_THAT(messageFor("[exercise.01-kinematic]\n"),
               HasSubstr("no exercise is called '01-kinematic' (did you mean '01-kinematics'?)"));
-  EXPECT_THAT(messageFor("[[student]]\nname = \"Zoe\"\n"), HasSubstr("[[student]]: no 'id'"));
-  EXPECT_THAT(messageFor("[[student]]\nid = \"a/b\"\n"),
-              HasSubstr(at + "2:6: a student: 'id': found a slash"));
-  EXPECT_THAT(messageFor(zoe + "mail = \"x\"\n"), HasSubstr("unknown key 'mail' in [[student]]"));
-  EXPECT_THAT(messageFor(zoe + "name = \"\"\n"), HasSubstr("a string that is not empty"));
-  EXPECT_THAT(messageFor(zoe + "name = \"Zoe\\nBcc: x\"\n"),
-              HasSubstr("a student: 'name': found a line break or an invisible character, wanted one line"));
-  EXPECT_THAT(
-      messageFor(zoe + "[[student]]\nid = \"Zoe\"\n"),
-      HasSubstr(at + "4:6: a second student with the id 'Zoe': wanted one; the first is at " + at + "2:6"));
-  EXPECT_THAT(messageFor("[[student]]\nid = \"\u00C4nne\"\n[[student]]\nid = \"a\u0308nne\"\n"),
-              HasSubstr("a second student with the id 'a\u0308nne'"))
-      << "of one folder on some machines";
-  EXPECT_THAT(messageFor(zoe + "email = \"a@b\"\n[[student]]\nid = \"adam\"\nemail = \"A@b\"\n"),
-              HasSubstr("a second student with the e-mail 'A@b'"));
-  EXPECT_THAT(messageFor(zoe + "[[student]]\nid = \"adam\"\ngroup = \"zoe\"\n"),
-              HasSubstr(at + "2:6: the group 'zoe' is also the id of a student: wanted another name"));
   EXPECT_THAT(
       messageFor(zoe + "[exercise.02-control.extensions]\nzoo = 2026-11-20T23:59:00Z\n"),
       HasSubstr(at + "4:7: an extension for 'zoo': found nobody of this name on the roster, wanted the id "
@@ -166,6 +149,60 @@ TEST_F(CourseFileTest, NamesThePlaceOfWhatIsWrong) {
   EXPECT_REX_ERROR((readCourse("none.toml", {})), "none.toml: no such file: wanted a course file");
 }
 
+// A fault of one row stops that row, not the class.
+TEST_F(CourseFileTest, StopsNoRowButTheOneThatIsWrong) {
+  const std::string at = file() + ":", zoe = "[[student]]\nid = \"zoe\"\n";
+  const std::pair<std::string, std::string> rows[] = {
+      {"name = \"Zoe\"\n", at + "3:1: [[student]]: no 'id'"},
+      {"id = \"a/b\"\n", at + "4:6: a student: 'id': found a slash"},
+      {"id = \"a\u200Cb\"\n", "a student: 'id': found a slash, a control character, an invisible one"},
+      {"id = \"\u0639\u0644\u06CC\u200C\u0631\u0636\u0627\"\n", "a student: 'id': found a slash"},
+      {"id = \"a\"\nmail = \"x\"\n", "unknown key 'mail' in [[student]]"},
+      {"id = \"a\"\nname = \"\"\n", "a string that is not empty"},
+      {"id = \"a\"\nname = \"Zoe\\nBcc: x\"\n",
+       at + "4:6: a student: 'name': found a line break or an invisible character, wanted one line of text"},
+      {"id = \"a\"\nname = \"\u202Eeoz\"\n", "a student: 'name': found a line break or an invisible"},
+      {"id = \"Zoe\"\n",
+       at + "4:6: a second student with the id 'Zoe': wanted one; the first is at " + at + "2:6"},
+      {"id = \"ZO\u00C4\"\nemail = \"a@b\"\n[[student]]\nid = \"zoa\u0308\"\n",
+       "a second student with the id 'zoa\u0308'"},
+      {"id = \"b\"\nemail = \"a@b\"\n[[student]]\nid = \"a\"\nemail = \"A@b\"\n",
+       at + "7:6: a second student with the e-mail 'A@b'"},
+      {"id = \"a\"\ngroup = \"zoe\"\n",
+       at +
+           "4:6: the group 'zoe' is also the id of a student: wanted another "
+           "name for the group; the student is at " +
+           at + "2:6"}};
+  for (const auto& [row, message] : rows) {
+    const Course course = read(zoe + "[[student]]\n" + row);
+    ASSERT_EQ(course.faults.size(), 1u) << row;
+    EXPECT_THAT(course.faults[0].why, HasSubstr(message));
+    EXPECT_NE(course.student("zoe"), nullptr);
+  }
+  const Course alone = read("[[student]]\nid = \"a/b\"\n");
+  EXPECT_TRUE(alone.hasRoster() && alone.students.empty()) << "nobody else is graded for somebody's fault";
+  EXPECT_EQ(read(zoe + "[[student]]\nid = \"a\"\nmail = \"x\"\n[exercise.02-control.extensions]\na = "
+                       "2026-11-20T23:59:00Z\n")
+                .faults.size(),
+            1u)
+      << "and an extension waits for the row";
+  EXPECT_FALSE(readCourse(file(), exercises(), RosterUse::kLeave).hasRoster());
+}
+
+TEST_F(CourseFileTest, KeepsInNamesWhatTheirScriptNeeds) {
+  const std::string ali = "\u0639\u0644\u06CC\u200C\u0631\u0636\u0627";
+  writeTextFile(folder_.path() / "students.csv",
+                "id,name\nali,\u200F" + ali + "\u200E\nzoe,Zo\u00ADe \uFEFF\n");
+  const Course course = read("students = \"students.csv\"\n");
+  EXPECT_THAT(course.faults, ::testing::IsEmpty());
+  EXPECT_EQ(course.student("ali")->name, ali);
+  EXPECT_EQ(course.student("zoe")->name, "Zoe");
+  const std::string at = (folder_.path() / "students.csv").string();
+  EXPECT_THAT(course.notes,
+              ElementsAre(at + ":2: left out of the name of 'ali', where nobody sees it: U+200E, U+200F",
+                          at + ":3: left out of the name of 'zoe', where nobody sees it: U+00AD, U+FEFF"));
+}
+
 TEST_F(CourseFileTest, NamesTheLineOfABrokenTable) {
   const std::string table = (folder_.path() / "students.csv").string(),
                     course = "students = \"students.csv\"\n";
@@ -173,12 +210,14 @@ TEST_F(CourseFileTest, NamesTheLineOfABrokenTable) {
   EXPECT_THAT(
       messageFor(course),
       HasSubstr(table + ":1: not a table of students: found the columns name, group, wanted a column 'id'"));
-  writeTextFile(table, "id,group\nzoe\n");
-  EXPECT_THAT(messageFor(course), HasSubstr(table + ":2: not a table of students: found 1 fields, wanted 2"));
-  writeTextFile(table, "id,group\n,A\n");
-  EXPECT_THAT(messageFor(course), HasSubstr(table + ":2: a student: 'id': found none"));
-  writeTextFile(table, "id\nzoe\nZOE\n");
-  EXPECT_THAT(messageFor(course), HasSubstr(table + ":3: a second student with the id 'ZOE'"));
+  writeTextFile(table, "id,group\nzoe\nadam,\n,A\nADAM,B\n");
+  const Course read = this->read(course);
+  ASSERT_EQ(read.faults.size(), 3u);
+  EXPECT_THAT(read.faults[0].why, HasSubstr(table + ":2: not a table of students: found 1 fields, wanted 2"));
+  EXPECT_EQ(read.faults[0].student.id, "zoe");
+  EXPECT_THAT(read.faults[1].why, HasSubstr(table + ":4: a student: 'id': found none"));
+  EXPECT_THAT(read.faults[2].why, HasSubstr(table + ":5: a second student with the id 'ADAM'"));
+  EXPECT_THAT(read.ids(), ElementsAre("adam"));
 }
 
 }  // namespace rex::classroom::course_file_test

@@ -98,6 +98,18 @@ TEST(Download, OfAFolderLeavesOutStudentsWithTooMuch) {
                                             "Zoe/0: more than 40 MiB in the files of one student"));
 }
 
+TEST(Download, OfAFolderLooksIntoThirtyFoldersAndNoMore) {
+  const TemporaryFolder folder;
+  std::string deep = "zoe";
+  for (int k = 0; k < 29; ++k) deep += "/d";
+  writeTextFile(folder.path() / deep / "main.cpp", "a");
+  writeTextFile(folder.path() / deep / "e/main.cpp", "b");
+  const Download download = readDownload(folder.path());
+  ASSERT_EQ(download.files.size(), 2u);
+  EXPECT_EQ(download.files[0].whyNot, "more than 30 folders in folders");
+  EXPECT_EQ(download.files[1].text, "a");
+}
+
 TEST(MoodleNames, ComeApart) {
   const auto parts = parseMoodleName("Group A-Zoe_M_501_assignsubmission_file_main_1.cpp");
   ASSERT_TRUE(parts);

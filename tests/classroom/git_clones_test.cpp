@@ -154,7 +154,7 @@ TEST_F(GitClonesTest, TakesTheLastCommitUntilTheTimeOfTheRecord) {
   EXPECT_EQ(of(found, "hw-adam").submitted, kNoon + 3600);
   EXPECT_EQ(of(found, "hw-adam").timeFrom, "platform");
   EXPECT_THAT(found.notes, Contains(HasSubstr("1 clone: the record has a time but no commit")));
-  EXPECT_THAT(found.complaints, Contains("hw-anna: not in the record of the platform"));
+  EXPECT_THAT(found.doubts, Contains("hw-anna: not in the record of the platform"));
   EXPECT_EQ(of(found, "hw-gone").whyNone, "no clone of it");
   // A record of pushes names no people, and its times may be local.
   write("record.csv",

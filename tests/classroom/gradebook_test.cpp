@@ -235,6 +235,48 @@ TEST_F(GradebookTest, HasARowForEachSubmissionWithoutARoster) {
   EXPECT_EQ(book.row("eve", kEx)->status, RowStatus::kMissing);
 }
 
+// Of a row that the roster has and that cannot be taken: the others keep theirs, and the table says why.
+TEST_F(GradebookTest, StopsForAFaultyRowNobodyButThatStudent) {
+  source_.course.faults = {
+      {{.id = "dora", .email = "d@x", .group = "pair"}, "s.csv:7: a student: 'name': found x"},
+      {{.id = "emil"}, "s.csv:8: a student: 'name': found y"},
+      {{.id = "fay", .email = "f@x"}, "s.csv:9: a student: 'name': found z"}};
+  source_.imported.students = {{.student = "f@x", .email = "f@x"}};
+  handIn("dora", 7), handIn("bob", 5), handIn("f@x", 3);
+  source_.adjustments.adjustments = {adjustment("emil", "")};
+  const Gradebook book = makeGradebook(source_);
+  EXPECT_EQ(book.rows.size(), 4u);
+  EXPECT_EQ(book.row("adam", kEx)->final, 700) << "a partner of dora";
+  EXPECT_EQ(book.row("bob", kEx)->final, 500);
+  ASSERT_EQ(book.strangers.size(), 3u);
+  EXPECT_EQ(book.strangers[0].remark, "not on the roster: s.csv:9: a student: 'name': found z");
+  EXPECT_EQ(book.strangers[0].final, 300);
+  EXPECT_EQ(book.strangers[1].remark, "s.csv:7: a student: 'name': found x");
+  EXPECT_EQ(book.strangers[2].student.id, "emil");
+  EXPECT_EQ(book.strangers[2].status, RowStatus::kRejected);
+  EXPECT_THAT(book.notes, Contains("a.toml:3:1: waits until the row of 'emil' is taken from the roster"));
+  source_.course.students.clear();
+  EXPECT_TRUE(makeGradebook(source_).rows.empty()) << "the roster has people, though none that can be taken";
+}
+
+TEST(StudentCalled, IsFoundByAnyKey) {
+  const Course course{.students = {{.id = "adam", .name = "Jürgen Groß", .email = "a@x", .number = "4711"},
+                                   {.id = "bob", .name = "Li Wei"},
+                                   {.id = "eve", .name = "li wei"}}};
+  const ImportTable imported{.students = {{.student = "b@x", .email = "b@x", .githubUsername = "octo"},
+                                          {.student = "participant-7", .id = "adam"}}};
+  const auto called = [&](const char* text) {
+    return studentCalled(text, course, imported, {"team", "zoe"});
+  };
+  for (const char* text : {"adam", "ADAM", "4711", "A@x", "ju\u0308rgen GROSS", "participant-7"})
+    EXPECT_EQ(called(text), "adam") << text;
+  EXPECT_EQ(called("Team"), "team");
+  EXPECT_EQ(called("octo"), "") << "a person who is not of the course";
+  EXPECT_EQ(called("nobody"), "");
+  EXPECT_REX_ERROR((void)called("Li Wei"),
+                   "several students are called 'Li Wei': wanted one of the ids bob, eve");
+}
+
 TEST_F(GradebookTest, AddsWhatCountsByItsWeight) {
   source_.course.weights = {{kEx, 250}, {"02-control", 100}, {"03-later", 100}};
   handIn("bob", 7), handIn("bob", 4, kTime, "02-control"), handIn("bob", 9, kTime, "04-other");
@@ -246,6 +288,11 @@ TEST_F(GradebookTest, AddsWhatCountsByItsWeight) {
   EXPECT_EQ(book.totals[0].possible, 4500);
   EXPECT_THAT(book.notes, ElementsAre("04-other is not an exercise of the course: it does not count",
                                       "03-later: nobody has handed it in, so it does not count yet"));
+  source_.imported.students = {{.student = "bob"}};
+  source_.imported.students[0].exercises["03-later"].status = SubmissionStatus::kHandedIn;
+  EXPECT_THAT(makeGradebook(source_).notes,
+              Contains("03-later: it was imported, but not graded, so it does not count yet"));
+  source_.imported.students.clear();
   EXPECT_THAT(totalsCsv(book), HasSubstr("student,name,email,group,01-kinematics,02-control,total,possible\n"
                                          "adam,Adam A.,,pair,,,0,45\nbob,,,,7,4,21.5,35\n"));
   source_.only = kEx;
@@ -305,6 +352,37 @@ TEST_F(GradebookTest, KeepsAdjustmentsWithinTheirCheckAndFinalPointsAboveZero) {
               Contains("a.toml:3:1: the check 'turn' of bob stays within 0 and 4 points"));
   source_.adjustments.adjustments = {less};
   EXPECT_EQ(row("bob").final, 0);
+}
+
+TEST_F(GradebookTest, AddsUpTheAdjustmentsOfOneCheck) {
+  handIn("bob", 4);  // 3 of 3, and 1 of 4
+  Adjustment one = adjustment("bob", "turn"), most = one;
+  one.add = 100, most.add = 300;
+  source_.adjustments.adjustments = {one, one};
+  EXPECT_EQ(row("bob").final, 600) << "the second begins where the first ended";
+  EXPECT_EQ(row("bob").applied[1].before, 200);
+  source_.adjustments.adjustments = {one, one, most};
+  EXPECT_EQ(row("bob").final, 700) << "and they stop at the maximum";
+}
+
+TEST_F(GradebookTest, RoundsHalvesOfWeightedTotalsUp) {
+  source_.course.weights = {{kEx, 33}};
+  for (const auto& [points, add, total] : {std::tuple(5, 0, 165), {5, 5, 167}, {5, 1, 165}, {5, 2, 166}}) {
+    source_.tasks.clear();
+    handIn("bob", points);
+    Adjustment bonus = adjustment("bob", "");
+    bonus.add = add;
+    source_.adjustments.adjustments = {bonus};
+    EXPECT_EQ(makeGradebook(source_).totals[1].total, total) << "0.33 times " << 100 * points + add;
+  }
+}
+
+// Why a folder was not taken is old news for an exercise that was.
+TEST_F(GradebookTest, SaysNothingOfARejectionBesideAGrade) {
+  handIn("bob", 5);
+  source_.rejected = {{"bob", "", "no exercise is called '01-kinematic'"}};
+  EXPECT_EQ(row("bob").remark, "");
+  EXPECT_EQ(row("bob").status, RowStatus::kGraded);
 }
 
 TEST_F(GradebookTest, GivesPointsForWhatWasNotHandedIn) {

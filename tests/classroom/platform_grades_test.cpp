@@ -52,6 +52,23 @@ TEST_F(PlatformGradesTest, WritesTheColumnsOfGradescopeAndCanvas) {
               ElementsAre("adam 01-kinematics: no grade yet (the result is for other inputs)"));
 }
 
+TEST_F(PlatformGradesTest, TellWhoHasMoreThanTheMaximumBeforeTheUpload) {
+  source_.adjustments.adjustments = {{.students = {"adam"},
+                                      .exercise = kEx,
+                                      .add = 350,
+                                      .reason = "a bonus",
+                                      .author = "T.",
+                                      .where = {"a.toml", 1, 1}}};
+  const std::string text =
+      "adam 01-kinematics: 10.5 points, though the maximum is 10: the platform may refuse or cut them";
+  EXPECT_THAT(gradescopeGrades(book()).notes, ElementsAre(text));
+  EXPECT_THAT(canvasGrades(book()).notes, ElementsAre(text));
+  const Worksheet sheet =
+      worksheet("Identifier,Email address,Grade,Maximum Grade\nA 1,adam@uni.example,,10.00\n");
+  EXPECT_THAT(sheet.notes, ElementsAre(file() + ":2: " + text));
+  EXPECT_THAT(sheet.csv, HasSubstr(",10.5,"));
+}
+
 // What Moodle compares when it reads the worksheet must come back as it was.
 TEST_F(PlatformGradesTest, CompletesTheWorksheetOfMoodleAndKeepsItsOtherCells) {
   const std::string head =
@@ -119,6 +136,9 @@ TEST(MoodleFolder, LeavesNoNameThatMoodleTakesApart) {
   EXPECT_EQ(moodleFolder({"", "../_a/b\\c_9_assignsubmission_file_", "7"}),
             "a b c 9 assignsubmission file _7_assignsubmission_file_");
   EXPECT_EQ(moodleFolder({"", "", "7"}), "Student_7_assignsubmission_file_");
+  std::string longest;
+  for (int k = 0; k < 190; ++k) longest += "\u0436";
+  EXPECT_LE(moodleFolder({"", longest, "1234567"}).size(), 255u);
 }
 
 }  // namespace rex::classroom::platform_grades_test

@@ -25,6 +25,7 @@ TEST(PlatformTime, ReadsWhatPlatformsWrite) {
        {"Friday, 20 November 2026, 11:58 PM", "Friday, November 20, 2026, 11:58 PM", "20 Nov 2026, 23:58",
         "Freitag, 20. November 2026, 23:58", "Fr, 20. Nov. 2026, 23:58 Uhr", "20.11.2026 23:58",
         "20.11.2026, 23:58", "2026-11-20 23:58", "2026-11-20T23:58:00",
+        "Friday, 20 November 2026 at 11:58 PM", "Freitag, 20. November 2026 um 23:58 Uhr",
         " Friday, 20 November 2026, 11:58\u202FPM "})
     EXPECT_EQ(parsePlatformTime(text), wanted) << text;
   EXPECT_EQ(parsePlatformTime("Montag, 1. Ma\u0308rz 2027, 00:05"), (PlatformTime{2027, 3, 1, 0, 5, 0, {}}));
@@ -80,6 +81,15 @@ TEST(PlatformZone, AgreesWithTheCLibrary) {
     EXPECT_GT(same, 490) << "an hour a year exists twice";
   }
   ::unsetenv("TZ");
+}
+
+TEST(PlatformZone, WritesTheOffsetOfAZone) {
+  for (const auto& [zone, text] : {std::pair("", "2026-11-20T22:58:00Z"),
+                                   {"UTC", "2026-11-20T22:58:00+00:00"},
+                                   {"Europe/Berlin", "2026-11-20T23:58:00+01:00"},
+                                   {"America/New_York", "2026-11-20T17:58:00-05:00"},
+                                   {"-03:30", "2026-11-20T19:28:00-03:30"}})
+    EXPECT_EQ(PlatformZone(zone).toText(parseInstant("2026-11-20T22:58:00Z").value()), text);
 }
 
 TEST(PlatformZone, SaysWhatItWants) {

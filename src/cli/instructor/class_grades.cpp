@@ -29,9 +29,17 @@ namespace rex::cli {
 
 namespace fs = std::filesystem;
 
-classroom::Course readClassCourse(const Project& project, const ClassFiles& files) {
-  if (!files.course.empty()) return classroom::readCourse(files.course, project.exercises());
+classroom::Course readClassCourse(const Project& project, const ClassFiles& files,
+                                  classroom::RosterUse roster) {
+  if (!files.course.empty()) return classroom::readCourse(files.course, project.exercises(), roster);
   return {.policy = readDeadlines(project, files.deadlines)};
+}
+
+ExitCode tellRoster(const classroom::Course& course) {
+  for (const classroom::RosterFault& fault : course.faults)
+    note(wrap(escapeForTerminal(fault.why + "; this row of the roster is not taken"), 2, 0));
+  for (const std::string& sentence : course.notes) note(wrap(escapeForTerminal(sentence), 2, 0));
+  return course.faults.empty() ? ExitCode::kFull : ExitCode::kNotGradable;
 }
 
 std::vector<std::string> courseExercises(const Project& project, const classroom::Course& course) {
@@ -73,9 +81,10 @@ void writeBook(const classroom::Gradebook& book, const fs::path& out, bool print
   if (print) std::fputs(text.c_str(), stdout);
   for (const std::string& sentence : book.notes) note(wrap(escapeForTerminal(sentence), 2, 0));
   for (const classroom::GradeRow& row : book.strangers)
-    note(wrap(escapeForTerminal(fmt::format("'{}' is not on the roster: {} is graded and listed in {}",
-                                            row.student.id, row.exercise, kStrangers)),
-              2, 0));
+    if (row.task)
+      note(wrap(escapeForTerminal(fmt::format("'{}' is not on the roster: {} is graded and listed in {}",
+                                              row.student.id, row.exercise, kStrangers)),
+                2, 0));
   std::map<std::string_view, int> counts;
   for (const classroom::GradeRow& row : book.rows) ++counts[toString(row.status)];
   std::vector<std::string> parts;
@@ -87,30 +96,23 @@ ExitCode explainResults(const Project& project, const ExplainOptions& options) {
   const std::string name = project.exercise(options.exercise).name;
   const classroom::Gradebook book =
       readGradebook(project, options.files, tasksIn(options.out, options.manifest), options.out);
-  std::vector<const classroom::GradeRow*> rows, found;
-  std::vector<std::string> known, ids;
-  for (const auto* part : {&book.rows, &book.strangers})
-    for (const classroom::GradeRow& row : *part) {
-      known.insert(known.end(), {row.student.id, row.student.name});
-      if (row.exercise == name) rows.push_back(&row);
-    }
-  std::ranges::copy_if(rows, std::back_inserter(found),
-                       [&](const auto* row) { return row->student.id == options.student; });
-  const std::string called = classroom::caseless(options.student);
-  if (found.empty())
-    std::ranges::copy_if(rows, std::back_inserter(found),
-                         [&](const auto* row) { return classroom::caseless(row->student.name) == called; });
-  if (found.empty())
+  std::vector<std::string> known, folders;
+  for (const classroom::StudentTotal& sum : book.totals)
+    known.insert(known.end(), {sum.student.id, sum.student.name});
+  for (const classroom::GradeRow& row : book.strangers) folders.push_back(row.student.id);
+  const std::string id = classroom::studentCalled(options.student, book.everyone(),
+                                                  classroom::importTableIn(options.out), folders);
+  const classroom::GradeRow* found = book.row(id, name);
+  for (const classroom::GradeRow& row : book.strangers)
+    if (found == nullptr && row.student.id == id && row.exercise == name) found = &row;
+  known.insert(known.end(), folders.begin(), folders.end());
+  if (found == nullptr)
     throw UsageError({.what = fmt::format("no grade of '{}' for {}", options.student, name),
-                      .wanted = "the id or the name of a student, and an exercise that was graded",
+                      .wanted = "the id, number or name of a student, and an exercise that was graded",
                       .nearest = nearestNames(options.student, known)});
-  for (const auto* row : found) ids.push_back(row->student.id);
-  if (found.size() > 1)
-    throw UsageError({.what = fmt::format("several students are called '{}'", options.student),
-                      .wanted = fmt::format("one of the ids {}", join(ids, ", "))});
-  const std::vector<std::string> lines = classroom::explain(*found.front());
+  const std::vector<std::string> lines = classroom::explain(*found);
   if (options.json)
-    say(dump(Json{{"student", ids.front()}, {"exercise", name}, {"lines", lines}}));
+    say(dump(Json{{"student", id}, {"exercise", name}, {"lines", lines}}));
   else
     for (const std::string& line : lines) say(wrap(escapeForTerminal(line), 2, 0));
   return ExitCode::kFull;
@@ -193,15 +195,11 @@ double offsetOf(int k, int count, double gap) {
   return (k % 2 == 1 ? 1 : -1) * ((k + 1) / 2) * step;
 }
 
-// A field of one part; `share` is the part of the points that the class got.
-Region fieldOf(double x, double y, double gap, double share) {
-  constexpr double kHalfWidth = 0.48;
-  const double halfHeight = 0.42 * gap;
-  // A tenth less must be seen.
-  const auto shade = static_cast<float>(std::sqrt(1 - std::clamp(share, 0.0, 1.0)));
-  return {.x = {x - kHalfWidth, x + kHalfWidth, x + kHalfWidth, x - kHalfWidth},
-          .y = {y - halfHeight, y - halfHeight, y + halfHeight, y + halfHeight},
-          .color = Color{1 - 0.2F * shade, 1 - 0.8F * shade, 1 - shade}};
+Region barOf(double row, double percent, Color color) {
+  constexpr double kHalfHeight = 0.36;
+  return {.x = {0, percent, percent, 0},
+          .y = {row - kHalfHeight, row - kHalfHeight, row + kHalfHeight, row + kHalfHeight},
+          .color = color};
 }
 
 }  // namespace
@@ -237,35 +235,27 @@ Figure pointsFigure(const std::vector<StudentResult>& results) {
 }
 
 Figure partsFigure(const std::vector<classroom::ExerciseStatistics>& all) {
-  std::set<std::string> exercises;
-  for (const classroom::ExerciseStatistics& one : all)
-    if (one.graded > 0 && !one.parts.empty()) exercises.insert(one.exercise);
-  if (exercises.empty()) throw Error({.what = "no points to draw", .found = "only faults of the grader"});
-  const ExerciseAxis axis = axisOf(exercises);
-  Figure figure{.title = "Mean points of the parts (darker: fewer)",
-                .xLabel = "part",
-                .yLabel = axis.label,
+  constexpr Color kReached{0.35F, 0.6F, 0.8F}, kPossible{0.92F, 0.94F, 0.96F};
+  Figure figure{.title = "Mean points of the parts",
+                .xLabel = "mean points of the class [% of the maximum]",
+                .yLabel = "part",
+                .xRange = AxisRange{0, 105},
                 .legend = Legend::kNone};
-  std::size_t columns = 0;
-  double first = axis.places.begin()->second, last = first;
-  for (const classroom::ExerciseStatistics& one : all) {
-    if (!exercises.contains(one.exercise)) continue;
-    const double row = axis.places.at(one.exercise);
-    first = std::min(first, row), last = std::max(last, row);
-    columns = std::max(columns, one.parts.size());
-    for (std::size_t k = 0; k < one.parts.size(); ++k) {
-      const classroom::PartStatistics& part = one.parts[k];
-      const double share = part.maxPoints > 0 ? part.meanPoints / part.maxPoints : 0;
-      const auto column = static_cast<double>(k + 1);
-      figure.regions.push_back(fieldOf(column, row, axis.gap, share));
-      figure.notes.push_back(
-          {.text = fmt::format("{} {:.0f} %", part.id, 100 * share), .x = column - 0.47, .y = row});
+  // The first part is at the top.
+  for (auto exercise = all.rbegin(); exercise != all.rend(); ++exercise)
+    for (auto part = exercise->parts.rbegin(); exercise->graded > 0 && part != exercise->parts.rend();
+         ++part) {
+      const double percent = part->maxPoints > 0 ? 100 * part->meanPoints / part->maxPoints : 0;
+      const auto row = static_cast<double>(figure.yNames.size());
+      figure.yNames.push_back(fmt::format("{}: {}", exercise->exercise, part->id));
+      figure.regions.push_back(barOf(row, 100, kPossible));
+      figure.regions.push_back(barOf(row, percent, kReached));
+      figure.notes.push_back({.text = fmt::format("{:.0f} %", percent), .x = percent, .y = row - 0.35});
     }
-  }
-  figure.width = static_cast<int>(std::min<std::size_t>(8192, 330 + 130 * columns));
-  figure.height = static_cast<int>(std::min(8192., 170 + 40 * ((last - first) / axis.gap + 1)));
-  figure.xRange = AxisRange{0.5, static_cast<double>(columns) + 1.5};  // room for the last names
-  figure.yRange = AxisRange{first - 0.5 * axis.gap, last + 0.5 * axis.gap};
+  if (figure.yNames.empty()) throw Error({.what = "no points to draw", .found = "only faults of the grader"});
+  const auto rows = static_cast<double>(figure.yNames.size());
+  figure.height = static_cast<int>(std::min(8192., 130 + 26 * rows));
+  figure.yRange = AxisRange{-0.6, rows - 0.4};
   return figure;
 }
 

@@ -26,7 +26,11 @@ inline constexpr const char *kRejectedFile = "not_taken.tsv", *kTotals = "totals
                             *kStrangers = "not_on_roster.csv", *kRegradedFile = "regraded.csv";
 
 /// The course, or one without a roster. Throws like classroom::readCourse().
-[[nodiscard]] classroom::Course readClassCourse(const Project& project, const ClassFiles& files);
+[[nodiscard]] classroom::Course readClassCourse(const Project& project, const ClassFiles& files,
+                                                classroom::RosterUse roster = classroom::RosterUse::kRead);
+
+/// Says which rows of the roster were not taken, and what names lost. kNotGradable if there is such a row.
+[[nodiscard]] ExitCode tellRoster(const classroom::Course& course);
 
 /// The exercises that the course counts, by name; all if it names none.
 [[nodiscard]] std::vector<std::string> courseExercises(const Project& project,
@@ -76,8 +80,8 @@ void requireFolder(const std::filesystem::path& folder, const std::string& wante
 /// side by side, with a line at each median. Grader errors are left out. Throws Error if nothing is left.
 [[nodiscard]] Figure pointsFigure(const std::vector<classroom::StudentResult>& results);
 
-/// A row of fields for each exercise, one for each part, with its name and the mean of its points in percent;
-/// the fewer points, the darker. Throws Error if there is nothing to draw.
+/// A bar for each part, with its name and the mean of its points in percent. Throws Error if there is nothing
+/// to draw.
 [[nodiscard]] Figure partsFigure(const std::vector<classroom::ExerciseStatistics>& all);
 
 /// How much of each of two submissions the other must have, in percent, to be shown.

@@ -115,7 +115,9 @@ bool holds(const std::filesystem::path& file, const std::string& text) {
 
 ExitCode collectResults(const Project& project, const CollectOptions& options) {
   const std::vector<Task> tasks = tasksIn(options.out, options.manifest);
-  const classroom::Gradebook book = readGradebook(project, options.files, tasks, options.out);
+  const classroom::GradebookSource source = readGradebookSource(project, options.files, tasks, options.out);
+  const ExitCode roster = tellRoster(source.course);
+  const classroom::Gradebook book = classroom::makeGradebook(source);
   writeReports(tasks, options.out, parseReportFormats(options.reports), book);
   const bool complete = writeGrades(tasks, options.out, readDeadlines(project, options.files.deadlines),
                                     options.files.hasBook() ? &book : nullptr, options.csv);
@@ -123,7 +125,7 @@ ExitCode collectResults(const Project& project, const CollectOptions& options) {
   if (options.json) say(collectJson(tasks, options.out));
   note(fmt::format("{} tasks. Table: {}", tasks.size(), shown(options.out / "grades.csv")));
   if (!complete) return ExitCode::kGraderFault;
-  return held > 0 ? ExitCode::kBelow : ExitCode::kFull;
+  return held > 0 ? ExitCode::kBelow : roster;
 }
 
 void writeReports(const std::vector<Task>& tasks, const std::filesystem::path& out,

@@ -160,12 +160,11 @@ ExitCode scanOnly(const Project& project, const ReleaseOptions& options) {
 }
 
 // The exercises that are released; empty: all.
-std::vector<std::string> chosenExercises(const Project& project, const ReleaseOptions& options) {
+std::vector<std::string> chosenExercises(const Project& project, const ReleaseOptions& options,
+                                         const classroom::Course& course) {
   std::vector<std::string> chosen;
   for (const std::string& name : options.only) chosen.push_back(project.exercise(name).name);
   const bool hasCourse = !options.course.empty();
-  const classroom::Course course =
-      hasCourse ? readClassCourse(project, {.course = options.course}) : classroom::Course{};
   const std::vector<std::string> names =
       hasCourse ? courseExercises(project, course) : project.exerciseNames();
   if (options.until.empty()) return hasCourse ? names : chosen;
@@ -201,8 +200,12 @@ std::vector<std::string> chosenExercises(const Project& project, const ReleaseOp
 ExitCode devRelease(const Project& project, const ReleaseOptions& options) {
   requireSourceTree(project, "release");
   if (!options.scan.empty()) return scanOnly(project, options);
-  const authoring::Release release = authoring::writeStudentRelease(
-      project.root, fs::absolute(options.out), options.secret, chosenExercises(project, options));
+  const classroom::Course course =
+      readClassCourse(project, {.course = options.course}, classroom::RosterUse::kLeave);
+  const authoring::Release release =
+      authoring::writeStudentRelease(project.root, fs::absolute(options.out),
+                                     options.secret.empty() ? course.settings.secret : options.secret,
+                                     chosenExercises(project, options, course));
   if (!release.scan.leaks.empty()) {
     if (options.json) {
       sayJson(release.scan, {}, 0, false);

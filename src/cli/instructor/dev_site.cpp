@@ -11,9 +11,7 @@ namespace rex::cli {
 
 namespace {
 
-authoring::SitePlan planOf(const Project& project, const std::filesystem::path& file) {
-  if (file.empty()) return {};
-  const classroom::Course course = readClassCourse(project, {.course = file});
+authoring::SitePlan planOf(const Project& project, const classroom::Course& course) {
   const classroom::PlatformZone zone(course.timeZone);
   const auto shownTime = [&](const std::optional<std::int64_t>& time) {
     return time ? zone.toText(*time) : "";
@@ -33,9 +31,13 @@ authoring::SitePlan planOf(const Project& project, const std::filesystem::path& 
 ExitCode devSite(const Project& project, const SiteOptions& options) {
   using authoring::SiteReaders;
   requireSourceTree(project, "site");
-  const authoring::CourseSite site = authoring::writeCourseSite(
-      project.root, std::filesystem::absolute(options.out), options.secret,
-      options.notes ? SiteReaders::kLecturers : SiteReaders::kEverybody, planOf(project, options.course));
+  const classroom::Course course =
+      readClassCourse(project, {.course = options.course}, classroom::RosterUse::kLeave);
+  const authoring::CourseSite site =
+      authoring::writeCourseSite(project.root, std::filesystem::absolute(options.out),
+                                 options.secret.empty() ? course.settings.secret : options.secret,
+                                 options.notes ? SiteReaders::kLecturers : SiteReaders::kEverybody,
+                                 options.course.empty() ? authoring::SitePlan{} : planOf(project, course));
   const bool leaks = !site.scan.leaks.empty();
   if (options.json) {
     Json list = Json::array();

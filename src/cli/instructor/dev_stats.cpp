@@ -266,7 +266,8 @@ void print(const std::vector<ExerciseStatistics>& all, const classroom::ClassRes
 ExitCode devStats(const Project& project, const StatsOptions& options) {
   requireFolder(options.results, "the folder of results that rex grade wrote");
   const ClassFiles files{.course = options.course, .deadlines = options.deadlines};
-  const classroom::LatePolicy policy = readClassCourse(project, files).policy;
+  const classroom::Course course = readClassCourse(project, files);
+  const ExitCode roster = tellRoster(course);
   classroom::ClassResults read = classroom::readClassResults(options.results);
   if (!options.course.empty())
     read = classroom::resultsByPerson(
@@ -278,7 +279,7 @@ ExitCode devStats(const Project& project, const StatsOptions& options) {
                       .found = "no results",
                       .wanted = "STUDENT/EXERCISE/results.json in it"});
   const std::vector<ExerciseStatistics> all = classroom::exerciseStatistics(read.results);
-  print(all, read, policy, options);
+  print(all, read, course.policy, options);
   if (!options.figure.empty()) {
     writeFigure(pointsFigure(read.results), options.figure);
     note(fmt::format("Drawn: {}", shown(options.figure)));
@@ -287,7 +288,7 @@ ExitCode devStats(const Project& project, const StatsOptions& options) {
     writeFigure(partsFigure(all), options.parts);
     note(fmt::format("Drawn: {}", shown(options.parts)));
   }
-  return read.complaints.empty() ? ExitCode::kFull : ExitCode::kNotGradable;
+  return read.complaints.empty() ? roster : ExitCode::kNotGradable;
 }
 
 }  // namespace rex::cli

@@ -25,8 +25,9 @@ namespace fs = std::filesystem;
 
 constexpr const char* kFeedbackZip = "feedback.zip";
 constexpr const char* kExportCodes =
-    "Exit codes: 0 written; 2 written, but somebody was left out, who is named; 3 a file is broken;\n"
-    "64 wrong use.";
+    "Exit codes: 0 written; 2 written, but somebody was left out or has more points than the platform "
+    "takes,\n"
+    "who is named; 3 a file is broken; 64 wrong use.";
 
 struct ExportOptions {
   fs::path results{};
@@ -43,19 +44,23 @@ struct Export {
   classroom::Course course{};
   classroom::Gradebook book{};
   classroom::ImportTable imported{};
+  ExitCode roster = ExitCode::kFull;
 };
 
 Export read(const Project& project, const ExportOptions& options) {
   Export all{.tasks = tasksIn(options.results)};
   const std::string only = options.exercise.empty() ? "" : project.exercise(options.exercise).name;
-  all.course = readClassCourse(project, options.files);
-  all.book = readGradebook(project, options.files, all.tasks, options.results, only);
+  const classroom::GradebookSource source =
+      readGradebookSource(project, options.files, all.tasks, options.results, only);
+  all.course = source.course;
+  all.roster = tellRoster(all.course);
+  all.book = classroom::makeGradebook(source);
   all.imported = classroom::importTableIn(options.results);
   if (all.book.rows.empty())
     throw UsageError({.what = "nothing to export",
                       .where = {options.results.string()},
                       .found = only.empty() ? "no grades" : "no grades for " + only,
-                      .wanted = "an exercise that somebody has handed in"});
+                      .wanted = "an exercise that was handed in and graded"});
   for (const std::string& sentence : all.book.notes) note(wrap(escapeForTerminal(sentence), 2, 0));
   return all;
 }
@@ -69,26 +74,28 @@ void makePlace(const ExportOptions& options) {
   removeLeftovers(options.out);
 }
 
-ExitCode told(const std::vector<std::string>& notes) {
+ExitCode told(const std::vector<std::string>& notes, ExitCode roster) {
   for (const std::string& sentence : notes) note(wrap(escapeForTerminal(sentence), 2, 0));
-  return notes.empty() ? ExitCode::kFull : ExitCode::kNotGradable;
+  return notes.empty() ? roster : ExitCode::kNotGradable;
 }
 
-ExitCode write(const classroom::PlatformGrades& grades, const ExportOptions& options,
-               const std::string& name) {
+ExitCode exportTable(const Project& project, const ExportOptions& options,
+                     classroom::PlatformGrades (*platform)(const classroom::Gradebook&)) {
+  const Export all = read(project, options);
+  const classroom::PlatformGrades grades = platform(all.book);
   makePlace(options);
-  const fs::path file = options.out / name;
+  const fs::path file = options.out / "grades.csv";
   replaceTextFile(file, grades.csv, "the table of grades");
   say(fmt::format("Grades: {}", shown(file)));
-  return told(grades.notes);
+  return told(grades.notes, all.roster);
 }
 
 ExitCode exportGradescope(const Project& project, const ExportOptions& options) {
-  return write(gradescopeGrades(read(project, options).book), options, "grades.csv");
+  return exportTable(project, options, classroom::gradescopeGrades);
 }
 
 ExitCode exportCanvas(const Project& project, const ExportOptions& options) {
-  return write(canvasGrades(read(project, options).book), options, "grades.csv");
+  return exportTable(project, options, classroom::canvasGrades);
 }
 
 ExitCode exportJson(const Project& project, const ExportOptions& options) {
@@ -96,11 +103,11 @@ ExitCode exportJson(const Project& project, const ExportOptions& options) {
   const std::string text = classroom::gradesJson(all.book, all.course);
   if (options.out.empty()) {
     std::fputs(text.c_str(), stdout);
-    return ExitCode::kFull;
+    return all.roster;
   }
   replaceTextFile(options.out, text, "the grades");
   say(fmt::format("Grades: {}", shown(options.out)));
-  return ExitCode::kFull;
+  return all.roster;
 }
 
 ExitCode exportHtml(const Project& project, const ExportOptions& options) {
@@ -108,7 +115,7 @@ ExitCode exportHtml(const Project& project, const ExportOptions& options) {
   makePlace(options);
   const int written = classroom::writeFeedbackFolders(all.book, options.results, options.out);
   say(fmt::format("Feedback: {} pages in {}", written, shown(options.out)));
-  return ExitCode::kFull;
+  return all.roster;
 }
 
 void addFeedback(const Export& all, const ExportOptions& options, const std::string& exercise,
@@ -150,7 +157,7 @@ ExitCode exportMoodle(const Project& project, const ExportOptions& options) {
     submission::writeZip(options.out / kFeedbackZip, entries);
     say(fmt::format("Feedback: {}", shown(options.out / kFeedbackZip)));
   }
-  return told(notes);
+  return told(notes, all.roster);
 }
 
 using Exporter = ExitCode (*)(const Project&, const ExportOptions&);

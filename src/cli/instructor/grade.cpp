@@ -9,6 +9,7 @@
 #include <sstream>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -49,11 +50,12 @@ struct GradeManyOptions {
   std::optional<sandbox::Level> level{};   ///< empty: the best that holds here
   std::optional<sandbox::Level> accept{};  ///< the lowest level to accept, though too weak for strangers
   std::optional<std::uint64_t> seed{};
-  std::filesystem::path secret{};     ///< file; empty: the seed decides hidden checks, too
-  std::filesystem::path workers{};    ///< folder that keeps compiled programs; empty: none
-  std::string only{};                 ///< exercise; empty: all
-  std::string student{};              ///< only grade this one; empty: all
-  ClassFiles files{};                 ///< roster, dates and adjustments
+  std::filesystem::path secret{};   ///< file; empty: the seed decides hidden checks, too
+  std::filesystem::path workers{};  ///< folder that keeps compiled programs; empty: none
+  std::string only{};               ///< exercise; empty: all
+  std::string student{};            ///< only grade this one; empty: all
+  std::set<std::pair<std::string, std::string>> chosen{};  ///< folder and exercise of what that one handed in
+  ClassFiles files{};                                      ///< roster, dates and adjustments
   bool acceptFewer = false;           ///< take results of the same text with fewer points, too
   std::filesystem::path submitted{};  ///< CSV file; empty: use the times of the files
   std::filesystem::path
@@ -220,7 +222,7 @@ std::vector<Task> tasksOf(const classroom::SubmittedFiles& handedIn, const Grade
     }
     // Others keep what they were graded with, and so does who was graded alone.
     const auto before = classroom::gradedWith(task, options.out);
-    const bool isChosen = options.student.empty() || options.student == task.student;
+    const bool isChosen = options.student.empty() || options.chosen.contains({task.student, task.exercise});
     if (before && (!isChosen || (before->alone && options.student.empty() && !options.regrade)))
       task.level = before->level, task.seed = before->seed, task.secretId = before->secretId;
     tasks.push_back(std::move(task));
@@ -228,13 +230,34 @@ std::vector<Task> tasksOf(const classroom::SubmittedFiles& handedIn, const Grade
   return tasks;
 }
 
-void requireStudent(const std::vector<Task>& tasks, const std::string& student) {
-  std::vector<std::string> known;
-  for (const Task& task : tasks) known.push_back(task.student);
-  if (student.empty() || std::find(known.begin(), known.end(), student) != known.end()) return;
-  throw UsageError({.what = fmt::format("--student: '{}' handed in nothing", student),
-                    .wanted = "the name of a folder in the folder of submissions",
-                    .nearest = nearestNames(student, known)});
+// The files that count for the student of the option, also those that a partner handed in.
+void chooseStudent(const classroom::SubmittedFiles& handedIn, const classroom::Course& course,
+                   GradeManyOptions& options) {
+  if (options.student.empty()) return;
+  std::vector<Task> tasks;
+  std::vector<std::string> folders, known;
+  for (const classroom::SubmittedFile& file : handedIn.files) {
+    tasks.push_back({.student = file.student, .exercise = file.exercise});
+    folders.push_back(file.student);
+  }
+  const classroom::ImportTable imported = classroom::importTableIn(options.folder);
+  const classroom::Course everyone = classroom::withStudents(course, tasks, imported);
+  const classroom::SubmissionOwners owners(everyone, imported);
+  const std::string id = classroom::studentCalled(options.student, everyone, imported, folders);
+  for (const Task& task : tasks) {
+    const std::vector<std::string> ids = owners.of(task.student, task.exercise);
+    const bool isFolder = everyone.student(id) == nullptr && task.student == id;
+    if (isFolder || std::find(ids.begin(), ids.end(), id) != ids.end())
+      options.chosen.insert({task.student, task.exercise});
+  }
+  if (!options.chosen.empty()) return;
+  known = folders;
+  for (const classroom::CourseStudent& student : everyone.students)
+    known.insert(known.end(), {student.id, student.name});
+  throw UsageError(
+      {.what = fmt::format("--student: '{}' handed in nothing", options.student),
+       .wanted = "the id, number or name of a student, or a folder of submissions",
+       .nearest = id.empty() ? nearestNames(options.student, known) : std::vector<std::string>{}});
 }
 
 // Another seed or another secret gives other questions, so that points of last week could change.
@@ -307,7 +330,7 @@ bool isAlone(const Task& task, const GradeManyOptions& options) {
 }
 
 bool isOpen(const Task& task, const GradeManyOptions& options) {
-  if (!options.student.empty() && options.student != task.student) return false;
+  if (!options.student.empty() && !options.chosen.contains({task.student, task.exercise})) return false;
   if (options.regrade || !isDone(task, options)) return true;
   return options.evidence && !classroom::hasEvidence(task, options.out);
 }
@@ -399,11 +422,18 @@ void keepWhatCollectNeeds(const classroom::SubmittedFiles& handedIn, const Grade
     fs::remove(options.out / classroom::kImportTable);
 }
 
-ExitCode sayTasks(const std::vector<Task>& tasks, const classroom::SubmittedFiles& handedIn,
+// Of what was handed in and of the roster.
+std::vector<std::string> notTaken(const classroom::SubmittedFiles& handedIn,
+                                  const classroom::Course& course) {
+  std::vector<std::string> all = handedIn.complaints;
+  for (const classroom::RosterFault& fault : course.faults) all.push_back(fault.why);
+  return all;
+}
+
+ExitCode sayTasks(const std::vector<Task>& tasks, const std::vector<std::string>& notTaken,
                   const fs::path& manifest, const GradeManyOptions& options, ExitCode taken) {
   if (options.json)
-    say(dump(
-        Json{{"tasks", tasks.size()}, {"manifest", manifest.string()}, {"not_taken", handedIn.complaints}}));
+    say(dump(Json{{"tasks", tasks.size()}, {"manifest", manifest.string()}, {"not_taken", notTaken}}));
   else
     say(fmt::format("{} tasks: {}", tasks.size(), shown(manifest)));
   return taken;
@@ -453,27 +483,28 @@ ExitCode gradeMany(const Project& project, GradeManyOptions options) {
   const classroom::LatePolicy policy = readDeadlines(project, options.files.deadlines);
   const auto sandbox = chooseForStrangers(project, options.level, options.accept);
   if (!sandbox) return ExitCode::kWeakSandbox;
+  const ExitCode roster = tellRoster(course);
   const std::vector<ExerciseInfo> exercises = project.exercises();
   classroom::SubmittedFiles handedIn = classroom::readSubmittedFiles(options.folder, exercises, options.only);
   const std::string only = options.only.empty() ? "" : project.exercise(options.only).name;
   addRejected(options.folder, only, handedIn);
   tell(handedIn);
   if (handedIn.files.empty()) adviseImport(options.folder, exercises);
+  chooseStudent(handedIn, course, options);
   makeFolder(options.out);
   Graders graders(project);
   const std::set<std::string> blocked = blockedOf(handedIn, graders);
   const std::vector<Task> tasks = tasksOf(handedIn, options, sandbox->level, exercises, blocked, graders);
-  requireStudent(tasks, options.student);
   requireSameSettings(tasks, options);
   const fs::path manifest = options.manifest.empty() ? options.out / "tasks.tsv" : options.manifest;
   if (options.manifest.empty()) tellWhatTablesLeaveOut(manifest, only);
   replaceTextFile(manifest, classroom::toManifest(tasks), "the list of tasks");
   const ExitCode taken = !blocked.empty()              ? ExitCode::kGraderFault
-                         : handedIn.complaints.empty() ? ExitCode::kFull
+                         : handedIn.complaints.empty() ? roster
                                                        : ExitCode::kNotGradable;
   keepWhatCollectNeeds(handedIn, options);
   if (!options.manifest.empty()) {
-    return sayTasks(tasks, handedIn, manifest, options, taken);
+    return sayTasks(tasks, notTaken(handedIn, course), manifest, options, taken);
   }
   // What could be wrong with roster, dates and adjustments is said before the first grading.
   const classroom::GradebookSource source =
@@ -497,7 +528,7 @@ ExitCode gradeMany(const Project& project, GradeManyOptions options) {
     say(gradingJson(tasks, options.out,
                     GradingSummary{.level = numberOf(sandbox->level),
                                    .graded = graded,
-                                   .rejected = handedIn.complaints,
+                                   .rejected = notTaken(handedIn, course),
                                    .blocked = {blocked.begin(), blocked.end()}}));
   note(
       fmt::format("{} submission{} at sandbox level {}: {} graded, {} kept, {} could not be taken. Table: {}",

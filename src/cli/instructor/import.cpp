@@ -73,6 +73,7 @@ std::string timesOf(const classroom::ImportReport& report) {
 
 void tell(const classroom::ImportReport& report, const ImportOptions& options) {
   list("Not taken", report.complaints);
+  list("Taken, but to be looked at", report.doubts);
   list("Noted", report.notes);
   list("Changed since an earlier import", report.changes);
   say(fmt::format("{} handed in, {} nothing, {} not taken. Files: {} new, {} changed, {} as before.",

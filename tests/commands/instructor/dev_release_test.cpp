@@ -75,6 +75,21 @@ TEST_F(DevReleaseTest, HoldsTheExercisesThatAreOpenByADay) {
       HasSubstr("--until: found no file with openings, wanted --course FILE.toml or --deadlines FILE.toml"));
 }
 
+// A student's name is nobody's business here, and the secret of the course must not be forgotten.
+TEST_F(DevReleaseTest, TakesTheSecretOfTheCourseAndLeavesItsRoster) {
+  write(root() / "secret", "the secret of the course\n");
+  write(root() / "course.toml",
+        "secret_file = \"secret\"\nstudents = \"none.csv\"\n[[student]]\nid = \"a/b\"\n"
+        "[exercise.98-template]\n");
+  const Ended ended = release({"--course", (root() / "course.toml").string()});
+  EXPECT_EQ(ended.code, 0) << ended.error;
+  EXPECT_EQ(ended.error, "");
+  EXPECT_THAT(flat(ended.output), HasSubstr(", the secret of the course"));
+  fs::remove_all(students());
+  write(exercise() / "README.md", "The key: the secret of THE COURSE\n");
+  EXPECT_EQ(release({"--course", (root() / "course.toml").string()}).code, 1);
+}
+
 // They would write into the installation, or find nothing there to look for.
 TEST(DevVerbs, NeedTheSourceTree) {
   const Project installed{.root = "course", .build = "lib", .installed = "share"};

@@ -234,28 +234,19 @@ TEST(ClassFigure, NeedsPoints) {
 
 TEST(ClassFigure, ShowsWhichPartIsHard) {
   classroom::ExerciseStatistics first{.exercise = "03-a", .graded = 2},
-      second{.exercise = "05-b", .graded = 2};
+      second{.exercise = "05-b", .graded = 2}, none{.exercise = "06-c"};
   first.parts = {{.id = "easy", .maxPoints = 4, .meanPoints = 4},
                  {.id = "hard", .maxPoints = 4, .meanPoints = 1}};
   second.parts = {{.id = "half", .maxPoints = 2, .meanPoints = 1}};
-  classroom::ExerciseStatistics zeroth{.exercise = "00-c", .graded = 2};
-  zeroth.parts = {{.id = "all", .maxPoints = 2, .meanPoints = 2}};
-  EXPECT_EQ(partsFigure({zeroth, first}).notes[0].y, 0);
-  classroom::ExerciseStatistics between = zeroth;
-  between.exercise = "00b-d";
-  const Figure both = partsFigure({zeroth, between});
-  EXPECT_EQ(both.yLabel, "number of the exercise; 00b: 0.5");
-  EXPECT_EQ(both.notes[1].y, 0.5);
-  EXPECT_LT(both.regions[0].y[2], both.regions[1].y[0]) << "their fields lie on each other";
-  const Figure figure = partsFigure({first, second});
+  none.parts = {{.id = "ungraded", .maxPoints = 2}};
+  const Figure figure = partsFigure({first, second, none});
+  EXPECT_THAT(figure.yNames, ElementsAre("05-b: half", "03-a: hard", "03-a: easy")) << "the first at the top";
   ASSERT_EQ(figure.notes.size(), 3u);
-  EXPECT_EQ(figure.notes[1].text, "hard 25 %");
-  EXPECT_EQ(figure.notes[1].y, 3);
-  EXPECT_EQ(figure.notes[2].text, "half 50 %");
-  EXPECT_EQ(figure.notes[2].y, 5);
-  const auto blueOf = [&](std::size_t k) { return figure.regions[k].color->b; };
-  EXPECT_GT(blueOf(0), blueOf(2));
-  EXPECT_GT(blueOf(2), blueOf(1));
+  EXPECT_EQ(figure.notes[1].text, "25 %");
+  ASSERT_EQ(figure.regions.size(), 6u);
+  EXPECT_THAT(figure.regions[3].x, ElementsAre(0, 25, 25, 0));
+  EXPECT_LT(figure.regions[1].y[2], figure.regions[3].y[0]) << "their bars lie on each other";
+  EXPECT_GE(figure.xRange->second, 100);
   EXPECT_REX_ERROR(partsFigure({{.exercise = "01-a"}}), "no points to draw: found only faults of the grader");
 }
 

@@ -219,6 +219,40 @@ TEST_F(GradeAgainTest, GradesOneStudentWithAnotherSeed) {
   EXPECT_THAT(flat(nobody.error), HasSubstr("did you mean 'adam'?"));
 }
 
+TEST_F(GradeAgainTest, GradesWhatAPersonHandedInByAnyKey) {
+  handIn("adam", kWrong), handIn("bob", kGood);
+  write(root() / "course.toml",
+        "[[student]]\nid = \"adam\"\ngroup = \"pair\"\nnumber = \"4711\"\n"
+        "[[student]]\nid = \"yan\"\nname = \"Yan Y.\"\ngroup = \"pair\"\n[[student]]\nid = \"carl\"\n");
+  const auto one = [&](const std::string& key, const std::string& seed) {
+    return grade({"--student", key, "--seed", seed, "--course", (root() / "course.toml").string()});
+  };
+  EXPECT_EQ(grade({"--seed", "7"}).code, 0);
+  int seed = 10;
+  for (const char* key : {"adam", "4711", "yan", "yan y."}) {
+    EXPECT_THAT(flat(one(key, std::to_string(++seed)).error), HasSubstr("1 graded, 1 kept")) << key;
+    EXPECT_EQ(result("adam").at("seed_id"), "public:" + std::to_string(seed)) << key;
+  }
+  EXPECT_THAT(flat(one("bob", "9").error), HasSubstr("1 graded, 1 kept"))
+      << "a folder of nobody on the roster";
+  EXPECT_THAT(flat(one("carl", "9").error), HasSubstr("--student: 'carl' handed in nothing"));
+}
+
+// A fault of one row is told with its line, and what that student handed in is in the table of strangers.
+TEST_F(GradeAgainTest, GradesTheClassInSpiteOfAFaultyRow) {
+  handIn("adam", kGood), handIn("bob", kGood);
+  write(root() / "students.csv", "id,name\nadam,Adam\nbob,B\u202Eob\n");
+  write(root() / "course.toml", "students = \"students.csv\"\n");
+  const Ended ended = grade({"--course", (root() / "course.toml").string(), "--json"});
+  EXPECT_EQ(ended.code, 2);
+  const std::string fault = "students.csv:3: a student: 'name': found a line break or an invisible character";
+  EXPECT_THAT(flat(ended.error), HasSubstr(fault));
+  EXPECT_THAT(nlohmann::json::parse(ended.output).at("not_taken").at(0).get<std::string>(), HasSubstr(fault));
+  EXPECT_THAT(table(), HasSubstr("\nadam,Adam,,,98-template,graded,"));
+  EXPECT_THAT(fileText(results() / "not_on_roster.csv"), HasSubstr("bob,,,,98-template,graded,"));
+  EXPECT_THAT(fileText(results() / "not_on_roster.csv"), HasSubstr(fault));
+}
+
 TEST_F(GradeAgainTest, ReadsTheAdjustmentsBeforeTheFirstGrading) {
   handIn("adam", kGood);
   write(root() / "course.toml", "adjustments = \"none.toml\"\n");

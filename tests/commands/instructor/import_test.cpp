@@ -96,6 +96,18 @@ TEST_F(ImportTest, TellsWhatHasChangedAndWhereTimesComeFrom) {
   EXPECT_THAT(again.output, HasSubstr("handed-in/import.json"));
 }
 
+TEST_F(ImportTest, TellsApartWhatWasNotTakenAndWhatIsToBeLookedAt) {
+  writeTextFile(in("all.zip"), zipOf({{.name = "Zoe_1_assignsubmission_file_/main.cpp", .text = kGood},
+                                      {.name = "Xi_3_assignsubmission_file_/main.cpp", .text = kWrong}}));
+  writeTextFile(in("sheet.csv"), "Identifier,Full name\nParticipant 1,Zo\u200Be\n");
+  const Ended ended = import("moodle", {in("all.zip"), "--exercise", "98", "--worksheet", in("sheet.csv")});
+  EXPECT_EQ(ended.code, 0) << "all was taken";
+  EXPECT_THAT(flat(ended.error),
+              HasSubstr("Taken, but to be looked at (1): Xi_3_assignsubmission_file_: participant 3 is not"));
+  EXPECT_THAT(flat(ended.error), HasSubstr("left out of the name 'Zoe', where nobody sees it: U+200B"));
+  EXPECT_THAT(ended.error, Not(HasSubstr("Not taken")));
+}
+
 TEST_F(ImportTest, LeavesOutWhatIsAsItWasHandedOut) {
   if (!runProcess({"git", "--version"}).ok()) GTEST_SKIP() << "git is not installed";
   const fs::path clone = root() / "clones/hw-zoe";
