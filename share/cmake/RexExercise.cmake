@@ -174,6 +174,7 @@ function(rex_worker_part name folder output)
   set(groups ${PROJECT_SOURCE_DIR}/share/cmake/exercise/function_groups.toml)
   set(part ${output}/worker_part.o)
   rex_json_strings(functions ${ARG_FUNCTIONS})  # as in TOML
+  rex_json_strings(link_flags ${REX_STUDENT_LINK_FLAGS})
   set(order ${output}/worker_part.toml)
   file(GENERATE OUTPUT ${order} CONTENT "\
 exercise = \"${folder}\"
@@ -183,11 +184,12 @@ objects = [\"$<JOIN:${objects},\",\n\">\"]
 functions = [${functions}]
 libraries = [\"$<JOIN:${files},\", \">\"]
 compiler = \"${CMAKE_CXX_COMPILER}\"
+link_flags = [${link_flags}]
 objcopy = \"${CMAKE_OBJCOPY}\"
 nm = \"${CMAKE_NM}\"
 folder = \"${output}\"
 ")
-  add_custom_command(OUTPUT ${part} ${output}/worker_part.options ${output}/worker.offers
+  add_custom_command(OUTPUT ${part} ${output}/worker_part.options ${output}/worker.offers ${output}/worker.control
     COMMAND rex_worker_part ${order}
     DEPENDS rex_worker_part rex_submission ${REX_WORKER_OBJECT} ${objects} ${order} ${groups} ${folder}/exercise.toml
     COMMENT "Extracting what ${name} allows of the library" VERBATIM)
@@ -196,7 +198,8 @@ endfunction()
 
 # The built files that an exercise cannot be graded or shown without. Uses REX_PREFIX and REX_SHOW.
 function(rex_exercise_products variable name output)
-  set(products ${output}/worker_part.o ${output}/worker_part.options ${output}/worker.offers ${output}/build.json)
+  set(products ${output}/worker_part.o ${output}/worker_part.options ${output}/worker.offers ${output}/worker.control
+               ${output}/build.json)
   if(REX_PREFIX)
     list(APPEND products ${output}/worker.o)
   endif()

@@ -84,6 +84,7 @@ function(rex_install_exercises)
     set(built ${PROJECT_BINARY_DIR}/exercises/${name})
     set(destination ${REX_INSTALLED}/exercises/${name})
     install(TARGETS ${name}_grader RUNTIME DESTINATION ${destination} COMPONENT runtime)
+    install(PROGRAMS ${built}/worker.control DESTINATION ${destination} COMPONENT runtime)
     install(DIRECTORY ${built}/ DESTINATION ${destination} COMPONENT runtime
             FILES_MATCHING PATTERN "worker*.o" PATTERN "worker*.options" PATTERN "worker.offers" PATTERN "show.a"
             ${REX_TRANSIENT})

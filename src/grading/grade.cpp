@@ -1,6 +1,7 @@
 #include "grading/grade.h"
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <exception>
 #include <map>
@@ -81,7 +82,6 @@ std::string messageWithoutDetails(const Failure& failure) {
 // What a program prints as it crashes is its output, too: see KeptOutput.
 CheckResult failed(const CheckInfo& info, const Failure& failure, const std::string& input,
                    bool hasSecretChecks) {
-  if (failure.outcome == Outcome::kGraderError) return faulty(info, failure.message);
   CheckResult check = blank(info);
   check.status = failure.outcome;
   check.function = failure.function;
@@ -155,10 +155,20 @@ void keepEvidence(const Check& judge, const std::filesystem::path& folder, Check
   }
 }
 
-/// What is known about a check so far, written down in case judging it ends the process.
+CheckResult outOfTime(const CheckInfo& info, const std::string& why) {
+  CheckResult check = blank(info);
+  check.status = Outcome::kTimeLimit;
+  check.message = why;
+  return check;
+}
+
+/// What is known about a check so far, written down in case judging it ends the process: that the file is to
+/// blame, until something else is proven.
 class Standing {
  public:
-  explicit Standing(std::function<void(const CheckResult&)> write) : write_(std::move(write)) {}
+  Standing(const CheckInfo& info, std::function<void(const CheckResult&)> write) : write_(std::move(write)) {
+    keep(outOfTime(info, "ended the grader, or cost it too much time or memory, before the first answer"));
+  }
 
   void answeredBy(const CheckInfo& info, const std::string& function) {
     function_ = function;
@@ -178,6 +188,7 @@ class Standing {
 struct Attempt {
   WorkerRun run;
   CheckResult verdict;
+  bool slept = false;  ///< before or in its first call
 };
 
 /// Thrown through a check function if a worker failed that it had started beside its first one.
@@ -195,15 +206,24 @@ void addUsage(WorkerRun& whole, const WorkerRun& part) {
   whole.error.bytes += part.error.bytes;
 }
 
-Attempt attempt(const RunnableCheck& check, const Grading& grading, std::uint64_t seed, Standing& standing) {
+bool isLate(const WorkerRun& run) {
+  return run.failure && run.failure->mayBeOfMachine && run.failure->outcome == Outcome::kTimeLimit;
+}
+
+Attempt attempt(const RunnableCheck& check, const Grading& grading, std::uint64_t seed, Standing& standing,
+                double patience) {
   CheckResult verdict = faulty(check.info, "the check did not end");
   Check judge(check.info, seed);
+  bool hasAnswered = false;
   const auto converse = [&](const Check::Conversation& conversation) {
-    return runWithWorker(grading.job, check.info.part, grading.signature, [&](remote::Caller& caller) {
-      caller.whenFirstAnswered(
-          [&](const std::string& function) { standing.answeredBy(check.info, function); });
+    const auto listening = [&](remote::Caller& caller) {
+      caller.whenFirstAnswered([&](const std::string& function) {
+        hasAnswered = true;
+        standing.answeredBy(check.info, function);
+      });
       conversation(caller);
-    });
+    };
+    return runWithWorker(grading.job, check.info.part, grading.signature, listening, patience);
   };
   WorkerRun fresh;
   judge.startWorkersBy([&](const Check::Conversation& conversation) {
@@ -240,20 +260,36 @@ Attempt attempt(const RunnableCheck& check, const Grading& grading, std::uint64_
     standing.keep(verdict);  // in case the picture ends this process
     keepEvidence(judge, grading.job.evidence, verdict);
   }
-  return {std::move(run), std::move(verdict)};
+  const bool slept = isLate(run) && !hasAnswered;
+  return {std::move(run), std::move(verdict), slept};
 }
 
-// The second attempt asks the same questions, so a program gains nothing by killing itself.
+// The longest that a busy machine makes us wait.
+double patienceFor(const std::optional<double>& slowness) {
+  constexpr double kMost = 4;
+  return std::min(slowness.value_or(kMost), kMost);
+}
+
+// The second attempt asks the same questions, so a program gains nothing by killing itself. It is owed the
+// time that the machine takes now; if it is late again, the control alone tells who is to blame.
 Attempt attemptTwiceIfNeeded(const RunnableCheck& check, const Grading& grading, std::uint64_t seed,
                              Standing& standing) {
-  return onceMoreIfKilled(
-      [&] { return attempt(check, grading, seed, standing); },
-      [](const Attempt& first) { return first.run.failure && first.run.failure->mayBeOfMachine; });
+  const auto slowness = [&] { return slownessOfMachine(grading.job, grading.signature); };
+  Attempt first = attempt(check, grading, seed, standing, 1);
+  if (!first.run.failure || !first.run.failure->mayBeOfMachine) return first;
+  Attempt second = attempt(check, grading, seed, standing, isLate(first.run) ? patienceFor(slowness()) : 1);
+  second.run.cpuSeconds += first.run.cpuSeconds;
+  if (isLate(second.run) && !slowness()) {
+    second.verdict =
+        faulty(check.info, "on this machine, even a program without your code does not answer in time");
+    second.slept = false;
+  }
+  return second;
 }
 
-/// Runs one check and adds what the worker used and printed to the whole.
+/// Runs one check and adds what the worker used and printed to the whole. Tells if the program `slept`.
 CheckResult runCheck(const RunnableCheck& check, const Grading& grading, GradeResult& whole,
-                     Standing& standing) {
+                     Standing& standing, bool& slept) {
   CheckResult verdict;
   const auto brokenBy = [&](const std::exception* error) {
     return standing.function().empty()
@@ -264,6 +300,7 @@ CheckResult runCheck(const RunnableCheck& check, const Grading& grading, GradeRe
     const Attempt last =
         attemptTwiceIfNeeded(check, grading, seedFor(check.info.group, whole, grading), standing);
     const WorkerRun& run = last.run;
+    slept = last.slept;
     verdict = last.verdict;
     verdict.cpuSeconds = run.cpuSeconds;
     verdict.wallSeconds = run.wallSeconds;
@@ -330,33 +367,107 @@ void limitJudging([[maybe_unused]] const Limits& limits) {
 #endif
 }
 
-// Runs each check in a copy of this process. The results stay here, so nothing that happens while an answer
-// is judged can harm them. Calls `ended(k, part)` as each check ends, in any order.
-void runInTheirCopies(const GradeResult& start, std::span<const RunnableCheck> checks, const Grading& grading,
-                      const std::function<void(std::size_t, GradeResult)>& ended) {
-  const PrivateFolder folder(grading.job.temporaryFolder);
-  const auto file = [&](int k) { return folder.path() / fmt::format("{}.json", k); };
-  const auto run = [&](int k) {
-    limitJudging(grading.job.limits);
-    GradeResult part = start;
+/// What a file may use for all of its checks: as much as they may one after the other, and three more. Second
+/// attempts and waiting are paid from it.
+class Budget {
+ public:
+  Budget(const Grading& grading, std::size_t checks)
+      : grading_(grading), checks_(static_cast<double>(checks + kMostAsleep)) {}
+
+  void pay(const GradeResult& part, bool slept) {
+    cpuSeconds_ += part.usage.cpuSeconds;
+    if (slept) ++asleep_;
+  }
+  /// Why there is no time for another check; empty: there is.
+  std::string whySpent() const {
+    const Limits& limits = grading_.job.limits;
+    const double cpu = checks_ * limits.cpuBudget(), wall = checks_ * limits.wallBudget();
+    if (asleep_ >= kMostAsleep)
+      return fmt::format("was not run: in {} checks, the program slept before or in its first call", asleep_);
+    if (cpuSeconds_ > cpu)
+      return fmt::format("was not run: the checks before it used more than {:g} s of CPU time", cpu);
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start_;
+    if (took.count() <= wall ||
+        took.count() <= wall * patienceFor(slownessOfMachine(grading_.job, grading_.signature)))
+      return {};
+    return fmt::format("was not run: the checks before it took more than {:g} s", wall);
+  }
+
+ private:
+  static constexpr int kMostAsleep = 3;
+  const Grading& grading_;
+  double checks_, cpuSeconds_ = 0;
+  int asleep_ = 0;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Runs each check in a copy of this process. The results stay here, so nothing that happens while an answer
+/// is judged can harm them.
+class Copies {
+ public:
+  /// Calls `ended(k, part)` as each check ends, in any order.
+  Copies(const GradeResult& start, std::span<const RunnableCheck> checks, const Grading& grading,
+         std::function<void(std::size_t, GradeResult)> ended)
+      : start_(start), checks_(checks), grading_(grading), ended_(std::move(ended)) {}
+
+  /// A copy that is killed, perhaps because the machine is short of memory, gets a second try.
+  void run(std::vector<std::size_t> numbers) {
+    for (const bool isLast : {false, true}) {
+      std::vector<std::size_t> killed;
+      forkMap(
+          static_cast<int>(numbers.size()), grading_.job.jobs,
+          [&](int n) { return runHere(numbers[static_cast<std::size_t>(n)]); },
+          [&](int n, int code) {
+            const std::size_t k = numbers[static_cast<std::size_t>(n)];
+            if (code == -SIGKILL && !isLast)
+              killed.push_back(k);
+            else
+              take(k, code);
+          });
+      numbers = std::move(killed);
+    }
+  }
+
+ private:
+  static constexpr int kSlept = 2;
+  std::filesystem::path file(std::size_t k) const { return folder_.path() / fmt::format("{}.json", k); }
+
+  int runHere(std::size_t k) const {
+    limitJudging(grading_.job.limits);
+    GradeResult part = start_;
     const auto write = [&](const CheckResult& verdict) {
       part.checks = {verdict};
       saveResult(part, file(k));
     };
-    Standing standing(write);
-    write(runCheck(checks[static_cast<std::size_t>(k)], grading, part, standing));
-    return 0;
-  };
-  forkMap(static_cast<int>(checks.size()), grading.job.jobs, run, [&](int k, int code) {
-    const auto place = static_cast<std::size_t>(k);
-    GradeResult broken;
-    broken.checks = {faulty(checks[place].info, "the check crashed its process")};
-    // A SIGKILL, or an exit code other than 0 because no result could be written, is the machine's fault.
-    const bool isOfAnswer = code == 0 || (code < 0 && code != -SIGKILL);
-    const bool stands = isOfAnswer && std::filesystem::exists(file(k));
-    ended(place, stands ? loadResult(file(k)) : std::move(broken));
-  });
-}
+    if (const std::string why = budget_.whySpent(); !why.empty()) {
+      write(outOfTime(checks_[k].info, why));
+      return 0;
+    }
+    Standing standing(checks_[k].info, write);
+    bool slept = false;
+    write(runCheck(checks_[k], grading_, part, standing, slept));
+    return slept ? kSlept : 0;
+  }
+
+  // With another exit code no result could be written, which is the machine's fault.
+  void take(std::size_t k, int code) {
+    const bool stands = (code <= 0 || code == kSlept) && std::filesystem::exists(file(k));
+    GradeResult part;
+    if (stands)
+      part = loadResult(file(k));
+    else
+      part.checks = {faulty(checks_[k].info, "the check crashed its process")};
+    budget_.pay(part, code == kSlept);
+    ended_(k, std::move(part));
+  }
+
+  const GradeResult& start_;
+  std::span<const RunnableCheck> checks_;
+  const Grading& grading_;
+  std::function<void(std::size_t, GradeResult)> ended_;
+  PrivateFolder folder_{grading_.job.temporaryFolder};
+  Budget budget_{grading_, checks_.size()};
+};
 
 }  // namespace
 
@@ -396,7 +507,7 @@ GradeResult grade(GradeResult result, std::span<const RunnableCheck> checks, con
   save(result);
   const GradeResult start = result;
   std::map<std::size_t, GradeResult> parts;  // put together in the order of the checks
-  runInTheirCopies(start, checks, grading, [&](std::size_t k, GradeResult part) {
+  Copies copies(start, checks, grading, [&](std::size_t k, GradeResult part) {
     parts.emplace(k, std::move(part));
     result = start;
     for (const auto& [place, one] : parts) add(result, place, one);
@@ -406,6 +517,13 @@ GradeResult grade(GradeResult result, std::span<const RunnableCheck> checks, con
     }
     save(result);
   });
+  // What a program learns in a hidden check, it may find a way to tell a visible one that runs beside it.
+  for (const Group group : {Group::kVisible, Group::kHidden}) {
+    std::vector<std::size_t> numbers;
+    for (std::size_t k = 0; k < checks.size(); ++k)
+      if (checks[k].info.group == group) numbers.push_back(k);
+    copies.run(std::move(numbers));
+  }
   return result;
 }
 

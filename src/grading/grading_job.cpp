@@ -12,6 +12,7 @@ void declareOptions(CLI::App& app, GradingJob& job) {
   app.add_option("--part", job.parts,
                  "a part of the exercise with a worker of its own, WORKER.PART (repeatable)")
       ->allow_extra_args(false);
+  app.add_option("--control", job.control, "a worker without a student's code, to measure the machine by");
   app.add_option("--results", job.results, "result file; its fields about the submission are kept");
   app.add_option("--check", job.checks, "run only this check (repeatable)")->allow_extra_args(false);
   app.add_option("--seed", job.seed, "seed of all random numbers");
@@ -40,6 +41,7 @@ std::vector<std::string> toArguments(const GradingJob& job) {
   };
   add("--worker", job.worker.string());
   for (const std::string& part : job.parts) add("--part", part);
+  add("--control", job.control.string());
   add("--results", job.results.string());
   for (const std::string& check : job.checks) add("--check", check);
   add("--seed", fmt::format("{}", job.seed));

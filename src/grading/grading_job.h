@@ -19,6 +19,7 @@ namespace rex::grading {
 struct GradingJob {
   std::filesystem::path worker{};     ///< see workerProgram(); empty: all checks are listed as not run
   std::vector<std::string> parts{};   ///< of the exercise, with workers of their own
+  std::filesystem::path control{};    ///< see slownessOfMachine(); empty: lost time is the file's fault
   std::filesystem::path results{};    ///< results.json; its fields about the submission are kept; empty: none
   std::vector<std::string> checks{};  ///< ids; empty: all
   std::uint64_t seed = 1;

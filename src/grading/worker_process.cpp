@@ -7,11 +7,9 @@
 #include <cmath>
 #include <csignal>
 #include <cstring>
-#include <fstream>
 #include <optional>
 #include <random>
 #include <stdexcept>
-#include <system_error>
 #include <utility>
 
 #include <fcntl.h>
@@ -187,39 +185,6 @@ class OneCore {
   cpu_set_t before_;
 };
 
-/// Seconds that a process ran on a core, and that it was ready to run while others had it; 0 if the kernel
-/// does not count them.
-struct CoreSeconds {
-  double with = 0, without = 0;
-};
-
-CoreSeconds coreSeconds(pid_t process) {
-  std::ifstream file(fmt::format("/proc/{}/schedstat", process));
-  double running = 0, ready = 0;  // nanoseconds
-  return file >> running >> ready ? CoreSeconds{1e-9 * running, 1e-9 * ready} : CoreSeconds{};
-}
-
-// The only child of a process, or the process itself if it has none: in a sandbox with namespaces the program
-// is the child of the child of the process that we started.
-pid_t childOf(pid_t process) {
-  std::ifstream file(fmt::format("/proc/{0}/task/{0}/children", process));
-  pid_t child = 0;
-  return file >> child ? child : process;
-}
-
-// Whether one of its threads waits for something other than a core or a disk.
-bool hasSleepingThread(pid_t process) {
-  std::error_code ended;
-  for (const auto& thread : fs::directory_iterator(fmt::format("/proc/{}/task", process), ended)) {
-    std::ifstream file(thread.path() / "stat");
-    std::string text;
-    std::getline(file, text, '\0');
-    const std::size_t name = text.rfind(") ");  // what follows is the state
-    if (name != std::string::npos && std::strchr("RD", text[name + 2]) == nullptr) return true;
-  }
-  return false;
-}
-
 sandbox::Confinement confinementOf(const GradingJob& job, const fs::path& program) {
   if (!sandbox::isConfined(job.sandbox.level)) return {};
   sandbox::Confinement confinement{.readable = {{fs::absolute(program), sandbox::kInsideProgram}},
@@ -244,7 +209,7 @@ LaunchOrder orderOf(const GradingJob& job, const fs::path& program, const sandbo
 
 class Worker {
  public:
-  Worker(const GradingJob& job, const fs::path& program);
+  Worker(const GradingJob& job, const fs::path& program, double patience);
   ~Worker();
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
@@ -259,15 +224,8 @@ class Worker {
 
  private:
   void waitFor(int fd, remote::Channel::Direction direction);
-  pid_t program() const;
   double budget() const { return ready_ ? job_.limits.wallBudget() : job_.limits.startBudget(); }
-  double secondsWithoutCores() const {
-    return coreSeconds(program()).without + coreSeconds(::getpid()).without;
-  }
-  double secondsLeft();
-  bool sleepsAtStart();
-  bool delaysItsStart();
-  Failure tooLate();
+  Failure tooLate() const;
   void drain();
   bool waitForEnd(double seconds);
   void readReport();
@@ -277,6 +235,7 @@ class Worker {
   std::string place() const { return failurePlace(ready_, caller_.running()); }
 
   const GradingJob& job_;
+  const double patience_;
   SigpipeIgnored sigpipe_;
   OneCore core_;
   NewDescendants descendants_;
@@ -286,10 +245,7 @@ class Worker {
   OutputCapture output_;
   OutputCapture error_;
   remote::Caller caller_;
-  double coreless_ = coreSeconds(::getpid()).without;
-  double asleep_ = 0;  // seconds before it was ready
   double waited_ = 0;
-  double allowed_ = job_.limits.startBudget();
   bool ready_ = false;
   bool over_ = false;
   std::optional<ChildEnd> end_{};  // once it has been reaped
@@ -297,8 +253,9 @@ class Worker {
 };
 
 // The ids of the messages are random so that the worker cannot predict them; they influence no result.
-Worker::Worker(const GradingJob& job, const fs::path& program)
+Worker::Worker(const GradingJob& job, const fs::path& program, double patience)
     : job_(job),
+      patience_(patience),
       cell_(job.sandbox, confinementOf(job, program)),
       folder_(job.temporaryFolder),
       launched_(launchWorker(orderOf(job, program, cell_, folder_.path()))),
@@ -317,71 +274,40 @@ Worker::~Worker() {
 
 void Worker::converse(std::uint64_t signature, const std::function<void(remote::Caller&)>& conversation) {
   caller_.handshake(signature);
-  // Loading a program and its sandbox on a busy machine is not charged to the student.
+  // Loading a program and its sandbox is not charged to the student.
   ready_ = true;
   waited_ = 0;
-  allowed_ = budget();
-  coreless_ = secondsWithoutCores();
   conversation(caller_);
 }
 
-// How long we still wait. Time in which the worker or we had no core because the machine was busy is added,
-// but only up to a limit: a worker can deprive itself of its core by starting other processes.
-double Worker::secondsLeft() {
-  if (waited_ < allowed_) return allowed_ - waited_;
-  constexpr double kMostPatience = 4;
-  allowed_ = std::min(budget() + secondsWithoutCores() - coreless_, kMostPatience * budget());
-  return allowed_ - waited_;
-}
-
-pid_t Worker::program() const {
-  return sandbox::hasNamespaces(job_.sandbox.level) ? childOf(childOf(launched_.process)) : launched_.process;
-}
-
-bool Worker::sleepsAtStart() {
-  if (sandbox::isConfined(job_.sandbox.level)) {
-    readReport();
-    if (!sandbox::readReport(report_).ready) return false;
-  }
-  return hasSleepingThread(program());
-}
-
-// Constructors of global variables run before the worker is ready. While the machine loads a program, it is
-// ready to run or waits for a disk, never sleeps, and runs for a moment only.
-bool Worker::delaysItsStart() {
-  return sleepsAtStart() || asleep_ + coreSeconds(program()).with > budget() / 2;
-}
-
-Failure Worker::tooLate() {
-  if (!ready_ && !delaysItsStart())
-    return {.outcome = Outcome::kGraderError,
-            .message = fmt::format("a worker was not ready after {:.1f} s", budget()),
-            .mayBeOfMachine = true};
+Failure Worker::tooLate() const {
   return {.outcome = Outcome::kTimeLimit,
           .message = fmt::format("stopped after {:.1f} s {} (asleep, blocked, or in an infinite loop?)",
-                                 budget(), place())};
+                                 budget(), place()),
+          .mayBeOfMachine = true};
 }
 
-// Only the time that we wait counts: the grader's own work is not charged to the student.
+// Only the time that we wait counts: the grader's own work is not charged to the student. Between two looks
+// at its output there is a pause, so that a program cannot make us work by what it prints.
 void Worker::waitFor(int fd, remote::Channel::Direction direction) {
+  constexpr double kPause = 0.002;
   const short events = direction == remote::Channel::Direction::kRead ? POLLIN : POLLOUT;
   const auto start = Clock::now();
   const double before = waited_;
-  bool ended = false;
+  bool ended = false, printed = false;
   for (;;) {
-    constexpr double kBetweenLooks = 0.1;
     waited_ = before + secondsSince(start);
-    double left = secondsLeft();
+    const double left = patience_ * budget() - waited_;
     if (left <= 0) throw GaveUp(tooLate());
-    if (!ready_) left = std::min(left, kBetweenLooks);
+    const double seconds = ended ? 0 : printed ? std::min(left, kPause) : left;
     std::array<pollfd, 4> polled{{{fd, events, 0},
                                   {launched_.processFd, POLLIN, 0},
-                                  {output_.fd(), POLLIN, 0},
-                                  {error_.fd(), POLLIN, 0}}};
-    ::poll(polled.data(), polled.size(), ended ? 0 : static_cast<int>(std::min(std::ceil(left * 1000), 1e6)));
-    if (polled[2].revents != 0 || polled[3].revents != 0) drain();
+                                  {printed ? -1 : output_.fd(), POLLIN, 0},
+                                  {printed ? -1 : error_.fd(), POLLIN, 0}}};
+    ::poll(polled.data(), polled.size(), static_cast<int>(std::min(std::ceil(seconds * 1000), 1e6)));
+    printed = polled[2].revents != 0 || polled[3].revents != 0;
+    if (printed) drain();
     if (polled[0].revents != 0) break;
-    if (!ready_ && sleepsAtStart()) asleep_ += before + secondsSince(start) - waited_;
     // A last message may arrive while poll() looks at one descriptor after the other: poll once more.
     if (polled[1].revents != 0 && std::exchange(ended, true)) throw remote::Closed("the worker ended");
   }
@@ -482,8 +408,8 @@ WorkerRun Worker::end() {
 }  // namespace
 
 WorkerRun runWithWorker(const GradingJob& job, const std::string& part, std::uint64_t signature,
-                        const std::function<void(remote::Caller&)>& conversation) {
-  Worker worker(job, workerProgram(part, job));
+                        const std::function<void(remote::Caller&)>& conversation, double patience) {
+  Worker worker(job, workerProgram(part, job), patience);
   std::optional<Failure> failure;
   try {
     worker.converse(signature, conversation);
@@ -496,12 +422,20 @@ WorkerRun runWithWorker(const GradingJob& job, const std::string& part, std::uin
   }
   if (failure && failure->function.empty()) failure->function = worker.running();
   WorkerRun run = worker.end();
-  constexpr double kHardlyRan = .1;
-  if (failure && failure->outcome == Outcome::kTimeLimit &&
-      run.cpuSeconds < kHardlyRan * job.limits.cpuBudget())
-    failure->mayBeOfMachine = true;
   run.failure = std::move(failure);
   return run;
+}
+
+std::optional<double> slownessOfMachine(const GradingJob& job, std::uint64_t signature) {
+  if (job.control.empty()) return 1;
+  GradingJob control = job;
+  control.worker = job.control;
+  control.parts.clear();
+  const WorkerRun run = runWithWorker(control, "", signature, [](remote::Caller& caller) {
+    static_cast<void>(caller.call(0, "the control", remote::Writer(), {}));
+  });
+  if (run.failure) return {};
+  return std::max(1., run.wallSeconds / remote::kControlSeconds);
 }
 
 }  // namespace rex::grading

@@ -32,8 +32,16 @@ struct WorkerRun {
 /// are removed. Misbehaviour of the worker becomes a Failure; other exceptions of the conversation are
 /// passed on. The caller must not start other processes meanwhile: they would be taken for the worker's.
 /// Throws Error if the program or its sandbox cannot be started. Sandbox level 0 (limits and a clock) is no
-/// protection against malicious programs.
+/// protection against malicious programs. It waits `patience` times as long as the limits say; a Failure
+/// because that was not enough may be of the machine: slownessOfMachine() decides.
 [[nodiscard]] WorkerRun runWithWorker(const GradingJob& job, const std::string& part, std::uint64_t signature,
-                                      const std::function<void(remote::Caller&)>& conversation);
+                                      const std::function<void(remote::Caller&)>& conversation,
+                                      double patience = 1);
+
+/// The experiment that tells whether a file or the machine is to blame for lost time: runs the job's control,
+/// a worker without code of a student's, in the same sandbox under the same limits. Returns how many times
+/// as long as on an idle machine its work took, at least 1; nothing if it was not ready, or did not answer,
+/// in time. Without a control, returns 1.
+[[nodiscard]] std::optional<double> slownessOfMachine(const GradingJob& job, std::uint64_t signature);
 
 }  // namespace rex::grading

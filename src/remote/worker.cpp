@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <ctime>
 
 #include <malloc.h>
 #include <unistd.h>
@@ -102,6 +103,12 @@ void runWorker(std::span<const Method> methods) {
 
 extern "C" void rexOfAnotherPart(Session&, Reader&, Writer&) {
   throw Error({.what = "a check calls a function that exercise.toml does not name for its part"});
+}
+
+extern "C" void rexOfControl(Session&, Reader&, Writer&) {
+  const auto end = std::clock() + static_cast<std::clock_t>(kControlSeconds * CLOCKS_PER_SEC);
+  while (std::clock() < end) {
+  }
 }
 
 extern "C" void rexNotAllowedHere() {

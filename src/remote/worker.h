@@ -137,4 +137,9 @@ Method method(const char* name, decltype(Method::run) run = &Invoke<function>::r
 extern "C" void rexOfAnotherPart(Session& session, Reader& arguments, Writer& result);
 extern "C" void rexNotAllowedHere();
 
+/// Its replacement for all of the student's functions in the control, a worker without a student's code: it
+/// works for so many seconds of processor time.
+extern "C" void rexOfControl(Session& session, Reader& arguments, Writer& result);
+inline constexpr double kControlSeconds = 0.05;
+
 }  // namespace rex::remote

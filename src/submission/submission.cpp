@@ -22,6 +22,7 @@
 #include "submission/reading_apart_internal.h"
 #include "submission/sanitizer_rerun.h"
 #include "submission/student_build.h"
+#include "submission/worker_part.h"
 
 namespace rex::submission {
 namespace {
@@ -69,7 +70,10 @@ grading::GradingJob jobOf(const Toolchain& toolchain, const ExerciseInfo& exerci
   job.parts = built.parts;
   job.temporaryFolder = options.workFolder;
   job.limits = options.sanitize ? withSanitizers(exercise.limits) : exercise.limits;
-  if (options.sanitize || toolchain.workerPart.empty()) job.libraries = toolchain.libraries;
+  const bool isWhole = options.sanitize || toolchain.workerPart.empty();
+  if (isWhole) job.libraries = toolchain.libraries;
+  if (const path control = controlProgram(toolchain.workerPart); !isWhole && std::filesystem::exists(control))
+    job.control = control;
   return job;
 }
 

@@ -215,6 +215,17 @@ std::string neededBy(const fs::path& object, const WorkerPartOrder& order) {
   return needed;
 }
 
+// It loads and holds what other workers do.
+void linkControl(const WorkerPartOrder& order, const std::string& withoutStudent, const Names& offers) {
+  const fs::path whole = order.folder / "worker_part.o", object = order.folder / "worker.control.o";
+  link(order, object, offers, withoutStudent);
+  std::vector<std::string> command = {order.compiler, object, "@" + linkOptions(whole).string(), "-o",
+                                      controlProgram(whole)};
+  command.insert(command.end(), order.linkFlags.begin(), order.linkFlags.end());
+  run(command);
+  fs::remove(object);
+}
+
 }  // namespace
 
 std::vector<std::string> allowedFunctions(const std::vector<std::string>& list, const fs::path& exercise,
@@ -244,18 +255,22 @@ void linkWorkerParts(const WorkerPartOrder& order) {
   };
   const Names ofAll = offers(exercise.allowed);
   const fs::path whole = order.folder / "worker_part.o";
+  const auto withoutOthers = [&](const std::vector<std::string>& kept, const char* instead) {
+    std::string options;
+    for (const std::string& function : order.functions)
+      if (std::find(kept.begin(), kept.end(), function) == kept.end())
+        options += fmt::format("-Wl,--defsym=rexRun_{}={}\n", function, instead);
+    return options;
+  };
   for (const WorkerOfPart& old : workersOfParts(whole)) fs::remove(old.options);
   for (const ExercisePart& part : exercise.parts) {
     if (part.functions.empty()) continue;
     const Names ofPart = offers(part.allowed);
-    std::string others, missing;
-    for (const std::string& function : order.functions)
-      if (std::find(part.functions.begin(), part.functions.end(), function) == part.functions.end())
-        others += fmt::format("-Wl,--defsym=rexRun_{}=rexOfAnotherPart\n", function);
+    std::string missing;
     for (const std::string& name : ofAll)
       if (!ofPart.contains(name)) missing += fmt::format("-Wl,--defsym={}={}\n", name, kRefusal);
     const fs::path object = order.folder / fmt::format("worker_part.{}.o", part.id);
-    link(order, object, ofPart, others);
+    link(order, object, ofPart, withoutOthers(part.functions, "rexOfAnotherPart"));
     requireNothingForbidden(object, part.id, exercise);
     writeTextFile(linkOptions(object), missing + neededBy(object, order));
   }
@@ -263,7 +278,10 @@ void linkWorkerParts(const WorkerPartOrder& order) {
   requireNothingForbidden(whole, "", exercise);
   writeTextFile(linkOptions(whole), neededBy(whole, order));
   writeLines(order.folder / "worker.offers", ofAll);
+  linkControl(order, withoutOthers({}, "rexOfControl"), ofAll);
 }
+
+fs::path controlProgram(const fs::path& workerPart) { return workerPart.parent_path() / "worker.control"; }
 
 fs::path linkOptions(const fs::path& workerPart) {
   return fs::path(workerPart).replace_extension(".options");

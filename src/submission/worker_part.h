@@ -29,6 +29,7 @@ struct WorkerPartOrder {
   std::vector<std::string> functions;          ///< the student's functions that the loop calls
   std::vector<std::filesystem::path> libraries;  ///< third-party shared ones that the library needs
   std::string compiler;                          ///< used for linking
+  std::vector<std::string> linkFlags;            ///< of programs
   std::string objcopy, nm;
   std::filesystem::path folder;  ///< output folder
 };
@@ -36,12 +37,15 @@ struct WorkerPartOrder {
 /// Links the worker's loop with only those parts of the library that graded functions may call or that
 /// these need: worker_part.o, and worker_part.ID.o for each part of the exercise with its own worker. What
 /// exercise.toml forbids is then not in the worker's memory. The names that a student's file may use go
-/// into worker.offers. Throws Error if an allowed name does not exist, or if an allowed function needs a
+/// into worker.offers. Also links the program controlProgram(). Throws Error if an allowed name does not exist, or if an allowed function needs a
 /// forbidden one.
 void linkWorkerParts(const WorkerPartOrder& order);
 
 /// The linker options file for worker_part.o: the third-party libraries that it needs, and no others.
 [[nodiscard]] std::filesystem::path linkOptions(const std::filesystem::path& workerPart);
+
+/// The worker that answers for no student's functions, next to worker_part.o: see slownessOfMachine().
+[[nodiscard]] std::filesystem::path controlProgram(const std::filesystem::path& workerPart);
 
 /// A part's worker that linkWorkerParts() made next to worker_part.o, with the part's id and the linker
 /// options file.

@@ -20,6 +20,7 @@ rex::submission::WorkerPartOrder readOrder(const char* file) {
           .functions = order.texts("functions"),
           .libraries = paths("libraries"),
           .compiler = order.text("compiler"),
+          .linkFlags = order.texts("link_flags"),
           .objcopy = order.text("objcopy"),
           .nm = order.text("nm"),
           .folder = order.text("folder")};

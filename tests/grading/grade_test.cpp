@@ -3,6 +3,7 @@
 #include <array>
 #include <atomic>
 #include <csignal>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -10,10 +11,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sched.h>
 #include <sys/mman.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include "grading/worker_process.h"
@@ -28,7 +26,8 @@ namespace rex::grading::grade_test {
 
 using ::testing::HasSubstr;
 
-const std::filesystem::path kGood = ownFolder() / "tests" / "sample" / "good";
+const std::filesystem::path kGood = ownFolder() / "tests" / "sample" / "good",
+                            kControl = kGood.parent_path() / "worker.control";
 
 RunnableCheck check(const std::string& id, Group group, std::function<void(Check&, Student&)> run) {
   return {.info = {.id = id, .points = 1, .group = group},
@@ -103,8 +102,9 @@ TEST(Grade, NeverBlamesTheStudentForTheGrader) {
   EXPECT_EQ(result.checks[4].message, fault + "check 'empty' states no requirement");
 }
 
-// Whatever goes wrong while the grader handles an answer is that answer's fault.
-TEST(Grade, BlamesAnswersForWhatTheyDoToTheGrader) {
+// Whatever goes wrong while the grader handles an answer is that answer's fault. Before the first answer, the
+// end of the process that judges it is, too: a program has many ways to cost it time.
+TEST(Grade, BlamesTheFileForTheEndOfItsJudge) {
   const auto afterAnAnswer = [](std::function<void(Check&)> then) {
     return [then](Check& judge, Student& student) {
       static_cast<void>(student.square(3));
@@ -132,6 +132,7 @@ TEST(Grade, BlamesAnswersForWhatTheyDoToTheGrader) {
       check("hidden", Group::kHidden, afterAnAnswer(overflow)),
       check("kills", Group::kVisible, afterAnAnswer([](Check&) { std::raise(SIGKILL); })),
       check("falls before", Group::kVisible, [&](Check& judge, Student&) { fall(judge); }),
+      check("uses up its time", Group::kHidden, [](Check&, Student&) { std::raise(SIGPROF); }),
       check("fine", Group::kVisible,
             [](Check& judge, Student& student) { judge.near("square", student.square(3), 9, 1e-9); })};
 #ifndef __SANITIZE_ADDRESS__
@@ -147,11 +148,14 @@ TEST(Grade, BlamesAnswersForWhatTheyDoToTheGrader) {
             "what square returned could not be judged: check 'overflows' wants a value that is not finite");
   EXPECT_EQ(message(2), "what square returned could not be judged");
   for (std::size_t k = 0; k < checks.size(); ++k) {
-    const bool isOurs = k == 3 || k == 4;
-    EXPECT_EQ(result.checks[k].status, isOurs   ? Outcome::kGraderError
-                                       : k == 5 ? Outcome::kPass
+    const bool isBefore = k == 4 || k == 5;
+    EXPECT_EQ(result.checks[k].status, isBefore ? Outcome::kTimeLimit
+                                       : k == 6 ? Outcome::kPass
                                                 : Outcome::kFail)
         << checks[k].info.id << ": " << message(k);
+    const std::string before =
+        "ended the grader, or cost it too much time or memory, before the first answer";
+    EXPECT_EQ(message(k) == before, isBefore);
   }
   EXPECT_EQ(result.score, 1);
 }
@@ -280,17 +284,20 @@ void signalChildren(int signal) {
   for (pid_t child = 0; children >> child;) ::kill(child, signal);
 }
 
-TEST(Grade, AsksOnceMoreWhenSomebodyKilledTheWorker) {
+TEST(Grade, AsksOnceMoreWhenSomebodyKilledTheWorkerOrItsJudge) {
   const SharedCount shared;
   int& attempts = shared.value();
-  const auto killedAtFirst = [&](int times) {
+  const auto killedBy = [&](const std::function<void()>& kill, int times) {
     attempts = 0;
     return gradeGood({check("a", Group::kVisible, [&, times](Check& judge, Student& student) {
       judge.near("square before", student.square(2), 4, 1e-9);
-      if (attempts++ < times) signalChildren(SIGKILL);
+      if (attempts++ < times) kill();
       judge.near("square", student.square(3), 9, 1e-9);
     })});
   };
+  const auto killedAtFirst = [&](int times) { return killedBy([] { signalChildren(SIGKILL); }, times); };
+  EXPECT_EQ(killedBy([] { std::raise(SIGKILL); }, 1).outcome, Outcome::kPass);
+  EXPECT_EQ(attempts, 2);
   EXPECT_EQ(killedAtFirst(0).outcome, Outcome::kPass);
   EXPECT_EQ(attempts, 1);
   EXPECT_EQ(killedAtFirst(1).outcome, Outcome::kPass);
@@ -300,6 +307,43 @@ TEST(Grade, AsksOnceMoreWhenSomebodyKilledTheWorker) {
   EXPECT_EQ(twice.outcome, Outcome::kRuntimeError);
   EXPECT_EQ(twice.score, 0);
   EXPECT_THAT(twice.checks[0].message, HasSubstr("was killed"));
+}
+
+TEST(Grade, AsksAProgramThatFailsByItselfOnce) {
+  const SharedCount shared;
+  for (const char* program : {"segfault", "assertion"}) {
+    shared.value() = 0;
+    const auto ask = [&](Check& judge, Student& student) {
+      ++shared.value();
+      judge.near("step", student.ikStep(Eigen::Vector3d::Zero(), {1, 2, 3}), Eigen::Vector3d(1, 2, 3), 1e-9);
+    };
+    const GradingJob job = {.worker = kGood.parent_path() / program, .limits = {.cpuSeconds = 1}};
+    static_cast<void>(grade({}, std::vector{check("a", Group::kVisible, ask)}, job, Student::signature(),
+                            [](const GradeResult&) {}));
+    EXPECT_EQ(shared.value(), 1) << program;
+  }
+}
+
+// Processor time of all workers of a check, and all that was printed.
+TEST(Grade, CountsWhatItsWorkersUse) {
+  const auto ask = [](Check& judge, Student& student) {
+    const Eigen::Vector3d target(1, 2, 3);
+    const auto step = [&](Student& one) { judge.near("step", one.ikStep(target, target), target, 1e-9); };
+    step(student);
+    judge.askFreshWorker([&](remote::Caller& caller) {
+      Student stranger(caller);
+      step(stranger);
+    });
+  };
+  const auto resultOf = [&](const char* program) {
+    return grade({}, std::vector{check("a", Group::kVisible, ask), check("b", Group::kVisible, ask)},
+                 {.worker = kGood.parent_path() / program}, Student::signature(), [](const GradeResult&) {});
+  };
+  EXPECT_GE(resultOf("busy").checks[0].cpuSeconds, 0.5);
+  const GradeResult chatty = resultOf("chatty");
+  EXPECT_EQ(chatty.output.text.size(), std::size_t{16} << 10);
+  EXPECT_EQ(chatty.output.text.size() + chatty.output.truncatedBytes, 4 * 10'001u);
+  EXPECT_EQ(chatty.usage.outputBytes, 4 * 10'001u);
 }
 
 /// A launcher that first does what a shell is told to do.
@@ -314,7 +358,8 @@ class SlowLauncher {
   CheckResult grade() const {
     return grading::grade({}, std::vector{check("a", Group::kVisible, square)},
                           {.worker = kGood,
-                           .limits = {.wallSeconds = 0.3},
+                           .control = kControl,
+                           .limits = {.wallSeconds = 0.5},
                            .sandbox = {.level = sandbox::Level::kFiles, .launcher = file_}},
                           Student::signature(), [](const GradeResult&) {})
         .checks.front();
@@ -332,7 +377,16 @@ TEST(Grade, DoesNotChargeTheStartOfTheSandbox) {
   const SlowLauncher slow("sleep 1"), slowAtFirst("mkdir once 2>/dev/null && sleep 100");
   EXPECT_EQ(slow.grade().status, Outcome::kPass) << slow.grade().message;
   EXPECT_EQ(slowAtFirst.grade().status, Outcome::kPass);
-  EXPECT_EQ(slowAtFirst.starts(), 2);
+  EXPECT_EQ(slowAtFirst.starts(), 3) << "the worker, the control and another worker";
+}
+
+// Only workers are slow, not the control, which is every second program: nothing but the file can be to
+// blame.
+TEST(Grade, BlamesTheFileIfTheControlAnswers) {
+  const SlowLauncher slowAtWorkers("[ $(($(wc -l < starts) % 2)) = 0 ] || sleep 100");
+  const CheckResult result = slowAtWorkers.grade();
+  EXPECT_EQ(result.status, Outcome::kTimeLimit) << result.message;
+  EXPECT_EQ(slowAtWorkers.starts(), 4);
 }
 #endif
 
@@ -340,35 +394,85 @@ TEST(Grade, IsToBlameIfNoWorkerStarts) {
   const SlowLauncher never("sleep 100");
   const CheckResult result = never.grade();
   EXPECT_EQ(result.status, Outcome::kGraderError);
-  EXPECT_EQ(result.message, "the grader failed, which is not your fault: a worker was not ready after 2.6 s");
-  EXPECT_EQ(never.starts(), 2) << "once more, and no third time";
+  EXPECT_EQ(
+      result.message,
+      "the grader failed, which is not your fault: on this machine, even a program without your code does "
+      "not answer in time");
+  EXPECT_EQ(never.starts(), 4) << "two workers, two controls, and no third time";
 }
 
-// A program that sleeps in a constructor of a global variable is no fault of the machine.
-TEST(Grade, BlamesWhatSleepsAtTheStart) {
-  for (const char* program : {"sleep_at_start", "sleep_and_spin_at_start"}) {
-    const GradeResult result = grade(
-        {}, std::vector{check("a", Group::kVisible, [](Check&, Student& student) { student.square(3); })},
-        {.worker = kGood.parent_path() / program, .limits = {.wallSeconds = 0.1}}, Student::signature(),
-        [](const GradeResult&) {});
+GradeResult gradeWith(const std::string& program, const std::vector<RunnableCheck>& checks,
+                      double wallSeconds, const std::filesystem::path& control = kControl) {
+  return grade(
+      {}, checks,
+      {.worker = kGood.parent_path() / program, .control = control, .limits = {.wallSeconds = wallSeconds}},
+      Student::signature(), [](const GradeResult&) {});
+}
+
+void asksForASquare(Check& judge, Student& student) { judge.near("square", student.square(3), 9, 1e-9); }
+void asksForAStep(Check& judge, Student& student) {
+  const Eigen::Vector3d target(1, 2, 3);
+  judge.near("step", student.ikStep(target, target), target, 1e-9);
+}
+
+// Whatever a program does in the constructor of a global variable, the control does not do it.
+TEST(Grade, BlamesWhatDelaysItsStart) {
+  for (const char* program : {"sleep_at_start", "reads_disk_at_start", "mutters_at_start"}) {
+    const GradeResult result = gradeWith(program, {check("a", Group::kVisible, asksForASquare)}, 1.5);
     EXPECT_EQ(result.outcome, Outcome::kTimeLimit) << program << ": " << result.checks[0].message;
-    EXPECT_THAT(result.checks[0].message, HasSubstr("before the first call"));
+    EXPECT_THAT(result.checks[0].message, HasSubstr("stopped after 3.5 s before the first call"));
   }
 }
 
+// A control that fails stands for a machine on which nothing is in time: a second attempt gets more time.
+TEST(Grade, OwesAProgramTheTimeThatTheMachineTakes) {
+  const std::vector<RunnableCheck> checks = {check("a", Group::kVisible, asksForAStep)};
+  EXPECT_EQ(gradeWith("naps", checks, 1, "").outcome, Outcome::kTimeLimit);
+  EXPECT_EQ(gradeWith("naps", checks, 1, kGood).outcome, Outcome::kPass);
+}
+
 // On a machine that is busy with other things, an honest worker may not get to run.
-TEST(Grade, AsksOnceMoreWhenTheWorkerHardlyRan) {
+TEST(Grade, AsksOnceMoreWhenTheWorkerDidNotRun) {
   const SharedCount shared;
-  const GradeResult result = grade({},
-                                   std::vector{check("a", Group::kVisible,
-                                                     [&](Check& judge, Student& student) {
-                                                       if (shared.value()++ == 0) signalChildren(SIGSTOP);
-                                                       judge.near("square", student.square(3), 9, 1e-9);
-                                                     })},
-                                   {.worker = kGood, .limits = {.wallSeconds = 0.3}}, Student::signature(),
-                                   [](const GradeResult&) {});
+  const auto ask = [&](Check& judge, Student& student) {
+    if (shared.value()++ == 0) signalChildren(SIGSTOP);
+    asksForASquare(judge, student);
+  };
+  const GradeResult result = gradeWith("good", {check("a", Group::kVisible, ask)}, 1);
   EXPECT_EQ(result.outcome, Outcome::kPass) << result.checks[0].message;
   EXPECT_EQ(shared.value(), 2);
+}
+
+TEST(Grade, RunsNoMoreChecksAfterThreeThatSlept) {
+  const auto squareFirst = [](Check& judge, Student& student) {
+    asksForASquare(judge, student);
+    asksForAStep(judge, student);
+  };
+  const auto last = [](const std::function<void(Check&, Student&)>& asks) {
+    std::vector<RunnableCheck> checks;
+    for (const char* id : {"a", "b", "c"}) checks.push_back(check(id, Group::kVisible, asks));
+    for (const char* id : {"d", "e", "f", "g", "h", "i", "j"})
+      checks.push_back(check(id, Group::kHidden, asksForASquare));
+    return gradeWith("sleep", checks, 0.5, "").checks.back();
+  };
+  EXPECT_EQ(last(squareFirst).status, Outcome::kPass) << "they slept later";
+  const CheckResult left = last(asksForAStep);
+  EXPECT_EQ(left.status, Outcome::kTimeLimit);
+  EXPECT_EQ(left.message, "was not run: in 3 checks, the program slept before or in its first call");
+}
+
+// Each check takes twice its time, so that less than half of them use up the time of all and of three more.
+TEST(Grade, HasOneBudgetForAllChecks) {
+  const auto late = [](Check& judge, Student& student) {
+    asksForASquare(judge, student);
+    asksForAStep(judge, student);
+  };
+  const GradeResult result =
+      gradeWith("sleep", std::vector<RunnableCheck>(12, check("a", Group::kVisible, late)), 0.2, "");
+  EXPECT_EQ(result.outcome, Outcome::kTimeLimit);
+  EXPECT_THAT(result.checks[0].message, HasSubstr("stopped after 0.2 s in ikStep"));
+  EXPECT_EQ(result.checks[11].message, "was not run: the checks before it took more than 3 s");
+  EXPECT_EQ(result.checks[11].status, Outcome::kTimeLimit);
 }
 
 TEST(Grade, RefusesAWorkerOfAnotherExercise) {
@@ -408,59 +512,52 @@ TEST(RunWithWorker, RefusesWhatCannotBeStarted) {
 
 // The time that the grader needs for itself is not the student's.
 TEST(RunWithWorker, CountsOnlyTheTimeItWaits) {
-  const WorkerRun run = runWithWorker({.worker = kGood, .limits = {.wallSeconds = 0.4}}, "",
+  const WorkerRun run = runWithWorker({.worker = kGood, .limits = {.wallSeconds = 1}}, "",
                                       Student::signature(), [](remote::Caller& caller) {
-                                        ::timespec pause{0, 700'000'000};
+                                        ::timespec pause{1, 300'000'000};
                                         ::nanosleep(&pause, nullptr);
                                         EXPECT_EQ(Student(caller).square(3), 9);
                                       });
   EXPECT_FALSE(run.failure.has_value());
-  EXPECT_LT(run.wallSeconds, 0.5);
+  EXPECT_LT(run.wallSeconds, 1);
   EXPECT_GT(run.peakMemoryBytes, 0);
 }
 
-/// Makes the one core that this process may use a busy one.
-class BusyCore {
- public:
-  BusyCore() {
-    ::sched_getaffinity(0, sizeof before_, &before_);
-    cpu_set_t one;
-    CPU_ZERO(&one);
-    CPU_SET(::sched_getcpu(), &one);
-    ::sched_setaffinity(0, sizeof one, &one);
-    spinner_ = ::fork();
-    if (spinner_ < 0) throw std::runtime_error("cannot fork");
-    if (spinner_ == 0) {
-      ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-      for (volatile bool on = true; on;) {
-      }
-    }
-  }
-  ~BusyCore() {
-    ::kill(spinner_, SIGKILL);
-    ::waitpid(spinner_, nullptr, 0);
-    ::sched_setaffinity(0, sizeof before_, &before_);
-  }
-  BusyCore(const BusyCore&) = delete;
-  BusyCore& operator=(const BusyCore&) = delete;
+// A quarter of a second of work.
+TEST(RunWithWorker, WaitsAsLongAsItIsTold) {
+  const auto run = [](double patience) {
+    const auto ask = [](remote::Caller& caller) {
+      static_cast<void>(Student(caller).ikStep(Eigen::Vector3d::Zero(), {1, 2, 3}));
+    };
+    return runWithWorker({.worker = kGood.parent_path() / "busy", .limits = {.wallSeconds = 0.1}}, "",
+                         Student::signature(), ask, patience)
+        .failure;
+  };
+  EXPECT_FALSE(run(1000).has_value());
+  ASSERT_TRUE(run(1).has_value());
+  EXPECT_EQ(run(1)->message, "stopped after 0.1 s in ikStep (asleep, blocked, or in an infinite loop?)");
+  EXPECT_TRUE(run(1)->mayBeOfMachine);
+}
 
- private:
-  cpu_set_t before_;
-  pid_t spinner_ = -1;
-};
+TEST(SlownessOfMachine, IsFoundByAProgramWithoutTheStudents) {
+  const auto slowness = [](const std::filesystem::path& control, std::uint64_t signature) {
+    return slownessOfMachine({.worker = "none", .parts = {""}, .control = control}, signature);
+  };
+  EXPECT_GE(slowness(kControl, Student::signature()), 1);
+  EXPECT_EQ(slowness("", Student::signature()), 1);
+  EXPECT_EQ(slowness(kControl, 1), std::nullopt);
+  EXPECT_EQ(slowness(kGood, Student::signature()), std::nullopt) << "it does not answer";
+}
 
-// A quarter of a second of work takes half a second then, and more where others work, too.
-TEST(RunWithWorker, WaitsLongerWhereTheMachineIsBusy) {
-  if (!std::filesystem::exists("/proc/self/schedstat")) GTEST_SKIP() << "the kernel counts no waiting";
-  const BusyCore busy;
+// What a program prints a byte at a time costs it more than us.
+TEST(RunWithWorker, IsNotMadeToWorkByOutput) {
+  const std::clock_t start = std::clock();
   const WorkerRun run =
-      runWithWorker({.worker = kGood.parent_path() / "busy", .limits = {.wallSeconds = 0.5}}, "",
-                    Student::signature(), [](remote::Caller& caller) {
-                      const Eigen::Vector3d target(1, 2, 3);
-                      EXPECT_EQ(Student(caller).ikStep(target, target), target);
-                    });
-  EXPECT_FALSE(run.failure.has_value()) << run.failure->message;
-  EXPECT_GT(run.wallSeconds, 0.4);
+      runWithWorker({.worker = kGood.parent_path() / "mutters_at_start", .limits = {.wallSeconds = 1}}, "",
+                    Student::signature(), [](remote::Caller&) {});
+  EXPECT_EQ(run.failure->outcome, Outcome::kTimeLimit);
+  EXPECT_GT(run.output.bytes, 1000u);
+  EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 0.3);
 }
 
 }  // namespace rex::grading::grade_test

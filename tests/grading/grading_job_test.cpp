@@ -20,6 +20,7 @@ GradingJob parsed(std::vector<std::string> arguments) {
 TEST(GradingJob, ComesBackFromArguments) {
   const GradingJob job{.worker = "a worker",
                        .parts = {"a", "b"},
+                       .control = "control",
                        .results = "results.json",
                        .checks = {"one", "two"},
                        .seed = 18446744073709551615u,
@@ -37,6 +38,7 @@ TEST(GradingJob, ComesBackFromArguments) {
   const GradingJob back = parsed(toArguments(job));
   EXPECT_EQ(back.worker, job.worker);
   EXPECT_EQ(back.parts, job.parts);
+  EXPECT_EQ(back.control, job.control);
   EXPECT_EQ(back.results, job.results);
   EXPECT_EQ(back.checks, job.checks);
   EXPECT_EQ(back.seed, job.seed);

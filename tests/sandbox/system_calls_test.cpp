@@ -170,6 +170,10 @@ TEST_F(SystemCalls, RefuseWaysToTalkAndToHide) {
       {"seccomp", [] { return ::syscall(SYS_seccomp, 2, 0, nullptr); }},
       {"owner of a terminal", [] { return ::syscall(SYS_ioctl, 0, 0x8901, nullptr); }},
       {"clone3", [] { return ::syscall(SYS_clone3, nullptr, 0); }},
+      {"thread that suspends",
+       [] {
+         return ::syscall(SYS_clone, CLONE_VM | CLONE_SIGHAND | CLONE_THREAD | CLONE_VFORK, 0, 0, 0, 0);
+       }},
       {"execveat", [&] { return ::syscall(SYS_execveat, -1, "/bin/true", none, none, 0); }}};
   for (const auto& [name, attempt] : attempts)
     EXPECT_THAT(behindFilter(attempt).bytes,

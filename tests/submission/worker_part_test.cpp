@@ -19,7 +19,8 @@ constexpr const char* kLibrary =
     "namespace rex { int helper(int x) { return x + 1; } int easy(int x) { return helper(x); } "
     "int hard(int x) { return 7 * x; } int both(int x) { return easy(x) + hard(x); } "
     "struct Rng { int next(); }; int Rng::next() { return 4; } }\n"
-    "extern \"C\" void rexNotAllowedHere() { throw 1; }\nextern \"C\" void rexOfAnotherPart() { throw 2; }\n";
+    "extern \"C\" void rexNotAllowedHere() { throw 1; }\nextern \"C\" void rexOfAnotherPart() { throw 2; }\n"
+    "extern \"C\" int puts(const char*); extern \"C\" void rexOfControl() { puts(\"control\"); }\n";
 constexpr const char* kLoop =
     "int first(int); int second(int); namespace rex { int hard(int); }\n"
     "extern \"C\" __attribute__((weak)) void rexRun_first() { first(1); }\n"
@@ -114,7 +115,7 @@ TEST_F(WorkerPart, MayDestroyWhatIsForbidden) {
         "struct Hard { ~Hard(); int solve(); }; Hard::~Hard() {} int Hard::solve() { return 7; }\n";
     compile("library", "namespace rex { " + classHard + "int easy(Hard* hard) { int x = 1; " + work +
                            " delete hard; return x; } }\nextern \"C\" void rexNotAllowedHere() {}\n"
-                           "extern \"C\" void rexOfAnotherPart() {}\n");
+                           "extern \"C\" void rexOfAnotherPart() {}\nextern \"C\" void rexOfControl() {}\n");
   };
   compile("loop", "int main() {}");
   libraryWhereEasy("");
@@ -149,6 +150,15 @@ TEST_F(WorkerPart, IsMadeForOnePartAlone) {
   EXPECT_TRUE(workersOfParts(folder() / "worker_part.o").empty()) << "of before";
 }
 
+// The control holds what workers hold, and needs nothing of a student's.
+TEST_F(WorkerPart, HasAControl) {
+  link("allowed = [\"rex::easy\"]");
+  const fs::path control = controlProgram(folder() / "worker_part.o");
+  EXPECT_EQ(runProcess({control.string()}).output, "control\ncontrol\n");
+  EXPECT_THAT(runProcess({"nm", control.string()}).output, ::testing::HasSubstr("_ZN3rex4easyEi"));
+  EXPECT_FALSE(fs::exists(folder() / "worker.control.o"));
+}
+
 // Of two libraries that the whole of ours needs, easy() needs one.
 TEST_F(WorkerPart, IsLinkedWithThoseLibrariesOfOthersThatItNeeds) {
   for (const std::string name : {"one", "other"}) {
@@ -162,7 +172,7 @@ TEST_F(WorkerPart, IsLinkedWithThoseLibrariesOfOthersThatItNeeds) {
           "extern \"C\" int one(int); extern \"C\" int other(int);\n"
           "namespace rex { int easy(int x) { return one(x); } int hard(int x) { return other(x); }\n"
           "struct Rng { int next(); }; int Rng::next() { return 4; } }\n"
-          "extern \"C\" void rexNotAllowedHere() { throw 1; }\n");
+          "extern \"C\" void rexNotAllowedHere() { throw 1; }\nextern \"C\" void rexOfControl() {}\n");
   const fs::path options = linkOptions(folder() / "worker_part.o");
   link("allowed = [\"course\"]");
   EXPECT_THAT(readTextFile(options), testing::MatchesRegex("[^\n]*/libone.so\n"));
