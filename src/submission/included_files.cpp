@@ -1,7 +1,6 @@
 #include "submission/included_files.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <compare>
 #include <cstring>
@@ -16,6 +15,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "submission/build_tools.h"
 #include "submission/cpp_names.h"
 #include "submission/cpp_text.h"
@@ -26,92 +26,130 @@ using grading::CompileDiagnostic;
 
 namespace {
 
-constexpr std::string_view kDirectiveBlanks = " \t\v\f\r";
-constexpr std::size_t kMostMarkers = 100;
+namespace fs = std::filesystem;
 
-/// Searches a source whose lines have been joined at backslashes.
-class MarkerSearch {
- public:
-  MarkerSearch(std::string_view text, bool knowsComments) : text_(text), knowsComments_(knowsComments) {
-    skipBlanksAndComments();
-  }
+constexpr std::string_view kBlanks = " \t\v\f\r";
 
-  // The position of the '#' of each marker.
-  std::vector<std::size_t> find() const {
-    std::vector<std::size_t> found;
-    for (std::size_t at = 0; at < text_.size() && found.size() < kMostMarkers;) {
-      if (knowsComments_) at = behind_[at];
-      const std::size_t end = std::min(text_.find('\n', at), text_.size());
-      bool isFirst = true;  // only blanks are before it, or a comment could be
-      for (std::size_t sign = at; sign < end; ++sign) {
-        if (isFirst && isDirective(sign)) found.push_back(sign);
-        const bool isBlank = kDirectiveBlanks.find(text_[sign]) != kDirectiveBlanks.npos;
-        isFirst = (isFirst && isBlank) || (sign > at && text_.substr(sign - 1, 2) == "*/");
-      }
-      at = end + 1;
-    }
-    return found;
-  }
+constexpr const char *kLineDirective = "found a #line directive, wanted the real line numbers of the file",
+                     *kPragma = "found the pragma system_header, wanted code that the compiler warns about",
+                     *kItself = "found an include of the file itself, wanted each of its lines once";
 
- private:
-  // Finds where the blanks and comments that begin at each position end; comments may span lines. If the line
-  // is inside a comment that began on another one, "/*/" ends that comment. So whatever is skipped is indeed
-  // a comment, though perhaps not all of it.
-  void skipBlanksAndComments() {
-    const std::size_t size = text_.size();
-    behind_.assign(size + 3, size);
-    std::size_t close = size;  // the next "*/" after this position
-    for (std::size_t at = size; at-- > 0;) {
-      if (kDirectiveBlanks.find(text_[at]) != kDirectiveBlanks.npos)
-        behind_[at] = behind_[at + 1];
-      else
-        behind_[at] = text_.substr(at, 2) == "/*" ? behind_[close + 2] : at;
-      if (text_.substr(at, 2) == "*/") close = at;
-    }
-  }
+// After so many empty lines the compiler prints a marker, not the lines.
+constexpr int kGap = 16;
 
-  bool isDirective(std::size_t sign) const {
-    const bool isHash = text_[sign] == '#',
-               isDigraph = text_.substr(sign, 2) == "%:", isTrigraph = text_.substr(sign, 3) == "?\?=";
-    if (!isHash && !isDigraph && !isTrigraph) return false;
-    const std::size_t at = behind_[sign + (isHash ? 1 : isDigraph ? 2 : 3)];
-    const bool isNumber = at < text_.size() && std::isdigit(static_cast<unsigned char>(text_[at])) != 0;
-    const bool isLine = at < text_.size() && text_.substr(at, 4) == "line" &&
-                        (at + 4 >= text_.size() || !isWord(text_[at + 4]));
-    return isNumber || isLine;
-  }
-
-  std::string_view text_;
-  bool knowsComments_;
-  std::vector<std::size_t> behind_{};
+struct Marker {
+  std::int64_t line = 0;
+  std::string_view file{};
+  int depth = 0;  // 1: enters an included file; -1: leaves one
 };
+
+// Reads `# 7 "main.cpp" 2`; 2 of the flags from 1 to 4 says that a file was left.
+std::optional<Marker> markerIn(std::string_view line) {
+  if (!line.starts_with("# ")) return {};
+  line.remove_prefix(2);
+  const auto number = takeNumber<std::int64_t>(line);
+  const std::size_t end = line.rfind('"');
+  if (!number || !line.starts_with(" \"") || end < 2) return {};
+  const std::string_view flags = line.substr(end + 1);
+  if (flags.find_first_not_of(" 1234") != flags.npos) return {};
+  const auto has = [&](char flag) { return flags.find(flag) != flags.npos; };
+  return Marker{*number, line.substr(2, end - 2), has('1') ? 1 : has('2') ? -1 : 0};
+}
+
+enum class Oddity : std::uint8_t { kNone, kLine, kItself };
+
+// Follows the markers, and says at which line of the file the first one appears that no plain file makes.
+// After an error the lines may end anywhere: then `size` is 0.
+std::pair<Oddity, std::int64_t> firstOddity(std::string_view text, const std::string& mainFile, int size) {
+  std::int64_t line = 1, marked = 1;
+  int depth = 0;
+  const std::size_t begin = text.find(fmt::format("\n# 1 \"{}\"\n", mainFile));
+  text.remove_prefix(begin == text.npos ? text.size() : text.find('\n', begin + 1) + 1);
+  for (const std::string_view one : splitLines(text)) {
+    const std::optional<Marker> marker = markerIn(one);
+    if (!marker) {
+      line += depth == 0 && !one.ends_with('\t');  // a tab: in a raw string, which a macro may repeat
+      continue;
+    }
+    depth += marker->depth;
+    if (marker->depth > 0 && fs::path(marker->file).filename() == mainFile) return {Oddity::kItself, line};
+    if ((depth == 0) != (marker->file == mainFile)) return {Oddity::kLine, line};
+    if (depth != 0) continue;
+    // A marker in the middle of a line begins a new one.
+    if (size > 0 && (marker->line + 1 < line || marker->line > size + kGap)) return {Oddity::kLine, line};
+    line = marked = marker->line;
+  }
+  return {size == 0 || marked == size + kGap ? Oddity::kNone : Oddity::kLine, 1};
+}
+
+std::string_view withoutBlanks(std::string_view text) {
+  for (;;) {
+    text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
+    if (!text.starts_with("/*")) return text;
+    text.remove_prefix(std::min(text.find("*/", 2), text.size() - 2) + 2);
+  }
+}
+
+// Line and column of the first "#line" or "# 1" from that line on; the line itself if none looks so.
+std::pair<int, int> lineDirective(const std::vector<std::string_view>& lines, int from) {
+  for (std::size_t k = static_cast<std::size_t>(std::max(from - 2, 0)); k < lines.size(); ++k) {
+    const std::string_view sign = withoutBlanks(lines[k]);
+    if (!sign.starts_with('#') && !sign.starts_with("%:")) continue;
+    const std::string_view word = withoutBlanks(sign.substr(sign.front() == '#' ? 1 : 2));
+    if (word.starts_with("line") || (!word.empty() && word.front() >= '0' && word.front() <= '9'))
+      return {static_cast<int>(k) + 1, static_cast<int>(lines[k].size() - sign.size()) + 1};
+  }
+  return {from, 1};
+}
+
+CompileDiagnostic lineMarker(const std::string& mainFile, int line, int column,
+                             const char* message = kLineDirective) {
+  return {mainFile, line, column, "error", "line-marker", message};
+}
+
+// What the compiler says itself, in a line such as "main.cpp:7:3: warning: ...". After "# 1" a file can also
+// claim to be entered or left.
+std::vector<CompileDiagnostic> complaintsOfMarkers(std::string_view complaints, const std::string& mainFile) {
+  for (std::string_view line : splitLines(complaints)) {
+    const bool isPragma = line.find(": #pragma system_header ignored") != line.npos;
+    if (!isPragma && line.find(": style of line directive") == line.npos) continue;
+    line.remove_prefix(std::min(mainFile.size() + 1, line.size()));
+    const int row = takeNumber<int>(line).value_or(0);
+    line.remove_prefix(std::min<std::size_t>(1, line.size()));
+    return {
+        lineMarker(mainFile, row, takeNumber<int>(line).value_or(0), isPragma ? kPragma : kLineDirective)};
+  }
+  return {};
+}
 
 }  // namespace
 
-std::vector<CompileDiagnostic> lineMarkers(std::string_view source, const std::string& mainFile) {
-  if (source.starts_with("\xEF\xBB\xBF")) source.remove_prefix(3);
-  const auto [text, places] = spliced(source);
-  std::vector<std::size_t> found = MarkerSearch(text, text.find("R\"") == text.npos).find();
-  constexpr std::string_view kPragma = "system_header";
-  for (std::size_t at = text.find(kPragma); at != text.npos && found.size() < 2 * kMostMarkers;
-       at = text.find(kPragma, at + 1))
-    found.push_back(at);
-  std::sort(found.begin(), found.end());
-  const TextPlaces lines(source);
-  std::vector<CompileDiagnostic> messages;
-  for (const std::size_t at : found) {
-    const auto [line, column] = lines.place(places[at]);
-    messages.push_back({mainFile, line, column, "error", "line-marker",
-                        text[at] == 's'
-                            ? "found the pragma system_header, wanted code that the compiler warns about"
-                            : "found a #line directive, wanted the real line numbers of the file"});
+std::string sourceForMarkers(std::string_view source) {
+  std::string text;
+  for (const std::string_view line : splitLines(source)) {
+    const std::size_t end = line.find_last_not_of(kBlanks);
+    const bool goesOn = end != line.npos && line[end] == '\\';
+    text.append(line.substr(0, line.size() - line.ends_with('\r'))).append(goesOn ? "" : "\t");
+    text.append(line.ends_with('\r') ? "\r\n" : "\n");
   }
-  return messages;
+  return text.append(kGap - 1, '\n').append(";\n");
+}
+
+std::vector<CompileDiagnostic> lineMarkers(std::string_view text, std::string_view complaints,
+                                           std::string_view source, const std::string& mainFile,
+                                           bool isWhole) {
+  if (const auto found = complaintsOfMarkers(complaints, mainFile); !found.empty()) return found;
+  const std::vector<std::string_view> lines = splitLines(source);
+  const auto [oddity, line] = firstOddity(text, mainFile, isWhole ? static_cast<int>(lines.size()) : 0);
+  if (oddity == Oddity::kNone) return {};
+  const int last = std::max(static_cast<int>(lines.size()), 1),
+            near = static_cast<int>(std::clamp<std::int64_t>(line, 1, last));
+  if (oddity == Oddity::kItself) return {lineMarker(mainFile, near, 1, kItself)};
+  const auto [row, column] = lineDirective(lines, near);
+  return {lineMarker(mainFile, row, column)};
 }
 
 namespace {
-
-namespace fs = std::filesystem;
 
 int lineOf(std::string_view name, std::string_view source) {
   const std::size_t at = source.find(name);

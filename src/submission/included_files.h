@@ -11,13 +11,19 @@
 
 namespace rex::submission {
 
-/// Finds what would make the compiler report other files or lines, or suppress messages as in a system
-/// header: #line, "# 1", and the pragma for system headers, however they are spelt. Each is an error with
-/// the rule "line-marker" at its line; of too many, only the first are named. Comments are skipped only if
-/// they begin a line and the source has no raw string, because elsewhere two C++ parsers could disagree about
-/// them: so this is the one reader that does not use CppText. Takes time in proportion to the source.
-[[nodiscard]] std::vector<grading::CompileDiagnostic> lineMarkers(std::string_view source,
-                                                                  const std::string& mainFile);
+/// What the compiler preprocesses in place of a source to show its line markers: every line ends in a tab, so
+/// that no line of a raw string reads as a marker, and one more line comes after a gap. Nothing else changes.
+[[nodiscard]] std::string sourceForMarkers(std::string_view source);
+
+/// Finds in the preprocessed sourceForMarkers(), and in what the compiler says of it with -pedantic, whether
+/// it takes lines of the file for others, as after #line and "# 1", however they are spelt: an error with the
+/// rule "line-marker" at the first. Also one if the file includes itself. A comment, a literal or a skipped
+/// line is nothing to the compiler, and so not here. If the text is not whole, as after an error, only names
+/// of files are looked at. Takes time in proportion to the texts.
+[[nodiscard]] std::vector<grading::CompileDiagnostic> lineMarkers(std::string_view text,
+                                                                  std::string_view complaints,
+                                                                  std::string_view source,
+                                                                  const std::string& mainFile, bool isWhole);
 
 /// The files in the dependency list that a compiler writes with -MD, without the target, under the names
 /// with which it opened them; relative names are relative to `folder`.

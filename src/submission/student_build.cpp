@@ -135,26 +135,52 @@ std::vector<std::string> lastNames(const std::vector<ForbiddenFunction>& forbidd
 
 // What is read in a student's file before a compiler starts.
 struct FirstReading {
-  std::vector<grading::CompileDiagnostic> lineMarkers{};
   std::vector<std::string> prefix{};  // prefixFlags()
   std::string part{};                 // gradedSource()
   bool isAsking = false;              // with withAutoQuestions()
 };
 
-FirstReading readFirst(const std::string& source, const std::string& name, const Toolchain& toolchain,
+FirstReading readFirst(const std::string& source, const Toolchain& toolchain,
                        const std::vector<ForbiddenFunction>& forbidden, const StudentBuildOptions& options) {
   const auto read = [&]() -> nlohmann::json {
-    const auto markers =
-        options.publicHeadersOnly ? lineMarkers(source, name) : std::vector<grading::CompileDiagnostic>{};
-    if (!markers.empty()) return {markers, std::vector<std::string>{}, "", false};
     const std::string asking = options.part ? withAutoQuestions(CppText(source)) : "";
     const std::string& whole = asking.empty() ? source : asking;
     const std::string part =
         options.part ? gradedSource(whole, toolchain.functions, lastNames(forbidden)) : "";
-    return {markers, prefixFlags(toolchain.prefix, source, toolchain.flags), part, !asking.empty()};
+    return {prefixFlags(toolchain.prefix, source, toolchain.flags), part, !asking.empty()};
   };
   const nlohmann::json found = readApart("the file", kBeforeCompiling, read);
-  return {found.at(0), found.at(1), found.at(2), found.at(3)};
+  return {found.at(0), found.at(1), found.at(2)};
+}
+
+// Why a file must not be compiled: the compiler would attribute its messages to lines that the file chooses.
+struct Markers {
+  std::vector<grading::CompileDiagnostic> found{};
+  std::vector<grading::CompileDiagnostic> error{};  // which the compiler is to find again, and to explain
+};
+
+Markers readMarkers(std::vector<std::string> command, const BuildTools& tools,
+                    const StudentBuildOptions& options, const StudentObject& result) {
+  constexpr std::size_t kMostText = 32u << 20;
+  const path file = options.workFolder / result.name;
+  command.insert(command.end(),
+                 {"-E", "-fpch-preprocess", "-pedantic", "-fno-diagnostics-show-caret", result.name});
+  writeSource(file, sourceForMarkers(result.source));
+  const auto hasErrors = [](const ProcessResult& run) {
+    return run.error.find("error: ") != std::string::npos;
+  };
+  const ProcessResult run = tools.run(command, hasErrors, kMostText);
+  writeSource(file, result.source);
+  const auto failure = [&](const std::string& why) {
+    return std::vector<grading::CompileDiagnostic>{{result.name, 0, 0, "error", "", why}};
+  };
+  if (std::max(run.output.size(), run.error.size()) >= kMostText)
+    return {failure("the compiler prints more than can be read")};
+  if (!run.ok() && (run.timedOut || !hasErrors(run))) return {failure(whyItGaveUp(run, tools, options))};
+  return {
+      messagesApart("the preprocessed file",
+                    [&] { return lineMarkers(run.output, run.error, result.source, result.name, run.ok()); }),
+      run.ok() ? std::vector<grading::CompileDiagnostic>{} : failure(whyItGaveUp(run, tools, options))};
 }
 
 // Compiles the graded part alone if that is wanted and the file allows it. It does not if the scan for
@@ -369,9 +395,7 @@ std::vector<grading::CompileDiagnostic> findingsIn(const StudentObject& object, 
 
 void compileText(const Toolchain& toolchain, const std::vector<ForbiddenFunction>& forbidden,
                  const StudentBuildOptions& options, StudentObject& result) {
-  // Before anything is compiled: the compiler would attribute its messages to lines that the file chooses.
-  const FirstReading reading = readFirst(result.source, result.name, toolchain, forbidden, options);
-  if (!reading.lineMarkers.empty()) return reject(result, reading.lineMarkers);
+  const FirstReading reading = readFirst(result.source, toolchain, forbidden, options);
   // A copy, so that exactly what was read is graded and no file beside the student's is included.
   const path& folder = options.workFolder;
   std::filesystem::create_directories(folder);
@@ -382,8 +406,13 @@ void compileText(const Toolchain& toolchain, const std::vector<ForbiddenFunction
     std::filesystem::remove(old);
   const BuildTools tools(toolchain, folder, options.sandbox,
                          {.seconds = options.seconds, .memory = options.memory});
-  compile(compileCommand(toolchain, options, reading.prefix), result.name, tools, options, reading, result);
+  const std::vector<std::string> command = compileCommand(toolchain, options, reading.prefix);
+  const Markers markers =
+      options.publicHeadersOnly ? readMarkers(command, tools, options, result) : Markers{};
+  if (!markers.found.empty()) return reject(result, markers.found);
+  compile(command, result.name, tools, options, reading, result);
   if (!result.ok) return;
+  if (!markers.error.empty()) return reject(result, markers.error);
   std::vector<grading::CompileDiagnostic> found;
   if (options.graded) found = forbiddenCallsIn(result, toolchain, forbidden, tools);
   const std::vector<grading::CompileDiagnostic> more =

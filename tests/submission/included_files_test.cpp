@@ -1,8 +1,9 @@
 #include "submission/included_files.h"
 
+#include <algorithm>
 #include <cerrno>
-#include <sstream>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <seccomp.h>
@@ -11,68 +12,128 @@
 #include "base/error.h"
 #include "base/process.h"
 #include "base/rng.h"
+#include "base/text.h"
 #include "base/text_file.h"
+#include "support/honest_styles.h"
+#include "support/rounds.h"
 #include "support/temporary_folder.h"
 
 namespace rex::submission::included_files_test {
 
-int countIn(const std::string& source) { return static_cast<int>(lineMarkers(source, "main.cpp").size()); }
+class LineMarkers : public testing::Test {
+ protected:
+  // What is found in a file that the compiler preprocesses here.
+  std::vector<grading::CompileDiagnostic> found(const std::string& source) {
+    writeTextFile(folder_.path() / "main.cpp", sourceForMarkers(source));
+    const ProcessResult run = runProcess({"g++", "-std=c++20", "-isystem", "/usr/include/eigen3", "-E",
+                                          "-pedantic", "-fno-diagnostics-show-caret", "main.cpp"},
+                                         {.directory = folder_.path(), .outputLimit = 64u << 20});
+    return lineMarkers(run.output, run.error, source, "main.cpp", run.ok());
+  }
+  std::string firstFound(const std::string& source) {
+    const auto all = found(source);
+    return all.empty() ? "" : toString(all.front());
+  }
 
-TEST(LineMarkers, NamesTheLineAndColumn) {
-  const auto found =
-      lineMarkers("int a;\n  #line 7 \"b.h\"\n# 1 \"c.h\" 3\n#pragma GCC system_header\n", "main.cpp");
-  ASSERT_EQ(found.size(), 3u);
-  EXPECT_EQ(toString(found[0]),
-            "main.cpp:2:3: error: found a #line directive, wanted the real line numbers of the file "
-            "[line-marker]");
-  EXPECT_EQ(found[1].line, 3);
-  EXPECT_EQ(toString(found[2]),
-            "main.cpp:4:13: error: found the pragma system_header, wanted code that the compiler warns about "
-            "[line-marker]");
+  const TemporaryFolder folder_;
+};
+
+constexpr const char* kLine =
+    "error: found a #line directive, wanted the real line numbers of the file [line-marker]";
+constexpr const char* kPragma =
+    "error: found the pragma system_header, wanted code that the compiler warns about [line-marker]";
+constexpr const char* kItself =
+    "error: found an include of the file itself, wanted each of its lines once [line-marker]";
+
+struct Attack {
+  const char *source, *place, *message = kLine;
+};
+
+// Whatever the spelling, what the compiler obeys is found, and placed where a reader finds it.
+constexpr Attack kAttacks[] = {
+    {"#line 1 \"other.h\"\nint a;\n", "1:1"},
+    {"int a;\n  #line 7 \"b.h\"\n", "2:3"},
+    {"int a;\n#line 1\nint b;\n", "2:1"},
+    {"int a;\n\t#\tline 2\nint b;\n", "2:2"},
+    {"int a;\n#line 900\nint b;\n", "2:1"},
+    {"int a;\n#line 2147483999\nint b;\n", "2:1"},
+    {"int a;\n# 1 \"vector\" 3\nint b;\n", "2:3"},
+    {"int a;\n# 5\nint b;\n", "2:3"},
+    {"int a;\n# 3 \"main.cpp\"\nint b;\n", "2:3"},
+    {"%:line 900\n", "1:1"},
+    {"%: 9 \"x\"\n", "1:4"},
+    {"int a;\n\v#\f1\n", "2:4"},
+    {"/**/#/**/line 5\nint a;\n", "1:5"},
+    {"int a;\n/*\n*/ # 1 \"x\" 3\n", "3:6"},
+    {"#\\\nline 1 \"x\"\n", "1:1"},
+    {"#li\\\nne 1 \"x\"\n", "1:1"},
+    {"#li\\  \nne 1 \"x\"\n", "1:1"},
+    {"// a \\\n/*\n#line 1\n/**/\n", "3:1"},
+    {"auto a = R\"(\n/*\n)\";\n#line 1\n/**/\n", "4:1"},
+    {"auto a = R\"(\n# 1 \"odd.h\"\n)\";\n#line 77\n", "2:1"},  // at what looks like it
+    {"int operator\"\"R(const char*, unsigned long);\nint a = \"a\"R\"(\";\n#line 7 \"x\"\nint b; //)\"\n",
+     "3:1"},
+    {"\xEF\xBB\xBF#line 9\n", "1:1"},
+    {"int a;\r\n#line 7 \"x\"\r\nint b;\r\n", "2:1"},
+    {"int a;\n#line 100", "2:1"},
+    {"#define F(x) x\nF(\n#line 7 \"x\"\nint a;)\n", "3:1"},
+    {"#define F(x) x\nF(\n#line 7 \"x\"\nint a;\n#line 5 \"main.cpp\"\n)\n", "3:1"},
+    {"#define F(x)\nF(\n# 7 \"x\"\n)\n", "3:3"},
+    {"#define N 77\n#define M \"odd\"\n#line N M\n", "3:1"},
+    {"#line 1 \"x\"\nint a;\n#line 4 __BASE_FILE__\n", "1:1"},
+    {"int a;\n#line __LINE__\nint b;\n", "2:1"},
+    {"int a;\nint b;\nint c;\n#line 1\nint d;\n#line 7\nint e;\n", "4:1"},
+    {"int a;\n#line 30\nint b;\n#line 5\nint c;\n", "2:1"},
+    {"# 1 \"/usr/include/stdc-predef.h\" 1 3 4\nint a;\n# 4 \"main.cpp\" 2\nint b;\n", "1:3"},
+    {"#pragma GCC diagnostic ignored \"-Wpedantic\"\n# 7 \"x\" 3\n", "2:3"},
+    {"#define X 0\n_Pragma(\"push_macro(\\\"X\\\")\")\n#undef X\n#define X "
+     "1\n_Pragma(\"pop_macro(\\\"X\\\")\")\n"
+     "#if X == 0\n#line 1 \"x\"\n#endif\n",
+     "7:1"},
+    {"#line 1 \"bwrap: No permissions\"\n#error of the sandbox\n", "1:1"},
+    {"#pragma GCC system_header\n", "1:13", kPragma},
+    {"#pragma GCC sys\\\ntem_header\n", "1:13", kPragma},
+    {"int a;\n_Pragma(\"GCC system_header\")\n", "2:5", kPragma},
+    {"#define P(x) _Pragma(#x)\n#define S(a, b) P(GCC a##b)\nS(system, _header)\n", "3:5", kPragma},
+    {"#ifndef A\n#define A\n#include __FILE__\n#else\n_Pragma(\"GCC system_header\")\n#endif\n", "3:1",
+     kItself},
+    {"#ifndef A\n#define A\n#include \"main.cpp\"\n#endif\n", "3:1", kItself},
+    {"#if !__INCLUDE_LEVEL__\n#include \"./main.cpp\"\n#line 2\n#endif\n", "2:1", kItself},
+};
+
+TEST_F(LineMarkers, AreFoundAndPlacedHoweverTheyAreSpelt) {
+  for (const Attack& attack : kAttacks)
+    EXPECT_EQ(firstFound(attack.source), fmt::format("main.cpp:{}: {}", attack.place, attack.message))
+        << attack.source;
 }
 
-TEST(LineMarkers, FindsThemHoweverTheyAreSpelt) {
-  for (const char* source : {"#line 1",
-                             "# line 1",
-                             "\t#\tline 1",
-                             "%:line 1",
-                             "%: 1 \"x\"",
-                             "#\\\nline 1",
-                             "#li\\\nne 1",
-                             "#li\\  \nne 1",
-                             "/**/#line 1",
-                             "/* a\n b */ #line 1",
-                             "#/**/line 1",
-                             "#/* a\n*/ line 1",
-                             "int a; /*\n*/ # 1 \"x\" 3",
-                             "int a; /*\n/*/\n#line 1\n/**/",
-                             "\xEF\xBB\xBF#line 1",
-                             "#if 0\n'/*\n#endif\n#line 1 \"x\"",
-                             "#if __has_include(</*>)\n#endif\n#line 1\n/**/",
-                             "auto a = R\"(\n/*\n)\";\n#line 1\n/**/",
-                             "// a \\\n/*\n#line 1\n/**/",
-                             "\v#\f1",
-                             "#line 1\r\n",
-                             "\r#line 1",
-                             "?\?=line 1",
-                             "#line\\\n 1",
-                             "_Pragma(\"GCC system_header\")",
-                             "#pragma GCC sys\\\ntem_header"})
-    EXPECT_EQ(countIn(source), 1) << source;
+// A file of the system that says it were main.cpp.
+TEST_F(LineMarkers, AreFoundInWhatIsIncluded) {
+  for (const char* marker :
+       {"#line 1 \"main.cpp\"", "# 1 \"main.cpp\" 1", "# 1 \"main.cpp\" 2", "# 9 \"main.cpp\""}) {
+    writeTextFile(folder_.path() / "odd.h", "int a;\n" + std::string(marker) + "\nint b;\n");
+    EXPECT_THAT(firstFound("int c;\n#include \"odd.h\"\nint d;\n"), testing::HasSubstr("[line-marker]"))
+        << marker;
+  }
+  writeTextFile(folder_.path() / "odd.h", "#line 1 \"grammar.y\"\nint b;\n");
+  EXPECT_EQ(firstFound("int c;\n#include \"odd.h\"\nint d;\n"), "") << "names no line of the file";
 }
 
-TEST(LineMarkers, LeavesOtherTextAlone) {
-  for (const char* source :
-       {"#include <a>\n#define line 1\nint line = 1;", "/*\n# 1. first\n# 2. second\n#line 3\n*/\nint a;",
-        "// # 1 \"x\"", "auto a = \"#line 1\";", "#define A(x) #x\n", "#pragma once", "#lines", "a # 1",
-        "#ifdef line\n#endif", "/* # 1 */ int a;", ""})
-    EXPECT_EQ(countIn(source), 0) << source;
+TEST_F(LineMarkers, AreNotMistakenForWhatHonestPeopleWrite) {
+  const auto styles = honestStyles();
+  EXPECT_GE(styles.size(), 100u);
+  writeTextFile(folder_.path() / "exercise.h", "#pragma once\nint twice(int a);\n");
+  for (std::size_t k = 0; k < styles.size(); ++k) {
+    const auto& [name, source] = styles[k];
+    EXPECT_EQ(firstFound(source), "") << name;
+    if (k % static_cast<std::size_t>(rounds(5, 1)) > 0) continue;
+    EXPECT_EQ(firstFound("\xEF\xBB\xBF" + inDosLines(source.substr(0, source.size() - 1))), "") << name;
+  }
 }
 
-// The compiler decides: what it attributes to another file, or keeps silent about, must be found. The pieces
-// are such as hide a marker from one reader and show it to the other.
-TEST(LineMarkers, MissesNothingThatTheCompilerObeys) {
-  const TemporaryFolder folder;
+// The compiler decides: what it attributes to another file, or keeps silent about, must be found, and nothing
+// else. The pieces are such as hide a marker from one reader and show it to the other.
+TEST_F(LineMarkers, AreThoseThatTheCompilerObeys) {
   Rng rng(17);
   const std::vector<std::string> pieces = {
       "#", "line", " 7 \"odd.h\"", " 7 \"odd.h\" 3", "\n",         "\n", "/*",  "*/", "//", "\\\n", " ", "\"",
@@ -83,23 +144,27 @@ TEST(LineMarkers, MissesNothingThatTheCompilerObeys) {
       text += pieces[static_cast<std::size_t>(rng.index(static_cast<int>(pieces.size())))];
     return text;
   };
-  int obeyed = 0;
+  int obeyed = 0, ignored = 0;
   for (int k = 0; k < 60; ++k) {
     const std::string source = some(5) + "\n" + some(2) + "#" + some(2) + " 7 \"odd.h\" 3\n" + some(4);
-    writeTextFile(folder.path() / "main.cpp", source);
+    writeTextFile(folder_.path() / "main.cpp", source);
     const ProcessResult run =
-        runProcess({"g++", "-std=c++20", "-E", "-w", "main.cpp"}, {.directory = folder.path()});
-    if (run.output.find("\"odd.h\"") == std::string::npos) continue;
+        runProcess({"g++", "-std=c++20", "-E", "-w", "main.cpp"}, {.directory = folder_.path()});
     // Text that is printed as it stands, in a literal, names it, too; a marker stands in a line of its own.
-    std::istringstream lines(run.output);
-    bool isMarker = false;
-    for (std::string line; std::getline(lines, line);)
-      isMarker = isMarker || (line.starts_with("# ") && line.find("\"odd.h\"") != std::string::npos);
-    if (!isMarker) continue;
-    ++obeyed;
-    EXPECT_GT(countIn(source), 0) << source;
+    const std::vector<std::string_view> lines = splitLines(run.output);
+    const bool isMarker = std::ranges::any_of(lines, [](std::string_view line) {
+      return line.starts_with("# ") && line.find("\"odd.h\"") != line.npos;
+    });
+    if (!isMarker) {
+      EXPECT_EQ(firstFound(source), "") << source;
+      ++ignored;
+    } else if (run.output.find("R\"(") == std::string::npos) {
+      EXPECT_NE(firstFound(source), "") << source;
+      ++obeyed;
+    }
   }
   EXPECT_GT(obeyed, 5);
+  EXPECT_GT(ignored, 5);
 }
 
 // Exits with 0 if the machine gets the blame. The kernel is made to look like one before 5.6, or a container.
