@@ -316,9 +316,8 @@ class Filter {
 constexpr std::uint32_t kKill = SCMP_ACT_KILL_PROCESS, kAllow = SCMP_ACT_ALLOW,
                         kRefuse = SCMP_ACT_ERRNO(EPERM);
 
-// Threads may start, unless they suspend the one that starts them. Processes may not, unless programs are
-// allowed; new namespaces never. clone3 hides its flags from filters; without it the C library falls back to
-// clone.
+// Threads may start, unless that suspends who starts them. Processes may not, unless programs are allowed;
+// new namespaces never. clone3 hides its flags; without it the C library falls back to clone.
 void filterClone(Filter& filter, bool mayStartPrograms) {
   constexpr std::array<scmp_datum_t, 7> kNamespaces = {
       CLONE_NEWUSER, CLONE_NEWNS, CLONE_NEWPID, CLONE_NEWNET, CLONE_NEWIPC, CLONE_NEWUTS, CLONE_NEWCGROUP};

@@ -219,8 +219,8 @@ std::string neededBy(const fs::path& object, const WorkerPartOrder& order) {
 void linkControl(const WorkerPartOrder& order, const std::string& withoutStudent, const Names& offers) {
   const fs::path whole = order.folder / "worker_part.o", object = order.folder / "worker.control.o";
   link(order, object, offers, withoutStudent);
-  std::vector<std::string> command = {order.compiler, object, "@" + linkOptions(whole).string(), "-o",
-                                      controlProgram(whole)};
+  std::vector<std::string> command = {
+      order.compiler, "-s", object, "@" + linkOptions(whole).string(), "-o", controlProgram(whole)};
   command.insert(command.end(), order.linkFlags.begin(), order.linkFlags.end());
   run(command);
   fs::remove(object);

@@ -29,7 +29,7 @@ struct WorkerPartOrder {
   std::vector<std::string> functions;          ///< the student's functions that the loop calls
   std::vector<std::filesystem::path> libraries;  ///< third-party shared ones that the library needs
   std::string compiler;                          ///< used for linking
-  std::vector<std::string> linkFlags;            ///< of programs
+  std::vector<std::string> linkFlags{};          ///< of programs
   std::string objcopy, nm;
   std::filesystem::path folder;  ///< output folder
 };

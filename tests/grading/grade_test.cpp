@@ -349,7 +349,7 @@ TEST(Grade, CountsWhatItsWorkersUse) {
 /// A launcher that first does what a shell is told to do.
 class SlowLauncher {
  public:
-  explicit SlowLauncher(const std::string& before) {
+  explicit SlowLauncher(const std::string& before, double wallSeconds = 0.5) : wallSeconds_(wallSeconds) {
     std::ofstream(file_) << "#!/bin/sh\n"
                          << "cd '" << folder_.path().string() << "'\necho >> starts\n"
                          << before << "\nexec '" << (ownFolder() / "rex-sandbox").string() << "' \"$@\"\n";
@@ -359,7 +359,7 @@ class SlowLauncher {
     return grading::grade({}, std::vector{check("a", Group::kVisible, square)},
                           {.worker = kGood,
                            .control = kControl,
-                           .limits = {.wallSeconds = 0.5},
+                           .limits = {.wallSeconds = wallSeconds_},
                            .sandbox = {.level = sandbox::Level::kFiles, .launcher = file_}},
                           Student::signature(), [](const GradeResult&) {})
         .checks.front();
@@ -370,6 +370,7 @@ class SlowLauncher {
   static void square(Check& judge, Student& student) { judge.near("square", student.square(3), 9, 1e-9); }
   TemporaryFolder folder_;
   std::filesystem::path file_ = folder_.path() / "launcher";
+  double wallSeconds_;
 };
 
 #ifndef __SANITIZE_ADDRESS__  // needs more addresses than a sandbox gives
@@ -383,7 +384,7 @@ TEST(Grade, DoesNotChargeTheStartOfTheSandbox) {
 // Only workers are slow, not the control, which is every second program: nothing but the file can be to
 // blame.
 TEST(Grade, BlamesTheFileIfTheControlAnswers) {
-  const SlowLauncher slowAtWorkers("[ $(($(wc -l < starts) % 2)) = 0 ] || sleep 100");
+  const SlowLauncher slowAtWorkers("[ $(($(wc -l < starts) % 2)) = 0 ] || sleep 100", 2);
   const CheckResult result = slowAtWorkers.grade();
   EXPECT_EQ(result.status, Outcome::kTimeLimit) << result.message;
   EXPECT_EQ(slowAtWorkers.starts(), 4);
