@@ -210,6 +210,7 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kResults = "results.json";
 constexpr const char* kEvidence = "checks";
 constexpr const char* kRegraded = "regraded";
+constexpr const char* kVisible = "visible";
 
 // All files below the folder, in the same order on every machine.
 std::vector<fs::path> filesBelow(const fs::path& folder) {
@@ -302,6 +303,55 @@ std::string withInputs(const fs::path& results, const Task& task, bool evidence,
   return json.dump(2) + "\n";
 }
 
+// Why a result file for the inputs of a task is not believed; empty if it is.
+std::string whyNoResult(const fs::path& file, const Task& task, const fs::path& secret) {
+  try {
+    const grading::GradeResult result = grading::loadSoundResult(file);
+    const std::string hmac = inputOf(file, "result_hmac");
+    if (!secret.empty() &&
+        hmac != hmacOf(inputOf(file, "result_sha256"), inputOf(file, "sha256"), task, secret))
+      return Error({.what = "a result that was not written with the secret of the course",
+                    .where = {file.string()},
+                    .found = hmac.empty() ? "no result_hmac" : "another result_hmac"})
+          .what();
+    if (result.exerciseId == task.exercise) return {};
+    return Error({.what = "a result of another exercise",
+                  .where = {file.string()},
+                  .found = "'" + result.exerciseId + "'",
+                  .wanted = "'" + task.exercise + "'"})
+        .what();
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+bool keptEvidence(const fs::path& folder) {
+  return resultJson(folder / kResults).value(Json::json_pointer("/volatile/evidence"), false);
+}
+
+// Copies what a grading left, of which nothing is seen before all of it is there: reports and pictures of an
+// earlier result would mislead, and new pictures are written before the result that names them.
+void publish(const fs::path& from, const fs::path& folder, const std::string& result) {
+  fs::create_directories(folder);
+  if (fs::exists(from / kBuildLog))
+    replaceTextFile(folder / kBuildLog, readTextFile(from / kBuildLog), "the log of the compiler");
+  removeReports(folder);
+  fs::remove_all(folder / kEvidence);
+  if (fs::exists(from / kEvidence))
+    fs::copy(from / kEvidence, folder / kEvidence, fs::copy_options::recursive);
+  replaceTextFile(folder / kResults, result, "the result file");
+}
+
+// A pass of a class keeps its program for the next.
+submission::BuiltSubmission build(const Task& task, const submission::Toolchain& toolchain,
+                                  const submission::ExerciseInfo& exercise, const TaskOptions& options,
+                                  const SubmissionOptions& submission) {
+  if (options.workers.empty() && options.pass == grading::Pass::kWhole)
+    return submission::buildSubmission(toolchain, exercise, submission);
+  const fs::path kept = options.workers.empty() ? options.workFolder / "kept" : options.workers;
+  return buildOnce({kept, workerKey(task), options.recompile}, toolchain, exercise, submission);
+}
+
 }  // namespace
 
 std::string graderFingerprint(const submission::Toolchain& toolchain,
@@ -339,25 +389,12 @@ TaskState taskState(const Task& task, const fs::path& out, const fs::path& secre
 }
 
 std::string whyRefused(const Task& task, const fs::path& out, const fs::path& secret) {
-  try {
-    const fs::path file = resultFolder(out, task) / kResults;
-    const grading::GradeResult result = grading::loadSoundResult(file);
-    const std::string hmac = inputOf(file, "result_hmac");
-    if (!secret.empty() &&
-        hmac != hmacOf(inputOf(file, "result_sha256"), inputOf(file, "sha256"), task, secret))
-      return Error({.what = "a result that was not written with the secret of the course",
-                    .where = {file.string()},
-                    .found = hmac.empty() ? "no result_hmac" : "another result_hmac"})
-          .what();
-    if (result.exerciseId == task.exercise) return {};
-    return Error({.what = "a result of another exercise",
-                  .where = {file.string()},
-                  .found = "'" + result.exerciseId + "'",
-                  .wanted = "'" + task.exercise + "'"})
-        .what();
-  } catch (const Error& error) {
-    return error.what();
-  }
+  return whyNoResult(resultFolder(out, task) / kResults, task, secret);
+}
+
+bool awaitsSecondPass(const Task& task, const fs::path& out, const fs::path& secret) {
+  const fs::path file = resultFolder(out, task) / kVisible / kResults;
+  return inputOf(file, "sha256") == task.inputsSha256() && whyNoResult(file, task, secret).empty();
 }
 
 void removeReports(const fs::path& folder) {
@@ -436,41 +473,42 @@ bool hasEvidence(const Task& task, const fs::path& out) {
 
 grading::GradeResult gradeTask(const Task& task, const submission::Toolchain& toolchain,
                                const submission::ExerciseInfo& exercise, const TaskOptions& options) {
-  const fs::path file = options.out / task.file;
+  const fs::path file = options.out / task.file, whole = resultFolder(options.out, task),
+                 out = options.workFolder / "out";
   requireInputs(task, file, toolchain, exercise, options);
-  const fs::path results = options.workFolder / "out" / kResults,
-                 evidence = options.workFolder / "out" / kEvidence;
-  fs::create_directories(results.parent_path());
-  const bool keepsEvidence = options.evidence || resultJson(resultFolder(options.out, task) / kResults)
-                                                     .value(Json::json_pointer("/volatile/evidence"), false);
+  fs::create_directories(out);
+  const bool keepsEvidence = options.evidence || keptEvidence(whole);
+  if (options.pass == grading::Pass::kVisible && awaitsSecondPass(task, options.out, options.secret) &&
+      keptEvidence(whole / kVisible) == keepsEvidence)
+    return grading::loadResult(whole / kVisible / kResults);  // of a run that was interrupted
   const SubmissionOptions submission{.main = file,
                                      .workFolder = options.workFolder / "work",
-                                     .job = {.results = results,
+                                     .job = {.results = out / kResults,
+                                             .pass = options.pass,
                                              .seed = task.seed.value_or(grading::GradingJob{}.seed),
                                              .sandbox = {.level = task.level, .launcher = options.launcher},
-                                             .evidence = keepsEvidence ? evidence : fs::path(),
+                                             .evidence = keepsEvidence ? out / kEvidence : fs::path(),
                                              .secret = options.secret}};
-  const submission::BuiltSubmission built =
-      options.workers.empty()
-          ? submission::buildSubmission(toolchain, exercise, submission)
-          : buildOnce({options.workers, workerKey(task), options.recompile}, toolchain, exercise, submission);
+  submission::BuiltSubmission built = build(task, toolchain, exercise, options, submission);
+  if (options.pass == grading::Pass::kHidden) {
+    fs::copy(whole / kVisible, out, fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+    built.start = grading::loadResult(out / kResults);
+  }
   grading::GradeResult result = submission::gradeBuilt(built, toolchain, exercise, submission);
+  fs::remove_all(submission.workFolder);
+  const auto sealed = [&] {
+    return withInputs(out / kResults, task, keepsEvidence, options.alone, options.secret);
+  };
+  if (options.pass == grading::Pass::kVisible && awaitsHiddenChecks(result)) {
+    publish(out, whole / kVisible, sealed());
+    return result;
+  }
   const std::optional<int> before = pointsBefore(task, options.out);
   const bool isHeld =
       !options.accept && before && result.outcome != grading::Outcome::kGraderError && result.score < *before;
-  const fs::path whole = resultFolder(options.out, task), folder = isHeld ? whole / kRegraded : whole;
   fs::remove_all(whole / kRegraded);
-  fs::create_directories(folder);
-  const fs::path log = results.parent_path() / kBuildLog;
-  if (fs::exists(log)) replaceTextFile(folder / kBuildLog, readTextFile(log), "the log of the compiler");
-  // Reports and pictures of an earlier result would mislead. New pictures are written before the result that
-  // names them.
-  removeReports(folder);
-  fs::remove_all(folder / kEvidence);
-  if (keepsEvidence && fs::exists(evidence))
-    fs::copy(evidence, folder / kEvidence, fs::copy_options::recursive);
-  replaceTextFile(folder / kResults, withInputs(results, task, keepsEvidence, options.alone, options.secret),
-                  "the result file");
+  publish(out, isHeld ? whole / kRegraded : whole, sealed());
+  fs::remove_all(whole / kVisible);
   return result;
 }
 

@@ -98,23 +98,29 @@ struct GradedWith {
 /// Whether the pictures and replays of a finished task were kept and still exist.
 [[nodiscard]] bool hasEvidence(const Task& task, const std::filesystem::path& out);
 
+/// Whether the visible checks of a task were graded: a first pass has left what a second can continue.
+[[nodiscard]] bool awaitsSecondPass(const Task& task, const std::filesystem::path& out,
+                                    const std::filesystem::path& secret);
+
 struct TaskOptions {
-  std::filesystem::path out{};         ///< folder of all results
-  std::filesystem::path workFolder{};  ///< for this task alone, made if missing
-  std::filesystem::path launcher{};    ///< of the sandbox
-  std::filesystem::path secret{};      ///< file with the secret of the course; empty: none
-  bool evidence = false;               ///< keep pictures and replays of failed visible checks
-  bool alone = false;                  ///< see GradedWith
-  std::filesystem::path workers{};     ///< where compiled programs are kept; empty: they are not
-  bool accept = false;                 ///< take a result with fewer points for the same text, too
-  bool recompile = false;              ///< build even what is kept there
+  std::filesystem::path out{};                 ///< folder of all results
+  std::filesystem::path workFolder{};          ///< for this task alone, made if missing
+  std::filesystem::path launcher{};            ///< of the sandbox
+  std::filesystem::path secret{};              ///< file with the secret of the course; empty: none
+  bool evidence = false;                       ///< keep pictures and replays of failed visible checks
+  bool alone = false;                          ///< see GradedWith
+  std::filesystem::path workers{};             ///< where compiled programs are kept; empty: they are not
+  bool accept = false;                         ///< take a result with fewer points for the same text, too
+  bool recompile = false;                      ///< build even what is kept there
+  grading::Pass pass = grading::Pass::kWhole;  ///< of a class; both share the work folder
 };
 
 /// Grades a task and writes OUT/STUDENT/EXERCISE/results.json, the hash of the inputs, build.log and, on
 /// request or if the result before had it, the folder checks; each file is written completely or not at all.
 /// Reports of an earlier result are removed. If the same text had more points before, that result stays, and
-/// the new one waits in the folder `regraded` (isHeldBack()). Throws Error without writing a result if the
-/// file or the grader is not that of the task.
+/// the new one waits in the folder `regraded` (isHeldBack()). A first pass leaves its result in the folder
+/// `visible` if there are hidden checks to run. Throws Error without writing a result if the file or the
+/// grader is not that of the task.
 [[nodiscard]] grading::GradeResult gradeTask(const Task& task, const submission::Toolchain& toolchain,
                                              const submission::ExerciseInfo& exercise,
                                              const TaskOptions& options);

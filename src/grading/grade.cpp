@@ -30,6 +30,7 @@ namespace {
 constexpr std::size_t kLongestMessage = 2000;
 constexpr std::size_t kKeptOutput = 16u << 10;
 constexpr const char* kUnfinished = "the grader did not finish";
+constexpr const char *kNotRun = "was not run: ", *kNoAnswer = "; it gave no answer";
 constexpr rlim_t kJudgingMemory = rlim_t{6} << 30;
 
 /// A job, and what all of its checks share.
@@ -261,6 +262,7 @@ Attempt attempt(const RunnableCheck& check, const Grading& grading, std::uint64_
     keepEvidence(judge, grading.job.evidence, verdict);
   }
   const bool slept = isLate(run) && !hasAnswered;
+  if (slept && check.info.group == Group::kVisible) verdict.message += kNoAnswer;
   return {std::move(run), std::move(verdict), slept};
 }
 
@@ -371,8 +373,18 @@ void limitJudging([[maybe_unused]] const Limits& limits) {
 /// attempts and waiting are paid from it.
 class Budget {
  public:
-  Budget(const Grading& grading, std::size_t checks)
-      : grading_(grading), checks_(static_cast<double>(checks + kMostAsleep)) {}
+  /// `start` tells what a first pass has used.
+  Budget(const Grading& grading, const GradeResult& start)
+      : grading_(grading),
+        checks_(static_cast<double>(start.checks.size() + kMostAsleep)),
+        cpuSeconds_(start.usage.cpuSeconds),
+        before_(start.usage.wallSeconds) {
+    for (const CheckResult& check : start.checks) {
+      if (check.status != Outcome::kTimeLimit) continue;
+      if (check.message.starts_with(kNotRun)) whySpent_ = check.message;
+      if (check.message.ends_with(kNoAnswer)) ++asleep_;
+    }
+  }
 
   void pay(const GradeResult& part, bool slept) {
     cpuSeconds_ += part.usage.cpuSeconds;
@@ -382,22 +394,24 @@ class Budget {
   std::string whySpent() const {
     const Limits& limits = grading_.job.limits;
     const double cpu = checks_ * limits.cpuBudget(), wall = checks_ * limits.wallBudget();
+    if (!whySpent_.empty()) return whySpent_;
     if (asleep_ >= kMostAsleep)
-      return fmt::format("was not run: in {} checks, the program slept before or in its first call", asleep_);
+      return fmt::format("{}in {} checks, the program slept before or in its first call", kNotRun, asleep_);
     if (cpuSeconds_ > cpu)
-      return fmt::format("was not run: the checks before it used more than {:g} s of CPU time", cpu);
+      return fmt::format("{}the checks before it used more than {:g} s of CPU time", kNotRun, cpu);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start_;
-    if (took.count() <= wall ||
-        took.count() <= wall * patienceFor(slownessOfMachine(grading_.job, grading_.signature)))
+    const double used = before_ + took.count();
+    if (used <= wall || used <= wall * patienceFor(slownessOfMachine(grading_.job, grading_.signature)))
       return {};
-    return fmt::format("was not run: the checks before it took more than {:g} s", wall);
+    return fmt::format("{}the checks before it took more than {:g} s", kNotRun, wall);
   }
 
  private:
   static constexpr int kMostAsleep = 3;
   const Grading& grading_;
-  double checks_, cpuSeconds_ = 0;
+  double checks_, cpuSeconds_, before_;
   int asleep_ = 0;
+  std::string whySpent_{};
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
@@ -411,7 +425,10 @@ class Copies {
       : start_(start), checks_(checks), grading_(grading), ended_(std::move(ended)) {}
 
   /// A copy that is killed, perhaps because the machine is short of memory, gets a second try.
-  void run(std::vector<std::size_t> numbers) {
+  void run(Group group) {
+    std::vector<std::size_t> numbers;
+    for (std::size_t k = 0; k < checks_.size(); ++k)
+      if (checks_[k].info.group == group) numbers.push_back(k);
     for (const bool isLast : {false, true}) {
       std::vector<std::size_t> killed;
       forkMap(
@@ -434,7 +451,9 @@ class Copies {
 
   int runHere(std::size_t k) const {
     limitJudging(grading_.job.limits);
-    GradeResult part = start_;
+    GradeResult part;
+    part.snapshotSha256 = start_.snapshotSha256;
+    part.exerciseId = start_.exerciseId;
     const auto write = [&](const CheckResult& verdict) {
       part.checks = {verdict};
       saveResult(part, file(k));
@@ -466,8 +485,27 @@ class Copies {
   const Grading& grading_;
   std::function<void(std::size_t, GradeResult)> ended_;
   PrivateFolder folder_{grading_.job.temporaryFolder};
-  Budget budget_{grading_, checks_.size()};
+  Budget budget_{grading_, start_};
 };
+
+void clear(GradeResult& result, std::span<const RunnableCheck> checks) {
+  result.checks.clear();
+  result.score = result.maxScore = 0;
+  for (const RunnableCheck& check : checks) {
+    result.checks.push_back(blank(check.info));
+    result.maxScore += check.info.points;
+  }
+  result.output = result.error = {};
+  result.usage = {};
+}
+
+void requireFirstPass(const GradeResult& result, std::span<const RunnableCheck> checks) {
+  const bool isOfThese =
+      std::equal(checks.begin(), checks.end(), result.checks.begin(), result.checks.end(),
+                 [](const RunnableCheck& check, const CheckResult& one) { return check.info.id == one.id; });
+  if (!isOfThese || !awaitsHiddenChecks(result))
+    throw Error({.what = "there are no results of a first pass to continue"});
+}
 
 }  // namespace
 
@@ -485,16 +523,10 @@ GradeResult grade(GradeResult result, std::span<const RunnableCheck> checks, con
   });
   const Grading grading{
       .job = job, .signature = signature, .secret = secret, .hasSecretChecks = hasHidden && !secret.empty()};
-  result.checks.clear();
-  result.score = 0;
-  result.maxScore = 0;
-  result.output = {};
-  result.error = {};
-  result.usage = {};
-  for (const RunnableCheck& check : checks) {
-    result.checks.push_back(blank(check.info));
-    result.maxScore += check.info.points;
-  }
+  if (job.pass == Pass::kHidden)
+    requireFirstPass(result, checks);
+  else
+    clear(result, checks);
   result.limits = job.limits;
   result.seedId = seedIdOf(grading);
   if (job.worker.empty()) {
@@ -511,19 +543,14 @@ GradeResult grade(GradeResult result, std::span<const RunnableCheck> checks, con
     parts.emplace(k, std::move(part));
     result = start;
     for (const auto& [place, one] : parts) add(result, place, one);
-    if (parts.size() == checks.size()) {
+    if (std::all_of(result.checks.begin(), result.checks.end(), [](const auto& one) { return one.status; })) {
       result.outcome = overallOutcome(result.checks);
       result.message.clear();
     }
     save(result);
   });
-  // What a program learns in a hidden check, it may find a way to tell a visible one that runs beside it.
-  for (const Group group : {Group::kVisible, Group::kHidden}) {
-    std::vector<std::size_t> numbers;
-    for (std::size_t k = 0; k < checks.size(); ++k)
-      if (checks[k].info.group == group) numbers.push_back(k);
-    copies.run(std::move(numbers));
-  }
+  if (job.pass != Pass::kHidden) copies.run(Group::kVisible);
+  if (job.pass != Pass::kVisible) copies.run(Group::kHidden);
   return result;
 }
 

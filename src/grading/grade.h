@@ -29,8 +29,8 @@ void setSandbox(GradeResult& result, sandbox::Level level);
 /// Runs every check, whatever job.checks says, with a fresh worker for `signature` and in a limited copy of
 /// this process. Adds the results in the given order to `result` and keeps its other fields. Calls `save`
 /// after each check and before the first, when everything still counts as a grader error. An exception of a
-/// check function or the death of its copy is a grader error, too; once it has read a student's value, the
-/// check fails instead.
+/// check function is a grader error, too; once it has read a student's value, the check fails instead. The
+/// death of a copy is the student's fault. Throws Error if the second pass gets no result of the first.
 [[nodiscard]] GradeResult grade(GradeResult result, std::span<const RunnableCheck> checks,
                                 const GradingJob& job, std::uint64_t signature,
                                 const std::function<void(const GradeResult&)>& save);

@@ -15,6 +15,8 @@ void declareOptions(CLI::App& app, GradingJob& job) {
   app.add_option("--control", job.control, "a worker without a student's code, to measure the machine by");
   app.add_option("--results", job.results, "result file; its fields about the submission are kept");
   app.add_option("--check", job.checks, "run only this check (repeatable)")->allow_extra_args(false);
+  app.add_option("--pass", job.pass, "1: leave hidden checks out, 2: run them and keep the other results")
+      ->check(CLI::Range(0, 2));
   app.add_option("--seed", job.seed, "seed of all random numbers");
   app.add_option("--cpu-seconds", job.limits.cpuSeconds, "CPU time of one check")->check(CLI::PositiveNumber);
   app.add_option("--wall-seconds", job.limits.wallSeconds, "seconds to wait for one check; 0: 2 x CPU + 2")
@@ -44,6 +46,7 @@ std::vector<std::string> toArguments(const GradingJob& job) {
   add("--control", job.control.string());
   add("--results", job.results.string());
   for (const std::string& check : job.checks) add("--check", check);
+  add("--pass", fmt::format("{}", static_cast<int>(job.pass)));
   add("--seed", fmt::format("{}", job.seed));
   add("--cpu-seconds", fmt::format("{}", job.limits.cpuSeconds));
   add("--wall-seconds", fmt::format("{}", job.limits.wallSeconds));

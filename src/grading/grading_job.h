@@ -14,6 +14,10 @@ class App;
 
 namespace rex::grading {
 
+/// Which checks a run of a grader program takes on. What runs beside a hidden check might learn from it, so a
+/// class gets its hidden checks in a second run of each grader, which continues the results of the first.
+enum class Pass : int { kWhole = 0, kVisible = 1, kHidden = 2 };
+
 /// What one run of a grader program is asked to do. It is passed as a whole from the command line of `rex`
 /// to the launch of each worker.
 struct GradingJob {
@@ -22,6 +26,7 @@ struct GradingJob {
   std::filesystem::path control{};    ///< see slownessOfMachine(); empty: lost time is the file's fault
   std::filesystem::path results{};    ///< results.json; its fields about the submission are kept; empty: none
   std::vector<std::string> checks{};  ///< ids; empty: all
+  Pass pass = Pass::kWhole;           ///< a whole grading runs the hidden checks last
   std::uint64_t seed = 1;
   Limits limits{};
   sandbox::Sandbox sandbox{};

@@ -112,6 +112,9 @@ struct GradeResult {
   Usage usage{};  ///< volatile
 };
 
+/// Whether all checks but hidden ones were run: see Pass.
+[[nodiscard]] bool awaitsHiddenChecks(const GradeResult& result);
+
 /// The text of a result file. Invalid UTF-8 is replaced.
 [[nodiscard]] std::string toJson(const GradeResult& result);
 

@@ -199,6 +199,59 @@ TEST(Grade, RunsChecksAtOnce) {
   EXPECT_EQ(dead.outcome, Outcome::kGraderError);
 }
 
+/// A number that copies of this process have in common.
+class SharedCount {
+ public:
+  int& value() const { return *value_; }
+  ~SharedCount() { ::munmap(value_, sizeof(int)); }
+
+ private:
+  int* value_ = static_cast<int*>(
+      ::mmap(nullptr, sizeof(int), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0));
+};
+
+// Whatever a hidden check tells those that run beside it, no visible one hears it.
+TEST(Grade, RunsHiddenChecksLast) {
+  const SharedCount shared;
+  const auto visible = [&](Check& judge, Student& student) {
+    ::usleep(100'000);
+    judge.near("square", student.square(3), 9, 1e-9);
+    ++shared.value();
+  };
+  const auto hidden = [&](Check& judge, Student&) { judge.that("all others are over", shared.value() == 2); };
+  const std::vector<RunnableCheck> checks = {check("a", Group::kVisible, visible),
+                                             check("b", Group::kHidden, hidden),
+                                             check("c", Group::kVisible, visible)};
+  const GradeResult result =
+      grade({}, checks, {.worker = kGood, .jobs = 3}, Student::signature(), [](const GradeResult&) {});
+  EXPECT_EQ(result.outcome, Outcome::kPass);
+}
+
+TEST(Grade, ContinuesAFirstPassToTheSameResult) {
+  const auto ask = [](Check& judge, Student& student) {
+    judge.near("square", student.square(judge.rng().uniform(1, 2)), 4, 1e-9);
+  };
+  const std::vector<RunnableCheck> checks = {check("a", Group::kHidden, ask),
+                                             check("b", Group::kVisible, ask)};
+  const auto run = [&](Pass pass, const GradeResult& start, std::span<const RunnableCheck> some) {
+    return grade(start, some, {.worker = kGood, .pass = pass}, Student::signature(),
+                 [](const GradeResult&) {});
+  };
+  const GradeResult whole = run(Pass::kWhole, {}, checks), first = run(Pass::kVisible, {}, checks),
+                    second = run(Pass::kHidden, first, checks);
+  EXPECT_TRUE(awaitsHiddenChecks(first));
+  EXPECT_EQ(first.outcome, Outcome::kGraderError);
+  EXPECT_EQ(first.checks[0].status, std::nullopt);
+  EXPECT_EQ(first.checks[1].status, Outcome::kFail);
+  EXPECT_EQ(computeSeal(toJson(second), ""), computeSeal(toJson(whole), ""));
+  EXPECT_FALSE(awaitsHiddenChecks(second));
+  EXPECT_FALSE(awaitsHiddenChecks(run(Pass::kVisible, {}, std::span(checks).subspan(1)))) << "it has none";
+  const std::string nothing = "there are no results of a first pass to continue";
+  EXPECT_REX_ERROR(run(Pass::kHidden, {}, checks), nothing);
+  EXPECT_REX_ERROR(run(Pass::kHidden, whole, checks), nothing);
+  EXPECT_REX_ERROR(run(Pass::kHidden, first, std::span(checks).subspan(1)), nothing);
+}
+
 TEST(Grade, DrawsVisibleChecksThatDoNotHold) {
   const auto off = [](Check& judge, Student&) {
     judge.near("states", Eigen::VectorXd::Zero(9), Eigen::VectorXd::Ones(9), .1);
@@ -266,17 +319,6 @@ TEST(Grade, SavesBeforeTheFirstAndAfterEveryCheck) {
                                             Pair(Outcome::kPass, 2)));
   EXPECT_EQ(last.message, "");
 }
-
-/// A number that copies of this process have in common.
-class SharedCount {
- public:
-  int& value() const { return *value_; }
-  ~SharedCount() { ::munmap(value_, sizeof(int)); }
-
- private:
-  int* value_ = static_cast<int*>(
-      ::mmap(nullptr, sizeof(int), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0));
-};
 
 // Sends it to all processes that this one started.
 void signalChildren(int signal) {
@@ -460,6 +502,27 @@ TEST(Grade, RunsNoMoreChecksAfterThreeThatSlept) {
   const CheckResult left = last(asksForAStep);
   EXPECT_EQ(left.status, Outcome::kTimeLimit);
   EXPECT_EQ(left.message, "was not run: in 3 checks, the program slept before or in its first call");
+}
+
+// Those of a first pass count in the second, and what it did not run is not run there either.
+TEST(Grade, CountsChecksThatSleptInBothPasses) {
+  std::vector<RunnableCheck> checks = {check("a", Group::kVisible, asksForAStep),
+                                       check("b", Group::kVisible, asksForAStep),
+                                       check("c", Group::kHidden, asksForAStep)};
+  for (const char* id : {"d", "e", "f", "g", "h", "i", "j"})
+    checks.push_back(check(id, Group::kHidden, asksForASquare));
+  const auto run = [&](Pass pass, const GradeResult& start) {
+    return grade(start, checks,
+                 {.worker = kGood.parent_path() / "sleep", .pass = pass, .limits = {.wallSeconds = 0.3}},
+                 Student::signature(), [](const GradeResult&) {});
+  };
+  const GradeResult first = run(Pass::kVisible, {});
+  EXPECT_THAT(first.checks[1].message, HasSubstr("it gave no answer"));
+  for (GradeResult result : {run(Pass::kHidden, first), run(Pass::kWhole, {})})
+    EXPECT_THAT(result.checks.back().message, HasSubstr("in 3 checks, the program slept"));
+  GradeResult spent = first;
+  spent.checks[1].message = "was not run: of some cause";
+  EXPECT_EQ(run(Pass::kHidden, spent).checks[2].message, "was not run: of some cause");
 }
 
 // Each check takes twice its time, so that less than half of them use up the time of all and of three more.

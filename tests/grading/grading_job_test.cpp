@@ -23,6 +23,7 @@ TEST(GradingJob, ComesBackFromArguments) {
                        .control = "control",
                        .results = "results.json",
                        .checks = {"one", "two"},
+                       .pass = Pass::kHidden,
                        .seed = 18446744073709551615u,
                        .limits = {.cpuSeconds = 0.1,
                                   .wallSeconds = 1. / 3,
@@ -41,6 +42,7 @@ TEST(GradingJob, ComesBackFromArguments) {
   EXPECT_EQ(back.control, job.control);
   EXPECT_EQ(back.results, job.results);
   EXPECT_EQ(back.checks, job.checks);
+  EXPECT_EQ(back.pass, job.pass);
   EXPECT_EQ(back.seed, job.seed);
   EXPECT_EQ(back.limits.cpuSeconds, job.limits.cpuSeconds);
   EXPECT_EQ(back.limits.wallSeconds, job.limits.wallSeconds);
@@ -62,6 +64,7 @@ TEST(GradingJob, RefusesWhatIsNotALimit) {
   for (const char* option : {"--cpu-seconds", "--memory", "--output", "--jobs"})
     EXPECT_THROW(parsed({option, "0"}), CLI::ParseError) << option;
   EXPECT_THROW(parsed({"--level", "4"}), CLI::ParseError);
+  EXPECT_THROW(parsed({"--pass", "3"}), CLI::ParseError);
   EXPECT_THROW(parsed({"--wall-seconds", "-1"}), CLI::ParseError);
 }
 

@@ -341,7 +341,8 @@ void tellRefused(const std::vector<Task>& tasks, const fs::path& out, const fs::
       note(wrap(escapeForTerminal(classroom::whyRefused(task, out, secret)) + "; it is graded again", 2, 0));
 }
 
-// Grades the tasks without a valid result; returns their number.
+// Grades the tasks without a valid result; returns their number. Nobody's hidden checks run beside visible
+// ones: what a program learns in a hidden check, it may find a way to tell another.
 int gradeOpen(const std::vector<Task>& tasks, const GradeManyOptions& options,
               const sandbox::Sandbox& sandbox, Graders& graders) {
   std::vector<const Task*> open;
@@ -351,36 +352,43 @@ int gradeOpen(const std::vector<Task>& tasks, const GradeManyOptions& options,
             jobs = options.jobs > 0 ? options.jobs
                                     : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const PrivateFolder work(fs::temp_directory_path());
-  std::atomic<int> ended = 0;
+  std::atomic<int> begun = 0, ended = 0;
   const ProgressLine line([&] {
-    return fmt::format("graded {} of {}, {} kept", ended.load(), count, tasks.size() - open.size());
+    return fmt::format("visible checks of {0}, hidden checks of {1} of {2} graded, {3} kept", begun.load(),
+                       ended.load(), count, tasks.size() - open.size());
   });
-  forkMap(
-      count, jobs,
-      [&](int k) {
-        const Task& task = *open[static_cast<std::size_t>(k)];
-        return gradeApart(task, graders.of(task.exercise),
-                          {.out = options.out,
-                           .workFolder = work.path() / fmt::format("{}", k),
-                           .launcher = sandbox.launcher,
-                           .secret = options.secret,
-                           .evidence = options.evidence,
-                           .alone = isAlone(task, options),
-                           .workers = options.workers,
-                           .accept = options.acceptFewer,
-                           .recompile = options.regrade && isDone(task, options)});
-      },
-      [&](int k, int code) {
-        std::error_code ignored;
+  const auto gradeAll = [&](grading::Pass pass) {
+    const bool isFirst = pass == grading::Pass::kVisible;
+    const auto gradeOne = [&](int k) {
+      const Task& task = *open[static_cast<std::size_t>(k)];
+      if (!isFirst && !classroom::awaitsSecondPass(task, options.out, options.secret)) return 0;
+      return gradeApart(task, graders.of(task.exercise),
+                        {.out = options.out,
+                         .workFolder = work.path() / fmt::format("{}", k),
+                         .launcher = sandbox.launcher,
+                         .secret = options.secret,
+                         .evidence = options.evidence,
+                         .alone = isAlone(task, options),
+                         .workers = options.workers,
+                         .accept = options.acceptFewer,
+                         .recompile = isFirst && options.regrade && isDone(task, options),
+                         .pass = pass});
+    };
+    const auto end = [&](int k, int code) {
+      const Task& task = *open[static_cast<std::size_t>(k)];
+      if (code < 0)
+        note(wrap(escapeForTerminal(fmt::format("{} {}: the grading was ended by signal {}: grade it again",
+                                                task.student, task.exercise, -code)),
+                  2, 0));
+      std::error_code ignored;
+      if (!classroom::awaitsSecondPass(task, options.out, options.secret))
         fs::remove_all(work.path() / fmt::format("{}", k), ignored);
-        const Task& task = *open[static_cast<std::size_t>(k)];
-        if (code < 0)
-          note(wrap(escapeForTerminal(fmt::format("{} {}: the grading was ended by signal {}: grade it again",
-                                                  task.student, task.exercise, -code)),
-                    2, 0));
-        ++ended;
-      },
-      kSecondsOfTask);
+      ++(isFirst ? begun : ended);
+    };
+    forkMap(count, jobs, gradeOne, end, kSecondsOfTask);
+  };
+  gradeAll(grading::Pass::kVisible);
+  gradeAll(grading::Pass::kHidden);
   return count;
 }
 

@@ -1,4 +1,5 @@
 // `rex grade`, task by task and with `--collect`, on small classes of students.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -53,6 +54,33 @@ TEST_F(GradeManyTest, WritesTheSameBytesWhateverRunsAtOnce) {
     EXPECT_EQ(one, four);
   }
   EXPECT_EQ(gradeAnew({"--csv"}, "one").output, table("four"));
+}
+
+// At level 0, a program can see in which pass it runs. Those of the second note whether everybody's first is
+// over.
+TEST_F(GradeManyTest, RunsHiddenChecksWhenAllVisibleOnesAreOver) {
+  const auto place = [&](const std::string& student) {
+    return (results() / student / "98-template").string();
+  };
+  const fs::path log = root() / "log";
+  const auto notes = [&](const std::string& student, const std::string& other) {
+    return fmt::format(
+        "#include \"exercise.h\"\n#include <filesystem>\n#include <fstream>\n#include <unistd.h>\n"
+        "bool has(const std::string& file) {{ return std::filesystem::exists(file); }}\n"
+        "Eigen::Vector2d rotated(const Eigen::Vector2d& p, double) {{\n"
+        "  if (!has(\"{0}/visible\")) usleep(100'000);\n"
+        "  else std::ofstream(\"{2}\", std::ios::app) << has(\"{1}/visible\") + has(\"{1}/results.json\");\n"
+        "  return p;\n}}\nint main() {{}}\n",
+        place(student), place(other), log.string());
+  };
+  handIn("quick", notes("quick", "slow"));
+  handIn("slow", notes("slow", "quick"));
+  EXPECT_EQ(gradeAnew({"-j2"}).code, 0);
+  EXPECT_THAT(fileText(log), ::testing::MatchesRegex("[12]+"));
+  for (const char* student : {"quick", "slow"}) {
+    EXPECT_EQ(result(student)["checks"][2]["status"], "pass") << "it adds up";
+    EXPECT_FALSE(fs::exists(place(student) + "/visible"));
+  }
 }
 
 TEST_F(GradeManyTest, TakesWhatSubmitWrites) {
