@@ -247,10 +247,12 @@ class BoundedQueue : public httplib::TaskQueue {
 
 bool isHex(char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); }
 
-// The name in "name:port" or "[::1]:port".
+// The name in "name", "name:port" or "[::1]:port"; empty if anything else comes after it.
 std::string hostName(const std::string& host) {
-  if (host.starts_with('[')) return host.substr(0, host.find(']') + 1);
-  return host.substr(0, host.find(':'));
+  const std::size_t end = host.starts_with('[') ? host.find(']') + 1 : std::min(host.find(':'), host.size());
+  const bool isNoPort = end < host.size() && (host[end] != ':' || end + 1 == host.size() ||
+                                              host.find_first_not_of("0123456789", end + 1) != host.npos);
+  return isNoPort ? "" : host.substr(0, end);
 }
 
 bool isNumericAddress(const std::string& name) {

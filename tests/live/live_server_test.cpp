@@ -64,10 +64,13 @@ TEST_F(LiveServerTest, ServesNoFileOfTheMachine) {
 TEST_F(LiveServerTest, RefusesOtherHostsAndOrigins) {
   const std::string get = std::string("GET /") + kToken + "/ HTTP/1.1\r\n";
   for (const char* name :
-       {"evil.example", "127.0.0.1.evil.example", "localhost.evil.example", "[::2]", "10.0.0.1", ""})
+       {"evil.example", "127.0.0.1.evil.example", "localhost.evil.example", "[::2]", "10.0.0.1", "",
+        "127.0.0.1:evil.example", "127.0.0.1:80.evil.example", "[::1].evil.example", "[::1]:80:evil.example",
+        "[::1]evil", "localhost:", "localhost:80 evil", "[::1"})
     EXPECT_THAT(answer(get + "Host: " + name + "\r\n\r\n"), StartsWith("HTTP/1.1 403")) << name;
   EXPECT_THAT(answer(get + "\r\n"), StartsWith("HTTP/1.1 403"));
-  EXPECT_THAT(answer(get + "Host: localhost:8080\r\n\r\n"), StartsWith("HTTP/1.1 200"));  // as through ssh -L
+  for (const char* name : {"localhost:8080", "[::1]", "[::1]:8080"})  // as through ssh -L
+    EXPECT_THAT(answer(get + "Host: " + name + "\r\n\r\n"), StartsWith("HTTP/1.1 200")) << name;
   EXPECT_THAT(answer(line("GET", "") + "Origin: http://evil.example\r\n\r\n"), StartsWith("HTTP/1.1 403"));
   EXPECT_THAT(answer(line("GET", "") + "Sec-Fetch-Site: cross-site\r\n\r\n"), StartsWith("HTTP/1.1 403"));
   EXPECT_THAT(answer(posted("[]", "Origin: http://evil.example\r\n")), StartsWith("HTTP/1.1 403"));
