@@ -11,6 +11,7 @@
 #include "base/exit_code.h"
 #include "base/process.h"
 #include "base/sha256.h"
+#include "base/text.h"
 #include "base/text_file.h"
 #include "grading/descendants.h"
 #include "grading/grade.h"
@@ -148,6 +149,18 @@ StudentObject compileAsAsked(const Toolchain& toolchain, const ExerciseInfo& exe
   return compileStudent(toolchain, {}, build);
 }
 
+// A message can have any line breaks, and a CI service may print the log: no line of it is a command there.
+std::string withoutCommands(std::string_view log) {
+  std::string text;
+  for (const std::string_view line : splitLines(log)) {
+    if (trimmed(line).starts_with("::")) text += "| ";
+    text.append(line) += '\n';
+  }
+  for (std::size_t at = text.find("##"); at != text.npos; at = text.find("##", at + 2))
+    text.insert(at + 1, " ");
+  return text;
+}
+
 void compileAndLink(const Toolchain& toolchain, const ExerciseInfo& exercise,
                     const SubmissionOptions& options, BuiltSubmission& built) {
   const StudentObject object = compileAsAsked(toolchain, exercise, options);
@@ -169,7 +182,7 @@ void compileAndLink(const Toolchain& toolchain, const ExerciseInfo& exercise,
     built.start.outcome = grading::Outcome::kCompileError;
     built.start.message = firstError(diagnostics);
   }
-  writeTextFile(options.job.results.parent_path() / "build.log", log);
+  writeTextFile(options.job.results.parent_path() / "build.log", withoutCommands(log));
 }
 
 BuiltSubmission buildWith(const Toolchain& toolchain, const ExerciseInfo& exercise,

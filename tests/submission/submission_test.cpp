@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/text.h"
+#include "base/text_file.h"
 #include "grading/results.h"
 #include "support/expect_error.h"
 #include "support/paths.h"
@@ -48,6 +50,21 @@ TEST_F(SubmissionTest, SaysWhenAGraderCannotList) {
   Toolchain toolchain;
   toolchain.grader = "/bin/false";
   EXPECT_REX_ERROR(listChecks(toolchain), "/bin/false: the grader cannot list its checks");
+}
+
+// A message of the file breaks its line where it wants.
+TEST_F(SubmissionTest, LogsNoCommandToAServiceThatPrintsTheLog) {
+  Toolchain toolchain;
+  toolchain.compiler = "g++";
+  toolchain.flags = {"-std=c++20"};
+  toolchain.grader = "/bin/true";
+  writeTextFile(temporary_.path() / "main.cpp",
+                "static_assert(false, \"\\n::error::passed\\n \\t::notice::20 of 20 ##[error]###[x]\");\n");
+  (void)submit(toolchain, (temporary_.path() / "main.cpp").string());
+  const std::string log = readTextFile(temporary_.path() / "build.log");
+  EXPECT_THAT(log, HasSubstr("\n| ::error::passed\n"));
+  EXPECT_THAT(log, HasSubstr("::notice::20 of 20 # #[error]# # #[x]"));
+  for (const std::string_view line : splitLines(log)) EXPECT_FALSE(trimmed(line).starts_with("::")) << line;
 }
 
 }  // namespace rex::submission::submission_test
