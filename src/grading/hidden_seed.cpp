@@ -46,6 +46,16 @@ std::string readCourseSecret(const std::filesystem::path& file) {
   return secret;
 }
 
+std::string openSecretWarning(const std::filesystem::path& file) {
+  using std::filesystem::perms;
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(file, ignored);
+  const perms open = status.permissions() & (perms::group_read | perms::others_read);
+  if (!std::filesystem::exists(status) || open == perms::none) return {};
+  const char* whose = open == perms::group_read ? "members of its group" : "other users of this machine";
+  return fmt::format("{}: {} may read the secret of the course; `chmod 600` ends that", file.string(), whose);
+}
+
 std::string courseSecretId(std::string_view secret) {
   return secret.empty() ? "" : sha256(secret).substr(0, 8);
 }

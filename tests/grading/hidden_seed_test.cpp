@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "base/text_file.h"
+#include "support/temporary_folder.h"
+
 namespace rex::grading::hidden_seed_test {
 
 // The test cases 1, 2, 3 and 6 of RFC 4231.
@@ -25,6 +28,24 @@ TEST(HiddenSeed, DependsOnAllItIsMadeOf) {
       hiddenSeed("s", "f", "01", "late")};
   EXPECT_EQ(seeds.size(), 5u);
   EXPECT_EQ(hiddenSeed("s", "f", "01", "hidden"), hiddenSeed("s", "f", "01", "hidden"));
+}
+
+TEST(CourseSecret, IsToldWhenOthersMayReadIt) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "secret";
+  writeTextFile(file, "the secret of the course\n");
+  const auto warning = [&](unsigned mode) {
+    std::filesystem::permissions(file, static_cast<std::filesystem::perms>(mode));
+    return openSecretWarning(file);
+  };
+  const std::string rest = " may read the secret of the course; `chmod 600` ends that";
+  for (const unsigned mode : {0600u, 0400u, 0622u}) EXPECT_EQ(warning(mode), "");
+  for (const unsigned mode : {0640u, 0660u})
+    EXPECT_EQ(warning(mode), file.string() + ": members of its group" + rest);
+  for (const unsigned mode : {0644u, 0604u, 0666u})
+    EXPECT_EQ(warning(mode), file.string() + ": other users of this machine" + rest);
+  EXPECT_EQ(openSecretWarning(""), "");
+  EXPECT_EQ(openSecretWarning(folder.path() / "none"), "");
 }
 
 }  // namespace rex::grading::hidden_seed_test

@@ -36,6 +36,7 @@
 #include "cli/report_format.h"
 #include "cli/sandbox_choice.h"
 #include "cli/terminal.h"
+#include "grading/hidden_seed.h"
 #include "sandbox/probes.h"
 
 namespace rex::cli {
@@ -202,6 +203,8 @@ std::vector<Task> tasksOf(const classroom::SubmittedFiles& handedIn, const Grade
   if (!options.submitted.empty()) times.emplace(options.submitted, exercises);
   const classroom::ImportTable imports = classroom::importTableIn(options.folder);
   const std::string secretId = classroom::secretFileId(options.secret);
+  if (const std::string warning = grading::openSecretWarning(options.secret); !warning.empty())
+    note(wrap(escapeForTerminal(warning), 2, 0));
   std::vector<Task> tasks;
   for (const classroom::SubmittedFile& file : handedIn.files) {
     if (blocked.contains(file.exercise)) continue;

@@ -96,7 +96,10 @@ TestRun::TestRun(const Project& project, ExerciseInfo exercise, const TestOption
       reports_(parseReportFormats(options.reports)) {
   options_.job.checks = withParts(options.job.checks, exercise_, toolchain_,
                                   project.outFolder(exercise_, false) / "results.json");
-  if (!options.job.secret.empty()) static_cast<void>(grading::readCourseSecret(options.job.secret));
+  if (options.job.secret.empty()) return;
+  static_cast<void>(grading::readCourseSecret(options.job.secret));
+  if (const std::string warning = grading::openSecretWarning(options.job.secret); !warning.empty())
+    note(wrap(escapeForTerminal(warning), 2, 0));
 }
 
 submission::Submission TestRun::grade(const sandbox::Sandbox& sandbox, int processors) const {

@@ -180,7 +180,11 @@ TEST_F(GradeManyTest, AsksForTheSecretOfTheList) {
   write(root() / "short", "secret\n");
   const std::string manifest = (root() / "tasks.tsv").string();
   EXPECT_THAT(grade({"--secret-file", (root() / "short").string()}).error, HasSubstr("is too short"));
-  EXPECT_EQ(grade({"--manifest", manifest, "--secret-file", (root() / "secret").string()}).code, 0);
+  const Ended listed = grade({"--manifest", manifest, "--secret-file", (root() / "secret").string()});
+  EXPECT_EQ(listed.code, 0);
+  EXPECT_THAT(flat(listed.error), HasSubstr("other users of this machine may read the secret of the course"));
+  fs::permissions(root() / "secret", fs::perms::owner_read);
+  EXPECT_EQ(grade({"--manifest", manifest, "--secret-file", (root() / "secret").string()}).error, "");
   const Ended ended = rex({"grade", "--manifest", manifest, "--task", "1", "--out", results().string()});
   EXPECT_EQ(ended.code, 3);
   EXPECT_THAT(flat(ended.error), HasSubstr("the secret of the course: found none, wanted "));
