@@ -28,6 +28,7 @@ std::set<std::string_view> linesOf(std::string_view text) {
 
 constexpr std::size_t kGram = 12, kWindow = 13;  // tokens, grams: so that runs from here on are found:
 constexpr std::size_t kShortest = kGram + kWindow - 1;
+constexpr int kContained = 90;  // percent of one file that are in another one
 
 /// The tokens of one file, as far as a comparison sees them.
 struct Fingerprints {
@@ -57,17 +58,72 @@ std::uint64_t symbolOf(const submission::CppText& text, std::size_t i) {
   return mixed(hash);
 }
 
+/// Reads the tokens that count: all but regions in `#if 0`, empty statements and statements `(void)...;`.
+class CountedTokens {
+ public:
+  explicit CountedTokens(const submission::CppText& text) : text_(text) {}
+
+  std::vector<std::size_t> read() {
+    std::vector<std::size_t> counted;
+    bool startsStatement = true;
+    for (std::size_t i = 0; i < text_.size();) {
+      const std::size_t next = startsStatement ? afterNothing(i) : afterSkipped(i);
+      if (next > i) {
+        i = next;
+        continue;
+      }
+      counted.push_back(i);
+      startsStatement = text_.isSign(i, ';') || text_.isSign(i, '{') || text_.isSign(i, '}');
+      ++i;
+    }
+    return counted;
+  }
+
+ private:
+  // The token after a region in `#if 0` that begins with token i, or i.
+  std::size_t afterSkipped(std::size_t i) const {
+    if (!text_.startsDirective(i) || text_.at(i + 1) != "if") return i;
+    if (text_.nextLine(i) != i + 3 || (text_.at(i + 2) != "0" && text_.at(i + 2) != "false")) return i;
+    int depth = 0;
+    for (std::size_t k = i; k < text_.size(); k = nextDirective(k)) {
+      const std::string_view word = text_.at(k + 1);
+      depth += word.starts_with("if") ? 1 : word == "endif" ? -1 : 0;
+      if (depth == 0 || (depth == 1 && word.starts_with("el"))) return text_.nextLine(k);
+    }
+    return text_.size();
+  }
+
+  // The same, at the beginning of a statement.
+  std::size_t afterNothing(std::size_t i) const {
+    if (text_.isSign(i, ';')) return i + 1;
+    if (!text_.isSign(i, '(') || text_.at(i + 1) != "void" || !text_.isSign(i + 2, ')'))
+      return afterSkipped(i);
+    std::size_t k = i;
+    for (; k < text_.size() && !text_.isSign(k, ';'); ++k)
+      if (text_.partner(k) < text_.size()) k = std::max(k, text_.partner(k));
+    return std::min(k + 1, text_.size());
+  }
+
+  std::size_t nextDirective(std::size_t k) const {
+    do k = text_.nextLine(k);
+    while (k < text_.size() && !text_.startsDirective(k));
+    return k;
+  }
+
+  const submission::CppText& text_;
+};
+
 // Of each window of grams, the last one with the smallest hash is chosen.
 Fingerprints fingerprintsOf(const std::string& source) {
   Fingerprints prints;
   const submission::CppText text(source);
   const submission::TextPlaces places(source);
-  for (std::size_t i = 0; i < text.size(); ++i) {
+  for (const std::size_t i : CountedTokens(text).read()) {
     prints.symbols.push_back(symbolOf(text, i));
     prints.lines.push_back(places.line(text[i].start));
   }
   std::vector<std::uint64_t> grams;
-  for (std::size_t i = 0; i + kGram <= text.size(); ++i) {
+  for (std::size_t i = 0; i + kGram <= prints.symbols.size(); ++i) {
     std::uint64_t hash = 0;
     for (std::size_t k = 0; k < kGram; ++k) hash = mixed(hash + prints.symbols[i + k] * (k + 1));
     grams.push_back(hash);
@@ -146,7 +202,8 @@ std::vector<SimilarPair> similarPairs(const std::vector<ComparedText>& texts, st
                        .firstPercent = percentOf(there.tokens, prints[i].symbols.size()),
                        .secondPercent = percentOf(back.tokens, prints[k].symbols.size()),
                        .runs = there.runs};
-      if (std::min(pair.firstPercent, pair.secondPercent) < leastPercent || there.tokens == 0) continue;
+      const auto [less, more] = std::minmax(pair.firstPercent, pair.secondPercent);
+      if ((less < leastPercent && more < std::max(leastPercent, kContained)) || there.tokens == 0) continue;
       for (const SimilarRun& run : back.runs) pair.runs.push_back({.first = run.second, .second = run.first});
       std::sort(pair.runs.begin(), pair.runs.end(),
                 [](const SimilarRun& a, const SimilarRun& b) { return a.first < b.first; });
@@ -189,8 +246,9 @@ pre span { display: block; white-space: pre; min-height: 1.35em; }
 )";
 
 constexpr std::string_view kLimits =
-    "<p>The programs were compared token by token, without comments, layout, names, numbers, and the lines "
-    "of the "
+    "<p>The programs were compared token by token, without comments, layout, names, numbers, statements that "
+    "do "
+    "nothing, and the lines of the "
     "file that was handed out. Marked lines are alike in both. There are honest reasons for that: a short "
     "task with one natural solution, a formula of the script, work in a group, the same tutorial. Code that "
     "was rewritten, taken from elsewhere or generated is not found at all. So this page decides "

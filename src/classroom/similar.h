@@ -30,8 +30,9 @@ struct SimilarPair {
 /// there; line numbers are kept.
 [[nodiscard]] std::string withoutHandedOut(std::string_view text, std::string_view handedOut);
 
-/// The pairs in which the less similar side has at least that percentage, most similar first. Compares
-/// tokens: names, numbers, comments and layout do not count, nor do runs of fewer than 24 tokens. Candidates
+/// The pairs in which the less similar side has at least that percentage, or the other one 90 %, most similar
+/// first. Compares tokens: names, numbers, comments and layout do not count, nor do regions in `#if 0`, empty
+/// statements, statements `(void)...;`, and runs of fewer than 24 tokens. Candidates
 /// are found by winnowing (Schleimer, Wilkerson and Aiken, "Winnowing: local algorithms for document
 /// fingerprinting", 2003), which misses no run of that length, and are then compared token by token. Files
 /// that are empty without the handed-out text are like no other. The time grows with the sum of the lengths

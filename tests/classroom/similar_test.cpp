@@ -83,6 +83,49 @@ TEST(Similar, FindsARenamedCopyAndNothingElse) {
   EXPECT_GE(pairs[0].runs[0].second.second, 8);
 }
 
+std::string replaced(std::string text, const std::string& part, const std::string& by) {
+  for (std::size_t at = text.find(part); at != text.npos; at = text.find(part, at + by.size()))
+    text.replace(at, part.size(), by);
+  return text;
+}
+
+// What a regular expression can put into a copy.
+TEST(Similar, CountsNothingThatDoesNothing) {
+  const std::string unlike = "#if 0\n" + kOwn + "don't\n#ifdef X\n" + kOwn + "#endif\n#endif\n";
+  const std::string padded[] = {
+      replaced(kLoop, ";\n", "; ;\n"),
+      replaced(kLoop, ";\n", ";;;;\n"),
+      replaced(kLoop, "  const", "  (void)0; const"),
+      replaced(kLoop, ";\n", "; (void)sizeof(int); ; (void)[&] { f(1); g(2); }();\n"),
+      replaced(kLoop, ";\n", ";\n" + unlike),
+      replaced(kLoop, ";\n", ";\n#if false\nint a;\n#endif\n"),
+      replaced(kLoop, "  return", "#if 0\n" + kOwn + "#else\n  return") + "#endif\n"};
+  for (const std::string& copy : padded) {
+    const auto pairs = pairsOf({{"anna", with(kLoop)}, {"bert", with(copy)}});
+    ASSERT_EQ(pairs.size(), 1u) << copy;
+    EXPECT_GE(std::min(pairs[0].firstPercent, pairs[0].secondPercent), 90) << copy;
+  }
+  EXPECT_TRUE(pairsOf({{"anna", with(kOwn)}, {"bert", with(replaced(kLoop, ";\n", ";\n" + unlike))}}).empty())
+      << "is only alike in what is skipped";
+  for (const std::string broken : {"#if 0", "#if", "#if 0\n#if 0\n#endif", "(void)", "(void)(", "{(void)}"})
+    EXPECT_TRUE(pairsOf({{"anna", broken}, {"bert", broken}}).empty()) << broken;
+}
+
+TEST(Similar, ListsAFileThatIsContainedInAnother) {
+  const std::string more =
+      replaced(kOwn, "0.0", "1.5") + "  return std::sort(values) ? values[0] : -values[1];\n";
+  const std::vector<ComparedText> texts = {{"anna", with(kLoop)}, {"bert", with(kLoop + more + more)}};
+  const std::vector<SimilarPair> pairs = pairsOf(texts);
+  ASSERT_EQ(pairs.size(), 1u);
+  EXPECT_GE(pairs[0].firstPercent, 90);
+  EXPECT_LT(pairs[0].secondPercent, 70);
+  EXPECT_TRUE(
+      pairsOf(
+          {texts[0], {"bert", with(replaced(kLoop, "(values.size())", "(1 + 2 * 3 - 4) + 5") + more + more)}})
+          .empty())
+      << "is contained in part";
+}
+
 // main() would be alike in all.
 TEST(Similar, IgnoresWhatWasHandedOut) {
   EXPECT_TRUE(pairsOf({{"anna", kHandedOut}, {"bert", kHandedOut}}).empty());
