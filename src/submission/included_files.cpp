@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kBlanks = " \t\v\f\r";
+constexpr std::string_view kWhiteSpace = " \t\v\f\r";
 
 constexpr const char *kLineDirective = "found a #line directive, wanted the real line numbers of the file",
                      *kPragma = "found the pragma system_header, wanted code that the compiler warns about",
@@ -84,7 +84,7 @@ std::pair<Oddity, std::int64_t> firstOddity(std::string_view text, const std::st
 
 std::string_view withoutBlanks(std::string_view text) {
   for (;;) {
-    text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
+    text.remove_prefix(std::min(text.find_first_not_of(kWhiteSpace), text.size()));
     if (!text.starts_with("/*")) return text;
     text.remove_prefix(std::min(text.find("*/", 2), text.size() - 2) + 2);
   }
@@ -127,7 +127,7 @@ std::vector<CompileDiagnostic> complaintsOfMarkers(std::string_view complaints, 
 std::string sourceForMarkers(std::string_view source) {
   std::string text;
   for (const std::string_view line : splitLines(source)) {
-    const std::size_t end = line.find_last_not_of(kBlanks);
+    const std::size_t end = line.find_last_not_of(kWhiteSpace);
     const bool goesOn = end != line.npos && line[end] == '\\';
     text.append(line.substr(0, line.size() - line.ends_with('\r'))).append(goesOn ? "" : "\t");
     text.append(line.ends_with('\r') ? "\r\n" : "\n");
