@@ -32,7 +32,7 @@ constexpr std::string_view kWhiteSpace = " \t\v\f\r";
 
 constexpr const char *kLineDirective = "found a #line directive, wanted the real line numbers of the file",
                      *kPragma = "found the pragma system_header, wanted code that the compiler warns about",
-                     *kItself = "found an include of the file itself, wanted each of its lines once";
+                     *kIncludesItself = "found an include of the file itself, wanted each of its lines once";
 
 // After so many empty lines the compiler prints a marker, not the lines.
 constexpr int kGap = 16;
@@ -56,7 +56,7 @@ std::optional<Marker> markerIn(std::string_view line) {
   return Marker{*number, line.substr(2, end - 2), has('1') ? 1 : has('2') ? -1 : 0};
 }
 
-enum class Oddity : std::uint8_t { kNone, kLine, kItself };
+enum class Oddity : std::uint8_t { kNone, kLine, kIncludesItself };
 
 // Follows the markers, and says at which line of the file the first one appears that no plain file makes.
 // After an error the lines may end anywhere: then `size` is 0.
@@ -72,7 +72,7 @@ std::pair<Oddity, std::int64_t> firstOddity(std::string_view text, const std::st
       continue;
     }
     depth += marker->depth;
-    if (marker->depth > 0 && fs::path(marker->file).filename() == mainFile) return {Oddity::kItself, line};
+    if (marker->depth > 0 && fs::path(marker->file).filename() == mainFile) return {Oddity::kIncludesItself, line};
     if ((depth == 0) != (marker->file == mainFile)) return {Oddity::kLine, line};
     if (depth != 0) continue;
     // A marker in the middle of a line begins a new one.
@@ -144,7 +144,7 @@ std::vector<CompileDiagnostic> lineMarkers(std::string_view text, std::string_vi
   if (oddity == Oddity::kNone) return {};
   const int last = std::max(static_cast<int>(lines.size()), 1),
             near = static_cast<int>(std::clamp<std::int64_t>(line, 1, last));
-  if (oddity == Oddity::kItself) return {lineMarker(mainFile, near, 1, kItself)};
+  if (oddity == Oddity::kIncludesItself) return {lineMarker(mainFile, near, 1, kIncludesItself)};
   const auto [row, column] = lineDirective(lines, near);
   return {lineMarker(mainFile, row, column)};
 }
