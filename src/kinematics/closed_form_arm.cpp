@@ -328,14 +328,14 @@ void ClosedFormArm::addByWrist(const Pose& X, const Angles6& reference, std::vec
     }
     return;
   }
-  // Both directions are one: what is left of the other equation without the turned F depends on q3 alone.
+  // The first two axes meet or are parallel: a1 is across both, so that A or H is zero, and the equation
+  // without the turned F depends on q3 alone.
   const bool isByLength = std::abs(A) > std::abs(H);
-  const std::complex<double> D = isByLength ? A : H, other = isByLength ? H : A;
-  const double share = std::norm(D) > 0 ? (std::conj(D) * other).real() / std::norm(D) : 0;
+  const std::complex<double> D = isByLength ? A : H;
   const auto value = [&](const Reach& reach) { return isByLength ? reach.length : reach.height; };
   const auto rest = [&](double q3) {
     const Reach reach = reachAt(q3);
-    return ((isByLength ? reach.height : reach.length) - share * value(reach)) / size_;
+    return (isByLength ? reach.height : reach.length) / size_;
   };
   for (const double q3 : rootsOfFirst(rest, kAlike)) {
     const Reach reach = reachAt(q3);

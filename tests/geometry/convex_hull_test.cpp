@@ -24,6 +24,19 @@ std::vector<Vector3f> randomPoints(Rng& rng, int count, const Vector3d& size = V
   return points;
 }
 
+// Of a square with diagonals of 1 m, and a point that far above its middle.
+std::size_t trianglesAbove(float height) {
+  constexpr float h = 0.5F;
+  return convexHull(std::vector<Vector3f>{{h, 0, 0}, {-h, 0, 0}, {0, h, 0}, {0, -h, 0}, {0, 0, height}})
+      .triangles()
+      .size();
+}
+
+TEST(ConvexHull, IsFlatBelowATenMillionthOfTheSize) {
+  EXPECT_EQ(trianglesAbove(0.9e-7F), 4u) << "two triangles, from both sides";
+  EXPECT_EQ(trianglesAbove(1.1e-7F), 6u) << "a pyramid on two triangles";
+}
+
 // How far a point stands out of a hull, in parts of the size of it.
 double outside(const TriangleMesh& hull, std::span<const Vector3f> points) {
   double size = 0, most = 0;

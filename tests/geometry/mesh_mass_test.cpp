@@ -146,6 +146,24 @@ TEST(MeshHoles, AreClosedByCaps) {
     mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(i));
     expectSix(mesh, "one triangle missing");
   }
+  // Two holes with one corner in common.
+  const auto sharedCorners = [](const BareMesh& mesh, std::size_t i, std::size_t j) {
+    int count = 0;
+    for (const auto a : mesh.triangles[i])
+      for (const auto b : mesh.triangles[j]) count += mesh.positions[a] == mesh.positions[b] ? 1 : 0;
+    return count;
+  };
+  int touching = 0;
+  for (std::size_t i = 0; i < 12; ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      BareMesh mesh = without({});
+      if (sharedCorners(mesh, i, j) != 1) continue;
+      mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(i));
+      mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(j));
+      expectSix(mesh, "two holes that touch");
+      ++touching;
+    }
+  EXPECT_GT(touching, 10);
   // An edge from one open end to the other with vertices on one side only.
   BareMesh cracked = without({0, 1});
   const std::vector<BlockFace> tube = {faces.begin() + 2, faces.end()};

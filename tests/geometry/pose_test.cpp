@@ -24,6 +24,20 @@ TEST(Pose, IsAGroup) {
   }
 }
 
+// Other tests believe it.
+TEST(Pose, IsNotApproximatelyWhatIsBeyondTheTolerance) {
+  Rng rng(2);
+  constexpr double kTolerance = 1e-6;
+  for (int k = 0; k < 12; ++k) {
+    const Pose a = randomPose(rng);
+    for (const double share : {0.9, 1.1, -0.9, -1.1}) {
+      Pose b = a;
+      (k < 9 ? b.R(k / 3, k % 3) : b.p[k - 9]) += share * kTolerance;
+      EXPECT_EQ(isApprox(a, b, kTolerance), std::abs(share) < 1) << k << " " << share;
+    }
+  }
+}
+
 TEST(Pose, MovesThenTurnsInTheNewFrame) {
   const Pose X = translation(1, 0, 0) * rotation(std::numbers::pi / 2, Eigen::Vector3d::UnitZ());
   EXPECT_LT((X * Eigen::Vector3d(1, 0, 0) - Eigen::Vector3d(1, 1, 0)).norm(), 1e-15);

@@ -30,6 +30,13 @@ TEST(TriangleMesh, KeepsWhatItWasGiven) {
   EXPECT_EQ(TriangleMesh(mesh), mesh);
 }
 
+TEST(TriangleMesh, IsEmptyUnlessItIsGivenSomething) {
+  const TriangleMesh none;
+  EXPECT_EQ(none.halfBounds(), Eigen::Vector3d::Zero());
+  EXPECT_TRUE(none.positions().empty() && none.normals().empty() && none.triangles().empty());
+  EXPECT_TRUE(none.parts().empty());
+}
+
 TEST(TriangleMesh, NamesWhatIsWrong) {
   auto bad = kPositions;
   bad[2].y() = kInf;

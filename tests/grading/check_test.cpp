@@ -162,6 +162,10 @@ TEST(Check, NamesTheFirstAndTheWorstPlaceOfAMotion) {
             "time 4 s (seed 7)");
   EXPECT_EQ(judge([](Check& check) { check.atMostAlong("distance", leaving(), 0.9); }).status,
             Outcome::kPass);
+  EXPECT_EQ(judge([](Check& check) { check.atLeastAlong("clearance", leaving(), 0.1); }).status,
+            Outcome::kPass);
+  EXPECT_EQ(messageOf([](Check& check) { check.atLeastAlong("clearance", leaving(), 0.101); }),
+            "clearance: got 0.1 at time 0 s, wanted at least 0.101 (seed 7)");
   const CheckResult passed = judge([](Check& check) { check.atMostAlong("distance", leaving(), 1, "m"); });
   EXPECT_EQ(passed.worst.value, "0.9 m at time 4 s");
   EXPECT_EQ(passed.worst.limit, "at most 1 m");

@@ -147,6 +147,8 @@ TEST(Grown, MakesNumbersHugeOrTiny) {
   EXPECT_THAT(grownTo(honest, Growth::kOneHuge, false, .5), ElementsAre(1, -2e9, 0));
   EXPECT_THAT(grownTo(honest, Growth::kOneHuge, false, 1), ElementsAre(1, -2, 1e9));
   EXPECT_THAT(grownTo(honest, Growth::kOneHuge, true, 1), ElementsAre(1, -2, 3));
+  EXPECT_THAT(grownTo(std::vector{1.1e-6}, Growth::kOneHuge, true), ElementsAre(3 * 1.1e-6));
+  EXPECT_THAT(grownTo(std::vector{0.9e-6}, Growth::kOneHuge, true), ElementsAre(3)) << "as good as zero";
   EXPECT_THAT(grownTo(std::vector<int>{3}, Growth::kHuge), ElementsAre(3));
 }
 

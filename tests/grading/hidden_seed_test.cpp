@@ -19,6 +19,9 @@ TEST(HiddenSeed, AgreesWithThePublishedExamples) {
             "773ea91e36800e46854db8ebd09181a72959098b3ef8c122d9635514ced565fe");
   EXPECT_EQ(hmacSha256(std::string(131, '\xaa'), "Test Using Larger Than Block-Size Key - Hash Key First"),
             "60e431591ee0b67f0d8a26aacbf5b77f8e0bc6213728c5140546040f0ee37f54");
+  EXPECT_EQ(hmacSha256(std::string(64, '\xaa'), "a key of one block"),
+            "1ad77e19fcc989ac07ba50fafcf71659bdf56d14c6f44efc96e03afe7d1252c4")
+      << "of Python's hmac; a key that fills the block is not hashed";
 }
 
 TEST(HiddenSeed, DependsOnAllItIsMadeOf) {

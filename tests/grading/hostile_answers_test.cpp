@@ -104,6 +104,30 @@ TEST(Lies, FindChecksThatAreEasilyPleased) {
             (std::vector{0, 0, 1, 0, 0}));
 }
 
+// Of a check with cases, lies get what the cases are worth that held by lies, and no point for honest ones.
+TEST(Lies, GetThePointsOfTheirCases) {
+  RunnableCheck one = check("cases", [](Check& judge, Student& s) {
+    judge.forEachCase(4, [&](int k) {
+      // Zeros please case 0, and 1 to 3 are asked for nothing.
+      if (k == 0) judge.near("square", s.square(0), 0, 1e-9);
+      if (k > 0) judge.that("yes", true);
+    });
+  });
+  one.info.points = 4;
+  const auto outcomes = runAdversarially(std::vector{one}, kJob, Student::signature(), Student::layouts());
+  EXPECT_EQ(outcomes.front().points, 4) << "who lies once, lies in all cases after it";
+  one = check("first", [](Check& judge, Student& s) {
+    judge.forEachCase(4, [&](int k) {
+      if (k < 3) judge.that("yes", true);
+      if (k == 3) judge.near("square", s.square(0), 0, 1e-9);
+    });
+  });
+  one.info.points = 4;
+  EXPECT_EQ(runAdversarially(std::vector{one}, kJob, Student::signature(), Student::layouts()).front().points,
+            1)
+      << "the first three hold without a lie";
+}
+
 // What a check asks a fresh worker, no memory knows.
 TEST(Lies, KnowNoMoreThanTheirWorker) {
   const auto pointsOfMemory = [](bool isFresh) {

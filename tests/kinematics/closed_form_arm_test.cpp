@@ -141,6 +141,28 @@ TEST(ClosedFormArm, FindsThePostureThatLedThere) {
   EXPECT_EQ(most, 8u);
 }
 
+std::vector<Hinge> scaled(std::vector<Hinge> hinges, double factor) {
+  for (Hinge& hinge : hinges) hinge.origin *= factor;
+  return hinges;
+}
+
+// Some robots are described in millimetres.
+TEST(ClosedFormArm, FindsPosturesOfArmsOfAnySize) {
+  Rng rng(11);
+  for (const double factor : {1e-3, 1e3})
+    for (const auto& hinges : {industrial(), parallelArm()}) {
+      const Arm arm(scaled(hinges, factor), factor * Vector3d(.1, .05, .2));
+      for (int k = 0; k < 30; ++k) {
+        const Eigen::VectorXd q = randomPosture(rng);
+        const Pose X_WT = arm.at(q);
+        const auto postures = arm.closed.postures(X_WT, Eigen::VectorXd::Zero(6), {.withinLimits = false});
+        EXPECT_LT(nearest(postures, q), 1e-6) << q.transpose();
+        for (const ClosedFormPosture& one : postures)
+          EXPECT_LT((arm.at(one.q).p - X_WT.p).norm(), 1e-9 * factor);
+      }
+    }
+}
+
 // A second opinion: the numeric solver, from many starts.
 TEST(ClosedFormArm, LeavesNothingToANumericSolver) {
   Rng rng(2);
@@ -308,6 +330,36 @@ TEST(PoseTarget, TurnsEndlessJointsTheShorterWay) {
   EXPECT_LT((found.q - q).norm(), 1e-9);
 }
 
+// Also one that does not move the tip.
+TEST(PoseTarget, BringsAStartBeyondTheLimitsBack) {
+  std::string urdf = "<robot name='r'><link name='l0'/>";
+  for (std::size_t i = 0; i < 6; ++i)
+    urdf += fmt::format(
+        "<link name='l{1}'/><joint name='j{1}' type='revolute'><parent link='l{0}'/><child link='l{1}'/>"
+        "<origin xyz='{2}'/><axis xyz='{3}'/><limit lower='-3' upper='3' effort='1' velocity='1'/></joint>",
+        i, i + 1, numbers(industrial()[i].origin), numbers(industrial()[i].axis));
+  const Model model = compile(
+      parseUrdf(
+          urdf +
+              "<link name='lid'/><joint name='hinge' type='revolute'><parent link='l0'/><child link='lid'/>"
+              "<axis xyz='0 0 1'/><limit lower='-1' upper='1' effort='1' velocity='1'/></joint></robot>",
+          "r.urdf")
+          .spec);
+  Eigen::VectorXd q = model.initialPositions(), start = Eigen::VectorXd::Constant(7, 5);
+  Eigen::Index lid = 0;
+  for (const Joint& joint : model.joints()) {
+    if (joint.name == "hinge") lid = joint.qIndex;
+    if (joint.nq > 0) q[joint.qIndex] = 0.1 * (1 + joint.qIndex);
+  }
+  Rng rng(12);
+  const BodyId tip = model.body("l6");
+  const auto found =
+      solveInverseKinematics(model, {.body = tip, .X_WB = forwardKinematics(model, q)[tip]}, start, {}, rng);
+  EXPECT_EQ(found.message, "solved in closed form");
+  EXPECT_TRUE((found.q.array() <= model.upperLimits().array()).all()) << found.q.transpose();
+  EXPECT_EQ(found.q[lid], 1);
+}
+
 TEST(PoseTarget, IsSearchedWhereThereIsNoClosedForm) {
   std::vector<Hinge> seven = industrial();
   seven.push_back({{.1, 0, 0}, kZ});
@@ -363,6 +415,11 @@ TEST(ClosedFormArm, SaysWhyThereIsNone) {
   std::vector<Hinge> any = randomWrist(rng);
   any[5].origin = kX;
   EXPECT_EQ(reason(chainOf(any, kX)),
+            "neither three of its axes meet at an end, nor three in the middle are parallel");
+  // Three axes meet, but the last two are one.
+  std::vector<Hinge> twice = industrial();
+  twice[5].axis = twice[4].axis;
+  EXPECT_EQ(reason(chainOf(twice, kX)),
             "neither three of its axes meet at an end, nor three in the middle are parallel");
   any.push_back({kX, kY});
   EXPECT_EQ(reason(chainOf(any, kX)), "7 joints move the tip, not six");

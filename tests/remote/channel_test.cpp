@@ -2,15 +2,18 @@
 
 #include <array>
 #include <csignal>
+#include <cstdio>
 #include <vector>
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "base/rng.h"
 #include "remote/caller.h"
 #include "remote/wire.h"
+#include "remote/worker.h"
 
 namespace rex::remote::channel_test {
 
@@ -160,6 +163,52 @@ TEST(Caller, RefusesWrongMessages) {
   EXPECT_EQ(complaint(static_cast<Kind>(77), firstId, 0, makeCall),
             "the worker sends a message of unknown kind");
   EXPECT_EQ(complaint(Kind::kThrew, firstId, 0, makeCall), "the message ends too early");
+}
+
+TEST(Session, WantsCalls) {
+  Loop requests;
+  const Loop replies;
+  requests.channel().send(Kind::kReply, 7, 0, Writer());
+  requests.closeWrite();
+  const std::array methods = {Method{"f", 1, [](Session&, Reader&, Writer&) { ADD_FAILURE() << "was run"; }}};
+  Session session(Channel(requests.readEnd(), replies.writeEnd()), methods);
+  EXPECT_THROW(session.serve(), ProtocolError);
+}
+
+int whenToAnswer = -1;  // a pipe that ends then
+
+void answerLate(Session&, Reader&, Writer&) {
+  char none = 0;
+  EXPECT_EQ(::read(whenToAnswer, &none, 1), 0);
+}
+
+// The exit code of a worker that gets one message, after whose arrival nobody reads its replies.
+int exitCodeOfWorker(Kind kind) {
+  Loop requests, replies, moment;
+  requests.channel().send(kind, 7, 0, Writer());
+  std::fflush(stdout);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::signal(SIGPIPE, SIG_IGN);
+    replies.closeRead(), moment.closeWrite(), requests.closeWrite();
+    constexpr int kFree = 20;
+    const int in = ::fcntl(requests.readEnd(), F_DUPFD, kFree);
+    const int out = ::fcntl(replies.writeEnd(), F_DUPFD, kFree);
+    whenToAnswer = ::fcntl(moment.readEnd(), F_DUPFD, kFree);
+    ::dup2(in, kWorkerIn), ::dup2(out, kWorkerOut);
+    const std::array methods = {Method{"late", 1, answerLate}};
+    runWorker(methods);
+  }
+  static_cast<void>(replies.read());  // its introduction
+  replies.closeRead(), replies.closeWrite(), moment.closeWrite(), requests.closeWrite();
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+TEST(Worker, TellsByItsExitCodeWhyItEnds) {
+  EXPECT_EQ(exitCodeOfWorker(Kind::kReply), kProtocolFailure) << "a message that is no call";
+  EXPECT_EQ(exitCodeOfWorker(Kind::kCall), kProtocolFailure) << "nobody wants the answer";
 }
 
 }  // namespace rex::remote::channel_test
