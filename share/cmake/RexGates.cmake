@@ -26,7 +26,7 @@ function(rex_exercise_gates name)
   endforeach()
   # Built with the sanitizers, a solution takes a quarter of a minute to compile, and so do some programs to draw; the
   # others ask it many times.
-  foreach(gate mains sanitizers hostile grown liars)
+  foreach(gate mains sanitizers hostile grown liars pasted)
     if(TEST exercise/${name}/${gate})
       set_tests_properties(exercise/${name}/${gate} PROPERTIES LABELS "exercise;${name};long")
     endif()
