@@ -56,7 +56,7 @@ std::optional<Marker> markerIn(std::string_view line) {
   return Marker{*number, line.substr(2, end - 2), has('1') ? 1 : has('2') ? -1 : 0};
 }
 
-enum class Oddity : std::uint8_t { kNone, kLine, kIncludesItself };
+enum class Oddity : std::uint8_t { kNone, kLine, kSelf };
 
 // Follows the markers, and says at which line of the file the first one appears that no plain file makes.
 // After an error the lines may end anywhere: then `size` is 0.
@@ -72,7 +72,7 @@ std::pair<Oddity, std::int64_t> firstOddity(std::string_view text, const std::st
       continue;
     }
     depth += marker->depth;
-    if (marker->depth > 0 && fs::path(marker->file).filename() == mainFile) return {Oddity::kIncludesItself, line};
+    if (marker->depth > 0 && fs::path(marker->file).filename() == mainFile) return {Oddity::kSelf, line};
     if ((depth == 0) != (marker->file == mainFile)) return {Oddity::kLine, line};
     if (depth != 0) continue;
     // A marker in the middle of a line begins a new one.
@@ -144,7 +144,7 @@ std::vector<CompileDiagnostic> lineMarkers(std::string_view text, std::string_vi
   if (oddity == Oddity::kNone) return {};
   const int last = std::max(static_cast<int>(lines.size()), 1),
             near = static_cast<int>(std::clamp<std::int64_t>(line, 1, last));
-  if (oddity == Oddity::kIncludesItself) return {lineMarker(mainFile, near, 1, kIncludesItself)};
+  if (oddity == Oddity::kSelf) return {lineMarker(mainFile, near, 1, kIncludesItself)};
   const auto [row, column] = lineDirective(lines, near);
   return {lineMarker(mainFile, row, column)};
 }
