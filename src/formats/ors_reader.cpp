@@ -153,8 +153,9 @@ class Reader {
     if (body.mass < 0) attributes.fail("mass", fmt::format("{}", body.mass), "a mass >= 0 kg");
     if (const auto com = attributes.row("com", {3})) body.p_BBcm = *com;
     body.inertia = readInertia(attributes, file_.notes);
-    if (body.inertia && !body.inertia->isZero(0) && body.mass == 0)
-      fail(attributes.where("inertia"), owner + ": an inertia without mass", "0", "a mass > 0 kg");
+    if (body.inertia && !body.inertia->isZero(0) && body.mass == 0 && file_.notes.size() < ors::kMostNotes)
+      file_.notes.push_back(
+          {attributes.where("inertia"), owner + ": an inertia without mass; it is kept", Severity::kWarning});
     attributes.noteFlags({"fixed", "static", "kinematic"}, file_.notes);
     body.kind = readKind(attributes);
     if (attributes.has("type")) {

@@ -88,24 +88,45 @@ Eigen::Vector4d colorOf(const Tag& material, const Materials& materials, const E
   return otherwise;
 }
 
+// What a size of 0 counts as, metres: points, lines and disks are tiny solids. The same for factors of a
+// scale.
+constexpr double kTiniestSize = 1e-6;
+
+// Replaces zeros among the numbers of an attribute.
+template <class Numbers>
+void thicken(const Tag& tag, const char* attribute, const char* wanted, Numbers& sizes) {
+  if ((sizes.array() != 0).all()) return;
+  tag.forgiveAt(attribute, xml::quoted(tag.text(attribute)), wanted,
+                fmt::format("0 counts as {}", kTiniestSize));
+  sizes = (sizes.array() == 0).select(Numbers::Constant(sizes.size(), kTiniestSize), sizes);
+}
+
+double sizeIn(const Tag& tag, const char* attribute) {
+  if (tag.number(attribute) != 0) return tag.positive(attribute);
+  Eigen::VectorXd size = Eigen::VectorXd::Zero(1);
+  thicken(tag, attribute, "a number > 0", size);
+  return size[0];
+}
+
 Shape roundShape(const Tag& tag, ShapeType type) {
   static const Known kKnown = {{"radius", "length"}, {}};
   tag.expect(kKnown);
-  return {.type = type, .extent = {0, 0, tag.positive("length")}, .radius = tag.positive("radius")};
+  return {.type = type, .extent = {0, 0, sizeIn(tag, "length")}, .radius = sizeIn(tag, "radius")};
 }
 
 Shape boxShape(const Tag& tag) {
   static const Known kKnown = {{"size"}, {}};
   tag.expect(kKnown);
-  const Eigen::Vector3d size = tag.numbers("size", 3);
-  if (!(size.minCoeff() > 0)) tag.failAt("size", xml::quoted(tag.text("size")), "3 numbers > 0");
+  Eigen::Vector3d size = tag.numbers("size", 3);
+  if (!(size.minCoeff() >= 0)) tag.failAt("size", xml::quoted(tag.text("size")), "3 numbers > 0");
+  thicken(tag, "size", "3 numbers > 0", size);
   return {.type = ShapeType::kBox, .extent = size};
 }
 
 Shape sphereShape(const Tag& tag) {
   static const Known kKnown = {{"radius"}, {}};
   tag.expect(kKnown);
-  return {.type = ShapeType::kSphere, .extent = Eigen::Vector3d::Zero(), .radius = tag.positive("radius")};
+  return {.type = ShapeType::kSphere, .extent = Eigen::Vector3d::Zero(), .radius = sizeIn(tag, "radius")};
 }
 
 // A plane with that normal, which Bullet knows. It is touched, but not drawn: pictures have a ground.
@@ -124,6 +145,21 @@ void readPlane(const Tag& tag, ShapeSpec& spec) {
                          kPlaneThickness, kPlaneWidth));
 }
 
+// One number counts for all axes, as in Drake; of four the first three, as in Bullet.
+Eigen::Vector3d readScale(const Tag& tag) {
+  const auto forgive = [&](const char* instead) {
+    tag.forgiveAt("scale", xml::quoted(tag.text("scale")), "3 numbers", instead);
+  };
+  const std::size_t count = splitWords(tag.text("scale")).size();
+  Eigen::VectorXd scale = tag.numbers("scale", count == 1 || count == 4 ? static_cast<int>(count) : 3);
+  if (count == 1) forgive("it scales all three axes");
+  if (count == 1) scale = Eigen::VectorXd::Constant(3, scale[0]);
+  if (count == 4) forgive("the first three are used");
+  scale.conservativeResize(3);
+  thicken(tag, "scale", "3 numbers that are not 0", scale);
+  return scale;
+}
+
 void readMesh(const Tag& tag, ShapeSpec& spec) {
   static const Known kKnown = {{"filename", "scale"}, {}};
   tag.expect(kKnown);
@@ -135,16 +171,25 @@ void readMesh(const Tag& tag, ShapeSpec& spec) {
   if (!tag.isStrict() && namesNoPackage(spec.meshFile))
     tag.forgiveAt("filename", xml::quoted(spec.meshFile), "package://PACKAGE/PATH",
                   "the path is looked up in the folders above the file");
-  if (!tag.has("scale")) return;
-  spec.meshScale = tag.numbers("scale", 3);
-  if ((spec.meshScale.array() == 0).any())
-    tag.failAt("scale", xml::quoted(tag.text("scale")), "3 numbers that are not 0");
+  if (tag.has("scale")) spec.meshScale = readScale(tag);
 }
 
-void readGeometry(const Tag& geometry, ShapeSpec& spec) {
+// Whether there is a shape: one of an unknown kind, which is not a misspelt one, is left out with its
+// <visual> or <collision>.
+bool readGeometry(const Tag& geometry, std::string_view holder, ShapeSpec& spec) {
   static const Known kKnown = {{}, {"box", "cylinder", "sphere", "capsule", "mesh", "plane"}};
-  geometry.expect(kKnown);
+  static const char* const kWanted = "<box>, <cylinder>, <sphere>, <capsule>, <mesh> or <plane>";
   const std::vector<Tag> others = geometry.children();
+  const auto isMeant = [&](const Tag& tag) {
+    return !nearestNames(std::string(tag.name()), kKnown.children).empty();
+  };
+  if (!others.empty() && std::ranges::none_of(others, isMeant)) {
+    geometry.forgive(others.front().where(), "a shape of an unknown kind",
+                     fmt::format("<{}>", others.front().name()), kWanted,
+                     fmt::format("this <{}> is left out", holder));
+    return false;
+  }
+  geometry.expect(kKnown);
   std::optional<Tag> only;
   for (const Tag& shape : others) {
     if (std::ranges::find(kKnown.children, shape.name()) == kKnown.children.end()) continue;
@@ -156,8 +201,7 @@ void readGeometry(const Tag& geometry, ShapeSpec& spec) {
   }
   if (!only) {
     const std::string found = others.empty() ? "" : std::string(others.front().name());
-    geometry.fail(geometry.where(), "no shape", found.empty() ? "" : fmt::format("<{}>", found),
-                  "<box>, <cylinder>, <sphere>, <capsule>, <mesh> or <plane>",
+    geometry.fail(geometry.where(), "no shape", found.empty() ? "" : fmt::format("<{}>", found), kWanted,
                   nearestNames(found, kKnown.children));
   }
   if (only->name() == "box") spec.shape = boxShape(*only);
@@ -166,10 +210,11 @@ void readGeometry(const Tag& geometry, ShapeSpec& spec) {
   if (only->name() == "capsule") spec.shape = roundShape(*only, ShapeType::kCapsule);
   if (only->name() == "mesh") readMesh(*only, spec);
   if (only->name() == "plane") readPlane(*only, spec);
+  return true;
 }
 
 // <visual> or <collision>.
-ShapeSpec readShape(const Tag& tag, const std::string& link, const Materials& materials) {
+std::optional<ShapeSpec> readShape(const Tag& tag, const std::string& link, const Materials& materials) {
   static const Known kVisual = {{"name"}, {"origin", "geometry", "material"}};
   static const Known kCollision = {{"name"}, {"origin", "geometry"}, {"material"}};
   const bool visible = tag.name() == "visual";
@@ -180,7 +225,7 @@ ShapeSpec readShape(const Tag& tag, const std::string& link, const Materials& ma
   spec.visible = visible;
   spec.contact = !visible;
   spec.where = tag.where();
-  readGeometry(tag.neededChild("geometry"), spec);
+  if (!readGeometry(tag.neededChild("geometry"), tag.name(), spec)) return {};
   if (const std::optional<Tag> material = visible ? tag.child("material") : std::nullopt)
     spec.color = colorOf(*material, materials, spec.color);
   return spec;
@@ -219,13 +264,12 @@ void readInertial(const Tag& tag, BodySpec& body) {
   if (body.mass == 0) {
     if (given.isZero(0)) {
       mass.warn(mass.where("value"), "0 kg: the link has no mass, as without <inertial>");
-    } else {
-      mass.forgive(mass.where("value"), "an inertia without mass", "0", "a mass > 0 kg",
-                   "the link has neither");
+      return;
     }
-    return;
+    mass.forgive(mass.where("value"), "an inertia without mass", "0", "a mass > 0 kg", "the inertia is kept");
   }
-  const Eigen::Matrix3d I = judgedMoments(inertia, given, body.mass);
+  // Without a mass, rounding errors are those of a kilogram.
+  const Eigen::Matrix3d I = judgedMoments(inertia, given, body.mass > 0 ? body.mass : 1);
   const Eigen::Matrix3d I_B = X_BI.R * I * X_BI.R.transpose();
   body.inertia = (I_B + I_B.transpose()) / 2;
 }
@@ -256,10 +300,9 @@ Materials readMaterials(const Tag& robot) {
   for (const Tag& link : robot.children("link")) {
     if (!link.has("name")) continue;  // readLink() says so
     for (const Tag& visual : link.of(thingOf(link.of("<link>"))).children("visual"))
-      for (const Tag& material : visual.children("material"))
-        if (material.has("name"))
-          for (const Tag& color : material.children("color"))
-            materials.add(material.text("name"), color.numbers("rgba", 4));
+      if (const std::vector<Tag> all = visual.children("material"); !all.empty() && all[0].has("name"))
+        for (const Tag& color : all[0].children("color"))
+          materials.add(all[0].text("name"), color.numbers("rgba", 4));
   }
   return materials;
 }
@@ -273,8 +316,9 @@ BodySpec readLink(const Tag& tag, const Materials& materials) {
   body.where = link.where();
   if (const std::optional<Tag> inertial = link.child("inertial")) readInertial(*inertial, body);
   for (const Tag& part : link.children()) {
-    if (part.name() == "visual" || part.name() == "collision")
-      body.shapes.push_back(readShape(part, body.name, materials));
+    if (part.name() != "visual" && part.name() != "collision") continue;
+    if (std::optional<ShapeSpec> shape = readShape(part, body.name, materials))
+      body.shapes.push_back(*std::move(shape));
   }
   return body;
 }

@@ -93,14 +93,14 @@ Tag robotTag(Reading& reading) {
 void noteMassless(const std::vector<Tag>& links, const SceneSpec& spec, std::size_t root) {
   if (std::ranges::none_of(spec.bodies, [](const BodySpec& link) { return link.mass > 0; })) return;
   for (std::size_t i = 0; i < links.size(); ++i)
-    if (i != root && !links[i].child("inertial") && !spec.bodies[i].shapes.empty())
+    if (i != root && links[i].children("inertial").empty() && !spec.bodies[i].shapes.empty())
       links[i].remark("a link with shapes but without <inertial> has no mass");
 }
 
 // A root called "world" is the world itself.
 void becomeWorld(SceneSpec& spec, std::size_t root, Notes& notes) {
   BodySpec& world = spec.bodies[root];
-  if (world.mass > 0) notes.ignore(world.where, "the <inertial> of the link 'world'");
+  if (world.mass > 0 || world.inertia) notes.ignore(world.where, "the <inertial> of the link 'world'");
   spec.worldShapes = std::move(world.shapes);
   spec.bodies.erase(spec.bodies.begin() + static_cast<std::ptrdiff_t>(root));
 }

@@ -224,9 +224,11 @@ std::optional<Tag> Tag::child(const char* name) const {
   for (const xml::Element& element : element_->children) {
     if (element.name != name) continue;
     if (only)
-      fail(reading_->document.where(element.at), fmt::format("a second <{}>", name), "",
-           fmt::format("one: the first is at {}", toString(reading_->document.where(only->at))));
-    only = &element;
+      forgive(reading_->document.where(element.at), fmt::format("a second <{}>", name), "",
+              fmt::format("one: the first is at {}", toString(reading_->document.where(only->at))),
+              "it is ignored");
+    else
+      only = &element;
   }
   return only ? std::optional(Tag(*this, *only)) : std::nullopt;
 }

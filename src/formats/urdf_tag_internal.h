@@ -101,7 +101,7 @@ class Tag {
   /// At least and at most so many.
   Eigen::VectorXd numbers(const char* attribute, int least, int most) const;
 
-  /// The child of that name, of which there may be only one.
+  /// The child of that name, of which there may be only one: forgives more and returns the first, as urdfdom.
   std::optional<Tag> child(const char* name) const;
   /// The same, which must be there; `wanted` is for the message.
   Tag neededChild(const char* name, const std::string& wanted = "") const;

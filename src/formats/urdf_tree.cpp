@@ -124,24 +124,42 @@ void refuseLoops(const std::vector<BodySpec>& links, const std::vector<ReadJoint
   }
 }
 
-void checkMimics(std::vector<ReadJoint>& joints, const Index<ReadJoint>& index, Reading& reading) {
+void leaveOutUnknownMimics(std::vector<ReadJoint>& joints, const Index<ReadJoint>& index, Reading& reading) {
   for (ReadJoint& joint : joints) {
-    const std::string& name = joint.spec.mimic;
-    if (name.empty()) continue;
-    const std::string what = fmt::format("joint '{}': mimic", joint.spec.name);
-    if (!index.has(name)) {
-      reading.forgive(index.unknown(name, joint.mimicAt, what), "it is ignored: the joint moves by itself");
-      joint.spec.mimic.clear();
-      joint.spec.mimicRatio = 1;
-      joint.spec.mimicOffset = 0;
-      continue;
+    JointSpec& spec = joint.spec;
+    if (spec.mimic.empty() || index.has(spec.mimic)) continue;
+    reading.forgive(index.unknown(spec.mimic, joint.mimicAt, fmt::format("joint '{}': mimic", spec.name)),
+                    "it is ignored: the joint moves by itself");
+    spec.mimic.clear();
+    spec.mimicRatio = 1;
+    spec.mimicOffset = 0;
+  }
+}
+
+// A joint that mimics one that mimics another follows the last one.
+void resolveMimics(std::vector<ReadJoint>& joints, const Index<ReadJoint>& index, Reading& reading) {
+  for (ReadJoint& joint : joints) {
+    JointSpec& spec = joint.spec;
+    if (spec.mimic.empty()) continue;
+    const std::string what = fmt::format("joint '{}': mimic", spec.name);
+    const auto targetOf = [&](const std::string& name) -> const JointSpec& {
+      return joints[index.find(name, joint.mimicAt, what)].spec;
+    };
+    const JointSpec& first = targetOf(spec.mimic);
+    const ErrorParts fault = {what, joint.mimicAt,
+                              fmt::format("'{}', which mimics '{}'", first.name, first.mimic),
+                              "a joint that mimics no other"};
+    for (const JointSpec* target = &first; !target->mimic.empty(); target = &targetOf(target->mimic)) {
+      if (target == &spec) throw Error(fault);
+      spec.mimicOffset += spec.mimicRatio * target->mimicOffset;
+      spec.mimicRatio *= target->mimicRatio;
+      spec.mimic = target->mimic;
     }
-    const JointSpec& target = joints[index.find(name, joint.mimicAt, what)].spec;
-    if (!target.mimic.empty())
-      fail(joint.mimicAt, what, fmt::format("'{}', which mimics '{}'", name, target.mimic),
-           "a joint that mimics no other");
-    if (positionCount(target.type) != 1)
-      fail(joint.mimicAt, what, fmt::format("'{}'", name), "a revolute, continuous or prismatic joint");
+    if (positionCount(targetOf(spec.mimic).type) != 1)
+      fail(joint.mimicAt, what, fmt::format("'{}'", spec.mimic), "a revolute, continuous or prismatic joint");
+    if (spec.mimic != first.name)
+      reading.forgive(fault, fmt::format("it follows '{}' with multiplier {} and offset {}", spec.mimic,
+                                         spec.mimicRatio, spec.mimicOffset));
   }
 }
 
@@ -153,7 +171,8 @@ std::size_t requireTree(const std::vector<BodySpec>& links, std::vector<ReadJoin
   const Index jointIndex("joint", joints);
   const std::vector<Hold> holds = connect(links, joints);
   refuseLoops(links, joints, holds);
-  checkMimics(joints, jointIndex, reading);
+  leaveOutUnknownMimics(joints, jointIndex, reading);
+  resolveMimics(joints, jointIndex, reading);
   return requireOneRoot(links, holds);
 }
 

@@ -133,11 +133,9 @@ class Writer {
 
   void writeLink(const BodySpec& body) {
     markup_.open("link", {{"name", body.name}});
-    if (body.mass > 0) {
+    if (body.mass > 0 || (body.inertia && !body.inertia->isZero(0))) {
       const Body& known = model_[model_.body(body.name)];
       writeInertial(known.mass, known.p_BBcm, known.I_BBcm_B);
-    } else if (body.inertia && !body.inertia->isZero(0)) {
-      losses_.add("inertias without mass are left out", body.name, body.where);
     }
     for (const ShapeSpec& shape : body.shapes) writeShape(shape, body.name);
     markup_.close("link");

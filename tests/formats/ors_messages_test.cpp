@@ -78,8 +78,6 @@ constexpr Row kErrors[] = {
     {"body a { mass@ @^1 }", "=", "body 'a': attribute 'mass': '=' is missing: found '1', wanted mass=1"},
     {"body a { type=0 color=^[@255@ 0 0] }", "1",
      "body 'a': attribute 'color': found 255, wanted numbers from 0 to 1"},
-    {"body a { @@inertia=^[1 1 1] }", "mass=1 ",
-     "body 'a': an inertia without mass: found 0, wanted a mass > 0 kg"},
     {"body a {}\nbody b {}\njoint j (a b) { type=@prismatic@ }", "transX",
      "joint 'j': unknown type: found 'prismatic', wanted a number from 0 to 14 or a name such as 'hingeX' "
      "(did you mean 'transX'?)"},

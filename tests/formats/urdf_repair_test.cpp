@@ -8,7 +8,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "formats/ors_reader.h"
+#include "formats/ors_writer.h"
 #include "formats/urdf_reader.h"
+#include "formats/urdf_writer.h"
 #include "geometry/rotation.h"
 #include "scene/model.h"
 #include "support/file_text.h"
@@ -19,12 +22,12 @@
 namespace rex::urdf_repair_test {
 
 // The places of a robot where faults are put.
-enum Slot { kHead, kMesh, kMass, kMoments, kRange, kMimic, kFollower, kSlots };
+enum Slot { kHead, kMesh, kPaint, kMass, kMoments, kRange, kMimic, kFollower, kChain, kSlots };
 
 struct Fault {
   Slot slot;
-  std::string text;     // '@' marks what the warning is about
-  std::string warning;  // without the place; {} is the folder
+  std::string text;     // '@' marks what the warning is about, '#' the first of two
+  std::string warning;  // without the place; {} or {0} is the folder, {1} the place of '#'
 };
 
 std::string follower(const std::string& mark, const std::string& lower, const std::string& upper) {
@@ -38,16 +41,18 @@ std::string range(const std::string& bounds) { return "<limit " + bounds + " vel
 
 const std::string kSound[kSlots] = {"",
                                     "<box size='1 1 1'/>",
+                                    "",
                                     "2",
                                     "<inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/>",
                                     range("lower='0' upper='1'"),
                                     "",
-                                    follower("", "-1", "0")};
+                                    follower("", "-1", "0"),
+                                    ""};
 
 std::vector<Fault> allFaults() {
   const std::string blanks = "not well-formed XML: blanks before the declaration; they are skipped";
   const std::string massless =
-      "link 'arm': <mass>: an inertia without mass: found 0, wanted a mass > 0 kg; the link has neither";
+      "link 'arm': <mass>: an inertia without mass: found 0, wanted a mass > 0 kg; the inertia is kept";
   const std::string negative =
       "link 'arm': <inertia>: a negative principal moment: wanted principal moments >= 0; ";
   const std::string reversed = ", wanted a lower limit that is not above the upper; the joint has no range";
@@ -58,6 +63,8 @@ std::vector<Fault> allFaults() {
       ", wanted package://PACKAGE/PATH; the path is looked up in the folders above "
       "the file";
   const std::string stuck = ", wanted limits that both joints can satisfy; those of 'follow' are left out";
+  const std::string first = "wanted one: the first is at {1}; it is ignored";
+  const std::string tiny = "; 0 counts as 1e-06";
   return {
       {kHead, "\n@", blanks},
       {kHead, " \t \r\n@", blanks},
@@ -72,6 +79,26 @@ std::vector<Fault> allFaults() {
        "can be seen; it is drawn opaque"},
       {kMesh, "<box size='1 1 1'/>@<sphere radius='1'/>",
        "link 'base': <geometry>: two shapes: found <box> and <sphere>, wanted one; the first is used"},
+      {kMesh, "<sphere radius='@0'/>",
+       "link 'base': <sphere>: attribute 'radius': found '0', wanted a number > 0" + tiny},
+      {kMesh, "<cylinder radius='@0' length='1'/>",
+       "link 'base': <cylinder>: attribute 'radius': found '0', wanted a number > 0" + tiny},
+      {kMesh, "<capsule radius='1' length='@0.0'/>",
+       "link 'base': <capsule>: attribute 'length': found '0.0', wanted a number > 0" + tiny},
+      {kMesh, "<box size='@1 0 0'/>",
+       "link 'base': <box>: attribute 'size': found '1 0 0', wanted 3 numbers > 0" + tiny},
+      {kMesh, "<mesh filename='meshes/red.obj' scale='@1 1 1 1'/>",
+       "link 'base': <mesh>: attribute 'scale': found '1 1 1 1', wanted 3 numbers; the first three are used"},
+      {kMesh, "<mesh filename='meshes/red.obj' scale='@.01'/>",
+       "link 'base': <mesh>: attribute 'scale': found '.01', wanted 3 numbers; it scales all three axes"},
+      {kMesh, "<mesh filename='meshes/red.obj' scale='@1 1 0'/>",
+       "link 'base': <mesh>: attribute 'scale': found '1 1 0', wanted 3 numbers that are not 0" + tiny},
+      {kMesh, "@<cdf filename='a.cdf'/>",
+       "link 'base': <geometry>: a shape of an unknown kind: found <cdf>, wanted <box>, <cylinder>, "
+       "<sphere>, "
+       "<capsule>, <mesh> or <plane>; this <visual> is left out"},
+      {kPaint, "#<material name='m'><color rgba='1 0 0 1'/></material>@<material name='n'/>",
+       "link 'base': <visual>: a second <material>: " + first},
       {kMass, "@0", massless},
       {kMass, "@0e3", massless},
       {kMoments, "@<inertia ixx='0' iyy='0' izz='0' ixy='0' ixz='2.4e-35' iyz='0'/>",
@@ -90,6 +117,11 @@ std::vector<Fault> allFaults() {
        "joint 'turn': <limit>: attribute 'lower': found 1 > -1" + reversed},
       {kRange, "@" + range("upper='-.5'"),
        "joint 'turn': <limit>: attribute 'lower': found 0 > -0.5" + reversed},
+      {kRange, range("lower='0' upper='1'") + "#<axis xyz='1 0 0'/>@<axis xyz='0 1 0'/>",
+       "joint 'turn': a second <axis>: " + first},
+      {kChain, "<mimic joint='@follow' multiplier='2' offset='1'/>",
+       "joint 'chain': mimic: found 'follow', which mimics 'turn', wanted a joint that mimics no other; it "
+       "follows 'turn' with multiplier -2 and offset 1"},
       {kMimic, "@<mimic joint='turn'/>", fixed},
       {kMimic, "@<mimic joint='nowhere' multiplier='-1'/>", fixed},
       {kFollower, follower("@", "0", "1"),
@@ -120,6 +152,14 @@ class UrdfRepair : public testing::Test {
           << "mtllib all.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl " + name + "\nf 1 2 3\n";
   }
 
+  static std::string chain(const std::string& mimic) {
+    return mimic.empty()
+               ? ""
+               : "\n<link name='finger'/><joint name='chain' type='continuous'><parent link='hand'/>"
+                 "<child link='finger'/>" +
+                     mimic + "</joint>";
+  }
+
   // The robot with these faults, the marks replaced by bytes 1, 2, ...
   static std::string robotWith(const std::vector<Fault>& faults) {
     std::string slots[kSlots];
@@ -127,13 +167,15 @@ class UrdfRepair : public testing::Test {
     for (std::size_t i = 0; i < faults.size(); ++i) {
       std::string& slot = slots[faults[i].slot] = faults[i].text;
       slot[slot.find('@')] = static_cast<char>(1 + i);
+      if (const std::size_t at = slot.find('#'); at != slot.npos) slot[at] = static_cast<char>(0x1e + i);
     }
     return slots[kHead] + "<?xml version='1.0'?>\n<robot name='r'>\n<link name='base'><visual><geometry>" +
-           slots[kMesh] + "</geometry></visual></link>\n<link name='arm'><inertial><mass value='" +
-           slots[kMass] + "'/>" + slots[kMoments] +
+           slots[kMesh] + "</geometry>" + slots[kPaint] +
+           "</visual></link>\n<link name='arm'><inertial><mass value='" + slots[kMass] + "'/>" +
+           slots[kMoments] +
            "</inertial></link>\n<link name='hand'/><link name='tip'/>\n"
            "<joint name='turn' type='revolute'><parent link='base'/><child link='arm'/>" +
-           slots[kRange] + "</joint>\n" + slots[kFollower] +
+           slots[kRange] + "</joint>\n" + slots[kFollower] + chain(slots[kChain]) +
            "\n<joint name='end' type='fixed'><parent link='arm'/><child link='tip'/>" + slots[kMimic] +
            "</joint>\n</robot>\n";
   }
@@ -143,10 +185,13 @@ class UrdfRepair : public testing::Test {
     std::string text = robotWith(faults);
     std::vector<std::string> wanted, found;
     for (std::size_t i = 0; i < faults.size(); ++i) {
+      const char firstMark = static_cast<char>(0x1e + i);
+      const std::string first =
+          text.find(firstMark) == text.npos ? "" : toString(takeMark(text, firstMark, file_.string()));
       const SourceLocation where = takeMark(text, static_cast<char>(1 + i), file_.string());
       if (isSeenBeside(faults[i], faults))
         wanted.push_back(toString(where) + ": warning: " +
-                         fmt::format(fmt::runtime(faults[i].warning), folder_.path().string()));
+                         fmt::format(fmt::runtime(faults[i].warning), folder_.path().string(), first));
     }
     std::ofstream(file_, std::ios::binary) << text;
     const SceneFile read = readUrdf(file_);
@@ -156,11 +201,11 @@ class UrdfRepair : public testing::Test {
     EXPECT_THROW(static_cast<void>(readUrdf(file_, {.strict = true})), Error) << text;
   }
 
-  // Nobody judges the moments of a link without mass, and limits narrow no range that is left out.
+  // Limits narrow no range that is left out, and nobody paints a shape that is.
   static bool isSeenBeside(const Fault& fault, const std::vector<Fault>& others) {
-    const bool isNegative = fault.slot == kMoments && fault.warning.find("negative") != std::string::npos;
     return std::none_of(others.begin(), others.end(), [&](const Fault& other) {
-      return (isNegative && other.slot == kMass) || (fault.slot == kFollower && other.slot == kRange);
+      return (fault.slot == kFollower && other.warning.ends_with("the joint has no range")) ||
+             (fault.slot == kPaint && other.warning.ends_with("is left out"));
     });
   }
 
@@ -214,10 +259,57 @@ BodySpec link(const std::string& mass, const std::string& moments) {
       .bodies.at(0);
 }
 
-TEST(UrdfRepairs, LeaveAMasslessLinkWithoutInertia) {
-  const BodySpec body = link("0", "ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'");
-  EXPECT_EQ(body.mass, 0);
-  EXPECT_FALSE(body.inertia);
+// Of an arm and a hand without mass, as of the Panda's link 8: as in KDL, what turns has the inertia of both.
+TEST(UrdfRepairs, KeepAnInertiaWithoutMass) {
+  const auto moments = [](const std::string& mass, const std::string& xx) {
+    return "<inertial><mass value='" + mass + "'/><inertia ixx='" + xx +
+           "' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>";
+  };
+  const SceneSpec spec =
+      parsed("<link name='base'/><link name='arm'>" + moments("2", "1") + "</link><link name='hand'>" +
+             moments("0", ".5") + "</link><joint name='j' type='continuous'><parent link='base'/>" +
+             "<child link='arm'/></joint><joint name='k' type='fixed'><origin xyz='3 4 5'/>" +
+             "<parent link='arm'/><child link='hand'/></joint>");
+  EXPECT_EQ(spec.bodies[2].mass, 0);
+  ASSERT_TRUE(spec.bodies[2].inertia);
+  const Model model = compile(spec);
+  ASSERT_EQ(model.links().size(), 1u);
+  EXPECT_EQ(model.links()[0].mass, 2);
+  EXPECT_DOUBLE_EQ(model.links()[0].inertia[5], 1.5);
+  const std::string written = writeUrdf(spec).text;
+  EXPECT_EQ(*parseUrdf(written, "f").spec.bodies[2].inertia, *spec.bodies[2].inertia) << written;
+  const std::string ors = writeOrs(spec);
+  EXPECT_EQ(*parseOrs(ors, "f").spec.bodies[2].inertia, *spec.bodies[2].inertia) << ors;
+}
+
+// The colour and the axis that urdfdom takes, of two each.
+TEST(UrdfRepairs, TakeTheFirstOfTwo) {
+  const std::string red = "<material name='m'><color rgba='1 0 0 1'/></material>";
+  const SceneSpec spec =
+      parsed("<link name='a'><visual><geometry><sphere radius='1'/></geometry>" + red +
+             "<material name='n'><color rgba='0 0 1 1'/></material></visual></link><link name='b'/>"
+             "<joint name='j' type='continuous'><parent link='a'/><child link='b'/><axis xyz='0 0 1'/>"
+             "<axis xyz='0 1 0'/></joint>");
+  EXPECT_EQ(spec.bodies[0].shapes[0].color, Eigen::Vector4d(1, 0, 0, 1));
+  EXPECT_EQ(spec.joints[0].axis, Eigen::Vector3d::UnitZ());
+}
+
+// l = 3 (2 j + 1) - 1, and m, which comes before them, is -l.
+TEST(UrdfRepairs, MultiplyOutChainsOfMimics) {
+  const auto joint = [](const std::string& name, const std::string& mimic) {
+    return "<link name='" + name + "'/><joint name='" + name +
+           "' type='continuous'><parent link='base'/><child link='" + name + "'/>" + mimic + "</joint>";
+  };
+  const SceneSpec spec = parsed("<link name='base'/>" + joint("m", "<mimic joint='l' multiplier='-1'/>") +
+                                joint("l", "<mimic joint='k' multiplier='3' offset='-1'/>") +
+                                joint("k", "<mimic joint='j' multiplier='2' offset='1'/>") + joint("j", ""));
+  const auto follows = [&](int j, double ratio, double offset) {
+    const JointSpec& one = spec.joints[static_cast<std::size_t>(j)];
+    return one.mimic == "j" && one.mimicRatio == ratio && one.mimicOffset == offset;
+  };
+  EXPECT_TRUE(follows(0, -6, -2));
+  EXPECT_TRUE(follows(1, 6, 2));
+  EXPECT_TRUE(follows(2, 2, 1));
 }
 
 TEST(UrdfRepairs, TakeTheNearestInertia) {
@@ -309,7 +401,7 @@ TEST(UrdfRepairs, OfPublishedFiles) {
       "<limit>: attribute 'lower': found 1 > 0, wanted a lower limit that is not above the upper; the joint "
       "has no range";
   const std::string kMassless =
-      "<mass>: an inertia without mass: found 0, wanted a mass > 0 kg; the link has neither";
+      "<mass>: an inertia without mass: found 0, wanted a mass > 0 kg; the inertia is kept";
   const std::string kNegative = "<inertia>: a negative principal moment: wanted principal moments >= 0; ";
   const std::string kRounding = " kg m^2 is within rounding error and counts as 0";
   const std::string kFixed =

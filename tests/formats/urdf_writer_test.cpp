@@ -363,9 +363,6 @@ TEST(UrdfWriter, NotesWhatUrdfCannotSay) {
   EXPECT_EQ(shape("type=8 mesh='a.obj'"), Notes{"sphere-swept meshes became meshes: 'a'"});
   EXPECT_EQ(shape("type=3"), Notes{"meshes without a file are left out: 'a'"});
   EXPECT_EQ(shape("type=1 size=[1 1 1 0]"), Notes{"shapes without size are left out: 'a'"});
-  SceneSpec edited = parseOrs("body a {}", "f").spec;
-  edited.bodies[0].inertia = Eigen::Matrix3d::Identity();
-  EXPECT_EQ(notesOf(edited), Notes{"inertias without mass are left out: 'a'"});
   EXPECT_EQ(notesOf(ors("body a { static }\nbody b { kinematic }")),
             Notes{"kinds of bodies are left out: 2, first 'a'"});
   SceneSpec hidden = ors("body a { type=1 size=[0 0 0 1] }");
