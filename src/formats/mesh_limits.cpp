@@ -5,6 +5,7 @@
 #include <cstring>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include <fmt/format.h>
@@ -212,7 +213,7 @@ struct Kind {
   std::size_t mostMiB;
 };
 constexpr Kind kKinds[] = {{".stl", 32},  {".obj", 16}, {".ply", 32}, {".dae", 16},
-                           {".gltf", 16}, {".glb", 32}, {".off", 16}};
+                           {".gltf", 16}, {".glb", 32}, {".off", 16}, {".msh", 32}};
 
 void requireNodes(std::size_t deep, const std::string& name) {
   if (deep > kMostNodesDeep)
@@ -227,20 +228,97 @@ void requireIndices(std::string_view text, const std::string& name) {
     fail(name, "DAE file", "a list of indices that holds something else, too", "whole numbers");
 }
 
+// The value of an attribute in a tag; empty without it.
+std::string_view valueOf(std::string_view tag, std::string_view attribute) {
+  for (std::size_t at = tag.find(attribute); at != tag.npos; at = tag.find(attribute, at + 1)) {
+    const std::size_t quote = at + attribute.size() + 1;
+    if (!isSpace(tag[at - 1]) || quote >= tag.size() || tag[quote - 1] != '=') continue;
+    const std::string_view rest = tag.substr(quote + 1);
+    return rest.substr(0, rest.find(tag[quote]));
+  }
+  return {};
+}
+
+// The nodes of a Collada file, which other nodes repeat by their names: a few lines may stand for billions.
+class NodeCount {
+ public:
+  void open(std::string_view tag) {
+    const std::size_t node = nodes_.size();
+    nodes_.emplace_back();
+    if (!open_.empty()) nodes_[open_.back()].parts.push_back(node);
+    if (const std::string_view id = valueOf(tag, "id"); !id.empty()) byId_.emplace(id, node);
+    open_.push_back(node);
+  }
+  void close() {
+    if (!open_.empty()) open_.pop_back();
+  }
+  void repeat(std::string_view url) {
+    if (open_.empty() || !url.starts_with('#')) return;
+    nodes_[open_.back()].repeated.push_back(url.substr(1));
+  }
+
+  // How many nodes there are when all are repeated, at most a little more than `most`. What repeats itself
+  // counts once here: assimp refuses it.
+  std::size_t whole(std::size_t most) {
+    for (Node& node : nodes_)
+      for (const std::string_view id : node.repeated)
+        if (const auto found = byId_.find(id); found != byId_.end()) node.parts.push_back(found->second);
+    std::size_t largest = 0;
+    for (std::size_t start = 0; start < nodes_.size(); ++start) {
+      std::vector<std::size_t> path = {start};
+      while (!path.empty()) {
+        Node& node = nodes_[path.back()];
+        node.isSeen = true;
+        if (node.next < node.parts.size()) {
+          if (Node& part = nodes_[node.parts[node.next]]; !part.isSeen) {
+            path.push_back(node.parts[node.next]);
+          } else {
+            node.count = std::min(most + 1, node.count + part.count);
+            ++node.next;
+          }
+        } else {
+          largest = std::max(largest, node.count);
+          path.pop_back();
+        }
+      }
+    }
+    return largest;
+  }
+
+ private:
+  struct Node {
+    std::vector<std::size_t> parts{};
+    std::vector<std::string_view> repeated{};
+    std::size_t next = 0, count = 1;
+    bool isSeen = false;
+  };
+  std::vector<Node> nodes_;
+  std::vector<std::size_t> open_;
+  std::unordered_map<std::string_view, std::size_t> byId_;
+};
+
 void checkCollada(std::string_view xml, const std::string& name) {
   constexpr std::string_view kCount = "count=";
+  constexpr std::size_t kMostNodes = 100'000;
   std::size_t open = 0;
+  NodeCount nodes;
   for (std::size_t at = xml.find('<'); at < xml.size(); at = xml.find('<', at)) {
     const std::string_view tag = xml.substr(at, xml.find('>', at) - at);
     at += tag.size();
     const std::string_view element = tag.substr(0, tag.find_first_of(" \t\r\n"));
     if (element == "<p" || element == "<vcount")
       requireIndices(xml.substr(std::min(at + 1, xml.size())), name);
+    if (element == "</node") nodes.close();
+    if (element == "<node" && !tag.ends_with('/')) nodes.open(tag);
+    if (element == "<instance_node") nodes.repeat(valueOf(tag, "url"));
     if (tag.starts_with("</node")) open -= open > 0 ? 1 : 0;
     if (tag.starts_with("<node") && !tag.ends_with('/')) requireNodes(++open, name);
     if (const std::size_t count = tag.find(kCount); count != std::string_view::npos && count + 7 < tag.size())
       requireCount(numberAt(tag.substr(count + kCount.size() + 1)), name, 3 * kMostTriangles);
   }
+  if (const std::size_t whole = nodes.whole(kMostNodes); whole > kMostNodes)
+    fail(name, "mesh file", "nodes that repeat each other too often",
+         fmt::format("at most {} when all are repeated", kMostNodes));
 }
 
 // The JSON of a binary glTF file, which is its first chunk. assimp does not check the sizes of chunks
