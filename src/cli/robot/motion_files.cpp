@@ -174,6 +174,7 @@ MotionPictures::MotionPictures(const Model& model, const Motion& motion,
     lowest = std::min(lowest, box.low.z());
     bounds_.include(box.low);
     bounds_.include(box.high);
+    includeMoving(i);
   }
   ground_ = groundHeight(model_, forwardKinematics(model_, model_.initialPositions())).value_or(lowest);
   for (const auto& trace : traces_)
@@ -183,6 +184,24 @@ MotionPictures::MotionPictures(const Model& model, const Motion& motion,
 // Not by scenePicture(): it visits every vertex to find the height of the ground, which is known here.
 Picture MotionPictures::solidsAt(std::size_t i) const {
   return {.solids = placedSolids(model_, forwardKinematics(model_, motion_.postures[shown_[i]]))};
+}
+
+void MotionPictures::includeMoving(std::size_t i) {
+  const BodyPoses poses = forwardKinematics(model_, motion_.postures[shown_[i]]);
+  std::vector<bool> moves(model_.bodies().size());
+  for (std::size_t k = 1; k < moves.size(); ++k) {
+    const Body& body = model_.bodies()[k];
+    moves[k] =
+        moves[static_cast<std::size_t>(body.parent)] || (body.joint != kNoJoint && model_[body.joint].nv > 0);
+  }
+  Picture picture;
+  for (const ModelShape& shape : model_.shapes())
+    if (shape.visible && moves[static_cast<std::size_t>(shape.body)])
+      picture.solids.push_back({.shape = shape.shape, .X_WS = poses[shape.body] * shape.X_BS});
+  const Bounds box = rex::bounds(picture);
+  if (box.isEmpty()) return;
+  moving_.include(box.low);
+  moving_.include(box.high);
 }
 
 Picture MotionPictures::picture(std::size_t i) const {
@@ -225,7 +244,7 @@ std::filesystem::path writeMotionFilm(const MotionPictures& pictures, const Rend
   constexpr std::size_t kTurn = 120;  // frames
   const bool isWalk = pictures.size() == 1;
   const std::size_t count = isWalk ? kTurn : pictures.size();
-  Studio studio(plan, isWalk ? turningBox(pictures.bounds()) : pictures.bounds());
+  Studio studio(plan, isWalk ? turningBox(pictures.framed()) : pictures.framed());
   note(studio.describe());
   const Picture first = pictures.picture(0);  // a walk around the scene shows only this one
   const auto draw = [&](std::size_t i) {

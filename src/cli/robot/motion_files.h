@@ -67,16 +67,24 @@ class MotionPictures {
   [[nodiscard]] Film film() const;
   /// The bounding box of everything they show.
   [[nodiscard]] const Bounds& bounds() const { return bounds_; }
+  /// What cameras show: everything, or only what moves if the scenery, such as the walls of a pen, is four
+  /// times as large.
+  [[nodiscard]] const Bounds& framed() const {
+    constexpr double kFarLarger = 4;
+    const bool isLost = !moving_.isEmpty() && bounds_.radius() > kFarLarger * moving_.radius();
+    return isLost ? moving_ : bounds_;
+  }
 
  private:
   [[nodiscard]] Picture solidsAt(std::size_t i) const;
+  void includeMoving(std::size_t i);
 
   Model model_;
   Motion motion_;
   std::vector<std::size_t> shown_;
   std::vector<std::vector<Eigen::Vector3d>> traces_;
   std::string caption_;
-  Bounds bounds_;
+  Bounds bounds_, moving_;  // of all that is shown, and of the bodies that joints move
   double ground_ = 0;
 };
 

@@ -44,7 +44,7 @@ MotionPictures picturesOf(const Model& model, const Motion& motion, const Render
 }
 
 void writeStill(const MotionPictures& pictures, const RenderPlan& plan, const fs::path& out) {
-  Studio studio(plan, pictures.bounds());
+  Studio studio(plan, pictures.framed());
   note(studio.describe());
   std::vector<KeyFrame> drawn;
   for (std::size_t i = 0; i < pictures.size(); ++i)
