@@ -59,16 +59,16 @@ AllValid contactFree(const Model& model, const ContactModel& contacts, double ma
   };
 }
 
-std::string nearestContact(const Model& model, const ContactModel& contacts, const VectorArg& q) {
+NearestContact nearestContact(const Model& model, const ContactModel& contacts, const VectorArg& q) {
   const std::vector<Proxy> near = proxies(contacts, forwardKinematics(model, q));
-  if (near.empty()) return "all shapes apart";
+  if (near.empty()) return {};
   const Proxy& nearest = *std::min_element(near.begin(), near.end(), [](const Proxy& a, const Proxy& b) {
     return a.proximity.distance < b.proximity.distance;
   });
   const double distance = nearest.proximity.distance;
-  return fmt::format("'{}' and '{}' {:.4g} m {}", shapeLabel(model, nearest.pair.a),
-                     shapeLabel(model, nearest.pair.b), std::abs(distance),
-                     distance < 0 ? "in overlap" : "apart");
+  return {distance, fmt::format("'{}' and '{}' {:.4g} m {}", shapeLabel(model, nearest.pair.a),
+                                shapeLabel(model, nearest.pair.b), std::abs(distance),
+                                distance < 0 ? "in overlap" : "apart")};
 }
 
 PathProblem robotProblem(const Model& model, const ContactModel& contacts, const VectorArg& start,
@@ -79,7 +79,7 @@ PathProblem robotProblem(const Model& model, const ContactModel& contacts, const
           .start = start,
           .goal = goal,
           .resolution = resolution,
-          .reason = [kept, contacts](const VectorArg& q) { return nearestContact(*kept, contacts, q); }};
+          .reason = [kept, contacts](const VectorArg& q) { return nearestContact(*kept, contacts, q).text; }};
 }
 
 namespace {

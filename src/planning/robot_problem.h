@@ -1,5 +1,8 @@
 #pragma once
 
+#include <limits>
+#include <string>
+
 #include "collision/contacts.h"
 #include "collision/motion_clearance.h"
 #include "planning/path_problem.h"
@@ -15,9 +18,14 @@ namespace rex {
 /// copies what it needs from the model and owns a workspace: threads must not share one.
 [[nodiscard]] AllValid contactFree(const Model& model, const ContactModel& contacts, double margin = 0);
 
-/// Describes which pair of shapes is nearest at q, and how near; for messages.
-[[nodiscard]] std::string nearestContact(const Model& model, const ContactModel& contacts,
-                                         const VectorArg& q);
+/// The pair of shapes that is nearest: its distance, metres, negative in overlap and infinite if all are far
+/// apart, and which it is, for messages.
+struct NearestContact {
+  double distance = std::numeric_limits<double>::infinity();
+  std::string text = "all shapes apart";
+};
+[[nodiscard]] NearestContact nearestContact(const Model& model, const ContactModel& contacts,
+                                            const VectorArg& q);
 
 /// The problem of moving a robot from `start` to `goal` with all pairs at least `margin` metres apart.
 /// `resolution` as in PathProblem. Copies what it needs from the model.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstddef>
 #include <ctime>
 
@@ -98,17 +99,26 @@ bool growsTrees(Planner planner) {
   return planner == Planner::kRrt || planner == Planner::kRrtConnect || planner == Planner::kRrtStar;
 }
 
-void requireClear(const char* option, const VectorArg& q, const AllValid& allValid,
-                  const std::function<std::string(const VectorArg& q)>& reason, double margin) {
+void requireClear(const char* option, const VectorArg& q, const Model& model, const ContactModel& contacts,
+                  const AllValid& allValid, double margin) {
   if (allValid(q)) return;
+  constexpr double kLeastMargin = 1e-4, kSpare = 0.99;
+  const NearestContact nearest = nearestContact(model, contacts, q);
+  // The margin that would do, in one digit.
+  const double most = kSpare * nearest.distance;
+  const double digit = std::pow(10, std::floor(std::log10(std::max(most, kLeastMargin))));
+  const std::string instead = most >= kLeastMargin && most < margin
+                                  ? fmt::format("; --margin {:g} would do", std::floor(most / digit) * digit)
+                                  : "";
   throw UsageError({.what = option,
-                    .found = escapeForTerminal(reason(q)),
-                    .wanted = fmt::format("all shapes {:g} m apart, the --margin", margin)});
+                    .found = escapeForTerminal(nearest.text),
+                    .wanted = fmt::format("all shapes {:g} m apart, the --margin{}", margin, instead)});
 }
 
-void requireClearEnds(const PathProblem& problem, double margin) {
-  requireClear("--start", problem.start, problem.allValid, problem.reason, margin);
-  requireClear("--goal", problem.goal, problem.allValid, problem.reason, margin);
+void requireClearEnds(const PathTask& task, double margin) {
+  const PathProblem& problem = task.problem;
+  requireClear("--start", problem.start, task.model, task.contacts, problem.allValid, margin);
+  requireClear("--goal", problem.goal, task.model, task.contacts, problem.allValid, margin);
 }
 
 FoundPath searchPath(const PathTask& task, const PathSearch& search, std::uint64_t seed) {

@@ -48,11 +48,12 @@ struct PathTask {
   PathProblem problem;
 };
 
-/// Throws UsageError with the reason and the margin if the posture that `option` gives is not valid.
-void requireClear(const char* option, const VectorArg& q, const AllValid& allValid,
-                  const std::function<std::string(const VectorArg& q)>& reason, double margin);
+/// Throws UsageError with the nearest shapes, the margin and, if there is one, a smaller one that would do if
+/// the posture that `option` gives is not valid.
+void requireClear(const char* option, const VectorArg& q, const Model& model, const ContactModel& contacts,
+                  const AllValid& allValid, double margin);
 /// The same for both ends of a path.
-void requireClearEnds(const PathProblem& problem, double margin);
+void requireClearEnds(const PathTask& task, double margin);
 
 /// How `rex plan` searches.
 struct PathSearch {

@@ -54,8 +54,9 @@ PathTask taskOf(Model model, const PlanOptions& options) {
   const Eigen::VectorXd goal = postureWithinLimits(model, "--goal", options.goal);
   PathProblem problem = asWrongUse(
       [&] { return robotProblem(model, contacts, start, goal, *options.margin, *options.resolution); });
-  requireClearEnds(problem, *options.margin);
-  return {std::move(model), contacts, std::move(problem)};
+  PathTask task{std::move(model), contacts, std::move(problem)};
+  requireClearEnds(task, *options.margin);
+  return task;
 }
 
 BodyId drawnBody(const Model& model, const std::string& name) {

@@ -127,7 +127,7 @@ PathTask carTaskOf(Model model, const PlanOptions& options) {
   PathTask task = asWrongUse([&] {
     return parkingTask(std::move(model), contacts, start, goal, *options.margin, *options.resolution);
   });
-  requireClearEnds(task.problem, *options.margin);
+  requireClearEnds(task, *options.margin);
   tellWhatIsNoObstacle(task.model);
   return task;
 }

@@ -115,9 +115,8 @@ TrajectoryTask motionTaskOf(Model model, const PlanOptions& options) {
     note(escapeForTerminal(task.model.name()) + ": no two shapes may collide: there is nothing to avoid");
   task.avoids = task.avoids && !task.contacts.pairs().empty();
   if (task.avoids)
-    requireClear(
-        "--start", task.start, contactFree(task.model, task.contacts, task.margin),
-        [&](const VectorArg& q) { return nearestContact(task.model, task.contacts, q); }, task.margin);
+    requireClear("--start", task.start, task.model, task.contacts,
+                 contactFree(task.model, task.contacts, task.margin), task.margin);
   return task;
 }
 
